@@ -1,5 +1,5 @@
-// Allocations are counted by programs that interpose malloc (tests, the sample game). The bridge marks the time that a thread
-// spends inside of the rigid engine, so that its allocations are counted apart from ours.
+// Allocations are counted by programs that interpose malloc (tests, the sample game). The bridge marks the time that a
+// thread spends inside of the rigid engine, so that its allocations are counted apart from ours.
 #pragma once
 
 namespace cullet {

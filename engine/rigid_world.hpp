@@ -1,9 +1,9 @@
-// What cullet asks of a rigid-body engine. Bullet stands behind it (engine/bullet/); a host's own engine is to be the second
-// implementation. One step is: sweep and detect(), then the gap in which damage is decided and bodies are born, held, released
-// or removed, then solve().
+// What cullet asks of a rigid-body engine. Bullet stands behind it (engine/bullet/); a host's own engine is to be the
+// second implementation. One step is: sweep and detect(), then the gap in which damage is decided and bodies are born,
+// held, released or removed, then solve().
 //
-// A body frame is the frame of the mesh it was cooked from: fragments keep their parent's. Its centre of mass and its inertia
-// tensor are given in that frame; principal axes are the bridge's own affair.
+// A body frame is the frame of the mesh it was cooked from: fragments keep their parent's. Its centre of mass and its
+// inertia tensor are given in that frame; principal axes are the bridge's own affair.
 #pragma once
 #include <array>
 #include <cstdint>
@@ -28,17 +28,17 @@ struct ConvexPiece {
 struct RigidDescription {
     RigidKind kind = RigidKind::Dynamic;
     Pose pose;
-    Motion motion;               // velocity of the centre of mass
-    double mass = 1;             // kg, dynamic bodies only
-    Vec3d centre;                // centre of mass, body frame, m
-    Sym3d inertia;               // about the centre, body axes, kg m2
-    float margin = 0.001f;       // m
+    Motion motion;          // velocity of the centre of mass
+    double mass = 1;        // kg, dynamic bodies only
+    Vec3d centre;           // centre of mass, body frame, m
+    Sym3d inertia;          // about the centre, body axes, kg m2
+    float margin = 0.001f;  // m
     float friction = 0.45f;
-    float restitution = 0.2f;    // used above 0.2 m/s
-    float rolling_friction = 0;  // a length, m
-    uint32_t layer = 1;          // bits
-    uint32_t mask = 0xffffffffu; // layers it meets
-    float radius = 0;            // > 0: a sphere about the body frame's origin, pieces unused
+    float restitution = 0.2f;     // used above 0.2 m/s
+    float rolling_friction = 0;   // a length, m
+    uint32_t layer = 1;           // bits
+    uint32_t mask = 0xffffffffu;  // layers it meets
+    float radius = 0;             // > 0: a sphere about the body frame's origin, pieces unused
     std::span<const ConvexPiece> pieces;
 };
 
@@ -46,16 +46,18 @@ struct RigidDescription {
 struct RigidContact {
     RigidId a = kNoRigid, b = kNoRigid;
     uint32_t cell_a = 0, cell_b = 0;
-    Vec3 point;              // world, midway, m
-    Vec3 normal;             // world, unit, from b towards a
-    float distance = 0;      // m, negative when they overlap
-    float approach_speed = 0;// m/s along the normal, > 0 when they close, from the velocities before gravity of this step
+    Vec3 point;          // world, midway, m
+    Vec3 normal;         // world, unit, from b towards a
+    float distance = 0;  // m, negative when they overlap
+    float approach_speed =
+        0;  // m/s along the normal, > 0 when they close, from the velocities before gravity of this step
 };
 
 struct RigidCounts {
-    uint32_t sweeps = 0;            // bodies placed at their time of impact, since creation
+    uint32_t sweeps = 0;  // bodies placed at their time of impact, since creation
     uint32_t pairs = 0, contacts = 0;
-    uint64_t allocations = 0;       // calls of malloc and operator new inside of the rigid engine, since creation (see rigid_allocations.hpp)
+    uint64_t allocations =
+        0;  // calls of malloc and operator new inside of the rigid engine, since creation (see rigid_allocations.hpp)
 };
 
 class RigidWorld {
@@ -66,8 +68,8 @@ class RigidWorld {
 
     /// Triangles in world axes that never move. `id` names it in contacts.
     virtual void add_static_triangles(RigidId id, std::span<const Vec3> positions,
-                                      std::span<const std::array<uint32_t, 3>> triangles, float friction, float restitution,
-                                      uint32_t layer, uint32_t mask) = 0;
+                                      std::span<const std::array<uint32_t, 3>> triangles, float friction,
+                                      float restitution, uint32_t layer, uint32_t mask) = 0;
     virtual void add(RigidId id, const RigidDescription& description) = 0;
     virtual void remove(RigidId id) = 0;
 
@@ -76,22 +78,24 @@ class RigidWorld {
     virtual void set_pose(RigidId id, const Pose& pose) = 0;
     virtual void set_motion(RigidId id, const Motion& motion) = 0;
     /// New mass, centre, inertia and pieces for a body whose frame and pose stay (pieces came off, cells changed).
-    virtual void set_shape(RigidId id, double mass, Vec3d centre, Sym3d inertia, std::span<const ConvexPiece> pieces) = 0;
+    virtual void set_shape(RigidId id, double mass, Vec3d centre, Sym3d inertia,
+                           std::span<const ConvexPiece> pieces) = 0;
 
-    /// Moves fast bodies to their time of impact, then finds contacts. Kinematic bodies move by their motion during solve().
+    /// Moves fast bodies to their time of impact, then finds contacts. Kinematic bodies move by their motion during
+    /// solve().
     virtual void detect(float dt) = 0;
     virtual std::span<const RigidContact> contacts() const = 0;
 
     // The gap.
-    /// Stands still with infinite mass for everybody until released; its velocities are kept. Hold and release both belong in
-    /// the gap: a release is then bit for bit as if never held.
+    /// Stands still with infinite mass for everybody until released; its velocities are kept. Hold and release both
+    /// belong in the gap: a release is then bit for bit as if never held.
     virtual void hold(RigidId id) = 0;
     virtual void release(RigidId id) = 0;
     virtual bool is_held(RigidId id) const = 0;
     /// Contacts between these two are not solved in this step.
     virtual void skip_contacts(RigidId a, RigidId b) = 0;
-    /// No narrow phase between these two until their pieces overlap by at most 0.1 mm, or `seconds` have passed (siblings born
-    /// in touch; a striker and the shards it made). With `until_apart` false only the time counts.
+    /// No narrow phase between these two until their pieces overlap by at most 0.1 mm, or `seconds` have passed
+    /// (siblings born in touch; a striker and the shards it made). With `until_apart` false only the time counts.
     virtual void ignore_pair(RigidId a, RigidId b, float seconds, bool until_apart) = 0;
 
     virtual void solve(float dt) = 0;

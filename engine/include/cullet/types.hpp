@@ -1,7 +1,7 @@
 // The plain value types of the public face.
 //
-// Units are SI everywhere: metre, kilogram, second, newton, pascal, radian. Axes are right-handed with y up. Triangles are
-// counter-clockwise seen from outside. A pose maps body coordinates to world coordinates.
+// Units are SI everywhere: metre, kilogram, second, newton, pascal, radian. Axes are right-handed with y up. Triangles
+// are counter-clockwise seen from outside. A pose maps body coordinates to world coordinates.
 #pragma once
 #include <cstdint>
 

@@ -1,0 +1,90 @@
+// Bodies, models and what is drawn of them.
+#pragma once
+#include "components/shells.hpp"
+
+namespace cullet {
+
+enum class BodyKind : uint8_t { Free = 0, Static, Kinematic, Dynamic };
+
+struct Models;
+
+/// One row is one thing that the rigid world moves. Rows are reused; the generation tells a stale handle.
+struct Bodies : Table<Bodies> {
+    using Table::Table;
+    static constexpr const char* kName = "bodies";
+    Column<uint32_t> generation{*this, "generation"};
+    Column<uint8_t> kind{*this, "kind"};          // BodyKind
+    Column<Row<Models>> model{*this, "model"};    // kNone: no shell (a ball, static triangles)
+    Column<Row<Shells>> shell{*this, "shell"};    // the model's intact one until it cracks or breaks
+    Column<Row<Bodies>> parent{*this, "parent"};  // row of the body it broke off, kNone for spawned ones
+    // Rigid state, read back after each solve. The body frame is the frame of the cooked mesh, for fragments too.
+    Column<Vec3> position{*this, "position", "m"};
+    Column<Quat> orientation{*this, "orientation"};
+    Column<Vec3> velocity{*this, "velocity", "m/s"};  // of the centre of mass
+    Column<Vec3> spin{*this, "spin", "rad/s"};
+    Column<Vec3> previous_position{*this, "previous_position", "m"};
+    Column<Quat> previous_orientation{*this, "previous_orientation"};
+    Column<double> mass{*this, "mass", "kg"};
+    Column<Vec3d> centre{*this, "centre", "m"};        // body frame
+    Column<Sym3d> inertia{*this, "inertia", "kg m2"};  // about the centre, body axes
+    Column<float> radius{*this, "radius", "m"};  // > 0: a sphere; else largest distance of a point from the centre
+    Column<uint8_t> is_sphere{*this, "is_sphere"};
+    Column<float> friction{*this, "friction"};
+    Column<float> restitution{*this, "restitution"};
+    Column<uint32_t> layer{*this, "layer"};
+    Column<uint32_t> mask{*this, "mask"};
+    Column<uint64_t> user_data{*this, "user_data"};
+    Column<uint8_t> is_breakable{*this, "is_breakable"};
+    Column<float> strength_scale{*this, "strength_scale"};
+    Column<uint8_t> is_asleep{*this, "is_asleep"};
+    Column<uint8_t> is_held{*this, "is_held"};
+    Column<uint8_t> has_pins{*this, "has_pins"};         // some vertex is pinned: the body is static in the rigid world
+    Column<uint64_t> retry_frame{*this, "retry_frame"};  // no new task before this frame (20 ms between tries)
+    Column<uint64_t> born_frame{*this, "born_frame"};
+    Column<uint32_t> task{*this, "task"};      // open task or kNone
+    Column<uint32_t> colour{*this, "colour"};  // stable number for pictures
+    // Drawn mesh in view space.
+    Column<Range> view_vertices{*this, "view_vertices"};
+    Column<Range> view_indices{*this, "view_indices"};
+    Column<std::array<uint32_t, 3>> run_indices{*this, "run_indices"};  // indices of outer, inner, crack, in this order
+    Column<uint32_t> view_stamp{*this, "view_stamp"};                   // changes when the drawn mesh changes
+};
+
+/// One row is one cooked model in this world. It can go while bodies of it live.
+struct Models : Table<Models> {
+    using Table::Table;
+    static constexpr const char* kName = "models";
+    Column<uint32_t> generation{*this, "generation"};
+    Column<Row<Shells>> shell{*this, "shell"};
+    Column<uint8_t> is_used{*this, "is_used"};
+};
+
+/// One row is one corner of a drawn mesh.
+struct ViewVertices : Table<ViewVertices> {
+    using Table::Table;
+    static constexpr const char* kName = "view_vertices";
+    Column<std::array<float, 3>> position{*this, "position", "m"};
+    Column<std::array<float, 3>> normal{*this, "normal"};
+    Column<std::array<float, 2>> uv{*this, "uv"};
+};
+
+struct ViewIndices : Table<ViewIndices> {
+    using Table::Table;
+    static constexpr const char* kName = "view_indices";
+    Column<uint32_t> index{*this, "index"};  // relative to the body's first view vertex
+};
+
+/// One row is one crumb too small to be a body: a point with mass and momentum.
+struct Debris : Table<Debris> {
+    using Table::Table;
+    static constexpr const char* kName = "debris";
+    Column<uint8_t> is_used{*this, "is_used"};
+    Column<Vec3> position{*this, "position", "m"};
+    Column<Vec3> velocity{*this, "velocity", "m/s"};
+    Column<double> mass{*this, "mass", "kg"};
+    Column<float> radius{*this, "radius", "m"};
+    Column<uint8_t> is_resting{*this, "is_resting"};
+    Column<uint32_t> colour{*this, "colour"};
+};
+
+}  // namespace cullet

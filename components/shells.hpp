@@ -1,0 +1,205 @@
+// A thick shell: a surface of triangles, each extruded inward to a prism. A model's intact shell is one row, shared by
+// all of its bodies; a body that cracked or broke, and a damage task, own rows of their own.
+//
+// Indices inside a shell (corners, neighbours, hinges, blocks) are relative to the shell's first row in that table, so
+// a range is copied, saved and moved without renumbering.
+#pragma once
+#include <array>
+
+#include "components/materials.hpp"
+#include "engine/table.hpp"
+
+namespace cullet {
+
+inline constexpr uint32_t kLanes = 8;  // vertices in a pack, on every machine
+inline constexpr uint32_t kVerticesPerCell =
+    64;  // 8 packs, about 128 elements: one convex piece of the collision shape
+
+/// Rows [first, first + count) of a table, with room for `capacity`.
+struct Range {
+    uint32_t first = 0, count = 0, capacity = 0;
+};
+template <>
+struct ColumnType<Range> {
+    static constexpr uint8_t kLanes = 1;
+    using Lane = Range;
+    static constexpr Scalar kScalar = Scalar::U32;
+    static constexpr uint8_t kComponents = 3;
+};
+
+/// One row is one shell.
+struct Shells : Table<Shells> {
+    using Table::Table;
+    static constexpr const char* kName = "shells";
+    Column<Range> vertices{*this, "vertices"};  // first row is a multiple of 64
+    Column<Range> elements{*this, "elements"};  // and TriangleSprings, the same rows
+    Column<Range> hinges{*this, "hinges"};
+    Column<Range> packs{*this, "packs"};    // StiffnessPacks: one a pack of 8 vertices; count 0: not assembled
+    Column<Range> blocks{*this, "blocks"};  // StiffnessBlocks
+    Column<Range> links{*this, "links"};    // StiffnessLinks
+    Column<Range> cells{*this, "cells"};
+    Column<Range> points{*this, "points"};  // HullPoints of its cells
+    Column<Row<Materials>> material{*this, "material"};
+    Column<uint32_t> users{*this, "users"};            // models, bodies and tasks that hold the row; 0 = free
+    Column<double> mass{*this, "mass", "kg"};          // sum over elements, ordered
+    Column<Vec3d> centre{*this, "centre", "m"};        // of the prisms, body frame
+    Column<Sym3d> inertia{*this, "inertia", "kg m2"};  // of the prisms about the centre, body axes
+    Column<float> thickness{*this, "thickness", "m"};  // mean depth over elements by area
+    Column<float> mean_edge{*this, "mean_edge", "m"};  // l, of the intact model; fragments inherit it
+    Column<float> area{*this, "area", "m2"};
+    Column<float> time_step{*this, "time_step", "s"};  // of the hidden run: 0.6 * 2 / omega_max; fragments inherit it
+    Column<float> triangle_limit{*this, "triangle_limit",
+                                 "1/s2"};  // B7: bounds of stiffness/mass ratios, from the intact model
+    Column<float> hinge_limit{*this, "hinge_limit", "1/s2"};
+    Column<float> vertex_limit{*this, "vertex_limit", "1/s2"};
+    Column<float> first_crack_speed{*this, "first_crack_speed", "m/s"};  // measured by cooking against a floor
+    Column<uint8_t> generation{*this, "generation"};  // 0 intact, fragments one more than their parent
+    Column<uint8_t> has_cracks{*this, "has_cracks"};
+};
+
+enum class CrackState : uint8_t { None = 0, Tip = 1, Cracked = 2 };  // Cracked: a crack passes through, or started here
+
+struct Float4 {
+    float x = 0, y = 0, z = 0, w = 0;
+};
+template <>
+struct ColumnType<Float4> {
+    static constexpr uint8_t kLanes = 1;
+    using Lane = Float4;
+    static constexpr Scalar kScalar = Scalar::F32;
+    static constexpr uint8_t kComponents = 4;
+};
+
+/// One row is one point of the outer surface; its inner twin is rest + depth * inward. 8 rows are one pack of a kernel.
+struct Vertices : Table<Vertices> {
+    using Table::Table;
+    static constexpr const char* kName = "vertices";
+    Column<Vec3> rest{*this, "rest", "m"};       // body frame
+    Column<Vec3> inward{*this, "inward"};        // unit
+    Column<float> depth{*this, "depth", "m"};    // >= 0; 0 where no direction sees all faces
+    Column<uint32_t> element{*this, "element"};  // one incident element (any: a vertex has one fan); kNone = dead row
+    Column<double> mass{*this, "mass", "kg"};    // a third of each incident element, summed over the ring
+    Column<float> inverse_mass{*this, "inverse_mass", "1/kg"};  // 0 pinned or dead
+    Column<uint8_t> is_pinned{*this, "is_pinned"};
+    Column<float> strength_factor{*this, "strength_factor"};  // Weibull, modulus 12, in [0.5, 1.5]
+    // Cracks; kept between hits.
+    Column<uint8_t> crack{*this, "crack"};               // CrackState
+    Column<Vec3> heading{*this, "heading"};              // of a tip: the direction chosen at its last advance, unit
+    Column<float> ready_time{*this, "ready_time", "s"};  // a tip may advance from this time of the run on
+    Column<uint32_t> crack_start{*this, "crack_start"};  // vertex where the tip's crack started (its own root)
+    Column<uint8_t> is_start_banned{*this, "is_start_banned"};  // within 3 l of a cut of this run (C2)
+    // Hidden run: displacements about the rest shape, body axes. Zero while no task runs.
+    Column<Vec3> displacement{*this, "displacement", "m"};    // u
+    Column<Vec3> velocity{*this, "velocity", "m/s"};          // v
+    Column<Float4, Buffers::Two> probe{*this, "probe", "m"};  // u + beta v, where forces are evaluated; .w is 0
+    Column<float> stiffness_scale{*this, "stiffness_scale"};  // B7's limit at this vertex, in (0, 1]
+};
+
+enum class EdgeKind : uint8_t { Interior = 0, Border = 1, Crack = 2 };
+enum ElementFlag : uint8_t { kDegenerate = 1, kDead = 2 };
+
+/// One row is one prism (a, b, c, a', b', c'). Edge k runs from corner k to corner (k + 1) % 3.
+struct Elements : Table<Elements> {
+    using Table::Table;
+    static constexpr const char* kName = "elements";
+    Column<std::array<uint32_t, 3>> corner{*this, "corner"};  // vertices, counter-clockwise from outside
+    Column<std::array<uint32_t, 3>> neighbour{*this,
+                                              "neighbour"};        // element across edge k, kNone at borders and cracks
+    Column<std::array<uint32_t, 3>> hinge{*this, "hinge"};         // across edge k, or kNone
+    Column<std::array<uint8_t, 3>> edge_kind{*this, "edge_kind"};  // EdgeKind
+    Column<double> mass{*this, "mass", "kg"};                      // rest prism; shared by area when an edge is split
+    Column<double> volume{*this, "volume", "m3"};
+    Column<uint8_t> flags{*this, "flags"};
+    Column<uint32_t> cell{*this, "cell"};  // of its lowest corner
+    Column<uint32_t> part{*this, "part"};  // component, written by group_fragments
+    // The game's own surface, three entries a triangle, interpolated when an edge is split.
+    Column<std::array<float, 9>> normal{*this, "normal"};
+    Column<std::array<float, 6>> uv{*this, "uv"};
+    Column<uint16_t> drawn_material{*this, "drawn_material"};
+    // Scratch of the stress check: both faces, in the triangle's own axes (xx, yy, xy). [0..2] outer, [3..5] inner.
+    Column<std::array<float, 6>> stress{*this, "stress", "Pa", Keep::Scratch};
+    Column<float> principal{*this, "principal", "Pa", Keep::Scratch};  // largest of both faces
+};
+
+/// One row is the three coupled springs of the element in the same row of Elements (B3): constant strain from the edge
+/// elongations, plane stress with the true E and nu. With d1 = u_b - u_a, d2 = u_c - u_a and (i0, i1, i2) =
+/// inverse_edges: du/dx = i0 d1, du/dy = i1 d1 + i2 d2; xx = x.du/dx, yy = y.du/dy, xy = x.du/dy + y.du/dx.
+struct TriangleSprings : Table<TriangleSprings> {
+    using Table::Table;
+    static constexpr const char* kName = "triangle_springs";
+    Column<Vec3> axis_x{*this, "axis_x"};  // along edge 0, unit
+    Column<Vec3> axis_y{*this, "axis_y"};  // in the plane, unit
+    Column<std::array<float, 3>> inverse_edges{*this, "inverse_edges", "1/m"};
+    Column<float> area{*this, "area", "m2"};
+    Column<float> thickness{*this, "thickness", "m"};  // mean depth of the corners, at least 0.05 of the wanted depth
+    Column<float> scale{*this, "scale"};               // B7's limit, in (0, 1]; also scales the stress
+    /// Curvature (xx, yy, xy) a radian of the hinge across edge k: length / (2 area) * p p^T, p the edge's normal in
+    /// the plane.
+    Column<std::array<float, 9>> curvature{*this, "curvature", "1/m"};
+};
+
+/// One row is one interior edge that resists bending: theta = sum of gradient . u over its four vertices (B3).
+struct Hinges : Table<Hinges> {
+    using Table::Table;
+    static constexpr const char* kName = "hinges";
+    Column<std::array<uint32_t, 4>> vertex{*this,
+                                           "vertex"};  // 0, 1: the edge; 2, 3: the corners opposite; [0] == kNone: dead
+    Column<std::array<float, 12>> gradient{*this, "gradient", "1/m"};
+    Column<float> stiffness{*this, "stiffness", "J"};           // D L^2 / (A1 + A2), unscaled
+    Column<float> scale{*this, "scale"};                        // B7's limit, in (0, 1]
+    Column<float> angle{*this, "angle", "rad", Keep::Scratch};  // theta, written by the stress check
+};
+
+/// One row is 8 vertices' share of the stiffness: f_i = sum_j K_ij (w_j - w_i), difference form (section 10).
+struct StiffnessPacks : Table<StiffnessPacks> {
+    using Table::Table;
+    static constexpr const char* kName = "stiffness_packs";
+    Column<uint32_t> first_block{*this, "first_block"};  // relative to the shell's blocks
+    Column<uint16_t> block_count{*this, "block_count"};
+    Column<uint16_t> block_capacity{*this, "block_capacity"};
+    Column<uint32_t> first_link{*this, "first_link"};
+    Column<uint16_t> link_count{*this, "link_count"};
+    Column<uint16_t> link_capacity{*this, "link_capacity"};
+};
+
+/// A slot of a pack: for each lane one neighbour of the 1-ring and the block K_ij by rows. An unused lane names its own
+/// vertex.
+struct alignas(64) StiffnessBlock {
+    uint32_t neighbour[kLanes];
+    float k[9][kLanes];  // N/m
+};
+/// A slot of a pack: for each lane one corner opposite across a hinge, where the block is of rank one: K_ij = -k g_i
+/// g_j^T.
+struct alignas(32) StiffnessLink {
+    uint32_t neighbour[kLanes];
+    float row[3][kLanes];     // -k g_i, N
+    float column[3][kLanes];  // g_j, 1/m
+};
+struct StiffnessBlocks : Table<StiffnessBlocks> {
+    using Table::Table;
+    static constexpr const char* kName = "stiffness_blocks";
+    Column<StiffnessBlock> block{*this, "block"};
+};
+struct StiffnessLinks : Table<StiffnessLinks> {
+    using Table::Table;
+    static constexpr const char* kName = "stiffness_links";
+    Column<StiffnessLink> link{*this, "link"};
+};
+
+/// One row is a patch of neighbouring vertices: chunk of a job, bounds, one convex piece of the collision shape.
+struct Cells : Table<Cells> {
+    using Table::Table;
+    static constexpr const char* kName = "cells";
+    Column<uint32_t> first_point{*this, "first_point"};  // relative to the shell's points
+    Column<uint32_t> point_count{*this, "point_count"};  // <= 32; 0: the cell has lost all of its elements
+    Column<uint32_t> element_count{*this, "element_count"};
+};
+
+/// One row is a corner of a cell's hull, body frame, pulled in by the collision margin.
+struct HullPoints : Table<HullPoints> {
+    using Table::Table;
+    static constexpr const char* kName = "hull_points";
+    Column<Vec3> point{*this, "point", "m"};
+};
+
+}  // namespace cullet

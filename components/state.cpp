@@ -1,0 +1,183 @@
+#include "components/state.hpp"
+
+namespace cullet {
+namespace {
+
+// Hinges: three for two elements, and cuts only remove them. Blocks and links: 8 lanes a slot, 6 to 8 slots of each a
+// pack.
+uint32_t hinge_limit(const Limits& l) {
+    return l.elements / 2 * 3;
+}
+uint32_t pack_limit(const Limits& l) {
+    return l.vertices / kLanes;
+}
+uint32_t slot_limit(const Limits& l) {
+    return pack_limit(l) * 12;
+}
+uint32_t cell_limit(const Limits& l) {
+    return l.vertices / 8;
+}
+
+}  // namespace
+
+State::State(const Limits& l)
+    : materials(64),
+      models(l.models),
+      bodies(l.bodies),
+      debris(l.debris),
+      shells(l.shells),
+      vertices(l.vertices),
+      elements(l.elements),
+      triangle_springs(l.elements),
+      hinges(hinge_limit(l)),
+      stiffness_packs(pack_limit(l)),
+      stiffness_blocks(slot_limit(l)),
+      stiffness_links(slot_limit(l)),
+      cells(cell_limit(l)),
+      hull_points(cell_limit(l) * 16),
+      tasks(l.tasks),
+      task_contacts(l.tasks * kMostContacts),
+      patch_vertices(l.tasks * kMostPatchVertices),
+      view_vertices(l.view_vertices),
+      view_indices(l.view_vertices * 2),
+      pools(*this) {
+    tasks.append(l.tasks);
+    task_contacts.append(l.tasks * kMostContacts);
+    patch_vertices.append(l.tasks * kMostPatchVertices);
+}
+
+State::Pools::Pools(const State& s)
+    : shells(s.shells.limit(), 1),
+      vertices(s.vertices.limit(), kVerticesPerCell),
+      elements(s.elements.limit(), 16),
+      hinges(s.hinges.limit(), 16),
+      packs(s.stiffness_packs.limit(), 8),
+      blocks(s.stiffness_blocks.limit(), 1),
+      links(s.stiffness_links.limit(), 1),
+      cells(s.cells.limit(), 1),
+      points(s.hull_points.limit(), 1),
+      view_vertices(s.view_vertices.limit(), 16),
+      view_indices(s.view_indices.limit(), 16) {}
+
+uint64_t State::hash() const {
+    uint64_t hash = 0;
+    std::apply([&](auto... table) { ((hash = (this->*table).hash(hash)), ...); }, tables());
+    return hash;
+}
+
+std::string State::validate() const {
+    std::string found;
+    std::apply([&](auto... table) { ((found.empty() ? (void)(found = (this->*table).validate()) : void()), ...); },
+               tables());
+    return found;
+}
+
+std::string State::first_difference(const State& other) const {
+    std::string found;
+    std::apply(
+        [&](auto... table) {
+            ((found.empty() ? (void)(found = (this->*table).first_difference(other.*table)) : void()), ...);
+        },
+        tables());
+    return found;
+}
+
+namespace {
+
+// Rows of `table` for a range, growing the table to reach them. False when there is no room.
+bool take(AnyTable& table, RangePool& pool, uint32_t count, Range& range) {
+    range = {0, 0, 0};
+    if (count == 0) return true;
+    const uint32_t first = pool.take(count);
+    if (first == kNone) return false;
+    if (pool.end() > table.size()) table.append(pool.end() - table.size());
+    range = {first, 0, count};
+    return true;
+}
+
+}  // namespace
+
+Row<Shells> make_shell(State& state, const ShellRoom& room, const char** full) {
+    Range row_range;
+    const char* missing = nullptr;
+    if (!take(state.shells, state.pools.shells, 1, row_range)) {
+        if (full) *full = "limits.shells";
+        return {};
+    }
+    const Row<Shells> shell(row_range.first);
+    Shells& s = state.shells;
+    s.clear_rows(shell, 1);
+    if (!take(state.vertices, state.pools.vertices, room.vertices, s.vertices[shell])) missing = "limits.vertices";
+    if (!take(state.elements, state.pools.elements, room.elements, s.elements[shell])) missing = "limits.elements";
+    const uint32_t rows = state.elements.size();
+    if (rows > state.triangle_springs.size()) state.triangle_springs.append(rows - state.triangle_springs.size());
+    if (!take(state.hinges, state.pools.hinges, room.hinges, s.hinges[shell])) missing = "limits.elements";
+    const uint32_t packs = room.blocks ? (room.vertices + kLanes - 1) / kLanes : 0;
+    if (!take(state.stiffness_packs, state.pools.packs, packs, s.packs[shell])) missing = "limits.vertices";
+    if (!take(state.stiffness_blocks, state.pools.blocks, room.blocks, s.blocks[shell])) missing = "limits.vertices";
+    if (!take(state.stiffness_links, state.pools.links, room.links, s.links[shell])) missing = "limits.vertices";
+    if (!take(state.cells, state.pools.cells, room.cells, s.cells[shell])) missing = "limits.vertices";
+    if (!take(state.hull_points, state.pools.points, room.points, s.points[shell])) missing = "limits.vertices";
+    s.users[shell] = 1;
+    if (missing) {
+        release_shell(state, shell);
+        if (full) *full = missing;
+        return {};
+    }
+    const Range vertices = s.vertices[shell];
+    state.vertices.clear_rows(vertices.first, vertices.capacity);
+    for (uint32_t v = vertices.first; v < vertices.first + vertices.capacity; ++v) state.vertices.element[v] = kNone;
+    state.elements.clear_rows(s.elements[shell].first, s.elements[shell].capacity);
+    state.triangle_springs.clear_rows(s.elements[shell].first, s.elements[shell].capacity);
+    state.hinges.clear_rows(s.hinges[shell].first, s.hinges[shell].capacity);
+    state.stiffness_packs.clear_rows(s.packs[shell].first, s.packs[shell].capacity);
+    return shell;
+}
+
+void release_shell(State& state, Row<Shells> shell) {
+    Shells& s = state.shells;
+    CULLET_ASSERT(s.users[shell] > 0, "shell %u released more often than taken", shell.index);
+    if (--s.users[shell] > 0) return;
+    const auto back = [](RangePool& pool, Range range) { pool.give_back(range.first, range.capacity); };
+    back(state.pools.vertices, s.vertices[shell]);
+    back(state.pools.elements, s.elements[shell]);
+    back(state.pools.hinges, s.hinges[shell]);
+    back(state.pools.packs, s.packs[shell]);
+    back(state.pools.blocks, s.blocks[shell]);
+    back(state.pools.links, s.links[shell]);
+    back(state.pools.cells, s.cells[shell]);
+    back(state.pools.points, s.points[shell]);
+    s.clear_rows(shell, 1);
+    state.pools.shells.give_back(shell, 1);
+}
+
+Row<Shells> copy_shell(State& state, Row<Shells> source, const ShellRoom& room, const char** full) {
+    const Row<Shells> copy = make_shell(state, room, full);
+    if (!copy.exists()) return copy;
+    Shells& s = state.shells;
+    const Range old[] = {s.vertices[copy], s.elements[copy], s.hinges[copy], s.packs[copy],
+                         s.blocks[copy],   s.links[copy],    s.cells[copy],  s.points[copy]};
+    s.copy_rows(s, source, copy, 1);
+    s.users[copy] = 1;
+    const auto copy_range = [&](AnyTable& table, Column<Range>& column, const Range& own) {
+        const Range from = column[source];
+        const uint32_t count = own.capacity == 0 ? 0 : from.count;
+        CULLET_ASSERT(count <= own.capacity, "copy of %s: %u rows do not fit %u", table.name(), count, own.capacity);
+        column[copy] = {own.first, count, own.capacity};
+        if (count) table.copy_rows(table, from.first, own.first, count);
+    };
+    copy_range(state.vertices, s.vertices, old[0]);
+    copy_range(state.elements, s.elements, old[1]);
+    if (s.elements[copy].count)
+        state.triangle_springs.copy_rows(state.triangle_springs, s.elements[source].first, s.elements[copy].first,
+                                         s.elements[copy].count);
+    copy_range(state.hinges, s.hinges, old[2]);
+    copy_range(state.stiffness_packs, s.packs, old[3]);
+    copy_range(state.stiffness_blocks, s.blocks, old[4]);
+    copy_range(state.stiffness_links, s.links, old[5]);
+    copy_range(state.cells, s.cells, old[6]);
+    copy_range(state.hull_points, s.points, old[7]);
+    return copy;
+}
+
+}  // namespace cullet

@@ -1,0 +1,118 @@
+// Everything that a world remembers, listed once.
+#pragma once
+#include <string>
+#include <tuple>
+
+#include "components/bodies.hpp"
+#include "components/materials.hpp"
+#include "components/shells.hpp"
+#include "components/tasks.hpp"
+#include "engine/range_pool.hpp"
+
+namespace cullet {
+
+/// How many rows a world has room for. A full table refuses the later rows and names the limit; nothing is lost.
+struct Limits {
+    uint32_t bodies = 4096;
+    uint32_t shells = 4096;
+    uint32_t vertices = 1u << 20;
+    uint32_t elements = 1u << 21;
+    uint32_t tasks = 64;
+    uint32_t models = 256;
+    uint32_t view_vertices = 1u << 23;
+    uint32_t debris = 8192;
+};
+
+struct State {
+    explicit State(const Limits& limits = {});
+
+    Materials materials;
+    Models models;
+    Bodies bodies;
+    Debris debris;
+    Shells shells;
+    Vertices vertices;
+    Elements elements;
+    TriangleSprings triangle_springs;
+    Hinges hinges;
+    StiffnessPacks stiffness_packs;
+    StiffnessBlocks stiffness_blocks;
+    StiffnessLinks stiffness_links;
+    Cells cells;
+    HullPoints hull_points;
+    Tasks tasks;
+    TaskContacts task_contacts;
+    PatchVertices patch_vertices;
+    ViewVertices view_vertices;
+    ViewIndices view_indices;
+
+    /// Which rows of the tables above are taken; one pool a table whose rows come in ranges.
+    struct Pools {
+        explicit Pools(const State& state);
+        RangePool shells, vertices, elements, hinges, packs, blocks, links, cells, points, view_vertices, view_indices;
+    } pools;
+
+    static constexpr auto tables() {
+        return std::tuple{&State::materials,       &State::models,           &State::bodies,
+                          &State::debris,          &State::shells,           &State::vertices,
+                          &State::elements,        &State::triangle_springs, &State::hinges,
+                          &State::stiffness_packs, &State::stiffness_blocks, &State::stiffness_links,
+                          &State::cells,           &State::hull_points,      &State::tasks,
+                          &State::task_contacts,   &State::patch_vertices,   &State::view_vertices,
+                          &State::view_indices};
+    }
+    /// The table of type T.
+    template <class T>
+    T& table() {
+        return find<T, 0>();
+    }
+
+    uint64_t hash() const;
+    std::string validate() const;
+    std::string first_difference(const State& other) const;
+
+ private:
+    template <class T, size_t I>
+    T& find() {
+        auto& candidate = this->*std::get<I>(tables());
+        if constexpr (std::is_same_v<std::remove_reference_t<decltype(candidate)>, T>)
+            return candidate;
+        else
+            return find<T, I + 1>();
+    }
+};
+
+/// Rows that a shell needs. Packs are one for 8 vertices; blocks and links zero until the stiffness is assembled.
+struct ShellRoom {
+    uint32_t vertices = 0, elements = 0, hinges = 0, blocks = 0, links = 0, cells = 0, points = 0;
+};
+
+/// A shell with empty ranges of these capacities and one user, or kNone when some table is full (`full` then names its
+/// limit). Vertex rows start all dead (element kNone, inverse mass 0).
+Row<Shells> make_shell(State& state, const ShellRoom& room, const char** full = nullptr);
+/// One user less; the rows go back when there are none.
+void release_shell(State& state, Row<Shells> shell);
+/// A copy of `source` with `room` (at least what is in use), one user. Stiffness is copied when `room.blocks` > 0.
+Row<Shells> copy_shell(State& state, Row<Shells> source, const ShellRoom& room, const char** full = nullptr);
+
+/// The tables of one shell, with its ranges looked up: what the functions that edit a shell pass around. Indices are
+/// relative to the shell, as in the columns.
+struct ShellView {
+    State& state;
+    Row<Shells> row;
+
+    ShellView(State& s, Row<Shells> r) : state(s), row(r) {}
+    Shells& shells() const { return state.shells; }
+    Range& vertices() const { return state.shells.vertices[row]; }
+    Range& elements() const { return state.shells.elements[row]; }
+    Range& hinges() const { return state.shells.hinges[row]; }
+    /// Table rows of relative indices.
+    uint32_t vertex(uint32_t v) const { return vertices().first + v; }
+    uint32_t element(uint32_t e) const { return elements().first + e; }
+    uint32_t hinge(uint32_t h) const { return hinges().first + h; }
+    uint32_t vertex_count() const { return vertices().count; }
+    uint32_t element_count() const { return elements().count; }
+    uint32_t hinge_count() const { return hinges().count; }
+};
+
+}  // namespace cullet

@@ -1,0 +1,84 @@
+// Damage tasks: impact in, fragments out. A task works on a shell of its own, a copy of the body's with room to grow;
+// the body itself does not change until the task ends.
+#pragma once
+#include "components/shells.hpp"
+
+namespace cullet {
+
+struct Bodies;
+
+enum class TaskState : uint8_t {
+    Free = 0,
+    Running,  // steps remain
+    Whole,    // ended; no piece came free. Its cracks, if any, stay with the body
+    Broke,    // ended; the shell has more than one component
+    Dropped,  // ended by a fault (energy) or because the body was removed; nothing changes
+};
+
+/// One row is one hit being worked off.
+struct Tasks : Table<Tasks> {
+    using Table::Table;
+    static constexpr const char* kName = "tasks";
+    Column<uint8_t> state{*this, "state"};  // TaskState
+    Column<Row<Bodies>> body{*this, "body"};
+    Column<Row<Shells>> source{*this, "source"};  // the body's shell when it was hit
+    Column<Row<Shells>> shell{*this, "shell"};    // the working copy
+    Column<uint64_t> opened_frame{*this, "opened_frame"};
+    Column<uint32_t> first_contact{*this,
+                                   "first_contact"};  // range in TaskContacts, kMostContacts of them reserved a task
+    Column<uint32_t> contact_count{*this, "contact_count"};
+    Column<float> approach_speed{*this, "approach_speed", "m/s"};  // of the fastest contact
+    Column<Vec3> start_velocity{*this, "start_velocity", "m/s"};   // V of the centre of mass, body axes
+    Column<Vec3> start_spin{*this, "start_spin", "rad/s"};         // w, body axes
+    Column<float> time_step{*this, "time_step", "s"};
+    Column<float> damping_time{*this, "damping_time", "s"};        // beta = 0.15 dt
+    Column<float> strength_scale{*this, "strength_scale"};         // the game's; infinite strength never cracks
+    Column<float> end_time{*this, "end_time", "s"};                // T of section 6.4
+    Column<float> quiet_time{*this, "quiet_time", "s"};            // 0.4 T
+    Column<uint32_t> steps_done{*this, "steps_done"};              // since the last (re)start
+    Column<uint32_t> steps_granted{*this, "steps_granted"};        // this frame
+    Column<float> last_event_time{*this, "last_event_time", "s"};  // of the last crack or touch
+    Column<double> start_energy{*this, "start_energy", "J"};       // body's and strikers' kinetic energy at the touch
+    Column<uint8_t> redo_count{*this, "redo_count"};               // 0 to 2
+    Column<uint32_t> crack_count{*this, "crack_count"};            // cut edges in this run
+    Column<uint32_t> start_count{*this, "start_count"};            // cracks started in this run
+    Column<uint64_t> units_used{*this, "units_used"};
+    Column<uint64_t> units_owed{*this, "units_owed"};  // by cuts, taken from the next grant
+    Column<uint8_t> is_held{*this, "is_held"};         // body (and striker) stand still meanwhile
+    Column<uint32_t> frames_held{*this, "frames_held"};
+};
+
+inline constexpr uint32_t kMostContacts = 8;  // patches a task
+inline constexpr uint32_t kMostPatchVertices =
+    512;  // of all patches of a task; a wide patch keeps its heaviest weights
+
+/// One row is one contact patch of a task (section 6.3): springs of its own on each of its vertices, against one
+/// striker.
+struct TaskContacts : Table<TaskContacts> {
+    using Table::Table;
+    static constexpr const char* kName = "task_contacts";
+    Column<uint32_t> vertex{*this, "vertex"};  // nearest to the contact point when the task opened
+    Column<Vec3> point{*this, "point", "m"};   // body frame
+    Column<Vec3> normal{*this, "normal"};      // unit, body axes: the way the striker pushes the body
+    Column<Row<Bodies>> striker{*this, "striker"};
+    Column<float> striker_inverse_mass{*this, "striker_inverse_mass", "1/kg"};  // effective along the normal; 0: floor
+    Column<float> striker_radius{*this, "striker_radius", "m"};                 // 0: flat
+    Column<float> start_speed{*this, "start_speed", "m/s"};  // the striker's along the normal, body frame
+    Column<double> striker_travel{*this, "striker_travel", "m"};
+    Column<double> striker_speed{*this, "striker_speed", "m/s"};
+    Column<double> impulse{*this, "impulse", "N s"};     // passed to the body along the normal so far
+    Column<float> radius{*this, "radius", "m"};          // r_c
+    Column<uint32_t> first_patch{*this, "first_patch"};  // range in PatchVertices
+    Column<uint32_t> patch_count{*this, "patch_count"};
+};
+
+/// One row is one vertex that a striker may push.
+struct PatchVertices : Table<PatchVertices> {
+    using Table::Table;
+    static constexpr const char* kName = "patch_vertices";
+    Column<uint32_t> vertex{*this, "vertex"};
+    Column<float> stiffness{*this, "stiffness", "N/m"};  // k_c w_i
+    Column<float> force{*this, "force", "N"};            // along the normal, from the displacements before the step
+};
+
+}  // namespace cullet

@@ -1,0 +1,64 @@
+#include "engine/range_pool.hpp"
+
+#include <algorithm>
+
+#include "engine/assert.hpp"
+#include "engine/hash.hpp"
+#include "engine/table.hpp"
+
+namespace cullet {
+
+RangePool::RangePool(uint32_t limit, uint32_t alignment, uint32_t range_limit)
+    : limit_(limit & ~(alignment - 1)), alignment_(alignment) {
+    holes_.reserve(range_limit);
+    holes_.push_back({0, limit_});
+}
+
+uint32_t RangePool::take(uint32_t count) {
+    if (count == 0) return 0;
+    count = rounded(count);
+    for (size_t h = 0; h < holes_.size(); ++h) {
+        if (holes_[h].count < count) continue;
+        const uint32_t first = holes_[h].first;
+        holes_[h].first += count;
+        holes_[h].count -= count;
+        if (holes_[h].count == 0) holes_.erase(holes_.begin() + static_cast<std::ptrdiff_t>(h));
+        return first;
+    }
+    return kNone;
+}
+
+void RangePool::give_back(uint32_t first, uint32_t count) {
+    if (count == 0) return;
+    count = rounded(count);
+    auto after =
+        std::lower_bound(holes_.begin(), holes_.end(), first, [](const Hole& h, uint32_t f) { return h.first < f; });
+    CULLET_ASSERT(after == holes_.end() || first + count <= after->first, "range %u + %u given back twice", first,
+                  count);
+    const bool joins_after = after != holes_.end() && first + count == after->first;
+    const bool joins_before = after != holes_.begin() && (after - 1)->first + (after - 1)->count == first;
+    if (joins_before && joins_after) {
+        (after - 1)->count += count + after->count;
+        holes_.erase(after);
+    } else if (joins_before) {
+        (after - 1)->count += count;
+    } else if (joins_after) {
+        after->first = first;
+        after->count += count;
+    } else {
+        CULLET_ASSERT(holes_.size() < holes_.capacity(), "more than %zu holes in a table", holes_.capacity());
+        if (holes_.size() == holes_.capacity()) return;  // the rows are lost until the world ends, nothing else
+        holes_.insert(after, {first, count});
+    }
+}
+
+uint32_t RangePool::end() const {
+    if (!holes_.empty() && holes_.back().first + holes_.back().count == limit_) return holes_.back().first;
+    return limit_;
+}
+
+uint64_t RangePool::hash(uint64_t seed) const {
+    return hash_bytes(holes_.data(), holes_.size() * sizeof(Hole), seed);
+}
+
+}  // namespace cullet

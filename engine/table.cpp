@@ -1,0 +1,148 @@
+#include "engine/table.hpp"
+
+#include <charconv>
+
+namespace cullet {
+
+std::byte* AnyTable::column_memory(const ColumnInfo& column, int array) const {
+    const auto* object = reinterpret_cast<const std::byte*>(this);  // AnyTable is the first base of every table
+    return reinterpret_cast<const ColumnMemory*>(object + column.offset)->array[array];
+}
+
+uint32_t AnyTable::append(uint32_t count) {
+    if (count > limit_ - size_) return kNone;
+    const uint32_t first = size_;
+    size_ += count;
+    clear_rows(first, count);
+    return first;
+}
+
+void AnyTable::copy_rows(const AnyTable& source, uint32_t from, uint32_t to, uint32_t count) {
+    CULLET_ASSERT(source.columns_ == columns_, "copy of rows between tables of two types");
+    CULLET_ASSERT(from + count <= source.size_ && to + count <= size_, "copy of rows %u + %u past the end of %s", from,
+                  count, name_);
+    for (const ColumnInfo& c : *columns_)
+        for (int a = 0; a < c.lanes * c.sides; ++a)
+            std::memmove(column_memory(c, a) + size_t{to} * c.row_bytes,
+                         source.column_memory(c, a) + size_t{from} * c.row_bytes, size_t{count} * c.row_bytes);
+}
+
+void AnyTable::clear_rows(uint32_t first, uint32_t count) {
+    for (const ColumnInfo& c : *columns_)
+        for (int a = 0; a < c.lanes * c.sides; ++a)
+            std::memset(column_memory(c, a) + size_t{first} * c.row_bytes, 0, size_t{count} * c.row_bytes);
+}
+
+void AnyTable::commit_rows(uint32_t count) {
+    for (const ColumnInfo& c : *columns_)
+        for (int a = 0; a < c.lanes * c.sides; ++a)
+            commit_memory(column_memory(c, a), size_t{count < limit_ ? count : limit_} * c.row_bytes);
+}
+
+uint64_t AnyTable::hash(uint64_t seed) const {
+    uint64_t hash = hash_bytes(&size_, sizeof size_, seed);
+    for (const ColumnInfo& c : *columns_) {
+        if (c.keep != Keep::State) continue;
+        for (int a = 0; a < c.lanes * c.sides; ++a)
+            hash = hash_bytes(column_memory(c, a), size_t{size_} * c.row_bytes, hash);
+    }
+    return hash;
+}
+
+std::string AnyTable::validate() const {
+    for (const ColumnInfo& c : *columns_) {
+        if (c.scalar != Scalar::F32 && c.scalar != Scalar::F64) continue;
+        for (int a = 0; a < c.lanes * c.sides; ++a)
+            for (uint32_t row = 0; row < size_; ++row)
+                for (int k = 0; k < c.components; ++k) {
+                    const std::byte* place = column_memory(c, a) + size_t{row} * c.row_bytes;
+                    const double value = c.scalar == Scalar::F32
+                                             ? static_cast<double>(reinterpret_cast<const float*>(place)[k])
+                                             : reinterpret_cast<const double*>(place)[k];
+                    if (!std::isfinite(value))
+                        return std::string(name_) + "." + c.name + "[" + std::to_string(row) + "] is " +
+                               describe_value(c, a, row) + ", not a finite number";
+                }
+    }
+    return {};
+}
+
+std::string AnyTable::first_difference(const AnyTable& other) const {
+    if (size_ != other.size_)
+        return std::string(name_) + ": " + std::to_string(size_) + " rows here, " + std::to_string(other.size_) +
+               " there";
+    static const char* const kLaneNames[3] = {".x", ".y", ".z"};
+    for (const ColumnInfo& c : *columns_) {
+        if (c.keep != Keep::State) continue;
+        for (int a = 0; a < c.lanes * c.sides; ++a) {
+            const std::byte *mine = column_memory(c, a), *theirs = other.column_memory(c, a);
+            if (std::memcmp(mine, theirs, size_t{size_} * c.row_bytes) == 0) continue;
+            uint32_t row = 0;
+            while (std::memcmp(mine + size_t{row} * c.row_bytes, theirs + size_t{row} * c.row_bytes, c.row_bytes) == 0)
+                ++row;
+            return std::string(name_) + "." + c.name + "[" + std::to_string(row) + "]" +
+                   (c.lanes == 3 ? kLaneNames[a % 3] : "") + ": " + describe_value(c, a, row) + " here, " +
+                   other.describe_value(c, a, row) + " there";
+        }
+    }
+    return {};
+}
+
+std::string AnyTable::describe_value(const ColumnInfo& c, int array, uint32_t row) const {
+    const std::byte* place = column_memory(c, array) + size_t{row} * c.row_bytes;
+    std::string text;
+    for (int k = 0; k < c.components; ++k) {
+        char digits[48];
+        std::to_chars_result end{digits, {}};
+        switch (c.scalar) {
+            case Scalar::U8:
+                end = std::to_chars(digits, digits + 48, reinterpret_cast<const uint8_t*>(place)[k]);
+                break;
+            case Scalar::U16:
+                end = std::to_chars(digits, digits + 48, reinterpret_cast<const uint16_t*>(place)[k]);
+                break;
+            case Scalar::Row:
+            case Scalar::U32:
+                end = std::to_chars(digits, digits + 48, reinterpret_cast<const uint32_t*>(place)[k]);
+                break;
+            case Scalar::U64:
+                end = std::to_chars(digits, digits + 48, reinterpret_cast<const uint64_t*>(place)[k]);
+                break;
+            case Scalar::F32:
+                end = std::to_chars(digits, digits + 48, reinterpret_cast<const float*>(place)[k]);
+                break;
+            case Scalar::F64:
+                end = std::to_chars(digits, digits + 48, reinterpret_cast<const double*>(place)[k]);
+                break;
+            case Scalar::Bytes:
+                for (uint32_t b = 0; b < c.row_bytes && b < 16; ++b) {
+                    static const char* const kHex = "0123456789abcdef";
+                    const auto byte = static_cast<unsigned>(place[b]);
+                    text += kHex[byte >> 4];
+                    text += kHex[byte & 15];
+                }
+                return text;
+        }
+        if (k) text += ' ';
+        text.append(digits, end.ptr);
+    }
+    return text;
+}
+
+std::string AnyTable::describe_row(uint32_t row) const {
+    std::string text = std::string(name_) + "[" + std::to_string(row) + "]";
+    for (const ColumnInfo& c : *columns_) {
+        text += std::string(" ") + c.name + "=";
+        for (int lane = 0; lane < c.lanes; ++lane) text += (lane ? "," : "") + describe_value(c, lane, row);
+        if (std::strcmp(c.unit, "1") != 0) text += std::string(" ") + c.unit;
+    }
+    return text;
+}
+
+uint64_t AnyTable::bytes_a_row() const {
+    uint64_t bytes = 0;
+    for (const ColumnInfo& c : *columns_) bytes += uint64_t{c.row_bytes} * c.lanes * c.sides;
+    return bytes;
+}
+
+}  // namespace cullet

@@ -1,0 +1,285 @@
+// SoA tables. One line declares a column:
+//
+//     struct Springs : Table<Springs> {
+//         using Table::Table;
+//         Column<Row<Vertices>> a{*this, "a"};
+//         Column<float> rest_length{*this, "rest_length", "m"};
+//     };
+//
+// Storage, append, copy, hash, validate, first difference and printing follow from these lines. A column registers its
+// offset once a type, not its address, so that tables can be staged, swapped and tested freely. A column reserves
+// address space for the table's limit: rows never move when a table grows.
+#pragma once
+#include <array>
+#include <cstdint>
+#include <cstring>
+#include <string>
+#include <type_traits>
+#include <utility>
+#include <vector>
+
+#include "engine/assert.hpp"
+#include "engine/hash.hpp"
+#include "engine/math.hpp"
+#include "engine/memory.hpp"
+
+namespace cullet {
+
+inline constexpr uint32_t kNone = 0xffffffffu;
+
+/// State is saved, hashed and compared between runs. Scratch is rebuilt before it is read.
+enum class Keep : uint8_t { State, Scratch };
+
+/// Two: a parallel system may read the old side of any row (In) while it writes the new side of its own (Out).
+enum class Buffers : uint8_t { One, Two };
+
+/// A row number in table T, good until T is compacted.
+template <class T>
+struct Row {
+    uint32_t index = kNone;
+    Row() = default;
+    explicit constexpr Row(uint32_t i) : index(i) {}
+    constexpr operator uint32_t() const { return index; }
+    bool exists() const { return index != kNone; }
+};
+
+/// What a game keeps: a row and the generation of its user. Zero is null; a stale handle is an ordinary event.
+template <class T>
+struct Handle {
+    uint32_t index = 0, generation = 0;
+    friend bool operator==(const Handle&, const Handle&) = default;
+};
+
+enum class Scalar : uint8_t { Bytes, U8, U16, U32, U64, F32, F64, Row };
+
+struct ColumnInfo {
+    const char* name;
+    const char* unit;
+    uint32_t offset;     // of the column inside the table object
+    uint32_t row_bytes;  // of one lane
+    uint8_t lanes;       // arrays: 3 for Vec3
+    uint8_t sides;       // 1, or 2 for Buffers::Two
+    Scalar scalar;
+    uint8_t components;  // scalars in one row of one lane
+    Keep keep;
+};
+
+template <class T>
+struct ColumnType {
+    static constexpr uint8_t kLanes = 1;
+    using Lane = T;
+    static constexpr Scalar kScalar = Scalar::Bytes;
+    static constexpr uint8_t kComponents = 1;
+};
+#define CULLET_SCALAR_COLUMN(type, kind)          \
+    template <>                                   \
+    struct ColumnType<type> {                     \
+        static constexpr uint8_t kLanes = 1;      \
+        using Lane = type;                        \
+        static constexpr Scalar kScalar = kind;   \
+        static constexpr uint8_t kComponents = 1; \
+    };
+CULLET_SCALAR_COLUMN(uint8_t, Scalar::U8)
+CULLET_SCALAR_COLUMN(uint16_t, Scalar::U16)
+CULLET_SCALAR_COLUMN(uint32_t, Scalar::U32)
+CULLET_SCALAR_COLUMN(uint64_t, Scalar::U64)
+CULLET_SCALAR_COLUMN(float, Scalar::F32)
+CULLET_SCALAR_COLUMN(double, Scalar::F64)
+#undef CULLET_SCALAR_COLUMN
+template <>
+struct ColumnType<Vec3> {
+    static constexpr uint8_t kLanes = 3;
+    using Lane = float;
+    static constexpr Scalar kScalar = Scalar::F32;
+    static constexpr uint8_t kComponents = 1;
+};
+template <>
+struct ColumnType<Vec3d> {
+    static constexpr uint8_t kLanes = 3;
+    using Lane = double;
+    static constexpr Scalar kScalar = Scalar::F64;
+    static constexpr uint8_t kComponents = 1;
+};
+template <class T>
+struct ColumnType<Row<T>> {
+    static constexpr uint8_t kLanes = 1;
+    using Lane = Row<T>;
+    static constexpr Scalar kScalar = Scalar::Row;
+    static constexpr uint8_t kComponents = 1;
+};
+template <>
+struct ColumnType<Quat> {
+    static constexpr uint8_t kLanes = 1;
+    using Lane = Quat;
+    static constexpr Scalar kScalar = Scalar::F32;
+    static constexpr uint8_t kComponents = 4;
+};
+template <>
+struct ColumnType<Sym3d> {
+    static constexpr uint8_t kLanes = 1;
+    using Lane = Sym3d;
+    static constexpr Scalar kScalar = Scalar::F64;
+    static constexpr uint8_t kComponents = 6;
+};
+template <class T, size_t N>
+struct ColumnType<std::array<T, N>> {
+    static constexpr uint8_t kLanes = 1;
+    using Lane = std::array<T, N>;
+    static constexpr Scalar kScalar = ColumnType<T>::kScalar;
+    static constexpr uint8_t kComponents = N;
+};
+
+/// What is common to all tables: rows, limit, and everything that works from the list of columns.
+class AnyTable {
+ public:
+    static constexpr uint32_t kDefaultLimit = 1u << 16;
+
+    uint32_t size() const { return size_; }
+    uint32_t limit() const { return limit_; }
+    const char* name() const { return name_; }
+    const std::vector<ColumnInfo>& columns() const { return *columns_; }
+
+    /// First of `count` new rows, all zero, or kNone when the limit does not allow them.
+    uint32_t append(uint32_t count);
+    /// Rows from `count` on are forgotten.
+    void truncate(uint32_t count) { size_ = count < size_ ? count : size_; }
+    /// Copies all columns of [from, from + count) to [to, to + count) of this table or another of the same type.
+    void copy_rows(const AnyTable& source, uint32_t from, uint32_t to, uint32_t count);
+    void clear_rows(uint32_t first, uint32_t count);
+    void commit_rows(uint32_t count);
+
+    uint64_t hash(uint64_t seed) const;
+    /// Empty, or a sentence naming the first value that is not finite.
+    std::string validate() const;
+    /// Empty, or "vertices.velocity[812]: 1.5 here, 1.25 there" for the first State value that differs.
+    std::string first_difference(const AnyTable& other) const;
+    std::string describe_row(uint32_t row) const;
+    uint64_t bytes_a_row() const;
+
+    AnyTable(const AnyTable&) = delete;
+    AnyTable& operator=(const AnyTable&) = delete;
+
+ protected:
+    explicit AnyTable(uint32_t limit) : limit_(limit) {}
+    ~AnyTable() = default;
+    std::byte* column_memory(const ColumnInfo& column, int array) const;
+    std::string describe_value(const ColumnInfo& column, int array, uint32_t row) const;
+
+    uint32_t size_ = 0, limit_ = 0;
+    const char* name_ = "";
+    const std::vector<ColumnInfo>* columns_ = nullptr;
+};
+
+/// The arrays of one column. Lane l of side s is array s * lanes + l.
+struct ColumnMemory {
+    static constexpr int kMostArrays = 6;
+    std::byte* array[kMostArrays] = {};
+};
+
+template <class Self>
+class Table : public AnyTable {
+ public:
+    using SelfTable = Self;
+    explicit Table(uint32_t limit = kDefaultLimit) : AnyTable(limit) {
+        if (!registering()) register_columns();
+        columns_ = &list();
+        name_ = Self::kName;
+    }
+    void swap(Self& other) {
+        std::swap(size_, other.size_);
+        std::swap(limit_, other.limit_);
+        for (const ColumnInfo& c : list()) {
+            auto* mine =
+                reinterpret_cast<ColumnMemory*>(reinterpret_cast<std::byte*>(static_cast<Self*>(this)) + c.offset);
+            auto* theirs = reinterpret_cast<ColumnMemory*>(reinterpret_cast<std::byte*>(&other) + c.offset);
+            std::swap(*mine, *theirs);
+        }
+    }
+    /// Called by the columns' constructors while the first table of this type is made.
+    static std::vector<ColumnInfo>*& registering() {
+        static thread_local std::vector<ColumnInfo>* current = nullptr;
+        return current;
+    }
+
+ private:
+    static std::vector<ColumnInfo>& list() {
+        static std::vector<ColumnInfo> columns;
+        return columns;
+    }
+    static void register_columns() {
+        static const bool is_done = [] {
+            std::vector<ColumnInfo> found;
+            registering() = &found;
+            { Self prototype(1u); }
+            registering() = nullptr;
+            list() = std::move(found);
+            return true;
+        }();
+        (void)is_done;
+    }
+};
+
+template <class T, Buffers B = Buffers::One>
+class Column {
+    static_assert(std::is_trivially_copyable_v<T>, "columns hold plain data");
+    using Type = ColumnType<T>;
+    using Lane = typename Type::Lane;
+    static constexpr int kLanes = Type::kLanes;
+    static constexpr int kSides = B == Buffers::Two ? 2 : 1;
+
+ public:
+    using Value = T;
+    static constexpr Buffers kBuffers = B;
+
+    template <class Owner>
+    Column(Owner& table, const char* name, const char* unit = "1", Keep keep = Keep::State) : limit_(table.limit()) {
+        if (auto* found = Owner::registering()) {
+            const auto offset = reinterpret_cast<std::byte*>(this) - reinterpret_cast<std::byte*>(&table);
+            found->push_back({name, unit, static_cast<uint32_t>(offset), sizeof(Lane), kLanes, kSides, Type::kScalar,
+                              Type::kComponents, keep});
+        }
+        for (int a = 0; a < kLanes * kSides; ++a) memory_.array[a] = reserve_memory(size_t{limit_} * sizeof(Lane));
+    }
+    ~Column() {
+        for (int a = 0; a < kLanes * kSides; ++a) release_memory(memory_.array[a], size_t{limit_} * sizeof(Lane));
+    }
+    Column(const Column&) = delete;
+    Column& operator=(const Column&) = delete;
+
+    /// One lane: a reference. Vec3, Vec3d: a value; write with set().
+    decltype(auto) operator[](uint32_t row) { return at(row, 0); }
+    decltype(auto) operator[](uint32_t row) const { return at(row, 0); }
+    void set(uint32_t row, const T& value, int side = 0) {
+        if constexpr (kLanes == 3) {
+            lane(0, side)[row] = value.x, lane(1, side)[row] = value.y, lane(2, side)[row] = value.z;
+        } else {
+            lane(0, side)[row] = value;
+        }
+    }
+    Lane* lane(int k, int side = 0) { return reinterpret_cast<Lane*>(memory_.array[side * kLanes + k]); }
+    const Lane* lane(int k, int side = 0) const {
+        return reinterpret_cast<const Lane*>(memory_.array[side * kLanes + k]);
+    }
+    Lane* data(int side = 0) { return lane(0, side); }
+    const Lane* data(int side = 0) const { return lane(0, side); }
+
+ private:
+    decltype(auto) at(uint32_t row, int side) {
+        if constexpr (kLanes == 3) {
+            return T{lane(0, side)[row], lane(1, side)[row], lane(2, side)[row]};
+        } else {
+            return (lane(0, side)[row]);
+        }
+    }
+    decltype(auto) at(uint32_t row, int side) const {
+        if constexpr (kLanes == 3) {
+            return T{lane(0, side)[row], lane(1, side)[row], lane(2, side)[row]};
+        } else {
+            return (lane(0, side)[row]);
+        }
+    }
+    ColumnMemory memory_;  // first: swap() finds it at the registered offset
+    uint32_t limit_;
+};
+
+}  // namespace cullet
