@@ -256,6 +256,9 @@ class Column {
             lane(0, side)[row] = value;
         }
     }
+    /// The value of a row on one side of a two-sided column.
+    decltype(auto) get(uint32_t row, int side = 0) { return at(row, side); }
+    decltype(auto) get(uint32_t row, int side = 0) const { return at(row, side); }
     Lane* lane(int k, int side = 0) { return reinterpret_cast<Lane*>(memory_.array[side * kLanes + k]); }
     const Lane* lane(int k, int side = 0) const {
         return reinterpret_cast<const Lane*>(memory_.array[side * kLanes + k]);

@@ -1,0 +1,47 @@
+// What happened, in order. A queue of fixed room in memory of its own; parallel systems write through Emit
+// (system.hpp).
+#pragma once
+#include <cstdint>
+#include <span>
+#include <type_traits>
+
+#include "engine/memory.hpp"
+
+namespace cullet {
+
+template <class E>
+class Events {
+    static_assert(std::is_trivially_copyable_v<E>, "events are plain data");
+
+ public:
+    using Value = E;
+    explicit Events(uint32_t limit) : memory_(reserve_memory(size_t{limit} * sizeof(E))), limit_(limit) {}
+    ~Events() { release_memory(memory_, size_t{limit_} * sizeof(E)); }
+    Events(const Events&) = delete;
+    Events& operator=(const Events&) = delete;
+
+    /// False when the queue is full: the event is counted in dropped() and lost.
+    bool push(const E& event) {
+        if (size_ == limit_) {
+            ++dropped_;
+            return false;
+        }
+        data()[size_++] = event;
+        return true;
+    }
+    void clear() { size_ = 0; }
+    std::span<const E> all() const { return {reinterpret_cast<const E*>(memory_), size_}; }
+    std::span<E> all() { return {data(), size_}; }
+    uint32_t size() const { return size_; }
+    uint64_t dropped() const { return dropped_; }
+    auto begin() const { return all().begin(); }
+    auto end() const { return all().end(); }
+
+ private:
+    E* data() { return reinterpret_cast<E*>(memory_); }
+    std::byte* memory_;
+    uint32_t limit_, size_ = 0;
+    uint64_t dropped_ = 0;
+};
+
+}  // namespace cullet

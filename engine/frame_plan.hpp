@@ -1,0 +1,247 @@
+// The order of one frame. Systems are listed as a story; which of them may run at once follows from their signatures:
+// two systems are ordered when one writes what the other touches. Neighbours in the list without such an edge share one
+// pass.
+#pragma once
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "engine/jobs.hpp"
+#include "engine/profiler.hpp"
+#include "engine/system.hpp"
+
+namespace cullet {
+
+/// A system as the plan and the inner loops call it.
+template <class World>
+struct PlannedSystem {
+    std::string name, stage;
+    CallKind kind = CallKind::Serial;
+    std::vector<Access> accesses;
+    uint32_t chunk_rows = 1;
+    /// Rows (in an inner loop: of the task), bodies or islands to call it for.
+    uint32_t (*row_count)(World&) = nullptr;
+    Rows<void> (*rows_of_body)(World&, uint32_t body) = nullptr;
+    void (*invoke)(Call<World>&) = nullptr;
+    /// Emit: bytes a row, and how a chunk's buffer joins its queue.
+    uint32_t emit_bytes_a_row = 0;
+    void (*join)(World&, const void* buffer, uint32_t count) = nullptr;
+    uint32_t every = 1;  // inner loops: in each n-th repetition
+    uint32_t zone = 0;
+    std::vector<uint32_t> after;  // systems that must have ended, by place in the list
+};
+
+template <class World, auto System>
+PlannedSystem<World> plan_system(std::string stage) {
+    using Sig = Signature<decltype(System)>;
+    PlannedSystem<World> planned;
+    planned.name = system_name<System>();
+    planned.stage = std::move(stage);
+    planned.kind = Sig::kKind;
+    planned.accesses = Sig::accesses();
+    planned.invoke = [](Call<World>& call) { Sig::template invoke<System>(call); };
+    if constexpr (Sig::kKind == CallKind::Rows) {
+        using T = std::remove_pointer_t<std::tuple_element_t<0, typename Sig::RowTables>>;
+        planned.chunk_rows = kRowsPerChunk<T>;
+        planned.row_count = [](World& world) { return world.template table<T>().size(); };
+        if constexpr (requires(World & w) { w.template rows_of<T>(0u); })
+            planned.rows_of_body = [](World& world, uint32_t body) {
+                const auto range = world.template rows_of<T>(body);
+                return Rows<void>{range.first, range.count};
+            };
+    } else if constexpr (Sig::kKind == CallKind::Bodies) {
+        planned.row_count = [](World& world) { return world.body_call_count(); };
+    } else if constexpr (Sig::kKind == CallKind::Islands) {
+        planned.row_count = [](World& world) { return world.island_count(); };
+    } else {
+        planned.row_count = [](World&) { return 1u; };
+    }
+    if constexpr (std::tuple_size_v<typename Sig::Emits> == 1) {
+        using E = std::remove_pointer_t<std::tuple_element_t<0, typename Sig::Emits>>;
+        using Value = typename E::Value;
+        planned.emit_bytes_a_row = E::kMostARow * sizeof(Value);
+        planned.join = [](World& world, const void* buffer, uint32_t count) {
+            auto& queue = world.template resource<Events<Value>>();
+            for (uint32_t i = 0; i < count; ++i) queue.push(static_cast<const Value*>(buffer)[i]);
+        };
+    }
+    return planned;
+}
+
+/// Fills `after` of each system from the accesses of those before it; a path through another system is left out.
+template <class World>
+void derive_edges(std::vector<PlannedSystem<World>>& systems) {
+    const auto conflicts = [](const PlannedSystem<World>& a, const PlannedSystem<World>& b) {
+        for (const Access& x : a.accesses)
+            for (const Access& y : b.accesses)
+                if ((x.writes || y.writes) && x.overlaps(y)) return true;
+        return false;
+    };
+    std::vector<std::vector<bool>> reaches(systems.size(), std::vector<bool>(systems.size(), false));
+    for (uint32_t later = 0; later < systems.size(); ++later) {
+        systems[later].after.clear();
+        for (uint32_t earlier = later; earlier-- > 0;) {
+            if (reaches[later][earlier] || !conflicts(systems[earlier], systems[later])) continue;
+            systems[later].after.push_back(earlier);
+            reaches[later][earlier] = true;
+            for (uint32_t before = 0; before < earlier; ++before)
+                if (reaches[earlier][before]) reaches[later][before] = true;
+        }
+    }
+}
+
+/// A system and what it reads and writes, as text of one line or more.
+template <class World>
+std::string describe(const PlannedSystem<World>& system, const std::vector<PlannedSystem<World>>& list) {
+    static const char* const kKinds[] = {"rows", "bodies", "islands", "serial"};
+    std::string reads, writes, after;
+    const auto add = [](std::string& text, const std::string& name) { text += (text.empty() ? "" : ", ") + name; };
+    for (const Access& access : system.accesses) {
+        if (access.reads) add(reads, access.name);
+        if (access.writes) add(writes, access.name + (access.is_two_sided ? " (new side)" : ""));
+    }
+    for (uint32_t a : system.after) add(after, list[a].name);
+    std::string text = system.name + "  [" + kKinds[static_cast<int>(system.kind)] + "]";
+    if (system.every > 1) text += "  every " + std::to_string(system.every) + " repetitions";
+    text += "\n        reads  " + (reads.empty() ? "-" : reads) + "\n        writes " + (writes.empty() ? "-" : writes);
+    if (!after.empty()) text += "\n        after  " + after;
+    return text + "\n";
+}
+
+template <class World>
+class FramePlan {
+ public:
+    /// The systems that follow belong to this part of the story.
+    FramePlan& stage(std::string name) {
+        stage_ = std::move(name);
+        return *this;
+    }
+    template <auto System>
+    FramePlan& then() {
+        systems_.push_back(plan_system<World, System>(stage_));
+        return *this;
+    }
+    /// A loop that repeats inside of the system named last; shown with it.
+    FramePlan& shows(std::string title, std::function<std::string()> text) {
+        loops_.push_back({systems_.size() - 1, std::move(title), std::move(text)});
+        return *this;
+    }
+    /// After the last then(): edges, passes, profiler zones.
+    void finish(Profiler& profiler) {
+        derive_edges(systems_);
+        passes_.clear();
+        for (uint32_t s = 0; s < systems_.size(); ++s) {
+            systems_[s].zone = profiler.add_zone(systems_[s].name.c_str());
+            bool fits = !passes_.empty();
+            if (fits)
+                for (uint32_t a : systems_[s].after) fits = fits && a < passes_.back().first;
+            if (fits)
+                ++passes_.back().count;
+            else
+                passes_.push_back({s, 1});
+        }
+    }
+
+    /// One frame. `after_each(system)` is called between passes when given (validation).
+    void step(World& world, JobSystem& jobs, Profiler& profiler, Arena& arena,
+              const std::function<void(const PlannedSystem<World>&)>* after_each = nullptr) {
+        for (const Pass& pass : passes_) {
+            run_pass(pass, world, jobs, profiler, arena);
+            if (after_each)
+                for (uint32_t s = pass.first; s < pass.first + pass.count; ++s) (*after_each)(systems_[s]);
+        }
+    }
+
+    const std::vector<PlannedSystem<World>>& systems() const { return systems_; }
+    uint32_t pass_count() const { return static_cast<uint32_t>(passes_.size()); }
+    std::string describe() const {
+        std::string text, stage;
+        for (size_t s = 0; s < systems_.size(); ++s) {
+            if (systems_[s].stage != stage) text += (stage = systems_[s].stage) + "\n";
+            text += "    " + cullet::describe(systems_[s], systems_);
+            for (const Loop& loop : loops_)
+                if (loop.system == s) text += "      repeats: " + loop.title + "\n" + loop.text();
+        }
+        return text;
+    }
+
+ private:
+    struct Pass {
+        uint32_t first, count;
+    };
+    struct Loop {
+        size_t system;
+        std::string title;
+        std::function<std::string()> text;
+    };
+    struct Chunks {
+        uint32_t rows, count;
+        std::byte* buffer;
+        uint32_t* emitted;
+    };
+    static constexpr uint32_t kMostInPass = 16;
+
+    static uint32_t chunk_count(const PlannedSystem<World>& system, uint32_t rows) {
+        return (rows + system.chunk_rows - 1) / system.chunk_rows;
+    }
+    void run_chunk(const PlannedSystem<World>& system, const Chunks& chunks, World& world, uint32_t chunk) {
+        Call<World> call{world};
+        call.first = chunk * system.chunk_rows;
+        call.count = chunks.rows - call.first < system.chunk_rows ? chunks.rows - call.first : system.chunk_rows;
+        if (system.kind == CallKind::Bodies) {
+            if constexpr (requires(World & w) { w.body_of_call(0u); }) call.body = world.body_of_call(chunk);
+        }
+        if (system.kind == CallKind::Islands) {
+            if constexpr (requires(World & w) { w.island(0u); }) {
+                const auto rows = world.island(chunk);
+                call.island = rows.data();
+                call.island_size = static_cast<uint32_t>(rows.size());
+            }
+        }
+        if (chunks.buffer) {
+            call.emit_buffer = chunks.buffer + size_t{call.first} * system.emit_bytes_a_row;
+            call.emit_count = chunks.emitted + chunk;
+        }
+        system.invoke(call);
+    }
+    void run_pass(const Pass& pass, World& world, JobSystem& jobs, Profiler& profiler, Arena& arena) {
+        Chunks chunks[kMostInPass];
+        uint32_t total = 0;
+        for (uint32_t i = 0; i < pass.count; ++i) {
+            const PlannedSystem<World>& system = systems_[pass.first + i];
+            chunks[i] = {system.row_count(world), 0, nullptr, nullptr};
+            chunks[i].count = chunk_count(system, chunks[i].rows);
+            total += chunks[i].count;
+            if (system.emit_bytes_a_row == 0) continue;
+            chunks[i].buffer = arena.take<std::byte>(size_t{chunks[i].rows} * system.emit_bytes_a_row + 64).data();
+            chunks[i].emitted = arena.take<uint32_t>(chunks[i].count).data();
+            for (uint32_t c = 0; c < chunks[i].count; ++c) chunks[i].emitted[c] = 0;
+        }
+        const uint64_t start = now_ns();
+        if (total == 1) {
+            for (uint32_t i = 0; i < pass.count; ++i)
+                if (chunks[i].count) run_chunk(systems_[pass.first + i], chunks[i], world, 0);
+        } else if (total > 1) {
+            parallel_for(jobs, total, [&](uint32_t job) {
+                uint32_t i = 0;
+                while (job >= chunks[i].count) job -= chunks[i++].count;
+                run_chunk(systems_[pass.first + i], chunks[i], world, job);
+            });
+        }
+        const uint64_t end = now_ns();
+        for (uint32_t i = 0; i < pass.count; ++i) {
+            const PlannedSystem<World>& system = systems_[pass.first + i];
+            for (uint32_t c = 0; chunks[i].buffer && c < chunks[i].count; ++c)
+                system.join(world, chunks[i].buffer + size_t{c} * system.chunk_rows * system.emit_bytes_a_row,
+                            chunks[i].emitted[c]);
+            if (chunks[i].count) profiler.add(system.zone, start, end, chunks[i].rows);
+        }
+    }
+
+    std::vector<PlannedSystem<World>> systems_;
+    std::vector<Pass> passes_;
+    std::vector<Loop> loops_;
+    std::string stage_;
+};
+
+}  // namespace cullet

@@ -1,0 +1,145 @@
+// A short list of systems repeated many times on the rows of one task, by one thread or by a team of all workers with
+// one barrier a system. The barrier counts chunks that are done, not threads that arrived: a worker that is busy
+// elsewhere holds up nobody, and a host that runs the team's jobs one after another lets the first do everything.
+#pragma once
+#include <immintrin.h>
+
+#include <atomic>
+#include <string>
+#include <thread>
+#include <vector>
+
+#include "engine/frame_plan.hpp"
+
+namespace cullet {
+
+template <class World>
+class InnerLoop {
+ public:
+    template <auto System>
+    InnerLoop& then(uint32_t every = 1) {
+        systems_.push_back(plan_system<World, System>("inner loop"));
+        systems_.back().every = every;
+        return *this;
+    }
+    void finish() { derive_edges(systems_); }
+    const std::vector<PlannedSystem<World>>& systems() const { return systems_; }
+    std::string describe() const {
+        std::string text;
+        for (const auto& system : systems_) text += "        " + cullet::describe(system, systems_);
+        return text;
+    }
+
+    /// Up to `repetitions` repetitions for task `body`, the first of them numbered `first` (the old side of two-sided
+    /// columns is its parity; `every` counts from it); ends early when `goes_on(world, body)` is false after one.
+    struct Run {
+        uint32_t body = 0, first = 0, repetitions = 0;
+        bool (*goes_on)(World&, uint32_t body) = nullptr;
+    };
+
+    void run_alone(World& world, const Run& run) const {
+        for (uint32_t r = run.first; r < run.first + run.repetitions; ++r) {
+            for (const PlannedSystem<World>& system : systems_) {
+                if ((r + 1) % system.every != 0) continue;
+                const Rows<void> rows = rows_of(system, world, run.body);
+                for (uint32_t chunk = 0; chunk * system.chunk_rows < rows.count; ++chunk)
+                    run_chunk(system, world, run.body, rows, chunk, r);
+            }
+            if (!run.goes_on(world, run.body)) return;
+        }
+    }
+
+    /// What a team shares. Lives on the stack of the thread that starts the team.
+    class Team {
+     public:
+        Team(const InnerLoop& loop, World& world, const Run& run) : loop_(loop), world_(world), run_(run) {
+            repetition_ = run.first;
+            open_next(0);
+        }
+        /// Called by each worker; returns when the run is over.
+        void work() {
+            uint32_t idle = 0;
+            for (;;) {
+                uint64_t ticket = ticket_.load(std::memory_order_acquire);
+                if (is_over_.load(std::memory_order_acquire)) return;
+                const uint32_t chunk = static_cast<uint32_t>(ticket),
+                               count = chunk_count_.load(std::memory_order_relaxed);
+                if (chunk >= count) {
+                    if (++idle < 4096) {
+                        _mm_pause();
+                    } else {
+                        idle = 0;
+                        std::this_thread::yield();
+                    }
+                    continue;
+                }
+                if (!ticket_.compare_exchange_weak(ticket, ticket + 1, std::memory_order_acq_rel)) continue;
+                idle = 0;
+                loop_.run_chunk(loop_.systems_[system_], world_, run_.body, rows_, chunk, repetition_);
+                if (done_.fetch_add(1, std::memory_order_acq_rel) + 1 == count) open_next(system_ + 1);
+            }
+        }
+
+     private:
+        // Only the thread that finished the last chunk is here. Serial systems and passes of one chunk run at once.
+        void open_next(uint32_t system) {
+            for (;;) {
+                if (system == loop_.systems_.size()) {
+                    ++repetition_;
+                    const bool is_last = repetition_ == run_.first + run_.repetitions;
+                    if (!run_.goes_on(world_, run_.body) || is_last) {
+                        is_over_.store(true, std::memory_order_release);
+                        return;
+                    }
+                    system = 0;
+                }
+                const PlannedSystem<World>& planned = loop_.systems_[system];
+                if ((repetition_ + 1) % planned.every != 0) {
+                    ++system;
+                    continue;
+                }
+                const Rows<void> rows = loop_.rows_of(planned, world_, run_.body);
+                const uint32_t chunks = (rows.count + planned.chunk_rows - 1) / planned.chunk_rows;
+                if (chunks <= 1) {
+                    if (chunks) loop_.run_chunk(planned, world_, run_.body, rows, 0, repetition_);
+                    ++system;
+                    continue;
+                }
+                rows_ = rows;
+                system_ = system;
+                done_.store(0, std::memory_order_relaxed);
+                chunk_count_.store(chunks, std::memory_order_relaxed);
+                ticket_.store(((ticket_.load(std::memory_order_relaxed) >> 32) + 1) << 32, std::memory_order_release);
+                return;
+            }
+        }
+
+        const InnerLoop& loop_;
+        World& world_;
+        Run run_;
+        Rows<void> rows_;
+        uint32_t system_ = 0, repetition_ = 0;
+        alignas(64) std::atomic<uint64_t> ticket_{0};  // pass number << 32 | next chunk
+        std::atomic<uint32_t> chunk_count_{0};
+        alignas(64) std::atomic<uint32_t> done_{0};
+        std::atomic<bool> is_over_{false};
+    };
+
+ private:
+    Rows<void> rows_of(const PlannedSystem<World>& system, World& world, uint32_t body) const {
+        return system.kind == CallKind::Rows ? system.rows_of_body(world, body) : Rows<void>{0, 1};
+    }
+    void run_chunk(const PlannedSystem<World>& system, World& world, uint32_t body, Rows<void> rows, uint32_t chunk,
+                   uint32_t repetition) const {
+        Call<World> call{world};
+        call.body = body;
+        call.side = static_cast<int>(repetition & 1);
+        call.first = rows.first + chunk * system.chunk_rows;
+        const uint32_t left = rows.first + rows.count - call.first;
+        call.count = left < system.chunk_rows ? left : system.chunk_rows;
+        system.invoke(call);
+    }
+    std::vector<PlannedSystem<World>> systems_;
+};
+
+}  // namespace cullet

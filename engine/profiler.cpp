@@ -1,0 +1,98 @@
+#include "engine/profiler.hpp"
+
+#include <algorithm>
+#include <atomic>
+#include <chrono>
+#include <cstdio>
+
+namespace cullet {
+
+uint64_t now_ns() {
+    return static_cast<uint64_t>(
+        std::chrono::duration_cast<std::chrono::nanoseconds>(std::chrono::steady_clock::now().time_since_epoch())
+            .count());
+}
+
+Profiler::Profiler(uint32_t frame_limit, uint32_t span_limit)
+    : frame_memory_(reserve_memory(size_t{frame_limit} * sizeof(Frame))),
+      span_memory_(reserve_memory(size_t{span_limit} * sizeof(Span))),
+      frame_limit_(frame_limit),
+      span_limit_(span_limit) {
+    zones_.reserve(kMostZones);
+    rows_.reserve(kMostZones);
+}
+
+Profiler::~Profiler() {
+    release_memory(frame_memory_, size_t{frame_limit_} * sizeof(Frame));
+    release_memory(span_memory_, size_t{span_limit_} * sizeof(Span));
+}
+
+uint32_t Profiler::add_zone(const char* name) {
+    if (zones_.size() == kMostZones) return kMostZones - 1;
+    zones_.push_back(name);
+    rows_.push_back(0);
+    return static_cast<uint32_t>(zones_.size()) - 1;
+}
+
+void Profiler::begin_frame(uint64_t frame) {
+    if (frame_count_ == frame_limit_) frame_count_ = frame_limit_ - 1;  // the last one is overwritten from here on
+    Frame& f = frames()[frame_count_];
+    f.number = frame;
+    f.start_ns = now_ns();
+    std::fill(f.zone_ms, f.zone_ms + kMostZones, 0.0f);
+}
+
+void Profiler::end_frame() {
+    Frame& f = frames()[frame_count_];
+    f.ms = static_cast<float>(now_ns() - f.start_ns) * 1e-6f;
+    ++frame_count_;
+}
+
+void Profiler::add(uint32_t zone, uint64_t start_ns, uint64_t end_ns, uint64_t rows) {
+    frames()[frame_count_].zone_ms[zone] += static_cast<float>(end_ns - start_ns) * 1e-6f;
+    rows_[zone] += rows;
+    add_span(zone, 0, start_ns, end_ns);
+}
+
+void Profiler::add_span(uint32_t zone, uint32_t worker, uint64_t start_ns, uint64_t end_ns) {
+    const uint32_t at = std::atomic_ref<uint32_t>(span_count_).fetch_add(1, std::memory_order_relaxed);
+    if (at >= span_limit_) {
+        std::atomic_ref<uint32_t>(span_count_).store(span_limit_, std::memory_order_relaxed);
+        return;
+    }
+    spans()[at] = {start_ns, end_ns, static_cast<uint16_t>(zone), static_cast<uint16_t>(worker), 0};
+}
+
+void Profiler::add_counter(uint32_t zone, uint64_t value) {
+    if (span_count_ >= span_limit_) return;
+    spans()[span_count_++] = {now_ns(), value, static_cast<uint16_t>(zone), 0, 1};
+}
+
+Result<void> Profiler::write_trace(const std::string& path) const {
+    FILE* file = std::fopen(path.c_str(), "w");
+    if (!file) return Error{path + ": could not be opened for writing; check that the folder exists."};
+    const uint64_t origin = frame_count_ ? frames()[0].start_ns : 0;
+    const auto microseconds = [&](uint64_t ns) { return static_cast<double>(ns - origin) * 1e-3; };
+    std::fputs("{\"displayTimeUnit\":\"ms\",\"traceEvents\":[\n", file);
+    std::fputs("{\"name\":\"process_name\",\"ph\":\"M\",\"pid\":1,\"args\":{\"name\":\"cullet\"}}", file);
+    for (uint32_t f = 0; f < frame_count_; ++f)
+        std::fprintf(file, ",\n{\"name\":\"frame %llu\",\"ph\":\"X\",\"pid\":1,\"tid\":0,\"ts\":%.3f,\"dur\":%.3f}",
+                     static_cast<unsigned long long>(frames()[f].number), microseconds(frames()[f].start_ns),
+                     static_cast<double>(frames()[f].ms) * 1e3);
+    for (uint32_t s = 0; s < span_count_ && s < span_limit_; ++s) {
+        const Span& span = spans()[s];
+        if (span.start_ns < origin) continue;
+        if (span.is_counter)
+            std::fprintf(file, ",\n{\"name\":\"%s\",\"ph\":\"C\",\"pid\":1,\"ts\":%.3f,\"args\":{\"value\":%llu}}",
+                         zones_[span.zone], microseconds(span.start_ns), static_cast<unsigned long long>(span.end_ns));
+        else
+            std::fprintf(file, ",\n{\"name\":\"%s\",\"ph\":\"X\",\"pid\":1,\"tid\":%u,\"ts\":%.3f,\"dur\":%.3f}",
+                         zones_[span.zone], span.worker, microseconds(span.start_ns),
+                         microseconds(span.end_ns) - microseconds(span.start_ns));
+    }
+    std::fputs("\n]}\n", file);
+    if (std::fclose(file) != 0) return Error{path + ": could not be written to its end; the disk may be full."};
+    return {};
+}
+
+}  // namespace cullet

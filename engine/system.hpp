@@ -1,0 +1,372 @@
+// A system is a free function; its parameters say what it may touch, and are all that it sees.
+//
+//     In<&T::column>     reads any row; the old side of a two-sided column
+//     Out<&T::column>    writes the rows it was given; the new side of a two-sided column
+//     InOut<&T::column>  reads and writes the rows it was given
+//     Table&, const Table&, Resource&, const Resource&   the whole of it: writes, or reads
+//     Step and other plain values                        by value
+//
+// and exactly one of these says how often it is called, on what:
+//
+//     Rows<T>            once a chunk of rows of T, in parallel
+//     Bodies             once a body (in an inner loop: once a task), in parallel; owns every row of that body
+//     Islands            once a group of bodies that touch, in parallel
+//     Serial             once, alone
+//
+// Emit<E, n> beside Rows writes at most n events a row; buffers are joined in chunk order.
+#pragma once
+#include <array>
+#include <string>
+#include <string_view>
+#include <tuple>
+#include <type_traits>
+#include <vector>
+
+#include "engine/arena.hpp"
+#include "engine/events.hpp"
+#include "engine/table.hpp"
+
+namespace cullet {
+
+template <class Member>
+struct MemberOf;
+template <class C, class T>
+struct MemberOf<C T::*> {
+    using Column = C;
+    using Table = T;
+};
+template <auto Member>
+using ColumnOf = typename MemberOf<decltype(Member)>::Column;
+template <auto Member>
+using TableOf = typename MemberOf<decltype(Member)>::Table;
+
+template <auto Member>
+class In {
+ public:
+    static constexpr auto kMember = Member;
+    explicit In(const ColumnOf<Member>& column, int side = 0) : column_(&column), side_(side) {}
+    decltype(auto) operator[](uint32_t row) const { return column_->get(row, side_); }
+    const auto* lane(int k) const { return column_->lane(k, side_); }
+    const auto* data() const { return column_->data(side_); }
+
+ private:
+    const ColumnOf<Member>* column_;
+    int side_;
+};
+
+template <auto Member>
+class InOut {
+ public:
+    static constexpr auto kMember = Member;
+    explicit InOut(ColumnOf<Member>& column, int side = 0) : column_(&column), side_(side) {}
+    decltype(auto) operator[](uint32_t row) const { return column_->get(row, side_); }
+    void set(uint32_t row, const typename ColumnOf<Member>::Value& value) const { column_->set(row, value, side_); }
+    auto* lane(int k) const { return column_->lane(k, side_); }
+    auto* data() const { return column_->data(side_); }
+
+ private:
+    ColumnOf<Member>* column_;
+    int side_;
+};
+
+template <auto Member>
+class Out {
+ public:
+    static constexpr auto kMember = Member;
+    explicit Out(ColumnOf<Member>& column, int side = 0) : column_(&column), side_(side) {}
+    void set(uint32_t row, const typename ColumnOf<Member>::Value& value) const { column_->set(row, value, side_); }
+    auto* lane(int k) const { return column_->lane(k, side_); }
+    auto* data() const { return column_->data(side_); }
+
+ private:
+    ColumnOf<Member>* column_;
+    int side_;
+};
+
+/// Rows [first, first + count) of T. for (auto v : rows).
+template <class T>
+struct Rows {
+    uint32_t first = 0, count = 0;
+    struct Iterator {
+        uint32_t row;
+        Row<T> operator*() const { return Row<T>(row); }
+        Iterator& operator++() {
+            ++row;
+            return *this;
+        }
+        bool operator!=(Iterator other) const { return row != other.row; }
+    };
+    Iterator begin() const { return {first}; }
+    Iterator end() const { return {first + count}; }
+};
+
+/// The body (or task) this call is for.
+struct EachBody {
+    uint32_t row;
+};
+/// The group of touching bodies this call is for: rows[0 .. count), ascending.
+struct Islands {
+    const uint32_t* rows;
+    uint32_t count;
+};
+struct Serial {};
+
+/// The fixed step.
+struct Step {
+    float dt = 1.0f / 60.0f;  // s
+    uint64_t frame = 0;
+};
+
+template <class E, uint32_t MostARow>
+class Emit {
+ public:
+    using Value = E;
+    static constexpr uint32_t kMostARow = MostARow;
+    Emit(E* buffer, uint32_t* count) : buffer_(buffer), count_(count) {}
+    void push(const E& event) const { buffer_[(*count_)++] = event; }
+
+ private:
+    E* buffer_;
+    uint32_t* count_;
+};
+
+// ---------------------------------------------------------------------------------------------------------------------
+// From a parameter list to accesses and calls.
+
+enum class CallKind : uint8_t { Rows, Bodies, Islands, Serial };
+
+/// What a system touches: "vertices.velocity", "springs" (a whole table), "RigidWorld" (a resource).
+struct Access {
+    std::string name;
+    bool reads = false, writes = false, is_two_sided = false;
+    /// A table and any of its columns overlap, equal names overlap.
+    bool overlaps(const Access& other) const;
+};
+
+/// One call of a system.
+template <class World>
+struct Call {
+    World& world;
+    uint32_t first = 0, count = 0;  // rows
+    uint32_t body = 0;
+    const uint32_t* island = nullptr;
+    uint32_t island_size = 0;
+    int side = 0;  // the old side of two-sided columns
+    void* emit_buffer = nullptr;
+    uint32_t* emit_count = nullptr;
+};
+
+std::string type_name_of(std::string_view pretty);
+template <class T>
+std::string type_name() {
+    return type_name_of(__PRETTY_FUNCTION__);
+}
+
+/// "springs.strain" for &Springs::strain.
+template <auto Member>
+std::string column_name() {
+    using T = TableOf<Member>;
+    T prototype(1u);
+    const auto offset =
+        reinterpret_cast<const std::byte*>(&(prototype.*Member)) - reinterpret_cast<const std::byte*>(&prototype);
+    for (const ColumnInfo& column : prototype.columns())
+        if (column.offset == static_cast<uint32_t>(offset)) return std::string(T::kName) + "." + column.name;
+    return {};
+}
+
+template <class P>
+struct Parameter;  // the primary template is for resources and values, below
+
+template <auto M>
+struct Parameter<In<M>> {
+    static void describe(std::vector<Access>& list) {
+        list.push_back({column_name<M>(), true, false, ColumnOf<M>::kBuffers == Buffers::Two});
+    }
+    template <class W>
+    static In<M> bind(Call<W>& call) {
+        return In<M>(call.world.template table<TableOf<M>>().*M, ColumnOf<M>::kBuffers == Buffers::Two ? call.side : 0);
+    }
+};
+template <auto M>
+struct Parameter<InOut<M>> {
+    static void describe(std::vector<Access>& list) { list.push_back({column_name<M>(), true, true, false}); }
+    template <class W>
+    static InOut<M> bind(Call<W>& call) {
+        return InOut<M>(call.world.template table<TableOf<M>>().*M,
+                        ColumnOf<M>::kBuffers == Buffers::Two ? call.side : 0);
+    }
+};
+template <auto M>
+struct Parameter<Out<M>> {
+    static void describe(std::vector<Access>& list) {
+        list.push_back({column_name<M>(), false, true, ColumnOf<M>::kBuffers == Buffers::Two});
+    }
+    template <class W>
+    static Out<M> bind(Call<W>& call) {
+        return Out<M>(call.world.template table<TableOf<M>>().*M,
+                      ColumnOf<M>::kBuffers == Buffers::Two ? 1 - call.side : 0);
+    }
+};
+template <class T>
+struct Parameter<Rows<T>> {
+    static void describe(std::vector<Access>&) {}
+    template <class W>
+    static Rows<T> bind(Call<W>& call) {
+        return {call.first, call.count};
+    }
+};
+template <>
+struct Parameter<EachBody> {
+    static void describe(std::vector<Access>&) {}
+    template <class W>
+    static EachBody bind(Call<W>& call) {
+        return {call.body};
+    }
+};
+template <>
+struct Parameter<Islands> {
+    static void describe(std::vector<Access>&) {}
+    template <class W>
+    static Islands bind(Call<W>& call) {
+        return {call.island, call.island_size};
+    }
+};
+template <>
+struct Parameter<Serial> {
+    static void describe(std::vector<Access>&) {}
+    template <class W>
+    static Serial bind(Call<W>&) {
+        return {};
+    }
+};
+template <class E, uint32_t N>
+struct Parameter<Emit<E, N>> {
+    static void describe(std::vector<Access>& list) { list.push_back({type_name<Events<E>>(), false, true, false}); }
+    template <class W>
+    static Emit<E, N> bind(Call<W>& call) {
+        return {static_cast<E*>(call.emit_buffer), call.emit_count};
+    }
+};
+template <class T>
+concept IsTable = std::is_base_of_v<AnyTable, std::remove_cvref_t<T>>;
+template <class P>
+requires std::is_lvalue_reference_v<P>
+struct Parameter<P> {
+    using Plain = std::remove_cvref_t<P>;
+    static constexpr bool kWrites = !std::is_const_v<std::remove_reference_t<P>>;
+    static void describe(std::vector<Access>& list) {
+        if constexpr (IsTable<P>)
+            list.push_back({Plain::kName, true, kWrites, false});
+        else if constexpr (!std::is_same_v<Plain, Arena>)
+            list.push_back({type_name<Plain>(), true, kWrites, false});
+    }
+    template <class W>
+    static P bind(Call<W>& call) {
+        if constexpr (IsTable<P>)
+            return call.world.template table<Plain>();
+        else
+            return call.world.template resource<Plain>();
+    }
+};
+template <class P>
+requires(!std::is_lvalue_reference_v<P> && std::is_same_v<P, Step>) struct Parameter<P> {
+    static void describe(std::vector<Access>&) {}
+    template <class W>
+    static P bind(Call<W>& call) {
+        return call.world.template resource<P>();
+    }
+};
+
+template <class P>
+struct IsRows : std::false_type {};
+template <class T>
+struct IsRows<Rows<T>> : std::true_type {
+    using Table = T;
+};
+template <class P>
+struct IsEmit : std::false_type {};
+template <class E, uint32_t N>
+struct IsEmit<Emit<E, N>> : std::true_type {};
+
+template <class A, class B>
+inline constexpr bool kRaces = false;  // In and a write of the same one-sided column in one parallel system
+template <auto M>
+inline constexpr bool kRaces<In<M>, Out<M>> = ColumnOf<M>::kBuffers == Buffers::One;
+template <auto M>
+inline constexpr bool kRaces<In<M>, InOut<M>> = true;
+
+template <class Function>
+struct Signature;
+template <class... P>
+struct Signature<void (*)(P...)> {
+    static constexpr int kCallParameters = (0 + ... +
+                                            int{IsRows<P>::value || std::is_same_v<P, EachBody> ||
+                                                std::is_same_v<P, Islands> || std::is_same_v<P, Serial>});
+    static_assert(kCallParameters == 1, "a system takes exactly one of Rows<T>, EachBody, Islands, Serial");
+    static constexpr CallKind kKind = (... || IsRows<P>::value)              ? CallKind::Rows
+                                      : (... || std::is_same_v<P, EachBody>) ? CallKind::Bodies
+                                      : (... || std::is_same_v<P, Islands>)  ? CallKind::Islands
+                                                                             : CallKind::Serial;
+    template <class A>
+    static constexpr bool races_with_any() {
+        return (... || kRaces<A, P>);
+    }
+    static_assert(kKind == CallKind::Serial || !(... || races_with_any<P>()),
+                  "a parallel system reads any row of a column that it writes: declare the column Buffers::Two");
+    static_assert(kKind == CallKind::Serial || kKind == CallKind::Bodies ||
+                      !(... ||
+                        (IsTable<P> && std::is_lvalue_reference_v<P> && !std::is_const_v<std::remove_reference_t<P>>)),
+                  "only Serial and EachBody systems may change a whole table");
+
+    template <class P1>
+    static auto row_table_of() {
+        if constexpr (IsRows<P1>::value)
+            return std::tuple<typename IsRows<P1>::Table*>{};
+        else
+            return std::tuple<>{};
+    }
+    template <class P1>
+    static auto emit_of() {
+        if constexpr (IsEmit<P1>::value)
+            return std::tuple<P1*>{};
+        else
+            return std::tuple<>{};
+    }
+    using RowTables = decltype(std::tuple_cat(row_table_of<P>()...));
+    using Emits = decltype(std::tuple_cat(emit_of<P>()...));
+    static_assert(std::tuple_size_v<Emits> <= 1, "one Emit a system");
+
+    static std::vector<Access> accesses() {
+        std::vector<Access> list;
+        (Parameter<P>::describe(list), ...);
+        return list;
+    }
+    template <auto System, class World>
+    static void invoke(Call<World>& call) {
+        System(Parameter<P>::bind(call)...);
+    }
+};
+
+/// "integrate_hidden" for the function of that name.
+template <auto System>
+std::string system_name() {
+    return type_name_of(__PRETTY_FUNCTION__);
+}
+
+/// Rows in a job: a constant of the table, never of the number of threads.
+template <class T>
+inline constexpr uint32_t kRowsPerChunk = 512;
+
+/// Runs one system over all rows, on the calling thread: what tests use.
+template <auto System, class World>
+void run(World& world) {
+    using Sig = Signature<decltype(System)>;
+    Call<World> call{world};
+    if constexpr (Sig::kKind == CallKind::Rows) {
+        using T = std::remove_pointer_t<std::tuple_element_t<0, typename Sig::RowTables>>;
+        call.count = world.template table<T>().size();
+    }
+    Sig::template invoke<System>(call);
+}
+
+}  // namespace cullet
