@@ -1,0 +1,92 @@
+// What happened in the last step. Spans stay good until the next step; the order is the same on any number of threads.
+#pragma once
+#include <cstdint>
+
+#include "cullet/types.hpp"
+
+namespace cullet {
+
+/// A body of a world. Zero is null; a stale handle is refused, never followed.
+struct BodyId {
+    uint32_t index = 0, generation = 0;
+    explicit operator bool() const { return generation != 0; }
+    friend bool operator==(const BodyId&, const BodyId&) = default;
+};
+
+/// A model that was added to a world.
+struct ModelId {
+    uint32_t index = 0, generation = 0;
+    explicit operator bool() const { return generation != 0; }
+    friend bool operator==(const ModelId&, const ModelId&) = default;
+};
+
+/// A breakable body was hit hard enough for damage to be looked at.
+struct ImpactEvent {
+    BodyId body, striker;
+    uint64_t body_user_data = 0, striker_user_data = 0;
+    Vec3 place;                // world, m
+    Vec3 normal;               // world, unit, the way the body is pushed
+    float approach_speed = 0;  // m/s
+    double energy = 0;         // J, of the approach
+    bool is_held = false;      // body and striker stand still until the damage is decided
+};
+
+struct CrackStartedEvent {
+    BodyId body;
+    uint64_t body_user_data = 0;
+    Vec3 place;  // world, m
+};
+
+struct FragmentBornEvent {
+    BodyId fragment, parent;  // the largest piece keeps the parent's handle and is not born
+    uint64_t body_user_data = 0;
+    Vec3 place;  // world, centre of mass, m
+    Motion motion;
+    double mass = 0;  // kg
+    uint32_t generation = 1;
+};
+
+/// A piece too small to be a body became a particle.
+struct DebrisEvent {
+    BodyId parent;
+    uint64_t body_user_data = 0;
+    Vec3 place, velocity;  // world
+    double mass = 0;       // kg
+};
+
+/// A limit was reached: what was asked for did not happen, everything else did.
+struct RefusedEvent {
+    BodyId body;
+    const char* setting = "";  // the one to raise, for example "limits.bodies"
+};
+
+/// Something went wrong with one body; it was frozen as it was and is reported once.
+struct FaultEvent {
+    BodyId body;
+    const char* reason = "";  // a sentence
+};
+
+struct AsleepEvent {
+    BodyId body;
+};
+
+template <class E>
+struct EventSpan {
+    const E* data = nullptr;
+    uint32_t count = 0;
+    const E* begin() const { return data; }
+    const E* end() const { return data + count; }
+    const E& operator[](uint32_t i) const { return data[i]; }
+};
+
+struct StepEvents {
+    EventSpan<ImpactEvent> impacts;
+    EventSpan<CrackStartedEvent> cracks_started;
+    EventSpan<FragmentBornEvent> fragments_born;
+    EventSpan<DebrisEvent> debris;
+    EventSpan<RefusedEvent> refused;
+    EventSpan<FaultEvent> faults;
+    EventSpan<AsleepEvent> asleep;
+};
+
+}  // namespace cullet

@@ -1,0 +1,80 @@
+// From a mesh to a model that can break. Reading and cooking are slow (milliseconds to seconds) and touch no world:
+// they may run on any thread, several at once.
+#pragma once
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <string>
+
+#include "cullet/result.hpp"
+#include "cullet/types.hpp"
+
+namespace cullet {
+
+/// A triangle mesh, as a view of the caller's arrays. Corner arrays hold three entries a triangle, or are null.
+struct MeshView {
+    const Vec3* positions = nullptr;  // m
+    size_t position_count = 0;
+    const uint32_t* indices = nullptr;  // 3 a triangle
+    size_t triangle_count = 0;
+    const Vec3* corner_normals = nullptr;  // unit
+    const Vec2* corner_uvs = nullptr;
+    const uint16_t* materials = nullptr;  // 1 a triangle, comes back in the drawn mesh's order
+    const char* name = "mesh";            // for sentences
+};
+
+/// A mesh that owns its arrays: what a mesh file (.cmesh) holds.
+class MeshData {
+ public:
+    MeshData();
+    ~MeshData();
+    MeshData(MeshData&&) noexcept;
+    MeshData& operator=(MeshData&&) noexcept;
+    MeshView view() const;
+    struct Contents;
+    std::unique_ptr<Contents> contents;
+};
+
+/// Reads a mesh file written by the program cullet_import. Every count, index and number is checked; a file that is not
+/// sound is refused with a sentence.
+Result<MeshData> read_mesh(const std::string& path);
+
+struct CookSettings {
+    std::string material = "porcelain";  // glass, porcelain, brick, concrete
+    float thickness = 0.005f;            // m; thinner where the opposite wall is near
+    /// Edges longer than this are split first, m; 0: twice the thickness, or 2.5 % of the diagonal if that is larger.
+    float longest_edge = 0;
+    uint64_t seed = 1;               // of the spread of strength
+    bool measures_threshold = true;  // finds the speed of the first crack (adds 10 to 50 hits' time)
+    /// Vertices inside any of these boxes (body coordinates, m) may be pinned at spawn.
+    void (*progress)(void* user, float share) = nullptr;  // 0 to 1
+    void* progress_user = nullptr;
+};
+
+/// What cooking found, for people.
+struct ModelReport {
+    uint32_t vertices = 0, elements = 0, cells = 0, degenerate_elements = 0;
+    double mass = 0;              // kg
+    double mean_thickness = 0;    // m
+    float first_crack_speed = 0;  // m/s against a floor; 0 when not measured
+    uint64_t units_of_a_hit = 0;  // predicted
+    std::string repairs;          // one sentence, empty when the mesh was sound
+    std::string advice;           // one sentence when a hit will not fit the default budget: which settings to change
+};
+
+/// A cooked model, not bound to a world. Immutable, so any number of worlds on any threads may use it.
+class Model {
+ public:
+    struct Contents;
+    const ModelReport& report() const;
+    std::shared_ptr<const Contents> contents;
+};
+
+/// Turns a surface into a thick shell. Refuses what cannot be cooked with a sentence.
+Result<Model> cook(const MeshView& mesh, const CookSettings& settings);
+
+/// A model file (.cmodel) holds the rows after cooking, so that a game cooks once.
+Result<void> write_model(const Model& model, const std::string& path);
+Result<Model> read_model(const std::string& path);
+
+}  // namespace cullet

@@ -1,0 +1,41 @@
+// How a world is set up. Said once for all headers: SI units, right-handed axes with y up, triangles counter-clockwise
+// seen from outside.
+#pragma once
+#include <cstdint>
+
+#include "cullet/types.hpp"
+
+namespace cullet {
+
+/// Room that a world has. Address space is reserved for it when the world is made, memory comes as it fills. A limit
+/// that is reached refuses the later things, counts them and raises an event with its name; nothing else happens.
+struct LimitSettings {
+    uint32_t bodies = 4096;  // rigid bodies alive at once, fragments included
+    uint32_t models = 256;
+    uint32_t vertices = 1u << 20;  // of models, broken bodies and damage tasks
+    uint32_t elements = 1u << 21;  // triangles of the same
+    uint32_t open_hits = 64;       // damage tasks at once
+    uint32_t view_vertices = 1u << 23;
+    uint32_t debris = 8192;  // crumbs too small to be bodies
+};
+
+struct Settings {
+    Vec3 gravity{0, -9.81f, 0};         // m/s2
+    float step_seconds = 1.0f / 60.0f;  // fixed step, s; 1/240 to 1/30
+    uint64_t seed = 1;                  // of everything random
+    uint32_t threads = 1;               // of cullet's own, the caller counted; unused when the host gives jobs
+    /// Damage work a frame, in units of 2 ns of one thread: 8 million are 8 ms of a frame on two cores. More units
+    /// finish a hit in fewer frames. Never a wall clock, so that the same run gives the same bytes on a fast and on a
+    /// slow machine.
+    uint64_t units_a_frame = 8'000'000;
+    /// A fast hit that is still being worked off holds its bodies where they touch for at most this long, s. 0: never.
+    float hold_seconds = 0.1f;
+    /// Fragments break again down to this generation (0: only whole bodies break).
+    uint32_t generations = 3;
+    /// Pieces lighter than this share of the intact body, or of fewer elements than `debris_elements`, become debris.
+    float debris_share = 0.0005f;
+    uint32_t debris_elements = 6;
+    LimitSettings limits;
+};
+
+}  // namespace cullet

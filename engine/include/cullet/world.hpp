@@ -1,0 +1,131 @@
+// A world: rigid bodies, some of which break.
+//
+// Threads: a world belongs to one thread at a time; different worlds may be used from different threads at once. Calls
+// other than step() go between steps. Nothing here throws. step() allocates nothing of cullet's.
+#pragma once
+#include <cstdint>
+#include <memory>
+#include <string>
+
+#include "cullet/events.hpp"
+#include "cullet/host.hpp"
+#include "cullet/model.hpp"
+#include "cullet/result.hpp"
+#include "cullet/settings.hpp"
+#include "cullet/types.hpp"
+#include "cullet/view.hpp"
+
+namespace cullet {
+
+/// Axis-aligned, body coordinates, m.
+struct Box {
+    Vec3 low, high;
+};
+
+/// How a body meets others. Two bodies collide when each one's layer is in the other's mask.
+struct ContactSettings {
+    float friction = -1;     // < 0: the material's
+    float restitution = -1;  // < 0: 0.2; used above 0.2 m/s
+    uint32_t layer = 1;      // bits
+    uint32_t mask = 0xffffffffu;
+};
+
+struct SpawnSettings {
+    Pose pose;
+    Motion motion;
+    ContactSettings contact;
+    uint64_t user_data = 0;  // comes back in events; fragments inherit it
+    bool is_breakable = true;
+    float strength_scale = 1;   // on the material's strength; fragments inherit it. Infinity never cracks
+    const Box* pins = nullptr;  // vertices inside any of these are fixed to the world
+    uint32_t pin_count = 0;
+};
+
+/// A solid sphere: a ball, a bullet.
+struct SphereSettings {
+    Pose pose;
+    Motion motion;
+    float radius = 0.1f;  // m
+    float mass = 1;       // kg
+    ContactSettings contact;
+    uint64_t user_data = 0;
+};
+
+/// A convex solid that the game moves by its velocities: a lift, a door.
+struct KinematicSettings {
+    Pose pose;
+    Motion motion;
+    Vec3 half_extents{0.5f, 0.1f, 0.5f};  // of a box, m
+    ContactSettings contact;
+    uint64_t user_data = 0;
+};
+
+/// What a step did, for people; reading it is optional.
+struct StepReport {
+    uint64_t frame = 0;
+    uint64_t units_used = 0, units_left = 0;
+    uint32_t open_hits = 0, held_bodies = 0;
+    uint32_t bodies = 0, awake = 0, debris = 0;
+};
+
+class World {
+ public:
+    static Result<World> create(const Settings& settings, const Host& host = {});
+    World(World&&) noexcept;
+    World& operator=(World&&) noexcept;
+    ~World();
+
+    /// One fixed step of Settings::step_seconds.
+    void step();
+    StepReport report() const;
+    StepEvents events() const;
+    /// A number for the whole state: equal on any number of threads.
+    uint64_t hash() const;
+
+    void set_gravity(Vec3 gravity);
+    /// Asked before damage is looked at; false lets the hit pass as between rigid bodies. Called on the thread that
+    /// steps, between the parallel parts; must not call the world.
+    void set_veto(bool (*allows)(void* user, const ImpactEvent& impact), void* user);
+
+    /// Models can go at any time; bodies made of them live on.
+    Result<ModelId> add_model(const Model& model);
+    Result<void> remove_model(ModelId model);
+
+    Result<BodyId> spawn(ModelId model, const SpawnSettings& settings = {});
+    Result<BodyId> add_sphere(const SphereSettings& settings);
+    Result<BodyId> add_kinematic_box(const KinematicSettings& settings);
+    /// Triangles in world coordinates that never move: floors, tables, level geometry.
+    Result<BodyId> add_static(const MeshView& triangles, const ContactSettings& contact = {}, uint64_t user_data = 0);
+    Result<void> remove(BodyId body);
+
+    bool is_alive(BodyId body) const;
+    Result<Pose> pose(BodyId body) const;
+    Result<Motion> motion(BodyId body) const;
+    Result<double> mass(BodyId body) const;  // kg
+    Result<uint64_t> user_data(BodyId body) const;
+    Result<bool> is_asleep(BodyId body) const;
+    Result<void> set_pose(BodyId body, const Pose& pose);
+    Result<void> set_motion(BodyId body, const Motion& motion);
+    /// At a world place, N s. Wakes the body.
+    Result<void> apply_impulse(BodyId body, Vec3 impulse, Vec3 place);
+    Result<void> wake(BodyId body);
+
+    /// Fills `out` with up to `capacity` bodies in row order and returns how many there are.
+    uint32_t bodies(BodyId* out, uint32_t capacity) const;
+    /// The drawn mesh of a breakable body; empty for others.
+    Result<BodyView> view(BodyId body) const;
+
+    /// The systems of a frame in order, with what each reads and writes.
+    static std::string describe_frame();
+
+    struct Contents;
+    /// For the sample game, tests and measurements: tables and profiler. Not part of the stable interface.
+    Contents& contents();
+    const Contents& contents() const;
+
+ private:
+    explicit World(std::unique_ptr<Contents> contents);
+    std::unique_ptr<Contents> contents_;
+};
+
+}  // namespace cullet
