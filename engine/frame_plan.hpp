@@ -50,7 +50,12 @@ PlannedSystem<World> plan_system(std::string stage) {
                 return Rows<void>{range.first, range.count};
             };
     } else if constexpr (Sig::kKind == CallKind::Bodies) {
-        planned.row_count = [](World& world) { return world.body_call_count(); };
+        if constexpr (std::tuple_size_v<typename Sig::Eaches> == 1) {
+            using E = std::remove_pointer_t<std::tuple_element_t<0, typename Sig::Eaches>>;
+            planned.row_count = [](World& world) { return world.template resource<Events<E>>().size(); };
+        } else if constexpr (requires(World & w) { w.body_call_count(); }) {
+            planned.row_count = [](World& world) { return world.body_call_count(); };
+        }
     } else if constexpr (Sig::kKind == CallKind::Islands) {
         planned.row_count = [](World& world) { return world.island_count(); };
     } else {

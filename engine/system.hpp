@@ -9,9 +9,9 @@
 // and exactly one of these says how often it is called, on what:
 //
 //     Rows<T>            once a chunk of rows of T, in parallel
-//     Bodies             once a body (in an inner loop: once a task), in parallel; owns every row of that body
-//     Islands            once a group of bodies that touch, in parallel
-//     Serial             once, alone
+//     EachBody           in an inner loop: once for the task that it runs for; owns every row of that task
+//     Each<E>            once an event of the queue Events<E>, in parallel; owns every row of the body that the event
+//     names Islands            once a group of bodies that touch, in parallel Serial             once, alone
 //
 // Emit<E, n> beside Rows writes at most n events a row; buffers are joined in chunk order.
 #pragma once
@@ -103,6 +103,13 @@ struct Rows {
 /// The body (or task) this call is for.
 struct EachBody {
     uint32_t row;
+};
+/// The event this call is for.
+template <class E>
+struct Each {
+    const E* event;
+    const E* operator->() const { return event; }
+    const E& operator*() const { return *event; }
 };
 /// The group of touching bodies this call is for: rows[0 .. count), ascending.
 struct Islands {
@@ -223,6 +230,14 @@ struct Parameter<EachBody> {
         return {call.body};
     }
 };
+template <class E>
+struct Parameter<Each<E>> {
+    static void describe(std::vector<Access>& list) { list.push_back({type_name<Events<E>>(), true, false, false}); }
+    template <class W>
+    static Each<E> bind(Call<W>& call) {
+        return {call.world.template resource<Events<E>>().all().data() + call.body};
+    }
+};
 template <>
 struct Parameter<Islands> {
     static void describe(std::vector<Access>&) {}
@@ -284,6 +299,12 @@ struct IsRows<Rows<T>> : std::true_type {
     using Table = T;
 };
 template <class P>
+struct IsEach : std::false_type {};
+template <class E>
+struct IsEach<Each<E>> : std::true_type {
+    using Event = E;
+};
+template <class P>
 struct IsEmit : std::false_type {};
 template <class E, uint32_t N>
 struct IsEmit<Emit<E, N>> : std::true_type {};
@@ -302,11 +323,11 @@ struct Signature<void (*)(P...)> {
     static constexpr int kCallParameters = (0 + ... +
                                             int{IsRows<P>::value || std::is_same_v<P, EachBody> ||
                                                 std::is_same_v<P, Islands> || std::is_same_v<P, Serial>});
-    static_assert(kCallParameters == 1, "a system takes exactly one of Rows<T>, EachBody, Islands, Serial");
-    static constexpr CallKind kKind = (... || IsRows<P>::value)              ? CallKind::Rows
-                                      : (... || std::is_same_v<P, EachBody>) ? CallKind::Bodies
-                                      : (... || std::is_same_v<P, Islands>)  ? CallKind::Islands
-                                                                             : CallKind::Serial;
+    static_assert(kCallParameters == 1, "a system takes exactly one of Rows<T>, EachBody, Each<E>, Islands, Serial");
+    static constexpr CallKind kKind = (... || IsRows<P>::value)                                    ? CallKind::Rows
+                                      : (... || (std::is_same_v<P, EachBody> || IsEach<P>::value)) ? CallKind::Bodies
+                                      : (... || std::is_same_v<P, Islands>)                        ? CallKind::Islands
+                                                                                                   : CallKind::Serial;
     template <class A>
     static constexpr bool races_with_any() {
         return (... || kRaces<A, P>);
@@ -333,6 +354,14 @@ struct Signature<void (*)(P...)> {
             return std::tuple<>{};
     }
     using RowTables = decltype(std::tuple_cat(row_table_of<P>()...));
+    template <class P1>
+    static auto each_of() {
+        if constexpr (IsEach<P1>::value)
+            return std::tuple<typename IsEach<P1>::Event*>{};
+        else
+            return std::tuple<>{};
+    }
+    using Eaches = decltype(std::tuple_cat(each_of<P>()...));
     using Emits = decltype(std::tuple_cat(emit_of<P>()...));
     static_assert(std::tuple_size_v<Emits> <= 1, "one Emit a system");
 
