@@ -1,6 +1,7 @@
 // Bodies, models and what is drawn of them.
 #pragma once
 #include "components/shells.hpp"
+#include "cullet/view.hpp"
 
 namespace cullet {
 
@@ -37,7 +38,7 @@ struct Bodies : Table<Bodies> {
     Column<uint8_t> is_breakable{*this, "is_breakable"};
     Column<float> strength_scale{*this, "strength_scale"};
     Column<uint8_t> is_asleep{*this, "is_asleep"};
-    Column<uint8_t> is_held{*this, "is_held"};
+    Column<uint8_t> hold_count{*this, "hold_count"};     // open tasks that hold it, as body or as striker
     Column<uint8_t> has_pins{*this, "has_pins"};         // some vertex is pinned: the body is static in the rigid world
     Column<uint64_t> retry_frame{*this, "retry_frame"};  // no new task before this frame (20 ms between tries)
     Column<uint64_t> born_frame{*this, "born_frame"};
@@ -59,13 +60,19 @@ struct Models : Table<Models> {
     Column<uint8_t> is_used{*this, "is_used"};
 };
 
-/// One row is one corner of a drawn mesh.
+template <>
+struct ColumnType<ViewVertex> {
+    static constexpr uint8_t kLanes = 1;
+    using Lane = ViewVertex;
+    static constexpr Scalar kScalar = Scalar::F32;
+    static constexpr uint8_t kComponents = 8;
+};
+
+/// One row is one corner of a drawn mesh, as the game reads it.
 struct ViewVertices : Table<ViewVertices> {
     using Table::Table;
     static constexpr const char* kName = "view_vertices";
-    Column<std::array<float, 3>> position{*this, "position", "m"};
-    Column<std::array<float, 3>> normal{*this, "normal"};
-    Column<std::array<float, 2>> uv{*this, "uv"};
+    Column<ViewVertex> vertex{*this, "vertex", "m, 1, 1"};
 };
 
 struct ViewIndices : Table<ViewIndices> {
@@ -83,6 +90,7 @@ struct Debris : Table<Debris> {
     Column<Vec3> velocity{*this, "velocity", "m/s"};
     Column<double> mass{*this, "mass", "kg"};
     Column<float> radius{*this, "radius", "m"};
+    Column<float> floor{*this, "floor", "m"};  // height of what is static below the place of its birth
     Column<uint8_t> is_resting{*this, "is_resting"};
     Column<uint32_t> colour{*this, "colour"};
 };

@@ -47,7 +47,8 @@ State::State(const Limits& l)
 }
 
 State::Pools::Pools(const State& s)
-    : shells(s.shells.limit(), 1),
+    : bodies(s.bodies.limit(), 1),
+      shells(s.shells.limit(), 1),
       vertices(s.vertices.limit(), kVerticesPerCell),
       elements(s.elements.limit(), 16),
       hinges(s.hinges.limit(), 16),
@@ -151,32 +152,35 @@ void release_shell(State& state, Row<Shells> shell) {
     state.pools.shells.give_back(shell, 1);
 }
 
+void copy_shell_rows(State& state, Row<Shells> source, Row<Shells> copy, bool with_stiffness) {
+    Shells& s = state.shells;
+    const Range own[] = {s.vertices[copy], s.elements[copy], s.hinges[copy], s.packs[copy],
+                         s.blocks[copy],   s.links[copy],    s.cells[copy],  s.points[copy]};
+    const uint32_t users = s.users[copy];
+    s.copy_rows(s, source, copy, 1);
+    s.users[copy] = users;
+    const auto copy_range = [&](AnyTable& table, Column<Range>& column, const Range& to, bool is_wanted) {
+        const Range from = column[source];
+        const uint32_t count = is_wanted ? from.count : 0;
+        CULLET_ASSERT(count <= to.capacity, "copy of %s: %u rows do not fit %u", table.name(), count, to.capacity);
+        column[copy] = {to.first, count, to.capacity};
+        if (count) table.copy_rows(table, from.first, to.first, count);
+    };
+    copy_range(state.vertices, s.vertices, own[0], true);
+    copy_range(state.elements, s.elements, own[1], true);
+    state.triangle_springs.copy_rows(state.triangle_springs, s.elements[source].first, own[1].first,
+                                     s.elements[copy].count);
+    copy_range(state.hinges, s.hinges, own[2], true);
+    copy_range(state.stiffness_packs, s.packs, own[3], with_stiffness);
+    copy_range(state.stiffness_blocks, s.blocks, own[4], with_stiffness);
+    copy_range(state.stiffness_links, s.links, own[5], with_stiffness);
+    copy_range(state.cells, s.cells, own[6], own[6].capacity > 0);
+    copy_range(state.hull_points, s.points, own[7], own[7].capacity > 0);
+}
+
 Row<Shells> copy_shell(State& state, Row<Shells> source, const ShellRoom& room, const char** full) {
     const Row<Shells> copy = make_shell(state, room, full);
-    if (!copy.exists()) return copy;
-    Shells& s = state.shells;
-    const Range old[] = {s.vertices[copy], s.elements[copy], s.hinges[copy], s.packs[copy],
-                         s.blocks[copy],   s.links[copy],    s.cells[copy],  s.points[copy]};
-    s.copy_rows(s, source, copy, 1);
-    s.users[copy] = 1;
-    const auto copy_range = [&](AnyTable& table, Column<Range>& column, const Range& own) {
-        const Range from = column[source];
-        const uint32_t count = own.capacity == 0 ? 0 : from.count;
-        CULLET_ASSERT(count <= own.capacity, "copy of %s: %u rows do not fit %u", table.name(), count, own.capacity);
-        column[copy] = {own.first, count, own.capacity};
-        if (count) table.copy_rows(table, from.first, own.first, count);
-    };
-    copy_range(state.vertices, s.vertices, old[0]);
-    copy_range(state.elements, s.elements, old[1]);
-    if (s.elements[copy].count)
-        state.triangle_springs.copy_rows(state.triangle_springs, s.elements[source].first, s.elements[copy].first,
-                                         s.elements[copy].count);
-    copy_range(state.hinges, s.hinges, old[2]);
-    copy_range(state.stiffness_packs, s.packs, old[3]);
-    copy_range(state.stiffness_blocks, s.blocks, old[4]);
-    copy_range(state.stiffness_links, s.links, old[5]);
-    copy_range(state.cells, s.cells, old[6]);
-    copy_range(state.hull_points, s.points, old[7]);
+    if (copy.exists()) copy_shell_rows(state, source, copy, room.blocks > 0);
     return copy;
 }
 

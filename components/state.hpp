@@ -49,7 +49,8 @@ struct State {
     /// Which rows of the tables above are taken; one pool a table whose rows come in ranges.
     struct Pools {
         explicit Pools(const State& state);
-        RangePool shells, vertices, elements, hinges, packs, blocks, links, cells, points, view_vertices, view_indices;
+        RangePool bodies, shells, vertices, elements, hinges, packs, blocks, links, cells, points, view_vertices,
+            view_indices;
     } pools;
 
     static constexpr auto tables() {
@@ -94,6 +95,9 @@ Row<Shells> make_shell(State& state, const ShellRoom& room, const char** full = 
 void release_shell(State& state, Row<Shells> shell);
 /// A copy of `source` with `room` (at least what is in use), one user. Stiffness is copied when `room.blocks` > 0.
 Row<Shells> copy_shell(State& state, Row<Shells> source, const ShellRoom& room, const char** full = nullptr);
+
+/// The second half of copy_shell, into a shell that make_shell made: serial systems reserve, parallel ones copy.
+void copy_shell_rows(State& state, Row<Shells> source, Row<Shells> copy, bool with_stiffness);
 
 /// The tables of one shell, with its ranges looked up: what the functions that edit a shell pass around. Indices are
 /// relative to the shell, as in the columns.

@@ -2,11 +2,27 @@
 #pragma once
 #include <cstddef>
 
+#include "cullet/host.hpp"
+
 namespace cullet {
 
-/// `bytes` of zeros that cost no memory until they are written. Aborts with a sentence when the address space is full.
+/// While one of these lives, what this thread reserves comes from the host's allocator (when it has one) instead of the
+/// system's address space. Each block remembers where it came from.
+class MemoryScope {
+ public:
+    explicit MemoryScope(const HostAllocator& allocator);
+    ~MemoryScope();
+    MemoryScope(const MemoryScope&) = delete;
+    MemoryScope& operator=(const MemoryScope&) = delete;
+
+ private:
+    HostAllocator before_;
+};
+
+/// `bytes` of memory aligned to 64 that costs nothing until it is written; from the system it is zero. Aborts with a
+/// sentence when there is none.
 std::byte* reserve_memory(size_t bytes);
-void release_memory(std::byte* memory, size_t bytes);
+void release_memory(std::byte* memory, size_t bytes);  // null is allowed
 /// Gives pages to [memory, memory + bytes) now, so that a frame meets no page fault.
 void commit_memory(std::byte* memory, size_t bytes);
 
