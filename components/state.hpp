@@ -8,6 +8,7 @@
 #include "components/shells.hpp"
 #include "components/tasks.hpp"
 #include "engine/range_pool.hpp"
+#include "engine/system.hpp"
 
 namespace cullet {
 
@@ -99,6 +100,11 @@ Row<Shells> copy_shell(State& state, Row<Shells> source, const ShellRoom& room, 
 /// The second half of copy_shell, into a shell that make_shell made: serial systems reserve, parallel ones copy.
 void copy_shell_rows(State& state, Row<Shells> source, Row<Shells> copy, bool with_stiffness);
 
+/// All tables that hold the rows of shells, as one parameter of a system that edits whole shells.
+struct ShellTables {
+    State& state;
+};
+
 /// The tables of one shell, with its ranges looked up: what the functions that edit a shell pass around. Indices are
 /// relative to the shell, as in the columns.
 struct ShellView {
@@ -118,5 +124,24 @@ struct ShellView {
     uint32_t element_count() const { return elements().count; }
     uint32_t hinge_count() const { return hinges().count; }
 };
+
+template <>
+struct Parameter<ShellTables> {
+    static void describe(std::vector<Access>& list) {
+        for (const char* table : {Shells::kName, Vertices::kName, Elements::kName, TriangleSprings::kName, Hinges::kName,
+                                  StiffnessPacks::kName, StiffnessBlocks::kName, StiffnessLinks::kName, Cells::kName,
+                                  HullPoints::kName})
+            list.push_back({table, true, true, false});
+    }
+    template <class W>
+    static ShellTables bind(Call<W>& call) {
+        return {call.world.state};
+    }
+};
+
+template <>
+inline constexpr uint32_t kRowsPerChunk<StiffnessPacks> = 32;  // 256 vertices
+template <>
+inline constexpr uint32_t kRowsPerChunk<Hinges> = 1024;
 
 }  // namespace cullet
