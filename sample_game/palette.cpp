@@ -69,7 +69,7 @@ float srgb_from_linear(float light) {
 Vec3 fragment_colour(uint32_t id) {
     if (id == 0) return linear_from_srgb(kBodyColour[0], kBodyColour[1], kBodyColour[2]);
     const uint32_t hue = (id - 1) % kHueCount, round = (id - 1) / kHueCount;
-    constexpr float kBrightness[4] = {1.0f, 0.72f, 1.22f, 0.88f};
+    constexpr float kBrightness[4] = {1.0f, 0.7f, 1.14f, 0.85f};
     const uint8_t* own = kHues[hue];
     const uint8_t* next = kHues[(hue + 1 + round / 4) % kHueCount];
     const float mixed = 0.12f * static_cast<float>(round % 4);

@@ -13,7 +13,7 @@ namespace {
 
 constexpr uint32_t kRowsPerJob = 8;
 constexpr uint32_t kFirstSunRays = 1;  // everywhere
-constexpr uint32_t kMoreSunRays = 6;   // where neighbours disagree: half-shadows
+constexpr uint32_t kMoreSunRays = 7;   // where neighbours disagree: half-shadows
 constexpr uint32_t kFirstSkyRays = 1;
 constexpr uint32_t kMoreSkyRays = 3;  // where something shades the sky
 constexpr uint32_t kLostRays = 8;     // for a point between pixels that has no like neighbour
@@ -164,12 +164,13 @@ Light Painter::more_light(uint32_t x, uint32_t y) const {
     Light light = lights_[at(x, y)];
     if (surface.body == kSkyBody) return light;
     bool is_sun_mixed = false, is_sky_shaded = false;
-    visit_neighbours(x, y, 1, [&](uint32_t u, uint32_t v, int, int) {
+    visit_neighbours(x, y, kFilterReach, [&](uint32_t u, uint32_t v, int du, int dv) {
         const Light& other = lights_[at(u, v)];
-        if (other.sun == light.sun && other.sky == 1) return;
+        const bool is_close = std::abs(du) <= 1 && std::abs(dv) <= 1;
+        if (other.sun == light.sun && (other.sky == 1 || !is_close)) return;
         if (pixels_[at(u, v)].surface.body != surface.body) return;
         is_sun_mixed |= other.sun != light.sun;
-        is_sky_shaded |= other.sky < 1;
+        is_sky_shaded |= is_close && other.sky < 1;
     });
     const auto joined = [](float first, uint32_t first_count, float more, uint32_t more_count) {
         const float count = static_cast<float>(first_count + more_count);
@@ -187,7 +188,7 @@ Light Painter::more_light(uint32_t x, uint32_t y) const {
 // Average over the 5 x 5 pixels that continue this one's surface; the sun's share by a narrower bell than the sky's,
 // whose shadows are broad.
 Light Painter::filtered_light(uint32_t x, uint32_t y) const {
-    constexpr float kSkyBell[3] = {1.0f, 0.9f, 0.55f}, kSunBell[3] = {1.0f, 0.75f, 0.3f};
+    constexpr float kSkyBell[3] = {1.0f, 0.9f, 0.55f}, kSunBell[3] = {1.0f, 0.8f, 0.4f};
     const Surface& surface = pixels_[at(x, y)].surface;
     const Light own = other_lights_[at(x, y)];
     bool is_even = true;
@@ -256,6 +257,11 @@ float Painter::line_between(uint32_t a, uint32_t b) const {
 float Painter::line(uint32_t x, uint32_t y) const {
     static const LineBell bell = line_bell();
     const uint32_t middle = pixels_[at(x, y)].front;
+    uint32_t difference = 0;
+    visit_neighbours(x, y, 1, [&](uint32_t u, uint32_t v, int, int) {
+        for (const uint32_t body : fronts_[at(u, v)]) difference |= body ^ middle;
+    });
+    if (difference == 0) return 0;
     float all = 0, other = 0, strength = 0;
     visit_neighbours(x, y, 1, [&](uint32_t u, uint32_t v, int du, int dv) {
         for (size_t k = 0; k < kInside.size(); ++k) {
@@ -267,7 +273,6 @@ float Painter::line(uint32_t x, uint32_t y) const {
             strength += weight * line_between(middle, body);
         }
     });
-    if (other == 0) return 0;
     const float share = std::min(0.5f, other / all);
     return 4 * share * (1 - share) * (strength / other);
 }

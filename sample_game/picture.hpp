@@ -51,7 +51,7 @@ struct PictureSettings {
     float ground_height = 0;     // m
     float grid_spacing = 0.1f;   // m; every tenth line is stronger
     float ambient_reach = 0.4f;  // m, how far a thing darkens its neighbours' share of the sky
-    float exposure = 0.52f;
+    float exposure = 0.46f;
     /// Calls job(0) ... job(count - 1) in any order on any threads, and returns when all are done. Empty: one after
     /// another on the calling thread. The picture is the same.
     std::function<void(uint32_t count, const std::function<void(uint32_t)>& job)> for_each;

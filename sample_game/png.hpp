@@ -22,7 +22,7 @@ inline Picture blank_picture(uint32_t width, uint32_t height) {
     return {width, height, std::vector<uint8_t>(3 * size_t{width} * height)};
 }
 
-/// Fast compression: about 10 ms for 960 x 540.
+/// Fast compression: about 50 ms and 0.6 MB for 960 x 540.
 Result<void> write_png(const Picture& picture, const std::string& path);
 /// Any PNG, turned into RGB; transparency lies over black.
 Result<Picture> read_png(const std::string& path);

@@ -10,12 +10,12 @@ namespace cullet {
 
 namespace {
 
-constexpr uint8_t kBackground = 40, kInk = 250, kShadow = 30;    // sRGB greys
+constexpr uint8_t kBackground = 40, kInk = 250, kRim = 30;       // sRGB greys
 constexpr uint32_t kGlyphWidth = 5, kGlyphHeight = 7, kPen = 2;  // a glyph's dot is kPen pixels wide
 
 // Rows from the top, bit 4 is the left dot.
 constexpr uint8_t kDigits[10][kGlyphHeight] = {
-    {14, 17, 19, 21, 25, 17, 14}, {4, 12, 4, 4, 4, 4, 14},    {14, 17, 1, 2, 4, 8, 31},   {31, 2, 4, 2, 1, 17, 14},
+    {14, 17, 17, 17, 17, 17, 14}, {4, 12, 4, 4, 4, 4, 14},    {14, 17, 1, 2, 4, 8, 31},   {31, 2, 4, 2, 1, 17, 14},
     {2, 6, 10, 18, 31, 2, 2},     {31, 16, 30, 1, 1, 17, 14}, {6, 8, 16, 30, 17, 17, 14}, {31, 1, 2, 4, 8, 8, 8},
     {14, 17, 17, 14, 17, 17, 14}, {14, 17, 17, 15, 1, 2, 12},
 };
@@ -37,15 +37,16 @@ void write_digit(Picture& sheet, uint32_t digit, uint32_t left, uint32_t top, ui
                 fill(sheet, {left + kPen * column, top + kPen * row, kPen, kPen}, grey);
 }
 
-// Light digits over a dark copy one dot down and right, legible on any picture.
+// Light digits with a dark rim of one pixel, legible on any picture.
 void write_number(Picture& sheet, uint32_t number, uint32_t left, uint32_t top) {
     const std::string text = std::to_string(number);
-    for (const bool is_shadow : {true, false}) {
-        const uint32_t shift = is_shadow ? 1 : 0;
+    const auto write = [&](uint32_t x, uint32_t y, uint8_t grey) {
         for (uint32_t k = 0; k < text.size(); ++k)
-            write_digit(sheet, static_cast<uint32_t>(text[k] - '0'), left + k * (kGlyphWidth + 1) * kPen + shift,
-                        top + shift, is_shadow ? kShadow : kInk);
-    }
+            write_digit(sheet, static_cast<uint32_t>(text[k] - '0'), x + k * (kGlyphWidth + 2) * kPen, y, grey);
+    };
+    for (uint32_t y = 0; y < 3; ++y)
+        for (uint32_t x = 0; x < 3; ++x) write(left + x, top + y, kRim);
+    write(left + 1, top + 1, kInk);
 }
 
 // Mean over [x0, x1) x [y0, y1) of the picture, in linear light; pixels cut by the border count by their part inside.
