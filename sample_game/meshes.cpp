@@ -1,0 +1,1 @@
+#include "sample_game/meshes.hpp"
