@@ -96,7 +96,7 @@ void append_triangle(Corners& out, const aiMesh& mesh, const aiFace& face, const
     const double side = is_mirrored ? -1 : 1;
     for (int c = 0; c < 3; ++c) {
         // Adding zero makes -0 into 0, so that joining can compare bits.
-        out.positions.push_back((corner[c] + Vec3d{0, 0, 0}).to_float());
+        out.positions.push_back(corner[c].to_float() + Vec3{});
         Vec3d normal;
         if (mesh.HasNormals()) normal = side * turned_normal(place, Vec3d(vector_of(mesh.mNormals[order[c]])));
         out.normals.push_back(usable_normal(normal, face_normal));
