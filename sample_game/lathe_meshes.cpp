@@ -88,7 +88,8 @@ std::vector<uint32_t> add_row(Surface& surface, const Profile& profile, double s
 }
 
 /// Rows one triangle height apart from the pole (one vertex) to the open rim.
-Surface lathe(const Profile& profile, double edge, uint64_t seed) {
+Surface lathe(const Profile& profile, double wanted_edge, uint64_t seed) {
+    const double edge = usable_edge(wanted_edge, profile.total());
     const auto rows = static_cast<uint64_t>(std::max(3.0, std::floor(profile.total() / (kRowHeight * edge) + 0.5)));
     Surface surface;
     surface.points.push_back({0, profile.points.front().y, 0});

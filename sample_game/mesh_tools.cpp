@@ -1,5 +1,8 @@
 #include "sample_game/mesh_tools.hpp"
 
+#include <algorithm>
+#include <cmath>
+
 namespace cullet {
 
 Mesh to_mesh(const Surface& surface, const std::string& name) {
@@ -8,6 +11,10 @@ Mesh to_mesh(const Surface& surface, const std::string& name) {
     mesh.triangles = surface.triangles;
     for (const Vec3d p : surface.points) mesh.positions.push_back(p.to_float());
     return mesh;
+}
+
+double usable_edge(double edge, double size) {
+    return std::isfinite(edge) ? std::clamp(edge, size / 1000, size) : size / 40;
 }
 
 double jitter(uint64_t seed, uint64_t row, uint64_t number, uint64_t channel) {

@@ -20,6 +20,10 @@ struct Surface {
 
 Mesh to_mesh(const Surface& surface, const std::string& name);
 
+/// An edge length that a shape of this size can be made with: between a thousandth of the size (some million vertices)
+/// and the size, and a fortieth when it is no number.
+double usable_edge(double edge, double size);
+
 /// A number in [-1, 1) that depends on nothing but its arguments.
 double jitter(uint64_t seed, uint64_t row, uint64_t number, uint64_t channel);
 

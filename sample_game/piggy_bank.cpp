@@ -53,8 +53,10 @@ Vec3d gradient(Vec3d p) {
 
 Vec3d onto_pig(Vec3d p) {
     for (int step = 0; step < 4; ++step) {
+        const double f = pig(p);
+        if (std::fabs(f) < 1e-6) break;  // a thousandth of a millimetre on half a metre
         const Vec3d g = gradient(p);
-        p = p - (pig(p) / std::max(dot(g, g), 0.1)) * g;
+        p = p - (f / std::max(dot(g, g), 0.1)) * g;
     }
     return p;
 }
@@ -63,11 +65,11 @@ Vec3d onto_pig(Vec3d p) {
 
 Mesh make_piggy_bank(float length, float edge, uint64_t seed) {
     const double scale = static_cast<double>(length),
-                 wanted = std::clamp(static_cast<double>(edge) / scale, 0.004, 0.1);
+                 wanted = std::clamp(usable_edge(static_cast<double>(edge) / scale, 1), 0.004, 0.1);
     // The seed moves the grid, and with it every vertex.
     const Vec3d shift{jitter(seed, 0, 0, 0), jitter(seed, 0, 0, 1), jitter(seed, 0, 0, 2)};
     const Vec3d low = Vec3d{-0.62, -0.13, -0.42} + (0.4 * wanted) * shift;
-    Surface surface = surface_of(pig, low, {0.64, 0.76, 0.44}, std::min(wanted, 0.03));
+    Surface surface = surface_of(pig, low, {0.64, 0.76, 0.44}, std::min(1.4 * wanted, 0.03));
     remesh(surface, kTargetPerMean * wanted, onto_pig);
     double front = -1e9, back = 1e9, foot = 1e9;
     for (const Vec3d p : surface.points) {

@@ -7,7 +7,7 @@
 namespace cullet {
 namespace {
 
-constexpr int kRounds = 10;
+constexpr int kRounds = 7;  // after that the shares of short and long edges stand still
 constexpr int kPassesPerRound = 6;
 // Bounds of the edge length that neither splitting nor collapsing makes worse (Botsch and Kobbelt).
 constexpr double kLongest = 4.0 / 3, kShortest = 4.0 / 5;

@@ -30,7 +30,8 @@ std::vector<uint32_t> add_column(Surface& surface, double x, double height, uint
     return ids;
 }
 
-Surface sheet(double width, double height, double edge, uint64_t seed) {
+Surface sheet(double width, double height, double wanted_edge, uint64_t seed) {
+    const double edge = usable_edge(wanted_edge, std::max(width, height));
     const auto columns = static_cast<uint64_t>(std::max(2.0, std::floor(width / (kColumnWidth * edge) + 0.25)));
     const auto segments = static_cast<uint64_t>(std::max(2.0, std::floor(height / edge + 0.25)));
     Surface surface;

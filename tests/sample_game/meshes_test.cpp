@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <map>
 #include <set>
 
@@ -208,6 +209,7 @@ TEST(Meshes, CoarseEdgesGiveCoarseShapesAndNoFault) {
         EXPECT_EQ(facts_of(mesh).border_loops, 1u);
     }
     EXPECT_EQ(facts_of(make_piggy_bank(0.4f, 0.05f)).border_edges, 0u);
+    EXPECT_EQ(facts_of(make_pane(0.5f, std::numeric_limits<float>::quiet_NaN())).border_loops, 1u);
 }
 
 TEST(MeshTools, JitterIsEvenlySpreadOverItsRange) {
