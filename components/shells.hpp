@@ -45,6 +45,8 @@ struct Shells : Table<Shells> {
     Column<Vec3d> centre{*this, "centre", "m"};        // of the prisms, body frame
     Column<Sym3d> inertia{*this, "inertia", "kg m2"};  // of the prisms about the centre, body axes
     Column<float> thickness{*this, "thickness", "m"};  // mean depth over elements by area
+    Column<float> depth_floor{*this, "depth_floor",
+                              "m"};  // least h of stiffness and contact: 0.05 eps; 0: 0.05 of the thickness
     Column<float> mean_edge{*this, "mean_edge", "m"};  // l, of the intact model; fragments inherit it
     Column<float> area{*this, "area", "m2"};
     Column<float> time_step{*this, "time_step", "s"};  // of the hidden run: 0.6 * 2 / omega_max; fragments inherit it
@@ -116,8 +118,9 @@ struct Elements : Table<Elements> {
     Column<std::array<float, 9>> normal{*this, "normal"};
     Column<std::array<float, 6>> uv{*this, "uv"};
     Column<uint16_t> drawn_material{*this, "drawn_material"};
-    // Scratch of the stress check: both faces, in the triangle's own axes (xx, yy, xy). [0..2] outer, [3..5] inner.
-    Column<std::array<float, 6>> stress{*this, "stress", "Pa", Keep::Scratch};
+    // Scratch of the stress check: both faces, (xx, yy, xy) in the triangle's own axes.
+    Column<Vec3> outer_stress{*this, "outer_stress", "Pa", Keep::Scratch};
+    Column<Vec3> inner_stress{*this, "inner_stress", "Pa", Keep::Scratch};
     Column<float> principal{*this, "principal", "Pa", Keep::Scratch};  // largest of both faces
 };
 
@@ -127,15 +130,17 @@ struct Elements : Table<Elements> {
 struct TriangleSprings : Table<TriangleSprings> {
     using Table::Table;
     static constexpr const char* kName = "triangle_springs";
-    Column<Vec3> axis_x{*this, "axis_x"};  // along edge 0, unit
-    Column<Vec3> axis_y{*this, "axis_y"};  // in the plane, unit
-    Column<std::array<float, 3>> inverse_edges{*this, "inverse_edges", "1/m"};
+    Column<Vec3> axis_x{*this, "axis_x"};                       // along edge 0, unit
+    Column<Vec3> axis_y{*this, "axis_y"};                       // in the plane, unit
+    Column<Vec3> inverse_edges{*this, "inverse_edges", "1/m"};  // i0, i1, i2
     Column<float> area{*this, "area", "m2"};
     Column<float> thickness{*this, "thickness", "m"};  // mean depth of the corners, at least 0.05 of the wanted depth
     Column<float> scale{*this, "scale"};               // B7's limit, in (0, 1]; also scales the stress
     /// Curvature (xx, yy, xy) a radian of the hinge across edge k: length / (2 area) * p p^T, p the edge's normal in
     /// the plane.
-    Column<std::array<float, 9>> curvature{*this, "curvature", "1/m"};
+    Column<Vec3> curvature_0{*this, "curvature_0", "1/m"};
+    Column<Vec3> curvature_1{*this, "curvature_1", "1/m"};
+    Column<Vec3> curvature_2{*this, "curvature_2", "1/m"};
 };
 
 /// One row is one interior edge that resists bending: theta = sum of gradient . u over its four vertices (B3).
