@@ -130,6 +130,22 @@ Vec3d element_middle(const ShellView& shell, uint32_t element) {
     return 1.0 / 3 * sum;
 }
 
+std::function<int(uint32_t)> nearest_seed(const ShellView& shell, int count, uint64_t seed) {
+    std::vector<Vec3d> points;
+    const Random random{seed};
+    for (int i = 0; i < count; ++i)
+        points.push_back(element_middle(shell, static_cast<uint32_t>(random.bits(i) % shell.element_count())));
+    std::vector<int> labels;
+    for (uint32_t e = 0; e < shell.element_count(); ++e) {
+        const Vec3d p = element_middle(shell, e);
+        int best = 0;
+        for (int i = 1; i < count; ++i)
+            if (length(points[i] - p) < length(points[best] - p)) best = i;
+        labels.push_back(best);
+    }
+    return [labels](uint32_t e) { return labels[e]; };
+}
+
 namespace {
 
 void cut_links(ShellView shell, const std::function<int(uint32_t)>& label) {
