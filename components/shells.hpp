@@ -91,10 +91,11 @@ struct Vertices : Table<Vertices> {
     Column<uint32_t> crack_start{*this, "crack_start"};  // vertex where the tip's crack started (its own root)
     Column<uint8_t> is_start_banned{*this, "is_start_banned"};  // within 3 l of a cut of this run (C2)
     // Hidden run: displacements about the rest shape, body axes. Zero while no task runs.
-    Column<Vec3> displacement{*this, "displacement", "m"};    // u
-    Column<Vec3> velocity{*this, "velocity", "m/s"};          // v
-    Column<Float4, Buffers::Two> probe{*this, "probe", "m"};  // u + beta v, where forces are evaluated; .w is 0
-    Column<float> stiffness_scale{*this, "stiffness_scale"};  // B7's limit at this vertex, in (0, 1]
+    Column<Vec3> displacement{*this, "displacement", "m"};     // u
+    Column<Vec3> velocity{*this, "velocity", "m/s"};           // v
+    Column<Float4, Buffers::Two> probe{*this, "probe", "m"};   // u + beta v, where forces are evaluated; .w is 0
+    Column<float> stiffness_scale{*this, "stiffness_scale"};   // B7's limit at this vertex, in (0, 1]
+    Column<uint32_t> copy{*this, "copy", "1", Keep::Scratch};  // make_piece: row in the piece being made
 };
 
 enum class EdgeKind : uint8_t { Interior = 0, Border = 1, Crack = 2 };
@@ -112,8 +113,12 @@ struct Elements : Table<Elements> {
     Column<double> mass{*this, "mass", "kg"};                      // rest prism; shared by area when an edge is split
     Column<double> volume{*this, "volume", "m3"};
     Column<uint8_t> flags{*this, "flags"};
-    Column<uint32_t> cell{*this, "cell"};  // of its lowest corner
-    Column<uint32_t> part{*this, "part"};  // component, written by group_fragments
+    Column<uint32_t> cell{*this, "cell"};                      // of its lowest corner
+    Column<uint32_t> part{*this, "part"};                      // component, written by group_fragments
+    Column<uint32_t> next{*this, "next", "1", Keep::Scratch};  // group_fragments: next of the part, or kNone
+    Column<uint32_t> copy{*this, "copy", "1", Keep::Scratch};  // make_piece: row in the piece being made
+    Column<uint32_t> next_in_cell{*this, "next_in_cell", "1", Keep::Scratch};  // make_piece
+    Column<uint8_t> drawn_edges{*this, "drawn_edges", "1", Keep::Scratch};  // draw_shell: bit k, side quad k is written
     // The game's own surface, three entries a triangle, interpolated when an edge is split.
     Column<std::array<float, 9>> normal{*this, "normal"};
     Column<std::array<float, 6>> uv{*this, "uv"};
@@ -198,6 +203,11 @@ struct Cells : Table<Cells> {
     Column<uint32_t> first_point{*this, "first_point"};  // relative to the shell's points
     Column<uint32_t> point_count{*this, "point_count"};  // <= 32; 0: the cell has lost all of its elements
     Column<uint32_t> element_count{*this, "element_count"};
+    // Scratch of make_piece: the part's elements of this cell as a list, and the cell that it is merged into.
+    Column<uint32_t> first_element{*this, "first_element", "1", Keep::Scratch};
+    Column<uint32_t> last_element{*this, "last_element", "1", Keep::Scratch};
+    Column<uint32_t> list_count{*this, "list_count", "1", Keep::Scratch};
+    Column<uint32_t> merged{*this, "merged", "1", Keep::Scratch};
 };
 
 /// One row is a corner of a cell's hull, body frame, pulled in by the collision margin.
