@@ -38,12 +38,14 @@ State::State(const Limits& l)
       tasks(l.tasks),
       task_contacts(l.tasks * kMostContacts),
       patch_vertices(l.tasks * kMostPatchVertices),
+      fragments(l.tasks * kMostParts),
       view_vertices(l.view_vertices),
       view_indices(l.view_vertices * 2),
       pools(*this) {
     tasks.append(l.tasks);
     task_contacts.append(l.tasks * kMostContacts);
     patch_vertices.append(l.tasks * kMostPatchVertices);
+    fragments.append(l.tasks * kMostParts);
 }
 
 State::Pools::Pools(const State& s)

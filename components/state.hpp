@@ -44,6 +44,7 @@ struct State {
     Tasks tasks;
     TaskContacts task_contacts;
     PatchVertices patch_vertices;
+    Fragments fragments;
     ViewVertices view_vertices;
     ViewIndices view_indices;
 
@@ -60,7 +61,7 @@ struct State {
                           &State::elements,        &State::triangle_springs, &State::hinges,
                           &State::stiffness_packs, &State::stiffness_blocks, &State::stiffness_links,
                           &State::cells,           &State::hull_points,      &State::tasks,
-                          &State::task_contacts,   &State::patch_vertices,   &State::view_vertices,
+                          &State::task_contacts,   &State::patch_vertices, &State::fragments,    &State::view_vertices,
                           &State::view_indices};
     }
     /// The table of type T.

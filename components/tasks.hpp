@@ -64,6 +64,19 @@ struct Parameter<OfTask> {
     }
 };
 
+/// Which repetition of an inner loop this is: step n reads side n & 1 of two-sided columns and writes the other.
+struct Turn {
+    uint32_t old_side, new_side;
+};
+template <>
+struct Parameter<Turn> {
+    static void describe(std::vector<Access>&) {}
+    template <class W>
+    static Turn bind(Call<W>& call) {
+        return {static_cast<uint32_t>(call.side), static_cast<uint32_t>(1 - call.side)};
+    }
+};
+
 inline constexpr uint32_t kMostContacts = 8;  // patches a task
 inline constexpr uint32_t kMostPatchVertices =
     512;  // of all patches of a task; a wide patch keeps its heaviest weights

@@ -35,13 +35,13 @@ void settle_tasks(Serial, Step step, Tasks& tasks, const TaskContacts& contacts,
 // ---- apply ------------------------------------------------------------------------------------------------------------
 
 /// Which elements of a broken shell hang together.
-void find_parts(Each<TaskEnded> ended, ShellTables shells, Tasks& tasks);
+void find_parts(Each<TaskEnded> ended, ShellTables shells, Tasks& tasks, Fragments& fragments);
 /// Plans, reserves and makes the bodies of the pieces, in order of mass; gives the striker the impulse that it really passed.
 void make_births(Serial, Step step, const Events<TaskEnded>& ended, ShellTables shells, Tasks& tasks, const TaskContacts& contacts,
-                 Bodies& bodies, Debris& debris, ViewVertices& view_vertices, ViewIndices& view_indices, RigidWorld& rigid,
-                 const DamageSettings& settings, DamageCounts& counts, Arena& arena, Events<ShellChanged>& changed,
-                 Events<FragmentBornEvent>& born, Events<DebrisEvent>& debris_events, Events<RefusedEvent>& refused,
-                 Events<FaultEvent>& faults);
+                 Fragments& fragments, Bodies& bodies, Debris& debris, ViewVertices& view_vertices, ViewIndices& view_indices,
+                 RigidWorld& rigid, const DamageSettings& settings, DamageCounts& counts, Arena& arena,
+                 Events<ShellChanged>& changed, Events<FragmentBornEvent>& born, Events<DebrisEvent>& debris_events,
+                 Events<RefusedEvent>& refused, Events<FaultEvent>& faults);
 
 // ---- solve ------------------------------------------------------------------------------------------------------------
 
@@ -61,28 +61,23 @@ void draw_shells(Each<ShellChanged> changed, ShellTables shells, Bodies& bodies,
 // ---- inner loop of a brittle thick shell: repeated for one task -----------------------------------------------------------
 
 /// Contact springs of the patches, from the displacements before the step (6.3).
-void push_patches(EachBody task, const Tasks& tasks, const TaskContacts& contacts, PatchVertices& patches,
-                  In<&Vertices::displacement> displacement, const Shells& shells);
+void push_patches(EachBody task, ShellTables shells, Tasks& tasks, const TaskContacts& contacts, PatchVertices& patches);
 /// One fused pass (section 10): f_i = sum_j K_ij (w_j - w_i); v += dt f / m; u += dt v; next w = u + beta v.
-void integrate_hidden(Rows<StiffnessPacks> packs, OfTask task, const Tasks& tasks, const Shells& shells,
+void integrate_hidden(Rows<StiffnessPacks> packs, OfTask task, Turn turn, const Tasks& tasks, const Shells& shells,
                       const StiffnessPacks& slots, const StiffnessBlocks& blocks, const StiffnessLinks& links,
                       In<&Vertices::inverse_mass> inverse_mass, In<&Vertices::probe> probe,
                       InOut<&Vertices::velocity> velocity, InOut<&Vertices::displacement> displacement,
                       Out<&Vertices::probe> next_probe);
-/// Gives patch vertices and strikers what their springs pushed.
-void pass_impulses(EachBody task, Tasks& tasks, TaskContacts& contacts, const PatchVertices& patches, const Shells& shells,
-                   InOut<&Vertices::velocity> velocity, InOut<&Vertices::displacement> displacement,
-                   Out<&Vertices::probe> next_probe);
+/// Gives patch vertices and strikers what the springs pushed; the run ends when its time is up or all is quiet (6.4).
+void pass_impulses(EachBody task, Turn turn, ShellTables shells, Tasks& tasks, TaskContacts& contacts, const PatchVertices& patches);
 /// Angle of each hinge.
-void bend_hinges(Rows<Hinges> hinges, OfTask task, const Tasks& tasks, const Shells& shells, In<&Vertices::probe> probe,
-                 Out<&Hinges::angle> angle);
+void bend_hinges(Rows<Hinges> hinges, OfTask task, Turn turn, ShellTables shells, const Tasks& tasks);
 /// Stress of both faces of each element, and the largest principal value (C1).
-void stress_check(Rows<Elements> elements, OfTask task, const Tasks& tasks, const Shells& shells, const Materials& materials,
-                  const TriangleSprings& springs, In<&Hinges::angle> angle, In<&Vertices::probe> probe,
-                  Out<&Elements::principal> principal);
+void stress_check(Rows<Elements> elements, OfTask task, Turn turn, ShellTables shells, const Tasks& tasks);
 /// Starts and advances cracks, one body a call, in order of urgency (C1 to C5).
 void split_vertices(EachBody task, ShellTables shells, Tasks& tasks, TaskContacts& contacts, PatchVertices& patches);
 /// Above 1.05 of the start's energy the run begins again with half the step, at most twice (B7).
-void check_energy(EachBody task, ShellTables shells, Tasks& tasks, TaskContacts& contacts, PatchVertices& patches);
+void check_energy(EachBody task, ShellTables shells, const Materials& materials, Tasks& tasks, TaskContacts& contacts,
+                  PatchVertices& patches);
 
 }  // namespace cullet
