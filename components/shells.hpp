@@ -42,6 +42,7 @@ struct Shells : Table<Shells> {
     Column<Row<Materials>> material{*this, "material"};
     Column<uint32_t> users{*this, "users"};            // models, bodies and tasks that hold the row; 0 = free
     Column<double> mass{*this, "mass", "kg"};          // sum over elements, ordered
+    Column<double> intact_mass{*this, "intact_mass", "kg"};  // of the model that it came from
     Column<Vec3d> centre{*this, "centre", "m"};        // of the prisms, body frame
     Column<Sym3d> inertia{*this, "inertia", "kg m2"};  // of the prisms about the centre, body axes
     Column<float> thickness{*this, "thickness", "m"};  // mean depth over elements by area

@@ -19,8 +19,7 @@ void open_tasks(Serial, Step step, const Events<Impact>& impacts, ShellTables sh
                 Tasks& tasks, TaskContacts& contacts, const DamageSettings& settings, DamageCounts& counts,
                 Events<TaskOpened>& opened, Events<ImpactEvent>& impact_events, Events<RefusedEvent>& refused);
 /// Copies the body's shell into the task's, lays the contact patches, gives every vertex the body's velocity.
-void fill_tasks(Each<TaskOpened> opened, ShellTables shells, const Materials& materials, Tasks& tasks, TaskContacts& contacts,
-                PatchVertices& patches);
+void fill_tasks(Each<TaskOpened> opened, ShellTables shells, Tasks& tasks, TaskContacts& contacts, PatchVertices& patches);
 
 // ---- damage -----------------------------------------------------------------------------------------------------------
 
@@ -69,7 +68,8 @@ void integrate_hidden(Rows<StiffnessPacks> packs, OfTask task, Turn turn, const 
                       InOut<&Vertices::velocity> velocity, InOut<&Vertices::displacement> displacement,
                       Out<&Vertices::probe> next_probe);
 /// Gives patch vertices and strikers what the springs pushed; the run ends when its time is up or all is quiet (6.4).
-void pass_impulses(EachBody task, Turn turn, ShellTables shells, Tasks& tasks, TaskContacts& contacts, const PatchVertices& patches);
+void pass_impulses(EachBody task, Turn turn, ShellTables shells, Tasks& tasks, TaskContacts& contacts,
+                   const PatchVertices& patches);
 /// Angle of each hinge.
 void bend_hinges(Rows<Hinges> hinges, OfTask task, Turn turn, ShellTables shells, const Tasks& tasks);
 /// Stress of both faces of each element, and the largest principal value (C1).

@@ -7,7 +7,7 @@ namespace cullet {
 namespace {
 
 bool goes_on(WorldData& world, uint32_t task) {
-    return static_cast<TaskState>(world.state.tasks.state[task]) == TaskState::Running;
+    return static_cast<TaskState>(world.state.tasks.state[task]) == TaskState::Running && world.state.tasks.steps_granted[task] > 0;
 }
 
 }  // namespace

@@ -26,6 +26,7 @@ struct HiddenStep {
     uint32_t pack_count;
 
     /// `side`: parity of the step, the side of the probe that is read.
+    HiddenStep() = default;
     HiddenStep(ShellView shell, float time_step, float damping_time, uint32_t side);
 };
 
