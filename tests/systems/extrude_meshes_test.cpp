@@ -9,6 +9,7 @@
 #include "systems/cook/crossings.hpp"
 #include "systems/cook/extrude.hpp"
 #include "tests/support/plain_reader.hpp"
+#include "tests/support/shell_checks.hpp"
 
 namespace cullet {
 namespace {
@@ -49,6 +50,25 @@ TEST(ExtrudeMeshes, TheTableOfTimesAndWalls) {
             const TrueWall wall = measure_true_wall(surface.value(), shell.value(), eps);
             std::printf("%-24s %9zu %5.0f %8.1f %8.1f %6.3f %6.3f %6.3f %6u %7u %7u\n", name, surface->triangles.size(), percent,
                         crossing, crossing + least, wall.mean, wall.low, wall.least, shell->statistics.degenerate_elements, shell->statistics.pairs, shell->statistics.collisions);
+        }
+    }
+}
+
+TEST(ExtrudeMeshes, EveryModelAtOneFiveAndTwentyPercentIsSound) {
+    if (!std::filesystem::exists(data_folder())) GTEST_SKIP() << "no models at " << data_folder() << "; set CULLET_TEST_DATA";
+    for (const char* name : {"spot_triangulated.obj", "husky_loop1.ply", "bowl.ply", "vase_thick.ply", "curtain.ply"}) {
+        const std::string path = data_folder() + "/" + name;
+        if (!std::filesystem::exists(path)) continue;
+        const Result<Surface> surface = prepare_surface(test::read_plain(path));
+        ASSERT_TRUE(surface) << surface.error();
+        std::printf("%s: %s\n", name, describe(surface->repairs).c_str());
+        for (const double percent : {1.0, 5.0, 20.0}) {
+            const double eps = percent / 100 * surface->diagonal;
+            const Result<Extrusion> shell = extrude(surface.value(), eps);
+            ASSERT_TRUE(shell) << shell.error();
+            const test::ShellReport report = test::check_shell(surface.value(), shell.value(), eps);
+            EXPECT_TRUE(report.is_sound()) << name << " at " << percent << " %: " << report;
+            EXPECT_EQ(shell->statistics.depth_zero_vertices, shell->statistics.frozen_vertices) << name << " at " << percent << " %";
         }
     }
 }
