@@ -8,6 +8,7 @@ using Float3 = std::array<float, 3>;
 // Local coordinates: twenty times the rounding of a float projection.
 constexpr float kFloatMargin = 5e-6f;
 constexpr double kMargin = 1e-10;
+constexpr double kLeastSide = 1e-7;
 
 Float3 operator-(const Float3& a, const Float3& b) { return {a[0] - b[0], a[1] - b[1], a[2] - b[2]}; }
 Float3 cross(const Float3& a, const Float3& b) {
@@ -100,7 +101,7 @@ bool are_hulls_apart(const Unit& a, const Unit& b) {
 bool are_split_at(const ExtrusionWork& work, const Unit& a, const Unit& b, uint32_t shared) {
     const Vec3d m = work.directions[shared], origin = work.points[shared];
     const Vec3d helper = std::fabs(m.x) < 0.6 ? Vec3d(1, 0, 0) : Vec3d(0, 1, 0);
-    const Vec3d x = normalised(cross(m, helper)), y = cross(m, x);
+    const Vec3d x = cross(m, helper), y = cross(m, x);  // of one length, 0.6 to 1
     // Looking along the segment: is there a line with a's points on one side and b's on the other? There is when a's points and the
     // mirrored points of b fit into less than half a turn; grow the sector [low, high] that holds them.
     struct Side {
@@ -113,8 +114,11 @@ bool are_split_at(const ExtrusionWork& work, const Unit& a, const Unit& b, uint3
         for (size_t k = 0; k < u->vertex_count; ++k) {
             const uint32_t v = u->vertex[k];
             if (v == shared) continue;
-            for (const Vec3d p : {work.points[v] - origin, work.inner(v, work.caps[v]) - origin})
-                sides[count++] = {sign * dot(p, x), sign * dot(p, y)};
+            for (const Vec3d p : {work.points[v] - origin, work.inner(v, work.caps[v]) - origin}) {
+                const Side side{sign * dot(p, x), sign * dot(p, y)};
+                if (side.x * side.x + side.y * side.y < kLeastSide * kLeastSide) return false;
+                sides[count++] = side;
+            }
         }
     }
     Side low = sides[0], high = sides[0];
@@ -125,13 +129,10 @@ bool are_split_at(const ExtrusionWork& work, const Unit& a, const Unit& b, uint3
         if (is_right_of_low) low = sides[k];
         if (is_left_of_high) high = sides[k];
     }
-    const double low_length = std::sqrt(low.x * low.x + low.y * low.y), high_length = std::sqrt(high.x * high.x + high.y * high.y);
-    if (low_length < kMargin || high_length < kMargin) return false;
-    const Side n{low.x / low_length + high.x / high_length, low.y / low_length + high.y / high_length};
-    const double least = kMargin * std::sqrt(n.x * n.x + n.y * n.y);
-    for (size_t k = 0; k < count; ++k)
-        if (!(n.x * sides[k].x + n.y * sides[k].y > least)) return false;
-    return least > 1e-3 * kMargin;
+    // Less than half a turn by 1e-6 at least: the bisector then has every side in front of it by more than rounding.
+    const double cosine = low.x * high.x + low.y * high.y, sine = turn(low, high);
+    const double low2 = low.x * low.x + low.y * low.y, high2 = high.x * high.x + high.y * high.y;
+    return cosine > 0 || (sine > 0 && sine * sine > 1e-12 * low2 * high2);
 }
 
 bool stays_below(const ExtrusionWork& work, uint32_t i, uint32_t j) {

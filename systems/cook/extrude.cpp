@@ -80,7 +80,7 @@ Extrusion finish(ExtrusionWork& work, const std::vector<double>& depth) {
 ExtrusionWork::ExtrusionWork(const Surface& s, double metres, const ExtrusionSettings& e)
     : surface(s), frame(s.low, s.diagonal), thickness(frame.scale * metres), settings(e), ring(rings_of(s)),
       component_of_vertex(s.positions.size()), directions(s.positions.size()), facing(s.positions.size()),
-      is_frozen(s.positions.size()), first_caps(s.positions.size()) {
+      is_frozen(s.positions.size()), wall_caps(s.positions.size()) {
     for (const Vec3d p : s.positions) points.push_back(frame(p));
     for (size_t t = 0; t < s.triangles.size(); ++t) {
         const Triangle& c = s.triangles[t];
@@ -98,7 +98,7 @@ Result<Extrusion> extrude(const Surface& surface, double thickness, const Extrus
     ExtrusionWork work(surface, std::min(thickness, surface.diagonal), settings);
     choose_directions(work);
     const OppositeWall wall(work);
-    find_first_caps(work, wall, {});
+    find_wall_caps(work, wall, {});
     find_local_caps(work);
     if (settings.straightens) straighten(work, wall);
     std::vector<double> depth = run_guarded_front(work);

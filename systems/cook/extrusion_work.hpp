@@ -26,7 +26,8 @@ struct ExtrusionWork {
     std::vector<Vec3d> directions;   // inward, unit
     std::vector<double> facing;      // least m . -n over the triangles of a vertex
     std::vector<uint8_t> is_frozen;  // depth stays 0
-    std::vector<double> first_caps;  // by opposite walls
+    std::vector<double> wall_caps;   // by opposite walls
+    std::vector<double> first_caps;  // also by slope
     std::vector<double> caps;        // also by the shape of each element
     ExtrusionStatistics statistics;
 

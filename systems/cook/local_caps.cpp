@@ -45,16 +45,17 @@ bool is_sound_at_caps(const ExtrusionWork& work, uint32_t t) {
 
 }  // namespace
 
-void find_first_caps(ExtrusionWork& work, const OppositeWall& wall, const std::vector<uint8_t>& is_marked) {
+void find_wall_caps(ExtrusionWork& work, const OppositeWall& wall, const std::vector<uint8_t>& is_marked) {
     for (uint32_t v = 0; v < work.vertex_count(); ++v) {
         if (!is_marked.empty() && !is_marked[v]) continue;
         const double wanted = work.settings.has_mitre ? work.thickness / std::max(kLeastFacing, work.facing[v]) : work.thickness;
-        work.first_caps[v] = work.is_frozen[v] ? 0 : wall.cap(v, work.directions[v], wanted);
+        work.wall_caps[v] = work.is_frozen[v] ? 0 : wall.cap(v, work.directions[v], wanted);
     }
-    limit_slope(work);
 }
 
 void find_local_caps(ExtrusionWork& work) {
+    work.first_caps = work.wall_caps;
+    limit_slope(work);
     work.caps = work.first_caps;
     std::vector<uint32_t> elements(work.triangle_count());
     for (uint32_t t = 0; t < elements.size(); ++t) elements[t] = t;

@@ -35,20 +35,10 @@ double ray_distance(const std::array<Vec3d, 3>& t, Vec3d origin, Vec3d ray, doub
     return d > 0 && d < far ? d : far;
 }
 
-// Square of the distance from p to a box. Rounding is covered by the outward margin of the boxes and by the caller's 1e-5.
-float distance_squared(const Box& b, const std::array<float, 3>& p) {
-    float sum = 0;
-    for (size_t k = 0; k < 3; ++k) {
-        const float below = b.low[k] - p[k], above = p[k] - b.high[k];
-        const float d = std::max(std::max(below, above), 0.0f);
-        sum += d * d;
-    }
-    return sum;
-}
-
-std::array<float, 3> to_floats(Vec3d p) {
-    return {static_cast<float>(p.x), static_cast<float>(p.y), static_cast<float>(p.z)};
-}
+struct Floats {
+    alignas(16) std::array<float, 4> lane;
+    explicit Floats(Vec3d p) : lane{static_cast<float>(p.x), static_cast<float>(p.y), static_cast<float>(p.z), 0} {}
+};
 
 RayScene make_rays(const ExtrusionWork& work) {
     std::vector<Vec3> points;
@@ -111,13 +101,13 @@ double OppositeWall::first_hit(uint32_t v, Vec3d m, double far) const {
 // |q - v|^2 / (2 (q - v) . m).
 double OppositeWall::ball_radius(uint32_t v, Vec3d m, double r) const {
     const Vec3d origin = work_.points[v];
-    const std::array<float, 3> mf = to_floats(m);
-    std::array<float, 3> centre = to_floats(origin + r * m);
+    const Floats mf(m);
+    Floats centre(origin + r * m);
     float reach = static_cast<float>(r * r * (1 + 1e-5));
     const auto can_limit = [&](uint32_t n) {
         const Box& b = normal_boxes_[n];
         float most = 0;
-        for (size_t k = 0; k < 3; ++k) most += std::max(mf[k] * b.low[k], mf[k] * b.high[k]);
+        for (size_t k = 0; k < 3; ++k) most += std::max(mf.lane[k] * b.low[k], mf.lane[k] * b.high[k]);
         return most > 0.09999f;
     };
     struct Waiting {
@@ -131,11 +121,11 @@ double OppositeWall::ball_radius(uint32_t v, Vec3d m, double r) const {
         const Waiting top = stack[--height];
         const BoxTree::Node& node = tree_.nodes[top.node];
         // The ball shrinks inside its former self, so an old distance to the centre proves nothing: measure again.
-        if (distance_squared(node.box, centre) >= reach) continue;
+        if (node.box.distance_squared(centre.lane) >= reach) continue;
         if (!node.is_leaf()) {
             const uint32_t left = top.node + 1, right = node.right;
-            Waiting a{left, distance_squared(tree_.nodes[left].box, centre)};
-            Waiting b{right, distance_squared(tree_.nodes[right].box, centre)};
+            Waiting a{left, tree_.nodes[left].box.distance_squared(centre.lane)};
+            Waiting b{right, tree_.nodes[right].box.distance_squared(centre.lane)};
             if (b.distance < a.distance) std::swap(a, b);
             if (b.distance < reach && can_limit(b.node)) stack[height++] = b;
             if (a.distance < reach && can_limit(a.node)) stack[height++] = a;
@@ -156,7 +146,7 @@ double OppositeWall::ball_radius(uint32_t v, Vec3d m, double r) const {
                 r = dot(q - origin, q - origin) / (2 * ahead);
             }
             if (!is_checked) continue;
-            centre = to_floats(origin + r * m);
+            centre = Floats(origin + r * m);
             reach = static_cast<float>(r * r * (1 + 1e-5));
         }
     }
@@ -170,16 +160,16 @@ double OppositeWall::cap(uint32_t v, Vec3d m, double wanted) const {
 
 double OppositeWall::distance(Vec3d p, double most) const {
     double least = most * most;
-    const std::array<float, 3> at = to_floats(p);
+    const Floats at(p);
     std::array<uint32_t, 64> stack;
     size_t height = 0;
     stack[height++] = 0;
     while (height > 0) {
         const uint32_t n = stack[--height];
         const BoxTree::Node& node = tree_.nodes[n];
-        if (static_cast<double>(distance_squared(node.box, at)) >= least * (1 + 1e-5)) continue;
+        if (static_cast<double>(node.box.distance_squared(at.lane)) >= least * (1 + 1e-5)) continue;
         if (!node.is_leaf()) {
-            const bool is_left_nearer = distance_squared(tree_.nodes[n + 1].box, at) <= distance_squared(tree_.nodes[node.right].box, at);
+            const bool is_left_nearer = tree_.nodes[n + 1].box.distance_squared(at.lane) <= tree_.nodes[node.right].box.distance_squared(at.lane);
             stack[height++] = is_left_nearer ? node.right : n + 1;
             stack[height++] = is_left_nearer ? n + 1 : node.right;
             continue;
