@@ -32,8 +32,10 @@ std::vector<uint32_t> add_column(Surface& surface, double x, double height, uint
 
 Surface sheet(double width, double height, double wanted_edge, uint64_t seed) {
     const double edge = usable_edge(wanted_edge, std::max(width, height));
-    const auto columns = static_cast<uint64_t>(std::max(2.0, std::floor(width / (kColumnWidth * edge) + 0.25)));
-    const auto segments = static_cast<uint64_t>(std::max(2.0, std::floor(height / edge + 0.25)));
+    // One less each way makes up for the closer points along the borders: vertices are area / (sqrt(3)/2 edge^2), as
+    // inside.
+    const auto columns = static_cast<uint64_t>(std::max(2.0, std::floor(width / (kColumnWidth * edge)) - 1));
+    const auto segments = static_cast<uint64_t>(std::max(2.0, std::floor(height / edge) - 1));
     Surface surface;
     std::vector<uint32_t> before;
     for (uint64_t column = 0; column <= columns; ++column) {

@@ -161,8 +161,8 @@ bool listen(int pipe, unsigned seconds, std::string& message) {
     }
 }
 
-std::string how_it_died(const std::string& subject, int status, const ImportLimits& limits) {
-    if (WIFSIGNALED(status) && (WTERMSIG(status) == SIGXCPU || WTERMSIG(status) == SIGKILL))
+std::string how_it_died(const std::string& subject, int status, bool is_late, const ImportLimits& limits) {
+    if (is_late || (WIFSIGNALED(status) && WTERMSIG(status) == SIGXCPU))
         return subject + ": was not read within " + std::to_string(limits.seconds) +
                " s. Repair or simplify the model, or raise --seconds.";
     const std::string number = std::to_string(WIFSIGNALED(status) ? WTERMSIG(status) : WEXITSTATUS(status));
@@ -203,8 +203,10 @@ Result<Delivery> run_limited(const std::string& subject, const ImportLimits& lim
     Delivery delivery;
     std::string message;
     int status = 0;
+    bool is_late = false;
     if (child > 0) {
-        if (!listen(ends[0], limits.seconds, message)) ::kill(child, SIGKILL);
+        is_late = !listen(ends[0], limits.seconds, message);
+        if (is_late) ::kill(child, SIGKILL);
         while (::waitpid(child, &status, 0) < 0 && errno == EINTR) {
         }
     }
@@ -221,7 +223,7 @@ Result<Delivery> run_limited(const std::string& subject, const ImportLimits& lim
     } else if (WIFEXITED(status) && message.size() > 1 && message[0] == '-') {
         result = Error{message.substr(1)};
     } else {
-        result = Error{how_it_died(subject, status, limits)};
+        result = Error{how_it_died(subject, status, is_late, limits)};
     }
     if (result_file >= 0) ::close(result_file);
     return result;

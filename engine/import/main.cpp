@@ -24,10 +24,13 @@ std::string counts_of(const std::string& path, const ConvertedModel& model) {
     char box[96];
     std::snprintf(box, sizeof box, "%.4g x %.4g x %.4g m", static_cast<double>(high.x - low.x),
                   static_cast<double>(high.y - low.y), static_cast<double>(high.z - low.z));
-    std::string line = path + ": " + std::to_string(mesh.positions.size()) + " vertices, " +
-                       std::to_string(mesh.triangles.size()) + " triangles, " + std::to_string(materials) +
-                       (materials == 1 ? " material, " : " materials, ") + box;
-    if (model.collapsed > 0) line += ", " + std::to_string(model.collapsed) + " triangles of repeated corners left out";
+    const auto count = [](uint64_t n, const char* one, const char* many) {
+        return std::to_string(n) + " " + (n == 1 ? one : many) + ", ";
+    };
+    std::string line = path + ": " + count(mesh.positions.size(), "vertex", "vertices") +
+                       count(mesh.triangles.size(), "triangle", "triangles") +
+                       count(materials, "material", "materials") + box;
+    if (model.collapsed > 0) line += ", triangles left out for repeated corners: " + std::to_string(model.collapsed);
     return line;
 }
 

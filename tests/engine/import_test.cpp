@@ -1,4 +1,5 @@
 #include <gtest/gtest.h>
+#include <sys/stat.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -160,6 +161,18 @@ TEST_F(Import, TooLittleTimeIsOneSentenceAndNoFile) {
     EXPECT_LT(late.seconds, 5);
     EXPECT_NE(late.said.find("was not read within 1 s"), std::string::npos) << late.said;
     EXPECT_FALSE(fs::exists(folder_ / "out.cmesh"));
+}
+
+TEST_F(Import, APipeOrAFolderInPlaceOfAModelIsRefusedAtOnce) {
+    const std::string pipe = folder_ / "pipe.obj", folder = folder_ / "folder.obj";
+    ASSERT_EQ(mkfifo(pipe.c_str(), 0600), 0);
+    fs::create_directory(folder);
+    for (const std::string& path : {pipe, folder}) {
+        const ProgramRun result = run(path, folder_ / "out.cmesh");
+        EXPECT_EQ(result.exit_code, 2);
+        EXPECT_LT(result.seconds, 5);
+        EXPECT_FALSE(import_mesh(path, kProgram, cache()).ok());
+    }
 }
 
 TEST_F(Import, WrongArgumentsAreOneSentence) {
