@@ -17,6 +17,10 @@ uint32_t slot_limit(const Limits& l) {
 uint32_t cell_limit(const Limits& l) {
     return l.vertices / 8;
 }
+// Holes of a pool that gives an owner one range, or two while it is moved.
+uint32_t ranges_of(const AnyTable& owners) {
+    return 2 * owners.limit() + 1;
+}
 
 }  // namespace
 
@@ -49,22 +53,26 @@ State::State(const Limits& l)
 }
 
 State::Pools::Pools(const State& s)
-    : bodies(s.bodies.limit(), 1),
-      shells(s.shells.limit(), 1),
-      vertices(s.vertices.limit(), kVerticesPerCell),
-      elements(s.elements.limit(), 16),
-      hinges(s.hinges.limit(), 16),
-      packs(s.stiffness_packs.limit(), 8),
-      blocks(s.stiffness_blocks.limit(), 1),
-      links(s.stiffness_links.limit(), 1),
-      cells(s.cells.limit(), 1),
-      points(s.hull_points.limit(), 1),
-      view_vertices(s.view_vertices.limit(), 16),
-      view_indices(s.view_indices.limit(), 16) {}
+    : bodies(s.bodies.limit(), 1, ranges_of(s.bodies)),
+      shells(s.shells.limit(), 1, ranges_of(s.shells)),
+      vertices(s.vertices.limit(), kVerticesPerCell, ranges_of(s.shells)),
+      elements(s.elements.limit(), 16, ranges_of(s.shells)),
+      hinges(s.hinges.limit(), 16, ranges_of(s.shells)),
+      packs(s.stiffness_packs.limit(), 8, ranges_of(s.shells)),
+      blocks(s.stiffness_blocks.limit(), 1, ranges_of(s.shells)),
+      links(s.stiffness_links.limit(), 1, ranges_of(s.shells)),
+      cells(s.cells.limit(), 1, ranges_of(s.shells)),
+      points(s.hull_points.limit(), 1, ranges_of(s.shells)),
+      view_vertices(s.view_vertices.limit(), 16, ranges_of(s.bodies)),
+      view_indices(s.view_indices.limit(), 16, ranges_of(s.bodies)) {}
 
 uint64_t State::hash() const {
     uint64_t hash = 0;
     std::apply([&](auto... table) { ((hash = (this->*table).hash(hash)), ...); }, tables());
+    for (const RangePool* pool :
+         {&pools.bodies, &pools.shells, &pools.vertices, &pools.elements, &pools.hinges, &pools.packs, &pools.blocks,
+          &pools.links, &pools.cells, &pools.points, &pools.view_vertices, &pools.view_indices})
+        hash = pool->hash(hash);
     return hash;
 }
 
@@ -102,7 +110,8 @@ bool take(AnyTable& table, RangePool& pool, uint32_t count, Range& range) {
 
 Row<Shells> make_shell(State& state, const ShellRoom& room, const char** full) {
     Range row_range;
-    const char* missing = nullptr;
+    const char* missing = nullptr;  // the first
+    const auto refuse = [&](const char* limit) { missing = missing ? missing : limit; };
     if (!take(state.shells, state.pools.shells, 1, row_range)) {
         if (full) *full = "limits.shells";
         return {};
@@ -110,30 +119,34 @@ Row<Shells> make_shell(State& state, const ShellRoom& room, const char** full) {
     const Row<Shells> shell(row_range.first);
     Shells& s = state.shells;
     s.clear_rows(shell, 1);
-    if (!take(state.vertices, state.pools.vertices, room.vertices, s.vertices[shell])) missing = "limits.vertices";
-    if (!take(state.elements, state.pools.elements, room.elements, s.elements[shell])) missing = "limits.elements";
+    if (!take(state.vertices, state.pools.vertices, room.vertices, s.vertices[shell])) refuse("limits.vertices");
+    if (!take(state.elements, state.pools.elements, room.elements, s.elements[shell])) refuse("limits.elements");
     const uint32_t rows = state.elements.size();
     if (rows > state.triangle_springs.size()) state.triangle_springs.append(rows - state.triangle_springs.size());
-    if (!take(state.hinges, state.pools.hinges, room.hinges, s.hinges[shell])) missing = "limits.elements";
+    if (!take(state.hinges, state.pools.hinges, room.hinges, s.hinges[shell])) refuse("limits.elements");
     const uint32_t packs = room.blocks ? (room.vertices + kLanes - 1) / kLanes : 0;
-    if (!take(state.stiffness_packs, state.pools.packs, packs, s.packs[shell])) missing = "limits.vertices";
-    if (!take(state.stiffness_blocks, state.pools.blocks, room.blocks, s.blocks[shell])) missing = "limits.vertices";
-    if (!take(state.stiffness_links, state.pools.links, room.links, s.links[shell])) missing = "limits.vertices";
-    if (!take(state.cells, state.pools.cells, room.cells, s.cells[shell])) missing = "limits.vertices";
-    if (!take(state.hull_points, state.pools.points, room.points, s.points[shell])) missing = "limits.vertices";
+    if (!take(state.stiffness_packs, state.pools.packs, packs, s.packs[shell])) refuse("limits.vertices");
+    if (!take(state.stiffness_blocks, state.pools.blocks, room.blocks, s.blocks[shell])) refuse("limits.vertices");
+    if (!take(state.stiffness_links, state.pools.links, room.links, s.links[shell])) refuse("limits.vertices");
+    if (!take(state.cells, state.pools.cells, room.cells, s.cells[shell])) refuse("limits.vertices");
+    if (!take(state.hull_points, state.pools.points, room.points, s.points[shell])) refuse("limits.vertices");
     s.users[shell] = 1;
     if (missing) {
         release_shell(state, shell);
         if (full) *full = missing;
         return {};
     }
-    const Range vertices = s.vertices[shell];
-    state.vertices.clear_rows(vertices.first, vertices.capacity);
-    for (uint32_t v = vertices.first; v < vertices.first + vertices.capacity; ++v) state.vertices.element[v] = kNone;
-    state.elements.clear_rows(s.elements[shell].first, s.elements[shell].capacity);
-    state.triangle_springs.clear_rows(s.elements[shell].first, s.elements[shell].capacity);
-    state.hinges.clear_rows(s.hinges[shell].first, s.hinges[shell].capacity);
-    state.stiffness_packs.clear_rows(s.packs[shell].first, s.packs[shell].capacity);
+    // Kernels read whole packs: the rows between the capacity and the end of what the pool gave are cleared too.
+    const uint32_t vertices = s.vertices[shell].first, last = vertices + state.pools.vertices.rounded(room.vertices);
+    state.vertices.clear_rows(vertices, last - vertices);
+    for (uint32_t v = vertices; v < last; ++v) state.vertices.element[v] = kNone;
+    const auto clear = [](AnyTable& table, const RangePool& pool, Range range) {
+        table.clear_rows(range.first, pool.rounded(range.capacity));
+    };
+    clear(state.elements, state.pools.elements, s.elements[shell]);
+    clear(state.triangle_springs, state.pools.elements, s.elements[shell]);
+    clear(state.hinges, state.pools.hinges, s.hinges[shell]);
+    clear(state.stiffness_packs, state.pools.packs, s.packs[shell]);
     return shell;
 }
 

@@ -19,8 +19,9 @@ class Arena {
     /// `count` values, not initialised; an empty span when the arena is full.
     template <class T>
     std::span<T> take(size_t count) {
+        static_assert(alignof(T) <= 64, "reserved memory is aligned to 64");
         const size_t first = (used_ + alignof(T) - 1) / alignof(T) * alignof(T);
-        if (first + count * sizeof(T) > size_) return {};
+        if (first > size_ || count > (size_ - first) / sizeof(T)) return {};
         used_ = first + count * sizeof(T);
         most_ = used_ > most_ ? used_ : most_;
         return {reinterpret_cast<T*>(memory_ + first), count};

@@ -29,6 +29,8 @@ class Events {
         data()[size_++] = event;
         return true;
     }
+    /// Counts events that were lost before they came here.
+    void drop(uint32_t count) { dropped_ += count; }
     void clear() { size_ = 0; }
     std::span<const E> all() const { return {reinterpret_cast<const E*>(memory_), size_}; }
     std::span<E> all() { return {data(), size_}; }

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "engine/fp_mode.hpp"
 #include "engine/jobs.hpp"
 #include "engine/profiler.hpp"
 #include "engine/system.hpp"
@@ -23,6 +24,8 @@ struct PlannedSystem {
     uint32_t (*row_count)(World&) = nullptr;
     Rows<void> (*rows_of_body)(World&, uint32_t body) = nullptr;
     void (*invoke)(Call<World>&) = nullptr;
+    /// The body that the n-th call is for, where it is not n.
+    uint32_t (*body_of_call)(World&, uint32_t call) = nullptr;
     /// Emit: bytes a row, and how a chunk's buffer joins its queue.
     uint32_t emit_bytes_a_row = 0;
     void (*join)(World&, const void* buffer, uint32_t count) = nullptr;
@@ -55,6 +58,8 @@ PlannedSystem<World> plan_system(std::string stage) {
             planned.row_count = [](World& world) { return world.template resource<Events<E>>().size(); };
         } else if constexpr (requires(World & w) { w.body_call_count(); }) {
             planned.row_count = [](World& world) { return world.body_call_count(); };
+            if constexpr (requires(World & w) { w.body_of_call(0u); })
+                planned.body_of_call = [](World& world, uint32_t call) { return world.body_of_call(call); };
         }
     } else if constexpr (Sig::kKind == CallKind::Islands) {
         planned.row_count = [](World& world) { return world.island_count(); };
@@ -67,6 +72,7 @@ PlannedSystem<World> plan_system(std::string stage) {
         planned.emit_bytes_a_row = E::kMostARow * sizeof(Value);
         planned.join = [](World& world, const void* buffer, uint32_t count) {
             auto& queue = world.template resource<Events<Value>>();
+            if (!buffer) return queue.drop(count);
             for (uint32_t i = 0; i < count; ++i) queue.push(static_cast<const Value*>(buffer)[i]);
         };
     }
@@ -123,6 +129,8 @@ class FramePlan {
     }
     template <auto System>
     FramePlan& then() {
+        static_assert(!Signature<decltype(System)>::kHasTwoSided,
+                      "the sides of a two-sided column take turns in inner loops only");
         systems_.push_back(plan_system<World, System>(stage_));
         return *this;
     }
@@ -136,8 +144,8 @@ class FramePlan {
         derive_edges(systems_);
         passes_.clear();
         for (uint32_t s = 0; s < systems_.size(); ++s) {
-            systems_[s].zone = profiler.add_zone(systems_[s].name.c_str());
-            bool fits = !passes_.empty();
+            systems_[s].zone = profiler.add_zone(systems_[s].name);
+            bool fits = !passes_.empty() && passes_.back().count < kMostInPass;
             if (fits)
                 for (uint32_t a : systems_[s].after) fits = fits && a < passes_.back().first;
             if (fits)
@@ -150,6 +158,7 @@ class FramePlan {
     /// One frame. `after_each(system)` is called between passes when given (validation).
     void step(World& world, JobSystem& jobs, Profiler& profiler, Arena& arena,
               const std::function<void(const PlannedSystem<World>&)>* after_each = nullptr) {
+        const FpMode mode;  // passes of one call run here, not in a job
         for (const Pass& pass : passes_) {
             run_pass(pass, world, jobs, profiler, arena);
             if (after_each)
@@ -184,6 +193,9 @@ class FramePlan {
         std::byte* buffer;
         uint32_t* emitted;
     };
+    struct alignas(64) Line {
+        std::byte bytes[64];
+    };
     static constexpr uint32_t kMostInPass = 16;
 
     static uint32_t chunk_count(const PlannedSystem<World>& system, uint32_t rows) {
@@ -193,9 +205,8 @@ class FramePlan {
         Call<World> call{world};
         call.first = chunk * system.chunk_rows;
         call.count = chunks.rows - call.first < system.chunk_rows ? chunks.rows - call.first : system.chunk_rows;
-        if (system.kind == CallKind::Bodies) {
-            if constexpr (requires(World & w) { w.body_of_call(0u); }) call.body = world.body_of_call(chunk);
-        }
+        if (system.kind == CallKind::Bodies)
+            call.body = system.body_of_call ? system.body_of_call(world, chunk) : chunk;
         if (system.kind == CallKind::Islands) {
             if constexpr (requires(World & w) { w.island(0u); }) {
                 const auto rows = world.island(chunk);
@@ -203,10 +214,8 @@ class FramePlan {
                 call.island_size = static_cast<uint32_t>(rows.size());
             }
         }
-        if (chunks.buffer) {
-            call.emit_buffer = chunks.buffer + size_t{call.first} * system.emit_bytes_a_row;
-            call.emit_count = chunks.emitted + chunk;
-        }
+        if (chunks.buffer) call.emit_buffer = chunks.buffer + size_t{call.first} * system.emit_bytes_a_row;
+        if (chunks.emitted) call.emit_count = chunks.emitted + chunk;
         system.invoke(call);
     }
     void run_pass(const Pass& pass, World& world, JobSystem& jobs, Profiler& profiler, Arena& arena) {
@@ -217,10 +226,13 @@ class FramePlan {
             chunks[i] = {system.row_count(world), 0, nullptr, nullptr};
             chunks[i].count = chunk_count(system, chunks[i].rows);
             total += chunks[i].count;
-            if (system.emit_bytes_a_row == 0) continue;
-            chunks[i].buffer = arena.take<std::byte>(size_t{chunks[i].rows} * system.emit_bytes_a_row + 64).data();
+            if (system.emit_bytes_a_row == 0 || chunks[i].count == 0) continue;
             chunks[i].emitted = arena.take<uint32_t>(chunks[i].count).data();
+            if (!chunks[i].emitted)
+                assertion_failed("arena", __FILE__, __LINE__, "no room to count events of %s", system.name.c_str());
             for (uint32_t c = 0; c < chunks[i].count; ++c) chunks[i].emitted[c] = 0;
+            const size_t lines = (size_t{chunks[i].rows} * system.emit_bytes_a_row + sizeof(Line) - 1) / sizeof(Line);
+            chunks[i].buffer = reinterpret_cast<std::byte*>(arena.take<Line>(lines).data());
         }
         const uint64_t start = now_ns();
         if (total == 1) {
@@ -236,8 +248,11 @@ class FramePlan {
         const uint64_t end = now_ns();
         for (uint32_t i = 0; i < pass.count; ++i) {
             const PlannedSystem<World>& system = systems_[pass.first + i];
-            for (uint32_t c = 0; chunks[i].buffer && c < chunks[i].count; ++c)
-                system.join(world, chunks[i].buffer + size_t{c} * system.chunk_rows * system.emit_bytes_a_row,
+            for (uint32_t c = 0; chunks[i].emitted && c < chunks[i].count; ++c)
+                system.join(world,
+                            chunks[i].buffer
+                                ? chunks[i].buffer + size_t{c} * system.chunk_rows * system.emit_bytes_a_row
+                                : nullptr,
                             chunks[i].emitted[c]);
             if (chunks[i].count) profiler.add(system.zone, start, end, chunks[i].rows);
         }

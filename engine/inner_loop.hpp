@@ -18,6 +18,12 @@ class InnerLoop {
  public:
     template <auto System>
     InnerLoop& then(uint32_t every = 1) {
+        using Sig = Signature<decltype(System)>;
+        static_assert(Sig::kKind != CallKind::Islands && std::tuple_size_v<typename Sig::Emits> == 0 &&
+                          std::tuple_size_v<typename Sig::Eaches> == 0,
+                      "Islands, Each and Emit belong to the frame");
+        CULLET_ASSERT(every == 1 || (every > 1 && !Sig::kHasTwoSided),
+                      "every %u: the sides of a two-sided column take turns each repetition", every);
         systems_.push_back(plan_system<World, System>("inner loop"));
         systems_.back().every = every;
         return *this;
@@ -38,6 +44,7 @@ class InnerLoop {
     };
 
     void run_alone(World& world, const Run& run) const {
+        const FpMode mode;
         for (uint32_t r = run.first; r < run.first + run.repetitions; ++r) {
             for (const PlannedSystem<World>& system : systems_) {
                 if ((r + 1) % system.every != 0) continue;
@@ -45,7 +52,7 @@ class InnerLoop {
                 for (uint32_t chunk = 0; chunk * system.chunk_rows < rows.count; ++chunk)
                     run_chunk(system, world, run.body, rows, chunk, r);
             }
-            if (!run.goes_on(world, run.body)) return;
+            if (run.goes_on && !run.goes_on(world, run.body)) return;
         }
     }
 
@@ -53,8 +60,12 @@ class InnerLoop {
     class Team {
      public:
         Team(const InnerLoop& loop, World& world, const Run& run) : loop_(loop), world_(world), run_(run) {
+            const FpMode mode;
             repetition_ = run.first;
-            open_next(0);
+            if (run.repetitions == 0)
+                is_over_.store(true, std::memory_order_relaxed);
+            else
+                open_next(0);
         }
         /// Called by each worker; returns when the run is over.
         void work() {
@@ -62,9 +73,7 @@ class InnerLoop {
             for (;;) {
                 uint64_t ticket = ticket_.load(std::memory_order_acquire);
                 if (is_over_.load(std::memory_order_acquire)) return;
-                const uint32_t chunk = static_cast<uint32_t>(ticket),
-                               count = chunk_count_.load(std::memory_order_relaxed);
-                if (chunk >= count) {
+                if (static_cast<uint32_t>(ticket) == 0) {
                     if (++idle < 4096) {
                         _mm_pause();
                     } else {
@@ -73,10 +82,12 @@ class InnerLoop {
                     }
                     continue;
                 }
-                if (!ticket_.compare_exchange_weak(ticket, ticket + 1, std::memory_order_acq_rel)) continue;
+                if (!ticket_.compare_exchange_weak(ticket, ticket - 1, std::memory_order_acq_rel)) continue;
+                // From here on until this chunk is done the pass cannot end, so that its plain members stand still.
                 idle = 0;
+                const uint32_t chunk = chunk_count_ - static_cast<uint32_t>(ticket);
                 loop_.run_chunk(loop_.systems_[system_], world_, run_.body, rows_, chunk, repetition_);
-                if (done_.fetch_add(1, std::memory_order_acq_rel) + 1 == count) open_next(system_ + 1);
+                if (left_.fetch_sub(1, std::memory_order_acq_rel) == 1) open_next(system_ + 1);
             }
         }
 
@@ -87,7 +98,7 @@ class InnerLoop {
                 if (system == loop_.systems_.size()) {
                     ++repetition_;
                     const bool is_last = repetition_ == run_.first + run_.repetitions;
-                    if (!run_.goes_on(world_, run_.body) || is_last) {
+                    if ((run_.goes_on && !run_.goes_on(world_, run_.body)) || is_last) {
                         is_over_.store(true, std::memory_order_release);
                         return;
                     }
@@ -107,9 +118,10 @@ class InnerLoop {
                 }
                 rows_ = rows;
                 system_ = system;
-                done_.store(0, std::memory_order_relaxed);
-                chunk_count_.store(chunks, std::memory_order_relaxed);
-                ticket_.store(((ticket_.load(std::memory_order_relaxed) >> 32) + 1) << 32, std::memory_order_release);
+                chunk_count_ = chunks;
+                left_.store(chunks, std::memory_order_relaxed);
+                ticket_.store((((ticket_.load(std::memory_order_relaxed) >> 32) + 1) << 32) | chunks,
+                              std::memory_order_release);
                 return;
             }
         }
@@ -118,10 +130,11 @@ class InnerLoop {
         World& world_;
         Run run_;
         Rows<void> rows_;
-        uint32_t system_ = 0, repetition_ = 0;
-        alignas(64) std::atomic<uint64_t> ticket_{0};  // pass number << 32 | next chunk
-        std::atomic<uint32_t> chunk_count_{0};
-        alignas(64) std::atomic<uint32_t> done_{0};
+        uint32_t system_ = 0, repetition_ = 0, chunk_count_ = 0;
+        // Pass number << 32 | chunks nobody has claimed. One word: with the count in another, a worker that holds the
+        // last pass's exhausted ticket beside the next pass's count claims a chunk that does not exist.
+        alignas(64) std::atomic<uint64_t> ticket_{0};
+        alignas(64) std::atomic<uint32_t> left_{0};  // chunks not done
         std::atomic<bool> is_over_{false};
     };
 

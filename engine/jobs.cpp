@@ -7,6 +7,7 @@
 #include <condition_variable>
 #include <mutex>
 #include <thread>
+#include <utility>
 #include <vector>
 
 #include "engine/fp_mode.hpp"
@@ -44,8 +45,9 @@ class TbbJobs final : public JobSystem {
     oneapi::tbb::task_arena arena_;
 };
 
-// Threads of our own that spin briefly for the next pass, then sleep. Serves the thread sanitizer, which does not see
-// through oneTBB. A pass is numbered; a thread that comes late to one finds all of its jobs taken.
+// Threads of our own that sleep between passes. Serves the thread sanitizer, which does not see through oneTBB. A pass
+// is numbered; a thread that comes late to one finds all of its jobs taken. Callers take turns; a pass inside of a job
+// of this same system runs on that job's thread.
 class ThreadJobs final : public JobSystem {
  public:
     explicit ThreadJobs(uint32_t threads) {
@@ -62,6 +64,12 @@ class ThreadJobs final : public JobSystem {
     uint32_t worker_count() const override { return static_cast<uint32_t>(threads_.size()) + 1; }
     void parallel_for(uint32_t count, Job job, void* context) override {
         if (count == 0) return;
+        if (current() == this) {
+            const FpMode mode;
+            for (uint32_t i = 0; i < count; ++i) job(context, i);
+            return;
+        }
+        const std::lock_guard turn(turn_);
         {
             const std::lock_guard lock(mutex_);
             job_ = job, context_ = context, count_ = count;
@@ -76,11 +84,19 @@ class ThreadJobs final : public JobSystem {
     }
 
  private:
+    static const ThreadJobs*& current() {
+        static thread_local const ThreadJobs* jobs = nullptr;
+        return jobs;
+    }
     void take_jobs() {
         const FpMode mode;
+        const ThreadJobs* const before = std::exchange(current(), this);
         for (;;) {
             const uint32_t i = next_.fetch_add(1, std::memory_order_relaxed);
-            if (i >= count_) return;
+            if (i >= count_) {
+                current() = before;
+                return;
+            }
             job_(context_, i);
             done_.fetch_add(1, std::memory_order_acq_rel);
         }
@@ -99,7 +115,7 @@ class ThreadJobs final : public JobSystem {
             if (--busy_ == 0) finished_.notify_one();
         }
     }
-    std::mutex mutex_;
+    std::mutex turn_, mutex_;
     std::condition_variable wake_, finished_;
     std::vector<std::thread> threads_;
     Job job_ = nullptr;

@@ -6,11 +6,15 @@ namespace cullet {
 namespace {
 constexpr double kPi = 3.14159265358979323846;
 constexpr double kLn2 = 0.69314718055994530942;
+// pi/2 and ln 2 in two parts (Cody and Waite): the first has 33 and 32 bits, so that its product with an integer of up
+// to 20 bits is exact.
+constexpr double kHalfPiHigh = 0x1.921fb544p+0, kHalfPiLow = 0x1.0b4611a626331p-34;
+constexpr double kLn2High = 0x1.62e42feep-1, kLn2Low = 0x1.a39ef35793c76p-33;
 }  // namespace
 
 void sine_cosine(double x, double& sine, double& cosine) {
     const double quarter = std::floor(x / (kPi / 2) + 0.5);
-    const double r = x - quarter * (kPi / 2), r2 = r * r;
+    const double r = (x - quarter * kHalfPiHigh) - quarter * kHalfPiLow, r2 = r * r;
     double s = 0, c = 0;
     for (int n = 9; n >= 1; --n) {
         s = (1.0 + s) * -r2 / ((2.0 * n) * (2.0 * n + 1.0));
@@ -36,7 +40,7 @@ void sine_cosine(double x, double& sine, double& cosine) {
 
 double arc_cosine(double x) {
     x = x < -1 ? -1 : x > 1 ? 1 : x;
-    // Bisection would do; Newton on cos(a) = x loses digits where the sine is small, so work on the half angle there.
+    // Newton on cos(a) = x loses digits where the sine is small; the half angle does not.
     // acos(x) = 2 atan(sqrt((1 - x) / (1 + x))), atan by two argument halvings and its series.
     if (x == -1) return kPi;
     double t = std::sqrt((1 - x) / (1 + x));
@@ -67,7 +71,7 @@ double logarithm(double x) {
 
 double exponential(double x) {
     const double k = std::floor(x / kLn2 + 0.5);
-    const double r = x - k * kLn2;
+    const double r = (x - k * kLn2High) - k * kLn2Low;
     double sum = 1;
     for (int n = 16; n >= 1; --n) sum = 1 + r / n * sum;
     return sum * std::bit_cast<double>(static_cast<uint64_t>(static_cast<int64_t>(k) + 1023) << 52);

@@ -1,5 +1,5 @@
 // Where a frame's time goes: a zone a system, one sample a frame, and spans for a Chrome trace. Its memory is taken
-// when it is made; when it is full the later samples are left out and counted.
+// when it is made; when it is full the later spans are left out and counted, and the last frame is written over.
 #pragma once
 #include <cstdint>
 #include <span>
@@ -23,14 +23,14 @@ class Profiler {
     Profiler(const Profiler&) = delete;
     Profiler& operator=(const Profiler&) = delete;
 
-    /// `name` must outlive the profiler.
-    uint32_t add_zone(const char* name);
+    /// Its number. From the last place on all names share one zone.
+    uint32_t add_zone(const std::string& name);
     uint32_t zone_count() const { return static_cast<uint32_t>(zones_.size()); }
-    const char* zone_name(uint32_t zone) const { return zones_[zone]; }
+    const std::string& zone_name(uint32_t zone) const { return zones_[zone]; }
 
     void begin_frame(uint64_t frame);
     void end_frame();
-    /// Time of `zone` in this frame; several are added up. Calling thread of step() only.
+    /// Time of `zone` in this frame; several are added up. Between begin_frame and end_frame, on their thread.
     void add(uint32_t zone, uint64_t start_ns, uint64_t end_ns, uint64_t rows);
     /// A span on a worker's track of the trace; any thread. `worker` 0 is the caller's.
     void add_span(uint32_t zone, uint32_t worker, uint64_t start_ns, uint64_t end_ns);
@@ -42,6 +42,8 @@ class Profiler {
     float frame_ms(uint32_t n) const { return frames()[n].ms; }
     float zone_ms(uint32_t n, uint32_t zone) const { return frames()[n].zone_ms[zone]; }
     uint64_t zone_rows(uint32_t zone) const { return rows_[zone]; }
+    /// Spans and counters that found no room.
+    uint64_t left_out() const { return span_count_ > span_limit_ ? span_count_ - span_limit_ : 0; }
 
     Result<void> write_trace(const std::string& path) const;
 
@@ -60,9 +62,15 @@ class Profiler {
     Span* spans() const { return reinterpret_cast<Span*>(span_memory_); }
 
     std::byte *frame_memory_, *span_memory_;
-    uint32_t frame_limit_, span_limit_, frame_count_ = 0, span_count_ = 0;
-    std::vector<const char*> zones_;
+    uint32_t frame_limit_, span_limit_, frame_count_ = 0;
+    uint64_t span_count_ = 0;  // asked for; those past the limit are not there
+    bool is_in_frame_ = false;
+    std::vector<std::string> zones_;
     std::vector<uint64_t> rows_;
 };
+
+/// The smallest of `values` that at least `share` of them do not exceed (nearest rank); 0 without values. 0.5: median,
+/// 1: largest.
+float percentile(std::vector<float> values, double share);
 
 }  // namespace cullet

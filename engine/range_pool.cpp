@@ -9,13 +9,14 @@
 namespace cullet {
 
 RangePool::RangePool(uint32_t limit, uint32_t alignment, uint32_t range_limit)
-    : limit_(limit & ~(alignment - 1)), alignment_(alignment) {
-    holes_.reserve(range_limit);
-    holes_.push_back({0, limit_});
+    : limit_(limit & ~(alignment - 1)), alignment_(alignment), range_limit_(range_limit ? range_limit : 1) {
+    holes_.reserve(range_limit_);
+    if (limit_) holes_.push_back({0, limit_});
 }
 
 uint32_t RangePool::take(uint32_t count) {
     if (count == 0) return 0;
+    if (count > limit_) return kNone;  // also: rounding up would wrap
     count = rounded(count);
     for (size_t h = 0; h < holes_.size(); ++h) {
         if (holes_[h].count < count) continue;
@@ -33,8 +34,11 @@ void RangePool::give_back(uint32_t first, uint32_t count) {
     count = rounded(count);
     auto after =
         std::lower_bound(holes_.begin(), holes_.end(), first, [](const Hole& h, uint32_t f) { return h.first < f; });
-    CULLET_ASSERT(after == holes_.end() || first + count <= after->first, "range %u + %u given back twice", first,
-                  count);
+    CULLET_ASSERT(count <= limit_ && first <= limit_ - count && first % alignment_ == 0,
+                  "range %u + %u was never taken: the table has %u rows", first, count, limit_);
+    CULLET_ASSERT((after == holes_.end() || first + count <= after->first) &&
+                      (after == holes_.begin() || (after - 1)->first + (after - 1)->count <= first),
+                  "range %u + %u given back twice", first, count);
     const bool joins_after = after != holes_.end() && first + count == after->first;
     const bool joins_before = after != holes_.begin() && (after - 1)->first + (after - 1)->count == first;
     if (joins_before && joins_after) {
@@ -46,8 +50,7 @@ void RangePool::give_back(uint32_t first, uint32_t count) {
         after->first = first;
         after->count += count;
     } else {
-        CULLET_ASSERT(holes_.size() < holes_.capacity(), "more than %zu holes in a table", holes_.capacity());
-        if (holes_.size() == holes_.capacity()) return;  // the rows are lost until the world ends, nothing else
+        if (holes_.size() == range_limit_) return;  // the rows are lost until the world ends, nothing else
         holes_.insert(after, {first, count});
     }
 }

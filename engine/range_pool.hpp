@@ -1,5 +1,6 @@
 // Ranges of rows in a table whose bodies come and go: first fit by lowest row, neighbours merged when freed. What it
 // hands out depends on the order of calls alone. Allocates only when it is made.
+// With room for twice as many holes as ranges are ever out, no row is ever lost: holes number at most one more.
 #pragma once
 #include <cstdint>
 #include <vector>
@@ -14,7 +15,9 @@ class RangePool {
     /// First row of a range of at least `count` rows, or kNone when no hole is large enough. count 0 gives row 0.
     uint32_t take(uint32_t count);
     void give_back(uint32_t first, uint32_t count);
-    /// One past the highest row ever in use now.
+    /// `count` as take() rounds it: the rows that the range really has.
+    uint32_t rounded(uint32_t count) const { return (count + alignment_ - 1) & ~(alignment_ - 1); }
+    /// One past the highest row in use now.
     uint32_t end() const;
     uint64_t hash(uint64_t seed) const;
 
@@ -22,8 +25,7 @@ class RangePool {
     struct Hole {
         uint32_t first, count;
     };
-    uint32_t rounded(uint32_t count) const { return (count + alignment_ - 1) & ~(alignment_ - 1); }
-    uint32_t limit_, alignment_;
+    uint32_t limit_, alignment_, range_limit_;
     std::vector<Hole> holes_;  // by first row
 };
 

@@ -26,6 +26,9 @@ std::string type_name_of(std::string_view pretty) {
 
 bool Access::overlaps(const Access& other) const {
     if (name == other.name) return true;
+    if ((kind == Kind::EveryTable && other.kind != Kind::Resource) ||
+        (other.kind == Kind::EveryTable && kind != Kind::Resource))
+        return true;
     const auto is_table_of = [](const std::string& table, const std::string& column) {
         return column.size() > table.size() && column.compare(0, table.size(), table) == 0 &&
                column[table.size()] == '.';

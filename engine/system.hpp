@@ -10,8 +10,9 @@
 //
 //     Rows<T>            once a chunk of rows of T, in parallel
 //     EachBody           in an inner loop: once for the task that it runs for; owns every row of that task
-//     Each<E>            once an event of the queue Events<E>, in parallel; owns every row of the body that the event
-//     names Islands            once a group of bodies that touch, in parallel Serial             once, alone
+//     Each<E>            once an event of the queue Events<E>, in parallel; owns every row of the event's body
+//     Islands            once a group of bodies that touch, in parallel
+//     Serial             once, on one thread
 //
 // Emit<E, n> beside Rows writes at most n events a row; buffers are joined in chunk order.
 #pragma once
@@ -131,7 +132,11 @@ class Emit {
     using Value = E;
     static constexpr uint32_t kMostARow = MostARow;
     Emit(E* buffer, uint32_t* count) : buffer_(buffer), count_(count) {}
-    void push(const E& event) const { buffer_[(*count_)++] = event; }
+    /// Without a buffer (the frame's arena is full) the event is counted and lost.
+    void push(const E& event) const {
+        if (buffer_) buffer_[*count_] = event;
+        ++*count_;
+    }
 
  private:
     E* buffer_;
@@ -147,7 +152,8 @@ enum class CallKind : uint8_t { Rows, Bodies, Islands, Serial };
 struct Access {
     std::string name;
     bool reads = false, writes = false, is_two_sided = false;
-    /// A table and any of its columns overlap, equal names overlap.
+    enum class Kind : uint8_t { Resource, Table, EveryTable } kind = Kind::Resource;
+    /// Equal names overlap, a table and any of its columns, and what holds every table with all of them.
     bool overlaps(const Access& other) const;
 };
 
@@ -188,7 +194,7 @@ struct Parameter;  // the primary template is for resources and values, below
 template <auto M>
 struct Parameter<In<M>> {
     static void describe(std::vector<Access>& list) {
-        list.push_back({column_name<M>(), true, false, ColumnOf<M>::kBuffers == Buffers::Two});
+        list.push_back({column_name<M>(), true, false, ColumnOf<M>::kBuffers == Buffers::Two, Access::Kind::Table});
     }
     template <class W>
     static In<M> bind(Call<W>& call) {
@@ -197,7 +203,9 @@ struct Parameter<In<M>> {
 };
 template <auto M>
 struct Parameter<InOut<M>> {
-    static void describe(std::vector<Access>& list) { list.push_back({column_name<M>(), true, true, false}); }
+    static void describe(std::vector<Access>& list) {
+        list.push_back({column_name<M>(), true, true, false, Access::Kind::Table});
+    }
     template <class W>
     static InOut<M> bind(Call<W>& call) {
         return InOut<M>(call.world.template table<TableOf<M>>().*M,
@@ -207,7 +215,7 @@ struct Parameter<InOut<M>> {
 template <auto M>
 struct Parameter<Out<M>> {
     static void describe(std::vector<Access>& list) {
-        list.push_back({column_name<M>(), false, true, ColumnOf<M>::kBuffers == Buffers::Two});
+        list.push_back({column_name<M>(), false, true, ColumnOf<M>::kBuffers == Buffers::Two, Access::Kind::Table});
     }
     template <class W>
     static Out<M> bind(Call<W>& call) {
@@ -265,6 +273,11 @@ struct Parameter<Emit<E, N>> {
 };
 template <class T>
 concept IsTable = std::is_base_of_v<AnyTable, std::remove_cvref_t<T>>;
+/// The struct that lists all tables of a world.
+template <class T>
+concept HoldsEveryTable = requires {
+    std::remove_cvref_t<T>::tables();
+};
 template <class P>
 requires std::is_lvalue_reference_v<P>
 struct Parameter<P> {
@@ -272,9 +285,10 @@ struct Parameter<P> {
     static constexpr bool kWrites = !std::is_const_v<std::remove_reference_t<P>>;
     static void describe(std::vector<Access>& list) {
         if constexpr (IsTable<P>)
-            list.push_back({Plain::kName, true, kWrites, false});
-        else if constexpr (!std::is_same_v<Plain, Arena>)
-            list.push_back({type_name<Plain>(), true, kWrites, false});
+            list.push_back({Plain::kName, true, kWrites, false, Access::Kind::Table});
+        else
+            list.push_back({type_name<Plain>(), true, kWrites, false,
+                            HoldsEveryTable<P> ? Access::Kind::EveryTable : Access::Kind::Resource});
     }
     template <class W>
     static P bind(Call<W>& call) {
@@ -310,6 +324,15 @@ struct IsEmit : std::false_type {};
 template <class E, uint32_t N>
 struct IsEmit<Emit<E, N>> : std::true_type {};
 
+template <class P>
+struct IsTwoSided : std::false_type {};
+template <auto M>
+struct IsTwoSided<In<M>> : std::bool_constant<ColumnOf<M>::kBuffers == Buffers::Two> {};
+template <auto M>
+struct IsTwoSided<InOut<M>> : IsTwoSided<In<M>> {};
+template <auto M>
+struct IsTwoSided<Out<M>> : IsTwoSided<In<M>> {};
+
 template <class A, class B>
 inline constexpr bool kRaces = false;  // In and a write of the same one-sided column in one parallel system
 template <auto M>
@@ -322,7 +345,7 @@ struct Signature;
 template <class... P>
 struct Signature<void (*)(P...)> {
     static constexpr int kCallParameters = (0 + ... +
-                                            int{IsRows<P>::value || std::is_same_v<P, EachBody> ||
+                                            int{IsRows<P>::value || IsEach<P>::value || std::is_same_v<P, EachBody> ||
                                                 std::is_same_v<P, Islands> || std::is_same_v<P, Serial>});
     static_assert(kCallParameters == 1, "a system takes exactly one of Rows<T>, EachBody, Each<E>, Islands, Serial");
     static constexpr CallKind kKind = (... || IsRows<P>::value)                                    ? CallKind::Rows
@@ -335,10 +358,14 @@ struct Signature<void (*)(P...)> {
     }
     static_assert(kKind == CallKind::Serial || !(... || races_with_any<P>()),
                   "a parallel system reads any row of a column that it writes: declare the column Buffers::Two");
-    static_assert(kKind == CallKind::Serial || kKind == CallKind::Bodies ||
-                      !(... ||
-                        (IsTable<P> && std::is_lvalue_reference_v<P> && !std::is_const_v<std::remove_reference_t<P>>)),
-                  "only Serial and EachBody systems may change a whole table");
+    template <class A>
+    static constexpr bool kChanges = std::is_lvalue_reference_v<A> && !std::is_const_v<std::remove_reference_t<A>>;
+    static_assert(kKind == CallKind::Serial || kKind == CallKind::Bodies || !(... || kChanges<P>),
+                  "only Serial, EachBody and Each systems may change a whole table, only Serial ones a resource");
+    static_assert(
+        kKind != CallKind::Bodies || (... || std::is_same_v<P, EachBody>) ||
+            !(... || (kChanges<P> && !IsTable<P> && !HoldsEveryTable<P>)),
+        "calls of an Each system run at once: only a Serial system may change a resource, the arena or a queue");
 
     template <class P1>
     static auto row_table_of() {
@@ -365,6 +392,7 @@ struct Signature<void (*)(P...)> {
     using Eaches = decltype(std::tuple_cat(each_of<P>()...));
     using Emits = decltype(std::tuple_cat(emit_of<P>()...));
     static_assert(std::tuple_size_v<Emits> <= 1, "one Emit a system");
+    static constexpr bool kHasTwoSided = (... || IsTwoSided<P>::value);
 
     static std::vector<Access> accesses() {
         std::vector<Access> list;
@@ -396,7 +424,17 @@ void run(World& world) {
         using T = std::remove_pointer_t<std::tuple_element_t<0, typename Sig::RowTables>>;
         call.count = world.template table<T>().size();
     }
-    Sig::template invoke<System>(call);
+    if constexpr (std::tuple_size_v<typename Sig::Emits> == 1) {
+        using E = std::remove_pointer_t<std::tuple_element_t<0, typename Sig::Emits>>;
+        std::vector<typename E::Value> events(size_t{call.count} * E::kMostARow);
+        uint32_t emitted = 0;
+        call.emit_buffer = events.data();
+        call.emit_count = &emitted;
+        Sig::template invoke<System>(call);
+        for (uint32_t e = 0; e < emitted; ++e) world.template resource<Events<typename E::Value>>().push(events[e]);
+    } else {
+        Sig::template invoke<System>(call);
+    }
 }
 
 }  // namespace cullet

@@ -19,8 +19,9 @@ uint32_t AnyTable::append(uint32_t count) {
 
 void AnyTable::copy_rows(const AnyTable& source, uint32_t from, uint32_t to, uint32_t count) {
     CULLET_ASSERT(source.columns_ == columns_, "copy of rows between tables of two types");
-    CULLET_ASSERT(from + count <= source.size_ && to + count <= size_, "copy of rows %u + %u past the end of %s", from,
-                  count, name_);
+    if (count == 0) return;
+    CULLET_ASSERT(count <= source.size_ && from <= source.size_ - count && count <= size_ && to <= size_ - count,
+                  "copy of rows %u + %u past the end of %s", from, count, name_);
     for (const ColumnInfo& c : *columns_)
         for (int a = 0; a < c.lanes * c.sides; ++a)
             std::memmove(column_memory(c, a) + size_t{to} * c.row_bytes,
@@ -28,6 +29,9 @@ void AnyTable::copy_rows(const AnyTable& source, uint32_t from, uint32_t to, uin
 }
 
 void AnyTable::clear_rows(uint32_t first, uint32_t count) {
+    if (count == 0) return;
+    CULLET_ASSERT(count <= size_ && first <= size_ - count, "clearing rows %u + %u past the end of %s", first, count,
+                  name_);
     for (const ColumnInfo& c : *columns_)
         for (int a = 0; a < c.lanes * c.sides; ++a)
             std::memset(column_memory(c, a) + size_t{first} * c.row_bytes, 0, size_t{count} * c.row_bytes);
@@ -60,8 +64,7 @@ std::string AnyTable::validate() const {
                                              ? static_cast<double>(reinterpret_cast<const float*>(place)[k])
                                              : reinterpret_cast<const double*>(place)[k];
                     if (!std::isfinite(value))
-                        return std::string(name_) + "." + c.name + "[" + std::to_string(row) + "] is " +
-                               describe_value(c, a, row) + ", not a finite number";
+                        return place_of(c, a, row) + " is " + describe_value(c, a, row) + ", not a finite number";
                 }
     }
     return {};
@@ -71,7 +74,6 @@ std::string AnyTable::first_difference(const AnyTable& other) const {
     if (size_ != other.size_)
         return std::string(name_) + ": " + std::to_string(size_) + " rows here, " + std::to_string(other.size_) +
                " there";
-    static const char* const kLaneNames[3] = {".x", ".y", ".z"};
     for (const ColumnInfo& c : *columns_) {
         if (c.keep != Keep::State) continue;
         for (int a = 0; a < c.lanes * c.sides; ++a) {
@@ -80,44 +82,52 @@ std::string AnyTable::first_difference(const AnyTable& other) const {
             uint32_t row = 0;
             while (std::memcmp(mine + size_t{row} * c.row_bytes, theirs + size_t{row} * c.row_bytes, c.row_bytes) == 0)
                 ++row;
-            return std::string(name_) + "." + c.name + "[" + std::to_string(row) + "]" +
-                   (c.lanes == 3 ? kLaneNames[a % 3] : "") + ": " + describe_value(c, a, row) + " here, " +
-                   other.describe_value(c, a, row) + " there";
+            uint32_t byte = 0;
+            while (mine[size_t{row} * c.row_bytes + byte] == theirs[size_t{row} * c.row_bytes + byte]) ++byte;
+            return place_of(c, a, row) + ": " + describe_value(c, a, row, byte) + " here, " +
+                   other.describe_value(c, a, row, byte) + " there";
         }
     }
     return {};
 }
 
-std::string AnyTable::describe_value(const ColumnInfo& c, int array, uint32_t row) const {
-    const std::byte* place = column_memory(c, array) + size_t{row} * c.row_bytes;
+std::string AnyTable::place_of(const ColumnInfo& c, int array, uint32_t row) const {
+    static const char* const kLaneNames[3] = {".x", ".y", ".z"};
+    return std::string(name_) + "." + c.name + "[" + std::to_string(row) + "]" +
+           (c.lanes == 3 ? kLaneNames[array % 3] : "");
+}
+
+std::string AnyTable::describe_value(const ColumnInfo& c, int array, uint32_t row, uint32_t from) const {
+    const std::byte* bytes = column_memory(c, array) + size_t{row} * c.row_bytes;
     std::string text;
     for (int k = 0; k < c.components; ++k) {
         char digits[48];
         std::to_chars_result end{digits, {}};
         switch (c.scalar) {
             case Scalar::U8:
-                end = std::to_chars(digits, digits + 48, reinterpret_cast<const uint8_t*>(place)[k]);
+                end = std::to_chars(digits, digits + 48, reinterpret_cast<const uint8_t*>(bytes)[k]);
                 break;
             case Scalar::U16:
-                end = std::to_chars(digits, digits + 48, reinterpret_cast<const uint16_t*>(place)[k]);
+                end = std::to_chars(digits, digits + 48, reinterpret_cast<const uint16_t*>(bytes)[k]);
                 break;
             case Scalar::Row:
             case Scalar::U32:
-                end = std::to_chars(digits, digits + 48, reinterpret_cast<const uint32_t*>(place)[k]);
+                end = std::to_chars(digits, digits + 48, reinterpret_cast<const uint32_t*>(bytes)[k]);
                 break;
             case Scalar::U64:
-                end = std::to_chars(digits, digits + 48, reinterpret_cast<const uint64_t*>(place)[k]);
+                end = std::to_chars(digits, digits + 48, reinterpret_cast<const uint64_t*>(bytes)[k]);
                 break;
             case Scalar::F32:
-                end = std::to_chars(digits, digits + 48, reinterpret_cast<const float*>(place)[k]);
+                end = std::to_chars(digits, digits + 48, reinterpret_cast<const float*>(bytes)[k]);
                 break;
             case Scalar::F64:
-                end = std::to_chars(digits, digits + 48, reinterpret_cast<const double*>(place)[k]);
+                end = std::to_chars(digits, digits + 48, reinterpret_cast<const double*>(bytes)[k]);
                 break;
             case Scalar::Bytes:
-                for (uint32_t b = 0; b < c.row_bytes && b < 16; ++b) {
+                if (from) text.append("byte ").append(std::to_string(from)).append(" ");
+                for (uint32_t b = from; b < c.row_bytes && b < from + 16; ++b) {
                     static const char* const kHex = "0123456789abcdef";
-                    const auto byte = static_cast<unsigned>(place[b]);
+                    const auto byte = static_cast<unsigned>(bytes[b]);
                     text += kHex[byte >> 4];
                     text += kHex[byte & 15];
                 }
@@ -133,7 +143,7 @@ std::string AnyTable::describe_row(uint32_t row) const {
     std::string text = std::string(name_) + "[" + std::to_string(row) + "]";
     for (const ColumnInfo& c : *columns_) {
         text += std::string(" ") + c.name + "=";
-        for (int lane = 0; lane < c.lanes; ++lane) text += (lane ? "," : "") + describe_value(c, lane, row);
+        for (int lane = 0; lane < c.lanes; ++lane) text.append(lane ? "," : "").append(describe_value(c, lane, row));
         if (std::strcmp(c.unit, "1") != 0) text += std::string(" ") + c.unit;
     }
     return text;

@@ -149,9 +149,10 @@ class AnyTable {
     void commit_rows(uint32_t count);
 
     uint64_t hash(uint64_t seed) const;
-    /// Empty, or a sentence naming the first value that is not finite.
+    /// Empty, or a sentence naming the first value that is not finite, of State or Scratch. Infinity is not finite: a
+    /// column whose "never" is infinite has to be written as its largest float.
     std::string validate() const;
-    /// Empty, or "vertices.velocity[812]: 1.5 here, 1.25 there" for the first State value that differs.
+    /// Empty, or "vertices.velocity[812].y: 1.5 here, 1.25 there" for the first State value that differs.
     std::string first_difference(const AnyTable& other) const;
     std::string describe_row(uint32_t row) const;
     uint64_t bytes_a_row() const;
@@ -163,7 +164,9 @@ class AnyTable {
     explicit AnyTable(uint32_t limit) : limit_(limit) {}
     ~AnyTable() = default;
     std::byte* column_memory(const ColumnInfo& column, int array) const;
-    std::string describe_value(const ColumnInfo& column, int array, uint32_t row) const;
+    /// Of plain bytes: 16 of them, from byte `from` on.
+    std::string describe_value(const ColumnInfo& column, int array, uint32_t row, uint32_t from = 0) const;
+    std::string place_of(const ColumnInfo& column, int array, uint32_t row) const;
 
     uint32_t size_ = 0, limit_ = 0;
     const char* name_ = "";

@@ -1,0 +1,19 @@
+// How often a program asks for memory: malloc and everything like it, operator new, on all threads. A step of a world
+// is meant to ask for none; what the rigid engine asks for is counted apart, because it is not ours to change.
+//
+// Linking a call of these functions replaces malloc in the program (glibc), so nothing is to be switched on when built.
+// Under a sanitizer, which has a malloc of its own, operator new alone is counted.
+#pragma once
+#include <cstdint>
+
+namespace cullet {
+
+struct AllocationCounts {
+    uint64_t ours = 0, rigid = 0;  // rigid: made while inside_rigid_engine()
+};
+
+/// Counts from zero. Counting is one for the whole program; do not nest.
+void start_counting_allocations();
+AllocationCounts stop_counting_allocations();
+
+}  // namespace cullet

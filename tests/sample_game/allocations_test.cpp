@@ -1,0 +1,131 @@
+#include "sample_game/allocations.hpp"
+
+#include <gtest/gtest.h>
+#include <malloc.h>
+
+#include <cstdlib>
+#include <memory>
+#include <thread>
+#include <vector>
+
+#include "engine/jobs.hpp"
+#include "engine/rigid_allocations.hpp"
+
+namespace cullet {
+namespace {
+
+// Keeps the compiler from leaving out an allocation that nobody uses.
+void use(void* memory) {
+    asm volatile("" : : "g"(memory) : "memory");
+}
+
+template <class F>
+AllocationCounts counted(F call) {
+    start_counting_allocations();
+    call();
+    return stop_counting_allocations();
+}
+
+TEST(Allocations, NothingIsCountedWhenNothingIsAllocated) {
+    const AllocationCounts counts = counted([] {});
+    EXPECT_EQ(counts.ours, 0u);
+    EXPECT_EQ(counts.rigid, 0u);
+}
+
+TEST(Allocations, EveryWayToAskForMemoryIsSeenOnce) {
+    const auto one = [](auto ask) { return counted([&] { use(ask()); }).ours; };
+    std::vector<void*> mine(16);
+    EXPECT_EQ(one([&] { return mine[0] = std::malloc(10); }), 1u);
+    EXPECT_EQ(one([&] { return mine[1] = std::calloc(3, 10); }), 1u);
+    EXPECT_EQ(one([&] { return mine[0] = std::realloc(mine[0], 1000); }), 1u);
+    EXPECT_EQ(one([&] { return mine[2] = std::aligned_alloc(64, 128); }), 1u);
+    EXPECT_EQ(one([&] { return mine[3] = memalign(256, 10); }), 1u);
+    EXPECT_EQ(one([&] { return posix_memalign(&mine[4], 4096, 10), mine[4]; }), 1u);
+    EXPECT_EQ(reinterpret_cast<uintptr_t>(mine[4]) % 4096, 0u);
+    for (void* memory : mine) std::free(memory);
+    void* wrong = nullptr;
+    EXPECT_EQ(posix_memalign(&wrong, 3, 10), EINVAL);
+}
+
+TEST(Allocations, OperatorNewIsSeenOnceAlignedOrNot) {
+    struct alignas(128) Wide {
+        char bytes[128];
+    };
+    std::unique_ptr<int> plain;
+    std::unique_ptr<Wide> wide;
+    EXPECT_EQ(counted([&] { plain.reset(new int(3)), use(plain.get()); }).ours, 1u);
+    EXPECT_EQ(counted([&] { wide.reset(new Wide), use(wide.get()); }).ours, 1u);
+    EXPECT_EQ(reinterpret_cast<uintptr_t>(wide.get()) % 128, 0u);
+}
+
+TEST(Allocations, AVectorThatDoublesAsksElevenTimesForAThousandRows) {
+    const AllocationCounts counts = counted([] {
+        std::vector<int> rows;
+        for (int r = 0; r < 1000; ++r) rows.push_back(r), use(rows.data());
+    });
+    EXPECT_EQ(counts.ours, 11u);  // 1, 2, 4 ... 1024
+}
+
+TEST(Allocations, WithinReservedRoomNothingIsAsked) {
+    std::vector<int> rows;
+    rows.reserve(1000);
+    const AllocationCounts counts = counted([&] {
+        for (int r = 0; r < 1000; ++r) rows.push_back(r), use(rows.data());
+    });
+    EXPECT_EQ(counts.ours, 0u);
+}
+
+TEST(Allocations, NothingIsCountedAfterTheEndOrBeforeTheStart) {
+    counted([] {});
+    use(std::make_unique<int>(1).get());
+    EXPECT_EQ(counted([] {}).ours, 0u);
+    EXPECT_EQ(stop_counting_allocations().ours, 0u);
+}
+
+TEST(Allocations, InsideTheRigidEngineTheyAreCountedApart) {
+    std::vector<std::unique_ptr<int>> kept(3);
+    const AllocationCounts counts = counted([&] {
+        {
+            const InsideRigidEngine inside;
+            kept[0] = std::make_unique<int>(1);
+            {
+                const InsideRigidEngine again;
+                kept[1] = std::make_unique<int>(2);
+            }
+        }
+        kept[2] = std::make_unique<int>(3);
+    });
+    EXPECT_EQ(counts.rigid, 2u);
+    EXPECT_EQ(counts.ours, 1u);
+}
+
+void every_job_allocates(JobSystem& jobs, uint64_t& ours) {
+    constexpr uint32_t kJobs = 2000;
+    std::vector<void*> kept(kJobs);
+    const auto pass = [&] {
+        parallel_for(jobs, kJobs, [&](uint32_t i) { use(kept[i] = std::malloc(16)); });
+        for (void* memory : kept) std::free(memory);
+    };
+    pass();  // the threads' own first allocations
+    start_counting_allocations();
+    pass();
+    ours = stop_counting_allocations().ours;
+}
+
+TEST(Allocations, ThreadsOfOurOwnAreSeen) {
+    const auto jobs = make_jobs(JobBackend::Threads, 3);
+    uint64_t ours = 0;
+    every_job_allocates(*jobs, ours);
+    EXPECT_EQ(ours, 2000u);
+}
+
+TEST(Allocations, ThreadsOfTbbAreSeen) {
+    const auto jobs = make_jobs(JobBackend::Tbb, 2);
+    uint64_t ours = 0;
+    every_job_allocates(*jobs, ours);
+    EXPECT_GE(ours, 2000u);
+    EXPECT_LT(ours, 2100u);  // tasks of TBB's own come from its pools
+}
+
+}  // namespace
+}  // namespace cullet
