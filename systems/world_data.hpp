@@ -5,14 +5,15 @@
 #include "components/state.hpp"
 #include "cullet/events.hpp"
 #include "cullet/settings.hpp"
-#include "engine/inner_loop.hpp"
+#include "engine/arena.hpp"
+#include "engine/events.hpp"
 #include "engine/rigid_world.hpp"
 
 namespace cullet {
 
 /// A blow predicted from one contact of this step, before the solve.
 struct Impact {
-    Row<cullet::Bodies> body, striker;
+    Row<Bodies> body, striker;
     Vec3 point;            // world, m
     Vec3 normal;           // world, unit, the way the body is pushed
     float approach_speed;  // m/s
@@ -24,11 +25,10 @@ struct TaskOpened {
 /// A damage task that ended in this step.
 struct TaskEnded {
     Row<Tasks> task;
-    uint32_t part_count;  // components of its shell, written by group_fragments
 };
 /// A shell whose drawn mesh is to be made.
 struct ShellChanged {
-    Row<cullet::Bodies> body;
+    Row<Bodies> body;
 };
 
 struct DamageLoop;
@@ -48,13 +48,14 @@ struct DamageSettings {
 /// Counts since the world was made; not state.
 struct DamageCounts {
     uint64_t opened = 0, broke = 0, whole = 0, dropped = 0, redone = 0, late = 0, frames_held = 0, clamped = 0;
-    uint64_t steps = 0, cuts = 0, starts = 0, cuts_refused = 0;
+    uint64_t cuts = 0, starts = 0, cuts_refused = 0;
     uint64_t units_used = 0, units_left = 0;  // of the last frame
     double impulse_to_static[3] = {0, 0, 0};  // N s, from damage to floors, pins and kinematic bodies
 };
 
 struct WorldData {
-    WorldData(const Settings& settings, const Limits& limits);
+    explicit WorldData(const Settings& settings);
+    ~WorldData();
 
     State state;
     Step step_info;
@@ -80,21 +81,9 @@ struct WorldData {
     T& table() {
         return state.table<T>();
     }
-    /// Rows of a table that belong to a task's working shell.
-    template <class T>
-    Range rows_of(uint32_t task);
     template <class T>
     T& resource();
 };
-
-template <class T>
-Range WorldData::rows_of(uint32_t task) {
-    const Row<Shells> shell = state.tasks.shell[task];
-    if constexpr (std::is_same_v<T, Vertices>) return state.shells.vertices[shell];
-    if constexpr (std::is_same_v<T, Elements>) return state.shells.elements[shell];
-    if constexpr (std::is_same_v<T, Hinges>) return state.shells.hinges[shell];
-    if constexpr (std::is_same_v<T, StiffnessPacks>) return state.shells.packs[shell];
-}
 
 template <class T>
 T& WorldData::resource() {

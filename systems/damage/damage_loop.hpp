@@ -2,12 +2,12 @@
 #pragma once
 #include <string>
 
-#include "systems/world_data.hpp"
+#include "systems/damage/brittle_loop.hpp"
 
 namespace cullet {
 
 struct DamageLoop {
-    DamageLoop(WorldData& world, JobSystem& jobs, Profiler& profiler);
+    DamageLoop(State& state, JobSystem& jobs, Profiler& profiler);
 
     /// Every running task by its granted steps. With as many tasks as workers one job a task; with fewer, all workers share
     /// each task of more than kTeamVertices vertices, one after another, and the rest go one job a task.
@@ -17,11 +17,11 @@ struct DamageLoop {
     static constexpr uint32_t kTeamVertices = 1000;
 
  private:
-    WorldData& world_;
+    LoopWorld world_;
     JobSystem& jobs_;
     Profiler& profiler_;
-    InnerLoop<WorldData> brittle_;
-    uint32_t zone_ = 0;
+    BrittleLoop brittle_;
+    uint32_t zone_;
 };
 
 }  // namespace cullet
