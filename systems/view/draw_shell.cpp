@@ -66,9 +66,7 @@ EdgeKind kind_of(const ShellView& shell, uint32_t element, int k) {
 uint32_t write_vertex(Writer& w, Vec3 position, Vec3 normal, float u, float v) {
     ViewVertices& table = w.shell.state.view_vertices;
     const uint32_t row = w.first_vertex + w.vertex;
-    table.position[row] = {position.x, position.y, position.z};
-    table.normal[row] = {normal.x, normal.y, normal.z};
-    table.uv[row] = {u, v};
+    table.vertex[row] = {position, normal, {u, v}};
     return w.vertex++;
 }
 
