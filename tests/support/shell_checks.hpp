@@ -56,7 +56,13 @@ inline bool segment_meets(Vec3d p, Vec3d q, const std::array<Vec3d, 3>& t) {
     if (is_inside(p) || is_inside(q)) return true;
     for (size_t k = 0; k < 3; ++k) {
         const Vec3d a = t[k], b = t[(k + 1) % 3];
-        if (turn_of(p, q, a, drop) * turn_of(p, q, b, drop) <= 0 && turn_of(a, b, p, drop) * turn_of(a, b, q, drop) <= 0) return true;
+        const int pa = turn_of(p, q, a, drop), pb = turn_of(p, q, b, drop), ap = turn_of(a, b, p, drop), aq = turn_of(a, b, q, drop);
+        // On one line they meet only if an end of the edge lies on the segment (the other case is an end inside the triangle).
+        if (pa == 0 && pb == 0) {
+            if (dot(a - p, a - q) <= 0 || dot(b - p, b - q) <= 0) return true;
+        } else if (pa * pb <= 0 && ap * aq <= 0) {
+            return true;
+        }
     }
     return false;
 }
@@ -184,7 +190,7 @@ inline ShellReport check_shell(const Surface& s, const Extrusion& e, double thic
         }
         report.unflagged += is_flat != (e.is_degenerate_element[t] != 0);
     }
-    for (size_t c = 0; c < outer.size(); ++c) report.turned += s.components[c].is_closed && !(outer[c] * inner[c] > 0);
+    for (size_t c = 0; c < outer.size(); ++c) report.turned += s.components[c].is_closed && !(outer[c] * inner[c] > 0 || outer[c] == inner[c]);
     return report;
 }
 
