@@ -142,6 +142,15 @@ TEST(Surface, TheWallOfACavityKeepsItsWinding) {
     EXPECT_TRUE(s.independent.empty());
 }
 
+TEST(Surface, BlocksThatTouchAndAreAllInsideOutAreAllTurned) {
+    Mesh mesh;
+    for (int x = 0; x < 3; ++x)
+        for (int y = 0; y < 3; ++y) test::append(mesh, test::box_mesh({1, 1, 1}, 2), {1.0 * x, 1.0 * y, 0.25 * x});
+    const Surface s = prepared(test::turned_inside_out(mesh));
+    EXPECT_EQ(s.repairs.cavities, 0u) << describe(s.repairs);
+    for (const SurfaceComponent& c : s.components) EXPECT_TRUE(!c.is_closed || c.volume > 0);
+}
+
 TEST(Surface, ABowTieVertexIsSplitIntoItsFans) {
     Mesh mesh;
     mesh.positions = {{0, 0, 0}, {1, 1, 1}, {1, -1, 1}, {1, 0, -1}, {-1, 1, 1}, {-1, -1, 1}, {-1, 0, -1}};
