@@ -168,6 +168,9 @@ void measure(uint32_t frequency, const Options& options) {
                              [r = runners.back().get()] { r->prepare(); }});
         }
     }
+    timed.push_back({"strain pass, 1 thread", std::max(2u, steps / 4), [&](uint32_t n) {
+                         for (uint32_t i = 0; i < n; ++i) strain_elements(shell, 0, 0, shell.element_count());
+                     }});
     timed.push_back({"stress check, 1 thread", std::max(2u, steps / 4), [&](uint32_t n) {
                          for (uint32_t i = 0; i < n; ++i) {
                              check_stress(shell, 0);

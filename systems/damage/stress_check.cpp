@@ -3,6 +3,7 @@
 #include <hwy/foreach_target.h>
 // After foreach_target.h.
 #include <algorithm>
+#include <cstring>
 
 #include "systems/damage/element_stiffness.hpp"
 #include "systems/damage/stress_check.hpp"
@@ -37,26 +38,28 @@ HWY_INLINE V3 cross(V3 a, V3 b) {
             hn::Sub(hn::Mul(a.x, b.y), hn::Mul(a.y, b.x))};
 }
 
-/// Corners of 8 elements, one list a corner.
-struct Corners {
-    uint32_t list[3][kLanes];
-};
-/// Dead and missing elements read vertex 0 three times: no strain.
-HWY_INLINE void fill_corners(const StressTables& t, uint32_t e, uint32_t end, Corners& corners) {
+/// Corners of 8 elements, element after element; dead and missing ones read vertex 0 three times: no strain.
+HWY_INLINE const uint32_t* corners_of(const StressTables& t, uint32_t e, uint32_t end,
+                                      uint32_t (&patched)[3 * kLanes]) {
+    uint64_t flags = 0, dead = 0;
+    std::memcpy(&flags, t.flags + e, sizeof flags);
+    std::memset(&dead, kDead, sizeof dead);
+    if ((flags & dead) == 0 && e + kLanes <= end) return t.corner[e].data();
     for (uint32_t i = 0; i < kLanes; ++i) {
         const bool is_live = e + i < end && !(t.flags[e + i] & kDead);
-        for (size_t k = 0; k < 3; ++k) corners.list[k][i] = is_live ? t.corner[e + i][k] : 0;
+        for (size_t k = 0; k < 3; ++k) patched[3 * i + k] = is_live ? t.corner[e + i][k] : 0;
     }
+    return patched;
 }
 
 struct Strain {
     V3 membrane;  // xx, yy, gamma
     V3 slope;     // of the normal displacement against edge 0, 1, 2, towards the corner opposite
 };
-/// Of elements e to e + kStep, whose corners' lists start at `lane`.
-HWY_INLINE Strain strain(const StressTables& t, uint32_t e, const Corners& corners, uint32_t lane) {
-    const V3 w = gather(t.probe, corners.list[0] + lane);
-    const V3 d1 = gather(t.probe, corners.list[1] + lane) - w, d2 = gather(t.probe, corners.list[2] + lane) - w;
+/// Of elements e to e + kStep with these corners.
+HWY_INLINE Strain strain(const StressTables& t, uint32_t e, const uint32_t* corner) {
+    const V3 w = gather<3>(t.probe, corner);
+    const V3 d1 = gather<3>(t.probe, corner + 1) - w, d2 = gather<3>(t.probe, corner + 2) - w;
     const V3 x = load(t.axis_x, e), y = load(t.axis_y, e), i = load(t.inverse_edges, e), a = load(t.altitude, e);
     const V x1 = dot(x, d1), y1 = dot(y, d1), x2 = dot(x, d2), y2 = dot(y, d2);
     const V shear = hn::Add(hn::Add(hn::Mul(i.y, x1), hn::Mul(i.z, x2)), hn::Mul(i.x, y1));
@@ -69,17 +72,14 @@ HWY_INLINE Strain strain(const StressTables& t, uint32_t e, const Corners& corne
             {hn::Mul(a.x, to_2), hn::Neg(hn::Mul(a.y, hn::Add(to_1, to_2))), hn::Mul(a.z, to_1)}};
 }
 
-struct Slopes {
-    alignas(64) float list[3][kLanes];
-};
-/// Each hinge has one place for each of its elements.
-HWY_INLINE void scatter_slopes(const StressTables& t, uint32_t e, uint32_t end, const Slopes& slopes) {
+/// Each hinge has one place for each of its elements. Slopes of 8 elements, three an element.
+HWY_INLINE void scatter_slopes(const StressTables& t, uint32_t e, uint32_t end, const float* slope) {
     const uint32_t rows = std::min(kLanes, end - e);
-    for (uint32_t i = 0; i < rows; ++i)
-        for (size_t k = 0; k < 3; ++k) {
-            const uint32_t h = t.hinge[e + i][k];
-            if (h != kNone) t.angle[h][t.neighbour[e + i][k] < e + i] = slopes.list[k][i];
-        }
+    const uint32_t *hinge = t.hinge[e].data(), *neighbour = t.neighbour[e].data();
+    float* angle = t.angle->data();
+    for (uint32_t i = 0; i < rows; ++i, hinge += 3, neighbour += 3, slope += 3)
+        for (size_t k = 0; k < 3; ++k)
+            if (hinge[k] != kNone) angle[2 * size_t{hinge[k]} + (neighbour[k] < e + i)] = slope[k];
 }
 
 HWY_INLINE V3 stress(const StressTables& t, V scale, V3 eps) {
@@ -101,12 +101,12 @@ template <class Use>
 HWY_INLINE void strain_range(const StressTables& t, uint32_t first, uint32_t count, Use use) {
     const uint32_t end = first + count;
     for (uint32_t e = first; e < end; e += kLanes) {
-        Corners corners;
-        Slopes slopes;
-        fill_corners(t, e, end, corners);
+        uint32_t patched[3 * kLanes];
+        alignas(64) float slopes[3 * kLanes];
+        const uint32_t* corner = corners_of(t, e, end, patched);
         for (uint32_t lane = 0; lane < kLanes; lane += kStep) {
-            const Strain s = strain(t, e + lane, corners, lane);
-            store(s.slope, slopes.list[0] + lane, slopes.list[1] + lane, slopes.list[2] + lane);
+            const Strain s = strain(t, e + lane, corner + 3 * lane);
+            hn::StoreInterleaved3(s.slope.x, s.slope.y, s.slope.z, Floats(), slopes + 3 * lane);
             use(e + lane, s.membrane);
         }
         scatter_slopes(t, e, end, slopes);
@@ -138,10 +138,12 @@ struct Angles {
     alignas(64) float list[3][kBatch];
 };
 HWY_INLINE void gather_angles(const StressTables& t, uint32_t first, uint32_t rows, Angles& angles) {
-    for (uint32_t i = 0; i < rows; ++i)
+    const uint32_t* hinge = t.hinge[first].data();
+    const float* angle = t.angle->data();
+    for (uint32_t i = 0; i < rows; ++i, hinge += 3)
         for (size_t k = 0; k < 3; ++k) {
-            const uint32_t h = t.hinge[first + i][k];
-            angles.list[k][i] = h == kNone ? 0.0f : t.angle[h][0] + t.angle[h][1];
+            const float* sides = angle + 2 * size_t{hinge[k]};
+            angles.list[k][i] = hinge[k] == kNone ? 0.0f : sides[0] + sides[1];
         }
 }
 
