@@ -45,6 +45,8 @@ struct Shells : Table<Shells> {
     Column<Vec3d> centre{*this, "centre", "m"};        // of the prisms, body frame
     Column<Sym3d> inertia{*this, "inertia", "kg m2"};  // of the prisms about the centre, body axes
     Column<float> thickness{*this, "thickness", "m"};  // mean depth over elements by area
+    Column<float> depth_floor{*this, "depth_floor",
+                              "m"};  // least h of stiffness and contact: 0.05 eps; 0: 0.05 of the thickness
     Column<float> mean_edge{*this, "mean_edge", "m"};  // l, of the intact model; fragments inherit it
     Column<float> area{*this, "area", "m2"};
     Column<float> time_step{*this, "time_step", "s"};  // of the hidden run: 0.6 * 2 / omega_max; fragments inherit it

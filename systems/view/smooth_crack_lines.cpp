@@ -36,7 +36,10 @@ uint32_t list_crack_vertices(const ShellView& shell) {
     uint32_t count = 0;
     for (uint32_t v = 0; v < shell.vertex_count(); ++v) {
         const uint32_t row = shell.vertex(v);
-        if (vertices.border_next[row] != kNone && vertices.border_previous[row] != kNone) list[count++] = v;
+        const bool has_next = vertices.border_next[row] != kNone, has_previous = vertices.border_previous[row] != kNone;
+        if (has_next && has_previous) list[count++] = v;
+        // Where an edge at a crack was split, the new vertex may have inherited a shift.
+        if (!has_next && !has_previous) vertices.drawn_shift.set(row, {});
     }
     return count;
 }
