@@ -78,7 +78,7 @@ Result<void> check_drawn_mesh(ShellView shell, const Range& view_vertices, const
     double volume = 0, size = 0;
     for (uint32_t e = 0; e < shell.element_count(); ++e) {
         if (state.elements.flags[shell.element(e)] & kDead) continue;
-        const double v = prism_volume(load_prism(shell, e));
+        const double v = prism_volume(load_prism(shell, e, Surface::Drawn));
         volume += v;
         size += std::fabs(v);
     }
