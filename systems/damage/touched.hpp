@@ -6,7 +6,7 @@ namespace cullet {
 
 /// Vertices whose mass or elements changed since the last `refresh_stiffness`.
 struct Touched {
-    static constexpr uint32_t kMost = 256;  // a start with six arms and six inserts touches at most 49
+    static constexpr uint32_t kMost = 256;  // a start with six arms and six inserts touches about 100
     uint32_t count = 0;
     uint32_t vertex[kMost];
     void add(uint32_t v) {
