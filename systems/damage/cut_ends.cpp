@@ -44,14 +44,15 @@ CutOutcome cut_ends(ShellView shell, uint32_t vertex, Ends& ends, Touched& touch
     for (uint32_t i = 0; i < ends.count; ++i) {
         // The corners opposite lose a hinge.
         const uint32_t before = (first[i] + ring.count - 1) % ring.count;
-        touched.add(shell.state.elements.corner[shell.element(ring.element[before])][(ring.corner[before] + 1) % 3]);
+        touched.add_hinge_end(
+            shell.state.elements.corner[shell.element(ring.element[before])][(ring.corner[before] + 1) % 3]);
         touched.add(
             shell.state.elements.corner[shell.element(ring.element[first[i]])][(ring.corner[first[i]] + 2) % 3]);
         cut_edge(shell, ring.element[first[i]], ring.corner[first[i]]);
     }
     split_and_mark(shell, vertex, ring, touched);
     for (uint32_t i = 0; i < ends.count; ++i) {
-        touched.add(ends.end[i]);
+        touched.add_hinge_end(ends.end[i]);
         if (!ends.is_interior[i]) split_and_mark(shell, ends.end[i], end_ring[i], touched);
     }
     shell.shells().has_cracks[shell.row] = 1;
