@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "engine/assert.hpp"
 #include "engine/fp_mode.hpp"
 #include "engine/jobs.hpp"
 #include "engine/profiler.hpp"
