@@ -40,11 +40,14 @@ struct Shells : Table<Shells> {
     Column<Range> cells{*this, "cells"};
     Column<Range> points{*this, "points"};  // HullPoints of its cells
     Column<Row<Materials>> material{*this, "material"};
-    Column<uint32_t> users{*this, "users"};            // models, bodies and tasks that hold the row; 0 = free
-    Column<double> mass{*this, "mass", "kg"};          // sum over elements, ordered
-    Column<Vec3d> centre{*this, "centre", "m"};        // of the prisms, body frame
-    Column<Sym3d> inertia{*this, "inertia", "kg m2"};  // of the prisms about the centre, body axes
-    Column<float> thickness{*this, "thickness", "m"};  // mean depth over elements by area
+    Column<uint32_t> users{*this, "users"};                  // models, bodies and tasks that hold the row; 0 = free
+    Column<double> mass{*this, "mass", "kg"};                // sum over elements, ordered
+    Column<double> intact_mass{*this, "intact_mass", "kg"};  // of the model that it came from
+    Column<Vec3d> centre{*this, "centre", "m"};              // of the prisms, body frame
+    Column<Sym3d> inertia{*this, "inertia", "kg m2"};        // of the prisms about the centre, body axes
+    Column<float> thickness{*this, "thickness", "m"};        // mean depth over elements by area
+    Column<float> depth_floor{*this, "depth_floor",
+                              "m"};  // least h of stiffness and contact: 0.05 eps; 0: 0.05 of the thickness
     Column<float> mean_edge{*this, "mean_edge", "m"};  // l, of the intact model; fragments inherit it
     Column<float> area{*this, "area", "m2"};
     Column<float> time_step{*this, "time_step", "s"};  // of the hidden run: 0.6 * 2 / omega_max; fragments inherit it
@@ -89,10 +92,11 @@ struct Vertices : Table<Vertices> {
     Column<uint32_t> crack_start{*this, "crack_start"};  // vertex where the tip's crack started (its own root)
     Column<uint8_t> is_start_banned{*this, "is_start_banned"};  // within 3 l of a cut of this run (C2)
     // Hidden run: displacements about the rest shape, body axes. Zero while no task runs.
-    Column<Vec3> displacement{*this, "displacement", "m"};    // u
-    Column<Vec3> velocity{*this, "velocity", "m/s"};          // v
-    Column<Float4, Buffers::Two> probe{*this, "probe", "m"};  // u + beta v, where forces are evaluated; .w is 0
-    Column<float> stiffness_scale{*this, "stiffness_scale"};  // B7's limit at this vertex, in (0, 1]
+    Column<Vec3> displacement{*this, "displacement", "m"};     // u
+    Column<Vec3> velocity{*this, "velocity", "m/s"};           // v
+    Column<Float4, Buffers::Two> probe{*this, "probe", "m"};   // u + beta v, where forces are evaluated; .w is 0
+    Column<float> stiffness_scale{*this, "stiffness_scale"};   // B7's limit at this vertex, in (0, 1]
+    Column<uint32_t> copy{*this, "copy", "1", Keep::Scratch};  // make_piece: row in the piece being made
 };
 
 enum class EdgeKind : uint8_t { Interior = 0, Border = 1, Crack = 2 };
@@ -110,14 +114,19 @@ struct Elements : Table<Elements> {
     Column<double> mass{*this, "mass", "kg"};                      // rest prism; shared by area when an edge is split
     Column<double> volume{*this, "volume", "m3"};
     Column<uint8_t> flags{*this, "flags"};
-    Column<uint32_t> cell{*this, "cell"};  // of its lowest corner
-    Column<uint32_t> part{*this, "part"};  // component, written by group_fragments
+    Column<uint32_t> cell{*this, "cell"};                      // of its lowest corner
+    Column<uint32_t> part{*this, "part"};                      // component, written by group_fragments
+    Column<uint32_t> next{*this, "next", "1", Keep::Scratch};  // group_fragments: next of the part, or kNone
+    Column<uint32_t> copy{*this, "copy", "1", Keep::Scratch};  // make_piece: row in the piece being made
+    Column<uint32_t> next_in_cell{*this, "next_in_cell", "1", Keep::Scratch};  // make_piece
+    Column<uint8_t> drawn_edges{*this, "drawn_edges", "1", Keep::Scratch};  // draw_shell: bit k, side quad k is written
     // The game's own surface, three entries a triangle, interpolated when an edge is split.
     Column<std::array<float, 9>> normal{*this, "normal"};
     Column<std::array<float, 6>> uv{*this, "uv"};
     Column<uint16_t> drawn_material{*this, "drawn_material"};
-    // Scratch of the stress check: both faces, in the triangle's own axes (xx, yy, xy). [0..2] outer, [3..5] inner.
-    Column<std::array<float, 6>> stress{*this, "stress", "Pa", Keep::Scratch};
+    // Scratch of the stress check: both faces, (xx, yy, xy) in the triangle's own axes.
+    Column<Vec3> outer_stress{*this, "outer_stress", "Pa", Keep::Scratch};
+    Column<Vec3> inner_stress{*this, "inner_stress", "Pa", Keep::Scratch};
     Column<float> principal{*this, "principal", "Pa", Keep::Scratch};  // largest of both faces
 };
 
@@ -127,15 +136,17 @@ struct Elements : Table<Elements> {
 struct TriangleSprings : Table<TriangleSprings> {
     using Table::Table;
     static constexpr const char* kName = "triangle_springs";
-    Column<Vec3> axis_x{*this, "axis_x"};  // along edge 0, unit
-    Column<Vec3> axis_y{*this, "axis_y"};  // in the plane, unit
-    Column<std::array<float, 3>> inverse_edges{*this, "inverse_edges", "1/m"};
+    Column<Vec3> axis_x{*this, "axis_x"};                       // along edge 0, unit
+    Column<Vec3> axis_y{*this, "axis_y"};                       // in the plane, unit
+    Column<Vec3> inverse_edges{*this, "inverse_edges", "1/m"};  // i0, i1, i2
     Column<float> area{*this, "area", "m2"};
     Column<float> thickness{*this, "thickness", "m"};  // mean depth of the corners, at least 0.05 of the wanted depth
     Column<float> scale{*this, "scale"};               // B7's limit, in (0, 1]; also scales the stress
     /// Curvature (xx, yy, xy) a radian of the hinge across edge k: length / (2 area) * p p^T, p the edge's normal in
     /// the plane.
-    Column<std::array<float, 9>> curvature{*this, "curvature", "1/m"};
+    Column<Vec3> curvature_0{*this, "curvature_0", "1/m"};
+    Column<Vec3> curvature_1{*this, "curvature_1", "1/m"};
+    Column<Vec3> curvature_2{*this, "curvature_2", "1/m"};
 };
 
 /// One row is one interior edge that resists bending: theta = sum of gradient . u over its four vertices (B3).
@@ -193,6 +204,11 @@ struct Cells : Table<Cells> {
     Column<uint32_t> first_point{*this, "first_point"};  // relative to the shell's points
     Column<uint32_t> point_count{*this, "point_count"};  // <= 32; 0: the cell has lost all of its elements
     Column<uint32_t> element_count{*this, "element_count"};
+    // Scratch of make_piece: the part's elements of this cell as a list, and the cell that it is merged into.
+    Column<uint32_t> first_element{*this, "first_element", "1", Keep::Scratch};
+    Column<uint32_t> last_element{*this, "last_element", "1", Keep::Scratch};
+    Column<uint32_t> list_count{*this, "list_count", "1", Keep::Scratch};
+    Column<uint32_t> merged{*this, "merged", "1", Keep::Scratch};
 };
 
 /// One row is a corner of a cell's hull, body frame, pulled in by the collision margin.

@@ -8,6 +8,7 @@
 #include "components/shells.hpp"
 #include "components/tasks.hpp"
 #include "engine/range_pool.hpp"
+#include "engine/system.hpp"
 
 namespace cullet {
 
@@ -43,6 +44,7 @@ struct State {
     Tasks tasks;
     TaskContacts task_contacts;
     PatchVertices patch_vertices;
+    Fragments fragments;
     ViewVertices view_vertices;
     ViewIndices view_indices;
 
@@ -59,8 +61,8 @@ struct State {
                           &State::elements,        &State::triangle_springs, &State::hinges,
                           &State::stiffness_packs, &State::stiffness_blocks, &State::stiffness_links,
                           &State::cells,           &State::hull_points,      &State::tasks,
-                          &State::task_contacts,   &State::patch_vertices,   &State::view_vertices,
-                          &State::view_indices};
+                          &State::task_contacts,   &State::patch_vertices,   &State::fragments,
+                          &State::view_vertices,   &State::view_indices};
     }
     /// The table of type T.
     template <class T>
@@ -97,7 +99,12 @@ void release_shell(State& state, Row<Shells> shell);
 Row<Shells> copy_shell(State& state, Row<Shells> source, const ShellRoom& room, const char** full = nullptr);
 
 /// The second half of copy_shell, into a shell that make_shell made: serial systems reserve, parallel ones copy.
-void copy_shell_rows(State& state, Row<Shells> source, Row<Shells> copy, bool with_stiffness);
+void copy_shell_rows(State& to, const State& from, Row<Shells> source, Row<Shells> copy, bool with_stiffness);
+
+/// All tables that hold the rows of shells, as one parameter of a system that edits whole shells.
+struct ShellTables {
+    State& state;
+};
 
 /// The tables of one shell, with its ranges looked up: what the functions that edit a shell pass around. Indices are
 /// relative to the shell, as in the columns.
@@ -118,5 +125,24 @@ struct ShellView {
     uint32_t element_count() const { return elements().count; }
     uint32_t hinge_count() const { return hinges().count; }
 };
+
+template <>
+struct Parameter<ShellTables> {
+    static void describe(std::vector<Access>& list) {
+        for (const char* table :
+             {Shells::kName, Vertices::kName, Elements::kName, TriangleSprings::kName, Hinges::kName,
+              StiffnessPacks::kName, StiffnessBlocks::kName, StiffnessLinks::kName, Cells::kName, HullPoints::kName})
+            list.push_back({table, true, true, false});
+    }
+    template <class W>
+    static ShellTables bind(Call<W>& call) {
+        return {call.world.state};
+    }
+};
+
+template <>
+inline constexpr uint32_t kRowsPerChunk<StiffnessPacks> = 32;  // 256 vertices
+template <>
+inline constexpr uint32_t kRowsPerChunk<Hinges> = 1024;
 
 }  // namespace cullet

@@ -2,6 +2,7 @@
 // the body itself does not change until the task ends.
 #pragma once
 #include "components/shells.hpp"
+#include "engine/system.hpp"
 
 namespace cullet {
 
@@ -45,7 +46,35 @@ struct Tasks : Table<Tasks> {
     Column<uint64_t> units_used{*this, "units_used"};
     Column<uint64_t> units_owed{*this, "units_owed"};  // by cuts, taken from the next grant
     Column<uint8_t> is_held{*this, "is_held"};         // body (and striker) stand still meanwhile
+    Column<uint8_t> is_late{*this, "is_late"};         // the contact was solved as between rigid bodies meanwhile
     Column<uint32_t> frames_held{*this, "frames_held"};
+    Column<uint32_t> part_count{*this, "part_count"};  // components of its shell, once it ended
+};
+
+/// The task that an inner loop runs for.
+struct OfTask {
+    Row<Tasks> row;
+};
+template <>
+struct Parameter<OfTask> {
+    static void describe(std::vector<Access>&) {}
+    template <class W>
+    static OfTask bind(Call<W>& call) {
+        return {Row<Tasks>(call.body)};
+    }
+};
+
+/// Which repetition of an inner loop this is: step n reads side n & 1 of two-sided columns and writes the other.
+struct Turn {
+    uint32_t old_side, new_side;
+};
+template <>
+struct Parameter<Turn> {
+    static void describe(std::vector<Access>&) {}
+    template <class W>
+    static Turn bind(Call<W>& call) {
+        return {static_cast<uint32_t>(call.side), static_cast<uint32_t>(1 - call.side)};
+    }
 };
 
 inline constexpr uint32_t kMostContacts = 8;  // patches a task

@@ -100,6 +100,8 @@ class RigidWorld {
 
     virtual void solve(float dt) = 0;
 
+    /// Height of the highest static triangle straight below `point`, or `fallback`.
+    virtual float height_below(Vec3 point, float fallback) const = 0;
     virtual bool is_asleep(RigidId id) const = 0;
     virtual void wake(RigidId id) = 0;
     virtual RigidCounts counts() const = 0;

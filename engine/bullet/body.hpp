@@ -1,0 +1,81 @@
+// A row of the bridge: one body, static mesh or sphere, with its Bullet body in place.
+#pragma once
+#include <BulletCollision/CollisionShapes/btCollisionShape.h>
+#include <BulletDynamics/Dynamics/btRigidBody.h>
+
+#include <memory>
+#include <optional>
+
+#include "engine/bullet/bullet_types.hpp"
+#include "engine/bullet/contact_patch.hpp"
+#include "engine/bullet/hull.hpp"
+#include "engine/bullet/static_mesh.hpp"
+#include "engine/rigid_world.hpp"
+
+namespace cullet::bullet {
+
+struct Body;
+
+/// What Bullet sees of a body: the bounds of its points, grown by the range of contacts. Its type number is Bullet's
+/// INVALID, for which only our pair algorithm is registered and which Bullet's own ray and sweep queries pass over.
+class BodyShape : public btCollisionShape {
+ public:
+    BodyShape() { m_shapeType = INVALID_SHAPE_PROXYTYPE; }
+    void getAabb(const btTransform&, btVector3& low, btVector3& high) const override {
+        const Box wide = grown(box, kContactRange);
+        low = to_bullet(wide.low);
+        high = to_bullet(wide.high);
+    }
+    void setLocalScaling(const btVector3&) override {}
+    const btVector3& getLocalScaling() const override {
+        static const btVector3 one(1, 1, 1);
+        return one;
+    }
+    void calculateLocalInertia(btScalar, btVector3& inertia) const override { inertia.setZero(); }
+    const char* getName() const override { return "cullet"; }
+    void setMargin(btScalar) override {}
+    btScalar getMargin() const override { return 0; }
+
+    Box box = empty_box();  // world, of all pieces with their margins
+};
+
+struct Body {
+    RigidId id = kNoRigid;
+    bool is_used = false;
+    RigidKind kind = RigidKind::Dynamic;
+    std::optional<btRigidBody> bullet;
+    BodyShape shape;
+    BodyFrame frame;
+    float mass = 0;
+    btVector3 moments{0, 0, 0};
+    float friction = 0, restitution = 0, rolling_friction = 0;
+    float margin = 0;
+    Hull* hulls = nullptr;  // in the order of the caller's pieces
+    uint32_t hull_count = 0;
+    std::unique_ptr<StaticMesh> mesh;  // static triangles only
+    Box local_box = empty_box();       // of the points with margins, Bullet frame
+    float thickness = 0;               // least width of a piece
+    float reach = 0;                   // of the farthest point from the centre of mass
+
+    btTransform fresh_at;  // the transform that world points stand for
+    uint32_t moves = 0;    // counts changes of world points; pairs of unmoved bodies keep their contacts
+    uint32_t shape_changes = 0;
+
+    bool is_held = false;
+    Motion kept;  // velocities of a held body
+
+    btTransform anchor;  // the sleep timer's pose
+    float still_seconds = 0;
+
+    float moved_fraction = 1;  // of this step, less than 1 when stopped at a time of impact
+    bool is_fast = false;      // swept in this step
+
+    bool is_free() const { return kind == RigidKind::Dynamic && !is_held && bullet->isActive(); }
+};
+
+inline Mat3 rotation_of(const btTransform& transform) {
+    const btMatrix3x3& b = transform.getBasis();
+    return {{from_bullet(b[0]), from_bullet(b[1]), from_bullet(b[2])}};
+}
+
+}  // namespace cullet::bullet

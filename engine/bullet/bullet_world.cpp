@@ -1,0 +1,400 @@
+#include "engine/bullet/bullet_world.hpp"
+
+#include <algorithm>
+
+#include "engine/bullet/principal_axes.hpp"
+#include "engine/rigid_allocations.hpp"
+
+namespace cullet::bullet {
+namespace {
+
+constexpr float kAngularDamping = 0.1f;  // 1/s
+constexpr float kPushedApart = 0.0001f;  // m of overlap at which ignored siblings meet again
+constexpr unsigned long kSolverSeed = 1;
+
+btDefaultCollisionConstructionInfo construction_info(uint32_t body_limit) {
+    btDefaultCollisionConstructionInfo info;
+    const int rows = static_cast<int>(std::clamp<uint32_t>(8 * body_limit, 1024, 32768));
+    info.m_defaultMaxPersistentManifoldPoolSize = rows;
+    info.m_defaultMaxCollisionAlgorithmPoolSize = rows;
+    info.m_customCollisionAlgorithmMaxElementSize = sizeof(PairAlgorithm);
+    return info;
+}
+
+void near_callback(btBroadphasePair& pair, btCollisionDispatcher& dispatcher, const btDispatcherInfo&) {
+    static_cast<Dispatcher&>(dispatcher).world.meet(pair);
+}
+
+}  // namespace
+
+BulletWorld::BulletWorld(uint32_t body_limit)
+    : body_limit_(body_limit),
+      bodies_(new Body[body_limit]),
+      hulls_(4 * static_cast<size_t>(body_limit) + 256),
+      work_(body_limit),
+      configuration_(construction_info(body_limit)),
+      dispatcher_(&configuration_, *this),
+      world_(&dispatcher_, &broadphase_, &solver_, &configuration_),
+      sweeper_(body_limit) {
+    work_.bodies = bodies_.get();
+    dispatcher_.setDispatcherFlags(0);  // contact thresholds are ours, not relative to size
+    dispatcher_.setNearCallback(near_callback);
+    solver_.setRandSeed(kSolverSeed);
+    contacts_.reserve(32 * static_cast<size_t>(body_limit) + 1024);
+    manifolds_.reserve(8 * static_cast<size_t>(body_limit) + 1024);
+    ignored_.reserve(16 * static_cast<size_t>(body_limit) + 1024);
+    skipped_.reserve(1024);
+}
+
+BulletWorld::~BulletWorld() {
+    InsideRigidEngine guard;
+    for (RigidId id = 0; id < body_end_; ++id)
+        if (bodies_[id].is_used) world_.removeRigidBody(&*bodies_[id].bullet);
+}
+
+void BulletWorld::set_gravity(Vec3 gravity) {
+    InsideRigidEngine guard;
+    for (RigidId id = 0; id < body_end_; ++id)
+        if (bodies_[id].is_used && bodies_[id].kind == RigidKind::Dynamic) wake_body(bodies_[id]);
+    world_.setGravity(to_bullet(gravity));
+}
+
+void BulletWorld::drop_pieces(Body& body) {
+    while (body.hulls) {
+        Hull* const hull = body.hulls;
+        body.hulls = hull->next;
+        hulls_.give(hull);
+    }
+    body.hull_count = 0;
+}
+
+void BulletWorld::set_pieces(Body& body, std::span<const ConvexPiece> pieces, float margin) {
+    drop_pieces(body);
+    Hull** link = &body.hulls;
+    for (const ConvexPiece& piece : pieces) {
+        if (piece.points.empty()) continue;
+        Vec3 local[kMaxPoints];
+        const size_t count = std::min<size_t>(piece.points.size(), kMaxPoints);
+        for (size_t k = 0; k < count; ++k)
+            local[k] = rotate(conjugate(body.frame.axes), piece.points[k] - body.frame.centre);
+        Hull* const hull = hulls_.take();
+        build_hull(*hull, {local, count}, margin, piece.cell);
+        hull->ordinal = body.hull_count++;
+        *link = hull;
+        link = &hull->next;
+    }
+    measure_body(body);
+}
+
+void BulletWorld::measure_body(Body& body) {
+    body.local_box = empty_box();
+    body.thickness = kFar;
+    body.reach = 0;
+    for (const Hull* hull = body.hulls; hull; hull = hull->next) {
+        const Vec3 m{hull->margin, hull->margin, hull->margin};
+        for (uint32_t k = 0; k < hull->point_count; ++k) {
+            const Vec3 p = hull->local.centre + hull->local[k];
+            include(body.local_box, p - m);
+            include(body.local_box, p + m);
+            body.reach = std::max(body.reach, length(p) + hull->margin);
+        }
+        body.thickness = std::min(body.thickness, hull->thickness);
+    }
+    ++body.shape_changes;
+}
+
+void BulletWorld::set_mass(Body& body, double mass, Vec3d centre, const Sym3d& inertia) {
+    const PrincipalAxes principal = principal_axes(inertia);
+    body.frame = {centre.to_float(), principal.axes};
+    body.mass = body.kind == RigidKind::Dynamic ? std::max(static_cast<float>(mass), 1e-9f) : 0;
+    body.moments = body.kind == RigidKind::Dynamic ? to_bullet(principal.moments.to_float()) : btVector3(0, 0, 0);
+}
+
+void BulletWorld::enter(Body& body, const Pose& at, uint32_t layer, uint32_t mask) {
+    btRigidBody::btRigidBodyConstructionInfo info(body.mass, nullptr, &body.shape, body.moments);
+    info.m_startWorldTransform = to_bullet(at, body.frame);
+    info.m_angularDamping = kAngularDamping;
+    info.m_friction = body.friction;
+    info.m_restitution = body.restitution;
+    info.m_rollingFriction = info.m_spinningFriction = body.rolling_friction;
+    body.bullet.emplace(info);
+    btRigidBody& bullet = *body.bullet;
+    bullet.setUserIndex(static_cast<int>(body.id));
+    bullet.setFlags(body.kind == RigidKind::Dynamic ? BT_ENABLE_GYROSCOPIC_FORCE_IMPLICIT_BODY : 0);
+    if (body.kind == RigidKind::Kinematic) {
+        const int flags = bullet.getCollisionFlags() & ~btCollisionObject::CF_STATIC_OBJECT;
+        bullet.setCollisionFlags(flags | btCollisionObject::CF_KINEMATIC_OBJECT);
+    }
+    body.is_used = true;
+    body.is_held = false;
+    body.is_fast = false;
+    body.moved_fraction = 1;
+    body.still_seconds = 0;
+    body.anchor = info.m_startWorldTransform;
+    body_end_ = std::max(body_end_, body.id + 1);
+    refresh(body);
+    world_.addRigidBody(&bullet, static_cast<int>(layer), static_cast<int>(mask));
+}
+
+void BulletWorld::add_static_triangles(RigidId id, std::span<const Vec3> positions,
+                                       std::span<const std::array<uint32_t, 3>> triangles, float friction,
+                                       float restitution, uint32_t layer, uint32_t mask) {
+    InsideRigidEngine guard;
+    if (id >= body_limit_ || bodies_[id].is_used) return;
+    Body& body = bodies_[id];
+    body.id = id;
+    body.kind = RigidKind::Static;
+    body.friction = friction, body.restitution = restitution, body.rolling_friction = 0;
+    set_mass(body, 0, {}, {});
+    auto mesh = std::make_unique<StaticMesh>(sort_static_triangles(positions, triangles));
+    std::vector<ConvexPiece> pieces;
+    for (const auto& solid : mesh->solids) pieces.push_back({solid, static_cast<uint32_t>(pieces.size())});
+    set_pieces(body, pieces, 0);
+    body.mesh = mesh->triangles.empty() ? nullptr : std::move(mesh);
+    enter(body, {}, layer, mask);
+}
+
+void BulletWorld::add(RigidId id, const RigidDescription& d) {
+    InsideRigidEngine guard;
+    if (id >= body_limit_ || bodies_[id].is_used) return;
+    Body& body = bodies_[id];
+    body.id = id;
+    body.kind = d.kind;
+    body.friction = d.friction, body.restitution = d.restitution, body.rolling_friction = d.rolling_friction;
+    body.mesh.reset();
+    set_mass(body, d.mass, d.centre, d.inertia);
+    const Vec3 origin;
+    const ConvexPiece ball{{&origin, 1}, 0};
+    if (d.radius > 0)
+        set_pieces(body, {&ball, 1}, d.radius);
+    else
+        set_pieces(body, d.pieces, d.margin);
+    body.margin = d.radius > 0 ? d.radius : d.margin;
+    enter(body, d.pose, d.layer, d.mask);
+    set_motion(id, d.motion);
+}
+
+void BulletWorld::remove(RigidId id) {
+    if (!is_known(id)) return;
+    InsideRigidEngine guard;
+    Body& body = bodies_[id];
+    wake_touching(id);
+    for (SortedManifold& m : manifolds_)
+        if (m.a == id || m.b == id) m.manifold = nullptr;
+    world_.removeRigidBody(&*body.bullet);
+    body.bullet.reset();
+    body.mesh.reset();
+    drop_pieces(body);
+    body.is_used = false;
+    std::erase_if(ignored_, [id](const IgnoredPair& p) { return p.a == id || p.b == id; });
+    while (body_end_ > 0 && !bodies_[body_end_ - 1].is_used) --body_end_;
+}
+
+Pose BulletWorld::pose(RigidId id) const {
+    return is_known(id) ? from_bullet(bodies_[id].bullet->getWorldTransform(), bodies_[id].frame) : Pose{};
+}
+
+Motion BulletWorld::motion(RigidId id) const {
+    if (!is_known(id)) return {};
+    const Body& body = bodies_[id];
+    if (body.is_held) return body.kept;
+    return {from_bullet(body.bullet->getLinearVelocity()), from_bullet(body.bullet->getAngularVelocity())};
+}
+
+void BulletWorld::set_pose(RigidId id, const Pose& at) {
+    if (!is_known(id)) return;
+    InsideRigidEngine guard;
+    Body& body = bodies_[id];
+    wake_touching(id);
+    body.bullet->setCenterOfMassTransform(to_bullet(at, body.frame));
+    if (body.kind == RigidKind::Dynamic) wake_body(body);
+    refresh(body);
+}
+
+void BulletWorld::set_motion(RigidId id, const Motion& m) {
+    if (!is_known(id)) return;
+    InsideRigidEngine guard;
+    Body& body = bodies_[id];
+    const bool is_moving = dot(m.velocity, m.velocity) + dot(m.angular_velocity, m.angular_velocity) > 0;
+    if (body.is_held) {
+        body.kept = m;
+        return;
+    }
+    body.bullet->setLinearVelocity(to_bullet(m.velocity));
+    body.bullet->setAngularVelocity(to_bullet(m.angular_velocity));
+    if (body.kind == RigidKind::Kinematic) body.bullet->setActivationState(is_moving ? ACTIVE_TAG : ISLAND_SLEEPING);
+    if (body.kind == RigidKind::Dynamic && is_moving) wake_body(body);
+}
+
+void BulletWorld::set_shape(RigidId id, double mass, Vec3d centre, Sym3d inertia, std::span<const ConvexPiece> pieces) {
+    if (!is_known(id) || bodies_[id].kind == RigidKind::Static) return;
+    InsideRigidEngine guard;
+    Body& body = bodies_[id];
+    const Pose at = pose(id);
+    Motion moving = motion(id);
+    const Vec3 shift = rotate(at.orientation, centre.to_float() - body.frame.centre);
+    moving.velocity += cross(moving.angular_velocity, shift);
+    set_mass(body, mass, centre, inertia);
+    set_pieces(body, pieces, body.margin);
+    btRigidBody& bullet = *body.bullet;
+    if (body.kind == RigidKind::Dynamic && !body.is_held) {
+        bullet.setMassProps(body.mass, body.moments);
+        bullet.setGravity(world_.getGravity());
+    }
+    bullet.setCenterOfMassTransform(to_bullet(at, body.frame));
+    body.anchor = bullet.getWorldTransform();
+    body.fresh_at.setOrigin({kFar, kFar, kFar});  // the points are new, wherever they stand
+    refresh(body);
+    wake_touching(id);
+    if (body.kind == RigidKind::Dynamic) wake_body(body);
+    set_motion(id, moving);
+}
+
+// World points and boxes of a body that moved since they were made.
+void BulletWorld::refresh(Body& body) {
+    const btTransform& at = body.bullet->getWorldTransform();
+    const bool is_new = !body.bullet->getBroadphaseProxy();
+    if (!is_new && at == body.fresh_at) return;
+    body.fresh_at = at;
+    ++body.moves;
+    const Mat3 rotation = rotation_of(at);
+    Box box = empty_box();
+    for (Hull* hull = body.hulls; hull; hull = hull->next) {
+        refresh_world(*hull, rotation, from_bullet(at.getOrigin()));
+        include(box, hull->world_box.low);
+        include(box, hull->world_box.high);
+    }
+    if (body.mesh) {
+        include(box, body.mesh->nodes[0].box.low);
+        include(box, body.mesh->nodes[0].box.high);
+    }
+    if (box.low.x > box.high.x) box = {from_bullet(at.getOrigin()), from_bullet(at.getOrigin())};
+    body.shape.box = box;
+    if (is_new) return;
+    const Box wide = grown(box, kContactRange);
+    broadphase_.setAabb(body.bullet->getBroadphaseProxy(), to_bullet(wide.low), to_bullet(wide.high), &dispatcher_);
+}
+
+void BulletWorld::detect(float dt) {
+    InsideRigidEngine guard;
+    (void)dt;
+    for (RigidId id = 0; id < body_end_; ++id) {
+        Body& body = bodies_[id];
+        if (!body.is_used || body.kind == RigidKind::Static) continue;
+        if (body.kind == RigidKind::Kinematic || body.bullet->isActive()) refresh(body);
+    }
+    world_.find_contacts();
+    sort_manifolds();
+    gather_contacts();
+    counts_.pairs = static_cast<uint32_t>(broadphase_.getOverlappingPairCache()->getNumOverlappingPairs());
+    counts_.contacts = static_cast<uint32_t>(contacts_.size());
+}
+
+void BulletWorld::meet(btBroadphasePair& pair) {
+    auto* object_0 = static_cast<btCollisionObject*>(pair.m_pProxy0->m_clientObject);
+    auto* object_1 = static_cast<btCollisionObject*>(pair.m_pProxy1->m_clientObject);
+    if (!dispatcher_.needsCollision(object_0, object_1)) return;
+    const auto id_0 = static_cast<RigidId>(object_0->getUserIndex()),
+               id_1 = static_cast<RigidId>(object_1->getUserIndex());
+    if (bodies_[id_0].kind != RigidKind::Dynamic && bodies_[id_1].kind != RigidKind::Dynamic) return;
+    if (!pair.m_algorithm) {
+        const btCollisionAlgorithmConstructionInfo info(&dispatcher_, -1);
+        void* const memory = dispatcher_.allocateCollisionAlgorithm(sizeof(PairAlgorithm));
+        pair.m_algorithm = new (memory) PairAlgorithm(info, id_0, id_1, work_);
+    }
+    auto& algorithm = *static_cast<PairAlgorithm*>(pair.m_algorithm);
+    const auto ignored = find_ignored(id_0, id_1);
+    if (ignored != ignored_.end()) {
+        if (!ignored->until_apart || !algorithm.is_apart(kPushedApart)) return algorithm.forget();
+        ignored_.erase(ignored);
+    }
+    algorithm.process();
+}
+
+void BulletWorld::sort_manifolds() {
+    manifolds_.clear();
+    for (int k = 0; k < dispatcher_.getNumManifolds(); ++k) {
+        btPersistentManifold* m = dispatcher_.getManifoldByIndexInternal(k);
+        const btManifoldPoint& p = m->getContactPoint(0);
+        manifolds_.push_back({static_cast<RigidId>(m->getBody0()->getUserIndex()),
+                              static_cast<RigidId>(m->getBody1()->getUserIndex()),
+                              static_cast<uint32_t>(m->m_companionIdA), static_cast<uint32_t>(m->m_companionIdB),
+                              p.m_index0, p.m_index1, m});
+    }
+    std::sort(manifolds_.begin(), manifolds_.end(), [](const SortedManifold& p, const SortedManifold& q) {
+        if (p.a != q.a) return p.a < q.a;
+        if (p.b != q.b) return p.b < q.b;
+        if (p.cell_a != q.cell_a) return p.cell_a < q.cell_a;
+        if (p.cell_b != q.cell_b) return p.cell_b < q.cell_b;
+        return p.ordinal_a != q.ordinal_a ? p.ordinal_a < q.ordinal_a : p.ordinal_b < q.ordinal_b;
+    });
+    // Bullet's own sort of an island's manifolds ties between those of one pair of bodies: it starts from this order.
+    btPersistentManifold** const rows = dispatcher_.getInternalManifoldPointer();
+    for (size_t k = 0; k < manifolds_.size(); ++k) {
+        rows[k] = manifolds_[k].manifold;
+        rows[k]->m_index1a = static_cast<int>(k);
+    }
+}
+
+Vec3 BulletWorld::velocity_at(const Body& body, Vec3 point) const {
+    if (!body.is_free() && body.kind != RigidKind::Kinematic) return {};
+    const btRigidBody& bullet = *body.bullet;
+    return from_bullet(bullet.getVelocityInLocalPoint(to_bullet(point) - bullet.getCenterOfMassPosition()));
+}
+
+void BulletWorld::gather_contacts() {
+    contacts_.clear();
+    for (const SortedManifold& m : manifolds_) {
+        const Body &a = bodies_[m.a], &b = bodies_[m.b];
+        if (!a.is_free() && !b.is_free()) continue;
+        for (int k = 0; k < m.manifold->getNumContacts(); ++k) {
+            const btManifoldPoint& p = m.manifold->getContactPoint(k);
+            const Vec3 point = 0.5f * (from_bullet(p.m_positionWorldOnA) + from_bullet(p.m_positionWorldOnB));
+            const Vec3 normal = from_bullet(p.m_normalWorldOnB);
+            const float speed = dot(velocity_at(b, point) - velocity_at(a, point), normal);
+            contacts_.push_back({m.a, m.b, m.cell_a, m.cell_b, point, normal, p.m_distance1, speed});
+        }
+    }
+}
+
+void BulletWorld::solve(float dt) {
+    InsideRigidEngine guard;
+    for (RigidId id = 0; id < body_end_; ++id) {
+        Body& body = bodies_[id];
+        if (!body.is_used || !body.is_free()) continue;
+        body.bullet->applyGravity();
+        body.bullet->applyDamping(dt);
+    }
+    world_.solve_contacts(dt);
+    integrate(dt);
+    update_sleep(dt);
+    for (RigidId id = 0; id < body_end_; ++id)
+        if (bodies_[id].is_used) bodies_[id].bullet->clearForces();
+    for (IgnoredPair& pair : ignored_) pair.seconds -= dt;
+    std::erase_if(ignored_, [](const IgnoredPair& p) { return !(p.seconds > 0); });
+    skipped_.clear();
+}
+
+void BulletWorld::integrate(float dt) {
+    counts_.sweeps += sweeper_.sweep(*this, dt);
+    for (RigidId id = 0; id < body_end_; ++id) {
+        Body& body = bodies_[id];
+        if (!body.is_used) continue;
+        const bool is_driven = body.kind == RigidKind::Kinematic && body.bullet->isActive();
+        if (!is_driven && !body.is_free()) continue;
+        btTransform moved;
+        body.bullet->predictIntegratedTransform(body.moved_fraction * dt, moved);
+        body.bullet->proceedToTransform(moved);
+    }
+}
+
+}  // namespace cullet::bullet
+
+namespace cullet {
+
+std::unique_ptr<RigidWorld> make_bullet_world(uint32_t body_limit) {
+    InsideRigidEngine guard;
+    return std::make_unique<bullet::BulletWorld>(body_limit);
+}
+
+}  // namespace cullet

@@ -1,0 +1,102 @@
+// RigidWorld on Bullet: bookkeeping of bodies, the split step, holding, sleep.
+#pragma once
+#include <vector>
+
+#include "engine/bullet/dynamics_world.hpp"
+#include "engine/bullet/pair_algorithm.hpp"
+#include "engine/bullet/sweep.hpp"
+
+namespace cullet::bullet {
+
+class BulletWorld;
+
+class Dispatcher : public btCollisionDispatcher {
+ public:
+    Dispatcher(btCollisionConfiguration* configuration, BulletWorld& owner)
+        : btCollisionDispatcher(configuration), world(owner) {}
+    BulletWorld& world;
+};
+
+struct IgnoredPair {
+    RigidId a, b;  // a < b
+    float seconds;
+    bool until_apart;
+};
+
+class BulletWorld final : public RigidWorld {
+ public:
+    explicit BulletWorld(uint32_t body_limit);
+    ~BulletWorld() override;
+
+    void set_gravity(Vec3 gravity) override;
+    void add_static_triangles(RigidId id, std::span<const Vec3> positions,
+                              std::span<const std::array<uint32_t, 3>> triangles, float friction, float restitution,
+                              uint32_t layer, uint32_t mask) override;
+    void add(RigidId id, const RigidDescription& description) override;
+    void remove(RigidId id) override;
+    Pose pose(RigidId id) const override;
+    Motion motion(RigidId id) const override;
+    void set_pose(RigidId id, const Pose& pose) override;
+    void set_motion(RigidId id, const Motion& motion) override;
+    void set_shape(RigidId id, double mass, Vec3d centre, Sym3d inertia, std::span<const ConvexPiece> pieces) override;
+    void detect(float dt) override;
+    std::span<const RigidContact> contacts() const override { return contacts_; }
+    void hold(RigidId id) override;
+    void release(RigidId id) override;
+    bool is_held(RigidId id) const override;
+    void skip_contacts(RigidId a, RigidId b) override;
+    void ignore_pair(RigidId a, RigidId b, float seconds, bool until_apart) override;
+    void solve(float dt) override;
+    float height_below(Vec3 point, float fallback) const override;
+    bool is_asleep(RigidId id) const override;
+    void wake(RigidId id) override;
+    RigidCounts counts() const override { return counts_; }
+
+    /// Bullet's near callback: the narrow phase of one pair.
+    void meet(btBroadphasePair& pair);
+    /// True when the two are not to meet now: ignored, or skipped in this step.
+    bool is_apart_by_order(RigidId a, RigidId b) const;
+
+ private:
+    friend class Sweeper;
+    struct SortedManifold {
+        RigidId a, b;
+        uint32_t cell_a, cell_b;
+        int ordinal_a, ordinal_b;
+        btPersistentManifold* manifold;
+    };
+
+    bool is_known(RigidId id) const { return id < body_limit_ && bodies_[id].is_used; }
+    void set_pieces(Body& body, std::span<const ConvexPiece> pieces, float margin);
+    void drop_pieces(Body& body);
+    void measure_body(Body& body);
+    void set_mass(Body& body, double mass, Vec3d centre, const Sym3d& inertia);
+    void enter(Body& body, const Pose& pose, uint32_t layer, uint32_t mask);
+    void refresh(Body& body);
+    void sort_manifolds();
+    void gather_contacts();
+    void wake_touching(RigidId id);
+    void wake_body(Body& body);
+    std::vector<IgnoredPair>::iterator find_ignored(RigidId a, RigidId b);
+    void integrate(float dt);
+    void update_sleep(float dt);
+    Vec3 velocity_at(const Body& body, Vec3 point) const;
+
+    uint32_t body_limit_, body_end_ = 0;  // no used id is at or above body_end_
+    std::unique_ptr<Body[]> bodies_;
+    Pool<Hull> hulls_;
+    PairWork work_;
+    btDefaultCollisionConfiguration configuration_;
+    Dispatcher dispatcher_;
+    btDbvtBroadphase broadphase_;
+    btSequentialImpulseConstraintSolver solver_;
+    DynamicsWorld world_;
+    std::vector<RigidContact> contacts_;
+    std::vector<SortedManifold> manifolds_;
+    std::vector<IgnoredPair> ignored_;                  // sorted by (a, b)
+    std::vector<std::pair<RigidId, RigidId>> skipped_;  // this step's, a < b
+    Sweeper sweeper_;
+    RigidCounts counts_;
+};
+
+}  // namespace cullet::bullet

@@ -1,0 +1,277 @@
+#include "engine/bullet/contact_patch.hpp"
+
+#include <algorithm>
+
+#include "engine/bullet/closest_points.hpp"
+#include "engine/bullet/overlap_axis.hpp"
+
+namespace cullet::bullet {
+namespace {
+
+// The plane frame of a patch: origin at the centre of a, heights along the normal.
+struct Frame {
+    Vec3 normal, right, forward;
+};
+
+struct Spot {
+    float x = 0, y = 0;           // in the plane
+    float low_a = 0, high_b = 0;  // heights of the facing surfaces of the cores
+};
+
+// Height of a supporting plane over the patch's plane: at + slope_x x + slope_y y.
+struct Plane {
+    float at, slope_x, slope_y;
+};
+
+// The side of a hull that looks at the other one: its supporting planes, and the outline of its points in the patch's
+// plane.
+struct Side {
+    Plane plane[kMaxFaces];
+    uint32_t plane_count = 0;
+    Spot outline[kMaxPoints];
+    uint32_t outline_count = 0;
+};
+
+// A face belongs to the outline when its normal is within 60 degrees of the direction it should look in: the top face
+// of a thin shard never does. Its plane bounds the surface out to 84 degrees; steeper ones only magnify rounding.
+constexpr float kFacingCosine = 0.5f;
+constexpr float kPlaneCosine = 0.1f;
+// Points this close to the support plane belong to the outline too, whatever their faces.
+constexpr float kSupportDepth = 0.0002f;  // m
+
+Frame make_frame(Vec3 n) {
+    // The world axis least along the normal, ties to x then y, gives the first direction.
+    const Vec3 s{std::fabs(n.x), std::fabs(n.y), std::fabs(n.z)};
+    const Vec3 axis = s.x <= s.y && s.x <= s.z ? Vec3{1, 0, 0} : s.y <= s.z ? Vec3{0, 1, 0} : Vec3{0, 0, 1};
+    const Vec3 right = normalised(cross(axis, n));
+    return {n, right, cross(n, right)};
+}
+
+float area(const Spot& a, const Spot& b, const Spot& c) {
+    return (b.x - a.x) * (c.y - a.y) - (b.y - a.y) * (c.x - a.x);
+}
+
+// Andrew's monotone chain; points within a hundredth of a square millimetre of a line are left out.
+uint32_t convex_outline(Spot* spots, uint32_t count, Spot* out) {
+    std::sort(spots, spots + count, [](const Spot& a, const Spot& b) { return a.x != b.x ? a.x < b.x : a.y < b.y; });
+    uint32_t n = 0;
+    constexpr float kFlat = 1e-10f;
+    for (uint32_t k = 0; k < count; ++k) {
+        if (k > 0 && spots[k].x == spots[k - 1].x && spots[k].y == spots[k - 1].y) continue;
+        while (n >= 2 && area(out[n - 2], out[n - 1], spots[k]) <= kFlat) --n;
+        out[n++] = spots[k];
+    }
+    const uint32_t lower = n + 1;
+    for (uint32_t k = count; k-- > 0;) {
+        if (spots[k].x == out[n - 1].x && spots[k].y == out[n - 1].y) continue;
+        while (n >= lower && area(out[n - 2], out[n - 1], spots[k]) <= kFlat) --n;
+        out[n++] = spots[k];
+    }
+    return n > 1 ? n - 1 : n;
+}
+
+// `sign` -1: the side that looks down the normal (hull a); +1: up (hull b). `offset` is the hull's centre in the frame.
+void look(const Hull& hull, const Mat3& rotation, const Frame& frame, Vec3 offset, float sign, Side& side) {
+    const Vec3 n = transposed_times(rotation, frame.normal), right = transposed_times(rotation, frame.right),
+               forward = transposed_times(rotation, frame.forward);
+    const float ox = dot(offset, frame.right), oy = dot(offset, frame.forward), oz = dot(offset, frame.normal);
+    bool is_facing[kMaxPoints] = {};
+    for (uint32_t f = 0; f < hull.face_count; ++f) {
+        const float along = dot(hull.face_normal[f], n);
+        if (sign * along < kPlaneCosine) continue;
+        const float sx = -dot(hull.face_normal[f], right) / along, sy = -dot(hull.face_normal[f], forward) / along;
+        side.plane[side.plane_count++] = {oz + hull.face_height[f] / along - sx * ox - sy * oy, sx, sy};
+        if (sign * along < kFacingCosine) continue;
+        for (uint32_t c = hull.first_corner[f]; c < hull.first_corner[f + 1]; ++c) is_facing[hull.corner[c]] = true;
+    }
+    float top = -kFar;
+    for (uint32_t k = 0; k < hull.point_count; ++k) top = std::max(top, sign * dot(hull.local[k], n));
+    Spot spots[kMaxPoints];
+    uint32_t count = 0;
+    for (uint32_t k = 0; k < hull.point_count; ++k) {
+        const Vec3 p = hull.local[k];
+        if (is_facing[k] || sign * dot(p, n) > top - kSupportDepth)
+            spots[count++] = {ox + dot(p, right), oy + dot(p, forward), 0, 0};
+    }
+    Spot chain[2 * kMaxPoints + 2];
+    side.outline_count = convex_outline(spots, count, chain);
+    std::copy_n(chain, side.outline_count, side.outline);
+    if (side.plane_count == 0) side.plane[side.plane_count++] = {oz + sign * top, 0, 0};
+}
+
+// Sutherland and Hodgman: what of the polygon (or segment, or point) `spots` lies in the convex `clip`.
+uint32_t clip_outline(const Side& subject, const Side& clip, Spot* spots) {
+    Spot other[2 * kMaxPoints];
+    uint32_t count = subject.outline_count;
+    std::copy_n(subject.outline, count, spots);
+    for (uint32_t e = 0; e < clip.outline_count && count > 0; ++e) {
+        const Spot &p = clip.outline[e], &q = clip.outline[(e + 1) % clip.outline_count];
+        uint32_t kept = 0;
+        for (uint32_t k = 0; k < count; ++k) {
+            const Spot &now = spots[k], &next = spots[(k + 1) % count];
+            const float here = area(p, q, now), there = area(p, q, next);
+            if (here >= 0) other[kept++] = now;
+            if ((here > 0 && there < 0) || (here < 0 && there > 0)) {
+                const float t = here / (here - there);
+                other[kept++] = {now.x + t * (next.x - now.x), now.y + t * (next.y - now.y), 0, 0};
+            }
+            if (count == 1) break;
+        }
+        count = std::min(kept, 2 * kMaxPoints - 2);
+        std::copy_n(other, count, spots);
+    }
+    return count;
+}
+
+void measure(Spot& spot, const Side& a, const Side& b) {
+    spot.low_a = -kFar, spot.high_b = kFar;
+    for (uint32_t k = 0; k < a.plane_count; ++k)
+        spot.low_a = std::max(spot.low_a, a.plane[k].at + a.plane[k].slope_x * spot.x + a.plane[k].slope_y * spot.y);
+    for (uint32_t k = 0; k < b.plane_count; ++k)
+        spot.high_b = std::min(spot.high_b, b.plane[k].at + b.plane[k].slope_x * spot.x + b.plane[k].slope_y * spot.y);
+}
+float gap(const Spot& s) {
+    return s.low_a - s.high_b;
+}
+
+// Four of many: the extreme ones of a fixed direction, then of area, so that a resting patch picks the same corners
+// every step; the deepest takes the place of its nearest when none of them is within 0.1 mm of it.
+int choose_four(const Spot* spots, uint32_t count, uint32_t (&chosen)[kPatchPoints]) {
+    if (count <= kPatchPoints) {
+        for (uint32_t k = 0; k < count; ++k) chosen[k] = k;
+        return static_cast<int>(count);
+    }
+    const auto pick = [&](auto&& value) {
+        uint32_t best = 0;
+        for (uint32_t k = 1; k < count; ++k)
+            if (value(spots[k]) > value(spots[best])) best = k;
+        return best;
+    };
+    const auto square = [](const Spot& a, const Spot& b) {
+        return (a.x - b.x) * (a.x - b.x) + (a.y - b.y) * (a.y - b.y);
+    };
+    const uint32_t first = pick([](const Spot& s) { return s.x + 0.37f * s.y; });
+    const uint32_t second = pick([&](const Spot& s) { return square(s, spots[first]); });
+    const uint32_t third = pick([&](const Spot& s) { return area(spots[first], spots[second], s); });
+    const uint32_t fourth = pick([&](const Spot& s) { return -area(spots[first], spots[second], s); });
+    const uint32_t deepest = pick([](const Spot& s) { return -gap(s); });
+    uint32_t four[4] = {first, second, third, fourth};
+    float shallow = kFar;
+    for (const uint32_t k : four) shallow = std::min(shallow, gap(spots[k]));
+    if (gap(spots[deepest]) < shallow - 0.0001f) {
+        uint32_t nearest = 0;
+        for (uint32_t k = 1; k < 4; ++k)
+            if (square(spots[four[k]], spots[deepest]) < square(spots[four[nearest]], spots[deepest])) nearest = k;
+        four[nearest] = deepest;
+    }
+    int kept = 0;
+    for (const uint32_t k : four)
+        if (std::find(chosen, chosen + kept, k) == chosen + kept) chosen[kept++] = k;
+    return kept;
+}
+
+struct Touch {
+    bool is_near = false;
+    Vec3 normal;
+    float gap = 0;  // of the cores
+    Vec3 middle;    // between the closest points, from the centre of a
+};
+
+Touch find_touch(const Hull& a, const Mat3& rotation_a, const Hull& b, const Mat3& rotation_b, Vec3& guess) {
+    const float reach = kContactRange + a.margin + b.margin;
+    const Closest closest = closest_points(a.world, b.world, Vec3d(guess), reach);
+    guess = closest.axis.to_float();
+    if (closest.is_apart && closest.bound > reach) return {};
+    Touch touch;
+    touch.is_near = true;
+    // Closer than a hundredth of a millimetre the direction between the points is rounding: take the axis of least
+    // overlap.
+    if (closest.is_apart && closest.distance > 1e-5) {
+        if (closest.distance > reach) return {};
+        touch.gap = static_cast<float>(closest.distance);
+        touch.normal = guess;
+        touch.middle = (0.5 * (closest.on_a + closest.on_b)).to_float();
+        return touch;
+    }
+    const OverlapAxis least = overlap_axis(a, rotation_a, b, rotation_b);
+    if (least.is_found) {
+        guess = least.axis.to_float();
+        touch.gap = static_cast<float>(least.gap);
+    } else {
+        touch.gap = std::min(0.0f, static_cast<float>(closest.bound));
+    }
+    touch.normal = guess;
+    const Vec3 low = a.world[support(a.world, -guess)], offset = b.world.centre - a.world.centre;
+    const Vec3 high = b.world[support(b.world, guess)] + offset;
+    // A crossing of edges lies near both support points; the smaller hull's is the better one.
+    touch.middle = a.radius <= b.radius ? low : high;
+    return touch;
+}
+
+void add_point(Patch& patch, const Hull& a, const Hull& b, Vec3 from_centre, float low_a, float high_b) {
+    const float distance = low_a - a.margin - high_b - b.margin;
+    if (distance > kContactRange || patch.count == kPatchPoints) return;
+    const Vec3 flat = a.world.centre + from_centre;
+    patch.point[patch.count++] = {flat + (low_a - a.margin) * patch.normal, flat + (high_b + b.margin) * patch.normal,
+                                  distance};
+}
+
+// The touch itself as a point: all there is for spheres, corners and crossing edges.
+void add_touch(Patch& patch, const Hull& a, const Hull& b, const Touch& touch) {
+    const float height = dot(touch.middle, touch.normal);
+    const bool is_apart = touch.gap > 1e-5f;
+    const float low = is_apart ? height + 0.5f * touch.gap : a.radius <= b.radius ? height : height + touch.gap;
+    add_point(patch, a, b, touch.middle - height * touch.normal, low, low - touch.gap);
+}
+
+}  // namespace
+
+Patch contact_patch(const Hull& a, const Mat3& rotation_a, const Hull& b, const Mat3& rotation_b, Vec3& guess) {
+    Patch patch;
+    const Touch touch = find_touch(a, rotation_a, b, rotation_b, guess);
+    if (!touch.is_near) return patch;
+    patch.normal = touch.normal;
+    uint32_t count = 0;
+    Spot spots[2 * kMaxPoints];
+    const Frame frame = make_frame(touch.normal);
+    if (a.point_count > 1 && b.point_count > 1) {
+        Side side_a, side_b;
+        look(a, rotation_a, frame, {}, -1, side_a);
+        look(b, rotation_b, frame, b.world.centre - a.world.centre, 1, side_b);
+        if (side_b.outline_count >= 3)
+            count = clip_outline(side_a, side_b, spots);
+        else if (side_a.outline_count >= 3)
+            count = clip_outline(side_b, side_a, spots);
+        const float reach = kContactRange + a.margin + b.margin;
+        uint32_t kept = 0;
+        for (uint32_t k = 0; k < count; ++k) {
+            measure(spots[k], side_a, side_b);
+            if (gap(spots[k]) <= reach) spots[kept++] = spots[k];
+        }
+        count = kept;
+    }
+    float shallow = kFar;
+    for (uint32_t k = 0; k < count; ++k) shallow = std::min(shallow, gap(spots[k]));
+    if (touch.gap < shallow - 0.0001f) {
+        add_touch(patch, a, b, touch);
+        // Keep room: the touch is the deepest point of the patch, the corners that lie around it are held up by it.
+        if (count == 0) return patch;
+    }
+    uint32_t chosen[kPatchPoints];
+    const int kept = choose_four(spots, count, chosen);
+    for (int k = 0; k < kept && patch.count < kPatchPoints; ++k) {
+        const Spot& s = spots[chosen[k]];
+        add_point(patch, a, b, s.x * frame.right + s.y * frame.forward, s.low_a, s.high_b);
+    }
+    return patch;
+}
+
+float separation(const Hull& a, const Hull& b, Vec3& guess, float enough) {
+    const float margins = a.margin + b.margin;
+    const Closest closest = closest_points(a.world, b.world, Vec3d(guess), enough + margins);
+    if (!closest.is_apart) return -1;
+    guess = closest.axis.to_float();
+    return static_cast<float>(closest.distance) - margins;
+}
+
+}  // namespace cullet::bullet

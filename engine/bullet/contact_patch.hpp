@@ -1,0 +1,31 @@
+// Contact points of two convex pieces: the whole patch at once, from nothing but this step's poses. (Bullet's own
+// algorithm adds one point a step to a cache; a body that is held would then not come back to the same bits.)
+#pragma once
+#include "engine/bullet/hull.hpp"
+
+namespace cullet::bullet {
+
+/// Points farther apart than this are no contact. Twice it and fast shards are braked by what they pass.
+inline constexpr float kContactRange = 0.005f;  // m
+inline constexpr int kPatchPoints = 4;          // what Bullet's cache holds
+
+struct PatchPoint {
+    Vec3 on_a, on_b;  // world, on the surfaces with their margins
+    float distance;   // m, negative when they overlap
+};
+
+struct Patch {
+    int count = 0;
+    Vec3 normal;  // world, unit, from b towards a
+    PatchPoint point[kPatchPoints];
+};
+
+/// World points of both hulls must be fresh. `guess` is last step's axis for these two (zero the first time) and
+/// becomes this step's.
+Patch contact_patch(const Hull& a, const Mat3& rotation_a, const Hull& b, const Mat3& rotation_b, Vec3& guess);
+
+/// The gap between the grown hulls (cores less both margins), bounded from below once above `enough`; -1 when the cores
+/// overlap.
+float separation(const Hull& a, const Hull& b, Vec3& guess, float enough);
+
+}  // namespace cullet::bullet

@@ -1,0 +1,146 @@
+#include "engine/bullet/hull.hpp"
+
+#include <LinearMath/btConvexHullComputer.h>
+
+#include <algorithm>
+
+namespace cullet::bullet {
+namespace {
+
+void set_points(Points& out, std::span<const Vec3> points) {
+    Box box = empty_box();
+    for (const Vec3 p : points) include(box, p);
+    out.centre = 0.5f * (box.low + box.high);
+    out.count = static_cast<uint32_t>((points.size() + 7) / 8 * 8);
+    for (uint32_t k = 0; k < out.count; ++k) {
+        const Vec3 p = points[k < points.size() ? k : 0] - out.centre;
+        out.x[k] = p.x, out.y[k] = p.y, out.z[k] = p.z;
+    }
+}
+
+// The plane of a face stands at the outermost of all points, so that every plane is a bound whatever its normal lost.
+float support_height(const Hull& hull, Vec3 normal) {
+    float height = -kFar;
+    for (uint32_t k = 0; k < hull.point_count; ++k) height = std::max(height, dot(normal, hull.local[k]));
+    return height;
+}
+
+// Newell's normal: twice the area vector of a polygon, sound for corners that are nearly in line.
+Vec3d newell(const Hull& hull, uint32_t first, uint32_t end) {
+    Vec3d sum;
+    const Vec3d origin(hull.local[hull.corner[first]]);
+    for (uint32_t c = first + 1; c + 1 < end; ++c)
+        sum += cross(Vec3d(hull.local[hull.corner[c]]) - origin, Vec3d(hull.local[hull.corner[c + 1]]) - origin);
+    return sum;
+}
+
+// Faces and edges by Bullet's integer hull. An edge is written by the lower of its two faces.
+void set_faces(Hull& hull, const btConvexHullComputer& computer) {
+    uint8_t face_of_edge[kMaxCorners];
+    std::fill_n(face_of_edge, kMaxCorners, uint8_t{0xff});
+    uint32_t corners = 0;
+    for (int f = 0; f < computer.faces.size() && hull.face_count < kMaxFaces; ++f) {
+        const uint32_t first = corners;
+        const btConvexHullComputer::Edge* start = &computer.edges[computer.faces[f]];
+        const btConvexHullComputer::Edge* edge = start;
+        do {
+            if (corners == kMaxCorners) return;
+            hull.corner[corners++] = static_cast<uint8_t>(computer.original_vertex_index[edge->getSourceVertex()]);
+            const auto number = edge - &computer.edges[0];
+            if (number < static_cast<int>(kMaxCorners)) face_of_edge[number] = static_cast<uint8_t>(hull.face_count);
+            edge = edge->getNextEdgeOfFace();
+        } while (edge != start);
+        Vec3d area = newell(hull, first, corners);
+        const double size = length(area);
+        // A sliver has no direction to trust: under 1e-7 of the square of the hull's radius its plane is left out.
+        const bool is_sliver = !(size > 1e-7 * hull.radius * hull.radius);
+        hull.face_normal[hull.face_count] = is_sliver ? Vec3{} : ((1 / size) * area).to_float();
+        hull.first_corner[hull.face_count++] = static_cast<uint16_t>(first);
+        hull.first_corner[hull.face_count] = static_cast<uint16_t>(corners);
+    }
+    for (int e = 0; e < computer.edges.size() && e < static_cast<int>(kMaxCorners); ++e) {
+        const auto& edge = computer.edges[e];
+        const auto reverse = edge.getReverseEdge() - &computer.edges[0];
+        if (reverse < e || reverse >= static_cast<int>(kMaxCorners) || hull.edge_count == kMaxEdges) continue;
+        if (face_of_edge[e] == 0xff || face_of_edge[reverse] == 0xff) continue;
+        hull.edge[hull.edge_count++] = {static_cast<uint8_t>(computer.original_vertex_index[edge.getSourceVertex()]),
+                                        static_cast<uint8_t>(computer.original_vertex_index[edge.getTargetVertex()]),
+                                        face_of_edge[e], face_of_edge[reverse]};
+    }
+}
+
+}  // namespace
+
+void build_hull(Hull& hull, std::span<const Vec3> points, float margin, uint32_t cell) {
+    points = points.first(std::min<size_t>(points.size(), kMaxPoints));
+    hull.cell = cell;
+    hull.margin = margin;
+    hull.one_sided = false;
+    hull.point_count = static_cast<uint32_t>(points.size());
+    hull.face_count = hull.edge_count = 0;
+    hull.first_corner[0] = 0;
+    set_points(hull.local, points);
+    float square = 0;
+    for (uint32_t k = 0; k < hull.point_count; ++k) square = std::max(square, dot(hull.local[k], hull.local[k]));
+    hull.radius = std::sqrt(square);
+    hull.thickness = 2 * (hull.radius + margin);
+    if (points.size() < 3) return;
+    float coordinates[kMaxPoints * 3];
+    for (uint32_t k = 0; k < hull.point_count; ++k) {
+        const Vec3 p = hull.local[k];
+        coordinates[3 * k] = p.x, coordinates[3 * k + 1] = p.y, coordinates[3 * k + 2] = p.z;
+    }
+    btConvexHullComputer computer;
+    computer.compute(coordinates, 3 * sizeof(float), static_cast<int>(hull.point_count), 0, 0);
+    set_faces(hull, computer);
+    // Bullet's faces run clockwise or not by its own choice: outwards is where the centre of the points is not.
+    Vec3 mean;
+    for (uint32_t k = 0; k < hull.point_count; ++k)
+        mean += (1.0f / static_cast<float>(hull.point_count)) * hull.local[k];
+    float inside = 0;
+    for (uint32_t f = 0; f < hull.face_count; ++f)
+        inside += dot(hull.face_normal[f], mean - hull.local[hull.corner[hull.first_corner[f]]]);
+    for (uint32_t f = 0; f < hull.face_count; ++f) {
+        if (inside > 0) hull.face_normal[f] = -hull.face_normal[f];
+        hull.face_height[f] = support_height(hull, hull.face_normal[f]);
+        const float width = hull.face_height[f] + support_height(hull, -hull.face_normal[f]) + 2 * margin;
+        if (dot(hull.face_normal[f], hull.face_normal[f]) > 0.5f) hull.thickness = std::min(hull.thickness, width);
+    }
+}
+
+void build_triangle(Hull& hull, const Vec3 (&corners)[3], uint32_t cell) {
+    hull.cell = cell;
+    hull.margin = 0;
+    hull.one_sided = true;
+    hull.point_count = 3;
+    hull.face_count = 1;
+    hull.edge_count = 0;
+    set_points(hull.local, corners);
+    hull.face_normal[0] =
+        normalised(cross(Vec3d(corners[1]) - Vec3d(corners[0]), Vec3d(corners[2]) - Vec3d(corners[0]))).to_float();
+    hull.face_height[0] = dot(hull.face_normal[0], hull.local[0]);
+    hull.first_corner[0] = 0, hull.first_corner[1] = 3;
+    for (uint8_t k = 0; k < 3; ++k) hull.corner[k] = k;
+    refresh_world(hull, Mat3{{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}}, {});
+}
+
+void transform_points(const Hull& hull, const Mat3& r, Vec3 position, Points& out) {
+    const Points& in = hull.local;
+    out.count = in.count;
+    out.centre = r * in.centre + position;
+    for (uint32_t k = 0; k < in.count; ++k) {
+        const float x = in.x[k], y = in.y[k], z = in.z[k];
+        out.x[k] = r.row[0].x * x + r.row[0].y * y + r.row[0].z * z;
+        out.y[k] = r.row[1].x * x + r.row[1].y * y + r.row[1].z * z;
+        out.z[k] = r.row[2].x * x + r.row[2].y * y + r.row[2].z * z;
+    }
+}
+
+void refresh_world(Hull& hull, const Mat3& rotation, Vec3 position) {
+    transform_points(hull, rotation, position, hull.world);
+    Box box = empty_box();
+    for (uint32_t k = 0; k < hull.point_count; ++k) include(box, hull.world[k]);
+    hull.world_box = grown({box.low + hull.world.centre, box.high + hull.world.centre}, hull.margin);
+}
+
+}  // namespace cullet::bullet

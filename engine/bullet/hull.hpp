@@ -1,0 +1,76 @@
+// One convex piece as the bridge holds it: its points and its faces in Bullet's body frame, and its points in world
+// axes as of the last refresh. The body that others meet is this core, grown by `margin` on all sides.
+#pragma once
+#include <cstdint>
+#include <span>
+
+#include "engine/math.hpp"
+
+namespace cullet::bullet {
+
+inline constexpr uint32_t kMaxPoints = 32;
+inline constexpr uint32_t kMaxFaces = 2 * kMaxPoints - 4;  // Euler, all faces triangles
+inline constexpr uint32_t kMaxEdges = 3 * kMaxPoints - 6;
+inline constexpr uint32_t kMaxCorners = 2 * kMaxEdges;  // corners of all faces together
+
+struct Box {
+    Vec3 low, high;
+};
+inline bool overlap(const Box& a, const Box& b, float grown) {
+    return a.low.x <= b.high.x + grown && b.low.x <= a.high.x + grown && a.low.y <= b.high.y + grown &&
+           b.low.y <= a.high.y + grown && a.low.z <= b.high.z + grown && b.low.z <= a.high.z + grown;
+}
+inline void include(Box& box, Vec3 p) {
+    box.low = {p.x < box.low.x ? p.x : box.low.x, p.y < box.low.y ? p.y : box.low.y, p.z < box.low.z ? p.z : box.low.z};
+    box.high = {p.x > box.high.x ? p.x : box.high.x, p.y > box.high.y ? p.y : box.high.y,
+                p.z > box.high.z ? p.z : box.high.z};
+}
+inline Box grown(const Box& box, float r) {
+    return {box.low - Vec3{r, r, r}, box.high + Vec3{r, r, r}};
+}
+inline constexpr float kFar = 1e30f;
+inline Box empty_box() {
+    return {{kFar, kFar, kFar}, {-kFar, -kFar, -kFar}};
+}
+
+/// At most 32 points about a centre, in some axes. `count` is a multiple of 8; the rest repeats the first point.
+struct Points {
+    float x[kMaxPoints], y[kMaxPoints], z[kMaxPoints];
+    uint32_t count = 0;
+    Vec3 centre;
+    Vec3 operator[](uint32_t k) const { return {x[k], y[k], z[k]}; }  // from the centre
+};
+
+struct HullEdge {
+    uint8_t a, b;         // points
+    uint8_t left, right;  // faces
+};
+
+struct Hull {
+    Points local;   // Bullet frame of the body
+    Points world;   // refreshed once a step while the body is awake
+    Box world_box;  // with the margin
+    uint32_t cell = 0, ordinal = 0, point_count = 0, face_count = 0, edge_count = 0;
+    float margin = 0;
+    float radius = 0;        // of the points about their centre, without the margin
+    float thickness = 0;     // the least width over its face normals, with both margins; a sphere's diameter
+    bool one_sided = false;  // a static triangle: only its front face pushes
+    Vec3 face_normal[kMaxFaces];
+    float face_height[kMaxFaces];  // normal . point, from the centre
+    uint16_t first_corner[kMaxFaces + 1];
+    uint8_t corner[kMaxCorners];
+    HullEdge edge[kMaxEdges];
+    Hull* next = nullptr;  // of the same body, or free
+};
+
+/// Fills everything but world columns and `next`. More than 32 points: the rest is left out. Points in a plane get the
+/// two faces of their polygon; points on a line get none.
+void build_hull(Hull& hull, std::span<const Vec3> points, float margin, uint32_t cell);
+/// A static triangle in world axes: one face, to the side that its corners run counter-clockwise around.
+void build_triangle(Hull& hull, const Vec3 (&corners)[3], uint32_t cell);
+/// World points and box for a body at `position` with its axes along the columns of `rotation`.
+void refresh_world(Hull& hull, const Mat3& rotation, Vec3 position);
+/// World points only, into another column.
+void transform_points(const Hull& hull, const Mat3& rotation, Vec3 position, Points& out);
+
+}  // namespace cullet::bullet

@@ -1,0 +1,193 @@
+#include "engine/bullet/pair_algorithm.hpp"
+
+#include <algorithm>
+
+namespace cullet::bullet {
+namespace {
+
+// A point of last step's patch within this distance hands its impulse on (warm starting); the nearest one not yet
+// taken.
+constexpr float kSamePoint = 0.01f;  // m
+
+void gather_near(const Body& body, const Box& box, float grown, std::vector<const Hull*>& out) {
+    out.clear();
+    for (const Hull* hull = body.hulls; hull; hull = hull->next)
+        if (overlap(hull->world_box, box, grown)) out.push_back(hull);
+}
+
+// Triangles of a static mesh that a piece comes near to; `is_a` says which side of the pair the mesh is.
+void add_triangles(const Body& mesh_body, const std::vector<const Hull*>& pieces, bool is_mesh_a, float reach,
+                   PairWork& work) {
+    if (!mesh_body.mesh) return;
+    for (const Hull* piece : pieces) {
+        visit_triangles(*mesh_body.mesh, grown(piece->world_box, reach), [&](uint32_t t) {
+            const uint32_t ordinal = mesh_body.hull_count + t;
+            if (is_mesh_a)
+                work.candidates.push_back({ordinal, piece->ordinal, nullptr, piece});
+            else
+                work.candidates.push_back({piece->ordinal, ordinal, piece, nullptr});
+        });
+    }
+}
+
+// The touch of a piece with an inner edge of a flat or hollow mesh belongs to the neighbouring face: it would push
+// sideways. `normal` points from the triangle to the piece.
+bool is_inner_edge(const StaticTriangle& triangle, const Hull& hull, Vec3 normal, Vec3 touch) {
+    if (dot(hull.face_normal[0], normal) > 0.999f) return false;
+    if (dot(hull.face_normal[0], normal) < -0.01f) return true;  // seen from behind
+    bool is_on_edge = false;
+    for (int k = 0; k < 3; ++k) {
+        const Vec3 from = triangle.corner[k], along = triangle.corner[(k + 1) % 3] - from;
+        const float off = length(cross(along, touch - from));
+        if (off > 1e-4f * length(along)) continue;
+        is_on_edge = true;
+        if (triangle.is_edge_sharp[k]) return false;
+    }
+    return is_on_edge;
+}
+
+}  // namespace
+
+const Hull& hull_of(const Hull* hull, const Body& body, uint32_t ordinal, PairWork& work) {
+    if (hull) return *hull;
+    build_triangle(work.triangle, body.mesh->triangles[ordinal - body.hull_count].corner, ordinal);
+    work.triangle.ordinal = ordinal;
+    return work.triangle;
+}
+
+void find_candidates(const Body& a, const Body& b, float grown, PairWork& work) {
+    work.candidates.clear();
+    if (!overlap(a.shape.box, b.shape.box, grown)) return;
+    gather_near(a, b.shape.box, grown, work.near_a);
+    gather_near(b, a.shape.box, grown, work.near_b);
+    for (const Hull* p : work.near_a)
+        for (const Hull* q : work.near_b)
+            if (overlap(p->world_box, q->world_box, grown)) work.candidates.push_back({p->ordinal, q->ordinal, p, q});
+    if (!a.mesh && !b.mesh) return;
+    add_triangles(a, work.near_b, true, grown, work);
+    add_triangles(b, work.near_a, false, grown, work);
+    std::sort(work.candidates.begin(), work.candidates.end(),
+              [](const Candidate& p, const Candidate& q) { return p.a != q.a ? p.a < q.a : p.b < q.b; });
+}
+
+PairAlgorithm::PairAlgorithm(const btCollisionAlgorithmConstructionInfo& info, RigidId a, RigidId b, PairWork& work)
+    : btCollisionAlgorithm(info), a_(std::min(a, b)), b_(std::max(a, b)), work_(work) {}
+
+void PairAlgorithm::getAllContactManifolds(btManifoldArray& manifolds) {
+    for (PairRecord* r = records_; r; r = r->next)
+        if (r->manifold) manifolds.push_back(r->manifold);
+}
+
+void PairAlgorithm::release(PairRecord& record) {
+    if (record.manifold) m_dispatcher->releaseManifold(record.manifold);
+    record.manifold = nullptr;
+}
+
+void PairAlgorithm::forget() {
+    while (records_) {
+        PairRecord* const record = records_;
+        records_ = record->next;
+        release(*record);
+        work_.records.give(record);
+    }
+    is_fresh_ = false;
+}
+
+void PairAlgorithm::process() {
+    const Body &a = work_.bodies[a_], &b = work_.bodies[b_];
+    if (changes_a_ != a.shape_changes || changes_b_ != b.shape_changes) forget();
+    if (is_fresh_ && moves_a_ == a.moves && moves_b_ == b.moves) return;
+    is_fresh_ = true;
+    moves_a_ = a.moves, moves_b_ = b.moves, changes_a_ = a.shape_changes, changes_b_ = b.shape_changes;
+    find_candidates(a, b, kContactRange, work_);
+    const Mat3 rotation_a = rotation_of(a.fresh_at), rotation_b = rotation_of(b.fresh_at);
+    PairRecord** link = &records_;
+    const auto drop_first = [&] {
+        PairRecord* const record = *link;
+        *link = record->next;
+        release(*record);
+        work_.records.give(record);
+    };
+    for (const Candidate& c : work_.candidates) {
+        while (*link && ((*link)->a < c.a || ((*link)->a == c.a && (*link)->b < c.b))) drop_first();
+        if (!*link || (*link)->a != c.a || (*link)->b != c.b) {
+            PairRecord* const record = work_.records.take();
+            *record = {c.a, c.b, {}, nullptr, *link};
+            *link = record;
+        }
+        PairRecord& record = **link;
+        link = &record.next;
+        const Hull &hull_a = hull_of(c.hull_a, a, c.a, work_), &hull_b = hull_of(c.hull_b, b, c.b, work_);
+        Patch patch = contact_patch(hull_a, rotation_a, hull_b, rotation_b, record.guess);
+        if (patch.count > 0 && !c.hull_b &&
+            is_inner_edge(b.mesh->triangles[c.b - b.hull_count], hull_b, patch.normal, patch.point[0].on_b))
+            patch.count = 0;
+        if (patch.count > 0 && !c.hull_a &&
+            is_inner_edge(a.mesh->triangles[c.a - a.hull_count], hull_a, -patch.normal, patch.point[0].on_a))
+            patch.count = 0;
+        if (patch.count > 0)
+            write(record, patch, hull_a.cell, hull_b.cell);
+        else
+            release(record);
+    }
+    while (*link) drop_first();
+}
+
+// Friction and restitution of two bodies: the geometric mean, so that equal materials keep their own value. Rolling
+// friction crosswise as in Bullet: each one's length times the other's friction.
+void PairAlgorithm::write(PairRecord& record, const Patch& patch, uint32_t cell_a, uint32_t cell_b) {
+    const Body &a = work_.bodies[a_], &b = work_.bodies[b_];
+    if (!record.manifold) {
+        record.manifold = m_dispatcher->getNewManifold(&*a.bullet, &*b.bullet);
+        record.manifold->setContactBreakingThreshold(kContactRange);
+    }
+    btPersistentManifold& manifold = *record.manifold;
+    manifold.m_companionIdA = static_cast<int>(cell_a);
+    manifold.m_companionIdB = static_cast<int>(cell_b);
+    btManifoldPoint before[kPatchPoints];
+    const int before_count = manifold.getNumContacts();
+    for (int k = 0; k < before_count; ++k) before[k] = manifold.getContactPoint(k);
+    bool is_taken[kPatchPoints] = {};
+    const float friction = std::sqrt(a.friction * b.friction), restitution = std::sqrt(a.restitution * b.restitution);
+    const float rolling = a.rolling_friction * b.friction + b.rolling_friction * a.friction;
+    manifold.setNumContacts(patch.count);
+    for (int k = 0; k < patch.count; ++k) {
+        const btVector3 on_a = to_bullet(patch.point[k].on_a), on_b = to_bullet(patch.point[k].on_b);
+        btManifoldPoint point(a.fresh_at.invXform(on_a), b.fresh_at.invXform(on_b), to_bullet(patch.normal),
+                              patch.point[k].distance);
+        point.m_index0 = static_cast<int>(record.a);
+        point.m_index1 = static_cast<int>(record.b);
+        point.m_positionWorldOnA = on_a;
+        point.m_positionWorldOnB = on_b;
+        point.m_combinedFriction = friction;
+        point.m_combinedRestitution = restitution;
+        point.m_combinedRollingFriction = point.m_combinedSpinningFriction = rolling;
+        int nearest = -1;
+        float least = kSamePoint * kSamePoint;
+        for (int j = 0; j < before_count; ++j) {
+            const float square = (before[j].m_localPointA - point.m_localPointA).length2();
+            if (!is_taken[j] && square < least) nearest = j, least = square;
+        }
+        if (nearest >= 0) {
+            is_taken[nearest] = true;
+            point.m_appliedImpulse = before[nearest].m_appliedImpulse;
+            point.m_appliedImpulseLateral1 = before[nearest].m_appliedImpulseLateral1;
+            point.m_appliedImpulseLateral2 = before[nearest].m_appliedImpulseLateral2;
+            point.m_lifeTime = before[nearest].m_lifeTime + 1;
+        }
+        manifold.getContactPoint(k) = point;
+    }
+}
+
+bool PairAlgorithm::is_apart(float allowed) {
+    const Body &a = work_.bodies[a_], &b = work_.bodies[b_];
+    find_candidates(a, b, 0, work_);
+    for (const Candidate& c : work_.candidates) {
+        const Hull &hull_a = hull_of(c.hull_a, a, c.a, work_), &hull_b = hull_of(c.hull_b, b, c.b, work_);
+        Vec3 guess;
+        if (separation(hull_a, hull_b, guess, 0) < -allowed) return false;
+    }
+    return true;
+}
+
+}  // namespace cullet::bullet

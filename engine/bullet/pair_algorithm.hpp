@@ -1,0 +1,75 @@
+// Contacts of one pair of bodies: our own algorithm behind Bullet's dispatcher, for all pairs.
+#pragma once
+#include <BulletCollision/BroadphaseCollision/btCollisionAlgorithm.h>
+#include <BulletCollision/CollisionDispatch/btCollisionDispatcher.h>
+
+#include <vector>
+
+#include "engine/bullet/body.hpp"
+#include "engine/bullet/contact_patch.hpp"
+#include "engine/bullet/pool.hpp"
+
+namespace cullet::bullet {
+
+/// Two pieces whose boxes are near: what is remembered of them from step to step.
+struct PairRecord {
+    uint32_t a, b;  // ordinals of the pieces; triangles of a static mesh follow its convex parts
+    Vec3 guess;     // last axis from b towards a
+    btPersistentManifold* manifold = nullptr;  // null while they do not touch
+    PairRecord* next = nullptr;
+};
+
+struct Candidate {
+    uint32_t a, b;
+    const Hull *hull_a, *hull_b;  // null: a triangle
+};
+
+/// Working memory that the pairs of one world share.
+struct PairWork {
+    explicit PairWork(uint32_t body_limit) : records(8 * static_cast<size_t>(body_limit) + 1024) {
+        candidates.reserve(4096);
+        near_a.reserve(4096);
+        near_b.reserve(4096);
+    }
+    Pool<PairRecord> records;
+    std::vector<Candidate> candidates;
+    std::vector<const Hull*> near_a, near_b;
+    Hull triangle;
+    Body* bodies = nullptr;  // by id
+};
+
+/// Pieces of the two bodies whose boxes come within `grown` of each other, sorted by (a, b), into work.candidates.
+void find_candidates(const Body& a, const Body& b, float grown, PairWork& work);
+/// The hull of a candidate's side; triangles are built in `work.triangle`.
+const Hull& hull_of(const Hull* hull, const Body& body, uint32_t ordinal, PairWork& work);
+
+class PairAlgorithm : public btCollisionAlgorithm {
+ public:
+    PairAlgorithm(const btCollisionAlgorithmConstructionInfo& info, RigidId a, RigidId b, PairWork& work);
+    ~PairAlgorithm() override { forget(); }
+    void processCollision(const btCollisionObjectWrapper*, const btCollisionObjectWrapper*, const btDispatcherInfo&,
+                          btManifoldResult*) override {}  // the dispatcher calls process() itself
+    btScalar calculateTimeOfImpact(btCollisionObject*, btCollisionObject*, const btDispatcherInfo&,
+                                   btManifoldResult*) override {
+        return 1;
+    }
+    void getAllContactManifolds(btManifoldArray& manifolds) override;
+
+    void process();
+    /// Drops all contacts and what was remembered.
+    void forget();
+    /// True when no two pieces overlap by more than `allowed` (m), margins included.
+    bool is_apart(float allowed);
+
+ private:
+    void write(PairRecord& record, const Patch& patch, uint32_t cell_a, uint32_t cell_b);
+    void release(PairRecord& record);
+
+    RigidId a_, b_;  // a_ < b_
+    PairWork& work_;
+    PairRecord* records_ = nullptr;  // sorted by (a, b)
+    uint32_t moves_a_ = 0, moves_b_ = 0, changes_a_ = 0, changes_b_ = 0;
+    bool is_fresh_ = false;
+};
+
+}  // namespace cullet::bullet

@@ -1,0 +1,44 @@
+// Rows of one type that keep their address, with a free list. Memory comes in chunks and never goes back; the first
+// chunk is made when the pool is, so that a world of the expected size asks for nothing later.
+#pragma once
+#include <cstddef>
+#include <memory>
+#include <vector>
+
+namespace cullet::bullet {
+
+/// T has a member `T* next`, which the pool uses while a row is free.
+template <class T>
+class Pool {
+ public:
+    explicit Pool(size_t chunk_rows) : chunk_rows_(chunk_rows) {
+        chunks_.reserve(64);
+        grow();
+    }
+    T* take() {
+        if (!free_ && used_ == chunk_rows_) grow();
+        T* row = free_;
+        if (row)
+            free_ = row->next;
+        else
+            row = &chunks_.back()[used_++];
+        row->next = nullptr;
+        return row;
+    }
+    void give(T* row) {
+        row->next = free_;
+        free_ = row;
+    }
+
+ private:
+    void grow() {
+        // Not filled with zeros: pages that no row needs are never touched.
+        chunks_.push_back(std::unique_ptr<T[]>(new T[chunk_rows_]));
+        used_ = 0;
+    }
+    size_t chunk_rows_, used_ = 0;
+    T* free_ = nullptr;
+    std::vector<std::unique_ptr<T[]>> chunks_;
+};
+
+}  // namespace cullet::bullet

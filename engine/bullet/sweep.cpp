@@ -1,0 +1,181 @@
+#include "engine/bullet/sweep.hpp"
+
+#include <LinearMath/btTransformUtil.h>
+
+#include <algorithm>
+
+#include "engine/bullet/bullet_world.hpp"
+#include "engine/bullet/closest_points.hpp"
+
+namespace cullet::bullet {
+namespace {
+
+// A body is swept when a point of it may travel farther than contacts reach plus a quarter of its least width: less
+// than that, the overlap is still pushed out on the right side.
+constexpr float kThicknessShare = 0.25f;
+constexpr double kStop = 0.0005;     // m, the gap at which a sweep ends
+constexpr double kAim = 0.0004;      // m, the gap that an advance aims at, so that it ends in few rounds
+constexpr double kTouching = 0.001;  // m: pieces nearer than this at the start are the solver's affair
+constexpr int kRounds = 48;          // then the body stops where it is: early, never late
+constexpr float kBoxGrowth = 0.01f;  // m
+
+struct Mover {
+    Body* body;
+    btTransform start;
+    Vec3d velocity, spin;
+
+    btTransform at(double fraction, float dt) const {
+        const auto f = static_cast<float>(std::min(fraction, static_cast<double>(body->moved_fraction)));
+        if (!(f > 0) || !is_moving()) return start;
+        btTransform out;
+        btTransformUtil::integrateTransform(start, to_bullet(velocity.to_float()), to_bullet(spin.to_float()), f * dt,
+                                            out);
+        return out;
+    }
+    bool is_moving() const { return dot(velocity, velocity) + dot(spin, spin) > 0; }
+};
+
+Mover mover_of(Body& body) {
+    Mover out{&body, body.bullet->getWorldTransform(), {}, {}};
+    const bool is_moving = body.is_free() || (body.kind == RigidKind::Kinematic && body.bullet->isActive());
+    if (!is_moving) return out;
+    out.velocity = Vec3d(from_bullet(body.bullet->getLinearVelocity()));
+    out.spin = Vec3d(from_bullet(body.bullet->getAngularVelocity()));
+    return out;
+}
+
+// What a box sweeps over: moved by the velocity, grown by what turning can do to points `reach` away from the centre of
+// mass.
+Box swept_box(const Box& box, const Mover& mover, float reach, float dt) {
+    Box out = box;
+    const Vec3 way = (static_cast<double>(dt) * mover.velocity).to_float();
+    include(out, box.low + way);
+    include(out, box.high + way);
+    const float turned = std::min(static_cast<float>(length(mover.spin)) * dt, 2.0f) * reach;
+    return grown(out, turned + kBoxGrowth);
+}
+
+float travel(const Mover& mover, float dt) {
+    return static_cast<float>(length(mover.velocity) + length(mover.spin) * mover.body->reach) * dt;
+}
+
+float reach_of(const Hull& hull) {
+    return length(hull.local.centre) + hull.radius;
+}
+
+// The fraction of the step at which the two pieces come within kStop; `limit` when they do not before it.
+double touch_fraction(const Mover& a, const Hull& hull_a, const Mover& b, const Hull& hull_b, float dt, double limit) {
+    const double turning = length(a.spin) * reach_of(hull_a) + length(b.spin) * reach_of(hull_b);
+    const double most = length(a.velocity) + length(b.velocity) + turning;
+    const double margins = static_cast<double>(hull_a.margin) + hull_b.margin;
+    Points points_a, points_b;
+    Vec3d axis;
+    double t = 0;
+    for (int round = 0; round < kRounds; ++round) {
+        const btTransform at_a = a.at(t, dt), at_b = b.at(t, dt);
+        transform_points(hull_a, rotation_of(at_a), from_bullet(at_a.getOrigin()), points_a);
+        transform_points(hull_b, rotation_of(at_b), from_bullet(at_b.getOrigin()), points_b);
+        const double enough = most * dt * (limit - t) + margins + kStop;
+        const Closest closest = closest_points(points_a, points_b, axis, enough);
+        if (closest.bound > enough) return limit;
+        axis = closest.axis;
+        const double gap = (closest.is_apart ? gap_along(points_a, points_b, axis) : -1.0) - margins;
+        if (round == 0 && gap < kTouching) return limit;
+        if (gap < kStop) return t;
+        // A body that was stopped earlier in the step may stand still by now: the bound holds for both.
+        const double closing_a = -dot(a.velocity, axis), closing_b = dot(b.velocity, axis);
+        const double closing = turning + (a.body->moved_fraction < 1 ? std::max(0.0, closing_a) : closing_a) +
+                               (b.body->moved_fraction < 1 ? std::max(0.0, closing_b) : closing_b);
+        if (!(closing > 1e-6)) return limit;
+        t += (gap - kAim) / (closing * dt);
+        if (t >= limit) return limit;
+    }
+    return t;
+}
+
+struct NearIds : btBroadphaseAabbCallback {
+    explicit NearIds(std::vector<RigidId>& ids) : out(ids) {}
+    bool process(const btBroadphaseProxy* proxy) override {
+        const auto* object = static_cast<const btCollisionObject*>(proxy->m_clientObject);
+        out.push_back(static_cast<RigidId>(object->getUserIndex()));
+        return true;
+    }
+    std::vector<RigidId>& out;
+};
+
+bool filters_meet(const Body& a, const Body& b) {
+    const btBroadphaseProxy *p = a.bullet->getBroadphaseProxy(), *q = b.bullet->getBroadphaseProxy();
+    return (p->m_collisionFilterGroup & q->m_collisionFilterMask) != 0 &&
+           (q->m_collisionFilterGroup & p->m_collisionFilterMask) != 0;
+}
+
+}  // namespace
+
+void Sweeper::sweep_pair(BulletWorld& world, Body& a, Body& b, float dt) {
+    if (a.kind != RigidKind::Dynamic && b.kind != RigidKind::Dynamic) return;
+    if (!filters_meet(a, b) || world.is_apart_by_order(a.id, b.id)) return;
+    PairWork& work = world.work_;
+    const Mover mover_a = mover_of(a), mover_b = mover_of(b);
+    const Box all_b = swept_box(b.shape.box, mover_b, b.reach, dt);
+    work.near_b.clear();
+    const Box all_a = swept_box(a.shape.box, mover_a, a.reach, dt);
+    for (const Hull* q = b.hulls; q; q = q->next)
+        if (overlap(q->world_box, all_a, kBoxGrowth + travel(mover_b, dt))) work.near_b.push_back(q);
+    const auto advance = [&](const Hull& p, const Hull& q) {
+        const double limit = std::max(a.moved_fraction, b.moved_fraction);
+        const double t = touch_fraction(mover_a, p, mover_b, q, dt, limit);
+        if (t >= limit) return;
+        if (a.is_fast) a.moved_fraction = std::min(a.moved_fraction, static_cast<float>(t));
+        if (b.is_fast) b.moved_fraction = std::min(b.moved_fraction, static_cast<float>(t));
+    };
+    for (const Hull* p = a.hulls; p; p = p->next) {
+        const Box box = swept_box(p->world_box, mover_a, reach_of(*p), dt);
+        if (!overlap(box, all_b, 0)) continue;
+        for (const Hull* q : work.near_b)
+            if (overlap(box, swept_box(q->world_box, mover_b, reach_of(*q), dt), 0)) advance(*p, *q);
+        if (!b.mesh) continue;
+        visit_triangles(*b.mesh, box, [&](uint32_t t) {
+            build_triangle(work.triangle, b.mesh->triangles[t].corner, t);
+            // From behind a triangle is not there.
+            if (dot(mover_a.velocity, Vec3d(work.triangle.face_normal[0])) < 0) advance(*p, work.triangle);
+        });
+    }
+}
+
+uint32_t Sweeper::sweep(BulletWorld& world, float dt) {
+    fast_.clear();
+    for (RigidId id = 0; id < world.body_end_; ++id) {
+        Body& body = world.bodies_[id];
+        if (!body.is_used || body.kind == RigidKind::Static) continue;
+        body.moved_fraction = 1;
+        body.is_fast = false;
+        const Mover mover = mover_of(body);
+        if (!(travel(mover, dt) > kContactRange + kThicknessShare * body.thickness)) continue;
+        body.is_fast = true;
+        fast_.push_back({id, swept_box(body.shape.box, mover, body.reach, dt)});
+    }
+    // The second round sees those that were stopped in the first standing still.
+    for (int round = 0; round < 2; ++round) {
+        for (size_t k = 0; k < fast_.size(); ++k) {
+            Body& a = world.bodies_[fast_[k].id];
+            if (round == 0) {
+                near_.clear();
+                NearIds callback(near_);
+                world.broadphase_.aabbTest(to_bullet(fast_[k].swept.low), to_bullet(fast_[k].swept.high), callback);
+                std::sort(near_.begin(), near_.end());
+                for (const RigidId id : near_)
+                    if (id != a.id && !world.bodies_[id].is_fast) sweep_pair(world, a, world.bodies_[id], dt);
+            }
+            for (size_t j = k + 1; j < fast_.size(); ++j) {
+                Body& b = world.bodies_[fast_[j].id];
+                if (round == 1 && a.moved_fraction == 1 && b.moved_fraction == 1) continue;
+                if (overlap(fast_[k].swept, fast_[j].swept, 0)) sweep_pair(world, a, b, dt);
+            }
+        }
+    }
+    uint32_t stopped = 0;
+    for (const Fast& fast : fast_) stopped += world.bodies_[fast.id].moved_fraction < 1;
+    return stopped;
+}
+
+}  // namespace cullet::bullet

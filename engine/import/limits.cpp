@@ -1,0 +1,232 @@
+#include <fcntl.h>
+#include <linux/audit.h>
+#include <linux/filter.h>
+#include <linux/seccomp.h>
+#include <poll.h>
+#include <signal.h>
+#include <sys/mman.h>
+#include <sys/prctl.h>
+#include <sys/resource.h>
+#include <sys/stat.h>
+#include <sys/syscall.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <chrono>
+#include <cstddef>
+#include <cstring>
+#include <exception>
+#include <new>
+
+#include "engine/import/import.hpp"
+
+namespace cullet {
+namespace {
+
+constexpr size_t kLongestMessage = 4096;
+
+bool limit(__rlimit_resource resource, rlim_t value) {
+    const rlimit both{value, value};
+    return ::setrlimit(resource, &both) == 0;
+}
+
+#if defined(__x86_64__)
+/// A second fence behind the limits: no network, no other processes, no program, no file opened to write, none removed
+/// or renamed. Calls outside the list stay allowed, since what libc and assimp need differs between systems.
+bool forbid_system_calls() {
+    constexpr unsigned forbidden[] = {
+        SYS_socket,   SYS_connect,         SYS_bind,       SYS_execve,         SYS_execveat,  SYS_fork,
+        SYS_vfork,    SYS_clone,           SYS_clone3,     SYS_ptrace,         SYS_kill,      SYS_tkill,
+        SYS_unlink,   SYS_unlinkat,        SYS_rename,     SYS_renameat,       SYS_renameat2, SYS_mkdir,
+        SYS_rmdir,    SYS_creat,           SYS_link,       SYS_symlink,        SYS_chmod,     SYS_chown,
+        SYS_truncate, SYS_mount,           SYS_bpf,        SYS_io_uring_setup, SYS_openat2,   SYS_process_vm_writev,
+        SYS_keyctl,   SYS_perf_event_open, SYS_userfaultfd};
+    constexpr unsigned writing = O_WRONLY | O_RDWR | O_CREAT | O_TRUNC;
+    constexpr unsigned refuse = SECCOMP_RET_ERRNO | EPERM;
+    std::vector<sock_filter> code;
+    const auto statement = [&code](unsigned op, unsigned k) {
+        code.push_back(BPF_STMT(static_cast<unsigned short>(op), k));
+    };
+    const auto jump = [&code](unsigned op, unsigned k, unsigned yes, unsigned no) {
+        code.push_back(BPF_JUMP(static_cast<unsigned short>(op), k, static_cast<unsigned char>(yes),
+                                static_cast<unsigned char>(no)));
+    };
+    constexpr unsigned load = BPF_LD | BPF_W | BPF_ABS, equal = BPF_JMP | BPF_JEQ | BPF_K,
+                       set = BPF_JMP | BPF_JSET | BPF_K;
+    const auto refuse_if_writing = [&](unsigned call, unsigned flags_argument) {
+        jump(equal, call, 0, 4);
+        statement(load, static_cast<unsigned>(offsetof(seccomp_data, args)) + 8 * flags_argument);
+        jump(set, writing, 0, 1);
+        statement(BPF_RET | BPF_K, refuse);
+        statement(BPF_RET | BPF_K, SECCOMP_RET_ALLOW);
+    };
+    statement(load, offsetof(seccomp_data, arch));
+    jump(equal, AUDIT_ARCH_X86_64, 1, 0);
+    statement(BPF_RET | BPF_K, SECCOMP_RET_KILL_PROCESS);
+    statement(load, offsetof(seccomp_data, nr));
+    jump(BPF_JMP | BPF_JGE | BPF_K, 0x40000000u, 0, 1);  // the x32 names of the same calls
+    statement(BPF_RET | BPF_K, refuse);
+    refuse_if_writing(SYS_open, 1);
+    refuse_if_writing(SYS_openat, 2);
+    for (const unsigned call : forbidden) {
+        jump(equal, call, 0, 1);
+        statement(BPF_RET | BPF_K, refuse);
+    }
+    statement(BPF_RET | BPF_K, SECCOMP_RET_ALLOW);
+    const sock_fprog program{static_cast<unsigned short>(code.size()), code.data()};
+    return ::prctl(PR_SET_SECCOMP, SECCOMP_MODE_FILTER, &program) == 0;
+}
+#else
+bool forbid_system_calls() {
+    return true;
+}
+#endif
+
+/// A kernel without seccomp filters leaves the rlimits, which is what older systems had.
+bool limit_this_process(const ImportLimits& limits) {
+    const rlim_t bytes = static_cast<rlim_t>(limits.memory_mib) << 20;
+    const bool limited = limit(RLIMIT_CORE, 0) && limit(RLIMIT_AS, bytes) && limit(RLIMIT_FSIZE, bytes) &&
+                         limit(RLIMIT_CPU, limits.seconds + 1) && limit(RLIMIT_NOFILE, 64);
+    ::signal(SIGXFSZ, SIG_IGN);  // a file too large is then an error of write, with a sentence
+    ::prctl(PR_SET_PDEATHSIG, SIGKILL);
+    ::prctl(PR_SET_NO_NEW_PRIVS, 1, 0, 0, 0);
+    ::prctl(PR_SET_DUMPABLE, 0);
+    forbid_system_calls();
+    return limited;
+}
+
+bool write_all(int file, const void* data, size_t size) {
+    const char* from = static_cast<const char*>(data);
+    while (size > 0) {
+        const ssize_t n = ::write(file, from, size);
+        if (n < 0 && errno == EINTR) continue;
+        if (n <= 0) return false;
+        from += n;
+        size -= static_cast<size_t>(n);
+    }
+    return true;
+}
+
+std::string too_much_memory(const std::string& subject, const ImportLimits& limits) {
+    return subject + ": needs more than " + std::to_string(limits.memory_mib) +
+           " MiB to read. The counts in the file may be wrong; if they are right, raise --memory-mib.";
+}
+
+/// The child's whole life. The first byte of the message is '+' or '-'.
+[[noreturn]] void live_as_child(const std::string& subject, const ImportLimits& limits, int message_pipe,
+                                int result_file, const std::function<Result<Delivery>()>& work) {
+    const int null = ::open("/dev/null", O_RDWR | O_CLOEXEC);
+    if (null >= 0) ::dup2(null, STDIN_FILENO), ::dup2(null, STDOUT_FILENO), ::dup2(null, STDERR_FILENO);
+    std::string message;
+    try {
+        if (!limit_this_process(limits)) {
+            message =
+                "-" + subject + ": the limits of the import process cannot be set. Lower --memory-mib or --seconds.";
+        } else {
+            auto result = work();
+            if (!result)
+                message = "-" + result.error();
+            else if (!write_all(result_file, result->bytes.data(), result->bytes.size()))
+                message = "-" + too_much_memory(subject, limits);
+            else
+                message = "+" + result->line;
+        }
+    } catch (const std::bad_alloc&) {
+        message = "-" + too_much_memory(subject, limits);
+    } catch (const std::exception& e) {
+        message = "-" + subject + ": cannot be read (" + e.what() + "). Repair the file or export it again.";
+    } catch (...) {
+        message = "-" + subject + ": cannot be read. Repair the file or export it again.";
+    }
+    write_all(message_pipe, message.data(), message.size());
+    ::_exit(message[0] == '+' ? 0 : 2);
+}
+
+/// Reads what the child says until it closes its end. False when the time is over.
+bool listen(int pipe, unsigned seconds, std::string& message) {
+    using Clock = std::chrono::steady_clock;
+    const auto end = Clock::now() + std::chrono::seconds(seconds);
+    for (;;) {
+        const auto left = std::chrono::duration_cast<std::chrono::milliseconds>(end - Clock::now()).count();
+        if (left <= 0) return false;
+        pollfd wait{pipe, POLLIN, 0};
+        const int ready = ::poll(&wait, 1, static_cast<int>(left));
+        if (ready <= 0) continue;
+        char buffer[1024];
+        const ssize_t n = ::read(pipe, buffer, sizeof buffer);
+        if (n < 0 && errno == EINTR) continue;
+        if (n <= 0) return true;
+        if (message.size() < kLongestMessage) message.append(buffer, static_cast<size_t>(n));
+    }
+}
+
+std::string how_it_died(const std::string& subject, int status, bool is_late, const ImportLimits& limits) {
+    if (is_late || (WIFSIGNALED(status) && WTERMSIG(status) == SIGXCPU))
+        return subject + ": was not read within " + std::to_string(limits.seconds) +
+               " s. Repair or simplify the model, or raise --seconds.";
+    const std::string number = std::to_string(WIFSIGNALED(status) ? WTERMSIG(status) : WEXITSTATUS(status));
+    return subject + ": the model reader crashed on it (" + (WIFSIGNALED(status) ? "signal " : "exit code ") + number +
+           "). The file is probably damaged; export it again or to another format.";
+}
+
+Result<std::vector<uint8_t>> read_back(const std::string& subject, int file) {
+    struct stat status {};
+    if (::fstat(file, &status) != 0) return Error{subject + ": the import process left nothing. Try again."};
+    std::vector<uint8_t> bytes(static_cast<size_t>(status.st_size));
+    size_t done = 0;
+    while (done < bytes.size()) {
+        const ssize_t n = ::pread(file, bytes.data() + done, bytes.size() - done, static_cast<off_t>(done));
+        if (n <= 0) return Error{subject + ": the result of the import process cannot be read. Try again."};
+        done += static_cast<size_t>(n);
+    }
+    return bytes;
+}
+
+}  // namespace
+
+std::string one_line(std::string text) {
+    for (char& c : text)
+        if (static_cast<unsigned char>(c) < 32 || c == 127) c = ' ';
+    if (text.size() > 400) text = text.substr(0, 397) + "...";
+    return text;
+}
+
+Result<Delivery> run_limited(const std::string& subject, const ImportLimits& limits,
+                             const std::function<Result<Delivery>()>& work) {
+    int ends[2] = {-1, -1};
+    const int result_file = ::memfd_create("cullet_import", MFD_CLOEXEC);
+    const pid_t child = result_file >= 0 && ::pipe2(ends, O_CLOEXEC) == 0 ? ::fork() : -1;
+    if (child == 0) live_as_child(subject, limits, ends[1], result_file, work);
+    const int number = errno;
+    if (ends[1] >= 0) ::close(ends[1]);
+    Delivery delivery;
+    std::string message;
+    int status = 0;
+    bool is_late = false;
+    if (child > 0) {
+        is_late = !listen(ends[0], limits.seconds, message);
+        if (is_late) ::kill(child, SIGKILL);
+        while (::waitpid(child, &status, 0) < 0 && errno == EINTR) {
+        }
+    }
+    if (ends[0] >= 0) ::close(ends[0]);
+    Result<Delivery> result = Error{};
+    if (child < 0) {
+        result = Error{subject + ": the import process cannot be started (" + std::strerror(number) + "). Try again."};
+    } else if (WIFEXITED(status) && WEXITSTATUS(status) == 0 && !message.empty() && message[0] == '+') {
+        auto bytes = read_back(subject, result_file);
+        if (bytes)
+            result = Delivery{std::move(*bytes), message.substr(1)};
+        else
+            result = Error{bytes.error()};
+    } else if (WIFEXITED(status) && message.size() > 1 && message[0] == '-') {
+        result = Error{message.substr(1)};
+    } else {
+        result = Error{how_it_died(subject, status, is_late, limits)};
+    }
+    if (result_file >= 0) ::close(result_file);
+    return result;
+}
+
+}  // namespace cullet

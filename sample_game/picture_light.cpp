@@ -1,0 +1,161 @@
+#include "sample_game/picture_light.hpp"
+
+#include <algorithm>
+#include <array>
+
+namespace cullet {
+
+namespace {
+
+const Vec3 kBounce{0.36f, 0.345f, 0.32f};  // light that comes up from the ground
+constexpr float kSkyStrength = 0.78f;
+constexpr float kGroundBlocks = 0.45f;  // a ray that meets the ground nearby counts as blocked by this much
+
+constexpr uint32_t kBayer[4][4] = {{0, 8, 2, 10}, {12, 4, 14, 6}, {3, 11, 1, 9}, {15, 7, 13, 5}};
+
+uint32_t mixed(uint32_t x) {  // finaliser of MurmurHash3
+    x = (x ^ (x >> 16)) * 0x85ebca6bu;
+    x = (x ^ (x >> 13)) * 0xc2b2ae35u;
+    return x ^ (x >> 16);
+}
+float unit(uint32_t bits) {
+    return static_cast<float>(bits >> 8) * 0x1p-24f;
+}
+
+struct Point3 {
+    float a, b, c;  // in [0, 1)
+};
+
+// Point n of Roberts' R3 sequence (steps by powers of 1 / 1.2207, the root of x^4 = x + 1, as fixed-point fractions),
+// shifted by a hash of the 4 x 4 tile: even within a tile, without bands from tile to tile.
+Point3 point_of(uint32_t x, uint32_t y, uint32_t sample, uint32_t stream) {
+    const uint32_t n = 16 * sample + kBayer[y & 3][x & 3];
+    const uint32_t tile = mixed(mixed((x >> 2) + 0x9e3779b9u * stream) + (y >> 2));
+    return {unit(tile + n * 0xd1b54a33u), unit(mixed(tile + 1) + n * 0xabc98389u),
+            unit(mixed(tile + 2) + n * 0x8cb92ba7u)};
+}
+
+struct Turn {
+    float cosine, sine;
+};
+
+// 1024 directions are finer than any shadow edge drawn with them.
+std::array<Turn, 1024> turns() {
+    std::array<Turn, 1024> table;
+    for (int i = 0; i < 1024; ++i) {
+        double sine, cosine;
+        sine_cosine(i * (6.283185307179586 / 1024), sine, cosine);
+        table[i] = {static_cast<float>(cosine), static_cast<float>(sine)};
+    }
+    return table;
+}
+
+Turn turn_of(float share) {
+    static const std::array<Turn, 1024> table = turns();
+    return table[static_cast<size_t>(share * 1024)];
+}
+
+// Two unit vectors across n (Duff et al. 2017).
+void across(Vec3 n, Vec3& t, Vec3& b) {
+    const float sign = n.z < 0 ? -1.0f : 1.0f, a = -1 / (sign + n.z), xy = n.x * n.y * a;
+    t = {1 + sign * n.x * n.x * a, sign * xy, -sign * n.x};
+    b = {xy, sign + n.y * n.y * a, -n.y};
+}
+
+Vec3 times(Vec3 a, Vec3 b) {
+    return {a.x * b.x, a.y * b.y, a.z * b.z};
+}
+
+Vec3 hemisphere(Vec3 normal) {
+    const float up = 0.5f + 0.5f * normal.y;
+    const Vec3 sky = kSkyStrength * (0.5f * (sky_light({0, 1, 0}) + sky_light({1, 0, 0})));
+    return up * sky + (1 - up) * kBounce;
+}
+
+// Schlick's share of light that a surface of refractive index 1.5 mirrors.
+float mirrored(float cosine) {
+    const float m = 1 - std::clamp(cosine, 0.0f, 1.0f);
+    return 0.04f + 0.96f * (m * m) * (m * m) * m;
+}
+
+float to_the_64th(float x) {
+    for (int k = 0; k < 6; ++k) x *= x;
+    return x;
+}
+
+}  // namespace
+
+PictureLight::PictureLight(const PictureScene& scene, const Sun& sun, const PictureSettings& settings)
+    : scene_(scene),
+      settings_(settings),
+      towards_(normalised(sun.towards)),
+      sunlight_(sun.strength * sun.colour),
+      angular_radius_(sun.angular_radius) {
+    across(towards_, across_, aside_);
+}
+
+// A surface that faces away gets no sun and costs no rays.
+float PictureLight::sun_share(const Surface& surface, uint32_t x, uint32_t y, uint32_t first, uint32_t count) const {
+    if (dot(surface.normal, towards_) <= 0) return 0;
+    float sum = 0;
+    for (uint32_t k = first; k < first + count; ++k) {
+        const Point3 p = point_of(x, y, k, 0);
+        const float radius = angular_radius_ * std::sqrt(p.a);
+        const Turn turn = turn_of(p.b);
+        const Vec3 direction = towards_ + radius * (turn.cosine * across_ + turn.sine * aside_);
+        sum += scene_.passes(surface.point, direction);
+    }
+    return sum / static_cast<float>(count);
+}
+
+// Rays are denser towards the normal (by the cosine) and of uneven reach, so that a nearer blocker darkens more.
+float PictureLight::sky_share(const Surface& surface, uint32_t x, uint32_t y, uint32_t first, uint32_t count) const {
+    Vec3 t, b;
+    across(surface.normal, t, b);
+    float sum = 0;
+    for (uint32_t k = first; k < first + count; ++k) {
+        const Point3 p = point_of(x, y, k, 1);
+        const float radius = std::sqrt(p.a);
+        const Turn turn = turn_of(p.b);
+        Vec3 direction = radius * (turn.cosine * t + turn.sine * b) + std::sqrt(1 - p.a) * surface.normal;
+        const float below = dot(direction, surface.face_normal);
+        if (below < 0) direction = direction - 2 * below * surface.face_normal;
+        const float reach = settings_.ambient_reach * (0.1f + 0.9f * p.c * p.c);
+        const float end = surface.point.y + reach * direction.y;
+        if (scene_.is_near(surface.point, direction, reach)) continue;
+        const bool meets_ground = settings_.has_ground && surface.body != kGroundBody && end < settings_.ground_height;
+        sum += meets_ground ? 1 - kGroundBlocks : 1;
+    }
+    return sum / static_cast<float>(count);
+}
+
+Vec3 PictureLight::shaded(const Surface& surface, const Light& light, Vec3 direction) const {
+    if (surface.body == kSkyBody) return surface.colour;
+    const float facing = std::max(0.0f, dot(surface.normal, towards_));
+    const Vec3 falling = (light.sun * facing) * sunlight_ + light.sky * hemisphere(surface.normal);
+    Vec3 seen = times(surface.colour, falling);
+    if (surface.gloss > 0) {
+        const float highlight = to_the_64th(std::max(0.0f, dot(surface.normal, normalised(towards_ - direction))));
+        const Vec3 mirror = direction - 2 * dot(direction, surface.normal) * surface.normal;
+        const float mirrors = surface.gloss * mirrored(-dot(direction, surface.normal));
+        seen += (surface.gloss * light.sun * highlight) * sunlight_ + (mirrors * light.sky) * sky_light(mirror);
+    }
+    if (surface.body != kGroundBody) return seen;
+    constexpr float kHalfHaze = 60;  // m, where the ground is half sky
+    const float far = surface.distance / kHalfHaze, haze = far * far / (1 + far * far);
+    return (1 - haze) * seen + haze * sky_light(normalised(Vec3{direction.x, 0, direction.z}));
+}
+
+Vec3 PictureLight::through(const Surface& glass, Vec3 direction, Vec3 behind) const {
+    const float mirrors = mirrored(-dot(direction, glass.normal));
+    const float edge = glass.kind == FaceKind::Crack ? 0.35f : 0.0f;  // the rim of a pane is where its colour shows
+    const float opacity = std::min(1.0f, glass.opacity + edge);
+    const float facing = std::max(0.0f, dot(glass.normal, towards_));
+    const Vec3 own = times(glass.colour, (0.5f * facing + 0.2f) * sunlight_ + hemisphere(glass.normal));
+    const float highlight = to_the_64th(std::max(0.0f, dot(glass.normal, normalised(towards_ - direction))));
+    const Vec3 mirror = direction - 2 * dot(direction, glass.normal) * glass.normal;
+    const Vec3 inside = (1 - opacity) * behind + opacity * own;
+    return (1 - mirrors) * inside + mirrors * sky_light(mirror) + (glass.gloss * highlight) * sunlight_;
+}
+
+}  // namespace cullet

@@ -1,0 +1,150 @@
+#include "systems/cook/extrude.hpp"
+
+#include "systems/cook/guarded_front.hpp"
+#include "systems/cook/local_caps.hpp"
+
+namespace cullet {
+namespace {
+
+constexpr int kMostRepeats = 8;
+
+VertexRows rings_of(const Surface& surface) {
+    VertexRows ring;
+    ring.start.assign(surface.positions.size() + 1, 0);
+    for (const Triangle& t : surface.triangles)
+        for (const uint32_t v : t) ++ring.start[v + 1];
+    for (size_t v = 0; v < surface.positions.size(); ++v) ring.start[v + 1] += ring.start[v];
+    ring.row.resize(ring.start.back());
+    std::vector<uint32_t> next(ring.start.begin(), ring.start.end() - 1);
+    for (uint32_t t = 0; t < surface.triangles.size(); ++t)
+        for (const uint32_t v : surface.triangles[t]) ring.row[next[v]++] = t;
+    return ring;
+}
+
+double signed_volume(Vec3d a, Vec3d b, Vec3d c) {
+    return dot(a, cross(b, c)) / 6;
+}
+
+// The last condition of the certificate: a closed inner surface has not passed through itself, so its volume has the
+// sign of the outer one. Halves the caps of components that fail, sets them to 0 when `gives_up`.
+bool has_turned_inside_out(ExtrusionWork& work, const std::vector<double>& depth, bool gives_up) {
+    std::vector<double> outer(work.surface.components.size()), inner(outer.size());
+    const Vec3d middle = 0.5 * (work.frame(work.surface.low) + work.frame(work.surface.high));
+    for (uint32_t t = 0; t < work.triangle_count(); ++t) {
+        const Triangle& c = work.surface.triangles[t];
+        const auto in = [&](uint32_t v) { return work.inner(v, depth[v]) - middle; };
+        const auto out = [&](uint32_t v) { return work.points[v] - middle; };
+        outer[work.surface.component_of[t]] += signed_volume(out(c[0]), out(c[1]), out(c[2]));
+        inner[work.surface.component_of[t]] += signed_volume(in(c[0]), in(c[1]), in(c[2]));
+    }
+    bool has_turned = false;
+    for (uint32_t c = 0; c < outer.size(); ++c) {
+        if (!work.surface.components[c].is_closed || outer[c] * inner[c] > 0) continue;
+        has_turned = true;
+        ++work.statistics.repeats;
+        for (uint32_t v = 0; v < work.vertex_count(); ++v)
+            if (work.component_of_vertex[v] == c) work.caps[v] *= gives_up ? 0.0 : 0.5;
+    }
+    return has_turned;
+}
+
+Result<void> check(const Surface& surface, double thickness, const ExtrusionSettings& settings) {
+    if (surface.triangles.empty()) return Error{"extrude: the surface has no triangles; prepare it from a mesh first."};
+    if (!(thickness > 0) || !std::isfinite(thickness))
+        return Error{"extrude: thickness " + std::to_string(thickness) +
+                     " m must be above 0 and finite; 3 % of the diagonal (" + std::to_string(0.03 * surface.diagonal) +
+                     " m) is usual."};
+    if (settings.rounds < 1 || settings.rounds > 1000 || settings.extra_rounds > 1000)
+        return Error{"extrude: rounds " + std::to_string(settings.rounds) + " and extra_rounds " +
+                     std::to_string(settings.extra_rounds) + " must be 1 to 1000 and 0 to 1000; 5 and 12 are usual."};
+    return {};
+}
+
+Extrusion finish(ExtrusionWork& work, const std::vector<double>& depth) {
+    Extrusion result;
+    result.direction = std::move(work.directions);
+    const double metres = 1 / work.frame.scale;
+    for (uint32_t v = 0; v < work.vertex_count(); ++v) {
+        result.depth.push_back(metres * depth[v]);
+        result.cap.push_back(metres * work.caps[v]);
+        work.statistics.depth_zero_vertices += depth[v] == 0;
+    }
+    for (const Triangle& t : work.surface.triangles) {
+        const bool is_degenerate = depth[t[0]] == 0 || depth[t[1]] == 0 || depth[t[2]] == 0;
+        result.is_degenerate_element.push_back(is_degenerate);
+        work.statistics.degenerate_elements += is_degenerate;
+    }
+    result.statistics = work.statistics;
+    return result;
+}
+
+}  // namespace
+
+ExtrusionWork::ExtrusionWork(const Surface& s, double metres, const ExtrusionSettings& e)
+    : surface(s),
+      frame(s.low, s.diagonal),
+      thickness(frame.scale * metres),
+      settings(e),
+      ring(rings_of(s)),
+      component_of_vertex(s.positions.size()),
+      directions(s.positions.size()),
+      facing(s.positions.size()),
+      is_frozen(s.positions.size()),
+      wall_caps(s.positions.size()) {
+    for (const Vec3d p : s.positions) points.push_back(frame(p));
+    for (size_t t = 0; t < s.triangles.size(); ++t) {
+        const Triangle& c = s.triangles[t];
+        const Vec3d twice = cross(points[c[1]] - points[c[0]], points[c[2]] - points[c[0]]);
+        const double l = length(twice);
+        normals.push_back((1 / l) * twice);
+        areas.push_back(l / 2);
+        for (const uint32_t v : c) component_of_vertex[v] = s.component_of[t];
+    }
+}
+
+Result<Extrusion> extrude(const Surface& surface, double thickness, const ExtrusionSettings& settings) {
+    if (auto checked = check(surface, thickness, settings); !checked) return Error{checked.error()};
+    // Beyond the diagonal nothing changes, and local coordinates stay small.
+    ExtrusionWork work(surface, std::min(thickness, surface.diagonal), settings);
+    choose_directions(work);
+    const OppositeWall wall(work);
+    find_wall_caps(work, wall, {});
+    find_local_caps(work);
+    if (settings.straightens) straighten(work, wall);
+    std::vector<double> depth = run_guarded_front(work);
+    for (int repeat = 1; repeat <= kMostRepeats && has_turned_inside_out(work, depth, repeat == kMostRepeats); ++repeat)
+        depth = run_guarded_front(work);
+    return finish(work, depth);
+}
+
+TrueWall measure_true_wall(const Surface& surface, const Extrusion& extrusion, double thickness) {
+    ExtrusionWork work(surface, thickness, {});
+    const OppositeWall wall(work);
+    struct Sample {
+        double wall, area;
+        uint32_t vertex;
+    };
+    std::vector<Sample> samples;
+    double area_sum = 0, sum = 0;
+    for (uint32_t v = 0; v < work.vertex_count(); ++v) {
+        double area = 0;
+        for (const uint32_t t : work.ring[v]) area += work.areas[t];
+        const double depth = work.frame.scale * extrusion.depth[v];
+        const double share = wall.distance(work.points[v] + depth * extrusion.direction[v], depth) / work.thickness;
+        samples.push_back({share, area, v});
+        area_sum += area, sum += area * share;
+    }
+    std::sort(samples.begin(), samples.end(), [](const Sample& a, const Sample& b) {
+        return a.wall != b.wall ? a.wall < b.wall : a.vertex < b.vertex;
+    });
+    TrueWall result{sum / area_sum, samples.back().wall, samples.front().wall};
+    double below = 0;
+    for (const Sample& s : samples)
+        if ((below += s.area) >= 0.05 * area_sum) {
+            result.low = s.wall;
+            break;
+        }
+    return result;
+}
+
+}  // namespace cullet

@@ -1,0 +1,32 @@
+// The inner loop of a brittle thick shell, on tables alone: a frame's damage tasks and single hits (cooking, truth) run
+// the same.
+#pragma once
+#include "components/state.hpp"
+#include "engine/inner_loop.hpp"
+
+namespace cullet {
+
+struct LoopWorld {
+    State& state;
+
+    template <class T>
+    T& table() {
+        return state.table<T>();
+    }
+    /// Rows of a table that belong to a task's working shell.
+    template <class T>
+    Range rows_of(uint32_t task) const {
+        const Row<Shells> shell = state.tasks.shell[task];
+        if constexpr (std::is_same_v<T, Elements>) return state.shells.elements[shell];
+        if constexpr (std::is_same_v<T, Hinges>) return state.shells.hinges[shell];
+        if constexpr (std::is_same_v<T, StiffnessPacks>) return state.shells.packs[shell];
+    }
+};
+
+using BrittleLoop = InnerLoop<LoopWorld>;
+BrittleLoop make_brittle_loop();
+
+/// The task runs and has steps left of those granted.
+bool task_goes_on(LoopWorld& world, uint32_t task);
+
+}  // namespace cullet

@@ -1,0 +1,212 @@
+#include "systems/damage/contact.hpp"
+
+#include <algorithm>
+
+namespace cullet {
+namespace {
+
+struct Candidate {
+    double weight;
+    uint32_t vertex;
+};
+/// Heavier first, then the lower vertex: a heap's top is then the one to give up.
+bool is_before(const Candidate& a, const Candidate& b) {
+    return a.weight != b.weight ? a.weight > b.weight : a.vertex < b.vertex;
+}
+
+/// A patch as it grows: at most `most` candidates, the heaviest.
+struct Patch {
+    uint32_t count = 0, most;
+    Candidate candidate[kMostPatchVertices];
+
+    void add(const Candidate& c) {
+        if (count == most) {
+            if (!is_before(c, candidate[0])) return;
+            std::pop_heap(candidate, candidate + count, is_before);
+            --count;
+        }
+        candidate[count++] = c;
+        std::push_heap(candidate, candidate + count, is_before);
+    }
+};
+
+double patch_radius(const ShellView& shell, float striker_radius) {
+    const Shells& shells = shell.shells();
+    const double h = std::max(shells.thickness[shell.row], shells.depth_floor[shell.row]);
+    return std::max({3 * h, 1.3 * shells.mean_edge[shell.row], 0.35 * striker_radius});
+}
+
+void find_candidates(const ShellView& shell, uint32_t centre, double radius, Patch& patch) {
+    const Vertices& vertices = shell.state.vertices;
+    const uint32_t c = shell.vertex(centre);
+    const Vec3 from = vertices.rest[c], inward = vertices.inward[c];
+    const float reach = static_cast<float>(radius * radius);
+    for (uint32_t v = 0; v < shell.vertex_count(); ++v) {
+        const uint32_t row = shell.vertex(v);
+        const Vec3 d = vertices.rest[row] - from;
+        const float squared = dot(d, d);
+        if (squared >= reach || vertices.element[row] == kNone) continue;
+        if (v != centre && !(dot(vertices.inward[row], inward) > 0)) continue;
+        patch.add({vertices.mass[row] * (1 - double{squared} / (radius * radius)), v});
+    }
+}
+
+/// k_c = min(0.15 E h, 0.3 / (dt^2 max w_i / m_i)); the striker's own inverse mass joins the maximum, which matters for
+/// strikers lighter than a gram.
+double contact_stiffness(const ShellView& shell, const Patch& patch, double total, float striker_inverse_mass,
+                         double dt) {
+    const State& state = shell.state;
+    double mobility = striker_inverse_mass;
+    for (uint32_t i = 0; i < patch.count; ++i)
+        mobility = std::max(mobility, patch.candidate[i].weight / total *
+                                          state.vertices.inverse_mass[shell.vertex(patch.candidate[i].vertex)]);
+    const double h = std::max(shell.shells().thickness[shell.row], shell.shells().depth_floor[shell.row]);
+    const double wall = 0.15 * state.materials.young_modulus[shell.shells().material[shell.row]] * h;
+    return mobility > 0 && dt > 0 ? std::min(wall, 0.3 / (dt * dt * mobility)) : wall;
+}
+
+/// Row of `vertex` in a contact's patch, whose vertices ascend, or kNone.
+uint32_t find_in_patch(const State& state, uint32_t contact, uint32_t vertex) {
+    const uint32_t first = state.task_contacts.first_patch[contact];
+    const uint32_t* begin = state.patch_vertices.vertex.data() + first;
+    const uint32_t* end = begin + state.task_contacts.patch_count[contact];
+    const uint32_t* at = std::lower_bound(begin, end, vertex);
+    return at != end && *at == vertex ? first + static_cast<uint32_t>(at - begin) : kNone;
+}
+
+/// A vertex of several patches takes only the largest stiffness, ties go to the earlier contact.
+void keep_stiffest(State& state, uint32_t first, uint32_t count) {
+    PatchVertices& patches = state.patch_vertices;
+    for (uint32_t c = first; c < first + count; ++c) {
+        const uint32_t begin = state.task_contacts.first_patch[c];
+        for (uint32_t i = begin; i < begin + state.task_contacts.patch_count[c]; ++i)
+            for (uint32_t other = c + 1; other < first + count; ++other) {
+                const uint32_t j = find_in_patch(state, other, patches.vertex[i]);
+                if (j == kNone) continue;
+                patches.stiffness[patches.stiffness[i] >= patches.stiffness[j] ? j : i] = 0;
+            }
+    }
+}
+
+}  // namespace
+
+void build_patches(State& state, Row<Tasks> task) {
+    const ShellView shell(state, state.tasks.shell[task]);
+    TaskContacts& contacts = state.task_contacts;
+    PatchVertices& patches = state.patch_vertices;
+    const uint32_t first = state.tasks.first_contact[task];
+    const uint32_t count = std::min(state.tasks.contact_count[task], kMostContacts);
+    if (count == 0) return;
+    uint32_t at = task * kMostPatchVertices;
+    Patch patch;
+    patch.most = kMostPatchVertices / count;
+    for (uint32_t c = first; c < first + count; ++c) {
+        const double radius = patch_radius(shell, contacts.striker_radius[c]);
+        contacts.radius[c] = static_cast<float>(radius);
+        patch.count = 0;
+        find_candidates(shell, contacts.vertex[c], radius, patch);
+        std::sort(patch.candidate, patch.candidate + patch.count,
+                  [](const Candidate& a, const Candidate& b) { return a.vertex < b.vertex; });
+        double total = 0;
+        for (uint32_t i = 0; i < patch.count; ++i) total += patch.candidate[i].weight;
+        const double stiffness =
+            contact_stiffness(shell, patch, total, contacts.striker_inverse_mass[c], state.tasks.time_step[task]);
+        contacts.first_patch[c] = at;
+        contacts.patch_count[c] = patch.count;
+        for (uint32_t i = 0; i < patch.count; ++i, ++at) {
+            patches.vertex[at] = patch.candidate[i].vertex;
+            patches.stiffness[at] =
+                total > 0 ? static_cast<float>(stiffness * (patch.candidate[i].weight / total)) : 0.0f;
+            patches.force[at] = 0;
+        }
+    }
+    keep_stiffest(state, first, count);
+}
+
+bool contact_forces(State& state, Row<Tasks> task) {
+    const ShellView shell(state, state.tasks.shell[task]);
+    PatchVertices& patches = state.patch_vertices;
+    const TaskContacts& contacts = state.task_contacts;
+    bool touches = false;
+    const uint32_t first = state.tasks.first_contact[task];
+    for (uint32_t c = first; c < first + state.tasks.contact_count[task]; ++c) {
+        const Vec3 n = contacts.normal[c];
+        const float travel = static_cast<float>(contacts.striker_travel[c]);
+        const uint32_t begin = contacts.first_patch[c];
+        for (uint32_t p = begin; p < begin + contacts.patch_count[c]; ++p) {
+            const float depth = travel - dot(n, state.vertices.displacement[shell.vertex(patches.vertex[p])]);
+            patches.force[p] = depth > 0 ? patches.stiffness[p] * depth : 0.0f;
+            touches |= patches.force[p] > 0;
+        }
+    }
+    return touches;
+}
+
+void apply_contact(State& state, Row<Tasks> task, uint32_t side) {
+    const ShellView shell(state, state.tasks.shell[task]);
+    TaskContacts& contacts = state.task_contacts;
+    Vertices& vertices = state.vertices;
+    const int next = static_cast<int>(~side & 1);
+    const float dt = state.tasks.time_step[task], beta = state.tasks.damping_time[task];
+    const uint32_t first = state.tasks.first_contact[task];
+    for (uint32_t c = first; c < first + state.tasks.contact_count[task]; ++c) {
+        const Vec3 n = contacts.normal[c];
+        double force = 0;
+        const uint32_t begin = contacts.first_patch[c];
+        for (uint32_t p = begin; p < begin + contacts.patch_count[c]; ++p) {
+            const float f = state.patch_vertices.force[p];
+            if (f == 0) continue;
+            force += f;
+            const uint32_t row = shell.vertex(state.patch_vertices.vertex[p]);
+            const Vec3 dv = (dt * vertices.inverse_mass[row] * f) * n;
+            const Vec3 du = dt * dv, dw = du + beta * dv;
+            vertices.velocity.set(row, vertices.velocity[row] + dv);
+            vertices.displacement.set(row, vertices.displacement[row] + du);
+            Float4& w = vertices.probe.data(next)[row];
+            w = {w.x + dw.x, w.y + dw.y, w.z + dw.z, 0};
+        }
+        contacts.striker_speed[c] -= double{dt} * contacts.striker_inverse_mass[c] * force;
+        contacts.striker_travel[c] += double{dt} * contacts.striker_speed[c];
+        contacts.impulse[c] += double{dt} * force;
+    }
+}
+
+Vec3d pin_force(ShellView shell, uint32_t side) {
+    const State& state = shell.state;
+    const StiffnessPacks& packs = state.stiffness_packs;
+    const Float4* w = state.vertices.probe.data(static_cast<int>(side & 1)) + shell.vertices().first;
+    Vec3d sum;
+    for (uint32_t v = 0; v < shell.vertex_count(); ++v) {
+        if (!state.vertices.is_pinned[shell.vertex(v)]) continue;
+        const uint32_t p = shell.shells().packs[shell.row].first + v / kLanes, l = v % kLanes;
+        const auto away = [&](uint32_t j) {
+            return Vec3d(double{w[j].x} - w[v].x, double{w[j].y} - w[v].y, double{w[j].z} - w[v].z);
+        };
+        for (uint32_t s = 0; s < packs.block_count[p]; ++s) {
+            const StiffnessBlock& b =
+                state.stiffness_blocks.block[shell.shells().blocks[shell.row].first + packs.first_block[p] + s];
+            const Vec3d d = away(b.neighbour[l]);
+            const auto row = [&](int r) { return dot(Vec3d(b.k[r][l], b.k[r + 1][l], b.k[r + 2][l]), d); };
+            sum += {row(0), row(3), row(6)};
+        }
+        for (uint32_t s = 0; s < packs.link_count[p]; ++s) {
+            const StiffnessLink& k =
+                state.stiffness_links.link[shell.shells().links[shell.row].first + packs.first_link[p] + s];
+            const double t = dot(Vec3d(k.column[0][l], k.column[1][l], k.column[2][l]), away(k.neighbour[l]));
+            sum += t * Vec3d(k.row[0][l], k.row[1][l], k.row[2][l]);
+        }
+    }
+    return sum;
+}
+
+Vec3d momentum(ShellView shell) {
+    const Vertices& vertices = shell.state.vertices;
+    Vec3d sum;
+    for (uint32_t v = 0; v < shell.vertex_count(); ++v) {
+        const uint32_t row = shell.vertex(v);
+        if (vertices.inverse_mass[row] > 0) sum += vertices.mass[row] * Vec3d(vertices.velocity[row]);
+    }
+    return sum;
+}
+
+}  // namespace cullet

@@ -1,0 +1,52 @@
+#include "systems/damage/damage_loop.hpp"
+
+#include "systems/systems.hpp"
+
+namespace cullet {
+
+DamageLoop::DamageLoop(State& state, JobSystem& jobs, Profiler& profiler)
+    : world_{state},
+      jobs_(jobs),
+      profiler_(profiler),
+      brittle_(make_brittle_loop()),
+      zone_(profiler.add_zone("damage task")) {}
+
+void DamageLoop::advance() {
+    static constexpr uint32_t kMostTasks = 1024;
+    const Tasks& tasks = world_.state.tasks;
+    uint32_t alone[kMostTasks], together[kMostTasks], alone_count = 0, together_count = 0;
+    for (uint32_t t = 0; t < tasks.size() && alone_count + together_count < kMostTasks; ++t) {
+        if (static_cast<TaskState>(tasks.state[t]) != TaskState::Running || tasks.steps_granted[t] == 0) continue;
+        if (world_.state.shells.vertices[tasks.shell[t]].count > kTeamVertices)
+            together[together_count++] = t;
+        else
+            alone[alone_count++] = t;
+    }
+    const uint32_t workers = jobs_.worker_count();
+    if (together_count >= workers || workers == 1) {
+        for (uint32_t i = 0; i < together_count; ++i) alone[alone_count++] = together[i];
+        together_count = 0;
+    }
+    const auto run_of = [&](uint32_t t) {
+        return BrittleLoop::Run{t, tasks.steps_done[t], tasks.steps_granted[t], task_goes_on};
+    };
+    for (uint32_t i = 0; i < together_count; ++i) {
+        BrittleLoop::Team team(brittle_, world_, run_of(together[i]));
+        parallel_for(jobs_, workers, [&](uint32_t worker) {
+            const uint64_t start = now_ns();
+            team.work();
+            profiler_.add_span(zone_, worker, start, now_ns());
+        });
+    }
+    parallel_for(jobs_, alone_count, [&](uint32_t i) {
+        const uint64_t start = now_ns();
+        brittle_.run_alone(world_, run_of(alone[i]));
+        profiler_.add_span(zone_, i % workers, start, now_ns());
+    });
+}
+
+void advance_damage(Serial, DamageLoop& loop) {
+    loop.advance();
+}
+
+}  // namespace cullet

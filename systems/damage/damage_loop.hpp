@@ -1,0 +1,27 @@
+// Runs the inner loops of open damage tasks on all workers.
+#pragma once
+#include <string>
+
+#include "systems/damage/brittle_loop.hpp"
+
+namespace cullet {
+
+struct DamageLoop {
+    DamageLoop(State& state, JobSystem& jobs, Profiler& profiler);
+
+    /// Every running task by its granted steps. With as many tasks as workers one job a task; with fewer, all workers
+    /// share each task of more than kTeamVertices vertices, one after another, and the rest go one job a task.
+    void advance();
+    std::string describe() const { return brittle_.describe(); }
+
+    static constexpr uint32_t kTeamVertices = 1000;
+
+ private:
+    LoopWorld world_;
+    JobSystem& jobs_;
+    Profiler& profiler_;
+    BrittleLoop brittle_;
+    uint32_t zone_;
+};
+
+}  // namespace cullet

@@ -1,0 +1,82 @@
+#include "systems/damage/energy.hpp"
+
+#include <algorithm>
+
+#include "systems/damage/stress_check.hpp"
+
+namespace cullet {
+namespace {
+
+constexpr uint32_t kEnergyChunk = 1024;  // rows
+
+template <class Part>
+double sum_chunks(uint32_t count, Part part) {
+    double sum = 0;
+    for (uint32_t first = 0; first < count; first += kEnergyChunk)
+        sum += part(first, std::min(kEnergyChunk, count - first));
+    return sum;
+}
+
+void add_contacts(const State& state, Row<Tasks> task, const ShellView& shell, TaskEnergy& energy) {
+    const TaskContacts& contacts = state.task_contacts;
+    const PatchVertices& patches = state.patch_vertices;
+    const uint32_t first = state.tasks.first_contact[task];
+    for (uint32_t c = first; c < first + state.tasks.contact_count[task]; ++c) {
+        const double inverse_mass = contacts.striker_inverse_mass[c], speed = contacts.striker_speed[c];
+        if (inverse_mass > 0) energy.strikers += 0.5 * speed * speed / inverse_mass;
+        const Vec3d n(contacts.normal[c]);
+        const uint32_t begin = contacts.first_patch[c];
+        for (uint32_t p = begin; p < begin + contacts.patch_count[c]; ++p) {
+            const Vec3d u(state.vertices.displacement[shell.vertex(patches.vertex[p])]);
+            const double depth = std::max(0.0, contacts.striker_travel[c] - dot(n, u));
+            energy.contact += 0.5 * patches.stiffness[p] * depth * depth;
+        }
+    }
+}
+
+}  // namespace
+
+double kinetic_energy(ShellView shell, uint32_t side, uint32_t first, uint32_t count) {
+    Vertices& vertices = shell.state.vertices;
+    Float4* w = vertices.probe.data(static_cast<int>(side & 1));
+    double sum = 0;
+    for (uint32_t row = shell.vertex(first); row < shell.vertex(first) + count; ++row) {
+        const Vec3 u = vertices.displacement[row];
+        w[row] = {u.x, u.y, u.z, 0};
+        const Vec3d v(vertices.velocity[row]);
+        sum += vertices.mass[row] * dot(v, v);  // pinned ones have v = 0
+    }
+    return 0.5 * sum;
+}
+
+double bending_energy(ShellView shell, uint32_t first, uint32_t count) {
+    const Hinges& hinges = shell.state.hinges;
+    double sum = 0;
+    for (uint32_t row = shell.hinge(first); row < shell.hinge(first) + count; ++row)
+        if (hinges.vertex[row][0] != kNone)
+            sum += double{hinges.stiffness[row]} * hinges.scale[row] * (double{hinges.angle[row]} * hinges.angle[row]);
+    return 0.5 * sum;
+}
+
+TaskEnergy task_energy(State& state, Row<Tasks> task) {
+    const ShellView shell(state, state.tasks.shell[task]);
+    const uint32_t scratch = ~state.tasks.steps_done[task] & 1;
+    TaskEnergy energy;
+    energy.kinetic = sum_chunks(shell.vertex_count(), [&](uint32_t first, uint32_t count) {
+        return kinetic_energy(shell, scratch, first, count);
+    });
+    bend_hinges(shell, scratch, 0, shell.hinge_count());
+    energy.bending = sum_chunks(shell.hinge_count(),
+                                [&](uint32_t first, uint32_t count) { return bending_energy(shell, first, count); });
+    energy.membrane = sum_chunks(shell.element_count(), [&](uint32_t first, uint32_t count) {
+        return membrane_energy(shell, scratch, first, count);
+    });
+    add_contacts(state, task, shell, energy);
+    return energy;
+}
+
+bool is_blown_up(const TaskEnergy& energy, double start_energy) {
+    return !(energy.total() <= 1.05 * start_energy);
+}
+
+}  // namespace cullet

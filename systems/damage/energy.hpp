@@ -1,0 +1,27 @@
+// Energy of a hidden run, for the test of every 64 steps (thick shell note B7: above 1.05 of the start, redo with
+// dt/2).
+#pragma once
+#include "components/state.hpp"
+
+namespace cullet {
+
+struct TaskEnergy {
+    double kinetic = 0, membrane = 0, bending = 0, contact = 0, strikers = 0;  // J; strikers of infinite mass count 0
+    double total() const { return kinetic + membrane + bending + contact + strikers; }
+};
+
+/// Energy at (u, v) as they are. Sums in double over fixed chunks, added in order. Uses the side of the probe that the
+/// next step will write (steps_done tells which), and Hinges.angle, as scratch: call it between steps. Costs about one
+/// step.
+TaskEnergy task_energy(State& state, Row<Tasks> task);
+
+/// B7's redo criterion: energy above 1.05 of the start, or not finite.
+bool is_blown_up(const TaskEnergy& energy, double start_energy);
+
+/// Parts of the above, for one chunk of rows: kinetic energy of vertices [first, first + count), which also writes u
+/// into side `side` of the probe; bending energy of hinges, which reads the angles (bend_hinges). Membrane:
+/// stress_check.hpp.
+double kinetic_energy(ShellView shell, uint32_t side, uint32_t first, uint32_t count);
+double bending_energy(ShellView shell, uint32_t first, uint32_t count);
+
+}  // namespace cullet

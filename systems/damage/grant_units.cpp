@@ -1,0 +1,57 @@
+#include <algorithm>
+
+#include "systems/damage/task_cost.hpp"
+#include "systems/systems.hpp"
+
+namespace cullet {
+namespace {
+
+constexpr uint32_t kStepsARound = 16;
+
+uint32_t steps_left(const Tasks& tasks, uint32_t t) {
+    const auto total = static_cast<uint32_t>(tasks.end_time[t] / tasks.time_step[t]) + 1;
+    return total > tasks.steps_done[t] + tasks.steps_granted[t] ? total - tasks.steps_done[t] - tasks.steps_granted[t]
+                                                                : 0;
+}
+
+}  // namespace
+
+// What cuts cost more than was granted for is owed, and paid before the next frame's steps. A task gets at least one
+// step a frame, so that none can starve.
+void grant_units(Serial, Tasks& tasks, const Shells& shells, const DamageSettings& settings, DamageCounts& counts) {
+    static constexpr uint32_t kMostTasks = 1024;
+    uint32_t order[kMostTasks], count = 0;
+    int64_t budget = static_cast<int64_t>(settings.units_a_frame);
+    for (uint32_t t = 0; t < tasks.size() && count < kMostTasks; ++t) {
+        if (static_cast<TaskState>(tasks.state[t]) != TaskState::Running) continue;
+        order[count++] = t;
+        const auto paid = std::min<int64_t>(static_cast<int64_t>(tasks.units_owed[t]), std::max<int64_t>(budget, 0));
+        tasks.units_owed[t] -= static_cast<uint64_t>(paid);
+        budget -= paid;
+    }
+    std::sort(order, order + count, [&](uint32_t a, uint32_t b) {
+        if (tasks.opened_frame[a] != tasks.opened_frame[b]) return tasks.opened_frame[a] < tasks.opened_frame[b];
+        return tasks.body[a].index < tasks.body[b].index;
+    });
+    for (uint32_t i = 0; i < count; ++i) tasks.steps_granted[order[i]] = 0;
+    bool is_first_round = true, goes_on = count > 0;
+    while (goes_on) {
+        goes_on = false;
+        for (uint32_t i = 0; i < count; ++i) {
+            const uint32_t t = order[i];
+            const auto cost = static_cast<int64_t>(units_a_step(shells, tasks, t));
+            uint32_t steps = std::min(is_first_round ? 1 : kStepsARound, steps_left(tasks, t));
+            if (!is_first_round)
+                steps = std::min<uint32_t>(steps, budget > 0 ? static_cast<uint32_t>(budget / cost) : 0);
+            tasks.steps_granted[t] += steps;
+            budget -= static_cast<int64_t>(steps) * cost;
+            goes_on = goes_on || steps > 0;
+        }
+        goes_on = goes_on && budget > 0;
+        is_first_round = false;
+    }
+    counts.units_left = static_cast<uint64_t>(std::max<int64_t>(budget, 0));
+    counts.units_used = settings.units_a_frame - counts.units_left;
+}
+
+}  // namespace cullet

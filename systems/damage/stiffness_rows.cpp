@@ -1,0 +1,280 @@
+// The assembled stiffness: rows of blocks and links in packs of 8 vertices (thick shell note, section 10).
+#include <algorithm>
+
+#include "systems/damage/assemble.hpp"
+#include "systems/damage/element_stiffness.hpp"
+#include "systems/damage/fan.hpp"
+
+namespace cullet {
+namespace {
+
+constexpr uint32_t kMostNeighbours = kMostFan + 2;
+constexpr uint32_t kSpareSlots = 2;    // a pack and kind: a split vertex seldom gains more neighbours
+constexpr uint32_t kNewPackSlots = 8;  // a pack of new vertices fills lane by lane
+
+/// One vertex's share, before it is put into its lane. Summed in double over elements, then hinges, both ascending, so
+/// that the pair's two blocks are transposes of each other and every way to this row gives the same bits.
+struct VertexRow {
+    struct Link {
+        uint32_t neighbour;
+        float row[3], column[3];
+    };
+    uint32_t block_count = 0, link_count = 0;
+    uint32_t neighbour[kMostNeighbours];
+    double k[kMostNeighbours][9];
+    Link link[kMostFan];
+
+    double* block(uint32_t v) {
+        uint32_t at = 0;
+        while (at < block_count && neighbour[at] != v) ++at;
+        if (at == block_count) {
+            if (block_count == kMostNeighbours) return k[kMostNeighbours - 1];
+            neighbour[block_count++] = v;
+            std::fill(k[at], k[at] + 9, 0.0);
+        }
+        return k[at];
+    }
+};
+
+void add_triangle(const ShellView& shell, const PlaneStress& stress, uint32_t element, int i, VertexRow& row) {
+    const uint32_t e = shell.element(element);
+    const TriangleTerms terms(shell.state.triangle_springs, e, stress);
+    for (int step = 1; step < 3; ++step) {
+        const int j = (i + step) % 3;
+        terms.add_block(i, j, shell.state.triangle_springs.scale[e],
+                        row.block(shell.state.elements.corner[e][static_cast<size_t>(j)]));
+    }
+}
+
+/// Pairs of the edge's ends and of an end with a corner opposite are neighbours; the two corners opposite are a link.
+void add_hinge(const ShellView& shell, uint32_t vertex, uint32_t hinge, VertexRow& row) {
+    const Hinges& hinges = shell.state.hinges;
+    const uint32_t h = shell.hinge(hinge);
+    const auto& v = hinges.vertex[h];
+    const auto& g = hinges.gradient[h];
+    const double stiffness = double{hinges.stiffness[h]} * hinges.scale[h];
+    uint32_t i = 0;
+    while (i < 4 && v[i] != vertex) ++i;
+    if (i == 4) return;
+    const float* gi = &g[3 * i];
+    for (uint32_t j = 0; j < 4; ++j) {
+        if (j == i) continue;
+        const float* gj = &g[3 * j];
+        if (i + j == 5) {  // 2 and 3
+            if (row.link_count == kMostFan) continue;
+            VertexRow::Link& link = row.link[row.link_count++];
+            link.neighbour = v[j];
+            for (int k = 0; k < 3; ++k) link.row[k] = static_cast<float>(-stiffness * gi[k]), link.column[k] = gj[k];
+        } else {
+            double* k = row.block(v[j]);
+            for (int r = 0; r < 3; ++r)
+                for (int c = 0; c < 3; ++c) k[3 * r + c] -= stiffness * (double{gi[r]} * gj[c]);
+        }
+    }
+}
+
+void build_row(const ShellView& shell, const PlaneStress& stress, uint32_t vertex, VertexRow& row) {
+    row.block_count = row.link_count = 0;
+    Fan fan;
+    collect_fan(shell, vertex, fan);
+    for (uint32_t i = 0; i < fan.count; ++i) add_triangle(shell, stress, fan.element[i], fan.corner[i], row);
+    FanHinges hinges;
+    collect_hinges(shell, fan, hinges);
+    for (uint32_t i = 0; i < hinges.count; ++i) add_hinge(shell, vertex, hinges.hinge[i], row);
+}
+
+/// Slots that a vertex takes, without building its row: a border fan has one neighbour more than elements.
+void count_slots(const ShellView& shell, uint32_t vertex, uint32_t& blocks, uint32_t& links) {
+    Fan fan;
+    collect_fan(shell, vertex, fan);
+    bool is_open = false;
+    links = 0;
+    for (uint32_t i = 0; i < fan.count; ++i) {
+        const uint32_t e = shell.element(fan.element[i]);
+        is_open |= shell.state.elements.neighbour[e][fan.corner[i]] == kNone;
+        links += shell.state.elements.hinge[e][(fan.corner[i] + 1u) % 3] != kNone;
+    }
+    blocks = fan.count + is_open;
+}
+
+void count_pack(const ShellView& shell, uint32_t pack, uint32_t& blocks, uint32_t& links) {
+    blocks = links = 0;
+    const uint32_t end = std::min((pack + 1) * kLanes, shell.vertex_count());
+    for (uint32_t v = pack * kLanes; v < end; ++v) {
+        uint32_t b = 0, l = 0;
+        count_slots(shell, v, b, l);
+        blocks = std::max(blocks, b), links = std::max(links, l);
+    }
+}
+
+uint32_t packs_of(uint32_t vertices) {
+    return (vertices + kLanes - 1) / kLanes;
+}
+
+void clear_slot(StiffnessBlock& slot, uint32_t lane, uint32_t vertex) {
+    slot.neighbour[lane] = vertex;
+    for (auto& k : slot.k) k[lane] = 0;
+}
+void clear_slot(StiffnessLink& slot, uint32_t lane, uint32_t vertex) {
+    slot.neighbour[lane] = vertex;
+    for (int k = 0; k < 3; ++k) slot.row[k][lane] = slot.column[k][lane] = 0;
+}
+void write_slot(StiffnessBlock& slot, uint32_t lane, const VertexRow& row, uint32_t i) {
+    slot.neighbour[lane] = row.neighbour[i];
+    for (int k = 0; k < 9; ++k) slot.k[k][lane] = static_cast<float>(row.k[i][k]);
+}
+void write_slot(StiffnessLink& slot, uint32_t lane, const VertexRow& row, uint32_t i) {
+    slot.neighbour[lane] = row.link[i].neighbour;
+    for (int k = 0; k < 3; ++k) slot.row[k][lane] = row.link[i].row[k], slot.column[k][lane] = row.link[i].column[k];
+}
+
+/// One kind of slot of one pack: where it is, how many are in use and how many it may have.
+template <class Slot>
+struct Slots {
+    Range& range;     // of the shell
+    Slot* data;       // of the table
+    uint32_t& first;  // relative to the range
+    uint16_t& count;
+    uint16_t& capacity;
+
+    Slot& at(uint32_t i) const { return data[range.first + first + i]; }
+
+    /// Room for `wanted` slots, moved to the end of the range where there is not.
+    bool reserve(uint32_t wanted, uint32_t spare) {
+        if (wanted <= capacity) return true;
+        const uint32_t room = wanted + spare;
+        if (range.count + room > range.capacity) return false;
+        const uint32_t from = range.first + first, to = range.first + range.count;
+        std::copy(data + from, data + from + count, data + to);
+        first = range.count;
+        range.count += room;
+        capacity = static_cast<uint16_t>(room);
+        return true;
+    }
+    void write_lane(uint32_t pack, uint32_t lane, const VertexRow& row, uint32_t used) {
+        for (; count < used; ++count)
+            for (uint32_t l = 0; l < kLanes; ++l) clear_slot(at(count), l, pack * kLanes + l);
+        for (uint32_t i = 0; i < count; ++i)
+            if (i < used)
+                write_slot(at(i), lane, row, i);
+            else
+                clear_slot(at(i), lane, pack * kLanes + lane);
+        while (count > 0 && is_unused(pack, count - 1u)) --count;
+    }
+    bool is_unused(uint32_t pack, uint32_t i) const {
+        for (uint32_t l = 0; l < kLanes; ++l)
+            if (at(i).neighbour[l] != pack * kLanes + l) return false;
+        return true;
+    }
+};
+
+Slots<StiffnessBlock> block_slots(const ShellView& shell, uint32_t pack) {
+    StiffnessPacks& packs = shell.state.stiffness_packs;
+    const uint32_t p = shell.shells().packs[shell.row].first + pack;
+    return {shell.shells().blocks[shell.row], shell.state.stiffness_blocks.block.data(), packs.first_block[p],
+            packs.block_count[p], packs.block_capacity[p]};
+}
+Slots<StiffnessLink> link_slots(const ShellView& shell, uint32_t pack) {
+    StiffnessPacks& packs = shell.state.stiffness_packs;
+    const uint32_t p = shell.shells().packs[shell.row].first + pack;
+    return {shell.shells().links[shell.row], shell.state.stiffness_links.link.data(), packs.first_link[p],
+            packs.link_count[p], packs.link_capacity[p]};
+}
+
+bool write_row(const ShellView& shell, const PlaneStress& stress, uint32_t vertex) {
+    VertexRow row;
+    build_row(shell, stress, vertex, row);
+    const uint32_t pack = vertex / kLanes, lane = vertex % kLanes;
+    auto blocks = block_slots(shell, pack);
+    auto links = link_slots(shell, pack);
+    if (!blocks.reserve(row.block_count, kSpareSlots) || !links.reserve(row.link_count, kSpareSlots)) return false;
+    blocks.write_lane(pack, lane, row, row.block_count);
+    links.write_lane(pack, lane, row, row.link_count);
+    return true;
+}
+
+/// Packs up to the one of the last vertex, with room for vertices of usual valence.
+bool append_packs(const ShellView& shell) {
+    Range& packs = shell.shells().packs[shell.row];
+    while (packs.count < packs_of(shell.vertex_count())) {
+        if (packs.count == packs.capacity) return false;
+        shell.state.stiffness_packs.clear_rows(packs.first + packs.count, 1);
+        const uint32_t pack = packs.count++;
+        if (!block_slots(shell, pack).reserve(kNewPackSlots, 0) || !link_slots(shell, pack).reserve(kNewPackSlots, 0)) {
+            --packs.count;
+            return false;
+        }
+    }
+    return true;
+}
+
+}  // namespace
+
+ShellRoom stiffness_room(ShellView shell, uint32_t spare_vertices) {
+    ShellRoom room;
+    room.vertices = shell.vertex_count() + spare_vertices;
+    const uint32_t packs = packs_of(shell.vertex_count()), spare_packs = packs_of(spare_vertices) + 1;
+    for (uint32_t p = 0; p < packs; ++p) {
+        uint32_t blocks = 0, links = 0;
+        count_pack(shell, p, blocks, links);
+        room.blocks += blocks + kSpareSlots, room.links += links + kSpareSlots;
+    }
+    const uint32_t moved = packs / 8 + 1;
+    room.blocks += (spare_packs + moved) * (kNewPackSlots + 2 * kSpareSlots);
+    room.links += (spare_packs + moved) * (kNewPackSlots + 2 * kSpareSlots);
+    return room;
+}
+
+bool assemble_stiffness(ShellView shell) {
+    Shells& shells = shell.shells();
+    shells.packs[shell.row].count = shells.blocks[shell.row].count = shells.links[shell.row].count = 0;
+    const PlaneStress stress = plane_stress(shell.state, shell.row);
+    const uint32_t packs = packs_of(shell.vertex_count());
+    if (packs > shells.packs[shell.row].capacity) return false;
+    for (uint32_t p = 0; p < packs; ++p) {
+        shell.state.stiffness_packs.clear_rows(shells.packs[shell.row].first + p, 1);
+        ++shells.packs[shell.row].count;
+        uint32_t blocks = 0, links = 0;
+        count_pack(shell, p, blocks, links);
+        if (!block_slots(shell, p).reserve(blocks + kSpareSlots, 0) ||
+            !link_slots(shell, p).reserve(links + kSpareSlots, 0))
+            return false;
+        const uint32_t end = std::min((p + 1) * kLanes, shell.vertex_count());
+        for (uint32_t v = p * kLanes; v < end; ++v)
+            if (!write_row(shell, stress, v)) return false;
+    }
+    return true;
+}
+
+uint32_t row_vertices(ShellView shell, std::span<const uint32_t> vertices, std::span<uint32_t> out) {
+    uint32_t count = 0;
+    const auto add = [&](uint32_t v) {
+        uint32_t* at = std::lower_bound(out.data(), out.data() + count, v);
+        if ((at < out.data() + count && *at == v) || count == out.size()) return;
+        std::copy_backward(at, out.data() + count, out.data() + count + 1);
+        *at = v;
+        ++count;
+    };
+    Fan fan;
+    FanHinges hinges;
+    for (const uint32_t v : vertices) {
+        add(v);
+        collect_fan(shell, v, fan);
+        collect_hinges(shell, fan, hinges);
+        for (uint32_t i = 0; i < fan.count; ++i)
+            for (const uint32_t c : shell.state.elements.corner[shell.element(fan.element[i])]) add(c);
+        for (uint32_t i = 0; i < hinges.count; ++i)
+            for (const uint32_t c : shell.state.hinges.vertex[shell.hinge(hinges.hinge[i])]) add(c);
+    }
+    return count;
+}
+
+bool rebuild_rows(ShellView shell, std::span<const uint32_t> vertices) {
+    if (!append_packs(shell)) return false;
+    const PlaneStress stress = plane_stress(shell.state, shell.row);
+    for (const uint32_t v : vertices)
+        if (!write_row(shell, stress, v)) return false;
+    return true;
+}
+
+}  // namespace cullet

@@ -1,0 +1,33 @@
+#include "systems/damage/working_room.hpp"
+
+#include <algorithm>
+
+#include "systems/damage/assemble.hpp"
+
+namespace cullet {
+
+ShellRoom working_room(ShellView source) {
+    const uint32_t spare = (std::max(192u, source.vertex_count() / 4) + kLanes - 1) / kLanes * kLanes;
+    const ShellRoom stiffness = stiffness_room(source, spare);
+    ShellRoom room;
+    room.vertices = std::max(source.vertex_count() + spare, stiffness.vertices);
+    room.elements = source.element_count() + 2 * spare;
+    room.hinges = source.hinge_count() + 3 * spare;
+    room.blocks = stiffness.blocks;
+    room.links = stiffness.links;
+    room.cells = source.shells().cells[source.row].count;
+    return room;
+}
+
+void set_task_times(State& state, const Materials& materials, Row<Tasks> task) {
+    const Row<Shells> source = state.tasks.source[task];
+    const uint32_t material = state.shells.material[source];
+    const float speed_of_sound = std::sqrt(materials.young_modulus[material] / materials.density[material]);
+    const float crossing = 3.6f * std::sqrt(state.shells.area[source]) / speed_of_sound;
+    state.tasks.time_step[task] = state.shells.time_step[source];
+    state.tasks.damping_time[task] = 0.15f * state.tasks.time_step[task];
+    state.tasks.end_time[task] = std::max(materials.run_seconds[material], crossing);
+    state.tasks.quiet_time[task] = 0.4f * state.tasks.end_time[task];
+}
+
+}  // namespace cullet

@@ -1,0 +1,20 @@
+// The collision shape of a shell: a convex hull of at most 32 points for each cell.
+#pragma once
+#include "components/state.hpp"
+
+namespace cullet {
+
+inline constexpr uint32_t kMostHullPoints = 32;
+
+/// The shell's collision margin: 0.2 of its mean depth, at most 1 mm.
+float hull_margin(const ShellView& shell);
+
+/// Writes HullPoints, and the counts in Cells, for all cells. Elements must stand sorted by cell (build_shell and
+/// make_piece leave them so) and the points' range have 32 rows a cell. Points are outer and inner corners, pulled into
+/// the solid by the margin along the shell's normal (at most to the middle of the wall) and away from rims and cracks,
+/// so that neighbours along a crack start apart. Of the extremes along 86 directions in the cell's own frame (most of
+/// them round the rims of both faces) the 32 are kept that add most reach, fewer when nothing lacks more than 0.05
+/// margins. Uses Vertices.copy as scratch. About 50 microseconds a cell of processor time, without AVX.
+void build_hulls(ShellView shell);
+
+}  // namespace cullet

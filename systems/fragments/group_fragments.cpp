@@ -1,0 +1,67 @@
+#include "systems/fragments/group_fragments.hpp"
+
+#include <algorithm>
+
+namespace cullet {
+namespace {
+
+// Union-find inside the part column. The smaller element becomes the root, so every parent is at most its child, and
+// one rising pass can turn parents into part numbers.
+uint32_t find_root(uint32_t* parent, uint32_t e) {
+    while (parent[e] != e) e = parent[e] = parent[parent[e]];
+    return e;
+}
+
+void join_neighbours(ShellView shell, uint32_t* parent) {
+    const Elements& elements = shell.state.elements;
+    for (uint32_t e = 0; e < shell.element_count(); ++e) parent[e] = e;
+    for (uint32_t e = 0; e < shell.element_count(); ++e) {
+        if (elements.flags[shell.element(e)] & kDead) continue;
+        for (uint32_t n : elements.neighbour[shell.element(e)]) {
+            if (n == kNone || n > e) continue;
+            const uint32_t a = find_root(parent, e), b = find_root(parent, n);
+            parent[std::max(a, b)] = std::min(a, b);
+        }
+    }
+}
+
+void add_element(ShellView shell, FragmentPart& part, uint32_t e) {
+    Elements& elements = shell.state.elements;
+    if (part.first_element == kNone) part.first_element = e;
+    if (part.last_element != kNone) elements.next[shell.element(part.last_element)] = e;
+    elements.next[shell.element(e)] = kNone;
+    part.last_element = e;
+    ++part.element_count;
+    part.mass += elements.mass[shell.element(e)];
+    for (uint32_t v : elements.corner[shell.element(e)])
+        if (shell.state.vertices.is_pinned[shell.vertex(v)]) part.has_pins = true;
+}
+
+}  // namespace
+
+uint32_t group_fragments(ShellView shell, std::span<FragmentPart> parts) {
+    uint32_t* part = shell.state.elements.part.data() + shell.elements().first;
+    join_neighbours(shell, part);
+    uint32_t count = 0;
+    for (uint32_t e = 0; e < shell.element_count(); ++e) {
+        if (shell.state.elements.flags[shell.element(e)] & kDead) {
+            part[e] = kNone;
+            continue;
+        }
+        const bool is_root = part[e] == e;
+        part[e] = is_root ? count : part[part[e]];
+        if (is_root && count < parts.size()) parts[count] = {};
+        count += is_root;
+        if (part[e] < parts.size()) add_element(shell, parts[part[e]], e);
+    }
+    return count;
+}
+
+uint32_t largest_part(std::span<const FragmentPart> parts) {
+    uint32_t best = 0;
+    for (uint32_t p = 1; p < parts.size(); ++p)
+        if (parts[p].mass > parts[best].mass) best = p;
+    return best;
+}
+
+}  // namespace cullet

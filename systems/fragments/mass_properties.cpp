@@ -1,0 +1,93 @@
+#include "systems/fragments/mass_properties.hpp"
+
+#include "systems/fragments/prism.hpp"
+
+namespace cullet {
+namespace {
+
+bool is_live(const ShellView& shell, uint32_t element) {
+    return (shell.state.elements.flags[shell.element(element)] & kDead) == 0;
+}
+
+}  // namespace
+
+Moments element_moments(const ShellView& shell, uint32_t element) {
+    const Prism prism = load_prism(shell, element);
+    const uint32_t row = shell.element(element);
+    Moments sum;
+    for_each_tetrahedron(prism, [&](Vec3d p, Vec3d q, Vec3d r, Vec3d s, double volume) {
+        const Vec3d total = p + q + r + s;
+        sum.mass += volume;
+        sum.first += volume / 4 * total;
+        sum.second = sum.second + volume / 20 * (outer(p) + outer(q) + outer(r) + outer(s) + outer(total));
+    });
+    const double mass = shell.state.elements.mass[row];
+    const double density = shell.state.materials.density[shell.shells().material[shell.row]];
+    // Mass has a floor of depth (build_shell); below a tenth of it the tetrahedra say nothing about where it lies.
+    if (sum.mass * density > 0.1 * mass) {
+        const double scale = mass / sum.mass;
+        return {mass, scale * sum.first, scale * sum.second};
+    }
+    const Vec3d total = prism.outer[0] + prism.outer[1] + prism.outer[2];
+    const Sym3d squares = outer(prism.outer[0]) + outer(prism.outer[1]) + outer(prism.outer[2]);
+    return {mass, mass / 3 * total, mass / 12 * (squares + outer(total))};
+}
+
+Moments shell_moments(const ShellView& shell) {
+    Moments sum;
+    for (uint32_t e = 0; e < shell.element_count(); ++e)
+        if (is_live(shell, e)) sum = sum + element_moments(shell, e);
+    return sum;
+}
+
+MassProperties mass_properties(const Moments& moments) {
+    if (!(moments.mass > 0)) return {};
+    const Vec3d centre = (1.0 / moments.mass) * moments.first;
+    return {moments.mass, centre, inertia_of(moments.second - moments.mass * outer(centre))};
+}
+
+Moments moments_of(const MassProperties& p) {
+    // I = tr(C) 1 - C gives tr(C) = tr(I) / 2.
+    const double half = trace(p.inertia) / 2;
+    const Sym3d about_centre{half - p.inertia.xx, half - p.inertia.yy, half - p.inertia.zz,
+                             -p.inertia.xy,       -p.inertia.xz,       -p.inertia.yz};
+    return {p.mass, p.mass * p.centre, about_centre + p.mass * outer(p.centre)};
+}
+
+void measure_shell(ShellView shell) {
+    const MassProperties properties = mass_properties(shell_moments(shell));
+    double area = 0, depth = 0;
+    for (uint32_t e = 0; e < shell.element_count(); ++e) {
+        if (!is_live(shell, e)) continue;
+        const auto corner = shell.state.elements.corner[shell.element(e)];
+        double sum = 0;
+        for (uint32_t v : corner) sum += static_cast<double>(shell.state.vertices.depth[shell.vertex(v)]);
+        const double a = prism_area(load_prism(shell, e));
+        area += a;
+        depth += a * sum / 3;
+    }
+    Shells& s = shell.shells();
+    s.mass[shell.row] = properties.mass;
+    s.centre.set(shell.row, properties.centre);
+    s.inertia.set(shell.row, properties.inertia);
+    s.area[shell.row] = static_cast<float>(area);
+    s.thickness[shell.row] = area > 0 ? static_cast<float>(depth / area) : 0.0f;
+}
+
+void sum_vertex_masses(ShellView shell) {
+    Vertices& vertices = shell.state.vertices;
+    for (uint32_t v = 0; v < shell.vertex_count(); ++v) vertices.mass[shell.vertex(v)] = 0;
+    for (uint32_t e = 0; e < shell.element_count(); ++e) {
+        if (!is_live(shell, e)) continue;
+        const uint32_t row = shell.element(e);
+        for (uint32_t v : shell.state.elements.corner[row])
+            vertices.mass[shell.vertex(v)] += shell.state.elements.mass[row] / 3;
+    }
+    for (uint32_t v = 0; v < shell.vertex_count(); ++v) {
+        const uint32_t row = shell.vertex(v);
+        const bool moves = vertices.element[row] != kNone && !vertices.is_pinned[row] && vertices.mass[row] > 0;
+        vertices.inverse_mass[row] = moves ? static_cast<float>(1.0 / vertices.mass[row]) : 0.0f;
+    }
+}
+
+}  // namespace cullet

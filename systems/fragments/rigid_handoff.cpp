@@ -1,0 +1,133 @@
+#include "systems/fragments/rigid_handoff.hpp"
+
+#include <algorithm>
+
+namespace cullet {
+namespace {
+
+constexpr double kMostRelativeSpeed = 2;  // times the impact speed, for shards and for their rims' spin
+
+/// Calls visit(row, motion) for each live vertex of a described part, in stored order.
+template <class Visit>
+void for_each_vertex(const ShellView& shell, std::span<PartMotion> motions, Visit visit) {
+    for (uint32_t v = 0; v < shell.vertex_count(); ++v) {
+        const uint32_t row = shell.vertex(v), element = shell.state.vertices.element[row];
+        if (element == kNone) continue;
+        const uint32_t part = shell.state.elements.part[shell.element(element)];
+        if (part < motions.size()) visit(row, motions[part]);
+    }
+}
+
+void sum_momenta(const ShellView& shell, std::span<PartMotion> motions) {
+    const Vertices& vertices = shell.state.vertices;
+    for_each_vertex(shell, motions, [&](uint32_t row, PartMotion& m) {
+        const double mass = vertices.mass[row];
+        const Vec3d v(vertices.velocity[row]);
+        m.mass += mass;
+        m.centre += mass * Vec3d(vertices.rest[row]);
+        m.momentum += mass * v;
+        m.hidden_energy += mass / 2 * dot(v, v);
+    });
+    for (PartMotion& m : motions)
+        if (m.mass > 0) m.centre = (1 / m.mass) * m.centre;
+    for_each_vertex(shell, motions, [&](uint32_t row, PartMotion& m) {
+        const double mass = vertices.mass[row];
+        const Vec3d arm = Vec3d(vertices.rest[row]) - m.centre;
+        m.angular_momentum += mass * cross(arm, Vec3d(vertices.velocity[row]));
+        m.inertia = m.inertia + mass * inertia_of(outer(arm));
+        m.radius = std::max(m.radius, length(arm));
+    });
+}
+
+/// I^-1 L; zero for a part so thin that its inertia has no inverse in double, which only lowers the energy.
+Vec3d spin_of(const PartMotion& m) {
+    const double scale = trace(m.inertia);
+    if (!(determinant(m.inertia) > 1e-12 * scale * scale * scale)) return {};
+    return inverse(m.inertia) * m.angular_momentum;
+}
+
+double energy_of(const PartMotion& m) {
+    if (m.is_static || !(m.mass > 0)) return 0;
+    return dot(m.momentum, m.momentum) / (2 * m.mass) + dot(m.spin, m.inertia * m.spin) / 2;
+}
+
+/// Pulls the part's speed to the limit; returns the momentum that was cut off, so that the sum stays exact.
+Vec3d clamp_speed(PartMotion& m, const HandoffStart& start) {
+    const Vec3d before = start.velocity + cross(start.spin, m.centre - start.centre);
+    const Vec3d relative = (1 / m.mass) * m.momentum - before;
+    const double speed = length(relative), most = kMostRelativeSpeed * start.impact_speed;
+    if (!(speed > most)) return {};
+    const Vec3d kept = m.mass * (before + (most / speed) * relative);
+    const Vec3d cut = m.momentum - kept;
+    m.momentum = kept;
+    m.is_speed_clamped = true;
+    return cut;
+}
+
+Vec3d clamp_spin(PartMotion& m, const HandoffStart& start) {
+    const Vec3d relative = m.spin - start.spin;
+    const double rim = length(relative) * m.radius, most = kMostRelativeSpeed * start.impact_speed;
+    if (!(rim > most)) return {};
+    Vec3d kept = start.spin + (most / rim) * relative;
+    // The body's own spin may have been the livelier one; then slow down about the part's own axis.
+    if (dot(kept, m.inertia * kept) > dot(m.spin, m.inertia * m.spin))
+        kept = std::min(1.0, most / (length(m.spin) * m.radius)) * m.spin;
+    const Vec3d cut = m.inertia * (m.spin - kept);
+    m.spin = kept;
+    m.is_spin_clamped = true;
+    return cut;
+}
+
+void clamp(const HandoffStart& start, std::span<PartMotion> motions, HandoffReport& report) {
+    for (uint32_t p = 0; p < motions.size(); ++p) {
+        PartMotion& m = motions[p];
+        if (m.is_static || !(m.mass > 0)) continue;
+        const Vec3d lost = clamp_spin(m, start);
+        report.spin_clamp_loss += lost;
+        report.spin_clamps += m.is_spin_clamped;
+        if (p == report.largest) continue;
+        const Vec3d cut = clamp_speed(m, start);
+        report.speed_clamps += m.is_speed_clamped;
+        PartMotion& largest = motions[report.largest];
+        (largest.is_static ? report.support_momentum : largest.momentum) += cut;
+    }
+}
+
+}  // namespace
+
+HandoffReport rigid_handoff(ShellView shell, const HandoffStart& start, std::span<const FragmentPart> parts,
+                            std::span<PartMotion> all_motions) {
+    CULLET_ASSERT(all_motions.size() >= parts.size(), "%zu motions for %zu parts", all_motions.size(), parts.size());
+    const std::span<PartMotion> motions = all_motions.first(parts.size());
+    std::fill(motions.begin(), motions.end(), PartMotion{});
+    sum_momenta(shell, motions);
+    HandoffReport report;
+    report.largest = largest_part(parts);
+    for (uint32_t p = 0; p < motions.size(); ++p) {
+        PartMotion& m = motions[p];
+        report.energy_hidden += m.hidden_energy;
+        report.momentum_before += m.momentum;
+        m.is_static = parts[p].has_pins;
+        if (m.is_static) {
+            report.support_momentum += m.momentum;
+            m.momentum = {};
+        } else {
+            m.spin = spin_of(m);
+        }
+        report.energy_unclamped += energy_of(m);
+    }
+    clamp(start, motions, report);
+    for (PartMotion& m : motions) {
+        if (m.mass > 0) m.velocity = (1 / m.mass) * m.momentum;
+        report.momentum_after += m.momentum;
+        report.energy_after += energy_of(m);
+    }
+    return report;
+}
+
+double inertia_change(const PartMotion& motion, const Sym3d& tetrahedra_inertia) {
+    const double own = length(motion.inertia * motion.spin);
+    return own > 0 ? length((tetrahedra_inertia - motion.inertia) * motion.spin) / own : 0;
+}
+
+}  // namespace cullet

@@ -1,0 +1,55 @@
+// From the hidden state to rigid motions of the parts (thick shell note 6.6).
+#pragma once
+#include <span>
+
+#include "components/state.hpp"
+#include "systems/fragments/group_fragments.hpp"
+
+namespace cullet {
+
+/// What the body did before the hit, body axes.
+struct HandoffStart {
+    Vec3d velocity;           // of the centre of mass, m/s
+    Vec3d spin;               // rad/s
+    Vec3d centre;             // of mass, m
+    double impact_speed = 0;  // m/s, > 0
+};
+
+/// One part's motion, body axes. Mass, centre and inertia are those of its vertices: with them P and L are the hidden
+/// state's and the energy can only fall.
+struct PartMotion {
+    double mass = 0;           // kg
+    Vec3d centre;              // m, rest
+    Sym3d inertia;             // about the centre, kg m2
+    double radius = 0;         // farthest vertex from the centre, m
+    Vec3d momentum;            // N s, after the clamps; velocity is momentum / mass
+    Vec3d angular_momentum;    // about the centre, N m s, of the hidden state
+    Vec3d velocity, spin;      // of the centre; after the clamps. Zero for a part that holds a pin
+    double hidden_energy = 0;  // sum of m v^2 / 2, J
+    bool is_static = false, is_speed_clamped = false, is_spin_clamped = false;
+};
+
+struct HandoffReport {
+    uint32_t largest = 0;
+    uint32_t speed_clamps = 0, spin_clamps = 0;
+    Vec3d momentum_before;        // N s, of the hidden state
+    Vec3d momentum_after;         // of the moving parts; before = after + support, to rounding
+    Vec3d support_momentum;       // what pinned parts took into the ground, and cut-offs when the largest is static
+    Vec3d spin_clamp_loss;        // angular momentum that spin clamps took, N m s
+    double energy_hidden = 0;     // J
+    double energy_unclamped = 0;  // of the rigid motions before the clamps, <= hidden
+    double energy_after = 0;
+};
+
+/// One motion a part; parts as group_fragments gave them, motions at least as many. Clamps: a part's speed relative to
+/// the body's motion before the hit (V + w x r at its centre) is at most twice the impact speed, and what is cut off
+/// goes to the largest part, which is not clamped; a part's spin relative to the body's before is at most
+/// 2 impact_speed / radius (relative, or a body that flew spinning would lose its spin on breaking).
+HandoffReport rigid_handoff(ShellView shell, const HandoffStart& start, std::span<const FragmentPart> parts,
+                            std::span<PartMotion> motions);
+
+/// |(I_tetrahedra - I_vertices) w| / |I_vertices w|: how much angular momentum changes when the rigid body takes over
+/// with the inertia of the piece's tetrahedra. 0 without spin.
+double inertia_change(const PartMotion& motion, const Sym3d& tetrahedra_inertia);
+
+}  // namespace cullet

@@ -1,0 +1,62 @@
+#include "systems/fragments/rigid_shape.hpp"
+
+#include "systems/fragments/cell_hulls.hpp"
+#include "systems/rigid/body_id.hpp"
+
+namespace cullet {
+
+std::span<const ConvexPiece> convex_pieces(const State& state, Row<Shells> shell, Arena& arena) {
+    const Range cells = state.shells.cells[shell];
+    const uint32_t first_point = state.shells.points[shell].first;
+    const auto pieces = arena.take<ConvexPiece>(cells.count);
+    uint32_t count = 0;
+    for (uint32_t c = 0; c < cells.count && c < pieces.size(); ++c) {
+        const uint32_t point_count = state.cells.point_count[cells.first + c];
+        if (point_count == 0) continue;
+        const auto points = arena.take<Vec3>(point_count);
+        for (uint32_t p = 0; p < points.size(); ++p)
+            points[p] = state.hull_points.point[first_point + state.cells.first_point[cells.first + c] + p];
+        pieces[count++] = {points, c};
+    }
+    return pieces.first(count);
+}
+
+// Rolling friction is a length: 0.08 of the root of the drawn area's quarter keeps shards from rolling on their rims.
+RigidDescription describe_rigid(const State& state, Row<Bodies> b, std::span<const ConvexPiece> pieces) {
+    const Bodies& bodies = state.bodies;
+    const Row<Shells> shell = bodies.shell[b];
+    RigidDescription d;
+    d.kind = bodies.kind[b] == static_cast<uint8_t>(BodyKind::Dynamic) ? RigidKind::Dynamic : RigidKind::Static;
+    d.pose = pose_of(bodies, b);
+    d.motion = {bodies.velocity[b], bodies.spin[b]};
+    d.mass = bodies.mass[b];
+    d.centre = bodies.centre[b];
+    d.inertia = bodies.inertia[b];
+    d.margin = hull_margin(ShellView(const_cast<State&>(state), shell));
+    d.friction = bodies.friction[b];
+    d.restitution = bodies.restitution[b];
+    d.rolling_friction = 0.08f * std::sqrt(state.shells.area[shell]);
+    d.layer = bodies.layer[b];
+    d.mask = bodies.mask[b];
+    d.pieces = pieces;
+    return d;
+}
+
+void take_mass_properties(State& state, Row<Bodies> b) {
+    const Row<Shells> shell = state.bodies.shell[b];
+    Bodies& bodies = state.bodies;
+    bodies.mass[b] = state.shells.mass[shell];
+    bodies.centre.set(b, state.shells.centre[shell]);
+    bodies.inertia[b] = state.shells.inertia[shell];
+    const Vec3 centre = bodies.centre[b].to_float();
+    float most = 0;
+    const Range vertices = state.shells.vertices[shell];
+    for (uint32_t v = vertices.first; v < vertices.first + vertices.count; ++v) {
+        if (state.vertices.element[v] == kNone) continue;
+        const Vec3 arm = state.vertices.rest[v] - centre;
+        most = std::max(most, dot(arm, arm));
+    }
+    bodies.radius[b] = std::sqrt(most);
+}
+
+}  // namespace cullet

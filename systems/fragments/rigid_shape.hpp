@@ -1,0 +1,16 @@
+// A shell's cells as the rigid world takes them.
+#pragma once
+#include "components/state.hpp"
+#include "engine/arena.hpp"
+#include "engine/rigid_world.hpp"
+
+namespace cullet {
+
+/// Hulls of all cells that have points; the spans live in the arena.
+std::span<const ConvexPiece> convex_pieces(const State& state, Row<Shells> shell, Arena& arena);
+/// All that the rigid world needs for a body with a shell, from its row.
+RigidDescription describe_rigid(const State& state, Row<Bodies> body, std::span<const ConvexPiece> pieces);
+/// Writes mass, centre, inertia and radius of the body's row from its shell.
+void take_mass_properties(State& state, Row<Bodies> body);
+
+}  // namespace cullet

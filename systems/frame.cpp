@@ -1,0 +1,28 @@
+// The order of one frame: impact in, fragments out. Contacts are detected and impulses predicted, damage is decided,
+// and only then are contacts solved, so that what breaks does not throw the striker back.
+#include "systems/damage/damage_loop.hpp"
+#include "systems/systems.hpp"
+#include "systems/world_contents.hpp"
+
+namespace cullet {
+
+FramePlan<WorldData> make_frame_plan(const std::function<std::string()>& describe_damage_loop) {
+    FramePlan<WorldData> plan;
+    plan.stage("start")
+        .then<remember_poses>()
+        .then<detect_contacts>()
+        .then<predict_impacts>()
+        .then<open_tasks>()
+        .then<fill_tasks>();
+    plan.stage("damage")
+        .then<grant_units>()
+        .then<advance_damage>()
+        .shows("thick shell, brittle: 300 to 4,000 times a hit, on its own clock", describe_damage_loop)
+        .then<settle_tasks>();
+    plan.stage("apply").then<find_parts>().then<make_births>();
+    plan.stage("solve").then<solve_rigid>().then<read_rigid>().then<fall_debris>();
+    plan.stage("end").then<draw_shells>();
+    return plan;
+}
+
+}  // namespace cullet

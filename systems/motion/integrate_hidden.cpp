@@ -1,0 +1,97 @@
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "systems/motion/integrate_hidden.cpp"
+#include <hwy/foreach_target.h>
+// After foreach_target.h.
+#include <hwy/cache_control.h>
+
+#include "systems/motion/integrate_hidden.hpp"
+#include "systems/motion/lanes-inl.hpp"
+
+HWY_BEFORE_NAMESPACE();
+namespace cullet {
+namespace HWY_NAMESPACE {
+
+/// Bytes ahead in both streams; 2 KB is about one pack.
+inline constexpr size_t kAhead = 2048;
+
+HWY_INLINE void prefetch_ahead(const void* slot, size_t bytes) {
+    const char* p = static_cast<const char*>(slot) + kAhead;
+    for (size_t i = 0; i < bytes; i += 64) hwy::Prefetch(p + i);
+}
+
+/// Rows `lane` to lane + kStep of the pack.
+HWY_INLINE void integrate_lanes(const HiddenStep& step, uint32_t pack, uint32_t lane) {
+    const Floats d;
+    const uint32_t v = pack * kLanes + lane;
+    const V3 own = load_points(step.probe + v);
+    V3 force{hn::Zero(d), hn::Zero(d), hn::Zero(d)};
+    const StiffnessBlock* block = step.blocks + step.first_block[pack];
+    for (const StiffnessBlock* end = block + step.block_count[pack]; block != end; ++block) {
+        prefetch_ahead(block, sizeof(StiffnessBlock));
+        const V3 w = gather(step.probe, block->neighbour + lane) - own;
+        const auto row = [&](int r) {
+            return V3{hn::Load(d, block->k[r] + lane), hn::Load(d, block->k[r + 1] + lane),
+                      hn::Load(d, block->k[r + 2] + lane)};
+        };
+        force = add(force, {dot(row(0), w), dot(row(3), w), dot(row(6), w)});
+    }
+    const StiffnessLink* link = step.links + step.first_link[pack];
+    for (const StiffnessLink* end = link + step.link_count[pack]; link != end; ++link) {
+        prefetch_ahead(link, sizeof(StiffnessLink));
+        const V3 w = gather(step.probe, link->neighbour + lane) - own;
+        const V3 column{hn::Load(d, link->column[0] + lane), hn::Load(d, link->column[1] + lane),
+                        hn::Load(d, link->column[2] + lane)};
+        const V3 row{hn::Load(d, link->row[0] + lane), hn::Load(d, link->row[1] + lane),
+                     hn::Load(d, link->row[2] + lane)};
+        force = add(force, scaled(dot(column, w), row));
+    }
+    const V dt = hn::Set(d, step.dt);
+    V3 velocity = load(step.v[0] + v, step.v[1] + v, step.v[2] + v);
+    velocity = add(velocity, scaled(hn::Mul(dt, hn::LoadU(d, step.inverse_mass + v)), force));
+    store(velocity, step.v[0] + v, step.v[1] + v, step.v[2] + v);
+    V3 u = load(step.u[0] + v, step.u[1] + v, step.u[2] + v);
+    u = add(u, scaled(dt, velocity));
+    store(u, step.u[0] + v, step.u[1] + v, step.u[2] + v);
+    store_points(add(u, scaled(hn::Set(d, step.beta), velocity)), step.next_probe + v);
+}
+
+void integrate_packs(const HiddenStep& step, uint32_t first_pack, uint32_t pack_count) {
+    for (uint32_t pack = first_pack; pack < first_pack + pack_count; ++pack)
+        for (uint32_t lane = 0; lane < kLanes; lane += kStep) integrate_lanes(step, pack, lane);
+}
+
+}  // namespace HWY_NAMESPACE
+}  // namespace cullet
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+namespace cullet {
+
+HWY_EXPORT(integrate_packs);
+
+void integrate_hidden(const HiddenStep& step, uint32_t first_pack, uint32_t pack_count) {
+    HWY_DYNAMIC_DISPATCH(integrate_packs)(step, first_pack, pack_count);
+}
+
+HiddenStep::HiddenStep(ShellView shell, float time_step, float damping_time, uint32_t side)
+    : dt(time_step), beta(damping_time) {
+    State& state = shell.state;
+    const uint32_t packs = shell.shells().packs[shell.row].first, first = shell.vertices().first;
+    first_block = state.stiffness_packs.first_block.data() + packs;
+    block_count = state.stiffness_packs.block_count.data() + packs;
+    first_link = state.stiffness_packs.first_link.data() + packs;
+    link_count = state.stiffness_packs.link_count.data() + packs;
+    blocks = state.stiffness_blocks.block.data() + shell.shells().blocks[shell.row].first;
+    links = state.stiffness_links.link.data() + shell.shells().links[shell.row].first;
+    inverse_mass = state.vertices.inverse_mass.data() + first;
+    for (int k = 0; k < 3; ++k) {
+        u[k] = state.vertices.displacement.lane(k) + first;
+        v[k] = state.vertices.velocity.lane(k) + first;
+    }
+    probe = state.vertices.probe.data(static_cast<int>(side & 1)) + first;
+    next_probe = state.vertices.probe.data(static_cast<int>(~side & 1)) + first;
+    pack_count = shell.shells().packs[shell.row].count;
+}
+
+}  // namespace cullet
+#endif

@@ -1,0 +1,42 @@
+#include "systems/motion/start_hidden.hpp"
+
+#include "systems/damage/energy.hpp"
+
+namespace cullet {
+namespace {
+
+void set_motion(Vertices& vertices, uint32_t row, Vec3 velocity, float beta) {
+    const Vec3 probe = beta * velocity;
+    vertices.displacement.set(row, {});
+    vertices.velocity.set(row, velocity);
+    for (int side = 0; side < 2; ++side) vertices.probe.set(row, {probe.x, probe.y, probe.z, 0}, side);
+}
+
+}  // namespace
+
+void start_hidden(State& state, Row<Tasks> task) {
+    Tasks& tasks = state.tasks;
+    const ShellView shell(state, tasks.shell[task]);
+    Vertices& vertices = state.vertices;
+    const Vec3d centre = state.shells.centre[shell.row], velocity(tasks.start_velocity[task]),
+                spin(tasks.start_spin[task]);
+    for (uint32_t v = 0; v < shell.vertex_count(); ++v) {
+        const uint32_t row = shell.vertex(v);
+        const bool is_free = vertices.inverse_mass[row] > 0;
+        const Vec3d motion = velocity + cross(spin, Vec3d(vertices.rest[row]) - centre);
+        set_motion(vertices, row, is_free ? motion.to_float() : Vec3{}, tasks.damping_time[task]);
+    }
+    TaskContacts& contacts = state.task_contacts;
+    for (uint32_t c = tasks.first_contact[task]; c < tasks.first_contact[task] + tasks.contact_count[task]; ++c) {
+        contacts.striker_travel[c] = contacts.impulse[c] = 0;
+        contacts.striker_speed[c] = contacts.start_speed[c];
+    }
+    tasks.steps_done[task] = 0;
+    tasks.start_energy[task] = task_energy(state, task).total();
+}
+
+void clear_hidden(ShellView shell) {
+    for (uint32_t v = 0; v < shell.vertex_count(); ++v) set_motion(shell.state.vertices, shell.vertex(v), {}, 0);
+}
+
+}  // namespace cullet

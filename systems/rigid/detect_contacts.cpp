@@ -1,0 +1,9 @@
+#include "systems/systems.hpp"
+
+namespace cullet {
+
+void detect_contacts(Serial, Step step, RigidWorld& rigid) {
+    rigid.detect(step.dt);
+}
+
+}  // namespace cullet

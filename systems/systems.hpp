@@ -1,0 +1,96 @@
+// Every system of a frame. The parameters of each are all that it sees; frame.cpp gives their order.
+#pragma once
+#include "systems/world_data.hpp"
+
+namespace cullet {
+
+// ---- start
+// ------------------------------------------------------------------------------------------------------------
+
+/// The pose of the last step, for interpolation.
+void remember_poses(Rows<Bodies> bodies, In<&Bodies::position> position, In<&Bodies::orientation> orientation,
+                    Out<&Bodies::previous_position> previous_position,
+                    Out<&Bodies::previous_orientation> previous_orientation);
+/// Sweeps fast bodies to their time of impact, finds all contacts of this step.
+void detect_contacts(Serial, Step step, RigidWorld& rigid);
+/// Contacts that a breakable body may not survive, sorted by body and speed.
+void predict_impacts(Serial, Step step, const RigidWorld& rigid, const Bodies& bodies, const Shells& shells,
+                     const DamageSettings& settings, Events<Impact>& impacts);
+/// One damage task a body that was hit: asks the game, takes rows for its working copy.
+void open_tasks(Serial, Step step, const Events<Impact>& impacts, ShellTables shells, const Materials& materials,
+                Bodies& bodies, Tasks& tasks, TaskContacts& contacts, const DamageSettings& settings,
+                DamageCounts& counts, Events<TaskOpened>& opened, Events<ImpactEvent>& impact_events,
+                Events<RefusedEvent>& refused);
+/// Copies the body's shell into the task's, lays the contact patches, gives every vertex the body's velocity.
+void fill_tasks(Each<TaskOpened> opened, ShellTables shells, Tasks& tasks, TaskContacts& contacts,
+                PatchVertices& patches);
+
+// ---- damage
+// -----------------------------------------------------------------------------------------------------------
+
+/// Shares the frame's units: one step to each open task, then equal rounds, in order of (frame of impact, body row).
+void grant_units(Serial, Tasks& tasks, const Shells& shells, const DamageSettings& settings, DamageCounts& counts);
+/// Runs the inner loop of each open task for the steps it was granted, on all workers.
+void advance_damage(Serial, DamageLoop& loop);
+/// Holds bodies whose task goes on, releases those whose time is up or whose task ended.
+void settle_tasks(Serial, Step step, Tasks& tasks, const TaskContacts& contacts, Bodies& bodies, const Shells& shells,
+                  RigidWorld& rigid, const DamageSettings& settings, DamageCounts& counts, Events<TaskEnded>& ended);
+
+// ---- apply
+// ------------------------------------------------------------------------------------------------------------
+
+/// Which elements of a broken shell hang together.
+void find_parts(Each<TaskEnded> ended, ShellTables shells, Tasks& tasks, Fragments& fragments);
+/// Plans, reserves and makes the bodies of the pieces, in order of mass; gives the striker the impulse that it really
+/// passed.
+void make_births(Serial, Step step, const Events<TaskEnded>& ended, ShellTables shells, Tasks& tasks,
+                 const TaskContacts& contacts, Fragments& fragments, Bodies& bodies, Debris& debris,
+                 ViewVertices& view_vertices, ViewIndices& view_indices, RigidWorld& rigid,
+                 const DamageSettings& settings, DamageCounts& counts, Arena& arena, Events<ShellChanged>& changed,
+                 Events<FragmentBornEvent>& born, Events<DebrisEvent>& debris_events, Events<RefusedEvent>& refused,
+                 Events<FaultEvent>& faults);
+
+// ---- solve
+// ------------------------------------------------------------------------------------------------------------
+
+/// Solves contacts and moves all bodies, old and new.
+void solve_rigid(Serial, Step step, RigidWorld& rigid);
+/// Poses, velocities and sleep of the rigid world, back into rows.
+void read_rigid(Serial, const RigidWorld& rigid, Bodies& bodies, Events<AsleepEvent>& asleep);
+/// Crumbs fly on parabolas until they meet the floor below their place of birth.
+void fall_debris(Rows<Debris> debris, Step step, InOut<&Debris::position> position, InOut<&Debris::velocity> velocity,
+                 In<&Debris::floor> floor, InOut<&Debris::is_resting> is_resting, In<&Debris::is_used> is_used);
+
+// ---- end
+// --------------------------------------------------------------------------------------------------------------
+
+/// The drawn mesh of each shell that changed.
+void draw_shells(Each<ShellChanged> changed, ShellTables shells, Bodies& bodies, ViewVertices& vertices,
+                 ViewIndices& indices);
+
+// ---- inner loop of a brittle thick shell: repeated for one task
+// -----------------------------------------------------------
+
+/// Contact springs of the patches, from the displacements before the step (6.3).
+void push_patches(EachBody task, ShellTables shells, Tasks& tasks, const TaskContacts& contacts,
+                  PatchVertices& patches);
+/// One fused pass (section 10): f_i = sum_j K_ij (w_j - w_i); v += dt f / m; u += dt v; next w = u + beta v.
+void integrate_hidden(Rows<StiffnessPacks> packs, OfTask task, Turn turn, const Tasks& tasks, const Shells& shells,
+                      const StiffnessPacks& slots, const StiffnessBlocks& blocks, const StiffnessLinks& links,
+                      In<&Vertices::inverse_mass> inverse_mass, In<&Vertices::probe> probe,
+                      InOut<&Vertices::velocity> velocity, InOut<&Vertices::displacement> displacement,
+                      Out<&Vertices::probe> next_probe);
+/// Gives patch vertices and strikers what the springs pushed; the run ends when its time is up or all is quiet (6.4).
+void pass_impulses(EachBody task, Turn turn, ShellTables shells, Tasks& tasks, TaskContacts& contacts,
+                   const PatchVertices& patches);
+/// Angle of each hinge.
+void bend_hinges(Rows<Hinges> hinges, OfTask task, Turn turn, ShellTables shells, const Tasks& tasks);
+/// Stress of both faces of each element, and the largest principal value (C1).
+void stress_check(Rows<Elements> elements, OfTask task, Turn turn, ShellTables shells, const Tasks& tasks);
+/// Starts and advances cracks, one body a call, in order of urgency (C1 to C5).
+void split_vertices(EachBody task, ShellTables shells, Tasks& tasks, TaskContacts& contacts, PatchVertices& patches);
+/// Above 1.05 of the start's energy the run begins again with half the step, at most twice (B7).
+void check_energy(EachBody task, ShellTables shells, const Materials& materials, Tasks& tasks, TaskContacts& contacts,
+                  PatchVertices& patches);
+
+}  // namespace cullet

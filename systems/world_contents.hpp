@@ -1,0 +1,29 @@
+// What a world is made of, for the sample game, tests and measurements.
+#pragma once
+#include <functional>
+
+#include "cullet/host.hpp"
+#include "cullet/world.hpp"
+#include "engine/frame_plan.hpp"
+#include "systems/world_data.hpp"
+
+namespace cullet {
+
+struct World::Contents {
+    Contents(const Settings& settings, const Host& host);
+    ~Contents();
+
+    Settings settings;
+    Host host;
+    std::unique_ptr<JobSystem> jobs;
+    Profiler profiler;
+    WorldData data;
+    FramePlan<WorldData> plan;
+    /// Called between systems when set: --validate.
+    std::function<void(const PlannedSystem<WorldData>&)> after_each_system;
+};
+
+/// The systems of a frame in their order (frame.cpp).
+FramePlan<WorldData> make_frame_plan(const std::function<std::string()>& describe_damage_loop);
+
+}  // namespace cullet

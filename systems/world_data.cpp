@@ -1,0 +1,51 @@
+#include "systems/world_data.hpp"
+
+#include "systems/damage/damage_loop.hpp"
+
+namespace cullet {
+namespace {
+
+Limits limits_of(const LimitSettings& l) {
+    Limits limits;
+    limits.bodies = l.bodies;
+    limits.shells = l.bodies + l.models + 2 * l.open_hits;
+    limits.vertices = l.vertices;
+    limits.elements = l.elements;
+    limits.tasks = l.open_hits;
+    limits.models = l.models;
+    limits.view_vertices = l.view_vertices;
+    limits.debris = l.debris;
+    return limits;
+}
+
+constexpr size_t kArenaBytes = size_t{64} << 20;
+
+}  // namespace
+
+WorldData::WorldData(const Settings& settings)
+    : state(limits_of(settings.limits)),
+      arena(kArenaBytes),
+      impacts(1u << 16),
+      tasks_opened(settings.limits.open_hits),
+      tasks_ended(settings.limits.open_hits),
+      shells_changed(settings.limits.bodies + settings.limits.open_hits),
+      impact_events(settings.limits.open_hits),
+      crack_events(1u << 14),
+      born_events(settings.limits.bodies),
+      debris_events(1u << 16),
+      refused_events(1u << 12),
+      fault_events(1u << 10),
+      asleep_events(settings.limits.bodies) {
+    step_info.dt = settings.step_seconds;
+    step_info.gravity = settings.gravity;
+    damage_settings.units_a_frame = settings.units_a_frame;
+    damage_settings.hold_seconds = settings.hold_seconds;
+    damage_settings.generations = settings.generations;
+    damage_settings.debris_share = settings.debris_share;
+    damage_settings.debris_elements = settings.debris_elements;
+    damage_settings.seed = settings.seed;
+}
+
+WorldData::~WorldData() = default;
+
+}  // namespace cullet

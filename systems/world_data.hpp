@@ -1,0 +1,130 @@
+// What the systems of a frame see: the tables, and the few things beside them.
+#pragma once
+#include <memory>
+
+#include "components/state.hpp"
+#include "cullet/events.hpp"
+#include "cullet/settings.hpp"
+#include "engine/arena.hpp"
+#include "engine/events.hpp"
+#include "engine/rigid_world.hpp"
+
+namespace cullet {
+
+/// A blow predicted from one contact of this step, before the solve.
+struct Impact {
+    Row<Bodies> body, striker;
+    Vec3 point;            // world, m
+    Vec3 normal;           // world, unit, the way the body is pushed
+    float approach_speed;  // m/s
+};
+/// A damage task that took its rows in this step and must be filled.
+struct TaskOpened {
+    Row<Tasks> task;
+};
+/// A damage task that ended in this step.
+struct TaskEnded {
+    Row<Tasks> task;
+};
+/// A shell whose drawn mesh is to be made.
+struct ShellChanged {
+    Row<Bodies> body;
+};
+
+struct DamageLoop;
+
+/// What the game set, as the systems read it.
+struct DamageSettings {
+    uint64_t units_a_frame = 0;
+    float hold_seconds = 0;
+    uint32_t generations = 0;
+    float debris_share = 0;
+    uint32_t debris_elements = 0;
+    uint64_t seed = 0;
+    bool (*allows)(void* user, const ImpactEvent& impact) = nullptr;
+    void* allows_user = nullptr;
+};
+
+/// Counts since the world was made; not state.
+struct DamageCounts {
+    uint64_t opened = 0, broke = 0, whole = 0, dropped = 0, redone = 0, late = 0, frames_held = 0, clamped = 0;
+    uint64_t cuts = 0, starts = 0, cuts_refused = 0;
+    uint64_t units_used = 0, units_left = 0;  // of the last frame
+    double impulse_to_static[3] = {0, 0, 0};  // N s, from damage to floors, pins and kinematic bodies
+};
+
+struct WorldData {
+    explicit WorldData(const Settings& settings);
+    ~WorldData();
+
+    State state;
+    Step step_info;
+    DamageSettings damage_settings;
+    DamageCounts counts;
+    std::unique_ptr<RigidWorld> rigid;
+    std::unique_ptr<DamageLoop> damage_loop;
+    Arena arena;
+    Events<Impact> impacts;
+    Events<TaskOpened> tasks_opened;
+    Events<TaskEnded> tasks_ended;
+    Events<ShellChanged> shells_changed;
+    // What the game reads after the step.
+    Events<ImpactEvent> impact_events;
+    Events<CrackStartedEvent> crack_events;
+    Events<FragmentBornEvent> born_events;
+    Events<DebrisEvent> debris_events;
+    Events<RefusedEvent> refused_events;
+    Events<FaultEvent> fault_events;
+    Events<AsleepEvent> asleep_events;
+
+    template <class T>
+    T& table() {
+        return state.table<T>();
+    }
+    template <class T>
+    T& resource();
+};
+
+template <class T>
+T& WorldData::resource() {
+    if constexpr (std::is_same_v<T, State>)
+        return state;
+    else if constexpr (std::is_same_v<T, Step>)
+        return step_info;
+    else if constexpr (std::is_same_v<T, DamageSettings>)
+        return damage_settings;
+    else if constexpr (std::is_same_v<T, DamageCounts>)
+        return counts;
+    else if constexpr (std::is_same_v<T, RigidWorld>)
+        return *rigid;
+    else if constexpr (std::is_same_v<T, DamageLoop>)
+        return *damage_loop;
+    else if constexpr (std::is_same_v<T, Arena>)
+        return arena;
+    else if constexpr (std::is_same_v<T, Events<Impact>>)
+        return impacts;
+    else if constexpr (std::is_same_v<T, Events<TaskOpened>>)
+        return tasks_opened;
+    else if constexpr (std::is_same_v<T, Events<TaskEnded>>)
+        return tasks_ended;
+    else if constexpr (std::is_same_v<T, Events<ShellChanged>>)
+        return shells_changed;
+    else if constexpr (std::is_same_v<T, Events<ImpactEvent>>)
+        return impact_events;
+    else if constexpr (std::is_same_v<T, Events<CrackStartedEvent>>)
+        return crack_events;
+    else if constexpr (std::is_same_v<T, Events<FragmentBornEvent>>)
+        return born_events;
+    else if constexpr (std::is_same_v<T, Events<DebrisEvent>>)
+        return debris_events;
+    else if constexpr (std::is_same_v<T, Events<RefusedEvent>>)
+        return refused_events;
+    else if constexpr (std::is_same_v<T, Events<FaultEvent>>)
+        return fault_events;
+    else {
+        static_assert(std::is_same_v<T, Events<AsleepEvent>>, "no such resource in a world");
+        return asleep_events;
+    }
+}
+
+}  // namespace cullet

@@ -1,0 +1,281 @@
+#include <gtest/gtest.h>
+#include <sys/stat.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cstdio>
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+
+#include "engine/import_mesh.hpp"
+#include "engine/math.hpp"
+#include "engine/mesh_file.hpp"
+
+namespace cullet {
+namespace {
+
+namespace fs = std::filesystem;
+
+const std::string kProgram = std::string(CULLET_BINARY_DIR) + "/cullet_import";
+
+fs::path test_data() {
+    if (const char* folder = std::getenv("CULLET_TEST_DATA")) return folder;
+    return fs::path(CULLET_SOURCE_DIR) / "../shared/data";
+}
+
+/// A folder of its own for each test, empty at the beginning, gone at the end.
+class Import : public testing::Test {
+ protected:
+    void SetUp() override {
+        folder_ = fs::temp_directory_path() / ("import_test." + std::to_string(getpid()));
+        fs::remove_all(folder_);
+        fs::create_directories(folder_);
+    }
+    void TearDown() override { fs::remove_all(folder_); }
+
+    std::string file(const std::string& name, const std::string& text) {
+        std::ofstream(folder_ / name) << text;
+        return folder_ / name;
+    }
+    std::string cache() const { return folder_ / "cache"; }
+    size_t cached_files() const {
+        if (!fs::exists(cache())) return 0;
+        return static_cast<size_t>(std::distance(fs::directory_iterator(cache()), fs::directory_iterator()));
+    }
+
+    fs::path folder_;
+};
+
+struct ProgramRun {
+    int exit_code = -1;
+    double seconds = 0;
+    std::string said;  // standard output and standard error
+};
+
+std::string quoted(const std::string& text) {
+    return "'" + text + "'";
+}
+
+ProgramRun run(const std::string& in, const std::string& out, const std::string& options = "") {
+    const auto begin = std::chrono::steady_clock::now();
+    ProgramRun result;
+    FILE* pipe =
+        popen((quoted(kProgram) + " " + quoted(in) + " " + quoted(out) + " " + options + " 2>&1").c_str(), "r");
+    char buffer[512];
+    for (size_t n; (n = fread(buffer, 1, sizeof buffer, pipe)) > 0;) result.said.append(buffer, n);
+    const int status = pclose(pipe);
+    result.exit_code = WIFEXITED(status) ? WEXITSTATUS(status) : -1;
+    result.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+    return result;
+}
+
+double volume_of(const Mesh& mesh) {
+    double six_volumes = 0;
+    for (const auto& t : mesh.triangles)
+        six_volumes +=
+            dot(Vec3d(mesh.positions[t[0]]), cross(Vec3d(mesh.positions[t[1]]), Vec3d(mesh.positions[t[2]])));
+    return six_volumes / 6;
+}
+
+const char* const kCube =
+    "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nv 0 0 1\nv 1 0 1\nv 1 1 1\nv 0 1 1\n"
+    "f 4 3 2 1\nf 5 6 7 8\nf 1 2 6 5\nf 3 4 8 7\nf 2 3 7 6\nf 1 5 8 4\n";
+
+TEST_F(Import, ACubeOfSixQuadsHasEightVerticesTwelveTrianglesAndVolumeOne) {
+    auto mesh = import_mesh(file("cube.obj", kCube), kProgram, cache());
+    ASSERT_TRUE(mesh.ok()) << mesh.error();
+    EXPECT_EQ(mesh->name, "cube");
+    EXPECT_EQ(mesh->positions.size(), 8u);
+    EXPECT_EQ(mesh->triangles.size(), 12u);
+    EXPECT_DOUBLE_EQ(volume_of(*mesh), 1.0);
+}
+
+TEST_F(Import, EqualBytesAreImportedOnceAndOtherBytesAnew) {
+    const std::string path = file("cube.obj", kCube);
+    const auto first = import_mesh(path, kProgram, cache());
+    ASSERT_TRUE(first.ok()) << first.error();
+    const auto second = import_mesh(file("box.obj", kCube), "/no/such/program", cache());
+    ASSERT_TRUE(second.ok()) << second.error();
+    EXPECT_EQ(second.value().name, "box");
+    EXPECT_EQ(second.value().triangles, first.value().triangles);
+    EXPECT_EQ(cached_files(), 1u);
+    EXPECT_FALSE(import_mesh(file("cube.obj", std::string(kCube) + "\n"), "/no/such/program", cache()).ok());
+}
+
+TEST_F(Import, ADamagedCacheEntryIsMadeAnew) {
+    const std::string path = file("cube.obj", kCube);
+    ASSERT_TRUE(import_mesh(path, kProgram, cache()).ok());
+    const fs::path cached = fs::directory_iterator(cache())->path();
+    fs::resize_file(cached, 100);
+    EXPECT_TRUE(import_mesh(path, kProgram, cache()).ok());
+    EXPECT_TRUE(read_mesh_file(cached).ok());
+}
+
+TEST_F(Import, AMeshFileNeedsNoProgram) {
+    const std::string path = folder_ / "cube.cmesh";
+    ASSERT_EQ(run(file("cube.obj", kCube), path).exit_code, 0);
+    const auto mesh = import_mesh(path, "/no/such/program", cache());
+    ASSERT_TRUE(mesh.ok()) << mesh.error();
+    EXPECT_EQ(mesh.value().positions.size(), 8u);
+    EXPECT_EQ(cached_files(), 0u);
+}
+
+TEST_F(Import, AMissingFileOrProgramIsOneSentence) {
+    const auto no_file = import_mesh(folder_ / "none.obj", kProgram, cache());
+    ASSERT_FALSE(no_file.ok());
+    EXPECT_NE(no_file.error().find("none.obj: cannot open the file"), std::string::npos) << no_file.error();
+    const auto no_program = import_mesh(file("cube.obj", kCube), "/no/such/program", cache());
+    ASSERT_FALSE(no_program.ok());
+    EXPECT_NE(no_program.error().find("cannot be started"), std::string::npos) << no_program.error();
+}
+
+TEST_F(Import, NormalsTextureCoordinatesAndMaterialsBelongToCorners) {
+    const std::string path = file("quad.obj",
+                                  "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nvt 0 0\nvt 1 0\nvt 1 1\nvt 0 1\nvn 0 0 2\n"
+                                  "f 1/1/1 2/2/1 3/3/1\nf 1/1/1 3/3/1 4/4/1\n");
+    const auto mesh = import_mesh(path, kProgram, cache());
+    ASSERT_TRUE(mesh.ok()) << mesh.error();
+    ASSERT_EQ(mesh.value().corner_normals.size(), 6u);
+    ASSERT_EQ(mesh.value().corner_uvs.size(), 6u);
+    ASSERT_EQ(mesh.value().materials.size(), 2u);
+    for (const Vec3 n : mesh.value().corner_normals) EXPECT_EQ(n.z, 1);
+    for (size_t c = 0; c < 6; ++c) {
+        const Vec3 p = mesh.value().positions[mesh.value().triangles[c / 3][c % 3]];
+        EXPECT_EQ(p.x, mesh.value().corner_uvs[c].x);
+    }
+}
+
+TEST_F(Import, TooLittleTimeIsOneSentenceAndNoFile) {
+    std::string face = "f";
+    std::string text;
+    for (int i = 0; i < 60000; ++i) {  // one polygon, which takes assimp far more than a second to cut
+        text.append("v ").append(std::to_string(i)).append(" ");
+        text.append(std::to_string(0.001 * i * i)).append(" 0\n");
+        face.append(" ").append(std::to_string(i + 1));
+    }
+    const ProgramRun late = run(file("slow.obj", text + face + "\n"), folder_ / "out.cmesh", "--seconds 1");
+    EXPECT_EQ(late.exit_code, 2);
+    EXPECT_LT(late.seconds, 5);
+    EXPECT_NE(late.said.find("was not read within 1 s"), std::string::npos) << late.said;
+    EXPECT_FALSE(fs::exists(folder_ / "out.cmesh"));
+}
+
+TEST_F(Import, APipeOrAFolderInPlaceOfAModelIsRefusedAtOnce) {
+    const std::string pipe = folder_ / "pipe.obj", folder = folder_ / "folder.obj";
+    ASSERT_EQ(mkfifo(pipe.c_str(), 0600), 0);
+    fs::create_directory(folder);
+    for (const std::string& path : {pipe, folder}) {
+        const ProgramRun result = run(path, folder_ / "out.cmesh");
+        EXPECT_EQ(result.exit_code, 2);
+        EXPECT_LT(result.seconds, 5);
+        EXPECT_FALSE(import_mesh(path, kProgram, cache()).ok());
+    }
+}
+
+TEST_F(Import, WrongArgumentsAreOneSentence) {
+    const ProgramRun result = run(file("cube.obj", kCube), folder_ / "out.cmesh", "--seconds 0");
+    EXPECT_EQ(result.exit_code, 2);
+    EXPECT_EQ(std::count(result.said.begin(), result.said.end(), '\n'), 1) << result.said;
+    EXPECT_EQ(run(file("cube.obj", kCube), folder_ / "none" / "out.cmesh").exit_code, 2);
+}
+
+TEST_F(Import, AModelCannotReachOutOfItsFolder) {
+    // The buffer exists and is long enough; the same text works when it stands beside the model.
+    const std::string begin =
+        R"({"asset":{"version":"2.0"},"scene":0,"scenes":[{"nodes":[0]}],"nodes":[{"mesh":0}],"meshes":[{"primitives":
+        [{"attributes":{"POSITION":0}}]}],"accessors":[{"bufferView":0,"componentType":5126,"count":3,"type":"VEC3",
+        "min":[0,0,0],"max":[1,1,0]}],"bufferViews":[{"buffer":0,"byteLength":36}],"buffers":[{"byteLength":36,"uri":")";
+    const float triangle[9] = {0, 0, 0, 1, 0, 0, 0, 1, 0};
+    const std::string bytes(reinterpret_cast<const char*>(triangle), sizeof triangle);
+    fs::create_directories(folder_ / "inner");
+    file("outside.bin", bytes);
+    file("inner/beside.bin", bytes);
+    const ProgramRun beside = run(file("inner/beside.gltf", begin + "beside.bin\"}]}"), folder_ / "beside.cmesh");
+    EXPECT_EQ(beside.exit_code, 0) << beside.said;
+    const ProgramRun outside =
+        run(file("inner/outside.gltf", begin + "../outside.bin\"}]}"), folder_ / "outside.cmesh");
+    EXPECT_EQ(outside.exit_code, 2) << outside.said;
+}
+
+struct Wanted {
+    const char* file;
+    size_t vertices, triangles;
+};
+
+TEST_F(Import, EveryThickShellHasTheKnownCounts) {
+    if (!fs::exists(test_data() / "thick_shell")) GTEST_SKIP() << "no test data at " << test_data();
+    const Wanted all[] = {{"bottle_tall.glb", 1180, 2352},
+                          {"curtains_double.glb", 208, 320},
+                          {"dogue.gltf", 2651, 4736},
+                          {"espresso_cup.gltf", 14682, 29360},
+                          {"husky.glb", 962, 1920},
+                          {"plastic_monobloc_chair_01_1k.gltf", 1660, 3356},
+                          {"plate.glb", 104, 204},
+                          {"spot_control_mesh.obj", 188, 372},
+                          {"spot_triangulated.obj", 2930, 5856},
+                          {"vase.glb", 112, 220},
+                          {"bowl.ply", 4754, 9504},
+                          {"curtain.ply", 4745, 9216},
+                          {"husky_loop1.ply", 3842, 7680},
+                          {"vase_thick.ply", 5506, 11008}};
+    for (const Wanted& wanted : all) {
+        const auto mesh = import_mesh(test_data() / "thick_shell" / wanted.file, kProgram, cache());
+        ASSERT_TRUE(mesh.ok()) << mesh.error();
+        EXPECT_EQ(mesh.value().positions.size(), wanted.vertices) << wanted.file;
+        EXPECT_EQ(mesh.value().triangles.size(), wanted.triangles) << wanted.file;
+    }
+}
+
+TEST_F(Import, AMirroredNodeKeepsTheOutsideOutside) {
+    if (!fs::exists(test_data() / "hostile")) GTEST_SKIP() << "no test data at " << test_data();
+    const auto mesh = import_mesh(test_data() / "hostile" / "mirrored_node.gltf", kProgram, cache());
+    ASSERT_TRUE(mesh.ok()) << mesh.error();
+    EXPECT_GT(volume_of(mesh.value()), 3.8);  // a sphere of radius 1, 224 triangles
+}
+
+TEST_F(Import, HostileFilesAreRefusedInTimeWithOneSentenceAndNoFile) {
+    if (!fs::exists(test_data() / "hostile")) GTEST_SKIP() << "no test data at " << test_data();
+    const char* const files[] = {"accessor_count_4_billion.gltf",
+                                 "assimp_BoxWithInfinites.glb",
+                                 "assimp_OutOfMemory.off",
+                                 "assimp_RecursiveNodes.gltf",
+                                 "assimp_crash-30d6d0.ply",
+                                 "assimp_empty.ply",
+                                 "assimp_invalid.off",
+                                 "assimp_malformed.obj",
+                                 "assimp_payload_JVN42386607.ply",
+                                 "buffer_outside_folder.gltf",
+                                 "bufferview_past_end.gltf",
+                                 "count_4294967295.stl",
+                                 "counts_huge.off",
+                                 "face_count_2_billion.ply",
+                                 "face_index_negative.ply",
+                                 "face_index_past_end.ply",
+                                 "index_overflow.obj",
+                                 "lines_and_points_only.obj",
+                                 "no_faces.obj",
+                                 "node_cycle.gltf",
+                                 "node_doubling_26.gltf",
+                                 "sparse_index_past_end.gltf",
+                                 "truncated.glb",
+                                 "truncated.ply",
+                                 "truncated.stl",
+                                 "vertex_count_4_billion.ply"};
+    const fs::path out = folder_ / "out";
+    fs::create_directories(out);
+    for (const char* name : files) {
+        const std::string path = test_data() / "hostile" / name;
+        const ProgramRun result = run(path, out / "mesh.cmesh");
+        EXPECT_EQ(result.exit_code, 2) << name;
+        EXPECT_LT(result.seconds, 15) << name;
+        EXPECT_EQ(result.said.rfind(path + ": ", 0), 0u) << result.said;
+        EXPECT_EQ(std::count(result.said.begin(), result.said.end(), '\n'), 1) << result.said;
+        EXPECT_TRUE(fs::is_empty(out)) << name;
+    }
+}
+
+}  // namespace
+}  // namespace cullet

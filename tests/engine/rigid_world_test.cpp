@@ -1,0 +1,322 @@
+#include "engine/rigid_world.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cstring>
+#include <thread>
+
+#include "tests/engine/rigid_scenes.hpp"
+
+namespace cullet {
+namespace {
+
+TEST(RigidWorld, AFreeBodyFallsBySemiImplicitEuler) {
+    auto world = make_bullet_world(16);
+    world->set_gravity({0, -9.81f, 0});
+    add_box(*world, 0, {0, 10, 0}, {0.1f, 0.1f, 0.1f}, 1000);
+    double speed = 0, height = 10;
+    for (int k = 0; k < 60; ++k) {
+        step(*world);
+        speed -= 9.81 * kStep;
+        height += speed * kStep;
+    }
+    EXPECT_NEAR(world->pose(0).position.y, height, 1e-4);
+    EXPECT_NEAR(world->motion(0).velocity.y, speed, 1e-4);
+}
+
+TEST(RigidWorld, ABoxRestsOnTheFloorWithinAMillimetre) {
+    auto world = floor_world(16);
+    add_box(*world, 1, {0, 0.2f, 0}, {0.1f, 0.05f, 0.08f}, 1000);
+    for (int k = 0; k < 180; ++k) step(*world);
+    EXPECT_NEAR(world->pose(1).position.y, 0.05f, 0.001f);
+    EXPECT_TRUE(world->is_asleep(1));
+}
+
+TEST(RigidWorld, ABoxRestsOnATriangleFloorThatIsNoSolid) {
+    auto world = make_bullet_world(16);
+    world->set_gravity({0, -9.81f, 0});
+    const Vec3 p[] = {{-5, 0, -5}, {-5, 0, 5}, {5, 0, 5}, {5, 0, -5}};
+    const std::array<uint32_t, 3> t[] = {{0, 1, 2}, {0, 2, 3}};
+    world->add_static_triangles(0, p, t, 0.45f, 0.2f, 1, ~0u);
+    add_box(*world, 1, {0, 0.2f, 0}, {0.1f, 0.05f, 0.08f}, 1000);
+    for (int k = 0; k < 180; ++k) step(*world);
+    EXPECT_NEAR(world->pose(1).position.y, 0.05f, 0.001f);
+    EXPECT_TRUE(world->is_asleep(1));
+}
+
+TEST(RigidWorld, AStackOfFiveBoxesStands) {
+    auto world = floor_world(16);
+    for (uint32_t k = 0; k < 5; ++k)
+        add_box(*world, 1 + k, {0, 0.05f + 0.101f * real(k), 0}, {0.05f, 0.05f, 0.05f}, 1000);
+    for (int k = 0; k < 240; ++k) step(*world);
+    for (uint32_t k = 0; k < 5; ++k) {
+        EXPECT_NEAR(world->pose(1 + k).position.y, 0.05f + 0.1f * real(k), 0.002f);
+        EXPECT_NEAR(world->pose(1 + k).position.x, 0, 0.002f);
+        EXPECT_TRUE(world->is_asleep(1 + k));
+    }
+}
+
+TEST(RigidWorld, ApproachSpeedLeavesOutThisStepsGravity) {
+    auto world = floor_world(16);
+    add_box(*world, 1, {0, 0.053f, 0}, {0.1f, 0.05f, 0.08f}, 1000);
+    world->set_motion(1, {{0, -0.75f, 0}, {}});
+    world->detect(kStep);
+    ASSERT_EQ(world->contacts().size(), 4u);
+    for (const RigidContact& c : world->contacts()) {
+        EXPECT_EQ(c.a, 0u);
+        EXPECT_EQ(c.b, 1u);
+        EXPECT_NEAR(c.normal.y, -1, 1e-5f);  // from b, the box, towards a, the floor
+        EXPECT_NEAR(c.distance, 0.003f, 1e-5f);
+        EXPECT_NEAR(c.approach_speed, 0.75f, 1e-5f);
+    }
+    world->solve(kStep);
+}
+
+TEST(RigidWorld, PosesAndMotionsComeBackAsTheyWereSet) {
+    auto world = make_bullet_world(4);
+    RigidDescription d;
+    const std::vector<Vec3> points = box_points({0.1f, 0.2f, 0.3f}, {0.5f, 0.1f, -0.2f});
+    const ConvexPiece piece{points, 7};
+    d.pieces = {&piece, 1};
+    d.mass = 2;
+    d.centre = {0.5, 0.1, -0.2};
+    d.inertia = {0.3, 0.2, 0.4, 0.05, -0.02, 0.03};
+    d.pose = {{1, 2, 3}, normalised(Quat{0.1f, -0.3f, 0.5f, 0.7f})};
+    d.motion = {{1, -2, 3}, {4, 5, -6}};
+    world->add(2, d);
+    const auto expect_pose = [&] {
+        const Pose pose = world->pose(2);
+        EXPECT_NEAR(length(pose.position - d.pose.position), 0, 2e-6f);
+        const Quat q = pose.orientation, r = d.pose.orientation;
+        EXPECT_NEAR(std::fabs(q.x * r.x + q.y * r.y + q.z * r.z + q.w * r.w), 1, 1e-6f);
+    };
+    expect_pose();
+    EXPECT_EQ(world->motion(2).velocity, d.motion.velocity);
+    d.pose = {{-1, 0, 1}, normalised(Quat{0.4f, 0.3f, -0.5f, 0.1f})};
+    world->set_pose(2, d.pose);
+    expect_pose();
+    // A new centre of mass: frame and pose stay, the velocity is that of the same rigid motion there.
+    world->set_shape(2, 1, {0.6, 0.1, -0.2}, d.inertia, d.pieces);
+    expect_pose();
+    const Vec3 shift = rotate(d.pose.orientation, {0.1f, 0, 0});
+    EXPECT_NEAR(length(world->motion(2).velocity - (d.motion.velocity + cross(d.motion.angular_velocity, shift))), 0,
+                1e-5f);
+}
+
+TEST(RigidWorld, AFreeSpinKeepsItsAngularMomentumButForTheDamping) {
+    auto world = make_bullet_world(4);
+    add_box(*world, 0, {0, 0, 0}, {0.1f, 0.2f, 0.3f}, 1000);
+    world->set_motion(0, {{}, {0.1f, 3, 0.2f}});
+    const Vec3 half{0.1f, 0.2f, 0.3f};
+    const auto momentum = [&] {
+        const double m = 1000.0 * 8 * half.x * half.y * half.z;
+        const Sym3d i{m / 3 * (half.y * half.y + half.z * half.z), m / 3 * (half.x * half.x + half.z * half.z),
+                      m / 3 * (half.x * half.x + half.y * half.y)};
+        const Quat q = world->pose(0).orientation;
+        return rotate(q, (i * Vec3d(rotate(conjugate(q), world->motion(0).angular_velocity))).to_float());
+    };
+    const Vec3 before = momentum();
+    for (int k = 0; k < 60; ++k) step(*world);
+    const Vec3 after = momentum();
+    // Damping 0.1 per second for a second.
+    EXPECT_NEAR(length(after) / length(before), 0.9, 0.02);
+    EXPECT_GT(dot(normalised(after), normalised(before)), 0.998f);
+}
+
+TEST(RigidWorld, AKinematicBodyCarriesWhatLiesOnIt) {
+    auto world = make_bullet_world(4);
+    world->set_gravity({0, -9.81f, 0});
+    add_box(*world, 0, {0, 0, 0}, {1, 0.1f, 1}, 1000, RigidKind::Kinematic);
+    add_box(*world, 1, {0, 0.15f, 0}, {0.1f, 0.05f, 0.1f}, 1000);
+    world->set_motion(0, {{0.3f, 0, 0}, {}});
+    for (int k = 0; k < 120; ++k) step(*world);
+    EXPECT_NEAR(world->pose(0).position.x, 0.6f, 1e-4f);
+    EXPECT_NEAR(world->motion(1).velocity.x, 0.3f, 0.01f);
+    EXPECT_NEAR(world->pose(1).position.y, 0.15f, 0.001f);
+    world->set_motion(0, {});
+    for (int k = 0; k < 120; ++k) step(*world);
+    EXPECT_TRUE(world->is_asleep(1));
+    world->set_motion(0, {{0, 0.5f, 0}, {}});
+    step(*world);
+    step(*world);
+    EXPECT_FALSE(world->is_asleep(1));
+}
+
+TEST(RigidWorld, ARemovedSupportWakesWhatLayOnIt) {
+    auto world = floor_world(8);
+    add_box(*world, 1, {0, 0.05f, 0}, {0.2f, 0.05f, 0.2f}, 1000);
+    add_box(*world, 2, {0, 0.15f, 0}, {0.1f, 0.05f, 0.1f}, 1000);
+    for (int k = 0; k < 120; ++k) step(*world);
+    ASSERT_TRUE(world->is_asleep(2));
+    world->detect(kStep);
+    world->remove(1);
+    world->solve(kStep);
+    for (int k = 0; k < 120; ++k) step(*world);
+    EXPECT_NEAR(world->pose(2).position.y, 0.05f, 0.001f);
+}
+
+TEST(RigidWorld, SkippedContactsAreNotSolvedForOneStep) {
+    auto world = floor_world(8);
+    add_box(*world, 1, {0, 0.0505f, 0}, {0.2f, 0.05f, 0.2f}, 1000);
+    world->set_motion(1, {{0, -1, 0}, {}});
+    world->detect(kStep);
+    ASSERT_FALSE(world->contacts().empty());
+    world->skip_contacts(1, 0);
+    world->solve(kStep);
+    EXPECT_NEAR(world->motion(1).velocity.y, -1 - 9.81f * kStep, 1e-4f);
+    step(*world);
+    EXPECT_GT(world->motion(1).velocity.y, -0.1f);
+}
+
+TEST(RigidWorld, AnIgnoredPairMeetsAgainWhenApartOrWhenTimeIsUp) {
+    auto world = make_bullet_world(8);
+    add_box(*world, 0, {0, 0, 0}, {0.1f, 0.1f, 0.1f}, 1000);
+    add_box(*world, 1, {0, 0.15f, 0}, {0.1f, 0.1f, 0.1f}, 1000);  // 5 cm inside of each other
+    world->ignore_pair(1, 0, 0.25f, true);
+    const int steps = static_cast<int>(0.25f / kStep);
+    for (int k = 0; k < steps; ++k) {
+        world->detect(kStep);
+        EXPECT_TRUE(world->contacts().empty()) << k;
+        world->solve(kStep);
+    }
+    step(*world);
+    step(*world);
+    EXPECT_FALSE(world->contacts().empty());
+
+    world->remove(0);
+    world->remove(1);
+    add_box(*world, 0, {0, 0, 0}, {0.1f, 0.1f, 0.1f}, 1000);
+    add_box(*world, 1, {0, 0.19f, 0}, {0.1f, 0.1f, 0.1f}, 1000);
+    world->ignore_pair(0, 1, 10, true);
+    world->set_motion(1, {{0, 0.3f, 0}, {}});
+    for (int k = 0; k < 2; ++k) {  // 10 mm apart after 2 steps of 5 mm
+        world->detect(kStep);
+        EXPECT_TRUE(world->contacts().empty()) << k;
+        world->solve(kStep);
+    }
+    world->detect(kStep);
+    EXPECT_FALSE(world->contacts().empty());
+    world->solve(kStep);
+}
+
+// A body in mid-bounce on the floor beside another that it leans on; the first is held for `held` steps in the gap of
+// step 12.
+std::vector<Pose> bounce(int held) {
+    auto world = floor_world(8);
+    add_box(*world, 1, {0, 0.1f, 0}, {0.05f, 0.05f, 0.05f}, 1000, RigidKind::Dynamic,
+            normalised(Quat{0.2f, 0.1f, 0.3f, 0.9f}));
+    world->set_motion(1, {{0.5f, -1, 0.2f}, {3, 2, 1}});
+    std::vector<Pose> poses;
+    for (int k = 0; k < 60; ++k) {
+        world->detect(kStep);
+        if (held > 0 && k == 12) {
+            world->hold(1);
+            const Pose before = world->pose(1);
+            for (int h = 0; h < held; ++h) {
+                world->solve(kStep);
+                EXPECT_TRUE(world->is_held(1));
+                EXPECT_EQ(std::memcmp(&before, &poses.back(), sizeof(Pose)), 0);
+                world->detect(kStep);
+            }
+            world->release(1);
+        }
+        world->solve(kStep);
+        poses.push_back(world->pose(1));
+    }
+    return poses;
+}
+
+TEST(RigidWorld, AReleasedBodyGoesOnBitForBitAsIfNeverHeld) {
+    const std::vector<Pose> never = bounce(0), once = bounce(1), long_time = bounce(6);
+    for (size_t k = 0; k < never.size(); ++k) {
+        EXPECT_EQ(std::memcmp(&never[k], &once[k], sizeof(Pose)), 0) << k;
+        EXPECT_EQ(std::memcmp(&never[k], &long_time[k], sizeof(Pose)), 0) << k;
+    }
+}
+
+TEST(RigidWorld, AHeldBodyIsAWallForOthers) {
+    auto world = make_bullet_world(8);
+    add_box(*world, 0, {0, 0, 0}, {0.1f, 0.1f, 0.1f}, 1);
+    add_box(*world, 1, {0, 0.3f, 0}, {0.1f, 0.1f, 0.1f}, 8000);
+    world->detect(kStep);
+    world->hold(0);
+    world->solve(kStep);
+    world->set_motion(1, {{0, -2, 0}, {}});
+    for (int k = 0; k < 20; ++k) step(*world);
+    EXPECT_EQ(world->pose(0).position.y, 0);
+    EXPECT_GT(world->pose(1).position.y, 0.199f);
+    EXPECT_GT(world->motion(1).velocity.y, 0.2f);  // restitution 0.2 of 2 m/s
+}
+
+TEST(RigidWorld, BodiesMayBeAddedReshapedAndRemovedInTheGap) {
+    auto world = floor_world(64);
+    const std::vector<Vec3> small = box_points({0.02f, 0.02f, 0.02f}, {});
+    const ConvexPiece piece{small, 0};
+    for (uint32_t k = 0; k < 40; ++k) {
+        world->detect(kStep);
+        add_box(*world, 1 + k, {0.02f * real(k % 3), 0.05f + 0.01f * real(k), 0}, {0.05f, 0.05f, 0.05f}, 1000);
+        if (k > 5) world->remove(k - 4);
+        if (k > 3) world->set_shape(k, 0.064, {}, {1e-4, 1e-4, 1e-4}, {&piece, 1});
+        world->solve(kStep);
+    }
+    for (int k = 0; k < 60; ++k) step(*world);
+    SUCCEED();
+}
+
+TEST(RigidWorld, AThrownBallStopsAtAPlateOfFourMillimetres) {
+    for (const float speed : {30.0f, 100.0f}) {
+        for (int k = 0; k < 200; ++k) {
+            auto world = make_bullet_world(8);
+            add_plate(*world, 0);
+            RigidDescription ball;
+            ball.radius = 0.02f;
+            ball.mass = 0.1;
+            ball.inertia = {1.6e-5, 1.6e-5, 1.6e-5};
+            const float across = 0.0007f * real(k), start = 0.1f + 0.0031f * real(k);
+            ball.pose.position = {across, start, 0.4f * across};
+            ball.motion.velocity = {0.01f * speed * real(k % 5 - 2), -speed, 0};
+            world->add(1, ball);
+            for (int s = 0; s < 60; ++s) step(*world);
+            EXPECT_GT(world->pose(1).position.y, 0.0f) << speed << " m/s, try " << k;
+        }
+    }
+}
+
+TEST(RigidWorld, ShardsAtAHundredMetresPerSecondStopAtAPlate) {
+    int stopped = 0;
+    for (int k = 0; k < 200; ++k) {
+        auto world = make_bullet_world(8);
+        add_plate(*world, 0);
+        const Quat q = normalised(Quat{0.1f * real(k % 7) - 0.3f, 0.3f, 0.1f * real(k % 11) - 0.5f, 0.4f});
+        add_shard(*world, 1, {0.001f * real(k) - 0.1f, 0.2f + 0.0031f * real(k), 0}, q);
+        world->set_motion(1, {{0, -100, 0}, {5.0f * real(k % 3), 0, 10}});
+        for (int s = 0; s < 10; ++s) step(*world);
+        stopped += world->counts().sweeps > 0;
+        EXPECT_GT(world->pose(1).position.y, -0.11f) << k;
+        EXPECT_GT(world->motion(1).velocity.y, -20) << k;
+    }
+    EXPECT_EQ(stopped, 200);
+}
+
+std::vector<Pose> pile_poses(uint32_t shards, int steps) {
+    auto world = floor_world(shards + 8);
+    drop_shards(*world, 1, shards);
+    for (int k = 0; k < steps; ++k) step(*world);
+    std::vector<Pose> poses;
+    for (uint32_t k = 0; k < shards; ++k) poses.push_back(world->pose(1 + k));
+    return poses;
+}
+
+TEST(RigidWorld, TheSameCallsGiveTheSameBitsAloneAndOnTwoThreads) {
+    const std::vector<Pose> once = pile_poses(20, 90), again = pile_poses(20, 90);
+    std::vector<Pose> left, right;
+    std::thread other([&] { left = pile_poses(20, 90); });
+    right = pile_poses(20, 90);
+    other.join();
+    EXPECT_EQ(std::memcmp(once.data(), again.data(), once.size() * sizeof(Pose)), 0);
+    EXPECT_EQ(std::memcmp(once.data(), left.data(), once.size() * sizeof(Pose)), 0);
+    EXPECT_EQ(std::memcmp(once.data(), right.data(), once.size() * sizeof(Pose)), 0);
+}
+
+}  // namespace
+}  // namespace cullet
