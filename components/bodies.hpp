@@ -51,7 +51,8 @@ struct Bodies : Table<Bodies> {
     Column<uint32_t> view_stamp{*this, "view_stamp"};                   // changes when the drawn mesh changes
 };
 
-/// One component of a broken shell: its elements are first_element, Elements.next of it, and so on in rising order until kNone.
+/// One component of a broken shell: its elements are first_element, Elements.next of it, and so on in rising order
+/// until kNone.
 struct FragmentPart {
     uint32_t first_element = kNone;  // the smallest; parts are ordered by it
     uint32_t last_element = kNone;

@@ -40,12 +40,12 @@ struct Shells : Table<Shells> {
     Column<Range> cells{*this, "cells"};
     Column<Range> points{*this, "points"};  // HullPoints of its cells
     Column<Row<Materials>> material{*this, "material"};
-    Column<uint32_t> users{*this, "users"};            // models, bodies and tasks that hold the row; 0 = free
-    Column<double> mass{*this, "mass", "kg"};          // sum over elements, ordered
+    Column<uint32_t> users{*this, "users"};                  // models, bodies and tasks that hold the row; 0 = free
+    Column<double> mass{*this, "mass", "kg"};                // sum over elements, ordered
     Column<double> intact_mass{*this, "intact_mass", "kg"};  // of the model that it came from
-    Column<Vec3d> centre{*this, "centre", "m"};        // of the prisms, body frame
-    Column<Sym3d> inertia{*this, "inertia", "kg m2"};  // of the prisms about the centre, body axes
-    Column<float> thickness{*this, "thickness", "m"};  // mean depth over elements by area
+    Column<Vec3d> centre{*this, "centre", "m"};              // of the prisms, body frame
+    Column<Sym3d> inertia{*this, "inertia", "kg m2"};        // of the prisms about the centre, body axes
+    Column<float> thickness{*this, "thickness", "m"};        // mean depth over elements by area
     Column<float> depth_floor{*this, "depth_floor",
                               "m"};  // least h of stiffness and contact: 0.05 eps; 0: 0.05 of the thickness
     Column<float> mean_edge{*this, "mean_edge", "m"};  // l, of the intact model; fragments inherit it

@@ -167,35 +167,37 @@ void release_shell(State& state, Row<Shells> shell) {
     state.pools.shells.give_back(shell, 1);
 }
 
-void copy_shell_rows(State& state, Row<Shells> source, Row<Shells> copy, bool with_stiffness) {
-    Shells& s = state.shells;
+void copy_shell_rows(State& to, const State& from, Row<Shells> source, Row<Shells> copy, bool with_stiffness) {
+    Shells& s = to.shells;
     const Range own[] = {s.vertices[copy], s.elements[copy], s.hinges[copy], s.packs[copy],
                          s.blocks[copy],   s.links[copy],    s.cells[copy],  s.points[copy]};
     const uint32_t users = s.users[copy];
-    s.copy_rows(s, source, copy, 1);
+    s.copy_rows(from.shells, source, copy, 1);
     s.users[copy] = users;
-    const auto copy_range = [&](AnyTable& table, Column<Range>& column, const Range& to, bool is_wanted) {
-        const Range from = column[source];
-        const uint32_t count = is_wanted ? from.count : 0;
-        CULLET_ASSERT(count <= to.capacity, "copy of %s: %u rows do not fit %u", table.name(), count, to.capacity);
-        column[copy] = {to.first, count, to.capacity};
-        if (count) table.copy_rows(table, from.first, to.first, count);
+    const auto copy_range = [&](AnyTable& table, const AnyTable& old, Column<Range>& column, const Range& range,
+                                bool is_wanted) {
+        const Range found = column[copy];  // the source's, copied above
+        const uint32_t count = is_wanted ? found.count : 0;
+        CULLET_ASSERT(count <= range.capacity, "copy of %s: %u rows do not fit %u", table.name(), count,
+                      range.capacity);
+        column[copy] = {range.first, count, range.capacity};
+        if (count) table.copy_rows(old, found.first, range.first, count);
     };
-    copy_range(state.vertices, s.vertices, own[0], true);
-    copy_range(state.elements, s.elements, own[1], true);
-    state.triangle_springs.copy_rows(state.triangle_springs, s.elements[source].first, own[1].first,
-                                     s.elements[copy].count);
-    copy_range(state.hinges, s.hinges, own[2], true);
-    copy_range(state.stiffness_packs, s.packs, own[3], with_stiffness);
-    copy_range(state.stiffness_blocks, s.blocks, own[4], with_stiffness);
-    copy_range(state.stiffness_links, s.links, own[5], with_stiffness);
-    copy_range(state.cells, s.cells, own[6], own[6].capacity > 0);
-    copy_range(state.hull_points, s.points, own[7], own[7].capacity > 0);
+    const uint32_t first_element = s.elements[copy].first;
+    copy_range(to.vertices, from.vertices, s.vertices, own[0], true);
+    copy_range(to.elements, from.elements, s.elements, own[1], true);
+    to.triangle_springs.copy_rows(from.triangle_springs, first_element, own[1].first, s.elements[copy].count);
+    copy_range(to.hinges, from.hinges, s.hinges, own[2], true);
+    copy_range(to.stiffness_packs, from.stiffness_packs, s.packs, own[3], with_stiffness);
+    copy_range(to.stiffness_blocks, from.stiffness_blocks, s.blocks, own[4], with_stiffness);
+    copy_range(to.stiffness_links, from.stiffness_links, s.links, own[5], with_stiffness);
+    copy_range(to.cells, from.cells, s.cells, own[6], own[6].capacity > 0);
+    copy_range(to.hull_points, from.hull_points, s.points, own[7], own[7].capacity > 0);
 }
 
 Row<Shells> copy_shell(State& state, Row<Shells> source, const ShellRoom& room, const char** full) {
     const Row<Shells> copy = make_shell(state, room, full);
-    if (copy.exists()) copy_shell_rows(state, source, copy, room.blocks > 0);
+    if (copy.exists()) copy_shell_rows(state, state, source, copy, room.blocks > 0);
     return copy;
 }
 

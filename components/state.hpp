@@ -61,8 +61,8 @@ struct State {
                           &State::elements,        &State::triangle_springs, &State::hinges,
                           &State::stiffness_packs, &State::stiffness_blocks, &State::stiffness_links,
                           &State::cells,           &State::hull_points,      &State::tasks,
-                          &State::task_contacts,   &State::patch_vertices, &State::fragments,    &State::view_vertices,
-                          &State::view_indices};
+                          &State::task_contacts,   &State::patch_vertices,   &State::fragments,
+                          &State::view_vertices,   &State::view_indices};
     }
     /// The table of type T.
     template <class T>
@@ -99,7 +99,7 @@ void release_shell(State& state, Row<Shells> shell);
 Row<Shells> copy_shell(State& state, Row<Shells> source, const ShellRoom& room, const char** full = nullptr);
 
 /// The second half of copy_shell, into a shell that make_shell made: serial systems reserve, parallel ones copy.
-void copy_shell_rows(State& state, Row<Shells> source, Row<Shells> copy, bool with_stiffness);
+void copy_shell_rows(State& to, const State& from, Row<Shells> source, Row<Shells> copy, bool with_stiffness);
 
 /// All tables that hold the rows of shells, as one parameter of a system that edits whole shells.
 struct ShellTables {
@@ -129,9 +129,9 @@ struct ShellView {
 template <>
 struct Parameter<ShellTables> {
     static void describe(std::vector<Access>& list) {
-        for (const char* table : {Shells::kName, Vertices::kName, Elements::kName, TriangleSprings::kName, Hinges::kName,
-                                  StiffnessPacks::kName, StiffnessBlocks::kName, StiffnessLinks::kName, Cells::kName,
-                                  HullPoints::kName})
+        for (const char* table :
+             {Shells::kName, Vertices::kName, Elements::kName, TriangleSprings::kName, Hinges::kName,
+              StiffnessPacks::kName, StiffnessBlocks::kName, StiffnessLinks::kName, Cells::kName, HullPoints::kName})
             list.push_back({table, true, true, false});
     }
     template <class W>

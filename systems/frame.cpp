@@ -1,5 +1,5 @@
-// The order of one frame: impact in, fragments out. Contacts are detected and impulses predicted, damage is decided, and only then
-// are contacts solved, so that what breaks does not throw the striker back.
+// The order of one frame: impact in, fragments out. Contacts are detected and impulses predicted, damage is decided,
+// and only then are contacts solved, so that what breaks does not throw the striker back.
 #include "systems/damage/damage_loop.hpp"
 #include "systems/systems.hpp"
 #include "systems/world_contents.hpp"
@@ -19,15 +19,9 @@ FramePlan<WorldData> make_frame_plan(const std::function<std::string()>& describ
         .then<advance_damage>()
         .shows("thick shell, brittle: 300 to 4,000 times a hit, on its own clock", describe_damage_loop)
         .then<settle_tasks>();
-    plan.stage("apply")
-        .then<find_parts>()
-        .then<make_births>();
-    plan.stage("solve")
-        .then<solve_rigid>()
-        .then<read_rigid>()
-        .then<fall_debris>();
-    plan.stage("end")
-        .then<draw_shells>();
+    plan.stage("apply").then<find_parts>().then<make_births>();
+    plan.stage("solve").then<solve_rigid>().then<read_rigid>().then<fall_debris>();
+    plan.stage("end").then<draw_shells>();
     return plan;
 }
 

@@ -4,24 +4,29 @@
 
 namespace cullet {
 
-// ---- start ------------------------------------------------------------------------------------------------------------
+// ---- start
+// ------------------------------------------------------------------------------------------------------------
 
 /// The pose of the last step, for interpolation.
 void remember_poses(Rows<Bodies> bodies, In<&Bodies::position> position, In<&Bodies::orientation> orientation,
-                    Out<&Bodies::previous_position> previous_position, Out<&Bodies::previous_orientation> previous_orientation);
+                    Out<&Bodies::previous_position> previous_position,
+                    Out<&Bodies::previous_orientation> previous_orientation);
 /// Sweeps fast bodies to their time of impact, finds all contacts of this step.
 void detect_contacts(Serial, Step step, RigidWorld& rigid);
 /// Contacts that a breakable body may not survive, sorted by body and speed.
 void predict_impacts(Serial, Step step, const RigidWorld& rigid, const Bodies& bodies, const Shells& shells,
                      const DamageSettings& settings, Events<Impact>& impacts);
 /// One damage task a body that was hit: asks the game, takes rows for its working copy.
-void open_tasks(Serial, Step step, const Events<Impact>& impacts, ShellTables shells, const Materials& materials, Bodies& bodies,
-                Tasks& tasks, TaskContacts& contacts, const DamageSettings& settings, DamageCounts& counts,
-                Events<TaskOpened>& opened, Events<ImpactEvent>& impact_events, Events<RefusedEvent>& refused);
+void open_tasks(Serial, Step step, const Events<Impact>& impacts, ShellTables shells, const Materials& materials,
+                Bodies& bodies, Tasks& tasks, TaskContacts& contacts, const DamageSettings& settings,
+                DamageCounts& counts, Events<TaskOpened>& opened, Events<ImpactEvent>& impact_events,
+                Events<RefusedEvent>& refused);
 /// Copies the body's shell into the task's, lays the contact patches, gives every vertex the body's velocity.
-void fill_tasks(Each<TaskOpened> opened, ShellTables shells, Tasks& tasks, TaskContacts& contacts, PatchVertices& patches);
+void fill_tasks(Each<TaskOpened> opened, ShellTables shells, Tasks& tasks, TaskContacts& contacts,
+                PatchVertices& patches);
 
-// ---- damage -----------------------------------------------------------------------------------------------------------
+// ---- damage
+// -----------------------------------------------------------------------------------------------------------
 
 /// Shares the frame's units: one step to each open task, then equal rounds, in order of (frame of impact, body row).
 void grant_units(Serial, Tasks& tasks, const Shells& shells, const DamageSettings& settings, DamageCounts& counts);
@@ -31,18 +36,22 @@ void advance_damage(Serial, DamageLoop& loop);
 void settle_tasks(Serial, Step step, Tasks& tasks, const TaskContacts& contacts, Bodies& bodies, const Shells& shells,
                   RigidWorld& rigid, const DamageSettings& settings, DamageCounts& counts, Events<TaskEnded>& ended);
 
-// ---- apply ------------------------------------------------------------------------------------------------------------
+// ---- apply
+// ------------------------------------------------------------------------------------------------------------
 
 /// Which elements of a broken shell hang together.
 void find_parts(Each<TaskEnded> ended, ShellTables shells, Tasks& tasks, Fragments& fragments);
-/// Plans, reserves and makes the bodies of the pieces, in order of mass; gives the striker the impulse that it really passed.
-void make_births(Serial, Step step, const Events<TaskEnded>& ended, ShellTables shells, Tasks& tasks, const TaskContacts& contacts,
-                 Fragments& fragments, Bodies& bodies, Debris& debris, ViewVertices& view_vertices, ViewIndices& view_indices,
-                 RigidWorld& rigid, const DamageSettings& settings, DamageCounts& counts, Arena& arena,
-                 Events<ShellChanged>& changed, Events<FragmentBornEvent>& born, Events<DebrisEvent>& debris_events,
-                 Events<RefusedEvent>& refused, Events<FaultEvent>& faults);
+/// Plans, reserves and makes the bodies of the pieces, in order of mass; gives the striker the impulse that it really
+/// passed.
+void make_births(Serial, Step step, const Events<TaskEnded>& ended, ShellTables shells, Tasks& tasks,
+                 const TaskContacts& contacts, Fragments& fragments, Bodies& bodies, Debris& debris,
+                 ViewVertices& view_vertices, ViewIndices& view_indices, RigidWorld& rigid,
+                 const DamageSettings& settings, DamageCounts& counts, Arena& arena, Events<ShellChanged>& changed,
+                 Events<FragmentBornEvent>& born, Events<DebrisEvent>& debris_events, Events<RefusedEvent>& refused,
+                 Events<FaultEvent>& faults);
 
-// ---- solve ------------------------------------------------------------------------------------------------------------
+// ---- solve
+// ------------------------------------------------------------------------------------------------------------
 
 /// Solves contacts and moves all bodies, old and new.
 void solve_rigid(Serial, Step step, RigidWorld& rigid);
@@ -52,15 +61,19 @@ void read_rigid(Serial, const RigidWorld& rigid, Bodies& bodies, Events<AsleepEv
 void fall_debris(Rows<Debris> debris, Step step, InOut<&Debris::position> position, InOut<&Debris::velocity> velocity,
                  In<&Debris::floor> floor, InOut<&Debris::is_resting> is_resting, In<&Debris::is_used> is_used);
 
-// ---- end --------------------------------------------------------------------------------------------------------------
+// ---- end
+// --------------------------------------------------------------------------------------------------------------
 
 /// The drawn mesh of each shell that changed.
-void draw_shells(Each<ShellChanged> changed, ShellTables shells, Bodies& bodies, ViewVertices& vertices, ViewIndices& indices);
+void draw_shells(Each<ShellChanged> changed, ShellTables shells, Bodies& bodies, ViewVertices& vertices,
+                 ViewIndices& indices);
 
-// ---- inner loop of a brittle thick shell: repeated for one task -----------------------------------------------------------
+// ---- inner loop of a brittle thick shell: repeated for one task
+// -----------------------------------------------------------
 
 /// Contact springs of the patches, from the displacements before the step (6.3).
-void push_patches(EachBody task, ShellTables shells, Tasks& tasks, const TaskContacts& contacts, PatchVertices& patches);
+void push_patches(EachBody task, ShellTables shells, Tasks& tasks, const TaskContacts& contacts,
+                  PatchVertices& patches);
 /// One fused pass (section 10): f_i = sum_j K_ij (w_j - w_i); v += dt f / m; u += dt v; next w = u + beta v.
 void integrate_hidden(Rows<StiffnessPacks> packs, OfTask task, Turn turn, const Tasks& tasks, const Shells& shells,
                       const StiffnessPacks& slots, const StiffnessBlocks& blocks, const StiffnessLinks& links,

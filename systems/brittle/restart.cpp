@@ -8,8 +8,8 @@
 namespace cullet {
 namespace {
 
-// Contacts name the nearest vertex; a ball's blow goes along the struck surface's own normal, averaged by mass over the patch,
-// because a hull's corner or edge says little about the surface (6.3).
+// Contacts name the nearest vertex; a ball's blow goes along the struck surface's own normal, averaged by mass over the
+// patch, because a hull's corner or edge says little about the surface (6.3).
 void find_contact_vertices(State& state, Row<Tasks> task) {
     const ShellView shell(state, state.tasks.shell[task]);
     TaskContacts& contacts = state.task_contacts;
@@ -48,7 +48,7 @@ void start_task(State& state, Row<Tasks> task) {
     Tasks& tasks = state.tasks;
     const Row<Shells> source = tasks.source[task], working = tasks.shell[task];
     const bool is_assembled = state.shells.packs[source].count > 0;
-    copy_shell_rows(state, source, working, is_assembled);
+    copy_shell_rows(state, state, source, working, is_assembled);
     const ShellView shell(state, working);
     begin_cracks(shell, state.shells.generation[source] > 0);
     if (!is_assembled) {

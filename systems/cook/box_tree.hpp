@@ -1,5 +1,5 @@
-// A bounding box tree over items of a mesh: items in 30-bit Morton order, ranges halved, leaves of at most 4. Boxes are single
-// precision, rounded outward, so a query may answer too much and never too little.
+// A bounding box tree over items of a mesh: items in 30-bit Morton order, ranges halved, leaves of at most 4. Boxes are
+// single precision, rounded outward, so a query may answer too much and never too little.
 #pragma once
 #include <algorithm>
 #include <array>
@@ -12,8 +12,8 @@
 
 namespace cullet {
 
-/// Coordinates a mesh is worked in: moved to its low corner and scaled by a power of two (exact), so that the diagonal is in
-/// [0.5, 1). Tolerances are absolute there.
+/// Coordinates a mesh is worked in: moved to its low corner and scaled by a power of two (exact), so that the diagonal
+/// is in [0.5, 1). Tolerances are absolute there.
 struct LocalFrame {
     Vec3d origin;      // m
     double scale = 1;  // 1/m

@@ -10,12 +10,18 @@ constexpr float kFloatMargin = 5e-6f;
 constexpr double kMargin = 1e-10;
 constexpr double kLeastSide = 1e-7;
 
-Float3 operator-(const Float3& a, const Float3& b) { return {a[0] - b[0], a[1] - b[1], a[2] - b[2]}; }
+Float3 operator-(const Float3& a, const Float3& b) {
+    return {a[0] - b[0], a[1] - b[1], a[2] - b[2]};
+}
 Float3 cross(const Float3& a, const Float3& b) {
     return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
 }
-float dot(const Float3& a, const Float3& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
-Float3 to_floats(Vec3d p) { return {static_cast<float>(p.x), static_cast<float>(p.y), static_cast<float>(p.z)}; }
+float dot(const Float3& a, const Float3& b) {
+    return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
+}
+Float3 to_floats(Vec3d p) {
+    return {static_cast<float>(p.x), static_cast<float>(p.y), static_cast<float>(p.z)};
+}
 
 void range(const Unit& u, const Float3& axis, float& low, float& high) {
     std::array<float, 8> d;
@@ -57,7 +63,9 @@ void fill(Unit& u, const ExtrusionWork& work, size_t vertex_count) {
     u.vertex_count = static_cast<uint8_t>(vertex_count);
 }
 
-Float3 outer_point(const Unit& u, size_t k) { return {u.x[2 * k], u.y[2 * k], u.z[2 * k]}; }
+Float3 outer_point(const Unit& u, size_t k) {
+    return {u.x[2 * k], u.y[2 * k], u.z[2 * k]};
+}
 
 }  // namespace
 
@@ -87,7 +95,8 @@ bool are_hulls_apart(const Unit& a, const Unit& b) {
     const float push2 = dot(push, push);
     if (push2 > 0) {
         const float s = dot(between, push) / push2;
-        if (separates(a, b, {between[0] - s * push[0], between[1] - s * push[1], between[2] - s * push[2]})) return true;
+        if (separates(a, b, {between[0] - s * push[0], between[1] - s * push[1], between[2] - s * push[2]}))
+            return true;
     }
     if (separates(a, b, between) || separates(a, b, a.normal) || separates(a, b, b.normal)) return true;
     for (const Unit* u : {&a, &b}) {
@@ -102,8 +111,8 @@ bool are_split_at(const ExtrusionWork& work, const Unit& a, const Unit& b, uint3
     const Vec3d m = work.directions[shared], origin = work.points[shared];
     const Vec3d helper = std::fabs(m.x) < 0.6 ? Vec3d(1, 0, 0) : Vec3d(0, 1, 0);
     const Vec3d x = cross(m, helper), y = cross(m, x);  // of one length, 0.6 to 1
-    // Looking along the segment: is there a line with a's points on one side and b's on the other? There is when a's points and the
-    // mirrored points of b fit into less than half a turn; grow the sector [low, high] that holds them.
+    // Looking along the segment: is there a line with a's points on one side and b's on the other? There is when a's
+    // points and the mirrored points of b fit into less than half a turn; grow the sector [low, high] that holds them.
     struct Side {
         double x, y;
     };
@@ -124,7 +133,7 @@ bool are_split_at(const ExtrusionWork& work, const Unit& a, const Unit& b, uint3
     Side low = sides[0], high = sides[0];
     const auto turn = [](Side p, Side q) { return p.x * q.y - p.y * q.x; };
     for (size_t k = 1; k < count; ++k) {
-        const bool is_right_of_low = turn(low, sides[k]) < 0, is_left_of_high = turn(high, sides[k]) > 0;
+        const bool is_right_of_low = turn(low, sides[k])<0, is_left_of_high = turn(high, sides[k])> 0;
         if (is_right_of_low && is_left_of_high) return false;
         if (is_right_of_low) low = sides[k];
         if (is_left_of_high) high = sides[k];

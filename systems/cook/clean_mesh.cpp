@@ -14,7 +14,9 @@ struct Corners {
     std::array<uint8_t, 3> corner;
 };
 
-bool is_finite(Vec3 p) { return std::isfinite(p.x) && std::isfinite(p.y) && std::isfinite(p.z); }
+bool is_finite(Vec3 p) {
+    return std::isfinite(p.x) && std::isfinite(p.y) && std::isfinite(p.z);
+}
 
 Result<void> check(const Mesh& mesh) {
     const std::string where = mesh.name.empty() ? "mesh" : "mesh \"" + mesh.name + "\"";
@@ -78,7 +80,8 @@ Corners smallest_first(Corners c) {
 // The same corners stand beside each other whatever their winding; the source decides last, so there are no ties.
 bool canonical_before(const Corners& a, const Corners& b) {
     const auto key = [](const Corners& c) {
-        return std::array<uint32_t, 5>{c.id[0], std::min(c.id[1], c.id[2]), std::max(c.id[1], c.id[2]), c.id[1], c.source};
+        return std::array<uint32_t, 5>{c.id[0], std::min(c.id[1], c.id[2]), std::max(c.id[1], c.id[2]), c.id[1],
+                                       c.source};
     };
     return key(a) < key(b);
 }

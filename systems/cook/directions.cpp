@@ -22,8 +22,8 @@ void try_axis(const std::vector<Vec3d>& normals, Vec3d axis, Cone& best) {
     if (least > best.cosine) best = {axis, least};
 }
 
-// The smallest cone holding some unit vectors is spanned by two or three of them. For many vectors: step toward the worst one
-// by 1/2, 1/3, ... (the error falls as one over the number of steps).
+// The smallest cone holding some unit vectors is spanned by two or three of them. For many vectors: step toward the
+// worst one by 1/2, 1/3, ... (the error falls as one over the number of steps).
 Cone smallest_cone(const std::vector<Vec3d>& normals) {
     Cone best;
     const size_t n = normals.size();
@@ -86,8 +86,7 @@ void choose_directions(ExtrusionWork& work) {
         }
         work.directions[v] = m;
         work.facing[v] = facing;
-        work.is_frozen[v] = facing < kWidestCone ||
-                            !work.surface.components[work.component_of_vertex[v]].is_orientable;
+        work.is_frozen[v] = facing < kWidestCone || !work.surface.components[work.component_of_vertex[v]].is_orientable;
         work.statistics.frozen_vertices += work.is_frozen[v];
     }
 }

@@ -5,13 +5,15 @@
 
 namespace cullet {
 
-inline constexpr double kLeastTurn = 0.2;    // cosine between the inner and the outer face
-inline constexpr double kLeastShare = 0.01;  // of the fair volume of a tetrahedron, area times mean depth over three. 0.05 costs
-                                             // 0.5 to 2 % of the depth and traps corners, 0.001 gains nothing
+inline constexpr double kLeastTurn = 0.2;  // cosine between the inner and the outer face
+inline constexpr double kLeastShare =
+    0.01;  // of the fair volume of a tetrahedron, area times mean depth over three. 0.05 costs
+           // 0.5 to 2 % of the depth and traps corners, 0.001 gains nothing
 
-/// Whether element t with these corner depths has an inner face that looks outward too and three tetrahedra of positive volume.
-/// A corner at depth 0 excuses the tetrahedron it flattens.
-inline bool is_sound(const ExtrusionWork& work, uint32_t t, const std::array<Vec3d, 3>& inner, const std::array<double, 3>& depth) {
+/// Whether element t with these corner depths has an inner face that looks outward too and three tetrahedra of positive
+/// volume. A corner at depth 0 excuses the tetrahedron it flattens.
+inline bool is_sound(const ExtrusionWork& work, uint32_t t, const std::array<Vec3d, 3>& inner,
+                     const std::array<double, 3>& depth) {
     const Triangle& c = work.surface.triangles[t];
     const double mean = (depth[0] + depth[1] + depth[2]) / 3;
     if (mean == 0) return true;

@@ -21,10 +21,12 @@ VertexRows rings_of(const Surface& surface) {
     return ring;
 }
 
-double signed_volume(Vec3d a, Vec3d b, Vec3d c) { return dot(a, cross(b, c)) / 6; }
+double signed_volume(Vec3d a, Vec3d b, Vec3d c) {
+    return dot(a, cross(b, c)) / 6;
+}
 
-// The last condition of the certificate: a closed inner surface has not passed through itself, so its volume has the sign of the
-// outer one. Halves the caps of components that fail, sets them to 0 when `gives_up`.
+// The last condition of the certificate: a closed inner surface has not passed through itself, so its volume has the
+// sign of the outer one. Halves the caps of components that fail, sets them to 0 when `gives_up`.
 bool has_turned_inside_out(ExtrusionWork& work, const std::vector<double>& depth, bool gives_up) {
     std::vector<double> outer(work.surface.components.size()), inner(outer.size());
     const Vec3d middle = 0.5 * (work.frame(work.surface.low) + work.frame(work.surface.high));
@@ -49,8 +51,9 @@ bool has_turned_inside_out(ExtrusionWork& work, const std::vector<double>& depth
 Result<void> check(const Surface& surface, double thickness, const ExtrusionSettings& settings) {
     if (surface.triangles.empty()) return Error{"extrude: the surface has no triangles; prepare it from a mesh first."};
     if (!(thickness > 0) || !std::isfinite(thickness))
-        return Error{"extrude: thickness " + std::to_string(thickness) + " m must be above 0 and finite; 3 % of the diagonal (" +
-                     std::to_string(0.03 * surface.diagonal) + " m) is usual."};
+        return Error{"extrude: thickness " + std::to_string(thickness) +
+                     " m must be above 0 and finite; 3 % of the diagonal (" + std::to_string(0.03 * surface.diagonal) +
+                     " m) is usual."};
     if (settings.rounds < 1 || settings.rounds > 1000 || settings.extra_rounds > 1000)
         return Error{"extrude: rounds " + std::to_string(settings.rounds) + " and extra_rounds " +
                      std::to_string(settings.extra_rounds) + " must be 1 to 1000 and 0 to 1000; 5 and 12 are usual."};
@@ -78,9 +81,16 @@ Extrusion finish(ExtrusionWork& work, const std::vector<double>& depth) {
 }  // namespace
 
 ExtrusionWork::ExtrusionWork(const Surface& s, double metres, const ExtrusionSettings& e)
-    : surface(s), frame(s.low, s.diagonal), thickness(frame.scale * metres), settings(e), ring(rings_of(s)),
-      component_of_vertex(s.positions.size()), directions(s.positions.size()), facing(s.positions.size()),
-      is_frozen(s.positions.size()), wall_caps(s.positions.size()) {
+    : surface(s),
+      frame(s.low, s.diagonal),
+      thickness(frame.scale * metres),
+      settings(e),
+      ring(rings_of(s)),
+      component_of_vertex(s.positions.size()),
+      directions(s.positions.size()),
+      facing(s.positions.size()),
+      is_frozen(s.positions.size()),
+      wall_caps(s.positions.size()) {
     for (const Vec3d p : s.positions) points.push_back(frame(p));
     for (size_t t = 0; t < s.triangles.size(); ++t) {
         const Triangle& c = s.triangles[t];
@@ -124,8 +134,9 @@ TrueWall measure_true_wall(const Surface& surface, const Extrusion& extrusion, d
         samples.push_back({share, area, v});
         area_sum += area, sum += area * share;
     }
-    std::sort(samples.begin(), samples.end(),
-              [](const Sample& a, const Sample& b) { return a.wall != b.wall ? a.wall < b.wall : a.vertex < b.vertex; });
+    std::sort(samples.begin(), samples.end(), [](const Sample& a, const Sample& b) {
+        return a.wall != b.wall ? a.wall < b.wall : a.vertex < b.vertex;
+    });
     TrueWall result{sum / area_sum, samples.back().wall, samples.front().wall};
     double below = 0;
     for (const Sample& s : samples)

@@ -8,7 +8,9 @@ namespace cullet {
 /// Vertex -> rows, in ascending order of row.
 struct VertexRows {
     std::vector<uint32_t> start, row;
-    std::span<const uint32_t> operator[](uint32_t v) const { return {row.data() + start[v], row.data() + start[v + 1]}; }
+    std::span<const uint32_t> operator[](uint32_t v) const {
+        return {row.data() + start[v], row.data() + start[v + 1]};
+    }
 };
 
 struct ExtrusionWork {
@@ -17,10 +19,10 @@ struct ExtrusionWork {
     double thickness;
     ExtrusionSettings settings;
 
-    std::vector<Vec3d> points;    // of the outer surface
-    std::vector<Vec3d> normals;   // of triangles, unit, outward
-    std::vector<double> areas;    // of triangles
-    VertexRows ring;              // vertex -> triangles
+    std::vector<Vec3d> points;   // of the outer surface
+    std::vector<Vec3d> normals;  // of triangles, unit, outward
+    std::vector<double> areas;   // of triangles
+    VertexRows ring;             // vertex -> triangles
     std::vector<uint32_t> component_of_vertex;
 
     std::vector<Vec3d> directions;   // inward, unit

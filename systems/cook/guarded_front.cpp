@@ -5,8 +5,8 @@
 namespace cullet {
 namespace {
 
-// Not from 0: an element with a corner at 0 is excused from the volume rule, its neighbours run ahead, and the corner never
-// follows.
+// Not from 0: an element with a corner at 0 is excused from the volume rule, its neighbours run ahead, and the corner
+// never follows.
 constexpr double kStart = 1.0 / 64;
 constexpr double kLeastStep = 1.0 / 64;  // of cap / rounds; below, a vertex has stopped
 constexpr int kStartFalls = 9;           // eight halvings, then 0
@@ -15,9 +15,19 @@ constexpr int kRoundFalls = 4;           // three halvings of the advance, then 
 class GuardedFront {
  public:
     explicit GuardedFront(ExtrusionWork& work)
-        : work_(work), faces_(work.surface), pairs_(list_pairs(work, faces_)), count_(work.vertex_count()), depth_(count_),
-          trial_(count_), step_(count_), place_(work.points), id_(work.surface.position_ids), falls_(count_),
-          is_bad_vertex_(count_), is_listed_element_(work.triangle_count()), is_listed_pair_(pairs_.size()) {
+        : work_(work),
+          faces_(work.surface),
+          pairs_(list_pairs(work, faces_)),
+          count_(work.vertex_count()),
+          depth_(count_),
+          trial_(count_),
+          step_(count_),
+          place_(work.points),
+          id_(work.surface.position_ids),
+          falls_(count_),
+          is_bad_vertex_(count_),
+          is_listed_element_(work.triangle_count()),
+          is_listed_pair_(pairs_.size()) {
         work.statistics.pairs = static_cast<uint32_t>(pairs_.size());
         place_.insert(place_.end(), work.points.begin(), work.points.end());
         id_.insert(id_.end(), work.surface.position_ids.begin(), work.surface.position_ids.end());
@@ -71,8 +81,8 @@ class GuardedFront {
         id_[count_ + v] = trial_[v] > 0 ? work_.surface.position_count + v : work_.surface.position_ids[v];
     }
 
-    // Sets back the vertices of bad elements and pairs until nothing is bad, then accepts. Each vertex falls at most `most_falls`
-    // times in a call, the last time to where it was, and where all were is valid; so this ends.
+    // Sets back the vertices of bad elements and pairs until nothing is bad, then accepts. Each vertex falls at most
+    // `most_falls` times in a call, the last time to where it was, and where all were is valid; so this ends.
     void settle(const std::vector<uint32_t>& moved, int most_falls) {
         for (const uint32_t v : moved) {
             falls_[v] = 0;
@@ -136,8 +146,8 @@ class GuardedFront {
     std::vector<FacePair> pairs_;
     uint32_t count_;
     std::vector<double> depth_, trial_, step_;
-    std::vector<Vec3d> place_;   // outer, then inner points
-    std::vector<uint32_t> id_;   // of those places
+    std::vector<Vec3d> place_;  // outer, then inner points
+    std::vector<uint32_t> id_;  // of those places
     std::vector<int> falls_;
     std::vector<uint8_t> is_bad_vertex_, is_listed_element_, is_listed_pair_;
     std::vector<uint32_t> bad_vertices_, elements_, listed_pairs_;
@@ -146,6 +156,8 @@ class GuardedFront {
 
 }  // namespace
 
-std::vector<double> run_guarded_front(ExtrusionWork& work) { return GuardedFront(work).run(); }
+std::vector<double> run_guarded_front(ExtrusionWork& work) {
+    return GuardedFront(work).run();
+}
 
 }  // namespace cullet

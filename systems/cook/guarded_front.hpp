@@ -4,8 +4,8 @@
 
 namespace cullet {
 
-/// Depths reached, each between 0 and its cap; local units. Every state between two rounds is valid: elements are sound, and no
-/// two listed faces touch.
+/// Depths reached, each between 0 and its cap; local units. Every state between two rounds is valid: elements are
+/// sound, and no two listed faces touch.
 std::vector<double> run_guarded_front(ExtrusionWork& work);
 
 }  // namespace cullet

@@ -5,11 +5,11 @@
 namespace cullet {
 namespace {
 
-constexpr double kLeastFacing = 0.5;     // the mitre asks for at most twice the thickness
-constexpr int kSlopeSweeps = 8;          // of D(v) <= D(u) + |uv|
+constexpr double kLeastFacing = 0.5;  // the mitre asks for at most twice the thickness
+constexpr int kSlopeSweeps = 8;       // of D(v) <= D(u) + |uv|
 constexpr int kShapeRounds = 40;
-constexpr double kShrink = 0.85;         // of the caps of an unsound element
-constexpr double kHopeless = 0.02;       // of the first cap: below, no depth cures the element
+constexpr double kShrink = 0.85;    // of the caps of an unsound element
+constexpr double kHopeless = 0.02;  // of the first cap: below, no depth cures the element
 
 void limit_slope(ExtrusionWork& work) {
     struct Edge {
@@ -40,7 +40,8 @@ void limit_slope(ExtrusionWork& work) {
 bool is_sound_at_caps(const ExtrusionWork& work, uint32_t t) {
     const Triangle& c = work.surface.triangles[t];
     const std::array<double, 3> depth{work.caps[c[0]], work.caps[c[1]], work.caps[c[2]]};
-    return is_sound(work, t, {work.inner(c[0], depth[0]), work.inner(c[1], depth[1]), work.inner(c[2], depth[2])}, depth);
+    return is_sound(work, t, {work.inner(c[0], depth[0]), work.inner(c[1], depth[1]), work.inner(c[2], depth[2])},
+                    depth);
 }
 
 }  // namespace
@@ -48,7 +49,8 @@ bool is_sound_at_caps(const ExtrusionWork& work, uint32_t t) {
 void find_wall_caps(ExtrusionWork& work, const OppositeWall& wall, const std::vector<uint8_t>& is_marked) {
     for (uint32_t v = 0; v < work.vertex_count(); ++v) {
         if (!is_marked.empty() && !is_marked[v]) continue;
-        const double wanted = work.settings.has_mitre ? work.thickness / std::max(kLeastFacing, work.facing[v]) : work.thickness;
+        const double wanted =
+            work.settings.has_mitre ? work.thickness / std::max(kLeastFacing, work.facing[v]) : work.thickness;
         work.wall_caps[v] = work.is_frozen[v] ? 0 : wall.cap(v, work.directions[v], wanted);
     }
 }

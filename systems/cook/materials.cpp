@@ -5,7 +5,8 @@ namespace {
 
 struct Entry {
     const char* name;
-    float density, young_modulus, poisson_ratio, tensile_strength, fracture_energy, restitution, friction, heading_power;
+    float density, young_modulus, poisson_ratio, tensile_strength, fracture_energy, restitution, friction,
+        heading_power;
 };
 // kg/m3, Pa, 1, Pa, J/m2, 1, 1, 1. Typical handbook values; grades spread by a third and more.
 constexpr Entry kMaterials[] = {
@@ -14,8 +15,8 @@ constexpr Entry kMaterials[] = {
     {"brick", 1900, 12e9f, 0.20f, 3e6f, 50, 0.3f, 0.65f, 6},
     {"concrete", 2400, 30e9f, 0.20f, 3e6f, 100, 0.2f, 0.6f, 6},
 };
-constexpr float kTipFactor = 0.6f;      // on Griffith's limit at mesh resolution; at 1 most panes stay whole
-constexpr float kRunSeconds = 1e-3f;    // half of it leaves a vase too whole
+constexpr float kTipFactor = 0.6f;    // on Griffith's limit at mesh resolution; at 1 most panes stay whole
+constexpr float kRunSeconds = 1e-3f;  // half of it leaves a vase too whole
 
 }  // namespace
 

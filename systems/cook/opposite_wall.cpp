@@ -3,8 +3,8 @@
 namespace cullet {
 namespace {
 
-constexpr double kFacesBack = 0.1;    // n_q . m above this: a wall that looks the other way, for which the ball is meant
-constexpr float kRaySlack = 2e-6f;    // local units; float rounding of the ray's origin and of the mesh
+constexpr double kFacesBack = 0.1;  // n_q . m above this: a wall that looks the other way, for which the ball is meant
+constexpr float kRaySlack = 2e-6f;  // local units; float rounding of the ray's origin and of the mesh
 constexpr size_t kMostHits = 64;
 
 // n is the unit normal. Outside the triangle the nearest point lies on an edge that has p on its outer side.
@@ -60,7 +60,8 @@ OppositeWall::OppositeWall(const ExtrusionWork& work)
     for (size_t n = tree_.nodes.size(); n-- > 0;) {
         const BoxTree::Node& node = tree_.nodes[n];
         if (node.is_leaf()) {
-            for (uint32_t k = node.first(); k < node.first() + node.count(); ++k) normal_boxes_[n].grow(faces_[k].normal);
+            for (uint32_t k = node.first(); k < node.first() + node.count(); ++k)
+                normal_boxes_[n].grow(faces_[k].normal);
         } else {
             normal_boxes_[n] = normal_boxes_[n + 1];
             normal_boxes_[n].grow(normal_boxes_[node.right]);
@@ -86,8 +87,8 @@ double OppositeWall::first_hit(uint32_t v, Vec3d m, double far) const {
         const auto* c = static_cast<const Context*>(pointer);
         return c->wall->is_excluded(c->vertex, triangle);
     };
-    const size_t count =
-        rays_.collect(work_.points[v].to_float(), m.to_float(), static_cast<float>(far), kRaySlack, ignore, &context, found);
+    const size_t count = rays_.collect(work_.points[v].to_float(), m.to_float(), static_cast<float>(far), kRaySlack,
+                                       ignore, &context, found);
     double distance = far;
     for (size_t k = 0; k < count; ++k) {
         const Triangle& c = work_.surface.triangles[found[k]];
@@ -97,8 +98,8 @@ double OppositeWall::first_hit(uint32_t v, Vec3d m, double far) const {
     return distance;
 }
 
-// Radius of the largest ball through v with centre v + r m that no admissible surface point lies in: the minimum over those q of
-// |q - v|^2 / (2 (q - v) . m).
+// Radius of the largest ball through v with centre v + r m that no admissible surface point lies in: the minimum over
+// those q of |q - v|^2 / (2 (q - v) . m).
 double OppositeWall::ball_radius(uint32_t v, Vec3d m, double r) const {
     const Vec3d origin = work_.points[v];
     const Floats mf(m);
@@ -169,7 +170,8 @@ double OppositeWall::distance(Vec3d p, double most) const {
         const BoxTree::Node& node = tree_.nodes[n];
         if (static_cast<double>(node.box.distance_squared(at.lane)) >= least * (1 + 1e-5)) continue;
         if (!node.is_leaf()) {
-            const bool is_left_nearer = tree_.nodes[n + 1].box.distance_squared(at.lane) <= tree_.nodes[node.right].box.distance_squared(at.lane);
+            const bool is_left_nearer = tree_.nodes[n + 1].box.distance_squared(at.lane) <=
+                                        tree_.nodes[node.right].box.distance_squared(at.lane);
             stack[height++] = is_left_nearer ? node.right : n + 1;
             stack[height++] = is_left_nearer ? n + 1 : node.right;
             continue;

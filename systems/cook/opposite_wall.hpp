@@ -1,5 +1,5 @@
-// How deep a vertex may go before it meets the half of the opposite wall: a ray and the largest ball that touches the surface at
-// the vertex (thick shell note A2). Also the distance of any point from the surface.
+// How deep a vertex may go before it meets the half of the opposite wall: a ray and the largest ball that touches the
+// surface at the vertex (thick shell note A2). Also the distance of any point from the surface.
 #pragma once
 #include "systems/cook/extrusion_work.hpp"
 

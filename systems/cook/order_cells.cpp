@@ -10,6 +10,10 @@
 namespace cullet {
 namespace {
 
+// Wanted size of a cell, at most kVerticesPerCell. On a vase of 3,000 vertices 64 gave cells of up to 168 elements with
+// hulls of 2.58 times the solid's volume, 48 gives up to 131 and 2.22, for a third more hulls.
+constexpr uint32_t kWantedVertices = 48;
+
 constexpr double kFar = std::numeric_limits<double>::infinity();
 
 /// Neighbours along edges; an interior edge stands twice, which does no harm.
@@ -147,7 +151,7 @@ CellOrder order_cells(std::span<const Vec3d> position, std::span<const std::arra
             for (uint32_t s = graph.first[members[head]]; s < graph.first[members[head] + 1]; ++s)
                 if (!is_found[graph.to[s]]) is_found[graph.to[s]] = 1, members.push_back(graph.to[s]);
         cells.clear();
-        const uint32_t cell_count = (static_cast<uint32_t>(members.size()) + kVerticesPerCell - 1) / kVerticesPerCell;
+        const uint32_t cell_count = (static_cast<uint32_t>(members.size()) + kWantedVertices - 1) / kWantedVertices;
         halver.halve(members, cell_count, cells);
         for (std::span<uint32_t> cell : cells) {
             order.first_row.push_back(order.row_count);

@@ -6,8 +6,8 @@
 namespace cullet {
 namespace {
 
-// Outer faces whose normals are closer than this (20 degrees) cannot fold their inner faces onto each other: an inner face
-// leans at most acos(0.2) = 78.5 degrees, and 20 + 2 * 78.5 < 178.2.
+// Outer faces whose normals are closer than this (20 degrees) cannot fold their inner faces onto each other: an inner
+// face leans at most acos(0.2) = 78.5 degrees, and 20 + 2 * 78.5 < 178.2.
 constexpr double kTooFlatToFold = 0.94;
 
 class Lister {
@@ -26,7 +26,8 @@ class Lister {
         const BoxTree tree(boxes);
         tree.for_each_overlap([this](uint32_t a, uint32_t b) { consider(std::min(a, b), std::max(a, b)); });
         // The order of the tree has no ties, but a list in order of faces is kinder to the caches.
-        std::sort(pairs_.begin(), pairs_.end(), [](const FacePair& p, const FacePair& q) { return p.a != q.a ? p.a < q.a : p.b < q.b; });
+        std::sort(pairs_.begin(), pairs_.end(),
+                  [](const FacePair& p, const FacePair& q) { return p.a != q.a ? p.a < q.a : p.b < q.b; });
         return std::move(pairs_);
     }
 
@@ -37,15 +38,16 @@ class Lister {
         const Surface& s = work_.surface;
         const uint32_t t = units_[i].triangle, u = units_[j].triangle;
         if (s.are_independent(s.component_of[t], s.component_of[u])) return true;
-        return !s.crossings.empty() &&
-               std::binary_search(s.crossings.begin(), s.crossings.end(), std::array<uint32_t, 2>{std::min(t, u), std::max(t, u)});
+        return !s.crossings.empty() && std::binary_search(s.crossings.begin(), s.crossings.end(),
+                                                          std::array<uint32_t, 2>{std::min(t, u), std::max(t, u)});
     }
 
     // Sheets that share a position but not the vertex are not tested against each other there.
     bool meet_at_split_vertex(const Unit& a, const Unit& b) const {
         for (size_t k = 0; k < a.vertex_count; ++k)
             for (size_t l = 0; l < b.vertex_count; ++l)
-                if (a.vertex[k] != b.vertex[l] && work_.surface.position_ids[a.vertex[k]] == work_.surface.position_ids[b.vertex[l]])
+                if (a.vertex[k] != b.vertex[l] &&
+                    work_.surface.position_ids[a.vertex[k]] == work_.surface.position_ids[b.vertex[l]])
                     return true;
         return false;
     }
@@ -64,7 +66,8 @@ class Lister {
         if (is_element(i) && is_element(j)) {
             if (!stays_below(work_, i, j)) add(faces_.inner(i), faces_.outer(j));
             if (!stays_below(work_, j, i)) add(faces_.outer(i), faces_.inner(j));
-            if (shared_count != 2 || dot(work_.normals[i], work_.normals[j]) <= kTooFlatToFold) add(faces_.inner(i), faces_.inner(j));
+            if (shared_count != 2 || dot(work_.normals[i], work_.normals[j]) <= kTooFlatToFold)
+                add(faces_.inner(i), faces_.inner(j));
             return;
         }
         for (const uint32_t f : faces_of(i))
@@ -92,7 +95,8 @@ ShellFaces::ShellFaces(const Surface& surface)
     : vertex_count(static_cast<uint32_t>(surface.positions.size())),
       triangle_count(static_cast<uint32_t>(surface.triangles.size())),
       corners(surface.triangles) {
-    for (const Triangle& t : surface.triangles) corners.push_back({t[0] + vertex_count, t[1] + vertex_count, t[2] + vertex_count});
+    for (const Triangle& t : surface.triangles)
+        corners.push_back({t[0] + vertex_count, t[1] + vertex_count, t[2] + vertex_count});
     for (const BorderEdge& border : surface.border_edges) {
         const Triangle& c = surface.triangles[border.triangle];
         for (const auto& half : rim_triangles(c[border.edge], c[(border.edge + 1) % 3])) {
@@ -103,6 +107,8 @@ ShellFaces::ShellFaces(const Surface& surface)
     }
 }
 
-std::vector<FacePair> list_pairs(const ExtrusionWork& work, const ShellFaces& faces) { return Lister(work, faces).list(); }
+std::vector<FacePair> list_pairs(const ExtrusionWork& work, const ShellFaces& faces) {
+    return Lister(work, faces).list();
+}
 
 }  // namespace cullet

@@ -1,13 +1,13 @@
-// Which faces of the growing shell can ever meet (thick shell note A6). Every inner point stays on its segment from the surface to
-// its cap, so one search serves all rounds.
+// Which faces of the growing shell can ever meet (thick shell note A6). Every inner point stays on its segment from the
+// surface to its cap, so one search serves all rounds.
 #pragma once
 #include "systems/cook/extrusion_work.hpp"
 #include "systems/cook/triangle_test.hpp"
 
 namespace cullet {
 
-/// Faces in this order: outer triangles, inner triangles, two rim triangles per border edge. A corner below vertex_count() is an
-/// outer point, one above is the inner point of vertex (corner - vertex_count()).
+/// Faces in this order: outer triangles, inner triangles, two rim triangles per border edge. A corner below
+/// vertex_count() is an outer point, one above is the inner point of vertex (corner - vertex_count()).
 struct ShellFaces {
     uint32_t vertex_count = 0, triangle_count = 0;
     std::vector<Triangle> corners;

@@ -75,12 +75,13 @@ struct JointRing {
         for (size_t t = 0; t < triangle_count; ++t) start[t + 1] += start[t];
         joint.resize(2 * joints.size());
         std::vector<uint32_t> next(start.begin(), start.end() - 1);
-        for (uint32_t k = 0; k < joints.size(); ++k) joint[next[joints[k].first]++] = k, joint[next[joints[k].second]++] = k;
+        for (uint32_t k = 0; k < joints.size(); ++k)
+            joint[next[joints[k].first]++] = k, joint[next[joints[k].second]++] = k;
     }
 };
 
-// Turns triangles until neighbours over ordinary edges agree, to the winding most triangles of the patch had. A one-sided
-// patch is left as it came and every triangle of it is marked.
+// Turns triangles until neighbours over ordinary edges agree, to the winding most triangles of the patch had. A
+// one-sided patch is left as it came and every triangle of it is marked.
 std::vector<uint8_t> agree_on_winding(CleanMesh& mesh, const std::vector<Joint>& joints, SurfaceRepairs& repairs) {
     const uint32_t count = static_cast<uint32_t>(mesh.triangles.size());
     const JointRing ring(count, joints);
@@ -131,8 +132,9 @@ double angle_rank(double x, double y) {
     return x < 0 ? 2 - t : y < 0 ? 4 + t : t;
 }
 
-// An edge in more than two triangles. Looking along it, material lies from a triangle that runs it backward, counter-clockwise,
-// to the next that runs it forward; such neighbours are joined and leave the circle, until none is left to join.
+// An edge in more than two triangles. Looking along it, material lies from a triangle that runs it backward,
+// counter-clockwise, to the next that runs it forward; such neighbours are joined and leave the circle, until none is
+// left to join.
 void pair_by_angle(const CleanMesh& mesh, const EdgeUse* uses, size_t count, std::vector<Joint>& joints,
                    SurfaceRepairs& repairs) {
     struct Sheet {
@@ -152,8 +154,9 @@ void pair_by_angle(const CleanMesh& mesh, const EdgeUse* uses, size_t count, std
         if (k == 0) x = normalised(side), y = cross(axis, x);
         sheets.push_back({angle_rank(dot(side, x), dot(side, y)), uses[k].triangle, runs_forward(t, low, high)});
     }
-    std::sort(sheets.begin(), sheets.end(),
-              [](const Sheet& a, const Sheet& b) { return a.rank != b.rank ? a.rank < b.rank : a.triangle < b.triangle; });
+    std::sort(sheets.begin(), sheets.end(), [](const Sheet& a, const Sheet& b) {
+        return a.rank != b.rank ? a.rank < b.rank : a.triangle < b.triangle;
+    });
     for (bool has_joined = true; has_joined && sheets.size() > 1;) {
         has_joined = false;
         for (size_t k = 0; k < sheets.size() && sheets.size() > 1; ++k) {
@@ -193,8 +196,8 @@ void find_components(const CleanMesh& mesh, const std::vector<Joint>& joints, co
         component.is_closed = component.is_closed && joint_count[t] == 3;
         component.is_orientable = component.is_orientable && !is_one_sided[t];
         const Triangle& c = mesh.triangles[t];
-        component.volume += dot(mesh.positions[c[0]] - middle, cross(mesh.positions[c[1]] - middle,
-                                                                     mesh.positions[c[2]] - middle)) / 6;
+        component.volume +=
+            dot(mesh.positions[c[0]] - middle, cross(mesh.positions[c[1]] - middle, mesh.positions[c[2]] - middle)) / 6;
     }
     for (SurfaceComponent& component : surface.components) {
         if (!component.is_orientable) component.is_closed = false, ++surface.repairs.unorientable_components;
@@ -226,7 +229,8 @@ void turn_inside_out(CleanMesh& mesh, Surface& surface) {
         if (!component.is_closed || component.volume >= 0) continue;
         const Vec3d p = mesh.positions[mesh.triangles[component.first_triangle][0]];
         for (uint32_t other = 0; other < surface.components.size() && !component.is_cavity; ++other)
-            component.is_cavity = other != c && surface.components[other].is_closed && is_inside(mesh, surface, other, p);
+            component.is_cavity =
+                other != c && surface.components[other].is_closed && is_inside(mesh, surface, other, p);
         if (component.is_cavity) {
             ++surface.repairs.cavities;
             continue;
@@ -239,8 +243,8 @@ void turn_inside_out(CleanMesh& mesh, Surface& surface) {
         if (is_turned[surface.component_of[t]]) turn(mesh, t);
 }
 
-// Every triangle corner starts as a vertex of its own; corners are united across joints only. This one rule splits bow ties
-// and crowded edges. Vertices are numbered by (position, lowest corner).
+// Every triangle corner starts as a vertex of its own; corners are united across joints only. This one rule splits bow
+// ties and crowded edges. Vertices are numbered by (position, lowest corner).
 void unite_corners(const CleanMesh& mesh, const std::vector<Joint>& joints, Surface& surface) {
     const uint32_t corner_count = static_cast<uint32_t>(3 * mesh.triangles.size());
     Sets sets(corner_count);
@@ -271,8 +275,8 @@ void unite_corners(const CleanMesh& mesh, const std::vector<Joint>& joints, Surf
     surface.repairs.split_vertices = static_cast<uint32_t>(roots.size() - mesh.positions.size());
 }
 
-// A vertex has one fan, so at most one border edge leaves it, and the edges chain into loops. On a one-sided component the
-// chain may stop; the rest then starts a list of its own.
+// A vertex has one fan, so at most one border edge leaves it, and the edges chain into loops. On a one-sided component
+// the chain may stop; the rest then starts a list of its own.
 void find_borders(Surface& surface) {
     std::vector<BorderEdge> edges;
     std::vector<uint32_t> leaving(surface.positions.size(), kNone);

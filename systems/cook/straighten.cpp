@@ -1,5 +1,5 @@
-// Directions where local caps bite. Evening them out there lets opposite walls go deeper; evening out all of them thins walls
-// that were fine, and round lips finer than the wall lose. So each patch keeps whichever gives the thicker wall.
+// Directions where local caps bite. Evening them out there lets opposite walls go deeper; evening out all of them thins
+// walls that were fine, and round lips finer than the wall lose. So each patch keeps whichever gives the thicker wall.
 #include "systems/cook/local_caps.hpp"
 
 namespace cullet {
@@ -37,15 +37,16 @@ void even_out(ExtrusionWork& work, const std::vector<uint32_t>& marked) {
                 for (const uint32_t w : work.surface.triangles[t])
                     if (w != v) sum += work.directions[w];
             const Vec3d m = normalised(work.directions[v] + normalised(sum));
-            next[k] = least_facing(work, v, m) >= std::max(kLeastKept, kKeepsFacing * facing[v]) ? m : work.directions[v];
+            next[k] =
+                least_facing(work, v, m) >= std::max(kLeastKept, kKeepsFacing * facing[v]) ? m : work.directions[v];
         }
         for (size_t k = 0; k < marked.size(); ++k) work.directions[marked[k]] = next[k];
     }
     for (const uint32_t v : marked) work.facing[v] = least_facing(work, v, work.directions[v]);
 }
 
-// Depth at full cap under the worst face of the vertex, times the area around: stands for the volume the wall gains. (The true
-// distance from the surface decides alike and costs more than all other caps together.)
+// Depth at full cap under the worst face of the vertex, times the area around: stands for the volume the wall gains.
+// (The true distance from the surface decides alike and costs more than all other caps together.)
 std::vector<double> wall_at_caps(const ExtrusionWork& work, const std::vector<uint32_t>& marked) {
     std::vector<double> volume;
     for (const uint32_t v : marked) {

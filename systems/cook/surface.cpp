@@ -10,7 +10,8 @@ namespace cullet {
 
 bool Surface::are_independent(uint32_t component_a, uint32_t component_b) const {
     return component_a != component_b && !independent.empty() &&
-           std::binary_search(independent.begin(), independent.end(), std::array<uint32_t, 2>{component_a, component_b});
+           std::binary_search(independent.begin(), independent.end(),
+                              std::array<uint32_t, 2>{component_a, component_b});
 }
 
 bool SurfaceRepairs::is_clean() const {
@@ -39,7 +40,8 @@ std::string describe(const SurfaceRepairs& r) {
     say(r.cavities, "kept ", " components as walls of cavities");
     say(r.unorientable_components, "found ", " one-sided components (they get no depth)");
     say(r.split_vertices, "split off ", " vertices where several fans met");
-    say(r.crossing_pairs, "found ", " pairs of triangles that cut or touch each other (never tested against each other)");
+    say(r.crossing_pairs, "found ",
+        " pairs of triangles that cut or touch each other (never tested against each other)");
     say(r.independent_pairs, "took ", " pairs of components that meet as bodies of their own");
     return text.empty() ? "Surface: nothing to repair." : text + ".";
 }

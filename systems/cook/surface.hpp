@@ -1,5 +1,6 @@
-// A mesh made ready for extrusion: cleaned, in canonical order, wound outward, with neighbours and one fan of triangles a vertex.
-// Everything later is bit-identical for any numbering of the input, because the canonical order depends on positions alone.
+// A mesh made ready for extrusion: cleaned, in canonical order, wound outward, with neighbours and one fan of triangles
+// a vertex. Everything later is bit-identical for any numbering of the input, because the canonical order depends on
+// positions alone.
 #pragma once
 #include <array>
 #include <cstdint>
@@ -10,11 +11,9 @@
 #include "engine/math.hpp"
 #include "engine/mesh.hpp"
 #include "engine/ray_scene.hpp"
+#include "engine/table.hpp"
 
 namespace cullet {
-
-/// No neighbour, no row.
-inline constexpr uint32_t kNone = 0xffffffffu;
 
 /// What was changed to make a mesh usable. All zero for a clean closed mesh.
 struct SurfaceRepairs {
@@ -60,14 +59,16 @@ struct Surface {
     std::vector<Triangle> neighbours;  // triangle across edge k, from corner k to corner (k + 1) % 3, or kNone
     std::vector<uint32_t> component_of;
     std::vector<SurfaceComponent> components;
-    /// Triangle t came from triangle source_triangles[t] of the mesh; its corner k from that one's corner source_corners[t][k].
+    /// Triangle t came from triangle source_triangles[t] of the mesh; its corner k from that one's corner
+    /// source_corners[t][k].
     std::vector<uint32_t> source_triangles;
     std::vector<std::array<uint8_t, 3>> source_corners;
     /// Border edges, loop after loop in walking order; loop l is [border_loops[l], border_loops[l + 1]).
     std::vector<BorderEdge> border_edges;
     std::vector<uint32_t> border_loops;
     std::vector<std::array<uint32_t, 2>> crossings;  // triangles a < b that cut or touch, sorted
-    /// Components that cross, touch or share a position: they are bodies of their own and never limit each other's depth.
+    /// Components that cross, touch or share a position: they are bodies of their own and never limit each other's
+    /// depth.
     std::vector<std::array<uint32_t, 2>> independent;  // both orders, sorted
     Vec3d low, high;                                   // m, bounds
     double diagonal = 0;                               // m

@@ -24,7 +24,10 @@ struct Edge {
 class Tessellator {
  public:
     Tessellator(const Mesh& mesh, const TessellationSettings& settings)
-        : mesh_(mesh), settings_(settings), limit_(settings.longest_edge * settings.longest_edge), queue_(Shorter{this}) {
+        : mesh_(mesh),
+          settings_(settings),
+          limit_(settings.longest_edge * settings.longest_edge),
+          queue_(Shorter{this}) {
         find_places();
         for (uint32_t t = 0; t < mesh_.triangles.size(); ++t) list_edges(t);
         for (const auto& [edge, triangles] : triangles_of_) offer(edge);
@@ -37,8 +40,9 @@ class Tessellator {
             const auto found = triangles_of_.find(edge);
             if (found == triangles_of_.end()) continue;
             if (mesh_.triangles.size() + found->second.size() > settings_.most_triangles)
-                return Error{"tessellate: edges of at most " + std::to_string(settings_.longest_edge) + " m would make mesh \"" +
-                             mesh_.name + "\" larger than " + std::to_string(settings_.most_triangles) +
+                return Error{"tessellate: edges of at most " + std::to_string(settings_.longest_edge) +
+                             " m would make mesh \"" + mesh_.name + "\" larger than " +
+                             std::to_string(settings_.most_triangles) +
                              " triangles; raise longest_edge or most_triangles."};
             split(edge, found->second);
         }
@@ -172,14 +176,16 @@ Result<Mesh> tessellate(const Mesh& mesh, const TessellationSettings& settings) 
     for (size_t t = 0; t < mesh.triangles.size(); ++t)
         for (const uint32_t v : mesh.triangles[t])
             if (v >= mesh.positions.size())
-                return Error{"tessellate: triangle " + std::to_string(t) + " of mesh \"" + mesh.name + "\" names vertex " +
-                             std::to_string(v) + " of " + std::to_string(mesh.positions.size()) + "; repair the index list."};
+                return Error{"tessellate: triangle " + std::to_string(t) + " of mesh \"" + mesh.name +
+                             "\" names vertex " + std::to_string(v) + " of " + std::to_string(mesh.positions.size()) +
+                             "; repair the index list."};
     const size_t corners = 3 * mesh.triangles.size();
     if ((!mesh.corner_normals.empty() && mesh.corner_normals.size() != corners) ||
         (!mesh.corner_uvs.empty() && mesh.corner_uvs.size() != corners) ||
         (!mesh.materials.empty() && mesh.materials.size() != mesh.triangles.size()))
         return Error{"tessellate: corner attributes of mesh \"" + mesh.name + "\" do not match its " +
-                     std::to_string(mesh.triangles.size()) + " triangles; give three a triangle (materials: one), or none."};
+                     std::to_string(mesh.triangles.size()) +
+                     " triangles; give three a triangle (materials: one), or none."};
     return Tessellator(mesh, settings).run();
 }
 

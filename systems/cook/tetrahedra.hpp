@@ -1,5 +1,5 @@
-// The three tetrahedra of a prism element, cut so that neighbours agree on every side quad: on side (a, b) the diagonal starts at
-// the outer corner with the smaller vertex id.
+// The three tetrahedra of a prism element, cut so that neighbours agree on every side quad: on side (a, b) the diagonal
+// starts at the outer corner with the smaller vertex id.
 #pragma once
 #include <array>
 #include <cstdint>
@@ -8,8 +8,8 @@
 
 namespace cullet {
 
-/// With the vertices sorted, p < q < r, and primes inside: {p, q, r, r'}, {p, q, q', r'}, {p, p', q', r'}. Each holds both ends of
-/// one vertex (r, q, p in this order), so depth 0 there makes just that one flat.
+/// With the vertices sorted, p < q < r, and primes inside: {p, q, r, r'}, {p, q, q', r'}, {p, p', q', r'}. Each holds
+/// both ends of one vertex (r, q, p in this order), so depth 0 there makes just that one flat.
 struct PrismTetrahedra {
     std::array<double, 3> volume;     // m3, positive when the prism is the right way round
     std::array<uint8_t, 3> flattens;  // corner (0 to 2) of the element whose depth 0 makes this one flat
@@ -34,7 +34,8 @@ inline PrismTetrahedra prism_tetrahedra(const std::array<Vec3d, 3>& outer, const
             {at[2], at[1], at[0]}};
 }
 
-/// The two triangles of the rim quad under border edge a -> b, in outer (false) and inner (true) corners, facing out of the shell.
+/// The two triangles of the rim quad under border edge a -> b, in outer (false) and inner (true) corners, facing out of
+/// the shell.
 struct RimCorner {
     uint32_t vertex;
     bool is_inner;

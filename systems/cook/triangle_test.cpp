@@ -43,8 +43,8 @@ bool triangles_apart(const Vec3d* a, const Vec3d* b, uint8_t& hint) {
     return false;
 }
 
-// Segment a[0] a[1] and triangle b: between the centroids, the normal, three products of edges, three in the plane of b, and the
-// direction across the segment in that plane.
+// Segment a[0] a[1] and triangle b: between the centroids, the normal, three products of edges, three in the plane of
+// b, and the direction across the segment in that plane.
 Vec3d segment_axis(int which, const Vec3d* a, const Vec3d* b) {
     const Vec3d normal = cross(b[1] - b[0], b[2] - b[0]), along = a[1] - a[0];
     if (which == 0) return 1.5 * (a[0] + a[1]) - (b[0] + b[1] + b[2]);
@@ -71,7 +71,9 @@ bool is_folded(Vec3d from, Vec3d to, Vec3d p, Vec3d q) {
     return dot(a, b) >= kCosineOfFold * length(a) * length(b);
 }
 
-bool has_three_corners(const Corner3& t) { return t.id[0] != t.id[1] && t.id[1] != t.id[2] && t.id[2] != t.id[0]; }
+bool has_three_corners(const Corner3& t) {
+    return t.id[0] != t.id[1] && t.id[1] != t.id[2] && t.id[2] != t.id[0];
+}
 
 }  // namespace
 
@@ -91,7 +93,8 @@ bool are_touching(const Corner3& a, const Corner3& b, AxisHint& hint) {
         const Vec3d a_edge[2] = {a.point[(a_at + 1) % 3], a.point[(a_at + 2) % 3]};
         const Vec3d b_edge[2] = {b.point[(b_at + 1) % 3], b.point[(b_at + 2) % 3]};
         hint.first = std::min<uint8_t>(hint.first, 8), hint.second = std::min<uint8_t>(hint.second, 8);
-        return !segment_apart(a_edge, b.point.data(), hint.first) || !segment_apart(b_edge, a.point.data(), hint.second);
+        return !segment_apart(a_edge, b.point.data(), hint.first) ||
+               !segment_apart(b_edge, a.point.data(), hint.second);
     }
     if (shared == 2) {
         const size_t a_free = static_cast<size_t>(3 - a_shared), b_free = static_cast<size_t>(3 - b_shared);

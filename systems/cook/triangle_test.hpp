@@ -1,5 +1,6 @@
-// Do two triangles touch? Separating axes in double precision; what cannot be shown apart counts as touching. Corners that are
-// the same point by construction are compared by id, not by position, so that neighbours are not in each other's way.
+// Do two triangles touch? Separating axes in double precision; what cannot be shown apart counts as touching. Corners
+// that are the same point by construction are compared by id, not by position, so that neighbours are not in each
+// other's way.
 #pragma once
 #include <array>
 #include <cstdint>
@@ -21,9 +22,9 @@ struct AxisHint {
     uint8_t first = 0, second = 0;
 };
 
-/// No shared corner: an axis separates them. One: the edge opposite to it of each is apart from the other triangle (two triangles
-/// through one point that meet elsewhere meet on such an edge). Two: they are not folded onto each other by less than 1.8
-/// degrees. Three, or a triangle without three corners: never touching.
+/// No shared corner: an axis separates them. One: the edge opposite to it of each is apart from the other triangle (two
+/// triangles through one point that meet elsewhere meet on such an edge). Two: they are not folded onto each other by
+/// less than 1.8 degrees. Three, or a triangle without three corners: never touching.
 bool are_touching(const Corner3& a, const Corner3& b, AxisHint& hint);
 
 }  // namespace cullet

@@ -1,4 +1,5 @@
-// The inner loop of a brittle thick shell, on tables alone: a frame's damage tasks and single hits (cooking, truth) run the same.
+// The inner loop of a brittle thick shell, on tables alone: a frame's damage tasks and single hits (cooking, truth) run
+// the same.
 #pragma once
 #include "components/state.hpp"
 #include "engine/inner_loop.hpp"

@@ -5,7 +5,11 @@
 namespace cullet {
 
 DamageLoop::DamageLoop(State& state, JobSystem& jobs, Profiler& profiler)
-    : world_{state}, jobs_(jobs), profiler_(profiler), brittle_(make_brittle_loop()), zone_(profiler.add_zone("damage task")) {}
+    : world_{state},
+      jobs_(jobs),
+      profiler_(profiler),
+      brittle_(make_brittle_loop()),
+      zone_(profiler.add_zone("damage task")) {}
 
 void DamageLoop::advance() {
     static constexpr uint32_t kMostTasks = 1024;
@@ -41,6 +45,8 @@ void DamageLoop::advance() {
     });
 }
 
-void advance_damage(Serial, DamageLoop& loop) { loop.advance(); }
+void advance_damage(Serial, DamageLoop& loop) {
+    loop.advance();
+}
 
 }  // namespace cullet

@@ -10,13 +10,14 @@ constexpr uint32_t kStepsARound = 16;
 
 uint32_t steps_left(const Tasks& tasks, uint32_t t) {
     const auto total = static_cast<uint32_t>(tasks.end_time[t] / tasks.time_step[t]) + 1;
-    return total > tasks.steps_done[t] + tasks.steps_granted[t] ? total - tasks.steps_done[t] - tasks.steps_granted[t] : 0;
+    return total > tasks.steps_done[t] + tasks.steps_granted[t] ? total - tasks.steps_done[t] - tasks.steps_granted[t]
+                                                                : 0;
 }
 
 }  // namespace
 
-// What cuts cost more than was granted for is owed, and paid before the next frame's steps. A task gets at least one step a
-// frame, so that none can starve.
+// What cuts cost more than was granted for is owed, and paid before the next frame's steps. A task gets at least one
+// step a frame, so that none can starve.
 void grant_units(Serial, Tasks& tasks, const Shells& shells, const DamageSettings& settings, DamageCounts& counts) {
     static constexpr uint32_t kMostTasks = 1024;
     uint32_t order[kMostTasks], count = 0;
@@ -40,7 +41,8 @@ void grant_units(Serial, Tasks& tasks, const Shells& shells, const DamageSetting
             const uint32_t t = order[i];
             const auto cost = static_cast<int64_t>(units_a_step(shells, tasks, t));
             uint32_t steps = std::min(is_first_round ? 1 : kStepsARound, steps_left(tasks, t));
-            if (!is_first_round) steps = std::min<uint32_t>(steps, budget > 0 ? static_cast<uint32_t>(budget / cost) : 0);
+            if (!is_first_round)
+                steps = std::min<uint32_t>(steps, budget > 0 ? static_cast<uint32_t>(budget / cost) : 0);
             tasks.steps_granted[t] += steps;
             budget -= static_cast<int64_t>(steps) * cost;
             goes_on = goes_on || steps > 0;

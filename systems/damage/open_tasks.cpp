@@ -9,8 +9,8 @@
 namespace cullet {
 namespace {
 
-// Inverse of the mass that a body sets against a push along the unit normal at a world point: 1/m + (r x n) . I^-1 (r x n).
-// Static and kinematic bodies, and bodies held by another task, do not yield.
+// Inverse of the mass that a body sets against a push along the unit normal at a world point: 1/m + (r x n) . I^-1 (r x
+// n). Static and kinematic bodies, and bodies held by another task, do not yield.
 float effective_inverse_mass(const Bodies& bodies, Row<Bodies> striker, Vec3 point, Vec3 normal) {
     if (!striker.exists() || static_cast<BodyKind>(bodies.kind[striker]) != BodyKind::Dynamic) return 0;
     if (bodies.hold_count[striker]) return 0;
@@ -74,9 +74,10 @@ void lay_contacts(std::span<const Impact> impacts, const Bodies& bodies, const S
 
 }  // namespace
 
-void open_tasks(Serial, Step step, const Events<Impact>& impacts, ShellTables shells, const Materials& materials, Bodies& bodies,
-                Tasks& tasks, TaskContacts& contacts, const DamageSettings& settings, DamageCounts& counts,
-                Events<TaskOpened>& opened, Events<ImpactEvent>& impact_events, Events<RefusedEvent>& refused) {
+void open_tasks(Serial, Step step, const Events<Impact>& impacts, ShellTables shells, const Materials& materials,
+                Bodies& bodies, Tasks& tasks, TaskContacts& contacts, const DamageSettings& settings,
+                DamageCounts& counts, Events<TaskOpened>& opened, Events<ImpactEvent>& impact_events,
+                Events<RefusedEvent>& refused) {
     State& state = shells.state;
     opened.clear();
     const auto all = impacts.all();

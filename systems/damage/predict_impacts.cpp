@@ -6,7 +6,8 @@
 namespace cullet {
 namespace {
 
-bool is_fragile(const Bodies& bodies, const Shells& shells, const DamageSettings& settings, uint64_t frame, uint32_t b) {
+bool is_fragile(const Bodies& bodies, const Shells& shells, const DamageSettings& settings, uint64_t frame,
+                uint32_t b) {
     const Row<Shells> shell = bodies.shell[b];
     return shell.exists() && bodies.is_breakable[b] && bodies.task[b] == kNone && frame >= bodies.retry_frame[b] &&
            may_break_again(shells, shell, settings.generations);

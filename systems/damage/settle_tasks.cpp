@@ -28,8 +28,8 @@ void for_body_and_strikers(const Tasks& tasks, const TaskContacts& contacts, uin
 
 }  // namespace
 
-// Hold and release both happen here, between detect and solve, so a release is bit for bit as if never held. A blow slower than
-// the first crack is solved at once: a harmless bump must not be seen to stick.
+// Hold and release both happen here, between detect and solve, so a release is bit for bit as if never held. A blow
+// slower than the first crack is solved at once: a harmless bump must not be seen to stick.
 void settle_tasks(Serial, Step step, Tasks& tasks, const TaskContacts& contacts, Bodies& bodies, const Shells& shells,
                   RigidWorld& rigid, const DamageSettings& settings, DamageCounts& counts, Events<TaskEnded>& ended) {
     ended.clear();
@@ -38,7 +38,8 @@ void settle_tasks(Serial, Step step, Tasks& tasks, const TaskContacts& contacts,
         if (task_state == TaskState::Free) continue;
         const bool is_over = task_state != TaskState::Running;
         if (!is_over && !tasks.is_held[t] && !tasks.is_late[t]) {
-            const bool is_worth_it = tasks.approach_speed[t] > shells.first_crack_speed[tasks.source[t]] && settings.hold_seconds > 0;
+            const bool is_worth_it =
+                tasks.approach_speed[t] > shells.first_crack_speed[tasks.source[t]] && settings.hold_seconds > 0;
             if (is_worth_it) {
                 tasks.is_held[t] = 1;
                 for_body_and_strikers(tasks, contacts, t, [&](Row<Bodies> b) { hold(bodies, rigid, b); });
@@ -47,7 +48,8 @@ void settle_tasks(Serial, Step step, Tasks& tasks, const TaskContacts& contacts,
             }
         }
         if (tasks.is_held[t]) {
-            const bool is_time_up = static_cast<float>(tasks.frames_held[t] + 1) * step.dt > settings.hold_seconds + 0.5f * step.dt;
+            const bool is_time_up =
+                static_cast<float>(tasks.frames_held[t] + 1) * step.dt > settings.hold_seconds + 0.5f * step.dt;
             if (is_over || is_time_up) {
                 for_body_and_strikers(tasks, contacts, t, [&](Row<Bodies> b) { let_go(bodies, rigid, b); });
                 tasks.is_held[t] = 0;

@@ -21,6 +21,8 @@ inline bool may_break_again(const Shells& shells, Row<Shells> s, uint32_t genera
     return generation < generations && shells.mass[s] >= kLeastMassShare * shells.intact_mass[s] &&
            shells.elements[s].count >= kLeastElements;
 }
-inline uint64_t retry_frames(float dt) { return 1 + static_cast<uint64_t>(std::ceil(kRetrySeconds / dt)); }
+inline uint64_t retry_frames(float dt) {
+    return 1 + static_cast<uint64_t>(std::ceil(kRetrySeconds / dt));
+}
 
 }  // namespace cullet

@@ -8,7 +8,8 @@ namespace cullet {
 Row<Bodies> take_body(State& state);
 /// Gives back the row, its shell and its drawn mesh. The rigid world's body and open tasks are the caller's affair.
 void free_body(State& state, Row<Bodies> body);
-/// Ranges of the drawn mesh for the body's present shell; false when limits.view_vertices is reached, and nothing changes.
+/// Ranges of the drawn mesh for the body's present shell; false when limits.view_vertices is reached, and nothing
+/// changes.
 bool take_view(State& state, Row<Bodies> body);
 
 }  // namespace cullet

@@ -16,12 +16,12 @@ namespace {
 constexpr float kSiblingSeconds = 0.25f, kStrikerSeconds = 0.1f;
 constexpr float kTouch = 0.004f;  // m between the bounds of two siblings that count as in touch
 
-// The body's motion now, and at the touch in its own axes. Equal while it was held; a late result is added to what the rigid
-// world has done since.
+// The body's motion now, and at the touch in its own axes. Equal while it was held; a late result is added to what the
+// rigid world has done since.
 struct Moment {
     Pose pose;
-    Vec3 centre;           // body frame
-    Vec3 velocity, spin;   // world, now
+    Vec3 centre;          // body frame
+    Vec3 velocity, spin;  // world, now
     Vec3d start_velocity, start_spin;
     bool is_late;
 };
@@ -38,8 +38,8 @@ Motion world_motion(const Moment& m, const PartMotion& part) {
 }
 
 // Joins part b to part a: chains merged in rising order, momenta added. For pieces that found no room.
-void join_parts(State& state, ShellView shell, FragmentPart& a, FragmentPart& b, PartMotion& motion_a, const PartMotion& motion_b,
-                uint32_t name_a) {
+void join_parts(State& state, ShellView shell, FragmentPart& a, FragmentPart& b, PartMotion& motion_a,
+                const PartMotion& motion_b, uint32_t name_a) {
     Elements& elements = state.elements;
     uint32_t i = a.first_element, j = b.first_element, last = kNone;
     a.first_element = kNone;
@@ -92,11 +92,13 @@ void make_debris(Births& births, ShellView shell, const FragmentPart& part, cons
     debris.radius[row] = static_cast<float>(r);
     debris.floor[row] = births.rigid.height_below(place, -1e6f) + debris.radius[row];
     debris.colour[row] = state.bodies.colour[parent];
-    births.debris_events.push({body_id(state.bodies, parent), state.bodies.user_data[parent], place, motion.velocity, part.mass});
+    births.debris_events.push(
+        {body_id(state.bodies, parent), state.bodies.user_data[parent], place, motion.velocity, part.mass});
 }
 
 // Rows, shell and drawn mesh of a new body, or a row that does not exist and the name of the limit.
-Row<Bodies> reserve_body(State& state, Row<Bodies> parent, Row<Shells> broken, const FragmentPart& part, const char** full) {
+Row<Bodies> reserve_body(State& state, Row<Bodies> parent, Row<Shells> broken, const FragmentPart& part,
+                         const char** full) {
     const Row<Bodies> body = take_body(state);
     if (!body.exists()) {
         *full = "limits.bodies";
@@ -172,7 +174,8 @@ void strike_back(Births& births, Row<Tasks> task, const Moment& moment, const Ha
         const Vec3 centre = to_world(pose, bodies.centre[striker].to_float());
         const Vec3 arm = to_world(moment.pose, contacts.point[c]) - centre;
         const Vec3d turn(rotate(conjugate(pose.orientation), cross(arm, impulse)));
-        bodies.velocity.set(striker, bodies.velocity[striker] + static_cast<float>(1.0 / bodies.mass[striker]) * impulse);
+        bodies.velocity.set(striker,
+                            bodies.velocity[striker] + static_cast<float>(1.0 / bodies.mass[striker]) * impulse);
         bodies.spin.set(striker, bodies.spin[striker] +
                                      rotate(pose.orientation, (inverse(bodies.inertia[striker]) * turn).to_float()));
         births.rigid.set_motion(striker, {bodies.velocity[striker], bodies.spin[striker]});
@@ -193,12 +196,16 @@ void break_body(Births& births, Row<Tasks> task) {
     const auto order = births.arena.take<uint32_t>(count);
     const auto child = births.arena.take<Row<Bodies>>(count);
 
-    Moment moment{pose_of(bodies, body), bodies.centre[body].to_float(), bodies.velocity[body], bodies.spin[body],
-                  Vec3d(state.tasks.start_velocity[task]), Vec3d(state.tasks.start_spin[task]),
+    Moment moment{pose_of(bodies, body),
+                  bodies.centre[body].to_float(),
+                  bodies.velocity[body],
+                  bodies.spin[body],
+                  Vec3d(state.tasks.start_velocity[task]),
+                  Vec3d(state.tasks.start_spin[task]),
                   state.tasks.is_late[task] != 0};
-    const HandoffReport report =
-        rigid_handoff(shell, {moment.start_velocity, moment.start_spin, bodies.centre[body], state.tasks.approach_speed[task]},
-                      parts, motions);
+    const HandoffReport report = rigid_handoff(
+        shell, {moment.start_velocity, moment.start_spin, bodies.centre[body], state.tasks.approach_speed[task]}, parts,
+        motions);
     births.counts.clamped += report.speed_clamps + report.spin_clamps;
     if (!moment.is_late) strike_back(births, task, moment, report);
 

@@ -18,8 +18,9 @@ struct Births {
     Step step;
 };
 
-/// The task's shell has more than one part (Fragments). The largest keeps the body's handle; the others are planned, reserved
-/// and made in order of mass. A piece that finds no room stays with the largest, and is counted with the setting to raise.
+/// The task's shell has more than one part (Fragments). The largest keeps the body's handle; the others are planned,
+/// reserved and made in order of mass. A piece that finds no room stays with the largest, and is counted with the
+/// setting to raise.
 void break_body(Births& births, Row<Tasks> task);
 
 /// A shell that stayed whole but has new cracks: the body keeps them.

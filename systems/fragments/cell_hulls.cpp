@@ -1,126 +1,193 @@
 #include "systems/fragments/cell_hulls.hpp"
 
 #include <algorithm>
-#include <span>
 
 namespace cullet {
 namespace {
 
-constexpr uint32_t kMostCorners = 1536;  // of a cell's elements, each vertex as often as it is used
-constexpr uint32_t kMostCandidates = 1024;
-
-/// A vertex of the cell, and the sum of the ways in from the free edges that it is an end of.
-struct Corner {
-    uint32_t vertex, sequence;
-    Vec3 way_in;
-};
+constexpr uint32_t kBatchElements = 256;  // a cell has about 128; more are worked off in batches
+constexpr uint32_t kMostVertices = 3 * kBatchElements;
+constexpr uint32_t kMostCandidates = 2 * kMostVertices + kMostHullPoints;
+constexpr float kGoodEnough = 0.05f;  // of the margin: a reach lacking less is worth no point
 
 struct Frame {
     Vec3 x, y, n;
 };
 
-struct CandidateList {
-    Vec3 point[kMostCandidates];
+/// Points by lanes, so that reaches are found 8 at a time.
+struct Candidates {
+    alignas(32) float x[kMostCandidates + kLanes], y[kMostCandidates + kLanes], z[kMostCandidates + kLanes];
     uint32_t count = 0;
+    void add(Vec3 p) {
+        x[count] = p.x, y[count] = p.y, z[count] = p.z;
+        ++count;
+    }
+    Vec3 point(uint32_t i) const { return {x[i], y[i], z[i]}; }
 };
 
-// Cosine and sine of k * 30 degrees.
-constexpr float kHalfRoot3 = 0.8660254f;
+// Cosine and sine of k * 30 degrees, and what turns by 15 more.
+constexpr float kHalfRoot3 = 0.8660254f, kCosine15 = 0.9659258f, kSine15 = 0.2588190f;
 constexpr float kTurn[12][2] = {
     {1, 0},  {kHalfRoot3, 0.5f},   {0.5f, kHalfRoot3},   {0, 1},  {-0.5f, kHalfRoot3}, {-kHalfRoot3, 0.5f},
     {-1, 0}, {-kHalfRoot3, -0.5f}, {-0.5f, -kHalfRoot3}, {0, -1}, {0.5f, -kHalfRoot3}, {kHalfRoot3, -0.5f}};
 
-/// Direction k of the fixed order: the rims of both faces, the two normals, slanted ones, the rims' middles.
-Vec3 direction(const Frame& f, uint32_t k) {
-    const auto turned = [&](uint32_t t, float lift) {
-        return kTurn[t % 12][0] * f.x + kTurn[t % 12][1] * f.y + lift * f.n;
-    };
-    if (k < 24) return turned(k % 12, k < 12 ? 0.3f : -0.3f);
-    if (k < 26) return (k == 24 ? 1.0f : -1.0f) * f.n;
-    if (k < 38) return turned(k - 26, k % 2 ? 1.0f : -1.0f);
-    const Vec3 between = turned(k, 0) + turned(k + 1, 0);
-    return between + (k < 50 ? 0.3f : -0.3f) * f.n;
-}
-constexpr uint32_t kDirections = 62;
+// Round the patch at each of these heights of the direction's tip over the plane, the rims of both faces twice.
+constexpr float kLift[] = {0.3f, -0.3f, 0.3f, -0.3f, 0, 1, -1};
+constexpr uint32_t kDirections = 12 * 7 + 2;
 
-/// Keeps at most 32 of the candidates, extremes by rising direction; ties go to the candidate that came first.
-void keep_extremes(CandidateList& list, const Frame& frame) {
-    bool is_chosen[kMostCandidates] = {};
-    uint32_t chosen[kMostHullPoints], count = 0;
-    for (uint32_t k = 0; k < kDirections && count < kMostHullPoints && count < list.count; ++k) {
-        const Vec3 d = direction(frame, k);
-        uint32_t best = 0;
-        float reach = dot(d, list.point[0]);
-        for (uint32_t i = 1; i < list.count; ++i)
-            if (const float r = dot(d, list.point[i]); r > reach) best = i, reach = r;
-        if (!is_chosen[best]) is_chosen[best] = true, chosen[count++] = best;
+struct Directions {
+    Vec3 way[kDirections];
+    explicit Directions(const Frame& f) {
+        uint32_t count = 0;
+        for (uint32_t ring = 0; ring < 7; ++ring)
+            for (const auto& turn : kTurn) {
+                const bool is_between = ring == 2 || ring == 3;
+                const float c = is_between ? kCosine15 * turn[0] - kSine15 * turn[1] : turn[0];
+                const float s = is_between ? kCosine15 * turn[1] + kSine15 * turn[0] : turn[1];
+                way[count++] = normalised(c * f.x + s * f.y + kLift[ring] * f.n);
+            }
+        way[count++] = f.n;
+        way[count++] = -f.n;
     }
-    std::sort(chosen, chosen + count);
-    for (uint32_t i = 0; i < count; ++i) list.point[i] = list.point[chosen[i]];
-    list.count = count;
+};
+
+/// The candidate that reaches farthest, the first of equals, and how far. Lanes beyond the count repeat the first.
+uint32_t farthest(const Candidates& list, Vec3 way, float& reach) {
+    float best[kLanes];
+    uint32_t at[kLanes];
+    for (uint32_t l = 0; l < kLanes; ++l) best[l] = dot(way, list.point(0)), at[l] = 0;
+    for (uint32_t i = 0; i < list.count; i += kLanes)
+        for (uint32_t l = 0; l < kLanes; ++l) {
+            const float r = way.x * list.x[i + l] + way.y * list.y[i + l] + way.z * list.z[i + l];
+            const bool is_farther = r > best[l];
+            best[l] = is_farther ? r : best[l];
+            at[l] = is_farther ? i + l : at[l];
+        }
+    uint32_t lane = 0;
+    for (uint32_t l = 1; l < kLanes; ++l)
+        if (best[l] > best[lane] || (best[l] == best[lane] && at[l] < at[lane])) lane = l;
+    reach = best[lane];
+    return at[lane];
 }
 
-Vec3 corner_place(const ShellView& shell, uint32_t row, int k) {
-    return shell.state.vertices.rest[shell.vertex(shell.state.elements.corner[row][k])];
+/// Keeps at most 32: again and again the point whose direction lacks most reach so far, the first of equals, until none
+/// lacks more than `enough`.
+void keep_extremes(Candidates& list, const Directions& directions, float enough) {
+    if (list.count == 0) return;
+    for (uint32_t l = 0; l < kLanes; ++l) {
+        list.x[list.count + l] = list.x[0], list.y[list.count + l] = list.y[0], list.z[list.count + l] = list.z[0];
+    }
+    float reach[kDirections], reached[kDirections];
+    uint32_t at[kDirections];
+    for (uint32_t d = 0; d < kDirections; ++d) {
+        at[d] = farthest(list, directions.way[d], reach[d]);
+        reached[d] = reach[d] - 1e30f;
+    }
+    Vec3 chosen[kMostHullPoints];
+    uint32_t count = 0;
+    while (count < kMostHullPoints) {
+        uint32_t worst = 0;
+        for (uint32_t d = 1; d < kDirections; ++d)
+            if (reach[d] - reached[d] > reach[worst] - reached[worst]) worst = d;
+        if (!(reach[worst] - reached[worst] > enough)) break;
+        const Vec3 p = chosen[count++] = list.point(at[worst]);
+        for (uint32_t d = 0; d < kDirections; ++d) reached[d] = std::max(reached[d], dot(directions.way[d], p));
+        reached[worst] = reach[worst];
+    }
+    list.count = 0;
+    for (uint32_t i = 0; i < count; ++i) list.add(chosen[i]);
+}
+
+struct Triangle {
+    Vec3 p[3];
+};
+
+Triangle outer_triangle(const ShellView& shell, uint32_t element) {
+    const auto c = shell.state.elements.corner[shell.element(element)];
+    const Vertices& v = shell.state.vertices;
+    return {{v.rest[shell.vertex(c[0])], v.rest[shell.vertex(c[1])], v.rest[shell.vertex(c[2])]}};
 }
 
 /// Normal by area, longest way from the middle, and what is square to both.
 Frame cell_frame(const ShellView& shell, uint32_t first, uint32_t last) {
     Vec3 n, middle;
     for (uint32_t e = first; e < last; ++e) {
-        const uint32_t row = shell.element(e);
-        const Vec3 p = corner_place(shell, row, 0), q = corner_place(shell, row, 1), r = corner_place(shell, row, 2);
-        n += cross(q - p, r - p);
-        middle += (1.0f / (3.0f * static_cast<float>(last - first))) * (p + q + r);
+        const auto [p] = outer_triangle(shell, e);
+        n += cross(p[1] - p[0], p[2] - p[0]);
+        middle += p[0] + p[1] + p[2];
     }
+    middle = (1.0f / (3.0f * static_cast<float>(last - first))) * middle;
     n = normalised(n);
     if (!(dot(n, n) > 0)) n = {0, 1, 0};  // closed or folded: no normal of its own
     Vec3 longest;
-    for (uint32_t e = first; e < last; ++e)
-        for (int k = 0; k < 3; ++k) {
-            const Vec3 way = corner_place(shell, shell.element(e), k) - middle;
-            const Vec3 flat = way - dot(way, n) * n;
-            if (dot(flat, flat) > dot(longest, longest)) longest = flat;
-        }
+    for (uint32_t e = first; e < last; ++e) {
+        const Vec3 way = outer_triangle(shell, e).p[0] - middle;
+        const Vec3 flat = way - dot(way, n) * n;
+        if (dot(flat, flat) > dot(longest, longest)) longest = flat;
+    }
     Vec3 x = normalised(longest);
     if (!(dot(x, x) > 0)) x = normalised(std::fabs(n.x) < 0.7f ? cross(n, {1, 0, 0}) : cross(n, {0, 1, 0}));
     return {x, cross(n, x), n};
 }
 
-uint32_t gather_corners(const ShellView& shell, uint32_t first, uint32_t last, Corner* corners) {
-    const Elements& elements = shell.state.elements;
+/// A cell's vertices, each once, with the sum of the ways in from the free edges that it is an end of.
+struct CellVertices {
+    uint32_t vertex[kMostVertices];
+    Vec3 way_in[kMostVertices];
     uint32_t count = 0;
+};
+
+void gather_vertices(const ShellView& shell, uint32_t first, uint32_t last, CellVertices& found) {
+    const Elements& elements = shell.state.elements;
+    Column<uint32_t>& slot = shell.state.vertices.copy;
+    found.count = 0;
+    for (uint32_t e = first; e < last; ++e)
+        for (uint32_t v : elements.corner[shell.element(e)]) slot[shell.vertex(v)] = kNone;
     for (uint32_t e = first; e < last; ++e) {
         const uint32_t row = shell.element(e);
-        const Vec3 place[3] = {corner_place(shell, row, 0), corner_place(shell, row, 1), corner_place(shell, row, 2)};
-        const Vec3 normal = normalised(cross(place[1] - place[0], place[2] - place[0]));
-        Vec3 way_in[3];
+        const auto& corner = elements.corner[row];
+        for (uint32_t v : corner) {
+            uint32_t& s = slot[shell.vertex(v)];
+            if (s != kNone) continue;
+            s = found.count++;
+            found.vertex[s] = v;
+            found.way_in[s] = {};
+        }
         for (int k = 0; k < 3; ++k) {
             if (elements.neighbour[row][k] != kNone) continue;
-            const Vec3 in = normalised(cross(normal, place[(k + 1) % 3] - place[k]));
-            way_in[k] += in;
-            way_in[(k + 1) % 3] += in;
+            const auto [p] = outer_triangle(shell, e);
+            const Vec3 normal = cross(p[1] - p[0], p[2] - p[0]);
+            const Vec3 in = normalised(cross(normal, p[(k + 1) % 3] - p[k]));
+            found.way_in[slot[shell.vertex(corner[k])]] += in;
+            found.way_in[slot[shell.vertex(corner[(k + 1) % 3])]] += in;
         }
-        for (int k = 0; k < 3; ++k, ++count) corners[count] = {elements.corner[row][k], count, way_in[k]};
     }
-    std::sort(corners, corners + count, [](const Corner& a, const Corner& b) {
-        return a.vertex != b.vertex ? a.vertex < b.vertex : a.sequence < b.sequence;
-    });
-    return count;
 }
 
-void add_candidates(const ShellView& shell, std::span<const Corner> corners, float margin, const Frame& frame,
-                    CandidateList& list) {
+void add_candidates(const ShellView& shell, const CellVertices& found, float margin, Candidates& list) {
     const Vertices& vertices = shell.state.vertices;
-    for (size_t i = 0; i < corners.size();) {
-        const uint32_t v = corners[i].vertex, row = shell.vertex(v);
-        Vec3 way_in;
-        for (; i < corners.size() && corners[i].vertex == v; ++i) way_in += corners[i].way_in;
-        if (list.count + 2 > kMostCandidates) keep_extremes(list, frame);
+    for (uint32_t i = 0; i < found.count; ++i) {
+        const uint32_t row = shell.vertex(found.vertex[i]);
         const float pull = std::min(margin, 0.5f * vertices.depth[row]);
-        const Vec3 p = vertices.rest[row] + margin * normalised(way_in), m = vertices.inward[row];
-        list.point[list.count++] = p + pull * m;
-        list.point[list.count++] = p + (vertices.depth[row] - pull) * m;
+        const Vec3 p = vertices.rest[row] + margin * normalised(found.way_in[i]), m = vertices.inward[row];
+        list.add(p + pull * m);
+        list.add(p + (vertices.depth[row] - pull) * m);
+    }
+}
+
+struct Workspace {
+    CellVertices vertices;
+    Candidates list;
+};
+
+void choose_points(const ShellView& shell, uint32_t first, uint32_t last, float margin, Workspace& work) {
+    work.list.count = 0;
+    if (first == last) return;
+    const Directions directions(cell_frame(shell, first, last));
+    for (uint32_t batch = first; batch < last; batch += kBatchElements) {
+        gather_vertices(shell, batch, std::min(last, batch + kBatchElements), work.vertices);
+        add_candidates(shell, work.vertices, margin, work.list);
+        keep_extremes(work.list, directions, kGoodEnough * margin);
     }
 }
 
@@ -131,8 +198,7 @@ float hull_margin(const ShellView& shell) {
 }
 
 void build_hulls(ShellView shell) {
-    Corner corners[kMostCorners];
-    CandidateList list;
+    Workspace work;
     const float margin = hull_margin(shell);
     const Range cells = shell.shells().cells[shell.row];
     Range& points = shell.shells().points[shell.row];
@@ -141,22 +207,15 @@ void build_hulls(ShellView shell) {
     for (uint32_t c = 0; c < cells.count; ++c) {
         const uint32_t first = e;
         while (e < shell.element_count() && shell.state.elements.cell[shell.element(e)] == c) ++e;
-        list.count = 0;
-        const Frame frame = first < e ? cell_frame(shell, first, e) : Frame{};
-        constexpr uint32_t kBatch = kMostCorners / 3;
-        for (uint32_t batch = first; batch < e; batch += kBatch) {
-            const uint32_t count = gather_corners(shell, batch, std::min(e, batch + kBatch), corners);
-            add_candidates(shell, {corners, count}, margin, frame, list);
-        }
-        keep_extremes(list, frame);
-        CULLET_ASSERT(points.count + list.count <= points.capacity, "hull points of cell %u do not fit", c);
-        for (uint32_t i = 0; i < list.count; ++i)
-            shell.state.hull_points.point.set(points.first + points.count + i, list.point[i]);
+        choose_points(shell, first, e, margin, work);
+        CULLET_ASSERT(points.count + work.list.count <= points.capacity, "hull points of cell %u do not fit", c);
+        for (uint32_t i = 0; i < work.list.count; ++i)
+            shell.state.hull_points.point.set(points.first + points.count + i, work.list.point(i));
         Cells& table = shell.state.cells;
         table.first_point[cells.first + c] = points.count;
-        table.point_count[cells.first + c] = list.count;
+        table.point_count[cells.first + c] = work.list.count;
         table.element_count[cells.first + c] = e - first;
-        points.count += list.count;
+        points.count += work.list.count;
     }
     CULLET_ASSERT(e == shell.element_count(), "elements of shell %u are not sorted by cell", shell.row.index);
 }

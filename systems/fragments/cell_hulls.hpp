@@ -12,9 +12,9 @@ float hull_margin(const ShellView& shell);
 /// Writes HullPoints, and the counts in Cells, for all cells. Elements must stand sorted by cell (build_shell and
 /// make_piece leave them so) and the points' range have 32 rows a cell. Points are outer and inner corners, pulled into
 /// the solid by the margin along the shell's normal (at most to the middle of the wall) and away from rims and cracks,
-/// so that neighbours along a crack start apart. Chosen as extremes along a fixed set of directions in the cell's own
-/// frame: 12 round the rim of each face, then the corners of the wall, until 32 are found. About 10 microseconds a
-/// cell.
+/// so that neighbours along a crack start apart. Of the extremes along 86 directions in the cell's own frame (most of
+/// them round the rims of both faces) the 32 are kept that add most reach, fewer when nothing lacks more than 0.05
+/// margins. Uses Vertices.copy as scratch. About 50 microseconds a cell of processor time, without AVX.
 void build_hulls(ShellView shell);
 
 }  // namespace cullet

@@ -6,15 +6,6 @@
 
 namespace cullet {
 
-/// One component. Its elements are first_element, Elements.next of it, and so on in rising order until kNone.
-struct FragmentPart {
-    uint32_t first_element = kNone;  // the smallest; parts are ordered by it
-    uint32_t last_element = kNone;
-    uint32_t element_count = 0;
-    double mass = 0;  // kg, of the elements in rising order
-    bool has_pins = false;
-};
-
 /// Writes Elements.part (0, 1, ... by smallest element; kNone for dead ones) and Elements.next, and describes the
 /// parts. Returns how many there are. When `parts` is shorter, the parts beyond it are numbered but not described, and
 /// their elements not chained. O(elements), no scratch.

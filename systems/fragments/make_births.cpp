@@ -18,11 +18,11 @@ void close_task(State& state, Row<Tasks> task, Step step) {
 
 }  // namespace
 
-void make_births(Serial, Step step, const Events<TaskEnded>& ended, ShellTables shells, Tasks& tasks, const TaskContacts&,
-                 Fragments&, Bodies& bodies, Debris&, ViewVertices&, ViewIndices&, RigidWorld& rigid,
-                 const DamageSettings& settings, DamageCounts& counts, Arena& arena, Events<ShellChanged>& changed,
-                 Events<FragmentBornEvent>& born, Events<DebrisEvent>& debris_events, Events<RefusedEvent>& refused,
-                 Events<FaultEvent>& faults) {
+void make_births(Serial, Step step, const Events<TaskEnded>& ended, ShellTables shells, Tasks& tasks,
+                 const TaskContacts&, Fragments&, Bodies& bodies, Debris&, ViewVertices&, ViewIndices&,
+                 RigidWorld& rigid, const DamageSettings& settings, DamageCounts& counts, Arena& arena,
+                 Events<ShellChanged>& changed, Events<FragmentBornEvent>& born, Events<DebrisEvent>& debris_events,
+                 Events<RefusedEvent>& refused, Events<FaultEvent>& faults) {
     Births births{shells.state, rigid, settings, counts, arena, changed, born, debris_events, refused, step};
     for (const TaskEnded& e : ended) {
         const Row<Tasks> task = e.task;
@@ -38,8 +38,9 @@ void make_births(Serial, Step step, const Events<TaskEnded>& ended, ShellTables 
                 break;
             default:
                 ++counts.dropped;
-                faults.push({body_id(bodies, tasks.body[task]),
-                             "A hit gained energy three times over, or made more than 1024 pieces; the body stays as it was."});
+                faults.push(
+                    {body_id(bodies, tasks.body[task]),
+                     "A hit gained energy three times over, or made more than 1024 pieces; the body stays as it was."});
         }
         counts.cuts += tasks.crack_count[task];
         counts.starts += tasks.start_count[task];

@@ -10,10 +10,13 @@ inline BodyId body_id(const Bodies& bodies, Row<Bodies> b) {
 }
 /// The row of a live body, or a row that does not exist.
 inline Row<Bodies> body_row(const Bodies& bodies, BodyId id) {
-    const bool is_alive = id.generation != 0 && id.index < bodies.size() && bodies.generation[id.index] == id.generation &&
+    const bool is_alive = id.generation != 0 && id.index < bodies.size() &&
+                          bodies.generation[id.index] == id.generation &&
                           static_cast<BodyKind>(bodies.kind[id.index]) != BodyKind::Free;
     return is_alive ? Row<Bodies>(id.index) : Row<Bodies>();
 }
-inline Pose pose_of(const Bodies& bodies, uint32_t b) { return {bodies.position[b], bodies.orientation[b]}; }
+inline Pose pose_of(const Bodies& bodies, uint32_t b) {
+    return {bodies.position[b], bodies.orientation[b]};
+}
 
 }  // namespace cullet

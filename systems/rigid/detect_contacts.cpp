@@ -2,6 +2,8 @@
 
 namespace cullet {
 
-void detect_contacts(Serial, Step step, RigidWorld& rigid) { rigid.detect(step.dt); }
+void detect_contacts(Serial, Step step, RigidWorld& rigid) {
+    rigid.detect(step.dt);
+}
 
 }  // namespace cullet

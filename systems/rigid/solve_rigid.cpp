@@ -2,6 +2,8 @@
 
 namespace cullet {
 
-void solve_rigid(Serial, Step step, RigidWorld& rigid) { rigid.solve(step.dt); }
+void solve_rigid(Serial, Step step, RigidWorld& rigid) {
+    rigid.solve(step.dt);
+}
 
 }  // namespace cullet

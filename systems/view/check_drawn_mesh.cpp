@@ -12,7 +12,9 @@ namespace {
 using Place = std::array<float, 3>;
 
 std::string text(const Place& p) {
-    return "(" + std::to_string(p[0]) + ", " + std::to_string(p[1]) + ", " + std::to_string(p[2]) + ")";
+    std::string out = "(";
+    for (float x : p) out.append(out.size() > 1 ? ", " : "").append(std::to_string(x));
+    return out.append(")");
 }
 
 /// Number of the first corner at the same place, for each view vertex.

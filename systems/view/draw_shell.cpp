@@ -91,7 +91,7 @@ void write_faces(Writer& w, uint32_t e) {
         const Vec3 n{normal[3 * k], normal[3 * k + 1], normal[3 * k + 2]};
         outer_vertex[k] =
             write_vertex(w, shell.state.vertices.rest[shell.vertex(corner[k])], n, uv[2 * k], uv[2 * k + 1]);
-        const bool runs_along = dot(-n, flat) > 0.8f;
+        const bool runs_along = dot(-n, flat) > 0.8f || dot(flat, flat) < 0.5f;  // no area, no normal
         inner_vertex[k] = write_vertex(w, inner[k], runs_along ? -n : flat, uv[2 * k], uv[2 * k + 1]);
     }
     for (int k : {0, 1, 2}) write_index(w, 0, outer_vertex[k]);

@@ -7,7 +7,8 @@ void draw_shells(Each<ShellChanged> changed, ShellTables shells, Bodies& bodies,
     const Row<Bodies> body = changed->body;
     if (static_cast<BodyKind>(bodies.kind[body]) == BodyKind::Free) return;
     bodies.run_indices[body] =
-        draw_shell(ShellView(shells.state, bodies.shell[body]), bodies.view_vertices[body], bodies.view_indices[body]).indices;
+        draw_shell(ShellView(shells.state, bodies.shell[body]), bodies.view_vertices[body], bodies.view_indices[body])
+            .indices;
     ++bodies.view_stamp[body];
 }
 

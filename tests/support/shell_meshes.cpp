@@ -136,6 +136,48 @@ ShellMesh grid_mesh(uint32_t n, double length, double jitter, uint64_t seed) {
     return mesh;
 }
 
+ShellMesh triangle_mesh(uint32_t n, double length, double jitter, uint64_t seed) {
+    const Random random{seed};
+    const double side = length / n;
+    // Odd rows have their points at half sides, and both ends.
+    const auto rows = static_cast<uint32_t>(std::floor(2 * n / std::sqrt(3.0) + 0.5));
+    const double height = length / rows;
+    ShellMesh mesh;
+    std::vector<std::vector<uint32_t>> row(rows + 1);
+    for (uint32_t y = 0; y <= rows; ++y) {
+        const bool is_odd = y % 2;
+        const uint32_t points = is_odd ? n + 2 : n + 1;
+        for (uint32_t x = 0; x < points; ++x) {
+            const bool is_end = x == 0 || x == points - 1, is_border = is_end || y == 0 || y == rows;
+            const uint64_t id = mesh.positions.size();
+            const double px = is_end ? (x == 0 ? 0 : length) : side * (is_odd ? x - 0.5 : x);
+            const double dx = is_border ? 0 : jitter * side * (2 * random.uniform(id, 0) - 1);
+            const double dy = is_border ? 0 : jitter * side * (2 * random.uniform(id, 1) - 1);
+            row[y].push_back(static_cast<uint32_t>(id));
+            mesh.positions.push_back({px + dx, height * y + dy, 0});
+        }
+    }
+    for (uint32_t y = 0; y < rows; ++y) {
+        // Zip the two rows: the one whose next point is more to the left advances.
+        const auto &low = row[y], &high = row[y + 1];
+        size_t i = 0, j = 0;
+        const auto at = [&](const std::vector<uint32_t>& r, size_t k, bool is_odd) {
+            return k + 1 == r.size() ? double(n) : k == 0 ? 0.0 : is_odd ? double(k) - 0.5 : double(k);
+        };
+        const bool low_odd = y % 2;
+        while (i + 1 < low.size() || j + 1 < high.size()) {
+            const bool advance_low =
+                j + 1 == high.size() || (i + 1 < low.size() && at(low, i + 1, low_odd) + at(low, i, low_odd) <
+                                                                   at(high, j + 1, !low_odd) + at(high, j, !low_odd));
+            if (advance_low)
+                mesh.triangles.push_back({low[i], low[i + 1], high[j]}), ++i;
+            else
+                mesh.triangles.push_back({low[i], high[j + 1], high[j]}), ++j;
+        }
+    }
+    return mesh;
+}
+
 ShellMesh sphere_mesh(uint32_t frequency, double radius) {
     const double g = 0.5 * (1 + std::sqrt(5.0));
     const Vec3d corner[12] = {{-1, g, 0},  {1, g, 0},  {-1, -g, 0}, {1, -g, 0}, {0, -1, g},  {0, 1, g},

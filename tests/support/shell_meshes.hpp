@@ -17,6 +17,8 @@ struct ShellMesh {
 /// to `jitter` of the side, the diagonal's direction is hashed; jitter 0 gives right-angled triangles, one-way
 /// diagonals.
 ShellMesh grid_mesh(uint32_t n, double length, double jitter, uint64_t seed = 1);
+/// The same square with rows of nearly equilateral triangles, n edges a side; border points stay on the border.
+ShellMesh triangle_mesh(uint32_t n, double length, double jitter, uint64_t seed = 1);
 /// Geodesic sphere, 10 frequency^2 + 2 vertices, in breadth-first order.
 ShellMesh sphere_mesh(uint32_t frequency, double radius);
 

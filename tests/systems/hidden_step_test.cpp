@@ -149,7 +149,7 @@ TEST(HiddenStep, AFreeShakenShellKeepsMomentumAndItsEnergyIsBoundedOver10000Step
     Fixture f(sphere_mesh(6, 0.1), 0.005);
     const ShellView shell = f.view();
     f.state.tasks.damping_time[f.task] = 0;
-    f.start({1, 2, 3}, {10, -20, 5});
+    f.start({1, 2, 3}, {});
     // A dent's worth of deformation on top.
     for (uint32_t v = 0; v < shell.vertex_count(); ++v) {
         const Vec3 p = f.state.vertices.rest[shell.vertex(v)];
@@ -241,7 +241,7 @@ TEST_P(PlateFrequency, IsWithinOnePercentOfTheory) {
     const double side = 1, h = 0.01, e = 70e9, nu = 0.22, density = 2400;
     // Simply supported: the edge is held; hinges leave it free to turn. In-plane motion does not couple (flat).
     const auto edge = [&](Vec3d p) { return p.x < 1e-9 || p.y < 1e-9 || p.x > side - 1e-9 || p.y > side - 1e-9; };
-    Fixture f(grid_mesh(n, side, 0.18), h, edge);
+    Fixture f(triangle_mesh(n, side, 0.09), h, edge);
     const ShellView shell = f.view();
     const double pi = std::numbers::pi;
     const double bending = e * h * h * h / (12 * (1 - nu * nu));

@@ -1,0 +1,260 @@
+#include <algorithm>
+
+#include "engine/fp_mode.hpp"
+#include "engine/mesh_file.hpp"
+#include "systems/cook/build_shell.hpp"
+#include "systems/cook/extrude.hpp"
+#include "systems/cook/materials.hpp"
+#include "systems/cook/model_contents.hpp"
+#include "systems/cook/surface.hpp"
+#include "systems/cook/tessellate.hpp"
+#include "systems/damage/assemble.hpp"
+#include "systems/damage/run_hit.hpp"
+#include "systems/damage/task_cost.hpp"
+#include "systems/damage/working_room.hpp"
+
+namespace cullet {
+namespace {
+
+constexpr uint32_t kThresholdPlaces = 4;
+constexpr uint64_t kDefaultHoldUnits = 8'000'000ull * 6;  // default budget for 0.1 s at 60 frames a second
+
+Result<Mesh> mesh_of(const MeshView& view) {
+    Mesh mesh;
+    mesh.name = view.name ? view.name : "mesh";
+    if (!view.positions || !view.indices || view.position_count == 0 || view.triangle_count == 0)
+        return Error{mesh.name + ": has no triangles; give positions and indices."};
+    mesh.positions.assign(view.positions, view.positions + view.position_count);
+    mesh.triangles.resize(view.triangle_count);
+    for (size_t t = 0; t < view.triangle_count; ++t)
+        mesh.triangles[t] = {view.indices[3 * t], view.indices[3 * t + 1], view.indices[3 * t + 2]};
+    if (view.corner_normals)
+        mesh.corner_normals.assign(view.corner_normals, view.corner_normals + 3 * view.triangle_count);
+    if (view.corner_uvs) mesh.corner_uvs.assign(view.corner_uvs, view.corner_uvs + 3 * view.triangle_count);
+    if (view.materials) mesh.materials.assign(view.materials, view.materials + view.triangle_count);
+    if (const Result<void> valid = validate_mesh(mesh, mesh.name); !valid) return Error{valid.error()};
+    return mesh;
+}
+
+double diagonal_of(const Mesh& mesh) {
+    Vec3d low(mesh.positions[0]), high = low;
+    for (const Vec3 p : mesh.positions) {
+        low = {std::min<double>(low.x, p.x), std::min<double>(low.y, p.y), std::min<double>(low.z, p.z)};
+        high = {std::max<double>(high.x, p.x), std::max<double>(high.y, p.y), std::max<double>(high.z, p.z)};
+    }
+    return length(high - low);
+}
+
+// The surface's corners and triangles with the mesh's attributes found again.
+struct SourceArrays {
+    std::vector<Vec3> normals;
+    std::vector<Vec2> uvs;
+    std::vector<uint16_t> materials;
+};
+SourceArrays attributes_of(const Surface& surface, const Mesh& mesh) {
+    SourceArrays arrays;
+    for (size_t t = 0; t < surface.triangles.size(); ++t) {
+        const uint32_t source = surface.source_triangles[t];
+        for (int k = 0; k < 3; ++k) {
+            const size_t corner = 3 * size_t{source} + surface.source_corners[t][static_cast<size_t>(k)];
+            if (!mesh.corner_normals.empty()) arrays.normals.push_back(mesh.corner_normals[corner]);
+            if (!mesh.corner_uvs.empty()) arrays.uvs.push_back(mesh.corner_uvs[corner]);
+        }
+        if (!mesh.materials.empty()) arrays.materials.push_back(mesh.materials[source]);
+    }
+    return arrays;
+}
+
+// Springs, limits, rows and time step. The rows' room is known only when the springs are: the shell moves to ranges
+// that have it.
+Result<void> make_stiff(State& state, Row<Shells>& shell) {
+    const ShellView soft(state, shell);
+    assemble_springs(soft);
+    measure_limits(soft);
+    limit_all_stiffness(soft);
+    Shells& s = state.shells;
+    s.intact_mass[shell] = s.mass[shell];
+    ShellRoom room = stiffness_room(soft, 0);
+    room.vertices = std::max(room.vertices, s.vertices[shell].count);
+    room.elements = s.elements[shell].count;
+    room.hinges = s.hinges[shell].count;
+    room.cells = s.cells[shell].count;
+    room.points = s.points[shell].count;
+    const char* full = "";
+    const Row<Shells> stiff = make_shell(state, room, &full);
+    if (!stiff.exists()) return Error{std::string("no room to assemble the stiffness (") + full + ")."};
+    copy_shell_rows(state, state, shell, stiff, false);
+    release_shell(state, shell);
+    shell = stiff;
+    const ShellView view(state, shell);
+    if (!assemble_stiffness(view))
+        return Error{"the stiffness does not fit the room that was asked for it; please report this mesh."};
+    s.time_step[shell] = stable_time_step(view);
+    if (!(s.time_step[shell] > 0))
+        return Error{"nothing holds the mesh together: no two triangles share an edge. Weld it first."};
+    return {};
+}
+
+void measure_thresholds(State& state, Row<Shells> shell, const CookSettings& settings) {
+    float speeds[kThresholdPlaces];
+    for (uint32_t place = 0; place < kThresholdPlaces; ++place) {
+        speeds[place] = first_crack_speed(state, shell, seeded_direction(settings.seed, place));
+        if (settings.progress)
+            settings.progress(settings.progress_user, 0.4f + 0.6f * static_cast<float>(place + 1) / kThresholdPlaces);
+    }
+    std::sort(speeds, speeds + kThresholdPlaces);
+    state.shells.first_crack_speed[shell] = 0.5f * (speeds[1] + speeds[2]);
+}
+
+// 0.1 sigma_d / (rho c): what a wave in a bar carries; only where nothing was measured.
+float estimated_threshold(const State& state, Row<Shells> shell) {
+    const uint32_t m = state.shells.material[shell];
+    const Materials& materials = state.materials;
+    return 0.2f * materials.tensile_strength[m] / std::sqrt(materials.young_modulus[m] * materials.density[m]);
+}
+
+ModelReport report_on(const State& state, Row<Shells> shell, const Surface& surface, const Extrusion& extrusion) {
+    const Shells& s = state.shells;
+    ModelReport report;
+    report.vertices = s.vertices[shell].count;
+    report.elements = s.elements[shell].count;
+    report.cells = s.cells[shell].count;
+    report.degenerate_elements = extrusion.statistics.degenerate_elements;
+    report.mass = s.mass[shell];
+    report.mean_thickness = s.thickness[shell];
+    report.first_crack_speed = s.first_crack_speed[shell];
+    const uint32_t m = s.material[shell];
+    const float speed_of_sound = std::sqrt(state.materials.young_modulus[m] / state.materials.density[m]);
+    const float run = std::max(state.materials.run_seconds[m], 3.6f * std::sqrt(s.area[shell]) / speed_of_sound);
+    const auto steps = static_cast<uint64_t>(run / s.time_step[shell]) + 1;
+    report.units_of_a_hit = steps * units_a_step(report.vertices, 64) + 150 * kUnitsCut;
+    if (!surface.repairs.is_clean()) report.repairs = describe(surface.repairs);
+    if (report.units_of_a_hit > kDefaultHoldUnits)
+        report.advice =
+            "A hit needs about " + std::to_string(report.units_of_a_hit / 1'000'000) +
+            " million units and will be late at the default budget; use longer edges (longest_edge), or raise "
+            "units_a_frame or hold_seconds.";
+    return report;
+}
+
+}  // namespace
+
+Limits cooking_limits(uint32_t vertices, uint32_t elements) {
+    Limits limits;
+    limits.bodies = limits.models = limits.debris = 1;
+    limits.shells = 8;
+    limits.tasks = 1;
+    limits.vertices = 5 * vertices + 8192;
+    limits.elements = 5 * elements + 16384;
+    limits.view_vertices = 64;
+    return limits;
+}
+
+Row<Shells> import_shell(State& to, const State& from, Row<Shells> shell, const char** full) {
+    const Shells& s = from.shells;
+    ShellRoom room;
+    room.vertices = s.vertices[shell].capacity;
+    room.elements = s.elements[shell].count;
+    room.hinges = s.hinges[shell].count;
+    room.blocks = s.blocks[shell].count;
+    room.links = s.links[shell].count;
+    room.cells = s.cells[shell].count;
+    room.points = s.points[shell].count;
+    const Row<Shells> copy = make_shell(to, room, full);
+    if (copy.exists()) copy_shell_rows(to, from, shell, copy, room.blocks > 0);
+    return copy;
+}
+
+Result<Model> cook(const MeshView& view, const CookSettings& settings) {
+    const FpMode mode;
+    Result<Mesh> mesh = mesh_of(view);
+    if (!mesh) return Error{mesh.error()};
+    const std::string name = mesh->name;
+    const Result<Row<Materials>> material = find_material(settings.material);
+    if (!material) return Error{name + ": " + material.error()};
+    const double diagonal = diagonal_of(*mesh);
+    if (!(settings.thickness > 0 && settings.thickness < diagonal))
+        return Error{name + ": thickness " + std::to_string(settings.thickness) +
+                     " m is not between 0 and the diagonal, " + std::to_string(diagonal) +
+                     " m; give the wall's thickness in metres."};
+    TessellationSettings tessellation;
+    tessellation.longest_edge =
+        settings.longest_edge > 0 ? settings.longest_edge : std::max(2.0 * settings.thickness, 0.025 * diagonal);
+    Result<Mesh> fine = tessellate(*mesh, tessellation);
+    if (!fine) return Error{name + ": " + fine.error()};
+    const Result<Surface> surface = prepare_surface(*fine);
+    if (!surface) return Error{name + ": " + surface.error()};
+    if (settings.progress) settings.progress(settings.progress_user, 0.1f);
+    const Result<Extrusion> extrusion = extrude(surface.value(), settings.thickness);
+    if (!extrusion) return Error{name + ": " + extrusion.error()};
+    if (settings.progress) settings.progress(settings.progress_user, 0.3f);
+
+    const auto vertices = static_cast<uint32_t>(surface->positions.size());
+    const auto elements = static_cast<uint32_t>(surface->triangles.size());
+    const auto contents = std::make_shared<Model::Contents>(cooking_limits(vertices, elements));
+    State& state = contents->state;
+    fill_materials(state.materials);
+    const SourceArrays arrays = attributes_of(surface.value(), *fine);
+    ShellSource source;
+    source.position = surface->positions;
+    source.inward = extrusion->direction;
+    source.depth = extrusion->depth;
+    source.corner = surface->triangles;
+    source.neighbour = surface->neighbours;
+    source.corner_normal = arrays.normals;
+    source.corner_uv = arrays.uvs;
+    source.drawn_material = arrays.materials;
+    source.is_degenerate = extrusion->is_degenerate_element;
+    source.wanted_depth = settings.thickness;
+    source.seed = settings.seed;
+    const Result<Row<Shells>> shell = build_shell(state, source, material.value());
+    if (!shell) return Error{name + ": " + shell.error()};
+    contents->shell = shell.value();
+    contents->name = name;
+    contents->material = settings.material;
+    if (const Result<void> ready = make_stiff(state, contents->shell); !ready)
+        return Error{name + ": " + ready.error()};
+    if (settings.measures_threshold)
+        measure_thresholds(state, contents->shell, settings);
+    else
+        state.shells.first_crack_speed[contents->shell] = estimated_threshold(state, contents->shell);
+    contents->report = report_on(state, contents->shell, surface.value(), extrusion.value());
+    Model model;
+    model.contents = contents;
+    return model;
+}
+
+const ModelReport& Model::report() const {
+    return contents->report;
+}
+
+MeshData::MeshData() : contents(std::make_unique<Contents>()) {}
+MeshData::~MeshData() = default;
+MeshData::MeshData(MeshData&&) noexcept = default;
+MeshData& MeshData::operator=(MeshData&&) noexcept = default;
+
+MeshView MeshData::view() const {
+    const Mesh& mesh = contents->mesh;
+    MeshView view;
+    view.positions = mesh.positions.data();
+    view.position_count = mesh.positions.size();
+    view.indices = contents->indices.data();
+    view.triangle_count = mesh.triangles.size();
+    view.corner_normals = mesh.corner_normals.empty() ? nullptr : mesh.corner_normals.data();
+    view.corner_uvs = mesh.corner_uvs.empty() ? nullptr : mesh.corner_uvs.data();
+    view.materials = mesh.materials.empty() ? nullptr : mesh.materials.data();
+    view.name = mesh.name.c_str();
+    return view;
+}
+
+Result<MeshData> read_mesh(const std::string& path) {
+    Result<Mesh> mesh = read_mesh_file(path);
+    if (!mesh) return Error{mesh.error()};
+    MeshData data;
+    data.contents->mesh = std::move(mesh).value();
+    for (const auto& triangle : data.contents->mesh.triangles)
+        data.contents->indices.insert(data.contents->indices.end(), triangle.begin(), triangle.end());
+    return data;
+}
+
+}  // namespace cullet

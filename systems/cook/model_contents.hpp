@@ -1,0 +1,28 @@
+// A cooked model: tables of its own that hold one shell.
+#pragma once
+#include "components/state.hpp"
+#include "cullet/model.hpp"
+#include "engine/mesh.hpp"
+
+namespace cullet {
+
+struct Model::Contents {
+    explicit Contents(const Limits& limits) : state(limits) {}
+    State state;  // materials, and the rows of one shell
+    Row<Shells> shell;
+    std::string name, material;
+    ModelReport report;
+};
+
+struct MeshData::Contents {
+    Mesh mesh;
+    std::vector<uint32_t> indices;  // flat, as the view gives them
+};
+
+/// Room for a shell of so many vertices and elements and two damage tasks on it.
+Limits cooking_limits(uint32_t vertices, uint32_t elements);
+
+/// Copies a shell between states; kNone and the limit's name when there is no room.
+Row<Shells> import_shell(State& to, const State& from, Row<Shells> shell, const char** full);
+
+}  // namespace cullet

@@ -1,0 +1,47 @@
+// Where the shell may crack now.
+#pragma once
+#include "systems/damage/heading.hpp"
+
+namespace cullet {
+
+/// What a shell's material allows in this run.
+struct CrackLimits {
+    float start = 0;      // Pa, sigma_d = 2 sigma_t * the game's scale; times a vertex's strength factor
+    float tip = 0;        // Pa, min(sigma_d, f_tip sqrt(E G_c) / sqrt(pi l)): Griffith at the mesh's resolution
+    float tip_speed = 0;  // m/s, 0.35 sqrt(E / density)
+};
+CrackLimits crack_limits(ShellView shell, float strength_scale);
+
+struct Candidate {
+    bool is_tip;
+    uint32_t vertex;
+    float ratio;  // stress over its limit, > 1
+};
+
+/// Candidates of one check. A body of 3,000 vertices has 0 to 20; when more than fit would pass, all limits are raised
+/// by a quarter until the list fits, so that the most stressed ones are kept and the others wait for the next check.
+struct Candidates {
+    static constexpr uint32_t kMost = 2048;
+    uint32_t count = 0;
+    Candidate candidate[kMost];
+};
+
+/// What a start at a vertex would look like.
+struct StartField {
+    float stress = 0;  // Pa, sigma_1 of the face that has more of it
+    float ratio = 0;   // sigma_2 / sigma_1 there
+    Vec3 across;       // unit, direction of sigma_1
+    Vec3 normal;       // of the ring
+};
+StartField start_field(ShellView shell, uint32_t vertex);
+
+/// The direction a tip would take, from its heading.
+ChosenHeading tip_heading(ShellView shell, uint32_t vertex, const HeadingFan& fan);
+
+/// Tips first, then the largest ratio, then the lowest vertex. Elements.principal is the quick filter: the largest
+/// principal value of a mean of tensors is at most the largest of theirs, so no vertex is missed. Starts: vertices
+/// without crack that are not banned. Tips: those whose time has come.
+void choose_candidates(ShellView shell, const CrackLimits& limits, const HeadingFan& fan, float time,
+                       Candidates& candidates);
+
+}  // namespace cullet

@@ -1,0 +1,57 @@
+// The numbers that decide where cracks start and run (thick shell note C1, C2, C5, section 8).
+#pragma once
+#include <cstdint>
+
+namespace cullet {
+
+/// Strength at the short load of an impact over the handbook's tensile strength, which is for seconds: static fatigue
+/// of exponent 16 gives (1 s / 0.1 ms)^(1/17) = 1.7. Everyday 2. Doubled, a vase needs twice the speed to crack.
+inline constexpr float kShortLoadFactor = 2.0f;
+
+/// Weibull modulus of the strength of one vertex about the median, and the bounds of the factor. Everyday 8 (brick) to
+/// 20 (glass). Doubled, all places break at nearly the same stress and breaks look alike.
+inline constexpr double kWeibullModulus = 12;
+inline constexpr double kLeastStrengthFactor = 0.5, kMostStrengthFactor = 1.5;
+
+/// No crack starts within this many mean edges of a cut of the same run. Everyday 2 to 5. Doubled, a wall falls into
+/// few large pieces; without it the contact crumbles and the rest stays whole.
+inline constexpr float kStartSpacing = 3.0f;
+
+/// sigma_2 / sigma_1 from which a start opens four and six edges instead of two. Everyday 0.5 and 0.75: plates bent by
+/// a ball see 1. Raised to 1 there are no stars, only round plugs.
+inline constexpr float kFourArmRatio = 0.5f, kSixArmRatio = 0.75f;
+inline constexpr uint32_t kMostArms = 6;
+
+/// Speed of a crack tip over sqrt(E / density). Everyday 0.2 to 0.5 (glass 0.3: 1,500 of 5,300 m/s). Doubled, tips
+/// outrun the waves that steer them and cracks come out straight.
+inline constexpr float kTipSpeed = 0.35f;
+
+/// Directions a tip tries on either side of its heading: twelve steps of 5 degrees. Doubled, tips may turn back and
+/// close rings.
+inline constexpr int kHeadingSteps = 12;
+inline constexpr double kHeadingStep = 5.0 * 3.14159265358979323846 / 180.0;  // rad
+
+/// A tip whose next step ends within this many mean edges of a crack turns to it. Everyday 1.5; 0 leaves thin strips
+/// between parallel cracks; doubled, neighbouring radial cracks of a star run together.
+inline constexpr float kJoinReach = 1.5f;
+/// Cosine of how far ahead and how parallel a crack vertex must be: 60 degrees both.
+inline constexpr float kJoinCosine = 0.5f;
+/// Within this many mean edges of its root a tip does not join its own crack, or the arms of a star would close at
+/// once.
+inline constexpr float kRootReach = 3.0f;
+
+/// Part of an edge's length near its ends where a crack takes the end instead of a new vertex. Everyday 0.2 to 0.3.
+/// Doubled (0.5), nothing is ever inserted and cracks follow the mesh's edges.
+inline constexpr float kSnap = 0.25f;
+/// Least 2 A / longest^2 of a new triangle (equilateral 0.87) and least area over the mean. Doubled, most inserts are
+/// refused and cracks kink; halved, slivers shrink the stable time step's reserve.
+inline constexpr float kLeastShape = 0.22f, kLeastArea = 0.12f;
+/// Area of an equilateral triangle of edge 1: what "mean area" means on graded and re-meshed shells.
+inline constexpr float kEquilateralArea = 0.433f;
+/// Cosine of the largest turn from the wanted direction to the edge that is taken instead: 60 degrees.
+inline constexpr float kTurnCosine = 0.5f;
+
+/// Work of one cut edge with its re-meshing and 18 rebuilt rows: 10 microseconds in units of 2 ns.
+inline constexpr uint32_t kUnitsPerCut = 5000;
+
+}  // namespace cullet

@@ -1,0 +1,35 @@
+// The elements round one vertex, in order.
+#pragma once
+#include "components/state.hpp"
+
+namespace cullet {
+
+/// Elements round a vertex. Scanned meshes have 5 to 7, the pole of a lathe as many as it has segments. A vertex with
+/// more never cracks and no edge opposite to it is split; doubled, nothing suffers but 320 bytes of stack a walk.
+inline constexpr uint32_t kMostRing = 64;
+
+/// The elements of one fan, counter-clockwise seen from outside: element[i + 1] lies across the edge that ends at the
+/// vertex in element[i]. A chain starts at its first element, a cycle at its smallest one, so that the order does not
+/// depend on where the walk began: masses and rows summed in this order are the same bits.
+struct Ring {
+    uint32_t count = 0;
+    uint32_t element[kMostRing];
+    uint8_t corner[kMostRing];  // which corner of the element the vertex is
+    bool is_closed = false;
+    bool is_cut_short = false;  // more than kMostRing elements; count is 0 then
+};
+
+/// The fan of Vertices.element. A dead vertex has none.
+void walk_ring(ShellView shell, uint32_t vertex, Ring& ring);
+
+/// Corner of `element` at `vertex`, or 3.
+uint8_t corner_of(ShellView shell, uint32_t element, uint32_t vertex);
+
+/// Area-weighted normal of the rest shape, unit; zero when the areas cancel.
+Vec3 ring_normal(ShellView shell, const Ring& ring);
+
+/// Mass and inverse mass of a vertex: a third of each element of its ring, summed in ring order and never by
+/// increments, so that any history of cuts gives the same bits for the same ring.
+void weigh_vertex(ShellView shell, uint32_t vertex);
+
+}  // namespace cullet

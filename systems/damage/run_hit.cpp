@@ -1,0 +1,143 @@
+#include "systems/damage/run_hit.hpp"
+
+#include <algorithm>
+#include <limits>
+
+#include "engine/random.hpp"
+#include "systems/brittle/restart.hpp"
+#include "systems/damage/brittle_loop.hpp"
+#include "systems/damage/crack_candidates.hpp"
+#include "systems/damage/working_room.hpp"
+#include "systems/fragments/group_fragments.hpp"
+
+namespace cullet {
+namespace {
+
+constexpr Row<Tasks> kTask{0};
+
+bool open_hit(State& state, Row<Shells> source, const HitDescription& hit) {
+    const Row<Shells> working = make_shell(state, working_room(ShellView(state, source)));
+    if (!working.exists()) return false;
+    Tasks& tasks = state.tasks;
+    tasks.clear_rows(kTask, 1);
+    tasks.state[kTask] = static_cast<uint8_t>(TaskState::Running);
+    tasks.body[kTask] = {};
+    tasks.source[kTask] = source;
+    tasks.shell[kTask] = working;
+    ++state.shells.users[source];
+    tasks.start_velocity.set(kTask, hit.velocity);
+    tasks.start_spin.set(kTask, hit.spin);
+    tasks.strength_scale[kTask] = hit.strength_scale;
+    set_task_times(state, state.materials, kTask);
+    tasks.time_step[kTask] *= hit.step_scale;
+    tasks.damping_time[kTask] *= hit.step_scale;
+    tasks.contact_count[kTask] = 1;
+    TaskContacts& contacts = state.task_contacts;
+    contacts.clear_rows(0, 1);
+    contacts.point.set(0, hit.point);
+    contacts.normal.set(0, hit.normal);
+    contacts.striker[0] = {};
+    contacts.striker_inverse_mass[0] = hit.striker_inverse_mass;
+    contacts.striker_radius[0] = hit.striker_radius;
+    contacts.start_speed[0] = hit.striker_speed;
+    contacts.radius[0] = std::max(
+        {3 * state.shells.thickness[source], 1.3f * state.shells.mean_edge[source], 0.35f * hit.striker_radius});
+    const Vec3 arm = hit.point - state.shells.centre[source].to_float();
+    tasks.approach_speed[kTask] = hit.striker_speed - dot(hit.velocity + cross(hit.spin, arm), hit.normal);
+    start_task(state, kTask);
+    return true;
+}
+
+}  // namespace
+
+HitReport run_hit(State& state, Row<Shells> shell, const HitDescription& hit, bool (*is_over)(const State&)) {
+    HitReport report;
+    if (!open_hit(state, shell, hit)) {
+        report.dropped = true;
+        return report;
+    }
+    const BrittleLoop loop = make_brittle_loop();
+    LoopWorld world{state};
+    Tasks& tasks = state.tasks;
+    while (static_cast<TaskState>(tasks.state[kTask]) == TaskState::Running) {
+        tasks.steps_granted[kTask] = is_over ? 3 : 1u << 20;
+        loop.run_alone(world, {kTask, tasks.steps_done[kTask], tasks.steps_granted[kTask], task_goes_on});
+        if (is_over && is_over(state)) break;
+    }
+    report.steps = tasks.steps_done[kTask];
+    report.cuts = tasks.crack_count[kTask];
+    report.starts = tasks.start_count[kTask];
+    report.redos = tasks.redo_count[kTask];
+    report.dropped = static_cast<TaskState>(tasks.state[kTask]) == TaskState::Dropped;
+    report.cracked = report.cuts > 0;
+    report.parts = report.cracked ? group_fragments(ShellView(state, tasks.shell[kTask]),
+                                                    std::span(state.fragments.part.data(), kMostParts))
+                                  : 1;
+    tasks.part_count[kTask] = report.parts;
+    report.broke = report.parts > 1;
+    report.impulse = state.task_contacts.impulse[0];
+    report.striker_speed_after = static_cast<float>(state.task_contacts.striker_speed[0]);
+    return report;
+}
+
+void close_hit(State& state) {
+    release_shell(state, state.tasks.shell[kTask]);
+    release_shell(state, state.tasks.source[kTask]);
+    state.tasks.state[kTask] = static_cast<uint8_t>(TaskState::Free);
+}
+
+HitDescription fall_on_floor(const State& state, Row<Shells> shell, Vec3 down, float speed) {
+    const Range vertices = state.shells.vertices[shell];
+    HitDescription hit;
+    float lowest = -1e30f;
+    for (uint32_t v = vertices.first; v < vertices.first + vertices.count; ++v) {
+        if (state.vertices.element[v] == kNone) continue;
+        const float depth = dot(state.vertices.rest[v], down);
+        if (depth <= lowest) continue;
+        lowest = depth;
+        hit.point = state.vertices.rest[v];
+    }
+    hit.normal = -down;
+    hit.velocity = speed * down;
+    return hit;
+}
+
+Vec3 seeded_direction(uint64_t seed, uint64_t n) {
+    const Random random{seed};
+    const double z = 2 * random.uniform(n, 0) - 1, angle = 6.283185307179586 * random.uniform(n, 1);
+    double sine, cosine;
+    sine_cosine(angle, sine, cosine);
+    const double r = std::sqrt(std::max(0.0, 1 - z * z));
+    return Vec3d(r * cosine, z, r * sine).to_float();
+}
+
+float first_crack_speed(State& state, Row<Shells> shell, Vec3 down) {
+    static constexpr float kSpeed = 1;
+    HitDescription hit = fall_on_floor(state, shell, down, kSpeed);
+    hit.strength_scale = 1e9f;  // may not crack: stresses are compared below
+    if (!open_hit(state, shell, hit)) return 0;
+    const BrittleLoop loop = make_brittle_loop();
+    LoopWorld world{state};
+    Tasks& tasks = state.tasks;
+    const ShellView working(state, tasks.shell[kTask]);
+    const float limit = crack_limits(working, 1).start;
+    float most = 1e-6f;
+    while (static_cast<TaskState>(tasks.state[kTask]) == TaskState::Running) {
+        tasks.steps_granted[kTask] = 3;
+        loop.run_alone(world, {kTask, tasks.steps_done[kTask], 3, task_goes_on});
+        // Only a vertex beside an element above the present maximum can raise it; the least strength factor is 0.5.
+        for (uint32_t e = 0; e < working.element_count(); ++e) {
+            const uint32_t row = working.element(e);
+            if (state.elements.principal[row] <= 0.5f * most * limit) continue;
+            for (const uint32_t v : state.elements.corner[row]) {
+                const float ratio =
+                    start_field(working, v).stress / (limit * state.vertices.strength_factor[working.vertex(v)]);
+                most = std::max(most, ratio);
+            }
+        }
+    }
+    close_hit(state);
+    return kSpeed / most;
+}
+
+}  // namespace cullet

@@ -1,0 +1,42 @@
+// One hit on one shell, from touch to end, without a world: what cooking measures with and truth is told by.
+#pragma once
+#include "components/state.hpp"
+
+namespace cullet {
+
+/// Body axes; the body flies with `velocity`, the striker stands or moves along the normal.
+struct HitDescription {
+    Vec3 point;                      // m, near the surface
+    Vec3 normal;                     // unit, the way the body is pushed
+    Vec3 velocity, spin;             // of the body, m/s, rad/s
+    float striker_speed = 0;         // m/s along the normal
+    float striker_inverse_mass = 0;  // 1/kg, 0: floor
+    float striker_radius = 0;        // m, 0: flat
+    float strength_scale = 1;
+    float step_scale = 1;  // on the shell's time step; truth halves it
+};
+
+struct HitReport {
+    bool cracked = false, broke = false, dropped = false;
+    uint32_t steps = 0, cuts = 0, starts = 0, redos = 0, parts = 1;
+    double impulse = 0;             // N s, to the body along the normal
+    float striker_speed_after = 0;  // m/s along the normal
+};
+
+/// Takes task row 0 of `state`, which must be free, and leaves it with the end's shell (close_hit). `is_over`, when
+/// given, ends the run early; it is asked after each repetition.
+HitReport run_hit(State& state, Row<Shells> shell, const HitDescription& hit, bool (*is_over)(const State&) = nullptr);
+void close_hit(State& state);
+
+/// Lowest vertex in direction `down`, and what a fall on a floor in that direction looks like.
+HitDescription fall_on_floor(const State& state, Row<Shells> shell, Vec3 down, float speed);
+
+/// A direction from (seed, n), even over the sphere.
+Vec3 seeded_direction(uint64_t seed, uint64_t n);
+
+/// Speed of a fall on a floor at which the first crack starts, m/s. Up to the first crack the hidden run is homogeneous
+/// of degree one in the speed (linear shell, springs without a gap that only push), so one run that may not crack gives
+/// it exactly: the speed over the largest ratio of stress to limit.
+float first_crack_speed(State& state, Row<Shells> shell, Vec3 down);
+
+}  // namespace cullet

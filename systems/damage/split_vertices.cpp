@@ -1,0 +1,187 @@
+#include "systems/damage/split_vertices.hpp"
+
+#include "systems/damage/aim.hpp"
+#include "systems/damage/crack_candidates.hpp"
+#include "systems/damage/cut_ends.hpp"
+#include "systems/damage/join.hpp"
+
+namespace cullet {
+namespace {
+
+struct Batch {
+    ShellView shell;
+    CrackLimits limits;
+    HeadingFan fan;
+    float time;  // s, of the run
+    CrackSink& sink;
+    Touched touched;
+};
+
+CrackState crack_at(const Batch& batch, uint32_t vertex) {
+    return static_cast<CrackState>(batch.shell.state.vertices.crack[batch.shell.vertex(vertex)]);
+}
+
+Aim aim_at(Batch& batch, uint32_t vertex, Vec3 normal, Vec3 direction) {
+    const Aim found = aim(batch.shell, vertex, normal, direction, batch.touched);
+    batch.sink.refused += found.was_full;
+    batch.sink.inserted += found.was_inserted;
+    return found;
+}
+
+// Interior ends become tips of the crack that started at `root`, headed as their arms; starts are banned round the
+// cuts.
+void finish_cut(Batch& batch, Vec3 place, const Ends& ends, const Vec3* heading, uint32_t root) {
+    const ShellView shell = batch.shell;
+    Vertices& vertices = shell.state.vertices;
+    ban_starts(shell, place);
+    for (uint32_t i = 0; i < ends.count; ++i) {
+        const uint32_t row = shell.vertex(ends.end[i]);
+        ban_starts(shell, vertices.rest[row]);
+        if (!ends.is_interior[i]) continue;
+        Ring ring;
+        walk_ring(shell, ends.end[i], ring);
+        vertices.crack[row] = static_cast<uint8_t>(CrackState::Tip);
+        vertices.heading.set(row, into_plane(heading[i], ring_normal(shell, ring)));
+        vertices.ready_time[row] = batch.time + length(vertices.rest[row] - place) / batch.limits.tip_speed;
+        vertices.crack_start[row] = root;
+    }
+    batch.sink.cut_edges += ends.count;
+}
+
+bool try_cut(Batch& batch, uint32_t vertex, Ends& ends, const Vec3* heading, uint32_t root) {
+    const Vec3 place = batch.shell.state.vertices.rest[batch.shell.vertex(vertex)];
+    const CutOutcome outcome = cut_ends(batch.shell, vertex, ends, batch.touched);
+    batch.sink.refused += outcome == CutOutcome::Full;
+    if (outcome != CutOutcome::Cut) return false;
+    finish_cut(batch, place, ends, heading, root);
+    return true;
+}
+
+bool try_step(Batch& batch, uint32_t vertex, Vec3 normal, Vec3 direction, uint32_t root) {
+    const Aim found = aim_at(batch, vertex, normal, direction);
+    if (found.end == kNone) return false;
+    Ends ends;
+    ends.add(found.end);
+    return try_cut(batch, vertex, ends, &direction, root);
+}
+
+// Two, four or six edges in equally spaced directions from an interior vertex, at least two of them different.
+bool open_arms(Batch& batch, uint32_t vertex, const StartField& field) {
+    const uint32_t arms = field.ratio > kSixArmRatio ? 6 : field.ratio > kFourArmRatio ? 4 : 2;
+    const float cosine = arms == 6 ? 0.5f : arms == 4 ? 0.0f : -1.0f;
+    const float sine = arms == 6 ? 0.8660254f : arms == 4 ? 1.0f : 0.0f;
+    const Vec3 x = cross(field.normal, field.across);  // the crack's line
+    Ends ends;
+    Vec3 heading[kMostArms];
+    float c = 1, s = 0;
+    for (uint32_t arm = 0; arm < arms; ++arm) {
+        const Vec3 direction = normalised(c * x - s * field.across);
+        const Aim found = aim_at(batch, vertex, field.normal, direction);
+        if (found.end != kNone && ends.add(found.end)) heading[ends.count - 1] = direction;
+        const float turned = c * cosine - s * sine;
+        s = c * sine + s * cosine;
+        c = turned;
+    }
+    return try_cut(batch, vertex, ends, heading, vertex);
+}
+
+void start_crack(Batch& batch, uint32_t vertex) {
+    const ShellView shell = batch.shell;
+    Vertices& vertices = shell.state.vertices;
+    const uint32_t row = shell.vertex(vertex);
+    if (crack_at(batch, vertex) != CrackState::None || vertices.is_start_banned[row]) return;
+    const StartField field = start_field(shell, vertex);
+    if (!(field.stress > batch.limits.start * vertices.strength_factor[row])) return;
+    Ring ring;
+    walk_ring(shell, vertex, ring);
+    const uint32_t refused = batch.sink.refused;
+    vertices.crack_start[row] = vertex;
+    const Vec3 along = cross(field.normal, field.across);
+    const bool is_cut = ring.is_closed ? open_arms(batch, vertex, field)
+                                       : try_step(batch, vertex, field.normal, along, vertex) ||
+                                             try_step(batch, vertex, field.normal, -along, vertex);
+    if (!is_cut) {
+        // Where the mesh has no way for a crack none starts in this run; a lack of room may pass.
+        if (batch.sink.refused == refused) vertices.is_start_banned[row] = 1;
+        return;
+    }
+    ++batch.sink.starts;
+    batch.sink.add({CrackEventKind::Start, vertex, vertices.rest[row], field.stress});
+}
+
+void advance_tip(Batch& batch, uint32_t vertex) {
+    const ShellView shell = batch.shell;
+    Vertices& vertices = shell.state.vertices;
+    const uint32_t row = shell.vertex(vertex);
+    if (crack_at(batch, vertex) != CrackState::Tip || batch.time < vertices.ready_time[row]) return;
+    const ChosenHeading chosen = tip_heading(shell, vertex, batch.fan);
+    if (!(chosen.stress > batch.limits.tip)) return;
+    Ring ring;
+    walk_ring(shell, vertex, ring);
+    const Vec3 normal = ring_normal(shell, ring);
+    const uint32_t root = vertices.crack_start[row];
+    const float l = shell.shells().mean_edge[shell.row];
+    const uint32_t meeting = find_crack_ahead(shell, vertex, chosen.direction, l);
+    bool is_cut = false;
+    if (meeting != kNone) {
+        const Vec3 toward = into_plane(vertices.rest[shell.vertex(meeting)] - vertices.rest[row], normal);
+        is_cut = try_step(batch, vertex, normal, toward, root);
+    }
+    if (!is_cut) is_cut = try_step(batch, vertex, normal, chosen.direction, root);
+    if (!is_cut) {
+        // No way on now; it looks again after the time of one step.
+        vertices.ready_time[row] = batch.time + l / batch.limits.tip_speed;
+        return;
+    }
+    batch.sink.add({CrackEventKind::Advance, vertex, vertices.rest[row], chosen.stress});
+}
+
+}  // namespace
+
+void begin_cracks(ShellView shell, bool is_fragment) {
+    Vertices& vertices = shell.state.vertices;
+    for (uint32_t v = shell.vertices().first; v < shell.vertices().first + shell.vertex_count(); ++v) {
+        vertices.is_start_banned[v] = 0;
+        vertices.ready_time[v] = 0;
+        if (!is_fragment) continue;
+        vertices.crack_start[v] = kNone;
+        if (vertices.crack[v] == static_cast<uint8_t>(CrackState::Cracked))
+            vertices.crack[v] = static_cast<uint8_t>(CrackState::None);
+    }
+}
+
+uint32_t split_vertices(State& state, Row<Tasks> task, CrackSink& sink) {
+    Tasks& tasks = state.tasks;
+    const ShellView shell(state, tasks.shell[task]);
+    const uint32_t material = state.shells.material[shell.row];
+    const float time = static_cast<float>(tasks.steps_done[task]) * tasks.time_step[task];
+    Batch batch{shell,
+                crack_limits(shell, tasks.strength_scale[task]),
+                HeadingFan(state.materials.heading_power[material]),
+                time,
+                sink,
+                {}};
+    Candidates candidates;
+    choose_candidates(shell, batch.limits, batch.fan, time, candidates);
+    const uint32_t cuts_before = sink.cut_edges, starts_before = sink.starts;
+    bool is_whole = true;
+    for (uint32_t i = 0; i < candidates.count; ++i) {
+        const Candidate& c = candidates.candidate[i];
+        if (c.is_tip)
+            advance_tip(batch, c.vertex);
+        else
+            start_crack(batch, c.vertex);
+        if (batch.touched.count > Touched::kMost / 2) is_whole = refresh_stiffness(shell, batch.touched) && is_whole;
+    }
+    is_whole = refresh_stiffness(shell, batch.touched) && is_whole;
+    sink.is_out_of_slots = sink.is_out_of_slots || !is_whole;
+
+    const uint32_t cuts = sink.cut_edges - cuts_before;
+    tasks.crack_count[task] += cuts;
+    tasks.start_count[task] += sink.starts - starts_before;
+    tasks.units_owed[task] += uint64_t{kUnitsPerCut} * cuts;
+    if (cuts) tasks.last_event_time[task] = time;
+    return cuts;
+}
+
+}  // namespace cullet
