@@ -19,7 +19,7 @@ Keys common_keys(const std::string& material, double thickness, double edge) {
         .number("scene.strength_scale", "1", 1, 1e-3, inf, "on the material's strength; inf never cracks")
         .number("units_a_frame", "units", static_cast<double>(defaults.units_a_frame), 1e3, 1e15,
                 "damage work a frame, 2 ns each")
-        .number("hold_s", "s", static_cast<double>(defaults.hold_seconds), 0, 10,
+        .number("hold_s", "s", static_cast<double>(defaults.hold_seconds), 0, 1,
                 "longest hold of a blow that is being worked off")
         .number("generations", "1", defaults.generations, 0, 10, "fragments break again down to this one")
         .number("debris_share", "1", static_cast<double>(defaults.debris_share), 0, 0.5,
