@@ -1,0 +1,118 @@
+#include "sample_game/draw_world.hpp"
+
+#include <deque>
+
+#include "engine/jobs.hpp"
+#include "sample_game/meshes.hpp"
+#include "systems/world_contents.hpp"
+
+namespace cullet {
+namespace {
+
+constexpr Vec3 kSteel{0.20f, 0.21f, 0.22f};
+
+FaceKind kind_of(SurfaceKind kind) {
+    return kind == SurfaceKind::Inner   ? FaceKind::Inner
+           : kind == SurfaceKind::Crack ? FaceKind::Crack
+                                        : FaceKind::Outer;
+}
+
+/// What the spans of the drawn bodies point to. Deques: addresses stay.
+struct Drawing {
+    std::deque<std::vector<Vec3>> points;
+    std::deque<std::vector<uint32_t>> indices;
+    std::deque<std::vector<DrawnRun>> runs;
+    std::vector<DrawnBody> bodies;
+
+    DrawnBody& add(const Mesh& mesh, float scale = 1) {
+        std::vector<Vec3>& p = points.emplace_back(mesh.positions);
+        for (Vec3& point : p) point = scale * point;
+        std::vector<uint32_t>& i = indices.emplace_back();
+        for (const auto& triangle : mesh.triangles) i.insert(i.end(), triangle.begin(), triangle.end());
+        DrawnBody& body = bodies.emplace_back();
+        body.positions = p;
+        body.indices = i;
+        return body;
+    }
+    DrawnBody& add(const BodyView& view) {
+        std::vector<Vec3>&p = points.emplace_back(), &n = points.emplace_back();
+        p.reserve(view.vertex_count), n.reserve(view.vertex_count);
+        for (uint32_t v = 0; v < view.vertex_count; ++v) {
+            p.push_back(view.vertices[v].position);
+            n.push_back(view.vertices[v].normal);
+        }
+        std::vector<DrawnRun>& r = runs.emplace_back();
+        for (const MaterialRun& run : view.runs) r.push_back({run.first_index, run.index_count, kind_of(run.kind)});
+        DrawnBody& body = bodies.emplace_back();
+        body.pose = view.pose;
+        body.positions = p;
+        body.normals = n;
+        body.indices = {view.indices, view.index_count};
+        body.runs = r;
+        return body;
+    }
+};
+
+void add_props(Drawing& drawing, const ScenePlan& plan) {
+    // The first prop is the floor, whose upper side is the drawn ground.
+    for (size_t p = 1; p < plan.props.size(); ++p) {
+        DrawnBody& body = drawing.add(plan.props[p].mesh);
+        body.colour = plan.props[p].colour;
+        body.gloss = 0;
+        body.is_outlined = false;
+    }
+}
+
+void add_bodies(Drawing& drawing, const GameWorld& game) {
+    const World& world = game.world();
+    const Bodies& rows = world.contents().data.state.bodies;
+    std::vector<BodyId> ids(world.bodies(nullptr, 0));
+    world.bodies(ids.data(), static_cast<uint32_t>(ids.size()));
+    const Mesh ball = make_ball(1, 4);
+    for (const BodyId id : ids) {
+        const uint32_t b = id.index;
+        if (rows.is_sphere[b]) {
+            DrawnBody& body = drawing.add(ball, rows.radius[b]);
+            body.pose = {rows.position[b], rows.orientation[b]};
+            body.colour = kSteel;
+            body.gloss = 0.8f;
+            continue;
+        }
+        const Result<BodyView> view = world.view(id);
+        if (!view.ok() || view.value().index_count == 0) continue;
+        const uint64_t look = rows.user_data[b] < game.plan().looks.size() ? rows.user_data[b] : 0;
+        DrawnBody& body = drawing.add(view.value());
+        body.colour = fragment_colour(rows.colour[b]);
+        body.opacity = game.plan().looks[look].opacity;
+        body.gloss = game.plan().looks[look].gloss;
+    }
+}
+
+void add_debris(Drawing& drawing, const GameWorld& game) {
+    const Debris& debris = game.world().contents().data.state.debris;
+    const Mesh lump = make_ball(1, 0);
+    for (uint32_t d = 0; d < debris.size(); ++d) {
+        if (!debris.is_used[d]) continue;
+        DrawnBody& body = drawing.add(lump, debris.radius[d]);
+        body.pose.position = debris.position[d];
+        body.colour = fragment_colour(debris.colour[d]);
+    }
+}
+
+}  // namespace
+
+Picture draw_world(const GameWorld& game, uint32_t threads) {
+    Drawing drawing;
+    add_props(drawing, game.plan());
+    add_bodies(drawing, game);
+    add_debris(drawing, game);
+    PictureSettings settings;
+    settings.ground_height = game.plan().ground_height;
+    const std::unique_ptr<JobSystem> jobs = make_jobs(JobBackend::Threads, threads);
+    settings.for_each = [&jobs](uint32_t count, const std::function<void(uint32_t)>& job) {
+        parallel_for(*jobs, count, [&job](uint32_t i) { job(i); });
+    };
+    return draw(drawing.bodies, game.plan().camera, game.plan().sun, settings);
+}
+
+}  // namespace cullet

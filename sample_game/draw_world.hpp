@@ -1,0 +1,11 @@
+// A picture of a world as it stands.
+#pragma once
+#include "sample_game/game_world.hpp"
+
+namespace cullet {
+
+/// Every body in the colour of its number, balls in steel, props in their own colours, debris as small lumps. `threads`
+/// share the pixels; the picture is the same on any number.
+Picture draw_world(const GameWorld& game, uint32_t threads);
+
+}  // namespace cullet

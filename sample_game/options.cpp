@@ -1,0 +1,105 @@
+#include "sample_game/options.hpp"
+
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+
+#include "sample_game/scene.hpp"
+
+namespace cullet {
+namespace {
+
+const std::map<std::string, HashWhen> kHashWhen{
+    {"every", HashWhen::Every}, {"last", HashWhen::Last}, {"off", HashWhen::Off}};
+
+std::string scene_names() {
+    std::string names;
+    for (const Scene& scene : scenes()) names += std::string(scene.name) + ", ";
+    return names + "show_reel";
+}
+
+std::string scene_list() {
+    std::string text = "Scenes:\n";
+    for (const Scene& scene : scenes()) text += fmt::format("  {:<10} {}\n", scene.name, scene.shows);
+    return text + "  show_reel  wall, vase, pane and drop, one after another, with pictures\n";
+}
+
+void add_run(CLI::App& app, RunOptions& run) {
+    CLI::App* command = app.add_subcommand("run", "Plays a scene and says how it went");
+    command->add_option("scene", run.scene, "One of " + scene_names());
+    command->add_option("--mesh", run.mesh, "A model file for drop, in any format that assimp reads");
+    command->add_option("--frames", run.frames, "How many steps; the scene's own number if not given")
+        ->check(CLI::Range(1u, 1'000'000u));
+    command->add_option("--dt-ms", run.dt_ms, "Milliseconds a step")->check(CLI::Range(1000.0 / 240, 1000.0 / 30));
+    command->add_option("--threads", run.threads, "Threads that step the world; all if not given")
+        ->check(CLI::Range(1u, 64u));
+    command->add_option("--repeat", run.repeat, "Plays so often and takes each frame's least time")
+        ->check(CLI::Range(1u, 1000u));
+    command->add_option("--out", run.out, "Folder for report.json, pictures and the trace");
+    command->add_option("--draw", run.draw, "Draws every so many frames")->check(CLI::Range(1u, 1'000'000u));
+    command->add_flag("--contact-sheet", run.has_sheet, "Twelve frames in one picture, sheet.png");
+    command->add_option("--trace", run.trace, "Chrome trace of the last repeat, for Perfetto");
+    command->add_option("--hash", run.hash, "When the state is hashed: every, last, off")
+        ->transform(CLI::CheckedTransformer(kHashWhen));
+    command->add_flag("--validate", run.validates, "Checks every table after every system");
+    command->add_option("--set", run.set, "KEY=VALUE, a setting of the scene; --set help lists them");
+}
+
+/// What CLI11 cannot know.
+Result<void> check_run(const RunOptions& run, bool asks_for_keys) {
+    if (asks_for_keys) return {};
+    if (run.scene.empty()) return Error{"run: which scene? Give one of " + scene_names() + "."};
+    if (run.scene != "show_reel" && !find_scene(run.scene))
+        return Error{fmt::format("run {}: there is no such scene; give one of {}.", run.scene, scene_names())};
+    if (!run.mesh.empty() && run.scene != "drop" && run.scene != "show_reel")
+        return Error{fmt::format("--mesh {}: only the scene drop takes a mesh, not {}.", run.mesh, run.scene)};
+    if (run.out.empty() && (run.draw > 0 || run.has_sheet))
+        return Error{"--draw and --contact-sheet write pictures: say where with --out FOLDER."};
+    return {};
+}
+
+std::string one_sentence(std::string text) {
+    std::replace(text.begin(), text.end(), '\n', ' ');
+    while (!text.empty() && text.back() == ' ') text.pop_back();
+    if (!text.empty() && text.back() != '.') text += '.';
+    return text;
+}
+
+}  // namespace
+
+Result<Options> parse_options(std::vector<std::string> arguments) {
+    Options options;
+    CLI::App app("Things that shatter, without a window.", "sample_game");
+    app.require_subcommand(1);
+    app.footer(scene_list());
+    add_run(app, options.run);
+    app.add_subcommand("frame", "Prints the systems of a frame, and what each reads and writes");
+    CLI::App* truth = app.add_subcommand("truth", "Finds the speeds of the first crack and of the first loose piece");
+    truth->add_option("model", options.truth.model, "thick_shell")->required();
+    truth->add_option("--placements", options.truth.placements, "Seeded placements of each scene")
+        ->check(CLI::Range(1u, 1000u));
+    truth->add_option("--threads", options.truth.threads, "All if not given")->check(CLI::Range(1u, 64u));
+    truth->add_option("--out", options.truth.out, "Folder for truth.json");
+    try {
+        std::reverse(arguments.begin(), arguments.end());  // CLI11 takes them from the back
+        app.parse(std::move(arguments));
+    } catch (const CLI::CallForHelp&) {
+        options.help = app.help();
+        for (const CLI::App* command : app.get_subcommands()) options.help = command->help() + "\n" + scene_list();
+        return options;
+    } catch (const CLI::ParseError& error) {
+        return Error{one_sentence(error.what()) + " sample_game --help shows what can be given."};
+    }
+    options.command = app.got_subcommand("run")     ? Command::Run
+                      : app.got_subcommand("frame") ? Command::Frame
+                                                    : Command::Truth;
+    if (options.command != Command::Run) return options;
+    const bool asks_for_keys =
+        std::find(options.run.set.begin(), options.run.set.end(), "help") != options.run.set.end();
+    if (auto checked = check_run(options.run, asks_for_keys); !checked.ok()) return Error{checked.error()};
+    if (asks_for_keys) options.command = Command::KeysHelp;
+    return options;
+}
+
+}  // namespace cullet

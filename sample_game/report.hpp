@@ -1,0 +1,84 @@
+// What a run was like: one struct, and report.json from it.
+#pragma once
+#include <array>
+#include <cstdint>
+#include <map>
+#include <string>
+#include <vector>
+
+#include "cullet/result.hpp"
+
+namespace cullet {
+
+/// Of one series of milliseconds: percentiles by nearest rank over frames.
+struct Spread {
+    float p50 = 0, p95 = 0, p99 = 0, max = 0;
+    double total = 0;
+    uint64_t rows = 0;  // of a system, over the run; a whole frame has none
+};
+Spread spread_of(const std::vector<float>& milliseconds, uint64_t rows = 0);
+
+using Vector = std::array<double, 3>;
+
+struct Report {
+    std::string scene;
+    uint64_t seed = 0;
+    double dt_s = 0;
+    uint64_t frames = 0;
+    uint32_t threads = 0;
+    std::string machine;           // processor, threads, compiler, build
+    std::string hash, hash_chain;  // hexadecimal; empty when not taken
+    std::map<std::string, uint64_t> tables;
+    struct {
+        double start = 0, end = 0, debris = 0;  // start: all that was ever put in; end counts debris
+    } mass_kg;
+    struct {
+        Vector start{}, end{},
+            impulse{};  // of moving bodies and debris; impulse: passed by breaking to what cannot move
+    } momentum_ns;
+    struct {
+        double start = 0, peak = 0, end = 0;  // kinetic, of moving bodies and debris
+    } energy_j;
+    struct {
+        uint64_t born = 0, live = 0, asleep = 0, debris = 0;
+    } fragments;
+    struct {
+        uint64_t bodies = 0, cells = 0;
+    } awake;  // at the end
+    struct {
+        uint64_t used = 0, left = 0, most = 0;  // over the run; of the last frame; of the worst frame
+    } units;
+    std::map<std::string, uint64_t> events, refused;
+    uint64_t faults = 0;
+    std::vector<std::string> fault_list;
+    Spread frame_ms;
+    std::map<std::string, Spread> systems;
+    double hitch =
+        0;  // worst frame that broke something / (median frame without damage + the budget's time); 0: none broke
+    struct {
+        uint64_t count = 0;
+        float p50_ms = 0, p99_ms = 0, max_ms = 0;
+    } fracture_frames;
+    std::map<std::string, double> yardsticks;
+    struct {
+        uint64_t opened = 0, broke = 0, dropped = 0, redone = 0, late = 0, frames_held = 0, ahead_hits = 0,
+                 ahead_misses = 0;
+    } tasks;
+    uint64_t sweeps = 0, clamped = 0;
+    std::map<std::string, uint64_t> shapes;
+    uint64_t allocations_in_frames = 0, allocations_in_rigid = 0;  // within step(), from frame 30 on
+    uint64_t peak_rss_bytes = 0;
+    // Of this program, beside the names above.
+    uint64_t repeats = 1;
+    bool repeats_agree = true;
+    std::vector<std::string> notes;
+};
+
+std::string to_json(const Report& report);
+Result<void> write_text(const std::string& text, const std::string& path);
+
+/// Processor's name, hardware threads, compiler and build.
+std::string describe_machine();
+uint64_t peak_resident_bytes();
+
+}  // namespace cullet

@@ -1,0 +1,117 @@
+#include <fmt/format.h>
+
+#include <cstdio>
+#include <filesystem>
+
+#include "sample_game/run_scene.hpp"
+
+namespace cullet {
+namespace {
+
+constexpr const char* kShowReel[] = {"wall", "vase", "pane", "drop"};
+
+int refuse(const std::string& sentence, int code) {
+    fmt::print(stderr, "{}\n", sentence);
+    return code;
+}
+
+void print_summary(const Report& r) {
+    fmt::print("{}: {} frames of {:.2f} ms on {} threads, seed {}\n", r.scene, r.frames, 1000 * r.dt_s, r.threads,
+               r.seed);
+    if (!r.hash.empty())
+        fmt::print("  hash         {}{}{}\n", r.hash, r.hash_chain.empty() ? "" : ", all frames ", r.hash_chain);
+    fmt::print("  fragments    {} born, {} live, {} bodies asleep, {} awake, {} crumbs\n", r.fragments.born,
+               r.fragments.live, r.fragments.asleep, r.awake.bodies, r.fragments.debris);
+    fmt::print("  hits         {} opened, {} broke, {} late, {} dropped, {} frames held\n", r.tasks.opened,
+               r.tasks.broke, r.tasks.late, r.tasks.dropped, r.tasks.frames_held);
+    fmt::print("  mass         {:.6f} kg put in, {:.6f} kg at the end\n", r.mass_kg.start, r.mass_kg.end);
+    fmt::print("  kinetic      {:.4g} J at the most, {:.4g} J at the end\n", r.energy_j.peak, r.energy_j.end);
+    fmt::print(
+        "  frame        p50 {:.2f}  p99 {:.2f}  worst {:.2f} ms; {} frames broke something, worst {:.2f} ms, hitch "
+        "{:.2f}\n",
+        r.frame_ms.p50, r.frame_ms.p99, r.frame_ms.max, r.fracture_frames.count, r.fracture_frames.max_ms, r.hitch);
+    fmt::print("  allocations  {} in steps from frame {} on, {} of the rigid engine\n", r.allocations_in_frames,
+               kFirstCountedFrame, r.allocations_in_rigid);
+    for (const auto& [setting, count] : r.refused) fmt::print("  refused      {} times: raise {}\n", count, setting);
+    for (const std::string& fault : r.fault_list) fmt::print("  fault        {}\n", fault);
+    for (const std::string& note : r.notes) fmt::print("  note         {}\n", note);
+}
+
+void print_files(const RunOptions& options) {
+    if (options.has_sheet) fmt::print("  {}/sheet.png      twelve frames of the story in one picture\n", options.out);
+    if (options.draw > 0) fmt::print("  {}/frame_*.png    every {} frames\n", options.out, options.draw);
+    if (!options.out.empty()) fmt::print("  {}/report.json    what the run was like, in numbers\n", options.out);
+    if (!options.trace.empty())
+        fmt::print("  {}      where the time went: open it in ui.perfetto.dev\n", options.trace);
+}
+
+int run_one(const Scene& scene, const RunOptions& options) {
+    const Result<Keys> keys = keys_of(scene, options);
+    if (!keys.ok()) return refuse(keys.error(), 2);
+    std::error_code error;
+    if (!options.out.empty()) std::filesystem::create_directories(options.out, error);
+    if (error)
+        return refuse(fmt::format("--out {}: {}; choose a folder that can be made.", options.out, error.message()), 2);
+    const Result<ScenePlan> plan = plan_scene(scene, keys.value(), options);
+    if (!plan.ok()) return refuse(plan.error(), 1);
+    const Result<Report> report = play(scene, plan.value(), options);
+    if (!report.ok()) return refuse(report.error(), 1);
+    print_summary(report.value());
+    if (!options.out.empty())
+        if (auto written = write_text(to_json(report.value()), options.out + "/report.json"); !written.ok())
+            return refuse(written.error(), 1);
+    print_files(options);
+    return report.value().repeats_agree ? 0 : 1;
+}
+
+/// Keys that a scene does not have are another scene's.
+RunOptions for_scene(const Scene& scene, const RunOptions& options) {
+    RunOptions own = options;
+    own.scene = scene.name;
+    own.set.clear();
+    for (const std::string& assignment : options.set)
+        if (scene.keys().has(assignment.substr(0, assignment.find('=')))) own.set.push_back(assignment);
+    if (own.scene != "drop") own.mesh.clear();
+    if (!options.out.empty()) {
+        own.out = options.out + "/" + scene.name;
+        own.has_sheet = true;
+    }
+    if (!options.trace.empty() || !own.out.empty()) own.trace = own.out.empty() ? "" : own.out + "/trace.json";
+    return own;
+}
+
+int run_show_reel(const RunOptions& options) {
+    for (const std::string& assignment : options.set) {
+        bool is_known = false;
+        for (const char* name : kShowReel)
+            is_known = is_known || find_scene(name)->keys().has(assignment.substr(0, assignment.find('=')));
+        if (!is_known)
+            return refuse(
+                fmt::format("--set {}: no scene of the show reel has this key; --set help lists them.", assignment), 2);
+    }
+    for (const char* name : kShowReel) {
+        const Scene& scene = *find_scene(name);
+        fmt::print("\n{}\n", scene.shows);
+        std::fflush(stdout);
+        if (const int code = run_one(scene, for_scene(scene, options)); code != 0) return code;
+        std::fflush(stdout);
+    }
+    return 0;
+}
+
+}  // namespace
+
+int run_command(const RunOptions& options) {
+    if (options.scene == "show_reel") return run_show_reel(options);
+    return run_one(*find_scene(options.scene), options);
+}
+
+std::string keys_help(const std::string& scene_name) {
+    std::string text;
+    for (const Scene& scene : scenes())
+        if (scene_name.empty() || scene_name == "show_reel" || scene_name == scene.name)
+            text += fmt::format("{}: {}\n{}\n", scene.name, scene.shows, scene.keys().help());
+    return text;
+}
+
+}  // namespace cullet

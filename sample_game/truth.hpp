@@ -1,0 +1,19 @@
+// How fast a body must be hit before it cracks, and before a piece comes loose: by bisection, over seeded placements,
+// beside the figures that are to be met.
+#pragma once
+#include <cstdint>
+#include <string>
+
+namespace cullet {
+
+struct TruthSettings {
+    uint32_t placements = 20;
+    uint32_t threads = 1;
+    std::string out;  // a folder for truth.json; empty: only printed
+};
+
+/// Prints a table for `model` ("thick_shell") and returns the program's exit code: 0 when all figures are met, 1 when
+/// some are not, 2 for a model that is not known.
+int run_truth(const std::string& model, const TruthSettings& settings);
+
+}  // namespace cullet

@@ -1,0 +1,23 @@
+#!/usr/bin/env bash
+# From a clean clone to pictures of things that shatter: sets up, builds, plays the show reel without a window.
+set -euo pipefail
+cd "$(dirname "${BASH_SOURCE[0]}")/.."
+
+scripts/setup.sh
+cmake --preset release >/dev/null
+cmake --build --preset release --target sample_game cullet_import
+out=out/show_reel
+mkdir -p "$out"
+build/release/sample_game run show_reel --out "$out" --contact-sheet "$@"
+
+cat <<END
+
+What there is to see, in $PWD/$out:
+  wall/sheet.png   a ball of 30 kg punches a hole into a brick wall: a star of cracks, a ring, bricks on the floor
+  vase/sheet.png   a porcelain vase meets a table's edge, its shards fall to the floor and break again
+  pane/sheet.png   a steel ball goes through a framed pane: nearly straight cracks to the frame
+  drop/sheet.png   a hollow porcelain pig is thrown at a wall
+  */report.json    each run in numbers: frame times, hits, fragments, mass, hash (README.md says how to read it)
+  */trace.json     where the time went: open it at https://ui.perfetto.dev
+Every picture holds twelve moments, numbered by their frame (60 a second).
+END
