@@ -29,8 +29,8 @@ void measure_limits(ShellView shell);
 void limit_stiffness(ShellView shell, std::span<const uint32_t> vertices);
 void limit_all_stiffness(ShellView shell);
 
-/// Blocks, links and vertices that assembly will need for the shell plus `spare_vertices`: 2 spare slots of each kind a
-/// pack, packs for the spare vertices, and room to move one pack in eight. The other members are 0.
+/// Blocks, links and vertices that assembly will need for the shell plus `spare_vertices`: packs for the spare
+/// vertices, and room to move one pack in three. The other members are 0.
 ShellRoom stiffness_room(ShellView shell, uint32_t spare_vertices);
 /// All packs, blocks, links into the shell's ranges. False when the ranges are too small (see stiffness_room).
 bool assemble_stiffness(ShellView shell);

@@ -18,9 +18,9 @@ TaskEnergy task_energy(State& state, Row<Tasks> task);
 /// B7's redo criterion: energy above 1.05 of the start, or not finite.
 bool is_blown_up(const TaskEnergy& energy, double start_energy);
 
-/// Parts of the above, for one chunk of rows: kinetic energy of vertices [first, first + count), which also writes u
-/// into side `side` of the probe; bending energy of hinges, which reads the angles (bend_hinges). Membrane:
-/// stress_check.hpp.
+/// Parts of the above, for one chunk of rows, in this order: kinetic energy of vertices [first, first + count), which
+/// also writes u into side `side` of the probe; membrane_energy (stress_check.hpp), which writes the hinges' angles;
+/// bending energy of hinges.
 double kinetic_energy(ShellView shell, uint32_t side, uint32_t first, uint32_t count);
 double bending_energy(ShellView shell, uint32_t first, uint32_t count);
 
