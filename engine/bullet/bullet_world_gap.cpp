@@ -12,8 +12,9 @@ namespace {
 // cost more.
 constexpr float kStillDistance = 0.003f;  // m
 constexpr float kStillSeconds = 0.5f;
-// Deep heaps of curved shards creep on for long at a centimetre a second: a second below this speed is sleep too.
-constexpr float kSlowSpeed = 0.06f;  // m/s of the fastest point
+// Deep heaps of curved shards creep on for long at a centimetre a second: a second below this speed is sleep
+// too, faster steps counting back twice.
+constexpr float kSlowSpeed = 0.15f;  // m/s of the fastest point
 constexpr float kSlowSeconds = 1;
 
 // The corner of the body's box that moved farthest bounds all of its points: displacement is convex in the point.
@@ -123,8 +124,8 @@ void BulletWorld::update_sleep(float dt) {
             body.still_seconds = std::min(body.still_seconds + dt, 2 * kStillSeconds);
         }
         const float speed = bullet.getLinearVelocity().length() + bullet.getAngularVelocity().length() * body.reach;
-        body.slow_seconds =
-            body.is_touched && speed < kSlowSpeed ? std::min(body.slow_seconds + dt, 2 * kSlowSeconds) : 0;
+        const float slower = body.is_touched && speed < kSlowSpeed ? dt : -2 * dt;
+        body.slow_seconds = std::clamp(body.slow_seconds + slower, 0.0f, 2 * kSlowSeconds);
         if (body.is_driven) body.still_seconds = body.slow_seconds = 0;
         bullet.setActivationState(
             body.still_seconds >= kStillSeconds || body.slow_seconds >= kSlowSeconds ? WANTS_DEACTIVATION : ACTIVE_TAG);
