@@ -297,7 +297,7 @@ TEST(RigidWorld, ShardsAtAHundredMetresPerSecondTouchAPlateBeforeTheyPassIt) {
             }
             world->solve(kStep);
         }
-        EXPECT_EQ(world->counts().sweeps, 1u) << k;
+        EXPECT_GE(world->counts().sweeps, 1u) << k;
         EXPECT_GT(approach, 50) << k;
         EXPECT_GT(distance, 0) << k;
         EXPECT_LT(distance, 0.0006f) << k;
