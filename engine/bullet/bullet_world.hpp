@@ -78,6 +78,8 @@ class BulletWorld final : public RigidWorld {
     void wake_touching(RigidId id);
     void wake_body(Body& body);
     std::vector<IgnoredPair>::iterator find_ignored(RigidId a, RigidId b);
+    void settle(Body& body) const;
+    void limit_closing(float dt);
     void integrate(float dt);
     void update_sleep(float dt);
     Vec3 velocity_at(const Body& body, Vec3 point) const;

@@ -12,6 +12,10 @@ namespace {
 // cost more.
 constexpr float kStillDistance = 0.003f;  // m
 constexpr float kStillSeconds = 0.5f;
+// Deep heaps of curved shards creep on for long at a centimetre a second: a second below this speed is sleep
+// too, faster steps counting back twice.
+constexpr float kSlowSpeed = 0.15f;  // m/s of the fastest point
+constexpr float kSlowSeconds = 1;
 
 // The corner of the body's box that moved farthest bounds all of its points: displacement is convex in the point.
 bool has_left(const Body& body, const btTransform& now) {
@@ -119,7 +123,12 @@ void BulletWorld::update_sleep(float dt) {
         } else {
             body.still_seconds = std::min(body.still_seconds + dt, 2 * kStillSeconds);
         }
-        bullet.setActivationState(body.still_seconds >= kStillSeconds ? WANTS_DEACTIVATION : ACTIVE_TAG);
+        const float speed = bullet.getLinearVelocity().length() + bullet.getAngularVelocity().length() * body.reach;
+        const float slower = body.is_touched && speed < kSlowSpeed ? dt : -2 * dt;
+        body.slow_seconds = std::clamp(body.slow_seconds + slower, 0.0f, 2 * kSlowSeconds);
+        if (body.is_driven) body.still_seconds = body.slow_seconds = 0;
+        bullet.setActivationState(
+            body.still_seconds >= kStillSeconds || body.slow_seconds >= kSlowSeconds ? WANTS_DEACTIVATION : ACTIVE_TAG);
     }
 }
 
@@ -129,7 +138,7 @@ bool BulletWorld::is_asleep(RigidId id) const {
 
 void BulletWorld::wake_body(Body& body) {
     body.bullet->setActivationState(ACTIVE_TAG);
-    body.still_seconds = 0;
+    body.still_seconds = body.slow_seconds = 0;
     body.anchor = body.bullet->getWorldTransform();
 }
 

@@ -1,5 +1,7 @@
 #include "engine/bullet/closest_points.hpp"
 
+#include <cstring>
+
 namespace cullet::bullet {
 namespace {
 
@@ -96,13 +98,27 @@ constexpr double kAgreed = 1e-7;    // m between distance and bound
 
 }  // namespace
 
+// Four lanes by the compiler's vector types: the same operations in the same order on every machine.
 uint32_t support(const Points& p, Vec3 d) {
-    float along[kMaxPoints];
-    for (uint32_t k = 0; k < p.count; ++k) along[k] = p.x[k] * d.x + p.y[k] * d.y + p.z[k] * d.z;
-    uint32_t best = 0;
-    for (uint32_t k = 1; k < p.count; ++k)
-        if (along[k] > along[best]) best = k;
-    return best;
+    typedef float Lanes __attribute__((vector_size(16)));
+    typedef int32_t Numbers __attribute__((vector_size(16)));
+    Lanes best = {-kFar, -kFar, -kFar, -kFar};
+    Numbers number = {0, 1, 2, 3}, best_number = number;
+    for (uint32_t k = 0; k < p.count; k += 4) {
+        Lanes x, y, z;
+        std::memcpy(&x, p.x + k, sizeof x);
+        std::memcpy(&y, p.y + k, sizeof y);
+        std::memcpy(&z, p.z + k, sizeof z);
+        const Lanes along = x * d.x + y * d.y + z * d.z;
+        const Numbers is_farther = along > best;
+        best = is_farther ? along : best;
+        best_number = is_farther ? number : best_number;
+        number += 4;
+    }
+    int lane = 0;
+    for (int k = 1; k < 4; ++k)
+        if (best[k] > best[lane] || (best[k] == best[lane] && best_number[k] < best_number[lane])) lane = k;
+    return static_cast<uint32_t>(best_number[lane]);
 }
 
 double gap_along(const Points& a, const Points& b, Vec3d axis) {

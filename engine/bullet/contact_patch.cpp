@@ -170,6 +170,19 @@ int choose_four(const Spot* spots, uint32_t count, uint32_t (&chosen)[kPatchPoin
     return kept;
 }
 
+// m, see overlap_axis(). The own axis of two pieces was seen while they were still apart and is the truth; a
+// neighbour's is a hint.
+constexpr double kOwnTurning = 0.004;
+constexpr double kBorrowedTurning = 0.003;
+
+// A direction out of the hull that leads through a seam is the neighbouring piece's affair.
+bool is_through_seam(const Hull& hull, const Mat3& rotation, Vec3 outwards) {
+    const Vec3 local = transposed_times(rotation, outwards);
+    for (uint32_t f = 0; f < hull.face_count; ++f)
+        if (hull.is_face_inner[f] && dot(hull.face_normal[f], local) > 0.8f) return true;
+    return false;
+}
+
 struct Touch {
     bool is_near = false;
     Vec3 normal;
@@ -177,9 +190,11 @@ struct Touch {
     Vec3 middle;    // between the closest points, from the centre of a
 };
 
-Touch find_touch(const Hull& a, const Mat3& rotation_a, const Hull& b, const Mat3& rotation_b, Vec3& guess) {
+Touch find_touch(const Hull& a, const Mat3& rotation_a, const Hull& b, const Mat3& rotation_b, Vec3& guess,
+                 bool is_own_guess) {
     const float reach = kContactRange + a.margin + b.margin;
-    const Closest closest = closest_points(a.world, b.world, Vec3d(guess), reach);
+    const Vec3d before(guess);
+    const Closest closest = closest_points(a.world, b.world, before, reach);
     guess = closest.axis.to_float();
     if (closest.is_apart && closest.bound > reach) return {};
     Touch touch;
@@ -188,12 +203,14 @@ Touch find_touch(const Hull& a, const Mat3& rotation_a, const Hull& b, const Mat
     // overlap.
     if (closest.is_apart && closest.distance > 1e-5) {
         if (closest.distance > reach) return {};
+        if (is_through_seam(a, rotation_a, -guess) || is_through_seam(b, rotation_b, guess)) return {};
         touch.gap = static_cast<float>(closest.distance);
         touch.normal = guess;
         touch.middle = (0.5 * (closest.on_a + closest.on_b)).to_float();
         return touch;
     }
-    const OverlapAxis least = overlap_axis(a, rotation_a, b, rotation_b);
+    const OverlapAxis least =
+        overlap_axis(a, rotation_a, b, rotation_b, before, is_own_guess ? kOwnTurning : kBorrowedTurning);
     if (least.is_found) {
         guess = least.axis.to_float();
         touch.gap = static_cast<float>(least.gap);
@@ -226,9 +243,10 @@ void add_touch(Patch& patch, const Hull& a, const Hull& b, const Touch& touch) {
 
 }  // namespace
 
-Patch contact_patch(const Hull& a, const Mat3& rotation_a, const Hull& b, const Mat3& rotation_b, Vec3& guess) {
+Patch contact_patch(const Hull& a, const Mat3& rotation_a, const Hull& b, const Mat3& rotation_b, Vec3& guess,
+                    bool is_own_guess) {
     Patch patch;
-    const Touch touch = find_touch(a, rotation_a, b, rotation_b, guess);
+    const Touch touch = find_touch(a, rotation_a, b, rotation_b, guess, is_own_guess);
     if (!touch.is_near) return patch;
     patch.normal = touch.normal;
     uint32_t count = 0;

@@ -20,9 +20,10 @@ struct Patch {
     PatchPoint point[kPatchPoints];
 };
 
-/// World points of both hulls must be fresh. `guess` is last step's axis for these two (zero the first time) and
-/// becomes this step's.
-Patch contact_patch(const Hull& a, const Mat3& rotation_a, const Hull& b, const Mat3& rotation_b, Vec3& guess);
+/// World points of both hulls must be fresh. `guess` is last step's axis for these two (`is_own_guess`), or one
+/// borrowed from a neighbour, or zero; it becomes this step's.
+Patch contact_patch(const Hull& a, const Mat3& rotation_a, const Hull& b, const Mat3& rotation_b, Vec3& guess,
+                    bool is_own_guess);
 
 /// The gap between the grown hulls (cores less both margins), bounded from below once above `enough`; -1 when the cores
 /// overlap.

@@ -37,7 +37,9 @@ DynamicsWorld::DynamicsWorld(btDispatcher* dispatcher, btBroadphaseInterface* br
     info.m_numIterations = 20;
     info.m_restitutionVelocityThreshold = 0.2f;  // m/s
     info.m_minimumSolverBatchSize = 1;           // an island's result does not depend on its neighbours in a batch
-    info.m_solverMode = SOLVER_USE_WARMSTARTING | SOLVER_SIMD | SOLVER_USE_2_FRICTION_DIRECTIONS;
+    // Friction along fixed directions: those of the velocity are noise once a heap is nearly at rest.
+    info.m_solverMode = SOLVER_USE_WARMSTARTING | SOLVER_SIMD | SOLVER_USE_2_FRICTION_DIRECTIONS |
+                        SOLVER_DISABLE_VELOCITY_DEPENDENT_FRICTION_DIRECTION;
 }
 
 DynamicsWorld::~DynamicsWorld() {

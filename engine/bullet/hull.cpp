@@ -79,6 +79,7 @@ void build_hull(Hull& hull, std::span<const Vec3> points, float margin, uint32_t
     hull.point_count = static_cast<uint32_t>(points.size());
     hull.face_count = hull.edge_count = 0;
     hull.first_corner[0] = 0;
+    std::fill_n(hull.is_face_inner, kMaxFaces, false);
     set_points(hull.local, points);
     float square = 0;
     for (uint32_t k = 0; k < hull.point_count; ++k) square = std::max(square, dot(hull.local[k], hull.local[k]));
@@ -115,6 +116,7 @@ void build_triangle(Hull& hull, const Vec3 (&corners)[3], uint32_t cell) {
     hull.point_count = 3;
     hull.face_count = 1;
     hull.edge_count = 0;
+    hull.is_face_inner[0] = false;
     set_points(hull.local, corners);
     hull.face_normal[0] =
         normalised(cross(Vec3d(corners[1]) - Vec3d(corners[0]), Vec3d(corners[2]) - Vec3d(corners[0]))).to_float();
@@ -122,6 +124,24 @@ void build_triangle(Hull& hull, const Vec3 (&corners)[3], uint32_t cell) {
     hull.first_corner[0] = 0, hull.first_corner[1] = 3;
     for (uint8_t k = 0; k < 3; ++k) hull.corner[k] = k;
     refresh_world(hull, Mat3{{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}}, {});
+}
+
+void mark_inner_faces(Hull& hull, const Hull& other) {
+    const Vec3 between = other.local.centre - hull.local.centre;
+    if (&hull == &other || length(between) > hull.radius + other.radius + 0.01f || other.face_count < 4) return;
+    // Past the margins of both and half a millimetre more, so that faces which lie on each other count and parallel
+    // walls do not.
+    const float outside = hull.margin + other.margin + 0.0005f;
+    for (uint32_t f = 0; f < hull.face_count; ++f) {
+        Vec3 middle;
+        for (uint32_t c = hull.first_corner[f]; c < hull.first_corner[f + 1]; ++c) middle += hull.local[hull.corner[c]];
+        const auto corners = static_cast<float>(hull.first_corner[f + 1] - hull.first_corner[f]);
+        const Vec3 p = (1 / corners) * middle + outside * hull.face_normal[f] - between;
+        bool is_covered = true;
+        for (uint32_t g = 0; g < other.face_count && is_covered; ++g)
+            is_covered = dot(other.face_normal[g], p) <= other.face_height[g] + other.margin;
+        hull.is_face_inner[f] |= is_covered;
+    }
 }
 
 void transform_points(const Hull& hull, const Mat3& r, Vec3 position, Points& out) {

@@ -34,7 +34,7 @@ inline Box empty_box() {
 }
 
 /// At most 32 points about a centre, in some axes. `count` is a multiple of 8; the rest repeats the first point.
-struct Points {
+struct alignas(16) Points {
     float x[kMaxPoints], y[kMaxPoints], z[kMaxPoints];
     uint32_t count = 0;
     Vec3 centre;
@@ -57,6 +57,8 @@ struct Hull {
     bool one_sided = false;  // a static triangle: only its front face pushes
     Vec3 face_normal[kMaxFaces];
     float face_height[kMaxFaces];  // normal . point, from the centre
+    // Seams between the pieces of one body: nothing is ever pushed out through them.
+    bool is_face_inner[kMaxFaces];
     uint16_t first_corner[kMaxFaces + 1];
     uint8_t corner[kMaxCorners];
     HullEdge edge[kMaxEdges];
@@ -68,6 +70,8 @@ struct Hull {
 void build_hull(Hull& hull, std::span<const Vec3> points, float margin, uint32_t cell);
 /// A static triangle in world axes: one face, to the side that its corners run counter-clockwise around.
 void build_triangle(Hull& hull, const Vec3 (&corners)[3], uint32_t cell);
+/// Marks the faces of `hull` that another piece of the same body covers: a point just outside of the face lies in it.
+void mark_inner_faces(Hull& hull, const Hull& other);
 /// World points and box for a body at `position` with its axes along the columns of `rotation`.
 void refresh_world(Hull& hull, const Mat3& rotation, Vec3 position);
 /// World points only, into another column.

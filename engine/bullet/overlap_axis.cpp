@@ -23,34 +23,42 @@ bool arcs_cross(const WorldEdge& a, const WorldEdge& b) {
     return cba * dba < 0 && adc * bdc < 0 && cba * bdc > 0;
 }
 
-void try_axis(OverlapAxis& best, Vec3d axis, double gap) {
+struct Search {
+    const Hull &a, &b;
+    Vec3d before;
+    double turning;
+    OverlapAxis best;
+    double best_score = -1e30;
+
     // An axis must be better by a micrometre, so that faces win over edges that tie with them.
-    if (best.is_found && gap <= best.gap + 1e-6) return;
-    best = {true, axis, gap};
+    void try_axis(Vec3d axis, double gap) {
+        const bool is_new = !(dot(before, before) > 0);
+        const double score = is_new ? gap : gap - turning * (1 - dot(axis, before));
+        if (best.is_found && score <= best_score + 1e-6) return;
+        best = {true, axis, gap};
+        best_score = score;
+    }
+    void try_face(Vec3d axis) {
+        if (dot(axis, axis) > 0.5) try_axis(axis, gap_along(a.world, b.world, axis));
+    }
+    void try_edges(const Mat3& rotation_a, const Mat3& rotation_b);
+};
+
+bool is_outer(const Hull& hull, const HullEdge& e) {
+    return !hull.is_face_inner[e.left] && !hull.is_face_inner[e.right];
 }
 
-}  // namespace
-
-OverlapAxis overlap_axis(const Hull& a, const Mat3& rotation_a, const Hull& b, const Mat3& rotation_b) {
-    OverlapAxis best;
-    for (uint32_t f = 0; f < b.face_count; ++f) {
-        const Vec3d axis(rotation_b * b.face_normal[f]);
-        if (dot(axis, axis) > 0.5) try_axis(best, axis, gap_along(a.world, b.world, axis));
-    }
-    if (b.one_sided && best.is_found) return best;
-    for (uint32_t f = 0; f < a.face_count; ++f) {
-        const Vec3d axis = -Vec3d(rotation_a * a.face_normal[f]);
-        if (dot(axis, axis) > 0.5) try_axis(best, axis, gap_along(a.world, b.world, axis));
-    }
-    if (a.one_sided && a.face_count > 0) {
-        const Vec3d axis = -Vec3d(rotation_a * a.face_normal[0]);
-        return {true, axis, gap_along(a.world, b.world, axis)};
-    }
+void Search::try_edges(const Mat3& rotation_a, const Mat3& rotation_b) {
     const Vec3d offset = Vec3d(b.world.centre) - Vec3d(a.world.centre);
+    WorldEdge edges_b[kMaxEdges];
+    uint32_t count_b = 0;
+    for (uint32_t j = 0; j < b.edge_count; ++j)
+        if (is_outer(b, b.edge[j])) edges_b[count_b++] = world_edge(b, rotation_b, j);
     for (uint32_t i = 0; i < a.edge_count; ++i) {
+        if (!is_outer(a, a.edge[i])) continue;
         const WorldEdge p = world_edge(a, rotation_a, i);
-        for (uint32_t j = 0; j < b.edge_count; ++j) {
-            const WorldEdge q = world_edge(b, rotation_b, j);
+        for (uint32_t j = 0; j < count_b; ++j) {
+            const WorldEdge& q = edges_b[j];
             if (!arcs_cross(p, q)) continue;
             Vec3d axis = cross(p.along, q.along);
             const double square = dot(axis, axis);
@@ -59,10 +67,31 @@ OverlapAxis overlap_axis(const Hull& a, const Mat3& rotation_a, const Hull& b, c
             axis = (1 / std::sqrt(square)) * axis;
             // Outwards from a is away from a's centre; from b towards a is the other way.
             if (dot(axis, p.left + p.right) > 0) axis = -axis;
-            try_axis(best, axis, dot(axis, p.at - (q.at + offset)));
+            try_axis(axis, dot(axis, p.at - (q.at + offset)));
         }
     }
-    return best;
+}
+
+}  // namespace
+
+OverlapAxis overlap_axis(const Hull& a, const Mat3& rotation_a, const Hull& b, const Mat3& rotation_b, Vec3d before,
+                         double turning) {
+    Search search{a, b, before, turning, {}, -1e30};
+    if (a.one_sided || b.one_sided) {
+        const Vec3d axis = b.one_sided ? Vec3d(rotation_b * b.face_normal[0]) : -Vec3d(rotation_a * a.face_normal[0]);
+        search.try_face(axis);
+        return search.best;
+    }
+    // Two pieces that both have nothing but seams offer those after all.
+    for (const bool with_inner : {false, true}) {
+        for (uint32_t f = 0; f < b.face_count; ++f)
+            if (with_inner || !b.is_face_inner[f]) search.try_face(Vec3d(rotation_b * b.face_normal[f]));
+        for (uint32_t f = 0; f < a.face_count; ++f)
+            if (with_inner || !a.is_face_inner[f]) search.try_face(-Vec3d(rotation_a * a.face_normal[f]));
+        if (search.best.is_found) break;
+    }
+    search.try_edges(rotation_a, rotation_b);
+    return search.best;
 }
 
 }  // namespace cullet::bullet

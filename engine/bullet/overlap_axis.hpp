@@ -12,8 +12,12 @@ struct OverlapAxis {
     double gap = 0;  // of the cores along it; negative is the overlap
 };
 
-/// `rotation_a` and `rotation_b` turn the hulls' local axes into world axes. Of equal overlaps the first in the order
-/// faces of b, faces of a, edges. A one-sided hull offers its front face alone. Two hulls without faces give nothing.
-OverlapAxis overlap_axis(const Hull& a, const Mat3& rotation_a, const Hull& b, const Mat3& rotation_b);
+/// `rotation_a` and `rotation_b` turn the hulls' local axes into world axes. `before` is the axis that the two last met
+/// along, or zero: of thin pieces the least overlap changes sides once they are half through each other, so that an
+/// axis counts as deeper by `turning` (m) (1 - cosine to `before`). Seams between pieces of one body offer no axis. Of
+/// equal overlaps the first in the order faces of b, faces of a, edges. A one-sided hull offers its front face alone.
+/// Two hulls without faces give nothing.
+OverlapAxis overlap_axis(const Hull& a, const Mat3& rotation_a, const Hull& b, const Mat3& rotation_b, Vec3d before,
+                         double turning);
 
 }  // namespace cullet::bullet

@@ -9,6 +9,14 @@ namespace {
 // taken.
 constexpr float kSamePoint = 0.01f;  // m
 
+// Contacts of a pair of bodies. Half of it and curved shards rock, twice it and the solver's time doubles.
+constexpr uint32_t kPairContacts = 12;
+// Pieces are watched from this far, so that their axis is known before they overlap.
+constexpr float kCandidateRange = 0.01f;  // m
+constexpr float kTurnLength = 0.1f;       // m, that opposite normals count half of
+constexpr float kDepthWeight = 20;        // a millimetre deeper counts as 20 mm farther
+constexpr float kPastBonus = 0.01f;       // m
+
 void gather_near(const Body& body, const Box& box, float grown, std::vector<const Hull*>& out) {
     out.clear();
     for (const Hull* hull = body.hulls; hull; hull = hull->next)
@@ -99,7 +107,7 @@ void PairAlgorithm::process() {
     if (is_fresh_ && moves_a_ == a.moves && moves_b_ == b.moves) return;
     is_fresh_ = true;
     moves_a_ = a.moves, moves_b_ = b.moves, changes_a_ = a.shape_changes, changes_b_ = b.shape_changes;
-    find_candidates(a, b, kContactRange, work_);
+    find_candidates(a, b, kCandidateRange, work_);
     const Mat3 rotation_a = rotation_of(a.fresh_at), rotation_b = rotation_of(b.fresh_at);
     PairRecord** link = &records_;
     const auto drop_first = [&] {
@@ -108,17 +116,21 @@ void PairAlgorithm::process() {
         release(*record);
         work_.records.give(record);
     };
+    const PairRecord* last = nullptr;
     for (const Candidate& c : work_.candidates) {
         while (*link && ((*link)->a < c.a || ((*link)->a == c.a && (*link)->b < c.b))) drop_first();
         if (!*link || (*link)->a != c.a || (*link)->b != c.b) {
             PairRecord* const record = work_.records.take();
-            *record = {c.a, c.b, {}, nullptr, *link};
+            // A new pair of pieces begins with the axis of its neighbour of the same piece.
+            *record = {c.a, c.b, last && last->a == c.a ? last->guess : Vec3{}, false, nullptr, *link};
             *link = record;
         }
         PairRecord& record = **link;
+        last = &record;
         link = &record.next;
         const Hull &hull_a = hull_of(c.hull_a, a, c.a, work_), &hull_b = hull_of(c.hull_b, b, c.b, work_);
-        Patch patch = contact_patch(hull_a, rotation_a, hull_b, rotation_b, record.guess);
+        Patch patch = contact_patch(hull_a, rotation_a, hull_b, rotation_b, record.guess, record.is_own_guess);
+        record.is_own_guess = true;
         if (patch.count > 0 && !c.hull_b &&
             is_inner_edge(b.mesh->triangles[c.b - b.hull_count], hull_b, patch.normal, patch.point[0].on_b))
             patch.count = 0;
@@ -131,6 +143,39 @@ void PairAlgorithm::process() {
             release(record);
     }
     while (*link) drop_first();
+    choose_best();
+}
+
+// Two shells that lie in each other touch in hundreds of points, of which the solver needs a dozen. The deepest comes
+// first, then always the one farthest from those chosen; turned normals, depth and a past as contact count as distance.
+void PairAlgorithm::choose_best() {
+    std::vector<Offer>& offers = work_.offers;
+    offers.clear();
+    for (PairRecord* r = records_; r; r = r->next)
+        for (int k = 0; r->manifold && k < r->manifold->getNumContacts(); ++k) {
+            const btManifoldPoint& p = r->manifold->getContactPoint(k);
+            const float past = p.m_lifeTime > 0 ? kPastBonus : 0.0f;
+            offers.push_back({r->manifold, k, from_bullet(p.m_positionWorldOnB), from_bullet(p.m_normalWorldOnB),
+                              p.m_distance1 - past / kDepthWeight});
+        }
+    if (offers.size() <= kPairContacts) return;
+    for (uint32_t round = 0; round < kPairContacts; ++round) {
+        Offer* best = nullptr;
+        float best_score = -kFar;
+        for (Offer& offer : offers) {
+            const float score = (round == 0 ? 0 : offer.apart) - kDepthWeight * offer.distance;
+            if (!offer.is_chosen && score > best_score) best = &offer, best_score = score;
+        }
+        best->is_chosen = true;
+        for (Offer& offer : offers) {
+            const Vec3 p = offer.point - best->point, n = kTurnLength * (offer.normal - best->normal);
+            offer.apart = std::min(offer.apart, std::sqrt(dot(p, p) + dot(n, n)));
+        }
+    }
+    for (size_t k = offers.size(); k-- > 0;)
+        if (!offers[k].is_chosen) offers[k].manifold->removeContactPoint(offers[k].index);
+    for (PairRecord* r = records_; r; r = r->next)
+        if (r->manifold && r->manifold->getNumContacts() == 0) release(*r);
 }
 
 // Friction and restitution of two bodies: the geometric mean, so that equal materials keep their own value. Rolling

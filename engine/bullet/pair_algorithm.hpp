@@ -13,8 +13,9 @@ namespace cullet::bullet {
 
 /// Two pieces whose boxes are near: what is remembered of them from step to step.
 struct PairRecord {
-    uint32_t a, b;  // ordinals of the pieces; triangles of a static mesh follow its convex parts
-    Vec3 guess;     // last axis from b towards a
+    uint32_t a, b;              // ordinals of the pieces; triangles of a static mesh follow its convex parts
+    Vec3 guess;                 // last axis from b towards a
+    bool is_own_guess = false;  // no longer borrowed from a neighbour
     btPersistentManifold* manifold = nullptr;  // null while they do not touch
     PairRecord* next = nullptr;
 };
@@ -24,15 +25,27 @@ struct Candidate {
     const Hull *hull_a, *hull_b;  // null: a triangle
 };
 
+/// One contact point of a pair of bodies while its best ones are chosen.
+struct Offer {
+    btPersistentManifold* manifold;
+    int index;  // in the manifold
+    Vec3 point, normal;
+    float distance;
+    float apart = kFar;  // from the nearest chosen one, in the measure of choose_best()
+    bool is_chosen = false;
+};
+
 /// Working memory that the pairs of one world share.
 struct PairWork {
     explicit PairWork(uint32_t body_limit) : records(8 * static_cast<size_t>(body_limit) + 1024) {
         candidates.reserve(4096);
+        offers.reserve(16384);
         near_a.reserve(4096);
         near_b.reserve(4096);
     }
     Pool<PairRecord> records;
     std::vector<Candidate> candidates;
+    std::vector<Offer> offers;
     std::vector<const Hull*> near_a, near_b;
     Hull triangle;
     Body* bodies = nullptr;  // by id
@@ -64,6 +77,7 @@ class PairAlgorithm : public btCollisionAlgorithm {
  private:
     void write(PairRecord& record, const Patch& patch, uint32_t cell_a, uint32_t cell_b);
     void release(PairRecord& record);
+    void choose_best();
 
     RigidId a_, b_;  // a_ < b_
     PairWork& work_;

@@ -10,12 +10,12 @@
 namespace cullet::bullet {
 namespace {
 
-// A body is swept when a point of it may travel farther than contacts reach plus a quarter of its least width: less
-// than that, the overlap is still pushed out on the right side.
-constexpr float kThicknessShare = 0.25f;
-constexpr double kStop = 0.0005;     // m, the gap at which a sweep ends
-constexpr double kAim = 0.0004;      // m, the gap that an advance aims at, so that it ends in few rounds
-constexpr double kTouching = 0.001;  // m: pieces nearer than this at the start are the solver's affair
+constexpr float kThicknessShare = 0.1f;
+constexpr double kStop = 0.0005;  // m, the gap at which a sweep ends
+constexpr double kAim = 0.0001;   // m: an advance aims this much past the gap to stop at, so that it ends in few rounds
+constexpr double kTouching = 0.001;  // m: pieces nearer than this at the start touch already
+constexpr double kDeeper = 0.001;    // m that touching pieces may go deeper in a step,
+constexpr double kLeast = 0.0002;    // m: while their cores stay this far apart, so that gaps can be measured
 constexpr int kRounds = 48;          // then the body stops where it is: early, never late
 constexpr float kBoxGrowth = 0.01f;  // m
 
@@ -44,19 +44,44 @@ Mover mover_of(Body& body) {
     return out;
 }
 
-// What a box sweeps over: moved by the velocity, grown by what turning can do to points `reach` away from the centre of
-// mass.
-Box swept_box(const Box& box, const Mover& mover, float reach, float dt) {
-    Box out = box;
-    const Vec3 way = (static_cast<double>(dt) * mover.velocity).to_float();
-    include(out, box.low + way);
-    include(out, box.high + way);
-    const float turned = std::min(static_cast<float>(length(mover.spin)) * dt, 2.0f) * reach;
-    return grown(out, turned + kBoxGrowth);
+float turned(const Mover& mover, float reach, float dt) {
+    return std::min(static_cast<float>(length(mover.spin)) * dt, 2.0f) * reach;
 }
 
-float travel(const Mover& mover, float dt) {
-    return static_cast<float>(length(mover.velocity) + length(mover.spin) * mover.body->reach) * dt;
+void include_way(Box& out, const Box& box, Vec3d velocity, float dt) {
+    const Vec3 way = (static_cast<double>(dt) * velocity).to_float();
+    include(out, box.low + way);
+    include(out, box.high + way);
+}
+
+// What a box sweeps over in the world: moved by the velocity, grown by what turning can do to points `reach` away from
+// the centre of mass.
+Box swept_box(const Box& box, const Mover& mover, float reach, float dt) {
+    Box out = box;
+    include_way(out, box, mover.velocity, dt);
+    return grown(out, turned(mover, reach, dt) + kBoxGrowth);
+}
+
+// What a box of a sweeps over as b sees it: bodies that fly side by side hardly meet. When one of the two was stopped,
+// also what it sweeps over with the other at rest.
+Box relative_box(const Box& box, const Mover& a, const Mover& b, float reach, float dt) {
+    Box out = box;
+    include_way(out, box, a.velocity - b.velocity, dt);
+    if (a.body->moved_fraction < 1 || b.body->moved_fraction < 1) {
+        include_way(out, box, a.velocity, dt);
+        include_way(out, box, -b.velocity, dt);
+    }
+    return grown(out, turned(a, reach, dt) + kBoxGrowth);
+}
+
+// A body is swept when a point of it may travel farther than contacts reach plus a tenth of its least width: less than
+// that, the overlap is small and pushed out on the right side.
+bool is_far(double way, float thickness) {
+    return way > kContactRange + kThicknessShare * thickness;
+}
+
+double travel(const Mover& mover, float dt) {
+    return (length(mover.velocity) + length(mover.spin) * mover.body->reach) * dt;
 }
 
 float reach_of(const Hull& hull) {
@@ -66,11 +91,13 @@ float reach_of(const Hull& hull) {
 // The fraction of the step at which the two pieces come within kStop; `limit` when they do not before it.
 double touch_fraction(const Mover& a, const Hull& hull_a, const Mover& b, const Hull& hull_b, float dt, double limit) {
     const double turning = length(a.spin) * reach_of(hull_a) + length(b.spin) * reach_of(hull_b);
-    const double most = length(a.velocity) + length(b.velocity) + turning;
+    const bool is_stopped = a.body->moved_fraction < 1 || b.body->moved_fraction < 1;
+    const double most =
+        turning + (is_stopped ? length(a.velocity) + length(b.velocity) : length(a.velocity - b.velocity));
     const double margins = static_cast<double>(hull_a.margin) + hull_b.margin;
     Points points_a, points_b;
     Vec3d axis;
-    double t = 0;
+    double t = 0, stop = kStop;
     for (int round = 0; round < kRounds; ++round) {
         const btTransform at_a = a.at(t, dt), at_b = b.at(t, dt);
         transform_points(hull_a, rotation_of(at_a), from_bullet(at_a.getOrigin()), points_a);
@@ -80,14 +107,18 @@ double touch_fraction(const Mover& a, const Hull& hull_a, const Mover& b, const 
         if (closest.bound > enough) return limit;
         axis = closest.axis;
         const double gap = (closest.is_apart ? gap_along(points_a, points_b, axis) : -1.0) - margins;
-        if (round == 0 && gap < kTouching) return limit;
-        if (gap < kStop) return t;
+        if (round == 0 && gap < kTouching) {
+            // They touch: the solver has slowed them where they do, but the rest of a piece may still swing in.
+            stop = std::max(gap - kDeeper, kLeast - margins);
+            if (stop >= gap) return limit;
+        }
+        if (gap < stop) return t;
         // A body that was stopped earlier in the step may stand still by now: the bound holds for both.
         const double closing_a = -dot(a.velocity, axis), closing_b = dot(b.velocity, axis);
         const double closing = turning + (a.body->moved_fraction < 1 ? std::max(0.0, closing_a) : closing_a) +
                                (b.body->moved_fraction < 1 ? std::max(0.0, closing_b) : closing_b);
         if (!(closing > 1e-6)) return limit;
-        t += (gap - kAim) / (closing * dt);
+        t += (gap - stop + kAim) / (closing * dt);
         if (t >= limit) return limit;
     }
     return t;
@@ -116,11 +147,15 @@ void Sweeper::sweep_pair(BulletWorld& world, Body& a, Body& b, float dt) {
     if (!filters_meet(a, b) || world.is_apart_by_order(a.id, b.id)) return;
     PairWork& work = world.work_;
     const Mover mover_a = mover_of(a), mover_b = mover_of(b);
-    const Box all_b = swept_box(b.shape.box, mover_b, b.reach, dt);
+    const bool is_stopped = a.moved_fraction < 1 || b.moved_fraction < 1;
+    const double relative =
+        length(mover_a.velocity - mover_b.velocity) + length(mover_a.spin) * a.reach + length(mover_b.spin) * b.reach;
+    if (!is_stopped && !is_far(relative * dt, std::min(a.thickness, b.thickness))) return;
+    const float turned_b = turned(mover_b, b.reach, dt);
+    const Box all_a = relative_box(a.shape.box, mover_a, mover_b, a.reach, dt);
     work.near_b.clear();
-    const Box all_a = swept_box(a.shape.box, mover_a, a.reach, dt);
     for (const Hull* q = b.hulls; q; q = q->next)
-        if (overlap(q->world_box, all_a, kBoxGrowth + travel(mover_b, dt))) work.near_b.push_back(q);
+        if (overlap(q->world_box, all_a, turned_b)) work.near_b.push_back(q);
     const auto advance = [&](const Hull& p, const Hull& q) {
         const double limit = std::max(a.moved_fraction, b.moved_fraction);
         const double t = touch_fraction(mover_a, p, mover_b, q, dt, limit);
@@ -129,10 +164,10 @@ void Sweeper::sweep_pair(BulletWorld& world, Body& a, Body& b, float dt) {
         if (b.is_fast) b.moved_fraction = std::min(b.moved_fraction, static_cast<float>(t));
     };
     for (const Hull* p = a.hulls; p; p = p->next) {
-        const Box box = swept_box(p->world_box, mover_a, reach_of(*p), dt);
-        if (!overlap(box, all_b, 0)) continue;
+        const Box box = relative_box(p->world_box, mover_a, mover_b, reach_of(*p), dt);
+        if (!overlap(box, b.shape.box, turned_b)) continue;
         for (const Hull* q : work.near_b)
-            if (overlap(box, swept_box(q->world_box, mover_b, reach_of(*q), dt), 0)) advance(*p, *q);
+            if (overlap(box, q->world_box, turned(mover_b, reach_of(*q), dt))) advance(*p, *q);
         if (!b.mesh) continue;
         visit_triangles(*b.mesh, box, [&](uint32_t t) {
             build_triangle(work.triangle, b.mesh->triangles[t].corner, t);
@@ -150,7 +185,7 @@ uint32_t Sweeper::sweep(BulletWorld& world, float dt) {
         body.moved_fraction = 1;
         body.is_fast = false;
         const Mover mover = mover_of(body);
-        if (!(travel(mover, dt) > kContactRange + kThicknessShare * body.thickness)) continue;
+        if (!is_far(travel(mover, dt), body.thickness)) continue;
         body.is_fast = true;
         fast_.push_back({id, swept_box(body.shape.box, mover, body.reach, dt)});
     }

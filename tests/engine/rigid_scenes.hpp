@@ -76,18 +76,17 @@ inline ShardShape make_shard(float sphere, float rim, float thickness, float mar
     for (int i = -5; i <= 5; ++i) {
         for (int j = -5; j <= 5; ++j) {
             std::vector<Vec3> points;
+            const float middle = cell * std::sqrt(real(i * i + j * j));
+            if (middle > rim - 0.2f * cell) continue;
             for (int u = 0; u <= 2; ++u)
                 for (int v = 0; v <= 2; ++v) {
                     float x = (real(i) - 0.5f + 0.5f * real(u)) * cell, z = (real(j) - 0.5f + 0.5f * real(v)) * cell;
                     const float l = std::sqrt(x * x + z * z);
-                    if (l > rim) {
-                        if (l > rim + 0.7f * cell) continue;
-                        x *= rim / l, z *= rim / l;
-                    }
+                    if (l > rim) x *= rim / l, z *= rim / l;
                     points.push_back(lift(x, z, outside - margin));
                     points.push_back(lift(x, z, inner + margin));
                 }
-            if (points.size() >= 8) shape.cells.push_back(points);
+            shape.cells.push_back(points);
         }
     }
     for (int i = -40; i <= 40; ++i)
@@ -155,7 +154,7 @@ inline void drop_shards(RigidWorld& world, RigidId first, uint32_t count) {
         };
         const float x = 0.14f * (k % 2 ? 1 : -1), z = 0.14f * (k / 2 % 2 ? 1 : -1);
         const Quat q = normalised(Quat{draw(), draw(), draw(), draw() + 0.01f});
-        add_shard(world, first + k, {x + 0.02f * draw(), 0.2f + 0.16f * real(k / 4), z + 0.02f * draw()}, q);
+        add_shard(world, first + k, {x + 0.02f * draw(), 0.2f + 0.23f * real(k / 4), z + 0.02f * draw()}, q);
     }
 }
 

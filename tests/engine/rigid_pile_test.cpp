@@ -1,0 +1,92 @@
+// Heaps: rest, sleep, and what a step costs.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cstdio>
+
+#include "tests/engine/rigid_scenes.hpp"
+
+namespace cullet {
+namespace {
+
+TEST(RigidPile, AShardAloneRestsOnTheFloorWithoutSinkingOrHovering) {
+    auto world = floor_world(8);
+    add_shard(*world, 1, {0, 0.1f, 0}, normalised(Quat{0.2f, 0.1f, 0.1f, 0.9f}));
+    float least = 1;
+    for (int k = 0; k < 180; ++k) {
+        world->detect(kStep);
+        if (!world->contacts().empty()) least = 1;
+        for (const RigidContact& c : world->contacts()) least = std::min(least, c.distance);
+        world->solve(kStep);
+    }
+    EXPECT_TRUE(world->is_asleep(1));
+    EXPECT_GT(least, -0.001f);
+    EXPECT_LT(least, 0.001f);
+}
+
+TEST(RigidPile, FiftyCurvedShardsSleepAfterFiveSeconds) {
+    constexpr uint32_t kShards = 50;
+    auto world = floor_world(kShards + 8);
+    drop_shards(*world, 1, kShards);
+    double total = 0, worst = 0;
+    int most_asleep = -1;
+    for (int k = 0; k < 300; ++k) {
+        const auto begin = std::chrono::steady_clock::now();
+        step(*world);
+        const double ms = std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - begin).count();
+        total += ms;
+        worst = std::max(worst, ms);
+        uint32_t asleep = 0;
+        for (uint32_t id = 1; id <= kShards; ++id) asleep += world->is_asleep(id);
+        if (most_asleep < 0 && 20 * asleep >= 19 * kShards) most_asleep = k;
+    }
+    uint32_t asleep = 0;
+    for (uint32_t id = 1; id <= kShards; ++id) {
+        asleep += world->is_asleep(id);
+        EXPECT_GT(world->pose(id).position.y, -0.01f) << id;
+        world->wake(id);
+    }
+    EXPECT_GE(20 * asleep, 19 * kShards);
+    world->detect(kStep);
+    std::vector<float> depths;
+    float floor_depth = 0;
+    for (const RigidContact& c : world->contacts()) {
+        depths.push_back(-c.distance);
+        if (c.a == 0) floor_depth = std::max(floor_depth, -c.distance);
+    }
+    std::sort(depths.begin(), depths.end());
+    std::printf(
+        "asleep %u of %u, 95 %% at %.2f s; overlap 95 %% %.2f mm, worst %.2f mm, floor %.2f mm; step mean %.2f ms, "
+        "worst %.2f ms\n",
+        asleep, kShards, real(most_asleep) * kStep, 1000 * depths[depths.size() * 95 / 100], 1000 * depths.back(),
+        1000 * floor_depth, total / 300, worst);
+    EXPECT_LT(depths[depths.size() * 95 / 100], 0.004f);
+    // The goal is 4 mm for the worst overlap too; it is not met yet (8.2 mm between two shards). This only guards
+    // against worse.
+    EXPECT_LT(depths.back(), 0.010f);
+    world->solve(kStep);
+}
+
+TEST(RigidPile, AThousandHullsAreTimed) {
+    constexpr uint32_t kHulls = 1000;
+    auto world = floor_world(kHulls + 8);
+    for (uint32_t k = 0; k < kHulls; ++k) {
+        const Vec3 at{0.17f * real(k % 10) - 0.8f, 0.1f + 0.17f * real(k / 100), 0.17f * real(k / 10 % 10) - 0.8f};
+        add_box(*world, 1 + k, at, {0.075f, 0.05f, 0.06f}, 1000, RigidKind::Dynamic,
+                normalised(Quat{0.1f * real(k % 7), 0.1f * real(k % 5), 0.1f, 1}));
+    }
+    double total = 0, worst = 0;
+    for (int k = 0; k < 120; ++k) {
+        const auto begin = std::chrono::steady_clock::now();
+        step(*world);
+        const double ms = std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - begin).count();
+        total += ms;
+        worst = std::max(worst, ms);
+    }
+    std::printf("1,000 hulls: step mean %.2f ms, worst %.2f ms, %u contacts\n", total / 120, worst,
+                world->counts().contacts);
+}
+
+}  // namespace
+}  // namespace cullet
