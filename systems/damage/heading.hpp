@@ -30,7 +30,7 @@ struct ChosenHeading {
 /// the smaller turn wins, then the positive one, then the outer face.
 ChosenHeading choose_heading(const HeadingFan& fan, Vec3 x, Vec3 y, const FaceStress (&face)[2]);
 
-/// `direction` turned into the plane of unit `normal`, keeping its length out of it; zero when it stands on the plane.
+/// `direction` turned into the plane of unit `normal`, as a unit vector; zero when it stands upright on the plane.
 Vec3 into_plane(Vec3 direction, Vec3 normal);
 
 }  // namespace cullet
