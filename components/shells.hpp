@@ -96,7 +96,11 @@ struct Vertices : Table<Vertices> {
     Column<Vec3> velocity{*this, "velocity", "m/s"};           // v
     Column<Float4, Buffers::Two> probe{*this, "probe", "m"};   // u + beta v, where forces are evaluated; .w is 0
     Column<float> stiffness_scale{*this, "stiffness_scale"};   // B7's limit at this vertex, in (0, 1]
+    Column<Vec3> drawn_shift{*this, "drawn_shift", "m"};       // smooths drawn crack lines (C6); nothing else sees it
     Column<uint32_t> copy{*this, "copy", "1", Keep::Scratch};  // make_piece: row in the piece being made
+    // Scratch of smooth_crack_lines: the neighbours along the free border, kNone where there is none.
+    Column<uint32_t> border_next{*this, "border_next", "1", Keep::Scratch};
+    Column<uint32_t> border_previous{*this, "border_previous", "1", Keep::Scratch};
 };
 
 enum class EdgeKind : uint8_t { Interior = 0, Border = 1, Crack = 2 };
@@ -142,11 +146,9 @@ struct TriangleSprings : Table<TriangleSprings> {
     Column<float> area{*this, "area", "m2"};
     Column<float> thickness{*this, "thickness", "m"};  // mean depth of the corners, at least 0.05 of the wanted depth
     Column<float> scale{*this, "scale"};               // B7's limit, in (0, 1]; also scales the stress
-    /// Curvature (xx, yy, xy) a radian of the hinge across edge k: length / (2 area) * p p^T, p the edge's normal in
-    /// the plane.
-    Column<Vec3> curvature_0{*this, "curvature_0", "1/m"};
-    Column<Vec3> curvature_1{*this, "curvature_1", "1/m"};
-    Column<Vec3> curvature_2{*this, "curvature_2", "1/m"};
+    /// Of edge k: 1 / |gradient of the shape function of the corner opposite|. A radian of the hinge across edge k
+    /// gives the curvature altitude * gradient gradient^T, which is B3's length / (2 area) * p p^T.
+    Column<Vec3> altitude{*this, "altitude", "m"};
 };
 
 /// One row is one interior edge that resists bending: theta = sum of gradient . u over its four vertices (B3).
@@ -156,9 +158,10 @@ struct Hinges : Table<Hinges> {
     Column<std::array<uint32_t, 4>> vertex{*this,
                                            "vertex"};  // 0, 1: the edge; 2, 3: the corners opposite; [0] == kNone: dead
     Column<std::array<float, 12>> gradient{*this, "gradient", "1/m"};
-    Column<float> stiffness{*this, "stiffness", "J"};           // D L^2 / (A1 + A2), unscaled
-    Column<float> scale{*this, "scale"};                        // B7's limit, in (0, 1]
-    Column<float> angle{*this, "angle", "rad", Keep::Scratch};  // theta, written by the stress check
+    Column<float> stiffness{*this, "stiffness", "J"};  // D L^2 / (A1 + A2), unscaled
+    Column<float> scale{*this, "scale"};               // B7's limit, in (0, 1]
+    /// theta is the sum of what its two elements add, lower element first; written by the stress check.
+    Column<std::array<float, 2>> angle{*this, "angle", "rad", Keep::Scratch};
 };
 
 /// One row is 8 vertices' share of the stiffness: f_i = sum_j K_ij (w_j - w_i), difference form (section 10).

@@ -3,9 +3,11 @@
 // pass.
 #pragma once
 #include <functional>
+#include <span>
 #include <string>
 #include <vector>
 
+#include "engine/assert.hpp"
 #include "engine/fp_mode.hpp"
 #include "engine/jobs.hpp"
 #include "engine/profiler.hpp"
@@ -209,7 +211,7 @@ class FramePlan {
             call.body = system.body_of_call ? system.body_of_call(world, chunk) : chunk;
         if (system.kind == CallKind::Islands) {
             if constexpr (requires(World & w) { w.island(0u); }) {
-                const auto rows = world.island(chunk);
+                const std::span<const uint32_t> rows = world.island(chunk);  // the world keeps the list
                 call.island = rows.data();
                 call.island_size = static_cast<uint32_t>(rows.size());
             }

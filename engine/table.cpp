@@ -74,6 +74,7 @@ std::string AnyTable::first_difference(const AnyTable& other) const {
     if (size_ != other.size_)
         return std::string(name_) + ": " + std::to_string(size_) + " rows here, " + std::to_string(other.size_) +
                " there";
+    if (size_ == 0) return {};
     for (const ColumnInfo& c : *columns_) {
         if (c.keep != Keep::State) continue;
         for (int a = 0; a < c.lanes * c.sides; ++a) {

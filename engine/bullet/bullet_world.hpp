@@ -47,6 +47,7 @@ class BulletWorld final : public RigidWorld {
     void skip_contacts(RigidId a, RigidId b) override;
     void ignore_pair(RigidId a, RigidId b, float seconds, bool until_apart) override;
     void solve(float dt) override;
+    float height_below(Vec3 point, float fallback) const override;
     bool is_asleep(RigidId id) const override;
     void wake(RigidId id) override;
     RigidCounts counts() const override { return counts_; }

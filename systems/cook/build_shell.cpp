@@ -5,7 +5,6 @@
 #include <string>
 #include <vector>
 
-#include "engine/random.hpp"
 #include "systems/cook/order_cells.hpp"
 #include "systems/fragments/cell_hulls.hpp"
 #include "systems/fragments/mass_properties.hpp"
@@ -14,8 +13,7 @@
 namespace cullet {
 namespace {
 
-constexpr double kLeastDepth = 0.05;  // of the wanted depth, for mass alone; the drawn depth stays
-constexpr double kWeibullModulus = 12;
+constexpr double kLeastDepth = 0.05;  // of the wanted depth, for mass, stiffness and contact; the drawn depth stays
 
 Error refuse(const std::string& what, size_t index, const std::string& rest) {
     return Error{"shell source: " + what + " " + std::to_string(index) + " " + rest};
@@ -111,14 +109,6 @@ Result<void> check_fans(const ShellSource& s) {
     return {};
 }
 
-// Weibull about the median 1: (-ln(1 - u) / ln 2)^(1/m), so that a body's strength is its material's.
-float strength_factor(uint64_t seed, uint32_t vertex) {
-    const double u = Random{seed}.uniform(vertex);
-    const double x = -logarithm(1.0 - u) / logarithm(2.0);
-    const double factor = x > 0 ? exponential(logarithm(x) / kWeibullModulus) : 0.0;
-    return static_cast<float>(std::clamp(factor, 0.5, 1.5));
-}
-
 void write_vertices(ShellView shell, const ShellSource& source, const CellOrder& order) {
     Vertices& vertices = shell.state.vertices;
     for (uint32_t v = 0; v < source.position.size(); ++v) {
@@ -126,7 +116,7 @@ void write_vertices(ShellView shell, const ShellSource& source, const CellOrder&
         vertices.rest.set(row, source.position[v].to_float());
         vertices.inward.set(row, normalised(source.inward[v]).to_float());
         vertices.depth[row] = static_cast<float>(source.depth[v]);
-        vertices.strength_factor[row] = strength_factor(source.seed, v);
+        vertices.strength_factor[row] = 1;
         vertices.crack_start[row] = kNone;
         vertices.stiffness_scale[row] = 1;
     }
@@ -265,6 +255,7 @@ Result<Row<Shells>> build_shell(State& state, const ShellSource& source, Row<Mat
     sum_vertex_masses(shell);
     measure_shell(shell);
     state.shells.mean_edge[row] = mean_edge(shell);
+    state.shells.depth_floor[row] = static_cast<float>(kLeastDepth * source.wanted_depth);
     build_hulls(shell);
     return row;
 }

@@ -19,11 +19,11 @@ struct ShellSource {
     std::span<const uint16_t> drawn_material;            // one an element; empty: zero
     std::span<const uint8_t> is_degenerate;              // one an element; empty: none
     double wanted_depth = 0;                             // m; mass has a floor of 0.05 of it where depth is smaller
-    uint64_t seed = 0;                                   // of the strengths
 };
 
-/// A new shell with one user: vertices, elements, hinges (vertices only), cells and hulls, mass properties, strengths.
-/// Springs, stiffness, limits and time step are assembled afterwards (systems/damage). An error names the first bad
+/// A new shell with one user: vertices, elements, hinges (vertices only), cells and hulls, mass properties.
+/// Strengths are the median. Springs, stiffness, limits, strengths and time step are filled in afterwards
+/// (systems/damage). An error names the first bad
 /// entry. Cost: about 10 microseconds a vertex.
 Result<Row<Shells>> build_shell(State& state, const ShellSource& source, Row<Materials> material);
 

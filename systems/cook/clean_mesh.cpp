@@ -67,6 +67,28 @@ std::vector<uint32_t> weld(const Mesh& mesh, std::vector<Vec3d>& distinct) {
     return rank;
 }
 
+// Positions within the tolerance of an earlier one (in each coordinate) become that one; returns how many did.
+uint32_t weld_near(const std::vector<Vec3d>& distinct, double tolerance, std::vector<uint32_t>& rank) {
+    Vec3d low = distinct[0], high = low;
+    for (const Vec3d p : distinct) {
+        low = {std::min(low.x, p.x), std::min(low.y, p.y), std::min(low.z, p.z)};
+        high = {std::max(high.x, p.x), std::max(high.y, p.y), std::max(high.z, p.z)};
+    }
+    const double reach = tolerance * length(high - low);
+    std::vector<uint32_t> kept(distinct.size(), kNone);
+    uint32_t count = 0;
+    for (uint32_t a = 0; a < distinct.size(); ++a) {
+        if (kept[a] != kNone) continue;
+        kept[a] = a;
+        for (uint32_t b = a + 1; b < distinct.size() && distinct[b].x - distinct[a].x <= reach; ++b)
+            if (kept[b] == kNone && std::fabs(distinct[b].y - distinct[a].y) <= reach &&
+                std::fabs(distinct[b].z - distinct[a].z) <= reach)
+                kept[b] = a, ++count;
+    }
+    for (uint32_t& r : rank) r = kept[r];
+    return count;
+}
+
 Corners smallest_first(Corners c) {
     const size_t first = static_cast<size_t>(std::min_element(c.id.begin(), c.id.end()) - c.id.begin());
     Corners turned = c;
@@ -121,12 +143,15 @@ void drop_unused(CleanMesh& clean, uint32_t distinct, SurfaceRepairs& repairs) {
 
 }  // namespace
 
-Result<CleanMesh> clean_mesh(const Mesh& mesh, SurfaceRepairs& repairs) {
+Result<CleanMesh> clean_mesh(const Mesh& mesh, const SurfaceSettings& settings, SurfaceRepairs& repairs) {
     if (auto checked = check(mesh); !checked) return Error{checked.error()};
     CleanMesh clean;
-    const std::vector<uint32_t> rank = weld(mesh, clean.positions);
+    std::vector<uint32_t> rank = weld(mesh, clean.positions);
     const uint32_t distinct = static_cast<uint32_t>(clean.positions.size());
     repairs.welded_vertices = static_cast<uint32_t>(mesh.positions.size()) - distinct;
+    uint32_t near_count = 0;
+    if (settings.weld_tolerance > 0) near_count = weld_near(clean.positions, settings.weld_tolerance, rank);
+    repairs.welded_vertices += near_count;
 
     std::vector<Corners> corners;
     corners.reserve(mesh.triangles.size());
@@ -165,6 +190,7 @@ Result<CleanMesh> clean_mesh(const Mesh& mesh, SurfaceRepairs& repairs) {
     }
     measure(clean, corners);
     drop_unused(clean, distinct, repairs);
+    repairs.unused_vertices -= near_count;
     return clean;
 }
 

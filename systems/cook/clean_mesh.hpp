@@ -13,6 +13,6 @@ struct CleanMesh {
     double diagonal = 0;                                 // m
 };
 
-Result<CleanMesh> clean_mesh(const Mesh& mesh, SurfaceRepairs& repairs);
+Result<CleanMesh> clean_mesh(const Mesh& mesh, const SurfaceSettings& settings, SurfaceRepairs& repairs);
 
 }  // namespace cullet

@@ -39,7 +39,8 @@ bool has_turned_inside_out(ExtrusionWork& work, const std::vector<double>& depth
     }
     bool has_turned = false;
     for (uint32_t c = 0; c < outer.size(); ++c) {
-        if (!work.surface.components[c].is_closed || outer[c] * inner[c] > 0) continue;
+        // Equal to the last bit: no depth at all, as on a closed surface folded flat.
+        if (!work.surface.components[c].is_closed || outer[c] * inner[c] > 0 || outer[c] == inner[c]) continue;
         has_turned = true;
         ++work.statistics.repeats;
         for (uint32_t v = 0; v < work.vertex_count(); ++v)

@@ -205,20 +205,30 @@ void find_components(const CleanMesh& mesh, const std::vector<Joint>& joints, co
     }
 }
 
-// Whether the ray from p in a direction no mesh is likely to follow crosses component `which` an odd number of times.
-bool is_inside(const CleanMesh& mesh, const Surface& surface, uint32_t which, Vec3d p) {
+// Whether p lies inside a closed component other than `self`: the ray from p in a direction no mesh is likely to follow
+// crosses that one an odd number of times. One pass over the mesh for all of them.
+bool is_inside_another(const CleanMesh& mesh, const Surface& surface, uint32_t self, Vec3d p) {
     const Vec3d ray(0.5377416, 0.6180339, 0.5733182);
-    bool is_odd = false;
+    std::vector<uint8_t> is_odd(surface.components.size());
     for (uint32_t t = 0; t < mesh.triangles.size(); ++t) {
-        if (surface.component_of[t] != which) continue;
         const Triangle& c = mesh.triangles[t];
         const Vec3d a = mesh.positions[c[0]] - p, b = mesh.positions[c[1]] - p, d = mesh.positions[c[2]] - p;
         const double u = dot(ray, cross(a, b)), v = dot(ray, cross(b, d)), w = dot(ray, cross(d, a));
         if (!((u > 0 && v > 0 && w > 0) || (u < 0 && v < 0 && w < 0))) continue;
         const Vec3d normal = cross(b - a, d - a);
-        if (dot(normal, a) / dot(normal, ray) > 0) is_odd = !is_odd;
+        if (dot(normal, a) / dot(normal, ray) > 0) is_odd[surface.component_of[t]] ^= 1;
     }
-    return is_odd;
+    for (uint32_t c = 0; c < is_odd.size(); ++c)
+        if (c != self && is_odd[c] && surface.components[c].is_closed) return true;
+    return false;
+}
+
+// A point just inside a component that is inside out: its normals point there. Not on the surface, where another body
+// may touch.
+Vec3d point_within(const CleanMesh& mesh, const SurfaceComponent& component) {
+    const Triangle& t = mesh.triangles[component.first_triangle];
+    const Vec3d a = mesh.positions[t[0]], b = mesh.positions[t[1]], c = mesh.positions[t[2]];
+    return (1.0 / 3) * (a + b + c) + (1e-7 * mesh.diagonal) * normalised(cross(b - a, c - a));
 }
 
 // A closed component inside out is turned, unless it lies inside another closed one: then it is the wall of a cavity.
@@ -227,10 +237,7 @@ void turn_inside_out(CleanMesh& mesh, Surface& surface) {
     for (uint32_t c = 0; c < surface.components.size(); ++c) {
         SurfaceComponent& component = surface.components[c];
         if (!component.is_closed || component.volume >= 0) continue;
-        const Vec3d p = mesh.positions[mesh.triangles[component.first_triangle][0]];
-        for (uint32_t other = 0; other < surface.components.size() && !component.is_cavity; ++other)
-            component.is_cavity =
-                other != c && surface.components[other].is_closed && is_inside(mesh, surface, other, p);
+        component.is_cavity = is_inside_another(mesh, surface, c, point_within(mesh, component));
         if (component.is_cavity) {
             ++surface.repairs.cavities;
             continue;

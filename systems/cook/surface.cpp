@@ -43,18 +43,26 @@ std::string describe(const SurfaceRepairs& r) {
     say(r.crossing_pairs, "found ",
         " pairs of triangles that cut or touch each other (never tested against each other)");
     say(r.independent_pairs, "took ", " pairs of components that meet as bodies of their own");
-    return text.empty() ? "Surface: nothing to repair." : text + ".";
+    text = text.empty() ? "Surface: nothing to repair" : text;
+    if (r.is_mostly_border)
+        text += "; most edges are borders, so prepare it with weld_tolerance 1e-7 if its positions are noisy";
+    return text + ".";
 }
 
-Result<Surface> prepare_surface(const Mesh& mesh, bool with_crossings) {
+Result<Surface> prepare_surface(const Mesh& mesh, const SurfaceSettings& settings) {
+    if (!(settings.weld_tolerance >= 0 && settings.weld_tolerance <= 0.01))
+        return Error{"prepare_surface: weld_tolerance " + std::to_string(settings.weld_tolerance) +
+                     " must be 0 to 0.01 of the diagonal; 1e-7 heals a soup with noise."};
     Surface surface;
-    Result<CleanMesh> clean = clean_mesh(mesh, surface.repairs);
+    Result<CleanMesh> clean = clean_mesh(mesh, settings, surface.repairs);
     if (!clean) return Error{clean.error()};
     make_sheets(std::move(*clean), surface);
-    if (with_crossings) surface.crossings = find_crossings(surface);
+    if (settings.searches_crossings) surface.crossings = find_crossings(surface);
     surface.independent = find_independent(surface);
     surface.repairs.crossing_pairs = static_cast<uint32_t>(surface.crossings.size());
     surface.repairs.independent_pairs = static_cast<uint32_t>(surface.independent.size() / 2);
+    surface.repairs.is_mostly_border =
+        surface.triangles.size() > 8 && 2 * surface.border_edges.size() > 3 * surface.triangles.size();
     return surface;
 }
 

@@ -1,6 +1,7 @@
 #include "systems/damage/crack_candidates.hpp"
 
 #include <algorithm>
+#include <cstring>
 
 #include "systems/damage/ring.hpp"
 
@@ -10,36 +11,62 @@ namespace {
 constexpr float kPi = 3.14159265358979f;
 constexpr float kRaise = 1.25f, kMostRaise = 1e30f;  // the second ends the search for stresses that are infinite
 
-// Vertices next to an element whose principal stress passes a limit of theirs, each once, in `candidates`. False: more
-// than fit.
-bool collect(ShellView shell, const CrackLimits& limits, float raise, float time, Candidates& candidates) {
-    const Elements& elements = shell.state.elements;
+// Ready tips with an element whose principal stress passes their limit. A byte a vertex is looked at, eight at a time.
+void collect_tips(ShellView shell, const CrackLimits& limits, float time, Candidates& candidates) {
     const Vertices& vertices = shell.state.vertices;
-    const float tip_limit = raise * limits.tip, start_limit = raise * limits.start;
-    const float lowest = std::min(tip_limit, static_cast<float>(kLeastStrengthFactor) * start_limit);
-    const uint32_t first = shell.elements().first, count = shell.element_count();
+    const uint32_t first = shell.vertices().first, count = shell.vertex_count();
+    const uint8_t* crack = vertices.crack.data() + first;
+    Ring ring;
+    for (uint32_t v = 0; v < count; ++v) {
+        uint64_t flags = 1;
+        if (v % 8 == 0 && v + 8 <= count) std::memcpy(&flags, crack + v, 8);
+        if (flags == 0) {
+            v += 7;
+            continue;
+        }
+        if (crack[v] != static_cast<uint8_t>(CrackState::Tip) || time < vertices.ready_time[first + v]) continue;
+        walk_ring(shell, v, ring);
+        bool passes = false;
+        for (uint32_t i = 0; i < ring.count; ++i)
+            passes |= shell.state.elements.principal[shell.element(ring.element[i])] > limits.tip;
+        if (passes && candidates.count < Candidates::kMost) candidates.candidate[candidates.count++] = {true, v, 0};
+    }
+}
+
+bool may_start(ShellView shell, uint32_t vertex, float principal, float limit) {
+    const Vertices& vertices = shell.state.vertices;
+    const uint32_t row = shell.vertex(vertex);
+    return vertices.crack[row] == static_cast<uint8_t>(CrackState::None) && !vertices.is_start_banned[row] &&
+           principal > limit * vertices.strength_factor[row];
+}
+
+// Vertices that may start a crack next to an element whose principal stress passes their limit, each once, behind the
+// first `tips` candidates. False: more than fit.
+bool collect_starts(ShellView shell, float limit, uint32_t tips, Candidates& candidates) {
+    const Elements& elements = shell.state.elements;
+    const float lowest = static_cast<float>(kLeastStrengthFactor) * limit;
+    const uint32_t first = shell.elements().first, end = first + shell.element_count();
     Candidate* const out = candidates.candidate;
-    candidates.count = 0;
+    candidates.count = tips;
     const auto drop_repeats = [&] {
-        std::sort(out, out + candidates.count, [](auto& a, auto& b) { return a.vertex < b.vertex; });
+        std::sort(out + tips, out + candidates.count, [](auto& a, auto& b) { return a.vertex < b.vertex; });
         const auto is_same = [](auto& a, auto& b) { return a.vertex == b.vertex; };
-        candidates.count = static_cast<uint32_t>(std::unique(out, out + candidates.count, is_same) - out);
+        candidates.count = static_cast<uint32_t>(std::unique(out + tips, out + candidates.count, is_same) - out);
     };
-    for (uint32_t e = first; e < first + count; ++e) {
-        const float principal = elements.principal[e];
-        if (!(principal > lowest) || (elements.flags[e] & kDead)) continue;
-        for (const uint32_t v : elements.corner[e]) {
-            const uint32_t row = shell.vertex(v);
-            const bool is_tip = vertices.crack[row] == static_cast<uint8_t>(CrackState::Tip);
-            const bool is_free =
-                vertices.crack[row] == static_cast<uint8_t>(CrackState::None) && !vertices.is_start_banned[row];
-            const bool passes = is_tip    ? principal > tip_limit && time >= vertices.ready_time[row]
-                                : is_free ? principal > start_limit * vertices.strength_factor[row]
-                                          : false;
-            if (!passes) continue;
-            if (candidates.count == Candidates::kMost) drop_repeats();
-            if (candidates.count == Candidates::kMost) return false;
-            out[candidates.count++] = {is_tip, v, 0};
+    const float* principal = elements.principal.data();
+    constexpr uint32_t kBlock = 32;
+    for (uint32_t block = first; block < end; block += kBlock) {
+        const uint32_t block_end = std::min(block + kBlock, end);
+        int any = 0;  // most blocks of most checks are far below
+        for (uint32_t e = block; e < block_end; ++e) any |= principal[e] > lowest;
+        for (uint32_t e = any ? block : block_end; e < block_end; ++e) {
+            if (!(principal[e] > lowest) || (elements.flags[e] & kDead)) continue;
+            for (const uint32_t v : elements.corner[e]) {
+                if (!may_start(shell, v, principal[e], limit)) continue;
+                if (candidates.count == Candidates::kMost) drop_repeats();
+                if (candidates.count == Candidates::kMost) return false;
+                out[candidates.count++] = {false, v, 0};
+            }
         }
     }
     drop_repeats();
@@ -87,10 +114,13 @@ ChosenHeading tip_heading(ShellView shell, uint32_t vertex, const HeadingFan& fa
 
 void choose_candidates(ShellView shell, const CrackLimits& limits, const HeadingFan& fan, float time,
                        Candidates& candidates) {
+    candidates.count = 0;
+    collect_tips(shell, limits, time, candidates);
+    const uint32_t tips = candidates.count;
     float raise = 1;
-    while (!collect(shell, limits, raise, time, candidates) && raise < kMostRaise) raise *= kRaise;
+    while (!collect_starts(shell, raise * limits.start, tips, candidates) && raise < kMostRaise) raise *= kRaise;
     // Equally stressed everywhere: the first of them by element, as many as fit.
-    if (candidates.count == 0 && raise > 1) collect(shell, limits, raise / kRaise, time, candidates);
+    if (candidates.count == tips && raise > 1) collect_starts(shell, raise / kRaise * limits.start, tips, candidates);
     uint32_t kept = 0;
     for (uint32_t i = 0; i < candidates.count; ++i) {
         Candidate c = candidates.candidate[i];

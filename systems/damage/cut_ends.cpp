@@ -6,7 +6,7 @@
 namespace cullet {
 namespace {
 
-// The element of the ring whose first edge runs from the vertex to `end` and has a neighbour across, or kNone.
+// Index in the ring of the element whose first edge runs from the vertex to `end` and has a neighbour across, or kNone.
 uint32_t element_before(ShellView shell, const Ring& ring, uint32_t end) {
     for (uint32_t i = 0; i < ring.count; ++i) {
         const uint32_t row = shell.element(ring.element[i]);
@@ -41,10 +41,18 @@ CutOutcome cut_ends(ShellView shell, uint32_t vertex, Ends& ends, Touched& touch
     }
     if (shell.vertex_count() + copies > shell.vertices().capacity) return CutOutcome::Full;
 
-    for (uint32_t i = 0; i < ends.count; ++i) cut_edge(shell, ring.element[first[i]], ring.corner[first[i]]);
+    for (uint32_t i = 0; i < ends.count; ++i) {
+        // The corners opposite lose a hinge.
+        const uint32_t before = (first[i] + ring.count - 1) % ring.count;
+        touched.add_hinge_end(
+            shell.state.elements.corner[shell.element(ring.element[before])][(ring.corner[before] + 1) % 3]);
+        touched.add(
+            shell.state.elements.corner[shell.element(ring.element[first[i]])][(ring.corner[first[i]] + 2) % 3]);
+        cut_edge(shell, ring.element[first[i]], ring.corner[first[i]]);
+    }
     split_and_mark(shell, vertex, ring, touched);
     for (uint32_t i = 0; i < ends.count; ++i) {
-        touched.add(ends.end[i]);
+        touched.add_hinge_end(ends.end[i]);
         if (!ends.is_interior[i]) split_and_mark(shell, ends.end[i], end_ring[i], touched);
     }
     shell.shells().has_cracks[shell.row] = 1;

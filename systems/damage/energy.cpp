@@ -51,10 +51,11 @@ double kinetic_energy(ShellView shell, uint32_t side, uint32_t first, uint32_t c
 
 double bending_energy(ShellView shell, uint32_t first, uint32_t count) {
     const Hinges& hinges = shell.state.hinges;
+    const auto angle = [&](uint32_t row) { return double{hinges.angle[row][0] + hinges.angle[row][1]}; };
     double sum = 0;
     for (uint32_t row = shell.hinge(first); row < shell.hinge(first) + count; ++row)
         if (hinges.vertex[row][0] != kNone)
-            sum += double{hinges.stiffness[row]} * hinges.scale[row] * (double{hinges.angle[row]} * hinges.angle[row]);
+            sum += double{hinges.stiffness[row]} * hinges.scale[row] * (angle(row) * angle(row));
     return 0.5 * sum;
 }
 
@@ -65,12 +66,11 @@ TaskEnergy task_energy(State& state, Row<Tasks> task) {
     energy.kinetic = sum_chunks(shell.vertex_count(), [&](uint32_t first, uint32_t count) {
         return kinetic_energy(shell, scratch, first, count);
     });
-    bend_hinges(shell, scratch, 0, shell.hinge_count());
-    energy.bending = sum_chunks(shell.hinge_count(),
-                                [&](uint32_t first, uint32_t count) { return bending_energy(shell, first, count); });
     energy.membrane = sum_chunks(shell.element_count(), [&](uint32_t first, uint32_t count) {
         return membrane_energy(shell, scratch, first, count);
     });
+    energy.bending = sum_chunks(shell.hinge_count(),
+                                [&](uint32_t first, uint32_t count) { return bending_energy(shell, first, count); });
     add_contacts(state, task, shell, energy);
     return energy;
 }

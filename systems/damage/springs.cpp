@@ -24,12 +24,6 @@ double mean_depth(const ShellView& shell, uint32_t a, uint32_t b, uint32_t c) {
     return std::max((depth(shell, a) + depth(shell, b) + depth(shell, c)) / 3, least_depth(shell));
 }
 
-/// length / (2 area) * p p^T of the edge from p to q: (xx, yy, xy) with p the edge's normal in the plane.
-Vec3 edge_curvature(double dx, double dy, double area) {
-    const double l = std::sqrt(dx * dx + dy * dy), s = 1 / (2 * area * l);  // p = (dy, -dx) / l
-    return {static_cast<float>(s * dy * dy), static_cast<float>(s * dx * dx), static_cast<float>(-s * dx * dy)};
-}
-
 /// One side of a hinge: the triangle on edge 0-1 with the corner `o` opposite.
 struct Flap {
     Vec3d slope;     // normal / altitude, 1/m
@@ -65,9 +59,10 @@ void assemble_element(ShellView shell, uint32_t element) {
     springs.inverse_edges.set(
         row, {static_cast<float>(1 / l), static_cast<float>(-cx / (l * cy)), static_cast<float>(1 / cy)});
     springs.area[row] = static_cast<float>(area);
-    springs.curvature_0.set(row, edge_curvature(l, 0, area));
-    springs.curvature_1.set(row, edge_curvature(cx - l, cy, area));
-    springs.curvature_2.set(row, edge_curvature(-cx, -cy, area));
+    const auto altitude = [&](double dx, double dy) {
+        return static_cast<float>(twice_area / std::sqrt(dx * dx + dy * dy));
+    };
+    springs.altitude.set(row, {altitude(l, 0), altitude(cx - l, cy), altitude(cx, cy)});
 }
 
 uint32_t assemble_hinge(ShellView shell, uint32_t hinge) {

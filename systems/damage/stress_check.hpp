@@ -1,20 +1,27 @@
 // Stress of both faces of every triangle (thick shell note C1): sigma = C (eps -+ (h/2) kappa), outer face minus. Two
-// passes, hinges before elements; each may run in chunks of any size, on any thread, in any order.
+// passes over the elements, the second after all of the first; each may run in chunks, on any threads, in any order.
+//
+// A hinge's angle is the sum of the slopes of its two triangles against the edge, so the first pass, which has a
+// triangle's corners in registers, gives both its strain and its shares of three hinges; a pass over hinges that
+// gathers four vertices each took as long as the rest.
 //
 // Displacements are read from side `side` of the probe. That is the side which the next step will read, so the stress
-// is that of 0.15 dt later than u: the strain that the next forces come from. (Or stage_displacements writes u itself.)
+// is that of 0.15 dt later than u: the strain that the next forces come from. (kinetic_energy can put u itself there.)
 #pragma once
 #include "components/state.hpp"
 
 namespace cullet {
 
-/// Hinges.angle of hinges [first, first + count), relative to the shell; a dead hinge gets 0.
-void bend_hinges(ShellView shell, uint32_t side, uint32_t first, uint32_t count);
-/// Elements.outer_stress, inner_stress (in the triangle's axes, scaled by B7's limit) and principal. `first` is a
-/// multiple of 8, `count` too unless the range ends with the shell's last element.
-void stress_elements(ShellView shell, uint32_t side, uint32_t first, uint32_t count);
+/// First pass, elements [first, first + count): membrane stress (kept in outer_stress) and the elements' shares of
+/// Hinges.angle. `first` is a multiple of 8, `count` too unless the range ends with the shell's last element.
+void strain_elements(ShellView shell, uint32_t side, uint32_t first, uint32_t count);
+/// Second pass: Elements.outer_stress, inner_stress (in the triangle's axes, scaled by B7's limit) and principal, the
+/// larger of both faces. Ranges as above.
+void stress_elements(ShellView shell, uint32_t first, uint32_t count);
+/// Both passes over the whole shell.
+void check_stress(ShellView shell, uint32_t side);
 
-/// Membrane energy of elements [first, first + count), J; `first` a multiple of 8.
+/// Like strain_elements, but returns the membrane energy of the elements, J, and leaves their stress alone.
 double membrane_energy(ShellView shell, uint32_t side, uint32_t first, uint32_t count);
 
 }  // namespace cullet

@@ -57,6 +57,23 @@ uint32_t group_fragments(ShellView shell, std::span<FragmentPart> parts) {
     return count;
 }
 
+void join_parts(ShellView shell, std::span<FragmentPart> parts, uint32_t from, uint32_t to) {
+    if (from == to || parts[from].element_count == 0) return;
+    Elements& elements = shell.state.elements;
+    for (uint32_t e = parts[from].first_element; e != kNone; e = elements.next[shell.element(e)])
+        elements.part[shell.element(e)] = to;
+    FragmentPart& target = parts[to];
+    if (target.element_count == 0)
+        target.first_element = parts[from].first_element;
+    else
+        elements.next[shell.element(target.last_element)] = parts[from].first_element;
+    target.last_element = parts[from].last_element;
+    target.element_count += parts[from].element_count;
+    target.mass += parts[from].mass;
+    target.has_pins = target.has_pins || parts[from].has_pins;
+    parts[from] = {};
+}
+
 uint32_t largest_part(std::span<const FragmentPart> parts) {
     uint32_t best = 0;
     for (uint32_t p = 1; p < parts.size(); ++p)

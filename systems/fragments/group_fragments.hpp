@@ -11,6 +11,10 @@ namespace cullet {
 /// their elements not chained. O(elements), no scratch.
 uint32_t group_fragments(ShellView shell, std::span<FragmentPart> parts);
 
+/// Makes parts[from] one with parts[to], for a fragment that gets no body of its own: its elements get that number, and
+/// parts[from] is left empty (first_element kNone, no mass). make_piece then gives both one shell. O(elements of from).
+void join_parts(ShellView shell, std::span<FragmentPart> parts, uint32_t from, uint32_t to);
+
 /// Row of the heaviest part, ties to the lower.
 uint32_t largest_part(std::span<const FragmentPart> parts);
 

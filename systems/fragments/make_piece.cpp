@@ -227,6 +227,7 @@ void renumber_elements(const ShellView& shell, const FragmentPart& part, const S
 
 void inherit(Shells& shells, Row<Shells> from, Row<Shells> to, uint8_t generation) {
     shells.material[to] = shells.material[from];
+    shells.depth_floor[to] = shells.depth_floor[from];
     shells.mean_edge[to] = shells.mean_edge[from];
     shells.time_step[to] = shells.time_step[from];
     shells.triangle_limit[to] = shells.triangle_limit[from];

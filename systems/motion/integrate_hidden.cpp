@@ -4,6 +4,8 @@
 // After foreach_target.h.
 #include <hwy/cache_control.h>
 
+#include <algorithm>
+
 #include "systems/motion/integrate_hidden.hpp"
 #include "systems/motion/lanes-inl.hpp"
 
@@ -11,11 +13,10 @@ HWY_BEFORE_NAMESPACE();
 namespace cullet {
 namespace HWY_NAMESPACE {
 
-/// Bytes ahead in both streams; 2 KB is about one pack.
-inline constexpr size_t kAhead = 2048;
+inline constexpr uint32_t kPacksAhead = 1;  // 3 to 4 KB
 
-HWY_INLINE void prefetch_ahead(const void* slot, size_t bytes) {
-    const char* p = static_cast<const char*>(slot) + kAhead;
+HWY_INLINE void prefetch(const void* slot, size_t bytes) {
+    const char* p = static_cast<const char*>(slot);
     for (size_t i = 0; i < bytes; i += 64) hwy::Prefetch(p + i);
 }
 
@@ -25,9 +26,12 @@ HWY_INLINE void integrate_lanes(const HiddenStep& step, uint32_t pack, uint32_t 
     const uint32_t v = pack * kLanes + lane;
     const V3 own = load_points(step.probe + v);
     V3 force{hn::Zero(d), hn::Zero(d), hn::Zero(d)};
-    const StiffnessBlock* block = step.blocks + step.first_block[pack];
-    for (const StiffnessBlock* end = block + step.block_count[pack]; block != end; ++block) {
-        prefetch_ahead(block, sizeof(StiffnessBlock));
+    // Each slot asks for the slot of its number in a later pack: packs may stand anywhere in the range.
+    const uint32_t ahead = std::min(pack + kPacksAhead, step.pack_count - 1);
+    const StiffnessBlock *block = step.blocks + step.first_block[pack],
+                         *later_block = step.blocks + step.first_block[ahead];
+    for (const StiffnessBlock* end = block + step.block_count[pack]; block != end; ++block, ++later_block) {
+        if (lane == 0) prefetch(later_block, sizeof(StiffnessBlock));
         const V3 w = gather(step.probe, block->neighbour + lane) - own;
         const auto row = [&](int r) {
             return V3{hn::Load(d, block->k[r] + lane), hn::Load(d, block->k[r + 1] + lane),
@@ -35,9 +39,9 @@ HWY_INLINE void integrate_lanes(const HiddenStep& step, uint32_t pack, uint32_t 
         };
         force = add(force, {dot(row(0), w), dot(row(3), w), dot(row(6), w)});
     }
-    const StiffnessLink* link = step.links + step.first_link[pack];
-    for (const StiffnessLink* end = link + step.link_count[pack]; link != end; ++link) {
-        prefetch_ahead(link, sizeof(StiffnessLink));
+    const StiffnessLink *link = step.links + step.first_link[pack], *later_link = step.links + step.first_link[ahead];
+    for (const StiffnessLink* end = link + step.link_count[pack]; link != end; ++link, ++later_link) {
+        if (lane == 0) prefetch(later_link, sizeof(StiffnessLink));
         const V3 w = gather(step.probe, link->neighbour + lane) - own;
         const V3 column{hn::Load(d, link->column[0] + lane), hn::Load(d, link->column[1] + lane),
                         hn::Load(d, link->column[2] + lane)};

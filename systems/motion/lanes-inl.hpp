@@ -60,6 +60,7 @@ HWY_INLINE void store(V3 a, float* x, float* y, float* z) {
 
 #if HWY_TARGET == HWY_SCALAR
 
+template <int kStride = 1>
 HWY_INLINE V3 gather(const Float4* w, const uint32_t* index) {
     const Floats d;
     const Float4& p = w[index[0]];
@@ -98,10 +99,13 @@ HWY_INLINE V3 transpose(V r0, V r1, V r2, V r3) {
             hn::BitCast(d, hn::InterleaveLower(wide, high01, high23))};
 }
 /// Points of kStep vertices by 128-bit loads: gather instructions of g++ 12 merge into a stale register and serialise.
+/// The indices stand kStride apart.
+template <int kStride = 1>
 HWY_INLINE V3 gather(const Float4* w, const uint32_t* index) {
-    constexpr uint32_t h = kStep - 4;  // first index of the upper half
-    return transpose(load_pair(w + index[0], w + index[h]), load_pair(w + index[1], w + index[h + 1]),
-                     load_pair(w + index[2], w + index[h + 2]), load_pair(w + index[3], w + index[h + 3]));
+    constexpr int s = kStride, h = kStride * static_cast<int>(kStep - 4);  // h: first index of the upper half
+    return transpose(load_pair(w + index[0], w + index[h]), load_pair(w + index[s], w + index[h + s]),
+                     load_pair(w + index[2 * s], w + index[h + 2 * s]),
+                     load_pair(w + index[3 * s], w + index[h + 3 * s]));
 }
 HWY_INLINE V3 load_points(const Float4* w) {
     constexpr uint32_t h = kStep - 4;

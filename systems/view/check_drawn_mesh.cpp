@@ -11,6 +11,11 @@ namespace {
 
 using Place = std::array<float, 3>;
 
+Place place_of(const State& state, uint32_t row) {
+    const Vec3 p = state.view_vertices.vertex[row].position;
+    return {p.x, p.y, p.z};
+}
+
 std::string text(const Place& p) {
     std::string out = "(";
     for (float x : p) out.append(out.size() > 1 ? ", " : "").append(std::to_string(x));
@@ -22,7 +27,7 @@ std::vector<uint32_t> join_places(const State& state, const Range& range) {
     std::map<Place, uint32_t> first;
     std::vector<uint32_t> joined(range.count);
     for (uint32_t v = 0; v < range.count; ++v) {
-        Place p = state.view_vertices.position[range.first + v];
+        Place p = place_of(state, range.first + v);
         for (float& x : p) x += 0.0f;  // -0 is 0
         joined[v] = first.insert({p, v}).first->second;
     }
@@ -40,15 +45,15 @@ Result<void> check_edges(const State& state, const Range& vertices, const Range&
     }
     for (const auto& [edge, sum] : uses)
         if (sum != 0)
-            return Error{"drawn mesh: edge " + text(state.view_vertices.position[vertices.first + edge.first]) +
-                         " to " + text(state.view_vertices.position[vertices.first + edge.second]) + " is used " +
+            return Error{"drawn mesh: edge " + text(place_of(state, vertices.first + edge.first)) +
+                         " to " + text(place_of(state, vertices.first + edge.second)) + " is used " +
                          std::to_string(sum) + " times more one way than the other; the mesh is open there."};
     return {};
 }
 
 double drawn_volume(const State& state, const Range& vertices, const Range& indices) {
     const auto place = [&](uint32_t i) {
-        const Place& p = state.view_vertices.position[vertices.first + state.view_indices.index[indices.first + i]];
+        const Place p = place_of(state, vertices.first + state.view_indices.index[indices.first + i]);
         return Vec3d(p[0], p[1], p[2]);
     };
     if (indices.count == 0) return 0;
@@ -73,7 +78,7 @@ Result<void> check_drawn_mesh(ShellView shell, const Range& view_vertices, const
     double volume = 0, size = 0;
     for (uint32_t e = 0; e < shell.element_count(); ++e) {
         if (state.elements.flags[shell.element(e)] & kDead) continue;
-        const double v = prism_volume(load_prism(shell, e));
+        const double v = prism_volume(load_prism(shell, e, Surface::Drawn));
         volume += v;
         size += std::fabs(v);
     }

@@ -29,7 +29,8 @@ Point point(const ShellView& shell, uint32_t vertex, bool is_inner) {
 
 Vec3 place(const ShellView& shell, Point p) {
     const uint32_t row = shell.vertex(p.vertex);
-    return p.is_inner ? inner_twin(shell.state, row).to_float() : shell.state.vertices.rest[row];
+    const Vertices& vertices = shell.state.vertices;
+    return (p.is_inner ? inner_twin(shell.state, row).to_float() : vertices.rest[row]) + vertices.drawn_shift[row];
 }
 
 /// The two triangles of the wall below edge k of the element, seen from outside of the solid.
@@ -66,9 +67,7 @@ EdgeKind kind_of(const ShellView& shell, uint32_t element, int k) {
 uint32_t write_vertex(Writer& w, Vec3 position, Vec3 normal, float u, float v) {
     ViewVertices& table = w.shell.state.view_vertices;
     const uint32_t row = w.first_vertex + w.vertex;
-    table.position[row] = {position.x, position.y, position.z};
-    table.normal[row] = {normal.x, normal.y, normal.z};
-    table.uv[row] = {u, v};
+    table.vertex[row] = {position, normal, {u, v}};
     return w.vertex++;
 }
 
@@ -89,8 +88,7 @@ void write_faces(Writer& w, uint32_t e) {
     uint32_t outer_vertex[3], inner_vertex[3];
     for (int k = 0; k < 3; ++k) {
         const Vec3 n{normal[3 * k], normal[3 * k + 1], normal[3 * k + 2]};
-        outer_vertex[k] =
-            write_vertex(w, shell.state.vertices.rest[shell.vertex(corner[k])], n, uv[2 * k], uv[2 * k + 1]);
+        outer_vertex[k] = write_vertex(w, place(shell, point(shell, corner[k], false)), n, uv[2 * k], uv[2 * k + 1]);
         const bool runs_along = dot(-n, flat) > 0.8f || dot(flat, flat) < 0.5f;  // no area, no normal
         inner_vertex[k] = write_vertex(w, inner[k], runs_along ? -n : flat, uv[2 * k], uv[2 * k + 1]);
     }
@@ -102,8 +100,7 @@ void write_faces(Writer& w, uint32_t e) {
 float write_side(Writer& w, uint32_t e, int k, float along) {
     const SideQuad quad = side_quad(w.shell, e, k);
     const auto corner = w.shell.state.elements.corner[w.shell.element(e)];
-    const uint32_t a = w.shell.vertex(corner[k]), b = w.shell.vertex(corner[(k + 1) % 3]);
-    const float edge = length(w.shell.state.vertices.rest[b] - w.shell.state.vertices.rest[a]);
+    const float edge = length(place(w.shell, {corner[(k + 1) % 3], false}) - place(w.shell, {corner[k], false}));
     const int run = run_of(kind_of(w.shell, e, k));
     for (int t = 0; t < 2; ++t) {
         if (!quad.is_drawn[t]) continue;

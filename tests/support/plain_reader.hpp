@@ -1,5 +1,5 @@
-// Reads the two plainest files tests need: triangles and polygons of a Wavefront .obj, and a binary little-endian .ply of float
-// positions and index lists. Trusts them.
+// Reads the two plainest files tests need: triangles and polygons of a Wavefront .obj, and a binary little-endian .ply
+// of float positions and index lists. Trusts them.
 #pragma once
 #include <cstring>
 #include <fstream>
@@ -23,7 +23,8 @@ inline Mesh read_plain_obj(const std::string& path) {
         } else if (kind == "f") {
             std::vector<uint32_t> corners;
             for (std::string word; words >> word;) corners.push_back(static_cast<uint32_t>(std::stoul(word) - 1));
-            for (size_t k = 2; k < corners.size(); ++k) mesh.triangles.push_back({corners[0], corners[k - 1], corners[k]});
+            for (size_t k = 2; k < corners.size(); ++k)
+                mesh.triangles.push_back({corners[0], corners[k - 1], corners[k]});
         }
     }
     return mesh;

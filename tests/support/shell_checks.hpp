@@ -1,6 +1,6 @@
-// The invariants of an extruded shell, checked with predicates of their own: an edge of one triangle meets the other triangle, by
-// signs of determinants in double with an error bound and in quadruple precision below it. Shares no code with the generator's
-// separating axes; only the box tree proposes pairs above 2,000 triangles.
+// The invariants of an extruded shell, checked with predicates of their own: an edge of one triangle meets the other
+// triangle, by signs of determinants in double with an error bound and in quadruple precision below it. Shares no code
+// with the generator's separating axes; only the box tree proposes pairs above 2,000 triangles.
 #pragma once
 #include <algorithm>
 #include <ostream>
@@ -33,7 +33,8 @@ inline int side_of(Vec3d a, Vec3d b, Vec3d c, Vec3d d) {
 /// Sign of the turn a -> b -> c seen against axis `drop` (0 to 2). Exact: the products fit into quadruple precision.
 inline int turn_of(Vec3d a, Vec3d b, Vec3d c, int drop) {
     const int x = (drop + 1) % 3, y = (drop + 2) % 3;
-    const Quad bx = Quad(b[x]) - Quad(a[x]), by = Quad(b[y]) - Quad(a[y]), cx = Quad(c[x]) - Quad(a[x]), cy = Quad(c[y]) - Quad(a[y]);
+    const Quad bx = Quad(b[x]) - Quad(a[x]), by = Quad(b[y]) - Quad(a[y]), cx = Quad(c[x]) - Quad(a[x]),
+               cy = Quad(c[y]) - Quad(a[y]);
     const Quad value = bx * cy - by * cx;
     return value > 0 ? 1 : value < 0 ? -1 : 0;
 }
@@ -48,7 +49,8 @@ inline bool segment_meets(Vec3d p, Vec3d q, const std::array<Vec3d, 3>& t) {
     }
     // In one plane: an end inside, or an edge crossed.
     const Vec3d n = cross(t[1] - t[0], t[2] - t[0]);
-    const int drop = std::fabs(n.x) >= std::fabs(n.y) ? (std::fabs(n.x) >= std::fabs(n.z) ? 0 : 2) : (std::fabs(n.y) >= std::fabs(n.z) ? 1 : 2);
+    const int drop = std::fabs(n.x) >= std::fabs(n.y) ? (std::fabs(n.x) >= std::fabs(n.z) ? 0 : 2)
+                                                      : (std::fabs(n.y) >= std::fabs(n.z) ? 1 : 2);
     const auto is_inside = [&](Vec3d r) {
         const int a = turn_of(t[0], t[1], r, drop), b = turn_of(t[1], t[2], r, drop), c = turn_of(t[2], t[0], r, drop);
         return (a >= 0 && b >= 0 && c >= 0) || (a <= 0 && b <= 0 && c <= 0);
@@ -56,7 +58,15 @@ inline bool segment_meets(Vec3d p, Vec3d q, const std::array<Vec3d, 3>& t) {
     if (is_inside(p) || is_inside(q)) return true;
     for (size_t k = 0; k < 3; ++k) {
         const Vec3d a = t[k], b = t[(k + 1) % 3];
-        if (turn_of(p, q, a, drop) * turn_of(p, q, b, drop) <= 0 && turn_of(a, b, p, drop) * turn_of(a, b, q, drop) <= 0) return true;
+        const int pa = turn_of(p, q, a, drop), pb = turn_of(p, q, b, drop), ap = turn_of(a, b, p, drop),
+                  aq = turn_of(a, b, q, drop);
+        // On one line they meet only if an end of the edge lies on the segment (the other case is an end inside the
+        // triangle).
+        if (pa == 0 && pb == 0) {
+            if (dot(a - p, a - q) <= 0 || dot(b - p, b - q) <= 0) return true;
+        } else if (pa * pb <= 0 && ap * aq <= 0) {
+            return true;
+        }
     }
     return false;
 }
@@ -87,17 +97,18 @@ inline bool triangles_meet(const std::array<Vec3d, 3>& a, const std::array<Vec3d
 }
 
 struct ShellReport {
-    size_t meeting = 0;       // pairs of faces of S', S and rims that meet, S with S left out
-    size_t inverted = 0;      // tetrahedra not above 0 although their corner has depth
-    size_t unflagged = 0;     // elements with a flat tetrahedron that are not flagged
-    size_t beyond_cap = 0;    // vertices with depth outside [0, cap], or cap above twice the thickness
-    size_t turned = 0;        // closed components whose inner volume has another sign
-    size_t considered = 0;    // pairs looked at
+    size_t meeting = 0;     // pairs of faces of S', S and rims that meet, S with S left out
+    size_t inverted = 0;    // tetrahedra not above 0 although their corner has depth
+    size_t unflagged = 0;   // elements with a flat tetrahedron that are not flagged
+    size_t beyond_cap = 0;  // vertices with depth outside [0, cap], or cap above twice the thickness
+    size_t turned = 0;      // closed components whose inner volume has another sign
+    size_t considered = 0;  // pairs looked at
     bool is_sound() const { return meeting + inverted + unflagged + beyond_cap + turned == 0; }
 };
 inline std::ostream& operator<<(std::ostream& out, const ShellReport& r) {
-    return out << r.meeting << " meeting pairs, " << r.inverted << " inverted tetrahedra, " << r.unflagged << " unflagged elements, "
-               << r.beyond_cap << " depths beyond their cap, " << r.turned << " components turned, of " << r.considered << " pairs";
+    return out << r.meeting << " meeting pairs, " << r.inverted << " inverted tetrahedra, " << r.unflagged
+               << " unflagged elements, " << r.beyond_cap << " depths beyond their cap, " << r.turned
+               << " components turned, of " << r.considered << " pairs";
 }
 
 struct CheckedFace {
@@ -120,14 +131,17 @@ inline std::vector<CheckedFace> faces_of(const Surface& s, const Extrusion& e) {
         const uint32_t a = c[border.edge], b = c[(border.edge + 1) % 3];
         // The diagonal runs from the outer corner of the smaller id to the inner corner of the other.
         const uint32_t low = std::min(a, b), high = std::max(a, b);
-        if (e.depth[high] > 0) faces.push_back({{s.positions[low], s.positions[high], inner(high)}, {low, high, high}, border.triangle, false});
-        if (e.depth[low] > 0) faces.push_back({{s.positions[low], inner(high), inner(low)}, {low, high, low}, border.triangle, false});
+        if (e.depth[high] > 0)
+            faces.push_back(
+                {{s.positions[low], s.positions[high], inner(high)}, {low, high, high}, border.triangle, false});
+        if (e.depth[low] > 0)
+            faces.push_back({{s.positions[low], inner(high), inner(low)}, {low, high, low}, border.triangle, false});
     }
     return faces;
 }
 
-/// Pairs that are not tested by rule: of one element, of bodies that meet, of triangles that cross in S, of fans that share only a
-/// position.
+/// Pairs that are not tested by rule: of one element, of bodies that meet, of triangles that cross in S, of fans that
+/// share only a position.
 inline bool is_excused(const Surface& s, const CheckedFace& a, const CheckedFace& b) {
     if ((a.is_outer && b.is_outer) || a.triangle == b.triangle) return true;
     if (s.are_independent(s.component_of[a.triangle], s.component_of[b.triangle])) return true;
@@ -163,7 +177,8 @@ inline ShellReport check_shell(const Surface& s, const Extrusion& e, double thic
     ShellReport report;
     check_meetings(s, e, report);
     for (uint32_t v = 0; v < s.positions.size(); ++v)
-        report.beyond_cap += !(e.depth[v] >= 0 && e.depth[v] <= e.cap[v] * (1 + 1e-12) && e.cap[v] <= 2 * thickness * (1 + 1e-12));
+        report.beyond_cap +=
+            !(e.depth[v] >= 0 && e.depth[v] <= e.cap[v] * (1 + 1e-12) && e.cap[v] <= 2 * thickness * (1 + 1e-12));
     std::vector<double> outer(s.components.size()), inner(s.components.size());
     const Vec3d middle = 0.5 * (s.low + s.high);
     for (uint32_t t = 0; t < s.triangles.size(); ++t) {
@@ -184,7 +199,8 @@ inline ShellReport check_shell(const Surface& s, const Extrusion& e, double thic
         }
         report.unflagged += is_flat != (e.is_degenerate_element[t] != 0);
     }
-    for (size_t c = 0; c < outer.size(); ++c) report.turned += s.components[c].is_closed && !(outer[c] * inner[c] > 0);
+    for (size_t c = 0; c < outer.size(); ++c)
+        report.turned += s.components[c].is_closed && !(outer[c] * inner[c] > 0 || outer[c] == inner[c]);
     return report;
 }
 

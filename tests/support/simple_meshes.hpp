@@ -12,9 +12,10 @@ namespace cullet::test {
 
 inline constexpr double kPi = 3.14159265358979323846;
 
-/// Triangles of a grid of points at(i, j), i < columns, j < rows; a wrapped direction joins its last row to its first. The
-/// normal is along d/di x d/dj.
-inline Mesh grid_mesh(uint32_t columns, uint32_t rows, bool wraps_i, bool wraps_j, const std::function<Vec3d(uint32_t, uint32_t)>& at) {
+/// Triangles of a grid of points at(i, j), i < columns, j < rows; a wrapped direction joins its last row to its first.
+/// The normal is along d/di x d/dj.
+inline Mesh grid_mesh(uint32_t columns, uint32_t rows, bool wraps_i, bool wraps_j,
+                      const std::function<Vec3d(uint32_t, uint32_t)>& at) {
     Mesh mesh;
     for (uint32_t j = 0; j < rows; ++j)
         for (uint32_t i = 0; i < columns; ++i) mesh.positions.push_back(at(i, j).to_float());
@@ -71,7 +72,8 @@ inline Mesh box_mesh(Vec3d size, uint32_t cuts) {
     const auto vertex = [&](std::array<uint32_t, 3> at) {
         const auto [found, is_new] = known.try_emplace(at, static_cast<uint32_t>(mesh.positions.size()));
         if (is_new)
-            mesh.positions.push_back(Vec3d(size.x * at[0] / cuts, size.y * at[1] / cuts, size.z * at[2] / cuts).to_float());
+            mesh.positions.push_back(
+                Vec3d(size.x * at[0] / cuts, size.y * at[1] / cuts, size.z * at[2] / cuts).to_float());
         return found->second;
     };
     for (size_t axis = 0; axis < 3; ++axis)
@@ -115,7 +117,8 @@ inline Mesh sheet_mesh(double width, double depth, uint32_t columns, uint32_t ro
     return mesh;
 }
 
-/// Closed surface of revolution about y through the profile (radius, height), bottom to top on the outside; ends with radius 0.
+/// Closed surface of revolution about y through the profile (radius, height), bottom to top on the outside; ends with
+/// radius 0.
 inline Mesh lathe_mesh(const std::vector<Vec2>& profile, uint32_t around) {
     Mesh mesh;
     mesh.name = "lathe";
@@ -124,7 +127,8 @@ inline Mesh lathe_mesh(const std::vector<Vec2>& profile, uint32_t around) {
     for (uint32_t r = 1; r <= rings; ++r)
         for (uint32_t k = 0; k < around; ++k) {
             const double u = 2 * kPi * k / around;
-            mesh.positions.push_back(Vec3d(profile[r].x * std::sin(u), profile[r].y, profile[r].x * std::cos(u)).to_float());
+            mesh.positions.push_back(
+                Vec3d(profile[r].x * std::sin(u), profile[r].y, profile[r].x * std::cos(u)).to_float());
         }
     const uint32_t top = static_cast<uint32_t>(mesh.positions.size());
     mesh.positions.push_back({0, profile.back().y, 0});

@@ -142,21 +142,6 @@ TEST(BuildShell, LinksCornersAndHingesAreSymmetric) {
     EXPECT_EQ(*hinges.rbegin() + 1, shell.hinge_count());
 }
 
-TEST(BuildShell, StrengthsSpreadAboutTheMedianOne) {
-    State state;
-    const ShellView shell(state, build(state, sample_grid(1, 1, 50, 50, 0.01)));
-    uint32_t below = 0, live = 0;
-    for (uint32_t v = 0; v < shell.vertex_count(); ++v) {
-        if (state.vertices.element[shell.vertex(v)] == kNone) continue;
-        const float factor = state.vertices.strength_factor[shell.vertex(v)];
-        EXPECT_GE(factor, 0.5f);
-        EXPECT_LE(factor, 1.5f);
-        below += factor < 1;
-        ++live;
-    }
-    EXPECT_NEAR(static_cast<double>(below) / live, 0.5, 0.05);
-}
-
 TEST(BuildShell, PinsAreStatic) {
     State state;
     const ShellView shell(state, build(state, sample_grid(1, 1, 8, 8, 0.01)));

@@ -44,8 +44,13 @@ Mesh cup() {
 }
 
 TEST(Extrude, EveryShapeAtEveryThicknessIsSound) {
-    std::vector<Mesh> meshes{test::sphere_mesh(1, 3), test::box_mesh({1, 1, 1}, 4), test::box_mesh({1, 1, 0.05}, 6),
-                             test::torus_mesh(1, 0.25, 40, 20), test::torus_mesh(1, 0.05, 120, 8), pleated(0.1), cup(),
+    std::vector<Mesh> meshes{test::sphere_mesh(1, 3),
+                             test::box_mesh({1, 1, 1}, 4),
+                             test::box_mesh({1, 1, 0.05}, 6),
+                             test::torus_mesh(1, 0.25, 40, 20),
+                             test::torus_mesh(1, 0.05, 120, 8),
+                             pleated(0.1),
+                             cup(),
                              test::sheet_mesh(1, 1, 10, 10)};
     test::append(meshes[0], test::turned_inside_out(test::sphere_mesh(0.7, 2)), {0.2, 0, 0});  // hollow ball
     for (const Mesh& mesh : meshes) {
@@ -53,7 +58,8 @@ TEST(Extrude, EveryShapeAtEveryThicknessIsSound) {
         for (const double share : {0.003, 0.01, 0.05, 0.2, 1.0}) {
             const double thickness = share * surface.diagonal;
             const Extrusion shell = extruded(surface, thickness);
-            SCOPED_TRACE(mesh.name + " of " + std::to_string(mesh.triangles.size()) + " triangles at " + std::to_string(share));
+            SCOPED_TRACE(mesh.name + " of " + std::to_string(mesh.triangles.size()) + " triangles at " +
+                         std::to_string(share));
             expect_sound(surface, shell, thickness);
             EXPECT_EQ(shell.statistics.depth_zero_vertices, 0u);
         }
@@ -128,7 +134,8 @@ TEST(Extrude, TwiceTheSameAndAnyNumberingGiveTheSameDepths) {
         for (const uint64_t seed : {0ull, 1ull, 2ull, 3ull}) {
             const Surface other = prepared(seed == 0 ? mesh : test::shuffled(mesh, seed));
             const Extrusion shell = extruded(other, 0.08 * other.diagonal);
-            ASSERT_TRUE(std::equal(surface.positions.begin(), surface.positions.end(), other.positions.begin(), other.positions.end()));
+            ASSERT_TRUE(std::equal(surface.positions.begin(), surface.positions.end(), other.positions.begin(),
+                                   other.positions.end()));
             EXPECT_EQ(shell.depth, expected.depth) << "seed " << seed;
         }
     }
@@ -182,9 +189,10 @@ TEST(Extrude, ThePleatsOfASheetStayApart) {
 
 TEST(Extrude, ACubeWithAFinAndAnInnerWallStillGetsAShell) {
     Mesh mesh;
-    mesh.positions = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {1, 1, 0}, {0, 0, 1}, {1, 0, 1}, {0, 1, 1}, {1, 1, 1}, {0.5f, 1, 2}, {0.5f, 0, 2}};
-    mesh.triangles = {{0, 2, 3}, {0, 3, 1}, {4, 5, 7}, {4, 7, 6}, {0, 1, 5}, {0, 5, 4}, {2, 6, 7}, {2, 7, 3}, {0, 4, 6},
-                      {0, 6, 2}, {1, 3, 7}, {1, 7, 5}, {4, 5, 8}, {0, 3, 7}, {0, 7, 4}};
+    mesh.positions = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {1, 1, 0},    {0, 0, 1},
+                      {1, 0, 1}, {0, 1, 1}, {1, 1, 1}, {0.5f, 1, 2}, {0.5f, 0, 2}};
+    mesh.triangles = {{0, 2, 3}, {0, 3, 1}, {4, 5, 7}, {4, 7, 6}, {0, 1, 5}, {0, 5, 4}, {2, 6, 7}, {2, 7, 3},
+                      {0, 4, 6}, {0, 6, 2}, {1, 3, 7}, {1, 7, 5}, {4, 5, 8}, {0, 3, 7}, {0, 7, 4}};
     const Surface surface = prepared(mesh);
     EXPECT_GT(surface.repairs.crowded_edges, 0u);
     const Extrusion shell = extruded(surface, 0.05);
@@ -260,7 +268,8 @@ TEST(Extrude, ASurfaceThatCrossesItselfIsBuiltAndSoundElsewhere) {
 
 TEST(Extrude, AThicknessThatIsNoLengthIsRefused) {
     const Surface surface = prepared(test::box_mesh({1, 1, 1}, 1));
-    for (const double bad : {0.0, -1.0, std::numeric_limits<double>::quiet_NaN(), std::numeric_limits<double>::infinity()}) {
+    for (const double bad :
+         {0.0, -1.0, std::numeric_limits<double>::quiet_NaN(), std::numeric_limits<double>::infinity()}) {
         const Result<Extrusion> shell = extrude(surface, bad);
         ASSERT_FALSE(shell);
         EXPECT_NE(shell.error().find("thickness"), std::string::npos);

@@ -183,6 +183,21 @@ TEST(MakePiece, PiecesAreSoundShellsAndTheirMassesAddUpToTheParents) {
     }
 }
 
+TEST(MakePiece, JoinedPartsBecomeOneShellOfTwoComponents) {
+    Broken broken(sample_vase(0.3, 0.005, 48, 40), 8);
+    ASSERT_GT(broken.parts.size(), 4u);
+    const double mass = broken.parts[4].mass + broken.parts[1].mass + broken.parts[3].mass;
+    join_parts(broken.view(), broken.parts, 4, 1);
+    join_parts(broken.view(), broken.parts, 1, 3);
+    EXPECT_EQ(broken.parts[1].element_count, 0u);
+    const Row<Shells> row = make_piece(broken.state, broken.shell, broken.parts[3], 1);
+    const ShellView piece(broken.state, row);
+    expect_sound_shell(piece);
+    EXPECT_NEAR(broken.state.shells.mass[row] / mass, 1, 1e-12);
+    std::vector<FragmentPart> again(9);
+    EXPECT_EQ(group_fragments(piece, again), 3u);
+}
+
 TEST(MakePiece, CompactingAWholeShellKeepsWhatItIs) {
     Broken broken(sample_vase(0.3, 0.005, 48, 40), 1);  // no cut
     ASSERT_EQ(broken.parts.size(), 1u);

@@ -34,8 +34,7 @@ struct Fixture {
                 state.vertices.probe.set(
                     row, {static_cast<float>(d.x), static_cast<float>(d.y), static_cast<float>(d.z), 0}, side);
         }
-        bend_hinges(view(), 0, 0, view().hinge_count());
-        stress_elements(view(), 0, 0, view().element_count());
+        check_stress(view(), 0);
     }
     bool is_on_border(uint32_t element) {
         const auto& n = state.elements.neighbour[view().element(element)];
@@ -129,7 +128,7 @@ TEST(StressCheck, AllSimdLevelsGiveTheSameBits) {
             add(f.state.elements.inner_stress.lane(l) + s.element(0), s.element_count());
         }
         add(f.state.elements.principal.data() + s.element(0), s.element_count());
-        add(f.state.hinges.angle.data() + s.hinge(0), s.hinge_count());
+        add(f.state.hinges.angle[s.hinge(0)].data(), 2 * s.hinge_count());
         const double energy = membrane_energy(s, 0, 0, s.element_count());
         hash = hash_bytes(&energy, 8, hash);
         if (expected == 0) expected = hash;
@@ -143,12 +142,31 @@ TEST(StressCheck, ChunksGiveTheSameBitsAsOneCall) {
     const auto field = [](Vec3d p) { return Vec3d{1e-4 * p.y * p.y, 3e-4 * p.z * p.x, -2e-4 * p.x}; };
     f.displace(field), g.displace(field);
     const ShellView s = g.view();
-    for (uint32_t h = 0; h < s.hinge_count(); h += 37) bend_hinges(s, 0, h, std::min(37u, s.hinge_count() - h));
-    for (uint32_t e = 0; e < s.element_count(); e += 88) stress_elements(s, 0, e, std::min(88u, s.element_count() - e));
+    for (uint32_t e = 0; e < s.element_count(); e += 40) strain_elements(s, 0, e, std::min(40u, s.element_count() - e));
+    for (uint32_t e = 0; e < s.element_count(); e += 88) stress_elements(s, e, std::min(88u, s.element_count() - e));
     for (uint32_t e = 0; e < s.element_count(); ++e) {
         ASSERT_EQ(f.state.elements.principal[s.element(e)], g.state.elements.principal[s.element(e)]);
         ASSERT_EQ(f.state.elements.inner_stress[s.element(e)], g.state.elements.inner_stress[s.element(e)]);
     }
+}
+
+TEST(StressCheck, AHingesAngleIsItsGradientTimesTheDisplacements) {
+    Fixture f(sphere_mesh(5, 0.1));
+    f.displace([](Vec3d p) { return Vec3d{1e-2 * p.y * p.y, 3e-2 * p.z * p.x, -2e-2 * p.x * p.y}; });
+    double largest = 0, error = 0;
+    for (uint32_t h = 0; h < f.view().hinge_count(); ++h) {
+        const uint32_t row = f.view().hinge(h);
+        const auto& g = f.state.hinges.gradient[row];
+        double theta = 0;
+        for (uint32_t k = 0; k < 4; ++k)
+            theta += dot(Vec3d(g[3 * k], g[3 * k + 1], g[3 * k + 2]),
+                         Vec3d(f.state.vertices.displacement[f.view().vertex(f.state.hinges.vertex[row][k])]));
+        const auto& angle = f.state.hinges.angle[row];
+        largest = std::max(largest, std::fabs(theta));
+        error = std::max(error, std::fabs(theta - (double{angle[0]} + angle[1])));
+    }
+    EXPECT_GT(largest, 1e-5);
+    EXPECT_LT(error, 1e-5 * largest);
 }
 
 TEST(StressCheck, MembraneEnergyIsHalfStressTimesStrainTimesVolume) {

@@ -31,11 +31,15 @@ void expect_consistent(const Surface& s) {
             ++links[a];
             bool is_mutual = false;
             for (uint32_t l = 0; l < 3; ++l)
-                is_mutual = is_mutual || (s.neighbours[other][l] == t && s.triangles[other][l] == b && s.triangles[other][(l + 1) % 3] == a);
+                is_mutual = is_mutual || (s.neighbours[other][l] == t && s.triangles[other][l] == b &&
+                                          s.triangles[other][(l + 1) % 3] == a);
             EXPECT_TRUE(is_mutual) << "triangle " << t << " edge " << k;
         }
-    // Corners of a fan are joined by one link fewer than there are corners (open) or as many (closed).
-    for (uint32_t v = 0; v < s.positions.size(); ++v) EXPECT_TRUE(borders[v] == 0 || borders[v] == 2) << "vertex " << v;
+    // A fan of n corners has n links when it closes; an open one has two borders, of which one leaves the vertex.
+    for (uint32_t v = 0; v < s.positions.size(); ++v) {
+        EXPECT_TRUE(borders[v] == 0 || borders[v] == 2) << "vertex " << v;
+        EXPECT_EQ(links[v] + borders[v] / 2, corners[v]) << "vertex " << v;
+    }
 }
 
 TEST(Surface, EveryCornerFindsItsSourceAgain) {
@@ -64,7 +68,8 @@ TEST(Surface, IsTheSameForAnyNumbering) {
 }
 
 TEST(Surface, CleanMeshesNeedNoRepair) {
-    for (const Mesh& mesh : {test::sphere_mesh(1, 2), test::box_mesh({1, 2, 3}, 3), test::torus_mesh(1, 0.3, 20, 10), test::sheet_mesh(1, 1, 4, 4)}) {
+    for (const Mesh& mesh : {test::sphere_mesh(1, 2), test::box_mesh({1, 2, 3}, 3), test::torus_mesh(1, 0.3, 20, 10),
+                             test::sheet_mesh(1, 1, 4, 4)}) {
         const Surface s = prepared(mesh);
         EXPECT_TRUE(s.repairs.is_clean()) << mesh.name << ": " << describe(s.repairs);
         EXPECT_EQ(s.components.size(), 1u);
@@ -135,6 +140,15 @@ TEST(Surface, TheWallOfACavityKeepsItsWinding) {
     EXPECT_EQ(s.repairs.cavities, 1u);
     EXPECT_EQ(s.repairs.turned_components, 0u);
     EXPECT_TRUE(s.independent.empty());
+}
+
+TEST(Surface, BlocksThatTouchAndAreAllInsideOutAreAllTurned) {
+    Mesh mesh;
+    for (int x = 0; x < 3; ++x)
+        for (int y = 0; y < 3; ++y) test::append(mesh, test::box_mesh({1, 1, 1}, 2), {1.0 * x, 1.0 * y, 0.25 * x});
+    const Surface s = prepared(test::turned_inside_out(mesh));
+    EXPECT_EQ(s.repairs.cavities, 0u) << describe(s.repairs);
+    for (const SurfaceComponent& c : s.components) EXPECT_TRUE(!c.is_closed || c.volume > 0);
 }
 
 TEST(Surface, ABowTieVertexIsSplitIntoItsFans) {
@@ -214,7 +228,9 @@ TEST(Surface, CrossingTrianglesAreFoundAsByABruteForceCount) {
                     const Vec3d p = s.positions[t[k]], q = s.positions[t[(k + 1) % 3]];
                     const Vec3d x = s.positions[u[0]], y = s.positions[u[1]], z = s.positions[u[2]];
                     const double i = volume(p, q, x, y), j = volume(p, q, y, z), l = volume(p, q, z, x);
-                    if (volume(x, y, z, p) * volume(x, y, z, q) < 0 && ((i > 0 && j > 0 && l > 0) || (i < 0 && j < 0 && l < 0))) return true;
+                    if (volume(x, y, z, p) * volume(x, y, z, q) < 0 &&
+                        ((i > 0 && j > 0 && l > 0) || (i < 0 && j < 0 && l < 0)))
+                        return true;
                 }
                 return false;
             };
@@ -222,6 +238,32 @@ TEST(Surface, CrossingTrianglesAreFoundAsByABruteForceCount) {
         }
     EXPECT_EQ(s.crossings.size(), expected);
     EXPECT_GT(expected, 10u);
+}
+
+TEST(Surface, ASoupWithNoiseIsCalledSoAndHealedByATolerance) {
+    const Mesh sphere = test::sphere_mesh(1, 2);
+    Mesh soup;
+    for (size_t t = 0; t < sphere.triangles.size(); ++t)
+        for (size_t k = 0; k < 3; ++k) {
+            Vec3 p = sphere.positions[sphere.triangles[t][k]];
+            p.x += 1e-7f * static_cast<float>((t + k) % 3);
+            soup.positions.push_back(p);
+            if (k == 2) {
+                const uint32_t n = static_cast<uint32_t>(soup.positions.size());
+                soup.triangles.push_back({n - 3, n - 2, n - 1});
+            }
+        }
+    const Surface loose = prepared(soup);
+    EXPECT_TRUE(loose.repairs.is_mostly_border);
+    EXPECT_NE(describe(loose.repairs).find("weld_tolerance"), std::string::npos);
+    const Result<Surface> healed = prepare_surface(soup, {1e-6, true});
+    ASSERT_TRUE(healed);
+    EXPECT_EQ(healed->positions.size(), sphere.positions.size());
+    EXPECT_EQ(healed->repairs.welded_vertices, soup.positions.size() - sphere.positions.size());
+    EXPECT_EQ(healed->repairs.unused_vertices, 0u);
+    EXPECT_TRUE(healed->components[0].is_closed);
+    EXPECT_FALSE(prepare_surface(soup, {-1, true}));
+    EXPECT_FALSE(prepare_surface(soup, {0.5, true}));
 }
 
 TEST(Surface, BadInputIsRefusedWithTheIndexOfTheCulprit) {

@@ -33,7 +33,8 @@ std::vector<std::array<double, 9>> shape(const Mesh& mesh) {
     std::vector<std::array<double, 9>> result;
     for (const auto& t : mesh.triangles) {
         std::array<std::array<double, 3>, 3> corners;
-        for (size_t k = 0; k < 3; ++k) corners[k] = {mesh.positions[t[k]].x, mesh.positions[t[k]].y, mesh.positions[t[k]].z};
+        for (size_t k = 0; k < 3; ++k)
+            corners[k] = {mesh.positions[t[k]].x, mesh.positions[t[k]].y, mesh.positions[t[k]].z};
         std::rotate(corners.begin(), std::min_element(corners.begin(), corners.end()), corners.end());
         std::array<double, 9> flat;
         for (size_t k = 0; k < 9; ++k) flat[k] = corners[k / 3][k % 3];
@@ -104,7 +105,8 @@ TEST(Tessellate, TheShapeDoesNotDependOnTheNumbering) {
     const Mesh torus = test::torus_mesh(1, 0.3, 7, 5);
     const auto expected = shape(tessellate(torus, {0.2}).value());
     EXPECT_GT(expected.size(), 500u);
-    for (const uint64_t seed : {1ull, 2ull}) EXPECT_EQ(shape(tessellate(test::shuffled(torus, seed), {0.2}).value()), expected);
+    for (const uint64_t seed : {1ull, 2ull})
+        EXPECT_EQ(shape(tessellate(test::shuffled(torus, seed), {0.2}).value()), expected);
 }
 
 TEST(Tessellate, AMeshThatIsFineEnoughComesBackUnchanged) {
