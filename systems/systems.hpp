@@ -83,10 +83,10 @@ void integrate_hidden(Rows<StiffnessPacks> packs, OfTask task, Turn turn, const 
 /// Gives patch vertices and strikers what the springs pushed; the run ends when its time is up or all is quiet (6.4).
 void pass_impulses(EachBody task, Turn turn, ShellTables shells, Tasks& tasks, TaskContacts& contacts,
                    const PatchVertices& patches);
-/// Angle of each hinge.
-void bend_hinges(Rows<Hinges> hinges, OfTask task, Turn turn, ShellTables shells, const Tasks& tasks);
+/// Strain of each element and its shares of its hinges' angles.
+void strain_check(Rows<Elements> elements, OfTask task, Turn turn, ShellTables shells, const Tasks& tasks);
 /// Stress of both faces of each element, and the largest principal value (C1).
-void stress_check(Rows<Elements> elements, OfTask task, Turn turn, ShellTables shells, const Tasks& tasks);
+void stress_check(Rows<Elements> elements, OfTask task, ShellTables shells, const Tasks& tasks);
 /// Starts and advances cracks, one body a call, in order of urgency (C1 to C5).
 void split_vertices(EachBody task, ShellTables shells, Tasks& tasks, TaskContacts& contacts, PatchVertices& patches);
 /// Above 1.05 of the start's energy the run begins again with half the step, at most twice (B7).

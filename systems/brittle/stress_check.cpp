@@ -3,9 +3,9 @@
 
 namespace cullet {
 
-void stress_check(Rows<Elements> elements, OfTask task, Turn turn, ShellTables shells, const Tasks& tasks) {
+void stress_check(Rows<Elements> elements, OfTask task, ShellTables shells, const Tasks& tasks) {
     const ShellView shell(shells.state, tasks.shell[task.row]);
-    stress_elements(shell, turn.new_side, elements.first - shell.elements().first, elements.count);
+    stress_elements(shell, elements.first - shell.elements().first, elements.count);
 }
 
 }  // namespace cullet

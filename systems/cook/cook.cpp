@@ -10,6 +10,7 @@
 #include "systems/cook/tessellate.hpp"
 #include "systems/damage/assemble.hpp"
 #include "systems/damage/run_hit.hpp"
+#include "systems/damage/strength_factors.hpp"
 #include "systems/damage/task_cost.hpp"
 #include "systems/damage/working_room.hpp"
 
@@ -206,12 +207,12 @@ Result<Model> cook(const MeshView& view, const CookSettings& settings) {
     source.drawn_material = arrays.materials;
     source.is_degenerate = extrusion->is_degenerate_element;
     source.wanted_depth = settings.thickness;
-    source.seed = settings.seed;
     const Result<Row<Shells>> shell = build_shell(state, source, material.value());
     if (!shell) return Error{name + ": " + shell.error()};
     contents->shell = shell.value();
     contents->name = name;
     contents->material = settings.material;
+    fill_strength_factors(ShellView(state, contents->shell), settings.seed);
     if (const Result<void> ready = make_stiff(state, contents->shell); !ready)
         return Error{name + ": " + ready.error()};
     if (settings.measures_threshold)

@@ -10,7 +10,7 @@ BrittleLoop make_brittle_loop() {
     loop.then<push_patches>()
         .then<integrate_hidden>()
         .then<pass_impulses>()
-        .then<bend_hinges>(kStepsAStressCheck)
+        .then<strain_check>(kStepsAStressCheck)
         .then<stress_check>(kStepsAStressCheck)
         .then<split_vertices>(kStepsAStressCheck)
         .then<check_energy>(kStepsAnEnergyCheck)

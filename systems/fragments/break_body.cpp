@@ -4,6 +4,7 @@
 
 #include "systems/damage/thresholds.hpp"
 #include "systems/fragments/body_rows.hpp"
+#include "systems/fragments/group_fragments.hpp"
 #include "systems/fragments/make_piece.hpp"
 #include "systems/fragments/rigid_handoff.hpp"
 #include "systems/fragments/rigid_shape.hpp"
@@ -37,33 +38,12 @@ Motion world_motion(const Moment& m, const PartMotion& part) {
             m.spin + rotate(m.pose.orientation, turned.to_float())};
 }
 
-// Joins part b to part a: chains merged in rising order, momenta added. For pieces that found no room.
-void join_parts(State& state, ShellView shell, FragmentPart& a, FragmentPart& b, PartMotion& motion_a,
-                const PartMotion& motion_b, uint32_t name_a) {
-    Elements& elements = state.elements;
-    uint32_t i = a.first_element, j = b.first_element, last = kNone;
-    a.first_element = kNone;
-    while (i != kNone || j != kNone) {
-        uint32_t& from = j == kNone || (i != kNone && i < j) ? i : j;
-        const uint32_t e = from;
-        from = elements.next[shell.element(e)];
-        if (last == kNone)
-            a.first_element = e;
-        else
-            elements.next[shell.element(last)] = e;
-        elements.part[shell.element(e)] = name_a;
-        last = e;
-    }
-    elements.next[shell.element(last)] = kNone;
-    a.last_element = last;
-    a.element_count += b.element_count;
-    a.mass += b.mass;
-    a.has_pins = a.has_pins || b.has_pins;
-    b.element_count = 0;
-    motion_a.mass += motion_b.mass;
-    motion_a.momentum += motion_b.momentum;
-    motion_a.is_static = motion_a.is_static || motion_b.is_static;
-    motion_a.velocity = motion_a.is_static ? Vec3d{} : (1.0 / motion_a.mass) * motion_a.momentum;
+// A piece that found no room stays part of another and moves with it.
+void join_motions(PartMotion& motion, const PartMotion& joined) {
+    motion.mass += joined.mass;
+    motion.momentum += joined.momentum;
+    motion.is_static = motion.is_static || joined.is_static;
+    motion.velocity = motion.is_static ? Vec3d{} : (1.0 / motion.mass) * motion.momentum;
 }
 
 void make_debris(Births& births, ShellView shell, const FragmentPart& part, const Motion& motion, const Moment& moment,
@@ -229,7 +209,8 @@ void break_body(Births& births, Row<Tasks> task) {
         child[p] = reserve_body(state, body, broken, parts[p], &full);
         if (child[p].exists()) continue;
         births.refused.push({body_id(bodies, body), full});
-        join_parts(state, shell, parts[largest], parts[p], motions[largest], motions[p], largest);
+        join_parts(shell, parts, p, largest);
+        join_motions(motions[largest], motions[p]);
     }
     child[largest] = body;
     const char* full = nullptr;
