@@ -54,6 +54,8 @@ Result<void> check_run(const RunOptions& run, bool asks_for_keys) {
         return Error{fmt::format("run {}: there is no such scene; give one of {}.", run.scene, scene_names())};
     if (!run.mesh.empty() && run.scene != "drop" && run.scene != "show_reel")
         return Error{fmt::format("--mesh {}: only the scene drop takes a mesh, not {}.", run.mesh, run.scene)};
+    if (run.scene == "show_reel" && !run.trace.empty() && run.out.empty())
+        return Error{"--trace: the show reel writes a trace for each scene; say where with --out FOLDER."};
     if (run.out.empty() && (run.draw > 0 || run.has_sheet))
         return Error{"--draw and --contact-sheet write pictures: say where with --out FOLDER."};
     return {};

@@ -72,11 +72,12 @@ RunOptions for_scene(const Scene& scene, const RunOptions& options) {
     for (const std::string& assignment : options.set)
         if (scene.keys().has(assignment.substr(0, assignment.find('=')))) own.set.push_back(assignment);
     if (own.scene != "drop") own.mesh.clear();
+    own.trace.clear();
     if (!options.out.empty()) {
         own.out = options.out + "/" + scene.name;
+        own.trace = own.out + "/trace.json";
         own.has_sheet = true;
     }
-    if (!options.trace.empty() || !own.out.empty()) own.trace = own.out.empty() ? "" : own.out + "/trace.json";
     return own;
 }
 

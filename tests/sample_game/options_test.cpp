@@ -1,0 +1,131 @@
+// The command line: what is understood, and what is refused with one sentence.
+#include "sample_game/options.hpp"
+
+#include <gtest/gtest.h>
+
+#include "sample_game/run_scene.hpp"
+
+namespace cullet {
+namespace {
+
+/// One line, with a full stop, that says something.
+void expect_a_sentence(const std::string& text) {
+    EXPECT_GT(text.size(), 20u) << text;
+    EXPECT_EQ(text.back(), '.') << text;
+    EXPECT_EQ(text.find('\n'), std::string::npos) << text;
+}
+
+TEST(Options, ARunIsReadWithAllThatCanBeGiven) {
+    const auto parsed =
+        parse_options({"run",     "drop",    "--mesh",    "cow.obj",    "--frames",        "90",
+                       "--dt-ms", "8",       "--threads", "2",          "--repeat",        "3",
+                       "--out",   "out",     "--draw",    "10",         "--contact-sheet", "--trace",
+                       "t.json",  "--hash",  "last",      "--validate", "--set",           "scene.speed_mps=3",
+                       "--set",   "hold_s=0"});
+    ASSERT_TRUE(parsed.ok()) << parsed.error();
+    const RunOptions& run = parsed.value().run;
+    EXPECT_EQ(parsed.value().command, Command::Run);
+    EXPECT_EQ(run.scene, "drop");
+    EXPECT_EQ(run.mesh, "cow.obj");
+    EXPECT_EQ(run.frames, 90u);
+    EXPECT_EQ(run.dt_ms, 8);
+    EXPECT_EQ(run.threads, 2u);
+    EXPECT_EQ(run.repeat, 3u);
+    EXPECT_EQ(run.out, "out");
+    EXPECT_EQ(run.draw, 10u);
+    EXPECT_TRUE(run.has_sheet);
+    EXPECT_EQ(run.trace, "t.json");
+    EXPECT_EQ(run.hash, HashWhen::Last);
+    EXPECT_TRUE(run.validates);
+    EXPECT_EQ(run.set, (std::vector<std::string>{"scene.speed_mps=3", "hold_s=0"}));
+}
+
+TEST(Options, EverySceneCanBeRunByItsName) {
+    for (const Scene& scene : scenes()) EXPECT_TRUE(parse_options({"run", scene.name}).ok()) << scene.name;
+    EXPECT_TRUE(parse_options({"run", "show_reel"}).ok());
+}
+
+TEST(Options, WhatMakesNoSenseIsRefusedInOneSentence) {
+    const std::vector<std::vector<std::string>> wrong{
+        {},
+        {"walk"},
+        {"run"},
+        {"run", "castle"},
+        {"run", "wall", "vase"},
+        {"run", "wall", "--frames", "0"},
+        {"run", "wall", "--frames", "many"},
+        {"run", "wall", "--frames", "-5"},
+        {"run", "wall", "--dt-ms", "100"},
+        {"run", "wall", "--threads", "0"},
+        {"run", "wall", "--repeat", "0"},
+        {"run", "wall", "--hash", "sometimes"},
+        {"run", "wall", "--mesh", "cow.obj"},
+        {"run", "wall", "--draw", "10"},
+        {"run", "wall", "--contact-sheet"},
+        {"run", "wall", "--nonsense"},
+        {"truth"},
+        {"frame", "frame"},
+    };
+    for (const auto& arguments : wrong) {
+        const auto parsed = parse_options(arguments);
+        ASSERT_FALSE(parsed.ok()) << arguments.size();
+        expect_a_sentence(parsed.error());
+    }
+}
+
+TEST(Options, HelpIsNoError) {
+    for (const std::vector<std::string>& arguments : {std::vector<std::string>{"--help"}, {"run", "--help"}}) {
+        const auto parsed = parse_options(arguments);
+        ASSERT_TRUE(parsed.ok()) << parsed.error();
+        EXPECT_EQ(parsed.value().command, Command::Help);
+        EXPECT_NE(parsed.value().help.find("pane"), std::string::npos);
+    }
+}
+
+TEST(Options, SetHelpListsTheKeysOfAllScenesOrOfOne) {
+    EXPECT_EQ(parse_options({"run", "--set", "help"}).value().command, Command::KeysHelp);
+    const std::string all = keys_help(""), wall = keys_help("wall");
+    for (const char* key :
+         {"scene.speed_mps", "scene.height_m", "scene.edge_m", "scene.seed", "scene.thickness_m", "scene.material",
+          "scene.size_m", "scene.strength_scale", "units_a_frame", "hold_s", "threads"})
+        EXPECT_NE(all.find(key), std::string::npos) << key;
+    EXPECT_EQ(wall.find("scene.height_m"), std::string::npos);
+}
+
+Result<Keys> wall_keys(std::vector<std::string> set) {
+    RunOptions options;
+    options.scene = "wall";
+    options.set = std::move(set);
+    return keys_of(*find_scene("wall"), options);
+}
+
+TEST(Keys, WhatIsSetIsReadBack) {
+    const auto keys =
+        wall_keys({"scene.speed_mps=0.7", "scene.material=concrete", "scene.strength_scale=inf", "units_a_frame=2e6"});
+    ASSERT_TRUE(keys.ok()) << keys.error();
+    EXPECT_EQ(keys.value()["scene.speed_mps"], 0.7);
+    EXPECT_EQ(keys.value().word_of("scene.material"), "concrete");
+    EXPECT_GT(keys.value()["scene.strength_scale"], 1e30);
+    EXPECT_EQ(keys.value()["units_a_frame"], 2e6);
+}
+
+TEST(Keys, WrongOnesAreRefusedInOneSentenceThatNamesThem) {
+    for (const char* wrong : {"scene.speed_mps", "scene.speed_mps=", "scene.speed_mps=fast", "scene.speed_mps=1 2",
+                              "scene.speed_mps=-1", "scene.speed_mps=nan", "scene.height_m=2", "scene.material=cheese",
+                              "scene.material=", "=3", "scene.material=glass,", "threads=0"}) {
+        const auto keys = wall_keys({wrong});
+        ASSERT_FALSE(keys.ok()) << wrong;
+        expect_a_sentence(keys.error());
+        EXPECT_NE(keys.error().find(wrong), std::string::npos) << keys.error();
+    }
+}
+
+TEST(Keys, ThreadsOnTheCommandLineGoBeforeTheKey) {
+    RunOptions options;
+    options.threads = 3;
+    options.set = {"threads=2"};
+    EXPECT_EQ(keys_of(*find_scene("wall"), options).value()["threads"], 3);
+}
+
+}  // namespace
+}  // namespace cullet

@@ -1,0 +1,105 @@
+// report.json holds all that it promises, and what is written can be read.
+#include "sample_game/report.hpp"
+
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <fstream>
+#include <nlohmann/json.hpp>
+
+namespace cullet {
+namespace {
+
+using Json = nlohmann::json;
+
+TEST(Report, EveryPromisedFieldIsThere) {
+    const Json json = Json::parse(to_json({}));
+    for (const char* name : {"scene",
+                             "seed",
+                             "dt_s",
+                             "frames",
+                             "threads",
+                             "machine",
+                             "hash",
+                             "hash_chain",
+                             "tables",
+                             "mass_kg",
+                             "momentum_ns",
+                             "energy_j",
+                             "fragments",
+                             "awake",
+                             "units",
+                             "events",
+                             "refused",
+                             "faults",
+                             "fault_list",
+                             "frame_ms",
+                             "systems",
+                             "hitch",
+                             "fracture_frames",
+                             "yardsticks",
+                             "tasks",
+                             "sweeps",
+                             "clamped",
+                             "shapes",
+                             "allocations_in_frames",
+                             "allocations_in_rigid",
+                             "peak_rss_bytes"})
+        EXPECT_TRUE(json.contains(name)) << name;
+    const std::map<std::string, std::vector<const char*>> parts{
+        {"mass_kg", {"start", "end", "debris"}},
+        {"momentum_ns", {"start", "end", "impulse"}},
+        {"fragments", {"born", "live", "asleep", "debris"}},
+        {"awake", {"bodies", "cells"}},
+        {"units", {"used", "left"}},
+        {"frame_ms", {"p50", "p95", "p99", "max", "total", "rows"}},
+        {"fracture_frames", {"count", "p50_ms", "p99_ms", "max_ms"}},
+        {"tasks", {"opened", "broke", "dropped", "redone", "late", "frames_held", "ahead_hits", "ahead_misses"}}};
+    for (const auto& [name, members] : parts)
+        for (const char* member : members) EXPECT_TRUE(json[name].contains(member)) << name << "." << member;
+}
+
+TEST(Report, ValuesComeBackAsTheyWere) {
+    Report report;
+    report.scene = "a \"quoted\" scene\n";
+    report.seed = ~uint64_t{0};
+    report.hash = "00ff";
+    report.mass_kg = {1.0 / 3, 2, 0.5};
+    report.momentum_ns.impulse = {1, -2, 3};
+    report.systems["solve_rigid"] = spread_of({1, 2, 3, 4}, 12);
+    report.fault_list = {"one", "two"};
+    report.refused["limits.bodies"] = 7;
+    const Json json = Json::parse(to_json(report));
+    EXPECT_EQ(json["scene"], report.scene);
+    EXPECT_EQ(json["seed"].get<uint64_t>(), report.seed);
+    EXPECT_EQ(json["hash"], "00ff");
+    EXPECT_EQ(json["mass_kg"]["start"].get<double>(), 1.0 / 3);
+    EXPECT_EQ(json["momentum_ns"]["impulse"], (std::vector<double>{1, -2, 3}));
+    EXPECT_EQ(json["systems"]["solve_rigid"]["p50"], 2);
+    EXPECT_EQ(json["systems"]["solve_rigid"]["max"], 4);
+    EXPECT_EQ(json["systems"]["solve_rigid"]["total"], 10);
+    EXPECT_EQ(json["systems"]["solve_rigid"]["rows"], 12);
+    EXPECT_EQ(json["fault_list"].size(), 2u);
+    EXPECT_EQ(json["refused"]["limits.bodies"], 7);
+}
+
+TEST(Report, BytesThatAreNoTextDoNotStopIt) {
+    Report report;
+    report.notes = {"caf\xe9.obj"};
+    EXPECT_FALSE(Json::parse(to_json(report))["notes"][0].get<std::string>().empty());
+}
+
+TEST(Report, AFolderThatIsNotThereIsNamed) {
+    const auto written = write_text("x", "/nowhere/at/all/report.json");
+    ASSERT_FALSE(written.ok());
+    EXPECT_NE(written.error().find("/nowhere/at/all/report.json"), std::string::npos);
+}
+
+TEST(Report, ASpreadOfNothingIsZero) {
+    const Spread spread = spread_of({});
+    EXPECT_EQ(spread.p50, 0);
+    EXPECT_EQ(spread.total, 0);
+}
+
+}  // namespace
+}  // namespace cullet

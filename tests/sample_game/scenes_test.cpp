@@ -1,0 +1,134 @@
+// Every scene: the same bytes on any number of threads, no memory asked for, no mass lost.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <map>
+#include <numeric>
+
+#include "sample_game/allocations.hpp"
+#include "sample_game/game_world.hpp"
+#include "sample_game/run_scene.hpp"
+#include "systems/world_contents.hpp"
+
+namespace cullet {
+namespace {
+
+constexpr uint32_t kFrames = 120;
+
+/// A scene's plan, cooked once for all tests of it.
+const ScenePlan& plan_of(const Scene& scene) {
+    static std::map<std::string, ScenePlan> plans;
+    if (const auto found = plans.find(scene.name); found != plans.end()) return found->second;
+    RunOptions options;
+    options.scene = scene.name;
+    options.threads = 2;
+    Result<ScenePlan> plan = plan_scene(scene, keys_of(scene, options).value(), options);
+    EXPECT_TRUE(plan.ok()) << plan.error();
+    return plans[scene.name] = std::move(plan).value();
+}
+
+class EveryScene : public testing::TestWithParam<Scene> {};
+
+std::vector<uint64_t> hashes_of(const ScenePlan& plan, const Host& host = {}) {
+    Result<GameWorld> game = GameWorld::create(plan, host);
+    EXPECT_TRUE(game.ok()) << game.error();
+    std::vector<uint64_t> hashes;
+    for (uint32_t frame = 0; game.ok() && frame < kFrames; ++frame) {
+        game->before_step();
+        game->step();
+        game->after_step();
+        hashes.push_back(game->world().hash());
+    }
+    return hashes;
+}
+
+/// "" or the first frame that differs.
+std::string difference(const std::vector<uint64_t>& a, const std::vector<uint64_t>& b) {
+    for (size_t f = 0; f < a.size(); ++f)
+        if (a[f] != b[f]) return "frame " + std::to_string(f);
+    return "";
+}
+
+/// Runs jobs from the last to the first, or in an order that changes with each call.
+struct OddJobs {
+    bool is_random = false;
+    uint64_t calls = 0;
+    static void run(void* user, uint32_t count, void (*job)(void* context, uint32_t index), void* context) {
+        auto& self = *static_cast<OddJobs*>(user);
+        // An odd stride that shares no factor with count visits every index once.
+        uint64_t stride = 1;
+        if (self.is_random)
+            for (stride = (self.calls * 2654435761u) % count + 1; std::gcd<uint64_t>(stride, count) != 1;) ++stride;
+        const uint64_t start = self.is_random ? self.calls++ * 40503u : 0;
+        for (uint32_t i = count; i-- > 0;) job(context, static_cast<uint32_t>((start + i * stride) % count));
+    }
+};
+
+TEST_P(EveryScene, HashesAreEqualOnOneTwoAndThreeThreads) {
+    ScenePlan plan = plan_of(GetParam());
+    plan.settings.threads = 1;
+    const std::vector<uint64_t> one = hashes_of(plan);
+    ASSERT_EQ(one.size(), kFrames);
+    EXPECT_NE(one.front(), one.back());
+    for (const uint32_t threads : {2u, 3u}) {
+        plan.settings.threads = threads;
+        EXPECT_EQ(difference(one, hashes_of(plan)), "") << threads << " threads";
+    }
+    for (const bool is_random : {false, true}) {
+        OddJobs jobs{is_random};
+        Host host;
+        host.jobs.user = &jobs;
+        host.jobs.worker_count = [](void*) { return 4u; };
+        host.jobs.parallel_for = &OddJobs::run;
+        EXPECT_EQ(difference(one, hashes_of(plan, host)), "") << (is_random ? "shuffled" : "backward") << " host jobs";
+    }
+}
+
+TEST_P(EveryScene, SomethingBreaksNothingIsLostAndNoMemoryIsAskedFor) {
+    const ScenePlan& plan = plan_of(GetParam());
+    Result<GameWorld> game = GameWorld::create(plan);
+    ASSERT_TRUE(game.ok()) << game.error();
+    AllocationCounts counts;
+    for (uint32_t frame = 0; frame < kFrames; ++frame) {
+        game->before_step();
+        if (frame >= kFirstCountedFrame) start_counting_allocations();
+        game->step();
+        if (frame >= kFirstCountedFrame) counts.ours += stop_counting_allocations().ours;
+        game->after_step();
+        ASSERT_EQ(game->world().contents().data.state.validate(), "") << "frame " << frame;
+    }
+    EXPECT_EQ(counts.ours, 0u);
+    EXPECT_GT(game->born, 0u);
+    EXPECT_EQ(game->events["fault"], 0u) << (game->faults.empty() ? "" : game->faults[0]);
+    EXPECT_EQ(game->events["refused"], 0u);
+    const Matter matter = measure_matter(game->world());
+    EXPECT_NEAR(matter.mass, game->mass_put_in(), 1e-6 * game->mass_put_in());
+}
+
+INSTANTIATE_TEST_SUITE_P(Scenes, EveryScene, testing::ValuesIn(scenes().begin(), scenes().end()),
+                         [](const auto& scene) { return std::string(scene.param.name); });
+
+TEST(Scenes, TheBudgetOfDropIsRaisedUntilAHitFitsAHold) {
+    const Scene& drop = *find_scene("drop");
+    const ScenePlan& plan = plan_of(drop);
+    const double frames = std::floor(plan.settings.hold_seconds / plan.settings.step_seconds + 1e-3f);
+    EXPECT_GE(static_cast<double>(plan.settings.units_a_frame) * frames,
+              static_cast<double>(plan.models[0].report().units_of_a_hit));
+}
+
+TEST(Scenes, AnInfiniteStrengthNeverBreaks) {
+    RunOptions options;
+    options.scene = "pane";
+    options.set = {"scene.strength_scale=inf"};
+    const Scene& pane = *find_scene("pane");
+    Result<ScenePlan> plan = plan_scene(pane, keys_of(pane, options).value(), options);
+    ASSERT_TRUE(plan.ok()) << plan.error();
+    Result<GameWorld> game = GameWorld::create(plan.value());
+    ASSERT_TRUE(game.ok());
+    for (uint32_t frame = 0; frame < 60; ++frame) game->before_step(), game->step(), game->after_step();
+    EXPECT_EQ(game->born, 0u);
+    EXPECT_EQ(game->events["crack_started"], 0u);
+}
+
+}  // namespace
+}  // namespace cullet
