@@ -15,6 +15,8 @@ namespace {
 
 constexpr Row<Tasks> kTask{0};
 
+}  // namespace
+
 bool open_hit(State& state, Row<Shells> source, const HitDescription& hit) {
     const Row<Shells> working = make_shell(state, working_room(ShellView(state, source)));
     if (!working.exists()) return false;
@@ -47,8 +49,6 @@ bool open_hit(State& state, Row<Shells> source, const HitDescription& hit) {
     start_task(state, kTask);
     return true;
 }
-
-}  // namespace
 
 HitReport run_hit(State& state, Row<Shells> shell, const HitDescription& hit, bool (*is_over)(const State&)) {
     HitReport report;
