@@ -42,7 +42,8 @@ struct Drawing {
             n.push_back(view.vertices[v].normal);
         }
         std::vector<DrawnRun>& r = runs.emplace_back();
-        for (const MaterialRun& run : view.runs) r.push_back({run.first_index, run.index_count, kind_of(run.kind)});
+        for (uint32_t run = 0; run < view.run_count; ++run)
+            r.push_back({view.runs[run].first_index, view.runs[run].index_count, kind_of(view.runs[run].kind)});
         DrawnBody& body = bodies.emplace_back();
         body.pose = view.pose;
         body.positions = p;
