@@ -93,7 +93,7 @@ std::vector<uint64_t> hashes_of_a_fall(const Model& model, int frames, uint32_t*
     EXPECT_TRUE(world.add_static(floor).ok());
     SpawnSettings spawn;
     spawn.pose.position = {0, 0.2f, 0};
-    spawn.motion.velocity = {0, -10, 0};
+    spawn.motion.velocity = {0, -30, 0};
     EXPECT_TRUE(world.spawn(world.add_model(model).value(), spawn).ok());
     std::vector<uint64_t> hashes;
     for (int frame = 0; frame < frames; ++frame) {
@@ -192,7 +192,7 @@ TEST(ModelFile, AFlippedByteUnderFittingChecksumsIsRefusedOrAModelThatRuns) {
         refused += !read.ok();
         if (read.ok() && i % 8 == 1) hashes_of_a_fall(*read, 4);
     }
-    EXPECT_GT(refused, 150u);
+    EXPECT_GT(refused, 100u);
 }
 
 /// Where the table's number of rows stands: after its name.

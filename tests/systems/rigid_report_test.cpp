@@ -29,7 +29,7 @@ TEST(RigidReport, EachBallThatLiesOnTheFloorAddsAContact) {
     World world = world_with_floor();
     for (int i = 0; i < 3; ++i) {
         SphereSettings ball;
-        ball.pose.position = {static_cast<float>(i), 0.0999f, 0};
+        ball.pose.position = {static_cast<float>(i), 0.0999f, 2.5f};  // off the diagonal
         ASSERT_TRUE(world.add_sphere(ball).ok());
     }
     for (int frame = 0; frame < 5; ++frame) world.step();
