@@ -128,38 +128,84 @@ struct Bounds {
     }
 };
 
-// What the striker and the supports received, so that momentum is kept (6.6, and the impulse ahead of the solve).
+Vec3 centre_of(const Bodies& bodies, Row<Bodies> b) {
+    return to_world(pose_of(bodies, b), bodies.centre[b].to_float());
+}
+
+void push_body(Births& births, Row<Bodies> b, Vec3 impulse, Vec3 turn) {
+    Bodies& bodies = births.state.bodies;
+    const Quat q = bodies.orientation[b];
+    const Vec3d local(rotate(conjugate(q), turn));
+    bodies.velocity.set(b, bodies.velocity[b] + static_cast<float>(1.0 / bodies.mass[b]) * impulse);
+    bodies.spin.set(b, bodies.spin[b] + rotate(q, (inverse(bodies.inertia[b]) * local).to_float()));
+    births.rigid.set_motion(b, {bodies.velocity[b], bodies.spin[b]});
+}
+
+bool is_dynamic(const Bodies& bodies, Row<Bodies> b) {
+    return b.exists() && static_cast<BodyKind>(bodies.kind[b]) == BodyKind::Dynamic;
+}
+
+// The open task of `striker` in which `body` is the striker: both may break, each against the other.
+Row<Tasks> mutual_task(const State& state, Row<Bodies> striker, Row<Bodies> body) {
+    const uint32_t t = state.bodies.task[striker];
+    if (t == kNone || state.tasks.is_late[t]) return {};
+    const uint32_t first = state.tasks.first_contact[t];
+    for (uint32_t c = first; c < first + state.tasks.contact_count[t]; ++c)
+        if (state.task_contacts.striker[c] == body) return Row<Tasks>(t);
+    return {};
+}
+
+void book_static(DamageCounts& counts, Vec3 impulse) {
+    counts.impulse_to_static[0] += impulse.x;
+    counts.impulse_to_static[1] += impulse.y;
+    counts.impulse_to_static[2] += impulse.z;
+}
+
+// What strikers and supports received, so that momentum is kept (6.6). A striker whose own task is still open against
+// this body is owed the impulse: its own run will say what passed the other way, and only the difference of the two
+// counts.
 void strike_back(Births& births, Row<Tasks> task, const Moment& moment, const HandoffReport& report) {
     State& state = births.state;
-    Bodies& bodies = state.bodies;
-    const auto book_static = [&](Vec3d impulse) {
-        births.counts.impulse_to_static[0] += impulse.x;
-        births.counts.impulse_to_static[1] += impulse.y;
-        births.counts.impulse_to_static[2] += impulse.z;
-    };
-    const Vec3 support = rotate(moment.pose.orientation, report.support_momentum.to_float());
-    book_static(Vec3d(support));
+    const Bodies& bodies = state.bodies;
+    book_static(births.counts, rotate(moment.pose.orientation, report.support_momentum.to_float()));
     const TaskContacts& contacts = state.task_contacts;
-    for (uint32_t c = state.tasks.first_contact[task];
-         c < state.tasks.first_contact[task] + state.tasks.contact_count[task]; ++c) {
+    const uint32_t first = state.tasks.first_contact[task];
+    for (uint32_t c = first; c < first + state.tasks.contact_count[task]; ++c) {
         const Row<Bodies> striker = contacts.striker[c];
         const Vec3 impulse =
             static_cast<float>(-contacts.impulse[c]) * rotate(moment.pose.orientation, contacts.normal[c]);
-        if (!striker.exists() || contacts.striker_inverse_mass[c] == 0) {
-            book_static(Vec3d(impulse));
+        if (!is_dynamic(bodies, striker) || contacts.striker_inverse_mass[c] == 0) {
+            book_static(births.counts, impulse);
             continue;
         }
-        if (static_cast<BodyKind>(bodies.kind[striker]) != BodyKind::Dynamic) continue;
-        const Pose pose = pose_of(bodies, striker);
-        const Vec3 centre = to_world(pose, bodies.centre[striker].to_float());
-        const Vec3 arm = to_world(moment.pose, contacts.point[c]) - centre;
-        const Vec3d turn(rotate(conjugate(pose.orientation), cross(arm, impulse)));
-        bodies.velocity.set(striker,
-                            bodies.velocity[striker] + static_cast<float>(1.0 / bodies.mass[striker]) * impulse);
-        bodies.spin.set(striker, bodies.spin[striker] +
-                                     rotate(pose.orientation, (inverse(bodies.inertia[striker]) * turn).to_float()));
-        births.rigid.set_motion(striker, {bodies.velocity[striker], bodies.spin[striker]});
+        const Vec3 turn = cross(to_world(moment.pose, contacts.point[c]) - centre_of(bodies, striker), impulse);
+        const Row<Tasks> mutual = mutual_task(state, striker, state.tasks.body[task]);
+        if (mutual.exists()) {
+            state.tasks.owed_impulse.set(mutual, state.tasks.owed_impulse[mutual] + impulse);
+            state.tasks.owed_turn.set(mutual, state.tasks.owed_turn[mutual] + turn);
+        } else {
+            push_body(births, striker, impulse, turn);
+        }
     }
+}
+
+// Both broke: what this body was owed goes to the heavier one's largest piece, together with what strike_back gave the
+// other.
+void settle_debt(Births& births, Row<Tasks> task, const Moment& moment, const FragmentPart& largest,
+                 PartMotion& motion) {
+    State& state = births.state;
+    const Vec3 owed = state.tasks.owed_impulse[task];
+    if (dot(owed, owed) == 0) return;
+    Row<Bodies> other;
+    const uint32_t first = state.tasks.first_contact[task];
+    for (uint32_t c = first; c < first + state.tasks.contact_count[task]; ++c)
+        if (is_dynamic(state.bodies, state.task_contacts.striker[c])) other = state.task_contacts.striker[c];
+    if (other.exists() && state.bodies.mass[other] > largest.mass) {
+        push_body(births, other, owed, {});
+        return;
+    }
+    motion.momentum += Vec3d(rotate(conjugate(moment.pose.orientation), owed));
+    motion.velocity = motion.is_static ? Vec3d{} : (1.0 / motion.mass) * motion.momentum;
 }
 
 }  // namespace
@@ -188,6 +234,8 @@ void break_body(Births& births, Row<Tasks> task) {
         motions);
     births.counts.clamped += report.speed_clamps + report.spin_clamps;
     if (!moment.is_late) strike_back(births, task, moment, report);
+
+    settle_debt(births, task, moment, parts[report.largest], motions[report.largest]);
 
     // Plan: heaviest first, ties by number. The largest stays; crumbs become debris; the rest ask for rows.
     for (uint32_t i = 0; i < count; ++i) order[i] = i;
@@ -264,6 +312,12 @@ void break_body(Births& births, Row<Tasks> task) {
                 births.rigid.ignore_pair(child[p], striker, kStrikerSeconds, false);
         }
     }
+}
+
+void pay_debt(Births& births, Row<Tasks> task) {
+    const Vec3 owed = births.state.tasks.owed_impulse[task];
+    if (dot(owed, owed) > 0 && is_dynamic(births.state.bodies, births.state.tasks.body[task]))
+        push_body(births, births.state.tasks.body[task], owed, births.state.tasks.owed_turn[task]);
 }
 
 void keep_cracks(Births& births, Row<Tasks> task) {

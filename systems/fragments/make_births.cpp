@@ -35,9 +35,11 @@ void make_births(Serial, Step step, const Events<TaskEnded>& ended, ShellTables 
             case TaskState::Whole:
                 ++counts.whole;
                 if (tasks.crack_count[task]) keep_cracks(births, task);
+                pay_debt(births, task);
                 break;
             default:
                 ++counts.dropped;
+                pay_debt(births, task);
                 faults.push(
                     {body_id(bodies, tasks.body[task]),
                      "A hit gained energy three times over, or made more than 1024 pieces; the body stays as it was."});
