@@ -6,7 +6,6 @@
 #include "systems/cook/apply_pins.hpp"
 #include "systems/cook/materials.hpp"
 #include "systems/cook/model_contents.hpp"
-#include "systems/damage/assemble.hpp"
 #include "systems/damage/damage_loop.hpp"
 #include "systems/fragments/body_rows.hpp"
 #include "systems/fragments/rigid_shape.hpp"
@@ -276,10 +275,7 @@ Result<Row<Shells>> pinned_copy(State& state, Row<Shells> source, const SpawnSet
         return Error{"no vertex lies in any of the " + std::to_string(settings.pin_count) +
                      " pin boxes; they are in body coordinates, in metres."};
     }
-    assemble_springs(shell);
-    measure_limits(shell);
-    limit_all_stiffness(shell);
-    assemble_stiffness(shell);
+    stiffen_pinned(shell);
     return copy;
 }
 
