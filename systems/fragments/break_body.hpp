@@ -23,9 +23,6 @@ struct Births {
 /// setting to raise.
 void break_body(Births& births, Row<Tasks> task);
 
-/// A body that stayed whole takes the impulse that a striker, which broke against it, passed.
-void pay_debt(Births& births, Row<Tasks> task);
-
 /// A shell that stayed whole but has new cracks: the body keeps them.
 void keep_cracks(Births& births, Row<Tasks> task);
 
