@@ -30,8 +30,7 @@ int main() {
         if (i < 40) faces.push_back({0, a, b});
         if (i >= 40) faces.insert(faces.end(), {{a - 40, a, b - 40}, {b - 40, a, b}});
     }
-    const Result<Model> model =
-        cook({points.data(), points.size(), faces[0].data(), faces.size()}, {.longest_edge = 0.02f});
+    const Result<Model> model = cook({points.data(), points.size(), faces[0].data(), faces.size()}, {});
     Result<World> made = World::create({}, host);
     if (!model.ok() || !made.ok())
         return std::fprintf(stderr, "%s%s\n", model.error().c_str(), made.error().c_str()), 1;
@@ -43,7 +42,7 @@ int main() {
     const BodyId lift =
         world.add_kinematic_box({.motion = {{0, 0.5f, 0}, {}}, .half_extents = {0.3f, 0.1f, 0.3f}}).value();
     const ModelId vase = world.add_model(model.value()).value();
-    (void)world.spawn(vase, {.pose = {{1, 1.8f, 0}, {0.2f, 0, 0, 0.98f}}, .user_data = 42});
+    (void)world.spawn(vase, {.pose = {{1, 2.5f, 0}, {0.2f, 0, 0, 0.98f}}, .user_data = 42});
 
     uint32_t fragments = 0;
     double unsimulated = 0;  // s; the game draws between pose_before and pose of a view by this share of a step
