@@ -108,7 +108,6 @@ struct PatchVertices : Table<PatchVertices> {
     static constexpr const char* kName = "patch_vertices";
     Column<uint32_t> vertex{*this, "vertex"};
     Column<float> stiffness{*this, "stiffness", "N/m"};  // k_c w_i
-    Column<float> overlap{*this, "overlap", "m"};        // at the step before; less now means that the two part
     Column<float> force{*this, "force", "N"};            // along the normal, from the displacements before the step
 };
 

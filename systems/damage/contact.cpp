@@ -128,8 +128,6 @@ bool contact_forces(State& state, Row<Tasks> task) {
     PatchVertices& patches = state.patch_vertices;
     const TaskContacts& contacts = state.task_contacts;
     bool touches = false;
-    const float restitution = state.materials.restitution[state.shells.material[shell.row]];
-    const float returned = restitution * restitution;
     const uint32_t first = state.tasks.first_contact[task];
     for (uint32_t c = first; c < first + state.tasks.contact_count[task]; ++c) {
         const Vec3 n = contacts.normal[c];
@@ -137,9 +135,7 @@ bool contact_forces(State& state, Row<Tasks> task) {
         const uint32_t begin = contacts.first_patch[c];
         for (uint32_t p = begin; p < begin + contacts.patch_count[c]; ++p) {
             const float depth = travel - dot(n, state.vertices.displacement[shell.vertex(patches.vertex[p])]);
-            const float part = depth < patches.overlap[p] ? returned : 1.0f;
-            patches.force[p] = depth > 0 ? part * patches.stiffness[p] * depth : 0.0f;
-            patches.overlap[p] = depth;
+            patches.force[p] = depth > 0 ? patches.stiffness[p] * depth : 0.0f;
             touches |= patches.force[p] > 0;
         }
     }
