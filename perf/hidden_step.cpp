@@ -201,7 +201,7 @@ void measure(uint32_t frequency, const Options& options) {
 
 }  // namespace
 
-bool measure_hidden_step(const Options& options) {
+bool measure_hidden_step(const Options& options, Figures&) {
     flush_denormals();
     const std::pair<const char*, SimdLevel> levels[] = {{"best", SimdLevel::Best},
                                                         {"scalar", SimdLevel::Scalar},

@@ -83,7 +83,8 @@ void add_bodies(Drawing& drawing, const GameWorld& game) {
         if (!view.ok() || view.value().index_count == 0) continue;
         const uint64_t look = rows.user_data[b] < game.plan().looks.size() ? rows.user_data[b] : 0;
         DrawnBody& body = drawing.add(view.value());
-        body.colour = fragment_colour(rows.colour[b]);
+        // Grey for what keeps the old body: the largest piece.
+        body.colour = fragment_colour(rows.parent[b].exists() ? rows.colour[b] : 0);
         body.opacity = game.plan().looks[look].opacity;
         body.gloss = game.plan().looks[look].gloss;
     }
