@@ -9,7 +9,9 @@ int main(int argc, char** argv) {
         const char* name;
         bool (*measure)(const Options&, Figures&);
     };
-    const Scene scenes[] = {{"hidden_step", measure_hidden_step}, {"hit", measure_hit}};
+    const Scene scenes[] = {{"hidden_step", measure_hidden_step}, {"hit", measure_hit},
+                            {"generation", measure_generation},   {"pile", measure_pile},
+                            {"soft_body", measure_soft_body},     {"frames", measure_frames}};
     std::string names = "all";
     for (const Scene& scene : scenes) names += std::string(", ") + scene.name;
     Options options;
