@@ -7,7 +7,7 @@
 
 #include "systems/damage/cut_edge.hpp"
 #include "systems/damage/element_stiffness.hpp"
-#include "systems/damage/fan.hpp"
+#include "systems/damage/ring.hpp"
 #include "systems/damage/stress_check.hpp"
 #include "systems/motion/lanes-inl.hpp"
 
@@ -245,10 +245,10 @@ void link_slopes(ShellView shell) {
     for (uint32_t e = 0; e < shell.element_count(); ++e) link_slopes_of(shell, e);
 }
 void link_slopes(ShellView shell, std::span<const uint32_t> vertices) {
-    Fan fan;
+    Ring ring;
     for (const uint32_t v : vertices) {
-        collect_fan(shell, v, fan);
-        for (uint32_t i = 0; i < fan.count; ++i) link_slopes_of(shell, fan.element[i]);
+        collect_ring(shell, v, ring);
+        for (uint32_t i = 0; i < ring.count; ++i) link_slopes_of(shell, ring.element[i]);
     }
 }
 
