@@ -123,7 +123,7 @@ void run_ours(FrameTimes& times, uint32_t& contacts) {
 bool measure_pile(const Options& options, Figures& figures) {
     FrameTimes plain, ours;
     uint32_t plain_contacts = 0, our_contacts = 0;
-    for (uint32_t round = 0; round < (options.rounds ? options.rounds : 3); ++round) {
+    for (uint32_t round = 0; round < (options.rounds ? options.rounds : 2); ++round) {
         run_plain(plain, plain_contacts);
         run_ours(ours, our_contacts);
     }

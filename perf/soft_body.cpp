@@ -21,11 +21,6 @@ bool measure_soft_body(const Options& options, Figures& figures) {
         const auto solve = btSoftBody::getSolver(btSoftBody::ePSolver::Linear);
         body->setTotalMass(1);
         body->updateLinkConstants();
-        for (int i = 0; i < body->m_links.size(); ++i) {
-            btSoftBody::Link& link = body->m_links[i];
-            link.m_c3 = link.m_n[1]->m_q - link.m_n[0]->m_q;
-            link.m_c2 = 1 / (link.m_c3.length2() * link.m_c0);
-        }
         double least = 1e9;
         for (uint32_t round = 0; round < (options.rounds ? options.rounds : 50); ++round)
             least = std::min(least, seconds([&] {

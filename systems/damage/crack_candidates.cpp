@@ -1,6 +1,7 @@
 #include "systems/damage/crack_candidates.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <cstring>
 
 #include "systems/damage/ring.hpp"
@@ -37,7 +38,6 @@ void collect_tips(ShellView shell, const CrackLimits& limits, float time, Candid
 // first `tips` candidates. False: more than fit.
 bool collect_starts(ShellView shell, float limit, uint32_t tips, Candidates& candidates) {
     const Elements& elements = shell.state.elements;
-    const float lowest = static_cast<float>(kLeastStrengthFactor) * limit;
     const uint32_t first = shell.elements().first, end = first + shell.element_count();
     Candidate* const out = candidates.candidate;
     candidates.count = tips;
@@ -46,7 +46,7 @@ bool collect_starts(ShellView shell, float limit, uint32_t tips, Candidates& can
         const auto is_same = [](auto& a, auto& b) { return a.vertex == b.vertex; };
         candidates.count = static_cast<uint32_t>(std::unique(out + tips, out + candidates.count, is_same) - out);
     };
-    const float* principal = elements.principal.data();
+    const float *principal = elements.principal.data(), *strength = elements.start_strength.data();
     const uint8_t *flags = elements.flags.data(), *crack = shell.state.vertices.crack.data() + shell.vertex(0),
                   *is_banned = shell.state.vertices.is_start_banned.data() + shell.vertex(0);
     const float* strength_factor = shell.state.vertices.strength_factor.data() + shell.vertex(0);
@@ -55,11 +55,11 @@ bool collect_starts(ShellView shell, float limit, uint32_t tips, Candidates& can
         const uint32_t block_end = std::min(block + kBlock, end);
         if (block + kBlock <= end) {  // most blocks of most checks are far below; a constant count vectorises
             int any = 0;
-            for (uint32_t i = 0; i < kBlock; ++i) any |= principal[block + i] > lowest;
+            for (uint32_t i = 0; i < kBlock; ++i) any |= principal[block + i] > limit * strength[block + i];
             if (!any) continue;
         }
         for (uint32_t e = block; e < block_end; ++e) {
-            if (!(principal[e] > lowest) || (flags[e] & kDead)) continue;
+            if (!(principal[e] > limit * strength[e]) || (flags[e] & kDead)) continue;
             for (const uint32_t v : elements.corner[e]) {
                 if (crack[v] != static_cast<uint8_t>(CrackState::None) || is_banned[v]) continue;
                 if (!(principal[e] > limit * strength_factor[v])) continue;
@@ -84,6 +84,20 @@ CrackLimits crack_limits(ShellView shell, float strength_scale) {
     // The game's scale takes Griffith's limit along: a body made unbreakable is so with its old cracks too.
     return {strength_scale * strength, strength_scale * std::min(strength, griffith),
             kTipSpeed * std::sqrt(m.young_modulus[row] / m.density[row])};
+}
+
+void find_start_strengths(ShellView shell) {
+    const Vertices& vertices = shell.state.vertices;
+    Elements& elements = shell.state.elements;
+    const uint32_t first = shell.vertices().first;
+    for (uint32_t e = shell.elements().first; e < shell.elements().first + shell.element_count(); ++e) {
+        float least = HUGE_VALF;
+        for (const uint32_t v : elements.corner[e])
+            if (vertices.crack[first + v] == static_cast<uint8_t>(CrackState::None) &&
+                !vertices.is_start_banned[first + v])
+                least = std::min(least, vertices.strength_factor[first + v]);
+        elements.start_strength[e] = least;
+    }
 }
 
 StartField start_field(ShellView shell, uint32_t vertex) {

@@ -27,6 +27,10 @@ struct Candidates {
     Candidate candidate[kMost];
 };
 
+/// Fills Elements.start_strength, which choose_candidates looks at first. Bans and cracks since then only raise it;
+/// lifted bans and inserted vertices call for a new one.
+void find_start_strengths(ShellView shell);
+
 /// What a start at a vertex would look like.
 struct StartField {
     float stress = 0;  // Pa, sigma_1 of the face that has more of it

@@ -148,6 +148,7 @@ void begin_cracks(ShellView shell, bool is_fragment) {
         if (vertices.crack[v] == static_cast<uint8_t>(CrackState::Cracked))
             vertices.crack[v] = static_cast<uint8_t>(CrackState::None);
     }
+    find_start_strengths(shell);
 }
 
 uint32_t grow_cracks(State& state, Row<Tasks> task, CrackSink& sink) {
@@ -163,7 +164,7 @@ uint32_t grow_cracks(State& state, Row<Tasks> task, CrackSink& sink) {
                 {}};
     Candidates candidates;
     choose_candidates(shell, batch.limits, batch.fan, time, candidates);
-    const uint32_t cuts_before = sink.cut_edges, starts_before = sink.starts;
+    const uint32_t cuts_before = sink.cut_edges, starts_before = sink.starts, inserted_before = sink.inserted;
     bool is_whole = true;
     for (uint32_t i = 0; i < candidates.count; ++i) {
         const Candidate& c = candidates.candidate[i];
@@ -177,6 +178,7 @@ uint32_t grow_cracks(State& state, Row<Tasks> task, CrackSink& sink) {
     sink.is_out_of_slots = sink.is_out_of_slots || !is_whole;
 
     const uint32_t cuts = sink.cut_edges - cuts_before;
+    if (cuts || sink.inserted > inserted_before) find_start_strengths(shell);
     tasks.crack_count[task] += cuts;
     tasks.start_count[task] += sink.starts - starts_before;
     tasks.units_owed[task] += uint64_t{kUnitsPerCut} * cuts;

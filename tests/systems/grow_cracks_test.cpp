@@ -9,6 +9,7 @@
 #include "engine/random.hpp"
 #include "systems/damage/crack_candidates.hpp"
 #include "systems/damage/crack_rules.hpp"
+#include "systems/damage/stress_check.hpp"
 #include "tests/support/crack_meshes.hpp"
 
 namespace cullet {
@@ -88,6 +89,30 @@ TEST(GrowCracks, AStripUnderTensionCracksStraightAcrossAndFallsInTwo) {
     EXPECT_EQ(shell.state->tasks.units_owed[task], uint64_t{kUnitsPerCut} * all.cut_edges);
     EXPECT_EQ(shell.state->tasks.start_count[task], 1u);
     EXPECT_EQ(shell.view.shells().has_cracks[shell.view.row], 1);
+}
+
+// What cuts and inserts keep up to date row by row is what a pass over the whole shell gives.
+TEST(GrowCracks, LinksOfSlopesFollowEveryCutAndStartStrengthsHideNoStart) {
+    Shell shell = make_shell_of(sheet(30, 30, 0.2, 0.2, 0.35), 400, 400);
+    const Row<Tasks> task = make_task(shell);
+    link_slopes(shell.view);
+    find_start_strengths(shell.view);
+    const CrackSink all = run(shell, task, [](Vec3, int) { return tension_along({1, 0.5f, 0}, 1.1 * kStrength); });
+    ASSERT_GT(all.cut_edges, 20u);
+    ASSERT_GT(all.inserted, 0u);
+    const Elements& elements = shell.state->elements;
+    std::vector<std::array<uint32_t, 3>> links;
+    std::vector<float> strengths;
+    for (uint32_t e = 0; e < shell.view.element_count(); ++e) {
+        links.push_back(elements.other_slope[shell.view.element(e)]);
+        strengths.push_back(elements.start_strength[shell.view.element(e)]);
+    }
+    link_slopes(shell.view);
+    find_start_strengths(shell.view);
+    for (uint32_t e = 0; e < shell.view.element_count(); ++e) {
+        ASSERT_EQ(links[e], elements.other_slope[shell.view.element(e)]) << e;
+        ASSERT_LE(strengths[e], elements.start_strength[shell.view.element(e)]) << e;
+    }
 }
 
 TEST(GrowCracks, ObliqueTensionCracksPerpendicularToItself) {
