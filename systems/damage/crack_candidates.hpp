@@ -27,8 +27,8 @@ struct Candidates {
     Candidate candidate[kMost];
 };
 
-/// Fills Elements.start_strength, which choose_candidates looks at first. Bans and cracks since then only raise it;
-/// lifted bans and inserted vertices call for a new one.
+/// Fills Elements.start_strength, which choose_candidates looks at first. Bans and cracks since then only raise it,
+/// insert_vertex sets it to 0; lifted bans call for a new one.
 void find_start_strengths(ShellView shell);
 
 /// What a start at a vertex would look like.

@@ -91,6 +91,7 @@ uint32_t halve(ShellView shell, uint32_t element, uint32_t k, uint32_t w, float 
     const uint32_t row = shell.element(element), made_row = shell.element(made);
     elements.copy_rows(elements, row, made_row, 1);
     shell.state.triangle_springs.copy_rows(shell.state.triangle_springs, row, made_row, 1);
+    elements.start_strength[row] = elements.start_strength[made_row] = 0;  // the new vertex may start a crack
     const uint32_t next = (k + 1) % 3, last = (k + 2) % 3;
     interpolate_corner(elements, row, k, made_row, k, tau);
     // The kept element's corner next to the edge's second end is overwritten after the made one has read it.
