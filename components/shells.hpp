@@ -134,7 +134,7 @@ struct Elements : Table<Elements> {
     /// Of edge k: 3 * element + edge, relative to the shell, of the other half of its hinge; its own number where there
     /// is no hinge. link_slopes follows it up when neighbours change.
     Column<std::array<uint32_t, 3>> other_slope{*this, "other_slope", "1", Keep::Scratch};
-    /// Least strength factor of the corners where a crack may start, or lower; infinite where none may.
+    /// Least strength factor of the corners where a crack may start, or lower; 1e30 where none may.
     Column<float> start_strength{*this, "start_strength", "1", Keep::Scratch};
     Column<Vec3> outer_stress{*this, "outer_stress", "Pa", Keep::Scratch};
     Column<Vec3> inner_stress{*this, "inner_stress", "Pa", Keep::Scratch};

@@ -1,7 +1,6 @@
 #include "systems/damage/crack_candidates.hpp"
 
 #include <algorithm>
-#include <cmath>
 #include <cstring>
 
 #include "systems/damage/ring.hpp"
@@ -10,6 +9,7 @@ namespace cullet {
 namespace {
 
 constexpr float kPi = 3.14159265358979f;
+constexpr float kNoStart = 1e30f;  // finite, because columns are checked for it
 constexpr float kRaise = 1.25f, kMostRaise = 1e30f;  // the second ends the search for stresses that are infinite
 
 // Ready tips with an element whose principal stress passes their limit. A byte a vertex is looked at, eight at a time.
@@ -91,7 +91,7 @@ void find_start_strengths(ShellView shell) {
     Elements& elements = shell.state.elements;
     const uint32_t first = shell.vertices().first;
     for (uint32_t e = shell.elements().first; e < shell.elements().first + shell.element_count(); ++e) {
-        float least = HUGE_VALF;
+        float least = kNoStart;
         for (const uint32_t v : elements.corner[e])
             if (vertices.crack[first + v] == static_cast<uint8_t>(CrackState::None) &&
                 !vertices.is_start_banned[first + v])
