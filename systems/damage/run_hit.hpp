@@ -34,6 +34,8 @@ HitReport finish_hit(State& state);
 /// given, ends the run early; it is asked after each repetition.
 HitReport run_hit(State& state, Row<Shells> shell, const HitDescription& hit, bool (*is_over)(const State&) = nullptr);
 void close_hit(State& state);
+/// The task of such a hit, opened and not yet run. False: no room.
+bool open_hit(State& state, Row<Shells> source, const HitDescription& hit);
 
 /// Lowest vertex in direction `down`, and what a fall on a floor in that direction looks like.
 HitDescription fall_on_floor(const State& state, Row<Shells> shell, Vec3 down, float speed);
