@@ -53,18 +53,19 @@ double bending_energy(ShellView shell, uint32_t first, uint32_t count) {
     const Hinges& hinges = shell.state.hinges;
     const Elements& elements = shell.state.elements;
     const float* slope = elements.slope[shell.element(0)].data();
-    double sum = 0;
+    // Half of each hinge from either side: asking which side is the lower one guesses wrong every other time.
+    double sum[3] = {};
     for (uint32_t e = first; e < first + count; ++e) {
         const uint32_t row = shell.element(e);
         for (uint32_t k = 0; k < 3; ++k) {
             const uint32_t own = 3 * e + k, other = elements.other_slope[row][k];
-            if (other <= own) continue;  // none, or counted from the other side
+            if (other == own) continue;
             const uint32_t h = shell.hinge(elements.hinge[row][k]);
             const double angle = slope[own] + slope[other];
-            sum += double{hinges.stiffness[h]} * hinges.scale[h] * (angle * angle);
+            sum[k] += double{hinges.stiffness[h]} * hinges.scale[h] * (angle * angle);
         }
     }
-    return 0.5 * sum;
+    return 0.25 * (sum[0] + sum[1] + sum[2]);
 }
 
 TaskEnergy task_energy(State& state, Row<Tasks> task) {

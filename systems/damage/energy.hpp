@@ -20,7 +20,7 @@ bool is_blown_up(const TaskEnergy& energy, double start_energy);
 
 /// Parts of the above, for one chunk of rows, in this order: kinetic energy of vertices [first, first + count), which
 /// also writes u into side `side` of the probe; membrane_energy (stress_check.hpp), which writes the slopes; bending
-/// energy of the hinges that are elements' own by the lower number.
+/// energy of the elements' halves of their hinges.
 double kinetic_energy(ShellView shell, uint32_t side, uint32_t first, uint32_t count);
 double bending_energy(ShellView shell, uint32_t first, uint32_t count);
 

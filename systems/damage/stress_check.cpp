@@ -126,6 +126,8 @@ double energy_range(const StressTables& t, uint32_t first, uint32_t count) {
 /// the wide loads.
 inline constexpr uint32_t kBatch = 64;
 
+alignas(64) inline constexpr uint32_t kLane[] = {0, 1, 2, 3, 4, 5, 6, 7};  // hn::Iota goes through memory
+
 /// Angle of each edge's hinge, 0 where there is none.
 HWY_INLINE void gather_angles(const StressTables& t, uint32_t first, uint32_t rows, float* angle) {
     const uint32_t* other = t.other_slope[first].data();
@@ -135,7 +137,7 @@ HWY_INLINE void gather_angles(const StressTables& t, uint32_t first, uint32_t ro
     const hn::RebindToUnsigned<Floats> u;
     // A half without another names itself.
     for (uint32_t i = 0; i < 3 * rows; i += kStep) {
-        const auto self = hn::Iota(u, 3 * first + i);
+        const auto self = hn::Add(hn::Load(u, kLane), hn::Set(u, 3 * first + i));
         const V sum = hn::Add(hn::LoadU(d, own + i), hn::Load(d, angle + i));
         const auto bits = hn::IfThenZeroElse(hn::Eq(self, hn::LoadU(u, other + i)), hn::BitCast(u, sum));
         hn::Store(hn::BitCast(d, bits), d, angle + i);
