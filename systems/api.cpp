@@ -3,11 +3,11 @@
 #include <algorithm>
 #include <cmath>
 
+#include "cullet/version.hpp"
 #include "engine/fp_mode.hpp"
 #include "systems/cook/apply_pins.hpp"
 #include "systems/cook/materials.hpp"
 #include "systems/cook/model_contents.hpp"
-#include "systems/damage/assemble.hpp"
 #include "systems/damage/damage_loop.hpp"
 #include "systems/fragments/body_rows.hpp"
 #include "systems/fragments/rigid_shape.hpp"
@@ -174,9 +174,14 @@ const World::Contents& World::contents() const {
     return *contents_;
 }
 
+#define CULLET_TEXT_OF(number) #number
+#define CULLET_TEXT(number) CULLET_TEXT_OF(number)
 const char* version() {
-    return "0.1.0";
+    return CULLET_TEXT(CULLET_VERSION_MAJOR) "." CULLET_TEXT(CULLET_VERSION_MINOR) "." CULLET_TEXT(
+        CULLET_VERSION_PATCH);
 }
+#undef CULLET_TEXT
+#undef CULLET_TEXT_OF
 
 Result<World> World::create(const Settings& settings, const Host& host) {
     if (const Result<void> valid = check_settings(settings); !valid) return Error{valid.error()};
@@ -237,6 +242,11 @@ StepReport World::report() const {
     }
     for (uint32_t i = 0; i < d.state.debris.size(); ++i) report.debris += d.state.debris.is_used[i];
     return report;
+}
+
+RigidReport World::rigid_report() const {
+    const RigidCounts counts = contents_->data.rigid->counts();
+    return {counts.pairs, counts.contacts, counts.sweeps};
 }
 
 StepEvents World::events() const {
@@ -335,10 +345,7 @@ Result<Row<Shells>> pinned_copy(State& state, Row<Shells> source, const SpawnSet
         return Error{"no vertex lies in any of the " + std::to_string(settings.pin_count) +
                      " pin boxes; they are in body coordinates, in metres."};
     }
-    assemble_springs(shell);
-    measure_limits(shell);
-    limit_all_stiffness(shell);
-    if (!assemble_stiffness(shell)) {
+    if (!stiffen_pinned(shell)) {
         release_shell(state, copy);
         return Error{"the pinned body's stiffness does not fit the model's rows; please report this mesh."};
     }
@@ -390,9 +397,7 @@ Result<BodyId> World::spawn(ModelId id, const SpawnSettings& settings) {
     take_mass_properties(state, body);
     d.arena.reset();
     d.rigid->add(body, describe_rigid(state, body, convex_pieces(state, shell, d.arena)));
-    const DrawnCount drawn = draw_shell(ShellView(state, shell), bodies.view_vertices[body], bodies.view_indices[body]);
-    bodies.run_indices[body] = drawn.indices;
-    bodies.view_stamp[body] = 1;
+    draw_body(state, body);
     return body_id(bodies, body);
 }
 
@@ -645,9 +650,12 @@ Result<BodyView> World::view(BodyId id) const {
     view.indices = state.view_indices.index.data() + bodies.view_indices[body].first;
     view.index_count = bodies.view_indices[body].count;
     uint32_t first = 0;
-    for (size_t run = 0; run < 3; ++run) {
-        view.runs[run] = {static_cast<SurfaceKind>(run), first, bodies.run_indices[body][run]};
-        first += bodies.run_indices[body][run];
+    for (size_t run = 0; run < kMostRuns; ++run) {
+        const uint32_t count = bodies.run_indices[body][run];
+        const auto kind = static_cast<SurfaceKind>(run / kMostDrawnMaterials);
+        const uint16_t material = bodies.drawn_materials[body][run % kMostDrawnMaterials];
+        if (count > 0) view.runs[view.run_count++] = {kind, material, first, count};
+        first += count;
     }
     view.stamp = bodies.view_stamp[body];
     for (const ShellChanged& changed : contents_->data.shells_changed)

@@ -84,7 +84,7 @@ void integrate_hidden(Rows<StiffnessPacks> packs, OfTask task, Turn turn, const 
 /// Gives patch vertices and strikers what the springs pushed; the run ends when its time is up or all is quiet (6.4).
 void pass_impulses(EachBody task, Turn turn, ShellTables shells, Tasks& tasks, TaskContacts& contacts,
                    const PatchVertices& patches);
-/// Strain of each element and its shares of its hinges' angles.
+/// Strain of each element and its slopes against its edges.
 void strain_check(Rows<Elements> elements, OfTask task, Turn turn, ShellTables shells, const Tasks& tasks);
 /// Stress of both faces of each element, and the largest principal value (C1).
 void stress_check(Rows<Elements> elements, OfTask task, ShellTables shells, const Tasks& tasks);

@@ -57,9 +57,12 @@ bool collect_starts(ShellView shell, float limit, uint32_t tips, Candidates& can
     constexpr uint32_t kBlock = 32;
     for (uint32_t block = first; block < end; block += kBlock) {
         const uint32_t block_end = std::min(block + kBlock, end);
-        int any = 0;  // most blocks of most checks are far below
-        for (uint32_t e = block; e < block_end; ++e) any |= principal[e] > lowest;
-        for (uint32_t e = any ? block : block_end; e < block_end; ++e) {
+        if (block + kBlock <= end) {  // most blocks of most checks are far below; a constant count vectorises
+            int any = 0;
+            for (uint32_t i = 0; i < kBlock; ++i) any |= principal[block + i] > lowest;
+            if (!any) continue;
+        }
+        for (uint32_t e = block; e < block_end; ++e) {
             if (!(principal[e] > lowest) || (elements.flags[e] & kDead)) continue;
             for (const uint32_t v : elements.corner[e]) {
                 if (!may_start(shell, v, principal[e], limit)) continue;

@@ -1,6 +1,7 @@
 #include "systems/motion/start_hidden.hpp"
 
 #include "systems/damage/energy.hpp"
+#include "systems/damage/stress_check.hpp"
 
 namespace cullet {
 namespace {
@@ -47,6 +48,7 @@ void start_hidden(State& state, Row<Tasks> task) {
         contacts.striker_speed[c] = contacts.start_speed[c];
     }
     tasks.steps_done[task] = 0;
+    link_slopes(shell);
     tasks.start_energy[task] = task_energy(state, task).total();
 }
 

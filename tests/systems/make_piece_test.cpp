@@ -297,8 +297,8 @@ TEST(DrawShell, AnOpenMeshOrAWrongVolumeIsFound) {
     Range indices{state.view_indices.append(count.index_count()), 0, count.index_count()};
     draw_shell(shell, vertices, indices);
     EXPECT_TRUE(check_drawn_mesh(shell, vertices, indices).ok());
-    EXPECT_EQ(count.indices[2], 0u);  // rims are drawn with the inner surface
-    EXPECT_EQ(count.indices[1], 150u + 20u * 6u);
+    EXPECT_EQ(count.of_kind(SurfaceKind::Crack), 0u);  // rims are drawn with the inner surface
+    EXPECT_EQ(count.of_kind(SurfaceKind::Inner), 150u + 20u * 6u);
     Range fewer = indices;
     fewer.count -= 3;
     EXPECT_NE(check_drawn_mesh(shell, vertices, fewer).error().find("open"), std::string::npos);
