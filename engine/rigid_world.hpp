@@ -82,7 +82,8 @@ class RigidWorld {
                            std::span<const ConvexPiece> pieces) = 0;
 
     /// Finds contacts at the poses that bodies have now. Fast bodies, kinematic ones too, were stopped at their time of
-    /// impact by the solve() before, half a millimetre away and with their velocities whole. At most 12 contacts a pair.
+    /// impact by the solve() before, half a millimetre away and with their velocities whole. At most 12 contacts a
+    /// pair.
     virtual void detect(float dt) = 0;
     virtual std::span<const RigidContact> contacts() const = 0;
 
@@ -105,6 +106,10 @@ class RigidWorld {
     virtual bool is_asleep(RigidId id) const = 0;
     virtual void wake(RigidId id) = 0;
     virtual RigidCounts counts() const = 0;
+    /// N s, of all solves since creation: what dynamic bodies gave through contacts to whatever did not move by forces:
+    /// static, kinematic and held bodies. What sleep and rest took from slow bodies is in it. With it the momentum of
+    /// the dynamic bodies changes by gravity's share alone.
+    virtual Vec3d impulse_to_static() const = 0;
 };
 
 /// A world of Bullet's for at most `body_limit` ids. `step_seconds` is the fixed step that sleep timers count in.

@@ -56,14 +56,16 @@ void examine_pieces(State& state, const HitDescription& hit, HitResult& result) 
     start.spin = Vec3d(hit.spin);
     start.centre = state.shells.centre[shell.row];
     start.impact_speed = 1e9;  // no clamps
-    rigid_handoff(shell, start, parts, motions);
+    const HandoffReport handoff = rigid_handoff(shell, start, parts, motions);
+    const double striker = static_cast<double>(result.report.striker_speed_after);
+    result.kinetic = handoff.energy_unclamped;
+    if (hit.striker_inverse_mass > 0)
+        result.kinetic += 0.5 * striker * striker / static_cast<double>(hit.striker_inverse_mass);
     double total = 0, largest = 0;
     for (const FragmentPart& part : parts) total += part.mass, largest = std::max(largest, part.mass);
     result.largest = largest / total;
-    result.pieces = 0;
     for (size_t p = 0; p < parts.size(); ++p) {
-        if (!(parts[p].mass > kLeastShare * total)) continue;
-        ++result.pieces;
+        result.pieces += parts[p].mass > kLeastShare * total;
         const double change = length(motions[p].velocity - start.velocity) / impact_speed(hit);
         if (parts.size() > 1) result.top_speed = std::max(result.top_speed, change);
     }

@@ -12,7 +12,8 @@ struct HitResult {
     HitReport report;
     uint32_t pieces = 0;   // above 0.5 % of the mass
     double largest = 1;    // share of the mass
-    double top_speed = 0;  // change of the fastest such piece's speed before the clamps, over the impact speed
+    double top_speed = 0;  // change of the fastest piece's speed before the clamps, over the impact speed
+    double kinetic = 0;    // J, of the pieces as rigid bodies and of the striker; held pieces stand still
 };
 
 /// The figures that are to be met: m/s, pieces, share, 1, steps.

@@ -109,7 +109,7 @@ void print_hits(const HitSubject& known, const Measured& m) {
     line("cracks started", over_hits(m, [](auto& h) { return h.report.starts; }), 0, "");
     line("redone", over_hits(m, [](auto& h) { return h.report.redos; }), 0, "times");
     line("energy before", over_hits(m, [](auto& h) { return h.report.start_energy; }), 0, "J");
-    line("kinetic after", over_hits(m, [](auto& h) { return h.report.end_kinetic; }), 0, "J");
+    line("kinetic after", over_hits(m, [](auto& h) { return h.kinetic; }), 0, "J, of rigid pieces and striker");
     line("energy after", over_hits(m, [](auto& h) { return h.report.end_energy; }), 0, "J");
 }
 
@@ -153,7 +153,7 @@ nlohmann::json to_json(const HitSubject& known, const Measured& m) {
                                 {"steps", hit.report.steps},
                                 {"redos", hit.report.redos},
                                 {"start_j", hit.report.start_energy},
-                                {"end_kinetic_j", hit.report.end_kinetic}});
+                                {"end_kinetic_j", hit.kinetic}});
     return json;
 }
 

@@ -13,6 +13,7 @@ constexpr float kPushedApart = 0.0001f;  // m of overlap at which ignored siblin
 constexpr float kSettlingSpeed = 0.1f;   // m/s of the fastest point
 constexpr float kSettlingShare = 0.7f;   // of the speed that is left, a step
 constexpr float kPressedIn = 0.001f;     // m a step that an unsolved contact may deepen by
+constexpr float kSeamReach = 0.001f;     // m beyond the margins, more than mark_inner_faces() looks past a face
 constexpr unsigned long kSolverSeed = 1;
 
 btDefaultCollisionConstructionInfo construction_info(uint32_t body_limit) {
@@ -48,6 +49,7 @@ BulletWorld::BulletWorld(uint32_t body_limit)
     manifolds_.reserve(8 * static_cast<size_t>(body_limit) + 1024);
     ignored_.reserve(16 * static_cast<size_t>(body_limit) + 1024);
     skipped_.reserve(1024);
+    seams_.reserve(4096);
 }
 
 BulletWorld::~BulletWorld() {
@@ -87,9 +89,27 @@ void BulletWorld::set_pieces(Body& body, std::span<const ConvexPiece> pieces, fl
         *link = hull;
         link = &hull->next;
     }
-    for (Hull* p = body.hulls; p; p = p->next)
-        for (const Hull* q = body.hulls; q; q = q->next) mark_inner_faces(*p, *q);
+    mark_seams(body);
     measure_body(body);
+}
+
+// Only pieces whose boxes meet can cover a face. Sorted along x by the low ends, ties by order.
+void BulletWorld::mark_seams(Body& body) {
+    seams_.clear();
+    for (Hull* hull = body.hulls; hull; hull = hull->next) {
+        Box box = empty_box();
+        for (uint32_t k = 0; k < hull->point_count; ++k) include(box, hull->local.centre + hull->local[k]);
+        seams_.push_back({grown(box, hull->margin + kSeamReach), hull});
+    }
+    std::sort(seams_.begin(), seams_.end(), [](const Seam& p, const Seam& q) {
+        return p.box.low.x != q.box.low.x ? p.box.low.x < q.box.low.x : p.hull->ordinal < q.hull->ordinal;
+    });
+    for (size_t k = 0; k < seams_.size(); ++k)
+        for (size_t j = k + 1; j < seams_.size() && seams_[j].box.low.x <= seams_[k].box.high.x; ++j) {
+            if (!overlap(seams_[k].box, seams_[j].box, 0)) continue;
+            mark_inner_faces(*seams_[k].hull, *seams_[j].hull);
+            mark_inner_faces(*seams_[j].hull, *seams_[k].hull);
+        }
 }
 
 void BulletWorld::measure_body(Body& body) {
@@ -370,12 +390,33 @@ void BulletWorld::gather_contacts() {
 
 // What lies in a heap and barely moves loses part of its speed each step: twenty iterations never quite stop a heap of
 // curved shards, which would creep on by a centimetre a second and not sleep.
-void BulletWorld::settle(Body& body) const {
+void BulletWorld::settle(Body& body) {
     if (!body.is_touched || body.is_driven) return;
     const btVector3 v = body.bullet->getLinearVelocity(), w = body.bullet->getAngularVelocity();
     if (v.length() + w.length() * body.reach > kSettlingSpeed) return;
-    body.bullet->setLinearVelocity(kSettlingShare * v);
-    body.bullet->setAngularVelocity(kSettlingShare * w);
+    set_velocities(body, kSettlingShare * v, kSettlingShare * w);
+}
+
+// What rest takes from a body counts as given to what it lies on.
+void BulletWorld::set_velocities(Body& body, const btVector3& linear, const btVector3& angular) {
+    to_static_ += static_cast<double>(body.mass) * Vec3d(from_bullet(body.bullet->getLinearVelocity() - linear));
+    body.bullet->setLinearVelocity(linear);
+    body.bullet->setAngularVelocity(angular);
+}
+
+void BulletWorld::sum_impulse_to_static() {
+    for (const SortedManifold& m : manifolds_) {
+        if (!m.manifold) continue;
+        const bool is_a_free = bodies_[m.a].is_free(), is_b_free = bodies_[m.b].is_free();
+        if (is_a_free == is_b_free) continue;
+        for (int k = 0; k < m.manifold->getNumContacts(); ++k) {
+            const btManifoldPoint& p = m.manifold->getContactPoint(k);
+            const btVector3 impulse = p.m_appliedImpulse * p.m_normalWorldOnB +
+                                      p.m_appliedImpulseLateral1 * p.m_lateralFrictionDir1 +
+                                      p.m_appliedImpulseLateral2 * p.m_lateralFrictionDir2;
+            to_static_ += (is_a_free ? -1.0 : 1.0) * Vec3d(from_bullet(impulse));
+        }
+    }
 }
 
 void BulletWorld::solve(float dt) {
@@ -388,6 +429,7 @@ void BulletWorld::solve(float dt) {
         body.bullet->applyDamping(dt);
     }
     world_.solve_contacts(dt);
+    sum_impulse_to_static();
     integrate(dt);
     update_sleep(dt);
     for (RigidId id = 0; id < body_end_; ++id)

@@ -51,6 +51,7 @@ class BulletWorld final : public RigidWorld {
     bool is_asleep(RigidId id) const override;
     void wake(RigidId id) override;
     RigidCounts counts() const override { return counts_; }
+    Vec3d impulse_to_static() const override { return to_static_; }
 
     /// Bullet's near callback: the narrow phase of one pair.
     void meet(btBroadphasePair& pair);
@@ -69,6 +70,7 @@ class BulletWorld final : public RigidWorld {
     bool is_known(RigidId id) const { return id < body_limit_ && bodies_[id].is_used; }
     void set_pieces(Body& body, std::span<const ConvexPiece> pieces, float margin);
     void drop_pieces(Body& body);
+    void mark_seams(Body& body);
     void measure_body(Body& body);
     void set_mass(Body& body, double mass, Vec3d centre, const Sym3d& inertia);
     void enter(Body& body, const Pose& pose, uint32_t layer, uint32_t mask);
@@ -78,7 +80,9 @@ class BulletWorld final : public RigidWorld {
     void wake_touching(RigidId id);
     void wake_body(Body& body);
     std::vector<IgnoredPair>::iterator find_ignored(RigidId a, RigidId b);
-    void settle(Body& body) const;
+    void settle(Body& body);
+    void set_velocities(Body& body, const btVector3& linear, const btVector3& angular);
+    void sum_impulse_to_static();
     void limit_closing(float dt);
     void integrate(float dt);
     void update_sleep(float dt);
@@ -93,12 +97,18 @@ class BulletWorld final : public RigidWorld {
     btDbvtBroadphase broadphase_;
     btSequentialImpulseConstraintSolver solver_;
     DynamicsWorld world_;
+    struct Seam {
+        Box box;
+        Hull* hull;
+    };
+    std::vector<Seam> seams_;  // of the body at hand
     std::vector<RigidContact> contacts_;
     std::vector<SortedManifold> manifolds_;
     std::vector<IgnoredPair> ignored_;                  // sorted by (a, b)
     std::vector<std::pair<RigidId, RigidId>> skipped_;  // this step's, a < b
     Sweeper sweeper_;
     RigidCounts counts_;
+    Vec3d to_static_;
 };
 
 }  // namespace cullet::bullet

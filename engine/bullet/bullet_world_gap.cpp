@@ -112,8 +112,7 @@ void BulletWorld::update_sleep(float dt) {
         if (!body.is_used || body.kind != RigidKind::Dynamic || body.is_held) continue;
         btRigidBody& bullet = *body.bullet;
         if (!bullet.isActive()) {  // its whole island went to sleep in this step
-            bullet.setLinearVelocity({0, 0, 0});
-            bullet.setAngularVelocity({0, 0, 0});
+            set_velocities(body, {0, 0, 0}, {0, 0, 0});
             continue;
         }
         // A body that its island woke keeps its anchor: it may sleep again as soon as the others do.

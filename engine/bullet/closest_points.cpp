@@ -1,5 +1,6 @@
 #include "engine/bullet/closest_points.hpp"
 
+#include <algorithm>
 #include <cstring>
 
 namespace cullet::bullet {
@@ -7,88 +8,105 @@ namespace {
 
 // Gilbert, Johnson, Keerthi 1988 with the closest point of a simplex by Voronoi regions (Ericson, Real-Time Collision
 // Detection, 5.1).
-struct Corner {
-    Vec3d difference, a, b;  // a - b, from the centre of set a
-    uint32_t index_a, index_b;
-    double weight;
-};
-
 struct Simplex {
-    Corner corner[4];
+    Vec3d difference[4];  // a - b, from the centre of set a
+    uint32_t index_a[4], index_b[4];
+    double weight[4];
     int count = 0;
 };
 
-void keep(Simplex& simplex, int first, double weight_first, int second = -1, double weight_second = 0, int third = -1,
-          double weight_third = 0) {
-    const Simplex before = simplex;
-    simplex.count = 0;
-    const int kept[3] = {first, second, third};
-    const double weights[3] = {weight_first, weight_second, weight_third};
-    for (int k = 0; k < 3; ++k) {
-        if (kept[k] < 0) continue;
-        simplex.corner[simplex.count] = before.corner[kept[k]];
-        simplex.corner[simplex.count++].weight = weights[k];
-    }
+// The corners of a simplex that carry its closest point to the origin.
+struct Part {
+    int count = 0;
+    int kept[3];
+    double weight[3];
+};
+
+Part part_of(int i) {
+    return {1, {i, 0, 0}, {1, 0, 0}};
 }
 
-Vec3d point(const Simplex& simplex) {
-    Vec3d sum;
-    for (int k = 0; k < simplex.count; ++k) sum += simplex.corner[k].weight * simplex.corner[k].difference;
-    return sum;
-}
-
-void closest_of_segment(Simplex& simplex, int i, int j) {
-    const Vec3d a = simplex.corner[i].difference, ab = simplex.corner[j].difference - a;
+Part closest_of_segment(const Simplex& simplex, int i, int j) {
+    const Vec3d a = simplex.difference[i], ab = simplex.difference[j] - a;
     const double along = -dot(a, ab), square = dot(ab, ab);
-    if (along <= 0) return keep(simplex, i, 1);
-    if (along >= square) return keep(simplex, j, 1);
-    keep(simplex, i, 1 - along / square, j, along / square);
+    if (along <= 0) return part_of(i);
+    if (along >= square) return part_of(j);
+    return {2, {i, j, 0}, {1 - along / square, along / square, 0}};
 }
 
-void closest_of_triangle(Simplex& simplex, int i, int j, int k) {
-    const Vec3d a = simplex.corner[i].difference, b = simplex.corner[j].difference, c = simplex.corner[k].difference;
+Part closest_of_triangle(const Simplex& simplex, int i, int j, int k) {
+    const Vec3d a = simplex.difference[i], b = simplex.difference[j], c = simplex.difference[k];
     const Vec3d ab = b - a, ac = c - a;
     const double d1 = -dot(ab, a), d2 = -dot(ac, a), d3 = -dot(ab, b), d4 = -dot(ac, b), d5 = -dot(ab, c),
                  d6 = -dot(ac, c);
-    if (d1 <= 0 && d2 <= 0) return keep(simplex, i, 1);
-    if (d3 >= 0 && d4 <= d3) return keep(simplex, j, 1);
-    if (d6 >= 0 && d5 <= d6) return keep(simplex, k, 1);
+    if (d1 <= 0 && d2 <= 0) return part_of(i);
+    if (d3 >= 0 && d4 <= d3) return part_of(j);
+    if (d6 >= 0 && d5 <= d6) return part_of(k);
     const double vc = d1 * d4 - d3 * d2, vb = d5 * d2 - d1 * d6, va = d3 * d6 - d5 * d4;
     if (vc <= 0 && d1 >= 0 && d3 <= 0) return closest_of_segment(simplex, i, j);
     if (vb <= 0 && d2 >= 0 && d6 <= 0) return closest_of_segment(simplex, i, k);
     if (va <= 0 && d4 - d3 >= 0 && d5 - d6 >= 0) return closest_of_segment(simplex, j, k);
     const double sum = va + vb + vc;
     if (!(sum > 0)) return closest_of_segment(simplex, i, j);
-    keep(simplex, i, va / sum, j, vb / sum, k, vc / sum);
+    return {3, {i, j, k}, {va / sum, vb / sum, vc / sum}};
 }
 
-// The closest of the four faces that the origin lies in front of; false when it lies behind all of them. A flat
-// tetrahedron has the origin in front of every face.
-bool closest_of_tetrahedron(Simplex& simplex) {
+Vec3d point(const Simplex& simplex, const Part& part) {
+    Vec3d sum;
+    for (int k = 0; k < part.count; ++k) sum += part.weight[k] * simplex.difference[part.kept[k]];
+    return sum;
+}
+
+// The closest of the four faces that the origin lies in front of; no corner at all when it lies behind all of them. A
+// flat tetrahedron has the origin in front of every face.
+Part closest_of_tetrahedron(const Simplex& simplex) {
     static constexpr int kFaces[4][4] = {{0, 1, 2, 3}, {0, 2, 3, 1}, {0, 3, 1, 2}, {1, 3, 2, 0}};
-    const Simplex whole = simplex;
+    Part nearest;
     double best = -1;
     for (const auto& face : kFaces) {
-        const Vec3d a = whole.corner[face[0]].difference;
-        const Vec3d n = cross(whole.corner[face[1]].difference - a, whole.corner[face[2]].difference - a);
-        const double opposite = dot(n, whole.corner[face[3]].difference - a), origin = -dot(n, a);
+        const Vec3d a = simplex.difference[face[0]];
+        const Vec3d n = cross(simplex.difference[face[1]] - a, simplex.difference[face[2]] - a);
+        const double origin = -dot(n, a), opposite = dot(n, simplex.difference[face[3]] - a);
         if (origin * opposite > 0) continue;
-        Simplex part = whole;
-        closest_of_triangle(part, face[0], face[1], face[2]);
-        const Vec3d p = point(part);
+        const Part part = closest_of_triangle(simplex, face[0], face[1], face[2]);
+        const Vec3d p = point(simplex, part);
         const double square = dot(p, p);
         if (best >= 0 && square >= best) continue;
         best = square;
-        simplex = part;
+        nearest = part;
     }
-    return best >= 0;
+    return nearest;
 }
 
-bool reduce(Simplex& simplex) {
-    if (simplex.count == 1) simplex.corner[0].weight = 1;
-    if (simplex.count == 2) closest_of_segment(simplex, 0, 1);
-    if (simplex.count == 3) closest_of_triangle(simplex, 0, 1, 2);
-    return simplex.count < 4 || closest_of_tetrahedron(simplex);
+Part closest_part(const Simplex& simplex) {
+    switch (simplex.count) {
+        case 1:
+            return part_of(0);
+        case 2:
+            return closest_of_segment(simplex, 0, 1);
+        case 3:
+            return closest_of_triangle(simplex, 0, 1, 2);
+        default:
+            return closest_of_tetrahedron(simplex);
+    }
+}
+
+// Drops all corners but those of `part`, whose order is kept.
+void keep(Simplex& simplex, const Part& part) {
+    Simplex kept;
+    kept.count = part.count;
+    for (int k = 0; k < part.count; ++k) {
+        const int from = part.kept[k];
+        kept.difference[k] = simplex.difference[from];
+        kept.index_a[k] = simplex.index_a[from], kept.index_b[k] = simplex.index_b[from];
+        kept.weight[k] = part.weight[k];
+    }
+    for (int k = 0; k < kept.count; ++k) {
+        simplex.difference[k] = kept.difference[k];
+        simplex.index_a[k] = kept.index_a[k], simplex.index_b[k] = kept.index_b[k];
+        simplex.weight[k] = kept.weight[k];
+    }
+    simplex.count = kept.count;
 }
 
 // 40 rounds: hulls of 32 points take 4 to 12; what is not done by then keeps its best distance.
@@ -127,7 +145,7 @@ double gap_along(const Points& a, const Points& b, Vec3d axis) {
     return dot(axis, (Vec3d(a.centre) - Vec3d(b.centre)) + low - high);
 }
 
-Closest closest_points(const Points& a, const Points& b, Vec3d guess, double enough) {
+Closest closest_points(const Points& a, const Points& b, Vec3d guess, double enough, const Ways& ways) {
     const Vec3d offset = Vec3d(b.centre) - Vec3d(a.centre);
     Closest best;
     best.bound = -1e30;
@@ -139,16 +157,12 @@ Closest closest_points(const Points& a, const Points& b, Vec3d guess, double eno
         const double l = length(v);
         const Vec3d axis = (1 / l) * v;
         const Vec3 direction = axis.to_float();
-        Corner next;
-        next.index_a = support(a, -direction);
-        next.index_b = support(b, direction);
-        next.a = Vec3d(a[next.index_a]);
-        next.b = Vec3d(b[next.index_b]) + offset;
-        next.difference = next.a - next.b;
-        next.weight = 0;
-        const double gap = dot(axis, next.difference);
+        const uint32_t index_a = support(a, -direction), index_b = support(b, direction);
+        const Vec3d difference = Vec3d(a[index_a]) - (Vec3d(b[index_b]) + offset);
+        const double gap = dot(axis, difference);
         if (gap > best.bound) best.bound = gap, best.axis = axis;
-        if (gap > enough) {
+        if (gap > enough + std::max(0.0, dot(axis, ways.first)) + std::max(0.0, dot(axis, ways.second))) {
+            best.is_beyond = true;
             best.is_apart = true;
             best.distance = gap;
             best.axis = axis;
@@ -156,18 +170,21 @@ Closest closest_points(const Points& a, const Points& b, Vec3d guess, double eno
         }
         bool is_known = simplex.count > 0 && l - gap < kAgreed;
         for (int k = 0; k < simplex.count; ++k)
-            is_known |= simplex.corner[k].index_a == next.index_a && simplex.corner[k].index_b == next.index_b;
+            is_known |= simplex.index_a[k] == index_a && simplex.index_b[k] == index_b;
         if (is_known) break;
-        const Simplex before = simplex;
-        simplex.corner[simplex.count++] = next;
-        if (!reduce(simplex)) return best;  // the origin is inside
-        const Vec3d closer = point(simplex);
+        const int count = simplex.count++;
+        simplex.difference[count] = difference;
+        simplex.index_a[count] = index_a, simplex.index_b[count] = index_b;
+        const Part part = closest_part(simplex);
+        if (part.count == 0) return best;  // the origin is inside
+        const Vec3d closer = point(simplex, part);
         const double closer_square = dot(closer, closer);
         if (closer_square < kTouching * kTouching) return best;
         if (closer_square >= square) {  // rounding: no progress, the last one was best
-            simplex = before;
+            simplex.count = count;
             break;
         }
+        keep(simplex, part);
         v = closer;
         square = closer_square;
     }
@@ -175,8 +192,8 @@ Closest closest_points(const Points& a, const Points& b, Vec3d guess, double eno
     best.distance = length(v);
     best.axis = (1 / best.distance) * v;
     for (int k = 0; k < simplex.count; ++k) {
-        best.on_a += simplex.corner[k].weight * simplex.corner[k].a;
-        best.on_b += simplex.corner[k].weight * simplex.corner[k].b;
+        best.on_a += simplex.weight[k] * Vec3d(a[simplex.index_a[k]]);
+        best.on_b += simplex.weight[k] * (Vec3d(b[simplex.index_b[k]]) + offset);
     }
     return best;
 }

@@ -187,7 +187,8 @@ struct Touch {
     bool is_near = false;
     Vec3 normal;
     float gap = 0;  // of the cores
-    Vec3 middle;    // between the closest points, from the centre of a
+    float room = 0;
+    Vec3 middle;  // between the closest points, from the centre of a
 };
 
 Touch find_touch(const Hull& a, const Mat3& rotation_a, const Hull& b, const Mat3& rotation_b, Vec3& guess,
@@ -196,19 +197,23 @@ Touch find_touch(const Hull& a, const Mat3& rotation_a, const Hull& b, const Mat
     const Vec3d before(guess);
     const Closest closest = closest_points(a.world, b.world, before, reach);
     guess = closest.axis.to_float();
-    if (closest.is_apart && closest.bound > reach) return {};
     Touch touch;
-    touch.is_near = true;
+    if (closest.is_apart && closest.bound > reach) {
+        touch.room = static_cast<float>(closest.bound - reach);
+        return touch;
+    }
     // Closer than a hundredth of a millimetre the direction between the points is rounding: take the axis of least
     // overlap.
     if (closest.is_apart && closest.distance > 1e-5) {
-        if (closest.distance > reach) return {};
-        if (is_through_seam(a, rotation_a, -guess) || is_through_seam(b, rotation_b, guess)) return {};
+        if (closest.distance > reach) return touch;
+        if (is_through_seam(a, rotation_a, -guess) || is_through_seam(b, rotation_b, guess)) return touch;
+        touch.is_near = true;
         touch.gap = static_cast<float>(closest.distance);
         touch.normal = guess;
         touch.middle = (0.5 * (closest.on_a + closest.on_b)).to_float();
         return touch;
     }
+    touch.is_near = true;
     const OverlapAxis least =
         overlap_axis(a, rotation_a, b, rotation_b, before, is_own_guess ? kOwnTurning : kBorrowedTurning);
     if (least.is_found) {
@@ -247,6 +252,7 @@ Patch contact_patch(const Hull& a, const Mat3& rotation_a, const Hull& b, const 
                     bool is_own_guess) {
     Patch patch;
     const Touch touch = find_touch(a, rotation_a, b, rotation_b, guess, is_own_guess);
+    patch.room = touch.room;
     if (!touch.is_near) return patch;
     patch.normal = touch.normal;
     uint32_t count = 0;

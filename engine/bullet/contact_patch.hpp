@@ -16,7 +16,8 @@ struct PatchPoint {
 
 struct Patch {
     int count = 0;
-    Vec3 normal;  // world, unit, from b towards a
+    Vec3 normal;     // world, unit, from b towards a
+    float room = 0;  // m that the two may move against each other before they have a contact; 0 when they have
     PatchPoint point[kPatchPoints];
 };
 

@@ -121,6 +121,8 @@ void build_triangle(Hull& hull, const Vec3 (&corners)[3], uint32_t cell) {
     hull.face_normal[0] =
         normalised(cross(Vec3d(corners[1]) - Vec3d(corners[0]), Vec3d(corners[2]) - Vec3d(corners[0]))).to_float();
     hull.face_height[0] = dot(hull.face_normal[0], hull.local[0]);
+    hull.radius = 0;
+    for (uint32_t k = 0; k < 3; ++k) hull.radius = std::max(hull.radius, length(hull.local[k]));
     hull.first_corner[0] = 0, hull.first_corner[1] = 3;
     for (uint8_t k = 0; k < 3; ++k) hull.corner[k] = k;
     refresh_world(hull, Mat3{{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}}, {});

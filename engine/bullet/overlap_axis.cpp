@@ -3,24 +3,37 @@
 namespace cullet::bullet {
 namespace {
 
-struct WorldEdge {
-    Vec3d at, along, left, right;  // a point, the direction, the normals of both faces
+// Two edges make a face of the Minkowski difference where the arcs between the normals of their faces cross on the
+// Gauss sphere, b's mirrored. An arc crosses a plane where its ends lie on both sides: so all there is to know are the
+// heights of every normal of one hull over the planes of the other's arcs, in float. What that gets wrong near zero is
+// harmless: an axis is measured from support points, and one lost has a face beside it that is as good.
+struct Arcs {
+    // Rows of kMaxFaces, one an edge; columns of normals.
+    float height[kMaxEdges][kMaxFaces];
 };
 
-WorldEdge world_edge(const Hull& hull, const Mat3& rotation, uint32_t number) {
-    const HullEdge e = hull.edge[number];
-    const Vec3d at(hull.world[e.a]);
-    return {at, Vec3d(hull.world[e.b]) - at, Vec3d(rotation * hull.face_normal[e.left]),
-            Vec3d(rotation * hull.face_normal[e.right])};
+/// Normals of a hull in world axes, by column.
+struct Normals {
+    float x[kMaxFaces], y[kMaxFaces], z[kMaxFaces];
+    uint32_t count;
+    Vec3 operator[](uint32_t f) const { return {x[f], y[f], z[f]}; }
+};
+
+void turn_normals(const Hull& hull, const Mat3& rotation, Normals& out) {
+    out.count = hull.face_count;
+    for (uint32_t f = 0; f < hull.face_count; ++f) {
+        const Vec3 n = rotation * hull.face_normal[f];
+        out.x[f] = n.x, out.y[f] = n.y, out.z[f] = n.z;
+    }
 }
 
-// The arcs a.left-a.right and (-b.left)-(-b.right) cross: only then do the two edges make a face of the Minkowski
-// difference.
-bool arcs_cross(const WorldEdge& a, const WorldEdge& b) {
-    const Vec3d c = -b.left, d = -b.right;
-    const Vec3d ba = cross(a.right, a.left), dc = cross(d, c);
-    const double cba = dot(c, ba), dba = dot(d, ba), adc = dot(a.left, dc), bdc = dot(a.right, dc);
-    return cba * dba < 0 && adc * bdc < 0 && cba * bdc > 0;
+void measure_arcs(const Hull& hull, const Normals& own, const Normals& other, Arcs& out) {
+    for (uint32_t e = 0; e < hull.edge_count; ++e) {
+        const Vec3 plane = cross(own[hull.edge[e].right], own[hull.edge[e].left]);
+        float* const row = out.height[e];
+        for (uint32_t f = 0; f < other.count; ++f)
+            row[f] = plane.x * other.x[f] + plane.y * other.y[f] + plane.z * other.z[f];
+    }
 }
 
 struct Search {
@@ -31,12 +44,14 @@ struct Search {
     double best_score = -1e30;
 
     // An axis must be better by a micrometre, so that faces win over edges that tie with them.
+    double score_of(Vec3d axis, double gap) const {
+        return dot(before, before) > 0 ? gap - turning * (1 - dot(axis, before)) : gap;
+    }
+    bool is_better(Vec3d axis, double gap) const { return !best.is_found || score_of(axis, gap) > best_score + 1e-6; }
     void try_axis(Vec3d axis, double gap) {
-        const bool is_new = !(dot(before, before) > 0);
-        const double score = is_new ? gap : gap - turning * (1 - dot(axis, before));
-        if (best.is_found && score <= best_score + 1e-6) return;
+        if (!is_better(axis, gap)) return;
         best = {true, axis, gap};
-        best_score = score;
+        best_score = score_of(axis, gap);
     }
     void try_face(Vec3d axis) {
         if (dot(axis, axis) > 0.5) try_axis(axis, gap_along(a.world, b.world, axis));
@@ -49,25 +64,38 @@ bool is_outer(const Hull& hull, const HullEdge& e) {
 }
 
 void Search::try_edges(const Mat3& rotation_a, const Mat3& rotation_b) {
-    const Vec3d offset = Vec3d(b.world.centre) - Vec3d(a.world.centre);
-    WorldEdge edges_b[kMaxEdges];
-    uint32_t count_b = 0;
+    Normals normals_a, normals_b;
+    Arcs arcs_a, arcs_b;
+    turn_normals(a, rotation_a, normals_a);
+    turn_normals(b, rotation_b, normals_b);
+    measure_arcs(a, normals_a, normals_b, arcs_a);
+    measure_arcs(b, normals_b, normals_a, arcs_b);
+    uint32_t outer_b[kMaxEdges], count_b = 0;
     for (uint32_t j = 0; j < b.edge_count; ++j)
-        if (is_outer(b, b.edge[j])) edges_b[count_b++] = world_edge(b, rotation_b, j);
+        if (is_outer(b, b.edge[j])) outer_b[count_b++] = j;
     for (uint32_t i = 0; i < a.edge_count; ++i) {
-        if (!is_outer(a, a.edge[i])) continue;
-        const WorldEdge p = world_edge(a, rotation_a, i);
-        for (uint32_t j = 0; j < count_b; ++j) {
-            const WorldEdge& q = edges_b[j];
-            if (!arcs_cross(p, q)) continue;
-            Vec3d axis = cross(p.along, q.along);
+        const HullEdge p = a.edge[i];
+        if (!is_outer(a, p)) continue;
+        for (uint32_t k = 0; k < count_b; ++k) {
+            const HullEdge q = b.edge[outer_b[k]];
+            // Of -b.left and -b.right over the plane of a's arc, and the other way round.
+            const float left_b = -arcs_a.height[i][q.left], right_b = -arcs_a.height[i][q.right];
+            if (!(left_b * right_b < 0)) continue;
+            // The plane of b's mirrored arc, right x left, is the plane of the arc itself.
+            const float left_a = arcs_b.height[outer_b[k]][p.left], right_a = arcs_b.height[outer_b[k]][p.right];
+            if (!(left_a * right_a < 0) || !(left_b * right_a > 0)) continue;
+            const Vec3d along_a = Vec3d(a.world[p.b]) - Vec3d(a.world[p.a]);
+            const Vec3d along_b = Vec3d(b.world[q.b]) - Vec3d(b.world[q.a]);
+            Vec3d axis = cross(along_a, along_b);
             const double square = dot(axis, axis);
-            if (square < 1e-6 * dot(p.along, p.along) * dot(q.along, q.along))
+            if (square < 1e-6 * dot(along_a, along_a) * dot(along_b, along_b))
                 continue;  // parallel within 0.06 degrees
             axis = (1 / std::sqrt(square)) * axis;
             // Outwards from a is away from a's centre; from b towards a is the other way.
-            if (dot(axis, p.left + p.right) > 0) axis = -axis;
-            try_axis(axis, dot(axis, p.at - (q.at + offset)));
+            if (dot(axis, Vec3d(normals_a[p.left] + normals_a[p.right])) > 0) axis = -axis;
+            const Vec3d offset = Vec3d(b.world.centre) - Vec3d(a.world.centre);
+            const double gap = dot(axis, Vec3d(a.world[p.a]) - (Vec3d(b.world[q.a]) + offset));
+            if (is_better(axis, gap)) try_axis(axis, gap_along(a.world, b.world, axis));
         }
     }
 }

@@ -9,13 +9,32 @@ namespace {
 // taken.
 constexpr float kSamePoint = 0.01f;  // m
 
+// Impulses are handed on while the two move less than this against each other in a step. The impulse of a blow is none
+// to begin the next step with: twenty iterations do not take it back, and a heap that is hit throws its shards about.
+constexpr double kRestingTravel = 0.002;  // m
+
 // Contacts of a pair of bodies. Half of it and curved shards rock, twice it and the solver's time doubles.
 constexpr uint32_t kPairContacts = 12;
 // Pieces are watched from this far, so that their axis is known before they overlap.
 constexpr float kCandidateRange = 0.01f;  // m
+constexpr float kAhead = 0.01f;           // m, of travel until pieces are looked through again
+// A patch is followed, not found anew, while the bodies move less than this against each other. At five times it a
+// stack of boxes drifts by millimetres.
+constexpr float kSmallTravel = 0.00001f;  // m
 constexpr float kTurnLength = 0.1f;       // m, that opposite normals count half of
 constexpr float kDepthWeight = 20;        // a millimetre deeper counts as 20 mm farther
 constexpr float kPastBonus = 0.01f;       // m
+
+// Displacement is convex in the point: the corner of a box that moved farthest bounds all points in it.
+double farthest_way(const Box& box, const btTransform& before, const btTransform& now) {
+    float most = 0;
+    for (int corner = 0; corner < 8; ++corner) {
+        const btVector3 p(corner & 1 ? box.high.x : box.low.x, corner & 2 ? box.high.y : box.low.y,
+                          corner & 4 ? box.high.z : box.low.z);
+        most = std::max(most, (now * p - before * p).length2());
+    }
+    return std::sqrt(most);
+}
 
 void gather_near(const Body& body, const Box& box, float grown, std::vector<const Hull*>& out) {
     out.clear();
@@ -99,16 +118,23 @@ void PairAlgorithm::forget() {
         work_.records.give(record);
     }
     is_fresh_ = false;
+    travelled_ = records_until_ = 0;
 }
 
-void PairAlgorithm::process() {
-    const Body &a = work_.bodies[a_], &b = work_.bodies[b_];
-    if (changes_a_ != a.shape_changes || changes_b_ != b.shape_changes) forget();
-    if (is_fresh_ && moves_a_ == a.moves && moves_b_ == b.moves) return;
-    is_fresh_ = true;
-    moves_a_ = a.moves, moves_b_ = b.moves, changes_a_ = a.shape_changes, changes_b_ = b.shape_changes;
-    find_candidates(a, b, kCandidateRange, work_);
-    const Mat3 rotation_a = rotation_of(a.fresh_at), rotation_b = rotation_of(b.fresh_at);
+// How far the two moved against each other since the last call.
+void PairAlgorithm::follow(const Body& a, const Body& b) {
+    const bool is_a_smaller = b.kind == RigidKind::Static || (a.kind != RigidKind::Static && a.reach < b.reach);
+    const Body &small = is_a_smaller ? a : b, &large = is_a_smaller ? b : a;
+    const btTransform now = large.fresh_at.inverseTimes(small.fresh_at);
+    step_travel_ = is_fresh_ ? farthest_way(small.local_box, relative_, now) : 0;
+    travelled_ += step_travel_;
+    relative_ = now;
+}
+
+// Records for all pieces that are near, or soon will be: slow pairs are looked through again only after a while.
+void PairAlgorithm::find_records(const Body& a, const Body& b) {
+    find_candidates(a, b, kCandidateRange + kAhead, work_);
+    records_until_ = travelled_ + kAhead;
     PairRecord** link = &records_;
     const auto drop_first = [&] {
         PairRecord* const record = *link;
@@ -122,28 +148,71 @@ void PairAlgorithm::process() {
         if (!*link || (*link)->a != c.a || (*link)->b != c.b) {
             PairRecord* const record = work_.records.take();
             // A new pair of pieces begins with the axis of its neighbour of the same piece.
-            *record = {c.a, c.b, last && last->a == c.a ? last->guess : Vec3{}, false, nullptr, *link};
+            *record = {};
+            record->a = c.a, record->b = c.b;
+            if (last && last->a == c.a) record->guess = last->guess;
+            record->hull_a = c.hull_a, record->hull_b = c.hull_b;
+            record->good_until = travelled_;
+            record->next = *link;
             *link = record;
         }
-        PairRecord& record = **link;
-        last = &record;
-        link = &record.next;
-        const Hull &hull_a = hull_of(c.hull_a, a, c.a, work_), &hull_b = hull_of(c.hull_b, b, c.b, work_);
-        Patch patch = contact_patch(hull_a, rotation_a, hull_b, rotation_b, record.guess, record.is_own_guess);
-        record.is_own_guess = true;
-        if (patch.count > 0 && !c.hull_b &&
-            is_inner_edge(b.mesh->triangles[c.b - b.hull_count], hull_b, patch.normal, patch.point[0].on_b))
-            patch.count = 0;
-        if (patch.count > 0 && !c.hull_a &&
-            is_inner_edge(a.mesh->triangles[c.a - a.hull_count], hull_a, -patch.normal, patch.point[0].on_a))
-            patch.count = 0;
-        if (patch.count > 0)
-            write(record, patch, hull_a.cell, hull_b.cell);
-        else
-            release(record);
+        last = *link;
+        link = &(*link)->next;
     }
     while (*link) drop_first();
+}
+
+void PairAlgorithm::process() {
+    const Body &a = work_.bodies[a_], &b = work_.bodies[b_];
+    if (changes_a_ != a.shape_changes || changes_b_ != b.shape_changes) forget();
+    if (is_fresh_ && moves_a_ == a.moves && moves_b_ == b.moves) return;
+    follow(a, b);
+    if (!is_fresh_ || travelled_ >= records_until_) find_records(a, b);
+    is_fresh_ = true;
+    moves_a_ = a.moves, moves_b_ = b.moves, changes_a_ = a.shape_changes, changes_b_ = b.shape_changes;
+    const Mat3 rotation_a = rotation_of(a.fresh_at), rotation_b = rotation_of(b.fresh_at);
+    for (PairRecord* record = records_; record; record = record->next) {
+        // Skipped in the gap: its points are gone.
+        const bool is_emptied = record->manifold && record->manifold->getNumContacts() == 0;
+        if (travelled_ >= record->good_until || is_emptied)
+            meet(*record, a, rotation_a, b, rotation_b);
+        else if (record->manifold)
+            follow_points(*record, a, b);
+    }
     choose_best();
+}
+
+void PairAlgorithm::meet(PairRecord& record, const Body& a, const Mat3& rotation_a, const Body& b,
+                         const Mat3& rotation_b) {
+    const Hull &hull_a = hull_of(record.hull_a, a, record.a, work_),
+               &hull_b = hull_of(record.hull_b, b, record.b, work_);
+    Patch patch = contact_patch(hull_a, rotation_a, hull_b, rotation_b, record.guess, record.is_own_guess);
+    record.is_own_guess = true;
+    record.good_until = travelled_ + std::max(patch.room, kSmallTravel);
+    if (patch.count > 0 && !record.hull_b &&
+        is_inner_edge(b.mesh->triangles[record.b - b.hull_count], hull_b, patch.normal, patch.point[0].on_b))
+        patch.count = 0;
+    if (patch.count > 0 && !record.hull_a &&
+        is_inner_edge(a.mesh->triangles[record.a - a.hull_count], hull_a, -patch.normal, patch.point[0].on_a))
+        patch.count = 0;
+    if (patch.count > 0)
+        write(record, patch, hull_a.cell, hull_b.cell);
+    else
+        release(record);
+}
+
+// The points of a patch go on with their bodies while these hardly move against each other.
+void PairAlgorithm::follow_points(PairRecord& record, const Body& a, const Body& b) {
+    btPersistentManifold& manifold = *record.manifold;
+    const btVector3 normal = b.fresh_at.getBasis() * to_bullet(record.normal);
+    for (int k = 0; k < manifold.getNumContacts(); ++k) {
+        btManifoldPoint& p = manifold.getContactPoint(k);
+        p.m_positionWorldOnA = a.fresh_at * p.m_localPointA;
+        p.m_positionWorldOnB = b.fresh_at * p.m_localPointB;
+        p.m_normalWorldOnB = normal;
+        p.m_distance1 = (p.m_positionWorldOnA - p.m_positionWorldOnB).dot(normal);
+        ++p.m_lifeTime;
+    }
 }
 
 // Two shells that lie in each other touch in hundreds of points, of which the solver needs a dozen. The deepest comes
@@ -187,6 +256,7 @@ void PairAlgorithm::write(PairRecord& record, const Patch& patch, uint32_t cell_
         record.manifold->setContactBreakingThreshold(kContactRange);
     }
     btPersistentManifold& manifold = *record.manifold;
+    record.normal = transposed_times(rotation_of(b.fresh_at), patch.normal);
     manifold.m_companionIdA = static_cast<int>(cell_a);
     manifold.m_companionIdB = static_cast<int>(cell_b);
     btManifoldPoint before[kPatchPoints];
@@ -213,12 +283,16 @@ void PairAlgorithm::write(PairRecord& record, const Patch& patch, uint32_t cell_
             const float square = (before[j].m_localPointA - point.m_localPointA).length2();
             if (!is_taken[j] && square < least) nearest = j, least = square;
         }
-        if (nearest >= 0) {
+        const bool is_known = nearest >= 0;
+        if (is_known) {
             is_taken[nearest] = true;
+            point.m_lifeTime = before[nearest].m_lifeTime + 1;
+        }
+        if (is_known && step_travel_ < kRestingTravel &&
+            before[nearest].m_normalWorldOnB.dot(point.m_normalWorldOnB) > 0.9f) {
             point.m_appliedImpulse = before[nearest].m_appliedImpulse;
             point.m_appliedImpulseLateral1 = before[nearest].m_appliedImpulseLateral1;
             point.m_appliedImpulseLateral2 = before[nearest].m_appliedImpulseLateral2;
-            point.m_lifeTime = before[nearest].m_lifeTime + 1;
         }
         manifold.getContactPoint(k) = point;
     }

@@ -13,9 +13,12 @@ namespace cullet::bullet {
 
 /// Two pieces whose boxes are near: what is remembered of them from step to step.
 struct PairRecord {
-    uint32_t a, b;              // ordinals of the pieces; triangles of a static mesh follow its convex parts
-    Vec3 guess;                 // last axis from b towards a
-    bool is_own_guess = false;  // no longer borrowed from a neighbour
+    uint32_t a, b;                // ordinals of the pieces; triangles of a static mesh follow its convex parts
+    const Hull *hull_a, *hull_b;  // null: a triangle
+    Vec3 guess;                   // last axis from b towards a
+    bool is_own_guess = false;    // no longer borrowed from a neighbour
+    double good_until = 0;        // what the two found last holds while PairAlgorithm::travelled_ is less
+    Vec3 normal;                  // of the manifold's points, in the frame of b
     btPersistentManifold* manifold = nullptr;  // null while they do not touch
     PairRecord* next = nullptr;
 };
@@ -37,7 +40,7 @@ struct Offer {
 
 /// Working memory that the pairs of one world share.
 struct PairWork {
-    explicit PairWork(uint32_t body_limit) : records(8 * static_cast<size_t>(body_limit) + 1024) {
+    explicit PairWork(uint32_t body_limit) : records(128 * static_cast<size_t>(body_limit) + 16384) {
         candidates.reserve(4096);
         offers.reserve(16384);
         near_a.reserve(4096);
@@ -75,7 +78,11 @@ class PairAlgorithm : public btCollisionAlgorithm {
     bool is_apart(float allowed);
 
  private:
+    void follow(const Body& a, const Body& b);
+    void find_records(const Body& a, const Body& b);
+    void meet(PairRecord& record, const Body& a, const Mat3& rotation_a, const Body& b, const Mat3& rotation_b);
     void write(PairRecord& record, const Patch& patch, uint32_t cell_a, uint32_t cell_b);
+    void follow_points(PairRecord& record, const Body& a, const Body& b);
     void release(PairRecord& record);
     void choose_best();
 
@@ -84,6 +91,11 @@ class PairAlgorithm : public btCollisionAlgorithm {
     PairRecord* records_ = nullptr;  // sorted by (a, b)
     uint32_t moves_a_ = 0, moves_b_ = 0, changes_a_ = 0, changes_b_ = 0;
     bool is_fresh_ = false;
+    // The farthest way of any point of the smaller body in the frame of the larger one, summed over the steps: no gap
+    // between their pieces changed by more.
+    double travelled_ = 0, step_travel_ = 0;
+    double records_until_ = 0;  // records_ holds all pieces within kCandidateRange while travelled_ is less
+    btTransform relative_;      // the smaller body in the frame of the larger one
 };
 
 }  // namespace cullet::bullet

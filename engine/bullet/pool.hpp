@@ -3,11 +3,13 @@
 #pragma once
 #include <cstddef>
 #include <memory>
+#include <new>
 #include <vector>
 
 namespace cullet::bullet {
 
-/// T has a member `T* next`, which the pool uses while a row is free.
+/// T needs no destructor and no alignment beyond operator new's, and has a member `T* next`, which the pool uses while
+/// a row is free.
 template <class T>
 class Pool {
  public:
@@ -21,7 +23,7 @@ class Pool {
         if (row)
             free_ = row->next;
         else
-            row = &chunks_.back()[used_++];
+            row = new (chunks_.back().get() + used_++ * sizeof(T)) T;
         row->next = nullptr;
         return row;
     }
@@ -32,13 +34,13 @@ class Pool {
 
  private:
     void grow() {
-        // Not filled with zeros: pages that no row needs are never touched.
-        chunks_.push_back(std::unique_ptr<T[]>(new T[chunk_rows_]));
+        // Not filled: pages that no row needs are never touched.
+        chunks_.push_back(std::unique_ptr<std::byte[]>(new std::byte[chunk_rows_ * sizeof(T)]));
         used_ = 0;
     }
     size_t chunk_rows_, used_ = 0;
     T* free_ = nullptr;
-    std::vector<std::unique_ptr<T[]>> chunks_;
+    std::vector<std::unique_ptr<std::byte[]>> chunks_;
 };
 
 }  // namespace cullet::bullet

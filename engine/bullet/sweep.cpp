@@ -88,35 +88,51 @@ float reach_of(const Hull& hull) {
     return length(hull.local.centre) + hull.radius;
 }
 
-// The fraction of the step at which the two pieces come within kStop; `limit` when they do not before it.
+// The spheres about both pieces do not meet on a straight way, turning included.
+bool pass_by(const Hull& a, const Hull& b, Vec3d way, double turning) {
+    const Vec3d from = Vec3d(b.world.centre) - Vec3d(a.world.centre);
+    const double square = dot(way, way);
+    const double along = square > 0 ? std::clamp(-dot(from, way) / square, 0.0, 1.0) : 0;
+    const Vec3d nearest = from + along * way;
+    const double reach = static_cast<double>(a.radius) + b.radius + a.margin + b.margin + turning + kStop;
+    return dot(nearest, nearest) > reach * reach;
+}
+
+// The fraction of the step at which the two pieces come within kStop; `limit` when they do not before it. World points
+// are those of the start.
 double touch_fraction(const Mover& a, const Hull& hull_a, const Mover& b, const Hull& hull_b, float dt, double limit) {
     const double turning = length(a.spin) * reach_of(hull_a) + length(b.spin) * reach_of(hull_b);
+    // A body that was stopped earlier in the step may stand still by now: then each motion alone counts too.
     const bool is_stopped = a.body->moved_fraction < 1 || b.body->moved_fraction < 1;
-    const double most =
-        turning + (is_stopped ? length(a.velocity) + length(b.velocity) : length(a.velocity - b.velocity));
+    const Vec3d nothing, first = is_stopped ? -a.velocity : b.velocity - a.velocity,
+                         second = is_stopped ? b.velocity : nothing;
+    if (!is_stopped && pass_by(hull_a, hull_b, (dt * limit) * first, turning * dt * limit)) return limit;
     const double margins = static_cast<double>(hull_a.margin) + hull_b.margin;
     Points points_a, points_b;
+    const Points *now_a = &hull_a.world, *now_b = &hull_b.world;
     Vec3d axis;
     double t = 0, stop = kStop;
     for (int round = 0; round < kRounds; ++round) {
-        const btTransform at_a = a.at(t, dt), at_b = b.at(t, dt);
-        transform_points(hull_a, rotation_of(at_a), from_bullet(at_a.getOrigin()), points_a);
-        transform_points(hull_b, rotation_of(at_b), from_bullet(at_b.getOrigin()), points_b);
-        const double enough = most * dt * (limit - t) + margins + kStop;
-        const Closest closest = closest_points(points_a, points_b, axis, enough);
-        if (closest.bound > enough) return limit;
+        if (round > 0) {
+            const btTransform at_a = a.at(t, dt), at_b = b.at(t, dt);
+            transform_points(hull_a, rotation_of(at_a), from_bullet(at_a.getOrigin()), points_a);
+            transform_points(hull_b, rotation_of(at_b), from_bullet(at_b.getOrigin()), points_b);
+            now_a = &points_a, now_b = &points_b;
+        }
+        const double left = dt * (limit - t);
+        const Closest closest =
+            closest_points(*now_a, *now_b, axis, turning * left + margins + kStop, {left * first, left * second});
+        if (closest.is_beyond) return limit;
         axis = closest.axis;
-        const double gap = (closest.is_apart ? gap_along(points_a, points_b, axis) : -1.0) - margins;
+        const double gap = (closest.is_apart ? gap_along(*now_a, *now_b, axis) : -1.0) - margins;
         if (round == 0 && gap < kTouching) {
             // They touch: the solver has slowed them where they do, but the rest of a piece may still swing in.
             stop = std::max(gap - kDeeper, kLeast - margins);
             if (stop >= gap) return limit;
         }
         if (gap < stop) return t;
-        // A body that was stopped earlier in the step may stand still by now: the bound holds for both.
-        const double closing_a = -dot(a.velocity, axis), closing_b = dot(b.velocity, axis);
-        const double closing = turning + (a.body->moved_fraction < 1 ? std::max(0.0, closing_a) : closing_a) +
-                               (b.body->moved_fraction < 1 ? std::max(0.0, closing_b) : closing_b);
+        const double one = dot(first, axis), other = dot(second, axis);
+        const double closing = turning + (is_stopped ? std::max(0.0, one) + std::max(0.0, other) : one);
         if (!(closing > 1e-6)) return limit;
         t += (gap - stop + kAim) / (closing * dt);
         if (t >= limit) return limit;

@@ -16,9 +16,8 @@ static_assert(std::endian::native == std::endian::little, "model files are littl
 
 constexpr char kMagic[8] = {'c', 'm', 'o', 'd', 'l', '\r', '\n', '\x1a'};
 constexpr uint32_t kVersion = 1;
-constexpr uint32_t kLongestText = 4096;  // bytes
-constexpr uint32_t kTables = 10;
-constexpr uint64_t kLargestFile = 1ull << 34;  // so that 5 rows for each row of it still count in 32 bits
+constexpr uint32_t kLongestText = 4096;        // bytes
+constexpr uint64_t kLargestFile = 1ull << 34;  // rows of it, and of what is derived from them, count in 32 bits
 
 struct Header {
     char magic[8];

@@ -71,7 +71,7 @@ uint64_t hash_of_blow(HitBench& bench, const HitDescription& hit, uint32_t steps
     add(&report.impulse, sizeof report.impulse);
     add(&report.steps, sizeof report.steps);
     close_hit(state);
-    return hash_bytes(bytes.data(), bytes.size());
+    return hash_bytes(bytes.data(), bytes.size(), 0);
 }
 
 class Slicing : public testing::TestWithParam<Subject> {};
@@ -87,13 +87,14 @@ TEST_P(Slicing, ABlowGivesTheSameBytesWhateverTheSlicesAndTheTeam) {
     for (const uint32_t steps_a_call : {1u, 7u, kUnlimited})
         for (const uint32_t team_size : {1u, 2u, 3u}) {
             if (team_size > 1 && steps_a_call == 1) continue;  // some thousand teams
+            if (team_size > 2 && steps_a_call == 7) continue;
             EXPECT_EQ(hash_of_blow(bench, hit, steps_a_call, team_size, report), whole)
                 << steps_a_call << " steps a call, " << team_size << " threads";
         }
 }
 
-INSTANTIATE_TEST_SUITE_P(All, Slicing, testing::ValuesIn(kSubjects), [](const auto& info) {
-    return std::string(std::array{"Vase", "Pane", "Wall"}[static_cast<size_t>(info.param)]);
+INSTANTIATE_TEST_SUITE_P(All, Slicing, testing::ValuesIn(kSubjects), [](const auto& of) {
+    return std::string(std::array{"Vase", "Pane", "Wall"}[static_cast<size_t>(of.param)]);
 });
 
 }  // namespace

@@ -22,7 +22,7 @@ Medians medians_of(HitBench& bench, uint32_t placements, float step_scale, doubl
     return {spread_of(cracks).median, spread_of(pieces).median};
 }
 
-// Bounds of the full case are 35 % about medians of 20 and 5 % between the steps; a median of five placements spreads
+// Bounds of the full case are 35 % about medians of 20 and 5 % between the steps; a median of a few placements spreads
 // by another sixth or so.
 void expect_known_thresholds(Subject subject, uint32_t placements, bool halves_the_step) {
     const Result<HitSubject> known = make_subject(subject);
@@ -43,7 +43,7 @@ void expect_known_thresholds(Subject subject, uint32_t placements, bool halves_t
 }
 
 TEST(Thresholds, AVaseCracksAndBreaksAtTheKnownSpeeds) {
-    expect_known_thresholds(Subject::Vase, 5, false);
+    expect_known_thresholds(Subject::Vase, 3, false);
 }
 TEST(Thresholds, APaneCracksAndBreaksAtTheKnownSpeeds) {
     expect_known_thresholds(Subject::Pane, 5, false);
