@@ -47,8 +47,9 @@ struct Bodies : Table<Bodies> {
     // Drawn mesh in view space.
     Column<Range> view_vertices{*this, "view_vertices"};
     Column<Range> view_indices{*this, "view_indices"};
-    Column<std::array<uint32_t, 3>> run_indices{*this, "run_indices"};  // indices of outer, inner, crack, in this order
-    Column<uint32_t> view_stamp{*this, "view_stamp"};                   // changes when the drawn mesh changes
+    Column<std::array<uint32_t, kMostRuns>> run_indices{*this, "run_indices"};  // by kind, then by drawn material
+    Column<std::array<uint16_t, kMostDrawnMaterials>> drawn_materials{*this, "drawn_materials"};  // rising; rest 0
+    Column<uint32_t> view_stamp{*this, "view_stamp"};  // changes when the drawn mesh changes
 };
 
 /// One component of a broken shell: its elements are first_element, Elements.next of it, and so on in rising order

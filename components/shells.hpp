@@ -129,6 +129,11 @@ struct Elements : Table<Elements> {
     Column<std::array<float, 6>> uv{*this, "uv"};
     Column<uint16_t> drawn_material{*this, "drawn_material"};
     // Scratch of the stress check: both faces, (xx, yy, xy) in the triangle's own axes.
+    /// Of the edges: how the normal displacement falls towards the corner opposite. A hinge's angle is the sum of two.
+    Column<std::array<float, 3>> slope{*this, "slope", "rad", Keep::Scratch};
+    /// Of edge k: 3 * element + edge, relative to the shell, of the other half of its hinge; its own number where there
+    /// is no hinge. link_slopes follows it up when neighbours change.
+    Column<std::array<uint32_t, 3>> other_slope{*this, "other_slope", "1", Keep::Scratch};
     Column<Vec3> outer_stress{*this, "outer_stress", "Pa", Keep::Scratch};
     Column<Vec3> inner_stress{*this, "inner_stress", "Pa", Keep::Scratch};
     Column<float> principal{*this, "principal", "Pa", Keep::Scratch};  // largest of both faces
@@ -160,8 +165,6 @@ struct Hinges : Table<Hinges> {
     Column<std::array<float, 12>> gradient{*this, "gradient", "1/m"};
     Column<float> stiffness{*this, "stiffness", "J"};  // D L^2 / (A1 + A2), unscaled
     Column<float> scale{*this, "scale"};               // B7's limit, in (0, 1]
-    /// theta is the sum of what its two elements add, lower element first; written by the stress check.
-    Column<std::array<float, 2>> angle{*this, "angle", "rad", Keep::Scratch};
 };
 
 /// One row is 8 vertices' share of the stiffness: f_i = sum_j K_ij (w_j - w_i), difference form (section 10).

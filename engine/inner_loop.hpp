@@ -67,13 +67,17 @@ class InnerLoop {
             else
                 open_next(0);
         }
-        /// Called by each worker; returns when the run is over.
-        void work() {
+        /// Called by each worker; returns when the run is over. Even workers take chunks from the front, odd ones from
+        /// the back, so that each meets nearly the same rows in every repetition and finds them in its cache.
+        void work(uint32_t worker = 0) {
+            const bool is_front = worker % 2 == 0;
             uint32_t idle = 0;
             for (;;) {
                 uint64_t ticket = ticket_.load(std::memory_order_acquire);
                 if (is_over_.load(std::memory_order_acquire)) return;
-                if (static_cast<uint32_t>(ticket) == 0) {
+                const auto front = static_cast<uint32_t>(ticket & 0xffff),
+                           back = static_cast<uint32_t>(ticket >> 16 & 0xffff);
+                if (front == back) {
                     if (++idle < 4096) {
                         _mm_pause();
                     } else {
@@ -82,10 +86,11 @@ class InnerLoop {
                     }
                     continue;
                 }
-                if (!ticket_.compare_exchange_weak(ticket, ticket - 1, std::memory_order_acq_rel)) continue;
+                const uint64_t claimed = is_front ? ticket + 1 : ticket - 0x10000;
+                if (!ticket_.compare_exchange_weak(ticket, claimed, std::memory_order_acq_rel)) continue;
                 // From here on until this chunk is done the pass cannot end, so that its plain members stand still.
                 idle = 0;
-                const uint32_t chunk = chunk_count_ - static_cast<uint32_t>(ticket);
+                const uint32_t chunk = is_front ? front : back - 1;
                 loop_.run_chunk(loop_.systems_[system_], world_, run_.body, rows_, chunk, repetition_);
                 if (left_.fetch_sub(1, std::memory_order_acq_rel) == 1) open_next(system_ + 1);
             }
@@ -118,9 +123,9 @@ class InnerLoop {
                 }
                 rows_ = rows;
                 system_ = system;
-                chunk_count_ = chunks;
+                CULLET_ASSERT(chunks <= 0xffff, "%u chunks in one pass of %s", chunks, planned.name.c_str());
                 left_.store(chunks, std::memory_order_relaxed);
-                ticket_.store((((ticket_.load(std::memory_order_relaxed) >> 32) + 1) << 32) | chunks,
+                ticket_.store((((ticket_.load(std::memory_order_relaxed) >> 32) + 1) << 32) | (chunks << 16),
                               std::memory_order_release);
                 return;
             }
@@ -130,9 +135,10 @@ class InnerLoop {
         World& world_;
         Run run_;
         Rows<void> rows_;
-        uint32_t system_ = 0, repetition_ = 0, chunk_count_ = 0;
-        // Pass number << 32 | chunks nobody has claimed. One word: with the count in another, a worker that holds the
-        // last pass's exhausted ticket beside the next pass's count claims a chunk that does not exist.
+        uint32_t system_ = 0, repetition_ = 0;
+        // Pass number << 32 | end << 16 | begin of the chunks nobody has claimed. One word: with the count in another,
+        // a worker that holds the last pass's exhausted ticket beside the next pass's count claims a chunk that does
+        // not exist.
         alignas(64) std::atomic<uint64_t> ticket_{0};
         alignas(64) std::atomic<uint32_t> left_{0};  // chunks not done
         std::atomic<bool> is_over_{false};

@@ -232,7 +232,7 @@ Error file_trouble(const std::string& path, const char* doing, int number) {
     return {path + ": cannot " + doing + " (" + std::strerror(number) + "). Check the path, the rights and the disk."};
 }
 
-Result<void> write_bytes(const std::vector<uint8_t>& bytes, const std::string& path) {
+Result<void> write_bytes(std::span<const uint8_t> bytes, const std::string& path) {
     const int file = ::open(path.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0666);
     if (file < 0) return file_trouble(path, "create the file", errno);
     size_t done = 0;
@@ -333,10 +333,9 @@ std::vector<uint8_t> encode_mesh_file(const Mesh& mesh) {
     return out;
 }
 
-Result<void> write_mesh_file(const Mesh& mesh, const std::string& path) {
-    if (auto r = validate_mesh(mesh, path); !r) return r;
+Result<void> write_whole_file(std::span<const uint8_t> bytes, const std::string& path) {
     const std::string part = path + "." + text(static_cast<uint64_t>(::getpid())) + ".part";
-    if (auto r = write_bytes(encode_mesh_file(mesh), part); !r) {
+    if (auto r = write_bytes(bytes, part); !r) {
         ::unlink(part.c_str());
         return r;
     }
@@ -346,6 +345,11 @@ Result<void> write_mesh_file(const Mesh& mesh, const std::string& path) {
         return file_trouble(path, "put the new file in place", number);
     }
     return {};
+}
+
+Result<void> write_mesh_file(const Mesh& mesh, const std::string& path) {
+    if (auto r = validate_mesh(mesh, path); !r) return r;
+    return write_whole_file(encode_mesh_file(mesh), path);
 }
 
 }  // namespace cullet

@@ -38,12 +38,14 @@ Result<Mesh> read_mesh_file(const std::string& path);
 
 /// The bytes of any mesh, valid or not, with corner arrays of the right length.
 std::vector<uint8_t> encode_mesh_file(const Mesh& mesh);
-/// Validates, writes path.<process>.part beside the target and renames it: there is never half a mesh under the name.
+/// Validates and writes as write_whole_file does.
 Result<void> write_mesh_file(const Mesh& mesh, const std::string& path);
 
 /// True for bytes that begin like a mesh file.
 bool is_mesh_file(std::span<const uint8_t> bytes);
 /// The whole of an ordinary file of at most most_bytes.
 Result<std::vector<uint8_t>> read_whole_file(const std::string& path, uint64_t most_bytes);
+/// Writes path.<process>.part beside the target and renames it: there is never half a file under the name.
+Result<void> write_whole_file(std::span<const uint8_t> bytes, const std::string& path);
 
 }  // namespace cullet

@@ -160,13 +160,17 @@ class AnyTable {
     AnyTable(const AnyTable&) = delete;
     AnyTable& operator=(const AnyTable&) = delete;
 
- protected:
-    explicit AnyTable(uint32_t limit) : limit_(limit) {}
-    ~AnyTable() = default;
+    // For what works from the list of columns: files, comparisons, checks.
+    /// Row 0 of one of the column's lanes * sides arrays.
     std::byte* column_memory(const ColumnInfo& column, int array) const;
     /// Of plain bytes: 16 of them, from byte `from` on.
     std::string describe_value(const ColumnInfo& column, int array, uint32_t row, uint32_t from = 0) const;
+    /// "vertices.velocity[812].y"
     std::string place_of(const ColumnInfo& column, int array, uint32_t row) const;
+
+ protected:
+    explicit AnyTable(uint32_t limit) : limit_(limit) {}
+    ~AnyTable() = default;
 
     uint32_t size_ = 0, limit_ = 0;
     const char* name_ = "";

@@ -13,7 +13,7 @@
 #include "perf/perf.hpp"
 #include "systems/damage/energy.hpp"
 #include "systems/damage/stress_check.hpp"
-#include "systems/motion/integrate_hidden.hpp"
+#include "systems/motion/integrate_packs.hpp"
 #include "tests/support/shell_meshes.hpp"
 
 namespace cullet::perf {
@@ -143,7 +143,7 @@ void measure(uint32_t frequency, const Options& options) {
     const HiddenStep sides[2] = {{shell, dt, beta, 0}, {shell, dt, beta, 1}};
     const auto ours = [&](uint32_t step, uint32_t chunk) {
         const uint32_t first = chunk * kChunkPacks;
-        integrate_hidden(sides[step & 1], first, std::min(kChunkPacks, packs - first));
+        integrate_packs(sides[step & 1], first, std::min(kChunkPacks, packs - first));
     };
     const auto bare_chunk = [&](uint32_t step, uint32_t chunk) {
         const uint32_t first = chunk * kChunkPacks;
@@ -201,7 +201,7 @@ void measure(uint32_t frequency, const Options& options) {
 
 }  // namespace
 
-bool measure_hidden_step(const Options& options) {
+bool measure_hidden_step(const Options& options, Figures&) {
     flush_denormals();
     const std::pair<const char*, SimdLevel> levels[] = {{"best", SimdLevel::Best},
                                                         {"scalar", SimdLevel::Scalar},

@@ -11,6 +11,32 @@ struct Options {
     std::string scene = "all";
     std::vector<unsigned> threads{1, 2};
     std::string simd = "best";  // best, scalar, sse4, avx2, avx512
+    std::string json;           // a file; empty: none
+    uint32_t rounds = 0;        // runs of which the least is taken; 0: the scene's own number
+};
+
+/// One number and, where the project promises one, its limit.
+struct Figure {
+    std::string scene, name, unit;
+    double value = 0, limit = 0;  // limit 0: none
+    bool is_least = false;        // the limit is the least allowed, not the most
+};
+
+/// All figures of one run of the program.
+class Figures {
+ public:
+    void begin(const std::string& scene) { scene_ = scene; }
+    void add(const std::string& name, double value, const std::string& unit, double limit = 0, bool is_least = false) {
+        all_.push_back({scene_, name, unit, value, limit, is_least});
+    }
+    const std::vector<Figure>& all() const { return all_; }
+    /// One line a figure of this scene, a ratio beside its limit.
+    void print(const std::string& scene) const;
+    bool write_json(const std::string& path) const;
+
+ private:
+    std::string scene_;
+    std::vector<Figure> all_;
 };
 
 /// Seconds that the call took.
@@ -23,6 +49,16 @@ double seconds(Call call) {
 
 /// The hidden brittle step and stress check, beside the bare kernel and plain element loops. False: some results
 /// differ.
-bool measure_hidden_step(const Options& options);
+bool measure_hidden_step(const Options& options, Figures& figures);
+/// A whole hit on the vase, beside the bare steps that it made.
+bool measure_hit(const Options& options, Figures& figures);
+/// The guarded front, in Embree builds of the same mesh.
+bool measure_generation(const Options& options, Figures& figures);
+/// A settled pile of hulls in plain Bullet and in our world.
+bool measure_pile(const Options& options, Figures& figures);
+/// Link iterations of Bullet's soft body, for springs.
+bool measure_soft_body(const Options& options, Figures& figures);
+/// Frame times of the sample game's scenes.
+bool measure_frames(const Options& options, Figures& figures);
 
 }  // namespace cullet::perf

@@ -42,7 +42,8 @@ struct Drawing {
             n.push_back(view.vertices[v].normal);
         }
         std::vector<DrawnRun>& r = runs.emplace_back();
-        for (const MaterialRun& run : view.runs) r.push_back({run.first_index, run.index_count, kind_of(run.kind)});
+        for (uint32_t run = 0; run < view.run_count; ++run)
+            r.push_back({view.runs[run].first_index, view.runs[run].index_count, kind_of(view.runs[run].kind)});
         DrawnBody& body = bodies.emplace_back();
         body.pose = view.pose;
         body.positions = p;
@@ -82,7 +83,8 @@ void add_bodies(Drawing& drawing, const GameWorld& game) {
         if (!view.ok() || view.value().index_count == 0) continue;
         const uint64_t look = rows.user_data[b] < game.plan().looks.size() ? rows.user_data[b] : 0;
         DrawnBody& body = drawing.add(view.value());
-        body.colour = fragment_colour(rows.colour[b]);
+        // Grey for what keeps the old body: the largest piece.
+        body.colour = fragment_colour(rows.parent[b].exists() ? rows.colour[b] : 0);
         body.opacity = game.plan().looks[look].opacity;
         body.gloss = game.plan().looks[look].gloss;
     }

@@ -8,6 +8,7 @@
 #include "cullet/world.hpp"
 #include "sample_game/options.hpp"
 #include "sample_game/run_scene.hpp"
+#include "sample_game/truth.hpp"
 
 namespace cullet {
 namespace {
@@ -20,9 +21,7 @@ int run(const Options& options) {
         case Command::Run: return run_command(options.run);
         case Command::Truth: break;
     }
-    // run_truth(options.truth.model, {placements, threads, out}) is called here once it is there.
-    fmt::print(stderr, "truth {}: not part of this build.\n", options.truth.model);
-    return 2;
+    return run_truth(options.truth.model, {options.truth.placements, options.truth.threads, options.truth.out});
 }
 
 }  // namespace

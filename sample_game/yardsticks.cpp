@@ -5,7 +5,7 @@
 #include "engine/fp_mode.hpp"
 #include "engine/profiler.hpp"
 #include "systems/cook/model_contents.hpp"
-#include "systems/motion/integrate_hidden.hpp"
+#include "systems/motion/integrate_packs.hpp"
 
 namespace cullet {
 namespace {
@@ -33,7 +33,7 @@ std::map<std::string, double> measure_yardsticks(const Model& model) {
     for (uint32_t turn = 0; now_ns() - start < kMeasureFor; ++turn) {
         const HiddenStep step(shell, dt, 0.15f * dt, turn & 1);
         const uint64_t begin = now_ns();
-        integrate_hidden(step, 0, step.pack_count);
+        integrate_packs(step, 0, step.pack_count);
         least = std::min(least, now_ns() - begin);
     }
     return {{"unit_ns", static_cast<double>(least) / (kUnitsAVertex * vertices.count)}};

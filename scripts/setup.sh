@@ -6,7 +6,7 @@ packages=(
     g++ cmake ninja-build ccache pkg-config
     libeigen3-dev libbullet-dev libembree-dev libtbb-dev libhwy-dev libxxhash-dev
     libassimp-dev libcli11-dev nlohmann-json3-dev libfmt-dev libpng-dev
-    libgtest-dev librapidcheck-dev libbenchmark-dev
+    libgtest-dev
 )
 
 missing=()

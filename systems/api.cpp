@@ -1,12 +1,13 @@
 // The public face, made true: checks what the game gives, keeps rows and the rigid world in step. Everything here runs
 // between steps, on the thread that owns the world.
+#include <algorithm>
 #include <cmath>
 
+#include "cullet/version.hpp"
 #include "engine/fp_mode.hpp"
 #include "systems/cook/apply_pins.hpp"
 #include "systems/cook/materials.hpp"
 #include "systems/cook/model_contents.hpp"
-#include "systems/damage/assemble.hpp"
 #include "systems/damage/damage_loop.hpp"
 #include "systems/fragments/body_rows.hpp"
 #include "systems/fragments/rigid_shape.hpp"
@@ -21,20 +22,60 @@ bool is_finite(Vec3 v) {
     return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z);
 }
 
-Result<void> check_pose(const Pose& pose, const Motion& motion) {
+// Farther and faster, floats of the rigid solver run over when squared.
+constexpr float kFarthest = 1e6f, kFastest = 1e5f, kHeaviest = 1e12f;
+
+bool is_within(Vec3 v, float most) {
+    return std::fabs(v.x) <= most && std::fabs(v.y) <= most && std::fabs(v.z) <= most;  // false for what is no number
+}
+std::string text(Vec3 v) {
+    return "(" + std::to_string(v.x) + ", " + std::to_string(v.y) + ", " + std::to_string(v.z) + ")";
+}
+
+Result<void> check_motion(const Motion& motion) {
+    if (!is_within(motion.velocity, kFastest))
+        return Error{"motion.velocity is " + text(motion.velocity) + "; give m/s, at most 100000 a component."};
+    if (!is_within(motion.angular_velocity, kFastest))
+        return Error{"motion.angular_velocity is " + text(motion.angular_velocity) +
+                     "; give rad/s, at most 100000 a component."};
+    return {};
+}
+
+Result<void> check_pose(const Pose& pose) {
     const Quat q = pose.orientation;
     const float norm = q.x * q.x + q.y * q.y + q.z * q.z + q.w * q.w;
-    if (!is_finite(pose.position)) return Error{"pose.position is not finite; give metres."};
+    if (!is_within(pose.position, kFarthest))
+        return Error{"pose.position is " + text(pose.position) +
+                     "; give metres, at most 1000000 from the origin along each axis."};
     if (!(std::fabs(norm - 1) < 1e-3f))
         return Error{"pose.orientation has length " + std::to_string(std::sqrt(norm)) + "; give a unit quaternion."};
-    if (!is_finite(motion.velocity) || !is_finite(motion.angular_velocity))
-        return Error{"motion is not finite; give m/s and rad/s."};
     return {};
+}
+
+Result<void> check_contact(const ContactSettings& contact) {
+    if (!(contact.friction <= 100))
+        return Error{"contact.friction is " + std::to_string(contact.friction) +
+                     "; use 0 to 100, or less than 0 for the material's."};
+    if (!(contact.restitution <= 1))
+        return Error{"contact.restitution is " + std::to_string(contact.restitution) +
+                     "; use 0 to 1, or less than 0 for 0.2."};
+    return {};
+}
+
+// What every kind of body is asked.
+Result<void> check_body(const Pose& pose, const Motion& motion, const ContactSettings& contact) {
+    if (Result<void> valid = check_pose(pose); !valid) return valid;
+    if (Result<void> valid = check_motion(motion); !valid) return valid;
+    return check_contact(contact);
 }
 
 Error stale(const char* what, uint32_t index) {
     return Error{std::string(what) + " handle " + std::to_string(index) +
                  " names nothing that is alive; it was removed, or never was."};
+}
+
+Error no_room(const Bodies& bodies) {
+    return Error{"limits.bodies is reached (" + std::to_string(bodies.limit()) + "); raise it or remove a body."};
 }
 
 Pose normalised_pose(const Pose& pose) {
@@ -74,23 +115,35 @@ RigidDescription description_of(const Bodies& bodies, Row<Bodies> b, RigidKind k
     return d;
 }
 
+constexpr uint64_t kMostUnits = 1'000'000'000'000'000;
+
 Result<void> check_settings(const Settings& s) {
     if (!(s.step_seconds >= 1.0f / 1000 && s.step_seconds <= 1.0f / 20))
         return Error{"Settings::step_seconds is " + std::to_string(s.step_seconds) + "; use 0.001 to 0.05."};
-    if (!is_finite(s.gravity)) return Error{"Settings::gravity is not finite; give m/s2."};
-    if (s.units_a_frame < 1000)
-        return Error{"Settings::units_a_frame is " + std::to_string(s.units_a_frame) + "; use at least 1000."};
+    if (!is_within(s.gravity, 1e4f))
+        return Error{"Settings::gravity is " + text(s.gravity) + "; give m/s2, at most 10000 a component."};
+    if (s.units_a_frame < 1000 || s.units_a_frame > kMostUnits)
+        return Error{"Settings::units_a_frame is " + std::to_string(s.units_a_frame) + "; use 1000 to 1e15."};
+    if (s.generations > 100)
+        return Error{"Settings::generations is " + std::to_string(s.generations) + "; use 0 to 100."};
+    if (!(s.debris_share >= 0 && s.debris_share <= 1))
+        return Error{"Settings::debris_share is " + std::to_string(s.debris_share) + "; use 0 to 1."};
     if (!(s.hold_seconds >= 0 && s.hold_seconds <= 1))
         return Error{"Settings::hold_seconds is " + std::to_string(s.hold_seconds) + "; use 0 to 1."};
     if (s.threads == 0 || s.threads > 256)
         return Error{"Settings::threads is " + std::to_string(s.threads) + "; use 1 to 256."};
     const LimitSettings& l = s.limits;
-    if (l.bodies == 0 || l.bodies > (1u << 20) || l.models == 0 || l.open_hits == 0 || l.open_hits > 1024 ||
-        l.vertices < 4096 || l.elements < 4096 || l.view_vertices < 4096 || l.vertices > (1u << 26) ||
-        l.elements > (1u << 26) || l.view_vertices > (1u << 28))
-        return Error{
-            "Settings::limits: bodies 1 to 1048576, models from 1, open_hits 1 to 1024, vertices, elements and "
-            "view_vertices from 4096; one of them is outside."};
+    const struct {
+        const char* name;
+        uint32_t value, least, most;
+    } limits[] = {{"bodies", l.bodies, 1, 1u << 20},        {"models", l.models, 1, 1u << 20},
+                  {"vertices", l.vertices, 4096, 1u << 26}, {"elements", l.elements, 4096, 1u << 26},
+                  {"open_hits", l.open_hits, 1, 1024},      {"view_vertices", l.view_vertices, 4096, 1u << 28},
+                  {"debris", l.debris, 1, 1u << 24}};
+    for (const auto& limit : limits)
+        if (limit.value < limit.least || limit.value > limit.most)
+            return Error{std::string("Settings::limits.") + limit.name + " is " + std::to_string(limit.value) +
+                         "; use " + std::to_string(limit.least) + " to " + std::to_string(limit.most) + "."};
     return {};
 }
 
@@ -121,14 +174,21 @@ const World::Contents& World::contents() const {
     return *contents_;
 }
 
+#define CULLET_TEXT_OF(number) #number
+#define CULLET_TEXT(number) CULLET_TEXT_OF(number)
 const char* version() {
-    return "0.1.0";
+    return CULLET_TEXT(CULLET_VERSION_MAJOR) "." CULLET_TEXT(CULLET_VERSION_MINOR) "." CULLET_TEXT(
+        CULLET_VERSION_PATCH);
 }
+#undef CULLET_TEXT
+#undef CULLET_TEXT_OF
 
 Result<World> World::create(const Settings& settings, const Host& host) {
     if (const Result<void> valid = check_settings(settings); !valid) return Error{valid.error()};
     if ((host.allocator.allocate == nullptr) != (host.allocator.release == nullptr))
         return Error{"Host::allocator has one of allocate and release; give both or neither."};
+    if ((host.jobs.parallel_for == nullptr) != (host.jobs.worker_count == nullptr))
+        return Error{"Host::jobs has one of worker_count and parallel_for; give both or neither."};
     const FpMode mode;
     const MemoryScope scope(host.allocator);
     return World(std::make_unique<Contents>(settings, host));
@@ -184,6 +244,11 @@ StepReport World::report() const {
     return report;
 }
 
+RigidReport World::rigid_report() const {
+    const RigidCounts counts = contents_->data.rigid->counts();
+    return {counts.pairs, counts.contacts, counts.sweeps};
+}
+
 StepEvents World::events() const {
     const WorldData& d = contents_->data;
     const auto span = [](const auto& queue) {
@@ -199,7 +264,8 @@ uint64_t World::hash() const {
 }
 
 void World::set_gravity(Vec3 gravity) {
-    if (!is_finite(gravity)) return;
+    if (!is_within(gravity, 1e4f)) return;
+    const FpMode mode;
     contents_->data.step_info.gravity = gravity;
     contents_->data.rigid->set_gravity(gravity);
 }
@@ -252,6 +318,9 @@ Result<void> World::remove_model(ModelId id) {
 
 namespace {
 
+// From here on nothing cracks; columns hold no infinity.
+constexpr float kNeverCracks = 1e9f;
+
 // A shell of the body's own with these vertices pinned, its limits and rows made anew (B7: pins change what an unpinned
 // item is).
 Result<Row<Shells>> pinned_copy(State& state, Row<Shells> source, const SpawnSettings& settings) {
@@ -276,10 +345,10 @@ Result<Row<Shells>> pinned_copy(State& state, Row<Shells> source, const SpawnSet
         return Error{"no vertex lies in any of the " + std::to_string(settings.pin_count) +
                      " pin boxes; they are in body coordinates, in metres."};
     }
-    assemble_springs(shell);
-    measure_limits(shell);
-    limit_all_stiffness(shell);
-    assemble_stiffness(shell);
+    if (!stiffen_pinned(shell)) {
+        release_shell(state, copy);
+        return Error{"the pinned body's stiffness does not fit the model's rows; please report this mesh."};
+    }
     return copy;
 }
 
@@ -291,9 +360,12 @@ Result<BodyId> World::spawn(ModelId id, const SpawnSettings& settings) {
     const FpMode mode;
     const Row<Models> model = model_row(state.models, id);
     if (!model.exists()) return stale("model", id.index);
-    if (const Result<void> valid = check_pose(settings.pose, settings.motion); !valid) return Error{valid.error()};
+    if (const Result<void> valid = check_body(settings.pose, settings.motion, settings.contact); !valid)
+        return Error{valid.error()};
     if (!(settings.strength_scale > 0))
         return Error{"strength_scale is " + std::to_string(settings.strength_scale) + "; use more than 0."};
+    if (settings.pin_count > 0 && !settings.pins)
+        return Error{"pin_count is " + std::to_string(settings.pin_count) + " but pins is null; give the boxes."};
     Row<Shells> shell = state.models.shell[model];
     if (settings.pin_count > 0) {
         Result<Row<Shells>> pinned = pinned_copy(state, shell, settings);
@@ -305,8 +377,7 @@ Result<BodyId> World::spawn(ModelId id, const SpawnSettings& settings) {
     const Row<Bodies> body = take_body(state);
     if (!body.exists()) {
         release_shell(state, shell);
-        return Error{"limits.bodies is reached (" + std::to_string(state.bodies.limit()) +
-                     "); raise it or remove a body."};
+        return no_room(state.bodies);
     }
     Bodies& bodies = state.bodies;
     bodies.shell[body] = shell;
@@ -321,26 +392,25 @@ Result<BodyId> World::spawn(ModelId id, const SpawnSettings& settings) {
               state.materials.friction[state.shells.material[shell]], settings.user_data);
     bodies.model[body] = model;
     bodies.has_pins[body] = is_static;
-    bodies.strength_scale[body] = settings.strength_scale;
-    bodies.is_breakable[body] = settings.is_breakable && std::isfinite(settings.strength_scale);
+    bodies.strength_scale[body] = std::min(settings.strength_scale, kNeverCracks);
+    bodies.is_breakable[body] = settings.is_breakable && settings.strength_scale < kNeverCracks;
     take_mass_properties(state, body);
     d.arena.reset();
     d.rigid->add(body, describe_rigid(state, body, convex_pieces(state, shell, d.arena)));
-    const DrawnCount drawn = draw_shell(ShellView(state, shell), bodies.view_vertices[body], bodies.view_indices[body]);
-    bodies.run_indices[body] = drawn.indices;
-    bodies.view_stamp[body] = 1;
+    draw_body(state, body);
     return body_id(bodies, body);
 }
 
 Result<BodyId> World::add_sphere(const SphereSettings& settings) {
     WorldData& d = contents_->data;
     const FpMode mode;
-    if (const Result<void> valid = check_pose(settings.pose, settings.motion); !valid) return Error{valid.error()};
-    if (!(settings.radius > 0 && settings.mass > 0))
-        return Error{"a sphere needs a radius and a mass above 0; got " + std::to_string(settings.radius) + " m and " +
-                     std::to_string(settings.mass) + " kg."};
+    if (const Result<void> valid = check_body(settings.pose, settings.motion, settings.contact); !valid)
+        return Error{valid.error()};
+    if (!(settings.radius > 0 && settings.radius <= kFarthest && settings.mass > 0 && settings.mass <= kHeaviest))
+        return Error{"a sphere needs a radius above 0, at most 1e6 m, and a mass above 0, at most 1e12 kg; got " +
+                     std::to_string(settings.radius) + " m and " + std::to_string(settings.mass) + " kg."};
     const Row<Bodies> body = take_body(d.state);
-    if (!body.exists()) return Error{"limits.bodies is reached; raise it or remove a body."};
+    if (!body.exists()) return no_room(d.state.bodies);
     Bodies& bodies = d.state.bodies;
     fill_body(bodies, body, BodyKind::Dynamic, settings.pose, settings.motion, settings.contact, 0.45f,
               settings.user_data);
@@ -359,18 +429,25 @@ Result<BodyId> World::add_sphere(const SphereSettings& settings) {
 Result<BodyId> World::add_kinematic_box(const KinematicSettings& settings) {
     WorldData& d = contents_->data;
     const FpMode mode;
-    if (const Result<void> valid = check_pose(settings.pose, settings.motion); !valid) return Error{valid.error()};
+    if (const Result<void> valid = check_body(settings.pose, settings.motion, settings.contact); !valid)
+        return Error{valid.error()};
     const Vec3 h = settings.half_extents;
-    if (!(h.x > 0 && h.y > 0 && h.z > 0)) return Error{"half_extents of a box must be above 0, in metres."};
+    if (!(h.x > 0 && h.y > 0 && h.z > 0 && is_within(h, kFarthest)))
+        return Error{"half_extents of a box are " + text(h) + "; use more than 0 and at most 1e6 m."};
     const Row<Bodies> body = take_body(d.state);
-    if (!body.exists()) return Error{"limits.bodies is reached; raise it or remove a body."};
+    if (!body.exists()) return no_room(d.state.bodies);
     Bodies& bodies = d.state.bodies;
     fill_body(bodies, body, BodyKind::Kinematic, settings.pose, settings.motion, settings.contact, 0.45f,
               settings.user_data);
     Vec3 corners[8];
-    for (int i = 0; i < 8; ++i) corners[i] = {i & 1 ? h.x : -h.x, i & 2 ? h.y : -h.y, i & 4 ? h.z : -h.z};
-    const ConvexPiece piece{corners, 0};
     RigidDescription description = description_of(bodies, body, RigidKind::Kinematic);
+    const float margin = std::min(description.margin, 0.2f * std::min({h.x, h.y, h.z}));
+    const Vec3 pulled_in = h - Vec3{margin, margin, margin};
+    for (int k = 0; k < 8; ++k)
+        corners[k] = {k & 1 ? pulled_in.x : -pulled_in.x, k & 2 ? pulled_in.y : -pulled_in.y,
+                      k & 4 ? pulled_in.z : -pulled_in.z};
+    const ConvexPiece piece{corners, 0};
+    description.margin = margin;
     description.pieces = {&piece, 1};
     d.rigid->add(body, description);
     return body_id(bodies, body);
@@ -380,18 +457,23 @@ Result<BodyId> World::add_static(const MeshView& mesh, const ContactSettings& co
     WorldData& d = contents_->data;
     const FpMode mode;
     const std::string name = mesh.name ? mesh.name : "static mesh";
-    if (!mesh.positions || !mesh.indices || mesh.triangle_count == 0) return Error{name + ": has no triangles."};
+    if (!mesh.positions || !mesh.indices || mesh.triangle_count == 0)
+        return Error{name + ": has no triangles; give positions and indices."};
+    if (const Result<void> valid = check_contact(contact); !valid) return Error{name + ": " + valid.error()};
     std::vector<std::array<uint32_t, 3>> triangles(mesh.triangle_count);
     for (size_t t = 0; t < mesh.triangle_count; ++t)
         for (size_t k = 0; k < 3; ++k) {
             const uint32_t v = mesh.indices[3 * t + k];
-            if (v >= mesh.position_count || !is_finite(mesh.positions[v]))
-                return Error{name + ": triangle " + std::to_string(t) + " names vertex " + std::to_string(v) +
-                             ", which is not there or not finite."};
+            if (v >= mesh.position_count)
+                return Error{name + ": triangle " + std::to_string(t) + " names vertex " + std::to_string(v) + " of " +
+                             std::to_string(mesh.position_count) + "; give indices below the number of positions."};
+            if (!is_within(mesh.positions[v], kFarthest))
+                return Error{name + ": vertex " + std::to_string(v) + " stands at " + text(mesh.positions[v]) +
+                             "; give metres, at most 1000000 from the origin along each axis."};
             triangles[t][k] = v;
         }
     const Row<Bodies> body = take_body(d.state);
-    if (!body.exists()) return Error{"limits.bodies is reached; raise it or remove a body."};
+    if (!body.exists()) return no_room(d.state.bodies);
     Bodies& bodies = d.state.bodies;
     fill_body(bodies, body, BodyKind::Static, {}, {}, contact, 0.45f, user_data);
     d.rigid->add_static_triangles(body, {mesh.positions, mesh.position_count}, triangles, bodies.friction[body],
@@ -427,6 +509,9 @@ Result<void> World::remove(BodyId id) {
         release_shell(state, tasks.source[t]);
         tasks.state[t] = static_cast<uint8_t>(TaskState::Free);
     }
+    // Rows are used again: nobody may take the next one for a parent.
+    for (uint32_t b = 0; b < state.bodies.size(); ++b)
+        if (state.bodies.parent[b] == body) state.bodies.parent[b] = {};
     d.rigid->remove(body);
     free_body(state, body);
     return {};
@@ -471,17 +556,32 @@ Result<bool> World::is_asleep(BodyId id) const {
     return bodies.is_asleep[body] != 0;
 }
 
+namespace {
+void wake_body(WorldData& d, Row<Bodies> body) {
+    if (static_cast<BodyKind>(d.state.bodies.kind[body]) != BodyKind::Dynamic) return;
+    d.rigid->wake(body);
+    d.state.bodies.is_asleep[body] = 0;
+}
+}  // namespace
+
 Result<void> World::set_pose(BodyId id, const Pose& pose) {
     WorldData& d = contents_->data;
     const Row<Bodies> body = body_row(d.state.bodies, id);
     if (!body.exists()) return stale("body", id.index);
-    if (const Result<void> valid = check_pose(pose, {}); !valid) return valid;
+    if (const Result<void> valid = check_pose(pose); !valid) return valid;
+    Bodies& bodies = d.state.bodies;
+    if (static_cast<BodyKind>(bodies.kind[body]) == BodyKind::Static && !bodies.shell[body].exists())
+        return Error{"body " + std::to_string(id.index) +
+                     " is made of static triangles in world coordinates; remove it and add it where it is to stand."};
     const FpMode mode;
     const Pose unit = normalised_pose(pose);
-    d.state.bodies.position.set(body, unit.position);
-    d.state.bodies.orientation[body] = unit.orientation;
+    // Put there, not moved there: nothing to draw between the two places.
+    bodies.position.set(body, unit.position);
+    bodies.orientation[body] = unit.orientation;
+    bodies.previous_position.set(body, unit.position);
+    bodies.previous_orientation[body] = unit.orientation;
     d.rigid->set_pose(body, unit);
-    d.rigid->wake(body);
+    wake_body(d, body);
     return {};
 }
 
@@ -489,12 +589,15 @@ Result<void> World::set_motion(BodyId id, const Motion& motion) {
     WorldData& d = contents_->data;
     const Row<Bodies> body = body_row(d.state.bodies, id);
     if (!body.exists()) return stale("body", id.index);
-    if (const Result<void> valid = check_pose({}, motion); !valid) return valid;
+    if (const Result<void> valid = check_motion(motion); !valid) return valid;
+    if (static_cast<BodyKind>(d.state.bodies.kind[body]) == BodyKind::Static)
+        return Error{"body " + std::to_string(id.index) +
+                     " is static (level geometry, or pinned) and has no motion; use a kinematic body."};
     const FpMode mode;
     d.state.bodies.velocity.set(body, motion.velocity);
     d.state.bodies.spin.set(body, motion.angular_velocity);
     d.rigid->set_motion(body, motion);
-    d.rigid->wake(body);
+    wake_body(d, body);
     return {};
 }
 
@@ -502,8 +605,10 @@ Result<void> World::apply_impulse(BodyId id, Vec3 impulse, Vec3 place) {
     const Bodies& bodies = contents_->data.state.bodies;
     const Row<Bodies> body = body_row(bodies, id);
     if (!body.exists()) return stale("body", id.index);
-    if (!is_finite(impulse) || !is_finite(place)) return Error{"impulse or place is not finite; give N s and m."};
+    if (!is_finite(impulse) || !is_finite(place))
+        return Error{"impulse is " + text(impulse) + " at " + text(place) + "; give finite N s and m."};
     if (static_cast<BodyKind>(bodies.kind[body]) != BodyKind::Dynamic) return {};  // nothing moves it
+    const FpMode mode;
     const Pose pose = pose_of(bodies, body);
     const Vec3 arm = place - to_world(pose, bodies.centre[body].to_float());
     const Vec3d turn(rotate(conjugate(pose.orientation), cross(arm, impulse)));
@@ -516,7 +621,7 @@ Result<void> World::wake(BodyId id) {
     WorldData& d = contents_->data;
     const Row<Bodies> body = body_row(d.state.bodies, id);
     if (!body.exists()) return stale("body", id.index);
-    d.rigid->wake(body);
+    wake_body(d, body);
     return {};
 }
 
@@ -545,9 +650,12 @@ Result<BodyView> World::view(BodyId id) const {
     view.indices = state.view_indices.index.data() + bodies.view_indices[body].first;
     view.index_count = bodies.view_indices[body].count;
     uint32_t first = 0;
-    for (size_t run = 0; run < 3; ++run) {
-        view.runs[run] = {static_cast<SurfaceKind>(run), first, bodies.run_indices[body][run]};
-        first += bodies.run_indices[body][run];
+    for (size_t run = 0; run < kMostRuns; ++run) {
+        const uint32_t count = bodies.run_indices[body][run];
+        const auto kind = static_cast<SurfaceKind>(run / kMostDrawnMaterials);
+        const uint16_t material = bodies.drawn_materials[body][run % kMostDrawnMaterials];
+        if (count > 0) view.runs[view.run_count++] = {kind, material, first, count};
+        first += count;
     }
     view.stamp = bodies.view_stamp[body];
     for (const ShellChanged& changed : contents_->data.shells_changed)

@@ -34,7 +34,8 @@ void grant_units(Serial, Tasks& tasks, const Shells& shells, const DamageSetting
 void advance_damage(Serial, DamageLoop& loop);
 /// Holds bodies whose task goes on, releases those whose time is up or whose task ended.
 void settle_tasks(Serial, Step step, Tasks& tasks, const TaskContacts& contacts, Bodies& bodies, const Shells& shells,
-                  RigidWorld& rigid, const DamageSettings& settings, DamageCounts& counts, Events<TaskEnded>& ended);
+                  RigidWorld& rigid, const DamageSettings& settings, DamageCounts& counts, Events<TaskEnded>& ended,
+                  Events<ImpactEvent>& impact_events);
 
 // ---- apply
 // ------------------------------------------------------------------------------------------------------------
@@ -47,8 +48,8 @@ void make_births(Serial, Step step, const Events<TaskEnded>& ended, ShellTables 
                  const TaskContacts& contacts, Fragments& fragments, Bodies& bodies, Debris& debris,
                  ViewVertices& view_vertices, ViewIndices& view_indices, RigidWorld& rigid,
                  const DamageSettings& settings, DamageCounts& counts, Arena& arena, Events<ShellChanged>& changed,
-                 Events<FragmentBornEvent>& born, Events<DebrisEvent>& debris_events, Events<RefusedEvent>& refused,
-                 Events<FaultEvent>& faults);
+                 Events<CrackStartedEvent>& cracks, Events<FragmentBornEvent>& born, Events<DebrisEvent>& debris_events,
+                 Events<RefusedEvent>& refused, Events<FaultEvent>& faults);
 
 // ---- solve
 // ------------------------------------------------------------------------------------------------------------
@@ -83,7 +84,7 @@ void integrate_hidden(Rows<StiffnessPacks> packs, OfTask task, Turn turn, const 
 /// Gives patch vertices and strikers what the springs pushed; the run ends when its time is up or all is quiet (6.4).
 void pass_impulses(EachBody task, Turn turn, ShellTables shells, Tasks& tasks, TaskContacts& contacts,
                    const PatchVertices& patches);
-/// Strain of each element and its shares of its hinges' angles.
+/// Strain of each element and its slopes against its edges.
 void strain_check(Rows<Elements> elements, OfTask task, Turn turn, ShellTables shells, const Tasks& tasks);
 /// Stress of both faces of each element, and the largest principal value (C1).
 void stress_check(Rows<Elements> elements, OfTask task, ShellTables shells, const Tasks& tasks);

@@ -254,7 +254,7 @@ void BulletWorld::set_motion(RigidId id, const Motion& m) {
 }
 
 void BulletWorld::set_shape(RigidId id, double mass, Vec3d centre, Sym3d inertia, std::span<const ConvexPiece> pieces) {
-    if (!is_known(id) || bodies_[id].kind == RigidKind::Static) return;
+    if (!is_known(id) || bodies_[id].mesh) return;
     InsideRigidEngine guard;
     Body& body = bodies_[id];
     const Pose at = pose(id);

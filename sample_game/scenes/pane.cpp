@@ -54,7 +54,7 @@ Result<ScenePlan> pane_plan(const SceneInput& input) {
                           kFoot + 0.5f * kSide + static_cast<float>(0.15 * seeded(keys, 2)), 0.8f};
     ball.motion.velocity = {0, 0, -static_cast<float>(keys["scene.speed_mps"])};
     plan.balls.push_back(ball);
-    plan.camera = {{0.55f, 0.80f, 1.25f}, {0, 0.48f, 0}, 0.72f};
+    plan.camera = {{0.42f, 0.72f, 0.92f}, {0, 0.48f, 0}, 0.72f};
     return plan;
 }
 

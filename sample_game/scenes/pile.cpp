@@ -11,7 +11,7 @@ constexpr Vec3 kStone{0.33f, 0.32f, 0.30f};
 Keys pile_keys() {
     Keys keys = common_keys("porcelain", 0.005, 0.012);
     keys.number("scene.count", "1", 1000, 1, 4000, "live fragments after which no more vases fall")
-        .number("scene.speed_mps", "m/s", 9, 0, 50, "downward at the start")
+        .number("scene.speed_mps", "m/s", 12, 0, 50, "downward at the start")
         .number("scene.height_m", "m", 1.6, 0.1, 20, "of the fall")
         .number("scene.size_m", "m", 0.3, 0.05, 3, "height of a vase");
     return keys;

@@ -17,7 +17,7 @@ MeshView view_of(const Mesh& mesh);
 /// A box between two corners, as a prop.
 Prop box_prop(Vec3 low, Vec3 high, Vec3 colour);
 /// A floor around the origin with its upper side at y = height; the drawn ground lies on it.
-Prop floor_prop(float half_side = 8, float height = 0);
+Prop floor_prop(float half_side = 30, float height = 0);
 Mesh moved(Mesh mesh, Vec3 by);
 
 /// In [-1, 1), by the scene's seed and a number of the place where it is used.

@@ -42,11 +42,11 @@ Result<ScenePlan> vase_plan(const SceneInput& input) {
     vase.settings.pose.position = middle - rotate(vase.settings.pose.orientation, {0, 0.5f * size, 0});
     vase.settings.motion.velocity = {0, -static_cast<float>(keys["scene.speed_mps"]), 0};
     plan.spawns.push_back(vase);
-    plan.camera = {{1.25f, 1.35f, 2.0f}, {0, 0.48f, 0.5f}, 0.72f};
+    plan.camera = {{0.85f, 1.25f, 2.3f}, {0, 0.46f, 0.5f}, 0.78f};
     return plan;
 }
 
-constexpr uint32_t kSheet[] = {0, 32, 38, 41, 44, 48, 54, 62, 72, 90, 150, 599};
+constexpr uint32_t kSheet[] = {26, 32, 38, 41, 44, 48, 54, 62, 72, 90, 150, 599};
 
 }  // namespace
 

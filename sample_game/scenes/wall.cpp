@@ -36,7 +36,7 @@ Result<ScenePlan> wall_plan(const SceneInput& input) {
                           1.5f};
     ball.motion.velocity = {0, 0.3f, -static_cast<float>(keys["scene.speed_mps"])};
     plan.balls.push_back(ball);
-    plan.camera = {{2.3f, 1.55f, 3.4f}, {0, 0.72f, -0.3f}, 0.72f};
+    plan.camera = {{1.9f, 1.5f, 3.0f}, {-0.05f, 0.75f, -0.1f}, 0.72f};
     return plan;
 }
 

@@ -2,7 +2,7 @@
 
 #include "systems/damage/assemble.hpp"
 #include "systems/damage/contact.hpp"
-#include "systems/damage/split_vertices.hpp"
+#include "systems/damage/grow_cracks.hpp"
 #include "systems/motion/start_hidden.hpp"
 
 namespace cullet {

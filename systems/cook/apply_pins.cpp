@@ -1,5 +1,7 @@
 #include "systems/cook/apply_pins.hpp"
 
+#include "systems/damage/assemble.hpp"
+
 namespace cullet {
 namespace {
 
@@ -30,6 +32,13 @@ uint32_t apply_pins(ShellView shell, Vec3 low, Vec3 high) {
         if (is_inside) count += pin(shell, v);
     }
     return count;
+}
+
+bool stiffen_pinned(ShellView shell) {
+    assemble_springs(shell);
+    measure_limits(shell);
+    limit_all_stiffness(shell);
+    return assemble_stiffness(shell);
 }
 
 bool has_pins(const ShellView& shell) {

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "systems/cook/order_cells.hpp"
+#include "systems/damage/ring.hpp"
 #include "systems/fragments/cell_hulls.hpp"
 #include "systems/fragments/mass_properties.hpp"
 #include "systems/fragments/prism.hpp"
@@ -104,8 +105,16 @@ Result<void> check_fans(const ShellSource& s) {
             if (known != found)
                 return refuse("vertex", s.corner[e][k], "has more than one fan of elements. Give each its own vertex.");
         }
-    for (size_t v = 0; v < fan_of.size(); ++v)
+    std::vector<uint32_t> elements(s.position.size(), 0);
+    for (const auto& corner : s.corner)
+        for (const uint32_t v : corner) ++elements[v];
+    for (size_t v = 0; v < fan_of.size(); ++v) {
         if (fan_of[v] == kNone) return refuse("vertex", v, "is in no element. Drop it before.");
+        if (elements[v] > kMostRing)
+            return refuse("vertex", v,
+                          "is in " + std::to_string(elements[v]) + " elements, more than " + std::to_string(kMostRing) +
+                              ". Give the pole fewer segments, or cut its triangles by a ring of edges.");
+    }
     return {};
 }
 

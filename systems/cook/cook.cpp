@@ -178,6 +178,9 @@ Result<Model> cook(const MeshView& view, const CookSettings& settings) {
         return Error{name + ": thickness " + std::to_string(settings.thickness) +
                      " m is not between 0 and the diagonal, " + std::to_string(diagonal) +
                      " m; give the wall's thickness in metres."};
+    if (!(settings.longest_edge >= 0))
+        return Error{name + ": longest_edge is " + std::to_string(settings.longest_edge) +
+                     " m; give metres, or 0 for what suits the thickness."};
     TessellationSettings tessellation;
     tessellation.longest_edge =
         settings.longest_edge > 0 ? settings.longest_edge : std::max(2.0 * settings.thickness, 0.025 * diagonal);
@@ -226,7 +229,8 @@ Result<Model> cook(const MeshView& view, const CookSettings& settings) {
 }
 
 const ModelReport& Model::report() const {
-    return contents->report;
+    static const ModelReport empty;
+    return contents ? contents->report : empty;
 }
 
 MeshData::MeshData() : contents(std::make_unique<Contents>()) {}

@@ -1,7 +1,7 @@
 // The contact of a hidden run (thick shell note, section 6.3): each vertex of a patch has a spring of its own against
 // the striker, which may only push. One step:
 //
-//     contact_forces(side) -> integrate_hidden over all packs -> apply_contact(side)
+//     contact_forces(side) -> integrate_packs over all packs -> apply_contact(side)
 #pragma once
 #include "components/state.hpp"
 

@@ -33,13 +33,6 @@ void collect_tips(ShellView shell, const CrackLimits& limits, float time, Candid
     }
 }
 
-bool may_start(ShellView shell, uint32_t vertex, float principal, float limit) {
-    const Vertices& vertices = shell.state.vertices;
-    const uint32_t row = shell.vertex(vertex);
-    return vertices.crack[row] == static_cast<uint8_t>(CrackState::None) && !vertices.is_start_banned[row] &&
-           principal > limit * vertices.strength_factor[row];
-}
-
 // Vertices that may start a crack next to an element whose principal stress passes their limit, each once, behind the
 // first `tips` candidates. False: more than fit.
 bool collect_starts(ShellView shell, float limit, uint32_t tips, Candidates& candidates) {
@@ -54,15 +47,22 @@ bool collect_starts(ShellView shell, float limit, uint32_t tips, Candidates& can
         candidates.count = static_cast<uint32_t>(std::unique(out + tips, out + candidates.count, is_same) - out);
     };
     const float* principal = elements.principal.data();
+    const uint8_t *flags = elements.flags.data(), *crack = shell.state.vertices.crack.data() + shell.vertex(0),
+                  *is_banned = shell.state.vertices.is_start_banned.data() + shell.vertex(0);
+    const float* strength_factor = shell.state.vertices.strength_factor.data() + shell.vertex(0);
     constexpr uint32_t kBlock = 32;
     for (uint32_t block = first; block < end; block += kBlock) {
         const uint32_t block_end = std::min(block + kBlock, end);
-        int any = 0;  // most blocks of most checks are far below
-        for (uint32_t e = block; e < block_end; ++e) any |= principal[e] > lowest;
-        for (uint32_t e = any ? block : block_end; e < block_end; ++e) {
-            if (!(principal[e] > lowest) || (elements.flags[e] & kDead)) continue;
+        if (block + kBlock <= end) {  // most blocks of most checks are far below; a constant count vectorises
+            int any = 0;
+            for (uint32_t i = 0; i < kBlock; ++i) any |= principal[block + i] > lowest;
+            if (!any) continue;
+        }
+        for (uint32_t e = block; e < block_end; ++e) {
+            if (!(principal[e] > lowest) || (flags[e] & kDead)) continue;
             for (const uint32_t v : elements.corner[e]) {
-                if (!may_start(shell, v, principal[e], limit)) continue;
+                if (crack[v] != static_cast<uint8_t>(CrackState::None) || is_banned[v]) continue;
+                if (!(principal[e] > limit * strength_factor[v])) continue;
                 if (candidates.count == Candidates::kMost) drop_repeats();
                 if (candidates.count == Candidates::kMost) return false;
                 out[candidates.count++] = {false, v, 0};

@@ -1,4 +1,4 @@
-// What a call of split_vertices tells.
+// What a call of grow_cracks tells.
 #pragma once
 #include "components/state.hpp"
 

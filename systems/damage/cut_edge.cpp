@@ -23,7 +23,6 @@ bool cut_edge(ShellView shell, uint32_t element, uint32_t edge) {
     if (const uint32_t h = elements.hinge[row][edge]; h != kNone) {
         shell.state.hinges.vertex[shell.hinge(h)][0] = kNone;
         shell.state.hinges.stiffness[shell.hinge(h)] = 0;
-        shell.state.hinges.angle[shell.hinge(h)] = {};
     }
     const auto open = [&](uint32_t r, uint32_t k) {
         elements.neighbour[r][k] = kNone;

@@ -34,7 +34,7 @@ void DamageLoop::advance() {
         BrittleLoop::Team team(brittle_, world_, run_of(together[i]));
         parallel_for(jobs_, workers, [&](uint32_t worker) {
             const uint64_t start = now_ns();
-            team.work();
+            team.work(worker);
             profiler_.add_span(zone_, worker, start, now_ns());
         });
     }

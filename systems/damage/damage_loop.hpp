@@ -16,6 +16,9 @@ struct DamageLoop {
 
     static constexpr uint32_t kTeamVertices = 1000;
 
+    /// For the frame plan: its inner loop reads and writes all tables of a task.
+    static constexpr auto tables() { return State::tables(); }
+
  private:
     LoopWorld world_;
     JobSystem& jobs_;

@@ -51,12 +51,21 @@ double kinetic_energy(ShellView shell, uint32_t side, uint32_t first, uint32_t c
 
 double bending_energy(ShellView shell, uint32_t first, uint32_t count) {
     const Hinges& hinges = shell.state.hinges;
-    const auto angle = [&](uint32_t row) { return double{hinges.angle[row][0] + hinges.angle[row][1]}; };
-    double sum = 0;
-    for (uint32_t row = shell.hinge(first); row < shell.hinge(first) + count; ++row)
-        if (hinges.vertex[row][0] != kNone)
-            sum += double{hinges.stiffness[row]} * hinges.scale[row] * (angle(row) * angle(row));
-    return 0.5 * sum;
+    const Elements& elements = shell.state.elements;
+    const float* slope = elements.slope[shell.element(0)].data();
+    // Half of each hinge from either side: asking which side is the lower one guesses wrong every other time.
+    double sum[3] = {};
+    for (uint32_t e = first; e < first + count; ++e) {
+        const uint32_t row = shell.element(e);
+        for (uint32_t k = 0; k < 3; ++k) {
+            const uint32_t own = 3 * e + k, other = elements.other_slope[row][k];
+            if (other == own) continue;
+            const uint32_t h = shell.hinge(elements.hinge[row][k]);
+            const double angle = slope[own] + slope[other];
+            sum[k] += double{hinges.stiffness[h]} * hinges.scale[h] * (angle * angle);
+        }
+    }
+    return 0.25 * (sum[0] + sum[1] + sum[2]);
 }
 
 TaskEnergy task_energy(State& state, Row<Tasks> task) {
@@ -69,7 +78,7 @@ TaskEnergy task_energy(State& state, Row<Tasks> task) {
     energy.membrane = sum_chunks(shell.element_count(), [&](uint32_t first, uint32_t count) {
         return membrane_energy(shell, scratch, first, count);
     });
-    energy.bending = sum_chunks(shell.hinge_count(),
+    energy.bending = sum_chunks(shell.element_count(),
                                 [&](uint32_t first, uint32_t count) { return bending_energy(shell, first, count); });
     add_contacts(state, task, shell, energy);
     return energy;

@@ -11,7 +11,7 @@ struct TaskEnergy {
 };
 
 /// Energy at (u, v) as they are. Sums in double over fixed chunks, added in order. Uses the side of the probe that the
-/// next step will write (steps_done tells which), and Hinges.angle, as scratch: call it between steps. Costs about one
+/// next step will write (steps_done tells which), and Elements.slope, as scratch: call it between steps. Costs about one
 /// step.
 TaskEnergy task_energy(State& state, Row<Tasks> task);
 
@@ -19,8 +19,8 @@ TaskEnergy task_energy(State& state, Row<Tasks> task);
 bool is_blown_up(const TaskEnergy& energy, double start_energy);
 
 /// Parts of the above, for one chunk of rows, in this order: kinetic energy of vertices [first, first + count), which
-/// also writes u into side `side` of the probe; membrane_energy (stress_check.hpp), which writes the hinges' angles;
-/// bending energy of hinges.
+/// also writes u into side `side` of the probe; membrane_energy (stress_check.hpp), which writes the slopes; bending
+/// energy of the elements' halves of their hinges.
 double kinetic_energy(ShellView shell, uint32_t side, uint32_t first, uint32_t count);
 double bending_energy(ShellView shell, uint32_t first, uint32_t count);
 

@@ -40,9 +40,10 @@ void grant_units(Serial, Tasks& tasks, const Shells& shells, const DamageSetting
         for (uint32_t i = 0; i < count; ++i) {
             const uint32_t t = order[i];
             const auto cost = static_cast<int64_t>(units_a_step(shells, tasks, t));
-            uint32_t steps = std::min(is_first_round ? 1 : kStepsARound, steps_left(tasks, t));
+            uint32_t steps = 1;  // also where rounding leaves none: the step itself tells that the time is up
             if (!is_first_round)
-                steps = std::min<uint32_t>(steps, budget > 0 ? static_cast<uint32_t>(budget / cost) : 0);
+                steps = static_cast<uint32_t>(std::min<int64_t>(std::min(kStepsARound, steps_left(tasks, t)),
+                                                                std::max<int64_t>(budget, 0) / cost));
             tasks.steps_granted[t] += steps;
             budget -= static_cast<int64_t>(steps) * cost;
             goes_on = goes_on || steps > 0;

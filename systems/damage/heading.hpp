@@ -6,7 +6,7 @@
 namespace cullet {
 
 /// The directions phi = -60, -55, .. 60 degrees from a heading and their weights cos(phi)^q. Made once a call of
-/// split_vertices: the powers need a logarithm and an exponential each.
+/// grow_cracks: the powers need a logarithm and an exponential each.
 struct HeadingFan {
     explicit HeadingFan(float power);
     float sine[kHeadingSteps + 1], cosine[kHeadingSteps + 1], weight[kHeadingSteps + 1];

@@ -4,7 +4,7 @@
 
 #include "systems/damage/assemble.hpp"
 #include "systems/damage/element_stiffness.hpp"
-#include "systems/damage/fan.hpp"
+#include "systems/damage/ring.hpp"
 
 namespace cullet {
 namespace {
@@ -31,16 +31,16 @@ double hinge_ratio(const ShellView& shell, uint32_t hinge) {
     return ratio;
 }
 
-double vertex_ratio(const ShellView& shell, const PlaneStress& stress, uint32_t vertex, const Fan& fan,
-                    const FanHinges& fan_hinges) {
+double vertex_ratio(const ShellView& shell, const PlaneStress& stress, uint32_t vertex, const Ring& ring,
+                    const RingHinges& ring_hinges) {
     const float inverse_mass = shell.state.vertices.inverse_mass[shell.vertex(vertex)];
     if (inverse_mass == 0) return 0;
     double trace = 0;
-    for (uint32_t i = 0; i < fan.count; ++i)
+    for (uint32_t i = 0; i < ring.count; ++i)
         trace +=
-            TriangleTerms(shell.state.triangle_springs, shell.element(fan.element[i]), stress).trace(fan.corner[i]);
-    for (uint32_t i = 0; i < fan_hinges.count; ++i) {
-        const uint32_t row = shell.hinge(fan_hinges.hinge[i]);
+            TriangleTerms(shell.state.triangle_springs, shell.element(ring.element[i]), stress).trace(ring.corner[i]);
+    for (uint32_t i = 0; i < ring_hinges.count; ++i) {
+        const uint32_t row = shell.hinge(ring_hinges.hinge[i]);
         for (int k = 0; k < 4; ++k)
             if (shell.state.hinges.vertex[row][static_cast<size_t>(k)] == vertex)
                 trace += hinge_trace(shell.state.hinges, row, k);
@@ -87,12 +87,12 @@ void limit_hinge(const ShellView& shell, uint32_t hinge) {
 }
 
 void limit_vertex(const ShellView& shell, const PlaneStress& stress, uint32_t vertex) {
-    Fan fan;
-    FanHinges hinges;
-    collect_fan(shell, vertex, fan);
-    collect_hinges(shell, fan, hinges);
+    Ring ring;
+    RingHinges hinges;
+    collect_ring(shell, vertex, ring);
+    collect_hinges(shell, ring, hinges);
     shell.state.vertices.stiffness_scale[shell.vertex(vertex)] =
-        factor(vertex_ratio(shell, stress, vertex, fan, hinges), shell.shells().vertex_limit[shell.row]);
+        factor(vertex_ratio(shell, stress, vertex, ring, hinges), shell.shells().vertex_limit[shell.row]);
 }
 
 }  // namespace
@@ -112,12 +112,12 @@ void measure_limits(ShellView shell) {
         if (held[0] == kNone) continue;
         hinge.add(hinge_ratio(shell, h), std::any_of(held.begin(), held.end(), pinned));
     }
-    Fan fan;
-    FanHinges fan_hinges;
+    Ring ring;
+    RingHinges ring_hinges;
     for (uint32_t v = 0; v < shell.vertex_count(); ++v) {
-        collect_fan(shell, v, fan);
-        collect_hinges(shell, fan, fan_hinges);
-        vertex.add(vertex_ratio(shell, stress, v, fan, fan_hinges), pinned(v));
+        collect_ring(shell, v, ring);
+        collect_hinges(shell, ring, ring_hinges);
+        vertex.add(vertex_ratio(shell, stress, v, ring, ring_hinges), pinned(v));
     }
     shell.shells().triangle_limit[shell.row] = triangle.limit();
     shell.shells().hinge_limit[shell.row] = hinge.limit();
@@ -127,12 +127,12 @@ void measure_limits(ShellView shell) {
 void limit_stiffness(ShellView shell, std::span<const uint32_t> vertices) {
     const PlaneStress stress = plane_stress(shell.state, shell.row);
     for (const uint32_t v : vertices) limit_vertex(shell, stress, v);
-    Fan fan;
-    FanHinges hinges;
+    Ring ring;
+    RingHinges hinges;
     for (const uint32_t v : vertices) {
-        collect_fan(shell, v, fan);
-        collect_hinges(shell, fan, hinges);
-        for (uint32_t i = 0; i < fan.count; ++i) limit_element(shell, stress, fan.element[i]);
+        collect_ring(shell, v, ring);
+        collect_hinges(shell, ring, hinges);
+        for (uint32_t i = 0; i < ring.count; ++i) limit_element(shell, stress, ring.element[i]);
         for (uint32_t i = 0; i < hinges.count; ++i) limit_hinge(shell, hinges.hinge[i]);
     }
 }

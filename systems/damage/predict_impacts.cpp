@@ -23,7 +23,7 @@ void predict_impacts(Serial, Step step, const RigidWorld& rigid, const Bodies& b
         for (int side = 0; side < 2; ++side) {
             const Row<Bodies> body(side == 0 ? c.a : c.b), striker(side == 0 ? c.b : c.a);
             if (!is_fragile(bodies, shells, settings, step.frame, body)) continue;
-            if (c.approach_speed <= wake_speed(shells, bodies.shell[body])) continue;
+            if (c.approach_speed <= wake_speed(shells, bodies.shell[body], bodies.strength_scale[body])) continue;
             if (bodies.hold_count[body] || bodies.hold_count[striker]) continue;  // stands still: no blow
             impacts.push({body, striker, c.point, side == 0 ? c.normal : -c.normal, c.approach_speed});
         }

@@ -1,54 +1,91 @@
 #include "systems/damage/ring.hpp"
 
+#include <algorithm>
+
 namespace cullet {
 
-uint8_t corner_of(ShellView shell, uint32_t element, uint32_t vertex) {
+namespace {
+
+/// Appends elements from `at` on, over the edge (corner + turn) % 3 of each, until a border, `end`, or one too many.
+/// Returns where it stopped.
+uint32_t walk(const ShellView& shell, uint32_t vertex, uint32_t at, uint32_t end, uint32_t turn, Ring& ring) {
+    while (at != kNone) {
+        const uint8_t corner = corner_of(shell, at, vertex);
+        CULLET_ASSERT(corner < 3, "vertex %u is no corner of element %u, reached over a neighbour link", vertex, at);
+        ring.is_cut_short = ring.count == kMostRing || corner == 3;
+        if (ring.is_cut_short) return kNone;
+        ring.element[ring.count] = at;
+        ring.corner[ring.count++] = corner;
+        at = shell.state.elements.neighbour[shell.element(at)][(corner + turn) % 3];
+        if (at == end) break;
+    }
+    return at;
+}
+
+/// All elements, from Vertices.element counter-clockwise to the border, then from it clockwise to the other. Returns
+/// how many the first part has; all of a closed ring.
+uint32_t gather(const ShellView& shell, uint32_t vertex, Ring& ring) {
+    ring.count = 0;
+    ring.is_closed = ring.is_cut_short = false;
+    const uint32_t begin = shell.state.vertices.element[shell.vertex(vertex)];
+    if (begin == kNone) return 0;
+    ring.is_closed = walk(shell, vertex, begin, begin, 2, ring) == begin;
+    const uint32_t forward = ring.count;
+    if (!ring.is_closed && !ring.is_cut_short)
+        walk(shell, vertex, shell.state.elements.neighbour[shell.element(begin)][ring.corner[0]], begin, 0, ring);
+    if (ring.is_cut_short) ring.count = 0;
+    return ring.is_cut_short ? 0 : forward;
+}
+
+void rotate(Ring& ring, uint32_t first) {
+    std::rotate(ring.element, ring.element + first, ring.element + ring.count);
+    std::rotate(ring.corner, ring.corner + first, ring.corner + ring.count);
+}
+
+}  // namespace
+
+uint8_t corner_of(const ShellView& shell, uint32_t element, uint32_t vertex) {
     const auto& corner = shell.state.elements.corner[shell.element(element)];
     for (uint8_t k = 0; k < 3; ++k)
         if (corner[k] == vertex) return k;
     return 3;
 }
 
-void walk_ring(ShellView shell, uint32_t vertex, Ring& ring) {
-    ring.count = 0;
-    ring.is_closed = ring.is_cut_short = false;
-    const Elements& elements = shell.state.elements;
-    const uint32_t begin = shell.state.vertices.element[shell.vertex(vertex)];
-    if (begin == kNone) return;
-
-    // Backwards to the first element of the chain, or round the cycle to its smallest.
-    uint32_t first = begin;
-    uint32_t at = begin;
-    for (uint32_t steps = 0;; ++steps) {
-        const uint8_t k = corner_of(shell, at, vertex);
-        CULLET_ASSERT(k < 3, "element %u is no neighbour of vertex %u", at, vertex);
-        const uint32_t before = elements.neighbour[shell.element(at)][k];
-        if (before == kNone) {
-            first = at;
-            break;
-        }
-        if (before == begin) {
-            ring.is_closed = true;
-            break;
-        }
-        if (steps > kMostRing) break;  // the walk below finds the same
-        at = before;
-        first = at < first ? at : first;
+void walk_ring(const ShellView& shell, uint32_t vertex, Ring& ring) {
+    const uint32_t forward = gather(shell, vertex, ring);
+    if (ring.is_closed) {
+        rotate(ring, static_cast<uint32_t>(std::min_element(ring.element, ring.element + ring.count) - ring.element));
+    } else if (forward < ring.count) {
+        std::reverse(ring.element + forward, ring.element + ring.count);
+        std::reverse(ring.corner + forward, ring.corner + ring.count);
+        rotate(ring, forward);
     }
-    at = first;
-    do {
-        if (ring.count == kMostRing) {
-            ring.count = 0;
-            ring.is_closed = false;
-            ring.is_cut_short = true;
-            return;
+}
+
+void collect_ring(const ShellView& shell, uint32_t vertex, Ring& ring) {
+    gather(shell, vertex, ring);
+    for (uint32_t i = 1; i < ring.count; ++i) {
+        const uint32_t element = ring.element[i];
+        const uint8_t corner = ring.corner[i];
+        uint32_t j = i;
+        for (; j > 0 && ring.element[j - 1] > element; --j)
+            ring.element[j] = ring.element[j - 1], ring.corner[j] = ring.corner[j - 1];
+        ring.element[j] = element, ring.corner[j] = corner;
+    }
+}
+
+void collect_hinges(const ShellView& shell, const Ring& ring, RingHinges& hinges) {
+    hinges.count = 0;
+    // Inserted in order: a ring has about twelve, and a sort of all that repeat takes twice as long.
+    for (uint32_t i = 0; i < ring.count; ++i)
+        for (const uint32_t hinge : shell.state.elements.hinge[shell.element(ring.element[i])]) {
+            if (hinge == kNone) continue;
+            uint32_t at = hinges.count;
+            while (at > 0 && hinges.hinge[at - 1] > hinge) --at;
+            if (at > 0 && hinges.hinge[at - 1] == hinge) continue;
+            for (uint32_t j = hinges.count++; j > at; --j) hinges.hinge[j] = hinges.hinge[j - 1];
+            hinges.hinge[at] = hinge;
         }
-        const uint8_t k = corner_of(shell, at, vertex);
-        ring.element[ring.count] = at;
-        ring.corner[ring.count] = k;
-        ++ring.count;
-        at = elements.neighbour[shell.element(at)][(k + 2) % 3];
-    } while (at != kNone && at != first);
 }
 
 Vec3 ring_normal(ShellView shell, const Ring& ring) {

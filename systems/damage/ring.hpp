@@ -1,11 +1,11 @@
-// The elements round one vertex, in order.
+// The elements and hinges round one vertex, found over neighbour links. The mesh's only such walk.
 #pragma once
 #include "components/state.hpp"
 
 namespace cullet {
 
-/// Elements round a vertex. Scanned meshes have 5 to 7, the pole of a lathe as many as it has segments. A vertex with
-/// more never cracks and no edge opposite to it is split; doubled, nothing suffers but 320 bytes of stack a walk.
+/// Elements round a vertex. Scanned meshes have 5 to 7, the pole of a lathe as many as it has segments. Cooking refuses
+/// more, and no edge is split that would give a vertex more; doubled, a row of stiffness takes 7 kB of stack more.
 inline constexpr uint32_t kMostRing = 64;
 
 /// The elements of one fan, counter-clockwise seen from outside: element[i + 1] lies across the edge that ends at the
@@ -19,11 +19,21 @@ struct Ring {
     bool is_cut_short = false;  // more than kMostRing elements; count is 0 then
 };
 
-/// The fan of Vertices.element. A dead vertex has none.
-void walk_ring(ShellView shell, uint32_t vertex, Ring& ring);
+/// The fan of Vertices.element: every vertex has one (C3), so walking from any of its elements finds all. A dead vertex
+/// has none.
+void walk_ring(const ShellView& shell, uint32_t vertex, Ring& ring);
+/// The same elements in rising order: sums over them do not depend on where a walk began.
+void collect_ring(const ShellView& shell, uint32_t vertex, Ring& ring);
+
+/// Hinges that hold the vertex of this ring, as an end of the edge or as a corner opposite; rising, each once.
+struct RingHinges {
+    uint32_t count = 0;
+    uint32_t hinge[2 * kMostRing + 1];
+};
+void collect_hinges(const ShellView& shell, const Ring& ring, RingHinges& hinges);
 
 /// Corner of `element` at `vertex`, or 3.
-uint8_t corner_of(ShellView shell, uint32_t element, uint32_t vertex);
+uint8_t corner_of(const ShellView& shell, uint32_t element, uint32_t vertex);
 
 /// Area-weighted normal of the rest shape, unit; zero when the areas cancel.
 Vec3 ring_normal(ShellView shell, const Ring& ring);

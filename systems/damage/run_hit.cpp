@@ -7,6 +7,7 @@
 #include "systems/brittle/restart.hpp"
 #include "systems/damage/brittle_loop.hpp"
 #include "systems/damage/crack_candidates.hpp"
+#include "systems/damage/energy.hpp"
 #include "systems/damage/working_room.hpp"
 #include "systems/fragments/group_fragments.hpp"
 
@@ -14,6 +15,8 @@ namespace cullet {
 namespace {
 
 constexpr Row<Tasks> kTask{0};
+
+}  // namespace
 
 bool open_hit(State& state, Row<Shells> source, const HitDescription& hit) {
     const Row<Shells> working = make_shell(state, working_room(ShellView(state, source)));
@@ -48,11 +51,31 @@ bool open_hit(State& state, Row<Shells> source, const HitDescription& hit) {
     return true;
 }
 
-}  // namespace
+HitReport finish_hit(State& state) {
+    Tasks& tasks = state.tasks;
+    HitReport report;
+    report.steps = tasks.steps_done[kTask];
+    report.cuts = tasks.crack_count[kTask];
+    report.starts = tasks.start_count[kTask];
+    report.redos = tasks.redo_count[kTask];
+    report.dropped = static_cast<TaskState>(tasks.state[kTask]) == TaskState::Dropped;
+    report.cracked = report.cuts > 0;
+    report.parts =
+        group_fragments(ShellView(state, tasks.shell[kTask]), std::span(state.fragments.part.data(), kMostParts));
+    tasks.part_count[kTask] = report.parts;
+    report.broke = report.parts > 1;
+    report.start_energy = tasks.start_energy[kTask];
+    const TaskEnergy energy = task_energy(state, kTask);
+    report.end_energy = energy.total();
+    report.end_kinetic = energy.kinetic + energy.strikers;
+    report.impulse = state.task_contacts.impulse[0];
+    report.striker_speed_after = static_cast<float>(state.task_contacts.striker_speed[0]);
+    return report;
+}
 
 HitReport run_hit(State& state, Row<Shells> shell, const HitDescription& hit, bool (*is_over)(const State&)) {
-    HitReport report;
     if (!open_hit(state, shell, hit)) {
+        HitReport report;
         report.dropped = true;
         return report;
     }
@@ -64,20 +87,7 @@ HitReport run_hit(State& state, Row<Shells> shell, const HitDescription& hit, bo
         loop.run_alone(world, {kTask, tasks.steps_done[kTask], tasks.steps_granted[kTask], task_goes_on});
         if (is_over && is_over(state)) break;
     }
-    report.steps = tasks.steps_done[kTask];
-    report.cuts = tasks.crack_count[kTask];
-    report.starts = tasks.start_count[kTask];
-    report.redos = tasks.redo_count[kTask];
-    report.dropped = static_cast<TaskState>(tasks.state[kTask]) == TaskState::Dropped;
-    report.cracked = report.cuts > 0;
-    report.parts = report.cracked ? group_fragments(ShellView(state, tasks.shell[kTask]),
-                                                    std::span(state.fragments.part.data(), kMostParts))
-                                  : 1;
-    tasks.part_count[kTask] = report.parts;
-    report.broke = report.parts > 1;
-    report.impulse = state.task_contacts.impulse[0];
-    report.striker_speed_after = static_cast<float>(state.task_contacts.striker_speed[0]);
-    return report;
+    return finish_hit(state);
 }
 
 void close_hit(State& state) {

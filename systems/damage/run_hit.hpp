@@ -19,14 +19,23 @@ struct HitDescription {
 struct HitReport {
     bool cracked = false, broke = false, dropped = false;
     uint32_t steps = 0, cuts = 0, starts = 0, redos = 0, parts = 1;
-    double impulse = 0;             // N s, to the body along the normal
-    float striker_speed_after = 0;  // m/s along the normal
+    double start_energy = 0;                 // J, of body and strikers, all of it kinetic
+    double end_energy = 0, end_kinetic = 0;  // J, with and without what the springs hold
+    double impulse = 0;                      // N s, to the body along the normal
+    float striker_speed_after = 0;           // m/s along the normal
 };
+
+/// The three parts of run_hit, for those who drive the loop themselves: open_hit fills task row 0 (false: no room),
+/// the task runs until its state is no longer Running, finish_hit counts its parts.
+bool open_hit(State& state, Row<Shells> shell, const HitDescription& hit);
+HitReport finish_hit(State& state);
 
 /// Takes task row 0 of `state`, which must be free, and leaves it with the end's shell (close_hit). `is_over`, when
 /// given, ends the run early; it is asked after each repetition.
 HitReport run_hit(State& state, Row<Shells> shell, const HitDescription& hit, bool (*is_over)(const State&) = nullptr);
 void close_hit(State& state);
+/// The task of such a hit, opened and not yet run. False: no room.
+bool open_hit(State& state, Row<Shells> source, const HitDescription& hit);
 
 /// Lowest vertex in direction `down`, and what a fall on a floor in that direction looks like.
 HitDescription fall_on_floor(const State& state, Row<Shells> shell, Vec3 down, float speed);

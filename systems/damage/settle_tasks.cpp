@@ -1,3 +1,4 @@
+#include "systems/damage/thresholds.hpp"
 #include "systems/rigid/body_id.hpp"
 #include "systems/systems.hpp"
 
@@ -31,7 +32,8 @@ void for_body_and_strikers(const Tasks& tasks, const TaskContacts& contacts, uin
 // Hold and release both happen here, between detect and solve, so a release is bit for bit as if never held. A blow
 // slower than the first crack is solved at once: a harmless bump must not be seen to stick.
 void settle_tasks(Serial, Step step, Tasks& tasks, const TaskContacts& contacts, Bodies& bodies, const Shells& shells,
-                  RigidWorld& rigid, const DamageSettings& settings, DamageCounts& counts, Events<TaskEnded>& ended) {
+                  RigidWorld& rigid, const DamageSettings& settings, DamageCounts& counts, Events<TaskEnded>& ended,
+                  Events<ImpactEvent>& impact_events) {
     ended.clear();
     for (uint32_t t = 0; t < tasks.size(); ++t) {
         const auto task_state = static_cast<TaskState>(tasks.state[t]);
@@ -39,9 +41,12 @@ void settle_tasks(Serial, Step step, Tasks& tasks, const TaskContacts& contacts,
         const bool is_over = task_state != TaskState::Running;
         if (!is_over && !tasks.is_held[t] && !tasks.is_late[t]) {
             const bool is_worth_it =
-                tasks.approach_speed[t] > shells.first_crack_speed[tasks.source[t]] && settings.hold_seconds > 0;
+                settings.hold_seconds > 0 &&
+                tasks.approach_speed[t] > first_crack_speed(shells, tasks.source[t], tasks.strength_scale[t]);
             if (is_worth_it) {
                 tasks.is_held[t] = 1;
+                for (ImpactEvent& e : impact_events.all())
+                    e.is_held = e.is_held || e.body == body_id(bodies, tasks.body[t]);
                 for_body_and_strikers(tasks, contacts, t, [&](Row<Bodies> b) { hold(bodies, rigid, b); });
             } else {
                 tasks.is_late[t] = 1;

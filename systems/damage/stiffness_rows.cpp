@@ -3,12 +3,12 @@
 
 #include "systems/damage/assemble.hpp"
 #include "systems/damage/element_stiffness.hpp"
-#include "systems/damage/fan.hpp"
+#include "systems/damage/ring.hpp"
 
 namespace cullet {
 namespace {
 
-constexpr uint32_t kMostNeighbours = kMostFan + 2;
+constexpr uint32_t kMostNeighbours = kMostRing + 2;
 // Free slots of a pack that had to move. Packs of the intact model have none: gaps between packs are fetched in vain by
 // the processor's own prefetchers, which cost a fifth of the step where the rows come from beyond L2.
 constexpr uint32_t kSpareSlots = 2;
@@ -24,7 +24,7 @@ struct VertexRow {
     uint32_t block_count = 0, link_count = 0;
     uint32_t neighbour[kMostNeighbours];
     double k[kMostNeighbours][9];
-    Link link[kMostFan];
+    Link link[kMostRing];
 
     double* block(uint32_t v) {
         uint32_t at = 0;
@@ -63,7 +63,7 @@ void add_hinge(const ShellView& shell, uint32_t vertex, uint32_t hinge, VertexRo
         if (j == i) continue;
         const float* gj = &g[3 * j];
         if (i + j == 5) {  // 2 and 3
-            if (row.link_count == kMostFan) continue;
+            if (row.link_count == kMostRing) continue;
             VertexRow::Link& link = row.link[row.link_count++];
             link.neighbour = v[j];
             for (int k = 0; k < 3; ++k) link.row[k] = static_cast<float>(-stiffness * gi[k]), link.column[k] = gj[k];
@@ -77,26 +77,26 @@ void add_hinge(const ShellView& shell, uint32_t vertex, uint32_t hinge, VertexRo
 
 void build_row(const ShellView& shell, const PlaneStress& stress, uint32_t vertex, VertexRow& row) {
     row.block_count = row.link_count = 0;
-    Fan fan;
-    collect_fan(shell, vertex, fan);
-    for (uint32_t i = 0; i < fan.count; ++i) add_triangle(shell, stress, fan.element[i], fan.corner[i], row);
-    FanHinges hinges;
-    collect_hinges(shell, fan, hinges);
+    Ring ring;
+    collect_ring(shell, vertex, ring);
+    for (uint32_t i = 0; i < ring.count; ++i) add_triangle(shell, stress, ring.element[i], ring.corner[i], row);
+    RingHinges hinges;
+    collect_hinges(shell, ring, hinges);
     for (uint32_t i = 0; i < hinges.count; ++i) add_hinge(shell, vertex, hinges.hinge[i], row);
 }
 
-/// Slots that a vertex takes, without building its row: a border fan has one neighbour more than elements.
+/// Slots that a vertex takes, without building its row: an open ring has one neighbour more than elements.
 void count_slots(const ShellView& shell, uint32_t vertex, uint32_t& blocks, uint32_t& links) {
-    Fan fan;
-    collect_fan(shell, vertex, fan);
+    Ring ring;
+    collect_ring(shell, vertex, ring);
     bool is_open = false;
     links = 0;
-    for (uint32_t i = 0; i < fan.count; ++i) {
-        const uint32_t e = shell.element(fan.element[i]);
-        is_open |= shell.state.elements.neighbour[e][fan.corner[i]] == kNone;
-        links += shell.state.elements.hinge[e][(fan.corner[i] + 1u) % 3] != kNone;
+    for (uint32_t i = 0; i < ring.count; ++i) {
+        const uint32_t e = shell.element(ring.element[i]);
+        is_open |= shell.state.elements.neighbour[e][ring.corner[i]] == kNone;
+        links += shell.state.elements.hinge[e][(ring.corner[i] + 1u) % 3] != kNone;
     }
-    blocks = fan.count + is_open;
+    blocks = ring.count + is_open;
 }
 
 void count_pack(const ShellView& shell, uint32_t pack, uint32_t& blocks, uint32_t& links) {
@@ -255,14 +255,14 @@ uint32_t row_vertices(ShellView shell, std::span<const uint32_t> vertices, std::
         *at = v;
         ++count;
     };
-    Fan fan;
-    FanHinges hinges;
+    Ring ring;
+    RingHinges hinges;
     for (const uint32_t v : vertices) {
         add(v);
-        collect_fan(shell, v, fan);
-        collect_hinges(shell, fan, hinges);
-        for (uint32_t i = 0; i < fan.count; ++i)
-            for (const uint32_t c : shell.state.elements.corner[shell.element(fan.element[i])]) add(c);
+        collect_ring(shell, v, ring);
+        collect_hinges(shell, ring, hinges);
+        for (uint32_t i = 0; i < ring.count; ++i)
+            for (const uint32_t c : shell.state.elements.corner[shell.element(ring.element[i])]) add(c);
         for (uint32_t i = 0; i < hinges.count; ++i)
             for (const uint32_t c : shell.state.hinges.vertex[shell.hinge(hinges.hinge[i])]) add(c);
     }

@@ -5,7 +5,9 @@
 #include <algorithm>
 #include <cstring>
 
+#include "systems/damage/cut_edge.hpp"
 #include "systems/damage/element_stiffness.hpp"
+#include "systems/damage/ring.hpp"
 #include "systems/damage/stress_check.hpp"
 #include "systems/motion/lanes-inl.hpp"
 
@@ -15,12 +17,12 @@ namespace cullet {
 /// Columns of one shell's elements and hinges, from its first rows on.
 struct StressTables {
     const Float4* probe;
-    const std::array<uint32_t, 3>*corner, *hinge, *neighbour;
+    const std::array<uint32_t, 3>*corner, *other_slope;
     const uint8_t* flags;
     const float *axis_x[3], *axis_y[3], *inverse_edges[3], *altitude[3];
     const float *area, *thickness, *scale;
     float *outer[3], *inner[3], *principal;
-    std::array<float, 2>* angle;
+    float* slope;  // 3 an element
     float c11, c12, c33;
 };
 }  // namespace cullet
@@ -72,16 +74,6 @@ HWY_INLINE Strain strain(const StressTables& t, uint32_t e, const uint32_t* corn
             {hn::Mul(a.x, to_2), hn::Neg(hn::Mul(a.y, hn::Add(to_1, to_2))), hn::Mul(a.z, to_1)}};
 }
 
-/// Each hinge has one place for each of its elements. Slopes of 8 elements, three an element.
-HWY_INLINE void scatter_slopes(const StressTables& t, uint32_t e, uint32_t end, const float* slope) {
-    const uint32_t rows = std::min(kLanes, end - e);
-    const uint32_t *hinge = t.hinge[e].data(), *neighbour = t.neighbour[e].data();
-    float* angle = t.angle->data();
-    for (uint32_t i = 0; i < rows; ++i, hinge += 3, neighbour += 3, slope += 3)
-        for (size_t k = 0; k < 3; ++k)
-            if (hinge[k] != kNone) angle[2 * size_t{hinge[k]} + (neighbour[k] < e + i)] = slope[k];
-}
-
 HWY_INLINE V3 stress(const StressTables& t, V scale, V3 eps) {
     const Floats d;
     const V c11 = hn::Set(d, t.c11), c12 = hn::Set(d, t.c12), c33 = hn::Set(d, t.c33);
@@ -96,20 +88,18 @@ HWY_INLINE V principal_of(V3 s) {
     return hn::Add(mean, hn::Sqrt(hn::Add(hn::Mul(difference, difference), hn::Mul(s.z, s.z))));
 }
 
-/// Strains of [first, first + count); `use` takes those of each kStep elements, and slopes go to the hinges.
+/// Strains of [first, first + count); `use` takes those of each kStep elements.
 template <class Use>
 HWY_INLINE void strain_range(const StressTables& t, uint32_t first, uint32_t count, Use use) {
     const uint32_t end = first + count;
     for (uint32_t e = first; e < end; e += kLanes) {
         uint32_t patched[3 * kLanes];
-        alignas(64) float slopes[3 * kLanes];
         const uint32_t* corner = corners_of(t, e, end, patched);
         for (uint32_t lane = 0; lane < kLanes; lane += kStep) {
             const Strain s = strain(t, e + lane, corner + 3 * lane);
-            hn::StoreInterleaved3(s.slope.x, s.slope.y, s.slope.z, Floats(), slopes + 3 * lane);
+            hn::StoreInterleaved3(s.slope.x, s.slope.y, s.slope.z, Floats(), t.slope + 3 * (e + lane));
             use(e + lane, s.membrane);
         }
-        scatter_slopes(t, e, end, slopes);
     }
 }
 
@@ -132,19 +122,26 @@ double energy_range(const StressTables& t, uint32_t first, uint32_t count) {
     return 0.5 * sum;
 }
 
-inline constexpr uint32_t kBatch = 64;  // elements whose angles are gathered before they are used
+/// Elements whose neighbours' slopes are gathered before they are used: read back at once, single floats would stall
+/// the wide loads.
+inline constexpr uint32_t kBatch = 64;
 
-struct Angles {
-    alignas(64) float list[3][kBatch];
-};
-HWY_INLINE void gather_angles(const StressTables& t, uint32_t first, uint32_t rows, Angles& angles) {
-    const uint32_t* hinge = t.hinge[first].data();
-    const float* angle = t.angle->data();
-    for (uint32_t i = 0; i < rows; ++i, hinge += 3)
-        for (size_t k = 0; k < 3; ++k) {
-            const float* sides = angle + 2 * size_t{hinge[k]};
-            angles.list[k][i] = hinge[k] == kNone ? 0.0f : sides[0] + sides[1];
-        }
+alignas(64) inline constexpr uint32_t kLane[] = {0, 1, 2, 3, 4, 5, 6, 7};  // hn::Iota goes through memory
+
+/// Angle of each edge's hinge, 0 where there is none.
+HWY_INLINE void gather_angles(const StressTables& t, uint32_t first, uint32_t rows, float* angle) {
+    const uint32_t* other = t.other_slope[first].data();
+    const float* own = t.slope + 3 * size_t{first};
+    for (uint32_t i = 0; i < 3 * rows; ++i) angle[i] = t.slope[other[i]];
+    const Floats d;
+    const hn::RebindToUnsigned<Floats> u;
+    // A half without another names itself.
+    for (uint32_t i = 0; i < 3 * rows; i += kStep) {
+        const auto self = hn::Add(hn::Load(u, kLane), hn::Set(u, 3 * first + i));
+        const V sum = hn::Add(hn::LoadU(d, own + i), hn::Load(d, angle + i));
+        const auto bits = hn::IfThenZeroElse(hn::Eq(self, hn::LoadU(u, other + i)), hn::BitCast(u, sum));
+        hn::Store(hn::BitCast(d, bits), d, angle + i);
+    }
 }
 
 /// Curvature as a strain at distance h / 2: gamma is twice the xy entry.
@@ -161,9 +158,10 @@ HWY_INLINE V3 bending_strain(const StressTables& t, uint32_t e, V3 angle) {
     return {xx, yy, hn::Add(xy, xy)};
 }
 
-HWY_INLINE void stress_lanes(const StressTables& t, uint32_t e, const Angles& angles, uint32_t i) {
+HWY_INLINE void stress_lanes(const StressTables& t, uint32_t e, const float* angles) {
     const Floats d;
-    const V3 angle = load(angles.list[0] + i, angles.list[1] + i, angles.list[2] + i);
+    V3 angle;
+    hn::LoadInterleaved3(d, angles, angle.x, angle.y, angle.z);
     const V3 bend = stress(t, hn::LoadU(d, t.scale + e), bending_strain(t, e, angle));
     const V3 membrane = load(t.outer[0] + e, t.outer[1] + e, t.outer[2] + e);
     const V3 outer = membrane - bend, inner = add(membrane, bend);
@@ -173,12 +171,12 @@ HWY_INLINE void stress_lanes(const StressTables& t, uint32_t e, const Angles& an
 }
 
 void stress_range(const StressTables& t, uint32_t first, uint32_t count) {
-    Angles angles = {};
+    alignas(64) float angles[3 * kBatch] = {};
     const uint32_t end = first + count;
     for (uint32_t e = first; e < end; e += kBatch) {
         const uint32_t rows = std::min(kBatch, end - e);
         gather_angles(t, e, rows, angles);
-        for (uint32_t i = 0; i < rows; i += kStep) stress_lanes(t, e + i, angles, i);
+        for (uint32_t i = 0; i < rows; i += kStep) stress_lanes(t, e + i, angles + 3 * i);
     }
 }
 
@@ -205,13 +203,13 @@ void lanes_of(Column<Vec3>& column, uint32_t first, float* (&out)[3]) {
 StressTables stress_tables(const ShellView& shell, uint32_t side) {
     State& state = shell.state;
     const TriangleSprings& springs = state.triangle_springs;
-    const uint32_t e = shell.elements().first, h = shell.hinges().first;
+    const uint32_t e = shell.elements().first;
     const PlaneStress c = plane_stress(state, shell.row);
     StressTables t{};
     t.probe = state.vertices.probe.data(static_cast<int>(side & 1)) + shell.vertices().first;
     t.corner = state.elements.corner.data() + e;
-    t.hinge = state.elements.hinge.data() + e;
-    t.neighbour = state.elements.neighbour.data() + e;
+    t.other_slope = state.elements.other_slope.data() + e;
+    t.slope = state.elements.slope[e].data();
     t.flags = state.elements.flags.data() + e;
     lanes_of(springs.axis_x, e, t.axis_x);
     lanes_of(springs.axis_y, e, t.axis_y);
@@ -223,12 +221,36 @@ StressTables stress_tables(const ShellView& shell, uint32_t side) {
     lanes_of(state.elements.outer_stress, e, t.outer);
     lanes_of(state.elements.inner_stress, e, t.inner);
     t.principal = state.elements.principal.data() + e;
-    t.angle = state.hinges.angle.data() + h;
     t.c11 = static_cast<float>(c.c11), t.c12 = static_cast<float>(c.c12), t.c33 = static_cast<float>(c.c33);
     return t;
 }
 
+void link_slopes_of(const ShellView& shell, uint32_t element) {
+    Elements& elements = shell.state.elements;
+    const uint32_t row = shell.element(element);
+    const auto& corner = elements.corner[row];
+    for (uint32_t k = 0; k < 3; ++k) {
+        uint32_t& other_slope = elements.other_slope[row][k];
+        other_slope = 3 * element + k;
+        const uint32_t other = elements.neighbour[row][k];
+        if (other == kNone || elements.hinge[row][k] == kNone || (elements.flags[row] & kDead)) continue;
+        const uint8_t edge = edge_between(shell, other, corner[(k + 1) % 3], corner[k]);
+        if (edge < 3) other_slope = 3 * other + edge;
+    }
+}
+
 }  // namespace
+
+void link_slopes(ShellView shell) {
+    for (uint32_t e = 0; e < shell.element_count(); ++e) link_slopes_of(shell, e);
+}
+void link_slopes(ShellView shell, std::span<const uint32_t> vertices) {
+    Ring ring;
+    for (const uint32_t v : vertices) {
+        collect_ring(shell, v, ring);
+        for (uint32_t i = 0; i < ring.count; ++i) link_slopes_of(shell, ring.element[i]);
+    }
+}
 
 void strain_elements(ShellView shell, uint32_t side, uint32_t first, uint32_t count) {
     HWY_DYNAMIC_DISPATCH(membrane_range)(stress_tables(shell, side), first, count);
@@ -237,6 +259,7 @@ void stress_elements(ShellView shell, uint32_t first, uint32_t count) {
     HWY_DYNAMIC_DISPATCH(stress_range)(stress_tables(shell, 0), first, count);
 }
 void check_stress(ShellView shell, uint32_t side) {
+    link_slopes(shell);
     strain_elements(shell, side, 0, shell.element_count());
     stress_elements(shell, 0, shell.element_count());
 }

@@ -12,8 +12,12 @@ inline constexpr uint32_t kLeastElements = 12;
 /// Between two tries of one body, s.
 inline constexpr float kRetrySeconds = 0.02f;
 
-inline float wake_speed(const Shells& shells, Row<Shells> s) {
-    return kWakeShare * shells.first_crack_speed[s] * (shells.has_cracks[s] ? 0.5f : 1.0f);
+/// Stress grows with the speed up to the first crack, so the game's scale on the strength is one on the speed.
+inline float first_crack_speed(const Shells& shells, Row<Shells> s, float strength_scale) {
+    return strength_scale * shells.first_crack_speed[s];
+}
+inline float wake_speed(const Shells& shells, Row<Shells> s, float strength_scale) {
+    return kWakeShare * first_crack_speed(shells, s, strength_scale) * (shells.has_cracks[s] ? 0.5f : 1.0f);
 }
 inline bool may_break_again(const Shells& shells, Row<Shells> s, uint32_t generations) {
     const uint32_t generation = shells.generation[s];

@@ -4,12 +4,14 @@
 #include <span>
 
 #include "systems/damage/assemble.hpp"
+#include "systems/damage/stress_check.hpp"
 
 namespace cullet {
 
 bool refresh_stiffness(ShellView shell, Touched& touched) {
     const uint32_t count = touched.count;
     touched.count = 0;
+    link_slopes(shell, {touched.vertex, count});
     if (count == 0 || shell.shells().packs[shell.row].count == 0) return true;
     const Column<float>& scale = shell.state.vertices.stiffness_scale;
     float before[Touched::kMost];

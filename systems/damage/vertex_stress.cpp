@@ -1,6 +1,6 @@
 #include "systems/damage/vertex_stress.hpp"
 
-#include "systems/damage/fan.hpp"
+#include "systems/damage/ring.hpp"
 
 namespace cullet {
 namespace {
@@ -17,18 +17,18 @@ VertexStress vertex_stress(ShellView shell, uint32_t vertex, int face) {
     const Elements& elements = shell.state.elements;
     const Column<Vec3>& stress = face == 0 ? elements.outer_stress : elements.inner_stress;
     VertexStress result;
-    Fan fan;
-    collect_fan(shell, vertex, fan);
-    Vec3 normals[kMostFan];
-    for (uint32_t i = 0; i < fan.count; ++i) {
-        const uint32_t e = shell.element(fan.element[i]);
+    Ring ring;
+    collect_ring(shell, vertex, ring);
+    Vec3 normals[kMostRing];
+    for (uint32_t i = 0; i < ring.count; ++i) {
+        const uint32_t e = shell.element(ring.element[i]);
         normals[i] = cross(springs.axis_x[e], springs.axis_y[e]);
         result.normal += springs.area[e] * normals[i];
     }
     result.normal = normalised(result.normal);
     float area = 0;
-    for (uint32_t i = 0; i < fan.count; ++i) {
-        const uint32_t e = shell.element(fan.element[i]);
+    for (uint32_t i = 0; i < ring.count; ++i) {
+        const uint32_t e = shell.element(ring.element[i]);
         if (!(springs.area[e] > 0) || !(dot(normals[i], result.normal) > 0)) continue;
         const Vec3 x = turned(springs.axis_x[e], normals[i], result.normal);
         if (area == 0) result.axis_x = normalised(x), result.axis_y = cross(result.normal, result.axis_x);

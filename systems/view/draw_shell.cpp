@@ -1,5 +1,7 @@
 #include "systems/view/draw_shell.hpp"
 
+#include <numeric>
+
 #include "systems/fragments/prism.hpp"
 
 namespace cullet {
@@ -16,8 +18,31 @@ struct Writer {
     ShellView shell;
     uint32_t first_vertex, first_index;  // table rows
     uint32_t vertex = 0;                 // next, relative
-    uint32_t index[3] = {};              // next of each run, relative
+    DrawnMaterials materials = {};
+    uint32_t index[kMostRuns] = {};  // next of each run, relative
 };
+
+DrawnMaterials materials_of(const ShellView& shell) {
+    DrawnMaterials found;
+    const Elements& elements = shell.state.elements;
+    for (uint32_t e = shell.element(0); e < shell.element(shell.element_count()); ++e) {
+        if (elements.flags[e] & kDead) continue;
+        const uint16_t id = elements.drawn_material[e];
+        uint32_t at = 0;
+        while (at < found.count && found.id[at] < id) ++at;
+        if (at == kMostDrawnMaterials || (at < found.count && found.id[at] == id)) continue;
+        if (found.count < kMostDrawnMaterials) ++found.count;
+        for (uint32_t i = found.count - 1; i > at; --i) found.id[i] = found.id[i - 1];
+        found.id[at] = id;
+    }
+    return found;
+}
+
+uint32_t run_of(const DrawnMaterials& materials, SurfaceKind kind, uint16_t id) {
+    uint32_t at = 0;
+    while (at + 1 < materials.count && materials.id[at] < id) ++at;
+    return static_cast<uint32_t>(kind) * kMostDrawnMaterials + at;
+}
 
 bool is_live(const ShellView& shell, uint32_t element) {
     return (shell.state.elements.flags[shell.element(element)] & kDead) == 0;
@@ -56,12 +81,10 @@ SideQuad side_quad(const ShellView& shell, uint32_t element, int k) {
     return quad;
 }
 
-int run_of(EdgeKind kind) {
-    return kind == EdgeKind::Crack ? 2 : 1;
-}
-
-EdgeKind kind_of(const ShellView& shell, uint32_t element, int k) {
-    return static_cast<EdgeKind>(shell.state.elements.edge_kind[shell.element(element)][k]);
+/// Of the wall below edge k: rims are drawn with the inner surface.
+SurfaceKind kind_of(const ShellView& shell, uint32_t element, int k) {
+    const auto edge = static_cast<EdgeKind>(shell.state.elements.edge_kind[shell.element(element)][k]);
+    return edge == EdgeKind::Crack ? SurfaceKind::Crack : SurfaceKind::Inner;
 }
 
 uint32_t write_vertex(Writer& w, Vec3 position, Vec3 normal, float u, float v) {
@@ -71,8 +94,27 @@ uint32_t write_vertex(Writer& w, Vec3 position, Vec3 normal, float u, float v) {
     return w.vertex++;
 }
 
-void write_index(Writer& w, int run, uint32_t vertex) {
+void write_index(Writer& w, uint32_t run, uint32_t vertex) {
     w.shell.state.view_indices.index[w.first_index + w.index[run]++] = vertex;
+}
+
+/// The game's uv of corner k, where the corner is drawn: a vertex that is shifted along the wall would else drag its
+/// texture with it. The map is affine in the element; what sticks out of its plane, or a sliver, changes nothing.
+Vec2 uv_where_drawn(const ShellView& shell, uint32_t row, int k) {
+    const auto corner = shell.state.elements.corner[row];
+    const auto& uv = shell.state.elements.uv[row];
+    const Vertices& vertices = shell.state.vertices;
+    const Vec3 shift = vertices.drawn_shift[shell.vertex(corner[k])];
+    const Vec3 p = vertices.rest[shell.vertex(corner[0])];
+    const Vec3 d1 = vertices.rest[shell.vertex(corner[1])] - p, d2 = vertices.rest[shell.vertex(corner[2])] - p;
+    const float aa = dot(d1, d1), ab = dot(d1, d2), bb = dot(d2, d2), determinant = aa * bb - ab * ab;
+    const float as = dot(d1, shift), bs = dot(d2, shift);
+    Vec2 at{uv[2 * k], uv[2 * k + 1]};
+    if ((as == 0 && bs == 0) || !(determinant > 1e-4f * aa * bb)) return at;
+    const float a = (bb * as - ab * bs) / determinant, b = (aa * bs - ab * as) / determinant;
+    at.x += a * (uv[2] - uv[0]) + b * (uv[4] - uv[0]);
+    at.y += a * (uv[3] - uv[1]) + b * (uv[5] - uv[1]);
+    return at;
 }
 
 void write_faces(Writer& w, uint32_t e) {
@@ -81,19 +123,21 @@ void write_faces(Writer& w, uint32_t e) {
     const uint32_t row = shell.element(e);
     const auto corner = elements.corner[row];
     const auto& normal = elements.normal[row];
-    const auto& uv = elements.uv[row];
     Vec3 inner[3];
     for (int k = 0; k < 3; ++k) inner[k] = place(shell, point(shell, corner[k], true));
     const Vec3 flat = normalised(cross(inner[2] - inner[0], inner[1] - inner[0]));
     uint32_t outer_vertex[3], inner_vertex[3];
     for (int k = 0; k < 3; ++k) {
         const Vec3 n{normal[3 * k], normal[3 * k + 1], normal[3 * k + 2]};
-        outer_vertex[k] = write_vertex(w, place(shell, point(shell, corner[k], false)), n, uv[2 * k], uv[2 * k + 1]);
+        const Vec2 uv = uv_where_drawn(shell, row, k);
+        outer_vertex[k] = write_vertex(w, place(shell, point(shell, corner[k], false)), n, uv.x, uv.y);
         const bool runs_along = dot(-n, flat) > 0.8f || dot(flat, flat) < 0.5f;  // no area, no normal
-        inner_vertex[k] = write_vertex(w, inner[k], runs_along ? -n : flat, uv[2 * k], uv[2 * k + 1]);
+        inner_vertex[k] = write_vertex(w, inner[k], runs_along ? -n : flat, uv.x, uv.y);
     }
-    for (int k : {0, 1, 2}) write_index(w, 0, outer_vertex[k]);
-    for (int k : {0, 2, 1}) write_index(w, 1, inner_vertex[k]);
+    const uint32_t outer = run_of(w.materials, SurfaceKind::Outer, elements.drawn_material[row]);
+    const uint32_t below = run_of(w.materials, SurfaceKind::Inner, elements.drawn_material[row]);
+    for (int k : {0, 1, 2}) write_index(w, outer, outer_vertex[k]);
+    for (int k : {0, 2, 1}) write_index(w, below, inner_vertex[k]);
 }
 
 /// Writes side quad k of the element, `along` metres from the start of its border; returns the edge's length.
@@ -101,7 +145,8 @@ float write_side(Writer& w, uint32_t e, int k, float along) {
     const SideQuad quad = side_quad(w.shell, e, k);
     const auto corner = w.shell.state.elements.corner[w.shell.element(e)];
     const float edge = length(place(w.shell, {corner[(k + 1) % 3], false}) - place(w.shell, {corner[k], false}));
-    const int run = run_of(kind_of(w.shell, e, k));
+    const uint16_t material = w.shell.state.elements.drawn_material[w.shell.element(e)];
+    const uint32_t run = run_of(w.materials, kind_of(w.shell, e, k), material);
     for (int t = 0; t < 2; ++t) {
         if (!quad.is_drawn[t]) continue;
         Vec3 p[3];
@@ -144,19 +189,30 @@ void write_border(Writer& w, uint32_t e, int k) {
 
 }  // namespace
 
+uint32_t DrawnCount::of_kind(SurfaceKind kind) const {
+    const auto first = indices.begin() + static_cast<uint32_t>(kind) * kMostDrawnMaterials;
+    return std::accumulate(first, first + kMostDrawnMaterials, 0u);
+}
+
+uint32_t DrawnCount::index_count() const {
+    return std::accumulate(indices.begin(), indices.end(), 0u);
+}
+
 DrawnCount count_drawn(ShellView shell) {
     DrawnCount count;
+    count.materials = materials_of(shell);
     for (uint32_t e = 0; e < shell.element_count(); ++e) {
         if (!is_live(shell, e)) continue;
         count.vertices += 6;
-        count.indices[0] += 3;
-        count.indices[1] += 3;
+        const uint16_t material = shell.state.elements.drawn_material[shell.element(e)];
+        count.indices[run_of(count.materials, SurfaceKind::Outer, material)] += 3;
+        count.indices[run_of(count.materials, SurfaceKind::Inner, material)] += 3;
         for (int k = 0; k < 3; ++k) {
             if (shell.state.elements.neighbour[shell.element(e)][k] != kNone) continue;
             const SideQuad quad = side_quad(shell, e, k);
             for (bool is_drawn : quad.is_drawn) {
                 count.vertices += is_drawn ? 3 : 0;
-                count.indices[run_of(kind_of(shell, e, k))] += is_drawn ? 3 : 0;
+                count.indices[run_of(count.materials, kind_of(shell, e, k), material)] += is_drawn ? 3 : 0;
             }
         }
     }
@@ -168,8 +224,8 @@ DrawnCount draw_shell(ShellView shell, Range& view_vertices, Range& view_indices
     CULLET_ASSERT(count.vertices <= view_vertices.capacity && count.index_count() <= view_indices.capacity,
                   "%u view vertices and %u indices do not fit their ranges", count.vertices, count.index_count());
     Writer w{shell, view_vertices.first, view_indices.first};
-    w.index[1] = count.indices[0];
-    w.index[2] = count.indices[0] + count.indices[1];
+    w.materials = count.materials;
+    std::exclusive_scan(count.indices.begin(), count.indices.end(), w.index, 0u);
     Elements& elements = shell.state.elements;
     for (uint32_t e = 0; e < shell.element_count(); ++e) {
         elements.drawn_edges[shell.element(e)] = 0;
@@ -181,6 +237,15 @@ DrawnCount draw_shell(ShellView shell, Range& view_vertices, Range& view_indices
     view_vertices.count = count.vertices;
     view_indices.count = count.index_count();
     return count;
+}
+
+void draw_body(State& state, Row<Bodies> body) {
+    Bodies& bodies = state.bodies;
+    const DrawnCount drawn =
+        draw_shell(ShellView(state, bodies.shell[body]), bodies.view_vertices[body], bodies.view_indices[body]);
+    bodies.run_indices[body] = drawn.indices;
+    bodies.drawn_materials[body] = drawn.materials.id;
+    ++bodies.view_stamp[body];
 }
 
 }  // namespace cullet

@@ -6,10 +6,7 @@ namespace cullet {
 void draw_shells(Each<ShellChanged> changed, ShellTables shells, Bodies& bodies, ViewVertices&, ViewIndices&) {
     const Row<Bodies> body = changed->body;
     if (static_cast<BodyKind>(bodies.kind[body]) == BodyKind::Free) return;
-    bodies.run_indices[body] =
-        draw_shell(ShellView(shells.state, bodies.shell[body]), bodies.view_vertices[body], bodies.view_indices[body])
-            .indices;
-    ++bodies.view_stamp[body];
+    draw_body(shells.state, body);
 }
 
 }  // namespace cullet

@@ -1,4 +1,4 @@
-// A vase falls on a lift that comes up, in a host with its own memory, jobs and clock.
+// A vase falls on a floor beside a lift, in a host with its own memory, jobs and clock.
 #include <array>
 #include <cmath>
 #include <cstdio>
@@ -42,7 +42,7 @@ int main() {
     const BodyId lift =
         world.add_kinematic_box({.motion = {{0, 0.5f, 0}, {}}, .half_extents = {0.3f, 0.1f, 0.3f}}).value();
     const ModelId vase = world.add_model(model.value()).value();
-    (void)world.spawn(vase, {.pose = {{0.05f, 1.8f, 0}, {0.2f, 0, 0, 0.98f}}, .user_data = 42});
+    (void)world.spawn(vase, {.pose = {{1, 2.5f, 0}, {0.2f, 0, 0, 0.98f}}, .user_data = 42});
 
     uint32_t fragments = 0;
     double unsimulated = 0;  // s; the game draws between pose_before and pose of a view by this share of a step

@@ -54,6 +54,7 @@ struct OddJobs {
     bool is_random = false;
     uint64_t calls = 0;
     static void run(void* user, uint32_t count, void (*job)(void* context, uint32_t index), void* context) {
+        if (count == 0) return;
         auto& self = *static_cast<OddJobs*>(user);
         // An odd stride that shares no factor with count visits every index once.
         uint64_t stride = 1;

@@ -6,7 +6,7 @@
 #include "engine/random.hpp"
 #include "systems/damage/assemble.hpp"
 #include "systems/damage/contact.hpp"
-#include "systems/motion/integrate_hidden.hpp"
+#include "systems/motion/integrate_packs.hpp"
 
 namespace cullet::test {
 namespace {
@@ -269,7 +269,7 @@ void step_task(State& state, Row<Tasks> task) {
     const uint32_t side = tasks.steps_done[task] & 1;
     contact_forces(state, task);
     const HiddenStep step(ShellView(state, tasks.shell[task]), tasks.time_step[task], tasks.damping_time[task], side);
-    integrate_hidden(step, 0, step.pack_count);
+    integrate_packs(step, 0, step.pack_count);
     apply_contact(state, task, side);
     ++tasks.steps_done[task];
 }

@@ -1,5 +1,5 @@
 // The hidden step against formulas, conservation laws and plain loops.
-#include "systems/motion/integrate_hidden.hpp"
+#include "systems/motion/integrate_packs.hpp"
 
 #include <gtest/gtest.h>
 
@@ -99,7 +99,7 @@ TEST(HiddenStep, EqualsTheElementLoopToFloatRounding) {
     shake(shell, 1e-6, 0);
     const auto force = plain_forces(shell);
     const HiddenStep step(shell, 1, 0, 0);
-    integrate_hidden(step, 0, step.pack_count);
+    integrate_packs(step, 0, step.pack_count);
     double largest = 0, error = 0;
     for (uint32_t v = 0; v < shell.vertex_count(); ++v) {
         const uint32_t row = shell.vertex(v);
@@ -117,7 +117,7 @@ TEST(HiddenStep, RigidTranslationIsFreeOfForceToTheLastBit) {
     const ShellView shell = f.view();
     for (uint32_t v = 0; v < shell.vertex_count(); ++v) set_displacement(shell, v, {2.5e-3f, -1.37e-3f, 7.7e-4f});
     const HiddenStep step(shell, 1e-6f, 1e-7f, 0);
-    integrate_hidden(step, 0, step.pack_count);
+    integrate_packs(step, 0, step.pack_count);
     for (uint32_t v = 0; v < shell.vertex_count(); ++v)
         ASSERT_EQ(f.state.vertices.velocity[shell.vertex(v)], (Vec3{0, 0, 0})) << v;
 }
@@ -207,9 +207,9 @@ TEST(HiddenStep, PacksMayRunInAnyOrder) {
     shake(g.view(), 1e-6, 1);
     for (uint32_t i = 0; i < 10; ++i) {
         const HiddenStep forward(f.view(), 3e-7f, 4e-8f, i), shuffled(g.view(), 3e-7f, 4e-8f, i);
-        integrate_hidden(forward, 0, forward.pack_count);
+        integrate_packs(forward, 0, forward.pack_count);
         for (uint32_t p = 0; p < shuffled.pack_count; ++p)
-            integrate_hidden(shuffled, (p * 7 + i) % shuffled.pack_count, 1);
+            integrate_packs(shuffled, (p * 7 + i) % shuffled.pack_count, 1);
         ASSERT_NE(shuffled.pack_count % 7, 0u);
         ASSERT_EQ(f.motion_hash(), g.motion_hash());
     }

@@ -271,8 +271,8 @@ void expect_closed(State& state, Row<Shells> row) {
     const Result<void> checked = check_drawn_mesh(shell, vertices, indices);
     EXPECT_TRUE(checked.ok()) << checked.error();
     for (uint32_t i = 0; i < vertices.count; ++i) {
-        const auto n = state.view_vertices.normal[vertices.first + i];
-        EXPECT_NEAR(n[0] * n[0] + n[1] * n[1] + n[2] * n[2], 1, 1e-4);
+        const Vec3 n = state.view_vertices.vertex[vertices.first + i].normal;
+        EXPECT_NEAR(dot(n, n), 1, 1e-4);
     }
 }
 
@@ -297,8 +297,8 @@ TEST(DrawShell, AnOpenMeshOrAWrongVolumeIsFound) {
     Range indices{state.view_indices.append(count.index_count()), 0, count.index_count()};
     draw_shell(shell, vertices, indices);
     EXPECT_TRUE(check_drawn_mesh(shell, vertices, indices).ok());
-    EXPECT_EQ(count.indices[2], 0u);  // rims are drawn with the inner surface
-    EXPECT_EQ(count.indices[1], 150u + 20u * 6u);
+    EXPECT_EQ(count.of_kind(SurfaceKind::Crack), 0u);  // rims are drawn with the inner surface
+    EXPECT_EQ(count.of_kind(SurfaceKind::Inner), 150u + 20u * 6u);
     Range fewer = indices;
     fewer.count -= 3;
     EXPECT_NE(check_drawn_mesh(shell, vertices, fewer).error().find("open"), std::string::npos);
@@ -317,8 +317,9 @@ TEST(DrawShell, CrackTextureRunsOnAlongABorder) {
     draw_shell(shell, vertices, indices);
     float most = 0;
     for (uint32_t v = 6 * shell.element_count(); v < vertices.count; ++v) {
-        most = std::max(most, state.view_vertices.uv[vertices.first + v][0]);
-        EXPECT_LE(state.view_vertices.uv[vertices.first + v][1], 0.0041f);
+        const Vec2 uv = state.view_vertices.vertex[vertices.first + v].uv;
+        most = std::max(most, uv.x);
+        EXPECT_LE(uv.y, 0.0041f);
     }
     EXPECT_NEAR(most, 1.8f, 1e-5f);  // once round
 }

@@ -7,7 +7,7 @@
 
 #include "engine/random.hpp"
 #include "systems/damage/assemble.hpp"
-#include "systems/damage/split_vertices.hpp"
+#include "systems/damage/grow_cracks.hpp"
 #include "tests/support/crack_meshes.hpp"
 
 namespace cullet {
@@ -79,7 +79,7 @@ void compare_with_new_assembly(const Surface& surface, uint64_t seed) {
         set_time(shell, task, 20e-6 * i);
         set_stress(view, field_of(seed + i / 6));
         CrackSink sink;
-        cuts += split_vertices(*shell.state, task, sink);
+        cuts += grow_cracks(*shell.state, task, sink);
         ASSERT_FALSE(sink.is_out_of_slots);
     }
     ASSERT_GT(cuts, 20u);

@@ -23,8 +23,14 @@ class [[nodiscard]] Result {
     const T& value() const& { return *value_; }
     T&& value() && { return std::move(*value_); }
     T& operator*() & { return *value_; }
+    const T& operator*() const& { return *value_; }
+    T&& operator*() && { return std::move(*value_); }
     T* operator->() { return &*value_; }
     const T* operator->() const { return &*value_; }
+    /// The value, or `other` in place of an error.
+    T value_or(T other) const& { return ok() ? *value_ : std::move(other); }
+    T value_or(T other) && { return ok() ? std::move(*value_) : std::move(other); }
+    /// Empty when there is a value.
     const std::string& error() const { return error_.message; }
 
  private:

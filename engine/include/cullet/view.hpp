@@ -15,9 +15,15 @@ struct ViewVertex {
 
 enum class SurfaceKind : uint8_t { Outer, Inner, Crack };
 
-/// Indices [first, first + count) of one kind; those of one drawn material of the game stand together.
+/// A body's drawn materials that have runs of their own. Where it has more, the eighth in rising order takes the later
+/// ones too. Doubled, a body's row grows by 112 bytes.
+inline constexpr uint32_t kMostDrawnMaterials = 8;
+inline constexpr uint32_t kMostRuns = 3 * kMostDrawnMaterials;
+
+/// Indices [first, first + count): the triangles of one kind that the game gave one material.
 struct MaterialRun {
     SurfaceKind kind = SurfaceKind::Outer;
+    uint16_t material = 0;  // MeshView::materials of the triangle, also on the inner and crack faces below it
     uint32_t first_index = 0, index_count = 0;
 };
 
@@ -32,7 +38,8 @@ struct BodyView {
     uint32_t vertex_count = 0;
     const uint32_t* indices = nullptr;  // into vertices
     uint32_t index_count = 0;
-    MaterialRun runs[3];
+    MaterialRun runs[kMostRuns];  // the first run_count, none empty, by (kind, material); they cover all indices
+    uint32_t run_count = 0;
     uint32_t stamp = 0;  // another number whenever the mesh is another one
     DirtyRange dirty_vertices, dirty_indices;
     Pose pose_before, pose;  // before and after the last step: mix them by the share of the step not yet simulated

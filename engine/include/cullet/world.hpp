@@ -11,6 +11,7 @@
 #include "cullet/host.hpp"
 #include "cullet/model.hpp"
 #include "cullet/result.hpp"
+#include "cullet/rigid.hpp"
 #include "cullet/settings.hpp"
 #include "cullet/types.hpp"
 #include "cullet/view.hpp"
@@ -78,6 +79,8 @@ class World {
     /// One fixed step of Settings::step_seconds.
     void step();
     StepReport report() const;
+    /// What the rigid bodies behind the world cost.
+    RigidReport rigid_report() const;
     StepEvents events() const;
     /// A number for the whole state: equal on any number of threads.
     uint64_t hash() const;

@@ -1,4 +1,4 @@
-#include "systems/damage/split_vertices.hpp"
+#include "systems/damage/grow_cracks.hpp"
 
 #include "systems/damage/aim.hpp"
 #include "systems/damage/crack_candidates.hpp"
@@ -150,7 +150,7 @@ void begin_cracks(ShellView shell, bool is_fragment) {
     }
 }
 
-uint32_t split_vertices(State& state, Row<Tasks> task, CrackSink& sink) {
+uint32_t grow_cracks(State& state, Row<Tasks> task, CrackSink& sink) {
     Tasks& tasks = state.tasks;
     const ShellView shell(state, tasks.shell[task]);
     const uint32_t material = state.shells.material[shell.row];

@@ -1,5 +1,5 @@
 // Cracks start, run, join and finish under stresses set by hand.
-#include "systems/damage/split_vertices.hpp"
+#include "systems/damage/grow_cracks.hpp"
 
 #include <gtest/gtest.h>
 
@@ -37,7 +37,7 @@ CrackSink run(Shell& shell, Row<Tasks> task, const StressField& field, uint32_t 
         set_time(shell, task, 20e-6 * i);
         set_stress(shell.view, field);
         CrackSink sink;
-        const uint32_t cuts = split_vertices(*shell.state, task, sink);
+        const uint32_t cuts = grow_cracks(*shell.state, task, sink);
         quiet = cuts ? 0 : quiet + 1;
         all.cut_edges += sink.cut_edges, all.starts += sink.starts, all.inserted += sink.inserted;
         all.refused += sink.refused;
@@ -46,17 +46,17 @@ CrackSink run(Shell& shell, Row<Tasks> task, const StressField& field, uint32_t 
     return all;
 }
 
-TEST(SplitVertices, BelowTheStrengthNothingStarts) {
+TEST(GrowCracks, BelowTheStrengthNothingStarts) {
     Shell shell = make_shell_of(sheet(10, 10, 0.1, 0.1, 0.3), 200, 200);
     const Row<Tasks> task = make_task(shell);
     set_stress(shell.view, [](Vec3, int) { return tension_along({1, 0, 0}, 0.99 * kStrength); });
     const uint64_t before = shell.state->hash();
     CrackSink sink;
-    EXPECT_EQ(split_vertices(*shell.state, task, sink), 0u);
+    EXPECT_EQ(grow_cracks(*shell.state, task, sink), 0u);
     EXPECT_EQ(shell.state->hash(), before);
 }
 
-TEST(SplitVertices, InfiniteStrengthNeverCracks) {
+TEST(GrowCracks, InfiniteStrengthNeverCracks) {
     Shell shell = make_shell_of(sheet(10, 10, 0.1, 0.1, 0.3), 200, 200);
     const Row<Tasks> task = make_task(shell);
     shell.state->vertices.crack[shell.view.vertex(60)] = static_cast<uint8_t>(CrackState::Tip);
@@ -65,7 +65,7 @@ TEST(SplitVertices, InfiniteStrengthNeverCracks) {
     EXPECT_EQ(run(shell, task, [](Vec3, int) { return tension_along({1, 0, 0}, 100 * kStrength); }).cut_edges, 0u);
 }
 
-TEST(SplitVertices, AStripUnderTensionCracksStraightAcrossAndFallsInTwo) {
+TEST(GrowCracks, AStripUnderTensionCracksStraightAcrossAndFallsInTwo) {
     // The middle is the weakest place; the strip's other starts are banned, as they would be by its unloading.
     Shell shell = make_shell_of(sheet(40, 12, 0.2, 0.06, 0.35), 400, 400);
     const Row<Tasks> task = make_task(shell);
@@ -90,7 +90,7 @@ TEST(SplitVertices, AStripUnderTensionCracksStraightAcrossAndFallsInTwo) {
     EXPECT_EQ(shell.view.shells().has_cracks[shell.view.row], 1);
 }
 
-TEST(SplitVertices, ObliqueTensionCracksPerpendicularToItself) {
+TEST(GrowCracks, ObliqueTensionCracksPerpendicularToItself) {
     for (const Vec3 pull : {Vec3{1, 1, 0}, Vec3{1, 0.5f, 0}, Vec3{-1, 2, 0}}) {
         Shell shell = make_shell_of(sheet(30, 30, 0.2, 0.2, 0.35), 400, 400);
         const Row<Tasks> task = make_task(shell);
@@ -120,21 +120,21 @@ uint32_t arms_for(double second_over_first) {
                tension_along({0, 1, 0}, 1.2 * second_over_first * kStrength);
     });
     CrackSink sink;
-    const uint32_t cuts = split_vertices(*shell.state, task, sink);
+    const uint32_t cuts = grow_cracks(*shell.state, task, sink);
     EXPECT_EQ(broken_rule(shell), "");
     EXPECT_EQ(count_state(shell.view, CrackState::Tip), cuts);
     EXPECT_EQ(count_state(shell.view, CrackState::Cracked), cuts);  // one vertex a fan
     return cuts;
 }
 
-TEST(SplitVertices, ATwoAxialFieldOpensFourOrSixArms) {
+TEST(GrowCracks, ATwoAxialFieldOpensFourOrSixArms) {
     EXPECT_EQ(arms_for(0.0), 2u);
     EXPECT_EQ(arms_for(0.4), 2u);
     EXPECT_EQ(arms_for(0.6), 4u);
     EXPECT_EQ(arms_for(0.95), 6u);
 }
 
-TEST(SplitVertices, TheFaceWithMoreTensionDecides) {
+TEST(GrowCracks, TheFaceWithMoreTensionDecides) {
     Shell shell = make_shell_of(sheet(20, 20, 0.2, 0.2, 0.3), 200, 200);
     const Row<Tasks> task = make_task(shell);
     ban_all(shell.view);
@@ -145,20 +145,20 @@ TEST(SplitVertices, TheFaceWithMoreTensionDecides) {
                          : tension_along({1, 0, 0}, 0.5 * kStrength) + tension_along({0, 1, 0}, -2 * kStrength);
     });
     CrackSink sink;
-    ASSERT_EQ(split_vertices(*shell.state, task, sink), 2u);
+    ASSERT_EQ(grow_cracks(*shell.state, task, sink), 2u);
     for (uint32_t v = 0; v < shell.view.vertex_count(); ++v) {
         if (shell.state->vertices.crack[shell.view.vertex(v)] != static_cast<uint8_t>(CrackState::Tip)) continue;
         EXPECT_GT(std::fabs(shell.state->vertices.heading[shell.view.vertex(v)].x), 0.999f);
     }
 }
 
-TEST(SplitVertices, NoStartWithinThreeEdgesOfACutAndTipsGoOnBelowTheStrength) {
+TEST(GrowCracks, NoStartWithinThreeEdgesOfACutAndTipsGoOnBelowTheStrength) {
     Shell shell = make_shell_of(sheet(40, 40, 0.2, 0.2, 0.3), 600, 600);
     const Row<Tasks> task = make_task(shell);
     const StressField field = [](Vec3, int) { return tension_along({1, 0, 0}, 1.2 * kStrength); };
     set_stress(shell.view, field);
     CrackSink sink;
-    split_vertices(*shell.state, task, sink);
+    grow_cracks(*shell.state, task, sink);
     EXPECT_GT(sink.starts, 5u);
     EXPECT_EQ(broken_rule(shell), "");
     const float l = shell.view.shells().mean_edge[shell.view.row];
@@ -171,24 +171,24 @@ TEST(SplitVertices, NoStartWithinThreeEdgesOfACutAndTipsGoOnBelowTheStrength) {
     set_time(shell, task, 1e-3);
     set_stress(shell.view, [](Vec3, int) { return tension_along({1, 0, 0}, 0.3 * kStrength); });
     CrackSink later;
-    split_vertices(*shell.state, task, later);
+    grow_cracks(*shell.state, task, later);
     EXPECT_EQ(later.starts, 0u);
     EXPECT_GT(later.cut_edges, 5u);
     for (uint32_t e = 0; e < later.count; ++e) EXPECT_EQ(later.event[e].kind, CrackEventKind::Advance);
 }
 
-TEST(SplitVertices, TheMostOverloadedVertexStartsFirst) {
+TEST(GrowCracks, TheMostOverloadedVertexStartsFirst) {
     Shell shell = make_shell_of(sheet(40, 40, 0.2, 0.2, 0.3), 600, 600);
     const Row<Tasks> task = make_task(shell);
     set_stress(shell.view, [](Vec3 p, int) { return tension_along({1, 0, 0}, (1.1 + p.x) * kStrength); });
     CrackSink sink;
-    split_vertices(*shell.state, task, sink);
+    grow_cracks(*shell.state, task, sink);
     ASSERT_GT(sink.count, 3u);
     for (uint32_t i = 1; i < sink.count; ++i) EXPECT_LE(sink.event[i].stress, sink.event[i - 1].stress);
     EXPECT_GT(sink.event[0].place.x, 0.19f);
 }
 
-TEST(SplitVertices, ATipWaitsUntilItsCrackCanHaveComeThere) {
+TEST(GrowCracks, ATipWaitsUntilItsCrackCanHaveComeThere) {
     Shell shell = make_shell_of(sheet(20, 20, 0.2, 0.2, 0.3), 300, 300);
     const Row<Tasks> task = make_task(shell);
     ban_all(shell.view);
@@ -196,7 +196,7 @@ TEST(SplitVertices, ATipWaitsUntilItsCrackCanHaveComeThere) {
     const StressField field = [](Vec3, int) { return tension_along({1, 0, 0}, 1.2 * kStrength); };
     set_stress(shell.view, field);
     CrackSink sink;
-    ASSERT_EQ(split_vertices(*shell.state, task, sink), 2u);
+    ASSERT_EQ(grow_cracks(*shell.state, task, sink), 2u);
     const double speed = kTipSpeed * std::sqrt(70e9 / 2400);
     double shortest = 1;
     for (uint32_t v = 0; v < shell.view.vertex_count(); ++v)
@@ -207,12 +207,12 @@ TEST(SplitVertices, ATipWaitsUntilItsCrackCanHaveComeThere) {
         }
     set_time(shell, task, shortest - 2e-6);
     set_stress(shell.view, field);
-    EXPECT_EQ(split_vertices(*shell.state, task, sink), 0u);
+    EXPECT_EQ(grow_cracks(*shell.state, task, sink), 0u);
     set_time(shell, task, 1e-4);
-    EXPECT_EQ(split_vertices(*shell.state, task, sink), 2u);
+    EXPECT_EQ(grow_cracks(*shell.state, task, sink), 2u);
 }
 
-TEST(SplitVertices, TwoCracksThatComeNearEachOtherJoin) {
+TEST(GrowCracks, TwoCracksThatComeNearEachOtherJoin) {
     // Two starts on lines 1.2 edges apart, both running along x: the tips that meet turn to each other's crack.
     Shell shell = make_shell_of(sheet(60, 30, 0.3, 0.15, 0.3), 800, 800);
     const Row<Tasks> task = make_task(shell);
@@ -228,7 +228,7 @@ TEST(SplitVertices, TwoCracksThatComeNearEachOtherJoin) {
     EXPECT_EQ(broken_rule(shell), "");
 }
 
-TEST(SplitVertices, AStarOnASphereKeepsItsArmsApart) {
+TEST(GrowCracks, AStarOnASphereKeepsItsArmsApart) {
     Shell shell = make_shell_of(sphere(4, 0.1), 600, 1200);
     const Row<Tasks> task = make_task(shell);
     ban_all(shell.view);
@@ -251,7 +251,7 @@ TEST(SplitVertices, AStarOnASphereKeepsItsArmsApart) {
     EXPECT_EQ(component_count(shell.view), 1u);
 }
 
-TEST(SplitVertices, AShellWithoutRoomRefusesAndCountsAndNothingIsBroken) {
+TEST(GrowCracks, AShellWithoutRoomRefusesAndCountsAndNothingIsBroken) {
     for (const uint32_t spare : {0u, 1u, 2u, 5u, 17u}) {
         Shell shell = make_shell_of(sheet(20, 20, 0.2, 0.2, 0.3), spare, spare);
         const Row<Tasks> task = make_task(shell);
@@ -268,7 +268,7 @@ TEST(SplitVertices, AShellWithoutRoomRefusesAndCountsAndNothingIsBroken) {
     }
 }
 
-TEST(SplitVertices, StressesThatAreNoNumbersBreakNothing) {
+TEST(GrowCracks, StressesThatAreNoNumbersBreakNothing) {
     Shell shell = make_shell_of(sphere(3, 0.1), 400, 400);
     const Row<Tasks> task = make_task(shell);
     for (const float bad : {NAN, HUGE_VALF, -HUGE_VALF}) {
@@ -278,19 +278,19 @@ TEST(SplitVertices, StressesThatAreNoNumbersBreakNothing) {
             shell.state->elements.principal[shell.view.element(e)] = std::fabs(bad);
         }
         CrackSink sink;
-        split_vertices(*shell.state, task, sink);
+        grow_cracks(*shell.state, task, sink);
         EXPECT_EQ(broken_rule(shell), "");
         set_stress(shell.view, [](Vec3, int) { return Sym3d{}; });
         EXPECT_EQ(shell.state->validate(), "");
     }
 }
 
-TEST(SplitVertices, EverythingBreaksAtOnceAndStillEveryRuleHolds) {
+TEST(GrowCracks, EverythingBreaksAtOnceAndStillEveryRuleHolds) {
     Shell shell = make_shell_of(sphere(5, 0.1), 8000, 8000);
     const Row<Tasks> task = make_task(shell);
     set_stress(shell.view, [](Vec3, int) { return 1000 * kStrength * Sym3d{1, 1, 1, 0, 0, 0}; });
     CrackSink sink;
-    EXPECT_GT(split_vertices(*shell.state, task, sink), 100u);
+    EXPECT_GT(grow_cracks(*shell.state, task, sink), 100u);
     EXPECT_EQ(sink.count + sink.dropped, sink.starts);
     EXPECT_EQ(broken_rule(shell), "");
 }
@@ -332,7 +332,7 @@ void hit_at_random(const Surface& surface, float size, uint64_t seed, uint32_t h
         if (hit % 50 == 0) begin_cracks(shell.view, hit % 100 == 50);
         set_stress(shell.view, random_field(seed + hit, size));
         CrackSink sink;
-        cuts += split_vertices(*shell.state, task, sink);
+        cuts += grow_cracks(*shell.state, task, sink);
         ASSERT_EQ(broken_rule(shell), "") << "hit " << hit;
         const Motion3 now = motion_of(shell.view);
         ASSERT_LE(now.energy, energy * (1 + 1e-7));
@@ -343,14 +343,14 @@ void hit_at_random(const Surface& surface, float size, uint64_t seed, uint32_t h
     EXPECT_EQ(shell.state->validate(), "");
 }
 
-TEST(SplitVertices, AThousandRandomHitsKeepEveryRule) {
+TEST(GrowCracks, AThousandRandomHitsKeepEveryRule) {
     hit_at_random(sphere(3, 0.1), 0.1f, 100, 250, 100);
     hit_at_random(sheet(24, 16, 0.3, 0.2, 0.3), 0.3f, 1100, 250, 100);
     hit_at_random(closed_lathe(24, 16, 0.1, 0.3), 0.2f, 2100, 250, 100);
     hit_at_random(sheet(3, 3, 0.03, 0.03), 0.03f, 3100, 250, 8);
 }
 
-TEST(SplitVertices, TheSameStressesGiveTheSameBytes) {
+TEST(GrowCracks, TheSameStressesGiveTheSameBytes) {
     uint64_t hash[2];
     for (uint64_t& h : hash) {
         Shell shell = make_shell_of(sphere(4, 0.1), 1000, 1000);
@@ -359,7 +359,7 @@ TEST(SplitVertices, TheSameStressesGiveTheSameBytes) {
             set_time(shell, task, 20e-6 * i);
             set_stress(shell.view, random_field(50 + i, 0.1f));
             CrackSink sink;
-            split_vertices(*shell.state, task, sink);
+            grow_cracks(*shell.state, task, sink);
         }
         h = shell.state->hash();
     }

@@ -15,6 +15,6 @@ void begin_cracks(ShellView shell, bool is_fragment);
 /// refused and counted, and the shell stays as it is.
 /// Adds to the task's crack and start counts, its last event time and the units it owes; the caller rebuilds contact
 /// patches. Returns the number of cut edges. Cost: one pass over the elements, about 10 microseconds a cut edge.
-uint32_t split_vertices(State& state, Row<Tasks> task, CrackSink& sink);
+uint32_t grow_cracks(State& state, Row<Tasks> task, CrackSink& sink);
 
 }  // namespace cullet

@@ -1,4 +1,4 @@
-#include "systems/motion/integrate_hidden.hpp"
+#include "systems/motion/integrate_packs.hpp"
 #include "systems/systems.hpp"
 
 namespace cullet {
@@ -27,7 +27,7 @@ void integrate_hidden(Rows<StiffnessPacks> packs, OfTask task, Turn, const Tasks
     step.probe = probe.data() + first;
     step.next_probe = next_probe.data() + first;
     step.pack_count = shells.packs[shell].count;
-    integrate_hidden(step, packs.first - first_pack, packs.count);
+    integrate_packs(step, packs.first - first_pack, packs.count);
 }
 
 }  // namespace cullet

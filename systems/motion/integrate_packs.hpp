@@ -30,6 +30,6 @@ struct HiddenStep {
     HiddenStep(ShellView shell, float time_step, float damping_time, uint32_t side);
 };
 
-void integrate_hidden(const HiddenStep& step, uint32_t first_pack, uint32_t pack_count);
+void integrate_packs(const HiddenStep& step, uint32_t first_pack, uint32_t pack_count);
 
 }  // namespace cullet

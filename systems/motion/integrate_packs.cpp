@@ -1,12 +1,12 @@
 #undef HWY_TARGET_INCLUDE
-#define HWY_TARGET_INCLUDE "systems/motion/integrate_hidden.cpp"
+#define HWY_TARGET_INCLUDE "systems/motion/integrate_packs.cpp"
 #include <hwy/foreach_target.h>
 // After foreach_target.h.
 #include <hwy/cache_control.h>
 
 #include <algorithm>
 
-#include "systems/motion/integrate_hidden.hpp"
+#include "systems/motion/integrate_packs.hpp"
 #include "systems/motion/lanes-inl.hpp"
 
 HWY_BEFORE_NAMESPACE();
@@ -73,7 +73,7 @@ namespace cullet {
 
 HWY_EXPORT(integrate_packs);
 
-void integrate_hidden(const HiddenStep& step, uint32_t first_pack, uint32_t pack_count) {
+void integrate_packs(const HiddenStep& step, uint32_t first_pack, uint32_t pack_count) {
     HWY_DYNAMIC_DISPATCH(integrate_packs)(step, first_pack, pack_count);
 }
 

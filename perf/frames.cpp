@@ -1,0 +1,62 @@
+#include <algorithm>
+#include <cstdio>
+
+#include "perf/perf.hpp"
+#include "sample_game/run_scene.hpp"
+
+namespace cullet::perf {
+namespace {
+
+/// Least time of each frame of `repeat` runs.
+bool measure_scene(const char* name, unsigned threads, uint32_t repeat, Figures& figures) {
+    const Scene& scene = *find_scene(name);
+    RunOptions options;
+    options.scene = name;
+    options.threads = threads;
+    options.repeat = repeat;
+    options.hash = HashWhen::Last;
+    const Result<Keys> keys = keys_of(scene, options);
+    if (!keys.ok()) return false;
+    const Result<ScenePlan> plan = plan_scene(scene, keys.value(), options);
+    if (!plan.ok()) return false;
+    const Result<Report> played = play(scene, plan.value(), options);
+    if (!played.ok()) {
+        std::printf("%s\n", played.error().c_str());
+        return false;
+    }
+    const Report& r = played.value();
+    const std::string prefix =
+        std::string(name) + ", " + std::to_string(threads) + " thread" + (threads == 1 ? ": " : "s: ");
+    figures.add(prefix + "frame, p50", static_cast<double>(r.frame_ms.p50), "ms");
+    figures.add(prefix + "frame, p99", static_cast<double>(r.frame_ms.p99), "ms");
+    figures.add(prefix + "frame, worst", static_cast<double>(r.frame_ms.max), "ms");
+    const auto yardstick = [&](const char* key) {
+        const auto at = r.yardsticks.find(key);
+        return at == r.yardsticks.end() ? 0.0 : at->second;
+    };
+    figures.add(prefix + "a unit", yardstick("unit_ns"), "ns");
+    figures.add(prefix + "the budget as time", yardstick("budget_ms"), "ms");
+    figures.add(prefix + "frames that broke something, p99", static_cast<double>(r.fracture_frames.p99_ms), "ms");
+    const bool has_limit = std::string(name) != "pile";
+    figures.add(prefix + "hitch", r.hitch, "x", has_limit ? 2 : 0);
+    figures.add(prefix + "hits", static_cast<double>(r.tasks.opened), "");
+    figures.add(prefix + "hits decided after the hold", static_cast<double>(r.tasks.late), "");
+    figures.add(prefix + "frames held", static_cast<double>(r.tasks.frames_held), "");
+    double total = 0;
+    for (const auto& [system, spread] : r.systems) total += spread.total;
+    for (const auto& [system, spread] : r.systems)
+        if (spread.total > 0.01 * total) figures.add(prefix + system + ", share", 100 * spread.total / total, "%");
+    return r.repeats_agree;
+}
+
+}  // namespace
+
+bool measure_frames(const Options& options, Figures& figures) {
+    bool is_good = true;
+    for (const char* name : {"vase", "wall", "pane", "pile"})
+        for (const unsigned threads : options.threads)
+            is_good &= measure_scene(name, threads, options.rounds ? options.rounds : 3, figures);
+    return is_good;
+}
+
+}  // namespace cullet::perf

@@ -1,0 +1,299 @@
+#include <x86intrin.h>
+
+#include <algorithm>
+#include <cstdio>
+#include <memory>
+
+#include "engine/fp_mode.hpp"
+#include "engine/hash.hpp"
+#include "engine/jobs.hpp"
+#include "perf/hidden_yardsticks.hpp"
+#include "perf/perf.hpp"
+#include "sample_game/meshes.hpp"
+#include "systems/cook/materials.hpp"
+#include "systems/cook/model_contents.hpp"
+#include "systems/damage/brittle_loop.hpp"
+#include "systems/damage/run_hit.hpp"
+#include "systems/damage/task_cost.hpp"
+#include "systems/fragments/group_fragments.hpp"
+#include "systems/fragments/make_piece.hpp"
+#include "systems/fragments/rigid_handoff.hpp"
+
+namespace cullet::perf {
+namespace {
+
+constexpr Row<Tasks> kTask{0};
+constexpr uint32_t kSliceSteps = 3, kTeamSliceSteps = 24;
+constexpr double kFallSpeed = 5.4;  // m/s, 1.5 m
+
+/// Least time of each of a run's small parts over many equal runs: the run does the same work every time, so the sum of
+/// the least is what it takes on a machine that does nothing else, however busy this one is.
+class LeastTimes {
+ public:
+    void begin_run() { at_ = 0; }
+    template <class Call>
+    void part(Call call) {
+        const uint64_t start = __rdtsc();
+        call();
+        const uint64_t ticks = __rdtsc() - start;
+        if (at_ == ticks_.size()) ticks_.push_back(ticks);
+        ticks_[at_] = std::min(ticks_[at_], ticks);
+        ++at_;
+    }
+    double total(double seconds_a_tick) const {
+        uint64_t sum = 0;
+        for (const uint64_t t : ticks_) sum += t;
+        return static_cast<double>(sum) * seconds_a_tick;
+    }
+    size_t size() const { return ticks_.size(); }
+
+ private:
+    std::vector<uint64_t> ticks_;
+    size_t at_ = 0;
+};
+
+double measure_tick() {
+    const uint64_t start = __rdtsc();
+    const double waited = seconds([&] {
+        const auto until = std::chrono::steady_clock::now() + std::chrono::milliseconds(50);
+        while (std::chrono::steady_clock::now() < until) _mm_pause();
+    });
+    return waited / static_cast<double>(__rdtsc() - start);
+}
+
+/// The vase as the game cooks it, and one blow against the floor.
+struct Vase {
+    explicit Vase(const Model& model)
+        : state(cooking_limits(3 * model.contents->report.vertices, 3 * model.contents->report.elements)) {
+        fill_materials(state.materials);
+        const char* full = nullptr;
+        shell = import_shell(state, model.contents->state, model.contents->shell, &full);
+        hit = fall_on_floor(state, shell, normalised(Vec3{0.9f, -1.0f, 0.1f}), static_cast<float>(kFallSpeed));
+    }
+    State state;
+    Row<Shells> shell;
+    HitDescription hit;
+};
+
+bool is_running(const State& state) {
+    return static_cast<TaskState>(state.tasks.state[kTask]) == TaskState::Running;
+}
+
+/// What follows the last step: parts, their motions, a shell for each of them. Returns how many.
+struct Ending {
+    std::vector<FragmentPart> parts{kMostParts};
+    std::vector<PartMotion> motions{kMostParts};
+    std::vector<Row<Shells>> shells;
+    uint32_t count = 0;
+
+    void group(State& state) { count = group_fragments(ShellView(state, state.tasks.shell[kTask]), parts); }
+    /// Each part is timed apart.
+    template <class Timed>
+    void hand_off(State& state, Timed timed) {
+        const ShellView shell(state, state.tasks.shell[kTask]);
+        const HandoffStart start{Vec3d(state.tasks.start_velocity[kTask]), Vec3d(), shell.shells().centre[shell.row],
+                                 kFallSpeed};
+        timed([&] { rigid_handoff(shell, start, std::span(parts.data(), count), motions); });
+        for (uint32_t p = 0; p < count; ++p)
+            timed([&] {
+                if (parts[p].element_count >= 6) shells.push_back(make_piece(state, shell.row, parts[p], 1));
+            });
+    }
+    void release(State& state) {
+        for (const Row<Shells> s : shells)
+            if (s.exists()) release_shell(state, s);
+        shells.clear();
+    }
+};
+
+/// Of where everything went and what came apart.
+uint64_t hash_of(ShellView shell) {
+    const Range vertices = shell.vertices(), elements = shell.elements();
+    uint64_t hash = 0;
+    for (int k = 0; k < 3; ++k)
+        hash = hash_bytes(shell.state.vertices.displacement.lane(k) + vertices.first, 4 * vertices.count, hash);
+    return hash_bytes(shell.state.elements.part.data() + elements.first, 4 * elements.count, hash);
+}
+
+/// One whole hit, opened, run by `advance(first step, steps)` until it is over, ended. Returns the state's hash before
+/// the end.
+template <class Open, class Advance, class Group, class HandOff>
+uint64_t run_whole(Vase& vase, Ending& ending, Open open, Advance advance, Group group, HandOff hand_off) {
+    State& state = vase.state;
+    open([&] { open_hit(state, vase.shell, vase.hit); });
+    while (is_running(state)) advance();
+    group([&] { ending.group(state); });
+    const uint64_t hash = hash_of(ShellView(state, state.tasks.shell[kTask]));
+    ending.hand_off(state, hand_off);
+    ending.release(state);
+    close_hit(state);
+    return hash;
+}
+
+/// Every system of every repetition timed apart.
+struct Systems {
+    explicit Systems(const BrittleLoop& l) : loop(l), times(l.systems().size()) {}
+    const BrittleLoop& loop;
+    std::vector<LeastTimes> times;
+
+    void repetition(LoopWorld& world) {
+        const uint32_t r = world.state.tasks.steps_done[kTask];
+        for (size_t s = 0; s < loop.systems().size(); ++s) {
+            const auto& system = loop.systems()[s];
+            if ((r + 1) % system.every != 0) continue;
+            times[s].part([&] { run_system(system, world, r); });
+        }
+    }
+    static void run_system(const PlannedSystem<LoopWorld>& system, LoopWorld& world, uint32_t r) {
+        const Rows<void> rows = system.kind == CallKind::Rows ? system.rows_of_body(world, kTask) : Rows<void>{0, 1};
+        for (uint32_t first = 0; first < rows.count; first += system.chunk_rows) {
+            Call<LoopWorld> call{world};
+            call.body = kTask;
+            call.side = static_cast<int>(r & 1);
+            call.first = rows.first + first;
+            call.count = std::min(system.chunk_rows, rows.count - first);
+            system.invoke(call);
+        }
+    }
+};
+
+/// The bare kernel on the intact shell, as many steps as the hit made, timed in the same slices.
+void run_bare(BareHidden& bare, uint32_t steps, LeastTimes& times) {
+    times.begin_run();
+    for (uint32_t step = 0; step < steps; step += kSliceSteps)
+        times.part([&] {
+            for (uint32_t i = step; i < std::min(step + kSliceSteps, steps); ++i)
+                bare.run_packs(i & 1, 0, bare.pack_count());
+        });
+}
+
+struct Measured {
+    double open = 0, loop = 0, group = 0, hand_off = 0;  // s
+    uint64_t hash = 0;
+    double whole() const { return open + loop + group + hand_off; }
+};
+
+Measured measure_slices(Vase& vase, const BrittleLoop& loop, JobSystem* team, double tick, uint32_t rounds) {
+    LeastTimes open, steps, group, hand_off;
+    Measured result;
+    Ending ending;
+    State& state = vase.state;
+    LoopWorld world{state};
+    for (uint32_t round = 0; round < rounds; ++round) {
+        for (LeastTimes* t : {&open, &steps, &group, &hand_off}) t->begin_run();
+        const auto advance = [&] {
+            const uint32_t count = team ? kTeamSliceSteps : kSliceSteps;
+            state.tasks.steps_granted[kTask] = count;
+            const BrittleLoop::Run run{kTask, state.tasks.steps_done[kTask], count, task_goes_on};
+            steps.part([&] {
+                if (!team) return loop.run_alone(world, run);
+                BrittleLoop::Team shared(loop, world, run);
+                parallel_for(*team, team->worker_count(), [&](uint32_t worker) { shared.work(worker); });
+            });
+        };
+        result.hash = run_whole(
+            vase, ending, [&](auto call) { open.part(call); }, advance, [&](auto call) { group.part(call); },
+            [&](auto call) { hand_off.part(call); });
+    }
+    result.open = open.total(tick), result.loop = steps.total(tick);
+    result.group = group.total(tick), result.hand_off = hand_off.total(tick);
+    return result;
+}
+
+struct Counts {
+    uint32_t steps, cuts, starts, parts;
+    uint64_t units;  // that the budget counts for it
+};
+
+Counts count_work(Vase& vase) {
+    State& state = vase.state;
+    const HitReport report = run_hit(state, vase.shell, vase.hit);
+    Counts counts{report.steps, report.cuts, report.starts, report.parts, 0};
+    counts.units = uint64_t{report.steps} * units_a_step(state.shells, state.tasks, kTask) +
+                   state.tasks.units_owed[kTask] + state.shells.vertices[vase.shell].count * kUnitsOpen;
+    close_hit(state);
+    return counts;
+}
+
+void measure_vase(const char* name, float edge, const Options& options, uint32_t rounds, Figures& figures) {
+    const Mesh mesh = make_vase(0.30f, edge);
+    MeshView view;
+    view.positions = mesh.positions.data(), view.position_count = mesh.positions.size();
+    view.indices = mesh.triangles[0].data(), view.triangle_count = mesh.triangles.size();
+    CookSettings settings;
+    settings.longest_edge = 100;  // the mesh has the edges that it should have
+    settings.measures_threshold = false;
+    auto model = cook(view, settings);
+    if (!model.ok()) {
+        std::printf("%s\n", model.error().c_str());
+        return;
+    }
+    const FpMode mode;
+    const std::string prefix = std::string(name) + ": ";
+    const double tick = measure_tick();
+    Vase vase(*model);
+    const BrittleLoop loop = make_brittle_loop();
+    const Counts counts = count_work(vase);
+    const float dt = vase.state.shells.time_step[vase.shell];
+    BareHidden bare_hidden(ShellView(vase.state, vase.shell), dt, 0.15f * dt);
+    LeastTimes bare_times;
+
+    Systems systems(loop);
+    Ending ending;
+    LoopWorld world{vase.state};
+    uint64_t hash = 0;
+    for (uint32_t round = 0; round < rounds; ++round) {
+        if (BareHidden::is_supported()) run_bare(bare_hidden, counts.steps, bare_times);
+        for (LeastTimes& t : systems.times) t.begin_run();
+        const auto plain = [](auto call) { call(); };
+        hash = run_whole(
+            vase, ending, plain,
+            [&] {
+                vase.state.tasks.steps_granted[kTask] = 1;
+                systems.repetition(world);
+            },
+            plain, plain);
+    }
+    const double bare = bare_times.total(tick);
+    figures.add(prefix + "vertices", vase.state.shells.vertices[vase.shell].count, "");
+    figures.add(prefix + "steps", counts.steps, "");
+    figures.add(prefix + "cut edges", counts.cuts, "");
+    figures.add(prefix + "pieces", counts.parts, "");
+    figures.add(prefix + "bare steps", 1e3 * bare, "ms");
+    for (size_t s = 0; s < systems.times.size(); ++s)
+        figures.add(prefix + loop.systems()[s].name, 1e3 * systems.times[s].total(tick), "ms");
+    bool agrees = true;
+    double alone = 0;
+    for (const unsigned threads : options.threads) {
+        const auto jobs = threads > 1 ? make_jobs(JobBackend::Threads, threads) : nullptr;
+        const Measured m = measure_slices(vase, loop, jobs.get(), tick, rounds);
+        agrees = agrees && m.hash == hash;
+        const std::string suffix = ", " + std::to_string(threads) + (threads == 1 ? " thread" : " threads");
+        if (threads == 1) {
+            alone = m.whole();
+            figures.add(prefix + "open", 1e3 * m.open, "ms");
+            figures.add(prefix + "group", 1e3 * m.group, "ms");
+            figures.add(prefix + "hand off", 1e3 * m.hand_off, "ms");
+            figures.add(prefix + "units", 1e-6 * static_cast<double>(counts.units), "M");
+            figures.add(prefix + "whole hit / its units", 1e9 * m.whole() / static_cast<double>(counts.units), "ns");
+            figures.add(prefix + "bare steps / 5 units a vertex",
+                        1e9 * bare / (5.0 * counts.steps * vase.state.shells.vertices[vase.shell].count), "ns");
+        }
+        figures.add(prefix + "whole hit" + suffix, 1e3 * m.whole(), "ms");
+        if (threads == 1 && bare > 0) figures.add(prefix + "whole hit / bare steps" + suffix, m.whole() / bare, "x", 2);
+        if (threads > 1 && alone > 0) figures.add(prefix + "speed-up" + suffix, alone / m.whole(), "x");
+    }
+    std::printf("  %shash %016llx%s\n", prefix.c_str(), static_cast<unsigned long long>(hash),
+                agrees ? "" : ", AND OTHERS");
+}
+
+}  // namespace
+
+bool measure_hit(const Options& options, Figures& figures) {
+    measure_vase("vase of 3,200", 0.0075f, options, options.rounds ? options.rounds : 20, figures);
+    if (options.scene != "small")
+        measure_vase("vase of 11,000", 0.00405f, options, options.rounds ? options.rounds : 6, figures);
+    return true;
+}
+
+}  // namespace cullet::perf

@@ -1,0 +1,138 @@
+#include <btBulletDynamicsCommon.h>
+
+#include <algorithm>
+#include <memory>
+
+#include "engine/fp_mode.hpp"
+#include "engine/rigid_world.hpp"
+#include "perf/perf.hpp"
+
+namespace cullet::perf {
+namespace {
+
+constexpr uint32_t kSide = 10, kHulls = kSide * kSide * kSide, kFirst = 200, kLast = 240;
+constexpr float kRadius = 0.15f, kMargin = 0.05f, kMass = 1, kStepSeconds = 1.0f / 60;
+
+/// Twelve points, the corners of an icosahedron, `kMargin` inside of the radius.
+std::vector<Vec3> hull_points() {
+    const float a = 0.525731112f, b = 0.850650808f, r = kRadius - kMargin;
+    std::vector<Vec3> points;
+    for (int k = 0; k < 3; ++k)
+        for (const float s : {1.0f, -1.0f})
+            for (const float t : {1.0f, -1.0f}) {
+                const float p[3] = {0, r * s * a, r * t * b};
+                points.push_back({p[(3 - k) % 3], p[(4 - k) % 3], p[(5 - k) % 3]});
+            }
+    return points;
+}
+Vec3 place_of(uint32_t k) {
+    const auto at = [](uint32_t i) { return static_cast<float>(i) - 0.5f * static_cast<float>(kSide - 1); };
+    const uint32_t x = k % kSide, y = k / (kSide * kSide), z = k / kSide % kSide;
+    // Odd layers stand a little beside the even ones, so that the pile spreads.
+    const float beside = y % 2 ? 0.03f : 0.0f;
+    return {0.32f * at(x) + beside, 0.2f + 0.31f * static_cast<float>(y), 0.32f * at(z) + beside};
+}
+
+/// Mean of the frames' least times over runs, s.
+class FrameTimes {
+ public:
+    template <class Step>
+    void run(Step step) {
+        for (uint32_t frame = 0; frame < kLast; ++frame) {
+            const double taken = seconds(step);
+            if (frame < kFirst) continue;
+            if (frame - kFirst == least_.size()) least_.push_back(taken);
+            least_[frame - kFirst] = std::min(least_[frame - kFirst], taken);
+        }
+    }
+    double mean() const {
+        double sum = 0;
+        for (const double t : least_) sum += t;
+        return sum / static_cast<double>(least_.size());
+    }
+
+ private:
+    std::vector<double> least_;
+};
+
+void run_plain(FrameTimes& times, uint32_t& contacts) {
+    btDefaultCollisionConfiguration configuration;
+    btCollisionDispatcher dispatcher(&configuration);
+    btDbvtBroadphase broadphase;
+    btSequentialImpulseConstraintSolver solver;
+    btDiscreteDynamicsWorld world(&dispatcher, &broadphase, &solver, &configuration);
+    world.setGravity({0, -9.81f, 0});
+    btBoxShape ground({20, 0.5f, 20});
+    btRigidBody floor(btRigidBody::btRigidBodyConstructionInfo(0, nullptr, &ground));
+    floor.setWorldTransform(btTransform(btQuaternion::getIdentity(), {0, -0.5f, 0}));
+    world.addRigidBody(&floor);
+    btConvexHullShape hull;
+    for (const Vec3 p : hull_points()) hull.addPoint({p.x, p.y, p.z}, false);
+    hull.recalcLocalAabb();
+    hull.setMargin(kMargin);
+    btVector3 inertia;
+    hull.calculateLocalInertia(kMass, inertia);
+    std::vector<std::unique_ptr<btRigidBody>> bodies;
+    for (uint32_t k = 0; k < kHulls; ++k) {
+        bodies.push_back(
+            std::make_unique<btRigidBody>(btRigidBody::btRigidBodyConstructionInfo(kMass, nullptr, &hull, inertia)));
+        const Vec3 p = place_of(k);
+        bodies.back()->setWorldTransform(btTransform(btQuaternion::getIdentity(), {p.x, p.y, p.z}));
+        bodies.back()->setActivationState(DISABLE_DEACTIVATION);
+        world.addRigidBody(bodies.back().get());
+    }
+    times.run([&] { world.stepSimulation(kStepSeconds, 0); });
+    contacts = 0;
+    for (int i = 0; i < dispatcher.getNumManifolds(); ++i)
+        contacts += static_cast<uint32_t>(dispatcher.getManifoldByIndexInternal(i)->getNumContacts());
+    for (auto& body : bodies) world.removeRigidBody(body.get());
+    world.removeRigidBody(&floor);
+}
+
+void run_ours(FrameTimes& times, uint32_t& contacts) {
+    const FpMode mode;
+    const auto world = make_bullet_world(kHulls + 1);
+    world->set_gravity({0, -9.81f, 0});
+    const Vec3 p[] = {{-20, 0, -20}, {20, 0, -20}, {20, 0, 20}, {-20, 0, 20}};
+    const std::array<uint32_t, 3> t[] = {{0, 2, 1}, {0, 3, 2}};
+    world->add_static_triangles(0, p, t, 0.5f, 0, 1, ~0u);
+    const std::vector<Vec3> points = hull_points();
+    const ConvexPiece piece{points, 0};
+    for (uint32_t k = 0; k < kHulls; ++k) {
+        RigidDescription d;
+        d.pieces = {&piece, 1};
+        d.mass = kMass;
+        const double moment = 0.4 * double{kMass} * kRadius * kRadius;
+        d.inertia = {moment, moment, moment};
+        d.margin = kMargin;
+        d.friction = 0.5f;
+        d.restitution = 0;
+        d.pose.position = place_of(k);
+        world->add(k + 1, d);
+    }
+    times.run([&] {
+        for (uint32_t k = 1; k <= kHulls; ++k) world->wake(k);
+        world->detect(kStepSeconds);
+        world->solve(kStepSeconds);
+    });
+    contacts = world->counts().contacts;
+}
+
+}  // namespace
+
+bool measure_pile(const Options& options, Figures& figures) {
+    FrameTimes plain, ours;
+    uint32_t plain_contacts = 0, our_contacts = 0;
+    for (uint32_t round = 0; round < (options.rounds ? options.rounds : 3); ++round) {
+        run_plain(plain, plain_contacts);
+        run_ours(ours, our_contacts);
+    }
+    figures.add("plain Bullet, a frame", 1e3 * plain.mean(), "ms");
+    figures.add("plain Bullet, contacts", plain_contacts, "");
+    figures.add("ours, a frame", 1e3 * ours.mean(), "ms");
+    figures.add("ours, contacts", our_contacts, "");
+    figures.add("ours / plain Bullet", ours.mean() / plain.mean(), "x");
+    return true;
+}
+
+}  // namespace cullet::perf

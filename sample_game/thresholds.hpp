@@ -1,0 +1,24 @@
+// The speeds at which a body cracks and breaks, found by bisection.
+#pragma once
+#include "sample_game/hit_bench.hpp"
+
+namespace cullet {
+
+/// m/s; infinite when no speed below kMostThreshold does it.
+struct Thresholds {
+    double first_crack = 0, first_piece = 0;
+    uint32_t runs = 0, dropped = 0;
+};
+inline constexpr double kMostThreshold = 100;     // m/s
+inline constexpr double kBisectionRatio = 1.013;  // between the speeds that do and do not
+
+/// Of one placement. `guess`, m/s, only saves time. About 12 hits.
+Thresholds find_thresholds(HitBench& bench, uint32_t placement, float step_scale, double guess);
+
+struct Spread {
+    double median = 0, least = 0, most = 0;
+};
+/// Median of an even number: the mean of the middle two.
+Spread spread_of(std::vector<double> values);
+
+}  // namespace cullet
