@@ -304,7 +304,7 @@ void BulletWorld::refresh(Body& body) {
 
 void BulletWorld::detect(float dt) {
     InsideRigidEngine guard;
-    (void)dt;
+    work_.weight_speed = world_.getGravity().length() * dt;
     for (RigidId id = 0; id < body_end_; ++id) {
         Body& body = bodies_[id];
         if (!body.is_used || body.kind == RigidKind::Static) continue;

@@ -4,13 +4,11 @@ namespace cullet::bullet {
 namespace {
 
 // Two edges make a face of the Minkowski difference where the arcs between the normals of their faces cross on the
-// Gauss sphere, b's mirrored. An arc crosses a plane where its ends lie on both sides: so all there is to know are the
-// heights of every normal of one hull over the planes of the other's arcs, in float. What that gets wrong near zero is
+// Gauss sphere, b's mirrored. An arc crosses a plane where its ends lie on both sides: so all there is to know is on
+// which side of the planes of its arcs the other hull's normals lie, a bit each. What float gets wrong near zero is
 // harmless: an axis is measured from support points, and one lost has a face beside it that is as good.
-struct Arcs {
-    // Rows of kMaxFaces, one an edge; columns of normals.
-    float height[kMaxEdges][kMaxFaces];
-};
+using Sides = uint64_t;
+static_assert(kMaxFaces <= 64);
 
 /// Normals of a hull in world axes, by column.
 struct Normals {
@@ -27,12 +25,14 @@ void turn_normals(const Hull& hull, const Mat3& rotation, Normals& out) {
     }
 }
 
-void measure_arcs(const Hull& hull, const Normals& own, const Normals& other, Arcs& out) {
+// For each edge the normals of the other hull above the plane of its arc.
+void find_sides(const Hull& hull, const Normals& own, const Normals& other, Sides* sides) {
     for (uint32_t e = 0; e < hull.edge_count; ++e) {
         const Vec3 plane = cross(own[hull.edge[e].right], own[hull.edge[e].left]);
-        float* const row = out.height[e];
+        Sides above = 0;
         for (uint32_t f = 0; f < other.count; ++f)
-            row[f] = plane.x * other.x[f] + plane.y * other.y[f] + plane.z * other.z[f];
+            above |= Sides{plane.x * other.x[f] + plane.y * other.y[f] + plane.z * other.z[f] > 0} << f;
+        sides[e] = above;
     }
 }
 
@@ -65,11 +65,11 @@ bool is_outer(const Hull& hull, const HullEdge& e) {
 
 void Search::try_edges(const Mat3& rotation_a, const Mat3& rotation_b) {
     Normals normals_a, normals_b;
-    Arcs arcs_a, arcs_b;
+    Sides sides_a[kMaxEdges], sides_b[kMaxEdges];
     turn_normals(a, rotation_a, normals_a);
     turn_normals(b, rotation_b, normals_b);
-    measure_arcs(a, normals_a, normals_b, arcs_a);
-    measure_arcs(b, normals_b, normals_a, arcs_b);
+    find_sides(a, normals_a, normals_b, sides_a);
+    find_sides(b, normals_b, normals_a, sides_b);
     uint32_t outer_b[kMaxEdges], count_b = 0;
     for (uint32_t j = 0; j < b.edge_count; ++j)
         if (is_outer(b, b.edge[j])) outer_b[count_b++] = j;
@@ -78,12 +78,10 @@ void Search::try_edges(const Mat3& rotation_a, const Mat3& rotation_b) {
         if (!is_outer(a, p)) continue;
         for (uint32_t k = 0; k < count_b; ++k) {
             const HullEdge q = b.edge[outer_b[k]];
-            // Of -b.left and -b.right over the plane of a's arc, and the other way round.
-            const float left_b = -arcs_a.height[i][q.left], right_b = -arcs_a.height[i][q.right];
-            if (!(left_b * right_b < 0)) continue;
-            // The plane of b's mirrored arc, right x left, is the plane of the arc itself.
-            const float left_a = arcs_b.height[outer_b[k]][p.left], right_a = arcs_b.height[outer_b[k]][p.right];
-            if (!(left_a * right_a < 0) || !(left_b * right_a > 0)) continue;
+            // b's normals count mirrored; the plane of its arc stays what it is.
+            const Sides left_b = ~sides_a[i] >> q.left, right_b = ~sides_a[i] >> q.right;
+            const Sides left_a = sides_b[outer_b[k]] >> p.left, right_a = sides_b[outer_b[k]] >> p.right;
+            if (!((left_b ^ right_b) & (left_a ^ right_a) & ~(left_b ^ right_a) & 1)) continue;
             const Vec3d along_a = Vec3d(a.world[p.b]) - Vec3d(a.world[p.a]);
             const Vec3d along_b = Vec3d(b.world[q.b]) - Vec3d(b.world[q.a]);
             Vec3d axis = cross(along_a, along_b);

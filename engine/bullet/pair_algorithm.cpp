@@ -12,6 +12,8 @@ constexpr float kSamePoint = 0.01f;  // m
 // Impulses are handed on while the two move less than this against each other in a step. The impulse of a blow is none
 // to begin the next step with: twenty iterations do not take it back, and a heap that is hit throws its shards about.
 constexpr double kRestingTravel = 0.002;  // m
+// Nor more of it than this many weights of the lighter body: what lies in a heap that is hit moves little too.
+constexpr float kRestingWeights = 5;
 
 // Contacts of a pair of bodies. Half of it and curved shards rock, twice it and the solver's time doubles.
 constexpr uint32_t kPairContacts = 12;
@@ -265,6 +267,8 @@ void PairAlgorithm::write(PairRecord& record, const Patch& patch, uint32_t cell_
     bool is_taken[kPatchPoints] = {};
     const float friction = std::sqrt(a.friction * b.friction), restitution = std::sqrt(a.restitution * b.restitution);
     const float rolling = a.rolling_friction * b.friction + b.rolling_friction * a.friction;
+    const float mass = a.mass > 0 && b.mass > 0 ? std::min(a.mass, b.mass) : std::max(a.mass, b.mass);
+    const float most = kRestingWeights * mass * work_.weight_speed;
     manifold.setNumContacts(patch.count);
     for (int k = 0; k < patch.count; ++k) {
         const btVector3 on_a = to_bullet(patch.point[k].on_a), on_b = to_bullet(patch.point[k].on_b);
@@ -290,9 +294,10 @@ void PairAlgorithm::write(PairRecord& record, const Patch& patch, uint32_t cell_
         }
         if (is_known && step_travel_ < kRestingTravel &&
             before[nearest].m_normalWorldOnB.dot(point.m_normalWorldOnB) > 0.9f) {
-            point.m_appliedImpulse = before[nearest].m_appliedImpulse;
-            point.m_appliedImpulseLateral1 = before[nearest].m_appliedImpulseLateral1;
-            point.m_appliedImpulseLateral2 = before[nearest].m_appliedImpulseLateral2;
+            const float impulse = before[nearest].m_appliedImpulse, share = impulse > most ? most / impulse : 1;
+            point.m_appliedImpulse = share * impulse;
+            point.m_appliedImpulseLateral1 = share * before[nearest].m_appliedImpulseLateral1;
+            point.m_appliedImpulseLateral2 = share * before[nearest].m_appliedImpulseLateral2;
         }
         manifold.getContactPoint(k) = point;
     }

@@ -52,6 +52,7 @@ struct PairWork {
     std::vector<const Hull*> near_a, near_b;
     Hull triangle;
     Body* bodies = nullptr;  // by id
+    float weight_speed = 0;  // m/s that gravity gives in a step
 };
 
 /// Pieces of the two bodies whose boxes come within `grown` of each other, sorted by (a, b), into work.candidates.

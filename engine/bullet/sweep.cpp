@@ -62,12 +62,23 @@ Box swept_box(const Box& box, const Mover& mover, float reach, float dt) {
     return grown(out, turned(mover, reach, dt) + kBoxGrowth);
 }
 
-// What a box of a sweeps over as b sees it: bodies that fly side by side hardly meet. When one of the two was stopped,
+// Both were stopped in this step, at different times: one stands still while the other moves on. Where only one is fast
+// the other's way hardly counts.
+bool are_split(const Body& a, const Body& b) {
+    return a.is_fast && b.is_fast && a.moved_fraction != b.moved_fraction;
+}
+
+// The part of the step after which neither of the two is fast any more.
+float last_fraction(const Body& a, const Body& b) {
+    return std::max(a.is_fast ? a.moved_fraction : 0, b.is_fast ? b.moved_fraction : 0);
+}
+
+// What a box of a sweeps over as b sees it: bodies that fly side by side hardly meet. When they were stopped apart,
 // also what it sweeps over with the other at rest.
 Box relative_box(const Box& box, const Mover& a, const Mover& b, float reach, float dt) {
     Box out = box;
     include_way(out, box, a.velocity - b.velocity, dt);
-    if (a.body->moved_fraction < 1 || b.body->moved_fraction < 1) {
+    if (are_split(*a.body, *b.body)) {
         include_way(out, box, a.velocity, dt);
         include_way(out, box, -b.velocity, dt);
     }
@@ -99,18 +110,18 @@ bool pass_by(const Hull& a, const Hull& b, Vec3d way, double turning) {
 }
 
 // The fraction of the step at which the two pieces come within kStop; `limit` when they do not before it. World points
-// are those of the start.
-double touch_fraction(const Mover& a, const Hull& hull_a, const Mover& b, const Hull& hull_b, float dt, double limit) {
+// are those of the start. `axis` is a first guess, such as the last one of the same two bodies.
+double touch_fraction(const Mover& a, const Hull& hull_a, const Mover& b, const Hull& hull_b, float dt, double limit,
+                      Vec3d& axis) {
     const double turning = length(a.spin) * reach_of(hull_a) + length(b.spin) * reach_of(hull_b);
     // A body that was stopped earlier in the step may stand still by now: then each motion alone counts too.
-    const bool is_stopped = a.body->moved_fraction < 1 || b.body->moved_fraction < 1;
+    const bool is_stopped = are_split(*a.body, *b.body);
     const Vec3d nothing, first = is_stopped ? -a.velocity : b.velocity - a.velocity,
                          second = is_stopped ? b.velocity : nothing;
     if (!is_stopped && pass_by(hull_a, hull_b, (dt * limit) * first, turning * dt * limit)) return limit;
     const double margins = static_cast<double>(hull_a.margin) + hull_b.margin;
     Points points_a, points_b;
     const Points *now_a = &hull_a.world, *now_b = &hull_b.world;
-    Vec3d axis;
     double t = 0, stop = kStop;
     for (int round = 0; round < kRounds; ++round) {
         if (round > 0) {
@@ -122,8 +133,8 @@ double touch_fraction(const Mover& a, const Hull& hull_a, const Mover& b, const 
         const double left = dt * (limit - t);
         const Closest closest =
             closest_points(*now_a, *now_b, axis, turning * left + margins + kStop, {left * first, left * second});
-        if (closest.is_beyond) return limit;
         axis = closest.axis;
+        if (closest.is_beyond) return limit;
         const double gap = (closest.is_apart ? gap_along(*now_a, *now_b, axis) : -1.0) - margins;
         if (round == 0 && gap < kTouching) {
             // They touch: the solver has slowed them where they do, but the rest of a piece may still swing in.
@@ -163,27 +174,28 @@ void Sweeper::sweep_pair(BulletWorld& world, Body& a, Body& b, float dt) {
     if (!filters_meet(a, b) || world.is_apart_by_order(a.id, b.id)) return;
     PairWork& work = world.work_;
     const Mover mover_a = mover_of(a), mover_b = mover_of(b);
-    const bool is_stopped = a.moved_fraction < 1 || b.moved_fraction < 1;
     const double relative =
         length(mover_a.velocity - mover_b.velocity) + length(mover_a.spin) * a.reach + length(mover_b.spin) * b.reach;
-    if (!is_stopped && !is_far(relative * dt, std::min(a.thickness, b.thickness))) return;
+    if (!are_split(a, b) && !is_far(relative * dt, std::min(a.thickness, b.thickness))) return;
     const float turned_b = turned(mover_b, b.reach, dt);
     const Box all_a = relative_box(a.shape.box, mover_a, mover_b, a.reach, dt);
     work.near_b.clear();
     for (const Hull* q = b.hulls; q; q = q->next)
         if (overlap(q->world_box, all_a, turned_b)) work.near_b.push_back(q);
+    Vec3d axis;
     const auto advance = [&](const Hull& p, const Hull& q) {
-        const double limit = std::max(a.moved_fraction, b.moved_fraction);
-        const double t = touch_fraction(mover_a, p, mover_b, q, dt, limit);
+        const double limit = last_fraction(a, b);
+        const double t = touch_fraction(mover_a, p, mover_b, q, dt, limit, axis);
         if (t >= limit) return;
         if (a.is_fast) a.moved_fraction = std::min(a.moved_fraction, static_cast<float>(t));
         if (b.is_fast) b.moved_fraction = std::min(b.moved_fraction, static_cast<float>(t));
     };
     for (const Hull* p = a.hulls; p; p = p->next) {
-        const Box box = relative_box(p->world_box, mover_a, mover_b, reach_of(*p), dt);
+        const float span = dt * last_fraction(a, b);
+        const Box box = relative_box(p->world_box, mover_a, mover_b, reach_of(*p), span);
         if (!overlap(box, b.shape.box, turned_b)) continue;
         for (const Hull* q : work.near_b)
-            if (overlap(box, q->world_box, turned(mover_b, reach_of(*q), dt))) advance(*p, *q);
+            if (overlap(box, q->world_box, turned(mover_b, reach_of(*q), span))) advance(*p, *q);
         if (!b.mesh) continue;
         visit_triangles(*b.mesh, box, [&](uint32_t t) {
             build_triangle(work.triangle, b.mesh->triangles[t].corner, t);

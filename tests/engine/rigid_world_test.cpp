@@ -324,5 +324,63 @@ TEST(RigidWorld, TheSameCallsGiveTheSameBitsAloneAndOnTwoThreads) {
     EXPECT_EQ(std::memcmp(once.data(), right.data(), once.size() * sizeof(Pose)), 0);
 }
 
+double kinetic_energy(const RigidWorld& world, RigidId id, const ShardShape& shape) {
+    const Motion m = world.motion(id);
+    const Vec3d v(m.velocity), w(rotate(conjugate(world.pose(id).orientation), m.angular_velocity));
+    return 0.5 * shape.mass * dot(v, v) + 0.5 * dot(w, shape.inertia * w);
+}
+
+TEST(RigidWorld, CollidingShardsKeepTheirMomentumAndNeverGainEnergy) {
+    constexpr uint32_t kShards = 6;
+    auto world = make_bullet_world(16);
+    for (uint32_t k = 0; k < kShards; ++k) {
+        double sine, cosine;
+        sine_cosine(1.0471976 * k, sine, cosine);
+        const auto x = static_cast<float>(0.3 * cosine), z = static_cast<float>(0.3 * sine);
+        add_shard(*world, 1 + k, {x, 0.02f * real(k), z}, normalised(Quat{0.1f * real(k), 0.3f, 0.2f, 1}));
+        world->set_motion(1 + k, {{-8 * x, 0, -8 * z + 0.1f}, {3, real(k), 0}});
+    }
+    const auto sums = [&](double& energy) {
+        Vec3d momentum;
+        energy = 0;
+        for (RigidId id = 1; id <= kShards; ++id) {
+            momentum += test_shard().mass * Vec3d(world->motion(id).velocity);
+            energy += kinetic_energy(*world, id, test_shard());
+        }
+        return momentum;
+    };
+    double energy = 0;
+    const Vec3d start = sums(energy);
+    const double first = energy;
+    for (int k = 0; k < 120; ++k) {
+        step(*world);
+        double now = 0;
+        EXPECT_LT(length(sums(now) - start), 1e-5 * kShards * test_shard().mass * 2.4);
+        EXPECT_LT(now, energy + 1e-4 * first) << k;
+        energy = now;
+    }
+    EXPECT_LT(energy, 0.9 * first);
+    EXPECT_EQ(length(world->impulse_to_static()), 0);
+}
+
+TEST(RigidWorld, WhatTheFloorReceivedIsWhatTheShardsLost) {
+    constexpr uint32_t kShards = 8;
+    auto world = floor_world(16);
+    drop_shards(*world, 1, kShards);
+    Vec3d weight;
+    for (int k = 0; k < 50; ++k) {
+        for (RigidId id = 1; id <= kShards; ++id) {
+            ASSERT_FALSE(world->is_asleep(id));
+            weight += Vec3d{0, -9.81 * test_shard().mass / 60, 0};
+        }
+        step(*world);
+    }
+    Vec3d momentum;
+    for (RigidId id = 1; id <= kShards; ++id) momentum += test_shard().mass * Vec3d(world->motion(id).velocity);
+    const Vec3d given = world->impulse_to_static();
+    EXPECT_LT(length(weight - momentum - given), 1e-5 * length(weight));
+    EXPECT_LT(given.y, -0.5 * length(weight));
+}
+
 }  // namespace
 }  // namespace cullet
