@@ -32,6 +32,7 @@ Result<ScenePlan> pile_plan(const SceneInput& input) {
     plan.props.push_back(box_prop({half, 0, -half}, {half + wall, high, half}, kStone));
     plan.props.push_back(box_prop({-half - wall, 0, half}, {half + wall, high, half + wall}, kStone));
 
+    plan.settings.limits.open_hits = 256;  // shards meet shards all over the pit
     for (uint32_t v = 0; v < kMostVases; ++v) {
         const uint32_t number = 10 * (v + 1), corner = v % 4;
         Spawn vase;

@@ -99,7 +99,7 @@ TEST(BuildShell, PaddingIsUnderATenthAndDeadAndCellsAreSmall) {
 
 TEST(BuildShell, NeighboursAreNearInMemory) {
     State state;
-    const ShellView shell(state, build(state, sample_vase(0.3, 0.005, 90, 120)));
+    const ShellView shell(state, build(state, sample_vase(0.3, 0.005, 60, 160)));
     double sum = 0;
     uint32_t count = 0, far = 0;
     for (uint32_t e = 0; e < shell.element_count(); ++e)

@@ -134,7 +134,7 @@ TEST(CellHulls, TimesArePrinted) {
         return 1e3 * static_cast<double>(std::clock() - from) / CLOCKS_PER_SEC;
     };
     State state;
-    const SampleSurface surface = sample_vase(0.3, 0.005, 90, 120);
+    const SampleSurface surface = sample_vase(0.3, 0.005, 60, 160);
     const Row<Materials> material = sample_material(state);
     auto t = std::clock();
     const auto built = build_shell(state, surface.source(), material);

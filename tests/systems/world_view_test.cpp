@@ -19,7 +19,8 @@ void expect_closed(World& world, BodyId id) {
     EXPECT_TRUE(closed.ok()) << closed.error();
     const BodyView view = world.view(id).value();
     uint32_t next = 0;
-    for (const MaterialRun& run : view.runs) {
+    for (uint32_t r = 0; r < view.run_count; ++r) {
+        const MaterialRun& run = view.runs[r];
         EXPECT_EQ(run.first_index, next);
         next += run.index_count;
     }
