@@ -82,12 +82,7 @@ struct Models : Table<Models> {
 };
 
 template <>
-struct ColumnType<ViewVertex> {
-    static constexpr uint8_t kLanes = 1;
-    using Lane = ViewVertex;
-    static constexpr Scalar kScalar = Scalar::F32;
-    static constexpr uint8_t kComponents = 8;
-};
+struct ColumnType<ViewVertex> : ColumnLayout<ViewVertex, Scalar::F32, 8> {};
 
 /// One row is one corner of a drawn mesh, as the game reads it.
 struct ViewVertices : Table<ViewVertices> {

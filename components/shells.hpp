@@ -20,12 +20,7 @@ struct Range {
     uint32_t first = 0, count = 0, capacity = 0;
 };
 template <>
-struct ColumnType<Range> {
-    static constexpr uint8_t kLanes = 1;
-    using Lane = Range;
-    static constexpr Scalar kScalar = Scalar::U32;
-    static constexpr uint8_t kComponents = 3;
-};
+struct ColumnType<Range> : ColumnLayout<Range, Scalar::U32, 3> {};
 
 /// One row is one shell.
 struct Shells : Table<Shells> {
@@ -66,12 +61,7 @@ struct Float4 {
     float x = 0, y = 0, z = 0, w = 0;
 };
 template <>
-struct ColumnType<Float4> {
-    static constexpr uint8_t kLanes = 1;
-    using Lane = Float4;
-    static constexpr Scalar kScalar = Scalar::F32;
-    static constexpr uint8_t kComponents = 4;
-};
+struct ColumnType<Float4> : ColumnLayout<Float4, Scalar::F32, 4> {};
 
 /// One row is one point of the outer surface; its inner twin is rest + depth * inward. 8 rows are one pack of a kernel.
 struct Vertices : Table<Vertices> {

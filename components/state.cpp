@@ -108,6 +108,19 @@ bool take(AnyTable& table, RangePool& pool, uint32_t count, Range& range) {
 
 }  // namespace
 
+ShellRoom room_of(const State& state, Row<Shells> shell) {
+    const Shells& s = state.shells;
+    ShellRoom room;
+    room.vertices = s.vertices[shell].capacity;
+    room.elements = s.elements[shell].count;
+    room.hinges = s.hinges[shell].count;
+    room.blocks = s.blocks[shell].count;
+    room.links = s.links[shell].count;
+    room.cells = s.cells[shell].count;
+    room.points = s.points[shell].count;
+    return room;
+}
+
 Row<Shells> make_shell(State& state, const ShellRoom& room, const char** full) {
     Range row_range;
     const char* missing = nullptr;  // the first

@@ -90,6 +90,9 @@ struct ShellRoom {
     uint32_t vertices = 0, elements = 0, hinges = 0, blocks = 0, links = 0, cells = 0, points = 0;
 };
 
+/// What a shell uses now: room for a copy of it.
+ShellRoom room_of(const State& state, Row<Shells> shell);
+
 /// A shell with empty ranges of these capacities and one user, or kNone when some table is full (`full` then names its
 /// limit). Vertex rows start all dead (element kNone, inverse mass 0).
 Row<Shells> make_shell(State& state, const ShellRoom& room, const char** full = nullptr);

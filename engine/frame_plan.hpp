@@ -2,6 +2,7 @@
 // two systems are ordered when one writes what the other touches. Neighbours in the list without such an edge share one
 // pass.
 #pragma once
+#include <atomic>
 #include <functional>
 #include <span>
 #include <string>
@@ -194,6 +195,7 @@ class FramePlan {
         uint32_t rows, count;
         std::byte* buffer;
         uint32_t* emitted;
+        uint64_t busy_ns = 0;  // of all chunks, where systems share the pass
     };
     struct alignas(64) Line {
         std::byte bytes[64];
@@ -244,7 +246,10 @@ class FramePlan {
             parallel_for(jobs, total, [&](uint32_t job) {
                 uint32_t i = 0;
                 while (job >= chunks[i].count) job -= chunks[i++].count;
+                const uint64_t begun = pass.count > 1 ? now_ns() : 0;
                 run_chunk(systems_[pass.first + i], chunks[i], world, job);
+                if (pass.count > 1)
+                    std::atomic_ref<uint64_t>(chunks[i].busy_ns).fetch_add(now_ns() - begun, std::memory_order_relaxed);
             });
         }
         const uint64_t end = now_ns();
@@ -256,7 +261,9 @@ class FramePlan {
                                 ? chunks[i].buffer + size_t{c} * system.chunk_rows * system.emit_bytes_a_row
                                 : nullptr,
                             chunks[i].emitted[c]);
-            if (chunks[i].count) profiler.add(system.zone, start, end, chunks[i].rows);
+            const bool is_shared = pass.count > 1 && total > 1;
+            if (chunks[i].count)
+                profiler.add(system.zone, start, is_shared ? start + chunks[i].busy_ns : end, chunks[i].rows);
         }
     }
 

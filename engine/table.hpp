@@ -64,70 +64,32 @@ struct ColumnInfo {
     Keep keep;
 };
 
-template <class T>
-struct ColumnType {
-    static constexpr uint8_t kLanes = 1;
-    using Lane = T;
-    static constexpr Scalar kScalar = Scalar::Bytes;
-    static constexpr uint8_t kComponents = 1;
+/// How a value type lies in a column: `Lanes` arrays of `LaneType`, each row of an array `Components` scalars of one
+/// kind.
+template <class LaneType, Scalar Kind, uint8_t Components = 1, uint8_t Lanes = 1>
+struct ColumnLayout {
+    static constexpr uint8_t kLanes = Lanes;
+    using Lane = LaneType;
+    static constexpr Scalar kScalar = Kind;
+    static constexpr uint8_t kComponents = Components;
 };
-#define CULLET_SCALAR_COLUMN(type, kind)          \
-    template <>                                   \
-    struct ColumnType<type> {                     \
-        static constexpr uint8_t kLanes = 1;      \
-        using Lane = type;                        \
-        static constexpr Scalar kScalar = kind;   \
-        static constexpr uint8_t kComponents = 1; \
-    };
-CULLET_SCALAR_COLUMN(uint8_t, Scalar::U8)
-CULLET_SCALAR_COLUMN(uint16_t, Scalar::U16)
-CULLET_SCALAR_COLUMN(uint32_t, Scalar::U32)
-CULLET_SCALAR_COLUMN(uint64_t, Scalar::U64)
-CULLET_SCALAR_COLUMN(float, Scalar::F32)
-CULLET_SCALAR_COLUMN(double, Scalar::F64)
-#undef CULLET_SCALAR_COLUMN
-template <>
-struct ColumnType<Vec3> {
-    static constexpr uint8_t kLanes = 3;
-    using Lane = float;
-    static constexpr Scalar kScalar = Scalar::F32;
-    static constexpr uint8_t kComponents = 1;
-};
-template <>
-struct ColumnType<Vec3d> {
-    static constexpr uint8_t kLanes = 3;
-    using Lane = double;
-    static constexpr Scalar kScalar = Scalar::F64;
-    static constexpr uint8_t kComponents = 1;
-};
-template <class T>
-struct ColumnType<Row<T>> {
-    static constexpr uint8_t kLanes = 1;
-    using Lane = Row<T>;
-    static constexpr Scalar kScalar = Scalar::Row;
-    static constexpr uint8_t kComponents = 1;
-};
-template <>
-struct ColumnType<Quat> {
-    static constexpr uint8_t kLanes = 1;
-    using Lane = Quat;
-    static constexpr Scalar kScalar = Scalar::F32;
-    static constexpr uint8_t kComponents = 4;
-};
-template <>
-struct ColumnType<Sym3d> {
-    static constexpr uint8_t kLanes = 1;
-    using Lane = Sym3d;
-    static constexpr Scalar kScalar = Scalar::F64;
-    static constexpr uint8_t kComponents = 6;
-};
+
+// clang-format off
+template <class T> struct ColumnType : ColumnLayout<T, Scalar::Bytes> {};
+template <> struct ColumnType<uint8_t> : ColumnLayout<uint8_t, Scalar::U8> {};
+template <> struct ColumnType<uint16_t> : ColumnLayout<uint16_t, Scalar::U16> {};
+template <> struct ColumnType<uint32_t> : ColumnLayout<uint32_t, Scalar::U32> {};
+template <> struct ColumnType<uint64_t> : ColumnLayout<uint64_t, Scalar::U64> {};
+template <> struct ColumnType<float> : ColumnLayout<float, Scalar::F32> {};
+template <> struct ColumnType<double> : ColumnLayout<double, Scalar::F64> {};
+template <> struct ColumnType<Vec3> : ColumnLayout<float, Scalar::F32, 1, 3> {};
+template <> struct ColumnType<Vec3d> : ColumnLayout<double, Scalar::F64, 1, 3> {};
+template <> struct ColumnType<Quat> : ColumnLayout<Quat, Scalar::F32, 4> {};
+template <> struct ColumnType<Sym3d> : ColumnLayout<Sym3d, Scalar::F64, 6> {};
+template <class T> struct ColumnType<Row<T>> : ColumnLayout<Row<T>, Scalar::Row> {};
 template <class T, size_t N>
-struct ColumnType<std::array<T, N>> {
-    static constexpr uint8_t kLanes = 1;
-    using Lane = std::array<T, N>;
-    static constexpr Scalar kScalar = ColumnType<T>::kScalar;
-    static constexpr uint8_t kComponents = N;
-};
+struct ColumnType<std::array<T, N>> : ColumnLayout<std::array<T, N>, ColumnType<T>::kScalar, N> {};
+// clang-format on
 
 /// What is common to all tables: rows, limit, and everything that works from the list of columns.
 class AnyTable {

@@ -324,17 +324,8 @@ constexpr float kNeverCracks = 1e9f;
 // A shell of the body's own with these vertices pinned, its limits and rows made anew (B7: pins change what an unpinned
 // item is).
 Result<Row<Shells>> pinned_copy(State& state, Row<Shells> source, const SpawnSettings& settings) {
-    const Shells& s = state.shells;
-    ShellRoom room;
-    room.vertices = s.vertices[source].capacity;
-    room.elements = s.elements[source].count;
-    room.hinges = s.hinges[source].count;
-    room.blocks = s.blocks[source].count;
-    room.links = s.links[source].count;
-    room.cells = s.cells[source].count;
-    room.points = s.points[source].count;
     const char* full = "";
-    const Row<Shells> copy = copy_shell(state, source, room, &full);
+    const Row<Shells> copy = copy_shell(state, source, room_of(state, source), &full);
     if (!copy.exists()) return Error{std::string("no room for a pinned body; raise ") + full + "."};
     const ShellView shell(state, copy);
     uint32_t pinned = 0;

@@ -46,6 +46,15 @@ double diagonal_of(const Mesh& mesh) {
     return length(high - low);
 }
 
+// Some triangle is more than a line: area above 1e-12 of the diagonal squared, as in prepare_surface.
+bool has_area(const Mesh& mesh, double diagonal) {
+    for (const auto& triangle : mesh.triangles) {
+        const Vec3d a(mesh.positions[triangle[0]]), b(mesh.positions[triangle[1]]), c(mesh.positions[triangle[2]]);
+        if (0.5 * length(cross(b - a, c - a)) > 1e-12 * diagonal * diagonal) return true;
+    }
+    return false;
+}
+
 // The surface's corners and triangles with the mesh's attributes found again.
 struct SourceArrays {
     std::vector<Vec3> normals;
@@ -152,15 +161,7 @@ Limits cooking_limits(uint32_t vertices, uint32_t elements) {
 }
 
 Row<Shells> import_shell(State& to, const State& from, Row<Shells> shell, const char** full) {
-    const Shells& s = from.shells;
-    ShellRoom room;
-    room.vertices = s.vertices[shell].capacity;
-    room.elements = s.elements[shell].count;
-    room.hinges = s.hinges[shell].count;
-    room.blocks = s.blocks[shell].count;
-    room.links = s.links[shell].count;
-    room.cells = s.cells[shell].count;
-    room.points = s.points[shell].count;
+    const ShellRoom room = room_of(from, shell);
     const Row<Shells> copy = make_shell(to, room, full);
     if (copy.exists()) copy_shell_rows(to, from, shell, copy, room.blocks > 0);
     return copy;
@@ -181,6 +182,8 @@ Result<Model> cook(const MeshView& view, const CookSettings& settings) {
     if (!(settings.longest_edge >= 0))
         return Error{name + ": longest_edge is " + std::to_string(settings.longest_edge) +
                      " m; give metres, or 0 for what suits the thickness."};
+    if (!has_area(*mesh, diagonal))
+        return Error{name + ": no triangle has an area; all of its points lie on a line. Give a surface."};
     TessellationSettings tessellation;
     tessellation.longest_edge =
         settings.longest_edge > 0 ? settings.longest_edge : std::max(2.0 * settings.thickness, 0.025 * diagonal);

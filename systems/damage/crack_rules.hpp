@@ -51,8 +51,5 @@ inline constexpr float kEquilateralArea = 0.433f;
 /// Cosine of the largest turn from the wanted direction to the edge that is taken instead: 60 degrees.
 inline constexpr float kTurnCosine = 0.5f;
 
-/// Work of one cut edge with its re-meshing and about 20 rebuilt rows, in units of 2 ns: 10 microseconds by the note.
-/// Too small, frames with many cuts run over their budget; measure it where the machine is otherwise idle.
-inline constexpr uint32_t kUnitsPerCut = 5000;
 
 }  // namespace cullet

@@ -1,5 +1,6 @@
 #include "systems/damage/grow_cracks.hpp"
 
+#include "systems/costs.hpp"
 #include "systems/damage/aim.hpp"
 #include "systems/damage/crack_candidates.hpp"
 #include "systems/damage/cut_ends.hpp"
@@ -184,7 +185,7 @@ uint32_t grow_cracks(State& state, Row<Tasks> task, CrackSink& sink) {
     if (all_cuts / kCutsAPass != tasks.crack_count[task] / kCutsAPass) find_start_strengths(shell);
     tasks.crack_count[task] = all_cuts;
     tasks.start_count[task] += sink.starts - starts_before;
-    tasks.units_owed[task] += uint64_t{kUnitsPerCut} * cuts;
+    tasks.units_owed[task] += kUnitsCut * cuts;
     if (cuts) tasks.last_event_time[task] = time;
     return cuts;
 }

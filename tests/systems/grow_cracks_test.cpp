@@ -1,4 +1,5 @@
 // Cracks start, run, join and finish under stresses set by hand.
+#include "systems/costs.hpp"
 #include "systems/damage/grow_cracks.hpp"
 
 #include <gtest/gtest.h>
@@ -86,7 +87,7 @@ TEST(GrowCracks, AStripUnderTensionCracksStraightAcrossAndFallsInTwo) {
     EXPECT_LT(furthest, 0.8f * shell.view.shells().mean_edge[shell.view.row]);  // 12 rows of edges; heading drifts not
     // Every cut edge of this strip is counted by the task and owes its units.
     EXPECT_EQ(shell.state->tasks.crack_count[task], all.cut_edges);
-    EXPECT_EQ(shell.state->tasks.units_owed[task], uint64_t{kUnitsPerCut} * all.cut_edges);
+    EXPECT_EQ(shell.state->tasks.units_owed[task], kUnitsCut * all.cut_edges);
     EXPECT_EQ(shell.state->tasks.start_count[task], 1u);
     EXPECT_EQ(shell.view.shells().has_cracks[shell.view.row], 1);
 }
