@@ -44,9 +44,9 @@ struct Tasks : Table<Tasks> {
     Column<uint32_t> crack_count{*this, "crack_count"};            // cut edges in this run
     Column<uint32_t> start_count{*this, "start_count"};            // cracks started in this run
     Column<uint64_t> units_used{*this, "units_used"};
-    Column<uint64_t> units_owed{*this, "units_owed"};         // by cuts, taken from the next grant
-    Column<uint8_t> is_held{*this, "is_held"};                // body (and striker) stand still meanwhile
-    Column<uint8_t> is_late{*this, "is_late"};  // the contact was solved as between rigid bodies meanwhile
+    Column<uint64_t> units_owed{*this, "units_owed"};  // by cuts, taken from the next grant
+    Column<uint8_t> is_held{*this, "is_held"};         // body (and striker) stand still meanwhile
+    Column<uint8_t> is_late{*this, "is_late"};         // the contact was solved as between rigid bodies meanwhile
     Column<uint32_t> frames_held{*this, "frames_held"};
     Column<uint32_t> part_count{*this, "part_count"};  // components of its shell, once it ended
 };

@@ -15,11 +15,19 @@ namespace {
 
 int run(const Options& options) {
     switch (options.command) {
-        case Command::Help: fmt::print("{}", options.help); return 0;
-        case Command::KeysHelp: fmt::print("{}", keys_help(options.run.scene)); return 0;
-        case Command::Frame: fmt::print("{}", World::describe_frame()); return 0;
-        case Command::Run: return run_command(options.run);
-        case Command::Truth: break;
+        case Command::Help:
+            fmt::print("{}", options.help);
+            return 0;
+        case Command::KeysHelp:
+            fmt::print("{}", keys_help(options.run.scene));
+            return 0;
+        case Command::Frame:
+            fmt::print("{}", World::describe_frame());
+            return 0;
+        case Command::Run:
+            return run_command(options.run);
+        case Command::Truth:
+            break;
     }
     return run_truth(options.truth.model, {options.truth.placements, options.truth.threads, options.truth.out});
 }

@@ -17,8 +17,8 @@ float height_of(const StaticTriangle& triangle, Vec3 p, float fallback) {
 
 }  // namespace
 
-// A convex part of static triangles counts as its bounds, which is exact for level boxes; all else that does not move is passed
-// over. For crumbs, which come to rest on floors and tables.
+// A convex part of static triangles counts as its bounds, which is exact for level boxes; all else that does not move
+// is passed over. For crumbs, which come to rest on floors and tables.
 float BulletWorld::height_below(Vec3 point, float fallback) const {
     float height = fallback;
     const auto raise = [&](float candidate) {
