@@ -52,6 +52,7 @@ double seconds(Call call) {
 bool measure_hidden_step(const Options& options, Figures& figures);
 /// A whole hit on the vase, beside the bare steps that it made.
 bool measure_hit(const Options& options, Figures& figures);
+bool measure_large_hit(const Options& options, Figures& figures);
 /// The guarded front, in Embree builds of the same mesh.
 bool measure_generation(const Options& options, Figures& figures);
 /// A settled pile of hulls in plain Bullet and in our world.

@@ -5,11 +5,12 @@
 //
 // After a cut, split or insert of vertices V (masses re-summed):
 //
-//     assemble_element / assemble_hinge for what changed -> limit_stiffness(V) -> row_vertices(V) -> rebuild_rows
+//     assemble_element / assemble_hinge for what changed -> limit_stiffness(V) -> rebuild_rows
 #pragma once
 #include <span>
 
 #include "components/state.hpp"
+#include "systems/damage/vertex_list.hpp"
 
 namespace cullet {
 
@@ -25,8 +26,8 @@ uint32_t assemble_hinge(ShellView shell, uint32_t hinge);
 /// (cooking, and spawning with pins).
 void measure_limits(ShellView shell);
 /// B7's scales of everything that touches these vertices, from present masses. An item takes the smallest of its own
-/// factor and those of its corners.
-void limit_stiffness(ShellView shell, std::span<const uint32_t> vertices);
+/// factor and those of its corners. `rows` gains each vertex of an item whose scale changed.
+void limit_stiffness(ShellView shell, std::span<const uint32_t> vertices, VertexList& rows);
 void limit_all_stiffness(ShellView shell);
 
 /// Blocks, links and vertices that assembly will need for the shell plus `spare_vertices`: packs for the spare
@@ -34,12 +35,12 @@ void limit_all_stiffness(ShellView shell);
 ShellRoom stiffness_room(ShellView shell, uint32_t spare_vertices);
 /// All packs, blocks, links into the shell's ranges. False when the ranges are too small (see stiffness_room).
 bool assemble_stiffness(ShellView shell);
-/// Vertices whose rows hold an item that touches `vertices`: themselves, their neighbours, and the corners opposite
-/// across hinges. Ascending, each once; returns the count, at most out.size() (more are dropped: give 24 a vertex).
-uint32_t row_vertices(ShellView shell, std::span<const uint32_t> vertices, std::span<uint32_t> out);
 /// Rows of these vertices from their elements, bit for bit what assemble_stiffness would give them. A pack without a
 /// free slot moves to the spare end of the shell's ranges. False: out of spare; the rows not yet rebuilt are as before.
 bool rebuild_rows(ShellView shell, std::span<const uint32_t> vertices);
+bool rebuild_all_rows(ShellView shell);
+/// The row of `vertex` names `to` wherever it named `from`: the same stiffness against a copy of a neighbour.
+void rename_neighbour(ShellView shell, uint32_t vertex, uint32_t from, uint32_t to);
 
 /// 0.6 * 2 / omega_max, s, from 40 power iterations on the assembled rows (cooking; allocates). 0 for a body that
 /// nothing holds together.

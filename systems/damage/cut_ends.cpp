@@ -20,7 +20,7 @@ uint32_t element_before(ShellView shell, const Ring& ring, uint32_t end) {
 void split_and_mark(ShellView shell, uint32_t vertex, const Ring& before, Touched& touched) {
     shell.state.vertices.crack[shell.vertex(vertex)] = static_cast<uint8_t>(CrackState::Cracked);
     touched.add(vertex);
-    const uint32_t copies = split_fans(shell, vertex, before);
+    const uint32_t copies = split_fans(shell, vertex, before, touched);
     for (uint32_t c = shell.vertex_count() - copies; c < shell.vertex_count(); ++c) touched.add(c);
 }
 
@@ -42,17 +42,13 @@ CutOutcome cut_ends(ShellView shell, uint32_t vertex, Ends& ends, Touched& touch
     if (shell.vertex_count() + copies > shell.vertices().capacity) return CutOutcome::Full;
 
     for (uint32_t i = 0; i < ends.count; ++i) {
-        // The corners opposite lose a hinge.
-        const uint32_t before = (first[i] + ring.count - 1) % ring.count;
-        touched.add_hinge_end(
-            shell.state.elements.corner[shell.element(ring.element[before])][(ring.corner[before] + 1) % 3]);
-        touched.add(
-            shell.state.elements.corner[shell.element(ring.element[first[i]])][(ring.corner[first[i]] + 2) % 3]);
+        const uint32_t hinge = shell.state.elements.hinge[shell.element(ring.element[first[i]])][ring.corner[first[i]]];
+        if (hinge != kNone) touched.add_hinge(shell, hinge);
+        touched.add(ends.end[i]);
         cut_edge(shell, ring.element[first[i]], ring.corner[first[i]]);
     }
     split_and_mark(shell, vertex, ring, touched);
     for (uint32_t i = 0; i < ends.count; ++i) {
-        touched.add_hinge_end(ends.end[i]);
         if (!ends.is_interior[i]) split_and_mark(shell, ends.end[i], end_ring[i], touched);
     }
     shell.shells().has_cracks[shell.row] = 1;

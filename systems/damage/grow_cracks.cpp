@@ -173,7 +173,7 @@ uint32_t grow_cracks(State& state, Row<Tasks> task, CrackSink& sink) {
             advance_tip(batch, c.vertex);
         else
             start_crack(batch, c.vertex);
-        if (batch.touched.count > Touched::kMost / 2) is_whole = refresh_stiffness(shell, batch.touched) && is_whole;
+        if (batch.touched.is_enough()) is_whole = refresh_stiffness(shell, batch.touched) && is_whole;
     }
     is_whole = refresh_stiffness(shell, batch.touched) && is_whole;
     sink.is_out_of_slots = sink.is_out_of_slots || !is_whole;

@@ -135,7 +135,7 @@ void refresh_hinge(ShellView shell, uint32_t element, uint32_t k, bool is_new, T
     const uint32_t hinge = elements.hinge[row][k];
     shell.state.hinges.vertex[shell.hinge(hinge)] = {corner[k], corner[(k + 1) % 3], corner[(k + 2) % 3], opposite};
     assemble_hinge(shell, hinge);
-    touched.add_hinge_end(opposite);
+    touched.add_hinge(shell, hinge);
 }
 
 }  // namespace

@@ -1,5 +1,6 @@
 // Bounds on stiffness over mass, so that no cut makes anything stiffer than the time step allows (thick shell note B7).
 #include <algorithm>
+#include <utility>
 #include <vector>
 
 #include "systems/damage/assemble.hpp"
@@ -70,20 +71,21 @@ struct Ratios {
     }
 };
 
-void limit_element(const ShellView& shell, const PlaneStress& stress, uint32_t element) {
+/// Whether the element's scale changed.
+bool limit_element(const ShellView& shell, const PlaneStress& stress, uint32_t element) {
     const uint32_t row = shell.element(element);
     float scale = factor(triangle_ratio(shell, stress, element), shell.shells().triangle_limit[shell.row]);
     for (const uint32_t v : shell.state.elements.corner[row])
         scale = std::min(scale, shell.state.vertices.stiffness_scale[shell.vertex(v)]);
-    shell.state.triangle_springs.scale[row] = scale;
+    return std::exchange(shell.state.triangle_springs.scale[row], scale) != scale;
 }
 
-void limit_hinge(const ShellView& shell, uint32_t hinge) {
+bool limit_hinge(const ShellView& shell, uint32_t hinge) {
     const uint32_t row = shell.hinge(hinge);
     float scale = factor(hinge_ratio(shell, hinge), shell.shells().hinge_limit[shell.row]);
     for (const uint32_t v : shell.state.hinges.vertex[row])
         scale = std::min(scale, shell.state.vertices.stiffness_scale[shell.vertex(v)]);
-    shell.state.hinges.scale[row] = scale;
+    return std::exchange(shell.state.hinges.scale[row], scale) != scale;
 }
 
 void limit_vertex(const ShellView& shell, const PlaneStress& stress, uint32_t vertex) {
@@ -124,7 +126,7 @@ void measure_limits(ShellView shell) {
     shell.shells().vertex_limit[shell.row] = vertex.limit();
 }
 
-void limit_stiffness(ShellView shell, std::span<const uint32_t> vertices) {
+void limit_stiffness(ShellView shell, std::span<const uint32_t> vertices, VertexList& rows) {
     const PlaneStress stress = plane_stress(shell.state, shell.row);
     for (const uint32_t v : vertices) limit_vertex(shell, stress, v);
     Ring ring;
@@ -132,8 +134,14 @@ void limit_stiffness(ShellView shell, std::span<const uint32_t> vertices) {
     for (const uint32_t v : vertices) {
         collect_ring(shell, v, ring);
         collect_hinges(shell, ring, hinges);
-        for (uint32_t i = 0; i < ring.count; ++i) limit_element(shell, stress, ring.element[i]);
-        for (uint32_t i = 0; i < hinges.count; ++i) limit_hinge(shell, hinges.hinge[i]);
+        for (uint32_t i = 0; i < ring.count; ++i) {
+            if (!limit_element(shell, stress, ring.element[i])) continue;
+            for (const uint32_t c : shell.state.elements.corner[shell.element(ring.element[i])]) rows.add(c);
+        }
+        for (uint32_t i = 0; i < hinges.count; ++i) {
+            if (!limit_hinge(shell, hinges.hinge[i])) continue;
+            for (const uint32_t c : shell.state.hinges.vertex[shell.hinge(hinges.hinge[i])]) rows.add(c);
+        }
     }
 }
 

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "systems/damage/assemble.hpp"
+
 namespace cullet {
 namespace {
 
@@ -24,14 +26,49 @@ uint32_t first_fan(ShellView shell, const Ring& ring) {
     return breaks > 1 ? found : kNone;
 }
 
-// The hinges of this element that name `vertex` name `copy` from now on.
-void rename_in_hinges(ShellView shell, uint32_t element, uint32_t vertex, uint32_t copy) {
+// The hinges of this element that name `vertex` name `copy` from now on; `others` gains their other vertices.
+void rename_in_hinges(ShellView shell, uint32_t element, uint32_t vertex, uint32_t copy, VertexList& others) {
     for (const uint32_t h : shell.state.elements.hinge[shell.element(element)]) {
         if (h == kNone) continue;
         auto& named = shell.state.hinges.vertex[shell.hinge(h)];
         const auto at = std::find(named.begin(), named.end(), vertex);
         if (at != named.end()) *at = copy;
+        if (at != named.end() || std::find(named.begin(), named.end(), copy) != named.end())
+            for (const uint32_t v : named)
+                if (v != copy && v != kNone) others.add(v);
     }
+}
+
+// Whether an element or hinge of the vertex, as it is now, holds `other` too.
+bool is_row_neighbour(ShellView shell, const Ring& before, uint32_t vertex, uint32_t other) {
+    const State& state = shell.state;
+    for (uint32_t i = 0; i < before.count; ++i) {
+        const uint32_t row = shell.element(before.element[i]);
+        const auto& corner = state.elements.corner[row];
+        if (corner[before.corner[i]] != vertex) continue;
+        if (std::find(corner.begin(), corner.end(), other) != corner.end()) return true;
+        for (const uint32_t h : state.elements.hinge[row]) {
+            if (h == kNone) continue;
+            const auto& named = state.hinges.vertex[shell.hinge(h)];
+            if (std::find(named.begin(), named.end(), vertex) == named.end()) continue;
+            if (std::find(named.begin(), named.end(), other) != named.end()) return true;
+        }
+    }
+    return false;
+}
+
+// Rows that held the vertex, and whose element or hinge went to its copy: the stiffness is the same, so the name is
+// all that changes. What holds both the vertex and its copy is built anew.
+void rename_in_rows(ShellView shell, const Ring& before, uint32_t vertex, uint32_t copy, const VertexList& others,
+                    Touched& touched) {
+    for (uint32_t i = 0; i < others.count; ++i) {
+        const uint32_t other = others.vertex[i];
+        if (is_row_neighbour(shell, before, vertex, other))
+            touched.rows.add(other);
+        else
+            rename_neighbour(shell, other, vertex, copy);
+    }
+    if (others.has_overflowed) touched.rows.has_overflowed = true;
 }
 
 }  // namespace
@@ -45,7 +82,7 @@ uint32_t count_fans(ShellView shell, const Ring& before) {
     return breaks > 1 ? breaks : 1;
 }
 
-uint32_t split_fans(ShellView shell, uint32_t vertex, const Ring& before) {
+uint32_t split_fans(ShellView shell, uint32_t vertex, const Ring& before, Touched& touched) {
     State& state = shell.state;
     const uint32_t start = first_fan(shell, before);
     if (before.count == 0) return 0;
@@ -71,10 +108,15 @@ uint32_t split_fans(ShellView shell, uint32_t vertex, const Ring& before) {
         }
         state.vertices.element[shell.vertex(owner)] = before.element[at(begin)];
         if (is_keeper) continue;
+        VertexList others;
         for (uint32_t i = begin; i < end; ++i) {
-            state.elements.corner[shell.element(before.element[at(i)])][before.corner[at(i)]] = owner;
-            rename_in_hinges(shell, before.element[at(i)], vertex, owner);
+            auto& corner = state.elements.corner[shell.element(before.element[at(i)])];
+            corner[before.corner[at(i)]] = owner;
+            for (const uint32_t v : corner)
+                if (v != owner) others.add(v);
+            rename_in_hinges(shell, before.element[at(i)], vertex, owner, others);
         }
+        rename_in_rows(shell, before, vertex, owner, others, touched);
     }
     weigh_vertex(shell, vertex);
     for (uint32_t c = shell.vertex_count() - copies; c < shell.vertex_count(); ++c) weigh_vertex(shell, c);

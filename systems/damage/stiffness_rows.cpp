@@ -246,35 +246,31 @@ bool assemble_stiffness(ShellView shell) {
     return true;
 }
 
-uint32_t row_vertices(ShellView shell, std::span<const uint32_t> vertices, std::span<uint32_t> out) {
-    uint32_t count = 0;
-    const auto add = [&](uint32_t v) {
-        uint32_t* at = std::lower_bound(out.data(), out.data() + count, v);
-        if ((at < out.data() + count && *at == v) || count == out.size()) return;
-        std::copy_backward(at, out.data() + count, out.data() + count + 1);
-        *at = v;
-        ++count;
-    };
-    Ring ring;
-    RingHinges hinges;
-    for (const uint32_t v : vertices) {
-        add(v);
-        collect_ring(shell, v, ring);
-        collect_hinges(shell, ring, hinges);
-        for (uint32_t i = 0; i < ring.count; ++i)
-            for (const uint32_t c : shell.state.elements.corner[shell.element(ring.element[i])]) add(c);
-        for (uint32_t i = 0; i < hinges.count; ++i)
-            for (const uint32_t c : shell.state.hinges.vertex[shell.hinge(hinges.hinge[i])]) add(c);
-    }
-    return count;
-}
-
 bool rebuild_rows(ShellView shell, std::span<const uint32_t> vertices) {
     if (!append_packs(shell)) return false;
     const PlaneStress stress = plane_stress(shell.state, shell.row);
     for (const uint32_t v : vertices)
         if (!write_row(shell, stress, v)) return false;
     return true;
+}
+
+bool rebuild_all_rows(ShellView shell) {
+    if (!append_packs(shell)) return false;
+    const PlaneStress stress = plane_stress(shell.state, shell.row);
+    for (uint32_t v = 0; v < shell.vertex_count(); ++v)
+        if (!write_row(shell, stress, v)) return false;
+    return true;
+}
+
+void rename_neighbour(ShellView shell, uint32_t vertex, uint32_t from, uint32_t to) {
+    const uint32_t pack = vertex / kLanes, lane = vertex % kLanes;
+    if (pack >= shell.shells().packs[shell.row].count) return;  // it has no row yet
+    const auto blocks = block_slots(shell, pack);
+    const auto links = link_slots(shell, pack);
+    for (uint32_t i = 0; i < blocks.count; ++i)
+        if (blocks.at(i).neighbour[lane] == from) blocks.at(i).neighbour[lane] = to;
+    for (uint32_t i = 0; i < links.count; ++i)
+        if (links.at(i).neighbour[lane] == from) links.at(i).neighbour[lane] = to;
 }
 
 }  // namespace cullet

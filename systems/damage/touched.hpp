@@ -1,40 +1,37 @@
 // What a batch of cuts changed, and the stiffness that must follow it.
 #pragma once
 #include "systems/damage/ring.hpp"
+#include "systems/damage/vertex_list.hpp"
 
 namespace cullet {
 
 /// What changed since the last `refresh_stiffness`.
 struct Touched {
-    static constexpr uint32_t kMost = 256;  // a start with six arms and six inserts touches about 100
-    uint32_t count = 0;
-    uint32_t vertex[kMost];        // each once
-    bool has_changed_rows[kMost];  // false: only the vertex's stiffness over mass may have changed
+    /// A start with six arms and six inserts touches about 100.
+    static constexpr uint32_t kEnough = VertexList::kMost / 2;
+    VertexList weighed;  // whose mass, elements or hinges changed: B7's limits are found anew
+    VertexList rows;     // whose rows hold a changed element or hinge
 
     /// Mass or elements of the vertex changed.
-    void add(uint32_t v) { add(v, true); }
-    /// A hinge that holds the vertex changed or died. Some other vertex of that hinge was added by `add`.
-    void add_hinge_end(uint32_t v) { add(v, false); }
-
- private:
-    void add(uint32_t v, bool rows) {
-        for (uint32_t i = 0; i < count; ++i) {
-            if (vertex[i] != v) continue;
-            has_changed_rows[i] |= rows;
-            return;
-        }
-        CULLET_ASSERT(count < kMost, "more than %u vertices touched between two refreshes", kMost);
-        if (count == kMost) return;
-        vertex[count] = v;
-        has_changed_rows[count++] = rows;
+    void add(uint32_t v) {
+        weighed.add(v);
+        rows.add(v);
+    }
+    /// The hinge came, changed or is about to die.
+    void add_hinge(ShellView shell, uint32_t hinge) {
+        for (const uint32_t v : shell.state.hinges.vertex[shell.hinge(hinge)])
+            if (v != kNone) add(v);
+    }
+    bool is_enough() const { return weighed.count > kEnough || rows.count > kEnough; }
+    void clear() {
+        weighed.clear();
+        rows.clear();
     }
 };
 
-/// Limits the stiffness of what touches these vertices, then rebuilds their rows and those of every vertex that shares
-/// an element or a hinge with them (a limited element changes all three of its rows, a dead hinge the rows of its
-/// opposite corners). Vertices of `add_hinge_end` spread further only when their limit changed. Empties the list. A
-/// shell without stiffness (no packs) is left alone. False: the shell has no spare slots left for some row, and must
-/// not be stepped on.
+/// Limits the stiffness of what touches the weighed vertices, then rebuilds the rows, and those of each vertex of an
+/// element or hinge whose limit changed. Empties the lists. A shell without stiffness (no packs) is left alone. False:
+/// the shell has no spare slots left for some row, and must not be stepped on.
 bool refresh_stiffness(ShellView shell, Touched& touched);
 
 }  // namespace cullet

@@ -149,7 +149,7 @@ void cut_at_random(const Surface& surface, uint64_t seed, uint32_t rounds, uint3
                 ++inserts;
             }
             ASSERT_FALSE(is_full);
-            touched.count = 0;
+            touched.clear();
         }
         const uint32_t v = static_cast<uint32_t>(random.bits(round, 4) % view.vertex_count());
         const auto candidates = interior_ends(view, v);
@@ -195,7 +195,7 @@ TEST(CutEnds, CuttingEveryEdgeLeavesEveryElementAlone) {
             Ends ends;
             for (size_t i = 0; i < at.size() && i < kMostArms; ++i) ends.add(at[i]);
             cut_ends(shell.view, v, ends, touched);
-            touched.count = 0;
+            touched.clear();
         }
     EXPECT_EQ(component_count(shell.view), shell.view.element_count());
     EXPECT_EQ(live_vertex_count(shell.view), 3 * shell.view.element_count());
