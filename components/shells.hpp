@@ -129,6 +129,8 @@ struct Elements : Table<Elements> {
     Column<Vec3> outer_stress{*this, "outer_stress", "Pa", Keep::Scratch};
     Column<Vec3> inner_stress{*this, "inner_stress", "Pa", Keep::Scratch};
     Column<float> principal{*this, "principal", "Pa", Keep::Scratch};  // largest of both faces
+    /// Of 8 rows, kept in the first of them: bit i is set where the principal stress of row + i may start a crack.
+    Column<uint8_t> over_limit{*this, "over_limit", "1", Keep::Scratch};
 };
 
 /// One row is the three coupled springs of the element in the same row of Elements (B3): constant strain from the edge

@@ -9,7 +9,7 @@ namespace cullet {
 namespace {
 
 constexpr float kPi = 3.14159265358979f;
-constexpr float kNoStart = 1e30f;  // finite, because columns are checked for it
+constexpr float kNoStart = 1e30f;                    // finite, because columns are checked for it
 constexpr float kRaise = 1.25f, kMostRaise = 1e30f;  // the second ends the search for stresses that are infinite
 
 // Ready tips with an element whose principal stress passes their limit. A byte a vertex is looked at, eight at a time.
@@ -50,15 +50,9 @@ bool collect_starts(ShellView shell, float limit, uint32_t tips, Candidates& can
     const uint8_t *flags = elements.flags.data(), *crack = shell.state.vertices.crack.data() + shell.vertex(0),
                   *is_banned = shell.state.vertices.is_start_banned.data() + shell.vertex(0);
     const float* strength_factor = shell.state.vertices.strength_factor.data() + shell.vertex(0);
-    constexpr uint32_t kBlock = 32;
-    for (uint32_t block = first; block < end; block += kBlock) {
-        const uint32_t block_end = std::min(block + kBlock, end);
-        if (block + kBlock <= end) {  // most blocks of most checks are far below; a constant count vectorises
-            int any = 0;
-            for (uint32_t i = 0; i < kBlock; ++i) any |= principal[block + i] > limit * strength[block + i];
-            if (!any) continue;
-        }
-        for (uint32_t e = block; e < block_end; ++e) {
+    for (uint32_t block = first; block < end; block += kLanes) {
+        if (elements.over_limit[block] == 0) continue;  // nearly everywhere
+        for (uint32_t e = block; e < std::min(block + kLanes, end); ++e) {
             if (!(principal[e] > limit * strength[e]) || (flags[e] & kDead)) continue;
             for (const uint32_t v : elements.corner[e]) {
                 if (crack[v] != static_cast<uint8_t>(CrackState::None) || is_banned[v]) continue;

@@ -23,7 +23,9 @@ struct StressTables {
     const float *area, *thickness, *scale;
     float *outer[3], *inner[3], *principal;
     float* slope;  // 3 an element
-    float c11, c12, c33;
+    const float* start_strength;
+    uint8_t* over_limit;  // at every eighth element
+    float c11, c12, c33, start_limit;
 };
 }  // namespace cullet
 #endif
@@ -158,7 +160,8 @@ HWY_INLINE V3 bending_strain(const StressTables& t, uint32_t e, V3 angle) {
     return {xx, yy, hn::Add(xy, xy)};
 }
 
-HWY_INLINE void stress_lanes(const StressTables& t, uint32_t e, const float* angles) {
+/// Returns a bit for each of kStep elements: its stress passes the limit of starts.
+HWY_INLINE unsigned stress_lanes(const StressTables& t, uint32_t e, const float* angles) {
     const Floats d;
     V3 angle;
     hn::LoadInterleaved3(d, angles, angle.x, angle.y, angle.z);
@@ -167,7 +170,12 @@ HWY_INLINE void stress_lanes(const StressTables& t, uint32_t e, const float* ang
     const V3 outer = membrane - bend, inner = add(membrane, bend);
     store(outer, t.outer[0] + e, t.outer[1] + e, t.outer[2] + e);
     store(inner, t.inner[0] + e, t.inner[1] + e, t.inner[2] + e);
-    hn::StoreU(hn::Max(principal_of(outer), principal_of(inner)), d, t.principal + e);
+    const V largest = hn::Max(principal_of(outer), principal_of(inner));
+    hn::StoreU(largest, d, t.principal + e);
+    const V limit = hn::Mul(hn::Set(d, t.start_limit), hn::LoadU(d, t.start_strength + e));
+    uint8_t bits[8] = {};
+    hn::StoreMaskBits(d, hn::Gt(largest, limit), bits);
+    return bits[0];
 }
 
 void stress_range(const StressTables& t, uint32_t first, uint32_t count) {
@@ -176,7 +184,12 @@ void stress_range(const StressTables& t, uint32_t first, uint32_t count) {
     for (uint32_t e = first; e < end; e += kBatch) {
         const uint32_t rows = std::min(kBatch, end - e);
         gather_angles(t, e, rows, angles);
-        for (uint32_t i = 0; i < rows; i += kStep) stress_lanes(t, e + i, angles + 3 * i);
+        for (uint32_t i = 0; i < rows; i += kLanes) {
+            unsigned bits = 0;
+            for (uint32_t lane = 0; lane < kLanes; lane += kStep)
+                bits |= stress_lanes(t, e + i + lane, angles + 3 * (i + lane)) << lane;
+            t.over_limit[e + i] = static_cast<uint8_t>(bits);
+        }
     }
 }
 
@@ -200,7 +213,7 @@ void lanes_of(Column<Vec3>& column, uint32_t first, float* (&out)[3]) {
     for (int k = 0; k < 3; ++k) out[k] = column.lane(k) + first;
 }
 
-StressTables stress_tables(const ShellView& shell, uint32_t side) {
+StressTables stress_tables(const ShellView& shell, uint32_t side, float start_limit = kNeverStarts) {
     State& state = shell.state;
     const TriangleSprings& springs = state.triangle_springs;
     const uint32_t e = shell.elements().first;
@@ -221,6 +234,9 @@ StressTables stress_tables(const ShellView& shell, uint32_t side) {
     lanes_of(state.elements.outer_stress, e, t.outer);
     lanes_of(state.elements.inner_stress, e, t.inner);
     t.principal = state.elements.principal.data() + e;
+    t.start_strength = state.elements.start_strength.data() + e;
+    t.over_limit = state.elements.over_limit.data() + e;
+    t.start_limit = start_limit;
     t.c11 = static_cast<float>(c.c11), t.c12 = static_cast<float>(c.c12), t.c33 = static_cast<float>(c.c33);
     return t;
 }
@@ -255,13 +271,13 @@ void link_slopes(ShellView shell, std::span<const uint32_t> vertices) {
 void strain_elements(ShellView shell, uint32_t side, uint32_t first, uint32_t count) {
     HWY_DYNAMIC_DISPATCH(membrane_range)(stress_tables(shell, side), first, count);
 }
-void stress_elements(ShellView shell, uint32_t first, uint32_t count) {
-    HWY_DYNAMIC_DISPATCH(stress_range)(stress_tables(shell, 0), first, count);
+void stress_elements(ShellView shell, uint32_t first, uint32_t count, float start_limit) {
+    HWY_DYNAMIC_DISPATCH(stress_range)(stress_tables(shell, 0, start_limit), first, count);
 }
 void check_stress(ShellView shell, uint32_t side) {
     link_slopes(shell);
     strain_elements(shell, side, 0, shell.element_count());
-    stress_elements(shell, 0, shell.element_count());
+    stress_elements(shell, 0, shell.element_count(), kNeverStarts);
 }
 double membrane_energy(ShellView shell, uint32_t side, uint32_t first, uint32_t count) {
     return HWY_DYNAMIC_DISPATCH(energy_range)(stress_tables(shell, side), first, count);

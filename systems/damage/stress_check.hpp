@@ -15,11 +15,13 @@
 
 namespace cullet {
 
-/// First pass, elements [first, first + count): membrane stress (kept in outer_stress) and Elements.slope. `first` is a multiple of 8, `count` too unless the range ends with the shell's last element.
+/// First pass, elements [first, first + count): membrane stress (kept in outer_stress) and Elements.slope. `first` is a
+/// multiple of 8, `count` too unless the range ends with the shell's last element.
 void strain_elements(ShellView shell, uint32_t side, uint32_t first, uint32_t count);
 /// Second pass: Elements.outer_stress, inner_stress (in the triangle's axes, scaled by B7's limit) and principal, the
-/// larger of both faces. Ranges as above.
-void stress_elements(ShellView shell, uint32_t first, uint32_t count);
+/// larger of both faces, and over_limit: where that is above `start_limit`, Pa, times start_strength. Ranges as above.
+void stress_elements(ShellView shell, uint32_t first, uint32_t count, float start_limit);
+inline constexpr float kNeverStarts = 1e30f;  // Pa
 /// Elements.other_slope, for the passes above: of all elements, or of those round vertices where a cut or an insert
 /// changed neighbours.
 void link_slopes(ShellView shell);

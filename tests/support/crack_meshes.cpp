@@ -215,6 +215,7 @@ void set_stress(ShellView shell, const StressField& field) {
             most = std::max(most, static_cast<float>(largest));
         }
         s.elements.principal[row] = most;
+        s.elements.over_limit[row] = 0xff;
     }
 }
 
