@@ -23,7 +23,10 @@ void add_contacts(const State& state, Row<Tasks> task, const ShellView& shell, T
     const uint32_t first = state.tasks.first_contact[task];
     for (uint32_t c = first; c < first + state.tasks.contact_count[task]; ++c) {
         const double inverse_mass = contacts.striker_inverse_mass[c], speed = contacts.striker_speed[c];
-        if (inverse_mass > 0) energy.strikers += 0.5 * speed * speed / inverse_mass;
+        if (inverse_mass > 0)
+            energy.strikers += 0.5 * speed * speed / inverse_mass;
+        else
+            energy.work += contacts.impulse[c] * speed;
         const Vec3d n(contacts.normal[c]);
         const uint32_t begin = contacts.first_patch[c];
         for (uint32_t p = begin; p < begin + contacts.patch_count[c]; ++p) {
@@ -85,7 +88,8 @@ TaskEnergy task_energy(State& state, Row<Tasks> task) {
 }
 
 bool is_blown_up(const TaskEnergy& energy, double start_energy) {
-    return !(energy.total() <= 1.05 * start_energy);
+    const double wanted = start_energy + energy.work;
+    return !(energy.total() <= wanted + 0.05 * std::max(start_energy, wanted));
 }
 
 }  // namespace cullet

@@ -7,6 +7,7 @@ namespace cullet {
 
 struct TaskEnergy {
     double kinetic = 0, membrane = 0, bending = 0, contact = 0, strikers = 0;  // J; strikers of infinite mass count 0
+    double work = 0;  // J, that strikers of infinite mass have done: a lift on its way up
     double total() const { return kinetic + membrane + bending + contact + strikers; }
 };
 
@@ -15,7 +16,7 @@ struct TaskEnergy {
 /// step.
 TaskEnergy task_energy(State& state, Row<Tasks> task);
 
-/// B7's redo criterion: energy above 1.05 of the start, or not finite.
+/// B7's redo criterion: energy above 1.05 of the start and of the work put in, or not finite.
 bool is_blown_up(const TaskEnergy& energy, double start_energy);
 
 /// Parts of the above, for one chunk of rows, in this order: kinetic energy of vertices [first, first + count), which

@@ -1,4 +1,4 @@
-// A vase falls on a floor beside a lift, in a host with its own memory, jobs and clock.
+// A vase falls on a rising lift, in a host with its own memory, jobs and clock.
 #include <array>
 #include <cmath>
 #include <cstdio>
@@ -31,7 +31,7 @@ int main() {
         if (i >= 40) faces.insert(faces.end(), {{a - 40, a, b - 40}, {b - 40, a, b}});
     }
     const Result<Model> model = cook({points.data(), points.size(), faces[0].data(), faces.size()}, {});
-    Result<World> made = World::create({}, host);
+    Result<World> made = World::create({.units_a_frame = 20'000'000}, host);
     if (!model.ok() || !made.ok())
         return std::fprintf(stderr, "%s%s\n", model.error().c_str(), made.error().c_str()), 1;
     World& world = *made;
@@ -42,7 +42,7 @@ int main() {
     const BodyId lift =
         world.add_kinematic_box({.motion = {{0, 0.5f, 0}, {}}, .half_extents = {0.3f, 0.1f, 0.3f}}).value();
     const ModelId vase = world.add_model(model.value()).value();
-    (void)world.spawn(vase, {.pose = {{1, 2.5f, 0}, {0.2f, 0, 0, 0.98f}}, .user_data = 42});
+    (void)world.spawn(vase, {.pose = {{0, 2.5f, 0}, {0.2f, 0, 0, 0.98f}}, .user_data = 42});
 
     uint32_t fragments = 0;
     double unsimulated = 0;  // s; the game draws between pose_before and pose of a view by this share of a step

@@ -144,6 +144,25 @@ TEST(Contact, ABouncingHitKeepsItsEnergy) {
     EXPECT_FALSE(is_blown_up(end, start));
 }
 
+TEST(Contact, WhatALiftPutsInIsNoEnergyOutOfNothing) {
+    // A lift of infinite mass meets a ball at rest: all that the ball has came from it.
+    Fixture f(sphere_mesh(12, 0.1), 0.005);
+    f.state.tasks.damping_time[f.task] = 0;
+    f.add_contact({0, -0.1f, 0}, {0, 1, 0}, 0, 0, 2);
+    build_patches(f.state, f.task);
+    start_hidden(f.state, f.task);
+    EXPECT_EQ(f.state.tasks.start_energy[f.task], 0);
+    TaskEnergy energy;
+    for (int i = 0; i < 4000; ++i) {
+        step_task(f.state, f.task);
+        if (i % 64 != 63) continue;
+        energy = task_energy(f.state, f.task);
+        ASSERT_FALSE(is_blown_up(energy, 0)) << energy.total() << " J of " << energy.work << " J put in, step " << i;
+    }
+    EXPECT_NEAR(energy.total(), energy.work, 0.02 * energy.work);
+    EXPECT_GT(energy.work, 1.5 * 2 * 2 * f.state.shells.mass[f.shell]);  // impulse times speed; it leaves at up to 4 m/s
+}
+
 TEST(Contact, TooLongAStepIsSeenByTheEnergyTest) {
     Fixture f(sphere_mesh(6, 0.1), 0.005);
     f.state.tasks.time_step[f.task] *= 2.2f;
