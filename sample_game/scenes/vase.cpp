@@ -42,7 +42,7 @@ Result<ScenePlan> vase_plan(const SceneInput& input) {
     vase.settings.pose.position = middle - rotate(vase.settings.pose.orientation, {0, 0.5f * size, 0});
     vase.settings.motion.velocity = {0, -static_cast<float>(keys["scene.speed_mps"]), 0};
     plan.spawns.push_back(vase);
-    plan.camera = {{0.85f, 1.25f, 2.3f}, {0, 0.46f, 0.5f}, 0.78f};
+    plan.camera = {{0.75f, 1.15f, 2.0f}, {0, 0.5f, 0.45f}, 0.74f};
     return plan;
 }
 

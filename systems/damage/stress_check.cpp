@@ -124,26 +124,22 @@ double energy_range(const StressTables& t, uint32_t first, uint32_t count) {
     return 0.5 * sum;
 }
 
-/// Elements whose neighbours' slopes are gathered before they are used: read back at once, single floats would stall
-/// the wide loads.
-inline constexpr uint32_t kBatch = 64;
+alignas(32) inline constexpr uint32_t kThreeLanes[] = {0, 3, 6, 9, 12, 15, 18, 21};  // hn::Iota goes through memory
 
-alignas(64) inline constexpr uint32_t kLane[] = {0, 1, 2, 3, 4, 5, 6, 7};  // hn::Iota goes through memory
-
-/// Angle of each edge's hinge, 0 where there is none.
-HWY_INLINE void gather_angles(const StressTables& t, uint32_t first, uint32_t rows, float* angle) {
-    const uint32_t* other = t.other_slope[first].data();
-    const float* own = t.slope + 3 * size_t{first};
-    for (uint32_t i = 0; i < 3 * rows; ++i) angle[i] = t.slope[other[i]];
-    const Floats d;
-    const hn::RebindToUnsigned<Floats> u;
-    // A half without another names itself.
-    for (uint32_t i = 0; i < 3 * rows; i += kStep) {
-        const auto self = hn::Add(hn::Load(u, kLane), hn::Set(u, 3 * first + i));
-        const V sum = hn::Add(hn::LoadU(d, own + i), hn::Load(d, angle + i));
-        const auto bits = hn::IfThenZeroElse(hn::Eq(self, hn::LoadU(u, other + i)), hn::BitCast(u, sum));
-        hn::Store(hn::BitCast(d, bits), d, angle + i);
-    }
+/// Angles of the hinges of kStep elements' edges, 0 where there is none: a half without another names itself.
+HWY_INLINE V3 hinge_angles(const StressTables& t, uint32_t e) {
+    const Indices u;
+    V3 own;
+    hn::Vec<Indices> other[3];
+    hn::LoadInterleaved3(Floats(), t.slope + 3 * size_t{e}, own.x, own.y, own.z);
+    hn::LoadInterleaved3(u, t.other_slope[e].data(), other[0], other[1], other[2]);
+    const auto self = hn::Add(hn::Load(u, kThreeLanes), hn::Set(u, 3 * e));
+    const auto angle = [&](V slope, uint32_t k) HWY_ATTR {
+        const V sum = hn::Add(slope, gather(t.slope, other[k]));
+        const auto is_alone = hn::Eq(hn::Add(self, hn::Set(u, k)), other[k]);
+        return hn::BitCast(Floats(), hn::IfThenZeroElse(is_alone, hn::BitCast(u, sum)));
+    };
+    return {angle(own.x, 0), angle(own.y, 1), angle(own.z, 2)};
 }
 
 /// Curvature as a strain at distance h / 2: gamma is twice the xy entry.
@@ -161,11 +157,9 @@ HWY_INLINE V3 bending_strain(const StressTables& t, uint32_t e, V3 angle) {
 }
 
 /// Returns a bit for each of kStep elements: its stress passes the limit of starts.
-HWY_INLINE unsigned stress_lanes(const StressTables& t, uint32_t e, const float* angles) {
+HWY_INLINE unsigned stress_lanes(const StressTables& t, uint32_t e) {
     const Floats d;
-    V3 angle;
-    hn::LoadInterleaved3(d, angles, angle.x, angle.y, angle.z);
-    const V3 bend = stress(t, hn::LoadU(d, t.scale + e), bending_strain(t, e, angle));
+    const V3 bend = stress(t, hn::LoadU(d, t.scale + e), bending_strain(t, e, hinge_angles(t, e)));
     const V3 membrane = load(t.outer[0] + e, t.outer[1] + e, t.outer[2] + e);
     const V3 outer = membrane - bend, inner = add(membrane, bend);
     store(outer, t.outer[0] + e, t.outer[1] + e, t.outer[2] + e);
@@ -179,17 +173,10 @@ HWY_INLINE unsigned stress_lanes(const StressTables& t, uint32_t e, const float*
 }
 
 void stress_range(const StressTables& t, uint32_t first, uint32_t count) {
-    alignas(64) float angles[3 * kBatch] = {};
-    const uint32_t end = first + count;
-    for (uint32_t e = first; e < end; e += kBatch) {
-        const uint32_t rows = std::min(kBatch, end - e);
-        gather_angles(t, e, rows, angles);
-        for (uint32_t i = 0; i < rows; i += kLanes) {
-            unsigned bits = 0;
-            for (uint32_t lane = 0; lane < kLanes; lane += kStep)
-                bits |= stress_lanes(t, e + i + lane, angles + 3 * (i + lane)) << lane;
-            t.over_limit[e + i] = static_cast<uint8_t>(bits);
-        }
+    for (uint32_t e = first; e < first + count; e += kLanes) {
+        unsigned bits = 0;
+        for (uint32_t lane = 0; lane < kLanes; lane += kStep) bits |= stress_lanes(t, e + lane) << lane;
+        t.over_limit[e] = static_cast<uint8_t>(bits);
     }
 }
 

@@ -58,6 +58,22 @@ HWY_INLINE void store(V3 a, float* x, float* y, float* z) {
     hn::StoreU(a.z, d, z);
 }
 
+using Indices = hn::RebindToUnsigned<Floats>;
+/// Floats by their indices. g++ 12's gather intrinsic without a source merges into a stale register and waits for it; a
+/// zeroed source does not.
+HWY_INLINE V gather(const float* values, hn::Vec<Indices> index) {
+#if HWY_TARGET <= HWY_AVX2
+    const __m256 all = _mm256_castsi256_ps(_mm256_set1_epi32(-1));
+    return V{_mm256_mask_i32gather_ps(_mm256_setzero_ps(), values, index.raw, all, 4)};
+#else
+    alignas(32) uint32_t row[kStep];
+    alignas(32) float gathered[kStep];
+    hn::Store(index, Indices(), row);
+    for (uint32_t lane = 0; lane < kStep; ++lane) gathered[lane] = values[row[lane]];
+    return hn::Load(Floats(), gathered);
+#endif
+}
+
 #if HWY_TARGET == HWY_SCALAR
 
 template <int kStride = 1>
