@@ -120,11 +120,12 @@ ChosenHeading tip_heading(ShellView shell, uint32_t vertex, const HeadingFan& fa
     return choose_heading(fan, x, y, face);
 }
 
-void choose_candidates(ShellView shell, const CrackLimits& limits, const HeadingFan& fan, float time,
+void choose_candidates(ShellView shell, const CrackLimits& limits, float time, HeadingFan& fan,
                        Candidates& candidates) {
     candidates.count = 0;
     collect_tips(shell, limits, time, candidates);
     const uint32_t tips = candidates.count;
+    if (tips > 0) fan = HeadingFan(shell.state.materials.heading_power[shell.shells().material[shell.row]]);
     float raise = 1;
     while (!collect_starts(shell, raise * limits.start, tips, candidates) && raise < kMostRaise) raise *= kRaise;
     // Equally stressed everywhere: the first of them by element, as many as fit.

@@ -45,8 +45,7 @@ ChosenHeading tip_heading(ShellView shell, uint32_t vertex, const HeadingFan& fa
 
 /// Tips first, then the largest ratio, then the lowest vertex. Elements.principal is the quick filter: the largest
 /// principal value of a mean of tensors is at most the largest of theirs, so no vertex is missed. Starts: vertices
-/// without crack that are not banned. Tips: those whose time has come.
-void choose_candidates(ShellView shell, const CrackLimits& limits, const HeadingFan& fan, float time,
-                       Candidates& candidates);
+/// without crack that are not banned. Tips: those whose time has come. `fan` is made when there are tips.
+void choose_candidates(ShellView shell, const CrackLimits& limits, float time, HeadingFan& fan, Candidates& candidates);
 
 }  // namespace cullet

@@ -155,16 +155,11 @@ void begin_cracks(ShellView shell, bool is_fragment) {
 uint32_t grow_cracks(State& state, Row<Tasks> task, CrackSink& sink) {
     Tasks& tasks = state.tasks;
     const ShellView shell(state, tasks.shell[task]);
-    const uint32_t material = state.shells.material[shell.row];
     const float time = static_cast<float>(tasks.steps_done[task]) * tasks.time_step[task];
-    Batch batch{shell,
-                crack_limits(shell, tasks.strength_scale[task]),
-                HeadingFan(state.materials.heading_power[material]),
-                time,
-                sink,
-                {}};
+    Batch batch{shell, crack_limits(shell, tasks.strength_scale[task]), {}, time, sink, {}};
     Candidates candidates;
-    choose_candidates(shell, batch.limits, batch.fan, time, candidates);
+    choose_candidates(shell, batch.limits, time, batch.fan, candidates);
+    if (candidates.count == 0) return 0;
     const uint32_t cuts_before = sink.cut_edges, starts_before = sink.starts;
     bool is_whole = true;
     for (uint32_t i = 0; i < candidates.count; ++i) {

@@ -19,7 +19,7 @@ FaceStress in_axes(const VertexStress& s, Vec3 x, Vec3 y) {
 }
 
 ChosenHeading choose_heading(const HeadingFan& fan, Vec3 x, Vec3 y, const FaceStress (&face)[2]) {
-    ChosenHeading best;
+    float most = 0, best_cosine = 1, best_sine = 0;
     for (int k = 0; k <= kHeadingSteps; ++k) {
         for (const float sign : {1.0f, -1.0f}) {
             const float s = sign * fan.sine[k], c = fan.cosine[k];
@@ -27,12 +27,13 @@ ChosenHeading choose_heading(const HeadingFan& fan, Vec3 x, Vec3 y, const FaceSt
                 // The crack's normal is (-s, c).
                 const float across = s * s * t.xx + c * c * t.yy - 2 * s * c * t.xy;
                 const float value = across * fan.weight[k];
-                if (!(value > best.stress)) continue;
-                best = {normalised(c * x + s * y), value};
+                if (!(value > most)) continue;
+                most = value, best_cosine = c, best_sine = s;
             }
         }
     }
-    return best;
+    if (!(most > 0)) return {};
+    return {normalised(best_cosine * x + best_sine * y), most};
 }
 
 Vec3 into_plane(Vec3 direction, Vec3 normal) {

@@ -5,9 +5,10 @@
 
 namespace cullet {
 
-/// The directions phi = -60, -55, .. 60 degrees from a heading and their weights cos(phi)^q. Made once a call of
-/// grow_cracks: the powers need a logarithm and an exponential each.
+/// The directions phi = -60, -55, .. 60 degrees from a heading and their weights cos(phi)^q. Made once a check that has
+/// tips to look at: the powers need a logarithm and an exponential each.
 struct HeadingFan {
+    HeadingFan() = default;
     explicit HeadingFan(float power);
     float sine[kHeadingSteps + 1], cosine[kHeadingSteps + 1], weight[kHeadingSteps + 1];
 };
