@@ -38,9 +38,13 @@ void AnyTable::clear_rows(uint32_t first, uint32_t count) {
 }
 
 void AnyTable::commit_rows(uint32_t count) {
+    const uint32_t wanted = count < limit_ ? count : limit_;
+    if (wanted <= committed_) return;
     for (const ColumnInfo& c : *columns_)
         for (int a = 0; a < c.lanes * c.sides; ++a)
-            commit_memory(column_memory(c, a), size_t{count < limit_ ? count : limit_} * c.row_bytes);
+            commit_memory(column_memory(c, a) + size_t{committed_} * c.row_bytes,
+                          size_t{wanted - committed_} * c.row_bytes);
+    committed_ = wanted;
 }
 
 uint64_t AnyTable::hash(uint64_t seed) const {

@@ -108,6 +108,7 @@ class AnyTable {
     /// Copies all columns of [from, from + count) to [to, to + count) of this table or another of the same type.
     void copy_rows(const AnyTable& source, uint32_t from, uint32_t to, uint32_t count);
     void clear_rows(uint32_t first, uint32_t count);
+    /// Pages of the first `count` rows, so that nobody waits for them later. Costs nothing when they are there.
     void commit_rows(uint32_t count);
 
     uint64_t hash(uint64_t seed) const;
@@ -134,7 +135,7 @@ class AnyTable {
     explicit AnyTable(uint32_t limit) : limit_(limit) {}
     ~AnyTable() = default;
 
-    uint32_t size_ = 0, limit_ = 0;
+    uint32_t size_ = 0, limit_ = 0, committed_ = 0;
     const char* name_ = "";
     const std::vector<ColumnInfo>* columns_ = nullptr;
 };
@@ -157,6 +158,7 @@ class Table : public AnyTable {
     void swap(Self& other) {
         std::swap(size_, other.size_);
         std::swap(limit_, other.limit_);
+        std::swap(committed_, other.committed_);
         for (const ColumnInfo& c : list()) {
             auto* mine =
                 reinterpret_cast<ColumnMemory*>(reinterpret_cast<std::byte*>(static_cast<Self*>(this)) + c.offset);

@@ -9,6 +9,7 @@
 #include "systems/cook/materials.hpp"
 #include "systems/cook/model_contents.hpp"
 #include "systems/damage/damage_loop.hpp"
+#include "systems/damage/working_room.hpp"
 #include "systems/fragments/body_rows.hpp"
 #include "systems/fragments/rigid_shape.hpp"
 #include "systems/rigid/body_id.hpp"
@@ -343,6 +344,16 @@ Result<Row<Shells>> pinned_copy(State& state, Row<Shells> source, const SpawnSet
     return copy;
 }
 
+// Pages for a hit on this shell are asked for at the end of the next step.
+void make_ready(WorldData& d, Row<Shells> shell) {
+    const ShellRoom room = working_room(ShellView(d.state, shell));
+    ShellRoom& hit = d.room_ahead.hit;
+    hit.vertices = std::max(hit.vertices, room.vertices), hit.elements = std::max(hit.elements, room.elements);
+    hit.hinges = std::max(hit.hinges, room.hinges), hit.cells = std::max(hit.cells, room.cells);
+    hit.blocks = std::max(hit.blocks, room.blocks), hit.links = std::max(hit.links, room.links);
+    hit.points = std::max(hit.points, d.state.shells.points[shell].count);
+}
+
 }  // namespace
 
 Result<BodyId> World::spawn(ModelId id, const SpawnSettings& settings) {
@@ -377,6 +388,7 @@ Result<BodyId> World::spawn(ModelId id, const SpawnSettings& settings) {
         return Error{"limits.view_vertices is reached (" + std::to_string(state.view_vertices.limit()) +
                      "); raise it."};
     }
+    make_ready(d, shell);
     const bool is_static = settings.pin_count > 0;
     fill_body(bodies, body, is_static ? BodyKind::Static : BodyKind::Dynamic, settings.pose,
               is_static ? Motion{} : settings.motion, settings.contact,

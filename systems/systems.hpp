@@ -68,6 +68,9 @@ void fall_debris(Rows<Debris> debris, Step step, InOut<&Debris::position> positi
 /// The drawn mesh of each shell that changed.
 void draw_shells(Each<ShellChanged> changed, ShellTables shells, Bodies& bodies, ViewVertices& vertices,
                  ViewIndices& indices);
+/// Pages of memory for the next hit, asked for in a quiet frame before it comes.
+void commit_pages(Serial, const RoomAhead& ahead, const Events<TaskOpened>& opened, const Events<TaskEnded>& ended,
+                  ShellTables shells, ViewVertices& view_vertices, ViewIndices& view_indices);
 
 // ---- inner loop of a brittle thick shell: repeated for one task
 // -----------------------------------------------------------

@@ -31,6 +31,11 @@ struct ShellChanged {
     Row<Bodies> body;
 };
 
+/// Room of the largest hit that may come: pages for two of it lie ready, a working copy and its pieces.
+struct RoomAhead {
+    ShellRoom hit;
+};
+
 struct DamageLoop;
 
 /// What the game set, as the systems read it.
@@ -62,6 +67,7 @@ struct WorldData {
     Step step_info;
     DamageSettings damage_settings;
     DamageCounts counts;
+    RoomAhead room_ahead;
     std::unique_ptr<RigidWorld> rigid;
     std::unique_ptr<DamageLoop> damage_loop;
     Arena arena;
@@ -94,6 +100,8 @@ T& WorldData::resource() {
         return step_info;
     else if constexpr (std::is_same_v<T, DamageSettings>)
         return damage_settings;
+    else if constexpr (std::is_same_v<T, RoomAhead>)
+        return room_ahead;
     else if constexpr (std::is_same_v<T, DamageCounts>)
         return counts;
     else if constexpr (std::is_same_v<T, RigidWorld>)
