@@ -8,8 +8,8 @@ namespace cullet {
 namespace {
 
 // Of a patch's radius: the disc that bears a blow, 0.35 h where the patch is 3 h wide. Doubled, a brick wall of 0.1 m
-// bears 620 kN instead of 155 and throws a ball of 30 kg at 10 m/s back at 2.7 m/s; halved, it bears 39 kN and stops
-// the ball without breaking. It goes with the patch and not with h, because on a coarse mesh, where patches are wider,
+// bears 620 kN instead of 155 and throws a ball of 30 kg at 10 m/s back at 2.7 m/s; halved, it bears 39 kN and does
+// not break at all. It goes with the patch and not with h, because on a coarse mesh, where patches are wider,
 // whole bodies crack later: with 0.35 h a coarse globe of glass did not break at 30 m/s.
 constexpr double kBearingRadius = 0.117;
 // Of a ball's radius: what it touches itself, and the least that a patch reaches.
