@@ -14,6 +14,7 @@ struct Materials : Table<Materials> {
     Column<float> tensile_strength{*this, "tensile_strength",
                                    "Pa"};  // for loads of seconds; the hidden run takes twice that
     Column<float> fracture_energy{*this, "fracture_energy", "J/m2"};  // G_c
+    Column<float> crush_strength{*this, "crush_strength", "Pa"};      // H: pressure under which the struck face crushes
     Column<float> restitution{*this, "restitution"};
     Column<float> friction{*this, "friction"};
     Column<float> heading_power{*this, "heading_power"};   // q of C1: how straight cracks run; 6, glass 30

@@ -82,9 +82,10 @@ struct Vertices : Table<Vertices> {
     Column<uint32_t> crack_start{*this, "crack_start"};  // vertex where the tip's crack started (its own root)
     Column<uint8_t> is_start_banned{*this, "is_start_banned"};  // within 3 l of a cut of this run (C2)
     // Hidden run: displacements about the rest shape, body axes. Zero while no task runs.
-    Column<Vec3> displacement{*this, "displacement", "m"};     // u
-    Column<Vec3> velocity{*this, "velocity", "m/s"};           // v
-    Column<Float4, Buffers::Two> probe{*this, "probe", "m"};   // u + beta v, where forces are evaluated; .w is 0
+    Column<Vec3> displacement{*this, "displacement", "m"};    // u
+    Column<Vec3> velocity{*this, "velocity", "m/s"};          // v
+    Column<Float4, Buffers::Two> probe{*this, "probe", "m"};  // u + beta v, where forces are evaluated; .w is 0
+    Column<float> crush{*this, "crush", "m"};  // how deep a striker has crushed the face in this run, along its blow
     Column<float> stiffness_scale{*this, "stiffness_scale"};   // B7's limit at this vertex, in (0, 1]
     Column<Vec3> drawn_shift{*this, "drawn_shift", "m"};       // smooths drawn crack lines (C6); nothing else sees it
     Column<uint32_t> copy{*this, "copy", "1", Keep::Scratch};  // make_piece: row in the piece being made

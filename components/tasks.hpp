@@ -107,8 +107,10 @@ struct PatchVertices : Table<PatchVertices> {
     using Table::Table;
     static constexpr const char* kName = "patch_vertices";
     Column<uint32_t> vertex{*this, "vertex"};
-    Column<float> stiffness{*this, "stiffness", "N/m"};  // k_c w_i
-    Column<float> force{*this, "force", "N"};            // along the normal, from the displacements before the step
+    Column<float> stiffness{*this, "stiffness", "N/m"};                  // k_c w_i
+    Column<float> crushed_stiffness{*this, "crushed_stiffness", "N/m"};  // of what has been crushed, as it unloads
+    Column<float> yield_force{*this, "yield_force", "N"};                // w_i H A: what is harder pressed is crushed
+    Column<float> force{*this, "force", "N"};  // along the normal, from the displacements before the step
 };
 
 }  // namespace cullet

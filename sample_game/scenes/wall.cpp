@@ -34,7 +34,8 @@ Result<ScenePlan> wall_plan(const SceneInput& input) {
     ball.mass = static_cast<float>(keys["scene.mass_kg"]);
     ball.pose.position = {static_cast<float>(0.5 * seeded(keys, 1)), static_cast<float>(0.95 + 0.3 * seeded(keys, 2)),
                           1.5f};
-    ball.motion.velocity = {0, 0.3f, -static_cast<float>(keys["scene.speed_mps"])};
+    // At 10 m/s it flies level when it arrives.
+    ball.motion.velocity = {0, 1.2f, -static_cast<float>(keys["scene.speed_mps"])};
     plan.balls.push_back(ball);
     plan.camera = {{1.9f, 1.5f, 3.0f}, {-0.05f, 0.75f, -0.1f}, 0.72f};
     return plan;

@@ -69,6 +69,7 @@ constexpr Rule kRules[] = {
     {"vertices", "crack_start", or_none(Is::Vertex)},
     {"vertices", "is_start_banned", Is::Number, 0, 1},
     {"vertices", "displacement", Is::Number, 0, 0},
+    {"vertices", "crush", Is::Number, 0, 0},
     {"vertices", "velocity", Is::Number, 0, 0},
     {"vertices", "probe", Is::Number, 0, 0},
     {"vertices", "stiffness_scale", Is::Number, 0, 1},

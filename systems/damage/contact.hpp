@@ -4,6 +4,7 @@
 //     contact_forces(side) -> integrate_packs over all packs -> apply_contact(side)
 #pragma once
 #include "components/state.hpp"
+#include "systems/damage/crush.hpp"
 
 namespace cullet {
 
@@ -12,7 +13,11 @@ namespace cullet {
 /// patch within r_c = max(3 h, 1.3 l, 0.35 R) of its vertex, when it lies on the same side of the surface.
 void build_patches(State& state, Row<Tasks> task);
 
-/// Forces from the displacements before the step: k w_i max(0, travel - n.u_i) along n. True when some spring pushes.
+/// The spring of a row of PatchVertices, whose stiffness must not be 0.
+PatchSpring patch_spring(const PatchVertices& patches, uint32_t row);
+
+/// Forces along n from the depths travel - n.u_i before the step, and what they crush (crush.hpp). True when some spring
+/// pushes.
 bool contact_forces(State& state, Row<Tasks> task);
 
 /// After the fused pass of the step that read `side` of the probe: adds dt f/m to v, dt^2 f/m to u, dt (dt + beta) f/m

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "systems/damage/contact.hpp"
 #include "systems/damage/stress_check.hpp"
 
 namespace cullet {
@@ -30,9 +31,11 @@ void add_contacts(const State& state, Row<Tasks> task, const ShellView& shell, T
         const Vec3d n(contacts.normal[c]);
         const uint32_t begin = contacts.first_patch[c];
         for (uint32_t p = begin; p < begin + contacts.patch_count[c]; ++p) {
-            const Vec3d u(state.vertices.displacement[shell.vertex(patches.vertex[p])]);
-            const double depth = std::max(0.0, contacts.striker_travel[c] - dot(n, u));
-            energy.contact += 0.5 * patches.stiffness[p] * depth * depth;
+            if (!(patches.stiffness[p] > 0)) continue;
+            const uint32_t row = shell.vertex(patches.vertex[p]);
+            const Vec3d u(state.vertices.displacement[row]);
+            const auto depth = static_cast<float>(contacts.striker_travel[c] - dot(n, u));
+            energy.contact += patch_spring(patches, p).energy(depth, state.vertices.crush[row]);
         }
     }
 }

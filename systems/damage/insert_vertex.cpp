@@ -47,6 +47,7 @@ void interpolate_vertex(Vertices& v, uint32_t p, uint32_t q, uint32_t w, float t
     v.crack_start[w] = kNone;
     v.is_start_banned[w] = v.is_start_banned[p] || v.is_start_banned[q];
     v.displacement.set(w, mix(v.displacement[p], v.displacement[q], tau));
+    v.crush[w] = mix(v.crush[p], v.crush[q], tau);
     v.velocity.set(w, mix(v.velocity[p], v.velocity[q], tau));
     for (int side = 0; side < 2; ++side) {
         const Float4 a = v.probe.data(side)[p], b = v.probe.data(side)[q];

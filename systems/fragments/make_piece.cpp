@@ -156,6 +156,7 @@ void copy_vertices(const ShellView& shell, const ShellView& piece, uint32_t coun
         vertices.ready_time[row] = 0;
         vertices.is_start_banned[row] = 0;
         vertices.displacement.set(row, {});
+        vertices.crush[row] = 0;
         vertices.velocity.set(row, {});
         for (int side : {0, 1}) vertices.probe.set(row, {}, side);
     }

@@ -10,6 +10,7 @@ void set_motion(Vertices& vertices, uint32_t row, Vec3 velocity, float beta) {
     const Vec3 probe = beta * velocity;
     vertices.displacement.set(row, {});
     vertices.velocity.set(row, velocity);
+    vertices.crush[row] = 0;
     for (int side = 0; side < 2; ++side) vertices.probe.set(row, {probe.x, probe.y, probe.z, 0}, side);
 }
 

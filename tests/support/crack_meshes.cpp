@@ -115,7 +115,8 @@ Shell make_shell_of(const Surface& surface, uint32_t spare_vertices, uint32_t sp
     state.materials.append(1);
     Materials& m = state.materials;
     m.density[0] = 2400, m.young_modulus[0] = 70e9f, m.poisson_ratio[0] = 0.2f, m.tensile_strength[0] = 50e6f;
-    m.fracture_energy[0] = 20, m.heading_power[0] = 6, m.tip_factor[0] = 0.6f, m.run_seconds[0] = 1e-3f;
+    m.fracture_energy[0] = 20, m.crush_strength[0] = 6e9f, m.heading_power[0] = 6, m.tip_factor[0] = 0.6f,
+    m.run_seconds[0] = 1e-3f;
 
     std::map<Edge, std::pair<uint32_t, uint32_t>> sides;
     for (uint32_t e = 0; e < element_count; ++e)

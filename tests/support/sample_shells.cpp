@@ -120,6 +120,7 @@ Row<Materials> sample_material(State& state, float density) {
     state.materials.poisson_ratio[row] = 0.2f;
     state.materials.tensile_strength[row] = 50e6f;
     state.materials.fracture_energy[row] = 20;
+    state.materials.crush_strength[row] = 6e9f;
     return row;
 }
 

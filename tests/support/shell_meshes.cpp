@@ -221,6 +221,7 @@ Row<Materials> add_material(State& state, double young_modulus, double poisson_r
     state.materials.density[m] = static_cast<float>(density);
     state.materials.tensile_strength[m] = 50e6f;
     state.materials.fracture_energy[m] = 20;
+    state.materials.crush_strength[m] = 6e9f;
     state.materials.restitution[m] = 0.6f;
     state.materials.friction[m] = 0.45f;
     state.materials.heading_power[m] = 6;
@@ -259,6 +260,7 @@ Row<Tasks> make_test_task(State& state, Row<Shells> shell, uint32_t task) {
     state.tasks.shell[t] = shell;
     state.tasks.state[t] = static_cast<uint8_t>(TaskState::Running);
     state.tasks.first_contact[t] = task * kMostContacts;
+    state.tasks.strength_scale[t] = 1;
     state.tasks.time_step[t] = state.shells.time_step[shell];
     state.tasks.damping_time[t] = 0.15f * state.shells.time_step[shell];
     return t;

@@ -163,6 +163,65 @@ TEST(Contact, WhatALiftPutsInIsNoEnergyOutOfNothing) {
     EXPECT_GT(energy.work, 1.5 * 2 * 2 * f.state.shells.mass[f.shell]);  // impulse times speed; it leaves at up to 4 m/s
 }
 
+TEST(Contact, ASpringBelowItsYieldForceIsElasticAndBeyondItGivesWayAtThatForce) {
+    const PatchSpring spring{1e6f, 4e6f, 1000};  // N/m, N/m, N: yields at 1 mm
+    float crush = 0;
+    for (const float depth : {-1e-3f, 0.2e-3f, 0.9e-3f, 0.3e-3f, 0.0f}) {
+        EXPECT_FLOAT_EQ(spring.force(depth, crush), 1e6f * std::max(0.0f, depth));
+        EXPECT_EQ(crush, 0);
+    }
+    for (const float depth : {1.5e-3f, 2e-3f, 5e-3f}) {
+        EXPECT_FLOAT_EQ(spring.force(depth, crush), 1000);
+        EXPECT_NEAR(crush, depth - 1e-3f, 1e-9f);
+    }
+}
+
+TEST(Contact, WhatHasBeenCrushedReturnsTheSquareOfTheRestitutionAndNeverPulls) {
+    const PatchSpring spring{1e6f, 4e6f, 1000};
+    float crush = 0;
+    spring.force(5e-3f, crush);
+    double given_back = 0;
+    const float step = 1e-6f;
+    for (float depth = 5e-3f; depth > -1e-3f; depth -= step) {
+        const float force = spring.force(depth, crush);
+        EXPECT_GE(force, 0);
+        given_back += double{force} * step;
+    }
+    const double elastic = 0.5 * 1000.0 * 1000.0 / 1e6;
+    EXPECT_NEAR(given_back, elastic / 4, 0.01 * elastic);
+    EXPECT_NEAR(spring.energy(5e-3f, crush), elastic / 4, 1e-4 * elastic);
+    // Pressed again it meets the same line.
+    EXPECT_FLOAT_EQ(spring.force(5e-3f, crush), 1000);
+}
+
+TEST(Contact, WhatIsCrushedStaysCrushedWhenPatchesAreLaidAnew) {
+    Fixture f(grid_mesh(20, 0.2, 0.2), 0.005);
+    f.state.materials.crush_strength[0] = 1e7f;
+    const uint32_t c = f.add_contact({0.1f, 0.1f, 0}, {0, 0, -1}, 1, 0.02f, 3);
+    build_patches(f.state, f.task);
+    start_hidden(f.state, f.task);
+    for (int i = 0; i < 400; ++i) step_task(f.state, f.task);
+    const double speed = f.state.task_contacts.striker_speed[c];
+    const auto crush_of = [&](uint32_t p) {
+        return f.state.vertices.crush[f.view().vertex(f.state.patch_vertices.vertex[p])];
+    };
+    const uint32_t first = f.state.task_contacts.first_patch[c], count = f.state.task_contacts.patch_count[c];
+    std::vector<float> crush, force;
+    contact_forces(f.state, f.task);
+    for (uint32_t p = first; p < first + count; ++p) {
+        crush.push_back(crush_of(p)), force.push_back(f.state.patch_vertices.force[p]);
+    }
+    EXPECT_GT(*std::max_element(crush.begin(), crush.end()), 1e-5f);
+    build_patches(f.state, f.task);
+    contact_forces(f.state, f.task);
+    for (uint32_t p = first; p < first + count; ++p) {
+        EXPECT_EQ(crush_of(p), crush[p - first]);
+        EXPECT_EQ(f.state.patch_vertices.force[p], force[p - first]);
+    }
+    EXPECT_LT(task_energy(f.state, f.task).total(), 0.99 * f.state.tasks.start_energy[f.task]);
+    EXPECT_LT(speed, 3);
+}
+
 TEST(Contact, TooLongAStepIsSeenByTheEnergyTest) {
     Fixture f(sphere_mesh(6, 0.1), 0.005);
     f.state.tasks.time_step[f.task] *= 2.2f;
