@@ -13,7 +13,7 @@ struct Batch {
     ShellView shell;
     CrackLimits limits;
     HeadingFan fan;
-    float time;  // s, of the run
+    float time, check_interval;  // s, of the run and between two checks
     CrackSink& sink;
     Touched touched;
 };
@@ -29,9 +29,15 @@ Aim aim_at(Batch& batch, uint32_t vertex, Vec3 normal, Vec3 direction) {
     return found;
 }
 
+// When the crack came to this tip. A tip that went on at the first check that found it ready did so on time: counted
+// from the check instead, a crack whose step takes two and a half checks would run a fifth too slow.
+float arrival_time(const Batch& batch, float ready_time) {
+    return batch.time - ready_time < batch.check_interval ? ready_time : batch.time;
+}
+
 // Interior ends become tips of the crack that started at `root`, headed as their arms; starts are banned round the
 // cuts.
-void finish_cut(Batch& batch, Vec3 place, const Ends& ends, const Vec3* heading, uint32_t root) {
+void finish_cut(Batch& batch, Vec3 place, float arrival, const Ends& ends, const Vec3* heading, uint32_t root) {
     const ShellView shell = batch.shell;
     Vertices& vertices = shell.state.vertices;
     ban_starts(shell, place);
@@ -43,18 +49,21 @@ void finish_cut(Batch& batch, Vec3 place, const Ends& ends, const Vec3* heading,
         walk_ring(shell, ends.end[i], ring);
         vertices.crack[row] = static_cast<uint8_t>(CrackState::Tip);
         vertices.heading.set(row, into_plane(heading[i], ring_normal(shell, ring)));
-        vertices.ready_time[row] = batch.time + length(vertices.rest[row] - place) / batch.limits.tip_speed;
+        vertices.ready_time[row] = arrival + length(vertices.rest[row] - place) / batch.limits.tip_speed;
         vertices.crack_start[row] = root;
     }
     batch.sink.cut_edges += ends.count;
 }
 
 bool try_cut(Batch& batch, uint32_t vertex, Ends& ends, const Vec3* heading, uint32_t root) {
-    const Vec3 place = batch.shell.state.vertices.rest[batch.shell.vertex(vertex)];
+    const Vertices& vertices = batch.shell.state.vertices;
+    const uint32_t row = batch.shell.vertex(vertex);
+    const Vec3 place = vertices.rest[row];
+    const float arrival = root == vertex ? batch.time : arrival_time(batch, vertices.ready_time[row]);
     const CutOutcome outcome = cut_ends(batch.shell, vertex, ends, batch.touched);
     batch.sink.refused += outcome == CutOutcome::Full;
     if (outcome != CutOutcome::Cut) return false;
-    finish_cut(batch, place, ends, heading, root);
+    finish_cut(batch, place, arrival, ends, heading, root);
     return true;
 }
 
@@ -156,7 +165,8 @@ uint32_t grow_cracks(State& state, Row<Tasks> task, CrackSink& sink) {
     Tasks& tasks = state.tasks;
     const ShellView shell(state, tasks.shell[task]);
     const float time = static_cast<float>(tasks.steps_done[task]) * tasks.time_step[task];
-    Batch batch{shell, crack_limits(shell, tasks.strength_scale[task]), {}, time, sink, {}};
+    const float check_interval = static_cast<float>(kStepsAStressCheck) * tasks.time_step[task];
+    Batch batch{shell, crack_limits(shell, tasks.strength_scale[task]), {}, time, check_interval, sink, {}};
     Candidates candidates;
     choose_candidates(shell, batch.limits, time, batch.fan, candidates);
     if (candidates.count == 0) return 0;
