@@ -37,6 +37,8 @@ bool measure_scene(const char* name, unsigned threads, uint32_t repeat, Figures&
     figures.add(prefix + "a unit", yardstick("unit_ns"), "ns");
     figures.add(prefix + "the budget as time", yardstick("budget_ms"), "ms");
     figures.add(prefix + "frames that broke something, p99", static_cast<double>(r.fracture_frames.p99_ms), "ms");
+    figures.add(prefix + "frames that worked on hits, p99 without the rigid step", r.damage_frames.p99_budgets,
+                "budgets", std::string(name) != "pile" ? 1.25 : 0);
     const bool has_limit = std::string(name) != "pile";
     figures.add(prefix + "hitch", r.hitch, "x", has_limit ? 2 : 0);
     figures.add(prefix + "hits", static_cast<double>(r.tasks.opened), "");

@@ -58,7 +58,12 @@ struct Report {
     struct {
         uint64_t count = 0;
         float p50_ms = 0, p99_ms = 0, max_ms = 0;
-    } fracture_frames;
+    } fracture_frames;  // in which something broke
+    struct {
+        uint64_t count = 0;
+        float p50_ms = 0, p99_ms = 0, max_ms = 0;
+        double p99_budgets = 0;  // of the frame without the rigid step, in times of the budget
+    } damage_frames;             // in which hits were worked on
     std::map<std::string, double> yardsticks;
     struct {
         uint64_t opened = 0, broke = 0, dropped = 0, redone = 0, late = 0, frames_held = 0, ahead_hits = 0,

@@ -26,10 +26,11 @@ void print_summary(const Report& r) {
                r.tasks.broke, r.tasks.late, r.tasks.dropped, r.tasks.frames_held);
     fmt::print("  mass         {:.6f} kg put in, {:.6f} kg at the end\n", r.mass_kg.start, r.mass_kg.end);
     fmt::print("  kinetic      {:.4g} J at the most, {:.4g} J at the end\n", r.energy_j.peak, r.energy_j.end);
+    fmt::print("  frame        p50 {:.2f}  p99 {:.2f}  worst {:.2f} ms\n", r.frame_ms.p50, r.frame_ms.p99,
+               r.frame_ms.max);
     fmt::print(
-        "  frame        p50 {:.2f}  p99 {:.2f}  worst {:.2f} ms; {} frames broke something, worst {:.2f} ms, hitch "
-        "{:.2f}\n",
-        r.frame_ms.p50, r.frame_ms.p99, r.frame_ms.max, r.fracture_frames.count, r.fracture_frames.max_ms, r.hitch);
+        "  broke        in {} frames, worst {:.2f} ms, hitch {:.2f}; {} frames worked on hits, p99 {:.2f} budgets\n",
+        r.fracture_frames.count, r.fracture_frames.max_ms, r.hitch, r.damage_frames.count, r.damage_frames.p99_budgets);
     fmt::print("  allocations  {} in steps from frame {} on, {} of the rigid engine\n", r.allocations_in_frames,
                kFirstCountedFrame, r.allocations_in_rigid);
     for (const auto& [setting, count] : r.refused) fmt::print("  refused      {} times: raise {}\n", count, setting);

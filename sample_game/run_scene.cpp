@@ -125,20 +125,35 @@ std::string fold(RunRecord& into, const RunRecord& other, uint32_t repeat) {
     return "";
 }
 
+/// Of each frame, ms: what the rigid world took.
+std::vector<float> rigid_times(const RunRecord& record) {
+    std::vector<float> sum(record.frame_ms.size());
+    for (size_t z = 0; z < record.zone_names.size(); ++z)
+        if (record.zone_names[z] == "detect_contacts" || record.zone_names[z] == "solve_rigid")
+            for (size_t f = 0; f < sum.size(); ++f) sum[f] += record.zone_ms[z][f];
+    return sum;
+}
+
 void fill_times(const ScenePlan& plan, const RunRecord& record, Report& report) {
     report.frame_ms = spread_of(record.frame_ms);
     for (size_t z = 0; z < record.zone_names.size(); ++z)
         report.systems[record.zone_names[z]] = spread_of(record.zone_ms[z], record.zone_rows[z]);
-    std::vector<float> broke, quiet;
+    const std::vector<float> rigid = rigid_times(record);
+    std::vector<float> broke, quiet, damage, damage_alone;
     for (size_t f = 0; f < record.frame_ms.size(); ++f) {
         if (record.broke[f]) broke.push_back(record.frame_ms[f]);
+        if (record.has_damage[f]) damage.push_back(record.frame_ms[f]);
+        if (record.has_damage[f]) damage_alone.push_back(record.frame_ms[f] - rigid[f]);
         if (!record.broke[f] && !record.has_damage[f]) quiet.push_back(record.frame_ms[f]);
     }
     report.fracture_frames = {broke.size(), percentile(broke, 0.5), percentile(broke, 0.99), percentile(broke, 1)};
+    report.damage_frames = {damage.size(), percentile(damage, 0.5), percentile(damage, 0.99), percentile(damage, 1), 0};
     if (!plan.models.empty()) report.yardsticks = measure_yardsticks(plan.models[0]);
     const double budget_ms =
         1e-6 * static_cast<double>(plan.settings.units_a_frame) * report.yardsticks["unit_ns"] / plan.settings.threads;
     report.yardsticks["budget_ms"] = budget_ms;
+    if (budget_ms > 0)
+        report.damage_frames.p99_budgets = static_cast<double>(percentile(damage_alone, 0.99)) / budget_ms;
     report.hitch =
         static_cast<double>(report.fracture_frames.max_ms) / (static_cast<double>(percentile(quiet, 0.5)) + budget_ms);
 }

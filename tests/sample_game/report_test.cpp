@@ -37,6 +37,7 @@ TEST(Report, EveryPromisedFieldIsThere) {
                              "systems",
                              "hitch",
                              "fracture_frames",
+                             "damage_frames",
                              "yardsticks",
                              "tasks",
                              "sweeps",
