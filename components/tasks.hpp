@@ -97,6 +97,8 @@ struct TaskContacts : Table<TaskContacts> {
     Column<double> striker_speed{*this, "striker_speed", "m/s"};
     Column<double> impulse{*this, "impulse", "N s"};     // passed to the body along the normal so far
     Column<uint8_t> is_answered{*this, "is_answered"};   // the striker broke here first and has taken its own impulse
+    Column<Vec3d> answer{*this, "answer", "N s"};        // what it passed to the body then, world axes: waits
+    Column<uint8_t> is_heir_striker{*this, "is_heir_striker"};  // and its largest piece, which is the larger one's
     Column<float> radius{*this, "radius", "m"};          // r_c
     Column<uint32_t> first_patch{*this, "first_patch"};  // range in PatchVertices
     Column<uint32_t> patch_count{*this, "patch_count"};

@@ -33,7 +33,7 @@ void grant_units(Serial, Tasks& tasks, const Shells& shells, const DamageSetting
 /// Runs the inner loop of each open task for the steps it was granted, on all workers.
 void advance_damage(Serial, DamageLoop& loop);
 /// Holds bodies whose task goes on, releases those whose time is up or whose task ended.
-void settle_tasks(Serial, Step step, Tasks& tasks, const TaskContacts& contacts, Bodies& bodies, const Shells& shells,
+void settle_tasks(Serial, Step step, Tasks& tasks, TaskContacts& contacts, Bodies& bodies, const Shells& shells,
                   RigidWorld& rigid, const DamageSettings& settings, DamageCounts& counts, Events<TaskEnded>& ended,
                   Events<ImpactEvent>& impact_events);
 
@@ -45,7 +45,7 @@ void find_parts(Each<TaskEnded> ended, ShellTables shells, Tasks& tasks, Fragmen
 /// Plans, reserves and makes the bodies of the pieces, in order of mass; gives the striker the impulse that it really
 /// passed.
 void make_births(Serial, Step step, const Events<TaskEnded>& ended, ShellTables shells, Tasks& tasks,
-                 const TaskContacts& contacts, Fragments& fragments, Bodies& bodies, Debris& debris,
+                 TaskContacts& contacts, Fragments& fragments, Bodies& bodies, Debris& debris,
                  ViewVertices& view_vertices, ViewIndices& view_indices, RigidWorld& rigid,
                  const DamageSettings& settings, DamageCounts& counts, Arena& arena, Events<ShellChanged>& changed,
                  Events<CrackStartedEvent>& cracks, Events<FragmentBornEvent>& born, Events<DebrisEvent>& debris_events,
