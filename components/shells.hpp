@@ -200,8 +200,8 @@ struct StiffnessLinks : Table<StiffnessLinks> {
 struct Cells : Table<Cells> {
     using Table::Table;
     static constexpr const char* kName = "cells";
-    Column<uint32_t> first_point{*this, "first_point"};  // relative to the shell's points
-    Column<uint32_t> point_count{*this, "point_count"};  // <= 32; 0: the cell has lost all of its elements
+    Column<uint32_t> first_point{*this, "first_point"};      // relative to the shell's points
+    Column<uint32_t> point_count{*this, "point_count"};      // <= 32; 0: the cell has lost all of its elements
     Column<uint32_t> element_count{*this, "element_count"};  // live ones
     Column<uint8_t> is_stale{*this, "is_stale"};  // cracked since its points were chosen; the next break chooses anew
     // Scratch of make_piece: the part's elements of this cell as a list, and the cell that it is merged into.

@@ -42,6 +42,7 @@ State::State(const Limits& l)
       tasks(l.tasks),
       task_contacts(l.tasks * kMostContacts),
       patch_vertices(l.tasks * kMostPatchVertices),
+      queued_hits(l.queued_hits),
       fragments((l.tasks + 1) * kMostParts),
       view_vertices(l.view_vertices),
       view_indices(l.view_vertices * 2),
@@ -49,6 +50,7 @@ State::State(const Limits& l)
     tasks.append(l.tasks);
     task_contacts.append(l.tasks * kMostContacts);
     patch_vertices.append(l.tasks * kMostPatchVertices);
+    queued_hits.append(l.queued_hits);
     fragments.append((l.tasks + 1) * kMostParts);
 }
 
@@ -65,6 +67,25 @@ State::Pools::Pools(const State& s)
       points(s.hull_points.limit(), 1, ranges_of(s.shells)),
       view_vertices(s.view_vertices.limit(), 16, ranges_of(s.bodies)),
       view_indices(s.view_indices.limit(), 16, ranges_of(s.bodies)) {}
+
+// A hit takes a copy of all rows with a quarter more (working_room); what moves of the broken shell is less than it. A
+// drawn mesh has 6 corners an element and 6 a free edge, and the pieces' more than the body's.
+void State::commit_ahead(const ShellRoom& shell, uint32_t served) {
+    const auto commit = [&](AnyTable& table, const RangePool& pool, uint32_t rows) {
+        if (served > 0 && rows > 0 && table.commit_rows(pool.end() + rows)) --served;
+    };
+    commit(vertices, pools.vertices, 2 * shell.vertices + 512);
+    commit(elements, pools.elements, 2 * shell.elements + 1024);
+    commit(triangle_springs, pools.elements, 2 * shell.elements + 1024);
+    commit(hinges, pools.hinges, 2 * shell.hinges + 1536);
+    commit(stiffness_packs, pools.packs, 2 * (shell.vertices / kLanes));
+    commit(stiffness_blocks, pools.blocks, 2 * shell.blocks);
+    commit(stiffness_links, pools.links, 2 * shell.links);
+    commit(cells, pools.cells, 3 * shell.cells);
+    commit(hull_points, pools.points, 64 * shell.cells);
+    commit(view_vertices, pools.view_vertices, 12 * shell.elements);
+    commit(view_indices, pools.view_indices, 12 * shell.elements);
+}
 
 uint64_t State::hash() const {
     uint64_t hash = 0;

@@ -22,6 +22,12 @@ struct Limits {
     uint32_t models = 256;
     uint32_t view_vertices = 1u << 23;
     uint32_t debris = 8192;
+    uint32_t queued_hits = 256;
+};
+
+/// Rows that a shell needs. Packs are one for 8 vertices; blocks and links zero until the stiffness is assembled.
+struct ShellRoom {
+    uint32_t vertices = 0, elements = 0, hinges = 0, blocks = 0, links = 0, cells = 0, points = 0;
 };
 
 struct State {
@@ -44,6 +50,7 @@ struct State {
     Tasks tasks;
     TaskContacts task_contacts;
     PatchVertices patch_vertices;
+    QueuedHits queued_hits;
     Fragments fragments;
     ViewVertices view_vertices;
     ViewIndices view_indices;
@@ -61,14 +68,18 @@ struct State {
                           &State::elements,        &State::triangle_springs, &State::hinges,
                           &State::stiffness_packs, &State::stiffness_blocks, &State::stiffness_links,
                           &State::cells,           &State::hull_points,      &State::tasks,
-                          &State::task_contacts,   &State::patch_vertices,   &State::fragments,
-                          &State::view_vertices,   &State::view_indices};
+                          &State::task_contacts,   &State::patch_vertices,   &State::queued_hits,
+                          &State::fragments,       &State::view_vertices,    &State::view_indices};
     }
     /// The table of type T.
     template <class T>
     T& table() {
         return find<T, 0>();
     }
+
+    /// Pages behind the rows in use: room for a hit on a shell of these rows and for the pieces. Touches no value. At
+    /// most `tables` tables are served at once.
+    void commit_ahead(const ShellRoom& shell, uint32_t tables = kNone);
 
     uint64_t hash() const;
     std::string validate() const;
@@ -83,11 +94,6 @@ struct State {
         else
             return find<T, I + 1>();
     }
-};
-
-/// Rows that a shell needs. Packs are one for 8 vertices; blocks and links zero until the stiffness is assembled.
-struct ShellRoom {
-    uint32_t vertices = 0, elements = 0, hinges = 0, blocks = 0, links = 0, cells = 0, points = 0;
 };
 
 /// What a shell uses now: room for a copy of it.

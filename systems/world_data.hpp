@@ -50,7 +50,7 @@ struct DamageCounts {
     uint64_t opened = 0, broke = 0, whole = 0, dropped = 0, redone = 0, late = 0, frames_held = 0, clamped = 0;
     uint64_t cuts = 0, starts = 0, cuts_refused = 0;
     uint64_t units_used = 0, units_left = 0;  // of the last frame
-    double worst_rounding = 0;  // momentum that hidden runs lost, share of what the body had or got
+    double worst_rounding = 0;                // momentum that hidden runs lost, share of what the body had or got
     double impulse_to_static[3] = {0, 0, 0};  // N s, from damage to floors, pins and kinematic bodies
 };
 
@@ -77,6 +77,10 @@ struct WorldData {
     Events<RefusedEvent> refused_events;
     Events<FaultEvent> fault_events;
     Events<AsleepEvent> asleep_events;
+
+    /// Pages for a hit on a shell of this size, now and again after what broke has used them.
+    void make_ready(const ShellRoom& shell);
+    ShellRoom ready_for;  // the largest so far, table by table
 
     template <class T>
     T& table() {

@@ -89,9 +89,21 @@ const Hull* BulletWorld::find_same(const ConvexPiece& piece, const Hull* old_hul
     return found && found->point_count == piece.points.size() ? found : nullptr;
 }
 
+namespace {
+
+Hull* unlink(Hull*& list, const Hull* wanted) {
+    Hull** at = &list;
+    while (*at != wanted) at = &(*at)->next;
+    Hull* const found = *at;
+    *at = found->next;
+    return found;
+}
+
+}  // namespace
+
 // `old_axes` are those that the body's hulls so far stand in.
 void BulletWorld::set_pieces(Body& body, std::span<const ConvexPiece> pieces, float margin, const Quat& old_axes) {
-    Hull* const old_hulls = body.hulls;
+    Hull* old_hulls = body.hulls;
     body.hulls = nullptr;
     body.hull_count = 0;
     Hull** link = &body.hulls;
@@ -105,9 +117,11 @@ void BulletWorld::set_pieces(Body& body, std::span<const ConvexPiece> pieces, fl
         for (size_t k = 0; k < count; ++k) local[k] = rotate(to_axes, piece.points[k] - body.frame.centre);
         if (piece.same_body != cursor_body) cursor = nullptr;
         cursor_body = piece.same_body;
-        const Hull* const same =
-            piece.same_body == kNoRigid ? nullptr : find_same(piece, old_hulls, body.id, cursor);
-        Hull* const hull = hulls_.take();
+        const Hull* const same = piece.same_body == kNoRigid ? nullptr : find_same(piece, old_hulls, body.id, cursor);
+        // The body's own hulls are turned where they stand.
+        const bool is_own = same && piece.same_body == body.id;
+        Hull* const hull = is_own ? unlink(old_hulls, same) : hulls_.take();
+        if (is_own && cursor == same) cursor = same->next;
         if (same) {
             const Quat& axes = piece.same_body == body.id ? old_axes : bodies_[piece.same_body].frame.axes;
             build_hull_like(*hull, *same, matrix(to_axes * axes), {local, count}, margin, piece.cell);
@@ -115,6 +129,7 @@ void BulletWorld::set_pieces(Body& body, std::span<const ConvexPiece> pieces, fl
             build_hull(*hull, {local, count}, margin, piece.cell);
         }
         hull->ordinal = body.hull_count++;
+        hull->next = nullptr;
         *link = hull;
         link = &hull->next;
     }

@@ -296,6 +296,29 @@ bool reserve_view(Births& births, Plan& plan) {
     return true;
 }
 
+// Hits that wait for the body go on to the piece that owns the nearest vertex; a crumb takes its own along.
+void hand_on_hits(State& state, const Plan& plan) {
+    const ShellView shell(state, plan.broken);
+    QueuedHits& queued = state.queued_hits;
+    for (uint32_t q = 0; q < queued.size(); ++q) {
+        if (!queued.is_used[q] || queued.body[q] != plan.body) continue;
+        float least = 1e30f;
+        uint32_t owner = plan.largest;
+        for (uint32_t v = 0; v < shell.vertex_count(); ++v) {
+            const uint32_t row = shell.vertex(v), element = state.vertices.element[row];
+            if (element == kNone) continue;
+            const Vec3 away = state.vertices.rest[row] - queued.point[q];
+            if (dot(away, away) >= least) continue;
+            least = dot(away, away);
+            owner = state.elements.part[shell.element(element)];
+        }
+        if (plan.is_crumb[owner])
+            queued.clear_rows(q, 1);
+        else if (plan.child[owner].exists())
+            queued.body[q] = plan.child[owner];
+    }
+}
+
 // The smaller sides have moved (design section 3): the rest keeps its rows, those of the pieces die. What rows the body
 // had before tell which hulls are as they were.
 void keep_rest(Births& births, Plan& plan) {
@@ -303,6 +326,7 @@ void keep_rest(Births& births, Plan& plan) {
     const ShellView shell(state, plan.broken), before(state, state.bodies.shell[plan.body]);
     const Range points = state.shells.points[before.row], old_points = state.shells.points[shell.row];
     state.shells.points[shell.row] = plan.points;
+    hand_on_hits(state, plan);
     const ShellSums whole = sums_of(shell);
     ShellSums left;
     uint32_t left_elements = 0;
@@ -453,9 +477,9 @@ void break_body(Births& births, Row<Tasks> task) {
     const Row<Bodies> body = state.tasks.body[task];
     const Row<Shells> broken = state.tasks.shell[task];
     const ShellView shell(state, broken);
-    Plan plan = plan_of(
-        births, body, broken,
-        std::span(state.fragments.part.data() + size_t{task} * kMostParts, state.tasks.part_count[task]));
+    Plan plan =
+        plan_of(births, body, broken,
+                std::span(state.fragments.part.data() + size_t{task} * kMostParts, state.tasks.part_count[task]));
     if (!reserve_points(births, plan)) return;
     const HandoffReport report =
         rigid_handoff(shell,

@@ -38,7 +38,7 @@ void close_task(State& state, Row<Tasks> task, Step step) {
 }  // namespace
 
 void make_births(Serial, Step step, const Events<TaskEnded>& ended, ShellTables shells, Tasks& tasks,
-                 TaskContacts& contacts, Fragments&, Bodies& bodies, Debris&, ViewVertices&, ViewIndices&,
+                 TaskContacts& contacts, QueuedHits&, Fragments&, Bodies& bodies, Debris&, ViewVertices&, ViewIndices&,
                  RigidWorld& rigid, const DamageSettings& settings, DamageCounts& counts, Arena& arena,
                  Events<ShellChanged>& changed, Events<CrackStartedEvent>& cracks, Events<FragmentBornEvent>& born,
                  Events<DebrisEvent>& debris_events, Events<RefusedEvent>& refused, Events<FaultEvent>& faults) {

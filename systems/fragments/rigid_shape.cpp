@@ -5,8 +5,7 @@
 
 namespace cullet {
 
-std::span<const ConvexPiece> convex_pieces(const State& state, Row<Shells> shell, Arena& arena,
-                                           RigidId same_body) {
+std::span<const ConvexPiece> convex_pieces(const State& state, Row<Shells> shell, Arena& arena, RigidId same_body) {
     const Range cells = state.shells.cells[shell];
     const uint32_t first_point = state.shells.points[shell].first;
     const auto pieces = arena.take<ConvexPiece>(cells.count);
