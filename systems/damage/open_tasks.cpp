@@ -152,7 +152,9 @@ void queue_hits(std::span<const Impact> impacts, const Bodies& bodies, QueuedHit
     }
 }
 
-// The contact as it was: the striker comes at the speed that it had relative to the body then.
+// The contact as it was: striker and body meet at the speed that they had relative to each other then. Something that
+// does not yield must stand still, or it would do work on the body: then the body is given the speed. A late result
+// uses velocities relative to the body's mean alone, so either is as good.
 void lay_queued(State& state, Row<Tasks> task, uint32_t q) {
     Tasks& tasks = state.tasks;
     TaskContacts& contacts = state.task_contacts;
@@ -167,7 +169,11 @@ void lay_queued(State& state, Row<Tasks> task, uint32_t q) {
     contacts.striker[c] = queued.striker[q];
     contacts.striker_inverse_mass[c] = queued.striker_inverse_mass[q];
     contacts.striker_radius[c] = queued.striker_radius[q];
-    contacts.start_speed[c] = dot(moving, queued.normal[q]) + queued.approach_speed[q];
+    const float along = dot(moving, queued.normal[q]) + queued.approach_speed[q];
+    if (queued.striker_inverse_mass[q] > 0)
+        contacts.start_speed[c] = along;
+    else
+        tasks.start_velocity.set(task, tasks.start_velocity[task] - along * queued.normal[q]);
     contacts.radius[c] = std::max(
         {3 * state.shells.thickness[shell], 1.3f * state.shells.mean_edge[shell], 0.35f * queued.striker_radius[q]});
     tasks.contact_count[task] = 1;
