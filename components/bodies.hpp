@@ -38,9 +38,10 @@ struct Bodies : Table<Bodies> {
     Column<uint8_t> is_breakable{*this, "is_breakable"};
     Column<float> strength_scale{*this, "strength_scale"};
     Column<uint8_t> is_asleep{*this, "is_asleep"};
-    Column<uint8_t> hold_count{*this, "hold_count"};     // open tasks that hold it, as body or as striker
-    Column<uint8_t> has_pins{*this, "has_pins"};         // some vertex is pinned: the body is static in the rigid world
-    Column<uint64_t> retry_frame{*this, "retry_frame"};  // no new task before this frame (20 ms between tries)
+    Column<uint8_t> hold_count{*this, "hold_count"};  // open tasks that hold it, as body or as striker
+    Column<uint8_t> has_pins{*this, "has_pins"};      // some vertex is pinned: the body is static in the rigid world
+    Column<uint8_t> is_owed_births{*this, "is_owed_births"};  // some limit refused pieces that are loose: asks again
+    Column<uint64_t> retry_frame{*this, "retry_frame"};       // no new task before this frame (20 ms between tries)
     Column<uint64_t> born_frame{*this, "born_frame"};
     Column<uint32_t> task{*this, "task"};      // open task or kNone
     Column<uint32_t> colour{*this, "colour"};  // stable number for pictures
@@ -65,7 +66,8 @@ struct FragmentPart {
 /// Parts of one hit that can be told apart; more of them end the hit as a fault.
 inline constexpr uint32_t kMostParts = 1024;
 
-/// Row t kMostParts + p is part p of task t, between find_parts and make_births.
+/// Row t kMostParts + p is part p of task t, between find_parts and make_births; behind the last task's, of a body
+/// that asks again for births.
 struct Fragments : Table<Fragments> {
     using Table::Table;
     static constexpr const char* kName = "fragments";

@@ -53,6 +53,7 @@ struct Shells : Table<Shells> {
     Column<float> first_crack_speed{*this, "first_crack_speed", "m/s"};  // measured by cooking against a floor
     Column<uint8_t> generation{*this, "generation"};  // 0 intact, fragments one more than their parent
     Column<uint8_t> has_cracks{*this, "has_cracks"};
+    Column<uint32_t> dead_elements{*this, "dead_elements"};  // of pieces that moved, until the shell is compacted
 };
 
 enum class CrackState : uint8_t { None = 0, Tip = 1, Cracked = 2 };  // Cracked: a crack passes through, or started here
@@ -202,14 +203,18 @@ struct StiffnessLinks : Table<StiffnessLinks> {
 struct Cells : Table<Cells> {
     using Table::Table;
     static constexpr const char* kName = "cells";
-    Column<uint32_t> first_point{*this, "first_point"};  // relative to the shell's points
-    Column<uint32_t> point_count{*this, "point_count"};  // <= 32; 0: the cell has lost all of its elements
-    Column<uint32_t> element_count{*this, "element_count"};
+    Column<uint32_t> first_point{*this, "first_point"};      // relative to the shell's points
+    Column<uint32_t> point_count{*this, "point_count"};      // <= 32; 0: the cell has lost all of its elements
+    Column<uint32_t> element_count{*this, "element_count"};  // live ones
+    Column<uint8_t> is_stale{*this, "is_stale"};  // cracked since its points were chosen; the next break chooses anew
     // Scratch of make_piece: the part's elements of this cell as a list, and the cell that it is merged into.
     Column<uint32_t> first_element{*this, "first_element", "1", Keep::Scratch};
     Column<uint32_t> last_element{*this, "last_element", "1", Keep::Scratch};
     Column<uint32_t> list_count{*this, "list_count", "1", Keep::Scratch};
     Column<uint32_t> merged{*this, "merged", "1", Keep::Scratch};
+    // Scratch of cell_hulls: a cell whose hull is to be chosen anew; the parent's cell that has the same points, kNone.
+    Column<uint8_t> is_changed{*this, "is_changed", "1", Keep::Scratch};
+    Column<uint32_t> same_cell{*this, "same_cell", "1", Keep::Scratch};
 };
 
 /// One row is a corner of a cell's hull, body frame, pulled in by the collision margin.

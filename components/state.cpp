@@ -42,14 +42,16 @@ State::State(const Limits& l)
       tasks(l.tasks),
       task_contacts(l.tasks * kMostContacts),
       patch_vertices(l.tasks * kMostPatchVertices),
-      fragments(l.tasks * kMostParts),
+      queued_hits(l.queued_hits),
+      fragments((l.tasks + 1) * kMostParts),
       view_vertices(l.view_vertices),
       view_indices(l.view_vertices * 2),
       pools(*this) {
     tasks.append(l.tasks);
     task_contacts.append(l.tasks * kMostContacts);
     patch_vertices.append(l.tasks * kMostPatchVertices);
-    fragments.append(l.tasks * kMostParts);
+    queued_hits.append(l.queued_hits);
+    fragments.append((l.tasks + 1) * kMostParts);
 }
 
 State::Pools::Pools(const State& s)
@@ -65,6 +67,25 @@ State::Pools::Pools(const State& s)
       points(s.hull_points.limit(), 1, ranges_of(s.shells)),
       view_vertices(s.view_vertices.limit(), 16, ranges_of(s.bodies)),
       view_indices(s.view_indices.limit(), 16, ranges_of(s.bodies)) {}
+
+// A hit takes a copy of all rows with a quarter more (working_room); what moves of the broken shell is less than it. A
+// drawn mesh has 6 corners an element and 6 a free edge, and the pieces' more than the body's.
+void State::commit_ahead(const ShellRoom& shell, uint32_t served) {
+    const auto commit = [&](AnyTable& table, const RangePool& pool, uint32_t rows) {
+        if (served > 0 && rows > 0 && table.commit_rows(pool.end() + rows)) --served;
+    };
+    commit(vertices, pools.vertices, 2 * shell.vertices + 512);
+    commit(elements, pools.elements, 2 * shell.elements + 1024);
+    commit(triangle_springs, pools.elements, 2 * shell.elements + 1024);
+    commit(hinges, pools.hinges, 2 * shell.hinges + 1536);
+    commit(stiffness_packs, pools.packs, 2 * (shell.vertices / kLanes));
+    commit(stiffness_blocks, pools.blocks, 2 * shell.blocks);
+    commit(stiffness_links, pools.links, 2 * shell.links);
+    commit(cells, pools.cells, 3 * shell.cells);
+    commit(hull_points, pools.points, 64 * shell.cells);
+    commit(view_vertices, pools.view_vertices, 12 * shell.elements);
+    commit(view_indices, pools.view_indices, 12 * shell.elements);
+}
 
 uint64_t State::hash() const {
     uint64_t hash = 0;
@@ -121,7 +142,7 @@ ShellRoom room_of(const State& state, Row<Shells> shell) {
     return room;
 }
 
-Row<Shells> make_shell(State& state, const ShellRoom& room, const char** full) {
+Row<Shells> make_shell_unclear(State& state, const ShellRoom& room, const char** full) {
     Range row_range;
     const char* missing = nullptr;  // the first
     const auto refuse = [&](const char* limit) { missing = missing ? missing : limit; };
@@ -149,18 +170,42 @@ Row<Shells> make_shell(State& state, const ShellRoom& room, const char** full) {
         if (full) *full = missing;
         return {};
     }
-    // Kernels read whole packs: the rows between the capacity and the end of what the pool gave are cleared too.
-    const uint32_t vertices = s.vertices[shell].first, last = vertices + state.pools.vertices.rounded(room.vertices);
-    state.vertices.clear_rows(vertices, last - vertices);
-    for (uint32_t v = vertices; v < last; ++v) state.vertices.element[v] = kNone;
+    return shell;
+}
+
+void clear_spare_rows(State& state, Row<Shells> shell) {
+    const Shells& s = state.shells;
     const auto clear = [](AnyTable& table, const RangePool& pool, Range range) {
-        table.clear_rows(range.first, pool.rounded(range.capacity));
+        const uint32_t end = pool.rounded(range.capacity);
+        if (range.count < end) table.clear_rows(range.first + range.count, end - range.count);
     };
+    // Kernels read whole packs: the rows between the capacity and the end of what the pool gave are cleared too.
+    const Range vertices = s.vertices[shell];
+    clear(state.vertices, state.pools.vertices, vertices);
+    for (uint32_t v = vertices.count; v < state.pools.vertices.rounded(vertices.capacity); ++v)
+        state.vertices.element[vertices.first + v] = kNone;
     clear(state.elements, state.pools.elements, s.elements[shell]);
     clear(state.triangle_springs, state.pools.elements, s.elements[shell]);
     clear(state.hinges, state.pools.hinges, s.hinges[shell]);
     clear(state.stiffness_packs, state.pools.packs, s.packs[shell]);
+}
+
+Row<Shells> make_shell(State& state, const ShellRoom& room, const char** full) {
+    const Row<Shells> shell = make_shell_unclear(state, room, full);
+    if (shell.exists()) clear_spare_rows(state, shell);
     return shell;
+}
+
+void drop_stiffness(State& state, Row<Shells> shell) {
+    Shells& s = state.shells;
+    state.pools.packs.give_back(s.packs[shell].first, s.packs[shell].capacity);
+    state.pools.blocks.give_back(s.blocks[shell].first, s.blocks[shell].capacity);
+    state.pools.links.give_back(s.links[shell].first, s.links[shell].capacity);
+    s.packs[shell] = s.blocks[shell] = s.links[shell] = {};
+}
+
+bool take_points(State& state, uint32_t count, Range& range) {
+    return take(state.hull_points, state.pools.points, count, range);
 }
 
 void release_shell(State& state, Row<Shells> shell) {

@@ -22,6 +22,12 @@ struct Limits {
     uint32_t models = 256;
     uint32_t view_vertices = 1u << 23;
     uint32_t debris = 8192;
+    uint32_t queued_hits = 256;
+};
+
+/// Rows that a shell needs. Packs are one for 8 vertices; blocks and links zero until the stiffness is assembled.
+struct ShellRoom {
+    uint32_t vertices = 0, elements = 0, hinges = 0, blocks = 0, links = 0, cells = 0, points = 0;
 };
 
 struct State {
@@ -44,6 +50,7 @@ struct State {
     Tasks tasks;
     TaskContacts task_contacts;
     PatchVertices patch_vertices;
+    QueuedHits queued_hits;
     Fragments fragments;
     ViewVertices view_vertices;
     ViewIndices view_indices;
@@ -61,14 +68,18 @@ struct State {
                           &State::elements,        &State::triangle_springs, &State::hinges,
                           &State::stiffness_packs, &State::stiffness_blocks, &State::stiffness_links,
                           &State::cells,           &State::hull_points,      &State::tasks,
-                          &State::task_contacts,   &State::patch_vertices,   &State::fragments,
-                          &State::view_vertices,   &State::view_indices};
+                          &State::task_contacts,   &State::patch_vertices,   &State::queued_hits,
+                          &State::fragments,       &State::view_vertices,    &State::view_indices};
     }
     /// The table of type T.
     template <class T>
     T& table() {
         return find<T, 0>();
     }
+
+    /// Pages behind the rows in use: room for a hit on a shell of these rows and for the pieces. Touches no value. At
+    /// most `tables` tables are served at once.
+    void commit_ahead(const ShellRoom& shell, uint32_t tables = kNone);
 
     uint64_t hash() const;
     std::string validate() const;
@@ -85,17 +96,20 @@ struct State {
     }
 };
 
-/// Rows that a shell needs. Packs are one for 8 vertices; blocks and links zero until the stiffness is assembled.
-struct ShellRoom {
-    uint32_t vertices = 0, elements = 0, hinges = 0, blocks = 0, links = 0, cells = 0, points = 0;
-};
-
 /// What a shell uses now: room for a copy of it.
 ShellRoom room_of(const State& state, Row<Shells> shell);
 
 /// A shell with empty ranges of these capacities and one user, or kNone when some table is full (`full` then names its
 /// limit). Vertex rows start all dead (element kNone, inverse mass 0).
 Row<Shells> make_shell(State& state, const ShellRoom& room, const char** full = nullptr);
+/// The same with rows that hold whatever they held; who fills them calls clear_spare_rows when the counts are set.
+Row<Shells> make_shell_unclear(State& state, const ShellRoom& room, const char** full = nullptr);
+/// Clears the rows behind the counts, up to what the pools gave.
+void clear_spare_rows(State& state, Row<Shells> shell);
+/// Gives the assembled stiffness back: the next task assembles it anew.
+void drop_stiffness(State& state, Row<Shells> shell);
+/// A range of HullPoints; false: no room.
+bool take_points(State& state, uint32_t count, Range& range);
 /// One user less; the rows go back when there are none.
 void release_shell(State& state, Row<Shells> shell);
 /// A copy of `source` with `room` (at least what is in use), one user. Stiffness is copied when `room.blocks` > 0.

@@ -95,11 +95,29 @@ struct TaskContacts : Table<TaskContacts> {
     Column<float> start_speed{*this, "start_speed", "m/s"};  // the striker's along the normal, body frame
     Column<double> striker_travel{*this, "striker_travel", "m"};
     Column<double> striker_speed{*this, "striker_speed", "m/s"};
-    Column<double> impulse{*this, "impulse", "N s"};     // passed to the body along the normal so far
-    Column<uint8_t> is_answered{*this, "is_answered"};   // the striker broke here first and has taken its own impulse
-    Column<float> radius{*this, "radius", "m"};          // r_c
-    Column<uint32_t> first_patch{*this, "first_patch"};  // range in PatchVertices
+    Column<double> impulse{*this, "impulse", "N s"};    // passed to the body along the normal so far
+    Column<uint8_t> is_answered{*this, "is_answered"};  // the striker broke here first and has taken its own impulse
+    Column<Vec3d> answer{*this, "answer", "N s"};       // what it passed to the body then, world axes: waits
+    Column<uint8_t> is_heir_striker{*this, "is_heir_striker"};  // and its largest piece, which is the larger one's
+    Column<float> radius{*this, "radius", "m"};                 // r_c
+    Column<uint32_t> first_patch{*this, "first_patch"};         // range in PatchVertices
     Column<uint32_t> patch_count{*this, "patch_count"};
+};
+
+/// One row is one further hit on a body whose task is open. It waits until the body, or the piece that then owns the
+/// place, can open a task, which is late from its start: the rigid solver has dealt with the contact.
+struct QueuedHits : Table<QueuedHits> {
+    using Table::Table;
+    static constexpr const char* kName = "queued_hits";
+    Column<uint8_t> is_used{*this, "is_used"};
+    Column<uint64_t> frame{*this, "frame"};  // of the hit
+    Column<Row<Bodies>> body{*this, "body"};
+    Column<Row<Bodies>> striker{*this, "striker"};  // kNone once it was removed
+    Column<Vec3> point{*this, "point", "m"};        // body frame, which pieces share
+    Column<Vec3> normal{*this, "normal"};           // unit, body axes: the way the body is pushed
+    Column<float> approach_speed{*this, "approach_speed", "m/s"};
+    Column<float> striker_inverse_mass{*this, "striker_inverse_mass", "1/kg"};  // effective along the normal
+    Column<float> striker_radius{*this, "striker_radius", "m"};                 // 0: flat
 };
 
 /// One row is one vertex that a striker may push.

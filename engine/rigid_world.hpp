@@ -23,6 +23,11 @@ enum class RigidKind : uint8_t { Static, Kinematic, Dynamic };
 struct ConvexPiece {
     std::span<const Vec3> points;
     uint32_t cell = 0;  // the caller's name for it, comes back in contacts
+    /// Where not kNoRigid: the points are, one by one, those that this body's piece `same_cell` was made of, so that
+    /// its faces need not be found again. Only a hint: a body or piece that is not there, or has another number of
+    /// points, costs the search.
+    RigidId same_body = kNoRigid;
+    uint32_t same_cell = 0;
 };
 
 struct RigidDescription {

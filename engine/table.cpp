@@ -37,14 +37,15 @@ void AnyTable::clear_rows(uint32_t first, uint32_t count) {
             std::memset(column_memory(c, a) + size_t{first} * c.row_bytes, 0, size_t{count} * c.row_bytes);
 }
 
-void AnyTable::commit_rows(uint32_t count) {
-    const uint32_t wanted = count < limit_ ? count : limit_;
-    if (wanted <= committed_) return;
+bool AnyTable::commit_rows(uint32_t count) {
+    count = count < limit_ ? count : limit_;
+    const uint32_t from = committed_ > size_ ? committed_ : size_;
+    if (count <= from) return false;
     for (const ColumnInfo& c : *columns_)
         for (int a = 0; a < c.lanes * c.sides; ++a)
-            commit_memory(column_memory(c, a) + size_t{committed_} * c.row_bytes,
-                          size_t{wanted - committed_} * c.row_bytes);
-    committed_ = wanted;
+            commit_memory(column_memory(c, a) + size_t{from} * c.row_bytes, size_t{count - from} * c.row_bytes);
+    committed_ = count;
+    return true;
 }
 
 uint64_t AnyTable::hash(uint64_t seed) const {

@@ -140,7 +140,7 @@ Result<void> check_settings(const Settings& s) {
     } limits[] = {{"bodies", l.bodies, 1, 1u << 20},        {"models", l.models, 1, 1u << 20},
                   {"vertices", l.vertices, 4096, 1u << 26}, {"elements", l.elements, 4096, 1u << 26},
                   {"open_hits", l.open_hits, 1, 1024},      {"view_vertices", l.view_vertices, 4096, 1u << 28},
-                  {"debris", l.debris, 1, 1u << 24}};
+                  {"debris", l.debris, 1, 1u << 24},        {"queued_hits", l.queued_hits, 1, 1u << 16}};
     for (const auto& limit : limits)
         if (limit.value < limit.least || limit.value > limit.most)
             return Error{std::string("Settings::limits.") + limit.name + " is " + std::to_string(limit.value) +
@@ -219,6 +219,7 @@ void World::step() {
     c.profiler.begin_frame(d.step_info.frame);
     c.plan.step(d, *c.jobs, c.profiler, d.arena, c.after_each_system ? &c.after_each_system : nullptr);
     c.profiler.end_frame();
+    if (d.counts.units_used == 0) d.state.commit_ahead(d.ready_for, 1);  // a quiet frame
     ++d.step_info.frame;
     if (c.host.zone_end) c.host.zone_end(c.host.user);
     if (c.host.assertion_failed) set_assert_handler(nullptr, nullptr);
@@ -344,16 +345,6 @@ Result<Row<Shells>> pinned_copy(State& state, Row<Shells> source, const SpawnSet
     return copy;
 }
 
-// Pages for a hit on this shell are asked for at the end of the next step.
-void make_ready(WorldData& d, Row<Shells> shell) {
-    const ShellRoom room = working_room(ShellView(d.state, shell));
-    ShellRoom& hit = d.room_ahead.hit;
-    hit.vertices = std::max(hit.vertices, room.vertices), hit.elements = std::max(hit.elements, room.elements);
-    hit.hinges = std::max(hit.hinges, room.hinges), hit.cells = std::max(hit.cells, room.cells);
-    hit.blocks = std::max(hit.blocks, room.blocks), hit.links = std::max(hit.links, room.links);
-    hit.points = std::max(hit.points, d.state.shells.points[shell].count);
-}
-
 }  // namespace
 
 Result<BodyId> World::spawn(ModelId id, const SpawnSettings& settings) {
@@ -388,7 +379,6 @@ Result<BodyId> World::spawn(ModelId id, const SpawnSettings& settings) {
         return Error{"limits.view_vertices is reached (" + std::to_string(state.view_vertices.limit()) +
                      "); raise it."};
     }
-    make_ready(d, shell);
     const bool is_static = settings.pin_count > 0;
     fill_body(bodies, body, is_static ? BodyKind::Static : BodyKind::Dynamic, settings.pose,
               is_static ? Motion{} : settings.motion, settings.contact,
@@ -397,6 +387,7 @@ Result<BodyId> World::spawn(ModelId id, const SpawnSettings& settings) {
     bodies.has_pins[body] = is_static;
     bodies.strength_scale[body] = std::min(settings.strength_scale, kNeverCracks);
     bodies.is_breakable[body] = settings.is_breakable && settings.strength_scale < kNeverCracks;
+    if (bodies.is_breakable[body]) d.make_ready(room_of(state, shell));
     take_mass_properties(state, body);
     d.arena.reset();
     d.rigid->add(body, describe_rigid(state, body, convex_pieces(state, shell, d.arena)));
@@ -511,6 +502,12 @@ Result<void> World::remove(BodyId id) {
         release_shell(state, tasks.shell[t]);
         release_shell(state, tasks.source[t]);
         tasks.state[t] = static_cast<uint8_t>(TaskState::Free);
+    }
+    QueuedHits& queued = state.queued_hits;
+    for (uint32_t q = 0; q < queued.size(); ++q) {
+        if (!queued.is_used[q]) continue;
+        if (queued.striker[q] == body) queued.striker[q] = {};
+        if (queued.body[q] == body) queued.clear_rows(q, 1);
     }
     // Rows are used again: nobody may take the next one for a parent.
     for (uint32_t b = 0; b < state.bodies.size(); ++b)

@@ -21,7 +21,7 @@ FramePlan<WorldData> make_frame_plan(const std::function<std::string()>& describ
         .then<settle_tasks>();
     plan.stage("apply").then<find_parts>().then<make_births>();
     plan.stage("solve").then<solve_rigid>().then<read_rigid>().then<fall_debris>();
-    plan.stage("end").then<draw_shells>().then<commit_pages>();
+    plan.stage("end").then<draw_shells>().then<compact_shells>();
     return plan;
 }
 

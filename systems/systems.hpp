@@ -15,12 +15,14 @@ void remember_poses(Rows<Bodies> bodies, In<&Bodies::position> position, In<&Bod
 void detect_contacts(Serial, Step step, RigidWorld& rigid);
 /// Contacts that a breakable body may not survive, sorted by body and speed.
 void predict_impacts(Serial, Step step, const RigidWorld& rigid, const Bodies& bodies, const Shells& shells,
-                     const DamageSettings& settings, Events<Impact>& impacts);
-/// One damage task a body that was hit: asks the game, takes rows for its working copy.
+                     const Tasks& tasks, const TaskContacts& contacts, const DamageSettings& settings,
+                     Events<Impact>& impacts);
+/// One damage task a body that was hit: asks the game, takes rows for its working copy. A further hit on a body whose
+/// task is open waits in QueuedHits, and opens one when the body can.
 void open_tasks(Serial, Step step, const Events<Impact>& impacts, ShellTables shells, const Materials& materials,
-                Bodies& bodies, Tasks& tasks, TaskContacts& contacts, const DamageSettings& settings,
-                DamageCounts& counts, Events<TaskOpened>& opened, Events<ImpactEvent>& impact_events,
-                Events<RefusedEvent>& refused);
+                Bodies& bodies, Tasks& tasks, TaskContacts& contacts, QueuedHits& queued,
+                const DamageSettings& settings, DamageCounts& counts, Events<TaskOpened>& opened,
+                Events<ImpactEvent>& impact_events, Events<RefusedEvent>& refused);
 /// Copies the body's shell into the task's, lays the contact patches, gives every vertex the body's velocity.
 void fill_tasks(Each<TaskOpened> opened, ShellTables shells, Tasks& tasks, TaskContacts& contacts,
                 PatchVertices& patches);
@@ -33,7 +35,7 @@ void grant_units(Serial, Tasks& tasks, const Shells& shells, const DamageSetting
 /// Runs the inner loop of each open task for the steps it was granted, on all workers.
 void advance_damage(Serial, DamageLoop& loop);
 /// Holds bodies whose task goes on, releases those whose time is up or whose task ended.
-void settle_tasks(Serial, Step step, Tasks& tasks, const TaskContacts& contacts, Bodies& bodies, const Shells& shells,
+void settle_tasks(Serial, Step step, Tasks& tasks, TaskContacts& contacts, Bodies& bodies, const Shells& shells,
                   RigidWorld& rigid, const DamageSettings& settings, DamageCounts& counts, Events<TaskEnded>& ended,
                   Events<ImpactEvent>& impact_events);
 
@@ -45,7 +47,7 @@ void find_parts(Each<TaskEnded> ended, ShellTables shells, Tasks& tasks, Fragmen
 /// Plans, reserves and makes the bodies of the pieces, in order of mass; gives the striker the impulse that it really
 /// passed.
 void make_births(Serial, Step step, const Events<TaskEnded>& ended, ShellTables shells, Tasks& tasks,
-                 const TaskContacts& contacts, Fragments& fragments, Bodies& bodies, Debris& debris,
+                 TaskContacts& contacts, QueuedHits& queued, Fragments& fragments, Bodies& bodies, Debris& debris,
                  ViewVertices& view_vertices, ViewIndices& view_indices, RigidWorld& rigid,
                  const DamageSettings& settings, DamageCounts& counts, Arena& arena, Events<ShellChanged>& changed,
                  Events<CrackStartedEvent>& cracks, Events<FragmentBornEvent>& born, Events<DebrisEvent>& debris_events,
@@ -68,9 +70,9 @@ void fall_debris(Rows<Debris> debris, Step step, InOut<&Debris::position> positi
 /// The drawn mesh of each shell that changed.
 void draw_shells(Each<ShellChanged> changed, ShellTables shells, Bodies& bodies, ViewVertices& vertices,
                  ViewIndices& indices);
-/// Pages of memory for the next hit, asked for in a quiet frame before it comes.
-void commit_pages(Serial, const RoomAhead& ahead, const Events<TaskOpened>& opened, const Events<TaskEnded>& ended,
-                  ShellTables shells, ViewVertices& view_vertices, ViewIndices& view_indices);
+/// Moves the live rows of shells together that lost a quarter of theirs to pieces, in quiet frames, for units.
+void compact_shells(Serial, ShellTables shells, Bodies& bodies, const Tasks& tasks, Fragments& fragments,
+                    DamageCounts& counts, const Events<TaskEnded>& ended);
 
 // ---- inner loop of a brittle thick shell: repeated for one task
 // -----------------------------------------------------------

@@ -1,5 +1,7 @@
 #include "systems/world_data.hpp"
 
+#include <algorithm>
+
 #include "systems/damage/damage_loop.hpp"
 
 namespace cullet {
@@ -15,6 +17,7 @@ Limits limits_of(const LimitSettings& l) {
     limits.models = l.models;
     limits.view_vertices = l.view_vertices;
     limits.debris = l.debris;
+    limits.queued_hits = l.queued_hits;
     return limits;
 }
 
@@ -47,5 +50,12 @@ WorldData::WorldData(const Settings& settings)
 }
 
 WorldData::~WorldData() = default;
+
+void WorldData::make_ready(const ShellRoom& shell) {
+    for (auto rows : {&ShellRoom::vertices, &ShellRoom::elements, &ShellRoom::hinges, &ShellRoom::blocks,
+                      &ShellRoom::links, &ShellRoom::cells})
+        ready_for.*rows = std::max(ready_for.*rows, shell.*rows);
+    state.commit_ahead(ready_for);
+}
 
 }  // namespace cullet

@@ -31,11 +31,6 @@ struct ShellChanged {
     Row<Bodies> body;
 };
 
-/// Room of the largest hit that may come: pages for two of it lie ready, a working copy and its pieces.
-struct RoomAhead {
-    ShellRoom hit;
-};
-
 struct DamageLoop;
 
 /// What the game set, as the systems read it.
@@ -55,7 +50,7 @@ struct DamageCounts {
     uint64_t opened = 0, broke = 0, whole = 0, dropped = 0, redone = 0, late = 0, frames_held = 0, clamped = 0;
     uint64_t cuts = 0, starts = 0, cuts_refused = 0;
     uint64_t units_used = 0, units_left = 0;  // of the last frame
-    double worst_rounding = 0;  // momentum that hidden runs lost, share of what the body had or got
+    double worst_rounding = 0;                // momentum that hidden runs lost, share of what the body had or got
     double impulse_to_static[3] = {0, 0, 0};  // N s, from damage to floors, pins and kinematic bodies
 };
 
@@ -67,7 +62,6 @@ struct WorldData {
     Step step_info;
     DamageSettings damage_settings;
     DamageCounts counts;
-    RoomAhead room_ahead;
     std::unique_ptr<RigidWorld> rigid;
     std::unique_ptr<DamageLoop> damage_loop;
     Arena arena;
@@ -83,6 +77,10 @@ struct WorldData {
     Events<RefusedEvent> refused_events;
     Events<FaultEvent> fault_events;
     Events<AsleepEvent> asleep_events;
+
+    /// Pages for a hit on a shell of this size, now and again after what broke has used them.
+    void make_ready(const ShellRoom& shell);
+    ShellRoom ready_for;  // the largest so far, table by table
 
     template <class T>
     T& table() {
@@ -100,8 +98,6 @@ T& WorldData::resource() {
         return step_info;
     else if constexpr (std::is_same_v<T, DamageSettings>)
         return damage_settings;
-    else if constexpr (std::is_same_v<T, RoomAhead>)
-        return room_ahead;
     else if constexpr (std::is_same_v<T, DamageCounts>)
         return counts;
     else if constexpr (std::is_same_v<T, RigidWorld>)

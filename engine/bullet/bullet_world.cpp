@@ -74,20 +74,69 @@ void BulletWorld::drop_pieces(Body& body) {
     body.hull_count = 0;
 }
 
-void BulletWorld::set_pieces(Body& body, std::span<const ConvexPiece> pieces, float margin) {
-    drop_pieces(body);
+// Both lists rise by cell as a rule, so the search goes on where the last one ended.
+const Hull* BulletWorld::find_same(const ConvexPiece& piece, const Hull* old_hulls, RigidId own,
+                                   const Hull*& cursor) const {
+    if (piece.same_body != own && !is_known(piece.same_body)) return nullptr;
+    const Hull* const first = piece.same_body == own ? old_hulls : bodies_[piece.same_body].hulls;
+    const auto search = [&](const Hull* from) {
+        while (from && from->cell != piece.same_cell) from = from->next;
+        return from;
+    };
+    const Hull* found = search(cursor);
+    if (!found) found = search(first);
+    if (found) cursor = found;
+    return found && found->point_count == piece.points.size() ? found : nullptr;
+}
+
+namespace {
+
+Hull* unlink(Hull*& list, const Hull* wanted) {
+    Hull** at = &list;
+    while (*at != wanted) at = &(*at)->next;
+    Hull* const found = *at;
+    *at = found->next;
+    return found;
+}
+
+}  // namespace
+
+// `old_axes` are those that the body's hulls so far stand in.
+void BulletWorld::set_pieces(Body& body, std::span<const ConvexPiece> pieces, float margin, const Quat& old_axes) {
+    Hull* old_hulls = body.hulls;
+    body.hulls = nullptr;
+    body.hull_count = 0;
     Hull** link = &body.hulls;
+    const Hull* cursor = nullptr;
+    RigidId cursor_body = kNoRigid;
+    const Quat to_axes = conjugate(body.frame.axes);
     for (const ConvexPiece& piece : pieces) {
         if (piece.points.empty()) continue;
         Vec3 local[kMaxPoints];
         const size_t count = std::min<size_t>(piece.points.size(), kMaxPoints);
-        for (size_t k = 0; k < count; ++k)
-            local[k] = rotate(conjugate(body.frame.axes), piece.points[k] - body.frame.centre);
-        Hull* const hull = hulls_.take();
-        build_hull(*hull, {local, count}, margin, piece.cell);
+        for (size_t k = 0; k < count; ++k) local[k] = rotate(to_axes, piece.points[k] - body.frame.centre);
+        if (piece.same_body != cursor_body) cursor = nullptr;
+        cursor_body = piece.same_body;
+        const Hull* const same = piece.same_body == kNoRigid ? nullptr : find_same(piece, old_hulls, body.id, cursor);
+        // The body's own hulls are turned where they stand.
+        const bool is_own = same && piece.same_body == body.id;
+        Hull* const hull = is_own ? unlink(old_hulls, same) : hulls_.take();
+        if (is_own && cursor == same) cursor = same->next;
+        if (same) {
+            const Quat& axes = piece.same_body == body.id ? old_axes : bodies_[piece.same_body].frame.axes;
+            build_hull_like(*hull, *same, matrix(to_axes * axes), {local, count}, margin, piece.cell);
+        } else {
+            build_hull(*hull, {local, count}, margin, piece.cell);
+        }
         hull->ordinal = body.hull_count++;
+        hull->next = nullptr;
         *link = hull;
         link = &hull->next;
+    }
+    for (Hull* hull = old_hulls; hull;) {
+        Hull* const next = hull->next;
+        hulls_.give(hull);
+        hull = next;
     }
     mark_seams(body);
     measure_body(body);
@@ -176,7 +225,7 @@ void BulletWorld::add_static_triangles(RigidId id, std::span<const Vec3> positio
     auto mesh = std::make_unique<StaticMesh>(sort_static_triangles(positions, triangles));
     std::vector<ConvexPiece> pieces;
     for (const auto& solid : mesh->solids) pieces.push_back({solid, static_cast<uint32_t>(pieces.size())});
-    set_pieces(body, pieces, 0);
+    set_pieces(body, pieces, 0, body.frame.axes);
     body.mesh = mesh->triangles.empty() ? nullptr : std::move(mesh);
     enter(body, {}, layer, mask);
 }
@@ -193,9 +242,9 @@ void BulletWorld::add(RigidId id, const RigidDescription& d) {
     const Vec3 origin;
     const ConvexPiece ball{{&origin, 1}, 0};
     if (d.radius > 0)
-        set_pieces(body, {&ball, 1}, d.radius);
+        set_pieces(body, {&ball, 1}, d.radius, body.frame.axes);
     else
-        set_pieces(body, d.pieces, d.margin);
+        set_pieces(body, d.pieces, d.margin, body.frame.axes);
     body.margin = d.radius > 0 ? d.radius : d.margin;
     enter(body, d.pose, d.layer, d.mask);
     set_motion(id, d.motion);
@@ -261,8 +310,9 @@ void BulletWorld::set_shape(RigidId id, double mass, Vec3d centre, Sym3d inertia
     Motion moving = motion(id);
     const Vec3 shift = rotate(at.orientation, centre.to_float() - body.frame.centre);
     moving.velocity += cross(moving.angular_velocity, shift);
+    const Quat old_axes = body.frame.axes;
     set_mass(body, mass, centre, inertia);
-    set_pieces(body, pieces, body.margin);
+    set_pieces(body, pieces, body.margin, old_axes);
     btRigidBody& bullet = *body.bullet;
     if (body.kind == RigidKind::Dynamic && !body.is_held) {
         bullet.setMassProps(body.mass, body.moments);

@@ -70,7 +70,8 @@ class BulletWorld final : public RigidWorld {
     };
 
     bool is_known(RigidId id) const { return id < body_limit_ && bodies_[id].is_used; }
-    void set_pieces(Body& body, std::span<const ConvexPiece> pieces, float margin);
+    void set_pieces(Body& body, std::span<const ConvexPiece> pieces, float margin, const Quat& old_axes);
+    const Hull* find_same(const ConvexPiece& piece, const Hull* old_hulls, RigidId own, const Hull*& cursor) const;
     void drop_pieces(Body& body);
     void mark_seams(Body& body);
     void measure_body(Body& body);

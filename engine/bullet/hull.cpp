@@ -71,8 +71,9 @@ void set_faces(Hull& hull, const btConvexHullComputer& computer) {
 
 }  // namespace
 
-void build_hull(Hull& hull, std::span<const Vec3> points, float margin, uint32_t cell) {
-    points = points.first(std::min<size_t>(points.size(), kMaxPoints));
+namespace {
+
+void set_hull_points(Hull& hull, std::span<const Vec3> points, float margin, uint32_t cell) {
     hull.cell = cell;
     hull.margin = margin;
     hull.one_sided = false;
@@ -85,6 +86,21 @@ void build_hull(Hull& hull, std::span<const Vec3> points, float margin, uint32_t
     for (uint32_t k = 0; k < hull.point_count; ++k) square = std::max(square, dot(hull.local[k], hull.local[k]));
     hull.radius = std::sqrt(square);
     hull.thickness = 2 * (hull.radius + margin);
+}
+
+void set_heights(Hull& hull) {
+    for (uint32_t f = 0; f < hull.face_count; ++f) {
+        hull.face_height[f] = support_height(hull, hull.face_normal[f]);
+        const float width = hull.face_height[f] + support_height(hull, -hull.face_normal[f]) + 2 * hull.margin;
+        if (dot(hull.face_normal[f], hull.face_normal[f]) > 0.5f) hull.thickness = std::min(hull.thickness, width);
+    }
+}
+
+}  // namespace
+
+void build_hull(Hull& hull, std::span<const Vec3> points, float margin, uint32_t cell) {
+    points = points.first(std::min<size_t>(points.size(), kMaxPoints));
+    set_hull_points(hull, points, margin, cell);
     if (points.size() < 3) return;
     float coordinates[kMaxPoints * 3];
     for (uint32_t k = 0; k < hull.point_count; ++k) {
@@ -101,12 +117,21 @@ void build_hull(Hull& hull, std::span<const Vec3> points, float margin, uint32_t
     float inside = 0;
     for (uint32_t f = 0; f < hull.face_count; ++f)
         inside += dot(hull.face_normal[f], mean - hull.local[hull.corner[hull.first_corner[f]]]);
-    for (uint32_t f = 0; f < hull.face_count; ++f) {
-        if (inside > 0) hull.face_normal[f] = -hull.face_normal[f];
-        hull.face_height[f] = support_height(hull, hull.face_normal[f]);
-        const float width = hull.face_height[f] + support_height(hull, -hull.face_normal[f]) + 2 * margin;
-        if (dot(hull.face_normal[f], hull.face_normal[f]) > 0.5f) hull.thickness = std::min(hull.thickness, width);
-    }
+    if (inside > 0)
+        for (uint32_t f = 0; f < hull.face_count; ++f) hull.face_normal[f] = -hull.face_normal[f];
+    set_heights(hull);
+}
+
+void build_hull_like(Hull& hull, const Hull& like, const Mat3& turn, std::span<const Vec3> points, float margin,
+                     uint32_t cell) {
+    set_hull_points(hull, points, margin, cell);
+    hull.face_count = like.face_count;
+    hull.edge_count = like.edge_count;
+    std::copy_n(like.first_corner, like.face_count + 1, hull.first_corner);
+    std::copy_n(like.corner, like.first_corner[like.face_count], hull.corner);
+    std::copy_n(like.edge, like.edge_count, hull.edge);
+    for (uint32_t f = 0; f < hull.face_count; ++f) hull.face_normal[f] = turn * like.face_normal[f];
+    set_heights(hull);
 }
 
 void build_triangle(Hull& hull, const Vec3 (&corners)[3], uint32_t cell) {

@@ -68,6 +68,10 @@ struct Hull {
 /// Fills everything but world columns and `next`. More than 32 points: the rest is left out. Points in a plane get the
 /// two faces of their polygon; points on a line get none.
 void build_hull(Hull& hull, std::span<const Vec3> points, float margin, uint32_t cell);
+/// The same, of the points that `like` was made of, seen in other axes: `turn` takes a direction from its axes into
+/// these. Corners and edges are copied and normals turned, which costs a tenth of finding them.
+void build_hull_like(Hull& hull, const Hull& like, const Mat3& turn, std::span<const Vec3> points, float margin,
+                     uint32_t cell);
 /// A static triangle in world axes: one face, to the side that its corners run counter-clockwise around.
 void build_triangle(Hull& hull, const Vec3 (&corners)[3], uint32_t cell);
 /// Marks the faces of `hull` that another piece of the same body covers: a point just outside of the face lies in it.

@@ -55,6 +55,7 @@ constexpr Rule kRules[] = {
     {"shells", "first_crack_speed", Is::Number, 0, kHuge},
     {"shells", "generation", Is::Number, 0, 0},
     {"shells", "has_cracks", Is::Number, 0, 0},
+    {"shells", "dead_elements", Is::Number, 0, 0},
     {"vertices", "rest", Is::Number, -kFar, kFar},
     {"vertices", "inward", Is::Number, -kUnit, kUnit},
     {"vertices", "depth", Is::Number, 0, kFar},
@@ -108,6 +109,7 @@ constexpr Rule kRules[] = {
     {"cells", "first_point", Is::Elsewhere},
     {"cells", "point_count", Is::Number, 0, kMostHullPoints},
     {"cells", "element_count", Is::Elsewhere},
+    {"cells", "is_stale", Is::Number, 0, 0},
     {"hull_points", "point", Is::Number, -kFar, kFar},
 };
 

@@ -2,6 +2,7 @@
 
 #include "systems/damage/assemble.hpp"
 #include "systems/damage/task_cost.hpp"
+#include "systems/damage/thresholds.hpp"
 #include "systems/damage/working_room.hpp"
 #include "systems/rigid/body_id.hpp"
 #include "systems/systems.hpp"
@@ -72,34 +73,30 @@ void lay_contacts(std::span<const Impact> impacts, const Bodies& bodies, const S
     tasks.contact_count[task] = count;
 }
 
-}  // namespace
+struct Opening {
+    State& state;
+    const Materials& materials;
+    Events<TaskOpened>& opened;
+    Events<RefusedEvent>& refused;
+    DamageCounts& counts;
+    uint64_t frame;
 
-void open_tasks(Serial, Step step, const Events<Impact>& impacts, ShellTables shells, const Materials& materials,
-                Bodies& bodies, Tasks& tasks, TaskContacts& contacts, const DamageSettings& settings,
-                DamageCounts& counts, Events<TaskOpened>& opened, Events<ImpactEvent>& impact_events,
-                Events<RefusedEvent>& refused) {
-    State& state = shells.state;
-    opened.clear();
-    const auto all = impacts.all();
-    for (size_t i = 0, next; i < all.size(); i = next) {
-        next = i + 1;
-        while (next < all.size() && all[next].body == all[i].body) ++next;
-        const Row<Bodies> body = all[i].body;
-        const ImpactEvent event =
-            event_of(bodies, all[i], effective_inverse_mass(bodies, all[i].striker, all[i].point, all[i].normal));
-        if (settings.allows && !settings.allows(settings.allows_user, event)) continue;
+    // A task with a working copy of the body's shell and no contacts yet; it does not exist where there is no room.
+    Row<Tasks> open(Row<Bodies> body, float approach_speed) {
+        Tasks& tasks = state.tasks;
+        Bodies& bodies = state.bodies;
         uint32_t t = 0;
         while (t < tasks.size() && static_cast<TaskState>(tasks.state[t]) != TaskState::Free) ++t;
         if (t == tasks.size()) {
             refused.push({body_id(bodies, body), "limits.open_hits"});
-            continue;
+            return {};
         }
         const char* full = nullptr;
         const Row<Shells> source = bodies.shell[body];
         const Row<Shells> working = make_shell(state, working_room(ShellView(state, source)), &full);
         if (!working.exists()) {
             refused.push({body_id(bodies, body), full});
-            continue;
+            return {};
         }
         const Row<Tasks> task(t);
         tasks.clear_rows(t, 1);
@@ -108,20 +105,130 @@ void open_tasks(Serial, Step step, const Events<Impact>& impacts, ShellTables sh
         tasks.source[t] = source;
         ++state.shells.users[source];
         tasks.shell[t] = working;
-        tasks.opened_frame[t] = step.frame;
+        tasks.opened_frame[t] = frame;
         tasks.first_contact[t] = t * kMostContacts;
-        tasks.approach_speed[t] = all[i].approach_speed;
+        tasks.approach_speed[t] = approach_speed;
         const Quat to_body_axes = conjugate(bodies.orientation[body]);
         tasks.start_velocity.set(t, rotate(to_body_axes, bodies.velocity[body]));
         tasks.start_spin.set(t, rotate(to_body_axes, bodies.spin[body]));
         tasks.strength_scale[t] = bodies.strength_scale[body];
         set_task_times(state, materials, task);
-        lay_contacts(all.subspan(i, next - i), bodies, state.shells, tasks, contacts, task);
         tasks.units_owed[t] = state.shells.vertices[source].count * kUnitsOpen;
         bodies.task[body] = t;
         opened.push({task});
-        impact_events.push(event);
         ++counts.opened;
+        return task;
+    }
+};
+
+// The fastest of each striker's contacts; a faster one takes the place of what the same striker did before.
+void queue_hits(std::span<const Impact> impacts, const Bodies& bodies, QueuedHits& queued, uint64_t frame,
+                Events<RefusedEvent>& refused) {
+    for (const Impact& impact : impacts) {
+        uint32_t free = kNone, found = kNone;
+        for (uint32_t q = 0; q < queued.size(); ++q) {
+            if (!queued.is_used[q])
+                free = std::min(free, q);
+            else if (queued.body[q] == impact.body && queued.striker[q] == impact.striker)
+                found = q;
+        }
+        if (found != kNone && queued.approach_speed[found] >= impact.approach_speed) continue;
+        const uint32_t q = found != kNone ? found : free;
+        if (q == kNone) {
+            refused.push({body_id(bodies, impact.body), "limits.queued_hits"});
+            return;
+        }
+        const Pose pose = pose_of(bodies, impact.body);
+        queued.is_used[q] = 1;
+        queued.frame[q] = frame;
+        queued.body[q] = impact.body;
+        queued.striker[q] = impact.striker;
+        queued.point.set(q, to_body(pose, impact.point));
+        queued.normal.set(q, rotate(conjugate(pose.orientation), impact.normal));
+        queued.approach_speed[q] = impact.approach_speed;
+        queued.striker_inverse_mass[q] = effective_inverse_mass(bodies, impact.striker, impact.point, impact.normal);
+        queued.striker_radius[q] =
+            impact.striker.exists() && bodies.is_sphere[impact.striker] ? bodies.radius[impact.striker] : 0.0f;
+    }
+}
+
+// The contact as it was: striker and body meet at the speed that they had relative to each other then. Something that
+// does not yield must stand still, or it would do work on the body: then the body is given the speed. A late result
+// uses velocities relative to the body's mean alone, so either is as good.
+void lay_queued(State& state, Row<Tasks> task, uint32_t q) {
+    Tasks& tasks = state.tasks;
+    TaskContacts& contacts = state.task_contacts;
+    const QueuedHits& queued = state.queued_hits;
+    const Row<Shells> shell = tasks.source[task];
+    const uint32_t c = tasks.first_contact[task];
+    const Vec3 arm = queued.point[q] - state.bodies.centre[tasks.body[task]].to_float();
+    const Vec3 moving = tasks.start_velocity[task] + cross(tasks.start_spin[task], arm);
+    contacts.clear_rows(c, 1);
+    contacts.point.set(c, queued.point[q]);
+    contacts.normal.set(c, queued.normal[q]);
+    contacts.striker[c] = queued.striker[q];
+    contacts.striker_inverse_mass[c] = queued.striker_inverse_mass[q];
+    contacts.striker_radius[c] = queued.striker_radius[q];
+    const float along = dot(moving, queued.normal[q]) + queued.approach_speed[q];
+    if (queued.striker_inverse_mass[q] > 0)
+        contacts.start_speed[c] = along;
+    else
+        tasks.start_velocity.set(task, tasks.start_velocity[task] - along * queued.normal[q]);
+    contacts.radius[c] = std::max(
+        {3 * state.shells.thickness[shell], 1.3f * state.shells.mean_edge[shell], 0.35f * queued.striker_radius[q]});
+    tasks.contact_count[task] = 1;
+    tasks.is_late[task] = 1;
+}
+
+// In the order of the queue's rows, one a body and frame.
+void open_queued(Opening& opening, const DamageSettings& settings, Events<ImpactEvent>& impact_events) {
+    State& state = opening.state;
+    const Bodies& bodies = state.bodies;
+    QueuedHits& queued = state.queued_hits;
+    for (uint32_t q = 0; q < queued.size(); ++q) {
+        if (!queued.is_used[q]) continue;
+        const Row<Bodies> body = queued.body[q];
+        if (bodies.task[body] != kNone || opening.frame < bodies.retry_frame[body] || bodies.hold_count[body]) continue;
+        if (may_break_again(state.shells, bodies.shell[body], settings.generations)) {
+            const Row<Tasks> task = opening.open(body, queued.approach_speed[q]);
+            if (task.exists()) {
+                lay_queued(state, task, q);
+                const Pose pose = pose_of(bodies, body);
+                const Impact impact{body, queued.striker[q], to_world(pose, queued.point[q]),
+                                    rotate(pose.orientation, queued.normal[q]), queued.approach_speed[q]};
+                impact_events.push(event_of(bodies, impact, queued.striker_inverse_mass[q]));
+            }
+        }
+        queued.clear_rows(q, 1);
+    }
+}
+
+}  // namespace
+
+void open_tasks(Serial, Step step, const Events<Impact>& impacts, ShellTables shells, const Materials& materials,
+                Bodies& bodies, Tasks& tasks, TaskContacts& contacts, QueuedHits& queued,
+                const DamageSettings& settings, DamageCounts& counts, Events<TaskOpened>& opened,
+                Events<ImpactEvent>& impact_events, Events<RefusedEvent>& refused) {
+    State& state = shells.state;
+    opened.clear();
+    Opening opening{state, materials, opened, refused, counts, step.frame};
+    open_queued(opening, settings, impact_events);
+    const auto all = impacts.all();
+    for (size_t i = 0, next; i < all.size(); i = next) {
+        next = i + 1;
+        while (next < all.size() && all[next].body == all[i].body) ++next;
+        const Row<Bodies> body = all[i].body;
+        const ImpactEvent event =
+            event_of(bodies, all[i], effective_inverse_mass(bodies, all[i].striker, all[i].point, all[i].normal));
+        if (settings.allows && !settings.allows(settings.allows_user, event)) continue;
+        if (bodies.task[body] != kNone) {
+            queue_hits(all.subspan(i, next - i), bodies, queued, step.frame, refused);
+            continue;
+        }
+        const Row<Tasks> task = opening.open(body, all[i].approach_speed);
+        if (!task.exists()) continue;
+        lay_contacts(all.subspan(i, next - i), bodies, state.shells, tasks, contacts, task);
+        impact_events.push(event);
     }
 }
 

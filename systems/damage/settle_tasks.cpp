@@ -1,4 +1,5 @@
 #include "systems/damage/thresholds.hpp"
+#include "systems/fragments/strike_back.hpp"
 #include "systems/rigid/body_id.hpp"
 #include "systems/systems.hpp"
 
@@ -31,7 +32,7 @@ void for_body_and_strikers(const Tasks& tasks, const TaskContacts& contacts, uin
 
 // Hold and release both happen here, between detect and solve, so a release is bit for bit as if never held. A blow
 // slower than the first crack is solved at once: a harmless bump must not be seen to stick.
-void settle_tasks(Serial, Step step, Tasks& tasks, const TaskContacts& contacts, Bodies& bodies, const Shells& shells,
+void settle_tasks(Serial, Step step, Tasks& tasks, TaskContacts& contacts, Bodies& bodies, const Shells& shells,
                   RigidWorld& rigid, const DamageSettings& settings, DamageCounts& counts, Events<TaskEnded>& ended,
                   Events<ImpactEvent>& impact_events) {
     ended.clear();
@@ -59,6 +60,7 @@ void settle_tasks(Serial, Step step, Tasks& tasks, const TaskContacts& contacts,
                 for_body_and_strikers(tasks, contacts, t, [&](Row<Bodies> b) { let_go(bodies, rigid, b); });
                 tasks.is_held[t] = 0;
                 tasks.is_late[t] = !is_over;
+                if (!is_over) pay_answers(bodies, tasks, contacts, rigid, Row<Tasks>(t));
             } else {
                 ++tasks.frames_held[t];
                 ++counts.frames_held;

@@ -23,7 +23,7 @@ inline bool may_break_again(const Shells& shells, Row<Shells> s, uint32_t genera
     const uint32_t generation = shells.generation[s];
     if (generation == 0) return true;
     return generation < generations && shells.mass[s] >= kLeastMassShare * shells.intact_mass[s] &&
-           shells.elements[s].count >= kLeastElements;
+           shells.elements[s].count - shells.dead_elements[s] >= kLeastElements;
 }
 inline uint64_t retry_frames(float dt) {
     return 1 + static_cast<uint64_t>(std::ceil(kRetrySeconds / dt));

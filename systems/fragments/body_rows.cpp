@@ -35,13 +35,37 @@ void free_body(State& state, Row<Bodies> b) {
     state.pools.bodies.give_back(b, 1);
 }
 
-bool take_view(State& state, Row<Bodies> b) {
-    Bodies& bodies = state.bodies;
-    const DrawnCount drawn = count_drawn(ShellView(state, bodies.shell[b]));
-    const uint32_t vertex = state.pools.view_vertices.take(drawn.vertices);
-    const uint32_t index = vertex == kNone ? kNone : state.pools.view_indices.take(drawn.index_count());
+namespace {
+
+// Most rows that draw_shell can write, of either table: 6 corners an element and 6 of the wall below each free edge. An
+// exact count would ask where depth is 0, for ten times the time.
+template <class ForEach>
+uint32_t view_rows(const ShellView& shell, ForEach for_each) {
+    uint32_t count = 0;
+    for_each([&](uint32_t e) {
+        ++count;
+        for (uint32_t n : shell.state.elements.neighbour[shell.element(e)]) count += n == kNone;
+    });
+    return 6 * count;
+}
+
+void shrink(RangePool& pool, Range& range, uint32_t rows) {
+    const uint32_t kept = pool.rounded(rows), had = pool.rounded(range.capacity);
+    pool.give_back(range.first + kept, had - kept);
+    range.capacity = rows;
+}
+
+bool take_view_rows(State& state, Row<Bodies> b, uint32_t rows) {
+    Range &vertices = state.bodies.view_vertices[b], &indices = state.bodies.view_indices[b];
+    if (rows <= vertices.capacity && rows <= indices.capacity) {
+        shrink(state.pools.view_vertices, vertices, rows);
+        shrink(state.pools.view_indices, indices, rows);
+        return true;
+    }
+    const uint32_t vertex = state.pools.view_vertices.take(rows);
+    const uint32_t index = vertex == kNone ? kNone : state.pools.view_indices.take(rows);
     if (index == kNone) {
-        if (vertex != kNone) state.pools.view_vertices.give_back(vertex, drawn.vertices);
+        if (vertex != kNone) state.pools.view_vertices.give_back(vertex, rows);
         return false;
     }
     const auto grow = [](AnyTable& table, const RangePool& pool) {
@@ -49,11 +73,29 @@ bool take_view(State& state, Row<Bodies> b) {
     };
     grow(state.view_vertices, state.pools.view_vertices);
     grow(state.view_indices, state.pools.view_indices);
-    state.pools.view_vertices.give_back(bodies.view_vertices[b].first, bodies.view_vertices[b].capacity);
-    state.pools.view_indices.give_back(bodies.view_indices[b].first, bodies.view_indices[b].capacity);
-    bodies.view_vertices[b] = {vertex, 0, drawn.vertices};
-    bodies.view_indices[b] = {index, 0, drawn.index_count()};
+    state.pools.view_vertices.give_back(vertices.first, vertices.capacity);
+    state.pools.view_indices.give_back(indices.first, indices.capacity);
+    vertices = {vertex, 0, rows};
+    indices = {index, 0, rows};
     return true;
+}
+
+}  // namespace
+
+bool take_view(State& state, Row<Bodies> b) {
+    const ShellView shell(state, state.bodies.shell[b]);
+    return take_view_rows(state, b, view_rows(shell, [&](auto visit) {
+                              for (uint32_t e = 0; e < shell.element_count(); ++e)
+                                  if (!(state.elements.flags[shell.element(e)] & kDead)) visit(e);
+                          }));
+}
+
+bool take_view(State& state, Row<Bodies> b, ShellView shell, const FragmentPart& part) {
+    return take_view_rows(state, b, view_rows(shell, [&](auto visit) {
+                              for (uint32_t e = part.first_element; e != kNone;
+                                   e = state.elements.next[shell.element(e)])
+                                  visit(e);
+                          }));
 }
 
 }  // namespace cullet

@@ -1,6 +1,7 @@
 // Rows of Bodies come and go; generations tell stale handles.
 #pragma once
 #include "components/state.hpp"
+#include "systems/fragments/group_fragments.hpp"
 
 namespace cullet {
 
@@ -8,8 +9,10 @@ namespace cullet {
 Row<Bodies> take_body(State& state);
 /// Gives back the row, its shell and its drawn mesh. The rigid world's body and open tasks are the caller's affair.
 void free_body(State& state, Row<Bodies> body);
-/// Ranges of the drawn mesh for the body's present shell; false when limits.view_vertices is reached, and nothing
-/// changes.
+/// Ranges of the drawn mesh for the live elements of the body's present shell: those that it has, when they are large
+/// enough. False when limits.view_vertices is reached, and nothing changes.
 bool take_view(State& state, Row<Bodies> body);
+/// The same for one part of a shell that the body will have.
+bool take_view(State& state, Row<Bodies> body, ShellView shell, const FragmentPart& part);
 
 }  // namespace cullet

@@ -4,10 +4,14 @@
 
 #include "systems/damage/thresholds.hpp"
 #include "systems/fragments/body_rows.hpp"
+#include "systems/fragments/cell_hulls.hpp"
 #include "systems/fragments/group_fragments.hpp"
 #include "systems/fragments/make_piece.hpp"
+#include "systems/fragments/mass_properties.hpp"
+#include "systems/fragments/rest_of_body.hpp"
 #include "systems/fragments/rigid_handoff.hpp"
 #include "systems/fragments/rigid_shape.hpp"
+#include "systems/fragments/strike_back.hpp"
 #include "systems/rigid/body_id.hpp"
 
 namespace cullet {
@@ -15,6 +19,8 @@ namespace {
 
 // Siblings that start in touch, and a striker beside the shards it made, are not tested against each other for so long.
 constexpr float kSiblingSeconds = 0.25f, kStrikerSeconds = 0.1f;
+// Of Bodies.is_owed_births. The second: its drawn mesh found no room either and is that of before the hit.
+constexpr uint8_t kOwedBirths = 1, kOwedDrawing = 2;
 constexpr float kTouch = 0.004f;  // m between the bounds of two siblings that count as in touch
 
 // What turns the hidden state's motions into the world's. `change` is the body's motion now less the hidden motion that
@@ -127,13 +133,14 @@ void make_debris(Births& births, ShellView shell, const FragmentPart& part, cons
 // Rows, shell and drawn mesh of a new body, or a row that does not exist and the name of the limit.
 Row<Bodies> reserve_body(State& state, Row<Bodies> parent, Row<Shells> broken, const FragmentPart& part,
                          const char** full) {
+    const Row<Shells> before = state.bodies.shell[parent];
     const Row<Bodies> body = take_body(state);
     if (!body.exists()) {
         *full = "limits.bodies";
         return {};
     }
     state.bodies.shell[body] =
-        make_piece(state, broken, part, static_cast<uint8_t>(state.shells.generation[broken] + 1), full);
+        make_piece(state, broken, part, static_cast<uint8_t>(state.shells.generation[broken] + 1), full, before);
     if (state.bodies.shell[body].exists() && take_view(state, body)) {
         Bodies& b = state.bodies;
         b.model[body] = b.model[parent];
@@ -181,95 +188,7 @@ struct Bounds {
     }
 };
 
-Vec3d blow_of(const TaskContacts& contacts, uint32_t c) {
-    return contacts.impulse[c] * Vec3d(contacts.normal[c]);
-}
-
-void push(Births& births, Row<Bodies> striker, Vec3 impulse, Vec3 place) {
-    Bodies& bodies = births.state.bodies;
-    const Pose pose = pose_of(bodies, striker);
-    const Vec3 arm = place - to_world(pose, bodies.centre[striker].to_float());
-    const Vec3d turn(rotate(conjugate(pose.orientation), cross(arm, impulse)));
-    bodies.velocity.set(striker, bodies.velocity[striker] + static_cast<float>(1.0 / bodies.mass[striker]) * impulse);
-    bodies.spin.set(
-        striker, bodies.spin[striker] + rotate(pose.orientation, (inverse(bodies.inertia[striker]) * turn).to_float()));
-    births.rigid.set_motion(striker, {bodies.velocity[striker], bodies.spin[striker]});
-}
-
-// The striker is being worked off against `body` too: should it break as well, it has its share already.
-void mark_answered(State& state, Row<Bodies> striker, Row<Bodies> body) {
-    const uint32_t t = state.bodies.task[striker];
-    if (t == kNone) return;
-    const uint32_t first = state.tasks.first_contact[t];
-    for (uint32_t c = first; c < first + state.tasks.contact_count[t]; ++c)
-        if (state.task_contacts.striker[c] == body) state.task_contacts.is_answered[c] = 1;
-}
-
-// Strikers and supports get what the pieces took, so that momentum is kept (6.6, and the impulse ahead of the solve).
-// Where the striker has broken first and passed its own impulse, the difference of the two goes to `largest`. What the
-// pins took during the run is what is missing from the pieces: hidden steps keep momentum to rounding. What rounding
-// took (some 1e-5 of it in 2,000 steps of floats)
-// goes to `largest` too.
-void strike_back(Births& births, Row<Tasks> task, const Moment& moment, std::span<PartMotion> motions,
-                 uint32_t largest) {
-    State& state = births.state;
-    const Row<Bodies> body = state.tasks.body[task];
-    const TaskContacts& contacts = state.task_contacts;
-    Vec3d to_static, came_in, answered, moving;
-    bool is_pinned = false;
-    const uint32_t first = state.tasks.first_contact[task];
-    for (uint32_t c = first; c < first + state.tasks.contact_count[task]; ++c) {
-        const Row<Bodies> striker = contacts.striker[c];
-        if (contacts.is_answered[c]) {
-            answered += blow_of(contacts, c);
-            continue;
-        }
-        came_in += blow_of(contacts, c);
-        const bool yields = striker.exists() && contacts.striker_inverse_mass[c] > 0 &&
-                            static_cast<BodyKind>(state.bodies.kind[striker]) == BodyKind::Dynamic;
-        if (!yields) {
-            to_static += -1.0 * blow_of(contacts, c);
-            continue;
-        }
-        push(births, striker, rotate(moment.pose.orientation, (-1.0 * blow_of(contacts, c)).to_float()),
-             to_world(moment.pose, contacts.point[c]));
-        mark_answered(state, striker, body);
-    }
-    for (const PartMotion& m : motions) {
-        is_pinned = is_pinned || m.is_static;
-        if (!m.is_static) moving += m.momentum;
-    }
-    PartMotion& heir = motions[largest];
-    if (is_pinned) {
-        to_static += came_in + answered - moving;
-        (heir.is_static ? to_static : heir.momentum) += -1.0 * answered;
-    } else {
-        const Vec3d start = state.bodies.mass[body] * Vec3d(state.tasks.start_velocity[task]);
-        const Vec3d rounding = start + came_in + answered - moving;
-        const double scale = std::max(length(start), length(came_in + answered));
-        births.counts.worst_rounding =
-            std::max(births.counts.worst_rounding, scale > 0 ? length(rounding) / scale : 0.0);
-        heir.momentum += rounding - answered;
-    }
-    heir.velocity = (1 / heir.mass) * heir.momentum;
-    const Vec3d booked(rotate(moment.pose.orientation, to_static.to_float()));
-    for (int k = 0; k < 3; ++k) births.counts.impulse_to_static[k] += booked[k];
-}
-
-// The body's shell becomes `shell` when its drawn mesh finds room, else nothing changes.
-bool change_shell(State& state, Row<Bodies> body, Row<Shells> shell) {
-    const Row<Shells> before = state.bodies.shell[body];
-    state.bodies.shell[body] = shell;
-    if (!take_view(state, body)) {
-        state.bodies.shell[body] = before;
-        release_shell(state, shell);
-        return false;
-    }
-    release_shell(state, before);
-    return true;
-}
-
-// One break while it is planned.
+// One break while it is planned. `broken` may be the body's own shell, or a task's that has the same cells.
 struct Plan {
     State& state;
     Row<Bodies> body;
@@ -280,13 +199,42 @@ struct Plan {
     std::span<Row<Bodies>> child;  // new bodies
     std::span<uint8_t> is_crumb;
     uint32_t largest = 0;
+    Range points = {};        // for the hulls of what is left
+    bool is_refused = false;  // some part stays for want of room
 
+    bool leaves(uint32_t part) const { return child[part].exists() || is_crumb[part]; }
+    bool is_broken() const {
+        for (uint32_t p = 0; p < parts.size(); ++p)
+            if (leaves(p)) return true;
+        return false;
+    }
     void stay(Births& births, uint32_t part, const char* setting) {
         births.refused.push({body_id(state.bodies, body), setting});
+        is_refused = true;
         join_parts(ShellView(state, broken), parts, part, largest);
         join_motions(motions[largest], motions[part]);
     }
 };
+
+Plan plan_of(Births& births, Row<Bodies> body, Row<Shells> broken, std::span<FragmentPart> parts) {
+    Arena& arena = births.arena;
+    return {births.state,
+            body,
+            broken,
+            parts,
+            arena.take<PartMotion>(parts.size()),
+            arena.take<uint32_t>(parts.size()),
+            arena.take<Row<Bodies>>(parts.size()),
+            arena.take<uint8_t>(parts.size())};
+}
+
+// Room that the rest needs whatever leaves. False: none, and nothing else is to change.
+bool reserve_points(Births& births, Plan& plan) {
+    const uint32_t rows = births.state.shells.cells[plan.broken].count * kMostHullPoints;
+    if (take_points(births.state, rows, plan.points)) return true;
+    births.refused.push({body_id(births.state.bodies, plan.body), "limits.vertices"});
+    return false;
+}
 
 // Which pieces are crumbs, bodies, or stay; heaviest first, ties by number.
 void plan_births(Births& births, Plan& plan) {
@@ -321,40 +269,101 @@ void plan_births(Births& births, Plan& plan) {
     }
 }
 
-// The body's own new shell. Where it finds no room the lightest piece gives its rows back and stays. False when even
-// then there is none: nothing has changed.
-bool reserve_rest(Births& births, Plan& plan) {
+// Room for the rest's drawn mesh. Where there is none the lightest pieces give their rows back and stay, and in the end
+// the crumbs do. False when even then there is none: the mesh that was drawn last stands.
+bool reserve_view(Births& births, Plan& plan) {
     State& state = births.state;
-    const auto generation = static_cast<uint8_t>(state.shells.generation[plan.broken] + 1);
-    auto lightest = static_cast<uint32_t>(plan.order.size());
-    for (;;) {
-        const char* full = nullptr;
-        const Row<Shells> rest = make_piece(state, plan.broken, plan.parts[plan.largest], generation, &full);
-        if (rest.exists() && change_shell(state, plan.body, rest)) return true;
-        if (rest.exists()) full = "limits.view_vertices";
+    const auto count = static_cast<uint32_t>(plan.order.size());
+    uint32_t lightest = count;
+    while (!take_view(state, plan.body, ShellView(state, plan.broken), plan.parts[plan.largest])) {
         do {
             if (--lightest == 0) {
-                births.refused.push({body_id(state.bodies, plan.body), full});
+                for (uint32_t i = 1; i < count; ++i) {
+                    if (!plan.is_crumb[plan.order[i]]) continue;
+                    plan.is_crumb[plan.order[i]] = 0;
+                    plan.stay(births, plan.order[i], "limits.view_vertices");
+                }
+                if (take_view(state, plan.body, ShellView(state, plan.broken), plan.parts[plan.largest])) return true;
+                births.refused.push({body_id(state.bodies, plan.body), "limits.view_vertices"});
                 return false;
             }
         } while (!plan.child[plan.order[lightest]].exists());
         const uint32_t p = plan.order[lightest];
         free_body(state, plan.child[p]);
         plan.child[p] = {};
-        plan.stay(births, p, full);
+        plan.stay(births, p, "limits.view_vertices");
+    }
+    return true;
+}
+
+// Hits that wait for the body go on to the piece that owns the nearest vertex; a crumb takes its own along.
+void hand_on_hits(State& state, const Plan& plan) {
+    const ShellView shell(state, plan.broken);
+    QueuedHits& queued = state.queued_hits;
+    for (uint32_t q = 0; q < queued.size(); ++q) {
+        if (!queued.is_used[q] || queued.body[q] != plan.body) continue;
+        float least = 1e30f;
+        uint32_t owner = plan.largest;
+        for (uint32_t v = 0; v < shell.vertex_count(); ++v) {
+            const uint32_t row = shell.vertex(v), element = state.vertices.element[row];
+            if (element == kNone) continue;
+            const Vec3 away = state.vertices.rest[row] - queued.point[q];
+            if (dot(away, away) >= least) continue;
+            least = dot(away, away);
+            owner = state.elements.part[shell.element(element)];
+        }
+        if (plan.is_crumb[owner])
+            queued.clear_rows(q, 1);
+        else if (plan.child[owner].exists())
+            queued.body[q] = plan.child[owner];
     }
 }
 
-// New pieces start in touch with each other and with what struck them.
-void part_neighbours(Births& births, Row<Tasks> task, const Plan& plan, std::span<const Bounds> bounds, bool is_late) {
+// The smaller sides have moved (design section 3): the rest keeps its rows, those of the pieces die. What rows the body
+// had before tell which hulls are as they were.
+void keep_rest(Births& births, Plan& plan) {
+    State& state = births.state;
+    const ShellView shell(state, plan.broken), before(state, state.bodies.shell[plan.body]);
+    const Range points = state.shells.points[before.row], old_points = state.shells.points[shell.row];
+    state.shells.points[shell.row] = plan.points;
+    hand_on_hits(state, plan);
+    const ShellSums whole = sums_of(shell);
+    ShellSums left;
+    uint32_t left_elements = 0;
+    for (uint32_t p = 0; p < plan.parts.size(); ++p) {
+        if (!plan.leaves(p)) continue;
+        const FragmentPart& part = plan.parts[p];
+        left_elements += part.element_count;
+        if (plan.child[p].exists())
+            left = left + sums_of(ShellView(state, state.bodies.shell[plan.child[p]]));
+        else
+            for (uint32_t e = part.first_element; e != kNone; e = state.elements.next[shell.element(e)])
+                left = left + element_sums(shell, e);
+        shed_part(shell, part);
+    }
+    ++state.shells.generation[shell.row];
+    clear_run(shell, false);
+    measure_rest(shell, whole, left, left_elements);
+    renew_hulls(shell, points, before);
+    state.pools.points.give_back(old_points.first, old_points.capacity);
+    adopt_shell(state, plan.body, shell.row);
+}
+
+// New pieces start in touch with each other, and with what struck them.
+void part_siblings(Births& births, const Plan& plan, std::span<const Bounds> bounds) {
+    const auto count = static_cast<uint32_t>(plan.parts.size());
+    for (uint32_t p = 0; p < count; ++p)
+        for (uint32_t q = p + 1; q < count; ++q)
+            if (plan.child[p].exists() && plan.child[q].exists() && bounds[p].is_near(bounds[q]))
+                births.rigid.ignore_pair(plan.child[p], plan.child[q], kSiblingSeconds, true);
+}
+
+void part_strikers(Births& births, Row<Tasks> task, const Plan& plan, bool is_late) {
     State& state = births.state;
     const auto count = static_cast<uint32_t>(plan.parts.size());
     const uint32_t first = state.tasks.first_contact[task];
     for (uint32_t p = 0; p < count; ++p) {
         if (!plan.child[p].exists()) continue;
-        for (uint32_t q = p + 1; q < count; ++q)
-            if (plan.child[q].exists() && bounds[p].is_near(bounds[q]))
-                births.rigid.ignore_pair(plan.child[p], plan.child[q], kSiblingSeconds, true);
         for (uint32_t c = first; c < first + state.tasks.contact_count[task]; ++c) {
             const Row<Bodies> striker = state.task_contacts.striker[c];
             if (!striker.exists()) continue;
@@ -374,7 +383,7 @@ void make_birth(Births& births, const Plan& plan, uint32_t p, const Moment& mome
     const bool was_static = static_cast<BodyKind>(bodies.kind[body]) == BodyKind::Static;
     const bool is_static = plan.motions[p].is_static;
     place_body(births, child, moment, motion, is_static);
-    const auto pieces = convex_pieces(state, bodies.shell[child], births.arena);
+    const auto pieces = convex_pieces(state, bodies.shell[child], births.arena, body);
     bounds = {};
     for (const ConvexPiece& piece : pieces)
         for (const Vec3 point : piece.points) bounds.add(point);
@@ -392,6 +401,75 @@ void make_birth(Births& births, const Plan& plan, uint32_t p, const Moment& mome
                       state.shells.generation[bodies.shell[child]]});
 }
 
+// Children first: their hulls are found among the body's, which change last.
+void make_births_of(Births& births, Plan& plan, const Moment& moment) {
+    State& state = births.state;
+    const auto count = static_cast<uint32_t>(plan.parts.size());
+    for (uint32_t i = 1; i < count; ++i) {
+        const uint32_t p = plan.order[i];
+        if (!plan.is_crumb[p]) continue;
+        make_debris(births, ShellView(state, plan.broken), plan.parts[p], world_motion(moment, plan.motions[p]), moment,
+                    plan.body, plan.motions[p].centre);
+    }
+    plan.child[plan.largest] = plan.body;
+    const auto bounds = births.arena.take<Bounds>(count);
+    for (uint32_t i = 1; i <= count; ++i) {
+        const uint32_t p = plan.order[i % count];
+        if (plan.child[p].exists()) make_birth(births, plan, p, moment, bounds[p]);
+    }
+    part_siblings(births, plan, bounds);
+}
+
+// What frees no piece changes no velocity: the body keeps its cracks, and its loose pieces until there is room.
+void stay_whole(Births& births, Plan& plan) {
+    State& state = births.state;
+    const ShellView shell(state, plan.broken), before(state, state.bodies.shell[plan.body]);
+    if (before.row == shell.row || !keep_hulls(shell, before)) return;
+    clear_run(shell, true);
+    adopt_shell(state, plan.body, shell.row);
+}
+
+// Plans and reserves; what is refused asks again in the next frame. True: something leaves.
+bool reserve_births(Births& births, Plan& plan) {
+    State& state = births.state;
+    uint8_t& owed = state.bodies.is_owed_births[plan.body];
+    plan_births(births, plan);
+    const bool is_drawn = reserve_view(births, plan), was_drawn = owed != kOwedDrawing;
+    owed = !is_drawn ? kOwedDrawing : plan.is_refused ? kOwedBirths : 0;
+    if (plan.is_broken()) return true;
+    const bool is_new = plan.broken != state.bodies.shell[plan.body];
+    state.pools.points.give_back(plan.points.first, plan.points.capacity);
+    if (is_drawn && (is_new || !was_drawn)) births.changed.push({plan.body});
+    stay_whole(births, plan);
+    return false;
+}
+
+// Every piece goes on with the body's own motion, about the centres that the rigid world knows, so that momentum and
+// angular momentum are kept to rounding.
+void move_with_body(State& state, Plan& plan) {
+    const Bodies& bodies = state.bodies;
+    const Quat to_body_axes = conjugate(bodies.orientation[plan.body]);
+    const Vec3d velocity(rotate(to_body_axes, bodies.velocity[plan.body])),
+        spin(rotate(to_body_axes, bodies.spin[plan.body]));
+    const ShellView shell(state, plan.broken);
+    for (uint32_t p = 0; p < plan.parts.size(); ++p) {
+        Moments sum;
+        for (uint32_t e = plan.parts[p].first_element; e != kNone; e = state.elements.next[shell.element(e)])
+            sum = sum + element_moments(shell, e);
+        const MassProperties own = mass_properties(sum);
+        PartMotion& m = plan.motions[p];
+        m = {};
+        m.mass = own.mass;
+        m.centre = own.centre;
+        m.inertia = own.inertia;
+        m.is_static = plan.parts[p].has_pins;
+        if (m.is_static) continue;
+        m.spin = spin;
+        m.velocity = velocity + cross(spin, own.centre - bodies.centre[plan.body]);
+        m.momentum = own.mass * m.velocity;
+    }
+}
+
 }  // namespace
 
 void break_body(Births& births, Row<Tasks> task) {
@@ -399,57 +477,57 @@ void break_body(Births& births, Row<Tasks> task) {
     const Row<Bodies> body = state.tasks.body[task];
     const Row<Shells> broken = state.tasks.shell[task];
     const ShellView shell(state, broken);
-    const uint32_t count = state.tasks.part_count[task];
-    Arena& arena = births.arena;
-    Plan plan{state,
-              body,
-              broken,
-              std::span(state.fragments.part.data() + size_t{task} * kMostParts, count),
-              arena.take<PartMotion>(count),
-              arena.take<uint32_t>(count),
-              arena.take<Row<Bodies>>(count),
-              arena.take<uint8_t>(count)};
+    Plan plan =
+        plan_of(births, body, broken,
+                std::span(state.fragments.part.data() + size_t{task} * kMostParts, state.tasks.part_count[task]));
+    if (!reserve_points(births, plan)) return;
     const HandoffReport report =
         rigid_handoff(shell,
                       {Vec3d(state.tasks.start_velocity[task]), Vec3d(state.tasks.start_spin[task]),
                        state.shells.centre[broken], state.tasks.approach_speed[task]},
                       plan.parts, plan.motions);
-    plan_births(births, plan);
-    if (!reserve_rest(births, plan)) return;
-    bool is_broken = false;
-    for (uint32_t p = 0; p < count; ++p) is_broken = is_broken || plan.child[p].exists() || plan.is_crumb[p];
-    if (!is_broken) {  // all pieces stay: what frees no piece changes no velocity
-        births.changed.push({body});
-        return;
-    }
+    find_changed_cells(shell, ShellView(state, state.bodies.shell[body]));
+    if (!reserve_births(births, plan)) return;
+    keep_rest(births, plan);
     births.counts.clamped += report.speed_clamps + report.spin_clamps;
     const Moment moment = moment_of(state, task, plan.motions);
-    if (!moment.is_late) strike_back(births, task, moment, plan.motions, plan.largest);
-    for (uint32_t i = 1; i < count; ++i) {
-        const uint32_t p = plan.order[i];
-        if (!plan.is_crumb[p]) continue;
-        make_debris(births, shell, plan.parts[p], world_motion(moment, plan.motions[p]), moment, body,
-                    plan.motions[p].centre);
-    }
-    plan.child[plan.largest] = body;
-    const auto bounds = arena.take<Bounds>(count);
-    for (uint32_t i = 0; i < count; ++i)
-        if (plan.child[plan.order[i]].exists()) make_birth(births, plan, plan.order[i], moment, bounds[plan.order[i]]);
-    part_neighbours(births, task, plan, bounds, moment.is_late);
+    if (!moment.is_late) strike_back(births, task, moment.pose, plan.motions, plan.largest);
+    make_births_of(births, plan, moment);
+    part_strikers(births, task, plan, moment.is_late);
+}
+
+void ask_again(Births& births, Row<Bodies> body) {
+    State& state = births.state;
+    const ShellView shell(state, state.bodies.shell[body]);
+    const std::span slot(state.fragments.part.data() + size_t{state.tasks.limit()} * kMostParts, kMostParts);
+    const uint32_t count = group_fragments(shell, slot);
+    if (count > kMostParts) return;
+    Plan plan = plan_of(births, body, shell.row, slot.first(count));
+    if (!reserve_points(births, plan)) return;
+    move_with_body(state, plan);
+    find_changed_cells(shell, shell);
+    if (!reserve_births(births, plan)) return;
+    keep_rest(births, plan);
+    make_births_of(births, plan, {pose_of(state.bodies, body), {}, {}, {}, false});
 }
 
 void keep_cracks(Births& births, Row<Tasks> task) {
     State& state = births.state;
     const Row<Bodies> body = state.tasks.body[task];
-    const Row<Shells> broken = state.tasks.shell[task];
+    const ShellView shell(state, state.tasks.shell[task]), before(state, state.bodies.shell[body]);
     const FragmentPart& whole = state.fragments.part[size_t{task} * kMostParts];
     const char* full = nullptr;
-    const Row<Shells> kept = make_piece(state, broken, whole, state.shells.generation[broken], &full);
-    const bool is_kept = kept.exists() && change_shell(state, body, kept);
-    if (is_kept)
-        births.changed.push({body});
-    else
-        births.refused.push({body_id(state.bodies, body), kept.exists() ? "limits.view_vertices" : full});
+    if (!take_view(state, body, shell, whole))
+        full = "limits.view_vertices";
+    else if (!keep_hulls(shell, before))
+        full = "limits.vertices";
+    if (full) {
+        births.refused.push({body_id(state.bodies, body), full});
+        return;
+    }
+    clear_run(shell, true);
+    adopt_shell(state, body, shell.row);
+    births.changed.push({body});
 }
 
 }  // namespace cullet

@@ -18,10 +18,14 @@ struct Births {
     Step step;
 };
 
-/// The task's shell has more than one part (Fragments). The largest keeps the body's handle; the others are planned,
-/// reserved and made in order of mass. A piece that finds no room stays with the largest, and is counted with the
-/// setting to raise.
+/// The task's shell has more than one part (Fragments). The largest keeps the body's handle and its rows in that shell,
+/// which becomes the body's own; the others are planned, reserved and made in order of mass, and their old rows are
+/// dead. A piece that finds no room stays with the largest and is counted with the setting to raise.
 void break_body(Births& births, Row<Tasks> task);
+
+/// A body whose loose pieces found no room (is_owed_births) and that no task works on asks again. They leave with the
+/// body's own motion.
+void ask_again(Births& births, Row<Bodies> body);
 
 /// A shell that stayed whole but has new cracks: the body keeps them.
 void keep_cracks(Births& births, Row<Tasks> task);

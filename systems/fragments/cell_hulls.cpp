@@ -106,19 +106,24 @@ Triangle outer_triangle(const ShellView& shell, uint32_t element) {
     return {{v.rest[shell.vertex(c[0])], v.rest[shell.vertex(c[1])], v.rest[shell.vertex(c[2])]}};
 }
 
-/// Normal by area, longest way from the middle, and what is square to both.
-Frame cell_frame(const ShellView& shell, uint32_t first, uint32_t last) {
+uint32_t next_of(const ShellView& shell, uint32_t element) {
+    return shell.state.elements.next_in_cell[shell.element(element)];
+}
+
+/// Normal by area, longest way from the middle, and what is square to both; of a list of elements.
+Frame cell_frame(const ShellView& shell, uint32_t first) {
     Vec3 n, middle;
-    for (uint32_t e = first; e < last; ++e) {
+    uint32_t count = 0;
+    for (uint32_t e = first; e != kNone; e = next_of(shell, e), ++count) {
         const auto [p] = outer_triangle(shell, e);
         n += cross(p[1] - p[0], p[2] - p[0]);
         middle += p[0] + p[1] + p[2];
     }
-    middle = (1.0f / (3.0f * static_cast<float>(last - first))) * middle;
+    middle = (1.0f / (3.0f * static_cast<float>(count))) * middle;
     n = normalised(n);
     if (!(dot(n, n) > 0)) n = {0, 1, 0};  // closed or folded: no normal of its own
     Vec3 longest;
-    for (uint32_t e = first; e < last; ++e) {
+    for (uint32_t e = first; e != kNone; e = next_of(shell, e)) {
         const Vec3 way = outer_triangle(shell, e).p[0] - middle;
         const Vec3 flat = way - dot(way, n) * n;
         if (dot(flat, flat) > dot(longest, longest)) longest = flat;
@@ -135,13 +140,14 @@ struct CellVertices {
     uint32_t count = 0;
 };
 
+/// Of the list's elements from `first` on, up to `last`.
 void gather_vertices(const ShellView& shell, uint32_t first, uint32_t last, CellVertices& found) {
     const Elements& elements = shell.state.elements;
     Column<uint32_t>& slot = shell.state.vertices.copy;
     found.count = 0;
-    for (uint32_t e = first; e < last; ++e)
+    for (uint32_t e = first; e != last; e = next_of(shell, e))
         for (uint32_t v : elements.corner[shell.element(e)]) slot[shell.vertex(v)] = kNone;
-    for (uint32_t e = first; e < last; ++e) {
+    for (uint32_t e = first; e != last; e = next_of(shell, e)) {
         const uint32_t row = shell.element(e);
         const auto& corner = elements.corner[row];
         for (uint32_t v : corner) {
@@ -178,14 +184,82 @@ struct Workspace {
     Candidates list;
 };
 
-void choose_points(const ShellView& shell, uint32_t first, uint32_t last, float margin, Workspace& work) {
+/// Of the list of elements that begins with `first`; no points for an empty one.
+void choose_points(const ShellView& shell, uint32_t first, float margin, Workspace& work) {
     work.list.count = 0;
-    if (first == last) return;
-    const Directions directions(cell_frame(shell, first, last));
-    for (uint32_t batch = first; batch < last; batch += kBatchElements) {
-        gather_vertices(shell, batch, std::min(last, batch + kBatchElements), work.vertices);
+    if (first == kNone) return;
+    const Directions directions(cell_frame(shell, first));
+    while (first != kNone) {
+        uint32_t end = first;
+        for (uint32_t n = 0; n < kBatchElements && end != kNone; ++n) end = next_of(shell, end);
+        gather_vertices(shell, first, end, work.vertices);
         add_candidates(shell, work.vertices, margin, work.list);
         keep_extremes(work.list, directions, kGoodEnough * margin);
+        first = end;
+    }
+}
+
+uint32_t cell_row(const ShellView& shell, uint32_t cell) {
+    return shell.shells().cells[shell.row].first + cell;
+}
+
+void append_points(const ShellView& shell, uint32_t cell, const Candidates& list) {
+    Range& points = shell.shells().points[shell.row];
+    CULLET_ASSERT(points.count + list.count <= points.capacity, "hull points of cell %u do not fit", cell);
+    for (uint32_t i = 0; i < list.count; ++i)
+        shell.state.hull_points.point.set(points.first + points.count + i, list.point(i));
+    Cells& cells = shell.state.cells;
+    cells.first_point[cell_row(shell, cell)] = points.count;
+    cells.point_count[cell_row(shell, cell)] = list.count;
+    points.count += list.count;
+}
+
+void append_copies(const ShellView& shell, uint32_t cell, uint32_t first_row, uint32_t count) {
+    Range& points = shell.shells().points[shell.row];
+    CULLET_ASSERT(points.count + count <= points.capacity, "hull points of cell %u do not fit", cell);
+    HullPoints& table = shell.state.hull_points;
+    table.copy_rows(table, first_row, points.first + points.count, count);
+    Cells& cells = shell.state.cells;
+    cells.first_point[cell_row(shell, cell)] = points.count;
+    cells.point_count[cell_row(shell, cell)] = count;
+    points.count += count;
+}
+
+/// Links the elements of each cell in rising order, and counts them: elements stand sorted by cell.
+void link_sorted(const ShellView& shell) {
+    Elements& elements = shell.state.elements;
+    Cells& cells = shell.state.cells;
+    const uint32_t count = shell.element_count();
+    uint32_t e = 0;
+    for (uint32_t c = 0; c < shell.shells().cells[shell.row].count; ++c) {
+        const uint32_t first = e;
+        while (e < count && elements.cell[shell.element(e)] == c) {
+            const bool is_last = e + 1 == count || elements.cell[shell.element(e + 1)] != c;
+            elements.next_in_cell[shell.element(e)] = is_last ? kNone : e + 1;
+            ++e;
+        }
+        cells.first_element[cell_row(shell, c)] = first == e ? kNone : first;
+        cells.element_count[cell_row(shell, c)] = e - first;
+        cells.is_stale[cell_row(shell, c)] = 0;
+    }
+    CULLET_ASSERT(e == count, "elements of shell %u are not sorted by cell", shell.row.index);
+}
+
+/// The same of live elements in any order.
+void link_live(const ShellView& shell) {
+    Elements& elements = shell.state.elements;
+    Cells& cells = shell.state.cells;
+    for (uint32_t c = 0; c < shell.shells().cells[shell.row].count; ++c) {
+        cells.first_element[cell_row(shell, c)] = kNone;
+        cells.element_count[cell_row(shell, c)] = 0;
+    }
+    for (uint32_t e = shell.element_count(); e-- > 0;) {
+        const uint32_t row = shell.element(e);
+        if (elements.flags[row] & kDead) continue;
+        const uint32_t c = cell_row(shell, elements.cell[row]);
+        elements.next_in_cell[row] = cells.first_element[c];
+        cells.first_element[c] = e;
+        ++cells.element_count[c];
     }
 }
 
@@ -197,25 +271,79 @@ float hull_margin(const ShellView& shell) {
 
 void build_hulls(ShellView shell) {
     Workspace work;
-    const float margin = hull_margin(shell);
-    const Range cells = shell.shells().cells[shell.row];
-    Range& points = shell.shells().points[shell.row];
-    points.count = 0;
-    uint32_t e = 0;
-    for (uint32_t c = 0; c < cells.count; ++c) {
-        const uint32_t first = e;
-        while (e < shell.element_count() && shell.state.elements.cell[shell.element(e)] == c) ++e;
-        choose_points(shell, first, e, margin, work);
-        CULLET_ASSERT(points.count + work.list.count <= points.capacity, "hull points of cell %u do not fit", c);
-        for (uint32_t i = 0; i < work.list.count; ++i)
-            shell.state.hull_points.point.set(points.first + points.count + i, work.list.point(i));
-        Cells& table = shell.state.cells;
-        table.first_point[cells.first + c] = points.count;
-        table.point_count[cells.first + c] = work.list.count;
-        table.element_count[cells.first + c] = e - first;
-        points.count += work.list.count;
+    link_sorted(shell);
+    shell.shells().points[shell.row].count = 0;
+    for (uint32_t c = 0; c < shell.shells().cells[shell.row].count; ++c) {
+        choose_points(shell, shell.state.cells.first_element[cell_row(shell, c)], hull_margin(shell), work);
+        append_points(shell, c, work.list);
     }
-    CULLET_ASSERT(e == shell.element_count(), "elements of shell %u are not sorted by cell", shell.row.index);
+}
+
+void build_piece_hulls(ShellView piece, ShellView parent) {
+    Workspace work;
+    Cells& cells = piece.state.cells;
+    link_sorted(piece);
+    const float margin = hull_margin(piece), parents = hull_margin(parent);
+    const bool may_copy = std::fabs(margin - parents) <= 0.05f * parents;
+    const uint32_t parent_points = parent.shells().points[parent.row].first;
+    piece.shells().points[piece.row].count = 0;
+    for (uint32_t c = 0; c < piece.shells().cells[piece.row].count; ++c) {
+        uint32_t& same = cells.same_cell[cell_row(piece, c)];
+        if (!may_copy) same = kNone;
+        if (same != kNone) {
+            const uint32_t from = cell_row(parent, same);
+            append_copies(piece, c, parent_points + cells.first_point[from], cells.point_count[from]);
+            continue;
+        }
+        choose_points(piece, cells.first_element[cell_row(piece, c)], margin, work);
+        append_points(piece, c, work.list);
+    }
+}
+
+void find_changed_cells(ShellView shell, ShellView before) {
+    const Elements& elements = shell.state.elements;
+    Cells& cells = shell.state.cells;
+    for (uint32_t c = 0; c < shell.shells().cells[shell.row].count; ++c)
+        cells.is_changed[cell_row(shell, c)] = cells.is_stale[cell_row(shell, c)];
+    if (before.row == shell.row) return;
+    for (uint32_t e = 0; e < shell.element_count(); ++e) {
+        const uint32_t now = shell.element(e);
+        bool is_same = e < before.element_count();
+        if (is_same) {
+            const uint32_t then = before.element(e);
+            is_same = elements.corner[now] == elements.corner[then];
+            for (int k = 0; k < 3; ++k)
+                is_same = is_same && (elements.neighbour[now][k] == kNone) == (elements.neighbour[then][k] == kNone);
+        }
+        if (!is_same) cells.is_changed[cell_row(shell, elements.cell[now])] = 1;
+    }
+}
+
+void renew_hulls(ShellView shell, Range points, ShellView before) {
+    Workspace work;
+    Cells& cells = shell.state.cells;
+    const uint32_t count = shell.shells().cells[shell.row].count;
+    for (uint32_t c = 0; c < count; ++c) {  // before counts are changed where `before` is the same shell
+        const uint32_t row = cell_row(shell, c), then = cell_row(before, c);
+        cells.list_count[row] = cells.element_count[row];
+        cells.first_point[row] = cells.first_point[then];
+        cells.point_count[row] = cells.point_count[then];
+    }
+    link_live(shell);
+    const float margin = hull_margin(shell);
+    shell.shells().points[shell.row].count = 0;
+    for (uint32_t c = 0; c < count; ++c) {
+        const uint32_t row = cell_row(shell, c);
+        const bool is_same = !cells.is_changed[row] && cells.element_count[row] == cells.list_count[row];
+        cells.same_cell[row] = is_same ? c : kNone;
+        if (is_same) {
+            append_copies(shell, c, points.first + cells.first_point[row], cells.point_count[row]);
+            continue;
+        }
+        choose_points(shell, cells.first_element[row], margin, work);
+        append_points(shell, c, work.list);
+        cells.is_stale[row] = 0;
+    }
 }
 
 }  // namespace cullet

@@ -17,5 +17,16 @@ float hull_margin(const ShellView& shell);
 /// margins. Uses Vertices.copy as scratch. About 35 microseconds a cell of processor time,
 /// without AVX.
 void build_hulls(ShellView shell);
+/// The same for a piece of a broken shell: where Cells.same_cell names a cell of `parent` and the margins of both are
+/// within a twentieth, its points are copied. Elsewhere same_cell becomes kNone.
+void build_piece_hulls(ShellView piece, ShellView parent);
+
+/// Cells.is_changed of `shell`, a cracked copy of `before` with the same cells: where an element is new, has lost a
+/// neighbour or a corner, and where the points were stale before.
+void find_changed_cells(ShellView shell, ShellView before);
+/// Into the shell's own empty range of points: those of `before` (whose rows of points are `points`) where no element
+/// of the cell is changed or dead, else chosen anew from the live ones.
+/// Cells.same_cell then tells which were copied. Elements may stand in any order.
+void renew_hulls(ShellView shell, Range points, ShellView before);
 
 }  // namespace cullet

@@ -1,5 +1,6 @@
 #include "systems/damage/thresholds.hpp"
 #include "systems/fragments/break_body.hpp"
+#include "systems/fragments/strike_back.hpp"
 #include "systems/rigid/body_id.hpp"
 #include "systems/systems.hpp"
 
@@ -37,11 +38,13 @@ void close_task(State& state, Row<Tasks> task, Step step) {
 }  // namespace
 
 void make_births(Serial, Step step, const Events<TaskEnded>& ended, ShellTables shells, Tasks& tasks,
-                 const TaskContacts&, Fragments&, Bodies& bodies, Debris&, ViewVertices&, ViewIndices&,
+                 TaskContacts& contacts, QueuedHits&, Fragments&, Bodies& bodies, Debris&, ViewVertices&, ViewIndices&,
                  RigidWorld& rigid, const DamageSettings& settings, DamageCounts& counts, Arena& arena,
                  Events<ShellChanged>& changed, Events<CrackStartedEvent>& cracks, Events<FragmentBornEvent>& born,
                  Events<DebrisEvent>& debris_events, Events<RefusedEvent>& refused, Events<FaultEvent>& faults) {
     Births births{shells.state, rigid, settings, counts, arena, changed, born, debris_events, refused, step};
+    for (uint32_t b = 0; b < bodies.size(); ++b)
+        if (bodies.is_owed_births[b] && bodies.task[b] == kNone) ask_again(births, Row<Bodies>(b));
     for (const TaskEnded& e : ended) {
         const Row<Tasks> task = e.task;
         if (static_cast<TaskState>(tasks.state[task]) != TaskState::Dropped && tasks.start_count[task])
@@ -62,6 +65,7 @@ void make_births(Serial, Step step, const Events<TaskEnded>& ended, ShellTables 
                     {body_id(bodies, tasks.body[task]),
                      "A hit gained energy three times over, or made more than 1024 pieces; the body stays as it was."});
         }
+        pay_answers(bodies, tasks, contacts, rigid, task);
         counts.cuts += tasks.crack_count[task];
         counts.starts += tasks.start_count[task];
         counts.redone += tasks.redo_count[task];

@@ -93,6 +93,7 @@ void join_cells(const ShellView& shell, uint32_t from, uint32_t to) {
     cells.last_element[t] = cells.last_element[f];
     cells.list_count[t] += cells.list_count[f];
     cells.merged[f] = to;
+    cells.is_changed[t] = 1;
 }
 
 /// Joins small cells to neighbours, by rising cell, until none can. Returns how many cells are left.
@@ -160,17 +161,21 @@ void copy_vertices(const ShellView& shell, const ShellView& piece, uint32_t coun
         vertices.velocity.set(row, {});
         for (int side : {0, 1}) vertices.probe.set(row, {}, side);
     }
-    piece.vertices().count = (count + kLanes - 1) / kLanes * kLanes;
+    piece.vertices().count = count;
 }
 
-/// Copies elements and springs cell by cell; cells get the numbers 0, 1, ... by their first element.
-void copy_elements(const ShellView& shell, const FragmentPart& part, const ShellView& piece) {
+/// Copies elements and springs cell by cell; cells get the numbers 0, 1, ... by their first element, or keep those that
+/// they have. Cells.same_cell: the whole cell moved as it was.
+void copy_elements(const ShellView& shell, const FragmentPart& part, const ShellView& piece, bool keeps_cells) {
     Elements& elements = shell.state.elements;
     Cells& cells = shell.state.cells;
     uint32_t count = 0, cell_count = 0;
     for_each_element(shell, part, [&](uint32_t head) {
         const uint32_t cell = elements.cell[shell.element(head)], c = cell_row(shell, cell);
         if (cells.first_element[c] != head || cells.merged[c] != cell) return;
+        const uint32_t number = keeps_cells ? cell : cell_count++;
+        const bool is_same = !cells.is_changed[c] && cells.list_count[c] == cells.element_count[c];
+        cells.same_cell[cell_row(piece, number)] = is_same ? cell : kNone;
         for (uint32_t e = head; e != kNone;) {
             const uint32_t first = e, to = count;
             uint32_t next = e;
@@ -182,13 +187,12 @@ void copy_elements(const ShellView& shell, const FragmentPart& part, const Shell
             elements.copy_rows(elements, shell.element(first), piece.element(to), rows);
             shell.state.triangle_springs.copy_rows(shell.state.triangle_springs, shell.element(first),
                                                    piece.element(to), rows);
-            for (uint32_t i = to; i < count; ++i) elements.cell[piece.element(i)] = cell_count;
+            for (uint32_t i = to; i < count; ++i) elements.cell[piece.element(i)] = number;
             e = next;
         }
-        ++cell_count;
     });
     piece.elements().count = count;
-    piece.shells().cells[piece.row].count = cell_count;
+    if (!keeps_cells) piece.shells().cells[piece.row].count = cell_count;
 }
 
 uint32_t copy_hinge(const ShellView& shell, const ShellView& piece, uint32_t hinge) {
@@ -228,6 +232,7 @@ void renumber_elements(const ShellView& shell, const FragmentPart& part, const S
 
 void inherit(Shells& shells, Row<Shells> from, Row<Shells> to, uint8_t generation) {
     shells.material[to] = shells.material[from];
+    shells.intact_mass[to] = shells.intact_mass[from];
     shells.depth_floor[to] = shells.depth_floor[from];
     shells.mean_edge[to] = shells.mean_edge[from];
     shells.time_step[to] = shells.time_step[from];
@@ -254,22 +259,56 @@ ShellRoom piece_room(ShellView broken, const FragmentPart& part) {
     return room_of(counts, part);
 }
 
+namespace {
+
+/// Everything but cells' hulls; marks are laid.
+void fill_piece(const ShellView& shell, const FragmentPart& part, const ShellView& piece, uint32_t vertex_count,
+                uint8_t generation, bool keeps_cells) {
+    inherit(shell.shells(), shell.row, piece.row, generation);
+    order_vertices(shell, part, piece, vertex_count);
+    copy_vertices(shell, piece, vertex_count);
+    copy_elements(shell, part, piece, keeps_cells);
+    renumber_elements(shell, part, piece);
+    clear_spare_rows(shell.state, piece.row);
+    piece.vertices().count = (vertex_count + kLanes - 1) / kLanes * kLanes;
+    sum_vertex_masses(piece);
+    measure_shell(piece);
+}
+
+}  // namespace
+
 Row<Shells> make_piece(State& state, Row<Shells> broken, const FragmentPart& part, uint8_t generation,
-                       const char** full) {
+                       const char** full, Row<Shells> hulls) {
     const ShellView shell(state, broken);
     Counts counts = mark_part(shell, part);
     counts.cells = merge_small_cells(shell, part, counts.cells);
-    const Row<Shells> row = make_shell(state, room_of(counts, part), full);
+    const Row<Shells> row = make_shell_unclear(state, room_of(counts, part), full);
     if (!row.exists()) return row;
     const ShellView piece(state, row);
-    inherit(state.shells, broken, row, generation);
-    order_vertices(shell, part, piece, counts.vertices);
-    copy_vertices(shell, piece, counts.vertices);
-    copy_elements(shell, part, piece);
-    renumber_elements(shell, part, piece);
-    sum_vertex_masses(piece);
-    measure_shell(piece);
-    build_hulls(piece);
+    fill_piece(shell, part, piece, counts.vertices, generation, false);
+    if (hulls.exists())
+        build_piece_hulls(piece, ShellView(state, hulls));
+    else
+        build_hulls(piece);
+    return row;
+}
+
+Row<Shells> compact_shell(State& state, Row<Shells> old, const FragmentPart& whole, const char** full) {
+    const ShellView shell(state, old);
+    const Counts counts = mark_part(shell, whole);
+    ShellRoom room = room_of(counts, whole);
+    room.cells = state.shells.cells[old].count;
+    room.points = state.shells.points[old].count;
+    const Row<Shells> row = make_shell_unclear(state, room, full);
+    if (!row.exists()) return row;
+    const ShellView piece(state, row);
+    fill_piece(shell, whole, piece, counts.vertices, state.shells.generation[old], true);
+    Range &cells = state.shells.cells[row], &points = state.shells.points[row];
+    cells.count = room.cells;
+    points.count = room.points;
+    state.cells.copy_rows(state.cells, state.shells.cells[old].first, cells.first, cells.count);
+    state.hull_points.copy_rows(state.hull_points, state.shells.points[old].first, points.first, points.count);
+    state.shells.has_cracks[row] = state.shells.has_cracks[old];
     return row;
 }
 

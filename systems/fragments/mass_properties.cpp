@@ -54,24 +54,37 @@ Moments moments_of(const MassProperties& p) {
     return {p.mass, p.mass * p.centre, about_centre + p.mass * outer(p.centre)};
 }
 
-void measure_shell(ShellView shell) {
-    const MassProperties properties = mass_properties(shell_moments(shell));
-    double area = 0, depth = 0;
-    for (uint32_t e = 0; e < shell.element_count(); ++e) {
-        if (!is_live(shell, e)) continue;
-        const auto corner = shell.state.elements.corner[shell.element(e)];
-        double sum = 0;
-        for (uint32_t v : corner) sum += static_cast<double>(shell.state.vertices.depth[shell.vertex(v)]);
-        const double a = prism_area(load_prism(shell, e));
-        area += a;
-        depth += a * sum / 3;
-    }
+ShellSums element_sums(const ShellView& shell, uint32_t element) {
+    ShellSums sums{element_moments(shell, element), prism_area(load_prism(shell, element)), 0};
+    double depth = 0;
+    for (uint32_t v : shell.state.elements.corner[shell.element(element)])
+        depth += static_cast<double>(shell.state.vertices.depth[shell.vertex(v)]);
+    sums.depth_area = sums.area * depth / 3;
+    return sums;
+}
+
+ShellSums sums_of(const ShellView& shell) {
+    const Shells& s = shell.shells();
+    const double area = s.area[shell.row];
+    return {moments_of({s.mass[shell.row], s.centre[shell.row], s.inertia[shell.row]}), area,
+            area * s.thickness[shell.row]};
+}
+
+void write_sums(ShellView shell, const ShellSums& sums) {
+    const MassProperties properties = mass_properties(sums.moments);
     Shells& s = shell.shells();
     s.mass[shell.row] = properties.mass;
     s.centre.set(shell.row, properties.centre);
     s.inertia.set(shell.row, properties.inertia);
-    s.area[shell.row] = static_cast<float>(area);
-    s.thickness[shell.row] = area > 0 ? static_cast<float>(depth / area) : 0.0f;
+    s.area[shell.row] = static_cast<float>(sums.area);
+    s.thickness[shell.row] = sums.area > 0 ? static_cast<float>(sums.depth_area / sums.area) : 0.0f;
+}
+
+void measure_shell(ShellView shell) {
+    ShellSums sums;
+    for (uint32_t e = 0; e < shell.element_count(); ++e)
+        if (is_live(shell, e)) sums = sums + element_sums(shell, e);
+    write_sums(shell, sums);
 }
 
 void sum_vertex_masses(ShellView shell) {

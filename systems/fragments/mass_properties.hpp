@@ -33,6 +33,24 @@ MassProperties mass_properties(const Moments& moments);
 /// Back from properties to sums, for `whole - part`.
 Moments moments_of(const MassProperties& properties);
 
+/// What a shell's mass properties, area and thickness are made of.
+struct ShellSums {
+    Moments moments;
+    double area = 0;        // m2
+    double depth_area = 0;  // m3: mean depth of the corners, times area
+};
+inline ShellSums operator+(const ShellSums& a, const ShellSums& b) {
+    return {a.moments + b.moments, a.area + b.area, a.depth_area + b.depth_area};
+}
+inline ShellSums operator-(const ShellSums& a, const ShellSums& b) {
+    return {a.moments - b.moments, a.area - b.area, a.depth_area - b.depth_area};
+}
+ShellSums element_sums(const ShellView& shell, uint32_t element);
+/// Back from the shell's row.
+ShellSums sums_of(const ShellView& shell);
+/// Writes mass, centre, inertia, area and thickness of the shell's row.
+void write_sums(ShellView shell, const ShellSums& sums);
+
 /// Writes mass, centre, inertia, area and thickness (mean depth by area) of the shell from its elements.
 void measure_shell(ShellView shell);
 

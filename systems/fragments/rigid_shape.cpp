@@ -5,7 +5,7 @@
 
 namespace cullet {
 
-std::span<const ConvexPiece> convex_pieces(const State& state, Row<Shells> shell, Arena& arena) {
+std::span<const ConvexPiece> convex_pieces(const State& state, Row<Shells> shell, Arena& arena, RigidId same_body) {
     const Range cells = state.shells.cells[shell];
     const uint32_t first_point = state.shells.points[shell].first;
     const auto pieces = arena.take<ConvexPiece>(cells.count);
@@ -16,7 +16,8 @@ std::span<const ConvexPiece> convex_pieces(const State& state, Row<Shells> shell
         const auto points = arena.take<Vec3>(point_count);
         for (uint32_t p = 0; p < points.size(); ++p)
             points[p] = state.hull_points.point[first_point + state.cells.first_point[cells.first + c] + p];
-        pieces[count++] = {points, c};
+        const uint32_t same = same_body == kNoRigid ? kNone : state.cells.same_cell[cells.first + c];
+        pieces[count++] = {points, c, same == kNone ? kNoRigid : same_body, same};
     }
     return pieces.first(count);
 }

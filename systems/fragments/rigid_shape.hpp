@@ -6,8 +6,10 @@
 
 namespace cullet {
 
-/// Hulls of all cells that have points; the spans live in the arena.
-std::span<const ConvexPiece> convex_pieces(const State& state, Row<Shells> shell, Arena& arena);
+/// Hulls of all cells that have points; the spans live in the arena. With `same_body`, Cells.same_cell tells which of
+/// that body's hulls have the same points.
+std::span<const ConvexPiece> convex_pieces(const State& state, Row<Shells> shell, Arena& arena,
+                                           RigidId same_body = kNoRigid);
 /// All that the rigid world needs for a body with a shell, from its row.
 RigidDescription describe_rigid(const State& state, Row<Bodies> body, std::span<const ConvexPiece> pieces);
 /// Writes mass, centre, inertia and radius of the body's row from its shell.

@@ -19,7 +19,17 @@ struct Ledger {
 Ledger ledger_of(const World& world) {
     const Matter m = matter_of(world);
     const double* given = world.contents().data.counts.impulse_to_static;
-    return {m.mass, m.kinetic_energy, {m.momentum[0], m.momentum[1], m.momentum[2]}, {given[0], given[1], given[2]}};
+    Ledger ledger{
+        m.mass, m.kinetic_energy, {m.momentum[0], m.momentum[1], m.momentum[2]}, {given[0], given[1], given[2]}};
+    // What waits for a striker that may break too.
+    const State& state = world.contents().data.state;
+    for (uint32_t t = 0; t < state.tasks.size(); ++t) {
+        if (static_cast<TaskState>(state.tasks.state[t]) == TaskState::Free) continue;
+        const uint32_t first = state.tasks.first_contact[t];
+        for (uint32_t c = first; c < first + state.tasks.contact_count[t]; ++c)
+            if (state.task_contacts.is_answered[c]) ledger.momentum += state.task_contacts.answer[c];
+    }
+    return ledger;
 }
 
 /// Watches each hand-off: mass and momentum, supports included, are what they were, to `share` of the largest momentum

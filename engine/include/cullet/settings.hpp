@@ -16,7 +16,8 @@ struct LimitSettings {
     uint32_t elements = 1u << 21;  // triangles of the same
     uint32_t open_hits = 64;       // damage tasks at once
     uint32_t view_vertices = 1u << 23;
-    uint32_t debris = 8192;  // crumbs too small to be bodies
+    uint32_t debris = 8192;      // crumbs too small to be bodies
+    uint32_t queued_hits = 256;  // further hits on bodies whose hit is still worked off
 };
 
 struct Settings {

@@ -1,0 +1,55 @@
+#include <algorithm>
+
+#include "systems/costs.hpp"
+#include "systems/fragments/group_fragments.hpp"
+#include "systems/fragments/make_piece.hpp"
+#include "systems/fragments/rest_of_body.hpp"
+#include "systems/fragments/rigid_shape.hpp"
+#include "systems/systems.hpp"
+
+namespace cullet {
+namespace {
+
+bool is_worth_it(const Bodies& bodies, const Shells& shells, uint32_t b) {
+    const Row<Shells> shell = bodies.shell[b];
+    return shell.exists() && bodies.task[b] == kNone && !bodies.is_owed_births[b] &&
+           4 * uint64_t{shells.dead_elements[shell]} > shells.elements[shell].count;
+}
+
+bool compact(State& state, Row<Bodies> body, std::span<FragmentPart> slot) {
+    const Row<Shells> old = state.bodies.shell[body];
+    if (group_fragments(ShellView(state, old), slot) != 1) return false;
+    const Row<Shells> compacted = compact_shell(state, old, slot[0]);
+    if (!compacted.exists()) return false;
+    release_shell(state, old);
+    state.bodies.shell[body] = compacted;
+    take_mass_properties(state, body);
+    return true;
+}
+
+}  // namespace
+
+// The drawn mesh and the hulls stay: nothing that the game or the rigid world sees changes, but the last bits of the
+// mass. The first body of a quiet frame is served even when it costs more than the budget, or it never would be.
+void compact_shells(Serial, ShellTables shells, Bodies& bodies, const Tasks& tasks, Fragments& fragments,
+                    DamageCounts& counts, const Events<TaskEnded>& ended) {
+    bool is_quiet = ended.size() == 0;
+    for (uint32_t t = 0; t < tasks.size() && is_quiet; ++t)
+        is_quiet = static_cast<TaskState>(tasks.state[t]) == TaskState::Free;
+    if (!is_quiet) return;
+    const std::span slot(fragments.part.data() + size_t{tasks.limit()} * kMostParts, kMostParts);
+    bool is_first = true;
+    for (uint32_t b = 0; b < bodies.size(); ++b) {
+        if (!is_worth_it(bodies, shells.state.shells, b)) continue;
+        const Row<Shells> shell = bodies.shell[b];
+        const uint64_t live = shells.state.shells.elements[shell].count - shells.state.shells.dead_elements[shell];
+        const uint64_t cost = kUnitsCompact * live;
+        if (!is_first && cost > counts.units_left) return;
+        if (!compact(shells.state, Row<Bodies>(b), slot)) continue;
+        is_first = false;
+        counts.units_left -= std::min(cost, counts.units_left);
+        counts.units_used += cost;
+    }
+}
+
+}  // namespace cullet

@@ -1,0 +1,30 @@
+// What stays of a body when its smaller sides have moved: the rows stand where they stood, those of the moved pieces
+// are dead until the shell is compacted.
+#pragma once
+#include <span>
+
+#include "components/state.hpp"
+#include "systems/fragments/group_fragments.hpp"
+
+namespace cullet {
+
+/// Marks elements, vertices and hinges of a part dead. The part's list of elements stays readable. O(the part).
+void shed_part(ShellView shell, const FragmentPart& part);
+
+/// After the last shed_part: has_cracks, marks of cracks that pieces took with them, and the hidden run's state, which
+/// is cleared. Fragments (`is_whole` false) count as cracked while a tip is left. O(the shell's vertices).
+void clear_run(ShellView shell, bool is_whole);
+
+/// Masses, area and thickness of what is left, in double: `before` less what `left`, or summed anew where more left
+/// than stayed.
+struct ShellSums;
+void measure_rest(ShellView shell, const ShellSums& before, const ShellSums& left, uint32_t left_elements);
+
+/// The body's own shell is `shell` from here on, without the stiffness rows that only a task needs.
+void adopt_shell(State& state, Row<Bodies> body, Row<Shells> shell);
+
+/// Hull points of `before` for a shell with the same cells that only cracked: hulls stay as they are, and the cells
+/// that cracks touched are chosen anew at the next break. False: no room.
+bool keep_hulls(ShellView shell, ShellView before);
+
+}  // namespace cullet

@@ -1,0 +1,366 @@
+// What happens when pieces are born: smaller sides move, refused ones ask again, further hits wait, and the hand-off on
+// real hits (T10, T11 of the thick shell note).
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+
+#include "systems/fragments/cell_hulls.hpp"
+#include "systems/fragments/mass_properties.hpp"
+#include "systems/fragments/rigid_handoff.hpp"
+#include "systems/view/draw_shell.hpp"
+#include "tests/support/small_worlds.hpp"
+
+namespace cullet::test {
+namespace {
+
+Breakage breakage_of(int which, const Settings& settings) {
+    return which == 0 ? vase_and_ball(settings) : which == 1 ? wall_and_ball(settings) : pane_and_ball(settings);
+}
+
+class EachHit : public testing::TestWithParam<int> {};
+INSTANTIATE_TEST_SUITE_P(VaseWallPane, EachHit, testing::Values(0, 1, 2));
+
+void expect_parts_are_a_partition(State& state, uint32_t t) {
+    const ShellView shell(state, state.tasks.shell[t]);
+    std::vector<uint32_t> seen(shell.element_count());
+    uint32_t last_first = 0;
+    for (uint32_t p = 0; p < state.tasks.part_count[t]; ++p) {
+        const FragmentPart& part = state.fragments.part[t * kMostParts + p];
+        EXPECT_TRUE(p == 0 || part.first_element > last_first);
+        last_first = part.first_element;
+        uint32_t least = kNone;
+        for (uint32_t e = part.first_element; e != kNone; e = state.elements.next[shell.element(e)]) {
+            ++seen[e];
+            least = std::min(least, e);
+            EXPECT_EQ(state.elements.part[shell.element(e)], p);
+            for (uint32_t n : state.elements.neighbour[shell.element(e)])
+                EXPECT_TRUE(n == kNone || state.elements.part[shell.element(n)] == p);
+        }
+        EXPECT_EQ(least, part.first_element);
+    }
+    for (uint32_t e = 0; e < shell.element_count(); ++e)
+        EXPECT_EQ(seen[e], (state.elements.flags[shell.element(e)] & kDead) ? 0u : 1u);
+}
+
+void expect_momenta_of_the_hidden_state(State& state, uint32_t t) {
+    const ShellView shell(state, state.tasks.shell[t]);
+    const std::span parts(state.fragments.part.data() + size_t{t} * kMostParts, state.tasks.part_count[t]);
+    std::vector<PartMotion> motions(parts.size());
+    HandoffStart start{Vec3d(state.tasks.start_velocity[t]), Vec3d(state.tasks.start_spin[t]),
+                       state.shells.centre[shell.row], 1e9};
+    const HandoffReport free = rigid_handoff(shell, start, parts, motions);
+    EXPECT_EQ(free.speed_clamps + free.spin_clamps, 0u);
+    EXPECT_LE(free.energy_unclamped, free.energy_hidden);
+    std::vector<Vec3d> momentum(parts.size()), turning(parts.size());
+    std::vector<double> size(parts.size());
+    for (uint32_t v = 0; v < shell.vertex_count(); ++v) {
+        const uint32_t row = shell.vertex(v), e = state.vertices.element[row];
+        if (e == kNone) continue;
+        const uint32_t p = state.elements.part[shell.element(e)];
+        const Vec3d mv = state.vertices.mass[row] * Vec3d(state.vertices.velocity[row]);
+        momentum[p] += mv;
+        turning[p] += cross(Vec3d(state.vertices.rest[row]), mv);
+        size[p] += length(mv);
+    }
+    for (uint32_t p = 0; p < parts.size(); ++p) {
+        const PartMotion& m = motions[p];
+        if (m.is_static) continue;
+        EXPECT_LT(length(m.mass * m.velocity - momentum[p]), 1e-6 * size[p]);
+        const Vec3d own = cross(m.centre, m.momentum) + m.inertia * m.spin;
+        EXPECT_LT(length(own - turning[p]), 1e-6 * size[p] * (m.radius + length(m.centre)));
+    }
+    start.impact_speed = state.tasks.approach_speed[t];
+    const HandoffReport clamped = rigid_handoff(shell, start, parts, motions);
+    EXPECT_LE(clamped.energy_after, clamped.energy_hidden);
+    const Vec3d lost = clamped.momentum_before - clamped.momentum_after - clamped.support_momentum;
+    EXPECT_LT(length(lost), 1e-6 * length(clamped.momentum_before) + 1e-12);
+}
+
+TEST_P(EachHit, HandsOffTheHiddenMomentaToPartsThatHoldEachElementOnce) {
+    Settings settings = small_settings();
+    settings.gravity = {0, -9.81f, 0};
+    Breakage b = breakage_of(GetParam(), settings);
+    World* w = &b.world;
+    uint32_t looked_at = 0;
+    after_each_system(b.world, [&](const std::string& system) {
+        if (system != "find_parts") return;
+        State& state = state_of(*w);
+        for (uint32_t t = 0; t < state.tasks.size(); ++t) {
+            if (static_cast<TaskState>(state.tasks.state[t]) != TaskState::Broke) continue;
+            ++looked_at;
+            expect_parts_are_a_partition(state, t);
+            expect_momenta_of_the_hidden_state(state, t);
+        }
+    });
+    for (int frame = 0; frame < 60; ++frame) b.world.step();
+    EXPECT_GT(looked_at, 0u);
+}
+
+/// Area and first moment of the drawn outer surface in world axes: cuts and new vertices divide triangles, and change
+/// neither.
+struct OuterSurface {
+    double area = 0;
+    Vec3d moment;
+    void add(const BodyView& view, const Pose& pose) {
+        for (uint32_t r = 0; r < view.run_count; ++r) {
+            if (view.runs[r].kind != SurfaceKind::Outer) continue;
+            const uint32_t first = view.runs[r].first_index;
+            for (uint32_t i = first; i < first + view.runs[r].index_count; i += 3) {
+                Vec3d p[3];
+                for (uint32_t k = 0; k < 3; ++k)
+                    p[k] = Vec3d(to_world(pose, view.vertices[view.indices[i + k]].position));
+                const double a = length(cross(p[1] - p[0], p[2] - p[0])) / 2;
+                area += a;
+                moment += (a / 3) * (p[0] + p[1] + p[2]);
+            }
+        }
+    }
+};
+
+TEST_P(EachHit, InTheBreakFrameThePiecesOuterSurfaceIsTheBodys) {
+    Settings settings = small_settings();
+    settings.debris_share = 0;
+    settings.debris_elements = 0;
+    Breakage b = breakage_of(GetParam(), settings);
+    for (int frame = 0; frame < 40; ++frame) {
+        OuterSurface before, after;
+        before.add(b.world.view(b.body).value(), b.world.pose(b.body).value());
+        b.world.step();
+        if (b.world.events().fragments_born.count == 0) continue;
+        for (const BodyId id : shells_of(b.world)) {
+            const BodyView view = b.world.view(id).value();
+            after.add(view, view.pose_before);
+        }
+        EXPECT_NEAR(after.area / before.area, 1, 1e-5);
+        EXPECT_LT(length(after.moment - before.moment), 1e-5 * before.area);
+        return;
+    }
+    FAIL() << "nothing broke";
+}
+
+void expect_dead_rows_are_out_of_use(State& state, Row<Shells> row) {
+    const ShellView shell(state, row);
+    uint32_t dead = 0, live_in_cells = 0;
+    for (uint32_t e = 0; e < shell.element_count(); ++e) {
+        const uint32_t r = shell.element(e);
+        if (state.elements.flags[r] & kDead) {
+            ++dead;
+            continue;
+        }
+        for (int k = 0; k < 3; ++k) {
+            const uint32_t v = shell.vertex(state.elements.corner[r][k]), n = state.elements.neighbour[r][k];
+            EXPECT_NE(state.vertices.element[v], kNone);
+            EXPECT_TRUE(n == kNone || !(state.elements.flags[shell.element(n)] & kDead));
+        }
+    }
+    for (uint32_t v = shell.vertex(0); v < shell.vertex(shell.vertex_count()); ++v) {
+        const uint32_t e = state.vertices.element[v];
+        EXPECT_TRUE(e == kNone || !(state.elements.flags[shell.element(e)] & kDead));
+        if (e == kNone) {
+            EXPECT_EQ(state.vertices.mass[v], 0);
+        }
+    }
+    EXPECT_EQ(dead, state.shells.dead_elements[row]);
+    const Range cells = state.shells.cells[row];
+    for (uint32_t c = cells.first; c < cells.first + cells.count; ++c) live_in_cells += state.cells.element_count[c];
+    EXPECT_EQ(live_in_cells + dead, shell.element_count());
+}
+
+TEST_P(EachHit, LeavesTheLargestPieceItsRowsUntilAQuietFrameCompactsThem) {
+    Breakage b = breakage_of(GetParam(), small_settings());
+    State& state = state_of(b.world);
+    uint32_t with_dead = 0, compacted = 0;
+    for (int frame = 0; frame < 60; ++frame) {
+        std::map<uint32_t, std::pair<Row<Shells>, MassProperties>> before;
+        for (const BodyId id : shells_of(b.world)) {
+            const Row<Shells> shell = state.bodies.shell[id.index];
+            before[id.index] = {shell,
+                                {state.shells.mass[shell], state.shells.centre[shell], state.shells.inertia[shell]}};
+        }
+        b.world.step();
+        EXPECT_EQ(state.validate(), "");
+        for (const BodyId id : shells_of(b.world)) {
+            const Row<Shells> shell = state.bodies.shell[id.index];
+            expect_dead_rows_are_out_of_use(state, shell);
+            const MassProperties sum = mass_properties(shell_moments(ShellView(state, shell)));
+            // By subtraction: inserted vertices move a wall's inner side by rounding.
+            EXPECT_NEAR(state.shells.mass[shell] / sum.mass, 1, 1e-9);
+            EXPECT_LT(length(state.shells.centre[shell] - sum.centre), 1e-5);
+            EXPECT_NEAR(trace(state.shells.inertia[shell]) / trace(sum.inertia), 1, 1e-3);
+            const uint32_t dead = state.shells.dead_elements[shell];
+            with_dead += dead > 0;
+            const auto was = before.find(id.index);
+            if (was == before.end() || was->second.first == shell || dead > 0) continue;
+            if (b.world.events().fragments_born.count == 0 && b.world.report().open_hits == 0) ++compacted;
+        }
+    }
+    EXPECT_GT(with_dead, 0u);
+    std::printf("%u times a shell had dead rows after a frame, %u compacted\n", with_dead, compacted);
+    // At rest no more than a quarter is dead.
+    for (const BodyId id : shells_of(b.world)) {
+        const Row<Shells> shell = state.bodies.shell[id.index];
+        EXPECT_LE(4 * state.shells.dead_elements[shell], state.shells.elements[shell].count);
+    }
+}
+
+TEST(Births, RefusedForWantOfABodyTheyComeOffTheFrameAfterOneIsRemoved) {
+    Settings settings = small_settings();
+    settings.limits.bodies = 3;
+    settings.debris_share = 0;
+    settings.debris_elements = 0;
+    Breakage b = vase_and_ball(settings, 12);
+    ASSERT_GT(step_until_born(b.world, 20), 0u);
+    uint32_t refused = 0;
+    for (int frame = 0; frame < 5; ++frame) {
+        b.world.step();
+        EXPECT_EQ(b.world.events().fragments_born.count, 0u);
+        uint32_t now = 0;
+        for (const RefusedEvent& e : b.world.events().refused) {
+            EXPECT_STREQ(e.setting, "limits.bodies");
+            EXPECT_EQ(e.body, b.body);
+            ++now;
+        }
+        EXPECT_TRUE(refused == 0 || now == refused) << "each loose piece asks once a frame";
+        refused = now;
+    }
+    ASSERT_GT(refused, 0u);
+    ASSERT_TRUE(b.world.remove(b.ball).ok());
+    const Matter before = matter_of(b.world);
+    b.world.step();
+    ASSERT_EQ(b.world.events().fragments_born.count, 1u);
+    EXPECT_EQ(b.world.events().fragments_born.data[0].parent, b.body);
+    EXPECT_EQ(b.world.events().refused.count, refused - 1);
+    const Matter after = matter_of(b.world);
+    EXPECT_NEAR(after.mass, before.mass, 1e-9 * before.mass);
+    for (int k = 0; k < 3; ++k) EXPECT_NEAR(after.momentum[k], before.momentum[k], 2e-5);
+    EXPECT_NEAR(after.kinetic_energy, before.kinetic_energy, 1e-3 * before.kinetic_energy);
+    for (const BodyId id : shells_of(b.world)) {
+        State& state = state_of(b.world);
+        const auto& bodies = state.bodies;
+        const Result<void> closed = check_drawn_mesh(ShellView(state, bodies.shell[id.index]),
+                                                     bodies.view_vertices[id.index], bodies.view_indices[id.index]);
+        EXPECT_TRUE(closed.ok()) << closed.error();
+    }
+}
+
+uint32_t nearest_owner(World& world, Vec3 point) {
+    State& state = state_of(world);
+    float least = 1e30f;
+    uint32_t owner = kNone;
+    for (const BodyId id : shells_of(world)) {
+        const Range v = state.shells.vertices[state.bodies.shell[id.index]];
+        for (uint32_t i = v.first; i < v.first + v.count; ++i) {
+            const float away = length(state.vertices.rest[i] - point);
+            if (state.vertices.element[i] == kNone || away >= least) continue;
+            least = away;
+            owner = id.index;
+        }
+    }
+    return owner;
+}
+
+/// A second ball strikes the vase two frames after the first, while that one's task runs.
+Breakage two_balls(uint32_t queued_hits, BodyId& second) {
+    Settings settings = small_settings();
+    settings.units_a_frame = 1'500'000;
+    settings.limits.queued_hits = queued_hits;
+    Breakage b = vase_and_ball(settings);
+    for (int frame = 0; frame < 20 && open_tasks(b.world) == 0; ++frame) b.world.step();
+    EXPECT_EQ(open_tasks(b.world), 1u);
+    b.world.step();
+    SphereSettings ball;
+    ball.radius = 0.03f;
+    ball.mass = 0.5f;
+    ball.pose.position = {0.25f, 0.1f, 0};
+    ball.motion.velocity = {-12, 0, 0};
+    second = b.world.add_sphere(ball).value();
+    return b;
+}
+
+TEST(Births, AFurtherHitWaitsForTheTaskAndGoesToThePieceThatOwnsThePlace) {
+    BodyId second;
+    Breakage b = two_balls(8, second);
+    expect_valid_after_each_system(b.world);
+    State& state = state_of(b.world);
+    bool was_queued = false, is_opened = false;
+    for (int frame = 0; frame < 60 && !is_opened; ++frame) {
+        b.world.step();
+        for (uint32_t q = 0; q < state.queued_hits.size(); ++q) {
+            if (!state.queued_hits.is_used[q] || state.queued_hits.striker[q] != second.index) continue;
+            was_queued = true;
+            EXPECT_GT(state.queued_hits.approach_speed[q], 5);
+        }
+        for (uint32_t t = 0; t < state.tasks.size(); ++t) {
+            if (static_cast<TaskState>(state.tasks.state[t]) != TaskState::Running) continue;
+            const uint32_t c = state.tasks.first_contact[t];
+            if (state.task_contacts.striker[c] != second.index) continue;
+            is_opened = true;
+            EXPECT_TRUE(state.tasks.is_late[t]);
+            EXPECT_EQ(state.tasks.body[t].index, nearest_owner(b.world, state.task_contacts.point[c]));
+        }
+    }
+    EXPECT_TRUE(was_queued);
+    ASSERT_TRUE(is_opened);
+    const uint64_t broke = b.world.contents().data.counts.broke;
+    for (int frame = 0; frame < 60 && open_tasks(b.world) > 0; ++frame) b.world.step();
+    EXPECT_GT(b.world.contents().data.counts.broke, broke);
+}
+
+TEST(Births, AFullQueueRefusesAndNamesItsSettingAndRemovingTheBodyCancelsWhatWaits) {
+    BodyId second;
+    Breakage b = two_balls(1, second);
+    State& state = state_of(b.world);
+    state.queued_hits.is_used[0] = 1;  // somebody else's
+    state.queued_hits.body[0] = Row<Bodies>(b.ball.index);
+    bool is_refused = false;
+    for (int frame = 0; frame < 6; ++frame) {
+        state.queued_hits.is_used[0] = 1;
+        state.queued_hits.body[0] = Row<Bodies>(b.ball.index);
+        state.bodies.task[b.ball.index] = 0;
+        b.world.step();
+        for (const RefusedEvent& e : b.world.events().refused)
+            is_refused = is_refused || std::string(e.setting) == "limits.queued_hits";
+    }
+    EXPECT_TRUE(is_refused);
+    state.queued_hits.body[0] = Row<Bodies>(b.body.index);
+    ASSERT_TRUE(b.world.remove(b.body).ok());
+    EXPECT_EQ(state.queued_hits.is_used[0], 0);
+}
+
+TEST(Births, WhereBothBreakTheLargerOnesLargestPieceTakesTheDifference) {
+    for (const uint64_t budget : {uint64_t{1'000'000'000}, uint64_t{6'000'000}}) {
+        Settings settings = small_settings();
+        settings.units_a_frame = budget;
+        World world = make_world(settings);
+        const ModelId model = world.add_model(small_vase()).value();
+        SpawnSettings vase;
+        vase.pose.position = {0, 0, 0.3f};
+        vase.motion.velocity = {0, 0, -8};
+        (void)world.spawn(model, vase).value();
+        vase.pose.position = {0.01f, 0.02f, -0.3f};
+        vase.motion.velocity = {0, 0, 9};
+        (void)world.spawn(model, vase).value();
+        const Matter before = matter_of(world);
+        uint32_t waited = 0;
+        after_each_system(world, [&](const std::string& system) {
+            const State& state = state_of(world);
+            if (system == "make_births")
+                for (uint32_t c = 0; c < state.task_contacts.size(); ++c)
+                    waited += length(state.task_contacts.answer[c]) > 0;
+        });
+        double scale = 0;
+        for (int k = 0; k < 3; ++k) scale += 17 * before.mass / 2 / 3;
+        for (int frame = 0; frame < 40 && world.contents().data.counts.broke < 2; ++frame) world.step();
+        ASSERT_GE(world.contents().data.counts.broke, 2u);
+        while (open_tasks(world) > 0) world.step();
+        const Matter after = matter_of(world);
+        EXPECT_NEAR(after.mass, before.mass, 1e-6 * before.mass);
+        for (int k = 0; k < 3; ++k) EXPECT_NEAR(after.momentum[k], before.momentum[k], 1e-4 * scale) << budget;
+        std::printf("budget %g: an impulse waited for a striker %u times\n", static_cast<double>(budget), waited);
+    }
+}
+
+}  // namespace
+}  // namespace cullet::test
