@@ -204,7 +204,6 @@ int choose_four(const Spot* spots, uint32_t count, uint32_t (&chosen)[kPatchPoin
 constexpr double kOwnTurning = 0.004;
 constexpr double kBorrowedTurning = 0.003;
 
-// A direction out of the hull that leads through a seam is the neighbouring piece's affair.
 bool is_through_seam(const Hull& hull, const Mat3& rotation, Vec3 outwards) {
     const Vec3 local = transposed_times(rotation, outwards);
     for (uint32_t f = 0; f < hull.face_count; ++f)
@@ -213,7 +212,7 @@ bool is_through_seam(const Hull& hull, const Mat3& rotation, Vec3 outwards) {
 }
 
 struct Touch {
-    bool is_near = false;
+    bool is_near = false, is_through_seam = false;
     Vec3 normal;
     float gap = 0;  // of the cores
     float room = 0;
@@ -235,7 +234,7 @@ Touch find_touch(const Hull& a, const Mat3& rotation_a, const Hull& b, const Mat
     // overlap.
     if (closest.is_apart && closest.distance > 1e-5) {
         if (closest.distance > reach) return touch;
-        if (is_through_seam(a, rotation_a, -guess) || is_through_seam(b, rotation_b, guess)) return touch;
+        touch.is_through_seam = is_through_seam(a, rotation_a, -guess) || is_through_seam(b, rotation_b, guess);
         touch.is_near = true;
         touch.gap = static_cast<float>(closest.distance);
         touch.normal = guess;
@@ -284,6 +283,7 @@ Patch contact_patch(const Hull& a, const Mat3& rotation_a, const Hull& b, const 
     patch.room = touch.room;
     if (!touch.is_near) return patch;
     patch.normal = touch.normal;
+    patch.is_through_seam = touch.is_through_seam;
     uint32_t count = 0;
     Spot spots[4 * kMaxPoints];
     const Frame frame = make_frame(touch.normal);

@@ -13,12 +13,13 @@ namespace cullet::bullet {
 
 /// Two pieces whose boxes are near: what is remembered of them from step to step.
 struct PairRecord {
-    uint32_t a, b;                // ordinals of the pieces; triangles of a static mesh follow its convex parts
-    const Hull *hull_a, *hull_b;  // null: a triangle
-    Vec3 guess;                   // last axis from b towards a
-    bool is_own_guess = false;    // no longer borrowed from a neighbour
-    double good_until = 0;        // what the two found last holds while PairAlgorithm::travelled_ is less
-    Vec3 normal;                  // of the manifold's points, in the frame of b
+    uint32_t a, b;                 // ordinals of the pieces; triangles of a static mesh follow its convex parts
+    const Hull *hull_a, *hull_b;   // null: a triangle
+    Vec3 guess;                    // last axis from b towards a
+    bool is_own_guess = false;     // no longer borrowed from a neighbour
+    bool is_through_seam = false;  // of the manifold's points, see Patch
+    double good_until = 0;         // what the two found last holds while PairAlgorithm::travelled_ is less
+    Vec3 normal;                   // of the manifold's points, in the frame of b
     btPersistentManifold* manifold = nullptr;  // null while they do not touch
     PairRecord* next = nullptr;
 };
@@ -35,6 +36,7 @@ struct Offer {
     Vec3 point, normal;
     float distance;
     float apart = kFar;  // from the nearest chosen one, in the measure of choose_best()
+    bool is_through_seam = false;
     bool is_chosen = false;
 };
 
@@ -85,6 +87,9 @@ class PairAlgorithm : public btCollisionAlgorithm {
     void write(PairRecord& record, const Patch& patch, uint32_t cell_a, uint32_t cell_b);
     void follow_points(PairRecord& record, const Body& a, const Body& b);
     void release(PairRecord& record);
+    void list_offers();
+    void drop_through_seams();
+    void remove_unchosen();
     void choose_best();
 
     RigidId a_, b_;  // a_ < b_
