@@ -72,10 +72,10 @@ uint32_t farthest(const Candidates& list, Vec3 way, float& reach) {
     return at;
 }
 
-/// Keeps at most 32: again and again the point whose direction lacks most reach so far, the first of equals, until none
-/// lacks more than `enough`.
+/// Keeps all that there are up to 32; else at most 32: again and again the point whose direction lacks most reach so
+/// far, the first of equals, until none lacks more than `enough`.
 void keep_extremes(Candidates& list, const Directions& directions, float enough) {
-    if (list.count == 0) return;
+    if (list.count <= kMostHullPoints) return;
     for (uint32_t l = 0; l < kLanes; ++l) {
         list.x[list.count + l] = list.x[0], list.y[list.count + l] = list.y[0], list.z[list.count + l] = list.z[0];
     }
