@@ -412,7 +412,7 @@ Result<BodyId> World::add_sphere(const SphereSettings& settings) {
     bodies.is_sphere[body] = 1;
     RigidDescription description = description_of(bodies, body, RigidKind::Dynamic);
     description.radius = settings.radius;
-    description.rolling_friction = 0.01f * settings.radius;
+    description.rolling_friction = 0.1f * settings.radius;
     d.rigid->add(body, description);
     return body_id(bodies, body);
 }

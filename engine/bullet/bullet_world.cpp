@@ -156,6 +156,7 @@ void BulletWorld::enter(Body& body, const Pose& at, uint32_t layer, uint32_t mas
     body.is_fast = false;
     body.moved_fraction = 1;
     body.still_seconds = body.slow_seconds = 0;
+    body.pressed_seconds = body.overlap = 0;
     body.is_touched = body.is_driven = false;
     body.anchor = info.m_startWorldTransform;
     body_end_ = std::max(body_end_, body.id + 1);
@@ -371,7 +372,10 @@ Vec3 BulletWorld::velocity_at(const Body& body, Vec3 point) const {
 
 void BulletWorld::gather_contacts() {
     contacts_.clear();
-    for (RigidId id = 0; id < body_end_; ++id) bodies_[id].is_touched = bodies_[id].is_driven = false;
+    for (RigidId id = 0; id < body_end_; ++id) {
+        bodies_[id].is_touched = bodies_[id].is_driven = false;
+        bodies_[id].overlap = 0;
+    }
     for (const SortedManifold& m : manifolds_) {
         Body &a = bodies_[m.a], &b = bodies_[m.b];
         a.is_touched = b.is_touched = true;
@@ -383,6 +387,8 @@ void BulletWorld::gather_contacts() {
             const Vec3 point = 0.5f * (from_bullet(p.m_positionWorldOnA) + from_bullet(p.m_positionWorldOnB));
             const Vec3 normal = from_bullet(p.m_normalWorldOnB);
             const float speed = dot(velocity_at(b, point) - velocity_at(a, point), normal);
+            a.overlap = std::max(a.overlap, -p.m_distance1);
+            b.overlap = std::max(b.overlap, -p.m_distance1);
             contacts_.push_back({m.a, m.b, m.cell_a, m.cell_b, point, normal, p.m_distance1, speed});
         }
     }

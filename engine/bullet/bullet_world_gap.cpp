@@ -16,6 +16,10 @@ constexpr float kStillSeconds = 0.5f;
 // too, faster steps counting back twice.
 constexpr float kSlowSpeed = 0.15f;  // m/s of the fastest point
 constexpr float kSlowSeconds = 1;
+// What lies deeper in something than this is kept awake to be pushed out, but only for so long: a slab of brick presses
+// a piece below it by 7 mm, which takes the solver a second; in a deep heap it may never come out.
+constexpr float kPressedDeep = 0.001f;  // m
+constexpr float kPressedSeconds = 3;
 
 // The corner of the body's box that moved farthest bounds all of its points: displacement is convex in the point.
 bool has_left(const Body& body, const btTransform& now) {
@@ -126,8 +130,12 @@ void BulletWorld::update_sleep(float dt) {
         const float slower = body.is_touched && speed < kSlowSpeed ? dt : -2 * dt;
         body.slow_seconds = std::clamp(body.slow_seconds + slower, 0.0f, 2 * kSlowSeconds);
         if (body.is_driven) body.still_seconds = body.slow_seconds = 0;
-        bullet.setActivationState(
-            body.still_seconds >= kStillSeconds || body.slow_seconds >= kSlowSeconds ? WANTS_DEACTIVATION : ACTIVE_TAG);
+        bool is_ready = body.still_seconds >= kStillSeconds || body.slow_seconds >= kSlowSeconds;
+        if (is_ready && body.overlap > kPressedDeep && body.pressed_seconds < kPressedSeconds) {
+            body.pressed_seconds += dt;
+            is_ready = false;
+        }
+        bullet.setActivationState(is_ready ? WANTS_DEACTIVATION : ACTIVE_TAG);
     }
 }
 
@@ -137,7 +145,7 @@ bool BulletWorld::is_asleep(RigidId id) const {
 
 void BulletWorld::wake_body(Body& body) {
     body.bullet->setActivationState(ACTIVE_TAG);
-    body.still_seconds = body.slow_seconds = 0;
+    body.still_seconds = body.slow_seconds = body.pressed_seconds = 0;
     body.anchor = body.bullet->getWorldTransform();
 }
 
