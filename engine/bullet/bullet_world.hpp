@@ -55,7 +55,9 @@ class BulletWorld final : public RigidWorld {
 
     /// Bullet's near callback: the narrow phase of one pair.
     void meet(btBroadphasePair& pair);
-    /// True when the two are not to meet now: ignored, or skipped in this step.
+    /// True when the two are not swept against each other: ignored, or both dynamic and skipped in this step. What
+    /// does not move stops what is skipped all the same: a piece that broke off on the floor would else fly through it
+    /// for a whole step.
     bool is_apart_by_order(RigidId a, RigidId b) const;
 
  private:

@@ -91,6 +91,7 @@ bool BulletWorld::is_apart_by_order(RigidId a, RigidId b) const {
     const auto found = std::lower_bound(ignored_.begin(), ignored_.end(), key,
                                         [](const IgnoredPair& p, auto& k) { return std::pair(p.a, p.b) < k; });
     if (found != ignored_.end() && found->a == key.first && found->b == key.second) return true;
+    if (bodies_[a].kind != RigidKind::Dynamic || bodies_[b].kind != RigidKind::Dynamic) return false;
     return std::find(skipped_.begin(), skipped_.end(), key) != skipped_.end();
 }
 
