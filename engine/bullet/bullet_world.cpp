@@ -48,8 +48,8 @@ BulletWorld::BulletWorld(uint32_t body_limit)
     contacts_.reserve(32 * static_cast<size_t>(body_limit) + 1024);
     manifolds_.reserve(8 * static_cast<size_t>(body_limit) + 1024);
     ignored_.reserve(16 * static_cast<size_t>(body_limit) + 1024);
-    skipped_.reserve(1024);
-    seams_.reserve(4096);
+    skipped_.reserve(16 * static_cast<size_t>(body_limit) + 1024);
+    seams_.reserve(4 * static_cast<size_t>(body_limit) + 4096);
 }
 
 BulletWorld::~BulletWorld() {
@@ -59,7 +59,7 @@ BulletWorld::~BulletWorld() {
 }
 
 void BulletWorld::set_gravity(Vec3 gravity) {
-    InsideRigidEngine guard;
+    InsideRigidEngine guard(counts_.allocations);
     for (RigidId id = 0; id < body_end_; ++id)
         if (bodies_[id].is_used && bodies_[id].kind == RigidKind::Dynamic) wake_body(bodies_[id]);
     world_.setGravity(to_bullet(gravity));
@@ -167,7 +167,7 @@ void BulletWorld::enter(Body& body, const Pose& at, uint32_t layer, uint32_t mas
 void BulletWorld::add_static_triangles(RigidId id, std::span<const Vec3> positions,
                                        std::span<const std::array<uint32_t, 3>> triangles, float friction,
                                        float restitution, uint32_t layer, uint32_t mask) {
-    InsideRigidEngine guard;
+    InsideRigidEngine guard(counts_.allocations);
     if (id >= body_limit_ || bodies_[id].is_used) return;
     Body& body = bodies_[id];
     body.id = id;
@@ -183,7 +183,7 @@ void BulletWorld::add_static_triangles(RigidId id, std::span<const Vec3> positio
 }
 
 void BulletWorld::add(RigidId id, const RigidDescription& d) {
-    InsideRigidEngine guard;
+    InsideRigidEngine guard(counts_.allocations);
     if (id >= body_limit_ || bodies_[id].is_used) return;
     Body& body = bodies_[id];
     body.id = id;
@@ -204,7 +204,7 @@ void BulletWorld::add(RigidId id, const RigidDescription& d) {
 
 void BulletWorld::remove(RigidId id) {
     if (!is_known(id)) return;
-    InsideRigidEngine guard;
+    InsideRigidEngine guard(counts_.allocations);
     Body& body = bodies_[id];
     wake_touching(id);
     for (SortedManifold& m : manifolds_)
@@ -231,7 +231,7 @@ Motion BulletWorld::motion(RigidId id) const {
 
 void BulletWorld::set_pose(RigidId id, const Pose& at) {
     if (!is_known(id)) return;
-    InsideRigidEngine guard;
+    InsideRigidEngine guard(counts_.allocations);
     Body& body = bodies_[id];
     wake_touching(id);
     body.bullet->setCenterOfMassTransform(to_bullet(at, body.frame));
@@ -241,7 +241,7 @@ void BulletWorld::set_pose(RigidId id, const Pose& at) {
 
 void BulletWorld::set_motion(RigidId id, const Motion& m) {
     if (!is_known(id)) return;
-    InsideRigidEngine guard;
+    InsideRigidEngine guard(counts_.allocations);
     Body& body = bodies_[id];
     const bool is_moving = dot(m.velocity, m.velocity) + dot(m.angular_velocity, m.angular_velocity) > 0;
     if (body.is_held) {
@@ -256,7 +256,7 @@ void BulletWorld::set_motion(RigidId id, const Motion& m) {
 
 void BulletWorld::set_shape(RigidId id, double mass, Vec3d centre, Sym3d inertia, std::span<const ConvexPiece> pieces) {
     if (!is_known(id) || bodies_[id].mesh) return;
-    InsideRigidEngine guard;
+    InsideRigidEngine guard(counts_.allocations);
     Body& body = bodies_[id];
     const Pose at = pose(id);
     Motion moving = motion(id);
@@ -304,7 +304,7 @@ void BulletWorld::refresh(Body& body) {
 }
 
 void BulletWorld::detect(float dt) {
-    InsideRigidEngine guard;
+    InsideRigidEngine guard(counts_.allocations);
     work_.weight_speed = world_.getGravity().length() * dt;
     for (RigidId id = 0; id < body_end_; ++id) {
         Body& body = bodies_[id];
@@ -426,7 +426,7 @@ void BulletWorld::sum_impulse_to_static() {
 }
 
 void BulletWorld::solve(float dt) {
-    InsideRigidEngine guard;
+    InsideRigidEngine guard(counts_.allocations);
     for (RigidId id = 0; id < body_end_; ++id) {
         Body& body = bodies_[id];
         if (!body.is_used || !body.is_free()) continue;

@@ -36,7 +36,7 @@ bool has_left(const Body& body, const btTransform& now) {
 
 void BulletWorld::hold(RigidId id) {
     if (!is_known(id) || bodies_[id].kind != RigidKind::Dynamic || bodies_[id].is_held) return;
-    InsideRigidEngine guard;
+    InsideRigidEngine guard(counts_.allocations);
     Body& body = bodies_[id];
     body.kept = motion(id);
     if (!body.bullet->isActive()) wake_body(body);
@@ -49,7 +49,7 @@ void BulletWorld::hold(RigidId id) {
 
 void BulletWorld::release(RigidId id) {
     if (!is_known(id) || !bodies_[id].is_held) return;
-    InsideRigidEngine guard;
+    InsideRigidEngine guard(counts_.allocations);
     Body& body = bodies_[id];
     body.is_held = false;
     // In the order of creation, so that mass and weight round as they did then.
@@ -69,7 +69,7 @@ bool BulletWorld::is_held(RigidId id) const {
 void BulletWorld::skip_contacts(RigidId a, RigidId b) {
     if (!is_known(a) || !is_known(b) || a == b) return;
     if (a > b) std::swap(a, b);
-    InsideRigidEngine guard;
+    InsideRigidEngine guard(counts_.allocations);
     skipped_.emplace_back(a, b);
     const auto before = [](const SortedManifold& m, std::pair<RigidId, RigidId> key) {
         return std::pair(m.a, m.b) < key;
@@ -98,7 +98,7 @@ bool BulletWorld::is_apart_by_order(RigidId a, RigidId b) const {
 void BulletWorld::ignore_pair(RigidId a, RigidId b, float seconds, bool until_apart) {
     if (!is_known(a) || !is_known(b) || a == b) return;
     if (a > b) std::swap(a, b);
-    InsideRigidEngine guard;
+    InsideRigidEngine guard(counts_.allocations);
     const auto found = find_ignored(a, b);
     if (found != ignored_.end()) {
         found->seconds = std::max(found->seconds, seconds);
@@ -152,7 +152,7 @@ void BulletWorld::wake_body(Body& body) {
 
 void BulletWorld::wake(RigidId id) {
     if (!is_known(id) || bodies_[id].kind != RigidKind::Dynamic) return;
-    InsideRigidEngine guard;
+    InsideRigidEngine guard(counts_.allocations);
     wake_body(bodies_[id]);
 }
 

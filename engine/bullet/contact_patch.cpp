@@ -173,7 +173,8 @@ int choose_four(const Spot* spots, uint32_t count, uint32_t (&chosen)[kPatchPoin
         }
         return best;
     };
-    const auto raised = [](const Spot& s) { return kPatchDepthWeight * gap(s); };
+    // Among spots where the cores overlap place alone counts: what is stuck deep in a floor needs its corners.
+    const auto raised = [](const Spot& s) { return kPatchDepthWeight * std::max(gap(s), 0.0f); };
     const auto far = [](const Spot& a, const Spot& b) {
         return std::sqrt((a.x - b.x) * (a.x - b.x) + (a.y - b.y) * (a.y - b.y));
     };

@@ -25,6 +25,7 @@ constexpr float kAhead = 0.01f;           // m, of travel until pieces are looke
 constexpr float kSmallTravel = 0.00001f;  // m
 constexpr float kTurnLength = 0.1f;       // m, that opposite normals count half of
 constexpr float kDepthWeight = 20;        // a millimetre deeper counts as 20 mm farther
+constexpr float kDeepEnough = 0.002f;     // m, deeper than which place alone counts
 constexpr float kPastBonus = 0.01f;       // m
 constexpr float kSeamNear = 0.01f;        // m, between touches of one seam
 constexpr float kAsDeep = 0.0005f;        // m
@@ -274,7 +275,8 @@ void PairAlgorithm::choose_best() {
         Offer* best = nullptr;
         float best_score = -kFar;
         for (Offer& offer : offers) {
-            const float score = (round == 0 ? 0 : offer.apart) - kDepthWeight * offer.distance;
+            const float depth = round == 0 ? offer.distance : std::max(offer.distance, -kDeepEnough);
+            const float score = (round == 0 ? 0 : offer.apart) - kDepthWeight * depth;
             if (!offer.is_chosen && score > best_score) best = &offer, best_score = score;
         }
         best->is_chosen = true;

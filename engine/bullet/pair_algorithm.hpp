@@ -43,10 +43,12 @@ struct Offer {
 /// Working memory that the pairs of one world share.
 struct PairWork {
     explicit PairWork(uint32_t body_limit) : records(128 * static_cast<size_t>(body_limit) + 16384) {
-        candidates.reserve(4096);
-        offers.reserve(16384);
-        near_a.reserve(4096);
-        near_b.reserve(4096);
+        // One pair at a time: the largest two bodies, of at most all hulls that there are room for.
+        const size_t hulls = 4 * static_cast<size_t>(body_limit) + 4096;
+        candidates.reserve(4 * hulls);
+        offers.reserve(8 * hulls);
+        near_a.reserve(hulls);
+        near_b.reserve(hulls);
     }
     Pool<PairRecord> records;
     std::vector<Candidate> candidates;
