@@ -186,6 +186,7 @@ Rest measure_rest(const GameWorld& game, double peak_kinetic_energy) {
     out.sink_max_mm = static_cast<double>(percentile(sinks, 1));
     out.overlap_p95_mm = static_cast<double>(percentile(overlaps, 0.95));
     out.overlap_max_mm = static_cast<double>(percentile(overlaps, 1));
+    out.hover_p95_mm = static_cast<double>(percentile(hovers, 0.95));
     out.hover_max_mm = static_cast<double>(percentile(hovers, 1));
     return out;
 }
