@@ -4,7 +4,6 @@
 #include <cmath>
 
 #include "engine/profiler.hpp"
-#include "engine/ray_scene.hpp"
 #include "sample_game/mesh_gap.hpp"
 #include "sample_game/meshes.hpp"
 #include "systems/world_contents.hpp"
@@ -30,13 +29,14 @@ struct Bounds {
     }
 };
 
+using Triangle = std::array<uint32_t, 3>;
+
 /// A thing as it is drawn, in world axes.
 struct Solid {
     std::vector<Vec3> points;
     std::vector<Triangle> triangles;
     std::vector<Bounds> bounds;  // of the triangles
     Bounds all;
-    RayScene rays{{}, {}};
     bool is_moving = false;
 
     Corners corners(size_t t) const {
@@ -47,19 +47,19 @@ struct Solid {
             Bounds& b = bounds.emplace_back();
             for (const uint32_t k : t) b.include(points[k]), all.include(points[k]);
         }
-        rays = RayScene(points, triangles);
     }
-    // From inside of a closed mesh every ray meets a face from behind first.
+    // The winding number: the solid angles of all triangles, seen from p, add up to 4 pi inside of a closed mesh and to
+    // 0 outside (van Oosterom and Strackee). Needs no ray scene, of which Embree bears no thousand.
     bool holds(Vec3 p) const {
         if (!all.holds(p)) return false;
-        const Vec3 ways[] = {{0.36f, 0.48f, 0.8f}, {-0.64f, 0.6f, -0.48f}, {0.48f, -0.8f, 0.36f}};
-        for (const Vec3 way : ways) {
-            RayScene::Hit hit;
-            if (!rays.closest(p, way, 0, 1e5f, hit)) return false;
-            const Corners c = corners(hit.triangle);
-            if (dot(cross(c[1] - c[0], c[2] - c[0]), Vec3d(way)) <= 0) return false;
+        double halves = 0;
+        for (size_t t = 0; t < triangles.size(); ++t) {
+            const Corners c = corners(t);
+            const Vec3d a = c[0] - Vec3d(p), b = c[1] - Vec3d(p), d = c[2] - Vec3d(p);
+            const double la = length(a), lb = length(b), ld = length(d);
+            halves += std::atan2(dot(a, cross(b, d)), la * lb * ld + dot(a, b) * ld + dot(b, d) * la + dot(d, a) * lb);
         }
-        return true;
+        return halves > 3.14159265;
     }
     double depth(Vec3 p) const {
         double least = 1e30;

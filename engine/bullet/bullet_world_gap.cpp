@@ -16,10 +16,11 @@ constexpr float kStillSeconds = 0.5f;
 // too, faster steps counting back twice.
 constexpr float kSlowSpeed = 0.15f;  // m/s of the fastest point
 constexpr float kSlowSeconds = 1;
-// What lies deeper in something than this is kept awake to be pushed out; each second of it makes this much more bear
-// sleep: a slab of brick presses a piece below it by 7 mm, which takes the solver two seconds, and in a deep heap a
-// millimetre or two may never come out.
-constexpr float kPressedDeep = 0.0015f;  // m, and m/s
+// What lies deeper in something than this is kept awake to be pushed out; each second of it makes twice as much more
+// bear sleep: a slab of brick presses a piece below it by 7 mm, which takes the solver two seconds, and in a deep heap
+// some millimetres may never come out.
+constexpr float kPressedDeep = 0.0015f;  // m
+constexpr float kImpatience = 2;         // 1/s
 
 // The corner of the body's box that moved farthest bounds all of its points: displacement is convex in the point.
 bool has_left(const Body& body, const btTransform& now) {
@@ -132,7 +133,7 @@ void BulletWorld::update_sleep(float dt) {
         body.slow_seconds = std::clamp(body.slow_seconds + slower, 0.0f, 2 * kSlowSeconds);
         if (body.is_driven) body.still_seconds = body.slow_seconds = 0;
         bool is_ready = body.still_seconds >= kStillSeconds || body.slow_seconds >= kSlowSeconds;
-        if (is_ready && body.overlap > kPressedDeep * (1 + body.pressed_seconds)) {
+        if (is_ready && body.overlap > kPressedDeep * (1 + kImpatience * body.pressed_seconds)) {
             body.pressed_seconds += dt;
             is_ready = false;
         }
