@@ -71,6 +71,8 @@ struct Body {
 
     btTransform anchor;  // the sleep timer's pose
     float still_seconds = 0;
+    btTransform rattle_anchor;  // of the timer of what shakes in its place
+    float rattle_seconds = 0;
 
     float moved_fraction = 1;  // of this step, less than 1 when stopped at a time of impact
     bool is_fast = false;      // swept in this step

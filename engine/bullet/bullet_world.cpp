@@ -158,7 +158,8 @@ void BulletWorld::enter(Body& body, const Pose& at, uint32_t layer, uint32_t mas
     body.still_seconds = body.slow_seconds = 0;
     body.pressed_seconds = body.overlap = 0;
     body.is_touched = body.is_driven = false;
-    body.anchor = info.m_startWorldTransform;
+    body.anchor = body.rattle_anchor = info.m_startWorldTransform;
+    body.rattle_seconds = 0;
     body_end_ = std::max(body_end_, body.id + 1);
     refresh(body);
     world_.addRigidBody(&bullet, static_cast<int>(layer), static_cast<int>(mask));
@@ -270,7 +271,7 @@ void BulletWorld::set_shape(RigidId id, double mass, Vec3d centre, Sym3d inertia
         bullet.setGravity(world_.getGravity());
     }
     bullet.setCenterOfMassTransform(to_bullet(at, body.frame));
-    body.anchor = bullet.getWorldTransform();
+    body.anchor = body.rattle_anchor = bullet.getWorldTransform();
     body.fresh_at.setOrigin({kFar, kFar, kFar});  // the points are new, wherever they stand
     refresh(body);
     wake_touching(id);
