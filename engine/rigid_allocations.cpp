@@ -7,4 +7,9 @@ bool& inside_rigid_engine() {
     return is_inside;
 }
 
+uint64_t& rigid_allocation_count() {
+    static thread_local uint64_t count = 0;
+    return count;
+}
+
 }  // namespace cullet

@@ -61,8 +61,9 @@ struct RigidContact {
 struct RigidCounts {
     uint32_t sweeps = 0;  // bodies placed at their time of impact, since creation
     uint32_t pairs = 0, contacts = 0;
-    uint64_t allocations =
-        0;  // calls of malloc and operator new inside of the rigid engine, since creation (see rigid_allocations.hpp)
+    // Calls for memory inside of the rigid engine since creation, where the program counts them: 0 elsewhere (see
+    // rigid_allocations.hpp).
+    uint64_t allocations = 0;
 };
 
 class RigidWorld {

@@ -14,8 +14,9 @@ namespace {
 std::atomic<bool> is_counting{false};
 std::atomic<uint64_t> ours{0}, rigid{0};
 
-// The thread-local of inside_rigid_engine() stands in the executable's own block and needs no allocation to be read.
+// The thread-locals of rigid_allocations.cpp stand in the executable's own block and need no allocation to be read.
 void count_one() {
+    if (inside_rigid_engine()) ++rigid_allocation_count();
     if (!is_counting.load(std::memory_order_relaxed)) return;
     (inside_rigid_engine() ? rigid : ours).fetch_add(1, std::memory_order_relaxed);
 }

@@ -37,7 +37,15 @@ Json of_matter(const Report& r) {
               {"live", r.fragments.live},
               {"asleep", r.fragments.asleep},
               {"debris", r.fragments.debris}}},
-            {"awake", {{"bodies", r.awake.bodies}, {"cells", r.awake.cells}}}};
+            {"awake", {{"bodies", r.awake.bodies}, {"cells", r.awake.cells}}},
+            {"rest",
+             {{"asleep_share", r.rest.asleep_share},
+              {"kinetic_share", r.rest.kinetic_share},
+              {"measured", r.rest.measured},
+              {"sink_mm", {{"p95", r.rest.sink_p95_mm}, {"max", r.rest.sink_max_mm}}},
+              {"overlap_mm", {{"p95", r.rest.overlap_p95_mm}, {"max", r.rest.overlap_max_mm}}},
+              {"hover_mm", {{"p95", r.rest.hover_p95_mm}, {"max", r.rest.hover_max_mm}}},
+              {"through", r.rest.through}}}};
 }
 
 Json of_work(const Report& r) {

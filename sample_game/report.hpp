@@ -20,6 +20,16 @@ Spread spread_of(const std::vector<float>& milliseconds, uint64_t rows = 0);
 
 using Vector = std::array<double, 3>;
 
+/// How still a world lies at the end of a run (sample_game/rest.hpp).
+struct Rest {
+    double asleep_share = 1;   // of the moving bodies
+    double kinetic_share = 0;  // of the most that the run had
+    // Of bodies asleep; percentiles by nearest rank.
+    double sink_p95_mm = 0, sink_max_mm = 0, overlap_p95_mm = 0, overlap_max_mm = 0, hover_p95_mm = 0, hover_max_mm = 0;
+    uint64_t measured = 0;  // bodies asleep
+    uint64_t through = 0;   // bodies below the ground, awake ones too
+};
+
 struct Report {
     std::string scene;
     uint64_t seed = 0;
@@ -45,6 +55,7 @@ struct Report {
     struct {
         uint64_t bodies = 0, cells = 0;
     } awake;  // at the end
+    Rest rest;
     struct {
         uint64_t used = 0, left = 0, most = 0;  // over the run; of the last frame; of the worst frame
     } units;

@@ -24,6 +24,11 @@ void print_summary(const Report& r) {
                r.fragments.live, r.fragments.asleep, r.awake.bodies, r.fragments.debris);
     fmt::print("  hits         {} opened, {} broke, {} late, {} dropped, {} frames held\n", r.tasks.opened,
                r.tasks.broke, r.tasks.late, r.tasks.dropped, r.tasks.frames_held);
+    fmt::print(
+        "  rest         {:.1f} % asleep; of {} drawn at rest: sink 95 % {:.2f}, worst {:.2f} mm, into each other 95 % "
+        "{:.2f}, worst {:.2f} mm, hover 95 % {:.2f}, worst {:.2f} mm, {} below the ground\n",
+        100 * r.rest.asleep_share, r.rest.measured, r.rest.sink_p95_mm, r.rest.sink_max_mm, r.rest.overlap_p95_mm,
+        r.rest.overlap_max_mm, r.rest.hover_p95_mm, r.rest.hover_max_mm, r.rest.through);
     fmt::print("  mass         {:.6f} kg put in, {:.6f} kg at the end\n", r.mass_kg.start, r.mass_kg.end);
     fmt::print("  kinetic      {:.4g} J at the most, {:.4g} J at the end\n", r.energy_j.peak, r.energy_j.end);
     fmt::print("  frame        p50 {:.2f}  p99 {:.2f}  worst {:.2f} ms\n", r.frame_ms.p50, r.frame_ms.p99,

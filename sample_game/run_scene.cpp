@@ -12,6 +12,7 @@
 #include "sample_game/game_world.hpp"
 #include "sample_game/pictures.hpp"
 #include "sample_game/progress.hpp"
+#include "sample_game/rest.hpp"
 #include "sample_game/yardsticks.hpp"
 #include "systems/world_contents.hpp"
 
@@ -98,6 +99,7 @@ Result<RunRecord> play_once(const Scene& scene, const ScenePlan& plan, const Run
     report.energy_j.end = end.kinetic_energy;
     report.fragments = {game.born, end.fragments, end.asleep, game.world().report().debris};
     report.awake = {end.awake, end.awake_cells};
+    report.rest = measure_rest(game, report.energy_j.peak);
     report.events = game.events;
     report.refused = game.refused;
     report.faults = game.events["fault"];

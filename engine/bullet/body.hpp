@@ -61,14 +61,18 @@ struct Body {
     uint32_t moves = 0;    // counts changes of world points; pairs of unmoved bodies keep their contacts
     uint32_t shape_changes = 0;
 
-    bool is_touched = false;  // has a contact in this step
-    bool is_driven = false;   // has one with a kinematic body that moves
-    float slow_seconds = 0;   // touched and nearly at rest
+    bool is_touched = false;    // has a contact in this step
+    bool is_driven = false;     // has one with a kinematic body that moves
+    float slow_seconds = 0;     // touched and nearly at rest
+    float overlap = 0;          // m, of its deepest contact in this step
+    float pressed_seconds = 0;  // that it was kept awake because something lay too deep in it
     bool is_held = false;
     Motion kept;  // velocities of a held body
 
     btTransform anchor;  // the sleep timer's pose
     float still_seconds = 0;
+    btTransform rattle_anchor;  // of the timer of what shakes in its place
+    float rattle_seconds = 0;
 
     float moved_fraction = 1;  // of this step, less than 1 when stopped at a time of impact
     bool is_fast = false;      // swept in this step

@@ -48,8 +48,8 @@ BulletWorld::BulletWorld(uint32_t body_limit)
     contacts_.reserve(32 * static_cast<size_t>(body_limit) + 1024);
     manifolds_.reserve(8 * static_cast<size_t>(body_limit) + 1024);
     ignored_.reserve(16 * static_cast<size_t>(body_limit) + 1024);
-    skipped_.reserve(1024);
-    seams_.reserve(4096);
+    skipped_.reserve(16 * static_cast<size_t>(body_limit) + 1024);
+    seams_.reserve(4 * static_cast<size_t>(body_limit) + 4096);
 }
 
 BulletWorld::~BulletWorld() {
@@ -59,7 +59,7 @@ BulletWorld::~BulletWorld() {
 }
 
 void BulletWorld::set_gravity(Vec3 gravity) {
-    InsideRigidEngine guard;
+    InsideRigidEngine guard(counts_.allocations);
     for (RigidId id = 0; id < body_end_; ++id)
         if (bodies_[id].is_used && bodies_[id].kind == RigidKind::Dynamic) wake_body(bodies_[id]);
     world_.setGravity(to_bullet(gravity));
@@ -205,8 +205,10 @@ void BulletWorld::enter(Body& body, const Pose& at, uint32_t layer, uint32_t mas
     body.is_fast = false;
     body.moved_fraction = 1;
     body.still_seconds = body.slow_seconds = 0;
+    body.pressed_seconds = body.overlap = 0;
     body.is_touched = body.is_driven = false;
-    body.anchor = info.m_startWorldTransform;
+    body.anchor = body.rattle_anchor = info.m_startWorldTransform;
+    body.rattle_seconds = 0;
     body_end_ = std::max(body_end_, body.id + 1);
     refresh(body);
     world_.addRigidBody(&bullet, static_cast<int>(layer), static_cast<int>(mask));
@@ -215,7 +217,7 @@ void BulletWorld::enter(Body& body, const Pose& at, uint32_t layer, uint32_t mas
 void BulletWorld::add_static_triangles(RigidId id, std::span<const Vec3> positions,
                                        std::span<const std::array<uint32_t, 3>> triangles, float friction,
                                        float restitution, uint32_t layer, uint32_t mask) {
-    InsideRigidEngine guard;
+    InsideRigidEngine guard(counts_.allocations);
     if (id >= body_limit_ || bodies_[id].is_used) return;
     Body& body = bodies_[id];
     body.id = id;
@@ -231,7 +233,7 @@ void BulletWorld::add_static_triangles(RigidId id, std::span<const Vec3> positio
 }
 
 void BulletWorld::add(RigidId id, const RigidDescription& d) {
-    InsideRigidEngine guard;
+    InsideRigidEngine guard(counts_.allocations);
     if (id >= body_limit_ || bodies_[id].is_used) return;
     Body& body = bodies_[id];
     body.id = id;
@@ -252,7 +254,7 @@ void BulletWorld::add(RigidId id, const RigidDescription& d) {
 
 void BulletWorld::remove(RigidId id) {
     if (!is_known(id)) return;
-    InsideRigidEngine guard;
+    InsideRigidEngine guard(counts_.allocations);
     Body& body = bodies_[id];
     wake_touching(id);
     for (SortedManifold& m : manifolds_)
@@ -279,7 +281,7 @@ Motion BulletWorld::motion(RigidId id) const {
 
 void BulletWorld::set_pose(RigidId id, const Pose& at) {
     if (!is_known(id)) return;
-    InsideRigidEngine guard;
+    InsideRigidEngine guard(counts_.allocations);
     Body& body = bodies_[id];
     wake_touching(id);
     body.bullet->setCenterOfMassTransform(to_bullet(at, body.frame));
@@ -289,7 +291,7 @@ void BulletWorld::set_pose(RigidId id, const Pose& at) {
 
 void BulletWorld::set_motion(RigidId id, const Motion& m) {
     if (!is_known(id)) return;
-    InsideRigidEngine guard;
+    InsideRigidEngine guard(counts_.allocations);
     Body& body = bodies_[id];
     const bool is_moving = dot(m.velocity, m.velocity) + dot(m.angular_velocity, m.angular_velocity) > 0;
     if (body.is_held) {
@@ -304,7 +306,7 @@ void BulletWorld::set_motion(RigidId id, const Motion& m) {
 
 void BulletWorld::set_shape(RigidId id, double mass, Vec3d centre, Sym3d inertia, std::span<const ConvexPiece> pieces) {
     if (!is_known(id) || bodies_[id].mesh) return;
-    InsideRigidEngine guard;
+    InsideRigidEngine guard(counts_.allocations);
     Body& body = bodies_[id];
     const Pose at = pose(id);
     Motion moving = motion(id);
@@ -319,7 +321,7 @@ void BulletWorld::set_shape(RigidId id, double mass, Vec3d centre, Sym3d inertia
         bullet.setGravity(world_.getGravity());
     }
     bullet.setCenterOfMassTransform(to_bullet(at, body.frame));
-    body.anchor = bullet.getWorldTransform();
+    body.anchor = body.rattle_anchor = bullet.getWorldTransform();
     body.fresh_at.setOrigin({kFar, kFar, kFar});  // the points are new, wherever they stand
     refresh(body);
     wake_touching(id);
@@ -353,7 +355,7 @@ void BulletWorld::refresh(Body& body) {
 }
 
 void BulletWorld::detect(float dt) {
-    InsideRigidEngine guard;
+    InsideRigidEngine guard(counts_.allocations);
     work_.weight_speed = world_.getGravity().length() * dt;
     for (RigidId id = 0; id < body_end_; ++id) {
         Body& body = bodies_[id];
@@ -421,7 +423,10 @@ Vec3 BulletWorld::velocity_at(const Body& body, Vec3 point) const {
 
 void BulletWorld::gather_contacts() {
     contacts_.clear();
-    for (RigidId id = 0; id < body_end_; ++id) bodies_[id].is_touched = bodies_[id].is_driven = false;
+    for (RigidId id = 0; id < body_end_; ++id) {
+        bodies_[id].is_touched = bodies_[id].is_driven = false;
+        bodies_[id].overlap = 0;
+    }
     for (const SortedManifold& m : manifolds_) {
         Body &a = bodies_[m.a], &b = bodies_[m.b];
         a.is_touched = b.is_touched = true;
@@ -433,6 +438,8 @@ void BulletWorld::gather_contacts() {
             const Vec3 point = 0.5f * (from_bullet(p.m_positionWorldOnA) + from_bullet(p.m_positionWorldOnB));
             const Vec3 normal = from_bullet(p.m_normalWorldOnB);
             const float speed = dot(velocity_at(b, point) - velocity_at(a, point), normal);
+            a.overlap = std::max(a.overlap, -p.m_distance1);
+            b.overlap = std::max(b.overlap, -p.m_distance1);
             contacts_.push_back({m.a, m.b, m.cell_a, m.cell_b, point, normal, p.m_distance1, speed});
         }
     }
@@ -470,7 +477,7 @@ void BulletWorld::sum_impulse_to_static() {
 }
 
 void BulletWorld::solve(float dt) {
-    InsideRigidEngine guard;
+    InsideRigidEngine guard(counts_.allocations);
     for (RigidId id = 0; id < body_end_; ++id) {
         Body& body = bodies_[id];
         if (!body.is_used || !body.is_free()) continue;

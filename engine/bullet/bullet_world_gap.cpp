@@ -16,14 +16,25 @@ constexpr float kStillSeconds = 0.5f;
 // too, faster steps counting back twice.
 constexpr float kSlowSpeed = 0.15f;  // m/s of the fastest point
 constexpr float kSlowSeconds = 1;
+// What is wedged in a heap may shake for ever at any speed, and keep a thousand others awake: so long without leaving
+// this much room is sleep too.
+constexpr float kRattleDistance = 0.02f;  // m
+constexpr float kRattleSeconds = 2;
+
+// What lies deeper in something than this is kept awake to be pushed out; each second of it makes twice as much more
+// bear sleep: a slab of brick presses a piece below it by 7 mm, which takes the solver two seconds, and in a deep heap
+// some millimetres may never come out.
+constexpr float kPressedDeep = 0.0015f;  // m
+constexpr float kImpatience = 2;         // 1/s
+constexpr float kPressedSeconds = 2.5f;  // after which it sleeps as it lies
 
 // The corner of the body's box that moved farthest bounds all of its points: displacement is convex in the point.
-bool has_left(const Body& body, const btTransform& now) {
+bool has_left(const Body& body, const btTransform& anchor, const btTransform& now, float distance) {
     for (int corner = 0; corner < 8; ++corner) {
         const btVector3 p(corner & 1 ? body.local_box.high.x : body.local_box.low.x,
                           corner & 2 ? body.local_box.high.y : body.local_box.low.y,
                           corner & 4 ? body.local_box.high.z : body.local_box.low.z);
-        if ((now * p - body.anchor * p).length2() > kStillDistance * kStillDistance) return true;
+        if ((now * p - anchor * p).length2() > distance * distance) return true;
     }
     return false;
 }
@@ -32,7 +43,7 @@ bool has_left(const Body& body, const btTransform& now) {
 
 void BulletWorld::hold(RigidId id) {
     if (!is_known(id) || bodies_[id].kind != RigidKind::Dynamic || bodies_[id].is_held) return;
-    InsideRigidEngine guard;
+    InsideRigidEngine guard(counts_.allocations);
     Body& body = bodies_[id];
     body.kept = motion(id);
     if (!body.bullet->isActive()) wake_body(body);
@@ -45,7 +56,7 @@ void BulletWorld::hold(RigidId id) {
 
 void BulletWorld::release(RigidId id) {
     if (!is_known(id) || !bodies_[id].is_held) return;
-    InsideRigidEngine guard;
+    InsideRigidEngine guard(counts_.allocations);
     Body& body = bodies_[id];
     body.is_held = false;
     // In the order of creation, so that mass and weight round as they did then.
@@ -65,7 +76,7 @@ bool BulletWorld::is_held(RigidId id) const {
 void BulletWorld::skip_contacts(RigidId a, RigidId b) {
     if (!is_known(a) || !is_known(b) || a == b) return;
     if (a > b) std::swap(a, b);
-    InsideRigidEngine guard;
+    InsideRigidEngine guard(counts_.allocations);
     skipped_.emplace_back(a, b);
     const auto before = [](const SortedManifold& m, std::pair<RigidId, RigidId> key) {
         return std::pair(m.a, m.b) < key;
@@ -94,7 +105,7 @@ bool BulletWorld::is_apart_by_order(RigidId a, RigidId b) const {
 void BulletWorld::ignore_pair(RigidId a, RigidId b, float seconds, bool until_apart) {
     if (!is_known(a) || !is_known(b) || a == b) return;
     if (a > b) std::swap(a, b);
-    InsideRigidEngine guard;
+    InsideRigidEngine guard(counts_.allocations);
     const auto found = find_ignored(a, b);
     if (found != ignored_.end()) {
         found->seconds = std::max(found->seconds, seconds);
@@ -117,8 +128,15 @@ void BulletWorld::update_sleep(float dt) {
             continue;
         }
         // A body that its island woke keeps its anchor: it may sleep again as soon as the others do.
-        if (has_left(body, bullet.getWorldTransform())) {
-            body.anchor = bullet.getWorldTransform();
+        const btTransform& now = bullet.getWorldTransform();
+        if (!body.is_touched || has_left(body, body.rattle_anchor, now, kRattleDistance)) {
+            body.rattle_anchor = now;
+            body.rattle_seconds = 0;
+        } else {
+            body.rattle_seconds += dt;
+        }
+        if (has_left(body, body.anchor, now, kStillDistance)) {
+            body.anchor = now;
             body.still_seconds = 0;
         } else {
             body.still_seconds = std::min(body.still_seconds + dt, 2 * kStillSeconds);
@@ -126,9 +144,15 @@ void BulletWorld::update_sleep(float dt) {
         const float speed = bullet.getLinearVelocity().length() + bullet.getAngularVelocity().length() * body.reach;
         const float slower = body.is_touched && speed < kSlowSpeed ? dt : -2 * dt;
         body.slow_seconds = std::clamp(body.slow_seconds + slower, 0.0f, 2 * kSlowSeconds);
-        if (body.is_driven) body.still_seconds = body.slow_seconds = 0;
-        bullet.setActivationState(
-            body.still_seconds >= kStillSeconds || body.slow_seconds >= kSlowSeconds ? WANTS_DEACTIVATION : ACTIVE_TAG);
+        if (body.is_driven) body.still_seconds = body.slow_seconds = body.rattle_seconds = 0;
+        bool is_ready = body.still_seconds >= kStillSeconds || body.slow_seconds >= kSlowSeconds ||
+                        body.rattle_seconds >= kRattleSeconds;
+        if (is_ready && body.pressed_seconds < kPressedSeconds &&
+            body.overlap > kPressedDeep * (1 + kImpatience * body.pressed_seconds)) {
+            body.pressed_seconds += dt;
+            is_ready = false;
+        }
+        bullet.setActivationState(is_ready ? WANTS_DEACTIVATION : ACTIVE_TAG);
     }
 }
 
@@ -138,13 +162,14 @@ bool BulletWorld::is_asleep(RigidId id) const {
 
 void BulletWorld::wake_body(Body& body) {
     body.bullet->setActivationState(ACTIVE_TAG);
-    body.still_seconds = body.slow_seconds = 0;
-    body.anchor = body.bullet->getWorldTransform();
+    body.still_seconds = body.slow_seconds = body.pressed_seconds = 0;
+    body.anchor = body.rattle_anchor = body.bullet->getWorldTransform();
+    body.rattle_seconds = 0;
 }
 
 void BulletWorld::wake(RigidId id) {
     if (!is_known(id) || bodies_[id].kind != RigidKind::Dynamic) return;
-    InsideRigidEngine guard;
+    InsideRigidEngine guard(counts_.allocations);
     wake_body(bodies_[id]);
 }
 

@@ -30,6 +30,8 @@ struct Side {
     uint32_t plane_count = 0;
     Spot outline[kMaxPoints];
     uint32_t outline_count = 0;
+    Spot bulge[kMaxPoints];  // low points inside of the outline
+    uint32_t bulge_count = 0;
 };
 
 // A face belongs to the outline when its normal is within 60 degrees of the direction it should look in: the top face
@@ -38,6 +40,9 @@ constexpr float kFacingCosine = 0.5f;
 constexpr float kPlaneCosine = 0.1f;
 // Points this close to the support plane belong to the outline too, whatever their faces.
 constexpr float kSupportDepth = 0.0002f;  // m
+// What bulges towards the other hull touches with points inside of its outline: those this close to the support plane
+// are offered too. At 0 a curved shard rocks for ever from one of its low points to the other and sinks by 4 mm.
+constexpr float kBulgeDepth = 0.003f;  // m
 
 Frame make_frame(Vec3 n) {
     // The world axis least along the normal, ties to x then y, gives the first direction.
@@ -51,11 +56,12 @@ float area(const Spot& a, const Spot& b, const Spot& c) {
     return (b.x - a.x) * (c.y - a.y) - (b.y - a.y) * (c.x - a.x);
 }
 
+constexpr float kFlat = 1e-10f;  // m2, twice an area
+
 // Andrew's monotone chain; points within a hundredth of a square millimetre of a line are left out.
 uint32_t convex_outline(Spot* spots, uint32_t count, Spot* out) {
     std::sort(spots, spots + count, [](const Spot& a, const Spot& b) { return a.x != b.x ? a.x < b.x : a.y < b.y; });
     uint32_t n = 0;
-    constexpr float kFlat = 1e-10f;
     for (uint32_t k = 0; k < count; ++k) {
         if (k > 0 && spots[k].x == spots[k - 1].x && spots[k].y == spots[k - 1].y) continue;
         while (n >= 2 && area(out[n - 2], out[n - 1], spots[k]) <= kFlat) --n;
@@ -68,6 +74,12 @@ uint32_t convex_outline(Spot* spots, uint32_t count, Spot* out) {
         out[n++] = spots[k];
     }
     return n > 1 ? n - 1 : n;
+}
+
+bool is_inside(const Spot& spot, const Side& side) {
+    for (uint32_t e = 0; e < side.outline_count; ++e)
+        if (!(area(side.outline[e], side.outline[(e + 1) % side.outline_count], spot) > kFlat)) return false;
+    return side.outline_count >= 3;
 }
 
 // `sign` -1: the side that looks down the normal (hull a); +1: up (hull b). `offset` is the hull's centre in the frame.
@@ -97,6 +109,12 @@ void look(const Hull& hull, const Mat3& rotation, const Frame& frame, Vec3 offse
     side.outline_count = convex_outline(spots, count, chain);
     std::copy_n(chain, side.outline_count, side.outline);
     if (side.plane_count == 0) side.plane[side.plane_count++] = {oz + sign * top, 0, 0};
+    for (uint32_t k = 0; k < hull.point_count && side.outline_count >= 3; ++k) {
+        const Vec3 p = hull.local[k];
+        if (!(sign * dot(p, n) > top - kBulgeDepth)) continue;
+        const Spot spot{ox + dot(p, right), oy + dot(p, forward), 0, 0};
+        if (is_inside(spot, side)) side.bulge[side.bulge_count++] = spot;
+    }
 }
 
 // Sutherland and Hodgman: what of the polygon (or segment, or point) `spots` lies in the convex `clip`.
@@ -134,8 +152,13 @@ float gap(const Spot& s) {
     return s.low_a - s.high_b;
 }
 
+// A millimetre of depth counts as 20 mm of distance: a shard that rocks on two spots must have both of them, whatever
+// lies farther out and does not touch yet. At 0 it rocks on for ever, each step on the spot that it was given, and
+// sinks by 9 mm; the noise of a level patch (a micrometre) moves no choice.
+constexpr float kPatchDepthWeight = 20;
+
 // Four of many: the extreme ones of a fixed direction, then of area, so that a resting patch picks the same corners
-// every step; the deepest takes the place of its nearest when none of them is within 0.1 mm of it.
+// every step; the deepest takes the place of the shallowest when none of them is within 0.1 mm of it.
 int choose_four(const Spot* spots, uint32_t count, uint32_t (&chosen)[kPatchPoints]) {
     if (count <= kPatchPoints) {
         for (uint32_t k = 0; k < count; ++k) chosen[k] = k;
@@ -143,27 +166,34 @@ int choose_four(const Spot* spots, uint32_t count, uint32_t (&chosen)[kPatchPoin
     }
     const auto pick = [&](auto&& value) {
         uint32_t best = 0;
-        for (uint32_t k = 1; k < count; ++k)
-            if (value(spots[k]) > value(spots[best])) best = k;
+        float most = -kFar;
+        for (uint32_t k = 0; k < count; ++k) {
+            const float v = value(spots[k]);
+            if (v > most) best = k, most = v;
+        }
         return best;
     };
-    const auto square = [](const Spot& a, const Spot& b) {
-        return (a.x - b.x) * (a.x - b.x) + (a.y - b.y) * (a.y - b.y);
+    // Among spots where the cores overlap place alone counts: what is stuck deep in a floor needs its corners.
+    const auto raised = [](const Spot& s) { return kPatchDepthWeight * std::max(gap(s), 0.0f); };
+    const auto far = [](const Spot& a, const Spot& b) {
+        return std::sqrt((a.x - b.x) * (a.x - b.x) + (a.y - b.y) * (a.y - b.y));
     };
-    const uint32_t first = pick([](const Spot& s) { return s.x + 0.37f * s.y; });
-    const uint32_t second = pick([&](const Spot& s) { return square(s, spots[first]); });
-    const uint32_t third = pick([&](const Spot& s) { return area(spots[first], spots[second], s); });
-    const uint32_t fourth = pick([&](const Spot& s) { return -area(spots[first], spots[second], s); });
+    const uint32_t first = pick([&](const Spot& s) { return s.x + 0.37f * s.y - raised(s); });
+    const uint32_t second = pick([&](const Spot& s) { return far(s, spots[first]) - raised(s); });
+    // A thousandth of a millimetre: where both are one spot, all areas are zero.
+    const float base = far(spots[first], spots[second]) + 1e-6f;
+    const auto beside = [&](const Spot& s) { return area(spots[first], spots[second], s) / base; };
+    const uint32_t third = pick([&](const Spot& s) { return beside(s) - raised(s); });
+    const uint32_t fourth = pick([&](const Spot& s) { return -beside(s) - raised(s); });
     const uint32_t deepest = pick([](const Spot& s) { return -gap(s); });
     uint32_t four[4] = {first, second, third, fourth};
-    float shallow = kFar;
-    for (const uint32_t k : four) shallow = std::min(shallow, gap(spots[k]));
-    if (gap(spots[deepest]) < shallow - 0.0001f) {
-        uint32_t nearest = 0;
-        for (uint32_t k = 1; k < 4; ++k)
-            if (square(spots[four[k]], spots[deepest]) < square(spots[four[nearest]], spots[deepest])) nearest = k;
-        four[nearest] = deepest;
+    uint32_t shallowest = 0;
+    float least = kFar;
+    for (uint32_t k = 0; k < 4; ++k) {
+        least = std::min(least, gap(spots[four[k]]));
+        if (gap(spots[four[k]]) > gap(spots[four[shallowest]])) shallowest = k;
     }
+    if (gap(spots[deepest]) < least - 0.0001f) four[shallowest] = deepest;
     int kept = 0;
     for (const uint32_t k : four)
         if (std::find(chosen, chosen + kept, k) == chosen + kept) chosen[kept++] = k;
@@ -175,7 +205,6 @@ int choose_four(const Spot* spots, uint32_t count, uint32_t (&chosen)[kPatchPoin
 constexpr double kOwnTurning = 0.004;
 constexpr double kBorrowedTurning = 0.003;
 
-// A direction out of the hull that leads through a seam is the neighbouring piece's affair.
 bool is_through_seam(const Hull& hull, const Mat3& rotation, Vec3 outwards) {
     const Vec3 local = transposed_times(rotation, outwards);
     for (uint32_t f = 0; f < hull.face_count; ++f)
@@ -184,7 +213,7 @@ bool is_through_seam(const Hull& hull, const Mat3& rotation, Vec3 outwards) {
 }
 
 struct Touch {
-    bool is_near = false;
+    bool is_near = false, is_through_seam = false;
     Vec3 normal;
     float gap = 0;  // of the cores
     float room = 0;
@@ -206,7 +235,7 @@ Touch find_touch(const Hull& a, const Mat3& rotation_a, const Hull& b, const Mat
     // overlap.
     if (closest.is_apart && closest.distance > 1e-5) {
         if (closest.distance > reach) return touch;
-        if (is_through_seam(a, rotation_a, -guess) || is_through_seam(b, rotation_b, guess)) return touch;
+        touch.is_through_seam = is_through_seam(a, rotation_a, -guess) || is_through_seam(b, rotation_b, guess);
         touch.is_near = true;
         touch.gap = static_cast<float>(closest.distance);
         touch.normal = guess;
@@ -255,8 +284,9 @@ Patch contact_patch(const Hull& a, const Mat3& rotation_a, const Hull& b, const 
     patch.room = touch.room;
     if (!touch.is_near) return patch;
     patch.normal = touch.normal;
+    patch.is_through_seam = touch.is_through_seam;
     uint32_t count = 0;
-    Spot spots[2 * kMaxPoints];
+    Spot spots[4 * kMaxPoints];
     const Frame frame = make_frame(touch.normal);
     if (a.point_count > 1 && b.point_count > 1) {
         Side side_a, side_b;
@@ -266,6 +296,10 @@ Patch contact_patch(const Hull& a, const Mat3& rotation_a, const Hull& b, const 
             count = clip_outline(side_a, side_b, spots);
         else if (side_a.outline_count >= 3)
             count = clip_outline(side_b, side_a, spots);
+        for (uint32_t k = 0; k < side_a.bulge_count; ++k)
+            if (is_inside(side_a.bulge[k], side_b)) spots[count++] = side_a.bulge[k];
+        for (uint32_t k = 0; k < side_b.bulge_count; ++k)
+            if (is_inside(side_b.bulge[k], side_a)) spots[count++] = side_b.bulge[k];
         const float reach = kContactRange + a.margin + b.margin;
         uint32_t kept = 0;
         for (uint32_t k = 0; k < count; ++k) {

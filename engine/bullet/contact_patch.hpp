@@ -16,7 +16,9 @@ struct PatchPoint {
 
 struct Patch {
     int count = 0;
-    Vec3 normal;     // world, unit, from b towards a
+    Vec3 normal;  // world, unit, from b towards a
+    // The direction leads out of one of the two through a seam: the touch may be the neighbouring piece's affair.
+    bool is_through_seam = false;
     float room = 0;  // m that the two may move against each other before they have a contact; 0 when they have
     PatchPoint point[kPatchPoints];
 };

@@ -109,6 +109,13 @@ void build_hull(Hull& hull, std::span<const Vec3> points, float margin, uint32_t
     }
     btConvexHullComputer computer;
     computer.compute(coordinates, 3 * sizeof(float), static_cast<int>(hull.point_count), 0, 0);
+    const int corner_count = computer.original_vertex_index.size();
+    if (corner_count >= 4 && corner_count < static_cast<int>(hull.point_count)) {
+        // Points inside of the hull are of no use: again without them.
+        Vec3 corners[kMaxPoints];
+        for (int k = 0; k < corner_count; ++k) corners[k] = points[computer.original_vertex_index[k]];
+        return build_hull(hull, {corners, static_cast<size_t>(corner_count)}, margin, cell);
+    }
     set_faces(hull, computer);
     // Bullet's faces run clockwise or not by its own choice: outwards is where the centre of the points is not.
     Vec3 mean;

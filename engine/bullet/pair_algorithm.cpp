@@ -25,7 +25,10 @@ constexpr float kAhead = 0.01f;           // m, of travel until pieces are looke
 constexpr float kSmallTravel = 0.00001f;  // m
 constexpr float kTurnLength = 0.1f;       // m, that opposite normals count half of
 constexpr float kDepthWeight = 20;        // a millimetre deeper counts as 20 mm farther
+constexpr float kDeepEnough = 0.002f;     // m, deeper than which place alone counts
 constexpr float kPastBonus = 0.01f;       // m
+constexpr float kSeamNear = 0.01f;        // m, between touches of one seam
+constexpr float kAsDeep = 0.0005f;        // m
 
 // Displacement is convex in the point: the corner of a box that moved farthest bounds all points in it.
 double farthest_way(const Box& box, const btTransform& before, const btTransform& now) {
@@ -217,9 +220,7 @@ void PairAlgorithm::follow_points(PairRecord& record, const Body& a, const Body&
     }
 }
 
-// Two shells that lie in each other touch in hundreds of points, of which the solver needs a dozen. The deepest comes
-// first, then always the one farthest from those chosen; turned normals, depth and a past as contact count as distance.
-void PairAlgorithm::choose_best() {
+void PairAlgorithm::list_offers() {
     std::vector<Offer>& offers = work_.offers;
     offers.clear();
     for (PairRecord* r = records_; r; r = r->next)
@@ -227,14 +228,55 @@ void PairAlgorithm::choose_best() {
             const btManifoldPoint& p = r->manifold->getContactPoint(k);
             const float past = p.m_lifeTime > 0 ? kPastBonus : 0.0f;
             offers.push_back({r->manifold, k, from_bullet(p.m_positionWorldOnB), from_bullet(p.m_normalWorldOnB),
-                              p.m_distance1 - past / kDepthWeight});
+                              p.m_distance1 - past / kDepthWeight, kFar, r->is_through_seam});
         }
+}
+
+// A corner of another body above a seam is met by the pieces on both sides of it, by one of them sideways: that touch
+// goes where the other one is there and as deep. (Dropping all touches through seams let shards that stand on the end
+// of a seam sink by 3 mm, until their cores overlapped the floor.)
+void PairAlgorithm::drop_through_seams() {
+    std::vector<Offer>& offers = work_.offers;
+    bool is_any = false;
+    for (Offer& doubtful : offers) {
+        if (!doubtful.is_through_seam) continue;
+        bool is_met = false;
+        for (const Offer& sound : offers) {
+            const Vec3 between = sound.point - doubtful.point;
+            is_met |= !sound.is_through_seam && sound.distance < doubtful.distance + kAsDeep &&
+                      dot(between, between) < kSeamNear * kSeamNear;
+        }
+        doubtful.is_chosen = is_met;
+        is_any |= is_met;
+    }
+    if (!is_any) return;
+    for (Offer& offer : offers) offer.is_chosen = !offer.is_chosen;
+    remove_unchosen();
+    list_offers();
+}
+
+// Points of one manifold are removed from the last on: Bullet puts the last one in the gap.
+void PairAlgorithm::remove_unchosen() {
+    const std::vector<Offer>& offers = work_.offers;
+    for (size_t k = offers.size(); k-- > 0;)
+        if (!offers[k].is_chosen) offers[k].manifold->removeContactPoint(offers[k].index);
+    for (PairRecord* r = records_; r; r = r->next)
+        if (r->manifold && r->manifold->getNumContacts() == 0) release(*r);
+}
+
+// Two shells that lie in each other touch in hundreds of points, of which the solver needs a dozen. The deepest comes
+// first, then always the one farthest from those chosen; turned normals, depth and a past as contact count as distance.
+void PairAlgorithm::choose_best() {
+    std::vector<Offer>& offers = work_.offers;
+    list_offers();
+    drop_through_seams();
     if (offers.size() <= kPairContacts) return;
     for (uint32_t round = 0; round < kPairContacts; ++round) {
         Offer* best = nullptr;
         float best_score = -kFar;
         for (Offer& offer : offers) {
-            const float score = (round == 0 ? 0 : offer.apart) - kDepthWeight * offer.distance;
+            const float depth = round == 0 ? offer.distance : std::max(offer.distance, -kDeepEnough);
+            const float score = (round == 0 ? 0 : offer.apart) - kDepthWeight * depth;
             if (!offer.is_chosen && score > best_score) best = &offer, best_score = score;
         }
         best->is_chosen = true;
@@ -243,10 +285,7 @@ void PairAlgorithm::choose_best() {
             offer.apart = std::min(offer.apart, std::sqrt(dot(p, p) + dot(n, n)));
         }
     }
-    for (size_t k = offers.size(); k-- > 0;)
-        if (!offers[k].is_chosen) offers[k].manifold->removeContactPoint(offers[k].index);
-    for (PairRecord* r = records_; r; r = r->next)
-        if (r->manifold && r->manifold->getNumContacts() == 0) release(*r);
+    remove_unchosen();
 }
 
 // Friction and restitution of two bodies: the geometric mean, so that equal materials keep their own value. Rolling
@@ -259,6 +298,7 @@ void PairAlgorithm::write(PairRecord& record, const Patch& patch, uint32_t cell_
     }
     btPersistentManifold& manifold = *record.manifold;
     record.normal = transposed_times(rotation_of(b.fresh_at), patch.normal);
+    record.is_through_seam = patch.is_through_seam;
     manifold.m_companionIdA = static_cast<int>(cell_a);
     manifold.m_companionIdB = static_cast<int>(cell_b);
     btManifoldPoint before[kPatchPoints];

@@ -13,12 +13,13 @@ namespace cullet::bullet {
 
 /// Two pieces whose boxes are near: what is remembered of them from step to step.
 struct PairRecord {
-    uint32_t a, b;                // ordinals of the pieces; triangles of a static mesh follow its convex parts
-    const Hull *hull_a, *hull_b;  // null: a triangle
-    Vec3 guess;                   // last axis from b towards a
-    bool is_own_guess = false;    // no longer borrowed from a neighbour
-    double good_until = 0;        // what the two found last holds while PairAlgorithm::travelled_ is less
-    Vec3 normal;                  // of the manifold's points, in the frame of b
+    uint32_t a, b;                 // ordinals of the pieces; triangles of a static mesh follow its convex parts
+    const Hull *hull_a, *hull_b;   // null: a triangle
+    Vec3 guess;                    // last axis from b towards a
+    bool is_own_guess = false;     // no longer borrowed from a neighbour
+    bool is_through_seam = false;  // of the manifold's points, see Patch
+    double good_until = 0;         // what the two found last holds while PairAlgorithm::travelled_ is less
+    Vec3 normal;                   // of the manifold's points, in the frame of b
     btPersistentManifold* manifold = nullptr;  // null while they do not touch
     PairRecord* next = nullptr;
 };
@@ -35,16 +36,19 @@ struct Offer {
     Vec3 point, normal;
     float distance;
     float apart = kFar;  // from the nearest chosen one, in the measure of choose_best()
+    bool is_through_seam = false;
     bool is_chosen = false;
 };
 
 /// Working memory that the pairs of one world share.
 struct PairWork {
     explicit PairWork(uint32_t body_limit) : records(128 * static_cast<size_t>(body_limit) + 16384) {
-        candidates.reserve(4096);
-        offers.reserve(16384);
-        near_a.reserve(4096);
-        near_b.reserve(4096);
+        // One pair at a time: the largest two bodies, of at most all hulls that there are room for.
+        const size_t hulls = 4 * static_cast<size_t>(body_limit) + 4096;
+        candidates.reserve(4 * hulls);
+        offers.reserve(8 * hulls);
+        near_a.reserve(hulls);
+        near_b.reserve(hulls);
     }
     Pool<PairRecord> records;
     std::vector<Candidate> candidates;
@@ -85,6 +89,9 @@ class PairAlgorithm : public btCollisionAlgorithm {
     void write(PairRecord& record, const Patch& patch, uint32_t cell_a, uint32_t cell_b);
     void follow_points(PairRecord& record, const Body& a, const Body& b);
     void release(PairRecord& record);
+    void list_offers();
+    void drop_through_seams();
+    void remove_unchosen();
     void choose_best();
 
     RigidId a_, b_;  // a_ < b_

@@ -69,7 +69,7 @@ Result<ScenePlan> drop_plan(const SceneInput& input) {
     if (auto cooked = cook_into(plan, input, mesh); !cooked.ok()) return Error{cooked.error()};
     raise_budget(plan);
     plan.props.push_back(floor_prop());
-    plan.props.push_back(box_prop({-1.6f, 0, -0.3f}, {1.6f, 1.6f, 0}, {0.38f, 0.40f, 0.42f}));
+    plan.props.push_back(box_prop({-1.6f, -0.3f, -0.3f}, {1.6f, 1.6f, 0}, {0.38f, 0.40f, 0.42f}));
 
     Spawn body;
     body.settings.user_data = 1;

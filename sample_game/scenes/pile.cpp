@@ -1,3 +1,5 @@
+#include <algorithm>
+
 #include "engine/math.hpp"
 #include "sample_game/meshes.hpp"
 #include "sample_game/scenes/scenes.hpp"
@@ -26,13 +28,16 @@ Result<ScenePlan> pile_plan(const SceneInput& input) {
     if (auto cooked = cook_into(plan, input, make_vase(size, edge, plan.settings.seed)); !cooked.ok())
         return Error{cooked.error()};
     plan.props.push_back(floor_prop());
-    const float half = 0.8f, wall = 0.1f, high = 0.5f;
-    plan.props.push_back(box_prop({-half - wall, 0, -half - wall}, {half + wall, high, -half}, kStone));
-    plan.props.push_back(box_prop({-half - wall, 0, -half}, {-half, high, half}, kStone));
-    plan.props.push_back(box_prop({half, 0, -half}, {half + wall, high, half}, kStone));
-    plan.props.push_back(box_prop({-half - wall, 0, half}, {half + wall, high, half + wall}, kStone));
+    // Walls go down into the ground: standing on it they would press into it what is a millimetre deep in both.
+    const float half = 0.8f, wall = 0.1f, high = 0.5f, low = -0.5f;
+    plan.props.push_back(box_prop({-half - wall, low, -half - wall}, {half + wall, high, -half}, kStone));
+    plan.props.push_back(box_prop({-half - wall, low, -half}, {-half, high, half}, kStone));
+    plan.props.push_back(box_prop({half, low, -half}, {half + wall, high, half}, kStone));
+    plan.props.push_back(box_prop({-half - wall, low, half}, {half + wall, high, half + wall}, kStone));
 
-    plan.settings.limits.open_hits = 256;  // shards meet shards all over the pit
+    plan.settings.limits.open_hits = 512;  // shards meet shards all over the pit
+    // Dozens of hits a frame: at the default they would all be late, and vases would bounce whole.
+    plan.settings.units_a_frame = std::max<uint64_t>(plan.settings.units_a_frame, 100'000'000);
     for (uint32_t v = 0; v < kMostVases; ++v) {
         const uint32_t number = 10 * (v + 1), corner = v % 4;
         Spawn vase;

@@ -1,6 +1,7 @@
 #include "systems/fragments/cell_hulls.hpp"
 
 #include <algorithm>
+#include <iterator>
 
 namespace cullet {
 namespace {
@@ -31,17 +32,20 @@ constexpr float kTurn[12][2] = {
     {1, 0},  {kHalfRoot3, 0.5f},   {0.5f, kHalfRoot3},   {0, 1},  {-0.5f, kHalfRoot3}, {-kHalfRoot3, 0.5f},
     {-1, 0}, {-kHalfRoot3, -0.5f}, {-0.5f, -kHalfRoot3}, {0, -1}, {0.5f, -kHalfRoot3}, {kHalfRoot3, -0.5f}};
 
-// Round the patch at each of these heights of the direction's tip over the plane, the rims of both faces twice.
-constexpr float kLift[] = {0.3f, -0.3f, 0.3f, -0.3f, 0, 1, -1};
-constexpr uint32_t kDirections = 12 * 7 + 2;
+// Round the patch at each of these heights of the direction's tip over the plane, every second ring turned by half a
+// step: no direction is farther than about 15 degrees from one of them. With nothing between 45 and 90 degrees jagged
+// shards of 12 cm stood 4.5 mm deep in the floor, on corners that their hulls did not have.
+constexpr float kLift[] = {0.3f, 0.3f, -0.3f, -0.3f, 0, 0, 0.8f, 0.8f, -0.8f, -0.8f, 1.7f, 1.7f, -1.7f, -1.7f, 4, -4};
+constexpr uint32_t kRings = std::size(kLift);
+constexpr uint32_t kDirections = 12 * kRings + 2;
 
 struct Directions {
     Vec3 way[kDirections];
     explicit Directions(const Frame& f) {
         uint32_t count = 0;
-        for (uint32_t ring = 0; ring < 7; ++ring)
+        for (uint32_t ring = 0; ring < kRings; ++ring)
             for (const auto& turn : kTurn) {
-                const bool is_between = ring == 2 || ring == 3;
+                const bool is_between = ring % 2 == 1;
                 const float c = is_between ? kCosine15 * turn[0] - kSine15 * turn[1] : turn[0];
                 const float s = is_between ? kCosine15 * turn[1] + kSine15 * turn[0] : turn[1];
                 way[count++] = normalised(c * f.x + s * f.y + kLift[ring] * f.n);
@@ -68,10 +72,10 @@ uint32_t farthest(const Candidates& list, Vec3 way, float& reach) {
     return at;
 }
 
-/// Keeps at most 32: again and again the point whose direction lacks most reach so far, the first of equals, until none
-/// lacks more than `enough`.
+/// Keeps all that there are up to 32; else at most 32: again and again the point whose direction lacks most reach so
+/// far, the first of equals, until none lacks more than `enough`.
 void keep_extremes(Candidates& list, const Directions& directions, float enough) {
-    if (list.count == 0) return;
+    if (list.count <= kMostHullPoints) return;
     for (uint32_t l = 0; l < kLanes; ++l) {
         list.x[list.count + l] = list.x[0], list.y[list.count + l] = list.y[0], list.z[list.count + l] = list.z[0];
     }

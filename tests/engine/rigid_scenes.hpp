@@ -145,9 +145,9 @@ inline void add_plate(RigidWorld& world, RigidId id) {
 }
 
 /// Shards in layers of four above each other, each turned its own way by a hash of its number.
-inline void drop_shards(RigidWorld& world, RigidId first, uint32_t count) {
+inline void drop_shards(RigidWorld& world, RigidId first, uint32_t count, uint32_t seed = 0) {
     for (uint32_t k = 0; k < count; ++k) {
-        uint32_t h = (k + 1) * 2654435761u;
+        uint32_t h = (k + 1 + 1000 * seed) * 2654435761u;
         const auto draw = [&h] {
             h ^= h << 13, h ^= h >> 17, h ^= h << 5;
             return static_cast<float>(h % 2000) / 1000 - 1;

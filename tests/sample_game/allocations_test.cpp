@@ -10,6 +10,7 @@
 
 #include "engine/jobs.hpp"
 #include "engine/rigid_allocations.hpp"
+#include "engine/rigid_world.hpp"
 
 namespace cullet {
 namespace {
@@ -97,6 +98,21 @@ TEST(Allocations, InsideTheRigidEngineTheyAreCountedApart) {
     });
     EXPECT_EQ(counts.rigid, 2u);
     EXPECT_EQ(counts.ours, 1u);
+}
+
+TEST(Allocations, TheRigidWorldKnowsItsOwnSinceItsCreation) {
+    auto world = make_bullet_world(16);
+    EXPECT_EQ(world->counts().allocations, 0u);
+    const AllocationCounts counts = counted([&] {
+        const Vec3 corners[] = {{-1, 0, -1}, {1, 0, -1}, {0, 0, 1}, {0, -1, 0}};
+        const std::array<uint32_t, 3> faces[] = {{0, 2, 1}, {0, 1, 3}, {1, 2, 3}, {2, 0, 3}};
+        world->add_static_triangles(0, corners, faces, 0.5f, 0, 1, ~0u);
+        world->detect(0.01f);
+        world->solve(0.01f);
+    });
+    EXPECT_GT(counts.rigid, 0u);
+    EXPECT_EQ(world->counts().allocations, counts.rigid);
+    EXPECT_EQ(counts.ours, 0u);
 }
 
 void every_job_allocates(JobSystem& jobs, uint64_t& ours) {
