@@ -47,11 +47,6 @@ BareHidden::BareHidden(ShellView shell, float dt, float beta) : dt_(dt), beta_(b
     inverse_mass_.assign(s.vertices.inverse_mass.data() + first, s.vertices.inverse_mass.data() + first + vertices);
 }
 
-void BareHidden::take_motion(ShellView shell) {
-    for (uint32_t v = 0; v < shell.vertex_count(); ++v)
-        shell.state.vertices.displacement.set(shell.vertex(v), {u_[0][v], u_[1][v], u_[2][v]});
-}
-
 #define BARE __attribute__((target("avx2"), always_inline)) static inline
 
 BARE __m256 pair(const Float4* low, const Float4* high) {

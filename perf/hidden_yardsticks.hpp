@@ -15,8 +15,7 @@ class BareHidden {
     static bool is_supported();
     uint32_t pack_count() const { return static_cast<uint32_t>(packs_.size()); }
     void run_packs(uint32_t side, uint32_t first, uint32_t count);
-    void take_motion(ShellView shell);
-    size_t bytes() const { return stream_.size() * 4; }
+    Vec3 displacement(uint32_t vertex) const { return {u_[0][vertex], u_[1][vertex], u_[2][vertex]}; }
 
  private:
     struct Pack {
