@@ -137,7 +137,8 @@ ModelReport report_on(const State& state, Row<Shells> shell, const Surface& surf
     const float speed_of_sound = std::sqrt(state.materials.young_modulus[m] / state.materials.density[m]);
     const float run = std::max(state.materials.run_seconds[m], 3.6f * std::sqrt(s.area[shell]) / speed_of_sound);
     const auto steps = static_cast<uint64_t>(run / s.time_step[shell]) + 1;
-    report.units_of_a_hit = steps * units_a_step(report.vertices, 64) + 150 * kUnitsCut;
+    report.units_of_a_hit = steps * units_a_step(report.vertices + report.vertices / 10, 64) + 300 * kUnitsCut +
+                            report.vertices * kUnitsOpen;  // a blow that breaks grows it by a tenth
     if (!surface.repairs.is_clean()) report.repairs = describe(surface.repairs);
     if (report.units_of_a_hit > kDefaultHoldUnits)
         report.advice =

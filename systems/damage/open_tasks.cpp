@@ -113,7 +113,8 @@ struct Opening {
         tasks.start_spin.set(t, rotate(to_body_axes, bodies.spin[body]));
         tasks.strength_scale[t] = bodies.strength_scale[body];
         set_task_times(state, materials, task);
-        tasks.units_owed[t] = state.shells.vertices[source].count * kUnitsOpen;
+        const bool is_assembled = state.shells.packs[source].count > 0;
+        tasks.units_owed[t] = state.shells.vertices[source].count * (kUnitsOpen + (is_assembled ? 0 : kUnitsAssemble));
         bodies.task[body] = t;
         opened.push({task});
         ++counts.opened;
