@@ -159,7 +159,7 @@ class OurStep {
     void run(uint32_t steps, JobSystem* team) {
         const BrittleLoop::Run run{0, 0, steps, nullptr};
         if (!team) return loop_.run_alone(world_, run);
-        BrittleLoop::Team shared(loop_, world_, run);
+        BrittleLoop::Team shared(loop_, world_, run, team->worker_count());
         parallel_for(*team, team->worker_count(), [&](uint32_t worker) { shared.work(worker); });
     }
 

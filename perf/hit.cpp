@@ -187,7 +187,7 @@ Measured measure_slices(Vase& vase, const BrittleLoop& loop, JobSystem* team, do
             const BrittleLoop::Run run{kTask, state.tasks.steps_done[kTask], count, task_goes_on};
             steps.part([&] {
                 if (!team) return loop.run_alone(world, run);
-                BrittleLoop::Team shared(loop, world, run);
+                BrittleLoop::Team shared(loop, world, run, team->worker_count());
                 parallel_for(*team, team->worker_count(), [&](uint32_t worker) { shared.work(worker); });
             });
         };

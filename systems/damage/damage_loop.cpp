@@ -31,7 +31,7 @@ void DamageLoop::advance() {
         return BrittleLoop::Run{t, tasks.steps_done[t], tasks.steps_granted[t], task_goes_on};
     };
     for (uint32_t i = 0; i < together_count; ++i) {
-        BrittleLoop::Team team(brittle_, world_, run_of(together[i]));
+        BrittleLoop::Team team(brittle_, world_, run_of(together[i]), workers);
         parallel_for(jobs_, workers, [&](uint32_t worker) {
             const uint64_t start = now_ns();
             team.work(worker);

@@ -117,7 +117,7 @@ Loop make_loop(bool grows = false) {
 }
 
 void run_team(const Loop& loop, RodWorld& world, const Loop::Run& run, JobSystem& jobs) {
-    Loop::Team team(loop, world, run);
+    Loop::Team team(loop, world, run, jobs.worker_count());
     parallel_for(jobs, jobs.worker_count(), [&](uint32_t) { team.work(); });
 }
 

@@ -27,7 +27,7 @@ void drive(State& state, uint32_t steps_a_call, uint32_t team_size) {
             loop.run_alone(world, run);
             continue;
         }
-        BrittleLoop::Team team(loop, world, run);
+        BrittleLoop::Team team(loop, world, run, team_size);
         const auto work = [&team] {
             const FpMode mode;
             team.work();
