@@ -80,7 +80,7 @@ Result<ScenePlan> drop_plan(const SceneInput& input) {
     const auto speed = static_cast<float>(keys["scene.speed_mps"]);
     body.settings.motion.velocity = {0, 0.1f * speed, -speed};
     plan.spawns.push_back(body);
-    plan.camera = {{1.5f, 1.1f, 1.9f}, {0.05f, 0.36f, 0.35f}, 0.72f};
+    plan.camera = {{1.25f, 0.98f, 1.66f}, {0.06f, 0.36f, 0.33f}, 0.72f};
     return plan;
 }
 
