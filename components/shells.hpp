@@ -88,11 +88,7 @@ struct Vertices : Table<Vertices> {
     Column<Float4, Buffers::Two> probe{*this, "probe", "m"};  // u + beta v, where forces are evaluated; .w is 0
     Column<float> crush{*this, "crush", "m"};  // how deep a striker has crushed the face in this run, along its blow
     Column<float> stiffness_scale{*this, "stiffness_scale"};   // B7's limit at this vertex, in (0, 1]
-    Column<Vec3> drawn_shift{*this, "drawn_shift", "m"};       // smooths drawn crack lines (C6); nothing else sees it
     Column<uint32_t> copy{*this, "copy", "1", Keep::Scratch};  // make_piece: row in the piece being made
-    // Scratch of smooth_crack_lines: the neighbours along the free border, kNone where there is none.
-    Column<uint32_t> border_next{*this, "border_next", "1", Keep::Scratch};
-    Column<uint32_t> border_previous{*this, "border_previous", "1", Keep::Scratch};
 };
 
 enum class EdgeKind : uint8_t { Interior = 0, Border = 1, Crack = 2 };

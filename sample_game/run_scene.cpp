@@ -9,6 +9,7 @@
 
 #include "engine/hash.hpp"
 #include "sample_game/allocations.hpp"
+#include "sample_game/drawn_meshes.hpp"
 #include "sample_game/game_world.hpp"
 #include "sample_game/pictures.hpp"
 #include "sample_game/progress.hpp"
@@ -24,9 +25,11 @@ uint32_t hardware_threads() {
 }
 
 void watch_tables(World& world, RunRecord& record, const uint64_t& frame) {
-    world.contents().after_each_system = [&world, &record, &frame](const PlannedSystem<WorldData>& system) {
+    world.contents().after_each_system = [&world, &record, &frame,
+                                          drawn = DrawnMeshes()](const PlannedSystem<WorldData>& system) mutable {
         if (!record.first_fault.empty()) return;
-        const std::string fault = world.contents().data.state.validate();
+        std::string fault = world.contents().data.state.validate();
+        if (fault.empty() && std::string_view(system.name) == "draw_shells") fault = drawn.check_changed(world);
         if (!fault.empty()) record.first_fault = fmt::format("after {}, frame {}: {}", system.name, frame, fault);
     };
 }

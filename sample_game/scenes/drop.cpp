@@ -33,7 +33,8 @@ bool fit(Mesh& mesh, float size) {
     return true;
 }
 
-/// A blow that does not fit a hold ends late: raises the budget until the predicted one fits, and says so.
+/// A blow that does not fit a hold ends late: raises the budget until the predicted one fits, and says so in place of
+/// cooking's advice to do that.
 void raise_budget(ScenePlan& plan) {
     const double frames =
         std::floor(static_cast<double>(plan.settings.hold_seconds / plan.settings.step_seconds) + 1e-3);
@@ -41,6 +42,7 @@ void raise_budget(ScenePlan& plan) {
     if (frames < 1) return;
     const auto wanted = static_cast<uint64_t>(1.1 * static_cast<double>(hit) / frames);
     if (wanted <= plan.settings.units_a_frame) return;
+    std::erase(plan.notes, plan.models[0].report().advice);
     plan.notes.push_back(
         fmt::format("A hit on this mesh takes {:.0f} million units: units_a_frame was raised from {:.1f} to {:.1f} "
                     "million so that it fits a hold of {:.0f} frames.",

@@ -74,7 +74,6 @@ constexpr Rule kRules[] = {
     {"vertices", "velocity", Is::Number, 0, 0},
     {"vertices", "probe", Is::Number, 0, 0},
     {"vertices", "stiffness_scale", Is::Number, 0, 1},
-    {"vertices", "drawn_shift", Is::Number, 0, 0},
     {"elements", "corner", Is::Vertex},
     {"elements", "neighbour", or_none(Is::Element)},
     {"elements", "hinge", or_none(Is::Hinge)},

@@ -19,9 +19,7 @@ inline Vec3d inner_twin(const State& state, uint32_t row) {
            static_cast<double>(state.vertices.depth[row]) * Vec3d(state.vertices.inward[row]);
 }
 
-enum class Surface : uint8_t { Rest, Drawn };  // Drawn: with the shifts that smooth crack lines
-
-inline Prism load_prism(const ShellView& shell, uint32_t element, Surface surface = Surface::Rest) {
+inline Prism load_prism(const ShellView& shell, uint32_t element) {
     std::array<uint32_t, 3> c = shell.state.elements.corner[shell.element(element)];
     Prism prism;
     const auto order = [&](int i, int j) {
@@ -32,9 +30,6 @@ inline Prism load_prism(const ShellView& shell, uint32_t element, Surface surfac
         const uint32_t row = shell.vertex(c[k]);
         prism.outer[k] = Vec3d(shell.state.vertices.rest[row]);
         prism.inner[k] = inner_twin(shell.state, row);
-        if (surface == Surface::Rest) continue;
-        prism.outer[k] += Vec3d(shell.state.vertices.drawn_shift[row]);
-        prism.inner[k] += Vec3d(shell.state.vertices.drawn_shift[row]);
     }
     return prism;
 }

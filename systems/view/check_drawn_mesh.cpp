@@ -1,5 +1,5 @@
 #include <algorithm>
-#include <map>
+#include <cstring>
 #include <string>
 #include <vector>
 
@@ -9,52 +9,101 @@
 namespace cullet {
 namespace {
 
-using Place = std::array<float, 3>;
-
-Place place_of(const State& state, uint32_t row) {
-    const Vec3 p = state.view_vertices.vertex[row].position;
-    return {p.x, p.y, p.z};
+Vec3 place_of(const State& state, const Range& vertices, uint32_t v) {
+    return state.view_vertices.vertex[vertices.first + v].position;
 }
 
-std::string text(const Place& p) {
-    std::string out = "(";
-    for (float x : p) out.append(out.size() > 1 ? ", " : "").append(std::to_string(x));
-    return out.append(")");
+std::string text(Vec3 p) {
+    return "(" + std::to_string(p.x) + ", " + std::to_string(p.y) + ", " + std::to_string(p.z) + ")";
 }
 
-/// Number of the first corner at the same place, for each view vertex.
-std::vector<uint32_t> join_places(const State& state, const Range& range) {
-    std::map<Place, uint32_t> first;
-    std::vector<uint32_t> joined(range.count);
-    for (uint32_t v = 0; v < range.count; ++v) {
-        Place p = place_of(state, range.first + v);
-        for (float& x : p) x += 0.0f;  // -0 is 0
-        joined[v] = first.insert({p, v}).first->second;
+/// Points of the shell by rising number, as one key.
+uint64_t pair_of(uint32_t a, uint32_t b) {
+    return uint64_t{std::min(a, b)} << 32 | std::max(a, b);
+}
+
+Result<void> check_rows(const ShellView& shell, const Range& vertices, const Range& indices) {
+    const DrawnCount count = count_drawn(shell);
+    if (vertices.count != count.vertices || indices.count != count.index_count() || indices.count % 3 != 0)
+        return Error{"drawn mesh: " + std::to_string(vertices.count) + " vertices and " +
+                     std::to_string(indices.count) + " indices, but its shell has " + std::to_string(count.vertices) +
+                     " and " + std::to_string(count.index_count()) + "; the mesh is open."};
+    for (uint32_t i = 0; i < indices.count; ++i)
+        if (const uint32_t v = shell.state.view_indices.index[indices.first + i]; v >= vertices.count)
+            return Error{"drawn mesh: index " + std::to_string(i) + " is " + std::to_string(v) + " of " +
+                         std::to_string(vertices.count) + " vertices."};
+    return {};
+}
+
+Result<void> check_places(const ShellView& shell, const Range& vertices, const std::vector<uint32_t>& numbers) {
+    const Vertices& table = shell.state.vertices;
+    for (uint32_t v = 0; v < vertices.count; ++v) {
+        const uint32_t row = shell.vertex(numbers[v] / 2);
+        const Vec3 wanted = numbers[v] % 2 ? inner_twin(shell.state, row).to_float() : table.rest[row];
+        const Vec3 drawn = place_of(shell.state, vertices, v);
+        if (std::memcmp(&wanted, &drawn, sizeof wanted) != 0)
+            return Error{"drawn mesh: vertex " + std::to_string(v) + " is drawn at " + text(drawn) +
+                         ", its point stands at " + text(wanted) + "."};
     }
-    return joined;
+    return {};
 }
 
-Result<void> check_edges(const State& state, const Range& vertices, const Range& indices) {
-    const std::vector<uint32_t> joined = join_places(state, vertices);
-    std::map<std::pair<uint32_t, uint32_t>, int> uses;  // + one way, - the other
+/// Pairs of vertices with a free edge on both of its sides: cracks of a single edge.
+std::vector<uint64_t> single_cracks(const ShellView& shell) {
+    const Elements& elements = shell.state.elements;
+    std::vector<uint64_t> free_edges, found;
+    for (uint32_t e = shell.element(0); e < shell.element(shell.element_count()); ++e)
+        for (int k = 0; k < 3; ++k)
+            if (!(elements.flags[e] & kDead) && elements.neighbour[e][k] == kNone)
+                free_edges.push_back(pair_of(elements.corner[e][k], elements.corner[e][(k + 1) % 3]));
+    std::sort(free_edges.begin(), free_edges.end());
+    for (size_t i = 1; i < free_edges.size(); ++i)
+        if (free_edges[i] == free_edges[i - 1]) found.push_back(free_edges[i]);
+    return found;
+}
+
+struct Use {
+    uint64_t edge;      // pair_of
+    uint32_t is_back;   // from the larger to the smaller number
+    uint32_t from, to;  // view vertices
+};
+
+Result<void> check_edges(const ShellView& shell, const Range& vertices, const Range& indices,
+                         const std::vector<uint32_t>& numbers) {
+    std::vector<Use> uses;
     for (uint32_t i = 0; i < indices.count; ++i) {
         const uint32_t next = i % 3 == 2 ? i - 2 : i + 1;
-        const uint32_t a = joined[state.view_indices.index[indices.first + i]];
-        const uint32_t b = joined[state.view_indices.index[indices.first + next]];
-        if (a != b) uses[{std::min(a, b), std::max(a, b)}] += a < b ? 1 : -1;
+        const uint32_t from = shell.state.view_indices.index[indices.first + i],
+                       to = shell.state.view_indices.index[indices.first + next];
+        if (numbers[from] == numbers[to])
+            return Error{"drawn mesh: triangle " + std::to_string(i / 3) + " has a corner twice, at " +
+                         text(place_of(shell.state, vertices, from)) + "."};
+        uses.push_back({pair_of(numbers[from], numbers[to]), numbers[from] > numbers[to], from, to});
     }
-    for (const auto& [edge, sum] : uses)
-        if (sum != 0)
-            return Error{"drawn mesh: edge " + text(place_of(state, vertices.first + edge.first)) +
-                         " to " + text(place_of(state, vertices.first + edge.second)) + " is used " +
-                         std::to_string(sum) + " times more one way than the other; the mesh is open there."};
+    std::sort(uses.begin(), uses.end(), [](const Use& a, const Use& b) {
+        return a.edge != b.edge ? a.edge < b.edge : a.is_back != b.is_back ? a.is_back < b.is_back : a.from < b.from;
+    });
+    const std::vector<uint64_t> single = single_cracks(shell);
+    const auto is_flat = [&](uint32_t v) { return !(shell.state.vertices.depth[shell.vertex(v)] > 0); };
+    for (size_t i = 0; i < uses.size();) {
+        size_t count[2] = {0, 0}, end = i;
+        for (; end < uses.size() && uses[end].edge == uses[i].edge; ++end) ++count[uses[end].is_back];
+        const uint32_t a = static_cast<uint32_t>(uses[i].edge >> 32) / 2, b = static_cast<uint32_t>(uses[i].edge) / 2;
+        const bool may_be_four =
+            (is_flat(a) && is_flat(b)) || std::binary_search(single.begin(), single.end(), pair_of(a, b));
+        if (count[0] != count[1] || count[0] > (may_be_four ? 2u : 1u))
+            return Error{"drawn mesh: edge " + text(place_of(shell.state, vertices, uses[i].from)) + " to " +
+                         text(place_of(shell.state, vertices, uses[i].to)) + " is used " + std::to_string(count[0]) +
+                         " times one way and " + std::to_string(count[1]) +
+                         " times the other, not once each; the mesh is open there or touches itself."};
+        i = end;
+    }
     return {};
 }
 
 double drawn_volume(const State& state, const Range& vertices, const Range& indices) {
     const auto place = [&](uint32_t i) {
-        const Place p = place_of(state, vertices.first + state.view_indices.index[indices.first + i]);
-        return Vec3d(p[0], p[1], p[2]);
+        return Vec3d(place_of(state, vertices, state.view_indices.index[indices.first + i]));
     };
     if (indices.count == 0) return 0;
     const Vec3d origin = place(0);
@@ -67,23 +116,16 @@ double drawn_volume(const State& state, const Range& vertices, const Range& indi
 }  // namespace
 
 Result<void> check_drawn_mesh(ShellView shell, const Range& view_vertices, const Range& view_indices) {
-    const State& state = shell.state;
-    if (view_indices.count % 3 != 0)
-        return Error{"drawn mesh: " + std::to_string(view_indices.count) + " indices are no whole triangles."};
-    for (uint32_t i = 0; i < view_indices.count; ++i)
-        if (const uint32_t v = state.view_indices.index[view_indices.first + i]; v >= view_vertices.count)
-            return Error{"drawn mesh: index " + std::to_string(i) + " is " + std::to_string(v) + " of " +
-                         std::to_string(view_vertices.count) + " vertices."};
-    if (Result<void> closed = check_edges(state, view_vertices, view_indices); !closed) return closed;
-    double volume = 0, size = 0;
-    for (uint32_t e = 0; e < shell.element_count(); ++e) {
-        if (state.elements.flags[shell.element(e)] & kDead) continue;
-        const double v = prism_volume(load_prism(shell, e, Surface::Drawn));
-        volume += v;
-        size += std::fabs(v);
-    }
-    const double drawn = drawn_volume(state, view_vertices, view_indices);
-    if (!(std::fabs(drawn - volume) <= 1e-4 * size))
+    if (Result<void> rows = check_rows(shell, view_vertices, view_indices); !rows) return rows;
+    std::vector<uint32_t> numbers(view_vertices.count);
+    number_drawn(shell, numbers);
+    if (Result<void> places = check_places(shell, view_vertices, numbers); !places) return places;
+    if (Result<void> closed = check_edges(shell, view_vertices, view_indices, numbers); !closed) return closed;
+    double volume = 0;
+    for (uint32_t e = 0; e < shell.element_count(); ++e)
+        if (!(shell.state.elements.flags[shell.element(e)] & kDead)) volume += prism_volume(load_prism(shell, e));
+    const double drawn = drawn_volume(shell.state, view_vertices, view_indices);
+    if (!(std::fabs(drawn - volume) <= 1e-4 * std::fabs(volume)))
         return Error{"drawn mesh: its volume is " + std::to_string(drawn * 1e6) + " cm3, its elements' " +
                      std::to_string(volume * 1e6) + " cm3."};
     return {};

@@ -20,6 +20,7 @@ struct Writer {
     uint32_t vertex = 0;                 // next, relative
     DrawnMaterials materials = {};
     uint32_t index[kMostRuns] = {};  // next of each run, relative
+    uint32_t* numbers = nullptr;     // set: only the numbers of the corners' points are written, here
 };
 
 DrawnMaterials materials_of(const ShellView& shell) {
@@ -55,7 +56,7 @@ Point point(const ShellView& shell, uint32_t vertex, bool is_inner) {
 Vec3 place(const ShellView& shell, Point p) {
     const uint32_t row = shell.vertex(p.vertex);
     const Vertices& vertices = shell.state.vertices;
-    return (p.is_inner ? inner_twin(shell.state, row).to_float() : vertices.rest[row]) + vertices.drawn_shift[row];
+    return p.is_inner ? inner_twin(shell.state, row).to_float() : vertices.rest[row];
 }
 
 /// The two triangles of the wall below edge k of the element, seen from outside of the solid.
@@ -87,7 +88,11 @@ SurfaceKind kind_of(const ShellView& shell, uint32_t element, int k) {
     return edge == EdgeKind::Crack ? SurfaceKind::Crack : SurfaceKind::Inner;
 }
 
-uint32_t write_vertex(Writer& w, Vec3 position, Vec3 normal, float u, float v) {
+uint32_t write_vertex(Writer& w, Point at, Vec3 position, Vec3 normal, float u, float v) {
+    if (w.numbers) {
+        w.numbers[w.vertex] = 2 * at.vertex + at.is_inner;
+        return w.vertex++;
+    }
     ViewVertices& table = w.shell.state.view_vertices;
     const uint32_t row = w.first_vertex + w.vertex;
     table.vertex[row] = {position, normal, {u, v}};
@@ -95,26 +100,8 @@ uint32_t write_vertex(Writer& w, Vec3 position, Vec3 normal, float u, float v) {
 }
 
 void write_index(Writer& w, uint32_t run, uint32_t vertex) {
+    if (w.numbers) return;
     w.shell.state.view_indices.index[w.first_index + w.index[run]++] = vertex;
-}
-
-/// The game's uv of corner k, where the corner is drawn: a vertex that is shifted along the wall would else drag its
-/// texture with it. The map is affine in the element; what sticks out of its plane, or a sliver, changes nothing.
-Vec2 uv_where_drawn(const ShellView& shell, uint32_t row, int k) {
-    const auto corner = shell.state.elements.corner[row];
-    const auto& uv = shell.state.elements.uv[row];
-    const Vertices& vertices = shell.state.vertices;
-    const Vec3 shift = vertices.drawn_shift[shell.vertex(corner[k])];
-    const Vec3 p = vertices.rest[shell.vertex(corner[0])];
-    const Vec3 d1 = vertices.rest[shell.vertex(corner[1])] - p, d2 = vertices.rest[shell.vertex(corner[2])] - p;
-    const float aa = dot(d1, d1), ab = dot(d1, d2), bb = dot(d2, d2), determinant = aa * bb - ab * ab;
-    const float as = dot(d1, shift), bs = dot(d2, shift);
-    Vec2 at{uv[2 * k], uv[2 * k + 1]};
-    if ((as == 0 && bs == 0) || !(determinant > 1e-4f * aa * bb)) return at;
-    const float a = (bb * as - ab * bs) / determinant, b = (aa * bs - ab * as) / determinant;
-    at.x += a * (uv[2] - uv[0]) + b * (uv[4] - uv[0]);
-    at.y += a * (uv[3] - uv[1]) + b * (uv[5] - uv[1]);
-    return at;
 }
 
 void write_faces(Writer& w, uint32_t e) {
@@ -129,10 +116,11 @@ void write_faces(Writer& w, uint32_t e) {
     uint32_t outer_vertex[3], inner_vertex[3];
     for (int k = 0; k < 3; ++k) {
         const Vec3 n{normal[3 * k], normal[3 * k + 1], normal[3 * k + 2]};
-        const Vec2 uv = uv_where_drawn(shell, row, k);
-        outer_vertex[k] = write_vertex(w, place(shell, point(shell, corner[k], false)), n, uv.x, uv.y);
+        const Vec2 uv{elements.uv[row][2 * k], elements.uv[row][2 * k + 1]};
+        const Point outer = point(shell, corner[k], false);
+        outer_vertex[k] = write_vertex(w, outer, place(shell, outer), n, uv.x, uv.y);
         const bool runs_along = dot(-n, flat) > 0.8f || dot(flat, flat) < 0.5f;  // no area, no normal
-        inner_vertex[k] = write_vertex(w, inner[k], runs_along ? -n : flat, uv.x, uv.y);
+        inner_vertex[k] = write_vertex(w, point(shell, corner[k], true), inner[k], runs_along ? -n : flat, uv.x, uv.y);
     }
     const uint32_t outer = run_of(w.materials, SurfaceKind::Outer, elements.drawn_material[row]);
     const uint32_t below = run_of(w.materials, SurfaceKind::Inner, elements.drawn_material[row]);
@@ -156,7 +144,7 @@ float write_side(Writer& w, uint32_t e, int k, float along) {
             const Point at = quad.triangle[t][i];
             const float u = along + (at.vertex == corner[k] ? 0.0f : edge);
             const float v = at.is_inner ? w.shell.state.vertices.depth[w.shell.vertex(at.vertex)] : 0.0f;
-            write_index(w, run, write_vertex(w, p[i], normal, u, v));
+            write_index(w, run, write_vertex(w, at, p[i], normal, u, v));
         }
     }
     return edge;
@@ -219,13 +207,10 @@ DrawnCount count_drawn(ShellView shell) {
     return count;
 }
 
-DrawnCount draw_shell(ShellView shell, Range& view_vertices, Range& view_indices) {
-    const DrawnCount count = count_drawn(shell);
-    CULLET_ASSERT(count.vertices <= view_vertices.capacity && count.index_count() <= view_indices.capacity,
-                  "%u view vertices and %u indices do not fit their ranges", count.vertices, count.index_count());
-    Writer w{shell, view_vertices.first, view_indices.first};
-    w.materials = count.materials;
-    std::exclusive_scan(count.indices.begin(), count.indices.end(), w.index, 0u);
+namespace {
+
+void write_shell(Writer& w) {
+    const ShellView& shell = w.shell;
     Elements& elements = shell.state.elements;
     for (uint32_t e = 0; e < shell.element_count(); ++e) {
         elements.drawn_edges[shell.element(e)] = 0;
@@ -234,9 +219,28 @@ DrawnCount draw_shell(ShellView shell, Range& view_vertices, Range& view_indices
     for (uint32_t e = 0; e < shell.element_count(); ++e)
         for (int k = 0; k < 3; ++k)
             if (is_live(shell, e) && elements.neighbour[shell.element(e)][k] == kNone) write_border(w, e, k);
+}
+
+}  // namespace
+
+DrawnCount draw_shell(ShellView shell, Range& view_vertices, Range& view_indices) {
+    const DrawnCount count = count_drawn(shell);
+    CULLET_ASSERT(count.vertices <= view_vertices.capacity && count.index_count() <= view_indices.capacity,
+                  "%u view vertices and %u indices do not fit their ranges", count.vertices, count.index_count());
+    Writer w{shell, view_vertices.first, view_indices.first};
+    w.materials = count.materials;
+    std::exclusive_scan(count.indices.begin(), count.indices.end(), w.index, 0u);
+    write_shell(w);
     view_vertices.count = count.vertices;
     view_indices.count = count.index_count();
     return count;
+}
+
+void number_drawn(ShellView shell, std::span<uint32_t> numbers) {
+    Writer w{shell, 0, 0};
+    w.numbers = numbers.data();
+    w.materials = materials_of(shell);
+    write_shell(w);
 }
 
 void draw_body(State& state, Row<Bodies> body) {

@@ -1,6 +1,7 @@
 // The drawn mesh of a shell: outer surface, inner surface with rims, crack faces; closed, and of the elements' volume.
 #pragma once
 #include <array>
+#include <span>
 
 #include "components/state.hpp"
 #include "cullet/result.hpp"
@@ -26,18 +27,23 @@ struct DrawnCount {
 DrawnCount count_drawn(ShellView shell);
 
 /// Writes the mesh into these ranges of ViewVertices and ViewIndices (capacities at least as counted), sets their
-/// counts and returns the runs. Outer corners have the game's normals and uvs (where a
-/// shifted corner is drawn); inner ones the same uvs and the normals
-/// turned round, or the triangle's own where the inner wall runs another way; rims and cracks flat normals and uv =
-/// (way along the free border, depth) in m. Each triangle has corners of its own. Nothing allocates. About 0.3
-/// microseconds an element.
+/// counts and returns the runs. Outer corners have the game's normals and uvs; inner
+/// ones the same uvs and the normals turned round, or the triangle's own where the inner wall runs another way; rims
+/// and cracks flat normals and uv = (way along the free border, depth) in m. Each triangle has corners of its own.
+/// Nothing allocates. About 0.3 microseconds an element.
 DrawnCount draw_shell(ShellView shell, Range& view_vertices, Range& view_indices);
 /// The same into the body's own ranges and run columns; its stamp becomes another.
 void draw_body(State& state, Row<Bodies> body);
 
-/// Joins corners of the very same position and checks that every edge is used as often in one direction as in the
-/// other, that indices are in range, and that the volume is the elements' within 1e-4. For tests and --validate; it
-/// allocates.
+/// Which point of the solid each vertex that draw_shell writes stands for: 2 * vertex of the shell, + 1 on the inner
+/// side where depth is above 0. `numbers` has room for count_drawn's vertices.
+void number_drawn(ShellView shell, std::span<uint32_t> numbers);
+
+/// Checks that each corner is drawn where its point is, to the bit, that every edge between two points belongs to
+/// exactly two triangles, once each way, and that the volume is the elements' within 1e-4. By number and not by place:
+/// the two sides of a crack stand at one place. Two kinds of edges belong to four triangles, twice each way: where both
+/// ends have depth 0, outer and inner face are one; a crack of a single edge has not yet split its ends. For tests and
+/// --validate; it allocates.
 Result<void> check_drawn_mesh(ShellView shell, const Range& view_vertices, const Range& view_indices);
 
 }  // namespace cullet

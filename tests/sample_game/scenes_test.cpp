@@ -2,10 +2,13 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <cstdlib>
 #include <map>
 #include <numeric>
+#include <thread>
 
 #include "sample_game/allocations.hpp"
+#include "sample_game/drawn_meshes.hpp"
 #include "sample_game/game_world.hpp"
 #include "sample_game/run_scene.hpp"
 #include "systems/world_contents.hpp"
@@ -13,7 +16,13 @@
 namespace cullet {
 namespace {
 
-constexpr uint32_t kFrames = 120;
+/// Played of each scene: 120, or as many as CULLET_SCENE_FRAMES says.
+uint32_t frames_to_play() {
+    const char* text = std::getenv("CULLET_SCENE_FRAMES");
+    const int wanted = text ? std::atoi(text) : 0;
+    return wanted > 0 ? static_cast<uint32_t>(wanted) : 120;
+}
+const uint32_t kFrames = frames_to_play();
 
 /// A scene's plan, cooked once for all tests of it.
 const ScenePlan& plan_of(const Scene& scene) {
@@ -85,11 +94,26 @@ TEST_P(EveryScene, HashesAreEqualOnOneTwoAndThreeThreads) {
     }
 }
 
+TEST_P(EveryScene, TwoWorldsSteppedOnTwoThreadsAtOnceDoNotMeet) {
+    ScenePlan plan = plan_of(GetParam());
+    plan.settings.threads = 1;
+    const std::vector<uint64_t> alone = hashes_of(plan);
+    ScenePlan with_workers = plan;
+    with_workers.settings.threads = 2;
+    std::vector<uint64_t> beside;
+    std::thread other([&] { beside = hashes_of(with_workers); });
+    const std::vector<uint64_t> here = hashes_of(plan);
+    other.join();
+    EXPECT_EQ(difference(alone, here), "");
+    EXPECT_EQ(difference(alone, beside), "");
+}
+
 TEST_P(EveryScene, SomethingBreaksNothingIsLostAndNoMemoryIsAskedFor) {
     const ScenePlan& plan = plan_of(GetParam());
     Result<GameWorld> game = GameWorld::create(plan);
     ASSERT_TRUE(game.ok()) << game.error();
     AllocationCounts counts;
+    DrawnMeshes drawn;
     for (uint32_t frame = 0; frame < kFrames; ++frame) {
         game->before_step();
         if (frame >= kFirstCountedFrame) start_counting_allocations();
@@ -97,7 +121,9 @@ TEST_P(EveryScene, SomethingBreaksNothingIsLostAndNoMemoryIsAskedFor) {
         if (frame >= kFirstCountedFrame) counts.ours += stop_counting_allocations().ours;
         game->after_step();
         ASSERT_EQ(game->world().contents().data.state.validate(), "") << "frame " << frame;
+        ASSERT_EQ(drawn.check_changed(game->world()), "") << "frame " << frame;
     }
+    EXPECT_GE(drawn.checked(), game->born);
     EXPECT_EQ(counts.ours, 0u);
     EXPECT_GT(game->born, 0u);
     EXPECT_EQ(game->events["fault"], 0u) << (game->faults.empty() ? "" : game->faults[0]);

@@ -328,8 +328,14 @@ std::string broken_rule(const Shell& shell) {
     const ShellView view = shell.view;
     for (const std::string& found : {broken_link(view), broken_vertex(view), open_junction(view)})
         if (!found.empty()) return found;
-    double by_elements = 0, by_vertices = 0;
-    for (uint32_t e = 0; e < view.element_count(); ++e) by_elements += view.state.elements.mass[view.element(e)];
+    double by_elements = 0, by_vertices = 0, by_volume = 0, sound = 0;  // the last two without flat elements
+    for (uint32_t e = 0; e < view.element_count(); ++e) {
+        const uint32_t row = view.element(e);
+        by_elements += view.state.elements.mass[row];
+        if (view.state.elements.flags[row] & kDegenerate) continue;
+        sound += view.state.elements.mass[row];
+        by_volume += view.state.materials.density[view.shells().material[view.row]] * view.state.elements.volume[row];
+    }
     for (uint32_t v = 0; v < view.vertex_count(); ++v) {
         const uint32_t row = view.vertex(v);
         if (view.state.vertices.element[row] == kNone) continue;
@@ -338,6 +344,7 @@ std::string broken_rule(const Shell& shell) {
     }
     if (std::fabs(by_elements / shell.mass - 1) > 1e-12) return "mass of the elements changed";
     if (std::fabs(by_vertices / shell.mass - 1) > 1e-12) return "mass of the vertices is not that of the elements";
+    if (std::fabs(by_volume - sound) > 1e-12 * sound) return "mass of the elements is not density times their volume";
     return {};
 }
 

@@ -2,8 +2,6 @@
 
 #include <gtest/gtest.h>
 
-#include <ctime>
-
 #include "engine/random.hpp"
 #include "systems/fragments/make_piece.hpp"
 #include "systems/fragments/prism.hpp"
@@ -126,33 +124,6 @@ TEST(CellHulls, HullsOfAVaseAndItsShardsAreTight) {
                 sum / mass, worst);
     EXPECT_LT(whole, 2.5);
     EXPECT_LT(sum / mass, 2.6);  // the note saw 2.1
-}
-
-TEST(CellHulls, TimesArePrinted) {
-    // Processor time, since the machine may be shared.
-    const auto milliseconds = [](std::clock_t from) {
-        return 1e3 * static_cast<double>(std::clock() - from) / CLOCKS_PER_SEC;
-    };
-    State state;
-    const SampleSurface surface = sample_vase(0.3, 0.005, 60, 160);
-    const Row<Materials> material = sample_material(state);
-    auto t = std::clock();
-    const auto built = build_shell(state, surface.source(), material);
-    std::printf("build_shell, %zu vertices: %.1f ms\n", surface.position.size(), milliseconds(t));
-    const ShellView shell(state, built.value());
-    t = std::clock();
-    build_hulls(shell);
-    std::printf("build_hulls, %u cells: %.2f ms\n", state.shells.cells[shell.row].count, milliseconds(t));
-    const Row<Shells> cut = cut_by_label(state, built.value(), nearest_seed(shell, 15, 1));
-    std::vector<FragmentPart> parts(100);
-    for (int round = 0; round < 2; ++round) {
-        t = std::clock();
-        const uint32_t count = group_fragments(ShellView(state, cut), parts);
-        std::printf("group_fragments, %u elements, %u parts: %.2f ms\n", shell.element_count(), count, milliseconds(t));
-        t = std::clock();
-        for (uint32_t p = 0; p < count; ++p) release_shell(state, make_piece(state, cut, parts[p], 1));
-        std::printf("make_piece of all: %.2f ms\n", milliseconds(t));
-    }
 }
 
 }  // namespace

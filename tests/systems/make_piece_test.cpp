@@ -302,9 +302,18 @@ TEST(DrawShell, AnOpenMeshOrAWrongVolumeIsFound) {
     Range fewer = indices;
     fewer.count -= 3;
     EXPECT_NE(check_drawn_mesh(shell, vertices, fewer).error().find("open"), std::string::npos);
-    const uint32_t moved = shell.vertex(0);
-    state.vertices.depth[moved] *= 1.5f;
+    const std::span index(state.view_indices.index.data() + indices.first, indices.count);
+    const std::vector<uint32_t> sound(index.begin(), index.end());
+    for (size_t i = 0; i < index.size(); i += 3) std::swap(index[i], index[i + 1]);  // inside out: closed all the same
     EXPECT_NE(check_drawn_mesh(shell, vertices, indices).error().find("volume"), std::string::npos);
+    for (size_t i = 0; i < index.size(); ++i)
+        index[i] = sound[i % 3];  // one triangle, seen from both sides, many times
+    for (size_t i = 3; i < index.size(); i += 6) std::swap(index[i], index[i + 1]);
+    EXPECT_NE(check_drawn_mesh(shell, vertices, indices).error().find("times one way"), std::string::npos);
+    std::copy(sound.begin(), sound.end(), index.begin());
+    EXPECT_TRUE(check_drawn_mesh(shell, vertices, indices).ok());
+    state.vertices.depth[shell.vertex(0)] *= 1.5f;
+    EXPECT_NE(check_drawn_mesh(shell, vertices, indices).error().find("is drawn at"), std::string::npos);
 }
 
 TEST(DrawShell, CrackTextureRunsOnAlongABorder) {

@@ -9,7 +9,6 @@
 #include "systems/fragments/mass_properties.hpp"
 #include "systems/fragments/rigid_handoff.hpp"
 #include "systems/view/draw_shell.hpp"
-#include "systems/view/smooth_crack_lines.hpp"
 #include "tests/support/sample_shells.hpp"
 
 namespace {
@@ -47,7 +46,6 @@ TEST(Pieces, GroupingHandOffPiecesHullsAndDrawingDoNotAllocate) {
     const uint32_t count = group_fragments(shell, parts);
     const std::span<const FragmentPart> found(parts.data(), count);
     rigid_handoff(shell, {{}, {}, {}, 5}, found, motions);
-    smooth_crack_lines(shell);
     for (const FragmentPart& part : found) {
         const Row<Shells> piece = make_piece(state, row, part, 1);
         draw_shell(ShellView(state, piece), vertices, indices);
@@ -66,7 +64,6 @@ TEST(Pieces, TwoRunsGiveTheSameBytes) {
             cut_by_label(state, built.value(), nearest_seed(ShellView(state, built.value()), 15, 1));
         std::vector<FragmentPart> parts(100);
         parts.resize(group_fragments(ShellView(state, row), parts));
-        smooth_crack_lines(ShellView(state, row));
         for (const FragmentPart& part : parts) make_piece(state, row, part, 1);
     };
     State a, b;

@@ -1,0 +1,26 @@
+#include "sample_game/drawn_meshes.hpp"
+
+#include <fmt/format.h>
+
+#include "systems/view/draw_shell.hpp"
+#include "systems/world_contents.hpp"
+
+namespace cullet {
+
+std::string DrawnMeshes::check_changed(World& world) {
+    State& state = world.contents().data.state;
+    const Bodies& bodies = state.bodies;
+    seen_.resize(bodies.size());
+    for (uint32_t b = 0; b < bodies.size(); ++b) {
+        const std::array<uint32_t, 2> now{bodies.generation[b], bodies.view_stamp[b]};
+        if (seen_[b] == now || !bodies.shell[b].exists()) continue;
+        seen_[b] = now;
+        ++checked_;
+        const Result<void> sound =
+            check_drawn_mesh(ShellView(state, bodies.shell[b]), bodies.view_vertices[b], bodies.view_indices[b]);
+        if (!sound.ok()) return fmt::format("body {}: {}", b, sound.error());
+    }
+    return "";
+}
+
+}  // namespace cullet
