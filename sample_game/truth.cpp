@@ -5,12 +5,12 @@
 #include <atomic>
 #include <cmath>
 #include <filesystem>
-#include <fstream>
 #include <mutex>
 #include <nlohmann/json.hpp>
 #include <thread>
 
 #include "sample_game/progress.hpp"
+#include "sample_game/report.hpp"
 #include "sample_game/thresholds.hpp"
 
 namespace cullet {
@@ -164,6 +164,12 @@ int run_truth(const std::string& model, const TruthSettings& given) {
         fmt::print(stderr, "truth {}: not known; use thick_shell.\n", model);
         return 2;
     }
+    std::error_code error;
+    if (!given.out.empty() && (std::filesystem::create_directories(given.out, error), error)) {
+        fmt::print(stderr, "truth --out {}: the folder could not be made ({}); choose another.\n", given.out,
+                   error.message());
+        return 2;
+    }
     TruthSettings settings = given;
     if (settings.threads == 0) settings.threads = 2;
     std::vector<std::string> faults;
@@ -186,10 +192,11 @@ int run_truth(const std::string& model, const TruthSettings& given) {
     for (const std::string& fault : faults) fmt::print("NOT MET  {}\n", fault);
     if (faults.empty()) fmt::print("all figures are met\n");
     if (!settings.out.empty()) {
-        std::error_code error;
-        std::filesystem::create_directories(settings.out, error);
         json["faults"] = faults;
-        std::ofstream(std::filesystem::path(settings.out) / "truth.json") << json.dump(2) << "\n";
+        if (auto written = write_text(json.dump(2) + "\n", settings.out + "/truth.json"); !written.ok()) {
+            fmt::print(stderr, "{}\n", written.error());
+            return 2;
+        }
     }
     return faults.empty() ? 0 : 1;
 }

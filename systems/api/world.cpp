@@ -65,8 +65,7 @@ void World::step() {
     d.shells_changed.clear();
     d.arena.reset();
     c.profiler.begin_frame(d.step_info.frame);
-    c.plan.step(d, *c.jobs, c.profiler, d.arena, c.after_each_system ? &c.after_each_system : nullptr,
-                &c.host);
+    c.plan.step(d, *c.jobs, c.profiler, d.arena, c.after_each_system ? &c.after_each_system : nullptr, &c.host);
     c.count();
     c.profiler.end_frame();
     if (d.counts.units_used == 0) d.state.commit_ahead(d.ready_for, 1);  // a quiet frame
