@@ -25,7 +25,7 @@ struct Measured {
     std::vector<Thresholds> thresholds, halved;
     std::vector<HitResult> hits;
     std::vector<uint8_t> cracks_below, breaks_above;
-    Spread spread[2], halved_spread[2];
+    MedianSpread spread[2], halved_spread[2];
 };
 
 /// Calls work(bench, placement) for all placements on all threads.
@@ -50,7 +50,7 @@ void for_placements(const HitSubject& known, Subject subject, const TruthSetting
     for (std::thread& thread : threads) thread.join();
 }
 
-void spread(const std::vector<Thresholds>& all, Spread (&spreads)[2]) {
+void spread(const std::vector<Thresholds>& all, MedianSpread (&spreads)[2]) {
     std::vector<double> values[2];
     for (const Thresholds& t : all) values[0].push_back(t.first_crack), values[1].push_back(t.first_piece);
     for (int k = 0; k < 2; ++k) spreads[k] = spread_of(values[k]);
@@ -78,7 +78,7 @@ Measured measure(const HitSubject& known, Subject subject, const TruthSettings& 
 }
 
 template <class Value>
-Spread over_hits(const Measured& m, Value value) {
+MedianSpread over_hits(const Measured& m, Value value) {
     std::vector<double> values;
     for (const HitResult& hit : m.hits) values.push_back(static_cast<double>(value(hit)));
     return spread_of(values);
@@ -95,7 +95,7 @@ void print_thresholds(const HitSubject& known, const Measured& m) {
 }
 
 void print_hits(const HitSubject& known, const Measured& m) {
-    const auto line = [](const char* name, const Spread& s, double wanted, const char* unit) {
+    const auto line = [](const char* name, const MedianSpread& s, double wanted, const char* unit) {
         fmt::print("    {:<16} {:8.2f} {} ({:.2f} to {:.2f})", name, s.median, unit, s.least, s.most);
         if (wanted > 0) fmt::print(", known {}", wanted);
         fmt::print("\n");
