@@ -42,8 +42,8 @@ struct Bodies : Table<Bodies> {
     Column<uint8_t> has_pins{*this, "has_pins"};      // some vertex is pinned: the body is static in the rigid world
     Column<uint8_t> is_owed_births{*this, "is_owed_births"};  // some limit refused pieces that are loose: asks again
     Column<uint64_t> retry_frame{*this, "retry_frame"};       // no new task before this frame (20 ms between tries)
-    Column<uint32_t> task{*this, "task"};      // open task or kNone
-    Column<uint32_t> colour{*this, "colour"};  // stable number for pictures
+    Column<uint32_t> task{*this, "task"};                     // open task or kNone
+    Column<uint32_t> colour{*this, "colour"};                 // stable number for pictures
     // Drawn mesh in view space.
     Column<Range> view_vertices{*this, "view_vertices"};
     Column<Range> view_indices{*this, "view_indices"};

@@ -57,7 +57,7 @@ class Profiler {
     };
     struct Span {
         uint64_t start_ns, end_ns;  // a counter: start_ns, value
-        uint16_t zone, worker;  // a counter: its number, 0
+        uint16_t zone, worker;      // a counter: its number, 0
         uint32_t is_counter;
     };
     Frame* frames() const { return reinterpret_cast<Frame*>(frame_memory_); }

@@ -149,7 +149,7 @@ Result<BodyId> World::add_sphere(const SphereSettings& settings) {
     bodies.is_sphere[body] = 1;
     RigidDescription description = description_of(bodies, body, RigidKind::Dynamic);
     description.radius = settings.radius;
-    // Times the floor's friction: a ball at 1 m/s rolls for about four seconds.
+    // Times the floor's friction: on one of 0.45 a ball at 1 m/s rolls for about a second.
     description.rolling_friction = 0.3f * settings.radius;
     d.rigid->add(body, description);
     return body_id(bodies, body);

@@ -12,8 +12,8 @@ namespace cullet {
 /// The large blocks, taken when a world is made (World::create) or a model (cook, read_model) and given back with it:
 /// every column of every table at its limit, event queues, the frame's scratch memory, the profiler's samples. Hundreds
 /// of megabytes at the default limits, of which only what is used is written: give address space that costs nothing
-/// until then, or lower the limits. Small things go through operator new at the same times, cooking's working lists too,
-/// and Bullet, Embree and oneTBB have their own. A step takes nothing. Both or neither must be set.
+/// until then, or lower the limits. Small things go through operator new at the same times, cooking's working lists
+/// too, and Bullet, Embree and oneTBB have their own. A step takes nothing. Both or neither must be set.
 struct HostAllocator {
     void* user = nullptr;
     /// `size` bytes aligned to `alignment` (64), zeroed or not. Null ends the program with a sentence.

@@ -50,7 +50,8 @@ struct CookSettings {
     /// Called now and then on the thread that cooks; never falls, ends with 1.
     void (*progress)(void* user, float share) = nullptr;  // 0 to 1
     void* progress_user = nullptr;
-    const Host* host = nullptr;  // its allocator holds the model's tables, its assert handler hears; null: the program's
+    const Host* host =
+        nullptr;  // its allocator holds the model's tables, its assert handler hears; null: the program's
 };
 
 /// What cooking found, for people.

@@ -23,7 +23,8 @@ struct Box {
     Vec3 low, high;
 };
 
-/// How a body meets others. Two bodies collide when each one's layer is in the other's mask.
+/// How a body meets others. Two bodies collide when each one's layer is in the other's mask. Of their frictions, and of
+/// their restitutions, the geometric mean counts.
 struct ContactSettings {
     float friction = -1;     // < 0: the material's; 0.45 for what has none: spheres, static triangles, kinematic boxes
     float restitution = -1;  // < 0: 0.2; used above 0.2 m/s
