@@ -50,8 +50,8 @@ struct CookSettings {
     /// Called now and then on the thread that cooks; never falls, ends with 1.
     void (*progress)(void* user, float share) = nullptr;  // 0 to 1
     void* progress_user = nullptr;
-    const Host* host =
-        nullptr;  // its allocator holds the model's tables, its assert handler hears; null: the program's
+    /// Its allocator holds the model's tables, its assert handler hears of our bugs. Null: the system's, and none.
+    const Host* host = nullptr;
 };
 
 /// What cooking found, for people.
