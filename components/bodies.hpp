@@ -42,15 +42,15 @@ struct Bodies : Table<Bodies> {
     Column<uint8_t> has_pins{*this, "has_pins"};      // some vertex is pinned: the body is static in the rigid world
     Column<uint8_t> is_owed_births{*this, "is_owed_births"};  // some limit refused pieces that are loose: asks again
     Column<uint64_t> retry_frame{*this, "retry_frame"};       // no new task before this frame (20 ms between tries)
-    Column<uint64_t> born_frame{*this, "born_frame"};
-    Column<uint32_t> task{*this, "task"};      // open task or kNone
-    Column<uint32_t> colour{*this, "colour"};  // stable number for pictures
+    Column<uint32_t> task{*this, "task"};                     // open task or kNone
+    Column<uint32_t> colour{*this, "colour"};                 // stable number for pictures
     // Drawn mesh in view space.
     Column<Range> view_vertices{*this, "view_vertices"};
     Column<Range> view_indices{*this, "view_indices"};
     Column<std::array<uint32_t, kMostRuns>> run_indices{*this, "run_indices"};  // by kind, then by drawn material
     Column<std::array<uint16_t, kMostDrawnMaterials>> drawn_materials{*this, "drawn_materials"};  // rising; rest 0
-    Column<uint32_t> view_stamp{*this, "view_stamp"};  // changes when the drawn mesh changes
+    Column<uint32_t> view_stamp{*this, "view_stamp"};    // changes when the drawn mesh changes
+    Column<uint64_t> drawn_frame{*this, "drawn_frame"};  // the step that drew it, or before which it was drawn
 };
 
 /// One component of a broken shell: its elements are first_element, Elements.next of it, and so on in rising order

@@ -6,13 +6,17 @@
 
 namespace cullet {
 namespace {
-thread_local AssertHandler current_handler = nullptr;
-thread_local void* current_user = nullptr;
+thread_local AssertHandler current_handler;
 }  // namespace
 
-void set_assert_handler(AssertHandler handler, void* user) {
+AssertHandler assert_handler() {
+    return current_handler;
+}
+AssertScope::AssertScope(AssertHandler handler) : before_(current_handler) {
     current_handler = handler;
-    current_user = user;
+}
+AssertScope::~AssertScope() {
+    current_handler = before_;
 }
 
 void assertion_failed(const char* condition, const char* file, int line, const char* format, ...) {
@@ -22,7 +26,7 @@ void assertion_failed(const char* condition, const char* file, int line, const c
     std::vsnprintf(reason, sizeof reason, format, arguments);
     va_end(arguments);
     std::snprintf(sentence, sizeof sentence, "%s:%d: %s (%s)", file, line, reason, condition);
-    if (current_handler) current_handler(sentence, current_user);
+    if (current_handler.call) current_handler.call(sentence, current_handler.user);
     std::fprintf(stderr, "%s\n", sentence);
     std::abort();
 }

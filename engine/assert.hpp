@@ -8,12 +8,29 @@
 #endif
 
 namespace cullet {
-/// Prints the sentence (or hands it to `set_assert_handler`'s function) and aborts when that returns.
+/// Hands the sentence to this thread's handler, prints it and aborts.
 [[noreturn]] void assertion_failed(const char* condition, const char* file, int line, const char* format, ...)
     __attribute__((format(printf, 4, 5)));
-using AssertHandler = void (*)(const char* sentence, void* user);
-/// For this thread; null restores printing. The world sets its host's handler around step().
-void set_assert_handler(AssertHandler handler, void* user);
+
+/// Who hears of it before the program aborts; nobody when `call` is null.
+struct AssertHandler {
+    void (*call)(const char* sentence, void* user) = nullptr;
+    void* user = nullptr;
+};
+/// This thread's.
+AssertHandler assert_handler();
+
+/// While one of these lives, this thread has this handler. A job system gives each job its caller's.
+class AssertScope {
+ public:
+    explicit AssertScope(AssertHandler handler);
+    ~AssertScope();
+    AssertScope(const AssertScope&) = delete;
+    AssertScope& operator=(const AssertScope&) = delete;
+
+ private:
+    AssertHandler before_;
+};
 }  // namespace cullet
 
 #if CULLET_CHECKS_ON

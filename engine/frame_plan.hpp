@@ -154,16 +154,20 @@ class FramePlan {
             if (fits)
                 ++passes_.back().count;
             else
-                passes_.push_back({s, 1});
+                passes_.push_back({s, 1, ""});
+            passes_.back().name += (fits ? ", " : "") + systems_[s].name;
         }
     }
 
-    /// One frame. `after_each(system)` is called between passes when given (validation).
+    /// One frame. `after_each(system)` is called between passes when given (validation). The host's zones, when given,
+    /// begin and end here, on the calling thread, around each pass that has something to do.
     void step(World& world, JobSystem& jobs, Profiler& profiler, Arena& arena,
-              const std::function<void(const PlannedSystem<World>&)>* after_each = nullptr) {
+              const std::function<void(const PlannedSystem<World>&)>* after_each = nullptr,
+              const Host* host = nullptr) {
+        static const Host no_host;
         const FpMode mode;  // passes of one call run here, not in a job
         for (const Pass& pass : passes_) {
-            run_pass(pass, world, jobs, profiler, arena);
+            run_pass(pass, world, jobs, profiler, arena, host ? *host : no_host);
             if (after_each)
                 for (uint32_t s = pass.first; s < pass.first + pass.count; ++s) (*after_each)(systems_[s]);
         }
@@ -185,6 +189,7 @@ class FramePlan {
  private:
     struct Pass {
         uint32_t first, count;
+        std::string name;  // the host's zone: its systems
     };
     struct Loop {
         size_t system;
@@ -222,7 +227,7 @@ class FramePlan {
         if (chunks.emitted) call.emit_count = chunks.emitted + chunk;
         system.invoke(call);
     }
-    void run_pass(const Pass& pass, World& world, JobSystem& jobs, Profiler& profiler, Arena& arena) {
+    void run_pass(const Pass& pass, World& world, JobSystem& jobs, Profiler& profiler, Arena& arena, const Host& host) {
         Chunks chunks[kMostInPass];
         uint32_t total = 0;
         for (uint32_t i = 0; i < pass.count; ++i) {
@@ -238,6 +243,7 @@ class FramePlan {
             const size_t lines = (size_t{chunks[i].rows} * system.emit_bytes_a_row + sizeof(Line) - 1) / sizeof(Line);
             chunks[i].buffer = reinterpret_cast<std::byte*>(arena.take<Line>(lines).data());
         }
+        if (total > 0 && host.zone_begin) host.zone_begin(host.user, pass.name.c_str());
         const uint64_t start = now_ns();
         if (total == 1) {
             for (uint32_t i = 0; i < pass.count; ++i)
@@ -253,6 +259,7 @@ class FramePlan {
             });
         }
         const uint64_t end = now_ns();
+        if (total > 0 && host.zone_end) host.zone_end(host.user);
         for (uint32_t i = 0; i < pass.count; ++i) {
             const PlannedSystem<World>& system = systems_[pass.first + i];
             for (uint32_t c = 0; chunks[i].emitted && c < chunks[i].count; ++c)

@@ -10,10 +10,18 @@
 #include <utility>
 #include <vector>
 
+#include "engine/assert.hpp"
 #include "engine/fp_mode.hpp"
 
 namespace cullet {
 namespace {
+
+// What a job has of its caller, on whatever thread it runs.
+struct JobMode {
+    explicit JobMode(AssertHandler of_caller) : handler(of_caller) {}
+    FpMode fp;
+    AssertScope handler;
+};
 
 class CallerJobs final : public JobSystem {
  public:
@@ -29,11 +37,12 @@ class TbbJobs final : public JobSystem {
     explicit TbbJobs(uint32_t threads) : threads_(threads), arena_(static_cast<int>(threads)) { arena_.initialize(); }
     uint32_t worker_count() const override { return threads_; }
     void parallel_for(uint32_t count, Job job, void* context) override {
+        const AssertHandler handler = assert_handler();
         arena_.execute([&] {
             oneapi::tbb::parallel_for(
                 0u, count, 1u,
                 [&](uint32_t i) {
-                    const FpMode mode;
+                    const JobMode mode(handler);
                     job(context, i);
                 },
                 oneapi::tbb::simple_partitioner());
@@ -72,7 +81,7 @@ class ThreadJobs final : public JobSystem {
         const std::lock_guard turn(turn_);
         {
             const std::lock_guard lock(mutex_);
-            job_ = job, context_ = context, count_ = count;
+            job_ = job, context_ = context, count_ = count, handler_ = assert_handler();
             next_ = 0, done_ = 0;
             ++pass_;
         }
@@ -89,7 +98,7 @@ class ThreadJobs final : public JobSystem {
         return jobs;
     }
     void take_jobs() {
-        const FpMode mode;
+        const JobMode mode(handler_);
         const ThreadJobs* const before = std::exchange(current(), this);
         for (;;) {
             const uint32_t i = next_.fetch_add(1, std::memory_order_relaxed);
@@ -120,6 +129,7 @@ class ThreadJobs final : public JobSystem {
     std::vector<std::thread> threads_;
     Job job_ = nullptr;
     void* context_ = nullptr;
+    AssertHandler handler_;
     uint32_t count_ = 0, busy_ = 0;
     uint64_t pass_ = 0;
     bool is_ending_ = false;
@@ -137,12 +147,13 @@ class ForeignJobs final : public JobSystem {
         struct Call {
             Job job;
             void* context;
-        } call{job, context};
+            AssertHandler handler;
+        } call{job, context, assert_handler()};
         jobs_.parallel_for(
             jobs_.user, count,
             [](void* outer, uint32_t index) {
-                const FpMode mode;
                 const auto* inner = static_cast<const Call*>(outer);
+                const JobMode mode(inner->handler);
                 inner->job(inner->context, index);
             },
             &call);

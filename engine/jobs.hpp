@@ -16,8 +16,8 @@ class JobSystem {
     /// How many jobs may run at once, at least 1.
     virtual uint32_t worker_count() const = 0;
     /// Calls job(context, i) once for each i in [0, count), in any order on any threads, and returns when all are done.
-    /// Each call runs with our floating-point mode (fp_mode.hpp). Jobs never wait for each other; a job may call
-    /// parallel_for.
+    /// Each call runs with our floating-point mode (fp_mode.hpp) and the caller's assert handler. Jobs never wait for
+    /// each other; a job may call parallel_for.
     virtual void parallel_for(uint32_t count, Job job, void* context) = 0;
 };
 

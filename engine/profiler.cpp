@@ -65,9 +65,14 @@ void Profiler::add_span(uint32_t zone, uint32_t worker, uint64_t start_ns, uint6
         spans()[at] = {start_ns, end_ns, static_cast<uint16_t>(zone), static_cast<uint16_t>(worker), 0};
 }
 
-void Profiler::add_counter(uint32_t zone, uint64_t value) {
+uint32_t Profiler::add_counter(const std::string& name) {
+    counters_.push_back(name);
+    return static_cast<uint32_t>(counters_.size()) - 1;
+}
+
+void Profiler::count(uint32_t counter, uint64_t value) {
     const uint64_t at = std::atomic_ref<uint64_t>(span_count_).fetch_add(1, std::memory_order_relaxed);
-    if (at < span_limit_) spans()[at] = {now_ns(), value, static_cast<uint16_t>(zone), 0, 1};
+    if (at < span_limit_) spans()[at] = {now_ns(), value, static_cast<uint16_t>(counter), 0, 1};
 }
 
 namespace {
@@ -107,7 +112,7 @@ Result<void> Profiler::write_trace(const std::string& path) const {
         if (span.start_ns < origin) continue;
         if (span.is_counter)
             std::fprintf(file, ",\n{\"name\":\"%s\",\"ph\":\"C\",\"pid\":1,\"ts\":%s,\"args\":{\"value\":%llu}}",
-                         in_json(zones_[span.zone]).c_str(), microseconds(span.start_ns - origin).c_str(),
+                         in_json(counters_[span.zone]).c_str(), microseconds(span.start_ns - origin).c_str(),
                          static_cast<unsigned long long>(span.end_ns));
         else
             std::fprintf(file, ",\n{\"name\":\"%s\",\"ph\":\"X\",\"pid\":1,\"tid\":%u,\"ts\":%s,\"dur\":%s}",

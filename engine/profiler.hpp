@@ -34,8 +34,10 @@ class Profiler {
     void add(uint32_t zone, uint64_t start_ns, uint64_t end_ns, uint64_t rows);
     /// A span on a worker's track of the trace; any thread. `worker` 0 is the caller's.
     void add_span(uint32_t zone, uint32_t worker, uint64_t start_ns, uint64_t end_ns);
-    /// A counter's value in the trace, at this frame.
-    void add_counter(uint32_t zone, uint64_t value);
+    /// Its number.
+    uint32_t add_counter(const std::string& name);
+    /// A counter's value from now on, in the trace.
+    void count(uint32_t counter, uint64_t value);
 
     uint32_t frame_count() const { return frame_count_; }
     /// Milliseconds of the whole step, and of a zone, in the n-th frame recorded.
@@ -55,7 +57,7 @@ class Profiler {
     };
     struct Span {
         uint64_t start_ns, end_ns;  // a counter: start_ns, value
-        uint16_t zone, worker;
+        uint16_t zone, worker;      // a counter: its number, 0
         uint32_t is_counter;
     };
     Frame* frames() const { return reinterpret_cast<Frame*>(frame_memory_); }
@@ -65,7 +67,7 @@ class Profiler {
     uint32_t frame_limit_, span_limit_, frame_count_ = 0;
     uint64_t span_count_ = 0;  // asked for; those past the limit are not there
     bool is_in_frame_ = false;
-    std::vector<std::string> zones_;
+    std::vector<std::string> zones_, counters_;
     std::vector<uint64_t> rows_;
 };
 

@@ -15,6 +15,12 @@ bool read_number(const std::string& text, double& value) {
     return error == std::errc() && end == text.data() + text.size() && value == value;
 }
 
+// As short as a person would write it: what was a float comes with a float's digits, 0.1 and not 0.10000000149011612.
+std::string short_number(double value) {
+    const auto narrow = static_cast<float>(value);
+    return static_cast<double>(narrow) == value ? fmt::format("{}", narrow) : fmt::format("{}", value);
+}
+
 bool is_choice(const std::string& choices, const std::string& word) {
     return !word.empty() && (", " + choices + ",").find(", " + word + ",") != std::string::npos;
 }
@@ -72,8 +78,8 @@ Result<void> Keys::set(const std::string& assignment) {
         return Error{fmt::format("--set {}: \"{}\" is not a number; give {} in {}.", assignment, value, name,
                                  key->unit == "1" ? "plain digits" : key->unit)};
     if (number < key->least || number > key->most)
-        return Error{fmt::format("--set {}: {} is from {} to {} {}.", assignment, name, key->least, key->most,
-                                 key->unit == "1" ? "" : key->unit)};
+        return Error{fmt::format("--set {}: {} is from {} to {} {}.", assignment, name, short_number(key->least),
+                                 short_number(key->most), key->unit == "1" ? "" : key->unit)};
     key->value = number;
     return {};
 }
@@ -84,8 +90,8 @@ std::string Keys::help() const {
         if (!key.choices.empty())
             text += fmt::format("    {:<22} {:<10} {}: {}\n", key.name, key.word, key.text, key.choices);
         else
-            text += fmt::format("    {:<22} {:<10} {} ({} to {}{})\n", key.name, key.value, key.text, key.least,
-                                key.most, key.unit == "1" ? "" : " " + key.unit);
+            text += fmt::format("    {:<22} {:<10} {} ({} to {}{})\n", key.name, short_number(key.value), key.text,
+                                short_number(key.least), short_number(key.most), key.unit == "1" ? "" : " " + key.unit);
     }
     return text;
 }

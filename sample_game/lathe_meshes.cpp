@@ -117,11 +117,4 @@ Mesh make_vase(float height, float edge, uint64_t seed) {
                    "vase");
 }
 
-Mesh make_bowl(float radius, float edge, uint64_t seed) {
-    const std::vector<ProfilePoint> control{{0, 0},         {0.015, 0},     {0.032, 0},     {0.044, 0.002},
-                                            {0.060, 0.014}, {0.080, 0.038}, {0.093, 0.065}, {0.100, 0.090}};
-    return to_mesh(lathe(Profile(control, static_cast<double>(radius) / 0.100), static_cast<double>(edge), seed),
-                   "bowl");
-}
-
 }  // namespace cullet

@@ -15,8 +15,6 @@ namespace cullet {
 /// the foot. Area 0.16 m2 at 30 cm, so 5 mm of porcelain weigh 2 kg. Another height scales the profile, not the edge.
 /// Vertices: 3,200 at the default edge, 11,000 at 4.05 mm, 98,000 at 1.36 mm.
 Mesh make_vase(float height = 0.30f, float edge = 0.0075f, uint64_t seed = 1);
-/// The outer sheet of a bowl, open at its rim; origin in the middle of the foot, height 0.45 of the rim's diameter.
-Mesh make_bowl(float radius = 0.10f, float edge = 0.005f, uint64_t seed = 1);
 /// A closed hollow figure, snout toward +x, feet at y = 0: for scenes that drop something when no model is given.
 Mesh make_piggy_bank(float length = 0.40f, float edge = 0.0098f, uint64_t seed = 1);
 /// A flat sheet that faces +z: x from -width/2 to width/2, y from 0 to height, z = 0. Straight borders.

@@ -81,7 +81,8 @@ Result<Options> parse_options(std::vector<std::string> arguments) {
     truth->add_option("model", options.truth.model, "thick_shell")->required();
     truth->add_option("--placements", options.truth.placements, "Seeded placements of each scene")
         ->check(CLI::Range(1u, 1000u));
-    truth->add_option("--threads", options.truth.threads, "All if not given")->check(CLI::Range(1u, 64u));
+    truth->add_option("--threads", options.truth.threads, "Threads that share the placements; 2 if not given")
+        ->check(CLI::Range(1u, 64u));
     truth->add_option("--out", options.truth.out, "Folder for truth.json");
     try {
         std::reverse(arguments.begin(), arguments.end());  // CLI11 takes them from the back

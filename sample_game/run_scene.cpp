@@ -197,7 +197,7 @@ Result<ScenePlan> plan_scene(const Scene& scene, const Keys& keys, const RunOpti
 Result<Report> play(const Scene& scene, const ScenePlan& plan, const RunOptions& options) {
     Report report;
     report.scene = scene.name;
-    report.seed = plan.settings.seed;
+    report.seed = plan.seed;
     report.dt_s = static_cast<double>(plan.settings.step_seconds);
     report.frames = frame_count(scene, options);
     report.threads = plan.settings.threads;

@@ -35,6 +35,7 @@ struct Prop {
 
 struct ScenePlan {
     Settings settings;
+    uint64_t seed = 1;  // of places, turns, strengths and generated meshes
     Camera camera;
     Sun sun;
     float ground_height = 0;      // m, of the drawn ground

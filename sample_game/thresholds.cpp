@@ -58,7 +58,7 @@ Thresholds find_thresholds(HitBench& bench, uint32_t placement, float step_scale
     return found;
 }
 
-Spread spread_of(std::vector<double> values) {
+MedianSpread spread_of(std::vector<double> values) {
     std::sort(values.begin(), values.end());
     const size_t n = values.size();
     if (n == 0) return {};

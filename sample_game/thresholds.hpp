@@ -15,10 +15,10 @@ inline constexpr double kBisectionRatio = 1.013;  // between the speeds that do 
 /// Of one placement. `guess`, m/s, only saves time. About 12 hits.
 Thresholds find_thresholds(HitBench& bench, uint32_t placement, float step_scale, double guess);
 
-struct Spread {
+struct MedianSpread {
     double median = 0, least = 0, most = 0;
 };
 /// Median of an even number: the mean of the middle two.
-Spread spread_of(std::vector<double> values);
+MedianSpread spread_of(std::vector<double> values);
 
 }  // namespace cullet

@@ -5,12 +5,12 @@
 #include <atomic>
 #include <cmath>
 #include <filesystem>
-#include <fstream>
 #include <mutex>
 #include <nlohmann/json.hpp>
 #include <thread>
 
 #include "sample_game/progress.hpp"
+#include "sample_game/report.hpp"
 #include "sample_game/thresholds.hpp"
 
 namespace cullet {
@@ -25,7 +25,7 @@ struct Measured {
     std::vector<Thresholds> thresholds, halved;
     std::vector<HitResult> hits;
     std::vector<uint8_t> cracks_below, breaks_above;
-    Spread spread[2], halved_spread[2];
+    MedianSpread spread[2], halved_spread[2];
 };
 
 /// Calls work(bench, placement) for all placements on all threads.
@@ -50,7 +50,7 @@ void for_placements(const HitSubject& known, Subject subject, const TruthSetting
     for (std::thread& thread : threads) thread.join();
 }
 
-void spread(const std::vector<Thresholds>& all, Spread (&spreads)[2]) {
+void spread(const std::vector<Thresholds>& all, MedianSpread (&spreads)[2]) {
     std::vector<double> values[2];
     for (const Thresholds& t : all) values[0].push_back(t.first_crack), values[1].push_back(t.first_piece);
     for (int k = 0; k < 2; ++k) spreads[k] = spread_of(values[k]);
@@ -78,7 +78,7 @@ Measured measure(const HitSubject& known, Subject subject, const TruthSettings& 
 }
 
 template <class Value>
-Spread over_hits(const Measured& m, Value value) {
+MedianSpread over_hits(const Measured& m, Value value) {
     std::vector<double> values;
     for (const HitResult& hit : m.hits) values.push_back(static_cast<double>(value(hit)));
     return spread_of(values);
@@ -95,7 +95,7 @@ void print_thresholds(const HitSubject& known, const Measured& m) {
 }
 
 void print_hits(const HitSubject& known, const Measured& m) {
-    const auto line = [](const char* name, const Spread& s, double wanted, const char* unit) {
+    const auto line = [](const char* name, const MedianSpread& s, double wanted, const char* unit) {
         fmt::print("    {:<16} {:8.2f} {} ({:.2f} to {:.2f})", name, s.median, unit, s.least, s.most);
         if (wanted > 0) fmt::print(", known {}", wanted);
         fmt::print("\n");
@@ -164,6 +164,12 @@ int run_truth(const std::string& model, const TruthSettings& given) {
         fmt::print(stderr, "truth {}: not known; use thick_shell.\n", model);
         return 2;
     }
+    std::error_code error;
+    if (!given.out.empty() && (std::filesystem::create_directories(given.out, error), error)) {
+        fmt::print(stderr, "truth --out {}: the folder could not be made ({}); choose another.\n", given.out,
+                   error.message());
+        return 2;
+    }
     TruthSettings settings = given;
     if (settings.threads == 0) settings.threads = 2;
     std::vector<std::string> faults;
@@ -186,10 +192,11 @@ int run_truth(const std::string& model, const TruthSettings& given) {
     for (const std::string& fault : faults) fmt::print("NOT MET  {}\n", fault);
     if (faults.empty()) fmt::print("all figures are met\n");
     if (!settings.out.empty()) {
-        std::error_code error;
-        std::filesystem::create_directories(settings.out, error);
         json["faults"] = faults;
-        std::ofstream(std::filesystem::path(settings.out) / "truth.json") << json.dump(2) << "\n";
+        if (auto written = write_text(json.dump(2) + "\n", settings.out + "/truth.json"); !written.ok()) {
+            fmt::print(stderr, "{}\n", written.error());
+            return 2;
+        }
     }
     return faults.empty() ? 0 : 1;
 }

@@ -13,7 +13,7 @@ struct TruthSettings {
 };
 
 /// Prints a table for `model` ("thick_shell") and returns the program's exit code: 0 when all figures are met, 1 when
-/// some are not, 2 for a model that is not known.
+/// some are not, 2 for a model that is not known or a folder that cannot be written.
 int run_truth(const std::string& model, const TruthSettings& settings);
 
 }  // namespace cullet

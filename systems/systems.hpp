@@ -5,7 +5,6 @@
 namespace cullet {
 
 // ---- start
-// ------------------------------------------------------------------------------------------------------------
 
 /// The pose of the last step, for interpolation.
 void remember_poses(Rows<Bodies> bodies, In<&Bodies::position> position, In<&Bodies::orientation> orientation,
@@ -28,7 +27,6 @@ void fill_tasks(Each<TaskOpened> opened, ShellTables shells, Tasks& tasks, TaskC
                 PatchVertices& patches);
 
 // ---- damage
-// -----------------------------------------------------------------------------------------------------------
 
 /// Shares the frame's units: one step to each open task, then equal rounds, in order of (frame of impact, body row).
 void grant_units(Serial, Tasks& tasks, const Shells& shells, const DamageSettings& settings, DamageCounts& counts);
@@ -40,7 +38,6 @@ void settle_tasks(Serial, Step step, Tasks& tasks, TaskContacts& contacts, Bodie
                   Events<ImpactEvent>& impact_events);
 
 // ---- apply
-// ------------------------------------------------------------------------------------------------------------
 
 /// Which elements of a broken shell hang together.
 void find_parts(Each<TaskEnded> ended, ShellTables shells, Tasks& tasks, Fragments& fragments);
@@ -54,7 +51,6 @@ void make_births(Serial, Step step, const Events<TaskEnded>& ended, ShellTables 
                  Events<RefusedEvent>& refused, Events<FaultEvent>& faults);
 
 // ---- solve
-// ------------------------------------------------------------------------------------------------------------
 
 /// Solves contacts and moves all bodies, old and new.
 void solve_rigid(Serial, Step step, RigidWorld& rigid);
@@ -65,17 +61,15 @@ void fall_debris(Rows<Debris> debris, Step step, InOut<&Debris::position> positi
                  In<&Debris::floor> floor, InOut<&Debris::is_resting> is_resting, In<&Debris::is_used> is_used);
 
 // ---- end
-// --------------------------------------------------------------------------------------------------------------
 
 /// The drawn mesh of each shell that changed.
-void draw_shells(Each<ShellChanged> changed, ShellTables shells, Bodies& bodies, ViewVertices& vertices,
+void draw_shells(Each<ShellChanged> changed, Step step, ShellTables shells, Bodies& bodies, ViewVertices& vertices,
                  ViewIndices& indices);
 /// Moves the live rows of shells together that lost a quarter of theirs to pieces, in quiet frames, for units.
 void compact_shells(Serial, ShellTables shells, Bodies& bodies, const Tasks& tasks, Fragments& fragments,
                     DamageCounts& counts, const Events<TaskEnded>& ended);
 
 // ---- inner loop of a brittle thick shell: repeated for one task
-// -----------------------------------------------------------
 
 /// Contact springs of the patches, from the displacements before the step (6.3).
 void push_patches(EachBody task, ShellTables shells, Tasks& tasks, const TaskContacts& contacts,

@@ -5,6 +5,7 @@
 #include "cullet/host.hpp"
 #include "cullet/world.hpp"
 #include "engine/frame_plan.hpp"
+#include "systems/api/host_log.hpp"
 #include "systems/world_data.hpp"
 
 namespace cullet {
@@ -19,6 +20,12 @@ struct World::Contents {
     Profiler profiler;
     WorldData data;
     FramePlan<WorldData> plan;
+    HostLog log;
+    struct Counters {
+        uint32_t units = 0, open_tasks = 0, births = 0;
+    } counters;  // in the trace
+    /// Their values of the step that ends.
+    void count();
     /// Called between systems when set: --validate.
     std::function<void(const PlannedSystem<WorldData>&)> after_each_system;
 };

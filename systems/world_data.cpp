@@ -46,7 +46,6 @@ WorldData::WorldData(const Settings& settings)
     damage_settings.generations = settings.generations;
     damage_settings.debris_share = settings.debris_share;
     damage_settings.debris_elements = settings.debris_elements;
-    damage_settings.seed = settings.seed;
 }
 
 WorldData::~WorldData() = default;

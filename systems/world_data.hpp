@@ -40,7 +40,6 @@ struct DamageSettings {
     uint32_t generations = 0;
     float debris_share = 0;
     uint32_t debris_elements = 0;
-    uint64_t seed = 0;
     bool (*allows)(void* user, const ImpactEvent& impact) = nullptr;
     void* allows_user = nullptr;
 };

@@ -58,7 +58,7 @@ Result<ScenePlan> drop_plan(const SceneInput& input) {
     const double edge = keys["scene.edge_m"];
     Mesh mesh;
     if (input.mesh_path.empty()) {
-        mesh = make_piggy_bank(0.40f, edge > 0 ? static_cast<float>(edge) : 0.0098f, plan.settings.seed);
+        mesh = make_piggy_bank(0.40f, edge > 0 ? static_cast<float>(edge) : 0.0098f, plan.seed);
     } else {
         Result<Mesh> imported = import_model(input.mesh_path);
         if (!imported.ok()) return Error{imported.error()};

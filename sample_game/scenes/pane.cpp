@@ -31,7 +31,7 @@ Result<ScenePlan> pane_plan(const SceneInput& input) {
     const Keys& keys = input.keys;
     ScenePlan plan = begin_plan(input);
     const auto edge = static_cast<float>(keys["scene.edge_m"]);
-    if (auto cooked = cook_into(plan, input, make_pane(kSide, edge, plan.settings.seed)); !cooked.ok())
+    if (auto cooked = cook_into(plan, input, make_pane(kSide, edge, plan.seed)); !cooked.ok())
         return Error{cooked.error()};
     plan.props.push_back(floor_prop());
     add_frame(plan);

@@ -25,7 +25,7 @@ Result<ScenePlan> pile_plan(const SceneInput& input) {
     const Keys& keys = input.keys;
     ScenePlan plan = begin_plan(input);
     const auto size = static_cast<float>(keys["scene.size_m"]), edge = static_cast<float>(keys["scene.edge_m"]);
-    if (auto cooked = cook_into(plan, input, make_vase(size, edge, plan.settings.seed)); !cooked.ok())
+    if (auto cooked = cook_into(plan, input, make_vase(size, edge, plan.seed)); !cooked.ok())
         return Error{cooked.error()};
     plan.props.push_back(floor_prop());
     // Walls go down into the ground: standing on it they would press into it what is a millimetre deep in both.

@@ -35,7 +35,7 @@ ScenePlan begin_plan(const SceneInput& input) {
     ScenePlan plan;
     plan.settings.gravity = {0, -static_cast<float>(keys["gravity_mps2"]), 0};
     plan.settings.step_seconds = input.step_seconds;
-    plan.settings.seed = static_cast<uint64_t>(keys["scene.seed"]);
+    plan.seed = static_cast<uint64_t>(keys["scene.seed"]);
     plan.settings.threads = static_cast<uint32_t>(keys["threads"]);
     plan.settings.units_a_frame = static_cast<uint64_t>(keys["units_a_frame"]);
     plan.settings.hold_seconds = static_cast<float>(keys["hold_s"]);

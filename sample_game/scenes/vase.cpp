@@ -22,7 +22,7 @@ Result<ScenePlan> vase_plan(const SceneInput& input) {
     const Keys& keys = input.keys;
     ScenePlan plan = begin_plan(input);
     const auto size = static_cast<float>(keys["scene.size_m"]);
-    const Mesh mesh = make_vase(size, static_cast<float>(keys["scene.edge_m"]), plan.settings.seed);
+    const Mesh mesh = make_vase(size, static_cast<float>(keys["scene.edge_m"]), plan.seed);
     if (auto cooked = cook_into(plan, input, mesh); !cooked.ok()) return Error{cooked.error()};
     plan.props.push_back(floor_prop());
     Prop table;

@@ -1,6 +1,7 @@
 #include <algorithm>
 
-#include "engine/fp_mode.hpp"
+#include "engine/host_scope.hpp"
+#include "engine/memory.hpp"
 #include "engine/mesh_file.hpp"
 #include "systems/cook/build_shell.hpp"
 #include "systems/cook/extrude.hpp"
@@ -169,7 +170,11 @@ Row<Shells> import_shell(State& to, const State& from, Row<Shells> shell, const 
 }
 
 Result<Model> cook(const MeshView& view, const CookSettings& settings) {
-    const FpMode mode;
+    static const Host no_host;
+    const Host& host = settings.host ? *settings.host : no_host;
+    if (const Result<void> valid = check_host(host); !valid) return Error{valid.error()};
+    const HostScope call(host);
+    const MemoryScope memory(host.allocator);
     Result<Mesh> mesh = mesh_of(view);
     if (!mesh) return Error{mesh.error()};
     const std::string name = mesh->name;
@@ -226,6 +231,7 @@ Result<Model> cook(const MeshView& view, const CookSettings& settings) {
         measure_thresholds(state, contents->shell, settings);
     else
         state.shells.first_crack_speed[contents->shell] = estimated_threshold(state, contents->shell);
+    if (settings.progress && !settings.measures_threshold) settings.progress(settings.progress_user, 1);
     contents->report = report_on(state, contents->shell, surface.value(), extrusion.value());
     Model model;
     model.contents = contents;

@@ -6,6 +6,8 @@
 #include <new>
 
 #include "engine/checksum.hpp"
+#include "engine/host_scope.hpp"
+#include "engine/memory.hpp"
 #include "engine/mesh_file.hpp"
 #include "systems/cook/materials.hpp"
 
@@ -392,7 +394,12 @@ Result<void> write_model(const Model& model, const std::string& path) {
     }
 }
 
-Result<Model> read_model(const std::string& path) {
+Result<Model> read_model(const std::string& path, const Host* given) {
+    static const Host no_host;
+    const Host& host = given ? *given : no_host;
+    if (const Result<void> valid = check_host(host); !valid) return Error{valid.error()};
+    const HostScope call(host);
+    const MemoryScope memory(host.allocator);
     const Result<std::vector<uint8_t>> bytes = read_whole_file(path, kLargestFile);
     if (!bytes) return Error{bytes.error()};
     return parse_model_file(*bytes, path);

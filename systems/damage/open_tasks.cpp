@@ -88,14 +88,14 @@ struct Opening {
         uint32_t t = 0;
         while (t < tasks.size() && static_cast<TaskState>(tasks.state[t]) != TaskState::Free) ++t;
         if (t == tasks.size()) {
-            refused.push({body_id(bodies, body), "limits.open_hits"});
+            refused.push(refused_event(bodies, body, "limits.open_hits"));
             return {};
         }
         const char* full = nullptr;
         const Row<Shells> source = bodies.shell[body];
         const Row<Shells> working = make_shell(state, working_room(ShellView(state, source)), &full);
         if (!working.exists()) {
-            refused.push({body_id(bodies, body), full});
+            refused.push(refused_event(bodies, body, full));
             return {};
         }
         const Row<Tasks> task(t);
@@ -136,7 +136,7 @@ void queue_hits(std::span<const Impact> impacts, const Bodies& bodies, QueuedHit
         if (found != kNone && queued.approach_speed[found] >= impact.approach_speed) continue;
         const uint32_t q = found != kNone ? found : free;
         if (q == kNone) {
-            refused.push({body_id(bodies, impact.body), "limits.queued_hits"});
+            refused.push(refused_event(bodies, impact.body, "limits.queued_hits"));
             return;
         }
         const Pose pose = pose_of(bodies, impact.body);

@@ -209,7 +209,7 @@ struct Plan {
         return false;
     }
     void stay(Births& births, uint32_t part, const char* setting) {
-        births.refused.push({body_id(state.bodies, body), setting});
+        births.refused.push(refused_event(state.bodies, body, setting));
         is_refused = true;
         join_parts(ShellView(state, broken), parts, part, largest);
         join_motions(motions[largest], motions[part]);
@@ -232,7 +232,7 @@ Plan plan_of(Births& births, Row<Bodies> body, Row<Shells> broken, std::span<Fra
 bool reserve_points(Births& births, Plan& plan) {
     const uint32_t rows = births.state.shells.cells[plan.broken].count * kMostHullPoints;
     if (take_points(births.state, rows, plan.points)) return true;
-    births.refused.push({body_id(births.state.bodies, plan.body), "limits.vertices"});
+    births.refused.push(refused_event(births.state.bodies, plan.body, "limits.vertices"));
     return false;
 }
 
@@ -284,7 +284,7 @@ bool reserve_view(Births& births, Plan& plan) {
                     plan.stay(births, plan.order[i], "limits.view_vertices");
                 }
                 if (take_view(state, plan.body, ShellView(state, plan.broken), plan.parts[plan.largest])) return true;
-                births.refused.push({body_id(state.bodies, plan.body), "limits.view_vertices"});
+                births.refused.push(refused_event(state.bodies, plan.body, "limits.view_vertices"));
                 return false;
             }
         } while (!plan.child[plan.order[lightest]].exists());
@@ -395,7 +395,6 @@ void make_birth(Births& births, const Plan& plan, uint32_t p, const Moment& mome
     if (p == plan.largest) births.rigid.remove(body);
     births.rigid.add(child, describe_rigid(state, child, pieces));
     if (p == plan.largest) return;
-    bodies.born_frame[child] = births.step.frame;
     births.born.push({body_id(bodies, child), body_id(bodies, body), bodies.user_data[body],
                       to_world(moment.pose, bodies.centre[child].to_float()), motion, bodies.mass[child],
                       state.shells.generation[bodies.shell[child]]});
@@ -522,7 +521,7 @@ void keep_cracks(Births& births, Row<Tasks> task) {
     else if (!keep_hulls(shell, before))
         full = "limits.vertices";
     if (full) {
-        births.refused.push({body_id(state.bodies, body), full});
+        births.refused.push(refused_event(state.bodies, body, full));
         return;
     }
     clear_run(shell, true);

@@ -62,7 +62,8 @@ void make_births(Serial, Step step, const Events<TaskEnded>& ended, ShellTables 
             default:
                 ++counts.dropped;
                 faults.push(
-                    {body_id(bodies, tasks.body[task]),
+                    {body_id(bodies, tasks.body[task]), bodies.user_data[tasks.body[task]],
+                     centre_of(bodies, tasks.body[task]),
                      "A hit gained energy three times over, or made more than 1024 pieces; the body stays as it was."});
         }
         pay_answers(bodies, tasks, contacts, rigid, task);

@@ -125,9 +125,4 @@ HandoffReport rigid_handoff(ShellView shell, const HandoffStart& start, std::spa
     return report;
 }
 
-double inertia_change(const PartMotion& motion, const Sym3d& tetrahedra_inertia) {
-    const double own = length(motion.inertia * motion.spin);
-    return own > 0 ? length((tetrahedra_inertia - motion.inertia) * motion.spin) / own : 0;
-}
-
 }  // namespace cullet

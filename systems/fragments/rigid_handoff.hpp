@@ -48,8 +48,4 @@ struct HandoffReport {
 HandoffReport rigid_handoff(ShellView shell, const HandoffStart& start, std::span<const FragmentPart> parts,
                             std::span<PartMotion> motions);
 
-/// |(I_tetrahedra - I_vertices) w| / |I_vertices w|: how much angular momentum changes when the rigid body takes over
-/// with the inertia of the piece's tetrahedra. 0 without spin.
-double inertia_change(const PartMotion& motion, const Sym3d& tetrahedra_inertia);
-
 }  // namespace cullet

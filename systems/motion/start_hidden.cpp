@@ -53,8 +53,4 @@ void start_hidden(State& state, Row<Tasks> task) {
     tasks.start_energy[task] = task_energy(state, task).total();
 }
 
-void clear_hidden(ShellView shell) {
-    for (uint32_t v = 0; v < shell.vertex_count(); ++v) set_motion(shell.state.vertices, shell.vertex(v), {}, 0);
-}
-
 }  // namespace cullet

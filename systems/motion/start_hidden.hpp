@@ -9,7 +9,4 @@ namespace cullet {
 /// start_spin, damping_time and the contacts.
 void start_hidden(State& state, Row<Tasks> task);
 
-/// u = v = 0 in all of the shell's vertices: how it stands while no task runs.
-void clear_hidden(ShellView shell);
-
 }  // namespace cullet

@@ -19,4 +19,13 @@ inline Pose pose_of(const Bodies& bodies, uint32_t b) {
     return {bodies.position[b], bodies.orientation[b]};
 }
 
+/// World, m.
+inline Vec3 centre_of(const Bodies& bodies, Row<Bodies> b) {
+    return to_world(pose_of(bodies, b), bodies.centre[b].to_float());
+}
+
+inline RefusedEvent refused_event(const Bodies& bodies, Row<Bodies> b, const char* setting) {
+    return {body_id(bodies, b), bodies.user_data[b], centre_of(bodies, b), setting};
+}
+
 }  // namespace cullet

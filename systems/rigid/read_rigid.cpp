@@ -15,7 +15,8 @@ void read_rigid(Serial, const RigidWorld& rigid, Bodies& bodies, Events<AsleepEv
         bodies.velocity.set(b, motion.velocity);
         bodies.spin.set(b, motion.angular_velocity);
         const bool is_asleep = kind == BodyKind::Dynamic && rigid.is_asleep(b);
-        if (is_asleep && !bodies.is_asleep[b]) asleep.push({body_id(bodies, Row<Bodies>(b))});
+        if (is_asleep && !bodies.is_asleep[b])
+            asleep.push({body_id(bodies, Row<Bodies>(b)), bodies.user_data[b], centre_of(bodies, Row<Bodies>(b))});
         bodies.is_asleep[b] = is_asleep;
     }
 }

@@ -177,11 +177,6 @@ void write_border(Writer& w, uint32_t e, int k) {
 
 }  // namespace
 
-uint32_t DrawnCount::of_kind(SurfaceKind kind) const {
-    const auto first = indices.begin() + static_cast<uint32_t>(kind) * kMostDrawnMaterials;
-    return std::accumulate(first, first + kMostDrawnMaterials, 0u);
-}
-
 uint32_t DrawnCount::index_count() const {
     return std::accumulate(indices.begin(), indices.end(), 0u);
 }

@@ -18,7 +18,6 @@ struct DrawnCount {
     uint32_t vertices = 0;
     DrawnMaterials materials;
     std::array<uint32_t, kMostRuns> indices{};  // by kind (outer, inner with rims, crack), then by material
-    uint32_t of_kind(SurfaceKind kind) const;
     uint32_t index_count() const;
 };
 

@@ -3,10 +3,12 @@
 
 namespace cullet {
 
-void draw_shells(Each<ShellChanged> changed, ShellTables shells, Bodies& bodies, ViewVertices&, ViewIndices&) {
+void draw_shells(Each<ShellChanged> changed, Step step, ShellTables shells, Bodies& bodies, ViewVertices&,
+                 ViewIndices&) {
     const Row<Bodies> body = changed->body;
     if (static_cast<BodyKind>(bodies.kind[body]) == BodyKind::Free) return;
     draw_body(shells.state, body);
+    bodies.drawn_frame[body] = step.frame;
 }
 
 }  // namespace cullet

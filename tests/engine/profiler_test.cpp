@@ -44,14 +44,14 @@ TEST(Profiler, TimesOfAZoneAddUpInAFrameAndStartAnewInTheNext) {
 TEST(Profiler, TheTraceIsJsonWithFramesZonesAndCounters) {
     Profiler profiler;
     std::string name = "say \"hi\" \\ \n there";
-    const uint32_t zone = profiler.add_zone(name), count = profiler.add_zone("bodies");
+    const uint32_t zone = profiler.add_zone(name), count = profiler.add_counter("bodies");
     name = "gone";  // the profiler keeps its own
     for (uint64_t f = 0; f < 3; ++f) {
         profiler.begin_frame(40 + f);
         const uint64_t now = now_ns();
         profiler.add(zone, now, now + 1'234'567, 1);
         profiler.add_span(zone, 2, now, now + 5);
-        profiler.add_counter(count, 17);
+        profiler.count(count, 17);
         profiler.end_frame();
     }
     const nlohmann::json trace = trace_of(profiler);
@@ -70,6 +70,7 @@ TEST(Profiler, TheTraceIsJsonWithFramesZonesAndCounters) {
         }
         if (event["ph"] == "C") {
             ++counters;
+            EXPECT_EQ(event["name"], "bodies");
             EXPECT_EQ(event["args"]["value"], 17);
         }
     }

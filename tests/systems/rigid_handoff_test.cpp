@@ -140,6 +140,13 @@ TEST(RigidHandoff, WhatAPinnedLargestPartGetsGoesToTheGround) {
     }
 }
 
+// |(I_tetrahedra - I_vertices) w| / |I_vertices w|: how much angular momentum changes when the rigid body takes over
+// with the inertia of the piece's tetrahedra. 0 without spin.
+double inertia_change(const PartMotion& motion, const Sym3d& tetrahedra_inertia) {
+    const double own = length(motion.inertia * motion.spin);
+    return own > 0 ? length((tetrahedra_inertia - motion.inertia) * motion.spin) / own : 0;
+}
+
 TEST(RigidHandoff, TetrahedraAndVerticesHaveAlikeInertia) {
     Hit hit(4, 2);
     rigid_handoff(hit.view(), hit.start, hit.parts, hit.motions);

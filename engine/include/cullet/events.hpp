@@ -57,17 +57,23 @@ struct DebrisEvent {
 /// A limit was reached: what was asked for did not happen, everything else did.
 struct RefusedEvent {
     BodyId body;
+    uint64_t body_user_data = 0;
+    Vec3 place;                // world, its centre of mass, m
     const char* setting = "";  // the one to raise, for example "limits.bodies"
 };
 
 /// Something went wrong with one body; it was frozen as it was and is reported once.
 struct FaultEvent {
     BodyId body;
+    uint64_t body_user_data = 0;
+    Vec3 place;               // world, its centre of mass, m
     const char* reason = "";  // a sentence
 };
 
 struct AsleepEvent {
     BodyId body;
+    uint64_t body_user_data = 0;
+    Vec3 place;  // world, its centre of mass, m
 };
 
 template <class E>

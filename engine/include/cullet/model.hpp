@@ -6,6 +6,7 @@
 #include <memory>
 #include <string>
 
+#include "cullet/host.hpp"
 #include "cullet/result.hpp"
 #include "cullet/types.hpp"
 
@@ -46,9 +47,11 @@ struct CookSettings {
     float longest_edge = 0;
     uint64_t seed = 1;               // of the spread of strength
     bool measures_threshold = true;  // finds the speed of the first crack (adds 10 to 50 hits' time)
-    /// Vertices inside any of these boxes (body coordinates, m) may be pinned at spawn.
+    /// Called now and then on the thread that cooks; never falls, ends with 1.
     void (*progress)(void* user, float share) = nullptr;  // 0 to 1
     void* progress_user = nullptr;
+    /// Its allocator holds the model's tables, its assert handler hears of our bugs. Null: the system's, and none.
+    const Host* host = nullptr;
 };
 
 /// What cooking found, for people.
@@ -75,6 +78,7 @@ Result<Model> cook(const MeshView& mesh, const CookSettings& settings);
 
 /// A model file (.cmodel) holds the rows after cooking, so that a game cooks once.
 Result<void> write_model(const Model& model, const std::string& path);
-Result<Model> read_model(const std::string& path);
+/// `host` as in CookSettings.
+Result<Model> read_model(const std::string& path, const Host* host = nullptr);
 
 }  // namespace cullet

@@ -22,8 +22,7 @@ struct LimitSettings {
 
 struct Settings {
     Vec3 gravity{0, -9.81f, 0};         // m/s2
-    float step_seconds = 1.0f / 60.0f;  // fixed step, s; 1/240 to 1/30
-    uint64_t seed = 1;                  // of everything random
+    float step_seconds = 1.0f / 60.0f;  // fixed step, s; 1/1000 to 1/20
     uint32_t threads = 1;               // of cullet's own, the caller counted; unused when the host gives jobs
     /// Damage work a frame, in units of 2 ns of one thread: 8 million are 8 ms of a frame on two cores. More units
     /// finish a hit in fewer frames. Never a wall clock, so that the same run gives the same bytes on a fast and on a

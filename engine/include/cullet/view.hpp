@@ -27,7 +27,9 @@ struct MaterialRun {
     uint32_t first_index = 0, index_count = 0;
 };
 
-/// Bytes of a buffer that changed in the last step: elements [first, first + count). count 0: none.
+/// Elements [first, first + count) of a buffer, vertices or indices, that changed in the last step; count 0: none. In
+/// this version a mesh that changed is made anew, so that it is all of them or none. A body that was spawned since the
+/// last step has all of them until the next step is over.
 struct DirtyRange {
     uint32_t first = 0, count = 0;
 };

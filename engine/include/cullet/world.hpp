@@ -23,9 +23,10 @@ struct Box {
     Vec3 low, high;
 };
 
-/// How a body meets others. Two bodies collide when each one's layer is in the other's mask.
+/// How a body meets others. Two bodies collide when each one's layer is in the other's mask. Of their frictions, and of
+/// their restitutions, the geometric mean counts.
 struct ContactSettings {
-    float friction = -1;     // < 0: the material's
+    float friction = -1;     // < 0: the material's; 0.45 for what has none: spheres, static triangles, kinematic boxes
     float restitution = -1;  // < 0: 0.2; used above 0.2 m/s
     uint32_t layer = 1;      // bits
     uint32_t mask = 0xffffffffu;
@@ -85,7 +86,8 @@ class World {
     /// A number for the whole state: equal on any number of threads.
     uint64_t hash() const;
 
-    void set_gravity(Vec3 gravity);
+    /// Wakes all that sleeps.
+    Result<void> set_gravity(Vec3 gravity);
     /// Asked before damage is looked at; false lets the hit pass as between rigid bodies. Called on the thread that
     /// steps, between the parallel parts; must not call the world.
     void set_veto(bool (*allows)(void* user, const ImpactEvent& impact), void* user);

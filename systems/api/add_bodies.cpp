@@ -1,0 +1,213 @@
+// Bodies come into a world: of models, spheres, boxes that the game moves, level geometry.
+#include <algorithm>
+
+#include "engine/host_scope.hpp"
+#include "systems/api/checks.hpp"
+#include "systems/api/model_row.hpp"
+#include "systems/cook/apply_pins.hpp"
+#include "systems/fragments/body_rows.hpp"
+#include "systems/fragments/rigid_shape.hpp"
+#include "systems/rigid/body_id.hpp"
+#include "systems/view/draw_shell.hpp"
+#include "systems/world_contents.hpp"
+
+namespace cullet {
+namespace {
+
+Error no_room(const Bodies& bodies) {
+    return Error{"limits.bodies is reached (" + std::to_string(bodies.limit()) + "); raise it or remove a body."};
+}
+
+// What every kind of body has.
+void fill_body(Bodies& bodies, Row<Bodies> b, BodyKind kind, const Pose& pose, const Motion& motion,
+               const ContactSettings& contact, float friction, uint64_t user_data) {
+    bodies.kind[b] = static_cast<uint8_t>(kind);
+    const Pose unit{pose.position, normalised(pose.orientation)};
+    bodies.position.set(b, unit.position);
+    bodies.orientation[b] = unit.orientation;
+    bodies.previous_position.set(b, unit.position);
+    bodies.previous_orientation[b] = unit.orientation;
+    bodies.velocity.set(b, motion.velocity);
+    bodies.spin.set(b, motion.angular_velocity);
+    bodies.friction[b] = contact.friction >= 0 ? contact.friction : friction;
+    bodies.restitution[b] = contact.restitution >= 0 ? contact.restitution : 0.2f;
+    bodies.layer[b] = contact.layer;
+    bodies.mask[b] = contact.mask;
+    bodies.user_data[b] = user_data;
+}
+
+RigidDescription description_of(const Bodies& bodies, Row<Bodies> b, RigidKind kind) {
+    RigidDescription d;
+    d.kind = kind;
+    d.pose = pose_of(bodies, b);
+    d.motion = {bodies.velocity[b], bodies.spin[b]};
+    d.mass = bodies.mass[b];
+    d.centre = bodies.centre[b];
+    d.inertia = bodies.inertia[b];
+    d.friction = bodies.friction[b];
+    d.restitution = bodies.restitution[b];
+    d.layer = bodies.layer[b];
+    d.mask = bodies.mask[b];
+    return d;
+}
+
+// Of what has no material.
+constexpr float kPlainFriction = 0.45f;
+// From here on nothing cracks; columns hold no infinity.
+constexpr float kNeverCracks = 1e9f;
+
+// A shell of the body's own with these vertices pinned, its limits and rows made anew (B7: pins change what an unpinned
+// item is).
+Result<Row<Shells>> pinned_copy(State& state, Row<Shells> source, const SpawnSettings& settings) {
+    const char* full = "";
+    const Row<Shells> copy = copy_shell(state, source, room_of(state, source), &full);
+    if (!copy.exists()) return Error{std::string("no room for a pinned body; raise ") + full + "."};
+    const ShellView shell(state, copy);
+    uint32_t pinned = 0;
+    for (uint32_t i = 0; i < settings.pin_count; ++i)
+        pinned += apply_pins(shell, settings.pins[i].low, settings.pins[i].high);
+    if (pinned == 0) {
+        release_shell(state, copy);
+        return Error{"no vertex lies in any of the " + std::to_string(settings.pin_count) +
+                     " pin boxes; they are in body coordinates, in metres."};
+    }
+    if (!stiffen_pinned(shell)) {
+        release_shell(state, copy);
+        return Error{"the pinned body's stiffness does not fit the model's rows; please report this mesh."};
+    }
+    return copy;
+}
+
+}  // namespace
+
+Result<BodyId> World::spawn(ModelId id, const SpawnSettings& settings) {
+    WorldData& d = contents_->data;
+    State& state = d.state;
+    const HostScope call(contents_->host);
+    const Row<Models> model = model_row(state.models, id);
+    if (!model.exists()) return stale("model", id.index);
+    if (const Result<void> valid = check_body(settings.pose, settings.motion, settings.contact); !valid)
+        return Error{valid.error()};
+    if (!(settings.strength_scale > 0))
+        return Error{"strength_scale is " + std::to_string(settings.strength_scale) + "; use more than 0."};
+    if (settings.pin_count > 0 && !settings.pins)
+        return Error{"pin_count is " + std::to_string(settings.pin_count) + " but pins is null; give the boxes."};
+    Row<Shells> shell = state.models.shell[model];
+    if (settings.pin_count > 0) {
+        Result<Row<Shells>> pinned = pinned_copy(state, shell, settings);
+        if (!pinned) return Error{pinned.error()};
+        shell = pinned.value();
+    } else {
+        ++state.shells.users[shell];
+    }
+    const Row<Bodies> body = take_body(state);
+    if (!body.exists()) {
+        release_shell(state, shell);
+        return no_room(state.bodies);
+    }
+    Bodies& bodies = state.bodies;
+    bodies.shell[body] = shell;
+    if (!take_view(state, body)) {
+        free_body(state, body);
+        return Error{"limits.view_vertices is reached (" + std::to_string(state.view_vertices.limit()) +
+                     "); raise it."};
+    }
+    const bool is_static = settings.pin_count > 0;
+    fill_body(bodies, body, is_static ? BodyKind::Static : BodyKind::Dynamic, settings.pose,
+              is_static ? Motion{} : settings.motion, settings.contact,
+              state.materials.friction[state.shells.material[shell]], settings.user_data);
+    bodies.model[body] = model;
+    bodies.has_pins[body] = is_static;
+    bodies.strength_scale[body] = std::min(settings.strength_scale, kNeverCracks);
+    bodies.is_breakable[body] = settings.is_breakable && settings.strength_scale < kNeverCracks;
+    if (bodies.is_breakable[body]) d.make_ready(room_of(state, shell));
+    take_mass_properties(state, body);
+    d.arena.reset();
+    d.rigid->add(body, describe_rigid(state, body, convex_pieces(state, shell, d.arena)));
+    draw_body(state, body);
+    bodies.drawn_frame[body] = d.step_info.frame;
+    return body_id(bodies, body);
+}
+
+Result<BodyId> World::add_sphere(const SphereSettings& settings) {
+    WorldData& d = contents_->data;
+    const HostScope call(contents_->host);
+    if (const Result<void> valid = check_body(settings.pose, settings.motion, settings.contact); !valid)
+        return Error{valid.error()};
+    if (!(settings.radius > 0 && settings.radius <= kFarthest && settings.mass > 0 && settings.mass <= kHeaviest))
+        return Error{"a sphere needs a radius above 0, at most 1e6 m, and a mass above 0, at most 1e12 kg; got " +
+                     std::to_string(settings.radius) + " m and " + std::to_string(settings.mass) + " kg."};
+    const Row<Bodies> body = take_body(d.state);
+    if (!body.exists()) return no_room(d.state.bodies);
+    Bodies& bodies = d.state.bodies;
+    fill_body(bodies, body, BodyKind::Dynamic, settings.pose, settings.motion, settings.contact, kPlainFriction,
+              settings.user_data);
+    bodies.mass[body] = settings.mass;
+    const double inertia = 0.4 * settings.mass * settings.radius * settings.radius;
+    bodies.inertia[body] = {inertia, inertia, inertia, 0, 0, 0};
+    bodies.radius[body] = settings.radius;
+    bodies.is_sphere[body] = 1;
+    RigidDescription description = description_of(bodies, body, RigidKind::Dynamic);
+    description.radius = settings.radius;
+    // Times the floor's friction: on one of 0.45 a ball at 1 m/s rolls for about a second.
+    description.rolling_friction = 0.3f * settings.radius;
+    d.rigid->add(body, description);
+    return body_id(bodies, body);
+}
+
+Result<BodyId> World::add_kinematic_box(const KinematicSettings& settings) {
+    WorldData& d = contents_->data;
+    const HostScope call(contents_->host);
+    if (const Result<void> valid = check_body(settings.pose, settings.motion, settings.contact); !valid)
+        return Error{valid.error()};
+    const Vec3 h = settings.half_extents;
+    if (!(h.x > 0 && h.y > 0 && h.z > 0 && is_within(h, kFarthest)))
+        return Error{"half_extents of a box are " + text(h) + "; use more than 0 and at most 1e6 m."};
+    const Row<Bodies> body = take_body(d.state);
+    if (!body.exists()) return no_room(d.state.bodies);
+    Bodies& bodies = d.state.bodies;
+    fill_body(bodies, body, BodyKind::Kinematic, settings.pose, settings.motion, settings.contact, kPlainFriction,
+              settings.user_data);
+    Vec3 corners[8];
+    RigidDescription description = description_of(bodies, body, RigidKind::Kinematic);
+    const float margin = std::min(description.margin, 0.2f * std::min({h.x, h.y, h.z}));
+    const Vec3 pulled_in = h - Vec3{margin, margin, margin};
+    for (int k = 0; k < 8; ++k)
+        corners[k] = {k & 1 ? pulled_in.x : -pulled_in.x, k & 2 ? pulled_in.y : -pulled_in.y,
+                      k & 4 ? pulled_in.z : -pulled_in.z};
+    const ConvexPiece piece{corners, 0};
+    description.margin = margin;
+    description.pieces = {&piece, 1};
+    d.rigid->add(body, description);
+    return body_id(bodies, body);
+}
+
+Result<BodyId> World::add_static(const MeshView& mesh, const ContactSettings& contact, uint64_t user_data) {
+    WorldData& d = contents_->data;
+    const HostScope call(contents_->host);
+    const std::string name = mesh.name ? mesh.name : "static mesh";
+    if (!mesh.positions || !mesh.indices || mesh.triangle_count == 0)
+        return Error{name + ": has no triangles; give positions and indices."};
+    if (const Result<void> valid = check_contact(contact); !valid) return Error{name + ": " + valid.error()};
+    std::vector<std::array<uint32_t, 3>> triangles(mesh.triangle_count);
+    for (size_t t = 0; t < mesh.triangle_count; ++t)
+        for (size_t k = 0; k < 3; ++k) {
+            const uint32_t v = mesh.indices[3 * t + k];
+            if (v >= mesh.position_count)
+                return Error{name + ": triangle " + std::to_string(t) + " names vertex " + std::to_string(v) + " of " +
+                             std::to_string(mesh.position_count) + "; give indices below the number of positions."};
+            if (!is_within(mesh.positions[v], kFarthest))
+                return Error{name + ": vertex " + std::to_string(v) + " stands at " + text(mesh.positions[v]) +
+                             "; give metres, at most 1000000 from the origin along each axis."};
+            triangles[t][k] = v;
+        }
+    const Row<Bodies> body = take_body(d.state);
+    if (!body.exists()) return no_room(d.state.bodies);
+    Bodies& bodies = d.state.bodies;
+    fill_body(bodies, body, BodyKind::Static, {}, {}, contact, kPlainFriction, user_data);
+    d.rigid->add_static_triangles(body, {mesh.positions, mesh.position_count}, triangles, bodies.friction[body],
+                                  bodies.restitution[body], bodies.layer[body], bodies.mask[body]);
+    return body_id(bodies, body);
+}
+
+}  // namespace cullet

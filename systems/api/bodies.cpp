@@ -1,0 +1,135 @@
+// What a game asks of a body, and what it does to one.
+#include "engine/host_scope.hpp"
+#include "systems/api/checks.hpp"
+#include "systems/rigid/body_id.hpp"
+#include "systems/world_contents.hpp"
+
+namespace cullet {
+
+bool World::is_alive(BodyId id) const {
+    return body_row(contents_->data.state.bodies, id).exists();
+}
+
+Result<Pose> World::pose(BodyId id) const {
+    const Bodies& bodies = contents_->data.state.bodies;
+    const Row<Bodies> body = body_row(bodies, id);
+    if (!body.exists()) return stale("body", id.index);
+    return pose_of(bodies, body);
+}
+
+Result<Motion> World::motion(BodyId id) const {
+    const Bodies& bodies = contents_->data.state.bodies;
+    const Row<Bodies> body = body_row(bodies, id);
+    if (!body.exists()) return stale("body", id.index);
+    return Motion{bodies.velocity[body], bodies.spin[body]};
+}
+
+Result<double> World::mass(BodyId id) const {
+    const Bodies& bodies = contents_->data.state.bodies;
+    const Row<Bodies> body = body_row(bodies, id);
+    if (!body.exists()) return stale("body", id.index);
+    return bodies.mass[body];
+}
+
+Result<uint64_t> World::user_data(BodyId id) const {
+    const Bodies& bodies = contents_->data.state.bodies;
+    const Row<Bodies> body = body_row(bodies, id);
+    if (!body.exists()) return stale("body", id.index);
+    return bodies.user_data[body];
+}
+
+Result<bool> World::is_asleep(BodyId id) const {
+    const Bodies& bodies = contents_->data.state.bodies;
+    const Row<Bodies> body = body_row(bodies, id);
+    if (!body.exists()) return stale("body", id.index);
+    return bodies.is_asleep[body] != 0;
+}
+
+namespace {
+
+bool is_finite(Vec3 v) {
+    return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z);
+}
+
+void wake_body(WorldData& d, Row<Bodies> body) {
+    if (static_cast<BodyKind>(d.state.bodies.kind[body]) != BodyKind::Dynamic) return;
+    d.rigid->wake(body);
+    d.state.bodies.is_asleep[body] = 0;
+}
+
+}  // namespace
+
+Result<void> World::set_pose(BodyId id, const Pose& pose) {
+    WorldData& d = contents_->data;
+    const Row<Bodies> body = body_row(d.state.bodies, id);
+    if (!body.exists()) return stale("body", id.index);
+    if (const Result<void> valid = check_pose(pose); !valid) return valid;
+    Bodies& bodies = d.state.bodies;
+    if (static_cast<BodyKind>(bodies.kind[body]) == BodyKind::Static && !bodies.shell[body].exists())
+        return Error{"body " + std::to_string(id.index) +
+                     " is made of static triangles in world coordinates; remove it and add it where it is to stand."};
+    const HostScope call(contents_->host);
+    const Pose unit{pose.position, normalised(pose.orientation)};
+    // Put there, not moved there: nothing to draw between the two places.
+    bodies.position.set(body, unit.position);
+    bodies.orientation[body] = unit.orientation;
+    bodies.previous_position.set(body, unit.position);
+    bodies.previous_orientation[body] = unit.orientation;
+    d.rigid->set_pose(body, unit);
+    wake_body(d, body);
+    return {};
+}
+
+Result<void> World::set_motion(BodyId id, const Motion& motion) {
+    WorldData& d = contents_->data;
+    const Row<Bodies> body = body_row(d.state.bodies, id);
+    if (!body.exists()) return stale("body", id.index);
+    if (const Result<void> valid = check_motion(motion); !valid) return valid;
+    if (static_cast<BodyKind>(d.state.bodies.kind[body]) == BodyKind::Static)
+        return Error{"body " + std::to_string(id.index) +
+                     " is static (level geometry, or pinned) and has no motion; use a kinematic body."};
+    const HostScope call(contents_->host);
+    d.state.bodies.velocity.set(body, motion.velocity);
+    d.state.bodies.spin.set(body, motion.angular_velocity);
+    d.rigid->set_motion(body, motion);
+    wake_body(d, body);
+    return {};
+}
+
+Result<void> World::apply_impulse(BodyId id, Vec3 impulse, Vec3 place) {
+    const Bodies& bodies = contents_->data.state.bodies;
+    const Row<Bodies> body = body_row(bodies, id);
+    if (!body.exists()) return stale("body", id.index);
+    if (!is_finite(impulse) || !is_finite(place))
+        return Error{"impulse is " + text(impulse) + " at " + text(place) + "; give finite N s and m."};
+    if (static_cast<BodyKind>(bodies.kind[body]) != BodyKind::Dynamic) return {};  // nothing moves it
+    const HostScope call(contents_->host);
+    const Pose pose = pose_of(bodies, body);
+    const Vec3 arm = place - to_world(pose, bodies.centre[body].to_float());
+    const Vec3d turn(rotate(conjugate(pose.orientation), cross(arm, impulse)));
+    const Vec3 spin = rotate(pose.orientation, (inverse(bodies.inertia[body]) * turn).to_float());
+    return set_motion(
+        id, {bodies.velocity[body] + static_cast<float>(1.0 / bodies.mass[body]) * impulse, bodies.spin[body] + spin});
+}
+
+Result<void> World::wake(BodyId id) {
+    WorldData& d = contents_->data;
+    const Row<Bodies> body = body_row(d.state.bodies, id);
+    if (!body.exists()) return stale("body", id.index);
+    const HostScope call(contents_->host);
+    wake_body(d, body);
+    return {};
+}
+
+uint32_t World::bodies(BodyId* out, uint32_t capacity) const {
+    const Bodies& bodies = contents_->data.state.bodies;
+    uint32_t count = 0;
+    for (uint32_t b = 0; b < bodies.size(); ++b) {
+        if (static_cast<BodyKind>(bodies.kind[b]) == BodyKind::Free) continue;
+        if (count < capacity) out[count] = body_id(bodies, Row<Bodies>(b));
+        ++count;
+    }
+    return count;
+}
+
+}  // namespace cullet

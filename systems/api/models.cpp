@@ -1,0 +1,45 @@
+// Models come into a world and go.
+#include "engine/host_scope.hpp"
+#include "systems/api/checks.hpp"
+#include "systems/api/model_row.hpp"
+#include "systems/cook/model_contents.hpp"
+#include "systems/world_contents.hpp"
+
+namespace cullet {
+
+Result<ModelId> World::add_model(const Model& model) {
+    if (!model.contents) return Error{"the model is empty; cook or read one first."};
+    State& state = contents_->data.state;
+    const HostScope call(contents_->host);
+    uint32_t row = 0;
+    while (row < state.models.size() && state.models.is_used[row]) ++row;
+    if (row == state.models.size() && state.models.append(1) == kNone)
+        return Error{"limits.models is reached (" + std::to_string(state.models.limit()) +
+                     "); raise it or remove a model."};
+    const char* full = "";
+    const Row<Shells> shell = import_shell(state, model.contents->state, model.contents->shell, &full);
+    if (!shell.exists()) return Error{model.contents->name + ": no room for the model; raise " + full + "."};
+    state.models.is_used[row] = 1;
+    state.models.shell[row] = shell;
+    contents_->log.advise(contents_->host, *model.contents);
+    const uint32_t generation = ++state.models.generation[row];
+    return ModelId{row, generation};
+}
+
+Row<Models> model_row(const Models& models, ModelId id) {
+    const bool is_alive = id.generation != 0 && id.index < models.size() && models.is_used[id.index] &&
+                          models.generation[id.index] == id.generation;
+    return is_alive ? Row<Models>(id.index) : Row<Models>();
+}
+
+Result<void> World::remove_model(ModelId id) {
+    State& state = contents_->data.state;
+    const Row<Models> model = model_row(state.models, id);
+    if (!model.exists()) return stale("model", id.index);
+    const HostScope call(contents_->host);
+    release_shell(state, state.models.shell[model]);
+    state.models.is_used[model] = 0;
+    return {};
+}
+
+}  // namespace cullet

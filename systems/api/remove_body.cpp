@@ -1,0 +1,52 @@
+// A body goes, with the hits on it.
+#include "engine/host_scope.hpp"
+#include "systems/api/checks.hpp"
+#include "systems/fragments/body_rows.hpp"
+#include "systems/rigid/body_id.hpp"
+#include "systems/world_contents.hpp"
+
+namespace cullet {
+
+Result<void> World::remove(BodyId id) {
+    WorldData& d = contents_->data;
+    State& state = d.state;
+    const Row<Bodies> body = body_row(state.bodies, id);
+    if (!body.exists()) return stale("body", id.index);
+    const HostScope call(contents_->host);
+    Tasks& tasks = state.tasks;
+    for (uint32_t t = 0; t < tasks.size(); ++t) {
+        if (static_cast<TaskState>(tasks.state[t]) == TaskState::Free) continue;
+        const uint32_t first = tasks.first_contact[t];
+        for (uint32_t c = first; c < first + tasks.contact_count[t]; ++c) {
+            // A striker that is gone takes no impulse: it counts as something that does not yield from here on.
+            if (state.task_contacts.striker[c] == body) state.task_contacts.striker[c] = {};
+        }
+        if (tasks.body[t] != body) continue;
+        if (tasks.is_held[t])
+            for (uint32_t c = first; c < first + tasks.contact_count[t]; ++c) {
+                const Row<Bodies> striker = state.task_contacts.striker[c];
+                bool is_repeated = false;
+                for (uint32_t before = first; before < c; ++before)
+                    is_repeated = is_repeated || state.task_contacts.striker[before] == striker;
+                if (is_repeated || !striker.exists() || state.bodies.hold_count[striker] == 0) continue;
+                if (--state.bodies.hold_count[striker] == 0) d.rigid->release(striker);
+            }
+        release_shell(state, tasks.shell[t]);
+        release_shell(state, tasks.source[t]);
+        tasks.state[t] = static_cast<uint8_t>(TaskState::Free);
+    }
+    QueuedHits& queued = state.queued_hits;
+    for (uint32_t q = 0; q < queued.size(); ++q) {
+        if (!queued.is_used[q]) continue;
+        if (queued.striker[q] == body) queued.striker[q] = {};
+        if (queued.body[q] == body) queued.clear_rows(q, 1);
+    }
+    // Rows are used again: nobody may take the next one for a parent.
+    for (uint32_t b = 0; b < state.bodies.size(); ++b)
+        if (state.bodies.parent[b] == body) state.bodies.parent[b] = {};
+    d.rigid->remove(body);
+    free_body(state, body);
+    return {};
+}
+
+}  // namespace cullet

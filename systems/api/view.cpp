@@ -1,0 +1,38 @@
+// What a game draws of a body.
+#include "systems/api/checks.hpp"
+#include "systems/rigid/body_id.hpp"
+#include "systems/world_contents.hpp"
+
+namespace cullet {
+
+Result<BodyView> World::view(BodyId id) const {
+    const State& state = contents_->data.state;
+    const Bodies& bodies = state.bodies;
+    const Row<Bodies> body = body_row(bodies, id);
+    if (!body.exists()) return stale("body", id.index);
+    BodyView view;
+    view.pose = pose_of(bodies, body);
+    view.pose_before = {bodies.previous_position[body], bodies.previous_orientation[body]};
+    if (!bodies.shell[body].exists()) return view;
+    view.vertices = state.view_vertices.vertex.data() + bodies.view_vertices[body].first;
+    view.vertex_count = bodies.view_vertices[body].count;
+    view.indices = state.view_indices.index.data() + bodies.view_indices[body].first;
+    view.index_count = bodies.view_indices[body].count;
+    uint32_t first = 0;
+    for (size_t run = 0; run < kMostRuns; ++run) {
+        const uint32_t count = bodies.run_indices[body][run];
+        const auto kind = static_cast<SurfaceKind>(run / kMostDrawnMaterials);
+        const uint16_t material = bodies.drawn_materials[body][run % kMostDrawnMaterials];
+        if (count > 0) view.runs[view.run_count++] = {kind, material, first, count};
+        first += count;
+    }
+    view.stamp = bodies.view_stamp[body];
+    // step_info.frame is the next step's number.
+    if (bodies.drawn_frame[body] + 1 >= contents_->data.step_info.frame) {
+        view.dirty_vertices = {0, view.vertex_count};
+        view.dirty_indices = {0, view.index_count};
+    }
+    return view;
+}
+
+}  // namespace cullet

@@ -1,0 +1,139 @@
+// A world is made, stepped and asked how it goes.
+#include "engine/host_scope.hpp"
+#include "systems/api/checks.hpp"
+#include "systems/cook/materials.hpp"
+#include "systems/damage/damage_loop.hpp"
+#include "systems/world_contents.hpp"
+
+namespace cullet {
+
+World::Contents::Contents(const Settings& s, const Host& h)
+    : settings(s),
+      host(h),
+      jobs(h.jobs.parallel_for ? make_host_jobs(h.jobs) : make_jobs(JobBackend::Tbb, s.threads)),
+      data(s) {
+    fill_materials(data.state.materials);
+    data.rigid = make_bullet_world(s.limits.bodies);
+    data.rigid->set_gravity(s.gravity);
+    data.damage_loop = std::make_unique<DamageLoop>(data.state, *jobs, profiler);
+    plan = make_frame_plan([this] { return data.damage_loop->describe(); });
+    plan.finish(profiler);
+    counters = {profiler.add_counter("units"), profiler.add_counter("open tasks"), profiler.add_counter("births")};
+}
+World::Contents::~Contents() = default;
+
+void World::Contents::count() {
+    uint32_t open = 0;
+    for (uint32_t t = 0; t < data.state.tasks.size(); ++t)
+        open += static_cast<TaskState>(data.state.tasks.state[t]) != TaskState::Free;
+    profiler.count(counters.units, data.counts.units_used);
+    profiler.count(counters.open_tasks, open);
+    profiler.count(counters.births, data.born_events.size());
+}
+
+World::World(std::unique_ptr<Contents> contents) : contents_(std::move(contents)) {}
+World::World(World&&) noexcept = default;
+World& World::operator=(World&&) noexcept = default;
+World::~World() = default;
+World::Contents& World::contents() {
+    return *contents_;
+}
+const World::Contents& World::contents() const {
+    return *contents_;
+}
+
+Result<World> World::create(const Settings& settings, const Host& host) {
+    if (const Result<void> valid = check_settings(settings); !valid) return Error{valid.error()};
+    if (const Result<void> valid = check_host(host); !valid) return Error{valid.error()};
+    const HostScope call(host);
+    const MemoryScope memory(host.allocator);
+    return World(std::make_unique<Contents>(settings, host));
+}
+
+void World::step() {
+    Contents& c = *contents_;
+    WorldData& d = c.data;
+    const HostScope call(c.host);
+    if (c.host.zone_begin) c.host.zone_begin(c.host.user, "cullet step");
+    d.impact_events.clear();
+    d.crack_events.clear();
+    d.born_events.clear();
+    d.debris_events.clear();
+    d.refused_events.clear();
+    d.fault_events.clear();
+    d.asleep_events.clear();
+    d.shells_changed.clear();
+    d.arena.reset();
+    c.profiler.begin_frame(d.step_info.frame);
+    c.plan.step(d, *c.jobs, c.profiler, d.arena, c.after_each_system ? &c.after_each_system : nullptr, &c.host);
+    c.count();
+    c.profiler.end_frame();
+    if (d.counts.units_used == 0) d.state.commit_ahead(d.ready_for, 1);  // a quiet frame
+    ++d.step_info.frame;
+    if (c.host.zone_end) c.host.zone_end(c.host.user);
+    c.log.tell(c.host, d);
+}
+
+StepReport World::report() const {
+    const WorldData& d = contents_->data;
+    StepReport report;
+    report.frame = d.step_info.frame;
+    report.units_used = d.counts.units_used;
+    report.units_left = d.counts.units_left;
+    const Tasks& tasks = d.state.tasks;
+    for (uint32_t t = 0; t < tasks.size(); ++t) {
+        report.open_hits += static_cast<TaskState>(tasks.state[t]) != TaskState::Free;
+        report.held_bodies += tasks.is_held[t] && static_cast<TaskState>(tasks.state[t]) != TaskState::Free;
+    }
+    const Bodies& bodies = d.state.bodies;
+    for (uint32_t b = 0; b < bodies.size(); ++b) {
+        const auto kind = static_cast<BodyKind>(bodies.kind[b]);
+        report.bodies += kind != BodyKind::Free;
+        report.awake += kind == BodyKind::Dynamic && !bodies.is_asleep[b];
+    }
+    for (uint32_t i = 0; i < d.state.debris.size(); ++i) report.debris += d.state.debris.is_used[i];
+    return report;
+}
+
+RigidReport World::rigid_report() const {
+    const RigidCounts counts = contents_->data.rigid->counts();
+    return {counts.pairs, counts.contacts, counts.sweeps};
+}
+
+StepEvents World::events() const {
+    const WorldData& d = contents_->data;
+    const auto span = [](const auto& queue) {
+        using E = typename std::remove_cvref_t<decltype(queue)>::Value;
+        return EventSpan<E>{queue.all().data(), queue.size()};
+    };
+    return {span(d.impact_events),  span(d.crack_events), span(d.born_events),  span(d.debris_events),
+            span(d.refused_events), span(d.fault_events), span(d.asleep_events)};
+}
+
+uint64_t World::hash() const {
+    return contents_->data.state.hash();
+}
+
+Result<void> World::set_gravity(Vec3 gravity) {
+    if (const Result<void> valid = check_gravity("gravity", gravity); !valid) return valid;
+    const HostScope call(contents_->host);
+    WorldData& d = contents_->data;
+    d.step_info.gravity = gravity;
+    d.rigid->set_gravity(gravity);  // wakes them
+    for (uint32_t b = 0; b < d.state.bodies.size(); ++b) d.state.bodies.is_asleep[b] = 0;
+    return {};
+}
+
+void World::set_veto(bool (*allows)(void* user, const ImpactEvent& impact), void* user) {
+    contents_->data.damage_settings.allows = allows;
+    contents_->data.damage_settings.allows_user = user;
+}
+
+std::string World::describe_frame() {
+    Settings settings;
+    settings.limits = {16, 1, 4096, 4096, 1, 4096, 16};
+    const Contents contents(settings, {});
+    return contents.plan.describe();
+}
+
+}  // namespace cullet
