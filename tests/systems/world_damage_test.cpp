@@ -252,7 +252,7 @@ TEST(WorldDamage, FragmentsBreakAgainButNotBeyondTheLastGeneration) {
         Settings settings = small_settings();
         settings.gravity = {0, -9.81f, 0};
         settings.generations = generations;
-        Breakage b = vase_and_ball(settings, 6);
+        Breakage b = vase_and_ball(settings, 10);
         const Vec3 corners[] = {{-3, -0.7f, -3}, {-3, -0.7f, 3}, {3, -0.7f, 3}, {3, -0.7f, -3}};
         const uint32_t quad[] = {0, 1, 2, 0, 2, 3};
         (void)b.world.add_static({corners, 4, quad, 2}).value();

@@ -122,10 +122,10 @@ TEST(WorldMomentum, TwoVasesThatBreakEachOtherKeepItTogether) {
         const ModelId model = world.add_model(small_vase()).value();
         SpawnSettings vase;
         vase.pose.position = {0, 0, 0.3f};
-        vase.motion.velocity = {0, 0, -8};
+        vase.motion.velocity = {0, 0, -11};
         (void)world.spawn(model, vase).value();
         vase.pose.position = {0.01f, 0.02f, -0.3f};
-        vase.motion.velocity = {0, 0, 9};
+        vase.motion.velocity = {0, 0, 12};
         (void)world.spawn(model, vase).value();
         HandoffWatch watch;
         watch.attach(world);
