@@ -209,6 +209,7 @@ void BulletWorld::enter(Body& body, const Pose& at, uint32_t layer, uint32_t mas
     body.is_touched = body.is_driven = false;
     body.anchor = info.m_startWorldTransform;
     body.has_left = false;
+    body.idle_wakes = 0;
     body_end_ = std::max(body_end_, body.id + 1);
     refresh(body);
     world_.addRigidBody(&bullet, static_cast<int>(layer), static_cast<int>(mask));

@@ -21,7 +21,9 @@ constexpr float kSlowSeconds = 1;
 constexpr float kWakeSpeed = 0.05f;  // m/s
 // so many times the load that they fell asleep under, and weights of their own,
 constexpr float kWakeLoads = 2, kWakeWeights = 3;
-// or a neighbour that leaves its place: it may have been what they lay on.
+// or a neighbour that leaves its place: it may have been what they lay on. What lay still after so many such wakes is
+// not woken by creeping and loads again, until it is struck.
+constexpr uint32_t kIdleWakes = 3;
 
 // What lies deeper in something than this is kept awake to be pushed out; each second of it makes twice as much more
 // bear sleep: a slab of brick presses a piece below it by 7 mm, which takes the solver two seconds, and in a deep heap
@@ -178,20 +180,25 @@ void BulletWorld::wake_unsettled(float dt) {
         if (is_a_free == bodies_[m.b].is_free()) continue;
         Body &sleeper = bodies_[is_a_free ? m.b : m.a], &other = bodies_[is_a_free ? m.a : m.b];
         if (!other.has_left || !is_asleep(sleeper.id)) continue;
+        const btRigidBody& leaver = *other.bullet;
+        const float speed = leaver.getLinearVelocity().length() + leaver.getAngularVelocity().length() * other.reach;
+        if (sleeper.idle_wakes >= kIdleWakes && speed < kSlowSpeed) continue;
         const float along = m.manifold->getContactPoint(0).m_normalWorldOnB.dot(up);
         if ((is_a_free ? -along : along) >= 0) wake_beside(sleeper);
     }
     for (RigidId id = 0; id < body_end_; ++id) {
         Body& body = bodies_[id];
-        if (!body.is_used || !is_asleep(id)) continue;
+        if (!body.is_used || !is_asleep(id) || body.idle_wakes >= kIdleWakes) continue;
         if (body.load > kWakeLoads * body.slept_load + kWakeWeights * body.mass * weight_speed) wake_beside(body);
     }
 }
 
 // Half of what it takes to sleep again is left to it: it lay still before.
 void BulletWorld::wake_beside(Body& body) {
+    const uint32_t idle_wakes = body.idle_wakes;
     wake_body(body);
     body.still_seconds = 0.5f * kStillSeconds;
+    body.idle_wakes = idle_wakes + 1;
 }
 
 // Half a second within 3 mm, or a slow second; but what lies too deep in something stays awake to be pushed out.
@@ -202,6 +209,7 @@ bool BulletWorld::may_sleep(Body& body, float dt) {
     if (body.has_left) {
         body.anchor = now;
         body.still_seconds = 0;
+        body.idle_wakes = 0;
     } else {
         body.still_seconds = std::min(body.still_seconds + dt, 2 * kStillSeconds);
     }
@@ -242,6 +250,7 @@ void BulletWorld::wake_body(Body& body) {
     const bool was_asleep = !body.bullet->isActive();
     body.bullet->setActivationState(ACTIVE_TAG);
     body.still_seconds = body.slow_seconds = body.pressed_seconds = 0;
+    body.idle_wakes = 0;
     body.anchor = body.bullet->getWorldTransform();
     if (was_asleep && !body.is_held) restore_mass(body);
 }
