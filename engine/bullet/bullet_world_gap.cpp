@@ -43,6 +43,11 @@ bool has_left(const Body& body, const btTransform& anchor, const btTransform& no
     return false;
 }
 
+float bearable_overlap(const Body& body) {
+    if (body.pressed_seconds >= kPressedSeconds) return kFar;
+    return kPressedDeep * (1 + kImpatience * body.pressed_seconds);
+}
+
 }  // namespace
 
 void BulletWorld::hold(RigidId id) {
@@ -138,7 +143,13 @@ void BulletWorld::wake_struck() {
             Body &s = bodies_[sleeper], &o = bodies_[other];
             if (!is_asleep(sleeper)) continue;
             const bool is_driver = o.kind == RigidKind::Kinematic && o.bullet->isActive();
-            if (is_driver || (o.is_free() && is_struck(s, o, *m.manifold))) wake_body(s);
+            if (is_driver || (o.is_free() && is_struck(s, o, *m.manifold))) {
+                wake_body(s);
+            } else if (o.is_free() && std::min(s.overlap, o.overlap) > bearable_overlap(s)) {
+                const float pressed = s.pressed_seconds;
+                wake_beside(s);  // what lies deep below a slab is pushed out only while the slab gives way
+                s.pressed_seconds = pressed;
+            }
         }
     }
 }
@@ -218,8 +229,7 @@ bool BulletWorld::may_sleep(Body& body, float dt) {
     body.slow_seconds = std::clamp(body.slow_seconds + slower, 0.0f, 2 * kSlowSeconds);
     if (body.is_driven) body.still_seconds = body.slow_seconds = 0;
     if (body.still_seconds < kStillSeconds && body.slow_seconds < kSlowSeconds) return false;
-    const float bearable = kPressedDeep * (1 + kImpatience * body.pressed_seconds);
-    if (body.pressed_seconds >= kPressedSeconds || body.overlap <= bearable) return true;
+    if (body.overlap <= bearable_overlap(body)) return true;
     body.pressed_seconds += dt;
     return false;
 }
