@@ -71,8 +71,10 @@ struct Body {
 
     btTransform anchor;  // the sleep timer's pose
     float still_seconds = 0;
-    btTransform rattle_anchor;  // of the timer of what shakes in its place
-    float rattle_seconds = 0;
+    bool has_left = false;    // its anchor, in this step
+    uint32_t idle_wakes = 0;  // by neighbours, since it last left its anchor or was struck
+    float load = 0;           // N s of this step, see sum_loads()
+    float slept_load = 0;     // of the step in which it fell asleep
 
     float moved_fraction = 1;  // of this step, less than 1 when stopped at a time of impact
     bool is_fast = false;      // swept in this step

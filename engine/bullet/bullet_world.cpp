@@ -207,8 +207,9 @@ void BulletWorld::enter(Body& body, const Pose& at, uint32_t layer, uint32_t mas
     body.still_seconds = body.slow_seconds = 0;
     body.pressed_seconds = body.overlap = 0;
     body.is_touched = body.is_driven = false;
-    body.anchor = body.rattle_anchor = info.m_startWorldTransform;
-    body.rattle_seconds = 0;
+    body.anchor = info.m_startWorldTransform;
+    body.has_left = false;
+    body.idle_wakes = 0;
     body_end_ = std::max(body_end_, body.id + 1);
     refresh(body);
     world_.addRigidBody(&bullet, static_cast<int>(layer), static_cast<int>(mask));
@@ -321,7 +322,7 @@ void BulletWorld::set_shape(RigidId id, double mass, Vec3d centre, Sym3d inertia
         bullet.setGravity(world_.getGravity());
     }
     bullet.setCenterOfMassTransform(to_bullet(at, body.frame));
-    body.anchor = body.rattle_anchor = bullet.getWorldTransform();
+    body.anchor = bullet.getWorldTransform();
     body.fresh_at.setOrigin({kFar, kFar, kFar});  // the points are new, wherever they stand
     refresh(body);
     wake_touching(id);
@@ -478,6 +479,7 @@ void BulletWorld::sum_impulse_to_static() {
 
 void BulletWorld::solve(float dt) {
     InsideRigidEngine guard(counts_.allocations);
+    wake_struck();
     for (RigidId id = 0; id < body_end_; ++id) {
         Body& body = bodies_[id];
         if (!body.is_used || !body.is_free()) continue;

@@ -89,6 +89,15 @@ class BulletWorld final : public RigidWorld {
     void limit_closing(float dt);
     void integrate(float dt);
     void update_sleep(float dt);
+    bool may_sleep(Body& body, float dt);
+    void fall_asleep(Body& body);
+    void stop_mass(Body& body);
+    void restore_mass(Body& body);
+    void wake_struck();
+    bool is_struck(const Body& sleeper, const Body& other, const btPersistentManifold& manifold) const;
+    void wake_unsettled(float dt);
+    void wake_beside(Body& body);
+    void sum_loads();
     Vec3 velocity_at(const Body& body, Vec3 point) const;
 
     uint32_t body_limit_, body_end_ = 0;  // no used id is at or above body_end_

@@ -16,10 +16,14 @@ constexpr float kStillSeconds = 0.5f;
 // too, faster steps counting back twice.
 constexpr float kSlowSpeed = 0.15f;  // m/s of the fastest point
 constexpr float kSlowSeconds = 1;
-// What is wedged in a heap may shake for ever at any speed, and keep a thousand others awake: so long without leaving
-// this much room is sleep too.
-constexpr float kRattleDistance = 0.02f;  // m
-constexpr float kRattleSeconds = 2;
+// Sleepers stand as if of infinite mass, so that one that shakes does not keep its thousand neighbours awake. What
+// wakes them: a blow that would give them this speed,
+constexpr float kWakeSpeed = 0.05f;  // m/s
+// so many times the load that they fell asleep under, and weights of their own,
+constexpr float kWakeLoads = 2, kWakeWeights = 3;
+// or a neighbour that leaves its place: it may have been what they lay on. What lay still after so many such wakes is
+// not woken by creeping and loads again, until it is struck.
+constexpr uint32_t kIdleWakes = 3;
 
 // What lies deeper in something than this is kept awake to be pushed out; each second of it makes twice as much more
 // bear sleep: a slab of brick presses a piece below it by 7 mm, which takes the solver two seconds, and in a deep heap
@@ -39,6 +43,11 @@ bool has_left(const Body& body, const btTransform& anchor, const btTransform& no
     return false;
 }
 
+float bearable_overlap(const Body& body) {
+    if (body.pressed_seconds >= kPressedSeconds) return kFar;
+    return kPressedDeep * (1 + kImpatience * body.pressed_seconds);
+}
+
 }  // namespace
 
 void BulletWorld::hold(RigidId id) {
@@ -48,10 +57,21 @@ void BulletWorld::hold(RigidId id) {
     body.kept = motion(id);
     if (!body.bullet->isActive()) wake_body(body);
     body.is_held = true;
-    body.bullet->setMassProps(0, {0, 0, 0});
-    body.bullet->updateInertiaTensor();
+    stop_mass(body);
     body.bullet->setLinearVelocity({0, 0, 0});
     body.bullet->setAngularVelocity({0, 0, 0});
+}
+
+void BulletWorld::stop_mass(Body& body) {
+    body.bullet->setMassProps(0, {0, 0, 0});
+    body.bullet->updateInertiaTensor();
+}
+
+// In the order of creation, so that mass and weight round as they did then.
+void BulletWorld::restore_mass(Body& body) {
+    body.bullet->setMassProps(body.mass, body.moments);
+    body.bullet->setGravity(world_.getGravity());
+    body.bullet->updateInertiaTensor();
 }
 
 void BulletWorld::release(RigidId id) {
@@ -59,10 +79,7 @@ void BulletWorld::release(RigidId id) {
     InsideRigidEngine guard(counts_.allocations);
     Body& body = bodies_[id];
     body.is_held = false;
-    // In the order of creation, so that mass and weight round as they did then.
-    body.bullet->setMassProps(body.mass, body.moments);
-    body.bullet->setGravity(world_.getGravity());
-    body.bullet->updateInertiaTensor();
+    restore_mass(body);
     body.bullet->setLinearVelocity(to_bullet(body.kept.velocity));
     body.bullet->setAngularVelocity(to_bullet(body.kept.angular_velocity));
 }
@@ -118,42 +135,121 @@ void BulletWorld::ignore_pair(RigidId a, RigidId b, float seconds, bool until_ap
     skip_contacts(a, b);
 }
 
-void BulletWorld::update_sleep(float dt) {
+// Before the solve: sleepers that are struck, driven, or pressed since the last step by what is awake.
+void BulletWorld::wake_struck() {
+    for (const SortedManifold& m : manifolds_) {
+        if (!m.manifold) continue;
+        for (const auto& [sleeper, other] : {std::pair(m.a, m.b), std::pair(m.b, m.a)}) {
+            Body &s = bodies_[sleeper], &o = bodies_[other];
+            if (!is_asleep(sleeper)) continue;
+            const bool is_driver = o.kind == RigidKind::Kinematic && o.bullet->isActive();
+            if (is_driver || (o.is_free() && is_struck(s, o, *m.manifold))) {
+                wake_body(s);
+            } else if (o.is_free() && std::min(s.overlap, o.overlap) > bearable_overlap(s)) {
+                const float pressed = s.pressed_seconds;
+                wake_beside(s);  // what lies deep below a slab is pushed out only while the slab gives way
+                s.pressed_seconds = pressed;
+            }
+        }
+    }
+}
+
+// By the speed that the meeting would leave the sleeper with, were it free and the touch central.
+bool BulletWorld::is_struck(const Body& sleeper, const Body& other, const btPersistentManifold& manifold) const {
+    float closing = 0;
+    for (int k = 0; k < manifold.getNumContacts(); ++k) {
+        const btManifoldPoint& p = manifold.getContactPoint(k);
+        const Vec3 velocity = velocity_at(other, from_bullet(p.m_positionWorldOnB));
+        const float along = dot(velocity, from_bullet(p.m_normalWorldOnB));
+        const bool is_b = manifold.getBody1() == &*other.bullet;
+        if (p.m_distance1 < 0.001f) closing = std::max(closing, is_b ? along : -along);
+    }
+    return closing * other.mass > kWakeSpeed * (other.mass + sleeper.mass);
+}
+
+// What presses on each body in this step: all of it on what is awake, on sleepers what the waking give.
+void BulletWorld::sum_loads() {
+    for (RigidId id = 0; id < body_end_; ++id) bodies_[id].load = 0;
+    for (const SortedManifold& m : manifolds_) {
+        if (!m.manifold) continue;
+        Body &a = bodies_[m.a], &b = bodies_[m.b];
+        if (!a.is_free() && !b.is_free()) continue;
+        float load = 0;
+        for (int k = 0; k < m.manifold->getNumContacts(); ++k) load += m.manifold->getContactPoint(k).m_appliedImpulse;
+        a.load += load;
+        b.load += load;
+    }
+}
+
+// After the solve: what leaves its place wakes what may have lain on it, and a heavy load what it lies on.
+void BulletWorld::wake_unsettled(float dt) {
+    const btVector3 up = -world_.getGravity();
+    const float weight_speed = up.length() * dt;
+    for (const SortedManifold& m : manifolds_) {
+        if (!m.manifold || m.manifold->getNumContacts() == 0) continue;
+        const bool is_a_free = bodies_[m.a].is_free();
+        if (is_a_free == bodies_[m.b].is_free()) continue;
+        Body &sleeper = bodies_[is_a_free ? m.b : m.a], &other = bodies_[is_a_free ? m.a : m.b];
+        if (!other.has_left || !is_asleep(sleeper.id)) continue;
+        const btRigidBody& leaver = *other.bullet;
+        const float speed = leaver.getLinearVelocity().length() + leaver.getAngularVelocity().length() * other.reach;
+        if (sleeper.idle_wakes >= kIdleWakes && speed < kSlowSpeed) continue;
+        const float along = m.manifold->getContactPoint(0).m_normalWorldOnB.dot(up);
+        if ((is_a_free ? -along : along) >= 0) wake_beside(sleeper);
+    }
     for (RigidId id = 0; id < body_end_; ++id) {
         Body& body = bodies_[id];
-        if (!body.is_used || body.kind != RigidKind::Dynamic || body.is_held) continue;
-        btRigidBody& bullet = *body.bullet;
-        if (!bullet.isActive()) {  // its whole island went to sleep in this step
-            set_velocities(body, {0, 0, 0}, {0, 0, 0});
-            continue;
-        }
-        // A body that its island woke keeps its anchor: it may sleep again as soon as the others do.
-        const btTransform& now = bullet.getWorldTransform();
-        if (!body.is_touched || has_left(body, body.rattle_anchor, now, kRattleDistance)) {
-            body.rattle_anchor = now;
-            body.rattle_seconds = 0;
-        } else {
-            body.rattle_seconds += dt;
-        }
-        if (has_left(body, body.anchor, now, kStillDistance)) {
-            body.anchor = now;
-            body.still_seconds = 0;
-        } else {
-            body.still_seconds = std::min(body.still_seconds + dt, 2 * kStillSeconds);
-        }
-        const float speed = bullet.getLinearVelocity().length() + bullet.getAngularVelocity().length() * body.reach;
-        const float slower = body.is_touched && speed < kSlowSpeed ? dt : -2 * dt;
-        body.slow_seconds = std::clamp(body.slow_seconds + slower, 0.0f, 2 * kSlowSeconds);
-        if (body.is_driven) body.still_seconds = body.slow_seconds = body.rattle_seconds = 0;
-        bool is_ready = body.still_seconds >= kStillSeconds || body.slow_seconds >= kSlowSeconds ||
-                        body.rattle_seconds >= kRattleSeconds;
-        if (is_ready && body.pressed_seconds < kPressedSeconds &&
-            body.overlap > kPressedDeep * (1 + kImpatience * body.pressed_seconds)) {
-            body.pressed_seconds += dt;
-            is_ready = false;
-        }
-        bullet.setActivationState(is_ready ? WANTS_DEACTIVATION : ACTIVE_TAG);
+        if (!body.is_used || !is_asleep(id) || body.idle_wakes >= kIdleWakes) continue;
+        if (body.load > kWakeLoads * body.slept_load + kWakeWeights * body.mass * weight_speed) wake_beside(body);
     }
+}
+
+// Half of what it takes to sleep again is left to it: it lay still before.
+void BulletWorld::wake_beside(Body& body) {
+    const uint32_t idle_wakes = body.idle_wakes;
+    wake_body(body);
+    body.still_seconds = 0.5f * kStillSeconds;
+    body.idle_wakes = idle_wakes + 1;
+}
+
+// Half a second within 3 mm, or a slow second; but what lies too deep in something stays awake to be pushed out.
+bool BulletWorld::may_sleep(Body& body, float dt) {
+    const btRigidBody& bullet = *body.bullet;
+    const btTransform& now = bullet.getWorldTransform();
+    body.has_left = has_left(body, body.anchor, now, kStillDistance);
+    if (body.has_left) {
+        body.anchor = now;
+        body.still_seconds = 0;
+        body.idle_wakes = 0;
+    } else {
+        body.still_seconds = std::min(body.still_seconds + dt, 2 * kStillSeconds);
+    }
+    const float speed = bullet.getLinearVelocity().length() + bullet.getAngularVelocity().length() * body.reach;
+    const float slower = body.is_touched && speed < kSlowSpeed ? dt : -2 * dt;
+    body.slow_seconds = std::clamp(body.slow_seconds + slower, 0.0f, 2 * kSlowSeconds);
+    if (body.is_driven) body.still_seconds = body.slow_seconds = 0;
+    if (body.still_seconds < kStillSeconds && body.slow_seconds < kSlowSeconds) return false;
+    if (body.overlap <= bearable_overlap(body)) return true;
+    body.pressed_seconds += dt;
+    return false;
+}
+
+void BulletWorld::update_sleep(float dt) {
+    sum_loads();
+    for (RigidId id = 0; id < body_end_; ++id) {
+        Body& body = bodies_[id];
+        if (!body.is_used || body.kind != RigidKind::Dynamic || !body.is_free()) continue;
+        if (may_sleep(body, dt)) fall_asleep(body);
+    }
+    wake_unsettled(dt);
+}
+
+// Asleep is held, but for the name: Bullet sees something static.
+void BulletWorld::fall_asleep(Body& body) {
+    set_velocities(body, {0, 0, 0}, {0, 0, 0});
+    body.bullet->setActivationState(ISLAND_SLEEPING);
+    body.slept_load = body.load;
+    stop_mass(body);
 }
 
 bool BulletWorld::is_asleep(RigidId id) const {
@@ -161,10 +257,12 @@ bool BulletWorld::is_asleep(RigidId id) const {
 }
 
 void BulletWorld::wake_body(Body& body) {
+    const bool was_asleep = !body.bullet->isActive();
     body.bullet->setActivationState(ACTIVE_TAG);
     body.still_seconds = body.slow_seconds = body.pressed_seconds = 0;
-    body.anchor = body.rattle_anchor = body.bullet->getWorldTransform();
-    body.rattle_seconds = 0;
+    body.idle_wakes = 0;
+    body.anchor = body.bullet->getWorldTransform();
+    if (was_asleep && !body.is_held) restore_mass(body);
 }
 
 void BulletWorld::wake(RigidId id) {

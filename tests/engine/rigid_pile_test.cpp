@@ -26,8 +26,8 @@ TEST(RigidPile, AShardAloneRestsOnTheFloorWithoutSinkingOrHovering) {
 
 class HeapOfSeed : public testing::TestWithParam<uint32_t> {};
 
-// 95 % of the contacts are less than 2 mm deep, all less than 8 mm (hollow shards that stick in each other: 7.4 mm for
-// seed 0, whose heap never presses them apart); 95 % sleep after 3.2 to 5.9 s.
+// 95 % of the contacts are less than 2 mm deep (1 mm seen), all less than 4 mm (3.6 mm seen); 95 % sleep after 4.0 to
+// 5.1 s.
 TEST_P(HeapOfSeed, FiftyCurvedShardsSleepWithinSixAndAHalfSeconds) {
     constexpr uint32_t kShards = 50;
     auto world = floor_world(kShards + 8);
@@ -59,7 +59,7 @@ TEST_P(HeapOfSeed, FiftyCurvedShardsSleepWithinSixAndAHalfSeconds) {
                 1000 * depths.back(), 1000 * floor_depth);
     EXPECT_LT(depths[depths.size() * 95 / 100], 0.002f);
     EXPECT_LT(floor_depth, 0.004f);
-    EXPECT_LT(depths.back(), 0.008f);
+    EXPECT_LT(depths.back(), 0.004f);
     world->solve(kStep);
 }
 
