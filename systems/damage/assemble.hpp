@@ -38,7 +38,6 @@ bool assemble_stiffness(ShellView shell);
 /// Rows of these vertices from their elements, bit for bit what assemble_stiffness would give them. A pack without a
 /// free slot moves to the spare end of the shell's ranges. False: out of spare; the rows not yet rebuilt are as before.
 bool rebuild_rows(ShellView shell, std::span<const uint32_t> vertices);
-bool rebuild_all_rows(ShellView shell);
 /// The row of `vertex` names `to` wherever it named `from`: the same stiffness against a copy of a neighbour.
 void rename_neighbour(ShellView shell, uint32_t vertex, uint32_t from, uint32_t to);
 

@@ -254,14 +254,6 @@ bool rebuild_rows(ShellView shell, std::span<const uint32_t> vertices) {
     return true;
 }
 
-bool rebuild_all_rows(ShellView shell) {
-    if (!append_packs(shell)) return false;
-    const PlaneStress stress = plane_stress(shell.state, shell.row);
-    for (uint32_t v = 0; v < shell.vertex_count(); ++v)
-        if (!write_row(shell, stress, v)) return false;
-    return true;
-}
-
 void rename_neighbour(ShellView shell, uint32_t vertex, uint32_t from, uint32_t to) {
     const uint32_t pack = vertex / kLanes, lane = vertex % kLanes;
     if (pack >= shell.shells().packs[shell.row].count) return;  // it has no row yet

@@ -11,7 +11,9 @@ bool refresh_stiffness(ShellView shell, Touched& touched) {
     if (touched.weighed.count > 0 && shell.shells().packs[shell.row].count > 0) {
         limit_stiffness(shell, touched.weighed.span(), touched.rows);
         touched.rows.sort();  // in which order packs move to the spare end must not depend on what was cut first
-        is_whole = touched.rows.has_overflowed ? rebuild_all_rows(shell) : rebuild_rows(shell, touched.rows.span());
+        is_whole = !touched.rows.has_overflowed && rebuild_rows(shell, touched.rows.span());
+        // Packs that moved to the spare end leave holes behind: when there is no end left, all are laid anew.
+        is_whole = is_whole || assemble_stiffness(shell);
     }
     touched.clear();
     return is_whole;
