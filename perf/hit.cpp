@@ -79,7 +79,7 @@ bool is_running(const State& state) {
     return static_cast<TaskState>(state.tasks.state[kTask]) == TaskState::Running;
 }
 
-/// What follows the last step: parts, their motions, a shell for each of them. Returns how many.
+/// What follows the last step: parts, their motions, a shell for each but the largest.
 struct Ending {
     std::vector<FragmentPart> parts{kMostParts};
     std::vector<PartMotion> motions{kMostParts};
@@ -94,9 +94,14 @@ struct Ending {
         const HandoffStart start{Vec3d(state.tasks.start_velocity[kTask]), Vec3d(), shell.shells().centre[shell.row],
                                  kFallSpeed};
         timed([&] { rigid_handoff(shell, start, std::span(parts.data(), count), motions); });
+        // The largest part keeps the working shell.
+        uint32_t largest = 0;
+        for (uint32_t p = 1; p < count; ++p)
+            if (parts[p].element_count > parts[largest].element_count) largest = p;
         for (uint32_t p = 0; p < count; ++p)
             timed([&] {
-                if (parts[p].element_count >= 6) shells.push_back(make_piece(state, shell.row, parts[p], 1));
+                if (p != largest && parts[p].element_count >= 6)
+                    shells.push_back(make_piece(state, shell.row, parts[p], 1));
             });
     }
     void release(State& state) {
