@@ -49,6 +49,7 @@ void start_task(State& state, Row<Tasks> task) {
     const Row<Shells> source = tasks.source[task], working = tasks.shell[task];
     const bool is_assembled = state.shells.packs[source].count > 0;
     copy_shell_rows(state, state, source, working, is_assembled);
+    clear_spare_rows(state, working);
     const ShellView shell(state, working);
     begin_cracks(shell, state.shells.generation[source] > 0);
     if (!is_assembled) {

@@ -93,7 +93,7 @@ struct Opening {
         }
         const char* full = nullptr;
         const Row<Shells> source = bodies.shell[body];
-        const Row<Shells> working = make_shell(state, working_room(ShellView(state, source)), &full);
+        const Row<Shells> working = make_shell_unclear(state, working_room(ShellView(state, source)), &full);
         if (!working.exists()) {
             refused.push(refused_event(bodies, body, full));
             return {};

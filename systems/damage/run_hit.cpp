@@ -19,7 +19,8 @@ constexpr Row<Tasks> kTask{0};
 }  // namespace
 
 bool open_hit(State& state, Row<Shells> source, const HitDescription& hit) {
-    const Row<Shells> working = make_shell(state, working_room(ShellView(state, source)));
+    const Row<Shells> working =
+        make_shell_unclear(state, working_room(ShellView(state, source)));  // start_task fills it
     if (!working.exists()) return false;
     Tasks& tasks = state.tasks;
     tasks.clear_rows(kTask, 1);
