@@ -11,9 +11,9 @@
 #include "engine/jobs.hpp"
 #include "engine/random.hpp"
 #include "engine/simd.hpp"
+#include "perf/cook_vase.hpp"
 #include "perf/hidden_yardsticks.hpp"
 #include "perf/perf.hpp"
-#include "sample_game/meshes.hpp"
 #include "systems/cook/materials.hpp"
 #include "systems/cook/model_contents.hpp"
 #include "systems/damage/brittle_loop.hpp"
@@ -191,14 +191,7 @@ struct Limits {
 };
 
 bool measure(const char* name, float edge, const Limits& limits, const Options& options, Figures& figures) {
-    const Mesh mesh = make_vase(0.30f, edge);
-    MeshView view;
-    view.positions = mesh.positions.data(), view.position_count = mesh.positions.size();
-    view.indices = mesh.triangles[0].data(), view.triangle_count = mesh.triangles.size();
-    CookSettings settings;
-    settings.longest_edge = 100;  // the mesh has the edges that it should have
-    settings.measures_threshold = false;
-    const auto model = cook(view, settings);
+    const Result<Model> model = cook_vase(edge);
     if (!model.ok()) {
         std::printf("%s\n", model.error().c_str());
         return false;
