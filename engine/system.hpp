@@ -121,7 +121,7 @@ struct Serial {};
 
 /// The fixed step.
 struct Step {
-    float dt = 1.0f / 60.0f;  // s
+    float dt = 1.0f / 60.0f;     // s
     Vec3 gravity{0, -9.81f, 0};  // m/s2
     uint64_t frame = 0;
 };

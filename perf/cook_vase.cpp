@@ -1,6 +1,8 @@
 #include "perf/cook_vase.hpp"
 
 #include "sample_game/meshes.hpp"
+#include "systems/cook/materials.hpp"
+#include "systems/cook/model_contents.hpp"
 
 namespace cullet::perf {
 
@@ -13,6 +15,13 @@ Result<Model> cook_vase(float edge) {
     settings.longest_edge = 100;  // the mesh has the edges that it should have
     settings.measures_threshold = false;
     return cook(view, settings);
+}
+
+CookedVase::CookedVase(const Model& model)
+    : state(cooking_limits(3 * model.contents->report.vertices, 3 * model.contents->report.elements)) {
+    fill_materials(state.materials);
+    const char* full = nullptr;
+    shell = import_shell(state, model.contents->state, model.contents->shell, &full);
 }
 
 }  // namespace cullet::perf

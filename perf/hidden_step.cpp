@@ -14,8 +14,6 @@
 #include "perf/cook_vase.hpp"
 #include "perf/hidden_yardsticks.hpp"
 #include "perf/perf.hpp"
-#include "systems/cook/materials.hpp"
-#include "systems/cook/model_contents.hpp"
 #include "systems/damage/brittle_loop.hpp"
 #include "systems/damage/energy.hpp"
 #include "systems/damage/stress_check.hpp"
@@ -134,23 +132,14 @@ void shake(ShellView shell) {
     }
 }
 
-/// The vase as the game cooks it, and a task on it.
-struct Vase {
-    explicit Vase(const Model& model)
-        : state(cooking_limits(2 * model.contents->report.vertices, 2 * model.contents->report.elements)) {
-        fill_materials(state.materials);
-        const char* full = nullptr;
-        row = import_shell(state, model.contents->state, model.contents->shell, &full);
-        state.tasks.clear_rows(0, 1);
-        state.tasks.shell[0] = row;
-        state.tasks.time_step[0] = state.shells.time_step[row];
-        state.tasks.damping_time[0] = 0.15f * state.shells.time_step[row];
-        link_slopes(shell());
-    }
-    ShellView shell() { return {state, row}; }
-    State state;
-    Row<Shells> row;
-};
+void open_task(CookedVase& vase) {
+    Tasks& tasks = vase.state.tasks;
+    tasks.clear_rows(0, 1);
+    tasks.shell[0] = vase.shell;
+    tasks.time_step[0] = vase.state.shells.time_step[vase.shell];
+    tasks.damping_time[0] = 0.15f * tasks.time_step[0];
+    link_slopes(vase.view());
+}
 
 /// Our step as the frame runs it: the system, called by the inner loop on one thread or by a team.
 class OurStep {
@@ -169,9 +158,9 @@ class OurStep {
 };
 
 /// Largest difference of the places after as many steps of both, as a share of the largest displacement.
-double difference(Vase& vase, OurStep& ours, float dt, float beta) {
+double difference(CookedVase& vase, OurStep& ours, float dt, float beta) {
     constexpr uint32_t kSteps = 50;
-    const ShellView shell = vase.shell();
+    const ShellView shell = vase.view();
     shake(shell);
     BareHidden bare(shell, dt, beta);
     for (uint32_t i = 0; i < kSteps; ++i) bare.run_packs(i & 1, 0, bare.pack_count());
@@ -197,8 +186,9 @@ bool measure(const char* name, float edge, const Limits& limits, const Options& 
         return false;
     }
     const FpMode mode;
-    Vase vase(*model);
-    const ShellView shell = vase.shell();
+    CookedVase vase(*model);
+    open_task(vase);
+    const ShellView shell = vase.view();
     const float dt = vase.state.tasks.time_step[0], beta = vase.state.tasks.damping_time[0];
     OurStep ours(vase.state);
     const double apart = BareHidden::is_supported() ? difference(vase, ours, dt, beta) : 0;

@@ -13,7 +13,7 @@ build/release/sample_game run show_reel --out "$out" --contact-sheet "$@"
 cat <<END
 
 What there is to see, in $PWD/$out:
-  wall/sheet.png   a ball of 30 kg punches a hole into a brick wall: a star of cracks, a ring, bricks on the floor
+  wall/sheet.png   a ball of 30 kg goes through a brick wall: a star of cracks that run to its edges, slabs that fall behind it
   vase/sheet.png   a porcelain vase meets a table's edge, its shards fall to the floor and break again
   pane/sheet.png   a steel ball goes through a framed pane: nearly straight cracks to the frame
   drop/sheet.png   a hollow porcelain pig is thrown at a wall

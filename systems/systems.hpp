@@ -1,4 +1,5 @@
-// Every system of a frame. The parameters of each are all that it sees; frame.cpp gives their order.
+// Every system of a frame. The parameters of each are all that it sees, ShellTables standing for all tables of shells;
+// frame.cpp gives their order.
 #pragma once
 #include "systems/world_data.hpp"
 

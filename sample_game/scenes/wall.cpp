@@ -45,7 +45,7 @@ constexpr uint32_t kSheet[] = {0, 8, 10, 12, 15, 18, 24, 32, 45, 70, 140, 599};
 
 }  // namespace
 
-const Scene kWallScene{
-    "wall", "a ball of 30 kg breaks a hole into a brick wall whose foot is held", 600, kSheet, wall_keys, wall_plan};
+const Scene kWallScene{"wall",   "a ball of 30 kg goes through a brick wall whose foot is held", 600, kSheet, wall_keys,
+                       wall_plan};
 
 }  // namespace cullet

@@ -16,8 +16,8 @@ void build_patches(State& state, Row<Tasks> task);
 /// The spring of a row of PatchVertices, whose stiffness must not be 0.
 PatchSpring patch_spring(const PatchVertices& patches, uint32_t row);
 
-/// Forces along n from the depths travel - n.u_i before the step, and what they crush (crush.hpp). True when some spring
-/// pushes.
+/// Forces along n from the depths travel - n.u_i before the step, and what they crush (crush.hpp). True when some
+/// spring pushes.
 bool contact_forces(State& state, Row<Tasks> task);
 
 /// After the fused pass of the step that read `side` of the probe: adds dt f/m to v, dt^2 f/m to u, dt (dt + beta) f/m

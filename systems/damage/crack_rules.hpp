@@ -51,5 +51,4 @@ inline constexpr float kEquilateralArea = 0.433f;
 /// Cosine of the largest turn from the wanted direction to the edge that is taken instead: 60 degrees.
 inline constexpr float kTurnCosine = 0.5f;
 
-
 }  // namespace cullet

@@ -12,8 +12,8 @@ struct TaskEnergy {
 };
 
 /// Energy at (u, v) as they are. Sums in double over fixed chunks, added in order. Uses the side of the probe that the
-/// next step will write (steps_done tells which), and Elements.slope, as scratch: call it between steps. Costs about one
-/// step.
+/// next step will write (steps_done tells which), and Elements.slope, as scratch: call it between steps. Costs about
+/// one step.
 TaskEnergy task_energy(State& state, Row<Tasks> task);
 
 /// B7's redo criterion: energy above 1.05 of the start and of the work put in, or not finite.

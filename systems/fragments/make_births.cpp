@@ -64,7 +64,8 @@ void make_births(Serial, Step step, const Events<TaskEnded>& ended, ShellTables 
                 faults.push(
                     {body_id(bodies, tasks.body[task]), bodies.user_data[tasks.body[task]],
                      centre_of(bodies, tasks.body[task]),
-                     "A hit gained energy three times over, or made more than 1024 pieces; the body stays as it was."});
+                     "A hit gained energy three times over, made more than 1024 pieces, or found no room for its "
+                     "stiffness; the body stays as it was."});
         }
         pay_answers(bodies, tasks, contacts, rigid, task);
         counts.cuts += tasks.crack_count[task];

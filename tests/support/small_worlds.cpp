@@ -85,6 +85,19 @@ Breakage vase_and_ball(const Settings& settings, float speed, const Host& host, 
     return b;
 }
 
+World two_vases(const Settings& settings, float first_speed, float second_speed) {
+    World world = make_world(settings);
+    const ModelId model = world.add_model(small_vase()).value();
+    SpawnSettings vase;
+    vase.pose.position = {0, 0, 0.3f};
+    vase.motion.velocity = {0, 0, -first_speed};
+    (void)world.spawn(model, vase).value();
+    vase.pose.position = {0.01f, 0.02f, -0.3f};
+    vase.motion.velocity = {0, 0, second_speed};
+    (void)world.spawn(model, vase).value();
+    return world;
+}
+
 Breakage wall_and_ball(const Settings& settings, float speed, const Host& host) {
     Breakage b{make_world(settings, host), {}, {}};
     const Box foot{{-2, -0.01f, -1}, {2, 0.025f, 1}};

@@ -32,6 +32,8 @@ struct Breakage {
 };
 /// A vase at rest in mid-air, hit on its belly by a ball of 0.3 kg.
 Breakage vase_and_ball(const Settings& settings, float speed = 8, const Host& host = {}, float mass = 0.3f);
+/// Two vases in mid-air that fly at each other along z, m/s each.
+World two_vases(const Settings& settings, float first_speed, float second_speed);
 /// A wall whose foot is pinned, hit by a ball of 20 kg.
 Breakage wall_and_ball(const Settings& settings, float speed = 10, const Host& host = {});
 /// A pane pinned along its border, hit by a ball of 0.1 kg.

@@ -333,15 +333,7 @@ TEST(Births, WhereBothBreakTheLargerOnesLargestPieceTakesTheDifference) {
     for (const uint64_t budget : {uint64_t{1'000'000'000}, uint64_t{6'000'000}}) {
         Settings settings = small_settings();
         settings.units_a_frame = budget;
-        World world = make_world(settings);
-        const ModelId model = world.add_model(small_vase()).value();
-        SpawnSettings vase;
-        vase.pose.position = {0, 0, 0.3f};
-        vase.motion.velocity = {0, 0, -8};
-        (void)world.spawn(model, vase).value();
-        vase.pose.position = {0.01f, 0.02f, -0.3f};
-        vase.motion.velocity = {0, 0, 9};
-        (void)world.spawn(model, vase).value();
+        World world = two_vases(settings, 8, 9);
         const Matter before = matter_of(world);
         uint32_t waited = 0;
         after_each_system(world, [&](const std::string& system) {

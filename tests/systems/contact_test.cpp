@@ -160,7 +160,8 @@ TEST(Contact, WhatALiftPutsInIsNoEnergyOutOfNothing) {
         ASSERT_FALSE(is_blown_up(energy, 0)) << energy.total() << " J of " << energy.work << " J put in, step " << i;
     }
     EXPECT_NEAR(energy.total(), energy.work, 0.02 * energy.work);
-    EXPECT_GT(energy.work, 1.5 * 2 * 2 * f.state.shells.mass[f.shell]);  // impulse times speed; it leaves at up to 4 m/s
+    EXPECT_GT(energy.work,
+              1.5 * 2 * 2 * f.state.shells.mass[f.shell]);  // impulse times speed; it leaves at up to 4 m/s
 }
 
 TEST(Contact, ASpringBelowItsYieldForceIsElasticAndBeyondItGivesWayAtThatForce) {

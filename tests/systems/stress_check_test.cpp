@@ -143,7 +143,8 @@ TEST(StressCheck, ChunksGiveTheSameBitsAsOneCall) {
     f.displace(field), g.displace(field);
     const ShellView s = g.view();
     for (uint32_t e = 0; e < s.element_count(); e += 40) strain_elements(s, 0, e, std::min(40u, s.element_count() - e));
-    for (uint32_t e = 0; e < s.element_count(); e += 88) stress_elements(s, e, std::min(88u, s.element_count() - e), kNeverStarts);
+    for (uint32_t e = 0; e < s.element_count(); e += 88)
+        stress_elements(s, e, std::min(88u, s.element_count() - e), kNeverStarts);
     for (uint32_t e = 0; e < s.element_count(); ++e) {
         ASSERT_EQ(f.state.elements.principal[s.element(e)], g.state.elements.principal[s.element(e)]);
         ASSERT_EQ(f.state.elements.inner_stress[s.element(e)], g.state.elements.inner_stress[s.element(e)]);
