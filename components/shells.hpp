@@ -211,6 +211,7 @@ struct Cells : Table<Cells> {
     // Scratch of cell_hulls: a cell whose hull is to be chosen anew; the parent's cell that has the same points, kNone.
     Column<uint8_t> is_changed{*this, "is_changed", "1", Keep::Scratch};
     Column<uint32_t> same_cell{*this, "same_cell", "1", Keep::Scratch};
+    Column<uint32_t> shape{*this, "shape", "1", Keep::Scratch};  // RigidWorld's, of a hull chosen in this step; kNone
 };
 
 /// One row is a corner of a cell's hull, body frame, pulled in by the collision margin.

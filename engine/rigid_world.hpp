@@ -16,6 +16,7 @@ namespace cullet {
 
 using RigidId = uint32_t;  // the caller's own small integer (a row of Bodies), below the limit given at creation
 inline constexpr RigidId kNoRigid = 0xffffffffu;
+inline constexpr uint32_t kNoShape = 0xffffffffu;
 
 enum class RigidKind : uint8_t { Static, Kinematic, Dynamic };
 
@@ -28,6 +29,7 @@ struct ConvexPiece {
     /// points, costs the search.
     RigidId same_body = kNoRigid;
     uint32_t same_cell = 0;
+    uint32_t shape = kNoShape;  // of make_shape: the faces of these points are found already
 };
 
 struct RigidDescription {
@@ -86,6 +88,12 @@ class RigidWorld {
     /// New mass, centre, inertia and pieces for a body whose frame and pose stay (pieces came off, cells changed).
     virtual void set_shape(RigidId id, double mass, Vec3d centre, Sym3d inertia,
                            std::span<const ConvexPiece> pieces) = 0;
+
+    /// Shapes for pieces of this gap, numbered from 0: what finds the faces of a piece, most of the price of adding it,
+    /// may run ahead and on all threads. Those of the last call that no piece took are forgotten.
+    virtual void reserve_shapes(uint32_t count) = 0;
+    /// Finds the faces of these points. Writes to this shape alone: different ones may be made at once.
+    virtual void make_shape(uint32_t shape, std::span<const Vec3> points) const = 0;
 
     /// Finds contacts at the poses that bodies have now. Fast bodies, kinematic ones too, were stopped at their time of
     /// impact by the solve() before, half a millimetre away and with their velocities whole. At most 12 contacts a

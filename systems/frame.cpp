@@ -19,7 +19,13 @@ FramePlan<WorldData> make_frame_plan(const std::function<std::string()>& describ
         .then<advance_damage>()
         .shows("thick shell, brittle: 300 to 4,000 times a hit, on its own clock", describe_damage_loop)
         .then<settle_tasks>();
-    plan.stage("apply").then<find_parts>().then<make_births>();
+    plan.stage("apply")
+        .then<find_parts>()
+        .then<plan_births>()
+        .then<fill_births>()
+        .then<plan_hulls>()
+        .then<fill_hulls>()
+        .then<make_births>();
     plan.stage("solve").then<solve_rigid>().then<read_rigid>().then<fall_debris>();
     plan.stage("end").then<draw_shells>().then<compact_shells>();
     return plan;

@@ -42,14 +42,26 @@ void settle_tasks(Serial, Step step, Tasks& tasks, TaskContacts& contacts, Bodie
 
 /// Which elements of a broken shell hang together.
 void find_parts(Each<TaskEnded> ended, ShellTables shells, Tasks& tasks, Fragments& fragments);
-/// Plans, reserves and makes the bodies of the pieces, in order of mass; gives the striker the impulse that it really
-/// passed.
-void make_births(Serial, Step step, const Events<TaskEnded>& ended, ShellTables shells, Tasks& tasks,
-                 TaskContacts& contacts, QueuedHits& queued, Fragments& fragments, Bodies& bodies, Debris& debris,
-                 ViewVertices& view_vertices, ViewIndices& view_indices, RigidWorld& rigid,
-                 const DamageSettings& settings, DamageCounts& counts, Arena& arena, Events<ShellChanged>& changed,
-                 Events<CrackStartedEvent>& cracks, Events<FragmentBornEvent>& born, Events<DebrisEvent>& debris_events,
+/// Which pieces become bodies or crumbs, in order of mass, and the rows that they need. What stayed whole keeps its
+/// cracks. What finds no room stays part of the body, and asks again.
+void plan_births(Serial, const Events<TaskEnded>& ended, ShellTables shells, const Tasks& tasks, Fragments& fragments,
+                 QueuedHits& queued, Bodies& bodies, const Debris& debris, ViewVertices& view_vertices,
+                 ViewIndices& view_indices, const DamageSettings& settings, Arena& arena, Events<Break>& breaks,
+                 Events<Birth>& births, Events<ShellChanged>& changed, Events<CrackStartedEvent>& cracks,
                  Events<RefusedEvent>& refused, Events<FaultEvent>& faults);
+/// Copies each piece into its rows and marks the old ones dead.
+void fill_births(Each<Birth> birth, const Events<Break>& breaks, ShellTables shells, const Bodies& bodies);
+/// Measures what is left of each body; hulls of cells that moved as they were are copied, the others listed.
+void plan_hulls(Serial, const Events<Break>& breaks, ShellTables shells, Bodies& bodies, RigidWorld& rigid,
+                Events<HullWanted>& wanted);
+/// The hull points of each cell that changed, and the faces of its hull for the rigid world.
+void fill_hulls(Each<HullWanted> wanted, ShellTables shells, const RigidWorld& rigid);
+/// The pieces enter the rigid world, in order of mass; the striker gets the impulse that it really passed. Closes the
+/// tasks that ended.
+void make_births(Serial, Step step, const Events<TaskEnded>& ended, const Events<Break>& breaks, ShellTables shells,
+                 Tasks& tasks, TaskContacts& contacts, Bodies& bodies, Debris& debris, RigidWorld& rigid,
+                 DamageCounts& counts, Arena& arena, Events<ShellChanged>& changed, Events<FragmentBornEvent>& born,
+                 Events<DebrisEvent>& debris_events);
 
 // ---- solve
 

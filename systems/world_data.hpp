@@ -8,6 +8,7 @@
 #include "engine/arena.hpp"
 #include "engine/events.hpp"
 #include "engine/rigid_world.hpp"
+#include "systems/fragments/break.hpp"
 
 namespace cullet {
 
@@ -67,6 +68,9 @@ struct WorldData {
     Events<Impact> impacts;
     Events<TaskOpened> tasks_opened;
     Events<TaskEnded> tasks_ended;
+    Events<Break> breaks;
+    Events<Birth> births;
+    Events<HullWanted> hulls_wanted;
     Events<ShellChanged> shells_changed;
     // What the game reads after the step.
     Events<ImpactEvent> impact_events;
@@ -111,6 +115,12 @@ T& WorldData::resource() {
         return tasks_opened;
     else if constexpr (std::is_same_v<T, Events<TaskEnded>>)
         return tasks_ended;
+    else if constexpr (std::is_same_v<T, Events<Break>>)
+        return breaks;
+    else if constexpr (std::is_same_v<T, Events<Birth>>)
+        return births;
+    else if constexpr (std::is_same_v<T, Events<HullWanted>>)
+        return hulls_wanted;
     else if constexpr (std::is_same_v<T, Events<ShellChanged>>)
         return shells_changed;
     else if constexpr (std::is_same_v<T, Events<ImpactEvent>>)

@@ -1,6 +1,7 @@
 #include "engine/bullet/bullet_world.hpp"
 
 #include <algorithm>
+#include <utility>
 
 #include "engine/bullet/principal_axes.hpp"
 #include "engine/rigid_allocations.hpp"
@@ -49,6 +50,7 @@ BulletWorld::BulletWorld(uint32_t body_limit)
     manifolds_.reserve(8 * static_cast<size_t>(body_limit) + 1024);
     ignored_.reserve(16 * static_cast<size_t>(body_limit) + 1024);
     skipped_.reserve(16 * static_cast<size_t>(body_limit) + 1024);
+    shapes_.reserve(8 * static_cast<size_t>(body_limit) + 4096);
     seams_.reserve(4 * static_cast<size_t>(body_limit) + 4096);
 }
 
@@ -89,6 +91,40 @@ const Hull* BulletWorld::find_same(const ConvexPiece& piece, const Hull* old_hul
     return found && found->point_count == piece.points.size() ? found : nullptr;
 }
 
+void BulletWorld::reserve_shapes(uint32_t count) {
+    for (Hull* const hull : shapes_)
+        if (hull) hulls_.give(hull);
+    shapes_.clear();
+    InsideRigidEngine guard(counts_.allocations);
+    for (uint32_t shape = 0; shape < count; ++shape) shapes_.push_back(hulls_.take());
+}
+
+void BulletWorld::make_shape(uint32_t shape, std::span<const Vec3> points) const {
+    uint64_t allocations = 0;
+    {
+        InsideRigidEngine guard(allocations);
+        build_hull(*shapes_[shape], points, 0, 0);
+    }
+    shape_allocations_.fetch_add(allocations, std::memory_order_relaxed);
+}
+
+RigidCounts BulletWorld::counts() const {
+    RigidCounts counts = counts_;
+    counts.allocations += shape_allocations_.load(std::memory_order_relaxed);
+    return counts;
+}
+
+// Turned from the caller's axes into the body's. It may have fewer points than the piece: those inside are left out.
+Hull* BulletWorld::take_shape(const ConvexPiece& piece, const BodyFrame& frame, float margin) {
+    Hull* const hull = std::exchange(shapes_[piece.shape], nullptr);
+    const Quat to_axes = conjugate(frame.axes);
+    Vec3 local[kMaxPoints];
+    for (uint32_t k = 0; k < hull->point_count; ++k)
+        local[k] = rotate(to_axes, hull->local.centre + hull->local[k] - frame.centre);
+    build_hull_like(*hull, *hull, matrix(to_axes), {local, hull->point_count}, margin, piece.cell);
+    return hull;
+}
+
 namespace {
 
 Hull* unlink(Hull*& list, const Hull* wanted) {
@@ -120,9 +156,14 @@ void BulletWorld::set_pieces(Body& body, std::span<const ConvexPiece> pieces, fl
         const Hull* const same = piece.same_body == kNoRigid ? nullptr : find_same(piece, old_hulls, body.id, cursor);
         // The body's own hulls are turned where they stand.
         const bool is_own = same && piece.same_body == body.id;
-        Hull* const hull = is_own ? unlink(old_hulls, same) : hulls_.take();
+        const bool is_made = !same && piece.shape < shapes_.size() && shapes_[piece.shape];
+        Hull* const hull = is_own    ? unlink(old_hulls, same)
+                           : is_made ? take_shape(piece, body.frame, margin)
+                                     : hulls_.take();
         if (is_own && cursor == same) cursor = same->next;
-        if (same) {
+        if (is_made) {
+            // It is as it is to be.
+        } else if (same) {
             const Quat& axes = piece.same_body == body.id ? old_axes : bodies_[piece.same_body].frame.axes;
             build_hull_like(*hull, *same, matrix(to_axes * axes), {local, count}, margin, piece.cell);
         } else {

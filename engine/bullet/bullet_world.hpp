@@ -1,5 +1,6 @@
 // RigidWorld on Bullet: bookkeeping of bodies, the split step, holding, sleep.
 #pragma once
+#include <atomic>
 #include <vector>
 
 #include "engine/bullet/dynamics_world.hpp"
@@ -39,6 +40,8 @@ class BulletWorld final : public RigidWorld {
     void set_pose(RigidId id, const Pose& pose) override;
     void set_motion(RigidId id, const Motion& motion) override;
     void set_shape(RigidId id, double mass, Vec3d centre, Sym3d inertia, std::span<const ConvexPiece> pieces) override;
+    void reserve_shapes(uint32_t count) override;
+    void make_shape(uint32_t shape, std::span<const Vec3> points) const override;
     void detect(float dt) override;
     std::span<const RigidContact> contacts() const override { return contacts_; }
     void hold(RigidId id) override;
@@ -50,7 +53,7 @@ class BulletWorld final : public RigidWorld {
     float height_below(Vec3 point, float fallback) const override;
     bool is_asleep(RigidId id) const override;
     void wake(RigidId id) override;
-    RigidCounts counts() const override { return counts_; }
+    RigidCounts counts() const override;
     Vec3d impulse_to_static() const override { return to_static_; }
 
     /// Bullet's near callback: the narrow phase of one pair.
@@ -73,6 +76,7 @@ class BulletWorld final : public RigidWorld {
     void set_pieces(Body& body, std::span<const ConvexPiece> pieces, float margin, const Quat& old_axes);
     const Hull* find_same(const ConvexPiece& piece, const Hull* old_hulls, RigidId own, const Hull*& cursor) const;
     void drop_pieces(Body& body);
+    Hull* take_shape(const ConvexPiece& piece, const BodyFrame& frame, float margin);
     void mark_seams(Body& body);
     void measure_body(Body& body);
     void set_mass(Body& body, double mass, Vec3d centre, const Sym3d& inertia);
@@ -103,6 +107,8 @@ class BulletWorld final : public RigidWorld {
     uint32_t body_limit_, body_end_ = 0;  // no used id is at or above body_end_
     std::unique_ptr<Body[]> bodies_;
     Pool<Hull> hulls_;
+    std::vector<Hull*> shapes_;  // made ahead, in the caller's axes; null once a body has it
+    mutable std::atomic<uint64_t> shape_allocations_ = 0;
     PairWork work_;
     btDefaultCollisionConfiguration configuration_;
     Dispatcher dispatcher_;

@@ -131,12 +131,15 @@ void build_hull(Hull& hull, std::span<const Vec3> points, float margin, uint32_t
 
 void build_hull_like(Hull& hull, const Hull& like, const Mat3& turn, std::span<const Vec3> points, float margin,
                      uint32_t cell) {
+    const uint32_t faces = like.face_count, edges = like.edge_count;  // `like` may be this hull
     set_hull_points(hull, points, margin, cell);
-    hull.face_count = like.face_count;
-    hull.edge_count = like.edge_count;
-    std::copy_n(like.first_corner, like.face_count + 1, hull.first_corner);
-    std::copy_n(like.corner, like.first_corner[like.face_count], hull.corner);
-    std::copy_n(like.edge, like.edge_count, hull.edge);
+    hull.face_count = faces;
+    hull.edge_count = edges;
+    if (&hull != &like) {
+        std::copy_n(like.first_corner, faces + 1, hull.first_corner);
+        std::copy_n(like.corner, like.first_corner[faces], hull.corner);
+        std::copy_n(like.edge, edges, hull.edge);
+    }
     for (uint32_t f = 0; f < hull.face_count; ++f) hull.face_normal[f] = turn * like.face_normal[f];
     set_heights(hull);
 }

@@ -69,7 +69,8 @@ struct Hull {
 /// two faces of their polygon; points on a line get none.
 void build_hull(Hull& hull, std::span<const Vec3> points, float margin, uint32_t cell);
 /// The same, of the points that `like` was made of, seen in other axes: `turn` takes a direction from its axes into
-/// these. Corners and edges are copied and normals turned, which costs a tenth of finding them.
+/// these. Corners and edges are copied and normals turned, which costs a tenth of finding them. `like` may be
+/// the hull itself.
 void build_hull_like(Hull& hull, const Hull& like, const Mat3& turn, std::span<const Vec3> points, float margin,
                      uint32_t cell);
 /// A static triangle in world axes: one face, to the side that its corners run counter-clockwise around.

@@ -137,37 +137,48 @@ Frame cell_frame(const ShellView& shell, uint32_t first) {
     return {x, cross(n, x), n};
 }
 
-/// A cell's vertices, each once, with the sum of the ways in from the free edges that it is an end of.
+/// A cell's vertices, each once, with the sum of the ways in from the free edges that it is an end of. Neighbouring
+/// cells share vertices and are worked off at once, so the places are kept here and not in a column: a table with open
+/// addresses, never fuller than three eighths.
 struct CellVertices {
+    static constexpr uint32_t kPlaces = 2048;
+    static_assert(8 * kMostVertices <= 3 * kPlaces);
     uint32_t vertex[kMostVertices];
     Vec3 way_in[kMostVertices];
+    uint16_t place[kPlaces];  // number of the vertex plus 1, or 0
     uint32_t count = 0;
+
+    void clear() {
+        std::fill_n(place, kPlaces, uint16_t{0});
+        count = 0;
+    }
+    uint32_t number_of(uint32_t v) {
+        uint32_t at = v * 2654435761u >> 21;
+        while (place[at] && vertex[place[at] - 1] != v) at = (at + 1) % kPlaces;
+        if (place[at]) return place[at] - 1u;
+        vertex[count] = v;
+        way_in[count] = {};
+        place[at] = static_cast<uint16_t>(++count);
+        return count - 1;
+    }
 };
 
 /// Of the list's elements from `first` on, up to `last`.
 void gather_vertices(const ShellView& shell, uint32_t first, uint32_t last, CellVertices& found) {
     const Elements& elements = shell.state.elements;
-    Column<uint32_t>& slot = shell.state.vertices.copy;
-    found.count = 0;
-    for (uint32_t e = first; e != last; e = next_of(shell, e))
-        for (uint32_t v : elements.corner[shell.element(e)]) slot[shell.vertex(v)] = kNone;
+    found.clear();
     for (uint32_t e = first; e != last; e = next_of(shell, e)) {
         const uint32_t row = shell.element(e);
         const auto& corner = elements.corner[row];
-        for (uint32_t v : corner) {
-            uint32_t& s = slot[shell.vertex(v)];
-            if (s != kNone) continue;
-            s = found.count++;
-            found.vertex[s] = v;
-            found.way_in[s] = {};
-        }
+        uint32_t number[3];
+        for (int k = 0; k < 3; ++k) number[k] = found.number_of(corner[k]);
         for (int k = 0; k < 3; ++k) {
             if (elements.neighbour[row][k] != kNone) continue;
             const auto [p] = outer_triangle(shell, e);
             const Vec3 normal = cross(p[1] - p[0], p[2] - p[0]);
             const Vec3 in = normalised(cross(normal, p[(k + 1) % 3] - p[k]));
-            found.way_in[slot[shell.vertex(corner[k])]] += in;
-            found.way_in[slot[shell.vertex(corner[(k + 1) % 3])]] += in;
+            found.way_in[number[k]] += in;
+            found.way_in[number[(k + 1) % 3]] += in;
         }
     }
 }
@@ -207,26 +218,25 @@ uint32_t cell_row(const ShellView& shell, uint32_t cell) {
     return shell.shells().cells[shell.row].first + cell;
 }
 
-void append_points(const ShellView& shell, uint32_t cell, const Candidates& list) {
-    Range& points = shell.shells().points[shell.row];
-    CULLET_ASSERT(points.count + list.count <= points.capacity, "hull points of cell %u do not fit", cell);
-    for (uint32_t i = 0; i < list.count; ++i)
-        shell.state.hull_points.point.set(points.first + points.count + i, list.point(i));
-    Cells& cells = shell.state.cells;
-    cells.first_point[cell_row(shell, cell)] = points.count;
-    cells.point_count[cell_row(shell, cell)] = list.count;
-    points.count += list.count;
+// Until pack_hulls, the points of cell c stand from row 32 c of the shell's range on.
+void write_points(const ShellView& shell, uint32_t cell, const Candidates& list) {
+    const uint32_t first = kMostHullPoints * cell, to = shell.shells().points[shell.row].first + first;
+    for (uint32_t i = 0; i < list.count; ++i) shell.state.hull_points.point.set(to + i, list.point(i));
+    shell.state.cells.first_point[cell_row(shell, cell)] = first;
+    shell.state.cells.point_count[cell_row(shell, cell)] = list.count;
 }
 
-void append_copies(const ShellView& shell, uint32_t cell, uint32_t first_row, uint32_t count) {
-    Range& points = shell.shells().points[shell.row];
-    CULLET_ASSERT(points.count + count <= points.capacity, "hull points of cell %u do not fit", cell);
+void copy_points(const ShellView& shell, uint32_t cell, uint32_t first_row, uint32_t count) {
+    const uint32_t first = kMostHullPoints * cell;
     HullPoints& table = shell.state.hull_points;
-    table.copy_rows(table, first_row, points.first + points.count, count);
-    Cells& cells = shell.state.cells;
-    cells.first_point[cell_row(shell, cell)] = points.count;
-    cells.point_count[cell_row(shell, cell)] = count;
-    points.count += count;
+    table.copy_rows(table, first_row, shell.shells().points[shell.row].first + first, count);
+    shell.state.cells.first_point[cell_row(shell, cell)] = first;
+    shell.state.cells.point_count[cell_row(shell, cell)] = count;
+}
+
+void check_room(const ShellView& shell) {
+    CULLET_ASSERT(shell.shells().points[shell.row].capacity >= kMostHullPoints * shell.shells().cells[shell.row].count,
+                  "hull points of shell %u do not fit", shell.row.index);
 }
 
 /// Links the elements of each cell in rising order, and counts them: elements stand sorted by cell.
@@ -273,34 +283,44 @@ float hull_margin(const ShellView& shell) {
     return std::min(0.2f * shell.shells().thickness[shell.row], 0.001f);
 }
 
-void build_hulls(ShellView shell) {
+void choose_hull(ShellView shell, uint32_t cell) {
     Workspace work;
-    link_sorted(shell);
-    shell.shells().points[shell.row].count = 0;
+    choose_points(shell, shell.state.cells.first_element[cell_row(shell, cell)], hull_margin(shell), work);
+    write_points(shell, cell, work.list);
+}
+
+void pack_hulls(ShellView shell) {
+    Cells& cells = shell.state.cells;
+    Range& points = shell.shells().points[shell.row];
+    points.count = 0;
     for (uint32_t c = 0; c < shell.shells().cells[shell.row].count; ++c) {
-        choose_points(shell, shell.state.cells.first_element[cell_row(shell, c)], hull_margin(shell), work);
-        append_points(shell, c, work.list);
+        const uint32_t row = cell_row(shell, c), count = cells.point_count[row];
+        shell.state.hull_points.copy_rows(shell.state.hull_points, points.first + cells.first_point[row],
+                                          points.first + points.count, count);
+        cells.first_point[row] = points.count;
+        points.count += count;
     }
 }
 
-void build_piece_hulls(ShellView piece, ShellView parent) {
-    Workspace work;
+void build_hulls(ShellView shell) {
+    link_sorted(shell);
+    check_room(shell);
+    for (uint32_t c = 0; c < shell.shells().cells[shell.row].count; ++c) choose_hull(shell, c);
+    pack_hulls(shell);
+}
+
+void copy_piece_hulls(ShellView piece, ShellView parent, float parents_margin) {
     Cells& cells = piece.state.cells;
     link_sorted(piece);
-    const float margin = hull_margin(piece), parents = hull_margin(parent);
-    const bool may_copy = std::fabs(margin - parents) <= 0.05f * parents;
+    check_room(piece);
+    const bool may_copy = std::fabs(hull_margin(piece) - parents_margin) <= 0.05f * parents_margin;
     const uint32_t parent_points = parent.shells().points[parent.row].first;
-    piece.shells().points[piece.row].count = 0;
     for (uint32_t c = 0; c < piece.shells().cells[piece.row].count; ++c) {
         uint32_t& same = cells.same_cell[cell_row(piece, c)];
         if (!may_copy) same = kNone;
-        if (same != kNone) {
-            const uint32_t from = cell_row(parent, same);
-            append_copies(piece, c, parent_points + cells.first_point[from], cells.point_count[from]);
-            continue;
-        }
-        choose_points(piece, cells.first_element[cell_row(piece, c)], margin, work);
-        append_points(piece, c, work.list);
+        if (same == kNone) continue;
+        const uint32_t from = cell_row(parent, same);
+        copy_points(piece, c, parent_points + cells.first_point[from], cells.point_count[from]);
     }
 }
 
@@ -323,8 +343,7 @@ void find_changed_cells(ShellView shell, ShellView before) {
     }
 }
 
-void renew_hulls(ShellView shell, Range points, ShellView before) {
-    Workspace work;
+void copy_rest_hulls(ShellView shell, Range points, ShellView before) {
     Cells& cells = shell.state.cells;
     const uint32_t count = shell.shells().cells[shell.row].count;
     for (uint32_t c = 0; c < count; ++c) {  // before counts are changed where `before` is the same shell
@@ -334,19 +353,15 @@ void renew_hulls(ShellView shell, Range points, ShellView before) {
         cells.point_count[row] = cells.point_count[then];
     }
     link_live(shell);
-    const float margin = hull_margin(shell);
-    shell.shells().points[shell.row].count = 0;
+    check_room(shell);
     for (uint32_t c = 0; c < count; ++c) {
         const uint32_t row = cell_row(shell, c);
         const bool is_same = !cells.is_changed[row] && cells.element_count[row] == cells.list_count[row];
         cells.same_cell[row] = is_same ? c : kNone;
-        if (is_same) {
-            append_copies(shell, c, points.first + cells.first_point[row], cells.point_count[row]);
-            continue;
-        }
-        choose_points(shell, cells.first_element[row], margin, work);
-        append_points(shell, c, work.list);
-        cells.is_stale[row] = 0;
+        if (is_same)
+            copy_points(shell, c, points.first + cells.first_point[row], cells.point_count[row]);
+        else
+            cells.is_stale[row] = 0;
     }
 }
 

@@ -129,11 +129,10 @@ void order_vertices(const ShellView& shell, const FragmentPart& part, const Shel
     for (uint32_t i = 0; i < count; ++i) vertices.copy[shell.vertex(source[i])] = i;
 }
 
-/// Row of `vertex` in the piece, or kNone when the piece does not have it (the mark is then an older piece's).
-uint32_t vertex_in_piece(const ShellView& shell, const uint32_t* source, uint32_t count, uint32_t vertex) {
-    if (vertex >= shell.vertex_count()) return kNone;
-    const uint32_t copy = shell.state.vertices.copy[shell.vertex(vertex)];
-    return copy < count && source[copy] == vertex ? copy : kNone;
+/// Row of `vertex` in the piece, or kNone when the piece does not have it.
+uint32_t vertex_in_piece(const uint32_t* source, uint32_t count, uint32_t vertex) {
+    const uint32_t* at = std::lower_bound(source, source + count, vertex);
+    return at < source + count && *at == vertex ? static_cast<uint32_t>(at - source) : kNone;
 }
 
 void copy_vertices(const ShellView& shell, const ShellView& piece, uint32_t count) {
@@ -151,7 +150,7 @@ void copy_vertices(const ShellView& shell, const ShellView& piece, uint32_t coun
     for (uint32_t i = 0; i < count; ++i) {
         const uint32_t row = piece.vertex(i);
         if (vertices.crack_start[row] != kNone)
-            vertices.crack_start[row] = vertex_in_piece(shell, source, count, vertices.crack_start[row]);
+            vertices.crack_start[row] = vertex_in_piece(source, count, vertices.crack_start[row]);
         const bool counts = vertices.crack[row] == static_cast<uint8_t>(CrackState::Tip) || is_whole;
         if (counts && vertices.crack[row]) piece.shells().has_cracks[piece.row] = 1;
         vertices.ready_time[row] = 0;
@@ -164,35 +163,34 @@ void copy_vertices(const ShellView& shell, const ShellView& piece, uint32_t coun
     piece.vertices().count = count;
 }
 
-/// Copies elements and springs cell by cell; cells get the numbers 0, 1, ... by their first element, or keep those that
-/// they have. Cells.same_cell: the whole cell moved as it was.
-void copy_elements(const ShellView& shell, const FragmentPart& part, const ShellView& piece, bool keeps_cells) {
-    Elements& elements = shell.state.elements;
-    Cells& cells = shell.state.cells;
-    uint32_t count = 0, cell_count = 0;
+/// Calls visit(cell, its row) for each cell that is left, in the order of their first elements.
+template <class Visit>
+void for_each_cell(const ShellView& shell, const FragmentPart& part, Visit visit) {
+    const Cells& cells = shell.state.cells;
     for_each_element(shell, part, [&](uint32_t head) {
-        const uint32_t cell = elements.cell[shell.element(head)], c = cell_row(shell, cell);
-        if (cells.first_element[c] != head || cells.merged[c] != cell) return;
-        const uint32_t number = keeps_cells ? cell : cell_count++;
-        const bool is_same = !cells.is_changed[c] && cells.list_count[c] == cells.element_count[c];
-        cells.same_cell[cell_row(piece, number)] = is_same ? cell : kNone;
-        for (uint32_t e = head; e != kNone;) {
-            const uint32_t first = e, to = count;
-            uint32_t next = e;
-            do {
-                elements.copy[shell.element(next)] = count++;
-                next = elements.next_in_cell[shell.element(e = next)];
-            } while (next == e + 1);
-            const uint32_t rows = count - to;
-            elements.copy_rows(elements, shell.element(first), piece.element(to), rows);
-            shell.state.triangle_springs.copy_rows(shell.state.triangle_springs, shell.element(first),
-                                                   piece.element(to), rows);
-            for (uint32_t i = to; i < count; ++i) elements.cell[piece.element(i)] = number;
-            e = next;
-        }
+        const uint32_t cell = shell.state.elements.cell[shell.element(head)], c = cell_row(shell, cell);
+        if (cells.first_element[c] == head && cells.merged[c] == cell) visit(cell, c);
     });
-    piece.elements().count = count;
-    if (!keeps_cells) piece.shells().cells[piece.row].count = cell_count;
+}
+
+/// Copies the elements and springs of one cell's list behind those that the piece has.
+void copy_cell(const ShellView& shell, const ShellView& piece, uint32_t head, uint32_t number) {
+    Elements& elements = shell.state.elements;
+    uint32_t& count = piece.elements().count;
+    for (uint32_t e = head; e != kNone;) {
+        const uint32_t first = e, to = count;
+        uint32_t next = e;
+        do {
+            elements.copy[shell.element(next)] = count++;
+            next = elements.next_in_cell[shell.element(e = next)];
+        } while (next == e + 1);
+        const uint32_t rows = count - to;
+        elements.copy_rows(elements, shell.element(first), piece.element(to), rows);
+        shell.state.triangle_springs.copy_rows(shell.state.triangle_springs, shell.element(first), piece.element(to),
+                                               rows);
+        for (uint32_t i = to; i < count; ++i) elements.cell[piece.element(i)] = number;
+        e = next;
+    }
 }
 
 uint32_t copy_hinge(const ShellView& shell, const ShellView& piece, uint32_t hinge) {
@@ -230,7 +228,7 @@ void renumber_elements(const ShellView& shell, const FragmentPart& part, const S
     });
 }
 
-void inherit(Shells& shells, Row<Shells> from, Row<Shells> to, uint8_t generation) {
+void inherit(Shells& shells, Row<Shells> from, Row<Shells> to) {
     shells.material[to] = shells.material[from];
     shells.intact_mass[to] = shells.intact_mass[from];
     shells.depth_floor[to] = shells.depth_floor[from];
@@ -240,7 +238,6 @@ void inherit(Shells& shells, Row<Shells> from, Row<Shells> to, uint8_t generatio
     shells.hinge_limit[to] = shells.hinge_limit[from];
     shells.vertex_limit[to] = shells.vertex_limit[from];
     shells.first_crack_speed[to] = shells.first_crack_speed[from];
-    shells.generation[to] = generation;
 }
 
 ShellRoom room_of(const Counts& counts, const FragmentPart& part) {
@@ -261,13 +258,8 @@ ShellRoom piece_room(ShellView broken, const FragmentPart& part) {
 
 namespace {
 
-/// Everything but cells' hulls; marks are laid.
-void fill_piece(const ShellView& shell, const FragmentPart& part, const ShellView& piece, uint32_t vertex_count,
-                uint8_t generation, bool keeps_cells) {
-    inherit(shell.shells(), shell.row, piece.row, generation);
-    order_vertices(shell, part, piece, vertex_count);
-    copy_vertices(shell, piece, vertex_count);
-    copy_elements(shell, part, piece, keeps_cells);
+/// What follows the copied elements.
+void finish_piece(const ShellView& shell, const FragmentPart& part, const ShellView& piece, uint32_t vertex_count) {
     renumber_elements(shell, part, piece);
     clear_spare_rows(shell.state, piece.row);
     piece.vertices().count = (vertex_count + kLanes - 1) / kLanes * kLanes;
@@ -275,21 +267,50 @@ void fill_piece(const ShellView& shell, const FragmentPart& part, const ShellVie
     measure_shell(piece);
 }
 
+void begin_piece(const ShellView& shell, const FragmentPart& part, const ShellView& piece, uint32_t vertex_count) {
+    inherit(shell.shells(), shell.row, piece.row);
+    order_vertices(shell, part, piece, vertex_count);
+    copy_vertices(shell, piece, vertex_count);
+}
+
 }  // namespace
 
-Row<Shells> make_piece(State& state, Row<Shells> broken, const FragmentPart& part, uint8_t generation,
-                       const char** full, Row<Shells> hulls) {
+// Cells of the broken shell may be shared by parts: what they say of this one is written to the piece's own.
+Row<Shells> reserve_piece(State& state, Row<Shells> broken, const FragmentPart& part, uint8_t generation,
+                          const char** full) {
     const ShellView shell(state, broken);
     Counts counts = mark_part(shell, part);
     counts.cells = merge_small_cells(shell, part, counts.cells);
     const Row<Shells> row = make_shell_unclear(state, room_of(counts, part), full);
     if (!row.exists()) return row;
     const ShellView piece(state, row);
-    fill_piece(shell, part, piece, counts.vertices, generation, false);
-    if (hulls.exists())
-        build_piece_hulls(piece, ShellView(state, hulls));
-    else
-        build_hulls(piece);
+    state.shells.generation[row] = generation;
+    piece.vertices().count = counts.vertices;
+    Cells& cells = state.cells;
+    for_each_cell(shell, part, [&](uint32_t cell, uint32_t c) {
+        const uint32_t own = cell_row(piece, state.shells.cells[row].count++);
+        const bool is_same = !cells.is_changed[c] && cells.list_count[c] == cells.element_count[c];
+        cells.first_element[own] = cells.first_element[c];
+        cells.same_cell[own] = is_same ? cell : kNone;
+    });
+    return row;
+}
+
+void fill_piece(State& state, Row<Shells> broken, const FragmentPart& part, Row<Shells> row) {
+    const ShellView shell(state, broken), piece(state, row);
+    const uint32_t vertex_count = piece.vertex_count();
+    begin_piece(shell, part, piece, vertex_count);
+    for (uint32_t c = 0; c < state.shells.cells[row].count; ++c)
+        copy_cell(shell, piece, state.cells.first_element[cell_row(piece, c)], c);
+    finish_piece(shell, part, piece, vertex_count);
+}
+
+Row<Shells> make_piece(State& state, Row<Shells> broken, const FragmentPart& part, uint8_t generation,
+                       const char** full) {
+    const Row<Shells> row = reserve_piece(state, broken, part, generation, full);
+    if (!row.exists()) return row;
+    fill_piece(state, broken, part, row);
+    build_hulls(ShellView(state, row));
     return row;
 }
 
@@ -302,7 +323,11 @@ Row<Shells> compact_shell(State& state, Row<Shells> old, const FragmentPart& who
     const Row<Shells> row = make_shell_unclear(state, room, full);
     if (!row.exists()) return row;
     const ShellView piece(state, row);
-    fill_piece(shell, whole, piece, counts.vertices, state.shells.generation[old], true);
+    state.shells.generation[row] = state.shells.generation[old];
+    begin_piece(shell, whole, piece, counts.vertices);
+    for_each_cell(shell, whole,
+                  [&](uint32_t cell, uint32_t c) { copy_cell(shell, piece, state.cells.first_element[c], cell); });
+    finish_piece(shell, whole, piece, counts.vertices);
     Range &cells = state.shells.cells[row], &points = state.shells.points[row];
     cells.count = room.cells;
     points.count = room.points;

@@ -25,7 +25,6 @@ void shed_part(ShellView shell, const FragmentPart& part) {
             if (h != kNone) hinges.vertex[shell.hinge(h)] = {kNone, kNone, kNone, kNone};
         }
     }
-    shell.shells().dead_elements[shell.row] += part.element_count;
 }
 
 void clear_run(ShellView shell, bool is_whole) {
@@ -46,12 +45,11 @@ void clear_run(ShellView shell, bool is_whole) {
     shell.shells().has_cracks[shell.row] = has_cracks;
 }
 
-void measure_rest(ShellView shell, const ShellSums& before, const ShellSums& left, uint32_t left_elements) {
-    const uint32_t live = shell.element_count() - shell.shells().dead_elements[shell.row];
-    if (left_elements > live)
-        measure_shell(shell);
-    else
-        write_sums(shell, before - left);
+void measure_part(ShellView shell, const FragmentPart& part) {
+    ShellSums sums;
+    for (uint32_t e = part.first_element; e != kNone; e = shell.state.elements.next[shell.element(e)])
+        sums = sums + element_sums(shell, e);
+    write_sums(shell, sums);
 }
 
 void adopt_shell(State& state, Row<Bodies> body, Row<Shells> shell) {

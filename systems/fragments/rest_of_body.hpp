@@ -8,17 +8,16 @@
 
 namespace cullet {
 
-/// Marks elements, vertices and hinges of a part dead. The part's list of elements stays readable. O(the part).
+/// Marks elements, vertices and hinges of a part dead, on any thread: no other part has them. The part's list of
+/// elements stays readable; dead_elements is the caller's affair. O(the part).
 void shed_part(ShellView shell, const FragmentPart& part);
 
 /// After the last shed_part: has_cracks, marks of cracks that pieces took with them, and the hidden run's state, which
 /// is cleared. Fragments (`is_whole` false) count as cracked while a tip is left. O(the shell's vertices).
 void clear_run(ShellView shell, bool is_whole);
 
-/// Masses, area and thickness of what is left, in double: `before` less what `left`, or summed anew where more left
-/// than stayed.
-struct ShellSums;
-void measure_rest(ShellView shell, const ShellSums& before, const ShellSums& left, uint32_t left_elements);
+/// Mass properties, area and thickness of the shell, summed over its one part that will be left.
+void measure_part(ShellView shell, const FragmentPart& part);
 
 /// The body's own shell is `shell` from here on, without the stiffness rows that only a task needs.
 void adopt_shell(State& state, Row<Bodies> body, Row<Shells> shell);

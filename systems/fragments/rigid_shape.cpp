@@ -5,7 +5,7 @@
 
 namespace cullet {
 
-std::span<const ConvexPiece> convex_pieces(const State& state, Row<Shells> shell, Arena& arena, RigidId same_body) {
+std::span<const ConvexPiece> convex_pieces(const State& state, Row<Shells> shell, Arena& arena, RigidId broken_body) {
     const Range cells = state.shells.cells[shell];
     const uint32_t first_point = state.shells.points[shell].first;
     const auto pieces = arena.take<ConvexPiece>(cells.count);
@@ -16,8 +16,14 @@ std::span<const ConvexPiece> convex_pieces(const State& state, Row<Shells> shell
         const auto points = arena.take<Vec3>(point_count);
         for (uint32_t p = 0; p < points.size(); ++p)
             points[p] = state.hull_points.point[first_point + state.cells.first_point[cells.first + c] + p];
-        const uint32_t same = same_body == kNoRigid ? kNone : state.cells.same_cell[cells.first + c];
-        pieces[count++] = {points, c, same == kNone ? kNoRigid : same_body, same};
+        pieces[count] = {points, c};
+        if (broken_body != kNoRigid) {
+            const uint32_t same = state.cells.same_cell[cells.first + c];
+            pieces[count].same_body = same == kNone ? kNoRigid : broken_body;
+            pieces[count].same_cell = same;
+            pieces[count].shape = state.cells.shape[cells.first + c];
+        }
+        ++count;
     }
     return pieces.first(count);
 }

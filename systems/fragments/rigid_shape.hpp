@@ -6,10 +6,11 @@
 
 namespace cullet {
 
-/// Hulls of all cells that have points; the spans live in the arena. With `same_body`, Cells.same_cell tells which of
-/// that body's hulls have the same points.
+/// Hulls of all cells that have points; the spans live in the arena. With `broken_body`, the one
+/// that came apart in this step, Cells.same_cell tells which of its hulls have the same points, and Cells.shape which
+/// were made ahead.
 std::span<const ConvexPiece> convex_pieces(const State& state, Row<Shells> shell, Arena& arena,
-                                           RigidId same_body = kNoRigid);
+                                           RigidId broken_body = kNoRigid);
 /// All that the rigid world needs for a body with a shell, from its row.
 RigidDescription describe_rigid(const State& state, Row<Bodies> body, std::span<const ConvexPiece> pieces);
 /// Writes mass, centre, inertia and radius of the body's row from its shell.

@@ -2,7 +2,7 @@
 #pragma once
 #include <span>
 
-#include "systems/fragments/break_body.hpp"
+#include "systems/fragments/make_break.hpp"
 #include "systems/fragments/rigid_handoff.hpp"
 
 namespace cullet {

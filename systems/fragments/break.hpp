@@ -1,0 +1,57 @@
+// What the systems that make pieces hand to each other in one step.
+#pragma once
+#include <span>
+
+#include "components/state.hpp"
+#include "systems/fragments/group_fragments.hpp"
+#include "systems/fragments/mass_properties.hpp"
+#include "systems/fragments/rigid_handoff.hpp"
+
+namespace cullet {
+
+/// A body that comes apart: some of its parts leave as bodies or crumbs. Spans are of the frame's arena, one entry a
+/// part but for `order`.
+struct Break {
+    Row<Tasks> task;     // or none: a body whose loose pieces found no room asks again
+    Row<Bodies> body;    // the largest part keeps it, and its rows in `broken`
+    Row<Shells> broken;  // the body's own shell, or a task's that has the same cells
+    Row<Shells> before;  // the body's shell so far
+    std::span<FragmentPart> parts;
+    std::span<PartMotion> motions;
+    std::span<uint32_t> order;     // parts, heaviest first
+    std::span<Row<Bodies>> child;  // new bodies
+    std::span<uint8_t> is_crumb;
+    uint32_t largest = 0;
+    uint32_t clamped = 0;        // motions that were
+    uint32_t left_elements = 0;  // of all parts that leave
+    ShellSums whole;             // of `broken` before they do
+    float margin = 0;            // of the body's hulls so far
+    Range points = {};           // for the hulls of what is left
+    bool is_refused = false;     // some part stays for want of room
+
+    bool leaves(uint32_t part) const { return child[part].exists() || is_crumb[part]; }
+    bool is_broken() const {
+        for (uint32_t p = 0; p < parts.size(); ++p)
+            if (leaves(p)) return true;
+        return false;
+    }
+    /// More is gone than stays: what stays is measured anew, not as a difference.
+    bool is_rest_smaller(const State& state) const {
+        const Shells& s = state.shells;
+        return left_elements > s.elements[broken].count - s.dead_elements[broken] - left_elements;
+    }
+};
+
+/// One part of a break, whose rows are to be filled.
+struct Birth {
+    uint32_t of;  // in Events<Break>
+    uint32_t part;
+};
+
+/// A cell of a body that came apart, whose hull is to be chosen.
+struct HullWanted {
+    Row<Shells> shell;
+    uint32_t cell;
+};
+
+}  // namespace cullet

@@ -1,0 +1,21 @@
+#include "systems/fragments/make_piece.hpp"
+#include "systems/fragments/rest_of_body.hpp"
+#include "systems/systems.hpp"
+
+namespace cullet {
+
+// Parts share no element, vertex or hinge; cells, which they may share, were dealt with when the rows were taken.
+void fill_births(Each<Birth> birth, const Events<Break>& breaks, ShellTables shells, const Bodies& bodies) {
+    State& state = shells.state;
+    const Break& plan = breaks.all()[birth->of];
+    const FragmentPart& part = plan.parts[birth->part];
+    const ShellView broken(state, plan.broken);
+    if (birth->part == plan.largest) {
+        if (plan.is_rest_smaller(state)) measure_part(broken, part);
+        return;
+    }
+    if (plan.child[birth->part].exists()) fill_piece(state, plan.broken, part, bodies.shell[plan.child[birth->part]]);
+    shed_part(broken, part);
+}
+
+}  // namespace cullet

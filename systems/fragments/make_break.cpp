@@ -1,0 +1,219 @@
+#include "systems/fragments/make_break.hpp"
+
+#include <algorithm>
+
+#include "systems/damage/thresholds.hpp"
+#include "systems/fragments/cell_hulls.hpp"
+#include "systems/fragments/rigid_shape.hpp"
+#include "systems/fragments/strike_back.hpp"
+#include "systems/rigid/body_id.hpp"
+
+namespace cullet {
+namespace {
+
+// Siblings that start in touch, and a striker beside the shards it made, are not tested against each other for so long.
+constexpr float kSiblingSeconds = 0.25f, kStrikerSeconds = 0.1f;
+constexpr float kTouch = 0.004f;  // m between the bounds of two siblings that count as in touch
+
+// What turns the hidden state's motions into the world's. `change` is the body's motion now less the hidden motion that
+// stands for it, both in body axes about the pieces' common centre. On time that is its motion at the touch: zero,
+// unless something pushed the body while it was held. Late it is the hidden state's mean, because the rigid solver has
+// passed the blow's impulse already; a pinned body has no motion to be relative to.
+struct Moment {
+    Pose pose;
+    Vec3d centre;  // of the pieces' vertices, body frame
+    Vec3d velocity_change, spin_change;
+    bool is_late;
+};
+
+struct Mean {
+    double mass = 0;
+    Vec3d centre, velocity, spin;  // body axes; at rest when some part is pinned
+};
+
+Mean mean_of(std::span<const PartMotion> motions) {
+    Mean mean;
+    bool is_pinned = false;
+    Vec3d momentum, turning;
+    for (const PartMotion& m : motions) {
+        mean.mass += m.mass;
+        mean.centre += m.mass * m.centre;
+        momentum += m.momentum;
+        is_pinned = is_pinned || m.is_static;
+    }
+    if (!(mean.mass > 0)) return mean;
+    mean.centre = (1 / mean.mass) * mean.centre;
+    if (is_pinned) return mean;
+    mean.velocity = (1 / mean.mass) * momentum;
+    Sym3d inertia;
+    for (const PartMotion& m : motions) {
+        if (!(m.mass > 0)) continue;
+        const Vec3d arm = m.centre - mean.centre;
+        inertia = inertia + m.inertia + m.mass * inertia_of(outer(arm));
+        turning += m.inertia * m.spin + cross(arm, m.momentum);
+    }
+    const double scale = trace(inertia);
+    if (determinant(inertia) > 1e-12 * scale * scale * scale) mean.spin = inverse(inertia) * turning;
+    return mean;
+}
+
+Moment moment_of(const State& state, Row<Tasks> task, std::span<const PartMotion> motions) {
+    const Row<Bodies> body = state.tasks.body[task];
+    const Mean mean = mean_of(motions);
+    Moment m{pose_of(state.bodies, body), mean.centre, {}, {}, state.tasks.is_late[task] != 0};
+    const Quat to_body_axes = conjugate(m.pose.orientation);
+    m.velocity_change = Vec3d(rotate(to_body_axes, state.bodies.velocity[body])) -
+                        (m.is_late ? mean.velocity : Vec3d(state.tasks.start_velocity[task]));
+    m.spin_change = Vec3d(rotate(to_body_axes, state.bodies.spin[body])) -
+                    (m.is_late ? mean.spin : Vec3d(state.tasks.start_spin[task]));
+    return m;
+}
+
+Motion world_motion(const Moment& m, const PartMotion& part) {
+    if (part.is_static) return {};
+    const Vec3d velocity = part.velocity + m.velocity_change + cross(m.spin_change, part.centre - m.centre);
+    return {rotate(m.pose.orientation, velocity.to_float()),
+            rotate(m.pose.orientation, (part.spin + m.spin_change).to_float())};
+}
+
+void make_debris(Births& births, ShellView shell, const FragmentPart& part, const Motion& motion, const Moment& moment,
+                 Row<Bodies> parent, Vec3d centre) {
+    State& state = births.state;
+    Debris& debris = state.debris;
+    uint32_t row = 0;
+    while (row < debris.size() && debris.is_used[row]) ++row;
+    if (row == debris.size() && debris.append(1) == kNone) return;  // free_debris counted: there is room
+    double volume = 0;
+    for (uint32_t e = part.first_element; e != kNone; e = state.elements.next[shell.element(e)])
+        volume += state.elements.volume[shell.element(e)];
+    const Vec3 place = to_world(moment.pose, centre.to_float());
+    debris.is_used[row] = 1;
+    debris.is_resting[row] = 0;
+    debris.position.set(row, place);
+    debris.velocity.set(row, motion.velocity);
+    debris.mass[row] = part.mass;
+    // Radius of the ball of the same volume; the cube root by Newton from above.
+    double r = 1;
+    for (int i = 0; i < 60; ++i) r = (2 * r + 0.2387 * volume / (r * r)) / 3;
+    debris.radius[row] = static_cast<float>(r);
+    debris.floor[row] = births.rigid.height_below(place, -1e6f) + debris.radius[row];
+    debris.colour[row] = state.bodies.colour[parent];
+    births.debris_events.push(
+        {body_id(state.bodies, parent), state.bodies.user_data[parent], place, motion.velocity, part.mass});
+}
+
+void place_body(Births& births, Row<Bodies> body, const Moment& moment, const Motion& motion, bool is_static) {
+    Bodies& bodies = births.state.bodies;
+    if (static_cast<BodyKind>(bodies.kind[body]) == BodyKind::Free) {
+        // Nothing moved since the step began: a new piece was where its parent was.
+        bodies.position.set(body, moment.pose.position);
+        bodies.orientation[body] = moment.pose.orientation;
+        bodies.previous_position.set(body, moment.pose.position);
+        bodies.previous_orientation[body] = moment.pose.orientation;
+    }
+    bodies.kind[body] = static_cast<uint8_t>(is_static ? BodyKind::Static : BodyKind::Dynamic);
+    bodies.has_pins[body] = is_static;
+    bodies.velocity.set(body, is_static ? Vec3{} : motion.velocity);
+    bodies.spin.set(body, is_static ? Vec3{} : motion.angular_velocity);
+    bodies.retry_frame[body] = births.step.frame + retry_frames(births.step.dt);
+    bodies.is_asleep[body] = 0;
+    take_mass_properties(births.state, body);
+    births.changed.push({body});
+}
+
+struct Bounds {
+    Vec3 low{1e30f, 1e30f, 1e30f}, high{-1e30f, -1e30f, -1e30f};
+    void add(Vec3 p) {
+        low = {std::min(low.x, p.x), std::min(low.y, p.y), std::min(low.z, p.z)};
+        high = {std::max(high.x, p.x), std::max(high.y, p.y), std::max(high.z, p.z)};
+    }
+    bool is_near(const Bounds& o) const {
+        return low.x <= o.high.x + kTouch && o.low.x <= high.x + kTouch && low.y <= o.high.y + kTouch &&
+               o.low.y <= high.y + kTouch && low.z <= o.high.z + kTouch && o.low.z <= high.z + kTouch;
+    }
+};
+
+// New pieces start in touch with each other, and with what struck them.
+void part_siblings(Births& births, const Break& plan, std::span<const Bounds> bounds) {
+    const auto count = static_cast<uint32_t>(plan.parts.size());
+    for (uint32_t p = 0; p < count; ++p)
+        for (uint32_t q = p + 1; q < count; ++q)
+            if (plan.child[p].exists() && plan.child[q].exists() && bounds[p].is_near(bounds[q]))
+                births.rigid.ignore_pair(plan.child[p], plan.child[q], kSiblingSeconds, true);
+}
+
+void part_strikers(Births& births, Row<Tasks> task, const Break& plan, bool is_late) {
+    State& state = births.state;
+    const auto count = static_cast<uint32_t>(plan.parts.size());
+    const uint32_t first = state.tasks.first_contact[task];
+    for (uint32_t p = 0; p < count; ++p) {
+        if (!plan.child[p].exists()) continue;
+        for (uint32_t c = first; c < first + state.tasks.contact_count[task]; ++c) {
+            const Row<Bodies> striker = state.task_contacts.striker[c];
+            if (!striker.exists()) continue;
+            if (p == plan.largest && !is_late) births.rigid.skip_contacts(plan.body, striker);
+            if (static_cast<BodyKind>(state.bodies.kind[striker]) == BodyKind::Dynamic)
+                births.rigid.ignore_pair(plan.child[p], striker, kStrikerSeconds, false);
+        }
+    }
+}
+
+// One piece's row, rigid body and event. The body frame and the pose stay the parent's.
+void make_birth(Births& births, const Break& plan, uint32_t p, const Moment& moment, Bounds& bounds) {
+    State& state = births.state;
+    Bodies& bodies = state.bodies;
+    const Row<Bodies> body = plan.body, child = plan.child[p];
+    const Motion motion = world_motion(moment, plan.motions[p]);
+    const bool was_static = static_cast<BodyKind>(bodies.kind[body]) == BodyKind::Static;
+    const bool is_static = plan.motions[p].is_static;
+    place_body(births, child, moment, motion, is_static);
+    pack_hulls(ShellView(state, bodies.shell[child]));
+    const auto pieces = convex_pieces(state, bodies.shell[child], births.arena, body);
+    bounds = {};
+    for (const ConvexPiece& piece : pieces)
+        for (const Vec3 point : piece.points) bounds.add(point);
+    if (p == plan.largest && was_static == is_static) {
+        births.rigid.set_shape(body, bodies.mass[body], bodies.centre[body], bodies.inertia[body], pieces);
+        if (!was_static) births.rigid.set_motion(body, motion);
+        return;
+    }
+    if (p == plan.largest) births.rigid.remove(body);
+    births.rigid.add(child, describe_rigid(state, child, pieces));
+    if (p == plan.largest) return;
+    births.born.push({body_id(bodies, child), body_id(bodies, body), bodies.user_data[body],
+                      to_world(moment.pose, bodies.centre[child].to_float()), motion, bodies.mass[child],
+                      state.shells.generation[bodies.shell[child]]});
+}
+
+// Children first: their hulls are found among the body's, which change last.
+void make_births_of(Births& births, const Break& plan, const Moment& moment) {
+    State& state = births.state;
+    const auto count = static_cast<uint32_t>(plan.parts.size());
+    for (uint32_t i = 1; i < count; ++i) {
+        const uint32_t p = plan.order[i];
+        if (!plan.is_crumb[p]) continue;
+        make_debris(births, ShellView(state, plan.broken), plan.parts[p], world_motion(moment, plan.motions[p]), moment,
+                    plan.body, plan.motions[p].centre);
+    }
+    plan.child[plan.largest] = plan.body;
+    const auto bounds = births.arena.take<Bounds>(count);
+    for (uint32_t i = 1; i <= count; ++i) {
+        const uint32_t p = plan.order[i % count];
+        if (plan.child[p].exists()) make_birth(births, plan, p, moment, bounds[p]);
+    }
+    part_siblings(births, plan, bounds);
+}
+
+}  // namespace
+
+void make_break(Births& births, const Break& plan) {
+    State& state = births.state;
+    if (!plan.task.exists()) return make_births_of(births, plan, {pose_of(state.bodies, plan.body), {}, {}, {}, false});
+    births.counts.clamped += plan.clamped;
+    const Moment moment = moment_of(state, plan.task, plan.motions);
+    if (!moment.is_late) strike_back(births, plan.task, moment.pose, plan.motions, plan.largest);
+    make_births_of(births, plan, moment);
+    part_strikers(births, plan.task, plan, moment.is_late);
+}
+
+}  // namespace cullet

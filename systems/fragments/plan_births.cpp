@@ -1,0 +1,52 @@
+#include "systems/fragments/plan_break.hpp"
+#include "systems/rigid/body_id.hpp"
+#include "systems/systems.hpp"
+
+namespace cullet {
+namespace {
+
+// A crack starts at a vertex that names itself. Vertices keep their numbers in the working shell, so those that did so
+// in the body's before the hit are old.
+void tell_cracks(State& state, Row<Tasks> task, Events<CrackStartedEvent>& cracks) {
+    const Row<Bodies> body = state.tasks.body[task];
+    const ShellView now(state, state.tasks.shell[task]), before(state, state.tasks.source[task]);
+    const auto is_start = [&](const ShellView& shell, uint32_t v) {
+        const uint32_t row = shell.vertex(v);
+        return state.vertices.crack_start[row] == v &&
+               state.vertices.crack[row] == static_cast<uint8_t>(CrackState::Cracked);
+    };
+    const bool is_fragment = state.shells.generation[before.row] > 0;  // it has forgotten its old starts (6.1)
+    for (uint32_t v = 0; v < now.vertex_count(); ++v) {
+        if (!is_start(now, v) || (!is_fragment && v < before.vertex_count() && is_start(before, v))) continue;
+        cracks.push({body_id(state.bodies, body), state.bodies.user_data[body],
+                     to_world(pose_of(state.bodies, body), state.vertices.rest[now.vertex(v)])});
+    }
+}
+
+}  // namespace
+
+void plan_births(Serial, const Events<TaskEnded>& ended, ShellTables shells, const Tasks& tasks, Fragments&,
+                 QueuedHits&, Bodies& bodies, const Debris&, ViewVertices&, ViewIndices&,
+                 const DamageSettings& settings, Arena& arena, Events<Break>& breaks, Events<Birth>& births,
+                 Events<ShellChanged>& changed, Events<CrackStartedEvent>& cracks, Events<RefusedEvent>& refused,
+                 Events<FaultEvent>& faults) {
+    breaks.clear();
+    births.clear();
+    Planning planning{shells.state, settings, arena, breaks, births, changed, refused};
+    for (uint32_t b = 0; b < bodies.size(); ++b)
+        if (bodies.is_owed_births[b] && bodies.task[b] == kNone) ask_again(planning, Row<Bodies>(b));
+    for (const TaskEnded& e : ended) {
+        const Row<Tasks> task = e.task;
+        const auto result = static_cast<TaskState>(tasks.state[task]);
+        if (result != TaskState::Dropped && tasks.start_count[task]) tell_cracks(shells.state, task, cracks);
+        if (result == TaskState::Broke) plan_break(planning, task);
+        if (result == TaskState::Whole && tasks.crack_count[task]) keep_cracks(planning, task);
+        if (result == TaskState::Dropped)
+            faults.push({body_id(bodies, tasks.body[task]), bodies.user_data[tasks.body[task]],
+                         centre_of(bodies, tasks.body[task]),
+                         "A hit gained energy three times over, made more than 1024 pieces, or found no room for its "
+                         "stiffness; the body stays as it was."});
+    }
+}
+
+}  // namespace cullet

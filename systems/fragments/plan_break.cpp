@@ -1,0 +1,297 @@
+#include "systems/fragments/plan_break.hpp"
+
+#include <algorithm>
+
+#include "systems/fragments/body_rows.hpp"
+#include "systems/fragments/cell_hulls.hpp"
+#include "systems/fragments/make_piece.hpp"
+#include "systems/fragments/rest_of_body.hpp"
+#include "systems/rigid/body_id.hpp"
+
+namespace cullet {
+namespace {
+
+// Of Bodies.is_owed_births. The second: its drawn mesh found no room either and is that of before the hit.
+constexpr uint8_t kOwedBirths = 1, kOwedDrawing = 2;
+
+// A piece that found no room stays part of another and moves with it.
+void join_motions(PartMotion& motion, PartMotion& joined) {
+    const double mass = motion.mass + joined.mass;
+    if (mass > 0) motion.centre = (1 / mass) * (motion.mass * motion.centre + joined.mass * joined.centre);
+    motion.mass = mass;
+    motion.momentum += joined.momentum;
+    motion.is_static = motion.is_static || joined.is_static;
+    if (motion.is_static) motion.momentum = {};
+    motion.velocity = (1.0 / motion.mass) * motion.momentum;
+    if (motion.is_static) motion.spin = {};
+    joined = {};
+}
+
+// Crumbs that the world still has room for.
+uint32_t free_debris(const Debris& debris) {
+    uint32_t used = 0;
+    for (uint32_t d = 0; d < debris.size(); ++d) used += debris.is_used[d];
+    return debris.limit() - used;
+}
+
+// Rows, shell and drawn mesh of a new body, or a row that does not exist and the name of the limit.
+Row<Bodies> reserve_body(State& state, Row<Bodies> parent, Row<Shells> broken, const FragmentPart& part,
+                         const char** full) {
+    const Row<Bodies> body = take_body(state);
+    if (!body.exists()) {
+        *full = "limits.bodies";
+        return {};
+    }
+    state.bodies.shell[body] =
+        reserve_piece(state, broken, part, static_cast<uint8_t>(state.shells.generation[broken] + 1), full);
+    if (state.bodies.shell[body].exists() && take_view(state, body, ShellView(state, broken), part)) {
+        Bodies& b = state.bodies;
+        b.model[body] = b.model[parent];
+        b.parent[body] = parent;
+        for (auto* column : {&b.friction, &b.restitution, &b.strength_scale}) (*column)[body] = (*column)[parent];
+        b.layer[body] = b.layer[parent];
+        b.mask[body] = b.mask[parent];
+        b.user_data[body] = b.user_data[parent];
+        b.is_breakable[body] = b.is_breakable[parent];
+        return body;
+    }
+    if (state.bodies.shell[body].exists()) *full = "limits.view_vertices";
+    free_body(state, body);
+    return {};
+}
+
+void stay(Planning& planning, Break& plan, uint32_t part, const char* setting) {
+    planning.refused.push(refused_event(planning.state.bodies, plan.body, setting));
+    plan.is_refused = true;
+    join_parts(ShellView(planning.state, plan.broken), plan.parts, part, plan.largest);
+    join_motions(plan.motions[plan.largest], plan.motions[part]);
+}
+
+Break break_of(Planning& planning, Row<Tasks> task, Row<Bodies> body, Row<Shells> broken,
+               std::span<FragmentPart> parts) {
+    Arena& arena = planning.arena;
+    Break plan;
+    plan.task = task;
+    plan.body = body;
+    plan.broken = broken;
+    plan.before = planning.state.bodies.shell[body];
+    plan.parts = parts;
+    plan.motions = arena.take<PartMotion>(parts.size());
+    plan.order = arena.take<uint32_t>(parts.size());
+    plan.child = arena.take<Row<Bodies>>(parts.size());
+    plan.is_crumb = arena.take<uint8_t>(parts.size());
+    plan.margin = hull_margin(ShellView(planning.state, plan.before));
+    return plan;
+}
+
+// Room that the rest needs whatever leaves. False: none, and nothing else is to change.
+bool reserve_points(Planning& planning, Break& plan) {
+    const uint32_t rows = planning.state.shells.cells[plan.broken].count * kMostHullPoints;
+    if (take_points(planning.state, rows, plan.points)) return true;
+    planning.refused.push(refused_event(planning.state.bodies, plan.body, "limits.vertices"));
+    return false;
+}
+
+// Which pieces are crumbs, bodies, or stay; heaviest first, ties by number.
+void choose_births(Planning& planning, Break& plan) {
+    State& state = planning.state;
+    const auto count = static_cast<uint32_t>(plan.parts.size());
+    for (uint32_t i = 0; i < count; ++i) plan.order[i] = i;
+    std::sort(plan.order.begin(), plan.order.end(), [&](uint32_t a, uint32_t b) {
+        return plan.parts[a].mass != plan.parts[b].mass ? plan.parts[a].mass > plan.parts[b].mass : a < b;
+    });
+    plan.largest = plan.order[0];
+    const double least_mass = planning.settings.debris_share * state.shells.intact_mass[plan.broken];
+    uint32_t crumbs_left = free_debris(state.debris);
+    for (uint32_t p = 0; p < count; ++p) {
+        plan.child[p] = {};
+        plan.is_crumb[p] = 0;
+    }
+    for (uint32_t i = 1; i < count; ++i) {
+        const uint32_t p = plan.order[i];
+        const FragmentPart& part = plan.parts[p];
+        const char* full = nullptr;
+        if (!part.has_pins && (part.mass < least_mass || part.element_count < planning.settings.debris_elements)) {
+            if (crumbs_left > 0) {
+                --crumbs_left;
+                plan.is_crumb[p] = 1;
+            } else {
+                stay(planning, plan, p, "limits.debris");
+            }
+            continue;
+        }
+        plan.child[p] = reserve_body(state, plan.body, plan.broken, part, &full);
+        if (!plan.child[p].exists()) stay(planning, plan, p, full);
+    }
+}
+
+// Room for the rest's drawn mesh. Where there is none the lightest pieces give their rows back and stay, and in the end
+// the crumbs do. False when even then there is none: the mesh that was drawn last stands.
+bool reserve_view(Planning& planning, Break& plan) {
+    State& state = planning.state;
+    const auto count = static_cast<uint32_t>(plan.order.size());
+    uint32_t lightest = count;
+    while (!take_view(state, plan.body, ShellView(state, plan.broken), plan.parts[plan.largest])) {
+        do {
+            if (--lightest == 0) {
+                for (uint32_t i = 1; i < count; ++i) {
+                    if (!plan.is_crumb[plan.order[i]]) continue;
+                    plan.is_crumb[plan.order[i]] = 0;
+                    stay(planning, plan, plan.order[i], "limits.view_vertices");
+                }
+                if (take_view(state, plan.body, ShellView(state, plan.broken), plan.parts[plan.largest])) return true;
+                planning.refused.push(refused_event(state.bodies, plan.body, "limits.view_vertices"));
+                return false;
+            }
+        } while (!plan.child[plan.order[lightest]].exists());
+        const uint32_t p = plan.order[lightest];
+        free_body(state, plan.child[p]);
+        plan.child[p] = {};
+        stay(planning, plan, p, "limits.view_vertices");
+    }
+    return true;
+}
+
+// Hits that wait for the body go on to the piece that owns the nearest vertex; a crumb takes its own along.
+void hand_on_hits(State& state, const Break& plan) {
+    const ShellView shell(state, plan.broken);
+    QueuedHits& queued = state.queued_hits;
+    for (uint32_t q = 0; q < queued.size(); ++q) {
+        if (!queued.is_used[q] || queued.body[q] != plan.body) continue;
+        float least = 1e30f;
+        uint32_t owner = plan.largest;
+        for (uint32_t v = 0; v < shell.vertex_count(); ++v) {
+            const uint32_t row = shell.vertex(v), element = state.vertices.element[row];
+            if (element == kNone) continue;
+            const Vec3 away = state.vertices.rest[row] - queued.point[q];
+            if (dot(away, away) >= least) continue;
+            least = dot(away, away);
+            owner = state.elements.part[shell.element(element)];
+        }
+        if (plan.is_crumb[owner])
+            queued.clear_rows(q, 1);
+        else if (plan.child[owner].exists())
+            queued.body[q] = plan.child[owner];
+    }
+}
+
+// What frees no piece changes no velocity: the body keeps its cracks, and its loose pieces until there is room.
+void stay_whole(Planning& planning, Break& plan) {
+    State& state = planning.state;
+    const ShellView shell(state, plan.broken), before(state, state.bodies.shell[plan.body]);
+    if (before.row == shell.row || !keep_hulls(shell, before)) return;
+    clear_run(shell, true);
+    adopt_shell(state, plan.body, shell.row);
+}
+
+// Plans and reserves; what is refused asks again in the next frame. True: something leaves.
+bool reserve_births(Planning& planning, Break& plan) {
+    State& state = planning.state;
+    uint8_t& owed = state.bodies.is_owed_births[plan.body];
+    choose_births(planning, plan);
+    const bool is_drawn = reserve_view(planning, plan), was_drawn = owed != kOwedDrawing;
+    owed = !is_drawn ? kOwedDrawing : plan.is_refused ? kOwedBirths : 0;
+    if (plan.is_broken()) return true;
+    const bool is_new = plan.broken != state.bodies.shell[plan.body];
+    state.pools.points.give_back(plan.points.first, plan.points.capacity);
+    if (is_drawn && (is_new || !was_drawn)) planning.changed.push({plan.body});
+    stay_whole(planning, plan);
+    return false;
+}
+
+// Every piece goes on with the body's own motion, about the centres that the rigid world knows, so that momentum and
+// angular momentum are kept to rounding.
+void move_with_body(State& state, Break& plan) {
+    const Bodies& bodies = state.bodies;
+    const Quat to_body_axes = conjugate(bodies.orientation[plan.body]);
+    const Vec3d velocity(rotate(to_body_axes, bodies.velocity[plan.body])),
+        spin(rotate(to_body_axes, bodies.spin[plan.body]));
+    const ShellView shell(state, plan.broken);
+    for (uint32_t p = 0; p < plan.parts.size(); ++p) {
+        Moments sum;
+        for (uint32_t e = plan.parts[p].first_element; e != kNone; e = state.elements.next[shell.element(e)])
+            sum = sum + element_moments(shell, e);
+        const MassProperties own = mass_properties(sum);
+        PartMotion& m = plan.motions[p];
+        m = {};
+        m.mass = own.mass;
+        m.centre = own.centre;
+        m.inertia = own.inertia;
+        m.is_static = plan.parts[p].has_pins;
+        if (m.is_static) continue;
+        m.spin = spin;
+        m.velocity = velocity + cross(spin, own.centre - bodies.centre[plan.body]);
+        m.momentum = own.mass * m.velocity;
+    }
+}
+
+// Something leaves: what is to be filled, heaviest first, so that the longest work begins first.
+void order_births(Planning& planning, Break& plan) {
+    State& state = planning.state;
+    for (uint32_t p = 0; p < plan.parts.size(); ++p)
+        if (plan.leaves(p)) plan.left_elements += plan.parts[p].element_count;
+    plan.whole = sums_of(ShellView(state, plan.broken));
+    hand_on_hits(state, plan);
+    const uint32_t of = planning.breaks.size();
+    for (const uint32_t p : plan.order)
+        if (p == plan.largest || plan.leaves(p)) planning.births.push({of, p});
+    planning.breaks.push(plan);
+}
+
+}  // namespace
+
+void plan_break(Planning& planning, Row<Tasks> task) {
+    State& state = planning.state;
+    const Row<Bodies> body = state.tasks.body[task];
+    const Row<Shells> broken = state.tasks.shell[task];
+    const ShellView shell(state, broken);
+    Break plan =
+        break_of(planning, task, body, broken,
+                 std::span(state.fragments.part.data() + size_t{task} * kMostParts, state.tasks.part_count[task]));
+    if (!reserve_points(planning, plan)) return;
+    const HandoffReport report =
+        rigid_handoff(shell,
+                      {Vec3d(state.tasks.start_velocity[task]), Vec3d(state.tasks.start_spin[task]),
+                       state.shells.centre[broken], state.tasks.approach_speed[task]},
+                      plan.parts, plan.motions);
+    plan.clamped = report.speed_clamps + report.spin_clamps;
+    find_changed_cells(shell, ShellView(state, plan.before));
+    if (reserve_births(planning, plan)) order_births(planning, plan);
+}
+
+// The slot serves one body after the other: the parts move into the arena.
+void ask_again(Planning& planning, Row<Bodies> body) {
+    State& state = planning.state;
+    const ShellView shell(state, state.bodies.shell[body]);
+    const std::span slot(state.fragments.part.data() + size_t{state.tasks.limit()} * kMostParts, kMostParts);
+    const uint32_t count = group_fragments(shell, slot);
+    if (count > kMostParts) return;
+    const auto parts = planning.arena.take<FragmentPart>(count);
+    std::copy_n(slot.begin(), parts.size(), parts.begin());
+    Break plan = break_of(planning, {}, body, shell.row, parts);
+    if (!reserve_points(planning, plan)) return;
+    move_with_body(state, plan);
+    find_changed_cells(shell, shell);
+    if (reserve_births(planning, plan)) order_births(planning, plan);
+}
+
+void keep_cracks(Planning& planning, Row<Tasks> task) {
+    State& state = planning.state;
+    const Row<Bodies> body = state.tasks.body[task];
+    const ShellView shell(state, state.tasks.shell[task]), before(state, state.bodies.shell[body]);
+    const FragmentPart& whole = state.fragments.part[size_t{task} * kMostParts];
+    const char* full = nullptr;
+    if (!take_view(state, body, shell, whole))
+        full = "limits.view_vertices";
+    else if (!keep_hulls(shell, before))
+        full = "limits.vertices";
+    if (full) {
+        planning.refused.push(refused_event(state.bodies, body, full));
+        return;
+    }
+    clear_run(shell, true);
+    adopt_shell(state, body, shell.row);
+    planning.changed.push({body});
+}
+
+}  // namespace cullet

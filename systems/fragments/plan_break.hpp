@@ -1,0 +1,30 @@
+// Which pieces of a broken body leave, and their rows.
+#pragma once
+#include "systems/world_data.hpp"
+
+namespace cullet {
+
+/// What planning may touch.
+struct Planning {
+    State& state;
+    const DamageSettings& settings;
+    Arena& arena;
+    Events<Break>& breaks;
+    Events<Birth>& births;
+    Events<ShellChanged>& changed;
+    Events<RefusedEvent>& refused;
+};
+
+/// The task's shell has more than one part (Fragments). The largest keeps the body's handle and its rows in that shell,
+/// which becomes the body's own; the others get rows in order of mass, and their old rows will be dead. A piece that
+/// finds no room stays with the largest and is counted with the setting to raise.
+void plan_break(Planning& planning, Row<Tasks> task);
+
+/// A body whose loose pieces found no room (is_owed_births) and that no task works on asks again. They leave with the
+/// body's own motion.
+void ask_again(Planning& planning, Row<Bodies> body);
+
+/// A shell that stayed whole but has new cracks: the body keeps them.
+void keep_cracks(Planning& planning, Row<Tasks> task);
+
+}  // namespace cullet
