@@ -13,7 +13,9 @@ FramePlan<WorldData> make_frame_plan(const std::function<std::string()>& describ
         .then<detect_contacts>()
         .then<predict_impacts>()
         .then<open_tasks>()
-        .then<fill_tasks>();
+        .then<fill_tasks>()
+        .then<fill_stiffness>()
+        .then<start_tasks>();
     plan.stage("damage")
         .then<grant_units>()
         .then<advance_damage>()

@@ -22,10 +22,15 @@ void predict_impacts(Serial, Step step, const RigidWorld& rigid, const Bodies& b
 void open_tasks(Serial, Step step, const Events<Impact>& impacts, ShellTables shells, const Materials& materials,
                 Bodies& bodies, Tasks& tasks, TaskContacts& contacts, QueuedHits& queued,
                 const DamageSettings& settings, DamageCounts& counts, Events<TaskOpened>& opened,
-                Events<ImpactEvent>& impact_events, Events<RefusedEvent>& refused);
-/// Copies the body's shell into the task's, lays the contact patches, gives every vertex the body's velocity.
-void fill_tasks(Each<TaskOpened> opened, ShellTables shells, Tasks& tasks, TaskContacts& contacts,
-                PatchVertices& patches);
+                Events<StiffnessWanted>& stiffness_wanted, Events<ImpactEvent>& impact_events,
+                Events<RefusedEvent>& refused);
+/// Copies the body's shell into the task's.
+void fill_tasks(Each<TaskOpened> opened, ShellTables shells, Tasks& tasks);
+/// Assembles stiffness that the body's shell does not have: a piece that is hit for the first time.
+void fill_stiffness(Each<StiffnessWanted> wanted, ShellTables shells, const Tasks& tasks);
+/// Lays the contact patches, gives every vertex the body's velocity.
+void start_tasks(Each<TaskOpened> opened, ShellTables shells, Tasks& tasks, TaskContacts& contacts,
+                 PatchVertices& patches);
 
 // ---- damage
 

@@ -30,6 +30,7 @@ WorldData::WorldData(const Settings& settings)
       arena(kArenaBytes),
       impacts(1u << 16),
       tasks_opened(settings.limits.open_hits),
+      stiffness_wanted(state.stiffness_packs.limit() / kRowsPerChunk<StiffnessPacks> + settings.limits.open_hits),
       tasks_ended(settings.limits.open_hits),
       breaks(settings.limits.bodies + settings.limits.open_hits),
       births((settings.limits.open_hits + 1) * kMostParts + settings.limits.bodies * kMostParts),

@@ -23,6 +23,11 @@ struct Impact {
 struct TaskOpened {
     Row<Tasks> task;
 };
+/// Packs of an opened task's shell, from this one on, whose stiffness is to be assembled: a chunk of StiffnessPacks.
+struct StiffnessWanted {
+    Row<Tasks> task;
+    uint32_t first_pack;
+};
 /// A damage task that ended in this step.
 struct TaskEnded {
     Row<Tasks> task;
@@ -67,6 +72,7 @@ struct WorldData {
     Arena arena;
     Events<Impact> impacts;
     Events<TaskOpened> tasks_opened;
+    Events<StiffnessWanted> stiffness_wanted;
     Events<TaskEnded> tasks_ended;
     Events<Break> breaks;
     Events<Birth> births;
@@ -113,6 +119,8 @@ T& WorldData::resource() {
         return impacts;
     else if constexpr (std::is_same_v<T, Events<TaskOpened>>)
         return tasks_opened;
+    else if constexpr (std::is_same_v<T, Events<StiffnessWanted>>)
+        return stiffness_wanted;
     else if constexpr (std::is_same_v<T, Events<TaskEnded>>)
         return tasks_ended;
     else if constexpr (std::is_same_v<T, Events<Break>>)

@@ -44,7 +44,8 @@ void find_contact_vertices(State& state, Row<Tasks> task) {
 
 }  // namespace
 
-void start_task(State& state, Row<Tasks> task) {
+// Springs, hinges and their scales are those of the run that broke it off, which kept them up to date.
+void fill_task(State& state, Row<Tasks> task) {
     Tasks& tasks = state.tasks;
     const Row<Shells> source = tasks.source[task], working = tasks.shell[task];
     const bool is_assembled = state.shells.packs[source].count > 0;
@@ -52,16 +53,24 @@ void start_task(State& state, Row<Tasks> task) {
     clear_spare_rows(state, working);
     const ShellView shell(state, working);
     begin_cracks(shell, state.shells.generation[source] > 0);
-    if (!is_assembled) {
-        assemble_springs(shell);
-        limit_all_stiffness(shell);
-        if (!assemble_stiffness(shell)) tasks.state[task] = static_cast<uint8_t>(TaskState::Dropped);
-    }
+    if (!is_assembled && !lay_packs(shell)) tasks.state[task] = static_cast<uint8_t>(TaskState::Dropped);
+}
+
+void start_run(State& state, Row<Tasks> task) {
     find_contact_vertices(state, task);
     build_patches(state, task);
-    tasks.last_event_time[task] = 0;
-    tasks.crack_count[task] = tasks.start_count[task] = 0;
+    state.tasks.last_event_time[task] = 0;
+    state.tasks.crack_count[task] = state.tasks.start_count[task] = 0;
     start_hidden(state, task);
+}
+
+void start_task(State& state, Row<Tasks> task) {
+    fill_task(state, task);
+    const ShellView shell(state, state.tasks.shell[task]);
+    const bool is_assembled = state.shells.packs[state.tasks.source[task]].count > 0;
+    if (!is_assembled && static_cast<TaskState>(state.tasks.state[task]) != TaskState::Dropped)
+        assemble_packs(shell, 0, shell.shells().packs[shell.row].count);
+    start_run(state, task);
 }
 
 }  // namespace cullet

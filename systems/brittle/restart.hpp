@@ -8,4 +8,9 @@ namespace cullet {
 /// velocities of the touch. Nothing allocates.
 void start_task(State& state, Row<Tasks> task);
 
+/// start_task in parts, around assemble_packs where the body's stiffness is not assembled: the rows; then patches and
+/// velocities.
+void fill_task(State& state, Row<Tasks> task);
+void start_run(State& state, Row<Tasks> task);
+
 }  // namespace cullet

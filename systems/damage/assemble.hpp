@@ -35,6 +35,9 @@ void limit_all_stiffness(ShellView shell);
 ShellRoom stiffness_room(ShellView shell, uint32_t spare_vertices);
 /// All packs, blocks, links into the shell's ranges. False when the ranges are too small (see stiffness_room).
 bool assemble_stiffness(ShellView shell);
+/// The same in two: the packs' places, then the rows of packs [first, end), different ones at once if need be.
+bool lay_packs(ShellView shell);
+bool assemble_packs(ShellView shell, uint32_t first, uint32_t end);
 /// Rows of these vertices from their elements, bit for bit what assemble_stiffness would give them. A pack without a
 /// free slot moves to the spare end of the shell's ranges. False: out of spare; the rows not yet rebuilt are as before.
 bool rebuild_rows(ShellView shell, std::span<const uint32_t> vertices);

@@ -3,8 +3,8 @@
 
 namespace cullet {
 
-void fill_tasks(Each<TaskOpened> opened, ShellTables shells, Tasks&, TaskContacts&, PatchVertices&) {
-    start_task(shells.state, opened->task);
+void fill_tasks(Each<TaskOpened> opened, ShellTables shells, Tasks&) {
+    fill_task(shells.state, opened->task);
 }
 
 }  // namespace cullet

@@ -77,6 +77,7 @@ struct Opening {
     State& state;
     const Materials& materials;
     Events<TaskOpened>& opened;
+    Events<StiffnessWanted>& stiffness_wanted;
     Events<RefusedEvent>& refused;
     DamageCounts& counts;
     uint64_t frame;
@@ -117,6 +118,8 @@ struct Opening {
         tasks.units_owed[t] = state.shells.vertices[source].count * (kUnitsOpen + (is_assembled ? 0 : kUnitsAssemble));
         bodies.task[body] = t;
         opened.push({task});
+        const uint32_t packs = is_assembled ? 0 : (state.shells.vertices[source].count + kLanes - 1) / kLanes;
+        for (uint32_t p = 0; p < packs; p += kRowsPerChunk<StiffnessPacks>) stiffness_wanted.push({task, p});
         ++counts.opened;
         return task;
     }
@@ -209,10 +212,12 @@ void open_queued(Opening& opening, const DamageSettings& settings, Events<Impact
 void open_tasks(Serial, Step step, const Events<Impact>& impacts, ShellTables shells, const Materials& materials,
                 Bodies& bodies, Tasks& tasks, TaskContacts& contacts, QueuedHits& queued,
                 const DamageSettings& settings, DamageCounts& counts, Events<TaskOpened>& opened,
-                Events<ImpactEvent>& impact_events, Events<RefusedEvent>& refused) {
+                Events<StiffnessWanted>& stiffness_wanted, Events<ImpactEvent>& impact_events,
+                Events<RefusedEvent>& refused) {
     State& state = shells.state;
     opened.clear();
-    Opening opening{state, materials, opened, refused, counts, step.frame};
+    stiffness_wanted.clear();
+    Opening opening{state, materials, opened, stiffness_wanted, refused, counts, step.frame};
     open_queued(opening, settings, impact_events);
     const auto all = impacts.all();
     for (size_t i = 0, next; i < all.size(); i = next) {

@@ -212,14 +212,20 @@ bool append_packs(const ShellView& shell) {
 
 }  // namespace
 
+// An assembled shell that was not touched since has the slots that were counted for it.
 ShellRoom stiffness_room(ShellView shell, uint32_t spare_vertices) {
+    const Shells& shells = shell.shells();
     ShellRoom room;
     room.vertices = shell.vertex_count() + spare_vertices;
     const uint32_t packs = packs_of(shell.vertex_count()), spare_packs = packs_of(spare_vertices) + 1;
-    for (uint32_t p = 0; p < packs; ++p) {
-        uint32_t blocks = 0, links = 0;
-        count_pack(shell, p, blocks, links);
-        room.blocks += blocks, room.links += links;
+    if (shells.packs[shell.row].count == packs) {
+        room.blocks = shells.blocks[shell.row].count, room.links = shells.links[shell.row].count;
+    } else {
+        for (uint32_t p = 0; p < packs; ++p) {
+            uint32_t blocks = 0, links = 0;
+            count_pack(shell, p, blocks, links);
+            room.blocks += blocks, room.links += links;
+        }
     }
     const uint32_t moved = packs / 3 + 1;
     room.blocks += (spare_packs + moved) * (kNewPackSlots + 2 * kSpareSlots);
@@ -227,10 +233,9 @@ ShellRoom stiffness_room(ShellView shell, uint32_t spare_vertices) {
     return room;
 }
 
-bool assemble_stiffness(ShellView shell) {
+bool lay_packs(ShellView shell) {
     Shells& shells = shell.shells();
     shells.packs[shell.row].count = shells.blocks[shell.row].count = shells.links[shell.row].count = 0;
-    const PlaneStress stress = plane_stress(shell.state, shell.row);
     const uint32_t packs = packs_of(shell.vertex_count());
     if (packs > shells.packs[shell.row].capacity) return false;
     for (uint32_t p = 0; p < packs; ++p) {
@@ -239,11 +244,20 @@ bool assemble_stiffness(ShellView shell) {
         uint32_t blocks = 0, links = 0;
         count_pack(shell, p, blocks, links);
         if (!block_slots(shell, p).reserve(blocks, 0) || !link_slots(shell, p).reserve(links, 0)) return false;
-        const uint32_t end = std::min((p + 1) * kLanes, shell.vertex_count());
-        for (uint32_t v = p * kLanes; v < end; ++v)
-            if (!write_row(shell, stress, v)) return false;
     }
     return true;
+}
+
+bool assemble_packs(ShellView shell, uint32_t first, uint32_t end) {
+    const PlaneStress stress = plane_stress(shell.state, shell.row);
+    const uint32_t last = std::min(end * kLanes, shell.vertex_count());
+    for (uint32_t v = first * kLanes; v < last; ++v)
+        if (!write_row(shell, stress, v)) return false;
+    return true;
+}
+
+bool assemble_stiffness(ShellView shell) {
+    return lay_packs(shell) && assemble_packs(shell, 0, packs_of(shell.vertex_count()));
 }
 
 bool rebuild_rows(ShellView shell, std::span<const uint32_t> vertices) {
