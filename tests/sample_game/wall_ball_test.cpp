@@ -80,7 +80,7 @@ TEST(WallBall, BouncesFromTheWholeWallAtSeventyCentimetresASecond) {
 }
 
 /// Watches one hit, one hidden step a frame: what the foot takes is summed from the springs' forces on the pinned
-/// vertices, step by step, and the rest read from rows. Nothing of it comes from break_body's books.
+/// vertices, step by step, and the rest read from rows. Nothing of it comes from make_break's books.
 struct HitLedger {
     GameWorld& game;
     uint32_t ball;
@@ -115,7 +115,7 @@ struct HitLedger {
     void after(const std::string& system) {
         const auto task_state = static_cast<TaskState>(tasks().state[0]);
         if (breaks > 0 || task_state == TaskState::Free) return;
-        if (system == "fill_tasks" && tasks().steps_done[0] == 0) pins = {}, steps = 0, look_ahead();
+        if (system == "start_tasks" && tasks().steps_done[0] == 0) pins = {}, steps = 0, look_ahead();
         if (system == "advance_damage") {
             EXPECT_EQ(tasks().steps_done[0], steps + 1);
             EXPECT_EQ(tasks().redo_count[0], 0);
