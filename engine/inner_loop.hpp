@@ -50,8 +50,7 @@ class InnerLoop {
             for (const PlannedSystem<World>& system : systems_) {
                 if ((r + 1) % system.every != 0) continue;
                 const Rows<void> rows = rows_of(system, world, run.body);
-                for (uint32_t chunk = 0; chunk * system.chunk_rows < rows.count; ++chunk)
-                    run_chunk(system, world, run.body, rows, chunk, r);
+                if (rows.count) run_chunks(system, world, run.body, rows, 0, chunks_of(system, rows), r);
             }
             if (run.goes_on && !run.goes_on(world, run.body)) return;
         }
@@ -100,8 +99,7 @@ class InnerLoop {
                 // From here on until these chunks are counted the pass cannot end: its plain members stand still.
                 idle = 0;
                 const uint32_t first = is_front ? front : back - count;
-                for (uint32_t chunk = first; chunk < first + count; ++chunk)
-                    loop_.run_chunk(loop_.systems_[system_], world_, run_.body, rows_, chunk, repetition_);
+                loop_.run_chunks(loop_.systems_[system_], world_, run_.body, rows_, first, count, repetition_);
                 done += count;
             }
         }
@@ -125,9 +123,9 @@ class InnerLoop {
                     continue;
                 }
                 const Rows<void> rows = loop_.rows_of(planned, world_, run_.body);
-                const uint32_t chunks = (rows.count + planned.chunk_rows - 1) / planned.chunk_rows;
+                const uint32_t chunks = chunks_of(planned, rows);
                 if (chunks <= 1) {
-                    if (chunks) loop_.run_chunk(planned, world_, run_.body, rows, 0, repetition_);
+                    if (chunks) loop_.run_chunks(planned, world_, run_.body, rows, 0, chunks, repetition_);
                     ++system;
                     continue;
                 }
@@ -159,14 +157,17 @@ class InnerLoop {
     Rows<void> rows_of(const PlannedSystem<World>& system, World& world, uint32_t body) const {
         return system.kind == CallKind::Rows ? system.rows_of_body(world, body) : Rows<void>{0, 1};
     }
-    void run_chunk(const PlannedSystem<World>& system, World& world, uint32_t body, Rows<void> rows, uint32_t chunk,
-                   uint32_t repetition) const {
+    static uint32_t chunks_of(const PlannedSystem<World>& system, Rows<void> rows) {
+        return (rows.count + system.chunk_rows - 1) / system.chunk_rows;
+    }
+    // In one call: a chunk of a pass lasts some 0.3 microseconds, of which a call of its own would take a tenth.
+    void run_chunks(const PlannedSystem<World>& system, World& world, uint32_t body, Rows<void> rows, uint32_t first,
+                    uint32_t count, uint32_t repetition) const {
         Call<World> call{world};
         call.body = body;
         call.side = static_cast<int>(repetition & 1);
-        call.first = rows.first + chunk * system.chunk_rows;
-        const uint32_t left = rows.first + rows.count - call.first;
-        call.count = left < system.chunk_rows ? left : system.chunk_rows;
+        call.first = rows.first + first * system.chunk_rows;
+        call.count = std::min(count * system.chunk_rows, rows.first + rows.count - call.first);
         system.invoke(call);
     }
     std::vector<PlannedSystem<World>> systems_;
