@@ -230,7 +230,7 @@ Plan plan_of(Births& births, Row<Bodies> body, Row<Shells> broken, std::span<Fra
 
 // Room that the rest needs whatever leaves. False: none, and nothing else is to change.
 bool reserve_points(Births& births, Plan& plan) {
-    const uint32_t rows = births.state.shells.cells[plan.broken].count * kMostHullPoints;
+    const uint32_t rows = births.state.shells.cells[plan.broken].count * kMostCellPoints;
     if (take_points(births.state, rows, plan.points)) return true;
     births.refused.push(refused_event(births.state.bodies, plan.body, "limits.vertices"));
     return false;

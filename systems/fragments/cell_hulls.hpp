@@ -1,13 +1,18 @@
 // The collision shape of a shell: a convex hull of at most 32 points for each cell.
 #pragma once
+#include <algorithm>
+
 #include "components/state.hpp"
 
 namespace cullet {
 
-inline constexpr uint32_t kMostHullPoints = 32;
-
 /// The shell's collision margin: 0.2 of its mean depth, at most 1 mm.
 float hull_margin(const ShellView& shell);
+
+/// Rows of HullPoints that will do for so many cells.
+inline uint32_t most_points(uint32_t cells, uint32_t elements) {
+    return std::min(cells * kMostCellPoints, 6 * elements);
+}
 
 /// Writes HullPoints, and the counts in Cells, for all cells. Elements must stand sorted by cell (build_shell and
 /// make_piece leave them so) and the points' range have 32 rows a cell. Points are outer and inner corners, pulled into

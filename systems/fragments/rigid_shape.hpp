@@ -6,7 +6,7 @@
 
 namespace cullet {
 
-/// Hulls of all cells that have points; the spans live in the arena. With `same_body`, Cells.same_cell tells which of
+/// Hulls of all cells that have points, named kMostCellParts * cell + part; the spans live in the arena. With `same_body`, Cells.same_cell tells which of
 /// that body's hulls have the same points.
 std::span<const ConvexPiece> convex_pieces(const State& state, Row<Shells> shell, Arena& arena,
                                            RigidId same_body = kNoRigid);
