@@ -357,9 +357,9 @@ void check_cells(Checker& check) {
                          std::to_string(points.count));
         uint32_t sum = 0;
         for (const uint8_t part : state.cells.part_points[row]) sum += part;
-        check.expect(sum == state.cells.point_count[row],
-                     place("cells.part_points", c) + " add up to " + std::to_string(sum) + "; the cell has " +
-                         std::to_string(state.cells.point_count[row]) + " points");
+        check.expect(sum == state.cells.point_count[row], place("cells.part_points", c) + " add up to " +
+                                                              std::to_string(sum) + "; the cell has " +
+                                                              std::to_string(state.cells.point_count[row]) + " points");
     }
 }
 

@@ -10,8 +10,10 @@ namespace {
 
 constexpr uint32_t kBatchElements = 256;  // a cell has about 128; of more a single hull is made, batch by batch
 constexpr uint32_t kMostVertices = 3 * kBatchElements;
+static_assert(kMostCellPoints == kMostCellParts * kMostHullPoints);
 static_assert(2 * kMostVertices + kMostHullPoints <= kMostExtremeCandidates);
-// Of the margin: a point above the hull by less is worth none. 0.05 cost twice the points and kept nothing from sinking.
+// Of the margin: a point above the hull by less is worth none. 0.05 cost twice the points and kept nothing from
+// sinking.
 constexpr float kGoodEnough = 0.2f;
 // Of the margin: a hull that leaves out more is halved while the cell has parts left.
 constexpr float kTooMuch = 0.5f;
@@ -87,8 +89,8 @@ void add_candidates(const ShellView& shell, std::span<const uint32_t> list, floa
     }
 }
 
-void keep_extremes(Workspace& work, uint32_t most, float margin) {
-    choose_extremes({work.candidates, work.candidate_count}, most, kGoodEnough * margin, work.chosen);
+void keep_extremes(Workspace& work, float margin) {
+    choose_extremes({work.candidates, work.candidate_count}, kMostHullPoints, kGoodEnough * margin, work.chosen);
 }
 
 /// A cell of more elements than a batch has: one hull.
@@ -102,17 +104,17 @@ void choose_points_by_batches(const ShellView& shell, uint32_t first, float marg
         std::copy_n(part.point, part.count, work.candidates);
         work.candidate_count = part.count;
         add_candidates(shell, {work.elements, count}, margin, work);
-        keep_extremes(work, kMostHullPoints, margin);
+        keep_extremes(work, margin);
         part.count = work.chosen.count;
         for (uint32_t i = 0; i < part.count; ++i) part.point[i] = work.candidates[work.chosen.index[i]];
     }
 }
 
-void choose_part(const ShellView& shell, std::span<const uint32_t> list, uint32_t most, float margin, Workspace& work,
+void choose_part(const ShellView& shell, std::span<const uint32_t> list, float margin, Workspace& work,
                  Workspace::Part& part) {
     work.candidate_count = 0;
     add_candidates(shell, list, margin, work);
-    keep_extremes(work, most, margin);
+    keep_extremes(work, margin);
     part.count = work.chosen.count;
     part.left_out = work.chosen.left_out;
     for (uint32_t i = 0; i < part.count; ++i) part.point[i] = work.candidates[work.chosen.index[i]];
@@ -128,12 +130,10 @@ void choose_points(const ShellView& shell, uint32_t first, float margin, Workspa
     if (e != kNone) return choose_points_by_batches(shell, first, margin, work);
     CellParts parts;
     split_by_bend(shell, {work.elements, count}, parts);
-    // A share of the cell's points: what was split off for its bend has few corners that matter.
-    const uint32_t most = std::min(kMostHullPoints, kMostCellPoints / parts.count);
     work.part_count = parts.count;
     for (uint32_t p = 0; p < parts.count; ++p)
-        choose_part(shell, parts.list({work.elements, count}, p), most, margin, work, work.part[p]);
-    while ((parts.count + 1) * kMostHullPoints <= kMostCellPoints) {
+        choose_part(shell, parts.list({work.elements, count}, p), margin, work, work.part[p]);
+    while (parts.count < kMostCellParts) {
         uint32_t worst = 0;
         for (uint32_t p = 1; p < parts.count; ++p)
             if (work.part[p].left_out > work.part[worst].left_out) worst = p;
@@ -145,7 +145,7 @@ void choose_points(const ShellView& shell, uint32_t first, float margin, Workspa
         }
         work.part_count = parts.count;
         for (uint32_t p : {worst, other})
-            choose_part(shell, parts.list({work.elements, count}, p), most, margin, work, work.part[p]);
+            choose_part(shell, parts.list({work.elements, count}, p), margin, work, work.part[p]);
     }
 }
 

@@ -16,8 +16,8 @@ struct CellParts {
 };
 
 /// Halves, while there are parts left, the one that a hull over it would bury deepest: along the tangent in which its
-/// extent times the turn of its normals / 8 (the sagitta of an arc) is most, until that is 0.7 mm or a tenth of the
-/// wall. Cells hold at most 256 elements here. Without it, what lay in the hollow of a vase's shard hovered by up to
+/// extent times the turn of its normals / 8 (the sagitta of an arc) is most, until that is 1 mm or a tenth of the wall.
+/// Cells hold at most 256 elements here. Without it, what lay in the hollow of a vase's shard hovered by up to
 /// 16 mm over what is drawn.
 void split_by_bend(const ShellView& shell, std::span<uint32_t> elements, CellParts& parts);
 /// Halves one part across its longest way. Returns the new part's number, or `part` where it is too small.
