@@ -17,8 +17,8 @@ inline uint32_t most_points(uint32_t cells, uint32_t elements) {
 /// Writes HullPoints, and the counts in Cells, for all cells. Elements must stand sorted by cell (build_shell and
 /// make_piece leave them so) and the points' range have most_points rows. Points are outer and inner corners, pulled
 /// into the solid by the margin along the shell's normal (at most to the middle of the wall) and away from rims and
-/// cracks, so that neighbours along a crack start apart. A cell is one hull, or up to four where it is bent
-/// (split_by_bend) or where 32 points leave out more than half a margin. A hull leaves out what lies less than 0.2
+/// cracks, so that neighbours along a crack start apart. A cell is one hull, or up to three where it is bent
+/// (split_by_bend) and four where 32 points leave out more than half a margin. A hull leaves out what lies less than 0.2
 /// margins above it. Uses Vertices.copy as scratch.
 void build_hulls(ShellView shell);
 /// The same for a piece of a broken shell: where Cells.same_cell names a cell of `parent` and the margins of both are

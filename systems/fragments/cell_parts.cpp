@@ -8,6 +8,7 @@ namespace {
 // m of burial. Less, or more parts a cell, is closer to the hover of 1 mm but dear: 0.7 mm doubled the contacts
 // of a pile of shards, and with them the solver's time.
 constexpr float kMostBend = 0.001f;
+constexpr uint32_t kMostBentParts = 3;  // the fourth is for what 32 points leave out
 constexpr float kMostBendOfWall = 0.1f;
 constexpr uint32_t kFewElements = 4;  // a part of fewer is not halved
 constexpr uint32_t kWays = 6;         // 30 degrees apart
@@ -96,7 +97,7 @@ void split_by_bend(const ShellView& shell, std::span<uint32_t> elements, CellPar
             find_halving(shell, parts.list(elements, part), [](float extent, float turn) { return extent * turn / 8; });
     };
     measure(0);
-    while (parts.count < kMostCellParts) {
+    while (parts.count < kMostBentParts) {
         uint32_t worst = 0;
         for (uint32_t p = 1; p < parts.count; ++p)
             if (halving[p].worth > halving[worst].worth) worst = p;
