@@ -5,8 +5,8 @@
 namespace cullet {
 namespace {
 
-// m of burial. Less, or more parts a cell, is closer to the hover of 1 mm but dear: 0.7 mm doubled the contacts
-// of a pile of shards, and with them the solver's time.
+// m of burial. Two, three and four parts a bend took the hover of 1,000 shards in a pit (the 95th percentile) from 1.8 mm
+// to 0.6, 0.6 and 0.3, but each made more contacts, and the solver's share and the time to sleep grow with them.
 constexpr float kMostBend = 0.001f;
 constexpr uint32_t kMostBentParts = 3;  // the fourth is for what 32 points leave out
 constexpr float kMostBendOfWall = 0.1f;
