@@ -13,7 +13,9 @@ namespace cullet {
 
 inline constexpr uint32_t kLanes = 8;  // vertices in a pack, on every machine
 inline constexpr uint32_t kVerticesPerCell =
-    64;  // 8 packs, about 128 elements: one convex piece of the collision shape
+    64;  // 8 packs, about 128 elements: a few convex pieces of the collision shape
+inline constexpr uint32_t kMostCellParts = 4;     // convex pieces of a cell
+inline constexpr uint32_t kMostCellPoints = 128;  // corners of all of them
 
 /// Rows [first, first + count) of a table, with room for `capacity`.
 struct Range {
@@ -195,13 +197,15 @@ struct StiffnessLinks : Table<StiffnessLinks> {
     Column<StiffnessLink> link{*this, "link"};
 };
 
-/// One row is a patch of neighbouring vertices: chunk of a job, bounds, one convex piece of the collision shape.
+/// One row is a patch of neighbouring vertices: chunk of a job, bounds, a few convex pieces of the collision
+/// shape.
 struct Cells : Table<Cells> {
     using Table::Table;
     static constexpr const char* kName = "cells";
-    Column<uint32_t> first_point{*this, "first_point"};      // relative to the shell's points
-    Column<uint32_t> point_count{*this, "point_count"};      // <= 32; 0: the cell has lost all of its elements
-    Column<uint32_t> element_count{*this, "element_count"};  // live ones
+    Column<uint32_t> first_point{*this, "first_point"};  // relative to the shell's points
+    Column<uint32_t> point_count{*this, "point_count"};  // <= 128; 0: the cell has lost all of its elements
+    Column<std::array<uint8_t, kMostCellParts>> part_points{*this, "part_points"};  // of each hull in turn; sum: count
+    Column<uint32_t> element_count{*this, "element_count"};                         // live ones
     Column<uint8_t> is_stale{*this, "is_stale"};  // cracked since its points were chosen; the next break chooses anew
     // Scratch of make_piece: the part's elements of this cell as a list, and the cell that it is merged into.
     Column<uint32_t> first_element{*this, "first_element", "1", Keep::Scratch};
@@ -214,7 +218,7 @@ struct Cells : Table<Cells> {
     Column<uint32_t> shape{*this, "shape", "1", Keep::Scratch};  // RigidWorld's, of a hull chosen in this step; kNone
 };
 
-/// One row is a corner of a cell's hull, body frame, pulled in by the collision margin.
+/// One row is a corner of one of a cell's hulls, body frame, pulled in by the collision margin.
 struct HullPoints : Table<HullPoints> {
     using Table::Table;
     static constexpr const char* kName = "hull_points";

@@ -38,7 +38,7 @@ State::State(const Limits& l)
       stiffness_blocks(slot_limit(l)),
       stiffness_links(slot_limit(l)),
       cells(cell_limit(l)),
-      hull_points(cell_limit(l) * 16),
+      hull_points(cell_limit(l) * 32),
       tasks(l.tasks),
       task_contacts(l.tasks * kMostContacts),
       patch_vertices(l.tasks * kMostPatchVertices),
@@ -82,7 +82,7 @@ void State::commit_ahead(const ShellRoom& shell, uint32_t served) {
     commit(stiffness_blocks, pools.blocks, 2 * shell.blocks);
     commit(stiffness_links, pools.links, 2 * shell.links);
     commit(cells, pools.cells, 3 * shell.cells);
-    commit(hull_points, pools.points, 64 * shell.cells);
+    commit(hull_points, pools.points, 2 * kMostCellPoints * shell.cells);
     commit(view_vertices, pools.view_vertices, 12 * shell.elements);
     commit(view_indices, pools.view_indices, 12 * shell.elements);
 }

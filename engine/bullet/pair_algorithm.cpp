@@ -306,8 +306,12 @@ void PairAlgorithm::write(PairRecord& record, const Patch& patch, uint32_t cell_
     for (int k = 0; k < before_count; ++k) before[k] = manifold.getContactPoint(k);
     bool is_taken[kPatchPoints] = {};
     const float friction = std::sqrt(a.friction * b.friction), restitution = std::sqrt(a.restitution * b.restitution);
-    const float rolling = a.rolling_friction * b.friction + b.rolling_friction * a.friction;
     const float mass = a.mass > 0 && b.mass > 0 ? std::min(a.mass, b.mass) : std::max(a.mass, b.mass);
+    // Bullet bounds the impulse of rolling friction by the friction times the contact's impulse and also by the
+    // friction itself, as if no impulse were above 1 N s: a ball of 30 kg rolled five times as far as one of a
+    // kilogram.
+    const float rolling =
+        (a.rolling_friction * b.friction + b.rolling_friction * a.friction) * std::max(1.0f, mass * work_.weight_speed);
     const float most = kRestingWeights * mass * work_.weight_speed;
     manifold.setNumContacts(patch.count);
     for (int k = 0; k < patch.count; ++k) {

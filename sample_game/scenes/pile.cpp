@@ -7,7 +7,7 @@
 namespace cullet {
 namespace {
 
-constexpr uint32_t kFramesBetween = 24, kMostVases = 120;
+constexpr uint32_t kFramesBetween = 14, kMostVases = 120;
 constexpr Vec3 kStone{0.33f, 0.32f, 0.30f};
 
 Keys pile_keys() {

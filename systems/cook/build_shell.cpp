@@ -247,7 +247,7 @@ Result<Row<Shells>> build_shell(State& state, const ShellSource& source, Row<Mat
                          .elements = element_count,
                          .hinges = element_count * 3 / 2,
                          .cells = cell_count,
-                         .points = cell_count * kMostHullPoints};
+                         .points = most_points(cell_count, element_count)};
     const char* full = nullptr;
     const Row<Shells> row = make_shell(state, room, &full);
     if (!row.exists())

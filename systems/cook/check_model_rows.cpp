@@ -7,7 +7,7 @@
 #include "engine/mesh_file.hpp"
 #include "systems/cook/model_file.hpp"
 #include "systems/damage/ring.hpp"
-#include "systems/fragments/cell_hulls.hpp"
+#include "systems/fragments/extreme_points.hpp"
 
 namespace cullet {
 namespace {
@@ -106,7 +106,8 @@ constexpr Rule kRules[] = {
     {"stiffness_blocks", "block", Is::Elsewhere},
     {"stiffness_links", "link", Is::Elsewhere},
     {"cells", "first_point", Is::Elsewhere},
-    {"cells", "point_count", Is::Number, 0, kMostHullPoints},
+    {"cells", "point_count", Is::Number, 0, kMostCellPoints},
+    {"cells", "part_points", Is::Number, 0, kMostHullPoints},
     {"cells", "element_count", Is::Elsewhere},
     {"cells", "is_stale", Is::Number, 0, 0},
     {"hull_points", "point", Is::Number, -kFar, kFar},
@@ -354,6 +355,11 @@ void check_cells(Checker& check) {
                      place("cells.first_point", c) + " is " + std::to_string(state.cells.first_point[row]) + " for " +
                          std::to_string(state.cells.point_count[row]) + " points; there are " +
                          std::to_string(points.count));
+        uint32_t sum = 0;
+        for (const uint8_t part : state.cells.part_points[row]) sum += part;
+        check.expect(sum == state.cells.point_count[row], place("cells.part_points", c) + " add up to " +
+                                                              std::to_string(sum) + "; the cell has " +
+                                                              std::to_string(state.cells.point_count[row]) + " points");
     }
 }
 

@@ -17,7 +17,7 @@ namespace {
 static_assert(std::endian::native == std::endian::little, "model files are little-endian and are copied as they stand");
 
 constexpr char kMagic[8] = {'c', 'm', 'o', 'd', 'l', '\r', '\n', '\x1a'};
-constexpr uint32_t kVersion = 3;
+constexpr uint32_t kVersion = 4;
 constexpr uint32_t kLongestText = 4096;        // bytes
 constexpr uint64_t kLargestFile = 1ull << 34;  // rows of it, and of what is derived from them, count in 32 bits
 

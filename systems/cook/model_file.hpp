@@ -4,7 +4,7 @@
 // Little-endian. 64 bytes of header, then the payload.
 //
 //     0  8 bytes  magic "cmodl\r\n\x1a"
-//     8  u32      version, 1
+//     8  u32      version, 4
 //    12  u32      0
 //    16  u64      bytes of the payload
 //    24  u64      0

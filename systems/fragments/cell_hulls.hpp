@@ -1,21 +1,24 @@
-// The collision shape of a shell: a convex hull of at most 32 points for each cell.
+// The collision shape of a shell: up to four convex hulls of at most 32 points for each cell.
 #pragma once
+#include <algorithm>
+
 #include "components/state.hpp"
 
 namespace cullet {
 
-inline constexpr uint32_t kMostHullPoints = 32;
-
 /// The shell's collision margin: 0.2 of its mean depth, at most 1 mm.
 float hull_margin(const ShellView& shell);
 
+/// Rows of HullPoints that will do for so many cells.
+inline uint32_t most_points(uint32_t cells, uint32_t elements) {
+    return std::min(cells * kMostCellPoints, 6 * elements);
+}
+
 /// Writes HullPoints, and the counts in Cells, for all cells. Elements must stand sorted by cell (build_shell and
-/// make_piece leave them so) and the points' range have 32 rows a cell. Points are outer and inner corners, pulled into
-/// the solid by the margin along the shell's normal (at most to the middle of the wall) and away from rims and cracks,
-/// so that neighbours along a crack start apart. Of the extremes along 86 directions in the cell's own frame (most of
-/// them round the rims of both faces) the 32 are kept that add most reach, fewer when nothing lacks more than 0.05
-/// margins. About 35 microseconds a cell of processor time,
-/// without AVX.
+/// make_piece leave them so) and the points' range have most_points rows. Points are outer and inner corners, pulled
+/// into the solid by the margin along the shell's normal (at most to the middle of the wall) and away from rims and
+/// cracks, so that neighbours along a crack start apart. A cell is one hull, and up to four where 32 points leave out
+/// more than half a margin. A hull leaves out what lies less than 0.2 margins above it.
 void build_hulls(ShellView shell);
 
 // The same in steps, for a body that broke: what moved as it was is copied, the other cells are chosen anew, all at

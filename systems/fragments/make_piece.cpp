@@ -245,7 +245,7 @@ ShellRoom room_of(const Counts& counts, const FragmentPart& part) {
             .elements = part.element_count,
             .hinges = counts.hinges,
             .cells = counts.cells,
-            .points = counts.cells * kMostHullPoints};
+            .points = most_points(counts.cells, part.element_count)};
 }
 
 }  // namespace

@@ -86,7 +86,8 @@ Break break_of(Planning& planning, Row<Tasks> task, Row<Bodies> body, Row<Shells
 
 // Room that the rest needs whatever leaves. False: none, and nothing else is to change.
 bool reserve_points(Planning& planning, Break& plan) {
-    const uint32_t rows = planning.state.shells.cells[plan.broken].count * kMostHullPoints;
+    const Shells& shells = planning.state.shells;
+    const uint32_t rows = most_points(shells.cells[plan.broken].count, shells.elements[plan.broken].count);
     if (take_points(planning.state, rows, plan.points)) return true;
     planning.refused.push(refused_event(planning.state.bodies, plan.body, "limits.vertices"));
     return false;

@@ -56,7 +56,7 @@ void plan_hulls(Serial, const Events<Break>& breaks, ShellTables shells, Bodies&
         for (const Row<Bodies> child : plan.child)
             if (child.exists()) want_hulls(shells.state, bodies.shell[child], wanted);
     }
-    rigid.reserve_shapes(wanted.size());
+    rigid.reserve_shapes(kMostCellParts * wanted.size());
 }
 
 }  // namespace cullet

@@ -77,6 +77,7 @@ bool keep_hulls(ShellView shell, ShellView before) {
     for (uint32_t c = 0; c < cells.count; ++c) {
         state.cells.first_point[cells.first + c] = state.cells.first_point[then + c];
         state.cells.point_count[cells.first + c] = state.cells.point_count[then + c];
+        state.cells.part_points[cells.first + c] = state.cells.part_points[then + c];
         state.cells.is_stale[cells.first + c] = state.cells.is_changed[cells.first + c];
     }
     own.count = points.count;

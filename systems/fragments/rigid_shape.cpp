@@ -8,22 +8,23 @@ namespace cullet {
 std::span<const ConvexPiece> convex_pieces(const State& state, Row<Shells> shell, Arena& arena, RigidId broken_body) {
     const Range cells = state.shells.cells[shell];
     const uint32_t first_point = state.shells.points[shell].first;
-    const auto pieces = arena.take<ConvexPiece>(cells.count);
-    uint32_t count = 0;
-    for (uint32_t c = 0; c < cells.count && c < pieces.size(); ++c) {
-        const uint32_t point_count = state.cells.point_count[cells.first + c];
-        if (point_count == 0) continue;
-        const auto points = arena.take<Vec3>(point_count);
-        for (uint32_t p = 0; p < points.size(); ++p)
-            points[p] = state.hull_points.point[first_point + state.cells.first_point[cells.first + c] + p];
-        pieces[count] = {points, c};
-        if (broken_body != kNoRigid) {
-            const uint32_t same = state.cells.same_cell[cells.first + c];
-            pieces[count].same_body = same == kNone ? kNoRigid : broken_body;
-            pieces[count].same_cell = same;
-            pieces[count].shape = state.cells.shape[cells.first + c];
+    uint32_t part_count = 0, count = 0;
+    for (uint32_t c = cells.first; c < cells.first + cells.count; ++c)
+        for (const uint8_t part_points : state.cells.part_points[c]) part_count += part_points > 0;
+    const auto pieces = arena.take<ConvexPiece>(part_count);
+    for (uint32_t c = 0; c < cells.count; ++c) {
+        const uint32_t row = cells.first + c, same = state.cells.same_cell[row], shape = state.cells.shape[row];
+        uint32_t from = first_point + state.cells.first_point[row];
+        for (uint32_t part = 0; part < kMostCellParts && count < pieces.size(); ++part) {
+            const auto points = arena.take<Vec3>(state.cells.part_points[row][part]);
+            if (points.empty()) continue;
+            for (Vec3& p : points) p = state.hull_points.point[from++];
+            ConvexPiece& piece = pieces[count++] = {points, kMostCellParts * c + part};
+            if (broken_body == kNoRigid) continue;
+            piece.same_body = same == kNone ? kNoRigid : broken_body;
+            piece.same_cell = same == kNone ? kNone : kMostCellParts * same + part;
+            piece.shape = shape == kNone ? kNone : kMostCellParts * shape + part;
         }
-        ++count;
     }
     return pieces.first(count);
 }

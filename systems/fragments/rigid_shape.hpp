@@ -6,9 +6,9 @@
 
 namespace cullet {
 
-/// Hulls of all cells that have points; the spans live in the arena. With `broken_body`, the one
-/// that came apart in this step, Cells.same_cell tells which of its hulls have the same points, and Cells.shape which
-/// were made ahead.
+/// Hulls of all cells that have points, named kMostCellParts * cell + part; the spans live in the arena. With
+/// `broken_body`, the one that came apart in this step, Cells.same_cell tells which of its hulls have the same points,
+/// and Cells.shape which were made ahead.
 std::span<const ConvexPiece> convex_pieces(const State& state, Row<Shells> shell, Arena& arena,
                                            RigidId broken_body = kNoRigid);
 /// All that the rigid world needs for a body with a shell, from its row.

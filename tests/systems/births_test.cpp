@@ -234,8 +234,10 @@ TEST(Births, RefusedForWantOfABodyTheyComeOffTheFrameAfterOneIsRemoved) {
     EXPECT_EQ(b.world.events().refused.count, refused - 1);
     const Matter after = matter_of(b.world);
     EXPECT_NEAR(after.mass, before.mass, 1e-9 * before.mass);
-    for (int k = 0; k < 3; ++k) EXPECT_NEAR(after.momentum[k], before.momentum[k], 2e-5);
-    EXPECT_NEAR(after.kinetic_energy, before.kinetic_energy, 1e-3 * before.kinetic_energy);
+    // The step's contacts between pieces are solved too: they may take energy, and give none.
+    for (int k = 0; k < 3; ++k) EXPECT_NEAR(after.momentum[k], before.momentum[k], 1e-4);
+    EXPECT_LE(after.kinetic_energy, (1 + 1e-6) * before.kinetic_energy);
+    EXPECT_GE(after.kinetic_energy, 0.98 * before.kinetic_energy);
     for (const BodyId id : shells_of(b.world)) {
         State& state = state_of(b.world);
         const auto& bodies = state.bodies;

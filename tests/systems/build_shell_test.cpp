@@ -88,7 +88,7 @@ TEST(BuildShell, PaddingIsUnderATenthAndDeadAndCellsAreSmall) {
         for (uint32_t c = 0; c < cells.count; ++c) {
             most = std::max(most, state.cells.element_count[cells.first + c]);
             sum += state.cells.element_count[cells.first + c];
-            EXPECT_LE(state.cells.point_count[cells.first + c], kMostHullPoints);
+            EXPECT_LE(state.cells.point_count[cells.first + c], kMostCellPoints);
         }
         EXPECT_EQ(sum, shell.element_count());
         std::printf("%zu vertices, %u rows, %u cells, most elements in a cell %u, mean edge %.2f mm\n",

@@ -139,7 +139,7 @@ TEST(HostZones, EachSystemThatWorkedHasAZoneInTheStepsOnTheThreadThatSteps) {
     for (const auto& [name, count] : heard.zones) names += ", " + name;
     names += ",";
     for (const PlannedSystem<WorldData>& system : b.world.contents().plan.systems()) {
-        if (system.name == "fall_debris") continue;  // rows of it may be there or not
+        if (system.name == "fall_debris" || system.name == "fill_stiffness") continue;  // not in every run
         EXPECT_NE(names.find(", " + system.name + ","), std::string::npos) << system.name << " in" << names;
     }
     EXPECT_EQ(heard.zones["solve_rigid"], steps);

@@ -25,7 +25,8 @@ struct BallOnFloor {
 };
 
 // A ball of 1 kg and 10 cm that touches the floor, off the floor's diagonal.
-BallOnFloor ball_on_floor(Vec3 velocity = {}, ContactSettings of_ball = {}, ContactSettings of_floor = {}) {
+BallOnFloor ball_on_floor(Vec3 velocity = {}, ContactSettings of_ball = {}, ContactSettings of_floor = {},
+                          float mass = 1) {
     Settings settings = small_settings();
     settings.gravity = {0, -kGravity, 0};
     BallOnFloor b{make_world(settings), {}, {}};
@@ -36,6 +37,7 @@ BallOnFloor ball_on_floor(Vec3 velocity = {}, ContactSettings of_ball = {}, Cont
     ball.pose.position = {1, 0.1f, 5};
     ball.motion.velocity = velocity;
     ball.contact = of_ball;
+    ball.mass = mass;
     ball.user_data = 7;
     b.ball = b.world.add_sphere(ball).value();
     return b;
@@ -148,14 +150,16 @@ TEST(WorldCalls, FrictionSlowsASlidingBallByMuGAndWithoutItNothingDoes) {
     EXPECT_NEAR(velocity_of(rolling.world, rolling.ball).x, speed - 0.3f * kGravity * 12 * kDt, 0.06);
 }
 
-TEST(WorldCalls, ARollingBallSlowsByTheFloorsFrictionAndRollsOn) {
-    BallOnFloor b = ball_on_floor({1, 0, 0});
-    ASSERT_TRUE(b.world.set_motion(b.ball, {{1, 0, 0}, {0, 0, -10}}).ok());
-    steps(b.world, 20);
-    const Motion motion = b.world.motion(b.ball).value();
-    // A moment of 0.3 r mu N against a mass of 7/5 m: a = 0.3 mu g / 1.4, with the floor's mu = 0.45.
-    EXPECT_NEAR(motion.velocity.x, 1 - 0.3f * 0.45f * kGravity / 1.4f * 20 * kDt, 0.03);
-    EXPECT_NEAR(-motion.angular_velocity.z * 0.1f, motion.velocity.x, 0.02);
+TEST(WorldCalls, ARollingBallSlowsByTheFloorsFrictionWhateverItWeighsAndRollsOn) {
+    for (const float mass : {0.1f, 1.0f, 30.0f, 1000.0f}) {
+        BallOnFloor b = ball_on_floor({1, 0, 0}, {}, {}, mass);
+        ASSERT_TRUE(b.world.set_motion(b.ball, {{1, 0, 0}, {0, 0, -10}}).ok());
+        steps(b.world, 20);
+        const Motion motion = b.world.motion(b.ball).value();
+        // A moment of 0.3 r mu N against a mass of 7/5 m: a = 0.3 mu g / 1.4, with the floor's mu = 0.45.
+        EXPECT_NEAR(motion.velocity.x, 1 - 0.3f * 0.45f * kGravity / 1.4f * 20 * kDt, 0.03) << mass << " kg";
+        EXPECT_NEAR(-motion.angular_velocity.z * 0.1f, motion.velocity.x, 0.02) << mass << " kg";
+    }
 }
 
 TEST(WorldCalls, RestitutionGivesBackItsShareOfTheSpeed) {

@@ -169,6 +169,7 @@ TEST(WorldMomentum, HeldBodiesKeepPoseAndVelocityWhileTheTaskRuns) {
     bool was_held = false;
     for (int frame = 0; frame < 40; ++frame) {
         b.world.step();
+        if (b.world.contents().data.counts.broke > 0) break;  // other pieces hold what is left of the body too
         const bool is_held = bodies.hold_count[b.body.index] > 0;
         EXPECT_EQ(bodies.hold_count[b.ball.index] > 0, is_held);
         const BodyId ids[] = {b.body, b.ball};
