@@ -51,14 +51,26 @@ bool measure_scene(const char* name, unsigned threads, uint32_t repeat, Figures&
     return r.repeats_agree;
 }
 
+bool measure_scene(const char* name, const Options& options, uint32_t repeat, Figures& figures) {
+    bool is_good = true;
+    for (const unsigned threads : options.threads)
+        is_good &= measure_scene(name, threads, options.rounds ? options.rounds : repeat, figures);
+    return is_good;
+}
+
 }  // namespace
 
-bool measure_frames(const Options& options, Figures& figures) {
-    bool is_good = true;
-    for (const char* name : {"vase", "wall", "pane", "pile"})
-        for (const unsigned threads : options.threads)
-            is_good &= measure_scene(name, threads, options.rounds ? options.rounds : 3, figures);
-    return is_good;
+bool measure_vase_frames(const Options& options, Figures& figures) {
+    return measure_scene("vase", options, 3, figures);
+}
+bool measure_wall_frames(const Options& options, Figures& figures) {
+    return measure_scene("wall", options, 3, figures);
+}
+bool measure_pane_frames(const Options& options, Figures& figures) {
+    return measure_scene("pane", options, 3, figures);
+}
+bool measure_pile_frames(const Options& options, Figures& figures) {
+    return measure_scene("pile", options, 1, figures);  // minutes
 }
 
 }  // namespace cullet::perf

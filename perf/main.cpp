@@ -9,13 +9,11 @@ int main(int argc, char** argv) {
         const char* name;
         bool (*measure)(const Options&, Figures&);
     };
-    const Scene scenes[] = {{"hidden_step", measure_hidden_step},
-                            {"hit", measure_hit},
-                            {"large_hit", measure_large_hit},
-                            {"generation", measure_generation},
-                            {"pile", measure_pile},
-                            {"soft_body", measure_soft_body},
-                            {"frames", measure_frames}};
+    const Scene scenes[] = {
+        {"hidden_step", measure_hidden_step}, {"hit", measure_hit},          {"large_hit", measure_large_hit},
+        {"generation", measure_generation},   {"pile", measure_pile},        {"soft_body", measure_soft_body},
+        {"vase", measure_vase_frames},        {"wall", measure_wall_frames}, {"pane", measure_pane_frames},
+        {"pile_frames", measure_pile_frames}};
     std::string names = "all";
     for (const Scene& scene : scenes) names += std::string(", ") + scene.name;
     Options options;

@@ -59,7 +59,11 @@ bool measure_generation(const Options& options, Figures& figures);
 bool measure_pile(const Options& options, Figures& figures);
 /// Link iterations of Bullet's soft body, for springs.
 bool measure_soft_body(const Options& options, Figures& figures);
-/// Frame times of the sample game's scenes.
-bool measure_frames(const Options& options, Figures& figures);
+/// Frame times, hitch and share of each system of the sample game's scenes: the least of three runs, frame by frame,
+/// and one run of the pile.
+bool measure_vase_frames(const Options& options, Figures& figures);
+bool measure_wall_frames(const Options& options, Figures& figures);
+bool measure_pane_frames(const Options& options, Figures& figures);
+bool measure_pile_frames(const Options& options, Figures& figures);
 
 }  // namespace cullet::perf

@@ -31,7 +31,7 @@ class Hull {
         chosen.left_out = 0;
         if (points_.empty()) return;
         if (start()) {
-            for (uint32_t i = 0; i < points_.size(); ++i) file(i, faces_, kMostFaces);
+            for (uint32_t i = 0; i < points_.size(); ++i) file(i, faces_, face_count_);
             const uint32_t room = most + has_tip_;
             for (uint32_t next = farthest(); next != kNoPoint; next = farthest()) {
                 chosen.left_out = above_[next];
@@ -90,7 +90,8 @@ class Hull {
 
     Face* make_face(uint32_t a, uint32_t b, uint32_t c) {
         uint32_t f = 0;
-        while (f < kMostFaces && faces_[f].is_used) ++f;
+        while (f < face_count_ && faces_[f].is_used) ++f;
+        if (f == face_count_) ++face_count_;
         CULLET_ASSERT(f < kMostFaces, "no face is left for a hull of %u points", corner_count_);
         Face& face = faces_[f];
         face = {};
@@ -128,13 +129,13 @@ class Hull {
     bool add(uint32_t i) {
         const Vec3 p = points_[i];
         bool is_seen[kMostFaces];
-        uint32_t free_faces = 0;
-        for (uint32_t f = 0; f < kMostFaces; ++f) {
+        uint32_t free_faces = kMostFaces - face_count_;
+        for (uint32_t f = 0; f < face_count_; ++f) {
             is_seen[f] = faces_[f].is_used && faces_[f].gap(p) > 0.1f * enough_;
             free_faces += !faces_[f].is_used || is_seen[f];
         }
         uint32_t outline[kMostFaces][2], count = 0;
-        for (uint32_t f = 0; f < kMostFaces; ++f) {
+        for (uint32_t f = 0; f < face_count_; ++f) {
             if (!is_seen[f]) continue;
             for (int k = 0; k < 3; ++k) {
                 const uint32_t a = faces_[f].corner[k], b = faces_[f].corner[(k + 1) % 3];
@@ -146,7 +147,7 @@ class Hull {
         }
         const uint32_t apex = corner_count_;
         add_corner(i);
-        for (uint32_t f = 0; f < kMostFaces; ++f) faces_[f].is_used = faces_[f].is_used && !is_seen[f];
+        for (uint32_t f = 0; f < face_count_; ++f) faces_[f].is_used = faces_[f].is_used && !is_seen[f];
         Face cone[kMostFaces];
         uint8_t number[kMostFaces];
         for (uint32_t k = 0; k < count; ++k) {
@@ -168,6 +169,7 @@ class Hull {
     Vec3 corner_[kMostCorners];
     uint32_t source_[kMostCorners], corner_count_ = 0;
     Face faces_[kMostFaces];
+    uint32_t face_count_ = 0;  // none is used from here on
     uint8_t face_of_edge_[kMostCorners][kMostCorners];
     uint8_t face_of_[kMostExtremeCandidates];
     float above_[kMostExtremeCandidates];

@@ -26,16 +26,16 @@ Found find(HitBench& bench, uint32_t placements, float step_scale, double guess)
     return found;
 }
 
-// Bounds of the full case are 35 % about medians of 20 and 5 % between the steps; a median of a few placements spreads
-// by another sixth or so. `halved` placements are looked at again at half the step.
-void expect_known_thresholds(Subject subject, uint32_t placements, uint32_t halved) {
+// The bounds of the full case, 35 % about medians of 20 and 5 % between the steps, on medians of a few placements.
+// `halved` placements are looked at again at half the step.
+void expect_known_thresholds(Subject subject, uint32_t placements, uint32_t halved, double piece_band = 0.35) {
     const Result<HitSubject> known = make_subject(subject);
     ASSERT_TRUE(known.ok()) << known.error();
     HitBench bench(subject, known->model);
     const Found whole = find(bench, placements, 1, known->known.first_crack);
     const double crack = Found::median(whole.cracks, placements), piece = Found::median(whole.pieces, placements);
-    EXPECT_NEAR(crack / known->known.first_crack, 1, 0.5);
-    EXPECT_NEAR(piece / known->known.first_piece, 1, 0.5);
+    EXPECT_NEAR(crack / known->known.first_crack, 1, 0.35);
+    EXPECT_NEAR(piece / known->known.first_piece, 1, piece_band);
     for (uint32_t i = 0; i < placements; ++i) {
         const auto at = [&](double speed) { return bench.blow(i, static_cast<float>(speed)); };
         EXPECT_FALSE(bench.run(at(0.4 * crack), true).cracked) << "placement " << i;
@@ -47,7 +47,7 @@ void expect_known_thresholds(Subject subject, uint32_t placements, uint32_t halv
 }
 
 TEST(Thresholds, AVaseCracksAndBreaksAtTheKnownSpeedsWhateverTheStep) {
-    expect_known_thresholds(Subject::Vase, 3, 3);
+    expect_known_thresholds(Subject::Vase, 3, 3, 0.5);  // placements spread by a factor of five
 }
 TEST(Thresholds, APaneCracksAndBreaksAtTheKnownSpeedsWhateverTheStep) {
     expect_known_thresholds(Subject::Pane, 5, 5);
