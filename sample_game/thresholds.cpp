@@ -33,28 +33,71 @@ double bisect(double never, double guess, Does does) {
     return std::sqrt(low * high);
 }
 
-}  // namespace
+/// The crossing nearest to `known`: places a hundredth and a half beside it, then 3 % farther at a time to both sides.
+template <class Does>
+double follow(double known, Does does) {
+    constexpr int kMostPlaces = 40;  // to a third and three times
+    constexpr double kPlace = 1.03;
+    const auto speed_at = [&](int place) { return known * std::pow(kPlace, place - 0.5); };
+    if (!(known < kMostThreshold)) return known;
+    bool low_does = does(speed_at(0)), high_does = does(speed_at(1));
+    double low = speed_at(0), high = speed_at(1);
+    bool is_found = !low_does && high_does;
+    for (int place = 1; !is_found && place < kMostPlaces; ++place) {
+        const bool below_does = does(speed_at(-place));
+        if (!below_does && low_does) low = speed_at(-place), high = speed_at(1 - place), is_found = true;
+        low_does = below_does;
+        if (is_found) break;
+        const bool above_does = does(speed_at(place + 1));
+        if (above_does && !high_does) low = speed_at(place), high = speed_at(place + 1), is_found = true;
+        high_does = above_does;
+    }
+    if (!is_found) return bisect(0.01 * known, known, does);
+    while (high > kBisectionRatio * low) {
+        const double middle = std::sqrt(low * high);
+        (does(middle) ? high : low) = middle;
+    }
+    return std::sqrt(low * high);
+}
 
-Thresholds find_thresholds(HitBench& bench, uint32_t placement, float step_scale, double guess) {
-    Thresholds found;
-    const auto hit = [&](double speed) {
+/// Counts what it runs.
+struct Blows {
+    HitBench& bench;
+    uint32_t placement;
+    float step_scale;
+    Thresholds& found;
+
+    HitReport run(double speed, bool until_crack) const {
         HitDescription blow = bench.blow(placement, static_cast<float>(speed));
         blow.step_scale = step_scale;
+        const HitReport report = bench.run(blow, until_crack);
         ++found.runs;
-        return blow;
-    };
-    const auto cracks = [&](double speed) {
-        const HitReport report = bench.run(hit(speed), true);
         found.dropped += report.dropped;
-        return report.cracked;
-    };
-    const auto breaks = [&](double speed) {
-        const HitReport report = bench.run(hit(speed));
-        found.dropped += report.dropped;
-        return report.broke;
-    };
-    found.first_crack = bisect(0.01 * guess, guess, cracks);
-    found.first_piece = bisect(found.first_crack / kBisectionRatio, 1.4 * found.first_crack, breaks);
+        return report;
+    }
+    auto crack() const {
+        return [this](double speed) { return run(speed, true).cracked; };
+    }
+    auto break_off() const {
+        return [this](double speed) { return run(speed, false).broke; };
+    }
+};
+
+}  // namespace
+
+Thresholds find_thresholds(HitBench& bench, uint32_t placement, double guess) {
+    Thresholds found;
+    const Blows blows{bench, placement, 1, found};
+    found.first_crack = bisect(0.01 * guess, guess, blows.crack());
+    found.first_piece = bisect(found.first_crack / kBisectionRatio, 1.4 * found.first_crack, blows.break_off());
+    return found;
+}
+
+Thresholds follow_thresholds(HitBench& bench, uint32_t placement, float step_scale, const Thresholds& known) {
+    Thresholds found;
+    const Blows blows{bench, placement, step_scale, found};
+    found.first_crack = follow(known.first_crack, blows.crack());
+    found.first_piece = follow(known.first_piece, blows.break_off());
     return found;
 }
 

@@ -61,7 +61,7 @@ Measured measure(const HitSubject& known, Subject subject, const TruthSettings& 
     const uint32_t n = settings.placements;
     m.thresholds.resize(n), m.halved.resize(n), m.hits.resize(n), m.cracks_below.resize(n), m.breaks_above.resize(n);
     for_placements(known, subject, settings, "thresholds", [&](HitBench& bench, uint32_t i) {
-        m.thresholds[i] = find_thresholds(bench, i, 1, known.known.first_crack);
+        m.thresholds[i] = find_thresholds(bench, i, known.known.first_crack);
     });
     spread(m.thresholds, m.spread);
     for_placements(known, subject, settings, "bands and hits", [&](HitBench& bench, uint32_t i) {
@@ -71,7 +71,7 @@ Measured measure(const HitSubject& known, Subject subject, const TruthSettings& 
         m.hits[i] = bench.examine(at(known.hit_speed));
     });
     for_placements(known, subject, settings, "half the step", [&](HitBench& bench, uint32_t i) {
-        m.halved[i] = find_thresholds(bench, i, 0.5f, m.thresholds[i].first_crack);
+        m.halved[i] = follow_thresholds(bench, i, 0.5f, m.thresholds[i]);
     });
     spread(m.halved, m.halved_spread);
     return m;
@@ -84,14 +84,27 @@ MedianSpread over_hits(const Measured& m, Value value) {
     return spread_of(values);
 }
 
+/// Median over placements of what half the step changes, %: the median of the speeds jumps to its neighbour when one
+/// placement of 20 finds another way to break.
+double paired_change(const Measured& m, int k) {
+    std::vector<double> changes;
+    for (size_t i = 0; i < m.thresholds.size(); ++i) {
+        const Thresholds &whole = m.thresholds[i], &half = m.halved[i];
+        changes.push_back(100 * (k == 0 ? half.first_crack / whole.first_crack : half.first_piece / whole.first_piece) -
+                          100);
+    }
+    return spread_of(changes).median;
+}
+
 void print_thresholds(const HitSubject& known, const Measured& m) {
     const double wanted[2] = {known.known.first_crack, known.known.first_piece};
     for (int k = 0; k < 2; ++k)
         fmt::print(
-            "  {}  {:6.2f} m/s  ({:.2f} to {:.2f}), known {:.2f}, off by {:+.0f} %; half the step {:.2f}, {:+.1f} %\n",
+            "  {}  {:6.2f} m/s  ({:.2f} to {:.2f}), known {:.2f}, off by {:+.0f} %; half the step {:.2f}, {:+.1f} %, a "
+            "placement {:+.1f} %\n",
             kNames[k], m.spread[k].median, m.spread[k].least, m.spread[k].most, wanted[k],
             100 * (m.spread[k].median / wanted[k] - 1), m.halved_spread[k].median,
-            100 * (m.halved_spread[k].median / m.spread[k].median - 1));
+            100 * (m.halved_spread[k].median / m.spread[k].median - 1), paired_change(m, k));
 }
 
 void print_hits(const HitSubject& known, const Measured& m) {
@@ -145,6 +158,7 @@ nlohmann::json to_json(const HitSubject& known, const Measured& m) {
         speeds["known"] = k == 0 ? known.known.first_crack : known.known.first_piece;
         speeds["median"] = m.spread[k].median, speeds["half_step_median"] = m.halved_spread[k].median;
         for (const Thresholds& t : m.thresholds) speeds["all"].push_back(k == 0 ? t.first_crack : t.first_piece);
+        for (const Thresholds& t : m.halved) speeds["half_step_all"].push_back(k == 0 ? t.first_crack : t.first_piece);
     }
     for (const HitResult& hit : m.hits)
         json["hits"].push_back({{"pieces", hit.pieces},

@@ -19,7 +19,8 @@ namespace cullet {
 namespace {
 
 constexpr uint32_t kThresholdPlaces = 4;
-constexpr uint64_t kDefaultHoldUnits = 8'000'000ull * 6;  // default budget for 0.1 s at 60 frames a second
+// Default budget of the frame of the touch and of the six that a hold of 0.1 s lasts.
+constexpr uint64_t kDefaultHoldUnits = 8'000'000ull * 7;
 
 Result<Mesh> mesh_of(const MeshView& view) {
     Mesh mesh;

@@ -9,22 +9,18 @@ namespace cullet {
 namespace {
 
 struct Found {
+    std::vector<Thresholds> all;
     std::vector<double> cracks, pieces;  // m/s, by placement
+    void add(const Thresholds& t) {
+        EXPECT_EQ(t.dropped, 0u) << "placement " << all.size();
+        all.push_back(t);
+        cracks.push_back(t.first_crack), pieces.push_back(t.first_piece);
+    }
     /// Of the first few placements.
     static double median(const std::vector<double>& speeds, size_t placements) {
         return spread_of({speeds.begin(), speeds.begin() + static_cast<ptrdiff_t>(placements)}).median;
     }
 };
-
-Found find(HitBench& bench, uint32_t placements, float step_scale, double guess) {
-    Found found;
-    for (uint32_t i = 0; i < placements; ++i) {
-        const Thresholds t = find_thresholds(bench, i, step_scale, guess);
-        EXPECT_EQ(t.dropped, 0u) << "placement " << i;
-        found.cracks.push_back(t.first_crack), found.pieces.push_back(t.first_piece);
-    }
-    return found;
-}
 
 // The bounds of the full case, 35 % about medians of 20 and 5 % between the steps, on medians of a few placements.
 // `halved` placements are looked at again at half the step.
@@ -32,7 +28,8 @@ void expect_known_thresholds(Subject subject, uint32_t placements, uint32_t halv
     const Result<HitSubject> known = make_subject(subject);
     ASSERT_TRUE(known.ok()) << known.error();
     HitBench bench(subject, known->model);
-    const Found whole = find(bench, placements, 1, known->known.first_crack);
+    Found whole, half;
+    for (uint32_t i = 0; i < placements; ++i) whole.add(find_thresholds(bench, i, known->known.first_crack));
     const double crack = Found::median(whole.cracks, placements), piece = Found::median(whole.pieces, placements);
     EXPECT_NEAR(crack / known->known.first_crack, 1, 0.35);
     EXPECT_NEAR(piece / known->known.first_piece, 1, piece_band);
@@ -41,7 +38,7 @@ void expect_known_thresholds(Subject subject, uint32_t placements, uint32_t halv
         EXPECT_FALSE(bench.run(at(0.4 * crack), true).cracked) << "placement " << i;
         EXPECT_TRUE(bench.run(at(2.5 * piece)).broke) << "placement " << i;
     }
-    const Found half = find(bench, halved, 0.5f, crack);
+    for (uint32_t i = 0; i < halved; ++i) half.add(follow_thresholds(bench, i, 0.5f, whole.all[i]));
     EXPECT_NEAR(Found::median(half.cracks, halved) / Found::median(whole.cracks, halved), 1, 0.05);
     EXPECT_NEAR(Found::median(half.pieces, halved) / Found::median(whole.pieces, halved), 1, 0.05);
 }
