@@ -28,7 +28,7 @@ constexpr double kFallSpeed = 5.4;  // m/s, 1.5 m
 /// the least is what it takes on a machine that does nothing else, however busy this one is.
 class LeastTimes {
  public:
-    void begin_run() { at_ = 0; }
+    void begin_run() { at_ = 0, run_ticks_ = 0; }
     template <class Call>
     void part(Call call) {
         const uint64_t start = __rdtsc();
@@ -36,6 +36,7 @@ class LeastTimes {
         const uint64_t ticks = __rdtsc() - start;
         if (at_ == ticks_.size()) ticks_.push_back(ticks);
         ticks_[at_] = std::min(ticks_[at_], ticks);
+        run_ticks_ += ticks;
         ++at_;
     }
     double total(double seconds_a_tick) const {
@@ -43,10 +44,12 @@ class LeastTimes {
         for (const uint64_t t : ticks_) sum += t;
         return static_cast<double>(sum) * seconds_a_tick;
     }
-    size_t size() const { return ticks_.size(); }
+    /// Of all parts of this run.
+    uint64_t run_ticks() const { return run_ticks_; }
 
  private:
     std::vector<uint64_t> ticks_;
+    uint64_t run_ticks_ = 0;
     size_t at_ = 0;
 };
 
@@ -165,16 +168,22 @@ void run_bare(BareHidden& bare, uint32_t steps, LeastTimes& times) {
 struct Measured {
     double open = 0, loop = 0, group = 0, hand_off = 0;  // s
     uint64_t hash = 0;
+    std::vector<double> in_bare;  // of each round: the whole hit over the bare steps that ran just before it
     double whole() const { return open + loop + group + hand_off; }
 };
 
-Measured measure_slices(Vase& vase, const BrittleLoop& loop, JobSystem* team, double tick, uint32_t rounds) {
+/// `yardstick` runs the bare steps and returns their ticks: before each round, so that what the machine does meanwhile
+/// is the same for both.
+template <class Yardstick>
+Measured measure_slices(Vase& vase, const BrittleLoop& loop, JobSystem* team, double tick, uint32_t rounds,
+                        Yardstick yardstick) {
     LeastTimes open, steps, group, hand_off;
     Measured result;
     Ending ending;
     State& state = vase.state;
     LoopWorld world{state};
     for (uint32_t round = 0; round < rounds; ++round) {
+        const uint64_t bare = yardstick();
         for (LeastTimes* t : {&open, &steps, &group, &hand_off}) t->begin_run();
         const auto advance = [&] {
             const uint32_t count = team ? kTeamSliceSteps : kSliceSteps;
@@ -189,7 +198,11 @@ Measured measure_slices(Vase& vase, const BrittleLoop& loop, JobSystem* team, do
         result.hash = run_whole(
             vase, ending, [&](auto call) { open.part(call); }, advance, [&](auto call) { group.part(call); },
             [&](auto call) { hand_off.part(call); });
+        uint64_t whole = 0;
+        for (const LeastTimes* t : {&open, &steps, &group, &hand_off}) whole += t->run_ticks();
+        if (bare > 0) result.in_bare.push_back(static_cast<double>(whole) / static_cast<double>(bare));
     }
+    std::sort(result.in_bare.begin(), result.in_bare.end());
     result.open = open.total(tick), result.loop = steps.total(tick);
     result.group = group.total(tick), result.hand_off = hand_off.total(tick);
     return result;
@@ -252,8 +265,12 @@ void measure_vase(const char* name, float edge, const Options& options, uint32_t
     Ending ending;
     LoopWorld world{vase.state};
     uint64_t hash = 0;
-    for (uint32_t round = 0; round < rounds; ++round) {
+    const auto yardstick = [&] {
         if (BareHidden::is_supported()) run_bare(bare_hidden, counts.steps, bare_times);
+        return bare_times.run_ticks();
+    };
+    for (uint32_t round = 0; round < rounds; ++round) {
+        yardstick();
         for (LeastTimes& t : systems.times) t.begin_run();
         const auto plain = [](auto call) { call(); };
         hash = run_whole(
@@ -282,7 +299,7 @@ void measure_vase(const char* name, float edge, const Options& options, uint32_t
     double alone = 0;
     for (const unsigned threads : options.threads) {
         const auto jobs = threads > 1 ? make_jobs(JobBackend::Threads, threads) : nullptr;
-        const Measured m = measure_slices(vase, loop, jobs.get(), tick, rounds);
+        const Measured m = measure_slices(vase, loop, jobs.get(), tick, rounds, yardstick);
         agrees = agrees && m.hash == hash;
         const std::string suffix = ", " + std::to_string(threads) + (threads == 1 ? " thread" : " threads");
         if (threads == 1) {
@@ -296,9 +313,11 @@ void measure_vase(const char* name, float edge, const Options& options, uint32_t
                         1e9 * bare / (5.0 * counts.steps * vase.state.shells.vertices[vase.shell].count), "ns");
         }
         figures.add(prefix + "whole hit" + suffix, 1e3 * m.whole(), "ms");
-        if (threads == 1 && bare > 0) {
-            figures.add(prefix + "whole hit / bare steps of the intact shell" + suffix, m.whole() / bare, "x");
-            figures.add(prefix + "whole hit / bare steps" + suffix, m.whole() / (bare * growth), "x", 2);
+        // The middle round: this figure is a ratio of neighbours in time, the rest are sums of least times.
+        if (threads == 1 && !m.in_bare.empty()) {
+            const double middle = m.in_bare[m.in_bare.size() / 2];
+            figures.add(prefix + "whole hit / bare steps of the intact shell" + suffix, middle, "x");
+            figures.add(prefix + "whole hit / bare steps" + suffix, middle / growth, "x", 2);
         }
         if (threads > 1 && alone > 0) figures.add(prefix + "speed-up" + suffix, alone / m.whole(), "x");
     }
