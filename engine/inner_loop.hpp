@@ -160,7 +160,7 @@ class InnerLoop {
     static uint32_t chunks_of(const PlannedSystem<World>& system, Rows<void> rows) {
         return (rows.count + system.chunk_rows - 1) / system.chunk_rows;
     }
-    // In one call: a chunk of a pass lasts some 0.3 microseconds, of which a call of its own would take a tenth.
+    // In one call: systems take any number of rows, and each call looks its task and columns up anew.
     void run_chunks(const PlannedSystem<World>& system, World& world, uint32_t body, Rows<void> rows, uint32_t first,
                     uint32_t count, uint32_t repetition) const {
         Call<World> call{world};

@@ -33,24 +33,28 @@ double bisect(double never, double guess, Does does) {
     return std::sqrt(low * high);
 }
 
-/// The crossing nearest to `known`: places a hundredth and a half beside it, then 3 % farther at a time to both sides.
+/// The crossing nearest to `known`: looks a hundredth and a half beside it, then 3 % farther at a time to both sides,
+/// to a third and to three times.
 template <class Does>
 double follow(double known, Does does) {
-    constexpr int kMostPlaces = 40;  // to a third and three times
+    constexpr int kMostPlaces = 40;
     constexpr double kPlace = 1.03;
-    const auto speed_at = [&](int place) { return known * std::pow(kPlace, place - 0.5); };
     if (!(known < kMostThreshold)) return known;
-    bool low_does = does(speed_at(0)), high_does = does(speed_at(1));
-    double low = speed_at(0), high = speed_at(1);
-    bool is_found = !low_does && high_does;
+    double low = known / std::sqrt(kPlace), high = low * kPlace;
+    bool low_does = does(low), high_does = does(high), is_found = !low_does && high_does;
+    double below = low, above = high;  // how far it has looked
     for (int place = 1; !is_found && place < kMostPlaces; ++place) {
-        const bool below_does = does(speed_at(-place));
-        if (!below_does && low_does) low = speed_at(-place), high = speed_at(1 - place), is_found = true;
-        low_does = below_does;
-        if (is_found) break;
-        const bool above_does = does(speed_at(place + 1));
-        if (above_does && !high_does) low = speed_at(place), high = speed_at(place + 1), is_found = true;
-        high_does = above_does;
+        const bool below_does = does(below / kPlace);
+        is_found = !below_does && low_does;
+        below /= kPlace, low_does = below_does;
+        if (is_found) {
+            low = below, high = below * kPlace;
+            break;
+        }
+        const bool above_does = does(above * kPlace);
+        is_found = above_does && !high_does;
+        if (is_found) low = above, high = above * kPlace;
+        above *= kPlace, high_does = above_does;
     }
     if (!is_found) return bisect(0.01 * known, known, does);
     while (high > kBisectionRatio * low) {

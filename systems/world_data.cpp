@@ -33,7 +33,7 @@ WorldData::WorldData(const Settings& settings)
       stiffness_wanted(state.stiffness_packs.limit() / kRowsPerChunk<StiffnessPacks> + settings.limits.open_hits),
       tasks_ended(settings.limits.open_hits),
       breaks(settings.limits.bodies + settings.limits.open_hits),
-      births((settings.limits.open_hits + 1) * kMostParts + settings.limits.bodies * kMostParts),
+      births(2 * settings.limits.bodies + settings.limits.debris + settings.limits.open_hits),
       hulls_wanted(state.cells.limit()),
       shells_changed(settings.limits.bodies + settings.limits.open_hits),
       impact_events(settings.limits.open_hits),

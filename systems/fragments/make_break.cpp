@@ -82,7 +82,7 @@ void make_debris(Births& births, ShellView shell, const FragmentPart& part, cons
     Debris& debris = state.debris;
     uint32_t row = 0;
     while (row < debris.size() && debris.is_used[row]) ++row;
-    if (row == debris.size() && debris.append(1) == kNone) return;  // free_debris counted: there is room
+    if (row == debris.size() && debris.append(1) == kNone) return;  // planning counted: there is room
     double volume = 0;
     for (uint32_t e = part.first_element; e != kNone; e = state.elements.next[shell.element(e)])
         volume += state.elements.volume[shell.element(e)];

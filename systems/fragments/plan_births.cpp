@@ -26,13 +26,13 @@ void tell_cracks(State& state, Row<Tasks> task, Events<CrackStartedEvent>& crack
 }  // namespace
 
 void plan_births(Serial, const Events<TaskEnded>& ended, ShellTables shells, const Tasks& tasks, Fragments&,
-                 QueuedHits&, Bodies& bodies, const Debris&, ViewVertices&, ViewIndices&,
+                 QueuedHits&, Bodies& bodies, const Debris& debris, ViewVertices&, ViewIndices&,
                  const DamageSettings& settings, Arena& arena, Events<Break>& breaks, Events<Birth>& births,
                  Events<ShellChanged>& changed, Events<CrackStartedEvent>& cracks, Events<RefusedEvent>& refused,
                  Events<FaultEvent>& faults) {
     breaks.clear();
     births.clear();
-    Planning planning{shells.state, settings, arena, breaks, births, changed, refused};
+    Planning planning{shells.state, settings, arena, breaks, births, changed, refused, free_debris(debris)};
     for (uint32_t b = 0; b < bodies.size(); ++b)
         if (bodies.is_owed_births[b] && bodies.task[b] == kNone) ask_again(planning, Row<Bodies>(b));
     for (const TaskEnded& e : ended) {

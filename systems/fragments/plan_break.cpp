@@ -27,13 +27,6 @@ void join_motions(PartMotion& motion, PartMotion& joined) {
     joined = {};
 }
 
-// Crumbs that the world still has room for.
-uint32_t free_debris(const Debris& debris) {
-    uint32_t used = 0;
-    for (uint32_t d = 0; d < debris.size(); ++d) used += debris.is_used[d];
-    return debris.limit() - used;
-}
-
 // Rows, shell and drawn mesh of a new body, or a row that does not exist and the name of the limit.
 Row<Bodies> reserve_body(State& state, Row<Bodies> parent, Row<Shells> broken, const FragmentPart& part,
                          const char** full) {
@@ -103,7 +96,6 @@ void choose_births(Planning& planning, Break& plan) {
     });
     plan.largest = plan.order[0];
     const double least_mass = planning.settings.debris_share * state.shells.intact_mass[plan.broken];
-    uint32_t crumbs_left = free_debris(state.debris);
     for (uint32_t p = 0; p < count; ++p) {
         plan.child[p] = {};
         plan.is_crumb[p] = 0;
@@ -113,8 +105,8 @@ void choose_births(Planning& planning, Break& plan) {
         const FragmentPart& part = plan.parts[p];
         const char* full = nullptr;
         if (!part.has_pins && (part.mass < least_mass || part.element_count < planning.settings.debris_elements)) {
-            if (crumbs_left > 0) {
-                --crumbs_left;
+            if (planning.crumbs_left > 0) {
+                --planning.crumbs_left;
                 plan.is_crumb[p] = 1;
             } else {
                 stay(planning, plan, p, "limits.debris");
@@ -138,6 +130,7 @@ bool reserve_view(Planning& planning, Break& plan) {
                 for (uint32_t i = 1; i < count; ++i) {
                     if (!plan.is_crumb[plan.order[i]]) continue;
                     plan.is_crumb[plan.order[i]] = 0;
+                    ++planning.crumbs_left;
                     stay(planning, plan, plan.order[i], "limits.view_vertices");
                 }
                 if (take_view(state, plan.body, ShellView(state, plan.broken), plan.parts[plan.largest])) return true;
@@ -240,6 +233,12 @@ void order_births(Planning& planning, Break& plan) {
 }
 
 }  // namespace
+
+uint32_t free_debris(const Debris& debris) {
+    uint32_t used = 0;
+    for (uint32_t d = 0; d < debris.size(); ++d) used += debris.is_used[d];
+    return debris.limit() - used;
+}
 
 void plan_break(Planning& planning, Row<Tasks> task) {
     State& state = planning.state;

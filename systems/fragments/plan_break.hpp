@@ -13,7 +13,11 @@ struct Planning {
     Events<Birth>& births;
     Events<ShellChanged>& changed;
     Events<RefusedEvent>& refused;
+    uint32_t crumbs_left;  // that the world has room for, less those of the breaks planned so far
 };
+
+/// Crumbs that the world has room for when a step's planning begins.
+uint32_t free_debris(const Debris& debris);
 
 /// The task's shell has more than one part (Fragments). The largest keeps the body's handle and its rows in that shell,
 /// which becomes the body's own; the others get rows in order of mass, and their old rows will be dead. A piece that

@@ -209,6 +209,25 @@ TEST(WorldLimits, CrumbsBeyondTheLimitStayPartOfTheirParent) {
     EXPECT_EQ(b.world.report().debris, 1u);
 }
 
+TEST(WorldLimits, TwoThatBreakInOneFrameShareTheRoomForCrumbs) {
+    Settings settings = small_settings();
+    settings.limits.debris = 2;
+    settings.debris_share = 0.05f;
+    settings.units_a_frame = 1'000'000'000;  // both are decided in the frame of the touch
+    World world = two_vases(settings, 6, 6);
+    const double mass = matter_of(world).mass;
+    uint64_t most_in_a_frame = 0, before = 0;
+    for (int frame = 0; frame < 20; ++frame) {
+        world.step();
+        const uint64_t broke = world.contents().data.counts.broke;
+        most_in_a_frame = std::max(most_in_a_frame, broke - before);
+        before = broke;
+        EXPECT_NEAR(matter_of(world).mass, mass, 1e-9 * mass) << frame;
+    }
+    EXPECT_EQ(most_in_a_frame, 2u);
+    EXPECT_EQ(world.report().debris, 2u);
+}
+
 TEST(WorldLimits, AModelThatDoesNotFitIsRefusedAndTakesNothing) {
     Settings settings = small_settings();
     settings.limits.elements = 4096;
