@@ -90,10 +90,7 @@ void State::commit_ahead(const ShellRoom& shell, uint32_t served) {
 uint64_t State::hash() const {
     uint64_t hash = 0;
     std::apply([&](auto... table) { ((hash = (this->*table).hash(hash)), ...); }, tables());
-    for (const RangePool* pool :
-         {&pools.bodies, &pools.shells, &pools.vertices, &pools.elements, &pools.hinges, &pools.packs, &pools.blocks,
-          &pools.links, &pools.cells, &pools.points, &pools.view_vertices, &pools.view_indices})
-        hash = pool->hash(hash);
+    for (const RangePool* pool : pools.all()) hash = pool->hash(hash);
     return hash;
 }
 

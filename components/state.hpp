@@ -60,6 +60,15 @@ struct State {
         explicit Pools(const State& state);
         RangePool bodies, shells, vertices, elements, hinges, packs, blocks, links, cells, points, view_vertices,
             view_indices;
+        std::array<const RangePool*, 12> all() const { return list<const RangePool*>(*this); }
+        std::array<RangePool*, 12> all() { return list<RangePool*>(*this); }
+
+     private:
+        template <class Pool, class Self>
+        static std::array<Pool, 12> list(Self& s) {
+            return {&s.bodies, &s.shells, &s.vertices, &s.elements, &s.hinges,        &s.packs,
+                    &s.blocks, &s.links,  &s.cells,    &s.points,   &s.view_vertices, &s.view_indices};
+        }
     } pools;
 
     static constexpr auto tables() {

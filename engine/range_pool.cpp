@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "engine/assert.hpp"
+#include "engine/byte_stream.hpp"
 #include "engine/hash.hpp"
 #include "engine/table.hpp"
 
@@ -62,6 +63,36 @@ uint32_t RangePool::end() const {
 
 uint64_t RangePool::hash(uint64_t seed) const {
     return hash_bytes(holes_.data(), holes_.size() * sizeof(Hole), seed);
+}
+
+void RangePool::save(ByteWriter& out) const {
+    out.number(static_cast<uint32_t>(holes_.size()));
+    for (const Hole& hole : holes_) out.number(hole.first), out.number(hole.count);
+}
+
+void RangePool::load(ByteReader& in) {
+    const uint32_t count = in.count("a number of free ranges", 8, range_limit_);
+    holes_.clear();
+    uint32_t end = 0;
+    for (uint32_t k = 0; k < count && in.is_sound(); ++k) {
+        const auto first = in.number<uint32_t>("a free range"), rows = in.number<uint32_t>("a free range");
+        const bool is_apart = k == 0 || first > end;
+        in.expect(is_apart && rows > 0 && first <= limit_ && rows <= limit_ - first && first % alignment_ == 0 &&
+                      rows % alignment_ == 0,
+                  "the free range " + std::to_string(first) + " + " + std::to_string(rows) + " of " +
+                      std::to_string(limit_) + " rows");
+        end = first + rows;
+        if (in.is_sound()) holes_.push_back({first, rows});
+    }
+}
+
+bool RangePool::is_taken(uint32_t first, uint32_t count) const {
+    if (count == 0) return true;
+    if (first > limit_ || rounded(count) > limit_ - first) return false;
+    const auto after =
+        std::lower_bound(holes_.begin(), holes_.end(), first, [](const Hole& h, uint32_t f) { return h.first < f; });
+    return (after == holes_.end() || first + rounded(count) <= after->first) &&
+           (after == holes_.begin() || (after - 1)->first + (after - 1)->count <= first);
 }
 
 }  // namespace cullet

@@ -7,6 +7,9 @@
 
 namespace cullet {
 
+struct ByteWriter;
+class ByteReader;
+
 class RangePool {
  public:
     /// Rows [0, limit); at most `range_limit` holes. Ranges start at multiples of `alignment`, a power of two.
@@ -20,6 +23,11 @@ class RangePool {
     /// One past the highest row in use now.
     uint32_t end() const;
     uint64_t hash(uint64_t seed) const;
+    void save(ByteWriter& out) const;
+    /// In place of what it holds: holes that rise, lie apart, start where ranges may and end within the limit.
+    void load(ByteReader& in);
+    /// Whether rows [first, first + count) are handed out, all of them.
+    bool is_taken(uint32_t first, uint32_t count) const;
 
  private:
     struct Hole {

@@ -8,11 +8,17 @@
 #include <array>
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <span>
+
+#include "cullet/result.hpp"
 
 #include "engine/math.hpp"
 
 namespace cullet {
+
+struct ByteWriter;
+class ByteReader;
 
 using RigidId = uint32_t;  // the caller's own small integer (a row of Bodies), below the limit given at creation
 inline constexpr RigidId kNoRigid = 0xffffffffu;
@@ -124,6 +130,14 @@ class RigidWorld {
     /// static, kinematic and held bodies. What sleep and rest took from slow bodies is in it. With it the momentum of
     /// the dynamic bodies changes by gravity's share alone.
     virtual Vec3d impulse_to_static() const = 0;
+
+    /// Of a body that is there.
+    virtual std::optional<RigidKind> kind(RigidId id) const = 0;
+    /// Between steps: all that the next steps depend on. A world that was just made and then loads these bytes goes on
+    /// as any other that loads them, bit for bit; whether as this one does, too, is not said.
+    virtual void save(ByteWriter& out) const = 0;
+    /// Believes nothing. After a refusal the world is good for nothing but to be thrown away.
+    virtual Result<void> load(ByteReader& in) = 0;
 };
 
 /// A world of Bullet's for at most `body_limit` ids. `step_seconds` is the fixed step that sleep timers count in.

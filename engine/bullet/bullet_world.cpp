@@ -226,9 +226,9 @@ void BulletWorld::set_mass(Body& body, double mass, Vec3d centre, const Sym3d& i
     body.moments = body.kind == RigidKind::Dynamic ? to_bullet(principal.moments.to_float()) : btVector3(0, 0, 0);
 }
 
-void BulletWorld::enter(Body& body, const Pose& at, uint32_t layer, uint32_t mask) {
+void BulletWorld::make_bullet(Body& body, const btTransform& at) {
     btRigidBody::btRigidBodyConstructionInfo info(body.mass, nullptr, &body.shape, body.moments);
-    info.m_startWorldTransform = to_bullet(at, body.frame);
+    info.m_startWorldTransform = at;
     info.m_angularDamping = kAngularDamping;
     info.m_friction = body.friction;
     info.m_restitution = body.restitution;
@@ -241,6 +241,10 @@ void BulletWorld::enter(Body& body, const Pose& at, uint32_t layer, uint32_t mas
         const int flags = bullet.getCollisionFlags() & ~btCollisionObject::CF_STATIC_OBJECT;
         bullet.setCollisionFlags(flags | btCollisionObject::CF_KINEMATIC_OBJECT);
     }
+}
+
+void BulletWorld::enter(Body& body, const Pose& at, uint32_t layer, uint32_t mask) {
+    make_bullet(body, to_bullet(at, body.frame));
     body.is_used = true;
     body.is_held = false;
     body.is_fast = false;
@@ -248,12 +252,12 @@ void BulletWorld::enter(Body& body, const Pose& at, uint32_t layer, uint32_t mas
     body.still_seconds = body.slow_seconds = 0;
     body.pressed_seconds = body.overlap = 0;
     body.is_touched = body.is_driven = false;
-    body.anchor = info.m_startWorldTransform;
+    body.anchor = body.bullet->getWorldTransform();
     body.has_left = false;
     body.idle_wakes = 0;
     body_end_ = std::max(body_end_, body.id + 1);
     refresh(body);
-    world_.addRigidBody(&bullet, static_cast<int>(layer), static_cast<int>(mask));
+    world_.addRigidBody(&*body.bullet, static_cast<int>(layer), static_cast<int>(mask));
 }
 
 void BulletWorld::add_static_triangles(RigidId id, std::span<const Vec3> positions,
@@ -379,9 +383,16 @@ void BulletWorld::refresh(Body& body) {
     body.fresh_at = at;
     ++body.moves;
     const Mat3 rotation = rotation_of(at);
+    for (Hull* hull = body.hulls; hull; hull = hull->next) refresh_world(*hull, rotation, from_bullet(at.getOrigin()));
+    gather_box(body);
+    if (is_new) return;
+    const Box wide = grown(body.shape.box, kContactRange);
+    broadphase_.setAabb(body.bullet->getBroadphaseProxy(), to_bullet(wide.low), to_bullet(wide.high), &dispatcher_);
+}
+
+void BulletWorld::gather_box(Body& body) {
     Box box = empty_box();
-    for (Hull* hull = body.hulls; hull; hull = hull->next) {
-        refresh_world(*hull, rotation, from_bullet(at.getOrigin()));
+    for (const Hull* hull = body.hulls; hull; hull = hull->next) {
         include(box, hull->world_box.low);
         include(box, hull->world_box.high);
     }
@@ -389,11 +400,8 @@ void BulletWorld::refresh(Body& body) {
         include(box, body.mesh->nodes[0].box.low);
         include(box, body.mesh->nodes[0].box.high);
     }
-    if (box.low.x > box.high.x) box = {from_bullet(at.getOrigin()), from_bullet(at.getOrigin())};
-    body.shape.box = box;
-    if (is_new) return;
-    const Box wide = grown(box, kContactRange);
-    broadphase_.setAabb(body.bullet->getBroadphaseProxy(), to_bullet(wide.low), to_bullet(wide.high), &dispatcher_);
+    const Vec3 origin = from_bullet(body.fresh_at.getOrigin());
+    body.shape.box = box.low.x > box.high.x ? Box{origin, origin} : box;
 }
 
 void BulletWorld::detect(float dt) {

@@ -55,6 +55,9 @@ class BulletWorld final : public RigidWorld {
     void wake(RigidId id) override;
     RigidCounts counts() const override;
     Vec3d impulse_to_static() const override { return to_static_; }
+    std::optional<RigidKind> kind(RigidId id) const override;
+    void save(ByteWriter& out) const override;
+    Result<void> load(ByteReader& in) override;
 
     /// Bullet's near callback: the narrow phase of one pair.
     void meet(btBroadphasePair& pair);
@@ -81,7 +84,11 @@ class BulletWorld final : public RigidWorld {
     void measure_body(Body& body);
     void set_mass(Body& body, double mass, Vec3d centre, const Sym3d& inertia);
     void enter(Body& body, const Pose& pose, uint32_t layer, uint32_t mask);
+    void make_bullet(Body& body, const btTransform& at);
+    bool load_body(ByteReader& in, Body& body);
+    void load_pair(ByteReader& in, RigidId a, RigidId b);
     void refresh(Body& body);
+    void gather_box(Body& body);
     void sort_manifolds();
     void gather_contacts();
     void wake_touching(RigidId id);

@@ -65,6 +65,8 @@ void find_candidates(const Body& a, const Body& b, float grown, PairWork& work);
 const Hull& hull_of(const Hull* hull, const Body& body, uint32_t ordinal, PairWork& work);
 
 class PairAlgorithm : public btCollisionAlgorithm {
+    friend struct PairBytes;  // saving and loading
+
  public:
     PairAlgorithm(const btCollisionAlgorithmConstructionInfo& info, RigidId a, RigidId b, PairWork& work);
     ~PairAlgorithm() override { forget(); }

@@ -2,7 +2,9 @@
 
 #include "systems/damage/assemble.hpp"
 #include "systems/damage/contact.hpp"
+#include "systems/damage/crack_candidates.hpp"
 #include "systems/damage/grow_cracks.hpp"
+#include "systems/damage/stress_check.hpp"
 #include "systems/motion/start_hidden.hpp"
 
 namespace cullet {
@@ -62,6 +64,12 @@ void start_run(State& state, Row<Tasks> task) {
     state.tasks.last_event_time[task] = 0;
     state.tasks.crack_count[task] = state.tasks.start_count[task] = 0;
     start_hidden(state, task);
+}
+
+void restore_scratch(State& state, Row<Tasks> task) {
+    const ShellView shell(state, state.tasks.shell[task]);
+    link_slopes(shell);
+    find_start_strengths(shell);
 }
 
 void start_task(State& state, Row<Tasks> task) {

@@ -13,4 +13,7 @@ void start_task(State& state, Row<Tasks> task);
 void fill_task(State& state, Row<Tasks> task);
 void start_run(State& state, Row<Tasks> task);
 
+/// The Scratch columns that live on between the steps of a run, from its State: after a load.
+void restore_scratch(State& state, Row<Tasks> task);
+
 }  // namespace cullet

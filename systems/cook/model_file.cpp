@@ -1,39 +1,32 @@
 #include "systems/cook/model_file.hpp"
 
 #include <algorithm>
-#include <bit>
-#include <cstring>
 #include <new>
 
-#include "engine/checksum.hpp"
+#include "engine/file_header.hpp"
 #include "engine/host_scope.hpp"
 #include "engine/memory.hpp"
 #include "engine/mesh_file.hpp"
+#include "engine/table_bytes.hpp"
+#include "systems/cook/check_shell_rows.hpp"
 #include "systems/cook/materials.hpp"
 
 namespace cullet {
 namespace {
 
-static_assert(std::endian::native == std::endian::little, "model files are little-endian and are copied as they stand");
-
-constexpr char kMagic[8] = {'c', 'm', 'o', 'd', 'l', '\r', '\n', '\x1a'};
-constexpr uint32_t kVersion = 4;
-constexpr uint32_t kLongestText = 4096;        // bytes
 constexpr uint64_t kLargestFile = 1ull << 34;  // rows of it, and of what is derived from them, count in 32 bits
 
-struct Header {
-    char magic[8];
-    uint32_t version;
-    uint32_t zero;
-    uint64_t payload_bytes;
-    uint64_t nothing;
-    Checksum payload;
-    Checksum header;  // of everything above
-};
-static_assert(sizeof(Header) == 64);
+constexpr const char* kAdvice = "The model file is damaged or of another build; cook the mesh again and write it.";
+constexpr FileKind kKind{{'c', 'm', 'o', 'd', 'l', '\r', '\n', '\x1a'},
+                         4,
+                         "model file",
+                         ".cmodel",
+                         "Write one with write_model.",
+                         kAdvice,
+                         "Cook the mesh again and write it."};
 
 Error damaged(const std::string& name, const std::string& what) {
-    return {name + ": " + what + ". The model file is damaged or of another build; cook the mesh again and write it."};
+    return {name + ": " + what + ". " + kAdvice};
 }
 
 /// The tables of a shell in the file's order, each with the range of Shells that counts its rows.
@@ -64,146 +57,6 @@ void for_each_number(Report& report, F&& f) {
     f(report.degenerate_elements);
 }
 
-// ---- writing
-
-struct Writer {
-    std::vector<uint8_t> bytes;
-
-    void put(const void* data, size_t size) {
-        const auto* from = static_cast<const uint8_t*>(data);
-        bytes.insert(bytes.end(), from, from + size);
-    }
-    template <class T>
-    void number(T value) {
-        put(&value, sizeof value);
-    }
-    void text(const std::string& text) {
-        number(static_cast<uint32_t>(text.size()));
-        put(text.data(), text.size());
-    }
-    void table(const AnyTable& table, uint32_t first, uint32_t rows) {
-        const auto is_kept = [](const ColumnInfo& c) { return c.keep == Keep::State; };
-        text(table.name());
-        number(rows);
-        number(static_cast<uint32_t>(std::count_if(table.columns().begin(), table.columns().end(), is_kept)));
-        for (const ColumnInfo& c : table.columns()) {
-            if (!is_kept(c)) continue;
-            text(c.name);
-            for (const uint8_t kind : {static_cast<uint8_t>(c.scalar), c.lanes, c.sides, c.components}) number(kind);
-            number(c.row_bytes);
-            for (int a = 0; a < c.lanes * c.sides; ++a)
-                put(table.column_memory(c, a) + size_t{first} * c.row_bytes, size_t{rows} * c.row_bytes);
-        }
-    }
-};
-
-// ---- reading
-
-/// Takes things off the front of the payload; the first failure stays.
-struct Reader {
-    std::span<const uint8_t> bytes;
-    const std::string& name;
-    size_t at = 0;
-    std::string trouble;
-
-    bool is_sound() const { return trouble.empty(); }
-    void fail(const std::string& what) {
-        if (is_sound()) trouble = damaged(name, what + " at byte " + std::to_string(sizeof(Header) + at)).message;
-    }
-    std::span<const uint8_t> take(uint64_t size, const char* what) {
-        if (is_sound() && size > bytes.size() - at)
-            fail(std::string(what) + " needs " + std::to_string(size) + " bytes, there are " +
-                 std::to_string(bytes.size() - at));
-        if (!is_sound()) return {};
-        at += size;
-        return bytes.subspan(at - size, size);
-    }
-    template <class T>
-    T number(const char* what) {
-        T value{};
-        if (const auto from = take(sizeof value, what); !from.empty()) std::memcpy(&value, from.data(), sizeof value);
-        return value;
-    }
-    std::string text(const char* what) {
-        const auto size = number<uint32_t>(what);
-        if (size > kLongestText) fail(std::string(what) + " states " + std::to_string(size) + " bytes of text");
-        const auto from = take(is_sound() ? size : 0, what);
-        for (const uint8_t letter : from)
-            if (letter < 32 || letter == 127) {
-                fail(std::string(what) + " has the control character " + std::to_string(letter));
-                return {};
-            }
-        return {from.begin(), from.end()};
-    }
-    void expect(bool fits, const std::string& what) {
-        if (!fits) fail(what);
-    }
-};
-
-/// Where the arrays of a table stand in the payload, in the order of its State columns.
-struct FoundTable {
-    uint32_t rows = 0;
-    std::vector<std::span<const uint8_t>> arrays;
-
-    void copy_to(AnyTable& table, uint32_t first) const {
-        size_t next = 0;
-        for (const ColumnInfo& c : table.columns()) {
-            if (c.keep != Keep::State) continue;
-            for (int a = 0; a < c.lanes * c.sides; ++a, ++next)
-                if (rows > 0)
-                    std::memcpy(table.column_memory(c, a) + size_t{first} * c.row_bytes, arrays[next].data(),
-                                arrays[next].size());
-        }
-    }
-};
-
-FoundTable find_table(Reader& reader, const AnyTable& like) {
-    FoundTable found;
-    const std::string name = like.name();
-    reader.expect(reader.text("a table's name") == name, "the table " + name + " is not");
-    found.rows = reader.number<uint32_t>("a number of rows");
-    const auto columns = reader.number<uint32_t>("a number of columns");
-    uint32_t wanted = 0;
-    for (const ColumnInfo& c : like.columns()) {
-        if (c.keep != Keep::State) continue;
-        ++wanted;
-        const std::string full = name + "." + c.name;
-        reader.expect(reader.text("a column's name") == c.name, "the column " + full + " is not");
-        for (const uint8_t kind : {static_cast<uint8_t>(c.scalar), c.lanes, c.sides, c.components})
-            reader.expect(reader.number<uint8_t>("a column's type") == kind, "another type of " + full + " is");
-        reader.expect(reader.number<uint32_t>("a column's row") == c.row_bytes, "another size of " + full + " is");
-        for (int a = 0; a < c.lanes * c.sides; ++a)
-            found.arrays.push_back(reader.take(uint64_t{found.rows} * c.row_bytes, full.c_str()));
-        if (!reader.is_sound()) return found;
-    }
-    reader.expect(columns == wanted,
-                  name + " states " + std::to_string(columns) + " columns, not " + std::to_string(wanted) + ",");
-    return found;
-}
-
-Result<Header> parse_header(std::span<const uint8_t> bytes, const std::string& name) {
-    Header header;
-    if (bytes.size() < sizeof kMagic || std::memcmp(bytes.data(), kMagic, sizeof kMagic) != 0)
-        return Error{name +
-                     ": is no model file (its first bytes are not those of a .cmodel). Write one with "
-                     "write_model."};
-    if (bytes.size() < sizeof header)
-        return damaged(name, "ends inside the header, after " + std::to_string(bytes.size()) + " of 64 bytes");
-    std::memcpy(&header, bytes.data(), sizeof header);
-    if (header.version != kVersion)
-        return Error{name + ": has version " + std::to_string(header.version) + ", this build reads version " +
-                     std::to_string(kVersion) + ". Cook the mesh again and write it."};
-    if (checksum_of(bytes.first(offsetof(Header, header))) != header.header)
-        return damaged(name, "the header's checksum does not fit");
-    const uint64_t present = bytes.size() - sizeof header;
-    if (header.payload_bytes != present || header.zero != 0 || header.nothing != 0)
-        return damaged(name, "the header states " + std::to_string(header.payload_bytes) +
-                                 " bytes after it, there are " + std::to_string(present));
-    if (checksum_of(bytes.subspan(sizeof header)) != header.payload)
-        return damaged(name, "the checksum of the data does not fit");
-    return header;
-}
-
 /// Everything of the payload, with the rows still in the bytes.
 struct Found {
     std::string name, material;
@@ -214,7 +67,7 @@ struct Found {
 
 Result<Found> find_all(std::span<const uint8_t> payload, const std::string& name) {
     Found found;
-    Reader reader{payload, name, 0, {}};
+    ByteReader reader(payload, name, kAdvice, kFileHeaderBytes);
     found.name = reader.text("the model's name");
     found.material = reader.text("the material's name");
     found.report.repairs = reader.text("the sentence of repairs");
@@ -236,9 +89,9 @@ Result<Found> find_all(std::span<const uint8_t> payload, const std::string& name
     for_each_part(like, Row<Shells>(0), [&](const AnyTable& table, const Range&) {
         found.parts.push_back(reader.is_sound() ? find_table(reader, table) : FoundTable{});
     });
-    reader.expect(reader.at == payload.size(), "the last table ends before the file does,");
+    reader.expect(reader.is_at_end(), "the last table ends before the file does,");
     reader.expect(found.shell.rows == 1, "there are " + std::to_string(found.shell.rows) + " shells, not 1,");
-    if (!reader.is_sound()) return Error{reader.trouble};
+    if (!reader.is_sound()) return Error{reader.trouble()};
     return found;
 }
 
@@ -336,39 +189,35 @@ std::vector<uint8_t> encode_model_file(const Model::Contents& contents) {
     for (Column<Range>* range :
          {&row.vertices, &row.elements, &row.hinges, &row.packs, &row.blocks, &row.links, &row.cells, &row.points})
         (*range)[0] = {0, (*range)[0].count, (*range)[0].count};
-    Writer writer;
-    writer.bytes.resize(sizeof(Header));
+    ByteWriter writer;
+    writer.bytes.resize(kFileHeaderBytes);
     writer.text(contents.name);
     writer.text(contents.material);
     writer.text(contents.report.repairs);
     writer.text(contents.report.advice);
     for_each_number(contents.report, [&](const auto& number) { writer.number(number); });
-    writer.table(row, 0, 1);
-    for_each_part(state, contents.shell,
-                  [&](const AnyTable& table, const Range& range) { writer.table(table, range.first, range.count); });
-    Header header{};
-    std::memcpy(header.magic, kMagic, sizeof kMagic);
-    header.version = kVersion;
-    header.payload_bytes = writer.bytes.size() - sizeof header;
-    header.payload = checksum_of(std::span<const uint8_t>(writer.bytes).subspan(sizeof header));
-    std::memcpy(writer.bytes.data(), &header, sizeof header);
-    header.header = checksum_of(std::span<const uint8_t>(writer.bytes).first(offsetof(Header, header)));
-    std::memcpy(writer.bytes.data(), &header, sizeof header);
+    put_table(writer, row, 0, 1);
+    for_each_part(state, contents.shell, [&](const AnyTable& table, const Range& range) {
+        put_table(writer, table, range.first, range.count);
+    });
+    finish_file(kKind, writer.bytes);
     return std::move(writer.bytes);
 }
 
 Result<Model> parse_model_file(std::span<const uint8_t> bytes, const std::string& name) {
     try {
-        const Result<Header> header = parse_header(bytes, name);
-        if (!header) return Error{header.error()};
-        const Result<Found> found = find_all(bytes.subspan(sizeof(Header)), name);
+        const auto payload = payload_of(kKind, bytes, name);
+        if (!payload) return Error{payload.error()};
+        const Result<Found> found = find_all(*payload, name);
         if (!found) return Error{found.error()};
         if (const Result<void> fits = check_counts(*found, name); !fits) return Error{fits.error()};
         const auto contents = std::make_shared<Model::Contents>(limits_for(found->parts));
         fill_materials(contents->state.materials);
         const Result<Row<Shells>> shell = copy_rows(contents->state, *found, name);
         if (!shell) return Error{shell.error()};
-        if (const Result<void> sound = check_model_rows(ShellView(contents->state, *shell), name); !sound)
+        if (const Result<void> sound =
+                check_shell_rows(ShellView(contents->state, *shell), Wear::Intact, name, kAdvice);
+            !sound)
             return Error{sound.error()};
         if (const Result<void> fits = check_report(*found, contents->state, *shell, name); !fits)
             return Error{fits.error()};

@@ -1,21 +1,12 @@
 // The model file (.cmodel): the rows of one cooked shell, so that a game cooks once. Which columns stand in it follows
 // from the tables' own lists; a build whose tables differ refuses the file. Its reader believes nothing.
 //
-// Little-endian. 64 bytes of header, then the payload.
-//
-//     0  8 bytes  magic "cmodl\r\n\x1a"
-//     8  u32      version, 4
-//    12  u32      0
-//    16  u64      bytes of the payload
-//    24  u64      0
-//    32  2 u64    XXH3-128 of the payload
-//    48  2 u64    XXH3-128 of the 48 bytes before
+// The header of engine/file_header.hpp, version 4, magic "cmodl\r\n\x1a", then the payload.
 //
 // Payload: the texts name, material, repairs, advice (u32 bytes, the bytes); the report's numbers (u64 units; f64 mass,
 // thickness; f32 speed; u32 vertices, elements, cells, degenerate elements); then the tables shells (one row),
-// vertices, elements, triangle_springs, hinges, stiffness_packs, stiffness_blocks, stiffness_links, cells, hull_points.
-// A table is its name as a text, u32 rows, u32 columns; a column its name, u8 kind of scalar, u8 lanes, u8 sides, u8
-// components, u32 bytes a row, and lanes * sides arrays of rows. Only columns that are State.
+// vertices, elements, triangle_springs, hinges, stiffness_packs, stiffness_blocks, stiffness_links, cells, hull_points,
+// as engine/table_bytes.hpp writes tables.
 #pragma once
 #include <span>
 #include <vector>
@@ -31,8 +22,5 @@ std::vector<uint8_t> encode_model_file(const Model::Contents& contents);
 /// every index is in range, every number finite and in its column's range, whose elements, hinges, rings, packs, masses
 /// and report fit each other: nothing that a world does with it leaves the tables.
 Result<Model> parse_model_file(std::span<const uint8_t> bytes, const std::string& name);
-
-/// The second half of reading: whether the rows of a shell are what cooking could have made. `name` is the file's.
-Result<void> check_model_rows(const ShellView& shell, const std::string& name);
 
 }  // namespace cullet

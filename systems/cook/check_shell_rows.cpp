@@ -1,11 +1,11 @@
-// Whether the rows of an intact shell are what cooking could have made. First each column by itself, by the list of
-// rules below, then what columns say about each other.
+// Whether the rows of a shell are what cooking could have made, or, of one that has been hit, what breaking may have
+// made of them. First each column by itself, by the list of rules below, then what columns say about each other.
 #include <algorithm>
 #include <limits>
 #include <vector>
 
 #include "engine/mesh_file.hpp"
-#include "systems/cook/model_file.hpp"
+#include "systems/cook/check_shell_rows.hpp"
 #include "systems/damage/ring.hpp"
 #include "systems/fragments/extreme_points.hpp"
 
@@ -18,11 +18,13 @@ enum class Is : uint8_t { Number, Vertex, Element, Hinge, Cell, RowOrNone = 16, 
 constexpr Is or_none(Is row) {
     return static_cast<Is>(static_cast<uint8_t>(row) | static_cast<uint8_t>(Is::RowOrNone));
 }
+/// Bounds of an intact shell, and of one that has been hit where these are wider.
 struct Rule {
     const char* table;
     const char* column;
     Is is;
     double low = 0, high = 0;
+    double worn_low = low, worn_high = high;
 };
 constexpr double kFar = kLargestCoordinate;                          // m
 constexpr double kHuge = double{std::numeric_limits<float>::max()};  // any finite float
@@ -39,7 +41,7 @@ constexpr Rule kRules[] = {
     {"shells", "cells", Is::Elsewhere},
     {"shells", "points", Is::Elsewhere},
     {"shells", "material", Is::Elsewhere},
-    {"shells", "users", Is::Number, 1, 1},
+    {"shells", "users", Is::Number, 1, 1, 1, kIds},
     {"shells", "mass", Is::Number, 1e-30, 1e30},
     {"shells", "intact_mass", Is::Number, 1e-30, 1e30},
     {"shells", "centre", Is::Number, -kFar, kFar},
@@ -53,34 +55,34 @@ constexpr Rule kRules[] = {
     {"shells", "hinge_limit", Is::Number, 0, kHuge},
     {"shells", "vertex_limit", Is::Number, 0, kHuge},
     {"shells", "first_crack_speed", Is::Number, 0, kHuge},
-    {"shells", "generation", Is::Number, 0, 0},
-    {"shells", "has_cracks", Is::Number, 0, 0},
-    {"shells", "dead_elements", Is::Number, 0, 0},
+    {"shells", "generation", Is::Number, 0, 0, 0, 255},
+    {"shells", "has_cracks", Is::Number, 0, 0, 0, 1},
+    {"shells", "dead_elements", Is::Number, 0, 0, 0, kIds},
     {"vertices", "rest", Is::Number, -kFar, kFar},
     {"vertices", "inward", Is::Number, -kUnit, kUnit},
     {"vertices", "depth", Is::Number, 0, kFar},
     {"vertices", "element", or_none(Is::Element)},
     {"vertices", "mass", Is::Number, 0, 1e30},
     {"vertices", "inverse_mass", Is::Number, 0, kHuge},
-    {"vertices", "is_pinned", Is::Number, 0, 0},
-    {"vertices", "strength_factor", Is::Number, 0.5, 1.5},
-    {"vertices", "crack", Is::Number, 0, 0},
+    {"vertices", "is_pinned", Is::Number, 0, 0, 0, 1},
+    {"vertices", "strength_factor", Is::Number, 0.5, 1.5, 0, 1.5},
+    {"vertices", "crack", Is::Number, 0, 0, 0, 2},
     {"vertices", "heading", Is::Number, -kUnit, kUnit},
-    {"vertices", "ready_time", Is::Number, 0, kHuge},
+    {"vertices", "ready_time", Is::Number, 0, kHuge, -kHuge, kHuge},
     {"vertices", "crack_start", or_none(Is::Vertex)},
     {"vertices", "is_start_banned", Is::Number, 0, 1},
-    {"vertices", "displacement", Is::Number, 0, 0},
-    {"vertices", "crush", Is::Number, 0, 0},
-    {"vertices", "velocity", Is::Number, 0, 0},
-    {"vertices", "probe", Is::Number, 0, 0},
+    {"vertices", "displacement", Is::Number, 0, 0, -kHuge, kHuge},
+    {"vertices", "crush", Is::Number, 0, 0, -kHuge, kHuge},
+    {"vertices", "velocity", Is::Number, 0, 0, -kHuge, kHuge},
+    {"vertices", "probe", Is::Number, 0, 0, -kHuge, kHuge},
     {"vertices", "stiffness_scale", Is::Number, 0, 1},
     {"elements", "corner", Is::Vertex},
     {"elements", "neighbour", or_none(Is::Element)},
     {"elements", "hinge", or_none(Is::Hinge)},
-    {"elements", "edge_kind", Is::Number, 0, 1},
+    {"elements", "edge_kind", Is::Number, 0, 1, 0, 2},
     {"elements", "mass", Is::Number, 0, 1e30},
     {"elements", "volume", Is::Number, 0, 1e30},
-    {"elements", "flags", Is::Number, 0, kDegenerate},
+    {"elements", "flags", Is::Number, 0, kDegenerate, 0, kDegenerate | kDead},
     {"elements", "cell", Is::Cell},
     {"elements", "part", Is::Number, 0, kIds},
     {"elements", "normal", Is::Number, -kUnit, kUnit},
@@ -93,7 +95,7 @@ constexpr Rule kRules[] = {
     {"triangle_springs", "thickness", Is::Number, 0, kFar},
     {"triangle_springs", "scale", Is::Number, 0, 1},
     {"triangle_springs", "altitude", Is::Number, 0, kHuge},
-    {"hinges", "vertex", Is::Vertex},
+    {"hinges", "vertex", or_none(Is::Vertex)},
     {"hinges", "gradient", Is::Number, -kHuge, kHuge},
     {"hinges", "stiffness", Is::Number, 0, kHuge},
     {"hinges", "scale", Is::Number, 0, 1},
@@ -109,20 +111,28 @@ constexpr Rule kRules[] = {
     {"cells", "point_count", Is::Number, 0, kMostCellPoints},
     {"cells", "part_points", Is::Number, 0, kMostHullPoints},
     {"cells", "element_count", Is::Elsewhere},
-    {"cells", "is_stale", Is::Number, 0, 0},
+    {"cells", "is_stale", Is::Number, 0, 0, 0, 1},
     {"hull_points", "point", Is::Number, -kFar, kFar},
 };
 
 struct Checker {
     const ShellView& shell;
     const std::string& name;
+    const char* advice;
+    Wear wear;
     std::string trouble;
+
+    bool is_intact() const { return wear == Wear::Intact; }
+    /// Of the shell, with those behind its vertices that packs reach over.
+    uint32_t vertex_rows() const {
+        const Range vertices = shell.vertices();
+        return is_intact() ? vertices.count : shell.state.pools.vertices.rounded(vertices.capacity);
+    }
 
     bool is_sound() const { return trouble.empty(); }
     /// True when it fits; the first thing that does not is kept.
     bool expect(bool fits, const std::string& what) {
-        if (!fits && is_sound())
-            trouble = name + ": " + what + ". The model file is damaged; cook the mesh again and write it.";
+        if (!fits && is_sound()) trouble = name + ": " + what + ". " + advice;
         return fits;
     }
     uint32_t count_of(Is is) const {
@@ -164,7 +174,10 @@ double number_at(const ColumnInfo& c, const std::byte* row, uint32_t k) {
 void check_column(Checker& check, const AnyTable& table, const ColumnInfo& c, const Rule& rule, const Range& range) {
     const bool is_number = rule.is == Is::Number;
     const bool may_be_none = (static_cast<uint8_t>(rule.is) & static_cast<uint8_t>(Is::RowOrNone)) != 0;
-    const double low = rule.low, high = is_number ? rule.high : static_cast<double>(check.count_of(rule.is)) - 1;
+    const double least = check.is_intact() ? rule.low : rule.worn_low,
+                 most = check.is_intact() ? rule.high : rule.worn_high;
+    const double low = is_number ? least : 0,
+                 high = is_number ? most : static_cast<double>(check.count_of(rule.is)) - 1;
     for (int a = 0; a < c.lanes * c.sides; ++a) {
         const std::byte* rows = table.column_memory(c, a) + size_t{range.first} * c.row_bytes;
         for (uint32_t row = 0; row < range.count; ++row)
@@ -207,8 +220,9 @@ void check_links(Checker& check) {
                          std::to_string(corner[1]) + ", " + std::to_string(corner[2]) + "; they must differ");
         for (uint32_t k = 0; k < 3; ++k) {
             const uint32_t n = elements.neighbour[row][k], hinge = elements.hinge[row][k];
-            const auto kind = n == kNone ? EdgeKind::Border : EdgeKind::Interior;
-            check.expect(elements.edge_kind[row][k] == static_cast<uint8_t>(kind),
+            const auto kind = static_cast<EdgeKind>(elements.edge_kind[row][k]);
+            check.expect(n != kNone ? kind == EdgeKind::Interior
+                                    : kind == EdgeKind::Border || (!check.is_intact() && kind == EdgeKind::Crack),
                          place("elements.edge_kind", e) + " is " + std::to_string(elements.edge_kind[row][k]) +
                              " on edge " + std::to_string(k) + ", unlike its neighbour");
             if (n == kNone) {
@@ -226,7 +240,7 @@ void check_links(Checker& check) {
             check.expect(elements.hinge[other][back] == hinge,
                          place("elements.hinge", e) + " is " + std::to_string(hinge) + " on edge " + std::to_string(k) +
                              ", and " + std::to_string(elements.hinge[other][back]) + " from the other side");
-            if (hinge == kNone || !check.is_sound()) continue;
+            if (hinge == kNone || !check.is_sound() || !check.is_intact()) continue;
             const uint32_t low = std::min(e, n), from = low == e ? k : back;
             const auto a = elements.corner[shell.element(low)], b = elements.corner[shell.element(std::max(e, n))];
             const uint32_t far = low == e ? (back + 2) % 3 : (k + 2) % 3;
@@ -238,9 +252,16 @@ void check_links(Checker& check) {
     }
 }
 
-/// Each hinge stands on one edge, seen from both sides.
+/// Each hinge stands on one edge, seen from both sides. Breaking leaves dead ones, which name no vertex.
 void check_hinges(Checker& check) {
     const ShellView& shell = check.shell;
+    for (uint32_t h = 0; h < shell.hinge_count(); ++h) {
+        const auto& named = shell.state.hinges.vertex[shell.hinge(h)];
+        const auto names = std::count_if(named.begin(), named.end(), [](uint32_t v) { return v != kNone; });
+        check.expect(names == 4 || (named[0] == kNone && !check.is_intact()),
+                     place("hinges.vertex", h) + " names " + std::to_string(names) + " vertices, not 4");
+    }
+    if (!check.is_intact()) return;
     std::vector<uint8_t> sides(shell.hinge_count(), 0);
     for (uint32_t e = 0; e < shell.element_count(); ++e)
         for (const uint32_t hinge : shell.state.elements.hinge[shell.element(e)])
@@ -255,8 +276,10 @@ void check_vertices(Checker& check) {
     const ShellView& shell = check.shell;
     const Vertices& vertices = shell.state.vertices;
     std::vector<uint32_t> elements_at(shell.vertex_count(), 0);
-    for (uint32_t e = 0; e < shell.element_count(); ++e)
+    for (uint32_t e = 0; e < shell.element_count(); ++e) {
+        if (shell.state.elements.flags[shell.element(e)] & kDead) continue;
         for (const uint32_t v : shell.state.elements.corner[shell.element(e)]) ++elements_at[v];
+    }
     for (uint32_t v = 0; v < shell.vertex_count() && check.is_sound(); ++v) {
         const uint32_t row = shell.vertex(v), element = vertices.element[row];
         if (!check.expect(element == kNone ? elements_at[v] == 0 : corner_of(shell, element, v) < 3,
@@ -268,6 +291,7 @@ void check_vertices(Checker& check) {
         check.expect(ring.count == elements_at[v], place("vertices.element", v) + " leads to " +
                                                        std::to_string(ring.count) + " elements round the vertex, " +
                                                        std::to_string(elements_at[v]) + " name it");
+        if (!check.is_intact()) continue;  // pinned or not, and masses as cuts rounded them
         double mass = 0;
         for (uint32_t i = 0; i < ring.count; ++i) mass += shell.state.elements.mass[shell.element(ring.element[i])];
         mass /= 3;
@@ -306,7 +330,10 @@ void check_stiffness(Checker& check) {
     const StiffnessPacks& p = state.stiffness_packs;
     const Range packs = state.shells.packs[shell.row], blocks = state.shells.blocks[shell.row],
                 links = state.shells.links[shell.row];
-    const uint32_t at = packs.first;
+    const uint32_t at = packs.first, rows = check.vertex_rows();
+    check.expect(packs.count == 0 || (packs.count * kLanes >= shell.vertex_count() && packs.count * kLanes <= rows),
+                 "shells.packs counts " + std::to_string(packs.count) + " packs of 8 for " +
+                     std::to_string(shell.vertex_count()) + " vertices");
     check_slots(check, "stiffness_packs.first_block", p.first_block.data() + at, p.block_count.data() + at,
                 p.block_capacity.data() + at, packs.count, blocks.count);
     check_slots(check, "stiffness_packs.first_link", p.first_link.data() + at, p.link_count.data() + at,
@@ -315,20 +342,20 @@ void check_stiffness(Checker& check) {
         return std::all_of(k, k + count, [](float x) { return std::fabs(double{x}) <= kHuge; });
     };
     const auto are_vertices = [&](const uint32_t(&neighbour)[kLanes]) {
-        return std::all_of(neighbour, neighbour + kLanes, [&](uint32_t v) { return v < shell.vertex_count(); });
+        return std::all_of(neighbour, neighbour + kLanes, [&](uint32_t v) { return v < rows; });
     };
     for (uint32_t i = 0; i < blocks.count && check.is_sound(); ++i) {
         const StiffnessBlock& block = state.stiffness_blocks.block[blocks.first + i];
         check.expect(are_vertices(block.neighbour) && are_numbers(block.k[0], 9 * kLanes),
-                     place("stiffness_blocks.block", i) + " names a vertex above " +
-                         std::to_string(shell.vertex_count()) + " or has a number that is not finite");
+                     place("stiffness_blocks.block", i) + " names a vertex above " + std::to_string(rows) +
+                         " or has a number that is not finite");
     }
     for (uint32_t i = 0; i < links.count && check.is_sound(); ++i) {
         const StiffnessLink& link = state.stiffness_links.link[links.first + i];
         check.expect(are_vertices(link.neighbour) && are_numbers(link.row[0], 3 * kLanes) &&
                          are_numbers(link.column[0], 3 * kLanes),
-                     place("stiffness_links.link", i) + " names a vertex above " +
-                         std::to_string(shell.vertex_count()) + " or has a number that is not finite");
+                     place("stiffness_links.link", i) + " names a vertex above " + std::to_string(rows) +
+                         " or has a number that is not finite");
     }
 }
 
@@ -340,16 +367,18 @@ void check_cells(Checker& check) {
     uint32_t last = 0;
     for (uint32_t e = 0; e < shell.element_count() && check.is_sound(); ++e) {
         const uint32_t cell = state.elements.cell[shell.element(e)];
-        check.expect(cell >= last, place("elements.cell", e) + " is " + std::to_string(cell) + " after " +
-                                       std::to_string(last) + "; elements stand in order of cells");
+        check.expect(cell >= last || !check.is_intact(), place("elements.cell", e) + " is " + std::to_string(cell) +
+                                                             " after " + std::to_string(last) +
+                                                             "; elements stand in order of cells");
         last = cell;
         ++elements_of[cell];
     }
     for (uint32_t c = 0; c < cells.count && check.is_sound(); ++c) {
         const uint32_t row = cells.first + c;
-        check.expect(state.cells.element_count[row] == elements_of[c],
+        check.expect(state.cells.element_count[row] == elements_of[c] || !check.is_intact(),
                      place("cells.element_count", c) + " is " + std::to_string(state.cells.element_count[row]) + ", " +
                          std::to_string(elements_of[c]) + " elements name the cell");
+        if (points.capacity == 0 && !check.is_intact()) continue;  // of a task: hulls are its body's
         check.expect(state.cells.point_count[row] <= points.count &&
                          state.cells.first_point[row] <= points.count - state.cells.point_count[row],
                      place("cells.first_point", c) + " is " + std::to_string(state.cells.first_point[row]) + " for " +
@@ -368,10 +397,11 @@ void check_masses(Checker& check) {
     const Shells& s = shell.shells();
     double mass = 0;
     for (uint32_t e = 0; e < shell.element_count(); ++e) mass += shell.state.elements.mass[shell.element(e)];
-    check.expect(std::fabs(s.mass[shell.row] - mass) <= 1e-9 * mass && s.intact_mass[shell.row] == s.mass[shell.row],
-                 "shells.mass is " + std::to_string(s.mass[shell.row]) + " kg and shells.intact_mass " +
-                     std::to_string(s.intact_mass[shell.row]) + " kg; the elements weigh " + std::to_string(mass) +
-                     " kg");
+    check.expect(
+        !check.is_intact() ||
+            (std::fabs(s.mass[shell.row] - mass) <= 1e-9 * mass && s.intact_mass[shell.row] == s.mass[shell.row]),
+        "shells.mass is " + std::to_string(s.mass[shell.row]) + " kg and shells.intact_mass " +
+            std::to_string(s.intact_mass[shell.row]) + " kg; the elements weigh " + std::to_string(mass) + " kg");
     const Sym3d& inertia = s.inertia[shell.row];
     const double determinant = inertia.xx * (inertia.yy * inertia.zz - inertia.yz * inertia.yz) -
                                inertia.xy * (inertia.xy * inertia.zz - inertia.yz * inertia.xz) +
@@ -382,8 +412,8 @@ void check_masses(Checker& check) {
 
 }  // namespace
 
-Result<void> check_model_rows(const ShellView& shell, const std::string& name) {
-    Checker check{shell, name, {}};
+Result<void> check_shell_rows(const ShellView& shell, Wear wear, const std::string& name, const char* advice) {
+    Checker check{shell, name, advice, wear, {}};
     State& state = shell.state;
     const Shells& s = state.shells;
     check_columns(check, s, {shell.row, 1, 1});

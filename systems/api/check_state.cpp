@@ -1,0 +1,255 @@
+// What a snapshot's rows must be before a system may follow them. First every finite number, then ranges and users,
+// then each table by the rules below, then the shells by the rules of cooked ones.
+#include <algorithm>
+
+#include "systems/api/snapshot.hpp"
+#include "systems/cook/check_shell_rows.hpp"
+
+namespace cullet {
+namespace {
+
+constexpr const char* kAdvice = "The snapshot is damaged or of another build; take it again.";
+
+struct Checker {
+    const State& state;
+    const std::string& name;
+    std::string trouble;
+
+    bool is_sound() const { return trouble.empty(); }
+    bool expect(bool fits, const std::string& what) {
+        if (!fits && is_sound()) trouble = name + ": " + what + ". " + kAdvice;
+        return is_sound();
+    }
+    /// `table.column[row] is value`, which must be below `limit`, or none where it may be.
+    void expect_row(const AnyTable& table, const char* column, uint32_t row, uint32_t value, uint32_t limit,
+                    bool may_be_none) {
+        expect(value < limit || (may_be_none && value == kNone),
+               place(table, column, row) + " is " + std::to_string(value) + ", of " + std::to_string(limit));
+    }
+    void expect_flag(const AnyTable& table, const Column<uint8_t>& column, const char* column_name, uint32_t row) {
+        expect(column[row] <= 1,
+               place(table, column_name, row) + " is " + std::to_string(column[row]) + ", not 0 or 1");
+    }
+    static std::string place(const AnyTable& table, const char* column, uint32_t row) {
+        return std::string(table.name()) + "." + column + "[" + std::to_string(row) + "]";
+    }
+};
+
+bool is_body(const State& s, uint32_t b) {
+    return b < s.bodies.size() && static_cast<BodyKind>(s.bodies.kind[b]) != BodyKind::Free;
+}
+bool is_shell(const State& s, uint32_t shell) {
+    return shell < s.shells.size() && s.shells.users[shell] > 0;
+}
+bool is_task(const State& s, uint32_t t) {
+    return t < s.tasks.size() && static_cast<TaskState>(s.tasks.state[t]) != TaskState::Free;
+}
+
+/// Ranges of one table: each inside of it, taken from its pool, and no two on the same rows.
+class RangeCheck {
+ public:
+    RangeCheck(Checker& check, const AnyTable& table, const RangePool& pool)
+        : check_(check), table_(table), pool_(pool) {}
+    void add(const char* owner, uint32_t row, const Range& r) {
+        check_.expect(r.count <= r.capacity &&
+                          (r.capacity == 0 || (r.first <= table_.size() && r.capacity <= table_.size() - r.first)) &&
+                          pool_.is_taken(r.first, r.capacity),
+                      std::string("the range of ") + table_.name() + " of " + owner + " " + std::to_string(row) +
+                          " is " + std::to_string(r.first) + " + " + std::to_string(r.count) + " of " +
+                          std::to_string(r.capacity) + "; the table has " + std::to_string(table_.size()) + " rows");
+        if (r.capacity > 0) taken_.push_back({r.first, r.first + pool_.rounded(r.capacity)});
+    }
+    void finish() {
+        std::sort(taken_.begin(), taken_.end());
+        for (size_t k = 1; k < taken_.size(); ++k)
+            check_.expect(taken_[k - 1].second <= taken_[k].first,
+                          std::string(table_.name()) + ": two ranges have row " + std::to_string(taken_[k].first));
+    }
+
+ private:
+    Checker& check_;
+    const AnyTable& table_;
+    const RangePool& pool_;
+    std::vector<std::pair<uint32_t, uint32_t>> taken_;
+};
+
+void check_ranges(Checker& check) {
+    const State& s = check.state;
+    const Shells& shells = s.shells;
+    const auto of_shells = [&](const AnyTable& table, const RangePool& pool, const Column<Range>& column) {
+        RangeCheck ranges(check, table, pool);
+        for (uint32_t row = 0; row < shells.size(); ++row)
+            if (is_shell(s, row)) ranges.add("shell", row, column[row]);
+        ranges.finish();
+    };
+    of_shells(s.vertices, s.pools.vertices, shells.vertices);
+    of_shells(s.elements, s.pools.elements, shells.elements);
+    of_shells(s.hinges, s.pools.hinges, shells.hinges);
+    of_shells(s.stiffness_packs, s.pools.packs, shells.packs);
+    of_shells(s.stiffness_blocks, s.pools.blocks, shells.blocks);
+    of_shells(s.stiffness_links, s.pools.links, shells.links);
+    of_shells(s.cells, s.pools.cells, shells.cells);
+    of_shells(s.hull_points, s.pools.points, shells.points);
+    const auto of_bodies = [&](const AnyTable& table, const RangePool& pool, const Column<Range>& column) {
+        RangeCheck ranges(check, table, pool);
+        for (uint32_t b = 0; b < s.bodies.size(); ++b)
+            if (is_body(s, b)) ranges.add("body", b, column[b]);
+        ranges.finish();
+    };
+    of_bodies(s.view_vertices, s.pools.view_vertices, s.bodies.view_vertices);
+    of_bodies(s.view_indices, s.pools.view_indices, s.bodies.view_indices);
+    check.expect(s.triangle_springs.size() == s.elements.size(), "triangle_springs and elements differ in rows");
+    for (uint32_t row = 0; row < shells.size(); ++row)
+        check.expect(!is_shell(s, row) || s.pools.shells.is_taken(row, 1),
+                     Checker::place(shells, "users", row) + " names users of a free row");
+    for (uint32_t b = 0; b < s.bodies.size(); ++b)
+        check.expect(!is_body(s, b) || s.pools.bodies.is_taken(b, 1),
+                     Checker::place(s.bodies, "kind", b) + " names a body in a free row");
+}
+
+void check_bodies(Checker& check) {
+    const State& s = check.state;
+    const Bodies& bodies = s.bodies;
+    for (uint32_t b = 0; b < bodies.size() && check.is_sound(); ++b) {
+        check.expect(bodies.kind[b] <= static_cast<uint8_t>(BodyKind::Dynamic),
+                     Checker::place(bodies, "kind", b) + " is " + std::to_string(bodies.kind[b]));
+        if (!is_body(s, b)) continue;
+        check.expect_row(bodies, "model", b, bodies.model[b], s.models.size(), true);
+        check.expect_row(bodies, "parent", b, bodies.parent[b], bodies.size(), true);
+        check.expect(!bodies.shell[b].exists() || is_shell(s, bodies.shell[b]),
+                     Checker::place(bodies, "shell", b) + " is " + std::to_string(bodies.shell[b].index) +
+                         ", which is no shell");
+        check.expect(!bodies.shell[b].exists() || s.shells.points[bodies.shell[b]].capacity > 0,
+                     Checker::place(bodies, "shell", b) + " has no hulls");
+        const uint32_t task = bodies.task[b];
+        check.expect(task == kNone || (is_task(s, task) && s.tasks.body[task] == b),
+                     Checker::place(bodies, "task", b) + " is " + std::to_string(task) + ", not an open task of it");
+        check.expect_flag(bodies, bodies.is_sphere, "is_sphere", b);
+        check.expect_flag(bodies, bodies.is_breakable, "is_breakable", b);
+        check.expect_flag(bodies, bodies.is_asleep, "is_asleep", b);
+        check.expect_flag(bodies, bodies.has_pins, "has_pins", b);
+        check.expect_flag(bodies, bodies.is_owed_births, "is_owed_births", b);
+        const Range vertices = bodies.view_vertices[b], indices = bodies.view_indices[b];
+        uint64_t runs = 0;
+        for (const uint32_t count : bodies.run_indices[b]) runs += count;
+        check.expect(runs == indices.count, Checker::place(bodies, "run_indices", b) + " add up to " +
+                                                std::to_string(runs) + "; the body has " +
+                                                std::to_string(indices.count) + " indices");
+        for (uint32_t i = 0; i < indices.count && check.is_sound(); ++i)
+            check.expect_row(s.view_indices, "index", indices.first + i, s.view_indices.index[indices.first + i],
+                             vertices.count, false);
+    }
+}
+
+void check_models(Checker& check) {
+    const Models& models = check.state.models;
+    for (uint32_t m = 0; m < models.size(); ++m) {
+        check.expect_flag(models, models.is_used, "is_used", m);
+        check.expect(!models.is_used[m] || is_shell(check.state, models.shell[m]),
+                     Checker::place(models, "shell", m) + " is " + std::to_string(models.shell[m].index) +
+                         ", which is no shell");
+    }
+}
+
+/// The patches of a task press its own vertices.
+void check_contacts(Checker& check, uint32_t t) {
+    const State& s = check.state;
+    const uint32_t first = s.tasks.first_contact[t], count = s.tasks.contact_count[t];
+    const uint32_t vertices = s.shells.vertices[s.tasks.shell[t]].count;
+    check.expect(count <= kMostContacts && first <= s.task_contacts.size() && count <= s.task_contacts.size() - first,
+                 Checker::place(s.tasks, "first_contact", t) + " is " + std::to_string(first) + " for " +
+                     std::to_string(count) + " contacts");
+    for (uint32_t c = first; c < first + count && check.is_sound(); ++c) {
+        const TaskContacts& contacts = s.task_contacts;
+        check.expect_row(contacts, "vertex", c, contacts.vertex[c], vertices, false);
+        check.expect(!contacts.striker[c].exists() || is_body(s, contacts.striker[c]),
+                     Checker::place(contacts, "striker", c) + " is " + std::to_string(contacts.striker[c].index) +
+                         ", which is no body");
+        const uint32_t patch = contacts.first_patch[c], patch_count = contacts.patch_count[c];
+        check.expect(patch <= s.patch_vertices.size() && patch_count <= s.patch_vertices.size() - patch,
+                     Checker::place(contacts, "first_patch", c) + " is " + std::to_string(patch) + " for " +
+                         std::to_string(patch_count) + " vertices");
+        for (uint32_t p = patch; p < patch + patch_count && check.is_sound(); ++p)
+            check.expect_row(s.patch_vertices, "vertex", p, s.patch_vertices.vertex[p], vertices, false);
+    }
+}
+
+void check_tasks(Checker& check) {
+    const State& s = check.state;
+    const Tasks& tasks = s.tasks;
+    check.expect(tasks.size() == tasks.limit() && s.task_contacts.size() == s.task_contacts.limit() &&
+                     s.patch_vertices.size() == s.patch_vertices.limit() &&
+                     s.queued_hits.size() == s.queued_hits.limit() && s.fragments.size() == s.fragments.limit(),
+                 "tables of hits do not have the rows of their limits");
+    for (uint32_t t = 0; t < tasks.size() && check.is_sound(); ++t) {
+        if (!is_task(s, t)) continue;
+        check.expect(static_cast<TaskState>(tasks.state[t]) == TaskState::Running,
+                     Checker::place(tasks, "state", t) + " is " + std::to_string(tasks.state[t]) +
+                         "; between steps a task is free or running");
+        const Row<Bodies> body = tasks.body[t];
+        check.expect(
+            is_body(s, body) && s.bodies.task[body] == t,
+            Checker::place(tasks, "body", t) + " is " + std::to_string(body.index) + ", which has no such task");
+        check.expect(is_shell(s, tasks.shell[t]) && is_shell(s, tasks.source[t]) && tasks.shell[t] != tasks.source[t],
+                     Checker::place(tasks, "shell", t) + " is " + std::to_string(tasks.shell[t].index) + " of " +
+                         std::to_string(tasks.source[t].index) + ", which are not two shells");
+        if (!check.is_sound()) return;
+        check.expect(s.shells.packs[tasks.shell[t]].count > 0, Checker::place(tasks, "shell", t) + " has no stiffness");
+        check.expect_flag(tasks, tasks.is_held, "is_held", t);
+        check.expect_flag(tasks, tasks.is_late, "is_late", t);
+        check.expect(tasks.time_step[t] > 0, Checker::place(tasks, "time_step", t) + " is " +
+                                                 std::to_string(tasks.time_step[t]) + " s, not above 0");
+        check_contacts(check, t);
+    }
+    const QueuedHits& queued = s.queued_hits;
+    for (uint32_t q = 0; q < queued.size() && check.is_sound(); ++q) {
+        check.expect_flag(queued, queued.is_used, "is_used", q);
+        if (!queued.is_used[q]) continue;
+        check.expect(is_body(s, queued.body[q]) && (!queued.striker[q].exists() || is_body(s, queued.striker[q])),
+                     Checker::place(queued, "body", q) + " or its striker is no body");
+    }
+    for (uint32_t d = 0; d < s.debris.size(); ++d) check.expect_flag(s.debris, s.debris.is_used, "is_used", d);
+}
+
+/// Shells are given back when their last user goes: the count must be true.
+void check_users(Checker& check) {
+    const State& s = check.state;
+    std::vector<uint32_t> users(s.shells.size(), 0);
+    const auto use = [&](uint32_t shell) {
+        if (shell < users.size()) ++users[shell];
+    };
+    for (uint32_t m = 0; m < s.models.size(); ++m)
+        if (s.models.is_used[m]) use(s.models.shell[m]);
+    for (uint32_t b = 0; b < s.bodies.size(); ++b)
+        if (is_body(s, b)) use(s.bodies.shell[b]);
+    for (uint32_t t = 0; t < s.tasks.size(); ++t)
+        if (is_task(s, t)) use(s.tasks.shell[t]), use(s.tasks.source[t]);
+    for (uint32_t row = 0; row < users.size(); ++row)
+        check.expect(s.shells.users[row] == users[row], Checker::place(s.shells, "users", row) + " is " +
+                                                            std::to_string(s.shells.users[row]) + ", but " +
+                                                            std::to_string(users[row]) + " name the shell");
+}
+
+}  // namespace
+
+Result<void> check_state(const State& state, const std::string& name) {
+    Checker check{state, name, {}};
+    const std::string not_finite = state.validate();
+    check.expect(not_finite.empty(), not_finite);
+    for (auto* look : {check_ranges, check_models, check_tasks, check_bodies, check_users})
+        if (check.is_sound()) look(check);
+    if (!check.is_sound()) return Error{check.trouble};
+    auto& rows = const_cast<State&>(state);  // views are of states that may change; nothing is changed
+    for (uint32_t row = 0; row < state.shells.size(); ++row) {
+        if (!is_shell(state, row)) continue;
+        if (state.shells.material[row] >= state.materials.size())
+            return Error{name + ": " + Checker::place(state.shells, "material", row) + " is " +
+                         std::to_string(state.shells.material[row].index) + ", of " +
+                         std::to_string(state.materials.size()) + ". " + kAdvice};
+        const Result<void> sound = check_shell_rows(ShellView(rows, Row<Shells>(row)), Wear::Worn, name, kAdvice);
+        if (!sound) return sound;
+    }
+    return {};
+}
+
+}  // namespace cullet

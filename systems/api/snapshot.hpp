@@ -1,0 +1,28 @@
+// A world as bytes: the settings, every State column, the pools of rows, the rigid bodies. What a snapshot does not
+// hold is the host's: its functions, its jobs, the veto.
+//
+// The header of engine/file_header.hpp, version 1, magic "csnap\r\n\x1a"; then the settings and counts as numbers, the
+// tables in the order of State::tables() as engine/table_bytes.hpp writes them, the holes of the pools, the rigid
+// world.
+#pragma once
+#include <memory>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "systems/world_contents.hpp"
+
+namespace cullet {
+
+/// Between steps. Rebuilds the rigid world from its own bytes (see RigidWorld::save).
+Result<std::vector<uint8_t>> encode_snapshot(World::Contents& world);
+/// A new world in place of one that has `host` and so many threads of its own; the name stands in sentences. Every
+/// index is looked at before anything follows it.
+Result<std::unique_ptr<World::Contents>> parse_snapshot(std::span<const uint8_t> bytes, const std::string& name,
+                                                        const Host& host, uint32_t threads);
+
+/// Whether a world's rows are such that systems can work on them: indices in range, ranges apart, numbers finite, lists
+/// that end. Says nothing of whether physics would have made them. The sentence names table, column and row.
+Result<void> check_state(const State& state, const std::string& name);
+
+}  // namespace cullet
