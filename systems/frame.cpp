@@ -2,6 +2,7 @@
 // and only then are contacts solved, so that what breaks does not throw the striker back. A host with its own physics
 // (World::create_hosted) has moved the bodies before the frame, and solves after it.
 #include "systems/damage/damage_loop.hpp"
+#include "systems/query/query_index.hpp"
 #include "systems/systems.hpp"
 #include "systems/world_contents.hpp"
 
@@ -32,7 +33,7 @@ FramePlan<WorldData> make_frame_plan(bool is_hosted, const std::function<std::st
     plan.stage("solve");
     if (!is_hosted) plan.then<solve_rigid>().then<read_rigid>();
     plan.then<fall_debris>();
-    plan.stage("end").then<draw_shells>().then<compact_shells>();
+    plan.stage("end").then<draw_shells>().then<bound_drawn>().then<refresh_queries>().then<compact_shells>();
     return plan;
 }
 
