@@ -45,6 +45,7 @@ struct Bodies : Table<Bodies> {
     Column<uint32_t> task{*this, "task"};                     // open task or kNone
     Column<uint32_t> colour{*this, "colour"};                 // stable number for pictures
     // Drawn mesh in view space.
+    Column<std::array<float, 6>> drawn_box{*this, "drawn_box", "m", Keep::Scratch};  // low, high; body frame
     Column<Range> view_vertices{*this, "view_vertices"};
     Column<Range> view_indices{*this, "view_indices"};
     Column<std::array<uint32_t, kMostRuns>> run_indices{*this, "run_indices"};  // by kind, then by drawn material

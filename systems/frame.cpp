@@ -1,16 +1,18 @@
 // The order of one frame: impact in, fragments out. Contacts are detected and impulses predicted, damage is decided,
-// and only then are contacts solved, so that what breaks does not throw the striker back.
+// and only then are contacts solved, so that what breaks does not throw the striker back. A host with its own physics
+// (World::create_hosted) has moved the bodies before the frame, and solves after it.
 #include "systems/damage/damage_loop.hpp"
+#include "systems/query/query_index.hpp"
 #include "systems/systems.hpp"
 #include "systems/world_contents.hpp"
 
 namespace cullet {
 
-FramePlan<WorldData> make_frame_plan(const std::function<std::string()>& describe_damage_loop) {
+FramePlan<WorldData> make_frame_plan(bool is_hosted, const std::function<std::string()>& describe_damage_loop) {
     FramePlan<WorldData> plan;
-    plan.stage("start")
-        .then<remember_poses>()
-        .then<detect_contacts>()
+    plan.stage("start").then<remember_poses>();
+    if (is_hosted) plan.then<read_rigid>();
+    plan.then<detect_contacts>()
         .then<predict_impacts>()
         .then<open_tasks>()
         .then<fill_tasks>()
@@ -28,8 +30,10 @@ FramePlan<WorldData> make_frame_plan(const std::function<std::string()>& describ
         .then<plan_hulls>()
         .then<fill_hulls>()
         .then<make_births>();
-    plan.stage("solve").then<solve_rigid>().then<read_rigid>().then<fall_debris>();
-    plan.stage("end").then<draw_shells>().then<compact_shells>();
+    plan.stage("solve");
+    if (!is_hosted) plan.then<solve_rigid>().then<read_rigid>();
+    plan.then<fall_debris>();
+    plan.stage("end").then<draw_shells>().then<bound_drawn>().then<refresh_queries>().then<compact_shells>();
     return plan;
 }
 

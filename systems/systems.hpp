@@ -83,6 +83,11 @@ void fall_debris(Rows<Debris> debris, Step step, InOut<&Debris::position> positi
 /// The drawn mesh of each shell that changed.
 void draw_shells(Each<ShellChanged> changed, Step step, ShellTables shells, Bodies& bodies, ViewVertices& vertices,
                  ViewIndices& indices);
+/// Boxes of the drawn triangles of each shell that changed.
+void bound_drawn(Each<ShellChanged> changed, Bodies& bodies, const ViewVertices& vertices, const ViewIndices& indices,
+                 ViewBoxes& boxes);
+/// The tree that queries go down.
+void refresh_queries(Serial, const Bodies& bodies, QueryIndex& index);
 /// Moves the live rows of shells together that lost a quarter of theirs to pieces, in quiet frames, for units.
 void compact_shells(Serial, ShellTables shells, Bodies& bodies, const Tasks& tasks, Fragments& fragments,
                     DamageCounts& counts, const Events<TaskEnded>& ended);

@@ -5,13 +5,15 @@
 #include "cullet/host.hpp"
 #include "cullet/world.hpp"
 #include "engine/frame_plan.hpp"
+#include "engine/host_rigid_world.hpp"
 #include "systems/api/host_log.hpp"
 #include "systems/world_data.hpp"
 
 namespace cullet {
 
 struct World::Contents {
-    Contents(const Settings& settings, const Host& host);
+    /// Without `rigid` the host moves the bodies.
+    Contents(const Settings& settings, const Host& host, std::unique_ptr<RigidWorld> rigid);
     ~Contents();
 
     Settings settings;
@@ -19,6 +21,7 @@ struct World::Contents {
     std::unique_ptr<JobSystem> jobs;
     Profiler profiler;
     WorldData data;
+    HostRigidWorld* hosted = nullptr;  // data.rigid, where the host moves the bodies
     FramePlan<WorldData> plan;
     HostLog log;
     struct Counters {
@@ -26,11 +29,13 @@ struct World::Contents {
     } counters;  // in the trace
     /// Their values of the step that ends.
     void count();
+    /// One frame of the plan, with all that goes round it.
+    void step();
     /// Called between systems when set: --validate.
     std::function<void(const PlannedSystem<WorldData>&)> after_each_system;
 };
 
-/// The systems of a frame in their order (frame.cpp).
-FramePlan<WorldData> make_frame_plan(const std::function<std::string()>& describe_damage_loop);
+/// The systems of a frame in their order (frame.cpp). With `is_hosted` bodies were moved before it.
+FramePlan<WorldData> make_frame_plan(bool is_hosted, const std::function<std::string()>& describe_damage_loop);
 
 }  // namespace cullet

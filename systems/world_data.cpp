@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "systems/damage/damage_loop.hpp"
+#include "systems/query/query_index.hpp"
 
 namespace cullet {
 namespace {
@@ -27,6 +28,8 @@ constexpr size_t kArenaBytes = size_t{64} << 20;
 
 WorldData::WorldData(const Settings& settings)
     : state(limits_of(settings.limits)),
+      view_boxes(state.view_indices.limit() / kViewGranule + 1),
+      query_index(std::make_unique<QueryIndex>(settings.limits.bodies)),
       arena(kArenaBytes),
       impacts(1u << 16),
       tasks_opened(settings.limits.open_hits),

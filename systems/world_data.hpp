@@ -3,6 +3,7 @@
 #include <memory>
 
 #include "components/state.hpp"
+#include "components/view_boxes.hpp"
 #include "cullet/events.hpp"
 #include "cullet/settings.hpp"
 #include "engine/arena.hpp"
@@ -38,6 +39,7 @@ struct ShellChanged {
 };
 
 struct DamageLoop;
+class QueryIndex;
 
 /// What the game set, as the systems read it.
 struct DamageSettings {
@@ -69,6 +71,8 @@ struct WorldData {
     DamageCounts counts;
     std::unique_ptr<RigidWorld> rigid;
     std::unique_ptr<DamageLoop> damage_loop;
+    ViewBoxes view_boxes;
+    std::unique_ptr<QueryIndex> query_index;
     Arena arena;
     Events<Impact> impacts;
     Events<TaskOpened> tasks_opened;
@@ -93,7 +97,10 @@ struct WorldData {
 
     template <class T>
     T& table() {
-        return state.table<T>();
+        if constexpr (std::is_same_v<T, ViewBoxes>)
+            return view_boxes;
+        else
+            return state.table<T>();
     }
     template <class T>
     T& resource();
@@ -113,6 +120,8 @@ T& WorldData::resource() {
         return *rigid;
     else if constexpr (std::is_same_v<T, DamageLoop>)
         return *damage_loop;
+    else if constexpr (std::is_same_v<T, QueryIndex>)
+        return *query_index;
     else if constexpr (std::is_same_v<T, Arena>)
         return arena;
     else if constexpr (std::is_same_v<T, Events<Impact>>)

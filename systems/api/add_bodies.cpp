@@ -7,6 +7,8 @@
 #include "systems/cook/apply_pins.hpp"
 #include "systems/fragments/body_rows.hpp"
 #include "systems/fragments/rigid_shape.hpp"
+#include "systems/query/bound_drawn.hpp"
+#include "systems/query/query_index.hpp"
 #include "systems/rigid/body_id.hpp"
 #include "systems/view/draw_shell.hpp"
 #include "systems/world_contents.hpp"
@@ -126,6 +128,8 @@ Result<BodyId> World::spawn(ModelId id, const SpawnSettings& settings) {
     d.rigid->add(body, describe_rigid(state, body, convex_pieces(state, shell, d.arena)));
     draw_body(state, body);
     bodies.drawn_frame[body] = d.step_info.frame;
+    bound_view(bodies, body, state.view_vertices, state.view_indices, d.view_boxes);
+    d.query_index->touch(bodies, body);
     return body_id(bodies, body);
 }
 
@@ -152,6 +156,7 @@ Result<BodyId> World::add_sphere(const SphereSettings& settings) {
     // Times the floor's friction: on one of 0.45 a ball at 1 m/s rolls for about a second.
     description.rolling_friction = 0.3f * settings.radius;
     d.rigid->add(body, description);
+    d.query_index->touch(bodies, body);
     return body_id(bodies, body);
 }
 
@@ -179,6 +184,8 @@ Result<BodyId> World::add_kinematic_box(const KinematicSettings& settings) {
     description.margin = margin;
     description.pieces = {&piece, 1};
     d.rigid->add(body, description);
+    d.query_index->set_box(body, h);
+    d.query_index->touch(bodies, body);
     return body_id(bodies, body);
 }
 
@@ -207,6 +214,8 @@ Result<BodyId> World::add_static(const MeshView& mesh, const ContactSettings& co
     fill_body(bodies, body, BodyKind::Static, {}, {}, contact, kPlainFriction, user_data);
     d.rigid->add_static_triangles(body, {mesh.positions, mesh.position_count}, triangles, bodies.friction[body],
                                   bodies.restitution[body], bodies.layer[body], bodies.mask[body]);
+    d.query_index->set_triangles(body, {mesh.positions, mesh.position_count}, triangles);
+    d.query_index->touch(bodies, body);
     return body_id(bodies, body);
 }
 

@@ -1,6 +1,7 @@
 // What a game asks of a body, and what it does to one.
 #include "engine/host_scope.hpp"
 #include "systems/api/checks.hpp"
+#include "systems/query/query_index.hpp"
 #include "systems/rigid/body_id.hpp"
 #include "systems/world_contents.hpp"
 
@@ -76,6 +77,7 @@ Result<void> World::set_pose(BodyId id, const Pose& pose) {
     bodies.previous_position.set(body, unit.position);
     bodies.previous_orientation[body] = unit.orientation;
     d.rigid->set_pose(body, unit);
+    d.query_index->touch(bodies, body);
     wake_body(d, body);
     return {};
 }

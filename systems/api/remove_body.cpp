@@ -2,6 +2,7 @@
 #include "engine/host_scope.hpp"
 #include "systems/api/checks.hpp"
 #include "systems/fragments/body_rows.hpp"
+#include "systems/query/query_index.hpp"
 #include "systems/rigid/body_id.hpp"
 #include "systems/world_contents.hpp"
 
@@ -46,6 +47,7 @@ Result<void> World::remove(BodyId id) {
         if (state.bodies.parent[b] == body) state.bodies.parent[b] = {};
     d.rigid->remove(body);
     free_body(state, body);
+    d.query_index->touch(state.bodies, body);
     return {};
 }
 

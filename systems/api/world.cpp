@@ -7,16 +7,22 @@
 
 namespace cullet {
 
-World::Contents::Contents(const Settings& s, const Host& h)
+World::Contents::Contents(const Settings& s, const Host& h, std::unique_ptr<RigidWorld> rigid)
     : settings(s),
       host(h),
       jobs(h.jobs.parallel_for ? make_host_jobs(h.jobs) : make_jobs(JobBackend::Tbb, s.threads)),
       data(s) {
     fill_materials(data.state.materials);
-    data.rigid = make_bullet_world(s.limits.bodies);
+    data.rigid = std::move(rigid);
+    if (!data.rigid) {
+        const HostRoom room{s.limits.bodies, kMostCellParts * data.state.cells.limit(), data.state.hull_points.limit()};
+        auto made = std::make_unique<HostRigidWorld>(room, data.state.bodies.generation.data());
+        hosted = made.get();
+        data.rigid = std::move(made);
+    }
     data.rigid->set_gravity(s.gravity);
     data.damage_loop = std::make_unique<DamageLoop>(data.state, *jobs, profiler);
-    plan = make_frame_plan([this] { return data.damage_loop->describe(); });
+    plan = make_frame_plan(hosted != nullptr, [this] { return data.damage_loop->describe(); });
     plan.finish(profiler);
     counters = {profiler.add_counter("units"), profiler.add_counter("open tasks"), profiler.add_counter("births")};
 }
@@ -42,19 +48,18 @@ const World::Contents& World::contents() const {
     return *contents_;
 }
 
-Result<World> World::create(const Settings& settings, const Host& host) {
-    if (const Result<void> valid = check_settings(settings); !valid) return Error{valid.error()};
-    if (const Result<void> valid = check_host(host); !valid) return Error{valid.error()};
-    const HostScope call(host);
-    const MemoryScope memory(host.allocator);
-    return World(std::make_unique<Contents>(settings, host));
+void World::step() {
+    const HostScope call(contents_->host);
+    if (!contents_->hosted) return contents_->step();
+    const Host& host = contents_->host;
+    if (host.log)
+        host.log(host.user, LogLevel::Error,
+                 "World::step() without a HostFrame does nothing in a world of create_hosted; give it the frame.");
 }
 
-void World::step() {
-    Contents& c = *contents_;
-    WorldData& d = c.data;
-    const HostScope call(c.host);
-    if (c.host.zone_begin) c.host.zone_begin(c.host.user, "cullet step");
+void World::Contents::step() {
+    WorldData& d = data;
+    if (host.zone_begin) host.zone_begin(host.user, "cullet step");
     d.impact_events.clear();
     d.crack_events.clear();
     d.born_events.clear();
@@ -64,14 +69,14 @@ void World::step() {
     d.asleep_events.clear();
     d.shells_changed.clear();
     d.arena.reset();
-    c.profiler.begin_frame(d.step_info.frame);
-    c.plan.step(d, *c.jobs, c.profiler, d.arena, c.after_each_system ? &c.after_each_system : nullptr, &c.host);
-    c.count();
-    c.profiler.end_frame();
+    profiler.begin_frame(d.step_info.frame);
+    plan.step(d, *jobs, profiler, d.arena, after_each_system ? &after_each_system : nullptr, &host);
+    count();
+    profiler.end_frame();
     if (d.counts.units_used == 0) d.state.commit_ahead(d.ready_for, 1);  // a quiet frame
     ++d.step_info.frame;
-    if (c.host.zone_end) c.host.zone_end(c.host.user);
-    c.log.tell(c.host, d);
+    if (host.zone_end) host.zone_end(host.user);
+    log.tell(host, d);
 }
 
 StepReport World::report() const {
@@ -132,7 +137,7 @@ void World::set_veto(bool (*allows)(void* user, const ImpactEvent& impact), void
 std::string World::describe_frame() {
     Settings settings;
     settings.limits = {16, 1, 4096, 4096, 1, 4096, 16};
-    const Contents contents(settings, {});
+    const Contents contents(settings, {}, std::make_unique<HostRigidWorld>(HostRoom{}, nullptr));
     return contents.plan.describe();
 }
 

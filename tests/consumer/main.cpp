@@ -5,7 +5,7 @@
 #include <cstdlib>
 #include <vector>
 
-#include "cullet/world.hpp"
+#include "cullet/query.hpp"
 
 using namespace cullet;
 
@@ -55,5 +55,7 @@ int main() {
         }
         if (frame == 90) (void)world.set_motion(lift, {});  // it has come up by half a metre
     }
-    return fragments > 0 ? 0 : 1;
+    const SurfaceHit below = ray(world, {0, 3, 0}, {0, -1, 0}, 5);  // between steps, from any thread
+    std::printf("the eye at 3 m looks down on %zu, %.2f m away\n", size_t{below.user_data}, below.distance);
+    return fragments > 0 && below ? 0 : 1;
 }

@@ -17,7 +17,7 @@ TEST(Readme, ShowsTheExampleThatIsBuiltAndRun) {
     const std::string example = text_of("/tests/consumer/main.cpp");
     ASSERT_FALSE(example.empty());
     EXPECT_NE(text_of("/README.md").find(example), std::string::npos);
-    EXPECT_LE(std::count(example.begin(), example.end(), '\n'), 60);
+    EXPECT_LE(std::count(example.begin(), example.end(), '\n'), 64);  // somebody reads it to the end
 }
 
 }  // namespace

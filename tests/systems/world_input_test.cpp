@@ -216,5 +216,12 @@ TEST(WorldInput, BadNumbersForALiveBodyAreRefusedAndChangeNothing) {
     EXPECT_EQ(world.hash(), before);
 }
 
+TEST(WorldInput, AHostsFrameIsRefusedWhereBulletMovesTheBodies) {
+    World world = make_world(small_settings());
+    EXPECT_NE(world.step(HostFrame{}).error().find("create_hosted"), std::string::npos);
+    EXPECT_EQ(world.report().frame, 0u);
+    EXPECT_EQ(world.host_changes().born.count, 0u);
+}
+
 }  // namespace
 }  // namespace cullet::test

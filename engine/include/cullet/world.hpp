@@ -73,13 +73,20 @@ struct StepReport {
 
 class World {
  public:
+    /// Bullet moves the bodies. In cullet::cullet alone.
     static Result<World> create(const Settings& settings, const Host& host = {});
+    /// The host moves the bodies (rigid.hpp). Gravity counts for crumbs alone, and no sweeps are made.
+    static Result<World> create_hosted(const Settings& settings, const Host& host = {});
     World(World&&) noexcept;
     World& operator=(World&&) noexcept;
     ~World();
 
-    /// One fixed step of Settings::step_seconds.
+    /// One fixed step of Settings::step_seconds. Of a world of create_hosted: logs that it does nothing.
     void step();
+    /// The same where the host moves the bodies. Refuses rows that are not finite, and worlds that Bullet moves.
+    Result<void> step(const HostFrame& frame);
+    /// What the host is to do after step(frame), before it solves; empty in a world that Bullet moves.
+    HostChanges host_changes() const;
     StepReport report() const;
     /// What the rigid bodies behind the world cost.
     RigidReport rigid_report() const;

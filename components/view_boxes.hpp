@@ -1,0 +1,19 @@
+// Bounds of drawn triangles, for queries.
+#pragma once
+#include "components/bodies.hpp"
+
+namespace cullet {
+
+/// Drawn triangles that share a box. Doubled, a ray tests twice the triangles and half the boxes.
+inline constexpr uint32_t kTrianglesPerBox = 32;
+inline constexpr uint32_t kViewGranule = 16;  // ranges of view_indices begin at multiples of it
+
+/// Row view_indices.first / kViewGranule + n bounds the n-th kTrianglesPerBox drawn triangles of a body, body frame. No
+/// part of a world's state: a drawn mesh gives it. Rows are written in place up to the limit and never appended.
+struct ViewBoxes : Table<ViewBoxes> {
+    using Table::Table;
+    static constexpr const char* kName = "view_boxes";
+    Column<std::array<float, 6>> box{*this, "box", "m", Keep::Scratch};  // low, then high
+};
+
+}  // namespace cullet

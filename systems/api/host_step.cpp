@@ -1,0 +1,33 @@
+// A world whose bodies the host moves.
+#include "engine/host_scope.hpp"
+#include "systems/api/checks.hpp"
+#include "systems/world_contents.hpp"
+
+namespace cullet {
+
+Result<World> World::create_hosted(const Settings& settings, const Host& host) {
+    if (const Result<void> valid = check_settings(settings); !valid) return Error{valid.error()};
+    if (const Result<void> valid = check_host(host); !valid) return Error{valid.error()};
+    const HostScope call(host);
+    const MemoryScope memory(host.allocator);
+    return World(std::make_unique<Contents>(settings, host, nullptr));
+}
+
+Result<void> World::step(const HostFrame& frame) {
+    Contents& c = *contents_;
+    if (!c.hosted)
+        return Error{
+            "a HostFrame was given to a world whose bodies Bullet moves; call step() without it, or make the "
+            "world with create_hosted."};
+    const HostScope call(c.host);
+    if (Result<void> taken = c.hosted->take(frame); !taken) return taken;
+    c.step();
+    c.hosted->finish();
+    return {};
+}
+
+HostChanges World::host_changes() const {
+    return contents_->hosted ? contents_->hosted->changes() : HostChanges{};
+}
+
+}  // namespace cullet
