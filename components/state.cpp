@@ -46,7 +46,8 @@ State::State(const Limits& l)
       fragments((l.tasks + 1) * kMostParts),
       view_vertices(l.view_vertices),
       view_indices(l.view_vertices * 2),
-      pools(*this) {
+      pools(*this),
+      limits_(l) {
     tasks.append(l.tasks);
     task_contacts.append(l.tasks * kMostContacts);
     patch_vertices.append(l.tasks * kMostPatchVertices);
@@ -92,6 +93,40 @@ uint64_t State::hash() const {
     std::apply([&](auto... table) { ((hash = (this->*table).hash(hash)), ...); }, tables());
     for (const RangePool* pool : pools.all()) hash = pool->hash(hash);
     return hash;
+}
+
+namespace {
+
+template <class F>
+void for_each_kept_column(const State& state, F&& f) {
+    const auto columns_of = [&](const AnyTable& table) {
+        for (const ColumnInfo& c : table.columns())
+            if (c.keep == Keep::State) f(table, c);
+    };
+    std::apply([&](auto... table) { (columns_of(state.*table), ...); }, State::tables());
+}
+
+}  // namespace
+
+void State::digest_columns(std::vector<uint32_t>& out) const {
+    out.clear();
+    for_each_kept_column(*this, [&](const AnyTable& table, const ColumnInfo& c) {
+        uint64_t hash = table.size();
+        for (int a = 0; a < c.lanes * c.sides; ++a)
+            hash = hash_bytes(table.column_memory(c, a), size_t{table.size()} * c.row_bytes, hash);
+        out.push_back(static_cast<uint32_t>(hash));
+    });
+    uint64_t pooled = 0;
+    for (const RangePool* pool : pools.all()) pooled = pool->hash(pooled);
+    out.push_back(static_cast<uint32_t>(pooled));
+}
+
+std::string State::digested_column(size_t place) const {
+    std::string name = "the rows that are taken";
+    for_each_kept_column(*this, [&](const AnyTable& table, const ColumnInfo& c) {
+        if (place-- == 0) name = std::string(table.name()) + "." + c.name;
+    });
+    return name;
 }
 
 std::string State::validate() const {

@@ -80,6 +80,7 @@ struct State {
                           &State::task_contacts,   &State::patch_vertices,   &State::queued_hits,
                           &State::fragments,       &State::view_vertices,    &State::view_indices};
     }
+    const Limits& limits() const { return limits_; }
     /// The table of type T.
     template <class T>
     T& table() {
@@ -94,7 +95,13 @@ struct State {
     std::string validate() const;
     std::string first_difference(const State& other) const;
 
+    /// 32 bits of each State column's hash, in the order of tables() and their columns; and then of the pools.
+    void digest_columns(std::vector<uint32_t>& out) const;
+    /// "vertices.velocity" of the place in that list.
+    std::string digested_column(size_t place) const;
+
  private:
+    Limits limits_;
     template <class T, size_t I>
     T& find() {
         auto& candidate = this->*std::get<I>(tables());

@@ -6,6 +6,8 @@
 #include <tuple>
 #include <utility>
 
+#include "engine/byte_stream.hpp"
+
 namespace cullet {
 namespace {
 
@@ -345,6 +347,103 @@ void HostRigidWorld::finish() {
     }
     is_told_ = true;
     is_in_step_ = false;
+}
+
+std::optional<RigidKind> HostRigidWorld::kind(RigidId id) const {
+    return is_known(id) ? std::optional(rows_[id].kind) : std::nullopt;
+}
+
+namespace {
+
+/// Of a row, in the order of the bytes, for both ways.
+template <class Shape, class F>
+void for_each_number(Shape& s, F&& f) {
+    auto &at = s.pose.position, &velocity = s.motion.velocity, &spin = s.motion.angular_velocity;
+    auto& turn = s.pose.orientation;
+    f(at.x), f(at.y), f(at.z), f(turn.x), f(turn.y), f(turn.z), f(turn.w);
+    f(velocity.x), f(velocity.y), f(velocity.z), f(spin.x), f(spin.y), f(spin.z);
+    f(s.mass);
+    for (auto& c : s.centre) f(c);
+    for (auto& i : s.inertia) f(i);
+    f(s.margin), f(s.friction), f(s.restitution), f(s.rolling_friction), f(s.layer), f(s.mask);
+}
+
+}  // namespace
+
+void HostRigidWorld::save(ByteWriter& out) const {
+    out.number(static_cast<uint32_t>(rows_.size()));
+    for (const Row& row : rows_) {
+        out.number(static_cast<uint8_t>(row.is_used));
+        if (!row.is_used) continue;
+        for (const uint8_t byte : {static_cast<uint8_t>(row.kind), static_cast<uint8_t>(row.is_asleep),
+                                   static_cast<uint8_t>(row.is_held), static_cast<uint8_t>(row.shape.is_static)})
+            out.number(byte);
+        for_each_number(row.shape, [&](const auto& number) { out.number(number); });
+    }
+    out.number(static_cast<uint32_t>(triangles_.size()));
+    for (const StaticTriangle& t : triangles_) {
+        out.number(t.id);
+        for (const Vec3 p : t.corner) out.number(p.x), out.number(p.y), out.number(p.z);
+    }
+    out.number(static_cast<uint32_t>(ignored_.size()));
+    for (const Ignored& p : ignored_) {
+        out.number(p.a), out.number(p.b), out.number(p.seconds);
+        out.number(static_cast<uint8_t>(p.until_apart));
+    }
+}
+
+Result<void> HostRigidWorld::load(ByteReader& in) {
+    const auto number = [&]<class T>(T& value) {
+        value = in.number<T>("a body of the host's");
+        if constexpr (std::is_floating_point_v<T>) in.expect(std::isfinite(value), "a number that is not finite");
+    };
+    const auto flag = [&] {
+        const auto byte = in.number<uint8_t>("a flag");
+        in.expect(byte <= 1, "a flag of " + std::to_string(byte));
+        return byte == 1;
+    };
+    in.expect(in.number<uint32_t>("the number of bodies") == rows_.size(), "another limit of bodies");
+    for (RigidId id = 0; id < rows_.size() && in.is_sound(); ++id) {
+        Row& row = rows_[id];
+        row.is_used = flag();
+        if (!row.is_used) continue;
+        const auto kind = in.number<uint8_t>("a kind of body");
+        in.expect(kind <= static_cast<uint8_t>(RigidKind::Dynamic), "kind of body " + std::to_string(kind));
+        row.kind = static_cast<RigidKind>(kind);
+        row.is_asleep = flag(), row.is_held = flag(), row.shape.is_static = flag();
+        for_each_number(row.shape, number);
+        const double* const c = row.shape.centre;
+        row.centre = Vec3d{c[0], c[1], c[2]}.to_float();
+    }
+    const uint32_t triangles = in.count("the number of static triangles", 40, 1u << 28);
+    for (uint32_t t = 0; t < triangles && in.is_sound(); ++t) {
+        StaticTriangle found{};
+        number(found.id);
+        for (Vec3& p : found.corner) number(p.x), number(p.y), number(p.z);
+        in.expect(is_known(found.id) && rows_[found.id].kind == RigidKind::Static,
+                  "a triangle of body " + std::to_string(found.id) + ", which is not static");
+        triangles_.push_back(found);
+    }
+    const uint32_t ignored = in.count("the number of ignored pairs", 13, 1u << 26);
+    for (uint32_t k = 0; k < ignored && in.is_sound(); ++k) {
+        Ignored p{};
+        number(p.a), number(p.b), number(p.seconds);
+        p.until_apart = flag();
+        const bool is_rising =
+            ignored_.empty() || std::pair(ignored_.back().a, ignored_.back().b) < std::pair(p.a, p.b);
+        in.expect(is_known(p.a) && is_known(p.b) && p.a < p.b && is_rising,
+                  "an ignored pair of bodies " + std::to_string(p.a) + " and " + std::to_string(p.b));
+        ignored_.push_back(p);
+    }
+    if (!in.is_sound()) return Error{in.trouble()};
+    return {};
+}
+
+void HostRigidWorld::announce(RigidId id, std::span<const ConvexPiece> pieces) {
+    if (!is_known(id)) return;
+    begin_lists();
+    rows_[id].is_born = true;
+    take_pieces(rows_[id], pieces);
 }
 
 HostChanges HostRigidWorld::changes() const {

@@ -54,6 +54,13 @@ class HostRigidWorld final : public RigidWorld {
     void wake(RigidId id) override;
     RigidCounts counts() const override;
     Vec3d impulse_to_static() const override { return {}; }  // the host's solver knows
+    std::optional<RigidKind> kind(RigidId id) const override;
+    std::unique_ptr<RigidWorld> make_another(uint32_t) const override { return nullptr; }
+    void save(ByteWriter& out) const override;
+    /// Leaves out the pieces, which only births tell: announce() gives them.
+    Result<void> load(ByteReader& in) override;
+    /// After a load: the next changes name this body as born.
+    void announce(RigidId id, std::span<const ConvexPiece> pieces);
 
  private:
     struct Row {

@@ -133,6 +133,8 @@ class RigidWorld {
 
     /// Of a body that is there.
     virtual std::optional<RigidKind> kind(RigidId id) const = 0;
+    /// An empty world of the same kind; null when only a host can make one.
+    virtual std::unique_ptr<RigidWorld> make_another(uint32_t body_limit) const = 0;
     /// Between steps: all that the next steps depend on. A world that was just made and then loads these bytes goes on
     /// as any other that loads them, bit for bit; whether as this one does, too, is not said.
     virtual void save(ByteWriter& out) const = 0;

@@ -7,6 +7,7 @@
 #include "engine/frame_plan.hpp"
 #include "engine/host_rigid_world.hpp"
 #include "systems/api/host_log.hpp"
+#include "systems/api/recorder.hpp"
 #include "systems/world_data.hpp"
 
 namespace cullet {
@@ -31,6 +32,11 @@ struct World::Contents {
     void count();
     /// One frame of the plan, with all that goes round it.
     void step();
+    std::unique_ptr<Recorder> recorder;  // null: nothing is written down
+    /// The game's; its answers are written down.
+    bool (*allows)(void* user, const ImpactEvent& impact) = nullptr;
+    void* allows_user = nullptr;
+    void set_veto(bool (*allows)(void* user, const ImpactEvent& impact), void* user);
     /// Called between systems when set: --validate.
     std::function<void(const PlannedSystem<WorldData>&)> after_each_system;
 };

@@ -56,6 +56,7 @@ class BulletWorld final : public RigidWorld {
     RigidCounts counts() const override;
     Vec3d impulse_to_static() const override { return to_static_; }
     std::optional<RigidKind> kind(RigidId id) const override;
+    std::unique_ptr<RigidWorld> make_another(uint32_t body_limit) const override;
     void save(ByteWriter& out) const override;
     Result<void> load(ByteReader& in) override;
 

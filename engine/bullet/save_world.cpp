@@ -450,6 +450,10 @@ void BulletWorld::load_pair(ByteReader& in, RigidId a, RigidId b) {
     PairBytes::load(in, *algorithm);
 }
 
+std::unique_ptr<RigidWorld> BulletWorld::make_another(uint32_t body_limit) const {
+    return make_bullet_world(body_limit);
+}
+
 std::optional<RigidKind> BulletWorld::kind(RigidId id) const {
     return is_known(id) ? std::optional(bodies_[id].kind) : std::nullopt;
 }

@@ -86,6 +86,7 @@ Result<BodyId> World::spawn(ModelId id, const SpawnSettings& settings) {
     WorldData& d = contents_->data;
     State& state = d.state;
     const HostScope call(contents_->host);
+    if (contents_->recorder) contents_->recorder->spawn(id, settings);
     const Row<Models> model = model_row(state.models, id);
     if (!model.exists()) return stale("model", id.index);
     if (const Result<void> valid = check_body(settings.pose, settings.motion, settings.contact); !valid)
@@ -136,6 +137,7 @@ Result<BodyId> World::spawn(ModelId id, const SpawnSettings& settings) {
 Result<BodyId> World::add_sphere(const SphereSettings& settings) {
     WorldData& d = contents_->data;
     const HostScope call(contents_->host);
+    if (contents_->recorder) contents_->recorder->add_sphere(settings);
     if (const Result<void> valid = check_body(settings.pose, settings.motion, settings.contact); !valid)
         return Error{valid.error()};
     if (!(settings.radius > 0 && settings.radius <= kFarthest && settings.mass > 0 && settings.mass <= kHeaviest))
@@ -163,6 +165,7 @@ Result<BodyId> World::add_sphere(const SphereSettings& settings) {
 Result<BodyId> World::add_kinematic_box(const KinematicSettings& settings) {
     WorldData& d = contents_->data;
     const HostScope call(contents_->host);
+    if (contents_->recorder) contents_->recorder->add_kinematic_box(settings);
     if (const Result<void> valid = check_body(settings.pose, settings.motion, settings.contact); !valid)
         return Error{valid.error()};
     const Vec3 h = settings.half_extents;
@@ -192,6 +195,7 @@ Result<BodyId> World::add_kinematic_box(const KinematicSettings& settings) {
 Result<BodyId> World::add_static(const MeshView& mesh, const ContactSettings& contact, uint64_t user_data) {
     WorldData& d = contents_->data;
     const HostScope call(contents_->host);
+    if (contents_->recorder) contents_->recorder->add_static(mesh, contact, user_data);
     const std::string name = mesh.name ? mesh.name : "static mesh";
     if (!mesh.positions || !mesh.indices || mesh.triangle_count == 0)
         return Error{name + ": has no triangles; give positions and indices."};

@@ -70,6 +70,7 @@ Result<void> World::set_pose(BodyId id, const Pose& pose) {
         return Error{"body " + std::to_string(id.index) +
                      " is made of static triangles in world coordinates; remove it and add it where it is to stand."};
     const HostScope call(contents_->host);
+    if (contents_->recorder) contents_->recorder->set_pose(id, pose);
     const Pose unit{pose.position, normalised(pose.orientation)};
     // Put there, not moved there: nothing to draw between the two places.
     bodies.position.set(body, unit.position);
@@ -91,6 +92,7 @@ Result<void> World::set_motion(BodyId id, const Motion& motion) {
         return Error{"body " + std::to_string(id.index) +
                      " is static (level geometry, or pinned) and has no motion; use a kinematic body."};
     const HostScope call(contents_->host);
+    if (contents_->recorder) contents_->recorder->set_motion(id, motion);
     d.state.bodies.velocity.set(body, motion.velocity);
     d.state.bodies.spin.set(body, motion.angular_velocity);
     d.rigid->set_motion(body, motion);
@@ -119,6 +121,7 @@ Result<void> World::wake(BodyId id) {
     const Row<Bodies> body = body_row(d.state.bodies, id);
     if (!body.exists()) return stale("body", id.index);
     const HostScope call(contents_->host);
+    if (contents_->recorder) contents_->recorder->wake(id);
     wake_body(d, body);
     return {};
 }

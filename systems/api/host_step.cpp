@@ -21,6 +21,7 @@ Result<void> World::step(const HostFrame& frame) {
             "world with create_hosted."};
     const HostScope call(c.host);
     if (Result<void> taken = c.hosted->take(frame); !taken) return taken;
+    if (c.recorder) c.recorder->frame(frame);
     c.step();
     c.hosted->finish();
     return {};

@@ -11,6 +11,7 @@ Result<ModelId> World::add_model(const Model& model) {
     if (!model.contents) return Error{"the model is empty; cook or read one first."};
     State& state = contents_->data.state;
     const HostScope call(contents_->host);
+    if (contents_->recorder) contents_->recorder->add_model(model);
     uint32_t row = 0;
     while (row < state.models.size() && state.models.is_used[row]) ++row;
     if (row == state.models.size() && state.models.append(1) == kNone)
@@ -37,6 +38,7 @@ Result<void> World::remove_model(ModelId id) {
     const Row<Models> model = model_row(state.models, id);
     if (!model.exists()) return stale("model", id.index);
     const HostScope call(contents_->host);
+    if (contents_->recorder) contents_->recorder->remove_model(id);
     release_shell(state, state.models.shell[model]);
     state.models.is_used[model] = 0;
     return {};

@@ -14,6 +14,7 @@ Result<void> World::remove(BodyId id) {
     const Row<Bodies> body = body_row(state.bodies, id);
     if (!body.exists()) return stale("body", id.index);
     const HostScope call(contents_->host);
+    if (contents_->recorder) contents_->recorder->remove(id);
     Tasks& tasks = state.tasks;
     for (uint32_t t = 0; t < tasks.size(); ++t) {
         if (static_cast<TaskState>(tasks.state[t]) == TaskState::Free) continue;

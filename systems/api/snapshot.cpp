@@ -8,69 +8,17 @@
 #include "engine/mesh_file.hpp"
 #include "engine/table_bytes.hpp"
 #include "systems/api/checks.hpp"
+#include "systems/api/settings_bytes.hpp"
 #include "systems/brittle/restart.hpp"
+#include "systems/fragments/rigid_shape.hpp"
+#include "systems/query/bound_drawn.hpp"
+#include "systems/query/query_index.hpp"
 
 namespace cullet {
-namespace {
 
-constexpr uint64_t kLargestFile = 1ull << 36;
-constexpr const char* kAdvice = "The snapshot is damaged or of another build; take it again.";
-constexpr FileKind kKind{{'c', 's', 'n', 'a', 'p', '\r', '\n', '\x1a'},
-                         1,
-                         "snapshot",
-                         ".csnap",
-                         "Write one with World::save.",
-                         kAdvice,
-                         "Take it again with this build."};
-
-/// Numbers of the settings, the clock and the counts in the file's order, for both ways.
-template <class Settings_, class Data, class F>
-void for_each_setting(Settings_& s, Data& d, F&& f) {
-    const auto vector = [&](auto& v) { f(v.x), f(v.y), f(v.z); };
-    vector(s.gravity);
-    f(s.step_seconds), f(s.units_a_frame), f(s.hold_seconds), f(s.generations), f(s.debris_share), f(s.debris_elements);
-    auto& l = s.limits;
-    f(l.bodies), f(l.models), f(l.vertices), f(l.elements), f(l.open_hits), f(l.view_vertices), f(l.debris),
-        f(l.queued_hits);
-    f(d.step_info.frame), vector(d.step_info.gravity);
-}
-
-template <class Data, class F>
-void for_each_count(Data& d, F&& f) {
-    auto& c = d.counts;
-    f(c.opened), f(c.broke), f(c.whole), f(c.dropped), f(c.redone), f(c.late), f(c.frames_held), f(c.clamped);
-    f(c.cuts), f(c.starts), f(c.cuts_refused), f(c.units_used), f(c.units_left), f(c.worst_rounding);
-    for (auto& impulse : c.impulse_to_static) f(impulse);
-    auto& r = d.ready_for;
-    f(r.vertices), f(r.elements), f(r.hinges), f(r.blocks), f(r.links), f(r.cells), f(r.points);
-}
-
-void put_world(ByteWriter& out, World::Contents& world) {
-    WorldData& d = world.data;
-    const auto put = [&](const auto& number) { out.number(number); };
-    for_each_setting(world.settings, d, put);
-    for_each_count(d, put);
-    std::apply([&](auto... table) { (put_table(out, d.state.*table, 0, (d.state.*table).size()), ...); },
-               State::tables());
-    for (const RangePool* pool : d.state.pools.all()) pool->save(out);
-    d.rigid->save(out);
-}
-
-/// What must be known before tables of the right size can be made.
-struct Beginning {
-    Settings settings;
-    struct {
-        Step step_info;
-    } clock;
-};
-
-void take_settings(ByteReader& in, Beginning& found) {
-    for_each_setting(found.settings, found.clock,
-                     [&](auto& number) { number = in.number<std::remove_reference_t<decltype(number)>>("a setting"); });
-    const Result<void> valid = check_settings(found.settings);
-    in.expect(valid.ok(), valid.error());
-    const Result<void> gravity = check_gravity("gravity", found.clock.step_info.gravity);
-    in.expect(gravity.ok(), gravity.error());
+void put_tables(ByteWriter& out, const State& state) {
+    std::apply([&](auto... table) { (put_table(out, state.*table, 0, (state.*table).size()), ...); }, State::tables());
+    for (const RangePool* pool : state.pools.all()) pool->save(out);
 }
 
 void take_tables(ByteReader& in, State& state) {
@@ -87,6 +35,56 @@ void take_tables(ByteReader& in, State& state) {
     std::apply([&](auto... table) { (take_table(state.*table), ...); }, State::tables());
     for (RangePool* pool : state.pools.all())
         if (in.is_sound()) pool->load(in);
+}
+
+Settings take_settings(ByteReader& in) {
+    Settings settings;
+    for_each_setting(settings, [&](auto& number) {
+        number = in.number<std::remove_reference_t<decltype(number)>>("a setting");
+    });
+    const Result<void> valid = check_settings(settings);
+    in.expect(valid.ok(), valid.error());
+    return settings;
+}
+
+namespace {
+
+constexpr uint64_t kLargestFile = 1ull << 36;
+constexpr const char* kAdvice = "The snapshot is damaged or of another build; take it again.";
+constexpr FileKind kKind{{'c', 's', 'n', 'a', 'p', '\r', '\n', '\x1a'},
+                         1,
+                         "snapshot",
+                         ".csnap",
+                         "Write one with World::save.",
+                         kAdvice,
+                         "Take it again with this build."};
+
+/// Of the clock and the counts in the file's order, for both ways.
+template <class Clock, class F>
+void for_each_of_clock(Clock& clock, F&& f) {
+    f(clock.frame), f(clock.gravity.x), f(clock.gravity.y), f(clock.gravity.z);
+}
+
+template <class Data, class F>
+void for_each_count(Data& d, F&& f) {
+    auto& c = d.counts;
+    f(c.opened), f(c.broke), f(c.whole), f(c.dropped), f(c.redone), f(c.late), f(c.frames_held), f(c.clamped);
+    f(c.cuts), f(c.starts), f(c.cuts_refused), f(c.units_used), f(c.units_left), f(c.worst_rounding);
+    for (auto& impulse : c.impulse_to_static) f(impulse);
+    auto& r = d.ready_for;
+    f(r.vertices), f(r.elements), f(r.hinges), f(r.blocks), f(r.links), f(r.cells), f(r.points);
+}
+
+void put_world(ByteWriter& out, World::Contents& world) {
+    WorldData& d = world.data;
+    const auto put = [&](const auto& number) { out.number(number); };
+    out.number(static_cast<uint8_t>(world.hosted != nullptr));
+    for_each_setting(world.settings, put);
+    for_each_of_clock(d.step_info, put);
+    for_each_count(d, put);
+    put_tables(out, d.state);
+    d.query_index->save(out, d.state.bodies);
+    d.rigid->save(out);
 }
 
 /// The rigid world has the bodies that the table has.
@@ -110,11 +108,30 @@ Result<void> check_rigid(const WorldData& d, const std::string& name) {
 Result<void> rebuild_rigid(World::Contents& world) {
     ByteWriter out;
     world.data.rigid->save(out);
-    std::unique_ptr<RigidWorld> rebuilt = make_bullet_world(world.settings.limits.bodies);
+    std::unique_ptr<RigidWorld> rebuilt = world.data.rigid->make_another(world.settings.limits.bodies);
+    if (!rebuilt) return {};  // the host's
     ByteReader in(out.bytes, "snapshot", "Please report this.");
     if (Result<void> loaded = rebuilt->load(in); !loaded) return loaded;
     world.data.rigid = std::move(rebuilt);
     return {};
+}
+
+/// What is not in the bytes because it follows from them.
+void restore_what_follows(World::Contents& world) {
+    WorldData& d = world.data;
+    State& state = d.state;
+    for (uint32_t t = 0; t < state.tasks.size(); ++t)
+        if (static_cast<TaskState>(state.tasks.state[t]) == TaskState::Running) restore_scratch(state, Row<Tasks>(t));
+    for (uint32_t b = 0; b < state.bodies.size(); ++b) {
+        const Row<Shells> shell = state.bodies.shell[b];
+        if (static_cast<BodyKind>(state.bodies.kind[b]) == BodyKind::Free || !shell.exists()) continue;
+        bound_view(state.bodies, Row<Bodies>(b), state.view_vertices, state.view_indices, d.view_boxes);
+        d.arena.reset();
+        if (world.hosted) world.hosted->announce(b, convex_pieces(state, shell, d.arena));
+    }
+    if (world.hosted) world.hosted->finish();
+    d.query_index->refresh(state.bodies);
+    state.commit_ahead(d.ready_for);
 }
 
 }  // namespace
@@ -133,32 +150,36 @@ Result<std::vector<uint8_t>> encode_snapshot(World::Contents& world) {
 }
 
 Result<std::unique_ptr<World::Contents>> parse_snapshot(std::span<const uint8_t> bytes, const std::string& name,
-                                                        const Host& host, uint32_t threads) {
+                                                        const World::Contents& like) {
     try {
         const auto payload = payload_of(kKind, bytes, name);
         if (!payload) return Error{payload.error()};
         ByteReader in(*payload, name, kAdvice, kFileHeaderBytes);
-        Beginning found;
-        take_settings(in, found);
-        found.settings.threads = threads;
+        const bool is_hosted = in.number<uint8_t>("who moves the bodies") != 0;
+        if (is_hosted != (like.hosted != nullptr))
+            return Error{name + ": is of a world whose bodies " + (is_hosted ? "the host" : "Bullet") +
+                         " moves, and this one's are moved by " + (is_hosted ? "Bullet" : "the host") +
+                         ". Load it into a world made by " + (is_hosted ? "create_hosted." : "create.")};
+        Settings settings = take_settings(in);
+        settings.threads = like.settings.threads;
         if (!in.is_sound()) return Error{in.trouble()};
-        const MemoryScope memory(host.allocator);
-        auto world = std::make_unique<World::Contents>(found.settings, host);
+        const MemoryScope memory(like.host.allocator);
+        auto world = std::make_unique<World::Contents>(settings, like.host,
+                                                       like.data.rigid->make_another(settings.limits.bodies));
         WorldData& d = world->data;
-        d.step_info.frame = found.clock.step_info.frame;
-        d.step_info.gravity = found.clock.step_info.gravity;
-        for_each_count(d,
-                       [&](auto& number) { number = in.number<std::remove_reference_t<decltype(number)>>("a count"); });
+        const auto take = [&](auto& number) { number = in.number<std::remove_reference_t<decltype(number)>>("a count"); };
+        for_each_of_clock(d.step_info, take);
+        const Result<void> gravity = check_gravity("gravity", d.step_info.gravity);
+        in.expect(gravity.ok(), gravity.error());
+        for_each_count(d, take);
         take_tables(in, d.state);
         if (!in.is_sound()) return Error{in.trouble()};
         if (const Result<void> sound = check_state(d.state, name); !sound) return Error{sound.error()};
+        d.query_index->load(in, d.state.bodies);
         if (const Result<void> loaded = d.rigid->load(in); !loaded) return Error{loaded.error()};
         if (!in.expect(in.is_at_end(), "the world ends before the file does,")) return Error{in.trouble()};
         if (const Result<void> fits = check_rigid(d, name); !fits) return Error{fits.error()};
-        for (uint32_t t = 0; t < d.state.tasks.size(); ++t)
-            if (static_cast<TaskState>(d.state.tasks.state[t]) == TaskState::Running)
-                restore_scratch(d.state, Row<Tasks>(t));
-        d.state.commit_ahead(d.ready_for);
+        restore_what_follows(*world);
         return world;
     } catch (const std::bad_alloc&) {
         return Error{name + ": no memory for the world of " + std::to_string(bytes.size()) + " bytes. Free memory."};
@@ -167,18 +188,19 @@ Result<std::unique_ptr<World::Contents>> parse_snapshot(std::span<const uint8_t>
 
 Result<std::vector<uint8_t>> World::snapshot() {
     const HostScope call(contents_->host);
+    if (contents_->recorder) contents_->recorder->snapshot();
     return encode_snapshot(*contents_);
 }
 
 Result<void> World::restore(const uint8_t* bytes, size_t size, const char* name) {
     const HostScope call(contents_->host);
     if (!bytes) return Error{std::string(name) + ": no bytes are given."};
-    Result<std::unique_ptr<Contents>> loaded =
-        parse_snapshot({bytes, size}, name, contents_->host, contents_->settings.threads);
+    Result<std::unique_ptr<Contents>> loaded = parse_snapshot({bytes, size}, name, *contents_);
     if (!loaded) return Error{loaded.error()};
     Contents& fresh = **loaded;
-    fresh.data.damage_settings.allows = contents_->data.damage_settings.allows;
-    fresh.data.damage_settings.allows_user = contents_->data.damage_settings.allows_user;
+    fresh.recorder = std::move(contents_->recorder);
+    if (fresh.recorder) fresh.recorder->restore({bytes, size});
+    fresh.set_veto(contents_->allows, contents_->allows_user);
     fresh.after_each_system = contents_->after_each_system;
     contents_ = std::move(*loaded);
     return {};

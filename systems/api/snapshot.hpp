@@ -10,16 +10,22 @@
 #include <string>
 #include <vector>
 
+#include "engine/byte_stream.hpp"
 #include "systems/world_contents.hpp"
 
 namespace cullet {
 
 /// Between steps. Rebuilds the rigid world from its own bytes (see RigidWorld::save).
 Result<std::vector<uint8_t>> encode_snapshot(World::Contents& world);
-/// A new world in place of one that has `host` and so many threads of its own; the name stands in sentences. Every
-/// index is looked at before anything follows it.
+/// A new world with the host and the threads of `like`; the name stands in sentences. Every index is looked at before
+/// anything follows it.
 Result<std::unique_ptr<World::Contents>> parse_snapshot(std::span<const uint8_t> bytes, const std::string& name,
-                                                        const Host& host, uint32_t threads);
+                                                        const World::Contents& like);
+
+/// The tables and pools of a state alone.
+void put_tables(ByteWriter& out, const State& state);
+/// Into a fresh state of the same limits; trouble stays with the reader.
+void take_tables(ByteReader& in, State& state);
 
 /// Whether a world's rows are such that systems can work on them: indices in range, ranges apart, numbers finite, lists
 /// that end. Says nothing of whether physics would have made them. The sentence names table, column and row.

@@ -69,14 +69,30 @@ void World::Contents::step() {
     d.asleep_events.clear();
     d.shells_changed.clear();
     d.arena.reset();
+    if (recorder) recorder->begin_step();
     profiler.begin_frame(d.step_info.frame);
     plan.step(d, *jobs, profiler, d.arena, after_each_system ? &after_each_system : nullptr, &host);
     count();
     profiler.end_frame();
     if (d.counts.units_used == 0) d.state.commit_ahead(d.ready_for, 1);  // a quiet frame
+    if (recorder) recorder->end_step(d.step_info.frame, d.state);
     ++d.step_info.frame;
     if (host.zone_end) host.zone_end(host.user);
     log.tell(host, d);
+}
+
+void World::Contents::set_veto(bool (*game_allows)(void* user, const ImpactEvent& impact), void* user) {
+    allows = game_allows;
+    allows_user = user;
+    data.damage_settings.allows = nullptr;
+    if (!game_allows) return;
+    data.damage_settings.allows_user = this;
+    data.damage_settings.allows = [](void* self, const ImpactEvent& impact) {
+        const auto& world = *static_cast<Contents*>(self);
+        const bool answer = world.allows(world.allows_user, impact);
+        if (world.recorder) world.recorder->answer(answer);
+        return answer;
+    };
 }
 
 StepReport World::report() const {
@@ -122,6 +138,7 @@ uint64_t World::hash() const {
 Result<void> World::set_gravity(Vec3 gravity) {
     if (const Result<void> valid = check_gravity("gravity", gravity); !valid) return valid;
     const HostScope call(contents_->host);
+    if (contents_->recorder) contents_->recorder->set_gravity(gravity);
     WorldData& d = contents_->data;
     d.step_info.gravity = gravity;
     d.rigid->set_gravity(gravity);  // wakes them
@@ -130,8 +147,7 @@ Result<void> World::set_gravity(Vec3 gravity) {
 }
 
 void World::set_veto(bool (*allows)(void* user, const ImpactEvent& impact), void* user) {
-    contents_->data.damage_settings.allows = allows;
-    contents_->data.damage_settings.allows_user = user;
+    contents_->set_veto(allows, user);
 }
 
 std::string World::describe_frame() {

@@ -3,6 +3,7 @@
 #include <cmath>
 #include <numeric>
 
+#include "engine/byte_stream.hpp"
 #include "systems/rigid/body_id.hpp"
 
 namespace cullet {
@@ -119,6 +120,44 @@ void QueryIndex::refresh(const Bodies& bodies) {
     for (const uint32_t body : loose_) is_loose_[body] = 0;
     loose_.clear();
     tree_.build(there_, extents_);
+}
+
+// Triangles of what is static, boxes of what is kinematic.
+void QueryIndex::save(ByteWriter& out, const Bodies& bodies) const {
+    const auto put = [&](Vec3 p) { out.number(p.x), out.number(p.y), out.number(p.z); };
+    for (uint32_t b = 0; b < bodies.size(); ++b) {
+        const auto kind = static_cast<BodyKind>(bodies.kind[b]);
+        if (kind == BodyKind::Kinematic) put(half_extents_[b]);
+        if (kind != BodyKind::Static) continue;
+        out.number(static_cast<uint32_t>(triangles_[b] ? triangles_[b]->corners.size() : 0));
+        if (!triangles_[b]) continue;
+        for (const auto& corners : triangles_[b]->corners)
+            for (const Vec3 p : corners) put(p);
+    }
+}
+
+void QueryIndex::load(ByteReader& in, const Bodies& bodies) {
+    const auto take = [&] {
+        Vec3 p;
+        for (float* x : {&p.x, &p.y, &p.z}) {
+            *x = in.number<float>("a place");
+            in.expect(std::isfinite(*x), "a place that is not finite");
+        }
+        return p;
+    };
+    for (uint32_t b = 0; b < bodies.size() && in.is_sound(); ++b) {
+        const auto kind = static_cast<BodyKind>(bodies.kind[b]);
+        if (kind == BodyKind::Kinematic) half_extents_[b] = take();
+        if (kind != BodyKind::Static) continue;
+        const uint32_t count = in.count("the number of static triangles", 36, 1u << 28);
+        if (count == 0) continue;
+        auto made = std::make_unique<StaticTriangles>();
+        made->corners.resize(count);
+        for (auto& corners : made->corners)
+            for (Vec3& p : corners) p = take();
+        made->measure();
+        triangles_[b] = std::move(made);
+    }
 }
 
 }  // namespace cullet

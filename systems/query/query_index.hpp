@@ -11,6 +11,9 @@
 
 namespace cullet {
 
+struct ByteWriter;
+class ByteReader;
+
 /// What add_static was given, world axes.
 struct StaticTriangles {
     std::vector<std::array<Vec3, 3>> corners;
@@ -32,6 +35,11 @@ class QueryIndex {
     void touch(const Bodies& bodies, uint32_t body);
     /// All triangles that the game gave move by this.
     void shift(Vec3 by);
+
+    /// What does not follow from the rows: the game's triangles and boxes.
+    void save(ByteWriter& out, const Bodies& bodies) const;
+    /// Of the bodies that `bodies` has; the tree is made by refresh().
+    void load(ByteReader& in, const Bodies& bodies);
 
     /// All bodies that are there now. Allocates nothing. 10 ns a body that stands where it stood, 60 for the others.
     void refresh(const Bodies& bodies);

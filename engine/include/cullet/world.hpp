@@ -132,12 +132,20 @@ class World {
     // veto. A world that loads it and the one that saved it go on with the same bytes; for that the one that saves
     // makes its rigid bodies anew, which costs about as much as a frame in which all of them are born, and may change
     // what comes after in the last digits. Handles stay good; views, events and addresses do not.
+    // In a world of create_hosted, host_changes() after a load names all breakable bodies as born.
     Result<std::vector<uint8_t>> snapshot();
     /// `name` stands in sentences. What is refused leaves the world as it was. Limits and settings are the snapshot's.
     Result<void> restore(const uint8_t* bytes, size_t size, const char* name = "snapshot");
     /// The same, to and from a file.
     Result<void> save(const std::string& path);
     Result<void> load(const std::string& path);
+
+    /// From now on every call that changes the world, and a hash after each step, go to this file, a step at a time; models
+    /// to the folder `path`.models. recording.hpp plays it again. Costs two hashes of the state a step. A recording that
+    /// cannot be written on ends, and the log is told.
+    Result<void> start_recording(const std::string& path);
+    /// Empty, or a sentence: why it ended before.
+    Result<void> stop_recording();
 
     /// The systems of a frame in order, with what each reads and writes.
     static std::string describe_frame();

@@ -1,0 +1,99 @@
+// Writes down what a game asks of a world. Calls are written as they were made, refused ones too: a world that is asked
+// the same refuses the same.
+#pragma once
+#include <memory>
+#include <string>
+
+#include "cullet/world.hpp"
+#include "systems/api/recording_file.hpp"
+
+namespace cullet {
+
+enum class GameCall : uint8_t {
+    SetGravity = 1,
+    AddModel,
+    RemoveModel,
+    Spawn,
+    AddSphere,
+    AddKinematicBox,
+    AddStatic,
+    Remove,
+    SetPose,
+    SetMotion,
+    Wake,
+    Snapshot,
+    Restore,
+    ShiftOrigin,
+    Frame,  // of a host that moves the bodies: belongs to the step
+};
+
+class Recorder {
+ public:
+    Recorder(std::FILE* file, std::string models) : file_(file), models_(std::move(models)) {}
+
+    void begin(std::span<const uint8_t> world);
+    void set_gravity(Vec3 gravity);
+    void add_model(const Model& model);
+    void remove_model(ModelId id);
+    void spawn(ModelId id, const SpawnSettings& settings);
+    void add_sphere(const SphereSettings& settings);
+    void add_kinematic_box(const KinematicSettings& settings);
+    void add_static(const MeshView& mesh, const ContactSettings& contact, uint64_t user_data);
+    void remove(BodyId id);
+    void set_pose(BodyId id, const Pose& pose);
+    void set_motion(BodyId id, const Motion& motion);
+    void wake(BodyId id);
+    void snapshot();
+    void restore(std::span<const uint8_t> bytes);
+    void shift_origin(Vec3 by);
+    void frame(const HostFrame& frame);
+
+    /// What was asked for since the last step goes to the file, so that a step that never ends has its calls there.
+    void begin_step();
+    /// The game's answer to a veto. Allocates nothing for the first 4,096 of a step.
+    void answer(bool allows);
+    void end_step(uint64_t frame, const State& state);
+
+    bool is_sound() const { return file_.is_sound() && trouble_.empty(); }
+    /// Why the recording ended before it was stopped, or empty.
+    const std::string& trouble() const { return trouble_; }
+
+ private:
+    ByteWriter& call(GameCall call);
+
+    RecordingWriter file_;
+    std::string models_;  // folder
+    ByteWriter calls_, step_;
+    std::vector<uint8_t> answers_;
+    std::vector<uint32_t> digests_, digests_before_;
+    std::string trouble_;
+};
+
+/// Numbers of a call's structures in the order of the bytes, for both ways.
+template <class V, class F>
+void for_each_number_of_vector(V& v, F&& f) {
+    f(v.x), f(v.y), f(v.z);
+}
+template <class P, class F>
+void for_each_number_of_pose(P& p, F&& f) {
+    for_each_number_of_vector(p.position, f);
+    f(p.orientation.x), f(p.orientation.y), f(p.orientation.z), f(p.orientation.w);
+}
+template <class M, class F>
+void for_each_number_of_motion(M& m, F&& f) {
+    for_each_number_of_vector(m.velocity, f);
+    for_each_number_of_vector(m.angular_velocity, f);
+}
+template <class C, class F>
+void for_each_number_of_contact(C& c, F&& f) {
+    f(c.friction), f(c.restitution), f(c.layer), f(c.mask);
+}
+template <class Id, class F>
+void for_each_number_of_id(Id& id, F&& f) {
+    f(id.index), f(id.generation);
+}
+
+/// "0.1.0, g++ 12.2.0, ..."
+std::string build_sentence();
+
+}  // namespace cullet
