@@ -259,6 +259,13 @@ void HostRigidWorld::set_motion(RigidId id, const Motion& motion) {
     rows_[id].is_asleep = false;
 }
 
+void HostRigidWorld::shift(Vec3 by) {
+    for (Row& row : rows_) row.shape.pose.position += by;
+    for (StaticTriangle& triangle : triangles_)
+        for (Vec3& corner : triangle.corner) corner += by;
+    for (RigidContact& contact : contacts_) contact.point += by;
+}
+
 void HostRigidWorld::hold(RigidId id) {
     if (!is_known(id) || rows_[id].kind != RigidKind::Dynamic) return;
     begin_lists();

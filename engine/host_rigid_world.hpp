@@ -37,6 +37,8 @@ class HostRigidWorld final : public RigidWorld {
     Motion motion(RigidId id) const override;
     void set_pose(RigidId id, const Pose& pose) override;
     void set_motion(RigidId id, const Motion& motion) override;
+    /// The host shifts its own rows.
+    void shift(Vec3 by) override;
     void set_shape(RigidId id, double mass, Vec3d centre, Sym3d inertia, std::span<const ConvexPiece> pieces) override;
     void reserve_shapes(uint32_t) override {}
     void make_shape(uint32_t, std::span<const Vec3>) const override {}

@@ -91,6 +91,8 @@ class RigidWorld {
     virtual Motion motion(RigidId id) const = 0;  // velocity at the centre of mass
     virtual void set_pose(RigidId id, const Pose& pose) = 0;
     virtual void set_motion(RigidId id, const Motion& motion) = 0;
+    /// Every place there is moves by this, contacts too; nothing wakes, and no body is seen to have moved.
+    virtual void shift(Vec3 by) = 0;
     /// New mass, centre, inertia and pieces for a body whose frame and pose stay (pieces came off, cells changed).
     virtual void set_shape(RigidId id, double mass, Vec3d centre, Sym3d inertia,
                            std::span<const ConvexPiece> pieces) = 0;

@@ -53,6 +53,7 @@ struct Body {
     Hull* hulls = nullptr;  // in the order of the caller's pieces
     uint32_t hull_count = 0;
     std::unique_ptr<StaticMesh> mesh;  // static triangles only
+    bool is_level = false;             // of static triangles: its frame is the world's, also after a shift
     Box local_box = empty_box();       // of the points with margins, Bullet frame
     float thickness = 0;               // least width of a piece
     float reach = 0;                   // of the farthest point from the centre of mass

@@ -268,6 +268,7 @@ void BulletWorld::add_static_triangles(RigidId id, std::span<const Vec3> positio
     Body& body = bodies_[id];
     body.id = id;
     body.kind = RigidKind::Static;
+    body.is_level = true;
     body.friction = friction, body.restitution = restitution, body.rolling_friction = 0;
     set_mass(body, 0, {}, {});
     auto mesh = std::make_unique<StaticMesh>(sort_static_triangles(positions, triangles));
@@ -284,6 +285,7 @@ void BulletWorld::add(RigidId id, const RigidDescription& d) {
     Body& body = bodies_[id];
     body.id = id;
     body.kind = d.kind;
+    body.is_level = false;
     body.friction = d.friction, body.restitution = d.restitution, body.rolling_friction = d.rolling_friction;
     body.mesh.reset();
     set_mass(body, d.mass, d.centre, d.inertia);

@@ -123,6 +123,12 @@ class World {
     Result<void> apply_impulse(BodyId body, Vec3 impulse, Vec3 place);
     Result<void> wake(BodyId body);
 
+    /// The place `by` becomes the origin: every coordinate c of the world, of events and of drawn poses becomes c - by;
+    /// views and body frames stay. Between steps, at any time, hits that are worked off included. Nothing wakes. Places
+    /// round to floats of the new size: far from the origin (0.25 mm at 4 km) a little is lost, near it nothing more.
+    /// A host that moves the bodies shifts its own. O(bodies + static triangles).
+    Result<void> shift_origin(Vec3 by);
+
     /// Fills `out` with up to `capacity` bodies in row order and returns how many there are.
     uint32_t bodies(BodyId* out, uint32_t capacity) const;
     /// The drawn mesh of a breakable body; empty for others.

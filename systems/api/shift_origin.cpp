@@ -1,0 +1,59 @@
+// Another place becomes the origin.
+#include "engine/host_scope.hpp"
+#include "systems/api/checks.hpp"
+#include "systems/query/query_index.hpp"
+#include "systems/rigid/body_id.hpp"
+#include "systems/world_contents.hpp"
+
+namespace cullet {
+namespace {
+
+// Rows take their pose from the rigid world, which rounds the centre of mass and not the frame's origin.
+void shift_bodies(Bodies& bodies, const RigidWorld& rigid, Vec3 by) {
+    for (uint32_t b = 0; b < bodies.size(); ++b) {
+        const auto kind = static_cast<BodyKind>(bodies.kind[b]);
+        if (kind == BodyKind::Free) continue;
+        const bool is_moved = kind == BodyKind::Dynamic || kind == BodyKind::Kinematic;
+        bodies.position.set(b, is_moved ? rigid.pose(b).position : bodies.position[b] + by);
+        bodies.previous_position.set(b, bodies.previous_position[b] + by);
+    }
+}
+
+void shift_debris(Debris& debris, Vec3 by) {
+    for (uint32_t d = 0; d < debris.size(); ++d) {
+        debris.position.set(d, debris.position[d] + by);
+        debris.floor[d] += by.y;
+    }
+}
+
+// What happened in the last step is still to be read.
+void shift_events(WorldData& d, Vec3 by) {
+    const auto shift = [by](auto& events) {
+        for (auto& event : events.all()) event.place += by;
+    };
+    shift(d.impact_events);
+    shift(d.crack_events);
+    shift(d.born_events);
+    shift(d.debris_events);
+    shift(d.refused_events);
+    shift(d.fault_events);
+    shift(d.asleep_events);
+}
+
+}  // namespace
+
+Result<void> World::shift_origin(Vec3 by) {
+    WorldData& d = contents_->data;
+    if (!is_within(by, kFarthest))
+        return Error{"shift_origin by " + text(by) + "; give metres, at most 1000000 along each axis."};
+    const HostScope call(contents_->host);
+    d.rigid->shift(-by);
+    shift_bodies(d.state.bodies, *d.rigid, -by);
+    shift_debris(d.state.debris, -by);
+    shift_events(d, -by);
+    d.query_index->shift(-by);
+    d.query_index->refresh(d.state.bodies);
+    return {};
+}
+
+}  // namespace cullet
