@@ -90,8 +90,8 @@ Result<ReplayReport> replay_with(Replayer::Create create, const std::string& pat
     if (!bytes) return Error{bytes.error()};
     const Replayer::Source source{*bytes, path, path + ".models", create};
     ReplayReport report;
-    uint64_t first_bad = 0;        // in steps
-    size_t bad_run = 0;            // of settings.threads
+    uint64_t first_bad = 0;  // in steps
+    size_t bad_run = 0;      // of settings.threads
     for (size_t k = 0; k < settings.threads.size(); ++k) {
         Replayer run(source, settings.threads[k], host);
         if (const Result<void> begun = run.begin(); !begun) return Error{begun.error()};

@@ -4,6 +4,7 @@
 #include <memory>
 #include <string>
 
+#include "components/state.hpp"
 #include "cullet/world.hpp"
 #include "systems/api/recording_file.hpp"
 

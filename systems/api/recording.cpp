@@ -12,8 +12,8 @@ Result<void> World::start_recording(const std::string& path) {
     Contents& c = *contents_;
     const HostScope call(c.host);
     if (c.recorder) return Error{path + ": another recording is running; stop it first."};
-    const bool is_fresh = c.data.step_info.frame == 0 && c.data.state.bodies.size() == 0 &&
-                          c.data.state.models.size() == 0;
+    const bool is_fresh =
+        c.data.step_info.frame == 0 && c.data.state.bodies.size() == 0 && c.data.state.models.size() == 0;
     ByteWriter begin;
     begin.number(static_cast<uint8_t>(c.hosted != nullptr));
     begin.number(static_cast<uint8_t>(!is_fresh));

@@ -51,8 +51,9 @@ void RecordingWriter::append(ChunkKind kind, std::span<const uint8_t> bytes) {
 
 Result<void> RecordingReader::begin() {
     if (bytes_.size() < kHeadBytes || std::memcmp(bytes_.data(), kMagic, sizeof kMagic) != 0)
-        return Error{name_ + ": is no recording (its first bytes are not those of one). Record one with "
-                             "World::start_recording, or sample_game run ... --record."};
+        return Error{name_ +
+                     ": is no recording (its first bytes are not those of one). Record one with "
+                     "World::start_recording, or sample_game run ... --record."};
     uint32_t version = 0, zero = 0;
     std::memcpy(&version, bytes_.data() + 8, sizeof version);
     std::memcpy(&zero, bytes_.data() + 12, sizeof zero);

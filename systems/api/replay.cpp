@@ -71,8 +71,8 @@ bool Replayer::step() {
     if (!damage_.empty()) return false;
     bool is_whole = file_.next(calls);
     if (is_whole && calls.kind != ChunkKind::Calls) {
-        damage_ = source_.name + ": a chunk at byte " + std::to_string(calls.first_byte) + " stands out of order. " +
-                  kAdvice;
+        damage_ =
+            source_.name + ": a chunk at byte " + std::to_string(calls.first_byte) + " stands out of order. " + kAdvice;
         return false;
     }
     if (!is_whole) {
@@ -210,8 +210,7 @@ void Replayer::add_model(ByteReader& in) {
     if (!in.expect(bytes.ok(), "a model that is not there (" + bytes.error() + ")")) return;
     if (!in.expect(checksum_of(*bytes) == hash, "a model whose file " + path + " holds other bytes")) return;
     const Result<Model> model = parse_model_file(*bytes, path);
-    if (in.expect(model.ok(), "a model that cannot be read (" + model.error() + ")"))
-        (void)world_->add_model(*model);
+    if (in.expect(model.ok(), "a model that cannot be read (" + model.error() + ")")) (void)world_->add_model(*model);
 }
 
 void Replayer::add_static(ByteReader& in) {

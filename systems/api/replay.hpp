@@ -16,8 +16,8 @@ namespace cullet {
 /// What a step of the recording gave.
 struct RecordedStep {
     uint64_t frame = 0, hash = 0;
-    std::vector<uint8_t> answers;    // to vetoes
-    std::vector<uint32_t> digests;   // of all columns, see State::digest_columns
+    std::vector<uint8_t> answers;   // to vetoes
+    std::vector<uint32_t> digests;  // of all columns, see State::digest_columns
 };
 
 class Replayer {

@@ -47,6 +47,7 @@ Result<void> World::shift_origin(Vec3 by) {
     if (!is_within(by, kFarthest))
         return Error{"shift_origin by " + text(by) + "; give metres, at most 1000000 along each axis."};
     const HostScope call(contents_->host);
+    if (contents_->recorder) contents_->recorder->shift_origin(by);
     d.rigid->shift(-by);
     shift_bodies(d.state.bodies, *d.rigid, -by);
     shift_debris(d.state.debris, -by);

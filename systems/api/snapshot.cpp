@@ -39,9 +39,8 @@ void take_tables(ByteReader& in, State& state) {
 
 Settings take_settings(ByteReader& in) {
     Settings settings;
-    for_each_setting(settings, [&](auto& number) {
-        number = in.number<std::remove_reference_t<decltype(number)>>("a setting");
-    });
+    for_each_setting(settings,
+                     [&](auto& number) { number = in.number<std::remove_reference_t<decltype(number)>>("a setting"); });
     const Result<void> valid = check_settings(settings);
     in.expect(valid.ok(), valid.error());
     return settings;
@@ -167,7 +166,9 @@ Result<std::unique_ptr<World::Contents>> parse_snapshot(std::span<const uint8_t>
         auto world = std::make_unique<World::Contents>(settings, like.host,
                                                        like.data.rigid->make_another(settings.limits.bodies));
         WorldData& d = world->data;
-        const auto take = [&](auto& number) { number = in.number<std::remove_reference_t<decltype(number)>>("a count"); };
+        const auto take = [&](auto& number) {
+            number = in.number<std::remove_reference_t<decltype(number)>>("a count");
+        };
         for_each_of_clock(d.step_info, take);
         const Result<void> gravity = check_gravity("gravity", d.step_info.gravity);
         in.expect(gravity.ok(), gravity.error());

@@ -103,6 +103,24 @@ TEST(HostPhysics, AVaseThatFallsOnAHostsFloorBreaksAndItsPiecesComeToRest) {
     }
 }
 
+TEST(HostPhysics, AWorldThatIsLoadedTellsTheHostAllItsBodies) {
+    Scene s = drop(1.2f, roomy());
+    while (s.physics.things.size() < 3) ASSERT_TRUE(s.physics.step(s.world, kDt, kGravity).ok());
+    const auto bytes = s.world.snapshot();
+    ASSERT_TRUE(bytes.ok()) << bytes.error();
+    Scene t{std::move(World::create_hosted(roomy())).value(), {}, {}};
+    t.physics.floor = s.physics.floor;
+    const Result<void> loaded = t.world.restore(bytes->data(), bytes->size());
+    ASSERT_TRUE(loaded.ok()) << loaded.error();
+    EXPECT_EQ(t.world.hash(), s.world.hash());
+    t.physics.apply(t.world.host_changes());
+    expect_same_bodies(t);
+    EXPECT_NEAR(mass_of(t), mass_of(s), 1e-12);
+    for (int frame = 0; frame < 240; ++frame) ASSERT_TRUE(t.physics.step(t.world, kDt, kGravity).ok());
+    expect_same_bodies(t);
+    for (const plain::Thing& thing : t.physics.things) EXPECT_LT(plain::length(thing.shape.motion.velocity), 0.3f);
+}
+
 TEST(HostPhysics, AGentleTouchBreaksNothing) {
     Scene s = drop(0.06f, roomy());
     for (int frame = 0; frame < 60; ++frame) {

@@ -146,9 +146,9 @@ class World {
     Result<void> save(const std::string& path);
     Result<void> load(const std::string& path);
 
-    /// From now on every call that changes the world, and a hash after each step, go to this file, a step at a time; models
-    /// to the folder `path`.models. recording.hpp plays it again. Costs two hashes of the state a step. A recording that
-    /// cannot be written on ends, and the log is told.
+    /// From now on every call that changes the world, and a hash after each step, go to this file, a step at a time;
+    /// models to the folder `path`.models. recording.hpp plays it again. Costs two hashes of the state a step. A
+    /// recording that cannot be written on ends, and the log is told.
     Result<void> start_recording(const std::string& path);
     /// Empty, or a sentence: why it ended before.
     Result<void> stop_recording();
