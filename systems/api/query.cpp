@@ -13,6 +13,7 @@ namespace cullet {
 namespace {
 
 constexpr double kSlack = 1e-7;  // m that boxes are wider by than what rounding could take from them
+constexpr double kNever = 1e300;
 
 /// From a body's axes to the world's and back, in double. The quaternion is made a unit once more.
 class Frame {
@@ -74,12 +75,13 @@ Triangle3 triangle_of(const Target& target, uint32_t t) {
     return drawn_triangle(target.world.state, target.body, t);
 }
 
-/// visit(number, triangle) for all triangles of the body, in its frame, below boxes that pass `meets(extent)`.
-template <class Meets, class Visit>
-void visit_triangles(const Target& target, Meets&& meets, Visit&& visit) {
+/// visit(number, triangle) for all triangles of the body, in its frame, below boxes that are no farther than the limit
+/// (see BoxLevels::visit). Of a drawn mesh's boxes the nearest comes first and the others in their order.
+template <class Far, class Limit, class Visit>
+void visit_triangles(const Target& target, Far&& far, Limit&& limit, Visit&& visit) {
     if (const StaticTriangles* const given = target.triangles()) {
-        given->tree.visit(meets, [&](uint32_t t) {
-            if (meets(given->extents[t])) visit(t, triangle_of(target, t));
+        given->tree.visit(far, limit, [&](uint32_t t) {
+            if (far(given->extents[t]) <= limit()) visit(t, triangle_of(target, t));
         });
         return;
     }
@@ -88,12 +90,23 @@ void visit_triangles(const Target& target, Meets&& meets, Visit&& visit) {
         return;
     }
     const Range indices = target.bodies().view_indices[target.body];
-    const uint32_t count = indices.count / 3;
-    for (uint32_t from = 0, row = indices.first / kViewGranule; from < count; from += kTrianglesPerBox, ++row) {
-        const auto& box = target.world.view_boxes.box[row];
-        if (!meets(Extent{{box[0], box[1], box[2]}, {box[3], box[4], box[5]}})) continue;
-        for (uint32_t t = from; t < std::min(from + kTrianglesPerBox, count); ++t) visit(t, triangle_of(target, t));
-    }
+    const uint32_t count = indices.count / 3, boxes = (count + kTrianglesPerBox - 1) / kTrianglesPerBox;
+    const auto far_box = [&](uint32_t k) {
+        const auto& box = target.world.view_boxes.box[indices.first / kViewGranule + k];
+        return far(Extent{{box[0], box[1], box[2]}, {box[3], box[4], box[5]}});
+    };
+    const auto visit_box = [&](uint32_t k) {
+        for (uint32_t t = kTrianglesPerBox * k; t < std::min(kTrianglesPerBox * (k + 1), count); ++t)
+            visit(t, drawn_triangle(target.world.state, target.body, t));
+    };
+    uint32_t nearest = 0;
+    double least = kNever;
+    for (uint32_t k = 0; k < boxes; ++k)
+        if (const double away = far_box(k); away < least) nearest = k, least = away;
+    if (!(least <= limit())) return;
+    visit_box(nearest);
+    for (uint32_t k = 0; k < boxes; ++k)
+        if (k != nearest && far_box(k) <= limit()) visit_box(k);
 }
 
 SurfaceKind kind_of(const Target& target, uint32_t t) {
@@ -141,22 +154,22 @@ Vec3d normal_of(const Triangle3& t) {
 
 struct Line {
     Vec3d origin, direction;  // unit
+    double per[3];            // 1 / direction, or what is as good where that is 0
 
-    /// Whether it is inside of the box somewhere within `length`.
-    bool meets(const Extent& e, double length) const {
-        double from = 0, to = length;
-        const double o[] = {origin.x, origin.y, origin.z}, d[] = {direction.x, direction.y, direction.z};
+    Line(Vec3d o, Vec3d d) : origin(o), direction(d) {
+        for (int k = 0; k < 3; ++k) per[k] = std::fabs(d[k]) > 1e-200 ? 1 / d[k] : kNever;
+    }
+
+    /// Where it enters the box; kNever where it does not.
+    double far(const Extent& e) const {
+        double from = 0, to = kNever;
+        const double o[] = {origin.x, origin.y, origin.z};
         const float low[] = {e.low.x, e.low.y, e.low.z}, high[] = {e.high.x, e.high.y, e.high.z};
         for (int k = 0; k < 3; ++k) {
-            const double near = low[k] - kSlack - o[k], far = high[k] + kSlack - o[k];
-            if (d[k] == 0) {
-                if (near > 0 || far < 0) return false;
-                continue;
-            }
-            const double a = near / d[k], b = far / d[k];
+            const double a = (low[k] - kSlack - o[k]) * per[k], b = (high[k] + kSlack - o[k]) * per[k];
             from = std::max(from, std::min(a, b)), to = std::min(to, std::max(a, b));
         }
-        return from <= to + kSlack;
+        return from <= to + kSlack ? from - kSlack : kNever;
     }
 };
 
@@ -175,9 +188,9 @@ void meet_sphere(const Target& target, const Line& line, Best& best) {
 
 void meet_triangles(const Target& target, const Line& line, Best& best) {
     const Frame frame = target.frame();
-    const Line own{frame.to_body(line.origin), frame.turn_back(line.direction)};
+    const Line own(frame.to_body(line.origin), frame.turn_back(line.direction));
     visit_triangles(
-        target, [&](const Extent& e) { return own.meets(e, best.distance); },
+        target, [&](const Extent& e) { return own.far(e); }, [&] { return best.distance; },
         [&](uint32_t t, const Triangle3& triangle) {
             const double distance = distance_along(triangle, own.origin, own.direction);
             if (distance < 0 || !best.takes(distance, target.body, t)) return;
@@ -187,10 +200,11 @@ void meet_triangles(const Target& target, const Line& line, Best& best) {
 
 // ---- a point
 
-double distance_to(const Extent& e, Vec3d p) {
+/// A little less than the distance.
+double far_from(const Extent& e, Vec3d p) {
     const Vec3d low = Vec3d(e.low) - p, high = p - Vec3d(e.high);
     const Vec3d out{std::max({low.x, high.x, 0.0}), std::max({low.y, high.y, 0.0}), std::max({low.z, high.z, 0.0})};
-    return length(out);
+    return length(out) - kSlack;
 }
 
 void approach_sphere(const Target& target, Vec3d point, Best& best) {
@@ -206,22 +220,13 @@ void approach_triangles(const Target& target, Vec3d point, Best& best) {
     const Frame frame = target.frame();
     const Vec3d own = frame.to_body(point);
     visit_triangles(
-        target, [&](const Extent& e) { return distance_to(e, own) <= best.distance + kSlack; },
+        target, [&](const Extent& e) { return far_from(e, own); }, [&] { return best.distance; },
         [&](uint32_t t, const Triangle3& triangle) {
             const Vec3d nearest = nearest_point(triangle, own);
             const double distance = length(nearest - own);
             if (!best.takes(distance, target.body, t)) return;
             best = {distance, target.body, t, frame.to_world(nearest), frame.turn(normal_of(triangle))};
         });
-}
-
-Best nearest_of(const Target& target, Vec3d point, double reach) {
-    Best best{reach};
-    if (target.is_sphere())
-        approach_sphere(target, point, best);
-    else
-        approach_triangles(target, point, best);
-    return best;
 }
 
 bool is_inside_box(const Target& target, Vec3d point) {
@@ -232,7 +237,12 @@ bool is_inside_box(const Target& target, Vec3d point) {
 bool meets_ball(const Target& target, Vec3d centre, double radius) {
     if (target.is_sphere()) return length(centre - target.centre()) <= radius + target.bodies().radius[target.body];
     if (target.is_box() && is_inside_box(target, centre)) return true;
-    return nearest_of(target, centre, radius).body != kNone;
+    const Vec3d own = target.frame().to_body(centre);
+    bool is_met = false;
+    visit_triangles(
+        target, [&](const Extent& e) { return far_from(e, own); }, [&] { return is_met ? -1 : radius; },
+        [&](uint32_t, const Triangle3& t) { is_met = is_met || length(nearest_point(t, own) - own) <= radius; });
+    return is_met;
 }
 
 // ---- a box
@@ -259,13 +269,13 @@ struct WorldBox {
 
 bool meets_world_box(const Target& target, const WorldBox& box) {
     const Extent extent{(box.centre - box.half).to_float(), (box.centre + box.half).to_float()};
-    if (target.is_sphere()) return distance_to(extent, target.centre()) <= target.bodies().radius[target.body];
+    if (target.is_sphere()) return far_from(extent, target.centre()) <= target.bodies().radius[target.body];
     if (target.is_box() && is_inside_box(target, box.centre)) return true;
     const Frame frame = target.frame();
     const Extent own = box.in(frame);
     bool is_met = false;
     visit_triangles(
-        target, [&](const Extent& e) { return !is_met && meets_extent(e, own); },
+        target, [&](const Extent& e) { return meets_extent(e, own) ? 0 : kNever; }, [&] { return is_met ? -1.0 : 0.0; },
         [&](uint32_t, const Triangle3& t) {
             const Triangle3 in_world{frame.to_world(t.a), frame.to_world(t.b), frame.to_world(t.c)};
             is_met = is_met || meets_box(in_world, box.centre, box.half);
@@ -292,12 +302,14 @@ struct Found {
     }
 };
 
-template <class Near, class Meets>
-uint32_t overlapping(const WorldData& world, uint32_t mask, Found found, Near&& near, Meets&& meets) {
-    world.query_index->visit(near, [&](uint32_t body) {
-        const Target target{world, body};
-        if (target.has_layer(mask) && meets(target)) found.add(body_id(world.state.bodies, Row<Bodies>(body)));
-    });
+template <class Far, class Meets>
+uint32_t overlapping(const WorldData& world, uint32_t mask, Found found, Far&& far, double limit, Meets&& meets) {
+    world.query_index->visit(
+        far, [limit] { return limit; },
+        [&](uint32_t body) {
+            const Target target{world, body};
+            if (target.has_layer(mask) && meets(target)) found.add(body_id(world.state.bodies, Row<Bodies>(body)));
+        });
     return found.count;
 }
 
@@ -307,9 +319,9 @@ SurfaceHit ray(const World& world, Vec3 origin, Vec3 direction, float length_, u
     const WorldData& d = world.contents().data;
     const double scale = length(Vec3d(direction));
     if (!is_within(origin, kFarthest) || !(scale > 0 && scale < 1e30) || !(length_ >= 0)) return {};
-    const Line line{Vec3d(origin), (1 / scale) * Vec3d(direction)};
+    const Line line(Vec3d(origin), (1 / scale) * Vec3d(direction));
     Best best{std::min<double>(length_, 4 * kFarthest)};
-    d.query_index->visit([&](const Extent& e) { return line.meets(e, best.distance); },
+    d.query_index->visit([&](const Extent& e) { return line.far(e); }, [&] { return best.distance; },
                          [&](uint32_t body) {
                              const Target target{d, body};
                              if (!target.has_layer(mask)) return;
@@ -326,7 +338,7 @@ SurfaceHit closest(const World& world, Vec3 point, float reach, uint32_t mask) {
     if (!is_within(point, kFarthest) || !(reach >= 0)) return {};
     const Vec3d p(point);
     Best best{std::min<double>(reach, 4 * kFarthest)};
-    d.query_index->visit([&](const Extent& e) { return distance_to(e, p) <= best.distance + kSlack; },
+    d.query_index->visit([&](const Extent& e) { return far_from(e, p); }, [&] { return best.distance; },
                          [&](uint32_t body) {
                              const Target target{d, body};
                              if (!target.has_layer(mask)) return;
@@ -343,7 +355,7 @@ uint32_t overlap(const World& world, Vec3 centre, float radius, BodyId* out, uin
     if (!is_within(centre, kFarthest) || !(radius >= 0)) return 0;
     const Vec3d p(centre);
     return overlapping(
-        d, mask, {out, capacity}, [&](const Extent& e) { return distance_to(e, p) <= radius + kSlack; },
+        d, mask, {out, capacity}, [&](const Extent& e) { return far_from(e, p); }, radius,
         [&](const Target& target) { return meets_ball(target, p, radius); });
 }
 
@@ -355,7 +367,7 @@ uint32_t overlap(const World& world, const Box& box, BodyId* out, uint32_t capac
     const Vec3d low(box.low), high(box.high);
     const WorldBox own{0.5 * (low + high), 0.5 * (high - low)};
     return overlapping(
-        d, mask, {out, capacity}, [&](const Extent& e) { return meets_extent(e, extent); },
+        d, mask, {out, capacity}, [&](const Extent& e) { return meets_extent(e, extent) ? 0 : kNever; }, 0,
         [&](const Target& target) { return meets_world_box(target, own); });
 }
 

@@ -31,10 +31,11 @@ class BoxLevels {
     /// The box of everything.
     Extent whole() const { return levels_.empty() ? Extent{} : levels_.back(); }
 
-    /// visit(item) for each item below boxes that pass `meets(extent)`, which may narrow while it runs. The items' own
-    /// boxes are left to the visitor.
-    template <class Meets, class Visit>
-    void visit(Meets&& meets, Visit&& visit) const;
+    /// visit(item) for items below boxes that are no farther than `limit()`, which may fall while it runs; nearer boxes
+    /// first. `far(extent)` is how far a box is, at least: the same unit, infinite for never. The items' own boxes are
+    /// left to the visitor.
+    template <class Far, class Limit, class Visit>
+    void visit(Far&& far, Limit&& limit, Visit&& visit) const;
 
  private:
     static constexpr uint32_t kFan = 8, kMostLevels = 10;
@@ -43,24 +44,32 @@ class BoxLevels {
     uint32_t first_[kMostLevels + 1] = {}, level_count_ = 0;
 };
 
-template <class Meets, class Visit>
-void BoxLevels::visit(Meets&& meets, Visit&& visit_item) const {
+template <class Far, class Limit, class Visit>
+void BoxLevels::visit(Far&& far, Limit&& limit, Visit&& visit_item) const {
     struct Node {
         uint32_t level, place;
+        double far;
     };
     Node stack[kFan * kMostLevels];
     uint32_t height = 0;
-    if (level_count_ > 0) stack[height++] = {level_count_ - 1, 0};
+    if (level_count_ > 0) stack[height++] = {level_count_ - 1, 0, far(levels_.back())};
     while (height > 0) {
         const Node node = stack[--height];
-        if (!meets(levels_[first_[node.level] + node.place])) continue;
+        if (!(node.far <= limit())) continue;
         const uint32_t below =
             node.level == 0 ? static_cast<uint32_t>(order_.size()) : first_[node.level] - first_[node.level - 1];
-        const uint32_t from = kFan * node.place, to = std::min(from + kFan, below);
-        if (node.level == 0)
+        const uint32_t from = kFan * node.place, to = std::min(from + kFan, below), base = height;
+        if (node.level == 0) {
             for (uint32_t k = from; k < to; ++k) visit_item(order_[k]);
-        else
-            for (uint32_t k = to; k-- > from;) stack[height++] = {node.level - 1, k};
+            continue;
+        }
+        for (uint32_t k = from; k < to; ++k) {
+            const Node child{node.level - 1, k, far(levels_[first_[node.level - 1] + k])};
+            if (!(child.far <= limit())) continue;
+            uint32_t at = height++;  // the nearest on top
+            for (; at > base && stack[at - 1].far < child.far; --at) stack[at] = stack[at - 1];
+            stack[at] = child;
+        }
     }
 }
 

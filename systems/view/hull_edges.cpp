@@ -13,6 +13,9 @@ struct Vec2d {
 double cross(Vec2d a, Vec2d b) {
     return a.x * b.y - a.y * b.x;
 }
+double dot(Vec2d a, Vec2d b) {
+    return a.x * b.x + a.y * b.y;
+}
 
 }  // namespace
 
@@ -23,22 +26,24 @@ bool is_hull_edge(std::span<const Vec3> points, size_t a, size_t b) {
     const Vec3d side = normalised(cullet::cross(along, other)), up = cullet::cross(along, side);
     bool is_first = true;
     Vec2d right{}, left{};  // the wedge that holds all so far, counter-clockwise from right to left
+    // Whether to turn left from p to q takes less than half a turn, and surely so.
+    const auto is_less_than_half = [](Vec2d p, Vec2d q) {
+        return cross(p, q) >= kLeastTurn * std::sqrt(dot(p, p) * dot(q, q));
+    };
     for (size_t k = 0; k < points.size(); ++k) {
         const Vec3d from(points[k] - points[a]);
-        Vec2d at{dot(from, side), dot(from, up)};
-        const double away = std::sqrt(at.x * at.x + at.y * at.y);
-        if (k == a || k == b || away < kLeastTurn * length(from)) continue;
-        at = {at.x / away, at.y / away};
+        const Vec2d at{dot(from, side), dot(from, up)};
+        if (k == a || k == b || dot(at, at) < kLeastTurn * kLeastTurn * dot(from, from)) continue;
         if (is_first) {
             right = left = at;
             is_first = false;
         } else if (cross(right, at) < 0) {
-            if (cross(at, left) < kLeastTurn) return false;
+            if (!is_less_than_half(at, left)) return false;
             right = at;
         } else if (cross(left, at) > 0) {
-            if (cross(right, at) < kLeastTurn) return false;
+            if (!is_less_than_half(right, at)) return false;
             left = at;
-        } else if (right.x * at.x + right.y * at.y < 0 && cross(right, left) <= 0) {
+        } else if (dot(right, at) < 0 && cross(right, left) <= 0) {
             return false;  // opposite to a wedge of one direction
         }
     }

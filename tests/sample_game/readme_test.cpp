@@ -20,5 +20,18 @@ TEST(Readme, ShowsTheExampleThatIsBuiltAndRun) {
     EXPECT_LE(std::count(example.begin(), example.end(), '\n'), 64);  // somebody reads it to the end
 }
 
+TEST(Embedding, ShowsOnlyCodeThatIsBuiltAndRun) {
+    const std::string page = text_of("/docs/embedding.md"), open = "```cpp\n", close = "```\n";
+    const std::string code = text_of("/tests/consumer/embedding.cpp") + text_of("/tests/host/plain_physics.hpp");
+    size_t blocks = 0;
+    for (size_t at = page.find(open); at != std::string::npos; at = page.find(open, at)) {
+        at += open.size();
+        const std::string block = page.substr(at, page.find(close, at) - at);
+        EXPECT_NE(code.find(block), std::string::npos) << block;
+        ++blocks;
+    }
+    EXPECT_EQ(blocks, 8u);
+}
+
 }  // namespace
 }  // namespace cullet
