@@ -26,27 +26,30 @@ local vase = game.cook{
 game.camera{eye = {1.5, 1.75, 2.1}, target = {0, 0.15, 0}, field_of_view = 0.72}
 game.floor()
 -- Walls go down into the ground: standing on it they would press into it what is a millimetre deep in both.
-local half, thick, top, bottom = 0.8, 0.1, 0.5, -0.5
+local single = game.single -- numbers as the world holds them, so that the pit stands bit for bit where it always did
+local half, top, bottom = single(0.8), 0.5, -0.5
+local outer = single(half + single(0.1))
 local function wall(low, high)
     game.box{low = low, high = high, colour = {0.33, 0.32, 0.30}}
 end
-wall({-half - thick, bottom, -half - thick}, {half + thick, top, -half})
-wall({-half - thick, bottom, -half}, {-half, top, half})
-wall({half, bottom, -half}, {half + thick, top, half})
-wall({-half - thick, bottom, half}, {half + thick, top, half + thick})
+wall({-outer, bottom, -outer}, {outer, top, -half})
+wall({-outer, bottom, -half}, {-half, top, half})
+wall({half, bottom, -half}, {outer, top, half})
+wall({-outer, bottom, half}, {outer, top, outer})
 
 local thrown = 0
 local function throw_vase()
-    local number, east, north = 10 * (thrown + 1), thrown % 2 == 1, thrown % 4 >= 2
+    local number, corner = 10 * (thrown + 1), single(0.38)
+    local east, north = thrown % 2 == 1, thrown % 4 >= 2
     game.spawn{
         cooked = vase,
         strength_scale = shell.strength_scale,
         turn = game.any_turn(number),
         pivot = {0, 0.5 * size, 0},
         at = {
-            (east and 0.38 or -0.38) + 0.12 * game.seeded(number + 3),
-            height + 0.5 * size,
-            (north and 0.38 or -0.38) + 0.12 * game.seeded(number + 4),
+            (east and corner or -corner) + single(0.12 * game.seeded(number + 3)),
+            single(height) + 0.5 * single(size),
+            (north and corner or -corner) + single(0.12 * game.seeded(number + 4)),
         },
         velocity = {0, -speed, 0},
     }
