@@ -212,8 +212,13 @@ void Sandbox::count(lua_State* lua, lua_Debug*) {
     lua_getallocf(lua, reinterpret_cast<void**>(&sandbox));
     sandbox->spent_ += kInstructionsACount;
     if (sandbox->spent_ <= sandbox->limits_.instructions) return;
-    luaL_error(lua, "the script took more than %s instructions in one frame; end the loop, or wait() in it",
-               fmt::format("{} million", sandbox->limits_.instructions / 1'000'000).c_str());
+    luaL_where(lua, 0);  // no call stands between: the hook comes in the midst of the function
+    lua_pushstring(lua, fmt::format("the script took more than {} million instructions in one frame; end the loop, or "
+                                    "wait() in it",
+                                    sandbox->limits_.instructions / 1'000'000)
+                            .c_str());
+    lua_concat(lua, 2);
+    lua_error(lua);
 }
 
 Sandbox::Sandbox(void* owner, const SandboxLimits& limits) : limits_(limits), owner_(owner) {

@@ -7,7 +7,7 @@
 #include <filesystem>
 #include <fstream>
 
-#include "sample_game/model_shelf.hpp"
+#include "sample_game/game_world.hpp"
 #include "sample_game/run_scene.hpp"
 
 namespace cullet {
@@ -237,7 +237,7 @@ TEST(Script, KeysAreDeclaredListedSetAndRefused) {
     EXPECT_NE(story->keys.help().find("scene.speed_mps        3          of it (0 to 9 m/s)"), std::string::npos)
         << story->keys.help();
     EXPECT_EQ(story->keys["gravity_mps2"], 1.62);
-    EXPECT_EQ(notes_of(plan, 1), std::vector<std::string>{"3 a"});
+    EXPECT_EQ(notes_of(plan, 1), std::vector<std::string>{"3.0 a"});
     plan.set = {"scene.kind=b", "scene.speed_mps=4.5", "gravity_mps2=5"};
     EXPECT_EQ(notes_of(plan, 1), std::vector<std::string>{"4.5 b"});
     EXPECT_EQ(read_story(plan)->keys["gravity_mps2"], 5);  // --set has the last word
