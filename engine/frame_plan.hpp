@@ -252,10 +252,12 @@ class FramePlan {
             parallel_for(jobs, total, [&](uint32_t job) {
                 uint32_t i = 0;
                 while (job >= chunks[i].count) job -= chunks[i++].count;
-                const uint64_t begun = pass.count > 1 ? now_ns() : 0;
+                const uint64_t begun = now_ns();
                 run_chunk(systems_[pass.first + i], chunks[i], world, job);
+                const uint64_t ended = now_ns();
                 if (pass.count > 1)
-                    std::atomic_ref<uint64_t>(chunks[i].busy_ns).fetch_add(now_ns() - begun, std::memory_order_relaxed);
+                    std::atomic_ref<uint64_t>(chunks[i].busy_ns).fetch_add(ended - begun, std::memory_order_relaxed);
+                profiler.add_span(systems_[pass.first + i].zone, begun, ended);
             });
         }
         const uint64_t end = now_ns();
@@ -269,8 +271,11 @@ class FramePlan {
                                 : nullptr,
                             chunks[i].emitted[c]);
             const bool is_shared = pass.count > 1 && total > 1;
-            if (chunks[i].count)
-                profiler.add(system.zone, start, is_shared ? start + chunks[i].busy_ns : end, chunks[i].rows);
+            if (chunks[i].count == 0) continue;
+            if (is_shared)
+                profiler.add_time(system.zone, chunks[i].busy_ns, chunks[i].rows);
+            else
+                profiler.add(system.zone, start, end, chunks[i].rows);
         }
     }
 

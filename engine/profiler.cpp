@@ -1,5 +1,7 @@
 #include "engine/profiler.hpp"
 
+#include <pthread.h>
+
 #include <algorithm>
 #include <atomic>
 #include <chrono>
@@ -40,6 +42,7 @@ void Profiler::begin_frame(uint64_t frame) {
     if (frame_count_ == frame_limit_) frame_count_ = frame_limit_ - 1;  // the last one is overwritten from here on
     Frame& f = frames()[frame_count_];
     is_in_frame_ = true;
+    (void)track_of_this_thread();
     f.number = frame;
     f.start_ns = now_ns();
     std::fill(f.zone_ms, f.zone_ms + kMostZones, 0.0f);
@@ -49,20 +52,42 @@ void Profiler::end_frame() {
     if (!is_in_frame_) return;
     is_in_frame_ = false;
     Frame& f = frames()[frame_count_];
-    f.ms = static_cast<float>(now_ns() - f.start_ns) * 1e-6f;
+    f.end_ns = now_ns();
+    f.ms = static_cast<float>(f.end_ns - f.start_ns) * 1e-6f;
     ++frame_count_;
 }
 
 void Profiler::add(uint32_t zone, uint64_t start_ns, uint64_t end_ns, uint64_t rows) {
-    if (is_in_frame_) frames()[frame_count_].zone_ms[zone] += static_cast<float>(end_ns - start_ns) * 1e-6f;
-    rows_[zone] += rows;
-    add_span(zone, 0, start_ns, end_ns);
+    add_time(zone, end_ns - start_ns, rows);
+    add_span(zone, start_ns, end_ns);
 }
 
-void Profiler::add_span(uint32_t zone, uint32_t worker, uint64_t start_ns, uint64_t end_ns) {
+void Profiler::add_time(uint32_t zone, uint64_t busy_ns, uint64_t rows) {
+    if (is_in_frame_) frames()[frame_count_].zone_ms[zone] += static_cast<float>(busy_ns) * 1e-6f;
+    rows_[zone] += rows;
+}
+
+// A thread finds its own mark, or leaves it in the first free place.
+uint32_t Profiler::track_of_this_thread() {
+    const auto self = static_cast<uint64_t>(pthread_self());
+    for (uint32_t t = 0; t + 1 < kMostTracks; ++t) {
+        std::atomic_ref<uint64_t> track(tracks_[t]);
+        uint64_t found = track.load(std::memory_order_relaxed);
+        if (found == self) return t;
+        if (found == 0 && track.compare_exchange_strong(found, self, std::memory_order_relaxed)) return t;
+    }
+    return kMostTracks - 1;
+}
+
+uint32_t Profiler::track_count() const {
+    return static_cast<uint32_t>(std::find(tracks_, tracks_ + kMostTracks, uint64_t{0}) - tracks_);
+}
+
+void Profiler::add_span(uint32_t zone, uint64_t start_ns, uint64_t end_ns) {
+    const uint32_t track = track_of_this_thread();
     const uint64_t at = std::atomic_ref<uint64_t>(span_count_).fetch_add(1, std::memory_order_relaxed);
     if (at < span_limit_)
-        spans()[at] = {start_ns, end_ns, static_cast<uint16_t>(zone), static_cast<uint16_t>(worker), 0};
+        spans()[at] = {start_ns, end_ns, static_cast<uint16_t>(zone), static_cast<uint16_t>(track), 0};
 }
 
 uint32_t Profiler::add_counter(const std::string& name) {
@@ -102,11 +127,15 @@ Result<void> Profiler::write_trace(const std::string& path) const {
     const uint64_t origin = frame_count_ ? frames()[0].start_ns : 0;
     std::fputs("{\"displayTimeUnit\":\"ms\",\"traceEvents\":[\n", file);
     std::fputs("{\"name\":\"process_name\",\"ph\":\"M\",\"pid\":1,\"args\":{\"name\":\"cullet\"}}", file);
+    for (uint32_t t = 0; t < track_count(); ++t)
+        std::fprintf(
+            file, ",\n{\"name\":\"thread_name\",\"ph\":\"M\",\"pid\":1,\"tid\":%u,\"args\":{\"name\":\"worker %u%s\"}}",
+            t, t, t == 0 ? ", the one that steps" : "");
     for (uint32_t f = 0; f < frame_count_; ++f)
         std::fprintf(file, ",\n{\"name\":\"frame %llu\",\"ph\":\"X\",\"pid\":1,\"tid\":0,\"ts\":%s,\"dur\":%s}",
                      static_cast<unsigned long long>(frames()[f].number),
                      microseconds(frames()[f].start_ns - origin).c_str(),
-                     microseconds(static_cast<uint64_t>(static_cast<double>(frames()[f].ms) * 1e6)).c_str());
+                     microseconds(frames()[f].end_ns - frames()[f].start_ns).c_str());
     for (uint32_t s = 0; s < span_count_ && s < span_limit_; ++s) {
         const Span& span = spans()[s];
         if (span.start_ns < origin) continue;
@@ -116,7 +145,7 @@ Result<void> Profiler::write_trace(const std::string& path) const {
                          static_cast<unsigned long long>(span.end_ns));
         else
             std::fprintf(file, ",\n{\"name\":\"%s\",\"ph\":\"X\",\"pid\":1,\"tid\":%u,\"ts\":%s,\"dur\":%s}",
-                         in_json(zones_[span.zone]).c_str(), unsigned{span.worker},
+                         in_json(zones_[span.zone]).c_str(), unsigned{span.track},
                          microseconds(span.start_ns - origin).c_str(),
                          microseconds(span.end_ns - span.start_ns).c_str());
     }

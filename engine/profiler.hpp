@@ -17,6 +17,7 @@ uint64_t now_ns();
 class Profiler {
  public:
     static constexpr uint32_t kMostZones = 96;
+    static constexpr uint32_t kMostTracks = 256;  // from there on threads share the last one
 
     explicit Profiler(uint32_t frame_limit = 1u << 15, uint32_t span_limit = 1u << 19);
     ~Profiler();
@@ -32,8 +33,10 @@ class Profiler {
     void end_frame();
     /// Time of `zone` in this frame; several are added up. Between begin_frame and end_frame, on their thread.
     void add(uint32_t zone, uint64_t start_ns, uint64_t end_ns, uint64_t rows);
-    /// A span on a worker's track of the trace; any thread. `worker` 0 is the caller's.
-    void add_span(uint32_t zone, uint32_t worker, uint64_t start_ns, uint64_t end_ns);
+    /// The same without a span in the trace: for systems that ran at once, whose chunks have spans of their own.
+    void add_time(uint32_t zone, uint64_t busy_ns, uint64_t rows);
+    /// A span on the calling thread's track of the trace; any thread. Some 50 ns.
+    void add_span(uint32_t zone, uint64_t start_ns, uint64_t end_ns);
     /// Its number.
     uint32_t add_counter(const std::string& name);
     /// A counter's value from now on, in the trace.
@@ -44,6 +47,8 @@ class Profiler {
     float frame_ms(uint32_t n) const { return frames()[n].ms; }
     float zone_ms(uint32_t n, uint32_t zone) const { return frames()[n].zone_ms[zone]; }
     uint64_t zone_rows(uint32_t zone) const { return rows_[zone]; }
+    /// Threads that have a track: that of begin_frame is the first, the others follow as they come.
+    uint32_t track_count() const;
     /// Spans and counters that found no room.
     uint64_t left_out() const { return span_count_ > span_limit_ ? span_count_ - span_limit_ : 0; }
 
@@ -51,21 +56,24 @@ class Profiler {
 
  private:
     struct Frame {
-        uint64_t number, start_ns;
+        uint64_t number, start_ns, end_ns;
         float ms;
         float zone_ms[kMostZones];
     };
     struct Span {
         uint64_t start_ns, end_ns;  // a counter: start_ns, value
-        uint16_t zone, worker;      // a counter: its number, 0
+        uint16_t zone, track;       // a counter: its number, 0
         uint32_t is_counter;
     };
     Frame* frames() const { return reinterpret_cast<Frame*>(frame_memory_); }
     Span* spans() const { return reinterpret_cast<Span*>(span_memory_); }
 
+    uint32_t track_of_this_thread();
+
     std::byte *frame_memory_, *span_memory_;
     uint32_t frame_limit_, span_limit_, frame_count_ = 0;
-    uint64_t span_count_ = 0;  // asked for; those past the limit are not there
+    uint64_t span_count_ = 0;            // asked for; those past the limit are not there
+    uint64_t tracks_[kMostTracks] = {};  // threads; 0: free
     bool is_in_frame_ = false;
     std::vector<std::string> zones_, counters_;
     std::vector<uint64_t> rows_;

@@ -15,11 +15,7 @@ bool measure_scene(const char* name, unsigned threads, uint32_t repeat, Figures&
     options.threads = threads;
     options.repeat = repeat;
     options.hash = HashWhen::Last;
-    const Result<Keys> keys = keys_of(scene, options);
-    if (!keys.ok()) return false;
-    const Result<ScenePlan> plan = plan_scene(scene, keys.value(), options);
-    if (!plan.ok()) return false;
-    const Result<Report> played = play(scene, plan.value(), options);
+    const Result<Report> played = play(plan_scene(scene, options), options);
     if (!played.ok()) {
         std::printf("%s\n", played.error().c_str());
         return false;

@@ -54,11 +54,23 @@ struct Drawing {
     }
 };
 
-void add_props(Drawing& drawing, const ScenePlan& plan) {
-    // The first prop is the floor, whose upper side is the drawn ground.
-    for (size_t p = 1; p < plan.props.size(); ++p) {
-        DrawnBody& body = drawing.add(plan.props[p].mesh);
-        body.colour = plan.props[p].colour;
+void add_props(Drawing& drawing, const Stage& stage) {
+    for (const Prop& prop : stage.props) {
+        if (prop.is_ground) continue;
+        DrawnBody& body = drawing.add(prop.mesh);
+        body.colour = prop.colour;
+        body.gloss = 0;
+        body.is_outlined = false;
+    }
+}
+
+void add_movers(Drawing& drawing, const Stage& stage) {
+    for (const Mover& mover : stage.movers) {
+        const Result<Pose> pose = stage.world->pose(mover.body);
+        if (!pose.ok()) continue;
+        DrawnBody& body = drawing.add(mover.mesh);
+        body.pose = *pose;
+        body.colour = mover.colour;
         body.gloss = 0;
         body.is_outlined = false;
     }
@@ -81,12 +93,12 @@ void add_bodies(Drawing& drawing, const GameWorld& game) {
         }
         const Result<BodyView> view = world.view(id);
         if (!view.ok() || view.value().index_count == 0) continue;
-        const uint64_t look = rows.user_data[b] < game.plan().looks.size() ? rows.user_data[b] : 0;
+        const uint64_t look = rows.user_data[b] < game.stage().looks.size() ? rows.user_data[b] : 0;
         DrawnBody& body = drawing.add(view.value());
         // Grey for what keeps the old body: the largest piece.
         body.colour = fragment_colour(rows.parent[b].exists() ? rows.colour[b] : 0);
-        body.opacity = game.plan().looks[look].opacity;
-        body.gloss = game.plan().looks[look].gloss;
+        body.opacity = game.stage().looks[look].opacity;
+        body.gloss = game.stage().looks[look].gloss;
     }
 }
 
@@ -105,16 +117,18 @@ void add_debris(Drawing& drawing, const GameWorld& game) {
 
 Picture draw_world(const GameWorld& game, uint32_t threads) {
     Drawing drawing;
-    add_props(drawing, game.plan());
+    add_props(drawing, game.stage());
+    add_movers(drawing, game.stage());
     add_bodies(drawing, game);
     add_debris(drawing, game);
     PictureSettings settings;
-    settings.ground_height = game.plan().ground_height;
+    settings.ground_height = game.stage().ground_height();
+    settings.has_ground = game.stage().has_ground();
     const std::unique_ptr<JobSystem> jobs = make_jobs(JobBackend::Threads, threads);
     settings.for_each = [&jobs](uint32_t count, const std::function<void(uint32_t)>& job) {
         parallel_for(*jobs, count, [&job](uint32_t i) { job(i); });
     };
-    return draw(drawing.bodies, game.plan().camera, game.plan().sun, settings);
+    return draw(drawing.bodies, game.stage().camera, game.stage().sun, settings);
 }
 
 }  // namespace cullet

@@ -1,16 +1,12 @@
 #include "sample_game/game_world.hpp"
 
-#include <fmt/format.h>
-
 #include <tuple>
 
-#include "sample_game/scenes/scenes.hpp"
+#include "sample_game/script/script.hpp"
 #include "systems/world_contents.hpp"
 
 namespace cullet {
 namespace {
-
-constexpr size_t kMostFaults = 20;  // sentences; all are counted
 
 bool is_dynamic(const Bodies& bodies, uint32_t b) {
     return bodies.kind[b] == static_cast<uint8_t>(BodyKind::Dynamic);
@@ -67,72 +63,36 @@ Matter measure_matter(const World& world) {
     return matter;
 }
 
+GameWorld::GameWorld(std::unique_ptr<Stage> stage, std::unique_ptr<Script> script)
+    : stage_(std::move(stage)), script_(std::move(script)) {}
+GameWorld::GameWorld(GameWorld&&) noexcept = default;
+GameWorld::~GameWorld() = default;
+
 Result<GameWorld> GameWorld::create(const ScenePlan& plan, const Host& host) {
-    Result<World> world = World::create(plan.settings, host);
-    if (!world.ok()) return Error{world.error()};
-    GameWorld game(plan, std::move(world).value());
-    if (auto done = game.set_up(); !done.ok()) return Error{done.error()};
-    return game;
+    auto stage = std::make_unique<Stage>();
+    stage->plan = plan;
+    stage->host = host;
+    auto script = std::make_unique<Script>(*stage);
+    if (auto done = script->start(); !done.ok()) return Error{done.error()};
+    if (const Result<World*> stands = stage->stand(); !stands.ok()) return Error{stands.error()};
+    return GameWorld(std::move(stage), std::move(script));
 }
 
-Result<void> GameWorld::set_up() {
-    for (const Model& model : plan_->models) {
-        Result<ModelId> id = world_.add_model(model);
-        if (!id.ok()) return Error{id.error()};
-        models_.push_back(*id);
-    }
-    for (const Prop& prop : plan_->props)
-        if (auto id = world_.add_static(view_of(prop.mesh), prop.contact); !id.ok()) return Error{id.error()};
-    for (const SphereSettings& ball : plan_->balls) {
-        if (auto id = world_.add_sphere(ball); !id.ok()) return Error{id.error()};
-        mass_put_in_ += static_cast<double>(ball.mass);
-    }
-    before_step();  // so that the first picture shows what stands at the start
-    if (!refusals_.empty()) return Error{refusals_[0]};
-    return {};
-}
-
-bool GameWorld::wants_more() const {
-    return plan_->fragments_wanted == 0 || measure_matter(world_).fragments < plan_->fragments_wanted;
+void GameWorld::take(const Result<void>& done) {
+    if (!done.ok() && failure_.empty()) failure_ = done.error();
 }
 
 void GameWorld::before_step() {
-    while (next_spawn_ < plan_->spawns.size() && plan_->spawns[next_spawn_].frame <= frame_) {
-        if (!wants_more()) {
-            next_spawn_ = plan_->spawns.size();
-            return;
-        }
-        const Spawn& spawn = plan_->spawns[next_spawn_++];
-        SpawnSettings settings = spawn.settings;
-        settings.pins = spawn.pins.data();
-        settings.pin_count = static_cast<uint32_t>(spawn.pins.size());
-        const Result<BodyId> id = world_.spawn(models_[spawn.model], settings);
-        if (!id.ok())
-            refusals_.push_back(id.error());
-        else
-            mass_put_in_ += world_.mass(id.value()).value();
-    }
+    if (failure_.empty()) take(script_->go_on());
 }
 
 void GameWorld::after_step() {
-    ++frame_;
-    const StepEvents step = world_.events();
-    events["impact"] += step.impacts.count;
-    events["crack_started"] += step.cracks_started.count;
-    events["fragment_born"] += step.fragments_born.count;
-    events["debris"] += step.debris.count;
-    events["refused"] += step.refused.count;
-    events["fault"] += step.faults.count;
-    events["asleep"] += step.asleep.count;
-    for (const RefusedEvent& event : step.refused) ++refused[event.setting];
-    for (const FaultEvent& event : step.faults)
-        if (faults.size() < kMostFaults)
-            faults.push_back(fmt::format("Frame {}, body {}: {}", frame_, event.body.index, event.reason));
-    born += step.fragments_born.count;
-    broke_ = step.fragments_born.count + step.debris.count + step.cracks_started.count > 0;
-    const uint64_t used = world_.report().units_used;
-    units_used += used;
-    most_units = used > most_units ? used : most_units;
+    stage_->after_step();
+    if (failure_.empty()) take(script_->tell_events());
+}
+
+std::string GameWorld::waits_at() const {
+    return script_->waits_at();
 }
 
 void fill_counts(const World& world, Report& report) {

@@ -1,12 +1,14 @@
-// A world as a scene's plan sets it up, stepped and counted.
+// A world as a script sets it up and drives it, stepped and counted.
 #pragma once
 #include <memory>
 #include <vector>
 
 #include "sample_game/report.hpp"
-#include "sample_game/scene.hpp"
+#include "sample_game/stage.hpp"
 
 namespace cullet {
+
+class Script;
 
 /// Mass, momentum and energy of all that moves, pinned bodies and debris included. The sums run over rows in order.
 struct Matter {
@@ -18,42 +20,38 @@ Matter measure_matter(const World& world);
 
 class GameWorld {
  public:
-    /// The plan must outlive it.
+    /// Runs the script up to its first wait; cooks what the plan's shelf does not hold, which is slow.
     static Result<GameWorld> create(const ScenePlan& plan, const Host& host = {});
+    GameWorld(GameWorld&&) noexcept;
+    ~GameWorld();
 
-    /// Spawns what this frame brings. Refusals become notes of refusals().
+    /// The script goes on where something is due in this frame.
     void before_step();
-    void step() { world_.step(); }
+    void step() { stage_->world->step(); }
     /// Reads events; once a step.
     void after_step();
+    /// A sentence once the script has gone wrong or an expectation was not met; nothing goes on after that.
+    const std::string& failure() const { return failure_; }
+    /// Where the script still waits, "vase.lua:12"; empty once it has come to its end.
+    std::string waits_at() const;
 
-    World& world() { return world_; }
-    const World& world() const { return world_; }
-    const ScenePlan& plan() const { return *plan_; }
-    uint64_t frame() const { return frame_; }
-    double mass_put_in() const { return mass_put_in_; }
+    World& world() { return *stage_->world; }
+    const World& world() const { return *stage_->world; }
+    Stage& stage() { return *stage_; }
+    const Stage& stage() const { return *stage_; }
+    uint64_t frame() const { return stage_->frame; }
+    RunSums& sums() { return stage_->sums; }
+    double mass_put_in() const { return stage_->sums.mass_put_in; }
     /// Something cracked or came off in the last step.
-    bool broke() const { return broke_; }
-    const std::vector<std::string>& refusals() const { return refusals_; }
-
-    /// Adds up over the run.
-    std::map<std::string, uint64_t> events, refused;
-    std::vector<std::string> faults;
-    uint64_t born = 0, units_used = 0, most_units = 0;
+    bool broke() const { return stage_->broke; }
 
  private:
-    GameWorld(const ScenePlan& plan, World world) : plan_(&plan), world_(std::move(world)) {}
-    Result<void> set_up();
-    bool wants_more() const;
+    GameWorld(std::unique_ptr<Stage> stage, std::unique_ptr<Script> script);
+    void take(const Result<void>& done);
 
-    const ScenePlan* plan_;
-    World world_;
-    std::vector<ModelId> models_;
-    std::vector<std::string> refusals_;
-    size_t next_spawn_ = 0;
-    uint64_t frame_ = 0;
-    double mass_put_in_ = 0;
-    bool broke_ = false;
+    std::unique_ptr<Stage> stage_;  // the script points to it
+    std::unique_ptr<Script> script_;
+    std::string failure_;
 };
 
 /// Counts of rows and shapes, tasks and sweeps at the end of a run.

@@ -7,7 +7,7 @@
 #include "engine/fp_mode.hpp"
 #include "engine/random.hpp"
 #include "sample_game/meshes.hpp"
-#include "sample_game/scenes/scenes.hpp"
+#include "sample_game/props.hpp"
 #include "systems/cook/apply_pins.hpp"
 #include "systems/cook/model_contents.hpp"
 #include "systems/fragments/rigid_handoff.hpp"

@@ -84,6 +84,12 @@ Result<void> Keys::set(const std::string& assignment) {
     return {};
 }
 
+void Keys::put(const std::string& name, double value) {
+    Key* key = const_cast<Key*>(find(name));
+    CULLET_ASSERT(key, "there is no key %s to put a value into", name.c_str());
+    if (key) key->value = value;
+}
+
 std::string Keys::help() const {
     std::string text;
     for (const Key& key : keys_) {

@@ -29,6 +29,8 @@ class Keys {
 
     /// "scene.speed_mps=8". Refuses a key that is not in the list, a value that is no number, and one out of range.
     Result<void> set(const std::string& assignment);
+    /// Another value for a number, from within: no range is looked at.
+    void put(const std::string& name, double value);
     /// One line a key: name, default, unit, range, text.
     std::string help() const;
     const std::vector<Key>& all() const { return keys_; }

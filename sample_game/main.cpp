@@ -13,14 +13,22 @@
 namespace cullet {
 namespace {
 
+int print_keys(const std::string& scene) {
+    const Result<std::string> keys = keys_help(scene);
+    if (keys.ok())
+        fmt::print("{}", keys.value());
+    else
+        fmt::print(stderr, "{}\n", keys.error());
+    return keys.ok() ? 0 : 2;
+}
+
 int run(const Options& options) {
     switch (options.command) {
         case Command::Help:
             fmt::print("{}", options.help);
             return 0;
         case Command::KeysHelp:
-            fmt::print("{}", keys_help(options.run.scene));
-            return 0;
+            return print_keys(options.run.scene);
         case Command::Frame:
             fmt::print("{}", World::describe_frame());
             return 0;

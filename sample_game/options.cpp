@@ -16,19 +16,27 @@ const std::map<std::string, HashWhen> kHashWhen{
 std::string scene_names() {
     std::string names;
     for (const Scene& scene : scenes()) names += std::string(scene.name) + ", ";
-    return names + "show_reel";
+    return names + "show_reel, or a file that ends in .lua";
+}
+
+std::string shown(const Scene& scene) {
+    ScenePlan plan;
+    plan.scene = scene;
+    const Result<Story> story = read_story(plan);
+    return story.ok() ? story->shows : story.error();
 }
 
 std::string scene_list() {
     std::string text = "Scenes:\n";
-    for (const Scene& scene : scenes()) text += fmt::format("  {:<10} {}\n", scene.name, scene.shows);
+    for (const Scene& scene : scenes()) text += fmt::format("  {:<10} {}\n", scene.name, shown(scene));
     return text + "  show_reel  wall, vase, pane and drop, one after another, with pictures\n";
 }
 
 void add_run(CLI::App& app, RunOptions& run) {
-    CLI::App* command = app.add_subcommand("run", "Plays a scene and says how it went");
+    CLI::App* command = app.add_subcommand("run", "Plays a scene or a script and says how it went");
     command->add_option("scene", run.scene, "One of " + scene_names());
-    command->add_option("--mesh", run.mesh, "A model file for drop, in any format that assimp reads");
+    command->add_option("--mesh", run.mesh, "A model file for scenes that take one, in any format that assimp reads");
+    command->add_option("--model", run.model, "How what is cooked breaks: thick_shell");
     command->add_option("--frames", run.frames, "How many steps; the scene's own number if not given")
         ->check(CLI::Range(1u, 1'000'000u));
     command->add_option("--dt-ms", run.dt_ms, "Milliseconds a step")->check(CLI::Range(1000.0 / 240, 1000.0 / 30));
@@ -39,6 +47,7 @@ void add_run(CLI::App& app, RunOptions& run) {
     command->add_option("--out", run.out, "Folder for report.json, pictures and the trace");
     command->add_option("--draw", run.draw, "Draws every so many frames")->check(CLI::Range(1u, 1'000'000u));
     command->add_flag("--contact-sheet", run.has_sheet, "Twelve frames in one picture, sheet.png");
+    command->add_flag("--video", run.has_video, "A film of the run, film.mp4; needs the program ffmpeg");
     command->add_option("--trace", run.trace, "Chrome trace of the last repeat, for Perfetto");
     command->add_option("--hash", run.hash, "When the state is hashed: every, last, off")
         ->transform(CLI::CheckedTransformer(kHashWhen));
@@ -50,14 +59,14 @@ void add_run(CLI::App& app, RunOptions& run) {
 Result<void> check_run(const RunOptions& run, bool asks_for_keys) {
     if (asks_for_keys) return {};
     if (run.scene.empty()) return Error{"run: which scene? Give one of " + scene_names() + "."};
-    if (run.scene != "show_reel" && !find_scene(run.scene))
+    if (run.scene != "show_reel" && !find_scene(run.scene) && !run.scene.ends_with(".lua"))
         return Error{fmt::format("run {}: there is no such scene; give one of {}.", run.scene, scene_names())};
-    if (!run.mesh.empty() && run.scene != "drop" && run.scene != "show_reel")
-        return Error{fmt::format("--mesh {}: only the scene drop takes a mesh, not {}.", run.mesh, run.scene)};
+    if (!run.model.empty() && run.model != "thick_shell")
+        return Error{fmt::format("--model {}: there is no such model; this version has thick_shell.", run.model)};
     if (run.scene == "show_reel" && !run.trace.empty() && run.out.empty())
         return Error{"--trace: the show reel writes a trace for each scene; say where with --out FOLDER."};
-    if (run.out.empty() && (run.draw > 0 || run.has_sheet))
-        return Error{"--draw and --contact-sheet write pictures: say where with --out FOLDER."};
+    if (run.out.empty() && (run.draw > 0 || run.has_sheet || run.has_video))
+        return Error{"--draw, --contact-sheet and --video write pictures: say where with --out FOLDER."};
     return {};
 }
 

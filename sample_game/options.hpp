@@ -11,14 +11,15 @@ namespace cullet {
 enum class HashWhen { Every, Last, Off };
 
 struct RunOptions {
-    std::string scene, mesh;
-    uint32_t frames = 0;  // 0: the scene's
+    std::string scene, mesh;  // scene: the name of one, or a script's file
+    std::string model;        // for what the script cooks; empty: the script's own
+    uint32_t frames = 0;      // 0: the scene's
     double dt_ms = 1000.0 / 60;
     uint32_t threads = 0;  // 0: all that the machine has, or the key's
     uint32_t repeat = 1;
     std::string out;    // empty: nothing is written
     uint32_t draw = 0;  // every so many frames; 0: none
-    bool has_sheet = false;
+    bool has_sheet = false, has_video = false;
     std::string trace;
     HashWhen hash = HashWhen::Every;
     bool validates = false;

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 #include <sys/resource.h>
 
+#include <algorithm>
 #include <cerrno>
 #include <cstdio>
 #include <cstring>
@@ -16,6 +17,8 @@ namespace cullet {
 namespace {
 
 using Json = nlohmann::ordered_json;
+
+constexpr size_t kDearest = 5;  // systems that are always in the table
 
 Json to_object(const Spread& s) {
     return {{"p50", s.p50}, {"p95", s.p95}, {"p99", s.p99}, {"max", s.max}, {"total", s.total}, {"rows", s.rows}};
@@ -73,6 +76,19 @@ Json of_time(const Report& r) {
     for (const auto& [name, spread] : r.systems) systems[name] = to_object(spread);
     return {{"frame_ms", to_object(r.frame_ms)},
             {"systems", systems},
+            {"worst_frame",
+             {{"frame", r.worst_frame.frame},
+              {"ms", r.worst_frame.ms},
+              {"opened", r.worst_frame.facts.opened},
+              {"broke", r.worst_frame.facts.broke},
+              {"late", r.worst_frame.facts.late},
+              {"frames_held", r.worst_frame.facts.frames_held},
+              {"born", r.worst_frame.facts.born},
+              {"debris", r.worst_frame.facts.debris},
+              {"refused", r.worst_frame.facts.refused},
+              {"units", r.worst_frame.facts.units},
+              {"system", r.worst_frame.system},
+              {"system_ms", r.worst_frame.system_ms}}},
             {"hitch", r.hitch},
             {"fracture_frames",
              {{"count", r.fracture_frames.count},
@@ -112,6 +128,50 @@ std::string to_json(const Report& report) {
     for (const Json& part : {of_matter(report), of_work(report), of_time(report)}) json.update(part);
     // A file name or a mesh's name may hold bytes that are not UTF-8.
     return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+}
+
+std::string systems_table(const Report& report) {
+    std::vector<std::pair<std::string, Spread>> rows(report.systems.begin(), report.systems.end());
+    std::stable_sort(rows.begin(), rows.end(),
+                     [](const auto& a, const auto& b) { return a.second.total > b.second.total; });
+    double total = 0, rest = 0;
+    for (const auto& [name, spread] : rows) total += spread.total;
+    std::string text = fmt::format("  {:<24} {:>8} {:>8} {:>8} {:>8} {:>10} {:>6} {:>12}\n", "system, ms", "p50", "p95",
+                                   "p99", "worst", "total", "share", "rows");
+    size_t shown = 0;
+    for (const auto& [name, s] : rows) {
+        if (s.total <= 0 || (shown >= kDearest && s.total < 0.01 * total)) {
+            rest += s.total;
+            continue;
+        }
+        ++shown;
+        text += fmt::format("  {:<24} {:>8.3f} {:>8.3f} {:>8.3f} {:>8.2f} {:>10.1f} {:>4.0f} % {:>12}\n", name, s.p50,
+                            s.p95, s.p99, s.max, s.total, 100 * s.total / total, s.rows);
+    }
+    if (total > 0)
+        text += fmt::format("  {:<60} {:>10.1f} {:>4.0f} %\n", fmt::format("{} others", rows.size() - shown), rest,
+                            100 * rest / total);
+    return text;
+}
+
+std::string worst_frame_line(const Report& report) {
+    const auto& worst = report.worst_frame;
+    const FrameFacts& facts = worst.facts;
+    std::string text;
+    const auto tell = [&text](uint64_t count, const char* one, const char* many) {
+        if (count > 0) text += fmt::format("{} {}, ", count, count == 1 ? one : many);
+    };
+    tell(facts.opened, "hit opened", "hits opened");
+    tell(facts.broke, "hit broke", "hits broke");
+    tell(facts.late, "hit decided late", "hits decided late");
+    tell(facts.born, "piece born", "pieces born");
+    tell(facts.debris, "crumb", "crumbs");
+    tell(facts.refused, "refusal", "refusals");
+    tell(facts.frames_held, "body held", "bodies held");
+    if (facts.units > 0) text += fmt::format("{:.1f} million units, ", 1e-6 * static_cast<double>(facts.units));
+    if (text.empty()) text = "nothing broke, ";
+    return fmt::format("worst frame {}: {:.2f} ms: {}{:.2f} ms in {}", worst.frame, worst.ms, text, worst.system_ms,
+                       worst.system.empty() ? "no system" : worst.system);
 }
 
 Result<void> write_text(const std::string& text, const std::string& path) {

@@ -20,6 +20,17 @@ Spread spread_of(const std::vector<float>& milliseconds, uint64_t rows = 0);
 
 using Vector = std::array<double, 3>;
 
+/// What happened in one frame.
+struct FrameFacts {
+    uint64_t opened = 0, broke = 0, late = 0, frames_held = 0;  // hits
+    uint64_t born = 0, debris = 0, refused = 0, units = 0;
+
+    friend FrameFacts operator-(const FrameFacts& a, const FrameFacts& b) {
+        return {a.opened - b.opened, a.broke - b.broke,   a.late - b.late,       a.frames_held - b.frames_held,
+                a.born - b.born,     a.debris - b.debris, a.refused - b.refused, a.units - b.units};
+    }
+};
+
 /// How still a world lies at the end of a run (sample_game/rest.hpp).
 struct Rest {
     double asleep_share = 1;   // of the moving bodies
@@ -64,6 +75,13 @@ struct Report {
     std::vector<std::string> fault_list;
     Spread frame_ms;
     std::map<std::string, Spread> systems;
+    struct {
+        uint64_t frame = 0;
+        float ms = 0;
+        FrameFacts facts;
+        std::string system;  // that took most of it
+        float system_ms = 0;
+    } worst_frame;
     double hitch =
         0;  // worst frame that broke something / (median frame without damage + the budget's time); 0: none broke
     struct {
@@ -92,6 +110,12 @@ struct Report {
 
 std::string to_json(const Report& report);
 Result<void> write_text(const std::string& text, const std::string& path);
+
+/// The systems as a table: the five that took most of the run, then all others above a hundredth of it, then the rest
+/// in one line.
+std::string systems_table(const Report& report);
+/// "worst frame 41: 12.30 ms: 1 hit opened, 14 pieces born, 9.10 ms in make_births".
+std::string worst_frame_line(const Report& report);
 
 /// Processor's name, hardware threads, compiler and build.
 std::string describe_machine();

@@ -92,7 +92,10 @@ void add(Things& things, const BodyView& view) {
 
 Things gather(const GameWorld& game) {
     Things things;
-    for (const Prop& prop : game.plan().props) add(things, prop.mesh, {}, 1);
+    const float ground_height = game.stage().ground_height();
+    for (const Prop& prop : game.stage().props) add(things, prop.mesh, {}, 1);
+    for (const Mover& mover : game.stage().movers)
+        if (const Result<Pose> pose = game.world().pose(mover.body); pose.ok()) add(things, mover.mesh, *pose, 1);
     const World& world = game.world();
     const Bodies& rows = world.contents().data.state.bodies;
     std::vector<BodyId> ids(world.bodies(nullptr, 0));
@@ -114,7 +117,7 @@ Things gather(const GameWorld& game) {
             BodyRest& rest = things.rest.emplace_back();
             rest.body = id;
             rest.is_asleep = rows.is_asleep[b];
-            rest.is_through = things.solids.back().all.high.y < game.plan().ground_height;
+            rest.is_through = things.solids.back().all.high.y < ground_height;
         }
     }
     return things;

@@ -3,6 +3,7 @@
 #include <cstdio>
 #include <filesystem>
 
+#include "sample_game/film.hpp"
 #include "sample_game/run_scene.hpp"
 
 namespace cullet {
@@ -36,6 +37,7 @@ void print_summary(const Report& r) {
     fmt::print(
         "  broke        in {} frames, worst {:.2f} ms, hitch {:.2f}; {} frames worked on hits, p99 {:.2f} budgets\n",
         r.fracture_frames.count, r.fracture_frames.max_ms, r.hitch, r.damage_frames.count, r.damage_frames.p99_budgets);
+    fmt::print("{}  {}\n", systems_table(r), worst_frame_line(r));
     fmt::print("  allocations  {} in steps from frame {} on, {} of the rigid engine\n", r.allocations_in_frames,
                kFirstCountedFrame, r.allocations_in_rigid);
     for (const auto& [setting, count] : r.refused) fmt::print("  refused      {} times: raise {}\n", count, setting);
@@ -47,20 +49,21 @@ void print_files(const RunOptions& options) {
     if (options.has_sheet) fmt::print("  {}/sheet.png      twelve frames of the story in one picture\n", options.out);
     if (options.draw > 0) fmt::print("  {}/frame_*.png    every {} frames\n", options.out, options.draw);
     if (!options.out.empty()) fmt::print("  {}/report.json    what the run was like, in numbers\n", options.out);
+    if (options.has_video) fmt::print("  {}/film.mp4       the run as a film\n", options.out);
     if (!options.trace.empty())
         fmt::print("  {}      where the time went: open it in ui.perfetto.dev\n", options.trace);
 }
 
 int run_one(const Scene& scene, const RunOptions& options) {
-    const Result<Keys> keys = keys_of(scene, options);
-    if (!keys.ok()) return refuse(keys.error(), 2);
+    const ScenePlan plan = plan_scene(scene, options);
+    if (const Result<Story> story = read_story(plan); !story.ok()) return refuse(story.error(), 2);
+    if (options.has_video)
+        if (const auto found = look_for_ffmpeg(); !found.ok()) return refuse(found.error(), 2);
     std::error_code error;
     if (!options.out.empty()) std::filesystem::create_directories(options.out, error);
     if (error)
         return refuse(fmt::format("--out {}: {}; choose a folder that can be made.", options.out, error.message()), 2);
-    const Result<ScenePlan> plan = plan_scene(scene, keys.value(), options);
-    if (!plan.ok()) return refuse(plan.error(), 1);
-    const Result<Report> report = play(scene, plan.value(), options);
+    const Result<Report> report = play(plan, options);
     if (!report.ok()) return refuse(report.error(), 1);
     print_summary(report.value());
     if (!options.out.empty())
@@ -70,13 +73,18 @@ int run_one(const Scene& scene, const RunOptions& options) {
     return report.value().repeats_agree ? 0 : 1;
 }
 
+bool has_key(const Scene& scene, const std::string& assignment) {
+    const Result<Story> story = read_story(plan_scene(scene, {}));
+    return story.ok() && story->keys.has(assignment.substr(0, assignment.find('=')));
+}
+
 /// Keys that a scene does not have are another scene's.
 RunOptions for_scene(const Scene& scene, const RunOptions& options) {
     RunOptions own = options;
     own.scene = scene.name;
     own.set.clear();
     for (const std::string& assignment : options.set)
-        if (scene.keys().has(assignment.substr(0, assignment.find('=')))) own.set.push_back(assignment);
+        if (has_key(scene, assignment)) own.set.push_back(assignment);
     if (own.scene != "drop") own.mesh.clear();
     own.trace.clear();
     if (!options.out.empty()) {
@@ -90,15 +98,14 @@ RunOptions for_scene(const Scene& scene, const RunOptions& options) {
 int run_show_reel(const RunOptions& options) {
     for (const std::string& assignment : options.set) {
         bool is_known = false;
-        for (const char* name : kShowReel)
-            is_known = is_known || find_scene(name)->keys().has(assignment.substr(0, assignment.find('=')));
+        for (const char* name : kShowReel) is_known = is_known || has_key(*find_scene(name), assignment);
         if (!is_known)
             return refuse(
                 fmt::format("--set {}: no scene of the show reel has this key; --set help lists them.", assignment), 2);
     }
     for (const char* name : kShowReel) {
         const Scene& scene = *find_scene(name);
-        fmt::print("\n{}\n", scene.shows);
+        fmt::print("\n{}\n", read_story(plan_scene(scene, {})).value().shows);
         std::fflush(stdout);
         if (const int code = run_one(scene, for_scene(scene, options)); code != 0) return code;
         std::fflush(stdout);
@@ -110,14 +117,24 @@ int run_show_reel(const RunOptions& options) {
 
 int run_command(const RunOptions& options) {
     if (options.scene == "show_reel") return run_show_reel(options);
-    return run_one(*find_scene(options.scene), options);
+    const Result<Scene> scene = load_scene(options.scene);
+    if (!scene.ok()) return refuse(scene.error(), 2);
+    return run_one(scene.value(), options);
 }
 
-std::string keys_help(const std::string& scene_name) {
+Result<std::string> keys_help(const std::string& scene_name) {
+    std::vector<Scene> wanted(scenes().begin(), scenes().end());
+    if (!scene_name.empty() && scene_name != "show_reel") {
+        Result<Scene> scene = load_scene(scene_name);
+        if (!scene.ok()) return Error{scene.error()};
+        wanted = {std::move(scene).value()};
+    }
     std::string text;
-    for (const Scene& scene : scenes())
-        if (scene_name.empty() || scene_name == "show_reel" || scene_name == scene.name)
-            text += fmt::format("{}: {}\n{}\n", scene.name, scene.shows, scene.keys().help());
+    for (const Scene& scene : wanted) {
+        const Result<Story> story = read_story(plan_scene(scene, {}));
+        if (!story.ok()) return Error{story.error()};
+        text += fmt::format("{}: {}\n{}\n", scene.name, story->shows, story->keys.help());
+    }
     return text;
 }
 

@@ -5,12 +5,12 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
-#include <thread>
 
 #include "engine/hash.hpp"
 #include "sample_game/allocations.hpp"
 #include "sample_game/drawn_meshes.hpp"
 #include "sample_game/game_world.hpp"
+#include "sample_game/model_shelf.hpp"
 #include "sample_game/pictures.hpp"
 #include "sample_game/progress.hpp"
 #include "sample_game/rest.hpp"
@@ -19,10 +19,6 @@
 
 namespace cullet {
 namespace {
-
-uint32_t hardware_threads() {
-    return std::clamp(std::thread::hardware_concurrency(), 1u, 64u);
-}
 
 void watch_tables(World& world, RunRecord& record, const uint64_t& frame) {
     world.contents().after_each_system = [&world, &record, &frame,
@@ -54,27 +50,91 @@ void take_times(const Profiler& profiler, RunRecord& record) {
     }
 }
 
+/// What the world has counted since it was made.
+FrameFacts facts_so_far(GameWorld& game) {
+    const DamageCounts& counts = game.world().contents().data.counts;
+    const RunSums& sums = game.sums();
+    FrameFacts facts;
+    facts.opened = counts.opened;
+    facts.broke = counts.broke;
+    facts.late = counts.late;
+    facts.frames_held = counts.frames_held;
+    facts.born = sums.born;
+    facts.units = sums.units_used;
+    for (const auto& [name, count] : sums.events) {
+        if (name == "debris") facts.debris = count;
+        if (name == "refused") facts.refused = count;
+    }
+    return facts;
+}
+
+/// What a script still waits for when its own length is over was never looked at: that is no success.
+Result<void> check_end(const GameWorld& game, const RunOptions& options, uint32_t frames, Report& report) {
+    const std::string place = game.waits_at();
+    if (place.empty()) return {};
+    const std::string sentence =
+        fmt::format("{}: the script still waits here when the run ends after {} frames", place, frames);
+    if (options.frames == 0) return Error{sentence + "; give game.scene{seconds = ...} or --frames more."};
+    if (report.notes.empty() || report.notes.back() != sentence + ".") report.notes.push_back(sentence + ".");
+    return {};
+}
+
+void fill_run(const GameWorld& game, const ScenePlan& plan, const RunOptions& options, Report& report) {
+    const Stage& stage = game.stage();
+    const Settings settings = stage.settings();
+    report.scene = plan.scene.name;
+    report.seed = stage.seed();
+    report.dt_s = static_cast<double>(settings.step_seconds);
+    report.frames = frame_count(stage.story, options);
+    report.threads = settings.threads;
+}
+
+void fill_sums(GameWorld& game, const Matter& start, Report& report) {
+    const Matter end = measure_matter(game.world());
+    report.mass_kg = {game.mass_put_in(), end.mass, end.debris_mass};
+    report.momentum_ns.start = start.momentum;
+    report.momentum_ns.end = end.momentum;
+    report.energy_j.start = start.kinetic_energy;
+    report.energy_j.end = end.kinetic_energy;
+    report.fragments = {game.sums().born, end.fragments, end.asleep, game.world().report().debris};
+    report.awake = {end.awake, end.awake_cells};
+    report.rest = measure_rest(game, report.energy_j.peak);
+    report.events = game.sums().events;
+    report.refused = game.sums().refused;
+    report.faults = game.sums().events["fault"];
+    report.fault_list = game.sums().faults;
+    report.notes.insert(report.notes.end(), game.stage().notes.begin(), game.stage().notes.end());
+    report.units.used = game.sums().units_used;
+    report.units.most = game.sums().most_units;
+    if (!game.stage().models.empty()) report.yardsticks = measure_yardsticks(game.stage().models[0].model);
+    fill_counts(game.world(), report);
+}
+
 /// One run from the first frame to the last. Fills the report's sums, which are the same for each run.
-Result<RunRecord> play_once(const Scene& scene, const ScenePlan& plan, const RunOptions& options, uint32_t repeat,
-                            Report& report) {
+Result<RunRecord> play_once(const ScenePlan& plan, const RunOptions& options, uint32_t repeat, Report& report) {
     Result<GameWorld> made = GameWorld::create(plan);
     if (!made.ok()) return Error{made.error()};
     GameWorld& game = made.value();
+    fill_run(game, plan, options, report);
     RunRecord record;
+    record.settings = game.stage().settings();
     uint64_t frame = 0;
     if (options.validates) watch_tables(game.world(), record, frame);
-    const uint32_t frames = frame_count(scene, options);
-    Pictures pictures(scene, plan, options, frames);
+    const auto frames = static_cast<uint32_t>(report.frames);
+    Pictures pictures(game.stage().story, report.threads, options, frames);
     const Matter start = measure_matter(game.world());
     report.energy_j.peak = start.kinetic_energy;
-    Progress progress(options.repeat > 1 ? fmt::format("{}, {} of {}", scene.name, repeat + 1, options.repeat)
-                                         : scene.name);
+    Progress progress(options.repeat > 1 ? fmt::format("{}, {} of {}", report.scene, repeat + 1, options.repeat)
+                                         : report.scene);
     for (frame = 0; frame < frames; ++frame) {
         if (repeat == 0)
             if (auto drawn = pictures.take(game); !drawn.ok()) return Error{drawn.error()};
         game.before_step();
+        if (!game.failure().empty()) return Error{game.failure()};
+        const FrameFacts before = facts_so_far(game);
         step_counted(game, frame >= kFirstCountedFrame && !options.validates, record);
         game.after_step();
+        record.facts.push_back(facts_so_far(game) - before);
         record.broke.push_back(game.broke());
         record.has_damage.push_back(game.world().report().units_used > 0);
         if (options.hash == HashWhen::Every) record.hashes.push_back(game.world().hash());
@@ -92,25 +152,10 @@ Result<RunRecord> play_once(const Scene& scene, const ScenePlan& plan, const Run
     if (!options.trace.empty() && repeat + 1 == options.repeat)
         if (auto written = game.world().contents().profiler.write_trace(options.trace); !written.ok())
             return Error{written.error()};
-    if (repeat > 0) return record;
-
-    const Matter end = measure_matter(game.world());
-    report.mass_kg = {game.mass_put_in(), end.mass, end.debris_mass};
-    report.momentum_ns.start = start.momentum;
-    report.momentum_ns.end = end.momentum;
-    report.energy_j.start = start.kinetic_energy;
-    report.energy_j.end = end.kinetic_energy;
-    report.fragments = {game.born, end.fragments, end.asleep, game.world().report().debris};
-    report.awake = {end.awake, end.awake_cells};
-    report.rest = measure_rest(game, report.energy_j.peak);
-    report.events = game.events;
-    report.refused = game.refused;
-    report.faults = game.events["fault"];
-    report.fault_list = game.faults;
-    report.notes.insert(report.notes.end(), game.refusals().begin(), game.refusals().end());
-    report.units.used = game.units_used;
-    report.units.most = game.most_units;
-    fill_counts(game.world(), report);
+    if (repeat == 0) fill_sums(game, start, report);
+    game.before_step();  // what the script does at the very end: its last expectations
+    if (!game.failure().empty()) return Error{game.failure()};
+    if (auto ended = check_end(game, options, frames, report); !ended.ok()) return Error{ended.error()};
     return record;
 }
 
@@ -139,7 +184,7 @@ std::vector<float> rigid_times(const RunRecord& record) {
     return sum;
 }
 
-void fill_times(const ScenePlan& plan, const RunRecord& record, Report& report) {
+void fill_times(const RunRecord& record, Report& report) {
     report.frame_ms = spread_of(record.frame_ms);
     for (size_t z = 0; z < record.zone_names.size(); ++z)
         report.systems[record.zone_names[z]] = spread_of(record.zone_ms[z], record.zone_rows[z]);
@@ -153,14 +198,27 @@ void fill_times(const ScenePlan& plan, const RunRecord& record, Report& report) 
     }
     report.fracture_frames = {broke.size(), percentile(broke, 0.5), percentile(broke, 0.99), percentile(broke, 1)};
     report.damage_frames = {damage.size(), percentile(damage, 0.5), percentile(damage, 0.99), percentile(damage, 1), 0};
-    if (!plan.models.empty()) report.yardsticks = measure_yardsticks(plan.models[0]);
-    const double budget_ms =
-        1e-6 * static_cast<double>(plan.settings.units_a_frame) * report.yardsticks["unit_ns"] / plan.settings.threads;
+    const double budget_ms = 1e-6 * static_cast<double>(record.settings.units_a_frame) * report.yardsticks["unit_ns"] /
+                             record.settings.threads;
     report.yardsticks["budget_ms"] = budget_ms;
     if (budget_ms > 0)
         report.damage_frames.p99_budgets = static_cast<double>(percentile(damage_alone, 0.99)) / budget_ms;
     report.hitch =
         static_cast<double>(report.fracture_frames.max_ms) / (static_cast<double>(percentile(quiet, 0.5)) + budget_ms);
+}
+
+void fill_worst_frame(const RunRecord& record, Report& report) {
+    const auto worst = std::max_element(record.frame_ms.begin(), record.frame_ms.end());
+    if (worst == record.frame_ms.end() || record.facts.size() != record.frame_ms.size()) return;
+    const auto f = static_cast<size_t>(worst - record.frame_ms.begin());
+    report.worst_frame.frame = f;
+    report.worst_frame.ms = *worst;
+    report.worst_frame.facts = record.facts[f];
+    for (size_t z = 0; z < record.zone_names.size(); ++z) {
+        if (record.zone_ms[z][f] <= report.worst_frame.system_ms) continue;
+        report.worst_frame.system = record.zone_names[z];
+        report.worst_frame.system_ms = record.zone_ms[z][f];
+    }
 }
 
 void fill_hashes(const RunRecord& record, HashWhen when, Report& report) {
@@ -173,40 +231,36 @@ void fill_hashes(const RunRecord& record, HashWhen when, Report& report) {
 
 }  // namespace
 
-uint32_t frame_count(const Scene& scene, const RunOptions& options) {
+uint32_t frame_count(const Story& story, const RunOptions& options) {
     if (options.frames > 0) return options.frames;
-    return static_cast<uint32_t>(std::lround(scene.frames * (1000.0 / 60) / options.dt_ms));
+    return static_cast<uint32_t>(std::max(1l, std::lround(1000 * story.seconds / options.dt_ms)));
+}
+
+ScenePlan plan_scene(const Scene& scene, const RunOptions& options) {
+    ScenePlan plan;
+    plan.scene = scene;
+    plan.set = options.set;
+    plan.threads = options.threads;
+    plan.step_ms = options.dt_ms;
+    plan.mesh_path = options.mesh;
+    plan.model = options.model;
+    plan.shelf = std::make_shared<ModelShelf>();
+    return plan;
 }
 
 Result<Keys> keys_of(const Scene& scene, const RunOptions& options) {
-    Keys keys = scene.keys();
-    const auto set = [&keys](const std::string& assignment) { return keys.set(assignment); };
-    if (auto done = set(fmt::format("threads={}", hardware_threads())); !done.ok()) return Error{done.error()};
-    for (const std::string& assignment : options.set)
-        if (auto done = set(assignment); !done.ok()) return Error{done.error()};
-    if (options.threads > 0)
-        if (auto done = set(fmt::format("threads={}", options.threads)); !done.ok()) return Error{done.error()};
-    return keys;
+    Result<Story> story = read_story(plan_scene(scene, options));
+    if (!story.ok()) return Error{story.error()};
+    return std::move(story->keys);
 }
 
-Result<ScenePlan> plan_scene(const Scene& scene, const Keys& keys, const RunOptions& options) {
-    Progress progress(fmt::format("{}: cooking", scene.name));
-    return scene.plan({keys, options.mesh, static_cast<float>(0.001 * options.dt_ms), &Progress::cooked, &progress});
-}
-
-Result<Report> play(const Scene& scene, const ScenePlan& plan, const RunOptions& options) {
+Result<Report> play(const ScenePlan& plan, const RunOptions& options) {
     Report report;
-    report.scene = scene.name;
-    report.seed = plan.seed;
-    report.dt_s = static_cast<double>(plan.settings.step_seconds);
-    report.frames = frame_count(scene, options);
-    report.threads = plan.settings.threads;
     report.machine = describe_machine();
     report.repeats = options.repeat;
-    report.notes = plan.notes;
     RunRecord record;
     for (uint32_t repeat = 0; repeat < options.repeat; ++repeat) {
-        Result<RunRecord> played = play_once(scene, plan, options, repeat, report);
+        Result<RunRecord> played = play_once(plan, options, repeat, report);
         if (!played.ok()) return Error{played.error()};
         if (!played->first_fault.empty()) return Error{played->first_fault};
         if (repeat == 0) {
@@ -219,7 +273,8 @@ Result<Report> play(const Scene& scene, const ScenePlan& plan, const RunOptions&
     report.allocations_in_frames = record.allocations;
     report.allocations_in_rigid = record.rigid_allocations;
     fill_hashes(record, options.hash, report);
-    fill_times(plan, record, report);
+    fill_times(record, report);
+    fill_worst_frame(record, report);
     report.peak_rss_bytes = peak_resident_bytes();
     return report;
 }

@@ -1,72 +1,49 @@
-// A scene: what is cooked, what stands where, what is thrown, and from where one looks. All of it plain data, so that
-// one plan can be run again and again, on any number of threads, and be drawn.
+// A scene is a script: one of the program's own, or a file. A plan is all that it takes to play it again and again.
 #pragma once
 #include <cstdint>
+#include <memory>
 #include <span>
 #include <string>
 #include <vector>
 
-#include "cullet/world.hpp"
-#include "engine/mesh.hpp"
+#include "cullet/result.hpp"
 #include "sample_game/keys.hpp"
-#include "sample_game/picture.hpp"
 
 namespace cullet {
 
-/// How a kind of body looks. Bodies carry its place in ScenePlan::looks as their user data; fragments inherit it.
-struct Look {
-    float opacity = 1, gloss = 0.25f;
+class ModelShelf;
+
+struct Scene {
+    std::string name;  // "vase", or the path of a file
+    std::string file;  // as errors name it: "vase.lua"
+    std::string text;
 };
 
-/// A body of a cooked model.
-struct Spawn {
-    uint32_t model = 0;  // in ScenePlan::models
-    SpawnSettings settings;
-    std::vector<Box> pins;
-    uint64_t frame = 0;  // before this step
-};
+/// The program's own (sample_game/scenes/*.lua).
+std::span<const Scene> scenes();
+const Scene* find_scene(const std::string& name);
+/// One of the program's own by its name, or a file that ends in .lua.
+Result<Scene> load_scene(const std::string& name);
 
-/// Something that never moves: met by all, drawn in one colour.
-struct Prop {
-    Mesh mesh;  // world coordinates
-    ContactSettings contact;
-    Vec3 colour{0.45f, 0.42f, 0.38f};
+/// What a script says of itself before it does anything.
+struct Story {
+    std::string shows;                   // a sentence: what is seen
+    double seconds = 10;                 // a run's length
+    bool has_length = false;             // the script gave one
+    std::vector<uint32_t> sheet_frames;  // twelve, at 60 steps a second, that tell it
+    Keys keys;                           // with --set and --threads applied
 };
 
 struct ScenePlan {
-    Settings settings;
-    uint64_t seed = 1;  // of places, turns, strengths and generated meshes
-    Camera camera;
-    Sun sun;
-    float ground_height = 0;      // m, of the drawn ground
-    std::vector<Look> looks{{}};  // 0: everything that no other was asked for
-    std::vector<Model> models;
-    std::vector<Prop> props;
-    std::vector<Spawn> spawns;  // in order of frame
-    std::vector<SphereSettings> balls;
-    uint32_t fragments_wanted = 0;   // > 0: no more spawns once so many fragments live
-    std::vector<std::string> notes;  // what a person should know, a sentence each
+    Scene scene;
+    std::vector<std::string> set;  // KEY=VALUE
+    uint32_t threads = 0;          // 0: all that the machine has, or the key's
+    double step_ms = 1000.0 / 60;
+    std::string mesh_path, model;       // of --mesh and --model; empty: the script's own
+    std::shared_ptr<ModelShelf> shelf;  // what its runs have cooked
 };
 
-/// What the command line gives to a scene.
-struct SceneInput {
-    const Keys& keys;
-    std::string mesh_path;  // empty: the scene's own
-    float step_seconds = 1.0f / 60.0f;
-    void (*progress)(void* user, float share) = nullptr;  // of cooking
-    void* progress_user = nullptr;
-};
-
-struct Scene {
-    const char* name;
-    const char* shows;                       // a sentence: what is seen
-    uint32_t frames;                         // a run's length at 60 steps a second
-    std::span<const uint32_t> sheet_frames;  // twelve frames that tell the story
-    Keys (*keys)();
-    Result<ScenePlan> (*plan)(const SceneInput& input);
-};
-
-std::span<const Scene> scenes();
-const Scene* find_scene(const std::string& name);
+/// Runs the script as far as its declarations go. Refuses a --set that names none of its keys.
+Result<Story> read_story(const ScenePlan& plan);
 
 }  // namespace cullet

@@ -5,7 +5,7 @@ set -euo pipefail
 packages=(
     g++ cmake ninja-build ccache pkg-config
     libeigen3-dev libbullet-dev libembree-dev libtbb-dev libhwy-dev libxxhash-dev
-    libassimp-dev libcli11-dev nlohmann-json3-dev libfmt-dev libpng-dev
+    libassimp-dev libcli11-dev nlohmann-json3-dev libfmt-dev libpng-dev liblua5.4-dev
     libgtest-dev
 )
 

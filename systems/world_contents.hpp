@@ -26,7 +26,7 @@ struct World::Contents {
     FramePlan<WorldData> plan;
     HostLog log;
     struct Counters {
-        uint32_t units = 0, open_tasks = 0, births = 0;
+        uint32_t units_used = 0, units_left = 0, open_tasks = 0, births = 0, holds = 0, refusals = 0;
     } counters;  // in the trace
     /// Their values of the step that ends.
     void count();

@@ -24,17 +24,26 @@ World::Contents::Contents(const Settings& s, const Host& h, std::unique_ptr<Rigi
     data.damage_loop = std::make_unique<DamageLoop>(data.state, *jobs, profiler);
     plan = make_frame_plan(hosted != nullptr, [this] { return data.damage_loop->describe(); });
     plan.finish(profiler);
-    counters = {profiler.add_counter("units"), profiler.add_counter("open tasks"), profiler.add_counter("births")};
+    counters = {profiler.add_counter("units used"), profiler.add_counter("units left"),
+                profiler.add_counter("open tasks"), profiler.add_counter("births"),
+                profiler.add_counter("holds"),      profiler.add_counter("refusals")};
 }
 World::Contents::~Contents() = default;
 
 void World::Contents::count() {
-    uint32_t open = 0;
-    for (uint32_t t = 0; t < data.state.tasks.size(); ++t)
-        open += static_cast<TaskState>(data.state.tasks.state[t]) != TaskState::Free;
-    profiler.count(counters.units, data.counts.units_used);
+    const Tasks& tasks = data.state.tasks;
+    uint32_t open = 0, held = 0;
+    for (uint32_t t = 0; t < tasks.size(); ++t) {
+        const bool is_open = static_cast<TaskState>(tasks.state[t]) != TaskState::Free;
+        open += is_open;
+        held += is_open && tasks.is_held[t];
+    }
+    profiler.count(counters.units_used, data.counts.units_used);
+    profiler.count(counters.units_left, data.counts.units_left);
     profiler.count(counters.open_tasks, open);
     profiler.count(counters.births, data.born_events.size());
+    profiler.count(counters.holds, held);
+    profiler.count(counters.refusals, data.refused_events.size());
 }
 
 World::World(std::unique_ptr<Contents> contents) : contents_(std::move(contents)) {}

@@ -35,13 +35,13 @@ void DamageLoop::advance() {
         parallel_for(jobs_, workers, [&](uint32_t worker) {
             const uint64_t start = now_ns();
             team.work(worker);
-            profiler_.add_span(zone_, worker, start, now_ns());
+            profiler_.add_span(zone_, start, now_ns());
         });
     }
     parallel_for(jobs_, alone_count, [&](uint32_t i) {
         const uint64_t start = now_ns();
         brittle_.run_alone(world_, run_of(alone[i]));
-        profiler_.add_span(zone_, i % workers, start, now_ns());
+        profiler_.add_span(zone_, start, now_ns());
     });
 }
 

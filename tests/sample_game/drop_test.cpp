@@ -8,7 +8,6 @@
 #include "sample_game/drawn_meshes.hpp"
 #include "sample_game/game_world.hpp"
 #include "sample_game/run_scene.hpp"
-#include "sample_game/scenes/scenes.hpp"
 #include "systems/world_contents.hpp"
 
 namespace cullet {
@@ -29,10 +28,10 @@ TEST_P(DropMesh, BreaksKeepsItsMassAndIsNeverLate) {
     options.scene = drop.name;
     options.mesh = path;
     options.threads = 2;
-    const Result<ScenePlan> plan = plan_scene(drop, keys_of(drop, options).value(), options);
-    ASSERT_TRUE(plan.ok()) << plan.error();
-    Result<GameWorld> game = GameWorld::create(plan.value());
+    Result<GameWorld> game = GameWorld::create(plan_scene(drop, options));
     ASSERT_TRUE(game.ok()) << game.error();
+    const ModelReport& model = game->stage().models[0].model.report();
+    const std::vector<std::string>& notes = game->stage().notes;
     DrawnMeshes drawn;
     for (uint32_t frame = 0; frame < 120; ++frame) {
         game->before_step();
@@ -45,20 +44,19 @@ TEST_P(DropMesh, BreaksKeepsItsMassAndIsNeverLate) {
                          tasks.frames_held[t] > 0)
                 << "frame " << frame << ": the hold of task " << t << " ended before its hit";
     }
-    EXPECT_GT(game->born, 0u);
+    EXPECT_GT(game->sums().born, 0u);
     EXPECT_NEAR(measure_matter(game->world()).mass, game->mass_put_in(), 1e-6 * game->mass_put_in());
-    EXPECT_EQ(game->events["fault"], 0u);
+    EXPECT_EQ(game->sums().events["fault"], 0u);
     const DamageCounts& counts = game->world().contents().data.counts;
     EXPECT_GT(counts.broke, 0u);
     // Bumps below the speed of the first crack are never held, so what they break of a cracked piece comes late.
     std::printf("%llu late, all of them bumps that are never held\n", static_cast<unsigned long long>(counts.late));
-    EXPECT_LE(game->units_used, counts.opened * plan->models[0].report().units_of_a_hit);
+    EXPECT_LE(game->sums().units_used, counts.opened * model.units_of_a_hit);
     std::printf("%s: %llu born, %.1f million units used in %llu tasks of %.1f predicted\n", GetParam(),
-                static_cast<unsigned long long>(game->born), 1e-6 * static_cast<double>(game->units_used),
-                static_cast<unsigned long long>(counts.opened),
-                1e-6 * static_cast<double>(plan->models[0].report().units_of_a_hit));
+                static_cast<unsigned long long>(game->sums().born), 1e-6 * static_cast<double>(game->sums().units_used),
+                static_cast<unsigned long long>(counts.opened), 1e-6 * static_cast<double>(model.units_of_a_hit));
     // One note on the budget, not two that contradict each other.
-    const auto budget_notes = std::count_if(plan->notes.begin(), plan->notes.end(), [](const std::string& note) {
+    const auto budget_notes = std::count_if(notes.begin(), notes.end(), [](const std::string& note) {
         return note.find("units_a_frame") != std::string::npos;
     });
     EXPECT_LE(budget_notes, 1);

@@ -59,7 +59,8 @@ TEST(Options, WhatMakesNoSenseIsRefusedInOneSentence) {
         {"run", "wall", "--threads", "0"},
         {"run", "wall", "--repeat", "0"},
         {"run", "wall", "--hash", "sometimes"},
-        {"run", "wall", "--mesh", "cow.obj"},
+        {"run", "wall", "--model", "metal_shell"},
+        {"run", "wall", "--video"},
         {"run", "wall", "--draw", "10"},
         {"run", "wall", "--contact-sheet"},
         {"run", "wall", "--nonsense"},
@@ -84,7 +85,7 @@ TEST(Options, HelpIsNoError) {
 
 TEST(Options, SetHelpListsTheKeysOfAllScenesOrOfOne) {
     EXPECT_EQ(parse_options({"run", "--set", "help"}).value().command, Command::KeysHelp);
-    const std::string all = keys_help(""), wall = keys_help("wall");
+    const std::string all = keys_help("").value(), wall = keys_help("wall").value();
     for (const char* key :
          {"scene.speed_mps", "scene.height_m", "scene.edge_m", "scene.seed", "scene.thickness_m", "scene.material",
           "scene.size_m", "scene.strength_scale", "units_a_frame", "hold_s", "threads"})

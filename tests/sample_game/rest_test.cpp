@@ -27,15 +27,13 @@ TEST_P(SceneRest, TenSecondsAfterTheStartNearlyAllSleepAndNothingSinksHoversOrFa
     options.frames = kFrames;
     options.hash = HashWhen::Off;
     const Scene& scene = *find_scene(options.scene);
-    const Result<ScenePlan> plan = plan_scene(scene, keys_of(scene, options).value(), options);
-    ASSERT_TRUE(plan.ok()) << plan.error();
-    const Result<Report> report = play(scene, plan.value(), options);
+    const Result<Report> report = play(plan_scene(scene, options), options);
     ASSERT_TRUE(report.ok()) << report.error();
     const Rest& rest = report->rest;
     std::printf(
         "%s: %.1f %% asleep, kinetic share %.2g, sink %.2f and %.2f mm, into each other %.2f and %.2f mm, hover %.2f "
         "mm\n",
-        scene.name, 100 * rest.asleep_share, rest.kinetic_share, rest.sink_p95_mm, rest.sink_max_mm,
+        scene.name.c_str(), 100 * rest.asleep_share, rest.kinetic_share, rest.sink_p95_mm, rest.sink_max_mm,
         rest.overlap_p95_mm, rest.overlap_max_mm, rest.hover_max_mm);
     EXPECT_GT(rest.measured, 3u);
     EXPECT_GE(rest.asleep_share, 0.95);

@@ -31,9 +31,7 @@ const ScenePlan& plan_of(const Scene& scene) {
     RunOptions options;
     options.scene = scene.name;
     options.threads = 2;
-    Result<ScenePlan> plan = plan_scene(scene, keys_of(scene, options).value(), options);
-    EXPECT_TRUE(plan.ok()) << plan.error();
-    return plans[scene.name] = std::move(plan).value();
+    return plans[scene.name] = plan_scene(scene, options);
 }
 
 class EveryScene : public testing::TestWithParam<Scene> {};
@@ -76,12 +74,12 @@ struct OddJobs {
 
 TEST_P(EveryScene, HashesAreEqualOnOneTwoAndThreeThreads) {
     ScenePlan plan = plan_of(GetParam());
-    plan.settings.threads = 1;
+    plan.threads = 1;
     const std::vector<uint64_t> one = hashes_of(plan);
     ASSERT_EQ(one.size(), kFrames);
     EXPECT_NE(one.front(), one.back());
     for (const uint32_t threads : {2u, 3u}) {
-        plan.settings.threads = threads;
+        plan.threads = threads;
         EXPECT_EQ(difference(one, hashes_of(plan)), "") << threads << " threads";
     }
     for (const bool is_random : {false, true}) {
@@ -96,10 +94,10 @@ TEST_P(EveryScene, HashesAreEqualOnOneTwoAndThreeThreads) {
 
 TEST_P(EveryScene, TwoWorldsSteppedOnTwoThreadsAtOnceDoNotMeet) {
     ScenePlan plan = plan_of(GetParam());
-    plan.settings.threads = 1;
+    plan.threads = 1;
     const std::vector<uint64_t> alone = hashes_of(plan);
     ScenePlan with_workers = plan;
-    with_workers.settings.threads = 2;
+    with_workers.threads = 2;
     std::vector<uint64_t> beside;
     std::thread other([&] { beside = hashes_of(with_workers); });
     const std::vector<uint64_t> here = hashes_of(plan);
@@ -123,24 +121,26 @@ TEST_P(EveryScene, SomethingBreaksNothingIsLostAndNoMemoryIsAskedFor) {
         ASSERT_EQ(game->world().contents().data.state.validate(), "") << "frame " << frame;
         ASSERT_EQ(drawn.check_changed(game->world()), "") << "frame " << frame;
     }
-    EXPECT_GE(drawn.checked(), game->born);
+    EXPECT_GE(drawn.checked(), game->sums().born);
     EXPECT_EQ(counts.ours, 0u);
-    EXPECT_GT(game->born, 0u);
-    EXPECT_EQ(game->events["fault"], 0u) << (game->faults.empty() ? "" : game->faults[0]);
-    EXPECT_EQ(game->events["refused"], 0u);
+    EXPECT_GT(game->sums().born, 0u);
+    EXPECT_EQ(game->sums().events["fault"], 0u) << (game->sums().faults.empty() ? "" : game->sums().faults[0]);
+    EXPECT_EQ(game->sums().events["refused"], 0u);
     const Matter matter = measure_matter(game->world());
     EXPECT_NEAR(matter.mass, game->mass_put_in(), 1e-6 * game->mass_put_in());
 }
 
 INSTANTIATE_TEST_SUITE_P(Scenes, EveryScene, testing::ValuesIn(scenes().begin(), scenes().end()),
-                         [](const auto& scene) { return std::string(scene.param.name); });
+                         [](const auto& scene) { return scene.param.name; });
 
 TEST(Scenes, TheBudgetOfDropIsRaisedUntilAHitFitsAHold) {
     const Scene& drop = *find_scene("drop");
-    const ScenePlan& plan = plan_of(drop);
-    const double frames = std::floor(plan.settings.hold_seconds / plan.settings.step_seconds + 1e-3f);
-    EXPECT_GE(static_cast<double>(plan.settings.units_a_frame) * frames,
-              static_cast<double>(plan.models[0].report().units_of_a_hit));
+    const Result<GameWorld> game = GameWorld::create(plan_of(drop));
+    ASSERT_TRUE(game.ok()) << game.error();
+    const Settings settings = game->stage().settings();
+    const double frames = std::floor(settings.hold_seconds / settings.step_seconds + 1e-3f);
+    EXPECT_GE(static_cast<double>(settings.units_a_frame) * frames,
+              static_cast<double>(game->stage().models[0].model.report().units_of_a_hit));
 }
 
 TEST(Scenes, AnInfiniteStrengthNeverBreaks) {
@@ -148,13 +148,11 @@ TEST(Scenes, AnInfiniteStrengthNeverBreaks) {
     options.scene = "pane";
     options.set = {"scene.strength_scale=inf"};
     const Scene& pane = *find_scene("pane");
-    Result<ScenePlan> plan = plan_scene(pane, keys_of(pane, options).value(), options);
-    ASSERT_TRUE(plan.ok()) << plan.error();
-    Result<GameWorld> game = GameWorld::create(plan.value());
+    Result<GameWorld> game = GameWorld::create(plan_scene(pane, options));
     ASSERT_TRUE(game.ok());
     for (uint32_t frame = 0; frame < 60; ++frame) game->before_step(), game->step(), game->after_step();
-    EXPECT_EQ(game->born, 0u);
-    EXPECT_EQ(game->events["crack_started"], 0u);
+    EXPECT_EQ(game->sums().born, 0u);
+    EXPECT_EQ(game->sums().events["crack_started"], 0u);
 }
 
 }  // namespace

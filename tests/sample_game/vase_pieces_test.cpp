@@ -25,8 +25,7 @@ Ending play_vase(uint32_t seed) {
     options.scene = "vase";
     options.threads = 2;
     options.set = {"scene.seed=" + std::to_string(seed)};
-    const Scene& vase = *find_scene("vase");
-    const ScenePlan plan = std::move(plan_scene(vase, keys_of(vase, options).value(), options)).value();
+    const ScenePlan plan = plan_scene(*find_scene("vase"), options);
     GameWorld game = std::move(GameWorld::create(plan)).value();
     for (uint32_t frame = 0; frame < kFrames; ++frame) game.before_step(), game.step(), game.after_step();
     const Bodies& bodies = game.world().contents().data.state.bodies;
@@ -37,7 +36,7 @@ Ending play_vase(uint32_t seed) {
         ending.pieces += share > kLeastShare;
         ending.largest = std::max(ending.largest, share);
     }
-    EXPECT_EQ(game.events["fault"], 0u);
+    EXPECT_EQ(game.sums().events["fault"], 0u);
     return ending;
 }
 

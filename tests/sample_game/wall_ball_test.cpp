@@ -20,10 +20,7 @@ ScenePlan plan_wall(std::vector<std::string> set) {
     options.scene = "wall";
     options.threads = 2;
     options.set = std::move(set);
-    const Scene& wall = *find_scene("wall");
-    Result<ScenePlan> plan = plan_scene(wall, keys_of(wall, options).value(), options);
-    EXPECT_TRUE(plan.ok()) << plan.error();
-    return std::move(plan).value();
+    return plan_scene(*find_scene("wall"), options);
 }
 
 State& state_of(GameWorld& game) {
@@ -56,7 +53,7 @@ TEST(WallBall, GoesThroughTheWallAtTenMetresASecondAndStaysBeyond) {
             if (is_beyond && beyond_since == 0) beyond_since = frame;
             if (!is_beyond) beyond_since = 0;
         }
-        EXPECT_GT(game.born, 3u) << seed;
+        EXPECT_GT(game.sums().born, 3u) << seed;
         EXPECT_GT(beyond_since, 0u) << seed << ": the ball ends at z = " << bodies.position[ball].z;
         EXPECT_LT(beyond_since, 120u) << seed;
     }
@@ -71,12 +68,12 @@ TEST(WallBall, BouncesFromTheWholeWallAtSeventyCentimetresASecond) {
     const BodyId id{ball, bodies.generation[ball]};
     ASSERT_TRUE(game.world().set_motion(id, {{0, 0, -0.7f}, {}}).ok());  // level
     for (uint32_t frame = 0; frame < 200; ++frame) step(game);
-    EXPECT_GT(game.events["impact"], 0u);
+    EXPECT_GT(game.sums().events["impact"], 0u);
     EXPECT_GT(bodies.velocity[ball].z, 0.05f);
     EXPECT_LT(bodies.velocity[ball].z, 0.7f);
     EXPECT_GT(bodies.position[ball].z, kBallRadius);
-    EXPECT_EQ(game.born, 0u);
-    EXPECT_EQ(game.events["crack_started"], 0u);
+    EXPECT_EQ(game.sums().born, 0u);
+    EXPECT_EQ(game.sums().events["crack_started"], 0u);
 }
 
 /// Watches one hit, one hidden step a frame: what the foot takes is summed from the springs' forces on the pinned
@@ -136,8 +133,7 @@ struct HitLedger {
 };
 
 TEST(WallBall, TheMomentumThatItLosesIsWhatPiecesAndFootReceive) {
-    ScenePlan plan = plan_wall({"gravity_mps2=0"});
-    plan.settings.units_a_frame = 1000;  // one step a frame
+    const ScenePlan plan = plan_wall({"gravity_mps2=0", "units_a_frame=1000"});  // one step a frame
     Result<GameWorld> created = GameWorld::create(plan);
     ASSERT_TRUE(created.ok()) << created.error();
     GameWorld& game = created.value();

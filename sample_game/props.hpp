@@ -1,0 +1,37 @@
+// What stands still in a scene, and the small geometry of placing things.
+#pragma once
+#include "cullet/world.hpp"
+#include "engine/mesh.hpp"
+
+namespace cullet {
+
+/// Something that never moves: met by all, drawn in one colour.
+struct Prop {
+    Mesh mesh;  // world coordinates
+    ContactSettings contact;
+    Vec3 colour{0.45f, 0.42f, 0.38f};
+    bool is_ground = false;  // drawn as the ground with its grid, at its upper side
+};
+
+MeshView view_of(const Mesh& mesh);
+/// A box between two corners.
+Prop box_prop(Vec3 low, Vec3 high, Vec3 colour);
+/// A floor around the origin with its upper side at y = height.
+Prop floor_prop(float half_side = 30, float height = 0);
+
+Mesh moved(Mesh mesh, Vec3 by);
+struct Extent {
+    Vec3 low, high;
+};
+Extent extent_of(const Mesh& mesh);
+/// Scaled so that its largest side is `size`, with the middle of its box at the origin. False for a mesh of no extent.
+bool fit(Mesh& mesh, float size);
+
+/// In [-1, 1), by the seed and a number of the place where it is used.
+double seeded(uint64_t seed, uint32_t number);
+/// A turn by `angle` rad about `axis`.
+Quat turn(Vec3 axis, double angle);
+/// Any turn, all alike, from three numbers of seeded().
+Quat any_turn(uint64_t seed, uint32_t first_number);
+
+}  // namespace cullet

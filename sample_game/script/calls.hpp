@@ -1,0 +1,46 @@
+// What a script may call: globals wait, at, every, and the table game.
+#pragma once
+#include <cstdint>
+#include <string>
+
+#include "cullet/world.hpp"
+#include "engine/mesh.hpp"
+
+struct lua_State;
+
+namespace cullet {
+
+struct Stage;
+
+/// Adds all of them.
+void open_calls(lua_State* lua);
+
+// Each adds its own to the table on top of the stack.
+void open_declarations(lua_State* lua);  // scene, key, shell_keys, setting ...
+void open_meshes(lua_State* lua);        // mesh.vase ...
+void open_bodies(lua_State* lua);        // cook, spawn, throw, kinematic, and what a body can be asked
+void open_surroundings(lua_State* lua);  // floor, box, static, camera, sun
+void open_queries(lua_State* lua);       // expect, fragments, mass, random ...
+
+/// A mesh as a script holds it.
+struct ScriptMesh {
+    Mesh mesh;
+    bool has_own_edges = false;  // made here, with the edges that were asked for
+};
+ScriptMesh& mesh_at(lua_State* lua, int place, const std::string& what);
+void push_mesh(lua_State* lua, ScriptMesh mesh);
+
+/// The place in Stage::models of what game.cook returned.
+uint32_t cooked_at(lua_State* lua, int place, const std::string& what);
+
+void push_body(lua_State* lua, BodyId id);
+/// Null when the value is no body.
+BodyId* body_at(lua_State* lua, int place);
+
+/// The world, made if it is not there; a refusal of the settings ends the script.
+World& world_of(lua_State* lua, const char* call);
+
+/// Pushes the n-th event of that name as a table; false when there is none, and pushes nothing.
+bool push_event(lua_State* lua, const World& world, const std::string& event, uint32_t n);
+
+}  // namespace cullet

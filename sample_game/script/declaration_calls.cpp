@@ -1,0 +1,193 @@
+// game.scene, key, shell_keys, setting: what a script says before it does anything; --set help and a scene's list are
+// made from it. at_least and fit_budget raise what a script cannot do without.
+#include <fmt/format.h>
+
+#include <cmath>
+#include <lua.hpp>
+
+#include "sample_game/script/arguments.hpp"
+#include "sample_game/script/calls.hpp"
+#include "sample_game/script/script.hpp"
+
+namespace cullet {
+namespace {
+
+constexpr Wanted kAny{"a number", -HUGE_VAL, HUGE_VAL};
+
+/// Refuses a declaration that comes after something was done.
+Story& story_of(lua_State* lua, const char* call) {
+    Script& script = script_of(lua);
+    if (script.has_acted())
+        refuse(lua, fmt::format("{}: this is a declaration; it goes before all calls that do something", call));
+    return script.stage().story;
+}
+
+void push_key(lua_State* lua, const Keys& keys, const std::string& name) {
+    for (const Key& key : keys.all())
+        if (key.name == name && key.choices.empty())
+            lua_pushnumber(lua, key.value);
+        else if (key.name == name)
+            lua_pushstring(lua, key.word.c_str());
+}
+
+int scene(lua_State* lua) {
+    Story& story = story_of(lua, "game.scene");
+    const Arguments given(lua, "game.scene", {"shows", "seconds", "sheet"});
+    story.shows = given.word("shows", "a sentence", "");
+    story.has_length = given.has("seconds");
+    story.seconds = given.number("seconds", {"seconds above 0, at most 10000", 1e-3, 1e4}, story.seconds);
+    given.push("sheet");
+    if (lua_isnil(lua, -1)) return 0;
+    if (!lua_istable(lua, -1)) given.refuse_value("sheet", "a list of frames, such as {0, 10, 60}");
+    for (lua_Integer n = 1; lua_rawgeti(lua, -1, n) != LUA_TNIL; ++n, lua_pop(lua, 1)) {
+        if (!lua_isinteger(lua, -1) || lua_tointeger(lua, -1) < 0 || n > 12)
+            given.refuse(fmt::format("sheet has {} at place {}; expected at most 12 whole frames from 0 on",
+                                     describe(lua, -1), n));
+        story.sheet_frames.push_back(static_cast<uint32_t>(lua_tointeger(lua, -1)));
+    }
+    return 0;
+}
+
+bool is_key_name(const std::string& name) {
+    return !name.empty() && name.find_first_not_of("abcdefghijklmnopqrstuvwxyz_.0123456789") == std::string::npos;
+}
+
+int key(lua_State* lua) {
+    Keys& keys = story_of(lua, "game.key").keys;
+    const Arguments given(lua, "game.key", {"name", "default", "unit", "least", "most", "choices", "text"});
+    const std::string name = given.word("name", "a name such as \"scene.speed_mps\"");
+    if (!is_key_name(name)) given.refuse_value("name", "small letters, digits, _ and dots");
+    if (keys.has(name)) given.refuse(fmt::format("there is a key {} already", name));
+    const std::string text = given.word("text", "a few words on what it is", "");
+    if (given.has("choices")) {
+        const std::string choices = given.word("choices", "words with commas, such as \"glass, brick\"");
+        keys.word(name, given.word("default", "one of the choices"), choices, text);
+    } else {
+        const double least = given.number("least", kAny, -HUGE_VAL), most = given.number("most", kAny, HUGE_VAL);
+        const double value = given.number("default", {"a number from least to most", least, most});
+        keys.number(name, given.word("unit", "a unit such as \"m/s\"", "1"), value, least, most, text);
+    }
+    script_of(lua).apply_set(lua, name);
+    push_key(lua, keys, name);
+    return 1;
+}
+
+/// What every scene asks about the thing that breaks in it.
+int shell_keys(lua_State* lua) {
+    Keys& keys = story_of(lua, "game.shell_keys").keys;
+    const Arguments given(lua, "game.shell_keys", {"material", "thickness", "edge"});
+    if (keys.has("scene.material")) given.refuse("these keys are there already");
+    keys.word("scene.material", given.word("material", "a material", "porcelain"), "glass, porcelain, brick, concrete",
+              "what breaks")
+        .number("scene.thickness_m", "m", given.number("thickness", kLength, 0.005), 1e-4, 1, "of the shell")
+        .number("scene.edge_m", "m", given.number("edge", {"a length in m from 0 to 1", 0, 1}, 0), 0, 1,
+                "edge length of the mesh; 0: what cooking chooses")
+        .number("scene.strength_scale", "1", 1, 1e-3, HUGE_VAL, "on the material's strength; inf never cracks");
+    lua_newtable(lua);
+    const std::pair<const char*, const char*> names[] = {{"scene.material", "material"},
+                                                         {"scene.thickness_m", "thickness"},
+                                                         {"scene.edge_m", "edge"},
+                                                         {"scene.strength_scale", "strength_scale"}};
+    for (const auto& [name, short_name] : names) {
+        script_of(lua).apply_set(lua, name);
+        push_key(lua, keys, name);
+        lua_setfield(lua, -2, short_name);
+    }
+    return 1;
+}
+
+/// Names of LimitSettings and where they stand.
+struct LimitName {
+    const char* name;
+    uint32_t LimitSettings::*value;
+};
+constexpr LimitName kLimits[] = {
+    {"bodies", &LimitSettings::bodies},       {"models", &LimitSettings::models},
+    {"vertices", &LimitSettings::vertices},   {"elements", &LimitSettings::elements},
+    {"open_hits", &LimitSettings::open_hits}, {"view_vertices", &LimitSettings::view_vertices},
+    {"debris", &LimitSettings::debris},       {"queued_hits", &LimitSettings::queued_hits}};
+
+void set_limits(lua_State* lua, const Arguments& given, LimitSettings& limits) {
+    if (!given.has("limits")) return;
+    given.push("limits");
+    const Arguments parts(
+        lua, "game.setting.limits",
+        {"bodies", "models", "vertices", "elements", "open_hits", "view_vertices", "debris", "queued_hits"}, false,
+        lua_gettop(lua));
+    for (const LimitName& limit : kLimits)
+        limits.*limit.value = static_cast<uint32_t>(
+            parts.number(limit.name, {"a whole number from 1 to 268435456", 1, 268435456}, limits.*limit.value));
+    lua_pop(lua, 1);
+}
+
+constexpr std::initializer_list<const char*> kSettings = {
+    "units_a_frame", "hold_s", "generations", "debris_share", "debris_elements", "gravity_mps2", "limits"};
+
+Stage& stage_without_world(lua_State* lua, const char* call) {
+    Stage& stage = script_of(lua).stage();
+    if (stage.world)
+        refuse(lua, fmt::format("{}: the world stands already; set it before anything is put into it", call));
+    return stage;
+}
+
+double setting_of(const Arguments& given, const Keys& keys, const char* name) {
+    for (const Key& key : keys.all())
+        if (key.name == name) {
+            const std::string text = fmt::format("a number from {} to {}", key.least, key.most);
+            return given.number(name, {text.c_str(), key.least, key.most});
+        }
+    return 0;
+}
+
+int setting(lua_State* lua) {
+    Stage& stage = stage_without_world(lua, "game.setting");
+    const Arguments given(lua, "game.setting", kSettings);
+    for (const char* name : kSettings) {
+        if (!given.has(name) || std::string(name) == "limits") continue;
+        const double value = setting_of(given, stage.story.keys, name);
+        if (!script_of(lua).is_given(name)) stage.story.keys.put(name, value);
+    }
+    set_limits(lua, given, stage.limits);
+    return 0;
+}
+
+int at_least(lua_State* lua) {
+    Stage& stage = stage_without_world(lua, "game.at_least");
+    const Arguments given(lua, "game.at_least", {"units_a_frame", "hold_s"});
+    for (const char* name : {"units_a_frame", "hold_s"})
+        if (given.has(name))
+            stage.story.keys.put(name, std::max(stage.story.keys[name], setting_of(given, stage.story.keys, name)));
+    return 0;
+}
+
+/// A blow that does not fit a hold ends late: raises the budget until the predicted one fits, and says so in place of
+/// cooking's advice to do that.
+int fit_budget(lua_State* lua) {
+    script_of(lua).act(lua);
+    Stage& stage = stage_without_world(lua, "game.fit_budget");
+    const ModelReport& report = stage.models[cooked_at(lua, 1, "game.fit_budget")].model.report();
+    const Settings settings = stage.settings();
+    const double frames = std::floor(static_cast<double>(settings.hold_seconds / settings.step_seconds) + 1e-3);
+    const auto hit = static_cast<double>(report.units_of_a_hit);
+    if (frames < 1) return 0;
+    const auto wanted = static_cast<uint64_t>(1.1 * hit / frames);
+    if (wanted <= settings.units_a_frame) return 0;
+    std::erase(stage.notes, report.advice);
+    stage.notes.push_back(fmt::format(
+        "A hit on this mesh takes {:.0f} million units: units_a_frame was raised from {:.1f} to {:.1f} "
+        "million so that it fits a hold of {:.0f} frames.",
+        1e-6 * hit, 1e-6 * static_cast<double>(settings.units_a_frame), 1e-6 * static_cast<double>(wanted), frames));
+    stage.story.keys.put("units_a_frame", static_cast<double>(wanted));
+    return 0;
+}
+
+}  // namespace
+
+void open_declarations(lua_State* lua) {
+    static constexpr luaL_Reg calls[] = {{"scene", scene},     {"key", key},           {"shell_keys", shell_keys},
+                                         {"setting", setting}, {"at_least", at_least}, {"fit_budget", fit_budget},
+                                         {nullptr, nullptr}};
+    luaL_setfuncs(lua, calls, 0);
+}
+
+}  // namespace cullet

@@ -1,0 +1,162 @@
+// game.mesh: shapes made from numbers, and those of files.
+#include <fmt/format.h>
+
+#include <filesystem>
+#include <lua.hpp>
+#include <new>
+
+#include "sample_game/import_model.hpp"
+#include "sample_game/meshes.hpp"
+#include "sample_game/script/arguments.hpp"
+#include "sample_game/script/calls.hpp"
+#include "sample_game/script/script.hpp"
+
+namespace cullet {
+namespace {
+
+constexpr const char* kMeshName = "mesh";
+constexpr Wanted kEdge{"an edge length in m from 0.0005 to 1", 0.0005, 1};
+constexpr Wanted kSide{"a length in m from 0.001 to 1000", 1e-3, 1e3};
+
+uint64_t seed_of(lua_State* lua, const Arguments& given) {
+    const auto otherwise = static_cast<double>(script_of(lua).stage().seed());
+    return static_cast<uint64_t>(given.number("seed", {"a whole number from 0 to 1e15", 0, 1e15}, otherwise));
+}
+
+int made(lua_State* lua, Mesh mesh) {
+    push_mesh(lua, {std::move(mesh), true});
+    return 1;
+}
+
+int vase(lua_State* lua) {
+    script_of(lua).act(lua);
+    const Arguments given(lua, "game.mesh.vase", {"height", "edge", "seed"}, true);
+    return made(lua,
+                make_vase(given.real("height", kSide, 0.3), given.real("edge", kEdge, 0.0075), seed_of(lua, given)));
+}
+
+int piggy_bank(lua_State* lua) {
+    script_of(lua).act(lua);
+    const Arguments given(lua, "game.mesh.piggy_bank", {"length", "edge", "seed"}, true);
+    return made(
+        lua, make_piggy_bank(given.real("length", kSide, 0.4), given.real("edge", kEdge, 0.0098), seed_of(lua, given)));
+}
+
+int wall(lua_State* lua) {
+    script_of(lua).act(lua);
+    const Arguments given(lua, "game.mesh.wall", {"width", "height", "edge", "seed"}, true);
+    return made(lua, make_wall(given.real("width", kSide, 2.4), given.real("height", kSide, 1.8),
+                               given.real("edge", kEdge, 0.078), seed_of(lua, given)));
+}
+
+int pane(lua_State* lua) {
+    script_of(lua).act(lua);
+    const Arguments given(lua, "game.mesh.pane", {"side", "edge", "seed"}, true);
+    return made(lua, make_pane(given.real("side", kSide, 0.5), given.real("edge", kEdge, 0.010), seed_of(lua, given)));
+}
+
+int ball(lua_State* lua) {
+    script_of(lua).act(lua);
+    const Arguments given(lua, "game.mesh.ball", {"radius", "subdivisions"});
+    const double halvings = given.number("subdivisions", {"a whole number from 0 to 6", 0, 6}, 3);
+    return made(lua, make_ball(static_cast<float>(given.number("radius", kSide)), static_cast<int>(halvings)));
+}
+
+int box(lua_State* lua) {
+    script_of(lua).act(lua);
+    const Arguments given(lua, "game.mesh.box", {"half_extents"});
+    return made(lua, make_box(given.vector("half_extents", kSide)));
+}
+
+int table(lua_State* lua) {
+    script_of(lua).act(lua);
+    const Arguments given(lua, "game.mesh.table", {"width", "depth", "height"}, true);
+    return made(lua, make_table(given.real("width", kSide, 1.2), given.real("depth", kSide, 0.8),
+                                given.real("height", kSide, 0.75)));
+}
+
+/// Scaled to `size`; with `stands` the origin is then the middle of its foot, else of its whole box.
+int imported(lua_State* lua, const Arguments& given, const std::string& path) {
+    Result<Mesh> mesh = import_model(path);
+    if (!mesh.ok()) given.refuse(mesh.error());
+    const bool has_extent = fit(*mesh, given.real("size", kSide, 0.4));
+    if (!has_extent) given.refuse(path + ": all of its points lie on one spot; give a mesh with an extent");
+    if (given.is("stands", false)) *mesh = moved(std::move(*mesh), {0, -extent_of(*mesh).low.y, 0});
+    push_mesh(lua, {std::move(mesh).value(), false});
+    return 1;
+}
+
+/// The mesh of --mesh, or nil without one.
+int given_mesh(lua_State* lua) {
+    Stage& stage = script_of(lua).act(lua);
+    const Arguments given(lua, "game.mesh.given", {"size", "stands"}, true);
+    stage.takes_mesh = true;
+    if (!stage.plan.mesh_path.empty()) return imported(lua, given, stage.plan.mesh_path);
+    lua_pushnil(lua);
+    return 1;
+}
+
+/// Paths start at the script's folder.
+int file(lua_State* lua) {
+    Stage& stage = script_of(lua).act(lua);
+    const Arguments given(lua, "game.mesh.file", {"path", "size", "stands"});
+    const std::filesystem::path path = given.word("path", "the path of a model file");
+    return imported(lua, given, (std::filesystem::path(stage.plan.scene.file).parent_path() / path).string());
+}
+
+int move(lua_State* lua) {
+    ScriptMesh mesh = mesh_at(lua, 1, "mesh:move");
+    mesh.mesh = moved(std::move(mesh.mesh), read_vector(lua, 2, "mesh:move: the way", kPlace));
+    push_mesh(lua, std::move(mesh));
+    return 1;
+}
+
+int fit_to(lua_State* lua) {
+    ScriptMesh mesh = mesh_at(lua, 1, "mesh:fit");
+    const double size = lua_tonumber(lua, 2);
+    if (lua_type(lua, 2) != LUA_TNUMBER || !(size >= kSide.least && size <= kSide.most))
+        refuse(lua, fmt::format("mesh:fit: the size is {}; expected {}", describe(lua, 2), kSide.text));
+    if (!fit(mesh.mesh, static_cast<float>(size))) refuse(lua, "mesh:fit: all points lie on one spot");
+    push_mesh(lua, std::move(mesh));
+    return 1;
+}
+
+int size(lua_State* lua) {
+    const Extent extent = extent_of(mesh_at(lua, 1, "mesh:size").mesh);
+    push_vector(lua, {extent.high.x - extent.low.x, extent.high.y - extent.low.y, extent.high.z - extent.low.z});
+    return 1;
+}
+
+}  // namespace
+
+ScriptMesh& mesh_at(lua_State* lua, int place, const std::string& what) {
+    auto* mesh = static_cast<ScriptMesh*>(luaL_testudata(lua, place, kMeshName));
+    if (!mesh)
+        refuse(lua, fmt::format("{} is {}; expected a mesh, such as game.mesh.vase{{}}", what, describe(lua, place)));
+    return *mesh;
+}
+
+void push_mesh(lua_State* lua, ScriptMesh mesh) {
+    new (lua_newuserdatauv(lua, sizeof(ScriptMesh), 0)) ScriptMesh(std::move(mesh));
+    luaL_setmetatable(lua, kMeshName);
+}
+
+void open_meshes(lua_State* lua) {
+    luaL_newmetatable(lua, kMeshName);
+    lua_pushcfunction(lua, [](lua_State* l) {
+        static_cast<ScriptMesh*>(lua_touserdata(l, 1))->~ScriptMesh();
+        return 0;
+    });
+    lua_setfield(lua, -2, "__gc");
+    static constexpr luaL_Reg methods[] = {{"move", move}, {"fit", fit_to}, {"size", size}, {nullptr, nullptr}};
+    luaL_newlib(lua, methods);
+    lua_setfield(lua, -2, "__index");
+    lua_pop(lua, 1);
+    static constexpr luaL_Reg calls[] = {
+        {"vase", vase}, {"piggy_bank", piggy_bank}, {"wall", wall},        {"pane", pane}, {"ball", ball},
+        {"box", box},   {"table", table},           {"given", given_mesh}, {"file", file}, {nullptr, nullptr}};
+    luaL_newlib(lua, calls);
+    lua_setfield(lua, -2, "mesh");
+}
+
+}  // namespace cullet

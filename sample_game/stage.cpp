@@ -1,0 +1,138 @@
+#include "sample_game/stage.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "sample_game/model_shelf.hpp"
+#include "sample_game/progress.hpp"
+
+namespace cullet {
+namespace {
+
+constexpr size_t kMostFaults = 20;  // sentences; all are counted
+
+Look look_of(const std::string& material) {
+    if (material == "glass") return {0.4f, 1};
+    if (material == "brick" || material == "concrete") return {1, 0};
+    return {};
+}
+
+}  // namespace
+
+Keys world_keys() {
+    const Settings defaults;
+    Keys keys;
+    keys.number("scene.seed", "1", 1, 0, 1e9, "seed of places, turns and strengths")
+        .number("units_a_frame", "units", static_cast<double>(defaults.units_a_frame), 1e3, 1e15,
+                "damage work a frame, 2 ns each")
+        .number("hold_s", "s", static_cast<double>(defaults.hold_seconds), 0, 1,
+                "longest hold of a blow that is being worked off")
+        .number("generations", "1", defaults.generations, 0, 10, "fragments break again down to this one")
+        .number("debris_share", "1", static_cast<double>(defaults.debris_share), 0, 0.5,
+                "pieces lighter than this share of the whole are debris")
+        .number("debris_elements", "1", defaults.debris_elements, 1, 1000, "pieces of fewer elements are debris")
+        .number("gravity_mps2", "m/s2", 9.81, 0, 100, "downward")
+        .number("threads", "1", 1, 1, 64, "threads that step the world; the same as --threads");
+    return keys;
+}
+
+Settings Stage::settings() const {
+    const Keys& keys = story.keys;
+    Settings s;
+    s.gravity = {0, -static_cast<float>(keys["gravity_mps2"]), 0};
+    s.step_seconds = static_cast<float>(0.001 * plan.step_ms);
+    s.threads = static_cast<uint32_t>(keys["threads"]);
+    s.units_a_frame = static_cast<uint64_t>(keys["units_a_frame"]);
+    s.hold_seconds = static_cast<float>(keys["hold_s"]);
+    s.generations = static_cast<uint32_t>(keys["generations"]);
+    s.debris_share = static_cast<float>(keys["debris_share"]);
+    s.debris_elements = static_cast<uint32_t>(keys["debris_elements"]);
+    s.limits = limits;
+    return s;
+}
+
+uint64_t Stage::steps_in(double seconds) const {
+    return static_cast<uint64_t>(std::llround(std::max(0.0, 1000 * seconds / plan.step_ms)));
+}
+
+bool Stage::has_ground() const {
+    return std::any_of(props.begin(), props.end(), [](const Prop& prop) { return prop.is_ground; });
+}
+
+float Stage::ground_height() const {
+    for (const Prop& prop : props)
+        if (prop.is_ground) return extent_of(prop.mesh).high.y;
+    return 0;
+}
+
+Result<World*> Stage::stand() {
+    if (world) return &*world;
+    Result<World> made = World::create(settings(), host);
+    if (!made.ok()) return Error{made.error()};
+    world.emplace(std::move(made).value());
+    for (CookedModel& cooked : models) {
+        const Result<ModelId> id = world->add_model(cooked.model);
+        if (!id.ok()) return Error{id.error()};
+        cooked.id = *id;
+    }
+    return &*world;
+}
+
+Result<uint32_t> Stage::cook(const Mesh& mesh, const CookSettings& settings) {
+    CookedModel cooked;
+    {
+        Progress progress(fmt::format("{}: cooking", plan.scene.name));
+        CookSettings watched = settings;
+        watched.progress = &Progress::cooked;
+        watched.progress_user = &progress;
+        Result<Model> model = plan.shelf->cook(mesh, watched);
+        if (!model.ok()) return Error{model.error()};
+        cooked.model = std::move(model).value();
+    }
+    const auto [look, is_new] = look_of_material.try_emplace(settings.material, static_cast<uint32_t>(looks.size()));
+    if (is_new) looks.push_back(look_of(settings.material));
+    cooked.look = look->second;
+    const ModelReport& report = cooked.model.report();
+    if (!report.repairs.empty()) notes.push_back(report.repairs);
+    if (!report.advice.empty()) notes.push_back(report.advice);
+    if (world) {
+        const Result<ModelId> id = world->add_model(cooked.model);
+        if (!id.ok()) return Error{id.error()};
+        cooked.id = *id;
+    }
+    models.push_back(std::move(cooked));
+    return static_cast<uint32_t>(models.size() - 1);
+}
+
+Result<BodyId> Stage::add_prop(Prop prop) {
+    Result<World*> stands = stand();
+    if (!stands.ok()) return Error{stands.error()};
+    Result<BodyId> id = (*stands)->add_static(view_of(prop.mesh), prop.contact);
+    if (id.ok()) props.push_back(std::move(prop));
+    return id;
+}
+
+void Stage::after_step() {
+    ++frame;
+    const StepEvents step = world->events();
+    sums.events["impact"] += step.impacts.count;
+    sums.events["crack_started"] += step.cracks_started.count;
+    sums.events["fragment_born"] += step.fragments_born.count;
+    sums.events["debris"] += step.debris.count;
+    sums.events["refused"] += step.refused.count;
+    sums.events["fault"] += step.faults.count;
+    sums.events["asleep"] += step.asleep.count;
+    for (const RefusedEvent& event : step.refused) ++sums.refused[event.setting];
+    for (const FaultEvent& event : step.faults)
+        if (sums.faults.size() < kMostFaults)
+            sums.faults.push_back(fmt::format("Frame {}, body {}: {}", frame, event.body.index, event.reason));
+    sums.born += step.fragments_born.count;
+    broke = step.fragments_born.count + step.debris.count + step.cracks_started.count > 0;
+    const uint64_t used = world->report().units_used;
+    sums.units_used += used;
+    sums.most_units = used > sums.most_units ? used : sums.most_units;
+}
+
+}  // namespace cullet

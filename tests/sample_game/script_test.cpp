@@ -1,0 +1,344 @@
+// Scripts: what they can do, when, and what ends them.
+#include "sample_game/script/script.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <filesystem>
+#include <fstream>
+
+#include "sample_game/game_world.hpp"
+#include "sample_game/run_scene.hpp"
+
+namespace cullet {
+namespace {
+
+ScenePlan plan_of(const std::string& text, uint32_t threads = 2) {
+    RunOptions options;
+    options.threads = threads;
+    return plan_scene({"test", "test.lua", text}, options);
+}
+
+/// "" or the sentence that ended the script within so many frames, the end's own wake included.
+std::string failure_of(const ScenePlan& plan, uint32_t frames = 3) {
+    Result<GameWorld> game = GameWorld::create(plan);
+    if (!game.ok()) return game.error();
+    for (uint32_t f = 0; f < frames; ++f) game->before_step(), game->step(), game->after_step();
+    game->before_step();
+    return game->failure();
+}
+std::string failure_of(const std::string& text, uint32_t frames = 3) {
+    return failure_of(plan_of(text), frames);
+}
+
+struct Case {
+    const char *text, *sentence;
+};
+
+TEST(Script, AnErrorNamesFileLineWhatWasGivenAndWhatWasExpected) {
+    const Case cases[] = {
+        {"\n\ngame.spawn{mesh = game.mesh.vase{}, thickness = -1}",
+         "test.lua:3: game.spawn: thickness is -1; expected a length in m above 0"},
+        {"game.spawn{mesh = 3}", "test.lua:1: game.cook: mesh is 3; expected a mesh, such as game.mesh.vase{}"},
+        {"game.spawn{}",
+         "test.lua:1: game.spawn: expected either mesh = game.mesh..., or cooked = what game.cook returned"},
+        {"game.throw{radius = 0.1, at = {0, 1, 0}}",
+         "test.lua:1: game.throw: mass is missing; expected a mass in kg above 0, at most 1e9"},
+        {"game.throw{radius = 'big', mass = 1, at = {0, 1, 0}}",
+         "test.lua:1: game.throw: radius is \"big\"; expected a length in m above 0, at most 10000"},
+        {"game.throw{radius = 0.1, mass = 1, at = {0, 1}}",
+         "test.lua:1: game.throw: at is a table; expected {x, y, z}, each a place in m, at most 1000000 from the "
+         "origin"},
+        {"game.throw{radius = 0.1, mass = 1, at = {0, 1, 0/0}}",
+         "test.lua:1: game.throw: at.z is -nan; expected a place in m, at most 1000000 from the origin"},
+        {"game.throw{radius = 0.1, mass = 1, at = {0, 1, 0}, colour = 3}",
+         "test.lua:1: game.throw: there is no colour; it knows radius, mass, at, velocity, spin, friction, "
+         "restitution"},
+        {"game.throw(3)", "test.lua:1: game.throw: given 3; expected a table: game.throw{radius = ...}"},
+        {"game.cook{mesh = game.mesh.vase{}, model = 'lattice'}",
+         "test.lua:1: game.cook: model is \"lattice\"; expected one of thick_shell"},
+        {"wait(-1)", "test.lua:1: wait: the time is -1; expected seconds from 0 on, or {frames = number}"},
+        {"every(0, print)", "test.lua:1: every: 0 is less than half a frame; expected at least one"},
+        {"wait{frames = 2} at(0, print)",
+         "test.lua:1: at: 0 is frame 0, and this is already frame 2; expected a time to come"},
+        {"game.on('boom', print)",
+         "test.lua:1: game.on: there is no event \"boom\"; expected one of impact, "
+         "crack_started, fragment_born, debris, refused, fault, asleep"},
+        {"game.floor()\ngame.key{name = 'x', default = 1}",
+         "test.lua:2: game.key: this is a declaration; it goes before all calls that do something"},
+        {"game.floor()\ngame.setting{hold_s = 0}",
+         "test.lua:2: game.setting: the world stands already; set it before anything is put into it"},
+        {"local b = game.throw{radius = 0.1, mass = 1, at = {0, 1, 0}}\nb:remove()\nb:mass()",
+         "test.lua:3: body:mass: body handle 0 names nothing that is alive; it was removed, or never was. Ask "
+         "is_alive() "
+         "first"},
+        {"local b = nil\nb:mass()", "test.lua:2: attempt to index a nil value (local 'b')"},
+        {"x = = 1", "test.lua:1: unexpected symbol near '='"},
+        {"error('enough')", "test.lua:1: enough"},
+    };
+    for (const Case& c : cases) EXPECT_EQ(failure_of(c.text), c.sentence) << c.text;
+}
+
+TEST(Script, AnExpectationThatIsNotMetEndsTheRunWithItsSentence) {
+    const std::string text =
+        "wait{frames = 2}\ngame.expect(1 + 1 == 2, 'sums add up')\n"
+        "game.expect(game.frame() == 3, 'the frame is the third')";
+    EXPECT_EQ(failure_of(text), "test.lua:3: game.expect failed in frame 2: the frame is the third");
+    RunOptions options;
+    options.frames = 5;
+    const Result<Report> report = play(plan_of(text), options);
+    ASSERT_FALSE(report.ok());
+    EXPECT_EQ(report.error(), "test.lua:3: game.expect failed in frame 2: the frame is the third");
+}
+
+TEST(Script, WhatWasNeverReachedIsNoSuccess) {
+    const std::string text = "game.scene{seconds = 0.1}\nwait(1)\ngame.expect(false, 'never seen')";
+    RunOptions options;
+    const Result<Report> report = play(plan_of(text), options);
+    ASSERT_FALSE(report.ok());
+    EXPECT_EQ(report.error().find("test.lua:2: the script still waits here when the run ends after 6 frames"), 0u)
+        << report.error();
+    // At the very end is early enough.
+    EXPECT_TRUE(play(plan_of("game.scene{seconds = 0.1}\nwait(0.1)\ngame.expect(true, 'seen')"), options).ok());
+}
+
+/// The notes of a script, after so many frames.
+std::vector<std::string> notes_of(const ScenePlan& plan, uint32_t frames) {
+    Result<GameWorld> game = GameWorld::create(plan);
+    EXPECT_TRUE(game.ok()) << game.error();
+    if (!game.ok()) return {};
+    for (uint32_t f = 0; f < frames; ++f) game->before_step(), game->step(), game->after_step();
+    EXPECT_EQ(game->failure(), "");
+    return game->stage().notes;
+}
+
+TEST(Script, WaitAtAndEveryComeInTheirFrame) {
+    const std::string text = R"(
+        local function tell(what) return function() game.note(what .. " " .. game.frame()) end end
+        at(0.25, tell("at"))
+        every({frames = 7}, tell("every"))
+        every({frames = 10}, function()
+            game.note("slow " .. game.frame())
+            wait{frames = 12}
+            if game.frame() > 30 then return false end
+        end)
+        wait(0.1)
+        game.note("main " .. game.frame())
+        wait(0)
+        game.note("main " .. game.frame())
+        wait{frames = 1}
+        game.note("main " .. game.frame())
+    )";
+    const std::vector<std::string> wanted{"main 6",   "main 6",   "main 7",   "every 7",  "slow 10",
+                                          "every 14", "at 15",    "every 21", "every 28", "slow 30",
+                                          "every 35", "every 42", "every 49"};
+    EXPECT_EQ(notes_of(plan_of(text), 55), wanted);
+}
+
+TEST(Script, SecondsAreTheSameWhateverTheStep) {
+    const std::string text = "wait(0.5)\ngame.note(game.frame() .. ' ' .. game.time())";
+    for (const double ms : {1000.0 / 60, 8.0, 1000.0 / 240}) {
+        ScenePlan plan = plan_of(text);
+        plan.step_ms = ms;
+        const auto frames = static_cast<uint32_t>(std::lround(500 / ms));
+        const std::vector<std::string> notes = notes_of(plan, frames + 1);
+        ASSERT_EQ(notes.size(), 1u);
+        EXPECT_EQ(notes[0].substr(0, notes[0].find(' ')), std::to_string(frames));
+        EXPECT_NEAR(std::stod(notes[0].substr(notes[0].find(' '))), 0.5, 0.001 * ms);
+    }
+}
+
+TEST(Script, PairsComeSortedAndNoAddressCanBeSeen) {
+    const std::string text = R"(
+        local seen = ""
+        for key, value in pairs{zebra = 1, [3] = 2, apple = 3, [-1] = 4, [true] = 5, [2.5] = 6, [false] = 7, ab = 8} do
+            seen = seen .. tostring(key) .. "=" .. value .. " "
+        end
+        game.note(seen)
+        game.note(tostring({}) .. ", " .. tostring(print) .. ", " .. string.format("%s", {}))
+    )";
+    EXPECT_EQ(notes_of(plan_of(text), 1),
+              (std::vector<std::string>{"-1=4 2.5=6 3=2 ab=8 apple=3 zebra=1 false=7 true=5 ",
+                                        "a table, a function, a table"}));
+    EXPECT_EQ(failure_of("for _ in pairs{[{}] = 1} do end"),
+              "test.lua:1: pairs: a key is a table, which has no order; use numbers, strings or booleans");
+    EXPECT_EQ(failure_of("string.format('%p', {})"),
+              "test.lua:1: string.format: %p is an address, which is another one in every run; leave it out");
+}
+
+TEST(Script, ThereIsNoWayOutOfTheSandbox) {
+    for (const char* name : {"os",
+                             "io",
+                             "debug",
+                             "load",
+                             "loadstring",
+                             "loadfile",
+                             "dofile",
+                             "require",
+                             "package",
+                             "next",
+                             "pcall",
+                             "xpcall",
+                             "setmetatable",
+                             "getmetatable",
+                             "rawset",
+                             "rawget",
+                             "rawequal",
+                             "collectgarbage",
+                             "coroutine",
+                             "utf8",
+                             "_G",
+                             "string.rep",
+                             "string.find",
+                             "string.gsub",
+                             "string.match",
+                             "string.gmatch",
+                             "string.dump",
+                             "math.random",
+                             "math.randomseed",
+                             "math.exp",
+                             "('x').rep",
+                             "('x').find"})
+        EXPECT_EQ(failure_of(std::string("game.expect(") + name + " == nil, 'it is not there')"), "") << name;
+    const std::string bytecode = "\x1bLuaS";
+    EXPECT_NE(failure_of(bytecode).find("attempt to load a binary chunk"), std::string::npos) << failure_of(bytecode);
+}
+
+TEST(Script, AScriptThatNeverEndsIsEnded) {
+    for (const char* text : {"while true do end", "local function f() return f() end f()",
+                             "at(0, function() while true do end end)", "game.on('asleep', print) while true do end"})
+        EXPECT_EQ(failure_of(text),
+                  "test.lua:1: the script took more than 20 million instructions in one frame; end the loop, or wait() "
+                  "in it")
+            << text;
+    // The count starts anew in each frame.
+    EXPECT_EQ(failure_of("for _ = 1, 4 do for _ = 1, 9000000 do end wait{frames = 1} end", 6), "");
+}
+
+TEST(Script, AScriptThatFillsTheMemoryIsEnded) {
+    const std::string sentence = failure_of("local t = {} for n = 1, 1e9 do t[n] = 'some text ' .. n end");
+    EXPECT_EQ(sentence, "test.lua: the script has used up its memory of 256 MiB; keep less");
+    EXPECT_NE(failure_of("local function f() return 1 + f() end f()").find("stack overflow"), std::string::npos);
+}
+
+TEST(Script, KeysAreDeclaredListedSetAndRefused) {
+    const std::string text = R"(
+        game.scene{shows = "keys", seconds = 2}
+        local speed = game.key{name = "scene.speed_mps", unit = "m/s", default = 3, least = 0, most = 9, text = "of it"}
+        local kind = game.key{name = "scene.kind", default = "a", choices = "a, b", text = "which"}
+        game.setting{gravity_mps2 = 1.62}
+        game.note(speed .. " " .. kind)
+    )";
+    ScenePlan plan = plan_of(text);
+    const Result<Story> story = read_story(plan);
+    ASSERT_TRUE(story.ok()) << story.error();
+    EXPECT_EQ(story->shows, "keys");
+    EXPECT_EQ(story->seconds, 2);
+    EXPECT_NE(story->keys.help().find("scene.speed_mps        3          of it (0 to 9 m/s)"), std::string::npos)
+        << story->keys.help();
+    EXPECT_EQ(story->keys["gravity_mps2"], 1.62);
+    EXPECT_EQ(notes_of(plan, 1), std::vector<std::string>{"3.0 a"});
+    plan.set = {"scene.kind=b", "scene.speed_mps=4.5", "gravity_mps2=5"};
+    EXPECT_EQ(notes_of(plan, 1), std::vector<std::string>{"4.5 b"});
+    EXPECT_EQ(read_story(plan)->keys["gravity_mps2"], 5);  // --set has the last word
+    for (const char* wrong : {"scene.kind=c", "scene.speed_mps=10", "scene.other=1", "scene.kind"}) {
+        plan.set = {wrong};
+        EXPECT_NE(read_story(plan).error().find(wrong), std::string::npos) << wrong;
+        EXPECT_NE(GameWorld::create(plan).error().find(wrong), std::string::npos) << wrong;
+    }
+}
+
+TEST(Script, AMeshThatIsNotAskedForIsRefused) {
+    ScenePlan plan = plan_of("game.floor()");
+    plan.mesh_path = "cow.obj";
+    EXPECT_EQ(GameWorld::create(plan).error(),
+              "--mesh cow.obj: test takes no mesh: it never asks for game.mesh.given().");
+    plan = plan_of("game.mesh.given{}");
+    plan.mesh_path = "no_such.obj";
+    EXPECT_NE(GameWorld::create(plan).error().find("no_such.obj"), std::string::npos);
+}
+
+constexpr const char* kBreaking = R"(
+    game.setting{units_a_frame = 20e6}
+    local vase = game.cook{mesh = game.mesh.vase{edge = 0.0125}, material = "porcelain", thickness = 0.005}
+    game.floor()
+    local body = game.spawn{cooked = vase, at = {0, 0.5, 0}, turn = game.any_turn(3), velocity = {0, -6, 0}}
+    local lift = game.kinematic{half_extents = {0.3, 0.1, 0.3}, at = {2, 0.5, 0}}
+    local born, mass = 0, 0
+    game.on("fragment_born", function(e)
+        born = born + 1
+        game.expect(e.parent:is_alive() and e.mass > 0, "a fragment has a parent and a mass")
+    end)
+    every({frames = 20}, function()
+        game.throw{radius = 0.03, mass = 0.5, at = {game.random(-0.2, 0.2), 1, 0}, velocity = {0, -8, 0}}
+    end)
+    at(0.5, function() lift:set_velocity{0, 1, 0} end)
+    wait(1)
+    game.expect(born > 0 and born == game.count("fragment_born"), "every birth is told of")
+    game.expect(game.fragments() == born, "all fragments live")
+    local before = game.mass_put_in()
+    game.expect(game.mass() > before * 0.999999 and game.mass() < before * 1.000001, "no mass is lost")
+    local y = lift:position().y
+    game.expect(y > 0.99 and y < 1.01, "the lift has come up by half a metre")
+    lift:set_velocity{0, 0, 0}
+    game.note("end")
+)";
+
+std::vector<uint64_t> hashes_of(const ScenePlan& plan) {
+    Result<GameWorld> game = GameWorld::create(plan);
+    EXPECT_TRUE(game.ok()) << game.error();
+    std::vector<uint64_t> hashes;
+    for (uint32_t f = 0; game.ok() && f < 70; ++f) {
+        game->before_step(), game->step(), game->after_step();
+        hashes.push_back(game->world().hash());
+    }
+    if (game.ok()) {
+        EXPECT_EQ(game->failure(), "");
+        EXPECT_EQ(game->waits_at(), "");
+        EXPECT_EQ(game->stage().notes.back(), "end");
+    }
+    return hashes;
+}
+
+TEST(Script, TheSameScriptAndSeedGiveTheSameBytesOnOneTwoAndThreeThreads) {
+    ScenePlan plan = plan_of(kBreaking, 1);
+    const std::vector<uint64_t> one = hashes_of(plan);
+    for (const uint32_t threads : {1u, 2u, 3u}) {
+        plan.threads = threads;
+        EXPECT_EQ(hashes_of(plan), one) << threads;
+    }
+    plan.set = {"scene.seed=2"};
+    EXPECT_NE(hashes_of(plan), one);
+}
+
+/// Hashes of a short run, before the scenes became scripts. A change of the simulation changes them on purpose.
+struct KnownHash {
+    const char *scene, *hash;
+};
+class SceneHash : public testing::TestWithParam<KnownHash> {};
+
+TEST_P(SceneHash, IsWhatTheSceneAlwaysGave) {
+    RunOptions options;
+    options.threads = 2;
+    options.hash = HashWhen::Last;
+    const Result<Report> report = play(plan_scene(*find_scene(GetParam().scene), options), options);
+    ASSERT_TRUE(report.ok()) << report.error();
+    EXPECT_EQ(report->hash, GetParam().hash);
+}
+
+INSTANTIATE_TEST_SUITE_P(Scenes, SceneHash,
+                         testing::Values(KnownHash{"vase", "5ab95f3cf62fb937"}, KnownHash{"wall", "511fd433cb939082"},
+                                         KnownHash{"pane", "393489761dab57e7"}, KnownHash{"drop", "fcadf9d18322839c"}),
+                         [](const auto& known) { return std::string(known.param.scene); });
+
+TEST(Script, AFileIsPlayedByItsPathAndOneThatIsNotThereIsNamed) {
+    const auto path = std::filesystem::path(testing::TempDir()) / "cullet_script_test.lua";
+    std::ofstream(path) << "game.floor()\n";
+    EXPECT_TRUE(load_scene(path.string()).ok());
+    EXPECT_EQ(load_scene("vase")->file, "vase.lua");
+    EXPECT_NE(load_scene("/nowhere/x.lua").error().find("/nowhere/x.lua"), std::string::npos);
+    EXPECT_NE(load_scene("castle").error().find("vase"), std::string::npos);
+}
+
+}  // namespace
+}  // namespace cullet
