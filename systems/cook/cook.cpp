@@ -6,6 +6,7 @@
 #include "systems/cook/build_shell.hpp"
 #include "systems/cook/extrude.hpp"
 #include "systems/cook/materials.hpp"
+#include "systems/cook/mesh_of_view.hpp"
 #include "systems/cook/model_contents.hpp"
 #include "systems/cook/surface.hpp"
 #include "systems/cook/tessellate.hpp"
@@ -21,23 +22,6 @@ namespace {
 constexpr uint32_t kThresholdPlaces = 4;
 // Default budget of the frame of the touch and of the six that a hold of 0.1 s lasts.
 constexpr uint64_t kDefaultHoldUnits = 8'000'000ull * 7;
-
-Result<Mesh> mesh_of(const MeshView& view) {
-    Mesh mesh;
-    mesh.name = view.name ? view.name : "mesh";
-    if (!view.positions || !view.indices || view.position_count == 0 || view.triangle_count == 0)
-        return Error{mesh.name + ": has no triangles; give positions and indices."};
-    mesh.positions.assign(view.positions, view.positions + view.position_count);
-    mesh.triangles.resize(view.triangle_count);
-    for (size_t t = 0; t < view.triangle_count; ++t)
-        mesh.triangles[t] = {view.indices[3 * t], view.indices[3 * t + 1], view.indices[3 * t + 2]};
-    if (view.corner_normals)
-        mesh.corner_normals.assign(view.corner_normals, view.corner_normals + 3 * view.triangle_count);
-    if (view.corner_uvs) mesh.corner_uvs.assign(view.corner_uvs, view.corner_uvs + 3 * view.triangle_count);
-    if (view.materials) mesh.materials.assign(view.materials, view.materials + view.triangle_count);
-    if (const Result<void> valid = validate_mesh(mesh, mesh.name); !valid) return Error{valid.error()};
-    return mesh;
-}
 
 double diagonal_of(const Mesh& mesh) {
     Vec3d low(mesh.positions[0]), high = low;
@@ -176,7 +160,7 @@ Result<Model> cook(const MeshView& view, const CookSettings& settings) {
     if (const Result<void> valid = check_host(host); !valid) return Error{valid.error()};
     const HostScope call(host);
     const MemoryScope memory(host.allocator);
-    Result<Mesh> mesh = mesh_of(view);
+    Result<Mesh> mesh = mesh_of_view(view);
     if (!mesh) return Error{mesh.error()};
     const std::string name = mesh->name;
     const Result<Row<Materials>> material = find_material(settings.material);
@@ -189,6 +173,9 @@ Result<Model> cook(const MeshView& view, const CookSettings& settings) {
     if (!(settings.longest_edge >= 0))
         return Error{name + ": longest_edge is " + std::to_string(settings.longest_edge) +
                      " m; give metres, or 0 for what suits the thickness."};
+    if (!(settings.weld_tolerance >= 0 && settings.weld_tolerance <= 0.01f))
+        return Error{name + ": weld_tolerance is " + std::to_string(settings.weld_tolerance) +
+                     " of the diagonal; give 0 to 0.01, or 1e-7 for a soup with noise."};
     if (!has_area(*mesh, diagonal))
         return Error{name + ": no triangle has an area; all of its points lie on a line. Give a surface."};
     TessellationSettings tessellation;
@@ -196,7 +183,7 @@ Result<Model> cook(const MeshView& view, const CookSettings& settings) {
         settings.longest_edge > 0 ? settings.longest_edge : std::max(2.0 * settings.thickness, 0.025 * diagonal);
     Result<Mesh> fine = tessellate(*mesh, tessellation);
     if (!fine) return Error{name + ": " + fine.error()};
-    const Result<Surface> surface = prepare_surface(*fine);
+    const Result<Surface> surface = prepare_surface(*fine, {.weld_tolerance = settings.weld_tolerance});
     if (!surface) return Error{name + ": " + surface.error()};
     if (settings.progress) settings.progress(settings.progress_user, 0.1f);
     const Result<Extrusion> extrusion = extrude(surface.value(), settings.thickness);
