@@ -4,6 +4,7 @@
 #include <poll.h>
 #include <signal.h>
 #include <spawn.h>
+#include <sys/stat.h>
 #include <sys/wait.h>
 #include <unistd.h>
 #include <xxhash.h>
@@ -142,7 +143,9 @@ Result<Mesh> import_and_cache(const std::string& path, const std::string& progra
     fs::create_directories(cache_folder, trouble);
     const std::string cached = (fs::absolute(cache_folder) / (content_key(path, *bytes) + ".cmesh")).string();
     auto mesh = read_mesh_file(cached);
-    if (!mesh) {
+    if (mesh) {
+        ::utimensat(AT_FDCWD, cached.c_str(), nullptr, 0);  // used now; whoever keeps the folder small sees it
+    } else {
         // An absolute path cannot be taken for an option.
         if (auto r = run_importer(program, fs::absolute(path).string(), cached, waiting); !r) return Error{r.error()};
         mesh = read_mesh_file(cached);

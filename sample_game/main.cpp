@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "cullet/world.hpp"
+#include "sample_game/cook_command.hpp"
 #include "sample_game/options.hpp"
 #include "sample_game/run_scene.hpp"
 #include "sample_game/truth.hpp"
@@ -26,6 +27,8 @@ int run(const Options& options) {
             return 0;
         case Command::Run:
             return run_command(options.run);
+        case Command::Cook:
+            return cook_command(options.cook);
         case Command::Truth:
             break;
     }

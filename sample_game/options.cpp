@@ -46,6 +46,21 @@ void add_run(CLI::App& app, RunOptions& run) {
     command->add_option("--set", run.set, "KEY=VALUE, a setting of the scene; --set help lists them");
 }
 
+void add_cook(CLI::App& app, CookOptions& cook) {
+    CLI::App* command = app.add_subcommand("cook", "Cooks a mesh into a model file (.cmodel), so that a game need not");
+    command->add_option("mesh", cook.mesh, "A model file in any format that assimp reads, or a .cmesh")->required();
+    command->add_option("--out", cook.out, "The model file to write")->required();
+    command->add_option("--material", cook.material, "glass, porcelain, brick or concrete")->capture_default_str();
+    command->add_option("--thickness-m", cook.thickness_m, "Of the wall, m; 1.5 % of the largest side if not given")
+        ->check(CLI::Range(1e-9, 1e6));
+    command
+        ->add_option("--edge-m", cook.edge_m, "Longer edges are split first, m; what suits the thickness if not given")
+        ->check(CLI::Range(1e-9, 1e6));
+    command->add_option("--weld", cook.weld, "Points so near are one, as a share of the diagonal; 1e-7 heals noise")
+        ->check(CLI::Range(0.0, 0.01));
+    command->add_option("--seed", cook.seed, "Of the spread of strength")->capture_default_str();
+}
+
 /// What CLI11 cannot know.
 Result<void> check_run(const RunOptions& run, bool asks_for_keys) {
     if (asks_for_keys) return {};
@@ -76,6 +91,7 @@ Result<Options> parse_options(std::vector<std::string> arguments) {
     app.require_subcommand(1);
     app.footer(scene_list());
     add_run(app, options.run);
+    add_cook(app, options.cook);
     app.add_subcommand("frame", "Prints the systems of a frame, and what each reads and writes");
     CLI::App* truth = app.add_subcommand("truth", "Finds the speeds of the first crack and of the first loose piece");
     truth->add_option("model", options.truth.model, "thick_shell")->required();
@@ -96,6 +112,7 @@ Result<Options> parse_options(std::vector<std::string> arguments) {
     }
     options.command = app.got_subcommand("run")     ? Command::Run
                       : app.got_subcommand("frame") ? Command::Frame
+                      : app.got_subcommand("cook")  ? Command::Cook
                                                     : Command::Truth;
     if (options.command != Command::Run) return options;
     const bool asks_for_keys =

@@ -25,7 +25,15 @@ struct RunOptions {
     std::vector<std::string> set;
 };
 
-enum class Command : uint8_t { Help, Run, KeysHelp, Frame, Truth };
+enum class Command : uint8_t { Help, Run, KeysHelp, Frame, Truth, Cook };
+
+struct CookOptions {
+    std::string mesh, out, material = "porcelain";
+    double thickness_m = 0;  // 0: 1.5 % of the largest side
+    double edge_m = 0;       // 0: what cooking chooses
+    double weld = 0;         // of the diagonal
+    uint64_t seed = 1;
+};
 
 struct TruthOptions {
     std::string model;
@@ -38,6 +46,7 @@ struct Options {
     std::string help;  // the text to print
     RunOptions run;
     TruthOptions truth;
+    CookOptions cook;
 };
 
 /// The program's arguments without its name. A refusal is one sentence.

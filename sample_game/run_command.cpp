@@ -59,7 +59,7 @@ int run_one(const Scene& scene, const RunOptions& options) {
     if (error)
         return refuse(fmt::format("--out {}: {}; choose a folder that can be made.", options.out, error.message()), 2);
     const Result<ScenePlan> plan = plan_scene(scene, keys.value(), options);
-    if (!plan.ok()) return refuse(plan.error(), 1);
+    if (!plan.ok()) return refuse(plan.error(), 2);
     const Result<Report> report = play(scene, plan.value(), options);
     if (!report.ok()) return refuse(report.error(), 1);
     print_summary(report.value());

@@ -3,6 +3,8 @@
 
 #include "engine/math.hpp"
 #include "engine/random.hpp"
+#include "sample_game/cache.hpp"
+#include "sample_game/cook_cached.hpp"
 #include "sample_game/meshes.hpp"
 #include "sample_game/scenes/scenes.hpp"
 
@@ -60,12 +62,15 @@ Result<void> cook_into(ScenePlan& plan, const SceneInput& input, const Mesh& mes
     // The meshes that the project makes have the edge length asked for: leave them as they are. Strangers' meshes get
     // their longest edges split.
     settings.longest_edge = input.mesh_path.empty() ? 100.0f : static_cast<float>(input.keys["scene.edge_m"]);
-    Result<Model> model = cook(view_of(mesh), settings);
-    if (!model.ok()) return Error{model.error()};
-    const ModelReport& report = model->report();
+    // What the project makes by itself is cooked anew each time: it changes with the project.
+    Result<CachedModel> cooked = cook_cached(mesh, settings, input.mesh_path.empty() ? "" : cache_folder());
+    if (!cooked.ok()) return Error{cooked.error()};
+    if (cooked->is_from_cache) plan.notes.push_back("The cooked model was taken from the cache.");
+    if (!cooked->trouble.empty()) plan.notes.push_back(cooked->trouble);
+    const ModelReport& report = cooked->model.report();
     if (!report.repairs.empty()) plan.notes.push_back(report.repairs);
     if (!report.advice.empty()) plan.notes.push_back(report.advice);
-    plan.models.push_back(std::move(model).value());
+    plan.models.push_back(std::move(cooked->model));
     return {};
 }
 
