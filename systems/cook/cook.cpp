@@ -10,7 +10,9 @@
 #include "systems/cook/model_contents.hpp"
 #include "systems/cook/surface.hpp"
 #include "systems/cook/tessellate.hpp"
+#include "systems/cook/thin_fans.hpp"
 #include "systems/damage/assemble.hpp"
+#include "systems/damage/ring.hpp"
 #include "systems/damage/run_hit.hpp"
 #include "systems/damage/strength_factors.hpp"
 #include "systems/damage/task_cost.hpp"
@@ -183,6 +185,7 @@ Result<Model> cook(const MeshView& view, const CookSettings& settings) {
         settings.longest_edge > 0 ? settings.longest_edge : std::max(2.0 * settings.thickness, 0.025 * diagonal);
     Result<Mesh> fine = tessellate(*mesh, tessellation);
     if (!fine) return Error{name + ": " + fine.error()};
+    const uint32_t thinned = thin_fans(*fine, kMostRing);
     const Result<Surface> surface = prepare_surface(*fine, {.weld_tolerance = settings.weld_tolerance});
     if (!surface) return Error{name + ": " + surface.error()};
     if (settings.progress) settings.progress(settings.progress_user, 0.1f);
@@ -221,6 +224,10 @@ Result<Model> cook(const MeshView& view, const CookSettings& settings) {
         state.shells.first_crack_speed[contents->shell] = estimated_threshold(state, contents->shell);
     if (settings.progress && !settings.measures_threshold) settings.progress(settings.progress_user, 1);
     contents->report = report_on(state, contents->shell, surface.value(), extrusion.value());
+    if (thinned > 0)
+        contents->report.repairs += (contents->report.repairs.empty() ? "" : " ") + std::string("Thinned ") +
+                                    std::to_string(thinned) + (thinned == 1 ? " fan" : " fans") + " of more than " +
+                                    std::to_string(kMostRing) + " triangles.";
     Model model;
     model.contents = contents;
     return model;
