@@ -46,12 +46,18 @@ double longest_wait(const ImportLimits& limits) {
 /// or renamed. Calls outside the list stay allowed, since what libc and assimp need differs between systems.
 bool forbid_system_calls() {
     constexpr unsigned forbidden[] = {
-        SYS_socket,   SYS_connect,         SYS_bind,       SYS_execve,         SYS_execveat,  SYS_fork,
-        SYS_vfork,    SYS_clone,           SYS_clone3,     SYS_ptrace,         SYS_kill,      SYS_tkill,
-        SYS_unlink,   SYS_unlinkat,        SYS_rename,     SYS_renameat,       SYS_renameat2, SYS_mkdir,
-        SYS_rmdir,    SYS_creat,           SYS_link,       SYS_symlink,        SYS_chmod,     SYS_chown,
-        SYS_truncate, SYS_mount,           SYS_bpf,        SYS_io_uring_setup, SYS_openat2,   SYS_process_vm_writev,
-        SYS_keyctl,   SYS_perf_event_open, SYS_userfaultfd};
+        // network
+        SYS_socket, SYS_socketpair, SYS_connect, SYS_bind,
+        // processes and programs
+        SYS_execve, SYS_execveat, SYS_fork, SYS_vfork, SYS_clone, SYS_clone3, SYS_ptrace, SYS_kill, SYS_tkill,
+        SYS_pidfd_open, SYS_process_vm_writev, SYS_unshare, SYS_setns,
+        // files
+        SYS_unlink, SYS_unlinkat, SYS_rename, SYS_renameat, SYS_renameat2, SYS_mkdir, SYS_mkdirat, SYS_rmdir, SYS_creat,
+        SYS_mknod, SYS_mknodat, SYS_link, SYS_linkat, SYS_symlink, SYS_symlinkat, SYS_chmod, SYS_fchmodat, SYS_chown,
+        SYS_fchownat, SYS_lchown, SYS_truncate, SYS_utimensat, SYS_setxattr, SYS_openat2, SYS_mount,
+        // what outlives a process, and the kernel's larger doors
+        SYS_shmget, SYS_msgget, SYS_semget, SYS_mq_open, SYS_keyctl, SYS_add_key, SYS_request_key, SYS_bpf,
+        SYS_io_uring_setup, SYS_perf_event_open, SYS_userfaultfd};
     constexpr unsigned writing = O_WRONLY | O_RDWR | O_CREAT | O_TRUNC;
     constexpr unsigned refuse = SECCOMP_RET_ERRNO | EPERM;
     std::vector<sock_filter> code;

@@ -163,6 +163,31 @@ TEST_F(Import, TooLittleTimeIsOneSentenceAndNoFile) {
     EXPECT_FALSE(fs::exists(folder_ / "out.cmesh"));
 }
 
+TEST_F(Import, TooLittleMemoryIsOneSentenceAndMoreIsAnOption) {
+    std::string text;
+    constexpr int kSide = 300;
+    for (int i = 0; i < kSide * kSide; ++i)
+        text.append("v ")
+            .append(std::to_string(i % kSide))
+            .append(" ")
+            .append(std::to_string(i / kSide))
+            .append(" 0\n");
+    for (int i = 1; i < kSide * (kSide - 1); ++i) {
+        if (i % kSide == 0) continue;
+        for (const int corner : {i, i + 1, i + kSide + 1, i + kSide})
+            text.append(corner == i ? "f " : " ").append(std::to_string(corner));
+        text.append("\n");
+    }
+    const std::string path = file("large.obj", text);
+    const ProgramRun little = run(path, folder_ / "out.cmesh", "--memory-mib 64");
+    EXPECT_EQ(little.exit_code, 2);
+    EXPECT_NE(little.said.find("needs more than 64 MiB to read"), std::string::npos) << little.said;
+    EXPECT_EQ(std::count(little.said.begin(), little.said.end(), '\n'), 1) << little.said;
+    EXPECT_FALSE(fs::exists(folder_ / "out.cmesh"));
+    const ProgramRun enough = run(path, folder_ / "out.cmesh", "--memory-mib 1024 --seconds 20");
+    EXPECT_EQ(enough.exit_code, 0) << enough.said;
+}
+
 TEST_F(Import, APipeOrAFolderInPlaceOfAModelIsRefusedAtOnce) {
     const std::string pipe = folder_ / "pipe.obj", folder = folder_ / "folder.obj";
     ASSERT_EQ(mkfifo(pipe.c_str(), 0600), 0);
