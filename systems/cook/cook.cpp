@@ -17,6 +17,7 @@
 #include "systems/damage/strength_factors.hpp"
 #include "systems/damage/task_cost.hpp"
 #include "systems/damage/working_room.hpp"
+#include "systems/fragments/group_fragments.hpp"
 
 namespace cullet {
 namespace {
@@ -215,6 +216,7 @@ Result<Model> cook(const MeshView& view, const CookSettings& settings) {
     contents->shell = shell.value();
     contents->name = name;
     contents->material = settings.material;
+    group_fragments(ShellView(state, contents->shell), {});  // numbers the parts, for find_parts
     fill_strength_factors(ShellView(state, contents->shell), settings.seed);
     if (const Result<void> ready = make_stiff(state, contents->shell); !ready)
         return Error{name + ": " + ready.error()};
