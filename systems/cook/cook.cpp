@@ -4,6 +4,7 @@
 #include "engine/memory.hpp"
 #include "engine/mesh_file.hpp"
 #include "systems/cook/build_shell.hpp"
+#include "systems/cook/clean_mesh.hpp"
 #include "systems/cook/extrude.hpp"
 #include "systems/cook/materials.hpp"
 #include "systems/cook/mesh_of_view.hpp"
@@ -64,6 +65,30 @@ SourceArrays attributes_of(const Surface& surface, const Mesh& mesh) {
     return arrays;
 }
 
+// Cutting edges multiplies what is named twice, and so does its cost: 466 times the same triangle became a million.
+void drop_triangles(Mesh& mesh, std::span<const uint32_t> dropped) {
+    if (dropped.empty()) return;
+    size_t kept = 0, next = 0;
+    for (uint32_t t = 0; t < mesh.triangles.size(); ++t) {
+        if (next < dropped.size() && dropped[next] == t) {
+            ++next;
+            continue;
+        }
+        mesh.triangles[kept] = mesh.triangles[t];
+        for (size_t k = 0; k < 3; ++k) {
+            if (!mesh.corner_normals.empty())
+                mesh.corner_normals[3 * kept + k] = mesh.corner_normals[3 * size_t{t} + k];
+            if (!mesh.corner_uvs.empty()) mesh.corner_uvs[3 * kept + k] = mesh.corner_uvs[3 * size_t{t} + k];
+        }
+        if (!mesh.materials.empty()) mesh.materials[kept] = mesh.materials[t];
+        ++kept;
+    }
+    mesh.triangles.resize(kept);
+    if (!mesh.corner_normals.empty()) mesh.corner_normals.resize(3 * kept);
+    if (!mesh.corner_uvs.empty()) mesh.corner_uvs.resize(3 * kept);
+    if (!mesh.materials.empty()) mesh.materials.resize(kept);
+}
+
 // Springs, limits, rows and time step. The rows' room is known only when the springs are: the shell moves to ranges
 // that have it.
 Result<void> make_stiff(State& state, Row<Shells>& shell) {
@@ -112,7 +137,8 @@ float estimated_threshold(const State& state, Row<Shells> shell) {
     return 0.2f * materials.tensile_strength[m] / std::sqrt(materials.young_modulus[m] * materials.density[m]);
 }
 
-ModelReport report_on(const State& state, Row<Shells> shell, const Surface& surface, const Extrusion& extrusion) {
+ModelReport report_on(const State& state, Row<Shells> shell, const SurfaceRepairs& repairs,
+                      const Extrusion& extrusion) {
     const Shells& s = state.shells;
     ModelReport report;
     report.vertices = s.vertices[shell].count;
@@ -128,7 +154,7 @@ ModelReport report_on(const State& state, Row<Shells> shell, const Surface& surf
     const auto steps = static_cast<uint64_t>(run / s.time_step[shell]) + 1;
     report.units_of_a_hit = steps * units_a_step(report.vertices + report.vertices / 10, 64) + 300 * kUnitsCut +
                             report.vertices * kUnitsOpen;  // a blow that breaks grows it by a tenth
-    if (!surface.repairs.is_clean()) report.repairs = describe(surface.repairs);
+    if (!repairs.is_clean()) report.repairs = describe(repairs);
     if (report.units_of_a_hit > kDefaultHoldUnits)
         report.advice =
             "A hit needs about " + std::to_string(report.units_of_a_hit / 1'000'000) +
@@ -181,13 +207,24 @@ Result<Model> cook(const MeshView& view, const CookSettings& settings) {
                      " of the diagonal; give 0 to 0.01, or 1e-7 for a soup with noise."};
     if (!has_area(*mesh, diagonal))
         return Error{name + ": no triangle has an area; all of its points lie on a line. Give a surface."};
+    const SurfaceSettings welding{.weld_tolerance = settings.weld_tolerance};
+    // Counted on the mesh as it was given: a triangle that is flipped is one, however often it is cut later.
+    const Result<Surface> given = prepare_surface(*mesh, welding);
+    if (!given) return Error{name + ": " + given.error()};
+    if (const uint32_t parts = given->repairs.unorientable_components; parts > 0)
+        return Error{name + ": " + std::to_string(parts) + (parts == 1 ? " part is" : " parts are") +
+                     " one-sided, like a Moebius strip, so nothing is inside. Cut each along a line, or remove it."};
+    SurfaceRepairs unused;
+    const Result<CleanMesh> clean = clean_mesh(*mesh, welding, unused);
+    if (!clean) return Error{name + ": " + clean.error()};
+    drop_triangles(*mesh, clean->repeated);
     TessellationSettings tessellation;
     tessellation.longest_edge =
         settings.longest_edge > 0 ? settings.longest_edge : std::max(2.0 * settings.thickness, 0.025 * diagonal);
     Result<Mesh> fine = tessellate(*mesh, tessellation);
     if (!fine) return Error{name + ": " + fine.error()};
     const uint32_t thinned = thin_fans(*fine, kMostRing);
-    const Result<Surface> surface = prepare_surface(*fine, {.weld_tolerance = settings.weld_tolerance});
+    const Result<Surface> surface = prepare_surface(*fine, welding);
     if (!surface) return Error{name + ": " + surface.error()};
     if (settings.progress) settings.progress(settings.progress_user, 0.1f);
     const Result<Extrusion> extrusion = extrude(surface.value(), settings.thickness);
@@ -225,7 +262,7 @@ Result<Model> cook(const MeshView& view, const CookSettings& settings) {
     else
         state.shells.first_crack_speed[contents->shell] = estimated_threshold(state, contents->shell);
     if (settings.progress && !settings.measures_threshold) settings.progress(settings.progress_user, 1);
-    contents->report = report_on(state, contents->shell, surface.value(), extrusion.value());
+    contents->report = report_on(state, contents->shell, given->repairs, extrusion.value());
     if (thinned > 0)
         contents->report.repairs += (contents->report.repairs.empty() ? "" : " ") + std::string("Thinned ") +
                                     std::to_string(thinned) + (thinned == 1 ? " fan" : " fans") + " of more than " +
