@@ -2,6 +2,11 @@
 
 namespace cullet {
 
+void ByteWriter::put(const void* data, size_t size) {
+    const auto* from = static_cast<const uint8_t*>(data);
+    bytes.insert(bytes.end(), from, from + size);
+}
+
 std::span<const uint8_t> ByteReader::take(uint64_t size, const char* what) {
     if (is_sound() && size > left())
         fail(std::string(what) + " needs " + std::to_string(size) + " bytes, there are " + std::to_string(left()));

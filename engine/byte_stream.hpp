@@ -16,10 +16,7 @@ static_assert(std::endian::native == std::endian::little, "files are little-endi
 struct ByteWriter {
     std::vector<uint8_t> bytes;
 
-    void put(const void* data, size_t size) {
-        const auto* from = static_cast<const uint8_t*>(data);
-        bytes.insert(bytes.end(), from, from + size);
-    }
+    void put(const void* data, size_t size);
     template <class T>
     void number(T value) {
         static_assert(std::is_arithmetic_v<T>);

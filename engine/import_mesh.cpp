@@ -4,6 +4,7 @@
 #include <poll.h>
 #include <signal.h>
 #include <spawn.h>
+#include <sys/stat.h>
 #include <sys/wait.h>
 #include <unistd.h>
 #include <xxhash.h>
@@ -27,7 +28,7 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr uint64_t kLargestModel = 1ull << 30;  // bytes; the importer's own limit on memory is of that size
-constexpr int kLongestImport = 20;              // s; the importer gives up after 10
+constexpr double kLongestImport = 20;           // s; the importer gives up after 14 by itself
 constexpr uint32_t kImporterVersion = 1;        // raise it when the importer gives other meshes for the same file
 
 std::string lower_case_extension(const std::string& path) {
@@ -70,16 +71,19 @@ std::string content_key(const std::string& path, const std::vector<uint8_t>& byt
 }
 
 /// What the program wrote to its standard error, read until it closes it or the time is over.
-std::string listen(int pipe, bool& is_late) {
+std::string listen(int pipe, const ImportWaiting& waiting, bool& is_late) {
     using Clock = std::chrono::steady_clock;
-    const auto end = Clock::now() + std::chrono::seconds(kLongestImport);
+    const auto begin = Clock::now();
     std::string said;
     for (;;) {
-        const auto left = std::chrono::duration_cast<std::chrono::milliseconds>(end - Clock::now()).count();
-        is_late = left <= 0;
+        const double gone = std::chrono::duration<double>(Clock::now() - begin).count();
+        is_late = gone >= kLongestImport;
         if (is_late) return said;
         pollfd wait{pipe, POLLIN, 0};
-        if (::poll(&wait, 1, static_cast<int>(left)) <= 0) continue;
+        if (::poll(&wait, 1, 100) <= 0) {
+            if (waiting) waiting(gone, kLongestImport);
+            continue;
+        }
         char buffer[512];
         const ssize_t n = ::read(pipe, buffer, sizeof buffer);
         if (n < 0 && errno == EINTR) continue;
@@ -105,7 +109,8 @@ Result<pid_t> start(const std::string& program, const std::string& in, const std
     return child;
 }
 
-Result<void> run_importer(const std::string& program, const std::string& in, const std::string& out) {
+Result<void> run_importer(const std::string& program, const std::string& in, const std::string& out,
+                          const ImportWaiting& waiting) {
     int ends[2];
     if (::pipe2(ends, O_CLOEXEC) != 0) return Error{in + ": no pipe to the import program. Close some files."};
     const auto child = start(program, in, out, ends[1]);
@@ -115,7 +120,7 @@ Result<void> run_importer(const std::string& program, const std::string& in, con
         return Error{child.error()};
     }
     bool is_late = false;
-    std::string said = listen(ends[0], is_late);
+    std::string said = listen(ends[0], waiting, is_late);
     ::close(ends[0]);
     if (is_late) ::kill(child.value(), SIGKILL);
     int status = 0;
@@ -128,7 +133,8 @@ Result<void> run_importer(const std::string& program, const std::string& in, con
     return Error{said};
 }
 
-Result<Mesh> import_and_cache(const std::string& path, const std::string& program, const std::string& cache_folder) {
+Result<Mesh> import_and_cache(const std::string& path, const std::string& program, const std::string& cache_folder,
+                              const ImportWaiting& waiting) {
     auto bytes = read_whole_file(path, kLargestModel);
     if (!bytes) return Error{bytes.error()};
     if (is_mesh_file(*bytes)) return parse_mesh_file(*bytes, path);
@@ -137,9 +143,11 @@ Result<Mesh> import_and_cache(const std::string& path, const std::string& progra
     fs::create_directories(cache_folder, trouble);
     const std::string cached = (fs::absolute(cache_folder) / (content_key(path, *bytes) + ".cmesh")).string();
     auto mesh = read_mesh_file(cached);
-    if (!mesh) {
+    if (mesh) {
+        ::utimensat(AT_FDCWD, cached.c_str(), nullptr, 0);  // used now; whoever keeps the folder small sees it
+    } else {
         // An absolute path cannot be taken for an option.
-        if (auto r = run_importer(program, fs::absolute(path).string(), cached); !r) return Error{r.error()};
+        if (auto r = run_importer(program, fs::absolute(path).string(), cached, waiting); !r) return Error{r.error()};
         mesh = read_mesh_file(cached);
         if (!mesh) return Error{mesh.error()};
     }
@@ -150,9 +158,10 @@ Result<Mesh> import_and_cache(const std::string& path, const std::string& progra
 
 }  // namespace
 
-Result<Mesh> import_mesh(const std::string& path, const std::string& program_path, const std::string& cache_folder) {
+Result<Mesh> import_mesh(const std::string& path, const std::string& program_path, const std::string& cache_folder,
+                         const ImportWaiting& waiting) {
     try {
-        return import_and_cache(path, program_path, cache_folder);
+        return import_and_cache(path, program_path, cache_folder, waiting);
     } catch (const std::exception& e) {
         return Error{path + ": cannot be imported (" + e.what() + "). Free memory or check the path."};
     }

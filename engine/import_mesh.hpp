@@ -1,5 +1,6 @@
 // The game's side of importing: strangers' files go through the program cullet_import, once for each content.
 #pragma once
+#include <functional>
 #include <string>
 
 #include "cullet/result.hpp"
@@ -7,10 +8,14 @@
 
 namespace cullet {
 
+/// Called ten times a second while the program reads, with the seconds gone and the seconds that it has at most.
+using ImportWaiting = std::function<void(double seconds, double most)>;
+
 /// A mesh file is read as it is. Any other model is given to the program and the result kept in cache_folder (made if
 /// missing) under the XXH3-128 of the file's bytes, its extension (which chooses the reader) and, for glTF, the buffers
 /// that it names; a cached file that no longer reads is made anew. The mesh is named after the file. Blocks for up to
-/// 10 s; safe on any thread.
-Result<Mesh> import_mesh(const std::string& path, const std::string& program_path, const std::string& cache_folder);
+/// 14 s; safe on any thread, and in several processes that share a folder.
+Result<Mesh> import_mesh(const std::string& path, const std::string& program_path, const std::string& cache_folder,
+                         const ImportWaiting& waiting = {});
 
 }  // namespace cullet

@@ -334,7 +334,7 @@ std::vector<uint8_t> encode_mesh_file(const Mesh& mesh) {
 }
 
 Result<void> write_whole_file(std::span<const uint8_t> bytes, const std::string& path) {
-    const std::string part = path + "." + text(static_cast<uint64_t>(::getpid())) + ".part";
+    const std::string part = path + "." + text(static_cast<uint64_t>(::gettid())) + ".part";
     if (auto r = write_bytes(bytes, part); !r) {
         ::unlink(part.c_str());
         return r;

@@ -1,24 +1,55 @@
 #include "sample_game/import_model.hpp"
 
-#include <unistd.h>
+#include <fmt/format.h>
+#include <stdlib.h>
 
 #include <filesystem>
 
 #include "engine/import_mesh.hpp"
+#include "sample_game/cache.hpp"
+#include "sample_game/progress.hpp"
 
 namespace cullet {
+namespace {
 
 namespace fs = std::filesystem;
+
+/// Where nothing can be kept: a folder for this one call.
+struct PassingFolder {
+    std::string path;
+    PassingFolder() {
+        std::error_code error;
+        std::string name = fs::temp_directory_path(error) / "cullet_mesh.XXXXXX";
+        if (!error && ::mkdtemp(name.data()) != nullptr) path = name;
+    }
+    ~PassingFolder() {
+        std::error_code error;
+        if (!path.empty()) fs::remove_all(path, error);
+    }
+    PassingFolder(const PassingFolder&) = delete;
+    PassingFolder& operator=(const PassingFolder&) = delete;
+};
+
+}  // namespace
 
 Result<Mesh> import_model(const std::string& path) {
     std::error_code error;
     const fs::path folder = fs::read_symlink("/proc/self/exe", error).parent_path();
     if (error) return Error{"/proc/self/exe: cannot be read, so cullet_import is not found; mount /proc."};
-    fs::path cache = folder / "mesh_cache";
-    fs::create_directories(cache, error);
-    if (error || access(cache.c_str(), W_OK) != 0)
-        cache = fs::temp_directory_path(error) / ("cullet_mesh_cache." + std::to_string(getuid()));
-    return import_mesh(path, (folder / "cullet_import").string(), cache.string());
+    const std::string program = folder / "cullet_import", cache = cache_folder();
+    Progress progress(fmt::format("importing {}", fs::path(path).filename().string()));
+    const auto waiting = [&progress](double seconds, double most) {
+        progress.show(seconds / most, fmt::format("of the {:.0f} s that it may take", most));
+    };
+    if (cache.empty()) {
+        const PassingFolder passing;
+        if (passing.path.empty())
+            return Error{path + ": no folder for its mesh file can be written; set TMPDIR to one that can."};
+        return import_mesh(path, program, passing.path, waiting);
+    }
+    Result<Mesh> mesh = import_mesh(path, program, cache, waiting);
+    trim_cache(cache);
+    return mesh;
 }
 
 }  // namespace cullet

@@ -7,8 +7,7 @@
 
 namespace cullet {
 
-/// Results are kept in the folder mesh_cache beside the program, or in the system's folder for temporary files when
-/// that one cannot be written.
+/// Shows a progress line while it waits. Results are kept in cache_folder().
 Result<Mesh> import_model(const std::string& path);
 
 }  // namespace cullet

@@ -6,7 +6,9 @@
 #include <vector>
 
 #include "cullet/world.hpp"
+#include "sample_game/cook_command.hpp"
 #include "sample_game/options.hpp"
+#include "sample_game/replay_command.hpp"
 #include "sample_game/run_scene.hpp"
 #include "sample_game/truth.hpp"
 
@@ -34,6 +36,10 @@ int run(const Options& options) {
             return 0;
         case Command::Run:
             return run_command(options.run);
+        case Command::Cook:
+            return cook_command(options.cook);
+        case Command::Replay:
+            return replay_command(options.replay);
         case Command::Truth:
             break;
     }

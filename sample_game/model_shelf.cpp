@@ -26,10 +26,10 @@ std::string label(const Mesh& mesh, const CookSettings& s) {
 
 }  // namespace
 
-Result<Model> ModelShelf::cook(const Mesh& mesh, const CookSettings& settings) {
+Result<CachedModel> ModelShelf::cook(const Mesh& mesh, const CookSettings& settings, const std::string& folder) {
     const std::string key = label(mesh, settings);
     if (const auto found = models_.find(key); found != models_.end()) return found->second;
-    Result<Model> model = cullet::cook(view_of(mesh), settings);
+    Result<CachedModel> model = cook_cached(mesh, settings, folder);
     if (model.ok()) models_.emplace(key, model.value());
     return model;
 }

@@ -49,10 +49,34 @@ void add_run(CLI::App& app, RunOptions& run) {
     command->add_flag("--contact-sheet", run.has_sheet, "Twelve frames in one picture, sheet.png");
     command->add_flag("--video", run.has_video, "A film of the run, film.mp4; needs the program ffmpeg");
     command->add_option("--trace", run.trace, "Chrome trace of the last repeat, for Perfetto");
+    command->add_option("--record", run.record, "Writes down the run's calls and hashes, for replay");
     command->add_option("--hash", run.hash, "When the state is hashed: every, last, off")
         ->transform(CLI::CheckedTransformer(kHashWhen));
     command->add_flag("--validate", run.validates, "Checks every table after every system");
     command->add_option("--set", run.set, "KEY=VALUE, a setting of the scene; --set help lists them");
+}
+
+void add_cook(CLI::App& app, CookOptions& cook) {
+    CLI::App* command = app.add_subcommand("cook", "Cooks a mesh into a model file (.cmodel), so that a game need not");
+    command->add_option("mesh", cook.mesh, "A model file in any format that assimp reads, or a .cmesh")->required();
+    command->add_option("--out", cook.out, "The model file to write")->required();
+    command->add_option("--material", cook.material, "glass, porcelain, brick or concrete")->capture_default_str();
+    command->add_option("--thickness-m", cook.thickness_m, "Of the wall, m; 1.5 % of the largest side if not given")
+        ->check(CLI::Range(1e-9, 1e6));
+    command
+        ->add_option("--edge-m", cook.edge_m, "Longer edges are split first, m; what suits the thickness if not given")
+        ->check(CLI::Range(1e-9, 1e6));
+    command->add_option("--weld", cook.weld, "Points so near are one, as a share of the diagonal; 1e-7 heals noise")
+        ->check(CLI::Range(0.0, 0.01));
+    command->add_option("--seed", cook.seed, "Of the spread of strength")->capture_default_str();
+}
+
+void add_replay(CLI::App& app, ReplayOptions& replay) {
+    CLI::App* command = app.add_subcommand("replay", "Plays a recording again and names the first thing that differs");
+    command->add_option("file", replay.file, "What run --record wrote")->required();
+    command->add_option("--against", replay.against, "Numbers of threads, one run each: 1,2,8")
+        ->delimiter(',')
+        ->check(CLI::Range(1u, 64u));
 }
 
 /// What CLI11 cannot know.
@@ -65,6 +89,8 @@ Result<void> check_run(const RunOptions& run, bool asks_for_keys) {
         return Error{fmt::format("--model {}: there is no such model; this version has thick_shell.", run.model)};
     if (run.scene == "show_reel" && !run.trace.empty() && run.out.empty())
         return Error{"--trace: the show reel writes a trace for each scene; say where with --out FOLDER."};
+    if (run.scene == "show_reel" && !run.record.empty())
+        return Error{"--record: the show reel is four runs; record one of its scenes."};
     if (run.out.empty() && (run.draw > 0 || run.has_sheet || run.has_video))
         return Error{"--draw, --contact-sheet and --video write pictures: say where with --out FOLDER."};
     return {};
@@ -85,6 +111,8 @@ Result<Options> parse_options(std::vector<std::string> arguments) {
     app.require_subcommand(1);
     app.footer(scene_list());
     add_run(app, options.run);
+    add_cook(app, options.cook);
+    add_replay(app, options.replay);
     app.add_subcommand("frame", "Prints the systems of a frame, and what each reads and writes");
     CLI::App* truth = app.add_subcommand("truth", "Finds the speeds of the first crack and of the first loose piece");
     truth->add_option("model", options.truth.model, "thick_shell")->required();
@@ -103,9 +131,11 @@ Result<Options> parse_options(std::vector<std::string> arguments) {
     } catch (const CLI::ParseError& error) {
         return Error{one_sentence(error.what()) + " sample_game --help shows what can be given."};
     }
-    options.command = app.got_subcommand("run")     ? Command::Run
-                      : app.got_subcommand("frame") ? Command::Frame
-                                                    : Command::Truth;
+    options.command = app.got_subcommand("run")      ? Command::Run
+                      : app.got_subcommand("frame")  ? Command::Frame
+                      : app.got_subcommand("cook")   ? Command::Cook
+                      : app.got_subcommand("replay") ? Command::Replay
+                                                     : Command::Truth;
     if (options.command != Command::Run) return options;
     const bool asks_for_keys =
         std::find(options.run.set.begin(), options.run.set.end(), "help") != options.run.set.end();

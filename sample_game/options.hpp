@@ -20,13 +20,26 @@ struct RunOptions {
     std::string out;    // empty: nothing is written
     uint32_t draw = 0;  // every so many frames; 0: none
     bool has_sheet = false, has_video = false;
-    std::string trace;
+    std::string trace, record;
     HashWhen hash = HashWhen::Every;
     bool validates = false;
     std::vector<std::string> set;
 };
 
-enum class Command : uint8_t { Help, Run, KeysHelp, Frame, Truth };
+enum class Command : uint8_t { Help, Run, KeysHelp, Frame, Truth, Cook, Replay };
+
+struct ReplayOptions {
+    std::string file;
+    std::vector<uint32_t> against;  // threads; empty: 1
+};
+
+struct CookOptions {
+    std::string mesh, out, material = "porcelain";
+    double thickness_m = 0;  // 0: 1.5 % of the largest side
+    double edge_m = 0;       // 0: what cooking chooses
+    double weld = 0;         // of the diagonal
+    uint64_t seed = 1;
+};
 
 struct TruthOptions {
     std::string model;
@@ -39,6 +52,8 @@ struct Options {
     std::string help;  // the text to print
     RunOptions run;
     TruthOptions truth;
+    CookOptions cook;
+    ReplayOptions replay;
 };
 
 /// The program's arguments without its name. A refusal is one sentence.

@@ -24,12 +24,33 @@ struct Bounds {
         return low.x <= other.high.x + reach && other.low.x <= high.x + reach && low.y <= other.high.y + reach &&
                other.low.y <= high.y + reach && low.z <= other.high.z + reach && other.low.z <= high.z + reach;
     }
+    /// In y and z, with a micrometre to spare.
+    bool holds_across(Vec3 p) const {
+        return p.y >= low.y - 1e-6f && p.y <= high.y + 1e-6f && p.z >= low.z - 1e-6f && p.z <= high.z + 1e-6f;
+    }
+    /// At most the square of the distance of anything inside.
+    double squared_gap(Vec3 p) const {
+        const auto out = [](float least, float x, float most) {
+            return static_cast<double>(std::max({least - x, x - most, 0.0f}));
+        };
+        const double x = out(low.x, p.x, high.x), y = out(low.y, p.y, high.y), z = out(low.z, p.z, high.z);
+        return 0.999999 * (x * x + y * y + z * z);
+    }
     bool holds(Vec3 p) const {
         return p.x >= low.x && p.x <= high.x && p.y >= low.y && p.y <= high.y && p.z >= low.z && p.z <= high.z;
     }
 };
 
 using Triangle = std::array<uint32_t, 3>;
+
+/// 1 where the ray from p along x goes out through the triangle, -1 where it comes in, 0 where it misses.
+int crossing(Vec3d p, const Corners& c) {
+    const auto turn = [&](Vec3d a, Vec3d b) { return (a.y - p.y) * (b.z - p.z) - (a.z - p.z) * (b.y - p.y); };
+    const double u = turn(c[0], c[1]), v = turn(c[1], c[2]), w = turn(c[2], c[0]), sum = u + v + w;
+    if (!((u > 0 && v > 0 && w > 0) || (u < 0 && v < 0 && w < 0))) return 0;
+    const double x = (v * c[0].x + w * c[1].x + u * c[2].x) / sum;
+    return x <= p.x ? 0 : sum > 0 ? 1 : -1;
+}
 
 /// A thing as it is drawn, in world axes.
 struct Solid {
@@ -48,22 +69,21 @@ struct Solid {
             for (const uint32_t k : t) b.include(points[k]), all.include(points[k]);
         }
     }
-    // The winding number: the solid angles of all triangles, seen from p, add up to 4 pi inside of a closed mesh and to
-    // 0 outside (van Oosterom and Strackee). Needs no ray scene, of which Embree bears no thousand.
+    // The winding number: a ray along x leaves a closed mesh once more than it enters it from inside, and as often from
+    // outside. The ray starts a fifth of a micrometre beside p, so that it meets no corner and no edge. Needs no ray
+    // scene, of which Embree bears no thousand; solid angles cost ten times as much.
     bool holds(Vec3 p) const {
         if (!all.holds(p)) return false;
-        double halves = 0;
-        for (size_t t = 0; t < triangles.size(); ++t) {
-            const Corners c = corners(t);
-            const Vec3d a = c[0] - Vec3d(p), b = c[1] - Vec3d(p), d = c[2] - Vec3d(p);
-            const double la = length(a), lb = length(b), ld = length(d);
-            halves += std::atan2(dot(a, cross(b, d)), la * lb * ld + dot(a, b) * ld + dot(b, d) * la + dot(d, a) * lb);
-        }
-        return halves > 3.14159265;
+        const Vec3d from = Vec3d(p) + Vec3d(0, 1.37e-7, 1.71e-7);
+        int leaves = 0;
+        for (size_t t = 0; t < triangles.size(); ++t)
+            if (bounds[t].high.x >= p.x && bounds[t].holds_across(p)) leaves += crossing(from, corners(t));
+        return leaves > 0;
     }
     double depth(Vec3 p) const {
         double least = 1e30;
-        for (size_t t = 0; t < triangles.size(); ++t) least = std::min(least, point_gap(Vec3d(p), corners(t)));
+        for (size_t t = 0; t < triangles.size(); ++t)
+            if (bounds[t].squared_gap(p) <= least * least) least = std::min(least, point_gap(Vec3d(p), corners(t)));
         return least;
     }
 };

@@ -49,9 +49,18 @@ void print_files(const RunOptions& options) {
     if (options.has_sheet) fmt::print("  {}/sheet.png      twelve frames of the story in one picture\n", options.out);
     if (options.draw > 0) fmt::print("  {}/frame_*.png    every {} frames\n", options.out, options.draw);
     if (!options.out.empty()) fmt::print("  {}/report.json    what the run was like, in numbers\n", options.out);
+    if (!options.record.empty())
+        fmt::print("  {}      what was asked and what came of it: sample_game replay plays it again\n", options.record);
     if (options.has_video) fmt::print("  {}/film.mp4       the run as a film\n", options.out);
     if (!options.trace.empty())
         fmt::print("  {}      where the time went: open it in ui.perfetto.dev\n", options.trace);
+}
+
+/// What is wrong with the mesh of --mesh is told without the line of the script that asked for it.
+int refuse_run(const std::string& sentence, const RunOptions& options) {
+    if (options.mesh.empty()) return refuse(sentence, 1);
+    const size_t at = sentence.find(std::filesystem::absolute(options.mesh).string() + ": ");
+    return at == std::string::npos ? refuse(sentence, 1) : refuse(sentence.substr(at), 2);
 }
 
 int run_one(const Scene& scene, const RunOptions& options) {
@@ -64,7 +73,7 @@ int run_one(const Scene& scene, const RunOptions& options) {
     if (error)
         return refuse(fmt::format("--out {}: {}; choose a folder that can be made.", options.out, error.message()), 2);
     const Result<Report> report = play(plan, options);
-    if (!report.ok()) return refuse(report.error(), 1);
+    if (!report.ok()) return refuse_run(report.error(), options);
     print_summary(report.value());
     if (!options.out.empty())
         if (auto written = write_text(to_json(report.value()), options.out + "/report.json"); !written.ok())

@@ -112,7 +112,9 @@ void fill_sums(GameWorld& game, const Matter& start, Report& report) {
 
 /// One run from the first frame to the last. Fills the report's sums, which are the same for each run.
 Result<RunRecord> play_once(const ScenePlan& plan, const RunOptions& options, uint32_t repeat, Report& report) {
-    Result<GameWorld> made = GameWorld::create(plan);
+    ScenePlan own = plan;
+    own.record = repeat == 0 ? options.record : "";
+    Result<GameWorld> made = GameWorld::create(own);
     if (!made.ok()) return Error{made.error()};
     GameWorld& game = made.value();
     fill_run(game, plan, options, report);
@@ -156,6 +158,8 @@ Result<RunRecord> play_once(const ScenePlan& plan, const RunOptions& options, ui
     game.before_step();  // what the script does at the very end: its last expectations
     if (!game.failure().empty()) return Error{game.failure()};
     if (auto ended = check_end(game, options, frames, report); !ended.ok()) return Error{ended.error()};
+    if (auto stopped = game.world().stop_recording(); !stopped.ok())
+        return Error{options.record + ": " + stopped.error()};
     return record;
 }
 

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "sample_game/cache.hpp"
 #include "sample_game/model_shelf.hpp"
 #include "sample_game/progress.hpp"
 
@@ -72,6 +73,8 @@ Result<World*> Stage::stand() {
     Result<World> made = World::create(settings(), host);
     if (!made.ok()) return Error{made.error()};
     world.emplace(std::move(made).value());
+    if (!plan.record.empty())
+        if (const Result<void> started = world->start_recording(plan.record); !started) return Error{started.error()};
     for (CookedModel& cooked : models) {
         const Result<ModelId> id = world->add_model(cooked.model);
         if (!id.ok()) return Error{id.error()};
@@ -80,16 +83,19 @@ Result<World*> Stage::stand() {
     return &*world;
 }
 
-Result<uint32_t> Stage::cook(const Mesh& mesh, const CookSettings& settings) {
+Result<uint32_t> Stage::cook(const Mesh& mesh, const CookSettings& settings, bool is_strangers) {
     CookedModel cooked;
     {
         Progress progress(fmt::format("{}: cooking", plan.scene.name));
         CookSettings watched = settings;
         watched.progress = &Progress::cooked;
         watched.progress_user = &progress;
-        Result<Model> model = plan.shelf->cook(mesh, watched);
+        // What the project makes by itself is cooked anew by each program: it changes with the project.
+        Result<CachedModel> model = plan.shelf->cook(mesh, watched, is_strangers ? cache_folder() : "");
         if (!model.ok()) return Error{model.error()};
-        cooked.model = std::move(model).value();
+        if (model->is_from_cache) notes.push_back("The cooked model was taken from the cache.");
+        if (!model->trouble.empty()) notes.push_back(model->trouble);
+        cooked.model = std::move(model->model);
     }
     const auto [look, is_new] = look_of_material.try_emplace(settings.material, static_cast<uint32_t>(looks.size()));
     if (is_new) looks.push_back(look_of(settings.material));

@@ -68,8 +68,8 @@ struct Stage {
     uint64_t steps_in(double seconds) const;
     bool has_ground() const;
     float ground_height() const;
-    /// Cooks; shows progress. The place in `models`.
-    Result<uint32_t> cook(const Mesh& mesh, const CookSettings& settings);
+    /// Cooks; shows progress. The place in `models`. Models of strangers' meshes are kept in the cache.
+    Result<uint32_t> cook(const Mesh& mesh, const CookSettings& settings, bool is_strangers);
     Result<BodyId> add_prop(Prop prop);
     /// Reads the step's events; once a step.
     void after_step();

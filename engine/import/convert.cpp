@@ -73,6 +73,8 @@ struct Corners {
     std::vector<Vec2> uvs;
     std::vector<uint16_t> materials;  // one a triangle
     bool has_normals = false, has_uvs = false;
+    uint64_t collapsed = 0;  // triangles left out
+    uint64_t points = 0;     // of the file, that triangles use, once for each place of their mesh
 };
 
 Vec3 vector_of(const aiVector3D& v) {
@@ -86,17 +88,28 @@ Vec3 usable_normal(Vec3d n, Vec3d face_normal) {
     return squared > 0.99f && squared < 1.01f ? unit : normalised(face_normal).to_float();
 }
 
-void append_triangle(Corners& out, const aiMesh& mesh, const aiFace& face, const Affine& place) {
+bool has_repeated_corner(const Vec3* p) {
+    return p[0] == p[1] || p[1] == p[2] || p[2] == p[0];
+}
+
+/// False for a triangle that is left out: a vertex that only such triangles used must not stay behind.
+bool append_triangle(Corners& out, const aiMesh& mesh, const aiFace& face, const Affine& place) {
+    out.has_normals = out.has_normals || mesh.HasNormals();
+    out.has_uvs = out.has_uvs || mesh.HasTextureCoords(0);
     const bool is_mirrored = determinant(place) < 0;
     const unsigned order[3] = {face.mIndices[0], face.mIndices[is_mirrored ? 2 : 1],
                                face.mIndices[is_mirrored ? 1 : 2]};
     Vec3d corner[3];
-    for (int c = 0; c < 3; ++c) corner[c] = turned(place, Vec3d(vector_of(mesh.mVertices[order[c]]))) + place.move;
+    Vec3 rounded[3];
+    for (int c = 0; c < 3; ++c) {
+        corner[c] = turned(place, Vec3d(vector_of(mesh.mVertices[order[c]]))) + place.move;
+        rounded[c] = corner[c].to_float() + Vec3{};  // adding zero makes -0 into 0, so that joining can compare bits
+    }
+    if (has_repeated_corner(rounded)) return false;
     const Vec3d face_normal = cross(corner[1] - corner[0], corner[2] - corner[0]);
     const double side = is_mirrored ? -1 : 1;
     for (int c = 0; c < 3; ++c) {
-        // Adding zero makes -0 into 0, so that joining can compare bits.
-        out.positions.push_back(corner[c].to_float() + Vec3{});
+        out.positions.push_back(rounded[c]);
         Vec3d normal;
         if (mesh.HasNormals()) normal = side * turned_normal(place, Vec3d(vector_of(mesh.mNormals[order[c]])));
         out.normals.push_back(usable_normal(normal, face_normal));
@@ -105,9 +118,25 @@ void append_triangle(Corners& out, const aiMesh& mesh, const aiFace& face, const
         if (!(std::fabs(uv.x) <= kLargestCoordinate && std::fabs(uv.y) <= kLargestCoordinate)) uv = {};
         out.uvs.push_back(uv);
     }
-    out.has_normals = out.has_normals || mesh.HasNormals();
-    out.has_uvs = out.has_uvs || mesh.HasTextureCoords(0);
     out.materials.push_back(static_cast<uint16_t>(mesh.mMaterialIndex));
+    return true;
+}
+
+/// One mesh at one of its places.
+void append_mesh(Corners& out, const aiMesh& mesh, const Affine& place) {
+    std::vector<bool> is_used(mesh.mNumVertices);
+    for (unsigned f = 0; f < mesh.mNumFaces; ++f) {
+        const aiFace& face = mesh.mFaces[f];
+        if (face.mNumIndices != 3) continue;
+        if (!append_triangle(out, mesh, face, place)) {
+            ++out.collapsed;
+            continue;
+        }
+        for (unsigned c = 0; c < 3; ++c) {
+            out.points += !is_used[face.mIndices[c]];
+            is_used[face.mIndices[c]] = true;
+        }
+    }
 }
 
 Result<Corners> gather(const aiScene& scene, const std::string& path) {
@@ -131,8 +160,7 @@ Result<Corners> gather(const aiScene& scene, const std::string& path) {
             if (mesh.mMaterialIndex > 65535)
                 return Error{path + ": " + mesh_title(scene, m) + " has material " +
                              std::to_string(mesh.mMaterialIndex) + ", above 65535. Merge some materials."};
-            for (unsigned f = 0; f < mesh.mNumFaces; ++f)
-                if (mesh.mFaces[f].mNumIndices == 3) append_triangle(corners, mesh, mesh.mFaces[f], place);
+            append_mesh(corners, mesh, place);
             if (corners.materials.size() > kMostMeshRows)
                 return Error{path + ": has more than " + std::to_string(kMostMeshRows) +
                              " triangles. Split the model."};
@@ -170,27 +198,6 @@ std::vector<uint32_t> join_equal_points(const std::vector<Vec3>& points, std::ve
     return vertex;
 }
 
-/// A vertex that only collapsed triangles used must not stay behind, so those go before the points are joined for good.
-void drop_collapsed(Corners& corners, uint64_t& collapsed) {
-    const auto same = [](Vec3 a, Vec3 b) { return a.x == b.x && a.y == b.y && a.z == b.z; };
-    size_t kept = 0;
-    for (size_t t = 0; t < corners.materials.size(); ++t) {
-        const Vec3* p = &corners.positions[3 * t];
-        if (same(p[0], p[1]) || same(p[1], p[2]) || same(p[2], p[0])) continue;
-        for (size_t c = 0; c < 3; ++c) {
-            corners.positions[3 * kept + c] = corners.positions[3 * t + c];
-            corners.normals[3 * kept + c] = corners.normals[3 * t + c];
-            corners.uvs[3 * kept + c] = corners.uvs[3 * t + c];
-        }
-        corners.materials[kept++] = corners.materials[t];
-    }
-    collapsed = corners.materials.size() - kept;
-    corners.positions.resize(3 * kept);
-    corners.normals.resize(3 * kept);
-    corners.uvs.resize(3 * kept);
-    corners.materials.resize(kept);
-}
-
 std::string name_of(const std::string& path) {
     std::string name = one_line(std::filesystem::path(path).stem().string());
     return name.substr(0, kLongestMeshName);
@@ -215,9 +222,10 @@ Result<ConvertedModel> convert_model(const std::string& path) {
     if (!corners) return Error{corners.error()};
 
     ConvertedModel model;
-    drop_collapsed(*corners, model.collapsed);
     Mesh& mesh = model.mesh;
     const std::vector<uint32_t> vertex = join_equal_points(corners->positions, mesh.positions);
+    model.collapsed = corners->collapsed;
+    model.joined = corners->points - mesh.positions.size();
     mesh.name = name_of(path);
     for (size_t c = 0; c < vertex.size(); c += 3) mesh.triangles.push_back({vertex[c], vertex[c + 1], vertex[c + 2]});
     if (corners->has_normals) mesh.corner_normals = std::move(corners->normals);

@@ -13,7 +13,7 @@ namespace cullet {
 
 struct ImportLimits {
     uint64_t memory_mib = 1024;  // address space; also the largest mesh file
-    unsigned seconds = 10;       // wall clock, and processor time
+    unsigned seconds = 10;       // processor time; it may take 1.4 times as long by the clock, and a second at least
 };
 
 /// Any model that assimp reads as one mesh in the scene's units: node transforms applied (a mirroring one turns the
@@ -22,6 +22,7 @@ struct ImportLimits {
 struct ConvertedModel {
     Mesh mesh;
     uint64_t collapsed = 0;  // triangles left out
+    uint64_t joined = 0;     // points of the file that were equal to another
 };
 Result<ConvertedModel> convert_model(const std::string& path);
 
@@ -31,13 +32,16 @@ struct Delivery {
     std::string line;
 };
 
+/// Called ten times a second while one waits, with the seconds gone.
+using Waiting = std::function<void(double seconds)>;
+
 /// Runs work in a child with limits on memory, time, file size and system calls (it opens files to read and nothing
-/// else). However the child ends, and at the latest when the seconds are over, this returns. `subject` begins the
+/// else). However the child ends, and at the latest when the clock has run out, this returns. `subject` begins the
 /// sentences.
 Result<Delivery> run_limited(const std::string& subject, const ImportLimits& limits,
-                             const std::function<Result<Delivery>()>& work);
+                             const std::function<Result<Delivery>()>& work, const Waiting& waiting = {});
 
-/// Control characters become blanks, and at most 400 bytes are kept: messages quote strangers' files.
-std::string one_line(std::string text);
+/// Control characters become blanks, and so many bytes are kept: messages quote strangers' files.
+std::string one_line(std::string text, size_t most_bytes = 400);
 
 }  // namespace cullet

@@ -12,6 +12,7 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cerrno>
 #include <chrono>
 #include <cstddef>
@@ -26,9 +27,18 @@ namespace {
 
 constexpr size_t kLongestMessage = 4096;
 
-bool limit(__rlimit_resource resource, rlim_t value) {
-    const rlimit both{value, value};
+bool limit(__rlimit_resource resource, rlim_t value, rlim_t hard) {
+    const rlimit both{value, hard};
     return ::setrlimit(resource, &both) == 0;
+}
+bool limit(__rlimit_resource resource, rlim_t value) {
+    return limit(resource, value, value);
+}
+
+/// By the clock, so that a machine with other work to do does not refuse a good file, and a file that makes the reader
+/// wait for nothing does not stay: 14 s for 10 s of processor time.
+double longest_wait(const ImportLimits& limits) {
+    return std::max(limits.seconds + 1.0, 1.4 * limits.seconds);
 }
 
 #if defined(__x86_64__)
@@ -36,12 +46,18 @@ bool limit(__rlimit_resource resource, rlim_t value) {
 /// or renamed. Calls outside the list stay allowed, since what libc and assimp need differs between systems.
 bool forbid_system_calls() {
     constexpr unsigned forbidden[] = {
-        SYS_socket,   SYS_connect,         SYS_bind,       SYS_execve,         SYS_execveat,  SYS_fork,
-        SYS_vfork,    SYS_clone,           SYS_clone3,     SYS_ptrace,         SYS_kill,      SYS_tkill,
-        SYS_unlink,   SYS_unlinkat,        SYS_rename,     SYS_renameat,       SYS_renameat2, SYS_mkdir,
-        SYS_rmdir,    SYS_creat,           SYS_link,       SYS_symlink,        SYS_chmod,     SYS_chown,
-        SYS_truncate, SYS_mount,           SYS_bpf,        SYS_io_uring_setup, SYS_openat2,   SYS_process_vm_writev,
-        SYS_keyctl,   SYS_perf_event_open, SYS_userfaultfd};
+        // network
+        SYS_socket, SYS_socketpair, SYS_connect, SYS_bind,
+        // processes and programs
+        SYS_execve, SYS_execveat, SYS_fork, SYS_vfork, SYS_clone, SYS_clone3, SYS_ptrace, SYS_kill, SYS_tkill,
+        SYS_pidfd_open, SYS_process_vm_writev, SYS_unshare, SYS_setns,
+        // files
+        SYS_unlink, SYS_unlinkat, SYS_rename, SYS_renameat, SYS_renameat2, SYS_mkdir, SYS_mkdirat, SYS_rmdir, SYS_creat,
+        SYS_mknod, SYS_mknodat, SYS_link, SYS_linkat, SYS_symlink, SYS_symlinkat, SYS_chmod, SYS_fchmodat, SYS_chown,
+        SYS_fchownat, SYS_lchown, SYS_truncate, SYS_utimensat, SYS_setxattr, SYS_openat2, SYS_mount,
+        // what outlives a process, and the kernel's larger doors
+        SYS_shmget, SYS_msgget, SYS_semget, SYS_mq_open, SYS_keyctl, SYS_add_key, SYS_request_key, SYS_bpf,
+        SYS_io_uring_setup, SYS_perf_event_open, SYS_userfaultfd};
     constexpr unsigned writing = O_WRONLY | O_RDWR | O_CREAT | O_TRUNC;
     constexpr unsigned refuse = SECCOMP_RET_ERRNO | EPERM;
     std::vector<sock_filter> code;
@@ -87,7 +103,7 @@ bool forbid_system_calls() {
 bool limit_this_process(const ImportLimits& limits) {
     const rlim_t bytes = static_cast<rlim_t>(limits.memory_mib) << 20;
     const bool limited = limit(RLIMIT_CORE, 0) && limit(RLIMIT_AS, bytes) && limit(RLIMIT_FSIZE, bytes) &&
-                         limit(RLIMIT_CPU, limits.seconds + 1) && limit(RLIMIT_NOFILE, 64);
+                         limit(RLIMIT_CPU, limits.seconds, limits.seconds + 1) && limit(RLIMIT_NOFILE, 64);
     ::signal(SIGXFSZ, SIG_IGN);  // a file too large is then an error of write, with a sentence
     ::prctl(PR_SET_PDEATHSIG, SIGKILL);
     ::prctl(PR_SET_NO_NEW_PRIVS, 1, 0, 0, 0);
@@ -144,15 +160,18 @@ std::string too_much_memory(const std::string& subject, const ImportLimits& limi
 }
 
 /// Reads what the child says until it closes its end. False when the time is over.
-bool listen(int pipe, unsigned seconds, std::string& message) {
+bool listen(int pipe, double seconds, const Waiting& waiting, std::string& message) {
     using Clock = std::chrono::steady_clock;
-    const auto end = Clock::now() + std::chrono::seconds(seconds);
+    const auto begin = Clock::now();
     for (;;) {
-        const auto left = std::chrono::duration_cast<std::chrono::milliseconds>(end - Clock::now()).count();
-        if (left <= 0) return false;
+        const double gone = std::chrono::duration<double>(Clock::now() - begin).count();
+        if (gone >= seconds) return false;
         pollfd wait{pipe, POLLIN, 0};
-        const int ready = ::poll(&wait, 1, static_cast<int>(left));
-        if (ready <= 0) continue;
+        const int ready = ::poll(&wait, 1, 100);
+        if (ready <= 0) {
+            if (waiting) waiting(gone);
+            continue;
+        }
         char buffer[1024];
         const ssize_t n = ::read(pipe, buffer, sizeof buffer);
         if (n < 0 && errno == EINTR) continue;
@@ -164,7 +183,7 @@ bool listen(int pipe, unsigned seconds, std::string& message) {
 std::string how_it_died(const std::string& subject, int status, bool is_late, const ImportLimits& limits) {
     if (is_late || (WIFSIGNALED(status) && WTERMSIG(status) == SIGXCPU))
         return subject + ": was not read within " + std::to_string(limits.seconds) +
-               " s. Repair or simplify the model, or raise --seconds.";
+               " s of processor time. Repair or simplify the model, or raise --seconds.";
     const std::string number = std::to_string(WIFSIGNALED(status) ? WTERMSIG(status) : WEXITSTATUS(status));
     return subject + ": the model reader crashed on it (" + (WIFSIGNALED(status) ? "signal " : "exit code ") + number +
            "). The file is probably damaged; export it again or to another format.";
@@ -185,15 +204,15 @@ Result<std::vector<uint8_t>> read_back(const std::string& subject, int file) {
 
 }  // namespace
 
-std::string one_line(std::string text) {
+std::string one_line(std::string text, size_t most_bytes) {
     for (char& c : text)
         if (static_cast<unsigned char>(c) < 32 || c == 127) c = ' ';
-    if (text.size() > 400) text = text.substr(0, 397) + "...";
+    if (text.size() > most_bytes) text = text.substr(0, most_bytes - 3) + "...";
     return text;
 }
 
 Result<Delivery> run_limited(const std::string& subject, const ImportLimits& limits,
-                             const std::function<Result<Delivery>()>& work) {
+                             const std::function<Result<Delivery>()>& work, const Waiting& waiting) {
     int ends[2] = {-1, -1};
     const int result_file = ::memfd_create("cullet_import", MFD_CLOEXEC);
     const pid_t child = result_file >= 0 && ::pipe2(ends, O_CLOEXEC) == 0 ? ::fork() : -1;
@@ -205,7 +224,7 @@ Result<Delivery> run_limited(const std::string& subject, const ImportLimits& lim
     int status = 0;
     bool is_late = false;
     if (child > 0) {
-        is_late = !listen(ends[0], limits.seconds, message);
+        is_late = !listen(ends[0], longest_wait(limits), waiting, message);
         if (is_late) ::kill(child, SIGKILL);
         while (::waitpid(child, &status, 0) < 0 && errno == EINTR) {
         }

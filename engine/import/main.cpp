@@ -1,21 +1,25 @@
 // cullet_import IN OUT.cmesh [--memory-mib 1024] [--seconds 10]
-// Exit code 0 and one line of counts, or 2 and one sentence. OUT is written whole or not at all.
+// Exit code 0 and one line of counts and repairs, or 2 and one sentence. OUT is written whole or not at all.
+#include <unistd.h>
+
 #include <CLI/CLI.hpp>
 #include <cmath>
 #include <cstdio>
 
+#include "cullet/model.hpp"
 #include "engine/import/import.hpp"
 #include "engine/mesh_file.hpp"
 
 namespace cullet {
 namespace {
 
-std::string counts_of(const std::string& path, const ConvertedModel& model) {
-    const Mesh& mesh = model.mesh;
-    std::vector<bool> is_used(65536);
-    size_t materials = 0;
-    for (const uint16_t m : mesh.materials)
-        if (!is_used[m]) is_used[m] = true, ++materials;
+constexpr size_t kLongestLine = 4000;  // bytes; a path and all the repairs that there are
+
+std::string count(uint64_t n, const char* one, const char* many) {
+    return std::to_string(n) + " " + (n == 1 ? one : many);
+}
+
+std::string box_of(const Mesh& mesh) {
     Vec3 low = mesh.positions[0], high = mesh.positions[0];
     for (const Vec3 p : mesh.positions) {
         low = {std::fmin(low.x, p.x), std::fmin(low.y, p.y), std::fmin(low.z, p.z)};
@@ -24,26 +28,89 @@ std::string counts_of(const std::string& path, const ConvertedModel& model) {
     char box[96];
     std::snprintf(box, sizeof box, "%.4g x %.4g x %.4g m", static_cast<double>(high.x - low.x),
                   static_cast<double>(high.y - low.y), static_cast<double>(high.z - low.z));
-    const auto count = [](uint64_t n, const char* one, const char* many) {
-        return std::to_string(n) + " " + (n == 1 ? one : many) + ", ";
-    };
-    std::string line = path + ": " + count(mesh.positions.size(), "vertex", "vertices") +
-                       count(mesh.triangles.size(), "triangle", "triangles") +
-                       count(materials, "material", "materials") + box;
-    if (model.collapsed > 0) line += ", triangles left out for repeated corners: " + std::to_string(model.collapsed);
-    return line;
+    return box;
+}
+
+uint64_t materials_of(const Mesh& mesh) {
+    std::vector<bool> is_used(65536);
+    uint64_t materials = 0;
+    for (const uint16_t m : mesh.materials)
+        if (!is_used[m]) is_used[m] = true, ++materials;
+    return materials;
+}
+
+std::string parts_of(const MeshReport& report) {
+    std::string text = count(report.parts, "part", "parts");
+    if (report.closed_parts == report.parts) return text + (report.parts == 1 ? ", closed" : ", all closed");
+    return text + (report.closed_parts == 0 ? ", open" : ", " + std::to_string(report.closed_parts) + " closed");
+}
+
+/// What reading changed, and what the library will change whenever it cooks the mesh file.
+std::string repairs_of(const ConvertedModel& model, const MeshReport& report) {
+    std::string text;
+    if (model.joined > 0) text += "joined " + count(model.joined, "equal point", "equal points");
+    if (model.collapsed > 0)
+        text += (text.empty() ? "dropped " : ", dropped ") + count(model.collapsed, "triangle", "triangles") +
+                " with a repeated corner";
+    return (text.empty() ? "" : "Reading " + text + ". ") + report.repairs;
+}
+
+MeshView view_of(const Mesh& mesh) {
+    MeshView view;
+    view.positions = mesh.positions.data();
+    view.position_count = mesh.positions.size();
+    view.indices = mesh.triangles[0].data();
+    view.triangle_count = mesh.triangles.size();
+    view.name = mesh.name.c_str();
+    return view;
+}
+
+std::string line_of(const std::string& path, const ConvertedModel& model, const MeshReport& report) {
+    const Mesh& mesh = model.mesh;
+    return path + ": " + count(mesh.positions.size(), "vertex", "vertices") + ", " +
+           count(mesh.triangles.size(), "triangle", "triangles") + ", " +
+           count(materials_of(mesh), "material", "materials") + ", " + box_of(mesh) + ", " + parts_of(report) + ". " +
+           repairs_of(model, report);
 }
 
 Result<Delivery> convert_and_encode(const std::string& path) {
     auto model = convert_model(path);
     if (!model) return Error{model.error()};
     if (auto r = validate_mesh(model->mesh, path); !r) return Error{r.error()};
-    return Delivery{encode_mesh_file(model->mesh), counts_of(path, *model)};
+    const auto report = examine_mesh(view_of(model->mesh));
+    if (!report) return Error{path + ": " + report.error()};
+    return Delivery{encode_mesh_file(model->mesh), line_of(path, *model, *report)};
 }
+
+/// One line that is written over, on a terminal only; a refusal stays a single sentence everywhere.
+class WaitingLine {
+ public:
+    WaitingLine(std::string path, unsigned seconds) : path_(std::move(path)), seconds_(seconds) {}
+    ~WaitingLine() {
+        if (is_shown_) std::fprintf(stderr, "\r\033[K");
+    }
+    WaitingLine(const WaitingLine&) = delete;
+    WaitingLine& operator=(const WaitingLine&) = delete;
+    void show(double gone) {
+        if (::isatty(STDERR_FILENO) != 1) return;
+        std::fprintf(stderr, "\rreading %s: %.1f s, at most %u s\033[K", path_.c_str(), gone, seconds_);
+        std::fflush(stderr);
+        is_shown_ = true;
+    }
+
+ private:
+    std::string path_;
+    unsigned seconds_;
+    bool is_shown_ = false;
+};
 
 /// The child is not believed either: its bytes go through the reader.
 Result<std::string> import_model(const std::string& in, const std::string& out, const ImportLimits& limits) {
-    auto delivery = run_limited(in, limits, [&in] { return convert_and_encode(in); });
+    const auto work = [&in] { return convert_and_encode(in); };
+    auto delivery = [&] {
+        WaitingLine line(one_line(in), limits.seconds);
+        return run_limited(in, limits, work, [&line](double gone) { line.show(gone); });
+    }();
     if (!delivery) return Error{delivery.error()};
     auto mesh = parse_mesh_file(delivery->bytes, in);
     if (!mesh) return Error{mesh.error()};
@@ -63,7 +130,7 @@ int main(int argc, char** argv) {
     app.add_option("--memory-mib", limits.memory_mib, "most memory for reading the model, MiB")
         ->check(CLI::Range(64, 65536))
         ->capture_default_str();
-    app.add_option("--seconds", limits.seconds, "longest time for reading the model, s")
+    app.add_option("--seconds", limits.seconds, "most processor time for reading the model, s")
         ->check(CLI::Range(1, 3600))
         ->capture_default_str();
     try {
@@ -77,10 +144,10 @@ int main(int argc, char** argv) {
     try {
         const auto line = cullet::import_model(in, out, limits);
         if (line.ok()) {
-            std::printf("%s\n", cullet::one_line(line.value()).c_str());
+            std::printf("%s\n", cullet::one_line(line.value(), cullet::kLongestLine).c_str());
             return 0;
         }
-        std::fprintf(stderr, "%s\n", cullet::one_line(line.error()).c_str());
+        std::fprintf(stderr, "%s\n", cullet::one_line(line.error(), cullet::kLongestLine).c_str());
     } catch (const std::exception&) {
         std::fprintf(stderr, "%s: no memory to take over the result. Simplify the model.\n",
                      cullet::one_line(in).c_str());

@@ -34,7 +34,7 @@ uint32_t cook_given(lua_State* lua, const Arguments& given) {
     // The meshes that the project makes have the edge length asked for: leave them as they are. Strangers' meshes get
     // their longest edges split.
     settings.longest_edge = mesh.has_own_edges ? 100.0f : edge;
-    const Result<uint32_t> cooked = stage.cook(mesh.mesh, settings);
+    const Result<uint32_t> cooked = stage.cook(mesh.mesh, settings, !mesh.has_own_edges);
     if (!cooked.ok()) given.refuse(cooked.error());
     lua_pop(lua, 1);
     return *cooked;

@@ -82,6 +82,7 @@ int imported(lua_State* lua, const Arguments& given, const std::string& path) {
     const bool has_extent = fit(*mesh, given.real("size", kSide, 0.4));
     if (!has_extent) given.refuse(path + ": all of its points lie on one spot; give a mesh with an extent");
     if (given.is("stands", false)) *mesh = moved(std::move(*mesh), {0, -extent_of(*mesh).low.y, 0});
+    mesh->name = std::filesystem::absolute(path).string();  // as sentences name it
     push_mesh(lua, {std::move(mesh).value(), false});
     return 1;
 }

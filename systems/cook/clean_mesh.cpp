@@ -158,10 +158,12 @@ Result<CleanMesh> clean_mesh(const Mesh& mesh, const SurfaceSettings& settings, 
     for (uint32_t t = 0; t < mesh.triangles.size(); ++t) {
         const Triangle& m = mesh.triangles[t];
         const Corners c{{rank[m[0]], rank[m[1]], rank[m[2]]}, t, {0, 1, 2}};
-        if (c.id[0] == c.id[1] || c.id[1] == c.id[2] || c.id[2] == c.id[0])
-            ++repairs.repeated_corner_triangles;
-        else
+        if (c.id[0] != c.id[1] && c.id[1] != c.id[2] && c.id[2] != c.id[0]) {
             corners.push_back(smallest_first(c));
+        } else {
+            ++repairs.repeated_corner_triangles;
+            clean.repeated.push_back(t);
+        }
     }
     const auto nothing_left = [&] {
         return Error{"mesh \"" + mesh.name + "\": none of its " + std::to_string(mesh.triangles.size()) +
@@ -182,12 +184,14 @@ Result<CleanMesh> clean_mesh(const Mesh& mesh, const SurfaceSettings& settings, 
     for (size_t k = 0; k < corners.size(); ++k) {
         if (k > 0 && same_corners(corners[k], corners[k - 1])) {
             ++repairs.repeated_triangles;
+            clean.repeated.push_back(corners[k].source);
             continue;
         }
         clean.triangles.push_back(corners[k].id);
         clean.source_triangles.push_back(corners[k].source);
         clean.source_corners.push_back(corners[k].corner);
     }
+    std::sort(clean.repeated.begin(), clean.repeated.end());
     measure(clean, corners);
     drop_unused(clean, distinct, repairs);
     repairs.unused_vertices -= near_count;

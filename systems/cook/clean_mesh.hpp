@@ -9,6 +9,8 @@ struct CleanMesh {
     std::vector<Triangle> triangles;                     // smallest id first, sorted, each set of corners once
     std::vector<uint32_t> source_triangles;              // in the mesh given
     std::vector<std::array<uint8_t, 3>> source_corners;  // corner k came from that corner of the source triangle
+    std::vector<uint32_t> repeated;                      // triangles of the mesh given that name another's corners
+                                                         // again, or one corner twice; ascending
     Vec3d low, high;                                     // m
     double diagonal = 0;                                 // m
 };

@@ -4,16 +4,21 @@
 #include "engine/memory.hpp"
 #include "engine/mesh_file.hpp"
 #include "systems/cook/build_shell.hpp"
+#include "systems/cook/clean_mesh.hpp"
 #include "systems/cook/extrude.hpp"
 #include "systems/cook/materials.hpp"
+#include "systems/cook/mesh_of_view.hpp"
 #include "systems/cook/model_contents.hpp"
 #include "systems/cook/surface.hpp"
 #include "systems/cook/tessellate.hpp"
+#include "systems/cook/thin_fans.hpp"
 #include "systems/damage/assemble.hpp"
+#include "systems/damage/ring.hpp"
 #include "systems/damage/run_hit.hpp"
 #include "systems/damage/strength_factors.hpp"
 #include "systems/damage/task_cost.hpp"
 #include "systems/damage/working_room.hpp"
+#include "systems/fragments/group_fragments.hpp"
 
 namespace cullet {
 namespace {
@@ -21,23 +26,6 @@ namespace {
 constexpr uint32_t kThresholdPlaces = 4;
 // Default budget of the frame of the touch and of the six that a hold of 0.1 s lasts.
 constexpr uint64_t kDefaultHoldUnits = 8'000'000ull * 7;
-
-Result<Mesh> mesh_of(const MeshView& view) {
-    Mesh mesh;
-    mesh.name = view.name ? view.name : "mesh";
-    if (!view.positions || !view.indices || view.position_count == 0 || view.triangle_count == 0)
-        return Error{mesh.name + ": has no triangles; give positions and indices."};
-    mesh.positions.assign(view.positions, view.positions + view.position_count);
-    mesh.triangles.resize(view.triangle_count);
-    for (size_t t = 0; t < view.triangle_count; ++t)
-        mesh.triangles[t] = {view.indices[3 * t], view.indices[3 * t + 1], view.indices[3 * t + 2]};
-    if (view.corner_normals)
-        mesh.corner_normals.assign(view.corner_normals, view.corner_normals + 3 * view.triangle_count);
-    if (view.corner_uvs) mesh.corner_uvs.assign(view.corner_uvs, view.corner_uvs + 3 * view.triangle_count);
-    if (view.materials) mesh.materials.assign(view.materials, view.materials + view.triangle_count);
-    if (const Result<void> valid = validate_mesh(mesh, mesh.name); !valid) return Error{valid.error()};
-    return mesh;
-}
 
 double diagonal_of(const Mesh& mesh) {
     Vec3d low(mesh.positions[0]), high = low;
@@ -75,6 +63,30 @@ SourceArrays attributes_of(const Surface& surface, const Mesh& mesh) {
         if (!mesh.materials.empty()) arrays.materials.push_back(mesh.materials[source]);
     }
     return arrays;
+}
+
+// Cutting edges multiplies what is named twice, and so does its cost: 466 times the same triangle became a million.
+void drop_triangles(Mesh& mesh, std::span<const uint32_t> dropped) {
+    if (dropped.empty()) return;
+    size_t kept = 0, next = 0;
+    for (uint32_t t = 0; t < mesh.triangles.size(); ++t) {
+        if (next < dropped.size() && dropped[next] == t) {
+            ++next;
+            continue;
+        }
+        mesh.triangles[kept] = mesh.triangles[t];
+        for (size_t k = 0; k < 3; ++k) {
+            if (!mesh.corner_normals.empty())
+                mesh.corner_normals[3 * kept + k] = mesh.corner_normals[3 * size_t{t} + k];
+            if (!mesh.corner_uvs.empty()) mesh.corner_uvs[3 * kept + k] = mesh.corner_uvs[3 * size_t{t} + k];
+        }
+        if (!mesh.materials.empty()) mesh.materials[kept] = mesh.materials[t];
+        ++kept;
+    }
+    mesh.triangles.resize(kept);
+    if (!mesh.corner_normals.empty()) mesh.corner_normals.resize(3 * kept);
+    if (!mesh.corner_uvs.empty()) mesh.corner_uvs.resize(3 * kept);
+    if (!mesh.materials.empty()) mesh.materials.resize(kept);
 }
 
 // Springs, limits, rows and time step. The rows' room is known only when the springs are: the shell moves to ranges
@@ -125,7 +137,8 @@ float estimated_threshold(const State& state, Row<Shells> shell) {
     return 0.2f * materials.tensile_strength[m] / std::sqrt(materials.young_modulus[m] * materials.density[m]);
 }
 
-ModelReport report_on(const State& state, Row<Shells> shell, const Surface& surface, const Extrusion& extrusion) {
+ModelReport report_on(const State& state, Row<Shells> shell, const SurfaceRepairs& repairs,
+                      const Extrusion& extrusion) {
     const Shells& s = state.shells;
     ModelReport report;
     report.vertices = s.vertices[shell].count;
@@ -141,7 +154,7 @@ ModelReport report_on(const State& state, Row<Shells> shell, const Surface& surf
     const auto steps = static_cast<uint64_t>(run / s.time_step[shell]) + 1;
     report.units_of_a_hit = steps * units_a_step(report.vertices + report.vertices / 10, 64) + 300 * kUnitsCut +
                             report.vertices * kUnitsOpen;  // a blow that breaks grows it by a tenth
-    if (!surface.repairs.is_clean()) report.repairs = describe(surface.repairs);
+    if (!repairs.is_clean()) report.repairs = describe(repairs);
     if (report.units_of_a_hit > kDefaultHoldUnits)
         report.advice =
             "A hit needs about " + std::to_string(report.units_of_a_hit / 1'000'000) +
@@ -176,7 +189,7 @@ Result<Model> cook(const MeshView& view, const CookSettings& settings) {
     if (const Result<void> valid = check_host(host); !valid) return Error{valid.error()};
     const HostScope call(host);
     const MemoryScope memory(host.allocator);
-    Result<Mesh> mesh = mesh_of(view);
+    Result<Mesh> mesh = mesh_of_view(view);
     if (!mesh) return Error{mesh.error()};
     const std::string name = mesh->name;
     const Result<Row<Materials>> material = find_material(settings.material);
@@ -189,14 +202,29 @@ Result<Model> cook(const MeshView& view, const CookSettings& settings) {
     if (!(settings.longest_edge >= 0))
         return Error{name + ": longest_edge is " + std::to_string(settings.longest_edge) +
                      " m; give metres, or 0 for what suits the thickness."};
+    if (!(settings.weld_tolerance >= 0 && settings.weld_tolerance <= 0.01f))
+        return Error{name + ": weld_tolerance is " + std::to_string(settings.weld_tolerance) +
+                     " of the diagonal; give 0 to 0.01, or 1e-7 for a soup with noise."};
     if (!has_area(*mesh, diagonal))
         return Error{name + ": no triangle has an area; all of its points lie on a line. Give a surface."};
+    const SurfaceSettings welding{.weld_tolerance = settings.weld_tolerance};
+    // Counted on the mesh as it was given: a triangle that is flipped is one, however often it is cut later.
+    const Result<Surface> given = prepare_surface(*mesh, welding);
+    if (!given) return Error{name + ": " + given.error()};
+    if (const uint32_t parts = given->repairs.unorientable_components; parts > 0)
+        return Error{name + ": " + std::to_string(parts) + (parts == 1 ? " part is" : " parts are") +
+                     " one-sided, like a Moebius strip, so nothing is inside. Cut each along a line, or remove it."};
+    SurfaceRepairs unused;
+    const Result<CleanMesh> clean = clean_mesh(*mesh, welding, unused);
+    if (!clean) return Error{name + ": " + clean.error()};
+    drop_triangles(*mesh, clean->repeated);
     TessellationSettings tessellation;
     tessellation.longest_edge =
         settings.longest_edge > 0 ? settings.longest_edge : std::max(2.0 * settings.thickness, 0.025 * diagonal);
     Result<Mesh> fine = tessellate(*mesh, tessellation);
     if (!fine) return Error{name + ": " + fine.error()};
-    const Result<Surface> surface = prepare_surface(*fine);
+    const uint32_t thinned = thin_fans(*fine, kMostRing);
+    const Result<Surface> surface = prepare_surface(*fine, welding);
     if (!surface) return Error{name + ": " + surface.error()};
     if (settings.progress) settings.progress(settings.progress_user, 0.1f);
     const Result<Extrusion> extrusion = extrude(surface.value(), settings.thickness);
@@ -225,6 +253,7 @@ Result<Model> cook(const MeshView& view, const CookSettings& settings) {
     contents->shell = shell.value();
     contents->name = name;
     contents->material = settings.material;
+    group_fragments(ShellView(state, contents->shell), {});  // numbers the parts, for find_parts
     fill_strength_factors(ShellView(state, contents->shell), settings.seed);
     if (const Result<void> ready = make_stiff(state, contents->shell); !ready)
         return Error{name + ": " + ready.error()};
@@ -233,7 +262,11 @@ Result<Model> cook(const MeshView& view, const CookSettings& settings) {
     else
         state.shells.first_crack_speed[contents->shell] = estimated_threshold(state, contents->shell);
     if (settings.progress && !settings.measures_threshold) settings.progress(settings.progress_user, 1);
-    contents->report = report_on(state, contents->shell, surface.value(), extrusion.value());
+    contents->report = report_on(state, contents->shell, given->repairs, extrusion.value());
+    if (thinned > 0)
+        contents->report.repairs += (contents->report.repairs.empty() ? "" : " ") + std::string("Thinned ") +
+                                    std::to_string(thinned) + (thinned == 1 ? " fan" : " fans") + " of more than " +
+                                    std::to_string(kMostRing) + " triangles.";
     Model model;
     model.contents = contents;
     return model;

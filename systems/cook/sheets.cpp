@@ -250,6 +250,13 @@ void turn_inside_out(CleanMesh& mesh, Surface& surface) {
         if (is_turned[surface.component_of[t]]) turn(mesh, t);
 }
 
+// A triangle whose corners run the other way round than in the mesh given.
+uint32_t count_flipped(const CleanMesh& mesh) {
+    uint32_t count = 0;
+    for (const auto& corner : mesh.source_corners) count += (corner[1] + 3u - corner[0]) % 3 == 2;
+    return count;
+}
+
 // Every triangle corner starts as a vertex of its own; corners are united across joints only. This one rule splits bow
 // ties and crowded edges. Vertices are numbered by (position, lowest corner).
 void unite_corners(const CleanMesh& mesh, const std::vector<Joint>& joints, Surface& surface) {
@@ -321,6 +328,7 @@ void make_sheets(CleanMesh clean, Surface& surface) {
     });
     find_components(clean, joints, is_one_sided, surface);
     turn_inside_out(clean, surface);
+    surface.repairs.flipped_triangles = count_flipped(clean);
     unite_corners(clean, joints, surface);
     surface.source_triangles = std::move(clean.source_triangles);
     surface.source_corners = std::move(clean.source_corners);

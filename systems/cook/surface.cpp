@@ -23,29 +23,32 @@ bool SurfaceRepairs::is_clean() const {
 
 std::string describe(const SurfaceRepairs& r) {
     std::string text;
-    const auto say = [&](uint32_t count, const char* before, const char* after) {
+    const auto say = [&](const char* before, uint32_t count, const char* one, const char* many, const char* after) {
         if (count == 0) return;
         text += text.empty() ? "Surface: " : ", ";
-        text += before + std::to_string(count) + after;
+        text += before + std::to_string(count) + " " + (count == 1 ? one : many) + after;
     };
-    say(r.welded_vertices, "welded ", " vertices at the position of another");
-    say(r.unused_vertices, "dropped ", " positions in no triangle");
-    say(r.repeated_corner_triangles, "dropped ", " triangles with a repeated corner");
-    say(r.zero_area_triangles, "dropped ", " triangles of no area");
-    say(r.repeated_triangles, "dropped ", " repeated triangles");
-    say(r.crowded_edges, "paired the sheets by angle at ", " edges of more than two triangles");
-    say(r.loose_sheets, "left ", " sheets open there");
-    say(r.turned_triangles, "turned ", " triangles to agree with their neighbours");
-    say(r.turned_components, "turned ", " components that were inside out");
-    say(r.cavities, "kept ", " components as walls of cavities");
-    say(r.unorientable_components, "found ", " one-sided components (they get no depth)");
-    say(r.split_vertices, "split off ", " vertices where several fans met");
-    say(r.crossing_pairs, "found ",
-        " pairs of triangles that cut or touch each other (never tested against each other)");
-    say(r.independent_pairs, "took ", " pairs of components that meet as bodies of their own");
+    say("welded ", r.welded_vertices, "vertex", "vertices", " at the position of another");
+    say("dropped ", r.unused_vertices, "position", "positions", " in no triangle");
+    say("dropped ", r.repeated_corner_triangles, "triangle", "triangles", " with a repeated corner");
+    say("dropped ", r.zero_area_triangles, "triangle", "triangles", " of no area");
+    say("dropped ", r.repeated_triangles, "repeated triangle", "repeated triangles", "");
+    say("flipped ", r.flipped_triangles, "triangle", "triangles", " so that neighbours agree and outsides are outside");
+    say("turned ", r.turned_components, "inside-out part", "inside-out parts", "");
+    say("kept ", r.cavities, "part", "parts", " as walls of cavities");
+    say("found ", r.unorientable_components, "one-sided part", "one-sided parts", " (without depth)");
+    say("split ", r.crowded_edges, "edge", "edges", " of more than two triangles into sheets paired by angle");
+    say("left ", r.loose_sheets, "sheet", "sheets", " open there");
+    say("split off ", r.split_vertices, "vertex", "vertices", " where several fans met");
+    say("found ", r.crossing_pairs, "pair", "pairs",
+        " of triangles that cut or touch each other (never tested against each other)");
+    say("took ", r.independent_pairs, "pair", "pairs", " of parts that meet as bodies of their own");
+    say("left ", r.open_borders, "border", "borders", " open");
+    if (r.open_borders > 0)
+        text += " (" + std::to_string(r.border_edges) + (r.border_edges == 1 ? " edge)" : " edges)");
     text = text.empty() ? "Surface: nothing to repair" : text;
     if (r.is_mostly_border)
-        text += "; most edges are borders, so prepare it with weld_tolerance 1e-7 if its positions are noisy";
+        text += "; most edges are borders: cook it with weld_tolerance 1e-7 if its positions are noisy";
     return text + ".";
 }
 
@@ -61,6 +64,8 @@ Result<Surface> prepare_surface(const Mesh& mesh, const SurfaceSettings& setting
     surface.independent = find_independent(surface);
     surface.repairs.crossing_pairs = static_cast<uint32_t>(surface.crossings.size());
     surface.repairs.independent_pairs = static_cast<uint32_t>(surface.independent.size() / 2);
+    surface.repairs.open_borders = static_cast<uint32_t>(surface.border_loops.size() - 1);
+    surface.repairs.border_edges = static_cast<uint32_t>(surface.border_edges.size());
     surface.repairs.is_mostly_border =
         surface.triangles.size() > 8 && 2 * surface.border_edges.size() > 3 * surface.triangles.size();
     return surface;

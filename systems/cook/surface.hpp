@@ -26,15 +26,19 @@ struct SurfaceRepairs {
     uint32_t loose_sheets = 0;               // triangle edges left without a partner at crowded edges
     uint32_t turned_triangles = 0;           // winding changed to agree with the neighbours
     uint32_t turned_components = 0;          // closed and inside out, turned whole
+    uint32_t flipped_triangles = 0;          // whose winding, after both, is not the one that came
     uint32_t cavities = 0;                   // closed, inside out, and inside another: kept as they are
     uint32_t unorientable_components = 0;    // one-sided; they get depth 0
     uint32_t split_vertices = 0;             // vertices added because several fans met at one position
     uint32_t crossing_pairs = 0;             // triangles that cut or touch each other; kept, never tested later
     uint32_t independent_pairs = 0;          // pairs of components that cross, touch or share a position
+    uint32_t open_borders = 0;               // loops of edges with one triangle; no repair: they stay open
+    uint32_t border_edges = 0;               // edges of these loops
     bool is_mostly_border = false;  // most edges have one triangle: positions are perhaps equal only within noise
+    /// Nothing was changed or found that a person should know; open borders are ordinary.
     bool is_clean() const;
 };
-/// One sentence for a person, for example "Welded 3 vertices and dropped 2 triangles of no area."
+/// One sentence for a person, for example "Surface: welded 3 vertices at the position of another, flipped 2 triangles."
 std::string describe(const SurfaceRepairs& repairs);
 
 /// Triangles connected over paired edges.

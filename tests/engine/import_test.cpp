@@ -163,6 +163,31 @@ TEST_F(Import, TooLittleTimeIsOneSentenceAndNoFile) {
     EXPECT_FALSE(fs::exists(folder_ / "out.cmesh"));
 }
 
+TEST_F(Import, TooLittleMemoryIsOneSentenceAndMoreIsAnOption) {
+    std::string text;
+    constexpr int kSide = 300;
+    for (int i = 0; i < kSide * kSide; ++i)
+        text.append("v ")
+            .append(std::to_string(i % kSide))
+            .append(" ")
+            .append(std::to_string(i / kSide))
+            .append(" 0\n");
+    for (int i = 1; i < kSide * (kSide - 1); ++i) {
+        if (i % kSide == 0) continue;
+        for (const int corner : {i, i + 1, i + kSide + 1, i + kSide})
+            text.append(corner == i ? "f " : " ").append(std::to_string(corner));
+        text.append("\n");
+    }
+    const std::string path = file("large.obj", text);
+    const ProgramRun little = run(path, folder_ / "out.cmesh", "--memory-mib 64");
+    EXPECT_EQ(little.exit_code, 2);
+    EXPECT_NE(little.said.find("needs more than 64 MiB to read"), std::string::npos) << little.said;
+    EXPECT_EQ(std::count(little.said.begin(), little.said.end(), '\n'), 1) << little.said;
+    EXPECT_FALSE(fs::exists(folder_ / "out.cmesh"));
+    const ProgramRun enough = run(path, folder_ / "out.cmesh", "--memory-mib 1024 --seconds 20");
+    EXPECT_EQ(enough.exit_code, 0) << enough.said;
+}
+
 TEST_F(Import, APipeOrAFolderInPlaceOfAModelIsRefusedAtOnce) {
     const std::string pipe = folder_ / "pipe.obj", folder = folder_ / "folder.obj";
     ASSERT_EQ(mkfifo(pipe.c_str(), 0600), 0);
@@ -206,7 +231,7 @@ struct Wanted {
 };
 
 TEST_F(Import, EveryThickShellHasTheKnownCounts) {
-    if (!fs::exists(test_data() / "thick_shell")) GTEST_SKIP() << "no test data at " << test_data();
+    if (!fs::exists(test_data() / "thick_shell")) GTEST_SKIP() << "no test data at " << test_data() << "; set CULLET_TEST_DATA";
     const Wanted all[] = {{"bottle_tall.glb", 1180, 2352},
                           {"curtains_double.glb", 208, 320},
                           {"dogue.gltf", 2651, 4736},
@@ -230,14 +255,14 @@ TEST_F(Import, EveryThickShellHasTheKnownCounts) {
 }
 
 TEST_F(Import, AMirroredNodeKeepsTheOutsideOutside) {
-    if (!fs::exists(test_data() / "hostile")) GTEST_SKIP() << "no test data at " << test_data();
+    if (!fs::exists(test_data() / "hostile")) GTEST_SKIP() << "no test data at " << test_data() << "; set CULLET_TEST_DATA";
     const auto mesh = import_mesh(test_data() / "hostile" / "mirrored_node.gltf", kProgram, cache());
     ASSERT_TRUE(mesh.ok()) << mesh.error();
     EXPECT_GT(volume_of(mesh.value()), 3.8);  // a sphere of radius 1, 224 triangles
 }
 
 TEST_F(Import, HostileFilesAreRefusedInTimeWithOneSentenceAndNoFile) {
-    if (!fs::exists(test_data() / "hostile")) GTEST_SKIP() << "no test data at " << test_data();
+    if (!fs::exists(test_data() / "hostile")) GTEST_SKIP() << "no test data at " << test_data() << "; set CULLET_TEST_DATA";
     const char* const files[] = {"accessor_count_4_billion.gltf",
                                  "assimp_BoxWithInfinites.glb",
                                  "assimp_OutOfMemory.off",

@@ -66,12 +66,32 @@ TEST(Options, WhatMakesNoSenseIsRefusedInOneSentence) {
         {"run", "wall", "--nonsense"},
         {"truth"},
         {"frame", "frame"},
+        {"cook"},
+        {"cook", "cow.obj"},
+        {"cook", "--out", "cow.cmodel"},
+        {"cook", "cow.obj", "--out", "cow.cmodel", "--thickness-m", "0"},
+        {"cook", "cow.obj", "--out", "cow.cmodel", "--weld", "1"},
     };
     for (const auto& arguments : wrong) {
         const auto parsed = parse_options(arguments);
         ASSERT_FALSE(parsed.ok()) << arguments.size();
         expect_a_sentence(parsed.error());
     }
+}
+
+TEST(Options, ACookIsReadWithAllThatCanBeGiven) {
+    const auto parsed = parse_options({"cook", "cow.obj", "--out", "cow.cmodel", "--material", "glass", "--thickness-m",
+                                       "0.01", "--edge-m", "0.02", "--weld", "1e-7", "--seed", "7"});
+    ASSERT_TRUE(parsed.ok()) << parsed.error();
+    EXPECT_EQ(parsed.value().command, Command::Cook);
+    const CookOptions& cook = parsed.value().cook;
+    EXPECT_EQ(cook.mesh, "cow.obj");
+    EXPECT_EQ(cook.out, "cow.cmodel");
+    EXPECT_EQ(cook.material, "glass");
+    EXPECT_EQ(cook.thickness_m, 0.01);
+    EXPECT_EQ(cook.edge_m, 0.02);
+    EXPECT_EQ(cook.weld, 1e-7);
+    EXPECT_EQ(cook.seed, 7u);
 }
 
 TEST(Options, HelpIsNoError) {

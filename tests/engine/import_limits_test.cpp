@@ -1,0 +1,164 @@
+// What the child that reads strangers' files may not do.
+#include <fcntl.h>
+#include <gtest/gtest.h>
+#include <signal.h>
+#include <sys/socket.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <chrono>
+#include <cstring>
+#include <filesystem>
+#include <fstream>
+#include <thread>
+
+#include "engine/import/import.hpp"
+
+namespace cullet {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// Runs `work` in the child; it says what it found.
+std::string told_by_child(const std::function<std::string()>& work, const ImportLimits& limits = {}) {
+    const Result<Delivery> delivery = run_limited("file", limits, [&]() -> Result<Delivery> {
+        return Delivery{{1}, work()};
+    });
+    return delivery.ok() ? delivery->line : "refused: " + delivery.error();
+}
+
+/// "" when the call failed as the filter makes it fail.
+std::string expect_forbidden(const char* call, long result) {
+    if (result < 0 && errno == EPERM) return "";
+    return std::string(call) + (result < 0 ? " failed with " + std::string(std::strerror(errno)) : " worked") + "; ";
+}
+
+class Limits : public testing::Test {
+ protected:
+    void SetUp() override {
+        folder_ = fs::temp_directory_path() / ("import_limits_test." + std::to_string(getpid()));
+        fs::create_directories(folder_);
+        std::ofstream(folder_ / "there") << "text";
+    }
+    void TearDown() override { fs::remove_all(folder_); }
+    fs::path folder_;
+};
+
+TEST_F(Limits, TheChildHasNoNetwork) {
+    EXPECT_EQ(told_by_child([] {
+                  return expect_forbidden("socket", ::socket(AF_INET, SOCK_STREAM, 0)) +
+                         expect_forbidden("local socket", ::socket(AF_UNIX, SOCK_STREAM, 0)) +
+                         expect_forbidden("socketpair", [] {
+                             int ends[2];
+                             return ::socketpair(AF_UNIX, SOCK_STREAM, 0, ends);
+                         }());
+              }),
+              "");
+}
+
+TEST_F(Limits, TheChildStartsNoProcessAndNoThreadAndEndsNone) {
+    const pid_t parent = getpid();
+    EXPECT_EQ(told_by_child([parent] {
+                  const pid_t made = ::fork();
+                  if (made == 0) ::_exit(0);
+                  std::string said = expect_forbidden("fork", made);
+                  char name[] = "/bin/true";
+                  char* arguments[] = {name, nullptr};
+                  said += expect_forbidden("exec", ::execv(name, arguments));
+                  said += expect_forbidden("kill", ::kill(parent, 0));
+                  try {
+                      std::thread([] {}).join();
+                      said += "a thread was started; ";
+                  } catch (const std::system_error&) {
+                  }
+                  return said;
+              }),
+              "");
+}
+
+TEST_F(Limits, TheChildWritesRemovesAndRenamesNoFile) {
+    const std::string there = folder_ / "there", made = folder_ / "made";
+    EXPECT_EQ(told_by_child([&] {
+                  return expect_forbidden("open to write", ::open(there.c_str(), O_WRONLY)) +
+                         expect_forbidden("open to read and write", ::open(there.c_str(), O_RDWR)) +
+                         expect_forbidden("create", ::open(made.c_str(), O_RDONLY | O_CREAT, 0600)) +
+                         expect_forbidden("openat", ::openat(AT_FDCWD, made.c_str(), O_WRONLY | O_CREAT, 0600)) +
+                         expect_forbidden("unlink", ::unlink(there.c_str())) +
+                         expect_forbidden("rename", ::rename(there.c_str(), made.c_str())) +
+                         expect_forbidden("mkdir", ::mkdir(made.c_str(), 0700)) +
+                         expect_forbidden("truncate", ::truncate(there.c_str(), 0)) +
+                         expect_forbidden("chmod", ::chmod(there.c_str(), 0)) +
+                         expect_forbidden("link", ::link(there.c_str(), made.c_str())) +
+                         expect_forbidden("symlink", ::symlink(there.c_str(), made.c_str()));
+              }),
+              "");
+    EXPECT_EQ(fs::file_size(there), 4u);
+    EXPECT_FALSE(fs::exists(made));
+}
+
+TEST_F(Limits, TheChildReadsFiles) {
+    const std::string there = folder_ / "there";
+    EXPECT_EQ(told_by_child([&] {
+                  std::string text;
+                  std::ifstream(there) >> text;
+                  return text;
+              }),
+              "text");
+}
+
+TEST_F(Limits, MemoryEndsWhereItIsSetAndTheSentenceNamesTheOption) {
+    const auto take = [](size_t mib) {
+        return [mib] {
+            std::vector<char> block(mib << 20, 1);
+            return std::to_string(block[block.size() / 2]);
+        };
+    };
+    EXPECT_EQ(told_by_child(take(100), {512, 10}), "1");
+    const std::string refused = told_by_child(take(600), {512, 10});
+    EXPECT_NE(refused.find("file: needs more than 512 MiB"), std::string::npos) << refused;
+    EXPECT_NE(refused.find("--memory-mib"), std::string::npos) << refused;
+}
+
+double seconds_of(const std::function<void()>& work) {
+    const auto begin = std::chrono::steady_clock::now();
+    work();
+    return std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+}
+
+TEST_F(Limits, AChildThatComputesOrSleepsWithoutEndIsEnded) {
+    std::string computing, sleeping;
+    const double computed = seconds_of([&] {
+        computing = told_by_child(
+            [] {
+                std::string text;
+                for (;;) text.assign(1000, ' ');
+                return text;
+            },
+            {256, 1});
+    });
+    const double slept = seconds_of([&] {
+        sleeping = told_by_child(
+            [] {
+                for (;;) ::pause();
+                return std::string();
+            },
+            {256, 1});
+    });
+    EXPECT_LT(computed, 4);
+    EXPECT_LT(slept, 4);
+    for (const std::string& said : {computing, sleeping})
+        EXPECT_NE(said.find("was not read within 1 s of processor time"), std::string::npos) << said;
+}
+
+TEST_F(Limits, AChildThatCrashesIsOneSentence) {
+    const std::string said = told_by_child([] {
+        ::raise(SIGSEGV);
+        ::abort();
+        return std::string();
+    });
+    EXPECT_NE(said.find("the model reader crashed on it (signal"), std::string::npos) << said;
+}
+
+}  // namespace
+}  // namespace cullet

@@ -1,0 +1,70 @@
+// A mesh of several parts is one body until a hit that is worth a task.
+#include <gtest/gtest.h>
+
+#include "engine/math.hpp"
+#include "sample_game/game_world.hpp"
+#include "sample_game/scenes/scenes.hpp"
+#include "systems/world_contents.hpp"
+#include "tests/support/simple_meshes.hpp"
+
+namespace cullet {
+namespace {
+
+/// So many boxes in a row, 1 cm apart, above a floor, falling at so many m/s.
+ScenePlan boxes_that_fall(uint32_t count, float speed) {
+    Mesh mesh;
+    mesh.name = "boxes";
+    for (uint32_t n = 0; n < count; ++n) {
+        const Mesh box = test::box_mesh({0.1, 0.1, 0.1}, 4);
+        const auto first = static_cast<uint32_t>(mesh.positions.size());
+        for (const Vec3 p : box.positions) mesh.positions.push_back(p + Vec3{0.11f * static_cast<float>(n), 0, 0});
+        for (const auto& t : box.triangles) mesh.triangles.push_back({first + t[0], first + t[1], first + t[2]});
+    }
+    CookSettings settings;
+    settings.thickness = 0.01f;
+    settings.longest_edge = 1;
+    settings.measures_threshold = false;
+    ScenePlan plan;
+    plan.models.push_back(cook(view_of(mesh), settings).value());
+    plan.settings.units_a_frame = 1'000'000'000;
+    plan.props.push_back(floor_prop());
+    Spawn body;
+    body.settings.pose.position = {0, 0.16f, 0};
+    body.settings.motion.velocity = {0, -speed, 0};
+    plan.spawns.push_back(body);
+    return plan;
+}
+
+struct Fall {
+    uint64_t born = 0, cuts = 0, opened = 0;
+    double mass_error = 0;
+};
+
+Fall fall(uint32_t count, float speed) {
+    const ScenePlan plan = boxes_that_fall(count, speed);
+    GameWorld game = GameWorld::create(plan).value();
+    for (int frame = 0; frame < 40; ++frame) {
+        game.before_step();
+        game.step();
+        game.after_step();
+    }
+    const DamageCounts& counts = game.world().contents().data.counts;
+    return {game.born, counts.cuts, counts.opened, measure_matter(game.world()).mass / game.mass_put_in() - 1};
+}
+
+TEST(FindParts, BoxesThatNothingJoinsComeApartWithoutACrack) {
+    const Fall three = fall(3, 0.3f);
+    EXPECT_EQ(three.cuts, 0u);
+    EXPECT_EQ(three.born, 2u);  // the first keeps the handle
+    EXPECT_NEAR(three.mass_error, 0, 1e-6);
+}
+
+TEST(FindParts, OneBoxStaysOneUnderTheSameHit) {
+    const Fall one = fall(1, 0.3f);
+    EXPECT_GT(one.opened, 0u);
+    EXPECT_EQ(one.cuts, 0u);
+    EXPECT_EQ(one.born, 0u);
+}
+
+}  // namespace
+}  // namespace cullet
