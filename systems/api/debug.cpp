@@ -26,7 +26,7 @@ uint32_t colour_of(const Bodies& bodies, uint32_t b) {
     return bodies.is_asleep[b] ? kDebugAsleep : kDebugAwake;
 }
 
-void draw_box(const Pen& pen, const Extent& e, const Pose& pose, uint32_t colour) {
+void draw_box(const Pen& pen, const AxisBox& e, const Pose& pose, uint32_t colour) {
     const auto corner = [&](int k) {
         return to_world(pose, {k & 1 ? e.high.x : e.low.x, k & 2 ? e.high.y : e.low.y, k & 4 ? e.high.z : e.low.z});
     };

@@ -93,7 +93,7 @@ void visit_triangles(const Target& target, Far&& far, Limit&& limit, Visit&& vis
     const uint32_t count = indices.count / 3, boxes = (count + kTrianglesPerBox - 1) / kTrianglesPerBox;
     const auto far_box = [&](uint32_t k) {
         const auto& box = target.world.view_boxes.box[indices.first / kViewGranule + k];
-        return far(Extent{{box[0], box[1], box[2]}, {box[3], box[4], box[5]}});
+        return far(AxisBox{{box[0], box[1], box[2]}, {box[3], box[4], box[5]}});
     };
     const auto visit_box = [&](uint32_t k) {
         for (uint32_t t = kTrianglesPerBox * k; t < std::min(kTrianglesPerBox * (k + 1), count); ++t)
@@ -161,7 +161,7 @@ struct Line {
     }
 
     /// Where it enters the box; kNever where it does not.
-    double far(const Extent& e) const {
+    double far(const AxisBox& e) const {
         double from = 0, to = kNever;
         const double o[] = {origin.x, origin.y, origin.z};
         const float low[] = {e.low.x, e.low.y, e.low.z}, high[] = {e.high.x, e.high.y, e.high.z};
@@ -190,7 +190,7 @@ void meet_triangles(const Target& target, const Line& line, Best& best) {
     const Frame frame = target.frame();
     const Line own(frame.to_body(line.origin), frame.turn_back(line.direction));
     visit_triangles(
-        target, [&](const Extent& e) { return own.far(e); }, [&] { return best.distance; },
+        target, [&](const AxisBox& e) { return own.far(e); }, [&] { return best.distance; },
         [&](uint32_t t, const Triangle3& triangle) {
             const double distance = distance_along(triangle, own.origin, own.direction);
             if (distance < 0 || !best.takes(distance, target.body, t)) return;
@@ -201,7 +201,7 @@ void meet_triangles(const Target& target, const Line& line, Best& best) {
 // ---- a point
 
 /// A little less than the distance.
-double far_from(const Extent& e, Vec3d p) {
+double far_from(const AxisBox& e, Vec3d p) {
     const Vec3d low = Vec3d(e.low) - p, high = p - Vec3d(e.high);
     const Vec3d out{std::max({low.x, high.x, 0.0}), std::max({low.y, high.y, 0.0}), std::max({low.z, high.z, 0.0})};
     return length(out) - kSlack;
@@ -220,7 +220,7 @@ void approach_triangles(const Target& target, Vec3d point, Best& best) {
     const Frame frame = target.frame();
     const Vec3d own = frame.to_body(point);
     visit_triangles(
-        target, [&](const Extent& e) { return far_from(e, own); }, [&] { return best.distance; },
+        target, [&](const AxisBox& e) { return far_from(e, own); }, [&] { return best.distance; },
         [&](uint32_t t, const Triangle3& triangle) {
             const Vec3d nearest = nearest_point(triangle, own);
             const double distance = length(nearest - own);
@@ -240,14 +240,14 @@ bool meets_ball(const Target& target, Vec3d centre, double radius) {
     const Vec3d own = target.frame().to_body(centre);
     bool is_met = false;
     visit_triangles(
-        target, [&](const Extent& e) { return far_from(e, own); }, [&] { return is_met ? -1 : radius; },
+        target, [&](const AxisBox& e) { return far_from(e, own); }, [&] { return is_met ? -1 : radius; },
         [&](uint32_t, const Triangle3& t) { is_met = is_met || length(nearest_point(t, own) - own) <= radius; });
     return is_met;
 }
 
 // ---- a box
 
-bool meets_extent(const Extent& a, const Extent& b) {
+bool meets_extent(const AxisBox& a, const AxisBox& b) {
     return a.low.x <= b.high.x && b.low.x <= a.high.x && a.low.y <= b.high.y && b.low.y <= a.high.y &&
            a.low.z <= b.high.z && b.low.z <= a.high.z;
 }
@@ -256,8 +256,8 @@ struct WorldBox {
     Vec3d centre, half;
 
     /// The box round it in a body's frame.
-    Extent in(const Frame& frame) const {
-        Extent e;
+    AxisBox in(const Frame& frame) const {
+        AxisBox e;
         for (int k = 0; k < 8; ++k) {
             const Vec3d corner{k & 1 ? half.x : -half.x, k & 2 ? half.y : -half.y, k & 4 ? half.z : -half.z};
             e.include(frame.to_body(centre + corner).to_float());
@@ -268,14 +268,15 @@ struct WorldBox {
 };
 
 bool meets_world_box(const Target& target, const WorldBox& box) {
-    const Extent extent{(box.centre - box.half).to_float(), (box.centre + box.half).to_float()};
+    const AxisBox extent{(box.centre - box.half).to_float(), (box.centre + box.half).to_float()};
     if (target.is_sphere()) return far_from(extent, target.centre()) <= target.bodies().radius[target.body];
     if (target.is_box() && is_inside_box(target, box.centre)) return true;
     const Frame frame = target.frame();
-    const Extent own = box.in(frame);
+    const AxisBox own = box.in(frame);
     bool is_met = false;
     visit_triangles(
-        target, [&](const Extent& e) { return meets_extent(e, own) ? 0 : kNever; }, [&] { return is_met ? -1.0 : 0.0; },
+        target, [&](const AxisBox& e) { return meets_extent(e, own) ? 0 : kNever; },
+        [&] { return is_met ? -1.0 : 0.0; },
         [&](uint32_t, const Triangle3& t) {
             const Triangle3 in_world{frame.to_world(t.a), frame.to_world(t.b), frame.to_world(t.c)};
             is_met = is_met || meets_box(in_world, box.centre, box.half);
@@ -321,7 +322,7 @@ SurfaceHit ray(const World& world, Vec3 origin, Vec3 direction, float length_, u
     if (!is_within(origin, kFarthest) || !(scale > 0 && scale < 1e30) || !(length_ >= 0)) return {};
     const Line line(Vec3d(origin), (1 / scale) * Vec3d(direction));
     Best best{std::min<double>(length_, 4 * kFarthest)};
-    d.query_index->visit([&](const Extent& e) { return line.far(e); }, [&] { return best.distance; },
+    d.query_index->visit([&](const AxisBox& e) { return line.far(e); }, [&] { return best.distance; },
                          [&](uint32_t body) {
                              const Target target{d, body};
                              if (!target.has_layer(mask)) return;
@@ -338,7 +339,7 @@ SurfaceHit closest(const World& world, Vec3 point, float reach, uint32_t mask) {
     if (!is_within(point, kFarthest) || !(reach >= 0)) return {};
     const Vec3d p(point);
     Best best{std::min<double>(reach, 4 * kFarthest)};
-    d.query_index->visit([&](const Extent& e) { return far_from(e, p); }, [&] { return best.distance; },
+    d.query_index->visit([&](const AxisBox& e) { return far_from(e, p); }, [&] { return best.distance; },
                          [&](uint32_t body) {
                              const Target target{d, body};
                              if (!target.has_layer(mask)) return;
@@ -355,19 +356,19 @@ uint32_t overlap(const World& world, Vec3 centre, float radius, BodyId* out, uin
     if (!is_within(centre, kFarthest) || !(radius >= 0)) return 0;
     const Vec3d p(centre);
     return overlapping(
-        d, mask, {out, capacity}, [&](const Extent& e) { return far_from(e, p); }, radius,
+        d, mask, {out, capacity}, [&](const AxisBox& e) { return far_from(e, p); }, radius,
         [&](const Target& target) { return meets_ball(target, p, radius); });
 }
 
 uint32_t overlap(const World& world, const Box& box, BodyId* out, uint32_t capacity, uint32_t mask) {
     const WorldData& d = world.contents().data;
     if (!is_within(box.low, kFarthest) || !is_within(box.high, kFarthest)) return 0;
-    const Extent extent{box.low, box.high};
+    const AxisBox extent{box.low, box.high};
     if (box.low.x > box.high.x || box.low.y > box.high.y || box.low.z > box.high.z) return 0;
     const Vec3d low(box.low), high(box.high);
     const WorldBox own{0.5 * (low + high), 0.5 * (high - low)};
     return overlapping(
-        d, mask, {out, capacity}, [&](const Extent& e) { return meets_extent(e, extent) ? 0 : kNever; }, 0,
+        d, mask, {out, capacity}, [&](const AxisBox& e) { return meets_extent(e, extent) ? 0 : kNever; }, 0,
         [&](const Target& target) { return meets_world_box(target, own); });
 }
 

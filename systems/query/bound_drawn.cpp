@@ -6,7 +6,7 @@
 namespace cullet {
 namespace {
 
-std::array<float, 6> row_of(const Extent& e) {
+std::array<float, 6> row_of(const AxisBox& e) {
     return {e.low.x, e.low.y, e.low.z, e.high.x, e.high.y, e.high.z};
 }
 
@@ -17,10 +17,10 @@ void bound_view(Bodies& bodies, Row<Bodies> body, const ViewVertices& vertices, 
     const Range drawn = bodies.view_indices[body];
     const ViewVertex* const vertex = vertices.vertex.data() + bodies.view_vertices[body].first;
     const uint32_t* const index = indices.index.data() + drawn.first;
-    Extent whole;
+    AxisBox whole;
     uint32_t row = drawn.first / kViewGranule;
     for (uint32_t from = 0; from < drawn.count; from += 3 * kTrianglesPerBox) {
-        Extent box;
+        AxisBox box;
         for (uint32_t i = from; i < std::min(from + 3 * kTrianglesPerBox, drawn.count); ++i)
             box.include(vertex[index[i]].position);
         boxes.box[row++] = row_of(box);

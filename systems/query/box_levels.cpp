@@ -20,7 +20,7 @@ uint32_t cell_of(float at, float low, float high) {
     return share > 0 ? static_cast<uint32_t>(std::min(share, kCells - 1.0f)) : 0;  // 0 for what is no number
 }
 
-Vec3 middle(const Extent& e) {
+Vec3 middle(const AxisBox& e) {
     return 0.5f * (e.low + e.high);
 }
 
@@ -33,8 +33,8 @@ void BoxLevels::reserve(size_t items) {
     levels_.reserve(items / 7 + 2 * kMostLevels);
 }
 
-void BoxLevels::build(std::span<const uint32_t> items, std::span<const Extent> extents) {
-    Extent all;
+void BoxLevels::build(std::span<const uint32_t> items, std::span<const AxisBox> extents) {
+    AxisBox all;
     for (const uint32_t item : items) all.include(middle(extents[item]));
     order_.assign(items.begin(), items.end());
     codes_.resize(items.size());
@@ -61,7 +61,7 @@ void BoxLevels::build(std::span<const uint32_t> items, std::span<const Extent> e
         const uint32_t first = static_cast<uint32_t>(levels_.size()), count = (below + kFan - 1) / kFan;
         first_[level_count_] = first;
         for (uint32_t k = 0; k < count; ++k) {
-            Extent box;
+            AxisBox box;
             for (uint32_t i = kFan * k; i < std::min(kFan * (k + 1), below); ++i)
                 box.include(level_count_ == 0 ? extents[order_[i]] : levels_[from + i]);
             levels_.push_back(box);

@@ -11,13 +11,13 @@
 namespace cullet {
 
 /// Axis-aligned; empty until something is included.
-struct Extent {
+struct AxisBox {
     Vec3 low{1e30f, 1e30f, 1e30f}, high{-1e30f, -1e30f, -1e30f};
     void include(Vec3 p) {
         low = {std::min(low.x, p.x), std::min(low.y, p.y), std::min(low.z, p.z)};
         high = {std::max(high.x, p.x), std::max(high.y, p.y), std::max(high.z, p.z)};
     }
-    void include(const Extent& e) {
+    void include(const AxisBox& e) {
         low = {std::min(low.x, e.low.x), std::min(low.y, e.low.y), std::min(low.z, e.low.z)};
         high = {std::max(high.x, e.high.x), std::max(high.y, e.high.y), std::max(high.z, e.high.z)};
     }
@@ -27,9 +27,9 @@ class BoxLevels {
  public:
     void reserve(size_t items);
     /// Over the items named; `extents` is looked up by their numbers. Equal codes keep the order of the list.
-    void build(std::span<const uint32_t> items, std::span<const Extent> extents);
+    void build(std::span<const uint32_t> items, std::span<const AxisBox> extents);
     /// The box of everything.
-    Extent whole() const { return levels_.empty() ? Extent{} : levels_.back(); }
+    AxisBox whole() const { return levels_.empty() ? AxisBox{} : levels_.back(); }
 
     /// visit(item) for items below boxes that are no farther than `limit()`, which may fall while it runs; nearer boxes
     /// first. `far(extent)` is how far a box is, at least: the same unit, infinite for never. The items' own boxes are
@@ -40,7 +40,7 @@ class BoxLevels {
  private:
     static constexpr uint32_t kFan = 8, kMostLevels = 10;
     std::vector<uint32_t> order_, sorted_, codes_;
-    std::vector<Extent> levels_;  // of 8 items each, then of 8 of those, ..., the last one of all
+    std::vector<AxisBox> levels_;  // of 8 items each, then of 8 of those, ..., the last one of all
     uint32_t first_[kMostLevels + 1] = {}, level_count_ = 0;
 };
 

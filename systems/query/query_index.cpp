@@ -17,7 +17,7 @@ bool is_same(const Pose& a, const Pose& b) {
 }
 
 // Of the box `local` at this pose; wider by what floats round away.
-Extent turned(const Extent& local, const Pose& pose) {
+AxisBox turned(const AxisBox& local, const Pose& pose) {
     const Mat3 m = matrix(pose.orientation);
     const Vec3 half = 0.5f * (local.high - local.low);
     const Vec3 centre = to_world(pose, 0.5f * (local.low + local.high));
@@ -64,7 +64,7 @@ void QueryIndex::set_triangles(uint32_t body, std::span<const Vec3> positions,
     triangles_[body] = std::move(made);
 }
 
-Extent QueryIndex::world_extent(const Bodies& bodies, uint32_t body) const {
+AxisBox QueryIndex::world_extent(const Bodies& bodies, uint32_t body) const {
     const Pose pose = pose_of(bodies, body);
     if (triangles_[body]) return triangles_[body]->tree.whole();
     const float r = bodies.radius[body];

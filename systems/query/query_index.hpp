@@ -17,7 +17,7 @@ class ByteReader;
 /// What add_static was given, world axes.
 struct StaticTriangles {
     std::vector<std::array<Vec3, 3>> corners;
-    std::vector<Extent> extents;
+    std::vector<AxisBox> extents;
     BoxLevels tree;
 
     void measure();
@@ -45,7 +45,7 @@ class QueryIndex {
     /// stood, 100 ns where they move.
     void refresh(const Bodies& bodies);
 
-    const Extent& extent(uint32_t body) const { return extents_[body]; }
+    const AxisBox& extent(uint32_t body) const { return extents_[body]; }
     const StaticTriangles* triangles(uint32_t body) const { return triangles_[body].get(); }
     Vec3 half_extents(uint32_t body) const { return half_extents_[body]; }
 
@@ -70,10 +70,10 @@ class QueryIndex {
         bool is_there = false;
     };
     bool place(const Bodies& bodies, uint32_t body);
-    Extent world_extent(const Bodies& bodies, uint32_t body) const;
+    AxisBox world_extent(const Bodies& bodies, uint32_t body) const;
 
     std::vector<Stand> stands_;
-    std::vector<Extent> extents_;  // world
+    std::vector<AxisBox> extents_;  // world
     std::vector<Vec3> half_extents_;
     std::vector<std::unique_ptr<StaticTriangles>> triangles_;
     BoxLevels tree_;
