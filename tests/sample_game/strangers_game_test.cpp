@@ -8,7 +8,7 @@
 #include "cullet/model.hpp"
 #include "sample_game/cache.hpp"
 #include "sample_game/import_model.hpp"
-#include "sample_game/scenes/scenes.hpp"
+#include "sample_game/props.hpp"
 #include "tests/support/data_files.hpp"
 #include "tests/support/run_program.hpp"
 #include "tests/support/test_data.hpp"

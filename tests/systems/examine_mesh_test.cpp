@@ -4,7 +4,7 @@
 #include <limits>
 
 #include "cullet/model.hpp"
-#include "sample_game/scenes/scenes.hpp"
+#include "sample_game/props.hpp"
 #include "tests/support/simple_meshes.hpp"
 
 namespace cullet {

@@ -3,7 +3,7 @@
 
 #include "engine/math.hpp"
 #include "sample_game/game_world.hpp"
-#include "sample_game/scenes/scenes.hpp"
+#include "sample_game/props.hpp"
 #include "systems/world_contents.hpp"
 #include "tests/support/simple_meshes.hpp"
 

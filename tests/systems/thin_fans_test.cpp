@@ -6,7 +6,7 @@
 #include <numeric>
 
 #include "cullet/model.hpp"
-#include "sample_game/scenes/scenes.hpp"
+#include "sample_game/props.hpp"
 #include "systems/cook/surface.hpp"
 #include "tests/support/simple_meshes.hpp"
 
