@@ -34,6 +34,10 @@ class Hull {
             for (uint32_t i = 0; i < points_.size(); ++i) file(i, faces_, face_count_);
             const uint32_t room = most + has_tip_;
             for (uint32_t next = farthest(); next != kNoPoint; next = farthest()) {
+                if (is_corner(next)) {  // of a shell without depth, whose margin is 0: above itself by rounding
+                    face_of_[next] = kNoFace;
+                    continue;
+                }
                 chosen.left_out = above_[next];
                 if (corner_count_ == room || !add(next)) break;
                 chosen.left_out = 0;
@@ -51,6 +55,9 @@ class Hull {
         for (uint32_t i = 1; i < points_.size(); ++i)
             if (const float m = measure(points_[i]); m > most) most = m, at = i;
         return at;
+    }
+    bool is_corner(uint32_t i) const {
+        return std::find(source_, source_ + corner_count_, i) != source_ + corner_count_;
     }
     void add_corner(uint32_t i) {
         corner_[corner_count_] = points_[i];

@@ -93,7 +93,7 @@ TEST(StrangersGame, CookWritesAModelFileThatReads) {
     const Result<Model> read = read_model(model);
     ASSERT_TRUE(read.ok()) << read.error();
     EXPECT_GT(read->report().mass, 0);
-    EXPECT_LE(read->report().mean_thickness, 0.004001);
+    EXPECT_NEAR(read->report().mean_thickness, 0.004, 0.0004);  // measured along the ways in, which lean
     for (const auto& wrong : {std::vector<std::string>{kGame, "cook", mesh, "--out", folder / "none" / "x.cmodel"},
                               {kGame, "cook", mesh, "--out", model, "--material", "cheese"},
                               {kGame, "cook", folder / "none.obj", "--out", model},
