@@ -42,7 +42,7 @@ Prop floor_prop(float half_side, float height) {
     return prop;
 }
 
-Extent extent_of(const Mesh& mesh) {
+MeshExtent extent_of(const Mesh& mesh) {
     if (mesh.positions.empty()) return {};
     Vec3 low = mesh.positions[0], high = low;
     for (const Vec3 p : mesh.positions) {

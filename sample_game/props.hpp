@@ -20,10 +20,10 @@ Prop box_prop(Vec3 low, Vec3 high, Vec3 colour);
 Prop floor_prop(float half_side = 30, float height = 0);
 
 Mesh moved(Mesh mesh, Vec3 by);
-struct Extent {
+struct MeshExtent {
     Vec3 low, high;
 };
-Extent extent_of(const Mesh& mesh);
+MeshExtent extent_of(const Mesh& mesh);
 /// Scaled so that its largest side is `size`, with the middle of its box at the origin. False for a mesh of no extent.
 bool fit(Mesh& mesh, float size);
 

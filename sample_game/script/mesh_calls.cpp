@@ -123,7 +123,7 @@ int fit_to(lua_State* lua) {
 }
 
 int size(lua_State* lua) {
-    const Extent extent = extent_of(mesh_at(lua, 1, "mesh:size").mesh);
+    const MeshExtent extent = extent_of(mesh_at(lua, 1, "mesh:size").mesh);
     push_vector(lua, {extent.high.x - extent.low.x, extent.high.y - extent.low.y, extent.high.z - extent.low.z});
     return 1;
 }

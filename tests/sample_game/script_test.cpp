@@ -311,6 +311,74 @@ TEST(Script, TheSameScriptAndSeedGiveTheSameBytesOnOneTwoAndThreeThreads) {
     EXPECT_NE(hashes_of(plan), one);
 }
 
+std::string text_of(const std::string& path) {
+    std::ifstream file(std::string(CULLET_SOURCE_DIR) + path);
+    return {std::istreambuf_iterator<char>(file), {}};
+}
+
+TEST(Script, TheExampleOfThePageOnScriptsMeetsItsExpectation) {
+    const std::string page = text_of("/docs/scripting.md");
+    const size_t from = page.find("```lua\n") + 7, to = page.find("```", from);
+    ASSERT_NE(to, std::string::npos);
+    const Result<Report> report = play(plan_of(page.substr(from, to - from)), RunOptions());
+    ASSERT_TRUE(report.ok()) << report.error();
+    EXPECT_GT(report->fragments.born, 3u);
+}
+
+TEST(Script, ThePageOnScriptsNamesEveryCall) {
+    const std::string page = text_of("/docs/scripting.md");
+    Stage stage;
+    stage.plan = plan_of(R"(
+        local all = ""
+        for name in pairs(game) do all = all .. "game." .. name .. " " end
+        for name in pairs(game.mesh) do all = all .. name .. " " end
+        game.note(all)
+    )");
+    Script script(stage);
+    ASSERT_TRUE(script.start().ok());
+    std::istringstream names(stage.notes.at(0));
+    uint32_t count = 0;
+    for (std::string name; names >> name; ++count)
+        if (name != "game.mesh") {
+            EXPECT_NE(page.find(name), std::string::npos) << name;
+        }
+    EXPECT_GT(count, 35u);
+}
+
+TEST(Script, WhatIsAskedAndToldOfABodyIsSo) {
+    EXPECT_EQ(failure_of(R"(
+        game.setting{gravity_mps2 = 0}
+        game.camera{eye = {1, 1, 2}, target = {0, 0.5, 0}, field_of_view = 0.7}
+        game.sun{towards = {0.4, 0.8, 0.3}, strength = 2.3}
+        game.box{low = {-1, -1, -1}, high = {1, -0.5, 1}, colour = {0.4, 0.4, 0.4}}
+        game.static{mesh = game.mesh.table{}:move{0, -3, 0}, at = {0, 0, 1}}
+        game.expect(game.mesh.ball{radius = 2, subdivisions = 2}:fit(0.5):size().x <= 0.5, "a mesh is fitted")
+        local function near(a, b) return math.abs(a - b) < 1e-5 end
+        local b = game.throw{radius = 0.1, mass = 2, at = {0, 1, 0}, velocity = {1, 2, 3}, spin = {0, 1, 0}}
+        game.expect(near(b:velocity().z, 3) and near(b:spin().y, 1) and near(b:mass(), 2), "it is as thrown")
+        b:set_velocity{0, 0, 0}
+        b:set_spin{0, 0, 2}
+        game.expect(near(b:velocity().z, 0) and near(b:spin().z, 2), "it is as told")
+        b:push{impulse = {4, 0, 0}}
+        b:put{at = {5, 5, 5}, turn = {axis = {0, 1, 0}, angle = math.pi}}
+        game.expect(near(b:velocity().x, 2) and near(b:position().y, 5) and near(math.abs(b:turn().y), 1), "it was pushed and put")
+        wait{frames = 1}
+        game.expect(near(b:position().x, 5 + 2 / 60), "it has moved on")
+        game.expect(#game.bodies() == 3 and game.bodies()[3] == b, "three bodies")
+        local energy = 0.5 * 2 * b:velocity().x ^ 2 + 0.5 * (0.4 * 2 * 0.01) * b:spin().z ^ 2
+        game.expect(near(game.kinetic_energy(), energy) and energy > 4, "energy of flight and spin")
+        b:wake()
+        b:remove()
+        game.expect(not b:is_alive() and game.mass_put_in() == 0 and game.mass() == 0, "it is gone")
+        local r = game.random(-1, 1)
+        game.expect(r >= -1 and r < 1 and game.random() ~= game.random(), "chance")
+        game.expect(game.seeded(7) == game.seeded(7) and game.any_turn(7).w == game.any_turn(7).w, "the same again")
+        game.expect(game.single(0.1) ~= 0.1 and game.single(0.5) == 0.5 and game.crumbs() == 0, "single")
+        game.expect(game.asleep_share() == 1 and game.seed() == 1, "nothing moves")
+    )"),
+              "");
+}
+
 /// Hashes of a short run, before the scenes became scripts. A change of the simulation changes them on purpose.
 struct KnownHash {
     const char *scene, *hash;
