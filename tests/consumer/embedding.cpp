@@ -1,6 +1,7 @@
 // The code of docs/embedding.md, built and run.
 #include <algorithm>
 #include <cstdio>
+#include <string>
 #include <utility>
 #include <vector>
 
@@ -27,6 +28,7 @@ struct Game {
     void explode(Vec3 at);
     void show_lines();
     void follow(Vec3& player);
+    Result<void> quick_save(const std::string& path);
 };
 
 void Game::frame(double seconds) {
@@ -83,6 +85,11 @@ void Game::follow(Vec3& player) {
     if (world.shift_origin(by).ok()) player = {player.x - by.x, player.y, player.z - by.z};
 }
 
+Result<void> Game::quick_save(const std::string& path) {
+    if (Result<void> saved = world.save(path); !saved) return saved;
+    return world.start_recording(path + ".crec");  // what is asked from here on, and a hash after each step
+}
+
 int main() {
     Settings settings;
     settings.limits.bodies = 512;
@@ -103,6 +110,7 @@ int main() {
     spawn.motion.velocity = {0, -12, 0};
     const BodyId body = game.world.spawn(game.world.add_model(model.value()).value(), spawn).value();
     game.follow(player);
+    const bool is_saved = game.quick_save("embedding.csnap").ok();
     std::vector<uint32_t> stamps;
     const bool is_seen = game.aim({player.x, 5, player.z}, {0.01f, -1, 0.01f}) == body;
     for (int frame = 0; frame < 90; ++frame) {
@@ -111,5 +119,7 @@ int main() {
     }
     game.explode(player);
     game.show_lines();
-    return is_seen && game.sounds > 0 && game.drawn > 90 ? 0 : 1;
+    const bool is_recorded = game.world.stop_recording().ok();
+    for (const char* file : {"embedding.csnap", "embedding.csnap.crec"}) std::remove(file);
+    return is_saved && is_recorded && is_seen && game.sounds > 0 && game.drawn > 90 ? 0 : 1;
 }

@@ -57,5 +57,7 @@ int main() {
     }
     const SurfaceHit below = ray(world, {0, 3, 0}, {0, -1, 0}, 5);  // between steps, from any thread
     std::printf("the eye at 3 m looks down on %zu, %.2f m away\n", size_t{below.user_data}, below.distance);
-    return fragments > 0 && below ? 0 : 1;
+    const bool is_saved = world.save("vase.csnap").ok() && world.load("vase.csnap").ok();  // in mid-fracture, too
+    std::remove("vase.csnap");
+    return fragments > 0 && below && is_saved ? 0 : 1;
 }
