@@ -194,7 +194,14 @@ void Recorder::end_step(uint64_t frame, const State& state) {
         if (digests_[k] != digests_before_[k]) step_.number(static_cast<uint16_t>(k)), step_.number(digests_[k]);
     digests_before_ = digests_;
     if (is_sound()) file_.append(ChunkKind::Step, step_.bytes);
-    if (trouble_.empty() && !file_.is_sound()) trouble_ = "the recording cannot be written on; is the disk full?";
+    if (trouble_.empty() && !file_.is_sound())
+        trouble_ = "the recording cannot be written on and ends here; make room on the disk and begin another.";
+}
+
+const char* Recorder::untold_trouble() {
+    if (trouble_.empty() || is_told_) return nullptr;
+    is_told_ = true;
+    return trouble_.c_str();
 }
 
 }  // namespace cullet

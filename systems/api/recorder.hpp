@@ -56,6 +56,8 @@ class Recorder {
     void end_step(uint64_t frame, const State& state);
 
     bool is_sound() const { return file_.is_sound() && trouble_.empty(); }
+    /// Once: a sentence for the log.
+    const char* untold_trouble();
     /// Why the recording ended before it was stopped, or empty.
     const std::string& trouble() const { return trouble_; }
 
@@ -68,6 +70,7 @@ class Recorder {
     std::vector<uint8_t> answers_;
     std::vector<uint32_t> digests_, digests_before_;
     std::string trouble_;
+    bool is_told_ = false;
 };
 
 /// Numbers of a call's structures in the order of the bytes, for both ways.

@@ -84,7 +84,11 @@ void World::Contents::step() {
     count();
     profiler.end_frame();
     if (d.counts.units_used == 0) d.state.commit_ahead(d.ready_for, 1);  // a quiet frame
-    if (recorder) recorder->end_step(d.step_info.frame, d.state);
+    if (recorder) {
+        recorder->end_step(d.step_info.frame, d.state);
+        const char* const trouble = recorder->untold_trouble();
+        if (trouble && host.log) host.log(host.user, LogLevel::Error, trouble);
+    }
     ++d.step_info.frame;
     if (host.zone_end) host.zone_end(host.user);
     log.tell(host, d);

@@ -206,6 +206,22 @@ TEST(Recording, WhatIsNoRecordingIsRefusedInASentence) {
     remove_files();
 }
 
+TEST(Recording, AFullDiskEndsTheRecordingAndTheLogIsToldOnce) {
+    std::vector<std::string> told;
+    Host host;
+    host.user = &told;
+    host.log = [](void* user, LogLevel, const char* sentence) {
+        static_cast<std::vector<std::string>*>(user)->push_back(sentence);
+    };
+    World world = test::make_world(test::small_settings(), host);
+    ASSERT_TRUE(world.start_recording("/dev/full").ok());
+    ASSERT_TRUE(world.add_sphere(test::ball_at({0, 0, 0}, 1, 1)).ok());
+    for (int frame = 0; frame < 5; ++frame) world.step();
+    ASSERT_EQ(told.size(), 1u);
+    EXPECT_NE(told[0].find("disk"), std::string::npos) << told[0];
+    EXPECT_FALSE(world.stop_recording().ok());
+}
+
 TEST(Recording, TwoRunsThatPartAreToldBySystemFrameTableColumnAndRow) {
     const std::string path = file_of("part.crec");
     (void)play_and_record(path, 30);
