@@ -11,7 +11,7 @@
 #include "engine/math.hpp"
 #include "sample_game/game_world.hpp"
 #include "sample_game/import_model.hpp"
-#include "sample_game/scenes/scenes.hpp"
+#include "sample_game/props.hpp"
 #include "tests/support/data_files.hpp"
 #include "tests/support/test_data.hpp"
 
@@ -36,28 +36,14 @@ double diagonal_of(const Mesh& mesh) {
     return length(Vec3d(high) - Vec3d(low));
 }
 
-/// Porcelain, 2 % of the diagonal thick, edges of at most 5 %, over a floor that it meets in the first frames.
-Result<ScenePlan> plan_of(const Mesh& mesh) {
-    ScenePlan plan;
+/// Porcelain, 2 % of the diagonal thick, edges of at most 5 %.
+Result<Model> cooked(const Mesh& mesh) {
     const auto diagonal = static_cast<float>(diagonal_of(mesh));
     CookSettings settings;
     settings.thickness = 0.02f * diagonal;
     settings.longest_edge = 0.05f * diagonal;
     settings.measures_threshold = false;
-    Result<Model> model = cook(view_of(mesh), settings);
-    if (!model.ok()) return Error{model.error()};
-    plan.models.push_back(std::move(model).value());
-    plan.settings.units_a_frame = 2'000'000'000'000;  // a hit is over in the frame of its touch
-    plan.settings.threads = 2;
-    plan.props.push_back(floor_prop(std::max(30.0f, 20 * diagonal)));
-    Spawn body;
-    body.settings.pose.orientation = turn({0.3f, 0.2f, 1}, 0.5);
-    float lowest = 1e30f;
-    for (const Vec3 p : mesh.positions) lowest = std::min(lowest, rotate(body.settings.pose.orientation, p).y);
-    body.settings.pose.position = {0, 0.01f * diagonal + 0.05f - lowest, 0};
-    body.settings.motion.velocity = {0, -kSpeed, 0};
-    plan.spawns.push_back(body);
-    return plan;
+    return cook(view_of(mesh), settings);
 }
 
 struct Broken {
@@ -65,33 +51,52 @@ struct Broken {
     double mass_error = 0;  // share of the mass put in
 };
 
-Result<Broken> break_it(const ScenePlan& plan) {
-    Result<GameWorld> game = GameWorld::create(plan);
-    if (!game.ok()) return Error{game.error()};
-    int left = kMostFrames;
-    for (; left > 0; --left) {
-        game->before_step();
-        game->step();
-        game->after_step();
-        if (game->born > 0) left = std::min(left, kFramesAfter);
+/// Over a floor that it meets in the first frames.
+Result<Broken> break_it(const Mesh& mesh, const Model& model) {
+    const auto diagonal = static_cast<float>(diagonal_of(mesh));
+    // A hit is over in the frame of its touch.
+    Settings settings;
+    settings.threads = 2;
+    settings.units_a_frame = 2'000'000'000'000;
+    Result<World> made = World::create(settings);
+    if (!made.ok()) return Error{made.error()};
+    World& world = *made;
+    const Result<BodyId> floor = world.add_static(view_of(floor_prop(std::max(30.0f, 20 * diagonal)).mesh));
+    if (!floor.ok()) return Error{floor.error()};
+    SpawnSettings body;
+    body.pose.orientation = turn({0.3f, 0.2f, 1}, 0.5);
+    float lowest = 1e30f;
+    for (const Vec3 p : mesh.positions) lowest = std::min(lowest, rotate(body.pose.orientation, p).y);
+    body.pose.position = {0, 0.01f * diagonal + 0.05f - lowest, 0};
+    body.motion.velocity = {0, -kSpeed, 0};
+    const Result<ModelId> id = world.add_model(model);
+    if (!id.ok()) return Error{id.error()};
+    if (const auto spawned = world.spawn(*id, body); !spawned.ok()) return Error{spawned.error()};
+    Broken broken;
+    const double put_in = measure_matter(world).mass;
+    for (int left = kMostFrames; left > 0; --left) {
+        world.step();
+        broken.pieces += world.events().fragments_born.count;
+        broken.faults += world.events().faults.count;
+        if (broken.pieces > 0) left = std::min(left, kFramesAfter);
     }
-    const double put_in = game->mass_put_in();
-    return Broken{game->born, game->events["fault"], (measure_matter(game->world()).mass - put_in) / put_in};
+    broken.mass_error = (measure_matter(world).mass - put_in) / put_in;
+    return broken;
 }
 
 void expect_breaks(const fs::path& file) {
     const auto begin = std::chrono::steady_clock::now();
     const Result<Mesh> mesh = import_model(file);
     ASSERT_TRUE(mesh.ok()) << mesh.error();
-    const Result<ScenePlan> plan = plan_of(*mesh);
-    ASSERT_TRUE(plan.ok()) << plan.error();
-    const Result<Broken> broken = break_it(*plan);
+    const Result<Model> model = cooked(*mesh);
+    ASSERT_TRUE(model.ok()) << model.error();
+    const Result<Broken> broken = break_it(*mesh, *model);
     ASSERT_TRUE(broken.ok()) << broken.error();
     EXPECT_GT(broken->pieces, 0u) << file;
     EXPECT_EQ(broken->faults, 0u) << file;
     EXPECT_LE(std::fabs(broken->mass_error), 1e-6) << file;
     std::printf("| %s | %zu | %u | %llu | %.1e | %.1f |\n", file.filename().c_str(), mesh->positions.size(),
-                plan->models[0].report().vertices, static_cast<unsigned long long>(broken->pieces), broken->mass_error,
+                model->report().vertices, static_cast<unsigned long long>(broken->pieces), broken->mass_error,
                 std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count());
     std::fflush(stdout);
 }

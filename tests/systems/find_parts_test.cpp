@@ -1,6 +1,7 @@
 // A mesh of several parts is one body until a hit that is worth a task.
 #include <gtest/gtest.h>
 
+#include "cullet/world.hpp"
 #include "engine/math.hpp"
 #include "sample_game/game_world.hpp"
 #include "sample_game/props.hpp"
@@ -10,8 +11,8 @@
 namespace cullet {
 namespace {
 
-/// So many boxes in a row, 1 cm apart, above a floor, falling at so many m/s.
-ScenePlan boxes_that_fall(uint32_t count, float speed) {
+/// So many boxes in a row, 1 cm apart.
+Model boxes(uint32_t count) {
     Mesh mesh;
     mesh.name = "boxes";
     for (uint32_t n = 0; n < count; ++n) {
@@ -24,15 +25,7 @@ ScenePlan boxes_that_fall(uint32_t count, float speed) {
     settings.thickness = 0.01f;
     settings.longest_edge = 1;
     settings.measures_threshold = false;
-    ScenePlan plan;
-    plan.models.push_back(cook(view_of(mesh), settings).value());
-    plan.settings.units_a_frame = 1'000'000'000;
-    plan.props.push_back(floor_prop());
-    Spawn body;
-    body.settings.pose.position = {0, 0.16f, 0};
-    body.settings.motion.velocity = {0, -speed, 0};
-    plan.spawns.push_back(body);
-    return plan;
+    return cook(view_of(mesh), settings).value();
 }
 
 struct Fall {
@@ -40,16 +33,26 @@ struct Fall {
     double mass_error = 0;
 };
 
+/// Flat on a floor.
 Fall fall(uint32_t count, float speed) {
-    const ScenePlan plan = boxes_that_fall(count, speed);
-    GameWorld game = GameWorld::create(plan).value();
+    Settings settings;
+    settings.units_a_frame = 1'000'000'000;
+    World world = World::create(settings).value();
+    EXPECT_TRUE(world.add_static(view_of(floor_prop().mesh)).ok());
+    SpawnSettings body;
+    body.pose.position = {0, 0.16f, 0};
+    body.motion.velocity = {0, -speed, 0};
+    EXPECT_TRUE(world.spawn(world.add_model(boxes(count)).value(), body).ok());
+    const double put_in = measure_matter(world).mass;
+    Fall found;
     for (int frame = 0; frame < 40; ++frame) {
-        game.before_step();
-        game.step();
-        game.after_step();
+        world.step();
+        found.born += world.events().fragments_born.count;
     }
-    const DamageCounts& counts = game.world().contents().data.counts;
-    return {game.born, counts.cuts, counts.opened, measure_matter(game.world()).mass / game.mass_put_in() - 1};
+    found.cuts = world.contents().data.counts.cuts;
+    found.opened = world.contents().data.counts.opened;
+    found.mass_error = measure_matter(world).mass / put_in - 1;
+    return found;
 }
 
 TEST(FindParts, BoxesThatNothingJoinsComeApartWithoutACrack) {
