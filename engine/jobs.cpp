@@ -1,5 +1,6 @@
 #include "engine/jobs.hpp"
 
+#include <oneapi/tbb/info.h>
 #include <oneapi/tbb/parallel_for.h>
 #include <oneapi/tbb/task_arena.h>
 
@@ -15,6 +16,12 @@
 
 namespace cullet {
 namespace {
+
+#ifdef CULLET_JOBS_ON_STD_THREAD
+constexpr bool kJobsOnStdThread = true;  // the thread sanitizer does not see through oneTBB
+#else
+constexpr bool kJobsOnStdThread = false;
+#endif
 
 // What a job has of its caller, on whatever thread it runs.
 struct JobMode {
@@ -54,7 +61,8 @@ class TbbJobs final : public JobSystem {
     oneapi::tbb::task_arena arena_;
 };
 
-// Threads of our own that sleep between passes. Serves the thread sanitizer, which does not see through oneTBB. A pass
+// Threads of our own that sleep between passes. Serves where more threads are asked for than the machine has cores, and
+// the thread sanitizer. A pass
 // is numbered; a thread that comes late to one finds all of its jobs taken. Callers take turns; a pass inside of a job
 // of this same system runs on that job's thread.
 class ThreadJobs final : public JobSystem {
@@ -167,7 +175,9 @@ class ForeignJobs final : public JobSystem {
 
 std::unique_ptr<JobSystem> make_jobs(JobBackend backend, uint32_t threads) {
     if (threads <= 1) return std::make_unique<CallerJobs>();
-    if (backend == JobBackend::Threads) return std::make_unique<ThreadJobs>(threads);
+    // oneTBB has no more workers than the machine has cores, whatever an arena asks for.
+    const bool fits_tbb = threads <= static_cast<uint32_t>(oneapi::tbb::info::default_concurrency());
+    if (backend == JobBackend::Threads || kJobsOnStdThread || !fits_tbb) return std::make_unique<ThreadJobs>(threads);
     return std::make_unique<TbbJobs>(threads);
 }
 

@@ -23,7 +23,8 @@ class JobSystem {
 
 enum class JobBackend : uint8_t { Tbb, Threads };
 
-/// `threads` counts the caller; 1 runs everything on it and starts none.
+/// `threads` counts the caller; 1 runs everything on it and starts none. More than the machine has cores run on threads
+/// of our own also where oneTBB is asked for; always, in builds with CULLET_JOBS_ON_STD_THREAD.
 std::unique_ptr<JobSystem> make_jobs(JobBackend backend, uint32_t threads);
 std::unique_ptr<JobSystem> make_host_jobs(const HostJobs& jobs);
 

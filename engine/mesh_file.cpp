@@ -37,6 +37,13 @@ struct Header {
 };
 static_assert(sizeof(Header) == 64);
 
+// A fuzzer cannot guess checksums, and what stands behind them is to be looked at too.
+#ifdef FUZZING_BUILD_MODE_UNSAFE_FOR_PRODUCTION
+constexpr bool kChecksumsCount = false;
+#else
+constexpr bool kChecksumsCount = true;
+#endif
+
 std::string text(uint64_t n) {
     return std::to_string(n);
 }
@@ -183,7 +190,7 @@ Result<Header> parse_header(std::span<const uint8_t> bytes, const std::string& n
     if (header.version != kVersion)
         return Error{name + ": has version " + text(uint64_t{header.version}) + ", this build reads version " +
                      text(uint64_t{kVersion}) + ". Import the model again."};
-    if (XXH3_64bits(bytes.data(), offsetof(Header, header_hash)) != header.header_hash)
+    if (kChecksumsCount && XXH3_64bits(bytes.data(), offsetof(Header, header_hash)) != header.header_hash)
         return damaged(name, "the header's checksum does not fit");
     const uint64_t present = bytes.size() - sizeof header;
     if (header.payload_bytes != present)
@@ -204,7 +211,7 @@ Result<Header> parse_header(std::span<const uint8_t> bytes, const std::string& n
     if (needed != present)
         return damaged(name, text(header.vertices) + " vertices and " + text(header.triangles) + " triangles need " +
                                  text(needed) + " bytes, there are " + text(present));
-    if (XXH3_64bits(bytes.data() + sizeof header, present) != header.payload_hash)
+    if (kChecksumsCount && XXH3_64bits(bytes.data() + sizeof header, present) != header.payload_hash)
         return damaged(name, "the checksum of the data does not fit");
     return header;
 }

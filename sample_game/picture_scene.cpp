@@ -9,7 +9,6 @@ namespace {
 constexpr float kCrackShade = 0.62f;       // crack faces are drawn darker by this
 constexpr float kInnerSaturation = 0.65f;  // and inner faces lose a third of their colour
 constexpr float kGlassShadow = 0.35f;      // share of light that a glass body keeps from what lies behind it
-constexpr float kHaze = 40;                // the ground is half sky at this many eye heights
 const Vec3 kGroundColour{0.60f, 0.595f, 0.58f};
 const Vec3 kLineColour{0.20f, 0.21f, 0.23f};
 

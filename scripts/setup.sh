@@ -1,5 +1,6 @@
 #!/usr/bin/env bash
 # Installs the Debian packages that cullet needs and that are missing. Quick when none are.
+# With --all also those of the clang, sanitizer and fuzz builds.
 set -euo pipefail
 
 packages=(
@@ -8,6 +9,9 @@ packages=(
     libassimp-dev libcli11-dev nlohmann-json3-dev libfmt-dev libpng-dev liblua5.4-dev
     libgtest-dev
 )
+if [[ ${1:-} == --all ]]; then
+    packages+=(clang libclang-rt-14-dev llvm)  # the run-time libraries of the sanitizers; llvm-symbolizer
+fi
 
 missing=()
 for package in "${packages[@]}"; do

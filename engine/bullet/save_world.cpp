@@ -270,10 +270,11 @@ struct PairBytes {
             *link = r;
             link = &r->next;
             flow_record(f, *r);
-            const bool is_known = find_piece(a, r->a, hulls_a, r->hull_a) & find_piece(b, r->b, hulls_b, r->hull_b);
-            in.expect(is_known && (r->hull_a || r->hull_b), "a remembered pair names pieces " + std::to_string(r->a) +
-                                                                " and " + std::to_string(r->b) +
-                                                                ", which its bodies do not have,");
+            const bool knows_a = find_piece(a, r->a, hulls_a, r->hull_a);  // both fill in their hull
+            const bool knows_b = find_piece(b, r->b, hulls_b, r->hull_b);
+            in.expect(knows_a && knows_b && (r->hull_a || r->hull_b),
+                      "a remembered pair names pieces " + std::to_string(r->a) + " and " + std::to_string(r->b) +
+                          ", which its bodies do not have,");
             const auto points = in.number<int8_t>("a number of contact points");
             in.expect(points >= -1 && points <= MANIFOLD_CACHE_SIZE,
                       "a contact of " + std::to_string(points) + " points");

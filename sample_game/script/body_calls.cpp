@@ -271,7 +271,7 @@ int body_remove(lua_State* lua) {
     check(lua, "body:remove", world.remove(body));
     Stage& stage = script_of(lua).stage();
     if (counts) stage.sums.mass_put_in -= mass;
-    std::erase_if(stage.movers, [&](const Mover& mover) { return mover.body == body; });
+    std::erase_if(stage.movers, [removed = body](const Mover& mover) { return mover.body == removed; });
     return 0;
 }
 

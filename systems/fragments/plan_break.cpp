@@ -279,7 +279,7 @@ void keep_cracks(Planning& planning, Row<Tasks> task) {
     State& state = planning.state;
     const Row<Bodies> body = state.tasks.body[task];
     const ShellView shell(state, state.tasks.shell[task]), before(state, state.bodies.shell[body]);
-    const FragmentPart& whole = state.fragments.part[size_t{task} * kMostParts];
+    const FragmentPart& whole = state.fragments.part[task * kMostParts];
     const char* full = nullptr;
     if (!take_view(state, body, shell, whole))
         full = "limits.view_vertices";

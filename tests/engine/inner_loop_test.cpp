@@ -171,10 +171,8 @@ std::vector<Backend> all_backends() {
     std::vector<Backend> list;
     for (const uint32_t threads : {1u, 2u, 3u, 8u})
         list.push_back({std::to_string(threads) + " threads", make_jobs(JobBackend::Threads, threads), nullptr});
-#ifndef __SANITIZE_THREAD__  // it does not see through oneTBB
     for (const uint32_t threads : {2u, 8u})
         list.push_back({std::to_string(threads) + " of TBB", make_jobs(JobBackend::Tbb, threads), nullptr});
-#endif
     list.push_back({"a host that runs them backwards", nullptr, std::make_unique<Host>(Order::Backwards, 4u)});
     list.push_back({"a host that runs them in some order", nullptr, std::make_unique<Host>(Order::Random, 4u)});
     list.push_back({"a host that runs all on one thread", nullptr, std::make_unique<Host>(Order::OneThread, 3u)});

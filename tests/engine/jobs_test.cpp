@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <atomic>
+#include <chrono>
 #include <numeric>
 #include <thread>
 #include <vector>
@@ -52,9 +53,7 @@ std::vector<Backend> all_backends() {
     std::vector<Backend> list;
     list.push_back({"caller", make_jobs(JobBackend::Tbb, 1)});
     for (const uint32_t threads : {2u, 3u, 8u}) list.push_back({"threads", make_jobs(JobBackend::Threads, threads)});
-#ifndef __SANITIZE_THREAD__  // it does not see through oneTBB
     for (const uint32_t threads : {2u, 8u}) list.push_back({"TBB", make_jobs(JobBackend::Tbb, threads)});
-#endif
     for (Order& order : orders) list.push_back({"host", make_host_jobs(host_jobs(order))});
     return list;
 }
@@ -87,6 +86,25 @@ TEST(Jobs, EveryBackendSaysHowManyRunAtOnce) {
     EXPECT_EQ(make_host_jobs(silent)->worker_count(), 1u);
     silent.worker_count = [](void*) { return 0u; };
     EXPECT_EQ(make_host_jobs(silent)->worker_count(), 1u);
+}
+
+// The first `threads` jobs end once all of them have begun, or after a minute.
+uint32_t jobs_at_once(JobSystem& jobs, uint32_t threads) {
+    std::atomic<uint32_t> begun{0}, met{0};
+    const auto end = std::chrono::steady_clock::now() + std::chrono::minutes(1);
+    parallel_for(jobs, threads, [&](uint32_t) {
+        ++begun;
+        while (begun < threads && std::chrono::steady_clock::now() < end) std::this_thread::yield();
+        met += begun == threads;
+    });
+    return met;
+}
+
+TEST(Jobs, MoreThreadsThanCoresAreThatManyThreads) {
+    const uint32_t more = std::max(std::thread::hardware_concurrency() + 1, 8u);
+    for (const JobBackend backend : {JobBackend::Tbb, JobBackend::Threads})
+        for (const uint32_t threads : {more, more + 5})
+            EXPECT_EQ(jobs_at_once(*make_jobs(backend, threads), threads), threads);
 }
 
 constexpr unsigned kFlags = 0x3f;  // of exceptions that happened: not a mode
