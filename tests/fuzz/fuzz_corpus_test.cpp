@@ -1,0 +1,60 @@
+// Every input that once was a finding, and some seconds of others, through the readers. scripts/fuzz.sh looks further.
+#include <gtest/gtest.h>
+
+#include <chrono>
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+
+#include "tests/fuzz/fuzz.hpp"
+
+namespace cullet::fuzz {
+namespace {
+
+/// Of each format: 20, or as many as CULLET_FUZZ_SECONDS says.
+double seconds_to_look() {
+    const char* text = std::getenv("CULLET_FUZZ_SECONDS");
+    return text ? std::atof(text) : 20;
+}
+
+class EveryFormat : public testing::TestWithParam<const Format*> {};
+
+TEST_P(EveryFormat, EveryGoodFileIsAccepted) {
+    const Format& format = *GetParam();
+    for (const Bytes& seed : seeds_of(format)) EXPECT_TRUE(format.read(seed)) << format.name;
+}
+
+TEST_P(EveryFormat, TheCorpusIsReadOrRefused) {
+    const Format& format = *GetParam();
+    size_t count = 0;
+    const std::string folder = std::string(CULLET_SOURCE_DIR) + "/tests/fuzz/corpus/" + format.name;
+    for (const auto& entry : std::filesystem::directory_iterator(folder)) {
+        std::ifstream file(entry.path(), std::ios::binary);
+        const Bytes input{std::istreambuf_iterator<char>(file), {}};
+        SCOPED_TRACE(entry.path());
+        (void)run(format, input);
+        ++count;
+    }
+    EXPECT_GT(count, 0u) << folder;
+}
+
+TEST_P(EveryFormat, DamagedFilesAreReadOrRefused) {
+    const Format& format = *GetParam();
+    const auto end = std::chrono::steady_clock::now() + std::chrono::duration<double>(seconds_to_look());
+    uint32_t inputs = 0, accepted = 0;
+    for (; std::chrono::steady_clock::now() < end; ++inputs) {
+        RecordProperty("input", static_cast<int>(inputs));
+        accepted += run(format, mutation(inputs));
+    }
+    // Edits of numbers that any value suits are to be let through, or nothing behind the reader is looked at.
+    EXPECT_GT(accepted, inputs / 1000) << "of " << inputs;
+    EXPECT_LT(accepted, inputs) << "every damaged file was taken";
+    std::printf("%s: %u inputs, %u accepted\n", format.name, inputs, accepted);
+}
+
+INSTANTIATE_TEST_SUITE_P(Formats, EveryFormat, testing::Values(&mesh_file, &model_file, &snapshot, &recording),
+                         [](const auto& format) { return std::string(format.param->name); });
+
+}  // namespace
+}  // namespace cullet::fuzz

@@ -1,0 +1,91 @@
+#include "tests/fuzz/small_seeds.hpp"
+
+#include <cstdio>
+#include <cstdlib>
+
+#include "tests/support/simple_meshes.hpp"
+
+namespace cullet::fuzz {
+
+void give_up(const std::string& sentence) {
+    std::fprintf(stderr, "%s\n", sentence.c_str());
+    std::abort();
+}
+
+Mesh globe(bool has_corners) {
+    Mesh mesh = test::sphere_mesh(0.1, 1);
+    mesh.name = "globe";
+    if (!has_corners) return mesh;
+    for (const auto& triangle : mesh.triangles) {
+        for (const uint32_t v : triangle) {
+            mesh.corner_normals.push_back(normalised(mesh.positions[v]));
+            mesh.corner_uvs.push_back({mesh.positions[v].x, mesh.positions[v].y});
+        }
+        mesh.materials.push_back(mesh.positions[triangle[0]].z > 0 ? 9 : 2);
+    }
+    return mesh;
+}
+
+const Model& glass_globe() {
+    static const Model model = [] {
+        const Mesh mesh = globe(false);
+        CookSettings settings;
+        settings.material = "glass";
+        settings.thickness = 0.004f;
+        settings.longest_edge = 1;
+        return value_of(cook(
+            {mesh.positions.data(), mesh.positions.size(), mesh.triangles[0].data(), mesh.triangles.size()}, settings));
+    }();
+    return model;
+}
+
+Settings small_settings() {
+    Settings settings;
+    settings.units_a_frame = 50'000;  // a hit takes some frames
+    settings.limits = {.bodies = 16,
+                       .models = 2,
+                       .vertices = 4096,
+                       .elements = 4096,
+                       .open_hits = 1,
+                       .view_vertices = 4096,
+                       .debris = 16,
+                       .queued_hits = 4};
+    return settings;
+}
+
+namespace {
+
+void add_globes(World& world) {
+    const ModelId model = value_of(world.add_model(glass_globe()));
+    SpawnSettings globe;
+    globe.pose.position = {0, 0.101f, 0};
+    globe.user_data = 7;
+    (void)value_of(world.spawn(model, globe));
+    globe.pose.position = {0.5f, 1, 0};
+    (void)value_of(world.spawn(model, globe));
+}
+
+}  // namespace
+
+World globes_and_ball() {
+    World world = value_of(World::create(small_settings()));
+    const Vec3 corners[] = {{-5, 0, -5}, {-5, 0, 5}, {5, 0, 5}, {5, 0, -5}};
+    const uint32_t quad[] = {0, 1, 2, 0, 2, 3};
+    (void)value_of(world.add_static({corners, 4, quad, 2}));
+    add_globes(world);
+    SphereSettings ball;
+    ball.radius = 0.03f;
+    ball.mass = 0.3f;
+    ball.pose.position = {0.51f, 1.01f, 0.4f};
+    ball.motion.velocity = {0, 0, -20};
+    (void)value_of(world.add_sphere(ball));
+    return world;
+}
+
+World hosted_globes() {
+    World world = value_of(World::create_hosted(small_settings()));
+    add_globes(world);
+    return world;
+}
+
+}  // namespace cullet::fuzz
