@@ -50,7 +50,7 @@ bool measure_scene(const char* name, unsigned threads, uint32_t repeat, Figures&
 bool measure_scene(const char* name, const Options& options, uint32_t repeat, Figures& figures) {
     bool is_good = true;
     for (const unsigned threads : options.threads)
-        is_good &= measure_scene(name, threads, options.rounds ? options.rounds : repeat, figures);
+        is_good &= measure_scene(name, threads, options.rounds_of_a_pass(repeat), figures);
     return is_good;
 }
 

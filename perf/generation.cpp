@@ -74,8 +74,8 @@ void measure(const char* name, const Mesh& mesh, uint32_t rounds, Figures& figur
         }
         const std::string eps = "eps " + std::to_string(static_cast<int>(100 * share + 0.5)) + " %";
         figures.add(prefix + eps + ", guarded front", 1e3 * least, "ms");
-        figures.add(prefix + eps + ", with the crossing test, in Embree builds", (least + crossings) / build, "x",
-                    share == 0.03 ? 28 : 0);
+        figures.add_ratio(prefix + eps + ", with the crossing test, in Embree builds", 1e3 * (least + crossings),
+                          1e3 * build, "ms", share == 0.03 ? 28 : 0);
         figures.add(prefix + eps + ", set back", statistics.collisions, "times");
     }
 }
@@ -83,7 +83,7 @@ void measure(const char* name, const Mesh& mesh, uint32_t rounds, Figures& figur
 }  // namespace
 
 bool measure_generation(const Options& options, Figures& figures) {
-    const uint32_t rounds = options.rounds ? options.rounds : 5;
+    const uint32_t rounds = options.rounds_of_a_pass(5);
     measure("vase", make_vase(0.30f, 0.0055f), rounds, figures);
     measure("piggy bank", make_piggy_bank(0.40f, 0.0075f), rounds, figures);
     // Published (2005, Pentium 4 at 3 GHz, k = 5): another machine, another mesh; for the order of magnitude.

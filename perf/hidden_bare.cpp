@@ -1,7 +1,6 @@
-#include <immintrin.h>
-
 #include <cstring>
 
+#include "perf/bare_lanes.hpp"
 #include "perf/hidden_yardsticks.hpp"
 
 namespace cullet::perf {
@@ -46,27 +45,6 @@ BareHidden::BareHidden(ShellView shell, float dt, float beta) : dt_(dt), beta_(b
     }
     inverse_mass_.assign(s.vertices.inverse_mass.data() + first, s.vertices.inverse_mass.data() + first + vertices);
 }
-
-#define BARE __attribute__((target("avx2"), always_inline)) static inline
-
-BARE __m256 pair(const Float4* low, const Float4* high) {
-    return _mm256_insertf128_ps(_mm256_castps128_ps256(_mm_load_ps(&low->x)), _mm_load_ps(&high->x), 1);
-}
-BARE void turn(__m256 a, __m256 b, __m256 c, __m256 d, __m256& x, __m256& y, __m256& z) {
-    const __m256 l0 = _mm256_unpacklo_ps(a, b), l1 = _mm256_unpacklo_ps(c, d);
-    const __m256 h0 = _mm256_unpackhi_ps(a, b), h1 = _mm256_unpackhi_ps(c, d);
-    x = _mm256_castpd_ps(_mm256_unpacklo_pd(_mm256_castps_pd(l0), _mm256_castps_pd(l1)));
-    y = _mm256_castpd_ps(_mm256_unpackhi_pd(_mm256_castps_pd(l0), _mm256_castps_pd(l1)));
-    z = _mm256_castpd_ps(_mm256_unpacklo_pd(_mm256_castps_pd(h0), _mm256_castps_pd(h1)));
-}
-BARE void gather(const Float4* w, const float* slot, __m256& x, __m256& y, __m256& z) {
-    const auto* n = reinterpret_cast<const uint32_t*>(slot);
-    turn(pair(w + n[0], w + n[4]), pair(w + n[1], w + n[5]), pair(w + n[2], w + n[6]), pair(w + n[3], w + n[7]), x, y,
-         z);
-}
-#define MUL _mm256_mul_ps
-#define ADD _mm256_add_ps
-#define SUB _mm256_sub_ps
 
 __attribute__((target("avx2"))) void BareHidden::integrate(uint32_t side, uint32_t first, uint32_t count) {
     const Float4* w = probe_[side].data();
@@ -113,15 +91,7 @@ __attribute__((target("avx2"))) void BareHidden::integrate(uint32_t side, uint32
         _mm256_storeu_ps(&v_[0][i], vx), _mm256_storeu_ps(&v_[1][i], vy), _mm256_storeu_ps(&v_[2][i], vz);
         _mm256_storeu_ps(&u_[0][i], ux), _mm256_storeu_ps(&u_[1][i], uy), _mm256_storeu_ps(&u_[2][i], uz);
         x = ADD(ux, MUL(beta, vx)), y = ADD(uy, MUL(beta, vy)), z = ADD(uz, MUL(beta, vz));
-        const __m256 zero = _mm256_setzero_ps();
-        const __m256d a = _mm256_castps_pd(_mm256_unpacklo_ps(x, y)), b = _mm256_castps_pd(_mm256_unpacklo_ps(z, zero));
-        const __m256d c = _mm256_castps_pd(_mm256_unpackhi_ps(x, y)), d = _mm256_castps_pd(_mm256_unpackhi_ps(z, zero));
-        const __m256 r[4] = {_mm256_castpd_ps(_mm256_unpacklo_pd(a, b)), _mm256_castpd_ps(_mm256_unpackhi_pd(a, b)),
-                             _mm256_castpd_ps(_mm256_unpacklo_pd(c, d)), _mm256_castpd_ps(_mm256_unpackhi_pd(c, d))};
-        for (uint32_t q = 0; q < 4; ++q) {
-            _mm_store_ps(&next[i + q].x, _mm256_castps256_ps128(r[q]));
-            _mm_store_ps(&next[i + q + 4].x, _mm256_extractf128_ps(r[q], 1));
-        }
+        store(next + i, x, y, z);
     }
 }
 

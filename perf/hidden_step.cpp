@@ -111,8 +111,8 @@ struct Timed {
     std::function<void()> prepare = {};
     double best = 1e9;  // s a step
 };
-void take_turns(std::vector<Timed>& all, int rounds) {
-    for (int r = 0; r < rounds; ++r)
+void take_turns(std::vector<Timed>& all, uint32_t rounds) {
+    for (uint32_t r = 0; r < rounds; ++r)
         for (Timed& t : all) {
             if (t.prepare) t.prepare();
             t.run(2);  // fills the caches that the others have emptied
@@ -227,20 +227,22 @@ bool measure(const char* name, float edge, const Limits& limits, const Options& 
                              stress_elements(shell, 0, shell.element_count(), kNeverStarts);
                          }
                      }});
-    take_turns(timed, options.rounds ? static_cast<int>(options.rounds) : 200);
+    take_turns(timed, options.rounds_of_a_pass(200));
     const std::string prefix = std::string(name) + ": ";
     figures.add(prefix + "vertices", shell.vertex_count(), "");
-    const double plain_time = timed[0].best;
+    const double plain_time = timed[0].best, nanoseconds = 1e9 / shell.vertex_count();
     double last_bare = 0;
     size_t team = 0;
     for (const Timed& t : timed) {
-        figures.add(prefix + t.name, 1e9 / shell.vertex_count() * t.best, "ns a vertex");
+        figures.add(prefix + t.name, nanoseconds * t.best, "ns a vertex");
         if (t.name.starts_with("bare")) last_bare = t.best;
         if (!t.name.starts_with("ours")) continue;
-        if (last_bare > 0) figures.add(prefix + t.name + " / bare kernel", t.best / last_bare, "x", limits.bare);
+        if (last_bare > 0)
+            figures.add_ratio(prefix + t.name + " / bare kernel", nanoseconds * t.best, nanoseconds * last_bare,
+                              "ns a vertex", limits.bare);
         const unsigned threads = options.threads[team++];
-        figures.add(prefix + "plain element loops / " + t.name, plain_time / t.best, "x",
-                    threads <= 2 ? limits.plain[threads - 1] : 0, true);
+        figures.add_ratio(prefix + "plain element loops / " + t.name, nanoseconds * t.best, nanoseconds * plain_time,
+                          "ns a vertex", threads <= 2 ? limits.plain[threads - 1] : 0, true);
     }
     figures.add(prefix + "bare and ours apart after 50 steps", apart, "of the largest u", 1e-5);
     return apart < 1e-5;

@@ -328,12 +328,12 @@ void measure_vase(const char* name, float edge, const Options& options, uint32_t
 }  // namespace
 
 bool measure_hit(const Options& options, Figures& figures) {
-    measure_vase("vase of 3,200", 0.0075f, options, options.rounds ? options.rounds : 20, figures);
+    measure_vase("vase of 3,200", 0.0075f, options, options.rounds_of_a_pass(20), figures);
     return true;
 }
 
 bool measure_large_hit(const Options& options, Figures& figures) {
-    measure_vase("vase of 11,000", 0.00405f, options, options.rounds ? options.rounds : 6, figures);
+    measure_vase("vase of 11,000", 0.00405f, options, options.rounds_of_a_pass(6), figures);
     return true;
 }
 

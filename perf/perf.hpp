@@ -5,6 +5,8 @@
 #include <string>
 #include <vector>
 
+#include "perf/figures.hpp"
+
 namespace cullet::perf {
 
 struct Options {
@@ -13,30 +15,9 @@ struct Options {
     std::string simd = "best";  // best, scalar, sse4, avx2, avx512
     std::string json;           // a file; empty: none
     uint32_t rounds = 0;        // runs of which the least is taken; 0: the scene's own number
-};
+    uint32_t passes = 3;        // over all scenes; a scene's own rounds are shared out among them
 
-/// One number and, where the project promises one, its limit.
-struct Figure {
-    std::string scene, name, unit;
-    double value = 0, limit = 0;  // limit 0: none
-    bool is_least = false;        // the limit is the least allowed, not the most
-};
-
-/// All figures of one run of the program.
-class Figures {
- public:
-    void begin(const std::string& scene) { scene_ = scene; }
-    void add(const std::string& name, double value, const std::string& unit, double limit = 0, bool is_least = false) {
-        all_.push_back({scene_, name, unit, value, limit, is_least});
-    }
-    const std::vector<Figure>& all() const { return all_; }
-    /// One line a figure of this scene, a ratio beside its limit.
-    void print(const std::string& scene) const;
-    bool write_json(const std::string& path) const;
-
- private:
-    std::string scene_;
-    std::vector<Figure> all_;
+    uint32_t rounds_of_a_pass(uint32_t own) const { return rounds ? rounds : (own + passes - 1) / passes; }
 };
 
 /// Seconds that the call took.
@@ -57,7 +38,8 @@ bool measure_large_hit(const Options& options, Figures& figures);
 bool measure_generation(const Options& options, Figures& figures);
 /// A settled pile of hulls in plain Bullet and in our world.
 bool measure_pile(const Options& options, Figures& figures);
-/// Link iterations of Bullet's soft body, for springs.
+/// Link iterations and the whole world step of Bullet's soft body; the plain spring loop and the bare spring kernel on
+/// the same links. False: their results differ.
 bool measure_soft_body(const Options& options, Figures& figures);
 /// Frame times, hitch and share of each system of the sample game's scenes: the least of three runs, frame by frame,
 /// and one run of the pile.

@@ -1,8 +1,14 @@
 #!/usr/bin/env bash
 # Builds everything with all checks on and runs the tests; about a quarter of an hour on two cores, less the next time.
+# --all: then the packages too, with installing and removing them on this machine (scripts/test_package.sh).
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
 
+packages=no
+if [[ ${1:-} == --all ]]; then
+    packages=yes
+    shift
+fi
 scripts/setup.sh
 # The Release game is there to be compared with the Checked one, hash by hash.
 cmake --preset release >/dev/null
@@ -17,4 +23,5 @@ outcome=0
 GTEST_OUTPUT="xml:$results/" ctest --preset checked "$@" || outcome=$?
 skipped=$(cat "$results"/*.xml 2>/dev/null | grep -c '<skipped message="[^"]*CULLET_TEST_DATA' || true)
 echo "$skipped tests skipped for want of data (CULLET_TEST_DATA, ${CULLET_TEST_DATA:-../shared/data if not given})"
+if [[ $packages == yes ]]; then scripts/test_package.sh || outcome=$?; fi
 exit "$outcome"

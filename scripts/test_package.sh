@@ -102,7 +102,7 @@ try_debian() {  # $1: a build folder
     done
     [[ $(dpkg-deb -f "$1"/debian/cullet_*.deb Depends) == *libbullet* ]] || fail "the package does not depend on Bullet"
     quietly "${as_root[@]}" dpkg -i "$1"/debian/*.deb
-    trap 'rm -rf "$work"; "${as_root[@]}" dpkg -r cullet-dev cullet >/dev/null' EXIT
+    trap 'rm -rf "$work"; "${as_root[@]}" dpkg -P cullet-dev cullet >/dev/null' EXIT
     build_with_cmake debian
     build_with_pkg_config debian
     run_programs /usr/bin
@@ -114,6 +114,8 @@ try_debian() {  # $1: a build folder
         [[ ! -e $folder ]] || fail "$folder is left"
     done
     if ldconfig -p | grep -q libcullet; then fail "the linker's cache still knows libcullet"; fi
+    quietly "${as_root[@]}" dpkg -P cullet  # CPack gives what holds a library a script to run after removal: it is left
+    if dpkg-query -W cullet cullet-dev >/dev/null 2>&1; then fail "dpkg still knows the packages"; fi
     echo "debian: $(wc -l <"$work/files") files installed, built against, run, removed"
 }
 

@@ -1,0 +1,66 @@
+// The two yardsticks of springs: the plain loop that scatters, and the bare kernel, which is the limit.
+#pragma once
+#include <array>
+#include <cstdint>
+#include <vector>
+
+#include "components/shells.hpp"
+
+namespace cullet::perf {
+
+/// Springs of one stiffness and damping between vertices of one mass.
+struct SpringNet {
+    std::vector<Vec3> points;                      // at rest, m
+    std::vector<std::array<uint32_t, 2>> springs;  // ends; neighbours should be near in number
+    float stiffness = 0;                           // N/m
+    float damping = 0;                             // N s/m, along the spring
+    float mass = 0;                                // kg a vertex
+    float dt = 0;                                  // s
+};
+
+/// Structs, a loop over springs that scatters forces, a loop over vertices. Damping from the length kept in the spring.
+class PlainSprings {
+ public:
+    PlainSprings(const SpringNet& net, const std::vector<Vec3>& start);
+    void step();
+    Vec3 position(uint32_t v) const { return vertices_[v].x; }
+
+ private:
+    struct Vertex {
+        Vec3 x, v, f;
+        float strain;  // the largest of its springs
+    };
+    struct Spring {
+        uint32_t a, b;
+        float rest, length;
+    };
+    float stiffness_, damping_, dt_, inverse_mass_;
+    std::vector<Vertex> vertices_;
+    std::vector<Spring> springs_;
+};
+
+/// One fused pass over vertices in packs of 8: force, damping from the length kept in the slot, semi-implicit Euler,
+/// largest elongation a vertex. Each spring stands in the padded lists of both its ends; positions have two sides. Raw
+/// AVX2, one thread.
+class BareSprings {
+ public:
+    BareSprings(const SpringNet& net, const std::vector<Vec3>& start);
+    static bool is_supported();
+    void step();
+    Vec3 position(uint32_t v) const;
+    float strain(uint32_t v) const { return strain_[v]; }
+
+ private:
+    struct alignas(32) Slots {  // of 8 vertices; what is padding has a stiffness of 0 and is its own neighbour
+        uint32_t neighbour[8];
+        float inverse_rest[8], stiffness_rest[8], damping[8], length[8];
+    };
+    float dt_, inverse_mass_;
+    uint32_t side_ = 0;
+    std::vector<uint32_t> first_slots_;  // one a pack, and the end
+    std::vector<Slots> slots_;
+    std::vector<Float4> position_[2];
+    std::vector<float> velocity_[3], strain_;
+};
+
+}  // namespace cullet::perf
