@@ -231,7 +231,8 @@ struct Wanted {
 };
 
 TEST_F(Import, EveryThickShellHasTheKnownCounts) {
-    if (!fs::exists(test_data() / "thick_shell")) GTEST_SKIP() << "no test data at " << test_data() << "; set CULLET_TEST_DATA";
+    if (!fs::exists(test_data() / "thick_shell"))
+        GTEST_SKIP() << "no test data at " << test_data() << "; set CULLET_TEST_DATA";
     const Wanted all[] = {{"bottle_tall.glb", 1180, 2352},
                           {"curtains_double.glb", 208, 320},
                           {"dogue.gltf", 2651, 4736},
@@ -255,14 +256,16 @@ TEST_F(Import, EveryThickShellHasTheKnownCounts) {
 }
 
 TEST_F(Import, AMirroredNodeKeepsTheOutsideOutside) {
-    if (!fs::exists(test_data() / "hostile")) GTEST_SKIP() << "no test data at " << test_data() << "; set CULLET_TEST_DATA";
+    if (!fs::exists(test_data() / "hostile"))
+        GTEST_SKIP() << "no test data at " << test_data() << "; set CULLET_TEST_DATA";
     const auto mesh = import_mesh(test_data() / "hostile" / "mirrored_node.gltf", kProgram, cache());
     ASSERT_TRUE(mesh.ok()) << mesh.error();
     EXPECT_GT(volume_of(mesh.value()), 3.8);  // a sphere of radius 1, 224 triangles
 }
 
 TEST_F(Import, HostileFilesAreRefusedInTimeWithOneSentenceAndNoFile) {
-    if (!fs::exists(test_data() / "hostile")) GTEST_SKIP() << "no test data at " << test_data() << "; set CULLET_TEST_DATA";
+    if (!fs::exists(test_data() / "hostile"))
+        GTEST_SKIP() << "no test data at " << test_data() << "; set CULLET_TEST_DATA";
     const char* const files[] = {"accessor_count_4_billion.gltf",
                                  "assimp_BoxWithInfinites.glb",
                                  "assimp_OutOfMemory.off",
