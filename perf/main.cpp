@@ -12,16 +12,21 @@ namespace {
 struct Scene {
     const char* name;
     bool (*measure)(const Options&, Figures&);
-    uint32_t most_passes = ~0u;
+    bool is_in_all = true;
 };
-const Scene kScenes[] = {
-    {"hidden_step", measure_hidden_step},   {"hit", measure_hit},          {"large_hit", measure_large_hit},
-    {"generation", measure_generation},     {"pile", measure_pile},        {"soft_body", measure_soft_body},
-    {"vase", measure_vase_frames},          {"wall", measure_wall_frames}, {"pane", measure_pane_frames},
-    {"pile_frames", measure_pile_frames, 2}};  // a pass of it takes minutes
+const Scene kScenes[] = {{"hidden_step", measure_hidden_step},
+                         {"hit", measure_hit},
+                         {"large_hit", measure_large_hit},
+                         {"generation", measure_generation},
+                         {"pile", measure_pile},
+                         {"soft_body", measure_soft_body},
+                         {"vase", measure_vase_frames},
+                         {"wall", measure_wall_frames},
+                         {"pane", measure_pane_frames},
+                         {"pile_frames", measure_pile_frames, false}};  // a pass takes half an hour
 
 std::string scene_names() {
-    std::string names = "all";
+    std::string names = "all (but pile_frames)";
     for (const Scene& scene : kScenes) names += std::string(", ") + scene.name;
     return names;
 }
@@ -33,7 +38,7 @@ int measure(const Options& options) {
         Progress progress("measuring");
         for (uint32_t pass = 0; pass < options.passes; ++pass)
             for (const Scene& scene : kScenes) {
-                if ((options.scene != "all" && options.scene != scene.name) || pass >= scene.most_passes) continue;
+                if (options.scene == "all" ? !scene.is_in_all : options.scene != scene.name) continue;
                 is_known = true;
                 const double scenes = std::size(kScenes), done = static_cast<double>(&scene - kScenes);
                 progress.show((pass + done / scenes) / options.passes,
