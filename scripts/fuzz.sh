@@ -1,0 +1,28 @@
+#!/usr/bin/env bash
+# Builds the fuzz programs (clang, address and undefined behaviour sanitizer) and gives each of them so many inputs:
+# scripts/fuzz.sh [inputs, 200000 if not given] [formats, all if not given]
+# A finding ends the program and stands in out/fuzz/FORMAT/; once it is fixed it goes to tests/fuzz/corpus/FORMAT/.
+set -euo pipefail
+cd "$(dirname "${BASH_SOURCE[0]}")/.."
+
+inputs=${1:-200000}
+shift || true
+formats=("$@")
+((${#formats[@]})) || formats=(mesh_file model_file snapshot recording)
+
+scripts/setup.sh --all
+cmake --preset fuzz >/dev/null
+cmake --build --preset fuzz
+for format in "${formats[@]}"; do
+    out=out/fuzz/$format
+    mkdir -p "$out/corpus"
+    echo "$format: $inputs inputs"
+    # What is read by these programs takes milliseconds; ten seconds on one input are a finding too.
+    if ! "build/fuzz/${format}_fuzz" -runs="$inputs" -max_len=256 -timeout=10 -rss_limit_mb=2048 -seed=1 \
+        -artifact_prefix="$out/" -print_final_stats=1 "$out/corpus" "tests/fuzz/corpus/$format" >"$out/log.txt" 2>&1; then
+        grep -aE "SUMMARY|runtime error|: .*\(.*\)$|ERROR|Test unit" "$out/log.txt" | head -20
+        echo "$format: a finding; $out/log.txt tells"
+        exit 1
+    fi
+    grep -aE "Done|number_of_executed_units|average_exec_per_sec|peak_rss" "$out/log.txt"
+done
