@@ -4,19 +4,48 @@
 #include <hwy/targets.h>
 
 namespace cullet {
+namespace {
+
+struct Named {
+    const char* name;
+    SimdLevel level;
+    int64_t target;  // of Highway; the baseline is plain loops
+};
+constexpr Named kLevels[] = {{"scalar", SimdLevel::Scalar, HWY_STATIC_TARGET},
+                             {"sse4", SimdLevel::Sse4, HWY_SSE4},
+                             {"avx2", SimdLevel::Avx2, HWY_AVX2},
+                             {"avx512", SimdLevel::Avx512, HWY_AVX3}};
+
+/// What this machine and this build have, whatever is chosen now.
+int64_t available_targets() {
+    const int64_t chosen = hwy::SupportedTargets();
+    hwy::SetSupportedTargetsForTest(0);
+    const int64_t available = (hwy::SupportedTargets() & HWY_TARGETS) | HWY_STATIC_TARGET;
+    hwy::SetSupportedTargetsForTest(chosen);
+    return available;
+}
+
+}  // namespace
 
 bool set_simd_level(SimdLevel level) {
-    hwy::SetSupportedTargetsForTest(0);
-    const int64_t available = hwy::SupportedTargets() & HWY_TARGETS;
-    int64_t wanted = available;
-    if (level == SimdLevel::Scalar) wanted = HWY_STATIC_TARGET;  // the baseline: plain loops with g++
-    if (level == SimdLevel::Sse4) wanted = HWY_SSE4;
-    if (level == SimdLevel::Avx2) wanted = HWY_AVX2;
-    if (level == SimdLevel::Avx512) wanted = HWY_AVX3;
-    const bool is_known = level == SimdLevel::Scalar || (wanted & available) != 0;
-    if (is_known && level != SimdLevel::Best) hwy::SetSupportedTargetsForTest(wanted);
+    int64_t wanted = 0;  // of Highway: all
+    for (const Named& named : kLevels)
+        if (named.level == level) wanted = named.target;
+    if (wanted != 0 && (wanted & available_targets()) == 0) return false;
+    hwy::SetSupportedTargetsForTest(wanted);
     hwy::GetChosenTarget().Update(hwy::SupportedTargets());
-    return is_known;
+    return true;
+}
+
+Result<void> set_simd_level(const std::string& name) {
+    if (name == "best") return {};
+    const int64_t available = available_targets();
+    std::string names = "best";
+    for (const Named& named : kLevels) {
+        if ((named.target & available) != 0) names += std::string(", ") + named.name;
+        if (name == named.name && set_simd_level(named.level)) return {};
+    }
+    return Error{"simd=" + name + ": this machine or this build does not have it; give one of " + names + "."};
 }
 
 }  // namespace cullet

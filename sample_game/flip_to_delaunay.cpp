@@ -11,10 +11,10 @@ constexpr int kMostPasses = 50;  // a handful is usual; each flip shortens the s
 
 /// Half-edge h = 3 t + c runs from corner c of triangle t to the next corner.
 struct HalfEdges {
-    Surface& surface;
+    MeshDraft& surface;
     std::vector<uint32_t> twin;
 
-    explicit HalfEdges(Surface& s) : surface(s), twin(3 * s.triangles.size(), kBorder) {
+    explicit HalfEdges(MeshDraft& s) : surface(s), twin(3 * s.triangles.size(), kBorder) {
         std::vector<std::tuple<uint32_t, uint32_t, uint32_t>> edges;
         for (uint32_t h = 0; h < twin.size(); ++h)
             edges.emplace_back(std::min(from(h), to(h)), std::max(from(h), to(h)), h);
@@ -81,7 +81,7 @@ struct HalfEdges {
 
 }  // namespace
 
-void flip_to_delaunay(Surface& surface) {
+void flip_to_delaunay(MeshDraft& surface) {
     HalfEdges edges(surface);
     bool has_flipped = true;
     for (int pass = 0; pass < kMostPasses && has_flipped; ++pass) {

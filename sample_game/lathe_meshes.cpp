@@ -69,7 +69,7 @@ struct Profile {
 
 /// One row of points round the axis, as many as the circumference holds edges, from a random start, each moved along
 /// the surface.
-std::vector<uint32_t> add_row(Surface& surface, const Profile& profile, double s, bool is_rim, double edge,
+std::vector<uint32_t> add_row(MeshDraft& surface, const Profile& profile, double s, bool is_rim, double edge,
                               uint64_t seed, uint64_t row) {
     const double radius = profile.at(s).radius;
     const auto count = static_cast<uint64_t>(std::max(5.0, std::floor(kTurn * radius / edge + 0.5)));
@@ -88,10 +88,10 @@ std::vector<uint32_t> add_row(Surface& surface, const Profile& profile, double s
 }
 
 /// Rows one triangle height apart from the pole (one vertex) to the open rim.
-Surface lathe(const Profile& profile, double wanted_edge, uint64_t seed) {
+MeshDraft lathe(const Profile& profile, double wanted_edge, uint64_t seed) {
     const double edge = usable_edge(wanted_edge, profile.total());
     const auto rows = static_cast<uint64_t>(std::max(3.0, std::floor(profile.total() / (kRowHeight * edge) + 0.5)));
-    Surface surface;
+    MeshDraft surface;
     surface.points.push_back({0, profile.points.front().y, 0});
     std::vector<uint32_t> before;
     for (uint64_t row = 1; row <= rows; ++row) {

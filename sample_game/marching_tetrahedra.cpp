@@ -19,7 +19,7 @@ class Grid {
                 }
     }
 
-    Surface march() {
+    MeshDraft march() {
         constexpr int orders[6][3] = {{0, 1, 2}, {1, 2, 0}, {2, 0, 1}, {0, 2, 1}, {2, 1, 0}, {1, 0, 2}};
         for (uint32_t z = 0; z + 1 < nodes_[2]; ++z)
             for (uint32_t y = 0; y + 1 < nodes_[1]; ++y)
@@ -84,12 +84,12 @@ class Grid {
     uint32_t nodes_[3] = {};
     std::vector<double> values_;
     std::map<std::pair<uint32_t, uint32_t>, uint32_t> crossings_;
-    Surface surface_;
+    MeshDraft surface_;
 };
 
 }  // namespace
 
-Surface surface_of(const std::function<double(Vec3d)>& f, Vec3d low, Vec3d high, double cell) {
+MeshDraft surface_of(const std::function<double(Vec3d)>& f, Vec3d low, Vec3d high, double cell) {
     return Grid(f, low, high, cell).march();
 }
 

@@ -5,7 +5,7 @@
 
 namespace cullet {
 
-Mesh to_mesh(const Surface& surface, const std::string& name) {
+Mesh to_mesh(const MeshDraft& surface, const std::string& name) {
     Mesh mesh;
     mesh.name = name;
     mesh.triangles = surface.triangles;
@@ -29,7 +29,7 @@ double jitter(uint64_t seed, uint64_t row, uint64_t number, uint64_t channel) {
     return static_cast<double>(x >> 11) / 4503599627370496.0 - 1;  // 53 bits / 2^52 - 1
 }
 
-void stitch_rows(Surface& surface, const std::vector<uint32_t>& a, const std::vector<uint32_t>& b, bool is_closed) {
+void stitch_rows(MeshDraft& surface, const std::vector<uint32_t>& a, const std::vector<uint32_t>& b, bool is_closed) {
     const auto squared = [&surface](uint32_t p, uint32_t q) {
         const Vec3d d = surface.points[p] - surface.points[q];
         return dot(d, d);

@@ -13,12 +13,13 @@ namespace cullet {
 
 using Triangle = std::array<uint32_t, 3>;
 
-struct Surface {
+/// A mesh in the making, in double.
+struct MeshDraft {
     std::vector<Vec3d> points;
     std::vector<Triangle> triangles;
 };
 
-Mesh to_mesh(const Surface& surface, const std::string& name);
+Mesh to_mesh(const MeshDraft& surface, const std::string& name);
 
 /// An edge length that a shape of this size can be made with: between a thousandth of the size (some million vertices)
 /// and the size, and a fortieth when it is no number.
@@ -30,20 +31,20 @@ double jitter(uint64_t seed, uint64_t row, uint64_t number, uint64_t channel);
 /// Fills the band between two rows of points with triangles that use each step of both rows once, always the shorter
 /// diagonal. With e1 from row a to row b and e2 along the rows, e1 x e2 is the outside. Closed rows run round and start
 /// anywhere.
-void stitch_rows(Surface& surface, const std::vector<uint32_t>& a, const std::vector<uint32_t>& b, bool is_closed);
+void stitch_rows(MeshDraft& surface, const std::vector<uint32_t>& a, const std::vector<uint32_t>& b, bool is_closed);
 
 /// Flips edges until opposite angles sum to at most pi everywhere (the cotangent form of the Delaunay rule, intrinsic
 /// and so good on curved surfaces). Leaves border edges, edges whose flip would double another edge, and edges whose
 /// flip would fold the surface. The mesh must be manifold and consistently wound.
-void flip_to_delaunay(Surface& surface);
+void flip_to_delaunay(MeshDraft& surface);
 
 /// Splits, collapses, flips and slides points until edges are near the wanted length and triangles near equilateral,
 /// after M. Botsch and L. Kobbelt, "A remeshing approach to multiresolution modeling", 2004. Closed surfaces only.
 /// `project` takes a point near the surface onto it.
-void remesh(Surface& surface, double edge, const std::function<Vec3d(Vec3d)>& project);
+void remesh(MeshDraft& surface, double edge, const std::function<Vec3d(Vec3d)>& project);
 
 /// A closed triangle mesh of {f < 0} in the box, on a grid of that cell size, by marching tetrahedra (six a cell, so
 /// that there are no ambiguous cells). f must be positive on the box's sides.
-Surface surface_of(const std::function<double(Vec3d)>& f, Vec3d low, Vec3d high, double cell);
+MeshDraft surface_of(const std::function<double(Vec3d)>& f, Vec3d low, Vec3d high, double cell);
 
 }  // namespace cullet

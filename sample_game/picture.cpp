@@ -22,7 +22,7 @@ constexpr int kFilterReach = 2;  // pixels; 5 x 5 holds every pixel of the 4 x 4
 
 // What of a pixel's surface the filter and the edges ask for again and again.
 struct Pixel {
-    Surface surface;
+    SeenSurface surface;
     uint32_t front = kSkyBody;  // body of the first face, transparent or not
 };
 
@@ -49,12 +49,12 @@ LineBell line_bell() {
     return bell;
 }
 
-bool is_alike(const Surface& a, const Surface& b) {
+bool is_alike(const SeenSurface& a, const SeenSurface& b) {
     return a.body == b.body && a.kind == b.kind && dot(a.normal, b.normal) > 0.85f;
 }
 
 // Whether both lie on one continuous surface: neither far behind the other's tangent plane.
-bool is_continued(const Surface& a, const Surface& b) {
+bool is_continued(const SeenSurface& a, const SeenSurface& b) {
     if (a.body == kGroundBody || a.body == kSkyBody) return a.body == b.body;
     if (!is_alike(a, b)) return false;
     const Vec3 gap = b.point - a.point;
@@ -74,7 +74,7 @@ class Painter {
     Light first_light(uint32_t x, uint32_t y) const;
     Light more_light(uint32_t x, uint32_t y) const;
     Light filtered_light(uint32_t x, uint32_t y) const;
-    Light light_like_neighbours(const Surface& surface, uint32_t x, uint32_t y) const;
+    Light light_like_neighbours(const SeenSurface& surface, uint32_t x, uint32_t y) const;
     bool is_edge(uint32_t x, uint32_t y) const;
     Vec3 seen(const Pixel& pixel, const Light& light, Vec3 direction) const;
     Vec3 colour(uint32_t x, uint32_t y, std::array<uint32_t, 4>& front) const;
@@ -147,20 +147,20 @@ Pixel Painter::sight(Vec3 direction) const {
     pixel.surface = scene_.opaque(eye_, direction, pixel_angle_);
     pixel.front = pixel.surface.body;
     if (!scene_.has_transparent()) return pixel;
-    std::array<Surface, PictureScene::kLayers> layers;
+    std::array<SeenSurface, PictureScene::kLayers> layers;
     if (scene_.transparent(eye_, direction, pixel.surface.distance, layers) > 0) pixel.front = layers[0].body;
     return pixel;
 }
 
 Light Painter::first_light(uint32_t x, uint32_t y) const {
-    const Surface& surface = pixels_[at(x, y)].surface;
+    const SeenSurface& surface = pixels_[at(x, y)].surface;
     if (surface.body == kSkyBody) return {};
     return {light_.sun_share(surface, x, y, 0, kFirstSunRays), light_.sky_share(surface, x, y, 0, kFirstSkyRays)};
 }
 
 // Casts more rays where a neighbour on the same body saw another share of the sun, and where something shades the sky.
 Light Painter::more_light(uint32_t x, uint32_t y) const {
-    const Surface& surface = pixels_[at(x, y)].surface;
+    const SeenSurface& surface = pixels_[at(x, y)].surface;
     Light light = lights_[at(x, y)];
     if (surface.body == kSkyBody) return light;
     bool is_sun_mixed = false, is_sky_shaded = false;
@@ -189,7 +189,7 @@ Light Painter::more_light(uint32_t x, uint32_t y) const {
 // whose shadows are broad.
 Light Painter::filtered_light(uint32_t x, uint32_t y) const {
     constexpr float kSkyBell[3] = {1.0f, 0.9f, 0.55f}, kSunBell[3] = {1.0f, 0.8f, 0.4f};
-    const Surface& surface = pixels_[at(x, y)].surface;
+    const SeenSurface& surface = pixels_[at(x, y)].surface;
     const Light own = other_lights_[at(x, y)];
     bool is_even = true;
     visit_neighbours(x, y, kFilterReach, [&](uint32_t u, uint32_t v, int, int) {
@@ -210,12 +210,12 @@ Light Painter::filtered_light(uint32_t x, uint32_t y) const {
 }
 
 // A point between pixels takes the light of the nearest pixel on its own surface; alone, it casts rays of its own.
-Light Painter::light_like_neighbours(const Surface& surface, uint32_t x, uint32_t y) const {
+Light Painter::light_like_neighbours(const SeenSurface& surface, uint32_t x, uint32_t y) const {
     if (surface.body == kSkyBody) return {};
     Light nearest;
     float least = 1e30f;
     visit_neighbours(x, y, 1, [&](uint32_t u, uint32_t v, int, int) {
-        const Surface& other = pixels_[at(u, v)].surface;
+        const SeenSurface& other = pixels_[at(u, v)].surface;
         const Vec3 gap = other.point - surface.point;
         if (!is_continued(surface, other) || dot(gap, gap) >= least) return;
         least = dot(gap, gap);
@@ -238,7 +238,7 @@ bool Painter::is_edge(uint32_t x, uint32_t y) const {
 Vec3 Painter::seen(const Pixel& pixel, const Light& light, Vec3 direction) const {
     Vec3 colour = light_.shaded(pixel.surface, light, direction);
     if (pixel.front == pixel.surface.body) return colour;
-    std::array<Surface, PictureScene::kLayers> layers;
+    std::array<SeenSurface, PictureScene::kLayers> layers;
     size_t count = scene_.transparent(eye_, direction, pixel.surface.distance, layers);
     while (count > 0) colour = light_.through(layers[--count], direction, colour);
     return colour;

@@ -95,7 +95,8 @@ PictureLight::PictureLight(const PictureScene& scene, const Sun& sun, const Pict
 }
 
 // A surface that faces away gets no sun and costs no rays.
-float PictureLight::sun_share(const Surface& surface, uint32_t x, uint32_t y, uint32_t first, uint32_t count) const {
+float PictureLight::sun_share(const SeenSurface& surface, uint32_t x, uint32_t y, uint32_t first,
+                              uint32_t count) const {
     if (dot(surface.normal, towards_) <= 0) return 0;
     float sum = 0;
     for (uint32_t k = first; k < first + count; ++k) {
@@ -109,7 +110,8 @@ float PictureLight::sun_share(const Surface& surface, uint32_t x, uint32_t y, ui
 }
 
 // Rays are denser towards the normal (by the cosine) and of uneven reach, so that a nearer blocker darkens more.
-float PictureLight::sky_share(const Surface& surface, uint32_t x, uint32_t y, uint32_t first, uint32_t count) const {
+float PictureLight::sky_share(const SeenSurface& surface, uint32_t x, uint32_t y, uint32_t first,
+                              uint32_t count) const {
     Vec3 t, b;
     across(surface.normal, t, b);
     float sum = 0;
@@ -129,7 +131,7 @@ float PictureLight::sky_share(const Surface& surface, uint32_t x, uint32_t y, ui
     return sum / static_cast<float>(count);
 }
 
-Vec3 PictureLight::shaded(const Surface& surface, const Light& light, Vec3 direction) const {
+Vec3 PictureLight::shaded(const SeenSurface& surface, const Light& light, Vec3 direction) const {
     if (surface.body == kSkyBody) return surface.colour;
     const float facing = std::max(0.0f, dot(surface.normal, towards_));
     const Vec3 falling = (light.sun * facing) * sunlight_ + light.sky * hemisphere(surface.normal);
@@ -146,7 +148,7 @@ Vec3 PictureLight::shaded(const Surface& surface, const Light& light, Vec3 direc
     return (1 - haze) * seen + haze * sky_light(normalised(Vec3{direction.x, 0, direction.z}));
 }
 
-Vec3 PictureLight::through(const Surface& glass, Vec3 direction, Vec3 behind) const {
+Vec3 PictureLight::through(const SeenSurface& glass, Vec3 direction, Vec3 behind) const {
     const float mirrors = mirrored(-dot(direction, glass.normal));
     const float edge = glass.kind == FaceKind::Crack ? 0.35f : 0.0f;  // the rim of a pane is where its colour shows
     const float opacity = std::min(1.0f, glass.opacity + edge);

@@ -15,13 +15,13 @@ class PictureLight {
 
     /// Averages of the rays first .. first + count - 1 of pixel (x, y). Sixteen neighbouring pixels share one even
     /// pattern of points, so that a filter over them sees sixteen times the rays.
-    float sun_share(const Surface& surface, uint32_t x, uint32_t y, uint32_t first, uint32_t count) const;
-    float sky_share(const Surface& surface, uint32_t x, uint32_t y, uint32_t first, uint32_t count) const;
+    float sun_share(const SeenSurface& surface, uint32_t x, uint32_t y, uint32_t first, uint32_t count) const;
+    float sky_share(const SeenSurface& surface, uint32_t x, uint32_t y, uint32_t first, uint32_t count) const;
 
     /// Light towards the eye, linear. `direction` is the ray of sight.
-    Vec3 shaded(const Surface& surface, const Light& light, Vec3 direction) const;
+    Vec3 shaded(const SeenSurface& surface, const Light& light, Vec3 direction) const;
     /// Glass in front of `behind`: its own light (no shadows fall on it), and what it lets through.
-    Vec3 through(const Surface& glass, Vec3 direction, Vec3 behind) const;
+    Vec3 through(const SeenSurface& glass, Vec3 direction, Vec3 behind) const;
 
  private:
     const PictureScene& scene_;

@@ -94,7 +94,7 @@ void PictureScene::add(uint32_t b, Triangles& to) const {
 }
 
 // A body without normals, or with the zero normal, is flat there.
-Surface PictureScene::surface(const Triangles& from, const RayScene::Hit& hit, Vec3 origin, Vec3 direction) const {
+SeenSurface PictureScene::surface(const Triangles& from, const RayScene::Hit& hit, Vec3 origin, Vec3 direction) const {
     const Triangle& corners = from.triangles[hit.triangle];
     const float weight[3] = {1 - hit.u - hit.v, hit.u, hit.v};
     Vec3 corner[3], normal[3], point{}, smooth{};
@@ -108,7 +108,7 @@ Surface PictureScene::surface(const Triangles& from, const RayScene::Hit& hit, V
         smooth += weight[k] * normal[k];
     }
     const DrawnBody& body = bodies_[from.body[hit.triangle]];
-    Surface surface;
+    SeenSurface surface;
     surface.face_normal = face;
     surface.normal = dot(smooth, smooth) > 0 ? normalised(smooth) : face;
     surface.point = lifted(point, corner, normal, weight) + clearance(point) * face;
@@ -121,8 +121,8 @@ Surface PictureScene::surface(const Triangles& from, const RayScene::Hit& hit, V
     return surface;
 }
 
-Surface PictureScene::ground(Vec3 origin, Vec3 direction, float distance, float pixel_angle) const {
-    Surface surface;
+SeenSurface PictureScene::ground(Vec3 origin, Vec3 direction, float distance, float pixel_angle) const {
+    SeenSurface surface;
     surface.point = origin + distance * direction;
     surface.point.y = settings_.ground_height + clearance(surface.point);
     surface.distance = distance;
@@ -142,21 +142,22 @@ Surface PictureScene::ground(Vec3 origin, Vec3 direction, float distance, float 
     return surface;
 }
 
-Surface PictureScene::opaque(Vec3 origin, Vec3 direction, float pixel_angle) const {
+SeenSurface PictureScene::opaque(Vec3 origin, Vec3 direction, float pixel_angle) const {
     const float drop = origin.y - settings_.ground_height;
     const bool meets_ground = settings_.has_ground && drop > 0 && direction.y < 0;
     const float to_ground = meets_ground ? std::min(kViewFar, drop / -direction.y) : kViewFar;
     RayScene::Hit hit;
     if (solid_.rays.closest(origin, direction, 0, to_ground, hit)) return surface(solid_, hit, origin, direction);
     if (meets_ground && to_ground < kViewFar) return ground(origin, direction, to_ground, pixel_angle);
-    Surface sky;
+    SeenSurface sky;
     sky.distance = kViewFar;
     sky.normal = sky.face_normal = -direction;
     sky.colour = sky_light(direction);
     return sky;
 }
 
-size_t PictureScene::transparent(Vec3 origin, Vec3 direction, float far, std::array<Surface, kLayers>& layers) const {
+size_t PictureScene::transparent(Vec3 origin, Vec3 direction, float far,
+                                 std::array<SeenSurface, kLayers>& layers) const {
     size_t count = 0;
     float near = 0;
     RayScene::Hit hit;

@@ -13,7 +13,7 @@ inline constexpr uint32_t kGroundBody = 0xfffffffeu;
 inline constexpr float kViewFar = 1e5f;  // m
 
 /// A point that a ray met, with everything that its light needs.
-struct Surface {
+struct SeenSurface {
     Vec3 point;          // m; lifted onto the smooth surface and off the face, so that shadow rays may start here
     float distance = 0;  // m from the eye
     Vec3 normal;         // interpolated, towards the eye
@@ -34,9 +34,9 @@ class PictureScene {
     PictureScene(std::span<const DrawnBody> bodies, const PictureSettings& settings);
 
     /// The first opaque thing: a body, the ground or the sky. `pixel_angle` (rad) is how wide the ray is.
-    Surface opaque(Vec3 origin, Vec3 direction, float pixel_angle) const;
+    SeenSurface opaque(Vec3 origin, Vec3 direction, float pixel_angle) const;
     /// Transparent faces nearer than `far`, front to back; returns how many.
-    size_t transparent(Vec3 origin, Vec3 direction, float far, std::array<Surface, kLayers>& layers) const;
+    size_t transparent(Vec3 origin, Vec3 direction, float far, std::array<SeenSurface, kLayers>& layers) const;
     bool has_transparent() const { return !glass_.triangles.empty(); }
 
     /// Share of light that passes along a shadow ray: 0 behind an opaque body, about a half behind glass.
@@ -57,8 +57,8 @@ class PictureScene {
         RayScene rays{{}, {}};
     };
     void add(uint32_t body, Triangles& to) const;
-    Surface surface(const Triangles& from, const RayScene::Hit& hit, Vec3 origin, Vec3 direction) const;
-    Surface ground(Vec3 origin, Vec3 direction, float distance, float pixel_angle) const;
+    SeenSurface surface(const Triangles& from, const RayScene::Hit& hit, Vec3 origin, Vec3 direction) const;
+    SeenSurface ground(Vec3 origin, Vec3 direction, float distance, float pixel_angle) const;
 
     std::span<const DrawnBody> bodies_;
     const PictureSettings& settings_;

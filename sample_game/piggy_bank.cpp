@@ -69,7 +69,7 @@ Mesh make_piggy_bank(float length, float edge, uint64_t seed) {
     // The seed moves the grid, and with it every vertex.
     const Vec3d shift{jitter(seed, 0, 0, 0), jitter(seed, 0, 0, 1), jitter(seed, 0, 0, 2)};
     const Vec3d low = Vec3d{-0.62, -0.13, -0.42} + (0.4 * wanted) * shift;
-    Surface surface = surface_of(pig, low, {0.64, 0.76, 0.44}, std::min(1.4 * wanted, 0.03));
+    MeshDraft surface = surface_of(pig, low, {0.64, 0.76, 0.44}, std::min(1.4 * wanted, 0.03));
     remesh(surface, kTargetPerMean * wanted, onto_pig);
     double front = -1e9, back = 1e9, foot = 1e9;
     for (const Vec3d p : surface.points) {

@@ -18,7 +18,7 @@ struct Edge {
 };
 
 /// Triangles round each vertex, in order of their number.
-std::vector<std::vector<uint32_t>> triangles_round(const Surface& s) {
+std::vector<std::vector<uint32_t>> triangles_round(const MeshDraft& s) {
     std::vector<std::vector<uint32_t>> round(s.points.size());
     for (uint32_t t = 0; t < s.triangles.size(); ++t)
         for (const uint32_t v : s.triangles[t]) round[v].push_back(t);
@@ -26,7 +26,7 @@ std::vector<std::vector<uint32_t>> triangles_round(const Surface& s) {
 }
 
 /// The vertices joined to v, each once, in order.
-std::vector<uint32_t> neighbours(const Surface& s, const std::vector<uint32_t>& round, uint32_t v) {
+std::vector<uint32_t> neighbours(const MeshDraft& s, const std::vector<uint32_t>& round, uint32_t v) {
     std::vector<uint32_t> result;
     for (const uint32_t t : round)
         for (const uint32_t w : s.triangles[t])
@@ -36,7 +36,7 @@ std::vector<uint32_t> neighbours(const Surface& s, const std::vector<uint32_t>& 
     return result;
 }
 
-std::vector<Edge> edges_shortest_first(const Surface& s) {
+std::vector<Edge> edges_shortest_first(const MeshDraft& s) {
     std::vector<Edge> edges;
     for (const Triangle& t : s.triangles)
         for (int c = 0; c < 3; ++c) {
@@ -50,7 +50,7 @@ std::vector<Edge> edges_shortest_first(const Surface& s) {
 }
 
 /// Splits long edges, longest first, at most one a triangle. False when there was none.
-bool split_long(Surface& s, double edge, const std::function<Vec3d(Vec3d)>& project) {
+bool split_long(MeshDraft& s, double edge, const std::function<Vec3d(Vec3d)>& project) {
     std::vector<Edge> edges = edges_shortest_first(s);
     const auto round = triangles_round(s);
     std::vector<bool> is_taken(s.triangles.size());
@@ -75,13 +75,13 @@ bool split_long(Surface& s, double edge, const std::function<Vec3d(Vec3d)>& proj
     return has_split;
 }
 
-Vec3d normal_of(const Surface& s, const Triangle& t) {
+Vec3d normal_of(const MeshDraft& s, const Triangle& t) {
     return cross(s.points[t[1]] - s.points[t[0]], s.points[t[2]] - s.points[t[0]]);
 }
 
 /// True when a and b may become one vertex at `place`: the surface stays a manifold (exactly two common neighbours,
 /// which keep three others), no edge becomes long, no triangle turns by more than 60 degrees.
-bool may_collapse(const Surface& s, const std::vector<std::vector<uint32_t>>& round, const Edge& e, Vec3d place,
+bool may_collapse(const MeshDraft& s, const std::vector<std::vector<uint32_t>>& round, const Edge& e, Vec3d place,
                   double edge) {
     const auto of_a = neighbours(s, round[e.a], e.a), of_b = neighbours(s, round[e.b], e.b);
     std::vector<uint32_t> common;
@@ -106,8 +106,8 @@ bool may_collapse(const Surface& s, const std::vector<std::vector<uint32_t>>& ro
     return true;
 }
 
-void drop_unused(Surface& s, const std::vector<uint32_t>& becomes) {
-    Surface kept;
+void drop_unused(MeshDraft& s, const std::vector<uint32_t>& becomes) {
+    MeshDraft kept;
     std::vector<uint32_t> number(s.points.size());
     for (uint32_t v = 0; v < s.points.size(); ++v)
         if (becomes[v] == v) {
@@ -122,7 +122,7 @@ void drop_unused(Surface& s, const std::vector<uint32_t>& becomes) {
 }
 
 /// Collapses short edges, shortest first, no two with a common neighbour. False when there was none.
-bool collapse_short(Surface& s, double edge, const std::function<Vec3d(Vec3d)>& project) {
+bool collapse_short(MeshDraft& s, double edge, const std::function<Vec3d(Vec3d)>& project) {
     const auto round = triangles_round(s);
     std::vector<bool> is_touched(s.points.size());
     std::vector<uint32_t> becomes(s.points.size());
@@ -146,7 +146,7 @@ bool collapse_short(Surface& s, double edge, const std::function<Vec3d(Vec3d)>& 
 }
 
 /// Moves each point half the way to the middle of its neighbours, along the surface.
-void slide(Surface& s, const std::function<Vec3d(Vec3d)>& project) {
+void slide(MeshDraft& s, const std::function<Vec3d(Vec3d)>& project) {
     const auto round = triangles_round(s);
     std::vector<Vec3d> moved(s.points.size());
     for (uint32_t v = 0; v < s.points.size(); ++v) {
@@ -163,7 +163,7 @@ void slide(Surface& s, const std::function<Vec3d(Vec3d)>& project) {
 
 }  // namespace
 
-void remesh(Surface& surface, double edge, const std::function<Vec3d(Vec3d)>& project) {
+void remesh(MeshDraft& surface, double edge, const std::function<Vec3d(Vec3d)>& project) {
     for (int round = 0; round < kRounds; ++round) {
         for (int pass = 0; pass < kPassesPerRound && collapse_short(surface, edge, project); ++pass) {
         }

@@ -12,7 +12,7 @@ constexpr double kJitter = 0.18;                      // of the edge length, as 
 
 /// Column x of a sheet, bottom to top. Odd columns are moved by half an edge and keep a point at both ends, so that the
 /// borders are straight; points on a border move along it, corners stay.
-std::vector<uint32_t> add_column(Surface& surface, double x, double height, uint64_t segments, bool is_side,
+std::vector<uint32_t> add_column(MeshDraft& surface, double x, double height, uint64_t segments, bool is_side,
                                  double edge, uint64_t seed, uint64_t column) {
     const bool is_odd = column % 2 == 1;
     const uint64_t count = segments + (is_odd ? 2 : 1);
@@ -30,13 +30,13 @@ std::vector<uint32_t> add_column(Surface& surface, double x, double height, uint
     return ids;
 }
 
-Surface sheet(double width, double height, double wanted_edge, uint64_t seed) {
+MeshDraft sheet(double width, double height, double wanted_edge, uint64_t seed) {
     const double edge = usable_edge(wanted_edge, std::max(width, height));
     // One less each way makes up for the closer points along the borders: vertices are area / (sqrt(3)/2 edge^2), as
     // inside.
     const auto columns = static_cast<uint64_t>(std::max(2.0, std::floor(width / (kColumnWidth * edge)) - 1));
     const auto segments = static_cast<uint64_t>(std::max(2.0, std::floor(height / edge) - 1));
-    Surface surface;
+    MeshDraft surface;
     std::vector<uint32_t> before;
     for (uint64_t column = 0; column <= columns; ++column) {
         const double x = width * (static_cast<double>(column) / static_cast<double>(columns) - 0.5);

@@ -7,9 +7,9 @@
 namespace cullet {
 namespace {
 
-Surface icosahedron() {
+MeshDraft icosahedron() {
     const double g = (1 + std::sqrt(5.0)) / 2;
-    Surface s;
+    MeshDraft s;
     s.points = {{-1, g, 0},  {1, g, 0},  {-1, -g, 0}, {1, -g, 0}, {0, -1, g},  {0, 1, g},
                 {0, -1, -g}, {0, 1, -g}, {g, 0, -1},  {g, 0, 1},  {-g, 0, -1}, {-g, 0, 1}};
     s.triangles = {{0, 11, 5},  {0, 5, 1},  {0, 1, 7},  {0, 7, 10}, {0, 10, 11}, {1, 5, 9}, {5, 11, 4},
@@ -19,7 +19,7 @@ Surface icosahedron() {
     return s;
 }
 
-void halve_edges(Surface& s) {
+void halve_edges(MeshDraft& s) {
     std::map<std::pair<uint32_t, uint32_t>, uint32_t> middles;
     const auto middle = [&](uint32_t a, uint32_t b) {
         const auto [place, is_new] = middles.try_emplace(std::minmax(a, b), static_cast<uint32_t>(s.points.size()));
@@ -50,7 +50,7 @@ void append_box(Mesh& mesh, Vec3 low, Vec3 high) {
 }  // namespace
 
 Mesh make_ball(float radius, int subdivisions) {
-    Surface s = icosahedron();
+    MeshDraft s = icosahedron();
     for (int i = 0; i < subdivisions; ++i) halve_edges(s);
     for (Vec3d& p : s.points) p = static_cast<double>(radius) * p;
     return to_mesh(s, "ball");

@@ -35,7 +35,8 @@ Keys world_keys() {
                 "pieces lighter than this share of the whole are debris")
         .number("debris_elements", "1", defaults.debris_elements, 1, 1000, "pieces of fewer elements are debris")
         .number("gravity_mps2", "m/s2", 9.81, 0, 100, "downward")
-        .number("threads", "1", 1, 1, 64, "threads that step the world; the same as --threads");
+        .number("threads", "1", 1, 1, 64, "threads that step the world; the same as --threads")
+        .word("simd", "best", "best, scalar, sse4, avx2, avx512", "kernels of the whole program run at this level");
     return keys;
 }
 

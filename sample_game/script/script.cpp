@@ -6,6 +6,7 @@
 #include <lua.hpp>
 #include <thread>
 
+#include "engine/simd.hpp"
 #include "sample_game/script/arguments.hpp"
 #include "sample_game/script/calls.hpp"
 
@@ -64,6 +65,10 @@ void Script::prepare() {
     lua_State* lua = sandbox_.state();
     const Keys own_keys = world_keys();
     for (const Key& key : own_keys.all()) apply_set(lua, key.name);
+    if (const Result<void> chosen = set_simd_level(stage_.story.keys.word_of("simd")); !chosen.ok()) {
+        lua_pushstring(lua, ("--set " + chosen.error()).c_str());
+        lua_error(lua);
+    }
     open_calls(lua);
     const std::string fault = sandbox_.load(stage_.plan.scene.text, stage_.plan.scene.file);
     if (!fault.empty()) refuse(lua, fault);

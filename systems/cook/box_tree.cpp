@@ -11,14 +11,14 @@ uint32_t spread(uint32_t ten_bits) {
     return (x | x << 2) & 0x09249249u;
 }
 
-std::vector<uint32_t> morton_codes(std::span<const Box> boxes) {
-    Box all;
-    for (const Box& b : boxes) all.grow(b);
+std::vector<uint32_t> morton_codes(std::span<const TreeBox> boxes) {
+    TreeBox all;
+    for (const TreeBox& b : boxes) all.grow(b);
     std::array<float, 3> per_length{};
     for (size_t k = 0; k < 3; ++k) per_length[k] = 1023.0f / std::max(all.high[k] - all.low[k], 1e-20f);
     std::vector<uint32_t> codes;
     codes.reserve(boxes.size());
-    for (const Box& b : boxes) {
+    for (const TreeBox& b : boxes) {
         uint32_t code = 0;
         for (size_t k = 0; k < 3; ++k) {
             const float at = (0.5f * (b.low[k] + b.high[k]) - all.low[k]) * per_length[k];
@@ -45,7 +45,7 @@ std::vector<uint32_t> sorted_by_code(const std::vector<uint32_t>& codes) {
 
 }  // namespace
 
-BoxTree::BoxTree(std::span<const Box> item_boxes) {
+BoxTree::BoxTree(std::span<const TreeBox> item_boxes) {
     if (item_boxes.empty()) return;
     order = sorted_by_code(morton_codes(item_boxes));
     boxes.reserve(order.size());
@@ -79,8 +79,8 @@ BoxTree::BoxTree(std::span<const Box> item_boxes) {
     }
 }
 
-std::vector<Box> triangle_boxes(std::span<const Vec3d> points, std::span<const std::array<uint32_t, 3>> triangles) {
-    std::vector<Box> boxes(triangles.size());
+std::vector<TreeBox> triangle_boxes(std::span<const Vec3d> points, std::span<const std::array<uint32_t, 3>> triangles) {
+    std::vector<TreeBox> boxes(triangles.size());
     for (size_t t = 0; t < triangles.size(); ++t)
         for (const uint32_t v : triangles[t]) boxes[t].grow(points[v]);
     return boxes;

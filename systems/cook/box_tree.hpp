@@ -25,7 +25,7 @@ struct LocalFrame {
 };
 
 /// Four lanes so that one comparison does all axes; the fourth stays 0.
-struct Box {
+struct TreeBox {
     alignas(16) std::array<float, 4> low{1e30f, 1e30f, 1e30f, 0}, high{-1e30f, -1e30f, -1e30f, 0};
 
     /// Local coordinates stay below 4, where rounding to float moves a number by at most 1.2e-7.
@@ -36,10 +36,10 @@ struct Box {
             high[axis] = std::max(high[axis], static_cast<float>(p[k]) + 2.5e-7f);
         }
     }
-    void grow(const Box& b) {
+    void grow(const TreeBox& b) {
         for (size_t k = 0; k < 3; ++k) low[k] = std::min(low[k], b.low[k]), high[k] = std::max(high[k], b.high[k]);
     }
-    bool overlaps(const Box& b) const {
+    bool overlaps(const TreeBox& b) const {
         const auto all = (load(low) <= load(b.high)) & (load(b.low) <= load(high));
         std::array<uint64_t, 2> lanes;
         std::memcpy(lanes.data(), &all, 16);
@@ -66,7 +66,7 @@ struct Box {
 
 struct BoxTree {
     struct Node {
-        Box box;
+        TreeBox box;
         uint32_t right = 0;  // 0: a leaf; else the right child, the left one being the next node
         uint32_t items = 0;  // 8 * first + count, places in `order`
         bool is_leaf() const { return right == 0; }
@@ -75,10 +75,10 @@ struct BoxTree {
     };
     std::vector<Node> nodes;
     std::vector<uint32_t> order;  // item at each place
-    std::vector<Box> boxes;       // by place
+    std::vector<TreeBox> boxes;   // by place
 
     BoxTree() = default;
-    explicit BoxTree(std::span<const Box> item_boxes);
+    explicit BoxTree(std::span<const TreeBox> item_boxes);
 
     /// visit(a, b), once for every two items whose boxes overlap.
     template <class Visit>
@@ -86,7 +86,7 @@ struct BoxTree {
 };
 
 /// Boxes of triangles in local coordinates.
-std::vector<Box> triangle_boxes(std::span<const Vec3d> points, std::span<const std::array<uint32_t, 3>> triangles);
+std::vector<TreeBox> triangle_boxes(std::span<const Vec3d> points, std::span<const std::array<uint32_t, 3>> triangles);
 
 template <class Visit>
 void BoxTree::for_each_overlap(Visit visit) const {

@@ -106,7 +106,7 @@ double OppositeWall::ball_radius(uint32_t v, Vec3d m, double r) const {
     Floats centre(origin + r * m);
     float reach = static_cast<float>(r * r * (1 + 1e-5));
     const auto can_limit = [&](uint32_t n) {
-        const Box& b = normal_boxes_[n];
+        const TreeBox& b = normal_boxes_[n];
         float most = 0;
         for (size_t k = 0; k < 3; ++k) most += std::max(mf.lane[k] * b.low[k], mf.lane[k] * b.high[k]);
         return most > 0.09999f;

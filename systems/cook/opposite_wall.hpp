@@ -25,8 +25,8 @@ class OppositeWall {
 
     const ExtrusionWork& work_;
     BoxTree tree_;
-    std::vector<Face> faces_;        // in tree order
-    std::vector<Box> normal_boxes_;  // range of the normals under a node
+    std::vector<Face> faces_;            // in tree order
+    std::vector<TreeBox> normal_boxes_;  // range of the normals under a node
     RayScene rays_;
 };
 

@@ -19,7 +19,7 @@ class Lister {
     }
 
     std::vector<FacePair> list() {
-        std::vector<Box> boxes(units_.size());
+        std::vector<TreeBox> boxes(units_.size());
         for (size_t u = 0; u < units_.size(); ++u)
             for (size_t k = 0; k < 2u * units_[u].vertex_count; ++k)
                 boxes[u].grow(Vec3d(units_[u].x[k], units_[u].y[k], units_[u].z[k]));

@@ -239,7 +239,7 @@ TEST(MeshTools, JitterIsEvenlySpreadOverItsRange) {
 
 TEST(MeshTools, FlippingLeavesNoEdgeWhoseOppositeAnglesSumToMoreThanPi) {
     // Two triangles over the long diagonal of a kite: the flip must take the short one.
-    Surface kite;
+    MeshDraft kite;
     kite.points = {{-2, 0, 0}, {2, 0, 0}, {0, 0.5, 0}, {0, -0.5, 0}};
     kite.triangles = {{0, 1, 2}, {1, 0, 3}};
     flip_to_delaunay(kite);
@@ -248,7 +248,7 @@ TEST(MeshTools, FlippingLeavesNoEdgeWhoseOppositeAnglesSumToMoreThanPi) {
 }
 
 TEST(MeshTools, FlippingATetrahedronChangesNothing) {
-    Surface flat;
+    MeshDraft flat;
     flat.points = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0.3, 0.3, 0.01}};
     flat.triangles = {{0, 2, 1}, {0, 1, 3}, {1, 2, 3}, {2, 0, 3}};
     const auto before = flat.triangles;
@@ -257,7 +257,8 @@ TEST(MeshTools, FlippingATetrahedronChangesNothing) {
 }
 
 TEST(MeshTools, MarchingTetrahedraOfASphereAreClosedAndOutward) {
-    const Surface sphere = surface_of([](Vec3d p) { return length(p) - 1; }, {-1.3, -1.3, -1.3}, {1.3, 1.3, 1.3}, 0.1);
+    const MeshDraft sphere =
+        surface_of([](Vec3d p) { return length(p) - 1; }, {-1.3, -1.3, -1.3}, {1.3, 1.3, 1.3}, 0.1);
     const Facts facts = facts_of(to_mesh(sphere, "sphere"));
     EXPECT_EQ(facts.wrong_edges + facts.border_edges, 0u);
     EXPECT_EQ(facts.euler, 2);

@@ -161,7 +161,7 @@ inline void check_meetings(const Surface& s, const Extrusion& e, ShellReport& re
         report.meeting += triangles_meet(faces[i].point, faces[j].point);
     };
     const LocalFrame frame(s.low, s.diagonal);
-    std::vector<Box> boxes(faces.size());
+    std::vector<TreeBox> boxes(faces.size());
     for (size_t f = 0; f < faces.size(); ++f)
         for (const Vec3d p : faces[f].point) boxes[f].grow(frame(p));
     if (s.triangles.size() <= 2000) {
