@@ -1,14 +1,13 @@
 #!/usr/bin/env bash
 # Builds everything with all checks on and runs the tests; about a quarter of an hour on two cores, less the next time.
-# --all: then the packages too, with installing and removing them on this machine (scripts/test_package.sh).
+# --all [--quick]: every preset, SIMD level and number of threads, the fuzz programs and the packages instead, which are
+# installed on this machine and removed again, as root (scripts/test_all.sh).
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
-
-packages=no
 if [[ ${1:-} == --all ]]; then
-    packages=yes
-    shift
+    exec scripts/test_all.sh "${@:2}"
 fi
+
 scripts/setup.sh
 # The Release game is there to be compared with the Checked one, hash by hash.
 cmake --preset release >/dev/null
@@ -23,5 +22,4 @@ outcome=0
 GTEST_OUTPUT="xml:$results/" ctest --preset checked "$@" || outcome=$?
 skipped=$(cat "$results"/*.xml 2>/dev/null | grep -c '<skipped message="[^"]*CULLET_TEST_DATA' || true)
 echo "$skipped tests skipped for want of data (CULLET_TEST_DATA, ${CULLET_TEST_DATA:-../shared/data if not given})"
-if [[ $packages == yes ]]; then scripts/test_package.sh || outcome=$?; fi
 exit "$outcome"

@@ -45,7 +45,7 @@ struct Sky {
     Birds birds{5000};
     BirdsEggs birds_eggs{100};
     Weather weather;
-    Step step{0.5f, 41};
+    Step step{.dt = 0.5f, .gravity = {}, .frame = 41};
     Arena arena{1 << 20};
     Events<Cried> cries{100000};
     CallLog log;
