@@ -83,28 +83,13 @@ int posix_memalign(void** memory, size_t alignment, size_t bytes) {
 }
 }  // extern "C"
 #else
-// The sanitizer keeps malloc; its operator new does not call it, ours does.
-void* operator new(size_t bytes) {
-    cullet::count_one();
-    if (void* memory = std::malloc(bytes ? bytes : 1)) return memory;
-    std::abort();
-}
-void operator delete(void* memory) noexcept {
-    std::free(memory);
-}
-void operator delete(void* memory, size_t) noexcept {
-    std::free(memory);
-}
-void* operator new(size_t bytes, std::align_val_t alignment) {
-    cullet::count_one();
-    const auto a = static_cast<size_t>(alignment);
-    if (void* memory = std::aligned_alloc(a, (bytes + a - 1) / a * a)) return memory;
-    std::abort();
-}
-void operator delete(void* memory, std::align_val_t) noexcept {
-    std::free(memory);
-}
-void operator delete(void* memory, size_t, std::align_val_t) noexcept {
-    std::free(memory);
-}
+// The sanitizer keeps malloc and operator new, and tells of each call.
+#include <sanitizer/allocator_interface.h>
+
+namespace cullet {
+namespace {
+[[maybe_unused]] const int is_told = __sanitizer_install_malloc_and_free_hooks(
+    [](const volatile void*, size_t) { count_one(); }, [](const volatile void*) {});
+}  // namespace
+}  // namespace cullet
 #endif

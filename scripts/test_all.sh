@@ -55,8 +55,7 @@ build() {
     cmake --preset "$1" ${2:+"$2"} && cmake --build --preset "$1"
 }
 test_preset() {
-    TSAN_OPTIONS="halt_on_error=1" UBSAN_OPTIONS="print_stacktrace=1" \
-        CULLET_SCENE_FRAMES="$2" CULLET_FUZZ_SECONDS="$3" \
+    CULLET_SCENE_FRAMES="$2" CULLET_FUZZ_SECONDS="$3" \
         ctest --test-dir "build/$1" --output-on-failure -j 2 "${tests[@]}"
 }
 

