@@ -2,6 +2,7 @@
 
 #include <cstdio>
 #include <cstdlib>
+#include <map>
 
 #include "tests/support/simple_meshes.hpp"
 
@@ -37,6 +38,29 @@ const Model& glass_globe() {
             {mesh.positions.data(), mesh.positions.size(), mesh.triangles[0].data(), mesh.triangles.size()}, settings));
     }();
     return model;
+}
+
+const Host& frugal_host() {
+    static std::multimap<size_t, void*> kept;  // by size; programs of one thread
+    static const Host host = [] {
+        Host made;
+        made.allocator.allocate = [](void*, size_t size, size_t alignment) {
+            const auto found = kept.find(size);
+            if (found == kept.end())
+                return std::aligned_alloc(alignment, (size + alignment - 1) / alignment * alignment);
+            void* const memory = found->second;
+            kept.erase(found);
+            return memory;
+        };
+        made.allocator.release = [](void*, void* memory, size_t size) {
+            if (kept.size() < 4096)
+                kept.emplace(size, memory);
+            else
+                std::free(memory);
+        };
+        return made;
+    }();
+    return host;
 }
 
 Settings small_settings() {
