@@ -40,21 +40,32 @@ const Model& glass_globe() {
     return model;
 }
 
+namespace {
+
+struct Kept {
+    std::multimap<size_t, void*> by_size;
+    ~Kept() {
+        for (const auto& [size, memory] : by_size) std::free(memory);
+    }
+};
+
+}  // namespace
+
 const Host& frugal_host() {
-    static std::multimap<size_t, void*> kept;  // by size; programs of one thread
+    static Kept kept;  // programs of one thread
     static const Host host = [] {
         Host made;
         made.allocator.allocate = [](void*, size_t size, size_t alignment) {
-            const auto found = kept.find(size);
-            if (found == kept.end())
+            const auto found = kept.by_size.find(size);
+            if (found == kept.by_size.end())
                 return std::aligned_alloc(alignment, (size + alignment - 1) / alignment * alignment);
             void* const memory = found->second;
-            kept.erase(found);
+            kept.by_size.erase(found);
             return memory;
         };
         made.allocator.release = [](void*, void* memory, size_t size) {
-            if (kept.size() < 4096)
-                kept.emplace(size, memory);
+            if (kept.by_size.size() < 4096)
+                kept.by_size.emplace(size, memory);
             else
                 std::free(memory);
         };
