@@ -10,7 +10,9 @@
 namespace cullet {
 namespace {
 
+// A row that is free says nothing of a shell: it is all zeros, and shell 0 is somebody else's.
 bool is_worth_it(const Bodies& bodies, const Shells& shells, uint32_t b) {
+    if (static_cast<BodyKind>(bodies.kind[b]) == BodyKind::Free) return false;
     const Row<Shells> shell = bodies.shell[b];
     return shell.exists() && bodies.task[b] == kNone && !bodies.is_owed_births[b] &&
            4 * uint64_t{shells.dead_elements[shell]} > shells.elements[shell].count;

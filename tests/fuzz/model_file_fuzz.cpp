@@ -1,6 +1,7 @@
 // Reads anything as a model file; what is accepted is put into a world and hit.
 #include "systems/cook/model_file.hpp"
 
+#include "engine/memory.hpp"
 #include "tests/fuzz/fuzz.hpp"
 #include "tests/fuzz/small_seeds.hpp"
 
@@ -21,9 +22,10 @@ std::vector<Bytes> make_seeds() {
 }
 
 bool read(std::span<const uint8_t> file) {
+    const MemoryScope memory(frugal_host().allocator);
     const Result<Model> model = parse_model_file(file, "fuzz.cmodel");
     if (!model) return false;
-    World world = value_of(World::create(small_settings()));
+    World world = value_of(World::create(small_settings(), frugal_host()));
     const Result<ModelId> id = world.add_model(*model);
     if (!id) return true;
     (void)world.spawn(*id);

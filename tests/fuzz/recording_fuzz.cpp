@@ -114,7 +114,7 @@ bool read(std::span<const uint8_t> file) {
     const Bytes bytes(file.begin(), file.end());
     if (bytes.size() < kHead + kChunkHead + 4) return false;
     if (!has_small_settings(file, settings_place(bytes)) || !has_small_snapshots(file)) return false;
-    Replayer replayer({file, "fuzz.rec", "/nowhere", &World::create}, 1, Host{});
+    Replayer replayer({file, "fuzz.rec", "/nowhere", &World::create}, 1, frugal_host());
     if (!replayer.begin()) return false;
     for (int frame = 0; frame < 3 && replayer.step();) ++frame;
     return true;

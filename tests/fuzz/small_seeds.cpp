@@ -2,6 +2,7 @@
 
 #include <cstdio>
 #include <cstdlib>
+#include <map>
 
 #include "tests/support/simple_meshes.hpp"
 
@@ -37,6 +38,40 @@ const Model& glass_globe() {
             {mesh.positions.data(), mesh.positions.size(), mesh.triangles[0].data(), mesh.triangles.size()}, settings));
     }();
     return model;
+}
+
+namespace {
+
+struct Kept {
+    std::multimap<size_t, void*> by_size;
+    ~Kept() {
+        for (const auto& [size, memory] : by_size) std::free(memory);
+    }
+};
+
+}  // namespace
+
+const Host& frugal_host() {
+    static Kept kept;  // programs of one thread
+    static const Host host = [] {
+        Host made;
+        made.allocator.allocate = [](void*, size_t size, size_t alignment) {
+            const auto found = kept.by_size.find(size);
+            if (found == kept.by_size.end())
+                return std::aligned_alloc(alignment, (size + alignment - 1) / alignment * alignment);
+            void* const memory = found->second;
+            kept.by_size.erase(found);
+            return memory;
+        };
+        made.allocator.release = [](void*, void* memory, size_t size) {
+            if (kept.by_size.size() < 4096)
+                kept.by_size.emplace(size, memory);
+            else
+                std::free(memory);
+        };
+        return made;
+    }();
+    return host;
 }
 
 Settings small_settings() {

@@ -31,7 +31,8 @@ std::vector<Bytes> make_seeds() {
 bool read(std::span<const uint8_t> file) {
     if (!has_small_snapshots(file)) return false;
     const bool is_hosted = file.size() > kFileHeaderBytes && file[kFileHeaderBytes] != 0;
-    World world = value_of(is_hosted ? World::create_hosted(small_settings()) : World::create(small_settings()));
+    World world = value_of(is_hosted ? World::create_hosted(small_settings(), frugal_host())
+                                     : World::create(small_settings(), frugal_host()));
     if (!world.restore(file.data(), file.size())) return false;
     for (int frame = 0; frame < 2; ++frame)
         if (is_hosted)

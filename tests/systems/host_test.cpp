@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cstdlib>
+#include <cstring>
 #include <map>
 #include <mutex>
 #include <thread>
@@ -293,6 +294,53 @@ TEST(HostMemory, AModelsTablesComeFromTheHostAndGoBackWithTheLastOfIt) {
     }
     EXPECT_EQ(given.blocks.size(), 0u);
     EXPECT_EQ(given.wrong, 0u);
+}
+
+/// Memory in which something stood before.
+Host host_of_used_memory() {
+    Host host;
+    host.allocator.allocate = [](void*, size_t size, size_t alignment) {
+        void* const memory = std::aligned_alloc(alignment, (size + alignment - 1) / alignment * alignment);
+        return std::memset(memory, 0xcd, size);
+    };
+    host.allocator.release = [](void*, void* memory, size_t) { std::free(memory); };
+    return host;
+}
+
+/// Hashes of a vase that breaks, is saved and loaded, beside the free row of a body that is gone.
+std::vector<uint64_t> hashes_in(const Host& host) {
+    Settings settings = small_settings();
+    settings.limits = {64, 8, 1u << 15, 1u << 15, 2, 1u << 17, 64, 8};
+    settings.units_a_frame = 2'000'000;
+    Breakage hit = vase_and_ball(settings, 8, host);
+    const BodyId floor = add_floor(hit.world);
+    std::vector<uint64_t> hashes;
+    for (int frame = 0; frame < 40; ++frame) {
+        const bool is_removed = frame == 2 && hit.world.remove(floor).ok();
+        EXPECT_EQ(is_removed, frame == 2);
+        if (frame == 8) {
+            const auto bytes = hit.world.snapshot().value();
+            EXPECT_TRUE(hit.world.restore(bytes.data(), bytes.size()).ok());
+        }
+        hit.world.step();
+        hashes.push_back(hit.world.hash());
+    }
+    EXPECT_GT(shells_of(hit.world).size(), 1u) << "nothing broke";
+    return hashes;
+}
+
+TEST(HostMemory, WhatStoodInItBeforeDoesNotMatter) {
+    EXPECT_EQ(hashes_in({}), hashes_in(host_of_used_memory()));
+}
+
+TEST(HostMemory, AFreeRowOfABodyNamesNoShell) {
+    World world = make_world(small_settings(), host_of_used_memory());
+    const BodyId floor = add_floor(world);
+    (void)world.add_sphere(ball_at({0, 1, 0}, 1, 1)).value();
+    world.step();
+    EXPECT_TRUE(world.remove(floor).ok());
+    for (int frame = 0; frame < 3; ++frame) world.step();
+    EXPECT_EQ(shells_of(world).size(), 0u);
 }
 
 }  // namespace
