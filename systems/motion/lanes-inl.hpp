@@ -21,13 +21,14 @@ namespace hn = hwy::HWY_NAMESPACE;
 #if HWY_TARGET == HWY_SCALAR
 using Floats = hn::CappedTag<float, 1>;
 inline constexpr uint32_t kStep = 1;
-#elif HWY_TARGET == HWY_SSSE3 || HWY_TARGET == HWY_SSE4
+#elif HWY_TARGET == HWY_EMU128 || HWY_TARGET == HWY_SSSE3 || HWY_TARGET == HWY_SSE4
 using Floats = hn::CappedTag<float, 4>;
 inline constexpr uint32_t kStep = 4;
 #else
 using Floats = hn::CappedTag<float, 8>;
 inline constexpr uint32_t kStep = 8;
 #endif
+static_assert(hn::MaxLanes(Floats()) == kStep, "a level whose registers are of another size would leave lanes out");
 using V = hn::Vec<Floats>;
 
 struct V3 {
@@ -94,7 +95,7 @@ HWY_INLINE void store_points(V3 a, Float4* w) {
 
 /// Register r of the four that hold vertices r and, in the upper half, r + 4.
 HWY_INLINE V load_pair(const Float4* low, const Float4* high) {
-#if HWY_TARGET == HWY_SSSE3 || HWY_TARGET == HWY_SSE4
+#if HWY_TARGET == HWY_EMU128 || HWY_TARGET == HWY_SSSE3 || HWY_TARGET == HWY_SSE4
     (void)high;
     return hn::Load(Floats(), &low->x);
 #else
@@ -129,7 +130,7 @@ HWY_INLINE V3 load_points(const Float4* w) {
                      load_pair(w + 3, w + h + 3));
 }
 HWY_INLINE void store_pair(V a, Float4* low, Float4* high) {
-#if HWY_TARGET == HWY_SSSE3 || HWY_TARGET == HWY_SSE4
+#if HWY_TARGET == HWY_EMU128 || HWY_TARGET == HWY_SSSE3 || HWY_TARGET == HWY_SSE4
     (void)high;
     hn::Store(a, Floats(), &low->x);
 #else
