@@ -8,6 +8,9 @@
 namespace cullet {
 namespace {
 
+constexpr float kShortestStep = 1e-12f;                 // s, of a hit; cooked ones are a hundred thousand times as long
+constexpr float kMostSteps = 1e9f;                      // of a hit; some thousand are usual
+constexpr uint64_t kMostUnits = 1'000'000'000'000'000;  // as Settings::units_a_frame
 constexpr const char* kAdvice = "The snapshot is damaged or of another build; take it again.";
 
 struct Checker {
@@ -175,6 +178,19 @@ void check_contacts(Checker& check, uint32_t t) {
     }
 }
 
+/// Steps and units are counted in whole numbers, which these must not leave.
+void check_length(Checker& check, uint32_t t) {
+    const Tasks& tasks = check.state.tasks;
+    const float step = tasks.time_step[t], end = tasks.end_time[t];
+    check.expect(step >= kShortestStep && step <= 1,
+                 Checker::place(tasks, "time_step", t) + " is " + std::to_string(step) + " s, not from 1e-12 to 1");
+    check.expect(end >= 0 && end <= kMostSteps * step, Checker::place(tasks, "end_time", t) + " is " +
+                                                           std::to_string(end) + " s; a step is " +
+                                                           std::to_string(step) + " s");
+    check.expect(tasks.units_owed[t] <= kMostUnits,
+                 Checker::place(tasks, "units_owed", t) + " is " + std::to_string(tasks.units_owed[t]));
+}
+
 void check_tasks(Checker& check) {
     const State& s = check.state;
     const Tasks& tasks = s.tasks;
@@ -198,8 +214,7 @@ void check_tasks(Checker& check) {
         check.expect(s.shells.packs[tasks.shell[t]].count > 0, Checker::place(tasks, "shell", t) + " has no stiffness");
         check.expect_flag(tasks, tasks.is_held, "is_held", t);
         check.expect_flag(tasks, tasks.is_late, "is_late", t);
-        check.expect(tasks.time_step[t] > 0, Checker::place(tasks, "time_step", t) + " is " +
-                                                 std::to_string(tasks.time_step[t]) + " s, not above 0");
+        check_length(check, t);
         check_contacts(check, t);
     }
     const QueuedHits& queued = s.queued_hits;
