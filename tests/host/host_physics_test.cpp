@@ -57,22 +57,22 @@ Settings roomy() {
     return settings;
 }
 
-double mass_of(const Scene& s) {
+double mass_of(Scene& s) {
     double mass = 0;
-    for (const plain::Thing& t : s.physics.things) mass += t.shape.mass;
+    for (auto& [index, t] : s.physics.things) mass += t.shape.mass;
     return mass;
 }
 
-float lowest_of(const plain::Thing& t) {
+float lowest_of(plain::Thing& t) {
     float lowest = 1e9f;
-    for (const Vec3 p : t.points)
-        lowest = std::min(lowest, t.shape.pose.position.y + plain::rotate(t.shape.pose.orientation, p).y);
+    for (const Eigen::Vector3f& corner : t.corners)
+        lowest = std::min(lowest, t.shape.pose.position.y + (t.offset() + t.turn() * corner).y());
     return lowest - t.shape.margin;
 }
 
 // What the world says of its bodies and what the host holds of them are one and the same.
-void expect_same_bodies(const Scene& s) {
-    for (const plain::Thing& t : s.physics.things) {
+void expect_same_bodies(Scene& s) {
+    for (auto& [index, t] : s.physics.things) {
         ASSERT_TRUE(s.world.is_alive(t.shape.body));
         EXPECT_NEAR(s.world.mass(t.shape.body).value(), t.shape.mass, 1e-9);  // compaction sums anew
     }
@@ -95,11 +95,11 @@ TEST(HostPhysics, AVaseThatFallsOnAHostsFloorBreaksAndItsPiecesComeToRest) {
     EXPECT_GT(born, 3u);
     EXPECT_GT(held, 0u);
     EXPECT_NEAR(mass_of(s) + debris, mass, 1e-6 * mass);
-    for (const plain::Thing& t : s.physics.things) {
+    for (auto& [index, t] : s.physics.things) {
         const float lowest = lowest_of(t);
         EXPECT_GT(lowest, -0.01f);
         EXPECT_LT(lowest, 0.01f);
-        EXPECT_LT(plain::length(t.shape.motion.velocity), 0.3f);
+        EXPECT_LT(plain::at(t.shape.motion.velocity).norm(), 0.3f);
     }
 }
 
@@ -118,7 +118,7 @@ TEST(HostPhysics, AWorldThatIsLoadedTellsTheHostAllItsBodies) {
     EXPECT_NEAR(mass_of(t), mass_of(s), 1e-12);
     for (int frame = 0; frame < 240; ++frame) ASSERT_TRUE(t.physics.step(t.world, kDt, kGravity).ok());
     expect_same_bodies(t);
-    for (const plain::Thing& thing : t.physics.things) EXPECT_LT(plain::length(thing.shape.motion.velocity), 0.3f);
+    for (auto& [index, thing] : t.physics.things) EXPECT_LT(plain::at(thing.shape.motion.velocity).norm(), 0.3f);
 }
 
 TEST(HostPhysics, AGentleTouchBreaksNothing) {
