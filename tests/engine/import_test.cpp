@@ -93,6 +93,16 @@ TEST_F(Import, ACubeOfSixQuadsHasEightVerticesTwelveTrianglesAndVolumeOne) {
     EXPECT_DOUBLE_EQ(volume_of(*mesh), 1.0);
 }
 
+TEST_F(Import, CoordinatesOfAnObjMayBeginWithTheirPoint) {
+    auto mesh = import_mesh(file("points.obj", "v .5 -.5 0\nv 1.5\t.25 +.75\nv 0 .5e1 .0\nusemtl .x\nf 1 2 3\n"),
+                            kProgram, cache());
+    ASSERT_TRUE(mesh.ok()) << mesh.error();
+    ASSERT_EQ(mesh->positions.size(), 3u);
+    EXPECT_EQ(mesh->positions[0], (Vec3{0.5f, -0.5f, 0}));
+    EXPECT_EQ(mesh->positions[1], (Vec3{1.5f, 0.25f, 0.75f}));
+    EXPECT_EQ(mesh->positions[2], (Vec3{0, 5, 0}));
+}
+
 TEST_F(Import, EqualBytesAreImportedOnceAndOtherBytesAnew) {
     const std::string path = file("cube.obj", kCube);
     const auto first = import_mesh(path, kProgram, cache());
