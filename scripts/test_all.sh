@@ -1,143 +1,153 @@
 #!/usr/bin/env bash
-# scripts/test.sh --all: every preset with its tests, the fuzz programs, and each scene at every level of SIMD on one
-# thread and on 1, 2, 3 and 8 threads at AVX2, built by g++ and by clang, which must all give the same bytes. Takes hours
-# on two cores; what is done stays done: stopped and started again, it goes on where it was, for as long as the sources
-# are the same. --quick: few tests, frames, threads and inputs, to try this script itself. Writes tests/ALL.md.
+# scripts/test.sh --all [parts]: every preset with its tests, every fuzz program, the packages, and each scene at every
+# level of SIMD on one thread and on 1, 2, 3 and 8 threads at AVX2, built by g++ and by clang, which must all give the
+# same bytes. Takes hours on two cores, so each part that ends writes its row into tests/ALL.md, with the commit that it
+# saw, and is not played again as long as nothing but pages has changed since. Parts by name: --all tsan vase fuzz_snapshot.
+# --quick: few tests, frames, threads and inputs, to try this script itself; the rows go to build/all/quick.md.
 set -uo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.." || exit 1
 
-is_quick=0
-[[ ${1:-} == --quick ]] && is_quick=1
-command="scripts/test.sh --all"
-presets=(release checked debug clang asan tsan)
-scenes=(wall vase pane pile drop)
-threads=(1 2 3 8) levels=(scalar sse4 avx2 avx512) frames=600 inputs=200000 tests=()
-if ((is_quick)); then
-    command+=" --quick"
-    presets=(release checked clang asan tsan)
-    threads=(1 3 8) levels=(scalar avx2) frames=60 inputs=500
+presets=(release checked clang debug asan tsan) scenes=(vase wall pane drop pile)
+formats=(mesh_file model_file snapshot recording)
+threads=(1 2 3 8) levels=(scalar sse4 avx2 avx512) frames=600 inputs=200000 tests=() page=tests/ALL.md
+if [[ ${1:-} == --quick ]]; then
+    shift
+    threads=(1 3 8) levels=(scalar avx2) frames=60 inputs=500 page=build/all/quick.md
     tests=(-R '^(jobs|table|inner_loop|frame_plan|mesh_file|math)_test$')
 fi
+parts=("$@")
+((${#parts[@]})) || parts=("${presets[@]}" "${scenes[@]}" "${formats[@]/#/fuzz_}" packages)
 
 scripts/setup.sh --all || exit 1
-sources=$(git rev-parse --short HEAD)
-if ! git diff --quiet HEAD -- . ':!tests/ALL.md'; then
-    sources+="-changed-$(git diff HEAD -- . ':!tests/ALL.md' | sha1sum | cut -c1-8)"
-fi
-state=build/all/$sources$( ((is_quick)) && echo -quick)
-mkdir -p "$state"
-echo "$command of $sources; what is done stands in $state"
+logs=$PWD/build/all
+mkdir -p "$logs"
+commit=$(git rev-parse --short HEAD)
+git diff --quiet HEAD -- . ':!*.md' || commit+="-changed"
 
-failures=0
-# step NAME COMMAND...: once; its seconds go to NAME.ok, what it printed to NAME.log.
-step() {
-    local name=$1 file=$state/${1// /_}
+# among WORD WORDS...: is it one of them?
+among() {
+    local word=$1
     shift
-    if [[ -f $file.ok ]]; then
-        echo "  $name: done before"
-        return 0
-    fi
-    printf '  %s ... ' "$name"
-    local begin=$SECONDS
-    if "$@" >"$file.log" 2>&1; then
-        echo $((SECONDS - begin)) >"$file.ok"
-        rm -f "$file.failed"
-        echo "$((SECONDS - begin)) s"
-    else
-        echo $((SECONDS - begin)) >"$file.failed"
-        failures=$((failures + 1))
-        echo "FAILED, see $file.log"
-        return 1
-    fi
+    [[ " $* " == *" $word "* ]]
+}
+# The row of a part on the page, or nothing.
+row_of() {
+    grep -s "^| $1 |" "$page"
+}
+is_done() {
+    local seen
+    seen=$(row_of "$1" | awk -F' *[|] *' '$3 !~ /FAILED/ { print $4 }')
+    [[ -n $seen && $seen != *-changed ]] && git diff --quiet "$seen" -- . ':!*.md' 2>/dev/null
+}
+# write_row PART RESULT SECONDS: the page anew, with this row in place of the part's old one.
+write_row() {
+    local rows name
+    rows=$(grep -s '^| ' "$page" | grep -v -e "^| $1 |" -e '^| part |')
+    rows+=$'\n'"| $1 | $2 | $commit | $(date -u +%Y-%m-%d) | $3 |"
+    {
+        echo "# The last run of everything"
+        echo
+        echo "Written by \`scripts/test.sh --all\`; do not edit. The scenes: $frames frames each, on one thread with kernels at"
+        echo "${levels[*]}, on ${threads[*]} threads at avx2, by g++ (Release) and clang (Checked); the hash is that of all"
+        echo "frames. Fuzz programs: $inputs inputs each."
+        echo
+        echo "Machine: $(sed -n 's/^model name[^:]*: //p' /proc/cpuinfo | head -1), $(nproc) hardware threads;" \
+            "$(g++ --version | head -1); $(clang++ --version | head -1)."
+        echo
+        echo "| part | result | commit | date | seconds |"
+        echo "|---|---|---|---|---|"
+        for name in "${presets[@]}" "${scenes[@]}" "${formats[@]/#/fuzz_}" packages; do
+            grep "^| $name |" <<<"$rows"
+        done
+    } >"$page.new"
+    mv "$page.new" "$page"
 }
 
 build() {
-    cmake --preset "$1" ${2:+"$2"} && cmake --build --preset "$1"
+    local game=()
+    [[ $1 == release ]] || game=("-DCULLET_RELEASE_GAME=$PWD/build/release/sample_game")
+    cmake --preset "$1" "${game[@]}" && cmake --build --preset "$1"
 }
-test_preset() {
-    CULLET_SCENE_FRAMES="$2" CULLET_FUZZ_SECONDS="$3" \
-        ctest --test-dir "build/$1" --output-on-failure -j 2 "${tests[@]}"
-}
-
-for preset in "${presets[@]}"; do
-    release_game=""
-    [[ $preset == release ]] || release_game="-DCULLET_RELEASE_GAME=$PWD/build/release/sample_game"
-    step "build $preset" build "$preset" "$release_game" || continue
+# What follows prints its result, the second column of the page, as its last line.
+preset_part() {
+    local scene_frames=120
+    build "$1" || return 1
     # Builds that are ten times slower play the scenes for fewer frames; nothing is left out.
-    scene_frames=120
-    [[ $preset == debug || $preset == asan ]] && scene_frames=40
-    [[ $preset == tsan ]] && scene_frames=24
-    step "test $preset" test_preset "$preset" "$scene_frames" 20
-done
-step "fuzz $inputs inputs" scripts/fuzz.sh "$inputs"
-((is_quick)) || step "packages" scripts/test_package.sh
-
-# The chain of all frames' hashes, or why there is none.
-play() {
-    local game=$1 scene=$2 count=$3 level=$4 text chain
-    if ! text=$("$game" run "$scene" --frames "$frames" --threads "$count" --set "simd=$level" 2>&1); then
-        echo "$text"
-        [[ $text == *"this machine or this build does not have it"* ]]
-        return
-    fi
-    grep -q " on $count threads" <<<"$text" || { echo "not on $count threads: $text"; return 1; }
-    chain=$(sed -n 's/.*all frames \([0-9a-f]*\).*/\1/p' <<<"$text")
-    [[ -n $chain ]] && echo "chain $chain"
+    [[ $1 == debug || $1 == asan ]] && scene_frames=40
+    [[ $1 == tsan ]] && scene_frames=24
+    CULLET_SCENE_FRAMES=$scene_frames ctest --test-dir "build/$1" --output-on-failure -j 2 "${tests[@]}" >"$logs/$1_tests.log" 2>&1
+    local outcome=$?
+    grep -E "tests passed|\(Failed\)|\(Timeout\)|Subprocess" "$logs/$1_tests.log" | paste -sd' '
+    return $outcome
 }
-for scene in "${scenes[@]}"; do
+fuzz_part() {
+    scripts/fuzz.sh "$inputs" "$1" || return 1
+    echo "$inputs inputs without a finding"
+}
+packages_part() {
+    scripts/test_package.sh || return 1
+    echo "installed, built against, removed"
+}
+# One run: prints the chain of all frames' hashes, or why there is none.
+play() {
+    local scene=$1 build=$2 level=$3 count=$4 text
+    text=$("build/$build/sample_game" run "$scene" --frames "$frames" --threads "$count" --set "simd=$level" 2>&1)
+    if [[ $text == *"this machine or this build does not have it"* ]]; then
+        echo "none: $build $level"
+    elif ! grep -q " on $count threads" <<<"$text"; then
+        echo "chain of $build $level on $count threads: $text" | tr '\n' ' '
+    else
+        sed -n 's/.*all frames \([0-9a-f]*\).*/chain \1/p' <<<"$text"
+    fi
+}
+export -f play
+scene_part() {
+    local runs="" build level count chains
+    build release >/dev/null && build clang >/dev/null || return 1
     for build in release clang; do
         for level in "${levels[@]}"; do
             for count in "${threads[@]}"; do
-                ((count == 1)) || [[ $level == avx2 ]] || continue  # threads and levels do not touch each other
-                step "play $scene $build $level $count" play "build/$build/sample_game" "$scene" "$count" "$level"
+                # Threads and levels do not touch each other, so they are not tried each with each.
+                ((count == 1)) || [[ $level == avx2 ]] || continue
+                runs+="$build $level $count"$'\n'
             done
         done
     done
-done
-
-seconds_of() {
-    cat "$state/${1// /_}.ok" 2>/dev/null || echo "FAILED"
+    chains=$(printf '%s' "$runs" | frames=$frames xargs -P 2 -L 1 bash -c "play $1 "'"$@"' play | sort | uniq -c)
+    echo "$chains"
+    [[ $(grep -c chain <<<"$chains") == 1 && $(wc -w <<<"$(grep chain <<<"$chains")") == 3 ]] || return 1
+    awk '/chain/ { printf "`%s` in %d runs", $3, $1 } /none/ { printf "; no %s of the %s build here", $4, $3 }' <<<"$chains"
+    echo
 }
-rows=""
-for scene in "${scenes[@]}"; do
-    chains=$(grep -hs "^chain " "$state"/play_"${scene}"_*.log | sort | uniq -c)
-    kinds=$(grep -c . <<<"$chains")
-    count=$(grep -ls "^chain " "$state"/play_"${scene}"_*.log | wc -l)
-    hash=$(awk '{ print $3 }' <<<"$chains" | paste -sd' ')
-    rows+="| $scene | \`$hash\` | $count | $( ((kinds == 1)) && [[ -n $hash ]] && echo yes || echo NO) |"$'\n'
-    if ((kinds != 1)) || [[ -z $hash ]]; then
-        failures=$((failures + 1))
-        echo "$scene: the runs differ: $chains"
-    fi
-done
-missing=$(grep -lsE "does not have it" "$state"/play_*.log | sed -E 's/.*_(release|clang)_([a-z0-9]+)_[0-9]+\.log/\2 of the \1 build/' | sort -u | paste -sd, | sed 's/,/, /g')
 
-{
-    echo "# The last run of everything"
-    echo
-    echo "Written by \`$command\`; do not edit."
-    echo
-    echo "- commit: $sources"
-    echo "- date: $(date -u +%Y-%m-%d)"
-    echo "- machine: $(sed -n 's/^model name[^:]*: //p' /proc/cpuinfo | head -1), $(nproc) hardware threads; $(g++ --version | head -1); $(clang++ --version | head -1)"
-    echo "- result: $( ((failures)) && echo "$failures FAILED" || echo "all passed")"
-    echo
-    echo "Each scene for $frames frames, on one thread with kernels at ${levels[*]}, on ${threads[*]} threads at avx2, by g++ (Release) and clang (Checked):"
-    echo
-    echo "| scene | hash of all frames | runs | all equal |"
-    echo "|---|---|---|---|"
-    printf '%s' "$rows"
-    [[ -n $missing ]] && printf '\nNot there on this machine: %s.\n' "$missing"
-    echo
-    echo "| preset | build, s | tests, s | tests |"
-    echo "|---|---|---|---|"
-    for preset in "${presets[@]}"; do
-        summary=$(grep -hs "tests passed" "$state/test_$preset.log" | tail -1)
-        echo "| $preset | $(seconds_of "build $preset") | $(seconds_of "test $preset") | $summary |"
-    done
-    ((is_quick)) || echo "| packages | | $(seconds_of packages) | installed, built against, removed |"
-    echo "| fuzz, $inputs inputs a format | | $(seconds_of "fuzz $inputs inputs") | $(grep -hsc '^Done' "$state/fuzz_${inputs}_inputs.log") formats without a finding |"
-} >"$state/ALL.md"
-((is_quick)) || cp "$state/ALL.md" tests/ALL.md
-cat "$state/ALL.md"
+failures=0
+for part in "${parts[@]}"; do
+    if is_done "$part"; then
+        echo "$part: done before"
+        continue
+    fi
+    if among "$part" "${presets[@]}"; then
+        run=(preset_part "$part")
+    elif among "$part" "${scenes[@]}"; then
+        run=(scene_part "$part")
+    elif among "$part" "${formats[@]/#/fuzz_}"; then
+        run=(fuzz_part "${part#fuzz_}")
+    elif [[ $part == packages ]]; then
+        run=(packages_part)
+    else
+        echo "There is no part '$part'; there are ${presets[*]} ${scenes[*]} ${formats[*]/#/fuzz_} packages." >&2
+        exit 2
+    fi
+    printf '%s ... ' "$part"
+    begin=$SECONDS
+    if "${run[@]}" >"$logs/$part.log" 2>&1; then
+        result=$(tail -1 "$logs/$part.log")
+    else
+        result="FAILED: $(tail -1 "$logs/$part.log" | tr -d '|')"
+        failures=$((failures + 1))
+    fi
+    write_row "$part" "$result" $((SECONDS - begin))
+    echo "$result ($((SECONDS - begin)) s; $logs/$part.log)"
+done
+cat "$page"
 ((failures == 0))

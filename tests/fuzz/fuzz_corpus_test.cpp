@@ -3,9 +3,8 @@
 
 #include <chrono>
 #include <cstdlib>
-#include <filesystem>
 #include <fstream>
-#include <iterator>
+#include <string>
 
 #include "tests/fuzz/fuzz.hpp"
 
@@ -18,6 +17,14 @@ double seconds_to_look() {
     return text ? std::atof(text) : 20;
 }
 
+/// A line of a corpus: the input in hexadecimal; what a finding was called may follow it.
+Bytes bytes_of_hex(const std::string& line) {
+    Bytes bytes;
+    for (size_t at = 0; at + 1 < line.size() && line[at] != ' '; at += 2)
+        bytes.push_back(static_cast<uint8_t>(std::stoul(line.substr(at, 2), nullptr, 16)));
+    return bytes;
+}
+
 class EveryFormat : public testing::TestWithParam<const Format*> {};
 
 TEST_P(EveryFormat, EveryGoodFileIsAccepted) {
@@ -27,16 +34,14 @@ TEST_P(EveryFormat, EveryGoodFileIsAccepted) {
 
 TEST_P(EveryFormat, TheCorpusIsReadOrRefused) {
     const Format& format = *GetParam();
+    const std::string path = std::string(CULLET_SOURCE_DIR) + "/tests/fuzz/corpus/" + format.name + ".txt";
+    std::ifstream file(path);
     size_t count = 0;
-    const std::string folder = std::string(CULLET_SOURCE_DIR) + "/tests/fuzz/corpus/" + format.name;
-    for (const auto& entry : std::filesystem::directory_iterator(folder)) {
-        std::ifstream file(entry.path(), std::ios::binary);
-        const Bytes input{std::istreambuf_iterator<char>(file), {}};
-        SCOPED_TRACE(entry.path());
-        (void)run(format, input);
-        ++count;
+    for (std::string line; std::getline(file, line); ++count) {
+        SCOPED_TRACE(line);
+        (void)run(format, bytes_of_hex(line));
     }
-    EXPECT_GT(count, 0u) << folder;
+    EXPECT_GT(count, 100u) << path;
 }
 
 TEST_P(EveryFormat, DamagedFilesAreReadOrRefused) {
