@@ -7,6 +7,7 @@
 #include "engine/mesh_file.hpp"
 #include "systems/cook/check_shell_rows.hpp"
 #include "systems/damage/ring.hpp"
+#include "systems/damage/working_room.hpp"
 #include "systems/fragments/extreme_points.hpp"
 
 namespace cullet {
@@ -50,7 +51,7 @@ constexpr Rule kRules[] = {
     {"shells", "depth_floor", Is::Number, 0, kFar},
     {"shells", "mean_edge", Is::Number, 1e-30, kFar},
     {"shells", "area", Is::Number, 1e-30, kHuge},
-    {"shells", "time_step", Is::Number, 1e-30, 1},
+    {"shells", "time_step", Is::Number, kShortestStep, 1},
     {"shells", "triangle_limit", Is::Number, 0, kHuge},
     {"shells", "hinge_limit", Is::Number, 0, kHuge},
     {"shells", "vertex_limit", Is::Number, 0, kHuge},
@@ -426,6 +427,12 @@ Result<void> check_shell_rows(const ShellView& shell, Wear wear, const std::stri
     check_columns(check, state.stiffness_links, s.links[shell.row]);
     check_columns(check, state.cells, s.cells[shell.row]);
     check_columns(check, state.hull_points, s.points[shell.row]);
+    if (check.is_sound()) {
+        const float step = s.time_step[shell.row];
+        const float run = run_seconds(state.materials, s.material[shell.row], s.area[shell.row]);
+        check.expect(run <= kMostSteps * step,
+                     "shells.time_step is " + std::to_string(step) + " s for a hit of " + std::to_string(run) + " s");
+    }
     // Each believes what those before it have found.
     for (auto* look : {check_links, check_hinges, check_vertices, check_stiffness, check_cells, check_masses})
         if (check.is_sound()) look(check);

@@ -116,6 +116,12 @@ Result<void> make_stiff(State& state, Row<Shells>& shell) {
     s.time_step[shell] = stable_time_step(view);
     if (!(s.time_step[shell] > 0))
         return Error{"nothing holds the mesh together: no two triangles share an edge. Weld it first."};
+    const float run = run_seconds(state.materials, s.material[shell], s.area[shell]);
+    if (!(s.time_step[shell] >= kShortestStep && run <= kMostSteps * s.time_step[shell]))
+        return Error{
+            "a hit of " + std::to_string(1e3f * run) + " ms would go in steps of " +
+            std::to_string(1e9f * s.time_step[shell]) +
+            " ns, more than can be counted: some edges are far too short for its size. Weld them, or scale it."};
     return {};
 }
 
@@ -148,9 +154,7 @@ ModelReport report_on(const State& state, Row<Shells> shell, const SurfaceRepair
     report.mass = s.mass[shell];
     report.mean_thickness = s.thickness[shell];
     report.first_crack_speed = s.first_crack_speed[shell];
-    const uint32_t m = s.material[shell];
-    const float speed_of_sound = std::sqrt(state.materials.young_modulus[m] / state.materials.density[m]);
-    const float run = std::max(state.materials.run_seconds[m], 3.6f * std::sqrt(s.area[shell]) / speed_of_sound);
+    const float run = run_seconds(state.materials, s.material[shell], s.area[shell]);
     const auto steps = static_cast<uint64_t>(run / s.time_step[shell]) + 1;
     report.units_of_a_hit = steps * units_a_step(report.vertices + report.vertices / 10, 64) + 300 * kUnitsCut +
                             report.vertices * kUnitsOpen;  // a blow that breaks grows it by a tenth

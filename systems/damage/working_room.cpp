@@ -19,14 +19,16 @@ ShellRoom working_room(ShellView source) {
     return room;
 }
 
+float run_seconds(const Materials& materials, uint32_t material, float area) {
+    const float speed_of_sound = std::sqrt(materials.young_modulus[material] / materials.density[material]);
+    return std::max(materials.run_seconds[material], 3.6f * std::sqrt(area) / speed_of_sound);
+}
+
 void set_task_times(State& state, const Materials& materials, Row<Tasks> task) {
     const Row<Shells> source = state.tasks.source[task];
-    const uint32_t material = state.shells.material[source];
-    const float speed_of_sound = std::sqrt(materials.young_modulus[material] / materials.density[material]);
-    const float crossing = 3.6f * std::sqrt(state.shells.area[source]) / speed_of_sound;
     state.tasks.time_step[task] = state.shells.time_step[source];
     state.tasks.damping_time[task] = 0.15f * state.tasks.time_step[task];
-    state.tasks.end_time[task] = std::max(materials.run_seconds[material], crossing);
+    state.tasks.end_time[task] = run_seconds(materials, state.shells.material[source], state.shells.area[source]);
     state.tasks.quiet_time[task] = 0.4f * state.tasks.end_time[task];
 }
 

@@ -8,7 +8,14 @@ namespace cullet {
 /// a copy for each cut edge inside a crack, and 20 to 110 inserted ones.
 ShellRoom working_room(ShellView source);
 
-/// Step, damping time, end and quiet time of a run (B7, 6.4): T = max(1 ms, 3.6 sqrt(area) / c), quiet after 0.4 T.
+/// Steps and units of a run are counted in whole numbers, which a shell or a file must not leave: its step, s, and how
+/// many steps its run may have. Cooked ones are 1e-7 s and some thousand.
+constexpr float kShortestStep = 1e-12f, kMostSteps = 1e9f;
+
+/// Seconds that a hidden run lasts at most: T = max(the material's, 3.6 sqrt(area) / c).
+float run_seconds(const Materials& materials, uint32_t material, float area);
+
+/// Step, damping time, end and quiet time of a run (B7, 6.4): quiet after 0.4 T.
 void set_task_times(State& state, const Materials& materials, Row<Tasks> task);
 
 }  // namespace cullet
