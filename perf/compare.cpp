@@ -56,7 +56,11 @@ Result<FigureFile> parse_figures(std::string_view text, const std::string& name)
         return Error{name + ": \"machine\" lacks \"processor\" or \"hardware_threads\"" + advice};
     if (figures == json.end() || !figures->is_array()) return Error{name + ": \"figures\" is no list" + advice};
     FigureFile file;
-    file.machine = *text_at(*machine, "processor") + ", " + (*machine)["hardware_threads"].dump() + " threads";
+    const std::string* simd = text_at(json, "simd");
+    if (!simd || !read_number(json, "passes", file.passes))
+        return Error{name + ": lacks \"simd\" or \"passes\"" + advice};
+    file.machine =
+        *text_at(*machine, "processor") + ", " + (*machine)["hardware_threads"].dump() + " threads, kernels: " + *simd;
     std::map<std::string, size_t> seen;
     for (const Json& entry : *figures) {
         const size_t index = file.figures.size();

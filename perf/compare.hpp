@@ -14,7 +14,8 @@ struct ReadFigure {
 };
 
 struct FigureFile {
-    std::string machine;  // processor and threads, as one text
+    std::string machine;  // processor, threads and level of the kernels, as one text
+    double passes = 0;
     std::vector<ReadFigure> figures;
 };
 

@@ -82,6 +82,8 @@ std::string Figures::json(const Origin& origin) const {
     json["build"] = {
         {"compiler", origin.compiler}, {"type", origin.build}, {"flags", origin.flags}, {"commit", origin.commit}};
     json["date"] = origin.date;
+    json["simd"] = origin.simd;
+    json["passes"] = origin.passes;
     json["figures"] = nlohmann::ordered_json::array();
     for (const Figure& f : all_) {
         nlohmann::ordered_json figure{{"scene", f.scene}, {"name", f.name},     {"value", f.value()},

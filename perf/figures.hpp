@@ -26,6 +26,8 @@ struct Origin {
     std::string processor, features;  // of the processor: its vector instructions
     unsigned hardware_threads = 0;
     std::string compiler, build, flags, commit, date;
+    std::string simd = "best";  // level of the kernels that was asked for
+    unsigned passes = 1;
 };
 
 /// Of this process. `commit` is what the sources were when they were configured.

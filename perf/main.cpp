@@ -1,7 +1,9 @@
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <cstdio>
 #include <fstream>
 
+#include "engine/simd.hpp"
 #include "perf/compare.hpp"
 #include "perf/perf.hpp"
 #include "sample_game/progress.hpp"
@@ -31,15 +33,30 @@ std::string scene_names() {
     return names;
 }
 
+int refuse(const std::string& sentence) {
+    std::fprintf(stderr, "%s\n", sentence.c_str());
+    return 2;
+}
+
+bool is_scene(const std::string& name) {
+    return name == "all" ||
+           std::any_of(std::begin(kScenes), std::end(kScenes), [&](const Scene& scene) { return name == scene.name; });
+}
+
 int measure(const Options& options) {
-    bool is_good = true, is_known = false;
+    if (!is_scene(options.scene))
+        return refuse("--scene " + options.scene + ": there is no such scene. Give one of " + scene_names() + ".");
+    if (const Result<void> level = set_simd_level(options.simd); !level) return refuse("--" + level.error());
+    std::ofstream file;
+    if (!options.json.empty()) file.open(options.json);
+    if (!file) return refuse("--json " + options.json + ": cannot be written.");
+    bool is_good = true;
     Figures figures;
     {
         Progress progress("measuring");
         for (uint32_t pass = 0; pass < options.passes; ++pass)
             for (const Scene& scene : kScenes) {
                 if (options.scene == "all" ? !scene.is_in_all : options.scene != scene.name) continue;
-                is_known = true;
                 const double scenes = std::size(kScenes), done = static_cast<double>(&scene - kScenes);
                 progress.show((pass + done / scenes) / options.passes,
                               std::string(scene.name) + ", pass " + std::to_string(pass + 1));
@@ -47,32 +64,25 @@ int measure(const Options& options) {
                 is_good &= scene.measure(options, figures);
             }
     }
-    if (!is_known) {
-        std::fprintf(stderr, "--scene %s: there is no such scene. Give one of %s.\n", options.scene.c_str(),
-                     scene_names().c_str());
-        return 2;
-    }
     figures.print();
-    if (!options.json.empty()) {
-        std::ofstream file(options.json);
-        file << figures.json(describe_origin());
-        file.close();
-        if (!file) return std::fprintf(stderr, "--json %s: cannot be written.\n", options.json.c_str()), 2;
-    }
+    if (options.json.empty()) return is_good ? 0 : 1;
+    Origin origin = describe_origin();
+    origin.simd = options.simd, origin.passes = options.passes;
+    file << figures.json(origin);
+    file.close();
+    if (!file) return refuse("--json " + options.json + ": cannot be written.");
     return is_good ? 0 : 1;
 }
 
 int compare_files(const std::string& before, const std::string& after) {
     const Result<FigureFile> old_file = read_figures(before), new_file = read_figures(after);
-    if (!old_file.ok() || !new_file.ok()) {
-        std::fprintf(stderr, "%s\n", (old_file.ok() ? new_file : old_file).error().c_str());
-        return 2;
-    }
-    if (old_file->machine != new_file->machine) {
-        std::fprintf(stderr, "warning: %s is of another machine (%s) than %s (%s); nothing can be compared.\n",
-                     before.c_str(), old_file->machine.c_str(), after.c_str(), new_file->machine.c_str());
-        return 2;
-    }
+    if (!old_file.ok() || !new_file.ok()) return refuse((old_file.ok() ? new_file : old_file).error());
+    if (old_file->machine != new_file->machine)
+        return refuse(before + " is of another machine (" + old_file->machine + ") than " + after + " (" +
+                      new_file->machine + "); nothing can be compared.");
+    if (old_file->passes < 2 || new_file->passes < 2)
+        return refuse((old_file->passes < 2 ? before : after) +
+                      " is of one pass, so its noise is not known; measure with --passes 2 or more.");
     const Comparison comparison = compare(*old_file, *new_file);
     std::fputs(describe(comparison).c_str(), stdout);
     return comparison.moved.empty() ? 0 : 1;
@@ -87,8 +97,10 @@ int main(int argc, char** argv) {
     std::vector<std::string> files;
     CLI::App app{"cullet_perf: what cullet costs, beside yardsticks measured in the same process"};
     app.add_option("--scene", options.scene, scene_names());
-    app.add_option("--threads", options.threads, "numbers of threads, by commas")->delimiter(',');
-    app.add_option("--simd", options.simd, "best, scalar, sse4, avx2, avx512");
+    app.add_option("--threads", options.threads, "numbers of threads, by commas")
+        ->delimiter(',')
+        ->check(CLI::Range(1, 64));
+    app.add_option("--simd", options.simd, "level of the kernels: best, scalar, sse4, avx2, avx512");
     app.add_option("--passes", options.passes, "times through all scenes; noise is how far they lie apart")
         ->check(CLI::Range(1, 100));
     app.add_option("--rounds", options.rounds, "runs a pass of which the least is taken; 0: the scene's own number");

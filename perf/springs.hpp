@@ -6,7 +6,11 @@
 
 #include "components/shells.hpp"
 
+class btSoftBody;
+
 namespace cullet::perf {
+
+class Figures;
 
 /// Springs of one stiffness and damping between vertices of one mass.
 struct SpringNet {
@@ -18,12 +22,21 @@ struct SpringNet {
     float dt = 0;                                  // s
 };
 
+/// The nodes and links of a soft body. Its stiffest mode is far from the limit of stability: dt is 0.2 sqrt(m / k).
+SpringNet net_of(const btSoftBody& body);
+
 /// Structs, a loop over springs that scatters forces, a loop over vertices. Damping from the length kept in the spring.
 class PlainSprings {
  public:
     PlainSprings(const SpringNet& net, const std::vector<Vec3>& start);
     void step();
     Vec3 position(uint32_t v) const { return vertices_[v].x; }
+    /// Adds to all velocities, m/s.
+    void accelerate(Vec3 by) {
+        for (Vertex& vertex : vertices_) vertex.v = vertex.v + by;
+    }
+    /// Puts a vertex there, at rest.
+    void put(uint32_t v, Vec3 place) { vertices_[v].x = place, vertices_[v].v = {}; }
 
  private:
     struct Vertex {
@@ -62,5 +75,9 @@ class BareSprings {
     std::vector<Float4> position_[2];
     std::vector<float> velocity_[3], strain_;
 };
+
+/// What steps of springs cost beside iterations of Bullet's soft body where both err alike. Seconds of a spring and
+/// step, and of a link and iteration.
+void measure_equal_error(double spring_step, double link_iteration, Figures& figures);
 
 }  // namespace cullet::perf

@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <cstdlib>
 #include <filesystem>
 #include <vector>
 
@@ -53,11 +54,19 @@ std::vector<Entry> entries_of(const std::string& folder) {
 
 std::string cache_folder() {
     std::error_code error;
-    const fs::path program = fs::read_symlink("/proc/self/exe", error);
-    if (!error && is_own_folder(program.parent_path() / "mesh_cache")) return program.parent_path() / "mesh_cache";
+    const fs::path build = fs::read_symlink("/proc/self/exe", error).parent_path();
+    std::vector<fs::path> candidates;
+    if (!error && fs::exists(build / "CMakeCache.txt", error)) candidates.push_back(build / "mesh_cache");
+    const char *cache = std::getenv("XDG_CACHE_HOME"), *home = std::getenv("HOME");
+    if (cache != nullptr && cache[0] == '/')
+        candidates.push_back(fs::path(cache) / "cullet");
+    else if (home != nullptr && home[0] == '/')
+        candidates.push_back(fs::path(home) / ".cache" / "cullet");
     const fs::path temporary = fs::temp_directory_path(error);
-    const fs::path own = temporary / ("cullet_mesh_cache." + std::to_string(::geteuid()));
-    return !error && is_own_folder(own) ? own.string() : std::string();
+    if (!error) candidates.push_back(temporary / ("cullet_mesh_cache." + std::to_string(::geteuid())));
+    for (const fs::path& candidate : candidates)
+        if (is_own_folder(candidate)) return candidate;
+    return {};
 }
 
 void touch_entry(const std::string& path) {

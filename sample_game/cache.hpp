@@ -5,8 +5,9 @@
 
 namespace cullet {
 
-/// The folder mesh_cache beside the program; where that one cannot be written, one of this user's own in the system's
-/// folder for temporary files. Empty when there is neither: then nothing is kept.
+/// The first that can be written: mesh_cache beside the program, where it was built; cullet in $XDG_CACHE_HOME or
+/// ~/.cache; a folder of this user's own among the system's temporary files. Empty when there is none: then nothing is
+/// kept.
 std::string cache_folder();
 
 inline constexpr uint64_t kMostCacheBytes = 1ull << 30;

@@ -35,7 +35,10 @@ std::string scene_list() {
 void add_run(CLI::App& app, RunOptions& run) {
     CLI::App* command = app.add_subcommand("run", "Plays a scene or a script and says how it went");
     command->add_option("scene", run.scene, "One of " + scene_names());
-    command->add_option("--mesh", run.mesh, "A model file for scenes that take one, in any format that assimp reads");
+    command->add_option("--mesh", run.mesh, "A model file for scenes that take one, in any format that assimp reads")
+        ->check(CLI::Validator(
+            [](const std::string& name) { return std::string(name.empty() ? "the name is empty; give a file" : ""); },
+            ""));
     command->add_option("--model", run.model, "How what is cooked breaks: thick_shell");
     command->add_option("--frames", run.frames, "How many steps; the scene's own number if not given")
         ->check(CLI::Range(1u, 1'000'000u));
@@ -50,8 +53,11 @@ void add_run(CLI::App& app, RunOptions& run) {
     command->add_flag("--video", run.has_video, "A film of the run, film.mp4; needs the program ffmpeg");
     command->add_option("--trace", run.trace, "Chrome trace of the last repeat, for Perfetto");
     command->add_option("--record", run.record, "Writes down the run's calls and hashes, for replay");
-    command->add_option("--hash", run.hash, "When the state is hashed: every, last, off")
-        ->transform(CLI::CheckedTransformer(kHashWhen));
+    command
+        ->add_option_function<std::string>(
+            "--hash", [&run](const std::string& when) { run.hash = kHashWhen.at(when); },
+            "When the state is hashed: every, last, off")
+        ->check(CLI::IsMember({"every", "last", "off"}));
     command->add_flag("--validate", run.validates, "Checks every table after every system");
     command->add_option("--set", run.set, "KEY=VALUE, a setting of the scene; --set help lists them");
 }

@@ -59,8 +59,20 @@ void print_files(const RunOptions& options) {
 /// What is wrong with the mesh of --mesh is told without the line of the script that asked for it.
 int refuse_run(const std::string& sentence, const RunOptions& options) {
     if (options.mesh.empty()) return refuse(sentence, 1);
-    const size_t at = sentence.find(std::filesystem::absolute(options.mesh).string() + ": ");
-    return at == std::string::npos ? refuse(sentence, 1) : refuse(sentence.substr(at), 2);
+    std::error_code error;
+    for (const std::string& path : {options.mesh, std::filesystem::absolute(options.mesh, error).string()})
+        for (const std::string& place : {"--mesh " + path, path + ": "})
+            if (const size_t at = sentence.find(place); !path.empty() && at != std::string::npos)
+                return refuse(sentence.substr(at), 2);
+    return refuse(sentence, 1);
+}
+
+/// A file that is written at the end, or beside the run, must have a folder before it begins.
+Result<void> check_place(const std::string& option, const std::string& path) {
+    const std::filesystem::path folder = std::filesystem::path(path).parent_path();
+    std::error_code error;
+    if (path.empty() || folder.empty() || std::filesystem::is_directory(folder, error)) return {};
+    return Error{fmt::format("{} {}: there is no folder {}; make it first.", option, path, folder.string())};
 }
 
 int run_one(const Scene& scene, const RunOptions& options) {
@@ -72,6 +84,8 @@ int run_one(const Scene& scene, const RunOptions& options) {
     if (!options.out.empty()) std::filesystem::create_directories(options.out, error);
     if (error)
         return refuse(fmt::format("--out {}: {}; choose a folder that can be made.", options.out, error.message()), 2);
+    for (const auto& [option, path] : {std::pair("--trace", options.trace), std::pair("--record", options.record)})
+        if (const Result<void> place = check_place(option, path); !place.ok()) return refuse(place.error(), 2);
     const Result<Report> report = play(plan, options);
     if (!report.ok()) return refuse_run(report.error(), options);
     print_summary(report.value());

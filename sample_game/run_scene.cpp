@@ -149,12 +149,19 @@ Result<RunRecord> play_once(const ScenePlan& plan, const RunOptions& options, ui
         if (auto sheet = pictures.finish(); !sheet.ok()) return Error{sheet.error()};
     }
     if (options.hash != HashWhen::Off) record.last_hash = game.world().hash();
-    take_times(game.world().contents().profiler, record);
+    const Profiler& profiler = game.world().contents().profiler;
+    take_times(profiler, record);
     game.world().contents().after_each_system = nullptr;
-    if (!options.trace.empty() && repeat + 1 == options.repeat)
-        if (auto written = game.world().contents().profiler.write_trace(options.trace); !written.ok())
-            return Error{written.error()};
+    if (!options.trace.empty() && repeat + 1 == options.repeat) {
+        if (auto written = profiler.write_trace(options.trace); !written.ok()) return Error{written.error()};
+        if (profiler.left_out() > 0)
+            report.notes.push_back(fmt::format("{}: the last {} spans and counters found no room; trace fewer frames.",
+                                               options.trace, profiler.left_out()));
+    }
     if (repeat == 0) fill_sums(game, start, report);
+    if (repeat == 0 && profiler.frame_count() < frames)
+        report.notes.push_back(
+            fmt::format("Times are those of the first {} frames and of the last one.", profiler.frame_count() - 1));
     game.before_step();  // what the script does at the very end: its last expectations
     if (!game.failure().empty()) return Error{game.failure()};
     if (auto ended = check_end(game, options, frames, report); !ended.ok()) return Error{ended.error()};

@@ -67,9 +67,11 @@ run_programs() {
     printf 'v 0 0 0\nv 0.3 0 0\nv 0 0.3 0\nv 0 0 0.3\nf 1 3 2\nf 1 2 4\nf 1 4 3\nf 2 3 4\n' >"$work/tetrahedron.obj"
     (
         cd "$work"
+        export XDG_CACHE_HOME=$work/cache
         quietly "$1/sample_game" run vase --frames 60
         quietly "$1/sample_game" run drop --mesh tetrahedron.obj --frames 2  # calls cullet_import
         quietly "$1/cullet_import" tetrahedron.obj tetrahedron.cmesh
+        [[ ! -e $1/mesh_cache ]] || fail "$1/mesh_cache is no file of the package"
     )
 }
 

@@ -8,7 +8,8 @@ using namespace cullet::perf;
 namespace {
 
 std::string file_of(const std::string& figures) {
-    return R"({"format": "cullet_perf 1", "machine": {"processor": "P", "hardware_threads": 2}, "figures": [)" +
+    return R"({"format": "cullet_perf 1", "machine": {"processor": "P", "hardware_threads": 2}, )"
+           R"("simd": "best", "passes": 3, "figures": [)" +
            figures + "]}";
 }
 std::string figure(const std::string& name, double value, double noise, const std::string& unit = "ms") {
@@ -66,7 +67,7 @@ TEST(Compare, AFigureOfAnotherUnitIsAnotherFigure) {
 }
 
 TEST(Compare, TheMachineIsItsProcessorAndItsThreads) {
-    EXPECT_EQ(parsed("").machine, "P, 2 threads");
+    EXPECT_EQ(parsed("").machine, "P, 2 threads, kernels: best");
 }
 
 TEST(Compare, FilesThatAreNoneOfOursAreRefusedInWords) {
