@@ -314,6 +314,12 @@ uint32_t overlapping(const WorldData& world, uint32_t mask, Found found, Far&& f
     return found.count;
 }
 
+/// No body stands farther out, so that a box may be as large as it likes.
+Vec3 clamped(Vec3 corner) {
+    const auto clamp = [](float x) { return std::clamp(x, -2 * kFarthest, 2 * kFarthest); };
+    return {clamp(corner.x), clamp(corner.y), clamp(corner.z)};
+}
+
 }  // namespace
 
 SurfaceHit ray(const World& world, Vec3 origin, Vec3 direction, float length_, uint32_t mask) {
@@ -362,10 +368,9 @@ uint32_t overlap(const World& world, Vec3 centre, float radius, BodyId* out, uin
 
 uint32_t overlap(const World& world, const Box& box, BodyId* out, uint32_t capacity, uint32_t mask) {
     const WorldData& d = world.contents().data;
-    if (!is_within(box.low, kFarthest) || !is_within(box.high, kFarthest)) return 0;
-    const AxisBox extent{box.low, box.high};
-    if (box.low.x > box.high.x || box.low.y > box.high.y || box.low.z > box.high.z) return 0;
-    const Vec3d low(box.low), high(box.high);
+    if (!(box.low.x <= box.high.x && box.low.y <= box.high.y && box.low.z <= box.high.z)) return 0;
+    const AxisBox extent{clamped(box.low), clamped(box.high)};
+    const Vec3d low(extent.low), high(extent.high);
     const WorldBox own{0.5 * (low + high), 0.5 * (high - low)};
     return overlapping(
         d, mask, {out, capacity}, [&](const AxisBox& e) { return meets_extent(e, extent) ? 0 : kNever; }, 0,

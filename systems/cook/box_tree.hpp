@@ -80,7 +80,7 @@ struct BoxTree {
     BoxTree() = default;
     explicit BoxTree(std::span<const TreeBox> item_boxes);
 
-    /// visit(a, b), once for every two items whose boxes overlap.
+    /// visit(a, b), once for every two items whose boxes overlap; false ends it.
     template <class Visit>
     void for_each_overlap(Visit visit) const;
 };
@@ -108,14 +108,14 @@ void BoxTree::for_each_overlap(Visit visit) const {
             }
             for (uint32_t i = m.first(); i < m.first() + m.count(); ++i)
                 for (uint32_t j = i + 1; j < m.first() + m.count(); ++j)
-                    if (boxes[i].overlaps(boxes[j])) visit(order[i], order[j]);
+                    if (boxes[i].overlaps(boxes[j]) && !visit(order[i], order[j])) return;
             continue;
         }
         if (m.is_leaf() && n.is_leaf()) {
             for (uint32_t i = m.first(); i < m.first() + m.count(); ++i) {
                 if (!boxes[i].overlaps(n.box)) continue;
                 for (uint32_t j = n.first(); j < n.first() + n.count(); ++j)
-                    if (boxes[i].overlaps(boxes[j])) visit(order[i], order[j]);
+                    if (boxes[i].overlaps(boxes[j]) && !visit(order[i], order[j])) return;
             }
             continue;
         }

@@ -26,6 +26,9 @@ namespace {
 constexpr uint32_t kThresholdPlaces = 4;
 // Default budget of the frame of the touch and of the six that a hold of 0.1 s lasts.
 constexpr uint64_t kDefaultHoldUnits = 8'000'000ull * 7;
+// Of a hit: beyond the first a threshold is estimated, since measuring it would take minutes (a wall of 1,600 stones
+// takes half of that); beyond the second a hit would.
+constexpr uint64_t kMostMeasuredUnits = 3'000'000'000, kMostUnits = 20'000'000'000;
 
 double diagonal_of(const Mesh& mesh) {
     Vec3d low(mesh.positions[0]), high = low;
@@ -143,6 +146,15 @@ float estimated_threshold(const State& state, Row<Shells> shell) {
     return 0.2f * materials.tensile_strength[m] / std::sqrt(materials.young_modulus[m] * materials.density[m]);
 }
 
+uint64_t units_of_a_hit(const State& state, Row<Shells> shell) {
+    const Shells& s = state.shells;
+    const uint32_t vertices = s.vertices[shell].count;
+    const float run = run_seconds(state.materials, s.material[shell], s.area[shell]);
+    const auto steps = static_cast<uint64_t>(run / s.time_step[shell]) + 1;
+    return steps * units_a_step(vertices + vertices / 10, 64) + 300 * kUnitsCut +
+           vertices * kUnitsOpen;  // a blow that breaks grows it by a tenth
+}
+
 ModelReport report_on(const State& state, Row<Shells> shell, const SurfaceRepairs& repairs,
                       const Extrusion& extrusion) {
     const Shells& s = state.shells;
@@ -154,10 +166,7 @@ ModelReport report_on(const State& state, Row<Shells> shell, const SurfaceRepair
     report.mass = s.mass[shell];
     report.mean_thickness = s.thickness[shell];
     report.first_crack_speed = s.first_crack_speed[shell];
-    const float run = run_seconds(state.materials, s.material[shell], s.area[shell]);
-    const auto steps = static_cast<uint64_t>(run / s.time_step[shell]) + 1;
-    report.units_of_a_hit = steps * units_a_step(report.vertices + report.vertices / 10, 64) + 300 * kUnitsCut +
-                            report.vertices * kUnitsOpen;  // a blow that breaks grows it by a tenth
+    report.units_of_a_hit = units_of_a_hit(state, shell);
     if (!repairs.is_clean()) report.repairs = describe(repairs);
     if (report.units_of_a_hit > kDefaultHoldUnits)
         report.advice =
@@ -261,11 +270,17 @@ Result<Model> cook(const MeshView& view, const CookSettings& settings) {
     fill_strength_factors(ShellView(state, contents->shell), settings.seed);
     if (const Result<void> ready = make_stiff(state, contents->shell); !ready)
         return Error{name + ": " + ready.error()};
-    if (settings.measures_threshold)
+    const uint64_t units = units_of_a_hit(state, contents->shell);
+    if (units > kMostUnits)
+        return Error{name + ": a hit would take " + std::to_string(units / 1'000'000) + " million units, more than " +
+                     std::to_string(kMostUnits / 1'000'000) +
+                     " million. Its shortest edges are far too short for its size: weld them, or use fewer triangles."};
+    const bool measures = settings.measures_threshold && units <= kMostMeasuredUnits;
+    if (measures)
         measure_thresholds(state, contents->shell, settings);
     else
         state.shells.first_crack_speed[contents->shell] = estimated_threshold(state, contents->shell);
-    if (settings.progress && !settings.measures_threshold) settings.progress(settings.progress_user, 1);
+    if (settings.progress && !measures) settings.progress(settings.progress_user, 1);
     contents->report = report_on(state, contents->shell, given->repairs, extrusion.value());
     if (thinned > 0)
         contents->report.repairs += (contents->report.repairs.empty() ? "" : " ") + std::string("Thinned ") +

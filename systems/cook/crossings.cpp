@@ -8,6 +8,9 @@
 namespace cullet {
 namespace {
 
+// Strangers' walls of stones have one crossing a triangle, a hundred looks. Beyond these a soup takes hours.
+constexpr uint64_t kLooksATriangle = 2000, kCrossingsATriangle = 100, kMostAnyway = 100'000;
+
 void sort_unique(std::vector<std::array<uint32_t, 2>>& pairs) {
     std::sort(pairs.begin(), pairs.end());
     pairs.erase(std::unique(pairs.begin(), pairs.end()), pairs.end());
@@ -15,7 +18,7 @@ void sort_unique(std::vector<std::array<uint32_t, 2>>& pairs) {
 
 }  // namespace
 
-std::vector<std::array<uint32_t, 2>> find_crossings(const Surface& surface) {
+Result<std::vector<std::array<uint32_t, 2>>> find_crossings(const Surface& surface) {
     const LocalFrame frame(surface.low, surface.diagonal);
     std::vector<Vec3d> points;
     points.reserve(surface.positions.size());
@@ -29,10 +32,18 @@ std::vector<std::array<uint32_t, 2>> find_crossings(const Surface& surface) {
             corners[t].id[k] = surface.position_ids[surface.triangles[t][k]];
         }
     std::vector<std::array<uint32_t, 2>> crossings;
+    const uint64_t most_looks = kLooksATriangle * corners.size() + kMostAnyway;
+    const uint64_t most_crossings = kCrossingsATriangle * corners.size() + kMostAnyway;
+    uint64_t looks = 0;
     tree.for_each_overlap([&](uint32_t a, uint32_t b) {
         AxisHint hint{1, 1};  // the normal: a smooth surface bends away from the plane of a triangle
         if (are_touching(corners[a], corners[b], hint)) crossings.push_back({std::min(a, b), std::max(a, b)});
+        return ++looks <= most_looks && crossings.size() <= most_crossings;
     });
+    if (looks > most_looks || crossings.size() > most_crossings)
+        return Error{"more than " + std::to_string(crossings.size() - 1) + " pairs of its " +
+                     std::to_string(corners.size()) +
+                     " triangles cut or touch each other. Remove the copies, or give the surface without its inside."};
     sort_unique(crossings);
     return crossings;
 }

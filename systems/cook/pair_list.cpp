@@ -24,7 +24,10 @@ class Lister {
             for (size_t k = 0; k < 2u * units_[u].vertex_count; ++k)
                 boxes[u].grow(Vec3d(units_[u].x[k], units_[u].y[k], units_[u].z[k]));
         const BoxTree tree(boxes);
-        tree.for_each_overlap([this](uint32_t a, uint32_t b) { consider(std::min(a, b), std::max(a, b)); });
+        tree.for_each_overlap([this](uint32_t a, uint32_t b) {
+            consider(std::min(a, b), std::max(a, b));
+            return true;
+        });
         // The order of the tree has no ties, but a list in order of faces is kinder to the caches.
         std::sort(pairs_.begin(), pairs_.end(),
                   [](const FacePair& p, const FacePair& q) { return p.a != q.a ? p.a < q.a : p.b < q.b; });

@@ -60,7 +60,11 @@ Result<Surface> prepare_surface(const Mesh& mesh, const SurfaceSettings& setting
     Result<CleanMesh> clean = clean_mesh(mesh, settings, surface.repairs);
     if (!clean) return Error{clean.error()};
     make_sheets(std::move(*clean), surface);
-    if (settings.searches_crossings) surface.crossings = find_crossings(surface);
+    if (settings.searches_crossings) {
+        Result<std::vector<std::array<uint32_t, 2>>> crossings = find_crossings(surface);
+        if (!crossings) return Error{crossings.error()};
+        surface.crossings = std::move(crossings).value();
+    }
     surface.independent = find_independent(surface);
     surface.repairs.crossing_pairs = static_cast<uint32_t>(surface.crossings.size());
     surface.repairs.independent_pairs = static_cast<uint32_t>(surface.independent.size() / 2);

@@ -5,18 +5,16 @@
 
 namespace cullet {
 
-// Moeller and Trumbore: origin + t direction = (1 - u - v) a + u b + v c, by Cramer's rule.
+// The ray passes the triangle on the side that the volumes of its edges with the ray tell. An edge's volume is the same
+// number, but for its sign, in both triangles that share it, so that no ray slips through between them (Woop, Benthin and
+// Wald, Watertight ray/triangle intersection, 2013).
 double distance_along(const Triangle3& triangle, Vec3d origin, Vec3d direction) {
-    const Vec3d ab = triangle.b - triangle.a, ac = triangle.c - triangle.a, p = cross(direction, ac);
-    const double volume = dot(ab, p);
+    const Vec3d a = triangle.a - origin, b = triangle.b - origin, c = triangle.c - origin;
+    const double u = dot(direction, cross(c, b)), v = dot(direction, cross(a, c)), w = dot(direction, cross(b, a));
+    if ((u < 0 || v < 0 || w < 0) && (u > 0 || v > 0 || w > 0)) return -1;
+    const double volume = u + v + w;  // minus direction times the normal
     if (volume == 0) return -1;
-    const Vec3d from = origin - triangle.a;
-    const double u = dot(from, p) / volume;
-    if (!(u >= 0 && u <= 1)) return -1;
-    const Vec3d q = cross(from, ab);
-    const double v = dot(direction, q) / volume;
-    if (!(v >= 0 && u + v <= 1)) return -1;
-    return dot(ac, q) / volume;
+    return -dot(cross(triangle.b - triangle.a, triangle.c - triangle.a), a) / volume;
 }
 
 // By the regions of its corners, edges and face (Ericson, Real-Time Collision Detection, 5.1.5).

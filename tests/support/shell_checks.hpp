@@ -169,7 +169,10 @@ inline void check_meetings(const Surface& s, const Extrusion& e, ShellReport& re
             for (uint32_t j = i + 1; j < faces.size(); ++j)
                 if (boxes[i].overlaps(boxes[j])) consider(i, j);
     } else {
-        BoxTree(boxes).for_each_overlap(consider);
+        BoxTree(boxes).for_each_overlap([&](uint32_t a, uint32_t b) {
+            consider(a, b);
+            return true;
+        });
     }
 }
 

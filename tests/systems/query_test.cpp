@@ -243,6 +243,32 @@ TEST(Query, HundredsOfBodiesAddedAtOnceAreFoundBeforeAStep) {
     EXPECT_EQ(overlap(world, Box{{0, 0, 0}, {19, 14, 0}}, nullptr, 0), 300u);
 }
 
+TEST(Query, ABoxMayBeAsLargeAsItLikes) {
+    const Mixture m = mixture();
+    const uint32_t all = m.world.bodies(nullptr, 0);
+    const float inf = std::numeric_limits<float>::infinity();
+    EXPECT_EQ(overlap(m.world, Box{{-1e7f, -1e7f, -1e7f}, {1e7f, 1e7f, 1e7f}}, nullptr, 0), all);
+    EXPECT_EQ(overlap(m.world, Box{{-inf, -inf, -inf}, {inf, inf, inf}}, nullptr, 0), all);
+}
+
+// Rays aimed at the middle of an edge of two triangles, from anywhere: one of the two is hit.
+TEST(TriangleQueries, NoRaySlipsThroughBetweenTwoTriangles) {
+    Places places{Random{11}};
+    uint32_t aimed = 0;
+    for (int k = 0; k < 200000; ++k) {
+        const Vec3d a(places.any(1)), b(places.any(1)), origin(places.any(4));
+        const Vec3d beside(places.any(1)), middle = 0.5 * (a + b);
+        const Vec3d away = cross(cross(b - a, beside - a), b - a);  // from the edge, within the first one's plane
+        const Triangle3 first{a, b, middle + away}, second{b, a, middle - away};
+        const Vec3d direction = middle - origin;
+        if (std::fabs(dot(cross(b - a, away), direction)) < 1e-3) continue;
+        ++aimed;
+        ASSERT_TRUE(distance_along(first, origin, direction) >= 0 || distance_along(second, origin, direction) >= 0)
+            << k;
+    }
+    EXPECT_GT(aimed, 100000u);
+}
+
 TEST(Query, NumbersThatAreNoneHitNothing) {
     const Mixture m = mixture();
     const float nan = std::numeric_limits<float>::quiet_NaN();

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <limits>
 
+#include "engine/random.hpp"
 #include "tests/support/simple_meshes.hpp"
 
 namespace cullet {
@@ -238,6 +239,20 @@ TEST(Surface, CrossingTrianglesAreFoundAsByABruteForceCount) {
         }
     EXPECT_EQ(s.crossings.size(), expected);
     EXPECT_GT(expected, 10u);
+}
+
+TEST(Surface, ASoupInWhichAllCutEachOtherIsRefusedAtOnce) {
+    Mesh soup;
+    const Random random{5};
+    for (uint32_t v = 0; v < 3 * 6000; ++v) {
+        const auto at = [&](uint32_t k) { return static_cast<float>(random.uniform(v, k)); };
+        soup.positions.push_back({at(0), at(1), at(2)});
+        if (v % 3 == 2) soup.triangles.push_back({v - 2, v - 1, v});
+    }
+    const Result<Surface> refused = prepare_surface(soup);
+    ASSERT_FALSE(refused.ok());
+    EXPECT_NE(refused.error().find("pairs of its 6000 triangles cut or touch each other"), std::string::npos)
+        << refused.error();
 }
 
 TEST(Surface, ASoupWithNoiseIsCalledSoAndHealedByATolerance) {

@@ -91,6 +91,12 @@ TEST(WorldInput, MeshesThatCannotBeCookedAreRefused) {
             for (Vec3& p : m.positions) p = {p.x, 0, 0};
         },
         "on a line");
+    refused(
+        [](Mesh& m, CookSettings& s) {
+            for (Vec3& p : m.positions) p.y *= 1e-7f;
+            s.thickness = 0.001f, s.longest_edge = 1;
+        },
+        "far too short for its size");
     expect_refused(cook({}, {}), "triangles");
 }
 

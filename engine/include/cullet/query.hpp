@@ -26,7 +26,7 @@ struct SurfaceHit {
 
 /// The first surface within `length` along `direction` (of any length but 0), from either side. Only bodies that have a
 /// layer in `mask`. Equal distances go to the lower row, then to the lower triangle. Numbers that are not finite hit
-/// nothing.
+/// nothing, nor does an origin beyond 1,000 km, where no body can be; the same holds for the points below.
 SurfaceHit ray(const World& world, Vec3 origin, Vec3 direction, float length, uint32_t mask = 0xffffffffu);
 
 /// Bodies of which some drawn triangle comes within `radius` of `centre`; spheres and boxes are solid. What stands
@@ -34,7 +34,7 @@ SurfaceHit ray(const World& world, Vec3 origin, Vec3 direction, float length, ui
 /// `capacity` bodies in row order and returns how many there are.
 uint32_t overlap(const World& world, Vec3 centre, float radius, BodyId* out, uint32_t capacity,
                  uint32_t mask = 0xffffffffu);
-/// The same for a box along the world's axes, world coordinates.
+/// The same for a box along the world's axes, world coordinates; it may be as large as it likes.
 uint32_t overlap(const World& world, const Box& box, BodyId* out, uint32_t capacity, uint32_t mask = 0xffffffffu);
 
 /// The nearest surface within `reach` of `point`.
