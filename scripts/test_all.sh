@@ -2,7 +2,7 @@
 # scripts/test.sh --all [parts]: every preset with its tests, every fuzz program, the packages, and each scene at every
 # level of SIMD on one thread and on 1, 2, 3 and 8 threads at AVX2, built by g++ and by clang, which must all give the
 # same bytes. Takes hours on two cores, so each part that ends writes its row into tests/ALL.md, with the commit that it
-# saw, and is not played again as long as nothing but pages has changed since. Parts by name: --all tsan vase fuzz_snapshot.
+# saw, and is not played again as long as nothing that it hangs on has changed since. Parts by name: --all tsan vase fuzz_snapshot.
 # --quick: few tests, frames, threads and inputs, to try this script itself; the rows go to build/all/quick.md.
 set -uo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.." || exit 1
@@ -21,9 +21,21 @@ parts=("$@")
 scripts/setup.sh --all || exit 1
 logs=$PWD/build/all
 mkdir -p "$logs"
-commit=$(git rev-parse --short HEAD)
-git diff --quiet HEAD -- . ':!*.md' || commit+="-changed"
-
+# The commit that stands in the folder; "-changed" when more than pages differ from it.
+commit_here() {
+    git diff --quiet HEAD -- . ':!*.md' && git rev-parse --short HEAD || echo "$(git rev-parse --short HEAD)-changed"
+}
+# What the outcome of a part hangs on.
+paths_of() {
+    local sources=(CMakeLists.txt CMakePresets.json engine systems components)
+    if among "$1" "${scenes[@]}"; then
+        printf '%s\n' "${sources[@]}" sample_game
+    elif among "$1" "${formats[@]/#/fuzz_}"; then
+        printf '%s\n' "${sources[@]}" tests/fuzz
+    else
+        printf '%s\n' .
+    fi
+}
 # among WORD WORDS...: is it one of them?
 among() {
     local word=$1
@@ -37,13 +49,14 @@ row_of() {
 is_done() {
     local seen
     seen=$(row_of "$1" | awk -F' *[|] *' '$3 !~ /FAILED/ { print $4 }')
-    [[ -n $seen && $seen != *-changed ]] && git diff --quiet "$seen" -- . ':!*.md' 2>/dev/null
+    # shellcheck disable=SC2046  # names of ours, without spaces
+    [[ -n $seen && $seen != *-changed ]] && git diff --quiet "$seen" -- $(paths_of "$1") ':!*.md' 2>/dev/null
 }
-# write_row PART RESULT SECONDS: the page anew, with this row in place of the part's old one.
+# write_row PART RESULT SECONDS COMMIT: the page anew, with this row in place of the part's old one.
 write_row() {
     local rows name
     rows=$(grep -s '^| ' "$page" | grep -v -e "^| $1 |" -e '^| part |')
-    rows+=$'\n'"| $1 | $2 | $commit | $(date -u +%Y-%m-%d) | $3 |"
+    rows+=$'\n'"| $1 | $2 | $4 | $(date -u +%Y-%m-%d) | $3 |"
     {
         echo "# The last run of everything"
         echo
@@ -140,13 +153,15 @@ for part in "${parts[@]}"; do
     fi
     printf '%s ... ' "$part"
     begin=$SECONDS
+    commit=$(commit_here)
     if "${run[@]}" >"$logs/$part.log" 2>&1; then
         result=$(tail -1 "$logs/$part.log")
     else
         result="FAILED: $(tail -1 "$logs/$part.log" | tr -d '|')"
         failures=$((failures + 1))
     fi
-    write_row "$part" "$result" $((SECONDS - begin))
+    [[ $(commit_here) == "$commit" ]] || commit+=-changed  # while it ran
+    write_row "$part" "$result" $((SECONDS - begin)) "$commit"
     echo "$result ($((SECONDS - begin)) s; $logs/$part.log)"
 done
 cat "$page"
