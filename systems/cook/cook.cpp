@@ -28,7 +28,7 @@ constexpr uint32_t kThresholdPlaces = 4;
 constexpr uint64_t kDefaultHoldUnits = 8'000'000ull * 7;
 // Of a hit: beyond the first a threshold is estimated, since measuring it would take minutes (a wall of 1,600 stones
 // takes half of that); beyond the second a hit would.
-constexpr uint64_t kMostMeasuredUnits = 3'000'000'000, kMostUnits = 20'000'000'000;
+constexpr uint64_t kMostMeasuredUnits = 2'000'000'000, kMostUnits = 20'000'000'000;
 
 double diagonal_of(const Mesh& mesh) {
     Vec3d low(mesh.positions[0]), high = low;
