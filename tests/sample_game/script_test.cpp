@@ -2,8 +2,10 @@
 #include "sample_game/script/script.hpp"
 
 #include <gtest/gtest.h>
+#include <sys/wait.h>
 
 #include <cmath>
+#include <cstdlib>
 #include <filesystem>
 #include <fstream>
 
@@ -406,6 +408,38 @@ TEST(Script, AFileIsPlayedByItsPathAndOneThatIsNotThereIsNamed) {
     EXPECT_EQ(load_scene("vase")->file, "vase.lua");
     EXPECT_NE(load_scene("/nowhere/x.lua").error().find("/nowhere/x.lua"), std::string::npos);
     EXPECT_NE(load_scene("castle").error().find("vase"), std::string::npos);
+}
+
+TEST(Script, AFolderAndAFileThatIsTooLongAreRefused) {
+    const auto folder = std::filesystem::path(testing::TempDir()) / "cullet_script_folder.lua";
+    std::filesystem::create_directories(folder);
+    EXPECT_EQ(load_scene(folder.string()).error(),
+              folder.string() + ": cannot be read (Is a directory); give the path of a script.");
+    const auto file = std::filesystem::path(testing::TempDir()) / "cullet_script_long.lua";
+    std::ofstream(file) << std::string(size_t{1} << 20, ' ');
+    EXPECT_EQ(load_scene(file.string())->text.size(), size_t{1} << 20);
+    std::ofstream(file, std::ios::app) << ' ';
+    EXPECT_EQ(load_scene(file.string()).error(), file.string() + ": has more than 1024 KiB; give a shorter script.");
+    std::filesystem::remove(file);
+}
+
+/// Exit code and what the program says on its standard error.
+std::pair<int, std::string> outcome_of(const std::string& arguments) {
+    const std::string said = testing::TempDir() + "cullet_script_said.txt";
+    const int status =
+        std::system((std::string(CULLET_BINARY_DIR) + "/sample_game " + arguments + " 2>" + said).c_str());
+    std::ifstream file(said);
+    return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, {std::istreambuf_iterator<char>(file), {}}};
+}
+
+TEST(Program, AFullDiskIsOneSentence) {
+    if (!std::filesystem::exists(std::string(CULLET_BINARY_DIR) + "/sample_game"))
+        GTEST_SKIP() << "build the program sample_game";
+    const std::pair<int, std::string> all{2, "sample_game: cannot write to file: No space left on device.\n"};
+    EXPECT_EQ(outcome_of("run --set help >/dev/full"), all);
+    EXPECT_EQ(outcome_of("frame >/dev/full"), all);
+    // A few lines fail only at the end, when the buffer is written out.
+    EXPECT_EQ(outcome_of("--help >/dev/full").first, 2);
 }
 
 }  // namespace
