@@ -77,6 +77,14 @@ TEST(Script, AnErrorNamesFileLineWhatWasGivenAndWhatWasExpected) {
         {"local b = nil\nb:mass()", "test.lua:2: attempt to index a nil value (local 'b')"},
         {"x = = 1", "test.lua:1: unexpected symbol near '='"},
         {"error('enough')", "test.lua:1: enough"},
+        {"game.key{name = 'x', choices = 'y, z', default = 'w'}",
+         "test.lua:1: game.key: default is \"w\"; expected one of y, z"},
+        {"game.key{name = 'x', choices = '', default = 'w'}",
+         "test.lua:1: game.key: choices is \"\"; expected words with commas, such as \"glass, brick\""},
+        {"game.shell_keys{material = 'wood'}",
+         "test.lua:1: game.shell_keys: material is \"wood\"; expected one of glass, porcelain, brick, concrete"},
+        {"game.shell_keys{thickness = 2}",
+         "test.lua:1: game.shell_keys: thickness is 2; expected a length in m from 0.0001 to 1"},
     };
     for (const Case& c : cases) EXPECT_EQ(failure_of(c.text), c.sentence) << c.text;
 }
@@ -248,6 +256,12 @@ TEST(Script, KeysAreDeclaredListedSetAndRefused) {
         EXPECT_NE(read_story(plan).error().find(wrong), std::string::npos) << wrong;
         EXPECT_NE(GameWorld::create(plan).error().find(wrong), std::string::npos) << wrong;
     }
+}
+
+TEST(Script, TheLastSheetThatIsGivenCounts) {
+    const Result<Story> story = read_story(plan_of("for n = 1, 9 do game.scene{sheet = {0, n}} end"));
+    ASSERT_TRUE(story.ok()) << story.error();
+    EXPECT_EQ(story->sheet_frames, (std::vector<uint32_t>{0, 9}));
 }
 
 TEST(Script, AMeshThatIsNotAskedForIsRefused) {
