@@ -12,6 +12,7 @@
 namespace cullet {
 namespace {
 
+constexpr size_t kMostKeys = 256;  // each look-up goes through all
 constexpr Wanted kAny{"a number", -HUGE_VAL, HUGE_VAL};
 
 /// Refuses a declaration that comes after something was done.
@@ -59,6 +60,7 @@ int key(lua_State* lua) {
     const std::string name = given.word("name", "a name such as \"scene.speed_mps\"");
     if (!is_key_name(name)) given.refuse_value("name", "small letters, digits, _ and dots");
     if (keys.has(name)) given.refuse(fmt::format("there is a key {} already", name));
+    if (keys.all().size() >= kMostKeys) given.refuse(fmt::format("there are {} keys already", kMostKeys));
     const std::string text = given.word("text", "a few words on what it is", "");
     if (given.has("choices")) {
         const std::string choices = given.word("choices", "words with commas, such as \"glass, brick\"");
@@ -194,7 +196,7 @@ void open_declarations(lua_State* lua) {
     static constexpr luaL_Reg calls[] = {{"scene", scene},     {"key", key},           {"shell_keys", shell_keys},
                                          {"setting", setting}, {"at_least", at_least}, {"fit_budget", fit_budget},
                                          {nullptr, nullptr}};
-    luaL_setfuncs(lua, calls, 0);
+    add_calls(lua, calls);
 }
 
 }  // namespace cullet
