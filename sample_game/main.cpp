@@ -2,6 +2,8 @@
 #include <fmt/format.h>
 
 #include <cstdio>
+#include <exception>
+#include <new>
 #include <string>
 #include <vector>
 
@@ -46,14 +48,27 @@ int run(const Options& options) {
     return run_truth(options.truth.model, {options.truth.placements, options.truth.threads, options.truth.out});
 }
 
+/// What is left in the buffer may be all that was printed.
+int run_and_flush(const Options& options) {
+    const int code = run(options);
+    if (std::fflush(stdout) == 0 && !std::ferror(stdout)) return code;
+    std::fputs("sample_game: not all could be written to the standard output; its disk may be full.\n", stderr);
+    return code == 0 ? 2 : code;
+}
+
 }  // namespace
 }  // namespace cullet
 
+// What fmt::print and the standard library throw, such as on a full disk, ends here in a sentence.
 int main(int count, char** arguments) {
-    const cullet::Result<cullet::Options> options = cullet::parse_options({arguments + 1, arguments + count});
-    if (!options.ok()) {
-        fmt::print(stderr, "{}\n", options.error());
-        return 2;
+    try {
+        const cullet::Result<cullet::Options> options = cullet::parse_options({arguments + 1, arguments + count});
+        if (options.ok()) return cullet::run_and_flush(options.value());
+        std::fprintf(stderr, "%s\n", options.error().c_str());
+    } catch (const std::bad_alloc&) {
+        std::fputs("sample_game: the machine has no memory left for this.\n", stderr);
+    } catch (const std::exception& e) {
+        std::fprintf(stderr, "sample_game: %s.\n", e.what());
     }
-    return cullet::run(options.value());
+    return 2;
 }

@@ -5,12 +5,29 @@
 #include <cerrno>
 #include <cstring>
 #include <fstream>
-#include <iterator>
 
 #include "sample_game/embedded_scenes.hpp"
 #include "sample_game/script/script.hpp"
 
 namespace cullet {
+
+namespace {
+
+constexpr size_t kMostBytes = size_t{1} << 20;  // of a script; the largest of ours has 4 KiB
+
+Result<Scene> read_script(const std::string& path) {
+    std::ifstream file(path, std::ios::binary);
+    std::string text(kMostBytes + 1, '\0');
+    if (file) file.read(text.data(), static_cast<std::streamsize>(text.size()));
+    if (!file.eof() && !file.good())  // a folder opens, and is refused when it is read
+        return Error{fmt::format("{}: cannot be read ({}); give the path of a script.", path, std::strerror(errno))};
+    text.resize(static_cast<size_t>(file.gcount()));
+    if (text.size() > kMostBytes)
+        return Error{fmt::format("{}: has more than {} KiB; give a shorter script.", path, kMostBytes >> 10)};
+    return Scene{path, path, std::move(text)};
+}
+
+}  // namespace
 
 std::span<const Scene> scenes() {
     static const std::vector<Scene> list = [] {
@@ -36,11 +53,7 @@ Result<Scene> load_scene(const std::string& name) {
         return Error{
             fmt::format("run {}: there is no such scene; give one of {}, or a file that ends in .lua.", name, names)};
     }
-    std::ifstream file(name, std::ios::binary);
-    std::string text{std::istreambuf_iterator<char>(file), {}};
-    if (!file && !file.eof())
-        return Error{fmt::format("{}: cannot be read ({}); give the path of a script.", name, std::strerror(errno))};
-    return Scene{name, name, std::move(text)};
+    return read_script(name);
 }
 
 Result<Story> read_story(const ScenePlan& plan) {

@@ -8,17 +8,8 @@
 
 #include "engine/math.hpp"
 #include "sample_game/props.hpp"
-#include "sample_game/script/sandbox.hpp"
 
 namespace cullet {
-
-void refuse(lua_State* lua, const std::string& sentence) {
-    luaL_where(lua, 1);
-    lua_pushlstring(lua, sentence.data(), sentence.size());
-    lua_concat(lua, 2);
-    lua_error(lua);
-    std::abort();  // not reached
-}
 
 Arguments::Arguments(lua_State* lua, const char* call, std::initializer_list<const char*> known, bool can_be_missing,
                      int place)

@@ -5,13 +5,9 @@
 #include <string>
 
 #include "cullet/world.hpp"
-
-struct lua_State;
+#include "sample_game/script/sandbox.hpp"
 
 namespace cullet {
-
-/// "game.spawn: thickness is -1; expected a length in m above 0", after file and line. Does not return.
-[[noreturn]] void refuse(lua_State* lua, const std::string& sentence);
 
 /// What a number has to be, in words and from least to most.
 struct Wanted {

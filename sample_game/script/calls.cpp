@@ -32,7 +32,8 @@ int call_wait(lua_State* lua) {
     Script& script = script_of(lua);
     script.act(lua);
     const uint64_t frames = frames_at(lua, 1, "wait");
-    if (!lua_isyieldable(lua)) refuse(lua, "wait: this function cannot wait; give one that does to at() or every()");
+    if (!lua_isyieldable(lua) || script.is_telling())
+        refuse(lua, "wait: this function cannot wait; give one that does to at() or every()");
     return script.wait(lua, frames);
 }
 
@@ -60,16 +61,24 @@ int call_every(lua_State* lua) {
 }  // namespace
 
 void open_calls(lua_State* lua) {
-    lua_register(lua, "wait", call_wait);
-    lua_register(lua, "at", call_at);
-    lua_register(lua, "every", call_every);
+    static constexpr luaL_Reg calls[] = {
+        {"wait", call_wait}, {"at", call_at}, {"every", call_every}, {nullptr, nullptr}};
+    lua_pushglobaltable(lua);
+    add_calls(lua, calls);
+    lua_pop(lua, 1);
     lua_newtable(lua);
+    guard_names(lua, "game.");
     open_declarations(lua);
     open_meshes(lua);
     open_bodies(lua);
     open_surroundings(lua);
     open_queries(lua);
     lua_setglobal(lua, "game");
+}
+
+void add_note(lua_State* lua, const std::string& sentence) {
+    hold(lua, sizeof(std::string) + sentence.size());
+    script_of(lua).stage().notes.push_back(sentence);
 }
 
 World& world_of(lua_State* lua, const char* call) {

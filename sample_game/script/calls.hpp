@@ -29,6 +29,8 @@ struct ScriptMesh {
 };
 ScriptMesh& mesh_at(lua_State* lua, int place, const std::string& what);
 void push_mesh(lua_State* lua, ScriptMesh mesh);
+/// Counts the work and the memory of a mesh that the script has made or keeps.
+void hold_mesh(lua_State* lua, const Mesh& mesh);
 
 /// The place in Stage::models of what game.cook returned.
 uint32_t cooked_at(lua_State* lua, int place, const std::string& what);
@@ -36,6 +38,9 @@ uint32_t cooked_at(lua_State* lua, int place, const std::string& what);
 void push_body(lua_State* lua, BodyId id);
 /// Null when the value is no body.
 BodyId* body_at(lua_State* lua, int place);
+
+/// A sentence for the report; it counts as memory of the script.
+void add_note(lua_State* lua, const std::string& sentence);
 
 /// The world, made if it is not there; a refusal of the settings ends the script.
 World& world_of(lua_State* lua, const char* call);

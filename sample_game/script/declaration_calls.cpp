@@ -12,6 +12,7 @@
 namespace cullet {
 namespace {
 
+constexpr size_t kMostKeys = 256;  // each look-up goes through all
 constexpr Wanted kAny{"a number", -HUGE_VAL, HUGE_VAL};
 
 /// Refuses a declaration that comes after something was done.
@@ -39,6 +40,7 @@ int scene(lua_State* lua) {
     given.push("sheet");
     if (lua_isnil(lua, -1)) return 0;
     if (!lua_istable(lua, -1)) given.refuse_value("sheet", "a list of frames, such as {0, 10, 60}");
+    story.sheet_frames.clear();
     for (lua_Integer n = 1; lua_rawgeti(lua, -1, n) != LUA_TNIL; ++n, lua_pop(lua, 1)) {
         if (!lua_isinteger(lua, -1) || lua_tointeger(lua, -1) < 0 || n > 12)
             given.refuse(fmt::format("sheet has {} at place {}; expected at most 12 whole frames from 0 on",
@@ -58,10 +60,14 @@ int key(lua_State* lua) {
     const std::string name = given.word("name", "a name such as \"scene.speed_mps\"");
     if (!is_key_name(name)) given.refuse_value("name", "small letters, digits, _ and dots");
     if (keys.has(name)) given.refuse(fmt::format("there is a key {} already", name));
+    if (keys.all().size() >= kMostKeys) given.refuse(fmt::format("there are {} keys already", kMostKeys));
     const std::string text = given.word("text", "a few words on what it is", "");
     if (given.has("choices")) {
         const std::string choices = given.word("choices", "words with commas, such as \"glass, brick\"");
-        keys.word(name, given.word("default", "one of the choices"), choices, text);
+        const std::string value = given.word("default", "one of the choices");
+        if (choices.empty()) given.refuse_value("choices", "words with commas, such as \"glass, brick\"");
+        keys.word(name, value, choices, text);
+        if (!keys.set(name + "=" + value).ok()) given.refuse_value("default", "one of " + choices);
     } else {
         const double least = given.number("least", kAny, -HUGE_VAL), most = given.number("most", kAny, HUGE_VAL);
         const double value = given.number("default", {"a number from least to most", least, most});
@@ -77,12 +83,15 @@ int shell_keys(lua_State* lua) {
     Keys& keys = story_of(lua, "game.shell_keys").keys;
     const Arguments given(lua, "game.shell_keys", {"material", "thickness", "edge"});
     if (keys.has("scene.material")) given.refuse("these keys are there already");
-    keys.word("scene.material", given.word("material", "a material", "porcelain"), "glass, porcelain, brick, concrete",
-              "what breaks")
-        .number("scene.thickness_m", "m", given.number("thickness", kLength, 0.005), 1e-4, 1, "of the shell")
+    const std::string material = given.word("material", "a material", "porcelain");
+    keys.word("scene.material", material, "glass, porcelain, brick, concrete", "what breaks")
+        .number("scene.thickness_m", "m", given.number("thickness", {"a length in m from 0.0001 to 1", 1e-4, 1}, 0.005),
+                1e-4, 1, "of the shell")
         .number("scene.edge_m", "m", given.number("edge", {"a length in m from 0 to 1", 0, 1}, 0), 0, 1,
                 "edge length of the mesh; 0: what cooking chooses")
         .number("scene.strength_scale", "1", 1, 1e-3, HUGE_VAL, "on the material's strength; inf never cracks");
+    if (!keys.set("scene.material=" + material).ok())
+        given.refuse_value("material", "one of glass, porcelain, brick, concrete");
     lua_newtable(lua);
     const std::pair<const char*, const char*> names[] = {{"scene.material", "material"},
                                                          {"scene.thickness_m", "thickness"},
@@ -187,7 +196,7 @@ void open_declarations(lua_State* lua) {
     static constexpr luaL_Reg calls[] = {{"scene", scene},     {"key", key},           {"shell_keys", shell_keys},
                                          {"setting", setting}, {"at_least", at_least}, {"fit_budget", fit_budget},
                                          {nullptr, nullptr}};
-    luaL_setfuncs(lua, calls, 0);
+    add_calls(lua, calls);
 }
 
 }  // namespace cullet

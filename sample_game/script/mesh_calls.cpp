@@ -23,6 +23,18 @@ uint64_t seed_of(lua_State* lua, const Arguments& given) {
     return static_cast<uint64_t>(given.number("seed", {"a whole number from 0 to 1e15", 0, 1e15}, otherwise));
 }
 
+// Work of a mesh in instructions, known only after it is made: no shape has more than some million vertices, which
+// takes a second or two. A figure is remeshed, 0.6 s at its usual edge length and 40 s at the finest.
+constexpr uint64_t kWorkAVertex = 5;  // 1 us in truth; twenty times as much would refuse the finest meshes
+constexpr uint64_t kWorkAFigure = 1'000'000, kWorkAFile = 200'000;
+
+size_t bytes_of(const Mesh& mesh) {
+    return sizeof(ScriptMesh) + mesh.name.size() + mesh.positions.size() * sizeof(mesh.positions[0]) +
+           mesh.triangles.size() * sizeof(mesh.triangles[0]) +
+           mesh.corner_normals.size() * sizeof(mesh.corner_normals[0]) +
+           mesh.corner_uvs.size() * sizeof(mesh.corner_uvs[0]) + mesh.materials.size() * sizeof(mesh.materials[0]);
+}
+
 int made(lua_State* lua, Mesh mesh) {
     push_mesh(lua, {std::move(mesh), true});
     return 1;
@@ -38,6 +50,7 @@ int vase(lua_State* lua) {
 int piggy_bank(lua_State* lua) {
     script_of(lua).act(lua);
     const Arguments given(lua, "game.mesh.piggy_bank", {"length", "edge", "seed"}, true);
+    spend(lua, kWorkAFigure);
     return made(
         lua, make_piggy_bank(given.real("length", kSide, 0.4), given.real("edge", kEdge, 0.0098), seed_of(lua, given)));
 }
@@ -77,6 +90,7 @@ int table(lua_State* lua) {
 
 /// Scaled to `size`; with `stands` the origin is then the middle of its foot, else of its whole box.
 int imported(lua_State* lua, const Arguments& given, const std::string& path) {
+    spend(lua, kWorkAFile);
     Result<Mesh> mesh = import_model(path);
     if (!mesh.ok()) given.refuse(mesh.error());
     const bool has_extent = fit(*mesh, given.real("size", kSide, 0.4));
@@ -130,6 +144,11 @@ int size(lua_State* lua) {
 
 }  // namespace
 
+void hold_mesh(lua_State* lua, const Mesh& mesh) {
+    spend(lua, kWorkAVertex * mesh.positions.size());
+    hold(lua, bytes_of(mesh));
+}
+
 ScriptMesh& mesh_at(lua_State* lua, int place, const std::string& what) {
     auto* mesh = static_cast<ScriptMesh*>(luaL_testudata(lua, place, kMeshName));
     if (!mesh)
@@ -138,6 +157,7 @@ ScriptMesh& mesh_at(lua_State* lua, int place, const std::string& what) {
 }
 
 void push_mesh(lua_State* lua, ScriptMesh mesh) {
+    hold_mesh(lua, mesh.mesh);
     new (lua_newuserdatauv(lua, sizeof(ScriptMesh), 0)) ScriptMesh(std::move(mesh));
     luaL_setmetatable(lua, kMeshName);
 }
@@ -145,18 +165,24 @@ void push_mesh(lua_State* lua, ScriptMesh mesh) {
 void open_meshes(lua_State* lua) {
     luaL_newmetatable(lua, kMeshName);
     lua_pushcfunction(lua, [](lua_State* l) {
-        static_cast<ScriptMesh*>(lua_touserdata(l, 1))->~ScriptMesh();
+        auto* mesh = static_cast<ScriptMesh*>(lua_touserdata(l, 1));
+        give_back(l, bytes_of(mesh->mesh));
+        mesh->~ScriptMesh();
         return 0;
     });
     lua_setfield(lua, -2, "__gc");
     static constexpr luaL_Reg methods[] = {{"move", move}, {"fit", fit_to}, {"size", size}, {nullptr, nullptr}};
-    luaL_newlib(lua, methods);
+    lua_newtable(lua);
+    add_calls(lua, methods);
+    guard_names(lua, "mesh:");
     lua_setfield(lua, -2, "__index");
     lua_pop(lua, 1);
     static constexpr luaL_Reg calls[] = {
         {"vase", vase}, {"piggy_bank", piggy_bank}, {"wall", wall},        {"pane", pane}, {"ball", ball},
         {"box", box},   {"table", table},           {"given", given_mesh}, {"file", file}, {nullptr, nullptr}};
-    luaL_newlib(lua, calls);
+    lua_newtable(lua);
+    add_calls(lua, calls);
+    guard_names(lua, "game.mesh.");
     lua_setfield(lua, -2, "mesh");
 }
 

@@ -53,14 +53,20 @@ int count(lua_State* lua) {
 }
 
 int note(lua_State* lua) {
-    Stage& stage = script_of(lua).act(lua);
+    script_of(lua).act(lua);
     if (lua_type(lua, 1) != LUA_TSTRING)
         refuse(lua, fmt::format("game.note: given {}; expected a sentence", describe(lua, 1)));
-    stage.notes.push_back(lua_tostring(lua, 1));
+    add_note(lua, lua_tostring(lua, 1));
     return 0;
 }
 
 // How the world is. Sums over all bodies: some microseconds each.
+
+Matter matter_of(lua_State* lua, const char* call) {
+    const World& world = world_of(lua, call);
+    spend(lua, 2 * world.report().bodies);
+    return measure_matter(world);
+}
 
 int frame(lua_State* lua) {
     lua_pushinteger(lua, static_cast<lua_Integer>(script_of(lua).stage().frame));
@@ -74,7 +80,7 @@ int time(lua_State* lua) {
 }
 
 int fragments(lua_State* lua) {
-    lua_pushinteger(lua, static_cast<lua_Integer>(measure_matter(world_of(lua, "game.fragments")).fragments));
+    lua_pushinteger(lua, static_cast<lua_Integer>(matter_of(lua, "game.fragments").fragments));
     return 1;
 }
 
@@ -84,7 +90,7 @@ int crumbs(lua_State* lua) {
 }
 
 int mass(lua_State* lua) {
-    lua_pushnumber(lua, measure_matter(world_of(lua, "game.mass")).mass);
+    lua_pushnumber(lua, matter_of(lua, "game.mass").mass);
     return 1;
 }
 
@@ -94,12 +100,12 @@ int mass_put_in(lua_State* lua) {
 }
 
 int kinetic_energy(lua_State* lua) {
-    lua_pushnumber(lua, measure_matter(world_of(lua, "game.kinetic_energy")).kinetic_energy);
+    lua_pushnumber(lua, matter_of(lua, "game.kinetic_energy").kinetic_energy);
     return 1;
 }
 
 int asleep_share(lua_State* lua) {
-    const Matter matter = measure_matter(world_of(lua, "game.asleep_share"));
+    const Matter matter = matter_of(lua, "game.asleep_share");
     const uint64_t moving = matter.asleep + matter.awake;
     lua_pushnumber(lua, moving == 0 ? 1 : static_cast<double>(matter.asleep) / static_cast<double>(moving));
     return 1;
@@ -250,7 +256,7 @@ void open_queries(lua_State* lua) {
                                          {"seed", seed},
                                          {"single", single},
                                          {nullptr, nullptr}};
-    luaL_setfuncs(lua, calls, 0);
+    add_calls(lua, calls);
 }
 
 }  // namespace cullet

@@ -13,23 +13,14 @@
 namespace cullet {
 namespace {
 
-const char kDeclared = 0;  // its address is raised where a run of declarations alone ends
-
-std::string text_of(lua_State* lua, int place) {
-    const char* text = lua_tostring(lua, place);
-    return text ? text : "the script raised " + describe(lua, place) + " in place of a sentence";
-}
+const char kDeclared = 0;                      // its address is raised where a run of declarations alone ends
+const char kFailed = 0;                        // its address is raised when failure_ says why
+constexpr uint64_t kInstructionsAWake = 1000;  // 10 us: a coroutine is made, and its own count starts from 0
+constexpr uint64_t kInstructionsAnEvent = 50;
+constexpr size_t kBytesAJob = 256, kBytesAListener = 128;
 
 std::string key_of(const std::string& assignment) {
     return assignment.substr(0, assignment.find('='));
-}
-
-std::string line_of(lua_State* lua, const std::string& file) {
-    lua_Debug where;
-    for (int level = 0; lua_getstack(lua, level, &where); ++level)
-        if (lua_getinfo(lua, "l", &where) && where.currentline > 0)
-            return fmt::format("{}:{}", file, where.currentline);
-    return file;
 }
 
 }  // namespace
@@ -40,22 +31,61 @@ Script& script_of(lua_State* lua) {
 
 Script::Script(Stage& stage, const SandboxLimits& limits) : stage_(stage), sandbox_(this, limits) {}
 
+// Lua takes any exception for an error without a message: whatever lies on the stack then is none.
+std::string Script::sentence_of(lua_State* lua, int status) const {
+    if (status == LUA_ERRRUN && lua_touserdata(lua, -1) == &kFailed) return failure_;
+    const bool is_luas_own = status == LUA_ERRRUN || status == LUA_ERRMEM || status == LUA_ERRERR;
+    if (!is_luas_own) return line_of(lua) + ": this call ended the script with an exception of an unknown kind";
+    const std::string text = lua_type(lua, -1) == LUA_TSTRING ? lua_tostring(lua, -1) : "";
+    if (text == "not enough memory") return line_of(lua) + ": " + sandbox_.no_memory_left();
+    if (lua_type(lua, -1) == LUA_TSTRING) return text;
+    return fmt::format("{}: error was given {}; expected a sentence that says what went wrong", line_of(lua),
+                       describe(lua, -1));
+}
+
 Result<void> Script::protect(const std::function<void()>& work) {
     lua_State* lua = sandbox_.state();
     lua_pushcfunction(lua, [](lua_State* l) {
-        (*static_cast<const std::function<void()>*>(lua_touserdata(l, 1)))();
+        guarded(l, *static_cast<const std::function<void()>*>(lua_touserdata(l, 1)));
         return 0;
     });
     lua_pushlightuserdata(lua, const_cast<std::function<void()>*>(&work));
     const int status = lua_pcall(lua, 1, 0, 0);
     if (status == LUA_OK) return {};
-    const bool is_declared = lua_touserdata(lua, -1) == &kDeclared;
-    std::string sentence = status == LUA_ERRMEM
-                               ? stage_.plan.scene.file + ": the script has used up its memory of 256 MiB; keep less"
-                               : (is_declared ? "" : text_of(lua, -1));
+    const bool is_declared = status == LUA_ERRRUN && lua_touserdata(lua, -1) == &kDeclared;
+    std::string sentence = is_declared ? "" : sentence_of(lua, status);
     lua_settop(lua, 0);
     if (is_declared) return {};
     return Error{std::move(sentence)};
+}
+
+// The calls of a coroutine that failed still stand: its sentence is made here, and carried on outside of Lua, which may
+// have no memory for it.
+int Script::resume(lua_State* thread, int arguments, int& results) {
+    lua_State* lua = sandbox_.state();
+    const int status = lua_resume(thread, lua, arguments, &results);
+    if (status == LUA_OK || status == LUA_YIELD) return status;
+    if (status == LUA_ERRRUN && lua_touserdata(thread, -1) == &kDeclared)
+        lua_pushlightuserdata(lua, const_cast<char*>(&kDeclared));
+    else
+        fail(sentence_of(thread, status));
+    return lua_error(lua);
+}
+
+void Script::fail(const std::string& sentence) {
+    failure_ = sentence;
+    lua_pushlightuserdata(sandbox_.state(), const_cast<char*>(&kFailed));
+    lua_error(sandbox_.state());
+}
+
+void Script::spend_on_function(uint64_t instructions) {
+    if (sandbox_.spend(instructions)) return;
+    lua_State* lua = sandbox_.state();
+    lua_Debug function;
+    lua_pushvalue(lua, -1);
+    lua_getinfo(lua, ">S", &function);
+    const std::string line = function.linedefined > 0 ? fmt::format(":{}", function.linedefined) : "";
+    fail(stage_.plan.scene.file + line + ": " + sandbox_.no_work_left());
 }
 
 void Script::prepare() {
@@ -71,9 +101,10 @@ void Script::prepare() {
     }
     open_calls(lua);
     const std::string fault = sandbox_.load(stage_.plan.scene.text, stage_.plan.scene.file);
-    if (!fault.empty()) refuse(lua, fault);
-    Job& own = jobs_.emplace_back();
-    make_thread(own.thread);
+    if (!fault.empty()) fail(fault);
+    Job own;
+    own.thread = make_thread();
+    jobs_.emplace(Due{0, job_count_++}, own);
     wake_all();
     act(lua);  // a script that does nothing still has its --set looked after
     if (!stage_.plan.mesh_path.empty() && !stage_.takes_mesh) {
@@ -104,64 +135,55 @@ Result<void> Script::tell_events() {
     return protect([this] { call_listeners(); });
 }
 
-lua_State* Script::make_thread(int& reference) {
+int Script::make_thread() {
     lua_State* lua = sandbox_.state();
     lua_State* thread = lua_newthread(lua);
     lua_insert(lua, -2);
     lua_xmove(lua, thread, 1);
-    reference = luaL_ref(lua, LUA_REGISTRYINDEX);
+    return luaL_ref(lua, LUA_REGISTRYINDEX);
+}
+
+lua_State* Script::thread_of(int reference) const {
+    lua_State* lua = sandbox_.state();
+    lua_rawgeti(lua, LUA_REGISTRYINDEX, reference);
+    lua_State* thread = lua_tothread(lua, -1);
+    lua_pop(lua, 1);
     return thread;
 }
 
-// The order of jobs_ is that of their making; a job made on the way that is due at once has its turn in the same pass.
+// A job made on the way that is due at once has its turn in the same pass.
 void Script::wake_all() {
-    while (true) {
-        size_t next = jobs_.size();
-        for (size_t j = 0; j < jobs_.size(); ++j)
-            if (!jobs_[j].is_over && jobs_[j].due <= stage_.frame &&
-                (next == jobs_.size() || jobs_[j].due < jobs_[next].due))
-                next = j;
-        if (next == jobs_.size()) break;
-        wake(next);
-    }
-    // The first place stays the script's own.
-    if (jobs_.size() > 1)
-        jobs_.erase(std::remove_if(jobs_.begin() + 1, jobs_.end(), [](const Job& job) { return job.is_over; }),
-                    jobs_.end());
+    while (!jobs_.empty() && jobs_.begin()->first.frame <= stage_.frame) wake(jobs_.extract(jobs_.begin()));
 }
 
-void Script::wake(size_t j) {
+void Script::wake(std::map<Due, Job>::node_type node) {
     lua_State* lua = sandbox_.state();
-    if (jobs_[j].thread == 0) {
-        lua_rawgeti(lua, LUA_REGISTRYINDEX, jobs_[j].function);
-        int reference = 0;
-        make_thread(reference);
-        jobs_[j].thread = reference;
-        jobs_[j].started = jobs_[j].due;
+    Job& job = node.mapped();
+    uint64_t& due = node.key().frame;
+    if (job.thread == 0) {
+        lua_rawgeti(lua, LUA_REGISTRYINDEX, job.function);
+        spend_on_function(kInstructionsAWake);
+        job.thread = make_thread();
+        job.started = due;
     }
-    lua_rawgeti(lua, LUA_REGISTRYINDEX, jobs_[j].thread);
-    lua_State* thread = lua_tothread(lua, -1);
-    lua_pop(lua, 1);
+    lua_State* thread = thread_of(job.thread);
     int results = 0;
-    const int status = lua_resume(thread, lua, 0, &results);
-    Job& job = jobs_[j];  // the call may have made others
-    if (status == LUA_YIELD) {
+    if (resume(thread, 0, results) == LUA_YIELD) {
         lua_pop(thread, results);
-        job.due = stage_.frame + pause_;
+        due = stage_.frame + pause_;
+        jobs_.insert(std::move(node));
         return;
-    }
-    if (status != LUA_OK) {
-        lua_xmove(thread, lua, 1);
-        lua_error(lua);
     }
     const bool goes_on = job.period > 0 && !(results > 0 && lua_isboolean(thread, -1) && !lua_toboolean(thread, -1));
     luaL_unref(lua, LUA_REGISTRYINDEX, job.thread);
     job.thread = 0;
-    job.is_over = !goes_on;
-    if (goes_on)
-        for (job.due = job.started; job.due <= stage_.frame;) job.due += job.period;
-    else if (job.function != 0)
+    if (goes_on) {
+        for (due = job.started; due <= stage_.frame;) due += job.period;
+        jobs_.insert(std::move(node));
+    } else if (job.function != 0) {
         luaL_unref(lua, LUA_REGISTRYINDEX, job.function);
+        give_back(lua, kBytesAJob);
+    }
 }
 
 Stage& Script::act(lua_State* lua) {
@@ -202,41 +224,50 @@ int Script::wait(lua_State* lua, uint64_t frames) {
 }
 
 void Script::plan_call(lua_State* lua, int place, uint64_t due, uint64_t period) {
+    hold(lua, kBytesAJob);
     Job job;
-    job.due = due;
     job.period = period;
     lua_pushvalue(lua, place);
     job.function = luaL_ref(lua, LUA_REGISTRYINDEX);
-    jobs_.push_back(job);
+    jobs_.emplace(Due{due, job_count_++}, job);
 }
 
 void Script::listen(lua_State* lua, const std::string& event, int place) {
+    hold(lua, kBytesAListener);
     lua_pushvalue(lua, place);
     listeners_.push_back({event, luaL_ref(lua, LUA_REGISTRYINDEX)});
 }
 
+// All in one coroutine, one after the other.
 void Script::call_listeners() {
     lua_State* lua = sandbox_.state();
+    if (listening_thread_ == 0) {
+        lua_newthread(lua);
+        listening_thread_ = luaL_ref(lua, LUA_REGISTRYINDEX);
+    }
+    lua_State* thread = thread_of(listening_thread_);
+    is_telling_ = true;
     const size_t count = listeners_.size();  // those added meanwhile hear of the next step
     for (size_t n = 0; n < count; ++n)
         for (uint32_t e = 0; push_event(lua, *stage_.world, listeners_[n].event, e); ++e) {
             lua_rawgeti(lua, LUA_REGISTRYINDEX, listeners_[n].function);
+            spend_on_function(kInstructionsAnEvent);
             lua_insert(lua, -2);
-            lua_call(lua, 1, 0);
+            lua_xmove(lua, thread, 2);
+            int results = 0;
+            resume(thread, 1, results);
+            lua_pop(thread, results);
         }
+    is_telling_ = false;
 }
 
 std::string Script::waits_at() const {
-    lua_State* lua = sandbox_.state();
-    for (const Job& job : jobs_) {
-        if (job.is_over || job.period > 0) continue;
-        if (job.thread == 0) return stage_.plan.scene.file + ", in a function given to at()";
-        lua_rawgeti(lua, LUA_REGISTRYINDEX, job.thread);
-        std::string place = line_of(lua_tothread(lua, -1), stage_.plan.scene.file);
-        lua_pop(lua, 1);
-        return place;
-    }
-    return "";
+    const auto* first = static_cast<const std::pair<const Due, Job>*>(nullptr);
+    for (const auto& entry : jobs_)
+        if (entry.second.period == 0 && (!first || entry.first.number < first->first.number)) first = &entry;
+    if (!first) return "";
+    if (first->second.thread == 0) return stage_.plan.scene.file + ", in a function given to at()";
+    return line_of(thread_of(first->second.thread));
 }
 
 }  // namespace cullet

@@ -1,8 +1,10 @@
 // A script at work: its own course and the functions that it gave to at(), every() and game.on() are coroutines, woken
 // between steps in order of their frame, then of their making.
 #pragma once
+#include <compare>
 #include <cstdint>
 #include <functional>
+#include <map>
 #include <string>
 #include <vector>
 
@@ -38,16 +40,22 @@ class Script {
     int wait(lua_State* lua, uint64_t frames);
     /// Calls the function at the place in frame `due`, then every `period` frames if that is not 0.
     void plan_call(lua_State* lua, int place, uint64_t due, uint64_t period);
+    /// A function of game.on() is at work, which may not wait.
+    bool is_telling() const { return is_telling_; }
     void listen(lua_State* lua, const std::string& event, int place);
     /// Counts up: the number of each call of game.random().
     uint32_t next_random() { return random_count_++; }
 
  private:
+    /// The order in which jobs are woken: their frame, then their making.
+    struct Due {
+        uint64_t frame = 0, number = 0;
+        auto operator<=>(const Due&) const = default;
+    };
     struct Job {
-        uint64_t due = 0, started = 0, period = 0;
+        uint64_t started = 0, period = 0;
         int thread = 0;    // reference; 0: it is between two calls
         int function = 0;  // reference, of at() and every()
-        bool is_over = false;
     };
     struct Listener {
         std::string event;
@@ -56,19 +64,30 @@ class Script {
     Result<void> protect(const std::function<void()>& work);
     void prepare();
     void wake_all();
-    void wake(size_t job);
-    /// Leaves the new coroutine in the registry and returns it; the function is on the stack's top, and is popped.
-    lua_State* make_thread(int& reference);
+    void wake(std::map<Due, Job>::node_type job);
+    /// Leaves the new coroutine in the registry; the function is on the stack's top, and is popped.
+    int make_thread();
+    lua_State* thread_of(int reference) const;
+    /// Raises what ended the coroutine, as a sentence with file and line.
+    int resume(lua_State* thread, int arguments, int& results);
+    std::string sentence_of(lua_State* lua, int status) const;
+    /// Raises the sentence.
+    void fail(const std::string& sentence);
+    /// Ends the script at the function on top of the stack when there is no work left for it.
+    void spend_on_function(uint64_t instructions);
     void call_listeners();
 
     Stage& stage_;
     Sandbox sandbox_;
-    std::vector<Job> jobs_;  // 0: the script's own course
+    std::map<Due, Job> jobs_;  // number 0: the script's own course
+    uint64_t job_count_ = 0;
     std::vector<Listener> listeners_;
     std::vector<std::string> used_sets_;
+    std::string failure_;
+    int listening_thread_ = 0;  // reference
     uint64_t pause_ = 0;
     uint32_t random_count_ = 0;
-    bool only_declares_ = false, has_acted_ = false;
+    bool only_declares_ = false, has_acted_ = false, is_telling_ = false;
 };
 
 Script& script_of(lua_State* lua);

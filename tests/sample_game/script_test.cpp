@@ -2,8 +2,10 @@
 #include "sample_game/script/script.hpp"
 
 #include <gtest/gtest.h>
+#include <sys/wait.h>
 
 #include <cmath>
+#include <cstdlib>
 #include <filesystem>
 #include <fstream>
 
@@ -75,8 +77,42 @@ TEST(Script, AnErrorNamesFileLineWhatWasGivenAndWhatWasExpected) {
         {"local b = nil\nb:mass()", "test.lua:2: attempt to index a nil value (local 'b')"},
         {"x = = 1", "test.lua:1: unexpected symbol near '='"},
         {"error('enough')", "test.lua:1: enough"},
+        {"\nerror({})", "test.lua:2: error was given a table; expected a sentence that says what went wrong"},
+        {"\nerror()", "test.lua:2: error was given nil; expected a sentence that says what went wrong"},
+        {"assert(false, 7)", "test.lua:1: error was given 7; expected a sentence that says what went wrong"},
+        {"table.sort({2, 1}, function()\nerror({}) end)",
+         "test.lua:2: error was given a table; expected a sentence that says what went wrong"},
+        {"string.format('%d', 'x')", "test.lua:1: bad argument #2 to 'format' (number expected, got string)"},
+        {"\x1bLuaT", "test.lua: this is compiled Lua; give the text of the script"},
+        {"game.key{name = 'x', choices = 'y, z', default = 'w'}",
+         "test.lua:1: game.key: default is \"w\"; expected one of y, z"},
+        {"game.key{name = 'x', choices = '', default = 'w'}",
+         "test.lua:1: game.key: choices is \"\"; expected words with commas, such as \"glass, brick\""},
+        {"game.shell_keys{material = 'wood'}",
+         "test.lua:1: game.shell_keys: material is \"wood\"; expected one of glass, porcelain, brick, concrete"},
+        {"game.shell_keys{thickness = 2}",
+         "test.lua:1: game.shell_keys: thickness is 2; expected a length in m from 0.0001 to 1"},
     };
     for (const Case& c : cases) EXPECT_EQ(failure_of(c.text), c.sentence) << c.text;
+}
+
+TEST(Script, ANameThatIsNotThereIsAnErrorThatKnowsTheNearest) {
+    const Case cases[] = {
+        {"game.thorw{}", "test.lua:1: there is no game.thorw; do you mean game.throw?"},
+        {"if game.fragmnts then end", "test.lua:1: there is no game.fragmnts; do you mean game.fragments?"},
+        {"game.mesh.vaze{}", "test.lua:1: there is no game.mesh.vaze; do you mean game.mesh.vase?"},
+        {"game.mesh.vase{}:mov{0, 1, 0}", "test.lua:1: there is no mesh:mov; do you mean mesh:move?"},
+        {"game.floor():postion()", "test.lua:1: there is no body:postion; do you mean body:position?"},
+        {"math.sqr(2)", "test.lua:1: there is no math.sqr; do you mean math.sqrt?"},
+        {"prnit('x')", "test.lua:1: there is no prnit; do you mean print?"},
+        {"speed = 3\nprint(sped)", "test.lua:2: there is no sped; do you mean speed?"},
+        {"if is_over then end",
+         "test.lua:1: there is no is_over; give it a value before it is read, such as local is_over = false"},
+        {"local x = game.mesh[1]",
+         "test.lua:1: there is no game.mesh.1; there are ball, box, file, given, pane, piggy_bank, table, vase, wall"},
+    };
+    for (const Case& c : cases) EXPECT_EQ(failure_of(c.text), c.sentence) << c.text;
+    EXPECT_EQ(failure_of("count = 1 count = count + 1 game.expect(count == 2, 'a global with a value is read')"), "");
 }
 
 TEST(Script, AnExpectationThatIsNotMetEndsTheRunWithItsSentence) {
@@ -196,12 +232,11 @@ TEST(Script, ThereIsNoWayOutOfTheSandbox) {
                              "string.dump",
                              "math.random",
                              "math.randomseed",
-                             "math.exp",
-                             "('x').rep",
-                             "('x').find"})
-        EXPECT_EQ(failure_of(std::string("game.expect(") + name + " == nil, 'it is not there')"), "") << name;
-    const std::string bytecode = "\x1bLuaS";
-    EXPECT_NE(failure_of(bytecode).find("attempt to load a binary chunk"), std::string::npos) << failure_of(bytecode);
+                             "math.exp"})
+        EXPECT_EQ(failure_of(std::string("local way = ") + name),
+                  std::string("test.lua:1: ") + name + " is left out of scripts; docs/scripting.md says what there is");
+    EXPECT_EQ(failure_of("('x'):rep(9)"),
+              "test.lua:1: string.rep is left out of scripts; docs/scripting.md says what there is");
 }
 
 TEST(Script, AScriptThatNeverEndsIsEnded) {
@@ -215,10 +250,83 @@ TEST(Script, AScriptThatNeverEndsIsEnded) {
     EXPECT_EQ(failure_of("for _ = 1, 4 do for _ = 1, 9000000 do end wait{frames = 1} end", 6), "");
 }
 
+constexpr const char* kNoWorkLeft =
+    "test.lua:1: the script took more than 20 million instructions in one frame; end the loop, or wait() in it";
+constexpr const char* kNoMemoryLeft = "test.lua:1: the script has used up its memory of 256 MiB; keep less";
+
+TEST(Script, WorkThatIsNoInstructionOfItsOwnCountsAsWell) {
+    const std::string text = "local s = 'x' for n = 1, 15 do s = s .. s end ";
+    const std::string list = "local t = {} for n = 1, 1e5 do t[n] = '' end ";
+    const std::string loops[] = {
+        "local function f() at(game.time(), f) end f()",
+        "for n = 1, 1e5 do at(0, function() end) end",
+        text + "while true do s:reverse() end",
+        text + "while true do local longer = s .. s end",
+        text + "while true do string.format('%s%s', s, s) end",
+        text + "while true do s:byte(1, -1) end",
+        list + "while true do table.concat(t) end",
+        list + "while true do table.sort(t) end",
+        list + "while true do table.insert(t, 1, '') end",
+        list + "while true do for _ in pairs(t) do break end end",
+        "while true do table.unpack({}, 1, 1e5) end",
+        "while true do local t = {} end",
+        "for n = 1, 1e6 do game.mesh.wall{} end",
+        "local m = game.mesh.ball{radius = 1, subdivisions = 5} while true do m:move{0, 1, 0} end",
+        "while true do game.throw{radius = 0.1, mass = 1, at = {0, 1, 0}}:remove() end",
+        "game.floor() while true do game.bodies() end",
+    };
+    for (const std::string& loop : loops) EXPECT_EQ(failure_of(loop), kNoWorkLeft) << loop;
+    EXPECT_EQ(failure_of("local function f(...) while true do local function g() end g(...) end end\n"
+                         "f(table.unpack({}, 1, 1e5))"),
+              "test.lua:1: a function was given 1000 values or more; give it a table");
+    EXPECT_EQ(failure_of("local m = game.mesh.pane{edge = 0.25} game.setting{limits = {models = 3}}\n"
+                         "for n = 1, 4 do game.cook{mesh = m, material = 'glass', seed = n} end")
+                  .substr(0, 56),
+              "test.lua:2: game.cook: the run has 3 models already; coo");
+}
+
+/// Wakes and events use up nothing that an honest script misses.
+TEST(Script, AThousandJobsAFrameAndATableOfAHundredThousandFit) {
+    EXPECT_EQ(failure_of("local t = {} for n = 1, 1e5 do t[n] = {n} end\n"
+                         "for n = 1, 1000 do every({frames = 1}, function() t[n][1] = t[n][1] + 1 end) end\n"
+                         "wait{frames = 2} game.expect(t[9][1] == 10, 'every job has run once')",
+                         4),
+              "");
+}
+
 TEST(Script, AScriptThatFillsTheMemoryIsEnded) {
-    const std::string sentence = failure_of("local t = {} for n = 1, 1e9 do t[n] = 'some text ' .. n end");
-    EXPECT_EQ(sentence, "test.lua: the script has used up its memory of 256 MiB; keep less");
+    const std::string text = "local s = 'x' for n = 1, 15 do s = s .. s end ";
+    const std::string keeps[] = {
+        text + "local t = {} for n = 1, 1e9 do t[n] = s .. n end",
+        text + "while true do for n = 1, 4000 do game.note(s) end wait{frames = 1} end",
+        "local t = {} while true do for n = 1, 20 do t[#t + 1] = game.mesh.ball{radius = 1, subdivisions = 6} end "
+        "wait{frames = 1} end",
+        "while true do for n = 1, 2e5 do at(1e6, print) end wait{frames = 1} end",
+        "while true do for n = 1, 2e5 do game.on('impact', print) end wait{frames = 1} end",
+    };
+    for (const std::string& keep : keeps) EXPECT_EQ(failure_of(keep, 30), kNoMemoryLeft) << keep;
+    EXPECT_EQ(failure_of("local s = 'x'\nfor n = 1, 30 do s = s .. s end"),
+              "test.lua:2: a string has grown above 64 KiB; print, note or keep it in parts");
     EXPECT_NE(failure_of("local function f() return 1 + f() end f()").find("stack overflow"), std::string::npos);
+}
+
+/// 192 balls of 1.5 MB, one at a time.
+TEST(Script, MeshesThatAreNoLongerHeldGiveTheirMemoryBack) {
+    EXPECT_EQ(failure_of("for n = 1, 12 do for m = 1, 16 do game.mesh.ball{radius = 1, subdivisions = 6} end "
+                         "wait{frames = 1} end",
+                         14),
+              "");
+}
+
+TEST(Script, AFunctionOfAnEventMayNotWait) {
+    const std::string text =
+        "game.floor()\n"
+        "game.spawn{mesh = game.mesh.pane{edge = 0.1}, material = 'glass', at = {0, 0.1, 0}, velocity = {0, -9, 0}}\n"
+        "game.on('impact', function()\nwait(1) end)";
+    EXPECT_EQ(failure_of(text, 10),
+              "test.lua:4: wait: this function cannot wait; give one that does to at() or every()");
+    EXPECT_EQ(failure_of(text.substr(0, text.find("wait")) + "error({}) end)", 10),
+              "test.lua:4: error was given a table; expected a sentence that says what went wrong");
 }
 
 TEST(Script, KeysAreDeclaredListedSetAndRefused) {
@@ -246,6 +354,12 @@ TEST(Script, KeysAreDeclaredListedSetAndRefused) {
         EXPECT_NE(read_story(plan).error().find(wrong), std::string::npos) << wrong;
         EXPECT_NE(GameWorld::create(plan).error().find(wrong), std::string::npos) << wrong;
     }
+}
+
+TEST(Script, TheLastSheetThatIsGivenCounts) {
+    const Result<Story> story = read_story(plan_of("for n = 1, 9 do game.scene{sheet = {0, n}} end"));
+    ASSERT_TRUE(story.ok()) << story.error();
+    EXPECT_EQ(story->sheet_frames, (std::vector<uint32_t>{0, 9}));
 }
 
 TEST(Script, AMeshThatIsNotAskedForIsRefused) {
@@ -406,6 +520,43 @@ TEST(Script, AFileIsPlayedByItsPathAndOneThatIsNotThereIsNamed) {
     EXPECT_EQ(load_scene("vase")->file, "vase.lua");
     EXPECT_NE(load_scene("/nowhere/x.lua").error().find("/nowhere/x.lua"), std::string::npos);
     EXPECT_NE(load_scene("castle").error().find("vase"), std::string::npos);
+}
+
+TEST(Script, AFolderAndAFileThatIsTooLongAreRefused) {
+    const auto folder = std::filesystem::path(testing::TempDir()) / "cullet_script_folder.lua";
+    std::filesystem::create_directories(folder);
+    EXPECT_EQ(load_scene(folder.string()).error(),
+              folder.string() + ": cannot be read (Is a directory); give the path of a script.");
+    const auto file = std::filesystem::path(testing::TempDir()) / "cullet_script_long.lua";
+    std::ofstream(file) << std::string(size_t{1} << 20, ' ');
+    EXPECT_EQ(load_scene(file.string())->text.size(), size_t{1} << 20);
+    std::ofstream(file, std::ios::app) << ' ';
+    EXPECT_EQ(load_scene(file.string()).error(), file.string() + ": has more than 1024 KiB; give a shorter script.");
+    std::filesystem::remove(file);
+}
+
+/// Exit code and what the program says on its standard error.
+std::pair<int, std::string> outcome_of(const std::string& arguments) {
+    const std::string said = testing::TempDir() + "cullet_script_said.txt";
+    const int status =
+        std::system((std::string(CULLET_BINARY_DIR) + "/sample_game " + arguments + " 2>" + said).c_str());
+    std::ifstream file(said);
+    return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, {std::istreambuf_iterator<char>(file), {}}};
+}
+
+TEST(Program, AFullDiskIsOneSentence) {
+    if (!std::filesystem::exists(std::string(CULLET_BINARY_DIR) + "/sample_game"))
+        GTEST_SKIP() << "build the program sample_game";
+    const std::pair<int, std::string> all{2, "sample_game: cannot write to file: No space left on device.\n"};
+    EXPECT_EQ(outcome_of("run --set help >/dev/full"), all);
+    EXPECT_EQ(outcome_of("frame >/dev/full"), all);
+    // A few lines fail only at the end, when the buffer is written out.
+    EXPECT_EQ(outcome_of("--help >/dev/full").first, 2);
+    const auto path = (std::filesystem::path(testing::TempDir()) / "cullet_script_prints.lua").string();
+    std::ofstream(path) << "game.scene{seconds = 1}\nfor n = 1, 3000 do print('a line', n) end\n";
+    const auto [code, said] = outcome_of("run " + path + " >/dev/full");
+    EXPECT_EQ(code, 2);
+    EXPECT_EQ(said.find(path + ":2: cannot write to file: No space left on device\n"), 0u) << said;
 }
 
 }  // namespace
