@@ -5,6 +5,7 @@
 #include <xmmintrin.h>
 
 #include <algorithm>
+#include <new>
 #include <utility>
 
 namespace cullet {
@@ -81,6 +82,10 @@ RTCGeometry geometry_of(RTCDevice device, std::span<const Vec3> positions, std::
                                                               sizeof(Vec3), positions.size()));
     auto* corners = static_cast<Triangle*>(rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3,
                                                                    sizeof(Triangle), triangles.size()));
+    if (points == nullptr || corners == nullptr) {
+        rtcReleaseGeometry(geometry);
+        throw std::bad_alloc();
+    }
     std::copy(positions.begin(), positions.end(), points);
     for (size_t t = 0; t < triangles.size(); ++t) {
         const Triangle& corner = triangles[t];
@@ -115,7 +120,8 @@ RayScene::RayScene(std::span<const Vec3> positions, std::span<const Triangle> tr
     alone.execute([&] {
         const FlushedSubnormals flushed;
         impl_->device = rtcNewDevice(nullptr);
-        impl_->scene = rtcNewScene(impl_->device);
+        impl_->scene = impl_->device ? rtcNewScene(impl_->device) : nullptr;
+        if (impl_->scene == nullptr) throw std::bad_alloc();
         rtcSetSceneFlags(impl_->scene,
                          static_cast<RTCSceneFlags>(RTC_SCENE_FLAG_ROBUST | RTC_SCENE_FLAG_CONTEXT_FILTER_FUNCTION));
         if (!positions.empty() && !triangles.empty()) {
@@ -124,6 +130,7 @@ RayScene::RayScene(std::span<const Vec3> positions, std::span<const Triangle> tr
             rtcReleaseGeometry(geometry);
         }
         rtcJoinCommitScene(impl_->scene);
+        if (rtcGetDeviceError(impl_->device) != RTC_ERROR_NONE) throw std::bad_alloc();  // the only one that can be
     });
 }
 

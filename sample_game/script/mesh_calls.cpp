@@ -5,6 +5,7 @@
 #include <lua.hpp>
 #include <new>
 
+#include "engine/mesh_file.hpp"
 #include "sample_game/import_model.hpp"
 #include "sample_game/meshes.hpp"
 #include "sample_game/script/arguments.hpp"
@@ -97,6 +98,7 @@ int imported(lua_State* lua, const Arguments& given, const std::string& path) {
     if (!has_extent) given.refuse(path + ": all of its points lie on one spot; give a mesh with an extent");
     if (given.is("stands", false)) *mesh = moved(std::move(*mesh), {0, -extent_of(*mesh).low.y, 0});
     mesh->name = std::filesystem::absolute(path).string();  // as sentences name it
+    if (mesh->name.size() > kLongestMeshName) mesh->name = "..." + mesh->name.substr(mesh->name.size() - 240);
     push_mesh(lua, {std::move(mesh).value(), false});
     return 1;
 }

@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <new>
 
 #include "engine/host_scope.hpp"
 #include "engine/memory.hpp"
@@ -196,7 +197,7 @@ Row<Shells> import_shell(State& to, const State& from, Row<Shells> shell, const 
     return copy;
 }
 
-Result<Model> cook(const MeshView& view, const CookSettings& settings) {
+Result<Model> cook(const MeshView& view, const CookSettings& settings) try {
     static const Host no_host;
     const Host& host = settings.host ? *settings.host : no_host;
     if (const Result<void> valid = check_host(host); !valid) return Error{valid.error()};
@@ -289,6 +290,9 @@ Result<Model> cook(const MeshView& view, const CookSettings& settings) {
     Model model;
     model.contents = contents;
     return model;
+} catch (const std::bad_alloc&) {
+    return Error{std::string(view.name ? view.name : "mesh") + ": no memory to cook its " +
+                 std::to_string(view.triangle_count) + " triangles. Free memory or simplify the mesh."};
 }
 
 const ModelReport& Model::report() const {
