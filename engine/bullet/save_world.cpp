@@ -186,6 +186,7 @@ void flow_body(F& f, Body& b) {
     f.number(b.idle_wakes);
     f.number(b.load), f.number(b.slept_load), f.number(b.moved_fraction);
     f.flag(b.is_fast);
+    f.flag(b.is_level);
 }
 
 template <class F>
@@ -363,7 +364,8 @@ bool BulletWorld::load_body(ByteReader& in, Body& body) {
     }
     bool has_mesh = false;
     f.flag(has_mesh);
-    in.expect(!has_mesh || body.kind == RigidKind::Static, "a body that moves has static triangles");
+    in.expect(!body.is_level || body.kind == RigidKind::Static, "a body that moves is level geometry");
+    in.expect(!has_mesh || body.is_level, "static triangles of a body that is no level geometry");
     if (has_mesh && in.is_sound()) {
         body.mesh = std::make_unique<StaticMesh>();
         flow_mesh(f, *body.mesh, &in);
