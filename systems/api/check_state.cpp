@@ -131,7 +131,10 @@ void check_bodies(Checker& check) {
         check.expect_flag(bodies, bodies.is_breakable, "is_breakable", b);
         check.expect_flag(bodies, bodies.is_asleep, "is_asleep", b);
         check.expect_flag(bodies, bodies.has_pins, "has_pins", b);
-        check.expect_flag(bodies, bodies.is_owed_births, "is_owed_births", b);
+        const uint8_t owed = bodies.is_owed_births[b];
+        check.expect(owed <= kOwedDrawing && (owed == 0 || bodies.shell[b].exists()),
+                     Checker::place(bodies, "is_owed_births", b) + " is " + std::to_string(owed) + ", not 0 to " +
+                         std::to_string(kOwedDrawing) + ", and 0 of what has no shell");
         const Range vertices = bodies.view_vertices[b], indices = bodies.view_indices[b];
         uint64_t runs = 0;
         for (const uint32_t count : bodies.run_indices[b]) runs += count;
