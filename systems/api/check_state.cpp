@@ -214,6 +214,9 @@ void check_tasks(Checker& check) {
                      Checker::place(tasks, "shell", t) + " is " + std::to_string(tasks.shell[t].index) + " of " +
                          std::to_string(tasks.source[t].index) + ", which are not two shells");
         if (!check.is_sound()) return;
+        check.expect(s.bodies.shell[body] == tasks.source[t],
+                     Checker::place(tasks, "source", t) + " is " + std::to_string(tasks.source[t].index) +
+                         ", not the shell of its body " + std::to_string(body.index));
         check.expect(s.shells.packs[tasks.shell[t]].count > 0, Checker::place(tasks, "shell", t) + " has no stiffness");
         check.expect_flag(tasks, tasks.is_held, "is_held", t);
         check.expect_flag(tasks, tasks.is_late, "is_late", t);
@@ -224,8 +227,10 @@ void check_tasks(Checker& check) {
     for (uint32_t q = 0; q < queued.size() && check.is_sound(); ++q) {
         check.expect_flag(queued, queued.is_used, "is_used", q);
         if (!queued.is_used[q]) continue;
-        check.expect(is_body(s, queued.body[q]) && (!queued.striker[q].exists() || is_body(s, queued.striker[q])),
-                     Checker::place(queued, "body", q) + " or its striker is no body");
+        check.expect(is_body(s, queued.body[q]) && s.bodies.shell[queued.body[q]].exists(),
+                     Checker::place(queued, "body", q) + " is no body that has a shell");
+        check.expect(!queued.striker[q].exists() || is_body(s, queued.striker[q]),
+                     Checker::place(queued, "striker", q) + " is no body");
     }
     for (uint32_t d = 0; d < s.debris.size(); ++d) check.expect_flag(s.debris, s.debris.is_used, "is_used", d);
 }
