@@ -60,9 +60,8 @@ TEST(CheckState, AQueuedHitOnABallIsRefused) {
 }
 
 TEST(CheckState, PiecesThatABallIsOwedAreRefused) {
-    expect_refused(
-        [](State& state, Row<Bodies>, Row<Bodies> ball) { state.bodies.is_owed_births[ball] = kOwedBirths; },
-        "bodies.is_owed_births[1]");
+    expect_refused([](State& state, Row<Bodies>, Row<Bodies> ball) { state.bodies.is_owed_births[ball] = kOwedBirths; },
+                   "bodies.is_owed_births[1]");
 }
 
 TEST(CheckState, AHitThatIsWorkedOffOnABallIsRefused) {
@@ -73,6 +72,34 @@ TEST(CheckState, AHitThatIsWorkedOffOnABallIsRefused) {
             state.bodies.task[ball] = 0;
         },
         "tasks.source[0]");
+}
+
+TEST(CheckState, RangesThatDoNotBeginWhereTheirPoolBeginsOnesAreRefused) {
+    expect_refused(
+        [](State& state, Row<Bodies> vase, Row<Bodies>) {
+            Range& vertices = state.shells.vertices[state.bodies.shell[vase]];
+            ++vertices.first, --vertices.count, --vertices.capacity;
+        },
+        "the range of vertices of shell");
+}
+
+TEST(CheckState, AWorkingShellThatIsSomebodyElsesTooIsRefused) {
+    expect_refused(
+        [](State& state, Row<Bodies>, Row<Bodies>) {
+            const uint32_t model = state.models.append(1);
+            state.models.is_used[model] = 1;
+            state.models.shell[model] = state.tasks.shell[0];
+            ++state.shells.users[state.tasks.shell[0]];
+        },
+        "tasks.shell[0]");
+}
+
+TEST(CheckState, ContactsAndPatchesOfAnotherHitAreRefused) {
+    expect_refused([](State& state, Row<Bodies>, Row<Bodies>) { state.tasks.first_contact[0] = kMostContacts; },
+                   "tasks.first_contact[0]");
+    expect_refused(
+        [](State& state, Row<Bodies>, Row<Bodies>) { state.task_contacts.first_patch[0] += kMostPatchVertices; },
+        "task_contacts.first_patch[0]");
 }
 
 }  // namespace
