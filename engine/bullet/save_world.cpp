@@ -146,22 +146,24 @@ void flow_mesh(F& f, StaticMesh& mesh, ByteReader* in) {
         for (Vec3& corner : t.corner) flow_numbers(f, corner);
         for (bool& is_sharp : t.is_edge_sharp) f.flag(is_sharp);
     }
-    // Children come after their parent, so that a walk down always ends; a height of 60 is more than any balanced
-    // tree's.
+    // Children come after their parent, so that a walk down always ends, and have one, so that it ends soon; leaves
+    // have no more triangles than there are. A height of 60 is more than any balanced tree's.
     std::vector<uint8_t> height;
-    if constexpr (F::kReads) height.assign(nodes, 0);
+    [[maybe_unused]] uint32_t in_leaves = 0;
+    if constexpr (F::kReads) height.assign(nodes, 0);  // 0: nobody's child so far
     for (uint32_t k = 0; k < nodes; ++k) {
         StaticMesh::Node& n = mesh.nodes[k];
         flow_numbers(f, n.box);
         f.number(n.first), f.number(n.count);
         if constexpr (F::kReads) {
             const bool is_leaf = n.count > 0;
-            const bool fits = is_leaf ? n.count <= triangles && n.first <= triangles - n.count
-                                      : n.first > k && n.first < nodes - 1 && height[k] < 60;
+            const bool fits = is_leaf ? n.count <= triangles - in_leaves && n.first <= triangles - n.count
+                                      : n.first > k && n.first < nodes - 1 && height[k] < 60 && height[n.first] == 0 &&
+                                            height[n.first + 1] == 0;
             if (!in->expect(fits, "box " + std::to_string(k) + " over static triangles leads nowhere")) return;
+            in_leaves += n.count;
             if (!is_leaf)
-                for (uint32_t child : {n.first, n.first + 1})
-                    height[child] = std::max<uint8_t>(height[child], static_cast<uint8_t>(height[k] + 1));
+                for (uint32_t child : {n.first, n.first + 1}) height[child] = static_cast<uint8_t>(height[k] + 1);
         }
     }
 }
