@@ -199,7 +199,6 @@ void flow_point(F& f, btManifoldPoint& p) {
     f.number(p.m_distance1);
     f.number(p.m_combinedFriction), f.number(p.m_combinedRestitution);
     f.number(p.m_combinedRollingFriction), f.number(p.m_combinedSpinningFriction);
-    f.number(p.m_index0), f.number(p.m_index1);
     f.number(p.m_appliedImpulse), f.number(p.m_prevRHS);
     f.number(p.m_appliedImpulseLateral1), f.number(p.m_appliedImpulseLateral2);
     flow_numbers(f, p.m_lateralFrictionDir1), flow_numbers(f, p.m_lateralFrictionDir2);
@@ -267,6 +266,7 @@ struct PairBytes {
         flow(f, pair);
         const uint32_t count = in.count("the number of remembered pairs of pieces", 43, 1u << 26);
         PairRecord** link = &pair.records_;
+        std::vector<std::pair<uint32_t, uint32_t>> pieces;
         for (uint32_t k = 0; k < count && in.is_sound(); ++k) {
             PairRecord* const r = pair.work_.records.take();
             *r = {};
@@ -278,6 +278,7 @@ struct PairBytes {
             in.expect(knows_a && knows_b && (r->hull_a || r->hull_b),
                       "a remembered pair names pieces " + std::to_string(r->a) + " and " + std::to_string(r->b) +
                           ", which its bodies do not have,");
+            pieces.emplace_back(r->a, r->b);
             const auto points = in.number<int8_t>("a number of contact points");
             in.expect(points >= -1 && points <= MANIFOLD_CACHE_SIZE,
                       "a contact of " + std::to_string(points) + " points");
@@ -287,13 +288,18 @@ struct PairBytes {
             r->manifold->m_companionIdA = static_cast<int>(r->hull_a ? r->hull_a->cell : r->a);
             r->manifold->m_companionIdB = static_cast<int>(r->hull_b ? r->hull_b->cell : r->b);
             r->manifold->setNumContacts(points);
-            for (int p = 0; p < points; ++p) {
+            // The first point says which pieces meet, also where none is left of the points (see sort_manifolds).
+            for (int p = 0; p < std::max<int>(points, 1); ++p) {
                 btManifoldPoint point;
                 point.m_partId0 = point.m_partId1 = -1;
-                flow_point(f, point);
+                point.m_index0 = static_cast<int>(r->a), point.m_index1 = static_cast<int>(r->b);
+                if (p < points) flow_point(f, point);
                 r->manifold->getContactPoint(p) = point;
             }
         }
+        std::sort(pieces.begin(), pieces.end());
+        in.expect(std::adjacent_find(pieces.begin(), pieces.end()) == pieces.end(),
+                  "a pair of pieces is remembered twice");
     }
 };
 

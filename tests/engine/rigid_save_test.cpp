@@ -61,5 +61,28 @@ TEST(RigidSave, ATreeOfTrianglesInWhichABoxIsTwoBoxesChildIsRefused) {
     EXPECT_NE(refusal(bytes).find("leads nowhere"), std::string::npos) << refusal(bytes);
 }
 
+// The sort of manifolds asserts that none tie.
+TEST(RigidSave, ManifoldsWithoutPointsKeepTheirOrder) {
+    auto world = floor_world(4);
+    const std::vector<Vec3> left = box_points({0.1f, 0.1f, 0.1f}, {-0.2f, 0, 0}),
+                            right = box_points({0.1f, 0.1f, 0.1f}, {0.2f, 0, 0});
+    const ConvexPiece pieces[] = {{left, 7}, {right, 7}};  // of one cell
+    RigidDescription d;
+    d.pieces = pieces;
+    d.mass = 1;
+    d.inertia = {1, 1, 1};
+    d.pose.position = {0, 0.1f, 0};
+    world->add(1, d);
+    world->detect(kStep);
+    ASSERT_EQ(world->contacts().size(), 8u);
+    world->skip_contacts(0, 1);
+    world->solve(kStep);
+    const std::vector<uint8_t> bytes = saved(*world);
+    const auto twin = make_bullet_world(4);
+    ByteReader in(bytes, "test", "");
+    ASSERT_TRUE(twin->load(in).ok()) << in.trouble();
+    EXPECT_EQ(saved(*twin), bytes);
+}
+
 }  // namespace
 }  // namespace cullet
