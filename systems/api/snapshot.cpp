@@ -70,8 +70,6 @@ void for_each_count(Data& d, F&& f) {
     f(c.opened), f(c.broke), f(c.whole), f(c.dropped), f(c.redone), f(c.late), f(c.frames_held), f(c.clamped);
     f(c.cuts), f(c.starts), f(c.cuts_refused), f(c.units_used), f(c.units_left), f(c.worst_rounding);
     for (auto& impulse : c.impulse_to_static) f(impulse);
-    auto& r = d.ready_for;
-    f(r.vertices), f(r.elements), f(r.hinges), f(r.blocks), f(r.links), f(r.cells), f(r.points);
 }
 
 void put_world(ByteWriter& out, World::Contents& world) {
@@ -125,12 +123,12 @@ void restore_what_follows(World::Contents& world) {
         const Row<Shells> shell = state.bodies.shell[b];
         if (static_cast<BodyKind>(state.bodies.kind[b]) == BodyKind::Free || !shell.exists()) continue;
         bound_view(state.bodies, Row<Bodies>(b), state.view_vertices, state.view_indices, d.view_boxes);
+        if (state.bodies.is_breakable[b]) d.make_ready(room_of(state, shell));
         d.arena.reset();
         if (world.hosted) world.hosted->announce(b, convex_pieces(state, shell, d.arena));
     }
     if (world.hosted) world.hosted->finish();
     d.query_index->refresh(state.bodies);
-    state.commit_ahead(d.ready_for);
 }
 
 }  // namespace
