@@ -26,6 +26,9 @@ Result<void> check_body(const Pose& pose, const Motion& motion, const ContactSet
 Result<void> check_gravity(const char* name, Vec3 gravity);
 Result<void> check_settings(const Settings& settings);
 
+/// There is no memory for a world of these limits.
+Error no_room_for(const LimitSettings& limits);
+
 /// "body handle 7 names nothing that is alive; ..."
 Error stale(const char* what, uint32_t index);
 

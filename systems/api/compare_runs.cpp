@@ -1,4 +1,7 @@
 // Replays on several numbers of threads, and where two runs part.
+#include <new>
+#include <optional>
+
 #include "engine/mesh_file.hpp"
 #include "systems/api/replay.hpp"
 #include "systems/api/snapshot.hpp"
@@ -83,8 +86,10 @@ std::string first_difference(const std::function<std::unique_ptr<Replayer>(int w
     return "after " + hashes[0][place].first + ", frame " + std::to_string(frame) + ": " + found;
 }
 
-Result<ReplayReport> replay_with(Replayer::Create create, const std::string& path, const ReplaySettings& settings,
-                                 const Host& host) {
+namespace {
+
+Result<ReplayReport> replay_all(Replayer::Create create, const std::string& path, const ReplaySettings& settings,
+                                const Host& host) {
     if (settings.threads.empty()) return Error{path + ": no number of threads is given; replay on 1 at least."};
     const Result<std::vector<uint8_t>> bytes = read_whole_file(path, kLargestFile);
     if (!bytes) return Error{bytes.error()};
@@ -134,6 +139,18 @@ Result<ReplayReport> replay_with(Replayer::Create create, const std::string& pat
                                "another build, or of a world that the game changed behind the calls"
                              : "; replay it on two numbers of threads to learn the system and the row";
     return report;
+}
+
+}  // namespace
+
+Result<ReplayReport> replay_with(Replayer::Create create, const std::string& path, const ReplaySettings& settings,
+                                 const Host& host) {
+    try {
+        return replay_all(create, path, settings, host);
+    } catch (const std::bad_alloc&) {
+        return Error{path + ": no memory to replay it on " + std::to_string(settings.threads.size()) +
+                     " numbers of threads, one after the other. Free memory, or replay on fewer."};
+    }
 }
 
 }  // namespace cullet

@@ -113,6 +113,16 @@ Result<void> rebuild_rigid(World::Contents& world) {
     return {};
 }
 
+/// An empty world with the host of `like`; null: there is no memory for one.
+std::unique_ptr<World::Contents> make_alike(const Settings& settings, const World::Contents& like) {
+    try {
+        return std::make_unique<World::Contents>(settings, like.host,
+                                                 like.data.rigid->make_another(settings.limits.bodies));
+    } catch (const std::bad_alloc&) {
+        return nullptr;
+    }
+}
+
 /// What is not in the bytes because it follows from them.
 void restore_what_follows(World::Contents& world) {
     WorldData& d = world.data;
@@ -161,8 +171,8 @@ Result<std::unique_ptr<World::Contents>> parse_snapshot(std::span<const uint8_t>
         settings.threads = like.settings.threads;
         if (!in.is_sound()) return Error{in.trouble()};
         const MemoryScope memory(like.host.allocator);
-        auto world = std::make_unique<World::Contents>(settings, like.host,
-                                                       like.data.rigid->make_another(settings.limits.bodies));
+        std::unique_ptr<World::Contents> world = make_alike(settings, like);
+        if (!world) return Error{name + ": " + no_room_for(settings.limits).message};
         WorldData& d = world->data;
         const auto take = [&](auto& number) {
             number = in.number<std::remove_reference_t<decltype(number)>>("a count");

@@ -206,6 +206,26 @@ TEST(Recording, WhatIsNoRecordingIsRefusedInASentence) {
     remove_files();
 }
 
+TEST(Recording, OneThatAsksForMoreRoomThanThereIsIsRefusedWithItsLimits) {
+    const std::string path = file_of("large.crec");
+    Settings settings = test::small_settings();
+    settings.limits.vertices = settings.limits.elements = 1u << 23;
+    Host frugal;
+    frugal.allocator.allocate = [](void*, size_t size, size_t alignment) {
+        constexpr size_t kMost = 1u << 26;
+        return size > kMost ? nullptr : std::aligned_alloc(alignment, (size + alignment - 1) / alignment * alignment);
+    };
+    frugal.allocator.release = [](void*, void* memory, size_t) { std::free(memory); };
+    World world = test::make_world(settings);
+    expect_done(world.start_recording(path));
+    world.step();
+    expect_done(world.stop_recording());
+    const Result<ReplayReport> report = replay(path, {}, frugal);
+    EXPECT_NE(report.error().find(path), std::string::npos) << report.error();
+    EXPECT_NE(report.error().find("vertices 8388608"), std::string::npos) << report.error();
+    remove_files();
+}
+
 TEST(Recording, AFullDiskEndsTheRecordingAndTheLogIsToldOnce) {
     std::vector<std::string> told;
     Host host;
