@@ -47,6 +47,8 @@ class Replayer {
     float share() const { return file_.share(); }
 
  private:
+    /// False: the file ends, or another kind stands there; damage_ tells, unless the file ends with its last chunk.
+    bool is_next(ChunkKind kind, Chunk& chunk);
     void read_step(const Chunk& chunk);
     void do_calls(const Chunk& chunk);
     void do_call(ByteReader& in);

@@ -1,6 +1,7 @@
 // What was asked of a world is asked again of another, which gives the same bytes.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <filesystem>
 #include <fstream>
 
@@ -113,8 +114,20 @@ TEST(Recording, ARecordingMayBeginInMidFracture) {
     remove_files();
 }
 
-/// The file cut at `size`, replayed: the good prefix gives its hashes, and a sentence names the first bad byte.
-void expect_prefix(const std::string& path, const std::vector<uint8_t>& good, size_t size) {
+/// Behind a chunk of this kind.
+std::vector<size_t> ends_of(const std::vector<uint8_t>& file, std::initializer_list<ChunkKind> kinds) {
+    RecordingReader reader(file, "good");
+    EXPECT_TRUE(reader.begin().ok());
+    std::vector<size_t> ends;
+    for (Chunk chunk; reader.next(chunk);)
+        if (std::find(kinds.begin(), kinds.end(), chunk.kind) != kinds.end())
+            ends.push_back(chunk.first_byte + chunk.bytes.size() + 8);
+    return ends;
+}
+
+/// The file cut at `size`, replayed: the good prefix gives its hashes, and a sentence names the first bad byte, unless
+/// it is whole.
+void expect_prefix(const std::string& path, const std::vector<uint8_t>& good, size_t size, bool is_whole = false) {
     const std::string cut = path + ".cut";
     std::ofstream(cut, std::ios::binary)
         .write(reinterpret_cast<const char*>(good.data()), static_cast<std::streamsize>(size));
@@ -124,8 +137,9 @@ void expect_prefix(const std::string& path, const std::vector<uint8_t>& good, si
     if (report.ok()) {
         EXPECT_EQ(report->difference, "") << size;
         const bool is_named = report->damage.find("byte ") != std::string::npos;
-        EXPECT_TRUE(report->damage.empty() || is_named) << report->damage;
+        EXPECT_TRUE(is_whole ? report->damage.empty() : is_named) << size << ": " << report->damage;
     } else {
+        EXPECT_FALSE(is_whole);
         EXPECT_NE(report.error().find(cut), std::string::npos) << report.error();
     }
 }
@@ -134,7 +148,48 @@ TEST(Recording, OfTwoHundredCutsEachReplaysItsGoodPart) {
     const std::string path = file_of("cut.crec");
     (void)play_and_record(path, 24);
     const std::vector<uint8_t> good = read_whole_file(path, 1u << 30).value();
-    for (size_t k = 0; k < 200; ++k) expect_prefix(path, good, k * good.size() / 200);
+    const std::vector<size_t> whole = ends_of(good, {ChunkKind::Begin, ChunkKind::Step});
+    std::vector<size_t> cuts = ends_of(good, {ChunkKind::Begin, ChunkKind::Calls, ChunkKind::Step});
+    ASSERT_EQ(cuts.size(), 49u);
+    for (size_t k = 0; k < 200 - 49; ++k) cuts.push_back(k * good.size() / (200 - 49));
+    for (const size_t cut : cuts)
+        expect_prefix(path, good, cut, std::find(whole.begin(), whole.end(), cut) != whole.end());
+    remove_files();
+}
+
+/// A file of these chunks, which need not make sense.
+std::string file_of_chunks(const char* name, const std::vector<std::pair<ChunkKind, std::vector<uint8_t>>>& chunks) {
+    const std::string path = file_of(name);
+    RecordingWriter writer(RecordingWriter::open(path).value());
+    for (const auto& [kind, bytes] : chunks) writer.append(kind, bytes);
+    return path;
+}
+
+TEST(Recording, ChunksOutOfOrderAndAStepWithoutItsResultAreTold) {
+    const std::string path = file_of("order.crec");
+    (void)play_and_record(path, 2);
+    const std::vector<uint8_t> good = read_whole_file(path, 1u << 30).value();
+    RecordingReader reader(good, "good");
+    ASSERT_TRUE(reader.begin().ok());
+    std::vector<std::pair<ChunkKind, std::vector<uint8_t>>> chunks;
+    for (Chunk chunk; reader.next(chunk);)
+        chunks.emplace_back(chunk.kind, std::vector<uint8_t>(chunk.bytes.begin(), chunk.bytes.end()));
+    ASSERT_EQ(chunks.size(), 5u);
+    const std::pair<ChunkKind, std::vector<uint8_t>> no_calls(ChunkKind::Calls, {});
+    const struct {
+        std::vector<std::pair<ChunkKind, std::vector<uint8_t>>> chunks;
+        const char* told;
+    } cases[] = {{{chunks[0], no_calls, no_calls, chunks[2]}, "stands out of order"},
+                 {{chunks[0], chunks[2]}, "stands out of order"},
+                 {{chunks[0], no_calls, chunks[0]}, "stands out of order"},
+                 {{chunks[0], no_calls}, "has no result: the run ended in it"}};
+    for (const auto& c : cases) {
+        const Result<ReplayReport> report = replay(file_of_chunks("crafted.crec", c.chunks));
+        ASSERT_TRUE(report.ok()) << report.error();
+        EXPECT_EQ(report->frames, 0u);
+        EXPECT_NE(report->damage.find(c.told), std::string::npos) << report->damage;
+        EXPECT_NE(report->damage.find(" byte "), std::string::npos) << report->damage;
+    }
     remove_files();
 }
 
