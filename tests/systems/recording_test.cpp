@@ -297,25 +297,51 @@ TEST(Recording, AFullDiskEndsTheRecordingAndTheLogIsToldOnce) {
     EXPECT_FALSE(world.stop_recording().ok());
 }
 
+/// What first_difference tells of two runs of a recording when one of them is pushed in the step behind `steps`.
+std::string told_of_a_push(const std::string& path, uint64_t steps) {
+    const std::vector<uint8_t> bytes = read_whole_file(path, 1u << 30).value();
+    const Replayer::Source source{bytes, path, path + ".models", &World::create};
+    return first_difference([&](int which) {
+        auto run = std::make_unique<Replayer>(source, 1, Host{});
+        EXPECT_TRUE(run->begin().ok());
+        for (uint64_t step = 0; step < steps; ++step) EXPECT_TRUE(run->step());
+        if (which == 1)
+            run->world().contents().after_each_system = [&run = *run](const PlannedSystem<WorldData>& system) {
+                if (system.name == "read_rigid") test::state_of(run.world()).bodies.velocity.set(1, {1, 2, 3});
+            };
+        return run;
+    });
+}
+
 TEST(Recording, TwoRunsThatPartAreToldBySystemFrameTableColumnAndRow) {
     const std::string path = file_of("part.crec");
     (void)play_and_record(path, 30);
-    const std::vector<uint8_t> bytes = read_whole_file(path, 1u << 30).value();
-    const Replayer::Source source{bytes, path, path + ".models", &World::create};
-    constexpr uint64_t kFrame = 12;
-    const auto make = [&](int which) {
-        auto run = std::make_unique<Replayer>(source, 1, Host{});
-        EXPECT_TRUE(run->begin().ok());
-        for (uint64_t step = 0; step < kFrame; ++step) EXPECT_TRUE(run->step());
-        World::Contents& world = run->world().contents();
-        if (which == 1)
-            world.after_each_system = [&world](const PlannedSystem<WorldData>& system) {
-                if (system.name == "read_rigid") world.data.state.bodies.velocity.set(1, {1, 2, 3});
-            };
-        return run;
-    };
-    const std::string found = first_difference(make, kFrame);
+    const std::string found = told_of_a_push(path, 12);
     EXPECT_NE(found.find("after read_rigid, frame 12: bodies.velocity[1].x"), std::string::npos) << found;
+    remove_files();
+}
+
+TEST(Recording, RunsThatPartInAStepThatRestoresAreToldByTheFrameThatTheClockWasSetTo) {
+    const std::string path = file_of("restore.crec");
+    World world = test::make_world(test::small_settings());
+    ASSERT_TRUE(world.start_recording(path).ok());
+    for (const float x : {0.0f, 1.0f}) (void)world.add_sphere(test::ball_at({x, 0, 0}, 1, 1)).value();
+    std::vector<uint8_t> bytes;
+    for (int step = 0; step < 10; ++step) {
+        if (step == 3) bytes = world.snapshot().value();
+        if (step == 7) expect_done(world.restore(bytes.data(), bytes.size()));
+        world.step();
+    }
+    ASSERT_TRUE(world.stop_recording().ok());
+    for (const uint64_t steps : {7, 9}) {
+        const std::string found = told_of_a_push(path, steps);
+        const std::string frame = "frame " + std::to_string(steps - 4) + ": bodies.velocity[1].x";
+        EXPECT_NE(found.find("after read_rigid, " + frame), std::string::npos) << found;
+    }
+    const Result<ReplayReport> report = replay(path, on({1, 2}));
+    ASSERT_TRUE(report.ok()) << report.error();
+    EXPECT_EQ(report->frames, 10u);
+    EXPECT_EQ(report->difference, "");
     remove_files();
 }
 
