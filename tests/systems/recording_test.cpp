@@ -7,6 +7,7 @@
 
 #include "cullet/recording.hpp"
 #include "engine/mesh_file.hpp"
+#include "systems/api/recorder.hpp"
 #include "systems/api/replay.hpp"
 #include "tests/support/small_worlds.hpp"
 
@@ -278,6 +279,17 @@ TEST(Recording, OneThatAsksForMoreRoomThanThereIsIsRefusedWithItsLimits) {
     const Result<ReplayReport> report = replay(path, {}, frugal);
     EXPECT_NE(report.error().find(path), std::string::npos) << report.error();
     EXPECT_NE(report.error().find("vertices 8388608"), std::string::npos) << report.error();
+    remove_files();
+}
+
+TEST(Recording, AWorldOfMoreBytesThanAChunkIsRefused) {
+    const std::string path = file_of("chunk.crec");
+    Recorder recorder(RecordingWriter::open(path).value(), path + ".models");
+    const std::vector<uint8_t> small(100);
+    // The bytes behind the first hundred are not looked at.
+    const Result<void> begun = recorder.begin({small.data(), size_t{kMostChunkBytes}});
+    EXPECT_NE(begun.error().find("2147483648 bytes"), std::string::npos) << begun.error();
+    expect_done(recorder.begin(small));
     remove_files();
 }
 
