@@ -21,7 +21,8 @@ class HostRigidWorld final : public RigidWorld {
     /// `generations` names, row by row, the body that a RigidId stands for now; it outlives this.
     HostRigidWorld(const HostRoom& room, const uint32_t* generations);
 
-    /// The host's rows of this step; nothing is taken when one of them is no number, or there are too many.
+    /// The host's rows of this step; nothing is taken when one of them is beyond its bounds, or there are too
+    /// many.
     Result<void> take(const HostFrame& frame);
     /// The end of a step: changes() are complete, and the next change begins new lists.
     void finish();

@@ -24,8 +24,8 @@ Result<void> Recorder::begin(std::span<const uint8_t> world) {
     ByteWriter begin;
     begin.text(build_sentence());
     if (world.size() > kMostChunkBytes - begin.bytes.size())
-        return Error{"the world has " + std::to_string(world.size()) + " bytes, and a recording begins with at most " +
-                     std::to_string(kMostChunkBytes) +
+        return Error{"the world takes " + std::to_string(begin.bytes.size() + world.size()) +
+                     " bytes, and a recording begins with at most " + std::to_string(kMostChunkBytes) +
                      ". Remove bodies and models, or begin to record before they are added."};
     answers_.reserve(4096);
     calls_.bytes.reserve(1 << 16);
