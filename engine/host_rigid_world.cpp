@@ -410,6 +410,9 @@ void HostRigidWorld::save(ByteWriter& out) const {
         out.number(p.a), out.number(p.b), out.number(p.seconds);
         out.number(static_cast<uint8_t>(p.until_apart));
     }
+    const uint32_t untold = is_told_ ? 0 : static_cast<uint32_t>(removed_.size());
+    out.number(untold);
+    for (uint32_t k = 0; k < untold; ++k) out.number(removed_[k].index), out.number(removed_[k].generation);
 }
 
 Result<void> HostRigidWorld::load(ByteReader& in) {
@@ -458,8 +461,23 @@ Result<void> HostRigidWorld::load(ByteReader& in) {
                   "an ignored pair of bodies " + std::to_string(p.a) + " and " + std::to_string(p.b));
         ignored_.push_back(p);
     }
+    const uint32_t removed = in.count("the number of removed bodies", 8, 1u << 28);
+    for (uint32_t k = 0; k < removed && in.is_sound(); ++k) {
+        const auto row = in.number<uint32_t>("a removed body"), generation = in.number<uint32_t>("a removed body");
+        const BodyId body{row, generation};
+        in.expect(row < rows_.size() && !is_known(body), "a removed body " + std::to_string(row) + " that is there");
+        removed_.push_back(body);
+    }
     if (!in.is_sound()) return Error{in.trouble()};
+    tell_all();
     return {};
+}
+
+// What a host cannot know from births, which announce() tells.
+void HostRigidWorld::tell_all() {
+    for (Row& row : rows_) row.is_moved = row.is_used && row.kind != RigidKind::Static;
+    for (const Ignored& p : ignored_) apart_.push_back({body_id(p.a), body_id(p.b), p.seconds, p.until_apart});
+    make_room();
 }
 
 void HostRigidWorld::announce(RigidId id, std::span<const ConvexPiece> pieces) {
