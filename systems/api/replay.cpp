@@ -88,8 +88,9 @@ bool Replayer::step() {
     else
         recorded_.answers.clear();
     if (!is_whole && damage.empty())
-        damage = source_.name + ": the step at byte " + std::to_string(calls.first_byte) +
-                 " has no result: the run ended in it; what stands before it was replayed.";
+        damage =
+            source_.name + ": the step at byte " + std::to_string(calls.first_byte) +
+            " has no result: the run ended in it. What stands before it was replayed; look there for what ended it.";
     next_answer_ = 0;
     is_stepped_ = false;
     if (damage_.empty()) do_calls(calls);
