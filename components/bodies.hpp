@@ -9,6 +9,9 @@ enum class BodyKind : uint8_t { Free = 0, Static, Kinematic, Dynamic };
 
 struct Models;
 
+/// Of Bodies::is_owed_births. The second: its drawn mesh found no room either and is that of before the hit.
+inline constexpr uint8_t kOwedBirths = 1, kOwedDrawing = 2;
+
 /// One row is one thing that the rigid world moves. Rows are reused; the generation tells a stale handle.
 struct Bodies : Table<Bodies> {
     using Table::Table;

@@ -1,5 +1,7 @@
 #include "components/state.hpp"
 
+#include <algorithm>
+
 namespace cullet {
 namespace {
 
@@ -72,20 +74,22 @@ State::Pools::Pools(const State& s)
 // A hit takes a copy of all rows with a quarter more (working_room); what moves of the broken shell is less than it. A
 // drawn mesh has 6 corners an element and 6 a free edge, and the pieces' more than the body's.
 void State::commit_ahead(const ShellRoom& shell, uint32_t served) {
-    const auto commit = [&](AnyTable& table, const RangePool& pool, uint32_t rows) {
-        if (served > 0 && rows > 0 && table.commit_rows(pool.end() + rows)) --served;
+    const auto commit = [&](AnyTable& table, const RangePool& pool, uint64_t rows) {
+        const auto end = static_cast<uint32_t>(std::min<uint64_t>(pool.end() + rows, table.limit()));
+        if (served > 0 && rows > 0 && table.commit_rows(end)) --served;
     };
-    commit(vertices, pools.vertices, 2 * shell.vertices + 512);
-    commit(elements, pools.elements, 2 * shell.elements + 1024);
-    commit(triangle_springs, pools.elements, 2 * shell.elements + 1024);
-    commit(hinges, pools.hinges, 2 * shell.hinges + 1536);
-    commit(stiffness_packs, pools.packs, 2 * (shell.vertices / kLanes));
-    commit(stiffness_blocks, pools.blocks, 2 * shell.blocks);
-    commit(stiffness_links, pools.links, 2 * shell.links);
-    commit(cells, pools.cells, 3 * shell.cells);
-    commit(hull_points, pools.points, 2 * kMostCellPoints * shell.cells);
-    commit(view_vertices, pools.view_vertices, 12 * shell.elements);
-    commit(view_indices, pools.view_indices, 12 * shell.elements);
+    const auto times = [](uint64_t factor, uint32_t rows) { return factor * rows; };
+    commit(vertices, pools.vertices, times(2, shell.vertices) + 512);
+    commit(elements, pools.elements, times(2, shell.elements) + 1024);
+    commit(triangle_springs, pools.elements, times(2, shell.elements) + 1024);
+    commit(hinges, pools.hinges, times(2, shell.hinges) + 1536);
+    commit(stiffness_packs, pools.packs, times(2, shell.vertices / kLanes));
+    commit(stiffness_blocks, pools.blocks, times(2, shell.blocks));
+    commit(stiffness_links, pools.links, times(2, shell.links));
+    commit(cells, pools.cells, times(3, shell.cells));
+    commit(hull_points, pools.points, times(2 * kMostCellPoints, shell.cells));
+    commit(view_vertices, pools.view_vertices, times(12, shell.elements));
+    commit(view_indices, pools.view_indices, times(12, shell.elements));
 }
 
 uint64_t State::hash() const {

@@ -7,20 +7,36 @@
 #include <utility>
 
 #include "engine/byte_stream.hpp"
+#include "engine/rigid_bounds.hpp"
 
 namespace cullet {
 namespace {
 
 constexpr float kPushedApart = 0.0001f;  // m of overlap at which ignored siblings meet again
+constexpr float kLargestSaved = 1e12f;   // of any float: far beyond what a host may tell, and its square is a float
 
-bool is_finite(Vec3 v) {
-    return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z);
-}
 bool is_unit(double square) {
     return std::fabs(square - 1) < 1e-3;  // false for what is no number
 }
 bool is_unit(Quat q) {
     return is_unit(q.x * q.x + q.y * q.y + q.z * q.z + q.w * q.w);
+}
+
+/// Null, or what of it is not within bounds; no number is.
+const char* trouble_of(const HostBody& b) {
+    if (!is_within(b.pose.position, kFarthest))
+        return "the position is not within 1000000 m of the origin along each axis";
+    if (!is_unit(b.pose.orientation)) return "the orientation is no unit quaternion";
+    if (!is_within(b.motion.velocity, kFastest)) return "the velocity is not within 100000 m/s a component";
+    if (!is_within(b.motion.angular_velocity, kFastest))
+        return "the angular velocity is not within 100000 rad/s a component";
+    return nullptr;
+}
+const char* trouble_of(const HostContact& c) {
+    if (!is_within(c.point, kFarthest)) return "the point is not within 1000000 m of the origin along each axis";
+    if (!is_unit(dot(c.normal, c.normal))) return "the normal has not the length 1";
+    if (!(std::fabs(c.distance) <= kFarthest)) return "the distance is not within 1000000 m";
+    return nullptr;
 }
 
 template <class T>
@@ -56,20 +72,17 @@ Result<void> HostRigidWorld::take(const HostFrame& frame) {
     if (frame.contact_count > room_.contacts())
         return Error{"HostFrame has " + std::to_string(frame.contact_count) + " contacts; give at most " +
                      std::to_string(room_.contacts()) + ", or raise limits.bodies."};
-    for (uint32_t i = 0; i < frame.body_count; ++i) {
-        const HostBody& b = frame.bodies[i];
-        if (!is_finite(b.pose.position) || !is_unit(b.pose.orientation) || !is_finite(b.motion.velocity) ||
-            !is_finite(b.motion.angular_velocity))
-            return Error{"HostFrame::bodies[" + std::to_string(i) + "], body " + std::to_string(b.body.index) +
-                         ": a position or velocity is not finite, or the orientation no unit quaternion; "
-                         "the step was not done."};
-    }
-    for (uint32_t i = 0; i < frame.contact_count; ++i) {
-        const HostContact& c = frame.contacts[i];
-        if (!is_finite(c.point) || !is_unit(dot(c.normal, c.normal)) || !std::isfinite(c.distance))
-            return Error{"HostFrame::contacts[" + std::to_string(i) +
-                         "]: point or distance is not finite, or the normal not of length 1; the step was not done."};
-    }
+    if ((frame.body_count > 0 && !frame.bodies) || (frame.contact_count > 0 && !frame.contacts))
+        return Error{"HostFrame has " + std::to_string(frame.body_count) + " bodies and " +
+                     std::to_string(frame.contact_count) +
+                     " contacts, and a null pointer to them; give the rows, or 0."};
+    for (uint32_t i = 0; i < frame.body_count; ++i)
+        if (const char* wrong = trouble_of(frame.bodies[i]))
+            return Error{"HostFrame::bodies[" + std::to_string(i) + "], body " +
+                         std::to_string(frame.bodies[i].body.index) + ": " + wrong + "; the step was not done."};
+    for (uint32_t i = 0; i < frame.contact_count; ++i)
+        if (const char* wrong = trouble_of(frame.contacts[i]))
+            return Error{"HostFrame::contacts[" + std::to_string(i) + "]: " + wrong + "; the step was not done."};
     for (uint32_t i = 0; i < frame.body_count; ++i) {
         const HostBody& b = frame.bodies[i];
         if (!is_known(b.body) || rows_[b.body.index].is_held) continue;
@@ -134,7 +147,7 @@ void HostRigidWorld::detect(float dt) {
     std::sort(contacts_.begin(), contacts_.end(), [](const RigidContact& p, const RigidContact& q) {
         const auto key = [](const RigidContact& c) {
             return std::tuple(c.a, c.b, c.cell_a, c.cell_b, c.point.x, c.point.y, c.point.z, c.distance,
-                              c.approach_speed);
+                              c.approach_speed, c.normal.x, c.normal.y, c.normal.z);
         };
         return key(p) < key(q);
     });
@@ -397,12 +410,18 @@ void HostRigidWorld::save(ByteWriter& out) const {
         out.number(p.a), out.number(p.b), out.number(p.seconds);
         out.number(static_cast<uint8_t>(p.until_apart));
     }
+    const uint32_t untold = is_told_ ? 0 : static_cast<uint32_t>(removed_.size());
+    out.number(untold);
+    for (uint32_t k = 0; k < untold; ++k) out.number(removed_[k].index), out.number(removed_[k].generation);
 }
 
 Result<void> HostRigidWorld::load(ByteReader& in) {
     const auto number = [&]<class T>(T& value) {
         value = in.number<T>("a body of the host's");
-        if constexpr (std::is_floating_point_v<T>) in.expect(std::isfinite(value), "a number that is not finite");
+        if constexpr (std::is_same_v<T, float>)
+            in.expect(std::fabs(value) <= kLargestSaved, "a number of " + std::to_string(value));
+        else if constexpr (std::is_floating_point_v<T>)
+            in.expect(std::isfinite(value), "a number that is not finite");
     };
     const auto flag = [&] {
         const auto byte = in.number<uint8_t>("a flag");
@@ -442,8 +461,23 @@ Result<void> HostRigidWorld::load(ByteReader& in) {
                   "an ignored pair of bodies " + std::to_string(p.a) + " and " + std::to_string(p.b));
         ignored_.push_back(p);
     }
+    const uint32_t removed = in.count("the number of removed bodies", 8, 1u << 28);
+    for (uint32_t k = 0; k < removed && in.is_sound(); ++k) {
+        const auto row = in.number<uint32_t>("a removed body"), generation = in.number<uint32_t>("a removed body");
+        const BodyId body{row, generation};
+        in.expect(row < rows_.size() && !is_known(body), "a removed body " + std::to_string(row) + " that is there");
+        removed_.push_back(body);
+    }
     if (!in.is_sound()) return Error{in.trouble()};
+    tell_all();
     return {};
+}
+
+// What a host cannot know from births, which announce() tells.
+void HostRigidWorld::tell_all() {
+    for (Row& row : rows_) row.is_moved = row.is_used && row.kind != RigidKind::Static;
+    for (const Ignored& p : ignored_) apart_.push_back({body_id(p.a), body_id(p.b), p.seconds, p.until_apart});
+    make_room();
 }
 
 void HostRigidWorld::announce(RigidId id, std::span<const ConvexPiece> pieces) {

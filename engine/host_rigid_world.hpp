@@ -21,7 +21,8 @@ class HostRigidWorld final : public RigidWorld {
     /// `generations` names, row by row, the body that a RigidId stands for now; it outlives this.
     HostRigidWorld(const HostRoom& room, const uint32_t* generations);
 
-    /// The host's rows of this step; nothing is taken when one of them is no number, or there are too many.
+    /// The host's rows of this step; nothing is taken when one of them is beyond its bounds, or there are too
+    /// many.
     Result<void> take(const HostFrame& frame);
     /// The end of a step: changes() are complete, and the next change begins new lists.
     void finish();
@@ -59,7 +60,8 @@ class HostRigidWorld final : public RigidWorld {
     std::optional<RigidKind> kind(RigidId id) const override;
     std::unique_ptr<RigidWorld> make_another(uint32_t) const override { return nullptr; }
     void save(ByteWriter& out) const override;
-    /// Leaves out the pieces, which only births tell: announce() gives them.
+    /// The next changes tell of all that moves, of pairs that are apart, and of what was removed and not told. Leaves
+    /// out the pieces, which only births tell: announce() gives them.
     Result<void> load(ByteReader& in) override;
     /// After a load: the next changes name this body as born.
     void announce(RigidId id, std::span<const ConvexPiece> pieces);
@@ -92,6 +94,7 @@ class HostRigidWorld final : public RigidWorld {
     bool is_free(RigidId id) const;
     BodyId body_id(RigidId id) const { return {id, generations_[id]}; }
     void begin_lists();
+    void tell_all();
     void take_pieces(Row& row, std::span<const ConvexPiece> pieces);
     void make_room();
     Vec3 velocity_at(RigidId id, Vec3 point) const;

@@ -3,8 +3,7 @@
 #include <sys/mman.h>
 
 #include <cstdint>
-#include <cstdio>
-#include <cstdlib>
+#include <new>
 
 namespace cullet {
 namespace {
@@ -45,10 +44,7 @@ std::byte* reserve_memory(size_t bytes) {
     void* memory = host.allocate ? host.allocate(host.user, bytes, 64)
                                  : mmap(nullptr, bytes, PROT_READ | PROT_WRITE,
                                         MAP_PRIVATE | MAP_ANONYMOUS | MAP_NORESERVE, -1, 0);
-    if (memory == MAP_FAILED || !memory) {
-        std::fprintf(stderr, "cullet: could not reserve %zu bytes of memory; lower the limits in Settings.\n", bytes);
-        std::abort();
-    }
+    if (memory == MAP_FAILED || !memory) throw std::bad_alloc();
     auto* header = reinterpret_cast<Header*>(static_cast<std::byte*>(memory) + colour_of(memory) * kLine);
     header->allocator = host;
     header->given = memory;

@@ -19,8 +19,9 @@ class MemoryScope {
     HostAllocator before_;
 };
 
-/// `bytes` of memory aligned to 64 that costs nothing until it is written; from the system it is zero. Aborts with a
-/// sentence when there is none.
+/// `bytes` of memory aligned to 64 that costs nothing until it is written; from the system it is zero. Throws
+/// std::bad_alloc when there is none: files choose limits too, so who makes a world or a model answers with a sentence.
+/// Nothing is reserved within a step.
 std::byte* reserve_memory(size_t bytes);
 void release_memory(std::byte* memory, size_t bytes);  // null is allowed
 /// Gives pages to [memory, memory + bytes) now, so that a frame meets no page fault.

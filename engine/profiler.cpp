@@ -17,13 +17,16 @@ uint64_t now_ns() {
 }
 
 Profiler::Profiler(uint32_t frame_limit, uint32_t span_limit)
-    : frame_memory_(nullptr),
-      span_memory_(reserve_memory(size_t{span_limit} * sizeof(Span))),
-      frame_limit_(std::max(frame_limit, 1u)),
-      span_limit_(span_limit) {
-    frame_memory_ = reserve_memory(size_t{frame_limit_} * sizeof(Frame));
+    : frame_memory_(nullptr), span_memory_(nullptr), frame_limit_(std::max(frame_limit, 1u)), span_limit_(span_limit) {
     zones_.reserve(kMostZones);
     rows_.reserve(kMostZones);
+    frame_memory_ = reserve_memory(size_t{frame_limit_} * sizeof(Frame));
+    try {
+        span_memory_ = reserve_memory(size_t{span_limit_} * sizeof(Span));
+    } catch (...) {
+        release_memory(frame_memory_, size_t{frame_limit_} * sizeof(Frame));
+        throw;
+    }
 }
 
 Profiler::~Profiler() {

@@ -173,6 +173,12 @@ class Table : public AnyTable {
     }
 
  private:
+    struct Registration {
+        explicit Registration(std::vector<ColumnInfo>& found) { registering() = &found; }
+        ~Registration() { registering() = nullptr; }
+        Registration(const Registration&) = delete;
+        Registration& operator=(const Registration&) = delete;
+    };
     static std::vector<ColumnInfo>& list() {
         static std::vector<ColumnInfo> columns;
         return columns;
@@ -180,9 +186,10 @@ class Table : public AnyTable {
     static void register_columns() {
         static const bool is_done = [] {
             std::vector<ColumnInfo> found;
-            registering() = &found;
-            { Self prototype(1u); }
-            registering() = nullptr;
+            {
+                const Registration listing(found);
+                const Self prototype(1u);
+            }
             list() = std::move(found);
             return true;
         }();
@@ -209,11 +216,14 @@ class Column {
             found->push_back({name, unit, static_cast<uint32_t>(offset), sizeof(Lane), kLanes, kSides, Type::kScalar,
                               Type::kComponents, keep});
         }
-        for (int a = 0; a < kLanes * kSides; ++a) memory_.array[a] = reserve_memory(size_t{limit_} * sizeof(Lane));
+        try {
+            for (int a = 0; a < kLanes * kSides; ++a) memory_.array[a] = reserve_memory(size_t{limit_} * sizeof(Lane));
+        } catch (...) {
+            release();
+            throw;
+        }
     }
-    ~Column() {
-        for (int a = 0; a < kLanes * kSides; ++a) release_memory(memory_.array[a], size_t{limit_} * sizeof(Lane));
-    }
+    ~Column() { release(); }
     Column(const Column&) = delete;
     Column& operator=(const Column&) = delete;
 
@@ -238,6 +248,9 @@ class Column {
     const Lane* data(int side = 0) const { return lane(0, side); }
 
  private:
+    void release() {
+        for (std::byte* array : memory_.array) release_memory(array, size_t{limit_} * sizeof(Lane));
+    }
     decltype(auto) at(uint32_t row, int side) {
         if constexpr (kLanes == 3) {
             return T{lane(0, side)[row], lane(1, side)[row], lane(2, side)[row]};

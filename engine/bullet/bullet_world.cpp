@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "engine/assert.hpp"
 #include "engine/bullet/principal_axes.hpp"
 #include "engine/rigid_allocations.hpp"
 
@@ -452,13 +453,17 @@ void BulletWorld::sort_manifolds() {
                               static_cast<uint32_t>(m->m_companionIdA), static_cast<uint32_t>(m->m_companionIdB),
                               p.m_index0, p.m_index1, m});
     }
-    std::sort(manifolds_.begin(), manifolds_.end(), [](const SortedManifold& p, const SortedManifold& q) {
+    const auto comes_first = [](const SortedManifold& p, const SortedManifold& q) {
         if (p.a != q.a) return p.a < q.a;
         if (p.b != q.b) return p.b < q.b;
         if (p.cell_a != q.cell_a) return p.cell_a < q.cell_a;
         if (p.cell_b != q.cell_b) return p.cell_b < q.cell_b;
         return p.ordinal_a != q.ordinal_a ? p.ordinal_a < q.ordinal_a : p.ordinal_b < q.ordinal_b;
-    });
+    };
+    std::sort(manifolds_.begin(), manifolds_.end(), comes_first);
+    for (size_t k = 1; k < manifolds_.size(); ++k)
+        CULLET_ASSERT(comes_first(manifolds_[k - 1], manifolds_[k]), "two manifolds of bodies %u and %u tie",
+                      manifolds_[k].a, manifolds_[k].b);
     // Bullet's own sort of an island's manifolds ties between those of one pair of bodies: it starts from this order.
     btPersistentManifold** const rows = dispatcher_.getInternalManifoldPointer();
     for (size_t k = 0; k < manifolds_.size(); ++k) {

@@ -146,22 +146,24 @@ void flow_mesh(F& f, StaticMesh& mesh, ByteReader* in) {
         for (Vec3& corner : t.corner) flow_numbers(f, corner);
         for (bool& is_sharp : t.is_edge_sharp) f.flag(is_sharp);
     }
-    // Children come after their parent, so that a walk down always ends; a height of 60 is more than any balanced
-    // tree's.
+    // Children come after their parent, so that a walk down always ends, and have one, so that it ends soon; leaves
+    // have no more triangles than there are. A height of 60 is more than any balanced tree's.
     std::vector<uint8_t> height;
-    if constexpr (F::kReads) height.assign(nodes, 0);
+    [[maybe_unused]] uint32_t in_leaves = 0;
+    if constexpr (F::kReads) height.assign(nodes, 0);  // 0: nobody's child so far
     for (uint32_t k = 0; k < nodes; ++k) {
         StaticMesh::Node& n = mesh.nodes[k];
         flow_numbers(f, n.box);
         f.number(n.first), f.number(n.count);
         if constexpr (F::kReads) {
             const bool is_leaf = n.count > 0;
-            const bool fits = is_leaf ? n.count <= triangles && n.first <= triangles - n.count
-                                      : n.first > k && n.first < nodes - 1 && height[k] < 60;
+            const bool fits = is_leaf ? n.count <= triangles - in_leaves && n.first <= triangles - n.count
+                                      : n.first > k && n.first < nodes - 1 && height[k] < 60 && height[n.first] == 0 &&
+                                            height[n.first + 1] == 0;
             if (!in->expect(fits, "box " + std::to_string(k) + " over static triangles leads nowhere")) return;
+            in_leaves += n.count;
             if (!is_leaf)
-                for (uint32_t child : {n.first, n.first + 1})
-                    height[child] = std::max<uint8_t>(height[child], static_cast<uint8_t>(height[k] + 1));
+                for (uint32_t child : {n.first, n.first + 1}) height[child] = static_cast<uint8_t>(height[k] + 1);
         }
     }
 }
@@ -186,6 +188,7 @@ void flow_body(F& f, Body& b) {
     f.number(b.idle_wakes);
     f.number(b.load), f.number(b.slept_load), f.number(b.moved_fraction);
     f.flag(b.is_fast);
+    f.flag(b.is_level);
 }
 
 template <class F>
@@ -196,7 +199,6 @@ void flow_point(F& f, btManifoldPoint& p) {
     f.number(p.m_distance1);
     f.number(p.m_combinedFriction), f.number(p.m_combinedRestitution);
     f.number(p.m_combinedRollingFriction), f.number(p.m_combinedSpinningFriction);
-    f.number(p.m_index0), f.number(p.m_index1);
     f.number(p.m_appliedImpulse), f.number(p.m_prevRHS);
     f.number(p.m_appliedImpulseLateral1), f.number(p.m_appliedImpulseLateral2);
     flow_numbers(f, p.m_lateralFrictionDir1), flow_numbers(f, p.m_lateralFrictionDir2);
@@ -264,6 +266,7 @@ struct PairBytes {
         flow(f, pair);
         const uint32_t count = in.count("the number of remembered pairs of pieces", 43, 1u << 26);
         PairRecord** link = &pair.records_;
+        std::vector<std::pair<uint32_t, uint32_t>> pieces;
         for (uint32_t k = 0; k < count && in.is_sound(); ++k) {
             PairRecord* const r = pair.work_.records.take();
             *r = {};
@@ -275,6 +278,7 @@ struct PairBytes {
             in.expect(knows_a && knows_b && (r->hull_a || r->hull_b),
                       "a remembered pair names pieces " + std::to_string(r->a) + " and " + std::to_string(r->b) +
                           ", which its bodies do not have,");
+            pieces.emplace_back(r->a, r->b);
             const auto points = in.number<int8_t>("a number of contact points");
             in.expect(points >= -1 && points <= MANIFOLD_CACHE_SIZE,
                       "a contact of " + std::to_string(points) + " points");
@@ -284,13 +288,18 @@ struct PairBytes {
             r->manifold->m_companionIdA = static_cast<int>(r->hull_a ? r->hull_a->cell : r->a);
             r->manifold->m_companionIdB = static_cast<int>(r->hull_b ? r->hull_b->cell : r->b);
             r->manifold->setNumContacts(points);
-            for (int p = 0; p < points; ++p) {
+            // The first point says which pieces meet, also where none is left of the points (see sort_manifolds).
+            for (int p = 0; p < std::max<int>(points, 1); ++p) {
                 btManifoldPoint point;
                 point.m_partId0 = point.m_partId1 = -1;
-                flow_point(f, point);
+                point.m_index0 = static_cast<int>(r->a), point.m_index1 = static_cast<int>(r->b);
+                if (p < points) flow_point(f, point);
                 r->manifold->getContactPoint(p) = point;
             }
         }
+        std::sort(pieces.begin(), pieces.end());
+        in.expect(std::adjacent_find(pieces.begin(), pieces.end()) == pieces.end(),
+                  "a pair of pieces is remembered twice");
     }
 };
 
@@ -363,7 +372,8 @@ bool BulletWorld::load_body(ByteReader& in, Body& body) {
     }
     bool has_mesh = false;
     f.flag(has_mesh);
-    in.expect(!has_mesh || body.kind == RigidKind::Static, "a body that moves has static triangles");
+    in.expect(!body.is_level || body.kind == RigidKind::Static, "a body that moves is level geometry");
+    in.expect(!has_mesh || body.is_level, "static triangles of a body that is no level geometry");
     if (has_mesh && in.is_sound()) {
         body.mesh = std::make_unique<StaticMesh>();
         flow_mesh(f, *body.mesh, &in);

@@ -55,7 +55,8 @@ class RangeCheck {
     void add(const char* owner, uint32_t row, const Range& r) {
         check_.expect(r.count <= r.capacity &&
                           (r.capacity == 0 || (r.first <= table_.size() && r.capacity <= table_.size() - r.first)) &&
-                          pool_.is_taken(r.first, r.capacity),
+                          pool_.is_taken(r.first, r.capacity) &&
+                          (r.capacity == 0 || pool_.rounded(r.first) == r.first),  // packs are read as a whole
                       std::string("the range of ") + table_.name() + " of " + owner + " " + std::to_string(row) +
                           " is " + std::to_string(r.first) + " + " + std::to_string(r.count) + " of " +
                           std::to_string(r.capacity) + "; the table has " + std::to_string(table_.size()) + " rows");
@@ -131,7 +132,10 @@ void check_bodies(Checker& check) {
         check.expect_flag(bodies, bodies.is_breakable, "is_breakable", b);
         check.expect_flag(bodies, bodies.is_asleep, "is_asleep", b);
         check.expect_flag(bodies, bodies.has_pins, "has_pins", b);
-        check.expect_flag(bodies, bodies.is_owed_births, "is_owed_births", b);
+        const uint8_t owed = bodies.is_owed_births[b];
+        check.expect(owed <= kOwedDrawing && (owed == 0 || bodies.shell[b].exists()),
+                     Checker::place(bodies, "is_owed_births", b) + " is " + std::to_string(owed) + ", not 0 to " +
+                         std::to_string(kOwedDrawing) + ", and 0 of what has no shell");
         const Range vertices = bodies.view_vertices[b], indices = bodies.view_indices[b];
         uint64_t runs = 0;
         for (const uint32_t count : bodies.run_indices[b]) runs += count;
@@ -154,14 +158,14 @@ void check_models(Checker& check) {
     }
 }
 
-/// The patches of a task press its own vertices.
+/// The patches of a task are its own, and press its own vertices.
 void check_contacts(Checker& check, uint32_t t) {
     const State& s = check.state;
     const uint32_t first = s.tasks.first_contact[t], count = s.tasks.contact_count[t];
     const uint32_t vertices = s.shells.vertices[s.tasks.shell[t]].count;
-    check.expect(count <= kMostContacts && first <= s.task_contacts.size() && count <= s.task_contacts.size() - first,
-                 Checker::place(s.tasks, "first_contact", t) + " is " + std::to_string(first) + " for " +
-                     std::to_string(count) + " contacts");
+    check.expect(first == t * kMostContacts && count <= kMostContacts, Checker::place(s.tasks, "first_contact", t) +
+                                                                           " is " + std::to_string(first) + " for " +
+                                                                           std::to_string(count) + " contacts");
     for (uint32_t c = first; c < first + count && check.is_sound(); ++c) {
         const TaskContacts& contacts = s.task_contacts;
         check.expect_row(contacts, "vertex", c, contacts.vertex[c], vertices, false);
@@ -169,7 +173,9 @@ void check_contacts(Checker& check, uint32_t t) {
                      Checker::place(contacts, "striker", c) + " is " + std::to_string(contacts.striker[c].index) +
                          ", which is no body");
         const uint32_t patch = contacts.first_patch[c], patch_count = contacts.patch_count[c];
-        check.expect(patch <= s.patch_vertices.size() && patch_count <= s.patch_vertices.size() - patch,
+        const uint32_t own = t * kMostPatchVertices;
+        check.expect(patch_count == 0 || (patch >= own && patch - own <= kMostPatchVertices &&
+                                          patch_count <= kMostPatchVertices - (patch - own)),
                      Checker::place(contacts, "first_patch", c) + " is " + std::to_string(patch) + " for " +
                          std::to_string(patch_count) + " vertices");
         for (uint32_t p = patch; p < patch + patch_count && check.is_sound(); ++p)
@@ -211,6 +217,12 @@ void check_tasks(Checker& check) {
                      Checker::place(tasks, "shell", t) + " is " + std::to_string(tasks.shell[t].index) + " of " +
                          std::to_string(tasks.source[t].index) + ", which are not two shells");
         if (!check.is_sound()) return;
+        check.expect(s.shells.users[tasks.shell[t]] == 1, Checker::place(tasks, "shell", t) + " is " +
+                                                              std::to_string(tasks.shell[t].index) +
+                                                              ", which is not the hit's alone");
+        check.expect(s.bodies.shell[body] == tasks.source[t],
+                     Checker::place(tasks, "source", t) + " is " + std::to_string(tasks.source[t].index) +
+                         ", not the shell of its body " + std::to_string(body.index));
         check.expect(s.shells.packs[tasks.shell[t]].count > 0, Checker::place(tasks, "shell", t) + " has no stiffness");
         check.expect_flag(tasks, tasks.is_held, "is_held", t);
         check.expect_flag(tasks, tasks.is_late, "is_late", t);
@@ -221,8 +233,10 @@ void check_tasks(Checker& check) {
     for (uint32_t q = 0; q < queued.size() && check.is_sound(); ++q) {
         check.expect_flag(queued, queued.is_used, "is_used", q);
         if (!queued.is_used[q]) continue;
-        check.expect(is_body(s, queued.body[q]) && (!queued.striker[q].exists() || is_body(s, queued.striker[q])),
-                     Checker::place(queued, "body", q) + " or its striker is no body");
+        check.expect(is_body(s, queued.body[q]) && s.bodies.shell[queued.body[q]].exists(),
+                     Checker::place(queued, "body", q) + " is no body that has a shell");
+        check.expect(!queued.striker[q].exists() || is_body(s, queued.striker[q]),
+                     Checker::place(queued, "striker", q) + " is no body");
     }
     for (uint32_t d = 0; d < s.debris.size(); ++d) check.expect_flag(s.debris, s.debris.is_used, "is_used", d);
 }

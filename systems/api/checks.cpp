@@ -1,5 +1,7 @@
 #include "systems/api/checks.hpp"
 
+#include <array>
+
 namespace cullet {
 
 std::string text(Vec3 v) {
@@ -47,7 +49,35 @@ Result<void> check_gravity(const char* name, Vec3 gravity) {
     return Error{std::string(name) + " is " + text(gravity) + "; give m/s2, at most 10000 a component."};
 }
 
+namespace {
+
 constexpr uint64_t kMostUnits = 1'000'000'000'000'000;
+
+struct NamedLimit {
+    const char* name;
+    uint32_t value, least, most;
+};
+
+std::array<NamedLimit, 8> named(const LimitSettings& l) {
+    return {{{"bodies", l.bodies, 1, 1u << 20},
+             {"models", l.models, 1, 1u << 20},
+             {"vertices", l.vertices, 4096, 1u << 26},
+             {"elements", l.elements, 4096, 1u << 26},
+             {"open_hits", l.open_hits, 1, 1024},
+             {"view_vertices", l.view_vertices, 4096, 1u << 28},
+             {"debris", l.debris, 1, 1u << 24},
+             {"queued_hits", l.queued_hits, 1, 1u << 16}}};
+}
+
+}  // namespace
+
+Error no_room_for(const LimitSettings& limits) {
+    std::string list;
+    for (const NamedLimit& limit : named(limits))
+        list += std::string(list.empty() ? "" : ", ") + limit.name + " " + std::to_string(limit.value);
+    return Error{"no memory for a world of Settings::limits " + list +
+                 ". Lower them, or let the program have more address space."};
+}
 
 Result<void> check_settings(const Settings& s) {
     if (!(s.step_seconds >= 1.0f / 1000 && s.step_seconds <= 1.0f / 20))
@@ -63,15 +93,7 @@ Result<void> check_settings(const Settings& s) {
         return Error{"Settings::hold_seconds is " + std::to_string(s.hold_seconds) + "; use 0 to 1."};
     if (s.threads == 0 || s.threads > 256)
         return Error{"Settings::threads is " + std::to_string(s.threads) + "; use 1 to 256."};
-    const LimitSettings& l = s.limits;
-    const struct {
-        const char* name;
-        uint32_t value, least, most;
-    } limits[] = {{"bodies", l.bodies, 1, 1u << 20},        {"models", l.models, 1, 1u << 20},
-                  {"vertices", l.vertices, 4096, 1u << 26}, {"elements", l.elements, 4096, 1u << 26},
-                  {"open_hits", l.open_hits, 1, 1024},      {"view_vertices", l.view_vertices, 4096, 1u << 28},
-                  {"debris", l.debris, 1, 1u << 24},        {"queued_hits", l.queued_hits, 1, 1u << 16}};
-    for (const auto& limit : limits)
+    for (const NamedLimit& limit : named(s.limits))
         if (limit.value < limit.least || limit.value > limit.most)
             return Error{std::string("Settings::limits.") + limit.name + " is " + std::to_string(limit.value) +
                          "; use " + std::to_string(limit.least) + " to " + std::to_string(limit.most) + "."};

@@ -1,20 +1,13 @@
 // What the game gives, looked at before it enters rows. Refusals are one sentence.
 #pragma once
-#include <cmath>
 #include <string>
 
 #include "components/bodies.hpp"
 #include "cullet/world.hpp"
+#include "engine/rigid_bounds.hpp"
 
 namespace cullet {
 
-// Farther and faster, floats of the rigid solver run over when squared.
-inline constexpr float kFarthest = 1e6f, kFastest = 1e5f, kHeaviest = 1e12f;
-
-/// False for what is no number.
-inline bool is_within(Vec3 v, float most) {
-    return std::fabs(v.x) <= most && std::fabs(v.y) <= most && std::fabs(v.z) <= most;
-}
 std::string text(Vec3 v);
 
 Result<void> check_pose(const Pose& pose);
@@ -25,6 +18,9 @@ Result<void> check_body(const Pose& pose, const Motion& motion, const ContactSet
 /// Of the thing named.
 Result<void> check_gravity(const char* name, Vec3 gravity);
 Result<void> check_settings(const Settings& settings);
+
+/// There is no memory for a world of these limits.
+Error no_room_for(const LimitSettings& limits);
 
 /// "body handle 7 names nothing that is alive; ..."
 Error stale(const char* what, uint32_t index);

@@ -1,4 +1,6 @@
 // Replays on several numbers of threads, and where two runs part.
+#include <new>
+
 #include "engine/mesh_file.hpp"
 #include "systems/api/replay.hpp"
 #include "systems/api/snapshot.hpp"
@@ -8,29 +10,31 @@ namespace {
 
 constexpr uint64_t kLargestFile = 1ull << 36;
 
-/// Hashes after each system of the next step.
-std::vector<std::pair<std::string, uint64_t>> hashes_of_step(Replayer& run) {
-    std::vector<std::pair<std::string, uint64_t>> hashes;
+/// Steps, and looks at the state after each system. A recorded restore puts another world in the place of this one.
+void look_after_systems(Replayer& run, const std::function<void(const std::string& system, const State&)>& look) {
     World::Contents& world = run.world().contents();
     const auto before = std::move(world.after_each_system);
     world.after_each_system = [&](const PlannedSystem<WorldData>& system) {
         if (before) before(system);
-        hashes.emplace_back(system.name, world.data.state.hash());
+        look(system.name, run.world().contents().data.state);
     };
     run.step();
+}
+
+/// Hashes after each system of the next step.
+std::vector<std::pair<std::string, uint64_t>> hashes_of_step(Replayer& run) {
+    std::vector<std::pair<std::string, uint64_t>> hashes;
+    look_after_systems(
+        run, [&](const std::string& system, const State& state) { hashes.emplace_back(system, state.hash()); });
     return hashes;
 }
 
 /// Steps, and looks at the state after the system of this place in the frame.
 void look_after_system(Replayer& run, size_t place, const std::function<void(const State&)>& look) {
-    World::Contents& world = run.world().contents();
-    const auto before = std::move(world.after_each_system);
     size_t at = 0;
-    world.after_each_system = [&](const PlannedSystem<WorldData>& system) {
-        if (before) before(system);
-        if (at++ == place) look(world.data.state);
-    };
-    run.step();
+    look_after_systems(run, [&](const std::string&, const State& state) {
+        if (at++ == place) look(state);
+    });
 }
 
 std::string name_columns(const State& state, const std::vector<uint32_t>& here, const std::vector<uint32_t>& there) {
@@ -58,7 +62,7 @@ std::string difference_from_recording(Replayer& run) {
 
 }  // namespace
 
-std::string first_difference(const std::function<std::unique_ptr<Replayer>(int which)>& make, uint64_t frame) {
+std::string first_difference(const std::function<std::unique_ptr<Replayer>(int which)>& make) {
     std::vector<std::pair<std::string, uint64_t>> hashes[2];
     for (int which : {0, 1}) {
         const std::unique_ptr<Replayer> run = make(which);
@@ -71,20 +75,26 @@ std::string first_difference(const std::function<std::unique_ptr<Replayer>(int w
     const std::unique_ptr<Replayer> first = make(0), second = make(1);
     if (!first || !second) return {};
     ByteWriter rows;
-    look_after_system(*first, place, [&](const State& state) { put_tables(rows, state); });
+    Limits limits;
+    look_after_system(*first, place, [&](const State& state) {
+        put_tables(rows, state);
+        limits = state.limits();
+    });
+    State copy(limits);
+    ByteReader in(rows.bytes, "a step", "Please report this.");
+    take_tables(in, copy);
     std::string found;
     look_after_system(*second, place, [&](const State& state) {
-        State copy(state.limits());
-        ByteReader in(rows.bytes, "a step", "Please report this.");
-        take_tables(in, copy);
         found = in.is_sound() ? copy.first_difference(state) : in.trouble();
         if (found.empty()) found = "the rows that are taken";
     });
-    return "after " + hashes[0][place].first + ", frame " + std::to_string(frame) + ": " + found;
+    return "after " + hashes[0][place].first + ", frame " + std::to_string(second->recorded().frame) + ": " + found;
 }
 
-Result<ReplayReport> replay_with(Replayer::Create create, const std::string& path, const ReplaySettings& settings,
-                                 const Host& host) {
+namespace {
+
+Result<ReplayReport> replay_all(Replayer::Create create, const std::string& path, const ReplaySettings& settings,
+                                const Host& host) {
     if (settings.threads.empty()) return Error{path + ": no number of threads is given; replay on 1 at least."};
     const Result<std::vector<uint8_t>> bytes = read_whole_file(path, kLargestFile);
     if (!bytes) return Error{bytes.error()};
@@ -123,7 +133,7 @@ Result<ReplayReport> replay_with(Replayer::Create create, const std::string& pat
             for (uint64_t step = 0; step < first_bad; ++step) run->step();
             return run;
         };
-        const std::string place = first_difference(make, report.first_frame + first_bad);
+        const std::string place = first_difference(make);
         if (place.empty()) continue;
         report.difference = place + " (" + std::to_string(settings.threads[k]) + " and " +
                             std::to_string(settings.threads[bad_run]) + " threads)";
@@ -134,6 +144,18 @@ Result<ReplayReport> replay_with(Replayer::Create create, const std::string& pat
                                "another build, or of a world that the game changed behind the calls"
                              : "; replay it on two numbers of threads to learn the system and the row";
     return report;
+}
+
+}  // namespace
+
+Result<ReplayReport> replay_with(Replayer::Create create, const std::string& path, const ReplaySettings& settings,
+                                 const Host& host) {
+    try {
+        return replay_all(create, path, settings, host);
+    } catch (const std::bad_alloc&) {
+        return Error{path + ": no memory to replay it on " + std::to_string(settings.threads.size()) +
+                     " numbers of threads, one after the other. Free memory, or replay on fewer."};
+    }
 }
 
 }  // namespace cullet

@@ -1,4 +1,6 @@
 // The one call of a world that needs Bullet: it is in cullet::cullet and not in cullet::core.
+#include <new>
+
 #include "engine/host_scope.hpp"
 #include "systems/api/checks.hpp"
 #include "systems/world_contents.hpp"
@@ -10,7 +12,11 @@ Result<World> World::create(const Settings& settings, const Host& host) {
     if (const Result<void> valid = check_host(host); !valid) return Error{valid.error()};
     const HostScope call(host);
     const MemoryScope memory(host.allocator);
-    return World(std::make_unique<Contents>(settings, host, make_bullet_world(settings.limits.bodies)));
+    try {
+        return World(std::make_unique<Contents>(settings, host, make_bullet_world(settings.limits.bodies)));
+    } catch (const std::bad_alloc&) {
+        return no_room_for(settings.limits);
+    }
 }
 
 }  // namespace cullet

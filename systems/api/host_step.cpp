@@ -1,4 +1,6 @@
 // A world whose bodies the host moves.
+#include <new>
+
 #include "engine/host_scope.hpp"
 #include "systems/api/checks.hpp"
 #include "systems/world_contents.hpp"
@@ -10,7 +12,11 @@ Result<World> World::create_hosted(const Settings& settings, const Host& host) {
     if (const Result<void> valid = check_host(host); !valid) return Error{valid.error()};
     const HostScope call(host);
     const MemoryScope memory(host.allocator);
-    return World(std::make_unique<Contents>(settings, host, nullptr));
+    try {
+        return World(std::make_unique<Contents>(settings, host, nullptr));
+    } catch (const std::bad_alloc&) {
+        return no_room_for(settings.limits);
+    }
 }
 
 Result<void> World::step(const HostFrame& frame) {

@@ -20,14 +20,19 @@ std::string build_sentence() {
     return sentence + __VERSION__;
 }
 
-void Recorder::begin(std::span<const uint8_t> world) {
+Result<void> Recorder::begin(std::span<const uint8_t> world) {
+    ByteWriter begin;
+    begin.text(build_sentence());
+    if (world.size() > kMostChunkBytes - begin.bytes.size())
+        return Error{"the world takes " + std::to_string(begin.bytes.size() + world.size()) +
+                     " bytes, and a recording begins with at most " + std::to_string(kMostChunkBytes) +
+                     ". Remove bodies and models, or begin to record before they are added."};
     answers_.reserve(4096);
     calls_.bytes.reserve(1 << 16);
     step_.bytes.reserve(1 << 14);
-    ByteWriter begin;
-    begin.text(build_sentence());
     begin.put(world.data(), world.size());
     file_.append(ChunkKind::Begin, begin.bytes);
+    return {};
 }
 
 ByteWriter& Recorder::call(GameCall call) {

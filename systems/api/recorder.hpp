@@ -32,7 +32,8 @@ class Recorder {
  public:
     Recorder(std::FILE* file, std::string models) : file_(file), models_(std::move(models)) {}
 
-    void begin(std::span<const uint8_t> world);
+    /// Refuses a world whose bytes are more than a chunk's.
+    Result<void> begin(std::span<const uint8_t> world);
     void set_gravity(Vec3 gravity);
     void add_model(const Model& model);
     void remove_model(ModelId id);

@@ -25,8 +25,9 @@ Result<void> World::start_recording(const std::string& path) {
     }
     const Result<std::FILE*> file = RecordingWriter::open(path);
     if (!file) return Error{file.error()};
-    c.recorder = std::make_unique<Recorder>(*file, path + ".models");
-    c.recorder->begin(begin.bytes);
+    auto recorder = std::make_unique<Recorder>(*file, path + ".models");
+    if (const Result<void> begun = recorder->begin(begin.bytes); !begun) return Error{path + ": " + begun.error()};
+    c.recorder = std::move(recorder);
     if (is_fresh) c.recorder->set_gravity(c.data.step_info.gravity);
     return {};
 }

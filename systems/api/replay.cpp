@@ -66,28 +66,37 @@ Result<void> Replayer::begin() {
     return {};
 }
 
-bool Replayer::step() {
-    Chunk calls, step;
-    if (!damage_.empty()) return false;
-    bool is_whole = file_.next(calls);
-    if (is_whole && calls.kind != ChunkKind::Calls) {
-        damage_ =
-            source_.name + ": a chunk at byte " + std::to_string(calls.first_byte) + " stands out of order. " + kAdvice;
-        return false;
-    }
-    if (!is_whole) {
+bool Replayer::is_next(ChunkKind kind, Chunk& chunk) {
+    if (!file_.next(chunk)) {
         damage_ = file_.damage();
         return false;
     }
-    is_whole = file_.next(step) && step.kind == ChunkKind::Step;
-    if (is_whole) read_step(step);
-    if (!is_whole) recorded_.answers.clear();
+    if (chunk.kind != kind)
+        damage_ =
+            source_.name + ": a chunk at byte " + std::to_string(chunk.first_byte) + " stands out of order. " + kAdvice;
+    return chunk.kind == kind;
+}
+
+bool Replayer::step() {
+    Chunk calls, step;
+    if (!damage_.empty() || !is_next(ChunkKind::Calls, calls)) return false;
+    const bool is_whole = is_next(ChunkKind::Step, step);
+    std::string damage = std::move(damage_);  // told once the calls are done
+    damage_.clear();
+    if (is_whole)
+        read_step(step);
+    else
+        recorded_.answers.clear();
+    if (!is_whole && damage.empty())
+        damage =
+            source_.name + ": the step at byte " + std::to_string(calls.first_byte) +
+            " has no result: the run ended in it. What stands before it was replayed; look there for what ended it.";
     next_answer_ = 0;
     is_stepped_ = false;
     if (damage_.empty()) do_calls(calls);
     if (!damage_.empty()) return false;
     if (!is_stepped_) world_->step();
-    if (!is_whole) damage_ = file_.damage();
+    damage_ = std::move(damage);
     return is_whole;
 }
 

@@ -47,6 +47,8 @@ class Replayer {
     float share() const { return file_.share(); }
 
  private:
+    /// False: the file ends, or another kind stands there; damage_ tells, unless the file ends with its last chunk.
+    bool is_next(ChunkKind kind, Chunk& chunk);
     void read_step(const Chunk& chunk);
     void do_calls(const Chunk& chunk);
     void do_call(ByteReader& in);
@@ -66,10 +68,10 @@ class Replayer {
     std::string damage_, recorded_with_;
 };
 
-/// The step whose hash was to be `frame`'s, done by two worlds that are alike until then: the first system after which
-/// they differ, "after integrate, frame 41: vertices.velocity[812].y: 1.5 here, 1.25 there". Empty when they do not.
-/// `make` gives each of the two at that point, twice.
-std::string first_difference(const std::function<std::unique_ptr<Replayer>(int which)>& make, uint64_t frame);
+/// The next recorded step, done by two worlds that are alike until then: the first system after which they differ,
+/// "after integrate, frame 41: vertices.velocity[812].y: 1.5 here, 1.25 there", with the number that the step was
+/// recorded under. Empty when they do not. `make` gives each of the two at that point, twice.
+std::string first_difference(const std::function<std::unique_ptr<Replayer>(int which)>& make);
 
 /// The whole of cullet/recording.hpp's replay(), for worlds that `create` makes.
 Result<ReplayReport> replay_with(Replayer::Create create, const std::string& path, const ReplaySettings& settings,

@@ -51,7 +51,7 @@ namespace {
 constexpr uint64_t kLargestFile = 1ull << 36;
 constexpr const char* kAdvice = "The snapshot is damaged or of another build; take it again.";
 constexpr FileKind kKind{{'c', 's', 'n', 'a', 'p', '\r', '\n', '\x1a'},
-                         1,
+                         2,
                          "snapshot",
                          ".csnap",
                          "Write one with World::save.",
@@ -70,8 +70,6 @@ void for_each_count(Data& d, F&& f) {
     f(c.opened), f(c.broke), f(c.whole), f(c.dropped), f(c.redone), f(c.late), f(c.frames_held), f(c.clamped);
     f(c.cuts), f(c.starts), f(c.cuts_refused), f(c.units_used), f(c.units_left), f(c.worst_rounding);
     for (auto& impulse : c.impulse_to_static) f(impulse);
-    auto& r = d.ready_for;
-    f(r.vertices), f(r.elements), f(r.hinges), f(r.blocks), f(r.links), f(r.cells), f(r.points);
 }
 
 void put_world(ByteWriter& out, World::Contents& world) {
@@ -115,6 +113,16 @@ Result<void> rebuild_rigid(World::Contents& world) {
     return {};
 }
 
+/// An empty world with the host of `like`; null: there is no memory for one.
+std::unique_ptr<World::Contents> make_alike(const Settings& settings, const World::Contents& like) {
+    try {
+        return std::make_unique<World::Contents>(settings, like.host,
+                                                 like.data.rigid->make_another(settings.limits.bodies));
+    } catch (const std::bad_alloc&) {
+        return nullptr;
+    }
+}
+
 /// What is not in the bytes because it follows from them.
 void restore_what_follows(World::Contents& world) {
     WorldData& d = world.data;
@@ -125,12 +133,12 @@ void restore_what_follows(World::Contents& world) {
         const Row<Shells> shell = state.bodies.shell[b];
         if (static_cast<BodyKind>(state.bodies.kind[b]) == BodyKind::Free || !shell.exists()) continue;
         bound_view(state.bodies, Row<Bodies>(b), state.view_vertices, state.view_indices, d.view_boxes);
+        if (state.bodies.is_breakable[b]) d.make_ready(room_of(state, shell));
         d.arena.reset();
         if (world.hosted) world.hosted->announce(b, convex_pieces(state, shell, d.arena));
     }
     if (world.hosted) world.hosted->finish();
     d.query_index->refresh(state.bodies);
-    state.commit_ahead(d.ready_for);
 }
 
 }  // namespace
@@ -163,8 +171,8 @@ Result<std::unique_ptr<World::Contents>> parse_snapshot(std::span<const uint8_t>
         settings.threads = like.settings.threads;
         if (!in.is_sound()) return Error{in.trouble()};
         const MemoryScope memory(like.host.allocator);
-        auto world = std::make_unique<World::Contents>(settings, like.host,
-                                                       like.data.rigid->make_another(settings.limits.bodies));
+        std::unique_ptr<World::Contents> world = make_alike(settings, like);
+        if (!world) return Error{name + ": " + no_room_for(settings.limits).message};
         WorldData& d = world->data;
         const auto take = [&](auto& number) {
             number = in.number<std::remove_reference_t<decltype(number)>>("a count");

@@ -11,9 +11,6 @@
 namespace cullet {
 namespace {
 
-// Of Bodies.is_owed_births. The second: its drawn mesh found no room either and is that of before the hit.
-constexpr uint8_t kOwedBirths = 1, kOwedDrawing = 2;
-
 // A piece that found no room stays part of another and moves with it.
 void join_motions(PartMotion& motion, PartMotion& joined) {
     const double mass = motion.mass + joined.mass;

@@ -3,7 +3,10 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <vector>
+
+#include "engine/byte_stream.hpp"
 
 namespace cullet {
 namespace {
@@ -60,6 +63,47 @@ TEST(HostRigidWorld, ContactsAreTurnedSoThatTheLowerRowComesFirstAndCloseByTheBo
     EXPECT_EQ(c.cell_a, 5u);
     EXPECT_EQ(c.normal.y, 1);
     EXPECT_FLOAT_EQ(c.approach_speed, 4);
+}
+
+TEST(HostRigidWorld, ContactsThatDifferInTheirNormalAloneComeInOneOrder) {
+    std::vector<Vec3> normals[2];
+    for (const bool is_turned : {false, true}) {
+        Rows rows;
+        rows.add(1);
+        rows.add(2);
+        std::vector<HostContact> contacts;
+        for (const Vec3 normal : {Vec3{1, 0, 0}, Vec3{0, 1, 0}, Vec3{0, 0, 1}, Vec3{0, -1, 0}})
+            contacts.push_back({rows.id(1), rows.id(2), {}, normal, 0});
+        if (is_turned) std::reverse(contacts.begin(), contacts.end());
+        rows.detect(contacts);
+        for (const RigidContact& c : rows.world.contacts()) normals[is_turned].push_back(c.normal);
+    }
+    ASSERT_EQ(normals[0].size(), 4u);
+    for (size_t k = 0; k < 4; ++k) EXPECT_EQ(length(normals[0][k] - normals[1][k]), 0) << k;
+}
+
+TEST(HostRigidWorld, RowsBeyondTheBoundsAndRowsThatAreNotThereAreRefused) {
+    Rows rows;
+    rows.add(1);
+    rows.add(2);
+    constexpr float kFar = 1.1e6f, kFast = 3e38f;
+    const auto refusal = [&](HostBody body, HostContact contact) {
+        return rows.world.take({&body, 1, &contact, 1}).error();
+    };
+    const HostBody body{rows.id(1), {}, {}};
+    const HostContact contact{rows.id(1), rows.id(2), {}, {0, 1, 0}, 0};
+    EXPECT_EQ(refusal(body, contact), "");
+    HostBody far = body, fast = body, spinning = body;
+    far.pose.position.z = -kFar, fast.motion.velocity.x = kFast, spinning.motion.angular_velocity.y = kFast;
+    EXPECT_NE(refusal(far, contact).find("bodies[0], body 1: the position"), std::string::npos);
+    EXPECT_NE(refusal(fast, contact).find("bodies[0], body 1: the velocity"), std::string::npos);
+    EXPECT_NE(refusal(spinning, contact).find("bodies[0], body 1: the angular velocity"), std::string::npos);
+    HostContact far_point = contact, deep = contact;
+    far_point.point.x = kFar, deep.distance = -kFar;
+    EXPECT_NE(refusal(body, far_point).find("contacts[0]: the point"), std::string::npos);
+    EXPECT_NE(refusal(body, deep).find("contacts[0]: the distance"), std::string::npos);
+    EXPECT_NE(rows.world.take({nullptr, 1, nullptr, 0}).error().find("1 bodies"), std::string::npos);
+    EXPECT_NE(rows.world.take({nullptr, 0, nullptr, 2}).error().find("2 contacts"), std::string::npos);
 }
 
 TEST(HostRigidWorld, ASpinClosesWhereItsArmIs) {

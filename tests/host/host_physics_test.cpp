@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <set>
 
 #include "tests/host/plain_physics.hpp"
 
@@ -103,6 +104,16 @@ TEST(HostPhysics, AVaseThatFallsOnAHostsFloorBreaksAndItsPiecesComeToRest) {
     }
 }
 
+using Pairs = std::set<std::pair<uint32_t, uint32_t>>;
+
+/// Of bodies that are to pass through each other in later steps too.
+Pairs apart_later(const World& world) {
+    Pairs pairs;
+    for (const HostPair& p : world.host_changes().apart)
+        if (p.seconds > 0) pairs.insert(std::minmax(p.a.index, p.b.index));
+    return pairs;
+}
+
 TEST(HostPhysics, AWorldThatIsLoadedTellsTheHostAllItsBodies) {
     Scene s = drop(1.2f, roomy());
     while (s.physics.things.size() < 3) ASSERT_TRUE(s.physics.step(s.world, kDt, kGravity).ok());
@@ -113,12 +124,43 @@ TEST(HostPhysics, AWorldThatIsLoadedTellsTheHostAllItsBodies) {
     const Result<void> loaded = t.world.restore(bytes->data(), bytes->size());
     ASSERT_TRUE(loaded.ok()) << loaded.error();
     EXPECT_EQ(t.world.hash(), s.world.hash());
+    EXPECT_GT(apart_later(s.world).size(), 1u);
+    EXPECT_EQ(apart_later(t.world), apart_later(s.world));
     t.physics.apply(t.world.host_changes());
     expect_same_bodies(t);
     EXPECT_NEAR(mass_of(t), mass_of(s), 1e-12);
     for (int frame = 0; frame < 240; ++frame) ASSERT_TRUE(t.physics.step(t.world, kDt, kGravity).ok());
     expect_same_bodies(t);
     for (auto& [index, thing] : t.physics.things) EXPECT_LT(plain::at(thing.shape.motion.velocity).norm(), 0.3f);
+}
+
+TEST(HostPhysics, AWorldThatIsLoadedTellsWhatTheGameDidToBallsAndBoxesBeforeTheSave) {
+    Scene s = drop(1);
+    const BodyId ball = s.world.add_sphere({}).value(), gone = s.world.add_sphere({}).value();
+    const BodyId box = s.world.add_kinematic_box({}).value();
+    ASSERT_TRUE(s.world.step({}).ok());
+    ASSERT_TRUE(s.world.set_pose(ball, {{0, 7, 0}, {}}).ok());
+    ASSERT_TRUE(s.world.set_motion(box, {{0, 2, 0}, {}}).ok());
+    ASSERT_TRUE(s.world.remove(gone).ok());
+    const auto bytes = s.world.snapshot();
+    ASSERT_TRUE(bytes.ok()) << bytes.error();
+    World loaded = std::move(World::create_hosted({})).value();
+    ASSERT_TRUE(loaded.restore(bytes->data(), bytes->size()).ok());
+    const HostChanges changes = loaded.host_changes();
+    ASSERT_EQ(changes.born.count, 1u);
+    EXPECT_EQ(changes.born[0].body, s.vase);
+    ASSERT_EQ(changes.moved.count, 2u);
+    EXPECT_EQ(changes.moved[0].body, ball);
+    EXPECT_EQ(changes.moved[0].pose.position.y, 7);
+    EXPECT_EQ(changes.moved[1].body, box);
+    EXPECT_EQ(changes.moved[1].motion.velocity.y, 2);
+    ASSERT_EQ(changes.removed.count, 1u);
+    EXPECT_EQ(changes.removed[0], gone);
+    ASSERT_TRUE(loaded.step({}).ok());
+    EXPECT_EQ(loaded.host_changes().moved.count + loaded.host_changes().removed.count, 0u);
+    ASSERT_TRUE(s.world.step({}).ok());
+    EXPECT_EQ(s.world.host_changes().removed.count, 1u) << "the one that saved still tells";
+    EXPECT_EQ(loaded.hash(), s.world.hash());
 }
 
 TEST(HostPhysics, AGentleTouchBreaksNothing) {

@@ -227,6 +227,7 @@ struct Given {
     std::mutex mutex;
     std::map<void*, size_t> blocks;
     uint64_t taken = 0, wrong = 0;
+    uint64_t most = ~0ull;  // blocks; then there is no more
     size_t bytes = 0;
 
     HostAllocator allocator() {
@@ -235,6 +236,7 @@ struct Given {
                     Given& given = *static_cast<Given*>(user);
                     const std::scoped_lock lock(given.mutex);
                     given.wrong += size == 0 || alignment != 64;
+                    if (given.taken == given.most) return nullptr;
                     void* memory = std::aligned_alloc(alignment, (size + alignment - 1) / alignment * alignment);
                     given.wrong += reinterpret_cast<uintptr_t>(memory) % alignment != 0;
                     given.blocks[memory] = size;
@@ -294,6 +296,59 @@ TEST(HostMemory, AModelsTablesComeFromTheHostAndGoBackWithTheLastOfIt) {
     }
     EXPECT_EQ(given.blocks.size(), 0u);
     EXPECT_EQ(given.wrong, 0u);
+}
+
+/// Refused with a sentence, and all is given back.
+template <class Call>
+void expect_refused_without_memory(Given& given, const Call& call) {
+    const auto result = call();
+    EXPECT_FALSE(result.ok());
+    expect_sentence(result.error());
+    EXPECT_NE(result.error().find("memory"), std::string::npos) << result.error();
+    EXPECT_EQ(given.blocks.size(), 0u) << "of " << given.most;
+}
+
+TEST(HostMemory, AWorldThatFindsNoMemoryIsRefusedWithItsLimitsAndGivesBackWhatItTook) {
+    for (const bool is_hosted : {false, true}) {
+        Given given;
+        Host host;
+        host.allocator = given.allocator();
+        const auto make = [&] {
+            given.taken = 0;
+            return is_hosted ? World::create_hosted(small_settings(), host) : World::create(small_settings(), host);
+        };
+        ASSERT_TRUE(make().ok());
+        const uint64_t blocks = given.taken;
+        for (given.most = 0; given.most < blocks; given.most += given.most < 20 ? 1 : 7)
+            expect_refused_without_memory(given, make);
+        given.most = 20;
+        EXPECT_NE(make().error().find("vertices 65536"), std::string::npos) << make().error();
+        given.most = ~0ull;
+        EXPECT_TRUE(make().ok());
+    }
+}
+
+TEST(HostMemory, ASnapshotOrAModelThatFindsNoMemoryIsRefusedAndTheWorldStands) {
+    Given given;
+    Host host;
+    host.allocator = given.allocator();
+    const std::string path = testing::TempDir() + "host_test.cmodel";
+    ASSERT_TRUE(write_model(small_pane(), path).ok());
+    for (given.most = 0; given.most < 60; given.most += 7) {
+        given.taken = 0;
+        expect_refused_without_memory(given, [&] { return read_model(path, &host); });
+    }
+    given.most = ~0ull;
+    Breakage b = vase_and_ball(small_settings(), 8, host);
+    b.world.step();
+    const auto bytes = b.world.snapshot();
+    ASSERT_TRUE(bytes.ok()) << bytes.error();
+    const uint64_t hash = b.world.hash();
+    given.most = given.taken + 50;
+    const Result<void> loaded = b.world.restore(bytes->data(), bytes->size());
+    EXPECT_NE(loaded.error().find("vertices 65536"), std::string::npos) << loaded.error();
+    EXPECT_EQ(b.world.hash(), hash);
+    b.world.step();
 }
 
 /// Memory in which something stood before.

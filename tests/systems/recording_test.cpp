@@ -1,11 +1,13 @@
 // What was asked of a world is asked again of another, which gives the same bytes.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <filesystem>
 #include <fstream>
 
 #include "cullet/recording.hpp"
 #include "engine/mesh_file.hpp"
+#include "systems/api/recorder.hpp"
 #include "systems/api/replay.hpp"
 #include "tests/support/small_worlds.hpp"
 
@@ -113,8 +115,20 @@ TEST(Recording, ARecordingMayBeginInMidFracture) {
     remove_files();
 }
 
-/// The file cut at `size`, replayed: the good prefix gives its hashes, and a sentence names the first bad byte.
-void expect_prefix(const std::string& path, const std::vector<uint8_t>& good, size_t size) {
+/// Behind a chunk of this kind.
+std::vector<size_t> ends_of(const std::vector<uint8_t>& file, std::initializer_list<ChunkKind> kinds) {
+    RecordingReader reader(file, "good");
+    EXPECT_TRUE(reader.begin().ok());
+    std::vector<size_t> ends;
+    for (Chunk chunk; reader.next(chunk);)
+        if (std::find(kinds.begin(), kinds.end(), chunk.kind) != kinds.end())
+            ends.push_back(chunk.first_byte + chunk.bytes.size() + 8);
+    return ends;
+}
+
+/// The file cut at `size`, replayed: the good prefix gives its hashes, and a sentence names the first bad byte, unless
+/// it is whole.
+void expect_prefix(const std::string& path, const std::vector<uint8_t>& good, size_t size, bool is_whole = false) {
     const std::string cut = path + ".cut";
     std::ofstream(cut, std::ios::binary)
         .write(reinterpret_cast<const char*>(good.data()), static_cast<std::streamsize>(size));
@@ -124,8 +138,9 @@ void expect_prefix(const std::string& path, const std::vector<uint8_t>& good, si
     if (report.ok()) {
         EXPECT_EQ(report->difference, "") << size;
         const bool is_named = report->damage.find("byte ") != std::string::npos;
-        EXPECT_TRUE(report->damage.empty() || is_named) << report->damage;
+        EXPECT_TRUE(is_whole ? report->damage.empty() : is_named) << size << ": " << report->damage;
     } else {
+        EXPECT_FALSE(is_whole);
         EXPECT_NE(report.error().find(cut), std::string::npos) << report.error();
     }
 }
@@ -134,7 +149,48 @@ TEST(Recording, OfTwoHundredCutsEachReplaysItsGoodPart) {
     const std::string path = file_of("cut.crec");
     (void)play_and_record(path, 24);
     const std::vector<uint8_t> good = read_whole_file(path, 1u << 30).value();
-    for (size_t k = 0; k < 200; ++k) expect_prefix(path, good, k * good.size() / 200);
+    const std::vector<size_t> whole = ends_of(good, {ChunkKind::Begin, ChunkKind::Step});
+    std::vector<size_t> cuts = ends_of(good, {ChunkKind::Begin, ChunkKind::Calls, ChunkKind::Step});
+    ASSERT_EQ(cuts.size(), 49u);
+    for (size_t k = 0; k < 200 - 49; ++k) cuts.push_back(k * good.size() / (200 - 49));
+    for (const size_t cut : cuts)
+        expect_prefix(path, good, cut, std::find(whole.begin(), whole.end(), cut) != whole.end());
+    remove_files();
+}
+
+/// A file of these chunks, which need not make sense.
+std::string file_of_chunks(const char* name, const std::vector<std::pair<ChunkKind, std::vector<uint8_t>>>& chunks) {
+    const std::string path = file_of(name);
+    RecordingWriter writer(RecordingWriter::open(path).value());
+    for (const auto& [kind, bytes] : chunks) writer.append(kind, bytes);
+    return path;
+}
+
+TEST(Recording, ChunksOutOfOrderAndAStepWithoutItsResultAreTold) {
+    const std::string path = file_of("order.crec");
+    (void)play_and_record(path, 2);
+    const std::vector<uint8_t> good = read_whole_file(path, 1u << 30).value();
+    RecordingReader reader(good, "good");
+    ASSERT_TRUE(reader.begin().ok());
+    std::vector<std::pair<ChunkKind, std::vector<uint8_t>>> chunks;
+    for (Chunk chunk; reader.next(chunk);)
+        chunks.emplace_back(chunk.kind, std::vector<uint8_t>(chunk.bytes.begin(), chunk.bytes.end()));
+    ASSERT_EQ(chunks.size(), 5u);
+    const std::pair<ChunkKind, std::vector<uint8_t>> no_calls(ChunkKind::Calls, {});
+    const struct {
+        std::vector<std::pair<ChunkKind, std::vector<uint8_t>>> chunks;
+        const char* told;
+    } cases[] = {{{chunks[0], no_calls, no_calls, chunks[2]}, "stands out of order"},
+                 {{chunks[0], chunks[2]}, "stands out of order"},
+                 {{chunks[0], no_calls, chunks[0]}, "stands out of order"},
+                 {{chunks[0], no_calls}, "has no result: the run ended in it"}};
+    for (const auto& c : cases) {
+        const Result<ReplayReport> report = replay(file_of_chunks("crafted.crec", c.chunks));
+        ASSERT_TRUE(report.ok()) << report.error();
+        EXPECT_EQ(report->frames, 0u);
+        EXPECT_NE(report->damage.find(c.told), std::string::npos) << report->damage;
+        EXPECT_NE(report->damage.find(" byte "), std::string::npos) << report->damage;
+    }
     remove_files();
 }
 
@@ -206,6 +262,37 @@ TEST(Recording, WhatIsNoRecordingIsRefusedInASentence) {
     remove_files();
 }
 
+TEST(Recording, OneThatAsksForMoreRoomThanThereIsIsRefusedWithItsLimits) {
+    const std::string path = file_of("large.crec");
+    Settings settings = test::small_settings();
+    settings.limits.vertices = settings.limits.elements = 1u << 23;
+    Host frugal;
+    frugal.allocator.allocate = [](void*, size_t size, size_t alignment) {
+        constexpr size_t kMost = 1u << 26;
+        return size > kMost ? nullptr : std::aligned_alloc(alignment, (size + alignment - 1) / alignment * alignment);
+    };
+    frugal.allocator.release = [](void*, void* memory, size_t) { std::free(memory); };
+    World world = test::make_world(settings);
+    expect_done(world.start_recording(path));
+    world.step();
+    expect_done(world.stop_recording());
+    const Result<ReplayReport> report = replay(path, {}, frugal);
+    EXPECT_NE(report.error().find(path), std::string::npos) << report.error();
+    EXPECT_NE(report.error().find("vertices 8388608"), std::string::npos) << report.error();
+    remove_files();
+}
+
+TEST(Recording, AWorldOfMoreBytesThanAChunkIsRefused) {
+    const std::string path = file_of("chunk.crec");
+    Recorder recorder(RecordingWriter::open(path).value(), path + ".models");
+    const std::vector<uint8_t> small(100);
+    // The bytes behind the first hundred are not looked at.
+    const Result<void> begun = recorder.begin({small.data(), size_t{kMostChunkBytes}});
+    EXPECT_NE(begun.error().find("takes 21474836"), std::string::npos) << begun.error();
+    expect_done(recorder.begin(small));
+    remove_files();
+}
+
 TEST(Recording, AFullDiskEndsTheRecordingAndTheLogIsToldOnce) {
     std::vector<std::string> told;
     Host host;
@@ -222,25 +309,51 @@ TEST(Recording, AFullDiskEndsTheRecordingAndTheLogIsToldOnce) {
     EXPECT_FALSE(world.stop_recording().ok());
 }
 
+/// What first_difference tells of two runs of a recording when one of them is pushed in the step behind `steps`.
+std::string told_of_a_push(const std::string& path, uint64_t steps) {
+    const std::vector<uint8_t> bytes = read_whole_file(path, 1u << 30).value();
+    const Replayer::Source source{bytes, path, path + ".models", &World::create};
+    return first_difference([&](int which) {
+        auto run = std::make_unique<Replayer>(source, 1, Host{});
+        EXPECT_TRUE(run->begin().ok());
+        for (uint64_t step = 0; step < steps; ++step) EXPECT_TRUE(run->step());
+        if (which == 1)
+            run->world().contents().after_each_system = [&run = *run](const PlannedSystem<WorldData>& system) {
+                if (system.name == "read_rigid") test::state_of(run.world()).bodies.velocity.set(1, {1, 2, 3});
+            };
+        return run;
+    });
+}
+
 TEST(Recording, TwoRunsThatPartAreToldBySystemFrameTableColumnAndRow) {
     const std::string path = file_of("part.crec");
     (void)play_and_record(path, 30);
-    const std::vector<uint8_t> bytes = read_whole_file(path, 1u << 30).value();
-    const Replayer::Source source{bytes, path, path + ".models", &World::create};
-    constexpr uint64_t kFrame = 12;
-    const auto make = [&](int which) {
-        auto run = std::make_unique<Replayer>(source, 1, Host{});
-        EXPECT_TRUE(run->begin().ok());
-        for (uint64_t step = 0; step < kFrame; ++step) EXPECT_TRUE(run->step());
-        World::Contents& world = run->world().contents();
-        if (which == 1)
-            world.after_each_system = [&world](const PlannedSystem<WorldData>& system) {
-                if (system.name == "read_rigid") world.data.state.bodies.velocity.set(1, {1, 2, 3});
-            };
-        return run;
-    };
-    const std::string found = first_difference(make, kFrame);
+    const std::string found = told_of_a_push(path, 12);
     EXPECT_NE(found.find("after read_rigid, frame 12: bodies.velocity[1].x"), std::string::npos) << found;
+    remove_files();
+}
+
+TEST(Recording, RunsThatPartInAStepThatRestoresAreToldByTheFrameThatTheClockWasSetTo) {
+    const std::string path = file_of("restore.crec");
+    World world = test::make_world(test::small_settings());
+    ASSERT_TRUE(world.start_recording(path).ok());
+    for (const float x : {0.0f, 1.0f}) (void)world.add_sphere(test::ball_at({x, 0, 0}, 1, 1)).value();
+    std::vector<uint8_t> bytes;
+    for (int step = 0; step < 10; ++step) {
+        if (step == 3) bytes = world.snapshot().value();
+        if (step == 7) expect_done(world.restore(bytes.data(), bytes.size()));
+        world.step();
+    }
+    ASSERT_TRUE(world.stop_recording().ok());
+    for (const uint64_t steps : {7, 9}) {
+        const std::string found = told_of_a_push(path, steps);
+        const std::string frame = "frame " + std::to_string(steps - 4) + ": bodies.velocity[1].x";
+        EXPECT_NE(found.find("after read_rigid, " + frame), std::string::npos) << found;
+    }
+    const Result<ReplayReport> report = replay(path, on({1, 2}));
+    ASSERT_TRUE(report.ok()) << report.error();
+    EXPECT_EQ(report->frames, 10u);
+    EXPECT_EQ(report->difference, "");
     remove_files();
 }
 

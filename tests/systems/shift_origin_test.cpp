@@ -151,6 +151,30 @@ TEST(ShiftOrigin, QueriesEventsAndStaticTrianglesMoveWithIt) {
     EXPECT_NEAR(world.pose(id).value().position.y, 0.1f - by.y, 0.002);
 }
 
+/// A ball that falls for two seconds onto the floor that was shifted down.
+void expect_landing(World& world, float floor) {
+    SphereSettings ball;
+    ball.pose.position = {2, floor + 0.5f, 2};
+    const BodyId id = world.add_sphere(ball).value();
+    for (int frame = 0; frame < 120; ++frame) world.step();
+    EXPECT_NEAR(world.pose(id).value().position.y, floor + 0.1f, 0.002);
+}
+
+TEST(ShiftOrigin, StaticTrianglesMoveInAWorldThatWasSavedAndInOneThatLoads) {
+    World saved = make_world(with_gravity());
+    add_floor_at(saved, {});
+    saved.step();
+    const auto bytes = saved.snapshot();
+    ASSERT_TRUE(bytes.ok()) << bytes.error();
+    World loaded = make_world(with_gravity());
+    const Result<void> restored = loaded.restore(bytes->data(), bytes->size());
+    ASSERT_TRUE(restored.ok()) << restored.error();
+    for (World* world : {&saved, &loaded}) {
+        ASSERT_TRUE(world->shift_origin({0, 8, 0}).ok());
+        expect_landing(*world, -8);
+    }
+}
+
 TEST(ShiftOrigin, PlacesThatAreNoNumbersOrTooFarAreRefused) {
     World world = falling_vase({});
     const uint64_t before = world.hash();

@@ -157,6 +157,17 @@ TEST(Snapshot, AFileGoesOnWhereItWasSaved) {
     EXPECT_NE(gone.error().find(path), std::string::npos) << gone.error();
 }
 
+TEST(Snapshot, RoomIsMadeReadyForTheLargestBodyAndNotForWhatASnapshotClaims) {
+    test::Breakage hit = test::vase_and_ball(test::small_settings());
+    const State& state = test::state_of(hit.world);
+    const ShellRoom vase = room_of(state, state.bodies.shell[hit.body.index]);
+    hit.world.contents().data.ready_for = {1u << 28, 1u << 28, 1u << 28, 1u << 28, 1u << 28, 1u << 28, 1u << 28};
+    World twin = restored(taken(hit.world));
+    const ShellRoom& found = twin.contents().data.ready_for;
+    for (const auto rows : {&ShellRoom::vertices, &ShellRoom::elements, &ShellRoom::hinges, &ShellRoom::cells})
+        EXPECT_EQ(found.*rows, vase.*rows);
+}
+
 /// A refusal must leave the world as it was, a success must give the saved one.
 void expect_refused_or_same(World& world, const std::vector<uint8_t>& damaged, uint64_t good_hash, size_t at) {
     const uint64_t before = world.hash();

@@ -16,7 +16,8 @@ namespace cullet {
 /// too, and Bullet, Embree and oneTBB have their own. A step takes nothing. Both or neither must be set.
 struct HostAllocator {
     void* user = nullptr;
-    /// `size` bytes aligned to `alignment` (64), zeroed or not. Null ends the program with a sentence.
+    /// `size` bytes aligned to `alignment` (64), zeroed or not. Null: the call that makes or loads the
+    /// world, or reads the model, is refused with a sentence; cook() lets std::bad_alloc out.
     void* (*allocate)(void* user, size_t size, size_t alignment) = nullptr;
     /// `size` as it was asked for.
     void (*release)(void* user, void* memory, size_t size) = nullptr;

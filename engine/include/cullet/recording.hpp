@@ -30,7 +30,8 @@ struct ReplayReport {
 };
 
 /// Steps a new world through the recording. Refuses what is no recording, or cannot be begun. Models stand in the
-/// folder `path`.models, by the hash of their bytes.
+/// folder `path`.models, by the hash of their bytes. In cullet::cullet alone, since it makes both kinds of world: a
+/// program of cullet::core records, and one of cullet::cullet replays, with the rows that the host gave.
 Result<ReplayReport> replay(const std::string& path, const ReplaySettings& settings = {}, const Host& host = {});
 
 }  // namespace cullet

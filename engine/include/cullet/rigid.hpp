@@ -48,7 +48,8 @@ struct HostContact {
     uint32_t piece_a = 0, piece_b = 0;  // HostPiece::name, or 0: only the order of contacts hangs on it
 };
 
-/// All that the host tells in a step. Contacts of sleeping or held pairs may be in it; they are passed over, as are
+/// All that the host tells in a step; refused as a whole when a place is beyond 1,000 km of the origin, or something
+/// faster than 100 km/s (100,000 rad/s). Contacts of sleeping or held pairs may be in it; they are passed over, as are
 /// rows of bodies that are gone.
 struct HostFrame {
     const HostBody* bodies = nullptr;

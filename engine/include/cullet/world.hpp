@@ -138,7 +138,8 @@ class World {
     // veto. A world that loads it and the one that saved it go on with the same bytes; for that the one that saves
     // makes its rigid bodies anew, which costs about as much as a frame in which all of them are born, and may change
     // what comes after in the last digits. Handles stay good; views, events and addresses do not.
-    // In a world of create_hosted, host_changes() after a load names all breakable bodies as born.
+    // In a world of create_hosted, host_changes() after a load names all breakable bodies as born, all balls and boxes
+    // as moved, all pairs that are apart, and what the game removed since the step before the save.
     Result<std::vector<uint8_t>> snapshot();
     /// `name` stands in sentences. What is refused leaves the world as it was. Limits and settings are the snapshot's.
     Result<void> restore(const uint8_t* bytes, size_t size, const char* name = "snapshot");

@@ -1,0 +1,88 @@
+// Bytes of a rigid world, honest and otherwise.
+#include <gtest/gtest.h>
+
+#include <cstring>
+
+#include "engine/byte_stream.hpp"
+#include "tests/engine/rigid_scenes.hpp"
+
+namespace cullet {
+namespace {
+
+std::vector<uint8_t> saved(const RigidWorld& world) {
+    ByteWriter out;
+    world.save(out);
+    return out.bytes;
+}
+
+/// The sentence that refuses the bytes, or an empty one.
+std::string refusal(const std::vector<uint8_t>& bytes) {
+    const auto world = make_bullet_world(4);
+    ByteReader in(bytes, "test", "");
+    const Result<void> loaded = world->load(in);
+    return loaded.ok() ? "" : loaded.error();
+}
+
+/// A sheet of 32 triangles, which stays triangles, as the only body.
+std::unique_ptr<RigidWorld> sheet() {
+    auto world = make_bullet_world(4);
+    std::vector<Vec3> points;
+    std::vector<std::array<uint32_t, 3>> triangles;
+    for (uint32_t k = 0; k < 25; ++k) points.push_back({real(k % 5), 0, real(k / 5)});
+    for (uint32_t k = 0; k < 16; ++k) {
+        const uint32_t a = k / 4 * 5 + k % 4;
+        triangles.push_back({a, a + 5, a + 1});
+        triangles.push_back({a + 1, a + 5, a + 6});
+    }
+    world->add_static_triangles(0, points, triangles, 0.5f, 0, 1, ~0u);
+    return world;
+}
+
+TEST(RigidSave, ATreeOfTrianglesInWhichABoxIsTwoBoxesChildIsRefused) {
+    constexpr size_t kTriangle = 39, kNode = 32,
+                     kAfter = 89;  // bytes; kAfter: the body behind its tree, and two counts
+    std::vector<uint8_t> bytes = saved(*sheet());
+    EXPECT_EQ(refusal(bytes), "");
+    const auto number = [&](size_t place) {
+        uint32_t value = 0;
+        std::memcpy(&value, bytes.data() + place, sizeof value);
+        return value;
+    };
+    size_t nodes = 1, first = bytes.size() - kAfter - kNode;
+    while (number(first - 32 * kTriangle - 4) != nodes || number(first - 32 * kTriangle - 8) != 32) {
+        ASSERT_LT(++nodes, 64u);
+        first -= kNode;
+    }
+    const auto first_child = [&](size_t node) { return first + node * kNode + 24; };
+    const uint32_t left = number(first_child(0));
+    ASSERT_EQ(number(first_child(left) + 4), 0u) << "has children, and so has the box beside it";
+    const uint32_t shared = number(first_child(left + 1));
+    std::memcpy(bytes.data() + first_child(left), &shared, sizeof shared);
+    EXPECT_NE(refusal(bytes).find("leads nowhere"), std::string::npos) << refusal(bytes);
+}
+
+// The sort of manifolds asserts that none tie.
+TEST(RigidSave, ManifoldsWithoutPointsKeepTheirOrder) {
+    auto world = floor_world(4);
+    const std::vector<Vec3> left = box_points({0.1f, 0.1f, 0.1f}, {-0.2f, 0, 0}),
+                            right = box_points({0.1f, 0.1f, 0.1f}, {0.2f, 0, 0});
+    const ConvexPiece pieces[] = {{left, 7}, {right, 7}};  // of one cell
+    RigidDescription d;
+    d.pieces = pieces;
+    d.mass = 1;
+    d.inertia = {1, 1, 1};
+    d.pose.position = {0, 0.1f, 0};
+    world->add(1, d);
+    world->detect(kStep);
+    ASSERT_EQ(world->contacts().size(), 8u);
+    world->skip_contacts(0, 1);
+    world->solve(kStep);
+    const std::vector<uint8_t> bytes = saved(*world);
+    const auto twin = make_bullet_world(4);
+    ByteReader in(bytes, "test", "");
+    ASSERT_TRUE(twin->load(in).ok()) << in.trouble();
+    EXPECT_EQ(saved(*twin), bytes);
+}
+
+}  // namespace
+}  // namespace cullet
