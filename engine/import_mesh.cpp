@@ -16,8 +16,12 @@
 #include <cstring>
 #include <exception>
 #include <filesystem>
+#include <map>
+#include <memory>
+#include <optional>
 #include <string_view>
 
+#include "engine/import_folder.hpp"
 #include "engine/mesh_file.hpp"
 
 extern char** environ;
@@ -27,9 +31,12 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr uint64_t kLargestModel = 1ull << 30;  // bytes; the importer's own limit on memory is of that size
-constexpr double kLongestImport = 20;           // s; the importer gives up after 14 by itself
-constexpr uint32_t kImporterVersion = 1;        // raise it when the importer gives other meshes for the same file
+constexpr uint64_t kLargestModel = 1ull << 30;    // bytes; the importer's own limit on memory is of that size
+constexpr uint64_t kMostNamedBytes = 1ull << 29;  // of all files that a glTF names; a second or two to hash
+constexpr size_t kMostNames = 4096;               // in a glTF; each costs a look at the folder, some 10 us
+constexpr size_t kLongestName = 4096;             // bytes; no path is longer
+constexpr double kLongestImport = 20;             // s; the importer gives up after 14 by itself
+constexpr uint32_t kImporterVersion = 1;          // raise it when the importer gives other meshes for the same file
 
 std::string lower_case_extension(const std::string& path) {
     std::string extension = fs::path(path).extension().string();
@@ -38,31 +45,76 @@ std::string lower_case_extension(const std::string& path) {
     return extension;
 }
 
-/// The values of "uri" in a glTF text that name files, in the order of the text. No JSON reader: a text that hides a
-/// name behind escapes costs a stale cache entry, nothing else.
-std::vector<std::string> named_files(const std::vector<uint8_t>& bytes) {
-    const std::string_view text(reinterpret_cast<const char*>(bytes.data()), bytes.size());
+/// The values of "uri" in a glTF text that name files, in the order of the text; nothing when there are too many. No
+/// JSON reader: a text that hides a name behind escapes costs a stale cache entry, nothing else.
+std::optional<std::vector<std::string>> named_files(std::string_view text) {
     std::vector<std::string> names;
     for (size_t at = text.find("\"uri\""); at != text.npos; at = text.find("\"uri\"", at + 5)) {
         const size_t open = text.find('"', at + 5);
         const size_t close = open == text.npos ? text.npos : text.find('"', open + 1);
         if (close == text.npos) break;
         const std::string_view name = text.substr(open + 1, close - open - 1);
-        if (name.size() < 1024 && name.substr(0, 5) != "data:") names.emplace_back(name);
+        if (name.substr(0, 5) == "data:") continue;
+        if (names.size() >= kMostNames || name.size() >= kLongestName) return std::nullopt;
+        names.emplace_back(name);
     }
     return names;
 }
 
+/// Nothing when the file is no ordinary one, cannot be read to its end, or has more bytes than are left.
+std::optional<XXH128_hash_t> hash_of_file(const std::string& path, uint64_t& bytes_left) {
+    const int file = ::open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK);
+    if (file < 0) return std::nullopt;
+    struct stat status {};
+    bool is_good =
+        ::fstat(file, &status) == 0 && S_ISREG(status.st_mode) && static_cast<uint64_t>(status.st_size) <= bytes_left;
+    const std::unique_ptr<XXH3_state_t, decltype(&XXH3_freeState)> state(XXH3_createState(), XXH3_freeState);
+    is_good = is_good && state != nullptr && XXH3_128bits_reset(state.get()) == XXH_OK;
+    std::vector<uint8_t> block(1 << 18);
+    while (is_good) {
+        const ssize_t n = ::read(file, block.data(), block.size());
+        if (n < 0 && errno == EINTR) continue;
+        if (n == 0) break;
+        is_good = n > 0 && static_cast<uint64_t>(n) <= bytes_left;
+        if (!is_good) break;
+        bytes_left -= static_cast<uint64_t>(n);
+        XXH3_128bits_update(state.get(), block.data(), static_cast<size_t>(n));
+    }
+    ::close(file);
+    if (!is_good) return std::nullopt;
+    return XXH3_128bits_digest(state.get());
+}
+
+/// One part a name: the hash of the file that the importer would open for it, or zero. Each file is read once, however
+/// often it is named. False when they are too many or too large to be read here, where nothing limits the time: the
+/// importer then reads them within its own limits, and the result is not kept.
+bool append_named_files(const std::string& path, std::string_view text, std::vector<XXH128_hash_t>& parts) {
+    const auto names = named_files(text);
+    if (!names) return false;
+    const ModelFolder folder(path);
+    std::map<std::string, XXH128_hash_t> hashes;
+    uint64_t bytes_left = kMostNamedBytes;
+    for (const std::string& name : *names) {
+        const std::string file = folder.find_beside(name);
+        auto known = hashes.find(file);
+        if (known == hashes.end()) {
+            const auto hash = file.empty() ? XXH128_hash_t{} : hash_of_file(file, bytes_left);
+            if (!hash) return false;
+            known = hashes.emplace(file, *hash).first;
+        }
+        parts.push_back(known->second);
+    }
+    return true;
+}
+
+/// The name of the cache entry; empty when the result is not to be kept.
 std::string content_key(const std::string& path, const std::vector<uint8_t>& bytes) {
     const std::string extension = lower_case_extension(path);
-    const auto hash_of = [](const std::vector<uint8_t>& b) { return XXH3_128bits(b.data(), b.size()); };
-    std::vector<XXH128_hash_t> parts{
-        hash_of(bytes), XXH3_128bits(extension.data(), extension.size()), {kImporterVersion, 0}};
-    if (extension == ".gltf")
-        for (const std::string& name : named_files(bytes)) {
-            const auto beside = read_whole_file((fs::path(path).parent_path() / name).string(), kLargestModel);
-            parts.push_back(beside.ok() ? hash_of(beside.value()) : XXH128_hash_t{});
-        }
+    std::vector<XXH128_hash_t> parts{XXH3_128bits(bytes.data(), bytes.size()),
+                                     XXH3_128bits(extension.data(), extension.size()),
+                                     {kImporterVersion, 0}};
+    const std::string_view text(reinterpret_cast<const char*>(bytes.data()), bytes.size());
+    if (extension == ".gltf" && !append_named_files(path, text, parts)) return "";
     const XXH128_hash_t all = XXH3_128bits(parts.data(), parts.size() * sizeof parts[0]);
     char hex[33];
     std::snprintf(hex, sizeof hex, "%016llx%016llx", static_cast<unsigned long long>(all.high64),
@@ -133,24 +185,42 @@ Result<void> run_importer(const std::string& program, const std::string& in, con
     return Error{said};
 }
 
-Result<Mesh> import_and_cache(const std::string& path, const std::string& program, const std::string& cache_folder,
-                              const ImportWaiting& waiting) {
+/// The mesh file that the program makes of a model. An absolute path cannot be taken for an option.
+Result<Mesh> read_imported(const std::string& path, const std::string& program, const std::string& out,
+                           const ImportWaiting& waiting) {
+    if (auto r = run_importer(program, fs::absolute(path).string(), out, waiting); !r) return Error{r.error()};
+    return read_mesh_file(out);
+}
+
+Result<Mesh> import_without_cache(const std::string& path, const std::string& program, const fs::path& folder,
+                                  const ImportWaiting& waiting) {
+    const std::string out = folder / ("passing." + std::to_string(::gettid()) + ".cmesh");
+    auto mesh = read_imported(path, program, out, waiting);
+    ::unlink(out.c_str());
+    return mesh;
+}
+
+Result<Mesh> import_with_cache(const std::string& path, const std::string& program, const std::string& cached,
+                               const ImportWaiting& waiting) {
+    auto mesh = read_mesh_file(cached);
+    if (!mesh) return read_imported(path, program, cached, waiting);
+    ::utimensat(AT_FDCWD, cached.c_str(), nullptr, 0);  // used now; whoever keeps the folder small sees it
+    return mesh;
+}
+
+Result<Mesh> import_any(const std::string& path, const std::string& program, const std::string& cache_folder,
+                        const ImportWaiting& waiting) {
     auto bytes = read_whole_file(path, kLargestModel);
     if (!bytes) return Error{bytes.error()};
     if (is_mesh_file(*bytes)) return parse_mesh_file(*bytes, path);
 
     std::error_code trouble;
     fs::create_directories(cache_folder, trouble);
-    const std::string cached = (fs::absolute(cache_folder) / (content_key(path, *bytes) + ".cmesh")).string();
-    auto mesh = read_mesh_file(cached);
-    if (mesh) {
-        ::utimensat(AT_FDCWD, cached.c_str(), nullptr, 0);  // used now; whoever keeps the folder small sees it
-    } else {
-        // An absolute path cannot be taken for an option.
-        if (auto r = run_importer(program, fs::absolute(path).string(), cached, waiting); !r) return Error{r.error()};
-        mesh = read_mesh_file(cached);
-        if (!mesh) return Error{mesh.error()};
-    }
+    const fs::path folder = fs::absolute(cache_folder);
+    const std::string key = content_key(path, *bytes);
+    auto mesh = key.empty() ? import_without_cache(path, program, folder, waiting)
+                            : import_with_cache(path, program, folder / (key + ".cmesh"), waiting);
+    if (!mesh) return Error{mesh.error()};
     mesh->name = fs::path(path).stem().string().substr(0, kLongestMeshName);
     if (auto r = validate_mesh(*mesh, path); !r) return Error{r.error()};
     return mesh;
@@ -161,7 +231,7 @@ Result<Mesh> import_and_cache(const std::string& path, const std::string& progra
 Result<Mesh> import_mesh(const std::string& path, const std::string& program_path, const std::string& cache_folder,
                          const ImportWaiting& waiting) {
     try {
-        return import_and_cache(path, program_path, cache_folder, waiting);
+        return import_any(path, program_path, cache_folder, waiting);
     } catch (const std::exception& e) {
         return Error{path + ": cannot be imported (" + e.what() + "). Free memory or check the path."};
     }

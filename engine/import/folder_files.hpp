@@ -1,10 +1,8 @@
-// What a model may open: itself, and ordinary files in its own folder and below. A model that names "../../secret" gets
-// nothing. An OBJ file is handed on with ".5" written "0.5": assimp 5.2 takes the former for no number, and the vertex
-// for none.
+// How assimp opens files: those that a model may open (import_folder.hpp), and no others. An OBJ file is handed on with
+// ".5" written "0.5": assimp 5.2 takes the former for no number, and the vertex for none.
 #pragma once
 #include <assimp/DefaultIOSystem.h>
 #include <assimp/MemoryIOWrapper.h>
-#include <sys/stat.h>
 
 #include <cctype>
 #include <cstring>
@@ -12,17 +10,20 @@
 #include <memory>
 #include <string>
 
+#include "engine/import_folder.hpp"
+
 namespace cullet {
 
 class FolderFiles : public Assimp::DefaultIOSystem {
  public:
-    explicit FolderFiles(const std::string& model) : model_(canonical(model)), folder_(model_.parent_path()) {}
+    explicit FolderFiles(const std::string& model) : folder_(model) {}
 
-    bool Exists(const char* file) const override { return is_allowed(file) && DefaultIOSystem::Exists(file); }
+    bool Exists(const char* file) const override { return !folder_.find(file).empty(); }
 
     Assimp::IOStream* Open(const char* file, const char* mode) override {
-        if (!is_allowed(file)) return nullptr;
-        std::unique_ptr<Assimp::IOStream> stream(DefaultIOSystem::Open(file, mode));
+        const std::string real = folder_.find(file);
+        if (real.empty()) return nullptr;
+        std::unique_ptr<Assimp::IOStream> stream(DefaultIOSystem::Open(real.c_str(), mode));
         if (stream == nullptr || !is_obj(file)) return stream.release();
         std::string text(stream->FileSize(), '\0');
         if (stream->Read(text.data(), 1, text.size()) != text.size()) return nullptr;
@@ -38,11 +39,6 @@ class FolderFiles : public Assimp::DefaultIOSystem {
     }
 
  private:
-    static std::filesystem::path canonical(const std::string& file) {
-        std::error_code trouble;
-        return std::filesystem::canonical(file, trouble);
-    }
-
     static bool is_obj(const std::string& file) {
         std::string end = std::filesystem::path(file).extension().string();
         for (char& letter : end) letter = static_cast<char>(std::tolower(static_cast<unsigned char>(letter)));
@@ -64,16 +60,7 @@ class FolderFiles : public Assimp::DefaultIOSystem {
         return out;
     }
 
-    bool is_allowed(const char* file) const {
-        const std::filesystem::path path = canonical(file);
-        struct stat status {};
-        if (path.empty() || ::stat(path.c_str(), &status) != 0 || !S_ISREG(status.st_mode)) return false;
-        if (path == model_) return true;
-        const std::string inside = folder_ == folder_.root_path() ? folder_.string() : folder_.string() + "/";
-        return path.string().rfind(inside, 0) == 0;
-    }
-
-    std::filesystem::path model_, folder_;
+    ModelFolder folder_;
 };
 
 }  // namespace cullet

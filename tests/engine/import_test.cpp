@@ -217,22 +217,83 @@ TEST_F(Import, WrongArgumentsAreOneSentence) {
     EXPECT_EQ(run(file("cube.obj", kCube), folder_ / "none" / "out.cmesh").exit_code, 2);
 }
 
-TEST_F(Import, AModelCannotReachOutOfItsFolder) {
-    // The buffer exists and is long enough; the same text works when it stands beside the model.
-    const std::string begin =
-        R"({"asset":{"version":"2.0"},"scene":0,"scenes":[{"nodes":[0]}],"nodes":[{"mesh":0}],"meshes":[{"primitives":
+/// One triangle, whose corners stand in the buffer of that name.
+std::string triangle_gltf(const std::string& uri, const std::string& images = "") {
+    return R"({"asset":{"version":"2.0"},"scene":0,"scenes":[{"nodes":[0]}],"nodes":[{"mesh":0}],"meshes":[{"primitives":
         [{"attributes":{"POSITION":0}}]}],"accessors":[{"bufferView":0,"componentType":5126,"count":3,"type":"VEC3",
-        "min":[0,0,0],"max":[1,1,0]}],"bufferViews":[{"buffer":0,"byteLength":36}],"buffers":[{"byteLength":36,"uri":")";
-    const float triangle[9] = {0, 0, 0, 1, 0, 0, 0, 1, 0};
-    const std::string bytes(reinterpret_cast<const char*>(triangle), sizeof triangle);
+        "min":[0,0,0],"max":[1,1,0]}],"bufferViews":[{"buffer":0,"byteLength":36}],"images":[)" +
+           images + R"(],"buffers":[{"byteLength":36,"uri":")" + uri + "\"}]}";
+}
+
+std::string triangle_bytes(float size = 1) {
+    const float triangle[9] = {0, 0, 0, size, 0, 0, 0, size, 0};
+    return {reinterpret_cast<const char*>(triangle), sizeof triangle};
+}
+
+std::string images_named(const std::string& name, int times) {
+    std::string text;
+    for (int i = 0; i < times; ++i) text += (i == 0 ? "{\"uri\":\"" : ",{\"uri\":\"") + name + "\"}";
+    return text;
+}
+
+/// Bytes that this process has read, by whatever call.
+uint64_t bytes_read_here() {
+    std::ifstream file("/proc/self/io");
+    std::string word;
+    uint64_t bytes = 0;
+    file >> word >> bytes;
+    return bytes;
+}
+
+TEST_F(Import, AModelCannotReachOutOfItsFolder) {
     fs::create_directories(folder_ / "inner");
-    file("outside.bin", bytes);
-    file("inner/beside.bin", bytes);
-    const ProgramRun beside = run(file("inner/beside.gltf", begin + "beside.bin\"}]}"), folder_ / "beside.cmesh");
+    file("outside.bin", triangle_bytes());
+    file("inner/beside.bin", triangle_bytes());
+    const ProgramRun beside = run(file("inner/beside.gltf", triangle_gltf("beside.bin")), folder_ / "beside.cmesh");
     EXPECT_EQ(beside.exit_code, 0) << beside.said;
     const ProgramRun outside =
-        run(file("inner/outside.gltf", begin + "../outside.bin\"}]}"), folder_ / "outside.cmesh");
+        run(file("inner/outside.gltf", triangle_gltf("../outside.bin")), folder_ / "outside.cmesh");
     EXPECT_EQ(outside.exit_code, 2) << outside.said;
+}
+
+TEST_F(Import, AFileIsReadOnceForTheCacheHoweverOftenAModelNamesIt) {
+    if (bytes_read_here() == 0) GTEST_SKIP() << "no /proc/self/io";
+    constexpr uint64_t kLarge = 16u << 20;
+    file("side.bin", triangle_bytes());
+    fs::resize_file(file("large.png", ""), kLarge);
+    const std::string path = file("m.gltf", triangle_gltf("side.bin", images_named("large.png", 100)));
+    const uint64_t before = bytes_read_here();
+    const auto mesh = import_mesh(path, kProgram, cache());
+    ASSERT_TRUE(mesh.ok()) << mesh.error();
+    EXPECT_LT(bytes_read_here() - before, 2 * kLarge);
+    EXPECT_EQ(cached_files(), 1u);
+}
+
+TEST_F(Import, TheCacheLooksAtNoFileThatTheModelMayNotOpen) {
+    fs::create_directories(folder_ / "inner");
+    file("inner/side.bin", triangle_bytes());
+    fs::resize_file(file("outside.png", ""), 16u << 20);
+    const std::string names = images_named("../outside.png", 1) + "," + images_named(folder_ / "outside.png", 1);
+    const std::string path = file("inner/m.gltf", triangle_gltf("side.bin", names));
+    const uint64_t before = bytes_read_here();
+    ASSERT_TRUE(import_mesh(path, kProgram, cache()).ok());
+    EXPECT_LT(bytes_read_here() - before, 1u << 20);
+    file("outside.png", "other");
+    ASSERT_TRUE(import_mesh(path, kProgram, cache()).ok());
+    EXPECT_EQ(cached_files(), 1u);
+}
+
+TEST_F(Import, AModelThatNamesTooManyOrTooLargeFilesIsImportedAndNotKept) {
+    file("side.bin", triangle_bytes());
+    const auto many =
+        import_mesh(file("many.gltf", triangle_gltf("side.bin", images_named("a", 5000))), kProgram, cache());
+    EXPECT_TRUE(many.ok()) << many.error();
+    EXPECT_EQ(cached_files(), 0u);
+    fs::resize_file(file("a.png", ""), (1ull << 29) + 1);  // a hole: no disk is used
+    const auto large =
+        import_mesh(file("large.gltf", triangle_gltf("side.bin", images_named("a.png", 1))), kProgram, cache());
+    EXPECT_TRUE(large.ok()) << large.error();
+    EXPECT_EQ(cached_files(), 0u);
 }
 
 struct Wanted {
