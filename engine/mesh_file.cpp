@@ -9,7 +9,9 @@
 #include <cerrno>
 #include <cmath>
 #include <cstdio>
+#include <cstdlib>
 #include <cstring>
+#include <memory>
 #include <new>
 
 namespace cullet {
@@ -240,7 +242,7 @@ Error file_trouble(const std::string& path, const char* doing, int number) {
 }
 
 Result<void> write_bytes(std::span<const uint8_t> bytes, const std::string& path) {
-    const int file = ::open(path.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0666);
+    const int file = ::open(path.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_NOFOLLOW | O_CLOEXEC, 0666);
     if (file < 0) return file_trouble(path, "create the file", errno);
     size_t done = 0;
     while (done < bytes.size()) {
@@ -340,13 +342,30 @@ std::vector<uint8_t> encode_mesh_file(const Mesh& mesh) {
     return out;
 }
 
+Result<std::string> target_of(const std::string& path) {
+    struct stat status {};
+    if (::lstat(path.c_str(), &status) != 0) return path;  // nothing there, or the trouble shows when it is written
+    std::string target = path;
+    if (S_ISLNK(status.st_mode)) {
+        const std::unique_ptr<char, decltype(&std::free)> real(::realpath(path.c_str(), nullptr), std::free);
+        if (real == nullptr || ::stat(real.get(), &status) != 0)
+            return Error{path + ": is a link that leads nowhere. Remove it or give another name."};
+        target = real.get();
+    }
+    if (!S_ISREG(status.st_mode))
+        return Error{path + ": is no ordinary file, and is not written over. Give another name."};
+    return target;
+}
+
 Result<void> write_whole_file(std::span<const uint8_t> bytes, const std::string& path) {
-    const std::string part = path + "." + text(static_cast<uint64_t>(::gettid())) + ".part";
+    const auto target = target_of(path);
+    if (!target) return Error{target.error()};
+    const std::string part = *target + "." + text(static_cast<uint64_t>(::gettid())) + ".part";
     if (auto r = write_bytes(bytes, part); !r) {
         ::unlink(part.c_str());
         return r;
     }
-    if (::rename(part.c_str(), path.c_str()) != 0) {
+    if (::rename(part.c_str(), target->c_str()) != 0) {
         const int number = errno;
         ::unlink(part.c_str());
         return file_trouble(path, "put the new file in place", number);

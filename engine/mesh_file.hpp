@@ -45,6 +45,9 @@ Result<void> write_mesh_file(const Mesh& mesh, const std::string& path);
 bool is_mesh_file(std::span<const uint8_t> bytes);
 /// The whole of an ordinary file of at most most_bytes.
 Result<std::vector<uint8_t>> read_whole_file(const std::string& path, uint64_t most_bytes);
+/// The file that write_whole_file puts in place: the path, or the ordinary file that a link there leads to. Refuses
+/// whatever else stands there: renaming over a device, a pipe or a socket would remove it.
+Result<std::string> target_of(const std::string& path);
 /// Writes path.<thread>.part beside the target and renames it: there is never half a file under the name, whoever else
 /// writes it at the same time.
 Result<void> write_whole_file(std::span<const uint8_t> bytes, const std::string& path);

@@ -1,5 +1,7 @@
 // cullet_import IN OUT.cmesh [--memory-mib 1024] [--seconds 10]
-// Exit code 0 and one line of counts and repairs, or 2 and one sentence. OUT is written whole or not at all.
+// Exit code 0 and one line of counts and repairs, or 2 and one sentence. OUT is written whole or not at all, and over
+// ordinary files only, never over IN.
+#include <sys/stat.h>
 #include <unistd.h>
 
 #include <CLI/CLI.hpp>
@@ -104,8 +106,20 @@ class WaitingLine {
     bool is_shown_ = false;
 };
 
+/// Before the model is read, so that nobody waits for a refusal.
+Result<void> check_out(const std::string& in, const std::string& out) {
+    if (const auto target = target_of(out); !target) return Error{target.error()};
+    struct stat model {
+    }, there{};
+    if (::stat(in.c_str(), &model) == 0 && ::stat(out.c_str(), &there) == 0 && model.st_dev == there.st_dev &&
+        model.st_ino == there.st_ino)
+        return Error{out + ": is the model itself. Give the mesh file another name."};
+    return {};
+}
+
 /// The child is not believed either: its bytes go through the reader.
 Result<std::string> import_model(const std::string& in, const std::string& out, const ImportLimits& limits) {
+    if (auto r = check_out(in, out); !r) return Error{r.error()};
     const auto work = [&in] { return convert_and_encode(in); };
     auto delivery = [&] {
         WaitingLine line(one_line(in), limits.seconds);

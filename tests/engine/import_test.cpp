@@ -210,6 +210,48 @@ TEST_F(Import, APipeOrAFolderInPlaceOfAModelIsRefusedAtOnce) {
     }
 }
 
+TEST_F(Import, TheModelIsNotWrittenOverItself) {
+    const std::string model = file("cube.obj", kCube), link = folder_ / "link.obj", twin = folder_ / "twin.obj";
+    fs::create_symlink(model, link);
+    fs::create_hard_link(model, twin);
+    for (const std::string& out : {model, (folder_ / "." / "cube.obj").string(), link, twin}) {
+        const ProgramRun result = run(model, out);
+        EXPECT_EQ(result.exit_code, 2) << out;
+        EXPECT_EQ(result.said, out + ": is the model itself. Give the mesh file another name.\n");
+        EXPECT_EQ(fs::file_size(model), std::string(kCube).size());
+    }
+}
+
+TEST_F(Import, OnlyOrdinaryFilesAreWrittenOver) {
+    const std::string model = file("cube.obj", kCube), pipe = folder_ / "pipe", to_pipe = folder_ / "to_pipe",
+                      nowhere = folder_ / "nowhere", inner = folder_ / "inner";
+    ASSERT_EQ(mkfifo(pipe.c_str(), 0600), 0);
+    fs::create_symlink(pipe, to_pipe);
+    fs::create_symlink(folder_ / "none", nowhere);
+    fs::create_directory(inner);
+    const auto before = std::distance(fs::directory_iterator(folder_), fs::directory_iterator());
+    for (const std::string& out : {pipe, to_pipe, nowhere, inner}) {
+        const ProgramRun result = run(model, out);
+        EXPECT_EQ(result.exit_code, 2) << out;
+        EXPECT_EQ(result.said.rfind(out + ": is ", 0), 0u) << result.said;
+        EXPECT_EQ(std::count(result.said.begin(), result.said.end(), '\n'), 1) << result.said;
+        EXPECT_FALSE(write_whole_file(std::vector<uint8_t>{1}, out).ok()) << out;
+    }
+    EXPECT_TRUE(fs::is_fifo(fs::symlink_status(pipe)));
+    EXPECT_TRUE(fs::is_symlink(to_pipe));
+    EXPECT_TRUE(fs::is_symlink(nowhere));
+    EXPECT_EQ(std::distance(fs::directory_iterator(folder_), fs::directory_iterator()), before);
+}
+
+TEST_F(Import, AFileBehindALinkIsWrittenAndTheLinkStays) {
+    fs::create_directory(folder_ / "inner");
+    const std::string there = file("inner/there.cmesh", "old"), link = folder_ / "link.cmesh";
+    fs::create_symlink("inner/there.cmesh", link);
+    EXPECT_EQ(run(file("cube.obj", kCube), link).exit_code, 0);
+    EXPECT_TRUE(fs::is_symlink(link));
+    EXPECT_TRUE(read_mesh_file(there).ok());
+}
+
 TEST_F(Import, WrongArgumentsAreOneSentence) {
     const ProgramRun result = run(file("cube.obj", kCube), folder_ / "out.cmesh", "--seconds 0");
     EXPECT_EQ(result.exit_code, 2);
