@@ -36,8 +36,8 @@ struct Delivery {
 using Waiting = std::function<void(double seconds)>;
 
 /// Runs work in a child with limits on memory, time, file size and system calls (it opens files to read and nothing
-/// else). However the child ends, and at the latest when the clock has run out, this returns. `subject` begins the
-/// sentences.
+/// else), and without the files and sockets that are open here. However the child ends, and at the latest when the
+/// clock has run out, this returns. `subject` begins the sentences.
 Result<Delivery> run_limited(const std::string& subject, const ImportLimits& limits,
                              const std::function<Result<Delivery>()>& work, const Waiting& waiting = {});
 

@@ -129,11 +129,37 @@ std::string too_much_memory(const std::string& subject, const ImportLimits& limi
            " MiB to read. The counts in the file may be wrong; if they are right, raise --memory-mib.";
 }
 
+/// All from first to last, both inclusive. A kernel before 5.9 has no call for it: then one by one, as far as the limit
+/// on open files goes.
+void close_all(unsigned first, unsigned last) {
+    if (first > last || ::syscall(SYS_close_range, first, last, 0u) == 0) return;
+    rlimit files{};
+    if (::getrlimit(RLIMIT_NOFILE, &files) != 0) files.rlim_cur = 1u << 20;
+    for (unsigned file = first; file <= last && file < files.rlim_cur; ++file) ::close(static_cast<int>(file));
+}
+
+/// The host's open files and sockets came along with the fork, and the calls that write to open files stay allowed:
+/// everything goes but the two ways back. These are moved above the standard three first, whose places are theirs in a
+/// host that runs without them. False when they cannot be moved.
+bool keep_only(int& message_pipe, int& result_file) {
+    message_pipe = ::fcntl(message_pipe, F_DUPFD_CLOEXEC, 3);
+    result_file = ::fcntl(result_file, F_DUPFD_CLOEXEC, 3);
+    if (message_pipe < 0 || result_file < 0) return false;
+    const unsigned low = static_cast<unsigned>(std::min(message_pipe, result_file));
+    const unsigned high = static_cast<unsigned>(std::max(message_pipe, result_file));
+    close_all(0, 2);
+    close_all(3, low - 1);
+    close_all(low + 1, high - 1);
+    close_all(high + 1, ~0u);
+    const int null = ::open("/dev/null", O_RDWR);
+    if (null == STDIN_FILENO) ::dup2(null, STDOUT_FILENO), ::dup2(null, STDERR_FILENO);
+    return true;
+}
+
 /// The child's whole life. The first byte of the message is '+' or '-'.
 [[noreturn]] void live_as_child(const std::string& subject, const ImportLimits& limits, int message_pipe,
                                 int result_file, const std::function<Result<Delivery>()>& work) {
-    const int null = ::open("/dev/null", O_RDWR | O_CLOEXEC);
-    if (null >= 0) ::dup2(null, STDIN_FILENO), ::dup2(null, STDOUT_FILENO), ::dup2(null, STDERR_FILENO);
+    if (!keep_only(message_pipe, result_file)) ::_exit(2);
     std::string message;
     try {
         if (!limit_this_process(limits)) {

@@ -4,6 +4,7 @@
 #include <signal.h>
 #include <sys/socket.h>
 #include <sys/stat.h>
+#include <sys/wait.h>
 #include <unistd.h>
 
 #include <cerrno>
@@ -95,6 +96,48 @@ TEST_F(Limits, TheChildWritesRemovesAndRenamesNoFile) {
               "");
     EXPECT_EQ(fs::file_size(there), 4u);
     EXPECT_FALSE(fs::exists(made));
+}
+
+/// An open file and a connected socket of this process, without the flag that closes them in other programs.
+struct OpenHere {
+    explicit OpenHere(const std::string& path) : file(::open(path.c_str(), O_RDWR | O_APPEND)) {
+        EXPECT_EQ(::socketpair(AF_UNIX, SOCK_STREAM, 0, ends), 0);
+        high = ::fcntl(ends[0], F_DUPFD, 500);
+    }
+    ~OpenHere() {
+        for (const int handle : {file, ends[0], ends[1], high}) ::close(handle);
+    }
+    int file, ends[2] = {-1, -1}, high = -1;
+};
+
+TEST_F(Limits, TheChildHasNoFileAndNoSocketOfItsParent) {
+    const std::string there = folder_ / "there";
+    const OpenHere open(there);
+    EXPECT_EQ(told_by_child([&] {
+                  std::string said;
+                  for (const int handle : {open.file, open.ends[0], open.ends[1], open.high})
+                      if (::write(handle, "x", 1) != -1 || errno != EBADF)
+                          said += "wrote to " + std::to_string(handle) + "; ";
+                  size_t handles = 0;
+                  for (int handle = 0; handle < 4096; ++handle) handles += ::fcntl(handle, F_GETFD) >= 0;
+                  if (handles != 5)
+                      said += std::to_string(handles) + " are open, not null three times and two ways back";
+                  return said;
+              }),
+              "");
+    EXPECT_EQ(fs::file_size(there), 4u);
+}
+
+TEST_F(Limits, AParentWithoutStandardFilesGetsItsResult) {
+    const pid_t host = ::fork();
+    ASSERT_GE(host, 0);
+    if (host == 0) {
+        for (const int handle : {0, 1, 2}) ::close(handle);
+        ::_exit(told_by_child([] { return std::string("said"); }) == "said" ? 0 : 1);
+    }
+    int status = 0;
+    ASSERT_EQ(::waitpid(host, &status, 0), host);
+    EXPECT_TRUE(WIFEXITED(status) && WEXITSTATUS(status) == 0);
 }
 
 TEST_F(Limits, TheChildReadsFiles) {

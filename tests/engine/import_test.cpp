@@ -1,3 +1,4 @@
+#include <fcntl.h>
 #include <gtest/gtest.h>
 #include <sys/stat.h>
 #include <sys/wait.h>
@@ -140,6 +141,19 @@ TEST_F(Import, AMissingFileOrProgramIsOneSentence) {
     const auto no_program = import_mesh(file("cube.obj", kCube), "/no/such/program", cache());
     ASSERT_FALSE(no_program.ok());
     EXPECT_NE(no_program.error().find("cannot be started"), std::string::npos) << no_program.error();
+}
+
+TEST_F(Import, TheProgramDoesNotGetTheOpenFilesOfTheGame) {
+    // In place of the import program, one that tells what is open in it.
+    const std::string teller = file("teller", "#!/bin/sh\nls -l /proc/$$/fd >&2\nexit 2\n");
+    fs::permissions(teller, fs::perms::owner_all);
+    const std::string secret = file("secret", "text");
+    const int open = ::open(secret.c_str(), O_RDWR);
+    const auto mesh = import_mesh(file("cube.obj", kCube), teller, cache());
+    ::close(open);
+    ASSERT_FALSE(mesh.ok());
+    EXPECT_NE(mesh.error().find("/dev/null"), std::string::npos) << mesh.error();
+    EXPECT_EQ(mesh.error().find("secret"), std::string::npos) << mesh.error();
 }
 
 TEST_F(Import, NormalsTextureCoordinatesAndMaterialsBelongToCorners) {
