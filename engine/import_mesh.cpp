@@ -36,7 +36,6 @@ constexpr uint64_t kMostNamedBytes = 1ull << 29;  // of all files that a glTF na
 constexpr size_t kMostNames = 4096;               // in a glTF; each costs a look at the folder, some 10 us
 constexpr size_t kLongestName = 4096;             // bytes; no path is longer
 constexpr double kLongestImport = 20;             // s; the importer gives up after 14 by itself
-constexpr uint32_t kImporterVersion = 1;          // raise it when the importer gives other meshes for the same file
 
 std::string lower_case_extension(const std::string& path) {
     std::string extension = fs::path(path).extension().string();
@@ -107,14 +106,27 @@ bool append_named_files(const std::string& path, std::string_view text, std::vec
     return true;
 }
 
+/// The part of a glTF file that names others: all of a .gltf, the JSON that a .glb begins with (its length stands at
+/// byte 12, in version 1 as in version 2). Of other formats nothing: none of those that games use keeps triangles
+/// beside it.
+std::string_view naming_text(const std::string& extension, const std::vector<uint8_t>& bytes) {
+    const std::string_view all(reinterpret_cast<const char*>(bytes.data()), bytes.size());
+    if (extension == ".gltf") return all;
+    if (extension != ".glb" || bytes.size() < 20) return {};
+    uint32_t length = 0;
+    std::memcpy(&length, bytes.data() + 12, sizeof length);
+    return all.substr(20, length);
+}
+
+XXH128_hash_t hash_of(std::string_view text) {
+    return XXH3_128bits(text.data(), text.size());
+}
+
 /// The name of the cache entry; empty when the result is not to be kept.
-std::string content_key(const std::string& path, const std::vector<uint8_t>& bytes) {
+std::string content_key(const std::string& path, const std::vector<uint8_t>& bytes, const std::string& version) {
     const std::string extension = lower_case_extension(path);
-    std::vector<XXH128_hash_t> parts{XXH3_128bits(bytes.data(), bytes.size()),
-                                     XXH3_128bits(extension.data(), extension.size()),
-                                     {kImporterVersion, 0}};
-    const std::string_view text(reinterpret_cast<const char*>(bytes.data()), bytes.size());
-    if (extension == ".gltf" && !append_named_files(path, text, parts)) return "";
+    std::vector<XXH128_hash_t> parts{XXH3_128bits(bytes.data(), bytes.size()), hash_of(extension), hash_of(version)};
+    if (!append_named_files(path, naming_text(extension, bytes), parts)) return "";
     const XXH128_hash_t all = XXH3_128bits(parts.data(), parts.size() * sizeof parts[0]);
     char hex[33];
     std::snprintf(hex, sizeof hex, "%016llx%016llx", static_cast<unsigned long long>(all.high64),
@@ -122,7 +134,7 @@ std::string content_key(const std::string& path, const std::vector<uint8_t>& byt
     return hex;
 }
 
-/// What the program wrote to its standard error, read until it closes it or the time is over.
+/// What the program wrote, read until it closes the pipe or the time is over.
 std::string listen(int pipe, const ImportWaiting& waiting, bool& is_late) {
     using Clock = std::chrono::steady_clock;
     const auto begin = Clock::now();
@@ -144,31 +156,34 @@ std::string listen(int pipe, const ImportWaiting& waiting, bool& is_late) {
     }
 }
 
-Result<pid_t> start(const std::string& program, const std::string& in, const std::string& out, int error_pipe) {
-    std::string arguments[] = {program, in, out};
-    char* argv[] = {arguments[0].data(), arguments[1].data(), arguments[2].data(), nullptr};
+/// `arguments` begin with the program. What it writes goes to the pipe.
+Result<pid_t> start(std::vector<std::string> arguments, int pipe) {
+    std::vector<char*> argv;
+    for (std::string& argument : arguments) argv.push_back(argument.data());
+    argv.push_back(nullptr);
     posix_spawn_file_actions_t actions;
     posix_spawn_file_actions_init(&actions);
     posix_spawn_file_actions_addopen(&actions, STDIN_FILENO, "/dev/null", O_RDONLY, 0);
-    posix_spawn_file_actions_addopen(&actions, STDOUT_FILENO, "/dev/null", O_WRONLY, 0);
-    posix_spawn_file_actions_adddup2(&actions, error_pipe, STDERR_FILENO);
+    posix_spawn_file_actions_adddup2(&actions, pipe, STDOUT_FILENO);
+    posix_spawn_file_actions_adddup2(&actions, pipe, STDERR_FILENO);
 #if defined(__GLIBC__) && __GLIBC_PREREQ(2, 34)
     posix_spawn_file_actions_addclosefrom_np(&actions, 3);  // the game's own; the reading child closes them in any case
 #endif
     pid_t child = -1;
-    const int trouble = ::posix_spawn(&child, program.c_str(), &actions, nullptr, argv, environ);
+    const int trouble = ::posix_spawn(&child, argv[0], &actions, nullptr, argv.data(), environ);
     posix_spawn_file_actions_destroy(&actions);
     if (trouble != 0)
-        return Error{program + ": the import program cannot be started (" + std::strerror(trouble) +
+        return Error{arguments[0] + ": the import program cannot be started (" + std::strerror(trouble) +
                      "). Build the target cullet_import or give its path."};
     return child;
 }
 
-Result<void> run_importer(const std::string& program, const std::string& in, const std::string& out,
-                          const ImportWaiting& waiting) {
+/// What the program said when it ended with exit code 0; otherwise that as the error, which may be empty.
+Result<std::string> run_importer(const std::vector<std::string>& arguments, const ImportWaiting& waiting) {
     int ends[2];
-    if (::pipe2(ends, O_CLOEXEC) != 0) return Error{in + ": no pipe to the import program. Close some files."};
-    const auto child = start(program, in, out, ends[1]);
+    if (::pipe2(ends, O_CLOEXEC) != 0)
+        return Error{arguments[0] + ": no pipe to the import program. Close some files."};
+    const auto child = start(arguments, ends[1]);
     ::close(ends[1]);
     if (!child) {
         ::close(ends[0]);
@@ -181,18 +196,28 @@ Result<void> run_importer(const std::string& program, const std::string& in, con
     int status = 0;
     while (::waitpid(child.value(), &status, 0) < 0 && errno == EINTR) {
     }
-    if (WIFEXITED(status) && WEXITSTATUS(status) == 0) return {};
     while (!said.empty() && said.back() == '\n') said.pop_back();
     std::replace(said.begin(), said.end(), '\n', ' ');
-    if (said.empty()) said = in + ": the import program stopped without a word. Run it by hand: " + program + " " + in;
+    if (WIFEXITED(status) && WEXITSTATUS(status) == 0) return said;
     return Error{said};
+}
+
+/// The program's own version and that of assimp, which belong to the name of a cache entry. Asked for at each import: a
+/// process started and ended, 10 to 15 ms. The library is loaded at run time, so what this was built with says nothing.
+Result<std::string> version_of(const std::string& program) {
+    auto said = run_importer({program, "--version"}, {});
+    if (!said && said.error().empty())
+        return Error{program + ": the import program does not tell its version. Build the target cullet_import anew."};
+    return said;
 }
 
 /// The mesh file that the program makes of a model. An absolute path cannot be taken for an option.
 Result<Mesh> read_imported(const std::string& path, const std::string& program, const std::string& out,
                            const ImportWaiting& waiting) {
-    if (auto r = run_importer(program, fs::absolute(path).string(), out, waiting); !r) return Error{r.error()};
-    return read_mesh_file(out);
+    const auto said = run_importer({program, fs::absolute(path).string(), out}, waiting);
+    if (said) return read_mesh_file(out);
+    if (!said.error().empty()) return Error{said.error()};
+    return Error{path + ": the import program stopped without a word. Run it by hand: " + program + " " + path};
 }
 
 Result<Mesh> import_without_cache(const std::string& path, const std::string& program, const fs::path& folder,
@@ -217,10 +242,12 @@ Result<Mesh> import_any(const std::string& path, const std::string& program, con
     if (!bytes) return Error{bytes.error()};
     if (is_mesh_file(*bytes)) return parse_mesh_file(*bytes, path);
 
+    const auto version = version_of(program);
+    if (!version) return Error{version.error()};
     std::error_code trouble;
     fs::create_directories(cache_folder, trouble);
     const fs::path folder = fs::absolute(cache_folder);
-    const std::string key = content_key(path, *bytes);
+    const std::string key = content_key(path, *bytes, *version);
     auto mesh = key.empty() ? import_without_cache(path, program, folder, waiting)
                             : import_with_cache(path, program, folder / (key + ".cmesh"), waiting);
     if (!mesh) return Error{mesh.error()};

@@ -11,6 +11,9 @@
 
 namespace cullet {
 
+constexpr unsigned kImporterVersion =
+    2;  // raise it when the same file gives another mesh: cached ones are then made anew
+
 struct ImportLimits {
     uint64_t memory_mib = 1024;  // address space; also the largest mesh file
     unsigned seconds = 10;       // processor time; it may take 1.4 times as long by the clock, and a second at least

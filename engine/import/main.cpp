@@ -1,6 +1,7 @@
-// cullet_import IN OUT.cmesh [--memory-mib 1024] [--seconds 10]
+// cullet_import IN OUT.cmesh [--memory-mib 1024] [--seconds 10], or cullet_import --version
 // Exit code 0 and one line of counts and repairs, or 2 and one sentence. OUT is written whole or not at all, and over
 // ordinary files only, never over IN.
+#include <assimp/version.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
@@ -106,6 +107,12 @@ class WaitingLine {
     bool is_shown_ = false;
 };
 
+/// The game keeps meshes under it.
+std::string version() {
+    return "cullet_import " + std::to_string(kImporterVersion) + ", assimp " + std::to_string(aiGetVersionMajor()) +
+           "." + std::to_string(aiGetVersionMinor()) + "." + std::to_string(aiGetVersionPatch());
+}
+
 /// Before the model is read, so that nobody waits for a refusal.
 Result<void> check_out(const std::string& in, const std::string& out) {
     if (const auto target = target_of(out); !target) return Error{target.error()};
@@ -147,9 +154,10 @@ int main(int argc, char** argv) {
     app.add_option("--seconds", limits.seconds, "most processor time for reading the model, s")
         ->check(CLI::Range(1, 3600))
         ->capture_default_str();
+    app.set_version_flag("--version", cullet::version());
     try {
         app.parse(argc, argv);
-    } catch (const CLI::CallForHelp& e) {
+    } catch (const CLI::Success& e) {  // --help, --version
         return app.exit(e);
     } catch (const CLI::ParseError& e) {
         std::fprintf(stderr, "cullet_import: %s. See cullet_import --help.\n", cullet::one_line(e.what()).c_str());

@@ -47,6 +47,20 @@ class Import : public testing::Test {
         return static_cast<size_t>(std::distance(fs::directory_iterator(cache()), fs::directory_iterator()));
     }
 
+    /// The import program behind a script that counts its imports and gives another version.
+    std::string counting_program(const std::string& version) {
+        const std::string path =
+            file("counting", "#!/bin/sh\nif [ \"$1\" = --version ]; then echo " + version + "; exit 0; fi\necho >> '" +
+                                 (folder_ / "imports").string() + "'\nexec '" + kProgram + "' \"$@\"\n");
+        fs::permissions(path, fs::perms::owner_all);
+        return path;
+    }
+    size_t imports() const {
+        std::error_code none;
+        const auto size = fs::file_size(folder_ / "imports", none);
+        return none ? 0 : size;
+    }
+
     fs::path folder_;
 };
 
@@ -105,15 +119,29 @@ TEST_F(Import, CoordinatesOfAnObjMayBeginWithTheirPoint) {
 }
 
 TEST_F(Import, EqualBytesAreImportedOnceAndOtherBytesAnew) {
-    const std::string path = file("cube.obj", kCube);
-    const auto first = import_mesh(path, kProgram, cache());
+    const std::string program = counting_program("version 1");
+    const auto first = import_mesh(file("cube.obj", kCube), program, cache());
     ASSERT_TRUE(first.ok()) << first.error();
-    const auto second = import_mesh(file("box.obj", kCube), "/no/such/program", cache());
+    const auto second = import_mesh(file("box.obj", kCube), program, cache());
     ASSERT_TRUE(second.ok()) << second.error();
     EXPECT_EQ(second.value().name, "box");
     EXPECT_EQ(second.value().triangles, first.value().triangles);
-    EXPECT_EQ(cached_files(), 1u);
-    EXPECT_FALSE(import_mesh(file("cube.obj", std::string(kCube) + "\n"), "/no/such/program", cache()).ok());
+    EXPECT_EQ(imports(), 1u);
+    EXPECT_TRUE(import_mesh(file("cube.obj", std::string(kCube) + "\n"), program, cache()).ok());
+    EXPECT_EQ(imports(), 2u);
+}
+
+TEST_F(Import, AnotherVersionOfTheProgramImportsAnew) {
+    const std::string path = file("cube.obj", kCube);
+    for (const char* version : {"1", "2", "2"}) ASSERT_TRUE(import_mesh(path, counting_program(version), cache()).ok());
+    EXPECT_EQ(imports(), 2u);
+    FILE* pipe = popen((quoted(kProgram) + " --version").c_str(), "r");
+    char said[64] = "";
+    EXPECT_NE(std::fgets(said, sizeof said, pipe), nullptr);
+    EXPECT_EQ(pclose(pipe), 0);
+    unsigned importer = 0, major = 0;
+    EXPECT_EQ(std::sscanf(said, "cullet_import %u, assimp %u.", &importer, &major), 2) << said;
+    EXPECT_GE(importer, 2u);
 }
 
 TEST_F(Import, ADamagedCacheEntryIsMadeAnew) {
@@ -323,6 +351,32 @@ TEST_F(Import, AFileIsReadOnceForTheCacheHoweverOftenAModelNamesIt) {
     ASSERT_TRUE(mesh.ok()) << mesh.error();
     EXPECT_LT(bytes_read_here() - before, 2 * kLarge);
     EXPECT_EQ(cached_files(), 1u);
+}
+
+/// As a .glb; its own first buffer holds nothing that counts.
+std::string binary_gltf(std::string json) {
+    const auto replace = [&json](const std::string& what, const std::string& with) {
+        json.replace(json.find(what), what.size(), with);
+    };
+    replace("\"buffer\":0", "\"buffer\":1");
+    replace("\"buffers\":[", "\"buffers\":[{\"byteLength\":4},");
+    json.resize((json.size() + 3) / 4 * 4, ' ');
+    const auto word = [](uint64_t value) {
+        return std::string{static_cast<char>(value), static_cast<char>(value >> 8), static_cast<char>(value >> 16), 0};
+    };
+    return "glTF" + word(2) + word(32 + json.size()) + word(json.size()) + "JSON" + json + word(4) +
+           std::string("BIN\0", 4) + "none";
+}
+
+TEST_F(Import, ANewBufferBesideAModelIsANewModelForTextAndBinaryGltf) {
+    const std::string json = triangle_gltf("side.bin");
+    for (const std::string& path : {file("m.gltf", json), file("m.glb", binary_gltf(json))})
+        for (const float size : {1.0f, 2.0f, 3.0f}) {
+            file("side.bin", triangle_bytes(size));
+            const auto mesh = import_mesh(path, kProgram, cache());
+            ASSERT_TRUE(mesh.ok()) << mesh.error();
+            EXPECT_EQ(mesh->positions[1].x, size) << path;
+        }
 }
 
 TEST_F(Import, TheCacheLooksAtNoFileThatTheModelMayNotOpen) {
