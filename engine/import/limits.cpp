@@ -45,7 +45,7 @@ double longest_wait(const ImportLimits& limits) {
 
 #if defined(__x86_64__)
 /// What reading a file, allocating, sleeping, throwing and dying take, by strace over all test data and by what assimp
-/// and its libraries import from libc; the rest are other libcs' and the sanitizers' names for the same. Nothing here
+/// and its libraries import from libc; the rest are what other libcs use for the same. Nothing here
 /// reaches another process, opens anything but for reading, or changes what is on the disk.
 constexpr unsigned kAllowedCalls[] = {
     // files that are open, and names looked up

@@ -340,6 +340,70 @@ TEST_F(Import, AModelCannotReachOutOfItsFolder) {
     EXPECT_EQ(outside.exit_code, 2) << outside.said;
 }
 
+TEST_F(Import, APercentEncodedNameIsDecodedWhereItIsNotThereAsItStands) {
+    const std::string path = file("m.gltf", triangle_gltf("my%20ch%C3%A4ir.bin"));
+    for (const float size : {1.0f, 2.0f}) {
+        file("my ch\xC3\xA4ir.bin", triangle_bytes(size));
+        const auto mesh = import_mesh(path, kProgram, cache());
+        ASSERT_TRUE(mesh.ok()) << mesh.error();
+        EXPECT_EQ(mesh->positions[1].x, size);  // the cache knows it by the same name
+    }
+    file("my%20ch%C3%A4ir.bin", triangle_bytes(3));
+    const auto literal = import_mesh(path, kProgram, cache());
+    ASSERT_TRUE(literal.ok()) << literal.error();
+    EXPECT_EQ(literal->positions[1].x, 3);
+}
+
+TEST_F(Import, AnEncodedNameLeadsNoFartherThanAPlainOne) {
+    fs::create_directories(folder_ / "in%20ner");
+    file("outside.bin", triangle_bytes());
+    file("in%20ner/side.bin", triangle_bytes());
+    for (const char* name :
+         {"..%2Foutside.bin", "%2e%2e/outside.bin", "side.bin%00", "side.bin%", "side.bin%2", "%zz"}) {
+        const ProgramRun result = run(file("in%20ner/m.gltf", triangle_gltf(name)), folder_ / "out.cmesh");
+        EXPECT_EQ(result.exit_code, 2) << name << ": " << result.said;
+    }
+    EXPECT_EQ(run(file("in%20ner/m.gltf", triangle_gltf("sid%65.bin")), folder_ / "out.cmesh").exit_code, 0);
+}
+
+TEST_F(Import, AModelAndItsBufferMayBeLinksIntoDifferentFoldersOfAStore) {
+    for (const char* name : {"store/a", "store/b", "scene/sub"}) fs::create_directories(folder_ / name);
+    file("store/a/m.gltf", triangle_gltf("side.bin"));
+    file("store/b/side.bin", triangle_bytes());
+    file("store/b/secret.bin", triangle_bytes());
+    const std::string link = folder_ / "scene/m.gltf";
+    fs::create_symlink("../store/a/m.gltf", link);
+    fs::create_symlink("../store/b/side.bin", folder_ / "scene/side.bin");
+    const ProgramRun linked = run(link, folder_ / "out.cmesh");
+    EXPECT_EQ(linked.exit_code, 0) << linked.said;
+    for (const float size : {1.0f, 2.0f}) {
+        file("store/b/side.bin", triangle_bytes(size));
+        const auto mesh = import_mesh(link, kProgram, cache());
+        ASSERT_TRUE(mesh.ok()) << mesh.error();
+        EXPECT_EQ(mesh->positions[1].x, size);
+    }
+    // The model leads no farther: not by its name, not through a linked folder, not round and round.
+    fs::create_symlink("../store/b", folder_ / "scene/folder");
+    fs::create_symlink("loop.bin", folder_ / "scene/loop.bin");
+    const std::string absolute = folder_ / "store/b/secret.bin";
+    for (const std::string& name : {std::string("../store/b/secret.bin"), std::string("sub/../../store/b/secret.bin"),
+                                    std::string("folder/secret.bin"), std::string("loop.bin"), absolute}) {
+        file("store/a/m.gltf", triangle_gltf(name));
+        const ProgramRun result = run(link, folder_ / "out.cmesh");
+        EXPECT_EQ(result.exit_code, 2) << name << ": " << result.said;
+    }
+}
+
+TEST_F(Import, BesideAModelThatIsNoLinkALinkIsFollowedInsideTheFolderOnly) {
+    fs::create_directories(folder_ / "inner/sub");
+    file("outside.bin", triangle_bytes());
+    file("inner/sub/inside.bin", triangle_bytes());
+    fs::create_symlink("../outside.bin", folder_ / "inner/out.bin");
+    fs::create_symlink("sub/inside.bin", folder_ / "inner/in.bin");
+    EXPECT_EQ(run(file("inner/m.gltf", triangle_gltf("in.bin")), folder_ / "out.cmesh").exit_code, 0);
+    EXPECT_EQ(run(file("inner/m.gltf", triangle_gltf("out.bin")), folder_ / "out.cmesh").exit_code, 2);
+}
+
 TEST_F(Import, AFileIsReadOnceForTheCacheHoweverOftenAModelNamesIt) {
     if (bytes_read_here() == 0) GTEST_SKIP() << "no /proc/self/io";
     constexpr uint64_t kLarge = 16u << 20;
