@@ -45,17 +45,21 @@ class FolderFiles : public Assimp::DefaultIOSystem {
         return end == ".obj";
     }
 
-    /// Lines of points, normals and uvs ("v", "vn", "vt") with ".5" written "0.5"; the others as they are.
+    /// Lines of points, normals and uvs ("v", "vn", "vt") with ".5" written "0.5"; the others as they are. A line ends
+    /// with LF, CR or both, and goes on in the next one when a backslash stands before that.
     static std::string with_leading_zeros(const std::string& text) {
         std::string out;
         out.reserve(text.size());
         bool is_vertex = false;
-        char before = '\n';
-        for (const char c : text) {
+        char before = '\n';  // of this line: '\n' at its beginning, ' ' where it goes on
+        for (size_t i = 0; i < text.size(); ++i) {
+            const char c = text[i];
             if (before == '\n') is_vertex = c == 'v';
             if (is_vertex && c == '.' && (before == ' ' || before == '\t')) out += '0';
             out += c;
-            before = c;
+            const size_t end = c == '\n' && i > 0 && text[i - 1] == '\r' ? i - 1 : i;
+            const bool goes_on = end > 0 && text[end - 1] == '\\';
+            before = c != '\n' && c != '\r' ? c : goes_on ? ' ' : '\n';
         }
         return out;
     }

@@ -118,6 +118,27 @@ TEST_F(Import, CoordinatesOfAnObjMayBeginWithTheirPoint) {
     EXPECT_EQ(mesh->positions[2], (Vec3{0, 5, 0}));
 }
 
+TEST_F(Import, CoordinatesBeginWithTheirPointWhateverEndsTheLine) {
+    const std::string lines[] = {"# by hand", "v .5 \\", ".25 0",     "v 1.5 .25 .75",
+                                 "v\t\\",     ".0 2 0",  "usemtl .x", "f 1 2 3"};
+    for (const std::string end : {"\n", "\r\n"}) {
+        std::string text;
+        for (const std::string& line : lines) text += line + end;
+        const auto mesh = import_mesh(file("m.obj", text), kProgram, cache());
+        ASSERT_TRUE(mesh.ok()) << mesh.error();
+        ASSERT_EQ(mesh->positions.size(), 3u);
+        EXPECT_EQ(mesh->positions[0], (Vec3{0.5f, 0.25f, 0}));
+        EXPECT_EQ(mesh->positions[1], (Vec3{1.5f, 0.25f, 0.75f}));
+        EXPECT_EQ(mesh->positions[2], (Vec3{0, 2, 0}));
+    }
+    const auto old =
+        import_mesh(file("m.obj", "# by hand\rv .5 .25 0\rv 1.5 .25 .75\rv .0 2 0\rf 1 2 3\r"), kProgram, cache());
+    ASSERT_TRUE(old.ok()) << old.error();
+    ASSERT_EQ(old->positions.size(), 3u);
+    EXPECT_EQ(old->positions[0], (Vec3{0.5f, 0.25f, 0}));
+    EXPECT_EQ(old->positions[2], (Vec3{0, 2, 0}));
+}
+
 TEST_F(Import, EqualBytesAreImportedOnceAndOtherBytesAnew) {
     const std::string program = counting_program("version 1");
     const auto first = import_mesh(file("cube.obj", kCube), program, cache());
