@@ -21,6 +21,7 @@
 #include <optional>
 #include <string_view>
 
+#include "engine/import/import.hpp"
 #include "engine/import_folder.hpp"
 #include "engine/mesh_file.hpp"
 
@@ -35,7 +36,8 @@ constexpr uint64_t kLargestModel = 1ull << 30;    // bytes; the importer's own l
 constexpr uint64_t kMostNamedBytes = 1ull << 29;  // of all files that a glTF names; a second or two to hash
 constexpr size_t kMostNames = 4096;               // in a glTF; each costs a look at the folder, some 10 us
 constexpr size_t kLongestName = 4096;             // bytes; no path is longer
-constexpr double kLongestImport = 20;             // s; the importer gives up after 14 by itself
+constexpr double kLongestImport = 20;             // s; a program that has not given up by itself is ended
+constexpr size_t kLongestSentence = 4096;         // bytes
 
 std::string lower_case_extension(const std::string& path) {
     std::string extension = fs::path(path).extension().string();
@@ -145,7 +147,8 @@ std::string listen(int pipe, const ImportWaiting& waiting, bool& is_late) {
         if (is_late) return said;
         pollfd wait{pipe, POLLIN, 0};
         if (::poll(&wait, 1, 100) <= 0) {
-            if (waiting) waiting(gone, kLongestImport);
+            const double most = longest_wait({});  // the program's own limit, by the clock
+            if (waiting) waiting(std::min(gone, most), most);
             continue;
         }
         char buffer[512];
@@ -197,7 +200,6 @@ Result<std::string> run_importer(const std::vector<std::string>& arguments, cons
     while (::waitpid(child.value(), &status, 0) < 0 && errno == EINTR) {
     }
     while (!said.empty() && said.back() == '\n') said.pop_back();
-    std::replace(said.begin(), said.end(), '\n', ' ');
     if (WIFEXITED(status) && WEXITSTATUS(status) == 0) return said;
     return Error{said};
 }
@@ -251,7 +253,7 @@ Result<Mesh> import_any(const std::string& path, const std::string& program, con
     auto mesh = key.empty() ? import_without_cache(path, program, folder, waiting)
                             : import_with_cache(path, program, folder / (key + ".cmesh"), waiting);
     if (!mesh) return Error{mesh.error()};
-    mesh->name = fs::path(path).stem().string().substr(0, kLongestMeshName);
+    mesh->name = one_line(fs::path(path).stem().string()).substr(0, kLongestMeshName);
     if (auto r = validate_mesh(*mesh, path); !r) return Error{r.error()};
     return mesh;
 }
@@ -261,9 +263,11 @@ Result<Mesh> import_any(const std::string& path, const std::string& program, con
 Result<Mesh> import_mesh(const std::string& path, const std::string& program_path, const std::string& cache_folder,
                          const ImportWaiting& waiting) {
     try {
-        return import_any(path, program_path, cache_folder, waiting);
+        auto mesh = import_any(path, program_path, cache_folder, waiting);
+        if (!mesh) return Error{one_line(mesh.error(), kLongestSentence)};
+        return mesh;
     } catch (const std::exception& e) {
-        return Error{path + ": cannot be imported (" + e.what() + "). Free memory or check the path."};
+        return Error{one_line(path) + ": cannot be imported (" + e.what() + "). Free memory or check the path."};
     }
 }
 

@@ -25,6 +25,7 @@ constexpr uint32_t kVersion = 1;
 enum : uint32_t { kHasNormals = 1, kHasUvs = 2, kHasMaterials = 4, kAllFlags = 7 };
 constexpr uint64_t kChunkHeader = 16;  // bytes
 constexpr uint64_t kLargestFile = 1ull << 36;
+constexpr size_t kLongestPath = 4096;  // bytes; a sentence names the whole of it
 
 struct Header {
     char magic[8];
@@ -54,6 +55,11 @@ std::string text(float x) {
     char buffer[32];
     std::snprintf(buffer, sizeof buffer, "%.9g", static_cast<double>(x));
     return buffer;
+}
+
+/// A path as sentences name it: in one line.
+std::string quoted(const std::string& path) {
+    return one_line(path, kLongestPath);
 }
 
 Error damaged(const std::string& name, const std::string& what) {
@@ -238,7 +244,8 @@ Result<Mesh> parse_payload(const Header& header, std::span<const uint8_t> payloa
 }
 
 Error file_trouble(const std::string& path, const char* doing, int number) {
-    return {path + ": cannot " + doing + " (" + std::strerror(number) + "). Check the path, the rights and the disk."};
+    return {quoted(path) + ": cannot " + doing + " (" + std::strerror(number) +
+            "). Check the path, the rights and the disk."};
 }
 
 Result<void> write_bytes(std::span<const uint8_t> bytes, const std::string& path) {
@@ -261,7 +268,15 @@ Result<void> write_bytes(std::span<const uint8_t> bytes, const std::string& path
 
 }  // namespace
 
-Result<void> validate_mesh(const Mesh& mesh, const std::string& name) {
+std::string one_line(std::string text, size_t most_bytes) {
+    for (char& c : text)
+        if (static_cast<unsigned char>(c) < 32 || c == 127) c = ' ';
+    if (text.size() > most_bytes) text = text.substr(0, most_bytes - 3) + "...";
+    return text;
+}
+
+Result<void> validate_mesh(const Mesh& mesh, const std::string& path) {
+    const std::string name = quoted(path);
     if (auto r = validate_name(mesh, name); !r) return r;
     if (auto r = validate_counts(mesh, name); !r) return r;
     if (auto r = validate_positions(mesh, name); !r) return r;
@@ -272,7 +287,8 @@ bool is_mesh_file(std::span<const uint8_t> bytes) {
     return bytes.size() >= sizeof kMagic && std::memcmp(bytes.data(), kMagic, sizeof kMagic) == 0;
 }
 
-Result<Mesh> parse_mesh_file(std::span<const uint8_t> bytes, const std::string& name) {
+Result<Mesh> parse_mesh_file(std::span<const uint8_t> bytes, const std::string& path) {
+    const std::string name = quoted(path);
     try {
         auto header = parse_header(bytes, name);
         if (!header) return Error{header.error()};
@@ -289,7 +305,7 @@ Result<std::vector<uint8_t>> read_whole_file(const std::string& path, uint64_t m
     struct stat status {};
     if (::fstat(file, &status) != 0 || !S_ISREG(status.st_mode) || static_cast<uint64_t>(status.st_size) > most_bytes) {
         ::close(file);
-        return Error{path + ": is no ordinary file of at most " + text(most_bytes) +
+        return Error{quoted(path) + ": is no ordinary file of at most " + text(most_bytes) +
                      " bytes. Give the path of a model."};
     }
     std::vector<uint8_t> bytes;
@@ -298,7 +314,7 @@ Result<std::vector<uint8_t>> read_whole_file(const std::string& path, uint64_t m
         bytes.resize(static_cast<size_t>(status.st_size));
     } catch (const std::bad_alloc&) {
         ::close(file);
-        return Error{path + ": no memory for its " + text(static_cast<uint64_t>(status.st_size)) +
+        return Error{quoted(path) + ": no memory for its " + text(static_cast<uint64_t>(status.st_size)) +
                      " bytes. Free memory."};
     }
     while (done < bytes.size()) {
@@ -349,11 +365,11 @@ Result<std::string> target_of(const std::string& path) {
     if (S_ISLNK(status.st_mode)) {
         const std::unique_ptr<char, decltype(&std::free)> real(::realpath(path.c_str(), nullptr), std::free);
         if (real == nullptr || ::stat(real.get(), &status) != 0)
-            return Error{path + ": is a link that leads nowhere. Remove it or give another name."};
+            return Error{quoted(path) + ": is a link that leads nowhere. Remove it or give another name."};
         target = real.get();
     }
     if (!S_ISREG(status.st_mode))
-        return Error{path + ": is no ordinary file, and is not written over. Give another name."};
+        return Error{quoted(path) + ": is no ordinary file, and is not written over. Give another name."};
     return target;
 }
 

@@ -26,6 +26,9 @@ constexpr float kSmallestMeshExtent = 1e-6f;  // m; below it areas and volumes u
 constexpr uint64_t kMostMeshRows = 1u << 28;  // vertices or triangles; three corners a triangle still count in 32 bits
 constexpr uint64_t kLongestMeshName = 255;    // bytes
 
+/// Control characters become blanks, and so many bytes are kept: sentences quote strangers' files and their names.
+std::string one_line(std::string text, size_t most_bytes = 400);
+
 /// What every mesh that enters the library fulfils: at least one triangle, indices below the vertex count, corner
 /// arrays of the right length, finite coordinates of a size that can be squared, normals of length 1 or 0, a printable
 /// name. Says nothing of shape: repeated corners, holes and crossings are the business of cooking.

@@ -37,12 +37,6 @@ bool limit(__rlimit_resource resource, rlim_t value) {
     return limit(resource, value, value);
 }
 
-/// By the clock, so that a machine with other work to do does not refuse a good file, and a file that makes the reader
-/// wait for nothing does not stay: 14 s for 10 s of processor time.
-double longest_wait(const ImportLimits& limits) {
-    return std::max(limits.seconds + 1.0, 1.4 * limits.seconds);
-}
-
 #if defined(__x86_64__)
 /// What reading a file, allocating, sleeping, throwing and dying take, by strace over all test data and by what assimp
 /// and its libraries import from libc; the rest are what other libcs use for the same. Nothing here
@@ -277,13 +271,6 @@ Result<std::vector<uint8_t>> read_back(const std::string& subject, int file) {
 }
 
 }  // namespace
-
-std::string one_line(std::string text, size_t most_bytes) {
-    for (char& c : text)
-        if (static_cast<unsigned char>(c) < 32 || c == 127) c = ' ';
-    if (text.size() > most_bytes) text = text.substr(0, most_bytes - 3) + "...";
-    return text;
-}
 
 Result<Delivery> run_limited(const std::string& subject, const ImportLimits& limits,
                              const std::function<Result<Delivery>()>& work, const Waiting& waiting) {

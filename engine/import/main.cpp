@@ -51,11 +51,16 @@ std::string parts_of(const MeshReport& report) {
 /// What reading changed, and what the library will change whenever it cooks the mesh file.
 std::string repairs_of(const ConvertedModel& model, const MeshReport& report) {
     std::string text;
-    if (model.joined > 0) text += "joined " + count(model.joined, "equal point", "equal points");
-    if (model.collapsed > 0)
-        text += (text.empty() ? "dropped " : ", dropped ") + count(model.collapsed, "triangle", "triangles") +
-                " with a repeated corner";
-    return (text.empty() ? "" : "Reading " + text + ". ") + report.repairs;
+    const auto say = [&text](uint64_t n, const std::string& before, const char* one, const char* many,
+                             const std::string& after = "") {
+        if (n > 0) text += (text.empty() ? "Reading " : ", ") + before + " " + count(n, one, many) + after;
+    };
+    say(model.joined, "joined", "equal point", "equal points");
+    say(model.collapsed, "dropped", "triangle", "triangles", " with a repeated corner");
+    say(model.left_out, "left out", "line or point", "lines and points");
+    say(model.unusable_normals, "took", "unusable normal", "unusable normals", " from the triangle");
+    say(model.unusable_uvs, "set", "unusable texture coordinate", "unusable texture coordinates", " to 0");
+    return (text.empty() ? "" : text + ". ") + report.repairs;
 }
 
 MeshView view_of(const Mesh& mesh) {
@@ -88,7 +93,7 @@ Result<Delivery> convert_and_encode(const std::string& path) {
 /// One line that is written over, on a terminal only; a refusal stays a single sentence everywhere.
 class WaitingLine {
  public:
-    WaitingLine(std::string path, unsigned seconds) : path_(std::move(path)), seconds_(seconds) {}
+    WaitingLine(std::string path, double seconds) : path_(std::move(path)), seconds_(seconds) {}
     ~WaitingLine() {
         if (is_shown_) std::fprintf(stderr, "\r\033[K");
     }
@@ -96,14 +101,14 @@ class WaitingLine {
     WaitingLine& operator=(const WaitingLine&) = delete;
     void show(double gone) {
         if (::isatty(STDERR_FILENO) != 1) return;
-        std::fprintf(stderr, "\rreading %s: %.1f s, at most %u s\033[K", path_.c_str(), gone, seconds_);
+        std::fprintf(stderr, "\rreading %s: %.1f s, at most %.0f s\033[K", path_.c_str(), gone, seconds_);
         std::fflush(stderr);
         is_shown_ = true;
     }
 
  private:
     std::string path_;
-    unsigned seconds_;
+    double seconds_;
     bool is_shown_ = false;
 };
 
@@ -129,7 +134,7 @@ Result<std::string> import_model(const std::string& in, const std::string& out, 
     if (auto r = check_out(in, out); !r) return Error{r.error()};
     const auto work = [&in] { return convert_and_encode(in); };
     auto delivery = [&] {
-        WaitingLine line(one_line(in), limits.seconds);
+        WaitingLine line(one_line(in), longest_wait(limits));
         return run_limited(in, limits, work, [&line](double gone) { line.show(gone); });
     }();
     if (!delivery) return Error{delivery.error()};

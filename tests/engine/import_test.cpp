@@ -221,6 +221,51 @@ TEST_F(Import, NormalsTextureCoordinatesAndMaterialsBelongToCorners) {
     }
 }
 
+TEST_F(Import, WhatIsLeftOutOrReplacedIsCounted) {
+    const std::string text =
+        "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 1 1 0\nvn nan 0 0\nvn 0 0 1\nvn 0 0 0\nvt 1e30 0\nvt 0 1\n"
+        "f 1/1/1 2/2/2 3/2/3\nf 2 4 3\nf 1 2\nf 3\nf 4\n";
+    const ProgramRun result = run(file("faces.obj", text), folder_ / "out.cmesh");
+    EXPECT_EQ(result.exit_code, 0);
+    EXPECT_NE(result.said.find("left out 3 lines and points"), std::string::npos) << result.said;
+    EXPECT_NE(result.said.find("unusable normals from the triangle"), std::string::npos) << result.said;
+    EXPECT_NE(result.said.find("set 1 unusable texture coordinate to 0"), std::string::npos) << result.said;
+}
+
+TEST_F(Import, WhoWaitsIsToldTheSecondsThatTheProgramHas) {
+    const std::string slow =
+        file("slow", "#!/bin/sh\n[ \"$1\" = --version ] || sleep 0.5\nexec '" + kProgram + "' \"$@\"\n");
+    fs::permissions(slow, fs::perms::owner_all);
+    size_t told = 0;
+    const auto waiting = [&told](double seconds, double most) {
+        EXPECT_LE(seconds, most);
+        EXPECT_EQ(most, 14);
+        ++told;
+    };
+    EXPECT_TRUE(import_mesh(file("cube.obj", kCube), slow, cache(), waiting).ok());
+    EXPECT_GE(told, 1u);
+}
+
+TEST_F(Import, ANameOfTwoLinesIsOneSentence) {
+    const std::string path = folder_ / "two\nlines.obj";
+    const auto expect_one_line = [](const std::string& error) {
+        EXPECT_NE(error.find("two lines.obj: "), std::string::npos) << error;
+        EXPECT_EQ(std::count(error.begin(), error.end(), '\n'), 0) << error;
+    };
+    expect_one_line(import_mesh(path, kProgram, cache()).error());
+    std::ofstream(path) << kCube;
+    const auto cube = import_mesh(path, kProgram, cache());
+    EXPECT_TRUE(cube.ok()) << cube.error();
+    std::ofstream(path) << "v 0 0 0\n";
+    expect_one_line(import_mesh(path, kProgram, cache()).error());
+    expect_one_line(read_mesh_file(path).error());
+    expect_one_line(read_whole_file(path, 2).error());
+    expect_one_line(write_mesh_file(Mesh{}, path).error());
+    fs::remove(path);
+    fs::create_directory(path);
+    expect_one_line(write_whole_file(std::vector<uint8_t>{1}, path).error());
+}
+
 TEST_F(Import, TooLittleTimeIsOneSentenceAndNoFile) {
     std::string face = "f";
     std::string text;
