@@ -16,8 +16,13 @@
 #include <cstring>
 #include <exception>
 #include <filesystem>
+#include <map>
+#include <memory>
+#include <optional>
 #include <string_view>
 
+#include "engine/import/import.hpp"
+#include "engine/import_folder.hpp"
 #include "engine/mesh_file.hpp"
 
 extern char** environ;
@@ -27,9 +32,12 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr uint64_t kLargestModel = 1ull << 30;  // bytes; the importer's own limit on memory is of that size
-constexpr double kLongestImport = 20;           // s; the importer gives up after 14 by itself
-constexpr uint32_t kImporterVersion = 1;        // raise it when the importer gives other meshes for the same file
+constexpr uint64_t kLargestModel = 1ull << 30;    // bytes; the importer's own limit on memory is of that size
+constexpr uint64_t kMostNamedBytes = 1ull << 29;  // of all files that a glTF names; a second or two to hash
+constexpr size_t kMostNames = 4096;               // in a glTF; each costs a look at the folder, some 10 us
+constexpr size_t kLongestName = 4096;             // bytes; no path is longer
+constexpr double kLongestImport = 20;             // s; a program that has not given up by itself is ended
+constexpr size_t kLongestSentence = 4096;         // bytes
 
 std::string lower_case_extension(const std::string& path) {
     std::string extension = fs::path(path).extension().string();
@@ -38,31 +46,89 @@ std::string lower_case_extension(const std::string& path) {
     return extension;
 }
 
-/// The values of "uri" in a glTF text that name files, in the order of the text. No JSON reader: a text that hides a
-/// name behind escapes costs a stale cache entry, nothing else.
-std::vector<std::string> named_files(const std::vector<uint8_t>& bytes) {
-    const std::string_view text(reinterpret_cast<const char*>(bytes.data()), bytes.size());
+/// The values of "uri" in a glTF text that name files, in the order of the text; nothing when there are too many. No
+/// JSON reader: a text that hides a name behind escapes costs a stale cache entry, nothing else.
+std::optional<std::vector<std::string>> named_files(std::string_view text) {
     std::vector<std::string> names;
     for (size_t at = text.find("\"uri\""); at != text.npos; at = text.find("\"uri\"", at + 5)) {
         const size_t open = text.find('"', at + 5);
         const size_t close = open == text.npos ? text.npos : text.find('"', open + 1);
         if (close == text.npos) break;
         const std::string_view name = text.substr(open + 1, close - open - 1);
-        if (name.size() < 1024 && name.substr(0, 5) != "data:") names.emplace_back(name);
+        if (name.substr(0, 5) == "data:") continue;
+        if (names.size() >= kMostNames || name.size() >= kLongestName) return std::nullopt;
+        names.emplace_back(name);
     }
     return names;
 }
 
-std::string content_key(const std::string& path, const std::vector<uint8_t>& bytes) {
-    const std::string extension = lower_case_extension(path);
-    const auto hash_of = [](const std::vector<uint8_t>& b) { return XXH3_128bits(b.data(), b.size()); };
-    std::vector<XXH128_hash_t> parts{
-        hash_of(bytes), XXH3_128bits(extension.data(), extension.size()), {kImporterVersion, 0}};
-    if (extension == ".gltf")
-        for (const std::string& name : named_files(bytes)) {
-            const auto beside = read_whole_file((fs::path(path).parent_path() / name).string(), kLargestModel);
-            parts.push_back(beside.ok() ? hash_of(beside.value()) : XXH128_hash_t{});
+/// Nothing when the file is no ordinary one, cannot be read to its end, or has more bytes than are left.
+std::optional<XXH128_hash_t> hash_of_file(const std::string& path, uint64_t& bytes_left) {
+    const int file = ::open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK);
+    if (file < 0) return std::nullopt;
+    struct stat status {};
+    bool is_good =
+        ::fstat(file, &status) == 0 && S_ISREG(status.st_mode) && static_cast<uint64_t>(status.st_size) <= bytes_left;
+    const std::unique_ptr<XXH3_state_t, decltype(&XXH3_freeState)> state(XXH3_createState(), XXH3_freeState);
+    is_good = is_good && state != nullptr && XXH3_128bits_reset(state.get()) == XXH_OK;
+    std::vector<uint8_t> block(1 << 18);
+    while (is_good) {
+        const ssize_t n = ::read(file, block.data(), block.size());
+        if (n < 0 && errno == EINTR) continue;
+        if (n == 0) break;
+        is_good = n > 0 && static_cast<uint64_t>(n) <= bytes_left;
+        if (!is_good) break;
+        bytes_left -= static_cast<uint64_t>(n);
+        XXH3_128bits_update(state.get(), block.data(), static_cast<size_t>(n));
+    }
+    ::close(file);
+    if (!is_good) return std::nullopt;
+    return XXH3_128bits_digest(state.get());
+}
+
+/// One part a name: the hash of the file that the importer would open for it, or zero. Each file is read once, however
+/// often it is named. False when they are too many or too large to be read here, where nothing limits the time: the
+/// importer then reads them within its own limits, and the result is not kept.
+bool append_named_files(const std::string& path, std::string_view text, std::vector<XXH128_hash_t>& parts) {
+    const auto names = named_files(text);
+    if (!names) return false;
+    const ModelFolder folder(path);
+    std::map<std::string, XXH128_hash_t> hashes;
+    uint64_t bytes_left = kMostNamedBytes;
+    for (const std::string& name : *names) {
+        const std::string file = folder.find_beside(name);
+        auto known = hashes.find(file);
+        if (known == hashes.end()) {
+            const auto hash = file.empty() ? XXH128_hash_t{} : hash_of_file(file, bytes_left);
+            if (!hash) return false;
+            known = hashes.emplace(file, *hash).first;
         }
+        parts.push_back(known->second);
+    }
+    return true;
+}
+
+/// The part of a glTF file that names others: all of a .gltf, the JSON that a .glb begins with (its length stands at
+/// byte 12, in version 1 as in version 2). Of other formats nothing: none of those that games use keeps triangles
+/// beside it.
+std::string_view naming_text(const std::string& extension, const std::vector<uint8_t>& bytes) {
+    const std::string_view all(reinterpret_cast<const char*>(bytes.data()), bytes.size());
+    if (extension == ".gltf") return all;
+    if (extension != ".glb" || bytes.size() < 20) return {};
+    uint32_t length = 0;
+    std::memcpy(&length, bytes.data() + 12, sizeof length);
+    return all.substr(20, length);
+}
+
+XXH128_hash_t hash_of(std::string_view text) {
+    return XXH3_128bits(text.data(), text.size());
+}
+
+/// The name of the cache entry; empty when the result is not to be kept.
+std::string content_key(const std::string& path, const std::vector<uint8_t>& bytes, const std::string& version) {
+    const std::string extension = lower_case_extension(path);
+    std::vector<XXH128_hash_t> parts{XXH3_128bits(bytes.data(), bytes.size()), hash_of(extension), hash_of(version)};
+    if (!append_named_files(path, naming_text(extension, bytes), parts)) return "";
     const XXH128_hash_t all = XXH3_128bits(parts.data(), parts.size() * sizeof parts[0]);
     char hex[33];
     std::snprintf(hex, sizeof hex, "%016llx%016llx", static_cast<unsigned long long>(all.high64),
@@ -70,7 +136,7 @@ std::string content_key(const std::string& path, const std::vector<uint8_t>& byt
     return hex;
 }
 
-/// What the program wrote to its standard error, read until it closes it or the time is over.
+/// What the program wrote, read until it closes the pipe or the time is over.
 std::string listen(int pipe, const ImportWaiting& waiting, bool& is_late) {
     using Clock = std::chrono::steady_clock;
     const auto begin = Clock::now();
@@ -81,7 +147,8 @@ std::string listen(int pipe, const ImportWaiting& waiting, bool& is_late) {
         if (is_late) return said;
         pollfd wait{pipe, POLLIN, 0};
         if (::poll(&wait, 1, 100) <= 0) {
-            if (waiting) waiting(gone, kLongestImport);
+            const double most = longest_wait({});  // the program's own limit, by the clock
+            if (waiting) waiting(std::min(gone, most), most);
             continue;
         }
         char buffer[512];
@@ -92,28 +159,34 @@ std::string listen(int pipe, const ImportWaiting& waiting, bool& is_late) {
     }
 }
 
-Result<pid_t> start(const std::string& program, const std::string& in, const std::string& out, int error_pipe) {
-    std::string arguments[] = {program, in, out};
-    char* argv[] = {arguments[0].data(), arguments[1].data(), arguments[2].data(), nullptr};
+/// `arguments` begin with the program. What it writes goes to the pipe.
+Result<pid_t> start(std::vector<std::string> arguments, int pipe) {
+    std::vector<char*> argv;
+    for (std::string& argument : arguments) argv.push_back(argument.data());
+    argv.push_back(nullptr);
     posix_spawn_file_actions_t actions;
     posix_spawn_file_actions_init(&actions);
     posix_spawn_file_actions_addopen(&actions, STDIN_FILENO, "/dev/null", O_RDONLY, 0);
-    posix_spawn_file_actions_addopen(&actions, STDOUT_FILENO, "/dev/null", O_WRONLY, 0);
-    posix_spawn_file_actions_adddup2(&actions, error_pipe, STDERR_FILENO);
+    posix_spawn_file_actions_adddup2(&actions, pipe, STDOUT_FILENO);
+    posix_spawn_file_actions_adddup2(&actions, pipe, STDERR_FILENO);
+#if defined(__GLIBC__) && __GLIBC_PREREQ(2, 34)
+    posix_spawn_file_actions_addclosefrom_np(&actions, 3);  // the game's own; the reading child closes them in any case
+#endif
     pid_t child = -1;
-    const int trouble = ::posix_spawn(&child, program.c_str(), &actions, nullptr, argv, environ);
+    const int trouble = ::posix_spawn(&child, argv[0], &actions, nullptr, argv.data(), environ);
     posix_spawn_file_actions_destroy(&actions);
     if (trouble != 0)
-        return Error{program + ": the import program cannot be started (" + std::strerror(trouble) +
+        return Error{arguments[0] + ": the import program cannot be started (" + std::strerror(trouble) +
                      "). Build the target cullet_import or give its path."};
     return child;
 }
 
-Result<void> run_importer(const std::string& program, const std::string& in, const std::string& out,
-                          const ImportWaiting& waiting) {
+/// What the program said when it ended with exit code 0; otherwise that as the error, which may be empty.
+Result<std::string> run_importer(const std::vector<std::string>& arguments, const ImportWaiting& waiting) {
     int ends[2];
-    if (::pipe2(ends, O_CLOEXEC) != 0) return Error{in + ": no pipe to the import program. Close some files."};
-    const auto child = start(program, in, out, ends[1]);
+    if (::pipe2(ends, O_CLOEXEC) != 0)
+        return Error{arguments[0] + ": no pipe to the import program. Close some files."};
+    const auto child = start(arguments, ends[1]);
     ::close(ends[1]);
     if (!child) {
         ::close(ends[0]);
@@ -126,32 +199,61 @@ Result<void> run_importer(const std::string& program, const std::string& in, con
     int status = 0;
     while (::waitpid(child.value(), &status, 0) < 0 && errno == EINTR) {
     }
-    if (WIFEXITED(status) && WEXITSTATUS(status) == 0) return {};
     while (!said.empty() && said.back() == '\n') said.pop_back();
-    std::replace(said.begin(), said.end(), '\n', ' ');
-    if (said.empty()) said = in + ": the import program stopped without a word. Run it by hand: " + program + " " + in;
+    if (WIFEXITED(status) && WEXITSTATUS(status) == 0) return said;
     return Error{said};
 }
 
-Result<Mesh> import_and_cache(const std::string& path, const std::string& program, const std::string& cache_folder,
-                              const ImportWaiting& waiting) {
+/// The program's own version and that of assimp, which belong to the name of a cache entry. Asked for at each import: a
+/// process started and ended, 10 to 15 ms. The library is loaded at run time, so what this was built with says nothing.
+Result<std::string> version_of(const std::string& program) {
+    auto said = run_importer({program, "--version"}, {});
+    if (!said && said.error().empty())
+        return Error{program + ": the import program does not tell its version. Build the target cullet_import anew."};
+    return said;
+}
+
+/// The mesh file that the program makes of a model. An absolute path cannot be taken for an option.
+Result<Mesh> read_imported(const std::string& path, const std::string& program, const std::string& out,
+                           const ImportWaiting& waiting) {
+    const auto said = run_importer({program, fs::absolute(path).string(), out}, waiting);
+    if (said) return read_mesh_file(out);
+    if (!said.error().empty()) return Error{said.error()};
+    return Error{path + ": the import program stopped without a word. Run it by hand: " + program + " " + path};
+}
+
+Result<Mesh> import_without_cache(const std::string& path, const std::string& program, const fs::path& folder,
+                                  const ImportWaiting& waiting) {
+    const std::string out = folder / ("passing." + std::to_string(::gettid()) + ".cmesh");
+    auto mesh = read_imported(path, program, out, waiting);
+    ::unlink(out.c_str());
+    return mesh;
+}
+
+Result<Mesh> import_with_cache(const std::string& path, const std::string& program, const std::string& cached,
+                               const ImportWaiting& waiting) {
+    auto mesh = read_mesh_file(cached);
+    if (!mesh) return read_imported(path, program, cached, waiting);
+    ::utimensat(AT_FDCWD, cached.c_str(), nullptr, 0);  // used now; whoever keeps the folder small sees it
+    return mesh;
+}
+
+Result<Mesh> import_any(const std::string& path, const std::string& program, const std::string& cache_folder,
+                        const ImportWaiting& waiting) {
     auto bytes = read_whole_file(path, kLargestModel);
     if (!bytes) return Error{bytes.error()};
     if (is_mesh_file(*bytes)) return parse_mesh_file(*bytes, path);
 
+    const auto version = version_of(program);
+    if (!version) return Error{version.error()};
     std::error_code trouble;
     fs::create_directories(cache_folder, trouble);
-    const std::string cached = (fs::absolute(cache_folder) / (content_key(path, *bytes) + ".cmesh")).string();
-    auto mesh = read_mesh_file(cached);
-    if (mesh) {
-        ::utimensat(AT_FDCWD, cached.c_str(), nullptr, 0);  // used now; whoever keeps the folder small sees it
-    } else {
-        // An absolute path cannot be taken for an option.
-        if (auto r = run_importer(program, fs::absolute(path).string(), cached, waiting); !r) return Error{r.error()};
-        mesh = read_mesh_file(cached);
-        if (!mesh) return Error{mesh.error()};
-    }
-    mesh->name = fs::path(path).stem().string().substr(0, kLongestMeshName);
+    const fs::path folder = fs::absolute(cache_folder);
+    const std::string key = content_key(path, *bytes, *version);
+    auto mesh = key.empty() ? import_without_cache(path, program, folder, waiting)
+                            : import_with_cache(path, program, folder / (key + ".cmesh"), waiting);
+    if (!mesh) return Error{mesh.error()};
+    mesh->name = one_line(fs::path(path).stem().string()).substr(0, kLongestMeshName);
     if (auto r = validate_mesh(*mesh, path); !r) return Error{r.error()};
     return mesh;
 }
@@ -161,9 +263,11 @@ Result<Mesh> import_and_cache(const std::string& path, const std::string& progra
 Result<Mesh> import_mesh(const std::string& path, const std::string& program_path, const std::string& cache_folder,
                          const ImportWaiting& waiting) {
     try {
-        return import_and_cache(path, program_path, cache_folder, waiting);
+        auto mesh = import_any(path, program_path, cache_folder, waiting);
+        if (!mesh) return Error{one_line(mesh.error(), kLongestSentence)};
+        return mesh;
     } catch (const std::exception& e) {
-        return Error{path + ": cannot be imported (" + e.what() + "). Free memory or check the path."};
+        return Error{one_line(path) + ": cannot be imported (" + e.what() + "). Free memory or check the path."};
     }
 }
 

@@ -12,9 +12,11 @@ namespace cullet {
 using ImportWaiting = std::function<void(double seconds, double most)>;
 
 /// A mesh file is read as it is. Any other model is given to the program and the result kept in cache_folder (made if
-/// missing) under the XXH3-128 of the file's bytes, its extension (which chooses the reader) and, for glTF, the buffers
-/// that it names; a cached file that no longer reads is made anew. The mesh is named after the file. Blocks for up to
-/// 14 s; safe on any thread, and in several processes that share a folder.
+/// missing) under the XXH3-128 of the file's bytes, its extension (which chooses the reader), for glTF the files that
+/// it names and may open, and the versions of the program and of assimp; a cached file that no longer reads is made
+/// anew. A glTF that names too many files, or too large ones, is imported each time. The mesh is named after the file.
+/// Blocks for up to 14 s, and 20 should the program itself hang; safe on any thread, and in several processes that
+/// share a folder.
 Result<Mesh> import_mesh(const std::string& path, const std::string& program_path, const std::string& cache_folder,
                          const ImportWaiting& waiting = {});
 

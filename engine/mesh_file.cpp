@@ -9,7 +9,9 @@
 #include <cerrno>
 #include <cmath>
 #include <cstdio>
+#include <cstdlib>
 #include <cstring>
+#include <memory>
 #include <new>
 
 namespace cullet {
@@ -23,6 +25,7 @@ constexpr uint32_t kVersion = 1;
 enum : uint32_t { kHasNormals = 1, kHasUvs = 2, kHasMaterials = 4, kAllFlags = 7 };
 constexpr uint64_t kChunkHeader = 16;  // bytes
 constexpr uint64_t kLargestFile = 1ull << 36;
+constexpr size_t kLongestPath = 4096;  // bytes; a sentence names the whole of it
 
 struct Header {
     char magic[8];
@@ -52,6 +55,11 @@ std::string text(float x) {
     char buffer[32];
     std::snprintf(buffer, sizeof buffer, "%.9g", static_cast<double>(x));
     return buffer;
+}
+
+/// A path as sentences name it: in one line.
+std::string quoted(const std::string& path) {
+    return one_line(path, kLongestPath);
 }
 
 Error damaged(const std::string& name, const std::string& what) {
@@ -236,11 +244,12 @@ Result<Mesh> parse_payload(const Header& header, std::span<const uint8_t> payloa
 }
 
 Error file_trouble(const std::string& path, const char* doing, int number) {
-    return {path + ": cannot " + doing + " (" + std::strerror(number) + "). Check the path, the rights and the disk."};
+    return {quoted(path) + ": cannot " + doing + " (" + std::strerror(number) +
+            "). Check the path, the rights and the disk."};
 }
 
 Result<void> write_bytes(std::span<const uint8_t> bytes, const std::string& path) {
-    const int file = ::open(path.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0666);
+    const int file = ::open(path.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_NOFOLLOW | O_CLOEXEC, 0666);
     if (file < 0) return file_trouble(path, "create the file", errno);
     size_t done = 0;
     while (done < bytes.size()) {
@@ -259,7 +268,15 @@ Result<void> write_bytes(std::span<const uint8_t> bytes, const std::string& path
 
 }  // namespace
 
-Result<void> validate_mesh(const Mesh& mesh, const std::string& name) {
+std::string one_line(std::string text, size_t most_bytes) {
+    for (char& c : text)
+        if (static_cast<unsigned char>(c) < 32 || c == 127) c = ' ';
+    if (text.size() > most_bytes) text = text.substr(0, most_bytes - 3) + "...";
+    return text;
+}
+
+Result<void> validate_mesh(const Mesh& mesh, const std::string& path) {
+    const std::string name = quoted(path);
     if (auto r = validate_name(mesh, name); !r) return r;
     if (auto r = validate_counts(mesh, name); !r) return r;
     if (auto r = validate_positions(mesh, name); !r) return r;
@@ -270,7 +287,8 @@ bool is_mesh_file(std::span<const uint8_t> bytes) {
     return bytes.size() >= sizeof kMagic && std::memcmp(bytes.data(), kMagic, sizeof kMagic) == 0;
 }
 
-Result<Mesh> parse_mesh_file(std::span<const uint8_t> bytes, const std::string& name) {
+Result<Mesh> parse_mesh_file(std::span<const uint8_t> bytes, const std::string& path) {
+    const std::string name = quoted(path);
     try {
         auto header = parse_header(bytes, name);
         if (!header) return Error{header.error()};
@@ -287,7 +305,7 @@ Result<std::vector<uint8_t>> read_whole_file(const std::string& path, uint64_t m
     struct stat status {};
     if (::fstat(file, &status) != 0 || !S_ISREG(status.st_mode) || static_cast<uint64_t>(status.st_size) > most_bytes) {
         ::close(file);
-        return Error{path + ": is no ordinary file of at most " + text(most_bytes) +
+        return Error{quoted(path) + ": is no ordinary file of at most " + text(most_bytes) +
                      " bytes. Give the path of a model."};
     }
     std::vector<uint8_t> bytes;
@@ -296,7 +314,7 @@ Result<std::vector<uint8_t>> read_whole_file(const std::string& path, uint64_t m
         bytes.resize(static_cast<size_t>(status.st_size));
     } catch (const std::bad_alloc&) {
         ::close(file);
-        return Error{path + ": no memory for its " + text(static_cast<uint64_t>(status.st_size)) +
+        return Error{quoted(path) + ": no memory for its " + text(static_cast<uint64_t>(status.st_size)) +
                      " bytes. Free memory."};
     }
     while (done < bytes.size()) {
@@ -340,13 +358,30 @@ std::vector<uint8_t> encode_mesh_file(const Mesh& mesh) {
     return out;
 }
 
+Result<std::string> target_of(const std::string& path) {
+    struct stat status {};
+    if (::lstat(path.c_str(), &status) != 0) return path;  // nothing there, or the trouble shows when it is written
+    std::string target = path;
+    if (S_ISLNK(status.st_mode)) {
+        const std::unique_ptr<char, decltype(&std::free)> real(::realpath(path.c_str(), nullptr), std::free);
+        if (real == nullptr || ::stat(real.get(), &status) != 0)
+            return Error{quoted(path) + ": is a link that leads nowhere. Remove it or give another name."};
+        target = real.get();
+    }
+    if (!S_ISREG(status.st_mode))
+        return Error{quoted(path) + ": is no ordinary file, and is not written over. Give another name."};
+    return target;
+}
+
 Result<void> write_whole_file(std::span<const uint8_t> bytes, const std::string& path) {
-    const std::string part = path + "." + text(static_cast<uint64_t>(::gettid())) + ".part";
+    const auto target = target_of(path);
+    if (!target) return Error{target.error()};
+    const std::string part = *target + "." + text(static_cast<uint64_t>(::gettid())) + ".part";
     if (auto r = write_bytes(bytes, part); !r) {
         ::unlink(part.c_str());
         return r;
     }
-    if (::rename(part.c_str(), path.c_str()) != 0) {
+    if (::rename(part.c_str(), target->c_str()) != 0) {
         const int number = errno;
         ::unlink(part.c_str());
         return file_trouble(path, "put the new file in place", number);

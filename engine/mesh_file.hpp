@@ -26,6 +26,9 @@ constexpr float kSmallestMeshExtent = 1e-6f;  // m; below it areas and volumes u
 constexpr uint64_t kMostMeshRows = 1u << 28;  // vertices or triangles; three corners a triangle still count in 32 bits
 constexpr uint64_t kLongestMeshName = 255;    // bytes
 
+/// Control characters become blanks, and so many bytes are kept: sentences quote strangers' files and their names.
+std::string one_line(std::string text, size_t most_bytes = 400);
+
 /// What every mesh that enters the library fulfils: at least one triangle, indices below the vertex count, corner
 /// arrays of the right length, finite coordinates of a size that can be squared, normals of length 1 or 0, a printable
 /// name. Says nothing of shape: repeated corners, holes and crossings are the business of cooking.
@@ -45,6 +48,9 @@ Result<void> write_mesh_file(const Mesh& mesh, const std::string& path);
 bool is_mesh_file(std::span<const uint8_t> bytes);
 /// The whole of an ordinary file of at most most_bytes.
 Result<std::vector<uint8_t>> read_whole_file(const std::string& path, uint64_t most_bytes);
+/// The file that write_whole_file puts in place: the path, or the ordinary file that a link there leads to. Refuses
+/// whatever else stands there: renaming over a device, a pipe or a socket would remove it.
+Result<std::string> target_of(const std::string& path);
 /// Writes path.<thread>.part beside the target and renames it: there is never half a file under the name, whoever else
 /// writes it at the same time.
 Result<void> write_whole_file(std::span<const uint8_t> bytes, const std::string& path);

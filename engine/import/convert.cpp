@@ -74,18 +74,23 @@ struct Corners {
     std::vector<uint16_t> materials;  // one a triangle
     bool has_normals = false, has_uvs = false;
     uint64_t collapsed = 0;  // triangles left out
-    uint64_t points = 0;     // of the file, that triangles use, once for each place of their mesh
+    uint64_t left_out = 0;   // lines and points
+    uint64_t unusable_normals = 0, unusable_uvs = 0;
+    uint64_t points = 0;  // of the file, that triangles use, once for each place of their mesh
 };
 
 Vec3 vector_of(const aiVector3D& v) {
     return {v.x, v.y, v.z};
 }
 
-/// A normal that is missing, zero or not finite is taken from the triangle.
-Vec3 usable_normal(Vec3d n, Vec3d face_normal) {
-    const Vec3 unit = normalised(n).to_float();
+/// False for one that is zero or not finite.
+bool is_usable_normal(Vec3 unit) {
     const float squared = dot(unit, unit);
-    return squared > 0.99f && squared < 1.01f ? unit : normalised(face_normal).to_float();
+    return squared > 0.99f && squared < 1.01f;
+}
+
+bool is_usable_uv(Vec2 uv) {
+    return std::fabs(uv.x) <= kLargestCoordinate && std::fabs(uv.y) <= kLargestCoordinate;
 }
 
 bool has_repeated_corner(const Vec3* p) {
@@ -110,12 +115,17 @@ bool append_triangle(Corners& out, const aiMesh& mesh, const aiFace& face, const
     const double side = is_mirrored ? -1 : 1;
     for (int c = 0; c < 3; ++c) {
         out.positions.push_back(rounded[c]);
-        Vec3d normal;
-        if (mesh.HasNormals()) normal = side * turned_normal(place, Vec3d(vector_of(mesh.mNormals[order[c]])));
-        out.normals.push_back(usable_normal(normal, face_normal));
+        Vec3 normal;
+        if (mesh.HasNormals())
+            normal = normalised(side * turned_normal(place, Vec3d(vector_of(mesh.mNormals[order[c]])))).to_float();
+        if (!is_usable_normal(normal)) {
+            out.unusable_normals += mesh.HasNormals();
+            normal = normalised(face_normal).to_float();
+        }
+        out.normals.push_back(normal);
         Vec2 uv;
         if (mesh.HasTextureCoords(0)) uv = {mesh.mTextureCoords[0][order[c]].x, mesh.mTextureCoords[0][order[c]].y};
-        if (!(std::fabs(uv.x) <= kLargestCoordinate && std::fabs(uv.y) <= kLargestCoordinate)) uv = {};
+        if (!is_usable_uv(uv)) uv = {}, ++out.unusable_uvs;
         out.uvs.push_back(uv);
     }
     out.materials.push_back(static_cast<uint16_t>(mesh.mMaterialIndex));
@@ -127,6 +137,7 @@ void append_mesh(Corners& out, const aiMesh& mesh, const Affine& place) {
     std::vector<bool> is_used(mesh.mNumVertices);
     for (unsigned f = 0; f < mesh.mNumFaces; ++f) {
         const aiFace& face = mesh.mFaces[f];
+        out.left_out += face.mNumIndices == 1 || face.mNumIndices == 2;
         if (face.mNumIndices != 3) continue;
         if (!append_triangle(out, mesh, face, place)) {
             ++out.collapsed;
@@ -225,6 +236,9 @@ Result<ConvertedModel> convert_model(const std::string& path) {
     Mesh& mesh = model.mesh;
     const std::vector<uint32_t> vertex = join_equal_points(corners->positions, mesh.positions);
     model.collapsed = corners->collapsed;
+    model.left_out = corners->left_out;
+    model.unusable_normals = corners->unusable_normals;
+    model.unusable_uvs = corners->unusable_uvs;
     model.joined = corners->points - mesh.positions.size();
     mesh.name = name_of(path);
     for (size_t c = 0; c < vertex.size(); c += 3) mesh.triangles.push_back({vertex[c], vertex[c + 1], vertex[c + 2]});

@@ -1,10 +1,8 @@
-// What a model may open: itself, and ordinary files in its own folder and below. A model that names "../../secret" gets
-// nothing. An OBJ file is handed on with ".5" written "0.5": assimp 5.2 takes the former for no number, and the vertex
-// for none.
+// How assimp opens files: those that a model may open (import_folder.hpp), and no others. An OBJ file is handed on with
+// ".5" written "0.5": assimp 5.2 takes the former for no number, and the vertex for none.
 #pragma once
 #include <assimp/DefaultIOSystem.h>
 #include <assimp/MemoryIOWrapper.h>
-#include <sys/stat.h>
 
 #include <cctype>
 #include <cstring>
@@ -12,17 +10,20 @@
 #include <memory>
 #include <string>
 
+#include "engine/import_folder.hpp"
+
 namespace cullet {
 
 class FolderFiles : public Assimp::DefaultIOSystem {
  public:
-    explicit FolderFiles(const std::string& model) : model_(canonical(model)), folder_(model_.parent_path()) {}
+    explicit FolderFiles(const std::string& model) : folder_(model) {}
 
-    bool Exists(const char* file) const override { return is_allowed(file) && DefaultIOSystem::Exists(file); }
+    bool Exists(const char* file) const override { return !folder_.find(file).empty(); }
 
     Assimp::IOStream* Open(const char* file, const char* mode) override {
-        if (!is_allowed(file)) return nullptr;
-        std::unique_ptr<Assimp::IOStream> stream(DefaultIOSystem::Open(file, mode));
+        const std::string real = folder_.find(file);
+        if (real.empty()) return nullptr;
+        std::unique_ptr<Assimp::IOStream> stream(DefaultIOSystem::Open(real.c_str(), mode));
         if (stream == nullptr || !is_obj(file)) return stream.release();
         std::string text(stream->FileSize(), '\0');
         if (stream->Read(text.data(), 1, text.size()) != text.size()) return nullptr;
@@ -38,42 +39,32 @@ class FolderFiles : public Assimp::DefaultIOSystem {
     }
 
  private:
-    static std::filesystem::path canonical(const std::string& file) {
-        std::error_code trouble;
-        return std::filesystem::canonical(file, trouble);
-    }
-
     static bool is_obj(const std::string& file) {
         std::string end = std::filesystem::path(file).extension().string();
         for (char& letter : end) letter = static_cast<char>(std::tolower(static_cast<unsigned char>(letter)));
         return end == ".obj";
     }
 
-    /// Lines of points, normals and uvs ("v", "vn", "vt") with ".5" written "0.5"; the others as they are.
+    /// Lines of points, normals and uvs ("v", "vn", "vt") with ".5" written "0.5"; the others as they are. A line ends
+    /// with LF, CR or both, and goes on in the next one when a backslash stands before that.
     static std::string with_leading_zeros(const std::string& text) {
         std::string out;
         out.reserve(text.size());
         bool is_vertex = false;
-        char before = '\n';
-        for (const char c : text) {
+        char before = '\n';  // of this line: '\n' at its beginning, ' ' where it goes on
+        for (size_t i = 0; i < text.size(); ++i) {
+            const char c = text[i];
             if (before == '\n') is_vertex = c == 'v';
             if (is_vertex && c == '.' && (before == ' ' || before == '\t')) out += '0';
             out += c;
-            before = c;
+            const size_t end = c == '\n' && i > 0 && text[i - 1] == '\r' ? i - 1 : i;
+            const bool goes_on = end > 0 && text[end - 1] == '\\';
+            before = c != '\n' && c != '\r' ? c : goes_on ? ' ' : '\n';
         }
         return out;
     }
 
-    bool is_allowed(const char* file) const {
-        const std::filesystem::path path = canonical(file);
-        struct stat status {};
-        if (path.empty() || ::stat(path.c_str(), &status) != 0 || !S_ISREG(status.st_mode)) return false;
-        if (path == model_) return true;
-        const std::string inside = folder_ == folder_.root_path() ? folder_.string() : folder_.string() + "/";
-        return path.string().rfind(inside, 0) == 0;
-    }
-
-    std::filesystem::path model_, folder_;
+    ModelFolder folder_;
 };
 
 }  // namespace cullet

@@ -1,6 +1,7 @@
 // The parts of cullet_import, the program that meets strangers' files: assimp runs in a child process with limits, and
 // what the child hands back is read as strictly as any other mesh file.
 #pragma once
+#include <algorithm>
 #include <cstdint>
 #include <functional>
 #include <string>
@@ -11,10 +12,19 @@
 
 namespace cullet {
 
+constexpr unsigned kImporterVersion =
+    2;  // raise it when the same file gives another mesh: cached ones are then made anew
+
 struct ImportLimits {
     uint64_t memory_mib = 1024;  // address space; also the largest mesh file
-    unsigned seconds = 10;       // processor time; it may take 1.4 times as long by the clock, and a second at least
+    unsigned seconds = 10;       // processor time
 };
+
+/// By the clock, so that a machine with other work to do does not refuse a good file, and a file that makes the reader
+/// wait for nothing does not stay: 14 s for 10 s of processor time.
+inline double longest_wait(const ImportLimits& limits) {
+    return std::max(limits.seconds + 1.0, 1.4 * limits.seconds);
+}
 
 /// Any model that assimp reads as one mesh in the scene's units: node transforms applied (a mirroring one turns the
 /// winding), polygons cut into triangles, points joined where all three coordinates are equal, triangles with a
@@ -23,6 +33,8 @@ struct ConvertedModel {
     Mesh mesh;
     uint64_t collapsed = 0;  // triangles left out
     uint64_t joined = 0;     // points of the file that were equal to another
+    uint64_t left_out = 0;   // lines and points, among them faces of an OBJ with one or two corners
+    uint64_t unusable_normals = 0, unusable_uvs = 0;  // of corners; taken from the triangle, set to 0
 };
 Result<ConvertedModel> convert_model(const std::string& path);
 
@@ -36,12 +48,9 @@ struct Delivery {
 using Waiting = std::function<void(double seconds)>;
 
 /// Runs work in a child with limits on memory, time, file size and system calls (it opens files to read and nothing
-/// else). However the child ends, and at the latest when the clock has run out, this returns. `subject` begins the
-/// sentences.
+/// else), and without the files and sockets that are open here. However the child ends, and at the latest when the
+/// clock has run out, this returns. `subject` begins the sentences.
 Result<Delivery> run_limited(const std::string& subject, const ImportLimits& limits,
                              const std::function<Result<Delivery>()>& work, const Waiting& waiting = {});
-
-/// Control characters become blanks, and so many bytes are kept: messages quote strangers' files.
-std::string one_line(std::string text, size_t most_bytes = 400);
 
 }  // namespace cullet

@@ -1,5 +1,8 @@
-// cullet_import IN OUT.cmesh [--memory-mib 1024] [--seconds 10]
-// Exit code 0 and one line of counts and repairs, or 2 and one sentence. OUT is written whole or not at all.
+// cullet_import IN OUT.cmesh [--memory-mib 1024] [--seconds 10], or cullet_import --version
+// Exit code 0 and one line of counts and repairs, or 2 and one sentence. OUT is written whole or not at all, and over
+// ordinary files only, never over IN.
+#include <assimp/version.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 #include <CLI/CLI.hpp>
@@ -48,11 +51,16 @@ std::string parts_of(const MeshReport& report) {
 /// What reading changed, and what the library will change whenever it cooks the mesh file.
 std::string repairs_of(const ConvertedModel& model, const MeshReport& report) {
     std::string text;
-    if (model.joined > 0) text += "joined " + count(model.joined, "equal point", "equal points");
-    if (model.collapsed > 0)
-        text += (text.empty() ? "dropped " : ", dropped ") + count(model.collapsed, "triangle", "triangles") +
-                " with a repeated corner";
-    return (text.empty() ? "" : "Reading " + text + ". ") + report.repairs;
+    const auto say = [&text](uint64_t n, const std::string& before, const char* one, const char* many,
+                             const std::string& after = "") {
+        if (n > 0) text += (text.empty() ? "Reading " : ", ") + before + " " + count(n, one, many) + after;
+    };
+    say(model.joined, "joined", "equal point", "equal points");
+    say(model.collapsed, "dropped", "triangle", "triangles", " with a repeated corner");
+    say(model.left_out, "left out", "line or point", "lines and points");
+    say(model.unusable_normals, "took", "unusable normal", "unusable normals", " from the triangle");
+    say(model.unusable_uvs, "set", "unusable texture coordinate", "unusable texture coordinates", " to 0");
+    return (text.empty() ? "" : text + ". ") + report.repairs;
 }
 
 MeshView view_of(const Mesh& mesh) {
@@ -85,7 +93,7 @@ Result<Delivery> convert_and_encode(const std::string& path) {
 /// One line that is written over, on a terminal only; a refusal stays a single sentence everywhere.
 class WaitingLine {
  public:
-    WaitingLine(std::string path, unsigned seconds) : path_(std::move(path)), seconds_(seconds) {}
+    WaitingLine(std::string path, double seconds) : path_(std::move(path)), seconds_(seconds) {}
     ~WaitingLine() {
         if (is_shown_) std::fprintf(stderr, "\r\033[K");
     }
@@ -93,22 +101,40 @@ class WaitingLine {
     WaitingLine& operator=(const WaitingLine&) = delete;
     void show(double gone) {
         if (::isatty(STDERR_FILENO) != 1) return;
-        std::fprintf(stderr, "\rreading %s: %.1f s, at most %u s\033[K", path_.c_str(), gone, seconds_);
+        std::fprintf(stderr, "\rreading %s: %.1f s, at most %.0f s\033[K", path_.c_str(), gone, seconds_);
         std::fflush(stderr);
         is_shown_ = true;
     }
 
  private:
     std::string path_;
-    unsigned seconds_;
+    double seconds_;
     bool is_shown_ = false;
 };
 
+/// The game keeps meshes under it.
+std::string version() {
+    return "cullet_import " + std::to_string(kImporterVersion) + ", assimp " + std::to_string(aiGetVersionMajor()) +
+           "." + std::to_string(aiGetVersionMinor()) + "." + std::to_string(aiGetVersionPatch());
+}
+
+/// Before the model is read, so that nobody waits for a refusal.
+Result<void> check_out(const std::string& in, const std::string& out) {
+    if (const auto target = target_of(out); !target) return Error{target.error()};
+    struct stat model {
+    }, there{};
+    if (::stat(in.c_str(), &model) == 0 && ::stat(out.c_str(), &there) == 0 && model.st_dev == there.st_dev &&
+        model.st_ino == there.st_ino)
+        return Error{out + ": is the model itself. Give the mesh file another name."};
+    return {};
+}
+
 /// The child is not believed either: its bytes go through the reader.
 Result<std::string> import_model(const std::string& in, const std::string& out, const ImportLimits& limits) {
+    if (auto r = check_out(in, out); !r) return Error{r.error()};
     const auto work = [&in] { return convert_and_encode(in); };
     auto delivery = [&] {
-        WaitingLine line(one_line(in), limits.seconds);
+        WaitingLine line(one_line(in), longest_wait(limits));
         return run_limited(in, limits, work, [&line](double gone) { line.show(gone); });
     }();
     if (!delivery) return Error{delivery.error()};
@@ -133,9 +159,10 @@ int main(int argc, char** argv) {
     app.add_option("--seconds", limits.seconds, "most processor time for reading the model, s")
         ->check(CLI::Range(1, 3600))
         ->capture_default_str();
+    app.set_version_flag("--version", cullet::version());
     try {
         app.parse(argc, argv);
-    } catch (const CLI::CallForHelp& e) {
+    } catch (const CLI::Success& e) {  // --help, --version
         return app.exit(e);
     } catch (const CLI::ParseError& e) {
         std::fprintf(stderr, "cullet_import: %s. See cullet_import --help.\n", cullet::one_line(e.what()).c_str());

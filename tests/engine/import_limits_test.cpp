@@ -1,9 +1,24 @@
 // What the child that reads strangers' files may not do.
 #include <fcntl.h>
 #include <gtest/gtest.h>
+#include <sched.h>
 #include <signal.h>
+#include <sys/file.h>
+#include <sys/ioctl.h>
+#include <sys/ipc.h>
+#include <sys/mman.h>
+#include <sys/msg.h>
+#include <sys/prctl.h>
+#include <sys/resource.h>
+#include <sys/sem.h>
+#include <sys/shm.h>
 #include <sys/socket.h>
 #include <sys/stat.h>
+#include <sys/syscall.h>
+#include <sys/time.h>
+#include <sys/uio.h>
+#include <sys/wait.h>
+#include <sys/xattr.h>
 #include <unistd.h>
 
 #include <cerrno>
@@ -77,6 +92,119 @@ TEST_F(Limits, TheChildStartsNoProcessAndNoThreadAndEndsNone) {
               "");
 }
 
+TEST_F(Limits, TheChildSignalsNoOtherProcessByAnyCall) {
+    const pid_t parent = getpid();
+    EXPECT_EQ(told_by_child([parent] {
+                  siginfo_t info{};
+                  info.si_code = SI_QUEUE;
+                  const int handle = static_cast<int>(::syscall(SYS_pidfd_open, parent, 0));
+                  std::string said = expect_forbidden("pidfd_open", handle);
+                  said += expect_forbidden("kill", ::syscall(SYS_kill, parent, 0));
+                  said += expect_forbidden("kill a group", ::syscall(SYS_kill, 0, 0));
+                  said += expect_forbidden("tkill", ::syscall(SYS_tkill, parent, 0));
+                  said += expect_forbidden("tgkill", ::syscall(SYS_tgkill, parent, parent, 0));
+                  said += expect_forbidden("rt_sigqueueinfo", ::syscall(SYS_rt_sigqueueinfo, parent, SIGURG, &info));
+                  said += expect_forbidden("rt_tgsigqueueinfo",
+                                           ::syscall(SYS_rt_tgsigqueueinfo, parent, parent, SIGURG, &info));
+                  said += expect_forbidden("pidfd_send_signal", ::syscall(SYS_pidfd_send_signal, 0, 0, nullptr, 0));
+                  said += expect_forbidden("F_SETOWN", ::fcntl(0, F_SETOWN, parent));
+                  said += expect_forbidden("ptrace", ::syscall(SYS_ptrace, 16, parent, 0, 0));
+                  return said;
+              }),
+              "");
+}
+
+TEST_F(Limits, TheChildRaisesNoLimitAndChangesNoOtherProcess) {
+    const pid_t parent = getpid();
+    EXPECT_EQ(told_by_child([parent] {
+                  rlimit files{};
+                  std::string said = ::getrlimit(RLIMIT_NOFILE, &files) == 0 ? "" : "limits cannot be asked for; ";
+                  cpu_set_t all;
+                  CPU_ZERO(&all);
+                  CPU_SET(0, &all);
+                  const iovec here{&files, sizeof files};
+                  said += expect_forbidden("setrlimit", ::setrlimit(RLIMIT_NOFILE, &files));
+                  said += expect_forbidden("setrlimit, the old call", ::syscall(SYS_setrlimit, RLIMIT_NOFILE, &files));
+                  said += expect_forbidden("prlimit64", ::prlimit(parent, RLIMIT_NOFILE, nullptr, &files));
+                  said += expect_forbidden("prlimit64 to set", ::prlimit(parent, RLIMIT_NOFILE, &files, nullptr));
+                  said += expect_forbidden("sched_setaffinity", ::sched_setaffinity(parent, sizeof all, &all));
+                  said += expect_forbidden("setpriority", ::setpriority(PRIO_PROCESS, static_cast<id_t>(parent), 0));
+                  said += expect_forbidden("setpgid", ::setpgid(parent, 0));
+                  said += expect_forbidden("process_vm_readv", ::process_vm_readv(parent, &here, 1, &here, 1, 0));
+                  said += expect_forbidden("prctl", ::prctl(PR_SET_DUMPABLE, 1));
+                  said += expect_forbidden("setuid", ::setuid(getuid()));
+                  return said;
+              }),
+              "");
+}
+
+TEST_F(Limits, TheChildDatesAndMarksNoFile) {
+    const std::string there = folder_ / "there";
+    const auto before = fs::last_write_time(there);
+    EXPECT_EQ(told_by_child([&] {
+                  const char* const path = there.c_str();
+                  const int file = ::open(path, O_RDONLY);
+                  const timespec past[2] = {{1, 0}, {1, 0}};
+                  const timeval old[2] = {{1, 0}, {1, 0}};
+                  std::string said = file < 0 ? "the file cannot be read; " : "";
+                  said += expect_forbidden("utime", ::syscall(SYS_utime, path, nullptr));
+                  said += expect_forbidden("utimes", ::syscall(SYS_utimes, path, old));
+                  said += expect_forbidden("futimesat", ::syscall(SYS_futimesat, AT_FDCWD, path, old));
+                  said += expect_forbidden("utimensat", ::utimensat(AT_FDCWD, path, past, 0));
+                  said += expect_forbidden("futimens", ::futimens(file, past));
+                  said += expect_forbidden("setxattr", ::setxattr(path, "user.a", "b", 1, 0));
+                  said += expect_forbidden("lsetxattr", ::lsetxattr(path, "user.a", "b", 1, 0));
+                  said += expect_forbidden("fsetxattr", ::fsetxattr(file, "user.a", "b", 1, 0));
+                  said += expect_forbidden("removexattr", ::removexattr(path, "user.a"));
+                  said += expect_forbidden("fchmod", ::fchmod(file, 0));
+                  said += expect_forbidden("fchown", ::fchown(file, 0, 0));
+                  said += expect_forbidden("flock", ::flock(file, LOCK_EX));
+                  said += expect_forbidden("ftruncate", ::ftruncate(file, 0));
+                  said += expect_forbidden("chdir", ::chdir("/"));
+                  said += expect_forbidden("open by openat2", [&] {
+                      const uint64_t how[3] = {O_WRONLY, 0, 0};
+                      return ::syscall(SYS_openat2, AT_FDCWD, path, how, sizeof how);
+                  }());
+                  return said;
+              }),
+              "");
+    EXPECT_EQ(fs::last_write_time(there), before);
+}
+
+TEST_F(Limits, TheChildLeavesNothingWithTheKernel) {
+    EXPECT_EQ(told_by_child([] {
+                  msgbuf message{1, ""};
+                  sembuf lock{};
+                  std::string said = expect_forbidden("shmget", ::shmget(IPC_PRIVATE, 4096, IPC_CREAT | 0600));
+                  said += expect_forbidden("shmat", ::syscall(SYS_shmat, 0, nullptr, 0));
+                  said += expect_forbidden("shmctl", ::shmctl(0, IPC_RMID, nullptr));
+                  said += expect_forbidden("semget", ::semget(IPC_PRIVATE, 1, IPC_CREAT | 0600));
+                  said += expect_forbidden("semop", ::semop(0, &lock, 1));
+                  said += expect_forbidden("semctl", ::semctl(0, 0, IPC_RMID));
+                  said += expect_forbidden("msgget", ::msgget(IPC_PRIVATE, IPC_CREAT | 0600));
+                  said += expect_forbidden("msgsnd", ::msgsnd(0, &message, 1, IPC_NOWAIT));
+                  said += expect_forbidden("msgctl", ::msgctl(0, IPC_RMID, nullptr));
+                  said += expect_forbidden("mq_open", ::syscall(SYS_mq_open, "a", O_RDWR | O_CREAT, 0600, nullptr));
+                  said += expect_forbidden("mq_unlink", ::syscall(SYS_mq_unlink, "a"));
+                  said += expect_forbidden("memfd_create", ::memfd_create("a", 0));
+                  said += expect_forbidden("inotify", ::syscall(SYS_inotify_init1, 0));
+                  said +=
+                      expect_forbidden("timer_create", ::syscall(SYS_timer_create, CLOCK_MONOTONIC, nullptr, &lock));
+                  said += expect_forbidden("io_uring", ::syscall(SYS_io_uring_setup, 1, nullptr));
+                  said += expect_forbidden("TIOCSTI", ::ioctl(0, TIOCSTI, "x"));
+                  return said;
+              }),
+              "");
+}
+
+TEST_F(Limits, TheChildMayAbort) {
+    const std::string said = told_by_child([] {
+        ::abort();
+        return std::string();
+    });
+    EXPECT_NE(said.find("the model reader crashed on it (signal 6)"), std::string::npos) << said;
+}
+
 TEST_F(Limits, TheChildWritesRemovesAndRenamesNoFile) {
     const std::string there = folder_ / "there", made = folder_ / "made";
     EXPECT_EQ(told_by_child([&] {
@@ -95,6 +223,48 @@ TEST_F(Limits, TheChildWritesRemovesAndRenamesNoFile) {
               "");
     EXPECT_EQ(fs::file_size(there), 4u);
     EXPECT_FALSE(fs::exists(made));
+}
+
+/// An open file and a connected socket of this process, without the flag that closes them in other programs.
+struct OpenHere {
+    explicit OpenHere(const std::string& path) : file(::open(path.c_str(), O_RDWR | O_APPEND)) {
+        EXPECT_EQ(::socketpair(AF_UNIX, SOCK_STREAM, 0, ends), 0);
+        high = ::fcntl(ends[0], F_DUPFD, 500);
+    }
+    ~OpenHere() {
+        for (const int handle : {file, ends[0], ends[1], high}) ::close(handle);
+    }
+    int file, ends[2] = {-1, -1}, high = -1;
+};
+
+TEST_F(Limits, TheChildHasNoFileAndNoSocketOfItsParent) {
+    const std::string there = folder_ / "there";
+    const OpenHere open(there);
+    EXPECT_EQ(told_by_child([&] {
+                  std::string said;
+                  for (const int handle : {open.file, open.ends[0], open.ends[1], open.high})
+                      if (::write(handle, "x", 1) != -1 || errno != EBADF)
+                          said += "wrote to " + std::to_string(handle) + "; ";
+                  size_t handles = 0;
+                  for (int handle = 0; handle < 4096; ++handle) handles += ::fcntl(handle, F_GETFD) >= 0;
+                  if (handles != 5)
+                      said += std::to_string(handles) + " are open, not null three times and two ways back";
+                  return said;
+              }),
+              "");
+    EXPECT_EQ(fs::file_size(there), 4u);
+}
+
+TEST_F(Limits, AParentWithoutStandardFilesGetsItsResult) {
+    const pid_t host = ::fork();
+    ASSERT_GE(host, 0);
+    if (host == 0) {
+        for (const int handle : {0, 1, 2}) ::close(handle);
+        ::_exit(told_by_child([] { return std::string("said"); }) == "said" ? 0 : 1);
+    }
+    int status = 0;
+    ASSERT_EQ(::waitpid(host, &status, 0), host);
+    EXPECT_TRUE(WIFEXITED(status) && WEXITSTATUS(status) == 0);
 }
 
 TEST_F(Limits, TheChildReadsFiles) {

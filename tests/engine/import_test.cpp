@@ -1,3 +1,4 @@
+#include <fcntl.h>
 #include <gtest/gtest.h>
 #include <sys/stat.h>
 #include <sys/wait.h>
@@ -44,6 +45,20 @@ class Import : public testing::Test {
     size_t cached_files() const {
         if (!fs::exists(cache())) return 0;
         return static_cast<size_t>(std::distance(fs::directory_iterator(cache()), fs::directory_iterator()));
+    }
+
+    /// The import program behind a script that counts its imports and gives another version.
+    std::string counting_program(const std::string& version) {
+        const std::string path =
+            file("counting", "#!/bin/sh\nif [ \"$1\" = --version ]; then echo " + version + "; exit 0; fi\necho >> '" +
+                                 (folder_ / "imports").string() + "'\nexec '" + kProgram + "' \"$@\"\n");
+        fs::permissions(path, fs::perms::owner_all);
+        return path;
+    }
+    size_t imports() const {
+        std::error_code none;
+        const auto size = fs::file_size(folder_ / "imports", none);
+        return none ? 0 : size;
     }
 
     fs::path folder_;
@@ -103,16 +118,51 @@ TEST_F(Import, CoordinatesOfAnObjMayBeginWithTheirPoint) {
     EXPECT_EQ(mesh->positions[2], (Vec3{0, 5, 0}));
 }
 
+TEST_F(Import, CoordinatesBeginWithTheirPointWhateverEndsTheLine) {
+    const std::string lines[] = {"# by hand", "v .5 \\", ".25 0",     "v 1.5 .25 .75",
+                                 "v\t\\",     ".0 2 0",  "usemtl .x", "f 1 2 3"};
+    for (const std::string end : {"\n", "\r\n"}) {
+        std::string text;
+        for (const std::string& line : lines) text += line + end;
+        const auto mesh = import_mesh(file("m.obj", text), kProgram, cache());
+        ASSERT_TRUE(mesh.ok()) << mesh.error();
+        ASSERT_EQ(mesh->positions.size(), 3u);
+        EXPECT_EQ(mesh->positions[0], (Vec3{0.5f, 0.25f, 0}));
+        EXPECT_EQ(mesh->positions[1], (Vec3{1.5f, 0.25f, 0.75f}));
+        EXPECT_EQ(mesh->positions[2], (Vec3{0, 2, 0}));
+    }
+    const auto old =
+        import_mesh(file("m.obj", "# by hand\rv .5 .25 0\rv 1.5 .25 .75\rv .0 2 0\rf 1 2 3\r"), kProgram, cache());
+    ASSERT_TRUE(old.ok()) << old.error();
+    ASSERT_EQ(old->positions.size(), 3u);
+    EXPECT_EQ(old->positions[0], (Vec3{0.5f, 0.25f, 0}));
+    EXPECT_EQ(old->positions[2], (Vec3{0, 2, 0}));
+}
+
 TEST_F(Import, EqualBytesAreImportedOnceAndOtherBytesAnew) {
-    const std::string path = file("cube.obj", kCube);
-    const auto first = import_mesh(path, kProgram, cache());
+    const std::string program = counting_program("version 1");
+    const auto first = import_mesh(file("cube.obj", kCube), program, cache());
     ASSERT_TRUE(first.ok()) << first.error();
-    const auto second = import_mesh(file("box.obj", kCube), "/no/such/program", cache());
+    const auto second = import_mesh(file("box.obj", kCube), program, cache());
     ASSERT_TRUE(second.ok()) << second.error();
     EXPECT_EQ(second.value().name, "box");
     EXPECT_EQ(second.value().triangles, first.value().triangles);
-    EXPECT_EQ(cached_files(), 1u);
-    EXPECT_FALSE(import_mesh(file("cube.obj", std::string(kCube) + "\n"), "/no/such/program", cache()).ok());
+    EXPECT_EQ(imports(), 1u);
+    EXPECT_TRUE(import_mesh(file("cube.obj", std::string(kCube) + "\n"), program, cache()).ok());
+    EXPECT_EQ(imports(), 2u);
+}
+
+TEST_F(Import, AnotherVersionOfTheProgramImportsAnew) {
+    const std::string path = file("cube.obj", kCube);
+    for (const char* version : {"1", "2", "2"}) ASSERT_TRUE(import_mesh(path, counting_program(version), cache()).ok());
+    EXPECT_EQ(imports(), 2u);
+    FILE* pipe = popen((quoted(kProgram) + " --version").c_str(), "r");
+    char said[64] = "";
+    EXPECT_NE(std::fgets(said, sizeof said, pipe), nullptr);
+    EXPECT_EQ(pclose(pipe), 0);
+    unsigned importer = 0, major = 0;
+    EXPECT_EQ(std::sscanf(said, "cullet_import %u, assimp %u.", &importer, &major), 2) << said;
+    EXPECT_GE(importer, 2u);
 }
 
 TEST_F(Import, ADamagedCacheEntryIsMadeAnew) {
@@ -142,6 +192,19 @@ TEST_F(Import, AMissingFileOrProgramIsOneSentence) {
     EXPECT_NE(no_program.error().find("cannot be started"), std::string::npos) << no_program.error();
 }
 
+TEST_F(Import, TheProgramDoesNotGetTheOpenFilesOfTheGame) {
+    // In place of the import program, one that tells what is open in it.
+    const std::string teller = file("teller", "#!/bin/sh\nls -l /proc/$$/fd >&2\nexit 2\n");
+    fs::permissions(teller, fs::perms::owner_all);
+    const std::string secret = file("secret", "text");
+    const int open = ::open(secret.c_str(), O_RDWR);
+    const auto mesh = import_mesh(file("cube.obj", kCube), teller, cache());
+    ::close(open);
+    ASSERT_FALSE(mesh.ok());
+    EXPECT_NE(mesh.error().find("/dev/null"), std::string::npos) << mesh.error();
+    EXPECT_EQ(mesh.error().find("secret"), std::string::npos) << mesh.error();
+}
+
 TEST_F(Import, NormalsTextureCoordinatesAndMaterialsBelongToCorners) {
     const std::string path = file("quad.obj",
                                   "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nvt 0 0\nvt 1 0\nvt 1 1\nvt 0 1\nvn 0 0 2\n"
@@ -156,6 +219,51 @@ TEST_F(Import, NormalsTextureCoordinatesAndMaterialsBelongToCorners) {
         const Vec3 p = mesh.value().positions[mesh.value().triangles[c / 3][c % 3]];
         EXPECT_EQ(p.x, mesh.value().corner_uvs[c].x);
     }
+}
+
+TEST_F(Import, WhatIsLeftOutOrReplacedIsCounted) {
+    const std::string text =
+        "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 1 1 0\nvn nan 0 0\nvn 0 0 1\nvn 0 0 0\nvt 1e30 0\nvt 0 1\n"
+        "f 1/1/1 2/2/2 3/2/3\nf 2 4 3\nf 1 2\nf 3\nf 4\n";
+    const ProgramRun result = run(file("faces.obj", text), folder_ / "out.cmesh");
+    EXPECT_EQ(result.exit_code, 0);
+    EXPECT_NE(result.said.find("left out 3 lines and points"), std::string::npos) << result.said;
+    EXPECT_NE(result.said.find("unusable normals from the triangle"), std::string::npos) << result.said;
+    EXPECT_NE(result.said.find("set 1 unusable texture coordinate to 0"), std::string::npos) << result.said;
+}
+
+TEST_F(Import, WhoWaitsIsToldTheSecondsThatTheProgramHas) {
+    const std::string slow =
+        file("slow", "#!/bin/sh\n[ \"$1\" = --version ] || sleep 0.5\nexec '" + kProgram + "' \"$@\"\n");
+    fs::permissions(slow, fs::perms::owner_all);
+    size_t told = 0;
+    const auto waiting = [&told](double seconds, double most) {
+        EXPECT_LE(seconds, most);
+        EXPECT_EQ(most, 14);
+        ++told;
+    };
+    EXPECT_TRUE(import_mesh(file("cube.obj", kCube), slow, cache(), waiting).ok());
+    EXPECT_GE(told, 1u);
+}
+
+TEST_F(Import, ANameOfTwoLinesIsOneSentence) {
+    const std::string path = folder_ / "two\nlines.obj";
+    const auto expect_one_line = [](const std::string& error) {
+        EXPECT_NE(error.find("two lines.obj: "), std::string::npos) << error;
+        EXPECT_EQ(std::count(error.begin(), error.end(), '\n'), 0) << error;
+    };
+    expect_one_line(import_mesh(path, kProgram, cache()).error());
+    std::ofstream(path) << kCube;
+    const auto cube = import_mesh(path, kProgram, cache());
+    EXPECT_TRUE(cube.ok()) << cube.error();
+    std::ofstream(path) << "v 0 0 0\n";
+    expect_one_line(import_mesh(path, kProgram, cache()).error());
+    expect_one_line(read_mesh_file(path).error());
+    expect_one_line(read_whole_file(path, 2).error());
+    expect_one_line(write_mesh_file(Mesh{}, path).error());
+    fs::remove(path);
+    fs::create_directory(path);
+    expect_one_line(write_whole_file(std::vector<uint8_t>{1}, path).error());
 }
 
 TEST_F(Import, TooLittleTimeIsOneSentenceAndNoFile) {
@@ -210,6 +318,48 @@ TEST_F(Import, APipeOrAFolderInPlaceOfAModelIsRefusedAtOnce) {
     }
 }
 
+TEST_F(Import, TheModelIsNotWrittenOverItself) {
+    const std::string model = file("cube.obj", kCube), link = folder_ / "link.obj", twin = folder_ / "twin.obj";
+    fs::create_symlink(model, link);
+    fs::create_hard_link(model, twin);
+    for (const std::string& out : {model, (folder_ / "." / "cube.obj").string(), link, twin}) {
+        const ProgramRun result = run(model, out);
+        EXPECT_EQ(result.exit_code, 2) << out;
+        EXPECT_EQ(result.said, out + ": is the model itself. Give the mesh file another name.\n");
+        EXPECT_EQ(fs::file_size(model), std::string(kCube).size());
+    }
+}
+
+TEST_F(Import, OnlyOrdinaryFilesAreWrittenOver) {
+    const std::string model = file("cube.obj", kCube), pipe = folder_ / "pipe", to_pipe = folder_ / "to_pipe",
+                      nowhere = folder_ / "nowhere", inner = folder_ / "inner";
+    ASSERT_EQ(mkfifo(pipe.c_str(), 0600), 0);
+    fs::create_symlink(pipe, to_pipe);
+    fs::create_symlink(folder_ / "none", nowhere);
+    fs::create_directory(inner);
+    const auto before = std::distance(fs::directory_iterator(folder_), fs::directory_iterator());
+    for (const std::string& out : {pipe, to_pipe, nowhere, inner}) {
+        const ProgramRun result = run(model, out);
+        EXPECT_EQ(result.exit_code, 2) << out;
+        EXPECT_EQ(result.said.rfind(out + ": is ", 0), 0u) << result.said;
+        EXPECT_EQ(std::count(result.said.begin(), result.said.end(), '\n'), 1) << result.said;
+        EXPECT_FALSE(write_whole_file(std::vector<uint8_t>{1}, out).ok()) << out;
+    }
+    EXPECT_TRUE(fs::is_fifo(fs::symlink_status(pipe)));
+    EXPECT_TRUE(fs::is_symlink(to_pipe));
+    EXPECT_TRUE(fs::is_symlink(nowhere));
+    EXPECT_EQ(std::distance(fs::directory_iterator(folder_), fs::directory_iterator()), before);
+}
+
+TEST_F(Import, AFileBehindALinkIsWrittenAndTheLinkStays) {
+    fs::create_directory(folder_ / "inner");
+    const std::string there = file("inner/there.cmesh", "old"), link = folder_ / "link.cmesh";
+    fs::create_symlink("inner/there.cmesh", link);
+    EXPECT_EQ(run(file("cube.obj", kCube), link).exit_code, 0);
+    EXPECT_TRUE(fs::is_symlink(link));
+    EXPECT_TRUE(read_mesh_file(there).ok());
+}
+
 TEST_F(Import, WrongArgumentsAreOneSentence) {
     const ProgramRun result = run(file("cube.obj", kCube), folder_ / "out.cmesh", "--seconds 0");
     EXPECT_EQ(result.exit_code, 2);
@@ -217,22 +367,173 @@ TEST_F(Import, WrongArgumentsAreOneSentence) {
     EXPECT_EQ(run(file("cube.obj", kCube), folder_ / "none" / "out.cmesh").exit_code, 2);
 }
 
-TEST_F(Import, AModelCannotReachOutOfItsFolder) {
-    // The buffer exists and is long enough; the same text works when it stands beside the model.
-    const std::string begin =
-        R"({"asset":{"version":"2.0"},"scene":0,"scenes":[{"nodes":[0]}],"nodes":[{"mesh":0}],"meshes":[{"primitives":
+/// One triangle, whose corners stand in the buffer of that name.
+std::string triangle_gltf(const std::string& uri, const std::string& images = "") {
+    return R"({"asset":{"version":"2.0"},"scene":0,"scenes":[{"nodes":[0]}],"nodes":[{"mesh":0}],"meshes":[{"primitives":
         [{"attributes":{"POSITION":0}}]}],"accessors":[{"bufferView":0,"componentType":5126,"count":3,"type":"VEC3",
-        "min":[0,0,0],"max":[1,1,0]}],"bufferViews":[{"buffer":0,"byteLength":36}],"buffers":[{"byteLength":36,"uri":")";
-    const float triangle[9] = {0, 0, 0, 1, 0, 0, 0, 1, 0};
-    const std::string bytes(reinterpret_cast<const char*>(triangle), sizeof triangle);
+        "min":[0,0,0],"max":[1,1,0]}],"bufferViews":[{"buffer":0,"byteLength":36}],"images":[)" +
+           images + R"(],"buffers":[{"byteLength":36,"uri":")" + uri + "\"}]}";
+}
+
+std::string triangle_bytes(float size = 1) {
+    const float triangle[9] = {0, 0, 0, size, 0, 0, 0, size, 0};
+    return {reinterpret_cast<const char*>(triangle), sizeof triangle};
+}
+
+std::string images_named(const std::string& name, int times) {
+    std::string text;
+    for (int i = 0; i < times; ++i) text += (i == 0 ? "{\"uri\":\"" : ",{\"uri\":\"") + name + "\"}";
+    return text;
+}
+
+/// Bytes that this process has read, by whatever call.
+uint64_t bytes_read_here() {
+    std::ifstream file("/proc/self/io");
+    std::string word;
+    uint64_t bytes = 0;
+    file >> word >> bytes;
+    return bytes;
+}
+
+TEST_F(Import, AModelCannotReachOutOfItsFolder) {
     fs::create_directories(folder_ / "inner");
-    file("outside.bin", bytes);
-    file("inner/beside.bin", bytes);
-    const ProgramRun beside = run(file("inner/beside.gltf", begin + "beside.bin\"}]}"), folder_ / "beside.cmesh");
+    file("outside.bin", triangle_bytes());
+    file("inner/beside.bin", triangle_bytes());
+    const ProgramRun beside = run(file("inner/beside.gltf", triangle_gltf("beside.bin")), folder_ / "beside.cmesh");
     EXPECT_EQ(beside.exit_code, 0) << beside.said;
     const ProgramRun outside =
-        run(file("inner/outside.gltf", begin + "../outside.bin\"}]}"), folder_ / "outside.cmesh");
+        run(file("inner/outside.gltf", triangle_gltf("../outside.bin")), folder_ / "outside.cmesh");
     EXPECT_EQ(outside.exit_code, 2) << outside.said;
+}
+
+TEST_F(Import, APercentEncodedNameIsDecodedWhereItIsNotThereAsItStands) {
+    const std::string path = file("m.gltf", triangle_gltf("my%20ch%C3%A4ir.bin"));
+    for (const float size : {1.0f, 2.0f}) {
+        file("my ch\xC3\xA4ir.bin", triangle_bytes(size));
+        const auto mesh = import_mesh(path, kProgram, cache());
+        ASSERT_TRUE(mesh.ok()) << mesh.error();
+        EXPECT_EQ(mesh->positions[1].x, size);  // the cache knows it by the same name
+    }
+    file("my%20ch%C3%A4ir.bin", triangle_bytes(3));
+    const auto literal = import_mesh(path, kProgram, cache());
+    ASSERT_TRUE(literal.ok()) << literal.error();
+    EXPECT_EQ(literal->positions[1].x, 3);
+}
+
+TEST_F(Import, AnEncodedNameLeadsNoFartherThanAPlainOne) {
+    fs::create_directories(folder_ / "in%20ner");
+    file("outside.bin", triangle_bytes());
+    file("in%20ner/side.bin", triangle_bytes());
+    for (const char* name :
+         {"..%2Foutside.bin", "%2e%2e/outside.bin", "side.bin%00", "side.bin%", "side.bin%2", "%zz"}) {
+        const ProgramRun result = run(file("in%20ner/m.gltf", triangle_gltf(name)), folder_ / "out.cmesh");
+        EXPECT_EQ(result.exit_code, 2) << name << ": " << result.said;
+    }
+    EXPECT_EQ(run(file("in%20ner/m.gltf", triangle_gltf("sid%65.bin")), folder_ / "out.cmesh").exit_code, 0);
+}
+
+TEST_F(Import, AModelAndItsBufferMayBeLinksIntoDifferentFoldersOfAStore) {
+    for (const char* name : {"store/a", "store/b", "scene/sub"}) fs::create_directories(folder_ / name);
+    file("store/a/m.gltf", triangle_gltf("side.bin"));
+    file("store/b/side.bin", triangle_bytes());
+    file("store/b/secret.bin", triangle_bytes());
+    const std::string link = folder_ / "scene/m.gltf";
+    fs::create_symlink("../store/a/m.gltf", link);
+    fs::create_symlink("../store/b/side.bin", folder_ / "scene/side.bin");
+    const ProgramRun linked = run(link, folder_ / "out.cmesh");
+    EXPECT_EQ(linked.exit_code, 0) << linked.said;
+    for (const float size : {1.0f, 2.0f}) {
+        file("store/b/side.bin", triangle_bytes(size));
+        const auto mesh = import_mesh(link, kProgram, cache());
+        ASSERT_TRUE(mesh.ok()) << mesh.error();
+        EXPECT_EQ(mesh->positions[1].x, size);
+    }
+    // The model leads no farther: not by its name, not through a linked folder, not round and round.
+    fs::create_symlink("../store/b", folder_ / "scene/folder");
+    fs::create_symlink("loop.bin", folder_ / "scene/loop.bin");
+    const std::string absolute = folder_ / "store/b/secret.bin";
+    for (const std::string& name : {std::string("../store/b/secret.bin"), std::string("sub/../../store/b/secret.bin"),
+                                    std::string("folder/secret.bin"), std::string("loop.bin"), absolute}) {
+        file("store/a/m.gltf", triangle_gltf(name));
+        const ProgramRun result = run(link, folder_ / "out.cmesh");
+        EXPECT_EQ(result.exit_code, 2) << name << ": " << result.said;
+    }
+}
+
+TEST_F(Import, BesideAModelThatIsNoLinkALinkIsFollowedInsideTheFolderOnly) {
+    fs::create_directories(folder_ / "inner/sub");
+    file("outside.bin", triangle_bytes());
+    file("inner/sub/inside.bin", triangle_bytes());
+    fs::create_symlink("../outside.bin", folder_ / "inner/out.bin");
+    fs::create_symlink("sub/inside.bin", folder_ / "inner/in.bin");
+    EXPECT_EQ(run(file("inner/m.gltf", triangle_gltf("in.bin")), folder_ / "out.cmesh").exit_code, 0);
+    EXPECT_EQ(run(file("inner/m.gltf", triangle_gltf("out.bin")), folder_ / "out.cmesh").exit_code, 2);
+}
+
+TEST_F(Import, AFileIsReadOnceForTheCacheHoweverOftenAModelNamesIt) {
+    if (bytes_read_here() == 0) GTEST_SKIP() << "no /proc/self/io";
+    constexpr uint64_t kLarge = 16u << 20;
+    file("side.bin", triangle_bytes());
+    fs::resize_file(file("large.png", ""), kLarge);
+    const std::string path = file("m.gltf", triangle_gltf("side.bin", images_named("large.png", 100)));
+    const uint64_t before = bytes_read_here();
+    const auto mesh = import_mesh(path, kProgram, cache());
+    ASSERT_TRUE(mesh.ok()) << mesh.error();
+    EXPECT_LT(bytes_read_here() - before, 2 * kLarge);
+    EXPECT_EQ(cached_files(), 1u);
+}
+
+/// As a .glb; its own first buffer holds nothing that counts.
+std::string binary_gltf(std::string json) {
+    const auto replace = [&json](const std::string& what, const std::string& with) {
+        json.replace(json.find(what), what.size(), with);
+    };
+    replace("\"buffer\":0", "\"buffer\":1");
+    replace("\"buffers\":[", "\"buffers\":[{\"byteLength\":4},");
+    json.resize((json.size() + 3) / 4 * 4, ' ');
+    const auto word = [](uint64_t value) {
+        return std::string{static_cast<char>(value), static_cast<char>(value >> 8), static_cast<char>(value >> 16), 0};
+    };
+    return "glTF" + word(2) + word(32 + json.size()) + word(json.size()) + "JSON" + json + word(4) +
+           std::string("BIN\0", 4) + "none";
+}
+
+TEST_F(Import, ANewBufferBesideAModelIsANewModelForTextAndBinaryGltf) {
+    const std::string json = triangle_gltf("side.bin");
+    for (const std::string& path : {file("m.gltf", json), file("m.glb", binary_gltf(json))})
+        for (const float size : {1.0f, 2.0f, 3.0f}) {
+            file("side.bin", triangle_bytes(size));
+            const auto mesh = import_mesh(path, kProgram, cache());
+            ASSERT_TRUE(mesh.ok()) << mesh.error();
+            EXPECT_EQ(mesh->positions[1].x, size) << path;
+        }
+}
+
+TEST_F(Import, TheCacheLooksAtNoFileThatTheModelMayNotOpen) {
+    fs::create_directories(folder_ / "inner");
+    file("inner/side.bin", triangle_bytes());
+    fs::resize_file(file("outside.png", ""), 16u << 20);
+    const std::string names = images_named("../outside.png", 1) + "," + images_named(folder_ / "outside.png", 1);
+    const std::string path = file("inner/m.gltf", triangle_gltf("side.bin", names));
+    const uint64_t before = bytes_read_here();
+    ASSERT_TRUE(import_mesh(path, kProgram, cache()).ok());
+    EXPECT_LT(bytes_read_here() - before, 1u << 20);
+    file("outside.png", "other");
+    ASSERT_TRUE(import_mesh(path, kProgram, cache()).ok());
+    EXPECT_EQ(cached_files(), 1u);
+}
+
+TEST_F(Import, AModelThatNamesTooManyOrTooLargeFilesIsImportedAndNotKept) {
+    file("side.bin", triangle_bytes());
+    const auto many =
+        import_mesh(file("many.gltf", triangle_gltf("side.bin", images_named("a", 5000))), kProgram, cache());
+    EXPECT_TRUE(many.ok()) << many.error();
+    EXPECT_EQ(cached_files(), 0u);
+    fs::resize_file(file("a.png", ""), (1ull << 29) + 1);  // a hole: no disk is used
+    const auto large =
+        import_mesh(file("large.gltf", triangle_gltf("side.bin", images_named("a.png", 1))), kProgram, cache());
+    EXPECT_TRUE(large.ok()) << large.error();
+    EXPECT_EQ(cached_files(), 0u);
 }
 
 struct Wanted {

@@ -17,7 +17,7 @@ namespace cullet {
 struct HostAllocator {
     void* user = nullptr;
     /// `size` bytes aligned to `alignment` (64), zeroed or not. Null: the call that makes or loads the
-    /// world, or reads the model, is refused with a sentence; cook() lets std::bad_alloc out.
+    /// world, or reads or cooks the model, is refused with a sentence.
     void* (*allocate)(void* user, size_t size, size_t alignment) = nullptr;
     /// `size` as it was asked for.
     void (*release)(void* user, void* memory, size_t size) = nullptr;
