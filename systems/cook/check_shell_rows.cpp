@@ -427,9 +427,10 @@ Result<void> check_shell_rows(const ShellView& shell, Wear wear, const std::stri
     check_columns(check, state.stiffness_links, s.links[shell.row]);
     check_columns(check, state.cells, s.cells[shell.row]);
     check_columns(check, state.hull_points, s.points[shell.row]);
-    if (check.is_sound()) {
+    const uint32_t material = s.material[shell.row];
+    if (check.expect(material < state.materials.size(), "shells.material is " + std::to_string(material))) {
         const float step = s.time_step[shell.row];
-        const float run = run_seconds(state.materials, s.material[shell.row], s.area[shell.row]);
+        const float run = run_seconds(state.materials, material, s.area[shell.row]);
         check.expect(run <= kMostSteps * step,
                      "shells.time_step is " + std::to_string(step) + " s for a hit of " + std::to_string(run) + " s");
     }
