@@ -23,6 +23,7 @@
 #include <new>
 
 #include "engine/import/import.hpp"
+#include "engine/import/sanitized.hpp"
 
 namespace cullet {
 namespace {
@@ -141,8 +142,10 @@ bool forbid_system_calls() {
 }
 #endif
 
-/// A kernel without seccomp filters leaves the rlimits, which is what older systems had.
+/// A kernel without seccomp filters leaves the rlimits, which is what older systems had. A sanitized build keeps to the
+/// processor time alone.
 bool limit_this_process(const ImportLimits& limits) {
+    if (kIsSanitized) return limit(RLIMIT_CPU, 10 * limits.seconds, 10 * limits.seconds + 1);
     const rlim_t bytes = static_cast<rlim_t>(limits.memory_mib) << 20;
     const bool limited = limit(RLIMIT_CORE, 0) && limit(RLIMIT_AS, bytes) && limit(RLIMIT_FSIZE, bytes) &&
                          limit(RLIMIT_CPU, limits.seconds, limits.seconds + 1) && limit(RLIMIT_NOFILE, 64);
