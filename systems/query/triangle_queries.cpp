@@ -6,8 +6,8 @@
 namespace cullet {
 
 // The ray passes the triangle on the side that the volumes of its edges with the ray tell. An edge's volume is the same
-// number, but for its sign, in both triangles that share it, so that no ray slips through between them (Woop, Benthin and
-// Wald, Watertight ray/triangle intersection, 2013).
+// number, but for its sign, in both triangles that share it, so that no ray slips through between them (Woop, Benthin
+// and Wald, Watertight ray/triangle intersection, 2013).
 double distance_along(const Triangle3& triangle, Vec3d origin, Vec3d direction) {
     const Vec3d a = triangle.a - origin, b = triangle.b - origin, c = triangle.c - origin;
     const double u = dot(direction, cross(c, b)), v = dot(direction, cross(a, c)), w = dot(direction, cross(b, a));
