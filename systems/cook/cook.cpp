@@ -122,10 +122,8 @@ Result<void> make_stiff(State& state, Row<Shells>& shell) {
         return Error{"nothing holds the mesh together: no two triangles share an edge. Weld it first."};
     const float run = run_seconds(state.materials, s.material[shell], s.area[shell]);
     if (!(s.time_step[shell] >= kShortestStep && run <= kMostSteps * s.time_step[shell]))
-        return Error{
-            "a hit of " + std::to_string(1e3f * run) + " ms would go in steps of " +
-            std::to_string(1e9f * s.time_step[shell]) +
-            " ns, more than can be counted: some edges are far too short for its size. Weld them, or scale it."};
+        return Error{"a hit would take more than " + std::to_string(static_cast<int>(kMostSteps / 1e6f)) +
+                     " million steps: some edges are far too short for its size. Weld them, or scale it."};
     return {};
 }
 
