@@ -97,7 +97,7 @@ TEST(Profiler, TheTraceIsJsonWhereNumbersHaveACommaToo) {
     std::setlocale(LC_ALL, before.c_str());
     ASSERT_TRUE(written.ok());
     std::ifstream file(trace_path());
-    EXPECT_NO_THROW((void)nlohmann::json::parse(file));
+    EXPECT_TRUE(nlohmann::json::accept(file));
     if (!has_comma) GTEST_SKIP() << "no such locale is installed";
 }
 

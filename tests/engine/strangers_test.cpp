@@ -57,7 +57,7 @@ bool names_a_repair(const std::string& line) {
 
 void expect_within_limits(const test::ProgramRun& run, const std::string& file) {
     EXPECT_LT(run.seconds, kLongest) << file;
-    if (!kIsSanitized) EXPECT_LT(run.peak_bytes, kMostBytes) << file;
+    EXPECT_LT(run.peak_bytes, kIsSanitized ? 16 * kMostBytes : kMostBytes) << file;
 }
 
 TEST_F(Strangers, EveryMeshThatIsNotHostileLoads) {
