@@ -84,7 +84,8 @@ struct State {
     /// The table of type T.
     template <class T>
     T& table() {
-        return find<T, 0>();
+        constexpr T State::*member = std::get<T State::*>(tables());
+        return this->*member;
     }
 
     /// Pages behind the rows in use: room for a hit on a shell of these rows and for the pieces. Touches no value. At
@@ -102,14 +103,6 @@ struct State {
 
  private:
     Limits limits_;
-    template <class T, size_t I>
-    T& find() {
-        auto& candidate = this->*std::get<I>(tables());
-        if constexpr (std::is_same_v<std::remove_reference_t<decltype(candidate)>, T>)
-            return candidate;
-        else
-            return find<T, I + 1>();
-    }
 };
 
 /// What a shell uses now: room for a copy of it.
