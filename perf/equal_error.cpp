@@ -2,14 +2,12 @@
 // both hold up a strip of 107 x 9 nodes and 1 m that should not stretch: Bullet's soft body by iterations over its
 // links, a frame of 1/60 s at once; springs by steps that share the frame, as stiff as a step of that length bears.
 #include <BulletSoftBody/btSoftBodyHelpers.h>
-#include <BulletSoftBody/btSoftBodyRigidBodyCollisionConfiguration.h>
-#include <BulletSoftBody/btSoftRigidDynamicsWorld.h>
-#include <btBulletDynamicsCommon.h>
 
 #include <memory>
 
 #include "engine/fp_mode.hpp"
 #include "perf/perf.hpp"
+#include "perf/soft_world.hpp"
 #include "perf/springs.hpp"
 
 namespace cullet::perf {
@@ -37,12 +35,8 @@ double stretch_now(X x) {
 }
 
 double stretch_of_bullet(int iterations) {
-    btSoftBodyRigidBodyCollisionConfiguration configuration;
-    btCollisionDispatcher dispatcher(&configuration);
-    btDbvtBroadphase broadphase;
-    btSequentialImpulseConstraintSolver solver;
-    btSoftRigidDynamicsWorld world(&dispatcher, &broadphase, &solver, &configuration);
-    world.getWorldInfo().m_sparsesdf.Initialize();
+    SoftWorld made;
+    btSoftRigidDynamicsWorld& world = made.world;
     world.getWorldInfo().m_gravity = {kGravity, 0, 0};
     world.setGravity({kGravity, 0, 0});
     const auto body = make_strip(world.getWorldInfo());

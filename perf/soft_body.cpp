@@ -1,8 +1,5 @@
 #include <BulletSoftBody/btSoftBody.h>
 #include <BulletSoftBody/btSoftBodyHelpers.h>
-#include <BulletSoftBody/btSoftBodyRigidBodyCollisionConfiguration.h>
-#include <BulletSoftBody/btSoftRigidDynamicsWorld.h>
-#include <btBulletDynamicsCommon.h>
 
 #include <algorithm>
 #include <cmath>
@@ -10,6 +7,7 @@
 
 #include "engine/fp_mode.hpp"
 #include "perf/perf.hpp"
+#include "perf/soft_world.hpp"
 #include "perf/springs.hpp"
 
 namespace cullet::perf {
@@ -38,12 +36,8 @@ double time_links(btSoftBody& body, uint32_t rounds) {
 
 /// Least time of a step of a world with nothing but the patch, falling, with as many iterations; s.
 double time_world(uint32_t rounds) {
-    btSoftBodyRigidBodyCollisionConfiguration configuration;
-    btCollisionDispatcher dispatcher(&configuration);
-    btDbvtBroadphase broadphase;
-    btSequentialImpulseConstraintSolver solver;
-    btSoftRigidDynamicsWorld world(&dispatcher, &broadphase, &solver, &configuration);
-    world.getWorldInfo().m_sparsesdf.Initialize();
+    SoftWorld made;
+    btSoftRigidDynamicsWorld& world = made.world;
     const auto body = make_patch(world.getWorldInfo());
     btSoftBodyHelpers::ReoptimizeLinkOrder(body.get());
     body->m_cfg.piterations = kIterations;
