@@ -1,33 +1,12 @@
-// What happens to a broken shell inside of a frame does not allocate. A program of its own, since it replaces operator
-// new.
+// What happens to a broken shell inside of a frame does not allocate.
 #include <gtest/gtest.h>
 
-#include <cstdlib>
-#include <new>
-
+#include "sample_game/allocations.hpp"
 #include "systems/fragments/make_piece.hpp"
 #include "systems/fragments/mass_properties.hpp"
 #include "systems/fragments/rigid_handoff.hpp"
 #include "systems/view/draw_shell.hpp"
 #include "tests/support/sample_shells.hpp"
-
-namespace {
-bool is_counting = false;
-long allocation_count = 0;
-}  // namespace
-
-// Not inlined: g++ then takes malloc and free for a mismatched pair.
-[[gnu::noinline]] void* operator new(size_t size) {
-    allocation_count += is_counting;
-    if (void* memory = std::malloc(size ? size : 1)) return memory;
-    throw std::bad_alloc();
-}
-[[gnu::noinline]] void operator delete(void* memory) noexcept {
-    std::free(memory);
-}
-[[gnu::noinline]] void operator delete(void* memory, size_t) noexcept {
-    std::free(memory);
-}
 
 namespace cullet {
 namespace {
@@ -42,7 +21,7 @@ TEST(Pieces, GroupingHandOffPiecesHullsAndDrawingDoNotAllocate) {
     std::vector<PartMotion> motions(100);
     Range vertices{state.view_vertices.append(200000), 0, 200000},
         indices{state.view_indices.append(200000), 0, 200000};
-    is_counting = true;
+    start_counting_allocations();
     const uint32_t count = group_fragments(shell, parts);
     const std::span<const FragmentPart> found(parts.data(), count);
     rigid_handoff(shell, {{}, {}, {}, 5}, found, motions);
@@ -52,9 +31,8 @@ TEST(Pieces, GroupingHandOffPiecesHullsAndDrawingDoNotAllocate) {
         mass_properties(shell_moments(ShellView(state, piece)));
         release_shell(state, piece);
     }
-    is_counting = false;
+    EXPECT_EQ(stop_counting_allocations().ours, 0u);
     EXPECT_GT(count, 5u);
-    EXPECT_EQ(allocation_count, 0);
 }
 
 TEST(Pieces, TwoRunsGiveTheSameBytes) {
