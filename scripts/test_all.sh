@@ -86,8 +86,7 @@ preset_part() {
     local scene_frames=120
     build "$1" || return 1
     # Builds that are ten times slower play the scenes for fewer frames; nothing is left out.
-    [[ $1 == debug || $1 == asan ]] && scene_frames=40
-    [[ $1 == tsan ]] && scene_frames=24
+    [[ $1 == debug || $1 == asan || $1 == tsan ]] && scene_frames=40
     CULLET_SCENE_FRAMES=$scene_frames ctest --test-dir "build/$1" --output-on-failure -j 2 "${tests[@]}" >"$logs/$1_tests.log" 2>&1
     local outcome=$?
     grep -E "tests passed|\(Failed\)|\(Timeout\)|Subprocess" "$logs/$1_tests.log" | paste -sd' '
