@@ -102,7 +102,9 @@ TEST(StrangersGame, CookWritesAModelFileThatReads) {
         const test::ProgramRun run = test::run_program(wrong);
         EXPECT_EQ(run.exit_code, 2) << run.output;
         // Progress shows after five seconds, which only slow builds take.
-        EXPECT_LE(std::count(run.error.begin(), run.error.end(), '\n'), kIsSanitized ? 9 : 1) << run.error;
+        const auto lines = std::count(run.error.begin(), run.error.end(), '\n');
+        ASSERT_GE(lines, 1) << run.error;
+        EXPECT_LE(lines, kIsSanitized ? 9 : 1) << run.error;
         EXPECT_EQ(last_line(run.error).back(), '.') << run.error;
     }
     fs::remove_all(folder);
