@@ -3,13 +3,18 @@
 # level of SIMD on one thread and on 1, 2, 3 and 8 threads at AVX2, built by g++ and by clang, which must all give the
 # same bytes. Takes hours on two cores, so each part that ends writes its row into tests/ALL.md, with the commit that it
 # saw, and is not played again as long as nothing that it hangs on has changed since. Parts by name: --all tsan vase fuzz_snapshot.
+# --failed: of a part whose last row says FAILED only the tests that failed; its row then tells of both runs.
 # --quick: few tests, frames, threads and inputs, to try this script itself; the rows go to build/all/quick.md.
 set -uo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.." || exit 1
 
 presets=(release checked clang debug asan tsan) scenes=(vase wall pane drop pile)
 formats=(mesh_file model_file snapshot recording)
-threads=(1 2 3 8) levels=(scalar sse4 avx2 avx512) frames=600 inputs=200000 tests=() page=tests/ALL.md
+threads=(1 2 3 8) levels=(scalar sse4 avx2 avx512) frames=600 inputs=200000 tests=() page=tests/ALL.md failed_only=false
+if [[ ${1:-} == --failed ]]; then
+    shift
+    failed_only=true
+fi
 if [[ ${1:-} == --quick ]]; then
     shift
     threads=(1 3 8) levels=(scalar avx2) frames=60 inputs=500 page=build/all/quick.md
@@ -76,9 +81,13 @@ write_row() {
     mv "$page.new" "$page"
 }
 
+# The Release game comes first: tests of the other builds compare their hashes with its.
 build() {
     local game=()
-    [[ $1 == release ]] || game=("-DCULLET_RELEASE_GAME=$PWD/build/release/sample_game")
+    if [[ $1 != release ]]; then
+        cmake --preset release && cmake --build --preset release --target sample_game || return 1
+        game=("-DCULLET_RELEASE_GAME=$PWD/build/release/sample_game")
+    fi
     cmake --preset "$1" "${game[@]}" && cmake --build --preset "$1"
 }
 # What follows prints its result, the second column of the page, as its last line.
@@ -87,8 +96,16 @@ preset_part() {
     build "$1" || return 1
     # Builds that are ten times slower play the scenes for fewer frames; nothing is left out.
     [[ $1 == debug || $1 == asan || $1 == tsan ]] && scene_frames=40
-    CULLET_SCENE_FRAMES=$scene_frames ctest --test-dir "build/$1" --output-on-failure -j 2 "${tests[@]}" >"$logs/$1_tests.log" 2>&1
+    local before which=("${tests[@]}")
+    before=$(row_of "$1" | awk -F' *[|] *' '/FAILED/ { print $3 " at " $4 }')
+    if $failed_only && [[ -n $before ]]; then
+        which=(--rerun-failed)
+    fi
+    CULLET_SCENE_FRAMES=$scene_frames ctest --test-dir "build/$1" --output-on-failure -j 2 "${which[@]}" >"$logs/$1_tests.log" 2>&1
     local outcome=$?
+    if [[ ${which[*]} == --rerun-failed ]]; then
+        printf 'Of those that had failed (%s): ' "${before#FAILED: }"
+    fi
     grep -E "tests passed|\(Failed\)|\(Timeout\)|Subprocess" "$logs/$1_tests.log" | paste -sd' '
     return $outcome
 }
