@@ -214,14 +214,24 @@ std::string name_of(const std::string& path) {
     return name.substr(0, kLongestMeshName);
 }
 
+// Assimp catches what a failed allocation throws and says anything from "std::bad_alloc" to "Unknown exception", by
+// where it failed. So the program notes it; nobody but its child, which reads one file and ends, asks for it.
+bool has_run_out_of_memory = false;
+
+[[noreturn]] void note_lack_of_memory() {
+    has_run_out_of_memory = true;
+    throw std::bad_alloc();
+}
+
 Error unreadable(const std::string& path, const std::string& reason) {
-    if (reason.find("bad_alloc") != std::string::npos) throw std::bad_alloc();
+    if (has_run_out_of_memory || reason.find("bad_alloc") != std::string::npos) throw std::bad_alloc();
     return {path + ": cannot be read as a model (" + one_line(reason) + "). Repair the file or export it again."};
 }
 
 }  // namespace
 
 Result<ConvertedModel> convert_model(const std::string& path) {
+    std::set_new_handler(note_lack_of_memory);
     Assimp::Importer importer;
     importer.SetIOHandler(new FolderFiles(path));  // the importer deletes it
     const aiScene* scene = importer.ReadFile(path, 0);
