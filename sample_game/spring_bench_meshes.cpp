@@ -37,7 +37,7 @@ BenchMesh bench_disc(uint32_t rings, double edge) {
     BenchMesh mesh;
     const int n = static_cast<int>(rings) + 2;
     const auto point = [&](int i, int j) { return Vec3d(edge * (i + 0.5 * j), edge * std::sqrt(0.75) * j, 0); };
-    const auto is_in = [&](int i, int j) { return length(point(i, j)) <= edge * rings * (1 + 1e-9); };
+    const auto is_in = [&](int i, int j) { return length(point(i, j)) <= edge * (rings - 0.5); };
     std::map<std::pair<int, int>, uint32_t> known;
     const auto vertex = [&](int i, int j) {
         const auto [at, is_new] = known.try_emplace({i, j}, static_cast<uint32_t>(mesh.points.size()));

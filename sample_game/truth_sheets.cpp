@@ -130,15 +130,17 @@ std::vector<Verdict> cantilever() {
     return verdicts;
 }
 
-// Schwerin's membrane: w0 = 0.982 (P R^2 / (E h))^(1/3) and 1 - (r / R)^(2/3). What 10 and 20 rings lack of it is the
-// lattice's: 0.947 and 0.972 were seen.
+// Schwerin's membrane: w0 = 0.982 (P R^2 / (E h))^(1/3) and 1 - (r / R)^(2/3), R that of a disc of the sheet's area. What
+// the sheets lack of it is the lattice's, which does not resolve the tip: 0.947, 0.972, 0.986 were seen.
 std::vector<Verdict> clamped_disc() {
     std::vector<Verdict> verdicts;
-    for (const uint32_t rings : {10u, 20u}) {
-        const double edge = 0.01, radius = rings * edge, thickness = 0.001;
+    const std::pair<uint32_t, double> known[] = {{10, 0.947}, {20, 0.972}, {40, 0.986}};
+    for (const auto& [rings, ratio] : known) {
+        const double edge = 0.01, border = (rings - 0.5) * edge, thickness = 0.001;
         const BenchMaterial material;
         SpringBench bench(bench_disc(rings, edge), thickness, material, {},
-                          [&](Vec3d p) { return length(p) > radius - 0.5 * edge; });
+                          [&](Vec3d p) { return length(p) > border; });
+        const double radius = std::sqrt(double{bench.state().shells.area[bench.shell()]} / kPi);
         const double wanted = 0.05 * radius;
         const double force = std::pow(wanted / 0.982, 3) * material.young_modulus * thickness / (radius * radius);
         bench.load(0, {0, 0, -force});
@@ -146,16 +148,15 @@ std::vector<Verdict> clamped_disc() {
         const double omega = 2.4 / radius * speed * 0.6 * wanted / radius;
         bench.settle(omega, 16 / omega);
         const double sag = -bench.middle(0).z;
-        const auto known = rings == 10 ? std::pair{0.947, 0.015} : std::pair{0.972, 0.015};
         verdicts.push_back({fmt::format("{} rings: sag over 0.982 (P R^2 / (E h))^(1/3)", rings), sag / wanted,
-                            known.first - known.second, known.first + known.second});
+                            ratio - 0.015, ratio + 0.015});
         double most = 0;
         for (uint32_t v = 0; v < bench.size(); ++v) {
             const double r = length(Vec3d(bench.state().vertices.rest[bench.view().shell.vertex(v)]));
-            if (r < 3 * edge || r > radius - edge) continue;  // the tip is not resolved
+            if (r < 0.25 * radius || r > radius - edge) continue;  // the tip is not resolved
             most = std::max(most, std::fabs(-bench.middle(v).z / wanted - (1 - std::pow(r / radius, 2.0 / 3))));
         }
-        verdicts.push_back({fmt::format("{} rings: profile off 1 - (r / R)^(2/3), of the sag", rings), most, 0, 0.05});
+        verdicts.push_back({fmt::format("{} rings: profile off 1 - (r / R)^(2/3), of the sag", rings), most, 0, 0.03});
     }
     return verdicts;
 }

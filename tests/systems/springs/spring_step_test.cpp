@@ -8,6 +8,7 @@
 #include "engine/simd.hpp"
 #include "sample_game/spring_bench.hpp"
 #include "systems/springs/spring_loop.hpp"
+#include "systems/springs/spring_lists.hpp"
 #include "systems/springs/spring_packs.hpp"
 
 namespace cullet::test {
@@ -149,11 +150,14 @@ TEST(SpringStep, RigidTravelIsFreeOfForce) {
 TEST(SpringStep, DampingOnlyTakesEnergy) {
     for (const SpringLayout layout : kLayouts) {
         SpringBench bench = make_ball(layout, 0.1f);
+        // Semi-implicit Euler keeps an energy that is off by up to omega dt / 2 of it: 1 % of the stiffest mode here.
+        set_spring_step(bench.view(), 0.02f * stable_spring_step(bench.view()));
         shake(bench, 1e-3, 0.5);
+        measure_lengths(bench.view());
         double before = motion_of(bench.view()).kinetic + spring_energy(bench.view());
         const double start = before;
         for (int i = 0; i < 20; ++i) {
-            for (int k = 0; k < 50; ++k) bench.step();
+            for (int k = 0; k < 500; ++k) bench.step();
             const double now = motion_of(bench.view()).kinetic + spring_energy(bench.view());
             EXPECT_LT(now, before * 1.001);
             before = now;
