@@ -130,10 +130,11 @@ std::vector<Verdict> cantilever() {
     return verdicts;
 }
 
-// Schwerin's membrane: w0 = 0.982 (P R^2 / (E h))^(1/3) and 1 - (r / R)^(2/3), R that of a disc of the sheet's area. What
-// the sheets lack of it is the lattice's, which does not resolve the tip: 0.947 and 0.972 were seen, so a profile may be
-// off by 1 - 0.947 + 0.015. Finer ones wrinkle: with nu = 1/3 the hoops that lie along springs carry nothing at all in
-// theory, and a quarter of all springs is a little compressed; 40 rings, which gave 0.986 without wrinkles, give 1.03.
+// Schwerin's membrane: w0 = 0.982 (P R^2 / (E h))^(1/3) and 1 - (r / R)^(2/3), R that of a disc of the sheet's area.
+// What the sheets lack of it is the lattice's, which does not resolve the tip: 0.947 and 0.972 were seen, so a profile
+// may be off by 1 - 0.947 + 0.015. Finer ones wrinkle: with nu = 1/3 the hoops that lie along springs carry nothing at
+// all in theory, and a quarter of all springs is a little compressed; 40 rings, which gave 0.986 without wrinkles,
+// give 1.03.
 std::vector<Verdict> clamped_disc() {
     std::vector<Verdict> verdicts;
     const std::pair<uint32_t, double> known[] = {{10, 0.947}, {20, 0.972}};

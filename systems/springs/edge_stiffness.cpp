@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "systems/damage/ring.hpp"
+#include "systems/springs/spring_lists.hpp"
 
 namespace cullet {
 namespace {
@@ -136,21 +136,19 @@ void measure_twin(const SpringView& view, uint32_t v, bool is_new) {
     walk_ring(view.shell, v, ring);
     const double young = view.own().young_modulus[view.row], reach = length(inner_rest(view, v) - outer_rest(view, v));
     double area = 0, skin = 0;
-    uint32_t count = 0;
     for (uint32_t i = 0; i < ring.count; ++i) {
         const auto [a, b, c] = view.state.elements.corner[view.shell.element(ring.element[i])];
         const Vec3d pa = outer_rest(view, a);
         area += length(cross(outer_rest(view, b) - pa, outer_rest(view, c) - pa)) / 6;  // a third of the triangle
-        for (const uint32_t s : view.state.element_springs.spring[view.edges(ring.element[i])]) {
-            if (s == kNone) continue;
-            skin += view.state.springs.stiffness[view.spring(s)];
-            ++count;
-        }
     }
+    // Of its own springs alone: a cut beside it changes others of its triangles.
+    VertexSprings list;
+    collect_springs(view, v, list);
+    for (uint32_t i = 0; i < list.count; ++i) skin += view.state.springs.stiffness[view.spring(list.spring[i])];
     if (is_new) twins.inverse_rest[row] = reach > 0 ? static_cast<float>(1 / reach) : 0;
     const double rest = twins.inverse_rest[row] > 0 ? 1 / double{twins.inverse_rest[row]} : 0;
     double k = rest > 0 ? young * area / rest : 0;
-    if (count > 0) k = std::min(k, 10 * skin / count);
+    if (list.count > 0) k = std::min(k, 10 * skin / list.count);
     const double share = twins.mass_share[row], dt = view.own().time_step[view.row];
     const double c = 2 * double{view.own().damping_ratio[view.row]} * std::sqrt(k * share / 2);
     twins.stiffness_rest[row] = static_cast<float>(k * rest);

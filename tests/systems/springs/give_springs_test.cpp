@@ -40,8 +40,7 @@ std::vector<uint32_t> cut_above(SpringBench& bench, double y) {
     State& s = bench.state();
     const auto is_above = [&](uint32_t e) {
         double sum = 0;
-        for (const uint32_t v : s.elements.corner[shell.element(e)])
-            sum += double{s.vertices.rest[shell.vertex(v)].y};
+        for (const uint32_t v : s.elements.corner[shell.element(e)]) sum += double{s.vertices.rest[shell.vertex(v)].y};
         return sum / 3 > y;
     };
     std::map<uint32_t, uint32_t> copies;
@@ -191,14 +190,16 @@ TEST(GiveSprings, ACopyMovesAsItsSourceDoes) {
         const SpringView a = bench.view(), b(state, row);
         for (uint32_t v = 0; v < bench.size(); ++v) {
             EXPECT_EQ(a.position(v), b.position(v));
-            if (a.has_layers()) EXPECT_EQ(a.twin_position(v), b.twin_position(v));
+            if (a.has_layers()) {
+                EXPECT_EQ(a.twin_position(v), b.twin_position(v));
+            }
         }
         EXPECT_TRUE(check_springs(state, "copy", "").ok());
     }
 }
 
 TEST(GiveSprings, AStateWithoutSpringsHashesAsIfThereWereNoSuchTables) {
-    State state({}), other({});
+    State state, other;
     EXPECT_EQ(state.hash(), other.hash());
     uint64_t plain = 0;
     std::apply(
@@ -262,7 +263,9 @@ TEST(RebuildSprings, AreThoseThatTheCutShellWouldBeGiven) {
         run_springs(state, given.value(), 50);
         for (uint32_t v = 0; v < bench.size(); ++v) {
             EXPECT_LT(length(view.position(v) - fresh.position(v)), 2e-7f);
-            if (view.has_layers()) EXPECT_LT(length(view.twin_position(v) - fresh.twin_position(v)), 2e-7f);
+            if (view.has_layers()) {
+                EXPECT_LT(length(view.twin_position(v) - fresh.twin_position(v)), 2e-7f);
+            }
         }
     }
 }

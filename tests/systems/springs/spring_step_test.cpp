@@ -7,8 +7,8 @@
 #include "engine/random.hpp"
 #include "engine/simd.hpp"
 #include "sample_game/spring_bench.hpp"
-#include "systems/springs/spring_loop.hpp"
 #include "systems/springs/spring_lists.hpp"
+#include "systems/springs/spring_loop.hpp"
 #include "systems/springs/spring_packs.hpp"
 
 namespace cullet::test {
