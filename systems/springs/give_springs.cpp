@@ -177,7 +177,7 @@ Result<Row<ShellSprings>> give_springs(State& state, Row<Shells> shell_row, std:
                                        const SpringSettings& settings) {
     if (const Result<void> valid = check(state, shell_row, settings); !valid) return Error{valid.error()};
     const ShellView shell(state, shell_row);
-    std::vector<VertexSprings> lists(shell.vertices().capacity + kLanes);
+    std::vector<uint32_t> first(shell.vertices().capacity + kLanes + 1, 0);  // counts, then where each list begins
     const auto refuse = [](size_t s, const std::string& what) {
         return Error{"springs: spring " + std::to_string(s) + " " + what};
     };
@@ -191,17 +191,21 @@ Result<Row<ShellSprings>> give_springs(State& state, Row<Shells> shell_row, std:
         if (!(g.rest_length >= 0 && g.rest_length <= 1e6f && g.stiffness >= 0 && g.stiffness <= 1e15f))
             return refuse(s, "has rest length " + std::to_string(g.rest_length) + " m and stiffness " +
                                  std::to_string(g.stiffness) + " N/m. Give 0 to 1e6 and 0 to 1e15.");
-        if (!lists[g.a].add(static_cast<uint32_t>(s)) || !lists[g.b].add(static_cast<uint32_t>(s)))
-            return refuse(s, "is one too many at its vertex. Give at most 65 at one.");
+        for (const uint32_t v : {g.a, g.b})
+            if (++first[v + 1] > std::size(VertexSprings{}.spring))
+                return refuse(s, "is one too many at vertex " + std::to_string(v) + ". Give at most 65 at one.");
     }
     SpringRoom room;
     room.springs = static_cast<uint32_t>(given.size());
     room.vertices = shell.vertices().capacity;
     for (uint32_t p = 0; p < room.vertices; p += kLanes) {
         uint32_t most = 6;
-        for (uint32_t k = 0; k < kLanes; ++k) most = std::max(most, lists[p + k].count);
+        for (uint32_t k = 0; k < kLanes; ++k) most = std::max(most, first[p + k + 1]);
         room.slots += most + kSpareSlots;
     }
+    for (size_t v = 1; v < first.size(); ++v) first[v] += first[v - 1];
+    std::vector<uint32_t> springs_at(first.back()), next(first);
+    for (uint32_t s = 0; s < given.size(); ++s) springs_at[next[given[s].a]++] = s, springs_at[next[given[s].b]++] = s;
     const char* full = "";
     const Row<ShellSprings> row = make_springs(state, shell_row, room, &full);
     if (!row.exists()) return no_room(full);
@@ -222,7 +226,10 @@ Result<Row<ShellSprings>> give_springs(State& state, Row<Shells> shell_row, std:
         springs.damping[at] = static_cast<float>(2 * double{settings.damping_ratio} *
                                                  std::sqrt(given[s].stiffness * (sum > 0 ? ma * mb / sum : 0)));
     }
-    lay_packs(view, [&](uint32_t v, VertexSprings& list) { list = v < lists.size() ? lists[v] : VertexSprings{}; });
+    lay_packs(view, [&](uint32_t v, VertexSprings& list) {
+        list.count = first[v + 1] - first[v];
+        std::copy_n(springs_at.begin() + first[v], list.count, list.spring);
+    });
     finish(view, settings);
     return row;
 }

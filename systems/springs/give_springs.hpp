@@ -33,7 +33,7 @@ struct GivenSpring {
     float stiffness = 0;    // N/m, >= 0
 };
 /// The same for springs that no element has: chains, nets, joints. One layer; masses are the vertices' own. For setting
-/// up: allocates. Refused besides: an end that is no vertex, a spring from a vertex to itself, more than 64 at one
+/// up: allocates. Refused besides: an end that is no vertex, a spring from a vertex to itself, more than 65 at one
 /// vertex.
 Result<Row<ShellSprings>> give_springs(State& state, Row<Shells> shell, std::span<const GivenSpring> springs,
                                        const SpringSettings& settings);
