@@ -189,13 +189,13 @@ bool measure_springs(const Options& options, Figures& figures) {
                 if (BareSprings::is_supported())
                     figures.add_ratio(name + "substep / bare kernel", ours, times.bare, "ns a spring", 1.2);
             }
-            figures.add_ratio(name + "Bullet, an iteration / substep", times.bullet, ours, "ns a spring",
+            figures.add_ratio(name + "Bullet, an iteration / substep", ours, times.bullet, "ns a spring",
                               threads == 1   ? 2.3
                               : threads == 2 ? 4.0
                                              : 0,
                               true);
             if (threads == 2 && alone > 0)
-                figures.add_ratio(name + "one thread / two", alone, ours, "ns a spring", 1.7, true);
+                figures.add_ratio(name + "one thread / two", ours, alone, "ns a spring", 1.7, true);
             if (threads == 1 && n == kSides[0]) smallest = ours;
             if (threads == 1 && n == kSides[2] && smallest > 0)
                 figures.add_ratio("growth from the smallest grid to the largest", ours, smallest, "ns a spring", 1.3);
