@@ -94,11 +94,10 @@ double time_links(uint32_t n, uint32_t rounds) {
     btSoftBodyHelpers::ReoptimizeLinkOrder(body.get());
     body->updateLinkConstants();
     const auto solve = btSoftBody::getSolver(btSoftBody::ePSolver::Linear);
-    btSoftBody* patch = body.get();
     double least = 1e9;
     for (uint32_t round = 0; round < rounds; ++round)
         least = std::min(least, seconds([&] {
-                             for (int i = 0; i < 4; ++i) solve(&patch, 1, 0);
+                             for (int i = 0; i < 4; ++i) solve(body.get(), 1, 0);
                          }));
     return least / (4.0 * body->m_links.size());
 }
