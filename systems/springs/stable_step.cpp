@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <limits>
 
+#include "systems/springs/edge_stiffness.hpp"
 #include "systems/springs/give_springs.hpp"
 #include "systems/springs/spring_lists.hpp"
 
@@ -49,12 +50,10 @@ float stable_spring_step(const SpringView& view) {
 }
 
 void set_spring_step(const SpringView& view, float time_step) {
-    float& own = view.own().time_step[view.row];
-    const float change = own / time_step;
-    own = time_step;
+    view.own().time_step[view.row] = time_step;
     for (uint32_t s = 0; s < view.spring_count(); ++s) write_spring(view, s);
     if (!view.has_layers()) return;
-    for (uint32_t v = 0; v < view.shell.vertex_count(); ++v) view.state.twins.damping[view.twin(v)] *= change;
+    for (uint32_t v = 0; v < view.shell.vertex_count(); ++v) measure_twin(view, v, false);
 }
 
 }  // namespace cullet
