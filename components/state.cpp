@@ -19,6 +19,11 @@ uint32_t slot_limit(const Limits& l) {
 uint32_t cell_limit(const Limits& l) {
     return l.vertices / 8;
 }
+// Edges: three for two elements and half of one a border edge; a crack doubles those that it cuts. A vertex has about 6
+// springs, each in a slot of both ends.
+uint32_t spring_limit(const Limits& l) {
+    return l.elements * 2;
+}
 // Holes of a pool that gives an owner one range, or two while it is moved.
 uint32_t ranges_of(const AnyTable& owners) {
     return 2 * owners.limit() + 1;
@@ -48,6 +53,14 @@ State::State(const Limits& l)
       fragments((l.tasks + 1) * kMostParts),
       view_vertices(l.view_vertices),
       view_indices(l.view_vertices * 2),
+      shell_springs(l.shells),
+      springs(spring_limit(l)),
+      layer_springs(spring_limit(l)),
+      element_springs(l.elements),
+      spring_packs(pack_limit(l)),
+      spring_slots(slot_limit(l)),
+      layer_slots(slot_limit(l)),
+      twins(l.vertices),
       pools(*this),
       limits_(l) {
     tasks.append(l.tasks);
@@ -69,7 +82,15 @@ State::Pools::Pools(const State& s)
       cells(s.cells.limit(), 1, ranges_of(s.shells)),
       points(s.hull_points.limit(), 1, ranges_of(s.shells)),
       view_vertices(s.view_vertices.limit(), 16, ranges_of(s.bodies)),
-      view_indices(s.view_indices.limit(), 16, ranges_of(s.bodies)) {}
+      view_indices(s.view_indices.limit(), 16, ranges_of(s.bodies)),
+      shell_springs(s.shell_springs.limit(), 1, ranges_of(s.shells)),
+      springs(s.springs.limit(), 16, ranges_of(s.shells)),
+      layer_springs(s.layer_springs.limit(), 16, ranges_of(s.shells)),
+      element_springs(s.element_springs.limit(), 16, ranges_of(s.shells)),
+      spring_packs(s.spring_packs.limit(), 8, ranges_of(s.shells)),
+      spring_slots(s.spring_slots.limit(), 1, ranges_of(s.shells)),
+      layer_slots(s.layer_slots.limit(), 1, ranges_of(s.shells)),
+      twins(s.twins.limit(), kVerticesPerCell, ranges_of(s.shells)) {}
 
 // A hit takes a copy of all rows with a quarter more (working_room); what moves of the broken shell is less than it. A
 // drawn mesh has 6 corners an element and 6 a free edge, and the pieces' more than the body's.
@@ -94,8 +115,20 @@ void State::commit_ahead(const ShellRoom& shell, uint32_t served) {
 
 uint64_t State::hash() const {
     uint64_t hash = 0;
-    std::apply([&](auto... table) { ((hash = (this->*table).hash(hash)), ...); }, tables());
-    for (const RangePool* pool : pools.all()) hash = pool->hash(hash);
+    const auto add = [&]<class T>(T State::*table) {
+        if constexpr (requires { T::kIsOptional; })
+            if ((this->*table).size() == 0) return;
+        hash = (this->*table).hash(hash);
+    };
+    std::apply([&](auto... table) { (add(table), ...); }, tables());
+    return hash_pools(hash);
+}
+
+// A table grows to what its pool hands out: where no row was ever taken the pool is as new.
+uint64_t State::hash_pools(uint64_t hash) const {
+    const auto all = pools.all();
+    for (size_t k = 0; k < all.size(); ++k)
+        if (k < Pools::kFirstOptional || shell_springs.size() > 0) hash = all[k]->hash(hash);
     return hash;
 }
 
@@ -120,9 +153,7 @@ void State::digest_columns(std::vector<uint32_t>& out) const {
             hash = hash_bytes(table.column_memory(c, a), size_t{table.size()} * c.row_bytes, hash);
         out.push_back(static_cast<uint32_t>(hash));
     });
-    uint64_t pooled = 0;
-    for (const RangePool* pool : pools.all()) pooled = pool->hash(pooled);
-    out.push_back(static_cast<uint32_t>(pooled));
+    out.push_back(static_cast<uint32_t>(hash_pools(0)));
 }
 
 std::string State::digested_column(size_t place) const {
@@ -257,6 +288,7 @@ void release_shell(State& state, Row<Shells> shell) {
     back(state.pools.links, s.links[shell]);
     back(state.pools.cells, s.cells[shell]);
     back(state.pools.points, s.points[shell]);
+    release_springs(state, shell);
     s.clear_rows(shell, 1);
     state.pools.shells.give_back(shell, 1);
 }
@@ -291,7 +323,12 @@ void copy_shell_rows(State& to, const State& from, Row<Shells> source, Row<Shell
 
 Row<Shells> copy_shell(State& state, Row<Shells> source, const ShellRoom& room, const char** full) {
     const Row<Shells> copy = make_shell(state, room, full);
-    if (copy.exists()) copy_shell_rows(state, state, source, copy, room.blocks > 0);
+    if (!copy.exists()) return copy;
+    copy_shell_rows(state, state, source, copy, room.blocks > 0);
+    if (room.with_springs && !copy_springs(state, source, copy, full)) {
+        release_shell(state, copy);
+        return {};
+    }
     return copy;
 }
 

@@ -6,6 +6,7 @@
 #include "components/bodies.hpp"
 #include "components/materials.hpp"
 #include "components/shells.hpp"
+#include "components/springs.hpp"
 #include "components/tasks.hpp"
 #include "engine/range_pool.hpp"
 #include "engine/system.hpp"
@@ -28,6 +29,7 @@ struct Limits {
 /// Rows that a shell needs. Packs are one for 8 vertices; blocks and links zero until the stiffness is assembled.
 struct ShellRoom {
     uint32_t vertices = 0, elements = 0, hinges = 0, blocks = 0, links = 0, cells = 0, points = 0;
+    bool with_springs = false;  // copy_shell: the source's edge springs, too
 };
 
 struct State {
@@ -54,31 +56,67 @@ struct State {
     Fragments fragments;
     ViewVertices view_vertices;
     ViewIndices view_indices;
+    ShellSprings shell_springs;
+    Springs springs;
+    LayerSprings layer_springs;
+    ElementSprings element_springs;
+    SpringPacks spring_packs;
+    SpringSlots spring_slots;
+    LayerSlots layer_slots;
+    Twins twins;
 
     /// Which rows of the tables above are taken; one pool a table whose rows come in ranges.
     struct Pools {
         explicit Pools(const State& state);
         RangePool bodies, shells, vertices, elements, hinges, packs, blocks, links, cells, points, view_vertices,
             view_indices;
-        std::array<const RangePool*, 12> all() const { return list<const RangePool*>(*this); }
-        std::array<RangePool*, 12> all() { return list<RangePool*>(*this); }
+        // Of springs; without a row taken they do not enter the hash.
+        RangePool shell_springs, springs, layer_springs, element_springs, spring_packs, spring_slots, layer_slots,
+            twins;
+        std::array<const RangePool*, 20> all() const { return list<const RangePool*>(*this); }
+        std::array<RangePool*, 20> all() { return list<RangePool*>(*this); }
+        static constexpr size_t kFirstOptional = 12;  // of all()
 
      private:
         template <class Pool, class Self>
-        static std::array<Pool, 12> list(Self& s) {
-            return {&s.bodies, &s.shells, &s.vertices, &s.elements, &s.hinges,        &s.packs,
-                    &s.blocks, &s.links,  &s.cells,    &s.points,   &s.view_vertices, &s.view_indices};
+        static std::array<Pool, 20> list(Self& s) {
+            return {&s.bodies,          &s.shells,       &s.vertices,      &s.elements,    &s.hinges,
+                    &s.packs,           &s.blocks,       &s.links,         &s.cells,       &s.points,
+                    &s.view_vertices,   &s.view_indices, &s.shell_springs, &s.springs,     &s.layer_springs,
+                    &s.element_springs, &s.spring_packs, &s.spring_slots,  &s.layer_slots, &s.twins};
         }
     } pools;
 
     static constexpr auto tables() {
-        return std::tuple{&State::materials,       &State::models,           &State::bodies,
-                          &State::debris,          &State::shells,           &State::vertices,
-                          &State::elements,        &State::triangle_springs, &State::hinges,
-                          &State::stiffness_packs, &State::stiffness_blocks, &State::stiffness_links,
-                          &State::cells,           &State::hull_points,      &State::tasks,
-                          &State::task_contacts,   &State::patch_vertices,   &State::queued_hits,
-                          &State::fragments,       &State::view_vertices,    &State::view_indices};
+        return std::tuple{&State::materials,
+                          &State::models,
+                          &State::bodies,
+                          &State::debris,
+                          &State::shells,
+                          &State::vertices,
+                          &State::elements,
+                          &State::triangle_springs,
+                          &State::hinges,
+                          &State::stiffness_packs,
+                          &State::stiffness_blocks,
+                          &State::stiffness_links,
+                          &State::cells,
+                          &State::hull_points,
+                          &State::tasks,
+                          &State::task_contacts,
+                          &State::patch_vertices,
+                          &State::queued_hits,
+                          &State::fragments,
+                          &State::view_vertices,
+                          &State::view_indices,
+                          &State::shell_springs,
+                          &State::springs,
+                          &State::layer_springs,
+                          &State::element_springs,
+                          &State::spring_packs,
+                          &State::spring_slots,
+                          &State::layer_slots,
+                          &State::twins};
     }
     const Limits& limits() const { return limits_; }
     /// The table of type T.
@@ -102,6 +140,7 @@ struct State {
     std::string digested_column(size_t place) const;
 
  private:
+    uint64_t hash_pools(uint64_t seed) const;
     Limits limits_;
 };
 
@@ -121,7 +160,23 @@ void drop_stiffness(State& state, Row<Shells> shell);
 bool take_points(State& state, uint32_t count, Range& range);
 /// One user less; the rows go back when there are none.
 void release_shell(State& state, Row<Shells> shell);
-/// A copy of `source` with `room` (at least what is in use), one user. Stiffness is copied when `room.blocks` > 0.
+/// Rows that the springs of a shell need. No layers: one layer.
+struct SpringRoom {
+    uint32_t springs = 0, elements = 0, vertices = 0, slots = 0;
+    bool has_layers = false;
+};
+/// A row with empty ranges of these capacities, all zero, for a shell that has none; kNone when some table is full.
+Row<ShellSprings> make_springs(State& state, Row<Shells> shell, const SpringRoom& room, const char** full = nullptr);
+/// Of the shell; kNone when it has none.
+Row<ShellSprings> find_springs(const State& state, Row<Shells> shell);
+/// The shell's springs, if any, go back; release_shell does it, too.
+void release_springs(State& state, Row<Shells> shell);
+/// Springs of `copy` as `source` has them, in motion as they are; what there are too few rows for is refused. A shell
+/// without springs gives none. `copy` has at least the vertices and elements of `source`.
+bool copy_springs(State& state, Row<Shells> source, Row<Shells> copy, const char** full = nullptr);
+
+/// A copy of `source` with `room` (at least what is in use), one user. Stiffness is copied when `room.blocks` > 0,
+/// springs when `room.with_springs`.
 Row<Shells> copy_shell(State& state, Row<Shells> source, const ShellRoom& room, const char** full = nullptr);
 
 /// The second half of copy_shell, into a shell that make_shell made: serial systems reserve, parallel ones copy.

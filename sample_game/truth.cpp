@@ -12,6 +12,7 @@
 #include "sample_game/progress.hpp"
 #include "sample_game/report.hpp"
 #include "sample_game/thresholds.hpp"
+#include "sample_game/truth_cases.hpp"
 
 namespace cullet {
 namespace {
@@ -186,8 +187,9 @@ int run_truth(const std::string& model, const TruthSettings& given) {
     }
     TruthSettings settings = given;
     if (settings.threads == 0) settings.threads = 2;
-    std::vector<std::string> faults;
+    std::vector<std::string> faults = print_truth_cases();
     nlohmann::json json;
+    fmt::print("case 9, the hidden run\n");
     for (const Subject subject : kSubjects) {
         const Result<HitSubject> known = make_subject(subject);
         if (!known.ok()) {

@@ -1,6 +1,7 @@
 // Every system of a frame. The parameters of each are all that it sees, ShellTables standing for all tables of shells;
 // frame.cpp gives their order.
 #pragma once
+#include "systems/springs/spring_loop.hpp"
 #include "systems/world_data.hpp"
 
 namespace cullet {
@@ -115,5 +116,27 @@ void split_vertices(EachBody task, ShellTables shells, Tasks& tasks, TaskContact
 /// Above 1.05 of the start's energy the run begins again with half the step, at most twice (B7).
 void check_energy(EachBody task, ShellTables shells, const Materials& materials, Tasks& tasks, TaskContacts& contacts,
                   PatchVertices& patches);
+
+// ---- inner loop of springs: repeated for one shell that has them (ductile, quick mode, sheet metal)
+
+/// Area and volume energies of the row, where it has any (B4).
+void press_layers(Rows<SpringPacks> packs, OfSprings springs, Turn turn, ShellTables shells,
+                  In<&Vertices::probe> position, In<&Twins::position> twin_position,
+                  InOut<&Vertices::velocity> velocity, InOut<&Twins::velocity> twin_velocity);
+/// One layer, one fused pass (B3, B6): force, damping from the length kept in the slot, semi-implicit Euler, largest
+/// elongation a vertex.
+void integrate_springs(Rows<SpringPacks> packs, OfSprings springs, Turn turn, ShellTables shells,
+                       In<&Vertices::inverse_mass> inverse_mass, In<&Vertices::probe> position,
+                       InOut<&Vertices::velocity> velocity, Out<&Vertices::probe> next_position,
+                       InOut<&SpringSlots::slot> slots, InOut<&SpringPacks::zero_lengths> zero_lengths);
+/// The same for both layers and what ties them (B5).
+void integrate_layers(Rows<SpringPacks> packs, OfSprings springs, Turn turn, ShellTables shells,
+                      In<&Vertices::probe> position, InOut<&Vertices::velocity> velocity,
+                      Out<&Vertices::probe> next_position, In<&Twins::position> twin_position,
+                      InOut<&Twins::velocity> twin_velocity, Out<&Twins::position> next_twin_position,
+                      InOut<&SpringSlots::slot> slots, InOut<&LayerSlots::slot> layer_slots,
+                      InOut<&SpringPacks::zero_lengths> zero_lengths);
+/// The sides of the positions change places.
+void end_spring_step(EachBody body, OfSprings springs, ShellSprings& own);
 
 }  // namespace cullet

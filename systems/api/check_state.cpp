@@ -5,6 +5,7 @@
 #include "systems/api/snapshot.hpp"
 #include "systems/cook/check_shell_rows.hpp"
 #include "systems/damage/working_room.hpp"
+#include "systems/springs/check_springs.hpp"
 
 namespace cullet {
 namespace {
@@ -93,6 +94,20 @@ void check_ranges(Checker& check) {
     of_shells(s.stiffness_links, s.pools.links, shells.links);
     of_shells(s.cells, s.pools.cells, shells.cells);
     of_shells(s.hull_points, s.pools.points, shells.points);
+    const ShellSprings& springs = s.shell_springs;
+    const auto of_springs = [&](const AnyTable& table, const RangePool& pool, const Column<Range>& column) {
+        RangeCheck ranges(check, table, pool);
+        for (uint32_t row = 0; row < springs.size(); ++row)
+            if (springs.is_used[row]) ranges.add("springs", row, column[row]);
+        ranges.finish();
+    };
+    of_springs(s.springs, s.pools.springs, springs.springs);
+    of_springs(s.layer_springs, s.pools.layer_springs, springs.layers);
+    of_springs(s.element_springs, s.pools.element_springs, springs.edges);
+    of_springs(s.spring_packs, s.pools.spring_packs, springs.packs);
+    of_springs(s.spring_slots, s.pools.spring_slots, springs.slots);
+    of_springs(s.layer_slots, s.pools.layer_slots, springs.layer_slots);
+    of_springs(s.twins, s.pools.twins, springs.twins);
     const auto of_bodies = [&](const AnyTable& table, const RangePool& pool, const Column<Range>& column) {
         RangeCheck ranges(check, table, pool);
         for (uint32_t b = 0; b < s.bodies.size(); ++b)
@@ -279,7 +294,7 @@ Result<void> check_state(const State& state, const std::string& name) {
         const Result<void> sound = check_shell_rows(ShellView(rows, Row<Shells>(row)), Wear::Worn, name, kAdvice);
         if (!sound) return sound;
     }
-    return {};
+    return check_springs(state, name, kAdvice);
 }
 
 }  // namespace cullet
