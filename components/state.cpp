@@ -27,7 +27,8 @@ uint32_t ranges_of(const AnyTable& owners) {
 }  // namespace
 
 State::State(const Limits& l)
-    : materials(64),
+    : materials(kMostMaterials),
+      material_traits(kMostMaterials),
       models(l.models),
       bodies(l.bodies),
       debris(l.debris),
@@ -94,7 +95,12 @@ void State::commit_ahead(const ShellRoom& shell, uint32_t served) {
 
 uint64_t State::hash() const {
     uint64_t hash = 0;
-    std::apply([&](auto... table) { ((hash = (this->*table).hash(hash)), ...); }, tables());
+    const auto fold = [&](const auto& table) {
+        if constexpr (requires { table.kIsOptional; })
+            if (table.size() == 0) return;
+        hash = table.hash(hash);
+    };
+    std::apply([&](auto... table) { (fold(this->*table), ...); }, tables());
     for (const RangePool* pool : pools.all()) hash = pool->hash(hash);
     return hash;
 }

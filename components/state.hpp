@@ -34,6 +34,7 @@ struct State {
     explicit State(const Limits& limits = {});
 
     Materials materials;
+    MaterialTraits material_traits;
     Models models;
     Bodies bodies;
     Debris debris;
@@ -78,7 +79,8 @@ struct State {
                           &State::stiffness_packs, &State::stiffness_blocks, &State::stiffness_links,
                           &State::cells,           &State::hull_points,      &State::tasks,
                           &State::task_contacts,   &State::patch_vertices,   &State::queued_hits,
-                          &State::fragments,       &State::view_vertices,    &State::view_indices};
+                          &State::fragments,       &State::view_vertices,    &State::view_indices,
+                          &State::material_traits};
     }
     const Limits& limits() const { return limits_; }
     /// The table of type T.
