@@ -26,6 +26,8 @@ constexpr MaterialValue kValues[] = {
     {"heading_power", "1", &S::heading_power, 0, 100},
     {"tip_factor", "1", &S::tip_factor, 0.01, 10},
     {"run_seconds", "s", &S::run_seconds, 1e-4, 0.1},
+    {"branching", "1", &S::branching, 0, 10},
+    {"run_out", "1", &S::run_out, 0, 10},
     {"bending_stiffness", "N m", &S::bending_stiffness, 0, 1e9},
     {"across_young_modulus", "Pa", &S::across_young_modulus, 0, 1e13},
     {"shear_modulus", "Pa", &S::shear_modulus, 0, 1e13},

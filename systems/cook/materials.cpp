@@ -18,6 +18,7 @@ template <class T, class F>
 void for_each_traits_column(T& traits, F&& f) {
     using S = MaterialSettings;
     f(traits.yield_strength, &S::yield_strength), f(traits.yield_strain, &S::yield_strain);
+    f(traits.branching, &S::branching), f(traits.run_out, &S::run_out);
     f(traits.break_strain, &S::break_strain), f(traits.bending_stiffness, &S::bending_stiffness);
     f(traits.across_young_modulus, &S::across_young_modulus), f(traits.shear_modulus, &S::shear_modulus);
     f(traits.across_strength, &S::across_strength), f(traits.across_break_strain, &S::across_break_strain);
@@ -105,14 +106,17 @@ TraitsRow material_traits(const State& state, Row<Materials> row) {
     if (row < t.size())
         return {static_cast<MaterialKind>(t.kind[row]),
                 static_cast<FractureKind>(t.fracture[row]),
+                t.branching[row],
+                t.run_out[row],
                 t.across_young_modulus[row],
                 t.shear_modulus[row],
                 t.across_strength[row],
                 t.across_fracture_energy[row],
                 t.grain[row]};
     TraitsRow found;
-    if (is_compiled(row))
-        found.kind = compiled_materials()[row].kind, found.fracture = compiled_materials()[row].fracture;
+    if (!is_compiled(row)) return found;
+    const MaterialSettings& m = compiled_materials()[row];
+    found.kind = m.kind, found.fracture = m.fracture, found.branching = m.branching, found.run_out = m.run_out;
     return found;
 }
 

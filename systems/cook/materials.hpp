@@ -23,6 +23,7 @@ MaterialSettings material_settings(const State& state, Row<Materials> row);
 struct TraitsRow {
     MaterialKind kind = MaterialKind::Brittle;
     FractureKind fracture = FractureKind::Large;
+    float branching = 0, run_out = 0;
     float across_young_modulus = 0, shear_modulus = 0, across_strength = 0, across_fracture_energy = 0;
     Vec3 grain;
     bool has_grain() const { return across_young_modulus > 0; }
