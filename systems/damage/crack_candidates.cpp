@@ -110,7 +110,10 @@ CrackLimits crack_limits(ShellView shell, float strength_scale) {
                            std::sqrt(kPi * shell.shells().mean_edge[shell.row]);
     const float c = std::sqrt(m.young_modulus[row] / m.density[row]);
     // The game's scale takes Griffith's limit along: a body made unbreakable is so with its old cracks too.
-    CrackLimits limits{strength_scale * strength, strength_scale * std::min(strength, griffith), kTipSpeed * c};
+    CrackLimits limits;
+    limits.start = strength_scale * strength;
+    limits.tip = strength_scale * std::min(strength, griffith);
+    limits.tip_speed = kTipSpeed * c;
     const TraitsRow traits = material_traits(shell.state, Row<Materials>(row));
     limits.fracture = traits.fracture;
     limits.ban_seconds = kCoarseBanEdges * shell.shells().mean_edge[shell.row] / c;
@@ -119,8 +122,9 @@ CrackLimits crack_limits(ShellView shell, float strength_scale) {
     const float across = kShortLoadFactor * traits.across_strength;
     const float splits = m.tip_factor[row] * std::sqrt(traits.across_young_modulus * traits.across_fracture_energy) /
                          std::sqrt(kPi * shell.shells().mean_edge[shell.row]);
-    limits.grain = {true,       traits.grain, limits.start, strength_scale * across,
-                    limits.tip, strength_scale * std::min(across, splits)};
+    limits.grain = {true,         traits.grain,
+                    limits.start, strength_scale * across,
+                    limits.tip,   strength_scale * std::min(across, splits)};
     limits.start = std::min(limits.grain.start_along, limits.grain.start_across);
     limits.tip = std::min(limits.grain.tip_along, limits.grain.tip_across);
     return limits;
@@ -177,9 +181,11 @@ void choose_candidates(ShellView shell, const CrackLimits& limits, float time, H
     const uint32_t tips = candidates.count;
     if (tips > 0) fan = HeadingFan(shell.state.materials.heading_power[shell.shells().material[shell.row]]);
     float raise = 1;
-    while (!collect_starts(shell, limits, raise * limits.start, time, tips, candidates) && raise < kMostRaise) raise *= kRaise;
+    while (!collect_starts(shell, limits, raise * limits.start, time, tips, candidates) && raise < kMostRaise)
+        raise *= kRaise;
     // Equally stressed everywhere: the first of them by element, as many as fit.
-    if (candidates.count == tips && raise > 1) collect_starts(shell, limits, raise / kRaise * limits.start, time, tips, candidates);
+    if (candidates.count == tips && raise > 1)
+        collect_starts(shell, limits, raise / kRaise * limits.start, time, tips, candidates);
     uint32_t kept = 0;
     for (uint32_t i = 0; i < candidates.count; ++i) {
         Candidate c = candidates.candidate[i];

@@ -39,7 +39,8 @@ uint32_t end_of(const ShellView& shell, uint32_t tip, float reach) {
         const float ahead = dot(way, heading), distance = length(way);
         if (!(ahead > kStraight * distance) || !(distance > 0) || distance * distance / ahead >= nearest) continue;
         if (!(dot(vertices.inward[row], vertices.inward[other]) > kJoinCosine)) continue;
-        if (crack_at(shell, v) != CrackState::None && vertices.crack_start[other] == vertices.crack_start[row]) continue;
+        if (crack_at(shell, v) != CrackState::None && vertices.crack_start[other] == vertices.crack_start[row])
+            continue;
         if (!may_end_at(shell, v)) continue;
         nearest = distance * distance / ahead;
         found = v;
@@ -96,8 +97,9 @@ uint32_t run_out_cracks(State& state, Row<Tasks> task) {
         if (target != kNone) cuts += run_to(shell, v, target, touched, is_whole);
     }
     is_whole = refresh_stiffness(shell, touched) && is_whole;
-    // Nothing steps this shell again, and the pieces assemble their own; a whole that stays drops what does not fit.
-    if (!is_whole) drop_stiffness(state, shell.row);
+    // Nothing steps this shell again before its next task, which assembles what is not assembled.
+    Shells& shells = shell.shells();
+    if (!is_whole) shells.packs[shell.row].count = shells.blocks[shell.row].count = shells.links[shell.row].count = 0;
     state.tasks.crack_count[task] += cuts;
     state.tasks.units_owed[task] += kUnitsCut * cuts;
     return cuts;
