@@ -61,7 +61,7 @@ Result<MeshReport> examine_mesh(const MeshView& mesh);
 struct CookSettings {
     std::string material = "porcelain";        // a name in `materials`
     const MaterialTable* materials = nullptr;  // null: the compiled table
-    std::optional<FractureKind> fracture;      // in place of the material's
+    std::optional<FractureKind> fracture = {};  // in place of the material's
     Vec3 grain{0, 1, 0};       // of wood, along its fibres, mesh coordinates, any length; counts for no other material
     float thickness = 0.005f;  // m; thinner where the opposite wall is near
     /// Edges longer than this are split first, m; 0: twice the thickness, or 2.5 % of the diagonal if that is larger.
