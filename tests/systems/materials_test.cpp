@@ -195,8 +195,10 @@ TEST(Materials, DuctileAndElasticBodiesAreCookedAndMoveAsRigidOnes) {
         Result<World> world = World::create({});
         const Mesh floor = make_box({2, 0.1f, 2});
         ASSERT_TRUE(world->add_static(view_of(floor)).ok());
-        const Result<BodyId> body =
-            world->spawn(*world->add_model(*model), {.pose = {{0, 0.5f, 0}, {}}, .motion = {{0, -30, 0}, {}}});
+        SpawnSettings falls;
+        falls.pose.position = {0, 0.5f, 0};
+        falls.motion.velocity = {0, -30, 0};
+        const Result<BodyId> body = world->spawn(*world->add_model(*model), falls);
         ASSERT_TRUE(body.ok()) << body.error();
         for (int n = 0; n < 30; ++n) {
             world->step();
