@@ -8,8 +8,7 @@
 namespace cullet {
 
 ShellRoom working_room(ShellView source) {
-    // Fine fracture cuts every third edge where it is hit: with a quarter more the cuts were refused and a wall fell into
-    // 18 pieces in place of 60.
+    // Finer fracture cuts more edges, and a cut without room for its copies is refused.
     const FractureKind fracture = material_traits(source.state, source.shells().material[source.row]).fracture;
     const uint32_t share = fracture == FractureKind::Fine ? 1 : fracture == FractureKind::Coarse ? 2 : 4;
     const uint32_t spare = (std::max(192u, source.vertex_count() / share) + kLanes - 1) / kLanes * kLanes;
