@@ -32,7 +32,8 @@ uint32_t ranges_of(const AnyTable& owners) {
 }  // namespace
 
 State::State(const Limits& l)
-    : materials(64),
+    : materials(kMostMaterials),
+      material_traits(kMostMaterials),
       models(l.models),
       bodies(l.bodies),
       debris(l.debris),

@@ -36,6 +36,7 @@ struct State {
     explicit State(const Limits& limits = {});
 
     Materials materials;
+    MaterialTraits material_traits;
     Models models;
     Bodies bodies;
     Debris debris;
@@ -109,6 +110,7 @@ struct State {
                           &State::fragments,
                           &State::view_vertices,
                           &State::view_indices,
+                          &State::material_traits,
                           &State::shell_springs,
                           &State::springs,
                           &State::layer_springs,

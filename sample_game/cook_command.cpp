@@ -9,6 +9,7 @@
 #include "sample_game/cook_cached.hpp"
 #include "sample_game/import_model.hpp"
 #include "sample_game/progress.hpp"
+#include "sample_game/read_materials.hpp"
 
 namespace cullet {
 namespace {
@@ -29,7 +30,14 @@ Result<CachedModel> cook_file(const CookOptions& options) {
     const Result<Mesh> mesh = import_model(options.mesh);
     if (!mesh.ok()) return Error{mesh.error()};
     CookSettings settings;
+    MaterialTable materials;
+    if (!options.materials.empty())
+        if (const Result<void> read = read_materials(options.materials, materials); !read.ok())
+            return Error{read.error()};
+    settings.materials = &materials;
     settings.material = options.material;
+    for (const FractureKind kind : {FractureKind::Large, FractureKind::Coarse, FractureKind::Fine})
+        if (options.fracture == name_of(kind)) settings.fracture = kind;
     settings.thickness =
         options.thickness_m > 0 ? static_cast<float>(options.thickness_m) : kWallOfLargestSide * largest_side(*mesh);
     settings.longest_edge = static_cast<float>(options.edge_m);

@@ -108,6 +108,8 @@ HitBench::HitBench(Subject subject, const Model& model, uint64_t seed) : subject
     state_ = std::make_unique<State>(cooking_limits(model.report().vertices, model.report().elements));
     state_->materials.append(cooked.materials.size());
     state_->materials.copy_rows(cooked.materials, 0, 0, cooked.materials.size());
+    state_->material_traits.append(cooked.material_traits.size());
+    state_->material_traits.copy_rows(cooked.material_traits, 0, 0, cooked.material_traits.size());
     const char* full = "";
     shell_ = import_shell(*state_, cooked, model.contents->shell, &full);
     const ShellView shell(*state_, shell_);

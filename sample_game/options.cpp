@@ -5,6 +5,7 @@
 #include <CLI/CLI.hpp>
 #include <algorithm>
 
+#include "cullet/material.hpp"
 #include "sample_game/scene.hpp"
 
 namespace cullet {
@@ -39,6 +40,10 @@ void add_run(CLI::App& app, RunOptions& run) {
         ->check(CLI::Validator(
             [](const std::string& name) { return std::string(name.empty() ? "the name is empty; give a file" : ""); },
             ""));
+    command->add_option("--materials", run.materials, "A TOML file that adds and changes materials")
+        ->check(CLI::Validator(
+            [](const std::string& name) { return std::string(name.empty() ? "the name is empty; give a file" : ""); },
+            ""));
     command->add_option("--model", run.model, "How what is cooked breaks: thick_shell");
     command->add_option("--frames", run.frames, "How many steps; the scene's own number if not given")
         ->check(CLI::Range(1u, 1'000'000u));
@@ -66,7 +71,11 @@ void add_cook(CLI::App& app, CookOptions& cook) {
     CLI::App* command = app.add_subcommand("cook", "Cooks a mesh into a model file (.cmodel), so that a game need not");
     command->add_option("mesh", cook.mesh, "A model file in any format that assimp reads, or a .cmesh")->required();
     command->add_option("--out", cook.out, "The model file to write")->required();
-    command->add_option("--material", cook.material, "glass, porcelain, brick or concrete")->capture_default_str();
+    command->add_option("--material", cook.material, "One of " + MaterialTable().names() + ", or of --materials")
+        ->capture_default_str();
+    command->add_option("--materials", cook.materials, "A TOML file that adds and changes materials");
+    command->add_option("--fracture", cook.fracture, "How near to each other cracks start; the material's if not given")
+        ->check(CLI::IsMember({"large", "coarse", "fine"}));
     command->add_option("--thickness-m", cook.thickness_m, "Of the wall, m; 1.5 % of the largest side if not given")
         ->check(CLI::Range(1e-9, 1e6));
     command

@@ -12,6 +12,7 @@ enum class HashWhen { Every, Last, Off };
 
 struct RunOptions {
     std::string scene, mesh;  // scene: the name of one, or a script's file
+    std::string materials;    // a TOML file; empty: the compiled table
     std::string model;        // for what the script cooks; empty: the script's own
     uint32_t frames = 0;      // 0: the scene's
     double dt_ms = 1000.0 / 60;
@@ -34,10 +35,10 @@ struct ReplayOptions {
 };
 
 struct CookOptions {
-    std::string mesh, out, material = "porcelain";
-    double thickness_m = 0;  // 0: 1.5 % of the largest side
-    double edge_m = 0;       // 0: what cooking chooses
-    double weld = 0;         // of the diagonal
+    std::string mesh, out, material = "porcelain", materials, fracture;  // the last two may be empty
+    double thickness_m = 0;                                              // 0: 1.5 % of the largest side
+    double edge_m = 0;                                                   // 0: what cooking chooses
+    double weld = 0;                                                     // of the diagonal
     uint64_t seed = 1;
 };
 

@@ -8,6 +8,7 @@
 #include "sample_game/cache.hpp"
 #include "sample_game/model_shelf.hpp"
 #include "sample_game/progress.hpp"
+#include "sample_game/read_materials.hpp"
 
 namespace cullet {
 namespace {
@@ -16,7 +17,7 @@ constexpr size_t kMostFaults = 20;  // sentences; all are counted
 
 Look look_of(const std::string& material) {
     if (material == "glass") return {0.4f, 1};
-    if (material == "brick" || material == "concrete") return {1, 0};
+    if (material == "brick" || material == "concrete" || material == "wood") return {1, 0};
     return {};
 }
 
@@ -69,6 +70,12 @@ float Stage::ground_height() const {
     return 0;
 }
 
+Result<void> Stage::read_materials(const std::string& path) {
+    if (Result<void> read = cullet::read_materials(path, materials); !read.ok() || plan.materials_path.empty())
+        return read;
+    return cullet::read_materials(plan.materials_path, materials);
+}
+
 Result<World*> Stage::stand() {
     if (world) return &*world;
     Result<World> made = World::create(settings(), host);
@@ -89,6 +96,7 @@ Result<uint32_t> Stage::cook(const Mesh& mesh, const CookSettings& settings, boo
     {
         Progress progress(fmt::format("{}: cooking", plan.scene.name));
         CookSettings watched = settings;
+        watched.materials = &materials;
         watched.progress = &Progress::cooked;
         watched.progress_user = &progress;
         // What the project makes by itself is cooked anew by each program: it changes with the project.

@@ -21,6 +21,13 @@ constexpr const char* kModels = "thick_shell";  // those that this version has
 constexpr uint64_t kWorkABody = 3000, kWorkACook = 10'000;
 constexpr size_t kMostPins = 256;
 
+FractureKind fracture_of(const Arguments& given) {
+    const std::string name = given.word("fracture", "large, coarse or fine");
+    for (const FractureKind kind : {FractureKind::Large, FractureKind::Coarse, FractureKind::Fine})
+        if (name == name_of(kind)) return kind;
+    given.refuse_value("fracture", "large, coarse or fine");
+}
+
 /// Cooks what the call's table says; the place in Stage::models.
 uint32_t cook_given(lua_State* lua, const Arguments& given) {
     Stage& stage = script_of(lua).act(lua);
@@ -36,7 +43,9 @@ uint32_t cook_given(lua_State* lua, const Arguments& given) {
     given.push("mesh");
     const ScriptMesh& mesh = mesh_at(lua, lua_gettop(lua), "game.cook: mesh");
     CookSettings settings;
-    settings.material = given.word("material", "glass, porcelain, brick or concrete", settings.material);
+    settings.material = given.word("material", stage.materials.names().c_str(), settings.material);
+    if (given.has("fracture")) settings.fracture = fracture_of(given);
+    settings.grain = given.vector("grain", {"a direction", -1e6, 1e6}, settings.grain);
     settings.thickness = given.real("thickness", {"a length in m above 0", 1e-6, 10}, 0.005);
     settings.seed = static_cast<uint64_t>(
         given.number("seed", {"a whole number from 0 to 1e15", 0, 1e15}, static_cast<double>(stage.seed())));
@@ -51,7 +60,8 @@ uint32_t cook_given(lua_State* lua, const Arguments& given) {
 }
 
 int cook_model(lua_State* lua) {
-    const Arguments given(lua, "game.cook", {"mesh", "model", "material", "thickness", "edge", "seed"});
+    const Arguments given(lua, "game.cook",
+                          {"mesh", "model", "material", "fracture", "grain", "thickness", "edge", "seed"});
     const uint32_t cooked = cook_given(lua, given);
     *static_cast<uint32_t*>(lua_newuserdatauv(lua, sizeof(uint32_t), 0)) = cooked;
     luaL_setmetatable(lua, kCookedName);
@@ -98,14 +108,15 @@ Pose pose_of(const Arguments& given) {
 
 int spawn(lua_State* lua) {
     script_of(lua).act(lua);
-    const Arguments given(lua, "game.spawn",
-                          {"mesh", "cooked", "model", "material", "thickness", "edge", "seed", "at", "turn", "pivot",
-                           "velocity", "spin", "friction", "restitution", "strength_scale", "breakable", "pins"});
+    const Arguments given(
+        lua, "game.spawn",
+        {"mesh", "cooked", "model", "material", "fracture", "grain", "thickness", "edge", "seed", "at", "turn", "pivot",
+         "velocity", "spin", "friction", "restitution", "strength_scale", "breakable", "pins"});
     if (given.has("mesh") == given.has("cooked"))
         given.refuse("expected either mesh = game.mesh..., or cooked = what game.cook returned");
     uint32_t model = 0;
     if (given.has("cooked")) {
-        for (const char* name : {"model", "material", "thickness", "edge", "seed"})
+        for (const char* name : {"model", "material", "fracture", "grain", "thickness", "edge", "seed"})
             if (given.has(name)) given.refuse(fmt::format("{} belongs to game.cook, beside its mesh", name));
         given.push("cooked");
         model = cooked_at(lua, lua_gettop(lua), "game.spawn: cooked");

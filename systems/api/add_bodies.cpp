@@ -5,6 +5,7 @@
 #include "systems/api/checks.hpp"
 #include "systems/api/model_row.hpp"
 #include "systems/cook/apply_pins.hpp"
+#include "systems/cook/materials.hpp"
 #include "systems/fragments/body_rows.hpp"
 #include "systems/fragments/rigid_shape.hpp"
 #include "systems/query/bound_drawn.hpp"
@@ -122,7 +123,9 @@ Result<BodyId> World::spawn(ModelId id, const SpawnSettings& settings) {
     bodies.model[body] = model;
     bodies.has_pins[body] = is_static;
     bodies.strength_scale[body] = std::min(settings.strength_scale, kNeverCracks);
-    bodies.is_breakable[body] = settings.is_breakable && settings.strength_scale < kNeverCracks;
+    // Ductile and elastic bodies move as rigid ones.
+    const bool is_brittle = material_traits(state, state.shells.material[shell]).kind == MaterialKind::Brittle;
+    bodies.is_breakable[body] = settings.is_breakable && settings.strength_scale < kNeverCracks && is_brittle;
     if (bodies.is_breakable[body]) d.make_ready(room_of(state, shell));
     take_mass_properties(state, body);
     d.arena.reset();

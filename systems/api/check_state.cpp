@@ -4,6 +4,7 @@
 
 #include "systems/api/snapshot.hpp"
 #include "systems/cook/check_shell_rows.hpp"
+#include "systems/cook/materials.hpp"
 #include "systems/damage/working_room.hpp"
 #include "systems/springs/check_springs.hpp"
 
@@ -284,6 +285,8 @@ Result<void> check_state(const State& state, const std::string& name) {
     for (auto* look : {check_ranges, check_models, check_tasks, check_bodies, check_users})
         if (check.is_sound()) look(check);
     if (!check.is_sound()) return Error{check.trouble};
+    if (const Result<void> valid = check_material_rows(state); !valid)
+        return Error{name + ": " + valid.error() + ". " + kAdvice};
     auto& rows = const_cast<State&>(state);  // views are of states that may change; nothing is changed
     for (uint32_t row = 0; row < state.shells.size(); ++row) {
         if (!is_shell(state, row)) continue;

@@ -31,6 +31,26 @@ constexpr uint64_t kDefaultHoldUnits = 8'000'000ull * 7;
 // takes half of that); beyond the second a hit would.
 constexpr uint64_t kMostMeasuredUnits = 2'000'000'000, kMostUnits = 20'000'000'000;
 
+/// What the settings say of the material, looked at.
+struct CookedMaterial {
+    MaterialSettings settings;
+    Vec3 grain;  // unit, or zero
+};
+Result<CookedMaterial> material_of(const CookSettings& settings) {
+    static const MaterialTable compiled;
+    Result<MaterialSettings> found = (settings.materials ? *settings.materials : compiled).find(settings.material);
+    if (!found) return Error{found.error()};
+    if (settings.fracture) found->fracture = *settings.fracture;
+    if (const Result<void> valid = check_material(*found); !valid) return Error{valid.error()};
+    if (found->across_young_modulus == 0) return CookedMaterial{*found, {}};
+    const Vec3d grain(settings.grain);
+    const double squared = dot(grain, grain);
+    if (!(squared > 1e-30 && squared < 1e30))
+        return Error{"grain is (" + std::to_string(grain.x) + ", " + std::to_string(grain.y) + ", " +
+                     std::to_string(grain.z) + "); give a direction along the fibres of " + settings.material + "."};
+    return CookedMaterial{*found, ((1 / std::sqrt(squared)) * grain).to_float()};
+}
+
 double diagonal_of(const Mesh& mesh) {
     Vec3d low(mesh.positions[0]), high = low;
     for (const Vec3 p : mesh.positions) {
@@ -167,8 +187,11 @@ ModelReport report_on(const State& state, Row<Shells> shell, const SurfaceRepair
     report.first_crack_speed = s.first_crack_speed[shell];
     report.units_of_a_hit = units_of_a_hit(state, shell);
     if (!repairs.is_clean()) report.repairs = describe(repairs);
-    if (report.units_of_a_hit > kDefaultHoldUnits)
-        report.advice =
+    if (const MaterialKind kind = material_traits(state, s.material[shell]).kind; kind != MaterialKind::Brittle) {
+        report.advice = std::string("Its material is ") + name_of(kind) +
+                        ": this version moves it as a rigid body that does not bend, tear or break.";
+    } else if (report.units_of_a_hit > kDefaultHoldUnits)
+        report.advice +=
             "A hit needs about " + std::to_string(report.units_of_a_hit / 1'000'000) +
             " million units and will be late at the default budget; use longer edges (longest_edge), or raise "
             "units_a_frame or hold_seconds.";
@@ -204,7 +227,7 @@ Result<Model> cook(const MeshView& view, const CookSettings& settings) try {
     Result<Mesh> mesh = mesh_of_view(view);
     if (!mesh) return Error{mesh.error()};
     const std::string name = mesh->name;
-    const Result<Row<Materials>> material = find_material(settings.material);
+    const Result<CookedMaterial> material = material_of(settings);
     if (!material) return Error{name + ": " + material.error()};
     const double diagonal = diagonal_of(*mesh);
     if (!(settings.thickness > 0 && settings.thickness < diagonal))
@@ -260,7 +283,8 @@ Result<Model> cook(const MeshView& view, const CookSettings& settings) try {
     source.drawn_material = arrays.materials;
     source.is_degenerate = extrusion->is_degenerate_element;
     source.wanted_depth = settings.thickness;
-    const Result<Row<Shells>> shell = build_shell(state, source, material.value());
+    const Result<Row<Shells>> shell =
+        build_shell(state, source, material_row(state, material->settings, material->grain));
     if (!shell) return Error{name + ": " + shell.error()};
     contents->shell = shell.value();
     contents->name = name;
@@ -274,7 +298,8 @@ Result<Model> cook(const MeshView& view, const CookSettings& settings) try {
         return Error{name + ": a hit would take " + std::to_string(units / 1'000'000) + " million units, more than " +
                      std::to_string(kMostUnits / 1'000'000) +
                      " million. Its shortest edges are far too short for its size: weld them, or use fewer triangles."};
-    const bool measures = settings.measures_threshold && units <= kMostMeasuredUnits;
+    const bool measures =
+        settings.measures_threshold && units <= kMostMeasuredUnits && material->settings.kind == MaterialKind::Brittle;
     if (measures)
         measure_thresholds(state, contents->shell, settings);
     else

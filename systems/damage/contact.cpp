@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "systems/cook/materials.hpp"
 #include "systems/damage/ring.hpp"
 
 namespace cullet {
@@ -130,7 +131,9 @@ PatchLaw patch_law(const ShellView& shell, const Patch& patch, double total, con
         mobility = std::max(mobility, patch.candidate[i].weight / total *
                                           state.vertices.inverse_mass[shell.vertex(patch.candidate[i].vertex)]);
     const double h = std::max(shell.shells().thickness[shell.row], shell.shells().depth_floor[shell.row]);
-    const double wall = 0.15 * state.materials.young_modulus[material] * h;
+    const float across = material_traits(state, Row<Materials>(material)).across_young_modulus;
+    const double modulus = across > 0 ? across : state.materials.young_modulus[material];  // the face is pushed across
+    const double wall = 0.15 * modulus * h;
     const double most = mobility > 0 && dt > 0 ? 0.3 / (dt * dt * mobility) : 1e30;
     const double e = state.materials.restitution[material], striker_radius = contacts.striker_radius[c];
     const double disc = kBearingRadius * contacts.radius[c];

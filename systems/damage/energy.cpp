@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "systems/damage/contact.hpp"
+#include "systems/damage/element_bending.hpp"
 #include "systems/damage/stress_check.hpp"
 
 namespace cullet {
@@ -40,6 +41,25 @@ void add_contacts(const State& state, Row<Tasks> task, const ShellView& shell, T
     }
 }
 
+double grained_bending_energy(const ShellView& shell, const PlaneStress& stress, uint32_t first, uint32_t count) {
+    const Elements& elements = shell.state.elements;
+    const float* slope = elements.slope[shell.element(0)].data();
+    double sum = 0;
+    for (uint32_t e = first; e < first + count; ++e) {
+        const uint32_t row = shell.element(e);
+        if (elements.flags[row] & kDead) continue;
+        const BendingTerms terms(shell, stress, e);
+        double angle[3];
+        for (uint32_t k = 0; k < 3; ++k) {
+            const uint32_t own = 3 * e + k, other = elements.other_slope[row][k];
+            angle[k] = other == own ? 0 : double{slope[own]} + slope[other];
+        }
+        for (int k = 0; k < 3; ++k)
+            for (int l = 0; l < 3; ++l) sum += terms.h[k][l] * (angle[k] * angle[l]);
+    }
+    return 0.5 * sum;
+}
+
 }  // namespace
 
 double kinetic_energy(ShellView shell, uint32_t side, uint32_t first, uint32_t count) {
@@ -59,6 +79,8 @@ double bending_energy(ShellView shell, uint32_t first, uint32_t count) {
     const Hinges& hinges = shell.state.hinges;
     const Elements& elements = shell.state.elements;
     const float* slope = elements.slope[shell.element(0)].data();
+    const PlaneStress stress = plane_stress(shell.state, shell.row);
+    if (stress.has_grain) return grained_bending_energy(shell, stress, first, count);
     // Half of each hinge from either side: asking which side is the lower one guesses wrong every other time.
     double sum[3] = {};
     for (uint32_t e = first; e < first + count; ++e) {

@@ -8,6 +8,7 @@
 #include "systems/damage/brittle_loop.hpp"
 #include "systems/damage/crack_candidates.hpp"
 #include "systems/damage/energy.hpp"
+#include "systems/damage/run_out.hpp"
 #include "systems/damage/working_room.hpp"
 #include "systems/fragments/group_fragments.hpp"
 
@@ -61,8 +62,11 @@ HitReport finish_hit(State& state) {
     report.redos = tasks.redo_count[kTask];
     report.dropped = static_cast<TaskState>(tasks.state[kTask]) == TaskState::Dropped;
     report.cracked = report.cuts > 0;
-    report.parts =
-        group_fragments(ShellView(state, tasks.shell[kTask]), std::span(state.fragments.part.data(), kMostParts));
+    const ShellView shell(state, tasks.shell[kTask]);
+    const std::span parts(state.fragments.part.data(), kMostParts);
+    report.parts = group_fragments(shell, parts);
+    if (report.parts > 1 && !report.dropped && run_out_cracks(state, kTask) > 0)
+        report.parts = group_fragments(shell, parts);
     tasks.part_count[kTask] = report.parts;
     report.broke = report.parts > 1;
     report.start_energy = tasks.start_energy[kTask];
@@ -131,7 +135,8 @@ float first_crack_speed(State& state, Row<Shells> shell, Vec3 down) {
     LoopWorld world{state};
     Tasks& tasks = state.tasks;
     const ShellView working(state, tasks.shell[kTask]);
-    const float limit = crack_limits(working, 1).start;
+    const CrackLimits limits = crack_limits(working, 1);
+    const float limit = limits.start;
     float most = 1e-6f;
     while (static_cast<TaskState>(tasks.state[kTask]) == TaskState::Running) {
         tasks.steps_granted[kTask] = 3;
@@ -142,7 +147,7 @@ float first_crack_speed(State& state, Row<Shells> shell, Vec3 down) {
             if (state.elements.principal[row] <= 0.5f * most * limit) continue;
             for (const uint32_t v : state.elements.corner[row]) {
                 const float ratio =
-                    start_field(working, v).stress / (limit * state.vertices.strength_factor[working.vertex(v)]);
+                    start_field(working, v, limits.grain).stress / (limit * state.vertices.strength_factor[working.vertex(v)]);
                 most = std::max(most, ratio);
             }
         }

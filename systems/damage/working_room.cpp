@@ -2,12 +2,16 @@
 
 #include <algorithm>
 
+#include "systems/cook/materials.hpp"
 #include "systems/damage/assemble.hpp"
 
 namespace cullet {
 
 ShellRoom working_room(ShellView source) {
-    const uint32_t spare = (std::max(192u, source.vertex_count() / 4) + kLanes - 1) / kLanes * kLanes;
+    // Finer fracture cuts more edges, and a cut without room for its copies is refused.
+    const FractureKind fracture = material_traits(source.state, source.shells().material[source.row]).fracture;
+    const uint32_t share = fracture == FractureKind::Fine ? 1 : fracture == FractureKind::Coarse ? 2 : 4;
+    const uint32_t spare = (std::max(192u, source.vertex_count() / share) + kLanes - 1) / kLanes * kLanes;
     const ShellRoom stiffness = stiffness_room(source, spare);
     ShellRoom room;
     room.vertices = std::max(source.vertex_count() + spare, stiffness.vertices);

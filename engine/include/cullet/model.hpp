@@ -4,9 +4,11 @@
 #include <cstddef>
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <string>
 
 #include "cullet/host.hpp"
+#include "cullet/material.hpp"
 #include "cullet/result.hpp"
 #include "cullet/types.hpp"
 
@@ -57,8 +59,11 @@ struct MeshReport {
 Result<MeshReport> examine_mesh(const MeshView& mesh);
 
 struct CookSettings {
-    std::string material = "porcelain";  // glass, porcelain, brick, concrete
-    float thickness = 0.005f;            // m; thinner where the opposite wall is near
+    std::string material = "porcelain";        // a name in `materials`
+    const MaterialTable* materials = nullptr;  // null: the compiled table
+    std::optional<FractureKind> fracture = {};  // in place of the material's
+    Vec3 grain{0, 1, 0};       // of wood, along its fibres, mesh coordinates, any length; counts for no other material
+    float thickness = 0.005f;  // m; thinner where the opposite wall is near
     /// Edges longer than this are split first, m; 0: twice the thickness, or 2.5 % of the diagonal if that is larger.
     float longest_edge = 0;
     /// Points that are closer are one, as a share of the diagonal, 0 to 0.01. 0: equal ones only; 1e-7 heals a soup of
