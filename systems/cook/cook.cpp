@@ -162,6 +162,9 @@ ModelReport report_on(const State& state, Row<Shells> shell, const SurfaceRepair
     report.elements = s.elements[shell].count;
     report.cells = s.cells[shell].count;
     report.degenerate_elements = extrusion.statistics.degenerate_elements;
+    report.collisions = extrusion.statistics.collisions;
+    report.inverted_elements = extrusion.statistics.inverted_elements;
+    report.crossings = extrusion.statistics.crossings;
     report.mass = s.mass[shell];
     report.mean_thickness = s.thickness[shell];
     report.first_crack_speed = s.first_crack_speed[shell];
