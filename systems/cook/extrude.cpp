@@ -152,7 +152,7 @@ Result<Extrusion> extrude(const Surface& surface, double thickness, const Extrus
     if (auto checked = check(surface, thickness, settings); !checked) return Error{checked.error()};
     // Beyond the diagonal nothing changes, and local coordinates stay small.
     ExtrusionWork work(surface, std::min(thickness, surface.diagonal), settings);
-    choose_directions(work);
+    choose_directions(work, skin);
     const OppositeWall wall(work, skin);
     find_wall_caps(work, wall, {});
     if (!tests_elements(settings.propagation)) {

@@ -44,6 +44,7 @@ struct InnerSkin {
     std::vector<Vec3d> positions;  // m
     std::vector<Triangle> triangles;
     std::vector<uint8_t> is_of_component;  // components of the surface that is extruded: those whose inner wall it is
+    std::vector<Vec3d> into_the_wall;      // unit, one a triangle of that surface; 0: against its normal
 };
 
 /// Thickness in metres. A cap never exceeds thickness / max(0.5, cosine of the worst face at the vertex), twice the

@@ -47,6 +47,7 @@ struct ExtrusionWork {
 double least_facing(const ExtrusionWork& work, uint32_t v, Vec3d m);
 
 /// A1: angle-weighted inward directions; where those do not see every face, the axis of the smallest cone of normals.
-void choose_directions(ExtrusionWork& work);
+/// With a skin, the way across the wall stands for the normal where it is given.
+void choose_directions(ExtrusionWork& work, const InnerSkin* skin = nullptr);
 
 }  // namespace cullet
