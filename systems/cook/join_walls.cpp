@@ -9,11 +9,11 @@
 namespace cullet {
 namespace {
 
-constexpr double kReach = 2;         // thicknesses
-constexpr double kMostOfIt = 0.5;    // of the area, matched
-constexpr double kTwoSkins = 0.8;    // of the matched area, whose opposite is on the other side; a rod has none
-constexpr double kLeastExtent = 25;  // of half the area, in squares of the mean thickness; a brick has 4
-constexpr double kLipFacing = 0.5;   // n . into the wall of lip triangles that stay with the outer wall
+constexpr double kReach = 2;          // thicknesses
+constexpr double kMostOfIt = 0.5;     // of the area, matched
+constexpr double kTwoSkins = 0.8;     // of the matched area, whose opposite is on the other side; a rod has none
+constexpr double kLeastExtent = 150;  // of half the area, in squares of the mean thickness; a brick has 40, a mug 400
+constexpr double kLipFacing = 0.5;    // n . into the wall of lip triangles that stay with the outer wall
 
 /// Of a closed part with the cavities inside.
 struct Part {
