@@ -14,6 +14,7 @@ class SingleVertex {
           faces_(work),
           tests_elements_(tests_elements),
           depth_(work.vertex_count()),
+          axes_(faces_.pair_count()),
           blocker_(work.vertex_count(), kNone) {}
 
     std::vector<double> run() {
@@ -47,14 +48,14 @@ class SingleVertex {
             for (const uint32_t t : work_.ring[v])
                 if (t != last && is_bad_item(t)) return blocker_[v] = t, true;
         for (const uint32_t p : faces_.pairs_of(v))
-            if (work_.triangle_count() + p != last && faces_.is_touching(p))
+            if (work_.triangle_count() + p != last && faces_.is_touching(p, axes_))
                 return blocker_[v] = work_.triangle_count() + p, true;
         return false;
     }
 
     // Elements first, then pairs.
     bool is_bad_item(uint32_t item) {
-        if (item >= work_.triangle_count()) return faces_.is_touching(item - work_.triangle_count());
+        if (item >= work_.triangle_count()) return faces_.is_touching(item - work_.triangle_count(), axes_);
         const Triangle& c = work_.surface.triangles[item];
         return !is_sound(work_, item, {faces_.inner(c[0]), faces_.inner(c[1]), faces_.inner(c[2])},
                          {depth_[c[0]], depth_[c[1]], depth_[c[2]]});
@@ -64,6 +65,7 @@ class SingleVertex {
     MovingFaces faces_;
     bool tests_elements_;
     std::vector<double> depth_;
+    std::vector<Vec3d> axes_;  // of pairs
     std::vector<uint32_t> blocker_;
 };
 
