@@ -1,8 +1,11 @@
 #include <cstdio>
+#include <cstdlib>
+#include <filesystem>
 #include <string>
 
 #include "perf/perf.hpp"
 #include "sample_game/generation_figures.hpp"
+#include "sample_game/import_model.hpp"
 #include "sample_game/propagation.hpp"
 
 namespace cullet::perf {
@@ -36,17 +39,40 @@ void add(const GenerationFigures& measured, Figures& figures) {
     }
 }
 
+/// Those of the note's table, from the folder that CULLET_TEST_DATA names.
+void add_real_meshes(std::vector<Mesh>& meshes) {
+    const char* folder = std::getenv("CULLET_TEST_DATA");
+    if (!folder) return;
+    for (const char* name : {"thick_shell/spot_triangulated.obj", "thick_shell/husky_loop1.ply", "thick_shell/bowl.ply",
+                             "thick_shell/vase_thick.ply", "lattice/castle_quads.obj", "thick_shell/curtain.ply"}) {
+        const std::filesystem::path file = std::filesystem::path(folder) / name;
+        if (!std::filesystem::exists(file)) continue;
+        Result<Mesh> mesh = import_model(file.string());
+        if (!mesh.ok()) {
+            std::printf("%s\n", mesh.error().c_str());
+            continue;
+        }
+        mesh->name = file.filename().string();
+        meshes.push_back(std::move(mesh).value());
+    }
+}
+
 }  // namespace
 
 bool measure_generation(const Options& options, Figures& figures) {
     bool is_good = true;
-    for (const Mesh& mesh : generation_meshes()) {
+    std::vector<Mesh> meshes = generation_meshes();
+    add_real_meshes(meshes);
+    for (const Mesh& mesh : meshes) {
         const Result<GenerationFigures> measured =
             measure_generation_of(mesh, {0.01, 0.03, 0.10}, options.rounds_of_a_pass(5));
-        if (measured.ok())
-            add(*measured, figures);
-        else
-            std::printf("%s\n", measured.error().c_str()), is_good = false;
+        if (!measured.ok()) {
+            std::printf("%s\n", measured.error().c_str());
+            is_good = false;
+            continue;
+        }
+        if (options.scene == "generation") std::fputs(describe(*measured).c_str(), stdout);
+        add(*measured, figures);
     }
     // Published (2005, Pentium 4 at 3 GHz, k = 5): another machine, another mesh; for the order of magnitude.
     figures.add("paper: castle of 12,000 triangles, front, eps 1 %", 2600, "ms");
