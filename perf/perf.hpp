@@ -34,7 +34,7 @@ bool measure_hidden_step(const Options& options, Figures& figures);
 /// A whole hit on the vase, beside the bare steps that it made.
 bool measure_hit(const Options& options, Figures& figures);
 bool measure_large_hit(const Options& options, Figures& figures);
-/// The guarded front, in Embree builds of the same mesh.
+/// Every way of propagation, in Embree builds of the same mesh; processor time of one thread.
 bool measure_generation(const Options& options, Figures& figures);
 /// A settled pile of hulls in plain Bullet and in our world.
 bool measure_pile(const Options& options, Figures& figures);

@@ -84,6 +84,13 @@ void add_cook(CLI::App& app, CookOptions& cook) {
     command->add_option("--weld", cook.weld, "Points so near are one, as a share of the diagonal; 1e-7 heals noise")
         ->check(CLI::Range(0.0, 0.01));
     command->add_option("--seed", cook.seed, "Of the spread of strength")->capture_default_str();
+    command
+        ->add_option("--propagation", cook.propagation,
+                     "How the inner surface is pushed in; all but the first to compare")
+        ->check(CLI::IsMember({"guarded_front", "front", "single_vertex", "single_vertex_tets"}))
+        ->capture_default_str();
+    command->add_flag("--walls-apart", cook.keeps_walls_apart,
+                      "A mesh with both of its walls becomes two sheets, not one as thick as measured");
 }
 
 void add_replay(CLI::App& app, ReplayOptions& replay) {

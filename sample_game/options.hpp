@@ -40,6 +40,8 @@ struct CookOptions {
     double edge_m = 0;                                                   // 0: what cooking chooses
     double weld = 0;                                                     // of the diagonal
     uint64_t seed = 1;
+    std::string propagation = "guarded_front";
+    bool keeps_walls_apart = false;
 };
 
 struct TruthOptions {

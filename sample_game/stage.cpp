@@ -111,6 +111,10 @@ Result<uint32_t> Stage::cook(const Mesh& mesh, const CookSettings& settings, boo
     cooked.look = look->second;
     const ModelReport& report = cooked.model.report();
     if (!report.repairs.empty()) notes.push_back(report.repairs);
+    if (!report.walls.empty()) notes.push_back(report.walls);
+    if (report.inverted_elements + report.crossings > 0)
+        notes.push_back(fmt::format("The published way of generation left {} inverted elements and {} crossings.",
+                                    report.inverted_elements, report.crossings));
     if (!report.advice.empty()) notes.push_back(report.advice);
     if (world) {
         const Result<ModelId> id = world->add_model(cooked.model);

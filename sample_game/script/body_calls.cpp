@@ -6,6 +6,7 @@
 
 #include "engine/math.hpp"
 #include "sample_game/meshes.hpp"
+#include "sample_game/propagation.hpp"
 #include "sample_game/script/arguments.hpp"
 #include "sample_game/script/calls.hpp"
 #include "sample_game/script/script.hpp"
@@ -53,6 +54,10 @@ uint32_t cook_given(lua_State* lua, const Arguments& given) {
     // The meshes that the project makes have the edge length asked for: leave them as they are. Strangers' meshes get
     // their longest edges split.
     settings.longest_edge = mesh.has_own_edges ? 100.0f : edge;
+    const std::string way = given.word("propagation", kPropagations, name_of(settings.propagation));
+    if (!find_propagation(way, settings.propagation))
+        given.refuse(fmt::format("propagation is \"{}\"; expected {}", way, kPropagations));
+    settings.joins_walls = given.is("join_walls", settings.joins_walls);
     const Result<uint32_t> cooked = stage.cook(mesh.mesh, settings, !mesh.has_own_edges);
     if (!cooked.ok()) given.refuse(cooked.error());
     lua_pop(lua, 1);
@@ -60,8 +65,9 @@ uint32_t cook_given(lua_State* lua, const Arguments& given) {
 }
 
 int cook_model(lua_State* lua) {
-    const Arguments given(lua, "game.cook",
-                          {"mesh", "model", "material", "fracture", "grain", "thickness", "edge", "seed"});
+    const Arguments given(
+        lua, "game.cook",
+        {"mesh", "model", "material", "fracture", "grain", "thickness", "edge", "seed", "propagation", "join_walls"});
     const uint32_t cooked = cook_given(lua, given);
     *static_cast<uint32_t*>(lua_newuserdatauv(lua, sizeof(uint32_t), 0)) = cooked;
     luaL_setmetatable(lua, kCookedName);
@@ -110,13 +116,15 @@ int spawn(lua_State* lua) {
     script_of(lua).act(lua);
     const Arguments given(
         lua, "game.spawn",
-        {"mesh", "cooked", "model", "material", "fracture", "grain", "thickness", "edge", "seed", "at", "turn", "pivot",
-         "velocity", "spin", "friction", "restitution", "strength_scale", "breakable", "pins"});
+        {"mesh",     "cooked",      "model",          "material",  "fracture", "grain", "thickness", "edge",
+         "seed",     "propagation", "join_walls",     "at",        "turn",     "pivot", "velocity",  "spin",
+         "friction", "restitution", "strength_scale", "breakable", "pins"});
     if (given.has("mesh") == given.has("cooked"))
         given.refuse("expected either mesh = game.mesh..., or cooked = what game.cook returned");
     uint32_t model = 0;
     if (given.has("cooked")) {
-        for (const char* name : {"model", "material", "fracture", "grain", "thickness", "edge", "seed"})
+        for (const char* name :
+             {"model", "material", "fracture", "grain", "thickness", "edge", "seed", "propagation", "join_walls"})
             if (given.has(name)) given.refuse(fmt::format("{} belongs to game.cook, beside its mesh", name));
         given.push("cooked");
         model = cooked_at(lua, lua_gettop(lua), "game.spawn: cooked");

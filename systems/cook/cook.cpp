@@ -7,6 +7,7 @@
 #include "systems/cook/build_shell.hpp"
 #include "systems/cook/clean_mesh.hpp"
 #include "systems/cook/extrude.hpp"
+#include "systems/cook/join_walls.hpp"
 #include "systems/cook/materials.hpp"
 #include "systems/cook/mesh_of_view.hpp"
 #include "systems/cook/model_contents.hpp"
@@ -182,6 +183,9 @@ ModelReport report_on(const State& state, Row<Shells> shell, const SurfaceRepair
     report.elements = s.elements[shell].count;
     report.cells = s.cells[shell].count;
     report.degenerate_elements = extrusion.statistics.degenerate_elements;
+    report.collisions = extrusion.statistics.collisions;
+    report.inverted_elements = extrusion.statistics.inverted_elements;
+    report.crossings = extrusion.statistics.crossings;
     report.mass = s.mass[shell];
     report.mean_thickness = s.thickness[shell];
     report.first_crack_speed = s.first_crack_speed[shell];
@@ -259,10 +263,22 @@ Result<Model> cook(const MeshView& view, const CookSettings& settings) try {
     Result<Mesh> fine = tessellate(*mesh, tessellation);
     if (!fine) return Error{name + ": " + fine.error()};
     const uint32_t thinned = thin_fans(*fine, kMostRing);
-    const Result<Surface> surface = prepare_surface(*fine, welding);
+    Result<Surface> surface = prepare_surface(*fine, welding);
     if (!surface) return Error{name + ": " + surface.error()};
     if (settings.progress) settings.progress(settings.progress_user, 0.1f);
-    const Result<Extrusion> extrusion = extrude(surface.value(), settings.thickness);
+    std::optional<JoinedWalls> joined;
+    if (settings.joins_walls) joined = join_walls(*surface, *fine, settings.thickness);
+    InnerSkin skin;
+    if (joined) {
+        *fine = std::move(joined->outer);
+        surface = prepare_surface(*fine, welding);
+        if (!surface) return Error{name + ": " + surface.error()};
+        skin = skin_for(*joined, *surface);
+    }
+    ExtrusionSettings extruding;
+    extruding.propagation = settings.propagation;
+    const Result<Extrusion> extrusion =
+        extrude(surface.value(), settings.thickness, extruding, joined ? &skin : nullptr);
     if (!extrusion) return Error{name + ": " + extrusion.error()};
     if (settings.progress) settings.progress(settings.progress_user, 0.3f);
 
@@ -306,6 +322,7 @@ Result<Model> cook(const MeshView& view, const CookSettings& settings) try {
         state.shells.first_crack_speed[contents->shell] = estimated_threshold(state, contents->shell);
     if (settings.progress && !measures) settings.progress(settings.progress_user, 1);
     contents->report = report_on(state, contents->shell, given->repairs, extrusion.value());
+    if (joined) contents->report.walls = describe(*joined, *surface, *extrusion);
     if (thinned > 0)
         contents->report.repairs += (contents->report.repairs.empty() ? "" : " ") + std::string("Thinned ") +
                                     std::to_string(thinned) + (thinned == 1 ? " fan" : " fans") + " of more than " +

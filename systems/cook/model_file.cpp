@@ -55,6 +55,9 @@ void for_each_number(Report& report, F&& f) {
     f(report.elements);
     f(report.cells);
     f(report.degenerate_elements);
+    f(report.collisions);
+    f(report.inverted_elements);
+    f(report.crossings);
 }
 
 void put_material(ByteWriter& writer, const std::string& name, const MaterialSettings& material, Vec3 grain) {
@@ -96,6 +99,7 @@ Result<Found> find_all(std::span<const uint8_t> payload, const std::string& name
     take_material(reader, found.material, found.grain);
     found.report.repairs = reader.text("the sentence of repairs");
     found.report.advice = reader.text("the sentence of advice");
+    found.report.walls = reader.text("the sentence of walls");
     for_each_number(found.report, [&](auto& number) {
         number = reader.number<std::remove_reference_t<decltype(number)>>("the report");
     });
@@ -184,7 +188,7 @@ Result<void> check_report(const Found& found, const State& state, Row<Shells> sh
     const Shells& s = state.shells;
     const ModelReport& r = found.report;
     if (r.vertices != s.vertices[shell].count || r.elements != s.elements[shell].count ||
-        r.cells != s.cells[shell].count || r.degenerate_elements > r.elements)
+        r.cells != s.cells[shell].count || r.degenerate_elements > r.elements || r.inverted_elements > r.elements)
         return damaged(name, "the report counts " + std::to_string(r.vertices) + " vertices, " +
                                  std::to_string(r.elements) + " elements, " + std::to_string(r.cells) + " cells and " +
                                  std::to_string(r.degenerate_elements) + " degenerate elements, unlike the tables");
@@ -217,6 +221,7 @@ std::vector<uint8_t> encode_model_file(const Model::Contents& contents) {
                  material_traits(contents.state, material).grain);
     writer.text(contents.report.repairs);
     writer.text(contents.report.advice);
+    writer.text(contents.report.walls);
     for_each_number(contents.report, [&](const auto& number) { writer.number(number); });
     put_table(writer, row, 0, 1);
     for_each_part(state, contents.shell, [&](const AnyTable& table, const Range& range) {

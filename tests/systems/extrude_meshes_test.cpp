@@ -13,7 +13,7 @@
 #include "systems/cook/extrude.hpp"
 #include "tests/support/plain_reader.hpp"
 #include "tests/support/shell_checks.hpp"
-#include "tests/support/true_wall.hpp"
+#include "systems/cook/true_wall.hpp"
 
 namespace cullet {
 namespace {
