@@ -35,7 +35,11 @@ std::string scene_list() {
 void add_run(CLI::App& app, RunOptions& run) {
     CLI::App* command = app.add_subcommand("run", "Plays a scene or a script and says how it went");
     command->add_option("scene", run.scene, "One of " + scene_names());
-    command->add_option("--mesh", run.mesh, "A model file for scenes that take one, in any format that assimp reads")
+    command
+        ->add_option(
+            "--mesh", run.mesh,
+            "A model file for scenes that take one, in any format that assimp reads; or vase, pig, cow, castle, "
+            "castle_fine, slab, piggy_bank, wall, pane")
         ->check(CLI::Validator(
             [](const std::string& name) { return std::string(name.empty() ? "the name is empty; give a file" : ""); },
             ""));
