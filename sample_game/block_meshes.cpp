@@ -102,8 +102,10 @@ void shake_flat_faces(MeshDraft& surface, uint64_t seed) {
         if (!is_flat) continue;
         Vec3d step{jitter(seed, v, 0, 0), jitter(seed, v, 0, 1), jitter(seed, v, 0, 2)};
         step = (kShake * shortest) * (step - dot(step, normal) * normal);
-        for (int a = 0; a < 3; ++a)
-            if (std::fabs(normal[a]) > 1 - kFlat) step[a] = 0;  // floors stay at their height to the last bit
+        // Floors and walls along the axes stay where they are to the last bit.
+        if (std::fabs(normal.x) > 1 - kFlat) step.x = 0;
+        if (std::fabs(normal.y) > 1 - kFlat) step.y = 0;
+        if (std::fabs(normal.z) > 1 - kFlat) step.z = 0;
         const Vec3d before = surface.points[v];
         std::vector<double> areas;
         for (const uint32_t t : round[v]) areas.push_back(dot(normal, area_vector(surface, surface.triangles[t])));
