@@ -42,7 +42,7 @@ std::map<std::pair<uint32_t, uint32_t>, std::pair<int, int>> edges_of(const Surf
     return edges;
 }
 
-TEST(Figures, HaveTheCountsOfThePapersTables) {
+TEST(PaperMeshes, HaveTheCountsOfThePapersTables) {
     for (const Wanted& body : bodies()) {
         SCOPED_TRACE(body.name);
         EXPECT_EQ(body.mesh.positions.size(), body.vertices);
@@ -55,7 +55,7 @@ TEST(Figures, HaveTheCountsOfThePapersTables) {
     }
 }
 
-TEST(Figures, AreClosedManifoldsInOnePieceThatFaceOutward) {
+TEST(PaperMeshes, AreClosedManifoldsInOnePieceThatFaceOutward) {
     for (const Wanted& body : bodies()) {
         SCOPED_TRACE(body.name);
         const Result<Surface> surface = prepare_surface(body.mesh);
@@ -77,7 +77,7 @@ TEST(Figures, AreClosedManifoldsInOnePieceThatFaceOutward) {
     }
 }
 
-TEST(Figures, DoNotCrossThemselves) {
+TEST(PaperMeshes, DoNotCrossThemselves) {
     std::vector<Mesh> meshes{make_castle(3, 4500, 2), make_castle(1, 30'000, 3),
                              make_slab({2.4f, 1.8f, 0.05f}, 900, 2)};
     for (const Wanted& body : bodies()) meshes.push_back(body.mesh);
@@ -88,7 +88,7 @@ TEST(Figures, DoNotCrossThemselves) {
     }
 }
 
-TEST(Figures, HaveFewThinTriangles) {
+TEST(PaperMeshes, HaveFewThinTriangles) {
     for (const Wanted& body : bodies()) {
         size_t thin = 0;
         double least = 180;
@@ -108,7 +108,7 @@ TEST(Figures, HaveFewThinTriangles) {
     }
 }
 
-TEST(Figures, ThePigHasTheVolumeThatItsPartsAddUpTo) {
+TEST(PaperMeshes, ThePigHasTheVolumeThatItsPartsAddUpTo) {
     // Between the trunk alone and all parts as if none lay within another (4/3 pi abc each), at a length of 0.5 m.
     const Result<Surface> surface = prepare_surface(bodies()[0].mesh);
     const double scale = 0.125, trunk = 4.18879 * 0.335 * 0.205 * 0.195;
@@ -116,7 +116,7 @@ TEST(Figures, ThePigHasTheVolumeThatItsPartsAddUpTo) {
     EXPECT_LT(surface->components[0].volume, 2.2 * scale * trunk);
 }
 
-TEST(Figures, ACastleHasFlatWallsAndStandsOnTheGround) {
+TEST(PaperMeshes, ACastleHasFlatWallsAndStandsOnTheGround) {
     const Mesh castle = make_castle(3, 6500);
     float low = 1, width = 0;
     size_t on_ground = 0;
@@ -129,7 +129,7 @@ TEST(Figures, ACastleHasFlatWallsAndStandsOnTheGround) {
     EXPECT_GT(on_ground, 200u);
 }
 
-TEST(Figures, AreFoundByTheirNames) {
+TEST(PaperMeshes, AreFoundByTheirNames) {
     for (const char* name : {"vase", "wall", "pane", "pig", "castle_fine", "slab"})
         EXPECT_FALSE(make_mesh_named(name).triangles.empty()) << name;
     EXPECT_TRUE(make_mesh_named("dragon").triangles.empty());
