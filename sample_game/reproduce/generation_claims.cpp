@@ -29,7 +29,7 @@ std::vector<Subject> subjects(Bench& bench) {
     const bool is_small = bench.settings().is_reduced;
     std::vector<Subject> all;
     all.push_back({"pig",
-                   make_pig(0.5f, is_small ? 1000 : 3500),
+                   make_pig(0.5f, is_small ? 2000 : 3500),
                    {{0.01, 4.0, 8196, 1.11, 696}, {0.05, 5.2, 22106, 1.4, 1615}, {0.10, 6.4, 28498, 2.0, 2310}}});
     all.push_back({"castle",
                    make_castle(3, is_small ? 4500 : 6500),

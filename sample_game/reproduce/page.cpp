@@ -98,7 +98,7 @@ std::string table_of(const Table& table) {
     for (size_t r = 0; r < table.rows.size(); ++r) {
         html += "<tr>";
         for (const std::string& cell : table.rows[r])
-            html += fmt::format(r == 0 ? "<th>{}</th>" : "<td>{}</td>", escaped(cell));
+            html += r == 0 ? "<th>" + escaped(cell) + "</th>" : "<td>" + escaped(cell) + "</td>";
         html += "</tr>\n";
     }
     return html + "</table></div>\n";

@@ -47,7 +47,7 @@ Result<Claim> figure_7(Bench& bench) {
     claim.paper =
         "The red surface is the inner one, the white mesh the original. At the tail and the legs the thickness could "
         "not be made maximal; nonetheless there are no intersections.";
-    Result<Made> pig = make(make_pig(0.5f, bench.settings().is_reduced ? 1000 : 3500), eps);
+    Result<Made> pig = make(make_pig(0.5f, bench.settings().is_reduced ? 2000 : 3500), eps);
     if (!pig.ok()) return Error{pig.error()};
     const double wanted = eps * pig->surface.diagonal;
     const double back = pig->surface.low.x;
@@ -89,7 +89,7 @@ Result<Claim> figure_8(Bench& bench) {
     claim.title = "The horn and the ear of a cow";
     claim.paper = "Even in complex models the algorithm produces good results: the inner surface fits nicely.";
     const std::optional<Mesh> given = bench.strangers_mesh("thick_shell/spot_triangulated.obj", 0.6f);
-    Result<Made> cow = make(make_cow(0.6f, bench.settings().is_reduced ? 1000 : 3000), eps);
+    Result<Made> cow = make(make_cow(0.6f, bench.settings().is_reduced ? 2000 : 3000), eps);
     if (!cow.ok()) return Error{cow.error()};
     const double wanted = eps * cow->surface.diagonal, top = cow->surface.high.y;
     const double horns = mean_depth(*cow, wanted, [&](Vec3d p) { return p.y > top - 0.06; });
