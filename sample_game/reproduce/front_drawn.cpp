@@ -78,7 +78,7 @@ FrontStates propagate_front(const Surface& surface, double thickness, uint32_t r
     return states;
 }
 
-Mesh make_ridge(double width, double height, double length, double edge) {
+Mesh make_ridge(double width, double height, double length, double edge, double pinch) {
     // The profile: up one side, half a circle, down the other.
     const double radius = 0.5 * width, side = height - radius, arc = 3.14159265358979 * radius;
     const double total = 2 * side + arc;
@@ -97,6 +97,13 @@ Mesh make_ridge(double width, double height, double length, double edge) {
                 double sine = 0, cosine = 1;
                 sine_cosine((s - side) / radius, sine, cosine);
                 x = radius * cosine, y = side + radius * sine;
+            }
+            if (s <= side || s >= side + arc) {
+                // Half a cosine each way: the least bend for its depth, so that the sides meet and not the bends.
+                double sine = 0, cosine = 1;
+                sine_cosine(3.14159265358979 * (2 * y / side - 1), sine, cosine);
+                const double share = 0.5 * (1 + cosine);
+                x -= (x > 0 ? pinch : -pinch) * share;
             }
             ids.push_back(static_cast<uint32_t>(ridge.points.size()));
             ridge.points.push_back({x, y, z});

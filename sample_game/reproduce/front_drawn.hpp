@@ -19,7 +19,7 @@ struct FrontStates {
 /// back and take half the step from then on. Ends when no step is above a hundredth of the thickness or all is deep.
 FrontStates propagate_front(const Surface& surface, double thickness, uint32_t rounds);
 
-/// A ridge like an upturned U, narrower than two thicknesses, open below: x is across, z along.
-Mesh make_ridge(double width, double height, double length, double edge);
+/// A ridge like an upturned U, open below: x is across, z along. Half way up its sides it is narrower by twice `pinch`.
+Mesh make_ridge(double width, double height, double length, double edge, double pinch = 0);
 
 }  // namespace cullet::reproduce

@@ -144,18 +144,23 @@ Result<GeneratedShell> generate(const Surface& surface, double thickness, const 
 }
 
 Picture draw_shell(const Surface& surface, std::span<const Vec3d> inner, const Camera& camera, uint32_t width,
-                   uint32_t threads, float wire_radius) {
-    const DrawnShell skin(inner, surface.triangles, true);
+                   uint32_t threads, float wire_radius, std::span<const uint8_t> marked) {
+    std::vector<Triangle> plain, yellow;
+    for (size_t t = 0; t < surface.triangles.size(); ++t)
+        (!marked.empty() && marked[t] ? yellow : plain).push_back(surface.triangles[t]);
+    const DrawnShell skin(inner, plain, true), met(inner, yellow, true);
     const Mesh wires = wires_of(surface, wire_radius);
     std::vector<Vec3d> wire_points;
     for (const Vec3 p : wires.positions) wire_points.push_back(Vec3d(p));
     const DrawnShell wire(wire_points, wires.triangles, false);
-    std::vector<DrawnBody> bodies{skin.body, wire.body};
+    std::vector<DrawnBody> bodies{skin.body, wire.body, met.body};
     bodies[0].colour = linear_from_srgb(196, 44, 38);
     bodies[0].is_outlined = false;
     bodies[1].colour = linear_from_srgb(250, 250, 246);
     bodies[1].gloss = 0;
     bodies[1].is_outlined = false;
+    bodies[2].colour = linear_from_srgb(250, 190, 30);
+    bodies[2].is_outlined = false;
     PictureSettings settings;
     settings.width = width, settings.height = width * 9 / 16;
     settings.ambient_reach = 0.05f;

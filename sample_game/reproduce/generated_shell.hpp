@@ -30,8 +30,9 @@ Result<GeneratedShell> generate(const Surface& surface, double thickness, const 
 Mesh both_surfaces(const Surface& surface, std::span<const Vec3d> inner);
 std::vector<Vec3d> inner_positions(const Surface& surface, const Extrusion& extrusion);
 
-/// The figures' look: the inner surface red, the edges of the outer one as white wires, seen through.
+/// The figures' look: the inner surface red, the edges of the outer one as white wires, seen through. Triangles that
+/// are marked (one byte each, or none) are yellow.
 Picture draw_shell(const Surface& surface, std::span<const Vec3d> inner, const Camera& camera, uint32_t width,
-                   uint32_t threads, float wire_radius);
+                   uint32_t threads, float wire_radius, std::span<const uint8_t> marked = {});
 
 }  // namespace cullet::reproduce

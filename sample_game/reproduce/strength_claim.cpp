@@ -14,13 +14,13 @@
 namespace cullet::reproduce {
 namespace {
 
-constexpr double kThin = 0.06, kThick = 0.15;  // m
+constexpr double kThin = 0.04, kThick = 0.20;  // m
 constexpr float kEdge = 0.078f;                // m, the wall that the hit bench holds
 
 constexpr const char* kTwoWalls = R"(
 game.scene{shows = "the same ball at a thin and at a thick wall", seconds = 3}
-local thin = game.key{name = "scene.thin_m", unit = "m", default = 0.06, least = 0.001, most = 1, text = "left wall"}
-local thick = game.key{name = "scene.thick_m", unit = "m", default = 0.15, least = 0.001, most = 1, text = "right wall"}
+local thin = game.key{name = "scene.thin_m", unit = "m", default = 0.04, least = 0.001, most = 1, text = "left wall"}
+local thick = game.key{name = "scene.thick_m", unit = "m", default = 0.20, least = 0.001, most = 1, text = "right wall"}
 local speed = game.key{name = "scene.speed_mps", unit = "m/s", default = 3, least = 0.1, most = 100, text = "of the balls"}
 game.camera{eye = {2.9, 1.9, 4.4}, target = {0.1, 0.72, -0.1}, field_of_view = 0.72}
 game.floor()
@@ -126,7 +126,7 @@ Result<Claim> figure_3(Bench& bench) {
                                              : std::vector<uint32_t>{0, arrival + 15, play.frames};
     const Result<SceneRun> run = run_scene(bench, play);
     if (!run.ok()) return Error{run.error()};
-    const char* captions[] = {"The same ball at a wall of 6 cm (left) and at one of 15 cm (right)",
+    const char* captions[] = {"The same ball at a wall of 4 cm (left) and at one of 20 cm (right)",
                               "A quarter of a second after the blow",
                               "At the end: the thin wall is broken, the thick one stands"};
     for (size_t n = 0; n < run->pictures.size(); ++n) {

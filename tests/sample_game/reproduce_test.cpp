@@ -144,14 +144,13 @@ TEST(Reproduce, AVaseLosesNoMassAndFallsIntoShards) {
     EXPECT_LT(number("large_fragments", "largest shard"), 1);
 }
 
-TEST(Reproduce, TheDrawnFrontStopsAtHalfOfANarrowRidge) {
-    const double width = 0.16;
-    const Result<Surface> ridge = prepare_surface(make_ridge(width, 0.22, 0.12, 0.02));
+TEST(Reproduce, TheDrawnFrontMeetsItselfInANarrowNeckAndNowhereElse) {
+    const Result<Surface> ridge = prepare_surface(make_ridge(0.20, 0.42, 0.12, 0.02, 0.05));
     ASSERT_TRUE(ridge.ok()) << ridge.error();
-    const FrontStates deep = propagate_front(ridge.value(), 0.12, 5);
+    const FrontStates deep = propagate_front(ridge.value(), 0.06, 5);
     EXPECT_GT(deep.collisions, 0u);
     EXPECT_GT(deep.met, 0u);
-    // Half as deep as the ridge is wide there is room: nothing meets and every vertex comes to its depth.
+    // Less deep than half the neck there is room: nothing meets and every vertex comes to its depth.
     const FrontStates shallow = propagate_front(ridge.value(), 0.03, 5);
     EXPECT_EQ(shallow.collisions, 0u);
     for (size_t v = 0; v < shallow.done.size(); ++v)
