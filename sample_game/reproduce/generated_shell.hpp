@@ -18,7 +18,7 @@ std::span<const PropagationMode> propagation_modes();
 
 struct GeneratedShell {
     Extrusion extrusion;
-    double ms = 0;  // extrusion and crossing test of the input, least of the rounds
+    double ms = 0;  // of the processor: extrusion and crossing test of the input, least of the rounds
     // Found afterwards, not by the extrusion: pairs of triangles of both surfaces that meet, elements with a
     // tetrahedron that is not positive although its corner has depth, mean depth by area over the wanted one.
     size_t crossings = 0, inverted = 0;

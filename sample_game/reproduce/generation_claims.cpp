@@ -145,7 +145,7 @@ Result<Claim> table_1(Bench& bench) {
     claim.paper = "Pig (3,500 vertices): 1.1 to 6.4 s. Castle (6,500 vertices): 2.6 to 8.4 s. Pentium 4, 3 GHz, k = 5.";
     const Result<std::vector<Row>>& rows = measured(bench);
     if (!rows.ok()) return Error{rows.error()};
-    Table table{"Time and collisions; eps is a share of the bounding diagonal", {}};
+    Table table{"Processor time and collisions; eps is a share of the bounding diagonal", {}};
     table.rows.push_back({"model", "vertices / triangles", "eps", "paper single vertex", "paper front", "mode", "ms",
                           "collisions", "pairs that meet", "turned elements", "mean depth / eps"});
     double slowest_ratio = 1e300;

@@ -164,7 +164,7 @@ Result<Claim> table_2(Bench& bench) {
     claim.ours = fmt::format(
         "In the default mode, with {} threads: {}. It is compared with the paper's large fragments; the other kinds "
         "are "
-        "not built yet. The wall is one sheet of 600 vertices, which has fewer triangles than the paper's.",
+        "not built yet. The wall is one sheet of about 600 vertices, which has fewer triangles than the paper's.",
         bench.threads(), is_met ? "faster in each row" : "not faster in each row, see the table");
     claim.verdict = is_met ? Verdict::Met : Verdict::FallsShort;
     return claim;
