@@ -115,13 +115,14 @@ void add_debris(Drawing& drawing, const GameWorld& game) {
 
 }  // namespace
 
-Picture draw_world(const GameWorld& game, uint32_t threads) {
+Picture draw_world(const GameWorld& game, uint32_t threads, uint32_t width) {
     Drawing drawing;
     add_props(drawing, game.stage());
     add_movers(drawing, game.stage());
     add_bodies(drawing, game);
     add_debris(drawing, game);
     PictureSettings settings;
+    settings.width = width, settings.height = width * 9 / 16;
     settings.ground_height = game.stage().ground_height();
     settings.has_ground = game.stage().has_ground();
     const std::unique_ptr<JobSystem> jobs = make_jobs(JobBackend::Threads, threads);

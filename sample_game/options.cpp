@@ -36,7 +36,11 @@ std::string scene_list() {
 void add_run(CLI::App& app, RunOptions& run) {
     CLI::App* command = app.add_subcommand("run", "Plays a scene or a script and says how it went");
     command->add_option("scene", run.scene, "One of " + scene_names());
-    command->add_option("--mesh", run.mesh, "A model file for scenes that take one, in any format that assimp reads")
+    command
+        ->add_option(
+            "--mesh", run.mesh,
+            "A model file for scenes that take one, in any format that assimp reads; or vase, pig, cow, castle, "
+            "castle_fine, slab, piggy_bank, wall, pane")
         ->check(CLI::Validator(
             [](const std::string& name) { return std::string(name.empty() ? "the name is empty; give a file" : ""); },
             ""));
@@ -101,6 +105,21 @@ void add_replay(CLI::App& app, ReplayOptions& replay) {
         ->check(CLI::Range(1u, 64u));
 }
 
+void add_reproduce(CLI::App& app, reproduce::CommandOptions& options) {
+    CLI::App* command =
+        app.add_subcommand("reproduce", "Writes a page of a paper's claims beside ours: tables, numbers, pictures");
+    command->add_option("model", options.model, "thick_shell")->required();
+    command->add_option("--out", options.out, "Folder for report.html, report.json and the pictures")->required();
+    command->add_option("--data", options.data,
+                        "Folder of test meshes; CULLET_TEST_DATA or ../shared/data if not given");
+    command->add_option("--threads", options.threads, "Threads that step worlds and draw; all if not given")
+        ->check(CLI::Range(1u, 64u));
+    command->add_option("--only", options.only, "One claim by its id, such as figure_3");
+    command->add_flag(
+        "--reduced", options.is_reduced,
+        "Smaller meshes and fewer repeats, for a look in a minute; its numbers are not the paper's cases");
+}
+
 /// What CLI11 cannot know.
 Result<void> check_run(const RunOptions& run, bool asks_for_keys) {
     if (asks_for_keys) return {};
@@ -135,6 +154,7 @@ Result<Options> parse_options(std::vector<std::string> arguments) {
     add_run(app, options.run);
     add_cook(app, options.cook);
     add_replay(app, options.replay);
+    add_reproduce(app, options.reproduce);
     app.add_subcommand("frame", "Prints the systems of a frame, and what each reads and writes");
     CLI::App* truth = app.add_subcommand("truth",
                                          "Prints the verification cases of a method, then finds the speeds of the "
@@ -155,11 +175,12 @@ Result<Options> parse_options(std::vector<std::string> arguments) {
     } catch (const CLI::ParseError& error) {
         return Error{one_sentence(error.what()) + " sample_game --help shows what can be given."};
     }
-    options.command = app.got_subcommand("run")      ? Command::Run
-                      : app.got_subcommand("frame")  ? Command::Frame
-                      : app.got_subcommand("cook")   ? Command::Cook
-                      : app.got_subcommand("replay") ? Command::Replay
-                                                     : Command::Truth;
+    options.command = app.got_subcommand("run")         ? Command::Run
+                      : app.got_subcommand("frame")     ? Command::Frame
+                      : app.got_subcommand("cook")      ? Command::Cook
+                      : app.got_subcommand("replay")    ? Command::Replay
+                      : app.got_subcommand("reproduce") ? Command::Reproduce
+                                                        : Command::Truth;
     if (options.command != Command::Run) return options;
     const bool asks_for_keys =
         std::find(options.run.set.begin(), options.run.set.end(), "help") != options.run.set.end();

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "cullet/result.hpp"
+#include "sample_game/reproduce/command.hpp"
 
 namespace cullet {
 
@@ -27,7 +28,7 @@ struct RunOptions {
     std::vector<std::string> set;
 };
 
-enum class Command : uint8_t { Help, Run, KeysHelp, Frame, Truth, Cook, Replay };
+enum class Command : uint8_t { Help, Run, KeysHelp, Frame, Truth, Cook, Replay, Reproduce };
 
 struct ReplayOptions {
     std::string file;
@@ -57,6 +58,7 @@ struct Options {
     TruthOptions truth;
     CookOptions cook;
     ReplayOptions replay;
+    reproduce::CommandOptions reproduce;
 };
 
 /// The program's arguments without its name. A refusal is one sentence.
