@@ -19,6 +19,7 @@ struct Scene {
 const Scene kScenes[] = {{"hidden_step", measure_hidden_step},
                          {"hit", measure_hit},
                          {"large_hit", measure_large_hit},
+                         {"parts", measure_parts},
                          {"generation", measure_generation},
                          {"pile", measure_pile},
                          {"soft_body", measure_soft_body},

@@ -34,6 +34,8 @@ bool measure_hidden_step(const Options& options, Figures& figures);
 /// A whole hit on the vase, beside the bare steps that it made.
 bool measure_hit(const Options& options, Figures& figures);
 bool measure_large_hit(const Options& options, Figures& figures);
+/// What surrounds the inner loop of a hit, and finding its pieces. False: the flood finds others than relabelling.
+bool measure_parts(const Options& options, Figures& figures);
 /// Every way of propagation, in Embree builds of the same mesh; processor time of one thread.
 bool measure_generation(const Options& options, Figures& figures);
 /// A settled pile of hulls in plain Bullet and in our world.

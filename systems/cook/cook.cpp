@@ -7,6 +7,7 @@
 #include "systems/cook/build_shell.hpp"
 #include "systems/cook/clean_mesh.hpp"
 #include "systems/cook/extrude.hpp"
+#include "systems/cook/hit_advice.hpp"
 #include "systems/cook/join_walls.hpp"
 #include "systems/cook/materials.hpp"
 #include "systems/cook/mesh_of_view.hpp"
@@ -26,8 +27,6 @@ namespace cullet {
 namespace {
 
 constexpr uint32_t kThresholdPlaces = 4;
-// Default budget of the frame of the touch and of the six that a hold of 0.1 s lasts.
-constexpr uint64_t kDefaultHoldUnits = 8'000'000ull * 7;
 // Of a hit: beyond the first a threshold is estimated, since measuring it would take minutes (a wall of 1,600 stones
 // takes half of that); beyond the second a hit would.
 constexpr uint64_t kMostMeasuredUnits = 2'000'000'000, kMostUnits = 20'000'000'000;
@@ -191,14 +190,11 @@ ModelReport report_on(const State& state, Row<Shells> shell, const SurfaceRepair
     report.first_crack_speed = s.first_crack_speed[shell];
     report.units_of_a_hit = units_of_a_hit(state, shell);
     if (!repairs.is_clean()) report.repairs = describe(repairs);
-    if (const MaterialKind kind = material_traits(state, s.material[shell]).kind; kind != MaterialKind::Brittle) {
+    if (const MaterialKind kind = material_traits(state, s.material[shell]).kind; kind != MaterialKind::Brittle)
         report.advice = std::string("Its material is ") + name_of(kind) +
                         ": this version moves it as a rigid body that does not bend, tear or break.";
-    } else if (report.units_of_a_hit > kDefaultHoldUnits)
-        report.advice +=
-            "A hit needs about " + std::to_string(report.units_of_a_hit / 1'000'000) +
-            " million units and will be late at the default budget; use longer edges (longest_edge), or raise "
-            "units_a_frame or hold_seconds.";
+    else
+        report.advice = hit_advice(report.units_of_a_hit, s.mean_edge[shell], s.thickness[shell]);
     return report;
 }
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "systems/cook/materials.hpp"
+#include "systems/damage/pair_cells.hpp"
 #include "systems/damage/ring.hpp"
 
 namespace cullet {
@@ -263,25 +264,32 @@ Vec3d pin_force(ShellView shell, uint32_t side) {
     const State& state = shell.state;
     const StiffnessPacks& packs = state.stiffness_packs;
     const Float4* w = state.vertices.probe.data(static_cast<int>(side & 1)) + shell.vertices().first;
+    const uint8_t* is_pinned = state.vertices.is_pinned.data() + shell.vertices().first;
+    const bool once = stores_pairs_once(shell.shells(), shell.row);
     Vec3d sum;
     for (uint32_t v = 0; v < shell.vertex_count(); ++v) {
-        if (!state.vertices.is_pinned[shell.vertex(v)]) continue;
         const uint32_t p = shell.shells().packs[shell.row].first + v / kLanes, l = v % kLanes;
         const auto away = [&](uint32_t j) {
             return Vec3d(double{w[j].x} - w[v].x, double{w[j].y} - w[v].y, double{w[j].z} - w[v].z);
         };
+        const auto is_other_pinned = [&](uint32_t j) { return once && is_pinned[j] && are_in_one_pair_cell(v, j); };
         for (uint32_t s = 0; s < packs.block_count[p]; ++s) {
             const StiffnessBlock& b =
                 state.stiffness_blocks.block[shell.shells().blocks[shell.row].first + packs.first_block[p] + s];
             const Vec3d d = away(b.neighbour[l]);
-            const auto row = [&](int r) { return dot(Vec3d(b.k[r][l], b.k[r + 1][l], b.k[r + 2][l]), d); };
-            sum += {row(0), row(3), row(6)};
+            const auto along = [&](int i, int step) {
+                return dot(Vec3d(b.k[i][l], b.k[i + step][l], b.k[i + 2 * step][l]), d);
+            };
+            if (is_pinned[v]) sum += {along(0, 1), along(3, 1), along(6, 1)};
+            if (is_other_pinned(b.neighbour[l])) sum -= {along(0, 3), along(1, 3), along(2, 3)};
         }
         for (uint32_t s = 0; s < packs.link_count[p]; ++s) {
             const StiffnessLink& k =
                 state.stiffness_links.link[shell.shells().links[shell.row].first + packs.first_link[p] + s];
-            const double t = dot(Vec3d(k.column[0][l], k.column[1][l], k.column[2][l]), away(k.neighbour[l]));
-            sum += t * Vec3d(k.row[0][l], k.row[1][l], k.row[2][l]);
+            const Vec3d d = away(k.neighbour[l]), row(k.row[0][l], k.row[1][l], k.row[2][l]),
+                        column(k.column[0][l], k.column[1][l], k.column[2][l]);
+            if (is_pinned[v]) sum += dot(column, d) * row;
+            if (is_other_pinned(k.neighbour[l])) sum -= dot(row, d) * column;
         }
     }
     return sum;
