@@ -48,6 +48,7 @@ State::State(const Limits& l)
       fragments((l.tasks + 1) * kMostParts),
       view_vertices(l.view_vertices),
       view_indices(l.view_vertices * 2),
+      blows(l.bodies + l.queued_hits),
       pools(*this),
       limits_(l) {
     tasks.append(l.tasks);
@@ -92,9 +93,21 @@ void State::commit_ahead(const ShellRoom& shell, uint32_t served) {
     commit(view_indices, pools.view_indices, times(12, shell.elements));
 }
 
+namespace {
+
+// A table that says kIsOptional counts only while it has rows: what came later leaves older scenes their hash.
+template <class T>
+uint64_t hash_of(const T& table, uint64_t hash) {
+    if constexpr (requires { T::kIsOptional; })
+        if (table.size() == 0) return hash;
+    return table.hash(hash);
+}
+
+}  // namespace
+
 uint64_t State::hash() const {
     uint64_t hash = 0;
-    std::apply([&](auto... table) { ((hash = (this->*table).hash(hash)), ...); }, tables());
+    std::apply([&](auto... table) { ((hash = hash_of(this->*table, hash)), ...); }, tables());
     for (const RangePool* pool : pools.all()) hash = pool->hash(hash);
     return hash;
 }

@@ -3,6 +3,7 @@
 #include <string>
 #include <tuple>
 
+#include "components/blows.hpp"
 #include "components/bodies.hpp"
 #include "components/materials.hpp"
 #include "components/shells.hpp"
@@ -54,6 +55,7 @@ struct State {
     Fragments fragments;
     ViewVertices view_vertices;
     ViewIndices view_indices;
+    Blows blows;
 
     /// Which rows of the tables above are taken; one pool a table whose rows come in ranges.
     struct Pools {
@@ -72,13 +74,28 @@ struct State {
     } pools;
 
     static constexpr auto tables() {
-        return std::tuple{&State::materials,       &State::models,           &State::bodies,
-                          &State::debris,          &State::shells,           &State::vertices,
-                          &State::elements,        &State::triangle_springs, &State::hinges,
-                          &State::stiffness_packs, &State::stiffness_blocks, &State::stiffness_links,
-                          &State::cells,           &State::hull_points,      &State::tasks,
-                          &State::task_contacts,   &State::patch_vertices,   &State::queued_hits,
-                          &State::fragments,       &State::view_vertices,    &State::view_indices};
+        return std::tuple{&State::materials,
+                          &State::models,
+                          &State::bodies,
+                          &State::debris,
+                          &State::shells,
+                          &State::vertices,
+                          &State::elements,
+                          &State::triangle_springs,
+                          &State::hinges,
+                          &State::stiffness_packs,
+                          &State::stiffness_blocks,
+                          &State::stiffness_links,
+                          &State::cells,
+                          &State::hull_points,
+                          &State::tasks,
+                          &State::task_contacts,
+                          &State::patch_vertices,
+                          &State::queued_hits,
+                          &State::fragments,
+                          &State::view_vertices,
+                          &State::view_indices,
+                          &State::blows};
     }
     const Limits& limits() const { return limits_; }
     /// The table of type T.
