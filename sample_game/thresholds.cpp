@@ -65,7 +65,7 @@ double follow(double known, Does does) {
 }
 
 /// Counts what it runs.
-struct Blows {
+struct BlowSpeeds {
     HitBench& bench;
     uint32_t placement;
     float step_scale;
@@ -91,7 +91,7 @@ struct Blows {
 
 Thresholds find_thresholds(HitBench& bench, uint32_t placement, double guess) {
     Thresholds found;
-    const Blows blows{bench, placement, 1, found};
+    const BlowSpeeds blows{bench, placement, 1, found};
     found.first_crack = bisect(0.01 * guess, guess, blows.crack());
     found.first_piece = bisect(found.first_crack / kBisectionRatio, 1.4 * found.first_crack, blows.break_off());
     return found;
@@ -99,7 +99,7 @@ Thresholds find_thresholds(HitBench& bench, uint32_t placement, double guess) {
 
 Thresholds follow_thresholds(HitBench& bench, uint32_t placement, float step_scale, const Thresholds& known) {
     Thresholds found;
-    const Blows blows{bench, placement, step_scale, found};
+    const BlowSpeeds blows{bench, placement, step_scale, found};
     found.first_crack = follow(known.first_crack, blows.crack());
     found.first_piece = follow(known.first_piece, blows.break_off());
     return found;

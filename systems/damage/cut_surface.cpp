@@ -60,12 +60,14 @@ CutSide CutSurface::side(Vec3 place) const {
 }
 
 bool passes_through(ShellView shell, const CutSurface& surface) {
+    // What lies on the surface, a cut edge before all, is on no side of it.
+    const float least = 1e-3f * shell.shells().mean_edge[shell.row];
     bool is_left = false, is_right = false;
     for (uint32_t v = 0; v < shell.vertex_count(); ++v) {
         if (shell.state.vertices.element[shell.vertex(v)] == kNone) continue;
         const CutSide side = surface.side(middle_of_wall(shell, v));
-        is_left = is_left || side.distance >= 0;
-        is_right = is_right || side.distance < 0;
+        is_left = is_left || side.distance > least;
+        is_right = is_right || side.distance < -least;
         if (is_left && is_right) return true;
     }
     return false;
