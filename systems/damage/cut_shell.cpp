@@ -12,6 +12,7 @@ namespace {
 
 // Of Vertices.copy while a cut is made: how many of the vertex's edges come apart, and whether it was interior before.
 constexpr uint32_t kWasInterior = 1u << 31;
+constexpr float kFlat = 0.05f;  // sine of the angle under which a surface counts as crossing an edge
 
 struct Cutting {
     ShellView shell;
@@ -38,7 +39,9 @@ struct Cutting {
         if ((a.distance >= 0) == (b.distance >= 0)) return 0;
         const float both = std::fabs(a.distance) + std::fabs(b.distance);
         const Vec3 from = middle_of_wall(shell, p), to = middle_of_wall(shell, q);
-        if (!(both > 0) || both > 1.001f * length(to - from)) return 0;
+        const float edge = length(to - from);
+        // An edge that lies in the surface but for a few degrees is opened as it is.
+        if (both < kFlat * edge || both > 1.001f * edge) return 0;
         const float tau = std::fabs(a.distance) / both;
         return surface.side(from + tau * (to - from)).is_beside ? tau : 0;
     }
@@ -70,6 +73,7 @@ void insert_vertices(Cutting& cutting) {
 
 bool comes_apart(const Cutting& cutting, uint32_t element, uint32_t k) {
     const ShellView shell = cutting.shell;
+    if (cutting.state().elements.flags[shell.element(element)] & kDead) return false;
     const uint32_t other = cutting.state().elements.neighbour[shell.element(element)][k];
     if (other == kNone || cutting.is_left(element) == cutting.is_left(other)) return false;
     if (cutting.surface.is_plane()) return true;

@@ -65,11 +65,18 @@ enum class Outcome : uint8_t { Waits, Joined, Gone };
 struct Opener {
     BlowOpening& o;
 
+    // What sleeps may lose its support to a cut.
+    void wake(Row<Bodies> body) {
+        if (static_cast<BodyKind>(o.state.bodies.kind[body]) != BodyKind::Dynamic) return;
+        o.rigid.wake(body);
+        o.state.bodies.is_asleep[body] = 0;
+    }
     void pay(uint32_t row) { pay_blow(o.state.blows, o.state.bodies, o.rigid, o.counts, row); }
 
     void join(uint32_t row, uint32_t t) {
         Tasks& tasks = o.state.tasks;
         if (tasks.is_late[t]) pay(row);
+        wake(tasks.body[t]);
         o.state.blows.task[row] = t;
         if (is_kind(o.state.blows, row, BlowKind::Cut)) return;
         if (is_kind(o.state.blows, row, BlowKind::Push)) lay_push(o.state, row, t);
