@@ -79,7 +79,10 @@ struct Opener {
         wake(tasks.body[t]);
         o.state.blows.task[row] = t;
         if (is_kind(o.state.blows, row, BlowKind::Cut)) return;
-        if (is_kind(o.state.blows, row, BlowKind::Push)) lay_push(o.state, row, t);
+        if (is_kind(o.state.blows, row, BlowKind::Push))
+            lay_push(o.state, row, t);
+        else
+            tasks.quiet_time[t] = tasks.end_time[t];  // no touch tells when it is over
         tasks.approach_speed[t] = std::max(tasks.approach_speed[t], o.state.blows.speed[row]);
         o.impact_events.push(event_of(o.state, row));
     }
