@@ -6,7 +6,7 @@ game.scene{
     sheet = {0, 12, 14, 17, 20, 26, 34, 46, 60, 90, 140, 239},
 }
 local shell = game.shell_keys{material = "porcelain", thickness = 0.005, edge = 0.0075}
-local impulse = game.key{name = "scene.impulse_nspm2", unit = "N s/m2", default = 120, least = 1, most = 1e5, text = "of the explosion at its centre"}
+local impulse = game.key{name = "scene.impulse_nspm2", unit = "N s/m2", default = 200, least = 1, most = 1e5, text = "of the explosion at its centre"}
 
 game.camera{eye = {0.1, 0.55, 1.75}, target = {0.05, 0.18, 0}, field_of_view = 0.7}
 game.floor()
@@ -24,7 +24,7 @@ local blown, cut, pierced = stand(-0.5), stand(0.05), stand(0.5)
 local ball = game.throw{radius = 0.03, mass = 0.3, at = {-0.62, 0.03, 0.28}, velocity = {0, 0, 0}}
 
 wait{frames = 12}
-game.explode{at = {-0.5, 0.14, 0.22}, radius = 0.6, impulse = impulse}
+game.explode{at = {-0.5, 0.14, 0.22}, radius = 0.45, impulse = impulse}
 -- Askew, so that the upper half slides off.
 cut:cut{at = {0.05, 0.17, 0}, normal = {0.62, 0.78, 0}}
 -- A closed line of ten points, through the front wall and the one behind.
@@ -34,7 +34,7 @@ for i = 0, 10 do
     star[i + 1] = {0.5 + radius * math.sin(angle), 0.15 + radius * math.cos(angle), 0}
 end
 pierced:cut{points = star, direction = {0, 0, 1}}
-wait{frames = 3}
+wait{frames = 20}
 game.expect(game.fragments() > 4, "the explosion broke the vase, and the cuts made pieces")
 local velocity = ball:velocity()
 game.expect(velocity.x < 0, "the explosion throws the ball away from it")

@@ -95,7 +95,7 @@ const Scenario kScenarios[] = {
     {"TwoInOneFrame", two_balls_at_once, 3'000'000, 1, "start_tasks", has_two_patches},
     {"WhileTheLastStillRuns", one_ball_after_the_other, 1'000'000, 1, "open_tasks", has_a_hit_waiting},
     {"BothBreak", two_vases_head_on, 3'000'000, 2, "start_tasks", has_a_task_each_against_the_other},
-    {"PiecesAgain", a_heavy_ball_through_pieces, 8'000'000, 2, "make_births", has_a_grandchild},
+    {"PiecesAgain", a_heavy_ball_through_pieces, 5'000'000, 2, "make_births", has_a_grandchild},
 };
 
 Settings settings_of(const Scenario& scenario, uint32_t threads) {
@@ -128,14 +128,11 @@ TEST_P(Hits, KeepMassAndMomentum) {
     after_each_system(world, [&](const std::string& system) {
         if (system == GetParam().look_at) is_seen = is_seen || GetParam().is_so(state_of(world));
     });
-    double energy = start.kinetic_energy;
+    // A late result adds what pieces have about their mean to what the solver has left: from frame to frame energy may
+    // rise by it, over the start's it may not.
     for (int frame = 0; frame < kFrames; ++frame) {
         world.step();
-        if (open_tasks(world) == 0) {  // nothing waits for a striker
-            const Matter m = matter_of(world);
-            EXPECT_LE(m.kinetic_energy, energy * 1.001) << "frame " << frame;
-            energy = std::max(m.kinetic_energy, 1e-9);
-        }
+        EXPECT_LE(matter_of(world).kinetic_energy, start.kinetic_energy * 1.0001) << "frame " << frame;
     }
     EXPECT_TRUE(is_seen) << "the scene does not show what it is for";
     EXPECT_GE(world.contents().data.counts.broke, GetParam().least_broken);
@@ -165,14 +162,15 @@ TEST_P(Hits, GoOnAlikeAfterASaveInTheMiddle) {
     uint32_t saves = 0;
     for (int frame = 0; frame < kFrames; ++frame) {
         world.step();
-        if (open_tasks(world) == 0 || frame % 3 != 0 || saves == 4) continue;
+        if (open_tasks(world) == 0 || saves == 6) continue;
         ++saves;
         const Result<std::vector<uint8_t>> bytes = world.snapshot();
         ASSERT_TRUE(bytes.ok()) << bytes.error();
         World self = make_world(settings_of(GetParam(), 1)), twin = make_world(settings_of(GetParam(), 2));
-        ASSERT_TRUE(self.restore(bytes->data(), bytes->size()).ok());
+        const Result<void> loaded = self.restore(bytes->data(), bytes->size());
+        ASSERT_TRUE(loaded.ok()) << loaded.error();
         ASSERT_TRUE(twin.restore(bytes->data(), bytes->size()).ok());
-        for (int further = 0; further < 30; ++further) {
+        for (int further = 0; further < 25; ++further) {
             self.step(), twin.step();
             ASSERT_EQ(self.hash(), twin.hash()) << "saved after frame " << frame << ", " << further << " later";
         }
