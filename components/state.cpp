@@ -54,6 +54,7 @@ State::State(const Limits& l)
       fragments((l.tasks + 1) * kMostParts),
       view_vertices(l.view_vertices),
       view_indices(l.view_vertices * 2),
+      blows(l.bodies + l.queued_hits),
       shell_springs(l.shells),
       springs(spring_limit(l)),
       layer_springs(spring_limit(l)),
@@ -114,14 +115,21 @@ void State::commit_ahead(const ShellRoom& shell, uint32_t served) {
     commit(view_indices, pools.view_indices, times(12, shell.elements));
 }
 
+namespace {
+
+// A table that says kIsOptional counts only while it has rows: what came later leaves older scenes their hash.
+template <class T>
+uint64_t hash_of(const T& table, uint64_t hash) {
+    if constexpr (requires { T::kIsOptional; })
+        if (table.size() == 0) return hash;
+    return table.hash(hash);
+}
+
+}  // namespace
+
 uint64_t State::hash() const {
     uint64_t hash = 0;
-    const auto add = [&]<class T>(T State::*table) {
-        if constexpr (requires { T::kIsOptional; })
-            if ((this->*table).size() == 0) return;
-        hash = (this->*table).hash(hash);
-    };
-    std::apply([&](auto... table) { (add(table), ...); }, tables());
+    std::apply([&](auto... table) { ((hash = hash_of(this->*table, hash)), ...); }, tables());
     return hash_pools(hash);
 }
 

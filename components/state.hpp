@@ -3,6 +3,7 @@
 #include <string>
 #include <tuple>
 
+#include "components/blows.hpp"
 #include "components/bodies.hpp"
 #include "components/materials.hpp"
 #include "components/shells.hpp"
@@ -57,6 +58,7 @@ struct State {
     Fragments fragments;
     ViewVertices view_vertices;
     ViewIndices view_indices;
+    Blows blows;
     ShellSprings shell_springs;
     Springs springs;
     LayerSprings layer_springs;
@@ -111,6 +113,7 @@ struct State {
                           &State::view_vertices,
                           &State::view_indices,
                           &State::material_traits,
+                          &State::blows,
                           &State::shell_springs,
                           &State::springs,
                           &State::layer_springs,

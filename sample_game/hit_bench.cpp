@@ -10,6 +10,7 @@
 #include "sample_game/props.hpp"
 #include "systems/cook/apply_pins.hpp"
 #include "systems/cook/model_contents.hpp"
+#include "systems/fragments/rest_of_body.hpp"
 #include "systems/fragments/rigid_handoff.hpp"
 
 namespace cullet {
@@ -116,6 +117,7 @@ HitBench::HitBench(Subject subject, const Model& model, uint64_t seed) : subject
     if (subject == Subject::Pane) pin_frame(shell);
     if (subject == Subject::Wall) pin_foot(shell);
     if (subject != Subject::Vase) stiffen_pinned(shell);
+    intact_ = shell_;
 }
 
 HitDescription HitBench::blow(uint32_t placement, float speed) const {
@@ -140,6 +142,26 @@ HitReport HitBench::run(const HitDescription& hit, bool ends_at_first_cut) {
     const HitReport report = run_hit(*state_, shell_, hit, ends_at_first_cut ? +is_cut : nullptr);
     close_hit(*state_);
     return report;
+}
+
+HitReport HitBench::run_and_keep_cracks(const HitDescription& hit) {
+    const FpMode mode;
+    const HitReport report = run_hit(*state_, shell_, hit);
+    const Row<Shells> working = state_->tasks.shell[Row<Tasks>(0)];
+    if (!report.broke && !report.dropped && report.cracked) {
+        ++state_->shells.users[working];
+        clear_run(ShellView(*state_, working), true);
+        drop_stiffness(*state_, working);  // as World does: the next hit assembles it anew
+        if (shell_ != intact_) release_shell(*state_, shell_);
+        shell_ = working;
+    }
+    close_hit(*state_);
+    return report;
+}
+
+void HitBench::renew() {
+    if (shell_ != intact_) release_shell(*state_, shell_);
+    shell_ = intact_;
 }
 
 HitResult HitBench::examine(const HitDescription& hit) {

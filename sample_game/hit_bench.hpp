@@ -49,14 +49,19 @@ class HitBench {
     /// Runs it to its end and looks at the pieces. `keep` leaves the working shell in place until the next call.
     HitResult examine(const HitDescription& hit);
 
+    /// Runs it to its end; when no piece comes off the subject keeps its cracks, and later blows meet them.
+    HitReport run_and_keep_cracks(const HitDescription& hit);
+    /// The subject is as it was cooked.
+    void renew();
+
     State& state() { return *state_; }
-    Row<Shells> shell() const { return shell_; }
+    Row<Shells> shell() const { return shell_; }  // the cracked one, where cracks were kept
 
  private:
     Subject subject_;
     uint64_t seed_;
     std::unique_ptr<State> state_;
-    Row<Shells> shell_;
+    Row<Shells> shell_, intact_;
 };
 
 }  // namespace cullet

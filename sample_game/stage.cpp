@@ -34,6 +34,9 @@ Keys world_keys() {
         .number("generations", "1", defaults.generations, 0, 10, "fragments break again down to this one")
         .number("debris_share", "1", static_cast<double>(defaults.debris_share), 0, 0.5,
                 "pieces lighter than this share of the whole are debris")
+        .number("break_share", "1", static_cast<double>(defaults.break_share), 0, 1,
+                "pieces lighter than this share do not break again")
+        .number("break_elements", "1", defaults.break_elements, 0, 1e6, "pieces of fewer elements do not break again")
         .number("debris_elements", "1", defaults.debris_elements, 1, 1000, "pieces of fewer elements are debris")
         .number("gravity_mps2", "m/s2", 9.81, 0, 100, "downward")
         .number("threads", "1", 1, 1, 64, "threads that step the world; the same as --threads")
@@ -51,6 +54,8 @@ Settings Stage::settings() const {
     s.hold_seconds = static_cast<float>(keys["hold_s"]);
     s.generations = static_cast<uint32_t>(keys["generations"]);
     s.debris_share = static_cast<float>(keys["debris_share"]);
+    s.break_share = static_cast<float>(keys["break_share"]);
+    s.break_elements = static_cast<uint32_t>(keys["break_elements"]);
     s.debris_elements = static_cast<uint32_t>(keys["debris_elements"]);
     s.limits = limits;
     return s;

@@ -12,7 +12,8 @@ FramePlan<WorldData> make_frame_plan(bool is_hosted, const std::function<std::st
     FramePlan<WorldData> plan;
     plan.stage("start").then<remember_poses>();
     if (is_hosted) plan.then<read_rigid>();
-    plan.then<detect_contacts>()
+    plan.then<take_blows>()
+        .then<detect_contacts>()
         .then<predict_impacts>()
         .then<open_tasks>()
         .then<fill_tasks>()

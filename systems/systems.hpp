@@ -12,6 +12,9 @@ namespace cullet {
 void remember_poses(Rows<Bodies> bodies, In<&Bodies::position> position, In<&Bodies::orientation> orientation,
                     Out<&Bodies::previous_position> previous_position,
                     Out<&Bodies::previous_orientation> previous_orientation);
+/// Which bodies the blows that the game asked for reach; balls and unbreakable bodies are pushed at once.
+void take_blows(Serial, Blows& blows, ShellTables shells, Bodies& bodies, RigidWorld& rigid, DamageCounts& counts,
+                Events<RefusedEvent>& refused);
 /// Sweeps fast bodies to their time of impact, finds all contacts of this step.
 void detect_contacts(Serial, Step step, RigidWorld& rigid);
 /// Contacts that a breakable body may not survive, sorted by body and speed.
@@ -19,19 +22,19 @@ void predict_impacts(Serial, Step step, const RigidWorld& rigid, const Bodies& b
                      const Tasks& tasks, const TaskContacts& contacts, const DamageSettings& settings,
                      Events<Impact>& impacts);
 /// One damage task a body that was hit: asks the game, takes rows for its working copy. A further hit on a body whose
-/// task is open waits in QueuedHits, and opens one when the body can.
+/// task is open waits in QueuedHits, and opens one when the body can. Blows of the game do as contacts do.
 void open_tasks(Serial, Step step, const Events<Impact>& impacts, ShellTables shells, const Materials& materials,
-                Bodies& bodies, Tasks& tasks, TaskContacts& contacts, QueuedHits& queued,
-                const DamageSettings& settings, DamageCounts& counts, Events<TaskOpened>& opened,
+                Bodies& bodies, Tasks& tasks, TaskContacts& contacts, QueuedHits& queued, Blows& blows,
+                RigidWorld& rigid, const DamageSettings& settings, DamageCounts& counts, Events<TaskOpened>& opened,
                 Events<StiffnessWanted>& stiffness_wanted, Events<ImpactEvent>& impact_events,
                 Events<RefusedEvent>& refused);
 /// Copies the body's shell into the task's.
 void fill_tasks(Each<TaskOpened> opened, ShellTables shells, Tasks& tasks);
 /// Assembles stiffness that the body's shell does not have: a piece that is hit for the first time.
 void fill_stiffness(Each<StiffnessWanted> wanted, ShellTables shells, const Tasks& tasks);
-/// Lays the contact patches, gives every vertex the body's velocity.
+/// Lays the contact patches, gives every vertex the body's velocity and what explosions add. Cuts are made here.
 void start_tasks(Each<TaskOpened> opened, ShellTables shells, Tasks& tasks, TaskContacts& contacts,
-                 PatchVertices& patches);
+                 PatchVertices& patches, Blows& blows);
 
 // ---- damage
 
@@ -40,9 +43,9 @@ void grant_units(Serial, Tasks& tasks, const Shells& shells, const DamageSetting
 /// Runs the inner loop of each open task for the steps it was granted, on all workers.
 void advance_damage(Serial, DamageLoop& loop);
 /// Holds bodies whose task goes on, releases those whose time is up or whose task ended.
-void settle_tasks(Serial, Step step, Tasks& tasks, TaskContacts& contacts, Bodies& bodies, const Shells& shells,
-                  RigidWorld& rigid, const DamageSettings& settings, DamageCounts& counts, Events<TaskEnded>& ended,
-                  Events<ImpactEvent>& impact_events);
+void settle_tasks(Serial, Step step, Tasks& tasks, TaskContacts& contacts, Blows& blows, Bodies& bodies,
+                  const Shells& shells, RigidWorld& rigid, const DamageSettings& settings, DamageCounts& counts,
+                  Events<TaskEnded>& ended, Events<ImpactEvent>& impact_events);
 
 // ---- apply
 
@@ -51,7 +54,7 @@ void find_parts(Each<TaskEnded> ended, ShellTables shells, Tasks& tasks, Fragmen
 /// Which pieces become bodies or crumbs, in order of mass, and the rows that they need. What stayed whole keeps its
 /// cracks. What finds no room stays part of the body, and asks again.
 void plan_births(Serial, const Events<TaskEnded>& ended, ShellTables shells, const Tasks& tasks, Fragments& fragments,
-                 QueuedHits& queued, Bodies& bodies, const Debris& debris, ViewVertices& view_vertices,
+                 QueuedHits& queued, Blows& blows, Bodies& bodies, const Debris& debris, ViewVertices& view_vertices,
                  ViewIndices& view_indices, const DamageSettings& settings, Arena& arena, Events<Break>& breaks,
                  Events<Birth>& births, Events<ShellChanged>& changed, Events<CrackStartedEvent>& cracks,
                  Events<RefusedEvent>& refused, Events<FaultEvent>& faults);
@@ -65,7 +68,7 @@ void fill_hulls(Each<HullWanted> wanted, ShellTables shells, const RigidWorld& r
 /// The pieces enter the rigid world, in order of mass; the striker gets the impulse that it really passed. Closes the
 /// tasks that ended.
 void make_births(Serial, Step step, const Events<TaskEnded>& ended, const Events<Break>& breaks, ShellTables shells,
-                 Tasks& tasks, TaskContacts& contacts, Bodies& bodies, Debris& debris, RigidWorld& rigid,
+                 Tasks& tasks, TaskContacts& contacts, Blows& blows, Bodies& bodies, Debris& debris, RigidWorld& rigid,
                  DamageCounts& counts, Arena& arena, Events<ShellChanged>& changed, Events<FragmentBornEvent>& born,
                  Events<DebrisEvent>& debris_events);
 
@@ -114,8 +117,8 @@ void stress_check(Rows<Elements> elements, OfTask task, ShellTables shells, cons
 /// Starts and advances cracks, one body a call, in order of urgency (C1 to C5).
 void split_vertices(EachBody task, ShellTables shells, Tasks& tasks, TaskContacts& contacts, PatchVertices& patches);
 /// Above 1.05 of the start's energy the run begins again with half the step, at most twice (B7).
-void check_energy(EachBody task, ShellTables shells, const Materials& materials, Tasks& tasks, TaskContacts& contacts,
-                  PatchVertices& patches);
+void check_energy(EachBody task, ShellTables shells, const Materials& materials, const Blows& blows, Tasks& tasks,
+                  TaskContacts& contacts, PatchVertices& patches);
 
 // ---- inner loop of springs: repeated for one shell that has them (ductile, quick mode, sheet metal)
 

@@ -51,6 +51,8 @@ WorldData::WorldData(const Settings& settings)
     damage_settings.units_a_frame = settings.units_a_frame;
     damage_settings.hold_seconds = settings.hold_seconds;
     damage_settings.generations = settings.generations;
+    damage_settings.break_share = settings.break_share;
+    damage_settings.break_elements = settings.break_elements;
     damage_settings.debris_share = settings.debris_share;
     damage_settings.debris_elements = settings.debris_elements;
 }

@@ -46,6 +46,8 @@ struct DamageSettings {
     uint64_t units_a_frame = 0;
     float hold_seconds = 0;
     uint32_t generations = 0;
+    float break_share = 0;
+    uint32_t break_elements = 0;
     float debris_share = 0;
     uint32_t debris_elements = 0;
     bool (*allows)(void* user, const ImpactEvent& impact) = nullptr;

@@ -346,6 +346,7 @@ void open_bodies(lua_State* lua) {
                                            {"remove", body_remove},       {nullptr, nullptr}};
     lua_newtable(lua);
     add_calls(lua, methods);
+    open_body_blows(lua);
     guard_names(lua, "body:");
     lua_setfield(lua, -2, "__index");
     lua_pop(lua, 1);

@@ -257,6 +257,38 @@ void check_tasks(Checker& check) {
     for (uint32_t d = 0; d < s.debris.size(); ++d) check.expect_flag(s.debris, s.debris.is_used, "is_used", d);
 }
 
+/// Kinds, bodies and tasks that are there; numbers that a call would have refused are not followed.
+void check_blows(Checker& check) {
+    const State& s = check.state;
+    const Blows& blows = s.blows;
+    for (uint32_t b = 0; b < blows.size() && check.is_sound(); ++b) {
+        const auto kind = static_cast<BlowKind>(blows.kind[b]);
+        check.expect(kind == BlowKind::Push || kind == BlowKind::Explosion || kind == BlowKind::Cut,
+                     Checker::place(blows, "kind", b) + " is " + std::to_string(blows.kind[b]));
+        for (const auto* flag : {&blows.is_taken, &blows.is_paid, &blows.goes_on})
+            check.expect_flag(blows, *flag, "is_taken, is_paid or goes_on", b);
+        const uint32_t body = blows.body[b];
+        const bool is_for_all = body == kNone && kind != BlowKind::Push && !blows.is_taken[b];
+        const bool has_shell = is_body(s, body) && s.bodies.shell[body].exists();
+        const bool may_lack_shell = is_body(s, body) && kind == BlowKind::Push && !blows.is_taken[b];
+        check.expect(is_for_all || has_shell || may_lack_shell,
+                     Checker::place(blows, "body", b) + " is " + std::to_string(body) + ", which it cannot hit");
+        const uint32_t task = blows.task[b];
+        check.expect(
+            task == kNone ||
+                (is_task(s, task) && s.tasks.body[task] == body && blows.is_taken[b] && kind != BlowKind::Cut),
+            Checker::place(blows, "task", b) + " is " + std::to_string(task) + ", not an open task of its body");
+        check.expect(blows.point_count[b] <= kMostCutPoints && blows.point_count[b] != 1,
+                     Checker::place(blows, "point_count", b) + " is " + std::to_string(blows.point_count[b]));
+        const float unit = length(blows.direction[b]);
+        const bool is_unit = kind == BlowKind::Explosion || (unit > 0.99f && unit < 1.01f);
+        check.expect(is_unit && blows.radius[b] >= 0 && blows.inverse_mass[b] >= 0 && blows.speed[b] >= 0,
+                     Checker::place(blows, "direction", b) + " or a number beside it is out of range");
+        check.expect(kind != BlowKind::Explosion || blows.radius[b] > 0,
+                     Checker::place(blows, "radius", b) + " is " + std::to_string(blows.radius[b]));
+    }
+}
+
 /// Shells are given back when their last user goes: the count must be true.
 void check_users(Checker& check) {
     const State& s = check.state;
@@ -282,7 +314,7 @@ Result<void> check_state(const State& state, const std::string& name) {
     Checker check{state, name, {}};
     const std::string not_finite = state.validate();
     check.expect(not_finite.empty(), not_finite);
-    for (auto* look : {check_ranges, check_models, check_tasks, check_bodies, check_users})
+    for (auto* look : {check_ranges, check_models, check_tasks, check_bodies, check_blows, check_users})
         if (check.is_sound()) look(check);
     if (!check.is_sound()) return Error{check.trouble};
     if (const Result<void> valid = check_material_rows(state); !valid)

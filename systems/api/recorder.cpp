@@ -171,6 +171,23 @@ void Recorder::frame(const HostFrame& frame) {
     }
 }
 
+void Recorder::push_impact(BodyId id, const PushSettings& push) {
+    ByteWriter& out = call(GameCall::PushImpact);
+    for_each_number_of_id(id, into(out));
+    for_each_number_of_push(push, into(out));
+}
+
+void Recorder::explode(const ExplosionSettings& explosion) {
+    for_each_number_of_explosion(explosion, into(call(GameCall::Explode)));
+}
+
+void Recorder::cut(BodyId id, const CutSettings& cut) {
+    ByteWriter& out = call(GameCall::Cut);
+    for_each_number_of_id(id, into(out));
+    for_each_number_of_cut(cut, into(out));
+    for (uint32_t i = 0; i < cut.point_count; ++i) for_each_number_of_vector(cut.points[i], into(out));
+}
+
 void Recorder::begin_step() {
     if (calls_.bytes.size() > kMostChunkBytes) trouble_ = "the calls before one step are too many to be recorded.";
     if (is_sound()) file_.append(ChunkKind::Calls, calls_.bytes);

@@ -43,6 +43,12 @@ Result<void> World::remove(BodyId id) {
         if (queued.striker[q] == body) queued.striker[q] = {};
         if (queued.body[q] == body) queued.clear_rows(q, 1);
     }
+    for (uint32_t b = 0; b < state.blows.size();) {
+        if (state.blows.body[b] == body)
+            remove_blow(state.blows, b);
+        else
+            ++b;
+    }
     // Rows are used again: nobody may take the next one for a parent.
     for (uint32_t b = 0; b < state.bodies.size(); ++b)
         if (state.bodies.parent[b] == body) state.bodies.parent[b] = {};

@@ -1,6 +1,7 @@
 #include "systems/brittle/restart.hpp"
 
 #include "systems/damage/assemble.hpp"
+#include "systems/damage/blows.hpp"
 #include "systems/damage/contact.hpp"
 #include "systems/damage/crack_candidates.hpp"
 #include "systems/damage/grow_cracks.hpp"
@@ -64,6 +65,7 @@ void start_run(State& state, Row<Tasks> task) {
     state.tasks.last_event_time[task] = 0;
     state.tasks.crack_count[task] = state.tasks.start_count[task] = 0;
     start_hidden(state, task);
+    start_explosions(state, task);
 }
 
 void restore_scratch(State& state, Row<Tasks> task) {

@@ -1,6 +1,7 @@
 #include <algorithm>
 
 #include "systems/damage/assemble.hpp"
+#include "systems/damage/open_blows.hpp"
 #include "systems/damage/task_cost.hpp"
 #include "systems/damage/thresholds.hpp"
 #include "systems/damage/working_room.hpp"
@@ -193,7 +194,7 @@ void open_queued(Opening& opening, const DamageSettings& settings, Events<Impact
         if (!queued.is_used[q]) continue;
         const Row<Bodies> body = queued.body[q];
         if (bodies.task[body] != kNone || opening.frame < bodies.retry_frame[body] || bodies.hold_count[body]) continue;
-        if (may_break_again(state.shells, bodies.shell[body], settings.generations)) {
+        if (may_break_again(state.shells, bodies.shell[body], settings)) {
             const Row<Tasks> task = opening.open(body, queued.approach_speed[q]);
             if (task.exists()) {
                 lay_queued(state, task, q);
@@ -210,7 +211,7 @@ void open_queued(Opening& opening, const DamageSettings& settings, Events<Impact
 }  // namespace
 
 void open_tasks(Serial, Step step, const Events<Impact>& impacts, ShellTables shells, const Materials& materials,
-                Bodies& bodies, Tasks& tasks, TaskContacts& contacts, QueuedHits& queued,
+                Bodies& bodies, Tasks& tasks, TaskContacts& contacts, QueuedHits& queued, Blows&, RigidWorld& rigid,
                 const DamageSettings& settings, DamageCounts& counts, Events<TaskOpened>& opened,
                 Events<StiffnessWanted>& stiffness_wanted, Events<ImpactEvent>& impact_events,
                 Events<RefusedEvent>& refused) {
@@ -236,6 +237,16 @@ void open_tasks(Serial, Step step, const Events<Impact>& impacts, ShellTables sh
         lay_contacts(all.subspan(i, next - i), bodies, state.shells, tasks, contacts, task);
         impact_events.push(event);
     }
+    BlowOpening blows{
+        state,
+        rigid,
+        settings,
+        counts,
+        impact_events,
+        step.frame,
+        &opening,
+        [](void* opener, Row<Bodies> body, float speed) { return static_cast<Opening*>(opener)->open(body, speed); }};
+    open_blows(blows);
 }
 
 }  // namespace cullet

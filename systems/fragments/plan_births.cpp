@@ -26,7 +26,7 @@ void tell_cracks(State& state, Row<Tasks> task, Events<CrackStartedEvent>& crack
 }  // namespace
 
 void plan_births(Serial, const Events<TaskEnded>& ended, ShellTables shells, const Tasks& tasks, Fragments&,
-                 QueuedHits&, Bodies& bodies, const Debris& debris, ViewVertices&, ViewIndices&,
+                 QueuedHits&, Blows&, Bodies& bodies, const Debris& debris, ViewVertices&, ViewIndices&,
                  const DamageSettings& settings, Arena& arena, Events<Break>& breaks, Events<Birth>& births,
                  Events<ShellChanged>& changed, Events<CrackStartedEvent>& cracks, Events<RefusedEvent>& refused,
                  Events<FaultEvent>& faults) {

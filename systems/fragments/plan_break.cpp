@@ -11,6 +11,9 @@
 namespace cullet {
 namespace {
 
+// Cuts have no last generation: more are not told apart.
+constexpr uint32_t kMostGenerations = 255;
+
 // A piece that found no room stays part of another and moves with it.
 void join_motions(PartMotion& motion, PartMotion& joined) {
     const double mass = motion.mass + joined.mass;
@@ -32,8 +35,9 @@ Row<Bodies> reserve_body(State& state, Row<Bodies> parent, Row<Shells> broken, c
         *full = "limits.bodies";
         return {};
     }
-    state.bodies.shell[body] =
-        reserve_piece(state, broken, part, static_cast<uint8_t>(state.shells.generation[broken] + 1), full);
+    state.bodies.shell[body] = reserve_piece(
+        state, broken, part,
+        static_cast<uint8_t>(std::min<uint32_t>(state.shells.generation[broken], kMostGenerations - 1) + 1), full);
     if (state.bodies.shell[body].exists() && take_view(state, body, ShellView(state, broken), part)) {
         Bodies& b = state.bodies;
         b.model[body] = b.model[parent];
@@ -143,22 +147,57 @@ bool reserve_view(Planning& planning, Break& plan) {
     return true;
 }
 
+uint32_t owner_of(const ShellView& shell, Vec3 point, uint32_t otherwise) {
+    const State& state = shell.state;
+    float least = 1e30f;
+    uint32_t owner = otherwise;
+    for (uint32_t v = 0; v < shell.vertex_count(); ++v) {
+        const uint32_t row = shell.vertex(v), element = state.vertices.element[row];
+        if (element == kNone) continue;
+        const Vec3 away = state.vertices.rest[row] - point;
+        if (dot(away, away) >= least) continue;
+        least = dot(away, away);
+        owner = state.elements.part[shell.element(element)];
+    }
+    return owner;
+}
+
+// Blows that wait for the body: a push goes to the piece that owns the nearest vertex, explosions and cuts to all. They
+// have moved the body already.
+void hand_on_blows(Planning& planning, const Break& plan) {
+    State& state = planning.state;
+    Blows& blows = state.blows;
+    const uint32_t end = blows.size();
+    for (uint32_t b = 0; b < end; ++b) {
+        if (blows.body[b] != plan.body || (blows.task[b] != kNone && !blows.goes_on[b])) continue;
+        if (is_kind(blows, b, BlowKind::Push)) {
+            const uint32_t owner = owner_of(ShellView(state, plan.broken), blows.point[b], plan.largest);
+            if (plan.child[owner].exists()) blows.body[b] = plan.child[owner];
+            continue;
+        }
+        for (const uint32_t p : plan.order) {
+            if (!plan.child[p].exists()) continue;
+            const uint32_t made = blows.append(1);
+            if (made == kNone) {
+                planning.refused.push(refused_event(state.bodies, plan.body, "limits.queued_hits"));
+                return;
+            }
+            blows.copy_rows(blows, b, made, 1);
+            blows.body[made] = plan.child[p];
+            blows.task[made] = kNone;
+            blows.goes_on[made] = 0;
+            blows.is_paid[made] = 1;
+        }
+    }
+}
+
 // Hits that wait for the body go on to the piece that owns the nearest vertex; a crumb takes its own along.
 void hand_on_hits(State& state, const Break& plan) {
     const ShellView shell(state, plan.broken);
     QueuedHits& queued = state.queued_hits;
     for (uint32_t q = 0; q < queued.size(); ++q) {
         if (!queued.is_used[q] || queued.body[q] != plan.body) continue;
-        float least = 1e30f;
-        uint32_t owner = plan.largest;
-        for (uint32_t v = 0; v < shell.vertex_count(); ++v) {
-            const uint32_t row = shell.vertex(v), element = state.vertices.element[row];
-            if (element == kNone) continue;
-            const Vec3 away = state.vertices.rest[row] - queued.point[q];
-            if (dot(away, away) >= least) continue;
-            least = dot(away, away);
-            owner = state.elements.part[shell.element(element)];
-        }
+        const uint32_t owner = owner_of(shell, queued.point[q], plan.largest);
         if (plan.is_crumb[owner])
             queued.clear_rows(q, 1);
         else if (plan.child[owner].exists())
@@ -192,11 +231,8 @@ bool reserve_births(Planning& planning, Break& plan) {
 
 // Every piece goes on with the body's own motion, about the centres that the rigid world knows, so that momentum and
 // angular momentum are kept to rounding.
-void move_with_body(State& state, Break& plan) {
+void move_with_body(State& state, Break& plan, Vec3d velocity, Vec3d spin) {
     const Bodies& bodies = state.bodies;
-    const Quat to_body_axes = conjugate(bodies.orientation[plan.body]);
-    const Vec3d velocity(rotate(to_body_axes, bodies.velocity[plan.body])),
-        spin(rotate(to_body_axes, bodies.spin[plan.body]));
     const ShellView shell(state, plan.broken);
     for (uint32_t p = 0; p < plan.parts.size(); ++p) {
         Moments sum;
@@ -223,6 +259,7 @@ void order_births(Planning& planning, Break& plan) {
         if (plan.leaves(p)) plan.left_elements += plan.parts[p].element_count;
     plan.whole = sums_of(ShellView(state, plan.broken));
     hand_on_hits(state, plan);
+    hand_on_blows(planning, plan);
     const uint32_t of = planning.breaks.size();
     for (const uint32_t p : plan.order)
         if (p == plan.largest || plan.leaves(p)) planning.births.push({of, p});
@@ -246,12 +283,15 @@ void plan_break(Planning& planning, Row<Tasks> task) {
         break_of(planning, task, body, broken,
                  std::span(state.fragments.part.data() + size_t{task} * kMostParts, state.tasks.part_count[task]));
     if (!reserve_points(planning, plan)) return;
-    const HandoffReport report =
-        rigid_handoff(shell,
-                      {Vec3d(state.tasks.start_velocity[task]), Vec3d(state.tasks.start_spin[task]),
-                       state.shells.centre[broken], state.tasks.approach_speed[task]},
-                      plan.parts, plan.motions);
-    plan.clamped = report.speed_clamps + report.spin_clamps;
+    const Vec3d velocity(state.tasks.start_velocity[task]), spin(state.tasks.start_spin[task]);
+    if (is_cut_task(state.blows, task)) {
+        move_with_body(state, plan, velocity, spin);  // nothing was run
+    } else {
+        const HandoffReport report =
+            rigid_handoff(shell, {velocity, spin, state.shells.centre[broken], state.tasks.approach_speed[task]},
+                          plan.parts, plan.motions);
+        plan.clamped = report.speed_clamps + report.spin_clamps;
+    }
     find_changed_cells(shell, ShellView(state, plan.before));
     if (reserve_births(planning, plan)) order_births(planning, plan);
 }
@@ -267,7 +307,10 @@ void ask_again(Planning& planning, Row<Bodies> body) {
     std::copy_n(slot.begin(), parts.size(), parts.begin());
     Break plan = break_of(planning, {}, body, shell.row, parts);
     if (!reserve_points(planning, plan)) return;
-    move_with_body(state, plan);
+    const Bodies& bodies = state.bodies;
+    const Quat to_body_axes = conjugate(bodies.orientation[body]);
+    move_with_body(state, plan, Vec3d(rotate(to_body_axes, bodies.velocity[body])),
+                   Vec3d(rotate(to_body_axes, bodies.spin[body])));
     find_changed_cells(shell, shell);
     if (reserve_births(planning, plan)) order_births(planning, plan);
 }

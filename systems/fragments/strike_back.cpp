@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "systems/damage/blows.hpp"
 #include "systems/rigid/body_id.hpp"
 
 namespace cullet {
@@ -78,6 +79,10 @@ void strike_back(Births& births, Row<Tasks> task, const Pose& pose, std::span<Pa
         const bool is_larger = state.bodies.mass[body] >= state.bodies.mass[striker];
         contacts.is_heir_striker[waits] = is_larger && !heir.is_static;
     }
+    // What the game's blows gave comes from outside: pushes are booked above, as contacts with nobody.
+    const Vec3d exploded = take_explosions(state.blows, task);
+    came_in += exploded;
+    to_static += -1.0 * exploded;
     bool is_pinned = false;
     for (const PartMotion& m : motions) {
         is_pinned = is_pinned || m.is_static;

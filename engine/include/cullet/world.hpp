@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "cullet/damage.hpp"
 #include "cullet/events.hpp"
 #include "cullet/host.hpp"
 #include "cullet/model.hpp"
@@ -122,6 +123,15 @@ class World {
     /// At a world place, N s. Wakes the body.
     Result<void> apply_impulse(BodyId body, Vec3 impulse, Vec3 place);
     Result<void> wake(BodyId body);
+
+    // Blows (damage.hpp), taken at the start of the next step. Refused: what is not finite or out of range, a body that
+    // is gone, and more blows than wait at once (limits.queued_hits and one a body).
+    /// As if a rigid striker hit the body there.
+    Result<void> push_impact(BodyId body, const PushSettings& push);
+    /// On all bodies in reach.
+    Result<void> explode(const ExplosionSettings& explosion);
+    /// Of one breakable body, down to any size; of all of them that the surface passes through when `body` is null.
+    Result<void> cut(BodyId body, const CutSettings& cut);
 
     /// The place `by` becomes the origin: every coordinate c of the world, of events and of drawn poses becomes c - by;
     /// views and body frames stay. Between steps, at any time, hits that are worked off included. Nothing wakes. Places

@@ -1,0 +1,141 @@
+#include "systems/damage/blows.hpp"
+#include "systems/damage/cut_surface.hpp"
+#include "systems/rigid/body_id.hpp"
+#include "systems/systems.hpp"
+
+namespace cullet {
+namespace {
+
+struct Taking {
+    State& state;
+    RigidWorld& rigid;
+    DamageCounts& counts;
+    Events<RefusedEvent>& refused;
+
+    bool has_shell(Row<Bodies> b) const {
+        return static_cast<BodyKind>(state.bodies.kind[b]) != BodyKind::Free && state.bodies.shell[b].exists();
+    }
+
+    /// A copy of the blow for this body, at the end; kNone where there is no room.
+    uint32_t copy_for(uint32_t row, Row<Bodies> body) {
+        const uint32_t made = state.blows.append(1);
+        if (made == kNone) {
+            refused.push(refused_event(state.bodies, body, "limits.queued_hits"));
+            return kNone;
+        }
+        state.blows.copy_rows(state.blows, row, made, 1);
+        state.blows.body[made] = body;
+        return made;
+    }
+
+    // The striker bounces off as a rigid one: J = (1 + e) v / (1/m_body + 1/m_striker).
+    void measure_push(uint32_t row) {
+        Blows& blows = state.blows;
+        const Row<Bodies> body = blows.body[row];
+        const Vec3d point(blows.point[row]), normal(blows.direction[row]);
+        const double both = inverse_mass_at(state.bodies, body, point, normal) + double{blows.inverse_mass[row]};
+        const double size = (1 + double{state.bodies.restitution[body]}) * double{blows.speed[row]} / both;
+        blows.impulse.set(row, size * normal);
+        blows.turning.set(row, cross(point - state.bodies.centre[body], size * normal));
+    }
+
+    void explode_ball(uint32_t row, Row<Bodies> body) {
+        const Bodies& bodies = state.bodies;
+        const Vec3d away = Vec3d(centre_of(bodies, body) - state.blows.point[row]);
+        const double distance = length(away);
+        const double size =
+            impulse_on_ball(distance, double{bodies.radius[body]}, state.blows.radius[row], state.blows.strength[row]);
+        if (!(size > 0)) return;
+        const Vec3 along = rotate(conjugate(bodies.orientation[body]), ((1 / distance) * away).to_float());
+        push_body(state.bodies, rigid, counts, body, size * Vec3d(along), {});
+    }
+
+    void explode_shell(uint32_t row, Row<Bodies> body) {
+        const Bodies& bodies = state.bodies;
+        Explosion explosion = explosion_of(state.blows, row);
+        explosion.centre = to_body(pose_of(bodies, body), explosion.centre);
+        const ExplosionSums sums =
+            measure_explosion(ShellView(state, bodies.shell[body]), explosion, bodies.centre[body]);
+        if (!(sums.size > 0)) return;
+        if (!bodies.is_breakable[body]) return push_body(state.bodies, rigid, counts, body, sums.impulse, sums.turning);
+        const uint32_t made = copy_for(row, body);
+        if (made == kNone) return push_body(state.bodies, rigid, counts, body, sums.impulse, sums.turning);
+        Blows& blows = state.blows;
+        blows.point.set(made, explosion.centre);
+        blows.impulse.set(made, sums.impulse);
+        blows.turning.set(made, sums.turning);
+        blows.speed[made] = sums.speed;
+        // The way the body is pushed: events tell it.
+        blows.direction.set(made, normalised(sums.impulse).to_float());
+    }
+
+    void explode(uint32_t row) {
+        const Bodies& bodies = state.bodies;
+        for (uint32_t b = 0; b < bodies.size(); ++b) {
+            const Row<Bodies> body(b);
+            const auto kind = static_cast<BodyKind>(bodies.kind[b]);
+            const bool is_hit = kind == BodyKind::Dynamic || (kind == BodyKind::Static && has_shell(body));
+            if (!is_hit) continue;
+            const float away = length(centre_of(bodies, body) - state.blows.point[row]);
+            if (away > state.blows.radius[row] + bodies.radius[b]) continue;
+            if (has_shell(body))
+                explode_shell(row, body);
+            else if (bodies.is_sphere[b])
+                explode_ball(row, body);
+        }
+    }
+
+    void cut(uint32_t row) {
+        const uint32_t bodies = state.bodies.size();
+        for (uint32_t b = 0; b < bodies; ++b) {
+            const Row<Bodies> body(b);
+            if (!has_shell(body) || !state.bodies.is_breakable[b]) continue;
+            const uint32_t made = copy_for(row, body);
+            if (made == kNone) continue;
+            Blows& blows = state.blows;
+            const Pose pose = pose_of(state.bodies, b);
+            blows.point.set(made, to_body(pose, blows.point[made]));
+            blows.direction.set(made, rotate(conjugate(pose.orientation), blows.direction[made]));
+            for (uint32_t i = 0; i < blows.point_count[made]; ++i)
+                set_cut_point(blows, made, i, to_body(pose, cut_point(blows, made, i)));
+            if (!passes_through(ShellView(state, state.bodies.shell[b]), CutSurface(blows, made)))
+                remove_blow(blows, made);
+        }
+    }
+};
+
+}  // namespace
+
+// New rows stand behind those that wait. Each is written anew at the end, once for each body that it reaches, and then
+// the old ones go: rows keep the order of the calls, and in it that of the bodies.
+void take_blows(Serial, Blows& blows, ShellTables shells, Bodies& bodies, RigidWorld& rigid, DamageCounts& counts,
+                Events<RefusedEvent>& refused) {
+    if (blows.size() == 0) return;
+    Taking taking{shells.state, rigid, counts, refused};
+    uint32_t first = 0;
+    while (first < blows.size() && blows.is_taken[first]) ++first;
+    const uint32_t end = blows.size();
+    for (uint32_t row = first; row < end; ++row) {
+        const Row<Bodies> body = blows.body[row];
+        if (!body.exists()) {
+            if (is_kind(blows, row, BlowKind::Explosion))
+                taking.explode(row);
+            else
+                taking.cut(row);
+            continue;
+        }
+        if (is_kind(blows, row, BlowKind::Push)) {
+            taking.measure_push(row);
+            if (!taking.has_shell(body) || !bodies.is_breakable[body]) {
+                pay_blow(blows, bodies, rigid, counts, row);
+                continue;
+            }
+        }
+        taking.copy_for(row, body);
+    }
+    const uint32_t made = blows.size() - end;
+    if (made && end > first) blows.copy_rows(blows, end, first, made);
+    blows.truncate(first + made);
+}
+
+}  // namespace cullet
