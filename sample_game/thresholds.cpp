@@ -142,16 +142,18 @@ SecondHit find_second_hit(HitBench& bench, uint32_t placement, uint32_t other_pl
     SecondHit found;
     bench.renew();
     const auto blow = [&](double speed) { return bench.blow(placement, static_cast<float>(speed)); };
-    found.first_piece = piece_threshold(bench, placement, guess);
+    const Thresholds first = find_thresholds(bench, placement, guess);
+    found.first_piece = first.first_piece;
     found.elsewhere_alone = piece_threshold(bench, other_placement, guess);
-    found.whole_speed = found.first_piece;
-    // The bisection's own lower end is at most this much lower; where breaking is not monotone, a little more.
-    for (int n = 0; n < 100 && found.cut_edges == 0; ++n) {
-        found.whole_speed /= kBisectionRatio;
-        const HitReport report = bench.run_and_keep_cracks(blow(found.whole_speed));
-        if (!report.broke && !report.cracked) return found;
-        if (!report.broke) found.cut_edges = report.cuts;
+    if (!(first.first_crack < kMostThreshold)) return found;
+    // Whether the body stays whole is not monotone in the speed: the highest of a scan from the first crack on.
+    constexpr double kStep = 1.04, kReach = 2.5;
+    for (double speed = first.first_crack * kBisectionRatio; speed < kReach * first.first_crack; speed *= kStep) {
+        const HitReport report = bench.run(blow(speed));
+        if (!report.broke && report.cracked) found.whole_speed = speed;
     }
+    if (!(found.whole_speed > 0)) return found;
+    found.cut_edges = bench.run_and_keep_cracks(blow(found.whole_speed)).cuts;
     const std::vector<uint32_t> tips = tips_of(bench, bench.shell());
     found.tips = static_cast<uint32_t>(tips.size());
     found.same_place = piece_threshold(bench, placement, 0.5 * found.whole_speed);
