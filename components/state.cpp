@@ -63,6 +63,9 @@ State::State(const Limits& l)
       spring_slots(slot_limit(l)),
       layer_slots(slot_limit(l)),
       twins(l.vertices),
+      quick_bodies(l.bodies),
+      quick_runs(l.tasks),
+      awake_packs(l.tasks * kMostAwakePacks),
       pools(*this),
       limits_(l) {
     tasks.append(l.tasks);

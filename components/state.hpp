@@ -6,6 +6,7 @@
 #include "components/blows.hpp"
 #include "components/bodies.hpp"
 #include "components/materials.hpp"
+#include "components/quick.hpp"
 #include "components/shells.hpp"
 #include "components/springs.hpp"
 #include "components/tasks.hpp"
@@ -67,6 +68,9 @@ struct State {
     SpringSlots spring_slots;
     LayerSlots layer_slots;
     Twins twins;
+    QuickBodies quick_bodies;
+    QuickRuns quick_runs;
+    AwakePacks awake_packs;
 
     /// Which rows of the tables above are taken; one pool a table whose rows come in ranges.
     struct Pools {
@@ -121,7 +125,10 @@ struct State {
                           &State::spring_packs,
                           &State::spring_slots,
                           &State::layer_slots,
-                          &State::twins};
+                          &State::twins,
+                          &State::quick_bodies,
+                          &State::quick_runs,
+                          &State::awake_packs};
     }
     const Limits& limits() const { return limits_; }
     /// The table of type T.

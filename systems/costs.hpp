@@ -14,6 +14,11 @@ inline constexpr uint64_t kUnitsOpen = 220;      // a vertex when a task opens: 
 inline constexpr uint64_t kUnitsAssemble = 550;  // a vertex of a shell whose stiffness is not assembled yet
 inline constexpr uint64_t kUnitsCompact = 300;   // a live element of a shell that is compacted; 0.6 microseconds
 
+// Of the quick mode. A spring through one substep is 1; two layers are 4 springs an edge.
+inline constexpr uint64_t kUnitsQuickOpen = 100;  // a vertex of the body when a task opens: copy, marks
+inline constexpr uint64_t kUnitsQuickWake = 900;  // a vertex of the region: flood, springs, lists
+inline constexpr uint64_t kUnitsQuickCut = 2500;  // a cut edge: inserts, splits, springs made anew
+
 inline constexpr uint32_t kStepsAStressCheck = 3;
 inline constexpr uint32_t kStepsAnEnergyCheck = 64;
 

@@ -18,12 +18,14 @@ FramePlan<WorldData> make_frame_plan(bool is_hosted, const std::function<std::st
         .then<open_tasks>()
         .then<fill_tasks>()
         .then<fill_stiffness>()
-        .then<start_tasks>();
+        .then<start_tasks>()
+        .then<wake_regions>();
     plan.stage("damage")
         .then<grant_units>()
         .then<advance_damage>()
         .shows("thick shell, brittle: 300 to 4,000 times a hit, on its own clock", describe_damage_loop)
-        .then<settle_tasks>();
+        .then<settle_tasks>()
+        .then<close_regions>();
     plan.stage("apply")
         .then<find_parts>()
         .then<plan_births>()

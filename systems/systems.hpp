@@ -36,16 +36,23 @@ void fill_stiffness(Each<StiffnessWanted> wanted, ShellTables shells, const Task
 void start_tasks(Each<TaskOpened> opened, ShellTables shells, Tasks& tasks, TaskContacts& contacts,
                  PatchVertices& patches, Blows& blows);
 
+/// Quick bodies: the springs of the neighbourhood of each hit (quick/region.hpp), at rest as the body sees them.
+void wake_regions(Serial, const Events<TaskOpened>& opened, ShellTables shells, Tasks& tasks, TaskContacts& contacts,
+                  PatchVertices& patches, const Bodies& bodies, Events<RefusedEvent>& refused);
+
 // ---- damage
 
 /// Shares the frame's units: one step to each open task, then equal rounds, in order of (frame of impact, body row).
-void grant_units(Serial, Tasks& tasks, const Shells& shells, const DamageSettings& settings, DamageCounts& counts);
+void grant_units(Serial, ShellTables shells, Tasks& tasks, const DamageSettings& settings, DamageCounts& counts);
 /// Runs the inner loop of each open task for the steps it was granted, on all workers.
 void advance_damage(Serial, DamageLoop& loop);
 /// Holds bodies whose task goes on, releases those whose time is up or whose task ended.
 void settle_tasks(Serial, Step step, Tasks& tasks, TaskContacts& contacts, Blows& blows, Bodies& bodies,
                   const Shells& shells, RigidWorld& rigid, const DamageSettings& settings, DamageCounts& counts,
                   Events<TaskEnded>& ended, Events<ImpactEvent>& impact_events);
+
+/// Regions whose run ended fall asleep: vertices get the body's own motion back, springs their rows.
+void close_regions(Serial, const Events<TaskEnded>& ended, ShellTables shells, Tasks& tasks, TaskContacts& contacts);
 
 // ---- apply
 
@@ -119,6 +126,26 @@ void split_vertices(EachBody task, ShellTables shells, Tasks& tasks, TaskContact
 /// Above 1.05 of the start's energy the run begins again with half the step, at most twice (B7).
 void check_energy(EachBody task, ShellTables shells, const Materials& materials, const Blows& blows, Tasks& tasks,
                   TaskContacts& contacts, PatchVertices& patches);
+
+// ---- inner loop of the quick mode: repeated for one task whose region is awake
+
+/// Patch springs, from the places before the step, softened as the region is.
+void push_region_patches(EachBody task, ShellTables shells, Tasks& tasks, const TaskContacts& contacts,
+                         PatchVertices& patches);
+/// integrate_springs, or integrate_layers, for the region's packs.
+void integrate_region(Rows<AwakePacks> packs, OfTask task, Turn turn, ShellTables shells, In<&AwakePacks::pack> pack,
+                      In<&Vertices::probe> position, InOut<&Vertices::velocity> velocity,
+                      Out<&Vertices::probe> next_position, In<&Twins::position> twin_position,
+                      InOut<&Twins::velocity> twin_velocity, Out<&Twins::position> next_twin_position,
+                      InOut<&SpringSlots::slot> slots, InOut<&LayerSlots::slot> layer_slots,
+                      InOut<&SpringPacks::zero_lengths> zero_lengths);
+/// What is held goes back, patches push, strikers move; the run ends after its steps.
+void end_region_step(EachBody task, ShellTables shells, Tasks& tasks, TaskContacts& contacts,
+                     const PatchVertices& patches);
+/// Splits what has stretched too far (C3 to C5, paper mode).
+void split_region(EachBody task, ShellTables shells, Tasks& tasks, TaskContacts& contacts, PatchVertices& patches);
+/// Above 1.05 of the start's energy the run is dropped.
+void check_region_energy(EachBody task, ShellTables shells, Tasks& tasks, TaskContacts& contacts);
 
 // ---- inner loop of springs: repeated for one shell that has them (ductile, quick mode, sheet metal)
 

@@ -8,6 +8,7 @@
 #include "systems/cook/materials.hpp"
 #include "systems/fragments/body_rows.hpp"
 #include "systems/fragments/rigid_shape.hpp"
+#include "systems/quick/quick_body.hpp"
 #include "systems/query/bound_drawn.hpp"
 #include "systems/query/query_index.hpp"
 #include "systems/rigid/body_id.hpp"
@@ -96,6 +97,8 @@ Result<BodyId> World::spawn(ModelId id, const SpawnSettings& settings) {
         return Error{"strength_scale is " + std::to_string(settings.strength_scale) + "; use more than 0."};
     if (settings.pin_count > 0 && !settings.pins)
         return Error{"pin_count is " + std::to_string(settings.pin_count) + " but pins is null; give the boxes."};
+    if (const Result<void> valid = check_fracture(settings.fracture, settings.quick); !valid)
+        return Error{valid.error()};
     Row<Shells> shell = state.models.shell[model];
     if (settings.pin_count > 0) {
         Result<Row<Shells>> pinned = pinned_copy(state, shell, settings);
@@ -126,6 +129,7 @@ Result<BodyId> World::spawn(ModelId id, const SpawnSettings& settings) {
     // Ductile and elastic bodies move as rigid ones.
     const bool is_brittle = material_traits(state, state.shells.material[shell]).kind == MaterialKind::Brittle;
     bodies.is_breakable[body] = settings.is_breakable && settings.strength_scale < kNeverCracks && is_brittle;
+    set_fracture(state, body, settings.fracture, settings.quick);
     if (bodies.is_breakable[body]) d.make_ready(room_of(state, shell));
     take_mass_properties(state, body);
     d.arena.reset();

@@ -6,6 +6,7 @@
 #include "systems/cook/check_shell_rows.hpp"
 #include "systems/cook/materials.hpp"
 #include "systems/damage/working_room.hpp"
+#include "systems/quick/check_quick.hpp"
 #include "systems/springs/check_springs.hpp"
 
 namespace cullet {
@@ -239,7 +240,7 @@ void check_tasks(Checker& check) {
         check.expect(s.bodies.shell[body] == tasks.source[t],
                      Checker::place(tasks, "source", t) + " is " + std::to_string(tasks.source[t].index) +
                          ", not the shell of its body " + std::to_string(body.index));
-        check.expect(s.shells.packs[tasks.shell[t]].count > 0, Checker::place(tasks, "shell", t) + " has no stiffness");
+        check.expect(is_quick_task(s, t) || s.shells.packs[tasks.shell[t]].count > 0, Checker::place(tasks, "shell", t) + " has no stiffness");
         check.expect_flag(tasks, tasks.is_held, "is_held", t);
         check.expect_flag(tasks, tasks.is_late, "is_late", t);
         check_length(check, t);
@@ -329,7 +330,8 @@ Result<void> check_state(const State& state, const std::string& name) {
         const Result<void> sound = check_shell_rows(ShellView(rows, Row<Shells>(row)), Wear::Worn, name, kAdvice);
         if (!sound) return sound;
     }
-    return check_springs(state, name, kAdvice);
+    if (const Result<void> sound = check_springs(state, name, kAdvice); !sound) return sound;
+    return check_quick_rows(state, name, kAdvice);
 }
 
 }  // namespace cullet

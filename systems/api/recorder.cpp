@@ -84,6 +84,8 @@ void Recorder::spawn(ModelId id, const SpawnSettings& s) {
         for_each_number_of_vector(s.pins[i].low, into(out));
         for_each_number_of_vector(s.pins[i].high, into(out));
     }
+    out.number(static_cast<uint8_t>(s.fracture));
+    for_each_number_of_quick(s.quick, into(out));
 }
 
 void Recorder::add_sphere(const SphereSettings& s) {

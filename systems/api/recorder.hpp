@@ -99,6 +99,11 @@ template <class C, class F>
 void for_each_number_of_contact(C& c, F&& f) {
     f(c.friction), f(c.restitution), f(c.layer), f(c.mask);
 }
+template <class Q, class F>
+void for_each_number_of_quick(Q& q, F&& f) {
+    f(q.layers), f(q.steps), f(q.crack_frequency), f(q.strain_limit), f(q.compression_limit), f(q.crack_length);
+    f(q.bump_angle);
+}
 template <class Id, class F>
 void for_each_number_of_id(Id& id, F&& f) {
     f(id.index), f(id.generation);

@@ -282,6 +282,8 @@ void Replayer::spawn(ByteReader& in) {
         for (Box& box : pins) box.low = take_vector(in), box.high = take_vector(in);
         s.pins = pins.data();
     }
+    s.fracture = static_cast<FractureMode>(in.number<uint8_t>("how it breaks"));
+    for_each_number_of_quick(s.quick, from(in));
     if (in.is_sound()) (void)world_->spawn(id, s);
 }
 

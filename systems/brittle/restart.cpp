@@ -7,6 +7,7 @@
 #include "systems/damage/grow_cracks.hpp"
 #include "systems/damage/stress_check.hpp"
 #include "systems/motion/start_hidden.hpp"
+#include "systems/quick/quick_body.hpp"
 
 namespace cullet {
 namespace {
@@ -51,6 +52,11 @@ void find_contact_vertices(State& state, Row<Tasks> task) {
 void fill_task(State& state, Row<Tasks> task) {
     Tasks& tasks = state.tasks;
     const Row<Shells> source = tasks.source[task], working = tasks.shell[task];
+    if (is_quick_task(state, task)) {
+        copy_shell_rows(state, state, source, working, false);
+        clear_spare_rows(state, working);
+        return forget_run(ShellView(state, working), state.shells.generation[source] > 0);
+    }
     const bool is_assembled = state.shells.packs[source].count > 0;
     copy_shell_rows(state, state, source, working, is_assembled);
     clear_spare_rows(state, working);
@@ -61,6 +67,7 @@ void fill_task(State& state, Row<Tasks> task) {
 
 void start_run(State& state, Row<Tasks> task) {
     find_contact_vertices(state, task);
+    if (is_quick_task(state, task)) return;  // wake_regions does the rest
     build_patches(state, task);
     state.tasks.last_event_time[task] = 0;
     state.tasks.crack_count[task] = state.tasks.start_count[task] = 0;
@@ -69,6 +76,7 @@ void start_run(State& state, Row<Tasks> task) {
 }
 
 void restore_scratch(State& state, Row<Tasks> task) {
+    if (is_quick_task(state, task)) return;
     const ShellView shell(state, state.tasks.shell[task]);
     link_slopes(shell);
     find_start_strengths(shell);

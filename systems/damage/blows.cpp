@@ -1,6 +1,7 @@
 #include "systems/damage/blows.hpp"
 
 #include "systems/damage/energy.hpp"
+#include "systems/quick/quick_body.hpp"
 
 namespace cullet {
 
@@ -60,7 +61,7 @@ void start_explosions(State& state, Row<Tasks> task) {
         kick_vertices(shell, explosion_of(blows, b), state.tasks.damping_time[task]);
         is_kicked = true;
     }
-    if (is_kicked) state.tasks.start_energy[task] = task_energy(state, task).total();
+    if (is_kicked && !is_quick_task(state, task)) state.tasks.start_energy[task] = task_energy(state, task).total();
 }
 
 Vec3d take_explosions(Blows& blows, Row<Tasks> task) {

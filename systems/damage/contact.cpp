@@ -5,6 +5,7 @@
 #include "systems/cook/materials.hpp"
 #include "systems/damage/pair_cells.hpp"
 #include "systems/damage/ring.hpp"
+#include "systems/quick/quick_body.hpp"
 
 namespace cullet {
 namespace {
@@ -124,7 +125,7 @@ struct PatchLaw {
 /// wider than the striker; s is the game's scale on the strength. Brick of 0.1 m: 155 kN, which a ball of 30 kg reaches
 /// at 2.1 m/s on a wall that does not give way. Panes of 4 mm (40 kN) and vases of 5 mm (58 kN) break first.
 PatchLaw patch_law(const ShellView& shell, const Patch& patch, double total, const TaskContacts& contacts, uint32_t c,
-                   double dt, double strength_scale) {
+                   double dt, double strength_scale, double softening) {
     const State& state = shell.state;
     const uint32_t material = shell.shells().material[shell.row];
     double mobility = contacts.striker_inverse_mass[c];
@@ -134,12 +135,13 @@ PatchLaw patch_law(const ShellView& shell, const Patch& patch, double total, con
     const double h = std::max(shell.shells().thickness[shell.row], shell.shells().depth_floor[shell.row]);
     const float across = material_traits(state, Row<Materials>(material)).across_young_modulus;
     const double modulus = across > 0 ? across : state.materials.young_modulus[material];  // the face is pushed across
-    const double wall = 0.15 * modulus * h;
+    const double wall = 0.15 * modulus * h / softening;
     const double most = mobility > 0 && dt > 0 ? 0.3 / (dt * dt * mobility) : 1e30;
     const double e = state.materials.restitution[material], striker_radius = contacts.striker_radius[c];
     const double disc = kBearingRadius * contacts.radius[c];
     const double bearing = striker_radius > 0 ? std::min(disc, striker_radius) : disc;
-    const double yield = state.materials.crush_strength[material] * 3.14159265 * bearing * bearing * strength_scale;
+    const double yield = state.materials.crush_strength[material] * 3.14159265 * bearing * bearing * strength_scale /
+                         std::sqrt(softening);
     return {std::min(wall, most), std::min(wall / (e * e), most), std::min(yield, 1e30)};
 }
 
@@ -190,7 +192,8 @@ void build_patches(State& state, Row<Tasks> task) {
         double total = 0;
         for (uint32_t i = 0; i < patch.count; ++i) total += patch.candidate[i].weight;
         const PatchLaw law =
-            patch_law(shell, patch, total, contacts, c, state.tasks.time_step[task], state.tasks.strength_scale[task]);
+            patch_law(shell, patch, total, contacts, c, state.tasks.time_step[task], state.tasks.strength_scale[task],
+                      softening_of(state, task));
         contacts.first_patch[c] = at;
         contacts.patch_count[c] = patch.count;
         for (uint32_t i = 0; i < patch.count; ++i, ++at) {

@@ -13,6 +13,7 @@ struct DamageLoop {
     /// share each task of more than kTeamVertices vertices, one after another, and the rest go one job a task.
     void advance();
     std::string describe() const { return brittle_.describe(); }
+    std::string describe_quick() const { return quick_.describe(); }
 
     static constexpr uint32_t kTeamVertices = 1000;
 
@@ -23,7 +24,7 @@ struct DamageLoop {
     LoopWorld world_;
     JobSystem& jobs_;
     Profiler& profiler_;
-    BrittleLoop brittle_;
+    BrittleLoop brittle_, quick_;
     uint32_t zone_;
 };
 

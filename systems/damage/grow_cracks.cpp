@@ -183,7 +183,7 @@ void advance_tip(Batch& batch, uint32_t vertex) {
 
 }  // namespace
 
-void begin_cracks(ShellView shell, bool is_fragment) {
+void forget_run(ShellView shell, bool is_fragment) {
     Vertices& vertices = shell.state.vertices;
     for (uint32_t v = shell.vertices().first; v < shell.vertices().first + shell.vertex_count(); ++v) {
         vertices.is_start_banned[v] = 0;
@@ -193,6 +193,10 @@ void begin_cracks(ShellView shell, bool is_fragment) {
         if (vertices.crack[v] == static_cast<uint8_t>(CrackState::Cracked))
             vertices.crack[v] = static_cast<uint8_t>(CrackState::None);
     }
+}
+
+void begin_cracks(ShellView shell, bool is_fragment) {
+    forget_run(shell, is_fragment);
     find_start_strengths(shell);
 }
 

@@ -5,6 +5,7 @@
 #include "systems/damage/task_cost.hpp"
 #include "systems/damage/thresholds.hpp"
 #include "systems/damage/working_room.hpp"
+#include "systems/quick/quick_body.hpp"
 #include "systems/rigid/body_id.hpp"
 #include "systems/systems.hpp"
 
@@ -95,7 +96,10 @@ struct Opening {
         }
         const char* full = nullptr;
         const Row<Shells> source = bodies.shell[body];
-        const Row<Shells> working = make_shell_unclear(state, working_room(ShellView(state, source)), &full);
+        const bool is_quick = is_quick_body(state, body);
+        const ShellView before(state, source);
+        const Row<Shells> working =
+            make_shell_unclear(state, is_quick ? quick_room(before) : working_room(before), &full);
         if (!working.exists()) {
             refused.push(refused_event(bodies, body, full));
             return {};
@@ -115,8 +119,10 @@ struct Opening {
         tasks.start_spin.set(t, rotate(to_body_axes, bodies.spin[body]));
         tasks.strength_scale[t] = bodies.strength_scale[body];
         set_task_times(state, materials, task);
-        const bool is_assembled = state.shells.packs[source].count > 0;
-        tasks.units_owed[t] = state.shells.vertices[source].count * (kUnitsOpen + (is_assembled ? 0 : kUnitsAssemble));
+        set_quick_task(state, task, body);
+        const bool is_assembled = is_quick || state.shells.packs[source].count > 0;
+        const uint64_t units = is_quick ? kUnitsQuickOpen : kUnitsOpen + (is_assembled ? 0 : kUnitsAssemble);
+        tasks.units_owed[t] = state.shells.vertices[source].count * units;
         bodies.task[body] = t;
         opened.push({task});
         const uint32_t packs = is_assembled ? 0 : (state.shells.vertices[source].count + kLanes - 1) / kLanes;

@@ -7,11 +7,29 @@
 
 namespace cullet {
 
-ShellRoom working_room(ShellView source) {
-    // Finer fracture cuts more edges, and a cut without room for its copies is refused.
+namespace {
+
+/// Finer fracture cuts more edges, and a cut without room for its copies is refused.
+uint32_t spare_vertices(const ShellView& source) {
     const FractureKind fracture = material_traits(source.state, source.shells().material[source.row]).fracture;
     const uint32_t share = fracture == FractureKind::Fine ? 1 : fracture == FractureKind::Coarse ? 2 : 4;
-    const uint32_t spare = (std::max(192u, source.vertex_count() / share) + kLanes - 1) / kLanes * kLanes;
+    return (std::max(192u, source.vertex_count() / share) + kLanes - 1) / kLanes * kLanes;
+}
+
+}  // namespace
+
+ShellRoom quick_room(ShellView source) {
+    const uint32_t spare = spare_vertices(source);
+    ShellRoom room;
+    room.vertices = (source.vertex_count() + kLanes - 1) / kLanes * kLanes + spare;
+    room.elements = source.element_count() + 2 * spare;
+    room.hinges = source.hinge_count() + 3 * spare;
+    room.cells = source.shells().cells[source.row].count;
+    return room;
+}
+
+ShellRoom working_room(ShellView source) {
+    const uint32_t spare = spare_vertices(source);
     const ShellRoom stiffness = stiffness_room(source, spare);
     ShellRoom room;
     room.vertices = std::max(source.vertex_count() + spare, stiffness.vertices);

@@ -7,6 +7,8 @@ namespace cullet {
 /// Rows of a shell and what cracks add to it: a quarter more vertices, at least 192. A vase's first hit adds about 400:
 /// a copy for each cut edge inside a crack, and 20 to 110 inserted ones.
 ShellRoom working_room(ShellView source);
+/// The same without stiffness, for the quick mode.
+ShellRoom quick_room(ShellView source);
 
 /// Steps and units of a run are counted in whole numbers, which a shell or a file must not leave: its step, s, and how
 /// many steps its run may have. Cooked ones are 1e-7 s and some thousand.

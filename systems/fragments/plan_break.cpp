@@ -6,6 +6,7 @@
 #include "systems/fragments/cell_hulls.hpp"
 #include "systems/fragments/make_piece.hpp"
 #include "systems/fragments/rest_of_body.hpp"
+#include "systems/quick/quick_body.hpp"
 #include "systems/rigid/body_id.hpp"
 
 namespace cullet {
@@ -47,6 +48,7 @@ Row<Bodies> reserve_body(State& state, Row<Bodies> parent, Row<Shells> broken, c
         b.mask[body] = b.mask[parent];
         b.user_data[body] = b.user_data[parent];
         b.is_breakable[body] = b.is_breakable[parent];
+        inherit_fracture(state, parent, body);
         return body;
     }
     if (state.bodies.shell[body].exists()) *full = "limits.view_vertices";

@@ -12,6 +12,7 @@
 #include "cullet/events.hpp"
 #include "cullet/host.hpp"
 #include "cullet/model.hpp"
+#include "cullet/quick.hpp"
 #include "cullet/result.hpp"
 #include "cullet/rigid.hpp"
 #include "cullet/settings.hpp"
@@ -43,6 +44,8 @@ struct SpawnSettings {
     float strength_scale = 1;   // on the material's strength; fragments inherit it. Infinity never cracks
     const Box* pins = nullptr;  // vertices inside any of these are fixed to the world
     uint32_t pin_count = 0;
+    FractureMode fracture = FractureMode::Hidden;  // fragments inherit it, and `quick`
+    QuickSettings quick;
 };
 
 /// A solid sphere: a ball, a bullet.
