@@ -30,6 +30,15 @@ struct QuickRuns : Table<QuickRuns> {
     static constexpr const char* kName = "quick_runs";
     static constexpr bool kIsOptional = true;
     Column<uint8_t> is_quick{*this, "is_quick"};  // the task's body is
+    // Of the body, when the task opened.
+    Column<uint8_t> layers{*this, "layers"};
+    Column<uint16_t> steps{*this, "steps"};
+    Column<uint16_t> crack_frequency{*this, "crack_frequency"};  // 0: by the kind of fracture
+    Column<float> given_limit{*this, "given_limit"};             // 0: the material's
+    Column<float> compression_limit{*this, "compression_limit"};
+    Column<float> crack_length{*this, "crack_length"};
+    Column<float> bump_angle{*this, "bump_angle", "rad"};
+    // Of the run.
     Column<uint8_t> is_full{*this, "is_full"};    // no room for more springs: nothing splits any more
     Column<Row<ShellSprings>> springs{*this, "springs"};  // of the task's shell; kNone before the region is awake
     Column<uint32_t> pack_count{*this, "pack_count"};     // rows in AwakePacks

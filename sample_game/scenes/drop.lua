@@ -22,6 +22,8 @@ game.box{low = {-1.6, -0.3, -0.3}, high = {1.6, 1.6, 0}, colour = {0.38, 0.40, 0
 game.spawn{
     cooked = thing,
     strength_scale = shell.strength_scale,
+    fracture = shell.fracture,
+    quick = {layers = shell.layers},
     at = {0, height, 0.3 + 1.8 * size},
     turn = {axis = {game.seeded(1), 1, game.seeded(2)}, angle = 3.14159265 * game.seeded(3)},
     velocity = {0, 0.1 * speed, -speed},

@@ -42,6 +42,8 @@ game.spawn{
     cooked = pane,
     at = {0, foot, 0},
     strength_scale = shell.strength_scale,
+    fracture = shell.fracture,
+    quick = {layers = shell.layers},
     pins = {
         {low = {-border - out, -out, -out}, high = {border + out, rim, out}},
         {low = {-border - out, side - rim, -out}, high = {border + out, side + out, out}},

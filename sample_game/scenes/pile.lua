@@ -44,6 +44,8 @@ local function throw_vase()
     game.spawn{
         cooked = vase,
         strength_scale = shell.strength_scale,
+        fracture = shell.fracture,
+        quick = {layers = shell.layers},
         turn = game.any_turn(number),
         pivot = {0, 0.5 * size, 0},
         at = {

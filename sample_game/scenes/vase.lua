@@ -34,6 +34,8 @@ game.static{mesh = game.mesh.table{width = 1.2, depth = table_depth, height = ta
 game.spawn{
     cooked = vase,
     strength_scale = shell.strength_scale,
+    fracture = shell.fracture,
+    quick = {layers = shell.layers},
     at = middle(),
     pivot = {0, 0.5 * size, 0},
     turn = {axis = {seeded(1), 0.2, seeded(2)}, angle = 0.35 + 0.35 * seeded(3)},

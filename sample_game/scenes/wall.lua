@@ -26,5 +26,7 @@ game.spawn{
     cooked = wall,
     at = {0, 0.002, 0},
     strength_scale = shell.strength_scale,
+    fracture = shell.fracture,
+    quick = {layers = shell.layers},
     pins = {{low = {-2, -0.01, -2 * shell.thickness}, high = {2, 0.25 * shell.edge, 2 * shell.thickness}}},
 }

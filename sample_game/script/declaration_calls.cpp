@@ -106,13 +106,17 @@ int shell_keys(lua_State* lua) {
                 1e-4, 1, "of the shell")
         .number("scene.edge_m", "m", given.number("edge", {"a length in m from 0 to 1", 0, 1}, 0), 0, 1,
                 "edge length of the mesh; 0: what cooking chooses")
-        .number("scene.strength_scale", "1", 1, 1e-3, HUGE_VAL, "on the material's strength; inf never cracks");
+        .number("scene.strength_scale", "1", 1, 1e-3, HUGE_VAL, "on the material's strength; inf never cracks")
+        .word("scene.fracture", "hidden", "hidden, quick", "hidden: exact, over some frames; quick: near the hit, at once")
+        .number("scene.layers", "1", 1, 1, 2, "of springs, in quick fracture; 2 feel the wall bend");
     if (!keys.set("scene.material=" + material).ok()) given.refuse_value("material", "one of " + materials);
     lua_newtable(lua);
     const std::pair<const char*, const char*> names[] = {{"scene.material", "material"},
                                                          {"scene.thickness_m", "thickness"},
                                                          {"scene.edge_m", "edge"},
-                                                         {"scene.strength_scale", "strength_scale"}};
+                                                         {"scene.strength_scale", "strength_scale"},
+                                                         {"scene.fracture", "fracture"},
+                                                         {"scene.layers", "layers"}};
     for (const auto& [name, short_name] : names) {
         script_of(lua).apply_set(lua, name);
         push_key(lua, keys, name);

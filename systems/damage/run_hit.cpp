@@ -11,6 +11,8 @@
 #include "systems/damage/run_out.hpp"
 #include "systems/damage/working_room.hpp"
 #include "systems/fragments/group_fragments.hpp"
+#include "systems/quick/quick_loop.hpp"
+#include "systems/quick/region_motion.hpp"
 
 namespace cullet {
 namespace {
@@ -20,8 +22,9 @@ constexpr Row<Tasks> kTask{0};
 }  // namespace
 
 bool open_hit(State& state, Row<Shells> source, const HitDescription& hit) {
+    const ShellView before(state, source);
     const Row<Shells> working =
-        make_shell_unclear(state, working_room(ShellView(state, source)));  // start_task fills it
+        make_shell_unclear(state, hit.quick ? quick_room(before) : working_room(before));  // start_task fills it
     if (!working.exists()) return false;
     Tasks& tasks = state.tasks;
     tasks.clear_rows(kTask, 1);
@@ -36,6 +39,8 @@ bool open_hit(State& state, Row<Shells> source, const HitDescription& hit) {
     set_task_times(state, state.materials, kTask);
     tasks.time_step[kTask] *= hit.step_scale;
     tasks.damping_time[kTask] *= hit.step_scale;
+    set_quick_task(state, kTask, Row<Bodies>());
+    if (hit.quick) set_quick_task(state, kTask, *hit.quick);
     tasks.contact_count[kTask] = 1;
     TaskContacts& contacts = state.task_contacts;
     contacts.clear_rows(0, 1);
@@ -50,12 +55,17 @@ bool open_hit(State& state, Row<Shells> source, const HitDescription& hit) {
     const Vec3 arm = hit.point - state.shells.centre[source].to_float();
     tasks.approach_speed[kTask] = hit.striker_speed - dot(hit.velocity + cross(hit.spin, arm), hit.normal);
     start_task(state, kTask);
+    const char* full = "";
+    if (hit.quick) return wake_region(state, kTask, &full);
     return true;
 }
 
 HitReport finish_hit(State& state) {
     Tasks& tasks = state.tasks;
     HitReport report;
+    const bool is_quick = is_quick_task(state, kTask);
+    const TaskEnergy of_region = is_quick ? region_energy(RegionView(state, kTask)) : TaskEnergy{};
+    if (is_quick) close_region(state, kTask), report.awake = state.quick_runs.awake_count[kTask];
     report.steps = tasks.steps_done[kTask];
     report.cuts = tasks.crack_count[kTask];
     report.starts = tasks.start_count[kTask];
@@ -65,12 +75,12 @@ HitReport finish_hit(State& state) {
     const ShellView shell(state, tasks.shell[kTask]);
     const std::span parts(state.fragments.part.data(), kMostParts);
     report.parts = group_fragments(shell, parts);
-    if (report.parts > 1 && !report.dropped && run_out_cracks(state, kTask) > 0)
+    if (report.parts > 1 && !report.dropped && !is_quick && run_out_cracks(state, kTask) > 0)
         report.parts = group_fragments(shell, parts);
     tasks.part_count[kTask] = report.parts;
     report.broke = report.parts > 1;
     report.start_energy = tasks.start_energy[kTask];
-    const TaskEnergy energy = task_energy(state, kTask);
+    const TaskEnergy energy = is_quick ? of_region : task_energy(state, kTask);
     report.end_energy = energy.total();
     report.end_kinetic = energy.kinetic + energy.strikers;
     report.impulse = state.task_contacts.impulse[0];
@@ -84,7 +94,7 @@ HitReport run_hit(State& state, Row<Shells> shell, const HitDescription& hit, bo
         report.dropped = true;
         return report;
     }
-    const BrittleLoop loop = make_brittle_loop();
+    const BrittleLoop loop = hit.quick ? make_quick_loop() : make_brittle_loop();
     LoopWorld world{state};
     Tasks& tasks = state.tasks;
     while (static_cast<TaskState>(tasks.state[kTask]) == TaskState::Running) {

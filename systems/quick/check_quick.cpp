@@ -37,6 +37,10 @@ std::string trouble_of_run(const State& s, uint32_t t) {
     if (springs >= s.shell_springs.size() || !s.shell_springs.is_used[springs] ||
         s.shell_springs.shell[springs] != s.tasks.shell[t])
         return place(runs, "springs", t) + " is " + std::to_string(springs) + ", not the springs of its shell";
+    if (runs.layers[t] < 1 || runs.layers[t] > 2 || !is_in(runs.steps[t], 8, 100) || runs.crack_frequency[t] > 1000 ||
+        !is_in(runs.compression_limit[t], 0, 1e6) || !is_in(runs.crack_length[t], 0, 4) ||
+        !is_in(runs.bump_angle[t], 0, 0.53))
+        return place(runs, "layers", t) + " or a number beside it is out of range";
     if (!(runs.softening[t] >= 1) || !(runs.strain_limit[t] > 0) || !(runs.diagonal[t] >= 0))
         return place(runs, "softening", t) + " or a number beside it is out of range";
     if ((s.shell_springs.steps[springs] & 1) != (s.tasks.steps_done[t] & 1))

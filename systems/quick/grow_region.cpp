@@ -203,7 +203,7 @@ bool split_edge(Splitting& s, const StrainedEdge& edge) {
 }  // namespace
 
 uint32_t crack_frequency_of(const State& state, Row<Tasks> task) {
-    const uint32_t given = state.quick_bodies.crack_frequency[state.tasks.body[task]];
+    const uint32_t given = state.quick_runs.crack_frequency[task];
     if (given > 0) return given;
     switch (material_traits(state, state.shells.material[state.tasks.shell[task]]).fracture) {
         case FractureKind::Fine: return 64;
@@ -223,11 +223,10 @@ uint32_t grow_region(State& state, Row<Tasks> task) {
     // Some of them will be gone, closed, or have no way to split.
     find_strained_edges(region, 4 * frequency, edges);
     if (edges.count == 0) return 0;
-    const uint32_t body = tasks.body[task];
-    const float length = state.quick_bodies.crack_length[body] * runs.diagonal[task];
+    const float length = runs.crack_length[task] * runs.diagonal[task];
     Splitting s{region,
                 material_traits(state, state.shells.material[region.shell.row]).fracture,
-                state.quick_bodies.bump_angle[body],
+                runs.bump_angle[task],
                 length,
                 tasks.steps_done[task],
                 {},

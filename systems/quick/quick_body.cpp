@@ -11,6 +11,14 @@ void grow(AnyTable& table, uint32_t row) {
     if (row >= table.size()) table.append(row + 1 - table.size());
 }
 
+void begin_run(QuickRuns& runs, Row<Tasks> task, bool is_quick) {
+    grow(runs, task);
+    runs.clear_rows(task, 1);
+    runs.is_quick[task] = is_quick;
+    runs.springs[task] = {};
+    runs.softening[task] = 1;
+}
+
 }  // namespace
 
 Result<void> check_fracture(FractureMode mode, const QuickSettings& q) {
@@ -61,11 +69,28 @@ void set_quick_task(State& state, Row<Tasks> task, Row<Bodies> body) {
     QuickRuns& runs = state.quick_runs;
     const bool is_quick = is_quick_body(state, body);
     if (!is_quick && task >= runs.size()) return;
-    grow(runs, task);
-    runs.clear_rows(task, 1);
-    runs.is_quick[task] = is_quick;
-    runs.springs[task] = {};
-    runs.softening[task] = 1;
+    begin_run(runs, task, is_quick);
+    if (!is_quick) return;
+    const QuickBodies& quick = state.quick_bodies;
+    runs.layers[task] = quick.layers[body];
+    runs.steps[task] = quick.steps[body];
+    runs.crack_frequency[task] = quick.crack_frequency[body];
+    runs.given_limit[task] = quick.strain_limit[body];
+    runs.compression_limit[task] = quick.compression_limit[body];
+    runs.crack_length[task] = quick.crack_length[body];
+    runs.bump_angle[task] = quick.bump_angle[body];
+}
+
+void set_quick_task(State& state, Row<Tasks> task, const QuickSettings& settings) {
+    QuickRuns& runs = state.quick_runs;
+    begin_run(runs, task, true);
+    runs.layers[task] = static_cast<uint8_t>(settings.layers);
+    runs.steps[task] = static_cast<uint16_t>(settings.steps);
+    runs.crack_frequency[task] = static_cast<uint16_t>(settings.crack_frequency);
+    runs.given_limit[task] = settings.strain_limit;
+    runs.compression_limit[task] = settings.compression_limit;
+    runs.crack_length[task] = settings.crack_length;
+    runs.bump_angle[task] = kRadiansADegree * settings.bump_angle;
 }
 
 }  // namespace cullet

@@ -22,6 +22,8 @@ inline bool is_quick_task(const State& state, uint32_t task) {
 }
 /// The row of a task whose body is `body`; none is written while no body is quick. Serial.
 void set_quick_task(State& state, Row<Tasks> task, Row<Bodies> body);
+/// The same of a task without a body.
+void set_quick_task(State& state, Row<Tasks> task, const QuickSettings& settings);
 
 /// s of B7 for the task's contact: stiffness is E / s, forces that do not grow with it are divided by the root of s. 1
 /// of hidden runs.

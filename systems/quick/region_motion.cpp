@@ -88,12 +88,10 @@ float inverse_mass_of(const SpringView& view, uint32_t v) {
 bool wake_region(State& state, Row<Tasks> task, const char** full) {
     Tasks& tasks = state.tasks;
     const ShellView shell(state, tasks.shell[task]);
-    const QuickBodies& quick = state.quick_bodies;
-    const Row<Bodies> body = tasks.body[task];
-    const uint32_t steps = quick.steps[body];
+    const uint32_t steps = state.quick_runs.steps[task];
     build_patches(state, task);
     choose_region(state, task, static_cast<uint32_t>(static_cast<float>(steps) * kEdgesAStep) + kSpareRings);
-    if (!give_region_springs(state, task, quick.layers[body], full)) {
+    if (!give_region_springs(state, task, state.quick_runs.layers[task], full)) {
         tasks.state[task] = static_cast<uint8_t>(TaskState::Dropped);
         return false;
     }

@@ -147,7 +147,7 @@ void soften(State& state, Row<Tasks> task, Row<Shells> shell) {
     const uint32_t material = state.shells.material[shell];
     const float breaking = kShortLoad * materials.tensile_strength[material] / materials.young_modulus[material];
     const float root = std::max(1.0f, kShownStrain / breaking);
-    const float given = state.quick_bodies.strain_limit[state.tasks.body[task]];
+    const float given = runs.given_limit[task];
     runs.softening[task] = root * root;
     runs.strain_limit[task] = (given > 0 ? given : breaking * root) * state.tasks.strength_scale[task];
 }

@@ -26,7 +26,7 @@ void find_strained_edges(const RegionView& region, uint32_t most, StrainedEdges&
     const AwakePacks& packs = state.awake_packs;
     const uint32_t first_vertex = region.shell.vertex(0);
     const float limit = state.quick_runs.strain_limit[region.task];
-    const float squeeze = state.quick_bodies.compression_limit[state.tasks.body[region.task]];
+    const float squeeze = state.quick_runs.compression_limit[region.task];
     const float least = static_cast<float>(kLeastStrengthFactor) * limit;
     const Float4* now = vertices.probe.data(view.side()) + first_vertex;
     found.count = 0;
