@@ -45,6 +45,7 @@ struct QuickRuns : Table<QuickRuns> {
     Column<uint32_t> awake_count{*this, "awake_count"};   // vertices that the region had when it woke
     Column<float> softening{*this, "softening"};          // s of B7, >= 1: stiffness E / s, time stretched by its root
     Column<float> strain_limit{*this, "strain_limit"};    // of a vertex of median strength, as the run sees it
+    Column<double> energy_scale{*this, "energy_scale", "J"};  // that body and strikers meet with: what 5 % are of
     Column<float> diagonal{*this, "diagonal", "m"};       // of the body's bounds
 };
 

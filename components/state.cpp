@@ -63,11 +63,11 @@ State::State(const Limits& l)
       spring_slots(slot_limit(l)),
       layer_slots(slot_limit(l)),
       twins(l.vertices),
+      pools(*this),
+      limits_(l),
       quick_bodies(l.bodies),
       quick_runs(l.tasks),
-      awake_packs(l.tasks * kMostAwakePacks),
-      pools(*this),
-      limits_(l) {
+      awake_packs(l.tasks * kMostAwakePacks) {
     tasks.append(l.tasks);
     task_contacts.append(l.tasks * kMostContacts);
     patch_vertices.append(l.tasks * kMostPatchVertices);

@@ -68,9 +68,6 @@ struct State {
     SpringSlots spring_slots;
     LayerSlots layer_slots;
     Twins twins;
-    QuickBodies quick_bodies;
-    QuickRuns quick_runs;
-    AwakePacks awake_packs;
 
     /// Which rows of the tables above are taken; one pool a table whose rows come in ranges.
     struct Pools {
@@ -154,6 +151,11 @@ struct State {
  private:
     uint64_t hash_pools(uint64_t seed) const;
     Limits limits_;
+
+ public:
+    QuickBodies quick_bodies;
+    QuickRuns quick_runs;
+    AwakePacks awake_packs;
 };
 
 /// What a shell uses now: room for a copy of it.

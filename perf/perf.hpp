@@ -46,6 +46,8 @@ bool measure_soft_body(const Options& options, Figures& figures);
 /// The spring substep as the frame runs it on three grids, beside the bare kernel, the plain loop and Bullet; two layers
 /// beside one. False: ours and the bare kernel differ.
 bool measure_springs(const Options& options, Figures& figures);
+/// The quick mode at a castle, in substeps of the bare spring kernel on it.
+bool measure_quick(const Options& options, Figures& figures);
 /// Frame times, hitch and share of each system of the sample game's scenes: the least of three runs, frame by frame,
 /// and one run of the pile.
 bool measure_vase_frames(const Options& options, Figures& figures);

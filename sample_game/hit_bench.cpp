@@ -122,7 +122,11 @@ HitBench::HitBench(Subject subject, const Model& model, uint64_t seed) : subject
 
 HitDescription HitBench::blow(uint32_t placement, float speed) const {
     HitDescription hit;
-    if (subject_ == Subject::Vase) return fall_on_floor(*state_, shell_, seeded_direction(seed_, placement), speed);
+    if (subject_ == Subject::Vase) {
+        hit = fall_on_floor(*state_, shell_, seeded_direction(seed_, placement), speed);
+        hit.quick = quick_ ? &*quick_ : nullptr;
+        return hit;
+    }
     if (subject_ == Subject::Pane) {
         hit = ball_on_sheet(kPaneSide, kPaneSide, 0.1f, seed_, placement);
         hit.striker_inverse_mass = 1 / 0.1f;
@@ -133,6 +137,7 @@ HitDescription HitBench::blow(uint32_t placement, float speed) const {
         hit.striker_radius = 0.14f;
     }
     hit.striker_speed = speed;
+    hit.quick = quick_ ? &*quick_ : nullptr;
     return hit;
 }
 

@@ -1,6 +1,7 @@
 // The three bodies whose breaks are known in numbers (thick shell note, section 8), ready to be hit one blow at a time.
 #pragma once
 #include <array>
+#include <optional>
 
 #include "cullet/model.hpp"
 #include "systems/damage/run_hit.hpp"
@@ -42,7 +43,9 @@ class HitBench {
  public:
     HitBench(Subject subject, const Model& model, uint64_t seed = 1);
 
-    /// The blow of a seeded placement.
+    /// From now on blows ask for the quick mode, or with nothing for the hidden run.
+    void break_quickly(std::optional<QuickSettings> quick) { quick_ = quick; }
+    /// The blow of a seeded placement. Good until the bench goes.
     HitDescription blow(uint32_t placement, float speed) const;
     /// Runs it to its end, or to its first cut.
     HitReport run(const HitDescription& hit, bool ends_at_first_cut = false);
@@ -60,6 +63,7 @@ class HitBench {
  private:
     Subject subject_;
     uint64_t seed_;
+    std::optional<QuickSettings> quick_;
     std::unique_ptr<State> state_;
     Row<Shells> shell_, intact_;
 };

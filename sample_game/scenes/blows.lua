@@ -13,6 +13,7 @@ game.floor()
 local vase = game.cook{
     mesh = game.mesh.vase{height = 0.3, edge = shell.edge},
     material = shell.material,
+    fracture = shell.cracks,
     thickness = shell.thickness,
     edge = shell.edge,
 }

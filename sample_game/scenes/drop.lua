@@ -13,7 +13,7 @@ local walls = game.key{name = "scene.walls", default = "joined", choices = "join
 
 local mesh = game.mesh.given{size = size}
     or game.mesh.piggy_bank{length = 0.40, edge = shell.edge > 0 and shell.edge or 0.0098}:fit(size)
-local thing = game.cook{mesh = mesh, material = shell.material, thickness = shell.thickness, edge = shell.edge,
+local thing = game.cook{mesh = mesh, material = shell.material, fracture = shell.cracks, thickness = shell.thickness, edge = shell.edge,
                         propagation = way, join_walls = walls == "joined"}
 game.fit_budget(thing)
 game.camera{eye = {1.25, 0.98, 1.66}, target = {0.06, 0.36, 0.33}, field_of_view = 0.72}

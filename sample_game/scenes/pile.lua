@@ -20,6 +20,7 @@ game.at_least{units_a_frame = 100e6}
 local vase = game.cook{
     mesh = game.mesh.given{size = size, stands = true} or game.mesh.vase{height = size, edge = shell.edge},
     material = shell.material,
+    fracture = shell.cracks,
     thickness = shell.thickness,
     edge = shell.edge,
 }

@@ -25,6 +25,7 @@ end
 local vase = game.cook{
     mesh = game.mesh.given{size = size, stands = true} or game.mesh.vase{height = size, edge = shell.edge},
     material = shell.material,
+    fracture = shell.cracks,
     thickness = shell.thickness,
     edge = shell.edge,
 }

@@ -12,6 +12,7 @@ local mass = game.key{name = "scene.mass_kg", unit = "kg", default = 30, least =
 local wall = game.cook{
     mesh = game.mesh.wall{width = 2.4, height = 1.8, edge = shell.edge},
     material = shell.material,
+    fracture = shell.cracks,
     thickness = shell.thickness,
 }
 game.camera{eye = {1.9, 1.5, 3.0}, target = {-0.05, 0.75, -0.1}, field_of_view = 0.72}

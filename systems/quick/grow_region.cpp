@@ -26,7 +26,8 @@ struct Splitting {
     uint32_t step;     // of the run
     Touched touched;
     uint32_t cut_edges = 0, starts = 0;
-    bool is_full = false;
+    bool is_full = false;       // no room for more
+    bool are_springs_old = false;  // there was none for the springs of what was cut: those there are hold on
 
     State& state() const { return region.state; }
     const ShellView& shell() const { return region.shell; }
@@ -46,8 +47,11 @@ void flush(Splitting& s) {
     s.touched.clear();
     if (count == 0) return;
     std::sort(list, list + count);
-    s.is_full = !rebuild_springs(s.region.springs, {list, count}) || s.is_full;
-    limit_springs(s.region, {list, count});
+    if (s.are_springs_old) return;
+    s.are_springs_old = !rebuild_springs(s.region.springs, {list, count});
+    s.is_full = s.is_full || s.are_springs_old;
+    if (s.are_springs_old) fprintf(stderr, "FULL springs %u of %u slots %u of %u\n", s.region.springs.own().springs[s.region.springs.row].count, s.region.springs.own().springs[s.region.springs.row].capacity, s.region.springs.own().slots[s.region.springs.row].count, s.region.springs.own().slots[s.region.springs.row].capacity);
+    if (!s.are_springs_old) limit_springs(s.region, {list, count});
 }
 
 /// The copies that a cut at `vertex` made are in the region as what they are copies of.
@@ -232,6 +236,7 @@ uint32_t grow_region(State& state, Row<Tasks> task) {
                 {},
                 0,
                 0,
+                false,
                 false};
     uint32_t splits = 0;
     for (uint32_t i = 0; i < edges.count && splits < frequency && !s.is_full; ++i) {

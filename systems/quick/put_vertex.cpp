@@ -125,12 +125,12 @@ uint32_t put_vertex(const RegionView& region, uint32_t element, uint32_t edge, f
     const uint32_t other_edge = other == kNone ? 3 : edge_between(shell, other, q, p);
     const uint32_t made = shell.element_count();  // the other's comes behind it
     const uint32_t w = insert_vertex(shell, element, edge, tau, touched);
-    if (!is_moving) return w;
-    region.add(w, !is_awake);
-    if (view.has_layers()) put_twin(view, p, q, w, tau);
     Range& edges = view.own().edges[view.row];
     for (; edges.count < shell.element_count(); ++edges.count)
         state.element_springs.spring[view.edges(edges.count)] = {kNone, kNone, kNone};
+    if (!is_moving) return w;
+    region.add(w, !is_awake);
+    if (view.has_layers()) put_twin(view, p, q, w, tau);
     drop_spring(view, hand_on_springs(view, element, edge, made));
     if (other != kNone) drop_spring(view, hand_on_springs(view, other, other_edge, made + 1));
     patch.add(w);

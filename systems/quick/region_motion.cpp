@@ -121,6 +121,12 @@ bool wake_region(State& state, Row<Tasks> task, const char** full) {
             state.twins.velocity.set(view.twin(v), state.vertices.velocity[shell.vertex(v)]);
         });
     tasks.start_energy[task] = region_energy(region).total();
+    double scale = tasks.start_energy[task];
+    for_each_contact(state, task, [&](uint32_t c) {
+        if (contacts.striker_inverse_mass[c] > 0) return;
+        scale += 0.5 * state.shells.mass[shell.row] * contacts.striker_speed[c] * contacts.striker_speed[c];
+    });
+    state.quick_runs.energy_scale[task] = scale;
     return true;
 }
 
@@ -212,6 +218,12 @@ void hold_region(const RegionView& region) {
             if (view.has_layers())
                 put(state.twins.position.data(view.side())[view.twin(v)], inner_rest(view, v).to_float());
         }
+}
+
+bool has_blown_up(const RegionView& region) {
+    const TaskEnergy energy = region_energy(region);
+    const double wanted = region.state.tasks.start_energy[region.task] + energy.work;
+    return !(energy.total() <= wanted + 0.05 * std::max(region.state.quick_runs.energy_scale[region.task], wanted));
 }
 
 TaskEnergy region_energy(const RegionView& region) {

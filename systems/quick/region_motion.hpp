@@ -22,5 +22,8 @@ void hold_region(const RegionView& region);
 
 /// Of what moves, as the body sees it. Held vertices have no kinetic energy: nothing works on what stands still.
 TaskEnergy region_energy(const RegionView& region);
+/// More than was put in, by 5 % of what body and strikers met with: B7's test. The body's own energy is none here, so a
+/// floor that pushes has done all the work that there is.
+bool has_blown_up(const RegionView& region);
 
 }  // namespace cullet

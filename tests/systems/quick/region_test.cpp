@@ -151,7 +151,8 @@ TEST(QuickRegion, EnergyFallsOrStaysInRandomBlows) {
                 drive(state, [&](const RegionView& region) {
                     const TaskEnergy energy = region_energy(region);
                     const double wanted = state.tasks.start_energy[kTask] + energy.work;
-                    worst = std::max(worst, energy.total() / std::max(wanted, state.tasks.start_energy[kTask]));
+                    const double scale = std::max(wanted, state.quick_runs.energy_scale[kTask]);
+                    worst = std::max(worst, 1 + (energy.total() - wanted) / scale);
                 });
                 const HitReport report = finish_hit(state);
                 broke += report.broke, dropped += report.dropped;
