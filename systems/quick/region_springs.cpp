@@ -62,13 +62,15 @@ uint32_t slots_of(const ShellView& shell, uint32_t pack) {
     return most + kSpareSlots;
 }
 
-/// Cracks at most double the edges; a pack that outgrows its slots moves to the end, and copies need packs of their
-/// own.
+/// A vertex put on an edge brings four springs, the copy of a split one an edge: the spare vertices bound both. A pack
+/// that outgrows its slots moves to the end; copies need packs of their own.
 SpringRoom room_for(const Layout& layout, Row<Tasks> task, uint32_t edges, bool has_layers) {
     State& state = layout.state;
     const AwakePacks& packs = state.awake_packs;
     SpringRoom room;
-    room.springs = 2 * edges + 512;
+    const uint32_t spare = std::min(layout.shell.vertices().capacity - layout.shell.vertex_count(),
+                                    2 * kLanes * state.quick_runs.pack_count[task]);
+    room.springs = edges + 4 * spare + 64;
     room.elements = layout.shell.elements().capacity;
     room.vertices = layout.shell.vertices().capacity;
     room.has_layers = has_layers;
@@ -76,8 +78,7 @@ SpringRoom room_for(const Layout& layout, Row<Tasks> task, uint32_t edges, bool 
     const uint32_t count = state.quick_runs.pack_count[task];
     for (uint32_t row = task * kMostAwakePacks; row < task * kMostAwakePacks + count; ++row)
         slots += slots_of(layout.shell, packs.pack[row]);
-    const uint32_t spare = layout.shell.vertices().capacity - layout.shell.vertex_count();
-    room.slots = 2 * slots + std::min(spare, 2 * kLanes * count) + 64;
+    room.slots = 2 * slots + 6 * spare + 64;
     return room;
 }
 
