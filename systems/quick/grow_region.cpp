@@ -50,7 +50,6 @@ void flush(Splitting& s) {
     if (s.are_springs_old) return;
     s.are_springs_old = !rebuild_springs(s.region.springs, {list, count});
     s.is_full = s.is_full || s.are_springs_old;
-    if (s.are_springs_old) fprintf(stderr, "FULL springs %u of %u slots %u of %u\n", s.region.springs.own().springs[s.region.springs.row].count, s.region.springs.own().springs[s.region.springs.row].capacity, s.region.springs.own().slots[s.region.springs.row].count, s.region.springs.own().slots[s.region.springs.row].capacity);
     if (!s.are_springs_old) limit_springs(s.region, {list, count});
 }
 

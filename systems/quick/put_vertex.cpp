@@ -86,6 +86,10 @@ uint32_t hand_on_springs(const SpringView& view, uint32_t element, uint32_t k, u
     State& state = view.state;
     auto& of_kept = state.element_springs.spring[view.edges(element)];
     auto& of_made = state.element_springs.spring[view.edges(made)];
+    if (of_kept[k] == kAsleepSpring) {
+        of_made = of_kept;
+        return kNone;
+    }
     const uint32_t next = (k + 1) % 3, split = of_kept[k], moved = of_kept[next];
     of_made = {kNone, kNone, kNone};
     of_made[next] = moved;
@@ -128,11 +132,11 @@ uint32_t put_vertex(const RegionView& region, uint32_t element, uint32_t edge, f
     Range& edges = view.own().edges[view.row];
     for (; edges.count < shell.element_count(); ++edges.count)
         state.element_springs.spring[view.edges(edges.count)] = {kNone, kNone, kNone};
+    drop_spring(view, hand_on_springs(view, element, edge, made));
+    if (other != kNone) drop_spring(view, hand_on_springs(view, other, other_edge, made + 1));
     if (!is_moving) return w;
     region.add(w, !is_awake);
     if (view.has_layers()) put_twin(view, p, q, w, tau);
-    drop_spring(view, hand_on_springs(view, element, edge, made));
-    if (other != kNone) drop_spring(view, hand_on_springs(view, other, other_edge, made + 1));
     patch.add(w);
     if (may_turn) patch.give(before - patch.angular(about));
     return w;

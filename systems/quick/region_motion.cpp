@@ -74,6 +74,7 @@ void rest_twins(const RegionView& region) {
     region.for_each([&](uint32_t v, bool) {
         view.place_twin(v, inner_rest(view, v).to_float());
         view.state.twins.velocity.set(view.twin(v), {});
+        view.state.twins.length[view.twin(v)] = length(view.twin_position(v) - view.position(v));
     });
 }
 

@@ -87,7 +87,8 @@ void list_edges(const Layout& layout, const SpringView& view) {
     const ShellView& shell = view.shell;
     state.shell_springs.edges[view.row].count = shell.element_count();
     for (uint32_t e = 0; e < shell.element_count(); ++e)
-        state.element_springs.spring[view.edges(e)] = {kNone, kNone, kNone};
+        state.element_springs.spring[view.edges(e)] = {kAsleepSpring, kAsleepSpring, kAsleepSpring};
+    layout.for_each_element([&](uint32_t e) { state.element_springs.spring[view.edges(e)] = {kNone, kNone, kNone}; });
     uint32_t next = 0;
     layout.for_each_element([&](uint32_t e) {
         for (uint32_t k = 0; k < 3; ++k) {

@@ -79,12 +79,18 @@ struct EdgeState {
     uint32_t spring, other, other_edge;
 };
 
+bool is_asleep(const SpringView& view, uint32_t e) {
+    return view.state.element_springs.spring[view.edges(e)][0] == kAsleepSpring;
+}
+
 // Of an edge with two elements the lower decides. A cut edge's two elements name the same spring: it stays with the one
 // that owns it, or with that one's neighbour.
 EdgeState look_at(const SpringView& view, uint32_t e, uint32_t k) {
     const State& state = view.state;
     const uint32_t spring = state.element_springs.spring[view.edges(e)][k];
-    const uint32_t other = state.elements.neighbour[view.shell.element(e)][k];
+    uint32_t other = state.elements.neighbour[view.shell.element(e)][k];
+    if (is_asleep(view, e)) return {Fate::IsTheOthers, kNone, kNone, 3};
+    if (other != kNone && is_asleep(view, other)) other = kNone;
     const uint32_t other_edge = other == kNone ? 3 : edge_to(view, other, e);
     if (other != kNone && other < e) return {Fate::IsTheOthers, spring, other, other_edge};
     if (spring == kNone) {
@@ -185,7 +191,7 @@ void measure(const SpringView& view, const Sets& sets) {
     });
     sets.elements.for_each(view.shell.element_count(), [&](uint32_t e) {
         for (const uint32_t s : state.element_springs.spring[view.edges(e)])
-            if (s != kNone && state.springs.element[view.spring(s)] == e)
+            if (s < kAsleepSpring && state.springs.element[view.spring(s)] == e)
                 measure_spring(view, s, !(state.springs.rest_length[view.spring(s)] > 0));
     });
     if (!view.has_layers()) return;

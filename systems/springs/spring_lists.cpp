@@ -74,7 +74,7 @@ void collect_springs(const SpringView& view, uint32_t vertex, VertexSprings& lis
         const auto& of_element = view.state.element_springs.spring[view.edges(ring.element[i])];
         const uint32_t k = ring.corner[i];
         for (const uint32_t s : {of_element[k], of_element[(k + 2) % 3]})
-            if (s != kNone) list.add(s);
+            if (s < kAsleepSpring) list.add(s);
     }
 }
 
