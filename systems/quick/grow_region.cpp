@@ -59,10 +59,12 @@ void add_copies(const Splitting& s, uint32_t vertex, const Ends& ends, uint32_t 
         uint32_t origin = vertex;
         for (uint32_t i = 0; i < ends.count; ++i)
             if (s.rest(ends.end[i]) == s.rest(c)) origin = ends.end[i];
-        if (s.region.is_awake(origin))
-            s.region.add(c, false);
-        else if (s.region.is_held(origin))
-            s.region.add(c, true);
+        const bool is_awake = s.region.is_awake(origin);
+        if (!is_awake && !s.region.is_held(origin)) continue;
+        s.region.add(c, !is_awake);
+        const SpringView& view = s.region.springs;
+        if (view.has_layers())
+            s.state().twins.copy_rows(s.state().twins, view.twin(origin), view.twin(c), 1);
     }
 }
 

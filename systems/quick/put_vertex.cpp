@@ -47,10 +47,13 @@ struct Patch {
         for_each([&](double m, Vec3d x, Vec3d v, auto&&) { sum += m * cross(x - about, v); });
         return sum;
     }
-    bool has_pins() const {
-        for (uint32_t i = 0; i < count; ++i)
-            if (region.state.vertices.is_pinned[region.shell.vertex(vertex[i])]) return true;
-        return false;
+    /// All in the region, and nothing held by the ground.
+    bool is_free() const {
+        for (uint32_t i = 0; i < count; ++i) {
+            if (region.state.vertices.is_pinned[region.shell.vertex(vertex[i])]) return false;
+            if (!region.is_awake(vertex[i]) && !region.is_held(vertex[i])) return false;
+        }
+        return true;
     }
     /// A turn about the centre that has this angular momentum.
     void give(Vec3d wanted) const {
@@ -122,7 +125,7 @@ uint32_t put_vertex(const RegionView& region, uint32_t element, uint32_t edge, f
     if (other != kNone)
         patch.add(state.elements.corner[shell.element(other)][(edge_between(shell, other, q, p) + 2u) % 3]);
     const bool is_awake = region.is_awake(p) || region.is_awake(q), is_held = region.is_held(p) || region.is_held(q);
-    const bool is_moving = is_awake || is_held, may_turn = is_moving && !patch.has_pins();
+    const bool is_moving = is_awake || is_held, may_turn = is_moving && patch.is_free();
     const Vec3d about = may_turn ? patch.centre() : Vec3d{};
     const Vec3d before = may_turn ? patch.angular(about) : Vec3d{};
 
