@@ -12,6 +12,7 @@
 #include "systems/cook/model_contents.hpp"
 #include "systems/fragments/rest_of_body.hpp"
 #include "systems/fragments/rigid_handoff.hpp"
+#include "systems/quick/calibrate.hpp"
 
 namespace cullet {
 namespace {
@@ -118,6 +119,12 @@ HitBench::HitBench(Subject subject, const Model& model, uint64_t seed) : subject
     if (subject == Subject::Wall) pin_foot(shell);
     if (subject != Subject::Vase) stiffen_pinned(shell);
     intact_ = shell_;
+}
+
+void HitBench::break_quickly(std::optional<QuickSettings> quick, float first_crack) {
+    quick_ = quick;
+    if (quick_ && quick_->strain_limit == 0)
+        quick_->strain_limit = calibrated_strain_limit(*state_, shell_, *quick_, first_crack);
 }
 
 HitDescription HitBench::blow(uint32_t placement, float speed) const {

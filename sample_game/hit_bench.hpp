@@ -43,8 +43,9 @@ class HitBench {
  public:
     HitBench(Subject subject, const Model& model, uint64_t seed = 1);
 
-    /// From now on blows ask for the quick mode, or with nothing for the hidden run.
-    void break_quickly(std::optional<QuickSettings> quick) { quick_ = quick; }
+    /// From now on blows ask for the quick mode, or with nothing for the hidden run. With a first-crack speed, m/s, its
+    /// strain limit is found as a spawn finds it.
+    void break_quickly(std::optional<QuickSettings> quick, float first_crack = 0);
     /// The blow of a seeded placement. Good until the bench goes.
     HitDescription blow(uint32_t placement, float speed) const;
     /// Runs it to its end, or to its first cut.

@@ -47,7 +47,8 @@ struct WallThresholds {
 };
 
 /// Quickly with so many layers, or by the hidden run with none.
-Result<WallThresholds> thresholds_of(Bench& bench, double thickness, uint32_t layers = 0) {
+Result<WallThresholds> thresholds_of(Bench& bench, double thickness, uint32_t layers = 0,
+                                     float first_crack = 0) {
     CookSettings settings;
     settings.material = "brick";
     settings.thickness = static_cast<float>(thickness);
@@ -60,7 +61,7 @@ Result<WallThresholds> thresholds_of(Bench& bench, double thickness, uint32_t la
     if (layers > 0) {
         QuickSettings quick;
         quick.layers = layers;
-        hits.break_quickly(quick);
+        hits.break_quickly(quick, first_crack);
     }
     const uint32_t placements = bench.settings().is_reduced ? 1 : 5;
     std::vector<double> cracks, pieces;
@@ -98,7 +99,8 @@ Result<Claim> figure_3(Bench& bench) {
     std::vector<WallThresholds> quick;
     for (const uint32_t layers : {1u, 2u})
         for (const double thickness : {kThin, kThick}) {
-            Result<WallThresholds> found = thresholds_of(bench, thickness, layers);
+            Result<WallThresholds> found = thresholds_of(
+                bench, thickness, layers, static_cast<float>((thickness == kThin ? *thin : *thick).crack.median));
             if (!found.ok()) return Error{found.error()};
             quick.push_back(found.value());
         }

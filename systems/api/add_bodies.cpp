@@ -8,6 +8,7 @@
 #include "systems/cook/materials.hpp"
 #include "systems/fragments/body_rows.hpp"
 #include "systems/fragments/rigid_shape.hpp"
+#include "systems/quick/calibrate.hpp"
 #include "systems/quick/quick_body.hpp"
 #include "systems/query/bound_drawn.hpp"
 #include "systems/query/query_index.hpp"
@@ -129,7 +130,10 @@ Result<BodyId> World::spawn(ModelId id, const SpawnSettings& settings) {
     // Ductile and elastic bodies move as rigid ones.
     const bool is_brittle = material_traits(state, state.shells.material[shell]).kind == MaterialKind::Brittle;
     bodies.is_breakable[body] = settings.is_breakable && settings.strength_scale < kNeverCracks && is_brittle;
-    set_fracture(state, body, settings.fracture, settings.quick);
+    QuickSettings quick = settings.quick;
+    if (settings.fracture == FractureMode::Quick && bodies.is_breakable[body] && quick.strain_limit == 0)
+        quick.strain_limit = calibrated_strain_limit(state, shell, quick, state.shells.first_crack_speed[shell]);
+    set_fracture(state, body, settings.fracture, quick);
     if (bodies.is_breakable[body]) d.make_ready(room_of(state, shell));
     take_mass_properties(state, body);
     d.arena.reset();

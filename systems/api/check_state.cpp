@@ -7,6 +7,7 @@
 #include "systems/cook/materials.hpp"
 #include "systems/damage/working_room.hpp"
 #include "systems/quick/check_quick.hpp"
+#include "systems/quick/quick_body.hpp"
 #include "systems/springs/check_springs.hpp"
 
 namespace cullet {

@@ -10,8 +10,8 @@ namespace {
 constexpr float kDampingRatio = 0.05f;
 constexpr uint32_t kSpareSlots = 1;  // a pack, as give_springs has it
 /// Of a vertex's stiffness over mass, over the region's mean: what is stiffer is softened to it. The step is 0.6 of the
-/// mean's bound, so at 2.25 it is 0.9 of the bound. Doubled, runs blow up; 1 softens half of an uneven mesh.
-constexpr double kMostRatio = 2.25;
+/// mean's bound, so at 1.8 it is 0.8 of the bound. Doubled, runs blow up; 1 softens half of an uneven mesh.
+constexpr double kMostRatio = 1.8;
 
 struct Layout {
     State& state;
