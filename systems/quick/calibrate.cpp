@@ -51,11 +51,12 @@ float calibrated_strain_limit(const State& from, Row<Shells> source, const Quick
         const char* full = "";
         const Row<Shells> shell = import_shell(state, from, source, &full);
         if (!shell.exists()) return 0;
+        QuickSettings unbroken = quick;
+        unbroken.strain_limit = kMostLimit;  // not by the strength, which is what crushes, too
         float found[3];
         for (uint32_t n = 0; n < 3; ++n) {
             HitDescription hit = fall_on_floor(state, shell, seeded_direction(kSeed, n), speed);
-            hit.strength_scale = 1e9f;
-            hit.quick = &quick;
+            hit.quick = &unbroken;
             found[n] = largest_stretch(state, shell, hit);
         }
         std::sort(found, found + 3);
