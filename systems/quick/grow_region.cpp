@@ -195,7 +195,8 @@ bool split_edge(Splitting& s, const StrainedEdge& edge) {
     vertices.crack_start[s.row(vertex)] = root;
     s.starts += !was_cracked;
     mark_tips(s, vertex, split.ends, root);
-    if (s.kind == FractureKind::Coarse) close_neighbours(s, vertex, split.ends, first_copy);
+    // Large as well: its cracks are to be few and long, and without it the patch crumbles into slivers.
+    if (s.kind != FractureKind::Fine) close_neighbours(s, vertex, split.ends, first_copy);
     if (s.kind == FractureKind::Large)
         for (uint32_t i = 0; i < split.ends.count && !s.is_full; ++i) {
             if (!split.ends.is_interior[i]) continue;
@@ -215,7 +216,7 @@ uint32_t crack_frequency_of(const State& state, Row<Tasks> task) {
         case FractureKind::Coarse: return 16;
         case FractureKind::Large: break;
     }
-    return 4;
+    return 1;
 }
 
 uint32_t grow_region(State& state, Row<Tasks> task) {

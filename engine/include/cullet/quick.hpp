@@ -15,7 +15,7 @@ struct QuickSettings {
     /// 1: springs on the outer surface, as in the paper. 2: inner ones too, so that bending counts; 2 to 4 times dearer.
     uint32_t layers = 1;
     uint32_t steps = 60;  // of the run, 8 to 100; the neighbourhood is a third of it wide, in edges
-    /// Vertices that may split in one step, 1 to 1000; 0: 64 fine, 16 coarse, 4 large. Fewer: longer cracks.
+    /// Vertices that may split in one step, 1 to 1000; 0: 64 fine, 16 coarse, 1 large. Fewer: longer cracks.
     uint32_t crack_frequency = 0;
     /// Stretch of the softened springs at which an edge splits, 1e-5 to 1. 0: that of a fall on a floor at the speed at
     /// which cooking found that the body cracks; where none was measured the material's (2 % of what is brittle).
