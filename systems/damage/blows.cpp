@@ -63,6 +63,12 @@ void start_explosions(State& state, Row<Tasks> task) {
     if (is_kicked) state.tasks.start_energy[task] = task_energy(state, task).total();
 }
 
+bool has_explosion(const Blows& blows, Row<Tasks> task) {
+    for (uint32_t b = 0; b < blows.size(); ++b)
+        if (blows.task[b] == task.index && is_kind(blows, b, BlowKind::Explosion)) return true;
+    return false;
+}
+
 Vec3d take_explosions(Blows& blows, Row<Tasks> task) {
     Vec3d sum;
     for (uint32_t b = 0; b < blows.size(); ++b) {

@@ -30,6 +30,8 @@ void close_blows(Blows& blows, Bodies& bodies, const Tasks& tasks, RigidWorld& r
 /// Explosions of the task start its run: vertices get their impulses, and the run's energy follows.
 void start_explosions(State& state, Row<Tasks> task);
 
+bool has_explosion(const Blows& blows, Row<Tasks> task);
+
 /// N s, body axes, that explosions gave to the task's run and that nobody has been paid for; from now on they count as
 /// paid.
 Vec3d take_explosions(Blows& blows, Row<Tasks> task);
