@@ -54,7 +54,7 @@ State::State(const Limits& l)
       fragments((l.tasks + 1) * kMostParts),
       view_vertices(l.view_vertices),
       view_indices(l.view_vertices * 2),
-      blows(l.bodies + l.queued_hits),
+      blows(2 * (l.bodies + l.queued_hits)),
       shell_springs(l.shells),
       springs(spring_limit(l)),
       layer_springs(spring_limit(l)),

@@ -29,9 +29,9 @@ Result<void> check_number(const char* name, float value, float least, float most
     return Error{std::string(name) + " is " + std::to_string(value) + "; use " + unit + "."};
 }
 
-/// Room for one more, or a sentence.
+/// Room for one more, or a sentence. Half of the table stays free: take_blows writes each row anew behind the others.
 Result<uint32_t> take_row(Blows& blows, BlowKind kind) {
-    const uint32_t row = blows.append(1);
+    const uint32_t row = blows.size() < blows.limit() / 2 ? blows.append(1) : kNone;
     if (row == kNone)
         return Error{std::to_string(blows.size()) +
                      " blows wait already; step the world, or raise limits.queued_hits."};

@@ -11,6 +11,7 @@ struct Taking {
     RigidWorld& rigid;
     DamageCounts& counts;
     Events<RefusedEvent>& refused;
+    uint32_t named = 0;  // blows on one body that are still to be written: what reaches many leaves them room
 
     bool has_shell(Row<Bodies> b) const {
         return static_cast<BodyKind>(state.bodies.kind[b]) != BodyKind::Free && state.bodies.shell[b].exists();
@@ -18,7 +19,8 @@ struct Taking {
 
     /// A copy of the blow for this body, at the end; kNone where there is no room.
     uint32_t copy_for(uint32_t row, Row<Bodies> body) {
-        const uint32_t made = state.blows.append(1);
+        const bool has_room = state.blows.size() + named < state.blows.limit();
+        const uint32_t made = has_room ? state.blows.append(1) : kNone;
         if (made == kNone) {
             refused.push(refused_event(state.bodies, body, "limits.queued_hits"));
             return kNone;
@@ -115,6 +117,7 @@ void take_blows(Serial, Blows& blows, ShellTables shells, Bodies& bodies, RigidW
     uint32_t first = 0;
     while (first < blows.size() && blows.is_taken[first]) ++first;
     const uint32_t end = blows.size();
+    for (uint32_t row = first; row < end; ++row) taking.named += blows.body[row].exists();
     for (uint32_t row = first; row < end; ++row) {
         const Row<Bodies> body = blows.body[row];
         if (!body.exists()) {
@@ -124,6 +127,7 @@ void take_blows(Serial, Blows& blows, ShellTables shells, Bodies& bodies, RigidW
                 taking.cut(row);
             continue;
         }
+        --taking.named;
         if (is_kind(blows, row, BlowKind::Push)) {
             taking.measure_push(row);
             if (!taking.has_shell(body) || !bodies.is_breakable[body]) {
@@ -131,7 +135,8 @@ void take_blows(Serial, Blows& blows, ShellTables shells, Bodies& bodies, RigidW
                 continue;
             }
         }
-        taking.copy_for(row, body);
+        // Where there is no room the body is at least moved.
+        if (taking.copy_for(row, body) == kNone) pay_blow(blows, bodies, rigid, counts, row);
     }
     const uint32_t made = blows.size() - end;
     if (made && end > first) blows.copy_rows(blows, end, first, made);
