@@ -30,10 +30,29 @@ struct Taking {
         return made;
     }
 
+    /// Where the push meets the surface: the nearest live vertex at rest. What has no shell is met where the game says.
+    Vec3 place_of_push(uint32_t row) const {
+        Vec3 nearest = state.blows.point[row];
+        const Row<Bodies> body = state.blows.body[row];
+        if (!has_shell(body)) return nearest;
+        const ShellView shell(state, state.bodies.shell[body]);
+        float least = 1e30f;
+        for (uint32_t v = 0; v < shell.vertex_count(); ++v) {
+            const uint32_t at = shell.vertex(v);
+            if (state.vertices.element[at] == kNone) continue;
+            const Vec3 away = state.vertices.rest[at] - state.blows.point[row];
+            if (dot(away, away) >= least) continue;
+            least = dot(away, away);
+            nearest = state.vertices.rest[at];
+        }
+        return nearest;
+    }
+
     // The striker bounces off as a rigid one: J = (1 + e) v / (1/m_body + 1/m_striker).
     void measure_push(uint32_t row) {
         Blows& blows = state.blows;
         const Row<Bodies> body = blows.body[row];
+        blows.point.set(row, place_of_push(row));
         const Vec3d point(blows.point[row]), normal(blows.direction[row]);
         const double both = inverse_mass_at(state.bodies, body, point, normal) + double{blows.inverse_mass[row]};
         const double size = (1 + double{state.bodies.restitution[body]}) * double{blows.speed[row]} / both;

@@ -32,6 +32,18 @@ BodyId add_vase(World& world, Vec3 place = {}, bool is_breakable = true) {
     return *body;
 }
 
+/// Rest place of the body's vertex nearest to a place in its frame.
+Vec3 nearest_vertex(World& world, BodyId body, Vec3 place) {
+    const State& state = state_of(world);
+    const ShellView shell(state_of(world), state.bodies.shell[body.index]);
+    Vec3 nearest{1e9f, 0, 0};
+    for (uint32_t v = 0; v < shell.vertex_count(); ++v) {
+        const Vec3 rest = state.vertices.rest[shell.vertex(v)];
+        if (length(rest - place) < length(nearest - place)) nearest = rest;
+    }
+    return nearest;
+}
+
 /// From the side, at mid-height.
 PushSettings side_push(const World& world, BodyId body, float speed, float mass = 0.3f) {
     const Bodies& bodies = world.contents().data.state.bodies;
@@ -49,7 +61,7 @@ TEST(Push, AHarmlessOneMovesTheBodyAsARigidStrikerWould) {
     const BodyId body = add_vase(world);
     const PushSettings push = side_push(world, body, 0.02f, 0.5f);
     const Bodies& bodies = state_of(world).bodies;
-    const Vec3d arm(push.place - to_world(Pose{}, bodies.centre[body.index].to_float()));
+    const Vec3d arm(nearest_vertex(world, body, push.place) - bodies.centre[body.index].to_float());
     const Vec3d n(push.normal), turn = cross(arm, n);
     const double body_inverse = 1 / bodies.mass[body.index] + dot(turn, inverse(bodies.inertia[body.index]) * turn);
     const double wanted = (1 + bodies.restitution[body.index]) * 0.02 / (body_inverse + 1 / 0.5);
@@ -60,6 +72,81 @@ TEST(Push, AHarmlessOneMovesTheBodyAsARigidStrikerWould) {
     EXPECT_NEAR(given_of(world).z, wanted, 1e-5 * wanted);
     EXPECT_EQ(world.contents().data.counts.opened, 0u);
     EXPECT_EQ(state_of(world).blows.size(), 0u);
+}
+
+TEST(Push, OneBesideTheBodyIsMeantForTheNearestVertex) {
+    const auto struck = [](bool is_beside, bool is_breakable) {
+        World world = make_world(small_settings());
+        const BodyId body = add_vase(world, {}, is_breakable);
+        PushSettings push = side_push(world, body, 0.02f);
+        push.place = state_of(world).bodies.centre[body.index].to_float() + Vec3{0.3f, 0.02f, 0.01f};
+        if (!is_beside) push.place = nearest_vertex(world, body, push.place);
+        EXPECT_TRUE(world.push_impact(body, push).ok());
+        Motion motion;
+        after_each_system(world, [&](const std::string& system) {  // the solver damps spins
+            if (system == "open_tasks") motion = world.motion(body).value();
+        });
+        world.step();
+        after_each_system(world, [](const std::string&) {});
+        return motion;
+    };
+    for (const bool is_breakable : {true, false}) {
+        const Motion beside = struck(true, is_breakable), on = struck(false, is_breakable);
+        EXPECT_GT(length(on.angular_velocity), 0);
+        EXPECT_LT(length(beside.velocity - on.velocity), 1e-6f * length(on.velocity));
+        EXPECT_LT(length(beside.angular_velocity - on.angular_velocity), 1e-6f * length(on.angular_velocity));
+    }
+}
+
+TEST(Push, OneBesideTheBodyIsToldWhereItStrikes) {
+    World world = make_world(small_settings());
+    const BodyId body = add_vase(world, {1, 2, 3});
+    PushSettings push = side_push(world, body, 10);
+    push.place.z += 0.4f;
+    const Vec3 wanted = nearest_vertex(world, body, push.place - Vec3{1, 2, 3}) + Vec3{1, 2, 3};
+    ASSERT_TRUE(world.push_impact(body, push).ok());
+    world.step();
+    ASSERT_EQ(world.events().impacts.count, 1u);
+    for (const ImpactEvent& e : world.events().impacts) EXPECT_LT(length(e.place - wanted), 1e-5f);
+}
+
+/// A vase in mid-air after pushes from the side at mid-height, the n-th of masses[n] kg.
+World pushed_vase(const std::vector<float>& masses, float speed) {
+    World world = make_world(small_settings());
+    const BodyId body = add_vase(world);
+    for (const float mass : masses) EXPECT_TRUE(world.push_impact(body, side_push(world, body, speed, mass)).ok());
+    for (int frame = 0; frame < 20; ++frame) world.step();
+    return world;
+}
+
+TEST(Push, TwoAtOnePlaceAreOneOfTwiceTheMass) {
+    const World two = pushed_vase({0.15f, 0.15f}, 8), one = pushed_vase({0.3f}, 8), half = pushed_vase({0.15f}, 8);
+    EXPECT_GT(two.contents().data.counts.broke, 0u);
+    EXPECT_EQ(all_bodies(two).size(), all_bodies(one).size());
+    EXPECT_NEAR(momentum_of(two).z, momentum_of(one).z, -1e-6 * momentum_of(one).z);
+    EXPECT_LT(momentum_of(one).z, 1.2 * momentum_of(half).z) << "twice the mass gives clearly more";
+    EXPECT_LT(length(momentum_of(two) + given_of(two)), 2e-4 * 0.3 * 8);
+}
+
+// The place is taken by what pushes the other way: nothing is merged, and nothing lost.
+TEST(Push, OneAgainstAnotherAtTheSamePlaceMovesTheBodyAndWaits) {
+    World world = make_world(small_settings());
+    const BodyId body = add_vase(world);
+    PushSettings push = side_push(world, body, 8);
+    ASSERT_TRUE(world.push_impact(body, push).ok());
+    push.normal = {0, 0, 1};
+    ASSERT_TRUE(world.push_impact(body, push).ok());
+    double paid = 0;
+    after_each_system(world, [&](const std::string& system) {
+        if (system == "open_tasks" && paid == 0) paid = -given_of(world).z;
+    });
+    world.step();
+    after_each_system(world, [](const std::string&) {});
+    EXPECT_GT(paid, 0) << "as between rigid bodies";
+    for (int frame = 0; frame < 40; ++frame) world.step();
+    EXPECT_GT(world.contents().data.counts.opened, 1u) << "the piece that owns the place was looked at";
+    EXPECT_EQ(state_of(world).blows.size(), 0u);
+    EXPECT_LT(length(momentum_of(world) + given_of(world)), 5e-4 * 0.3 * 8);
 }
 
 TEST(Push, AHardOneBreaksTheBodyAndKeepsTheBooksOfMomentum) {
