@@ -14,7 +14,8 @@ inline Explosion explosion_of(const Blows& blows, uint32_t row) {
 double inverse_mass_at(const Bodies& bodies, Row<Bodies> body, Vec3d point, Vec3d normal);
 
 /// A dynamic body gets this impulse (N s, body axes) and turning (N m s, about its centre of mass), and wakes. It comes
-/// from outside: DamageCounts.impulse_to_static has it with the other sign.
+/// from outside: DamageCounts.impulse_to_static has it with the other sign. What would be faster than kFastest is
+/// shortened to it and counted in DamageCounts.clamped.
 void push_body(Bodies& bodies, RigidWorld& rigid, DamageCounts& counts, Row<Bodies> body, Vec3d impulse, Vec3d turning);
 
 /// What the blow gives to the body as a rigid one, unless it was given.

@@ -1,6 +1,7 @@
 // Blows that the game asks for: pushes and explosions, between the call and what comes of it.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "systems/damage/explosion.hpp"
@@ -404,6 +405,34 @@ TEST(Explosion, NearAVaseItBreaksItAndTheBooksOfMomentumAgree) {
     EXPECT_GT(world.contents().data.counts.broke, 0u);
     EXPECT_LT(length(momentum_of(world) + given_of(world)), 2e-4 * length(given_of(world)));
     EXPECT_EQ(state_of(world).blows.size(), 0u);
+}
+
+// A host refuses more than 100,000 m/s: its own rows must not come to it.
+TEST(Explosion, NoneMakesABodyFasterThanTheRigidWorldTakes) {
+    for (const bool is_breakable : {false, true}) {
+        World world = std::move(World::create_hosted(small_settings())).value();
+        SpawnSettings settings;
+        settings.is_breakable = is_breakable;
+        const BodyId pane = world.spawn(world.add_model(small_pane()).value(), settings).value();
+        const HostBody row{pane, {}, {}};
+        ASSERT_TRUE(world.step({&row, 1, nullptr, 0}).ok());
+        ExplosionSettings e;
+        e.centre = {0.05f, 0.2f, 0.1f};
+        e.impulse = 1e9f;
+        ASSERT_TRUE(world.explode(e).ok());
+        float fastest = 0;
+        for (int frame = 0; frame < 10; ++frame) {
+            ASSERT_TRUE(world.step({nullptr, 0, nullptr, 0}).ok());
+            for (const BodyId id : shells_of(world)) {
+                const Motion m = world.motion(id).value();
+                for (const Vec3 v : {m.velocity, m.angular_velocity})
+                    fastest = std::max({fastest, std::fabs(v.x), std::fabs(v.y), std::fabs(v.z)});
+            }
+        }
+        EXPECT_LE(fastest, 1e5f);
+        EXPECT_GT(fastest, 1e4f);
+        EXPECT_GT(world.contents().data.counts.clamped, 0u);
+    }
 }
 
 TEST(Explosion, AHarmlessOneGivesTheWholeBodyTheSum) {
