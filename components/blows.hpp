@@ -24,7 +24,7 @@ struct Blows : Table<Blows> {
     Column<uint32_t> task{*this, "task"};         // the open task that works it off, or kNone: it waits
     Column<uint8_t> is_taken{*this, "is_taken"};  // some step has looked at it
     Column<uint8_t> is_paid{*this, "is_paid"};    // the body has got `impulse` and `turning`
-    Column<uint8_t> goes_on{*this, "goes_on"};    // of a cut: there was no room for all of it in one go
+    Column<uint8_t> goes_on{*this, "goes_on"};    // of a cut: there was no room for all of it
     Column<Vec3> point{*this, "point", "m"};      // of the push; centre of the explosion; in the cutting plane
     Column<Vec3> direction{*this,
                            "direction"};  // unit: of the push; normal of the plane; what a polyline is swept along

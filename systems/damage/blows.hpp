@@ -23,8 +23,8 @@ void pay_blow(Blows& blows, Bodies& bodies, RigidWorld& rigid, DamageCounts& cou
 /// All blows of the task.
 void pay_blows(Blows& blows, Bodies& bodies, RigidWorld& rigid, DamageCounts& counts, Row<Tasks> task);
 
-/// The task is over: its blows go, after they were paid. A cut that found no room for all of it waits again, if it
-/// came on.
+/// The task is over: its blows go, after they were paid. A cut that found no room for all of it, or whose pieces found
+/// none, waits again.
 void close_blows(Blows& blows, Bodies& bodies, const Tasks& tasks, RigidWorld& rigid, DamageCounts& counts,
                  Row<Tasks> task);
 

@@ -148,11 +148,18 @@ bool reserve_view(Planning& planning, Break& plan) {
     return true;
 }
 
+// The body stays as it was: the task's cuts wait until there is room (close_blows).
+void keep_cuts(Blows& blows, Row<Tasks> task) {
+    for (uint32_t b = 0; b < blows.size() && task.exists(); ++b)
+        if (blows.task[b] == task.index && is_kind(blows, b, BlowKind::Cut)) blows.goes_on[b] = 1;
+}
+
 // What frees no piece changes no velocity: the body keeps its cracks, and its loose pieces until there is room.
 void stay_whole(Planning& planning, Break& plan) {
     State& state = planning.state;
     const ShellView shell(state, plan.broken), before(state, state.bodies.shell[plan.body]);
-    if (before.row == shell.row || !keep_hulls(shell, before)) return;
+    if (before.row == shell.row) return;
+    if (!keep_hulls(shell, before)) return keep_cuts(state.blows, plan.task);
     clear_run(shell, true);
     adopt_shell(state, plan.body, shell.row);
 }
@@ -225,7 +232,7 @@ void plan_break(Planning& planning, Row<Tasks> task) {
     Break plan =
         break_of(planning, task, body, broken,
                  std::span(state.fragments.part.data() + size_t{task} * kMostParts, state.tasks.part_count[task]));
-    if (!reserve_points(planning, plan)) return;
+    if (!reserve_points(planning, plan)) return keep_cuts(state.blows, task);
     const Vec3d velocity(state.tasks.start_velocity[task]), spin(state.tasks.start_spin[task]);
     if (is_cut_task(state.blows, task)) {
         move_with_body(state, plan, velocity, spin);  // nothing was run
@@ -270,7 +277,7 @@ void keep_cracks(Planning& planning, Row<Tasks> task) {
         full = "limits.vertices";
     if (full) {
         planning.refused.push(refused_event(state.bodies, body, full));
-        return;
+        return keep_cuts(state.blows, task);
     }
     clear_run(shell, true);
     adopt_shell(state, body, shell.row);

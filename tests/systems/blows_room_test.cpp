@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include <string>
+#include <vector>
 
 #include "tests/support/small_worlds.hpp"
 
@@ -112,6 +113,46 @@ TEST(BlowsRoom, EveryBlowThatJoinsATaskIsTold) {
     ASSERT_EQ(world.contents().data.counts.opened, 1u);
     ASSERT_EQ(world.events().impacts.count, 5u);
     for (const ImpactEvent& e : world.events().impacts) EXPECT_EQ(e.body, vase);
+}
+
+TEST(BlowsRoom, ACutWhoseMeshFindsNoRoomIsNamedAndMadeWhenThereIs) {
+    // One pane and its drawn mesh are known; of more panes than there is room for the last is refused.
+    Settings settings = small_settings();
+    settings.limits.view_vertices = 4096;
+    World world = make_world(settings);
+    const ModelId model = world.add_model(small_pane()).value();
+    std::vector<BodyId> panes;
+    for (int i = 0; i < 16; ++i) {
+        SpawnSettings spawn;
+        spawn.pose.position = {static_cast<float>(i), 0, 0};
+        const Result<BodyId> pane = world.spawn(model, spawn);
+        if (!pane) break;
+        panes.push_back(*pane);
+    }
+    ASSERT_GE(panes.size(), 2u);
+    ASSERT_LT(panes.size(), 16u);
+    // Cracks that free no piece.
+    const Vec3 line[] = {{-0.08f, 0.1f, 0}, {0.02f, 0.17f, 0}, {0.09f, 0.15f, 0}};
+    CutSettings cut;
+    cut.points = line;
+    cut.point_count = 3;
+    ASSERT_TRUE(world.cut(panes[0], cut).ok());
+    const auto has_cracks = [&] {
+        return state_of(world).shells.has_cracks[state_of(world).bodies.shell[panes[0].index]] != 0;
+    };
+    bool is_named = false;
+    for (int frame = 0; frame < 4; ++frame) {
+        world.step();
+        for (const RefusedEvent& e : world.events().refused)
+            is_named = is_named || (e.body == panes[0] && std::string(e.setting) == "limits.view_vertices");
+    }
+    EXPECT_TRUE(is_named);
+    EXPECT_FALSE(has_cracks());
+    ASSERT_EQ(state_of(world).blows.size(), 1u) << "it waits";
+    ASSERT_TRUE(world.remove(panes[1]).ok());
+    for (int frame = 0; frame < 8; ++frame) world.step();
+    EXPECT_TRUE(has_cracks());
+    EXPECT_EQ(state_of(world).blows.size(), 0u);
 }
 
 }  // namespace

@@ -41,7 +41,8 @@ struct ExplosionSettings {
 /// line ends the cut at its ends: what is not cut through is a crack there, from which the next hit goes on.
 ///
 /// The wall comes apart exactly along the surface where elements may be split (thick shell note C5's limits on their
-/// shape), else along their edges nearest to it. Nothing moves by it: pieces go on with the motion of the body.
+/// shape), else along their edges nearest to it. Nothing moves by it: pieces go on with the motion of the body. While
+/// the world has no room for the cut body (RefusedEvent says which limit) the cut waits.
 struct CutSettings {
     Vec3 place;                    // world, m
     Vec3 normal{0, 1, 0};          // world, unit, of the plane
