@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "systems/damage/blows.hpp"
+#include "systems/damage/task_cost.hpp"
 #include "systems/damage/thresholds.hpp"
 #include "systems/rigid/body_id.hpp"
 
@@ -114,6 +115,17 @@ enum class Outcome : uint8_t { Waits, Joined, Gone };
 
 struct Opener {
     BlowOpening& o;
+    uint64_t cut_units = 0;  // of the cuts that this step makes
+
+    /// Cuts are made whole, in the step that opens their task: at least one, then as long as the frame's units last.
+    bool may_cut(uint32_t row) {
+        const Row<Shells> shell = o.state.bodies.shell[o.state.blows.body[row]];
+        const uint64_t units =
+            o.state.shells.vertices[shell].count * kUnitsOpen + units_of_cut(o.state.shells, shell, o.state.blows, row);
+        if (cut_units > 0 && cut_units + units > o.settings.units_a_frame) return false;
+        cut_units += units;
+        return true;
+    }
 
     // What sleeps may lose its support to a cut.
     void wake(Row<Bodies> body) {
@@ -162,12 +174,12 @@ struct Opener {
         const uint32_t open = state.bodies.task[body];
         if (open != kNone) {
             const bool is_fresh = state.tasks.opened_frame[open] == o.frame;
-            if (is_fresh && fits(state, row, open, state.tasks.is_late[open])) {
+            if (is_fresh && fits(state, row, open, state.tasks.is_late[open]) && (!is_cut || may_cut(row))) {
                 join(row, open);
                 return Outcome::Joined;
             }
         } else if (!state.bodies.hold_count[body] && o.frame >= state.bodies.retry_frame[body] &&
-                   has_free_task(state.tasks)) {
+                   has_free_task(state.tasks) && (!is_cut || may_cut(row))) {
             const Row<Tasks> task = o.open(o.opener, body, is_cut ? 1.0f : blows.speed[row]);
             if (!task.exists()) {
                 pay(row);

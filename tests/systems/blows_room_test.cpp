@@ -155,5 +155,35 @@ TEST(BlowsRoom, ACutWhoseMeshFindsNoRoomIsNamedAndMadeWhenThereIs) {
     EXPECT_EQ(state_of(world).blows.size(), 0u);
 }
 
+TEST(BlowsRoom, CutsAreMadeWhileTheFramesUnitsLast) {
+    for (const uint64_t units : {200'000, 50'000}) {
+        Settings settings = small_settings();
+        settings.units_a_frame = units;
+        World world = make_world(settings);
+        const ModelId model = world.add_model(small_pane()).value();
+        for (int i = 0; i < 7; ++i) {
+            SpawnSettings spawn;
+            spawn.pose.position = {static_cast<float>(i), 0, 0};
+            ASSERT_TRUE(world.spawn(model, spawn).ok());
+        }
+        CutSettings cut;
+        cut.place = {0, 0.15f, 0};
+        ASSERT_TRUE(world.cut({}, cut).ok());
+        uint64_t opened = 0, frames = 0;
+        for (; opened < 7 && frames < 20; ++frames) {
+            world.step();
+            const DamageCounts& counts = world.contents().data.counts;
+            const uint64_t now = counts.opened - opened;
+            EXPECT_GE(now, 1u) << "none starves";
+            EXPECT_LE(now, units == 50'000 ? 1u : 2u);
+            EXPECT_GT(counts.units_used, units / 4) << "they are paid for";
+            opened = counts.opened;
+        }
+        EXPECT_EQ(frames, units == 50'000 ? 7u : 4u);
+        EXPECT_EQ(shells_of(world).size(), 14u);
+        EXPECT_EQ(state_of(world).blows.size(), 0u);
+    }
+}
+
 }  // namespace
 }  // namespace cullet::test

@@ -2,6 +2,11 @@
 // of the next step, in the order of the calls, and worked off as contacts are: in damage tasks, by budget. A blow on a
 // body whose hit is still worked off moves the body at once as a rigid one, waits, and then goes to the pieces that the
 // place belongs to. What a blow gives is momentum from outside of the world.
+//
+// Settings::units_a_frame bounds the hidden runs. A cut is made whole in one step, on as many bodies a step as the
+// units are enough for and at least on one; the others wait. No units bound what an explosion looks at in the step that
+// takes it (every triangle of each body in its reach), nor what the end of a run does once: pieces, and cracks that run
+// out.
 #pragma once
 #include <cstdint>
 
