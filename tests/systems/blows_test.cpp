@@ -296,7 +296,14 @@ TEST(Blows, WhatIsNotSoundIsRefusedInASentence) {
     EXPECT_NE(world.push_impact(body, {}).error().find("names nothing that is alive"), std::string::npos);
     EXPECT_NE(world.cut(body, {}).error().find("names nothing that is alive"), std::string::npos);
     const BodyId ball = world.add_sphere({}).value();
-    EXPECT_NE(world.cut(ball, {}).error().find("not breakable"), std::string::npos);
+    EXPECT_NE(world.cut(ball, {}).error().find("not spawned from a model"), std::string::npos);
+    const BodyId firm = add_vase(world, {}, false);
+    EXPECT_NE(world.cut(firm, {}).error().find("is_breakable"), std::string::npos) << world.cut(firm, {}).error();
+    CookSettings steel;
+    steel.material = "steel", steel.thickness = 0.004f, steel.longest_edge = 100;
+    const Mesh plate = sheet_mesh(0.3, 0.3, 4, 4);
+    const BodyId tin = world.spawn(world.add_model(cook(view_of_mesh(plate), steel).value()).value()).value();
+    EXPECT_NE(world.cut(tin, {}).error().find("ductile"), std::string::npos) << world.cut(tin, {}).error();
     EXPECT_EQ(state_of(world).blows.size(), 0u);
 }
 
