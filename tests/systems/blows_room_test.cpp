@@ -95,7 +95,8 @@ TEST(BlowsRoom, EveryCutThatWasAcceptedIsMade) {
         cut.place = {0, 0.05f + 0.02f * static_cast<float>(i), 0};
         ASSERT_TRUE(world.cut(vase, cut).ok()) << i;
     }
-    for (int frame = 0; frame < 8; ++frame) world.step();
+    // One working copy has no room for all of them: the rest goes on, piece by piece.
+    for (int frame = 0; frame < 60; ++frame) world.step();
     EXPECT_EQ(shells_of(world).size(), 12u);
     EXPECT_EQ(state_of(world).blows.size(), 0u);
 }
