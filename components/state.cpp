@@ -54,7 +54,7 @@ State::State(const Limits& l)
       fragments((l.tasks + 1) * kMostParts),
       view_vertices(l.view_vertices),
       view_indices(l.view_vertices * 2),
-      blows(l.bodies + l.queued_hits),
+      blows(2 * (l.bodies + l.queued_hits)),
       shell_springs(l.shells),
       springs(spring_limit(l)),
       layer_springs(spring_limit(l)),
@@ -94,8 +94,8 @@ State::Pools::Pools(const State& s)
       layer_slots(s.layer_slots.limit(), 1, ranges_of(s.shells)),
       twins(s.twins.limit(), kVerticesPerCell, ranges_of(s.shells)) {}
 
-// A hit takes a copy of all rows with a quarter more (working_room); what moves of the broken shell is less than it. A
-// drawn mesh has 6 corners an element and 6 a free edge, and the pieces' more than the body's.
+// `shell` is what a hit takes, a copy of all rows and what cracks add (working_room); what moves of the broken shell is
+// less than it. A drawn mesh has 6 corners an element and 6 a free edge, and the pieces' more than the body's.
 void State::commit_ahead(const ShellRoom& shell, uint32_t served) {
     const auto commit = [&](AnyTable& table, const RangePool& pool, uint64_t rows) {
         const auto end = static_cast<uint32_t>(std::min<uint64_t>(pool.end() + rows, table.limit()));

@@ -140,7 +140,7 @@ Result<void> make_stiff(State& state, Row<Shells>& shell) {
     s.time_step[shell] = stable_time_step(view);
     if (!(s.time_step[shell] > 0))
         return Error{"nothing holds the mesh together: no two triangles share an edge. Weld it first."};
-    const float run = run_seconds(state.materials, s.material[shell], s.area[shell]);
+    const float run = run_seconds(state, s.material[shell], s.area[shell]);
     if (!(s.time_step[shell] >= kShortestStep && run <= kMostSteps * s.time_step[shell]))
         return Error{"a hit would take more than " + std::to_string(static_cast<int>(kMostSteps / 1e6f)) +
                      " million steps: some edges are far too short for its size. Weld them, or scale it."};
@@ -168,7 +168,7 @@ float estimated_threshold(const State& state, Row<Shells> shell) {
 uint64_t units_of_a_hit(const State& state, Row<Shells> shell) {
     const Shells& s = state.shells;
     const uint32_t vertices = s.vertices[shell].count;
-    const float run = run_seconds(state.materials, s.material[shell], s.area[shell]);
+    const float run = run_seconds(state, s.material[shell], s.area[shell]);
     const auto steps = static_cast<uint64_t>(run / s.time_step[shell]) + 1;
     return steps * units_a_step(vertices + vertices / 10, 64) + 300 * kUnitsCut +
            vertices * kUnitsOpen;  // a blow that breaks grows it by a tenth

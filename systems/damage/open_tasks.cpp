@@ -125,7 +125,6 @@ void lay_contacts(std::span<const Impact> impacts, State& state, Row<Tasks> task
 
 struct Opening {
     State& state;
-    const Materials& materials;
     Events<TaskOpened>& opened;
     Events<StiffnessWanted>& stiffness_wanted;
     Events<RefusedEvent>& refused;
@@ -163,7 +162,7 @@ struct Opening {
         tasks.start_velocity.set(t, rotate(to_body_axes, bodies.velocity[body]));
         tasks.start_spin.set(t, rotate(to_body_axes, bodies.spin[body]));
         tasks.strength_scale[t] = bodies.strength_scale[body];
-        set_task_times(state, materials, task);
+        set_task_times(state, task);
         const bool is_assembled = state.shells.packs[source].count > 0;
         tasks.units_owed[t] = state.shells.vertices[source].count * (kUnitsOpen + (is_assembled ? 0 : kUnitsAssemble));
         bodies.task[body] = t;
@@ -260,15 +259,14 @@ void open_queued(Opening& opening, const DamageSettings& settings, Events<Impact
 
 }  // namespace
 
-void open_tasks(Serial, Step step, const Events<Impact>& impacts, ShellTables shells, const Materials& materials,
-                Bodies& bodies, Tasks&, TaskContacts&, QueuedHits&, Blows&, RigidWorld& rigid,
-                const DamageSettings& settings, DamageCounts& counts, Events<TaskOpened>& opened,
-                Events<StiffnessWanted>& stiffness_wanted, Events<ImpactEvent>& impact_events,
-                Events<RefusedEvent>& refused) {
+void open_tasks(Serial, Step step, const Events<Impact>& impacts, ShellTables shells, const Materials&, Bodies& bodies,
+                Tasks&, TaskContacts&, QueuedHits&, Blows&, RigidWorld& rigid, const DamageSettings& settings,
+                DamageCounts& counts, Events<TaskOpened>& opened, Events<StiffnessWanted>& stiffness_wanted,
+                Events<ImpactEvent>& impact_events, Events<RefusedEvent>& refused) {
     State& state = shells.state;
     opened.clear();
     stiffness_wanted.clear();
-    Opening opening{state, materials, opened, stiffness_wanted, refused, counts, step.frame};
+    Opening opening{state, opened, stiffness_wanted, refused, counts, step.frame};
     open_queued(opening, settings, impact_events);
     const auto all = impacts.all();
     for (size_t i = 0, next; i < all.size(); i = next) {

@@ -34,7 +34,7 @@ bool open_hit(State& state, Row<Shells> source, const HitDescription& hit) {
     tasks.start_velocity.set(kTask, hit.velocity);
     tasks.start_spin.set(kTask, hit.spin);
     tasks.strength_scale[kTask] = hit.strength_scale;
-    set_task_times(state, state.materials, kTask);
+    set_task_times(state, kTask);
     tasks.time_step[kTask] *= hit.step_scale;
     tasks.damping_time[kTask] *= hit.step_scale;
     tasks.contact_count[kTask] = 1;

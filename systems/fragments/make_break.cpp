@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "engine/rigid_bounds.hpp"
 #include "systems/damage/blows.hpp"
 #include "systems/damage/thresholds.hpp"
 #include "systems/fragments/cell_hulls.hpp"
@@ -165,7 +166,11 @@ void make_birth(Births& births, const Break& plan, uint32_t p, const Moment& mom
     State& state = births.state;
     Bodies& bodies = state.bodies;
     const Row<Bodies> body = plan.body, child = plan.child[p];
-    const Motion motion = world_motion(moment, plan.motions[p]);
+    Motion motion = world_motion(moment, plan.motions[p]);
+    // A blow without measure may leave pieces faster than the rigid world takes.
+    const bool is_too_fast = shorten(motion.velocity, kFastest),
+               spins_too_fast = shorten(motion.angular_velocity, kFastest);
+    births.counts.clamped += is_too_fast || spins_too_fast;
     const bool was_static = static_cast<BodyKind>(bodies.kind[body]) == BodyKind::Static;
     const bool is_static = plan.motions[p].is_static;
     place_body(births, child, moment, motion, is_static);

@@ -8,6 +8,7 @@
 #include "systems/damage/element_bending.hpp"
 #include "systems/damage/energy.hpp"
 #include "systems/damage/stress_check.hpp"
+#include "systems/damage/working_room.hpp"
 #include "systems/motion/integrate_packs.hpp"
 #include "systems/motion/start_hidden.hpp"
 
@@ -177,6 +178,18 @@ TEST(Wood, RowsAreTheGradientOfTheEnergyAndKeepMomentum) {
             const double down = energy();
             EXPECT_NEAR(force[v][axis], -(up - down) / (2 * by), 2e-3 * largest) << v << " " << axis;
         }
+}
+
+// Waves across the grain are sqrt(E_across / density) = 1,000 m/s fast, along it 4,472 m/s.
+TEST(Wood, ARunLastsAsLongAsTheSlowestWavesNeed) {
+    State state;
+    fill_materials(state.materials);
+    const Row<Materials> grained = material_row(state, wood(), {1, 0, 0});
+    for (const float area : {0.25f, 1.0f, 9.0f})
+        EXPECT_NEAR(run_seconds(state, grained, area), 3.6e-3f * std::sqrt(area), 1e-6f) << area << " m2";
+    EXPECT_EQ(run_seconds(state, grained, 1e-4f), 1e-3f) << "never less than the material's own";
+    const float glass = std::sqrt(70e9f / 2500);
+    EXPECT_NEAR(run_seconds(state, 0, 9), 10.8f / glass, 1e-6f);
 }
 
 }  // namespace
