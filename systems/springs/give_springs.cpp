@@ -11,6 +11,7 @@
 namespace cullet {
 namespace {
 
+constexpr float kMostDampingRatio = 0.3f;  // section 8 of the note
 constexpr uint32_t kSpareSlots = 1;  // a pack: a split gives a vertex at most one neighbour more
 
 Result<void> check(const State& state, Row<Shells> shell, const SpringSettings& s) {
@@ -20,7 +21,7 @@ Result<void> check(const State& state, Row<Shells> shell, const SpringSettings& 
     };
     const auto is_in = [](float value, float low, float high) { return value >= low && value <= high; };
     if (!is_in(s.young_modulus, 0, 1e13f)) return refuse("young_modulus", s.young_modulus, "0 to 1e13 Pa");
-    if (!is_in(s.damping_ratio, 0, 1)) return refuse("damping_ratio", s.damping_ratio, "0 to 1");
+    if (!is_in(s.damping_ratio, 0, kMostDampingRatio)) return refuse("damping_ratio", s.damping_ratio, "0 to 0.3");
     if (s.length_factor < 0 || s.length_factor > 0)
         if (!is_in(s.length_factor, 0.577f, kMostLengthFactor))
             return refuse("length_factor", s.length_factor, "0 or 0.577 to 5");

@@ -142,7 +142,7 @@ TEST(GiveSprings, RefusesWhatIsOutOfRangeWithASentence) {
         ASSERT_FALSE(result.ok());
         EXPECT_NE(result.error().find(what), std::string::npos) << result.error();
     };
-    refused([](SpringSettings& s) { s.damping_ratio = 2; }, "damping_ratio");
+    refused([](SpringSettings& s) { s.damping_ratio = 0.31f; }, "damping_ratio");
     refused([](SpringSettings& s) { s.young_modulus = -1; }, "young_modulus");
     refused([](SpringSettings& s) { s.young_modulus = std::nanf(""); }, "young_modulus");
     refused([](SpringSettings& s) { s.length_factor = 0.3f; }, "length_factor");

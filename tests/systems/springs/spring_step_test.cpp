@@ -262,6 +262,62 @@ TEST(SpringStep, AStepThatIsStableStaysSoAndTwiceGershgorinsDoesNot) {
         }
 }
 
+/// Energy of what was shaken by `size`, a hundredth of a spring at most, after 3,000 of its own steps, over that at the
+/// start.
+double energy_left(SpringBench bench, double size) {
+    shake(bench, size, 0);
+    measure_lengths(bench.view());
+    const auto energy = [&] { return motion_of(bench.view()).kinetic + spring_energy(bench.view()); };
+    const double start = energy();
+    for (int i = 0; i < 3000; ++i) bench.step();
+    return energy() / start;
+}
+
+/// A light point between `arms` heavy ones to each side: its mode is damped sqrt(2 arms) times as much as a spring.
+SpringBench make_hub(uint32_t arms, float damping) {
+    std::vector<Vec3d> points{{0, 0, 0}};
+    std::vector<double> masses{1e-3};
+    std::vector<GivenSpring> springs;
+    for (uint32_t i = 0; i < 2 * arms; ++i) {
+        points.push_back({i % 2 ? 1.0 : -1.0, 0, 0});
+        masses.push_back(1);
+        springs.push_back({0, i + 1, 1, 1000});
+    }
+    return SpringBench(points, masses, springs, settings_of(SpringLayout::OneLayer, damping));
+}
+
+SpringBench make_chain(float damping) {
+    std::vector<Vec3d> points;
+    std::vector<GivenSpring> springs;
+    for (uint32_t v = 0; v < 30; ++v) {
+        points.push_back({0.1 * v, 0, 0});
+        if (v > 0) springs.push_back({v - 1, v, 0.1f, 1000});
+    }
+    return SpringBench(points, std::vector<double>(points.size(), 0.01), springs,
+                       settings_of(SpringLayout::OneLayer, damping));
+}
+
+TEST(SpringStep, IsStableWithAnyDampingThatIsAccepted) {
+    for (const float damping : {0.05f, 0.3f}) {
+        EXPECT_LT(energy_left(make_chain(damping), 1e-3), 1) << damping;
+        for (const uint32_t arms : {3u, 32u}) EXPECT_LT(energy_left(make_hub(arms, damping), 1e-2), 1) << damping;
+        for (const SpringLayout layout : kLayouts)
+            EXPECT_LT(energy_left(make_ball(layout, damping), 1e-5), 1) << damping;
+    }
+}
+
+TEST(SpringStep, IsThatOfTheRowSumsOfStiffnessAndDamping) {
+    // The light point decides: K = 2 sum k / m, C = 2 sum c / m, dt^2 K + 2 dt C = 4.
+    for (const float damping : {0.0f, 0.3f}) {
+        SpringBench bench = make_hub(32, damping);
+        const double k = 64 * 1000, m = 1e-3, c = 64 * 2 * double{damping} * std::sqrt(1000 * (1e-3 / 1.001));
+        const double bound = 4 / (2 * c / m + std::sqrt(4 * c * c / (m * m) + 8 * k / m));
+        const double wanted = std::min(0.6 * 2 / std::sqrt(2 * k / m), 0.9 * bound);
+        EXPECT_NEAR(stable_spring_step(bench.view()), wanted, 1e-5 * wanted);
+        EXPECT_EQ(damping > 0, 0.9 * bound < 0.6 * 2 / std::sqrt(2 * k / m));
+    }
+}
+
 TEST(SpringStep, OfAnEquilateralSheetIsTheNotesShareOfItsWave) {
     const double edge = 0.01;
     SpringBench bench(bench_strip(20, 20, edge), 0.002, {}, {});
