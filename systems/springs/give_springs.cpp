@@ -12,6 +12,8 @@ namespace cullet {
 namespace {
 
 constexpr float kMostDampingRatio = 0.3f;  // section 8 of the note
+// Of a spring given by hand: a steel bar of 1 m2 and 1 m has 2e11 N/m, and k L over the least length is finite.
+constexpr float kLongestGiven = 1e6f, kStiffestGiven = 1e12f;  // m, N/m
 constexpr uint32_t kSpareSlots = 1;  // a pack: a split gives a vertex at most one neighbour more
 
 Result<void> check(const State& state, Row<Shells> shell, const SpringSettings& s) {
@@ -189,9 +191,10 @@ Result<Row<ShellSprings>> give_springs(State& state, Row<Shells> shell_row, std:
         if (g.a >= shell.vertex_count() || g.b >= shell.vertex_count() || g.a == g.b)
             return refuse(s, "joins vertices " + std::to_string(g.a) + " and " + std::to_string(g.b) + " of " +
                                  std::to_string(shell.vertex_count()) + ". Join two that there are.");
-        if (!(g.rest_length >= 0 && g.rest_length <= 1e6f && g.stiffness >= 0 && g.stiffness <= 1e15f))
+        if (!(g.rest_length >= 0 && g.rest_length <= kLongestGiven && g.stiffness >= 0 &&
+              g.stiffness <= kStiffestGiven))
             return refuse(s, "has rest length " + std::to_string(g.rest_length) + " m and stiffness " +
-                                 std::to_string(g.stiffness) + " N/m. Give 0 to 1e6 and 0 to 1e15.");
+                                 std::to_string(g.stiffness) + " N/m. Give 0 to 1e6 and 0 to 1e12.");
         for (const uint32_t v : {g.a, g.b})
             if (++first[v + 1] > std::size(VertexSprings{}.spring))
                 return refuse(s, "is one too many at vertex " + std::to_string(v) + ". Give at most 65 at one.");

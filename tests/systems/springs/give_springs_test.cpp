@@ -148,7 +148,8 @@ TEST(GiveSprings, RefusesWhatIsOutOfRangeWithASentence) {
     refused([](SpringSettings& s) { s.length_factor = 0.3f; }, "length_factor");
     refused([](SpringSettings& s) { s.volume_energy = 1e9f; }, "volume_energy");
     refused([](SpringSettings& s) { s.time_step = -1; }, "time_step");
-    const std::vector<GivenSpring> wild[] = {{{0, 0, 1, 1}}, {{0, 99999, 1, 1}}, {{0, 1, -1, 1}}, {{0, 1, 1, 1e30f}}};
+    const std::vector<GivenSpring> wild[] = {{{0, 0, 1, 1}},     {{0, 99999, 1, 1}},   {{0, 1, -1, 1}},
+                                             {{0, 1, 1, 1e30f}}, {{0, 1, 1, 1.1e12f}}, {{0, 1, 1.1e6f, 1}}};
     for (const auto& springs : wild) EXPECT_FALSE(give_springs(state, bench.shell(), springs, {}).ok());
     EXPECT_FALSE(find_springs(state, bench.shell()).exists());
     EXPECT_TRUE(give_springs(state, bench.shell(), SpringSettings{}).ok());

@@ -198,6 +198,17 @@ TEST(SpringStep, SpringsOfLengthZeroAreSkippedAndCounted) {
     EXPECT_EQ(bench.state().validate(), "");
 }
 
+TEST(SpringStep, TheStiffestAndLongestThatIsAcceptedLeavesPointsInOnePlaceWhereTheyAre) {
+    // k L is 1e18 N there, and its 1e36 N/m over no length are still finite: times x = 0 they are no force.
+    const std::vector<GivenSpring> springs{{0, 1, 1e6f, 1e12f}};
+    SpringSettings settings;
+    settings.time_step = 1e-6f;
+    SpringBench bench({{1, 2, 3}, {1, 2, 3}}, {1e6, 1e6}, springs, settings);
+    for (int i = 0; i < 3; ++i) bench.step();
+    for (const uint32_t v : {0u, 1u}) EXPECT_EQ(bench.view().position(v), (Vec3{1, 2, 3}));
+    EXPECT_EQ(bench.state().validate(), "");
+}
+
 TEST(SpringStep, ASpringWithoutRestLengthHasNoForce) {
     const std::vector<GivenSpring> springs{{0, 1, 0, 100}};
     SpringBench bench({{0, 0, 0}, {1, 0, 0}}, {1, 1}, springs, {});
