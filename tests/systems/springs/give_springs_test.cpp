@@ -5,7 +5,9 @@
 
 #include <map>
 
+#include "engine/random.hpp"
 #include "sample_game/spring_bench.hpp"
+#include "systems/damage/insert_vertex.hpp"
 #include "systems/springs/check_springs.hpp"
 #include "systems/springs/rebuild_springs.hpp"
 #include "systems/springs/spring_lists.hpp"
@@ -303,6 +305,136 @@ TEST(RebuildSprings, RebuildingAllGivesWhatRebuildingTheTouchedGives) {
         few.set_velocity(5, {1, 0, 0}), all.set_velocity(5, {1, 0, 0});
         for (int i = 0; i < 20; ++i) few.step(), all.step();
         for (uint32_t v = 0; v < few.size(); ++v) EXPECT_EQ(few.view().position(v), all.view().position(v));
+    }
+}
+
+/// A ball of uneven depth whose inward directions lean, so that the two diagonals of its side quads differ.
+SpringBench make_uneven(SpringLayout layout) {
+    SpringBench bench(bench_sphere(0.1, 2), 0.006, {}, settings_of(layout), {}, 32);
+    State& state = bench.state();
+    release_springs(state, bench.shell());
+    const Random random{17};
+    const ShellView shell(state, bench.shell());
+    for (uint32_t v = 0; v < bench.size(); ++v) {
+        const uint32_t row = shell.vertex(v);
+        const auto r = [&](uint64_t k) { return static_cast<float>(random.uniform(v, k)); };
+        state.vertices.depth[row] *= 0.6f + 0.8f * r(0);
+        const Vec3 lean{0.4f * r(1) - 0.2f, 0.4f * r(2) - 0.2f, 0.4f * r(3) - 0.2f};
+        state.vertices.inward.set(row, normalised(state.vertices.inward[row] + lean));
+    }
+    EXPECT_EQ(give_springs(state, bench.shell(), settings_of(layout)).value(), bench.springs());
+    start_springs(bench.view(), {});
+    return bench;
+}
+
+/// Puts `count` vertices into the shell, some beside others, and what the springs must know of them; not rebuilt.
+std::vector<uint32_t> insert_vertices(SpringBench& bench, uint32_t count) {
+    const SpringView view = bench.view();
+    const Elements& elements = bench.state().elements;
+    Touched touched;
+    const uint32_t before = view.shell.element_count();
+    for (uint32_t i = 0, e = 3; i < count; e = (e + 7) % before) {
+        const uint32_t k = e % 3, row = view.shell.element(e), other = elements.neighbour[row][k];
+        const float tau = 0.3f + 0.05f * static_cast<float>(i % 8);
+        bool is_full = false;
+        if (!can_insert(view.shell, e, k, tau, is_full)) continue;
+        const uint32_t p = elements.corner[row][k], q = elements.corner[row][(k + 1) % 3];
+        const uint32_t w = insert_vertex(view.shell, e, k, tau, touched);
+        forget_springs(view, e);
+        if (other != kNone) forget_springs(view, other);
+        if (view.has_layers()) insert_twin(view, p, q, w, tau);
+        ++i;
+    }
+    return {touched.weighed.vertex, touched.weighed.vertex + touched.weighed.count};
+}
+
+/// Lengths at rest and stiffness of the live springs by their ends, as seen from the lower one: outer and inner skin,
+/// middle, cross springs.
+std::map<std::pair<uint32_t, uint32_t>, std::array<float, 9>> springs_of(const SpringView& view) {
+    std::map<std::pair<uint32_t, uint32_t>, std::array<float, 9>> seen;
+    const Springs& springs = view.state.springs;
+    const LayerSprings& layers = view.state.layer_springs;
+    for (uint32_t s = 0; s < view.spring_count(); ++s) {
+        const uint32_t row = view.spring(s), a = springs.a[row], b = springs.b[row];
+        if (a == kNone) continue;
+        std::array<float, 9> one{springs.rest_length[row], springs.stiffness[row]};
+        if (view.has_layers()) {
+            const uint32_t l = view.layer(s);
+            const auto cross = layers.cross_length[l];
+            one = {one[0],
+                   one[1],
+                   layers.inner_length[l],
+                   layers.inner_stiffness[l],
+                   layers.mid_length[l],
+                   layers.mid_stiffness[l],
+                   layers.cross_stiffness[l],
+                   cross[a < b ? 0 : 1],
+                   cross[a < b ? 1 : 0]};
+        }
+        EXPECT_TRUE(seen.try_emplace(std::minmax(a, b), one).second) << "two springs join " << a << " and " << b;
+    }
+    return seen;
+}
+
+TEST(RebuildSprings, AfterInsertsAreThoseThatTheShellWouldBeGiven) {
+    for (const SpringLayout layout : kLayouts) {
+        SpringBench bench = make_uneven(layout);
+        State& state = bench.state();
+        ASSERT_TRUE(rebuild_springs(bench.view(), insert_vertices(bench, 12)));
+        const auto sound = check_springs(state, "re-meshed", "");
+        EXPECT_TRUE(sound.ok()) << (sound.ok() ? "" : sound.error());
+        const Row<Shells> copy = copy_shell(state, bench.shell(), room_of(state, bench.shell()));
+        const auto given = give_springs(state, copy, settings_of(layout));
+        ASSERT_TRUE(given.ok()) << given.error();
+        const SpringView view = bench.view(), fresh(state, given.value());
+        const auto ours = springs_of(view), theirs = springs_of(fresh);
+        EXPECT_EQ(ours.size(), theirs.size());
+        for (const auto& [ends, wanted] : theirs) {
+            ASSERT_TRUE(ours.contains(ends)) << ends.first << " and " << ends.second;
+            const std::array<float, 9>& found = ours.at(ends);
+            for (size_t i = 0; i < 9; ++i) EXPECT_NEAR(found[i], wanted[i], 1e-5f * wanted[i]) << i;
+        }
+        for (uint32_t v = 0; v < bench.size() && view.has_layers(); ++v) {
+            const uint32_t a = view.twin(v), b = fresh.twin(v);
+            for (const Column<float>* column : {&state.twins.mass_share, &state.twins.inverse_mass,
+                                                &state.twins.inverse_rest, &state.twins.stiffness_rest})
+                EXPECT_NEAR((*column)[a], (*column)[b], 1e-5f * (*column)[b]) << v;
+        }
+    }
+}
+
+TEST(RebuildSprings, AfterInsertsAShellAtRestStaysAtRest) {
+    for (const SpringLayout layout : kLayouts) {
+        SpringBench bench = make_uneven(layout);
+        ASSERT_TRUE(rebuild_springs(bench.view(), insert_vertices(bench, 12)));
+        for (int i = 0; i < 20; ++i) bench.step();
+        const double sound = std::sqrt(kYoung / 1000);
+        for (uint32_t v = 0; v < bench.size(); ++v) {
+            EXPECT_LT(length(bench.velocity(v)), 1e-4 * sound) << v;
+            if (bench.view().has_layers()) {
+                EXPECT_LT(length(bench.state().twins.velocity[bench.view().twin(v)]), 1e-4 * sound) << v;
+            }
+        }
+    }
+}
+
+TEST(RebuildSprings, InsertsInMotionKeepMassCentreAndMomentumOfBothLayers) {
+    for (const SpringLayout layout : kLayouts) {
+        SpringBench bench = make_uneven(layout);
+        for (uint32_t v = 0; v < bench.size(); v += 3)
+            bench.set_velocity(v, {0.1f * static_cast<float>(v % 5), -0.2f, 0.05f * static_cast<float>(v % 7)});
+        for (int i = 0; i < 10; ++i) bench.step();
+        const SpringMotion before = motion_of(bench.view());
+        ASSERT_TRUE(rebuild_springs(bench.view(), insert_vertices(bench, 12)));
+        const SpringMotion after = motion_of(bench.view());
+        EXPECT_NEAR(after.mass, before.mass, 1e-12 * before.mass);
+        EXPECT_LT(length(after.centre - before.centre), 1e-8);
+        EXPECT_LT(length(after.momentum - before.momentum), 1e-7 * before.mass);
+        EXPECT_LE(after.kinetic, before.kinetic * (1 + 1e-7));
+        const SpringMotion start = motion_of(bench.view());
+        for (int i = 0; i < 100; ++i) bench.step();
+        EXPECT_LT(length(motion_of(bench.view()).momentum - start.momentum), 1e-6 * before.mass);
+        EXPECT_EQ(bench.state().validate(), "");
     }
 }
 
