@@ -201,6 +201,22 @@ TEST(GiveSprings, ACopyMovesAsItsSourceDoes) {
     }
 }
 
+TEST(GiveSprings, ACopyOfSpringsGivenByHandOnAShellWithElementsIsSound) {
+    SpringBench bench = make_strip(SpringLayout::OneLayer);
+    State& state = bench.state();
+    release_springs(state, bench.shell());
+    const std::vector<GivenSpring> given{{0, 1, 0.01f, 100}, {1, 20, 0.05f, 50}};
+    ASSERT_TRUE(give_springs(state, bench.shell(), given, {}).ok());
+    ASSERT_TRUE(check_springs(state, "source", "").ok());
+    ShellRoom room = room_of(state, bench.shell());
+    room.with_springs = true;
+    const Row<Shells> copy = copy_shell(state, bench.shell(), room);
+    ASSERT_TRUE(copy.exists());
+    const auto sound = check_springs(state, "copy", "");
+    EXPECT_TRUE(sound.ok()) << (sound.ok() ? "" : sound.error());
+    EXPECT_EQ(SpringView(state, find_springs(state, copy)).spring_count(), 2u);
+}
+
 TEST(GiveSprings, AStateWithoutSpringsHashesAsIfThereWereNoSuchTables) {
     State state, other;
     EXPECT_EQ(state.hash(), other.hash());
