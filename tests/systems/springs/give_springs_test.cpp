@@ -477,6 +477,29 @@ TEST(CheckSprings, RefusesIndicesThatLeadOutside) {
         [](SpringBench& b) { b.state().spring_packs.first_slot[b.view().pack(1)] = 1u << 20; },
         [](SpringBench& b) { b.state().spring_packs.slot_count[b.view().pack(1)] = 60000; },
         [](SpringBench& b) { b.state().element_springs.spring[b.view().edges(1)][2] = 77777; },
+        // Rows that there are, but others than the right ones.
+        [](SpringBench& b) { ++b.state().springs.element[b.view().spring(3)]; },
+        [](SpringBench& b) { b.state().springs.element[b.view().spring(3)] = 20; },
+        [](SpringBench& b) {
+            auto& of = b.state().element_springs.spring;
+            of[b.view().edges(1)][2] = of[b.view().edges(9)][0];
+        },
+        [](SpringBench& b) {
+            auto& place = b.state().springs.place[b.view().spring(3)][0];
+            place += kLanes * (place < kLanes * b.state().spring_packs.first_slot[b.view().pack(1)] ? 12 : -12);
+        },
+        [](SpringBench& b) {
+            auto& place = b.state().springs.place[b.view().spring(3)];
+            place[0] += place[0] % 2 ? -1 : 1;
+        },
+        [](SpringBench& b) {
+            uint32_t& n = b.state()
+                              .spring_slots.slot[b.state().springs.place[b.view().spring(3)][0] / kLanes]
+                              .neighbour[b.state().springs.place[b.view().spring(3)][0] % kLanes];
+            n = n == 0 ? 1 : 0;
+        },
+        [](SpringBench& b) { --b.state().spring_packs.first_slot[b.view().pack(1)]; },
+        [](SpringBench& b) { ++b.state().spring_packs.slot_capacity[b.view().pack(1)]; },
         [](SpringBench& b) { b.state().shell_springs.shell[b.springs()] = Row<Shells>(5); },
         [](SpringBench& b) { b.state().shell_springs.layout[b.springs()] = 9; },
         [](SpringBench& b) { b.state().shell_springs.layout[b.springs()] = 0; },
