@@ -15,6 +15,10 @@ namespace cullet::test {
 namespace {
 
 constexpr SpringLayout kLayouts[] = {SpringLayout::OneLayer, SpringLayout::Sandwich, SpringLayout::Crossed};
+/// And with what shares of E h A areas and volumes are kept (B4).
+constexpr std::pair<SpringLayout, float> kLayoutsAndEnergies[] = {
+    {SpringLayout::OneLayer, 0.0f}, {SpringLayout::OneLayer, 0.5f}, {SpringLayout::Sandwich, 0.0f},
+    {SpringLayout::Sandwich, 0.5f}, {SpringLayout::Crossed, 0.0f},  {SpringLayout::Crossed, 0.5f}};
 
 SpringSettings settings_of(SpringLayout layout, float damping = 0.05f) {
     SpringSettings settings;
@@ -23,8 +27,10 @@ SpringSettings settings_of(SpringLayout layout, float damping = 0.05f) {
     return settings;
 }
 
-SpringBench make_ball(SpringLayout layout, float damping = 0.05f, int rounds = 2) {
-    return SpringBench(bench_sphere(0.1, rounds), 0.006, {}, settings_of(layout, damping));
+SpringBench make_ball(SpringLayout layout, float damping = 0.05f, int rounds = 2, float energy = 0) {
+    SpringSettings settings = settings_of(layout, damping);
+    settings.area_energy = settings.volume_energy = energy;
+    return SpringBench(bench_sphere(0.1, rounds), 0.006, {}, settings);
 }
 
 /// Moves every point about its place by up to `size`, and gives it some speed.
@@ -124,8 +130,8 @@ TEST(SpringStep, MovesAPairByHandAsTheFormulaSays) {
 }
 
 TEST(SpringStep, KeepsMomentumAndAngularMomentum) {
-    for (const SpringLayout layout : kLayouts) {
-        SpringBench bench = make_ball(layout);
+    for (const auto& [layout, energy] : kLayoutsAndEnergies) {
+        SpringBench bench = make_ball(layout, 0.05f, 2, energy);
         shake(bench, 2e-3, 1);
         const SpringMotion before = motion_of(bench.view());
         const double scale = before.mass * 1;
@@ -218,11 +224,11 @@ TEST(SpringStep, ASpringWithoutRestLengthHasNoForce) {
 }
 
 TEST(SpringStep, HasTheSameBitsAtEverySimdLevel) {
-    for (const SpringLayout layout : kLayouts) {
+    for (const auto& [layout, energy] : kLayoutsAndEnergies) {
         uint64_t scalar = 0;
         for (const SimdLevel level : {SimdLevel::Scalar, SimdLevel::Sse4, SimdLevel::Avx2, SimdLevel::Avx512}) {
             if (!set_simd_level(level)) continue;
-            SpringBench bench = make_ball(layout);
+            SpringBench bench = make_ball(layout, 0.05f, 2, energy);
             shake(bench, 2e-3, 1);
             for (int i = 0; i < 60; ++i) bench.step();
             const uint64_t hash = bench.state().hash();
@@ -327,6 +333,19 @@ TEST(SpringStep, IsThatOfTheRowSumsOfStiffnessAndDamping) {
         EXPECT_NEAR(stable_spring_step(bench.view()), wanted, 1e-5 * wanted);
         EXPECT_EQ(damping > 0, 0.9 * bound < 0.6 * 2 / std::sqrt(2 * k / m));
     }
+}
+
+TEST(SoftenedModulus, MakesAWantedStepThatOfTheSheetAndNeverHardens) {
+    const float edge = 0.01f, density = 1000, wanted = 1e-4f;
+    const float soft = softened_modulus(1e7f, density, edge, wanted);
+    EXPECT_FLOAT_EQ(soft, 1000 * 35.0f * 35.0f);
+    SpringSettings settings;
+    settings.young_modulus = soft;
+    SpringBench bench(bench_strip(12, 12, double{edge}), 0.002, {}, settings);
+    EXPECT_NEAR(stable_spring_step(bench.view()), wanted, 0.02 * wanted) << "0.6 * 0.577 is rounded to 0.35";
+    set_spring_step(bench.view(), wanted);
+    EXPECT_LT(energy_left(std::move(bench), 1e-5), 1);
+    EXPECT_FLOAT_EQ(softened_modulus(1e5f, density, edge, wanted), 1e5f);
 }
 
 TEST(SpringStep, OfAnEquilateralSheetIsTheNotesShareOfItsWave) {
