@@ -267,7 +267,7 @@ void forget_springs(const SpringView& view, uint32_t element) {
     for (uint32_t& entry : state.element_springs.spring[view.edges(element)]) {
         const uint32_t s = entry;
         entry = kNone;
-        if (s == kNone || state.springs.element[view.spring(s)] != element) continue;
+        if (s >= view.spring_count() || state.springs.element[view.spring(s)] != element) continue;
         const uint32_t a = state.springs.a[view.spring(s)], b = state.springs.b[view.spring(s)];
         Ring ring;
         walk_ring(view.shell, a, ring);
