@@ -146,8 +146,8 @@ float first_crack_speed(State& state, Row<Shells> shell, Vec3 down) {
             const uint32_t row = working.element(e);
             if (state.elements.principal[row] <= 0.5f * most * limit) continue;
             for (const uint32_t v : state.elements.corner[row]) {
-                const float ratio =
-                    start_field(working, v, limits.grain).stress / (limit * state.vertices.strength_factor[working.vertex(v)]);
+                const float ratio = start_field(working, v, limits.grain).stress /
+                                    (limit * state.vertices.strength_factor[working.vertex(v)]);
                 most = std::max(most, ratio);
             }
         }
