@@ -21,18 +21,19 @@ struct BendingTerms {
         const uint32_t row = shell.element(element);
         const TriangleTerms terms(state.triangle_springs, row, stress);
         const double thickness = state.triangle_springs.thickness[row];
-        double b[3][3], root[3];
+        double b[3][3], scale = 1;
         for (size_t k = 0; k < 3; ++k) {
             hinge[k] = state.elements.hinge[row][k];
             // The corner opposite edge k has the gradient 1/altitude along the edge's normal: L / (2A) = 1/altitude.
             const auto& g = terms.g[(k + 2) % 3];
             const double size = std::sqrt(g[0] * g[0] + g[1] * g[1]), over = size > 0 ? 1 / size : 0;
             b[k][0] = g[0] * g[0] * over, b[k][1] = g[1] * g[1] * over, b[k][2] = 2 * g[0] * g[1] * over;
-            root[k] = hinge[k] == kNone ? 0 : std::sqrt(double{state.hinges.scale[shell.hinge(hinge[k])]});
+            if (hinge[k] != kNone) scale = std::min(scale, double{state.hinges.scale[shell.hinge(hinge[k])]});
         }
-        const double factor = terms.volume * thickness * thickness / 12;
+        const double factor = scale * terms.volume * thickness * thickness / 12;
         for (int k = 0; k < 3; ++k)
-            for (int l = 0; l < 3; ++l) h[k][l] = factor * root[k] * root[l] * terms.full.product(b[k], b[l]);
+            for (int l = 0; l < 3; ++l)
+                if (hinge[k] != kNone && hinge[l] != kNone) h[k][l] = factor * terms.full.product(b[k], b[l]);
     }
 };
 
