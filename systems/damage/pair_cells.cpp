@@ -9,6 +9,7 @@ namespace cullet {
 namespace {
 
 constexpr uint32_t kLevelPasses = 8;  // later ones find nothing to move
+uint32_t bound_of_cells = kPairedCells;
 
 /// The pairs of one kind inside one pair cell, each with the end that stores it; a vertex has at most `most` of them.
 /// Vertices are counted from the cell's first one.
@@ -140,6 +141,13 @@ bool is_others(const ShellView& shell, uint32_t vertex, uint32_t other,
 }
 
 }  // namespace
+
+void set_paired_cells(uint32_t cells) {
+    bound_of_cells = cells;
+}
+uint32_t paired_cells() {
+    return bound_of_cells;
+}
 
 bool lay_pair_cells(ShellView shell) {
     const uint32_t packs = shell.shells().packs[shell.row].count;
