@@ -328,6 +328,10 @@ void copy_shell_rows(State& to, const State& from, Row<Shells> source, Row<Shell
     copy_range(to.stiffness_links, from.stiffness_links, s.links, own[5], with_stiffness);
     copy_range(to.cells, from.cells, s.cells, own[6], own[6].capacity > 0);
     copy_range(to.hull_points, from.hull_points, s.points, own[7], own[7].capacity > 0);
+    // The number of cells says how stiffness is stored (pair_cells.hpp).
+    CULLET_ASSERT(s.packs[copy].count == 0 || s.cells[copy].count == from.shells.cells[source].count,
+                  "copy of shell %u has its stiffness but %u of its %u cells", source.index, s.cells[copy].count,
+                  from.shells.cells[source].count);
 }
 
 Row<Shells> copy_shell(State& state, Row<Shells> source, const ShellRoom& room, const char** full) {

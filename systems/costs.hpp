@@ -13,6 +13,7 @@ inline constexpr uint64_t kUnitsCut = 15000;  // a cut edge: inserts, splits, ab
 inline constexpr uint64_t kUnitsCutElement = 200;  // an element that a cut of the game looks at, a segment of its line
 inline constexpr uint64_t kUnitsOpen = 220;        // a vertex when a task opens: copy, patches
 inline constexpr uint64_t kUnitsAssemble = 550;    // a vertex of a shell whose stiffness is not assembled yet
+inline constexpr uint64_t kUnitsGrainRow = 3000;   // a row of a material with a grain, rebuilt after a cut
 inline constexpr uint64_t kUnitsCompact = 300;     // a live element of a shell that is compacted; 0.6 microseconds
 
 inline constexpr uint32_t kStepsAStressCheck = 3;

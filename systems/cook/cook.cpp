@@ -174,8 +174,8 @@ uint64_t units_of_a_hit(const State& state, Row<Shells> shell) {
            vertices * kUnitsOpen;  // a blow that breaks grows it by a tenth
 }
 
-ModelReport report_on(const State& state, Row<Shells> shell, const SurfaceRepairs& repairs,
-                      const Extrusion& extrusion) {
+ModelReport report_on(const State& state, Row<Shells> shell, const SurfaceRepairs& repairs, const Extrusion& extrusion,
+                      double longest_edge) {
     const Shells& s = state.shells;
     ModelReport report;
     report.vertices = s.vertices[shell].count;
@@ -194,7 +194,7 @@ ModelReport report_on(const State& state, Row<Shells> shell, const SurfaceRepair
         report.advice = std::string("Its material is ") + name_of(kind) +
                         ": this version moves it as a rigid body that does not bend, tear or break.";
     else
-        report.advice = hit_advice(report.units_of_a_hit, s.mean_edge[shell], s.thickness[shell]);
+        report.advice = hit_advice(report.units_of_a_hit, s.mean_edge[shell], s.thickness[shell], longest_edge);
     return report;
 }
 
@@ -258,6 +258,8 @@ Result<Model> cook(const MeshView& view, const CookSettings& settings) try {
         settings.longest_edge > 0 ? settings.longest_edge : std::max(2.0 * settings.thickness, 0.025 * diagonal);
     Result<Mesh> fine = tessellate(*mesh, tessellation);
     if (!fine) return Error{name + ": " + fine.error()};
+    // Whether the setting made the edges what they are, or cut a few long ones.
+    const double cut_at = fine->triangles.size() >= 2 * mesh->triangles.size() ? tessellation.longest_edge : 0;
     const uint32_t thinned = thin_fans(*fine, kMostRing);
     Result<Surface> surface = prepare_surface(*fine, welding);
     if (!surface) return Error{name + ": " + surface.error()};
@@ -317,7 +319,7 @@ Result<Model> cook(const MeshView& view, const CookSettings& settings) try {
     else
         state.shells.first_crack_speed[contents->shell] = estimated_threshold(state, contents->shell);
     if (settings.progress && !measures) settings.progress(settings.progress_user, 1);
-    contents->report = report_on(state, contents->shell, given->repairs, extrusion.value());
+    contents->report = report_on(state, contents->shell, given->repairs, extrusion.value(), cut_at);
     if (joined) contents->report.walls = describe(*joined, *surface, *extrusion);
     if (thinned > 0)
         contents->report.repairs += (contents->report.repairs.empty() ? "" : " ") + std::string("Thinned ") +
