@@ -22,6 +22,7 @@ struct Drawing {
     std::deque<std::vector<Vec3>> points;
     std::deque<std::vector<uint32_t>> indices;
     std::deque<std::vector<DrawnRun>> runs;
+    std::deque<std::vector<DrawnLine>> lines;
     std::vector<DrawnBody> bodies;
 
     DrawnBody& add(const Mesh& mesh, float scale = 1) {
@@ -44,12 +45,18 @@ struct Drawing {
         std::vector<DrawnRun>& r = runs.emplace_back();
         for (uint32_t run = 0; run < view.run_count; ++run)
             r.push_back({view.runs[run].first_index, view.runs[run].index_count, kind_of(view.runs[run].kind)});
+        std::vector<DrawnLine>& l = lines.emplace_back();
+        for (uint32_t i = 0; i < view.hairline_index_count; i += 2) {
+            const ViewVertex &from = view.vertices[view.hairlines[i]], &to = view.vertices[view.hairlines[i + 1]];
+            l.push_back({from.position, to.position, from.uv.y > 0 ? FaceKind::Inner : FaceKind::Outer});
+        }
         DrawnBody& body = bodies.emplace_back();
         body.pose = view.pose;
         body.positions = p;
         body.normals = n;
         body.indices = {view.indices, view.index_count};
         body.runs = r;
+        body.lines = l;
         return body;
     }
 };

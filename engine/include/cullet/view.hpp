@@ -34,7 +34,8 @@ struct DirtyRange {
     uint32_t first = 0, count = 0;
 };
 
-/// One body's drawn mesh: a closed surface, every edge shared by exactly two triangles.
+/// One body's drawn mesh: a closed surface. With equal positions taken as one, every edge is run as often one way as the
+/// other, by one triangle each but along cracks, where both sides lie on each other until they part.
 struct BodyView {
     const ViewVertex* vertices = nullptr;
     uint32_t vertex_count = 0;
@@ -42,6 +43,11 @@ struct BodyView {
     uint32_t index_count = 0;
     MaterialRun runs[kMostRuns];  // the first run_count, none empty, by (kind, material); they cover all indices
     uint32_t run_count = 0;
+    /// Cracks that have not parted the body: pairs of indices into vertices, each pair one line, once along the outer
+    /// wall and once along the inner one. To be drawn thin and dark, a little towards the eye; their triangles do not
+    /// show. They change with the stamp.
+    const uint32_t* hairlines = nullptr;
+    uint32_t hairline_index_count = 0;
     uint32_t stamp = 0;  // another number whenever the mesh is another one
     DirtyRange dirty_vertices, dirty_indices;
     Pose pose_before, pose;  // before and after the last step: mix them by the share of the step not yet simulated
