@@ -53,7 +53,6 @@ struct Bodies : Table<Bodies> {
     Column<Range> view_indices{*this, "view_indices"};
     Column<std::array<uint32_t, kMostRuns>> run_indices{*this, "run_indices"};  // by kind, then by drawn material
     Column<std::array<uint16_t, kMostDrawnMaterials>> drawn_materials{*this, "drawn_materials"};  // rising; rest 0
-    Column<uint32_t> hairline_indices{*this, "hairline_indices", "1", Keep::Scratch};  // of ViewLines
     Column<uint32_t> view_stamp{*this, "view_stamp"};    // changes when the drawn mesh changes
     Column<uint64_t> drawn_frame{*this, "drawn_frame"};  // the step that drew it, or before which it was drawn
 };

@@ -34,7 +34,7 @@ FramePlan<WorldData> make_frame_plan(bool is_hosted, const std::function<std::st
     plan.stage("solve");
     if (!is_hosted) plan.then<solve_rigid>().then<read_rigid>();
     plan.then<fall_debris>();
-    plan.stage("end").then<draw_shells>().then<draw_hairlines>().then<bound_drawn>().then<refresh_queries>().then<compact_shells>();
+    plan.stage("end").then<draw_shells>().then<bound_drawn>().then<refresh_queries>().then<compact_shells>();
     return plan;
 }
 

@@ -87,9 +87,6 @@ void fall_debris(Rows<Debris> debris, Step step, InOut<&Debris::position> positi
 /// The drawn mesh of each shell that changed.
 void draw_shells(Each<ShellChanged> changed, Step step, ShellTables shells, Bodies& bodies, ViewVertices& vertices,
                  ViewIndices& indices);
-/// Lines along the cracks of each shell that changed that have not parted it.
-void draw_hairlines(Each<ShellChanged> changed, Bodies& bodies, const ViewVertices& vertices,
-                    const ViewIndices& indices, ViewLines& lines);
 /// Boxes of the drawn triangles of each shell that changed.
 void bound_drawn(Each<ShellChanged> changed, Bodies& bodies, const ViewVertices& vertices, const ViewIndices& indices,
                  ViewBoxes& boxes);

@@ -29,7 +29,6 @@ constexpr size_t kArenaBytes = size_t{64} << 20;
 WorldData::WorldData(const Settings& settings)
     : state(limits_of(settings.limits)),
       view_boxes(state.view_indices.limit() / kViewGranule + 1),
-      view_lines(state.view_indices.limit() / 2 + 1),
       query_index(std::make_unique<QueryIndex>(settings.limits.bodies)),
       arena(kArenaBytes),
       impacts(1u << 16),

@@ -4,7 +4,6 @@
 
 #include "components/state.hpp"
 #include "components/view_boxes.hpp"
-#include "components/view_lines.hpp"
 #include "cullet/events.hpp"
 #include "cullet/settings.hpp"
 #include "engine/arena.hpp"
@@ -75,7 +74,6 @@ struct WorldData {
     std::unique_ptr<RigidWorld> rigid;
     std::unique_ptr<DamageLoop> damage_loop;
     ViewBoxes view_boxes;
-    ViewLines view_lines;
     std::unique_ptr<QueryIndex> query_index;
     Arena arena;
     Events<Impact> impacts;
@@ -103,8 +101,6 @@ struct WorldData {
     T& table() {
         if constexpr (std::is_same_v<T, ViewBoxes>)
             return view_boxes;
-        else if constexpr (std::is_same_v<T, ViewLines>)
-            return view_lines;
         else
             return state.table<T>();
     }

@@ -12,7 +12,6 @@
 #include "systems/query/query_index.hpp"
 #include "systems/rigid/body_id.hpp"
 #include "systems/view/draw_shell.hpp"
-#include "systems/view/find_hairlines.hpp"
 #include "systems/world_contents.hpp"
 
 namespace cullet {
@@ -133,7 +132,6 @@ Result<BodyId> World::spawn(ModelId id, const SpawnSettings& settings) {
     d.rigid->add(body, describe_rigid(state, body, convex_pieces(state, shell, d.arena)));
     draw_body(state, body);
     bodies.drawn_frame[body] = d.step_info.frame;
-    find_hairlines(bodies, body, state.view_vertices, state.view_indices, d.view_lines);
     bound_view(bodies, body, state.view_vertices, state.view_indices, d.view_boxes);
     d.query_index->touch(bodies, body);
     return body_id(bodies, body);

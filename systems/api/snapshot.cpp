@@ -13,7 +13,6 @@
 #include "systems/fragments/rigid_shape.hpp"
 #include "systems/query/bound_drawn.hpp"
 #include "systems/query/query_index.hpp"
-#include "systems/view/find_hairlines.hpp"
 
 namespace cullet {
 
@@ -133,7 +132,6 @@ void restore_what_follows(World::Contents& world) {
     for (uint32_t b = 0; b < state.bodies.size(); ++b) {
         const Row<Shells> shell = state.bodies.shell[b];
         if (static_cast<BodyKind>(state.bodies.kind[b]) == BodyKind::Free || !shell.exists()) continue;
-        find_hairlines(state.bodies, Row<Bodies>(b), state.view_vertices, state.view_indices, d.view_lines);
         bound_view(state.bodies, Row<Bodies>(b), state.view_vertices, state.view_indices, d.view_boxes);
         if (state.bodies.is_breakable[b]) d.make_ready(room_of(state, shell));
         d.arena.reset();

@@ -26,8 +26,6 @@ Result<BodyView> World::view(BodyId id) const {
         if (count > 0) view.runs[view.run_count++] = {kind, material, first, count};
         first += count;
     }
-    view.hairlines = contents_->data.view_lines.index.data() + first_line_row(bodies, body);
-    view.hairline_index_count = bodies.hairline_indices[body];
     view.stamp = bodies.view_stamp[body];
     // step_info.frame is the next step's number.
     if (bodies.drawn_frame[body] + 1 >= contents_->data.step_info.frame) {

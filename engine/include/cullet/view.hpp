@@ -43,11 +43,6 @@ struct BodyView {
     uint32_t index_count = 0;
     MaterialRun runs[kMostRuns];  // the first run_count, none empty, by (kind, material); they cover all indices
     uint32_t run_count = 0;
-    /// Cracks that have not parted the body: pairs of indices into vertices, each pair one line, once along the outer
-    /// wall and once along the inner one. To be drawn thin and dark, a little towards the eye; their triangles do not
-    /// show. They change with the stamp.
-    const uint32_t* hairlines = nullptr;
-    uint32_t hairline_index_count = 0;
     uint32_t stamp = 0;  // another number whenever the mesh is another one
     DirtyRange dirty_vertices, dirty_indices;
     Pose pose_before, pose;  // before and after the last step: mix them by the share of the step not yet simulated
