@@ -6,6 +6,7 @@
 #include "engine/mesh_file.hpp"
 #include "systems/cook/build_shell.hpp"
 #include "systems/cook/clean_mesh.hpp"
+#include "systems/cook/crease_normals.hpp"
 #include "systems/cook/extrude.hpp"
 #include "systems/cook/hit_advice.hpp"
 #include "systems/cook/join_walls.hpp"
@@ -75,13 +76,19 @@ struct SourceArrays {
     std::vector<Vec2> uvs;
     std::vector<uint16_t> materials;
 };
-SourceArrays attributes_of(const Surface& surface, const Mesh& mesh) {
+// Normals that cooking made itself follow a sheet that was turned since.
+SourceArrays attributes_of(const Surface& surface, const Mesh& mesh, bool has_made_normals) {
     SourceArrays arrays;
     for (size_t t = 0; t < surface.triangles.size(); ++t) {
         const uint32_t source = surface.source_triangles[t];
+        const Triangle& c = surface.triangles[t];
+        const Vec3d flat = cross(surface.positions[c[1]] - surface.positions[c[0]],
+                                 surface.positions[c[2]] - surface.positions[c[0]]);
         for (int k = 0; k < 3; ++k) {
             const size_t corner = 3 * size_t{source} + surface.source_corners[t][static_cast<size_t>(k)];
             if (!mesh.corner_normals.empty()) arrays.normals.push_back(mesh.corner_normals[corner]);
+            if (has_made_normals && dot(Vec3d(arrays.normals.back()), flat) < 0)
+                arrays.normals.back() = -arrays.normals.back();
             if (!mesh.corner_uvs.empty()) arrays.uvs.push_back(mesh.corner_uvs[corner]);
         }
         if (!mesh.materials.empty()) arrays.materials.push_back(mesh.materials[source]);
@@ -249,6 +256,8 @@ Result<Model> cook(const MeshView& view, const CookSettings& settings) try {
     if (const uint32_t parts = given->repairs.unorientable_components; parts > 0)
         return Error{name + ": " + std::to_string(parts) + (parts == 1 ? " part is" : " parts are") +
                      " one-sided, like a Moebius strip, so nothing is inside. Cut each along a line, or remove it."};
+    const bool makes_normals = mesh->corner_normals.empty();
+    if (makes_normals) give_crease_normals(*mesh, given.value());
     SurfaceRepairs unused;
     const Result<CleanMesh> clean = clean_mesh(*mesh, welding, unused);
     if (!clean) return Error{name + ": " + clean.error()};
@@ -285,7 +294,7 @@ Result<Model> cook(const MeshView& view, const CookSettings& settings) try {
     const auto contents = std::make_shared<Model::Contents>(cooking_limits(vertices, elements));
     State& state = contents->state;
     fill_materials(state.materials);
-    const SourceArrays arrays = attributes_of(surface.value(), *fine);
+    const SourceArrays arrays = attributes_of(surface.value(), *fine, makes_normals);
     ShellSource source;
     source.position = surface->positions;
     source.inward = extrusion->direction;
