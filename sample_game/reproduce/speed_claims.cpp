@@ -10,14 +10,14 @@
 namespace cullet::reproduce {
 namespace {
 
-// "@mode@" stands for what a mode of fracture adds to game.cook, "@how@" for what it adds to game.spawn.
+// "@mode@" stands for what a mode of fracture adds to game.cook.
 constexpr const char* kWall = R"(
 game.scene{shows = "a ball at a wall of 600 vertices", seconds = 10}
 local wall = game.cook{mesh = game.mesh.wall{width = 2.4, height = 1.8, edge = 0.0905}, material = "brick", thickness = 0.1 @mode@}
 game.camera{eye = {1.9, 1.5, 3.0}, target = {-0.05, 0.75, -0.1}, field_of_view = 0.72}
 game.floor()
 game.throw{radius = 0.14, mass = 30, at = {0.05, 0.98, 1.5}, velocity = {0, 1.2, -10}}
-game.spawn{cooked = wall, at = {0, 0.002, 0} @how@, pins = {{low = {-2, -0.01, -0.2}, high = {2, 0.02, 0.2}}}}
+game.spawn{cooked = wall, at = {0, 0.002, 0}, pins = {{low = {-2, -0.01, -0.2}, high = {2, 0.02, 0.2}}}}
 )";
 
 constexpr const char* kCow = R"(
@@ -27,7 +27,7 @@ local cow = game.cook{mesh = mesh, material = "porcelain", thickness = 0.006 @mo
 game.fit_budget(cow)
 game.camera{eye = {0.85, 0.50, 0.95}, target = {0.02, 0.22, 0}, field_of_view = 0.56}
 game.floor()
-game.spawn{cooked = cow, at = {0, 0.001, 0} @how@}
+game.spawn{cooked = cow, at = {0, 0.001, 0}}
 game.throw{radius = 0.035, mass = 1.4, at = {@side@, 0.30, 0.9}, velocity = {0, 0.6, -12}}
 )";
 
@@ -37,22 +37,21 @@ local castle = game.cook{mesh = game.mesh.castle{width = 3, vertices = @vertices
 game.fit_budget(castle)
 game.camera{eye = {3.3, 2.5, 5.3}, target = {0.1, 1.02, 0}, field_of_view = 0.6}
 game.floor()
-game.spawn{cooked = castle, at = {0, 0.001, 0} @how@, pins = {{low = {-2, -0.01, -2}, high = {2, 0.01, 2}}}}
+game.spawn{cooked = castle, at = {0, 0.001, 0}, pins = {{low = {-2, -0.01, -2}, high = {2, 0.01, 2}}}}
 game.throw{radius = 0.13, mass = 120, at = {1.15, 0.72, 3.2}, velocity = {0, 0.36, -26}}
 )";
 
-/// One way to break. Another is one more line.
-struct FractureWay {
+/// One way to break. Another is one more line. The first is the default.
+struct FractureMode {
     const char* name;
-    const char* cook;   // arguments of game.cook
-    const char* spawn;  // and of game.spawn
-    size_t paper;       // column of the paper's
+    const char* cook;  // arguments of game.cook; null: not built yet
+    size_t paper;      // the kind of Body::paper that it is compared with
 };
-constexpr const char* kQuick = ", fracture = \"quick\"";
-constexpr FractureWay kModes[] = {{"default (brittle, hidden run)", "", "", 2},
-                                  {"paper's mode, fine", ", fracture = \"fine\"", kQuick, 0},
-                                  {"paper's mode, coarse", ", fracture = \"coarse\"", kQuick, 1},
-                                  {"paper's mode, large fragments", ", fracture = \"large\"", kQuick, 2}};
+constexpr size_t kFine = 0, kCoarse = 1, kLarge = 2;
+constexpr FractureMode kModes[] = {{"hidden run, large fragments", ", fracture = \"large\"", kLarge},
+                                   {"hidden run, coarse", ", fracture = \"coarse\"", kCoarse},
+                                   {"hidden run, fine", ", fracture = \"fine\"", kFine},
+                                   {"quick mode, all three kinds", nullptr, kLarge}};
 
 struct Body {
     const char* name;
@@ -70,8 +69,8 @@ std::vector<Body> bodies(const Bench& bench) {
     return all;
 }
 
-std::string text_of(const Body& body, const FractureWay& mode) {
-    std::string text = filled(filled(body.lua, "mode", mode.cook), "how", mode.spawn);
+std::string text_of(const Body& body, const FractureMode& mode) {
+    std::string text = filled(body.lua, "mode", mode.cook);
     text = filled(text, "mesh", "game.mesh.cow{length = 0.6, vertices = 3000}");
     text = filled(text, "side", "0.15");
     return filled(text, "vertices", "11000");
@@ -94,25 +93,17 @@ const Result<std::vector<SceneRun>>& default_runs(Bench& bench) {
     });
 }
 
-/// One body in one of the paper's ways, with pictures of the end.
-const Result<SceneRun>& quick_run(Bench& bench, size_t body, const FractureWay& way) {
-    return bench.once(fmt::format("quick {} {}", body, way.name), [&]() -> Result<SceneRun> {
-        const Body of = bodies(bench)[body];
-        return run_scene(bench, {fmt::format("{}, {}", of.name, way.name), text_of(of, way), {},
-                                 bench.settings().is_reduced ? 40u : of.frames, of.drawn});
-    });
-}
-
-void add_run(Claim& claim, Table& table, const Body& body, const FractureWay& way, const SceneRun& run) {
+void add_run(Claim& claim, Table& table, const Body& body, const FractureMode& fracture, const SceneRun& run) {
+    const std::string mode = fracture.name;
     const double rate = frame_rate(run);
-    const std::string mode = way.name;
     table.rows.push_back({body.name,
                           fmt::format("{:.0f} / {:.0f} / {:.0f}", body.paper[0], body.paper[1], body.paper[2]), mode,
                           fmt::format("{} / {}", run.vertices, run.triangles), fmt::format("{:.0f}", rate),
                           fmt::format("{:.1f}", percentile_of(run.breaking_ms, 0.5)),
                           fmt::format("{:.1f}", percentile_of(run.breaking_ms, 0.99)),
                           fmt::format("{:.1f}", percentile_of(run.frame_ms, 0.5)), fmt::format("{}", run.pieces)});
-    claim.numbers.push_back({std::string(body.name) + ", " + mode, "frames/s while breaking", rate, body.paper[way.paper]});
+    claim.numbers.push_back(
+        {std::string(body.name) + ", " + mode, "frames/s while breaking", rate, body.paper[fracture.paper]});
     claim.numbers.push_back(
         {std::string(body.name) + ", " + mode + ", p99", "ms", percentile_of(run.breaking_ms, 0.99), {}});
 }
@@ -141,20 +132,6 @@ Result<Claim> pictured(Bench& bench, Claim claim, size_t body, std::initializer_
                                            *(captions.begin() + std::min(n, captions.size() - 1)));
             !added.ok())
             return Error{added.error()};
-    const Result<SceneRun>& quick = quick_run(bench, body, kModes[3]);
-    if (!quick.ok()) return Error{quick.error()};
-    claim.ours += fmt::format(
-        " In the paper's mode, large fragments: {:.0f} frames a second, {} pieces and {} crumbs, the largest with {:.0f} "
-        "%.",
-        frame_rate(*quick), quick->pieces, quick->crumbs, 100 * quick->largest);
-    claim.numbers.push_back(
-        {"frame rate while breaking, paper's mode", "frames/s", frame_rate(*quick), all[body].paper[2]});
-    for (size_t n = 1; n < quick->pictures.size(); ++n)
-        if (auto added = bench.add_picture(claim, quick->pictures[n], fmt::format("quick_{}", n + 1),
-                                           std::string("Paper's mode: ") +
-                                               *(captions.begin() + std::min(n, captions.size() - 1)));
-            !added.ok())
-            return Error{added.error()};
     return claim;
 }
 
@@ -174,22 +151,32 @@ Result<Claim> table_2(Bench& bench) {
                           "fps while breaking", "p50 ms", "p99 ms", "p50 of all frames, ms", "pieces"});
     const std::vector<Body> all = bodies(bench);
     bool is_met = true;
+    std::string whole;  // rows in which nothing came off: no rate of breaking is one of these
+    const auto judge = [&](const Body& body, const FractureMode& mode, const SceneRun& run) {
+        add_run(claim, table, body, mode, run);
+        const bool is_broken = run.pieces > 1;
+        if (!is_broken) whole += fmt::format("{}{} ({})", whole.empty() ? "" : "; ", body.name, mode.name);
+        is_met = is_met && is_broken && frame_rate(run) >= body.paper[mode.paper];
+    };
     for (size_t b = 0; b < all.size(); ++b) {
-        add_run(claim, table, all[b], kModes[0], runs.value()[b]);
-        is_met = is_met && frame_rate(runs.value()[b]) >= all[b].paper[2];
-        for (const FractureWay& mode : std::span(kModes).subspan(1)) {
-            const Result<SceneRun>& run = quick_run(bench, b, mode);
+        judge(all[b], kModes[0], runs.value()[b]);
+        for (const FractureMode& mode : std::span(kModes).subspan(1)) {
+            if (!mode.cook) {
+                table.rows.push_back({all[b].name, "", mode.name, "not built yet", "", "", "", "", ""});
+                continue;
+            }
+            const uint32_t frames = bench.settings().is_reduced ? 40 : all[b].frames;
+            const Result<SceneRun> run = run_scene(bench, {"table_2", text_of(all[b], mode), {}, frames, {}});
             if (!run.ok()) return Error{run.error()};
-            add_run(claim, table, all[b], mode, run.value());
-            is_met = is_met && frame_rate(run.value()) >= all[b].paper[mode.paper];
+            judge(all[b], mode, run.value());
         }
     }
     claim.tables.push_back(std::move(table));
     claim.ours = fmt::format(
-        "In the default mode and in the paper's three, with {} threads: {}. The default mode is compared with the "
-        "paper's large fragments. The wall is one sheet of about 600 vertices, which has fewer triangles than the "
-        "paper's.",
-        bench.threads(), is_met ? "faster in each row" : "not faster in each row, see the table");
+        "Hidden run, {} threads, each kind of fracture against the paper's of that name: {}.{} The quick mode is not "
+        "built yet. The wall is one sheet of about 600 vertices, which has fewer triangles than the paper's.",
+        bench.threads(), is_met ? "faster in each row" : "not faster in each row, see the table",
+        whole.empty() ? "" : " Nothing came off, so that the row counts as not met: " + whole + ".");
     claim.verdict = is_met ? Verdict::Met : Verdict::FallsShort;
     return claim;
 }

@@ -6,6 +6,7 @@
 #include "systems/api/model_row.hpp"
 #include "systems/cook/apply_pins.hpp"
 #include "systems/cook/materials.hpp"
+#include "systems/damage/working_room.hpp"
 #include "systems/fragments/body_rows.hpp"
 #include "systems/fragments/rigid_shape.hpp"
 #include "systems/quick/calibrate.hpp"
@@ -134,7 +135,7 @@ Result<BodyId> World::spawn(ModelId id, const SpawnSettings& settings) {
     if (settings.fracture == FractureMode::Quick && bodies.is_breakable[body] && quick.strain_limit == 0)
         quick.strain_limit = calibrated_strain_limit(state, shell, quick, state.shells.first_crack_speed[shell]);
     set_fracture(state, body, settings.fracture, quick);
-    if (bodies.is_breakable[body]) d.make_ready(room_of(state, shell));
+    if (bodies.is_breakable[body]) d.make_ready(working_room(ShellView(state, shell)));
     take_mass_properties(state, body);
     d.arena.reset();
     d.rigid->add(body, describe_rigid(state, body, convex_pieces(state, shell, d.arena)));
