@@ -63,6 +63,9 @@ State::State(const Limits& l)
       spring_slots(slot_limit(l)),
       layer_slots(slot_limit(l)),
       twins(l.vertices),
+      soft_bodies(l.bodies),
+      soft_strikers(l.bodies * kMostStrikers),
+      soft_contacts(l.vertices * kContactsAVertex),
       pools(*this),
       limits_(l) {
     tasks.append(l.tasks);

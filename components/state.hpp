@@ -7,6 +7,7 @@
 #include "components/bodies.hpp"
 #include "components/materials.hpp"
 #include "components/shells.hpp"
+#include "components/soft.hpp"
 #include "components/springs.hpp"
 #include "components/tasks.hpp"
 #include "engine/range_pool.hpp"
@@ -67,6 +68,9 @@ struct State {
     SpringSlots spring_slots;
     LayerSlots layer_slots;
     Twins twins;
+    SoftBodies soft_bodies;
+    SoftStrikers soft_strikers;
+    SoftContacts soft_contacts;
 
     /// Which rows of the tables above are taken; one pool a table whose rows come in ranges.
     struct Pools {
@@ -121,7 +125,10 @@ struct State {
                           &State::spring_packs,
                           &State::spring_slots,
                           &State::layer_slots,
-                          &State::twins};
+                          &State::twins,
+                          &State::soft_bodies,
+                          &State::soft_strikers,
+                          &State::soft_contacts};
     }
     const Limits& limits() const { return limits_; }
     /// The table of type T.
