@@ -52,7 +52,7 @@ void advance_damage(Serial, DamageLoop& loop);
 void advance_soft(Serial, Step step, const RigidWorld& rigid, SoftLoop& loop);
 /// What soft bodies gave to what they met, and where they are now, for the rigid world.
 void pass_soft(Serial, Step step, ShellTables shells, SoftBodies& soft, SoftStrikers& strikers, Bodies& bodies,
-               RigidWorld& rigid, DamageCounts& counts, Events<FaultEvent>& faults);
+               RigidWorld& rigid, DamageCounts& counts, Arena& arena, Events<FaultEvent>& faults);
 /// Holds bodies whose task goes on, releases those whose time is up or whose task ended.
 void settle_tasks(Serial, Step step, Tasks& tasks, TaskContacts& contacts, Blows& blows, Bodies& bodies,
                   const Shells& shells, RigidWorld& rigid, const DamageSettings& settings, DamageCounts& counts,

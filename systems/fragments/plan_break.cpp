@@ -332,6 +332,7 @@ void plan_tear(Planning& planning, Row<SoftBodies> soft) {
     plan.soft = soft;
     if (!reserve_points(planning, plan)) return;
     soft_handoff(state, soft, plan.parts, plan.motions);
+    measure_shell(shell);  // as it is shaped now: pieces are subtracted from it
     const Range cells = state.shells.cells[shell.row];
     for (uint32_t c = cells.first; c < cells.first + cells.count; ++c) state.cells.is_stale[c] = 1;
     find_changed_cells(shell, shell);

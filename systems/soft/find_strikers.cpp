@@ -137,6 +137,7 @@ void find_strikers(State& state, const RigidWorld& rigid, Row<SoftBodies> s, con
     const Range vertices = view.shell.vertices();
     Gathering gathering{
         state, rigid, s, view, step, kContactsAVertex * vertices.first, kContactsAVertex * vertices.capacity};
+    view.own().gravity.set(view.row, step.gravity);
     const Points points = points_of(view);
     const float wide =
         kReach + view.shell.shells().thickness[view.shell.row] + (points.fastest + fastest_body(state.bodies)) * step.dt;

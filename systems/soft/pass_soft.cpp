@@ -92,18 +92,24 @@ void remember_partners(State& state, uint32_t s) {
         const SoftStriker& striker = state.soft_strikers.striker[kMostStrikers * s + i];
         if (!striker.is_pushed || static_cast<BodyKind>(state.bodies.kind[striker.body]) == BodyKind::Static) continue;
         partners[count++] = striker.body;
-        // A ball that still rolls over it keeps it awake.
-        const Vec3 relative = striker.velocity - state.bodies.velocity[soft.body[s]];
-        if (dot(relative, relative) > 25 * kQuietSpeed * kQuietSpeed) soft.quiet_seconds[s] = 0;
+        // What lies in it keeps it awake: hulls bridge the hollow that a load has made.
+        if (striker.yields) soft.quiet_seconds[s] = 0;
     }
     soft.partner_count[s] = count;
     soft.partners[s] = partners;
 }
 
+/// By another soft body, which asks for its surface.
+bool is_met(const SoftBodies& soft, SoftStrikers& strikers, Row<Bodies> body) {
+    bool found = false;
+    for_each_copy(soft, strikers, [&](uint32_t, const SoftStriker& striker) { found |= striker.body == body; });
+    return found;
+}
+
 }  // namespace
 
 void pass_soft(Serial, Step step, ShellTables shells, SoftBodies& soft, SoftStrikers& strikers, Bodies& bodies,
-               RigidWorld& rigid, DamageCounts& counts, Events<FaultEvent>& faults) {
+               RigidWorld& rigid, DamageCounts& counts, Arena& arena, Events<FaultEvent>& faults) {
     State& state = shells.state;
     book(state, soft, strikers, counts);
     for_each_copy(soft, strikers, [&](uint32_t, SoftStriker& striker) {
@@ -115,6 +121,7 @@ void pass_soft(Serial, Step step, ShellTables shells, SoftBodies& soft, SoftStri
         if (!soft.is_used[s] || !soft.is_awake[s]) continue;
         const Row<Bodies> body = soft.body[s];
         remember_partners(state, s);
+        if (is_met(soft, strikers, body)) reshape_soft(state, rigid, Row<SoftBodies>(s), arena);
         if (static_cast<BodyKind>(bodies.kind[body]) == BodyKind::Dynamic) {
             rigid.set_pose(body, pose_of(bodies, body));
             rigid.set_motion(body, {bodies.velocity[body], bodies.spin[body]});

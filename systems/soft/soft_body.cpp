@@ -12,6 +12,7 @@ namespace {
 // A spring through a substep is a unit; two layers have four times the work.
 constexpr uint64_t kUnitsOneLayer = 1, kUnitsLayers = 4;
 constexpr float kNeverBreaks = 1e6f;  // strain of a material that gives none
+constexpr float kSpare = 0.5f;             // rows for springs that tears make
 constexpr float kDragTime = 0.4f;  // s, and a second more for what bounces
 
 uint32_t row_for(State& state) {
@@ -66,6 +67,7 @@ Result<Row<SoftBodies>> make_soft(State& state, Row<Bodies> body, float step_sec
     SpringSettings settings;
     settings.layout = material.has_bending ? SpringLayout::Sandwich : SpringLayout::OneLayer;
     settings.young_modulus = material.young_modulus;
+    settings.spare = kSpare;
     Result<Row<ShellSprings>> springs = give_springs(state, shell, settings);
     if (!springs) return Error{springs.error()};
     const SpringView stiff(state, *springs);

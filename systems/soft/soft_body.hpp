@@ -4,7 +4,6 @@
 #include "cullet/result.hpp"
 #include "engine/arena.hpp"
 #include "engine/rigid_world.hpp"
-#include "engine/system.hpp"
 
 namespace cullet {
 
@@ -43,9 +42,14 @@ void release_soft(State& state, Row<Bodies> body);
 Row<ShellSprings> springs_of(const State& state, Row<SoftBodies> soft);
 
 /// From rigid to awake: points where the body stands, moving as it moves. The rigid world has no more contacts of it.
-void wake_soft(State& state, RigidWorld& rigid, Row<SoftBodies> soft, const Step& step);
-/// From awake to rigid as it is shaped now: mass properties, hulls. Springs keep their lengths.
+void wake_soft(State& state, RigidWorld& rigid, Row<SoftBodies> soft);
+/// Mass properties and hulls of the shape that it has now.
+void reshape_soft(State& state, RigidWorld& rigid, Row<SoftBodies> soft, Arena& arena);
+/// From awake to rigid, reshaped. Springs keep their lengths.
 void freeze_soft(State& state, RigidWorld& rigid, Row<SoftBodies> soft, Arena& arena);
+/// A blow of the game's at a point of the body frame wakes the body: N s, body axes, shared out over the vertices
+/// within `radius` by m (1 - (r / radius)^2).
+void push_soft(State& state, RigidWorld& rigid, Row<SoftBodies> soft, Vec3 point, Vec3 impulse, float radius);
 /// The game has put an awake body somewhere, or given it another motion: its points follow as a rigid body's.
 void follow_body(State& state, Row<Bodies> body);
 

@@ -10,7 +10,7 @@ namespace {
 
 constexpr uint32_t kMostSplits = 4;  // a check, the most stretched first; more and a sheet is gone before it is seen to tear
 // Room that a split asks for: springs, and slots for packs that outgrow theirs.
-constexpr uint32_t kSplitSprings = 8, kSplitSlots = 160;
+constexpr uint32_t kSplitSprings = 8, kSplitSlots = 96;
 
 constexpr uint64_t kEndSeed = 0x7465617273;
 

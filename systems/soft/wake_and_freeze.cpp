@@ -29,11 +29,10 @@ void choose_hulls(State& state, Row<Shells> row) {
 
 }  // namespace
 
-void wake_soft(State& state, RigidWorld& rigid, Row<SoftBodies> s, const Step& step) {
+void wake_soft(State& state, RigidWorld& rigid, Row<SoftBodies> s) {
     SoftBodies& soft = state.soft_bodies;
     const Row<Bodies> body = soft.body[s];
     const SpringView view(state, springs_of(state, s));
-    view.own().gravity.set(view.row, step.gravity);
     start_springs(view, motion_of_body(state.bodies, body));
     state.bodies.is_asleep[body] = 0;
     rigid.set_soft(body, true);
@@ -44,18 +43,27 @@ void wake_soft(State& state, RigidWorld& rigid, Row<SoftBodies> s, const Step& s
     soft.partner_count[s] = 0;
 }
 
-void freeze_soft(State& state, RigidWorld& rigid, Row<SoftBodies> s, Arena& arena) {
-    SoftBodies& soft = state.soft_bodies;
+void reshape_soft(State& state, RigidWorld& rigid, Row<SoftBodies> s, Arena& arena) {
     Bodies& bodies = state.bodies;
-    const Row<Bodies> body = soft.body[s];
+    const Row<Bodies> body = state.soft_bodies.body[s];
     const Row<Shells> row = bodies.shell[body];
-    const ShellView shell(state, row);
-    for (uint32_t v = 0; v < shell.vertex_count(); ++v) state.vertices.velocity.set(shell.vertex(v), {});
-    measure_shell(shell);
+    measure_shell(ShellView(state, row));
     choose_hulls(state, row);
     take_mass_properties(state, body);
     rigid.set_shape(body, bodies.mass[body], bodies.centre[body], bodies.inertia[body],
                     convex_pieces(state, row, arena));
+}
+
+void freeze_soft(State& state, RigidWorld& rigid, Row<SoftBodies> s, Arena& arena) {
+    SoftBodies& soft = state.soft_bodies;
+    Bodies& bodies = state.bodies;
+    const Row<Bodies> body = soft.body[s];
+    const SpringView view(state, springs_of(state, s));
+    for (uint32_t v = 0; v < view.shell.vertex_count(); ++v) {
+        state.vertices.velocity.set(view.shell.vertex(v), {});
+        if (view.has_layers()) state.twins.velocity.set(view.twin(v), {});
+    }
+    reshape_soft(state, rigid, s, arena);
     rigid.set_soft(body, false);
     if (static_cast<BodyKind>(bodies.kind[body]) == BodyKind::Dynamic) {
         rigid.set_pose(body, pose_of(bodies, body));
@@ -63,6 +71,28 @@ void freeze_soft(State& state, RigidWorld& rigid, Row<SoftBodies> s, Arena& aren
     }
     soft.is_awake[s] = 0;
     soft.quiet_seconds[s] = 0;
+}
+
+void push_soft(State& state, RigidWorld& rigid, Row<SoftBodies> s, Vec3 point, Vec3 impulse, float radius) {
+    if (!state.soft_bodies.is_awake[s]) wake_soft(state, rigid, s);
+    state.soft_bodies.quiet_seconds[s] = 0;
+    const SpringView view(state, springs_of(state, s));
+    const Vec3 along = rotate(state.bodies.orientation[state.soft_bodies.body[s]], impulse);
+    const auto weight = [&](uint32_t row) {
+        const Vec3 away = state.vertices.rest[row] - point;
+        const float left = 1 - dot(away, away) / (radius * radius);
+        return left > 0 ? state.vertices.mass[row] * double{left} : 0;
+    };
+    double sum = 0;
+    for (uint32_t v = 0; v < view.shell.vertex_count(); ++v) sum += weight(view.shell.vertex(v));
+    for (uint32_t v = 0; v < view.shell.vertex_count(); ++v) {
+        const uint32_t row = view.shell.vertex(v);
+        const double own = weight(row);
+        if (!(own > 0) || !(state.vertices.inverse_mass[row] > 0)) continue;
+        const Vec3 gained = static_cast<float>(own / sum * double{state.vertices.inverse_mass[row]}) * along;
+        state.vertices.velocity.set(row, state.vertices.velocity[row] + gained);
+        if (view.has_layers()) state.twins.velocity.set(view.twin(v), state.twins.velocity[view.twin(v)] + gained);
+    }
 }
 
 void follow_body(State& state, Row<Bodies> body) {

@@ -66,7 +66,7 @@ void freeze_soft_bodies(Serial, ShellTables shells, SoftBodies& soft, Bodies&, R
             freeze_soft(shells.state, rigid, Row<SoftBodies>(s), arena);
 }
 
-void wake_soft_bodies(Serial, Step step, ShellTables shells, const Tasks& tasks, const TaskContacts& contacts,
+void wake_soft_bodies(Serial, Step, ShellTables shells, const Tasks& tasks, const TaskContacts& contacts,
                       SoftBodies& soft, Bodies& bodies, RigidWorld& rigid) {
     if (!rigid.knows_surfaces()) return;
     for (uint32_t s = 0; s < soft.size(); ++s) {
@@ -74,7 +74,7 @@ void wake_soft_bodies(Serial, Step step, ShellTables shells, const Tasks& tasks,
         const Row<Bodies> body = soft.body[s];
         if (bodies.hold_count[body] || !wakes(shells.state, rigid, s)) continue;
         if (is_striking(tasks, contacts, body)) continue;
-        wake_soft(shells.state, rigid, Row<SoftBodies>(s), step);
+        wake_soft(shells.state, rigid, Row<SoftBodies>(s));
     }
 }
 
