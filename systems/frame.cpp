@@ -28,7 +28,7 @@ FramePlan<WorldData> make_frame_plan(bool is_hosted, const std::function<std::st
         .then<advance_damage>()
         .shows("thick shell, brittle: 300 to 4,000 times a hit, on its own clock", describe_damage_loop)
         .then<advance_soft>()
-        .shows("thick shell, ductile and elastic: 8 to 200 times a frame", describe_soft_loop)
+        .shows("thick shell, ductile and elastic: 8 to 1,000 times a frame", describe_soft_loop)
         .then<pass_soft>()
         .then<settle_tasks>();
     plan.stage("apply")

@@ -4,9 +4,9 @@ game.scene{
     seconds = 4,
     sheet = {0, 6, 8, 9, 10, 11, 12, 14, 17, 22, 60, 239},
 }
-local shell = game.shell_keys{material = "steel", thickness = 0.0015, edge = 0.03}
-local speed = game.key{name = "scene.speed_mps", unit = "m/s", default = 9, least = 0, most = 100, text = "of the ball"}
-local mass = game.key{name = "scene.mass_kg", unit = "kg", default = 5, least = 0.01, most = 1000, text = "of the ball"}
+local shell = game.shell_keys{material = "steel", thickness = 0.0015, edge = 0.04}
+local speed = game.key{name = "scene.speed_mps", unit = "m/s", default = 8, least = 0, most = 100, text = "of the ball"}
+local mass = game.key{name = "scene.mass_kg", unit = "kg", default = 4, least = 0.01, most = 1000, text = "of the ball"}
 
 local side, foot = 0.8, 0.3 -- m; the plate's lower border stands at foot
 

@@ -4,6 +4,7 @@
 
 #include "systems/cook/materials.hpp"
 #include "systems/fragments/cell_hulls.hpp"
+#include "systems/springs/edge_stiffness.hpp"
 #include "systems/springs/give_springs.hpp"
 
 namespace cullet {
@@ -68,6 +69,7 @@ Result<Row<SoftBodies>> make_soft(State& state, Row<Bodies> body, float step_sec
     settings.layout = material.has_bending ? SpringLayout::Sandwich : SpringLayout::OneLayer;
     settings.young_modulus = material.young_modulus;
     settings.spare = kSpare;
+    settings.is_slender = true;
     Result<Row<ShellSprings>> springs = give_springs(state, shell, settings);
     if (!springs) return Error{springs.error()};
     const SpringView stiff(state, *springs);
@@ -82,7 +84,7 @@ Result<Row<SoftBodies>> make_soft(State& state, Row<Bodies> body, float step_sec
     settings.time_step = static_cast<float>(step);
     springs = give_springs(state, shell, settings);
     if (!springs) return Error{springs.error()};
-    state.shell_springs.keeps_lengths[*springs] = 1;
+    state.shell_springs.keeps_lengths[*springs] |= kKeepsLengths;
     const uint32_t row = row_for(state);
     if (row == kNone) return Error{"limits.bodies is reached; raise it."};
     make_contact_rows(state, shell);

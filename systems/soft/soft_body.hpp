@@ -7,7 +7,7 @@
 
 namespace cullet {
 
-inline constexpr uint32_t kLeastSubsteps = 8, kMostSubsteps = 200;  // of a frame (section 8)
+inline constexpr uint32_t kLeastSubsteps = 8, kMostSubsteps = 1000;  // of a frame; with 200 steel is seen to be rubber
 inline constexpr float kElasticWakeSpeed = 0.2f;                    // m/s of a contact
 inline constexpr float kLeastWakeSpeed = 0.5f;                      // m/s, of ductile ones
 inline constexpr float kWakeYieldShare = 0.3f;  // of the speed c eps_y at which a bar that is stopped begins to flow
@@ -28,7 +28,7 @@ Row<Shells> copy_soft_shell(State& state, Row<Shells> source, const char** full)
 
 /// The body's shell, which it does not share, gets springs, and the body a row. One layer where the material has its
 /// own bending stiffness (cloth), else a sandwich. A frame's step is cut into as many substeps as the true modulus
-/// asks for, 8 to 200, and no more than `units` (a frame's) allow; where that is too few, the springs are softened
+/// asks for, 8 to 1,000, and no more than `units` (a frame's) allow; where that is too few, the springs are softened
 /// (B7): E_eff = E (stable step / step)^2, s = E / E_eff, strains at yield and break sqrt(s) times the true ones, but
 /// no spring is shown stretched by more than the true strain at break, or twice its length where that is more.
 /// Allocates rows alone.

@@ -59,10 +59,11 @@ bool give_piece_springs(State& s, const SpringView& parent, const FragmentPart& 
     settings.damping_ratio = own.damping_ratio[parent.row];
     settings.length_factor = parent.has_layers() ? own.length_factor[parent.row] : 0;
     settings.time_step = own.time_step[parent.row];
+    settings.is_slender = own.keeps_lengths[parent.row] & kIsSlender;
     const Result<Row<ShellSprings>> given = give_springs(s, shell, settings);
     if (!given) return false;
     const SpringView piece(s, *given);
-    s.shell_springs.keeps_lengths[*given] = 1;
+    s.shell_springs.keeps_lengths[*given] |= kKeepsLengths;
     for (uint32_t e = part.first_element; e != kNone; e = s.elements.next[parent.shell.element(e)])
         for (size_t k = 0; k < 3; ++k)
             copy_lengths(s, parent, e, piece, s.elements.copy[parent.shell.element(e)], k);

@@ -39,7 +39,7 @@ EdgeAreas areas_at(const SpringView& view, uint32_t element, uint32_t edge) {
     EdgeAreas sum;
     for (const uint32_t e : {element, elements.neighbour[shell.element(element)][edge]}) {
         if (e == kNone || (elements.flags[shell.element(e)] & kDead)) continue;
-        if (view.own().keeps_lengths[view.row] && add_kept_areas(view, e, sum)) continue;
+        if ((view.own().keeps_lengths[view.row] & kKeepsLengths) && add_kept_areas(view, e, sum)) continue;
         const auto [a, b, c] = elements.corner[shell.element(e)];
         const auto area = [&](auto rest) {
             return 0.5 * length(cross(rest(view, b) - rest(view, a), rest(view, c) - rest(view, a)));
@@ -148,7 +148,8 @@ void measure_spring(const SpringView& view, uint32_t s, bool is_new) {
     const double width = l > 0 ? 2.0 / 3 * areas.outer / l : 0;
     const double shear =
         l > 0 ? 5.0 / 6 * material.shear * h * width * diagonal * diagonal / (4 * height * height * l) : 0;
-    layers.cross_stiffness[layer] = static_cast<float>(std::min(shear, outer + inner));
+    const double most = view.own().keeps_lengths[view.row] & kIsSlender ? 0.5 * skin : 1;
+    layers.cross_stiffness[layer] = static_cast<float>(std::min(shear, most * (outer + inner)));
 }
 
 void measure_twin(const SpringView& view, uint32_t v, bool is_new) {

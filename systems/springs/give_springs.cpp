@@ -50,6 +50,7 @@ void keep_settings(State& state, Row<ShellSprings> row, Row<Shells> shell, const
     own.length_factor[row] = s.layout == SpringLayout::OneLayer ? 1 : factor_of(state, shell, s.length_factor);
     own.area_energy[row] = s.area_energy;
     own.volume_energy[row] = s.layout == SpringLayout::OneLayer ? 0 : s.volume_energy;
+    own.keeps_lengths[row] = s.is_slender ? kIsSlender : 0;
     own.time_step[row] = 1;  // until it is known: damping stands per second
     own.packs[row].count = own.packs[row].capacity;
     own.twins[row].count = own.twins[row].capacity;
