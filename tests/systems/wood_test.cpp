@@ -1,7 +1,7 @@
 // Wood: strips cut along and across its grain against the table, bending, and which way it splits.
 #include <gtest/gtest.h>
 
-#include "support/shell_meshes.hpp"
+#include "tests/support/shell_meshes.hpp"
 #include "systems/cook/materials.hpp"
 #include "systems/damage/assemble.hpp"
 #include "systems/damage/crack_candidates.hpp"
