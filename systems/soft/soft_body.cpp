@@ -14,7 +14,7 @@ namespace {
 constexpr uint64_t kUnitsOneLayer = 1, kUnitsLayers = 4;
 constexpr float kNeverBreaks = 1e6f;  // strain of a material that gives none
 constexpr float kSpare = 0.5f;             // rows for springs that tears make
-constexpr float kDragTime = 0.4f;  // s, and a second more for what bounces
+constexpr float kDragTime = 0.15f, kDragBounce = 1.2f;  // s: of what does not bounce, and what restitution adds
 
 uint32_t row_for(State& state) {
     SoftBodies& soft = state.soft_bodies;
@@ -105,7 +105,7 @@ Result<Row<SoftBodies>> make_soft(State& state, Row<Bodies> body, float step_sec
     soft.wake_speed[row] = material.is_elastic ? kElasticWakeSpeed
                                                : std::max(kLeastWakeSpeed, strength * kWakeYieldShare * sound *
                                                                                material.yield_strain);
-    soft.drag_time[row] = kDragTime + material.restitution;
+    soft.drag_time[row] = kDragTime + kDragBounce * material.restitution;
     return Row<SoftBodies>(row);
 }
 

@@ -175,7 +175,7 @@ TEST(SoftBodies, WhatLosesItsPinsFalls) {
     for (uint32_t d = 0; d < debris.size(); ++d) sum += debris.is_used[d] ? debris.mass[d] : 0;
     EXPECT_NEAR(sum, mass, 1e-6 * mass);
     EXPECT_GE(held, 1u);
-    EXPECT_TRUE(body_row(sheet.state().bodies, sheet.body).exists()) << "what has pins keeps the handle";
+    EXPECT_TRUE(sheet.world.is_alive(sheet.body)) << "what has pins keeps the handle";
     RecordProperty("fallen", static_cast<int>(fallen));
 }
 
