@@ -4,7 +4,7 @@
 
 #include "systems/rigid/body_id.hpp"
 #include "systems/soft/soft_body.hpp"
-#include "systems/springs/spring_view.hpp"
+#include "systems/springs/start_springs.hpp"
 
 namespace cullet {
 namespace {
@@ -139,13 +139,13 @@ void find_strikers(State& state, const RigidWorld& rigid, Row<SoftBodies> s, con
         state, rigid, s, view, step, kContactsAVertex * vertices.first, kContactsAVertex * vertices.capacity};
     view.own().gravity.set(view.row, step.gravity);
     const Points points = points_of(view);
-    const float wide =
-        kReach + view.shell.shells().thickness[view.shell.row] + (points.fastest + fastest_body(state.bodies)) * step.dt;
+    const float wide = kReach + view.shell.shells().thickness[view.shell.row] +
+                       (points.fastest + fastest_body(state.bodies)) * step.dt;
     RigidId near[kMostNear];
     const Vec3 grown{wide, wide, wide};
     const uint32_t found = rigid.near_bodies(points.low + origin - grown, points.high + origin + grown, near);
     soft.striker_count[s] = 0;
-    soft.given.set(s, {});
+    soft.given.set(s, motion_of(view).momentum);
     soft.has_fault[s] = 0;
     for (uint32_t k = 0; k < found && soft.striker_count[s] < kMostStrikers; ++k) {
         const Row<Bodies> other(near[k]);

@@ -25,9 +25,9 @@ bool flow(float now, float rest, float yield, float most, float creep, float& pl
 
 }  // namespace
 
-// creep = 1 - exp(-dt / tau), here dt / (dt + tau): the implicit step, which needs no libm and never overshoots. A spring
-// writes its own row and its own two slots. Springs.length is left with the strain against the cooked length: what
-// tear_springs looks at.
+// creep = 1 - exp(-dt / tau), here dt / (dt + tau): the implicit step, which needs no libm and never overshoots. A
+// spring writes its own row and its own two slots. Springs.length is left with the strain against the cooked length:
+// what tear_springs looks at.
 void flow_springs(Rows<Springs> rows, OfSprings of, OfSoft soft_body, ShellTables shells, const SoftBodies& soft) {
     State& state = shells.state;
     const SpringView view(state, of.row);

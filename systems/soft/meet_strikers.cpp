@@ -6,8 +6,8 @@
 namespace cullet {
 namespace {
 
-constexpr float kSlop = 0.0005f;   // m that a vertex may lie in a striker
-constexpr float kPushOut = 0.1f;   // m/s at which what lies deeper is put outside, without speed
+constexpr float kSlop = 0.0005f;  // m that a vertex may lie in a striker
+constexpr float kPushOut = 0.1f;  // m/s at which what lies deeper is put outside, without speed
 
 /// One vertex and its inner twin, moved as one.
 struct Point {
@@ -18,8 +18,13 @@ struct Point {
     float inverse_mass;
 
     Point(State& s, const SpringView& v, uint32_t at, int new_side)
-        : state(s), view(v), vertex(at), row(v.shell.vertex(at)), twin(v.has_layers() ? v.twin(at) : 0),
-          side(new_side), inverse_mass(s.vertices.inverse_mass[row]) {}
+        : state(s),
+          view(v),
+          vertex(at),
+          row(v.shell.vertex(at)),
+          twin(v.has_layers() ? v.twin(at) : 0),
+          side(new_side),
+          inverse_mass(s.vertices.inverse_mass[row]) {}
     Vec3 place() const {
         const Float4 p = state.vertices.probe.get(row, side);
         return {p.x, p.y, p.z};

@@ -69,8 +69,8 @@ void push_striker(State& state, RigidWorld& rigid, const Change& change, const S
     const Motion motion = rigid.motion(body);
     rigid.wake(body);
     state.bodies.is_asleep[body] = 0;
-    rigid.set_motion(body, {(Vec3d(motion.velocity) + now).to_float(),
-                            (Vec3d(motion.angular_velocity) + change.spin).to_float()});
+    rigid.set_motion(
+        body, {(Vec3d(motion.velocity) + now).to_float(), (Vec3d(motion.angular_velocity) + change.spin).to_float()});
     striker.later_velocity = (change.velocity - now).to_float();
 }
 

@@ -12,8 +12,8 @@ namespace {
 
 // A spring through a substep is a unit; two layers have four times the work.
 constexpr uint64_t kUnitsOneLayer = 1, kUnitsLayers = 4;
-constexpr float kNeverBreaks = 1e6f;  // strain of a material that gives none
-constexpr float kSpare = 0.5f;             // rows for springs that tears make
+constexpr float kNeverBreaks = 1e6f;                    // strain of a material that gives none
+constexpr float kSpare = 0.5f;                          // rows for springs that tears make
 constexpr float kDragTime = 0.15f, kDragBounce = 1.2f;  // s: of what does not bounce, and what restitution adds
 
 uint32_t row_for(State& state) {
@@ -74,8 +74,8 @@ Result<Row<SoftBodies>> make_soft(State& state, Row<Bodies> body, float step_sec
     if (!springs) return Error{springs.error()};
     const SpringView stiff(state, *springs);
     const double stable = stable_spring_step(stiff), wanted = step_seconds / stable;
-    const uint64_t cost = std::max<uint64_t>(stiff.spring_count(), 1) *
-                          (material.has_bending ? kUnitsLayers : kUnitsOneLayer);
+    const uint64_t cost =
+        std::max<uint64_t>(stiff.spring_count(), 1) * (material.has_bending ? kUnitsLayers : kUnitsOneLayer);
     const uint64_t most = std::clamp<uint64_t>(units / kSoftShare / cost, kLeastSubsteps, kMostSubsteps);
     const auto substeps = static_cast<uint32_t>(std::clamp(std::ceil(wanted), double{kLeastSubsteps}, double(most)));
     const double step = double{step_seconds} / substeps, softening = std::max(1.0, step * step / (stable * stable));
@@ -102,9 +102,9 @@ Result<Row<SoftBodies>> make_soft(State& state, Row<Bodies> body, float step_sec
     soft.break_strain[row] = strength * std::min(stretch * material.break_strain, most_shown);
     soft.yield_strain[row] = strength * std::min(stretch * material.yield_strain, 0.5f * most_shown);
     const float sound = std::sqrt(material.young_modulus / material.density);
-    soft.wake_speed[row] = material.is_elastic ? kElasticWakeSpeed
-                                               : std::max(kLeastWakeSpeed, strength * kWakeYieldShare * sound *
-                                                                               material.yield_strain);
+    soft.wake_speed[row] = material.is_elastic
+                               ? kElasticWakeSpeed
+                               : std::max(kLeastWakeSpeed, strength * kWakeYieldShare * sound * material.yield_strain);
     soft.drag_time[row] = kDragTime + kDragBounce * material.restitution;
     return Row<SoftBodies>(row);
 }

@@ -65,8 +65,7 @@ bool give_piece_springs(State& s, const SpringView& parent, const FragmentPart& 
     const SpringView piece(s, *given);
     s.shell_springs.keeps_lengths[*given] |= kKeepsLengths;
     for (uint32_t e = part.first_element; e != kNone; e = s.elements.next[parent.shell.element(e)])
-        for (size_t k = 0; k < 3; ++k)
-            copy_lengths(s, parent, e, piece, s.elements.copy[parent.shell.element(e)], k);
+        for (size_t k = 0; k < 3; ++k) copy_lengths(s, parent, e, piece, s.elements.copy[parent.shell.element(e)], k);
     for (uint32_t i = 0; i < piece.spring_count(); ++i) measure_spring(piece, i, false);
     set_spring_step(piece, settings.time_step);
     return true;

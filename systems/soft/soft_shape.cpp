@@ -69,6 +69,23 @@ Sym3d inertia_about(const Frame& f, Vec3d centre) {
     return inertia_of(second);
 }
 
+/// Hundreds of substeps add to floats what gravity gives: together they round by 1e-4 of it. What all points have is
+/// known: what they had, gravity's share, and what strikers gave.
+void mend_momentum(const Frame& f, const Step& step) {
+    const SoftBodies& soft = f.state.soft_bodies;
+    const SpringMotion now = motion_of(f.view);
+    if (f.is_pinned || !(now.mass > 0)) return;
+    Vec3d wanted = soft.given[f.soft] + now.mass * double{step.dt} * Vec3d(step.gravity);
+    for (uint32_t i = 0; i < soft.striker_count[f.soft]; ++i)
+        wanted += f.state.soft_strikers.striker[kMostStrikers * f.soft + i].impulse;
+    const Vec3 missing = ((1 / now.mass) * (wanted - now.momentum)).to_float();
+    f.for_each_live([&](uint32_t v, uint32_t row) {
+        f.state.vertices.velocity.set(row, f.state.vertices.velocity[row] + missing);
+        if (!f.view.has_layers()) return;
+        f.state.twins.velocity.set(f.view.twin(v), f.state.twins.velocity[f.view.twin(v)] + missing);
+    });
+}
+
 /// Momentum stays, angular momentum too: what is taken has neither.
 Motions slow_down(const Frame& f, float share) {
     Motions m;
@@ -183,10 +200,10 @@ void end_soft_frame(State& state, Row<SoftBodies> s, const Step& step) {
     SoftBodies& soft = state.soft_bodies;
     Bodies& bodies = state.bodies;
     const SpringView view(state, springs_of(state, s));
-    const Frame f{view, state, s, soft.body[s],
-                  static_cast<BodyKind>(bodies.kind[soft.body[s]]) == BodyKind::Static};
+    const Frame f{view, state, s, soft.body[s], static_cast<BodyKind>(bodies.kind[soft.body[s]]) == BodyKind::Static};
     soft.awake_seconds[s] += step.dt;
     if (!is_sound(f)) return put_back(f);
+    mend_momentum(f, step);
     const Motions m = slow_down(f, step.dt / (step.dt + soft.drag_time[s]));
     const Pose pose = fit_pose(f);
     take_shape(f, pose);

@@ -6,8 +6,8 @@
 namespace cullet {
 
 /// After a frame's substeps. Motion about the rigid one loses a share (air, and what springs lose that the damping of
-/// single ones does not see); the pose that fits the points best (that of before, where the body is pinned), and V and w
-/// that have the points' momentum and angular momentum, go to the body's row; Vertices.rest becomes the shape in the
+/// single ones does not see); the pose that fits the points best (that of before, where the body is pinned), and V and
+/// w that have the points' momentum and angular momentum, go to the body's row; Vertices.rest becomes the shape in the
 /// body frame, inward directions and the game's normals turn with it. Counts how long it has been quiet. Points that
 /// are not finite, or faster than anything may be, are put back to the shape before, at rest about the body's motion,
 /// and soft.has_fault tells.

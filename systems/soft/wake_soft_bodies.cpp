@@ -25,8 +25,8 @@ bool moves(const Bodies& bodies, uint32_t b) {
 /// What the contacts of this step say about one body that is not awake.
 struct Touches {
     float fastest = 0;
-    uint32_t met = 0;      // partners of its frozen self that still touch it, a bit each
-    bool is_new = false;   // something that moves touches it that is no partner
+    uint32_t met = 0;     // partners of its frozen self that still touch it, a bit each
+    bool is_new = false;  // something that moves touches it that is no partner
 };
 
 Touches touches_of(const State& state, const RigidWorld& rigid, uint32_t s) {

@@ -63,7 +63,8 @@ struct Sheet {
     ShellView shell() { return ShellView(state(), state().bodies.shell[row()]); }
     std::vector<Vec3> shape() {
         std::vector<Vec3> places;
-        for (uint32_t v = 0; v < shell().vertex_count(); ++v) places.push_back(state().vertices.rest[shell().vertex(v)]);
+        for (uint32_t v = 0; v < shell().vertex_count(); ++v)
+            places.push_back(state().vertices.rest[shell().vertex(v)]);
         return places;
     }
 };
