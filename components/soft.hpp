@@ -10,8 +10,9 @@
 
 namespace cullet {
 
-inline constexpr uint32_t kMostStrikers = 16;  // bodies that one soft body meets in a frame; the later rows are left out
-inline constexpr uint32_t kMostPartners = 8;   // bodies that one frozen body lies against
+inline constexpr uint32_t kMostStrikers =
+    16;                                       // bodies that one soft body meets in a frame; the later rows are left out
+inline constexpr uint32_t kMostPartners = 8;  // bodies that one frozen body lies against
 inline constexpr uint32_t kContactsAVertex = 2;
 
 /// One row is one body that can be awake: as long as the body lives.
@@ -32,36 +33,37 @@ struct SoftBodies : Table<SoftBodies> {
     Column<float> drag_time{*this, "drag_time", "s"};      // in which motion about the rigid one falls to 1/e
     Column<float> quiet_seconds{*this, "quiet_seconds", "s"};
     Column<float> awake_seconds{*this, "awake_seconds", "s"};
-    Column<double> most_motion{*this, "most_motion", "J"};  // largest energy of motion about the rigid one since it woke
-    Column<uint8_t> is_torn{*this, "is_torn"};              // split since its pieces were looked for
-    Column<uint8_t> is_moved{*this, "is_moved"};            // its shape is not the cooked one any more
-    Column<uint32_t> tear_count{*this, "tear_count"};       // vertices split, ever
+    Column<double> most_motion{*this, "most_motion",
+                               "J"};                   // largest energy of motion about the rigid one since it woke
+    Column<uint8_t> is_torn{*this, "is_torn"};         // split since its pieces were looked for
+    Column<uint8_t> is_moved{*this, "is_moved"};       // its shape is not the cooked one any more
+    Column<uint32_t> tear_count{*this, "tear_count"};  // vertices split, ever
     Column<uint32_t> partner_count{*this, "partner_count"};
     Column<std::array<uint32_t, kMostPartners>> partners{*this, "partners"};  // rows that it lay against when it froze
     // Of the frame.
     Column<uint32_t> striker_count{*this, "striker_count", "1", Keep::Scratch};
     Column<uint32_t> contact_count{*this, "contact_count", "1", Keep::Scratch};
-    Column<uint8_t> has_fault{*this, "has_fault", "1", Keep::Scratch};        // something was not finite
-    Column<uint8_t> lacks_room{*this, "lacks_room", "1", Keep::Scratch};      // a split found none
-    Column<Vec3d> given{*this, "given", "N s", Keep::Scratch};                // to what does not yield, by contacts
+    Column<uint8_t> has_fault{*this, "has_fault", "1", Keep::Scratch};    // something was not finite
+    Column<uint8_t> lacks_room{*this, "lacks_room", "1", Keep::Scratch};  // a split found none
+    Column<Vec3d> given{*this, "given", "N s", Keep::Scratch};            // momentum of its points as the frame began
 };
 
 /// A body that a soft one may meet in this frame, as the run sees it: a copy that its contacts move. Row
 /// kMostStrikers s + i is the i-th of soft body s.
 struct SoftStriker {
     uint32_t body = 0;
-    uint32_t shares = 1;        // runs that have a copy of it in this frame: each has this part of its mass
-    bool yields = false;        // moves by forces
-    bool falls = false;         // nothing rigid bears it
+    uint32_t shares = 1;  // runs that have a copy of it in this frame: each has this part of its mass
+    bool yields = false;  // moves by forces
+    bool falls = false;   // nothing rigid bears it
     bool is_ball = false;
-    float radius = 0;           // of a ball, m
-    float friction = 0;         // of the pair
-    float inverse_mass = 0;     // of the copy, 1/kg
-    Sym3d inverse_inertia;      // of the copy, world axes as the frame began
-    Vec3 start, centre;         // of mass, working frame: as the frame began, now
-    Quat turn;                  // since then
+    float radius = 0;        // of a ball, m
+    float friction = 0;      // of the pair
+    float inverse_mass = 0;  // of the copy, 1/kg
+    Sym3d inverse_inertia;   // of the copy, world axes as the frame began
+    Vec3 start, centre;      // of mass, working frame: as the frame began, now
+    Quat turn;               // since then
     Vec3 start_velocity, velocity, start_spin, spin;
-    Vec3d impulse;              // N s, given to the soft body
+    Vec3d impulse;                    // N s, given to the soft body
     Vec3 later_velocity, later_spin;  // what the body gets when it has been moved
     bool is_pushed = false;
 };

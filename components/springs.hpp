@@ -37,7 +37,7 @@ struct ShellSprings : Table<ShellSprings> {
     Column<float> length_factor{*this, "length_factor"};        // gamma: depth in motion over the true one
     Column<float> area_energy{*this, "area_energy"};            // kappa_A of an element over E h A
     Column<float> volume_energy{*this, "volume_energy"};        // kappa_V of an element over E h A, before B4's bound
-    Column<uint8_t> keeps_lengths{*this, "keeps_lengths"};  // rest is the shape now: areas at rest are those of rest_length
+    Column<uint8_t> keeps_lengths{*this, "keeps_lengths"};  // bits of edge_stiffness.hpp; 1: rest is the shape now, 2: slender
     Column<float> time_step{*this, "time_step", "s"};
     Column<Vec3> gravity{*this, "gravity", "m/s2"};
     Column<Vec3> origin{*this, "origin", "m"};         // of the working frame, in the world
