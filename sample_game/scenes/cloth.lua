@@ -5,7 +5,7 @@ game.scene{
     sheet = {0, 10, 25, 45, 60, 66, 72, 80, 95, 120, 200, 359},
 }
 local shell = game.shell_keys{material = "cloth", thickness = 0.0004, edge = 0.035}
-local mass = game.key{name = "scene.mass_kg", unit = "kg", default = 0.25, least = 0.01, most = 100, text = "of the ball"}
+local mass = game.key{name = "scene.mass_kg", unit = "kg", default = 0.6, least = 0.01, most = 100, text = "of the ball"}
 
 local side, height = 1.1, 0.9 -- m
 
@@ -38,7 +38,7 @@ local sheet = game.spawn{
     pins = pins,
 }
 wait(1)
-local ball = game.throw{radius = 0.09, mass = mass, at = {0.05, 1.3, 0.03}, velocity = {0, 0, 0}}
+local ball = game.throw{radius = 0.09, mass = mass, at = {0.04, 1.02, 0.03}, velocity = {0, 0, 0}}
 wait(4)
 local place = ball:position()
 game.note(string.format("the ball lies at height %.3f m", place.y))
