@@ -16,6 +16,15 @@
 namespace cullet {
 namespace {
 
+/// Brick as the figures know it: few large fragments, cracks that stop where the run leaves them.
+MaterialTable table_of_figures() {
+    MaterialTable table;
+    MaterialSettings brick = table.find("brick").value();
+    brick.fracture = FractureKind::Large, brick.branching = brick.run_out = 0;
+    (void)table.change(brick);
+    return table;
+}
+
 constexpr float kPaneSide = 0.5f, kPaneEdge = 0.010f;                       // m
 constexpr float kWallWidth = 2.4f, kWallHeight = 1.8f, kWallEdge = 0.078f;  // m
 constexpr double kLeastShare = 0.005;                                       // of the mass, of a piece that counts
@@ -77,7 +86,9 @@ void examine_pieces(State& state, const HitDescription& hit, HitResult& result) 
 Result<HitSubject> make_subject(Subject subject, uint64_t seed) {
     HitSubject made;
     Mesh mesh;
+    const MaterialTable materials = table_of_figures();
     CookSettings settings;
+    settings.materials = &materials;
     settings.seed = seed;
     settings.longest_edge = 100;  // the meshes have the edges that the figures are for
     settings.measures_threshold = false;

@@ -6,6 +6,7 @@
 #include "engine/mesh_file.hpp"
 #include "systems/cook/build_shell.hpp"
 #include "systems/cook/clean_mesh.hpp"
+#include "systems/cook/crease_normals.hpp"
 #include "systems/cook/extrude.hpp"
 #include "systems/cook/hit_advice.hpp"
 #include "systems/cook/join_walls.hpp"
@@ -75,13 +76,19 @@ struct SourceArrays {
     std::vector<Vec2> uvs;
     std::vector<uint16_t> materials;
 };
-SourceArrays attributes_of(const Surface& surface, const Mesh& mesh) {
+// Normals that cooking made itself follow a sheet that was turned since.
+SourceArrays attributes_of(const Surface& surface, const Mesh& mesh, bool has_made_normals) {
     SourceArrays arrays;
     for (size_t t = 0; t < surface.triangles.size(); ++t) {
         const uint32_t source = surface.source_triangles[t];
+        const Triangle& c = surface.triangles[t];
+        const Vec3d flat = cross(surface.positions[c[1]] - surface.positions[c[0]],
+                                 surface.positions[c[2]] - surface.positions[c[0]]);
         for (int k = 0; k < 3; ++k) {
             const size_t corner = 3 * size_t{source} + surface.source_corners[t][static_cast<size_t>(k)];
             if (!mesh.corner_normals.empty()) arrays.normals.push_back(mesh.corner_normals[corner]);
+            if (has_made_normals && dot(Vec3d(arrays.normals.back()), flat) < 0)
+                arrays.normals.back() = -arrays.normals.back();
             if (!mesh.corner_uvs.empty()) arrays.uvs.push_back(mesh.corner_uvs[corner]);
         }
         if (!mesh.materials.empty()) arrays.materials.push_back(mesh.materials[source]);
@@ -140,7 +147,7 @@ Result<void> make_stiff(State& state, Row<Shells>& shell) {
     s.time_step[shell] = stable_time_step(view);
     if (!(s.time_step[shell] > 0))
         return Error{"nothing holds the mesh together: no two triangles share an edge. Weld it first."};
-    const float run = run_seconds(state.materials, s.material[shell], s.area[shell]);
+    const float run = run_seconds(state, s.material[shell], s.area[shell]);
     if (!(s.time_step[shell] >= kShortestStep && run <= kMostSteps * s.time_step[shell]))
         return Error{"a hit would take more than " + std::to_string(static_cast<int>(kMostSteps / 1e6f)) +
                      " million steps: some edges are far too short for its size. Weld them, or scale it."};
@@ -168,14 +175,14 @@ float estimated_threshold(const State& state, Row<Shells> shell) {
 uint64_t units_of_a_hit(const State& state, Row<Shells> shell) {
     const Shells& s = state.shells;
     const uint32_t vertices = s.vertices[shell].count;
-    const float run = run_seconds(state.materials, s.material[shell], s.area[shell]);
+    const float run = run_seconds(state, s.material[shell], s.area[shell]);
     const auto steps = static_cast<uint64_t>(run / s.time_step[shell]) + 1;
     return steps * units_a_step(vertices + vertices / 10, 64) + 300 * kUnitsCut +
            vertices * kUnitsOpen;  // a blow that breaks grows it by a tenth
 }
 
-ModelReport report_on(const State& state, Row<Shells> shell, const SurfaceRepairs& repairs,
-                      const Extrusion& extrusion) {
+ModelReport report_on(const State& state, Row<Shells> shell, const SurfaceRepairs& repairs, const Extrusion& extrusion,
+                      double longest_edge) {
     const Shells& s = state.shells;
     ModelReport report;
     report.vertices = s.vertices[shell].count;
@@ -192,7 +199,7 @@ ModelReport report_on(const State& state, Row<Shells> shell, const SurfaceRepair
     if (!repairs.is_clean()) report.repairs = describe(repairs);
     // A hit on a ductile or elastic body is no hidden run.
     if (material_traits(state, s.material[shell]).kind == MaterialKind::Brittle)
-        report.advice = hit_advice(report.units_of_a_hit, s.mean_edge[shell], s.thickness[shell]);
+        report.advice = hit_advice(report.units_of_a_hit, s.mean_edge[shell], s.thickness[shell], longest_edge);
     return report;
 }
 
@@ -247,6 +254,8 @@ Result<Model> cook(const MeshView& view, const CookSettings& settings) try {
     if (const uint32_t parts = given->repairs.unorientable_components; parts > 0)
         return Error{name + ": " + std::to_string(parts) + (parts == 1 ? " part is" : " parts are") +
                      " one-sided, like a Moebius strip, so nothing is inside. Cut each along a line, or remove it."};
+    const bool makes_normals = mesh->corner_normals.empty();
+    if (makes_normals) give_crease_normals(*mesh, given.value());
     SurfaceRepairs unused;
     const Result<CleanMesh> clean = clean_mesh(*mesh, welding, unused);
     if (!clean) return Error{name + ": " + clean.error()};
@@ -256,6 +265,8 @@ Result<Model> cook(const MeshView& view, const CookSettings& settings) try {
         settings.longest_edge > 0 ? settings.longest_edge : std::max(2.0 * settings.thickness, 0.025 * diagonal);
     Result<Mesh> fine = tessellate(*mesh, tessellation);
     if (!fine) return Error{name + ": " + fine.error()};
+    // Whether the setting made the edges what they are, or cut a few long ones.
+    const double cut_at = fine->triangles.size() >= 2 * mesh->triangles.size() ? tessellation.longest_edge : 0;
     const uint32_t thinned = thin_fans(*fine, kMostRing);
     Result<Surface> surface = prepare_surface(*fine, welding);
     if (!surface) return Error{name + ": " + surface.error()};
@@ -281,7 +292,7 @@ Result<Model> cook(const MeshView& view, const CookSettings& settings) try {
     const auto contents = std::make_shared<Model::Contents>(cooking_limits(vertices, elements));
     State& state = contents->state;
     fill_materials(state.materials);
-    const SourceArrays arrays = attributes_of(surface.value(), *fine);
+    const SourceArrays arrays = attributes_of(surface.value(), *fine, makes_normals);
     ShellSource source;
     source.position = surface->positions;
     source.inward = extrusion->direction;
@@ -315,7 +326,7 @@ Result<Model> cook(const MeshView& view, const CookSettings& settings) try {
     else
         state.shells.first_crack_speed[contents->shell] = estimated_threshold(state, contents->shell);
     if (settings.progress && !measures) settings.progress(settings.progress_user, 1);
-    contents->report = report_on(state, contents->shell, given->repairs, extrusion.value());
+    contents->report = report_on(state, contents->shell, given->repairs, extrusion.value(), cut_at);
     if (joined) contents->report.walls = describe(*joined, *surface, *extrusion);
     if (thinned > 0)
         contents->report.repairs += (contents->report.repairs.empty() ? "" : " ") + std::string("Thinned ") +

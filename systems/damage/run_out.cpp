@@ -1,5 +1,7 @@
 #include "systems/damage/run_out.hpp"
 
+#include <algorithm>
+
 #include "systems/cook/materials.hpp"
 #include "systems/costs.hpp"
 #include "systems/damage/aim.hpp"
@@ -11,8 +13,10 @@
 namespace cullet {
 namespace {
 
-constexpr float kStraight = 0.966f;  // cosine of 15 degrees. Doubled, cracks bend visibly where they had stopped
-constexpr float kSteps = 3;          // a mean edge of way takes one step, inserted vertices make it up to two
+/// Cosines of the turns to where a crack ends, the straighter one first: 15 and 35 degrees. What neither finds stays.
+/// Two more steps, to 55 degrees, bend cracks visibly where they had stopped.
+constexpr float kTurns[] = {0.966f, 0.819f};
+constexpr float kSteps = 3;  // a mean edge of way takes one step, inserted vertices make it up to two
 
 CrackState crack_at(const ShellView& shell, uint32_t vertex) {
     return static_cast<CrackState>(shell.state.vertices.crack[shell.vertex(vertex)]);
@@ -25,8 +29,10 @@ bool may_end_at(const ShellView& shell, uint32_t vertex) {
     return ring.count > 0 && !ring.is_closed;
 }
 
-/// Where the crack of this tip would end, or kNone: the nearest such vertex, one a little aside counts as farther.
-uint32_t end_of(const ShellView& shell, uint32_t tip, float reach) {
+/// Where the crack of this tip would end, or kNone: the nearest such vertex, one a little aside counts as farther. Its
+/// own crack counts too: another branch of it, or itself where it has come round; what lies behind the tip is not
+/// ahead.
+uint32_t end_of(const ShellView& shell, uint32_t tip, float reach, float turn) {
     const Vertices& vertices = shell.state.vertices;
     const uint32_t row = shell.vertex(tip);
     const Vec3 place = vertices.rest[row], heading = vertices.heading[row];
@@ -37,10 +43,8 @@ uint32_t end_of(const ShellView& shell, uint32_t tip, float reach) {
         if (v == tip || vertices.element[other] == kNone) continue;
         const Vec3 way = vertices.rest[other] - place;
         const float ahead = dot(way, heading), distance = length(way);
-        if (!(ahead > kStraight * distance) || !(distance > 0) || distance * distance / ahead >= nearest) continue;
+        if (!(ahead > turn * distance) || !(distance > 0) || distance * distance / ahead >= nearest) continue;
         if (!(dot(vertices.inward[row], vertices.inward[other]) > kJoinCosine)) continue;
-        if (crack_at(shell, v) != CrackState::None && vertices.crack_start[other] == vertices.crack_start[row])
-            continue;
         if (!may_end_at(shell, v)) continue;
         nearest = distance * distance / ahead;
         found = v;
@@ -93,7 +97,10 @@ uint32_t run_out_cracks(State& state, Row<Tasks> task) {
         const uint32_t root = vertices.crack_start[shell.vertex(v)];
         if (crack_at(shell, v) != CrackState::Tip || root >= count) continue;
         const float crack = length(vertices.rest[shell.vertex(v)] - vertices.rest[shell.vertex(root)]);
-        const uint32_t target = end_of(shell, v, run_out * crack);
+        const float reach = run_out * std::max(crack, kStartSpacing * shell.shells().mean_edge[shell.row]);
+        uint32_t target = kNone;
+        for (const float turn : kTurns)
+            if (target == kNone) target = end_of(shell, v, reach, turn);
         if (target != kNone) cuts += run_to(shell, v, target, touched, is_whole);
     }
     is_whole = refresh_stiffness(shell, touched) && is_whole;
@@ -101,7 +108,7 @@ uint32_t run_out_cracks(State& state, Row<Tasks> task) {
     Shells& shells = shell.shells();
     if (!is_whole) shells.packs[shell.row].count = shells.blocks[shell.row].count = shells.links[shell.row].count = 0;
     state.tasks.crack_count[task] += cuts;
-    state.tasks.units_owed[task] += kUnitsCut * cuts;
+    state.tasks.units_owed[task] += kUnitsCut * cuts + touched.units;
     return cuts;
 }
 

@@ -20,7 +20,9 @@ struct MeshView {
     size_t position_count = 0;
     const uint32_t* indices = nullptr;  // 3 a triangle
     size_t triangle_count = 0;
-    const Vec3* corner_normals = nullptr;  // unit
+    /// Unit. Null: made from this mesh, smooth but for edges that turn by more than 40 degrees; cracks leave them as they
+    /// are.
+    const Vec3* corner_normals = nullptr;
     const Vec2* corner_uvs = nullptr;
     const uint16_t* materials = nullptr;  // 1 a triangle, comes back in the drawn mesh's order
     const char* name = "mesh";            // for sentences
@@ -67,8 +69,8 @@ enum class Propagation : uint8_t {
 };
 
 struct CookSettings {
-    std::string material = "porcelain";        // a name in `materials`
-    const MaterialTable* materials = nullptr;  // null: the compiled table
+    std::string material = "porcelain";         // a name in `materials`
+    const MaterialTable* materials = nullptr;   // null: the compiled table
     std::optional<FractureKind> fracture = {};  // in place of the material's
     Vec3 grain{0, 1, 0};       // of wood, along its fibres, mesh coordinates, any length; counts for no other material
     float thickness = 0.005f;  // m; thinner where the opposite wall is near
