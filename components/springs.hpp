@@ -37,6 +37,7 @@ struct ShellSprings : Table<ShellSprings> {
     Column<float> length_factor{*this, "length_factor"};        // gamma: depth in motion over the true one
     Column<float> area_energy{*this, "area_energy"};            // kappa_A of an element over E h A
     Column<float> volume_energy{*this, "volume_energy"};        // kappa_V of an element over E h A, before B4's bound
+    Column<uint8_t> keeps_lengths{*this, "keeps_lengths"};  // bits of edge_stiffness.hpp; 1: rest is the shape now, 2: slender
     Column<float> time_step{*this, "time_step", "s"};
     Column<Vec3> gravity{*this, "gravity", "m/s2"};
     Column<Vec3> origin{*this, "origin", "m"};         // of the working frame, in the world
@@ -67,6 +68,7 @@ struct LayerSprings : Table<LayerSprings> {
     static constexpr const char* kName = "layer_springs";
     static constexpr bool kIsOptional = true;
     Column<float> inner_length{*this, "inner_length", "m"};  // at rest
+    Column<float> inner_plastic{*this, "inner_plastic", "m"};  // where the inner skin's force is 0
     Column<float> inner_stiffness{*this, "inner_stiffness", "N/m"};
     Column<float> inner_damping{*this, "inner_damping", "N s/m"};
     Column<float> mid_length{*this, "mid_length", "m"};  // Sandwich: between the middles of both ends' pairs

@@ -8,6 +8,7 @@
 #include "components/materials.hpp"
 #include "components/quick.hpp"
 #include "components/shells.hpp"
+#include "components/soft.hpp"
 #include "components/springs.hpp"
 #include "components/tasks.hpp"
 #include "engine/range_pool.hpp"
@@ -68,6 +69,9 @@ struct State {
     SpringSlots spring_slots;
     LayerSlots layer_slots;
     Twins twins;
+    SoftBodies soft_bodies;
+    SoftStrikers soft_strikers;
+    SoftContacts soft_contacts;
 
     /// Which rows of the tables above are taken; one pool a table whose rows come in ranges.
     struct Pools {
@@ -125,7 +129,10 @@ struct State {
                           &State::twins,
                           &State::quick_bodies,
                           &State::quick_runs,
-                          &State::awake_packs};
+                          &State::awake_packs,
+                          &State::soft_bodies,
+                          &State::soft_strikers,
+                          &State::soft_contacts};
     }
     const Limits& limits() const { return limits_; }
     /// The table of type T.

@@ -15,6 +15,8 @@ void remember_poses(Rows<Bodies> bodies, In<&Bodies::position> position, In<&Bod
 /// Which bodies the blows that the game asked for reach; balls and unbreakable bodies are pushed at once.
 void take_blows(Serial, Blows& blows, ShellTables shells, Bodies& bodies, RigidWorld& rigid, DamageCounts& counts,
                 Events<RefusedEvent>& refused);
+/// Soft bodies that have been quiet long enough are rigid again, in the shape that they have.
+void freeze_soft_bodies(Serial, ShellTables shells, SoftBodies& soft, Bodies& bodies, RigidWorld& rigid, Arena& arena);
 /// Sweeps fast bodies to their time of impact, finds all contacts of this step.
 void detect_contacts(Serial, Step step, RigidWorld& rigid);
 /// Contacts that a breakable body may not survive, sorted by body and speed.
@@ -28,6 +30,10 @@ void open_tasks(Serial, Step step, const Events<Impact>& impacts, ShellTables sh
                 RigidWorld& rigid, const DamageSettings& settings, DamageCounts& counts, Events<TaskOpened>& opened,
                 Events<StiffnessWanted>& stiffness_wanted, Events<ImpactEvent>& impact_events,
                 Events<RefusedEvent>& refused);
+/// Ductile and elastic bodies that something hits hard enough, or that lose what they lay against, begin to move by
+/// their springs.
+void wake_soft_bodies(Serial, Step step, ShellTables shells, const Tasks& tasks, const TaskContacts& contacts,
+                      SoftBodies& soft, Bodies& bodies, RigidWorld& rigid);
 /// Copies the body's shell into the task's.
 void fill_tasks(Each<TaskOpened> opened, ShellTables shells, Tasks& tasks);
 /// Assembles stiffness that the body's shell does not have: a piece that is hit for the first time.
@@ -46,6 +52,11 @@ void wake_regions(Serial, const Events<TaskOpened>& opened, ShellTables shells, 
 void grant_units(Serial, ShellTables shells, Tasks& tasks, const DamageSettings& settings, DamageCounts& counts);
 /// Runs the inner loop of each open task for the steps it was granted, on all workers.
 void advance_damage(Serial, DamageLoop& loop);
+/// Runs the springs of each awake body through the frame, on all workers.
+void advance_soft(Serial, Step step, const RigidWorld& rigid, SoftLoop& loop);
+/// What soft bodies gave to what they met, and where they are now, for the rigid world.
+void pass_soft(Serial, Step step, ShellTables shells, SoftBodies& soft, SoftStrikers& strikers, Bodies& bodies,
+               RigidWorld& rigid, DamageCounts& counts, Arena& arena, Events<FaultEvent>& faults);
 /// Holds bodies whose task goes on, releases those whose time is up or whose task ended.
 void settle_tasks(Serial, Step step, Tasks& tasks, TaskContacts& contacts, Blows& blows, Bodies& bodies,
                   const Shells& shells, RigidWorld& rigid, const DamageSettings& settings, DamageCounts& counts,
@@ -83,6 +94,9 @@ void make_births(Serial, Step step, const Events<TaskEnded>& ended, const Events
 
 /// Solves contacts and moves all bodies, old and new.
 void solve_rigid(Serial, Step step, RigidWorld& rigid);
+/// The rest of what soft bodies gave: bodies that they met have been moved as the run moved them, and now get the
+/// velocity that they had at its end.
+void return_soft(Serial, const SoftBodies& soft, const SoftStrikers& strikers, RigidWorld& rigid);
 /// Poses, velocities and sleep of the rigid world, back into rows.
 void read_rigid(Serial, const RigidWorld& rigid, Bodies& bodies, Events<AsleepEvent>& asleep);
 /// Crumbs fly on parabolas until they meet the floor below their place of birth.
@@ -91,6 +105,9 @@ void fall_debris(Rows<Debris> debris, Step step, InOut<&Debris::position> positi
 
 // ---- end
 
+/// Soft bodies that are awake are drawn anew.
+void show_soft(Serial, ShellTables shells, const SoftBodies& soft, Bodies& bodies, Events<ShellChanged>& changed,
+               Events<RefusedEvent>& refused);
 /// The drawn mesh of each shell that changed.
 void draw_shells(Each<ShellChanged> changed, Step step, ShellTables shells, Bodies& bodies, ViewVertices& vertices,
                  ViewIndices& indices);
@@ -168,5 +185,16 @@ void integrate_layers(Rows<SpringPacks> packs, OfSprings springs, Turn turn, She
                       InOut<&SpringPacks::zero_lengths> zero_lengths);
 /// The sides of the positions change places.
 void end_spring_step(EachBody body, OfSprings springs, ShellSprings& own);
+
+// ---- inner loop of a soft body: the systems of springs, and
+
+/// Contacts at the places that the springs' step gave, in row order: inelastic impulses with Coulomb friction between
+/// vertices and the strikers' copies.
+void meet_strikers(EachBody soft_body, OfSprings springs, Turn turn, ShellTables shells, SoftBodies& soft,
+                   SoftStrikers& strikers, SoftContacts& contacts);
+/// Springs above yield get longer or shorter for good (6.8).
+void flow_springs(Rows<Springs> rows, OfSprings springs, OfSoft soft_body, ShellTables shells, const SoftBodies& soft);
+/// Springs beyond what they bear: a vertex is split across the most stretched (C1, C3).
+void tear_springs(EachBody soft_body, OfSprings springs, ShellTables shells, SoftBodies& soft);
 
 }  // namespace cullet

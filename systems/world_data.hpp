@@ -39,6 +39,7 @@ struct ShellChanged {
 };
 
 struct DamageLoop;
+struct SoftLoop;
 class QueryIndex;
 
 /// What the game set, as the systems read it.
@@ -73,6 +74,7 @@ struct WorldData {
     DamageCounts counts;
     std::unique_ptr<RigidWorld> rigid;
     std::unique_ptr<DamageLoop> damage_loop;
+    std::unique_ptr<SoftLoop> soft_loop;
     ViewBoxes view_boxes;
     std::unique_ptr<QueryIndex> query_index;
     Arena arena;
@@ -122,6 +124,8 @@ T& WorldData::resource() {
         return *rigid;
     else if constexpr (std::is_same_v<T, DamageLoop>)
         return *damage_loop;
+    else if constexpr (std::is_same_v<T, SoftLoop>)
+        return *soft_loop;
     else if constexpr (std::is_same_v<T, QueryIndex>)
         return *query_index;
     else if constexpr (std::is_same_v<T, Arena>)

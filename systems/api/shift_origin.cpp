@@ -35,6 +35,11 @@ void shift_blows(Blows& blows, Vec3 by) {
     }
 }
 
+void shift_springs(ShellSprings& springs, Vec3 by) {
+    for (uint32_t row = 0; row < springs.size(); ++row)
+        if (springs.is_used[row]) springs.origin.set(row, springs.origin[row] + by);
+}
+
 // What happened in the last step is still to be read.
 void shift_events(WorldData& d, Vec3 by) {
     const auto shift = [by](auto& events) {
@@ -57,6 +62,7 @@ Result<void> World::shift_origin(Vec3 by) {
         return Error{"shift_origin by " + text(by) + "; give metres, at most 1000000 along each axis."};
     const HostScope call(contents_->host);
     if (contents_->recorder) contents_->recorder->shift_origin(by);
+    shift_springs(d.state.shell_springs, -by);
     d.rigid->shift(-by);
     shift_bodies(d.state.bodies, *d.rigid, -by);
     shift_debris(d.state.debris, -by);

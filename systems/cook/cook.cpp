@@ -197,10 +197,8 @@ ModelReport report_on(const State& state, Row<Shells> shell, const SurfaceRepair
     report.first_crack_speed = s.first_crack_speed[shell];
     report.units_of_a_hit = units_of_a_hit(state, shell);
     if (!repairs.is_clean()) report.repairs = describe(repairs);
-    if (const MaterialKind kind = material_traits(state, s.material[shell]).kind; kind != MaterialKind::Brittle)
-        report.advice = std::string("Its material is ") + name_of(kind) +
-                        ": this version moves it as a rigid body that does not bend, tear or break.";
-    else
+    // A hit on a ductile or elastic body is no hidden run.
+    if (material_traits(state, s.material[shell]).kind == MaterialKind::Brittle)
         report.advice = hit_advice(report.units_of_a_hit, s.mean_edge[shell], s.thickness[shell], longest_edge);
     return report;
 }

@@ -191,6 +191,19 @@ void kick_vertices(ShellView shell, const Explosion& explosion, float damping_ti
     }
 }
 
+void kick_points(const SpringView& view, const Explosion& explosion, Quat turn) {
+    State& state = view.state;
+    for_each_lit(view.shell, explosion, [&](uint32_t row, Vec3 impulse, Vec3) {
+        const Vec3 along = rotate(turn, impulse);
+        for (const uint32_t v : state.elements.corner[row]) {
+            const uint32_t at = view.shell.vertex(v);
+            const Vec3 gained = (state.vertices.inverse_mass[at] / 3) * along;
+            state.vertices.velocity.set(at, state.vertices.velocity[at] + gained);
+            if (view.has_layers()) state.twins.velocity.set(view.twin(v), state.twins.velocity[view.twin(v)] + gained);
+        }
+    });
+}
+
 // A ring at height z of the unit ball sees the centre under the cosine (D z - a) / r, r^2 = D^2 + a^2 - 2 D a z, and
 // has the area 2 pi a^2 dz; of its impulse the share z is along the axis.
 double impulse_on_ball(double distance, double ball_radius, float reach, float strength) {

@@ -1,6 +1,6 @@
 // What an explosion does to one body: its impulse by distance and facing (cullet/damage.hpp has the formula).
 #pragma once
-#include "components/state.hpp"
+#include "systems/springs/spring_view.hpp"
 
 namespace cullet {
 
@@ -26,6 +26,9 @@ ExplosionSums measure_explosion(ShellView shell, const Explosion& explosion, Vec
 /// Gives every free vertex its share, a third of each of its elements': velocity and probe. The shell's vertices must
 /// have their velocities already.
 void kick_vertices(ShellView shell, const Explosion& explosion, float damping_time);
+
+/// The same for an awake soft body, whose velocities run along the world's axes: `turn` takes the body's into them.
+void kick_points(const SpringView& view, const Explosion& explosion, Quat turn);
 
 /// On a solid ball, along the line from the explosion's centre to the ball's, N s; in 32 rings of equal height.
 double impulse_on_ball(double distance, double ball_radius, float reach, float strength);

@@ -1,6 +1,9 @@
+#include <algorithm>
+
 #include "systems/damage/blows.hpp"
 #include "systems/damage/cut_surface.hpp"
 #include "systems/rigid/body_id.hpp"
+#include "systems/soft/soft_body.hpp"
 #include "systems/systems.hpp"
 
 namespace cullet {
@@ -15,6 +18,26 @@ struct Taking {
 
     bool has_shell(Row<Bodies> b) const {
         return static_cast<BodyKind>(state.bodies.kind[b]) != BodyKind::Free && state.bodies.shell[b].exists();
+    }
+
+    Row<SoftBodies> soft_of(Row<Bodies> b) const {
+        if (state.bodies.hold_count[b]) return {};  // the striker of a brittle body's hit: it is rigid till that ends
+        return find_soft(state.soft_bodies, b);
+    }
+    /// It comes from outside.
+    void book(Row<Bodies> b, Vec3d impulse) {
+        if (static_cast<BodyKind>(state.bodies.kind[b]) != BodyKind::Dynamic) return;
+        const Vec3d booked(rotate(state.bodies.orientation[b], impulse.to_float()));
+        for (int k = 0; k < 3; ++k) counts.impulse_to_static[k] -= booked[k];
+    }
+    void push_points(uint32_t row, Row<SoftBodies> soft) {
+        const Blows& blows = state.blows;
+        const Row<Bodies> body = blows.body[row];
+        const Row<Shells> shell = state.bodies.shell[body];
+        const float radius = std::max(
+            {3 * state.shells.thickness[shell], 1.3f * state.shells.mean_edge[shell], 0.35f * blows.radius[row]});
+        push_soft(state, rigid, soft, blows.point[row], blows.impulse[row].to_float(), radius);
+        book(body, blows.impulse[row]);
     }
 
     /// A copy of the blow for this body, at the end; kNone where there is no room.
@@ -78,6 +101,12 @@ struct Taking {
         const ExplosionSums sums =
             measure_explosion(ShellView(state, bodies.shell[body]), explosion, bodies.centre[body]);
         if (!(sums.size > 0)) return;
+        if (const Row<SoftBodies> soft = soft_of(body); soft.exists()) {
+            if (!state.soft_bodies.is_awake[soft]) wake_soft(state, rigid, soft);
+            state.soft_bodies.quiet_seconds[soft] = 0;
+            kick_points(SpringView(state, springs_of(state, soft)), explosion, bodies.orientation[body]);
+            return book(body, sums.impulse);
+        }
         if (!bodies.is_breakable[body]) return push_body(state.bodies, rigid, counts, body, sums.impulse, sums.turning);
         const uint32_t made = copy_for(row, body);
         if (made == kNone) return push_body(state.bodies, rigid, counts, body, sums.impulse, sums.turning);
@@ -149,6 +178,10 @@ void take_blows(Serial, Blows& blows, ShellTables shells, Bodies& bodies, RigidW
         --taking.named;
         if (is_kind(blows, row, BlowKind::Push)) {
             taking.measure_push(row);
+            if (const Row<SoftBodies> soft = taking.soft_of(body); soft.exists()) {
+                taking.push_points(row, soft);
+                continue;
+            }
             if (!taking.has_shell(body) || !bodies.is_breakable[body]) {
                 pay_blow(blows, bodies, rigid, counts, row);
                 continue;

@@ -28,6 +28,7 @@ struct Break {
     float margin = 0;            // of the body's hulls so far
     Range points = {};           // for the hulls of what is left
     bool is_refused = false;     // some part stays for want of room
+    Row<SoftBodies> soft = {};   // an awake soft body that tore: what has pins keeps the body, its points go on moving
 
     bool leaves(uint32_t part) const { return child[part].exists() || is_crumb[part]; }
     bool is_broken() const {

@@ -10,6 +10,7 @@
 #include "systems/fragments/rigid_shape.hpp"
 #include "systems/fragments/strike_back.hpp"
 #include "systems/rigid/body_id.hpp"
+#include "systems/soft/soft_pieces.hpp"
 
 namespace cullet {
 namespace {
@@ -215,7 +216,12 @@ void make_births_of(Births& births, const Break& plan, const Moment& moment) {
 
 void make_break(Births& births, const Break& plan) {
     State& state = births.state;
-    if (!plan.task.exists()) return make_births_of(births, plan, {pose_of(state.bodies, plan.body), {}, {}, {}, false});
+    if (plan.soft.exists()) give_pieces_springs(state, plan);
+    if (!plan.task.exists()) {
+        make_births_of(births, plan, {pose_of(state.bodies, plan.body), {}, {}, {}, false});
+        if (plan.soft.exists()) keep_torn(state, births.rigid, plan);
+        return;
+    }
     births.counts.clamped += plan.clamped;
     const Moment moment = moment_of(state, plan.task, plan.motions);
     // Late, the rigid solver has passed the blow's impulse; an explosion's energy comes from outside.

@@ -9,6 +9,7 @@
 #include "systems/fragments/rest_of_body.hpp"
 #include "systems/quick/quick_body.hpp"
 #include "systems/rigid/body_id.hpp"
+#include "systems/soft/soft_pieces.hpp"
 
 namespace cullet {
 namespace {
@@ -96,6 +97,7 @@ void choose_births(Planning& planning, Break& plan) {
     const auto count = static_cast<uint32_t>(plan.parts.size());
     for (uint32_t i = 0; i < count; ++i) plan.order[i] = i;
     std::sort(plan.order.begin(), plan.order.end(), [&](uint32_t a, uint32_t b) {
+        if (plan.soft.exists() && plan.parts[a].has_pins != plan.parts[b].has_pins) return plan.parts[a].has_pins;
         return plan.parts[a].mass != plan.parts[b].mass ? plan.parts[a].mass > plan.parts[b].mass : a < b;
     });
     plan.largest = plan.order[0];
@@ -263,6 +265,28 @@ void ask_again(Planning& planning, Row<Bodies> body) {
     const Quat to_body_axes = conjugate(bodies.orientation[body]);
     move_with_body(state, plan, Vec3d(rotate(to_body_axes, bodies.velocity[body])),
                    Vec3d(rotate(to_body_axes, bodies.spin[body])));
+    find_changed_cells(shell, shell);
+    if (reserve_births(planning, plan)) order_births(planning, plan);
+}
+
+// The parts' velocities are those of their points, as at any hand-off; which hulls fit is not known any more.
+void plan_tear(Planning& planning, Row<SoftBodies> soft) {
+    State& state = planning.state;
+    const Row<Bodies> body = state.soft_bodies.body[soft];
+    const ShellView shell(state, state.bodies.shell[body]);
+    const std::span slot(state.fragments.part.data() + size_t{state.tasks.limit()} * kMostParts, kMostParts);
+    const uint32_t count = group_fragments(shell, slot);
+    state.soft_bodies.is_torn[soft] = 0;
+    if (count < 2 || count > kMostParts) return;
+    const auto parts = planning.arena.take<FragmentPart>(count);
+    std::copy_n(slot.begin(), parts.size(), parts.begin());
+    Break plan = break_of(planning, {}, body, shell.row, parts);
+    plan.soft = soft;
+    if (!reserve_points(planning, plan)) return;
+    soft_handoff(state, soft, plan.parts, plan.motions);
+    measure_shell(shell);  // as it is shaped now: pieces are subtracted from it
+    const Range cells = state.shells.cells[shell.row];
+    for (uint32_t c = cells.first; c < cells.first + cells.count; ++c) state.cells.is_stale[c] = 1;
     find_changed_cells(shell, shell);
     if (reserve_births(planning, plan)) order_births(planning, plan);
 }

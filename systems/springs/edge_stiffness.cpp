@@ -12,12 +12,34 @@ struct EdgeAreas {
     double outer = 0, inner = 0;
 };
 
+/// Area of a triangle by its sides (Heron): 0 where they do not close.
+double area_of(double a, double b, double c) {
+    const double product = (a + b + c) * (b + c - a) * (c + a - b) * (a + b - c);
+    return product > 0 ? 0.25 * std::sqrt(product) : 0;
+}
+
+/// By the lengths at rest of the element's own springs: of a shell whose rest shape is the one that it has now. False:
+/// some spring is not made yet.
+bool add_kept_areas(const SpringView& view, uint32_t element, EdgeAreas& sum) {
+    const auto& spring = view.state.element_springs.spring[view.edges(element)];
+    double outer[3], inner[3] = {};
+    for (int k = 0; k < 3; ++k) {
+        if (spring[k] == kNone || !(view.state.springs.rest_length[view.spring(spring[k])] > 0)) return false;
+        outer[k] = view.state.springs.rest_length[view.spring(spring[k])];
+        if (view.has_layers()) inner[k] = view.state.layer_springs.inner_length[view.layer(spring[k])];
+    }
+    sum.outer += area_of(outer[0], outer[1], outer[2]);
+    sum.inner += area_of(inner[0], inner[1], inner[2]);
+    return true;
+}
+
 EdgeAreas areas_at(const SpringView& view, uint32_t element, uint32_t edge) {
     const ShellView& shell = view.shell;
     const Elements& elements = view.state.elements;
     EdgeAreas sum;
     for (const uint32_t e : {element, elements.neighbour[shell.element(element)][edge]}) {
         if (e == kNone || (elements.flags[shell.element(e)] & kDead)) continue;
+        if ((view.own().keeps_lengths[view.row] & kKeepsLengths) && add_kept_areas(view, e, sum)) continue;
         const auto [a, b, c] = elements.corner[shell.element(e)];
         const auto area = [&](auto rest) {
             return 0.5 * length(cross(rest(view, b) - rest(view, a), rest(view, c) - rest(view, a)));
@@ -104,7 +126,7 @@ void measure_spring(const SpringView& view, uint32_t s, bool is_new) {
     const uint32_t layer = view.layer(s);
     const Vec3d ia = inner_rest(view, a), ib = inner_rest(view, b);
     if (is_new) {
-        layers.inner_length[layer] = static_cast<float>(length(ib - ia));
+        layers.inner_plastic[layer] = layers.inner_length[layer] = static_cast<float>(length(ib - ia));
         layers.mid_length[layer] = static_cast<float>(0.5 * length((ob + ib) - (oa + ia)));
         layers.cross_length[layer] = {static_cast<float>(length(ib - oa)), static_cast<float>(length(ob - ia))};
     }
@@ -126,7 +148,8 @@ void measure_spring(const SpringView& view, uint32_t s, bool is_new) {
     const double width = l > 0 ? 2.0 / 3 * areas.outer / l : 0;
     const double shear =
         l > 0 ? 5.0 / 6 * material.shear * h * width * diagonal * diagonal / (4 * height * height * l) : 0;
-    layers.cross_stiffness[layer] = static_cast<float>(std::min(shear, outer + inner));
+    const double most = view.own().keeps_lengths[view.row] & kIsSlender ? 0.5 * skin : 1;
+    layers.cross_stiffness[layer] = static_cast<float>(std::min(shear, most * (outer + inner)));
 }
 
 void measure_twin(const SpringView& view, uint32_t v, bool is_new) {

@@ -4,6 +4,9 @@
 
 namespace cullet {
 
+/// Bits of ShellSprings.keeps_lengths.
+inline constexpr uint8_t kKeepsLengths = 1, kIsSlender = 2;
+
 /// Where the vertex and its inner twin stand at rest; the twin gamma times the depth inward.
 Vec3d outer_rest(const SpringView& view, uint32_t vertex);
 Vec3d inner_rest(const SpringView& view, uint32_t vertex);

@@ -30,6 +30,7 @@ Result<void> check(const State& state, Row<Shells> shell, const SpringSettings& 
     if (!is_in(s.length_factor, 0, kMostLengthFactor)) return refuse("length_factor", s.length_factor, "0 to 5");
     if (!is_in(s.area_energy, 0, 100)) return refuse("area_energy", s.area_energy, "0 to 100");
     if (!is_in(s.volume_energy, 0, 100)) return refuse("volume_energy", s.volume_energy, "0 to 100");
+    if (!is_in(s.spare, 0, 4)) return refuse("spare", s.spare, "0 to 4");
     if (!is_in(s.time_step, 0, 1)) return refuse("time_step", s.time_step, "0 to 1 s");
     if (static_cast<uint8_t>(s.layout) > static_cast<uint8_t>(SpringLayout::Crossed))
         return refuse("layout", static_cast<float>(s.layout), "0 to 2");
@@ -52,6 +53,7 @@ void keep_settings(State& state, Row<ShellSprings> row, Row<Shells> shell, const
     own.length_factor[row] = s.layout == SpringLayout::OneLayer ? 1 : factor_of(state, shell, s.length_factor);
     own.area_energy[row] = s.area_energy;
     own.volume_energy[row] = s.layout == SpringLayout::OneLayer ? 0 : s.volume_energy;
+    own.keeps_lengths[row] = s.is_slender ? kIsSlender : 0;
     own.time_step[row] = 1;  // until it is known: damping stands per second
     own.packs[row].count = own.packs[row].capacity;
     own.twins[row].count = own.twins[row].capacity;
@@ -151,10 +153,12 @@ Result<Row<ShellSprings>> give_springs(State& state, Row<Shells> shell_row, cons
     const ShellView shell(state, shell_row);
     SpringRoom room;
     const uint32_t edges = count_edges(shell);
-    room.springs = edges + edges / 8 + 16;
+    const auto spare = [&](uint32_t rows) { return static_cast<uint32_t>(settings.spare * static_cast<float>(rows)); };
+    room.springs = edges + edges / 8 + 16 + spare(edges);
     room.elements = shell.elements().capacity;
     room.vertices = shell.vertices().capacity;
     room.slots = count_slots(shell);
+    room.slots += spare(room.slots);
     room.has_layers = settings.layout != SpringLayout::OneLayer;
     const char* full = "";
     const Row<ShellSprings> row = make_springs(state, shell_row, room, &full);

@@ -16,6 +16,14 @@ LayerSlot& layer_at(const SpringView& view, uint32_t place) {
     return view.state.layer_slots.slot[view.layer_slot(place / kLanes)];
 }
 
+/// What stands between the layers has flowed by the mean of both.
+float mean_flow(const Springs& springs, uint32_t row, const LayerSprings& layers, uint32_t layer) {
+    const float outer = springs.rest_length[row] > 0 ? springs.plastic_length[row] / springs.rest_length[row] : 1;
+    const float inner =
+        layers.inner_length[layer] > 0 ? layers.inner_plastic[layer] / layers.inner_length[layer] : outer;
+    return 0.5f * (outer + inner);
+}
+
 // `end` 0: seen from a; 1: from b, where the two diagonals of the shear pair change places.
 void write_end(const SpringView& view, uint32_t s, uint32_t end) {
     const Springs& springs = view.state.springs;
@@ -29,9 +37,8 @@ void write_end(const SpringView& view, uint32_t s, uint32_t end) {
     if (!view.has_layers()) return;
     const LayerSprings& layers = view.state.layer_springs;
     const uint32_t layer = view.layer(s);
-    // What the outer skin has flowed, the inner one and the middle have, too.
-    const float flow = springs.rest_length[row] > 0 ? springs.plastic_length[row] / springs.rest_length[row] : 1;
-    const float inner = flow * layers.inner_length[layer], mid = flow * layers.mid_length[layer];
+    const float flow = mean_flow(springs, row, layers, layer);
+    const float inner = layers.inner_plastic[layer], mid = flow * layers.mid_length[layer];
     const float own_cross = flow * layers.cross_length[layer][end],
                 other_cross = flow * layers.cross_length[layer][1 - end];
     LayerSlot& more = layer_at(view, place);

@@ -170,10 +170,12 @@ double spring_energy(const SpringView& view) {
         if (!view.has_layers()) continue;
         const LayerSprings& layers = s.layer_springs;
         const uint32_t layer = view.layer(i);
+        const auto flowed = [](double now, double rest) { return rest > 0 ? now / rest : 1; };
         const double flow =
-            s.springs.rest_length[row] > 0 ? double{s.springs.plastic_length[row]} / s.springs.rest_length[row] : 1;
+            0.5 * (flowed(s.springs.plastic_length[row], s.springs.rest_length[row]) +
+                   flowed(layers.inner_plastic[layer], layers.inner_length[layer]));
         const Vec3d ya(view.twin_position(a)), yb(view.twin_position(b));
-        spring(layers.inner_stiffness[layer], ya, yb, flow * layers.inner_length[layer]);
+        spring(layers.inner_stiffness[layer], ya, yb, layers.inner_plastic[layer]);
         const double first = flow * layers.cross_length[layer][0], second = flow * layers.cross_length[layer][1];
         if (view.layout() == SpringLayout::Crossed) {
             spring(layers.cross_stiffness[layer], xa, yb, first);
