@@ -13,7 +13,8 @@ inline constexpr uint32_t kMostCutPoints = 32;  // corners of a polyline
 
 /// One row is one blow, from the call that asks for it until it is worked off; rows keep the order of the calls. What
 /// the game asked of all bodies stands in world axes (body kNone) until the next step takes it: then each body that it
-/// reaches gets a row of its own, in the body's frame, which its pieces share.
+/// reaches gets a row of its own, in the body's frame, which its pieces share. Calls fill half of the table: the other
+/// half is for those rows.
 struct Blows : Table<Blows> {
     using Table::Table;
     static constexpr const char* kName = "blows";
@@ -23,7 +24,7 @@ struct Blows : Table<Blows> {
     Column<uint32_t> task{*this, "task"};         // the open task that works it off, or kNone: it waits
     Column<uint8_t> is_taken{*this, "is_taken"};  // some step has looked at it
     Column<uint8_t> is_paid{*this, "is_paid"};    // the body has got `impulse` and `turning`
-    Column<uint8_t> goes_on{*this, "goes_on"};    // of a cut: there was no room for all of it in one go
+    Column<uint8_t> goes_on{*this, "goes_on"};    // of a cut: there was no room for all of it
     Column<Vec3> point{*this, "point", "m"};      // of the push; centre of the explosion; in the cutting plane
     Column<Vec3> direction{*this,
                            "direction"};  // unit: of the push; normal of the plane; what a polyline is swept along

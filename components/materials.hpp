@@ -33,7 +33,7 @@ struct MaterialTraits : Table<MaterialTraits> {
     Column<uint8_t> kind{*this, "kind"};          // MaterialKind
     Column<uint8_t> fracture{*this, "fracture"};  // FractureKind
     Column<float> branching{*this, "branching"};  // tips above this share of sigma_d may fork; 0: none does
-    Column<float> run_out{*this, "run_out"};      // what a crack goes on for at the end of a run that breaks, of its length
+    Column<float> run_out{*this, "run_out"};  // what a crack goes on for at the end of a run that breaks, of its length
     Column<float> yield_strength{*this, "yield_strength", "Pa"};
     Column<float> yield_strain{*this, "yield_strain"};
     Column<float> break_strain{*this, "break_strain"};

@@ -88,13 +88,14 @@ bool copy_springs(State& state, Row<Shells> source, Row<Shells> copy, const char
     SpringRoom room;
     // As much spare as new springs have: packs that are full move to the end of the slots.
     room.springs = std::max(own.springs[from].capacity, own.springs[from].count * 9 / 8 + 16);
-    room.elements = state.shells.elements[copy].capacity;
+    const bool has_edges = own.edges[from].capacity > 0;  // springs given by hand belong to no element
+    room.elements = has_edges ? state.shells.elements[copy].capacity : 0;
     room.vertices = state.shells.vertices[copy].capacity;
     room.slots = std::max(own.slots[from].capacity, own.slots[from].count * 9 / 8 + 16);
     room.has_layers = own.layers[from].capacity > 0;
-    CULLET_ASSERT(
-        room.vertices >= state.shells.vertices[source].count && room.elements >= state.shells.elements[source].count,
-        "springs of %u vertices do not fit %u", state.shells.vertices[source].count, room.vertices);
+    CULLET_ASSERT(room.vertices >= state.shells.vertices[source].count &&
+                      (!has_edges || room.elements >= state.shells.elements[source].count),
+                  "springs of %u vertices do not fit %u", state.shells.vertices[source].count, room.vertices);
     const Row<ShellSprings> to = make_springs(state, copy, room, full);
     if (!to.exists()) return false;
     std::array<Range, 7> ranges;

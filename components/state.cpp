@@ -54,7 +54,7 @@ State::State(const Limits& l)
       fragments((l.tasks + 1) * kMostParts),
       view_vertices(l.view_vertices),
       view_indices(l.view_vertices * 2),
-      blows(l.bodies + l.queued_hits),
+      blows(2 * (l.bodies + l.queued_hits)),
       shell_springs(l.shells),
       springs(spring_limit(l)),
       layer_springs(spring_limit(l)),
@@ -94,8 +94,8 @@ State::Pools::Pools(const State& s)
       layer_slots(s.layer_slots.limit(), 1, ranges_of(s.shells)),
       twins(s.twins.limit(), kVerticesPerCell, ranges_of(s.shells)) {}
 
-// A hit takes a copy of all rows with a quarter more (working_room); what moves of the broken shell is less than it. A
-// drawn mesh has 6 corners an element and 6 a free edge, and the pieces' more than the body's.
+// `shell` is what a hit takes, a copy of all rows and what cracks add (working_room); what moves of the broken shell is
+// less than it. A drawn mesh has 6 corners an element and 6 a free edge, and the pieces' more than the body's.
 void State::commit_ahead(const ShellRoom& shell, uint32_t served) {
     const auto commit = [&](AnyTable& table, const RangePool& pool, uint64_t rows) {
         const auto end = static_cast<uint32_t>(std::min<uint64_t>(pool.end() + rows, table.limit()));
@@ -328,6 +328,10 @@ void copy_shell_rows(State& to, const State& from, Row<Shells> source, Row<Shell
     copy_range(to.stiffness_links, from.stiffness_links, s.links, own[5], with_stiffness);
     copy_range(to.cells, from.cells, s.cells, own[6], own[6].capacity > 0);
     copy_range(to.hull_points, from.hull_points, s.points, own[7], own[7].capacity > 0);
+    // The number of cells says how stiffness is stored (pair_cells.hpp).
+    CULLET_ASSERT(s.packs[copy].count == 0 || s.cells[copy].count == from.shells.cells[source].count,
+                  "copy of shell %u has its stiffness but %u of its %u cells", source.index, s.cells[copy].count,
+                  from.shells.cells[source].count);
 }
 
 Row<Shells> copy_shell(State& state, Row<Shells> source, const ShellRoom& room, const char** full) {

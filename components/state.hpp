@@ -217,8 +217,11 @@ struct Parameter<ShellTables> {
     static void describe(std::vector<Access>& list) {
         for (const char* table :
              {Shells::kName, Vertices::kName, Elements::kName, TriangleSprings::kName, Hinges::kName,
-              StiffnessPacks::kName, StiffnessBlocks::kName, StiffnessLinks::kName, Cells::kName, HullPoints::kName})
+              StiffnessPacks::kName, StiffnessBlocks::kName, StiffnessLinks::kName, Cells::kName, HullPoints::kName,
+              ShellSprings::kName, Springs::kName, LayerSprings::kName, ElementSprings::kName, SpringPacks::kName,
+              SpringSlots::kName, LayerSlots::kName, Twins::kName})
             list.push_back({table, true, true, false});
+        for (const char* table : {Materials::kName, MaterialTraits::kName}) list.push_back({table, true, false, false});
     }
     template <class W>
     static ShellTables bind(Call<W>& call) {

@@ -54,8 +54,10 @@ Surroundings measure_surroundings(float edge, uint32_t rounds, const char* name,
     return found;
 }
 
-/// Flood and relabelling on a shell with cracks.
-bool compare_ways(const char* name, const ShellView& shell, uint32_t rounds, double limit, Figures& figures) {
+/// Flood and relabelling on a shell with cracks. No limit: the frame relabels, because what follows wants each
+/// element's part, the lists and the masses of all parts in the elements' order, which a flood of the small pieces does
+/// not give.
+bool compare_ways(const char* name, const ShellView& shell, uint32_t rounds, Figures& figures) {
     std::vector<FragmentPart> parts(kMostParts);
     FloodedParts flooded;
     uint32_t count = 0;
@@ -65,7 +67,8 @@ bool compare_ways(const char* name, const ShellView& shell, uint32_t rounds, dou
     figures.add(prefix + "elements", shell.element_count(), "");
     figures.add(prefix + "pieces", count, "");
     figures.add(prefix + "elements that the flood visits", flooded.visited, "");
-    figures.add_ratio(prefix + "relabelling / flood from the cracks", 1e6 * flood, 1e6 * relabel, "us", limit, true);
+    figures.add_ratio(prefix + "relabelling / flood from the cracks (not in the frame)", 1e6 * flood, 1e6 * relabel,
+                      "us", 0, true);
     return flooded.pieces + 1 == count;
 }
 
@@ -98,10 +101,10 @@ bool measure_pieces(uint32_t rounds, Figures& figures) {
     const HitDescription hit = fall_on_floor(vase.state, vase.shell, normalised(Vec3{0.9f, -1.0f, 0.1f}), kFallSpeed);
     run_hit(vase.state, vase.shell, hit);
     bool agrees = compare_ways("broken vase of 10,000 elements", ShellView(vase.state, vase.state.tasks.shell[kTask]),
-                               rounds, 0, figures);
+                               rounds, figures);
     close_hit(vase.state);
     cut_out(vase.view(), 100);
-    agrees &= compare_ways("one piece of 100 out of 10,000 elements", vase.view(), rounds, 5, figures);
+    agrees &= compare_ways("one piece of 100 out of 10,000 elements", vase.view(), rounds, figures);
     return agrees;
 }
 

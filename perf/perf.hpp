@@ -43,8 +43,8 @@ bool measure_pile(const Options& options, Figures& figures);
 /// Link iterations and the whole world step of Bullet's soft body; the plain spring loop and the bare spring kernel on
 /// the same links. False: their results differ.
 bool measure_soft_body(const Options& options, Figures& figures);
-/// The spring substep as the frame runs it on three grids, beside the bare kernel, the plain loop and Bullet; two layers
-/// beside one. False: ours and the bare kernel differ.
+/// The spring substep as the frame runs it on three grids, beside the bare kernel, the plain loop and Bullet; two
+/// layers beside one. False: ours and the bare kernel differ.
 bool measure_springs(const Options& options, Figures& figures);
 /// Frame times, hitch and share of each system of the sample game's scenes: the least of three runs, frame by frame,
 /// and one run of the pile.

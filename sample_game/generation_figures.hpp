@@ -24,7 +24,7 @@ struct GenerationFigure {
 struct GenerationFigures {
     std::string mesh;
     uint32_t vertices = 0, triangles = 0;
-    double embree_build = 0;   // s, one build on one thread; the least of twenty times the rounds
+    double embree_build = 0;   // s, one rtcCommitScene on one thread; the least of twenty times the rounds
     double crossing_test = 0;  // s
     std::vector<GenerationFigure> rows;
 };
@@ -35,7 +35,7 @@ Result<GenerationFigures> measure_generation_of(const Mesh& mesh, const std::vec
 /// Six made meshes: vase (one sheet), piggy bank, bowl (both walls), pleated sheet, ring, box of square cells.
 std::vector<Mesh> generation_meshes();
 
-/// One line a thickness, the ways beside each other: ms (Embree builds) / collisions / wall / inverted, crossings.
+/// One line a thickness and way: ms (Embree builds) / collisions / wall / inverted, crossings.
 std::string describe(const GenerationFigures& figures);
 
 }  // namespace cullet

@@ -16,7 +16,8 @@ constexpr size_t kMostRows = 256;
 constexpr const char* kOptional[] = {
     "yield_strength", "yield_strain",    "bending_stiffness",   "across_young_modulus",
     "shear_modulus",  "across_strength", "across_break_strain", "across_fracture_energy",
-    "heading_power",  "tip_factor",             "branching",      "run_out",      "run_seconds"};
+    "heading_power",  "tip_factor",      "branching",           "run_out",
+    "run_seconds"};
 
 struct Reader {
     const std::string& path;

@@ -5,6 +5,8 @@
 #include <stdexcept>
 
 #include "engine/fp_mode.hpp"
+#include "systems/damage/insert_vertex.hpp"
+#include "systems/springs/spring_loop.hpp"
 #include "systems/springs/spring_packs.hpp"
 
 namespace cullet {
@@ -23,10 +25,12 @@ Limits bench_limits(size_t vertices, size_t elements) {
 
 Row<Shells> make_bench_shell(State& state, size_t vertices, size_t elements, uint32_t spare) {
     ShellRoom room;
-    room.vertices = static_cast<uint32_t>(vertices) + spare, room.elements = static_cast<uint32_t>(elements);
+    room.vertices = static_cast<uint32_t>(vertices) + spare;
+    room.elements = static_cast<uint32_t>(elements) + kInsertElements * spare;
+    room.hinges = kInsertHinges * spare;
     const Row<Shells> shell = make_shell(state, room);
-    state.shells.vertices[shell].count = room.vertices - spare;
-    state.shells.elements[shell].count = room.elements;
+    state.shells.vertices[shell].count = static_cast<uint32_t>(vertices);
+    state.shells.elements[shell].count = static_cast<uint32_t>(elements);
     return shell;
 }
 
@@ -158,6 +162,7 @@ void SpringBench::push_loads() {
 void SpringBench::step() {
     const FpMode mode;
     push_loads();
+    if (has_energies(state_->shell_springs, springs_)) return run_springs(*state_, springs_, 1);
     const SpringView now = view();
     uint32_t& steps = state_->shell_springs.steps[springs_];
     const SpringStep one(now, steps);

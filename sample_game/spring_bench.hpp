@@ -31,7 +31,7 @@ struct BenchMaterial {
 class SpringBench {
  public:
     /// A shell of constant thickness, at rest, in the body frame, vertices in the mesh's order. `spare` vertices of
-    /// room for splits.
+    /// room for splits, or for inserts with their elements.
     SpringBench(const BenchMesh& mesh, double thickness, const BenchMaterial& material, const SpringSettings& settings,
                 const std::function<bool(Vec3d)>& is_pinned = {}, uint32_t spare = 0);
     /// A chain, net or the like: masses at points.

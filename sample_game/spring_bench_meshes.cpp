@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <cmath>
 #include <map>
 
 #include "sample_game/spring_bench.hpp"
@@ -35,7 +36,7 @@ BenchMesh bench_strip(uint32_t half_edges, uint32_t rows, double edge) {
 
 BenchMesh bench_disc(uint32_t rings, double edge) {
     BenchMesh mesh;
-    const int n = static_cast<int>(rings) + 2;
+    const int n = static_cast<int>(std::ceil(rings / std::sqrt(0.75))) + 2;  // rows are nearer to each other than edges
     const auto point = [&](int i, int j) { return Vec3d(edge * (i + 0.5 * j), edge * std::sqrt(0.75) * j, 0); };
     const auto is_in = [&](int i, int j) { return length(point(i, j)) <= edge * (rings - 0.5); };
     std::map<std::pair<int, int>, uint32_t> known;

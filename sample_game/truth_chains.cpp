@@ -74,7 +74,7 @@ namespace {
 
 /// Links a time sqrt(m / k) that the place where the strain is half of that behind it has moved.
 double front_speed() {
-    constexpr uint32_t kLinks = 400, kFar = 300, kNear = 0;
+    constexpr uint32_t kLinks = 400, kFar = 300;
     constexpr double kLink = 0.01, kMass = 0.001, kStiffness = 1000;
     Chain chain;
     for (uint32_t v = 0; v <= kLinks; ++v) chain.points.push_back({kLink * v, 0, 0}), chain.masses.push_back(kMass);
@@ -85,8 +85,7 @@ double front_speed() {
     SpringBench bench(chain.points, chain.masses, chain.springs, settings, [](uint32_t v) { return v == 0; });
     const double unit = std::sqrt(kMass / kStiffness), strain = 0.05, push = strain * kLink / unit;
     bench.set_velocity(0, {static_cast<float>(push), 0, 0});  // what is pinned goes on at its speed
-    double before = 0, near = kNear;
-    (void)near;
+    double before = 0;
     for (double t = 0; t < 2 * kLinks * unit; t += bench.time_step()) {
         bench.step();
         const double now = 1 - (bench.middle(kFar + 1).x - bench.middle(kFar).x) / kLink;

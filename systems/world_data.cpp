@@ -39,7 +39,7 @@ WorldData::WorldData(const Settings& settings)
       births(2 * settings.limits.bodies + settings.limits.debris + settings.limits.open_hits),
       hulls_wanted(state.cells.limit()),
       shells_changed(settings.limits.bodies + settings.limits.open_hits),
-      impact_events(settings.limits.open_hits),
+      impact_events(settings.limits.open_hits + state.blows.limit()),  // one for each blow that joins a task
       crack_events(1u << 14),
       born_events(settings.limits.bodies),
       debris_events(1u << 16),

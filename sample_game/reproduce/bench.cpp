@@ -50,7 +50,10 @@ std::optional<Mesh> Bench::strangers_mesh(const std::string& path, float size) {
         note(fmt::format("{} could not be read: its rows are left out.", path));
         return mesh;
     }
-    if (fit(*read, size)) mesh = moved(std::move(*read), {0, -extent_of(*read).low.y, 0});
+    if (fit(*read, size)) {
+        const float low = extent_of(*read).low.y;  // before the mesh moves on: arguments have no order
+        mesh = moved(std::move(*read), {0, -low, 0});
+    }
     return mesh;
 }
 

@@ -98,10 +98,10 @@ struct DrawnShell {
 
 std::span<const PropagationMode> propagation_modes() {
     static constexpr PropagationMode modes[] = {
-        {"single vertex", nullptr},
-        {"front", nullptr},
-        {"single vertex + tetrahedra", nullptr},
-        {"guarded front", [](ExtrusionSettings&) {}},
+        {"single vertex", [](ExtrusionSettings& s) { s.propagation = Propagation::SingleVertex; }},
+        {"front", [](ExtrusionSettings& s) { s.propagation = Propagation::Front; }},
+        {"single vertex + tetrahedra", [](ExtrusionSettings& s) { s.propagation = Propagation::SingleVertexTets; }},
+        {"guarded front", [](ExtrusionSettings& s) { s.propagation = Propagation::GuardedFront; }},
     };
     return modes;
 }

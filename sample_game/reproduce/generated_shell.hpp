@@ -9,10 +9,10 @@
 
 namespace cullet::reproduce {
 
-/// One way to propagate. Another mode is one more line in propagation_modes().
+/// One way to propagate. Another mode is one more line in propagation_modes(); the default is the last.
 struct PropagationMode {
     const char* name;
-    void (*choose)(ExtrusionSettings&);  // null: not built yet
+    void (*choose)(ExtrusionSettings&);
 };
 std::span<const PropagationMode> propagation_modes();
 

@@ -60,7 +60,6 @@ Result<std::vector<Row>> measure(Bench& bench) {
         if (!surface.ok()) return Error{surface.error()};
         for (const PaperRow& paper : all[n].rows)
             for (const PropagationMode& mode : propagation_modes()) {
-                if (!mode.choose) continue;
                 progress.show(static_cast<double>(n) / static_cast<double>(all.size()), all[n].name);
                 // The paper gives eps without a unit; taken as a share of the bounding diagonal.
                 const Result<GeneratedShell> shell =
@@ -77,13 +76,6 @@ Result<std::vector<Row>> measure(Bench& bench) {
 /// Three rows of the page speak of it.
 const Result<std::vector<Row>>& measured(Bench& bench) {
     return bench.once("table 1", [&bench] { return measure(bench); });
-}
-
-std::string unbuilt_modes() {
-    std::string names;
-    for (const PropagationMode& mode : propagation_modes())
-        if (!mode.choose) names += std::string(names.empty() ? "" : ", ") + mode.name;
-    return names;
 }
 
 Picture draw_front(Bench& bench, const Surface& ridge, const std::vector<Vec3d>& inner,
@@ -110,14 +102,17 @@ Result<Claim> figure_1(Bench& bench) {
     const Result<GeneratedShell> guarded = generate(ridge.value(), thickness, propagation_modes().back(), 1);
     if (!guarded.ok()) return Error{guarded.error()};
     claim.ours = fmt::format(
-        "The published front on a ridge of 20 cm with a neck of 10 cm, and a wanted depth of 6 cm: {} triangles meet "
-        "in "
-        "the first "
+        "A ridge of 20 cm with a neck of 10 cm, and a wanted depth of 6 cm. Panels (a) to (c) are of the published "
+        "rules "
+        "at their plainest, written for this figure: no caps, every vertex goes on until its steps are small; the "
+        "library's "
+        "Front of Table 1 caps depths by opposite walls first and stops after its rounds. {} triangles meet in the "
+        "first "
         "collision, {} pairs over all {} rounds, {} pairs are left at the end. Our guarded front on the same ridge: {} "
         "pairs, {} elements turned inside out.",
         states.met, states.collisions, states.rounds, states.left, guarded->crossings, guarded->inverted);
     claim.numbers = {{"triangles in the first collision", "", static_cast<double>(states.met), {}},
-                     {"pairs left by the published front", "", static_cast<double>(states.left), 0.0},
+                     {"pairs left by the plain front", "", static_cast<double>(states.left), 0.0},
                      {"pairs left by the guarded front", "", static_cast<double>(guarded->crossings), 0.0},
                      {"elements turned by the guarded front", "", static_cast<double>(guarded->inverted), {}}};
     claim.verdict =
@@ -160,17 +155,16 @@ Result<Claim> table_1(Bench& bench) {
                               fmt::format("{:.0f}", r.collisions), fmt::format("{}", r.crossings),
                               fmt::format("{}", r.inverted), fmt::format("{:.3f}", r.mean_depth)});
         Number number{fmt::format("{}, eps {:.0f} %, {}", r.subject, 100 * r.paper.eps, r.mode), "ms", r.ms, {}};
-        if (r.paper.front_s > 0) {
-            number.paper = 1000 * r.paper.front_s;
+        const bool is_front = r.mode.find("single") == std::string::npos;
+        if (r.paper.front_s > 0) number.paper = 1000 * (is_front ? r.paper.front_s : r.paper.single_s);
+        if (r.paper.front_s > 0 && r.mode == propagation_modes().back().name)
             slowest_ratio = std::min(slowest_ratio, 1000 * r.paper.front_s / r.ms);
-        }
         claim.numbers.push_back(number);
     }
-    for (const PropagationMode& mode : propagation_modes())
-        if (!mode.choose) table.rows.push_back({"all", "", "", "", "", mode.name, "not built yet", "", "", "", ""});
     claim.tables.push_back(std::move(table));
     claim.ours = fmt::format(
-        "At least {:.0f} times faster than the published front, on a machine 20 years younger, with the crossing test "
+        "The guarded front is at least {:.0f} times faster than the published front, on a machine 20 years younger, "
+        "with the crossing test "
         "of "
         "the input and proof of the result included. The published counts of collisions count repeated tests and can "
         "not be compared. The pig has 6,996 triangles: 4,000 on 3,500 vertices is no closed surface.",
@@ -221,18 +215,15 @@ Result<Claim> front_against_single(Bench& bench) {
             if (single.mode == "single vertex" && front.mode == "front" && single.subject == front.subject &&
                 single.paper.eps == front.paper.eps && single.paper.front_s > 0)
                 ratios.push_back(single.ms / front.ms);
-    if (ratios.empty()) {
-        claim.ours = "Not built yet: " + unbuilt_modes() + ". Nothing was measured.";
-        return claim;
-    }
+    if (ratios.empty()) return Error{"table 1 has no row of both modes; this is a bug of the page"};
     const auto [least, most] = std::minmax_element(ratios.begin(), ratios.end());
     claim.ours = fmt::format(
-        "{:.2f} to {:.2f} times. Certificates drop nearly all candidates in every mode, so that the gap, which is one "
-        "of candidates and not of method, closes: the slow mode has become fast.",
+        "{:.2f} to {:.2f} times as fast, over the published rows of pig and castle. Where the factor is smaller than "
+        "published it is the slow mode that has become fast: certificates drop nearly all candidates in every mode.",
         *least, *most);
     claim.numbers = {{"single vertex over front, least", "", *least, 3.0},
                      {"single vertex over front, most", "", *most, 4.0}};
-    claim.verdict = *most > 1 ? Verdict::Met : Verdict::FallsShort;
+    claim.verdict = *least >= 3 ? Verdict::Met : Verdict::FallsShort;
     return claim;
 }
 

@@ -41,15 +41,17 @@ game.spawn{cooked = castle, at = {0, 0.001, 0}, pins = {{low = {-2, -0.01, -2}, 
 game.throw{radius = 0.13, mass = 120, at = {1.15, 0.72, 3.2}, velocity = {0, 0.36, -26}}
 )";
 
-/// One way to break. Another is one more line.
+/// One way to break. Another is one more line. The first is the default.
 struct FractureMode {
     const char* name;
     const char* cook;  // arguments of game.cook; null: not built yet
+    size_t paper;      // the kind of Body::paper that it is compared with
 };
-constexpr FractureMode kModes[] = {{"default (brittle, hidden run)", ""},
-                                   {"paper's mode, fine", nullptr},
-                                   {"paper's mode, coarse", nullptr},
-                                   {"paper's mode, large fragments", nullptr}};
+constexpr size_t kFine = 0, kCoarse = 1, kLarge = 2;
+constexpr FractureMode kModes[] = {{"hidden run, large fragments", ", fracture = \"large\"", kLarge},
+                                   {"hidden run, coarse", ", fracture = \"coarse\"", kCoarse},
+                                   {"hidden run, fine", ", fracture = \"fine\"", kFine},
+                                   {"quick mode, all three kinds", nullptr, kLarge}};
 
 struct Body {
     const char* name;
@@ -91,7 +93,8 @@ const Result<std::vector<SceneRun>>& default_runs(Bench& bench) {
     });
 }
 
-void add_run(Claim& claim, Table& table, const Body& body, const std::string& mode, const SceneRun& run) {
+void add_run(Claim& claim, Table& table, const Body& body, const FractureMode& fracture, const SceneRun& run) {
+    const std::string mode = fracture.name;
     const double rate = frame_rate(run);
     table.rows.push_back({body.name,
                           fmt::format("{:.0f} / {:.0f} / {:.0f}", body.paper[0], body.paper[1], body.paper[2]), mode,
@@ -99,7 +102,8 @@ void add_run(Claim& claim, Table& table, const Body& body, const std::string& mo
                           fmt::format("{:.1f}", percentile_of(run.breaking_ms, 0.5)),
                           fmt::format("{:.1f}", percentile_of(run.breaking_ms, 0.99)),
                           fmt::format("{:.1f}", percentile_of(run.frame_ms, 0.5)), fmt::format("{}", run.pieces)});
-    claim.numbers.push_back({std::string(body.name) + ", " + mode, "frames/s while breaking", rate, body.paper[2]});
+    claim.numbers.push_back(
+        {std::string(body.name) + ", " + mode, "frames/s while breaking", rate, body.paper[fracture.paper]});
     claim.numbers.push_back(
         {std::string(body.name) + ", " + mode + ", p99", "ms", percentile_of(run.breaking_ms, 0.99), {}});
 }
@@ -147,25 +151,32 @@ Result<Claim> table_2(Bench& bench) {
                           "fps while breaking", "p50 ms", "p99 ms", "p50 of all frames, ms", "pieces"});
     const std::vector<Body> all = bodies(bench);
     bool is_met = true;
+    std::string whole;  // rows in which nothing came off: no rate of breaking is one of these
+    const auto judge = [&](const Body& body, const FractureMode& mode, const SceneRun& run) {
+        add_run(claim, table, body, mode, run);
+        const bool is_broken = run.pieces > 1;
+        if (!is_broken) whole += fmt::format("{}{} ({})", whole.empty() ? "" : "; ", body.name, mode.name);
+        is_met = is_met && is_broken && frame_rate(run) >= body.paper[mode.paper];
+    };
     for (size_t b = 0; b < all.size(); ++b) {
-        add_run(claim, table, all[b], kModes[0].name, runs.value()[b]);
-        is_met = is_met && frame_rate(runs.value()[b]) >= all[b].paper[2];
+        judge(all[b], kModes[0], runs.value()[b]);
         for (const FractureMode& mode : std::span(kModes).subspan(1)) {
             if (!mode.cook) {
                 table.rows.push_back({all[b].name, "", mode.name, "not built yet", "", "", "", "", ""});
                 continue;
             }
-            const Result<SceneRun> run = run_scene(bench, {"table_2", text_of(all[b], mode), {}, all[b].frames, {}});
+            const uint32_t frames = bench.settings().is_reduced ? 40 : all[b].frames;
+            const Result<SceneRun> run = run_scene(bench, {"table_2", text_of(all[b], mode), {}, frames, {}});
             if (!run.ok()) return Error{run.error()};
-            add_run(claim, table, all[b], mode.name, run.value());
+            judge(all[b], mode, run.value());
         }
     }
     claim.tables.push_back(std::move(table));
     claim.ours = fmt::format(
-        "In the default mode, with {} threads: {}. It is compared with the paper's large fragments; the other kinds "
-        "are "
-        "not built yet. The wall is one sheet of about 600 vertices, which has fewer triangles than the paper's.",
-        bench.threads(), is_met ? "faster in each row" : "not faster in each row, see the table");
+        "Hidden run, {} threads, each kind of fracture against the paper's of that name: {}.{} The quick mode is not "
+        "built yet. The wall is one sheet of about 600 vertices, which has fewer triangles than the paper's.",
+        bench.threads(), is_met ? "faster in each row" : "not faster in each row, see the table",
+        whole.empty() ? "" : " Nothing came off, so that the row counts as not met: " + whole + ".");
     claim.verdict = is_met ? Verdict::Met : Verdict::FallsShort;
     return claim;
 }

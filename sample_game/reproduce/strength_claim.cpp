@@ -9,6 +9,7 @@
 #include "sample_game/props.hpp"
 #include "sample_game/reproduce/claims.hpp"
 #include "sample_game/reproduce/scene_run.hpp"
+#include "sample_game/spring_truth.hpp"
 #include "sample_game/thresholds.hpp"
 
 namespace cullet::reproduce {
@@ -69,14 +70,35 @@ Result<WallThresholds> thresholds_of(Bench& bench, double thickness) {
 
 }  // namespace
 
-Result<Claim> figure_2(Bench&) {
+Result<Claim> figure_2(Bench& bench) {
     Claim claim;
     claim.id = "figure_2";
     claim.where = "Figure 2, section 4.1";
     claim.title = "Two layers of springs make a thin shell stable";
     claim.paper =
         "Cross-springs and internal springs join two layers; the extrusion length factor keeps thin shells stable.";
-    claim.ours = "Not built yet. The hidden run knows the thickness of one layer by its bending stiffness instead.";
+    const BenchMaterial porcelain{70e9, 0.2, 2400};
+    const uint32_t half_edges = bench.settings().is_reduced ? 12 : 24;
+    Table table{"A strip of porcelain pushed in the middle: deflection over that of E h^3 / 12", {}};
+    table.rows.push_back({"wall", "two layers (corrected sandwich)"});
+    double worst = 0;
+    for (const double thickness : {0.003, 0.006, 0.012}) {
+        SpringSettings settings;
+        settings.layout = SpringLayout::Sandwich;
+        // 20 times as long as thick on each side, or shear would have its share.
+        const double edge = 20 * thickness / half_edges;
+        const double ratio = measure_bending({half_edges, 4, edge, thickness}, porcelain, settings);
+        worst = std::max(worst, std::abs(ratio - 1));
+        table.rows.push_back({fmt::format("{:.0f} mm", 1e3 * thickness), fmt::format("{:.3f}", ratio)});
+        claim.numbers.push_back({fmt::format("deflection over theory, {:.0f} mm", 1e3 * thickness), "", ratio, {}});
+    }
+    claim.tables.push_back(std::move(table));
+    claim.ours = fmt::format(
+        "Two layers bend as their thickness says, E h^3 / 12, within {:.1f} % from 3 to 12 mm; `sample_game truth "
+        "thick_shell` has the other cases. The hidden run of brittle bodies keeps one layer and knows its bending "
+        "stiffness instead.",
+        100 * worst);
+    claim.verdict = worst < 0.02 ? Verdict::Met : Verdict::FallsShort;
     return claim;
 }
 
@@ -93,7 +115,7 @@ Result<Claim> figure_3(Bench& bench) {
     claim.ours = fmt::format(
         "A ball of 30 kg at a brick wall of 2.4 x 1.8 m, foot held. The first piece comes off the wall of {:.0f} cm at "
         "{:.2f} m/s and off the wall of {:.0f} cm at {:.2f} m/s, {:.1f} times as fast (medians of seeded places, by "
-        "bisection). Not built yet: the same in the paper's mode.",
+        "bisection). Not built yet: the same in the quick mode.",
         100 * kThin, thin->piece.median, 100 * kThick, thick->piece.median, ratio);
     Table table{"Threshold speeds, m/s", {{"wall", "first crack", "least to most", "first piece", "least to most"}}};
     for (const WallThresholds* wall : {&thin.value(), &thick.value()}) {
@@ -106,7 +128,7 @@ Result<Claim> figure_3(Bench& bench) {
         claim.numbers.push_back({is_thin ? "thin_first_crack" : "thick_first_crack", "m/s", wall->crack.median, {}});
         claim.numbers.push_back({is_thin ? "thin_first_piece" : "thick_first_piece", "m/s", wall->piece.median, {}});
     }
-    table.rows.push_back({"paper's mode", "not built yet", "", "", ""});
+    table.rows.push_back({"quick mode", "not built yet", "", "", ""});
     claim.tables.push_back(std::move(table));
     claim.numbers.push_back({"thick_over_thin", "times", ratio, {}});
     claim.verdict = ratio > 1 && thick->crack.median > thin->crack.median ? Verdict::Met : Verdict::FallsShort;
@@ -126,9 +148,12 @@ Result<Claim> figure_3(Bench& bench) {
                                              : std::vector<uint32_t>{0, arrival + 15, play.frames};
     const Result<SceneRun> run = run_scene(bench, play);
     if (!run.ok()) return Error{run.error()};
-    const char* captions[] = {"The same ball at a wall of 4 cm (left) and at one of 20 cm (right)",
-                              "A quarter of a second after the blow",
-                              "At the end: the thin wall is broken, the thick one stands"};
+    // Both walls begin as one body: what is more than two came off.
+    const uint64_t came_off = run->pieces + run->crumbs - std::min<uint64_t>(2, run->pieces + run->crumbs);
+    const std::string captions[] = {"The same ball at a wall of 4 cm (left) and at one of 20 cm (right)",
+                                    "A quarter of a second after the blow",
+                                    came_off == 0 ? "At the end: nothing came off either wall"
+                                                  : fmt::format("At the end: {} pieces came off", came_off)};
     for (size_t n = 0; n < run->pictures.size(); ++n) {
         const size_t caption = run->pictures.size() == 1 ? 2 : n;
         if (auto added = bench.add_picture(claim, run->pictures[n], fmt::format("{}", n + 1), captions[caption]);

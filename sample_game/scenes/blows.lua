@@ -6,7 +6,7 @@ game.scene{
     sheet = {0, 12, 14, 17, 20, 26, 34, 46, 60, 90, 140, 239},
 }
 local shell = game.shell_keys{material = "porcelain", thickness = 0.005, edge = 0.0075}
-local impulse = game.key{name = "scene.impulse_nspm2", unit = "N s/m2", default = 200, least = 1, most = 1e5, text = "of the explosion at its centre"}
+local impulse = game.key{name = "scene.impulse_nspm2", unit = "N s/m2", default = 350, least = 1, most = 1e5, text = "of the explosion at its centre"}
 
 game.camera{eye = {0.1, 0.55, 1.75}, target = {0.05, 0.18, 0}, field_of_view = 0.7}
 game.floor()

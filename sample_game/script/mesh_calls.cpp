@@ -129,7 +129,8 @@ int imported(lua_State* lua, const Arguments& given, const std::string& path) {
     if (!mesh.ok()) given.refuse(mesh.error());
     const bool has_extent = fit(*mesh, given.real("size", kSide, 0.4));
     if (!has_extent) given.refuse(path + ": all of its points lie on one spot; give a mesh with an extent");
-    if (given.is("stands", false)) *mesh = moved(std::move(*mesh), {0, -extent_of(*mesh).low.y, 0});
+    const float low = extent_of(*mesh).low.y;  // before the mesh moves on: arguments have no order
+    if (given.is("stands", false)) *mesh = moved(std::move(*mesh), {0, -low, 0});
     mesh->name = std::filesystem::absolute(path).string();  // as sentences name it
     if (mesh->name.size() > kLongestMeshName) mesh->name = "..." + mesh->name.substr(mesh->name.size() - 240);
     push_mesh(lua, {std::move(mesh).value(), false});

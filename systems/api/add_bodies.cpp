@@ -6,6 +6,7 @@
 #include "systems/api/model_row.hpp"
 #include "systems/cook/apply_pins.hpp"
 #include "systems/cook/materials.hpp"
+#include "systems/damage/working_room.hpp"
 #include "systems/fragments/body_rows.hpp"
 #include "systems/fragments/rigid_shape.hpp"
 #include "systems/query/bound_drawn.hpp"
@@ -126,7 +127,7 @@ Result<BodyId> World::spawn(ModelId id, const SpawnSettings& settings) {
     // Ductile and elastic bodies move as rigid ones.
     const bool is_brittle = material_traits(state, state.shells.material[shell]).kind == MaterialKind::Brittle;
     bodies.is_breakable[body] = settings.is_breakable && settings.strength_scale < kNeverCracks && is_brittle;
-    if (bodies.is_breakable[body]) d.make_ready(room_of(state, shell));
+    if (bodies.is_breakable[body]) d.make_ready(working_room(ShellView(state, shell)));
     take_mass_properties(state, body);
     d.arena.reset();
     d.rigid->add(body, describe_rigid(state, body, convex_pieces(state, shell, d.arena)));

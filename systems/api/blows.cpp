@@ -1,6 +1,7 @@
 // Blows that a game asks for. Here they are looked at and queued; the next step takes them (take_blows).
 #include "engine/host_scope.hpp"
 #include "systems/api/checks.hpp"
+#include "systems/cook/materials.hpp"
 #include "systems/rigid/body_id.hpp"
 #include "systems/world_contents.hpp"
 
@@ -29,9 +30,9 @@ Result<void> check_number(const char* name, float value, float least, float most
     return Error{std::string(name) + " is " + std::to_string(value) + "; use " + unit + "."};
 }
 
-/// Room for one more, or a sentence.
+/// Room for one more, or a sentence. Half of the table stays free: take_blows writes each row anew behind the others.
 Result<uint32_t> take_row(Blows& blows, BlowKind kind) {
-    const uint32_t row = blows.append(1);
+    const uint32_t row = blows.size() < blows.limit() / 2 ? blows.append(1) : kNone;
     if (row == kNone)
         return Error{std::to_string(blows.size()) +
                      " blows wait already; step the world, or raise limits.queued_hits."};
@@ -86,6 +87,17 @@ Result<void> check_cut(const CutSettings& c) {
     return Error{"cut.points lie in one line along cut.direction, and sweep no surface; move them or turn it."};
 }
 
+/// Why the body cannot be cut, and what to do; empty: it can.
+std::string why_not_cut(const State& state, Row<Bodies> body) {
+    const Row<Shells> shell = state.bodies.shell[body];
+    if (!shell.exists()) return "it was not spawned from a model; cut one that was";
+    if (state.bodies.is_breakable[body]) return {};
+    const MaterialKind kind = material_traits(state, state.shells.material[shell]).kind;
+    if (kind != MaterialKind::Brittle)
+        return "its material is " + std::string(name_of(kind)) + "; cut one of a material that breaks";
+    return "it was spawned to stay whole; spawn it with is_breakable and a strength_scale that can be reached";
+}
+
 }  // namespace
 
 Result<void> World::push_impact(BodyId id, const PushSettings& push) {
@@ -126,9 +138,8 @@ Result<void> World::cut(BodyId id, const CutSettings& cut) {
     const Row<Bodies> body = body_row(state.bodies, id);
     if (!(id == BodyId{})) {
         if (!body.exists()) return stale("body", id.index);
-        if (!state.bodies.shell[body].exists() || !state.bodies.is_breakable[body])
-            return Error{"body " + std::to_string(id.index) +
-                         " is not breakable, and cannot be cut; cut one that was spawned from a model."};
+        if (const std::string why = why_not_cut(state, body); !why.empty())
+            return Error{"body " + std::to_string(id.index) + " is not breakable, and cannot be cut: " + why + "."};
     }
     if (Result<void> valid = check_cut(cut); !valid) return valid;
     const HostScope call(contents_->host);

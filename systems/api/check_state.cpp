@@ -318,7 +318,7 @@ Result<void> check_state(const State& state, const std::string& name) {
         if (check.is_sound()) look(check);
     if (!check.is_sound()) return Error{check.trouble};
     if (const Result<void> valid = check_material_rows(state); !valid)
-        return Error{name + ": " + valid.error() + ". " + kAdvice};
+        return Error{name + ": " + valid.error() + " " + kAdvice};
     auto& rows = const_cast<State&>(state);  // views are of states that may change; nothing is changed
     for (uint32_t row = 0; row < state.shells.size(); ++row) {
         if (!is_shell(state, row)) continue;

@@ -48,25 +48,49 @@ Error wrong(const S& m, const std::string& what) {
     return {"material \"" + m.name + "\": " + what};
 }
 
+std::string unit_of(const MaterialValue& value) {
+    return std::string(value.unit) == "1" ? "" : std::string(" ") + value.unit;
+}
+
 bool is_name(const std::string& name) {
     return !name.empty() && name.size() <= 64 && std::all_of(name.begin(), name.end(), [](char c) {
         return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '_' || c == '-';
     });
 }
 
-/// Orthotropic stiffness has positive energy when nu^2 < E along / E across; the other values are then needed as well.
+/// What is needed across a grain, each at least as large as its twin along it has to be.
+struct AcrossValue {
+    const char* name;
+    float S::*member;
+    float S::*along;
+};
+constexpr AcrossValue kAcross[] = {{"across_young_modulus", &S::across_young_modulus, &S::young_modulus},
+                                   {"shear_modulus", &S::shear_modulus, &S::young_modulus},
+                                   {"across_strength", &S::across_strength, &S::tensile_strength},
+                                   {"across_fracture_energy", &S::across_fracture_energy, &S::fracture_energy}};
+
+/// A material that is the same in all directions across its grain has positive energy in all planes when
+/// 2 nu^2 E_across < (1 - nu) E_along (its compliance's sign in the plane of equal tensions across), nu being used for
+/// both kinds of contraction.
 Result<void> check_grain(const S& m) {
     if (m.across_young_modulus == 0) return {};
-    if (!(m.poisson_ratio * m.poisson_ratio * m.across_young_modulus < m.young_modulus))
-        return wrong(m, "poisson_ratio is " + shown(m.poisson_ratio) + " with across_young_modulus " +
-                            shown(m.across_young_modulus) + " Pa over young_modulus " + shown(m.young_modulus) +
-                            " Pa; its square must be below young_modulus / across_young_modulus.");
-    const std::pair<const char*, float> needed[] = {{"shear_modulus", m.shear_modulus},
-                                                    {"across_strength", m.across_strength},
-                                                    {"across_fracture_energy", m.across_fracture_energy}};
-    for (const auto& [name, value] : needed)
-        if (!(value > 0))
-            return wrong(m, std::string(name) + " is 0, but a material with across_young_modulus needs it; give it.");
+    for (const AcrossValue& across : kAcross) {
+        const auto along = std::find_if(std::begin(kValues), std::end(kValues),
+                                        [&](const MaterialValue& value) { return value.member == across.along; });
+        const float is = m.*across.member, least = static_cast<float>(along->least);
+        if (is == 0)
+            return wrong(
+                m, std::string(across.name) + " is 0, but a material with across_young_modulus needs it; give it.");
+        if (!(is >= least))
+            return wrong(m, std::string(across.name) + " is " + shown(static_cast<double>(is)) + " " + along->unit +
+                                "; a material with a grain needs " + shown(along->least) + " at least.");
+    }
+    const double nu = static_cast<double>(m.poisson_ratio), across = static_cast<double>(m.across_young_modulus);
+    const double most = static_cast<double>(m.young_modulus) * (1 - nu) / (2 * nu * nu);
+    if (nu > 0 && !(across < most))
+        return wrong(m, "across_young_modulus is " + shown(across) + " Pa, with poisson_ratio " + shown(nu) +
+                            " and young_modulus " + shown(static_cast<double>(m.young_modulus)) +
+                            " Pa; use less than " + shown(most) + " Pa, or a smaller poisson_ratio.");
     return {};
 }
 
@@ -93,7 +117,7 @@ Result<void> check_material(const S& m) {
         // The ends as floats: what is written as 0.499 is not refused.
         if (!(is >= static_cast<double>(static_cast<float>(value.least)) &&
               is <= static_cast<double>(static_cast<float>(value.most))))
-            return wrong(m, std::string(value.name) + " is " + shown(is) + " " + value.unit + "; use " +
+            return wrong(m, std::string(value.name) + " is " + shown(is) + unit_of(value) + "; use " +
                                 shown(value.least) + " to " + shown(value.most) + ".");
     }
     if (m.kind == MaterialKind::Ductile && !(m.yield_strength > 0 && m.yield_strength <= m.tensile_strength))

@@ -6,42 +6,19 @@
 #include "systems/damage/crack_candidates.hpp"
 #include "systems/damage/grow_cracks.hpp"
 #include "systems/damage/stress_check.hpp"
+#include "systems/damage/struck_normal.hpp"
 #include "systems/motion/start_hidden.hpp"
 
 namespace cullet {
 namespace {
 
-// Contacts name the nearest vertex; a ball's blow goes along the struck surface's own normal, averaged by mass over the
-// patch, because a hull's corner or edge says little about the surface (6.3).
 void find_contact_vertices(State& state, Row<Tasks> task) {
     const ShellView shell(state, state.tasks.shell[task]);
     TaskContacts& contacts = state.task_contacts;
     const uint32_t first = state.tasks.first_contact[task];
     for (uint32_t c = first; c < first + state.tasks.contact_count[task]; ++c) {
-        const Vec3 point = contacts.point[c];
-        float least = 1e30f;
-        for (uint32_t v = 0; v < shell.vertex_count(); ++v) {
-            const uint32_t row = shell.vertex(v);
-            if (state.vertices.element[row] == kNone) continue;
-            const Vec3 away = state.vertices.rest[row] - point;
-            if (dot(away, away) >= least) continue;
-            least = dot(away, away);
-            contacts.vertex[c] = v;
-        }
-        if (contacts.striker_radius[c] == 0) continue;
-        Vec3d inward;
-        const float reach = contacts.radius[c] * contacts.radius[c];
-        const Vec3 centre = state.vertices.rest[shell.vertex(contacts.vertex[c])];
-        for (uint32_t v = 0; v < shell.vertex_count(); ++v) {
-            const uint32_t row = shell.vertex(v);
-            const Vec3 away = state.vertices.rest[row] - centre;
-            if (state.vertices.element[row] == kNone || dot(away, away) > reach) continue;
-            inward += state.vertices.mass[row] * Vec3d(state.vertices.inward[row]);
-        }
-        const Vec3 average = normalised(inward).to_float();
-        const float along = dot(average, contacts.normal[c]);
-        if (along > 0.7f) contacts.normal.set(c, average);
-        if (along < -0.7f) contacts.normal.set(c, -average);  // struck from the inside
+        const uint32_t nearest = nearest_vertex(shell, contacts.point[c]);
+        if (nearest != kNone) contacts.vertex[c] = nearest;
     }
 }
 

@@ -437,7 +437,7 @@ Result<void> check_shell_rows(const ShellView& shell, Wear wear, const std::stri
     const uint32_t material = s.material[shell.row];
     if (check.expect(material < state.materials.size(), "shells.material is " + std::to_string(material))) {
         const float step = s.time_step[shell.row];
-        const float run = run_seconds(state.materials, material, s.area[shell.row]);
+        const float run = run_seconds(state, material, s.area[shell.row]);
         check.expect(run <= kMostSteps * step,
                      "shells.time_step is " + std::to_string(step) + " s for a hit of " + std::to_string(run) + " s");
     }

@@ -55,7 +55,6 @@ std::vector<MaterialSettings> make_table() {
     t[8].bending_stiffness = 1e-5f;  // the middle of 1e-6 to 1e-4, 0.4 mm thick
     MaterialSettings& wood = t[9];
     wood.across_young_modulus = 0.5e9f, wood.shear_modulus = 0.6e9f, wood.across_strength = 3e6f;
-    wood.run_seconds = 3e-3f;  // waves across the grain take five times as long as those along it
     wood.across_break_strain = 6e-3f, wood.across_fracture_energy = 250;
     return t;
 }

@@ -147,7 +147,7 @@ Result<void> make_stiff(State& state, Row<Shells>& shell) {
     s.time_step[shell] = stable_time_step(view);
     if (!(s.time_step[shell] > 0))
         return Error{"nothing holds the mesh together: no two triangles share an edge. Weld it first."};
-    const float run = run_seconds(state.materials, s.material[shell], s.area[shell]);
+    const float run = run_seconds(state, s.material[shell], s.area[shell]);
     if (!(s.time_step[shell] >= kShortestStep && run <= kMostSteps * s.time_step[shell]))
         return Error{"a hit would take more than " + std::to_string(static_cast<int>(kMostSteps / 1e6f)) +
                      " million steps: some edges are far too short for its size. Weld them, or scale it."};
@@ -175,14 +175,14 @@ float estimated_threshold(const State& state, Row<Shells> shell) {
 uint64_t units_of_a_hit(const State& state, Row<Shells> shell) {
     const Shells& s = state.shells;
     const uint32_t vertices = s.vertices[shell].count;
-    const float run = run_seconds(state.materials, s.material[shell], s.area[shell]);
+    const float run = run_seconds(state, s.material[shell], s.area[shell]);
     const auto steps = static_cast<uint64_t>(run / s.time_step[shell]) + 1;
     return steps * units_a_step(vertices + vertices / 10, 64) + 300 * kUnitsCut +
            vertices * kUnitsOpen;  // a blow that breaks grows it by a tenth
 }
 
-ModelReport report_on(const State& state, Row<Shells> shell, const SurfaceRepairs& repairs,
-                      const Extrusion& extrusion) {
+ModelReport report_on(const State& state, Row<Shells> shell, const SurfaceRepairs& repairs, const Extrusion& extrusion,
+                      double longest_edge) {
     const Shells& s = state.shells;
     ModelReport report;
     report.vertices = s.vertices[shell].count;
@@ -201,7 +201,7 @@ ModelReport report_on(const State& state, Row<Shells> shell, const SurfaceRepair
         report.advice = std::string("Its material is ") + name_of(kind) +
                         ": this version moves it as a rigid body that does not bend, tear or break.";
     else
-        report.advice = hit_advice(report.units_of_a_hit, s.mean_edge[shell], s.thickness[shell]);
+        report.advice = hit_advice(report.units_of_a_hit, s.mean_edge[shell], s.thickness[shell], longest_edge);
     return report;
 }
 
@@ -267,6 +267,8 @@ Result<Model> cook(const MeshView& view, const CookSettings& settings) try {
         settings.longest_edge > 0 ? settings.longest_edge : std::max(2.0 * settings.thickness, 0.025 * diagonal);
     Result<Mesh> fine = tessellate(*mesh, tessellation);
     if (!fine) return Error{name + ": " + fine.error()};
+    // Whether the setting made the edges what they are, or cut a few long ones.
+    const double cut_at = fine->triangles.size() >= 2 * mesh->triangles.size() ? tessellation.longest_edge : 0;
     const uint32_t thinned = thin_fans(*fine, kMostRing);
     Result<Surface> surface = prepare_surface(*fine, welding);
     if (!surface) return Error{name + ": " + surface.error()};
@@ -326,7 +328,7 @@ Result<Model> cook(const MeshView& view, const CookSettings& settings) try {
     else
         state.shells.first_crack_speed[contents->shell] = estimated_threshold(state, contents->shell);
     if (settings.progress && !measures) settings.progress(settings.progress_user, 1);
-    contents->report = report_on(state, contents->shell, given->repairs, extrusion.value());
+    contents->report = report_on(state, contents->shell, given->repairs, extrusion.value(), cut_at);
     if (joined) contents->report.walls = describe(*joined, *surface, *extrusion);
     if (thinned > 0)
         contents->report.repairs += (contents->report.repairs.empty() ? "" : " ") + std::string("Thinned ") +

@@ -23,15 +23,20 @@ double edge_for_units(double mean_edge, uint64_t units, uint64_t wanted) {
     return mean_edge * std::cbrt(static_cast<double>(units) / static_cast<double>(wanted));
 }
 
-std::string hit_advice(uint64_t units, double mean_edge, double thickness) {
+std::string hit_advice(uint64_t units, double mean_edge, double thickness, double longest_edge) {
     if (units <= kDefaultHoldUnits) return {};
     std::string text = "A hit needs about " + millions(static_cast<double>(units)) +
                        " units and will be late at the default budget of " +
                        millions(static_cast<double>(kDefaultHoldUnits)) + " a hold; ";
     const double wanted = edge_for_units(mean_edge, units, kDefaultHoldUnits),
                  longest = kLongestInThicknesses * thickness;
-    const std::string now = "edges of about " + millimetres(wanted < longest ? wanted : longest) + " instead of " +
-                            millimetres(mean_edge) + " (longest_edge, or a coarser mesh)";
+    const double asked = wanted < longest ? wanted : longest;
+    const std::string setting = longest_edge > 0
+                                    ? "longest_edge " + millimetres(longest_edge * asked / mean_edge) + " instead of " +
+                                          millimetres(longest_edge) + ", or a coarser mesh"
+                                    : "a coarser mesh";
+    const std::string now =
+        "edges of about " + millimetres(asked) + " instead of " + millimetres(mean_edge) + " (" + setting + ")";
     if (wanted <= longest)
         text += now + " would fit, or ";
     else if (mean_edge < 0.9 * longest)

@@ -15,7 +15,9 @@ inline constexpr uint64_t kDefaultHoldUnits = 8'000'000ull * 7;
 double edge_for_units(double mean_edge, uint64_t units, uint64_t wanted);
 
 /// One sentence, or nothing where a hit fits the default budget. Edges above twice the thickness are not asked for:
-/// thresholds would move by more than 30 % (thick shell note, section 8).
-std::string hit_advice(uint64_t units, double mean_edge, double thickness);
+/// thresholds would move by more than 30 % (thick shell note, section 8). `longest_edge`: the setting, m, where it set
+/// the model's edges, and 0 where they are those of the mesh. What is longer than it is halved, so that means lie a
+/// good part below it: it is asked to grow by the factor by which the mean has to.
+std::string hit_advice(uint64_t units, double mean_edge, double thickness, double longest_edge);
 
 }  // namespace cullet

@@ -125,20 +125,20 @@ Result<void> check_material_rows(const State& state) {
     const auto place = [](uint32_t row) { return "row " + std::to_string(row) + " of materials: "; };
     if (traits.size() > 0 && traits.size() != state.materials.size())
         return Error{"material_traits has " + std::to_string(traits.size()) + " rows for " +
-                     std::to_string(state.materials.size()) + " materials"};
+                     std::to_string(state.materials.size()) + " materials."};
     if (traits.size() == 0 && state.materials.size() > kFirstMaterials)
-        return Error{"material_traits has no rows for " + std::to_string(state.materials.size()) + " materials"};
+        return Error{"material_traits has no rows for " + std::to_string(state.materials.size()) + " materials."};
     for (uint32_t row = 0; row < state.materials.size(); ++row) {
         if (row < traits.size() && (traits.kind[row] > static_cast<uint8_t>(MaterialKind::Elastic) ||
                                     traits.fracture[row] > static_cast<uint8_t>(FractureKind::Fine)))
             return Error{place(row) + "kind " + std::to_string(traits.kind[row]) + " or fracture " +
-                         std::to_string(traits.fracture[row]) + " does not exist"};
+                         std::to_string(traits.fracture[row]) + " does not exist."};
         MaterialSettings found = material_settings(state, Row<Materials>(row));
         found.name = "row-" + std::to_string(row);
         if (const Result<void> valid = check_material(found); !valid) return valid;
         const float squared = dot(grain_of(state, row), grain_of(state, row));
         if (found.across_young_modulus > 0 ? std::abs(squared - 1) > 1e-5f : squared != 0)
-            return Error{place(row) + "the grain's length squared is " + std::to_string(squared)};
+            return Error{place(row) + "the grain's length squared is " + std::to_string(squared) + "."};
     }
     return {};
 }

@@ -217,8 +217,11 @@ std::vector<uint8_t> encode_model_file(const Model::Contents& contents) {
     writer.bytes.resize(kFileHeaderBytes);
     writer.text(contents.name);
     const Row<Materials> material = contents.state.shells.material[contents.shell];
-    put_material(writer, contents.material, material_settings(contents.state, material),
-                 material_traits(contents.state, material).grain);
+    if (material < contents.state.materials.size())
+        put_material(writer, contents.material, material_settings(contents.state, material),
+                     material_traits(contents.state, material).grain);
+    else
+        put_material(writer, {}, {}, {});  // of a shell that is not sound: no reader takes a material without a name
     writer.text(contents.report.repairs);
     writer.text(contents.report.advice);
     writer.text(contents.report.walls);

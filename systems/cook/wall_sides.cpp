@@ -18,7 +18,6 @@ class Finder {
     Finder(const Surface& surface, double reach) : surface_(surface), frame_(surface.low, surface.diagonal) {
         const size_t count = surface.triangles.size();
         found_.opposite.assign(count, kNone);
-        found_.distance.assign(count, 0);
         found_.side.assign(count, WallSide::None);
         found_.is_lip.assign(count, 0);
         found_.nearest.assign(count, kNone);
@@ -85,7 +84,6 @@ class Finder {
             }
             if (first == kNone || dot(normals_[first], normals_[t]) > kLooksBack) continue;
             found_.opposite[t] = first;
-            found_.distance[t] = least / frame_.scale;
         }
     }
 

@@ -8,7 +8,6 @@ enum class WallSide : uint8_t { None, One, Other };
 
 struct WallSides {
     std::vector<uint32_t> opposite;  // triangle across the wall, kNone: none within reach that looks the other way
-    std::vector<double> distance;    // m, to it from the centroid; 0 without
     std::vector<WallSide> side;      // of matched triangles, and of what hangs together with one side alone
     std::vector<uint8_t> is_lip;     // unmatched, and between the two sides
     std::vector<uint32_t> nearest;   // matched triangle nearest over neighbours, for those unmatched; kNone: none

@@ -1,5 +1,6 @@
 #include "systems/damage/blows.hpp"
 
+#include "engine/rigid_bounds.hpp"
 #include "systems/damage/energy.hpp"
 
 namespace cullet {
@@ -14,13 +15,17 @@ void push_body(Bodies& bodies, RigidWorld& rigid, DamageCounts& counts, Row<Bodi
                Vec3d turning) {
     if (static_cast<BodyKind>(bodies.kind[body]) != BodyKind::Dynamic) return;
     const Quat q = bodies.orientation[body];
-    const Vec3 pushed = rotate(q, impulse.to_float());
-    bodies.velocity.set(body, bodies.velocity[body] + static_cast<float>(1 / bodies.mass[body]) * pushed);
-    bodies.spin.set(body, bodies.spin[body] + rotate(q, (inverse(bodies.inertia[body]) * turning).to_float()));
+    const Vec3 pushed = rotate(q, impulse.to_float()), before = bodies.velocity[body];
+    Vec3 velocity = before + static_cast<float>(1 / bodies.mass[body]) * pushed;
+    Vec3 spin = bodies.spin[body] + rotate(q, (inverse(bodies.inertia[body]) * turning).to_float());
+    const bool is_too_fast = shorten(velocity, kFastest), spins_too_fast = shorten(spin, kFastest);
+    counts.clamped += is_too_fast || spins_too_fast;
+    bodies.velocity.set(body, velocity);
+    bodies.spin.set(body, spin);
     rigid.wake(body);
     bodies.is_asleep[body] = 0;
-    rigid.set_motion(body, {bodies.velocity[body], bodies.spin[body]});
-    const Vec3d booked(pushed);
+    rigid.set_motion(body, {velocity, spin});
+    const Vec3d booked = is_too_fast ? bodies.mass[body] * (Vec3d(velocity) - Vec3d(before)) : Vec3d(pushed);
     for (int k = 0; k < 3; ++k) counts.impulse_to_static[k] -= booked[k];
 }
 
@@ -61,6 +66,12 @@ void start_explosions(State& state, Row<Tasks> task) {
         is_kicked = true;
     }
     if (is_kicked) state.tasks.start_energy[task] = task_energy(state, task).total();
+}
+
+bool has_explosion(const Blows& blows, Row<Tasks> task) {
+    for (uint32_t b = 0; b < blows.size(); ++b)
+        if (blows.task[b] == task.index && is_kind(blows, b, BlowKind::Explosion)) return true;
+    return false;
 }
 
 Vec3d take_explosions(Blows& blows, Row<Tasks> task) {

@@ -205,6 +205,15 @@ void build_patches(State& state, Row<Tasks> task) {
     keep_stiffest(state, first, count);
 }
 
+bool share_a_striker(const TaskContacts& contacts, uint32_t c, uint32_t other) {
+    return c != other && contacts.striker_own_inverse_mass[c] > 0 && contacts.striker[c] == contacts.striker[other];
+}
+
+double coupling(const TaskContacts& contacts, uint32_t c, uint32_t other) {
+    return double{contacts.striker_own_inverse_mass[c]} * dot(contacts.normal[c], contacts.normal[other]) +
+           dot(contacts.striker_turn[c], contacts.striker_spin[other]);
+}
+
 PatchSpring patch_spring(const PatchVertices& patches, uint32_t p) {
     return {patches.stiffness[p], patches.crushed_stiffness[p], patches.yield_force[p]};
 }
@@ -237,10 +246,11 @@ void apply_contact(State& state, Row<Tasks> task, uint32_t side) {
     Vertices& vertices = state.vertices;
     const int next = static_cast<int>(~side & 1);
     const float dt = state.tasks.time_step[task], beta = state.tasks.damping_time[task];
-    const uint32_t first = state.tasks.first_contact[task];
-    for (uint32_t c = first; c < first + state.tasks.contact_count[task]; ++c) {
+    const uint32_t first = state.tasks.first_contact[task], count = state.tasks.contact_count[task];
+    double forces[kMostContacts] = {};
+    for (uint32_t c = first; c < first + count; ++c) {
         const Vec3 n = contacts.normal[c];
-        double force = 0;
+        double& force = forces[c - first];
         const uint32_t begin = contacts.first_patch[c];
         for (uint32_t p = begin; p < begin + contacts.patch_count[c]; ++p) {
             const float f = state.patch_vertices.force[p];
@@ -255,8 +265,13 @@ void apply_contact(State& state, Row<Tasks> task, uint32_t side) {
             w = {w.x + dw.x, w.y + dw.y, w.z + dw.z, 0};
         }
         contacts.striker_speed[c] -= double{dt} * contacts.striker_inverse_mass[c] * force;
-        contacts.striker_travel[c] += double{dt} * contacts.striker_speed[c];
         contacts.impulse[c] += double{dt} * force;
+    }
+    for (uint32_t c = first; c < first + count; ++c) {
+        for (uint32_t other = first; other < first + count; ++other)
+            if (share_a_striker(contacts, c, other))
+                contacts.striker_speed[c] -= double{dt} * coupling(contacts, c, other) * forces[other - first];
+        contacts.striker_travel[c] += double{dt} * contacts.striker_speed[c];
     }
 }
 

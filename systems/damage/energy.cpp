@@ -25,7 +25,13 @@ void add_contacts(const State& state, Row<Tasks> task, const ShellView& shell, T
     const uint32_t first = state.tasks.first_contact[task];
     for (uint32_t c = first; c < first + state.tasks.contact_count[task]; ++c) {
         const double inverse_mass = contacts.striker_inverse_mass[c], speed = contacts.striker_speed[c];
-        if (inverse_mass > 0)
+        bool is_shared = false;
+        for (uint32_t other = first; other < first + state.tasks.contact_count[task]; ++other)
+            is_shared = is_shared || share_a_striker(contacts, c, other);
+        const double start = contacts.start_speed[c];
+        if (is_shared)  // what pushes did to it: each the impulse times the mean of the speeds at its contact
+            energy.strikers += 0.5 * start * start / inverse_mass - 0.5 * contacts.impulse[c] * (start + speed);
+        else if (inverse_mass > 0)
             energy.strikers += 0.5 * speed * speed / inverse_mass;
         else
             energy.work += contacts.impulse[c] * speed;

@@ -25,7 +25,8 @@ class Shade {
 
  private:
     static constexpr int kCubeSide = 32, kSquareSide = 64;
-    static constexpr int kMostSamples = 16;  // along an edge: nearer ones leave gaps, but hide all the same
+    static constexpr int kMostSamples = 16;  // along an edge: what is so near that it needs more is filled dot by dot
+    static constexpr int kMostFilled = 256;  // triangles; a charge has about 15 of an even mesh so near, at a pole more
 
     void look_at_bounds() {
         const Vertices& vertices = shell_.state.vertices;
@@ -69,16 +70,49 @@ class Shade {
                dot_along(std::clamp(u, -1.0f, 1.0f), kCubeSide);
     }
 
+    int dots() const { return is_outside_ ? kSquareSide * kSquareSide : 6 * kCubeSide * kCubeSide; }
+
+    /// Into the middle of a dot, of no particular length: what dot_of undoes.
+    Vec3 middle_of_dot(int dot) const {
+        const int side = is_outside_ ? kSquareSide : kCubeSide, face = dot / (side * side);
+        const auto share = [&](int at) { return (2 * static_cast<float>(at) + 1) / static_cast<float>(side) - 1; };
+        const float u = share(dot % side), v = share(dot / side % side);
+        if (is_outside_) return forward_ + tangent_ * (u * right_ + v * up_);
+        const float major = face % 2 ? -1.0f : 1.0f;
+        return face / 2 == 0 ? Vec3{major, u, v} : face / 2 == 1 ? Vec3{u, major, v} : Vec3{u, v, major};
+    }
+
+    /// Every dot whose middle lies behind the triangle: there the ray has all three edges' planes on one side. The
+    /// plane of the triangle is met at (p.n / d.n) d.
+    void fill(const Vec3 (&p)[3]) {
+        const Vec3 a = cross(p[0], p[1]), b = cross(p[1], p[2]), c = cross(p[2], p[0]);
+        const Vec3 normal = cross(p[1] - p[0], p[2] - p[0]);
+        const float height = dot(normal, p[0]);
+        for (int i = 0; i < dots(); ++i) {
+            const Vec3 d = middle_of_dot(i);
+            const float x = dot(a, d), y = dot(b, d), z = dot(c, d), along = dot(normal, d);
+            if (!(x >= 0 && y >= 0 && z >= 0) && !(x <= 0 && y <= 0 && z <= 0)) continue;
+            const float t = along != 0 ? height / along : 0;
+            if (t > 0) nearest_[i] = std::min(nearest_[i], t * length(d));
+        }
+    }
+
     void draw(uint32_t e, float reach) {
         const State& state = shell_.state;
         const auto& corner = state.elements.corner[shell_.element(e)];
         Vec3 p[3];
         for (int k = 0; k < 3; ++k) p[k] = state.vertices.rest[shell_.vertex(corner[k])] - from_;
         const float longest = std::max({length(p[1] - p[0]), length(p[2] - p[1]), length(p[0] - p[2])});
-        const float distance = length((1.0f / 3) * (p[0] + p[1] + p[2]));
+        const Vec3 middle = (1.0f / 3) * (p[0] + p[1] + p[2]);
+        const float distance = length(middle);
         if (distance - longest > reach) return;
         const float near = std::max(distance - longest, 0.1f * longest);
         const float wanted = near > 0 ? longest / (near * width_) : 1.0f;
+        const float radius = std::max({length(p[0] - middle), length(p[1] - middle), length(p[2] - middle)});
+        if (longest > kMostSamples * width_ * (distance - radius) && filled_ < kMostFilled) {
+            ++filled_;
+            return fill(p);
+        }
         const int samples = std::clamp(static_cast<int>(std::min(wanted, 1e3f)) + 1, 1, kMostSamples);
         const float step = 1.0f / static_cast<float>(samples);
         for (int i = 0; i <= samples; ++i)
@@ -94,6 +128,7 @@ class Shade {
     Vec3 from_, forward_, right_, up_;
     float tangent_ = 1, width_ = 1;  // of the square's half; of a dot, both at distance 1
     bool is_outside_ = false;
+    int filled_ = 0;
     float nearest_[6 * kCubeSide * kCubeSide];
 };
 

@@ -17,10 +17,6 @@ struct GrainLimits {
 inline float hankinson(float along, float across, float squared_cosine) {
     return along * across / (along * (1 - squared_cosine) + across * squared_cosine);
 }
-inline float start_limit(const GrainLimits& g, Vec3 pull) {
-    const float c = dot(g.grain, pull);
-    return hankinson(g.start_along, g.start_across, c * c);
-}
 /// A tip that is pulled open across the grain splits it; pulled along, it has to break fibres.
 inline float tip_limit(const GrainLimits& g, Vec3 pull) {
     const float c = dot(g.grain, pull);

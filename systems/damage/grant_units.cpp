@@ -16,14 +16,20 @@ uint32_t steps_left(const Tasks& tasks, uint32_t t) {
 
 }  // namespace
 
-// What cuts cost more than was granted for is owed, and paid before the next frame's steps. A task gets at least one
+// What cracks cost more than was granted for is owed, and paid before the next frame's steps; cuts of the game are paid
+// in the frame that makes them. A task gets at least one
 // step a frame, so that none can starve.
 void grant_units(Serial, Tasks& tasks, const Shells& shells, const DamageSettings& settings, DamageCounts& counts) {
     static constexpr uint32_t kMostTasks = 1024;
     uint32_t order[kMostTasks], count = 0;
     int64_t budget = static_cast<int64_t>(settings.units_a_frame);
     for (uint32_t t = 0; t < tasks.size() && count < kMostTasks; ++t) {
-        if (static_cast<TaskState>(tasks.state[t]) != TaskState::Running) continue;
+        const auto task_state = static_cast<TaskState>(tasks.state[t]);
+        if (task_state == TaskState::Whole) {  // a cut, which is made already
+            budget -= static_cast<int64_t>(tasks.units_owed[t]);
+            tasks.units_owed[t] = 0;
+        }
+        if (task_state != TaskState::Running) continue;
         order[count++] = t;
         const auto paid = std::min<int64_t>(static_cast<int64_t>(tasks.units_owed[t]), std::max<int64_t>(budget, 0));
         tasks.units_owed[t] -= static_cast<uint64_t>(paid);

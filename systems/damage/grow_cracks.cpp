@@ -42,9 +42,12 @@ float arrival_time(const Batch& batch, float ready_time) {
 
 void ban_near(Batch& batch, Vec3 place) {
     switch (batch.limits.fracture) {
-        case FractureKind::Large: return ban_starts(batch.shell, place);
-        case FractureKind::Coarse: return ban_starts(batch.shell, place, batch.time + batch.limits.ban_seconds);
-        case FractureKind::Fine: return;
+        case FractureKind::Large:
+            return ban_starts(batch.shell, place);
+        case FractureKind::Coarse:
+            return ban_starts(batch.shell, place, batch.time + batch.limits.ban_seconds);
+        case FractureKind::Fine:
+            return;
     }
 }
 
@@ -171,7 +174,8 @@ void advance_tip(Batch& batch, uint32_t vertex) {
         const Vec3 toward = into_plane(vertices.rest[shell.vertex(meeting)] - vertices.rest[row], normal);
         is_cut = try_step(batch, vertex, normal, toward, root);
     }
-    if (!is_cut && forks(batch, vertex, chosen.stress)) is_cut = try_fork(batch, vertex, normal, chosen.direction, root);
+    if (!is_cut && forks(batch, vertex, chosen.stress))
+        is_cut = try_fork(batch, vertex, normal, chosen.direction, root);
     if (!is_cut) is_cut = try_step(batch, vertex, normal, chosen.direction, root);
     if (!is_cut) {
         // No way on now; it looks again after the time of one step.
@@ -201,8 +205,9 @@ uint32_t grow_cracks(State& state, Row<Tasks> task, CrackSink& sink) {
     const ShellView shell(state, tasks.shell[task]);
     const float time = static_cast<float>(tasks.steps_done[task]) * tasks.time_step[task];
     const float check_interval = static_cast<float>(kStepsAStressCheck) * tasks.time_step[task];
-    Batch batch{shell, crack_limits(shell, tasks.strength_scale[task]), {}, time, check_interval, sink,
-                tasks.steps_done[task], {}};
+    Batch batch{
+        shell, crack_limits(shell, tasks.strength_scale[task]), {}, time, check_interval, sink, tasks.steps_done[task],
+        {}};
     Candidates candidates;
     choose_candidates(shell, batch.limits, time, batch.fan, candidates);
     if (candidates.count == 0) return 0;
@@ -226,7 +231,7 @@ uint32_t grow_cracks(State& state, Row<Tasks> task, CrackSink& sink) {
     if (all_cuts / kCutsAPass != tasks.crack_count[task] / kCutsAPass) find_start_strengths(shell);
     tasks.crack_count[task] = all_cuts;
     tasks.start_count[task] += sink.starts - starts_before;
-    tasks.units_owed[task] += kUnitsCut * cuts;
+    tasks.units_owed[task] += kUnitsCut * cuts + batch.touched.units;
     if (cuts) tasks.last_event_time[task] = time;
     return cuts;
 }

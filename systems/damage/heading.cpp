@@ -27,8 +27,7 @@ ChosenHeading choose_heading(const HeadingFan& fan, Vec3 x, Vec3 y, const FaceSt
         for (const float sign : {1.0f, -1.0f}) {
             const float s = sign * fan.sine[k], c = fan.cosine[k];
             float share = 1;
-            if (grain.has_grain)
-                share = std::min(grain.tip_along, grain.tip_across) / tip_limit(grain, c * y - s * x);
+            if (grain.has_grain) share = std::min(grain.tip_along, grain.tip_across) / tip_limit(grain, c * y - s * x);
             for (const FaceStress& t : face) {
                 // The crack's normal is (-s, c).
                 const float across = s * s * t.xx + c * c * t.yy - 2 * s * c * t.xy;

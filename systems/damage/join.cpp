@@ -72,7 +72,8 @@ void ban_starts(ShellView shell, Vec3 place, float until) {
     const float reach = kStartSpacing * shell.shells().mean_edge[shell.row];
     for (uint32_t row = shell.vertex(0); row < shell.vertex(0) + shell.vertex_count(); ++row) {
         const Vec3 away = vertices.rest[row] - place;
-        if (vertices.crack[row] != static_cast<uint8_t>(CrackState::None) || !(dot(away, away) <= reach * reach)) continue;
+        if (vertices.crack[row] != static_cast<uint8_t>(CrackState::None) || !(dot(away, away) <= reach * reach))
+            continue;
         vertices.ready_time[row] = std::max(vertices.ready_time[row], until);
     }
 }

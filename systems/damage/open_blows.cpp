@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "systems/damage/blows.hpp"
+#include "systems/damage/task_cost.hpp"
 #include "systems/damage/thresholds.hpp"
 #include "systems/rigid/body_id.hpp"
 
@@ -33,37 +34,98 @@ ImpactEvent event_of(const State& state, uint32_t row) {
     return e;
 }
 
+// r_c of the note, section 6.3.
+float patch_radius(const State& state, uint32_t row, uint32_t t) {
+    const Shells& shells = state.shells;
+    const Row<Shells> shell = state.tasks.source[t];
+    return std::max({3 * shells.thickness[shell], 1.3f * shells.mean_edge[shell], 0.35f * state.blows.radius[row]});
+}
+
+// The task's contact in whose patch the push lies, or kNone. Vertices of two patches take one spring alone: a second
+// push there would be lost.
+uint32_t contact_at(const State& state, uint32_t row, uint32_t t) {
+    const TaskContacts& contacts = state.task_contacts;
+    const float radius = patch_radius(state, row, t);
+    const uint32_t first = state.tasks.first_contact[t];
+    for (uint32_t c = first; c < first + state.tasks.contact_count[t]; ++c)
+        if (length(contacts.point[c] - state.blows.point[row]) < std::max(radius, contacts.radius[c])) return c;
+    return kNone;
+}
+
+// Two that strike as one: bodies get their own impulse back, and what pushes another way another answer.
+bool may_merge(const State& state, uint32_t row, uint32_t c) {
+    constexpr float kSameWay = 0.7f;  // cosine of 45 degrees
+    const TaskContacts& contacts = state.task_contacts;
+    return !contacts.striker[c].exists() && contacts.striker_inverse_mass[c] > 0 &&
+           dot(contacts.normal[c], state.blows.direction[row]) > kSameWay;
+}
+
 // Whether a task of this step, or one that is to be opened, can take the blow too.
 bool fits(const State& state, uint32_t row, uint32_t t, bool is_late) {
-    if (is_kind(state.blows, row, BlowKind::Cut) != is_cut_task(state.blows, Row<Tasks>(t))) return false;
-    if (is_kind(state.blows, row, BlowKind::Push) && state.tasks.contact_count[t] == kMostContacts) return false;
-    return is_late || is_kind(state.blows, row, BlowKind::Cut) ||
-           !state.blows.is_paid[row];  // what was paid must not come a second time from the run
+    const bool is_cut = is_kind(state.blows, row, BlowKind::Cut);
+    if (is_cut != is_cut_task(state.blows, Row<Tasks>(t))) return false;
+    if (!is_late && !is_cut && state.blows.is_paid[row]) return false;  // or the run would give it a second time
+    if (!is_kind(state.blows, row, BlowKind::Push)) return true;
+    const uint32_t at = contact_at(state, row, t);
+    return at == kNone ? state.tasks.contact_count[t] < kMostContacts : may_merge(state, row, at);
+}
+
+Vec3 moving_at(const State& state, uint32_t t, Vec3 point) {
+    const Vec3 arm = point - state.bodies.centre[state.tasks.body[t]].to_float();
+    return state.tasks.start_velocity[t] + cross(state.tasks.start_spin[t], arm);
+}
+
+// Masses add; speed, way and place are the mean by momentum: what sticks together and goes on as one.
+void merge_push(State& state, uint32_t row, uint32_t t, uint32_t c) {
+    const Blows& blows = state.blows;
+    TaskContacts& contacts = state.task_contacts;
+    const double mass = 1 / double{contacts.striker_inverse_mass[c]}, added = 1 / double{blows.inverse_mass[row]};
+    const Vec3 point = contacts.point[c], normal = contacts.normal[c];
+    const float speed_of_first = contacts.start_speed[c] - dot(moving_at(state, t, point), normal);
+    const double before = mass * std::max(0.0, double{speed_of_first});
+    const double gained = added * double{blows.speed[row]};
+    const Vec3d momentum = before * Vec3d(normal) + gained * Vec3d(blows.direction[row]);
+    const Vec3d place = (1 / (before + gained)) * (before * Vec3d(point) + gained * Vec3d(blows.point[row]));
+    const auto speed = static_cast<float>(length(momentum) / (mass + added));
+    contacts.point.set(c, place.to_float());
+    contacts.normal.set(c, normalised(momentum).to_float());
+    contacts.striker_inverse_mass[c] = static_cast<float>(1 / (mass + added));
+    contacts.start_speed[c] = dot(moving_at(state, t, contacts.point[c]), contacts.normal[c]) + speed;
+    if (gained > before) contacts.striker_radius[c] = blows.radius[row];
+    contacts.radius[c] = std::max(contacts.radius[c], patch_radius(state, row, t));
 }
 
 void lay_push(State& state, uint32_t row, uint32_t t) {
+    if (const uint32_t at = contact_at(state, row, t); at != kNone) return merge_push(state, row, t, at);
     Tasks& tasks = state.tasks;
     const Blows& blows = state.blows;
     TaskContacts& contacts = state.task_contacts;
-    const Row<Shells> shell = tasks.source[t];
     const uint32_t c = tasks.first_contact[t] + tasks.contact_count[t]++;
-    const Vec3 arm = blows.point[row] - state.bodies.centre[tasks.body[t]].to_float();
-    const Vec3 moving = tasks.start_velocity[t] + cross(tasks.start_spin[t], arm);
     contacts.clear_rows(c, 1);
     contacts.point.set(c, blows.point[row]);
     contacts.normal.set(c, blows.direction[row]);
     contacts.striker[c] = {};
     contacts.striker_inverse_mass[c] = blows.inverse_mass[row];
     contacts.striker_radius[c] = blows.radius[row];
-    contacts.start_speed[c] = dot(moving, blows.direction[row]) + blows.speed[row];
-    contacts.radius[c] =
-        std::max({3 * state.shells.thickness[shell], 1.3f * state.shells.mean_edge[shell], 0.35f * blows.radius[row]});
+    contacts.start_speed[c] = dot(moving_at(state, t, blows.point[row]), blows.direction[row]) + blows.speed[row];
+    contacts.radius[c] = patch_radius(state, row, t);
 }
 
 enum class Outcome : uint8_t { Waits, Joined, Gone };
 
 struct Opener {
     BlowOpening& o;
+    uint64_t cut_units = 0;  // of the cuts that this step makes
+
+    /// Cuts are made whole, in the step that opens their task: at least one, then as long as the frame's units last.
+    bool may_cut(uint32_t row) {
+        const Row<Shells> shell = o.state.bodies.shell[o.state.blows.body[row]];
+        const uint64_t units =
+            o.state.shells.vertices[shell].count * kUnitsOpen + units_of_cut(o.state.shells, shell, o.state.blows, row);
+        if (cut_units > 0 && cut_units + units > o.settings.units_a_frame) return false;
+        cut_units += units;
+        return true;
+    }
 
     // What sleeps may lose its support to a cut.
     void wake(Row<Bodies> body) {
@@ -112,12 +174,12 @@ struct Opener {
         const uint32_t open = state.bodies.task[body];
         if (open != kNone) {
             const bool is_fresh = state.tasks.opened_frame[open] == o.frame;
-            if (is_fresh && fits(state, row, open, state.tasks.is_late[open])) {
+            if (is_fresh && fits(state, row, open, state.tasks.is_late[open]) && (!is_cut || may_cut(row))) {
                 join(row, open);
                 return Outcome::Joined;
             }
         } else if (!state.bodies.hold_count[body] && o.frame >= state.bodies.retry_frame[body] &&
-                   has_free_task(state.tasks)) {
+                   has_free_task(state.tasks) && (!is_cut || may_cut(row))) {
             const Row<Tasks> task = o.open(o.opener, body, is_cut ? 1.0f : blows.speed[row]);
             if (!task.exists()) {
                 pay(row);

@@ -17,8 +17,9 @@ struct BlowOpening {
 };
 
 /// In the order of their rows: a blow joins the task that its body got in this step, or gets one, or waits while a task
-/// runs, the body is held or it was hit less than 20 ms ago. What waits has moved the body as a rigid one at once, and
-/// its task is late. Pushes and explosions too weak to matter, or forbidden by the game, only move the body.
+/// runs, the body is held or it was hit less than 20 ms ago, and a cut while the frame's units are spent. What waits
+/// has moved the body as a rigid one at once, and its task is late. Pushes and explosions too weak to matter, or
+/// forbidden by the game, only move the body.
 void open_blows(BlowOpening& opening);
 
 }  // namespace cullet

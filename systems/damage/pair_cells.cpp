@@ -9,13 +9,14 @@ namespace cullet {
 namespace {
 
 constexpr uint32_t kLevelPasses = 8;  // later ones find nothing to move
+uint32_t bound_of_cells = kPairedCells;
 
-/// The pairs of one kind inside one pair cell, each with the end that stores it. Vertices are counted from the cell's
-/// first one.
+/// The pairs of one kind inside one pair cell, each with the end that stores it; a vertex has at most `most` of them.
+/// Vertices are counted from the cell's first one.
+template <uint32_t most>
 struct PairCell {
-    // A vertex has at most kMostNeighbours of one kind, and a pair two ends.
-    static constexpr uint32_t kMostPairs = kPairCellVertices * kMostNeighbours / 2;
-    static_assert(kPairCellVertices <= 256 && kMostNeighbours <= 255, "both are kept as bytes");
+    static constexpr uint32_t kMostPairs = kPairCellVertices * most / 2;  // a pair has two ends
+    static_assert(kPairCellVertices <= 256 && most <= 256, "vertices and slots of a pair are kept as bytes");
     uint32_t count = 0;
     uint8_t owner[kMostPairs], other[kMostPairs], slots[kMostPairs];
     uint16_t used[kPairCellVertices] = {};  // slots of each lane, pairs between cells included
@@ -46,15 +47,16 @@ struct PairCell {
 };
 
 /// Neighbours of one kind, each once, with the slots that the pair takes.
+template <uint32_t most>
 struct Neighbours {
     uint32_t count = 0;
-    uint32_t vertex[kMostNeighbours];
-    uint32_t slots[kMostNeighbours];
+    uint32_t vertex[most];
+    uint32_t slots[most];
 
     void add(uint32_t v, bool takes_another) {
         uint32_t at = 0;
         while (at < count && vertex[at] != v) ++at;
-        if (at == kMostNeighbours) return;
+        if (at == most) return;
         if (at == count) {
             vertex[count] = v;
             slots[count++] = 1;
@@ -64,8 +66,12 @@ struct Neighbours {
     }
 };
 
-/// Whom build_row would find, without the numbers.
-void find_neighbours(const ShellView& shell, uint32_t vertex, Neighbours& blocks, Neighbours& links) {
+using NearNeighbours = Neighbours<kMostNeighbours>;
+using OppositeNeighbours = Neighbours<kMostLinks>;  // a grain links all vertices of a triangle's hinges
+
+/// Whom build_row would find; without a grain without the numbers.
+void find_neighbours(const ShellView& shell, const PlaneStress& stress, uint32_t vertex, NearNeighbours& blocks,
+                     OppositeNeighbours& links) {
     const State& state = shell.state;
     blocks.count = links.count = 0;
     Ring ring;
@@ -73,6 +79,12 @@ void find_neighbours(const ShellView& shell, uint32_t vertex, Neighbours& blocks
     for (uint32_t i = 0; i < ring.count; ++i)
         for (const uint32_t v : state.elements.corner[shell.element(ring.element[i])])
             if (v != vertex) blocks.add(v, false);
+    if (stress.has_grain) {
+        VertexRow row;
+        build_row(shell, stress, vertex, row);
+        for (uint32_t i = 0; i < row.link_count; ++i) links.add(row.link[i].neighbour, true);
+        return;
+    }
     RingHinges hinges;
     collect_hinges(shell, ring, hinges);
     for (uint32_t i = 0; i < hinges.count; ++i) {
@@ -82,7 +94,8 @@ void find_neighbours(const ShellView& shell, uint32_t vertex, Neighbours& blocks
     }
 }
 
-void share(const Neighbours& neighbours, uint32_t vertex, PairCell& cell) {
+template <uint32_t most>
+void share(const Neighbours<most>& neighbours, uint32_t vertex, PairCell<most>& cell) {
     for (uint32_t i = 0; i < neighbours.count; ++i) {
         const uint32_t other = neighbours.vertex[i], own = vertex % kPairCellVertices;
         if (!are_in_one_pair_cell(vertex, other))
@@ -101,8 +114,8 @@ bool lay_pack(Slots<Slot> slots, uint32_t pack, uint32_t width) {
     return true;
 }
 
-template <class Slot>
-void name_pairs(const ShellView& shell, const PairCell& cell, uint32_t first_vertex,
+template <class Slot, uint32_t most>
+void name_pairs(const ShellView& shell, const PairCell<most>& cell, uint32_t first_vertex,
                 Slots<Slot> (*slots_of)(const ShellView&, uint32_t)) {
     uint16_t named[kPairCellVertices] = {};
     for (uint32_t i = 0; i < cell.count; ++i) {
@@ -129,14 +142,24 @@ bool is_others(const ShellView& shell, uint32_t vertex, uint32_t other,
 
 }  // namespace
 
+void set_paired_cells(uint32_t cells) {
+    bound_of_cells = cells;
+}
+uint32_t paired_cells() {
+    return bound_of_cells;
+}
+
 bool lay_pair_cells(ShellView shell) {
     const uint32_t packs = shell.shells().packs[shell.row].count;
+    const PlaneStress stress = plane_stress(shell.state, shell.row);
     for (uint32_t first = 0; first < packs; first += kPairCellPacks) {
         const uint32_t end = std::min(first + kPairCellPacks, packs), first_vertex = first * kLanes;
-        PairCell blocks, links;
-        Neighbours near, opposite;
+        PairCell<kMostNeighbours> blocks;
+        PairCell<kMostLinks> links;
+        NearNeighbours near;
+        OppositeNeighbours opposite;
         for (uint32_t v = first_vertex; v < std::min(end * kLanes, shell.vertex_count()); ++v) {
-            find_neighbours(shell, v, near, opposite);
+            find_neighbours(shell, stress, v, near, opposite);
             share(near, v, blocks);
             share(opposite, v, links);
         }

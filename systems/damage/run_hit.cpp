@@ -9,6 +9,7 @@
 #include "systems/damage/crack_candidates.hpp"
 #include "systems/damage/energy.hpp"
 #include "systems/damage/run_out.hpp"
+#include "systems/damage/struck_normal.hpp"
 #include "systems/damage/working_room.hpp"
 #include "systems/fragments/group_fragments.hpp"
 
@@ -33,20 +34,22 @@ bool open_hit(State& state, Row<Shells> source, const HitDescription& hit) {
     tasks.start_velocity.set(kTask, hit.velocity);
     tasks.start_spin.set(kTask, hit.spin);
     tasks.strength_scale[kTask] = hit.strength_scale;
-    set_task_times(state, state.materials, kTask);
+    set_task_times(state, kTask);
     tasks.time_step[kTask] *= hit.step_scale;
     tasks.damping_time[kTask] *= hit.step_scale;
     tasks.contact_count[kTask] = 1;
     TaskContacts& contacts = state.task_contacts;
     contacts.clear_rows(0, 1);
     contacts.point.set(0, hit.point);
-    contacts.normal.set(0, hit.normal);
     contacts.striker[0] = {};
     contacts.striker_inverse_mass[0] = hit.striker_inverse_mass;
     contacts.striker_radius[0] = hit.striker_radius;
     contacts.start_speed[0] = hit.striker_speed;
     contacts.radius[0] = std::max(
         {3 * state.shells.thickness[source], 1.3f * state.shells.mean_edge[source], 0.35f * hit.striker_radius});
+    const bool is_ball = hit.striker_radius > 0;
+    contacts.normal.set(
+        0, is_ball ? struck_normal(ShellView(state, source), hit.point, hit.normal, contacts.radius[0]) : hit.normal);
     const Vec3 arm = hit.point - state.shells.centre[source].to_float();
     tasks.approach_speed[kTask] = hit.striker_speed - dot(hit.velocity + cross(hit.spin, arm), hit.normal);
     start_task(state, kTask);
@@ -146,8 +149,8 @@ float first_crack_speed(State& state, Row<Shells> shell, Vec3 down) {
             const uint32_t row = working.element(e);
             if (state.elements.principal[row] <= 0.5f * most * limit) continue;
             for (const uint32_t v : state.elements.corner[row]) {
-                const float ratio =
-                    start_field(working, v, limits.grain).stress / (limit * state.vertices.strength_factor[working.vertex(v)]);
+                const float ratio = start_field(working, v, limits.grain).stress /
+                                    (limit * state.vertices.strength_factor[working.vertex(v)]);
                 most = std::max(most, ratio);
             }
         }

@@ -108,7 +108,7 @@ uint32_t run_out_cracks(State& state, Row<Tasks> task) {
     Shells& shells = shell.shells();
     if (!is_whole) shells.packs[shell.row].count = shells.blocks[shell.row].count = shells.links[shell.row].count = 0;
     state.tasks.crack_count[task] += cuts;
-    state.tasks.units_owed[task] += kUnitsCut * cuts;
+    state.tasks.units_owed[task] += kUnitsCut * cuts + touched.units;
     return cuts;
 }
 

@@ -1,5 +1,6 @@
 #include "systems/brittle/restart.hpp"
 #include "systems/damage/cut_shell.hpp"
+#include "systems/damage/task_cost.hpp"
 #include "systems/systems.hpp"
 
 namespace cullet {
@@ -12,6 +13,7 @@ void make_cuts(State& state, Row<Tasks> task) {
     const ShellView shell(state, tasks.shell[task]);
     for (uint32_t b = 0; b < blows.size(); ++b) {
         if (blows.task[b] != task.index) continue;
+        tasks.units_owed[task] += units_of_cut(state.shells, tasks.source[task], blows, b);
         const CutReport report = cut_shell(shell, CutSurface(blows, b));
         tasks.crack_count[task] += report.cut_edges;
         blows.goes_on[b] = report.is_full;

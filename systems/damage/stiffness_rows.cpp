@@ -117,8 +117,13 @@ bool lay_packs(ShellView shell) {
 bool assemble_packs(ShellView shell, uint32_t first, uint32_t end) {
     const PlaneStress stress = plane_stress(shell.state, shell.row);
     const uint32_t last = std::min(end * kLanes, shell.vertex_count());
+    [[maybe_unused]] const uint32_t blocks = shell.shells().blocks[shell.row].count,
+                                    links = shell.shells().links[shell.row].count;
     for (uint32_t v = first * kLanes; v < last; ++v)
         if (!write_row(shell, stress, v)) return false;
+    // Others may be writing other packs of the shell: none of them moves.
+    CULLET_ASSERT(shell.shells().blocks[shell.row].count == blocks && shell.shells().links[shell.row].count == links,
+                  "packs %u to %u of shell %u were laid too narrow", first, end, shell.row.index);
     return true;
 }
 

@@ -316,6 +316,7 @@ void check_stress(ShellView shell, uint32_t side) {
     strain_elements(shell, side, 0, shell.element_count());
     stress_elements(shell, 0, shell.element_count(), kNeverStarts);
 }
+// The kernel runs with a grain, too: it writes the slopes that the bending energy is made of.
 double membrane_energy(ShellView shell, uint32_t side, uint32_t first, uint32_t count) {
     const double energy = HWY_DYNAMIC_DISPATCH(energy_range)(stress_tables(shell, side), first, count);
     const PlaneStress stress = plane_stress(shell.state, shell.row);

@@ -11,6 +11,7 @@ struct Taking {
     RigidWorld& rigid;
     DamageCounts& counts;
     Events<RefusedEvent>& refused;
+    uint32_t named = 0;  // blows on one body that are still to be written: what reaches many leaves them room
 
     bool has_shell(Row<Bodies> b) const {
         return static_cast<BodyKind>(state.bodies.kind[b]) != BodyKind::Free && state.bodies.shell[b].exists();
@@ -18,7 +19,8 @@ struct Taking {
 
     /// A copy of the blow for this body, at the end; kNone where there is no room.
     uint32_t copy_for(uint32_t row, Row<Bodies> body) {
-        const uint32_t made = state.blows.append(1);
+        const bool has_room = state.blows.size() + named < state.blows.limit();
+        const uint32_t made = has_room ? state.blows.append(1) : kNone;
         if (made == kNone) {
             refused.push(refused_event(state.bodies, body, "limits.queued_hits"));
             return kNone;
@@ -28,10 +30,29 @@ struct Taking {
         return made;
     }
 
+    /// Where the push meets the surface: the nearest live vertex at rest. What has no shell is met where the game says.
+    Vec3 place_of_push(uint32_t row) const {
+        Vec3 nearest = state.blows.point[row];
+        const Row<Bodies> body = state.blows.body[row];
+        if (!has_shell(body)) return nearest;
+        const ShellView shell(state, state.bodies.shell[body]);
+        float least = 1e30f;
+        for (uint32_t v = 0; v < shell.vertex_count(); ++v) {
+            const uint32_t at = shell.vertex(v);
+            if (state.vertices.element[at] == kNone) continue;
+            const Vec3 away = state.vertices.rest[at] - state.blows.point[row];
+            if (dot(away, away) >= least) continue;
+            least = dot(away, away);
+            nearest = state.vertices.rest[at];
+        }
+        return nearest;
+    }
+
     // The striker bounces off as a rigid one: J = (1 + e) v / (1/m_body + 1/m_striker).
     void measure_push(uint32_t row) {
         Blows& blows = state.blows;
         const Row<Bodies> body = blows.body[row];
+        blows.point.set(row, place_of_push(row));
         const Vec3d point(blows.point[row]), normal(blows.direction[row]);
         const double both = inverse_mass_at(state.bodies, body, point, normal) + double{blows.inverse_mass[row]};
         const double size = (1 + double{state.bodies.restitution[body]}) * double{blows.speed[row]} / both;
@@ -115,6 +136,7 @@ void take_blows(Serial, Blows& blows, ShellTables shells, Bodies& bodies, RigidW
     uint32_t first = 0;
     while (first < blows.size() && blows.is_taken[first]) ++first;
     const uint32_t end = blows.size();
+    for (uint32_t row = first; row < end; ++row) taking.named += blows.body[row].exists();
     for (uint32_t row = first; row < end; ++row) {
         const Row<Bodies> body = blows.body[row];
         if (!body.exists()) {
@@ -124,6 +146,7 @@ void take_blows(Serial, Blows& blows, ShellTables shells, Bodies& bodies, RigidW
                 taking.cut(row);
             continue;
         }
+        --taking.named;
         if (is_kind(blows, row, BlowKind::Push)) {
             taking.measure_push(row);
             if (!taking.has_shell(body) || !bodies.is_breakable[body]) {
@@ -131,7 +154,8 @@ void take_blows(Serial, Blows& blows, ShellTables shells, Bodies& bodies, RigidW
                 continue;
             }
         }
-        taking.copy_for(row, body);
+        // Where there is no room the body is at least moved.
+        if (taking.copy_for(row, body) == kNone) pay_blow(blows, bodies, rigid, counts, row);
     }
     const uint32_t made = blows.size() - end;
     if (made && end > first) blows.copy_rows(blows, end, first, made);

@@ -1,3 +1,5 @@
+#include <bit>
+
 #include "systems/damage/element_bending.hpp"
 #include "systems/damage/stiffness_slots.hpp"
 
@@ -41,77 +43,55 @@ void add_hinge(const ShellView& shell, uint32_t vertex, uint32_t hinge, VertexRo
     }
 }
 
-/// The coupled bending of `element`'s hinges, seen from one vertex that they hold. Pairs of neighbours go to blocks,
-/// the others are rank one and go to links: a vertex opposite an edge is held by one hinge alone.
+/// The coupled bending of `element`'s hinges, seen from one vertex i that they hold: K_ij = -sum_kl g_k(i) H_kl
+/// g_l(j)^T. Pairs of neighbours go to blocks; of all others one end is held by one hinge m alone, so that the pair has
+/// rank one, g_m (sum_l H_ml g_l)^T, and goes to a link.
 void add_bending(const ShellView& shell, const PlaneStress& stress, uint32_t vertex, uint32_t element, VertexRow& row) {
     const BendingTerms terms(shell, stress, element);
+    const BendingVertices held(shell, element);
     const State& state = shell.state;
-    const auto& corner = state.elements.corner[shell.element(element)];
-    const auto gradient = [&](uint32_t k, uint32_t v) {
+    const uint32_t own = held.index_of(vertex);
+    if (own == held.count) return;
+    const auto gradient = [&](uint32_t k, uint32_t i) {
+        Vec3d sum;
+        if (terms.hinge[k] == kNone) return sum;
         const uint32_t h = shell.hinge(terms.hinge[k]);
-        for (size_t i = 0; i < 4; ++i)
-            if (state.hinges.vertex[h][i] == v) {
-                const float* g = &state.hinges.gradient[h][3 * i];
-                return Vec3d(g[0], g[1], g[2]);
-            }
-        return Vec3d();
+        for (uint32_t s = 0; s < 4; ++s) {
+            const float* g = &state.hinges.gradient[h][3 * s];
+            if (state.hinges.vertex[h][s] == held.vertex[i]) sum += Vec3d(g[0], g[1], g[2]);
+        }
+        return sum;
     };
-    // The six vertices: corners, then the ones across each edge.
-    uint32_t held[6] = {corner[0], corner[1], corner[2], kNone, kNone, kNone};
-    for (uint32_t k = 0; k < 3; ++k) {
-        if (terms.hinge[k] == kNone) continue;
-        for (const uint32_t v : state.hinges.vertex[shell.hinge(terms.hinge[k])])
-            if (v != corner[0] && v != corner[1] && v != corner[2]) held[3 + k] = v;
-    }
-    uint32_t own = 0;
-    while (own < 6 && held[own] != vertex) ++own;
-    if (own == 6) return;
-    Vec3d push[3];  // of the vertex, for an angle of each hinge
-    for (uint32_t l = 0; l < 3; ++l)
-        for (uint32_t k = 0; k < 3; ++k)
-            if (terms.hinge[k] != kNone && terms.hinge[l] != kNone) push[l] += terms.h[k][l] * gradient(k, vertex);
-    for (uint32_t j = 0; j < 6; ++j) {
-        if (j == own || held[j] == kNone) continue;
-        const uint32_t out = own >= 3 ? own : j, in = own >= 3 ? j : own;  // `out` is the one across an edge, if any is
-        const bool is_neighbour = in < 3 && (out < 3 || in == out - 3 || in == (out - 3 + 1) % 3);
-        if (is_neighbour) {
-            double* const block = row.block(held[j]);
+    // Of vertex i, for an angle of hinge l.
+    const auto push = [&](uint32_t l, uint32_t i) {
+        Vec3d sum;
+        for (uint32_t k = 0; k < 3; ++k) sum += terms.h[k][l] * gradient(k, i);
+        return sum;
+    };
+    const Vec3d own_push[3] = {push(0, own), push(1, own), push(2, own)};
+    for (uint32_t j = 0; j < held.count; ++j) {
+        if (j == own) continue;
+        if (held.are_neighbours(own, j)) {
+            double* const block = row.block(held.vertex[j]);
             for (uint32_t l = 0; l < 3; ++l) {
-                if (terms.hinge[l] == kNone) continue;
-                const Vec3d g = gradient(l, held[j]);
+                const Vec3d g = gradient(l, j);
                 for (int r = 0; r < 3; ++r)
-                    for (int c = 0; c < 3; ++c) block[3 * r + c] -= push[l][r] * g[c];
+                    for (int c = 0; c < 3; ++c) block[3 * r + c] -= own_push[l][r] * g[c];
             }
             continue;
         }
         if (row.link_count == kMostLinks) continue;
+        // Both ends of the pair choose the same one, and so get each other's transpose.
+        const uint32_t low = std::min(own, j), single = held.is_held_once(low) ? low : std::max(own, j);
+        const uint32_t m = static_cast<uint32_t>(std::countr_zero(held.edges[single]));
+        const Vec3d to = own == single ? gradient(m, own) : own_push[m];
+        const Vec3d from = own == single ? push(m, j) : gradient(m, j);
         VertexRow::Link& link = row.link[row.link_count++];
-        link.neighbour = held[j];
-        Vec3d to, from;
-        if (own >= 3) {
-            to = gradient(own - 3, vertex);
-            for (uint32_t l = 0; l < 3; ++l)
-                if (terms.hinge[l] != kNone) from += terms.h[own - 3][l] * gradient(l, held[j]);
-        } else {
-            to = push[j - 3];
-            from = gradient(j - 3, held[j]);
-        }
+        link.neighbour = held.vertex[j];
         for (int k = 0; k < 3; ++k) {
             link.row[k] = static_cast<float>(-to[k]);
             link.column[k] = static_cast<float>(from[k]);
         }
-    }
-}
-
-/// Of all triangles that have a hinge at the vertex: its ring's, and those across from it.
-void add_all_bending(const ShellView& shell, const PlaneStress& stress, uint32_t vertex, const Ring& ring,
-                     VertexRow& row) {
-    for (uint32_t i = 0; i < ring.count; ++i) add_bending(shell, stress, vertex, ring.element[i], row);
-    for (uint32_t i = 0; i < ring.count; ++i) {
-        const uint32_t e = shell.element(ring.element[i]), k = (ring.corner[i] + 1u) % 3;
-        const uint32_t across = shell.state.elements.neighbour[e][k];
-        if (across != kNone && shell.state.elements.hinge[e][k] != kNone)
-            add_bending(shell, stress, vertex, across, row);
     }
 }
 
@@ -122,7 +102,12 @@ void build_row(const ShellView& shell, const PlaneStress& stress, uint32_t verte
     Ring ring;
     collect_ring(shell, vertex, ring);
     for (uint32_t i = 0; i < ring.count; ++i) add_triangle(shell, stress, ring.element[i], ring.corner[i], row);
-    if (stress.has_grain) return add_all_bending(shell, stress, vertex, ring, row);
+    if (stress.has_grain) {
+        HingeElements elements;
+        collect_hinge_elements(shell, ring, elements);
+        for (uint32_t i = 0; i < elements.count; ++i) add_bending(shell, stress, vertex, elements.element[i], row);
+        return;
+    }
     RingHinges hinges;
     collect_hinges(shell, ring, hinges);
     for (uint32_t i = 0; i < hinges.count; ++i) add_hinge(shell, vertex, hinges.hinge[i], row);

@@ -2,8 +2,11 @@
 
 #include <algorithm>
 
+#include "engine/rigid_bounds.hpp"
+#include "systems/damage/blows.hpp"
 #include "systems/damage/thresholds.hpp"
 #include "systems/fragments/cell_hulls.hpp"
+#include "systems/fragments/limit_energy.hpp"
 #include "systems/fragments/rigid_shape.hpp"
 #include "systems/fragments/strike_back.hpp"
 #include "systems/rigid/body_id.hpp"
@@ -163,7 +166,11 @@ void make_birth(Births& births, const Break& plan, uint32_t p, const Moment& mom
     State& state = births.state;
     Bodies& bodies = state.bodies;
     const Row<Bodies> body = plan.body, child = plan.child[p];
-    const Motion motion = world_motion(moment, plan.motions[p]);
+    Motion motion = world_motion(moment, plan.motions[p]);
+    // A blow without measure may leave pieces faster than the rigid world takes.
+    const bool is_too_fast = shorten(motion.velocity, kFastest),
+               spins_too_fast = shorten(motion.angular_velocity, kFastest);
+    births.counts.clamped += is_too_fast || spins_too_fast;
     const bool was_static = static_cast<BodyKind>(bodies.kind[body]) == BodyKind::Static;
     const bool is_static = plan.motions[p].is_static;
     place_body(births, child, moment, motion, is_static);
@@ -211,8 +218,12 @@ void make_break(Births& births, const Break& plan) {
     if (!plan.task.exists()) return make_births_of(births, plan, {pose_of(state.bodies, plan.body), {}, {}, {}, false});
     births.counts.clamped += plan.clamped;
     const Moment moment = moment_of(state, plan.task, plan.motions);
-    if (!moment.is_late) strike_back(births, plan.task, moment.pose, plan.motions, plan.largest);
+    // Late, the rigid solver has passed the blow's impulse; an explosion's energy comes from outside.
+    const bool is_limited = !moment.is_late && !has_explosion(state.blows, plan.task);
+    double allowed = 0;
+    if (!moment.is_late) allowed = strike_back(births, plan.task, moment.pose, plan.motions, plan.largest);
     make_births_of(births, plan, moment);
+    if (is_limited) limit_energy(births, plan, allowed);
     part_strikers(births, plan.task, plan, moment.is_late);
 }
 

@@ -4,6 +4,7 @@
 
 #include "systems/fragments/body_rows.hpp"
 #include "systems/fragments/cell_hulls.hpp"
+#include "systems/fragments/hand_on.hpp"
 #include "systems/fragments/make_piece.hpp"
 #include "systems/fragments/rest_of_body.hpp"
 #include "systems/rigid/body_id.hpp"
@@ -147,69 +148,18 @@ bool reserve_view(Planning& planning, Break& plan) {
     return true;
 }
 
-uint32_t owner_of(const ShellView& shell, Vec3 point, uint32_t otherwise) {
-    const State& state = shell.state;
-    float least = 1e30f;
-    uint32_t owner = otherwise;
-    for (uint32_t v = 0; v < shell.vertex_count(); ++v) {
-        const uint32_t row = shell.vertex(v), element = state.vertices.element[row];
-        if (element == kNone) continue;
-        const Vec3 away = state.vertices.rest[row] - point;
-        if (dot(away, away) >= least) continue;
-        least = dot(away, away);
-        owner = state.elements.part[shell.element(element)];
-    }
-    return owner;
-}
-
-// Blows that wait for the body: a push goes to the piece that owns the nearest vertex, explosions and cuts to all. They
-// have moved the body already.
-void hand_on_blows(Planning& planning, const Break& plan) {
-    State& state = planning.state;
-    Blows& blows = state.blows;
-    const uint32_t end = blows.size();
-    for (uint32_t b = 0; b < end; ++b) {
-        if (blows.body[b] != plan.body || (blows.task[b] != kNone && !blows.goes_on[b])) continue;
-        if (is_kind(blows, b, BlowKind::Push)) {
-            const uint32_t owner = owner_of(ShellView(state, plan.broken), blows.point[b], plan.largest);
-            if (plan.child[owner].exists()) blows.body[b] = plan.child[owner];
-            continue;
-        }
-        for (const uint32_t p : plan.order) {
-            if (!plan.child[p].exists()) continue;
-            const uint32_t made = blows.append(1);
-            if (made == kNone) {
-                planning.refused.push(refused_event(state.bodies, plan.body, "limits.queued_hits"));
-                return;
-            }
-            blows.copy_rows(blows, b, made, 1);
-            blows.body[made] = plan.child[p];
-            blows.task[made] = kNone;
-            blows.goes_on[made] = 0;
-            blows.is_paid[made] = 1;
-        }
-    }
-}
-
-// Hits that wait for the body go on to the piece that owns the nearest vertex; a crumb takes its own along.
-void hand_on_hits(State& state, const Break& plan) {
-    const ShellView shell(state, plan.broken);
-    QueuedHits& queued = state.queued_hits;
-    for (uint32_t q = 0; q < queued.size(); ++q) {
-        if (!queued.is_used[q] || queued.body[q] != plan.body) continue;
-        const uint32_t owner = owner_of(shell, queued.point[q], plan.largest);
-        if (plan.is_crumb[owner])
-            queued.clear_rows(q, 1);
-        else if (plan.child[owner].exists())
-            queued.body[q] = plan.child[owner];
-    }
+// The body stays as it was: the task's cuts wait until there is room (close_blows).
+void keep_cuts(Blows& blows, Row<Tasks> task) {
+    for (uint32_t b = 0; b < blows.size() && task.exists(); ++b)
+        if (blows.task[b] == task.index && is_kind(blows, b, BlowKind::Cut)) blows.goes_on[b] = 1;
 }
 
 // What frees no piece changes no velocity: the body keeps its cracks, and its loose pieces until there is room.
 void stay_whole(Planning& planning, Break& plan) {
     State& state = planning.state;
     const ShellView shell(state, plan.broken), before(state, state.bodies.shell[plan.body]);
-    if (before.row == shell.row || !keep_hulls(shell, before)) return;
+    if (before.row == shell.row) return;
+    if (!keep_hulls(shell, before)) return keep_cuts(state.blows, plan.task);
     clear_run(shell, true);
     adopt_shell(state, plan.body, shell.row);
 }
@@ -282,7 +232,7 @@ void plan_break(Planning& planning, Row<Tasks> task) {
     Break plan =
         break_of(planning, task, body, broken,
                  std::span(state.fragments.part.data() + size_t{task} * kMostParts, state.tasks.part_count[task]));
-    if (!reserve_points(planning, plan)) return;
+    if (!reserve_points(planning, plan)) return keep_cuts(state.blows, task);
     const Vec3d velocity(state.tasks.start_velocity[task]), spin(state.tasks.start_spin[task]);
     if (is_cut_task(state.blows, task)) {
         move_with_body(state, plan, velocity, spin);  // nothing was run
@@ -327,7 +277,7 @@ void keep_cracks(Planning& planning, Row<Tasks> task) {
         full = "limits.vertices";
     if (full) {
         planning.refused.push(refused_event(state.bodies, body, full));
-        return;
+        return keep_cuts(state.blows, task);
     }
     clear_run(shell, true);
     adopt_shell(state, body, shell.row);

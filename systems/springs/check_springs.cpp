@@ -1,5 +1,7 @@
 #include "systems/springs/check_springs.hpp"
 
+#include <algorithm>
+
 #include "systems/springs/spring_view.hpp"
 
 namespace cullet {
@@ -10,9 +12,8 @@ struct SpringChecker {
     const SpringView& view;
     std::string trouble;
 
-    bool expect(bool fits, const std::string& what) {
+    void expect(bool fits, const std::string& what) {
         if (!fits && trouble.empty()) trouble = what;
-        return trouble.empty();
     }
     std::string place(const AnyTable& table, const char* column, uint32_t row) const {
         return std::string(table.name()) + "." + column + "[" + std::to_string(row) + "]";
@@ -45,7 +46,7 @@ struct SpringChecker {
 
     void check_list() {
         const Springs& springs = state.springs;
-        const uint32_t vertices = view.shell.vertex_count(), slots = state.shell_springs.slots[view.row].count;
+        const uint32_t vertices = view.shell.vertex_count();
         for (uint32_t s = 0; s < view.spring_count() && trouble.empty(); ++s) {
             const uint32_t row = view.spring(s);
             const uint32_t a = springs.a[row], b = springs.b[row], element = springs.element[row];
@@ -60,7 +61,8 @@ struct SpringChecker {
             for (const uint32_t end : {0u, 1u}) {
                 const uint32_t at = springs.place[row][end], v = end == 0 ? a : b;
                 if (a == kNone || !trouble.empty()) break;
-                expect(at != kNone && at / kLanes < slots && at % kLanes == v % kLanes,
+                expect(at != kNone && at % kLanes == v % kLanes && is_of_pack(v / kLanes, at / kLanes) &&
+                           state.spring_slots.slot[view.slot(at / kLanes)].neighbour[at % kLanes] == (end == 0 ? b : a),
                        place(springs, "place", row) + " is " + std::to_string(at) + ", no slot of its end");
             }
         }
@@ -70,16 +72,59 @@ struct SpringChecker {
                        place(state.element_springs, "spring", view.edges(e)) + " is " + std::to_string(s));
     }
 
+    /// Springs run along their elements' edges, elements name springs of theirs.
+    void check_edges() {
+        const Springs& springs = state.springs;
+        const Range edges = state.shell_springs.edges[view.row];
+        const auto runs_along = [&](uint32_t s, uint32_t e, uint32_t k) {
+            const auto& corner = state.elements.corner[view.shell.element(e)];
+            const uint32_t a = springs.a[view.spring(s)], b = springs.b[view.spring(s)];
+            const uint32_t from = corner[k], to = corner[(k + 1) % 3];
+            return (a == from && b == to) || (a == to && b == from);
+        };
+        for (uint32_t e = 0; e < edges.count && trouble.empty(); ++e)
+            for (uint32_t k = 0; k < 3; ++k) {
+                const uint32_t s = state.element_springs.spring[view.edges(e)][k];
+                if (s >= view.spring_count() || (state.elements.flags[view.shell.element(e)] & kDead)) continue;
+                expect(runs_along(s, e, k), place(state.element_springs, "spring", view.edges(e)) + " is " +
+                                                std::to_string(s) + ", no spring of its edge");
+            }
+        for (uint32_t s = 0; s < view.spring_count() && trouble.empty(); ++s) {
+            const uint32_t e = springs.element[view.spring(s)];
+            if (e == kNone) continue;
+            expect(e < edges.count && (runs_along(s, e, 0) || runs_along(s, e, 1) || runs_along(s, e, 2)),
+                   place(springs, "element", view.spring(s)) + " is " + std::to_string(e) +
+                       ", which has no edge between its ends");
+        }
+    }
+
+    bool is_of_pack(uint32_t pack, uint32_t slot) const {
+        const uint32_t row = view.pack(pack), first = state.spring_packs.first_slot[row];
+        return slot >= first && slot - first < state.spring_packs.slot_count[row];
+    }
+
+    void check_packs() {
+        const SpringPacks& packs = state.spring_packs;
+        const uint32_t slots = state.shell_springs.slots[view.row].count;
+        std::vector<std::pair<uint32_t, uint32_t>> taken;  // first slot and end of each pack
+        for (uint32_t p = 0; p < view.pack_count() && trouble.empty(); ++p) {
+            const uint32_t row = view.pack(p), first = packs.first_slot[row], room = packs.slot_capacity[row];
+            expect(packs.slot_count[row] <= room && first <= slots && room <= slots - first,
+                   place(packs, "first_slot", row) + " is " + std::to_string(first) + " for " + std::to_string(room) +
+                       " slots of " + std::to_string(slots));
+            if (room > 0) taken.emplace_back(first, first + room);
+        }
+        std::sort(taken.begin(), taken.end());
+        for (size_t i = 1; i < taken.size(); ++i)
+            expect(taken[i].first >= taken[i - 1].second, std::string(packs.name()) + ".first_slot: slot " +
+                                                              std::to_string(taken[i].first) + " is of two packs");
+    }
+
     void check_slots() {
         const SpringPacks& packs = state.spring_packs;
-        const uint32_t slots = state.shell_springs.slots[view.row].count, vertices = view.pack_count() * kLanes;
+        const uint32_t vertices = view.pack_count() * kLanes;
         for (uint32_t p = 0; p < view.pack_count() && trouble.empty(); ++p) {
             const uint32_t row = view.pack(p), first = packs.first_slot[row], count = packs.slot_count[row];
-            if (!expect(
-                    count <= packs.slot_capacity[row] && first <= slots && packs.slot_capacity[row] <= slots - first,
-                    place(packs, "first_slot", row) + " is " + std::to_string(first) + " for " + std::to_string(count) +
-                        " slots of " + std::to_string(slots)))
-                return;
             for (uint32_t i = first; i < first + count && trouble.empty(); ++i) {
                 const SpringSlot& slot = state.spring_slots.slot[view.slot(i)];
                 bool is_sound = true;
@@ -118,8 +163,10 @@ Result<void> check_springs(const State& state, const std::string& name, const st
         const SpringView view(const_cast<State&>(state), Row<ShellSprings>(row));  // nothing is changed
         SpringChecker check{state, view, {}};
         check.check_row();
-        if (check.trouble.empty()) check.check_list();
+        if (check.trouble.empty()) check.check_packs();
         if (check.trouble.empty()) check.check_slots();
+        if (check.trouble.empty()) check.check_list();
+        if (check.trouble.empty()) check.check_edges();
         if (!check.trouble.empty()) return refuse(check.trouble);
     }
     return {};

@@ -11,6 +11,9 @@
 namespace cullet {
 namespace {
 
+constexpr float kMostDampingRatio = 0.3f;  // section 8 of the note
+// Of a spring given by hand: a steel bar of 1 m2 and 1 m has 2e11 N/m, and k L over the least length is finite.
+constexpr float kLongestGiven = 1e6f, kStiffestGiven = 1e12f;  // m, N/m
 constexpr uint32_t kSpareSlots = 1;  // a pack: a split gives a vertex at most one neighbour more
 
 Result<void> check(const State& state, Row<Shells> shell, const SpringSettings& s) {
@@ -20,7 +23,7 @@ Result<void> check(const State& state, Row<Shells> shell, const SpringSettings& 
     };
     const auto is_in = [](float value, float low, float high) { return value >= low && value <= high; };
     if (!is_in(s.young_modulus, 0, 1e13f)) return refuse("young_modulus", s.young_modulus, "0 to 1e13 Pa");
-    if (!is_in(s.damping_ratio, 0, 1)) return refuse("damping_ratio", s.damping_ratio, "0 to 1");
+    if (!is_in(s.damping_ratio, 0, kMostDampingRatio)) return refuse("damping_ratio", s.damping_ratio, "0 to 0.3");
     if (s.length_factor < 0 || s.length_factor > 0)
         if (!is_in(s.length_factor, 0.577f, kMostLengthFactor))
             return refuse("length_factor", s.length_factor, "0 or 0.577 to 5");
@@ -188,9 +191,10 @@ Result<Row<ShellSprings>> give_springs(State& state, Row<Shells> shell_row, std:
         if (g.a >= shell.vertex_count() || g.b >= shell.vertex_count() || g.a == g.b)
             return refuse(s, "joins vertices " + std::to_string(g.a) + " and " + std::to_string(g.b) + " of " +
                                  std::to_string(shell.vertex_count()) + ". Join two that there are.");
-        if (!(g.rest_length >= 0 && g.rest_length <= 1e6f && g.stiffness >= 0 && g.stiffness <= 1e15f))
+        if (!(g.rest_length >= 0 && g.rest_length <= kLongestGiven && g.stiffness >= 0 &&
+              g.stiffness <= kStiffestGiven))
             return refuse(s, "has rest length " + std::to_string(g.rest_length) + " m and stiffness " +
-                                 std::to_string(g.stiffness) + " N/m. Give 0 to 1e6 and 0 to 1e15.");
+                                 std::to_string(g.stiffness) + " N/m. Give 0 to 1e6 and 0 to 1e12.");
         for (const uint32_t v : {g.a, g.b})
             if (++first[v + 1] > std::size(VertexSprings{}.spring))
                 return refuse(s, "is one too many at vertex " + std::to_string(v) + ". Give at most 65 at one.");

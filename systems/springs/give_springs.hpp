@@ -13,7 +13,7 @@ inline constexpr float kLeastLengthFactor = 0.577350269f, kMostLengthFactor = 5;
 struct SpringSettings {
     SpringLayout layout = SpringLayout::OneLayer;
     float young_modulus = 0;      // Pa; 0: the material's. Smaller: softened, for a step that a frame can afford
-    float damping_ratio = 0.05f;  // zeta of c = 2 zeta sqrt(k mu), 0 to 1
+    float damping_ratio = 0.05f;  // zeta of c = 2 zeta sqrt(k mu), 0 to 0.3
     float length_factor = 0;      // gamma, 0.577 to 5; 0: mean edge / thickness within them
     float area_energy = 0;        // kappa_A of a triangle over E h A (B4), 0 to 100; 0: none
     float volume_energy = 0;      // kappa_V of a prism over E h A, 0 to 100; two layers only; 0: none
@@ -39,7 +39,9 @@ Result<Row<ShellSprings>> give_springs(State& state, Row<Shells> shell, std::spa
                                        const SpringSettings& settings);
 
 /// 0.6 * 2 / omega_max by Gershgorin's bound, omega_max^2 <= max over points of (2 / m) sum of k (B6): s. A mid spring
-/// counts half, a shear pair twice as much as a spring. The largest float where nothing resists.
+/// counts half, a shear pair twice as much as a spring. Damping, which works with the speed of the step before, is
+/// stable while dt^2 K + 2 dt C < 4, C = (2 / m) sum of c: where it is strong, 0.9 of that. The largest float where
+/// nothing resists.
 float stable_spring_step(const SpringView& view);
 /// Changes the step that the springs take: the damping of every slot follows.
 void set_spring_step(const SpringView& view, float time_step);

@@ -27,12 +27,13 @@ Vec3d area_gradient(Vec3d i, Vec3d j, Vec3d k) {
     return -0.5 * (cross(b, n) + cross(n, a));
 }
 
-/// Corners of the prism's three tetrahedra (A7): on each side the diagonal starts at the outer corner of smaller id.
+/// Corners of the prism's three tetrahedra (A7, as prism_tetrahedra cuts it), each in an order that gives its volume
+/// the same sign: the sum is the prism's.
 void tetrahedra_of(const std::array<uint32_t, 3>& corner, uint32_t (&tetrahedra)[3][4]) {
     uint32_t order[3] = {0, 1, 2};
     std::sort(order, order + 3, [&](uint32_t x, uint32_t y) { return corner[x] < corner[y]; });
     const auto [p, q, r] = order;
-    const uint32_t all[3][4] = {{p, q, r, r + 3}, {p, q, q + 3, r + 3}, {p, p + 3, q + 3, r + 3}};
+    const uint32_t all[3][4] = {{p, q, r, r + 3}, {p, q, r + 3, q + 3}, {p, p + 3, q + 3, r + 3}};
     std::copy(&all[0][0], &all[0][0] + 12, &tetrahedra[0][0]);
 }
 

@@ -100,18 +100,22 @@ bool lacks_twin(const SpringView& view, uint32_t v) {
     return view.has_layers() && !(view.state.twins.mass_share[view.twin(v)] > 0);
 }
 
-// a and b are the first and the second corner of the owner's edge: what stands between the layers differs by side.
+// What stands between the layers differs by side.
+void turn(const SpringView& view, uint32_t s) {
+    Springs& springs = view.state.springs;
+    const uint32_t row = view.spring(s);
+    std::swap(springs.a[row], springs.b[row]);
+    std::swap(springs.place[row][0], springs.place[row][1]);
+    if (!view.has_layers()) return;
+    auto& cross = view.state.layer_springs.cross_length[view.layer(s)];
+    std::swap(cross[0], cross[1]);
+}
+
+// a and b are the first and the second corner of the owner's edge.
 void set_ends(const SpringView& view, uint32_t s, uint32_t from, uint32_t to, bool is_turned) {
     Springs& springs = view.state.springs;
     const uint32_t row = view.spring(s);
-    if (is_turned) {
-        std::swap(springs.a[row], springs.b[row]);
-        std::swap(springs.place[row][0], springs.place[row][1]);
-        if (view.has_layers()) {
-            auto& cross = view.state.layer_springs.cross_length[view.layer(s)];
-            std::swap(cross[0], cross[1]);
-        }
-    }
+    if (is_turned) turn(view, s);
     const auto follow = [&](uint32_t& end, uint32_t now) {
         if (end != now && end != kNone && lacks_twin(view, now) && !lacks_twin(view, end))
             view.state.twins.copy_rows(view.state.twins, view.twin(end), view.twin(now), 1);
@@ -121,18 +125,24 @@ void set_ends(const SpringView& view, uint32_t s, uint32_t from, uint32_t to, bo
     follow(springs.b[row], to);
 }
 
+/// A row that no element has: without ends, stiffness and length.
+void clear_spring(const SpringView& view, uint32_t s) {
+    State& state = view.state;
+    const uint32_t row = view.spring(s);
+    state.springs.clear_rows(row, 1);
+    if (view.has_layers()) state.layer_springs.clear_rows(view.layer(s), 1);
+    state.springs.a[row] = state.springs.b[row] = state.springs.element[row] = kNone;
+    state.springs.can_crack[row] = 1;
+    state.springs.place[row] = {kNone, kNone};
+}
+
 uint32_t new_spring(const SpringView& view, const EdgeState& edge) {
     State& state = view.state;
     const uint32_t s = view.own().springs[view.row].count++;
     if (view.has_layers()) ++view.own().layers[view.row].count;
-    const uint32_t row = view.spring(s);
-    state.springs.clear_rows(row, 1);
-    if (view.has_layers()) state.layer_springs.clear_rows(view.layer(s), 1);
-    state.springs.a[row] = state.springs.b[row] = kNone;
-    state.springs.can_crack[row] = 1;
-    state.springs.place[row] = {kNone, kNone};
+    clear_spring(view, s);
     if (edge.fate != Fate::IsCutOff) return s;
-    state.springs.copy_rows(state.springs, view.spring(edge.spring), row, 1);
+    state.springs.copy_rows(state.springs, view.spring(edge.spring), view.spring(s), 1);
     if (view.has_layers())
         state.layer_springs.copy_rows(state.layer_springs, view.layer(edge.spring), view.layer(s), 1);
     return s;
@@ -155,33 +165,14 @@ void take_springs(const SpringView& view, const Sets& sets) {
     });
 }
 
-// A vertex that remeshing put in: through the shell as its neighbours go, and at their twins' velocity.
-void make_twin(const SpringView& view, uint32_t v) {
-    State& state = view.state;
-    Ring ring;
-    walk_ring(view.shell, v, ring);
-    Vec3 through, velocity;
-    float count = 0;
-    for (uint32_t i = 0; i < ring.count; ++i)
-        for (const uint32_t n : state.elements.corner[view.shell.element(ring.element[i])]) {
-            if (n == v || lacks_twin(view, n)) continue;
-            through += view.twin_position(n) - view.position(n);
-            velocity += state.twins.velocity[view.twin(n)];
-            count += 1;
-        }
-    if (!(count > 0)) return;
-    view.place_twin(v, view.position(v) + (1 / count) * through);
-    state.twins.velocity.set(view.twin(v), (1 / count) * velocity);
-    state.twins.length[view.twin(v)] = length((1 / count) * through);
-}
-
 void measure(const SpringView& view, const Sets& sets) {
     State& state = view.state;
     const uint32_t vertices = view.shell.vertex_count();
     sets.vertices.for_each(vertices, [&](uint32_t v) {
-        const bool is_new = lacks_twin(view, v);
-        if (is_new) make_twin(view, v);
+        const bool lacked = lacks_twin(view, v);
         weigh_points(view, v);
+        CULLET_ASSERT(!lacked || lacks_twin(view, v), "vertex %u has no inner point: insert_twin makes it", v);
+        (void)lacked;
     });
     sets.elements.for_each(view.shell.element_count(), [&](uint32_t e) {
         for (const uint32_t s : state.element_springs.spring[view.edges(e)])
@@ -269,16 +260,42 @@ bool rebuild_springs(const SpringView& view, std::span<const uint32_t> touched) 
     return true;
 }
 
+// The spring goes to the other element that has the edge, turned as it sees it; if there is none, nobody has it.
 void forget_springs(const SpringView& view, uint32_t element) {
     State& state = view.state;
     list_new_elements(view);
-    for (uint32_t& s : state.element_springs.spring[view.edges(element)]) {
-        if (s == kNone) continue;
-        const uint32_t row = view.spring(s);
-        s = kNone;
-        if (state.springs.element[row] != element) continue;
-        state.springs.element[row] = state.springs.a[row] = state.springs.b[row] = kNone;  // until an element takes it
+    for (uint32_t& entry : state.element_springs.spring[view.edges(element)]) {
+        const uint32_t s = entry;
+        entry = kNone;
+        if (s >= view.spring_count() || state.springs.element[view.spring(s)] != element) continue;
+        const uint32_t a = state.springs.a[view.spring(s)], b = state.springs.b[view.spring(s)];
+        Ring ring;
+        walk_ring(view.shell, a, ring);
+        bool is_taken = false;
+        for (uint32_t i = 0; i < ring.count && !is_taken; ++i) {
+            const uint32_t other = ring.element[i], k = ring.corner[i];
+            const auto& corner = state.elements.corner[view.shell.element(other)];
+            const auto& springs = state.element_springs.spring[view.edges(other)];
+            const bool runs_from_a = springs[k] == s && corner[(k + 1) % 3] == b;
+            const bool runs_to_a = springs[(k + 2) % 3] == s && corner[(k + 2) % 3] == b;
+            if (!runs_from_a && !runs_to_a) continue;
+            is_taken = true;
+            state.springs.element[view.spring(s)] = other;
+            if (runs_to_a) turn(view, s);
+        }
+        if (!is_taken) clear_spring(view, s);
     }
+}
+
+void insert_twin(const SpringView& view, uint32_t p, uint32_t q, uint32_t vertex, float tau) {
+    Twins& twins = view.state.twins;
+    const uint32_t from = view.twin(p), to = view.twin(q), row = view.twin(vertex);
+    const auto between = [&](Vec3 a, Vec3 b) { return a + tau * (b - a); };
+    twins.clear_rows(row, 1);
+    weigh_points(view, vertex);
+    twins.velocity.set(row, between(twins.velocity[from], twins.velocity[to]));
+    view.place_twin(vertex, between(view.twin_position(p), view.twin_position(q)));
+    twins.length[row] = length(view.twin_position(vertex) - view.position(vertex));
 }
 
 }  // namespace cullet

@@ -10,7 +10,7 @@ namespace cullet {
 namespace HWY_NAMESPACE {
 
 // A length under it is none: the direction is not defined, and x = 0 makes the force 0 whatever the pull is. Squares of
-// differences of 1e-19 m are 0 in floats, and k L / 1e-18 stays finite.
+// differences of 1e-19 m are 0 in floats, and k L / 1e-18 stays finite up to 1e20 N: give_springs takes 1e18.
 inline constexpr float kLeastLength = 1e-18f;
 
 HWY_INLINE V load_floats(const float* row) {

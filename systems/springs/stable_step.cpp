@@ -6,31 +6,54 @@
 #include "systems/springs/spring_lists.hpp"
 
 namespace cullet {
+namespace {
+
+/// Row sums over the points of a pack: of stiffness in N/m, of damping in N s/m.
+struct Sums {
+    double stiffness[kLanes] = {}, damping[kLanes] = {};
+    void add(uint32_t k, double spring, double damper) {
+        stiffness[k] += 2 * spring;
+        damping[k] += 2 * damper;
+    }
+};
+
+// Undamped, dt^2 K < 4 with K = `stiffness` / m. The force of a damper is that of the speed one step earlier, which
+// makes it dt^2 K + 2 dt C < 4 (a mode of ratio z: omega dt < 2 (sqrt(1 + z^2) - z)), with C = `damping` / m. Both
+// matrices go by their row sums, so it holds for any mixture of springs.
+double longest_step(double stiffness, double damping, double inverse_mass) {
+    constexpr double kShare = 0.6, kDampedShare = 0.9;
+    const double k = stiffness * inverse_mass, c = damping * inverse_mass;
+    if (!(k > 0)) return std::numeric_limits<float>::max();
+    return std::min(kShare * 2 / std::sqrt(k), kDampedShare * 4 / (c + std::sqrt(c * c + 4 * k)));
+}
+
+}  // namespace
 
 // Row sums of the stiffness matrix over the mass of the point: a spring has two blocks of k in a row, a mid spring four
-// of k / 4, a shear pair four of k, the gradients of e1 - e2 being unit vectors.
+// of k / 4, a shear pair four of k, the gradients of e1 - e2 being unit vectors. Damping is along springs alone.
 float stable_spring_step(const SpringView& view) {
     const State& state = view.state;
     const LayerSprings& layers = state.layer_springs;
-    double most = 0;
+    const double now = view.own().time_step[view.row];  // slots hold c over it
+    double least = std::numeric_limits<float>::max();
     for (uint32_t p = 0; p < view.pack_count(); ++p) {
-        double outer[kLanes] = {}, inner[kLanes] = {};
+        Sums outer, inner;
         const uint32_t row = view.pack(p), first = state.spring_packs.first_slot[row];
         for (uint32_t i = first; i < first + state.spring_packs.slot_count[row]; ++i) {
             const SpringSlot& slot = state.spring_slots.slot[view.slot(i)];
             for (uint32_t k = 0; k < kLanes; ++k) {
-                const double stiffness = double{slot.stiffness_rest[k]} * slot.inverse_rest[k];
-                outer[k] += 2 * stiffness;
+                outer.add(k, double{slot.stiffness_rest[k]} * slot.inverse_rest[k], now * slot.damping[k]);
                 if (!view.has_layers()) continue;
                 const LayerSlot& more = state.layer_slots.slot[view.layer_slot(i)];
-                inner[k] += 2 * double{more.stiffness_rest[k]} * more.inverse_rest[k];
+                inner.add(k, double{more.stiffness_rest[k]} * more.inverse_rest[k], now * more.damping[k]);
             }
         }
         for (uint32_t k = 0; k < kLanes; ++k) {
             const uint32_t v = p * kLanes + k;
             if (v >= view.shell.vertex_count()) break;
             if (!view.has_layers()) {
-                most = std::max(most, outer[k] * state.vertices.inverse_mass[view.shell.vertex(v)]);
+                const double inverse_mass = state.vertices.inverse_mass[view.shell.vertex(v)];
+                least = std::min(least, longest_step(outer.stiffness[k], outer.damping[k], inverse_mass));
                 continue;
             }
             VertexSprings list;
@@ -43,10 +66,12 @@ float stable_spring_step(const SpringView& view) {
                 shared += layers.mid_stiffness[layer];
                 shared += (view.layout() == SpringLayout::Sandwich ? 4 : 2) * double{layers.cross_stiffness[layer]};
             }
-            most = std::max(most, (std::max(outer[k], inner[k]) + shared) * twins.inverse_mass[twin]);
+            const double damping = std::max(outer.damping[k], inner.damping[k]) + 2 * now * double{twins.damping[twin]};
+            least = std::min(least, longest_step(std::max(outer.stiffness[k], inner.stiffness[k]) + shared, damping,
+                                                 twins.inverse_mass[twin]));
         }
     }
-    return most > 0 ? static_cast<float>(0.6 * 2 / std::sqrt(most)) : std::numeric_limits<float>::max();
+    return static_cast<float>(least);
 }
 
 void set_spring_step(const SpringView& view, float time_step) {

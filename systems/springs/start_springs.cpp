@@ -1,5 +1,7 @@
 #include "systems/springs/start_springs.hpp"
 
+#include <algorithm>
+
 #include "systems/springs/best_turn.hpp"
 #include "systems/springs/spring_lists.hpp"
 
@@ -77,6 +79,20 @@ Sym3d tensor_about(const SpringView& view, Vec3d centre) {
     return inertia_of(second);
 }
 
+/// I^-1 L; across the line where all points lie on one (u: I = t/2 (1 - u u^T) has no inverse, and nothing turns about
+/// u), 0 of a single point.
+Vec3d spin_of(Sym3d inertia, Vec3d angular) {
+    const double scale = trace(inertia);
+    if (!(scale > 0)) return {};
+    if (determinant(inertia) > 1e-12 * scale * scale * scale) return inverse(inertia) * angular;
+    const Sym3d second = 0.5 * scale * Sym3d{1, 1, 1, 0, 0, 0} - inertia;  // t/2 u u^T: any column of it is along u
+    Vec3d along(second.xx, second.xy, second.xz);
+    if (second.yy > along.x) along = {second.xy, second.yy, second.yz};
+    if (second.zz > std::max(second.xx, second.yy)) along = {second.xz, second.yz, second.zz};
+    along = normalised(along);
+    return (2 / scale) * (angular - dot(angular, along) * along);
+}
+
 }  // namespace
 
 void start_springs(const SpringView& view, const RigidMotion& motion) {
@@ -128,7 +144,7 @@ RigidMotion stop_springs(const SpringView& view) {
     const Vec3 middle = rotate(motion.pose.orientation, c.rest.to_float());
     motion.pose.position = view.own().origin[view.row] + c.now.to_float() - middle;
     motion.velocity = (moving.mass > 0 ? (1 / moving.mass) * moving.momentum : Vec3d{}).to_float();
-    motion.spin = (inverse(tensor_about(view, c.now)) * moving.angular).to_float();
+    motion.spin = spin_of(tensor_about(view, c.now), moving.angular).to_float();
     for (uint32_t v = 0; v < view.shell.vertex_count(); ++v) {
         const uint32_t row = view.shell.vertex(v);
         const Vec3 body = rotate(conjugate(motion.pose.orientation), view.position(v) - c.now.to_float());

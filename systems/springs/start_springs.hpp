@@ -15,9 +15,11 @@ struct RigidMotion {
 /// moving as the rigid body does; pinned points stand still. The working frame has its origin at the body's, so that
 /// floats hold small numbers far from the world's. No spring is closing; steps is 0.
 void start_springs(const SpringView& view, const RigidMotion& motion);
-/// The pose that fits the points best (least squares by mass of both layers' middles; the start's turn where that is
-/// not unique), the velocity and spin that have the points' momentum and angular momentum; what remains is the shape:
-/// Vertices.displacement, in the body frame. Vertices.velocity is cleared.
+/// The pose that fits the points best (least squares by mass of both layers' middles; points on one line or in one
+/// place leave it open, and get some turn that fits them), the velocity and spin that have the points' momentum and
+/// angular momentum, the spin about a line that all points lie on being 0; what remains is the shape:
+/// Vertices.displacement, in the body frame, of the outer layer: the inner one is forgotten, and starts a depth inward
+/// of it. Vertices.velocity is cleared.
 RigidMotion stop_springs(const SpringView& view);
 
 /// Of the points as they are now, in the working frame about its origin.

@@ -159,14 +159,46 @@ TEST(Reproduce, TheDrawnFrontMeetsItselfInANarrowNeckAndNowhereElse) {
 }
 
 TEST(Reproduce, AModeThatPushesThroughTheOtherSideIsCounted) {
-    // The counting is not the extrusion's own: a skin moved through the opposite wall is found.
+    // The counting is not the extrusion's own: a skin moved through the opposite wall is found, one between is not. The
+    // right half leans over to the left by `lean` at the top, which lies 0.22 m up.
     const Result<Surface> ridge = prepare_surface(make_ridge(0.16, 0.22, 0.12, 0.02));
     ASSERT_TRUE(ridge.ok());
-    std::vector<Vec3d> inner = ridge->positions;
-    for (Vec3d& p : inner) p.x -= p.x > 0 ? 0.2 : 0;
-    const Result<Surface> both = prepare_surface(both_surfaces(ridge.value(), inner));
-    ASSERT_TRUE(both.ok());
-    EXPECT_GT(both->crossings.size(), 0u);
+    for (const double lean : {0.0, 0.2}) {
+        std::vector<Vec3d> inner = ridge->positions;
+        for (Vec3d& p : inner) {
+            p.x += p.x > 0 ? -0.01 - lean * p.y / 0.22 : 0.01;
+            p.y -= 0.01;
+        }
+        const Result<Surface> both = prepare_surface(both_surfaces(ridge.value(), inner));
+        ASSERT_TRUE(both.ok());
+        EXPECT_EQ(both->crossings.size() > 0, lean > 0);
+    }
+}
+
+TEST(Reproduce, EveryWayToPropagateIsChosenAndTheDefaultIsTheLast) {
+    std::set<Propagation> ways;
+    for (const PropagationMode& mode : propagation_modes()) {
+        ASSERT_NE(mode.choose, nullptr) << mode.name;
+        ExtrusionSettings settings;
+        mode.choose(settings);
+        EXPECT_TRUE(ways.insert(settings.propagation).second) << mode.name;
+    }
+    EXPECT_EQ(ways.size(), 4u);
+    ExtrusionSettings last;
+    propagation_modes().back().choose(last);
+    EXPECT_EQ(last.propagation, ExtrusionSettings().propagation);
+}
+
+TEST(Reproduce, TheKindsOfFractureAreRunAndComparedWithEachOther) {
+    ASSERT_EQ(page().code, 0);
+    for (const char* id : {"figure_2", "figure_4", "coarse_grained", "figure_5", "front_against_single"})
+        EXPECT_NE(claim(id).at("verdict"), "not built yet") << id;
+    const auto lumps = [](const char* kind) {
+        return number("figure_4", std::string("pieces, ") + kind) + number("figure_4", std::string("crumbs, ") + kind);
+    };
+    EXPECT_GT(lumps("fine"), lumps("large fragments"));
+    EXPECT_GT(number("figure_5", "vertices put on edges"), 0);
+    EXPECT_GE(number("figure_5", "edges cut"), number("figure_5", "cracks started"));
 }
 
 TEST(Reproduce, RefusesWhatItDoesNotKnow) {

@@ -108,8 +108,9 @@ TEST(Script, AnErrorNamesFileLineWhatWasGivenAndWhatWasExpected) {
          "test.lua:1: game.key: default is \"w\"; expected one of y, z"},
         {"game.key{name = 'x', choices = '', default = 'w'}",
          "test.lua:1: game.key: choices is \"\"; expected words with commas, such as \"glass, brick\""},
-        {"game.shell_keys{material = 'wood'}",
-         "test.lua:1: game.shell_keys: material is \"wood\"; expected one of glass, porcelain, brick, concrete"},
+        {"game.shell_keys{material = 'jelly'}",
+         "test.lua:1: game.shell_keys: material is \"jelly\"; expected one of glass, porcelain, brick, "
+         "concrete, steel, aluminium, copper, rubber, cloth, wood"},
         {"game.shell_keys{thickness = 2}",
          "test.lua:1: game.shell_keys: thickness is 2; expected a length in m from 0.0001 to 1"},
     };
@@ -129,7 +130,8 @@ TEST(Script, ANameThatIsNotThereIsAnErrorThatKnowsTheNearest) {
         {"if is_over then end",
          "test.lua:1: there is no is_over; give it a value before it is read, such as local is_over = false"},
         {"local x = game.mesh[1]",
-         "test.lua:1: there is no game.mesh.1; there are ball, box, file, given, pane, piggy_bank, table, vase, wall"},
+         "test.lua:1: there is no game.mesh.1; there are ball, box, castle, cow, file, given, pane, pig, piggy_bank, "
+         "slab, table, vase, wall"},
     };
     for (const Case& c : cases) EXPECT_EQ(failure_of(c.text), c.sentence) << c.text;
     EXPECT_EQ(failure_of("count = 1 count = count + 1 game.expect(count == 2, 'a global with a value is read')"), "");

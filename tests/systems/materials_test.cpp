@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <cmath>
 #include <filesystem>
 
 #include "cullet/world.hpp"
@@ -10,6 +12,7 @@
 #include "sample_game/props.hpp"
 #include "systems/cook/model_contents.hpp"
 #include "systems/cook/model_file.hpp"
+#include "systems/damage/grain_stiffness.hpp"
 #include "systems/world_contents.hpp"
 
 namespace cullet {
@@ -107,9 +110,46 @@ TEST(Materials, ATableTakesNewRowsAndChangesOldOnesAndRefusesTheRestWithASentenc
     MaterialSettings wood = row_of(table, "wood");
     wood.shear_modulus = 0;
     refused(check_material(wood), "shear_modulus is 0, but");
+    using M = MaterialSettings;
+    for (float M::*value :
+         {&M::across_young_modulus, &M::shear_modulus, &M::across_strength, &M::across_fracture_energy}) {
+        wood = row_of(table, "wood");
+        wood.*value = 1e-30f;
+        refused(check_material(wood), "; a material with a grain needs ");
+    }
     MaterialSettings steel = row_of(table, "steel");
     steel.yield_strength = 0;
     refused(check_material(steel), "yield_strength is 0 Pa");
+}
+
+// Where the bound is passed some plane's stiffness is indefinite; a little below it none is.
+TEST(Materials, AGrainWhoseStiffnessIsIndefiniteIsRefused) {
+    MaterialSettings m = row_of(MaterialTable(), "wood");
+    for (const float nu : {0.1f, 0.35f, 0.45f}) {
+        m.poisson_ratio = nu;
+        const double bound = m.young_modulus * (1 - double{nu}) / (2 * double{nu} * nu);
+        const auto least_minor = [&] {
+            double least = 1e300;
+            for (double angle = 0; angle < 1.5708; angle += 0.001) {
+                const GrainModuli moduli{
+                    m.young_modulus, m.across_young_modulus, m.shear_modulus, double{nu}, {0, 0, 1}};
+                const PlaneStiffness k = grain_stiffness(moduli, {0, std::sin(angle), std::cos(angle)}, {1, 0, 0});
+                least = std::min({least, k.c11, k.c22, k.c11 * k.c22 - k.c12 * k.c12, k.c66});
+            }
+            return least;
+        };
+        m.across_young_modulus = static_cast<float>(0.99 * bound);
+        m.shear_modulus = 10 * m.young_modulus;  // softness under shear would hide it
+        EXPECT_TRUE(check_material(m).ok()) << check_material(m).error();
+        EXPECT_GT(least_minor(), 0) << nu;
+        m.across_young_modulus = static_cast<float>(1.01 * bound);
+        EXPECT_FALSE(check_material(m).ok());
+        m.across_young_modulus = static_cast<float>(2 * bound);
+        if (m.across_young_modulus > 1e13f) continue;
+        m.shear_modulus = 1e13f;
+        EXPECT_LT(least_minor(), 0) << nu;
+        EXPECT_NE(check_material(m).error().find("across_young_modulus is "), std::string::npos);
+    }
 }
 
 TEST(Materials, CookingTakesTheTablesRowAndTheModelFileKeepsIt) {
@@ -183,7 +223,7 @@ TEST(Materials, ASnapshotWithAMaterialThatCannotBeIsRefused) {
     const Result<std::vector<uint8_t>> bytes = world->snapshot();
     ASSERT_TRUE(bytes.ok());
     const Result<void> restored = world->restore(bytes->data(), bytes->size());
-    EXPECT_NE(restored.error().find("\"row-1\": restitution is 7 1; use 0 to 1"), std::string::npos)
+    EXPECT_NE(restored.error().find("\"row-1\": restitution is 7; use 0 to 1. The "), std::string::npos)
         << restored.error();
 }
 

@@ -12,6 +12,7 @@
 #include "engine/jobs.hpp"
 #include "engine/random.hpp"
 #include "engine/simd.hpp"
+#include "systems/cook/materials.hpp"
 #include "systems/damage/assemble.hpp"
 #include "systems/damage/brittle_loop.hpp"
 #include "systems/damage/grow_cracks.hpp"
@@ -34,8 +35,11 @@ struct Fixture {
     State state;
     Row<Shells> shell;
     Row<Tasks> task;
-    explicit Fixture(const ShellMesh& mesh, bool once = true) {
-        shell = make_test_shell(state, mesh, 0.005, add_material(state, 70e9, 0.22, 2400), {}, 64);
+    explicit Fixture(const ShellMesh& mesh, bool once = true, bool is_wood = false) {
+        if (is_wood) fill_materials(state.materials);
+        const auto material = is_wood ? material_row(state, compiled_materials()[9], {0.6f, 0.8f, 0})
+                                      : add_material(state, 70e9, 0.22, 2400);
+        shell = make_test_shell(state, mesh, 0.005, material, {}, 64);
         task = make_test_task(state, shell);
         assemble(view(), once);
     }
@@ -180,6 +184,42 @@ TEST(PairCells, RigidTranslationIsFreeOfForceToTheLastBit) {
     f.step(1);
     for (uint32_t v = 0; v < shell.vertex_count(); ++v)
         ASSERT_EQ(f.state.vertices.velocity[shell.vertex(v)], (Vec3{0, 0, 0})) << v;
+}
+
+/// K of each pair, blocks and links together.
+std::map<Pairs::Key, std::array<double, 9>> stiffness_of(const Pairs& pairs) {
+    std::map<Pairs::Key, std::array<double, 9>> sum;
+    for (const auto& [key, k] : pairs.block)
+        for (size_t i = 0; i < 9; ++i) sum[key][i] += k[i];
+    for (const auto& [key, numbers] : pairs.link) {
+        const auto k = product(numbers);
+        for (size_t i = 0; i < 9; ++i) sum[key][i] += k[i];
+    }
+    return sum;
+}
+
+// A grain has up to four links a triangle of the ring. Packs laid too narrow for them move while they are filled, which
+// several threads do to one shell at once.
+TEST(PairCells, OfWoodAreLaidAsWideAsTheirLinksNeed) {
+    Fixture once(sphere_mesh(12, 0.1), true, true), twice(sphere_mesh(12, 0.1), false, true);
+    const ShellView shell = once.view();
+    ASSERT_TRUE(lay_packs(shell));
+    const uint32_t blocks = shell.shells().blocks[shell.row].count, links = shell.shells().links[shell.row].count;
+    ASSERT_TRUE(assemble_packs(shell, 0, shell.shells().packs[shell.row].count));
+    EXPECT_EQ(shell.shells().blocks[shell.row].count, blocks);
+    EXPECT_EQ(shell.shells().links[shell.row].count, links);
+    const auto a = stiffness_of(pairs_of(shell)), b = stiffness_of(pairs_of(twice.view()));
+    ASSERT_EQ(a.size(), b.size());
+    double largest = 0, apart = 0;
+    for (auto i = a.begin(), j = b.begin(); i != a.end(); ++i, ++j) {
+        ASSERT_EQ(i->first, j->first);
+        for (size_t k = 0; k < 9; ++k) {
+            largest = std::max(largest, std::fabs(j->second[k]));
+            apart = std::max(apart, std::fabs(i->second[k] - j->second[k]));
+        }
+    }
+    EXPECT_LE(apart, 1e-6 * largest);
+    EXPECT_LT(slots_of(shell), slots_of(twice.view()));
 }
 
 TEST(PairCells, AllSimdLevelsGiveTheSameBits) {

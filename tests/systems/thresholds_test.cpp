@@ -62,7 +62,6 @@ TEST(Thresholds, ASecondHitGoesOnFromTheTipsOfTheFirst) {
     uint32_t cracked = 0, tips = 0, gone_on = 0, lower = 0;
     for (uint32_t i = 0; i < 6; ++i) {
         const SecondHit hit = find_second_hit(bench, i, i + 6, known->known.first_piece);
-        std::fprintf(stderr, "%u: first piece %.3f whole %.3f cuts %u tips %u gone %u same %.3f elsewhere %.3f alone %.3f\n", i, hit.first_piece, hit.whole_speed, hit.cut_edges, hit.tips, hit.tips_gone_on, hit.same_place, hit.elsewhere, hit.elsewhere_alone);
         if (hit.cut_edges == 0) continue;
         ++cracked;
         tips += hit.tips, gone_on += hit.tips_gone_on;

@@ -2,6 +2,11 @@
 // of the next step, in the order of the calls, and worked off as contacts are: in damage tasks, by budget. A blow on a
 // body whose hit is still worked off moves the body at once as a rigid one, waits, and then goes to the pieces that the
 // place belongs to. What a blow gives is momentum from outside of the world.
+//
+// Settings::units_a_frame bounds the hidden runs. A cut is made whole in one step, on as many bodies a step as the
+// units are enough for and at least on one; the others wait. No units bound what an explosion looks at in the step that
+// takes it (every triangle of each body in its reach), nor what the end of a run does once: pieces, and cracks that run
+// out.
 #pragma once
 #include <cstdint>
 
@@ -41,7 +46,8 @@ struct ExplosionSettings {
 /// line ends the cut at its ends: what is not cut through is a crack there, from which the next hit goes on.
 ///
 /// The wall comes apart exactly along the surface where elements may be split (thick shell note C5's limits on their
-/// shape), else along their edges nearest to it. Nothing moves by it: pieces go on with the motion of the body.
+/// shape), else along their edges nearest to it. Nothing moves by it: pieces go on with the motion of the body. While
+/// the world has no room for the cut body (RefusedEvent says which limit) the cut waits.
 struct CutSettings {
     Vec3 place;                    // world, m
     Vec3 normal{0, 1, 0};          // world, unit, of the plane

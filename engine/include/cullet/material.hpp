@@ -36,10 +36,11 @@ struct MaterialSettings {
     float crush_strength = 6e9f;     // Pa: pressure under which the struck face gives way for good
     float restitution = 0.6f;
     float friction = 0.45f;
-    float heading_power = 6;      // q of C1: how straight cracks run; glass 30
-    float tip_factor = 0.6f;      // on Griffith's limit at the mesh's resolution; at 1 most panes stay whole
-    float run_seconds = 1e-3f;    // least elastic time of a blow's run; half of it leaves a vase too whole
-    /// Tips above this share of the start strength (which is twice tensile_strength) fork with probability 1/2; 0: never.
+    float heading_power = 6;    // q of C1: how straight cracks run; glass 30
+    float tip_factor = 0.6f;    // on Griffith's limit at the mesh's resolution; at 1 most panes stay whole
+    float run_seconds = 1e-3f;  // least elastic time of a blow's run; half of it leaves a vase too whole
+    /// Tips above this share of the start strength (which is twice tensile_strength) fork with probability 1/2; 0:
+    /// never.
     float branching = 0;
     /// When a hit breaks the body, a crack that has stopped goes on if a border or another crack lies ahead within this
     /// times its own length: what is left would break under the pieces' weight. 0: it stays a hairline.

@@ -69,8 +69,8 @@ enum class Propagation : uint8_t {
 };
 
 struct CookSettings {
-    std::string material = "porcelain";        // a name in `materials`
-    const MaterialTable* materials = nullptr;  // null: the compiled table
+    std::string material = "porcelain";         // a name in `materials`
+    const MaterialTable* materials = nullptr;   // null: the compiled table
     std::optional<FractureKind> fracture = {};  // in place of the material's
     Vec3 grain{0, 1, 0};       // of wood, along its fibres, mesh coordinates, any length; counts for no other material
     float thickness = 0.005f;  // m; thinner where the opposite wall is near

@@ -1,69 +1,19 @@
-// Springs from elements, through splits, and as rows: given, copied, rebuilt, refused, given back.
+// Springs from elements, and as rows: given, copied, refused, given back.
 #include "systems/springs/give_springs.hpp"
 
 #include <gtest/gtest.h>
 
-#include <map>
-
-#include "sample_game/spring_bench.hpp"
 #include "systems/springs/check_springs.hpp"
-#include "systems/springs/rebuild_springs.hpp"
-#include "systems/springs/spring_lists.hpp"
 #include "systems/springs/spring_loop.hpp"
+#include "tests/support/spring_strip.hpp"
 
 namespace cullet::test {
 namespace {
-
-constexpr SpringLayout kLayouts[] = {SpringLayout::OneLayer, SpringLayout::Sandwich, SpringLayout::Crossed};
-
-SpringSettings settings_of(SpringLayout layout) {
-    SpringSettings settings;
-    settings.layout = layout;
-    return settings;
-}
-
-constexpr double kEdge = 0.01, kDepth = 0.004, kYoung = 1e7;
-
-SpringBench make_strip(SpringLayout layout, uint32_t spare = 0) {
-    return SpringBench(bench_strip(6, 6, kEdge), kDepth, {}, settings_of(layout), {}, spare);
-}
 
 uint64_t hash_of_pools(const State& state) {
     uint64_t hash = 0;
     for (const RangePool* pool : state.pools.all()) hash = pool->hash(hash);
     return hash;
-}
-
-/// Elements whose middle lies above y lose their links to those below; every vertex on the line gets a copy for them.
-std::vector<uint32_t> cut_above(SpringBench& bench, double y) {
-    const ShellView shell = bench.view().shell;
-    State& s = bench.state();
-    const auto is_above = [&](uint32_t e) {
-        double sum = 0;
-        for (const uint32_t v : s.elements.corner[shell.element(e)]) sum += double{s.vertices.rest[shell.vertex(v)].y};
-        return sum / 3 > y;
-    };
-    std::map<uint32_t, uint32_t> copies;
-    std::vector<uint32_t> touched;
-    for (uint32_t e = 0; e < shell.element_count(); ++e)
-        for (uint32_t k = 0; k < 3; ++k) {
-            uint32_t& other = s.elements.neighbour[shell.element(e)][k];
-            if (other == kNone || is_above(other) == is_above(e)) continue;
-            const auto& corner = s.elements.corner[shell.element(e)];
-            for (const uint32_t v : {corner[k], corner[(k + 1) % 3]}) copies.try_emplace(v, kNone);
-            other = kNone;
-        }
-    for (auto& [v, copy] : copies) {
-        copy = shell.vertices().count++;
-        s.vertices.copy_rows(s.vertices, shell.vertex(v), shell.vertex(copy), 1);
-        touched.push_back(v), touched.push_back(copy);
-    }
-    for (uint32_t e = 0; e < shell.element_count(); ++e)
-        for (uint32_t& v : s.elements.corner[shell.element(e)]) {
-            if (is_above(e) && copies.contains(v)) v = copies[v];
-            s.vertices.element[shell.vertex(v)] = e;
-        }
-    return touched;
 }
 
 TEST(GiveSprings, FollowsTheAreaRuleInsideAndAtBorders) {
@@ -142,13 +92,14 @@ TEST(GiveSprings, RefusesWhatIsOutOfRangeWithASentence) {
         ASSERT_FALSE(result.ok());
         EXPECT_NE(result.error().find(what), std::string::npos) << result.error();
     };
-    refused([](SpringSettings& s) { s.damping_ratio = 2; }, "damping_ratio");
+    refused([](SpringSettings& s) { s.damping_ratio = 0.31f; }, "damping_ratio");
     refused([](SpringSettings& s) { s.young_modulus = -1; }, "young_modulus");
     refused([](SpringSettings& s) { s.young_modulus = std::nanf(""); }, "young_modulus");
     refused([](SpringSettings& s) { s.length_factor = 0.3f; }, "length_factor");
     refused([](SpringSettings& s) { s.volume_energy = 1e9f; }, "volume_energy");
     refused([](SpringSettings& s) { s.time_step = -1; }, "time_step");
-    const std::vector<GivenSpring> wild[] = {{{0, 0, 1, 1}}, {{0, 99999, 1, 1}}, {{0, 1, -1, 1}}, {{0, 1, 1, 1e30f}}};
+    const std::vector<GivenSpring> wild[] = {{{0, 0, 1, 1}},     {{0, 99999, 1, 1}},   {{0, 1, -1, 1}},
+                                             {{0, 1, 1, 1e30f}}, {{0, 1, 1, 1.1e12f}}, {{0, 1, 1.1e6f, 1}}};
     for (const auto& springs : wild) EXPECT_FALSE(give_springs(state, bench.shell(), springs, {}).ok());
     EXPECT_FALSE(find_springs(state, bench.shell()).exists());
     EXPECT_TRUE(give_springs(state, bench.shell(), SpringSettings{}).ok());
@@ -198,6 +149,22 @@ TEST(GiveSprings, ACopyMovesAsItsSourceDoes) {
     }
 }
 
+TEST(GiveSprings, ACopyOfSpringsGivenByHandOnAShellWithElementsIsSound) {
+    SpringBench bench = make_strip(SpringLayout::OneLayer);
+    State& state = bench.state();
+    release_springs(state, bench.shell());
+    const std::vector<GivenSpring> given{{0, 1, 0.01f, 100}, {1, 20, 0.05f, 50}};
+    ASSERT_TRUE(give_springs(state, bench.shell(), given, {}).ok());
+    ASSERT_TRUE(check_springs(state, "source", "").ok());
+    ShellRoom room = room_of(state, bench.shell());
+    room.with_springs = true;
+    const Row<Shells> copy = copy_shell(state, bench.shell(), room);
+    ASSERT_TRUE(copy.exists());
+    const auto sound = check_springs(state, "copy", "");
+    EXPECT_TRUE(sound.ok()) << (sound.ok() ? "" : sound.error());
+    EXPECT_EQ(SpringView(state, find_springs(state, copy)).spring_count(), 2u);
+}
+
 TEST(GiveSprings, AStateWithoutSpringsHashesAsIfThereWereNoSuchTables) {
     State state, other;
     EXPECT_EQ(state.hash(), other.hash());
@@ -212,156 +179,6 @@ TEST(GiveSprings, AStateWithoutSpringsHashesAsIfThereWereNoSuchTables) {
         State::tables());
     for (size_t k = 0; k < State::Pools::kFirstOptional; ++k) plain = state.pools.all()[k]->hash(plain);
     EXPECT_EQ(state.hash(), plain);
-}
-
-TEST(RebuildSprings, CutEdgesShareTheirStiffnessAndKeepTheirLengths) {
-    for (const SpringLayout layout : kLayouts) {
-        SpringBench bench = make_strip(layout, 64);
-        State& state = bench.state();
-        const SpringView view = bench.view();
-        const uint32_t before = view.spring_count();
-        double stiffness = 0, mass = 0;
-        for (uint32_t s = 0; s < before; ++s) stiffness += state.springs.stiffness[view.spring(s)];
-        for (uint32_t v = 0; v < bench.size(); ++v) mass += state.vertices.mass[view.shell.vertex(v)];
-        const std::vector<uint32_t> touched = cut_above(bench, 3 * kEdge * std::sqrt(0.75));
-        ASSERT_TRUE(rebuild_springs(view, touched));
-        EXPECT_EQ(view.spring_count(), before + touched.size() / 2 - 1);
-        double after = 0, mass_after = 0;
-        for (uint32_t s = 0; s < view.spring_count(); ++s) {
-            after += state.springs.stiffness[view.spring(s)];
-            EXPECT_NEAR(state.springs.rest_length[view.spring(s)], kEdge, 1e-8);
-        }
-        for (uint32_t v = 0; v < bench.size(); ++v) mass_after += state.vertices.mass[view.shell.vertex(v)];
-        EXPECT_NEAR(after, stiffness, 1e-5 * stiffness);
-        EXPECT_NEAR(mass_after, mass, 1e-14 * mass);
-        const auto sound = check_springs(state, "cut", "");
-        EXPECT_TRUE(sound.ok()) << (sound.ok() ? "" : sound.error());
-    }
-}
-
-TEST(RebuildSprings, AreThoseThatTheCutShellWouldBeGiven) {
-    for (const SpringLayout layout : kLayouts) {
-        SpringBench bench = make_strip(layout, 64);
-        State& state = bench.state();
-        const SpringView view = bench.view();
-        ASSERT_TRUE(rebuild_springs(view, cut_above(bench, 3 * kEdge * std::sqrt(0.75))));
-        // A copy of the shell without springs is given new ones, and put where the other is.
-        const Row<Shells> copy = copy_shell(state, bench.shell(), room_of(state, bench.shell()));
-        SpringSettings settings = settings_of(layout);
-        settings.time_step = state.shell_springs.time_step[bench.springs()];
-        const auto given = give_springs(state, copy, settings);
-        ASSERT_TRUE(given.ok()) << given.error();
-        const SpringView fresh(state, given.value());
-        start_springs(fresh, {});
-        start_springs(view, {});
-        for (uint32_t v = 0; v < bench.size(); v += 5) {
-            const Vec3 kick{0.01f, -0.02f, 0.03f * static_cast<float>(v % 7)};
-            state.vertices.velocity.set(view.shell.vertex(v), kick);
-            state.vertices.velocity.set(fresh.shell.vertex(v), kick);
-        }
-        run_springs(state, bench.springs(), 50);
-        run_springs(state, given.value(), 50);
-        for (uint32_t v = 0; v < bench.size(); ++v) {
-            EXPECT_LT(length(view.position(v) - fresh.position(v)), 2e-7f);
-            if (view.has_layers()) {
-                EXPECT_LT(length(view.twin_position(v) - fresh.twin_position(v)), 2e-7f);
-            }
-        }
-    }
-}
-
-TEST(RebuildSprings, InMotionKeepsMomentumAndEveryPointsPlace) {
-    for (const SpringLayout layout : kLayouts) {
-        SpringBench bench = make_strip(layout, 64);
-        bench.set_velocity(3, {0.3f, -0.2f, 0.5f});
-        bench.set_velocity(40, {-0.3f, 0.2f, 0.5f});
-        for (int i = 0; i < 33; ++i) bench.step();
-        const SpringView view = bench.view();
-        const SpringMotion before = motion_of(view);
-        const double energy = spring_energy(view);
-        ASSERT_TRUE(rebuild_springs(view, cut_above(bench, 3 * kEdge * std::sqrt(0.75))));
-        const SpringMotion cut = motion_of(view);
-        EXPECT_LT(length(cut.momentum - before.momentum), 1e-9 * before.mass);
-        EXPECT_NEAR(cut.kinetic, before.kinetic, 1e-6 * before.kinetic);
-        EXPECT_NEAR(spring_energy(view), energy, 1e-4 * energy) << "the same springs in two halves";
-        for (int i = 0; i < 100; ++i) bench.step();
-        const SpringMotion after = motion_of(view);
-        EXPECT_LT(length(after.momentum - before.momentum), 1e-6 * before.mass);
-        EXPECT_LT(length(after.angular - before.angular), 1e-6 * before.mass * 0.1);
-    }
-}
-
-TEST(RebuildSprings, RebuildingAllGivesWhatRebuildingTheTouchedGives) {
-    for (const SpringLayout layout : kLayouts) {
-        SpringBench few = make_strip(layout, 64), all = make_strip(layout, 64);
-        const double line = 3 * kEdge * std::sqrt(0.75);
-        ASSERT_TRUE(rebuild_springs(few.view(), cut_above(few, line)));
-        std::vector<uint32_t> touched = cut_above(all, line);
-        touched.resize(1000, touched[0]);  // more than are listed
-        ASSERT_TRUE(rebuild_springs(all.view(), touched));
-        few.set_velocity(5, {1, 0, 0}), all.set_velocity(5, {1, 0, 0});
-        for (int i = 0; i < 20; ++i) few.step(), all.step();
-        for (uint32_t v = 0; v < few.size(); ++v) EXPECT_EQ(few.view().position(v), all.view().position(v));
-    }
-}
-
-TEST(RebuildSprings, WithoutRoomNothingChanges) {
-    SpringBench bench = make_strip(SpringLayout::OneLayer, 64);
-    State& state = bench.state();
-    const std::vector<uint32_t> touched = cut_above(bench, 3 * kEdge * std::sqrt(0.75));
-    state.shell_springs.springs[bench.springs()].capacity = state.shell_springs.springs[bench.springs()].count + 3;
-    const uint64_t before = state.springs.hash(state.spring_slots.hash(0));
-    EXPECT_FALSE(rebuild_springs(bench.view(), touched));
-    EXPECT_EQ(state.springs.hash(state.spring_slots.hash(0)), before);
-}
-
-TEST(CheckSprings, RefusesIndicesThatLeadOutside) {
-    using Spoil = void (*)(SpringBench&);
-    const Spoil spoils[] = {
-        [](SpringBench& b) { b.state().springs.a[b.view().spring(3)] = 100000; },
-        [](SpringBench& b) { b.state().springs.b[b.view().spring(3)] = b.state().springs.a[b.view().spring(3)]; },
-        [](SpringBench& b) { b.state().springs.place[b.view().spring(3)][1] = 1u << 30; },
-        [](SpringBench& b) { b.state().springs.element[b.view().spring(3)] = 5000; },
-        [](SpringBench& b) { b.state().spring_slots.slot[b.view().slot(2)].neighbour[5] = 4096; },
-        [](SpringBench& b) { b.state().spring_slots.slot[b.view().slot(2)].damping[1] = std::nanf(""); },
-        [](SpringBench& b) { b.state().layer_slots.slot[b.view().layer_slot(2)].second_inverse[1] = HUGE_VALF; },
-        [](SpringBench& b) { b.state().spring_packs.first_slot[b.view().pack(1)] = 1u << 20; },
-        [](SpringBench& b) { b.state().spring_packs.slot_count[b.view().pack(1)] = 60000; },
-        [](SpringBench& b) { b.state().element_springs.spring[b.view().edges(1)][2] = 77777; },
-        [](SpringBench& b) { b.state().shell_springs.shell[b.springs()] = Row<Shells>(5); },
-        [](SpringBench& b) { b.state().shell_springs.layout[b.springs()] = 9; },
-        [](SpringBench& b) { b.state().shell_springs.layout[b.springs()] = 0; },
-        [](SpringBench& b) { b.state().shell_springs.time_step[b.springs()] = -1; },
-        [](SpringBench& b) { --b.state().shell_springs.twins[b.springs()].count; },
-        [](SpringBench& b) { b.state().shell_springs.is_used[b.springs()] = 7; }};
-    for (size_t s = 0; s < std::size(spoils); ++s) {
-        SpringBench bench = make_strip(SpringLayout::Sandwich);
-        ASSERT_TRUE(check_springs(bench.state(), "good", "").ok());
-        spoils[s](bench);
-        const auto refused = check_springs(bench.state(), "bad.csnap", "Take it again.");
-        ASSERT_FALSE(refused.ok()) << s;
-        EXPECT_EQ(refused.error().rfind("bad.csnap: ", 0), 0u) << refused.error();
-    }
-}
-
-TEST(StartSprings, GivesBackTheMotionThatItTook) {
-    for (const SpringLayout layout : kLayouts) {
-        SpringBench bench = make_strip(layout);
-        RigidMotion motion;
-        motion.pose.position = {1000, -20, 3};
-        motion.pose.orientation = normalised(Quat{0.3f, -0.5f, 0.2f, 0.7f});
-        motion.velocity = {1, 2, -3};
-        motion.spin = {4, -5, 6};
-        start_springs(bench.view(), motion);
-        const RigidMotion back = stop_springs(bench.view());
-        EXPECT_LT(length(back.pose.position - motion.pose.position), 1e-4f);
-        const Quat turn = back.pose.orientation * conjugate(motion.pose.orientation);
-        EXPECT_NEAR(std::fabs(turn.w), 1, 1e-6);
-        EXPECT_LT(length(back.velocity - motion.velocity), 1e-5f);
-        EXPECT_LT(length(back.spin - motion.spin), 2e-4f);
-        for (uint32_t v = 0; v < bench.size(); ++v)
-            EXPECT_LT(length(bench.state().vertices.displacement[bench.view().shell.vertex(v)]), 1e-7f);
-    }
 }
 
 }  // namespace

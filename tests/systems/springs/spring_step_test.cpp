@@ -15,6 +15,10 @@ namespace cullet::test {
 namespace {
 
 constexpr SpringLayout kLayouts[] = {SpringLayout::OneLayer, SpringLayout::Sandwich, SpringLayout::Crossed};
+/// And with what shares of E h A areas and volumes are kept (B4).
+constexpr std::pair<SpringLayout, float> kLayoutsAndEnergies[] = {
+    {SpringLayout::OneLayer, 0.0f}, {SpringLayout::OneLayer, 0.5f}, {SpringLayout::Sandwich, 0.0f},
+    {SpringLayout::Sandwich, 0.5f}, {SpringLayout::Crossed, 0.0f},  {SpringLayout::Crossed, 0.5f}};
 
 SpringSettings settings_of(SpringLayout layout, float damping = 0.05f) {
     SpringSettings settings;
@@ -23,8 +27,10 @@ SpringSettings settings_of(SpringLayout layout, float damping = 0.05f) {
     return settings;
 }
 
-SpringBench make_ball(SpringLayout layout, float damping = 0.05f, int rounds = 2) {
-    return SpringBench(bench_sphere(0.1, rounds), 0.006, {}, settings_of(layout, damping));
+SpringBench make_ball(SpringLayout layout, float damping = 0.05f, int rounds = 2, float energy = 0) {
+    SpringSettings settings = settings_of(layout, damping);
+    settings.area_energy = settings.volume_energy = energy;
+    return SpringBench(bench_sphere(0.1, rounds), 0.006, {}, settings);
 }
 
 /// Moves every point about its place by up to `size`, and gives it some speed.
@@ -124,8 +130,8 @@ TEST(SpringStep, MovesAPairByHandAsTheFormulaSays) {
 }
 
 TEST(SpringStep, KeepsMomentumAndAngularMomentum) {
-    for (const SpringLayout layout : kLayouts) {
-        SpringBench bench = make_ball(layout);
+    for (const auto& [layout, energy] : kLayoutsAndEnergies) {
+        SpringBench bench = make_ball(layout, 0.05f, 2, energy);
         shake(bench, 2e-3, 1);
         const SpringMotion before = motion_of(bench.view());
         const double scale = before.mass * 1;
@@ -198,6 +204,17 @@ TEST(SpringStep, SpringsOfLengthZeroAreSkippedAndCounted) {
     EXPECT_EQ(bench.state().validate(), "");
 }
 
+TEST(SpringStep, TheStiffestAndLongestThatIsAcceptedLeavesPointsInOnePlaceWhereTheyAre) {
+    // k L is 1e18 N there, and its 1e36 N/m over no length are still finite: times x = 0 they are no force.
+    const std::vector<GivenSpring> springs{{0, 1, 1e6f, 1e12f}};
+    SpringSettings settings;
+    settings.time_step = 1e-6f;
+    SpringBench bench({{1, 2, 3}, {1, 2, 3}}, {1e6, 1e6}, springs, settings);
+    for (int i = 0; i < 3; ++i) bench.step();
+    for (const uint32_t v : {0u, 1u}) EXPECT_EQ(bench.view().position(v), (Vec3{1, 2, 3}));
+    EXPECT_EQ(bench.state().validate(), "");
+}
+
 TEST(SpringStep, ASpringWithoutRestLengthHasNoForce) {
     const std::vector<GivenSpring> springs{{0, 1, 0, 100}};
     SpringBench bench({{0, 0, 0}, {1, 0, 0}}, {1, 1}, springs, {});
@@ -207,11 +224,11 @@ TEST(SpringStep, ASpringWithoutRestLengthHasNoForce) {
 }
 
 TEST(SpringStep, HasTheSameBitsAtEverySimdLevel) {
-    for (const SpringLayout layout : kLayouts) {
+    for (const auto& [layout, energy] : kLayoutsAndEnergies) {
         uint64_t scalar = 0;
         for (const SimdLevel level : {SimdLevel::Scalar, SimdLevel::Sse4, SimdLevel::Avx2, SimdLevel::Avx512}) {
             if (!set_simd_level(level)) continue;
-            SpringBench bench = make_ball(layout);
+            SpringBench bench = make_ball(layout, 0.05f, 2, energy);
             shake(bench, 2e-3, 1);
             for (int i = 0; i < 60; ++i) bench.step();
             const uint64_t hash = bench.state().hash();
@@ -260,6 +277,75 @@ TEST(SpringStep, AStepThatIsStableStaysSoAndTwiceGershgorinsDoesNot) {
             else
                 EXPECT_LT(end, 1.5 * start);
         }
+}
+
+/// Energy of what was shaken by `size`, a hundredth of a spring at most, after 3,000 of its own steps, over that at the
+/// start.
+double energy_left(SpringBench bench, double size) {
+    shake(bench, size, 0);
+    measure_lengths(bench.view());
+    const auto energy = [&] { return motion_of(bench.view()).kinetic + spring_energy(bench.view()); };
+    const double start = energy();
+    for (int i = 0; i < 3000; ++i) bench.step();
+    return energy() / start;
+}
+
+/// A light point between `arms` heavy ones to each side: its mode is damped sqrt(2 arms) times as much as a spring.
+SpringBench make_hub(uint32_t arms, float damping) {
+    std::vector<Vec3d> points{{0, 0, 0}};
+    std::vector<double> masses{1e-3};
+    std::vector<GivenSpring> springs;
+    for (uint32_t i = 0; i < 2 * arms; ++i) {
+        points.push_back({i % 2 ? 1.0 : -1.0, 0, 0});
+        masses.push_back(1);
+        springs.push_back({0, i + 1, 1, 1000});
+    }
+    return SpringBench(points, masses, springs, settings_of(SpringLayout::OneLayer, damping));
+}
+
+SpringBench make_chain(float damping) {
+    std::vector<Vec3d> points;
+    std::vector<GivenSpring> springs;
+    for (uint32_t v = 0; v < 30; ++v) {
+        points.push_back({0.1 * v, 0, 0});
+        if (v > 0) springs.push_back({v - 1, v, 0.1f, 1000});
+    }
+    return SpringBench(points, std::vector<double>(points.size(), 0.01), springs,
+                       settings_of(SpringLayout::OneLayer, damping));
+}
+
+TEST(SpringStep, IsStableWithAnyDampingThatIsAccepted) {
+    for (const float damping : {0.05f, 0.3f}) {
+        EXPECT_LT(energy_left(make_chain(damping), 1e-3), 1) << damping;
+        for (const uint32_t arms : {3u, 32u}) EXPECT_LT(energy_left(make_hub(arms, damping), 1e-2), 1) << damping;
+        for (const SpringLayout layout : kLayouts)
+            EXPECT_LT(energy_left(make_ball(layout, damping), 1e-5), 1) << damping;
+    }
+}
+
+TEST(SpringStep, IsThatOfTheRowSumsOfStiffnessAndDamping) {
+    // The light point decides: K = 2 sum k / m, C = 2 sum c / m, dt^2 K + 2 dt C = 4.
+    for (const float damping : {0.0f, 0.3f}) {
+        SpringBench bench = make_hub(32, damping);
+        const double k = 64 * 1000, m = 1e-3, c = 64 * 2 * double{damping} * std::sqrt(1000 * (1e-3 / 1.001));
+        const double bound = 4 / (2 * c / m + std::sqrt(4 * c * c / (m * m) + 8 * k / m));
+        const double wanted = std::min(0.6 * 2 / std::sqrt(2 * k / m), 0.9 * bound);
+        EXPECT_NEAR(stable_spring_step(bench.view()), wanted, 1e-5 * wanted);
+        EXPECT_EQ(damping > 0, 0.9 * bound < 0.6 * 2 / std::sqrt(2 * k / m));
+    }
+}
+
+TEST(SoftenedModulus, MakesAWantedStepThatOfTheSheetAndNeverHardens) {
+    const float edge = 0.01f, density = 1000, wanted = 1e-4f;
+    const float soft = softened_modulus(1e7f, density, edge, wanted);
+    EXPECT_FLOAT_EQ(soft, 1000 * 35.0f * 35.0f);
+    SpringSettings settings;
+    settings.young_modulus = soft;
+    SpringBench bench(bench_strip(12, 12, double{edge}), 0.002, {}, settings);
+    EXPECT_NEAR(stable_spring_step(bench.view()), wanted, 0.02 * wanted) << "0.6 * 0.577 is rounded to 0.35";
+    set_spring_step(bench.view(), wanted);
+    EXPECT_LT(energy_left(std::move(bench), 1e-5), 1);
+    EXPECT_FLOAT_EQ(softened_modulus(1e5f, density, edge, wanted), 1e5f);
 }
 
 TEST(SpringStep, OfAnEquilateralSheetIsTheNotesShareOfItsWave) {

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include "sample_game/spring_bench.hpp"
 #include "sample_game/truth_cases.hpp"
 
 namespace cullet {
@@ -17,6 +18,20 @@ TEST_P(TruthOfSprings, LiesWithinTheBounds) {
         EXPECT_GE(v.value, v.low) << v.what;
         EXPECT_LE(v.value, v.high) << v.what;
         EXPECT_LT(v.low, v.high + 1e-12) << v.what;
+    }
+}
+
+TEST(BenchDisc, HasAllTrianglesRoundEveryPointWithinItsRings) {
+    for (const uint32_t rings : {1u, 5u, 10u, 20u, 40u}) {
+        const BenchMesh mesh = bench_disc(rings, 1);
+        std::vector<uint32_t> triangles(mesh.points.size());
+        for (const auto& triangle : mesh.triangles)
+            for (const uint32_t v : triangle) ++triangles[v];
+        for (uint32_t v = 0; v < mesh.points.size(); ++v) {
+            if (length(mesh.points[v]) <= rings - 0.5) {
+                EXPECT_EQ(triangles[v], 6u) << rings << " rings, point " << v;
+            }
+        }
     }
 }
 
