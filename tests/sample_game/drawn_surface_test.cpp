@@ -83,8 +83,8 @@ INSTANTIATE_TEST_SUITE_P(Scenes, EachDrawnScene, testing::ValuesIn(scenes().begi
 TEST(DrawnSurface, IsClosedThroughRandomBreaks) {
     const Random random{77};
     Looking looking;
-    for (uint32_t run = 0; run < 24; ++run) {
-        const auto speed = static_cast<float>(2 + 18 * random.uniform(run, 0));
+    for (uint32_t run = 0; run < 45; ++run) {
+        const auto speed = static_cast<float>(4 + 20 * random.uniform(run, 0));
         Settings settings = small_settings();
         settings.gravity = {0, -9.81f, 0};
         settings.units_a_frame = 20'000'000;
