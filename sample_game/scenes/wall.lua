@@ -8,14 +8,12 @@ game.scene{
 local shell = game.shell_keys{material = "brick", thickness = 0.1, edge = 0.078}
 local speed = game.key{name = "scene.speed_mps", unit = "m/s", default = 10, least = 0, most = 100, text = "of the ball"}
 local mass = game.key{name = "scene.mass_kg", unit = "kg", default = 30, least = 0.01, most = 1e5, text = "of the ball"}
-local fracture = game.key{name = "scene.fracture", default = "material", choices = "material, large, coarse, fine", text = "how close cracks start to each other; material: as the material says"}
 
 local wall = game.cook{
     mesh = game.mesh.wall{width = 2.4, height = 1.8, edge = shell.edge},
     material = shell.material,
     fracture = shell.cracks,
     thickness = shell.thickness,
-    fracture = fracture ~= "material" and fracture or nil,
 }
 game.camera{eye = {1.9, 1.5, 3.0}, target = {-0.05, 0.75, -0.1}, field_of_view = 0.72}
 game.floor()
