@@ -21,6 +21,7 @@ struct Break {
     std::span<uint32_t> order;     // parts, heaviest first
     std::span<Row<Bodies>> child;  // new bodies
     std::span<uint8_t> is_crumb;
+    std::span<uint32_t> debris;  // rows of crumbs once they are made, or kNone
     uint32_t largest = 0;
     uint32_t clamped = 0;        // motions that were
     uint32_t left_elements = 0;  // of all parts that leave

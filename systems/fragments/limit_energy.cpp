@@ -25,11 +25,29 @@ Sym3d world_inertia(const Bodies& bodies, Row<Bodies> b) {
     return {a.x, b_.y, c.z, a.y, a.z, b_.z};
 }
 
-// Calls visit(row) for the bodies that came of the break, the one that keeps the handle too.
+// A piece, the body that keeps the handle among them, or a crumb, which is a point. World axes.
+struct Mover {
+    Row<Bodies> body;
+    uint32_t debris = kNone;
+    double mass = 0;
+    Vec3d place, velocity, spin;
+    Sym3d inertia;
+    double energy() const { return 0.5 * (mass * dot(velocity, velocity) + dot(spin, inertia * spin)); }
+};
+
 template <class Visit>
-void for_each_piece(const Bodies& bodies, const Break& plan, Visit visit) {
-    for (uint32_t p = 0; p < plan.parts.size(); ++p)
-        if (is_dynamic(bodies, plan.child[p])) visit(plan.child[p]);
+void for_each_mover(const State& state, const Break& plan, Visit visit) {
+    const Bodies& bodies = state.bodies;
+    for (uint32_t p = 0; p < plan.parts.size(); ++p) {
+        const Row<Bodies> b = plan.child[p];
+        const uint32_t d = plan.debris[p];
+        if (is_dynamic(bodies, b))
+            visit(Mover{b, kNone, bodies.mass[b], Vec3d(centre_of(bodies, b)), Vec3d(bodies.velocity[b]),
+                        Vec3d(bodies.spin[b]), world_inertia(bodies, b)});
+        else if (d != kNone)
+            visit(Mover{
+                {}, d, state.debris.mass[d], Vec3d(state.debris.position[d]), Vec3d(state.debris.velocity[d]), {}, {}});
+    }
 }
 
 struct Common {
@@ -47,33 +65,43 @@ void turn_by(Common& common, Vec3d turning) {
 }
 
 // The rigid motion that has the pieces' momentum and angular momentum.
-Common common_motion(const Bodies& bodies, const Break& plan) {
+Common common_motion(const State& state, const Break& plan) {
     Common common;
     double mass = 0;
-    for_each_piece(bodies, plan, [&](Row<Bodies> b) {
-        mass += bodies.mass[b];
-        common.centre += bodies.mass[b] * Vec3d(centre_of(bodies, b));
-        common.momentum += bodies.mass[b] * Vec3d(bodies.velocity[b]);
+    for_each_mover(state, plan, [&](const Mover& m) {
+        mass += m.mass;
+        common.centre += m.mass * m.place;
+        common.momentum += m.mass * m.velocity;
     });
     if (!(mass > 0)) return common;
     common.centre = (1 / mass) * common.centre;
     common.velocity = (1 / mass) * common.momentum;
-    for_each_piece(bodies, plan, [&](Row<Bodies> b) {
-        const Vec3d arm = Vec3d(centre_of(bodies, b)) - common.centre;
-        const Sym3d own = world_inertia(bodies, b);
-        common.inertia = common.inertia + own + bodies.mass[b] * inertia_of(outer(arm));
-        common.turning += own * Vec3d(bodies.spin[b]) + bodies.mass[b] * cross(arm, Vec3d(bodies.velocity[b]));
+    Vec3d turning;
+    for_each_mover(state, plan, [&](const Mover& m) {
+        const Vec3d arm = m.place - common.centre;
+        common.inertia = common.inertia + m.inertia + m.mass * inertia_of(outer(arm));
+        turning += m.inertia * m.spin + m.mass * cross(arm, m.velocity);
     });
-    turn_by(common, common.turning);
+    turn_by(common, turning);
     return common;
 }
 
-double energy_of_crumbs(const Break& plan) {
-    double energy = 0;
-    for (uint32_t p = 0; p < plan.parts.size(); ++p)
-        if (plan.is_crumb[p])
-            energy += 0.5 * plan.motions[p].mass * dot(plan.motions[p].velocity, plan.motions[p].velocity);
-    return energy;
+void move(Births& births, const Mover& m, Vec3d velocity, Vec3d spin, BodyId parent) {
+    State& state = births.state;
+    if (m.debris != kNone) {
+        const Vec3 place = state.debris.position[m.debris];
+        state.debris.velocity.set(m.debris, velocity.to_float());
+        for (DebrisEvent& e : births.debris_events.all())
+            if (e.parent.index == parent.index && e.place.x == place.x && e.place.y == place.y && e.place.z == place.z)
+                e.velocity = velocity.to_float();
+        return;
+    }
+    state.bodies.velocity.set(m.body, velocity.to_float());
+    state.bodies.spin.set(m.body, spin.to_float());
+    const Motion motion{state.bodies.velocity[m.body], state.bodies.spin[m.body]};
+    births.rigid.set_motion(m.body, motion);
+    for (FragmentBornEvent& e : births.born.all())
+        if (e.fragment.index == m.body.index) e.motion = motion;
 }
 
 }  // namespace
@@ -85,38 +113,31 @@ double rigid_energy(const Bodies& bodies, Row<Bodies> body) {
 }
 
 void limit_energy(Births& births, const Break& plan, double allowed) {
-    Bodies& bodies = births.state.bodies;
+    State& state = births.state;
     double energy = 0;
     bool is_pinned = false;
-    for_each_piece(bodies, plan, [&](Row<Bodies> b) { energy += rigid_energy(bodies, b); });
+    for_each_mover(state, plan, [&](const Mover& m) { energy += m.energy(); });
     for (const PartMotion& m : plan.motions) is_pinned = is_pinned || m.is_static;
-    const double most = allowed - energy_of_crumbs(plan);
-    if (!(energy > most)) return;
-    const Common common = is_pinned ? Common{} : common_motion(bodies, plan);
+    if (!(energy > allowed)) return;
+    const Common common = is_pinned ? Common{} : common_motion(state, plan);
     Common kept = common;
-    if (common.energy() > most) {
+    if (common.energy() > allowed) {
         const double straight = 0.5 * dot(common.momentum, common.velocity), turning = common.energy() - straight;
-        turn_by(kept, turning > 0 ? std::sqrt(std::max(0.0, most - straight) / turning) * common.turning : Vec3d{});
+        turn_by(kept, turning > 0 ? std::sqrt(std::max(0.0, allowed - straight) / turning) * common.turning : Vec3d{});
     }
     const double beyond = energy - common.energy();
-    const double s = beyond > 0 ? std::sqrt(std::max(0.0, most - kept.energy()) / beyond) : 1;
-    for_each_piece(bodies, plan, [&](Row<Bodies> b) {
-        const Vec3d arm = Vec3d(centre_of(bodies, b)) - common.centre;
-        const Vec3d beside = Vec3d(bodies.velocity[b]) - common.velocity - cross(common.spin, arm);
-        const Vec3d v = kept.velocity + cross(kept.spin, arm) + s * beside;
-        const Vec3d w = kept.spin + s * (Vec3d(bodies.spin[b]) - common.spin);
-        const Vec3d lost = bodies.mass[b] * (Vec3d(bodies.velocity[b]) - v);
+    const double s = beyond > 0 ? std::sqrt(std::max(0.0, allowed - kept.energy()) / beyond) : 1;
+    for_each_mover(state, plan, [&](const Mover& m) {
+        const Vec3d arm = m.place - common.centre;
+        const Vec3d beside = m.velocity - common.velocity - cross(common.spin, arm);
+        const Vec3d velocity = kept.velocity + cross(kept.spin, arm) + s * beside;
+        const Vec3d lost = m.mass * (m.velocity - velocity);
         if (is_pinned) {
             births.counts.impulse_to_static[0] += lost.x;
             births.counts.impulse_to_static[1] += lost.y;
             births.counts.impulse_to_static[2] += lost.z;
         }
-        bodies.velocity.set(b, v.to_float());
-        bodies.spin.set(b, w.to_float());
-        const Motion motion{bodies.velocity[b], bodies.spin[b]};
-        births.rigid.set_motion(b, motion);
-        for (FragmentBornEvent& e : births.born.all())
-            if (e.fragment.index == b.index) e.motion = motion;
+        move(births, m, velocity, kept.spin + s * (m.spin - common.spin), body_id(state.bodies, plan.body));
     });
 }
 

@@ -80,13 +80,14 @@ Motion world_motion(const Moment& m, const PartMotion& part) {
             rotate(m.pose.orientation, (part.spin + m.spin_change).to_float())};
 }
 
-void make_debris(Births& births, ShellView shell, const FragmentPart& part, const Motion& motion, const Moment& moment,
-                 Row<Bodies> parent, Vec3d centre) {
+// The row of the crumb.
+uint32_t make_debris(Births& births, ShellView shell, const FragmentPart& part, const Motion& motion,
+                     const Moment& moment, Row<Bodies> parent, Vec3d centre) {
     State& state = births.state;
     Debris& debris = state.debris;
     uint32_t row = 0;
     while (row < debris.size() && debris.is_used[row]) ++row;
-    if (row == debris.size() && debris.append(1) == kNone) return;  // planning counted: there is room
+    if (row == debris.size() && debris.append(1) == kNone) return kNone;  // planning counted: there is room
     double volume = 0;
     for (uint32_t e = part.first_element; e != kNone; e = state.elements.next[shell.element(e)])
         volume += state.elements.volume[shell.element(e)];
@@ -104,6 +105,7 @@ void make_debris(Births& births, ShellView shell, const FragmentPart& part, cons
     debris.colour[row] = state.bodies.colour[parent];
     births.debris_events.push(
         {body_id(state.bodies, parent), state.bodies.user_data[parent], place, motion.velocity, part.mass});
+    return row;
 }
 
 void place_body(Births& births, Row<Bodies> body, const Moment& moment, const Motion& motion, bool is_static) {
@@ -200,8 +202,8 @@ void make_births_of(Births& births, const Break& plan, const Moment& moment) {
     for (uint32_t i = 1; i < count; ++i) {
         const uint32_t p = plan.order[i];
         if (!plan.is_crumb[p]) continue;
-        make_debris(births, ShellView(state, plan.broken), plan.parts[p], world_motion(moment, plan.motions[p]), moment,
-                    plan.body, plan.motions[p].centre);
+        plan.debris[p] = make_debris(births, ShellView(state, plan.broken), plan.parts[p],
+                                     world_motion(moment, plan.motions[p]), moment, plan.body, plan.motions[p].centre);
     }
     plan.child[plan.largest] = plan.body;
     const auto bounds = births.arena.take<Bounds>(count);

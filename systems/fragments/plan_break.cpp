@@ -77,6 +77,8 @@ Break break_of(Planning& planning, Row<Tasks> task, Row<Bodies> body, Row<Shells
     plan.motions = arena.take<PartMotion>(parts.size());
     plan.order = arena.take<uint32_t>(parts.size());
     plan.child = arena.take<Row<Bodies>>(parts.size());
+    plan.debris = arena.take<uint32_t>(parts.size());
+    std::fill(plan.debris.begin(), plan.debris.end(), kNone);
     plan.is_crumb = arena.take<uint8_t>(parts.size());
     plan.margin = hull_margin(ShellView(planning.state, plan.before));
     return plan;
