@@ -6,8 +6,8 @@
 
 namespace cullet::perf {
 
-Result<Model> cook_vase(float edge) {
-    const Mesh mesh = make_vase(0.30f, edge);
+Result<Model> cook_vase(float edge, float height) {
+    const Mesh mesh = make_vase(height, edge);
     MeshView view;
     view.positions = mesh.positions.data(), view.position_count = mesh.positions.size();
     view.indices = mesh.triangles[0].data(), view.triangle_count = mesh.triangles.size();

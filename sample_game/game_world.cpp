@@ -72,6 +72,9 @@ Result<GameWorld> GameWorld::create(const ScenePlan& plan, const Host& host) {
     auto stage = std::make_unique<Stage>();
     stage->plan = plan;
     stage->host = host;
+    if (!plan.materials_path.empty())
+        if (const Result<void> read = stage->read_materials(plan.materials_path); !read.ok())
+            return Error{read.error()};
     auto script = std::make_unique<Script>(*stage);
     if (auto done = script->start(); !done.ok()) return Error{done.error()};
     if (const Result<World*> stands = stage->stand(); !stands.ok()) return Error{stands.error()};

@@ -39,6 +39,7 @@ struct ShellChanged {
 };
 
 struct DamageLoop;
+struct SoftLoop;
 class QueryIndex;
 
 /// What the game set, as the systems read it.
@@ -46,6 +47,8 @@ struct DamageSettings {
     uint64_t units_a_frame = 0;
     float hold_seconds = 0;
     uint32_t generations = 0;
+    float break_share = 0;
+    uint32_t break_elements = 0;
     float debris_share = 0;
     uint32_t debris_elements = 0;
     bool (*allows)(void* user, const ImpactEvent& impact) = nullptr;
@@ -71,6 +74,7 @@ struct WorldData {
     DamageCounts counts;
     std::unique_ptr<RigidWorld> rigid;
     std::unique_ptr<DamageLoop> damage_loop;
+    std::unique_ptr<SoftLoop> soft_loop;
     ViewBoxes view_boxes;
     std::unique_ptr<QueryIndex> query_index;
     Arena arena;
@@ -120,6 +124,8 @@ T& WorldData::resource() {
         return *rigid;
     else if constexpr (std::is_same_v<T, DamageLoop>)
         return *damage_loop;
+    else if constexpr (std::is_same_v<T, SoftLoop>)
+        return *soft_loop;
     else if constexpr (std::is_same_v<T, QueryIndex>)
         return *query_index;
     else if constexpr (std::is_same_v<T, Arena>)

@@ -247,7 +247,7 @@ void BulletWorld::make_bullet(Body& body, const btTransform& at) {
 void BulletWorld::enter(Body& body, const Pose& at, uint32_t layer, uint32_t mask) {
     make_bullet(body, to_bullet(at, body.frame));
     body.is_used = true;
-    body.is_held = false;
+    body.is_held = body.is_soft = false;
     body.is_fast = false;
     body.moved_fraction = 1;
     body.still_seconds = body.slow_seconds = 0;
@@ -435,6 +435,7 @@ void BulletWorld::meet(btBroadphasePair& pair) {
         pair.m_algorithm = new (memory) PairAlgorithm(info, id_0, id_1, work_);
     }
     auto& algorithm = *static_cast<PairAlgorithm*>(pair.m_algorithm);
+    if (bodies_[id_0].is_soft || bodies_[id_1].is_soft) return algorithm.forget();
     const auto ignored = find_ignored(id_0, id_1);
     if (ignored != ignored_.end()) {
         if (!ignored->until_apart || !algorithm.is_apart(kPushedApart)) return algorithm.forget();

@@ -10,6 +10,7 @@
 #include "systems/api/checks.hpp"
 #include "systems/api/settings_bytes.hpp"
 #include "systems/brittle/restart.hpp"
+#include "systems/damage/working_room.hpp"
 #include "systems/fragments/rigid_shape.hpp"
 #include "systems/query/bound_drawn.hpp"
 #include "systems/query/query_index.hpp"
@@ -51,7 +52,7 @@ namespace {
 constexpr uint64_t kLargestFile = 1ull << 36;
 constexpr const char* kAdvice = "The snapshot is damaged or of another build; take it again.";
 constexpr FileKind kKind{{'c', 's', 'n', 'a', 'p', '\r', '\n', '\x1a'},
-                         2,
+                         4,
                          "snapshot",
                          ".csnap",
                          "Write one with World::save.",
@@ -133,7 +134,7 @@ void restore_what_follows(World::Contents& world) {
         const Row<Shells> shell = state.bodies.shell[b];
         if (static_cast<BodyKind>(state.bodies.kind[b]) == BodyKind::Free || !shell.exists()) continue;
         bound_view(state.bodies, Row<Bodies>(b), state.view_vertices, state.view_indices, d.view_boxes);
-        if (state.bodies.is_breakable[b]) d.make_ready(room_of(state, shell));
+        if (state.bodies.is_breakable[b]) d.make_ready(working_room(ShellView(state, shell)));
         d.arena.reset();
         if (world.hosted) world.hosted->announce(b, convex_pieces(state, shell, d.arena));
     }

@@ -2,12 +2,34 @@
 
 #include <algorithm>
 
+#include "systems/cook/materials.hpp"
 #include "systems/damage/assemble.hpp"
 
 namespace cullet {
 
+namespace {
+
+/// Finer fracture cuts more edges, and a cut without room for its copies is refused.
+uint32_t spare_vertices(const ShellView& source) {
+    const FractureKind fracture = material_traits(source.state, source.shells().material[source.row]).fracture;
+    const uint32_t share = fracture == FractureKind::Fine ? 1 : fracture == FractureKind::Coarse ? 2 : 4;
+    return (std::max(192u, source.vertex_count() / share) + kLanes - 1) / kLanes * kLanes;
+}
+
+}  // namespace
+
+ShellRoom quick_room(ShellView source) {
+    const uint32_t spare = spare_vertices(source);
+    ShellRoom room;
+    room.vertices = (source.vertex_count() + kLanes - 1) / kLanes * kLanes + spare;
+    room.elements = source.element_count() + 2 * spare;
+    room.hinges = source.hinge_count() + 3 * spare;
+    room.cells = source.shells().cells[source.row].count;
+    return room;
+}
+
 ShellRoom working_room(ShellView source) {
-    const uint32_t spare = (std::max(192u, source.vertex_count() / 4) + kLanes - 1) / kLanes * kLanes;
+    const uint32_t spare = spare_vertices(source);
     const ShellRoom stiffness = stiffness_room(source, spare);
     ShellRoom room;
     room.vertices = std::max(source.vertex_count() + spare, stiffness.vertices);
@@ -19,16 +41,21 @@ ShellRoom working_room(ShellView source) {
     return room;
 }
 
-float run_seconds(const Materials& materials, uint32_t material, float area) {
-    const float speed_of_sound = std::sqrt(materials.young_modulus[material] / materials.density[material]);
+// Where there is a grain the slowest waves are those across it.
+float run_seconds(const State& state, uint32_t material, float area) {
+    const Materials& materials = state.materials;
+    const TraitsRow traits = material_traits(state, Row<Materials>(material));
+    const float along = materials.young_modulus[material];
+    const float slowest = traits.has_grain() ? std::min(along, traits.across_young_modulus) : along;
+    const float speed_of_sound = std::sqrt(slowest / materials.density[material]);
     return std::max(materials.run_seconds[material], 3.6f * std::sqrt(area) / speed_of_sound);
 }
 
-void set_task_times(State& state, const Materials& materials, Row<Tasks> task) {
+void set_task_times(State& state, Row<Tasks> task) {
     const Row<Shells> source = state.tasks.source[task];
     state.tasks.time_step[task] = state.shells.time_step[source];
     state.tasks.damping_time[task] = 0.15f * state.tasks.time_step[task];
-    state.tasks.end_time[task] = run_seconds(materials, state.shells.material[source], state.shells.area[source]);
+    state.tasks.end_time[task] = run_seconds(state, state.shells.material[source], state.shells.area[source]);
     state.tasks.quiet_time[task] = 0.4f * state.tasks.end_time[task];
 }
 

@@ -1,4 +1,6 @@
+#include "systems/damage/run_out.hpp"
 #include "systems/fragments/group_fragments.hpp"
+#include "systems/quick/quick_body.hpp"
 #include "systems/systems.hpp"
 
 namespace cullet {
@@ -27,7 +29,10 @@ void find_parts(Each<TaskEnded> ended, ShellTables shells, Tasks& tasks, Fragmen
     if (static_cast<TaskState>(tasks.state[t]) == TaskState::Dropped) return;
     const ShellView shell(shells.state, tasks.shell[t]);
     if (tasks.crack_count[t] == 0 && is_of_one_part(shell)) return;
-    tasks.part_count[t] = group_fragments(shell, std::span(fragments.part.data() + size_t{t} * kMostParts, kMostParts));
+    const std::span parts(fragments.part.data() + size_t{t} * kMostParts, kMostParts);
+    tasks.part_count[t] = group_fragments(shell, parts);
+    if (tasks.part_count[t] > 1 && !is_quick_task(shells.state, t) && run_out_cracks(shells.state, Row<Tasks>(t)) > 0)
+        tasks.part_count[t] = group_fragments(shell, parts);
     if (tasks.part_count[t] > 1) tasks.state[t] = static_cast<uint8_t>(TaskState::Broke);
     if (tasks.part_count[t] > kMostParts) tasks.state[t] = static_cast<uint8_t>(TaskState::Dropped);
 }

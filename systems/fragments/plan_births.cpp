@@ -23,10 +23,18 @@ void tell_cracks(State& state, Row<Tasks> task, Events<CrackStartedEvent>& crack
     }
 }
 
+// What is awake asks with its points' motion.
+bool asks_as_soft(State& state, Row<Bodies> body) {
+    const Row<SoftBodies> soft = find_soft(state.soft_bodies, body);
+    if (!soft.exists() || !state.soft_bodies.is_awake[soft]) return false;
+    state.soft_bodies.is_torn[soft] = 1;
+    return true;
+}
+
 }  // namespace
 
 void plan_births(Serial, const Events<TaskEnded>& ended, ShellTables shells, const Tasks& tasks, Fragments&,
-                 QueuedHits&, Bodies& bodies, const Debris& debris, ViewVertices&, ViewIndices&,
+                 QueuedHits&, Blows&, Bodies& bodies, const Debris& debris, ViewVertices&, ViewIndices&,
                  const DamageSettings& settings, Arena& arena, Events<Break>& breaks, Events<Birth>& births,
                  Events<ShellChanged>& changed, Events<CrackStartedEvent>& cracks, Events<RefusedEvent>& refused,
                  Events<FaultEvent>& faults) {
@@ -34,7 +42,10 @@ void plan_births(Serial, const Events<TaskEnded>& ended, ShellTables shells, con
     births.clear();
     Planning planning{shells.state, settings, arena, breaks, births, changed, refused, free_debris(debris)};
     for (uint32_t b = 0; b < bodies.size(); ++b)
-        if (bodies.is_owed_births[b] && bodies.task[b] == kNone) ask_again(planning, Row<Bodies>(b));
+        if (bodies.is_owed_births[b] && bodies.task[b] == kNone && !asks_as_soft(shells.state, Row<Bodies>(b)))
+            ask_again(planning, Row<Bodies>(b));
+    for (uint32_t s = 0; s < shells.state.soft_bodies.size(); ++s)
+        if (shells.state.soft_bodies.is_torn[s]) plan_tear(planning, Row<SoftBodies>(s));
     for (const TaskEnded& e : ended) {
         const Row<Tasks> task = e.task;
         const auto result = static_cast<TaskState>(tasks.state[task]);

@@ -1,0 +1,48 @@
+// At which speeds the three known bodies crack and break, quickly and by the hidden run.
+#include <gtest/gtest.h>
+
+#include "sample_game/thresholds.hpp"
+
+namespace cullet {
+namespace {
+
+constexpr uint32_t kPlacements = 3;
+
+MedianSpread first_pieces(HitBench& bench, double guess, MedianSpread& cracks) {
+    std::vector<double> crack, piece;
+    for (uint32_t placement = 0; placement < kPlacements; ++placement) {
+        const Thresholds found = find_thresholds(bench, placement, guess);
+        EXPECT_EQ(found.dropped, 0u) << "placement " << placement;
+        crack.push_back(found.first_crack), piece.push_back(found.first_piece);
+    }
+    cracks = spread_of(crack);
+    return spread_of(piece);
+}
+
+TEST(QuickThresholds, StandBesideThoseOfTheHiddenRun) {
+    for (const Subject subject : kSubjects) {
+        const Result<HitSubject> known = make_subject(subject);
+        ASSERT_TRUE(known.ok()) << known.error();
+        HitBench bench(subject, known->model);
+        MedianSpread hidden_crack;
+        const MedianSpread hidden = first_pieces(bench, known->known.first_crack, hidden_crack);
+        std::printf("%s, hidden: first crack %.2f m/s, first piece %.2f\n", known->name, hidden_crack.median,
+                    hidden.median);
+        for (const uint32_t layers : {1u, 2u}) {
+            QuickSettings quick;
+            quick.layers = layers;
+            bench.break_quickly(quick, static_cast<float>(hidden_crack.median));
+            MedianSpread crack;
+            const MedianSpread piece = first_pieces(bench, known->known.first_crack, crack);
+            std::printf("%s, quick, %u layers: first crack %.2f m/s (%.2f to %.2f), first piece %.2f (%.2f to %.2f)\n",
+                        known->name, layers, crack.median, crack.least, crack.most, piece.median, piece.least,
+                        piece.most);
+            EXPECT_GT(crack.median, 0.2 * hidden_crack.median) << known->name << ", " << layers << " layers";
+            EXPECT_LT(crack.median, kMostThreshold) << known->name << ", " << layers << " layers";
+        }
+        bench.break_quickly({});
+    }
+}
+
+}  // namespace
+}  // namespace cullet
