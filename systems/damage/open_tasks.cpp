@@ -240,6 +240,32 @@ void lay_queued(State& state, Row<Tasks> task, uint32_t q) {
     tasks.is_late[task] = 1;
 }
 
+// A striker that touches k bodies whose tasks open in one frame is given to each as k times as light: k strikers of a
+// k-th of its mass each lose together at least what one loses that all k push, by the convexity of |v|^2. Else each
+// task would take its own from the whole of its motion, and breaks would add energy.
+void share_strikers(State& state, std::span<const TaskOpened> opened) {
+    const Tasks& tasks = state.tasks;
+    TaskContacts& contacts = state.task_contacts;
+    const auto touches = [&](Row<Tasks> task, uint32_t striker) {
+        const uint32_t first = tasks.first_contact[task], end = first + tasks.contact_count[task];
+        for (uint32_t c = first; c < end; ++c)
+            if (contacts.striker[c] == striker) return true;
+        return false;
+    };
+    for (const TaskOpened& of : opened) {
+        const uint32_t first = tasks.first_contact[of.task], end = first + tasks.contact_count[of.task];
+        for (uint32_t c = first; c < end; ++c) {
+            if (!(contacts.striker_own_inverse_mass[c] > 0)) continue;
+            uint32_t sharers = 0;
+            for (const TaskOpened& other : opened) sharers += touches(other.task, contacts.striker[c]);
+            const float share = static_cast<float>(sharers);
+            contacts.striker_inverse_mass[c] *= share;
+            contacts.striker_own_inverse_mass[c] *= share;
+            contacts.striker_spin.set(c, share * contacts.striker_spin[c]);
+        }
+    }
+}
+
 // In the order of the queue's rows, one a body and frame.
 void open_queued(Opening& opening, const DamageSettings& settings, Events<ImpactEvent>& impact_events) {
     State& state = opening.state;
@@ -302,6 +328,7 @@ void open_tasks(Serial, Step step, const Events<Impact>& impacts, ShellTables sh
         &opening,
         [](void* opener, Row<Bodies> body, float speed) { return static_cast<Opening*>(opener)->open(body, speed); }};
     open_blows(blows);
+    share_strikers(state, opened.all());
 }
 
 }  // namespace cullet
