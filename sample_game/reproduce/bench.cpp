@@ -65,4 +65,15 @@ Result<void> Bench::add_picture(Claim& claim, const Picture& picture, const std:
     return {};
 }
 
+Result<void> Bench::add_pictures(Claim& claim, std::span<const Picture> pictures, const std::string& name,
+                                 std::vector<std::string> captions) {
+    std::string caption;
+    for (size_t n = 0; n < pictures.size(); ++n) {
+        if (n < captions.size() && !captions[n].empty()) caption = captions[n];
+        if (auto added = add_picture(claim, pictures[n], fmt::format("{}{}", name, n + 1), caption); !added.ok())
+            return added;
+    }
+    return {};
+}
+
 }  // namespace cullet::reproduce
