@@ -40,7 +40,8 @@ MeshDraft sheet(double width, double height, double wanted_edge, uint64_t seed, 
     for (uint64_t column = 0; column <= columns; ++column) {
         const double x = width * (static_cast<double>(column) / static_cast<double>(columns) - 0.5);
         const bool is_side = column == 0 || column == columns;
-        const std::vector<uint32_t> ids = add_column(surface, x, height, segments, is_side, share_moved * edge, seed, column);
+        const std::vector<uint32_t> ids =
+            add_column(surface, x, height, segments, is_side, share_moved * edge, seed, column);
         if (column > 0) stitch_rows(surface, before, ids, false);
         before = ids;
     }
@@ -51,15 +52,15 @@ MeshDraft sheet(double width, double height, double wanted_edge, uint64_t seed, 
 }  // namespace
 
 Mesh make_wall(float width, float height, float edge, uint64_t seed) {
-    return to_mesh(sheet(static_cast<double>(width), static_cast<double>(height), static_cast<double>(edge), seed,
-                         kUnevenness),
-                   "wall");
+    return to_mesh(
+        sheet(static_cast<double>(width), static_cast<double>(height), static_cast<double>(edge), seed, kUnevenness),
+        "wall");
 }
 
 Mesh make_pane(float side, float edge, uint64_t seed, double unevenness) {
-    return to_mesh(sheet(static_cast<double>(side), static_cast<double>(side), static_cast<double>(edge), seed,
-                         unevenness),
-                   "pane");
+    return to_mesh(
+        sheet(static_cast<double>(side), static_cast<double>(side), static_cast<double>(edge), seed, unevenness),
+        "pane");
 }
 
 }  // namespace cullet

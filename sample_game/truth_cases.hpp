@@ -1,4 +1,5 @@
-// The verification cases of the methods: what a formula, or a solution that is known, says about the springs and the hidden step.
+// The verification cases of the methods: what a formula, or a solution that is known, says about the springs and the
+// hidden step.
 #pragma once
 #include <span>
 #include <string>

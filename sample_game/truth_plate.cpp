@@ -29,7 +29,8 @@ struct Plate {
     ShellView shell() const { return {*state, state->tasks.shell[Row<Tasks>(0)]}; }
 };
 
-/// `edges` along each upright border, near-equilateral triangles, points moved by up to `unevenness` of an edge each way.
+/// `edges` along each upright border, near-equilateral triangles, points moved by up to `unevenness` of an edge each
+/// way.
 Result<Plate> make_plate(uint32_t edges, double unevenness) {
     CookSettings settings;
     settings.material = "glass";
@@ -51,7 +52,8 @@ Result<Plate> make_plate(uint32_t edges, double unevenness) {
     const char* full = "";
     const Row<Shells> source = import_shell(state, cooked, model->contents->shell, &full);
     if (!source.exists()) return Error{"the plate does not fit its own state"};
-    const auto half = static_cast<float>(0.5 * kSide), side = static_cast<float>(kSide), rim = 0.1f * side / static_cast<float>(edges);
+    const auto half = static_cast<float>(0.5 * kSide), side = static_cast<float>(kSide),
+               rim = 0.1f * side / static_cast<float>(edges);
     const ShellView shell(state, source);
     HitDescription untouched;
     untouched.normal = {0, 0, 1};
@@ -59,7 +61,8 @@ Result<Plate> make_plate(uint32_t edges, double unevenness) {
     apply_pins(shell, {-half - rim, side - rim, -1}, {half + rim, side + rim, 1});
     apply_pins(shell, {-half - rim, -rim, -1}, {-half + rim, side + rim, 1});
     apply_pins(shell, {half - rim, -rim, -1}, {half + rim, side + rim, 1});
-    if (!stiffen_pinned(shell) || !open_hit(state, source, untouched)) return Error{"the plate does not fit its own state"};
+    if (!stiffen_pinned(shell) || !open_hit(state, source, untouched))
+        return Error{"the plate does not fit its own state"};
     return plate;
 }
 
@@ -110,7 +113,8 @@ double frequency_ratio(uint32_t edges, double unevenness) {
     if (!plate.ok()) return 0;
     const Materials& materials = plate->state->materials;
     const Row<Materials> glass = plate->state->shells.material[plate->shell().row];
-    const double e{materials.young_modulus[glass]}, nu{materials.poisson_ratio[glass]}, density{materials.density[glass]};
+    const double e{materials.young_modulus[glass]}, nu{materials.poisson_ratio[glass]},
+        density{materials.density[glass]};
     const double bending = e * kThickness * kThickness * kThickness / (12 * (1 - nu * nu));
     const double theory = 2 * kPi * kPi / (kSide * kSide) * std::sqrt(bending / (density * kThickness));
     const double found = first_frequency(*plate);

@@ -1,16 +1,8 @@
-// The three kinds of fracture, re-meshing along cracks, and ductile shells (figures 4, 5 and 6).
+// The three kinds of fracture in both modes (figure 4).
 #include <fmt/format.h>
 
-#include <algorithm>
-#include <array>
-#include <set>
-
-#include "engine/fp_mode.hpp"
-#include "sample_game/hit_bench.hpp"
 #include "sample_game/reproduce/claims.hpp"
-#include "sample_game/reproduce/generated_shell.hpp"
 #include "sample_game/reproduce/scene_run.hpp"
-#include "sample_game/scene.hpp"
 
 namespace cullet::reproduce {
 namespace {
@@ -65,41 +57,10 @@ struct KindRow {
 Table kinds_table(std::span<const KindRow> rows) {
     Table table{"The same blow", {{"mode", "kind of fracture", "pieces", "crumbs", "largest piece"}}};
     for (const KindRow& row : rows)
-        table.rows.push_back({row.mode, row.kind, fmt::format("{}", row.run->pieces),
+        table.rows.push_back({mode_name(row.mode), row.kind, fmt::format("{}", row.run->pieces),
                               fmt::format("{}", row.run->crumbs), fmt::format("{:.0f} %", 100 * row.run->largest)});
     return table;
 }
-
-/// A broken shell at rest, cracks closed, and which of its triangles hold a vertex that was put on an edge: copies at
-/// cracks have the place of the vertex they come from, inserted ones have a new place.
-struct Remeshed {
-    Surface surface;
-    std::vector<Vec3d> inner;
-    std::vector<uint8_t> is_new;
-    size_t inserted = 0;
-
-    Remeshed(const ShellView& shell, uint32_t count_before) {
-        const Vertices& vertices = shell.state.vertices;
-        std::set<std::array<float, 3>> old_places, new_places;
-        std::vector<uint8_t> is_inserted;
-        for (uint32_t v = 0; v < shell.vertex_count(); ++v) {
-            const Vec3 p = vertices.rest[shell.vertex(v)];
-            const std::array<float, 3> place{p.x, p.y, p.z};
-            if (v < count_before) old_places.insert(place);
-            is_inserted.push_back(!old_places.count(place));
-            if (is_inserted.back()) new_places.insert(place);
-            surface.positions.push_back(Vec3d(p));
-            inner.push_back(Vec3d(p + vertices.depth[shell.vertex(v)] * vertices.inward[shell.vertex(v)]));
-        }
-        for (uint32_t e = 0; e < shell.element_count(); ++e) {
-            if (shell.state.elements.flags[shell.element(e)] & kDead) continue;
-            const auto& corner = shell.state.elements.corner[shell.element(e)];
-            surface.triangles.push_back({corner[0], corner[1], corner[2]});
-            is_new.push_back(is_inserted[corner[0]] || is_inserted[corner[1]] || is_inserted[corner[2]]);
-        }
-        inserted = new_places.size();
-    }
-};
 
 }  // namespace
 
@@ -124,8 +85,8 @@ Result<Claim> figure_4(Bench& bench) {
         claim.numbers.push_back(
             {fmt::format("pieces and crumbs, {}, large fragments", mode), "", static_cast<double>(lumps(*large)), {}});
         if (auto added = bench.add_pictures(claim, fine->pictures, mode,
-                                            {fmt::format("Fine fracture, {}, just after the blow", mode_name(mode)),
-                                             fmt::format("{}, after a second and a half", mode_name(mode))});
+                                            {mode_name(mode) + ", fine, just after the blow",
+                                             mode_name(mode) + ", fine, after a second and a half"});
             !added.ok())
             return Error{added.error()};
     }
@@ -158,8 +119,8 @@ Result<Claim> coarse_grained(Bench& bench) {
                                  static_cast<double>(lumps(*coarse)) / static_cast<double>(lumps(*fine)),
                                  {}});
         if (auto added = bench.add_pictures(claim, coarse->pictures, mode,
-                                            {fmt::format("Coarse fracture, {}, just after the blow", mode_name(mode)),
-                                             fmt::format("{}, after a second and a half", mode_name(mode))});
+                                            {mode_name(mode) + ", coarse, just after the blow",
+                                             mode_name(mode) + ", coarse, after a second and a half"});
             !added.ok())
             return Error{added.error()};
     }
@@ -214,74 +175,6 @@ Result<Claim> large_fragments(Bench& bench) {
                      {"largest shard, quick", "of the mass", quick.largest, {}}};
     claim.tables.push_back(kinds_table(rows));
     claim.verdict = is_met ? Verdict::Met : Verdict::FallsShort;
-    return claim;
-}
-
-Result<Claim> figure_5(Bench& bench) {
-    Claim claim;
-    claim.id = "figure_5";
-    claim.where = "Figure 5, section 4.2.3";
-    claim.title = "Local re-meshing makes cracks straight";
-    claim.paper = "Elements that the splitting plane crosses are cut in two, if the new ones are well shaped enough.";
-    const Result<HitSubject> vase = make_subject(Subject::Vase);
-    if (!vase.ok()) return Error{vase.error()};
-    const FpMode mode;
-    HitBench hits(Subject::Vase, vase->model);
-    State& state = hits.state();
-    const uint32_t before = state.shells.vertices[hits.shell()].count;
-    const HitReport report = run_hit(state, hits.shell(), hits.blow(0, vase->hit_speed));
-    const Remeshed broken(ShellView(state, state.tasks.shell[0]), before);
-    close_hit(state);
-    claim.ours = fmt::format(
-        "A vase of {} vertices at {} m/s: {} edges cut and {} vertices put on edges in a run of {} steps, where a "
-        "crack leaves the edges and all four new triangles are well shaped.",
-        before, vase->hit_speed, report.cuts, broken.inserted, report.steps);
-    claim.numbers = {{"edges cut", "", static_cast<double>(report.cuts), {}},
-                     {"vertices put on edges", "", static_cast<double>(broken.inserted), {}},
-                     {"cracks started", "", static_cast<double>(report.starts), {}},
-                     {"steps of the hidden run", "", static_cast<double>(report.steps), {}}};
-    claim.verdict = report.cuts > 0 && broken.inserted > 0 ? Verdict::Shown : Verdict::FallsShort;
-    Camera camera;
-    camera.eye = {0.34f, 0.30f, 0.52f}, camera.target = {0, 0.15f, 0}, camera.vertical_field_of_view = 0.56f;
-    if (auto added =
-            bench.add_picture(claim,
-                              draw_shell(broken.surface, broken.inner, camera, bench.picture_width(), bench.threads(),
-                                         0.0003f, broken.is_new),
-                              "1", "The vase's mesh after the hit; triangles at vertices put on edges are yellow");
-        !added.ok())
-        return Error{added.error()};
-    return claim;
-}
-
-Result<Claim> figure_6(Bench& bench) {
-    Claim claim;
-    claim.id = "figure_6";
-    claim.where = "Figure 6, section 4.2.4";
-    claim.title = "Ductile fracture: a soft shell stretches and tears";
-    claim.paper = "The vertices show the mass-spring model itself; a piece of soft material is fractured.";
-    const Scene* tear = find_scene("tear");
-    if (!tear) return Error{"the program has no scene named tear; this is a bug of the page"};
-    const bool is_small = bench.settings().is_reduced;
-    const Result<SceneRun> run =
-        run_scene(bench, {"tear",
-                          tear->text,
-                          is_small ? std::vector<std::string>{"scene.edge_m=0.07"} : std::vector<std::string>{},
-                          is_small ? 24u : 60u,
-                          is_small ? std::vector<uint32_t>{24} : std::vector<uint32_t>{6, 10, 14, 59}});
-    if (!run.ok()) return Error{run.error()};
-    claim.ours = fmt::format(
-        "A ball of 8 kg at 16 m/s and a framed sheet of cloth, one layer of springs, {} vertices, drawn as they move: "
-        "{} vertices split, {} in the end. The material flows beyond its yield strain where it has one, which the "
-        "paper lacks.",
-        run->vertices, run->tears, counted(*run));
-    claim.numbers = {{"vertices split", "", static_cast<double>(run->tears), {}},
-                     {"pieces", "", static_cast<double>(run->pieces), {}},
-                     {"median frame", "ms", percentile_of(run->frame_ms, 0.5), {}}};
-    claim.verdict = run->tears > 0 ? Verdict::Met : Verdict::FallsShort;
-    if (auto added = bench.add_pictures(claim, run->pictures, "",
-                                        {"The ball reaches the sheet", "It stretches and tears", "", "One second in"});
-        !added.ok())
-        return Error{added.error()};
     return claim;
 }
 

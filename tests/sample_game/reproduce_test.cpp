@@ -191,8 +191,8 @@ TEST(Reproduce, EveryWayToPropagateIsChosenAndTheDefaultIsTheLast) {
 
 TEST(Reproduce, TheKindsOfFractureAreRunAndComparedWithEachOther) {
     ASSERT_EQ(page().code, 0);
-    for (const char* id : {"figure_2", "figure_3", "figure_4", "coarse_grained", "large_fragments", "figure_5", "figure_6",
-                           "front_against_single", "table_2"})
+    for (const char* id : {"figure_2", "figure_3", "figure_4", "coarse_grained", "large_fragments", "figure_5",
+                           "figure_6", "front_against_single", "table_2"})
         EXPECT_NE(claim(id).at("verdict"), "not built yet") << id;
     EXPECT_GT(number("figure_4", "pieces and crumbs, hidden, fine"),
               number("figure_4", "pieces and crumbs, hidden, large fragments"));
