@@ -19,10 +19,10 @@ const char* name_of(Verdict verdict) {
             return "falls short";
         case Verdict::Shown:
             return "shown";
-        case Verdict::NotBuilt:
+        case Verdict::NotMeasured:
             break;
     }
-    return "not built yet";
+    return "not measured";
 }
 
 Bench::Bench(Settings settings) : settings_(std::move(settings)), shelf_(std::make_shared<ModelShelf>()) {}
