@@ -165,7 +165,7 @@ void build_triangle(Hull& hull, const Vec3 (&corners)[3], uint32_t cell) {
 
 void mark_inner_faces(Hull& hull, const Hull& other) {
     const Vec3 between = other.local.centre - hull.local.centre;
-    if (&hull == &other || length(between) > hull.radius + other.radius + 0.01f || other.face_count < 4) return;
+    if (&hull == &other || length(between) > hull.radius + other.radius + kSeamRange || other.face_count < 4) return;
     // Past the margins of both and half a millimetre more, so that faces which lie on each other count and parallel
     // walls do not.
     const float outside = hull.margin + other.margin + 0.0005f;
