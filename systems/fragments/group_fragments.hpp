@@ -11,6 +11,9 @@ namespace cullet {
 /// their elements not chained. O(elements), no scratch.
 uint32_t group_fragments(ShellView shell, std::span<FragmentPart> parts);
 
+/// Puts element e behind the part's others; they come in rising order.
+void add_to_part(const ShellView& shell, FragmentPart& part, uint32_t e);
+
 /// Makes parts[from] one with parts[to], for a fragment that gets no body of its own: its elements get that number, and
 /// parts[from] is left empty (first_element kNone, no mass). make_piece then gives both one shell. O(elements of from).
 void join_parts(ShellView shell, std::span<FragmentPart> parts, uint32_t from, uint32_t to);
