@@ -71,17 +71,23 @@ void tell_starts(const PutBack& p, Row<Bodies> body, Events<CrackStartedEvent>& 
     });
 }
 
+// Cuts and inserted vertices change rows round the cracks alone: to copy all of them costs ten times as much.
 void put_vertices(const PutBack& p) {
     Vertices& vertices = p.state.vertices;
     p.for_each_vertex([&](uint32_t v) {
+        const bool is_old = v < p.rows.vertex_count;
         const uint32_t from = p.cut.vertex(v), to = p.source.vertex(p.vertex(v));
         // The start of a crack that lies outside is not known in the cut-out.
         uint32_t start = vertices.crack_start[from] == kNone ? kNone : p.vertex(vertices.crack_start[from]);
-        if (start == kNone && v < p.rows.vertex_count) {
+        if (start == kNone && is_old) {
             const uint32_t old = vertices.crack_start[to];
             if (old != kNone && p.rows.vertex(old) == kNone && vertices.crack[from] != 0) start = old;
         }
         const uint32_t element = p.element(vertices.element[from]);
+        const bool is_same = is_old && vertices.element[to] == element && vertices.mass[to] == vertices.mass[from] &&
+                             vertices.crack[to] == vertices.crack[from] && vertices.crack_start[to] == start &&
+                             vertices.heading[to] == vertices.heading[from];
+        if (is_same) return vertices.velocity.set(to, vertices.velocity[from]);
         const uint32_t place = vertices.copy[to];  // in the cut-out; `from` has the way back
         vertices.copy_rows(vertices, from, to, 1);
         vertices.copy[to] = place;
@@ -95,21 +101,41 @@ void put_vertices(const PutBack& p) {
     });
 }
 
-/// Hulls of cells whose elements have other corners or borders are chosen anew at the next break.
-void mark_cell(const PutBack& p, uint32_t e) {
-    const Elements& elements = p.state.elements;
-    const uint32_t now = p.cut.element(e);
-    Cells& cells = p.state.cells;
-    const uint32_t cell = p.state.shells.cells[p.source.row].first + elements.cell[now];
-    bool is_same = e < p.rows.element_count;
-    for (uint32_t k = 0; k < 3 && is_same; ++k) {
-        const uint32_t then = p.source.element(p.rows.list[e]);
-        is_same = elements.corner[then][k] == p.vertex(elements.corner[now][k]) &&
-                  (elements.edge_kind[now][k] == static_cast<uint8_t>(EdgeKind::Crack)) ==
-                      (elements.edge_kind[then][k] == static_cast<uint8_t>(EdgeKind::Crack));
+/// What an element of the cut-out names, in the body's shell. Corners say whether anything else in its row changed.
+struct Links {
+    std::array<uint32_t, 3> corner, neighbour, hinge;
+    std::array<uint8_t, 3> edge_kind;
+    friend bool operator==(const Links&, const Links&) = default;
+};
+
+Links links_of(const Elements& elements, uint32_t row) {
+    return {elements.corner[row], elements.neighbour[row], elements.hinge[row], elements.edge_kind[row]};
+}
+
+/// `then`: as it is in the body, where it is there.
+Links links_now(const PutBack& p, uint32_t e, const Links* then) {
+    Links links = links_of(p.state.elements, p.cut.element(e));
+    for (uint32_t k = 0; k < 3; ++k) {
+        links.corner[k] = p.vertex(links.corner[k]);
+        links.neighbour[k] = p.element(links.neighbour[k]);
+        links.hinge[k] = p.hinge(links.hinge[k]);
+        // The border of the cut-out, which is none of the body's.
+        if (!then || links.edge_kind[k] != static_cast<uint8_t>(EdgeKind::Border) || then->neighbour[k] == kNone)
+            continue;
+        CULLET_ASSERT(p.rows.element(then->neighbour[k]) == kNone, "a run has made a border at element %u", p.element(e));
+        links.neighbour[k] = then->neighbour[k];
+        links.hinge[k] = then->hinge[k];
+        links.edge_kind[k] = static_cast<uint8_t>(EdgeKind::Interior);
     }
-    if (!is_same) cells.is_stale[cell] = 1;
-    cells.element_count[cell] += e >= p.rows.element_count;
+    return links;
+}
+
+/// Hulls of cells whose elements have other corners or borders are chosen anew at the next break.
+void mark_cell(const PutBack& p, uint32_t e, const Links& now, const Links* then) {
+    Cells& cells = p.state.cells;
+    const uint32_t cell = p.state.shells.cells[p.source.row].first + p.state.elements.cell[p.cut.element(e)];
+    if (!then || now.corner != then->corner || now.edge_kind != then->edge_kind) cells.is_stale[cell] = 1;
+    cells.element_count[cell] += !then;
 }
 
 void put_element(const PutBack& p, uint32_t e) {
@@ -117,33 +143,33 @@ void put_element(const PutBack& p, uint32_t e) {
     Elements& elements = state.elements;
     const bool is_old = e < p.rows.element_count;
     const uint32_t from = p.cut.element(e), to = p.source.element(p.element(e));
-    const auto old_neighbour = elements.neighbour[to], old_hinge = elements.hinge[to];
+    const Links before = links_of(elements, to), now = links_now(p, e, is_old ? &before : nullptr);
+    if (is_old && now == before) return;
+    mark_cell(p, e, now, is_old ? &before : nullptr);
     const uint32_t part = elements.part[is_old ? to : p.source.element(p.rows.list[0])], place = elements.copy[to],
                    listed = elements.next_in_cell[to], next = elements.next[to];
     elements.copy_rows(elements, from, to, 1);
     state.triangle_springs.copy_rows(state.triangle_springs, from, to, 1);
     elements.copy[to] = place, elements.next_in_cell[to] = listed, elements.next[to] = next;  // what rows stand where
     elements.part[to] = part;
-    for (uint32_t k = 0; k < 3; ++k) {
-        elements.corner[to][k] = p.vertex(elements.corner[from][k]);
-        elements.neighbour[to][k] = p.element(elements.neighbour[from][k]);
-        elements.hinge[to][k] = p.hinge(elements.hinge[from][k]);
-        // The border of the cut-out, which is none of the body's.
-        if (!is_old || elements.edge_kind[from][k] != static_cast<uint8_t>(EdgeKind::Border)) continue;
-        if (old_neighbour[k] == kNone) continue;
-        CULLET_ASSERT(p.rows.element(old_neighbour[k]) == kNone, "a run has made a border at element %u", p.element(e));
-        elements.neighbour[to][k] = old_neighbour[k];
-        elements.hinge[to][k] = old_hinge[k];
-        elements.edge_kind[to][k] = static_cast<uint8_t>(EdgeKind::Interior);
-    }
+    elements.corner[to] = now.corner;
+    elements.neighbour[to] = now.neighbour;
+    elements.hinge[to] = now.hinge;
+    elements.edge_kind[to] = now.edge_kind;
 }
 
 void put_hinges(const PutBack& p) {
     Hinges& hinges = p.state.hinges;
     for (uint32_t h = 0; h < p.cut.hinge_count(); ++h) {
-        const uint32_t to = p.source.hinge(p.hinge(h));
-        hinges.copy_rows(hinges, p.cut.hinge(h), to, 1);
-        for (uint32_t& v : hinges.vertex[to]) v = p.vertex(v);
+        const uint32_t from = p.cut.hinge(h), to = p.source.hinge(p.hinge(h));
+        auto vertex = hinges.vertex[from];
+        for (uint32_t& v : vertex) v = p.vertex(v);
+        const bool is_same = h < p.rows.hinge_count && hinges.vertex[to] == vertex &&
+                             hinges.stiffness[to] == hinges.stiffness[from] &&
+                             hinges.gradient[to] == hinges.gradient[from] && hinges.scale[to] == hinges.scale[from];
+        if (is_same) continue;
+        hinges.copy_rows(hinges, from, to, 1);
+        hinges.vertex[to] = vertex;
     }
 }
 
@@ -160,7 +186,6 @@ void move_the_rest(const PutBack& p, const BodyMotion& motion) {
 void put_rows(State& state, Row<Tasks> task, const PutBack& p, const BodyMotion& motion,
               Events<CrackStartedEvent>& cracks) {
     tell_starts(p, state.tasks.body[task], cracks);
-    for (uint32_t e = 0; e < p.cut.element_count(); ++e) mark_cell(p, e);
     put_vertices(p);
     for (uint32_t e = 0; e < p.cut.element_count(); ++e) put_element(p, e);
     put_hinges(p);
