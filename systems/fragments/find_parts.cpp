@@ -4,22 +4,6 @@
 #include "systems/systems.hpp"
 
 namespace cullet {
-namespace {
-
-/// By the numbers of the last grouping: cooking's, or that of the break that made the shell.
-bool is_of_one_part(ShellView shell) {
-    const Elements& elements = shell.state.elements;
-    uint32_t part = kNone;
-    for (uint32_t e = 0; e < shell.element_count(); ++e) {
-        const uint32_t row = shell.element(e);
-        if (elements.flags[row] & kDead) continue;
-        if (part == kNone) part = elements.part[row];
-        if (elements.part[row] != part) return false;
-    }
-    return true;
-}
-
-}  // namespace
 
 // A mesh of several parts, which nothing but the rigid body held together, comes apart at the first hit that is worth a
 // task, cracked or not.

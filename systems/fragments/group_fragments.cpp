@@ -57,6 +57,18 @@ uint32_t group_fragments(ShellView shell, std::span<FragmentPart> parts) {
     return count;
 }
 
+bool is_of_one_part(const ShellView& shell) {
+    const Elements& elements = shell.state.elements;
+    uint32_t part = kNone;
+    for (uint32_t e = 0; e < shell.element_count(); ++e) {
+        const uint32_t row = shell.element(e);
+        if (elements.flags[row] & kDead) continue;
+        if (part == kNone) part = elements.part[row];
+        if (elements.part[row] != part) return false;
+    }
+    return true;
+}
+
 void join_parts(ShellView shell, std::span<FragmentPart> parts, uint32_t from, uint32_t to) {
     if (from == to || parts[from].element_count == 0) return;
     Elements& elements = shell.state.elements;

@@ -11,6 +11,9 @@ namespace cullet {
 /// their elements not chained. O(elements), no scratch.
 uint32_t group_fragments(ShellView shell, std::span<FragmentPart> parts);
 
+/// By the numbers of the last grouping: cooking's, or that of the break that made the shell.
+bool is_of_one_part(const ShellView& shell);
+
 /// Puts element e behind the part's others; they come in rising order.
 void add_to_part(const ShellView& shell, FragmentPart& part, uint32_t e);
 

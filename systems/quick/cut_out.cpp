@@ -140,15 +140,23 @@ void copy_elements(const CutRows& rows, const ShellView& cut) {
 
 void copy_hinges(const CutRows& rows, const ShellView& cut) {
     State& state = cut.state;
-    uint32_t next = 0;
+    uint32_t next = 0, first = 0, run = 0;  // rows [first, first + run) of the body, to be copied behind next - run
+    const auto copy_run = [&] {
+        if (run > 0) state.hinges.copy_rows(state.hinges, rows.source.hinge(first), cut.hinge(next - run), run);
+    };
     rows.for_each_hinge([&](uint32_t e, uint32_t k, uint32_t other, uint32_t other_k, uint32_t hinge) {
-        const uint32_t row = cut.hinge(next);
-        state.hinges.copy_rows(state.hinges, rows.source.hinge(hinge), row, 1);
-        for (uint32_t& v : state.hinges.vertex[row])
-            if (v != kNone) v = rows.vertex(v);
+        if (hinge != first + run) {
+            copy_run();
+            first = hinge, run = 0;
+        }
+        ++run;
         state.elements.hinge[cut.element(e)][k] = next;
         state.elements.hinge[cut.element(other)][other_k] = next++;
     });
+    copy_run();
+    for (uint32_t h = 0; h < next; ++h)
+        for (uint32_t& v : state.hinges.vertex[cut.hinge(h)])
+            if (v != kNone) v = rows.vertex(v);
 }
 
 }  // namespace

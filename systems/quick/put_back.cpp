@@ -196,7 +196,7 @@ void put_rows(State& state, Row<Tasks> task, const PutBack& p, const BodyMotion&
     p.source.vertices().count += vertices;
     p.source.elements().count += elements;
     p.source.hinges().count += hinges;
-    state.shells.has_cracks[p.source.row] = 1;
+    if (state.tasks.crack_count[task] > 0) state.shells.has_cracks[p.source.row] = 1;
     drop_stiffness(state, p.source.row);
 }
 
@@ -204,7 +204,10 @@ void put_rows(State& state, Row<Tasks> task, const PutBack& p, const BodyMotion&
 
 void put_back(State& state, Row<Tasks> task, const BodyMotion& motion, Events<CrackStartedEvent>& cracks) {
     Tasks& tasks = state.tasks;
-    if (static_cast<TaskState>(tasks.state[task]) != TaskState::Dropped && tasks.crack_count[task] > 0) {
+    // A mesh of several parts comes apart without a crack (find_parts).
+    const bool has_changed =
+        tasks.crack_count[task] > 0 || !is_of_one_part(ShellView(state, tasks.source[task]));
+    if (static_cast<TaskState>(tasks.state[task]) != TaskState::Dropped && has_changed) {
         const PutBack p(state, task);
         // Later there is no way back. The body has no more pieces than the cut-out by itself.
         const std::span parts(state.fragments.part.data() + size_t{task} * kMostParts, kMostParts);
