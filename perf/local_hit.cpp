@@ -40,16 +40,16 @@ Hit hit_once(const Model& model, float height, FractureMode mode) {
     const ModelId id = world.add_model(model).value();
     SpawnSettings spawn;
     spawn.fracture = mode;
-    spawn.quick.strain_limit = 0.02f;
+    spawn.quick.strain_limit = 0.008f;
     const BodyId body = world.spawn(id, spawn).value();
     Hit hit;
     const auto& d = world.contents().data;
     const Profiler& profiler = world.contents().profiler;
     hit.elements = d.state.shells.elements[d.state.bodies.shell[Row<Bodies>(body.index)]].count;
     SphereSettings ball;
-    ball.radius = 0.03f, ball.mass = 0.3f;
+    ball.radius = 0.03f, ball.mass = 0.5f;
     ball.pose.position = {0, 0.43f * height, height};
-    ball.motion.velocity = {0, 0, -40};
+    ball.motion.velocity = {0, 0, -60};
     (void)world.add_sphere(ball).value();
     for (uint32_t frame = 0; frame < kMostFrames; ++frame) {
         const uint32_t number = profiler.frame_count();
