@@ -64,8 +64,10 @@ void settle_tasks(Serial, Step step, Tasks& tasks, TaskContacts& contacts, Blows
                   const Shells& shells, RigidWorld& rigid, const DamageSettings& settings, DamageCounts& counts,
                   Events<TaskEnded>& ended, Events<ImpactEvent>& impact_events);
 
-/// Regions whose run ended fall asleep: vertices get the body's own motion back, springs their rows.
-void close_regions(Serial, const Events<TaskEnded>& ended, ShellTables shells, Tasks& tasks, TaskContacts& contacts);
+/// Regions whose run ended fall asleep: vertices get the body's own motion back, springs their rows. What a cut-out
+/// changed goes into the body's shell (quick/cut_out.hpp).
+void close_regions(Serial, const Events<TaskEnded>& ended, ShellTables shells, Tasks& tasks, TaskContacts& contacts,
+                   Fragments& fragments, const Bodies& bodies, Events<CrackStartedEvent>& cracks);
 
 // ---- apply
 
