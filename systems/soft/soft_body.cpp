@@ -75,7 +75,8 @@ Result<Row<SoftBodies>> make_soft(State& state, Row<Bodies> body, float step_sec
     Result<Row<ShellSprings>> springs = give_springs(state, shell, settings);
     if (!springs) return Error{springs.error()};
     const SpringView stiff(state, *springs);
-    const double stable = kStepShare * 2 / std::sqrt(std::max(fastest_mode(stiff), 1.0)), wanted = step_seconds / stable;
+    const double stable = kStepShare * 2 / std::sqrt(std::max(fastest_mode(stiff), 1.0)),
+                 wanted = step_seconds / stable;
     const uint64_t cost = soft_units_a_substep(stiff.spring_count(), material.has_bending);
     const uint64_t most = std::clamp<uint64_t>(units / kSoftShare / cost, kLeastSubsteps, kMostSubsteps);
     const auto substeps = static_cast<uint32_t>(std::clamp(std::ceil(wanted), double{kLeastSubsteps}, double(most)));
