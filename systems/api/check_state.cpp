@@ -312,7 +312,7 @@ void check_soft(Checker& check) {
                                     ", no body with springs of its own"))
             return;
         const Range vertices = s.shells.vertices[s.bodies.shell[body]];
-        check.expect(kContactsAVertex * uint64_t{vertices.first + vertices.capacity} <= s.soft_contacts.size(),
+        check.expect(first_contact_row(vertices.first + vertices.capacity) <= s.soft_contacts.size(),
                      Checker::place(soft, "body", row) + " has no rows for contacts");
         check.expect(soft.substeps[row] >= 1 && soft.substeps[row] <= 1000,
                      Checker::place(soft, "substeps", row) + " is " + std::to_string(soft.substeps[row]));

@@ -2,6 +2,7 @@
 
 #include "systems/damage/cut_edge.hpp"
 #include "systems/damage/insert_vertex.hpp"
+#include "systems/springs/edge_stiffness.hpp"
 
 namespace cullet {
 namespace {
@@ -67,10 +68,17 @@ struct Patch {
     }
 };
 
-/// The inner point of w on the line between those of p and q, moving as they do.
-void put_twin(const SpringView& view, uint32_t p, uint32_t q, uint32_t w, float tau) {
+/// The inner point of w on the line between those of p and q, moving as they do. What is asleep has none so far: it
+/// stands where it is at rest.
+void put_twin(const RegionView& region, uint32_t p, uint32_t q, uint32_t w, float tau) {
+    const SpringView& view = region.springs;
     State& state = view.state;
     Twins& twins = state.twins;
+    for (const uint32_t end : {p, q}) {
+        if (region.is_awake(end) || region.is_held(end)) continue;
+        twins.clear_rows(view.twin(end), 1);
+        view.place_twin(end, inner_rest(view, end).to_float());
+    }
     const uint32_t from = view.twin(p), to = view.twin(q), row = view.twin(w);
     twins.copy_rows(twins, from, row, 1);
     twins.velocity.set(row, twins.velocity[from] + tau * (twins.velocity[to] - twins.velocity[from]));
@@ -139,7 +147,7 @@ uint32_t put_vertex(const RegionView& region, uint32_t element, uint32_t edge, f
     if (other != kNone) drop_spring(view, hand_on_springs(view, other, other_edge, made + 1));
     if (!is_moving) return w;
     region.add(w, !is_awake);
-    if (view.has_layers()) put_twin(view, p, q, w, tau);
+    if (view.has_layers()) put_twin(region, p, q, w, tau);
     patch.add(w);
     if (may_turn) patch.give(before - patch.angular(about));
     return w;
