@@ -56,7 +56,7 @@ void plan_births(Serial, const Events<TaskEnded>& ended, ShellTables shells, con
         if (result == TaskState::Whole && tasks.crack_count[task]) keep_cracks(planning, task);
         // More pieces than there may be, with those that found no room before.
         if (result == TaskState::Dropped && tasks.crack_count[task] && tasks.shell[task] == tasks.source[task])
-            clear_run(ShellView(shells.state, tasks.shell[task]), true);
+            clear_run(ShellView(shells.state, tasks.shell[task]), true, false);
         if (result == TaskState::Dropped)
             faults.push({body_id(bodies, tasks.body[task]), bodies.user_data[tasks.body[task]],
                          centre_of(bodies, tasks.body[task]),

@@ -166,13 +166,13 @@ void stay_whole(Planning& planning, Break& plan) {
     const ShellView shell(state, plan.broken), before(state, state.bodies.shell[plan.body]);
     if (!plan.task.exists()) return;
     if (!keep_hulls(shell, before)) return keep_cuts(state.blows, plan.task);
-    clear_run(shell, true);
+    clear_run(shell, true, shell.row != before.row);
     adopt_shell(state, plan.body, shell.row);
 }
 
 // What a hit changed in the body's own shell stays there. It is drawn, and its pieces go, when there is room.
 void leave_cracked(State& state, Row<Bodies> body) {
-    clear_run(ShellView(state, state.bodies.shell[body]), true);
+    clear_run(ShellView(state, state.bodies.shell[body]), true, false);
     state.bodies.is_owed_births[body] = kOwedBirths;
 }
 
@@ -317,7 +317,7 @@ void keep_cracks(Planning& planning, Row<Tasks> task) {
         if (shell.row == before.row) leave_cracked(state, body);
         return keep_cuts(state.blows, task);
     }
-    clear_run(shell, true);
+    clear_run(shell, true, shell.row != before.row);
     adopt_shell(state, body, shell.row);
     planning.changed.push({body});
 }

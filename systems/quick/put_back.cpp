@@ -1,6 +1,7 @@
 // A cut-out's rows go back into the body's shell.
 #include <algorithm>
 
+#include "systems/damage/ring.hpp"
 #include "systems/fragments/group_fragments.hpp"
 #include "systems/quick/cut_out.hpp"
 #include "systems/quick/cut_rows.hpp"
@@ -83,11 +84,11 @@ void put_vertices(const PutBack& p) {
             const uint32_t old = vertices.crack_start[to];
             if (old != kNone && p.rows.vertex(old) == kNone && vertices.crack[from] != 0) start = old;
         }
-        const uint32_t element = p.element(vertices.element[from]);
-        const bool is_same = is_old && vertices.element[to] == element && vertices.mass[to] == vertices.mass[from] &&
+        const bool is_same = is_old && vertices.mass[to] == vertices.mass[from] &&
                              vertices.crack[to] == vertices.crack[from] && vertices.crack_start[to] == start &&
                              vertices.heading[to] == vertices.heading[from];
         if (is_same) return vertices.velocity.set(to, vertices.velocity[from]);
+        const uint32_t element = p.element(vertices.element[from]);
         const uint32_t place = vertices.copy[to];  // in the cut-out; `from` has the way back
         vertices.copy_rows(vertices, from, to, 1);
         vertices.copy[to] = place;
@@ -158,6 +159,15 @@ void put_element(const PutBack& p, uint32_t e) {
     elements.edge_kind[to] = now.edge_kind;
 }
 
+/// The element that a vertex names may have lost it to a cut or to a vertex put on its edge.
+void follow_elements(const PutBack& p) {
+    Vertices& vertices = p.state.vertices;
+    for (uint32_t v = 0; v < p.rows.vertex_count; ++v) {
+        uint32_t& element = vertices.element[p.source.vertex(p.vertex(v))];
+        if (corner_of(p.source, element, p.vertex(v)) == 3) element = p.element(vertices.element[p.cut.vertex(v)]);
+    }
+}
+
 void put_hinges(const PutBack& p) {
     Hinges& hinges = p.state.hinges;
     for (uint32_t h = 0; h < p.cut.hinge_count(); ++h) {
@@ -188,6 +198,7 @@ void put_rows(State& state, Row<Tasks> task, const PutBack& p, const BodyMotion&
     tell_starts(p, state.tasks.body[task], cracks);
     put_vertices(p);
     for (uint32_t e = 0; e < p.cut.element_count(); ++e) put_element(p, e);
+    follow_elements(p);
     put_hinges(p);
     move_the_rest(p, motion);
     const uint32_t vertices = p.cut.vertex_count() - p.first_new_vertex(),
