@@ -44,11 +44,11 @@ Breakage vase_and_balls(const Settings& settings, uint32_t layers = 1) {
     SpawnSettings spawn;
     spawn.fracture = FractureMode::Quick;
     spawn.quick.layers = layers;
-    spawn.quick.strain_limit = 0.02f;
+    spawn.quick.strain_limit = 0.004f;
     b.body = b.world.spawn(id, spawn).value();
-    b.ball = b.world.add_sphere(ball_at({0.01f, 0.26f, 0.2f}, 0.5f, 60)).value();
+    b.ball = b.world.add_sphere(ball_at({0.01f, 0.26f, 0.2f}, 1, 80)).value();
     // A second one hits the cracked body 20 frames later.
-    (void)b.world.add_sphere(ball_at({-0.05f, 0.33f, 15}, 0.5f, 60)).value();
+    (void)b.world.add_sphere(ball_at({-0.05f, 0.33f, 20}, 1, 80)).value();
     return b;
 }
 
