@@ -43,9 +43,9 @@ struct SoftBodies : Table<SoftBodies> {
     Column<std::array<uint32_t, kMostPartners>> partners{*this, "partners"};  // rows that it lay against when it froze
     // Of the frame.
     Column<uint32_t> striker_count{*this, "striker_count", "1", Keep::Scratch};
-    Column<uint32_t> contact_count{*this, "contact_count", "1", Keep::Scratch};  // rows of SoftContacts
-    Column<uint8_t> has_fault{*this, "has_fault", "1", Keep::Scratch};    // something was not finite
-    Column<uint8_t> lacks_room{*this, "lacks_room", "1", Keep::Scratch};  // a split found none
+    Column<uint32_t> contact_count{*this, "contact_count", "1", Keep::Scratch};   // rows of SoftContacts
+    Column<uint8_t> has_fault{*this, "has_fault", "1", Keep::Scratch};            // something was not finite
+    Column<uint8_t> lacks_room{*this, "lacks_room", "1", Keep::Scratch};          // a split found none
     Column<Vec3d> start_momentum{*this, "start_momentum", "N s", Keep::Scratch};  // of its points, as the frame began
     Column<uint32_t> granted{*this, "granted", "1", Keep::Scratch};  // substeps of this frame, at most `substeps`
 };
@@ -77,8 +77,8 @@ struct SoftStrikers : Table<SoftStrikers> {
 };
 
 /// Eight vertices that may meet one striker in this frame, each with the plane of its surface that is nearest to it: a
-/// vertex at x, seen from the striker's centre along the axes that the world had when the frame began and that turn with
-/// it, is inside where normal . x < distance; at a ball, where |x| < radius + offset.
+/// vertex at x, seen from the striker's centre along the axes that the world had when the frame began and that turn
+/// with it, is inside where normal . x < distance; at a ball, where |x| < radius + offset.
 struct alignas(32) SoftContact {
     uint32_t vertex[kLanes] = {};  // of the shell; lanes that are not used say the first's
     float normal[3][kLanes] = {};

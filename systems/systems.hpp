@@ -110,8 +110,8 @@ void fall_debris(Rows<Debris> debris, Step step, InOut<&Debris::position> positi
 // ---- end
 
 /// Soft bodies that are awake are drawn anew.
-void show_soft(Serial, ShellTables shells, const SoftBodies& soft, Bodies& bodies, Events<ShellChanged>& changed,
-               Events<RefusedEvent>& refused);
+void show_soft(Serial, ShellTables shells, const SoftBodies& soft, Bodies& bodies, ViewVertices& vertices,
+               ViewIndices& indices, Events<ShellChanged>& changed, Events<RefusedEvent>& refused);
 /// The drawn mesh of each shell that changed.
 void draw_shells(Each<ShellChanged> changed, Step step, ShellTables shells, Bodies& bodies, ViewVertices& vertices,
                  ViewIndices& indices);

@@ -184,7 +184,10 @@ Result<BodyId> World::spawn(ModelId id, const SpawnSettings& settings) {
     if (settings.fracture == FractureMode::Quick && bodies.is_breakable[body] && quick.strain_limit == 0)
         quick.strain_limit = calibrated_strain_limit(state, shell, quick, state.shells.first_crack_speed[shell]);
     set_fracture(state, body, settings.fracture, quick);
-    if (bodies.is_breakable[body]) d.make_ready(working_room(ShellView(state, shell)));
+    if (bodies.is_breakable[body]) {
+        const ShellView view(state, shell);
+        d.make_ready(is_quick_body(state, body) ? quick_room(view) : working_room(view));
+    }
     take_mass_properties(state, body);
     if (is_soft) {
         const Result<Row<SoftBodies>> soft =

@@ -11,6 +11,7 @@
 #include "systems/api/settings_bytes.hpp"
 #include "systems/brittle/restart.hpp"
 #include "systems/damage/working_room.hpp"
+#include "systems/quick/quick_body.hpp"
 #include "systems/fragments/rigid_shape.hpp"
 #include "systems/query/bound_drawn.hpp"
 #include "systems/query/query_index.hpp"
@@ -134,7 +135,9 @@ void restore_what_follows(World::Contents& world) {
         const Row<Shells> shell = state.bodies.shell[b];
         if (static_cast<BodyKind>(state.bodies.kind[b]) == BodyKind::Free || !shell.exists()) continue;
         bound_view(state.bodies, Row<Bodies>(b), state.view_vertices, state.view_indices, d.view_boxes);
-        if (state.bodies.is_breakable[b]) d.make_ready(working_room(ShellView(state, shell)));
+        if (state.bodies.is_breakable[b])
+            d.make_ready(is_quick_body(state, Row<Bodies>(b)) ? quick_room(ShellView(state, shell))
+                                                 : working_room(ShellView(state, shell)));
         d.arena.reset();
         if (world.hosted) world.hosted->announce(b, convex_pieces(state, shell, d.arena));
     }

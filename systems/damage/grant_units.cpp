@@ -50,9 +50,9 @@ void grant_units(Serial, ShellTables shells, Tasks& tasks, SoftBodies&, const Da
         goes_on = false;
         for (uint32_t i = 0; i < count; ++i) {
             const uint32_t t = order[i];
-            const auto cost = static_cast<int64_t>(is_quick_task(shells.state, t)
-                                                       ? quick_units_a_step(shells.state, t)
-                                                       : units_a_step(shells.state.shells, tasks, t));
+            const auto cost =
+                static_cast<int64_t>(is_quick_task(shells.state, t) ? quick_units_a_step(shells.state, t)
+                                                                    : units_a_step(shells.state.shells, tasks, t));
             uint32_t steps = 1;  // also where rounding leaves none: the step itself tells that the time is up
             if (!is_first_round)
                 steps = static_cast<uint32_t>(std::min<int64_t>(std::min(kStepsARound, steps_left(tasks, t)),

@@ -14,8 +14,7 @@ struct HitDescription {
     float striker_inverse_mass = 0;  // 1/kg, 0: floor
     float striker_radius = 0;        // m, 0: flat
     float strength_scale = 1;
-    float step_scale =
-        1;  // on the shell's time step, not on its damping time, which belongs to the body; truth halves it
+    float step_scale = 1;  // on the shell's time step; its damping time, the body's own, stays. Truth halves it
     const QuickSettings* quick = nullptr;  // the quick mode takes the hidden run's place
 };
 

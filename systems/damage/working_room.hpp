@@ -7,7 +7,7 @@ namespace cullet {
 /// Rows of a shell and what cracks add to it: a quarter more vertices, at least 192. A vase's first hit adds about 400:
 /// a copy for each cut edge inside a crack, and 20 to 110 inserted ones.
 ShellRoom working_room(ShellView source);
-/// The same without stiffness, for the quick mode.
+/// For the quick mode: without stiffness, and with twice as much for cracks.
 ShellRoom quick_room(ShellView source);
 /// Of a part of a shell, without cells.
 ShellRoom quick_room(const State& state, Row<Materials> material, uint32_t vertices, uint32_t elements,

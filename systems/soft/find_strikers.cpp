@@ -151,8 +151,13 @@ void find_strikers(State& state, const RigidWorld& rigid, Row<SoftBodies> s, con
     const SpringView view(state, springs_of(state, s));
     const Vec3 origin = view.own().origin[view.row];
     const Range vertices = view.shell.vertices();
-    Gathering gathering{
-        state, rigid, s, view, step, first_contact_row(vertices.first), kContactsAVertex * (vertices.capacity / kLanes)};
+    Gathering gathering{state,
+                        rigid,
+                        s,
+                        view,
+                        step,
+                        first_contact_row(vertices.first),
+                        kContactsAVertex * (vertices.capacity / kLanes)};
     view.own().gravity.set(view.row, step.gravity);
     const Points points = points_of(view);
     const float wide = kReach + view.shell.shells().thickness[view.shell.row] +

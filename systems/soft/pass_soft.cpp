@@ -144,8 +144,8 @@ void return_soft(Serial, const SoftBodies& soft, const SoftStrikers& strikers, R
 }
 
 // Cracks have faces of their own, which need room. What broke in this step is drawn already.
-void show_soft(Serial, ShellTables shells, const SoftBodies& soft, Bodies& bodies, Events<ShellChanged>& changed,
-               Events<RefusedEvent>& refused) {
+void show_soft(Serial, ShellTables shells, const SoftBodies& soft, Bodies& bodies, ViewVertices&, ViewIndices&,
+               Events<ShellChanged>& changed, Events<RefusedEvent>& refused) {
     State& state = shells.state;
     for (uint32_t s = 0; s < soft.size(); ++s) {
         if (!soft.is_used[s] || !soft.is_awake[s]) continue;

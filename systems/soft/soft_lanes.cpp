@@ -40,8 +40,7 @@ void mark_inside(SoftContact* contacts, uint32_t count, const Float4* places, co
             } else {
                 const V3 normal{hn::Load(d, c->normal[0] + lane), hn::Load(d, c->normal[1] + lane),
                                 hn::Load(d, c->normal[2] + lane)};
-                mask = hn::Lt(dot(normal, {dot(from, x), dot(from, y), dot(from, z)}),
-                              hn::Load(d, c->distance + lane));
+                mask = hn::Lt(dot(normal, {dot(from, x), dot(from, y), dot(from, z)}), hn::Load(d, c->distance + lane));
             }
             inside |= bits_of(mask) << lane;
         }
@@ -54,12 +53,13 @@ uint32_t find_strained(const StrainLook& look, uint32_t first, uint32_t count, u
     const Indices u;
     const V longer = hn::Set(d, 1 + look.yield), shorter = hn::Set(d, 1 - look.yield), most = hn::Set(d, look.most);
     const auto none = hn::Set(u, kNone);
-    const auto length_of = [&](const Float4* points, const uint32_t* a, const uint32_t* b)
-                               HWY_ATTR { const V3 x = gather(points, b) - gather(points, a);
-                                          return hn::Sqrt(dot(x, x)); };
-    const auto flows = [&](V now, V plastic)
-                           HWY_ATTR { return hn::Or(hn::Gt(now, hn::Mul(longer, plastic)),
-                                                    hn::Lt(now, hn::Mul(shorter, plastic))); };
+    const auto length_of = [&](const Float4* points, const uint32_t* a, const uint32_t* b) HWY_ATTR {
+        const V3 x = gather(points, b) - gather(points, a);
+        return hn::Sqrt(dot(x, x));
+    };
+    const auto flows = [&](V now, V plastic) HWY_ATTR {
+        return hn::Or(hn::Gt(now, hn::Mul(longer, plastic)), hn::Lt(now, hn::Mul(shorter, plastic)));
+    };
     uint32_t listed = 0, s = first;
     for (; s + kLanes <= first + count; s += kLanes) {
         uint32_t bits = 0;

@@ -35,18 +35,21 @@ uint64_t soft_units_a_substep(uint64_t springs, bool has_layers) {
 
 uint64_t soft_units_wanted(const State& state) {
     uint64_t sum = 0;
-    for_each_awake(state, [&](uint32_t s, Cost cost) { sum += cost.frame + cost.substep * state.soft_bodies.substeps[s]; });
+    for_each_awake(state,
+                   [&](uint32_t s, Cost cost) { sum += cost.frame + cost.substep * state.soft_bodies.substeps[s]; });
     return sum;
 }
 
 uint64_t grant_soft(State& state, uint64_t units, uint64_t& slow_frames) {
     SoftBodies& soft = state.soft_bodies;
     uint64_t fixed = 0, steps = 0, used = 0;
-    for_each_awake(state, [&](uint32_t s, Cost cost) { fixed += cost.frame, steps += cost.substep * soft.substeps[s]; });
+    for_each_awake(state,
+                   [&](uint32_t s, Cost cost) { fixed += cost.frame, steps += cost.substep * soft.substeps[s]; });
     const uint64_t left = units > fixed ? units - fixed : 0;
     for_each_awake(state, [&](uint32_t s, Cost cost) {
         const uint32_t wanted = soft.substeps[s];
-        const auto share = steps > left ? static_cast<uint32_t>(double(wanted) * (double(left) / double(steps))) : wanted;
+        const auto share =
+            steps > left ? static_cast<uint32_t>(double(wanted) * (double(left) / double(steps))) : wanted;
         soft.granted[s] = std::min(wanted, std::max(share, kLeastSubsteps));
         used += cost.frame + cost.substep * soft.granted[s];
         if (soft.granted[s] == wanted) return;

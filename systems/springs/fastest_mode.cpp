@@ -30,7 +30,8 @@ struct LoneElement {
     double through[3] = {};  // of the internal springs
     uint32_t points;
     bool is_crossed;
-    double inverse_mass;
+    double inverse_mass;  // of each point that is free
+    bool is_free[6] = {};
 
     LoneElement(const SpringView& view, uint32_t e) {
         const State& s = view.state;
@@ -42,6 +43,7 @@ struct LoneElement {
         for (uint32_t k = 0; k < 3; ++k) {
             const uint32_t v = s.elements.corner[row][k], other = s.elements.neighbour[row][k];
             rest[k] = outer_rest(view, v);
+            is_free[k] = is_free[3 + k] = !s.vertices.is_pinned[view.shell.vertex(v)];
             const double beside = other == kNone ? 0 : area_of(view, other);
             take_edge(view, e, k, area + beside > 0 ? area / (area + beside) : 1);
             if (!view.has_layers()) continue;
@@ -111,17 +113,21 @@ struct LoneElement {
         for (uint32_t k = 0; k < 3 && points == 6; ++k) add_spring(through[k], k, 3 + k, u, force);
     }
 
-    /// u <- K u, all masses being the same; the energy of u over its square grows to the largest eigenvalue.
+    /// u <- K u, all masses being the same; the energy of u over its square grows to the largest eigenvalue. What is
+    /// pinned does not move.
     double fastest() const {
         // Along no mode's symmetry.
         Field u = {{0.31, 0.93, -0.28}, {0.48, 0.52, 0.59}, {0.65, -0.71, 0.3},
                    {0.82, -0.71, 1.17}, {0.99, 0.52, 0.01}, {-1.16, 0.93, 0.88}};
         double found = 0;
+        for (uint32_t i = 0; i < 6; ++i)
+            if (!is_free[i]) u[i] = {};
         for (int k = 0; k < kIterations; ++k) {
             Field force = {};
             add_forces(u, force);
             double work = 0, square = 0, next = 0;
             for (uint32_t i = 0; i < points; ++i) {
+                if (!is_free[i]) continue;
                 work -= dot(u[i], force[i]);
                 square += dot(u[i], u[i]);
                 next += dot(force[i], force[i]);
@@ -129,7 +135,7 @@ struct LoneElement {
             if (!(next > 0)) return found;
             found = work / square;
             const double scale = -1 / std::sqrt(next);
-            for (uint32_t i = 0; i < points; ++i) u[i] = scale * force[i];
+            for (uint32_t i = 0; i < points; ++i) u[i] = is_free[i] ? scale * force[i] : Vec3d{};
         }
         return found * inverse_mass;
     }

@@ -157,8 +157,8 @@ RigidMotion stop_springs(const SpringView& view) {
         state.vertices.velocity.set(row, {});
         if (!view.has_layers()) continue;
         state.twins.velocity.set(view.twin(v), {});
-        state.twins.through.set(view.twin(v), rotate(conjugate(motion.pose.orientation),
-                                                     view.twin_position(v) - view.position(v)));
+        state.twins.through.set(view.twin(v),
+                                rotate(conjugate(motion.pose.orientation), view.twin_position(v) - view.position(v)));
     }
     return motion;
 }
@@ -179,9 +179,8 @@ double spring_energy(const SpringView& view) {
         const LayerSprings& layers = s.layer_springs;
         const uint32_t layer = view.layer(i);
         const auto flowed = [](double now, double rest) { return rest > 0 ? now / rest : 1; };
-        const double flow =
-            0.5 * (flowed(s.springs.plastic_length[row], s.springs.rest_length[row]) +
-                   flowed(layers.inner_plastic[layer], layers.inner_length[layer]));
+        const double flow = 0.5 * (flowed(s.springs.plastic_length[row], s.springs.rest_length[row]) +
+                                   flowed(layers.inner_plastic[layer], layers.inner_length[layer]));
         const Vec3d ya(view.twin_position(a)), yb(view.twin_position(b));
         spring(layers.inner_stiffness[layer], ya, yb, layers.inner_plastic[layer]);
         const double first = flow * layers.cross_length[layer][0], second = flow * layers.cross_length[layer][1];

@@ -69,14 +69,18 @@ TEST(SoftMeetings, AnExplosionWakesASheetAndBlowsItAway) {
         sheet.world.step();
         EXPECT_TRUE(sheet.is_awake());
         const double pushed = sheet.world.motion(sheet.body).value().velocity.z;
-        if (!is_pinned) EXPECT_LT(pushed, -0.5) << "along -z, away from it";
+        if (!is_pinned) {
+            EXPECT_LT(pushed, -0.5) << "along -z, away from it";
+        }
         float deepest = 0;
         for (int frame = 0; frame < 40; ++frame) {
             sheet.world.step();
             deepest = std::max(deepest, farthest(before, sheet.shape()));
         }
         EXPECT_TRUE(sheet.world.is_alive(sheet.body));
-        if (is_pinned) EXPECT_GT(deepest, 0.003f) << "it bulges";
+        if (is_pinned) {
+            EXPECT_GT(deepest, 0.003f) << "it bulges";
+        }
         EXPECT_LT(deepest, 0.4f);
     }
 }
@@ -143,8 +147,10 @@ TEST(SoftMeetings, ARecordedRunIsReplayedToTheSameBytes) {
             ExplosionSettings explosion;
             explosion.centre = {0, 0.2f, 0.5f};
             explosion.impulse = 5;
-            if (frame == 20) ASSERT_TRUE(world.explode(explosion).ok());
-            if (frame == 30) ASSERT_TRUE(world.remove(sheet).ok());
+            const bool is_done = frame == 20   ? world.explode(explosion).ok()
+                                 : frame == 30 ? world.remove(sheet).ok()
+                                               : true;
+            ASSERT_TRUE(is_done) << "frame " << frame;
             world.step();
         }
         ASSERT_TRUE(world.stop_recording().ok());
@@ -158,13 +164,14 @@ TEST(SoftMeetings, ARecordedRunIsReplayedToTheSameBytes) {
     std::filesystem::remove(path);
 }
 
-float most_flow(Sheet& sheet) {
+/// How far all springs have flowed for good, together: m.
+float flow_of(Sheet& sheet) {
     const SpringView view = sheet.view();
     const Springs& springs = sheet.state().springs;
-    float most = 0;
+    float sum = 0;
     for (uint32_t s = 0; s < view.spring_count(); ++s)
-        most = std::max(most, springs.plastic_length[view.spring(s)] / springs.rest_length[view.spring(s)] - 1);
-    return most;
+        sum += std::fabs(springs.plastic_length[view.spring(s)] - springs.rest_length[view.spring(s)]);
+    return sum;
 }
 
 TEST(SoftMeetings, ADentedPlateThatIsHitAgainKeepsItsDentAndWhatHasFlowed) {
@@ -174,7 +181,7 @@ TEST(SoftMeetings, ADentedPlateThatIsHitAgainKeepsItsDentAndWhatHasFlowed) {
     for (uint32_t frame = 0; frame < 900 && (frame < 30 || sheet.is_awake()); ++frame) sheet.world.step();
     ASSERT_FALSE(sheet.is_awake());
     const std::vector<Vec3> dented = sheet.shape();
-    const float dent = farthest(flat, dented), flowed = most_flow(sheet);
+    const float dent = farthest(flat, dented), flowed = flow_of(sheet);
     ASSERT_GT(dent, 0.002f);
     // Woken by nothing: its inner layer stands where it stood, so that nothing jumps.
     sheet.call();
@@ -182,13 +189,13 @@ TEST(SoftMeetings, ADentedPlateThatIsHitAgainKeepsItsDentAndWhatHasFlowed) {
     EXPECT_LT(farthest(dented, sheet.shape()), 0.05f * dent);
     for (uint32_t frame = 0; frame < 900 && sheet.is_awake(); ++frame) sheet.world.step();
     EXPECT_LT(farthest(dented, sheet.shape()), 0.1f * dent);
-    EXPECT_GE(most_flow(sheet), 0.999f * flowed);
+    EXPECT_GE(flow_of(sheet), 0.999f * flowed);
     // A lighter ball than the first.
     ASSERT_TRUE(sheet.world.remove(sheet.ball).ok());
     throw_ball(sheet, 1, 6, 0.05f);
     for (uint32_t frame = 0; frame < 900 && (frame < 30 || sheet.is_awake()); ++frame) sheet.world.step();
     EXPECT_GT(farthest(flat, sheet.shape()), 0.8f * dent);
-    EXPECT_GE(most_flow(sheet), 0.9f * flowed);
+    EXPECT_GE(flow_of(sheet), flowed) << "the second blow adds to the first";
 }
 
 TEST(SoftMeetings, ShortOfUnitsASheetRunsSlowerAndThatIsCounted) {
@@ -227,26 +234,33 @@ TEST(SoftMeetings, SystemsWriteTheTablesThatTheySayThatTheyWrite) {
     throw_ball(sheet, 5, 20, 0.09f);
     State& state = sheet.state();
     std::vector<uint32_t> before, after;
-    state.digest_columns(before);
+    // Systems that share a pass are told of after all of them: what the first does not say the next may.
+    std::vector<std::pair<std::string, Access>> unsaid;
     sheet.world.contents().after_each_system = [&](const PlannedSystem<WorldData>& system) {
         after.clear();
         state.digest_columns(after);
+        if (after != before)
+            for (const auto& [name, column] : unsaid) ADD_FAILURE() << name << " writes " << column.name;
+        if (after != before) unsaid.clear();
         for (size_t c = 0; c < after.size() && after.size() == before.size(); ++c) {
             if (after[c] == before[c]) continue;
             Access column;
             column.name = state.digested_column(c);
             column.kind = Access::Kind::Table;
-            bool is_said = column.name.find('.') == std::string::npos;  // a pool
-            for (const Access& access : system.accesses) is_said = is_said || (access.writes && access.overlaps(column));
-            EXPECT_TRUE(is_said) << system.name << " writes " << column.name;
+            if (column.name.find('.') != std::string::npos) unsaid.emplace_back(system.name, column);  // no pool
         }
+        std::erase_if(unsaid, [&](const auto& one) {
+            return std::any_of(system.accesses.begin(), system.accesses.end(),
+                               [&](const Access& access) { return access.writes && access.overlaps(one.second); });
+        });
         before = after;
     };
     for (int frame = 0; frame < 30; ++frame) {
-        sheet.world.step();
         before.clear();
         state.digest_columns(before);
+        sheet.world.step();
     }
+    for (const auto& [name, column] : unsaid) ADD_FAILURE() << name << " writes " << column.name;
 }
 
 }  // namespace
