@@ -33,8 +33,9 @@ bool is_local(const std::string& system) {
 }
 
 bool is_around(const std::string& system) {
-    for (const char* own : {"take_blows", "predict_impacts", "open_tasks", "fill_tasks", "fill_stiffness", "start_tasks",
-                            "wake_regions", "grant_units", "settle_tasks", "close_regions", "find_parts"})
+    for (const char* own :
+         {"take_blows", "predict_impacts", "open_tasks", "fill_tasks", "fill_stiffness", "start_tasks", "wake_regions",
+          "grant_units", "settle_tasks", "close_regions", "find_parts"})
         if (system.find(own) != std::string::npos) return true;
     return false;
 }
@@ -85,8 +86,8 @@ Hit hit_often(const Model& model, float height, FractureMode mode, uint32_t roun
     return least;
 }
 
-void compare_sizes(const char* name, const Model* models, const float* heights, FractureMode mode,
-                   uint32_t rounds, Figures& figures) {
+void compare_sizes(const char* name, const Model* models, const float* heights, FractureMode mode, uint32_t rounds,
+                   Figures& figures) {
     const Hit few = hit_often(models[0], heights[0], mode, rounds);
     const Hit many = hit_often(models[1], heights[1], mode, rounds);
     const std::string prefix = std::string(name) + ": ";

@@ -1,5 +1,5 @@
-// Hits on large quick bodies run on a cut-out of the shell: rows are sound at every step, mass and momentum are kept, and
-// nothing of it depends on threads, snapshots or earlier hits.
+// Hits on large quick bodies run on a cut-out of the shell: rows are sound at every step, mass and momentum are kept,
+// and nothing of it depends on threads, snapshots or earlier hits.
 #include "systems/quick/cut_out.hpp"
 
 #include <gtest/gtest.h>
@@ -136,8 +136,7 @@ TEST(CutOut, MassAndMomentumAreKeptWhereItBreaks) {
         if (system != "make_births" || w->contents().data.counts.broke == broke) return;
         ++breaks;
         const Matter after = matter_of(*w);
-        for (int k = 0; k < 3; ++k)
-            worst = std::max(worst, std::fabs(after.momentum[k] - before.momentum[k]) / scale);
+        for (int k = 0; k < 3; ++k) worst = std::max(worst, std::fabs(after.momentum[k] - before.momentum[k]) / scale);
         worst_mass = std::max(worst_mass, std::fabs(after.mass / before.mass - 1));
         EXPECT_LE(after.kinetic_energy, 1.0001 * before.kinetic_energy);
     });
