@@ -1,6 +1,5 @@
 #include "systems/damage/run_out.hpp"
 #include "systems/fragments/group_fragments.hpp"
-#include "systems/quick/quick_body.hpp"
 #include "systems/systems.hpp"
 
 namespace cullet {
@@ -31,7 +30,7 @@ void find_parts(Each<TaskEnded> ended, ShellTables shells, Tasks& tasks, Fragmen
     if (tasks.crack_count[t] == 0 && is_of_one_part(shell)) return;
     const std::span parts(fragments.part.data() + size_t{t} * kMostParts, kMostParts);
     tasks.part_count[t] = group_fragments(shell, parts);
-    if (tasks.part_count[t] > 1 && !is_quick_task(shells.state, t) && run_out_cracks(shells.state, Row<Tasks>(t)) > 0)
+    if (tasks.part_count[t] > 1 && run_out_cracks(shells.state, Row<Tasks>(t)) > 0)
         tasks.part_count[t] = group_fragments(shell, parts);
     if (tasks.part_count[t] > 1) tasks.state[t] = static_cast<uint8_t>(TaskState::Broke);
     if (tasks.part_count[t] > kMostParts) tasks.state[t] = static_cast<uint8_t>(TaskState::Dropped);

@@ -58,7 +58,8 @@ void run_on(Splitting& s, uint32_t tip, Vec3 way, Vec3 normal, uint32_t root) {
         const Split split = split_along(s, tip, plane, root);
         if (!split.is_cut) return;
         vertices.crack_start[s.row(tip)] = root;
-        close_neighbours(s, tip, split.ends, first_copy);
+        // Cracks that start beside a long one would make slivers of it.
+        if (s.kind == FractureKind::Large) close_neighbours(s, tip, split.ends, first_copy);
         if (s.touched.is_enough()) flush(s);
         const uint32_t end = split.ends.end[0];
         const Vec3 along = s.rest(end) - s.rest(tip);
