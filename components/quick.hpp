@@ -41,6 +41,9 @@ struct QuickRuns : Table<QuickRuns> {
     // Of the run.
     Column<uint8_t> is_full{*this, "is_full"};    // no room for more springs: nothing splits any more
     Column<Row<ShellSprings>> springs{*this, "springs"};  // of the task's shell; kNone before the region is awake
+    /// First elements of the task's shell that are the body's, when it is a cut-out (cut_out.hpp): Elements.part says
+    /// which. 0: it is a copy of the whole.
+    Column<uint32_t> cut_elements{*this, "cut_elements"};
     Column<uint32_t> pack_count{*this, "pack_count"};     // rows in AwakePacks
     Column<uint32_t> awake_count{*this, "awake_count"};   // vertices that the region had when it woke
     Column<float> softening{*this, "softening"};          // s of B7, >= 1: stiffness E / s, time stretched by its root

@@ -26,7 +26,8 @@ struct SoftBodies : Table<SoftBodies> {
     Column<uint8_t> is_called{*this, "is_called"};  // wakes in the next step, whatever touches it
     Column<uint8_t> is_elastic{*this, "is_elastic"};
     Column<float> wake_speed{*this, "wake_speed", "m/s"};  // of a contact
-    Column<uint32_t> substeps{*this, "substeps"};          // of a frame, 8 to 200
+    Column<uint32_t> substeps{*this, "substeps"};          // of a frame, 8 to 1,000
+    Column<uint32_t> slow_frames{*this, "slow_frames"};    // that had units for fewer: it ran slower than the world
     Column<float> softening{*this, "softening"};           // s = E / E_eff, at least 1 (B7)
     Column<float> yield_strain{*this, "yield_strain"};     // shown: of the softened springs; 0: never flows
     Column<float> break_strain{*this, "break_strain"};     // shown
@@ -42,10 +43,11 @@ struct SoftBodies : Table<SoftBodies> {
     Column<std::array<uint32_t, kMostPartners>> partners{*this, "partners"};  // rows that it lay against when it froze
     // Of the frame.
     Column<uint32_t> striker_count{*this, "striker_count", "1", Keep::Scratch};
-    Column<uint32_t> contact_count{*this, "contact_count", "1", Keep::Scratch};
-    Column<uint8_t> has_fault{*this, "has_fault", "1", Keep::Scratch};    // something was not finite
-    Column<uint8_t> lacks_room{*this, "lacks_room", "1", Keep::Scratch};  // a split found none
-    Column<Vec3d> given{*this, "given", "N s", Keep::Scratch};            // momentum of its points as the frame began
+    Column<uint32_t> contact_count{*this, "contact_count", "1", Keep::Scratch};   // rows of SoftContacts
+    Column<uint8_t> has_fault{*this, "has_fault", "1", Keep::Scratch};            // something was not finite
+    Column<uint8_t> lacks_room{*this, "lacks_room", "1", Keep::Scratch};          // a split found none
+    Column<Vec3d> start_momentum{*this, "start_momentum", "N s", Keep::Scratch};  // of its points, as the frame began
+    Column<uint32_t> granted{*this, "granted", "1", Keep::Scratch};  // substeps of this frame, at most `substeps`
 };
 
 /// A body that a soft one may meet in this frame, as the run sees it: a copy that its contacts move. Row
@@ -74,20 +76,28 @@ struct SoftStrikers : Table<SoftStrikers> {
     Column<SoftStriker> striker{*this, "striker", "1", Keep::Scratch};
 };
 
-/// A vertex that may meet a striker in this frame, and the plane of the striker's surface that is nearest to it. Rows
-/// from kContactsAVertex times the shell's first vertex on.
-struct SoftContact {
-    uint32_t vertex = 0;   // of the shell
-    uint32_t striker = 0;  // of the soft body's
-    Vec3 point, normal;    // of the plane: about the striker's centre, axes of the world as the frame began
-    float offset = 0;      // m that the wall reaches towards the striker beyond the outer point
+/// Eight vertices that may meet one striker in this frame, each with the plane of its surface that is nearest to it: a
+/// vertex at x, seen from the striker's centre along the axes that the world had when the frame began and that turn
+/// with it, is inside where normal . x < distance; at a ball, where |x| < radius + offset.
+struct alignas(32) SoftContact {
+    uint32_t vertex[kLanes] = {};  // of the shell; lanes that are not used say the first's
+    float normal[3][kLanes] = {};
+    float distance[kLanes] = {};  // m; of lanes that are not used far below 0
+    float offset[kLanes] = {};    // m that the wall reaches towards the striker beyond the outer point
+    uint32_t striker = 0;         // of the soft body's
+    uint32_t count = 0;           // lanes in use
+    uint32_t inside = 0;          // a bit for each lane whose vertex is in the striker: what a substep looks at
 };
+/// Rows from first_contact_row of the shell's first vertex on.
 struct SoftContacts : Table<SoftContacts> {
     using Table::Table;
     static constexpr const char* kName = "soft_contacts";
     static constexpr bool kIsOptional = true;
     Column<SoftContact> contact{*this, "contact", "1", Keep::Scratch};
 };
+inline constexpr uint32_t first_contact_row(uint32_t vertex) {
+    return kContactsAVertex * (vertex / kLanes);
+}
 
 /// The soft body that an inner loop runs for.
 struct OfSoft {
@@ -103,7 +113,7 @@ struct Parameter<OfSoft> {
 };
 
 template <>
-inline constexpr uint32_t kRowsPerChunk<Springs> = 2048;
+inline constexpr uint32_t kRowsPerChunk<Springs> = 1024;
 
 /// The row of the body, or one that does not exist.
 inline Row<SoftBodies> find_soft(const SoftBodies& soft, Row<Bodies> body) {

@@ -85,6 +85,9 @@ struct ElementSprings : Table<ElementSprings> {
     static constexpr const char* kName = "element_springs";
     static constexpr bool kIsOptional = true;
     Column<std::array<uint32_t, 3>> spring{*this, "spring"};  // of edge k; kNone: not made yet
+    /// Mean of plastic over cooked lengths of the springs that it had when it was re-meshed, outer and inner skin; 0: it
+    /// never was.
+    Column<std::array<float, 2>> flow{*this, "flow"};
 };
 
 /// One row is the list of 8 vertices.
@@ -141,6 +144,9 @@ struct Twins : Table<Twins> {
     Column<float> stiffness_rest{*this, "stiffness_rest", "N"};  // k times gamma depth
     Column<float> damping{*this, "damping", "N/m"};              // c / dt
     Column<float> length{*this, "length", "m"};                  // at the start of the last step
+    /// Body frame, from the outer point to the inner one when the springs last stopped: where start_springs puts it. Zero:
+    /// they never ran, it stands gamma times the depth inward.
+    Column<Vec3> through{*this, "through", "m"};
 };
 
 template <>

@@ -65,7 +65,7 @@ State::State(const Limits& l)
       twins(l.vertices),
       soft_bodies(l.bodies),
       soft_strikers(l.bodies * kMostStrikers),
-      soft_contacts(l.vertices * kContactsAVertex),
+      soft_contacts(first_contact_row(l.vertices + kLanes)),
       pools(*this),
       limits_(l),
       quick_bodies(l.bodies),

@@ -203,7 +203,8 @@ Row<Shells> copy_shell(State& state, Row<Shells> source, const ShellRoom& room, 
 /// The second half of copy_shell, into a shell that make_shell made: serial systems reserve, parallel ones copy.
 void copy_shell_rows(State& to, const State& from, Row<Shells> source, Row<Shells> copy, bool with_stiffness);
 
-/// All tables that hold the rows of shells, as one parameter of a system that edits whole shells.
+/// All tables that hold the rows of shells and of the runs of their springs, as one parameter of a system that edits
+/// whole shells.
 struct ShellTables {
     State& state;
 };
@@ -235,9 +236,11 @@ struct Parameter<ShellTables> {
              {Shells::kName, Vertices::kName, Elements::kName, TriangleSprings::kName, Hinges::kName,
               StiffnessPacks::kName, StiffnessBlocks::kName, StiffnessLinks::kName, Cells::kName, HullPoints::kName,
               ShellSprings::kName, Springs::kName, LayerSprings::kName, ElementSprings::kName, SpringPacks::kName,
-              SpringSlots::kName, LayerSlots::kName, Twins::kName})
-            list.push_back({table, true, true, false});
-        for (const char* table : {Materials::kName, MaterialTraits::kName}) list.push_back({table, true, false, false});
+              SpringSlots::kName, LayerSlots::kName, Twins::kName, QuickBodies::kName, QuickRuns::kName,
+              AwakePacks::kName, SoftBodies::kName, SoftStrikers::kName, SoftContacts::kName})
+            list.push_back({table, true, true, false, Access::Kind::Table});
+        for (const char* table : {Materials::kName, MaterialTraits::kName})
+            list.push_back({table, true, false, false, Access::Kind::Table});
     }
     template <class W>
     static ShellTables bind(Call<W>& call) {

@@ -6,7 +6,7 @@
 
 namespace cullet::perf {
 
-Result<Model> cook_vase(float edge, float height) {
+Result<Model> cook_vase(float edge, float height, std::optional<FractureKind> fracture) {
     const Mesh mesh = make_vase(height, edge);
     MeshView view;
     view.positions = mesh.positions.data(), view.position_count = mesh.positions.size();
@@ -14,6 +14,7 @@ Result<Model> cook_vase(float edge, float height) {
     CookSettings settings;
     settings.longest_edge = 100;  // the mesh has the edges that it should have
     settings.measures_threshold = false;
+    settings.fracture = fracture;
     return cook(view, settings);
 }
 

@@ -19,7 +19,8 @@ struct Scene {
 const Scene kScenes[] = {
     {"hidden_step", measure_hidden_step}, {"hit", measure_hit},
     {"large_hit", measure_large_hit},     {"parts", measure_parts},
-    {"generation", measure_generation},   {"pile", measure_pile},
+    {"local_hit", measure_local_hit},     {"generation", measure_generation},
+    {"pile", measure_pile},
     {"soft_body", measure_soft_body},     {"springs", measure_springs},
     {"quick", measure_quick},
     {"vase", measure_vase_frames},        {"wall", measure_wall_frames},

@@ -36,6 +36,8 @@ bool measure_hit(const Options& options, Figures& figures);
 bool measure_large_hit(const Options& options, Figures& figures);
 /// What surrounds the inner loop of a hit, and finding its pieces. False: the flood finds others than relabelling.
 bool measure_parts(const Options& options, Figures& figures);
+/// A hit on bodies of 10 and 100 thousand elements, system by system.
+bool measure_local_hit(const Options& options, Figures& figures);
 /// Every way of propagation, in Embree builds of the same mesh; processor time of one thread.
 bool measure_generation(const Options& options, Figures& figures);
 /// A settled pile of hulls in plain Bullet and in our world.

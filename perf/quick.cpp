@@ -28,12 +28,13 @@ SpringNet castle_net() {
     Result<Model> model = cook(view_of(mesh), settings);
     SpringNet net;
     if (!model.ok()) return net;
-    const ShellView shell(model->contents->state, model->contents->shell);
-    for (uint32_t v = 0; v < shell.vertex_count(); ++v)
-        net.points.push_back(shell.state.vertices.rest[shell.vertex(v)]);
-    for (uint32_t e = 0; e < shell.element_count(); ++e)
+    const State& state = model->contents->state;
+    const Range vertices = state.shells.vertices[model->contents->shell];
+    const Range elements = state.shells.elements[model->contents->shell];
+    for (uint32_t v = 0; v < vertices.count; ++v) net.points.push_back(state.vertices.rest[vertices.first + v]);
+    for (uint32_t e = 0; e < elements.count; ++e)
         for (size_t k = 0; k < 3; ++k) {
-            const auto& corner = shell.state.elements.corner[shell.element(e)];
+            const auto& corner = state.elements.corner[elements.first + e];
             const uint32_t a = corner[k], b = corner[(k + 1) % 3];
             net.springs.push_back({std::min(a, b), std::max(a, b)});
         }

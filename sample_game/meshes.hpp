@@ -20,8 +20,10 @@ Mesh make_vase(float height = 0.30f, float edge = 0.0075f, uint64_t seed = 1);
 Mesh make_piggy_bank(float length = 0.40f, float edge = 0.0098f, uint64_t seed = 1);
 /// A flat sheet that faces +z: x from -width/2 to width/2, y from 0 to height, z = 0. Straight borders.
 Mesh make_wall(float width = 2.4f, float height = 1.8f, float edge = 0.078f, uint64_t seed = 1);
+/// Of the edge: how far points of sheets are moved off their rows, each way, as on lathes.
+inline constexpr double kUnevenness = 0.18;
 /// A square sheet like a wall of that side.
-Mesh make_pane(float side = 0.5f, float edge = 0.010f, uint64_t seed = 1);
+Mesh make_pane(float side = 0.5f, float edge = 0.010f, uint64_t seed = 1, double unevenness = kUnevenness);
 /// A closed pig, snout toward +x, feet at y = 0, exactly so many vertices (500 to 200,000) and 2 V - 4 triangles.
 Mesh make_pig(float length = 0.5f, uint32_t vertices = 3500, uint64_t seed = 1);
 /// A closed cow with horns and udder, head toward +x, feet at y = 0. A twentieth of its vertices stand twice, along a

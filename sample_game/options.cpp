@@ -157,8 +157,8 @@ Result<Options> parse_options(std::vector<std::string> arguments) {
     add_reproduce(app, options.reproduce);
     app.add_subcommand("frame", "Prints the systems of a frame, and what each reads and writes");
     CLI::App* truth = app.add_subcommand("truth",
-                                         "Prints the verification cases of a method, then finds the speeds of the "
-                                         "first crack and of the first loose piece");
+                                         "Prints the verification cases of a method: figure, bounds, verdict; the "
+                                         "last, speeds of first cracks and pieces, takes minutes");
     truth->add_option("model", options.truth.model, "thick_shell")->required();
     truth->add_option("--placements", options.truth.placements, "Seeded placements of each scene")
         ->check(CLI::Range(1u, 1000u));

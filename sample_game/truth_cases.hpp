@@ -1,4 +1,5 @@
-// The verification cases of the methods: what a formula, or a solution that is known, says about the springs.
+// The verification cases of the methods: what a formula, or a solution that is known, says about the springs and the
+// hidden step.
 #pragma once
 #include <span>
 #include <string>
@@ -13,7 +14,7 @@ struct Verdict {
     bool is_met() const { return value >= low && value <= high; }
 };
 
-/// One row of `sample_game truth thick_shell`. A case more is a line in truth_cases.cpp.
+/// One case of `sample_game truth thick_shell`, seconds each. A case more is a line in truth_cases.cpp.
 struct TruthCase {
     int number;  // of the method note's section 15
     const char* name;
@@ -29,8 +30,18 @@ std::vector<Verdict> wave_on_a_chain();
 std::vector<Verdict> clamped_disc();
 std::vector<Verdict> spinning_shell();
 std::vector<Verdict> tearing_strip();
+std::vector<Verdict> plate_frequency();
 
-/// Prints each case's figures with bounds; sentences about those that are not met.
-std::vector<std::string> print_truth_cases();
+/// Measured by name; case 9, which takes minutes and settings, is told by truth_hits.hpp.
+struct CaseSummary {
+    int number;
+    const char* name;
+    std::vector<Verdict> verdicts;
+};
+
+/// Prints a case's figures with bounds; adds sentences about those that are not met.
+void print_verdicts(int number, const char* name, std::span<const Verdict> verdicts, std::vector<std::string>& faults);
+/// One line a case, by number.
+void print_summaries(std::vector<CaseSummary> summaries);
 
 }  // namespace cullet

@@ -21,6 +21,11 @@ inline constexpr uint64_t kUnitsQuickOpen = 100;  // a vertex of the body when a
 inline constexpr uint64_t kUnitsQuickWake = 900;  // a vertex of the region: flood, springs, lists
 inline constexpr uint64_t kUnitsQuickCut = 2500;  // a cut edge: inserts, splits, springs made anew
 
+// Of soft bodies, measured on scenes tear and steel.
+inline constexpr uint64_t kUnitsSoftTenSprings = 20;  // ten springs of one layer through a substep
+inline constexpr uint64_t kUnitsSoftTenPairs = 45;    // ten edges of two layers
+inline constexpr uint64_t kUnitsSoftFrame = 150;      // a vertex: whom it may meet, its shape at the end
+
 inline constexpr uint32_t kStepsAStressCheck = 3;
 inline constexpr uint32_t kStepsAnEnergyCheck = 64;
 

@@ -49,7 +49,9 @@ void wake_regions(Serial, const Events<TaskOpened>& opened, ShellTables shells, 
 // ---- damage
 
 /// Shares the frame's units: one step to each open task, then equal rounds, in order of (frame of impact, body row).
-void grant_units(Serial, ShellTables shells, Tasks& tasks, const DamageSettings& settings, DamageCounts& counts);
+/// Soft bodies that are awake come first, with up to half of the units: they run on the world's clock.
+void grant_units(Serial, ShellTables shells, Tasks& tasks, SoftBodies& soft, const DamageSettings& settings,
+                 DamageCounts& counts);
 /// Runs the inner loop of each open task for the steps it was granted, on all workers.
 void advance_damage(Serial, DamageLoop& loop);
 /// Runs the springs of each awake body through the frame, on all workers.
@@ -62,8 +64,10 @@ void settle_tasks(Serial, Step step, Tasks& tasks, TaskContacts& contacts, Blows
                   const Shells& shells, RigidWorld& rigid, const DamageSettings& settings, DamageCounts& counts,
                   Events<TaskEnded>& ended, Events<ImpactEvent>& impact_events);
 
-/// Regions whose run ended fall asleep: vertices get the body's own motion back, springs their rows.
-void close_regions(Serial, const Events<TaskEnded>& ended, ShellTables shells, Tasks& tasks, TaskContacts& contacts);
+/// Regions whose run ended fall asleep: vertices get the body's own motion back, springs their rows. What a cut-out
+/// changed goes into the body's shell (quick/cut_out.hpp).
+void close_regions(Serial, const Events<TaskEnded>& ended, ShellTables shells, Tasks& tasks, TaskContacts& contacts,
+                   Fragments& fragments, const Bodies& bodies, Events<CrackStartedEvent>& cracks);
 
 // ---- apply
 
@@ -106,8 +110,8 @@ void fall_debris(Rows<Debris> debris, Step step, InOut<&Debris::position> positi
 // ---- end
 
 /// Soft bodies that are awake are drawn anew.
-void show_soft(Serial, ShellTables shells, const SoftBodies& soft, Bodies& bodies, Events<ShellChanged>& changed,
-               Events<RefusedEvent>& refused);
+void show_soft(Serial, ShellTables shells, const SoftBodies& soft, Bodies& bodies, ViewVertices& vertices,
+               ViewIndices& indices, Events<ShellChanged>& changed, Events<RefusedEvent>& refused);
 /// The drawn mesh of each shell that changed.
 void draw_shells(Each<ShellChanged> changed, Step step, ShellTables shells, Bodies& bodies, ViewVertices& vertices,
                  ViewIndices& indices);
@@ -188,7 +192,7 @@ void end_spring_step(EachBody body, OfSprings springs, ShellSprings& own);
 
 // ---- inner loop of a soft body: the systems of springs, and
 
-/// Contacts at the places that the springs' step gave, in row order: inelastic impulses with Coulomb friction between
+/// Contacts of the vertices that the springs' step put into a striker, in row order: inelastic impulses with Coulomb friction between
 /// vertices and the strikers' copies.
 void meet_strikers(EachBody soft_body, OfSprings springs, Turn turn, ShellTables shells, SoftBodies& soft,
                    SoftStrikers& strikers, SoftContacts& contacts);

@@ -19,10 +19,10 @@ const char* name_of(Verdict verdict) {
             return "falls short";
         case Verdict::Shown:
             return "shown";
-        case Verdict::NotBuilt:
+        case Verdict::NotMeasured:
             break;
     }
-    return "not built yet";
+    return "not measured";
 }
 
 Bench::Bench(Settings settings) : settings_(std::move(settings)), shelf_(std::make_shared<ModelShelf>()) {}
@@ -62,6 +62,17 @@ Result<void> Bench::add_picture(Claim& claim, const Picture& picture, const std:
     const std::string file = claim.id + "_" + name + ".png";
     if (auto written = write_png(picture, settings_.out + "/" + file); !written.ok()) return written;
     claim.pictures.push_back({file, caption});
+    return {};
+}
+
+Result<void> Bench::add_pictures(Claim& claim, std::span<const Picture> pictures, const std::string& name,
+                                 std::vector<std::string> captions) {
+    std::string caption;
+    for (size_t n = 0; n < pictures.size(); ++n) {
+        if (n < captions.size() && !captions[n].empty()) caption = captions[n];
+        if (auto added = add_picture(claim, pictures[n], fmt::format("{}{}", name, n + 1), caption); !added.ok())
+            return added;
+    }
     return {};
 }
 

@@ -3,6 +3,7 @@
 #include <map>
 #include <memory>
 #include <optional>
+#include <span>
 #include <string>
 
 #include "cullet/result.hpp"
@@ -37,6 +38,11 @@ class Bench {
 
     /// Writes DIR/id_name.png and puts it into the claim.
     Result<void> add_picture(Claim& claim, const Picture& picture, const std::string& name, const std::string& caption);
+
+    /// DIR/id_name1.png and so on. The last caption serves the pictures that have none of their own, and so does one
+    /// that is empty its predecessor's.
+    Result<void> add_pictures(Claim& claim, std::span<const Picture> pictures, const std::string& name,
+                              std::vector<std::string> captions);
 
     /// What make() returns, a Result<T>, made at the first call of that name: several rows of the page speak of it.
     template <class Make>

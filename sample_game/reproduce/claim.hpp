@@ -7,10 +7,10 @@
 namespace cullet::reproduce {
 
 enum class Verdict : uint8_t {
-    Met,         // the number is as good as the published one, or better
-    FallsShort,  // it is not
-    Shown,       // a picture, judged by eye
-    NotBuilt,    // this version does not have it; nothing was measured
+    Met,          // the number is as good as the published one, or better
+    FallsShort,   // it is not
+    Shown,        // a picture, judged by eye
+    NotMeasured,  // left out of this run
 };
 const char* name_of(Verdict verdict);
 
@@ -36,7 +36,7 @@ struct Claim {
     std::string where;  // "Table 1", "Figure 3", "section 3.2.3"
     std::string title;
     std::string paper, ours;  // a sentence or two each
-    Verdict verdict = Verdict::NotBuilt;
+    Verdict verdict = Verdict::NotMeasured;
     std::vector<Number> numbers;
     std::vector<Table> tables;
     std::vector<PictureFile> pictures;

@@ -24,6 +24,7 @@ Result<Claim> figure_3(Bench& bench);
 Result<Claim> figure_4(Bench& bench);
 Result<Claim> coarse_grained(Bench& bench);
 Result<Claim> large_fragments(Bench& bench);
+// mesh_claims.cpp
 Result<Claim> figure_5(Bench& bench);
 Result<Claim> figure_6(Bench& bench);
 // speed_claims.cpp

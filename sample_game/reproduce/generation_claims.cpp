@@ -103,10 +103,10 @@ Result<Claim> figure_1(Bench& bench) {
     if (!guarded.ok()) return Error{guarded.error()};
     claim.ours = fmt::format(
         "A ridge of 20 cm with a neck of 10 cm, and a wanted depth of 6 cm. Panels (a) to (c) are of the published "
-        "rules "
-        "at their plainest, written for this figure: no caps, every vertex goes on until its steps are small; the "
-        "library's "
-        "Front of Table 1 caps depths by opposite walls first and stops after its rounds. {} triangles meet in the "
+        "rules at their plainest, written for this figure: no caps, every vertex goes on until its steps are small; "
+        "the "
+        "library's front of Table 1 caps depths by opposite walls first and stops after its rounds. {} triangles meet "
+        "in the "
         "first "
         "collision, {} pairs over all {} rounds, {} pairs are left at the end. Our guarded front on the same ridge: {} "
         "pairs, {} elements turned inside out.",
@@ -164,10 +164,10 @@ Result<Claim> table_1(Bench& bench) {
     claim.tables.push_back(std::move(table));
     claim.ours = fmt::format(
         "The guarded front is at least {:.0f} times faster than the published front, on a machine 20 years younger, "
-        "with the crossing test "
-        "of "
-        "the input and proof of the result included. The published counts of collisions count repeated tests and can "
-        "not be compared. The pig has 6,996 triangles: 4,000 on 3,500 vertices is no closed surface.",
+        "with "
+        "the crossing test of the input and the proof of the result included. The published counts of collisions count "
+        "repeated tests and cannot be compared. The pig has 6,996 triangles: 4,000 on 3,500 vertices is no closed "
+        "surface.",
         slowest_ratio);
     claim.verdict = slowest_ratio > 1 ? Verdict::Met : Verdict::FallsShort;
     return claim;
@@ -209,20 +209,26 @@ Result<Claim> front_against_single(Bench& bench) {
     claim.paper = "The front is about 3 to 4 times faster than single vertices and meets fewer collisions.";
     const Result<std::vector<Row>>& rows = measured(bench);
     if (!rows.ok()) return Error{rows.error()};
-    std::vector<double> ratios;
+    std::vector<double> ratios, collisions;
     for (const Row& single : rows.value())
         for (const Row& front : rows.value())
             if (single.mode == "single vertex" && front.mode == "front" && single.subject == front.subject &&
-                single.paper.eps == front.paper.eps && single.paper.front_s > 0)
+                single.paper.eps == front.paper.eps && single.paper.front_s > 0) {
                 ratios.push_back(single.ms / front.ms);
+                collisions.push_back(front.collisions / std::max(1.0, single.collisions));
+            }
     if (ratios.empty()) return Error{"table 1 has no row of both modes; this is a bug of the page"};
     const auto [least, most] = std::minmax_element(ratios.begin(), ratios.end());
+    const auto [fewest, greatest] = std::minmax_element(collisions.begin(), collisions.end());
     claim.ours = fmt::format(
-        "{:.2f} to {:.2f} times as fast, over the published rows of pig and castle. Where the factor is smaller than "
-        "published it is the slow mode that has become fast: certificates drop nearly all candidates in every mode.",
-        *least, *most);
+        "{:.2f} to {:.2f} times as fast, over the published rows of pig and castle, with {:.2f} to {:.2f} times the "
+        "collisions. Where the factor is smaller than published it is the slow mode that has become fast: certificates "
+        "drop nearly all candidates in every mode before the rounds begin.",
+        *least, *most, *fewest, *greatest);
     claim.numbers = {{"single vertex over front, least", "", *least, 3.0},
-                     {"single vertex over front, most", "", *most, 4.0}};
+                     {"single vertex over front, most", "", *most, 4.0},
+                     {"collisions, front over single vertex, least", "", *fewest, 0.05},
+                     {"collisions, front over single vertex, most", "", *greatest, 0.25}};
     claim.verdict = *least >= 3 ? Verdict::Met : Verdict::FallsShort;
     return claim;
 }

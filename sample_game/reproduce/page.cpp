@@ -53,7 +53,7 @@ const char* style_of(Verdict verdict) {
             return "short";
         case Verdict::Shown:
             return "shown";
-        case Verdict::NotBuilt:
+        case Verdict::NotMeasured:
             break;
     }
     return "none";
@@ -143,7 +143,7 @@ std::string to_page(std::span<const Claim> claims, const PageFacts& facts) {
         "Pentium 4 with 3 GHz.</p>\n<p class=\"counts\">",
         escaped(facts.title), kStyle, escaped(facts.machine), facts.threads, facts.seconds,
         facts.is_reduced ? " A reduced run: smaller meshes, fewer repeats, nothing of it is to be quoted." : "");
-    for (const Verdict verdict : {Verdict::Met, Verdict::FallsShort, Verdict::Shown, Verdict::NotBuilt})
+    for (const Verdict verdict : {Verdict::Met, Verdict::FallsShort, Verdict::Shown, Verdict::NotMeasured})
         html += fmt::format("<span class=\"{}\">{} {}</span>", style_of(verdict), count_of(claims, verdict),
                             name_of(verdict));
     html += "</p>\n";

@@ -41,6 +41,8 @@ void count_pieces(GameWorld& game, SceneRun& run) {
     run.largest = all > 0 ? largest / all : 0;
     run.mass_put_in = game.mass_put_in();
     run.mass_at_end = measure_matter(game.world()).mass;
+    for (uint32_t s = 0; s < state.soft_bodies.size(); ++s)
+        if (state.soft_bodies.is_used[s]) run.tears += state.soft_bodies.tear_count[s];
     run.late = game.world().contents().data.counts.late;
     run.dropped = game.world().contents().data.counts.dropped;
 }

@@ -23,6 +23,7 @@ struct SceneRun {
     double largest = 1;                       // piece at the end, as a share of all shells' mass
     double mass_put_in = 0, mass_at_end = 0;  // kg, all that moves
     uint64_t late = 0, dropped = 0;           // hits
+    uint64_t tears = 0;                       // vertices of soft bodies that were split
     std::vector<std::string> notes;
 };
 

@@ -10,7 +10,7 @@
 #include "systems/fragments/body_rows.hpp"
 #include "systems/fragments/rigid_shape.hpp"
 #include "systems/quick/calibrate.hpp"
-#include "systems/quick/quick_body.hpp"
+#include "systems/quick/cut_out.hpp"
 #include "systems/query/bound_drawn.hpp"
 #include "systems/query/query_index.hpp"
 #include "systems/rigid/body_id.hpp"
@@ -87,11 +87,34 @@ Result<Row<Shells>> soft_copy(State& state, Row<Shells> source, const SpawnSetti
     return copy;
 }
 
+// Large quick bodies have a shell of their own from the start: what a hit changes is written into it (cut_out.hpp).
+bool wants_own_shell(const State& state, Row<Shells> source, const SpawnSettings& settings) {
+    return settings.fracture == FractureMode::Quick && state.shells.vertices[source].count > kWholeCopyVertices;
+}
+
+// Rows of a body's own shell; of a large quick one with those that cracks will add.
+ShellRoom own_room(State& state, Row<Shells> source, const SpawnSettings& settings) {
+    ShellRoom room = room_of(state, source);
+    if (!wants_own_shell(state, source, settings)) return room;
+    const ShellRoom quick = quick_room(ShellView(state, source));
+    room.vertices = quick.vertices, room.elements = quick.elements, room.hinges = quick.hinges;
+    return room;
+}
+
+Result<Row<Shells>> own_copy(State& state, Row<Shells> source, const SpawnSettings& settings) {
+    const char* full = "";
+    ShellRoom room = own_room(state, source, settings);
+    room.blocks = room.links = 0;
+    const Row<Shells> copy = copy_shell(state, source, room, &full);
+    if (!copy.exists()) return Error{std::string("no room for a large body that breaks quickly; raise ") + full + "."};
+    return copy;
+}
+
 // A shell of the body's own with these vertices pinned, its limits and rows made anew (B7: pins change what an unpinned
 // item is).
 Result<Row<Shells>> pinned_copy(State& state, Row<Shells> source, const SpawnSettings& settings) {
     const char* full = "";
-    const Row<Shells> copy = copy_shell(state, source, room_of(state, source), &full);
+    const Row<Shells> copy = copy_shell(state, source, own_room(state, source, settings), &full);
     if (!copy.exists()) return Error{std::string("no room for a pinned body; raise ") + full + "."};
     const ShellView shell(state, copy);
     if (pin(shell, settings) == 0) {
@@ -127,8 +150,11 @@ Result<BodyId> World::spawn(ModelId id, const SpawnSettings& settings) {
     // What never gives way needs no springs.
     const bool is_soft =
         !is_brittle && settings.is_breakable && settings.strength_scale < kNeverCracks && d.rigid->knows_surfaces();
-    if (is_soft || settings.pin_count > 0) {
-        Result<Row<Shells>> own = is_soft ? soft_copy(state, shell, settings) : pinned_copy(state, shell, settings);
+    const bool is_large = wants_own_shell(state, shell, settings);
+    if (is_soft || settings.pin_count > 0 || is_large) {
+        Result<Row<Shells>> own = is_soft                  ? soft_copy(state, shell, settings)
+                                  : settings.pin_count > 0 ? pinned_copy(state, shell, settings)
+                                                           : own_copy(state, shell, settings);
         if (!own) return Error{own.error()};
         shell = own.value();
     } else {

@@ -7,7 +7,7 @@
 #include "systems/cook/materials.hpp"
 #include "systems/damage/working_room.hpp"
 #include "systems/quick/check_quick.hpp"
-#include "systems/quick/quick_body.hpp"
+#include "systems/quick/cut_out.hpp"
 #include "systems/springs/check_springs.hpp"
 
 namespace cullet {
@@ -312,7 +312,7 @@ void check_soft(Checker& check) {
                                     ", no body with springs of its own"))
             return;
         const Range vertices = s.shells.vertices[s.bodies.shell[body]];
-        check.expect(kContactsAVertex * uint64_t{vertices.first + vertices.capacity} <= s.soft_contacts.size(),
+        check.expect(first_contact_row(vertices.first + vertices.capacity) <= s.soft_contacts.size(),
                      Checker::place(soft, "body", row) + " has no rows for contacts");
         check.expect(soft.substeps[row] >= 1 && soft.substeps[row] <= 1000,
                      Checker::place(soft, "substeps", row) + " is " + std::to_string(soft.substeps[row]));
@@ -342,6 +342,12 @@ void check_users(Checker& check) {
                                                             std::to_string(users[row]) + " name the shell");
 }
 
+bool is_cut_out_shell(const State& s, uint32_t shell) {
+    for (uint32_t t = 0; t < s.tasks.size(); ++t)
+        if (is_task(s, t) && s.tasks.shell[t] == shell && is_cut_out(s, t)) return true;
+    return false;
+}
+
 }  // namespace
 
 Result<void> check_state(const State& state, const std::string& name) {
@@ -360,7 +366,8 @@ Result<void> check_state(const State& state, const std::string& name) {
             return Error{name + ": " + Checker::place(state.shells, "material", row) + " is " +
                          std::to_string(state.shells.material[row].index) + ", of " +
                          std::to_string(state.materials.size()) + ". " + kAdvice};
-        const Result<void> sound = check_shell_rows(ShellView(rows, Row<Shells>(row)), Wear::Worn, name, kAdvice);
+        const Wear wear = is_cut_out_shell(state, row) ? Wear::CutOut : Wear::Worn;
+        const Result<void> sound = check_shell_rows(ShellView(rows, Row<Shells>(row)), wear, name, kAdvice);
         if (!sound) return sound;
     }
     if (const Result<void> sound = check_springs(state, name, kAdvice); !sound) return sound;

@@ -8,7 +8,7 @@
 #include "systems/damage/stress_check.hpp"
 #include "systems/damage/struck_normal.hpp"
 #include "systems/motion/start_hidden.hpp"
-#include "systems/quick/quick_body.hpp"
+#include "systems/quick/cut_out.hpp"
 
 namespace cullet {
 namespace {
@@ -29,6 +29,7 @@ void find_contact_vertices(State& state, Row<Tasks> task) {
 void fill_task(State& state, Row<Tasks> task) {
     Tasks& tasks = state.tasks;
     const Row<Shells> source = tasks.source[task], working = tasks.shell[task];
+    if (is_cut_out(state, task)) return fill_cut_out(state, task);
     if (is_quick_task(state, task)) {
         copy_shell_rows(state, state, source, working, false);
         clear_spare_rows(state, working);

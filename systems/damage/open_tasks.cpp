@@ -1,12 +1,13 @@
 #include <algorithm>
 
 #include "systems/damage/assemble.hpp"
+#include "systems/damage/blows.hpp"
 #include "systems/damage/open_blows.hpp"
 #include "systems/damage/struck_normal.hpp"
 #include "systems/damage/task_cost.hpp"
 #include "systems/damage/thresholds.hpp"
 #include "systems/damage/working_room.hpp"
-#include "systems/quick/quick_body.hpp"
+#include "systems/quick/cut_out.hpp"
 #include "systems/rigid/body_id.hpp"
 #include "systems/systems.hpp"
 
@@ -132,7 +133,8 @@ struct Opening {
     DamageCounts& counts;
     uint64_t frame;
 
-    // A task with a working copy of the body's shell and no contacts yet; it does not exist where there is no room.
+    // A task with a working copy of the body's shell and no contacts yet; it does not exist where there is no room. A
+    // cut-out waits for the contacts.
     Row<Tasks> open(Row<Bodies> body, float approach_speed) {
         Tasks& tasks = state.tasks;
         Bodies& bodies = state.bodies;
@@ -146,9 +148,10 @@ struct Opening {
         const Row<Shells> source = bodies.shell[body];
         const bool is_quick = is_quick_body(state, body);
         const ShellView before(state, source);
-        const Row<Shells> working =
-            make_shell_unclear(state, is_quick ? quick_room(before) : working_room(before), &full);
-        if (!working.exists()) {
+        const bool waits = may_cut_out(state, body);
+        Row<Shells> working;
+        if (!waits) working = make_shell_unclear(state, is_quick ? quick_room(before) : working_room(before), &full);
+        if (!waits && !working.exists()) {
             refused.push(refused_event(bodies, body, full));
             return {};
         }
@@ -170,13 +173,38 @@ struct Opening {
         set_quick_task(state, task, body);
         const bool is_assembled = is_quick || state.shells.packs[source].count > 0;
         const uint64_t units = is_quick ? kUnitsQuickOpen : kUnitsOpen + (is_assembled ? 0 : kUnitsAssemble);
-        tasks.units_owed[t] = state.shells.vertices[source].count * units;
+        if (!waits) tasks.units_owed[t] = state.shells.vertices[source].count * units;
         bodies.task[body] = t;
         opened.push({task});
         const uint32_t packs = is_assembled ? 0 : (state.shells.vertices[source].count + kLanes - 1) / kLanes;
         for (uint32_t p = 0; p < packs; p += kRowsPerChunk<StiffnessPacks>) stiffness_wanted.push({task, p});
         ++counts.opened;
         return task;
+    }
+
+    // Rows for the tasks that wait: of the neighbourhood of their contacts, or of the whole body where blows reach it
+    // all, or the hit is wide. A task that finds none is dropped.
+    void give_rows() {
+        Tasks& tasks = state.tasks;
+        for (const TaskOpened& o : opened) {
+            if (tasks.shell[o.task].exists()) continue;
+            const char* full = nullptr;
+            const ShellView source(state, tasks.source[o.task]);
+            CutOutResult result = CutOutResult::TooWide;
+            const bool is_everywhere = has_explosion(state.blows, o.task) || is_cut_task(state.blows, o.task);
+            if (!is_everywhere) result = reserve_cut_out(state, o.task, &full);
+            if (result == CutOutResult::TooWide)
+                tasks.shell[o.task] = make_shell_unclear(state, quick_room(source), &full);
+            const Row<Shells> working = tasks.shell[o.task];
+            if (working.exists()) {
+                const uint32_t vertices = result == CutOutResult::Reserved ? state.shells.vertices[working].count
+                                                                           : source.vertex_count();
+                tasks.units_owed[o.task] += vertices * kUnitsQuickOpen;
+            } else {
+                tasks.state[o.task] = static_cast<uint8_t>(TaskState::Dropped);
+                refused.push(refused_event(state.bodies, tasks.body[o.task], full));
+            }
+        }
     }
 };
 
@@ -329,6 +357,7 @@ void open_tasks(Serial, Step step, const Events<Impact>& impacts, ShellTables sh
         [](void* opener, Row<Bodies> body, float speed) { return static_cast<Opening*>(opener)->open(body, speed); }};
     open_blows(blows);
     share_strikers(state, opened.all());
+    opening.give_rows();
 }
 
 }  // namespace cullet

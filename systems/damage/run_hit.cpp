@@ -39,7 +39,6 @@ bool open_hit(State& state, Row<Shells> source, const HitDescription& hit) {
     tasks.strength_scale[kTask] = hit.strength_scale;
     set_task_times(state, kTask);
     tasks.time_step[kTask] *= hit.step_scale;
-    tasks.damping_time[kTask] *= hit.step_scale;
     set_quick_task(state, kTask, Row<Bodies>());
     if (hit.quick) set_quick_task(state, kTask, *hit.quick);
     tasks.contact_count[kTask] = 1;

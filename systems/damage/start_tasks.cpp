@@ -23,7 +23,9 @@ void make_cuts(State& state, Row<Tasks> task) {
 
 }  // namespace
 
-void start_tasks(Each<TaskOpened> opened, ShellTables shells, Tasks&, TaskContacts&, PatchVertices&, Blows& blows) {
+void start_tasks(Each<TaskOpened> opened, ShellTables shells, Tasks& tasks, TaskContacts&, PatchVertices&,
+                 Blows& blows) {
+    if (!tasks.shell[opened->task].exists()) return;  // no room
     start_run(shells.state, opened->task);
     if (is_cut_task(blows, opened->task)) make_cuts(shells.state, opened->task);
 }

@@ -1,19 +1,48 @@
 #include "systems/damage/struck_normal.hpp"
 
+#include <algorithm>
+
 namespace cullet {
+namespace {
+
+/// Calls visit(vertex, square of its distance) for those that are nearer than the root of `reach`, rising; visit may
+/// lower it. Nearly all are far away: blocks of a constant count vectorise.
+template <class Visit>
+void visit_near(const ShellView& shell, Vec3 place, const float& reach, Visit&& visit) {
+    constexpr uint32_t kBlock = 32;
+    const Vertices& vertices = shell.state.vertices;
+    const uint32_t first = shell.vertex(0), count = shell.vertex_count();
+    const float *x = vertices.rest.lane(0) + first, *y = vertices.rest.lane(1) + first,
+                *z = vertices.rest.lane(2) + first;
+    float square[kBlock];
+    for (uint32_t block = 0; block < count; block += kBlock) {
+        const uint32_t rows = std::min(kBlock, count - block);
+        const float most = reach;
+        int any = 0;
+        const auto measure = [&](uint32_t i) {
+            const float dx = x[block + i] - place.x, dy = y[block + i] - place.y, dz = z[block + i] - place.z;
+            square[i] = dx * dx + dy * dy + dz * dz;
+            any |= square[i] < most;
+        };
+        if (rows == kBlock)
+            for (uint32_t i = 0; i < kBlock; ++i) measure(i);
+        else
+            for (uint32_t i = 0; i < rows; ++i) measure(i);
+        if (!any) continue;
+        for (uint32_t i = 0; i < rows; ++i)
+            if (square[i] < reach && vertices.element[first + block + i] != kNone) visit(block + i, square[i]);
+    }
+}
+
+}  // namespace
 
 uint32_t nearest_vertex(ShellView shell, Vec3 place) {
-    const Vertices& vertices = shell.state.vertices;
     uint32_t nearest = kNone;
     float least = 1e30f;
-    for (uint32_t v = 0; v < shell.vertex_count(); ++v) {
-        const uint32_t row = shell.vertex(v);
-        if (vertices.element[row] == kNone) continue;
-        const Vec3 away = vertices.rest[row] - place;
-        if (dot(away, away) >= least) continue;
-        least = dot(away, away);
+    visit_near(shell, place, least, [&](uint32_t v, float square) {
+        least = square;
         nearest = v;
-    }
+    });
     return nearest;
 }
 
@@ -24,12 +53,11 @@ Vec3 struck_normal(ShellView shell, Vec3 place, Vec3 normal, float radius) {
     if (nearest == kNone) return normal;
     const Vec3 centre = vertices.rest[shell.vertex(nearest)];
     Vec3d inward;
-    for (uint32_t v = 0; v < shell.vertex_count(); ++v) {
-        const uint32_t row = shell.vertex(v);
-        const Vec3 away = vertices.rest[row] - centre;
-        if (vertices.element[row] == kNone || dot(away, away) > radius * radius) continue;
-        inward += vertices.mass[row] * Vec3d(vertices.inward[row]);
-    }
+    const float most = radius * radius, reach = 1.001f * most;
+    visit_near(shell, centre, reach, [&](uint32_t v, float square) {
+        if (square > most) return;
+        inward += vertices.mass[shell.vertex(v)] * Vec3d(vertices.inward[shell.vertex(v)]);
+    });
     const Vec3 average = normalised(inward).to_float();
     const float along = dot(average, normal);
     if (along > kLeastCosine) return average;

@@ -10,22 +10,33 @@ namespace cullet {
 namespace {
 
 /// Finer fracture cuts more edges, and a cut without room for its copies is refused.
-uint32_t spare_vertices(const ShellView& source) {
-    const FractureKind fracture = material_traits(source.state, source.shells().material[source.row]).fracture;
+uint32_t spare_vertices(const State& state, Row<Materials> material, uint32_t vertices) {
+    const FractureKind fracture = material_traits(state, material).fracture;
     const uint32_t share = fracture == FractureKind::Fine ? 1 : fracture == FractureKind::Coarse ? 2 : 4;
-    return (std::max(192u, source.vertex_count() / share) + kLanes - 1) / kLanes * kLanes;
+    return (std::max(192u, vertices / share) + kLanes - 1) / kLanes * kLanes;
+}
+
+uint32_t spare_vertices(const ShellView& source) {
+    return spare_vertices(source.state, source.shells().material[source.row], source.vertex_count());
 }
 
 }  // namespace
 
 // Cracks that run on across the whole body take a copy and an inserted vertex or two an edge: with the hidden run's
 // spare a wall of 823 vertices was full after seven of them, and the rest ended where it was.
-ShellRoom quick_room(ShellView source) {
-    const uint32_t spare = 2 * spare_vertices(source);
+ShellRoom quick_room(const State& state, Row<Materials> material, uint32_t vertices, uint32_t elements,
+                     uint32_t hinges) {
+    const uint32_t spare = 2 * spare_vertices(state, material, vertices);
     ShellRoom room;
-    room.vertices = (source.vertex_count() + kLanes - 1) / kLanes * kLanes + spare;
-    room.elements = source.element_count() + 2 * spare;
-    room.hinges = source.hinge_count() + 3 * spare;
+    room.vertices = (vertices + kLanes - 1) / kLanes * kLanes + spare;
+    room.elements = elements + 2 * spare;
+    room.hinges = hinges + 3 * spare;
+    return room;
+}
+
+ShellRoom quick_room(ShellView source) {
+    ShellRoom room = quick_room(source.state, source.shells().material[source.row], source.vertex_count(),
+                                source.element_count(), source.hinge_count());
     room.cells = source.shells().cells[source.row].count;
     return room;
 }

@@ -9,6 +9,9 @@ namespace cullet {
 ShellRoom working_room(ShellView source);
 /// For the quick mode: without stiffness, and with twice as much for cracks.
 ShellRoom quick_room(ShellView source);
+/// Of a part of a shell, without cells.
+ShellRoom quick_room(const State& state, Row<Materials> material, uint32_t vertices, uint32_t elements,
+                     uint32_t hinges);
 
 /// Steps and units of a run are counted in whole numbers, which a shell or a file must not leave: its step, s, and how
 /// many steps its run may have. Cooked ones are 1e-7 s and some thousand.

@@ -178,4 +178,30 @@ void flood_parts(ShellView shell, FloodedParts& found) {
         found.piece_of_flood[order[i]] = order[i] == rest ? FloodedParts::kRest : static_cast<uint16_t>(found.pieces++);
 }
 
+uint32_t group_from_cracks(ShellView shell, std::span<FragmentPart> parts) {
+    FloodedParts found;
+    flood_parts(shell, found);
+    if (found.pieces == kNone) return group_fragments(shell, parts);
+    Elements& elements = shell.state.elements;
+    // By smallest element, pieces and rest alike: in the order in which they are met.
+    uint32_t number[kMostFloods], rest = kNone, count = 0;
+    std::fill_n(number, found.pieces, kNone);
+    for (uint32_t e = 0; e < shell.element_count(); ++e) {
+        const uint32_t row = shell.element(e);
+        if (elements.flags[row] & kDead) {
+            elements.part[row] = kNone;
+            continue;
+        }
+        const uint16_t piece = found.piece_of(shell, e);
+        uint32_t& own = piece == FloodedParts::kRest ? rest : number[piece];
+        if (own == kNone) {
+            if (count < parts.size()) parts[count] = {};
+            own = count++;
+        }
+        elements.part[row] = own;
+        if (own < parts.size()) add_to_part(shell, parts[own], e);
+    }
+    return count;
+}
+
 }  // namespace cullet

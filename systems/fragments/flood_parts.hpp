@@ -4,6 +4,7 @@
 #include <span>
 
 #include "components/state.hpp"
+#include "systems/fragments/group_fragments.hpp"
 
 namespace cullet {
 
@@ -32,5 +33,9 @@ struct FloodedParts {
 /// scratch columns copy, next_in_cell, next and other_slope of its elements. O(elements of the pieces times the pieces
 /// that are as large + crack edges), and a look at a byte an edge.
 void flood_parts(ShellView shell, FloodedParts& found);
+
+/// What group_fragments does, for such a shell: the flood finds the pieces, and one pass writes the numbers and chains the
+/// elements. Where there are too many runs of crack edges group_fragments does it all.
+uint32_t group_from_cracks(ShellView shell, std::span<FragmentPart> parts);
 
 }  // namespace cullet

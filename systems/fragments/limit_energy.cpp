@@ -107,8 +107,12 @@ void move(Births& births, const Mover& m, Vec3d velocity, Vec3d spin, BodyId par
 }  // namespace
 
 double rigid_energy(const Bodies& bodies, Row<Bodies> body) {
+    return rigid_energy(bodies, body, {bodies.velocity[body], bodies.spin[body]});
+}
+
+double rigid_energy(const Bodies& bodies, Row<Bodies> body, const Motion& motion) {
     if (!is_dynamic(bodies, body)) return 0;
-    const Vec3d v(bodies.velocity[body]), w(rotate(conjugate(bodies.orientation[body]), bodies.spin[body]));
+    const Vec3d v(motion.velocity), w(rotate(conjugate(bodies.orientation[body]), motion.angular_velocity));
     return 0.5 * (bodies.mass[body] * dot(v, v) + dot(w, bodies.inertia[body] * w));
 }
 

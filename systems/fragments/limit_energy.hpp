@@ -6,6 +6,8 @@ namespace cullet {
 
 /// Of a body as the rigid world moves it: m v^2/2 + w . I w/2, J; 0 for what does not move by itself.
 double rigid_energy(const Bodies& bodies, Row<Bodies> body);
+/// The same, if it moved so (world axes).
+double rigid_energy(const Bodies& bodies, Row<Bodies> body, const Motion& motion);
 
 /// Of what just came of a break: the pieces and the crumbs may together have at most `allowed` (J), what the body had
 /// and what strikers lost to it. The hidden run keeps to that, but not what follows from it: a rigid piece turns with

@@ -13,7 +13,7 @@ void close_task(State& state, Row<Tasks> task, Step step) {
     const Row<Bodies> body = tasks.body[task];
     state.bodies.task[body] = kNone;
     state.bodies.retry_frame[body] = step.frame + retry_frames(step.dt);
-    release_shell(state, tasks.shell[task]);
+    if (tasks.shell[task].exists()) release_shell(state, tasks.shell[task]);
     release_shell(state, tasks.source[task]);
     tasks.state[task] = static_cast<uint8_t>(TaskState::Free);
 }

@@ -1,4 +1,5 @@
 #include "systems/fragments/plan_break.hpp"
+#include "systems/fragments/rest_of_body.hpp"
 #include "systems/rigid/body_id.hpp"
 #include "systems/systems.hpp"
 
@@ -8,6 +9,7 @@ namespace {
 // A crack starts at a vertex that names itself. Vertices keep their numbers in the working shell, so those that did so
 // in the body's before the hit are old.
 void tell_cracks(State& state, Row<Tasks> task, Events<CrackStartedEvent>& cracks) {
+    if (state.tasks.shell[task] == state.tasks.source[task]) return;  // put_back has told
     const Row<Bodies> body = state.tasks.body[task];
     const ShellView now(state, state.tasks.shell[task]), before(state, state.tasks.source[task]);
     const auto is_start = [&](const ShellView& shell, uint32_t v) {
@@ -52,6 +54,9 @@ void plan_births(Serial, const Events<TaskEnded>& ended, ShellTables shells, con
         if (result != TaskState::Dropped && tasks.start_count[task]) tell_cracks(shells.state, task, cracks);
         if (result == TaskState::Broke) plan_break(planning, task);
         if (result == TaskState::Whole && tasks.crack_count[task]) keep_cracks(planning, task);
+        // More pieces than there may be, with those that found no room before.
+        if (result == TaskState::Dropped && tasks.crack_count[task] && tasks.shell[task] == tasks.source[task])
+            clear_run(ShellView(shells.state, tasks.shell[task]), true, false);
         if (result == TaskState::Dropped)
             faults.push({body_id(bodies, tasks.body[task]), bodies.user_data[tasks.body[task]],
                          centre_of(bodies, tasks.body[task]),

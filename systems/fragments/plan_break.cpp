@@ -164,10 +164,16 @@ void keep_cuts(Blows& blows, Row<Tasks> task) {
 void stay_whole(Planning& planning, Break& plan) {
     State& state = planning.state;
     const ShellView shell(state, plan.broken), before(state, state.bodies.shell[plan.body]);
-    if (before.row == shell.row) return;
+    if (!plan.task.exists()) return;
     if (!keep_hulls(shell, before)) return keep_cuts(state.blows, plan.task);
-    clear_run(shell, true);
+    clear_run(shell, true, shell.row != before.row);
     adopt_shell(state, plan.body, shell.row);
+}
+
+// What a hit changed in the body's own shell stays there. It is drawn, and its pieces go, when there is room.
+void leave_cracked(State& state, Row<Bodies> body) {
+    clear_run(ShellView(state, state.bodies.shell[body]), true, false);
+    state.bodies.is_owed_births[body] = kOwedBirths;
 }
 
 // Plans and reserves; what is refused asks again in the next frame. True: something leaves.
@@ -178,7 +184,7 @@ bool reserve_births(Planning& planning, Break& plan) {
     const bool is_drawn = reserve_view(planning, plan), was_drawn = owed != kOwedDrawing;
     owed = !is_drawn ? kOwedDrawing : plan.is_refused ? kOwedBirths : 0;
     if (plan.is_broken()) return true;
-    const bool is_new = plan.broken != state.bodies.shell[plan.body];
+    const bool is_new = plan.task.exists();
     state.pools.points.give_back(plan.points.first, plan.points.capacity);
     if (is_drawn && (is_new || !was_drawn)) planning.changed.push({plan.body});
     stay_whole(planning, plan);
@@ -238,7 +244,10 @@ void plan_break(Planning& planning, Row<Tasks> task) {
     Break plan =
         break_of(planning, task, body, broken,
                  std::span(state.fragments.part.data() + size_t{task} * kMostParts, state.tasks.part_count[task]));
-    if (!reserve_points(planning, plan)) return keep_cuts(state.blows, task);
+    if (!reserve_points(planning, plan)) {
+        if (broken == plan.before) leave_cracked(state, body);
+        return keep_cuts(state.blows, task);
+    }
     const Vec3d velocity(state.tasks.start_velocity[task]), spin(state.tasks.start_spin[task]);
     if (is_cut_task(state.blows, task)) {
         move_with_body(state, plan, velocity, spin);  // nothing was run
@@ -305,9 +314,10 @@ void keep_cracks(Planning& planning, Row<Tasks> task) {
         full = "limits.vertices";
     if (full) {
         planning.refused.push(refused_event(state.bodies, body, full));
+        if (shell.row == before.row) leave_cracked(state, body);
         return keep_cuts(state.blows, task);
     }
-    clear_run(shell, true);
+    clear_run(shell, true, shell.row != before.row);
     adopt_shell(state, body, shell.row);
     planning.changed.push({body});
 }

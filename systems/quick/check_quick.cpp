@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "systems/quick/quick_body.hpp"
+#include "systems/quick/cut_out.hpp"
 
 namespace cullet {
 namespace {
@@ -56,6 +56,7 @@ std::string trouble_of_run(const State& s, uint32_t t) {
         if ((row > first && pack <= s.awake_packs.pack[row - 1]) || bits >> lanes)
             return place(s.awake_packs, "pack", row) + " is " + std::to_string(pack) + ", not rising or not of its shell";
     }
+    if (is_cut_out(s, t)) return trouble_of_cut_out(const_cast<State&>(s), t);  // scratch alone is written
     return {};
 }
 

@@ -27,16 +27,6 @@ Vec3d centre_of_vertices(const ShellView& shell) {
     return mass > 0 ? (1 / mass) * sum : Vec3d{};
 }
 
-/// The body's own motion at a place, body axes.
-struct BodyMotion {
-    Vec3d centre, velocity, spin;
-    BodyMotion(const State& state, Row<Tasks> task)
-        : centre(centre_of_vertices(ShellView(const_cast<State&>(state), state.tasks.shell[task]))),
-          velocity(state.tasks.start_velocity[task]),
-          spin(state.tasks.start_spin[task]) {}
-    Vec3d at(Vec3 place) const { return velocity + cross(spin, Vec3d(place) - centre); }
-};
-
 template <class F>
 void for_each_contact(const State& state, Row<Tasks> task, F&& f) {
     const uint32_t first = state.tasks.first_contact[task];
@@ -86,19 +76,29 @@ float inverse_mass_of(const SpringView& view, uint32_t v) {
 
 }  // namespace
 
+// Cuts and new vertices leave the centre where it is.
+BodyMotion::BodyMotion(const State& state, Row<Tasks> task)
+    : centre(centre_of_vertices(ShellView(const_cast<State&>(state), state.tasks.source[task]))),
+      velocity(state.tasks.start_velocity[task]),
+      spin(state.tasks.start_spin[task]) {}
+
+uint32_t region_rings(uint32_t steps) {
+    return static_cast<uint32_t>(static_cast<float>(steps) * kEdgesAStep) + kSpareRings;
+}
+
 bool wake_region(State& state, Row<Tasks> task, const char** full) {
     Tasks& tasks = state.tasks;
     const ShellView shell(state, tasks.shell[task]);
     const uint32_t steps = state.quick_runs.steps[task];
     build_patches(state, task);
-    choose_region(state, task, static_cast<uint32_t>(static_cast<float>(steps) * kEdgesAStep) + kSpareRings);
+    choose_region(state, task, region_rings(steps));
     if (!give_region_springs(state, task, state.quick_runs.layers[task], full)) {
         tasks.state[task] = static_cast<uint8_t>(TaskState::Dropped);
         return false;
     }
     const RegionView region(state, task);
     const SpringView& view = region.springs;
-    state.quick_runs.diagonal[task] = diagonal_of(shell);
+    state.quick_runs.diagonal[task] = diagonal_of(ShellView(state, tasks.source[task]));
     rest_all(view);
     rest_twins(region);
     const BodyMotion motion(state, task);

@@ -5,6 +5,16 @@
 
 namespace cullet {
 
+/// The body's own motion at a place while a task runs, body axes: about the centre of the vertices' masses.
+struct BodyMotion {
+    Vec3d centre, velocity, spin;
+    BodyMotion(const State& state, Row<Tasks> task);
+    Vec3d at(Vec3 place) const { return velocity + cross(spin, Vec3d(place) - centre); }
+};
+
+/// How many rings round the patches a run of so many steps wakes: as far as a wave gets, and a few to spare.
+uint32_t region_rings(uint32_t steps);
+
 /// Wakes the region of a task whose shell is filled and whose contacts know their vertices: springs, patches, the
 /// striker's speed as the body sees it, step and end of the run. False: no room for its springs; the task is dropped.
 /// Serial.

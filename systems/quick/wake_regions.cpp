@@ -1,5 +1,5 @@
 // The quick mode's part of the frame: regions wake before the loop and are closed behind it.
-#include "systems/quick/region_motion.hpp"
+#include "systems/quick/cut_out.hpp"
 #include "systems/rigid/body_id.hpp"
 #include "systems/systems.hpp"
 
@@ -17,9 +17,14 @@ void wake_regions(Serial, const Events<TaskOpened>& opened, ShellTables shells, 
     }
 }
 
-void close_regions(Serial, const Events<TaskEnded>& ended, ShellTables shells, Tasks&, TaskContacts&) {
-    for (const TaskEnded& e : ended)
-        if (is_quick_task(shells.state, e.task)) close_region(shells.state, e.task);
+void close_regions(Serial, const Events<TaskEnded>& ended, ShellTables shells, Tasks&, TaskContacts&, Fragments&,
+                   const Bodies&, Events<CrackStartedEvent>& cracks) {
+    State& state = shells.state;
+    for (const TaskEnded& e : ended) {
+        if (!is_quick_task(state, e.task)) continue;
+        close_region(state, e.task);
+        if (is_cut_out(state, e.task)) put_back(state, e.task, BodyMotion(state, e.task), cracks);
+    }
 }
 
 }  // namespace cullet

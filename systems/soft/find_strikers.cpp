@@ -10,7 +10,8 @@ namespace cullet {
 namespace {
 
 constexpr uint32_t kMostNear = 256;
-constexpr float kReach = 0.01f;  // m beyond what the motion of a frame asks for
+constexpr float kReach = 0.01f;       // m beyond what the motion of a frame asks for
+constexpr float kFarInside = -1e30f;  // a plane that nothing is behind
 
 /// Inertia about the centre in world axes, inverted.
 Sym3d inverse_inertia_of(const Bodies& bodies, Row<Bodies> b) {
@@ -92,8 +93,24 @@ struct Gathering {
     Step step;
     uint32_t first, room, count = 0;
 
-    void add(const SoftContact& contact) {
-        if (count < room) state.soft_contacts.contact[first + count++] = contact;
+    /// `distance`: of the plane from the striker's centre, with the wall's offset.
+    void add(uint32_t striker, uint32_t vertex, Vec3 normal, float distance, float offset) {
+        const bool is_open = count > 0 && state.soft_contacts.contact[first + count - 1].striker == striker &&
+                             state.soft_contacts.contact[first + count - 1].count < kLanes;
+        if (!is_open) {
+            if (count == room) return;
+            SoftContact fresh;
+            fresh.striker = striker;
+            std::fill(fresh.vertex, fresh.vertex + kLanes, vertex);
+            std::fill(fresh.distance, fresh.distance + kLanes, kFarInside);
+            state.soft_contacts.contact[first + count++] = fresh;
+        }
+        SoftContact& contact = state.soft_contacts.contact[first + count - 1];
+        const uint32_t lane = contact.count++;
+        contact.vertex[lane] = vertex;
+        contact.normal[0][lane] = normal.x, contact.normal[1][lane] = normal.y, contact.normal[2][lane] = normal.z;
+        contact.distance[lane] = distance;
+        contact.offset[lane] = offset;
     }
 
     // Planes of the surface near each vertex, as far off as the two can come together in a frame.
@@ -104,25 +121,24 @@ struct Gathering {
         for (uint32_t v = 0; v < view.shell.vertex_count(); ++v) {
             const uint32_t row = view.shell.vertex(v);
             if (!(state.vertices.mass[row] > 0)) continue;
+            if (!striker.yields && !(state.vertices.inverse_mass[row] > 0)) continue;  // neither can give way
             const Vec3 p = view.position(v), arm = p - striker.centre;
             const Vec3 closing = state.vertices.velocity[row] - striker.velocity - cross(striker.spin, arm);
             const float depth = state.vertices.depth[row];
             const float reach = kReach + depth + fall + length(closing) * step.dt;
-            SoftContact contact;
+            Vec3 normal, point;
             if (striker.is_ball) {
                 const float distance = length(arm);
                 if (distance - striker.radius > reach || !(distance > 0)) continue;
-                contact.normal = (1 / distance) * arm;
+                normal = (1 / distance) * arm;
             } else {
                 RigidSurface surface;
                 if (!rigid.nearest_surface(striker.body, p + origin, reach, surface)) continue;
-                contact.normal = surface.normal;
-                contact.point = surface.point - origin - striker.centre;
+                normal = surface.normal;
+                point = surface.point - origin - striker.centre;
             }
-            contact.vertex = v;
-            contact.striker = i;
-            contact.offset = std::max(0.0f, -depth * dot(contact.normal, inward_of(view, v, orientation)));
-            add(contact);
+            const float offset = std::max(0.0f, -depth * dot(normal, inward_of(view, v, orientation)));
+            add(i, v, normal, dot(normal, point) + offset, offset);
         }
     }
 };
@@ -135,8 +151,13 @@ void find_strikers(State& state, const RigidWorld& rigid, Row<SoftBodies> s, con
     const SpringView view(state, springs_of(state, s));
     const Vec3 origin = view.own().origin[view.row];
     const Range vertices = view.shell.vertices();
-    Gathering gathering{
-        state, rigid, s, view, step, kContactsAVertex * vertices.first, kContactsAVertex * vertices.capacity};
+    Gathering gathering{state,
+                        rigid,
+                        s,
+                        view,
+                        step,
+                        first_contact_row(vertices.first),
+                        kContactsAVertex * (vertices.capacity / kLanes)};
     view.own().gravity.set(view.row, step.gravity);
     const Points points = points_of(view);
     const float wide = kReach + view.shell.shells().thickness[view.shell.row] +
@@ -145,7 +166,7 @@ void find_strikers(State& state, const RigidWorld& rigid, Row<SoftBodies> s, con
     const Vec3 grown{wide, wide, wide};
     const uint32_t found = rigid.near_bodies(points.low + origin - grown, points.high + origin + grown, near);
     soft.striker_count[s] = 0;
-    soft.given.set(s, motion_of(view).momentum);
+    soft.start_momentum.set(s, motion_of(view).momentum);
     soft.has_fault[s] = 0;
     for (uint32_t k = 0; k < found && soft.striker_count[s] < kMostStrikers; ++k) {
         const Row<Bodies> other(near[k]);

@@ -1,5 +1,6 @@
 #include <algorithm>
 
+#include "systems/soft/soft_lanes.hpp"
 #include "systems/springs/spring_view.hpp"
 #include "systems/systems.hpp"
 
@@ -84,8 +85,9 @@ struct Meeting {
 // The vertex stands where the springs took it in this substep. Where that is inside of the striker, an impulse takes
 // away what brought it there, at most all of the speed at which the two close: inelastic, so energy falls. Then
 // friction (Coulomb), which at most stops the sliding.
-void meet(const SoftContact& contact, SoftStriker& striker, const Point& point, float dt) {
+void meet(const SoftContact& contact, uint32_t lane, SoftStriker& striker, const Point& point, float dt) {
     const Vec3 place = point.place();
+    const float offset = contact.offset[lane];
     Vec3 n;
     float gap;
     if (striker.is_ball) {
@@ -93,13 +95,13 @@ void meet(const SoftContact& contact, SoftStriker& striker, const Point& point, 
         const float distance = length(from);
         if (!(distance > 0)) return;
         n = (1 / distance) * from;
-        gap = distance - striker.radius - contact.offset;
+        gap = distance - striker.radius - offset;
     } else {
-        n = rotate(striker.turn, contact.normal);
-        gap = dot(n, place - striker.centre - rotate(striker.turn, contact.point)) - contact.offset;
+        n = rotate(striker.turn, {contact.normal[0][lane], contact.normal[1][lane], contact.normal[2][lane]});
+        gap = dot(n, place - striker.centre) - contact.distance[lane];
     }
     if (!(gap < 0)) return;
-    Meeting meeting{striker, point, place - (gap + contact.offset) * n - striker.centre, dt};
+    Meeting meeting{striker, point, place - (gap + offset) * n - striker.centre, dt};
     const float closing = -dot(n, meeting.relative());
     const float both = point.inverse_mass + inverse_mass_along(striker, meeting.arm, n);
     if (closing > 0 && both > 0) {
@@ -128,11 +130,20 @@ void meet_strikers(EachBody soft_body, OfSprings springs, Turn turn, ShellTables
     const Vec3 gravity = view.own().gravity[view.row];
     SoftStriker* const own = strikers.striker.data() + size_t{kMostStrikers} * s;
     for (uint32_t i = 0; i < soft.striker_count[s]; ++i) move_striker(own[i], dt, gravity);
-    const uint32_t first = kContactsAVertex * view.shell.vertices().first;
-    for (uint32_t c = first; c < first + soft.contact_count[s]; ++c) {
-        const SoftContact& contact = contacts.contact[c];
-        const Point point(state, view, contact.vertex, static_cast<int>(turn.new_side));
-        meet(contact, own[contact.striker], point, dt);
+    const int side = static_cast<int>(turn.new_side);
+    const Float4* const places = state.vertices.probe.data(side) + view.shell.vertex(0);
+    SoftContact* row = contacts.contact.data() + first_contact_row(view.shell.vertices().first);
+    for (SoftContact* const end = row + soft.contact_count[s]; row != end;) {
+        SoftStriker& striker = own[row->striker];
+        SoftContact* last = row;
+        while (last != end && last->striker == row->striker) ++last;
+        mark_inside(row, static_cast<uint32_t>(last - row), places,
+                    {striker.centre, striker.turn, striker.is_ball, striker.radius});
+        for (; row != last; ++row)
+            for (uint32_t bits = row->inside; bits != 0; bits &= bits - 1) {
+                const auto lane = static_cast<uint32_t>(__builtin_ctz(bits));
+                meet(*row, lane, striker, Point(state, view, row->vertex[lane], side), dt);
+            }
     }
 }
 

@@ -3,6 +3,7 @@
 #include "systems/fragments/body_rows.hpp"
 #include "systems/rigid/body_id.hpp"
 #include "systems/soft/soft_body.hpp"
+#include "systems/soft/soft_units.hpp"
 #include "systems/springs/start_springs.hpp"
 #include "systems/systems.hpp"
 
@@ -28,7 +29,7 @@ Change change_of(const SoftBodies& soft, SoftStrikers& strikers, uint32_t body, 
     for_each_copy(soft, strikers, [&](uint32_t s, SoftStriker& striker) {
         if (striker.body != body || !striker.is_pushed || !striker.yields) return;
         if (!change.first) change.first = &striker;
-        const double share = 1.0 / striker.shares, dt = step.dt, n = soft.substeps[s];
+        const double share = 1.0 / striker.shares, dt = soft_seconds(soft, s, step.dt), n = soft.granted[s];
         const Vec3d gravity = striker.falls ? Vec3d(step.gravity) : Vec3d{};
         const Vec3d start_velocity(striker.start_velocity);
         const Vec3d alone = dt * start_velocity + (0.5 * dt * dt * (n + 1) / n) * gravity;
@@ -143,8 +144,8 @@ void return_soft(Serial, const SoftBodies& soft, const SoftStrikers& strikers, R
 }
 
 // Cracks have faces of their own, which need room. What broke in this step is drawn already.
-void show_soft(Serial, ShellTables shells, const SoftBodies& soft, Bodies& bodies, Events<ShellChanged>& changed,
-               Events<RefusedEvent>& refused) {
+void show_soft(Serial, ShellTables shells, const SoftBodies& soft, Bodies& bodies, ViewVertices&, ViewIndices&,
+               Events<ShellChanged>& changed, Events<RefusedEvent>& refused) {
     State& state = shells.state;
     for (uint32_t s = 0; s < soft.size(); ++s) {
         if (!soft.is_used[s] || !soft.is_awake[s]) continue;

@@ -4,14 +4,16 @@
 
 #include "systems/cook/materials.hpp"
 #include "systems/fragments/cell_hulls.hpp"
+#include "systems/soft/soft_units.hpp"
 #include "systems/springs/edge_stiffness.hpp"
+#include "systems/springs/fastest_mode.hpp"
 #include "systems/springs/give_springs.hpp"
 
 namespace cullet {
 namespace {
 
-// A spring through a substep is a unit; two layers have four times the work.
-constexpr uint64_t kUnitsOneLayer = 1, kUnitsLayers = 4;
+// Of the step at which the fastest element alone runs away: damping, of the speed a step before, takes 0.06 of it.
+constexpr double kStepShare = 0.9;
 constexpr float kNeverBreaks = 1e6f;                    // strain of a material that gives none
 constexpr float kSpare = 0.5f;                          // rows for springs that tears make
 constexpr float kDragTime = 0.15f, kDragBounce = 1.2f;  // s: of what does not bounce, and what restitution adds
@@ -28,7 +30,7 @@ uint32_t row_for(State& state) {
 /// Rows of contacts for every vertex of the shell.
 void make_contact_rows(State& state, Row<Shells> shell) {
     const Range vertices = state.shells.vertices[shell];
-    const uint32_t end = kContactsAVertex * (vertices.first + vertices.capacity);
+    const uint32_t end = first_contact_row(vertices.first + vertices.capacity + kLanes - 1);
     if (end > state.soft_contacts.size()) state.soft_contacts.append(end - state.soft_contacts.size());
 }
 
@@ -73,9 +75,9 @@ Result<Row<SoftBodies>> make_soft(State& state, Row<Bodies> body, float step_sec
     Result<Row<ShellSprings>> springs = give_springs(state, shell, settings);
     if (!springs) return Error{springs.error()};
     const SpringView stiff(state, *springs);
-    const double stable = stable_spring_step(stiff), wanted = step_seconds / stable;
-    const uint64_t cost =
-        std::max<uint64_t>(stiff.spring_count(), 1) * (material.has_bending ? kUnitsLayers : kUnitsOneLayer);
+    const double stable = kStepShare * 2 / std::sqrt(std::max(fastest_mode(stiff), 1.0)),
+                 wanted = step_seconds / stable;
+    const uint64_t cost = soft_units_a_substep(stiff.spring_count(), material.has_bending);
     const uint64_t most = std::clamp<uint64_t>(units / kSoftShare / cost, kLeastSubsteps, kMostSubsteps);
     const auto substeps = static_cast<uint32_t>(std::clamp(std::ceil(wanted), double{kLeastSubsteps}, double(most)));
     const double step = double{step_seconds} / substeps, softening = std::max(1.0, step * step / (stable * stable));

@@ -1,6 +1,5 @@
 #include "systems/soft/soft_loop.hpp"
 
-#include "systems/damage/damage_loop.hpp"
 #include "systems/soft/find_strikers.hpp"
 #include "systems/soft/soft_body.hpp"
 #include "systems/soft/soft_shape.hpp"
@@ -49,7 +48,7 @@ void SoftLoop::advance(const RigidWorld& rigid, const Step& step) {
     uint32_t alone[kMostAtOnce], together[kMostAtOnce], alone_count = 0, together_count = 0;
     for (uint32_t i = 0; i < count; ++i) {
         const Row<Shells> shell = state.bodies.shell[soft.body[awake[i]]];
-        if (state.shells.vertices[shell].count > DamageLoop::kTeamVertices && workers > 1)
+        if (state.shells.vertices[shell].count > kSoftTeamVertices && workers > 1)
             together[together_count++] = awake[i];
         else
             alone[alone_count++] = awake[i];
@@ -64,7 +63,7 @@ void SoftLoop::advance(const RigidWorld& rigid, const Step& step) {
         return has_layers ? layers_ : one_layer_;
     };
     const auto run_of = [&](uint32_t s) {
-        return SoftInnerLoop::Run{s, state.shell_springs.steps[world_.springs_of(s)], soft.substeps[s], nullptr};
+        return SoftInnerLoop::Run{s, state.shell_springs.steps[world_.springs_of(s)], soft.granted[s], nullptr};
     };
     for (uint32_t i = 0; i < together_count; ++i) {
         SoftInnerLoop::Team team(loop_of(together[i]), world_, run_of(together[i]), workers);

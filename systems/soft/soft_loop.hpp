@@ -30,12 +30,15 @@ using SoftInnerLoop = InnerLoop<SoftWorld>;
 /// A substep: the springs' own, then contacts; each fourth time plastic flow and tears.
 SoftInnerLoop make_soft_loop(SpringLayout layout);
 inline constexpr uint32_t kSubstepsAFlow = 4;
+/// With fewer, a substep of 4 microseconds is not worth sharing.
+inline constexpr uint32_t kSoftTeamVertices = 256;
 
 struct SoftLoop {
     SoftLoop(State& state, JobSystem& jobs, Profiler& profiler);
 
     /// One frame of every awake body: whom it meets, its substeps, its shape and motion at the end. Bodies of more
-    /// than 1,000 vertices are shared by all workers, one after another; the others go one job a body.
+    /// than kSoftTeamVertices are shared by all workers, one after another, unless there are as many of them as
+    /// workers; the others go one job a body.
     void advance(const RigidWorld& rigid, const Step& step);
     std::string describe() const { return layers_.describe(); }
     /// For the frame plan: its inner loop reads and writes all tables.

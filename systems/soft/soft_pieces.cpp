@@ -23,10 +23,8 @@ void for_each_point(const State& s, const SpringView& view, F&& f) {
             f(part, mass, Vec3d(rest), s.vertices.velocity[row]);
             continue;
         }
-        // As far through the wall as the twin stands: the pose is that of the frame's end.
-        const float reach = length(view.twin_position(v) - view.position(v));
         f(part, mass / 2, Vec3d(rest), s.vertices.velocity[row]);
-        f(part, mass / 2, Vec3d(rest + reach * s.vertices.inward[row]), s.twins.velocity[view.twin(v)]);
+        f(part, mass / 2, Vec3d(rest + through_at_rest(view, v)), s.twins.velocity[view.twin(v)]);
     }
 }
 
@@ -65,7 +63,15 @@ bool give_piece_springs(State& s, const SpringView& parent, const FragmentPart& 
     const SpringView piece(s, *given);
     s.shell_springs.keeps_lengths[*given] |= kKeepsLengths;
     for (uint32_t e = part.first_element; e != kNone; e = s.elements.next[parent.shell.element(e)])
-        for (size_t k = 0; k < 3; ++k) copy_lengths(s, parent, e, piece, s.elements.copy[parent.shell.element(e)], k);
+        for (size_t k = 0; k < 3; ++k) {
+            const uint32_t row = parent.shell.element(e), copy = s.elements.copy[row];
+            copy_lengths(s, parent, e, piece, copy, k);
+            if (!piece.has_layers()) continue;
+            const uint32_t from = parent.twin(s.elements.corner[row][k]),
+                           to = piece.twin(s.elements.corner[piece.shell.element(copy)][k]);
+            s.twins.through.set(to, s.twins.through[from]);
+            s.twins.inverse_rest[to] = s.twins.inverse_rest[from];
+        }
     for (uint32_t i = 0; i < piece.spring_count(); ++i) measure_spring(piece, i, false);
     set_spring_step(piece, settings.time_step);
     return true;

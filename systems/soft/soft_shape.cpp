@@ -6,6 +6,7 @@
 #include "systems/damage/ring.hpp"
 #include "systems/rigid/body_id.hpp"
 #include "systems/soft/soft_body.hpp"
+#include "systems/soft/soft_units.hpp"
 #include "systems/springs/best_turn.hpp"
 #include "systems/springs/start_springs.hpp"
 
@@ -31,11 +32,9 @@ struct Frame {
         const Vec3d outer(view.position(v));
         return view.has_layers() ? 0.5 * (outer + Vec3d(view.twin_position(v))) : outer;
     }
-    Vec3d rest_middle(uint32_t row) const {
-        const Vec3d outer(state.vertices.rest[row]);
-        if (!view.has_layers()) return outer;
-        const float reach = view.own().length_factor[view.row] * state.vertices.depth[row];
-        return outer + double{0.5f * reach} * Vec3d(state.vertices.inward[row]);
+    Vec3d rest_middle(uint32_t v) const {
+        const Vec3d outer(state.vertices.rest[view.shell.vertex(v)]);
+        return view.has_layers() ? outer + 0.5 * Vec3d(through_at_rest(view, v)) : outer;
     }
 };
 
@@ -71,11 +70,11 @@ Sym3d inertia_about(const Frame& f, Vec3d centre) {
 
 /// Hundreds of substeps add to floats what gravity gives: together they round by 1e-4 of it. What all points have is
 /// known: what they had, gravity's share, and what strikers gave.
-void mend_momentum(const Frame& f, const Step& step) {
+void mend_momentum(const Frame& f, Vec3 gravity, float seconds) {
     const SoftBodies& soft = f.state.soft_bodies;
     const SpringMotion now = motion_of(f.view);
     if (f.is_pinned || !(now.mass > 0)) return;
-    Vec3d wanted = soft.given[f.soft] + now.mass * double{step.dt} * Vec3d(step.gravity);
+    Vec3d wanted = soft.start_momentum[f.soft] + now.mass * double{seconds} * Vec3d(gravity);
     for (uint32_t i = 0; i < soft.striker_count[f.soft]; ++i)
         wanted += f.state.soft_strikers.striker[kMostStrikers * f.soft + i].impulse;
     const Vec3 missing = ((1 / now.mass) * (wanted - now.momentum)).to_float();
@@ -119,7 +118,7 @@ Pose fit_pose(const Frame& f) {
     f.for_each_live([&](uint32_t v, uint32_t row) {
         const double m = f.state.vertices.mass[row];
         mass += m;
-        rest += m * f.rest_middle(row);
+        rest += m * f.rest_middle(v);
         now += m * f.middle(v);
     });
     if (!(mass > 0)) return {bodies.position[f.body] - origin, bodies.orientation[f.body]};
@@ -127,7 +126,7 @@ Pose fit_pose(const Frame& f) {
     double products[3][3] = {};
     f.for_each_live([&](uint32_t v, uint32_t row) {
         const double m = f.state.vertices.mass[row];
-        const Vec3d r = f.rest_middle(row) - rest, x = f.middle(v) - now;
+        const Vec3d r = f.rest_middle(v) - rest, x = f.middle(v) - now;
         for (int i = 0; i < 3; ++i)
             for (int j = 0; j < 3; ++j) products[i][j] += m * r[i] * x[j];
     });
@@ -178,6 +177,7 @@ void take_shape(const Frame& f, const Pose& pose) {
         Vec3 inward = turned_between(before, now, s.vertices.inward[row]);
         if (f.view.has_layers()) {
             const Vec3 through = rotate(back, f.view.twin_position(v) - f.view.position(v));
+            s.twins.through.set(f.view.twin(v), through);
             if (dot(through, through) > 0) inward = through;
         }
         s.vertices.inward.set(row, normalised(inward));
@@ -201,10 +201,11 @@ void end_soft_frame(State& state, Row<SoftBodies> s, const Step& step) {
     Bodies& bodies = state.bodies;
     const SpringView view(state, springs_of(state, s));
     const Frame f{view, state, s, soft.body[s], static_cast<BodyKind>(bodies.kind[soft.body[s]]) == BodyKind::Static};
-    soft.awake_seconds[s] += step.dt;
+    const float seconds = soft_seconds(soft, s, step.dt);
+    soft.awake_seconds[s] += seconds;
     if (!is_sound(f)) return put_back(f);
-    mend_momentum(f, step);
-    const Motions m = slow_down(f, step.dt / (step.dt + soft.drag_time[s]));
+    mend_momentum(f, step.gravity, seconds);
+    const Motions m = slow_down(f, seconds / (seconds + soft.drag_time[s]));
     const Pose pose = fit_pose(f);
     take_shape(f, pose);
     soft.is_moved[s] = 1;
@@ -216,7 +217,7 @@ void end_soft_frame(State& state, Row<SoftBodies> s, const Step& step) {
     }
     soft.most_motion[s] = std::max(soft.most_motion[s], m.about);
     const bool is_quiet = m.about < 0.5 * m.all.mass * double{kQuietSpeed * kQuietSpeed};
-    soft.quiet_seconds[s] = is_quiet ? soft.quiet_seconds[s] + step.dt : 0;
+    soft.quiet_seconds[s] = is_quiet ? soft.quiet_seconds[s] + seconds : 0;
 }
 
 }  // namespace cullet

@@ -1,6 +1,7 @@
 #include <algorithm>
 
 #include "engine/random.hpp"
+#include "systems/soft/soft_lanes.hpp"
 #include "systems/soft/split_plane.hpp"
 #include "systems/springs/rebuild_springs.hpp"
 #include "systems/systems.hpp"
@@ -65,6 +66,7 @@ void tear_springs(EachBody soft_body, OfSprings of, ShellTables shells, SoftBodi
     const float limit = soft.break_strain[s];
     Candidates candidates;
     const Range rows = view.own().springs[view.row];
+    if (!any_above(state.springs.length.data() + rows.first, rows.count, limit)) return;
     for (uint32_t i = 0; i < rows.count; ++i) {
         const float strain = state.springs.length[rows.first + i];
         if (strain > limit && state.springs.a[rows.first + i] != kNone && state.springs.can_crack[rows.first + i])

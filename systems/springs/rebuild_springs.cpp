@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "systems/springs/carry_flow.hpp"
 #include "systems/springs/edge_stiffness.hpp"
 #include "systems/springs/spring_lists.hpp"
 
@@ -182,8 +183,11 @@ void measure(const SpringView& view, const Sets& sets) {
     });
     sets.elements.for_each(view.shell.element_count(), [&](uint32_t e) {
         for (const uint32_t s : state.element_springs.spring[view.edges(e)])
-            if (s < kAsleepSpring && state.springs.element[view.spring(s)] == e)
-                measure_spring(view, s, !(state.springs.rest_length[view.spring(s)] > 0));
+            if (s < kAsleepSpring && state.springs.element[view.spring(s)] == e) {
+                const bool is_new = !(state.springs.rest_length[view.spring(s)] > 0);
+                measure_spring(view, s, is_new);
+                if (is_new && carry_flow(view, s)) measure_spring(view, s, false);
+            }
     });
     if (!view.has_layers()) return;
     sets.vertices.for_each(vertices,
@@ -238,8 +242,10 @@ void list_new_elements(const SpringView& view) {
     Range& edges = view.own().edges[view.row];
     CULLET_ASSERT(view.shell.element_count() <= edges.capacity, "%u elements, room for the springs of %u",
                   view.shell.element_count(), edges.capacity);
-    for (; edges.count < view.shell.element_count(); ++edges.count)
+    for (; edges.count < view.shell.element_count(); ++edges.count) {
         view.state.element_springs.spring[view.edges(edges.count)] = {kNone, kNone, kNone};
+        view.state.element_springs.flow[view.edges(edges.count)] = {};
+    }
 }
 
 }  // namespace
@@ -270,6 +276,7 @@ bool rebuild_springs(const SpringView& view, std::span<const uint32_t> touched) 
 void forget_springs(const SpringView& view, uint32_t element) {
     State& state = view.state;
     list_new_elements(view);
+    remember_flow(view, element);
     for (uint32_t& entry : state.element_springs.spring[view.edges(element)]) {
         const uint32_t s = entry;
         entry = kNone;
@@ -301,6 +308,7 @@ void insert_twin(const SpringView& view, uint32_t p, uint32_t q, uint32_t vertex
     weigh_points(view, vertex);
     twins.velocity.set(row, between(twins.velocity[from], twins.velocity[to]));
     view.place_twin(vertex, between(view.twin_position(p), view.twin_position(q)));
+    twins.through.set(row, between(twins.through[from], twins.through[to]));
     twins.length[row] = length(view.twin_position(vertex) - view.position(vertex));
 }
 

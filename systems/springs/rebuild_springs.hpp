@@ -15,8 +15,8 @@ bool rebuild_springs(const SpringView& view, std::span<const uint32_t> touched);
 
 /// The element was re-meshed: its corners are not those that its springs were made for. To be called for each element
 /// whose corners changed, before any vertex is split. An edge whose other element still has a spring keeps it; for the
-/// rest rebuild_springs makes new ones at their length at rest, and rows that no element has are cleared: no ends, no
-/// stiffness.
+/// rest rebuild_springs makes new ones at their length at rest, which have flowed as those of their elements had
+/// (carry_flow.hpp), and rows that no element has are cleared: no ends, no stiffness.
 void forget_springs(const SpringView& view, uint32_t element);
 /// The inner point of a vertex that was put between p and q at (1 - tau) p + tau q: as all columns, place and velocity
 /// of the inner points are interpolated (C5). Two layers only; rebuild_springs comes next.

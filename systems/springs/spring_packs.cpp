@@ -62,10 +62,10 @@ HWY_INLINE void store_points_and(V3 a, V w, Float4* to) {
 }
 
 /// v += dt (f / m + g) where m is finite, then x + dt v to the other side.
-struct SpringMotion {
+struct PackMotion {
     V dt;
     V3 fall;  // dt g
-    explicit SpringMotion(const SpringStep& step) {
+    explicit PackMotion(const SpringStep& step) {
         const Floats d;
         dt = hn::Set(d, step.dt);
         fall = {hn::Set(d, step.dt * step.gravity.x), hn::Set(d, step.dt * step.gravity.y),
@@ -96,7 +96,7 @@ HWY_INLINE void note_zero_lengths(const SpringStep& step, uint32_t pack, V least
 void integrate_spring_packs(const SpringStep& given, uint32_t first_pack, uint32_t pack_count) {
     const SpringStep step = given;  // nothing that is written can be it: its numbers stay in registers
     const Floats d;
-    const SpringMotion motion(step);
+    const PackMotion motion(step);
     for (uint32_t pack = first_pack; pack < first_pack + pack_count; ++pack) {
         SpringSlot* const first = step.slots + step.first_slot[pack];
         SpringSlot* const end = first + step.slot_count[pack];
@@ -126,7 +126,7 @@ template <bool kIsCrossed>
 HWY_INLINE void integrate_pairs(const SpringStep& given, uint32_t first_pack, uint32_t pack_count) {
     const SpringStep step = given;
     const Floats d;
-    const SpringMotion motion(step);
+    const PackMotion motion(step);
     for (uint32_t pack = first_pack; pack < first_pack + pack_count; ++pack) {
         const uint32_t first = step.first_slot[pack], end = first + step.slot_count[pack];
         V lowest = hn::Set(d, 1);

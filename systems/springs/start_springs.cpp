@@ -18,9 +18,7 @@ Vec3 shape(const SpringView& view, uint32_t v) {
     return view.state.vertices.rest[row] + view.state.vertices.displacement[row];
 }
 Vec3 inner_shape(const SpringView& view, uint32_t v) {
-    const uint32_t row = view.shell.vertex(v);
-    const float reach = view.own().length_factor[view.row] * view.state.vertices.depth[row];
-    return shape(view, v) + reach * view.state.vertices.inward[row];
+    return shape(view, v) + through_at_rest(view, v);
 }
 
 struct Centres {
@@ -40,9 +38,8 @@ void for_each_point(const SpringView& view, F&& f) {
             f(mass, Vec3d(s.vertices.rest[row]), Vec3d(view.position(v)), Vec3d(s.vertices.velocity[row]));
             continue;
         }
-        const float reach = view.own().length_factor[view.row] * s.vertices.depth[row];
         f(mass / 2, Vec3d(s.vertices.rest[row]), Vec3d(view.position(v)), Vec3d(s.vertices.velocity[row]));
-        f(mass / 2, Vec3d(s.vertices.rest[row] + reach * s.vertices.inward[row]), Vec3d(view.twin_position(v)),
+        f(mass / 2, Vec3d(s.vertices.rest[row] + through_at_rest(view, v)), Vec3d(view.twin_position(v)),
           Vec3d(s.twins.velocity[view.twin(v)]));
     }
 }
@@ -94,6 +91,14 @@ Vec3d spin_of(Sym3d inertia, Vec3d angular) {
 }
 
 }  // namespace
+
+Vec3 through_at_rest(const SpringView& view, uint32_t v) {
+    const Vec3 through = view.state.twins.through[view.twin(v)];
+    if (dot(through, through) > 0) return through;
+    const uint32_t row = view.shell.vertex(v);
+    const float reach = view.own().length_factor[view.row] * view.state.vertices.depth[row];
+    return reach * view.state.vertices.inward[row];
+}
 
 void start_springs(const SpringView& view, const RigidMotion& motion) {
     State& state = view.state;
@@ -150,7 +155,10 @@ RigidMotion stop_springs(const SpringView& view) {
         const Vec3 body = rotate(conjugate(motion.pose.orientation), view.position(v) - c.now.to_float());
         state.vertices.displacement.set(row, body + c.rest.to_float() - state.vertices.rest[row]);
         state.vertices.velocity.set(row, {});
-        if (view.has_layers()) state.twins.velocity.set(view.twin(v), {});
+        if (!view.has_layers()) continue;
+        state.twins.velocity.set(view.twin(v), {});
+        state.twins.through.set(view.twin(v),
+                                rotate(conjugate(motion.pose.orientation), view.twin_position(v) - view.position(v)));
     }
     return motion;
 }
@@ -171,9 +179,8 @@ double spring_energy(const SpringView& view) {
         const LayerSprings& layers = s.layer_springs;
         const uint32_t layer = view.layer(i);
         const auto flowed = [](double now, double rest) { return rest > 0 ? now / rest : 1; };
-        const double flow =
-            0.5 * (flowed(s.springs.plastic_length[row], s.springs.rest_length[row]) +
-                   flowed(layers.inner_plastic[layer], layers.inner_length[layer]));
+        const double flow = 0.5 * (flowed(s.springs.plastic_length[row], s.springs.rest_length[row]) +
+                                   flowed(layers.inner_plastic[layer], layers.inner_length[layer]));
         const Vec3d ya(view.twin_position(a)), yb(view.twin_position(b));
         spring(layers.inner_stiffness[layer], ya, yb, layers.inner_plastic[layer]);
         const double first = flow * layers.cross_length[layer][0], second = flow * layers.cross_length[layer][1];

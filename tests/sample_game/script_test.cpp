@@ -540,8 +540,8 @@ TEST_P(SceneHash, IsWhatTheSceneAlwaysGave) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Scenes, SceneHash,
-                         testing::Values(KnownHash{"vase", "5ab95f3cf62fb937"}, KnownHash{"wall", "511fd433cb939082"},
-                                         KnownHash{"pane", "393489761dab57e7"}, KnownHash{"drop", "fcadf9d18322839c"}),
+                         testing::Values(KnownHash{"vase", "0ec8eb09dc53f7e0"}, KnownHash{"wall", "64be48b68599f22a"},
+                                         KnownHash{"pane", "2b200cb0a8533519"}, KnownHash{"drop", "da57f16858561167"}),
                          [](const auto& known) { return std::string(known.param.scene); });
 
 TEST(Script, AFileIsPlayedByItsPathAndOneThatIsNotThereIsNamed) {

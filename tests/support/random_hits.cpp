@@ -11,7 +11,8 @@
 namespace cullet::test {
 namespace {
 
-/// Kinetic energy, and what a body gains that is still to be struck back: its own task decides how.
+/// Kinetic energy, and what a body gains that is still to be struck back: its own task decides how, and its share of a
+/// striker's loss that another task has seen already.
 double energy_of(const World& world, const Matter& matter) {
     const State& state = world.contents().data.state;
     double energy = matter.kinetic_energy;
@@ -19,7 +20,7 @@ double energy_of(const World& world, const Matter& matter) {
         if (static_cast<TaskState>(state.tasks.state[t]) == TaskState::Free) continue;
         const uint32_t first = state.tasks.first_contact[t];
         for (uint32_t c = first; c < first + state.tasks.contact_count[t]; ++c)
-            if (state.task_contacts.is_answered[c]) energy += state.task_contacts.answer_energy[c];
+            energy += state.task_contacts.answer_energy[c];
     }
     return energy;
 }
@@ -57,7 +58,7 @@ void Watch::look(const World& world, const std::string& system) {
     if (system != "make_births" || broke == broke_before) return;
     ++breaks;
     const Matter after = matter_of(world);
-    most_kept = std::max(most_kept, energy_of(world, after) / energy_before);
+    most_kept = std::max(most_kept, (energy_of(world, after) - of_old_debris) / (energy_before - of_old_debris));
     worst_mass = std::max(worst_mass, std::fabs(after.mass / before.mass - 1));
     double change = 0;
     for (int k = 0; k < 3; ++k) change = std::hypot(change, after.momentum[k] - before.momentum[k]);

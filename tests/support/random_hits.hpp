@@ -31,11 +31,13 @@ Shape random_shape(uint32_t shape, std::optional<FractureKind> fracture = {});
 /// solver has no part in it.
 struct Watch {
     Matter before;
-    double energy_before = 0;
+    double energy_before = 0, of_old_debris = 0;
     uint64_t broke_before = 0;
     uint32_t breaks = 0;
     double most_kept = 0, worst_momentum = 0, worst_mass = 0;
 
+    /// To be called while the world is empty but for the crumbs of earlier hits, whose energy is left out.
+    void begin_hit(const World& world) { of_old_debris = measure_matter(world).kinetic_energy; }
     /// To be called after each system.
     void look(const World& world, const std::string& system);
 };

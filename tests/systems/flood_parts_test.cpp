@@ -42,8 +42,24 @@ void compare(ShellView shell, uint32_t least_parts) {
     flood_parts(shell, flooded);
     std::vector<uint16_t> piece(shell.element_count());
     for (uint32_t e = 0; e < shell.element_count(); ++e) piece[e] = flooded.piece_of(shell, e);
-    std::vector<FragmentPart> parts(kMostParts);
+    std::vector<FragmentPart> parts(kMostParts), from_cracks(kMostParts);
+    ASSERT_EQ(group_from_cracks(shell, from_cracks), flooded.pieces + 1);
+    const auto numbers = [&] {
+        std::vector<uint32_t> all;
+        for (const auto* column : {&shell.state.elements.part, &shell.state.elements.next})
+            if (column == &shell.state.elements.part || flooded.pieces < kMostParts)  // more are not chained
+                all.insert(all.end(), column->data() + shell.element(0),
+                           column->data() + shell.element(shell.element_count()));
+        return all;
+    };
+    const std::vector<uint32_t> found = numbers();
     const uint32_t count = group_fragments(shell, parts);
+    EXPECT_EQ(numbers(), found) << "numbers and chains";
+    for (uint32_t p = 0; p < std::min(count, kMostParts); ++p)
+        EXPECT_TRUE(parts[p].mass == from_cracks[p].mass && parts[p].element_count == from_cracks[p].element_count &&
+                    parts[p].first_element == from_cracks[p].first_element &&
+                    parts[p].last_element == from_cracks[p].last_element && parts[p].has_pins == from_cracks[p].has_pins)
+            << "part " << p;
     ASSERT_EQ(flooded.pieces + 1, count);
     EXPECT_GE(count, least_parts);
     std::vector<uint32_t> piece_of_part(count, kNone);

@@ -18,6 +18,7 @@ TEST(RandomBreaks, AThousandAddNoEnergyAndKeepMassAndMomentum) {
     for (uint32_t s = 0; s < kShapes; ++s) shapes.push_back(random_shape(s));
     uint32_t hits = 0;
     for (; hits < kMostHits && watch.breaks < kBreaks; ++hits) {
+        watch.begin_hit(world);
         hit_once(world, shapes[hits % kShapes], {{5}, hits});
         ASSERT_LE(watch.most_kept, 1 + 1e-6) << "hit " << hits;
     }

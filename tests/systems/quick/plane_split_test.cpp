@@ -2,58 +2,10 @@
 #include <gtest/gtest.h>
 
 #include "engine/random.hpp"
-#include "systems/damage/insert_vertex.hpp"
-#include "systems/damage/split_fans.hpp"
-#include "systems/quick/plane_split.hpp"
-#include "tests/support/crack_meshes.hpp"
+#include "tests/support/plane_splits.hpp"
 
 namespace cullet::crack_test {
 namespace {
-
-Vec3 direction(uint64_t seed, uint64_t n) {
-    const Random random{seed};
-    for (uint64_t i = 0;; ++i) {
-        const Vec3 v{static_cast<float>(2 * random.uniform(n, 3 * i) - 1),
-                     static_cast<float>(2 * random.uniform(n, 3 * i + 1) - 1),
-                     static_cast<float>(2 * random.uniform(n, 3 * i + 2) - 1)};
-        if (dot(v, v) > 0.01f && dot(v, v) < 1) return normalised(v);
-    }
-}
-
-struct SplitResult {
-    bool is_cut = false, was_interior = false;
-    uint32_t on_border = 0, ends = 0, inserted = 0;
-};
-
-/// Re-meshes and splits, as the quick mode does; `after_insert` is called between the two.
-template <class Call>
-SplitResult split(ShellView shell, uint32_t vertex, Vec3 normal, Touched& touched, Call after_insert) {
-    SplitResult result;
-    for (;;) {
-        const PlaneCrossing crossing = find_plane_crossing(shell, vertex, normal);
-        if (crossing.element == kNone) break;
-        insert_vertex(shell, crossing.element, crossing.edge, crossing.tau, touched);
-        ++result.inserted;
-        touched.clear();
-    }
-    after_insert();
-    Ring ring;
-    walk_ring(shell, vertex, ring);
-    result.was_interior = ring.is_closed;
-    if (ring.count < 2) return result;
-    const RingSides sides = choose_sides(shell, vertex, ring, normal);
-    if (!sides.is_split) return result;
-    Ends ends = ends_between(shell, ring, sides);
-    result.is_cut = cut_ends(shell, vertex, ends, touched) == CutOutcome::Cut;
-    touched.clear();
-    result.ends = ends.count;
-    for (uint32_t i = 0; i < ends.count; ++i) {
-        result.on_border += !ends.is_interior[i];
-        if (result.is_cut && ends.is_interior[i])
-            shell.state.vertices.crack[shell.vertex(ends.end[i])] = static_cast<uint8_t>(CrackState::Tip);
-    }
-    return result;
-}
 
 struct Body {
     const char* name;
@@ -77,7 +29,7 @@ TEST(PlaneSplit, AnyHistoryOfSplitsKeepsTheMeshSoundAndMovesNothing) {
             if (shell.view.state.vertices.element[shell.view.vertex(vertex)] == kNone) continue;
             Motion3 before;
             uint32_t vertices = 0, edges = 0, elements = 0;
-            const SplitResult done = split(shell.view, vertex, direction(3, n), touched, [&] {
+            const SplitResult done = split(shell.view, vertex, seeded_direction(3, n), touched, [&] {
                 before = motion_of(shell.view);
                 vertices = live_vertex_count(shell.view), edges = edge_count(shell.view);
                 elements = shell.view.element_count();
@@ -110,7 +62,7 @@ TEST(PlaneSplit, SidesAreTwoRunsAndFollowTheCentroids) {
         for (uint32_t v = 0; v < shell.view.vertex_count(); ++v) {
             Ring ring;
             walk_ring(shell.view, v, ring);
-            const Vec3 normal = direction(5, v), place = shell.view.state.vertices.rest[shell.view.vertex(v)];
+            const Vec3 normal = seeded_direction(5, v), place = shell.view.state.vertices.rest[shell.view.vertex(v)];
             const RingSides sides = choose_sides(shell.view, v, ring, normal);
             uint32_t changes = 0, wrong = 0;
             for (uint32_t i = 0; i < ring.count; ++i) {
@@ -156,7 +108,7 @@ TEST(PlaneSplit, AFanOfOneElementIsNotSplit) {
         Ring ring;
         walk_ring(shell.view, v, ring);
         if (ring.count > 1) continue;
-        EXPECT_FALSE(choose_sides(shell.view, v, ring, direction(1, v)).is_split);
+        EXPECT_FALSE(choose_sides(shell.view, v, ring, seeded_direction(1, v)).is_split);
     }
 }
 

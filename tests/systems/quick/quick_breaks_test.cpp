@@ -23,6 +23,7 @@ TEST(QuickBreaks, SomeHundredsAddNoEnergyAndKeepMassAndMomentum) {
         SpawnSettings spawn;
         spawn.fracture = FractureMode::Quick;
         spawn.quick.layers = 1 + hits / kShapes % 2;
+        watch.begin_hit(world);
         hit_once(world, shapes[hits % kShapes], {{6}, hits}, spawn);
         ASSERT_LE(watch.most_kept, 1 + 1e-6) << "hit " << hits;
     }

@@ -8,6 +8,7 @@
 #include "engine/random.hpp"
 #include "systems/damage/insert_vertex.hpp"
 #include "systems/springs/check_springs.hpp"
+#include "systems/springs/edge_stiffness.hpp"
 #include "systems/springs/spring_loop.hpp"
 #include "tests/support/spring_strip.hpp"
 
@@ -265,6 +266,41 @@ TEST(RebuildSprings, InsertsInMotionKeepMassCentreAndMomentumOfBothLayers) {
         EXPECT_LT(length(motion_of(bench.view()).momentum - start.momentum), 1e-6 * before.mass);
         EXPECT_EQ(bench.state().validate(), "");
     }
+}
+
+TEST(RebuildSprings, SpringsOfNewEdgesHaveFlowedAsThoseThatTheyReplace) {
+    for (const SpringLayout layout : kLayouts)
+        for (const bool keeps : {false, true}) {
+            SpringBench bench = make_uneven(layout);
+            const SpringView view = bench.view();
+            State& state = bench.state();
+            if (keeps) state.shell_springs.keeps_lengths[view.row] |= kKeepsLengths;
+            for (uint32_t s = 0; s < view.spring_count(); ++s) {
+                const uint32_t row = view.spring(s);
+                state.springs.plastic_length[row] = 1.1f * state.springs.rest_length[row];
+                if (view.has_layers())
+                    state.layer_springs.inner_plastic[view.layer(s)] =
+                        0.9f * state.layer_springs.inner_length[view.layer(s)];
+            }
+            const uint32_t before = view.spring_count();
+            ASSERT_TRUE(rebuild_springs(view, insert_vertices(bench, 12)));
+            ASSERT_GT(view.spring_count(), before);
+            for (uint32_t s = 0; s < view.spring_count(); ++s) {
+                const uint32_t row = view.spring(s), a = state.springs.a[row], b = state.springs.b[row];
+                if (a == kNone) continue;
+                EXPECT_NEAR(state.springs.plastic_length[row] / state.springs.rest_length[row], 1.1f, 1e-5f);
+                if (view.has_layers()) {
+                    const uint32_t layer = view.layer(s);
+                    EXPECT_NEAR(state.layer_springs.inner_plastic[layer] / state.layer_springs.inner_length[layer],
+                                0.9f, 1e-5f);
+                }
+                if (s < before) continue;
+                // Where the shape at rest is the one that the shell has now, nothing pulls in it.
+                const auto shape = static_cast<float>(length(outer_rest(view, b) - outer_rest(view, a)));
+                EXPECT_NEAR((keeps ? state.springs.plastic_length : state.springs.rest_length)[row], shape,
+                            1e-5f * shape);
+            }
+        }
 }
 
 TEST(RebuildSprings, WithoutRoomNothingChanges) {
