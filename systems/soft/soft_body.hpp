@@ -13,7 +13,7 @@ inline constexpr float kLeastWakeSpeed = 0.5f;                       // m/s, of 
 inline constexpr float kWakeYieldShare = 0.3f;  // of the speed c eps_y at which a bar that is stopped begins to flow
 inline constexpr float kQuietSeconds = 0.25f;
 inline constexpr float kQuietSpeed = 0.003f;  // m/s, root mean square about the rigid motion; 0.02 leaves sheets bulged
-inline constexpr uint64_t kSoftShare = 6;     // of the frame's units one soft body may use a part of so many
+inline constexpr uint64_t kSoftShare = 5;     // of the frame's units one soft body may use a part of so many
 
 /// What a body that flows or stretches needs to know of its material.
 struct SoftMaterial {

@@ -246,8 +246,9 @@ TEST(Materials, DuctileAndElasticBodiesThatFallHardMoveByTheirSpringsAndDoNotCra
         for (int n = 0; n < 60; ++n) {
             world->step();
             has_woken = has_woken || soft.is_awake[0];
-            EXPECT_EQ(world->events().fragments_born.count + world->events().cracks_started.count, 0u);
-            EXPECT_EQ(world->events().faults.count, 0u);
+            EXPECT_EQ(world->events().fragments_born.count, 0u) << name << ", frame " << n;
+            EXPECT_EQ(world->events().cracks_started.count, 0u) << name << ", frame " << n;
+            EXPECT_EQ(world->events().faults.count, 0u) << name;
         }
         EXPECT_TRUE(has_woken) << name;
         EXPECT_GT(world->pose(*body)->position.y, 0.1f);
