@@ -36,7 +36,7 @@ game.spawn{
     cooked = vase,
     strength_scale = shell.strength_scale,
     fracture = shell.fracture,
-    quick = {layers = shell.layers},
+    quick = {layers = shell.layers, crack_length = 1}, -- round the whole vase
     at = middle(),
     pivot = {0, 0.5 * size, 0},
     turn = {axis = {seeded(1), 0.2, seeded(2)}, angle = 0.35 + 0.35 * seeded(3)},

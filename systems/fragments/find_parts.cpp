@@ -1,5 +1,6 @@
 #include "systems/damage/run_out.hpp"
 #include "systems/fragments/flood_parts.hpp"
+#include "systems/quick/cut_out.hpp"
 #include "systems/quick/quick_body.hpp"
 #include "systems/systems.hpp"
 
@@ -15,9 +16,11 @@ void find_parts(Each<TaskEnded> ended, ShellTables shells, Tasks& tasks, Fragmen
     const bool was_one = is_of_one_part(shell), is_quick = is_quick_task(shells.state, t);
     if (tasks.crack_count[t] == 0 && was_one) return;
     const std::span parts(fragments.part.data() + size_t{t} * kMostParts, kMostParts);
-    // Cracks that run out want the scratch that a flood uses.
-    tasks.part_count[t] = was_one && is_quick ? group_from_cracks(shell, parts) : group_fragments(shell, parts);
-    if (tasks.part_count[t] > 1 && !is_quick && run_out_cracks(shells.state, Row<Tasks>(t)) > 0)
+    // A body that may have been hit on a cut-out is not looked at as a whole; cracks that run out want the scratch that a
+    // flood uses.
+    const bool runs_out = !is_quick || shell.vertex_count() <= kWholeCopyVertices;
+    tasks.part_count[t] = was_one && !runs_out ? group_from_cracks(shell, parts) : group_fragments(shell, parts);
+    if (tasks.part_count[t] > 1 && runs_out && run_out_cracks(shells.state, Row<Tasks>(t)) > 0)
         tasks.part_count[t] = group_fragments(shell, parts);
     if (tasks.part_count[t] > 1) tasks.state[t] = static_cast<uint8_t>(TaskState::Broke);
     if (tasks.part_count[t] > kMostParts) tasks.state[t] = static_cast<uint8_t>(TaskState::Dropped);

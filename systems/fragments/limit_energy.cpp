@@ -107,6 +107,7 @@ void move(Births& births, const Mover& m, Vec3d velocity, Vec3d spin, BodyId par
 }  // namespace
 
 double rigid_energy(const Bodies& bodies, Row<Bodies> body) {
+    if (!is_dynamic(bodies, body)) return 0;  // nobody: a push of the game's
     return rigid_energy(bodies, body, {bodies.velocity[body], bodies.spin[body]});
 }
 

@@ -8,13 +8,18 @@
 #include "systems/damage/struck_normal.hpp"
 #include "systems/damage/working_room.hpp"
 #include "systems/quick/cut_rows.hpp"
+#include "systems/quick/run_on.hpp"
 
 namespace cullet {
 namespace {
 
 // A split vertex may be one ring outside of what is awake; re-meshing changes the elements beyond its ring, and the
 // fans at the ends of the cut are one ring further. One more to spare.
+// Coarse cracks run on beyond that.
 constexpr uint32_t kBorderRings = 5;
+uint32_t border_rings(FractureKind kind) {
+    return kBorderRings + (kind == FractureKind::Coarse ? kCoarseRunSteps + 1 : 0);
+}
 /// Rows that a hit should find for what cracks add; a body with fewer is copied whole, which brings new ones.
 constexpr uint32_t kLeastSpare = 512;
 
@@ -177,7 +182,9 @@ CutOutResult reserve_cut_out(State& state, Row<Tasks> task, const char** full) {
     Flood flood{source, rows.list, source.element_count() / 2};
     std::fill_n(state.vertices.copy.data() + source.vertex(0), source.vertex_count(), kUnseen);
     add_patches(state, task, flood);
-    if (!spread(flood, region_rings(state.quick_runs.steps[task]) + 1 + kBorderRings) || flood.count == 0)
+    const FractureKind kind = material_traits(state, state.shells.material[source.row]).fracture;
+    const uint32_t rings = region_rings(state.quick_runs.steps[task]) + 1 + border_rings(kind);
+    if (!spread(flood, rings) || flood.count == 0)
         return CutOutResult::TooWide;
     std::sort(rows.list, rows.list + flood.count);
     rows.number(flood.count);

@@ -14,7 +14,7 @@ namespace {
 constexpr uint64_t kEndSeed = 0x71756965636b31;
 /// Mean edges that a crack of coarse fracture runs on: pieces are about as wide. The paper's, which do not run on, are
 /// slits of two edges that seldom meet: a wall of 823 vertices had 40 of them, and no piece.
-constexpr float kCoarseRun = 4;
+constexpr float kCoarseRun = 6;
 
 bool split_edge(Splitting& s, const StrainedEdge& edge) {
     Vertices& vertices = s.state().vertices;

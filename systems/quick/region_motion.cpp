@@ -185,9 +185,11 @@ void push_region(const RegionView& region) {
     const SpringView& view = region.springs;
     TaskContacts& contacts = state.task_contacts;
     const double dt = state.tasks.time_step[region.task];
+    const uint32_t first = state.tasks.first_contact[region.task];
+    double forces[kMostContacts] = {};
     for_each_contact(state, region.task, [&](uint32_t c) {
         const Vec3 n = contacts.normal[c];
-        double force = 0;
+        double& force = forces[c - first];
         for (uint32_t p = contacts.first_patch[c]; p < contacts.first_patch[c] + contacts.patch_count[c]; ++p) {
             const float f = state.patch_vertices.force[p];
             if (f == 0) continue;
@@ -200,8 +202,15 @@ void push_region(const RegionView& region) {
             x = {x.x + dx.x, x.y + dx.y, x.z + dx.z, x.w};
         }
         contacts.striker_speed[c] -= dt * contacts.striker_inverse_mass[c] * force;
-        contacts.striker_travel[c] += dt * contacts.striker_speed[c];
         contacts.impulse[c] += dt * force;
+    });
+    // What pushes a striker at one contact moves it at its others too.
+    for_each_contact(state, region.task, [&](uint32_t c) {
+        for_each_contact(state, region.task, [&](uint32_t other) {
+            if (share_a_striker(contacts, c, other))
+                contacts.striker_speed[c] -= dt * coupling(contacts, c, other) * forces[other - first];
+        });
+        contacts.striker_travel[c] += dt * contacts.striker_speed[c];
     });
 }
 
@@ -247,10 +256,18 @@ TaskEnergy region_energy(const RegionView& region) {
     energy.membrane = spring_energy(view);
     for_each_contact(state, region.task, [&](uint32_t c) {
         const double inverse_mass = contacts.striker_inverse_mass[c], speed = contacts.striker_speed[c];
-        if (inverse_mass > 0)
+        bool is_shared = false;
+        for_each_contact(state, region.task,
+                         [&](uint32_t other) { is_shared = is_shared || share_a_striker(contacts, c, other); });
+        if (is_shared) {  // what pushes did to it, as in the hidden run
+            const double start = contacts.start_speed[c] - dot(BodyMotion(state, region.task).at(contacts.point[c]),
+                                                               Vec3d(contacts.normal[c]));
+            energy.strikers += 0.5 * start * start / inverse_mass - 0.5 * contacts.impulse[c] * (start + speed);
+        } else if (inverse_mass > 0) {
             energy.strikers += 0.5 * speed * speed / inverse_mass;
-        else
+        } else {
             energy.work += contacts.impulse[c] * speed;
+        }
         for (uint32_t p = contacts.first_patch[c]; p < contacts.first_patch[c] + contacts.patch_count[c]; ++p) {
             if (!(patches.stiffness[p] > 0)) continue;
             const uint32_t v = patches.vertex[p];

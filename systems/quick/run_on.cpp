@@ -46,7 +46,8 @@ void run_on(Splitting& s, uint32_t tip, Vec3 way, Vec3 normal, uint32_t root) {
     Vertices& vertices = s.state().vertices;
     const Vec3 start = s.rest(tip);
     float left = kMostWay * s.run_length;
-    while (left > 0 && !s.is_full) {
+    const uint32_t most = s.kind == FractureKind::Large ? kNone : kCoarseRunSteps;
+    for (uint32_t steps = 0; left > 0 && steps < most && !s.is_full; ++steps) {
         Ring ring;
         walk_ring(s.shell(), tip, ring);
         if (ring.count < 2 || ring.is_closed) return;
@@ -58,7 +59,8 @@ void run_on(Splitting& s, uint32_t tip, Vec3 way, Vec3 normal, uint32_t root) {
         const Split split = split_along(s, tip, plane, root);
         if (!split.is_cut) return;
         vertices.crack_start[s.row(tip)] = root;
-        close_neighbours(s, tip, split.ends, first_copy);
+        // Cracks that start beside a long one would make slivers of it.
+        if (s.kind == FractureKind::Large) close_neighbours(s, tip, split.ends, first_copy);
         if (s.touched.is_enough()) flush(s);
         const uint32_t end = split.ends.end[0];
         const Vec3 along = s.rest(end) - s.rest(tip);

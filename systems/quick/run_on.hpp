@@ -4,6 +4,9 @@
 
 namespace cullet {
 
+/// Edges that a crack of coarse fracture runs on for at most, either way: cut-outs of large bodies must reach so far.
+inline constexpr uint32_t kCoarseRunSteps = 8;
+
 /// C4, large fragments: from a tip on that goes `way`, along the plane of unit `normal`, no criterion asked, until the
 /// crack meets a border or a crack, or is farther than run_length from where it began. The plane turns a little about
 /// the shell's normal at each vertex; its own turns do not add up, or cracks would curl. Beyond the paper: a crack that

@@ -88,23 +88,16 @@ void close_neighbours(const Splitting& s, uint32_t vertex, const Ends& ends, uin
             if (ends.end[i] == v) return true;
         return false;
     };
-    const auto for_each_neighbour = [&](uint32_t v, auto&& f) {
+    const auto close = [&](uint32_t v) {
         Ring ring;
         walk_ring(s.shell(), v, ring);
         for (uint32_t i = 0; i < ring.count; ++i)
             for (const uint32_t n : s.state().elements.corner[s.shell().element(ring.element[i])])
-                if (!is_end(n)) f(n);
+                if (!is_end(n)) vertices.is_start_banned[s.row(n)] = 1;
     };
-    const auto close = [&](uint32_t v) { vertices.is_start_banned[s.row(v)] = 1; };
-    const auto close_round = [&](uint32_t v) {
-        for_each_neighbour(v, [&](uint32_t n) {
-            close(n);
-            if (s.kind == FractureKind::Large && n != v) for_each_neighbour(n, close);
-        });
-    };
-    close_round(vertex);
+    close(vertex);
     for (uint32_t c = first_copy; c < s.shell().vertex_count(); ++c)
-        if (s.rest(c) == s.rest(vertex)) close_round(c);
+        if (s.rest(c) == s.rest(vertex)) close(c);
 }
 
 }  // namespace cullet

@@ -39,7 +39,7 @@ void flush(Splitting& s);
 Split split_along(Splitting& s, uint32_t vertex, Vec3 normal, uint32_t root);
 
 /// C4, coarse: springs at the vertex, its copies from `first_copy` on and its neighbours crack no more, but those of the
-/// crack's ends do. Large: a ring more, or cracks that start beside a long one make slivers of it.
+/// crack's ends do.
 void close_neighbours(const Splitting& s, uint32_t vertex, const Ends& ends, uint32_t first_copy);
 
 }  // namespace cullet
