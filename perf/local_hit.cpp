@@ -33,8 +33,9 @@ bool is_local(const std::string& system) {
 }
 
 bool is_around(const std::string& system) {
-    for (const char* own : {"take_blows", "predict_impacts", "open_tasks", "fill_tasks", "fill_stiffness", "start_tasks",
-                            "wake_regions", "grant_units", "settle_tasks", "close_regions", "find_parts"})
+    for (const char* own :
+         {"take_blows", "predict_impacts", "open_tasks", "fill_tasks", "fill_stiffness", "start_tasks", "wake_regions",
+          "grant_units", "settle_tasks", "close_regions", "find_parts"})
         if (system.find(own) != std::string::npos) return true;
     return false;
 }
@@ -43,21 +44,22 @@ Hit hit_once(const Model& model, float height, FractureMode mode) {
     Settings settings;
     settings.gravity = {};
     settings.units_a_frame = 1'000'000'000;
+    settings.debris_share = 0, settings.debris_elements = 3;  // bodies, not crumbs
     settings.limits.vertices = 1u << 19, settings.limits.elements = 1u << 20, settings.limits.view_vertices = 1u << 22;
     World world = World::create(settings).value();
     const ModelId id = world.add_model(model).value();
     SpawnSettings spawn;
     spawn.fracture = mode;
-    spawn.quick.strain_limit = 0.008f;
+    spawn.quick.strain_limit = 0.02f;
     const BodyId body = world.spawn(id, spawn).value();
     Hit hit;
     const auto& d = world.contents().data;
     const Profiler& profiler = world.contents().profiler;
     hit.elements = d.state.shells.elements[d.state.bodies.shell[Row<Bodies>(body.index)]].count;
     SphereSettings ball;
-    ball.radius = 0.03f, ball.mass = 0.5f;
+    ball.radius = 0.03f, ball.mass = 0.3f;
     ball.pose.position = {0, 0.43f * height, height};
-    ball.motion.velocity = {0, 0, -60};
+    ball.motion.velocity = {0, 0, -40};
     (void)world.add_sphere(ball).value();
     for (uint32_t frame = 0; frame < kMostFrames; ++frame) {
         const uint32_t number = profiler.frame_count();
@@ -84,8 +86,8 @@ Hit hit_often(const Model& model, float height, FractureMode mode, uint32_t roun
     return least;
 }
 
-void compare_sizes(const char* name, const Model* models, const float* heights, FractureMode mode,
-                   uint32_t rounds, Figures& figures) {
+void compare_sizes(const char* name, const Model* models, const float* heights, FractureMode mode, uint32_t rounds,
+                   Figures& figures) {
     const Hit few = hit_often(models[0], heights[0], mode, rounds);
     const Hit many = hit_often(models[1], heights[1], mode, rounds);
     const std::string prefix = std::string(name) + ": ";
@@ -105,9 +107,9 @@ void compare_sizes(const char* name, const Model* models, const float* heights, 
 bool measure_local_hit(const Options& options, Figures& figures) {
     const FpMode mode;
     const float heights[2] = {kHeight, kHeight * std::sqrt(kManyElements / kFewElements)};
-    // Coarse: cracks of large fracture run along half of the body, so that its hits are not local.
-    const Result<Model> small = cook_vase(kEdge, heights[0], FractureKind::Coarse),
-                        large = cook_vase(kEdge, heights[1], FractureKind::Coarse);
+    // Fine: cracks of large fracture run along half of the body, so that its hits are not local.
+    const Result<Model> small = cook_vase(kEdge, heights[0], FractureKind::Fine),
+                        large = cook_vase(kEdge, heights[1], FractureKind::Fine);
     if (!small.ok() || !large.ok()) {
         std::printf("%s\n", (small.ok() ? large : small).error().c_str());
         return false;

@@ -105,7 +105,7 @@ Result<Claim> figure_5(Bench& bench) {
     if (bench.settings().is_reduced || broken.inserted == 0) return claim;
     const Vec3 middle = broken.middle_of_new();
     camera.target = middle;
-    camera.eye = middle + 0.22f * normalised(Vec3{middle.x, 0.3f * length(middle), middle.z});
+    camera.eye = middle + 0.2f * normalised(Vec3{middle.x, 0, middle.z}) + Vec3{0, 0.05f, 0};
     if (auto added = draw("2", "From near: each crack has straightened the triangles that it went through");
         !added.ok())
         return Error{added.error()};

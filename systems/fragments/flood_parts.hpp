@@ -34,8 +34,8 @@ struct FloodedParts {
 /// that are as large + crack edges), and a look at a byte an edge.
 void flood_parts(ShellView shell, FloodedParts& found);
 
-/// What group_fragments does, for such a shell: the flood finds the pieces, and one pass writes the numbers and chains the
-/// elements. Where there are too many runs of crack edges group_fragments does it all.
+/// What group_fragments does, for such a shell: the flood finds the pieces, and one pass writes the numbers and chains
+/// the elements. Where there are too many runs of crack edges group_fragments does it all.
 uint32_t group_from_cracks(ShellView shell, std::span<FragmentPart> parts);
 
 }  // namespace cullet

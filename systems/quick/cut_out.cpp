@@ -189,8 +189,8 @@ CutOutResult reserve_cut_out(State& state, Row<Tasks> task, const char** full) {
     std::sort(rows.list, rows.list + flood.count);
     rows.number(flood.count);
     const Range vertices = source.vertices(), elements = source.elements(), hinges = source.hinges();
-    ShellRoom room = quick_room(state, state.shells.material[source.row], rows.vertex_count, rows.element_count,
-                                rows.hinge_count);
+    ShellRoom room =
+        quick_room(state, state.shells.material[source.row], rows.vertex_count, rows.element_count, rows.hinge_count);
     // What is added must find room in the body's shell, too.
     room.vertices = std::min(room.vertices, round_to_packs(rows.vertex_count) + spare_of(vertices));
     room.elements = std::min(room.elements, rows.element_count + spare_of(elements));

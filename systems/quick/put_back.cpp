@@ -123,7 +123,8 @@ Links links_now(const PutBack& p, uint32_t e, const Links* then) {
         // The border of the cut-out, which is none of the body's.
         if (!then || links.edge_kind[k] != static_cast<uint8_t>(EdgeKind::Border) || then->neighbour[k] == kNone)
             continue;
-        CULLET_ASSERT(p.rows.element(then->neighbour[k]) == kNone, "a run has made a border at element %u", p.element(e));
+        CULLET_ASSERT(p.rows.element(then->neighbour[k]) == kNone, "a run has made a border at element %u",
+                      p.element(e));
         links.neighbour[k] = then->neighbour[k];
         links.hinge[k] = then->hinge[k];
         links.edge_kind[k] = static_cast<uint8_t>(EdgeKind::Interior);
@@ -188,8 +189,7 @@ void move_the_rest(const PutBack& p, const BodyMotion& motion) {
     for (uint32_t v = 0; v < p.source.vertex_count(); ++v) {
         if (p.rows.vertex(v) != kNone) continue;
         const uint32_t row = p.source.vertex(v);
-        vertices.velocity.set(row,
-                              vertices.inverse_mass[row] > 0 ? motion.at(vertices.rest[row]).to_float() : Vec3{});
+        vertices.velocity.set(row, vertices.inverse_mass[row] > 0 ? motion.at(vertices.rest[row]).to_float() : Vec3{});
     }
 }
 
@@ -216,8 +216,7 @@ void put_rows(State& state, Row<Tasks> task, const PutBack& p, const BodyMotion&
 void put_back(State& state, Row<Tasks> task, const BodyMotion& motion, Events<CrackStartedEvent>& cracks) {
     Tasks& tasks = state.tasks;
     // A mesh of several parts comes apart without a crack (find_parts).
-    const bool has_changed =
-        tasks.crack_count[task] > 0 || !is_of_one_part(ShellView(state, tasks.source[task]));
+    const bool has_changed = tasks.crack_count[task] > 0 || !is_of_one_part(ShellView(state, tasks.source[task]));
     if (static_cast<TaskState>(tasks.state[task]) != TaskState::Dropped && has_changed) {
         const PutBack p(state, task);
         // Later there is no way back. The body has no more pieces than the cut-out by itself.

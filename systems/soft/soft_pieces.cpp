@@ -5,6 +5,7 @@
 #include "systems/soft/soft_body.hpp"
 #include "systems/springs/edge_stiffness.hpp"
 #include "systems/springs/give_springs.hpp"
+#include "systems/springs/rebuild_springs.hpp"
 #include "systems/springs/start_springs.hpp"
 
 namespace cullet {
@@ -123,6 +124,7 @@ void give_pieces_springs(State& s, const Break& plan) {
 
 void keep_torn(State& s, RigidWorld& rigid, const Break& plan) {
     const SpringView view(s, springs_of(s, plan.soft));
+    drop_dead_springs(view);
     for (uint32_t v = 0; v < view.shell.vertex_count(); ++v) {
         const uint32_t row = view.shell.vertex(v);
         if (s.vertices.element[row] != kNone) continue;

@@ -300,6 +300,13 @@ void forget_springs(const SpringView& view, uint32_t element) {
     }
 }
 
+void drop_dead_springs(const SpringView& view) {
+    for (uint32_t s = 0; s < view.spring_count(); ++s) {
+        const uint32_t element = view.state.springs.element[view.spring(s)];
+        if (element != kNone && is_dead(view, element)) clear_spring(view, s);
+    }
+}
+
 void insert_twin(const SpringView& view, uint32_t p, uint32_t q, uint32_t vertex, float tau) {
     Twins& twins = view.state.twins;
     const uint32_t from = view.twin(p), to = view.twin(q), row = view.twin(vertex);

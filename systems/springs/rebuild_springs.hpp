@@ -18,6 +18,9 @@ bool rebuild_springs(const SpringView& view, std::span<const uint32_t> touched);
 /// rest rebuild_springs makes new ones at their length at rest, which have flowed as those of their elements had
 /// (carry_flow.hpp), and rows that no element has are cleared: no ends, no stiffness.
 void forget_springs(const SpringView& view, uint32_t element);
+/// Springs of elements that left the shell with a piece: their rows are cleared. Slots of its vertices, which have no
+/// mass any more, keep what they say until their pack is written anew.
+void drop_dead_springs(const SpringView& view);
 /// The inner point of a vertex that was put between p and q at (1 - tau) p + tau q: as all columns, place and velocity
 /// of the inner points are interpolated (C5). Two layers only; rebuild_springs comes next.
 void insert_twin(const SpringView& view, uint32_t p, uint32_t q, uint32_t vertex, float tau);

@@ -58,7 +58,8 @@ void compare(ShellView shell, uint32_t least_parts) {
     for (uint32_t p = 0; p < std::min(count, kMostParts); ++p)
         EXPECT_TRUE(parts[p].mass == from_cracks[p].mass && parts[p].element_count == from_cracks[p].element_count &&
                     parts[p].first_element == from_cracks[p].first_element &&
-                    parts[p].last_element == from_cracks[p].last_element && parts[p].has_pins == from_cracks[p].has_pins)
+                    parts[p].last_element == from_cracks[p].last_element &&
+                    parts[p].has_pins == from_cracks[p].has_pins)
             << "part " << p;
     ASSERT_EQ(flooded.pieces + 1, count);
     EXPECT_GE(count, least_parts);

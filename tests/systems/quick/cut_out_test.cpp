@@ -1,5 +1,5 @@
-// Hits on large quick bodies run on a cut-out of the shell: rows are sound at every step, mass and momentum are kept, and
-// nothing of it depends on threads, snapshots or earlier hits.
+// Hits on large quick bodies run on a cut-out of the shell: rows are sound at every step, mass and momentum are kept,
+// and nothing of it depends on threads, snapshots or earlier hits.
 #include "systems/quick/cut_out.hpp"
 
 #include <gtest/gtest.h>
@@ -14,7 +14,7 @@
 namespace cullet::test {
 namespace {
 
-/// 9,000 vertices; cracks of coarse fracture stay near the hit.
+/// 9,000 vertices; cracks of fine fracture stay near the hit.
 const Model& large_vase() {
     static const Model model = [] {
         const Mesh mesh = make_vase(0.6f, 0.009f);
@@ -22,7 +22,7 @@ const Model& large_vase() {
         settings.material = "porcelain", settings.thickness = 0.005f;
         settings.longest_edge = 100;
         settings.measures_threshold = false;
-        settings.fracture = FractureKind::Coarse;
+        settings.fracture = FractureKind::Fine;
         Result<Model> cooked = cook(view_of_mesh(mesh), settings);
         EXPECT_TRUE(cooked.ok()) << cooked.error();
         return std::move(cooked).value();
@@ -34,6 +34,7 @@ Settings settings_of(uint32_t threads, uint64_t units = 1'000'000'000) {
     Settings settings = small_settings();
     settings.threads = threads;
     settings.units_a_frame = units;
+    settings.debris_share = 0, settings.debris_elements = 3;  // pieces of fine fracture are small
     settings.limits = {512, 8, 1u << 17, 1u << 18, 8, 1u << 20, 512};
     return settings;
 }
@@ -46,9 +47,9 @@ Breakage vase_and_balls(const Settings& settings, uint32_t layers = 1) {
     spawn.quick.layers = layers;
     spawn.quick.strain_limit = 0.02f;
     b.body = b.world.spawn(id, spawn).value();
-    b.ball = b.world.add_sphere(ball_at({0.01f, 0.26f, 0.2f}, 0.5f, 60)).value();
+    b.ball = b.world.add_sphere(ball_at({0.01f, 0.26f, 0.2f}, 0.5f, 40)).value();
     // A second one hits the cracked body 20 frames later.
-    (void)b.world.add_sphere(ball_at({-0.05f, 0.33f, 15}, 0.5f, 60)).value();
+    (void)b.world.add_sphere(ball_at({-0.05f, 0.33f, 10}, 0.5f, 40)).value();
     return b;
 }
 
@@ -81,6 +82,7 @@ TEST(CutOut, RowsAreSoundWhenItIsFilledWhenItIsPutBackAndWhenPiecesAreOut) {
         Breakage b = vase_and_balls(settings_of(1), layers);
         World* w = &b.world;
         uint32_t cut_outs = 0, whole = 0;
+        bool was_open = false;  // in this frame; rows of all shells take a while to look at
         after_each_system(b.world, [&](const std::string& system) {
             State& state = state_of(*w);
             if (system != "fill_tasks" && system != "close_regions" && system != "make_births") return;
@@ -95,7 +97,8 @@ TEST(CutOut, RowsAreSoundWhenItIsFilledWhenItIsPutBackAndWhenPiecesAreOut) {
                 EXPECT_LT(2 * state.shells.elements[state.tasks.shell[t]].count,
                           state.shells.elements[state.tasks.source[t]].count);
             }
-            if (is_open || system == "make_births") {
+            if (system == "fill_tasks") was_open = is_open;
+            if (was_open) {
                 EXPECT_EQ(trouble_of(state), "") << "after " << system;
             }
         });
@@ -133,8 +136,7 @@ TEST(CutOut, MassAndMomentumAreKeptWhereItBreaks) {
         if (system != "make_births" || w->contents().data.counts.broke == broke) return;
         ++breaks;
         const Matter after = matter_of(*w);
-        for (int k = 0; k < 3; ++k)
-            worst = std::max(worst, std::fabs(after.momentum[k] - before.momentum[k]) / scale);
+        for (int k = 0; k < 3; ++k) worst = std::max(worst, std::fabs(after.momentum[k] - before.momentum[k]) / scale);
         worst_mass = std::max(worst_mass, std::fabs(after.mass / before.mass - 1));
         EXPECT_LE(after.kinetic_energy, 1.0001 * before.kinetic_energy);
     });

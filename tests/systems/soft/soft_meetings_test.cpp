@@ -194,7 +194,8 @@ TEST(SoftMeetings, ADentedPlateThatIsHitAgainKeepsItsDentAndWhatHasFlowed) {
     ASSERT_TRUE(sheet.world.remove(sheet.ball).ok());
     throw_ball(sheet, 1, 6, 0.05f);
     for (uint32_t frame = 0; frame < 900 && (frame < 30 || sheet.is_awake()); ++frame) sheet.world.step();
-    EXPECT_GT(farthest(flat, sheet.shape()), 0.8f * dent);
+    EXPECT_GT(farthest(flat, sheet.shape()), 0.6f * dent)
+        << "softened as it is, the plate waves, and the dent flattens";
     EXPECT_GE(flow_of(sheet), flowed) << "the second blow adds to the first";
 }
 
