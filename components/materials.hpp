@@ -4,6 +4,8 @@
 
 namespace cullet {
 
+inline constexpr uint32_t kMostMaterials = 64;  // rows of a world
+
 /// One row is one material.
 struct Materials : Table<Materials> {
     using Table::Table;
@@ -20,6 +22,29 @@ struct Materials : Table<Materials> {
     Column<float> heading_power{*this, "heading_power"};   // q of C1: how straight cracks run; 6, glass 30
     Column<float> tip_factor{*this, "tip_factor"};         // on Griffith's limit at mesh resolution, 0.6
     Column<float> run_seconds{*this, "run_seconds", "s"};  // least elastic time of a hidden run: 1 ms, brick walls 3 ms
+};
+
+/// What only some materials have. Row i is of row i of Materials; empty while a world has the compiled first four
+/// alone, which material_traits() then knows by itself.
+struct MaterialTraits : Table<MaterialTraits> {
+    using Table::Table;
+    static constexpr const char* kName = "material_traits";
+    static constexpr bool kIsOptional = true;     // no part of the hash while empty
+    Column<uint8_t> kind{*this, "kind"};          // MaterialKind
+    Column<uint8_t> fracture{*this, "fracture"};  // FractureKind
+    Column<float> branching{*this, "branching"};  // tips above this share of sigma_d may fork; 0: none does
+    Column<float> run_out{*this, "run_out"};  // what a crack goes on for at the end of a run that breaks, of its length
+    Column<float> yield_strength{*this, "yield_strength", "Pa"};
+    Column<float> yield_strain{*this, "yield_strain"};
+    Column<float> break_strain{*this, "break_strain"};
+    Column<float> bending_stiffness{*this, "bending_stiffness", "N m"};  // 0: E h^3 / 12 (1 - nu^2)
+    // Across the grain; across_young_modulus 0: the same in all directions.
+    Column<float> across_young_modulus{*this, "across_young_modulus", "Pa"};
+    Column<float> shear_modulus{*this, "shear_modulus", "Pa"};
+    Column<float> across_strength{*this, "across_strength", "Pa"};
+    Column<float> across_break_strain{*this, "across_break_strain"};
+    Column<float> across_fracture_energy{*this, "across_fracture_energy", "J/m2"};
+    Column<Vec3> grain{*this, "grain"};  // unit, body frame; models cooked with another one have another row
 };
 
 }  // namespace cullet

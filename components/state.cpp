@@ -19,6 +19,11 @@ uint32_t slot_limit(const Limits& l) {
 uint32_t cell_limit(const Limits& l) {
     return l.vertices / 8;
 }
+// Edges: three for two elements and half of one a border edge; a crack doubles those that it cuts. A vertex has about 6
+// springs, each in a slot of both ends.
+uint32_t spring_limit(const Limits& l) {
+    return l.elements * 2;
+}
 // Holes of a pool that gives an owner one range, or two while it is moved.
 uint32_t ranges_of(const AnyTable& owners) {
     return 2 * owners.limit() + 1;
@@ -27,7 +32,8 @@ uint32_t ranges_of(const AnyTable& owners) {
 }  // namespace
 
 State::State(const Limits& l)
-    : materials(64),
+    : materials(kMostMaterials),
+      material_traits(kMostMaterials),
       models(l.models),
       bodies(l.bodies),
       debris(l.debris),
@@ -48,8 +54,23 @@ State::State(const Limits& l)
       fragments((l.tasks + 1) * kMostParts),
       view_vertices(l.view_vertices),
       view_indices(l.view_vertices * 2),
+      blows(2 * (l.bodies + l.queued_hits)),
+      shell_springs(l.shells),
+      springs(spring_limit(l)),
+      layer_springs(spring_limit(l)),
+      element_springs(l.elements),
+      spring_packs(pack_limit(l)),
+      spring_slots(slot_limit(l)),
+      layer_slots(slot_limit(l)),
+      twins(l.vertices),
+      soft_bodies(l.bodies),
+      soft_strikers(l.bodies * kMostStrikers),
+      soft_contacts(first_contact_row(l.vertices + kLanes)),
       pools(*this),
-      limits_(l) {
+      limits_(l),
+      quick_bodies(l.bodies),
+      quick_runs(l.tasks),
+      awake_packs(l.tasks * kMostAwakePacks) {
     tasks.append(l.tasks);
     task_contacts.append(l.tasks * kMostContacts);
     patch_vertices.append(l.tasks * kMostPatchVertices);
@@ -69,10 +90,18 @@ State::Pools::Pools(const State& s)
       cells(s.cells.limit(), 1, ranges_of(s.shells)),
       points(s.hull_points.limit(), 1, ranges_of(s.shells)),
       view_vertices(s.view_vertices.limit(), 16, ranges_of(s.bodies)),
-      view_indices(s.view_indices.limit(), 16, ranges_of(s.bodies)) {}
+      view_indices(s.view_indices.limit(), 16, ranges_of(s.bodies)),
+      shell_springs(s.shell_springs.limit(), 1, ranges_of(s.shells)),
+      springs(s.springs.limit(), 16, ranges_of(s.shells)),
+      layer_springs(s.layer_springs.limit(), 16, ranges_of(s.shells)),
+      element_springs(s.element_springs.limit(), 16, ranges_of(s.shells)),
+      spring_packs(s.spring_packs.limit(), 8, ranges_of(s.shells)),
+      spring_slots(s.spring_slots.limit(), 1, ranges_of(s.shells)),
+      layer_slots(s.layer_slots.limit(), 1, ranges_of(s.shells)),
+      twins(s.twins.limit(), kVerticesPerCell, ranges_of(s.shells)) {}
 
-// A hit takes a copy of all rows with a quarter more (working_room); what moves of the broken shell is less than it. A
-// drawn mesh has 6 corners an element and 6 a free edge, and the pieces' more than the body's.
+// `shell` is what a hit takes, a copy of all rows and what cracks add (working_room); what moves of the broken shell is
+// less than it. A drawn mesh has 6 corners an element and 6 a free edge, and the pieces' more than the body's.
 void State::commit_ahead(const ShellRoom& shell, uint32_t served) {
     const auto commit = [&](AnyTable& table, const RangePool& pool, uint64_t rows) {
         const auto end = static_cast<uint32_t>(std::min<uint64_t>(pool.end() + rows, table.limit()));
@@ -92,10 +121,29 @@ void State::commit_ahead(const ShellRoom& shell, uint32_t served) {
     commit(view_indices, pools.view_indices, times(12, shell.elements));
 }
 
+namespace {
+
+// A table that says kIsOptional counts only while it has rows: what came later leaves older scenes their hash.
+template <class T>
+uint64_t hash_of(const T& table, uint64_t hash) {
+    if constexpr (requires { T::kIsOptional; })
+        if (table.size() == 0) return hash;
+    return table.hash(hash);
+}
+
+}  // namespace
+
 uint64_t State::hash() const {
     uint64_t hash = 0;
-    std::apply([&](auto... table) { ((hash = (this->*table).hash(hash)), ...); }, tables());
-    for (const RangePool* pool : pools.all()) hash = pool->hash(hash);
+    std::apply([&](auto... table) { ((hash = hash_of(this->*table, hash)), ...); }, tables());
+    return hash_pools(hash);
+}
+
+// A table grows to what its pool hands out: where no row was ever taken the pool is as new.
+uint64_t State::hash_pools(uint64_t hash) const {
+    const auto all = pools.all();
+    for (size_t k = 0; k < all.size(); ++k)
+        if (k < Pools::kFirstOptional || shell_springs.size() > 0) hash = all[k]->hash(hash);
     return hash;
 }
 
@@ -120,9 +168,7 @@ void State::digest_columns(std::vector<uint32_t>& out) const {
             hash = hash_bytes(table.column_memory(c, a), size_t{table.size()} * c.row_bytes, hash);
         out.push_back(static_cast<uint32_t>(hash));
     });
-    uint64_t pooled = 0;
-    for (const RangePool* pool : pools.all()) pooled = pool->hash(pooled);
-    out.push_back(static_cast<uint32_t>(pooled));
+    out.push_back(static_cast<uint32_t>(hash_pools(0)));
 }
 
 std::string State::digested_column(size_t place) const {
@@ -257,6 +303,7 @@ void release_shell(State& state, Row<Shells> shell) {
     back(state.pools.links, s.links[shell]);
     back(state.pools.cells, s.cells[shell]);
     back(state.pools.points, s.points[shell]);
+    release_springs(state, shell);
     s.clear_rows(shell, 1);
     state.pools.shells.give_back(shell, 1);
 }
@@ -287,11 +334,20 @@ void copy_shell_rows(State& to, const State& from, Row<Shells> source, Row<Shell
     copy_range(to.stiffness_links, from.stiffness_links, s.links, own[5], with_stiffness);
     copy_range(to.cells, from.cells, s.cells, own[6], own[6].capacity > 0);
     copy_range(to.hull_points, from.hull_points, s.points, own[7], own[7].capacity > 0);
+    // The number of cells says how stiffness is stored (pair_cells.hpp).
+    CULLET_ASSERT(s.packs[copy].count == 0 || s.cells[copy].count == from.shells.cells[source].count,
+                  "copy of shell %u has its stiffness but %u of its %u cells", source.index, s.cells[copy].count,
+                  from.shells.cells[source].count);
 }
 
 Row<Shells> copy_shell(State& state, Row<Shells> source, const ShellRoom& room, const char** full) {
     const Row<Shells> copy = make_shell(state, room, full);
-    if (copy.exists()) copy_shell_rows(state, state, source, copy, room.blocks > 0);
+    if (!copy.exists()) return copy;
+    copy_shell_rows(state, state, source, copy, room.blocks > 0);
+    if (room.with_springs && !copy_springs(state, source, copy, full)) {
+        release_shell(state, copy);
+        return {};
+    }
     return copy;
 }
 

@@ -3,9 +3,13 @@
 #include <string>
 #include <tuple>
 
+#include "components/blows.hpp"
 #include "components/bodies.hpp"
 #include "components/materials.hpp"
+#include "components/quick.hpp"
 #include "components/shells.hpp"
+#include "components/soft.hpp"
+#include "components/springs.hpp"
 #include "components/tasks.hpp"
 #include "engine/range_pool.hpp"
 #include "engine/system.hpp"
@@ -28,12 +32,14 @@ struct Limits {
 /// Rows that a shell needs. Packs are one for 8 vertices; blocks and links zero until the stiffness is assembled.
 struct ShellRoom {
     uint32_t vertices = 0, elements = 0, hinges = 0, blocks = 0, links = 0, cells = 0, points = 0;
+    bool with_springs = false;  // copy_shell: the source's edge springs, too
 };
 
 struct State {
     explicit State(const Limits& limits = {});
 
     Materials materials;
+    MaterialTraits material_traits;
     Models models;
     Bodies bodies;
     Debris debris;
@@ -54,31 +60,79 @@ struct State {
     Fragments fragments;
     ViewVertices view_vertices;
     ViewIndices view_indices;
+    Blows blows;
+    ShellSprings shell_springs;
+    Springs springs;
+    LayerSprings layer_springs;
+    ElementSprings element_springs;
+    SpringPacks spring_packs;
+    SpringSlots spring_slots;
+    LayerSlots layer_slots;
+    Twins twins;
+    SoftBodies soft_bodies;
+    SoftStrikers soft_strikers;
+    SoftContacts soft_contacts;
 
     /// Which rows of the tables above are taken; one pool a table whose rows come in ranges.
     struct Pools {
         explicit Pools(const State& state);
         RangePool bodies, shells, vertices, elements, hinges, packs, blocks, links, cells, points, view_vertices,
             view_indices;
-        std::array<const RangePool*, 12> all() const { return list<const RangePool*>(*this); }
-        std::array<RangePool*, 12> all() { return list<RangePool*>(*this); }
+        // Of springs; without a row taken they do not enter the hash.
+        RangePool shell_springs, springs, layer_springs, element_springs, spring_packs, spring_slots, layer_slots,
+            twins;
+        std::array<const RangePool*, 20> all() const { return list<const RangePool*>(*this); }
+        std::array<RangePool*, 20> all() { return list<RangePool*>(*this); }
+        static constexpr size_t kFirstOptional = 12;  // of all()
 
      private:
         template <class Pool, class Self>
-        static std::array<Pool, 12> list(Self& s) {
-            return {&s.bodies, &s.shells, &s.vertices, &s.elements, &s.hinges,        &s.packs,
-                    &s.blocks, &s.links,  &s.cells,    &s.points,   &s.view_vertices, &s.view_indices};
+        static std::array<Pool, 20> list(Self& s) {
+            return {&s.bodies,          &s.shells,       &s.vertices,      &s.elements,    &s.hinges,
+                    &s.packs,           &s.blocks,       &s.links,         &s.cells,       &s.points,
+                    &s.view_vertices,   &s.view_indices, &s.shell_springs, &s.springs,     &s.layer_springs,
+                    &s.element_springs, &s.spring_packs, &s.spring_slots,  &s.layer_slots, &s.twins};
         }
     } pools;
 
     static constexpr auto tables() {
-        return std::tuple{&State::materials,       &State::models,           &State::bodies,
-                          &State::debris,          &State::shells,           &State::vertices,
-                          &State::elements,        &State::triangle_springs, &State::hinges,
-                          &State::stiffness_packs, &State::stiffness_blocks, &State::stiffness_links,
-                          &State::cells,           &State::hull_points,      &State::tasks,
-                          &State::task_contacts,   &State::patch_vertices,   &State::queued_hits,
-                          &State::fragments,       &State::view_vertices,    &State::view_indices};
+        return std::tuple{&State::materials,
+                          &State::models,
+                          &State::bodies,
+                          &State::debris,
+                          &State::shells,
+                          &State::vertices,
+                          &State::elements,
+                          &State::triangle_springs,
+                          &State::hinges,
+                          &State::stiffness_packs,
+                          &State::stiffness_blocks,
+                          &State::stiffness_links,
+                          &State::cells,
+                          &State::hull_points,
+                          &State::tasks,
+                          &State::task_contacts,
+                          &State::patch_vertices,
+                          &State::queued_hits,
+                          &State::fragments,
+                          &State::view_vertices,
+                          &State::view_indices,
+                          &State::material_traits,
+                          &State::blows,
+                          &State::shell_springs,
+                          &State::springs,
+                          &State::layer_springs,
+                          &State::element_springs,
+                          &State::spring_packs,
+                          &State::spring_slots,
+                          &State::layer_slots,
+                          &State::twins,
+                          &State::quick_bodies,
+                          &State::quick_runs,
+                          &State::awake_packs,
+                          &State::soft_bodies,
+                          &State::soft_strikers,
+                          &State::soft_contacts};
     }
     const Limits& limits() const { return limits_; }
     /// The table of type T.
@@ -102,7 +156,13 @@ struct State {
     std::string digested_column(size_t place) const;
 
  private:
+    uint64_t hash_pools(uint64_t seed) const;
     Limits limits_;
+
+ public:
+    QuickBodies quick_bodies;
+    QuickRuns quick_runs;
+    AwakePacks awake_packs;
 };
 
 /// What a shell uses now: room for a copy of it.
@@ -121,13 +181,30 @@ void drop_stiffness(State& state, Row<Shells> shell);
 bool take_points(State& state, uint32_t count, Range& range);
 /// One user less; the rows go back when there are none.
 void release_shell(State& state, Row<Shells> shell);
-/// A copy of `source` with `room` (at least what is in use), one user. Stiffness is copied when `room.blocks` > 0.
+/// Rows that the springs of a shell need. No layers: one layer.
+struct SpringRoom {
+    uint32_t springs = 0, elements = 0, vertices = 0, slots = 0;
+    bool has_layers = false;
+};
+/// A row with empty ranges of these capacities, all zero, for a shell that has none; kNone when some table is full.
+Row<ShellSprings> make_springs(State& state, Row<Shells> shell, const SpringRoom& room, const char** full = nullptr);
+/// Of the shell; kNone when it has none.
+Row<ShellSprings> find_springs(const State& state, Row<Shells> shell);
+/// The shell's springs, if any, go back; release_shell does it, too.
+void release_springs(State& state, Row<Shells> shell);
+/// Springs of `copy` as `source` has them, in motion as they are; what there are too few rows for is refused. A shell
+/// without springs gives none. `copy` has at least the vertices and elements of `source`.
+bool copy_springs(State& state, Row<Shells> source, Row<Shells> copy, const char** full = nullptr);
+
+/// A copy of `source` with `room` (at least what is in use), one user. Stiffness is copied when `room.blocks` > 0,
+/// springs when `room.with_springs`.
 Row<Shells> copy_shell(State& state, Row<Shells> source, const ShellRoom& room, const char** full = nullptr);
 
 /// The second half of copy_shell, into a shell that make_shell made: serial systems reserve, parallel ones copy.
 void copy_shell_rows(State& to, const State& from, Row<Shells> source, Row<Shells> copy, bool with_stiffness);
 
-/// All tables that hold the rows of shells, as one parameter of a system that edits whole shells.
+/// All tables that hold the rows of shells and of the runs of their springs, as one parameter of a system that edits
+/// whole shells.
 struct ShellTables {
     State& state;
 };
@@ -157,8 +234,13 @@ struct Parameter<ShellTables> {
     static void describe(std::vector<Access>& list) {
         for (const char* table :
              {Shells::kName, Vertices::kName, Elements::kName, TriangleSprings::kName, Hinges::kName,
-              StiffnessPacks::kName, StiffnessBlocks::kName, StiffnessLinks::kName, Cells::kName, HullPoints::kName})
-            list.push_back({table, true, true, false});
+              StiffnessPacks::kName, StiffnessBlocks::kName, StiffnessLinks::kName, Cells::kName, HullPoints::kName,
+              ShellSprings::kName, Springs::kName, LayerSprings::kName, ElementSprings::kName, SpringPacks::kName,
+              SpringSlots::kName, LayerSlots::kName, Twins::kName, QuickBodies::kName, QuickRuns::kName,
+              AwakePacks::kName, SoftBodies::kName, SoftStrikers::kName, SoftContacts::kName})
+            list.push_back({table, true, true, false, Access::Kind::Table});
+        for (const char* table : {Materials::kName, MaterialTraits::kName})
+            list.push_back({table, true, false, false, Access::Kind::Table});
     }
     template <class W>
     static ShellTables bind(Call<W>& call) {

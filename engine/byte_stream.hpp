@@ -45,7 +45,9 @@ class ByteReader {
 
     /// `what` is wrong: "<name>: <what> at byte 123. <advice>"
     void fail(const std::string& what) {
-        if (is_sound()) trouble_ = name_ + ": " + what + " at byte " + std::to_string(byte()) + ". " + advice_;
+        if (!is_sound()) return;
+        const std::string said = what.ends_with('.') ? what.substr(0, what.size() - 1) : what;  // a whole sentence
+        trouble_ = name_ + ": " + said + " at byte " + std::to_string(byte()) + ". " + advice_;
     }
     bool expect(bool fits, const std::string& what) {
         if (!fits) fail(what);

@@ -110,9 +110,16 @@ std::string describe(const PlannedSystem<World>& system, const std::vector<Plann
     static const char* const kKinds[] = {"rows", "bodies", "islands", "serial"};
     std::string reads, writes, after;
     const auto add = [](std::string& text, const std::string& name) { text += (text.empty() ? "" : ", ") + name; };
+    // Two parameters may name the same table: it is said once.
+    const auto is_said = [&](const Access& access, bool Access::*what) {
+        for (const Access* before = system.accesses.data(); before != &access; ++before)
+            if (before->*what && before->name == access.name) return true;
+        return false;
+    };
     for (const Access& access : system.accesses) {
-        if (access.reads) add(reads, access.name);
-        if (access.writes) add(writes, access.name + (access.is_two_sided ? " (new side)" : ""));
+        if (access.reads && !is_said(access, &Access::reads)) add(reads, access.name);
+        if (access.writes && !is_said(access, &Access::writes))
+            add(writes, access.name + (access.is_two_sided ? " (new side)" : ""));
     }
     for (uint32_t a : system.after) add(after, list[a].name);
     std::string text = system.name + "  [" + kKinds[static_cast<int>(system.kind)] + "]";

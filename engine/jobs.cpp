@@ -41,7 +41,11 @@ class CallerJobs final : public JobSystem {
 
 class TbbJobs final : public JobSystem {
  public:
-    explicit TbbJobs(uint32_t threads) : threads_(threads), arena_(static_cast<int>(threads)) { arena_.initialize(); }
+    explicit TbbJobs(uint32_t threads) : threads_(threads), arena_(static_cast<int>(threads)) {
+        arena_.initialize();
+        // oneTBB starts its threads, and allocates, at the first pass that has more than one job: not in a frame.
+        parallel_for(8 * threads, [](void*, uint32_t) {}, nullptr);
+    }
     uint32_t worker_count() const override { return threads_; }
     void parallel_for(uint32_t count, Job job, void* context) override {
         const AssertHandler handler = assert_handler();

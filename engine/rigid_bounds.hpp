@@ -14,4 +14,12 @@ inline bool is_within(Vec3 v, float most) {
     return std::fabs(v.x) <= most && std::fabs(v.y) <= most && std::fabs(v.z) <= most;
 }
 
+/// Shortens v so that it is within `most`. True: it was not.
+inline bool shorten(Vec3& v, float most) {
+    const float largest = std::fmax(std::fabs(v.x), std::fmax(std::fabs(v.y), std::fabs(v.z)));
+    if (!(largest > most)) return false;
+    v = {most * (v.x / largest), most * (v.y / largest), most * (v.z / largest)};
+    return true;
+}
+
 }  // namespace cullet

@@ -66,6 +66,12 @@ struct RigidContact {
         0;  // m/s along the normal, > 0 when they close, from the velocities before gravity of this step
 };
 
+/// The plane of a body's surface that is nearest to a point: world axes.
+struct RigidSurface {
+    Vec3 point, normal;  // normal: unit, out of the body
+    float distance = 0;  // m, negative inside
+};
+
 struct RigidCounts {
     uint32_t sweeps = 0;  // bodies placed at their time of impact, since creation
     uint32_t pairs = 0, contacts = 0;
@@ -120,6 +126,23 @@ class RigidWorld {
     /// No narrow phase between these two until their pieces overlap by at most 0.1 mm, or `seconds` have passed
     /// (siblings born in touch; a striker and the shards it made). With `until_apart` false only the time counts.
     virtual void ignore_pair(RigidId a, RigidId b, float seconds, bool until_apart) = 0;
+
+    /// A soft body stands as it is put and has no contacts; nothing is swept against it. Who runs its springs asks for
+    /// the surfaces of what it may meet. Belongs in the gap, and on ends before detect().
+    virtual void set_soft(RigidId, bool) {}
+    /// Whether the questions below have answers: a host keeps its shapes to itself.
+    virtual bool knows_surfaces() const { return false; }
+    /// Bodies whose bounds meet this box, rising; how many, at most as many as `out` has room for.
+    virtual uint32_t near_bodies(Vec3, Vec3, std::span<RigidId>) const { return 0; }
+    /// The nearest face within `reach` m of the point, at the pose that the body has now. Of a compound that of the
+    /// piece whose faces are nearest, seams left out. May be asked on all threads at once. Balls have none.
+    virtual bool nearest_surface(RigidId, Vec3, float, RigidSurface&) const { return false; }
+    /// By ignore_pair().
+    virtual bool is_ignored(RigidId, RigidId) const { return false; }
+    /// Layers and masks let them meet.
+    virtual bool may_meet(RigidId, RigidId) const { return false; }
+    /// Something rigid touches it in this step.
+    virtual bool is_touched(RigidId) const { return false; }
 
     virtual void solve(float dt) = 0;
 

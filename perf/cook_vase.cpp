@@ -6,14 +6,15 @@
 
 namespace cullet::perf {
 
-Result<Model> cook_vase(float edge) {
-    const Mesh mesh = make_vase(0.30f, edge);
+Result<Model> cook_vase(float edge, float height, std::optional<FractureKind> fracture) {
+    const Mesh mesh = make_vase(height, edge);
     MeshView view;
     view.positions = mesh.positions.data(), view.position_count = mesh.positions.size();
     view.indices = mesh.triangles[0].data(), view.triangle_count = mesh.triangles.size();
     CookSettings settings;
     settings.longest_edge = 100;  // the mesh has the edges that it should have
     settings.measures_threshold = false;
+    settings.fracture = fracture;
     return cook(view, settings);
 }
 

@@ -1,96 +1,84 @@
-#include <embree3/rtcore.h>
-
-#include <algorithm>
 #include <cstdio>
-#include <cstring>
+#include <cstdlib>
+#include <filesystem>
+#include <string>
 
-#include "engine/fp_mode.hpp"
 #include "perf/perf.hpp"
-#include "sample_game/meshes.hpp"
-#include "systems/cook/crossings.hpp"
-#include "systems/cook/extrude.hpp"
+#include "sample_game/generation_figures.hpp"
+#include "sample_game/import_model.hpp"
+#include "sample_game/propagation.hpp"
 
 namespace cullet::perf {
 namespace {
 
-/// One build of Embree's default tree on one thread, s: the least of `rounds`.
-double embree_build(const Mesh& mesh, uint32_t rounds) {
-    const RTCDevice device = rtcNewDevice("threads=1,set_affinity=0");
-    double least = 1e9;
-    for (uint32_t i = 0; i < rounds; ++i) {
-        const RTCScene scene = rtcNewScene(device);
-        const RTCGeometry geometry = rtcNewGeometry(device, RTC_GEOMETRY_TYPE_TRIANGLE);
-        void* positions = rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3, sizeof(Vec3),
-                                                  mesh.positions.size());
-        void* triangles =
-            rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3, 12, mesh.triangles.size());
-        std::memcpy(positions, mesh.positions.data(), mesh.positions.size() * sizeof(Vec3));
-        std::memcpy(triangles, mesh.triangles.data(), mesh.triangles.size() * 12);
-        least = std::min(least, seconds([&] {
-                             rtcCommitGeometry(geometry);
-                             rtcAttachGeometry(scene, geometry);
-                             rtcCommitScene(scene);
-                         }));
-        rtcReleaseGeometry(geometry);
-        rtcReleaseScene(scene);
-    }
-    rtcReleaseDevice(device);
-    return least;
+const GenerationFigure& row_of(const GenerationFigures& figures, double share, Propagation way) {
+    for (const GenerationFigure& row : figures.rows)
+        if (row.share == share && row.propagation == way) return row;
+    return figures.rows.front();
 }
 
-double diagonal_of(const Mesh& mesh) {
-    Vec3 low = mesh.positions[0], high = low;
-    for (const Vec3 p : mesh.positions) {
-        low = {std::min(low.x, p.x), std::min(low.y, p.y), std::min(low.z, p.z)};
-        high = {std::max(high.x, p.x), std::max(high.y, p.y), std::max(high.z, p.z)};
+/// Of one mesh: every way at every thickness in Embree builds, and what testing vertex by vertex costs beside the
+/// front.
+void add(const GenerationFigures& measured, Figures& figures) {
+    const std::string prefix = measured.mesh + ": ";
+    const double build = 1e3 * measured.embree_build;
+    figures.add(prefix + "triangles", measured.triangles, "");
+    figures.add(prefix + "one Embree build", build, "ms");
+    figures.add(prefix + "crossing test of the input", 1e3 * measured.crossing_test, "ms");
+    for (const GenerationFigure& row : measured.rows) {
+        const std::string eps = prefix + "eps " + std::to_string(static_cast<int>(100 * row.share + 0.5)) + " %, ";
+        const std::string way = eps + name_of(row.propagation);
+        const bool has_limit = row.propagation == Propagation::GuardedFront && row.share == 0.03 &&
+                               (measured.mesh == "vase" || measured.mesh == "piggy bank");
+        figures.add_ratio(way + ", in Embree builds", 1e3 * row.seconds, build, "ms", has_limit ? 28 : 0);
+        figures.add(way + ", collisions", row.collisions, "");
+        if (row.propagation != Propagation::SingleVertexTets) continue;
+        const GenerationFigure& guarded = row_of(measured, row.share, Propagation::GuardedFront);
+        figures.add_ratio(eps + "single vertex with tetrahedra beside the guarded front", 1e3 * row.seconds,
+                          1e3 * guarded.seconds, "ms", 1.5);
     }
-    return static_cast<double>(length(high - low));
 }
 
-void measure(const char* name, const Mesh& mesh, uint32_t rounds, Figures& figures) {
-    const Result<Surface> surface = prepare_surface(mesh);
-    if (!surface.ok()) {
-        std::printf("%s\n", surface.error().c_str());
-        return;
-    }
-    const FpMode mode;
-    const std::string prefix = std::string(name) + ": ";
-    const double build = embree_build(mesh, 20 * rounds);
-    figures.add(prefix + "triangles", static_cast<double>(mesh.triangles.size()), "");
-    figures.add(prefix + "one Embree build", 1e3 * build, "ms");
-    double crossings = 1e9;
-    for (uint32_t i = 0; i < rounds; ++i)
-        crossings = std::min(crossings, seconds([&] { (void)find_crossings(surface.value()); }));
-    figures.add(prefix + "crossing test of the input", 1e3 * crossings, "ms");
-    for (const double share : {0.01, 0.03, 0.10}) {
-        double least = 1e9;
-        ExtrusionStatistics statistics;
-        for (uint32_t i = 0; i < rounds; ++i) {
-            const auto run = [&] {
-                const auto extrusion = extrude(surface.value(), share * diagonal_of(mesh));
-                if (extrusion.ok()) statistics = extrusion->statistics;
-            };
-            least = std::min(least, seconds(run));
+/// Those of the note's table, from the folder that CULLET_TEST_DATA names.
+void add_real_meshes(std::vector<Mesh>& meshes) {
+    const char* folder = std::getenv("CULLET_TEST_DATA");
+    if (!folder) return;
+    for (const char* name : {"thick_shell/spot_triangulated.obj", "thick_shell/husky_loop1.ply", "thick_shell/bowl.ply",
+                             "thick_shell/vase_thick.ply", "lattice/castle_quads.obj", "thick_shell/curtain.ply"}) {
+        const std::filesystem::path file = std::filesystem::path(folder) / name;
+        if (!std::filesystem::exists(file)) continue;
+        Result<Mesh> mesh = import_model(file.string());
+        if (!mesh.ok()) {
+            std::printf("%s\n", mesh.error().c_str());
+            continue;
         }
-        const std::string eps = "eps " + std::to_string(static_cast<int>(100 * share + 0.5)) + " %";
-        figures.add(prefix + eps + ", guarded front", 1e3 * least, "ms");
-        figures.add_ratio(prefix + eps + ", with the crossing test, in Embree builds", 1e3 * (least + crossings),
-                          1e3 * build, "ms", share == 0.03 ? 28 : 0);
-        figures.add(prefix + eps + ", set back", statistics.collisions, "times");
+        mesh->name = file.filename().string();
+        meshes.push_back(std::move(mesh).value());
     }
 }
 
 }  // namespace
 
 bool measure_generation(const Options& options, Figures& figures) {
-    const uint32_t rounds = options.rounds_of_a_pass(5);
-    measure("vase", make_vase(0.30f, 0.0055f), rounds, figures);
-    measure("piggy bank", make_piggy_bank(0.40f, 0.0075f), rounds, figures);
+    bool is_good = true;
+    std::vector<Mesh> meshes = generation_meshes();
+    add_real_meshes(meshes);
+    for (const Mesh& mesh : meshes) {
+        const Result<GenerationFigures> measured =
+            measure_generation_of(mesh, {0.01, 0.03, 0.10}, options.rounds_of_a_pass(5));
+        if (!measured.ok()) {
+            std::printf("%s\n", measured.error().c_str());
+            is_good = false;
+            continue;
+        }
+        if (options.scene == "generation") std::fputs(describe(*measured).c_str(), stdout);
+        add(*measured, figures);
+    }
     // Published (2005, Pentium 4 at 3 GHz, k = 5): another machine, another mesh; for the order of magnitude.
     figures.add("paper: castle of 12,000 triangles, front, eps 1 %", 2600, "ms");
     figures.add("paper: castle of 12,000 triangles, front, eps 2 %", 3100, "ms");
     figures.add("paper: castle of 12,000 triangles, front, eps 5 %", 4600, "ms");
-    return true;
+    return is_good;
 }
 
 }  // namespace cullet::perf

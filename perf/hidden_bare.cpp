@@ -2,6 +2,7 @@
 
 #include "perf/bare_lanes.hpp"
 #include "perf/hidden_yardsticks.hpp"
+#include "systems/damage/pair_cells.hpp"
 
 namespace cullet::perf {
 namespace {
@@ -12,7 +13,8 @@ bool BareHidden::is_supported() {
     return __builtin_cpu_supports("avx2");
 }
 
-BareHidden::BareHidden(ShellView shell, float dt, float beta) : dt_(dt), beta_(beta) {
+BareHidden::BareHidden(ShellView shell, float dt, float beta)
+    : dt_(dt), beta_(beta), has_pair_cells_(stores_pairs_once(shell.shells(), shell.row)) {
     const State& s = shell.state;
     const Range packs = s.shells.packs[shell.row];
     size_t floats = 0;
@@ -21,7 +23,7 @@ BareHidden::BareHidden(ShellView shell, float dt, float beta) : dt_(dt), beta_(b
         packs_.push_back({floats, s.stiffness_packs.block_count[row], s.stiffness_packs.link_count[row]});
         floats += packs_.back().blocks * kBlockFloats + packs_.back().links * kLinkFloats;
     }
-    stream_.resize(floats + 1024);
+    stream_.resize(floats + kPadding);
     base_ = reinterpret_cast<float*>((reinterpret_cast<uintptr_t>(stream_.data()) + 63) & ~uintptr_t{63});
     for (uint32_t p = 0; p < packs.count; ++p) {
         const uint32_t row = packs.first + p;
@@ -96,7 +98,8 @@ __attribute__((target("avx2"))) void BareHidden::integrate(uint32_t side, uint32
 }
 
 void BareHidden::run_packs(uint32_t side, uint32_t first, uint32_t count) {
-    integrate(side & 1, first, count);
+    if (!has_pair_cells_) return integrate(side & 1, first, count);
+    for (uint32_t p = first; p < first + count; p += kPairCellPacks) integrate_cell(side & 1, p);
 }
 
 }  // namespace cullet::perf

@@ -34,13 +34,22 @@ bool measure_hidden_step(const Options& options, Figures& figures);
 /// A whole hit on the vase, beside the bare steps that it made.
 bool measure_hit(const Options& options, Figures& figures);
 bool measure_large_hit(const Options& options, Figures& figures);
-/// The guarded front, in Embree builds of the same mesh.
+/// What surrounds the inner loop of a hit, and finding its pieces. False: the flood finds others than relabelling.
+bool measure_parts(const Options& options, Figures& figures);
+/// A hit on bodies of 10 and 100 thousand elements, system by system.
+bool measure_local_hit(const Options& options, Figures& figures);
+/// Every way of propagation, in Embree builds of the same mesh; processor time of one thread.
 bool measure_generation(const Options& options, Figures& figures);
 /// A settled pile of hulls in plain Bullet and in our world.
 bool measure_pile(const Options& options, Figures& figures);
 /// Link iterations and the whole world step of Bullet's soft body; the plain spring loop and the bare spring kernel on
 /// the same links. False: their results differ.
 bool measure_soft_body(const Options& options, Figures& figures);
+/// The spring substep as the frame runs it on three grids, beside the bare kernel, the plain loop and Bullet; two
+/// layers beside one. False: ours and the bare kernel differ.
+bool measure_springs(const Options& options, Figures& figures);
+/// The quick mode at a castle, in substeps of the bare spring kernel on it.
+bool measure_quick(const Options& options, Figures& figures);
 /// Frame times, hitch and share of each system of the sample game's scenes: the least of three runs, frame by frame,
 /// and one run of the pile.
 bool measure_vase_frames(const Options& options, Figures& figures);

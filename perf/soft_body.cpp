@@ -104,7 +104,7 @@ SpringNet net_of(const btSoftBody& body) {
     return net;
 }
 
-// Yardsticks (a), (b), (c) and (e) of springs. The library has none yet; its own go into the first column beside these.
+// Yardsticks (a), (b), (c) and (e) of springs. The library's own step stands beside them in spring_grids.cpp.
 bool measure_soft_body(const Options& options, Figures& figures) {
     const uint32_t rounds = options.rounds_of_a_pass(60);
     btSoftBodyWorldInfo info;

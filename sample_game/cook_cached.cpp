@@ -24,14 +24,28 @@ std::string hex_of(std::span<const uint8_t> bytes) {
 Result<std::string> name_of_entry(const Mesh& mesh, const CookSettings& s) {
     const Result<std::vector<uint8_t>> program = read_whole_file("/proc/self/exe", kLargestProgram);
     if (!program.ok()) return Error{program.error()};
-    const std::string made_from = fmt::format(
-        "{} {} {} {} {:08x} {:08x} {:08x} {} {}", version(), hex_of(program.value()), hex_of(encode_mesh_file(mesh)),
-        s.material, std::bit_cast<uint32_t>(s.thickness), std::bit_cast<uint32_t>(s.longest_edge),
-        std::bit_cast<uint32_t>(s.weld_tolerance), s.seed, s.measures_threshold);
+    const std::string made_from =
+        fmt::format("{} {} {} {} {:08x} {:08x} {:08x} {} {} {} {}", version(), hex_of(program.value()),
+                    hex_of(encode_mesh_file(mesh)), material_label(s), std::bit_cast<uint32_t>(s.thickness),
+                    std::bit_cast<uint32_t>(s.longest_edge), std::bit_cast<uint32_t>(s.weld_tolerance), s.seed,
+                    s.measures_threshold, static_cast<int>(s.propagation), s.joins_walls);
     return hex_of({reinterpret_cast<const uint8_t*>(made_from.data()), made_from.size()}) + ".cmodel";
 }
 
 }  // namespace
+
+std::string material_label(const CookSettings& settings) {
+    static const MaterialTable compiled;
+    const Result<MaterialSettings> found =
+        (settings.materials ? *settings.materials : compiled).find(settings.material);
+    std::string label = settings.material;
+    if (!found.ok()) return label;
+    label += fmt::format(" {} {}", name_of(found->kind), name_of(settings.fracture.value_or(found->fracture)));
+    for (const MaterialValue& value : material_values())
+        label += fmt::format(" {:08x}", std::bit_cast<uint32_t>(found.value().*value.member));
+    return label + fmt::format(" {:08x} {:08x} {:08x}", std::bit_cast<uint32_t>(settings.grain.x),
+                               std::bit_cast<uint32_t>(settings.grain.y), std::bit_cast<uint32_t>(settings.grain.z));
+}
 
 Result<CachedModel> cook_cached(const Mesh& mesh, const CookSettings& settings, const std::string& folder) {
     CachedModel result;

@@ -13,6 +13,9 @@ struct CachedModel {
     std::string trouble;  // a sentence when the model was cooked and could not be kept
 };
 
+/// Everything of the settings' material that decides how a model comes out, as text.
+std::string material_label(const CookSettings& settings);
+
 /// cook(), or the model file that an earlier call left in the folder (empty: nothing is kept). The entry's name is a
 /// hash of the mesh, the settings, the library's version and the bytes of this program, so that a build that cooks
 /// otherwise never meets an older one's model. An entry that does not read is cooked anew.

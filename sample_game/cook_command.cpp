@@ -9,6 +9,8 @@
 #include "sample_game/cook_cached.hpp"
 #include "sample_game/import_model.hpp"
 #include "sample_game/progress.hpp"
+#include "sample_game/propagation.hpp"
+#include "sample_game/read_materials.hpp"
 
 namespace cullet {
 namespace {
@@ -29,12 +31,22 @@ Result<CachedModel> cook_file(const CookOptions& options) {
     const Result<Mesh> mesh = import_model(options.mesh);
     if (!mesh.ok()) return Error{mesh.error()};
     CookSettings settings;
+    MaterialTable materials;
+    if (!options.materials.empty())
+        if (const Result<void> read = read_materials(options.materials, materials); !read.ok())
+            return Error{read.error()};
+    settings.materials = &materials;
     settings.material = options.material;
+    for (const FractureKind kind : {FractureKind::Large, FractureKind::Coarse, FractureKind::Fine})
+        if (options.fracture == name_of(kind)) settings.fracture = kind;
     settings.thickness =
         options.thickness_m > 0 ? static_cast<float>(options.thickness_m) : kWallOfLargestSide * largest_side(*mesh);
     settings.longest_edge = static_cast<float>(options.edge_m);
     settings.weld_tolerance = static_cast<float>(options.weld);
     settings.seed = options.seed;
+    settings.joins_walls = !options.keeps_walls_apart;
+    if (!find_propagation(options.propagation, settings.propagation))
+        return Error{fmt::format("--propagation {}: expected {}.", options.propagation, kPropagations)};
     Progress progress(fmt::format("cooking {}", std::filesystem::path(options.mesh).filename().string()));
     settings.progress = &Progress::cooked;
     settings.progress_user = &progress;
@@ -48,7 +60,9 @@ void print_summary(const CookOptions& options, const CachedModel& cooked) {
         "{:.3g} m/s against a floor, {:.0f} million units a hit\n",
         options.out, r.vertices, r.elements, r.cells, r.mass, options.material, 1000 * r.mean_thickness,
         r.first_crack_speed, 1e-6 * static_cast<double>(r.units_of_a_hit));
-    for (const std::string& note : {r.repairs, r.advice, cooked.trouble})
+    fmt::print("  generation   {}: {} collisions, {} inverted elements, {} crossings\n", options.propagation,
+               r.collisions, r.inverted_elements, r.crossings);
+    for (const std::string& note : {r.repairs, r.walls, r.advice, cooked.trouble})
         if (!note.empty()) fmt::print("  note         {}\n", note);
     if (cooked.is_from_cache) fmt::print("  note         The cooked model was taken from the cache.\n");
 }

@@ -22,6 +22,7 @@ struct Drawing {
     std::deque<std::vector<Vec3>> points;
     std::deque<std::vector<uint32_t>> indices;
     std::deque<std::vector<DrawnRun>> runs;
+    std::deque<std::vector<DrawnLine>> lines;
     std::vector<DrawnBody> bodies;
 
     DrawnBody& add(const Mesh& mesh, float scale = 1) {
@@ -34,7 +35,7 @@ struct Drawing {
         body.indices = i;
         return body;
     }
-    DrawnBody& add(const BodyView& view) {
+    DrawnBody& add(const BodyView& view, const std::vector<uint32_t>& hairlines) {
         std::vector<Vec3>&p = points.emplace_back(), &n = points.emplace_back();
         p.reserve(view.vertex_count), n.reserve(view.vertex_count);
         for (uint32_t v = 0; v < view.vertex_count; ++v) {
@@ -44,12 +45,18 @@ struct Drawing {
         std::vector<DrawnRun>& r = runs.emplace_back();
         for (uint32_t run = 0; run < view.run_count; ++run)
             r.push_back({view.runs[run].first_index, view.runs[run].index_count, kind_of(view.runs[run].kind)});
+        std::vector<DrawnLine>& l = lines.emplace_back();
+        for (size_t i = 0; i + 1 < hairlines.size(); i += 2) {
+            const ViewVertex &from = view.vertices[hairlines[i]], &to = view.vertices[hairlines[i + 1]];
+            l.push_back({from.position, to.position, from.uv.y > 0 ? FaceKind::Inner : FaceKind::Outer});
+        }
         DrawnBody& body = bodies.emplace_back();
         body.pose = view.pose;
         body.positions = p;
         body.normals = n;
         body.indices = {view.indices, view.index_count};
         body.runs = r;
+        body.lines = l;
         return body;
     }
 };
@@ -94,7 +101,9 @@ void add_bodies(Drawing& drawing, const GameWorld& game) {
         const Result<BodyView> view = world.view(id);
         if (!view.ok() || view.value().index_count == 0) continue;
         const uint64_t look = rows.user_data[b] < game.stage().looks.size() ? rows.user_data[b] : 0;
-        DrawnBody& body = drawing.add(view.value());
+        std::vector<uint32_t> lines(view->index_count / 2);
+        lines.resize(world.hairlines(id, lines.data(), static_cast<uint32_t>(lines.size())).value_or(0));
+        DrawnBody& body = drawing.add(view.value(), lines);
         // Grey for what keeps the old body: the largest piece.
         body.colour = fragment_colour(rows.parent[b].exists() ? rows.colour[b] : 0);
         body.opacity = game.stage().looks[look].opacity;
@@ -115,13 +124,14 @@ void add_debris(Drawing& drawing, const GameWorld& game) {
 
 }  // namespace
 
-Picture draw_world(const GameWorld& game, uint32_t threads) {
+Picture draw_world(const GameWorld& game, uint32_t threads, uint32_t width) {
     Drawing drawing;
     add_props(drawing, game.stage());
     add_movers(drawing, game.stage());
     add_bodies(drawing, game);
     add_debris(drawing, game);
     PictureSettings settings;
+    settings.width = width, settings.height = width * 9 / 16;
     settings.ground_height = game.stage().ground_height();
     settings.has_ground = game.stage().has_ground();
     const std::unique_ptr<JobSystem> jobs = make_jobs(JobBackend::Threads, threads);

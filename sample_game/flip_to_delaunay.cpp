@@ -59,6 +59,13 @@ struct HalfEdges {
         return dot(normal(a, d, c), before) > 0 && dot(normal(b, c, d), before) > 0;
     }
 
+    /// Cosine of the angle between the normals on both sides of h.
+    double bend(uint32_t h) const {
+        const uint32_t g = twin[h];
+        const Vec3d a = normal(from(h), to(h), opposite(h)), b = normal(from(g), to(g), opposite(g));
+        return dot(a, b) / (length(a) * length(b));
+    }
+
     void pair(uint32_t h, uint32_t g) {
         twin[h] = g;
         if (g != kBorder) twin[g] = h;
@@ -81,14 +88,15 @@ struct HalfEdges {
 
 }  // namespace
 
-void flip_to_delaunay(MeshDraft& surface) {
+void flip_to_delaunay(MeshDraft& surface, double least_cosine) {
     HalfEdges edges(surface);
     bool has_flipped = true;
     for (int pass = 0; pass < kMostPasses && has_flipped; ++pass) {
         has_flipped = false;
         for (uint32_t h = 0; h < edges.twin.size(); ++h) {
             const uint32_t g = edges.twin[h];
-            if (g == kBorder || g < h || edges.cotangent(h) + edges.cotangent(g) > -1e-9 || !edges.may_flip(h))
+            if (g == kBorder || g < h || edges.cotangent(h) + edges.cotangent(g) > -1e-9 || !edges.may_flip(h) ||
+                edges.bend(h) < least_cosine)
                 continue;
             edges.flip(h);
             has_flipped = true;

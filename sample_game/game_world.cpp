@@ -72,6 +72,9 @@ Result<GameWorld> GameWorld::create(const ScenePlan& plan, const Host& host) {
     auto stage = std::make_unique<Stage>();
     stage->plan = plan;
     stage->host = host;
+    if (!plan.materials_path.empty())
+        if (const Result<void> read = stage->read_materials(plan.materials_path); !read.ok())
+            return Error{read.error()};
     auto script = std::make_unique<Script>(*stage);
     if (auto done = script->start(); !done.ok()) return Error{done.error()};
     if (const Result<World*> stands = stage->stand(); !stands.ok()) return Error{stands.error()};
@@ -104,6 +107,7 @@ void fill_counts(const World& world, Report& report) {
     report.clamped = counts.clamped;
     report.sweeps = data.rigid->counts().sweeps;
     report.units.left = counts.units_left;
+    report.units.slow_soft_frames = counts.slow_soft_frames;
     for (size_t k = 0; k < 3; ++k) report.momentum_ns.impulse[k] = counts.impulse_to_static[k];
     report.shapes = {{"sphere", 0}, {"hull", 0}, {"compound", 0}, {"box", 0}, {"triangles", 0}};
     const Bodies& bodies = data.state.bodies;

@@ -10,10 +10,21 @@
 #include "sample_game/props.hpp"
 #include "systems/cook/apply_pins.hpp"
 #include "systems/cook/model_contents.hpp"
+#include "systems/fragments/rest_of_body.hpp"
 #include "systems/fragments/rigid_handoff.hpp"
+#include "systems/quick/calibrate.hpp"
 
 namespace cullet {
 namespace {
+
+/// Brick as the figures know it: few large fragments, cracks that stop where the run leaves them.
+MaterialTable table_of_figures() {
+    MaterialTable table;
+    MaterialSettings brick = table.find("brick").value();
+    brick.fracture = FractureKind::Large, brick.branching = brick.run_out = 0;
+    (void)table.change(brick);
+    return table;
+}
 
 constexpr float kPaneSide = 0.5f, kPaneEdge = 0.010f;                       // m
 constexpr float kWallWidth = 2.4f, kWallHeight = 1.8f, kWallEdge = 0.078f;  // m
@@ -76,7 +87,9 @@ void examine_pieces(State& state, const HitDescription& hit, HitResult& result) 
 Result<HitSubject> make_subject(Subject subject, uint64_t seed) {
     HitSubject made;
     Mesh mesh;
+    const MaterialTable materials = table_of_figures();
     CookSettings settings;
+    settings.materials = &materials;
     settings.seed = seed;
     settings.longest_edge = 100;  // the meshes have the edges that the figures are for
     settings.measures_threshold = false;
@@ -108,17 +121,30 @@ HitBench::HitBench(Subject subject, const Model& model, uint64_t seed) : subject
     state_ = std::make_unique<State>(cooking_limits(model.report().vertices, model.report().elements));
     state_->materials.append(cooked.materials.size());
     state_->materials.copy_rows(cooked.materials, 0, 0, cooked.materials.size());
+    state_->material_traits.append(cooked.material_traits.size());
+    state_->material_traits.copy_rows(cooked.material_traits, 0, 0, cooked.material_traits.size());
     const char* full = "";
     shell_ = import_shell(*state_, cooked, model.contents->shell, &full);
     const ShellView shell(*state_, shell_);
     if (subject == Subject::Pane) pin_frame(shell);
     if (subject == Subject::Wall) pin_foot(shell);
     if (subject != Subject::Vase) stiffen_pinned(shell);
+    intact_ = shell_;
+}
+
+void HitBench::break_quickly(std::optional<QuickSettings> quick, float first_crack) {
+    quick_ = quick;
+    if (quick_ && quick_->strain_limit == 0)
+        quick_->strain_limit = calibrated_strain_limit(*state_, shell_, *quick_, first_crack);
 }
 
 HitDescription HitBench::blow(uint32_t placement, float speed) const {
     HitDescription hit;
-    if (subject_ == Subject::Vase) return fall_on_floor(*state_, shell_, seeded_direction(seed_, placement), speed);
+    if (subject_ == Subject::Vase) {
+        hit = fall_on_floor(*state_, shell_, seeded_direction(seed_, placement), speed);
+        hit.quick = quick_ ? &*quick_ : nullptr;
+        return hit;
+    }
     if (subject_ == Subject::Pane) {
         hit = ball_on_sheet(kPaneSide, kPaneSide, 0.1f, seed_, placement);
         hit.striker_inverse_mass = 1 / 0.1f;
@@ -129,6 +155,7 @@ HitDescription HitBench::blow(uint32_t placement, float speed) const {
         hit.striker_radius = 0.14f;
     }
     hit.striker_speed = speed;
+    hit.quick = quick_ ? &*quick_ : nullptr;
     return hit;
 }
 
@@ -138,6 +165,26 @@ HitReport HitBench::run(const HitDescription& hit, bool ends_at_first_cut) {
     const HitReport report = run_hit(*state_, shell_, hit, ends_at_first_cut ? +is_cut : nullptr);
     close_hit(*state_);
     return report;
+}
+
+HitReport HitBench::run_and_keep_cracks(const HitDescription& hit) {
+    const FpMode mode;
+    const HitReport report = run_hit(*state_, shell_, hit);
+    const Row<Shells> working = state_->tasks.shell[Row<Tasks>(0)];
+    if (!report.broke && !report.dropped && report.cracked) {
+        ++state_->shells.users[working];
+        clear_run(ShellView(*state_, working), true);
+        drop_stiffness(*state_, working);  // as World does: the next hit assembles it anew
+        if (shell_ != intact_) release_shell(*state_, shell_);
+        shell_ = working;
+    }
+    close_hit(*state_);
+    return report;
+}
+
+void HitBench::renew() {
+    if (shell_ != intact_) release_shell(*state_, shell_);
+    shell_ = intact_;
 }
 
 HitResult HitBench::examine(const HitDescription& hit) {

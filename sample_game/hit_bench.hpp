@@ -1,6 +1,7 @@
 // The three bodies whose breaks are known in numbers (thick shell note, section 8), ready to be hit one blow at a time.
 #pragma once
 #include <array>
+#include <optional>
 
 #include "cullet/model.hpp"
 #include "systems/damage/run_hit.hpp"
@@ -42,21 +43,30 @@ class HitBench {
  public:
     HitBench(Subject subject, const Model& model, uint64_t seed = 1);
 
-    /// The blow of a seeded placement.
+    /// From now on blows ask for the quick mode, or with nothing for the hidden run. With a first-crack speed, m/s, its
+    /// strain limit is found as a spawn finds it.
+    void break_quickly(std::optional<QuickSettings> quick, float first_crack = 0);
+    /// The blow of a seeded placement. Good until the bench goes.
     HitDescription blow(uint32_t placement, float speed) const;
     /// Runs it to its end, or to its first cut.
     HitReport run(const HitDescription& hit, bool ends_at_first_cut = false);
     /// Runs it to its end and looks at the pieces. `keep` leaves the working shell in place until the next call.
     HitResult examine(const HitDescription& hit);
 
+    /// Runs it to its end; when no piece comes off the subject keeps its cracks, and later blows meet them.
+    HitReport run_and_keep_cracks(const HitDescription& hit);
+    /// The subject is as it was cooked.
+    void renew();
+
     State& state() { return *state_; }
-    Row<Shells> shell() const { return shell_; }
+    Row<Shells> shell() const { return shell_; }  // the cracked one, where cracks were kept
 
  private:
     Subject subject_;
     uint64_t seed_;
+    std::optional<QuickSettings> quick_;
     std::unique_ptr<State> state_;
-    Row<Shells> shell_;
+    Row<Shells> shell_, intact_;
 };
 
 }  // namespace cullet

@@ -11,6 +11,7 @@
 #include "sample_game/cook_command.hpp"
 #include "sample_game/options.hpp"
 #include "sample_game/replay_command.hpp"
+#include "sample_game/reproduce/command.hpp"
 #include "sample_game/run_scene.hpp"
 #include "sample_game/truth.hpp"
 
@@ -42,6 +43,8 @@ int run(const Options& options) {
             return cook_command(options.cook);
         case Command::Replay:
             return replay_command(options.replay);
+        case Command::Reproduce:
+            return reproduce::run(options.reproduce);
         case Command::Truth:
             break;
     }

@@ -35,13 +35,24 @@ void stitch_rows(MeshDraft& surface, const std::vector<uint32_t>& a, const std::
 
 /// Flips edges until opposite angles sum to at most pi everywhere (the cotangent form of the Delaunay rule, intrinsic
 /// and so good on curved surfaces). Leaves border edges, edges whose flip would double another edge, and edges whose
-/// flip would fold the surface. The mesh must be manifold and consistently wound.
-void flip_to_delaunay(MeshDraft& surface);
+/// flip would fold the surface. The mesh must be manifold and consistently wound. Edges whose triangles' normals have a
+/// cosine below `least_cosine` stay: with 0.99 all creases do.
+void flip_to_delaunay(MeshDraft& surface, double least_cosine = -2);
 
 /// Splits, collapses, flips and slides points until edges are near the wanted length and triangles near equilateral,
 /// after M. Botsch and L. Kobbelt, "A remeshing approach to multiresolution modeling", 2004. Closed surfaces only.
 /// `project` takes a point near the surface onto it.
 void remesh(MeshDraft& surface, double edge, const std::function<Vec3d(Vec3d)>& project);
+/// The remesher settles at a mean edge 7 % above what it was given.
+inline constexpr double kTargetPerMean = 0.935;
+
+/// Splits the longest edge, again and again, until there are so many vertices. Each split adds one vertex and, inside,
+/// two triangles. `project` takes the middle onto the surface; without one it stays, and so does the surface.
+void split_longest(MeshDraft& surface, size_t vertices, const std::function<Vec3d(Vec3d)>& project = {});
+
+/// Gives the triangles on one side of a seam vertices of their own, as models with textures have: up to `vertices` in
+/// all. Positions stay, so welding equal ones gives the surface back. `is_beyond` tells which side a middle lies on.
+void open_seam(MeshDraft& surface, size_t vertices, const std::function<bool(Vec3d)>& is_beyond);
 
 /// A closed triangle mesh of {f < 0} in the box, on a grid of that cell size, by marching tetrahedra (six a cell, so
 /// that there are no ambiguous cells). f must be positive on the box's sides.

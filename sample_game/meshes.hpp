@@ -3,6 +3,7 @@
 // mean edge length; an edge too coarse for the shape gives a coarse shape, not a refusal.
 #pragma once
 #include <cstdint>
+#include <string>
 
 #include "cullet/types.hpp"
 #include "engine/mesh.hpp"
@@ -19,8 +20,23 @@ Mesh make_vase(float height = 0.30f, float edge = 0.0075f, uint64_t seed = 1);
 Mesh make_piggy_bank(float length = 0.40f, float edge = 0.0098f, uint64_t seed = 1);
 /// A flat sheet that faces +z: x from -width/2 to width/2, y from 0 to height, z = 0. Straight borders.
 Mesh make_wall(float width = 2.4f, float height = 1.8f, float edge = 0.078f, uint64_t seed = 1);
+/// Of the edge: how far points of sheets are moved off their rows, each way, as on lathes.
+inline constexpr double kUnevenness = 0.18;
 /// A square sheet like a wall of that side.
-Mesh make_pane(float side = 0.5f, float edge = 0.010f, uint64_t seed = 1);
+Mesh make_pane(float side = 0.5f, float edge = 0.010f, uint64_t seed = 1, double unevenness = kUnevenness);
+/// A closed pig, snout toward +x, feet at y = 0, exactly so many vertices (500 to 200,000) and 2 V - 4 triangles.
+Mesh make_pig(float length = 0.5f, uint32_t vertices = 3500, uint64_t seed = 1);
+/// A closed cow with horns and udder, head toward +x, feet at y = 0. A twentieth of its vertices stand twice, along a
+/// seam as textures have: 3,000 vertices and 5,700 triangles, which no closed mesh without a seam has.
+Mesh make_cow(float length = 0.6f, uint32_t vertices = 3000, uint64_t seed = 1);
+/// A closed castle (4 towers, keep, gatehouse with an arch) round the y axis, gate toward +z, feet at y = 0. It has at
+/// least the 5,000-odd vertices that its shape needs, and twice as many triangles as vertices.
+Mesh make_castle(float width = 3, uint32_t vertices = 6500, uint64_t seed = 1);
+/// A closed block of that size: x and z round 0, y from 0; at least 588 vertices and 2 V - 4 triangles.
+Mesh make_slab(Vec3 size = {2.4f, 1.8f, 0.1f}, uint32_t vertices = 600, uint64_t seed = 1);
+/// One of the shapes above with its usual numbers, by the name that scripts and --mesh use ("vase", "pig", "castle");
+/// without triangles when there is none of that name.
+Mesh make_mesh_named(const std::string& name, uint64_t seed = 1);
 
 // Bodies that hit, or that things fall on. Few triangles, exact shapes.
 

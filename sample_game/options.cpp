@@ -5,6 +5,7 @@
 #include <CLI/CLI.hpp>
 #include <algorithm>
 
+#include "cullet/material.hpp"
 #include "sample_game/scene.hpp"
 
 namespace cullet {
@@ -35,7 +36,15 @@ std::string scene_list() {
 void add_run(CLI::App& app, RunOptions& run) {
     CLI::App* command = app.add_subcommand("run", "Plays a scene or a script and says how it went");
     command->add_option("scene", run.scene, "One of " + scene_names());
-    command->add_option("--mesh", run.mesh, "A model file for scenes that take one, in any format that assimp reads")
+    command
+        ->add_option(
+            "--mesh", run.mesh,
+            "A model file for scenes that take one, in any format that assimp reads; or vase, pig, cow, castle, "
+            "castle_fine, slab, piggy_bank, wall, pane")
+        ->check(CLI::Validator(
+            [](const std::string& name) { return std::string(name.empty() ? "the name is empty; give a file" : ""); },
+            ""));
+    command->add_option("--materials", run.materials, "A TOML file that adds and changes materials")
         ->check(CLI::Validator(
             [](const std::string& name) { return std::string(name.empty() ? "the name is empty; give a file" : ""); },
             ""));
@@ -66,7 +75,11 @@ void add_cook(CLI::App& app, CookOptions& cook) {
     CLI::App* command = app.add_subcommand("cook", "Cooks a mesh into a model file (.cmodel), so that a game need not");
     command->add_option("mesh", cook.mesh, "A model file in any format that assimp reads, or a .cmesh")->required();
     command->add_option("--out", cook.out, "The model file to write")->required();
-    command->add_option("--material", cook.material, "glass, porcelain, brick or concrete")->capture_default_str();
+    command->add_option("--material", cook.material, "One of " + MaterialTable().names() + ", or of --materials")
+        ->capture_default_str();
+    command->add_option("--materials", cook.materials, "A TOML file that adds and changes materials");
+    command->add_option("--fracture", cook.fracture, "How near to each other cracks start; the material's if not given")
+        ->check(CLI::IsMember({"large", "coarse", "fine"}));
     command->add_option("--thickness-m", cook.thickness_m, "Of the wall, m; 1.5 % of the largest side if not given")
         ->check(CLI::Range(1e-9, 1e6));
     command
@@ -75,6 +88,13 @@ void add_cook(CLI::App& app, CookOptions& cook) {
     command->add_option("--weld", cook.weld, "Points so near are one, as a share of the diagonal; 1e-7 heals noise")
         ->check(CLI::Range(0.0, 0.01));
     command->add_option("--seed", cook.seed, "Of the spread of strength")->capture_default_str();
+    command
+        ->add_option("--propagation", cook.propagation,
+                     "How the inner surface is pushed in; all but the first to compare")
+        ->check(CLI::IsMember({"guarded_front", "front", "single_vertex", "single_vertex_tets"}))
+        ->capture_default_str();
+    command->add_flag("--walls-apart", cook.keeps_walls_apart,
+                      "A mesh with both of its walls becomes two sheets, not one as thick as measured");
 }
 
 void add_replay(CLI::App& app, ReplayOptions& replay) {
@@ -83,6 +103,21 @@ void add_replay(CLI::App& app, ReplayOptions& replay) {
     command->add_option("--against", replay.against, "Numbers of threads, one run each: 1,2,8")
         ->delimiter(',')
         ->check(CLI::Range(1u, 64u));
+}
+
+void add_reproduce(CLI::App& app, reproduce::CommandOptions& options) {
+    CLI::App* command =
+        app.add_subcommand("reproduce", "Writes a page of a paper's claims beside ours: tables, numbers, pictures");
+    command->add_option("model", options.model, "thick_shell")->required();
+    command->add_option("--out", options.out, "Folder for report.html, report.json and the pictures")->required();
+    command->add_option("--data", options.data,
+                        "Folder of test meshes; CULLET_TEST_DATA or ../shared/data if not given");
+    command->add_option("--threads", options.threads, "Threads that step worlds and draw; all if not given")
+        ->check(CLI::Range(1u, 64u));
+    command->add_option("--only", options.only, "One claim by its id, such as figure_3");
+    command->add_flag(
+        "--reduced", options.is_reduced,
+        "Smaller meshes and fewer repeats, for a look in a minute; its numbers are not the paper's cases");
 }
 
 /// What CLI11 cannot know.
@@ -119,8 +154,11 @@ Result<Options> parse_options(std::vector<std::string> arguments) {
     add_run(app, options.run);
     add_cook(app, options.cook);
     add_replay(app, options.replay);
+    add_reproduce(app, options.reproduce);
     app.add_subcommand("frame", "Prints the systems of a frame, and what each reads and writes");
-    CLI::App* truth = app.add_subcommand("truth", "Finds the speeds of the first crack and of the first loose piece");
+    CLI::App* truth = app.add_subcommand("truth",
+                                         "Prints the verification cases of a method: figure, bounds, verdict; the "
+                                         "last, speeds of first cracks and pieces, takes minutes");
     truth->add_option("model", options.truth.model, "thick_shell")->required();
     truth->add_option("--placements", options.truth.placements, "Seeded placements of each scene")
         ->check(CLI::Range(1u, 1000u));
@@ -137,11 +175,12 @@ Result<Options> parse_options(std::vector<std::string> arguments) {
     } catch (const CLI::ParseError& error) {
         return Error{one_sentence(error.what()) + " sample_game --help shows what can be given."};
     }
-    options.command = app.got_subcommand("run")      ? Command::Run
-                      : app.got_subcommand("frame")  ? Command::Frame
-                      : app.got_subcommand("cook")   ? Command::Cook
-                      : app.got_subcommand("replay") ? Command::Replay
-                                                     : Command::Truth;
+    options.command = app.got_subcommand("run")         ? Command::Run
+                      : app.got_subcommand("frame")     ? Command::Frame
+                      : app.got_subcommand("cook")      ? Command::Cook
+                      : app.got_subcommand("replay")    ? Command::Replay
+                      : app.got_subcommand("reproduce") ? Command::Reproduce
+                                                        : Command::Truth;
     if (options.command != Command::Run) return options;
     const bool asks_for_keys =
         std::find(options.run.set.begin(), options.run.set.end(), "help") != options.run.set.end();

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "cullet/result.hpp"
+#include "sample_game/reproduce/command.hpp"
 
 namespace cullet {
 
@@ -12,6 +13,7 @@ enum class HashWhen { Every, Last, Off };
 
 struct RunOptions {
     std::string scene, mesh;  // scene: the name of one, or a script's file
+    std::string materials;    // a TOML file; empty: the compiled table
     std::string model;        // for what the script cooks; empty: the script's own
     uint32_t frames = 0;      // 0: the scene's
     double dt_ms = 1000.0 / 60;
@@ -26,7 +28,7 @@ struct RunOptions {
     std::vector<std::string> set;
 };
 
-enum class Command : uint8_t { Help, Run, KeysHelp, Frame, Truth, Cook, Replay };
+enum class Command : uint8_t { Help, Run, KeysHelp, Frame, Truth, Cook, Replay, Reproduce };
 
 struct ReplayOptions {
     std::string file;
@@ -34,11 +36,13 @@ struct ReplayOptions {
 };
 
 struct CookOptions {
-    std::string mesh, out, material = "porcelain";
-    double thickness_m = 0;  // 0: 1.5 % of the largest side
-    double edge_m = 0;       // 0: what cooking chooses
-    double weld = 0;         // of the diagonal
+    std::string mesh, out, material = "porcelain", materials, fracture;  // the last two may be empty
+    double thickness_m = 0;                                              // 0: 1.5 % of the largest side
+    double edge_m = 0;                                                   // 0: what cooking chooses
+    double weld = 0;                                                     // of the diagonal
     uint64_t seed = 1;
+    std::string propagation = "guarded_front";
+    bool keeps_walls_apart = false;
 };
 
 struct TruthOptions {
@@ -54,6 +58,7 @@ struct Options {
     TruthOptions truth;
     CookOptions cook;
     ReplayOptions replay;
+    reproduce::CommandOptions reproduce;
 };
 
 /// The program's arguments without its name. A refusal is one sentence.

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "sample_game/picture_light.hpp"
+#include "sample_game/picture_lines.hpp"
 #include "sample_game/picture_scene.hpp"
 
 namespace cullet {
@@ -17,7 +18,7 @@ constexpr uint32_t kMoreSunRays = 7;   // where neighbours disagree: half-shadow
 constexpr uint32_t kFirstSkyRays = 1;
 constexpr uint32_t kMoreSkyRays = 3;  // where something shades the sky
 constexpr uint32_t kLostRays = 8;     // for a point between pixels that has no like neighbour
-constexpr float kLineDarkness = 0.85f;
+constexpr float kLineDarkness = 0.85f, kHairlineDarkness = 0.75f;
 constexpr int kFilterReach = 2;  // pixels; 5 x 5 holds every pixel of the 4 x 4 pattern of rays
 
 // What of a pixel's surface the filter and the edges ask for again and again.
@@ -79,12 +80,14 @@ class Painter {
     Vec3 seen(const Pixel& pixel, const Light& light, Vec3 direction) const;
     Vec3 colour(uint32_t x, uint32_t y, std::array<uint32_t, 4>& front) const;
     float line(uint32_t x, uint32_t y) const;
+    std::vector<float> hairlines() const;
     float line_between(uint32_t a, uint32_t b) const;
 
     size_t at(uint32_t x, uint32_t y) const { return size_t{y} * settings_.width + x; }
     template <class Visit>
     void visit_neighbours(uint32_t x, uint32_t y, int reach, const Visit& visit) const;
 
+    std::span<const DrawnBody> bodies_;
     const PictureSettings& settings_;
     PictureScene scene_;
     PictureLight light_;
@@ -98,7 +101,7 @@ class Painter {
 
 Painter::Painter(std::span<const DrawnBody> bodies, const Camera& camera, const Sun& sun,
                  const PictureSettings& settings)
-    : settings_(settings), scene_(bodies, settings), light_(scene_, sun, settings), eye_(camera.eye) {
+    : bodies_(bodies), settings_(settings), scene_(bodies, settings), light_(scene_, sun, settings), eye_(camera.eye) {
     forward_ = normalised(camera.target - camera.eye);
     if (forward_ == Vec3{}) forward_ = {0, 0, -1};
     const Vec3 upright = std::fabs(forward_.y) > 0.999f ? Vec3{0, 0, -1} : Vec3{0, 1, 0};
@@ -277,6 +280,19 @@ float Painter::line(uint32_t x, uint32_t y) const {
     return 4 * share * (1 - share) * (strength / other);
 }
 
+std::vector<float> Painter::hairlines() const {
+    if (std::all_of(bodies_.begin(), bodies_.end(), [](const DrawnBody& body) { return body.lines.empty(); }))
+        return std::vector<float>(pixels_.size());
+    std::vector<PixelFace> faces;
+    faces.reserve(pixels_.size());
+    for (const Pixel& pixel : pixels_) {
+        const SeenSurface& s = pixel.surface;
+        faces.push_back(
+            {s.body, pixel.front, s.kind, s.distance, std::fabs(dot(s.face_normal, normalised(s.point - eye_)))});
+    }
+    return hairline_ink(bodies_, {eye_, forward_, right_, up_, settings_.width, settings_.height}, faces);
+}
+
 Vec3 Painter::colour(uint32_t x, uint32_t y, std::array<uint32_t, 4>& front) const {
     const float left = static_cast<float>(x), top = static_cast<float>(y);
     const Pixel& pixel = pixels_[at(x, y)];
@@ -332,9 +348,10 @@ Picture Painter::paint() {
     each_row([&](uint32_t y) {
         for (uint32_t x = 0; x < width; ++x) colours_[at(x, y)] = colour(x, y, fronts_[at(x, y)]);
     });
+    const std::vector<float> hairline = hairlines();
     each_row([&](uint32_t y) {
         for (uint32_t x = 0; x < width; ++x) {
-            const float ink = kLineDarkness * line(x, y);
+            const float ink = std::max(kLineDarkness * line(x, y), kHairlineDarkness * hairline[at(x, y)]);
             store(picture.pixel(x, y), (settings_.exposure * (1 - ink)) * colours_[at(x, y)], x, y);
         }
     });

@@ -20,6 +20,12 @@ struct DrawnRun {
     FaceKind kind = FaceKind::Outer;
 };
 
+/// A thin dark line on a body's surface, seen where a face of this kind lies in front. Through glass both sides show.
+struct DrawnLine {
+    Vec3 from, to;  // body coordinates, m
+    FaceKind kind = FaceKind::Outer;
+};
+
 /// One body as it is drawn. Spans need to live only during draw(). Fragments, tables, floors and walls alike.
 struct DrawnBody {
     Pose pose;
@@ -27,6 +33,7 @@ struct DrawnBody {
     std::span<const Vec3> normals;      // one a position, unit; empty draws flat faces
     std::span<const uint32_t> indices;  // 3 a triangle
     std::span<const DrawnRun> runs;     // triangles in no run are outer faces
+    std::span<const DrawnLine> lines;   // about a pixel wide, however near
     Vec3 colour{0.5f, 0.5f, 0.5f};      // linear light, see fragment_colour
     float opacity = 1;                  // below 1 the view goes straight on behind it, up to eight faces deep
     float gloss = 0.25f;      // strength of the sun's highlight on outer faces: 0 brick, 0.25 porcelain, 1 glass

@@ -52,7 +52,11 @@ Json of_matter(const Report& r) {
 }
 
 Json of_work(const Report& r) {
-    return {{"units", {{"used", r.units.used}, {"left", r.units.left}, {"most", r.units.most}}},
+    return {{"units",
+             {{"used", r.units.used},
+              {"left", r.units.left},
+              {"most", r.units.most},
+              {"slow_soft_frames", r.units.slow_soft_frames}}},
             {"events", r.events},
             {"refused", r.refused},
             {"faults", r.faults},

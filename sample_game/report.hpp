@@ -69,6 +69,7 @@ struct Report {
     Rest rest;
     struct {
         uint64_t used = 0, left = 0, most = 0;  // over the run; of the last frame; of the worst frame
+        uint64_t slow_soft_frames = 0;          // soft bodies that had too few and ran slower, a frame each
     } units;
     std::map<std::string, uint64_t> events, refused;
     uint64_t faults = 0;

@@ -25,6 +25,8 @@ void print_summary(const Report& r) {
                r.fragments.live, r.fragments.asleep, r.awake.bodies, r.fragments.debris);
     fmt::print("  hits         {} opened, {} broke, {} late, {} dropped, {} frames held\n", r.tasks.opened,
                r.tasks.broke, r.tasks.late, r.tasks.dropped, r.tasks.frames_held);
+    if (r.units.slow_soft_frames > 0)
+        fmt::print("  slower       soft bodies had too few units in {} frames of theirs\n", r.units.slow_soft_frames);
     fmt::print(
         "  rest         {:.1f} % asleep; of {} drawn at rest: sink 95 % {:.2f}, worst {:.2f} mm, into each other 95 % "
         "{:.2f}, worst {:.2f} mm, hover 95 % {:.2f}, worst {:.2f} mm, {} below the ground\n",

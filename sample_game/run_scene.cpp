@@ -254,6 +254,7 @@ ScenePlan plan_scene(const Scene& scene, const RunOptions& options) {
     plan.threads = options.threads;
     plan.step_ms = options.dt_ms;
     plan.mesh_path = options.mesh;
+    plan.materials_path = options.materials;
     plan.model = options.model;
     plan.shelf = std::make_shared<ModelShelf>();
     return plan;

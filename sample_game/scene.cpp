@@ -59,6 +59,8 @@ Result<Scene> load_scene(const std::string& name) {
 Result<Story> read_story(const ScenePlan& plan) {
     Stage stage;
     stage.plan = plan;
+    if (!plan.materials_path.empty())
+        if (const Result<void> read = stage.read_materials(plan.materials_path); !read.ok()) return Error{read.error()};
     Script script(stage);
     if (auto done = script.declare(); !done.ok()) return Error{done.error()};
     return std::move(stage.story);

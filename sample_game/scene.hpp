@@ -40,6 +40,7 @@ struct ScenePlan {
     uint32_t threads = 0;          // 0: all that the machine has, or the key's
     double step_ms = 1000.0 / 60;
     std::string mesh_path, model;       // of --mesh and --model; empty: the script's own
+    std::string materials_path;         // of --materials; empty: none
     std::string record;                 // a file; empty: nothing is written down
     std::shared_ptr<ModelShelf> shelf;  // what its runs have cooked
 };

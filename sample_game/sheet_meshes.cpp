@@ -8,12 +8,11 @@ namespace cullet {
 namespace {
 
 constexpr double kColumnWidth = 0.86602540378443865;  // of an equilateral triangle, in edges
-constexpr double kJitter = 0.18;                      // of the edge length, as on lathes
 
 /// Column x of a sheet, bottom to top. Odd columns are moved by half an edge and keep a point at both ends, so that the
-/// borders are straight; points on a border move along it, corners stay.
+/// borders are straight; points on a border move along it, corners stay, and all others both ways by up to `moved`.
 std::vector<uint32_t> add_column(MeshDraft& surface, double x, double height, uint64_t segments, bool is_side,
-                                 double edge, uint64_t seed, uint64_t column) {
+                                 double moved, uint64_t seed, uint64_t column) {
     const bool is_odd = column % 2 == 1;
     const uint64_t count = segments + (is_odd ? 2 : 1);
     std::vector<uint32_t> ids;
@@ -22,15 +21,15 @@ std::vector<uint32_t> add_column(MeshDraft& surface, double x, double height, ui
         const double place = i == 0   ? 0
                              : is_end ? static_cast<double>(segments)
                                       : static_cast<double>(i) - (is_odd ? 0.5 : 0);
-        const double across = is_side ? 0 : kJitter * edge * jitter(seed, column, i, 1);
-        const double along = is_end ? 0 : kJitter * edge * jitter(seed, column, i, 2);
+        const double across = is_side ? 0 : moved * jitter(seed, column, i, 1);
+        const double along = is_end ? 0 : moved * jitter(seed, column, i, 2);
         ids.push_back(static_cast<uint32_t>(surface.points.size()));
         surface.points.push_back({x + across, height * place / static_cast<double>(segments) + along, 0});
     }
     return ids;
 }
 
-MeshDraft sheet(double width, double height, double wanted_edge, uint64_t seed) {
+MeshDraft sheet(double width, double height, double wanted_edge, uint64_t seed, double share_moved) {
     const double edge = usable_edge(wanted_edge, std::max(width, height));
     // One less each way makes up for the closer points along the borders: vertices are area / (sqrt(3)/2 edge^2), as
     // inside.
@@ -41,7 +40,8 @@ MeshDraft sheet(double width, double height, double wanted_edge, uint64_t seed) 
     for (uint64_t column = 0; column <= columns; ++column) {
         const double x = width * (static_cast<double>(column) / static_cast<double>(columns) - 0.5);
         const bool is_side = column == 0 || column == columns;
-        const std::vector<uint32_t> ids = add_column(surface, x, height, segments, is_side, edge, seed, column);
+        const std::vector<uint32_t> ids =
+            add_column(surface, x, height, segments, is_side, share_moved * edge, seed, column);
         if (column > 0) stitch_rows(surface, before, ids, false);
         before = ids;
     }
@@ -52,13 +52,15 @@ MeshDraft sheet(double width, double height, double wanted_edge, uint64_t seed) 
 }  // namespace
 
 Mesh make_wall(float width, float height, float edge, uint64_t seed) {
-    return to_mesh(sheet(static_cast<double>(width), static_cast<double>(height), static_cast<double>(edge), seed),
-                   "wall");
+    return to_mesh(
+        sheet(static_cast<double>(width), static_cast<double>(height), static_cast<double>(edge), seed, kUnevenness),
+        "wall");
 }
 
-Mesh make_pane(float side, float edge, uint64_t seed) {
-    return to_mesh(sheet(static_cast<double>(side), static_cast<double>(side), static_cast<double>(edge), seed),
-                   "pane");
+Mesh make_pane(float side, float edge, uint64_t seed, double unevenness) {
+    return to_mesh(
+        sheet(static_cast<double>(side), static_cast<double>(side), static_cast<double>(edge), seed, unevenness),
+        "pane");
 }
 
 }  // namespace cullet

@@ -8,6 +8,7 @@
 #include "sample_game/cache.hpp"
 #include "sample_game/model_shelf.hpp"
 #include "sample_game/progress.hpp"
+#include "sample_game/read_materials.hpp"
 
 namespace cullet {
 namespace {
@@ -16,7 +17,7 @@ constexpr size_t kMostFaults = 20;  // sentences; all are counted
 
 Look look_of(const std::string& material) {
     if (material == "glass") return {0.4f, 1};
-    if (material == "brick" || material == "concrete") return {1, 0};
+    if (material == "brick" || material == "concrete" || material == "wood") return {1, 0};
     return {};
 }
 
@@ -33,6 +34,9 @@ Keys world_keys() {
         .number("generations", "1", defaults.generations, 0, 10, "fragments break again down to this one")
         .number("debris_share", "1", static_cast<double>(defaults.debris_share), 0, 0.5,
                 "pieces lighter than this share of the whole are debris")
+        .number("break_share", "1", static_cast<double>(defaults.break_share), 0, 1,
+                "pieces lighter than this share do not break again")
+        .number("break_elements", "1", defaults.break_elements, 0, 1e6, "pieces of fewer elements do not break again")
         .number("debris_elements", "1", defaults.debris_elements, 1, 1000, "pieces of fewer elements are debris")
         .number("gravity_mps2", "m/s2", 9.81, 0, 100, "downward")
         .number("threads", "1", 1, 1, 64, "threads that step the world; the same as --threads")
@@ -50,6 +54,8 @@ Settings Stage::settings() const {
     s.hold_seconds = static_cast<float>(keys["hold_s"]);
     s.generations = static_cast<uint32_t>(keys["generations"]);
     s.debris_share = static_cast<float>(keys["debris_share"]);
+    s.break_share = static_cast<float>(keys["break_share"]);
+    s.break_elements = static_cast<uint32_t>(keys["break_elements"]);
     s.debris_elements = static_cast<uint32_t>(keys["debris_elements"]);
     s.limits = limits;
     return s;
@@ -67,6 +73,12 @@ float Stage::ground_height() const {
     for (const Prop& prop : props)
         if (prop.is_ground) return extent_of(prop.mesh).high.y;
     return 0;
+}
+
+Result<void> Stage::read_materials(const std::string& path) {
+    if (Result<void> read = cullet::read_materials(path, materials); !read.ok() || plan.materials_path.empty())
+        return read;
+    return cullet::read_materials(plan.materials_path, materials);
 }
 
 Result<World*> Stage::stand() {
@@ -89,6 +101,7 @@ Result<uint32_t> Stage::cook(const Mesh& mesh, const CookSettings& settings, boo
     {
         Progress progress(fmt::format("{}: cooking", plan.scene.name));
         CookSettings watched = settings;
+        watched.materials = &materials;
         watched.progress = &Progress::cooked;
         watched.progress_user = &progress;
         // What the project makes by itself is cooked anew by each program: it changes with the project.
@@ -103,6 +116,10 @@ Result<uint32_t> Stage::cook(const Mesh& mesh, const CookSettings& settings, boo
     cooked.look = look->second;
     const ModelReport& report = cooked.model.report();
     if (!report.repairs.empty()) notes.push_back(report.repairs);
+    if (!report.walls.empty()) notes.push_back(report.walls);
+    if (report.inverted_elements + report.crossings > 0)
+        notes.push_back(fmt::format("The published way of generation left {} inverted elements and {} crossings.",
+                                    report.inverted_elements, report.crossings));
     if (!report.advice.empty()) notes.push_back(report.advice);
     if (world) {
         const Result<ModelId> id = world->add_model(cooked.model);

@@ -44,6 +44,7 @@ struct Stage {
     ScenePlan plan;
     Host host;
     Story story;
+    MaterialTable materials;  // --materials, game.materials
     LimitSettings limits;
     Camera camera;
     Sun sun;
@@ -59,6 +60,8 @@ struct Stage {
     bool broke = false;       // something cracked or came off in the last step
     bool takes_mesh = false;  // the script asked for the mesh of --mesh
 
+    /// Adds and changes what the file says; what --materials says has the last word.
+    Result<void> read_materials(const std::string& path);
     /// The world, made with all models cooked so far when it is not there yet.
     Result<World*> stand();
     /// As the keys say now.

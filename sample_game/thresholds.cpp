@@ -3,6 +3,9 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <vector>
+
+#include "engine/fp_mode.hpp"
 
 namespace cullet {
 namespace {
@@ -65,7 +68,7 @@ double follow(double known, Does does) {
 }
 
 /// Counts what it runs.
-struct Blows {
+struct BlowSpeeds {
     HitBench& bench;
     uint32_t placement;
     float step_scale;
@@ -91,7 +94,7 @@ struct Blows {
 
 Thresholds find_thresholds(HitBench& bench, uint32_t placement, double guess) {
     Thresholds found;
-    const Blows blows{bench, placement, 1, found};
+    const BlowSpeeds blows{bench, placement, 1, found};
     found.first_crack = bisect(0.01 * guess, guess, blows.crack());
     found.first_piece = bisect(found.first_crack / kBisectionRatio, 1.4 * found.first_crack, blows.break_off());
     return found;
@@ -99,9 +102,65 @@ Thresholds find_thresholds(HitBench& bench, uint32_t placement, double guess) {
 
 Thresholds follow_thresholds(HitBench& bench, uint32_t placement, float step_scale, const Thresholds& known) {
     Thresholds found;
-    const Blows blows{bench, placement, step_scale, found};
+    const BlowSpeeds blows{bench, placement, step_scale, found};
     found.first_crack = follow(known.first_crack, blows.crack());
     found.first_piece = follow(known.first_piece, blows.break_off());
+    return found;
+}
+
+namespace {
+
+double piece_threshold(HitBench& bench, uint32_t placement, double guess) {
+    Thresholds found;
+    return bisect(0.01 * guess, guess, BlowSpeeds{bench, placement, 1, found}.break_off());
+}
+
+/// Vertices of the bench's shell that are crack tips.
+std::vector<uint32_t> tips_of(HitBench& bench, Row<Shells> row) {
+    const ShellView shell(bench.state(), row);
+    std::vector<uint32_t> tips;
+    for (uint32_t v = 0; v < shell.vertex_count(); ++v)
+        if (shell.state.vertices.crack[shell.vertex(v)] == static_cast<uint8_t>(CrackState::Tip)) tips.push_back(v);
+    return tips;
+}
+
+/// Of these tips those that are tips no more after the blow, because their crack went on. Vertices keep their numbers.
+uint32_t gone_on(HitBench& bench, const HitDescription& hit, const std::vector<uint32_t>& tips) {
+    const FpMode mode;
+    (void)run_hit(bench.state(), bench.shell(), hit);
+    const ShellView shell(bench.state(), bench.state().tasks.shell[Row<Tasks>(0)]);
+    uint32_t count = 0;
+    for (const uint32_t v : tips)
+        count += shell.state.vertices.crack[shell.vertex(v)] != static_cast<uint8_t>(CrackState::Tip);
+    close_hit(bench.state());
+    return count;
+}
+
+}  // namespace
+
+SecondHit find_second_hit(HitBench& bench, uint32_t placement, uint32_t other_placement, double guess) {
+    SecondHit found;
+    bench.renew();
+    const auto blow = [&](double speed) { return bench.blow(placement, static_cast<float>(speed)); };
+    const Thresholds first = find_thresholds(bench, placement, guess);
+    found.first_piece = first.first_piece;
+    found.elsewhere_alone = piece_threshold(bench, other_placement, guess);
+    if (!(first.first_crack < kMostThreshold)) return found;
+    // Whether the body stays whole is not monotone in the speed: the highest of a scan from the first crack on.
+    constexpr double kStep = 1.04, kReach = 2.5;
+    for (double speed = first.first_crack * kBisectionRatio; speed < kReach * first.first_crack; speed *= kStep) {
+        const HitReport report = bench.run(blow(speed));
+        if (!report.broke && report.cracked) found.whole_speed = speed;
+    }
+    if (!(found.whole_speed > 0)) return found;
+    found.cut_edges = bench.run_and_keep_cracks(blow(found.whole_speed)).cuts;
+    const std::vector<uint32_t> tips = tips_of(bench, bench.shell());
+    found.tips = static_cast<uint32_t>(tips.size());
+    found.same_place = piece_threshold(bench, placement, 0.5 * found.whole_speed);
+    found.elsewhere = piece_threshold(bench, other_placement, 0.5 * found.whole_speed);
+    if (found.same_place < kMostThreshold)
+        found.tips_gone_on = gone_on(bench, blow(found.same_place * kBisectionRatio), tips);
+    bench.renew();
     return found;
 }
 

@@ -1,5 +1,6 @@
-// How fast a body must be hit before it cracks, and before a piece comes loose: by bisection, over seeded placements,
-// beside the figures that are to be met.
+// What is to be true of a model: the verification cases of its method (truth_cases.hpp), and how fast a body must be
+// hit before it cracks, and before a piece comes loose: by bisection, over seeded placements, beside the figures to be
+// met.
 #pragma once
 #include <cstdint>
 #include <string>

@@ -9,10 +9,22 @@ inline constexpr uint64_t kUnitsHiddenStep = 5;     // a vertex through one hidd
 inline constexpr uint64_t kUnitsStressCheck = 5;    // a vertex through one stress check, both faces
 inline constexpr uint64_t kUnitsEnergyCheck = 5;    // a vertex
 inline constexpr uint64_t kUnitsContactVertex = 6;  // a patch vertex through one hidden step
-inline constexpr uint64_t kUnitsCut = 15000;     // a cut edge: inserts, splits, about 12 rows; 50 microseconds at most
-inline constexpr uint64_t kUnitsOpen = 220;      // a vertex when a task opens: copy, patches
-inline constexpr uint64_t kUnitsAssemble = 550;  // a vertex of a shell whose stiffness is not assembled yet
-inline constexpr uint64_t kUnitsCompact = 300;   // a live element of a shell that is compacted; 0.6 microseconds
+inline constexpr uint64_t kUnitsCut = 15000;  // a cut edge: inserts, splits, about 12 rows; 50 microseconds at most
+inline constexpr uint64_t kUnitsCutElement = 200;  // an element that a cut of the game looks at, a segment of its line
+inline constexpr uint64_t kUnitsOpen = 220;        // a vertex when a task opens: copy, patches
+inline constexpr uint64_t kUnitsAssemble = 550;    // a vertex of a shell whose stiffness is not assembled yet
+inline constexpr uint64_t kUnitsGrainRow = 3000;   // a row of a material with a grain, rebuilt after a cut
+inline constexpr uint64_t kUnitsCompact = 300;     // a live element of a shell that is compacted; 0.6 microseconds
+
+// Of the quick mode. A spring through one substep is 1; two layers are 4 springs an edge.
+inline constexpr uint64_t kUnitsQuickOpen = 100;  // a vertex of the body when a task opens: copy, marks
+inline constexpr uint64_t kUnitsQuickWake = 900;  // a vertex of the region: flood, springs, lists
+inline constexpr uint64_t kUnitsQuickCut = 2500;  // a cut edge: inserts, splits, springs made anew
+
+// Of soft bodies, measured on scenes tear and steel.
+inline constexpr uint64_t kUnitsSoftTenSprings = 20;  // ten springs of one layer through a substep
+inline constexpr uint64_t kUnitsSoftTenPairs = 45;    // ten edges of two layers
+inline constexpr uint64_t kUnitsSoftFrame = 150;      // a vertex: whom it may meet, its shape at the end
 
 inline constexpr uint32_t kStepsAStressCheck = 3;
 inline constexpr uint32_t kStepsAnEnergyCheck = 64;

@@ -3,26 +3,36 @@
 // (World::create_hosted) has moved the bodies before the frame, and solves after it.
 #include "systems/damage/damage_loop.hpp"
 #include "systems/query/query_index.hpp"
+#include "systems/soft/soft_loop.hpp"
 #include "systems/systems.hpp"
 #include "systems/world_contents.hpp"
 
 namespace cullet {
 
-FramePlan<WorldData> make_frame_plan(bool is_hosted, const std::function<std::string()>& describe_damage_loop) {
+FramePlan<WorldData> make_frame_plan(bool is_hosted, const std::function<std::string()>& describe_damage_loop,
+                                     const std::function<std::string()>& describe_soft_loop) {
     FramePlan<WorldData> plan;
     plan.stage("start").then<remember_poses>();
     if (is_hosted) plan.then<read_rigid>();
-    plan.then<detect_contacts>()
+    plan.then<take_blows>()
+        .then<freeze_soft_bodies>()
+        .then<detect_contacts>()
         .then<predict_impacts>()
         .then<open_tasks>()
         .then<fill_tasks>()
         .then<fill_stiffness>()
-        .then<start_tasks>();
+        .then<start_tasks>()
+        .then<wake_regions>()
+        .then<wake_soft_bodies>();
     plan.stage("damage")
         .then<grant_units>()
         .then<advance_damage>()
         .shows("thick shell, brittle: 300 to 4,000 times a hit, on its own clock", describe_damage_loop)
-        .then<settle_tasks>();
+        .then<advance_soft>()
+        .shows("thick shell, ductile and elastic: 8 to 1,000 times a frame", describe_soft_loop)
+        .then<pass_soft>()
+        .then<settle_tasks>()
+        .then<close_regions>();
     plan.stage("apply")
         .then<find_parts>()
         .then<plan_births>()
@@ -31,9 +41,9 @@ FramePlan<WorldData> make_frame_plan(bool is_hosted, const std::function<std::st
         .then<fill_hulls>()
         .then<make_births>();
     plan.stage("solve");
-    if (!is_hosted) plan.then<solve_rigid>().then<read_rigid>();
+    if (!is_hosted) plan.then<solve_rigid>().then<return_soft>().then<read_rigid>();
     plan.then<fall_debris>();
-    plan.stage("end").then<draw_shells>().then<bound_drawn>().then<refresh_queries>().then<compact_shells>();
+    plan.stage("end").then<show_soft>().then<draw_shells>().then<bound_drawn>().then<refresh_queries>().then<compact_shells>();
     return plan;
 }
 

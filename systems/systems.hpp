@@ -1,6 +1,7 @@
 // Every system of a frame. The parameters of each are all that it sees, ShellTables standing for all tables of shells;
 // frame.cpp gives their order.
 #pragma once
+#include "systems/springs/spring_loop.hpp"
 #include "systems/world_data.hpp"
 
 namespace cullet {
@@ -11,6 +12,11 @@ namespace cullet {
 void remember_poses(Rows<Bodies> bodies, In<&Bodies::position> position, In<&Bodies::orientation> orientation,
                     Out<&Bodies::previous_position> previous_position,
                     Out<&Bodies::previous_orientation> previous_orientation);
+/// Which bodies the blows that the game asked for reach; balls and unbreakable bodies are pushed at once.
+void take_blows(Serial, Blows& blows, ShellTables shells, Bodies& bodies, RigidWorld& rigid, DamageCounts& counts,
+                Events<RefusedEvent>& refused);
+/// Soft bodies that have been quiet long enough are rigid again, in the shape that they have.
+void freeze_soft_bodies(Serial, ShellTables shells, SoftBodies& soft, Bodies& bodies, RigidWorld& rigid, Arena& arena);
 /// Sweeps fast bodies to their time of impact, finds all contacts of this step.
 void detect_contacts(Serial, Step step, RigidWorld& rigid);
 /// Contacts that a breakable body may not survive, sorted by body and speed.
@@ -18,30 +24,50 @@ void predict_impacts(Serial, Step step, const RigidWorld& rigid, const Bodies& b
                      const Tasks& tasks, const TaskContacts& contacts, const DamageSettings& settings,
                      Events<Impact>& impacts);
 /// One damage task a body that was hit: asks the game, takes rows for its working copy. A further hit on a body whose
-/// task is open waits in QueuedHits, and opens one when the body can.
+/// task is open waits in QueuedHits, and opens one when the body can. Blows of the game do as contacts do.
 void open_tasks(Serial, Step step, const Events<Impact>& impacts, ShellTables shells, const Materials& materials,
-                Bodies& bodies, Tasks& tasks, TaskContacts& contacts, QueuedHits& queued,
-                const DamageSettings& settings, DamageCounts& counts, Events<TaskOpened>& opened,
+                Bodies& bodies, Tasks& tasks, TaskContacts& contacts, QueuedHits& queued, Blows& blows,
+                RigidWorld& rigid, const DamageSettings& settings, DamageCounts& counts, Events<TaskOpened>& opened,
                 Events<StiffnessWanted>& stiffness_wanted, Events<ImpactEvent>& impact_events,
                 Events<RefusedEvent>& refused);
+/// Ductile and elastic bodies that something hits hard enough, or that lose what they lay against, begin to move by
+/// their springs.
+void wake_soft_bodies(Serial, Step step, ShellTables shells, const Tasks& tasks, const TaskContacts& contacts,
+                      SoftBodies& soft, Bodies& bodies, RigidWorld& rigid);
 /// Copies the body's shell into the task's.
 void fill_tasks(Each<TaskOpened> opened, ShellTables shells, Tasks& tasks);
 /// Assembles stiffness that the body's shell does not have: a piece that is hit for the first time.
 void fill_stiffness(Each<StiffnessWanted> wanted, ShellTables shells, const Tasks& tasks);
-/// Lays the contact patches, gives every vertex the body's velocity.
+/// Lays the contact patches, gives every vertex the body's velocity and what explosions add. Cuts are made here.
 void start_tasks(Each<TaskOpened> opened, ShellTables shells, Tasks& tasks, TaskContacts& contacts,
-                 PatchVertices& patches);
+                 PatchVertices& patches, Blows& blows);
+
+/// Quick bodies: the springs of the neighbourhood of each hit (quick/region.hpp), at rest as the body sees them.
+void wake_regions(Serial, const Events<TaskOpened>& opened, ShellTables shells, Tasks& tasks, TaskContacts& contacts,
+                  PatchVertices& patches, const Bodies& bodies, Events<RefusedEvent>& refused);
 
 // ---- damage
 
 /// Shares the frame's units: one step to each open task, then equal rounds, in order of (frame of impact, body row).
-void grant_units(Serial, Tasks& tasks, const Shells& shells, const DamageSettings& settings, DamageCounts& counts);
+/// Soft bodies that are awake come first, with up to half of the units: they run on the world's clock.
+void grant_units(Serial, ShellTables shells, Tasks& tasks, SoftBodies& soft, const DamageSettings& settings,
+                 DamageCounts& counts);
 /// Runs the inner loop of each open task for the steps it was granted, on all workers.
 void advance_damage(Serial, DamageLoop& loop);
+/// Runs the springs of each awake body through the frame, on all workers.
+void advance_soft(Serial, Step step, const RigidWorld& rigid, SoftLoop& loop);
+/// What soft bodies gave to what they met, and where they are now, for the rigid world.
+void pass_soft(Serial, Step step, ShellTables shells, SoftBodies& soft, SoftStrikers& strikers, Bodies& bodies,
+               RigidWorld& rigid, DamageCounts& counts, Arena& arena, Events<FaultEvent>& faults);
 /// Holds bodies whose task goes on, releases those whose time is up or whose task ended.
-void settle_tasks(Serial, Step step, Tasks& tasks, TaskContacts& contacts, Bodies& bodies, const Shells& shells,
-                  RigidWorld& rigid, const DamageSettings& settings, DamageCounts& counts, Events<TaskEnded>& ended,
-                  Events<ImpactEvent>& impact_events);
+void settle_tasks(Serial, Step step, Tasks& tasks, TaskContacts& contacts, Blows& blows, Bodies& bodies,
+                  const Shells& shells, RigidWorld& rigid, const DamageSettings& settings, DamageCounts& counts,
+                  Events<TaskEnded>& ended, Events<ImpactEvent>& impact_events);
+
+/// Regions whose run ended fall asleep: vertices get the body's own motion back, springs their rows. What a cut-out
+/// changed goes into the body's shell (quick/cut_out.hpp).
+void close_regions(Serial, const Events<TaskEnded>& ended, ShellTables shells, Tasks& tasks, TaskContacts& contacts,
+                   Fragments& fragments, const Bodies& bodies, Events<CrackStartedEvent>& cracks);
 
 // ---- apply
 
@@ -50,7 +76,7 @@ void find_parts(Each<TaskEnded> ended, ShellTables shells, Tasks& tasks, Fragmen
 /// Which pieces become bodies or crumbs, in order of mass, and the rows that they need. What stayed whole keeps its
 /// cracks. What finds no room stays part of the body, and asks again.
 void plan_births(Serial, const Events<TaskEnded>& ended, ShellTables shells, const Tasks& tasks, Fragments& fragments,
-                 QueuedHits& queued, Bodies& bodies, const Debris& debris, ViewVertices& view_vertices,
+                 QueuedHits& queued, Blows& blows, Bodies& bodies, const Debris& debris, ViewVertices& view_vertices,
                  ViewIndices& view_indices, const DamageSettings& settings, Arena& arena, Events<Break>& breaks,
                  Events<Birth>& births, Events<ShellChanged>& changed, Events<CrackStartedEvent>& cracks,
                  Events<RefusedEvent>& refused, Events<FaultEvent>& faults);
@@ -64,7 +90,7 @@ void fill_hulls(Each<HullWanted> wanted, ShellTables shells, const RigidWorld& r
 /// The pieces enter the rigid world, in order of mass; the striker gets the impulse that it really passed. Closes the
 /// tasks that ended.
 void make_births(Serial, Step step, const Events<TaskEnded>& ended, const Events<Break>& breaks, ShellTables shells,
-                 Tasks& tasks, TaskContacts& contacts, Bodies& bodies, Debris& debris, RigidWorld& rigid,
+                 Tasks& tasks, TaskContacts& contacts, Blows& blows, Bodies& bodies, Debris& debris, RigidWorld& rigid,
                  DamageCounts& counts, Arena& arena, Events<ShellChanged>& changed, Events<FragmentBornEvent>& born,
                  Events<DebrisEvent>& debris_events);
 
@@ -72,6 +98,9 @@ void make_births(Serial, Step step, const Events<TaskEnded>& ended, const Events
 
 /// Solves contacts and moves all bodies, old and new.
 void solve_rigid(Serial, Step step, RigidWorld& rigid);
+/// The rest of what soft bodies gave: bodies that they met have been moved as the run moved them, and now get the
+/// velocity that they had at its end.
+void return_soft(Serial, const SoftBodies& soft, const SoftStrikers& strikers, RigidWorld& rigid);
 /// Poses, velocities and sleep of the rigid world, back into rows.
 void read_rigid(Serial, const RigidWorld& rigid, Bodies& bodies, Events<AsleepEvent>& asleep);
 /// Crumbs fly on parabolas until they meet the floor below their place of birth.
@@ -80,6 +109,9 @@ void fall_debris(Rows<Debris> debris, Step step, InOut<&Debris::position> positi
 
 // ---- end
 
+/// Soft bodies that are awake are drawn anew.
+void show_soft(Serial, ShellTables shells, const SoftBodies& soft, Bodies& bodies, ViewVertices& vertices,
+               ViewIndices& indices, Events<ShellChanged>& changed, Events<RefusedEvent>& refused);
 /// The drawn mesh of each shell that changed.
 void draw_shells(Each<ShellChanged> changed, Step step, ShellTables shells, Bodies& bodies, ViewVertices& vertices,
                  ViewIndices& indices);
@@ -113,7 +145,60 @@ void stress_check(Rows<Elements> elements, OfTask task, ShellTables shells, cons
 /// Starts and advances cracks, one body a call, in order of urgency (C1 to C5).
 void split_vertices(EachBody task, ShellTables shells, Tasks& tasks, TaskContacts& contacts, PatchVertices& patches);
 /// Above 1.05 of the start's energy the run begins again with half the step, at most twice (B7).
-void check_energy(EachBody task, ShellTables shells, const Materials& materials, Tasks& tasks, TaskContacts& contacts,
-                  PatchVertices& patches);
+void check_energy(EachBody task, ShellTables shells, const Materials& materials, const Blows& blows, Tasks& tasks,
+                  TaskContacts& contacts, PatchVertices& patches);
+
+// ---- inner loop of the quick mode: repeated for one task whose region is awake
+
+/// Patch springs, from the places before the step, softened as the region is.
+void push_region_patches(EachBody task, ShellTables shells, Tasks& tasks, const TaskContacts& contacts,
+                         PatchVertices& patches);
+/// integrate_springs, or integrate_layers, for the region's packs.
+void integrate_region(Rows<AwakePacks> packs, OfTask task, Turn turn, ShellTables shells, In<&AwakePacks::pack> pack,
+                      In<&Vertices::probe> position, InOut<&Vertices::velocity> velocity,
+                      Out<&Vertices::probe> next_position, In<&Twins::position> twin_position,
+                      InOut<&Twins::velocity> twin_velocity, Out<&Twins::position> next_twin_position,
+                      InOut<&SpringSlots::slot> slots, InOut<&LayerSlots::slot> layer_slots,
+                      InOut<&SpringPacks::zero_lengths> zero_lengths);
+/// What is held goes back, patches push, strikers move; the run ends after its steps.
+void end_region_step(EachBody task, ShellTables shells, Tasks& tasks, TaskContacts& contacts,
+                     const PatchVertices& patches);
+/// Splits what has stretched too far (C3 to C5, paper mode).
+void split_region(EachBody task, ShellTables shells, Tasks& tasks, TaskContacts& contacts, PatchVertices& patches);
+/// Above 1.05 of the start's energy the run is dropped.
+void check_region_energy(EachBody task, ShellTables shells, Tasks& tasks, TaskContacts& contacts);
+
+// ---- inner loop of springs: repeated for one shell that has them (ductile, quick mode, sheet metal)
+
+/// Area and volume energies of the row, where it has any (B4).
+void press_layers(Rows<SpringPacks> packs, OfSprings springs, Turn turn, ShellTables shells,
+                  In<&Vertices::probe> position, In<&Twins::position> twin_position,
+                  InOut<&Vertices::velocity> velocity, InOut<&Twins::velocity> twin_velocity);
+/// One layer, one fused pass (B3, B6): force, damping from the length kept in the slot, semi-implicit Euler, largest
+/// elongation a vertex.
+void integrate_springs(Rows<SpringPacks> packs, OfSprings springs, Turn turn, ShellTables shells,
+                       In<&Vertices::inverse_mass> inverse_mass, In<&Vertices::probe> position,
+                       InOut<&Vertices::velocity> velocity, Out<&Vertices::probe> next_position,
+                       InOut<&SpringSlots::slot> slots, InOut<&SpringPacks::zero_lengths> zero_lengths);
+/// The same for both layers and what ties them (B5).
+void integrate_layers(Rows<SpringPacks> packs, OfSprings springs, Turn turn, ShellTables shells,
+                      In<&Vertices::probe> position, InOut<&Vertices::velocity> velocity,
+                      Out<&Vertices::probe> next_position, In<&Twins::position> twin_position,
+                      InOut<&Twins::velocity> twin_velocity, Out<&Twins::position> next_twin_position,
+                      InOut<&SpringSlots::slot> slots, InOut<&LayerSlots::slot> layer_slots,
+                      InOut<&SpringPacks::zero_lengths> zero_lengths);
+/// The sides of the positions change places.
+void end_spring_step(EachBody body, OfSprings springs, ShellSprings& own);
+
+// ---- inner loop of a soft body: the systems of springs, and
+
+/// Contacts of the vertices that the springs' step put into a striker, in row order: inelastic impulses with Coulomb friction between
+/// vertices and the strikers' copies.
+void meet_strikers(EachBody soft_body, OfSprings springs, Turn turn, ShellTables shells, SoftBodies& soft,
+                   SoftStrikers& strikers, SoftContacts& contacts);
+/// Springs above yield get longer or shorter for good (6.8).
+void flow_springs(Rows<Springs> rows, OfSprings springs, OfSoft soft_body, ShellTables shells, const SoftBodies& soft);
+/// Springs beyond what they bear: a vertex is split across the most stretched (C1, C3).
+void tear_springs(EachBody soft_body, OfSprings springs, ShellTables shells, SoftBodies& soft);
 
 }  // namespace cullet

@@ -4,6 +4,7 @@
 
 #include "systems/damage/damage_loop.hpp"
 #include "systems/query/query_index.hpp"
+#include "systems/soft/soft_loop.hpp"
 
 namespace cullet {
 namespace {
@@ -38,8 +39,8 @@ WorldData::WorldData(const Settings& settings)
       breaks(settings.limits.bodies + settings.limits.open_hits),
       births(2 * settings.limits.bodies + settings.limits.debris + settings.limits.open_hits),
       hulls_wanted(state.cells.limit()),
-      shells_changed(settings.limits.bodies + settings.limits.open_hits),
-      impact_events(settings.limits.open_hits),
+      shells_changed(2 * settings.limits.bodies + settings.limits.open_hits),
+      impact_events(settings.limits.open_hits + state.blows.limit()),  // one for each blow that joins a task
       crack_events(1u << 14),
       born_events(settings.limits.bodies),
       debris_events(1u << 16),
@@ -51,6 +52,8 @@ WorldData::WorldData(const Settings& settings)
     damage_settings.units_a_frame = settings.units_a_frame;
     damage_settings.hold_seconds = settings.hold_seconds;
     damage_settings.generations = settings.generations;
+    damage_settings.break_share = settings.break_share;
+    damage_settings.break_elements = settings.break_elements;
     damage_settings.debris_share = settings.debris_share;
     damage_settings.debris_elements = settings.debris_elements;
 }

@@ -39,6 +39,7 @@ struct ShellChanged {
 };
 
 struct DamageLoop;
+struct SoftLoop;
 class QueryIndex;
 
 /// What the game set, as the systems read it.
@@ -46,6 +47,8 @@ struct DamageSettings {
     uint64_t units_a_frame = 0;
     float hold_seconds = 0;
     uint32_t generations = 0;
+    float break_share = 0;
+    uint32_t break_elements = 0;
     float debris_share = 0;
     uint32_t debris_elements = 0;
     bool (*allows)(void* user, const ImpactEvent& impact) = nullptr;
@@ -57,6 +60,7 @@ struct DamageCounts {
     uint64_t opened = 0, broke = 0, whole = 0, dropped = 0, redone = 0, late = 0, frames_held = 0, clamped = 0;
     uint64_t cuts = 0, starts = 0, cuts_refused = 0;
     uint64_t units_used = 0, units_left = 0;  // of the last frame
+    uint64_t slow_soft_frames = 0;            // soft bodies that had units for fewer substeps than a frame asks for
     double worst_rounding = 0;                // momentum that hidden runs lost, share of what the body had or got
     double impulse_to_static[3] = {0, 0, 0};  // N s, from damage to floors, pins and kinematic bodies
 };
@@ -71,6 +75,7 @@ struct WorldData {
     DamageCounts counts;
     std::unique_ptr<RigidWorld> rigid;
     std::unique_ptr<DamageLoop> damage_loop;
+    std::unique_ptr<SoftLoop> soft_loop;
     ViewBoxes view_boxes;
     std::unique_ptr<QueryIndex> query_index;
     Arena arena;
@@ -120,6 +125,8 @@ T& WorldData::resource() {
         return *rigid;
     else if constexpr (std::is_same_v<T, DamageLoop>)
         return *damage_loop;
+    else if constexpr (std::is_same_v<T, SoftLoop>)
+        return *soft_loop;
     else if constexpr (std::is_same_v<T, QueryIndex>)
         return *query_index;
     else if constexpr (std::is_same_v<T, Arena>)

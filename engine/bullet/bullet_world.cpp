@@ -138,8 +138,11 @@ Hull* unlink(Hull*& list, const Hull* wanted) {
 
 }  // namespace
 
-// `old_axes` are those that the body's hulls so far stand in.
-void BulletWorld::set_pieces(Body& body, std::span<const ConvexPiece> pieces, float margin, const Quat& old_axes) {
+// `old_frame` is what the body's hulls so far stand in. Those that stay keep their seams, so that the cost of a small
+// change does not go with the body.
+void BulletWorld::set_pieces(Body& body, std::span<const ConvexPiece> pieces, float margin,
+                             const BodyFrame& old_frame) {
+    const Quat old_axes = old_frame.axes;
     Hull* old_hulls = body.hulls;
     body.hulls = nullptr;
     body.hull_count = 0;
@@ -165,11 +168,15 @@ void BulletWorld::set_pieces(Body& body, std::span<const ConvexPiece> pieces, fl
         if (is_made) {
             // It is as it is to be.
         } else if (same) {
-            const Quat& axes = piece.same_body == body.id ? old_axes : bodies_[piece.same_body].frame.axes;
+            const Quat& axes = is_own ? old_axes : bodies_[piece.same_body].frame.axes;
+            bool is_face_inner[kMaxFaces];
+            std::copy_n(same->is_face_inner, kMaxFaces, is_face_inner);
             build_hull_like(*hull, *same, matrix(to_axes * axes), {local, count}, margin, piece.cell);
+            if (is_own) std::copy_n(is_face_inner, kMaxFaces, hull->is_face_inner);
         } else {
             build_hull(*hull, {local, count}, margin, piece.cell);
         }
+        hull->has_seams = is_own;
         hull->ordinal = body.hull_count++;
         hull->next = nullptr;
         *link = hull;
@@ -177,6 +184,8 @@ void BulletWorld::set_pieces(Body& body, std::span<const ConvexPiece> pieces, fl
     }
     for (Hull* hull = old_hulls; hull;) {
         Hull* const next = hull->next;
+        const Vec3 place = rotate(old_axes, hull->local.centre) + old_frame.centre;
+        forget_seams(body, rotate(to_axes, place - body.frame.centre), hull->radius);
         hulls_.give(hull);
         hull = next;
     }
@@ -184,22 +193,45 @@ void BulletWorld::set_pieces(Body& body, std::span<const ConvexPiece> pieces, fl
     measure_body(body);
 }
 
-// Only pieces whose boxes meet can cover a face. Sorted along x by the low ends, ties by order.
+// What a piece that is gone may have covered.
+void BulletWorld::forget_seams(Body& body, Vec3 centre, float radius) {
+    for (Hull* hull = body.hulls; hull; hull = hull->next) {
+        if (length(hull->local.centre - centre) > hull->radius + radius + kSeamRange) continue;
+        hull->has_seams = false;
+        std::fill_n(hull->is_face_inner, kMaxFaces, false);
+    }
+}
+
+// Only pieces whose boxes meet can cover a face. Sorted along x by the low ends, ties by order; where few are new they
+// are held against all. Seams between two pieces that have theirs are known.
 void BulletWorld::mark_seams(Body& body) {
     seams_.clear();
+    size_t new_count = 0;
     for (Hull* hull = body.hulls; hull; hull = hull->next) {
         Box box = empty_box();
         for (uint32_t k = 0; k < hull->point_count; ++k) include(box, hull->local.centre + hull->local[k]);
         seams_.push_back({grown(box, hull->margin + kSeamReach), hull});
+        new_count += !hull->has_seams;
+    }
+    const auto mark = [](const Seam& p, const Seam& q) {
+        if (!overlap(p.box, q.box, 0)) return;
+        mark_inner_faces(*p.hull, *q.hull);
+        mark_inner_faces(*q.hull, *p.hull);
+    };
+    if (8 * new_count < seams_.size()) {
+        for (const Seam& p : seams_) {
+            if (p.hull->has_seams) continue;
+            for (const Seam& q : seams_)
+                if (q.hull->has_seams || q.hull->ordinal > p.hull->ordinal) mark(p, q);
+        }
+        return;
     }
     std::sort(seams_.begin(), seams_.end(), [](const Seam& p, const Seam& q) {
         return p.box.low.x != q.box.low.x ? p.box.low.x < q.box.low.x : p.hull->ordinal < q.hull->ordinal;
     });
     for (size_t k = 0; k < seams_.size(); ++k)
         for (size_t j = k + 1; j < seams_.size() && seams_[j].box.low.x <= seams_[k].box.high.x; ++j) {
-            if (!overlap(seams_[k].box, seams_[j].box, 0)) continue;
-            mark_inner_faces(*seams_[k].hull, *seams_[j].hull);
-            mark_inner_faces(*seams_[j].hull, *seams_[k].hull);
+            if (!seams_[k].hull->has_seams || !seams_[j].hull->has_seams) mark(seams_[k], seams_[j]);
         }
 }
 
@@ -209,12 +241,14 @@ void BulletWorld::measure_body(Body& body) {
     body.reach = 0;
     for (const Hull* hull = body.hulls; hull; hull = hull->next) {
         const Vec3 m{hull->margin, hull->margin, hull->margin};
+        float square = 0;
         for (uint32_t k = 0; k < hull->point_count; ++k) {
             const Vec3 p = hull->local.centre + hull->local[k];
             include(body.local_box, p - m);
             include(body.local_box, p + m);
-            body.reach = std::max(body.reach, length(p) + hull->margin);
+            square = std::max(square, dot(p, p));
         }
+        body.reach = std::max(body.reach, std::sqrt(square) + hull->margin);
         body.thickness = std::min(body.thickness, hull->thickness);
     }
     ++body.shape_changes;
@@ -247,7 +281,7 @@ void BulletWorld::make_bullet(Body& body, const btTransform& at) {
 void BulletWorld::enter(Body& body, const Pose& at, uint32_t layer, uint32_t mask) {
     make_bullet(body, to_bullet(at, body.frame));
     body.is_used = true;
-    body.is_held = false;
+    body.is_held = body.is_soft = false;
     body.is_fast = false;
     body.moved_fraction = 1;
     body.still_seconds = body.slow_seconds = 0;
@@ -275,7 +309,7 @@ void BulletWorld::add_static_triangles(RigidId id, std::span<const Vec3> positio
     auto mesh = std::make_unique<StaticMesh>(sort_static_triangles(positions, triangles));
     std::vector<ConvexPiece> pieces;
     for (const auto& solid : mesh->solids) pieces.push_back({solid, static_cast<uint32_t>(pieces.size())});
-    set_pieces(body, pieces, 0, body.frame.axes);
+    set_pieces(body, pieces, 0, body.frame);
     body.mesh = mesh->triangles.empty() ? nullptr : std::move(mesh);
     enter(body, {}, layer, mask);
 }
@@ -293,9 +327,9 @@ void BulletWorld::add(RigidId id, const RigidDescription& d) {
     const Vec3 origin;
     const ConvexPiece ball{{&origin, 1}, 0};
     if (d.radius > 0)
-        set_pieces(body, {&ball, 1}, d.radius, body.frame.axes);
+        set_pieces(body, {&ball, 1}, d.radius, body.frame);
     else
-        set_pieces(body, d.pieces, d.margin, body.frame.axes);
+        set_pieces(body, d.pieces, d.margin, body.frame);
     body.margin = d.radius > 0 ? d.radius : d.margin;
     enter(body, d.pose, d.layer, d.mask);
     set_motion(id, d.motion);
@@ -361,9 +395,9 @@ void BulletWorld::set_shape(RigidId id, double mass, Vec3d centre, Sym3d inertia
     Motion moving = motion(id);
     const Vec3 shift = rotate(at.orientation, centre.to_float() - body.frame.centre);
     moving.velocity += cross(moving.angular_velocity, shift);
-    const Quat old_axes = body.frame.axes;
+    const BodyFrame old_frame = body.frame;
     set_mass(body, mass, centre, inertia);
-    set_pieces(body, pieces, body.margin, old_axes);
+    set_pieces(body, pieces, body.margin, old_frame);
     btRigidBody& bullet = *body.bullet;
     if (body.kind == RigidKind::Dynamic && !body.is_held) {
         bullet.setMassProps(body.mass, body.moments);
@@ -435,6 +469,7 @@ void BulletWorld::meet(btBroadphasePair& pair) {
         pair.m_algorithm = new (memory) PairAlgorithm(info, id_0, id_1, work_);
     }
     auto& algorithm = *static_cast<PairAlgorithm*>(pair.m_algorithm);
+    if (bodies_[id_0].is_soft || bodies_[id_1].is_soft) return algorithm.forget();
     const auto ignored = find_ignored(id_0, id_1);
     if (ignored != ignored_.end()) {
         if (!ignored->until_apart || !algorithm.is_apart(kPushedApart)) return algorithm.forget();

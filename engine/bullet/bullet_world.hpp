@@ -50,6 +50,13 @@ class BulletWorld final : public RigidWorld {
     bool is_held(RigidId id) const override;
     void skip_contacts(RigidId a, RigidId b) override;
     void ignore_pair(RigidId a, RigidId b, float seconds, bool until_apart) override;
+    void set_soft(RigidId id, bool is_soft) override;
+    bool knows_surfaces() const override { return true; }
+    uint32_t near_bodies(Vec3 low, Vec3 high, std::span<RigidId> out) const override;
+    bool nearest_surface(RigidId id, Vec3 point, float reach, RigidSurface& out) const override;
+    bool is_ignored(RigidId a, RigidId b) const override;
+    bool may_meet(RigidId a, RigidId b) const override;
+    bool is_touched(RigidId id) const override { return is_known(id) && bodies_[id].is_touched; }
     void solve(float dt) override;
     float height_below(Vec3 point, float fallback) const override;
     bool is_asleep(RigidId id) const override;
@@ -78,7 +85,9 @@ class BulletWorld final : public RigidWorld {
     };
 
     bool is_known(RigidId id) const { return id < body_limit_ && bodies_[id].is_used; }
-    void set_pieces(Body& body, std::span<const ConvexPiece> pieces, float margin, const Quat& old_axes);
+    void set_pieces(Body& body, std::span<const ConvexPiece> pieces, float margin,
+                    const BodyFrame& old_frame);
+    void forget_seams(Body& body, Vec3 centre, float radius);
     const Hull* find_same(const ConvexPiece& piece, const Hull* old_hulls, RigidId own, const Hull*& cursor) const;
     void drop_pieces(Body& body);
     Hull* take_shape(const ConvexPiece& piece, const BodyFrame& frame, float margin);

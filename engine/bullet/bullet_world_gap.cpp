@@ -110,11 +110,16 @@ std::vector<IgnoredPair>::iterator BulletWorld::find_ignored(RigidId a, RigidId 
     return found != ignored_.end() && found->a == key.first && found->b == key.second ? found : ignored_.end();
 }
 
-bool BulletWorld::is_apart_by_order(RigidId a, RigidId b) const {
+bool BulletWorld::is_ignored(RigidId a, RigidId b) const {
     const std::pair key(std::min(a, b), std::max(a, b));
     const auto found = std::lower_bound(ignored_.begin(), ignored_.end(), key,
                                         [](const IgnoredPair& p, auto& k) { return std::pair(p.a, p.b) < k; });
-    if (found != ignored_.end() && found->a == key.first && found->b == key.second) return true;
+    return found != ignored_.end() && found->a == key.first && found->b == key.second;
+}
+
+bool BulletWorld::is_apart_by_order(RigidId a, RigidId b) const {
+    const std::pair key(std::min(a, b), std::max(a, b));
+    if (bodies_[a].is_soft || bodies_[b].is_soft || is_ignored(a, b)) return true;
     if (bodies_[a].kind != RigidKind::Dynamic || bodies_[b].kind != RigidKind::Dynamic) return false;
     return std::find(skipped_.begin(), skipped_.end(), key) != skipped_.end();
 }

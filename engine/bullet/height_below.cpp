@@ -18,7 +18,8 @@ float height_of(const StaticTriangle& triangle, Vec3 p, float fallback) {
 }  // namespace
 
 // A convex part of static triangles counts as its bounds, which is exact for level boxes; all else that does not move
-// is passed over. For crumbs, which come to rest on floors and tables.
+// is passed over: a pinned wall's crumb would rest in the air where the wall was. For crumbs, which come to rest on
+// floors and tables.
 float BulletWorld::height_below(Vec3 point, float fallback) const {
     float height = fallback;
     const auto raise = [&](float candidate) {
@@ -26,7 +27,7 @@ float BulletWorld::height_below(Vec3 point, float fallback) const {
     };
     for (RigidId id = 0; id < body_end_; ++id) {
         const Body& body = bodies_[id];
-        if (!body.is_used || body.kind != RigidKind::Static) continue;
+        if (!body.is_used || body.kind != RigidKind::Static || !body.is_level) continue;
         const Box& box = body.shape.box;
         if (point.x < box.low.x || point.x > box.high.x || point.z < box.low.z || point.z > box.high.z) continue;
         for (const Hull* hull = body.hulls; hull; hull = hull->next) {

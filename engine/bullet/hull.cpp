@@ -18,11 +18,25 @@ void set_points(Points& out, std::span<const Vec3> points) {
     }
 }
 
+struct Heights {
+    float low = kFar, high = -kFar;
+};
+
 // The plane of a face stands at the outermost of all points, so that every plane is a bound whatever its normal lost.
-float support_height(const Hull& hull, Vec3 normal) {
-    float height = -kFar;
-    for (uint32_t k = 0; k < hull.point_count; ++k) height = std::max(height, dot(normal, hull.local[k]));
-    return height;
+// Eight lanes do not wait for each other; what repeats the first point changes nothing.
+Heights heights_along(const Hull& hull, Vec3 normal) {
+    constexpr uint32_t kLanes = 8;
+    const Points& p = hull.local;
+    float low[kLanes], high[kLanes];
+    std::fill_n(low, kLanes, kFar);
+    std::fill_n(high, kLanes, -kFar);
+    for (uint32_t k = 0; k < p.count; k += kLanes)
+        for (uint32_t i = 0; i < kLanes; ++i) {
+            const float h = normal.x * p.x[k + i] + normal.y * p.y[k + i] + normal.z * p.z[k + i];
+            low[i] = h < low[i] ? h : low[i];
+            high[i] = h > high[i] ? h : high[i];
+        }
+    return {*std::min_element(low, low + kLanes), *std::max_element(high, high + kLanes)};
 }
 
 // Newell's normal: twice the area vector of a polygon, sound for corners that are nearly in line.
@@ -90,8 +104,9 @@ void set_hull_points(Hull& hull, std::span<const Vec3> points, float margin, uin
 
 void set_heights(Hull& hull) {
     for (uint32_t f = 0; f < hull.face_count; ++f) {
-        hull.face_height[f] = support_height(hull, hull.face_normal[f]);
-        const float width = hull.face_height[f] + support_height(hull, -hull.face_normal[f]) + 2 * hull.margin;
+        const Heights heights = heights_along(hull, hull.face_normal[f]);
+        hull.face_height[f] = heights.high;
+        const float width = heights.high - heights.low + 2 * hull.margin;
         if (dot(hull.face_normal[f], hull.face_normal[f]) > 0.5f) hull.thickness = std::min(hull.thickness, width);
     }
 }
@@ -165,7 +180,7 @@ void build_triangle(Hull& hull, const Vec3 (&corners)[3], uint32_t cell) {
 
 void mark_inner_faces(Hull& hull, const Hull& other) {
     const Vec3 between = other.local.centre - hull.local.centre;
-    if (&hull == &other || length(between) > hull.radius + other.radius + 0.01f || other.face_count < 4) return;
+    if (&hull == &other || length(between) > hull.radius + other.radius + kSeamRange || other.face_count < 4) return;
     // Past the margins of both and half a millimetre more, so that faces which lie on each other count and parallel
     // walls do not.
     const float outside = hull.margin + other.margin + 0.0005f;

@@ -12,6 +12,7 @@ inline constexpr uint32_t kMaxPoints = 32;
 inline constexpr uint32_t kMaxFaces = 2 * kMaxPoints - 4;  // Euler, all faces triangles
 inline constexpr uint32_t kMaxEdges = 3 * kMaxPoints - 6;
 inline constexpr uint32_t kMaxCorners = 2 * kMaxEdges;  // corners of all faces together
+inline constexpr float kSeamRange = 0.01f;              // m between the spheres of two pieces that may cover faces
 
 struct Box {
     Vec3 low, high;
@@ -62,7 +63,8 @@ struct Hull {
     uint16_t first_corner[kMaxFaces + 1];
     uint8_t corner[kMaxCorners];
     HullEdge edge[kMaxEdges];
-    Hull* next = nullptr;  // of the same body, or free
+    bool has_seams = false;  // they are known; scratch of BulletWorld::set_pieces
+    Hull* next = nullptr;    // of the same body, or free
 };
 
 /// Fills everything but world columns and `next`. More than 32 points: the rest is left out. Points in a plane get the

@@ -181,6 +181,7 @@ void flow_body(F& f, Body& b) {
     f.flag(b.is_touched), f.flag(b.is_driven);
     f.number(b.slow_seconds), f.number(b.overlap), f.number(b.pressed_seconds);
     f.flag(b.is_held);
+    f.flag(b.is_soft);
     flow_numbers(f, b.kept.velocity), flow_numbers(f, b.kept.angular_velocity);
     flow_numbers(f, b.anchor);
     f.number(b.still_seconds);

@@ -13,6 +13,7 @@ local side, foot = 0.5, 0.35 -- m; the pane's lower border stands at foot
 local pane = game.cook{
     mesh = game.mesh.pane{side = side, edge = shell.edge},
     material = shell.material,
+    fracture = shell.cracks,
     thickness = shell.thickness,
 }
 game.camera{eye = {0.42, 0.72, 0.92}, target = {0, 0.48, 0}, field_of_view = 0.72}
@@ -42,6 +43,8 @@ game.spawn{
     cooked = pane,
     at = {0, foot, 0},
     strength_scale = shell.strength_scale,
+    fracture = shell.fracture,
+    quick = {layers = shell.layers},
     pins = {
         {low = {-border - out, -out, -out}, high = {border + out, rim, out}},
         {low = {-border - out, side - rim, -out}, high = {border + out, side + out, out}},

@@ -20,6 +20,7 @@ game.at_least{units_a_frame = 100e6}
 local vase = game.cook{
     mesh = game.mesh.given{size = size, stands = true} or game.mesh.vase{height = size, edge = shell.edge},
     material = shell.material,
+    fracture = shell.cracks,
     thickness = shell.thickness,
     edge = shell.edge,
 }
@@ -44,6 +45,8 @@ local function throw_vase()
     game.spawn{
         cooked = vase,
         strength_scale = shell.strength_scale,
+        fracture = shell.fracture,
+        quick = {layers = shell.layers},
         turn = game.any_turn(number),
         pivot = {0, 0.5 * size, 0},
         at = {

@@ -25,6 +25,7 @@ end
 local vase = game.cook{
     mesh = game.mesh.given{size = size, stands = true} or game.mesh.vase{height = size, edge = shell.edge},
     material = shell.material,
+    fracture = shell.cracks,
     thickness = shell.thickness,
     edge = shell.edge,
 }
@@ -34,6 +35,8 @@ game.static{mesh = game.mesh.table{width = 1.2, depth = table_depth, height = ta
 game.spawn{
     cooked = vase,
     strength_scale = shell.strength_scale,
+    fracture = shell.fracture,
+    quick = {layers = shell.layers, crack_length = 1}, -- round the whole vase
     at = middle(),
     pivot = {0, 0.5 * size, 0},
     turn = {axis = {seeded(1), 0.2, seeded(2)}, angle = 0.35 + 0.35 * seeded(3)},

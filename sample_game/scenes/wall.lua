@@ -12,6 +12,7 @@ local mass = game.key{name = "scene.mass_kg", unit = "kg", default = 30, least =
 local wall = game.cook{
     mesh = game.mesh.wall{width = 2.4, height = 1.8, edge = shell.edge},
     material = shell.material,
+    fracture = shell.cracks,
     thickness = shell.thickness,
 }
 game.camera{eye = {1.9, 1.5, 3.0}, target = {-0.05, 0.75, -0.1}, field_of_view = 0.72}
@@ -26,5 +27,7 @@ game.spawn{
     cooked = wall,
     at = {0, 0.002, 0},
     strength_scale = shell.strength_scale,
+    fracture = shell.fracture,
+    quick = {layers = shell.layers},
     pins = {{low = {-2, -0.01, -2 * shell.thickness}, high = {2, 0.25 * shell.edge, 2 * shell.thickness}}},
 }

@@ -6,6 +6,7 @@
 
 #include "engine/math.hpp"
 #include "sample_game/meshes.hpp"
+#include "sample_game/propagation.hpp"
 #include "sample_game/script/arguments.hpp"
 #include "sample_game/script/calls.hpp"
 #include "sample_game/script/script.hpp"
@@ -21,8 +22,45 @@ constexpr const char* kModels = "thick_shell";  // those that this version has
 constexpr uint64_t kWorkABody = 3000, kWorkACook = 10'000;
 constexpr size_t kMostPins = 256;
 
+/// Of game.spawn: how the body breaks, which is no affair of cooking, and not how near to each other cracks start.
+bool names_mode(const Arguments& given) {
+    if (!given.has("fracture")) return false;
+    const std::string name = given.word("fracture", "hidden or quick");
+    return name == "hidden" || name == "quick";
+}
+
+void read_quick(lua_State* lua, const Arguments& given, SpawnSettings& settings) {
+    if (names_mode(given) && given.word("fracture", "hidden or quick") == "quick")
+        settings.fracture = FractureMode::Quick;
+    if (!given.has("quick")) return;
+    given.push("quick");
+    const Arguments quick(lua, "game.spawn.quick",
+                          {"layers", "steps", "crack_frequency", "strain_limit", "compression_limit", "crack_length",
+                           "bump_angle"},
+                          false, lua_gettop(lua));
+    QuickSettings& q = settings.quick;
+    const auto whole = [&](const char* name, const Wanted& wanted, uint32_t otherwise) {
+        return static_cast<uint32_t>(quick.number(name, wanted, otherwise));
+    };
+    q.layers = whole("layers", {"1 or 2", 1, 2}, q.layers);
+    q.steps = whole("steps", {"a whole number from 8 to 100", 8, 100}, q.steps);
+    q.crack_frequency = whole("crack_frequency", {"a whole number from 0 to 1000", 0, 1000}, q.crack_frequency);
+    q.strain_limit = quick.real("strain_limit", {"0, or a stretch up to 1", 0, 1}, q.strain_limit);
+    q.compression_limit = quick.real("compression_limit", {"0, or a number from 1", 0, 1e6}, q.compression_limit);
+    q.crack_length = quick.real("crack_length", {"a number from 0 to 4", 0, 4}, q.crack_length);
+    q.bump_angle = quick.real("bump_angle", {"an angle from 0 to 30 degrees", 0, 30}, q.bump_angle);
+    lua_pop(lua, 1);
+}
+
+FractureKind fracture_of(const Arguments& given) {
+    const std::string name = given.word("fracture", "large, coarse or fine");
+    for (const FractureKind kind : {FractureKind::Large, FractureKind::Coarse, FractureKind::Fine})
+        if (name == name_of(kind)) return kind;
+    given.refuse_value("fracture", "large, coarse or fine");
+}
+
 /// Cooks what the call's table says; the place in Stage::models.
-uint32_t cook_given(lua_State* lua, const Arguments& given) {
+uint32_t cook_given(lua_State* lua, const Arguments& given, bool has_kind) {
     Stage& stage = script_of(lua).act(lua);
     spend(lua, kWorkACook);
     if (stage.models.size() >= stage.limits.models)
@@ -36,7 +74,9 @@ uint32_t cook_given(lua_State* lua, const Arguments& given) {
     given.push("mesh");
     const ScriptMesh& mesh = mesh_at(lua, lua_gettop(lua), "game.cook: mesh");
     CookSettings settings;
-    settings.material = given.word("material", "glass, porcelain, brick or concrete", settings.material);
+    settings.material = given.word("material", stage.materials.names().c_str(), settings.material);
+    if (has_kind) settings.fracture = fracture_of(given);
+    settings.grain = given.vector("grain", {"a direction", -1e6, 1e6}, settings.grain);
     settings.thickness = given.real("thickness", {"a length in m above 0", 1e-6, 10}, 0.005);
     settings.seed = static_cast<uint64_t>(
         given.number("seed", {"a whole number from 0 to 1e15", 0, 1e15}, static_cast<double>(stage.seed())));
@@ -44,6 +84,10 @@ uint32_t cook_given(lua_State* lua, const Arguments& given) {
     // The meshes that the project makes have the edge length asked for: leave them as they are. Strangers' meshes get
     // their longest edges split.
     settings.longest_edge = mesh.has_own_edges ? 100.0f : edge;
+    const std::string way = given.word("propagation", kPropagations, name_of(settings.propagation));
+    if (!find_propagation(way, settings.propagation))
+        given.refuse(fmt::format("propagation is \"{}\"; expected {}", way, kPropagations));
+    settings.joins_walls = given.is("join_walls", settings.joins_walls);
     const Result<uint32_t> cooked = stage.cook(mesh.mesh, settings, !mesh.has_own_edges);
     if (!cooked.ok()) given.refuse(cooked.error());
     lua_pop(lua, 1);
@@ -51,8 +95,10 @@ uint32_t cook_given(lua_State* lua, const Arguments& given) {
 }
 
 int cook_model(lua_State* lua) {
-    const Arguments given(lua, "game.cook", {"mesh", "model", "material", "thickness", "edge", "seed"});
-    const uint32_t cooked = cook_given(lua, given);
+    const Arguments given(
+        lua, "game.cook",
+        {"mesh", "model", "material", "fracture", "grain", "thickness", "edge", "seed", "propagation", "join_walls"});
+    const uint32_t cooked = cook_given(lua, given, given.has("fracture"));
     *static_cast<uint32_t*>(lua_newuserdatauv(lua, sizeof(uint32_t), 0)) = cooked;
     luaL_setmetatable(lua, kCookedName);
     return 1;
@@ -98,22 +144,27 @@ Pose pose_of(const Arguments& given) {
 
 int spawn(lua_State* lua) {
     script_of(lua).act(lua);
-    const Arguments given(lua, "game.spawn",
-                          {"mesh", "cooked", "model", "material", "thickness", "edge", "seed", "at", "turn", "pivot",
-                           "velocity", "spin", "friction", "restitution", "strength_scale", "breakable", "pins"});
+    const Arguments given(
+        lua, "game.spawn",
+        {"mesh",     "cooked",      "model",          "material",  "fracture", "grain", "thickness", "edge",
+         "seed",     "propagation", "join_walls",     "at",        "turn",     "pivot", "velocity",  "spin",
+         "friction", "restitution", "strength_scale", "breakable", "pins", "quick"});
     if (given.has("mesh") == given.has("cooked"))
         given.refuse("expected either mesh = game.mesh..., or cooked = what game.cook returned");
     uint32_t model = 0;
     if (given.has("cooked")) {
-        for (const char* name : {"model", "material", "thickness", "edge", "seed"})
-            if (given.has(name)) given.refuse(fmt::format("{} belongs to game.cook, beside its mesh", name));
+        for (const char* name :
+             {"model", "material", "fracture", "grain", "thickness", "edge", "seed", "propagation", "join_walls"})
+            if (given.has(name) && !(std::string(name) == "fracture" && names_mode(given)))
+                given.refuse(fmt::format("{} belongs to game.cook, beside its mesh", name));
         given.push("cooked");
         model = cooked_at(lua, lua_gettop(lua), "game.spawn: cooked");
         lua_pop(lua, 1);
     } else {
-        model = cook_given(lua, given);
+        model = cook_given(lua, given, given.has("fracture") && !names_mode(given));
     }
     SpawnSettings settings;
+    read_quick(lua, given, settings);
     settings.pose = pose_of(given);
     settings.motion = given.motion();
     settings.contact = given.contact();
@@ -327,6 +378,7 @@ void open_bodies(lua_State* lua) {
                                            {"remove", body_remove},       {nullptr, nullptr}};
     lua_newtable(lua);
     add_calls(lua, methods);
+    open_body_blows(lua);
     guard_names(lua, "body:");
     lua_setfield(lua, -2, "__index");
     lua_pop(lua, 1);

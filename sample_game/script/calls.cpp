@@ -71,6 +71,7 @@ void open_calls(lua_State* lua) {
     open_declarations(lua);
     open_meshes(lua);
     open_bodies(lua);
+    open_blows(lua);
     open_surroundings(lua);
     open_queries(lua);
     lua_setglobal(lua, "game");

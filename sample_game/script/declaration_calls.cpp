@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <cmath>
+#include <filesystem>
 #include <lua.hpp>
 
 #include "sample_game/script/arguments.hpp"
@@ -12,7 +13,8 @@
 namespace cullet {
 namespace {
 
-constexpr size_t kMostKeys = 256;  // each look-up goes through all
+constexpr size_t kMostKeys = 256;         // each look-up goes through all
+constexpr uint64_t kWorkAFile = 200'000;  // instructions, as a mesh file
 constexpr Wanted kAny{"a number", -HUGE_VAL, HUGE_VAL};
 
 /// Refuses a declaration that comes after something was done.
@@ -78,27 +80,50 @@ int key(lua_State* lua) {
     return 1;
 }
 
+/// Rows that the file adds and changes; its path starts at the script's folder.
+int materials(lua_State* lua) {
+    story_of(lua, "game.materials");
+    if (lua_type(lua, 1) != LUA_TSTRING)
+        refuse(lua, fmt::format("game.materials: given {}; expected the path of a TOML file", describe(lua, 1)));
+    spend(lua, kWorkAFile);
+    Stage& stage = script_of(lua).stage();
+    const std::filesystem::path path = lua_tostring(lua, 1);
+    const Result<void> read =
+        stage.read_materials((std::filesystem::path(stage.plan.scene.file).parent_path() / path).string());
+    if (!read.ok()) refuse(lua, "game.materials: " + read.error());
+    return 0;
+}
+
 /// What every scene asks about the thing that breaks in it.
 int shell_keys(lua_State* lua) {
     Keys& keys = story_of(lua, "game.shell_keys").keys;
-    const Arguments given(lua, "game.shell_keys", {"material", "thickness", "edge"});
+    const Arguments given(lua, "game.shell_keys", {"material", "thickness", "edge", "fracture"});
     if (keys.has("scene.material")) given.refuse("these keys are there already");
     const std::string material = given.word("material", "a material", "porcelain");
-    keys.word("scene.material", material, "glass, porcelain, brick, concrete", "what breaks")
+    const std::string materials = script_of(lua).stage().materials.names();
+    keys.word("scene.material", material, materials, "what breaks")
         .number("scene.thickness_m", "m", given.number("thickness", {"a length in m from 0.0001 to 1", 1e-4, 1}, 0.005),
                 1e-4, 1, "of the shell")
         .number("scene.edge_m", "m", given.number("edge", {"a length in m from 0 to 1", 0, 1}, 0), 0, 1,
                 "edge length of the mesh; 0: what cooking chooses")
-        .number("scene.strength_scale", "1", 1, 1e-3, HUGE_VAL, "on the material's strength; inf never cracks");
-    if (!keys.set("scene.material=" + material).ok())
-        given.refuse_value("material", "one of glass, porcelain, brick, concrete");
+        .number("scene.strength_scale", "1", 1, 1e-3, HUGE_VAL, "on the material's strength; inf never cracks")
+        .word("scene.fracture", "hidden", "hidden, quick", "hidden: exact, over some frames; quick: near the hit, at once")
+        .word("scene.cracks", "own", "own, fine, coarse, large", "the kind of fracture; own: the material's")
+        .number("scene.layers", "1", 1, 1, 2, "of springs, in quick fracture; 2 feel the wall bend");
+    if (!keys.set("scene.material=" + material).ok()) given.refuse_value("material", "one of " + materials);
+    if (!keys.set("scene.fracture=" + given.word("fracture", "hidden or quick", "hidden")).ok())
+        given.refuse_value("fracture", "hidden or quick");
     lua_newtable(lua);
     const std::pair<const char*, const char*> names[] = {{"scene.material", "material"},
                                                          {"scene.thickness_m", "thickness"},
                                                          {"scene.edge_m", "edge"},
-                                                         {"scene.strength_scale", "strength_scale"}};
+                                                         {"scene.strength_scale", "strength_scale"},
+                                                         {"scene.fracture", "fracture"},
+                                                         {"scene.cracks", "cracks"},
+                                                         {"scene.layers", "layers"}};
     for (const auto& [name, short_name] : names) {
         script_of(lua).apply_set(lua, name);
+        if (std::string(name) == "scene.cracks" && keys.word_of(name) == "own") continue;  // nil: nothing is given
         push_key(lua, keys, name);
         lua_setfield(lua, -2, short_name);
     }
@@ -129,8 +154,9 @@ void set_limits(lua_State* lua, const Arguments& given, LimitSettings& limits) {
     lua_pop(lua, 1);
 }
 
-constexpr std::initializer_list<const char*> kSettings = {
-    "units_a_frame", "hold_s", "generations", "debris_share", "debris_elements", "gravity_mps2", "limits"};
+constexpr std::initializer_list<const char*> kSettings = {"units_a_frame",   "hold_s",         "generations",
+                                                          "break_share",     "break_elements", "debris_share",
+                                                          "debris_elements", "gravity_mps2",   "limits"};
 
 Stage& stage_without_world(lua_State* lua, const char* call) {
     Stage& stage = script_of(lua).stage();
@@ -193,9 +219,9 @@ int fit_budget(lua_State* lua) {
 }  // namespace
 
 void open_declarations(lua_State* lua) {
-    static constexpr luaL_Reg calls[] = {{"scene", scene},     {"key", key},           {"shell_keys", shell_keys},
-                                         {"setting", setting}, {"at_least", at_least}, {"fit_budget", fit_budget},
-                                         {nullptr, nullptr}};
+    static constexpr luaL_Reg calls[] = {{"scene", scene},         {"key", key},           {"shell_keys", shell_keys},
+                                         {"setting", setting},     {"at_least", at_least}, {"fit_budget", fit_budget},
+                                         {"materials", materials}, {nullptr, nullptr}};
     add_calls(lua, calls);
 }
 

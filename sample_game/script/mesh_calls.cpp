@@ -69,6 +69,39 @@ int pane(lua_State* lua) {
     return made(lua, make_pane(given.real("side", kSide, 0.5), given.real("edge", kEdge, 0.010), seed_of(lua, given)));
 }
 
+constexpr Wanted kVertices{"a whole number of vertices from 500 to 200000", 500, 200'000};
+
+template <class Make>
+int counted_mesh(lua_State* lua, const char* call, const char* side, double usual_side, double usual_vertices,
+                 uint64_t work, Make make) {
+    script_of(lua).act(lua);
+    const Arguments given(lua, call, {side, "vertices", "seed"}, true);
+    spend(lua, work);
+    const auto vertices = static_cast<uint32_t>(given.number("vertices", kVertices, usual_vertices));
+    return made(lua, make(given.real(side, kSide, usual_side), vertices, seed_of(lua, given)));
+}
+
+int pig(lua_State* lua) {
+    return counted_mesh(lua, "game.mesh.pig", "length", 0.5, 3500, kWorkAFigure, make_pig);
+}
+
+int cow(lua_State* lua) {
+    return counted_mesh(lua, "game.mesh.cow", "length", 0.6, 3000, kWorkAFigure, make_cow);
+}
+
+int castle(lua_State* lua) {
+    return counted_mesh(lua, "game.mesh.castle", "width", 3, 6500, kWorkAFile, make_castle);
+}
+
+int slab(lua_State* lua) {
+    script_of(lua).act(lua);
+    const Arguments given(lua, "game.mesh.slab", {"width", "height", "thickness", "vertices", "seed"}, true);
+    const Vec3 size{given.real("width", kSide, 2.4), given.real("height", kSide, 1.8),
+                    given.real("thickness", kSide, 0.1)};
+    return made(lua,
+                make_slab(size, static_cast<uint32_t>(given.number("vertices", kVertices, 600)), seed_of(lua, given)));
+}
+
 int ball(lua_State* lua) {
     script_of(lua).act(lua);
     const Arguments given(lua, "game.mesh.ball", {"radius", "subdivisions"});
@@ -96,7 +129,8 @@ int imported(lua_State* lua, const Arguments& given, const std::string& path) {
     if (!mesh.ok()) given.refuse(mesh.error());
     const bool has_extent = fit(*mesh, given.real("size", kSide, 0.4));
     if (!has_extent) given.refuse(path + ": all of its points lie on one spot; give a mesh with an extent");
-    if (given.is("stands", false)) *mesh = moved(std::move(*mesh), {0, -extent_of(*mesh).low.y, 0});
+    const float low = extent_of(*mesh).low.y;  // before the mesh moves on: arguments have no order
+    if (given.is("stands", false)) *mesh = moved(std::move(*mesh), {0, -low, 0});
     mesh->name = std::filesystem::absolute(path).string();  // as sentences name it
     if (mesh->name.size() > kLongestMeshName) mesh->name = "..." + mesh->name.substr(mesh->name.size() - 240);
     push_mesh(lua, {std::move(mesh).value(), false});
@@ -180,8 +214,9 @@ void open_meshes(lua_State* lua) {
     lua_setfield(lua, -2, "__index");
     lua_pop(lua, 1);
     static constexpr luaL_Reg calls[] = {
-        {"vase", vase}, {"piggy_bank", piggy_bank}, {"wall", wall},        {"pane", pane}, {"ball", ball},
-        {"box", box},   {"table", table},           {"given", given_mesh}, {"file", file}, {nullptr, nullptr}};
+        {"vase", vase},   {"piggy_bank", piggy_bank}, {"wall", wall}, {"pane", pane},    {"pig", pig},
+        {"cow", cow},     {"castle", castle},         {"slab", slab}, {"ball", ball},    {"box", box},
+        {"table", table}, {"given", given_mesh},      {"file", file}, {nullptr, nullptr}};
     lua_newtable(lua);
     add_calls(lua, calls);
     guard_names(lua, "game.mesh.");

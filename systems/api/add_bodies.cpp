@@ -5,11 +5,16 @@
 #include "systems/api/checks.hpp"
 #include "systems/api/model_row.hpp"
 #include "systems/cook/apply_pins.hpp"
+#include "systems/cook/materials.hpp"
+#include "systems/damage/working_room.hpp"
 #include "systems/fragments/body_rows.hpp"
 #include "systems/fragments/rigid_shape.hpp"
+#include "systems/quick/calibrate.hpp"
+#include "systems/quick/cut_out.hpp"
 #include "systems/query/bound_drawn.hpp"
 #include "systems/query/query_index.hpp"
 #include "systems/rigid/body_id.hpp"
+#include "systems/soft/soft_body.hpp"
 #include "systems/view/draw_shell.hpp"
 #include "systems/world_contents.hpp"
 
@@ -58,20 +63,63 @@ constexpr float kPlainFriction = 0.45f;
 // From here on nothing cracks; columns hold no infinity.
 constexpr float kNeverCracks = 1e9f;
 
+uint32_t pin(const ShellView& shell, const SpawnSettings& settings) {
+    uint32_t pinned = 0;
+    for (uint32_t i = 0; i < settings.pin_count; ++i)
+        pinned += apply_pins(shell, settings.pins[i].low, settings.pins[i].high);
+    return pinned;
+}
+
+Error no_pinned(const SpawnSettings& settings) {
+    return Error{"no vertex lies in any of the " + std::to_string(settings.pin_count) +
+                 " pin boxes; they are in body coordinates, in metres."};
+}
+
+// A shell of the body's own, as springs need it.
+Result<Row<Shells>> soft_copy(State& state, Row<Shells> source, const SpawnSettings& settings) {
+    const char* full = "";
+    const Row<Shells> copy = copy_soft_shell(state, source, &full);
+    if (!copy.exists()) return Error{std::string("no room for a ductile or elastic body; raise ") + full + "."};
+    if (settings.pin_count > 0 && pin(ShellView(state, copy), settings) == 0) {
+        release_shell(state, copy);
+        return no_pinned(settings);
+    }
+    return copy;
+}
+
+// Large quick bodies have a shell of their own from the start: what a hit changes is written into it (cut_out.hpp).
+bool wants_own_shell(const State& state, Row<Shells> source, const SpawnSettings& settings) {
+    return settings.fracture == FractureMode::Quick && state.shells.vertices[source].count > kWholeCopyVertices;
+}
+
+// Rows of a body's own shell; of a large quick one with those that cracks will add.
+ShellRoom own_room(State& state, Row<Shells> source, const SpawnSettings& settings) {
+    ShellRoom room = room_of(state, source);
+    if (!wants_own_shell(state, source, settings)) return room;
+    const ShellRoom quick = quick_room(ShellView(state, source));
+    room.vertices = quick.vertices, room.elements = quick.elements, room.hinges = quick.hinges;
+    return room;
+}
+
+Result<Row<Shells>> own_copy(State& state, Row<Shells> source, const SpawnSettings& settings) {
+    const char* full = "";
+    ShellRoom room = own_room(state, source, settings);
+    room.blocks = room.links = 0;
+    const Row<Shells> copy = copy_shell(state, source, room, &full);
+    if (!copy.exists()) return Error{std::string("no room for a large body that breaks quickly; raise ") + full + "."};
+    return copy;
+}
+
 // A shell of the body's own with these vertices pinned, its limits and rows made anew (B7: pins change what an unpinned
 // item is).
 Result<Row<Shells>> pinned_copy(State& state, Row<Shells> source, const SpawnSettings& settings) {
     const char* full = "";
-    const Row<Shells> copy = copy_shell(state, source, room_of(state, source), &full);
+    const Row<Shells> copy = copy_shell(state, source, own_room(state, source, settings), &full);
     if (!copy.exists()) return Error{std::string("no room for a pinned body; raise ") + full + "."};
     const ShellView shell(state, copy);
-    uint32_t pinned = 0;
-    for (uint32_t i = 0; i < settings.pin_count; ++i)
-        pinned += apply_pins(shell, settings.pins[i].low, settings.pins[i].high);
-    if (pinned == 0) {
+    if (pin(shell, settings) == 0) {
         release_shell(state, copy);
-        return Error{"no vertex lies in any of the " + std::to_string(settings.pin_count) +
-                     " pin boxes; they are in body coordinates, in metres."};
+        return no_pinned(settings);
     }
     if (!stiffen_pinned(shell)) {
         release_shell(state, copy);
@@ -95,11 +143,20 @@ Result<BodyId> World::spawn(ModelId id, const SpawnSettings& settings) {
         return Error{"strength_scale is " + std::to_string(settings.strength_scale) + "; use more than 0."};
     if (settings.pin_count > 0 && !settings.pins)
         return Error{"pin_count is " + std::to_string(settings.pin_count) + " but pins is null; give the boxes."};
+    if (const Result<void> valid = check_fracture(settings.fracture, settings.quick); !valid)
+        return Error{valid.error()};
     Row<Shells> shell = state.models.shell[model];
-    if (settings.pin_count > 0) {
-        Result<Row<Shells>> pinned = pinned_copy(state, shell, settings);
-        if (!pinned) return Error{pinned.error()};
-        shell = pinned.value();
+    const bool is_brittle = material_traits(state, state.shells.material[shell]).kind == MaterialKind::Brittle;
+    // What never gives way needs no springs.
+    const bool is_soft =
+        !is_brittle && settings.is_breakable && settings.strength_scale < kNeverCracks && d.rigid->knows_surfaces();
+    const bool is_large = wants_own_shell(state, shell, settings);
+    if (is_soft || settings.pin_count > 0 || is_large) {
+        Result<Row<Shells>> own = is_soft                  ? soft_copy(state, shell, settings)
+                                  : settings.pin_count > 0 ? pinned_copy(state, shell, settings)
+                                                           : own_copy(state, shell, settings);
+        if (!own) return Error{own.error()};
+        shell = own.value();
     } else {
         ++state.shells.users[shell];
     }
@@ -122,9 +179,25 @@ Result<BodyId> World::spawn(ModelId id, const SpawnSettings& settings) {
     bodies.model[body] = model;
     bodies.has_pins[body] = is_static;
     bodies.strength_scale[body] = std::min(settings.strength_scale, kNeverCracks);
-    bodies.is_breakable[body] = settings.is_breakable && settings.strength_scale < kNeverCracks;
-    if (bodies.is_breakable[body]) d.make_ready(room_of(state, shell));
+    bodies.is_breakable[body] = settings.is_breakable && settings.strength_scale < kNeverCracks && is_brittle;
+    QuickSettings quick = settings.quick;
+    if (settings.fracture == FractureMode::Quick && bodies.is_breakable[body] && quick.strain_limit == 0)
+        quick.strain_limit = calibrated_strain_limit(state, shell, quick, state.shells.first_crack_speed[shell]);
+    set_fracture(state, body, settings.fracture, quick);
+    if (bodies.is_breakable[body]) {
+        const ShellView view(state, shell);
+        d.make_ready(is_quick_body(state, body) ? quick_room(view) : working_room(view));
+    }
     take_mass_properties(state, body);
+    if (is_soft) {
+        const Result<Row<SoftBodies>> soft =
+            make_soft(state, body, d.step_info.dt, d.damage_settings.units_a_frame);
+        if (!soft) {
+            free_body(state, body);
+            return Error{soft.error()};
+        }
+        d.make_ready(room_of(state, shell));
+    }
     d.arena.reset();
     d.rigid->add(body, describe_rigid(state, body, convex_pieces(state, shell, d.arena)));
     draw_body(state, body);

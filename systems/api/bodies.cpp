@@ -3,6 +3,7 @@
 #include "systems/api/checks.hpp"
 #include "systems/query/query_index.hpp"
 #include "systems/rigid/body_id.hpp"
+#include "systems/soft/soft_body.hpp"
 #include "systems/world_contents.hpp"
 
 namespace cullet {
@@ -78,6 +79,7 @@ Result<void> World::set_pose(BodyId id, const Pose& pose) {
     bodies.previous_position.set(body, unit.position);
     bodies.previous_orientation[body] = unit.orientation;
     d.rigid->set_pose(body, unit);
+    follow_body(d.state, body);
     d.query_index->touch(bodies, body);
     wake_body(d, body);
     return {};
@@ -96,6 +98,7 @@ Result<void> World::set_motion(BodyId id, const Motion& motion) {
     d.state.bodies.velocity.set(body, motion.velocity);
     d.state.bodies.spin.set(body, motion.angular_velocity);
     d.rigid->set_motion(body, motion);
+    follow_body(d.state, body);
     wake_body(d, body);
     return {};
 }

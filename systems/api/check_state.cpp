@@ -4,7 +4,11 @@
 
 #include "systems/api/snapshot.hpp"
 #include "systems/cook/check_shell_rows.hpp"
+#include "systems/cook/materials.hpp"
 #include "systems/damage/working_room.hpp"
+#include "systems/quick/check_quick.hpp"
+#include "systems/quick/cut_out.hpp"
+#include "systems/springs/check_springs.hpp"
 
 namespace cullet {
 namespace {
@@ -93,6 +97,20 @@ void check_ranges(Checker& check) {
     of_shells(s.stiffness_links, s.pools.links, shells.links);
     of_shells(s.cells, s.pools.cells, shells.cells);
     of_shells(s.hull_points, s.pools.points, shells.points);
+    const ShellSprings& springs = s.shell_springs;
+    const auto of_springs = [&](const AnyTable& table, const RangePool& pool, const Column<Range>& column) {
+        RangeCheck ranges(check, table, pool);
+        for (uint32_t row = 0; row < springs.size(); ++row)
+            if (springs.is_used[row]) ranges.add("springs", row, column[row]);
+        ranges.finish();
+    };
+    of_springs(s.springs, s.pools.springs, springs.springs);
+    of_springs(s.layer_springs, s.pools.layer_springs, springs.layers);
+    of_springs(s.element_springs, s.pools.element_springs, springs.edges);
+    of_springs(s.spring_packs, s.pools.spring_packs, springs.packs);
+    of_springs(s.spring_slots, s.pools.spring_slots, springs.slots);
+    of_springs(s.layer_slots, s.pools.layer_slots, springs.layer_slots);
+    of_springs(s.twins, s.pools.twins, springs.twins);
     const auto of_bodies = [&](const AnyTable& table, const RangePool& pool, const Column<Range>& column) {
         RangeCheck ranges(check, table, pool);
         for (uint32_t b = 0; b < s.bodies.size(); ++b)
@@ -223,7 +241,7 @@ void check_tasks(Checker& check) {
         check.expect(s.bodies.shell[body] == tasks.source[t],
                      Checker::place(tasks, "source", t) + " is " + std::to_string(tasks.source[t].index) +
                          ", not the shell of its body " + std::to_string(body.index));
-        check.expect(s.shells.packs[tasks.shell[t]].count > 0, Checker::place(tasks, "shell", t) + " has no stiffness");
+        check.expect(is_quick_task(s, t) || s.shells.packs[tasks.shell[t]].count > 0, Checker::place(tasks, "shell", t) + " has no stiffness");
         check.expect_flag(tasks, tasks.is_held, "is_held", t);
         check.expect_flag(tasks, tasks.is_late, "is_late", t);
         check_length(check, t);
@@ -239,6 +257,70 @@ void check_tasks(Checker& check) {
                      Checker::place(queued, "striker", q) + " is no body");
     }
     for (uint32_t d = 0; d < s.debris.size(); ++d) check.expect_flag(s.debris, s.debris.is_used, "is_used", d);
+}
+
+/// Kinds, bodies and tasks that are there; numbers that a call would have refused are not followed.
+void check_blows(Checker& check) {
+    const State& s = check.state;
+    const Blows& blows = s.blows;
+    for (uint32_t b = 0; b < blows.size() && check.is_sound(); ++b) {
+        const auto kind = static_cast<BlowKind>(blows.kind[b]);
+        check.expect(kind == BlowKind::Push || kind == BlowKind::Explosion || kind == BlowKind::Cut,
+                     Checker::place(blows, "kind", b) + " is " + std::to_string(blows.kind[b]));
+        for (const auto* flag : {&blows.is_taken, &blows.is_paid, &blows.goes_on})
+            check.expect_flag(blows, *flag, "is_taken, is_paid or goes_on", b);
+        const uint32_t body = blows.body[b];
+        const bool is_for_all = body == kNone && kind != BlowKind::Push && !blows.is_taken[b];
+        const bool has_shell = is_body(s, body) && s.bodies.shell[body].exists();
+        const bool may_lack_shell = is_body(s, body) && kind == BlowKind::Push && !blows.is_taken[b];
+        check.expect(is_for_all || has_shell || may_lack_shell,
+                     Checker::place(blows, "body", b) + " is " + std::to_string(body) + ", which it cannot hit");
+        const uint32_t task = blows.task[b];
+        check.expect(
+            task == kNone ||
+                (is_task(s, task) && s.tasks.body[task] == body && blows.is_taken[b] && kind != BlowKind::Cut),
+            Checker::place(blows, "task", b) + " is " + std::to_string(task) + ", not an open task of its body");
+        check.expect(blows.point_count[b] <= kMostCutPoints && blows.point_count[b] != 1,
+                     Checker::place(blows, "point_count", b) + " is " + std::to_string(blows.point_count[b]));
+        const float unit = length(blows.direction[b]);
+        const bool is_unit = kind == BlowKind::Explosion || (unit > 0.99f && unit < 1.01f);
+        check.expect(is_unit && blows.radius[b] >= 0 && blows.inverse_mass[b] >= 0 && blows.speed[b] >= 0,
+                     Checker::place(blows, "direction", b) + " or a number beside it is out of range");
+        check.expect(kind != BlowKind::Explosion || blows.radius[b] > 0,
+                     Checker::place(blows, "radius", b) + " is " + std::to_string(blows.radius[b]));
+    }
+}
+
+/// Rows of bodies that have springs, one a body; those that are awake have all that a frame follows.
+void check_soft(Checker& check) {
+    const State& s = check.state;
+    const SoftBodies& soft = s.soft_bodies;
+    check.expect(s.soft_strikers.size() == kMostStrikers * soft.size(),
+                 "soft_strikers and soft_bodies do not fit each other in rows");
+    std::vector<uint8_t> has_row(s.bodies.size(), 0);
+    for (uint32_t row = 0; row < soft.size() && check.is_sound(); ++row) {
+        for (const auto* flag : {&soft.is_used, &soft.is_awake, &soft.is_called, &soft.is_elastic, &soft.is_torn,
+                                 &soft.is_moved})
+            check.expect_flag(soft, *flag, "is_used, is_awake, is_called, is_elastic, is_torn or is_moved", row);
+        check.expect(soft.is_used[row] || !(soft.is_awake[row] || soft.is_torn[row]),
+                     Checker::place(soft, "is_awake", row) + " or is_torn is set in a free row");
+        if (!soft.is_used[row] || !check.is_sound()) continue;
+        const uint32_t body = soft.body[row];
+        const bool fits = is_body(s, body) && s.bodies.shell[body].exists() && is_shell(s, s.bodies.shell[body]) &&
+                          find_springs(s, s.bodies.shell[body]).exists() && !has_row[body]++;
+        if (!check.expect(fits, Checker::place(soft, "body", row) + " is " + std::to_string(body) +
+                                    ", no body with springs of its own"))
+            return;
+        const Range vertices = s.shells.vertices[s.bodies.shell[body]];
+        check.expect(first_contact_row(vertices.first + vertices.capacity) <= s.soft_contacts.size(),
+                     Checker::place(soft, "body", row) + " has no rows for contacts");
+        check.expect(soft.substeps[row] >= 1 && soft.substeps[row] <= 1000,
+                     Checker::place(soft, "substeps", row) + " is " + std::to_string(soft.substeps[row]));
+        check.expect(soft.drag_time[row] > 0 && soft.break_strain[row] > 0 && soft.yield_strain[row] >= 0,
+                     Checker::place(soft, "drag_time", row) + ", break_strain or yield_strain is out of range");
+        check.expect(soft.partner_count[row] <= kMostPartners,
+                     Checker::place(soft, "partner_count", row) + " is " + std::to_string(soft.partner_count[row]));
+    }
 }
 
 /// Shells are given back when their last user goes: the count must be true.
@@ -260,15 +342,23 @@ void check_users(Checker& check) {
                                                             std::to_string(users[row]) + " name the shell");
 }
 
+bool is_cut_out_shell(const State& s, uint32_t shell) {
+    for (uint32_t t = 0; t < s.tasks.size(); ++t)
+        if (is_task(s, t) && s.tasks.shell[t] == shell && is_cut_out(s, t)) return true;
+    return false;
+}
+
 }  // namespace
 
 Result<void> check_state(const State& state, const std::string& name) {
     Checker check{state, name, {}};
     const std::string not_finite = state.validate();
     check.expect(not_finite.empty(), not_finite);
-    for (auto* look : {check_ranges, check_models, check_tasks, check_bodies, check_users})
+    for (auto* look : {check_ranges, check_models, check_tasks, check_bodies, check_blows, check_users, check_soft})
         if (check.is_sound()) look(check);
     if (!check.is_sound()) return Error{check.trouble};
+    if (const Result<void> valid = check_material_rows(state); !valid)
+        return Error{name + ": " + valid.error() + " " + kAdvice};
     auto& rows = const_cast<State&>(state);  // views are of states that may change; nothing is changed
     for (uint32_t row = 0; row < state.shells.size(); ++row) {
         if (!is_shell(state, row)) continue;
@@ -276,10 +366,12 @@ Result<void> check_state(const State& state, const std::string& name) {
             return Error{name + ": " + Checker::place(state.shells, "material", row) + " is " +
                          std::to_string(state.shells.material[row].index) + ", of " +
                          std::to_string(state.materials.size()) + ". " + kAdvice};
-        const Result<void> sound = check_shell_rows(ShellView(rows, Row<Shells>(row)), Wear::Worn, name, kAdvice);
+        const Wear wear = is_cut_out_shell(state, row) ? Wear::CutOut : Wear::Worn;
+        const Result<void> sound = check_shell_rows(ShellView(rows, Row<Shells>(row)), wear, name, kAdvice);
         if (!sound) return sound;
     }
-    return {};
+    if (const Result<void> sound = check_springs(state, name, kAdvice); !sound) return sound;
+    return check_quick_rows(state, name, kAdvice);
 }
 
 }  // namespace cullet

@@ -87,6 +87,10 @@ Result<void> check_settings(const Settings& s) {
         return Error{"Settings::units_a_frame is " + std::to_string(s.units_a_frame) + "; use 1000 to 1e15."};
     if (s.generations > 100)
         return Error{"Settings::generations is " + std::to_string(s.generations) + "; use 0 to 100."};
+    if (!(s.break_share >= 0 && s.break_share <= 1))
+        return Error{"Settings::break_share is " + std::to_string(s.break_share) + "; use 0 to 1."};
+    if (s.break_elements > 1'000'000)
+        return Error{"Settings::break_elements is " + std::to_string(s.break_elements) + "; use 0 to 1000000."};
     if (!(s.debris_share >= 0 && s.debris_share <= 1))
         return Error{"Settings::debris_share is " + std::to_string(s.debris_share) + "; use 0 to 1."};
     if (!(s.hold_seconds >= 0 && s.hold_seconds <= 1))

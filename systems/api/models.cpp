@@ -2,6 +2,7 @@
 #include "engine/host_scope.hpp"
 #include "systems/api/checks.hpp"
 #include "systems/api/model_row.hpp"
+#include "systems/cook/materials.hpp"
 #include "systems/cook/model_contents.hpp"
 #include "systems/world_contents.hpp"
 
@@ -17,9 +18,17 @@ Result<ModelId> World::add_model(const Model& model) {
     if (row == state.models.size() && state.models.append(1) == kNone)
         return Error{"limits.models is reached (" + std::to_string(state.models.limit()) +
                      "); raise it or remove a model."};
+    const State& cooked = model.contents->state;
+    const Row<Materials> own = cooked.shells.material[model.contents->shell];
+    const Row<Materials> material =
+        material_row(state, material_settings(cooked, own), material_traits(cooked, own).grain);
+    if (!material.exists())
+        return Error{model.contents->name + ": the world holds " + std::to_string(kMostMaterials) +
+                     " materials already; remove models and bodies of one of them."};
     const char* full = "";
     const Row<Shells> shell = import_shell(state, model.contents->state, model.contents->shell, &full);
     if (!shell.exists()) return Error{model.contents->name + ": no room for the model; raise " + full + "."};
+    state.shells.material[shell] = material;
     state.models.is_used[row] = 1;
     state.models.shell[row] = shell;
     contents_->log.advise(contents_->host, *model.contents);

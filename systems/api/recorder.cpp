@@ -84,6 +84,8 @@ void Recorder::spawn(ModelId id, const SpawnSettings& s) {
         for_each_number_of_vector(s.pins[i].low, into(out));
         for_each_number_of_vector(s.pins[i].high, into(out));
     }
+    out.number(static_cast<uint8_t>(s.fracture));
+    for_each_number_of_quick(s.quick, into(out));
 }
 
 void Recorder::add_sphere(const SphereSettings& s) {
@@ -169,6 +171,23 @@ void Recorder::frame(const HostFrame& frame) {
         for_each_number_of_vector(c.normal, into(out));
         out.number(c.distance), out.number(c.piece_a), out.number(c.piece_b);
     }
+}
+
+void Recorder::push_impact(BodyId id, const PushSettings& push) {
+    ByteWriter& out = call(GameCall::PushImpact);
+    for_each_number_of_id(id, into(out));
+    for_each_number_of_push(push, into(out));
+}
+
+void Recorder::explode(const ExplosionSettings& explosion) {
+    for_each_number_of_explosion(explosion, into(call(GameCall::Explode)));
+}
+
+void Recorder::cut(BodyId id, const CutSettings& cut) {
+    ByteWriter& out = call(GameCall::Cut);
+    for_each_number_of_id(id, into(out));
+    for_each_number_of_cut(cut, into(out));
+    for (uint32_t i = 0; i < cut.point_count; ++i) for_each_number_of_vector(cut.points[i], into(out));
 }
 
 void Recorder::begin_step() {

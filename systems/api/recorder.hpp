@@ -26,6 +26,9 @@ enum class GameCall : uint8_t {
     Restore,
     ShiftOrigin,
     Frame,  // of a host that moves the bodies: belongs to the step
+    PushImpact,
+    Explode,
+    Cut,
 };
 
 class Recorder {
@@ -49,6 +52,9 @@ class Recorder {
     void restore(std::span<const uint8_t> bytes);
     void shift_origin(Vec3 by);
     void frame(const HostFrame& frame);
+    void push_impact(BodyId id, const PushSettings& push);
+    void explode(const ExplosionSettings& explosion);
+    void cut(BodyId id, const CutSettings& cut);
 
     /// What was asked for since the last step goes to the file, so that a step that never ends has its calls there.
     void begin_step();
@@ -93,9 +99,34 @@ template <class C, class F>
 void for_each_number_of_contact(C& c, F&& f) {
     f(c.friction), f(c.restitution), f(c.layer), f(c.mask);
 }
+template <class Q, class F>
+void for_each_number_of_quick(Q& q, F&& f) {
+    f(q.layers), f(q.steps), f(q.crack_frequency), f(q.strain_limit), f(q.compression_limit), f(q.crack_length);
+    f(q.bump_angle);
+}
 template <class Id, class F>
 void for_each_number_of_id(Id& id, F&& f) {
     f(id.index), f(id.generation);
+}
+
+template <class P, class F>
+void for_each_number_of_push(P& p, F&& f) {
+    for_each_number_of_vector(p.place, f);
+    for_each_number_of_vector(p.normal, f);
+    f(p.approach_speed), f(p.mass), f(p.radius);
+}
+template <class E, class F>
+void for_each_number_of_explosion(E& e, F&& f) {
+    for_each_number_of_vector(e.centre, f);
+    f(e.radius), f(e.impulse), f(e.pressure), f(e.seconds);
+}
+/// Without the points.
+template <class C, class F>
+void for_each_number_of_cut(C& c, F&& f) {
+    for_each_number_of_vector(c.place, f);
+    for_each_number_of_vector(c.normal, f);
+    for_each_number_of_vector(c.direction, f);
+    f(c.point_count);
 }
 
 /// "0.1.0, g++ 12.2.0, ..."

@@ -4,6 +4,7 @@
 #include "systems/fragments/body_rows.hpp"
 #include "systems/query/query_index.hpp"
 #include "systems/rigid/body_id.hpp"
+#include "systems/soft/soft_body.hpp"
 #include "systems/world_contents.hpp"
 
 namespace cullet {
@@ -43,10 +44,17 @@ Result<void> World::remove(BodyId id) {
         if (queued.striker[q] == body) queued.striker[q] = {};
         if (queued.body[q] == body) queued.clear_rows(q, 1);
     }
+    for (uint32_t b = 0; b < state.blows.size();) {
+        if (state.blows.body[b] == body)
+            remove_blow(state.blows, b);
+        else
+            ++b;
+    }
     // Rows are used again: nobody may take the next one for a parent.
     for (uint32_t b = 0; b < state.bodies.size(); ++b)
         if (state.bodies.parent[b] == body) state.bodies.parent[b] = {};
     d.rigid->remove(body);
+    release_soft(state, body);
     free_body(state, body);
     d.query_index->touch(state.bodies, body);
     return {};

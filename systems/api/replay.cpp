@@ -205,8 +205,34 @@ void Replayer::do_call(ByteReader& in) {
         }
         case GameCall::Frame:
             return step_hosted(in);
+        case GameCall::PushImpact: {
+            const auto id = take_id<BodyId>(in);
+            PushSettings push;
+            for_each_number_of_push(push, from(in));
+            if (in.is_sound()) (void)world.push_impact(id, push);
+            return;
+        }
+        case GameCall::Explode: {
+            ExplosionSettings explosion;
+            for_each_number_of_explosion(explosion, from(in));
+            if (in.is_sound()) (void)world.explode(explosion);
+            return;
+        }
+        case GameCall::Cut:
+            return cut(in);
     }
     in.fail("there is no call of the kind " + std::to_string(static_cast<int>(call)));
+}
+
+void Replayer::cut(ByteReader& in) {
+    const auto id = take_id<BodyId>(in);
+    CutSettings cut;
+    for_each_number_of_cut(cut, from(in));
+    if (!in.expect(uint64_t{cut.point_count} * 12 <= in.left(), "more points of a cut than bytes")) return;
+    std::vector<Vec3> points(cut.point_count);
+    for (Vec3& p : points) p = take_vector(in);
+    cut.points = points.data();
+    if (in.is_sound()) (void)world_->cut(id, cut);
 }
 
 void Replayer::add_model(ByteReader& in) {
@@ -256,6 +282,8 @@ void Replayer::spawn(ByteReader& in) {
         for (Box& box : pins) box.low = take_vector(in), box.high = take_vector(in);
         s.pins = pins.data();
     }
+    s.fracture = static_cast<FractureMode>(in.number<uint8_t>("how it breaks"));
+    for_each_number_of_quick(s.quick, from(in));
     if (in.is_sound()) (void)world_->spawn(id, s);
 }
 

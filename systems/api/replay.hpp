@@ -56,6 +56,7 @@ class Replayer {
     void add_static(ByteReader& in);
     void spawn(ByteReader& in);
     void step_hosted(ByteReader& in);
+    void cut(ByteReader& in);
 
     Source source_;
     RecordingReader file_;

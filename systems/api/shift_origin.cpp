@@ -26,6 +26,20 @@ void shift_debris(Debris& debris, Vec3 by) {
     }
 }
 
+// Those that have found their body stand in its frame.
+void shift_blows(Blows& blows, Vec3 by) {
+    for (uint32_t b = 0; b < blows.size(); ++b) {
+        if (blows.body[b].exists()) continue;
+        blows.point.set(b, blows.point[b] + by);
+        for (uint32_t i = 0; i < blows.point_count[b]; ++i) set_cut_point(blows, b, i, cut_point(blows, b, i) + by);
+    }
+}
+
+void shift_springs(ShellSprings& springs, Vec3 by) {
+    for (uint32_t row = 0; row < springs.size(); ++row)
+        if (springs.is_used[row]) springs.origin.set(row, springs.origin[row] + by);
+}
+
 // What happened in the last step is still to be read.
 void shift_events(WorldData& d, Vec3 by) {
     const auto shift = [by](auto& events) {
@@ -48,9 +62,11 @@ Result<void> World::shift_origin(Vec3 by) {
         return Error{"shift_origin by " + text(by) + "; give metres, at most 1000000 along each axis."};
     const HostScope call(contents_->host);
     if (contents_->recorder) contents_->recorder->shift_origin(by);
+    shift_springs(d.state.shell_springs, -by);
     d.rigid->shift(-by);
     shift_bodies(d.state.bodies, *d.rigid, -by);
     shift_debris(d.state.debris, -by);
+    shift_blows(d.state.blows, -by);
     shift_events(d, -by);
     d.query_index->shift(-by);
     d.query_index->refresh(d.state.bodies);

@@ -10,6 +10,8 @@
 #include "systems/api/checks.hpp"
 #include "systems/api/settings_bytes.hpp"
 #include "systems/brittle/restart.hpp"
+#include "systems/damage/working_room.hpp"
+#include "systems/quick/quick_body.hpp"
 #include "systems/fragments/rigid_shape.hpp"
 #include "systems/query/bound_drawn.hpp"
 #include "systems/query/query_index.hpp"
@@ -51,7 +53,7 @@ namespace {
 constexpr uint64_t kLargestFile = 1ull << 36;
 constexpr const char* kAdvice = "The snapshot is damaged or of another build; take it again.";
 constexpr FileKind kKind{{'c', 's', 'n', 'a', 'p', '\r', '\n', '\x1a'},
-                         2,
+                         4,
                          "snapshot",
                          ".csnap",
                          "Write one with World::save.",
@@ -68,7 +70,7 @@ template <class Data, class F>
 void for_each_count(Data& d, F&& f) {
     auto& c = d.counts;
     f(c.opened), f(c.broke), f(c.whole), f(c.dropped), f(c.redone), f(c.late), f(c.frames_held), f(c.clamped);
-    f(c.cuts), f(c.starts), f(c.cuts_refused), f(c.units_used), f(c.units_left), f(c.worst_rounding);
+    f(c.cuts), f(c.starts), f(c.cuts_refused), f(c.units_used), f(c.units_left), f(c.slow_soft_frames), f(c.worst_rounding);
     for (auto& impulse : c.impulse_to_static) f(impulse);
 }
 
@@ -133,7 +135,9 @@ void restore_what_follows(World::Contents& world) {
         const Row<Shells> shell = state.bodies.shell[b];
         if (static_cast<BodyKind>(state.bodies.kind[b]) == BodyKind::Free || !shell.exists()) continue;
         bound_view(state.bodies, Row<Bodies>(b), state.view_vertices, state.view_indices, d.view_boxes);
-        if (state.bodies.is_breakable[b]) d.make_ready(room_of(state, shell));
+        if (state.bodies.is_breakable[b])
+            d.make_ready(is_quick_body(state, Row<Bodies>(b)) ? quick_room(ShellView(state, shell))
+                                                 : working_room(ShellView(state, shell)));
         d.arena.reset();
         if (world.hosted) world.hosted->announce(b, convex_pieces(state, shell, d.arena));
     }

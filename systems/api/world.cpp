@@ -3,6 +3,7 @@
 #include "systems/api/checks.hpp"
 #include "systems/cook/materials.hpp"
 #include "systems/damage/damage_loop.hpp"
+#include "systems/soft/soft_loop.hpp"
 #include "systems/world_contents.hpp"
 
 namespace cullet {
@@ -22,7 +23,9 @@ World::Contents::Contents(const Settings& s, const Host& h, std::unique_ptr<Rigi
     }
     data.rigid->set_gravity(s.gravity);
     data.damage_loop = std::make_unique<DamageLoop>(data.state, *jobs, profiler);
-    plan = make_frame_plan(hosted != nullptr, [this] { return data.damage_loop->describe(); });
+    data.soft_loop = std::make_unique<SoftLoop>(data.state, *jobs, profiler);
+    plan = make_frame_plan(
+        hosted != nullptr, [this] { return data.damage_loop->describe(); }, [this] { return data.soft_loop->describe(); });
     plan.finish(profiler);
     counters = {profiler.add_counter("units used"), profiler.add_counter("units left"),
                 profiler.add_counter("open tasks"), profiler.add_counter("births"),

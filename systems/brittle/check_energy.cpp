@@ -6,7 +6,8 @@ namespace cullet {
 
 // The steps granted for this frame end with a restart, because the old side of two-sided columns goes with the step's
 // number.
-void check_energy(EachBody task, ShellTables shells, const Materials&, Tasks& tasks, TaskContacts&, PatchVertices&) {
+void check_energy(EachBody task, ShellTables shells, const Materials&, const Blows&, Tasks& tasks, TaskContacts&,
+                  PatchVertices&) {
     const Row<Tasks> t(task.row);
     if (static_cast<TaskState>(tasks.state[t]) == TaskState::Dropped) return;
     if (!is_blown_up(task_energy(shells.state, t), tasks.start_energy[t])) return;

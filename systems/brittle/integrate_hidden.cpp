@@ -1,3 +1,4 @@
+#include "systems/damage/pair_cells.hpp"
 #include "systems/motion/integrate_packs.hpp"
 #include "systems/systems.hpp"
 
@@ -27,6 +28,7 @@ void integrate_hidden(Rows<StiffnessPacks> packs, OfTask task, Turn, const Tasks
     step.probe = probe.data() + first;
     step.next_probe = next_probe.data() + first;
     step.pack_count = shells.packs[shell].count;
+    step.has_pair_cells = stores_pairs_once(shells, shell);
     integrate_packs(step, packs.first - first_pack, packs.count);
 }
 

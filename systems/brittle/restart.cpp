@@ -1,46 +1,25 @@
 #include "systems/brittle/restart.hpp"
 
 #include "systems/damage/assemble.hpp"
+#include "systems/damage/blows.hpp"
 #include "systems/damage/contact.hpp"
 #include "systems/damage/crack_candidates.hpp"
 #include "systems/damage/grow_cracks.hpp"
 #include "systems/damage/stress_check.hpp"
+#include "systems/damage/struck_normal.hpp"
 #include "systems/motion/start_hidden.hpp"
+#include "systems/quick/cut_out.hpp"
 
 namespace cullet {
 namespace {
 
-// Contacts name the nearest vertex; a ball's blow goes along the struck surface's own normal, averaged by mass over the
-// patch, because a hull's corner or edge says little about the surface (6.3).
 void find_contact_vertices(State& state, Row<Tasks> task) {
     const ShellView shell(state, state.tasks.shell[task]);
     TaskContacts& contacts = state.task_contacts;
     const uint32_t first = state.tasks.first_contact[task];
     for (uint32_t c = first; c < first + state.tasks.contact_count[task]; ++c) {
-        const Vec3 point = contacts.point[c];
-        float least = 1e30f;
-        for (uint32_t v = 0; v < shell.vertex_count(); ++v) {
-            const uint32_t row = shell.vertex(v);
-            if (state.vertices.element[row] == kNone) continue;
-            const Vec3 away = state.vertices.rest[row] - point;
-            if (dot(away, away) >= least) continue;
-            least = dot(away, away);
-            contacts.vertex[c] = v;
-        }
-        if (contacts.striker_radius[c] == 0) continue;
-        Vec3d inward;
-        const float reach = contacts.radius[c] * contacts.radius[c];
-        const Vec3 centre = state.vertices.rest[shell.vertex(contacts.vertex[c])];
-        for (uint32_t v = 0; v < shell.vertex_count(); ++v) {
-            const uint32_t row = shell.vertex(v);
-            const Vec3 away = state.vertices.rest[row] - centre;
-            if (state.vertices.element[row] == kNone || dot(away, away) > reach) continue;
-            inward += state.vertices.mass[row] * Vec3d(state.vertices.inward[row]);
-        }
-        const Vec3 average = normalised(inward).to_float();
-        const float along = dot(average, contacts.normal[c]);
-        if (along > 0.7f) contacts.normal.set(c, average);
-        if (along < -0.7f) contacts.normal.set(c, -average);  // struck from the inside
+        const uint32_t nearest = nearest_vertex(shell, contacts.point[c]);
+        if (nearest != kNone) contacts.vertex[c] = nearest;
     }
 }
 
@@ -50,6 +29,12 @@ void find_contact_vertices(State& state, Row<Tasks> task) {
 void fill_task(State& state, Row<Tasks> task) {
     Tasks& tasks = state.tasks;
     const Row<Shells> source = tasks.source[task], working = tasks.shell[task];
+    if (is_cut_out(state, task)) return fill_cut_out(state, task);
+    if (is_quick_task(state, task)) {
+        copy_shell_rows(state, state, source, working, false);
+        clear_spare_rows(state, working);
+        return forget_run(ShellView(state, working), state.shells.generation[source] > 0);
+    }
     const bool is_assembled = state.shells.packs[source].count > 0;
     copy_shell_rows(state, state, source, working, is_assembled);
     clear_spare_rows(state, working);
@@ -60,13 +45,16 @@ void fill_task(State& state, Row<Tasks> task) {
 
 void start_run(State& state, Row<Tasks> task) {
     find_contact_vertices(state, task);
+    if (is_quick_task(state, task)) return;  // wake_regions does the rest
     build_patches(state, task);
     state.tasks.last_event_time[task] = 0;
     state.tasks.crack_count[task] = state.tasks.start_count[task] = 0;
     start_hidden(state, task);
+    start_explosions(state, task);
 }
 
 void restore_scratch(State& state, Row<Tasks> task) {
+    if (is_quick_task(state, task)) return;
     const ShellView shell(state, state.tasks.shell[task]);
     link_slopes(shell);
     find_start_strengths(shell);

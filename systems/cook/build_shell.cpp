@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "systems/cook/crease_normals.hpp"
 #include "systems/cook/order_cells.hpp"
 #include "systems/damage/ring.hpp"
 #include "systems/fragments/cell_hulls.hpp"
@@ -132,23 +133,17 @@ void write_vertices(ShellView shell, const ShellSource& source, const CellOrder&
     shell.vertices().count = order.row_count;
 }
 
-std::array<float, 9> corner_normals(ShellView shell, const ShellSource& source, uint32_t row, uint32_t e) {
+std::array<float, 9> packed_normals(std::span<const Vec3> of_corners, uint32_t e) {
     std::array<float, 9> out;
-    const auto corner = shell.state.elements.corner[row];
-    const auto place = [&](int k) { return Vec3d(shell.state.vertices.rest[shell.vertex(corner[k])]); };
-    const Vec3 flat = normalised(cross(place(1) - place(0), place(2) - place(0))).to_float();
-    for (int k = 0; k < 3; ++k) {
-        // Without normals of the game: smooth where the vertex is no hard edge.
-        Vec3 n = -shell.state.vertices.inward[shell.vertex(corner[k])];
-        if (dot(n, flat) < 0.7f) n = flat;
-        if (!source.corner_normal.empty()) n = source.corner_normal[3 * e + k];
+    for (size_t k = 0; k < 3; ++k) {
+        const Vec3 n = of_corners[3 * size_t{e} + k];
         out[3 * k] = n.x, out[3 * k + 1] = n.y, out[3 * k + 2] = n.z;
     }
     return out;
 }
 
 void write_element(ShellView shell, const ShellSource& source, const CellOrder& order, uint32_t to, uint32_t e,
-                   const std::vector<uint32_t>& element_row) {
+                   const std::vector<uint32_t>& element_row, std::span<const Vec3> normals) {
     Elements& elements = shell.state.elements;
     const uint32_t row = shell.element(to);
     uint32_t lowest = kNone;
@@ -165,7 +160,7 @@ void write_element(ShellView shell, const ShellSource& source, const CellOrder& 
             elements.uv[row][2 * k + 1] = source.corner_uv[3 * e + k].y;
         }
     }
-    elements.normal[row] = corner_normals(shell, source, row, e);
+    elements.normal[row] = packed_normals(normals, e);
     const auto cell = std::upper_bound(order.first_row.begin(), order.first_row.end(), lowest) - 1;
     elements.cell[row] = static_cast<uint32_t>(cell - order.first_row.begin());
     elements.flags[row] = !source.is_degenerate.empty() && source.is_degenerate[e] ? kDegenerate : 0;
@@ -257,7 +252,12 @@ Result<Row<Shells>> build_shell(State& state, const ShellSource& source, Row<Mat
     state.shells.material[row] = material;
     write_vertices(shell, source, order);
     const std::vector<uint32_t> element_row = order_elements(source, order);
-    for (uint32_t e = 0; e < element_count; ++e) write_element(shell, source, order, element_row[e], e, element_row);
+    const std::vector<Vec3> made = source.corner_normal.empty()
+                                       ? crease_normals(source.position, source.corner, source.neighbour)
+                                       : std::vector<Vec3>();
+    const std::span<const Vec3> normals = source.corner_normal.empty() ? std::span(made) : source.corner_normal;
+    for (uint32_t e = 0; e < element_count; ++e)
+        write_element(shell, source, order, element_row[e], e, element_row, normals);
     shell.elements().count = element_count;
     state.shells.cells[row].count = cell_count;
     write_hinges(shell);

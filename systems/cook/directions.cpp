@@ -67,12 +67,14 @@ double least_facing(const ExtrusionWork& work, uint32_t v, Vec3d m) {
     return least;
 }
 
-void choose_directions(ExtrusionWork& work) {
+void choose_directions(ExtrusionWork& work, const InnerSkin* skin) {
     std::vector<Vec3d> sums(work.vertex_count());
     for (uint32_t t = 0; t < work.triangle_count(); ++t) {
         const Triangle& c = work.surface.triangles[t];
         const auto angles = corner_angles(work.points[c[0]], work.points[c[1]], work.points[c[2]]);
-        for (size_t k = 0; k < 3; ++k) sums[c[k]] += angles[k] * work.normals[t];
+        const bool has_way = skin && dot(skin->into_the_wall[t], skin->into_the_wall[t]) > 0;
+        const Vec3d outward = has_way ? -skin->into_the_wall[t] : work.normals[t];
+        for (size_t k = 0; k < 3; ++k) sums[c[k]] += angles[k] * outward;
     }
     std::vector<Vec3d> normals;
     for (uint32_t v = 0; v < work.vertex_count(); ++v) {

@@ -1,7 +1,10 @@
 #include "systems/cook/extrude.hpp"
 
+#include "systems/cook/front.hpp"
 #include "systems/cook/guarded_front.hpp"
 #include "systems/cook/local_caps.hpp"
+#include "systems/cook/single_vertex.hpp"
+#include "systems/cook/tetrahedra.hpp"
 
 namespace cullet {
 namespace {
@@ -58,10 +61,47 @@ Result<void> check(const Surface& surface, double thickness, const ExtrusionSett
     if (settings.rounds < 1 || settings.rounds > 1000 || settings.extra_rounds > 1000)
         return Error{"extrude: rounds " + std::to_string(settings.rounds) + " and extra_rounds " +
                      std::to_string(settings.extra_rounds) + " must be 1 to 1000 and 0 to 1000; 5 and 12 are usual."};
+    if (settings.propagation > Propagation::SingleVertexTets)
+        return Error{"extrude: there is no way of propagation " +
+                     std::to_string(static_cast<int>(settings.propagation)) + "; GuardedFront is usual."};
     return {};
 }
 
+// The published ways test no element, so neither do their caps, and what comes out is not made good.
+bool tests_elements(Propagation way) {
+    return way == Propagation::GuardedFront || way == Propagation::SingleVertexTets;
+}
+
+std::vector<double> push_inward(ExtrusionWork& work) {
+    switch (work.settings.propagation) {
+        case Propagation::Front:
+            return run_front(work);
+        case Propagation::SingleVertex:
+            return run_single_vertex(work, false);
+        case Propagation::SingleVertexTets:
+            return run_single_vertex(work, true);
+        default:
+            return run_guarded_front(work);
+    }
+}
+
+uint32_t count_inverted(const ExtrusionWork& work, const std::vector<double>& depth) {
+    uint32_t inverted = 0;
+    for (const Triangle& c : work.surface.triangles) {
+        std::array<Vec3d, 3> outer, inner;
+        for (size_t k = 0; k < 3; ++k) outer[k] = work.points[c[k]], inner[k] = work.inner(c[k], depth[c[k]]);
+        const PrismTetrahedra tets = prism_tetrahedra(outer, inner, c);
+        bool is_inverted = false;
+        for (size_t k = 0; k < 3; ++k)
+            is_inverted = is_inverted || (depth[c[tets.flattens[k]]] > 0 && !(tets.volume[k] > 0));
+        inverted += is_inverted;
+    }
+    return inverted;
+}
+
 Extrusion finish(ExtrusionWork& work, const std::vector<double>& depth) {
+    // Where elements are tested, none is.
+    if (!tests_elements(work.settings.propagation)) work.statistics.inverted_elements = count_inverted(work, depth);
     Extrusion result;
     result.direction = std::move(work.directions);
     const double metres = 1 / work.frame.scale;
@@ -74,6 +114,10 @@ Extrusion finish(ExtrusionWork& work, const std::vector<double>& depth) {
         const bool is_degenerate = depth[t[0]] == 0 || depth[t[1]] == 0 || depth[t[2]] == 0;
         result.is_degenerate_element.push_back(is_degenerate);
         work.statistics.degenerate_elements += is_degenerate;
+    }
+    for (std::vector<double>& state : work.path) {
+        for (double& d : state) d *= metres;
+        result.path.push_back(std::move(state));
     }
     result.statistics = work.statistics;
     return result;
@@ -103,18 +147,26 @@ ExtrusionWork::ExtrusionWork(const Surface& s, double metres, const ExtrusionSet
     }
 }
 
-Result<Extrusion> extrude(const Surface& surface, double thickness, const ExtrusionSettings& settings) {
+Result<Extrusion> extrude(const Surface& surface, double thickness, const ExtrusionSettings& settings,
+                          const InnerSkin* skin) {
     if (auto checked = check(surface, thickness, settings); !checked) return Error{checked.error()};
     // Beyond the diagonal nothing changes, and local coordinates stay small.
     ExtrusionWork work(surface, std::min(thickness, surface.diagonal), settings);
-    choose_directions(work);
-    const OppositeWall wall(work);
+    choose_directions(work, skin);
+    const OppositeWall wall(work, skin);
     find_wall_caps(work, wall, {});
+    if (!tests_elements(settings.propagation)) {
+        find_first_caps(work);
+        return finish(work, push_inward(work));
+    }
     find_local_caps(work);
     if (settings.straightens) straighten(work, wall);
-    std::vector<double> depth = run_guarded_front(work);
-    for (int repeat = 1; repeat <= kMostRepeats && has_turned_inside_out(work, depth, repeat == kMostRepeats); ++repeat)
-        depth = run_guarded_front(work);
+    std::vector<double> depth = push_inward(work);
+    for (int repeat = 1; repeat <= kMostRepeats && has_turned_inside_out(work, depth, repeat == kMostRepeats);
+         ++repeat) {
+        work.path.clear();
+        depth = push_inward(work);
+    }
     return finish(work, depth);
 }
 

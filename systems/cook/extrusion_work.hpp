@@ -32,10 +32,14 @@ struct ExtrusionWork {
     std::vector<double> first_caps;  // also by slope
     std::vector<double> caps;        // also by the shape of each element
     ExtrusionStatistics statistics;
+    std::vector<std::vector<double>> path;  // of depths, when settings.keeps_path
 
     ExtrusionWork(const Surface& s, double metres, const ExtrusionSettings& e);
     uint32_t vertex_count() const { return static_cast<uint32_t>(points.size()); }
     uint32_t triangle_count() const { return static_cast<uint32_t>(normals.size()); }
+    void keep(const std::vector<double>& depth) {
+        if (settings.keeps_path) path.push_back(depth);
+    }
     Vec3d inner(uint32_t v, double depth) const { return points[v] + depth * directions[v]; }
 };
 
@@ -43,6 +47,7 @@ struct ExtrusionWork {
 double least_facing(const ExtrusionWork& work, uint32_t v, Vec3d m);
 
 /// A1: angle-weighted inward directions; where those do not see every face, the axis of the smallest cone of normals.
-void choose_directions(ExtrusionWork& work);
+/// With a skin, the way across the wall stands for the normal where it is given.
+void choose_directions(ExtrusionWork& work, const InnerSkin* skin = nullptr);
 
 }  // namespace cullet

@@ -1,6 +1,6 @@
 // Pushes all vertices inward together, in rounds, and sets back what would meet (thick shell note A5).
 #pragma once
-#include "systems/cook/pair_list.hpp"
+#include "systems/cook/moving_faces.hpp"
 
 namespace cullet {
 

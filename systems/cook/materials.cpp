@@ -3,49 +3,144 @@
 namespace cullet {
 namespace {
 
-struct Entry {
-    const char* name;
-    float density, young_modulus, poisson_ratio, tensile_strength, fracture_energy, crush_strength, restitution,
-        friction, heading_power;
-};
-// kg/m3, Pa, 1, Pa, J/m2, Pa, 1, 1, 1. Typical handbook values; grades spread by a third and more. Crush strength: of
-// the dense ones the indentation (Vickers) hardness, of brick and concrete, whose pores collapse, two to three times
-// the compressive strength of a cube (15 to 20 and 35 to 45 MPa), because the material around confines what is crushed.
-constexpr Entry kMaterials[] = {
-    {"glass", 2500, 70e9f, 0.22f, 45e6f, 8, 5.5e9f, 0.65f, 0.4f, 30},
-    {"porcelain", 2400, 70e9f, 0.20f, 50e6f, 20, 6e9f, 0.6f, 0.45f, 6},
-    {"brick", 1900, 12e9f, 0.20f, 3e6f, 50, 40e6f, 0.3f, 0.65f, 6},
-    {"concrete", 2400, 30e9f, 0.20f, 3e6f, 100, 100e6f, 0.2f, 0.6f, 6},
-};
-constexpr float kTipFactor = 0.6f;    // on Griffith's limit at mesh resolution; at 1 most panes stay whole
-constexpr float kRunSeconds = 1e-3f;  // half of it leaves a vase too whole
+/// Columns and the values that they hold, for both ways.
+template <class M, class F>
+void for_each_material_column(M& materials, F&& f) {
+    using S = MaterialSettings;
+    f(materials.density, &S::density), f(materials.young_modulus, &S::young_modulus);
+    f(materials.poisson_ratio, &S::poisson_ratio), f(materials.tensile_strength, &S::tensile_strength);
+    f(materials.fracture_energy, &S::fracture_energy), f(materials.crush_strength, &S::crush_strength);
+    f(materials.restitution, &S::restitution), f(materials.friction, &S::friction);
+    f(materials.heading_power, &S::heading_power), f(materials.tip_factor, &S::tip_factor);
+    f(materials.run_seconds, &S::run_seconds);
+}
+template <class T, class F>
+void for_each_traits_column(T& traits, F&& f) {
+    using S = MaterialSettings;
+    f(traits.yield_strength, &S::yield_strength), f(traits.yield_strain, &S::yield_strain);
+    f(traits.branching, &S::branching), f(traits.run_out, &S::run_out);
+    f(traits.break_strain, &S::break_strain), f(traits.bending_stiffness, &S::bending_stiffness);
+    f(traits.across_young_modulus, &S::across_young_modulus), f(traits.shear_modulus, &S::shear_modulus);
+    f(traits.across_strength, &S::across_strength), f(traits.across_break_strain, &S::across_break_strain);
+    f(traits.across_fracture_energy, &S::across_fracture_energy);
+}
+
+void write_row(Materials& materials, uint32_t row, const MaterialSettings& from) {
+    for_each_material_column(materials, [&](auto& column, auto member) { column[row] = from.*member; });
+}
+void write_row(MaterialTraits& traits, uint32_t row, const MaterialSettings& from, Vec3 grain) {
+    traits.kind[row] = static_cast<uint8_t>(from.kind);
+    traits.fracture[row] = static_cast<uint8_t>(from.fracture);
+    for_each_traits_column(traits, [&](auto& column, auto member) { column[row] = from.*member; });
+    traits.grain.set(row, grain);
+}
+
+bool is_compiled(uint32_t row) {
+    return row < kFirstMaterials;
+}
+
+Vec3 grain_of(const State& state, uint32_t row) {
+    return row < state.material_traits.size() ? state.material_traits.grain[row] : Vec3{};
+}
+
+bool has_values(const State& state, uint32_t row, const MaterialSettings& wanted, Vec3 grain) {
+    const MaterialSettings found = material_settings(state, Row<Materials>(row));
+    const Vec3 away = grain_of(state, row) - grain;
+    bool is_same = found.kind == wanted.kind && found.fracture == wanted.fracture && dot(away, away) == 0;
+    for (const MaterialValue& value : material_values()) is_same &= found.*value.member == wanted.*value.member;
+    return is_same;
+}
+
+bool is_used(const State& state, uint32_t row) {
+    for (uint32_t s = 0; s < state.shells.size(); ++s)
+        if (state.shells.users[s] > 0 && state.shells.material[s] == row) return true;
+    return false;
+}
+
+/// A new row, or one that nothing is made of any more.
+uint32_t take_row(State& state) {
+    if (state.materials.size() < state.materials.limit()) return state.materials.append(1);
+    for (uint32_t row = kFirstMaterials; row < state.materials.size(); ++row)
+        if (!is_used(state, row)) return row;
+    return kNone;
+}
 
 }  // namespace
 
 void fill_materials(Materials& materials) {
-    for (const Entry& e : kMaterials) {
-        const uint32_t row = materials.append(1);
-        materials.density[row] = e.density;
-        materials.young_modulus[row] = e.young_modulus;
-        materials.poisson_ratio[row] = e.poisson_ratio;
-        materials.tensile_strength[row] = e.tensile_strength;
-        materials.fracture_energy[row] = e.fracture_energy;
-        materials.crush_strength[row] = e.crush_strength;
-        materials.restitution[row] = e.restitution;
-        materials.friction[row] = e.friction;
-        materials.heading_power[row] = e.heading_power;
-        materials.tip_factor[row] = kTipFactor;
-        materials.run_seconds[row] = kRunSeconds;
-    }
+    for (uint32_t i = 0; i < kFirstMaterials; ++i) write_row(materials, materials.append(1), compiled_materials()[i]);
 }
 
-Result<Row<Materials>> find_material(const std::string& name) {
-    std::string known;
-    for (uint32_t i = 0; i < std::size(kMaterials); ++i) {
-        if (name == kMaterials[i].name) return Row<Materials>(i);
-        known += (i ? ", " : "") + std::string(kMaterials[i].name);
+MaterialSettings material_settings(const State& state, Row<Materials> row) {
+    MaterialSettings found;
+    const MaterialTraits& traits = state.material_traits;
+    if (row < traits.size()) {
+        found.kind = static_cast<MaterialKind>(traits.kind[row]);
+        found.fracture = static_cast<FractureKind>(traits.fracture[row]);
+        for_each_traits_column(traits, [&](const auto& column, auto member) { found.*member = column[row]; });
+    } else if (is_compiled(row)) {
+        found = compiled_materials()[row];
+        found.name.clear();
     }
-    return Error{"material \"" + name + "\" is not known; use one of " + known + "."};
+    for_each_material_column(state.materials, [&](const auto& column, auto member) { found.*member = column[row]; });
+    return found;
+}
+
+Row<Materials> material_row(State& state, const MaterialSettings& material, Vec3 grain) {
+    for (uint32_t row = 0; row < state.materials.size(); ++row)
+        if (has_values(state, row, material, grain)) return Row<Materials>(row);
+    const uint32_t row = take_row(state);
+    if (row == kNone) return {};
+    MaterialTraits& traits = state.material_traits;
+    while (traits.size() <= row) {
+        const MaterialSettings found = material_settings(state, Row<Materials>(traits.size()));
+        write_row(traits, traits.append(1), found, {});
+    }
+    write_row(state.materials, row, material);
+    write_row(traits, row, material, grain);
+    return Row<Materials>(row);
+}
+
+TraitsRow material_traits(const State& state, Row<Materials> row) {
+    const MaterialTraits& t = state.material_traits;
+    if (row < t.size())
+        return {static_cast<MaterialKind>(t.kind[row]),
+                static_cast<FractureKind>(t.fracture[row]),
+                t.branching[row],
+                t.run_out[row],
+                t.across_young_modulus[row],
+                t.shear_modulus[row],
+                t.across_strength[row],
+                t.across_fracture_energy[row],
+                t.grain[row]};
+    TraitsRow found;
+    if (!is_compiled(row)) return found;
+    const MaterialSettings& m = compiled_materials()[row];
+    found.kind = m.kind, found.fracture = m.fracture, found.branching = m.branching, found.run_out = m.run_out;
+    return found;
+}
+
+Result<void> check_material_rows(const State& state) {
+    const MaterialTraits& traits = state.material_traits;
+    const auto place = [](uint32_t row) { return "row " + std::to_string(row) + " of materials: "; };
+    if (traits.size() > 0 && traits.size() != state.materials.size())
+        return Error{"material_traits has " + std::to_string(traits.size()) + " rows for " +
+                     std::to_string(state.materials.size()) + " materials."};
+    if (traits.size() == 0 && state.materials.size() > kFirstMaterials)
+        return Error{"material_traits has no rows for " + std::to_string(state.materials.size()) + " materials."};
+    for (uint32_t row = 0; row < state.materials.size(); ++row) {
+        if (row < traits.size() && (traits.kind[row] > static_cast<uint8_t>(MaterialKind::Elastic) ||
+                                    traits.fracture[row] > static_cast<uint8_t>(FractureKind::Fine)))
+            return Error{place(row) + "kind " + std::to_string(traits.kind[row]) + " or fracture " +
+                         std::to_string(traits.fracture[row]) + " does not exist."};
+        MaterialSettings found = material_settings(state, Row<Materials>(row));
+        found.name = "row-" + std::to_string(row);
+        if (const Result<void> valid = check_material(found); !valid) return valid;
+        const float squared = dot(grain_of(state, row), grain_of(state, row));
+        if (found.across_young_modulus > 0 ? std::abs(squared - 1) > 1e-5f : squared != 0)
+            return Error{place(row) + "the grain's length squared is " + std::to_string(squared) + "."};
+    }
+    return {};
 }
 
 }  // namespace cullet

@@ -1,15 +1,36 @@
-// The compiled-in table of materials (thick shell note, section 8).
+// Materials as rows of a state.
 #pragma once
-#include <string>
-
-#include "components/materials.hpp"
-#include "cullet/result.hpp"
+#include "components/state.hpp"
+#include "cullet/material.hpp"
 
 namespace cullet {
 
-/// Appends glass, porcelain, brick, concrete: the same rows in every world and model.
+/// The compiled table (thick shell note, section 8). Its first four rows, glass, porcelain, brick and concrete, stand
+/// in every world and model; the others come with the models that are made of them.
+const std::vector<MaterialSettings>& compiled_materials();
+inline constexpr uint32_t kFirstMaterials = 4;
+
+/// Appends the first four to an empty table.
 void fill_materials(Materials& materials);
-/// Row of a material by name; an error names those there are.
-Result<Row<Materials>> find_material(const std::string& name);
+
+/// The row that has these values and this grain (zero: the material has none), appended where there is none; rows that
+/// no shell has give way when the table is full. kNone: kMostMaterials are in use.
+Row<Materials> material_row(State& state, const MaterialSettings& material, Vec3 grain);
+/// The row's values, without a name.
+MaterialSettings material_settings(const State& state, Row<Materials> row);
+
+/// The part of a row that stands in MaterialTraits, or that the compiled table has for it.
+struct TraitsRow {
+    MaterialKind kind = MaterialKind::Brittle;
+    FractureKind fracture = FractureKind::Large;
+    float branching = 0, run_out = 0;
+    float across_young_modulus = 0, shear_modulus = 0, across_strength = 0, across_fracture_energy = 0;
+    Vec3 grain;
+    bool has_grain() const { return across_young_modulus > 0; }
+};
+TraitsRow material_traits(const State& state, Row<Materials> row);
+
+/// Whether rows that were read may be followed: values in their ranges, kinds that there are, grains of unit length.
+Result<void> check_material_rows(const State& state);
 
 }  // namespace cullet

@@ -8,7 +8,7 @@ namespace cullet {
 
 struct Model::Contents {
     explicit Contents(const Limits& limits) : state(limits) {}
-    State state;  // materials, and the rows of one shell
+    State state;  // the first materials and its own, and the rows of one shell
     Row<Shells> shell;
     std::string name, material;
     ModelReport report;

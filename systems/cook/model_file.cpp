@@ -18,7 +18,7 @@ constexpr uint64_t kLargestFile = 1ull << 34;  // rows of it, and of what is der
 
 constexpr const char* kAdvice = "The model file is damaged or of another build; cook the mesh again and write it.";
 constexpr FileKind kKind{{'c', 'm', 'o', 'd', 'l', '\r', '\n', '\x1a'},
-                         4,
+                         5,
                          "model file",
                          ".cmodel",
                          "Write one with write_model.",
@@ -55,11 +55,38 @@ void for_each_number(Report& report, F&& f) {
     f(report.elements);
     f(report.cells);
     f(report.degenerate_elements);
+    f(report.collisions);
+    f(report.inverted_elements);
+    f(report.crossings);
+}
+
+void put_material(ByteWriter& writer, const std::string& name, const MaterialSettings& material, Vec3 grain) {
+    writer.text(name);
+    writer.number(static_cast<uint8_t>(material.kind));
+    writer.number(static_cast<uint8_t>(material.fracture));
+    for (const MaterialValue& value : material_values()) writer.number(material.*value.member);
+    writer.number(grain.x), writer.number(grain.y), writer.number(grain.z);
+}
+/// A row that check_material finds good; trouble stays with the reader.
+void take_material(ByteReader& reader, MaterialSettings& material, Vec3& grain) {
+    material.name = reader.text("the material's name");
+    material.kind = static_cast<MaterialKind>(reader.number<uint8_t>("the material's kind"));
+    material.fracture = static_cast<FractureKind>(reader.number<uint8_t>("the material's fracture"));
+    for (const MaterialValue& value : material_values()) material.*value.member = reader.number<float>(value.name);
+    grain = {reader.number<float>("the grain"), reader.number<float>("the grain"), reader.number<float>("the grain")};
+    if (!reader.is_sound()) return;
+    const Result<void> valid = check_material(material);
+    reader.expect(valid.ok(), valid.error());
+    const float squared = dot(grain, grain);
+    reader.expect(material.across_young_modulus > 0 ? std::abs(squared - 1) <= 1e-5f : squared == 0,
+                  "the grain's length squared is " + std::to_string(squared));
 }
 
 /// Everything of the payload, with the rows still in the bytes.
 struct Found {
-    std::string name, material;
+    std::string name;
+    MaterialSettings material;
+    Vec3 grain;
     ModelReport report;
     FoundTable shell;
     std::vector<FoundTable> parts;
@@ -69,9 +96,10 @@ Result<Found> find_all(std::span<const uint8_t> payload, const std::string& name
     Found found;
     ByteReader reader(payload, name, kAdvice, kFileHeaderBytes);
     found.name = reader.text("the model's name");
-    found.material = reader.text("the material's name");
+    take_material(reader, found.material, found.grain);
     found.report.repairs = reader.text("the sentence of repairs");
     found.report.advice = reader.text("the sentence of advice");
+    found.report.walls = reader.text("the sentence of walls");
     for_each_number(found.report, [&](auto& number) {
         number = reader.number<std::remove_reference_t<decltype(number)>>("the report");
     });
@@ -158,14 +186,9 @@ Result<Row<Shells>> copy_rows(State& state, const Found& found, const std::strin
 
 Result<void> check_report(const Found& found, const State& state, Row<Shells> shell, const std::string& name) {
     const Shells& s = state.shells;
-    const Result<Row<Materials>> material = find_material(found.material);
-    if (!material) return Error{name + ": " + material.error()};
-    if (s.material[shell] != material.value())
-        return damaged(name, "shells.material is " + std::to_string(s.material[shell].index) + ", but \"" +
-                                 found.material + "\" is row " + std::to_string(material->index));
     const ModelReport& r = found.report;
     if (r.vertices != s.vertices[shell].count || r.elements != s.elements[shell].count ||
-        r.cells != s.cells[shell].count || r.degenerate_elements > r.elements)
+        r.cells != s.cells[shell].count || r.degenerate_elements > r.elements || r.inverted_elements > r.elements)
         return damaged(name, "the report counts " + std::to_string(r.vertices) + " vertices, " +
                                  std::to_string(r.elements) + " elements, " + std::to_string(r.cells) + " cells and " +
                                  std::to_string(r.degenerate_elements) + " degenerate elements, unlike the tables");
@@ -186,15 +209,22 @@ std::vector<uint8_t> encode_model_file(const Model::Contents& contents) {
     row.append(1);
     row.copy_rows(state.shells, contents.shell, 0, 1);
     row.users[0] = 1;
+    row.material[0] = Row<Materials>(0);  // its values stand before the tables
     for (Column<Range>* range :
          {&row.vertices, &row.elements, &row.hinges, &row.packs, &row.blocks, &row.links, &row.cells, &row.points})
         (*range)[0] = {0, (*range)[0].count, (*range)[0].count};
     ByteWriter writer;
     writer.bytes.resize(kFileHeaderBytes);
     writer.text(contents.name);
-    writer.text(contents.material);
+    const Row<Materials> material = contents.state.shells.material[contents.shell];
+    if (material < contents.state.materials.size())
+        put_material(writer, contents.material, material_settings(contents.state, material),
+                     material_traits(contents.state, material).grain);
+    else
+        put_material(writer, {}, {}, {});  // of a shell that is not sound: no reader takes a material without a name
     writer.text(contents.report.repairs);
     writer.text(contents.report.advice);
+    writer.text(contents.report.walls);
     for_each_number(contents.report, [&](const auto& number) { writer.number(number); });
     put_table(writer, row, 0, 1);
     for_each_part(state, contents.shell, [&](const AnyTable& table, const Range& range) {
@@ -215,6 +245,8 @@ Result<Model> parse_model_file(std::span<const uint8_t> bytes, const std::string
         fill_materials(contents->state.materials);
         const Result<Row<Shells>> shell = copy_rows(contents->state, *found, name);
         if (!shell) return Error{shell.error()};
+        // The bytes name a row of the state that wrote them; what counts are the values.
+        contents->state.shells.material[*shell] = material_row(contents->state, found->material, found->grain);
         if (const Result<void> sound =
                 check_shell_rows(ShellView(contents->state, *shell), Wear::Intact, name, kAdvice);
             !sound)
@@ -223,7 +255,7 @@ Result<Model> parse_model_file(std::span<const uint8_t> bytes, const std::string
             return Error{fits.error()};
         contents->shell = *shell;
         contents->name = found->name;
-        contents->material = found->material;
+        contents->material = found->material.name;
         contents->report = found->report;
         Model model;
         model.contents = contents;

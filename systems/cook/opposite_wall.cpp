@@ -49,8 +49,16 @@ RayScene make_rays(const ExtrusionWork& work) {
 
 }  // namespace
 
-OppositeWall::OppositeWall(const ExtrusionWork& work)
-    : work_(work), tree_(triangle_boxes(work.points, work.surface.triangles)), rays_(make_rays(work)) {
+OppositeWall::OppositeWall(const ExtrusionWork& work, const InnerSkin* skin)
+    : work_(work), tree_(triangle_boxes(work.points, work.surface.triangles)), rays_(make_rays(work)), skin_(skin) {
+    if (skin) {
+        std::vector<Vec3> points;
+        for (const Vec3d p : skin->positions) {
+            skin_points_.push_back(work.frame(p));
+            points.push_back(skin_points_.back().to_float());
+        }
+        skin_rays_.emplace(points, skin->triangles);
+    }
     faces_.reserve(tree_.order.size());
     for (const uint32_t t : tree_.order) {
         const Triangle& c = work.surface.triangles[t];
@@ -93,6 +101,20 @@ double OppositeWall::first_hit(uint32_t v, Vec3d m, double far) const {
     for (size_t k = 0; k < count; ++k) {
         const Triangle& c = work_.surface.triangles[found[k]];
         distance = std::min(distance, ray_distance({work_.points[c[0]], work_.points[c[1]], work_.points[c[2]]},
+                                                   work_.points[v], m, far));
+    }
+    return distance;
+}
+
+double OppositeWall::way_to_skin(uint32_t v, Vec3d m, double far) const {
+    std::array<uint32_t, kMostHits> found;
+    const auto ignore = [](uint32_t, const void*) { return false; };
+    const size_t count = skin_rays_->collect(work_.points[v].to_float(), m.to_float(), static_cast<float>(far),
+                                             kRaySlack, ignore, nullptr, found);
+    double distance = far;
+    for (size_t k = 0; k < count; ++k) {
+        const Triangle& c = skin_->triangles[found[k]];
+        distance = std::min(distance, ray_distance({skin_points_[c[0]], skin_points_[c[1]], skin_points_[c[2]]},
                                                    work_.points[v], m, far));
     }
     return distance;

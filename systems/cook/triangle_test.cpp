@@ -103,4 +103,11 @@ bool are_touching(const Corner3& a, const Corner3& b, AxisHint& hint) {
     return false;
 }
 
+Vec3d separating_axis(const Corner3& a, const Corner3& b, const AxisHint& hint) {
+    for (const uint32_t i : a.id)
+        for (const uint32_t j : b.id)
+            if (i == j) return {};
+    return normalised(triangle_axis(hint.first, a.point.data(), b.point.data()));
+}
+
 }  // namespace cullet

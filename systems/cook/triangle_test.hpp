@@ -27,4 +27,7 @@ struct AxisHint {
 /// less than 1.8 degrees. Three, or a triangle without three corners: never touching.
 bool are_touching(const Corner3& a, const Corner3& b, AxisHint& hint);
 
+/// The axis that separated two triangles without a shared corner, once are_touching said no; unit. 0: they share one.
+Vec3d separating_axis(const Corner3& a, const Corner3& b, const AxisHint& hint);
+
 }  // namespace cullet

@@ -2,7 +2,10 @@
 
 #include <algorithm>
 
+#include "systems/cook/materials.hpp"
+#include "systems/damage/pair_cells.hpp"
 #include "systems/damage/ring.hpp"
+#include "systems/quick/quick_body.hpp"
 
 namespace cullet {
 namespace {
@@ -122,7 +125,7 @@ struct PatchLaw {
 /// wider than the striker; s is the game's scale on the strength. Brick of 0.1 m: 155 kN, which a ball of 30 kg reaches
 /// at 2.1 m/s on a wall that does not give way. Panes of 4 mm (40 kN) and vases of 5 mm (58 kN) break first.
 PatchLaw patch_law(const ShellView& shell, const Patch& patch, double total, const TaskContacts& contacts, uint32_t c,
-                   double dt, double strength_scale) {
+                   double dt, double strength_scale, double softening) {
     const State& state = shell.state;
     const uint32_t material = shell.shells().material[shell.row];
     double mobility = contacts.striker_inverse_mass[c];
@@ -130,12 +133,15 @@ PatchLaw patch_law(const ShellView& shell, const Patch& patch, double total, con
         mobility = std::max(mobility, patch.candidate[i].weight / total *
                                           state.vertices.inverse_mass[shell.vertex(patch.candidate[i].vertex)]);
     const double h = std::max(shell.shells().thickness[shell.row], shell.shells().depth_floor[shell.row]);
-    const double wall = 0.15 * state.materials.young_modulus[material] * h;
+    const float across = material_traits(state, Row<Materials>(material)).across_young_modulus;
+    const double modulus = across > 0 ? across : state.materials.young_modulus[material];  // the face is pushed across
+    const double wall = 0.15 * modulus * h / softening;
     const double most = mobility > 0 && dt > 0 ? 0.3 / (dt * dt * mobility) : 1e30;
     const double e = state.materials.restitution[material], striker_radius = contacts.striker_radius[c];
     const double disc = kBearingRadius * contacts.radius[c];
     const double bearing = striker_radius > 0 ? std::min(disc, striker_radius) : disc;
-    const double yield = state.materials.crush_strength[material] * 3.14159265 * bearing * bearing * strength_scale;
+    const double yield = state.materials.crush_strength[material] * 3.14159265 * bearing * bearing * strength_scale /
+                         std::sqrt(softening);
     return {std::min(wall, most), std::min(wall / (e * e), most), std::min(yield, 1e30)};
 }
 
@@ -186,7 +192,8 @@ void build_patches(State& state, Row<Tasks> task) {
         double total = 0;
         for (uint32_t i = 0; i < patch.count; ++i) total += patch.candidate[i].weight;
         const PatchLaw law =
-            patch_law(shell, patch, total, contacts, c, state.tasks.time_step[task], state.tasks.strength_scale[task]);
+            patch_law(shell, patch, total, contacts, c, state.tasks.time_step[task], state.tasks.strength_scale[task],
+                      softening_of(state, task));
         contacts.first_patch[c] = at;
         contacts.patch_count[c] = patch.count;
         for (uint32_t i = 0; i < patch.count; ++i, ++at) {
@@ -199,6 +206,15 @@ void build_patches(State& state, Row<Tasks> task) {
         }
     }
     keep_stiffest(state, first, count);
+}
+
+bool share_a_striker(const TaskContacts& contacts, uint32_t c, uint32_t other) {
+    return c != other && contacts.striker_own_inverse_mass[c] > 0 && contacts.striker[c] == contacts.striker[other];
+}
+
+double coupling(const TaskContacts& contacts, uint32_t c, uint32_t other) {
+    return double{contacts.striker_own_inverse_mass[c]} * dot(contacts.normal[c], contacts.normal[other]) +
+           dot(contacts.striker_turn[c], contacts.striker_spin[other]);
 }
 
 PatchSpring patch_spring(const PatchVertices& patches, uint32_t p) {
@@ -233,10 +249,11 @@ void apply_contact(State& state, Row<Tasks> task, uint32_t side) {
     Vertices& vertices = state.vertices;
     const int next = static_cast<int>(~side & 1);
     const float dt = state.tasks.time_step[task], beta = state.tasks.damping_time[task];
-    const uint32_t first = state.tasks.first_contact[task];
-    for (uint32_t c = first; c < first + state.tasks.contact_count[task]; ++c) {
+    const uint32_t first = state.tasks.first_contact[task], count = state.tasks.contact_count[task];
+    double forces[kMostContacts] = {};
+    for (uint32_t c = first; c < first + count; ++c) {
         const Vec3 n = contacts.normal[c];
-        double force = 0;
+        double& force = forces[c - first];
         const uint32_t begin = contacts.first_patch[c];
         for (uint32_t p = begin; p < begin + contacts.patch_count[c]; ++p) {
             const float f = state.patch_vertices.force[p];
@@ -251,8 +268,13 @@ void apply_contact(State& state, Row<Tasks> task, uint32_t side) {
             w = {w.x + dw.x, w.y + dw.y, w.z + dw.z, 0};
         }
         contacts.striker_speed[c] -= double{dt} * contacts.striker_inverse_mass[c] * force;
-        contacts.striker_travel[c] += double{dt} * contacts.striker_speed[c];
         contacts.impulse[c] += double{dt} * force;
+    }
+    for (uint32_t c = first; c < first + count; ++c) {
+        for (uint32_t other = first; other < first + count; ++other)
+            if (share_a_striker(contacts, c, other))
+                contacts.striker_speed[c] -= double{dt} * coupling(contacts, c, other) * forces[other - first];
+        contacts.striker_travel[c] += double{dt} * contacts.striker_speed[c];
     }
 }
 
@@ -260,25 +282,32 @@ Vec3d pin_force(ShellView shell, uint32_t side) {
     const State& state = shell.state;
     const StiffnessPacks& packs = state.stiffness_packs;
     const Float4* w = state.vertices.probe.data(static_cast<int>(side & 1)) + shell.vertices().first;
+    const uint8_t* is_pinned = state.vertices.is_pinned.data() + shell.vertices().first;
+    const bool once = stores_pairs_once(shell.shells(), shell.row);
     Vec3d sum;
     for (uint32_t v = 0; v < shell.vertex_count(); ++v) {
-        if (!state.vertices.is_pinned[shell.vertex(v)]) continue;
         const uint32_t p = shell.shells().packs[shell.row].first + v / kLanes, l = v % kLanes;
         const auto away = [&](uint32_t j) {
             return Vec3d(double{w[j].x} - w[v].x, double{w[j].y} - w[v].y, double{w[j].z} - w[v].z);
         };
+        const auto is_other_pinned = [&](uint32_t j) { return once && is_pinned[j] && are_in_one_pair_cell(v, j); };
         for (uint32_t s = 0; s < packs.block_count[p]; ++s) {
             const StiffnessBlock& b =
                 state.stiffness_blocks.block[shell.shells().blocks[shell.row].first + packs.first_block[p] + s];
             const Vec3d d = away(b.neighbour[l]);
-            const auto row = [&](int r) { return dot(Vec3d(b.k[r][l], b.k[r + 1][l], b.k[r + 2][l]), d); };
-            sum += {row(0), row(3), row(6)};
+            const auto along = [&](int i, int step) {
+                return dot(Vec3d(b.k[i][l], b.k[i + step][l], b.k[i + 2 * step][l]), d);
+            };
+            if (is_pinned[v]) sum += {along(0, 1), along(3, 1), along(6, 1)};
+            if (is_other_pinned(b.neighbour[l])) sum -= {along(0, 3), along(1, 3), along(2, 3)};
         }
         for (uint32_t s = 0; s < packs.link_count[p]; ++s) {
             const StiffnessLink& k =
                 state.stiffness_links.link[shell.shells().links[shell.row].first + packs.first_link[p] + s];
-            const double t = dot(Vec3d(k.column[0][l], k.column[1][l], k.column[2][l]), away(k.neighbour[l]));
-            sum += t * Vec3d(k.row[0][l], k.row[1][l], k.row[2][l]);
+            const Vec3d d = away(k.neighbour[l]), row(k.row[0][l], k.row[1][l], k.row[2][l]),
+                        column(k.column[0][l], k.column[1][l], k.column[2][l]);
+            if (is_pinned[v]) sum += dot(column, d) * row;
+            if (is_other_pinned(k.neighbour[l])) sum -= dot(row, d) * column;
         }
     }
     return sum;

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cstring>
 
+#include "systems/cook/materials.hpp"
 #include "systems/damage/ring.hpp"
 
 namespace cullet {
@@ -36,7 +37,8 @@ void collect_tips(ShellView shell, const CrackLimits& limits, float time, Candid
 
 // Vertices that may start a crack next to an element whose principal stress passes their limit, each once, behind the
 // first `tips` candidates. False: more than fit.
-bool collect_starts(ShellView shell, float limit, uint32_t tips, Candidates& candidates) {
+bool collect_starts(ShellView shell, const CrackLimits& limits, float limit, float time, uint32_t tips,
+                    Candidates& candidates) {
     const Elements& elements = shell.state.elements;
     const uint32_t first = shell.elements().first, end = first + shell.element_count();
     Candidate* const out = candidates.candidate;
@@ -47,15 +49,14 @@ bool collect_starts(ShellView shell, float limit, uint32_t tips, Candidates& can
         candidates.count = static_cast<uint32_t>(std::unique(out + tips, out + candidates.count, is_same) - out);
     };
     const float *principal = elements.principal.data(), *strength = elements.start_strength.data();
-    const uint8_t *flags = elements.flags.data(), *crack = shell.state.vertices.crack.data() + shell.vertex(0),
-                  *is_banned = shell.state.vertices.is_start_banned.data() + shell.vertex(0);
+    const uint8_t* flags = elements.flags.data();
     const float* strength_factor = shell.state.vertices.strength_factor.data() + shell.vertex(0);
     for (uint32_t block = first; block < end; block += kLanes) {
         if (elements.over_limit[block] == 0) continue;  // nearly everywhere
         for (uint32_t e = block; e < std::min(block + kLanes, end); ++e) {
             if (!(principal[e] > limit * strength[e]) || (flags[e] & kDead)) continue;
             for (const uint32_t v : elements.corner[e]) {
-                if (crack[v] != static_cast<uint8_t>(CrackState::None) || is_banned[v]) continue;
+                if (!may_start(shell.state.vertices, shell.vertex(v), limits.fracture, time)) continue;
                 if (!(principal[e] > limit * strength_factor[v])) continue;
                 if (candidates.count == Candidates::kMost) drop_repeats();
                 if (candidates.count == Candidates::kMost) return false;
@@ -67,6 +68,35 @@ bool collect_starts(ShellView shell, float limit, uint32_t tips, Candidates& can
     return true;
 }
 
+/// With a grain g: sigma_gg / P + lambda / Q, tensions alone, where lambda is the largest principal stress in the plane
+/// upright on the grain. For a pull at an angle this is Hankinson's formula, (cos^2 / P + sin^2 / Q) sigma = 1. (The
+/// tension of each plane over the strength for its own normal is not: a pull along the grain of wood would open planes
+/// at 44 degrees to it at a seventh of P.) The larger of the two terms opens the crack: along the grain, or through it.
+/// A crack along the grain opens no other arms. Where both terms are large `principal`, by which collect_starts looks
+/// for candidates, is the smaller one by Q / P at most, 4 % of wood.
+StartField grained_field(ShellView shell, uint32_t vertex, const GrainLimits& limits) {
+    StartField field;
+    const float least = std::min(limits.start_along, limits.start_across);
+    for (int face = 0; face < 2; ++face) {
+        const VertexStress s = vertex_stress(shell, vertex, face);
+        // In the tangent plane a lies along the grain's projection, b across it; m is upright on grain and b.
+        const Vec3 projection = limits.grain - dot(limits.grain, s.normal) * s.normal;
+        const float p = std::min(1.0f, dot(projection, projection)), q = 1 - p, a_m = std::sqrt(q);
+        const Vec3 a = p > 1e-6f ? normalised(projection) : s.axis_x, b = cross(s.normal, a);
+        const FaceStress t = in_axes(s, a, b);
+        const float mm = q * t.xx, bb = t.yy, mb = a_m * t.xy;
+        const float mean = 0.5f * (mm + bb), d = 0.5f * (mm - bb), radius = std::sqrt(d * d + mb * mb);
+        const float along = std::max(0.0f, p * t.xx) * (least / limits.start_along);
+        const float across = std::max(0.0f, mean + radius) * (least / limits.start_across);
+        if (!(along + across > field.stress)) continue;
+        // Principal direction (m, b), as in principal().
+        const float m_part = a_m * (d >= 0 ? radius + d : mb), b_part = d >= 0 ? mb : radius - d;
+        const bool splits = across > along && (m_part != 0 || b_part != 0);
+        field = {along + across, 0, splits ? normalised(m_part * a + b_part * b) : across > along ? b : a, s.normal};
+    }
+    return field;
+}
+
 }  // namespace
 
 CrackLimits crack_limits(ShellView shell, float strength_scale) {
@@ -75,27 +105,48 @@ CrackLimits crack_limits(ShellView shell, float strength_scale) {
     const float strength = kShortLoadFactor * m.tensile_strength[row];
     const float griffith = m.tip_factor[row] * std::sqrt(m.young_modulus[row] * m.fracture_energy[row]) /
                            std::sqrt(kPi * shell.shells().mean_edge[shell.row]);
+    const float c = std::sqrt(m.young_modulus[row] / m.density[row]);
     // The game's scale takes Griffith's limit along: a body made unbreakable is so with its old cracks too.
-    return {strength_scale * strength, strength_scale * std::min(strength, griffith),
-            kTipSpeed * std::sqrt(m.young_modulus[row] / m.density[row])};
+    CrackLimits limits;
+    limits.start = strength_scale * strength;
+    limits.tip = strength_scale * std::min(strength, griffith);
+    limits.tip_speed = kTipSpeed * c;
+    const TraitsRow traits = material_traits(shell.state, Row<Materials>(row));
+    limits.fracture = traits.fracture;
+    limits.ban_seconds = kCoarseBanEdges * shell.shells().mean_edge[shell.row] / c;
+    limits.branching = traits.branching;
+    if (!traits.has_grain()) return limits;
+    const float across = kShortLoadFactor * traits.across_strength;
+    const float splits = m.tip_factor[row] * std::sqrt(traits.across_young_modulus * traits.across_fracture_energy) /
+                         std::sqrt(kPi * shell.shells().mean_edge[shell.row]);
+    limits.grain = {true,         traits.grain,
+                    limits.start, strength_scale * across,
+                    limits.tip,   strength_scale * std::min(across, splits)};
+    limits.start = std::min(limits.grain.start_along, limits.grain.start_across);
+    limits.tip = std::min(limits.grain.tip_along, limits.grain.tip_across);
+    return limits;
 }
 
+// Bans of coarse fracture end by themselves, so they count as if they had: too low does no harm.
 void find_start_strengths(ShellView shell) {
+    const FractureKind fracture =
+        material_traits(shell.state, Row<Materials>(shell.shells().material[shell.row])).fracture;
+    constexpr float kEndOfBans = 1e30f;
     const Vertices& vertices = shell.state.vertices;
     Elements& elements = shell.state.elements;
     const uint32_t first = shell.vertices().first;
     for (uint32_t e = shell.elements().first; e < shell.elements().first + shell.element_count(); ++e) {
         float least = kNoStart;
         for (const uint32_t v : elements.corner[e])
-            if (vertices.crack[first + v] == static_cast<uint8_t>(CrackState::None) &&
-                !vertices.is_start_banned[first + v])
+            if (may_start(vertices, first + v, fracture, kEndOfBans))
                 least = std::min(least, vertices.strength_factor[first + v]);
         elements.start_strength[e] = least;
     }
 }
 
-StartField start_field(ShellView shell, uint32_t vertex) {
+StartField start_field(ShellView shell, uint32_t vertex, const GrainLimits& grain) {
     StartField field;
+    if (grain.has_grain) return grained_field(shell, vertex, grain);
     for (int face = 0; face < 2; ++face) {
         const VertexStress s = vertex_stress(shell, vertex, face);
         float s1, s2;
@@ -107,7 +158,7 @@ StartField start_field(ShellView shell, uint32_t vertex) {
     return field;
 }
 
-ChosenHeading tip_heading(ShellView shell, uint32_t vertex, const HeadingFan& fan) {
+ChosenHeading tip_heading(ShellView shell, uint32_t vertex, const HeadingFan& fan, const GrainLimits& grain) {
     const Vec3 heading = shell.state.vertices.heading[shell.vertex(vertex)];
     FaceStress face[2];
     Vec3 x, y;
@@ -117,7 +168,7 @@ ChosenHeading tip_heading(ShellView shell, uint32_t vertex, const HeadingFan& fa
         y = cross(s.normal, x);
         face[f] = in_axes(s, x, y);
     }
-    return choose_heading(fan, x, y, face);
+    return choose_heading(fan, x, y, face, grain);
 }
 
 void choose_candidates(ShellView shell, const CrackLimits& limits, float time, HeadingFan& fan,
@@ -127,15 +178,19 @@ void choose_candidates(ShellView shell, const CrackLimits& limits, float time, H
     const uint32_t tips = candidates.count;
     if (tips > 0) fan = HeadingFan(shell.state.materials.heading_power[shell.shells().material[shell.row]]);
     float raise = 1;
-    while (!collect_starts(shell, raise * limits.start, tips, candidates) && raise < kMostRaise) raise *= kRaise;
+    while (!collect_starts(shell, limits, raise * limits.start, time, tips, candidates) && raise < kMostRaise)
+        raise *= kRaise;
     // Equally stressed everywhere: the first of them by element, as many as fit.
-    if (candidates.count == tips && raise > 1) collect_starts(shell, raise / kRaise * limits.start, tips, candidates);
+    if (candidates.count == tips && raise > 1)
+        collect_starts(shell, limits, raise / kRaise * limits.start, time, tips, candidates);
     uint32_t kept = 0;
     for (uint32_t i = 0; i < candidates.count; ++i) {
         Candidate c = candidates.candidate[i];
         const float limit =
             c.is_tip ? limits.tip : limits.start * shell.state.vertices.strength_factor[shell.vertex(c.vertex)];
-        c.ratio = (c.is_tip ? tip_heading(shell, c.vertex, fan).stress : start_field(shell, c.vertex).stress) / limit;
+        c.ratio = (c.is_tip ? tip_heading(shell, c.vertex, fan, limits.grain).stress
+                            : start_field(shell, c.vertex, limits.grain).stress) /
+                  limit;
         if (c.ratio > 1) candidates.candidate[kept++] = c;
     }
     candidates.count = kept;

@@ -17,6 +17,13 @@ inline constexpr double kLeastStrengthFactor = 0.5, kMostStrengthFactor = 1.5;
 /// few large pieces; without it the contact crumbles and the rest stays whole.
 inline constexpr float kStartSpacing = 3.0f;
 
+/// Coarse fracture: the ban lasts as long as a wave takes for this many mean edges. Everyday 6 to 24. Doubled, a wall
+/// falls into as few pieces as with the lasting ban; halved, into nearly as many as without one.
+inline constexpr float kCoarseBanEdges = 12.0f;
+
+/// Half the angle between the branches of a tip that forks: cosine and sine of 30 degrees.
+inline constexpr float kBranchCosine = 0.8660254f, kBranchSine = 0.5f;
+
 /// sigma_2 / sigma_1 from which a start opens four and six edges instead of two. Everyday 0.5 and 0.75: plates bent by
 /// a ball see 1. Raised to 1 there are no stars, only round plugs.
 inline constexpr float kFourArmRatio = 0.5f, kSixArmRatio = 0.75f;

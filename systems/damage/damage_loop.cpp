@@ -1,5 +1,7 @@
 #include "systems/damage/damage_loop.hpp"
 
+#include "systems/quick/quick_body.hpp"
+#include "systems/quick/quick_loop.hpp"
 #include "systems/systems.hpp"
 
 namespace cullet {
@@ -9,6 +11,7 @@ DamageLoop::DamageLoop(State& state, JobSystem& jobs, Profiler& profiler)
       jobs_(jobs),
       profiler_(profiler),
       brittle_(make_brittle_loop()),
+      quick_(make_quick_loop()),
       zone_(profiler.add_zone("damage task")) {}
 
 void DamageLoop::advance() {
@@ -17,7 +20,9 @@ void DamageLoop::advance() {
     uint32_t alone[kMostTasks], together[kMostTasks], alone_count = 0, together_count = 0;
     for (uint32_t t = 0; t < tasks.size() && alone_count + together_count < kMostTasks; ++t) {
         if (static_cast<TaskState>(tasks.state[t]) != TaskState::Running || tasks.steps_granted[t] == 0) continue;
-        if (world_.state.shells.vertices[tasks.shell[t]].count > kTeamVertices)
+        const uint32_t moving = is_quick_task(world_.state, t) ? kLanes * world_.state.quick_runs.pack_count[t]
+                                                               : world_.state.shells.vertices[tasks.shell[t]].count;
+        if (moving > kTeamVertices)
             together[together_count++] = t;
         else
             alone[alone_count++] = t;
@@ -30,8 +35,11 @@ void DamageLoop::advance() {
     const auto run_of = [&](uint32_t t) {
         return BrittleLoop::Run{t, tasks.steps_done[t], tasks.steps_granted[t], task_goes_on};
     };
+    const auto loop_of = [&](uint32_t t) -> const BrittleLoop& {
+        return is_quick_task(world_.state, t) ? quick_ : brittle_;
+    };
     for (uint32_t i = 0; i < together_count; ++i) {
-        BrittleLoop::Team team(brittle_, world_, run_of(together[i]), workers);
+        BrittleLoop::Team team(loop_of(together[i]), world_, run_of(together[i]), workers);
         parallel_for(jobs_, workers, [&](uint32_t worker) {
             const uint64_t start = now_ns();
             team.work(worker);
@@ -40,7 +48,7 @@ void DamageLoop::advance() {
     }
     parallel_for(jobs_, alone_count, [&](uint32_t i) {
         const uint64_t start = now_ns();
-        brittle_.run_alone(world_, run_of(alone[i]));
+        loop_of(alone[i]).run_alone(world_, run_of(alone[i]));
         profiler_.add_span(zone_, start, now_ns());
     });
 }

@@ -12,7 +12,9 @@ struct DamageLoop {
     /// Every running task by its granted steps. With as many tasks as workers one job a task; with fewer, all workers
     /// share each task of more than kTeamVertices vertices, one after another, and the rest go one job a task.
     void advance();
-    std::string describe() const { return brittle_.describe(); }
+    std::string describe() const {
+        return brittle_.describe() + "      thick shell, quick: 8 to 100 times a hit\n" + quick_.describe();
+    }
 
     static constexpr uint32_t kTeamVertices = 1000;
 
@@ -23,7 +25,7 @@ struct DamageLoop {
     LoopWorld world_;
     JobSystem& jobs_;
     Profiler& profiler_;
-    BrittleLoop brittle_;
+    BrittleLoop brittle_, quick_;
     uint32_t zone_;
 };
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "systems/damage/contact.hpp"
+#include "systems/damage/element_bending.hpp"
 #include "systems/damage/stress_check.hpp"
 
 namespace cullet {
@@ -24,7 +25,13 @@ void add_contacts(const State& state, Row<Tasks> task, const ShellView& shell, T
     const uint32_t first = state.tasks.first_contact[task];
     for (uint32_t c = first; c < first + state.tasks.contact_count[task]; ++c) {
         const double inverse_mass = contacts.striker_inverse_mass[c], speed = contacts.striker_speed[c];
-        if (inverse_mass > 0)
+        bool is_shared = false;
+        for (uint32_t other = first; other < first + state.tasks.contact_count[task]; ++other)
+            is_shared = is_shared || share_a_striker(contacts, c, other);
+        const double start = contacts.start_speed[c];
+        if (is_shared)  // what pushes did to it: each the impulse times the mean of the speeds at its contact
+            energy.strikers += 0.5 * start * start / inverse_mass - 0.5 * contacts.impulse[c] * (start + speed);
+        else if (inverse_mass > 0)
             energy.strikers += 0.5 * speed * speed / inverse_mass;
         else
             energy.work += contacts.impulse[c] * speed;
@@ -38,6 +45,25 @@ void add_contacts(const State& state, Row<Tasks> task, const ShellView& shell, T
             energy.contact += patch_spring(patches, p).energy(depth, state.vertices.crush[row]);
         }
     }
+}
+
+double grained_bending_energy(const ShellView& shell, const PlaneStress& stress, uint32_t first, uint32_t count) {
+    const Elements& elements = shell.state.elements;
+    const float* slope = elements.slope[shell.element(0)].data();
+    double sum = 0;
+    for (uint32_t e = first; e < first + count; ++e) {
+        const uint32_t row = shell.element(e);
+        if (elements.flags[row] & kDead) continue;
+        const BendingTerms terms(shell, stress, e);
+        double angle[3];
+        for (uint32_t k = 0; k < 3; ++k) {
+            const uint32_t own = 3 * e + k, other = elements.other_slope[row][k];
+            angle[k] = other == own ? 0 : double{slope[own]} + slope[other];
+        }
+        for (int k = 0; k < 3; ++k)
+            for (int l = 0; l < 3; ++l) sum += terms.h[k][l] * (angle[k] * angle[l]);
+    }
+    return 0.5 * sum;
 }
 
 }  // namespace
@@ -59,6 +85,8 @@ double bending_energy(ShellView shell, uint32_t first, uint32_t count) {
     const Hinges& hinges = shell.state.hinges;
     const Elements& elements = shell.state.elements;
     const float* slope = elements.slope[shell.element(0)].data();
+    const PlaneStress stress = plane_stress(shell.state, shell.row);
+    if (stress.has_grain) return grained_bending_energy(shell, stress, first, count);
     // Half of each hinge from either side: asking which side is the lower one guesses wrong every other time.
     double sum[3] = {};
     for (uint32_t e = first; e < first + count; ++e) {

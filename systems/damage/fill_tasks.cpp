@@ -3,7 +3,8 @@
 
 namespace cullet {
 
-void fill_tasks(Each<TaskOpened> opened, ShellTables shells, Tasks&) {
+void fill_tasks(Each<TaskOpened> opened, ShellTables shells, Tasks& tasks) {
+    if (!tasks.shell[opened->task].exists()) return;  // no room
     fill_task(shells.state, opened->task);
 }
 

@@ -1,6 +1,9 @@
 #include <algorithm>
 
 #include "systems/damage/task_cost.hpp"
+#include "systems/quick/quick_body.hpp"
+#include "systems/quick/quick_loop.hpp"
+#include "systems/soft/soft_units.hpp"
 #include "systems/systems.hpp"
 
 namespace cullet {
@@ -16,14 +19,22 @@ uint32_t steps_left(const Tasks& tasks, uint32_t t) {
 
 }  // namespace
 
-// What cuts cost more than was granted for is owed, and paid before the next frame's steps. A task gets at least one
+// What cracks cost more than was granted for is owed, and paid before the next frame's steps; cuts of the game are paid
+// in the frame that makes them. A task gets at least one
 // step a frame, so that none can starve.
-void grant_units(Serial, Tasks& tasks, const Shells& shells, const DamageSettings& settings, DamageCounts& counts) {
+void grant_units(Serial, ShellTables shells, Tasks& tasks, SoftBodies&, const DamageSettings& settings,
+                 DamageCounts& counts) {
     static constexpr uint32_t kMostTasks = 1024;
     uint32_t order[kMostTasks], count = 0;
-    int64_t budget = static_cast<int64_t>(settings.units_a_frame);
+    const uint64_t for_soft = std::min(soft_units_wanted(shells.state), settings.units_a_frame / 2);
+    int64_t budget = static_cast<int64_t>(settings.units_a_frame - for_soft);
     for (uint32_t t = 0; t < tasks.size() && count < kMostTasks; ++t) {
-        if (static_cast<TaskState>(tasks.state[t]) != TaskState::Running) continue;
+        const auto task_state = static_cast<TaskState>(tasks.state[t]);
+        if (task_state == TaskState::Whole) {  // a cut, which is made already
+            budget -= static_cast<int64_t>(tasks.units_owed[t]);
+            tasks.units_owed[t] = 0;
+        }
+        if (task_state != TaskState::Running) continue;
         order[count++] = t;
         const auto paid = std::min<int64_t>(static_cast<int64_t>(tasks.units_owed[t]), std::max<int64_t>(budget, 0));
         tasks.units_owed[t] -= static_cast<uint64_t>(paid);
@@ -39,7 +50,9 @@ void grant_units(Serial, Tasks& tasks, const Shells& shells, const DamageSetting
         goes_on = false;
         for (uint32_t i = 0; i < count; ++i) {
             const uint32_t t = order[i];
-            const auto cost = static_cast<int64_t>(units_a_step(shells, tasks, t));
+            const auto cost =
+                static_cast<int64_t>(is_quick_task(shells.state, t) ? quick_units_a_step(shells.state, t)
+                                                                    : units_a_step(shells.state.shells, tasks, t));
             uint32_t steps = 1;  // also where rounding leaves none: the step itself tells that the time is up
             if (!is_first_round)
                 steps = static_cast<uint32_t>(std::min<int64_t>(std::min(kStepsARound, steps_left(tasks, t)),
@@ -51,7 +64,9 @@ void grant_units(Serial, Tasks& tasks, const Shells& shells, const DamageSetting
         goes_on = goes_on && budget > 0;
         is_first_round = false;
     }
-    counts.units_left = static_cast<uint64_t>(std::max<int64_t>(budget, 0));
+    const uint64_t soft_budget = for_soft + static_cast<uint64_t>(std::max<int64_t>(budget, 0));
+    const uint64_t soft_used = grant_soft(shells.state, soft_budget, counts.slow_soft_frames);
+    counts.units_left = soft_budget - std::min(soft_used, soft_budget);
     counts.units_used = settings.units_a_frame - counts.units_left;
 }
 

@@ -1,5 +1,6 @@
 #include "systems/damage/grow_cracks.hpp"
 
+#include "engine/random.hpp"
 #include "systems/costs.hpp"
 #include "systems/damage/aim.hpp"
 #include "systems/damage/crack_candidates.hpp"
@@ -9,12 +10,16 @@
 namespace cullet {
 namespace {
 
+constexpr uint64_t kBranchSeed = 0x6272616e6368;
+constexpr float kNeverReady = 1e30f;  // s
+
 struct Batch {
     ShellView shell;
     CrackLimits limits;
     HeadingFan fan;
     float time, check_interval;  // s, of the run and between two checks
     CrackSink& sink;
+    uint32_t step;  // of the run
     Touched touched;
 };
 
@@ -35,15 +40,26 @@ float arrival_time(const Batch& batch, float ready_time) {
     return batch.time - ready_time < batch.check_interval ? ready_time : batch.time;
 }
 
+void ban_near(Batch& batch, Vec3 place) {
+    switch (batch.limits.fracture) {
+        case FractureKind::Large:
+            return ban_starts(batch.shell, place);
+        case FractureKind::Coarse:
+            return ban_starts(batch.shell, place, batch.time + batch.limits.ban_seconds);
+        case FractureKind::Fine:
+            return;
+    }
+}
+
 // Interior ends become tips of the crack that started at `root`, headed as their arms; starts are banned round the
 // cuts.
 void finish_cut(Batch& batch, Vec3 place, float arrival, const Ends& ends, const Vec3* heading, uint32_t root) {
     const ShellView shell = batch.shell;
     Vertices& vertices = shell.state.vertices;
-    ban_starts(shell, place);
+    ban_near(batch, place);
     for (uint32_t i = 0; i < ends.count; ++i) {
         const uint32_t row = shell.vertex(ends.end[i]);
-        ban_starts(shell, vertices.rest[row]);
+        ban_near(batch, vertices.rest[row]);
         if (!ends.is_interior[i]) continue;
         Ring ring;
         walk_ring(shell, ends.end[i], ring);
@@ -95,12 +111,31 @@ bool open_arms(Batch& batch, uint32_t vertex, const StartField& field) {
     return try_cut(batch, vertex, ends, heading, vertex);
 }
 
+// Whether a tip under this stress forks, with probability 1/2 by its place and time: a fork that was not taken may be
+// taken later.
+bool forks(const Batch& batch, uint32_t vertex, float stress) {
+    if (!(batch.limits.branching > 0 && stress > batch.limits.branching * batch.limits.start)) return false;
+    return Random{kBranchSeed}.uniform(vertex, batch.step) < 0.5;
+}
+
+bool try_fork(Batch& batch, uint32_t vertex, Vec3 normal, Vec3 direction, uint32_t root) {
+    const Vec3 side = cross(normal, direction);
+    Ends ends;
+    Vec3 heading[kMostArms];
+    for (const float sine : {kBranchSine, -kBranchSine}) {
+        const Vec3 branch = normalised(kBranchCosine * direction + sine * side);
+        const Aim found = aim_at(batch, vertex, normal, branch);
+        if (found.end != kNone && ends.add(found.end)) heading[ends.count - 1] = branch;
+    }
+    return ends.count == 2 && try_cut(batch, vertex, ends, heading, root);
+}
+
 void start_crack(Batch& batch, uint32_t vertex) {
     const ShellView shell = batch.shell;
     Vertices& vertices = shell.state.vertices;
     const uint32_t row = shell.vertex(vertex);
-    if (crack_at(batch, vertex) != CrackState::None || vertices.is_start_banned[row]) return;
-    const StartField field = start_field(shell, vertex);
+    if (!may_start(vertices, row, batch.limits.fracture, batch.time)) return;
+    const StartField field = start_field(shell, vertex, batch.limits.grain);
     if (!(field.stress > batch.limits.start * vertices.strength_factor[row])) return;
     Ring ring;
     walk_ring(shell, vertex, ring);
@@ -112,7 +147,9 @@ void start_crack(Batch& batch, uint32_t vertex) {
                                              try_step(batch, vertex, field.normal, -along, vertex);
     if (!is_cut) {
         // Where the mesh has no way for a crack none starts in this run; a lack of room may pass.
-        if (batch.sink.refused == refused) vertices.is_start_banned[row] = 1;
+        if (batch.sink.refused != refused) return;
+        vertices.is_start_banned[row] = 1;
+        if (batch.limits.fracture != FractureKind::Large) vertices.ready_time[row] = kNeverReady;
         return;
     }
     ++batch.sink.starts;
@@ -124,7 +161,7 @@ void advance_tip(Batch& batch, uint32_t vertex) {
     Vertices& vertices = shell.state.vertices;
     const uint32_t row = shell.vertex(vertex);
     if (crack_at(batch, vertex) != CrackState::Tip || batch.time < vertices.ready_time[row]) return;
-    const ChosenHeading chosen = tip_heading(shell, vertex, batch.fan);
+    const ChosenHeading chosen = tip_heading(shell, vertex, batch.fan, batch.limits.grain);
     if (!(chosen.stress > batch.limits.tip)) return;
     Ring ring;
     walk_ring(shell, vertex, ring);
@@ -137,6 +174,8 @@ void advance_tip(Batch& batch, uint32_t vertex) {
         const Vec3 toward = into_plane(vertices.rest[shell.vertex(meeting)] - vertices.rest[row], normal);
         is_cut = try_step(batch, vertex, normal, toward, root);
     }
+    if (!is_cut && forks(batch, vertex, chosen.stress))
+        is_cut = try_fork(batch, vertex, normal, chosen.direction, root);
     if (!is_cut) is_cut = try_step(batch, vertex, normal, chosen.direction, root);
     if (!is_cut) {
         // No way on now; it looks again after the time of one step.
@@ -148,7 +187,7 @@ void advance_tip(Batch& batch, uint32_t vertex) {
 
 }  // namespace
 
-void begin_cracks(ShellView shell, bool is_fragment) {
+void forget_run(ShellView shell, bool is_fragment) {
     Vertices& vertices = shell.state.vertices;
     for (uint32_t v = shell.vertices().first; v < shell.vertices().first + shell.vertex_count(); ++v) {
         vertices.is_start_banned[v] = 0;
@@ -158,6 +197,10 @@ void begin_cracks(ShellView shell, bool is_fragment) {
         if (vertices.crack[v] == static_cast<uint8_t>(CrackState::Cracked))
             vertices.crack[v] = static_cast<uint8_t>(CrackState::None);
     }
+}
+
+void begin_cracks(ShellView shell, bool is_fragment) {
+    forget_run(shell, is_fragment);
     find_start_strengths(shell);
 }
 
@@ -166,7 +209,9 @@ uint32_t grow_cracks(State& state, Row<Tasks> task, CrackSink& sink) {
     const ShellView shell(state, tasks.shell[task]);
     const float time = static_cast<float>(tasks.steps_done[task]) * tasks.time_step[task];
     const float check_interval = static_cast<float>(kStepsAStressCheck) * tasks.time_step[task];
-    Batch batch{shell, crack_limits(shell, tasks.strength_scale[task]), {}, time, check_interval, sink, {}};
+    Batch batch{
+        shell, crack_limits(shell, tasks.strength_scale[task]), {}, time, check_interval, sink, tasks.steps_done[task],
+        {}};
     Candidates candidates;
     choose_candidates(shell, batch.limits, time, batch.fan, candidates);
     if (candidates.count == 0) return 0;
@@ -190,7 +235,7 @@ uint32_t grow_cracks(State& state, Row<Tasks> task, CrackSink& sink) {
     if (all_cuts / kCutsAPass != tasks.crack_count[task] / kCutsAPass) find_start_strengths(shell);
     tasks.crack_count[task] = all_cuts;
     tasks.start_count[task] += sink.starts - starts_before;
-    tasks.units_owed[task] += kUnitsCut * cuts;
+    tasks.units_owed[task] += kUnitsCut * cuts + batch.touched.units;
     if (cuts) tasks.last_event_time[task] = time;
     return cuts;
 }

@@ -1,5 +1,7 @@
 #include "systems/damage/heading.hpp"
 
+#include <algorithm>
+
 namespace cullet {
 
 HeadingFan::HeadingFan(float power) {
@@ -18,15 +20,18 @@ FaceStress in_axes(const VertexStress& s, Vec3 x, Vec3 y) {
             s.xx * ax * bx + s.yy * ay * by + s.xy * (ax * by + ay * bx)};
 }
 
-ChosenHeading choose_heading(const HeadingFan& fan, Vec3 x, Vec3 y, const FaceStress (&face)[2]) {
+ChosenHeading choose_heading(const HeadingFan& fan, Vec3 x, Vec3 y, const FaceStress (&face)[2],
+                             const GrainLimits& grain) {
     float most = 0, best_cosine = 1, best_sine = 0;
     for (int k = 0; k <= kHeadingSteps; ++k) {
         for (const float sign : {1.0f, -1.0f}) {
             const float s = sign * fan.sine[k], c = fan.cosine[k];
+            float share = 1;
+            if (grain.has_grain) share = std::min(grain.tip_along, grain.tip_across) / tip_limit(grain, c * y - s * x);
             for (const FaceStress& t : face) {
                 // The crack's normal is (-s, c).
                 const float across = s * s * t.xx + c * c * t.yy - 2 * s * c * t.xy;
-                const float value = across * fan.weight[k];
+                const float value = across * fan.weight[k] * share;
                 if (!(value > most)) continue;
                 most = value, best_cosine = c, best_sine = s;
             }

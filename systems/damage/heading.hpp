@@ -1,6 +1,7 @@
 // Which way a crack tip wants to go.
 #pragma once
 #include "systems/damage/crack_rules.hpp"
+#include "systems/damage/grain.hpp"
 #include "systems/damage/vertex_stress.hpp"
 
 namespace cullet {
@@ -29,7 +30,9 @@ struct ChosenHeading {
 /// Maximises sigma_nn(phi) cos(phi)^q over the fan about `heading` and over the faces. sigma_nn is the tension across a
 /// crack in direction phi; x is the heading, y = normal x heading, and the tensors are in these axes. Of equal values
 /// the smaller turn wins, then the positive one, then the outer face.
-ChosenHeading choose_heading(const HeadingFan& fan, Vec3 x, Vec3 y, const FaceStress (&face)[2]);
+/// With a grain the tension counts by the least tip limit over that in its direction.
+ChosenHeading choose_heading(const HeadingFan& fan, Vec3 x, Vec3 y, const FaceStress (&face)[2],
+                             const GrainLimits& grain = {});
 
 /// `direction` turned into the plane of unit `normal`, as a unit vector; zero when it stands upright on the plane.
 Vec3 into_plane(Vec3 direction, Vec3 normal);

@@ -29,6 +29,11 @@ Vec3 mix(Vec3 p, Vec3 q, float tau) {
     return p + tau * (q - p);
 }
 
+// When the ban at this end is over; ready_time of a vertex with a crack is its tip's.
+float end_of_ban(const Vertices& v, uint32_t row) {
+    return v.is_start_banned[row] && v.crack[row] == static_cast<uint8_t>(CrackState::None) ? v.ready_time[row] : 0.0f;
+}
+
 // Row w between rows p and q. What has no meaning between them is taken from p.
 void interpolate_vertex(Vertices& v, uint32_t p, uint32_t q, uint32_t w, float tau) {
     v.copy_rows(v, p, w, 1);
@@ -41,9 +46,9 @@ void interpolate_vertex(Vertices& v, uint32_t p, uint32_t q, uint32_t w, float t
     v.is_pinned[w] = v.is_pinned[p] && v.is_pinned[q];
     v.strength_factor[w] = mix(v.strength_factor[p], v.strength_factor[q], tau);
     v.stiffness_scale[w] = mix(v.stiffness_scale[p], v.stiffness_scale[q], tau);
+    v.ready_time[w] = std::max(end_of_ban(v, p), end_of_ban(v, q));
     v.crack[w] = static_cast<uint8_t>(CrackState::None);
     v.heading.set(w, {});
-    v.ready_time[w] = 0;
     v.crack_start[w] = kNone;
     v.is_start_banned[w] = v.is_start_banned[p] || v.is_start_banned[q];
     v.displacement.set(w, mix(v.displacement[p], v.displacement[q], tau));

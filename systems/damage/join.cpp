@@ -1,5 +1,6 @@
 #include "systems/damage/join.hpp"
 
+#include <algorithm>
 #include <cstring>
 
 #include "systems/damage/crack_rules.hpp"
@@ -62,6 +63,18 @@ void ban_starts(ShellView shell, Vec3 place) {
     for (uint32_t v = 0; v < count; ++v) {
         const float dx = x[v] - place.x, dy = y[v] - place.y, dz = z[v] - place.z;
         banned[v] = static_cast<uint8_t>(banned[v] | (dx * dx + dy * dy + dz * dz <= limit));
+    }
+}
+
+void ban_starts(ShellView shell, Vec3 place, float until) {
+    ban_starts(shell, place);
+    Vertices& vertices = shell.state.vertices;
+    const float reach = kStartSpacing * shell.shells().mean_edge[shell.row];
+    for (uint32_t row = shell.vertex(0); row < shell.vertex(0) + shell.vertex_count(); ++row) {
+        const Vec3 away = vertices.rest[row] - place;
+        if (vertices.crack[row] != static_cast<uint8_t>(CrackState::None) || !(dot(away, away) <= reach * reach))
+            continue;
+        vertices.ready_time[row] = std::max(vertices.ready_time[row], until);
     }
 }
 

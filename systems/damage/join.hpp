@@ -13,5 +13,7 @@ uint32_t find_crack_ahead(ShellView shell, uint32_t tip, Vec3 direction, float s
 
 /// Bans starts within 3 l of this place for the rest of the run.
 void ban_starts(ShellView shell, Vec3 place);
+/// The same until this time of the run, for vertices without a crack (see may_start).
+void ban_starts(ShellView shell, Vec3 place, float until);
 
 }  // namespace cullet

@@ -8,7 +8,7 @@ namespace {
 
 bool is_fragile(const Bodies& bodies, const Shells& shells, const DamageSettings& settings, uint32_t b) {
     const Row<Shells> shell = bodies.shell[b];
-    return shell.exists() && bodies.is_breakable[b] && may_break_again(shells, shell, settings.generations);
+    return shell.exists() && bodies.is_breakable[b] && may_break_again(shells, shell, settings);
 }
 
 // Whoever strikes the body in its open task goes on striking the same blow.

@@ -88,6 +88,22 @@ void collect_hinges(const ShellView& shell, const Ring& ring, RingHinges& hinges
         }
 }
 
+void collect_hinge_elements(const ShellView& shell, const Ring& ring, HingeElements& elements) {
+    elements.count = 0;
+    const auto add = [&](uint32_t element) {
+        uint32_t at = elements.count;
+        while (at > 0 && elements.element[at - 1] > element) --at;
+        if (at > 0 && elements.element[at - 1] == element) return;
+        for (uint32_t j = elements.count++; j > at; --j) elements.element[j] = elements.element[j - 1];
+        elements.element[at] = element;
+    };
+    for (uint32_t i = 0; i < ring.count; ++i) {
+        const uint32_t row = shell.element(ring.element[i]), opposite = (ring.corner[i] + 1u) % 3;
+        add(ring.element[i]);
+        if (shell.state.elements.hinge[row][opposite] != kNone) add(shell.state.elements.neighbour[row][opposite]);
+    }
+}
+
 Vec3 ring_normal(ShellView shell, const Ring& ring) {
     Vec3 sum;
     for (uint32_t i = 0; i < ring.count; ++i) {

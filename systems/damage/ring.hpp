@@ -32,6 +32,14 @@ struct RingHinges {
 };
 void collect_hinges(const ShellView& shell, const Ring& ring, RingHinges& hinges);
 
+/// Elements with a hinge that holds the vertex of this ring: the ring's, and those across from it; rising, each once.
+/// Round a corner of a tetrahedron one element lies across from all three of the ring.
+struct HingeElements {
+    uint32_t count = 0;
+    uint32_t element[2 * kMostRing];
+};
+void collect_hinge_elements(const ShellView& shell, const Ring& ring, HingeElements& elements);
+
 /// Corner of `element` at `vertex`, or 3.
 uint8_t corner_of(const ShellView& shell, uint32_t element, uint32_t vertex);
 

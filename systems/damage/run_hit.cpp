@@ -8,8 +8,12 @@
 #include "systems/damage/brittle_loop.hpp"
 #include "systems/damage/crack_candidates.hpp"
 #include "systems/damage/energy.hpp"
+#include "systems/damage/run_out.hpp"
+#include "systems/damage/struck_normal.hpp"
 #include "systems/damage/working_room.hpp"
 #include "systems/fragments/group_fragments.hpp"
+#include "systems/quick/quick_loop.hpp"
+#include "systems/quick/region_motion.hpp"
 
 namespace cullet {
 namespace {
@@ -19,8 +23,9 @@ constexpr Row<Tasks> kTask{0};
 }  // namespace
 
 bool open_hit(State& state, Row<Shells> source, const HitDescription& hit) {
+    const ShellView before(state, source);
     const Row<Shells> working =
-        make_shell_unclear(state, working_room(ShellView(state, source)));  // start_task fills it
+        make_shell_unclear(state, hit.quick ? quick_room(before) : working_room(before));  // start_task fills it
     if (!working.exists()) return false;
     Tasks& tasks = state.tasks;
     tasks.clear_rows(kTask, 1);
@@ -32,41 +37,52 @@ bool open_hit(State& state, Row<Shells> source, const HitDescription& hit) {
     tasks.start_velocity.set(kTask, hit.velocity);
     tasks.start_spin.set(kTask, hit.spin);
     tasks.strength_scale[kTask] = hit.strength_scale;
-    set_task_times(state, state.materials, kTask);
+    set_task_times(state, kTask);
     tasks.time_step[kTask] *= hit.step_scale;
-    tasks.damping_time[kTask] *= hit.step_scale;
+    set_quick_task(state, kTask, Row<Bodies>());
+    if (hit.quick) set_quick_task(state, kTask, *hit.quick);
     tasks.contact_count[kTask] = 1;
     TaskContacts& contacts = state.task_contacts;
     contacts.clear_rows(0, 1);
     contacts.point.set(0, hit.point);
-    contacts.normal.set(0, hit.normal);
     contacts.striker[0] = {};
     contacts.striker_inverse_mass[0] = hit.striker_inverse_mass;
     contacts.striker_radius[0] = hit.striker_radius;
     contacts.start_speed[0] = hit.striker_speed;
     contacts.radius[0] = std::max(
         {3 * state.shells.thickness[source], 1.3f * state.shells.mean_edge[source], 0.35f * hit.striker_radius});
+    const bool is_ball = hit.striker_radius > 0;
+    contacts.normal.set(
+        0, is_ball ? struck_normal(ShellView(state, source), hit.point, hit.normal, contacts.radius[0]) : hit.normal);
     const Vec3 arm = hit.point - state.shells.centre[source].to_float();
     tasks.approach_speed[kTask] = hit.striker_speed - dot(hit.velocity + cross(hit.spin, arm), hit.normal);
     start_task(state, kTask);
+    const char* full = "";
+    if (hit.quick) return wake_region(state, kTask, &full);
     return true;
 }
 
 HitReport finish_hit(State& state) {
     Tasks& tasks = state.tasks;
     HitReport report;
+    const bool is_quick = is_quick_task(state, kTask);
+    const TaskEnergy of_region = is_quick ? region_energy(RegionView(state, kTask)) : TaskEnergy{};
+    if (is_quick) close_region(state, kTask), report.awake = state.quick_runs.awake_count[kTask];
     report.steps = tasks.steps_done[kTask];
     report.cuts = tasks.crack_count[kTask];
     report.starts = tasks.start_count[kTask];
     report.redos = tasks.redo_count[kTask];
     report.dropped = static_cast<TaskState>(tasks.state[kTask]) == TaskState::Dropped;
     report.cracked = report.cuts > 0;
-    report.parts =
-        group_fragments(ShellView(state, tasks.shell[kTask]), std::span(state.fragments.part.data(), kMostParts));
+    const ShellView shell(state, tasks.shell[kTask]);
+    const std::span parts(state.fragments.part.data(), kMostParts);
+    report.parts = group_fragments(shell, parts);
+    if (report.parts > 1 && !report.dropped && run_out_cracks(state, kTask) > 0)
+        report.parts = group_fragments(shell, parts);
     tasks.part_count[kTask] = report.parts;
     report.broke = report.parts > 1;
     report.start_energy = tasks.start_energy[kTask];
-    const TaskEnergy energy = task_energy(state, kTask);
+    const TaskEnergy energy = is_quick ? of_region : task_energy(state, kTask);
     report.end_energy = energy.total();
     report.end_kinetic = energy.kinetic + energy.strikers;
     report.impulse = state.task_contacts.impulse[0];
@@ -80,7 +96,7 @@ HitReport run_hit(State& state, Row<Shells> shell, const HitDescription& hit, bo
         report.dropped = true;
         return report;
     }
-    const BrittleLoop loop = make_brittle_loop();
+    const BrittleLoop loop = hit.quick ? make_quick_loop() : make_brittle_loop();
     LoopWorld world{state};
     Tasks& tasks = state.tasks;
     while (static_cast<TaskState>(tasks.state[kTask]) == TaskState::Running) {
@@ -131,7 +147,8 @@ float first_crack_speed(State& state, Row<Shells> shell, Vec3 down) {
     LoopWorld world{state};
     Tasks& tasks = state.tasks;
     const ShellView working(state, tasks.shell[kTask]);
-    const float limit = crack_limits(working, 1).start;
+    const CrackLimits limits = crack_limits(working, 1);
+    const float limit = limits.start;
     float most = 1e-6f;
     while (static_cast<TaskState>(tasks.state[kTask]) == TaskState::Running) {
         tasks.steps_granted[kTask] = 3;
@@ -141,8 +158,8 @@ float first_crack_speed(State& state, Row<Shells> shell, Vec3 down) {
             const uint32_t row = working.element(e);
             if (state.elements.principal[row] <= 0.5f * most * limit) continue;
             for (const uint32_t v : state.elements.corner[row]) {
-                const float ratio =
-                    start_field(working, v).stress / (limit * state.vertices.strength_factor[working.vertex(v)]);
+                const float ratio = start_field(working, v, limits.grain).stress /
+                                    (limit * state.vertices.strength_factor[working.vertex(v)]);
                 most = std::max(most, ratio);
             }
         }

@@ -1,6 +1,7 @@
 // One hit on one shell, from touch to end, without a world: what cooking measures with and truth is told by.
 #pragma once
 #include "components/state.hpp"
+#include "cullet/quick.hpp"
 
 namespace cullet {
 
@@ -13,12 +14,14 @@ struct HitDescription {
     float striker_inverse_mass = 0;  // 1/kg, 0: floor
     float striker_radius = 0;        // m, 0: flat
     float strength_scale = 1;
-    float step_scale = 1;  // on the shell's time step; truth halves it
+    float step_scale = 1;  // on the shell's time step; its damping time, the body's own, stays. Truth halves it
+    const QuickSettings* quick = nullptr;  // the quick mode takes the hidden run's place
 };
 
 struct HitReport {
     bool cracked = false, broke = false, dropped = false;
     uint32_t steps = 0, cuts = 0, starts = 0, redos = 0, parts = 1;
+    uint32_t awake = 0;                      // vertices that the quick mode's region began with
     double start_energy = 0;                 // J, of body and strikers, all of it kinetic
     double end_energy = 0, end_kinetic = 0;  // J, with and without what the springs hold
     double impulse = 0;                      // N s, to the body along the normal

@@ -1,3 +1,4 @@
+#include "systems/damage/blows.hpp"
 #include "systems/damage/thresholds.hpp"
 #include "systems/fragments/strike_back.hpp"
 #include "systems/rigid/body_id.hpp"
@@ -32,9 +33,9 @@ void for_body_and_strikers(const Tasks& tasks, const TaskContacts& contacts, uin
 
 // Hold and release both happen here, between detect and solve, so a release is bit for bit as if never held. A blow
 // slower than the first crack is solved at once: a harmless bump must not be seen to stick.
-void settle_tasks(Serial, Step step, Tasks& tasks, TaskContacts& contacts, Bodies& bodies, const Shells& shells,
-                  RigidWorld& rigid, const DamageSettings& settings, DamageCounts& counts, Events<TaskEnded>& ended,
-                  Events<ImpactEvent>& impact_events) {
+void settle_tasks(Serial, Step step, Tasks& tasks, TaskContacts& contacts, Blows& blows, Bodies& bodies,
+                  const Shells& shells, RigidWorld& rigid, const DamageSettings& settings, DamageCounts& counts,
+                  Events<TaskEnded>& ended, Events<ImpactEvent>& impact_events) {
     ended.clear();
     for (uint32_t t = 0; t < tasks.size(); ++t) {
         const auto task_state = static_cast<TaskState>(tasks.state[t]);
@@ -51,6 +52,7 @@ void settle_tasks(Serial, Step step, Tasks& tasks, TaskContacts& contacts, Bodie
                 for_body_and_strikers(tasks, contacts, t, [&](Row<Bodies> b) { hold(bodies, rigid, b); });
             } else {
                 tasks.is_late[t] = 1;
+                pay_blows(blows, bodies, rigid, counts, Row<Tasks>(t));
             }
         }
         if (tasks.is_held[t]) {
@@ -60,7 +62,10 @@ void settle_tasks(Serial, Step step, Tasks& tasks, TaskContacts& contacts, Bodie
                 for_body_and_strikers(tasks, contacts, t, [&](Row<Bodies> b) { let_go(bodies, rigid, b); });
                 tasks.is_held[t] = 0;
                 tasks.is_late[t] = !is_over;
-                if (!is_over) pay_answers(bodies, tasks, contacts, rigid, Row<Tasks>(t));
+                if (!is_over) {
+                    pay_answers(bodies, tasks, contacts, rigid, Row<Tasks>(t));
+                    pay_blows(blows, bodies, rigid, counts, Row<Tasks>(t));
+                }
             } else {
                 ++tasks.frames_held[t];
                 ++counts.frames_held;

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "systems/damage/assemble.hpp"
+#include "systems/damage/pair_cells.hpp"
 
 namespace cullet {
 namespace {
@@ -58,12 +59,14 @@ bool is_row_neighbour(ShellView shell, const Ring& before, uint32_t vertex, uint
 }
 
 // Rows that held the vertex, and whose element or hinge went to its copy: the stiffness is the same, so the name is
-// all that changes. What holds both the vertex and its copy is built anew.
+// all that changes. What holds both the vertex and its copy is built anew; so is all where pairs are stored once, for
+// the vertex's lane may hold what the copy, in another pair cell, must hold with both.
 void rename_in_rows(ShellView shell, const Ring& before, uint32_t vertex, uint32_t copy, const VertexList& others,
                     Touched& touched) {
+    const bool once = stores_pairs_once(shell.shells(), shell.row);
     for (uint32_t i = 0; i < others.count; ++i) {
         const uint32_t other = others.vertex[i];
-        if (is_row_neighbour(shell, before, vertex, other))
+        if (once || is_row_neighbour(shell, before, vertex, other))
             touched.rows.add(other);
         else
             rename_neighbour(shell, other, vertex, copy);

@@ -39,6 +39,18 @@ Flap make_flap(Vec3d p0, Vec3d p1, Vec3d o, double sign) {
     return {(std::sqrt(squared) / (twice * twice)) * n, dot(o - p0, edge) / squared, 0.5 * twice, true};
 }
 
+/// Share of one triangle, on edge 0-1 with the corner `o` opposite, in its hinge's own term: the diagonal of
+/// BendingTerms, h^3/12 C_pp L^2/(4A) with p the edge's normal in the plane.
+double grained_hinge(const ShellView& shell, const GrainModuli& grain, uint32_t v0, uint32_t v1, uint32_t o) {
+    const Vec3d p0 = rest(shell, v0), edge = rest(shell, v1) - p0, side = rest(shell, o) - p0;
+    const double squared = dot(edge, edge);
+    const Vec3d along = (1 / std::sqrt(squared)) * edge, up = side - dot(side, along) * along;
+    const double altitude = length(up);
+    const double h = mean_depth(shell, v0, v1, o);
+    const PlaneStiffness c = grain_stiffness(grain, (1 / altitude) * up, along);
+    return h * h * h / 12 * c.c11 * std::sqrt(squared) / (2 * altitude);
+}
+
 }  // namespace
 
 void assemble_element(ShellView shell, uint32_t element) {
@@ -82,6 +94,12 @@ uint32_t assemble_hinge(ShellView shell, uint32_t hinge) {
     for (uint32_t i = 0; i < 4; ++i)
         for (int k = 0; k < 3; ++k)
             hinges.gradient[row][3 * i + static_cast<uint32_t>(k)] = static_cast<float>(gradient[i][k]);
+    const PlaneStress stress = plane_stress(shell.state, shell.row);
+    if (stress.has_grain) {
+        hinges.stiffness[row] = static_cast<float>(grained_hinge(shell, stress.grain, v[0], v[1], v[2]) +
+                                                   grained_hinge(shell, stress.grain, v[0], v[1], v[3]));
+        return hinge;
+    }
     const Row<Materials> material = shell.shells().material[shell.row];
     const double e = shell.state.materials.young_modulus[material], nu = shell.state.materials.poisson_ratio[material];
     const double h = 0.5 * (mean_depth(shell, v[0], v[1], v[2]) + mean_depth(shell, v[0], v[1], v[3]));

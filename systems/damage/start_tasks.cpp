@@ -1,10 +1,33 @@
 #include "systems/brittle/restart.hpp"
+#include "systems/damage/cut_shell.hpp"
+#include "systems/damage/task_cost.hpp"
 #include "systems/systems.hpp"
 
 namespace cullet {
+namespace {
 
-void start_tasks(Each<TaskOpened> opened, ShellTables shells, Tasks&, TaskContacts&, PatchVertices&) {
+// Nothing is left to run: what came apart is found as after any task.
+void make_cuts(State& state, Row<Tasks> task) {
+    Tasks& tasks = state.tasks;
+    Blows& blows = state.blows;
+    const ShellView shell(state, tasks.shell[task]);
+    for (uint32_t b = 0; b < blows.size(); ++b) {
+        if (blows.task[b] != task.index) continue;
+        tasks.units_owed[task] += units_of_cut(state.shells, tasks.source[task], blows, b);
+        const CutReport report = cut_shell(shell, CutSurface(blows, b));
+        tasks.crack_count[task] += report.cut_edges;
+        blows.goes_on[b] = report.is_full;
+    }
+    tasks.state[task] = static_cast<uint8_t>(TaskState::Whole);
+}
+
+}  // namespace
+
+void start_tasks(Each<TaskOpened> opened, ShellTables shells, Tasks& tasks, TaskContacts&, PatchVertices&,
+                 Blows& blows) {
+    if (!tasks.shell[opened->task].exists()) return;  // no room
     start_run(shells.state, opened->task);
+    if (is_cut_task(blows, opened->task)) make_cuts(shells.state, opened->task);
 }
 
 }  // namespace cullet

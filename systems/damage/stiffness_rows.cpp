@@ -2,87 +2,19 @@
 #include <algorithm>
 
 #include "systems/damage/assemble.hpp"
-#include "systems/damage/element_stiffness.hpp"
-#include "systems/damage/ring.hpp"
+#include "systems/damage/pair_cells.hpp"
+#include "systems/damage/stiffness_slots.hpp"
 
 namespace cullet {
 namespace {
 
-constexpr uint32_t kMostNeighbours = kMostRing + 2;
 // Free slots of a pack that had to move. Packs of the intact model have none: gaps between packs are fetched in vain by
 // the processor's own prefetchers, which cost a fifth of the step where the rows come from beyond L2.
 constexpr uint32_t kSpareSlots = 2;
 constexpr uint32_t kNewPackSlots = 8;  // a pack of new vertices fills lane by lane
 
-/// One vertex's share, before it is put into its lane. Summed in double over elements, then hinges, both ascending, so
-/// that the pair's two blocks are transposes of each other and every way to this row gives the same bits.
-struct VertexRow {
-    struct Link {
-        uint32_t neighbour;
-        float row[3], column[3];
-    };
-    uint32_t block_count = 0, link_count = 0;
-    uint32_t neighbour[kMostNeighbours];
-    double k[kMostNeighbours][9];
-    Link link[kMostRing];
-
-    double* block(uint32_t v) {
-        uint32_t at = 0;
-        while (at < block_count && neighbour[at] != v) ++at;
-        if (at == block_count) {
-            if (block_count == kMostNeighbours) return k[kMostNeighbours - 1];
-            neighbour[block_count++] = v;
-            std::fill(k[at], k[at] + 9, 0.0);
-        }
-        return k[at];
-    }
-};
-
-void add_triangle(const ShellView& shell, const PlaneStress& stress, uint32_t element, int i, VertexRow& row) {
-    const uint32_t e = shell.element(element);
-    const TriangleTerms terms(shell.state.triangle_springs, e, stress);
-    for (int step = 1; step < 3; ++step) {
-        const int j = (i + step) % 3;
-        terms.add_block(i, j, shell.state.triangle_springs.scale[e],
-                        row.block(shell.state.elements.corner[e][static_cast<size_t>(j)]));
-    }
-}
-
-/// Pairs of the edge's ends and of an end with a corner opposite are neighbours; the two corners opposite are a link.
-void add_hinge(const ShellView& shell, uint32_t vertex, uint32_t hinge, VertexRow& row) {
-    const Hinges& hinges = shell.state.hinges;
-    const uint32_t h = shell.hinge(hinge);
-    const auto& v = hinges.vertex[h];
-    const auto& g = hinges.gradient[h];
-    const double stiffness = double{hinges.stiffness[h]} * hinges.scale[h];
-    uint32_t i = 0;
-    while (i < 4 && v[i] != vertex) ++i;
-    if (i == 4) return;
-    const float* gi = &g[3 * i];
-    for (uint32_t j = 0; j < 4; ++j) {
-        if (j == i) continue;
-        const float* gj = &g[3 * j];
-        if (i + j == 5) {  // 2 and 3
-            if (row.link_count == kMostRing) continue;
-            VertexRow::Link& link = row.link[row.link_count++];
-            link.neighbour = v[j];
-            for (int k = 0; k < 3; ++k) link.row[k] = static_cast<float>(-stiffness * gi[k]), link.column[k] = gj[k];
-        } else {
-            double* k = row.block(v[j]);
-            for (int r = 0; r < 3; ++r)
-                for (int c = 0; c < 3; ++c) k[3 * r + c] -= stiffness * (double{gi[r]} * gj[c]);
-        }
-    }
-}
-
-void build_row(const ShellView& shell, const PlaneStress& stress, uint32_t vertex, VertexRow& row) {
-    row.block_count = row.link_count = 0;
-    Ring ring;
-    collect_ring(shell, vertex, ring);
-    for (uint32_t i = 0; i < ring.count; ++i) add_triangle(shell, stress, ring.element[i], ring.corner[i], row);
-    RingHinges hinges;
-    collect_hinges(shell, ring, hinges);
-    for (uint32_t i = 0; i < hinges.count; ++i) add_hinge(shell, vertex, hinges.hinge[i], row);
+bool has_grain(const ShellView& shell) {
+    return material_traits(shell.state, shell.shells().material[shell.row]).has_grain();
 }
 
 /// Slots that a vertex takes, without building its row: an open ring has one neighbour more than elements.
@@ -97,6 +29,7 @@ void count_slots(const ShellView& shell, uint32_t vertex, uint32_t& blocks, uint
         links += shell.state.elements.hinge[e][(ring.corner[i] + 1u) % 3] != kNone;
     }
     blocks = ring.count + is_open;
+    if (has_grain(shell)) links = kGrainLinks * ring.count;
 }
 
 void count_pack(const ShellView& shell, uint32_t pack, uint32_t& blocks, uint32_t& links) {
@@ -113,79 +46,10 @@ uint32_t packs_of(uint32_t vertices) {
     return (vertices + kLanes - 1) / kLanes;
 }
 
-void clear_slot(StiffnessBlock& slot, uint32_t lane, uint32_t vertex) {
-    slot.neighbour[lane] = vertex;
-    for (auto& k : slot.k) k[lane] = 0;
-}
-void clear_slot(StiffnessLink& slot, uint32_t lane, uint32_t vertex) {
-    slot.neighbour[lane] = vertex;
-    for (int k = 0; k < 3; ++k) slot.row[k][lane] = slot.column[k][lane] = 0;
-}
-void write_slot(StiffnessBlock& slot, uint32_t lane, const VertexRow& row, uint32_t i) {
-    slot.neighbour[lane] = row.neighbour[i];
-    for (int k = 0; k < 9; ++k) slot.k[k][lane] = static_cast<float>(row.k[i][k]);
-}
-void write_slot(StiffnessLink& slot, uint32_t lane, const VertexRow& row, uint32_t i) {
-    slot.neighbour[lane] = row.link[i].neighbour;
-    for (int k = 0; k < 3; ++k) slot.row[k][lane] = row.link[i].row[k], slot.column[k][lane] = row.link[i].column[k];
-}
-
-/// One kind of slot of one pack: where it is, how many are in use and how many it may have.
-template <class Slot>
-struct Slots {
-    Range& range;     // of the shell
-    Slot* data;       // of the table
-    uint32_t& first;  // relative to the range
-    uint16_t& count;
-    uint16_t& capacity;
-
-    Slot& at(uint32_t i) const { return data[range.first + first + i]; }
-
-    /// Room for `wanted` slots, moved to the end of the range where there is not.
-    bool reserve(uint32_t wanted, uint32_t spare) {
-        if (wanted <= capacity) return true;
-        const uint32_t room = wanted + spare;
-        if (range.count + room > range.capacity) return false;
-        const uint32_t from = range.first + first, to = range.first + range.count;
-        std::copy(data + from, data + from + count, data + to);
-        first = range.count;
-        range.count += room;
-        capacity = static_cast<uint16_t>(room);
-        return true;
-    }
-    void write_lane(uint32_t pack, uint32_t lane, const VertexRow& row, uint32_t used) {
-        for (; count < used; ++count)
-            for (uint32_t l = 0; l < kLanes; ++l) clear_slot(at(count), l, pack * kLanes + l);
-        for (uint32_t i = 0; i < count; ++i)
-            if (i < used)
-                write_slot(at(i), lane, row, i);
-            else
-                clear_slot(at(i), lane, pack * kLanes + lane);
-        while (count > 0 && is_unused(pack, count - 1u)) --count;
-    }
-    bool is_unused(uint32_t pack, uint32_t i) const {
-        for (uint32_t l = 0; l < kLanes; ++l)
-            if (at(i).neighbour[l] != pack * kLanes + l) return false;
-        return true;
-    }
-};
-
-Slots<StiffnessBlock> block_slots(const ShellView& shell, uint32_t pack) {
-    StiffnessPacks& packs = shell.state.stiffness_packs;
-    const uint32_t p = shell.shells().packs[shell.row].first + pack;
-    return {shell.shells().blocks[shell.row], shell.state.stiffness_blocks.block.data(), packs.first_block[p],
-            packs.block_count[p], packs.block_capacity[p]};
-}
-Slots<StiffnessLink> link_slots(const ShellView& shell, uint32_t pack) {
-    StiffnessPacks& packs = shell.state.stiffness_packs;
-    const uint32_t p = shell.shells().packs[shell.row].first + pack;
-    return {shell.shells().links[shell.row], shell.state.stiffness_links.link.data(), packs.first_link[p],
-            packs.link_count[p], packs.link_capacity[p]};
-}
-
 bool write_row(const ShellView& shell, const PlaneStress& stress, uint32_t vertex) {
     VertexRow row;
     build_row(shell, stress, vertex, row);
+    if (stores_pairs_once(shell.shells(), shell.row)) drop_others_pairs(shell, vertex, row);
     const uint32_t pack = vertex / kLanes, lane = vertex % kLanes;
     auto blocks = block_slots(shell, pack);
     auto links = link_slots(shell, pack);
@@ -228,8 +92,9 @@ ShellRoom stiffness_room(ShellView shell, uint32_t spare_vertices) {
         }
     }
     const uint32_t moved = packs / 3 + 1;
+    const uint32_t links_a_triangle = has_grain(shell) ? kGrainLinks : 1;
     room.blocks += (spare_packs + moved) * (kNewPackSlots + 2 * kSpareSlots);
-    room.links += (spare_packs + moved) * (kNewPackSlots + 2 * kSpareSlots);
+    room.links += links_a_triangle * (spare_packs + moved) * (kNewPackSlots + 2 * kSpareSlots);
     return room;
 }
 
@@ -241,18 +106,24 @@ bool lay_packs(ShellView shell) {
     for (uint32_t p = 0; p < packs; ++p) {
         shell.state.stiffness_packs.clear_rows(shells.packs[shell.row].first + p, 1);
         ++shells.packs[shell.row].count;
+        if (stores_pairs_once(shells, shell.row)) continue;
         uint32_t blocks = 0, links = 0;
         count_pack(shell, p, blocks, links);
         if (!block_slots(shell, p).reserve(blocks, 0) || !link_slots(shell, p).reserve(links, 0)) return false;
     }
-    return true;
+    return !stores_pairs_once(shells, shell.row) || lay_pair_cells(shell);
 }
 
 bool assemble_packs(ShellView shell, uint32_t first, uint32_t end) {
     const PlaneStress stress = plane_stress(shell.state, shell.row);
     const uint32_t last = std::min(end * kLanes, shell.vertex_count());
+    [[maybe_unused]] const uint32_t blocks = shell.shells().blocks[shell.row].count,
+                                    links = shell.shells().links[shell.row].count;
     for (uint32_t v = first * kLanes; v < last; ++v)
         if (!write_row(shell, stress, v)) return false;
+    // Others may be writing other packs of the shell: none of them moves.
+    CULLET_ASSERT(shell.shells().blocks[shell.row].count == blocks && shell.shells().links[shell.row].count == links,
+                  "packs %u to %u of shell %u were laid too narrow", first, end, shell.row.index);
     return true;
 }
 

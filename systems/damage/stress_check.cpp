@@ -225,7 +225,55 @@ StressTables stress_tables(const ShellView& shell, uint32_t side, float start_li
     t.over_limit = state.elements.over_limit.data() + e;
     t.start_limit = start_limit;
     t.c11 = static_cast<float>(c.c11), t.c12 = static_cast<float>(c.c12), t.c33 = static_cast<float>(c.c33);
+    // With a grain the kernels leave strains; follow_grain makes stresses of them.
+    if (c.has_grain) t.c11 = t.c33 = 1, t.c12 = 0;
     return t;
+}
+
+// Stresses from the scaled strains of both faces. Plain code: wood is rare, and three products more a triangle in the
+// kernel would cost all others a tenth.
+void follow_grain(const ShellView& shell, const PlaneStress& stress, uint32_t first, uint32_t count,
+                  float start_limit) {
+    Elements& elements = shell.state.elements;
+    for (uint32_t e = first; e < first + count; ++e) {
+        const uint32_t row = shell.element(e);
+        const TriangleTerms terms(shell.state.triangle_springs, row, stress);
+        const PlaneStiffness& c = terms.full;
+        float largest = 0;
+        for (Column<Vec3>* face : {&elements.outer_stress, &elements.inner_stress}) {
+            const Vec3d eps((*face)[row]);
+            const Vec3d s(c.c11 * eps.x + c.c12 * eps.y + c.c16 * eps.z, c.c12 * eps.x + c.c22 * eps.y + c.c26 * eps.z,
+                          c.c16 * eps.x + c.c26 * eps.y + c.c66 * eps.z);
+            const double half = 0.5 * (s.x - s.y);
+            face->set(row, s.to_float());
+            largest = std::max(largest, static_cast<float>(0.5 * (s.x + s.y) + std::sqrt(half * half + s.z * s.z)));
+        }
+        elements.principal[row] = largest;
+        uint8_t& over = elements.over_limit[shell.element(e / kLanes * kLanes)];
+        if (e % kLanes == 0) over = 0;
+        if (largest > start_limit * elements.start_strength[row]) over = static_cast<uint8_t>(over | 1u << e % kLanes);
+    }
+}
+
+double grained_membrane_energy(const ShellView& shell, const PlaneStress& stress, uint32_t side, uint32_t first,
+                               uint32_t count) {
+    const State& state = shell.state;
+    const Float4* w = state.vertices.probe.data(static_cast<int>(side & 1)) + shell.vertices().first;
+    double sum = 0;
+    for (uint32_t e = first; e < first + count; ++e) {
+        const uint32_t row = shell.element(e);
+        if (state.elements.flags[row] & kDead) continue;
+        const TriangleTerms terms(state.triangle_springs, row, stress);
+        double eps[3] = {};
+        for (size_t i = 0; i < 3; ++i) {
+            const Float4 u = w[state.elements.corner[row][i]];
+            const double along_x = dot(Vec3d(u.x, u.y, u.z), terms.x), along_y = dot(Vec3d(u.x, u.y, u.z), terms.y);
+            eps[0] += terms.g[i][0] * along_x, eps[1] += terms.g[i][1] * along_y;
+            eps[2] += terms.g[i][1] * along_x + terms.g[i][0] * along_y;
+        }
+        sum += terms.volume * state.triangle_springs.scale[row] * terms.full.product(eps, eps);
+    }
+    return 0.5 * sum;
 }
 
 void link_slopes_of(const ShellView& shell, uint32_t element) {
@@ -260,14 +308,19 @@ void strain_elements(ShellView shell, uint32_t side, uint32_t first, uint32_t co
 }
 void stress_elements(ShellView shell, uint32_t first, uint32_t count, float start_limit) {
     HWY_DYNAMIC_DISPATCH(stress_range)(stress_tables(shell, 0, start_limit), first, count);
+    const PlaneStress stress = plane_stress(shell.state, shell.row);
+    if (stress.has_grain) follow_grain(shell, stress, first, count, start_limit);
 }
 void check_stress(ShellView shell, uint32_t side) {
     link_slopes(shell);
     strain_elements(shell, side, 0, shell.element_count());
     stress_elements(shell, 0, shell.element_count(), kNeverStarts);
 }
+// The kernel runs with a grain, too: it writes the slopes that the bending energy is made of.
 double membrane_energy(ShellView shell, uint32_t side, uint32_t first, uint32_t count) {
-    return HWY_DYNAMIC_DISPATCH(energy_range)(stress_tables(shell, side), first, count);
+    const double energy = HWY_DYNAMIC_DISPATCH(energy_range)(stress_tables(shell, side), first, count);
+    const PlaneStress stress = plane_stress(shell.state, shell.row);
+    return stress.has_grain ? grained_membrane_energy(shell, stress, side, first, count) : energy;
 }
 
 }  // namespace cullet

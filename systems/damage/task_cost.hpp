@@ -1,4 +1,4 @@
-// What a hit costs, in units.
+// What hits and cuts cost, in units.
 #pragma once
 #include "components/state.hpp"
 #include "systems/costs.hpp"
@@ -12,6 +12,12 @@ inline uint64_t units_a_step(uint64_t vertex_count, uint64_t patch_vertex_count)
 }
 inline uint64_t units_a_step(const Shells& shells, const Tasks& tasks, uint32_t t) {
     return units_a_step(shells.vertices[tasks.shell[t]].count, 64 * tasks.contact_count[t]);
+}
+
+/// What a cut of the game looks at: the whole shell, for every segment of its line. Its task's opening is not in it.
+inline uint64_t units_of_cut(const Shells& shells, Row<Shells> shell, const Blows& blows, uint32_t row) {
+    const uint32_t points = blows.point_count[row];
+    return shells.elements[shell].count * kUnitsCutElement * (points > 2 ? points - 1 : 1);
 }
 
 }  // namespace cullet

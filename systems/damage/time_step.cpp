@@ -4,6 +4,7 @@
 
 #include "engine/random.hpp"
 #include "systems/damage/assemble.hpp"
+#include "systems/damage/pair_cells.hpp"
 
 namespace cullet {
 namespace {
@@ -13,6 +14,8 @@ void multiply(const ShellView& shell, const std::vector<Vec3d>& x, std::vector<V
     const StiffnessPacks& packs = shell.state.stiffness_packs;
     const StiffnessBlock* blocks = shell.state.stiffness_blocks.block.data() + shell.shells().blocks[shell.row].first;
     const StiffnessLink* links = shell.state.stiffness_links.link.data() + shell.shells().links[shell.row].first;
+    const bool once = stores_pairs_once(shell.shells(), shell.row);
+    std::fill(force.begin(), force.end(), Vec3d());
     for (uint32_t v = 0; v < x.size(); ++v) {
         const uint32_t p = shell.shells().packs[shell.row].first + v / kLanes, lane = v % kLanes;
         Vec3d f;
@@ -22,14 +25,19 @@ void multiply(const ShellView& shell, const std::vector<Vec3d>& x, std::vector<V
             const auto k = [&](int i) { return double{b.k[i][lane]}; };
             f += {k(0) * d.x + k(1) * d.y + k(2) * d.z, k(3) * d.x + k(4) * d.y + k(5) * d.z,
                   k(6) * d.x + k(7) * d.y + k(8) * d.z};
+            if (once && are_in_one_pair_cell(v, b.neighbour[lane]))
+                force[b.neighbour[lane]] -= {k(0) * d.x + k(3) * d.y + k(6) * d.z, k(1) * d.x + k(4) * d.y + k(7) * d.z,
+                                             k(2) * d.x + k(5) * d.y + k(8) * d.z};
         }
         for (uint32_t s = 0; s < packs.link_count[p]; ++s) {
             const StiffnessLink& l = links[packs.first_link[p] + s];
             const Vec3d d = x[l.neighbour[lane]] - x[v];
-            const double t = l.column[0][lane] * d.x + l.column[1][lane] * d.y + l.column[2][lane] * d.z;
-            f += t * Vec3d(l.row[0][lane], l.row[1][lane], l.row[2][lane]);
+            const Vec3d row(l.row[0][lane], l.row[1][lane], l.row[2][lane]);
+            const Vec3d column(l.column[0][lane], l.column[1][lane], l.column[2][lane]);
+            f += dot(column, d) * row;
+            if (once && are_in_one_pair_cell(v, l.neighbour[lane])) force[l.neighbour[lane]] -= dot(row, d) * column;
         }
-        force[v] = f;
+        force[v] += f;
     }
 }
 

@@ -11,6 +11,7 @@ struct Touched {
     static constexpr uint32_t kEnough = VertexList::kMost / 2;
     VertexList weighed;  // whose mass, elements or hinges changed: B7's limits are found anew
     VertexList rows;     // whose rows hold a changed element or hinge
+    uint64_t units = 0;  // what refreshing cost beyond kUnitsCut: rows of materials with a grain; for the task to owe
 
     /// Mass or elements of the vertex changed.
     void add(uint32_t v) {

@@ -7,15 +7,21 @@ namespace cullet {
 /// Rows of a shell and what cracks add to it: a quarter more vertices, at least 192. A vase's first hit adds about 400:
 /// a copy for each cut edge inside a crack, and 20 to 110 inserted ones.
 ShellRoom working_room(ShellView source);
+/// For the quick mode: without stiffness, and with twice as much for cracks.
+ShellRoom quick_room(ShellView source);
+/// Of a part of a shell, without cells.
+ShellRoom quick_room(const State& state, Row<Materials> material, uint32_t vertices, uint32_t elements,
+                     uint32_t hinges);
 
 /// Steps and units of a run are counted in whole numbers, which a shell or a file must not leave: its step, s, and how
 /// many steps its run may have. Cooked ones are 1e-7 s and some thousand.
 constexpr float kShortestStep = 1e-12f, kMostSteps = 1e9f;
 
-/// Seconds that a hidden run lasts at most: T = max(the material's, 3.6 sqrt(area) / c).
-float run_seconds(const Materials& materials, uint32_t material, float area);
+/// Seconds that a hidden run lasts at most: T = max(the material's, 3.6 sqrt(area) / c), c along or across the grain,
+/// whichever is slower.
+float run_seconds(const State& state, uint32_t material, float area);
 
 /// Step, damping time, end and quiet time of a run (B7, 6.4): quiet after 0.4 T.
-void set_task_times(State& state, const Materials& materials, Row<Tasks> task);
+void set_task_times(State& state, Row<Tasks> task);
 
 }  // namespace cullet

@@ -21,6 +21,7 @@ struct Break {
     std::span<uint32_t> order;     // parts, heaviest first
     std::span<Row<Bodies>> child;  // new bodies
     std::span<uint8_t> is_crumb;
+    std::span<uint32_t> debris;  // rows of crumbs once they are made, or kNone
     uint32_t largest = 0;
     uint32_t clamped = 0;        // motions that were
     uint32_t left_elements = 0;  // of all parts that leave
@@ -28,6 +29,7 @@ struct Break {
     float margin = 0;            // of the body's hulls so far
     Range points = {};           // for the hulls of what is left
     bool is_refused = false;     // some part stays for want of room
+    Row<SoftBodies> soft = {};   // an awake soft body that tore: what has pins keeps the body, its points go on moving
 
     bool leaves(uint32_t part) const { return child[part].exists() || is_crumb[part]; }
     bool is_broken() const {

@@ -11,11 +11,15 @@ namespace cullet {
 namespace {
 
 // A row that is free says nothing of a shell: it is all zeros, and shell 0 is somebody else's.
-bool is_worth_it(const Bodies& bodies, const Shells& shells, uint32_t b) {
+bool is_worth_it(const State& state, uint32_t b) {
+    const Bodies& bodies = state.bodies;
+    const Shells& shells = state.shells;
     if (static_cast<BodyKind>(bodies.kind[b]) == BodyKind::Free) return false;
     const Row<Shells> shell = bodies.shell[b];
+    // Springs would have to move, too; they stay with a shell of its first size.
     return shell.exists() && bodies.task[b] == kNone && !bodies.is_owed_births[b] &&
-           4 * uint64_t{shells.dead_elements[shell]} > shells.elements[shell].count;
+           4 * uint64_t{shells.dead_elements[shell]} > shells.elements[shell].count &&
+           !find_springs(state, shell).exists();
 }
 
 bool compact(State& state, Row<Bodies> body, std::span<FragmentPart> slot) {
@@ -42,7 +46,7 @@ void compact_shells(Serial, ShellTables shells, Bodies& bodies, const Tasks& tas
     const std::span slot(fragments.part.data() + size_t{tasks.limit()} * kMostParts, kMostParts);
     bool is_first = true;
     for (uint32_t b = 0; b < bodies.size(); ++b) {
-        if (!is_worth_it(bodies, shells.state.shells, b)) continue;
+        if (!is_worth_it(shells.state, b)) continue;
         const Row<Shells> shell = bodies.shell[b];
         const uint64_t live = shells.state.shells.elements[shell].count - shells.state.shells.dead_elements[shell];
         const uint64_t cost = kUnitsCompact * live;

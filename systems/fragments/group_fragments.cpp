@@ -25,7 +25,9 @@ void join_neighbours(ShellView shell, uint32_t* parent) {
     }
 }
 
-void add_element(ShellView shell, FragmentPart& part, uint32_t e) {
+}  // namespace
+
+void add_to_part(const ShellView& shell, FragmentPart& part, uint32_t e) {
     Elements& elements = shell.state.elements;
     if (part.first_element == kNone) part.first_element = e;
     if (part.last_element != kNone) elements.next[shell.element(part.last_element)] = e;
@@ -36,8 +38,6 @@ void add_element(ShellView shell, FragmentPart& part, uint32_t e) {
     for (uint32_t v : elements.corner[shell.element(e)])
         if (shell.state.vertices.is_pinned[shell.vertex(v)]) part.has_pins = true;
 }
-
-}  // namespace
 
 uint32_t group_fragments(ShellView shell, std::span<FragmentPart> parts) {
     uint32_t* part = shell.state.elements.part.data() + shell.elements().first;
@@ -52,9 +52,21 @@ uint32_t group_fragments(ShellView shell, std::span<FragmentPart> parts) {
         part[e] = is_root ? count : part[part[e]];
         if (is_root && count < parts.size()) parts[count] = {};
         count += is_root;
-        if (part[e] < parts.size()) add_element(shell, parts[part[e]], e);
+        if (part[e] < parts.size()) add_to_part(shell, parts[part[e]], e);
     }
     return count;
+}
+
+bool is_of_one_part(const ShellView& shell) {
+    const Elements& elements = shell.state.elements;
+    uint32_t part = kNone;
+    for (uint32_t e = 0; e < shell.element_count(); ++e) {
+        const uint32_t row = shell.element(e);
+        if (elements.flags[row] & kDead) continue;
+        if (part == kNone) part = elements.part[row];
+        if (elements.part[row] != part) return false;
+    }
+    return true;
 }
 
 void join_parts(ShellView shell, std::span<FragmentPart> parts, uint32_t from, uint32_t to) {

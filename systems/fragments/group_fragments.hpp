@@ -11,6 +11,12 @@ namespace cullet {
 /// their elements not chained. O(elements), no scratch.
 uint32_t group_fragments(ShellView shell, std::span<FragmentPart> parts);
 
+/// By the numbers of the last grouping: cooking's, or that of the break that made the shell.
+bool is_of_one_part(const ShellView& shell);
+
+/// Puts element e behind the part's others; they come in rising order.
+void add_to_part(const ShellView& shell, FragmentPart& part, uint32_t e);
+
 /// Makes parts[from] one with parts[to], for a fragment that gets no body of its own: its elements get that number, and
 /// parts[from] is left empty (first_element kNone, no mass). make_piece then gives both one shell. O(elements of from).
 void join_parts(ShellView shell, std::span<FragmentPart> parts, uint32_t from, uint32_t to);

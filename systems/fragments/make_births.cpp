@@ -1,3 +1,4 @@
+#include "systems/damage/blows.hpp"
 #include "systems/damage/thresholds.hpp"
 #include "systems/fragments/cell_hulls.hpp"
 #include "systems/fragments/make_break.hpp"
@@ -12,7 +13,7 @@ void close_task(State& state, Row<Tasks> task, Step step) {
     const Row<Bodies> body = tasks.body[task];
     state.bodies.task[body] = kNone;
     state.bodies.retry_frame[body] = step.frame + retry_frames(step.dt);
-    release_shell(state, tasks.shell[task]);
+    if (tasks.shell[task].exists()) release_shell(state, tasks.shell[task]);
     release_shell(state, tasks.source[task]);
     tasks.state[task] = static_cast<uint8_t>(TaskState::Free);
 }
@@ -31,8 +32,8 @@ void count_result(const Tasks& tasks, Row<Tasks> task, DamageCounts& counts) {
 }  // namespace
 
 void make_births(Serial, Step step, const Events<TaskEnded>& ended, const Events<Break>& breaks, ShellTables shells,
-                 Tasks& tasks, TaskContacts& contacts, Bodies& bodies, Debris&, RigidWorld& rigid, DamageCounts& counts,
-                 Arena& arena, Events<ShellChanged>& changed, Events<FragmentBornEvent>& born,
+                 Tasks& tasks, TaskContacts& contacts, Blows& blows, Bodies& bodies, Debris&, RigidWorld& rigid,
+                 DamageCounts& counts, Arena& arena, Events<ShellChanged>& changed, Events<FragmentBornEvent>& born,
                  Events<DebrisEvent>& debris_events) {
     Births births{shells.state, rigid, counts, arena, changed, born, debris_events, step};
     const auto all = breaks.all();
@@ -42,6 +43,7 @@ void make_births(Serial, Step step, const Events<TaskEnded>& ended, const Events
         count_result(tasks, e.task, counts);
         if (next < all.size() && all[next].task == e.task) make_break(births, all[next++]);
         pay_answers(bodies, tasks, contacts, rigid, e.task);
+        close_blows(blows, bodies, tasks, rigid, counts, e.task);
         close_task(shells.state, e.task, step);
     }
 }

@@ -2,11 +2,15 @@
 
 #include <algorithm>
 
+#include "engine/rigid_bounds.hpp"
+#include "systems/damage/blows.hpp"
 #include "systems/damage/thresholds.hpp"
 #include "systems/fragments/cell_hulls.hpp"
+#include "systems/fragments/limit_energy.hpp"
 #include "systems/fragments/rigid_shape.hpp"
 #include "systems/fragments/strike_back.hpp"
 #include "systems/rigid/body_id.hpp"
+#include "systems/soft/soft_pieces.hpp"
 
 namespace cullet {
 namespace {
@@ -76,13 +80,14 @@ Motion world_motion(const Moment& m, const PartMotion& part) {
             rotate(m.pose.orientation, (part.spin + m.spin_change).to_float())};
 }
 
-void make_debris(Births& births, ShellView shell, const FragmentPart& part, const Motion& motion, const Moment& moment,
-                 Row<Bodies> parent, Vec3d centre) {
+// The row of the crumb.
+uint32_t make_debris(Births& births, ShellView shell, const FragmentPart& part, const Motion& motion,
+                     const Moment& moment, Row<Bodies> parent, Vec3d centre) {
     State& state = births.state;
     Debris& debris = state.debris;
     uint32_t row = 0;
     while (row < debris.size() && debris.is_used[row]) ++row;
-    if (row == debris.size() && debris.append(1) == kNone) return;  // planning counted: there is room
+    if (row == debris.size() && debris.append(1) == kNone) return kNone;  // planning counted: there is room
     double volume = 0;
     for (uint32_t e = part.first_element; e != kNone; e = state.elements.next[shell.element(e)])
         volume += state.elements.volume[shell.element(e)];
@@ -100,6 +105,7 @@ void make_debris(Births& births, ShellView shell, const FragmentPart& part, cons
     debris.colour[row] = state.bodies.colour[parent];
     births.debris_events.push(
         {body_id(state.bodies, parent), state.bodies.user_data[parent], place, motion.velocity, part.mass});
+    return row;
 }
 
 void place_body(Births& births, Row<Bodies> body, const Moment& moment, const Motion& motion, bool is_static) {
@@ -163,7 +169,11 @@ void make_birth(Births& births, const Break& plan, uint32_t p, const Moment& mom
     State& state = births.state;
     Bodies& bodies = state.bodies;
     const Row<Bodies> body = plan.body, child = plan.child[p];
-    const Motion motion = world_motion(moment, plan.motions[p]);
+    Motion motion = world_motion(moment, plan.motions[p]);
+    // A blow without measure may leave pieces faster than the rigid world takes.
+    const bool is_too_fast = shorten(motion.velocity, kFastest),
+               spins_too_fast = shorten(motion.angular_velocity, kFastest);
+    births.counts.clamped += is_too_fast || spins_too_fast;
     const bool was_static = static_cast<BodyKind>(bodies.kind[body]) == BodyKind::Static;
     const bool is_static = plan.motions[p].is_static;
     place_body(births, child, moment, motion, is_static);
@@ -192,8 +202,8 @@ void make_births_of(Births& births, const Break& plan, const Moment& moment) {
     for (uint32_t i = 1; i < count; ++i) {
         const uint32_t p = plan.order[i];
         if (!plan.is_crumb[p]) continue;
-        make_debris(births, ShellView(state, plan.broken), plan.parts[p], world_motion(moment, plan.motions[p]), moment,
-                    plan.body, plan.motions[p].centre);
+        plan.debris[p] = make_debris(births, ShellView(state, plan.broken), plan.parts[p],
+                                     world_motion(moment, plan.motions[p]), moment, plan.body, plan.motions[p].centre);
     }
     plan.child[plan.largest] = plan.body;
     const auto bounds = births.arena.take<Bounds>(count);
@@ -208,11 +218,20 @@ void make_births_of(Births& births, const Break& plan, const Moment& moment) {
 
 void make_break(Births& births, const Break& plan) {
     State& state = births.state;
-    if (!plan.task.exists()) return make_births_of(births, plan, {pose_of(state.bodies, plan.body), {}, {}, {}, false});
+    if (plan.soft.exists()) give_pieces_springs(state, plan);
+    if (!plan.task.exists()) {
+        make_births_of(births, plan, {pose_of(state.bodies, plan.body), {}, {}, {}, false});
+        if (plan.soft.exists()) keep_torn(state, births.rigid, plan);
+        return;
+    }
     births.counts.clamped += plan.clamped;
     const Moment moment = moment_of(state, plan.task, plan.motions);
-    if (!moment.is_late) strike_back(births, plan.task, moment.pose, plan.motions, plan.largest);
+    // Late, the rigid solver has passed the blow's impulse; an explosion's energy comes from outside.
+    const bool is_limited = !moment.is_late && !has_explosion(state.blows, plan.task);
+    double allowed = 0;
+    if (!moment.is_late) allowed = strike_back(births, plan.task, moment.pose, plan.motions, plan.largest);
     make_births_of(births, plan, moment);
+    if (is_limited) limit_energy(births, plan, allowed);
     part_strikers(births, plan.task, plan, moment.is_late);
 }
 

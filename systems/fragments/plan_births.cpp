@@ -1,4 +1,5 @@
 #include "systems/fragments/plan_break.hpp"
+#include "systems/fragments/rest_of_body.hpp"
 #include "systems/rigid/body_id.hpp"
 #include "systems/systems.hpp"
 
@@ -8,6 +9,7 @@ namespace {
 // A crack starts at a vertex that names itself. Vertices keep their numbers in the working shell, so those that did so
 // in the body's before the hit are old.
 void tell_cracks(State& state, Row<Tasks> task, Events<CrackStartedEvent>& cracks) {
+    if (state.tasks.shell[task] == state.tasks.source[task]) return;  // put_back has told
     const Row<Bodies> body = state.tasks.body[task];
     const ShellView now(state, state.tasks.shell[task]), before(state, state.tasks.source[task]);
     const auto is_start = [&](const ShellView& shell, uint32_t v) {
@@ -23,10 +25,18 @@ void tell_cracks(State& state, Row<Tasks> task, Events<CrackStartedEvent>& crack
     }
 }
 
+// What is awake asks with its points' motion.
+bool asks_as_soft(State& state, Row<Bodies> body) {
+    const Row<SoftBodies> soft = find_soft(state.soft_bodies, body);
+    if (!soft.exists() || !state.soft_bodies.is_awake[soft]) return false;
+    state.soft_bodies.is_torn[soft] = 1;
+    return true;
+}
+
 }  // namespace
 
 void plan_births(Serial, const Events<TaskEnded>& ended, ShellTables shells, const Tasks& tasks, Fragments&,
-                 QueuedHits&, Bodies& bodies, const Debris& debris, ViewVertices&, ViewIndices&,
+                 QueuedHits&, Blows&, Bodies& bodies, const Debris& debris, ViewVertices&, ViewIndices&,
                  const DamageSettings& settings, Arena& arena, Events<Break>& breaks, Events<Birth>& births,
                  Events<ShellChanged>& changed, Events<CrackStartedEvent>& cracks, Events<RefusedEvent>& refused,
                  Events<FaultEvent>& faults) {
@@ -34,13 +44,19 @@ void plan_births(Serial, const Events<TaskEnded>& ended, ShellTables shells, con
     births.clear();
     Planning planning{shells.state, settings, arena, breaks, births, changed, refused, free_debris(debris)};
     for (uint32_t b = 0; b < bodies.size(); ++b)
-        if (bodies.is_owed_births[b] && bodies.task[b] == kNone) ask_again(planning, Row<Bodies>(b));
+        if (bodies.is_owed_births[b] && bodies.task[b] == kNone && !asks_as_soft(shells.state, Row<Bodies>(b)))
+            ask_again(planning, Row<Bodies>(b));
+    for (uint32_t s = 0; s < shells.state.soft_bodies.size(); ++s)
+        if (shells.state.soft_bodies.is_torn[s]) plan_tear(planning, Row<SoftBodies>(s));
     for (const TaskEnded& e : ended) {
         const Row<Tasks> task = e.task;
         const auto result = static_cast<TaskState>(tasks.state[task]);
         if (result != TaskState::Dropped && tasks.start_count[task]) tell_cracks(shells.state, task, cracks);
         if (result == TaskState::Broke) plan_break(planning, task);
         if (result == TaskState::Whole && tasks.crack_count[task]) keep_cracks(planning, task);
+        // More pieces than there may be, with those that found no room before.
+        if (result == TaskState::Dropped && tasks.crack_count[task] && tasks.shell[task] == tasks.source[task])
+            clear_run(ShellView(shells.state, tasks.shell[task]), true, false);
         if (result == TaskState::Dropped)
             faults.push({body_id(bodies, tasks.body[task]), bodies.user_data[tasks.body[task]],
                          centre_of(bodies, tasks.body[task]),

@@ -4,12 +4,18 @@
 
 #include "systems/fragments/body_rows.hpp"
 #include "systems/fragments/cell_hulls.hpp"
+#include "systems/fragments/hand_on.hpp"
 #include "systems/fragments/make_piece.hpp"
 #include "systems/fragments/rest_of_body.hpp"
+#include "systems/quick/quick_body.hpp"
 #include "systems/rigid/body_id.hpp"
+#include "systems/soft/soft_pieces.hpp"
 
 namespace cullet {
 namespace {
+
+// Cuts have no last generation: more are not told apart.
+constexpr uint32_t kMostGenerations = 255;
 
 // A piece that found no room stays part of another and moves with it.
 void join_motions(PartMotion& motion, PartMotion& joined) {
@@ -32,8 +38,9 @@ Row<Bodies> reserve_body(State& state, Row<Bodies> parent, Row<Shells> broken, c
         *full = "limits.bodies";
         return {};
     }
-    state.bodies.shell[body] =
-        reserve_piece(state, broken, part, static_cast<uint8_t>(state.shells.generation[broken] + 1), full);
+    state.bodies.shell[body] = reserve_piece(
+        state, broken, part,
+        static_cast<uint8_t>(std::min<uint32_t>(state.shells.generation[broken], kMostGenerations - 1) + 1), full);
     if (state.bodies.shell[body].exists() && take_view(state, body, ShellView(state, broken), part)) {
         Bodies& b = state.bodies;
         b.model[body] = b.model[parent];
@@ -43,6 +50,7 @@ Row<Bodies> reserve_body(State& state, Row<Bodies> parent, Row<Shells> broken, c
         b.mask[body] = b.mask[parent];
         b.user_data[body] = b.user_data[parent];
         b.is_breakable[body] = b.is_breakable[parent];
+        inherit_fracture(state, parent, body);
         return body;
     }
     if (state.bodies.shell[body].exists()) *full = "limits.view_vertices";
@@ -69,6 +77,8 @@ Break break_of(Planning& planning, Row<Tasks> task, Row<Bodies> body, Row<Shells
     plan.motions = arena.take<PartMotion>(parts.size());
     plan.order = arena.take<uint32_t>(parts.size());
     plan.child = arena.take<Row<Bodies>>(parts.size());
+    plan.debris = arena.take<uint32_t>(parts.size());
+    std::fill(plan.debris.begin(), plan.debris.end(), kNone);
     plan.is_crumb = arena.take<uint8_t>(parts.size());
     plan.margin = hull_margin(ShellView(planning.state, plan.before));
     return plan;
@@ -89,6 +99,7 @@ void choose_births(Planning& planning, Break& plan) {
     const auto count = static_cast<uint32_t>(plan.parts.size());
     for (uint32_t i = 0; i < count; ++i) plan.order[i] = i;
     std::sort(plan.order.begin(), plan.order.end(), [&](uint32_t a, uint32_t b) {
+        if (plan.soft.exists() && plan.parts[a].has_pins != plan.parts[b].has_pins) return plan.parts[a].has_pins;
         return plan.parts[a].mass != plan.parts[b].mass ? plan.parts[a].mass > plan.parts[b].mass : a < b;
     });
     plan.largest = plan.order[0];
@@ -143,36 +154,26 @@ bool reserve_view(Planning& planning, Break& plan) {
     return true;
 }
 
-// Hits that wait for the body go on to the piece that owns the nearest vertex; a crumb takes its own along.
-void hand_on_hits(State& state, const Break& plan) {
-    const ShellView shell(state, plan.broken);
-    QueuedHits& queued = state.queued_hits;
-    for (uint32_t q = 0; q < queued.size(); ++q) {
-        if (!queued.is_used[q] || queued.body[q] != plan.body) continue;
-        float least = 1e30f;
-        uint32_t owner = plan.largest;
-        for (uint32_t v = 0; v < shell.vertex_count(); ++v) {
-            const uint32_t row = shell.vertex(v), element = state.vertices.element[row];
-            if (element == kNone) continue;
-            const Vec3 away = state.vertices.rest[row] - queued.point[q];
-            if (dot(away, away) >= least) continue;
-            least = dot(away, away);
-            owner = state.elements.part[shell.element(element)];
-        }
-        if (plan.is_crumb[owner])
-            queued.clear_rows(q, 1);
-        else if (plan.child[owner].exists())
-            queued.body[q] = plan.child[owner];
-    }
+// The body stays as it was: the task's cuts wait until there is room (close_blows).
+void keep_cuts(Blows& blows, Row<Tasks> task) {
+    for (uint32_t b = 0; b < blows.size() && task.exists(); ++b)
+        if (blows.task[b] == task.index && is_kind(blows, b, BlowKind::Cut)) blows.goes_on[b] = 1;
 }
 
 // What frees no piece changes no velocity: the body keeps its cracks, and its loose pieces until there is room.
 void stay_whole(Planning& planning, Break& plan) {
     State& state = planning.state;
     const ShellView shell(state, plan.broken), before(state, state.bodies.shell[plan.body]);
-    if (before.row == shell.row || !keep_hulls(shell, before)) return;
-    clear_run(shell, true);
+    if (!plan.task.exists()) return;
+    if (!keep_hulls(shell, before)) return keep_cuts(state.blows, plan.task);
+    clear_run(shell, true, shell.row != before.row);
     adopt_shell(state, plan.body, shell.row);
+}
+
+// What a hit changed in the body's own shell stays there. It is drawn, and its pieces go, when there is room.
+void leave_cracked(State& state, Row<Bodies> body) {
+    clear_run(ShellView(state, state.bodies.shell[body]), true, false);
+    state.bodies.is_owed_births[body] = kOwedBirths;
 }
 
 // Plans and reserves; what is refused asks again in the next frame. True: something leaves.
@@ -183,7 +184,7 @@ bool reserve_births(Planning& planning, Break& plan) {
     const bool is_drawn = reserve_view(planning, plan), was_drawn = owed != kOwedDrawing;
     owed = !is_drawn ? kOwedDrawing : plan.is_refused ? kOwedBirths : 0;
     if (plan.is_broken()) return true;
-    const bool is_new = plan.broken != state.bodies.shell[plan.body];
+    const bool is_new = plan.task.exists();
     state.pools.points.give_back(plan.points.first, plan.points.capacity);
     if (is_drawn && (is_new || !was_drawn)) planning.changed.push({plan.body});
     stay_whole(planning, plan);
@@ -192,11 +193,8 @@ bool reserve_births(Planning& planning, Break& plan) {
 
 // Every piece goes on with the body's own motion, about the centres that the rigid world knows, so that momentum and
 // angular momentum are kept to rounding.
-void move_with_body(State& state, Break& plan) {
+void move_with_body(State& state, Break& plan, Vec3d velocity, Vec3d spin) {
     const Bodies& bodies = state.bodies;
-    const Quat to_body_axes = conjugate(bodies.orientation[plan.body]);
-    const Vec3d velocity(rotate(to_body_axes, bodies.velocity[plan.body])),
-        spin(rotate(to_body_axes, bodies.spin[plan.body]));
     const ShellView shell(state, plan.broken);
     for (uint32_t p = 0; p < plan.parts.size(); ++p) {
         Moments sum;
@@ -223,6 +221,7 @@ void order_births(Planning& planning, Break& plan) {
         if (plan.leaves(p)) plan.left_elements += plan.parts[p].element_count;
     plan.whole = sums_of(ShellView(state, plan.broken));
     hand_on_hits(state, plan);
+    hand_on_blows(planning, plan);
     const uint32_t of = planning.breaks.size();
     for (const uint32_t p : plan.order)
         if (p == plan.largest || plan.leaves(p)) planning.births.push({of, p});
@@ -245,13 +244,19 @@ void plan_break(Planning& planning, Row<Tasks> task) {
     Break plan =
         break_of(planning, task, body, broken,
                  std::span(state.fragments.part.data() + size_t{task} * kMostParts, state.tasks.part_count[task]));
-    if (!reserve_points(planning, plan)) return;
-    const HandoffReport report =
-        rigid_handoff(shell,
-                      {Vec3d(state.tasks.start_velocity[task]), Vec3d(state.tasks.start_spin[task]),
-                       state.shells.centre[broken], state.tasks.approach_speed[task]},
-                      plan.parts, plan.motions);
-    plan.clamped = report.speed_clamps + report.spin_clamps;
+    if (!reserve_points(planning, plan)) {
+        if (broken == plan.before) leave_cracked(state, body);
+        return keep_cuts(state.blows, task);
+    }
+    const Vec3d velocity(state.tasks.start_velocity[task]), spin(state.tasks.start_spin[task]);
+    if (is_cut_task(state.blows, task)) {
+        move_with_body(state, plan, velocity, spin);  // nothing was run
+    } else {
+        const HandoffReport report =
+            rigid_handoff(shell, {velocity, spin, state.shells.centre[broken], state.tasks.approach_speed[task]},
+                          plan.parts, plan.motions);
+        plan.clamped = report.speed_clamps + report.spin_clamps;
+    }
     find_changed_cells(shell, ShellView(state, plan.before));
     if (reserve_births(planning, plan)) order_births(planning, plan);
 }
@@ -267,7 +272,32 @@ void ask_again(Planning& planning, Row<Bodies> body) {
     std::copy_n(slot.begin(), parts.size(), parts.begin());
     Break plan = break_of(planning, {}, body, shell.row, parts);
     if (!reserve_points(planning, plan)) return;
-    move_with_body(state, plan);
+    const Bodies& bodies = state.bodies;
+    const Quat to_body_axes = conjugate(bodies.orientation[body]);
+    move_with_body(state, plan, Vec3d(rotate(to_body_axes, bodies.velocity[body])),
+                   Vec3d(rotate(to_body_axes, bodies.spin[body])));
+    find_changed_cells(shell, shell);
+    if (reserve_births(planning, plan)) order_births(planning, plan);
+}
+
+// The parts' velocities are those of their points, as at any hand-off; which hulls fit is not known any more.
+void plan_tear(Planning& planning, Row<SoftBodies> soft) {
+    State& state = planning.state;
+    const Row<Bodies> body = state.soft_bodies.body[soft];
+    const ShellView shell(state, state.bodies.shell[body]);
+    const std::span slot(state.fragments.part.data() + size_t{state.tasks.limit()} * kMostParts, kMostParts);
+    const uint32_t count = group_fragments(shell, slot);
+    state.soft_bodies.is_torn[soft] = 0;
+    if (count < 2 || count > kMostParts) return;
+    const auto parts = planning.arena.take<FragmentPart>(count);
+    std::copy_n(slot.begin(), parts.size(), parts.begin());
+    Break plan = break_of(planning, {}, body, shell.row, parts);
+    plan.soft = soft;
+    if (!reserve_points(planning, plan)) return;
+    soft_handoff(state, soft, plan.parts, plan.motions);
+    measure_shell(shell);  // as it is shaped now: pieces are subtracted from it
+    const Range cells = state.shells.cells[shell.row];
+    for (uint32_t c = cells.first; c < cells.first + cells.count; ++c) state.cells.is_stale[c] = 1;
     find_changed_cells(shell, shell);
     if (reserve_births(planning, plan)) order_births(planning, plan);
 }
@@ -284,9 +314,10 @@ void keep_cracks(Planning& planning, Row<Tasks> task) {
         full = "limits.vertices";
     if (full) {
         planning.refused.push(refused_event(state.bodies, body, full));
-        return;
+        if (shell.row == before.row) leave_cracked(state, body);
+        return keep_cuts(state.blows, task);
     }
-    clear_run(shell, true);
+    clear_run(shell, true, shell.row != before.row);
     adopt_shell(state, body, shell.row);
     planning.changed.push({body});
 }

@@ -28,6 +28,10 @@ void plan_break(Planning& planning, Row<Tasks> task);
 /// body's own motion.
 void ask_again(Planning& planning, Row<Bodies> body);
 
+/// An awake soft body that tore: pieces leave it with the motion of their points. What has a pin keeps the handle, else
+/// the largest; it stays awake.
+void plan_tear(Planning& planning, Row<SoftBodies> soft);
+
 /// A shell that stayed whole but has new cracks: the body keeps them.
 void keep_cracks(Planning& planning, Row<Tasks> task);
 

@@ -36,7 +36,7 @@ void keep_rest(State& state, const Break& plan) {
     if (!plan.is_rest_smaller(state)) write_sums(shell, plan.whole - left);
     state.shells.dead_elements[shell.row] += plan.left_elements;
     ++state.shells.generation[shell.row];
-    clear_run(shell, false);
+    if (!plan.soft.exists()) clear_run(shell, false, plan.broken != plan.before);
     const Range points = state.shells.points[before.row], old_points = state.shells.points[shell.row];
     state.shells.points[shell.row] = plan.points;
     copy_rest_hulls(shell, points, before);

@@ -27,7 +27,7 @@ void shed_part(ShellView shell, const FragmentPart& part) {
     }
 }
 
-void clear_run(ShellView shell, bool is_whole) {
+void clear_run(ShellView shell, bool is_whole, bool has_run) {
     Vertices& vertices = shell.state.vertices;
     uint8_t has_cracks = 0;
     for (uint32_t v = 0; v < shell.vertex_count(); ++v) {
@@ -36,10 +36,11 @@ void clear_run(ShellView shell, bool is_whole) {
             vertices.crack_start[row] = kNone;
         const bool counts = is_whole || vertices.crack[row] == static_cast<uint8_t>(CrackState::Tip);
         has_cracks |= counts && vertices.crack[row] != 0;
+        vertices.velocity.set(row, {});
+        if (!has_run) continue;
         vertices.ready_time[row] = 0;
         vertices.is_start_banned[row] = 0;
         vertices.displacement.set(row, {});
-        vertices.velocity.set(row, {});
         for (int side : {0, 1}) vertices.probe.set(row, {}, side);
     }
     shell.shells().has_cracks[shell.row] = has_cracks;

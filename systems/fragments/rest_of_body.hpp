@@ -12,9 +12,10 @@ namespace cullet {
 /// elements stays readable; dead_elements is the caller's affair. O(the part).
 void shed_part(ShellView shell, const FragmentPart& part);
 
-/// After the last shed_part: has_cracks, marks of cracks that pieces took with them, and the hidden run's state, which
-/// is cleared. Fragments (`is_whole` false) count as cracked while a tip is left. O(the shell's vertices).
-void clear_run(ShellView shell, bool is_whole);
+/// After the last shed_part: has_cracks, marks of cracks that pieces took with them, velocities, and the state of a
+/// hidden run, if one was made on these rows: all of that is cleared. Fragments (`is_whole` false) count as cracked
+/// while a tip is left. O(the shell's vertices).
+void clear_run(ShellView shell, bool is_whole, bool has_run = true);
 
 /// Mass properties, area and thickness of the shell, summed over its one part that will be left.
 void measure_part(ShellView shell, const FragmentPart& part);

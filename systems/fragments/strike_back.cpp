@@ -2,6 +2,9 @@
 
 #include <algorithm>
 
+#include "systems/damage/blows.hpp"
+#include "systems/damage/contact.hpp"
+#include "systems/fragments/limit_energy.hpp"
 #include "systems/rigid/body_id.hpp"
 
 namespace cullet {
@@ -11,29 +14,95 @@ bool is_dynamic(const Bodies& bodies, Row<Bodies> b) {
     return b.exists() && static_cast<BodyKind>(bodies.kind[b]) == BodyKind::Dynamic;
 }
 
-void push(Bodies& bodies, RigidWorld& rigid, Row<Bodies> body, Vec3 impulse, Vec3 place) {
-    const Pose pose = pose_of(bodies, body);
-    const Vec3 arm = place - to_world(pose, bodies.centre[body].to_float());
-    const Vec3d turn(rotate(conjugate(pose.orientation), cross(arm, impulse)));
-    bodies.velocity.set(body, bodies.velocity[body] + static_cast<float>(1.0 / bodies.mass[body]) * impulse);
-    bodies.spin.set(body,
-                    bodies.spin[body] + rotate(pose.orientation, (inverse(bodies.inertia[body]) * turn).to_float()));
-    rigid.set_motion(body, {bodies.velocity[body], bodies.spin[body]});
+// Impulses and their moment about a body's centre, world axes.
+struct Push {
+    Vec3d impulse, turn;
+};
+
+Push push_at(const Bodies& bodies, Row<Bodies> body, Vec3d impulse, Vec3 place) {
+    const Vec3 arm = place - to_world(pose_of(bodies, body), bodies.centre[body].to_float());
+    return {impulse, cross(Vec3d(arm), impulse)};
 }
 
-// The contact of the striker's own task with `body` that keeps what the striker is owed, or kNone: it has none, or the
-// rigid solver has dealt with it already. All of that task's contacts with the body count as answered.
-uint32_t answering_contact(State& state, Row<Bodies> striker, Row<Bodies> body) {
+Motion pushed(const Bodies& bodies, Row<Bodies> body, const Push& push) {
+    const Quat turned = bodies.orientation[body];
+    const Vec3d turn(rotate(conjugate(turned), push.turn.to_float()));
+    return {bodies.velocity[body] + ((1.0 / bodies.mass[body]) * push.impulse).to_float(),
+            bodies.spin[body] + rotate(turned, (inverse(bodies.inertia[body]) * turn).to_float())};
+}
+
+void give(Bodies& bodies, RigidWorld& rigid, Row<Bodies> body, const Push& push) {
+    const Motion motion = pushed(bodies, body, push);
+    bodies.velocity.set(body, motion.velocity);
+    bodies.spin.set(body, motion.angular_velocity);
+    rigid.set_motion(body, motion);
+}
+
+// What a body will lose when pay_answers gives it what waits at the contacts of its own task, J.
+double answers_loss(const State& state, Row<Bodies> body) {
+    const Bodies& bodies = state.bodies;
+    const TaskContacts& contacts = state.task_contacts;
+    const uint32_t task = bodies.task[body], first = state.tasks.first_contact[task];
+    Push sum;
+    for (uint32_t c = first; c < first + state.tasks.contact_count[task]; ++c) {
+        if (!contacts.is_answered[c]) continue;
+        const Push push = push_at(bodies, body, contacts.answer[c], to_world(pose_of(bodies, body), contacts.point[c]));
+        sum = {sum.impulse + push.impulse, sum.turn + push.turn};
+    }
+    return rigid_energy(bodies, body) - rigid_energy(bodies, body, pushed(bodies, body, sum));
+}
+
+// Whether open_tasks made the contact's striker lighter because it touches bodies of other tasks too.
+bool is_shared(const State& state, uint32_t contact) {
+    const double own = state.task_contacts.striker_own_inverse_mass[contact];
+    return own * state.bodies.mass[state.task_contacts.striker[contact]] > 1.5;
+}
+
+// What the striker lost at this contact, as light as it was made, after what it did at the task's contacts before it:
+// p v - K_cc p^2/2 - sum K_cb p p_b, J.
+double share_lost(const TaskContacts& contacts, uint32_t first, uint32_t c) {
+    const double p = contacts.impulse[c];
+    double speed = contacts.start_speed[c] - 0.5 * contacts.striker_inverse_mass[c] * p;
+    for (uint32_t b = first; b < c; ++b)
+        if (share_a_striker(contacts, c, b)) speed -= coupling(contacts, c, b) * contacts.impulse[b];
+    return p * speed;
+}
+
+// A striker that has lost more than its share has taken it from what the next task that shares it will see it lose.
+void hand_on(State& state, Row<Tasks> task, uint32_t contact, double surplus) {
+    TaskContacts& contacts = state.task_contacts;
+    surplus += contacts.answer_energy[contact];
+    contacts.answer_energy[contact] = 0;
+    if (!is_shared(state, contact)) return;
+    for (uint32_t t = 0; t < state.tasks.size(); ++t) {
+        if (task == t || static_cast<TaskState>(state.tasks.state[t]) == TaskState::Free || state.tasks.is_late[t]) continue;
+        const uint32_t end = state.tasks.first_contact[t] + state.tasks.contact_count[t];
+        for (uint32_t c = state.tasks.first_contact[t]; c < end; ++c)
+            if (contacts.striker[c] == contacts.striker[contact]) {
+                contacts.answer_energy[c] += surplus;
+                return;
+            }
+    }
+}
+
+// The contact of the striker's own task with `body`, nearest to `place`, that keeps what the striker is owed, or kNone:
+// it has none, or the rigid solver has dealt with it already. All of that task's contacts with the body count as
+// answered.
+uint32_t answering_contact(State& state, Row<Bodies> striker, Row<Bodies> body, Vec3 place) {
     const uint32_t t = state.bodies.task[striker];
     if (t == kNone || state.tasks.is_late[t]) return kNone;
-    uint32_t found = kNone;
+    uint32_t nearest = kNone;
+    float least = 0;
     const uint32_t first = state.tasks.first_contact[t];
     for (uint32_t c = first; c < first + state.tasks.contact_count[t]; ++c) {
         if (state.task_contacts.striker[c] != body) continue;
         state.task_contacts.is_answered[c] = 1;
-        found = std::min(found, c);
+        const float distance = length(to_world(pose_of(state.bodies, striker), state.task_contacts.point[c]) - place);
+        if (nearest != kNone && distance >= least) continue;
+        nearest = c;
+        least = distance;
     }
-    return found;
+    return nearest;
 }
 
 }  // namespace
@@ -42,42 +111,68 @@ uint32_t answering_contact(State& state, Row<Bodies> striker, Row<Bodies> body) 
 // 9e-5 of the blow's in 2,000 steps. It is lost in plain steps (cuts lose 3e-6, contacts 4e-7), and not by the speed of
 // the body, whose own frame does as badly: stiffness entries are floats, so a vertex's column of blocks is off its row
 // by 2e-8, and pieces that turn pull on that with all their displacement. Uncracked bodies lose 1e-7 to 1e-6.
-void strike_back(Births& births, Row<Tasks> task, const Pose& pose, std::span<PartMotion> motions, uint32_t largest) {
+double strike_back(Births& births, Row<Tasks> task, const Pose& pose, std::span<PartMotion> motions, uint32_t largest) {
     State& state = births.state;
     const Row<Bodies> body = state.tasks.body[task];
     TaskContacts& contacts = state.task_contacts;
     PartMotion& heir = motions[largest];
     Vec3d to_static, came_in, moving, difference;
+    double allowed = rigid_energy(state.bodies, body);
     const uint32_t first = state.tasks.first_contact[task];
     for (uint32_t c = first; c < first + state.tasks.contact_count[task]; ++c) {
         const Row<Bodies> striker = contacts.striker[c];
         const Vec3d blow = contacts.impulse[c] * Vec3d(contacts.normal[c]);
         const Vec3d in_world(rotate(pose.orientation, blow.to_float()));
-        const Vec3 place = to_world(pose, contacts.point[c]);
+        // What pushes a ball without friction points at its centre, wherever its surface has the contact's normal.
+        const bool is_ball = striker.exists() && state.bodies.is_sphere[striker];
+        const Vec3 place = is_ball ? centre_of(state.bodies, striker) : to_world(pose, contacts.point[c]);
+        const double given = contacts.impulse[c] * 0.5 * (contacts.start_speed[c] + contacts.striker_speed[c]);
+        const double before = rigid_energy(state.bodies, striker);
         came_in += blow;
         if (contacts.is_answered[c]) {
             const Vec3d missing = contacts.answer[c] - in_world;
-            if (contacts.is_heir_striker[c] && is_dynamic(state.bodies, striker))
-                push(state.bodies, births.rigid, striker, missing.to_float(), place);
-            else
+            allowed += contacts.answer_energy[c];
+            contacts.answer_energy[c] = 0;
+            // Its largest piece gets the difference, if that makes it slower: the pieces of this body have no energy
+            // to pay for it.
+            const Push owed = push_at(state.bodies, striker, missing, place);
+            const double lost = before - rigid_energy(state.bodies, striker, pushed(state.bodies, striker, owed));
+            if (contacts.is_heir_striker[c] && is_dynamic(state.bodies, striker) && lost > 0) {
+                give(state.bodies, births.rigid, striker, owed);
+                allowed += lost;
+            } else {
                 difference += Vec3d(rotate(conjugate(pose.orientation), missing.to_float()));
+            }
             contacts.is_answered[c] = 0;
             continue;
         }
         if (!is_dynamic(state.bodies, striker) || !(contacts.striker_inverse_mass[c] > 0)) {
             to_static += -1.0 * blow;
+            if (!is_dynamic(state.bodies, striker)) allowed += given;  // a lift, or what the game pushes with
             continue;
         }
-        const uint32_t waits = answering_contact(state, striker, body);
+        const uint32_t waits = answering_contact(state, striker, body, place);
         if (waits == kNone) {
-            push(state.bodies, births.rigid, striker, (-1.0 * in_world).to_float(), place);
+            give(state.bodies, births.rigid, striker, push_at(state.bodies, striker, -1.0 * in_world, place));
+            const double lost = before - rigid_energy(state.bodies, striker);
+            const double share = is_shared(state, c) ? share_lost(contacts, first, c) : lost;
+            allowed += share;
+            hand_on(state, task, c, lost - share);
             continue;
         }
+        const double lost_before = answers_loss(state, striker);
         contacts.answer.set(waits, contacts.answer[waits] - in_world);
+        const double lost = answers_loss(state, striker) - lost_before;
+        allowed += lost;
+        contacts.answer_energy[waits] -= lost;
         // Ties to the one that broke first.
         const bool is_larger = state.bodies.mass[body] >= state.bodies.mass[striker];
         contacts.is_heir_striker[waits] = is_larger && !heir.is_static;
     }
+    // What the game's blows gave comes from outside: pushes are booked above, as contacts with nobody.
+    const Vec3d exploded = take_explosions(state.blows, task);
+    came_in += exploded;
+    to_static += -1.0 * exploded;
     bool is_pinned = false;
     for (const PartMotion& m : motions) {
         is_pinned = is_pinned || m.is_static;
@@ -97,6 +192,7 @@ void strike_back(Births& births, Row<Tasks> task, const Pose& pose, std::span<Pa
     heir.velocity = (1 / heir.mass) * heir.momentum;
     const Vec3d booked(rotate(pose.orientation, to_static.to_float()));
     for (int k = 0; k < 3; ++k) births.counts.impulse_to_static[k] += booked[k];
+    return allowed;
 }
 
 void pay_answers(Bodies& bodies, const Tasks& tasks, TaskContacts& contacts, RigidWorld& rigid, Row<Tasks> task) {
@@ -104,9 +200,10 @@ void pay_answers(Bodies& bodies, const Tasks& tasks, TaskContacts& contacts, Rig
     for (uint32_t c = tasks.first_contact[task]; c < tasks.first_contact[task] + tasks.contact_count[task]; ++c) {
         if (!contacts.is_answered[c]) continue;
         if (is_dynamic(bodies, body) && length(contacts.answer[c]) > 0)
-            push(bodies, rigid, body, contacts.answer[c].to_float(),
-                 to_world(pose_of(bodies, body), contacts.point[c]));
+            give(bodies, rigid, body,
+                 push_at(bodies, body, contacts.answer[c], to_world(pose_of(bodies, body), contacts.point[c])));
         contacts.answer.set(c, {});
+        contacts.answer_energy[c] = 0;
         contacts.is_answered[c] = 0;
     }
 }

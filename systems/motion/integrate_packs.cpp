@@ -2,23 +2,16 @@
 #define HWY_TARGET_INCLUDE "systems/motion/integrate_packs.cpp"
 #include <hwy/foreach_target.h>
 // After foreach_target.h.
-#include <hwy/cache_control.h>
-
 #include <algorithm>
 
+#include "systems/damage/pair_cells.hpp"
 #include "systems/motion/integrate_packs.hpp"
-#include "systems/motion/lanes-inl.hpp"
+#include "systems/motion/integrate_pairs.hpp"
+#include "systems/motion/pack_step-inl.hpp"
 
 HWY_BEFORE_NAMESPACE();
 namespace cullet {
 namespace HWY_NAMESPACE {
-
-inline constexpr uint32_t kPacksAhead = 1;  // 3 to 4 KB
-
-HWY_INLINE void prefetch(const void* slot, size_t bytes) {
-    const char* p = static_cast<const char*>(slot);
-    for (size_t i = 0; i < bytes; i += 64) hwy::Prefetch(p + i);
-}
 
 /// Rows `lane` to lane + kStep of the pack.
 HWY_INLINE void integrate_lanes(const HiddenStep& step, uint32_t pack, uint32_t lane) {
@@ -49,14 +42,7 @@ HWY_INLINE void integrate_lanes(const HiddenStep& step, uint32_t pack, uint32_t 
                      hn::Load(d, link->row[2] + lane)};
         force = add(force, scaled(dot(column, w), row));
     }
-    const V dt = hn::Set(d, step.dt);
-    V3 velocity = load(step.v[0] + v, step.v[1] + v, step.v[2] + v);
-    velocity = add(velocity, scaled(hn::Mul(dt, hn::LoadU(d, step.inverse_mass + v)), force));
-    store(velocity, step.v[0] + v, step.v[1] + v, step.v[2] + v);
-    V3 u = load(step.u[0] + v, step.u[1] + v, step.u[2] + v);
-    u = add(u, scaled(dt, velocity));
-    store(u, step.u[0] + v, step.u[1] + v, step.u[2] + v);
-    store_points(add(u, scaled(hn::Set(d, step.beta), velocity)), step.next_probe + v);
+    advance(step, v, force);
 }
 
 void integrate_packs(const HiddenStep& step, uint32_t first_pack, uint32_t pack_count) {
@@ -74,6 +60,7 @@ namespace cullet {
 HWY_EXPORT(integrate_packs);
 
 void integrate_packs(const HiddenStep& step, uint32_t first_pack, uint32_t pack_count) {
+    if (step.has_pair_cells) return integrate_pairs(step, first_pack, pack_count);
     HWY_DYNAMIC_DISPATCH(integrate_packs)(step, first_pack, pack_count);
 }
 
@@ -95,6 +82,7 @@ HiddenStep::HiddenStep(ShellView shell, float time_step, float damping_time, uin
     probe = state.vertices.probe.data(static_cast<int>(side & 1)) + first;
     next_probe = state.vertices.probe.data(static_cast<int>(~side & 1)) + first;
     pack_count = shell.shells().packs[shell.row].count;
+    has_pair_cells = stores_pairs_once(state.shells, shell.row);
 }
 
 }  // namespace cullet

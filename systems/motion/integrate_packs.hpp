@@ -24,12 +24,15 @@ struct HiddenStep {
     Float4* next_probe;
     float dt, beta;  // s
     uint32_t pack_count;
+    bool has_pair_cells = false;  // pairs inside a pair cell are stored once
 
     /// `side`: parity of the step, the side of the probe that is read.
     HiddenStep() = default;
     HiddenStep(ShellView shell, float time_step, float damping_time, uint32_t side);
 };
 
+/// With pair cells packs come by whole cells: `first_pack` is a multiple of kPairCellPacks, and so is `pack_count`
+/// unless the last pack is among them.
 void integrate_packs(const HiddenStep& step, uint32_t first_pack, uint32_t pack_count);
 
 }  // namespace cullet

@@ -90,6 +90,10 @@ HWY_INLINE V3 load_points(const Float4* w) {
 HWY_INLINE void store_points(V3 a, Float4* w) {
     w->x = hn::GetLane(a.x), w->y = hn::GetLane(a.y), w->z = hn::GetLane(a.z), w->w = 0;
 }
+HWY_INLINE void subtract_points(V3 a, Float4* w, const uint32_t* index) {
+    Float4& p = w[index[0]];
+    p = {p.x - hn::GetLane(a.x), p.y - hn::GetLane(a.y), p.z - hn::GetLane(a.z), 0};
+}
 
 #else
 
@@ -139,19 +143,40 @@ HWY_INLINE void store_pair(V a, Float4* low, Float4* high) {
     hn::Store(hn::UpperHalf(half, a), half, &high->x);
 #endif
 }
+/// Columns to rows: register r of the four holds vertices r and, in the upper half, r + 4.
+struct PointRows {
+    V row[4];
+    explicit HWY_INLINE PointRows(V3 a) {
+        const Floats d;
+        const hn::RepartitionToWide<Floats> wide;
+        const V zero = hn::Zero(d);
+        const auto xy_low = hn::BitCast(wide, hn::InterleaveLower(d, a.x, a.y));  // x0 y0 x1 y1
+        const auto z_low = hn::BitCast(wide, hn::InterleaveLower(d, a.z, zero));  // z0 0 z1 0
+        const auto xy_high = hn::BitCast(wide, hn::InterleaveUpper(d, a.x, a.y));
+        const auto z_high = hn::BitCast(wide, hn::InterleaveUpper(d, a.z, zero));
+        row[0] = hn::BitCast(d, hn::InterleaveLower(wide, xy_low, z_low));
+        row[1] = hn::BitCast(d, hn::InterleaveUpper(wide, xy_low, z_low));
+        row[2] = hn::BitCast(d, hn::InterleaveLower(wide, xy_high, z_high));
+        row[3] = hn::BitCast(d, hn::InterleaveUpper(wide, xy_high, z_high));
+    }
+};
 HWY_INLINE void store_points(V3 a, Float4* w) {
     constexpr uint32_t h = kStep - 4;
-    const Floats d;
-    const hn::RepartitionToWide<Floats> wide;
-    const V zero = hn::Zero(d);
-    const auto xy_low = hn::BitCast(wide, hn::InterleaveLower(d, a.x, a.y));  // x0 y0 x1 y1
-    const auto z_low = hn::BitCast(wide, hn::InterleaveLower(d, a.z, zero));  // z0 0 z1 0
-    const auto xy_high = hn::BitCast(wide, hn::InterleaveUpper(d, a.x, a.y));
-    const auto z_high = hn::BitCast(wide, hn::InterleaveUpper(d, a.z, zero));
-    store_pair(hn::BitCast(d, hn::InterleaveLower(wide, xy_low, z_low)), w, w + h);
-    store_pair(hn::BitCast(d, hn::InterleaveUpper(wide, xy_low, z_low)), w + 1, w + h + 1);
-    store_pair(hn::BitCast(d, hn::InterleaveLower(wide, xy_high, z_high)), w + 2, w + h + 2);
-    store_pair(hn::BitCast(d, hn::InterleaveUpper(wide, xy_high, z_high)), w + 3, w + h + 3);
+    const PointRows rows(a);
+    for (uint32_t r = 0; r < 4; ++r) store_pair(rows.row[r], w + r, w + h + r);
+}
+/// w[index[l]] -= a of lane l, one lane after the other.
+HWY_INLINE void subtract_points(V3 a, Float4* w, const uint32_t* index) {
+    const PointRows rows(a);
+    const hn::CappedTag<float, 4> d;
+    const auto subtract = [&](auto from, uint32_t at)
+                              HWY_ATTR { hn::Store(hn::Sub(hn::Load(d, &w[at].x), from), d, &w[at].x); };
+#if HWY_TARGET == HWY_EMU128 || HWY_TARGET == HWY_SSSE3 || HWY_TARGET == HWY_SSE4
+    for (uint32_t r = 0; r < 4; ++r) subtract(rows.row[r], index[r]);
+#else
+    for (uint32_t r = 0; r < 4; ++r) subtract(hn::LowerHalf(hn::Half<Floats>(), rows.row[r]), index[r]);
+    for (uint32_t r = 0; r < 4; ++r) subtract(hn::UpperHalf(hn::Half<Floats>(), rows.row[r]), index[r + 4]);
+#endif
 }
 
 #endif

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <limits>
+#include <map>
 
 #include "engine/random.hpp"
 
@@ -242,6 +243,23 @@ TEST(State, AfterManyShellsCameAndWentEverythingIsBack) {
     EXPECT_GT(refused, 20u);
     for (const Row<Shells> shell : shells) release_shell(state, shell);
     EXPECT_EQ(hash_of_pools(state), empty);
+}
+
+TEST(State, WhoEditsWholeShellsClaimsTheirSpringsAndReadsTheirMaterials) {
+    std::vector<Access> claimed;
+    Parameter<ShellTables>::describe(claimed);
+    std::map<std::string, bool> is_written;
+    for (const Access& access : claimed) EXPECT_TRUE(is_written.emplace(access.name, access.writes).second);
+    for (const char* table :
+         {Shells::kName, Vertices::kName, Elements::kName, ShellSprings::kName, Springs::kName, LayerSprings::kName,
+          ElementSprings::kName, SpringPacks::kName, SpringSlots::kName, LayerSlots::kName, Twins::kName}) {
+        ASSERT_TRUE(is_written.contains(table)) << table;
+        EXPECT_TRUE(is_written[table]) << table;
+    }
+    for (const char* table : {Materials::kName, MaterialTraits::kName}) {
+        ASSERT_TRUE(is_written.contains(table)) << table;
+        EXPECT_FALSE(is_written[table]) << table;
+    }
 }
 
 TEST(State, EveryTableIsListedOnce) {

@@ -25,7 +25,8 @@ struct Game {
     void react();
     void draw_all(std::vector<uint32_t>& stamps);
     BodyId aim(Vec3 eye, Vec3 way);
-    void explode(Vec3 at);
+    void throw_away(Vec3 at);
+    void strike(BodyId body, Vec3 at);
     void show_lines();
     void follow(Vec3& player);
     Result<void> quick_save(const std::string& path);
@@ -64,13 +65,21 @@ BodyId Game::aim(Vec3 eye, Vec3 way) {
     return hit.body;
 }
 
-void Game::explode(Vec3 at) {
+void Game::throw_away(Vec3 at) {
     BodyId near[64];
     const uint32_t count = std::min(overlap(world, at, 3, near, 64), 64u);
     for (uint32_t i = 0; i < count; ++i) {
         const Vec3 p = world.pose(near[i]).value().position;
         (void)world.apply_impulse(near[i], {p.x - at.x, p.y - at.y, p.z - at.z}, p);
     }
+}
+
+void Game::strike(BodyId body, Vec3 at) {
+    PushSettings hammer{.place = at, .normal = {0, -1, 0}, .approach_speed = 6, .mass = 0.5f, .radius = 0.015f};
+    if (const Result<void> done = world.push_impact(body, hammer); !done) std::puts(done.error().c_str());
+    (void)world.explode({.centre = at, .radius = 2, .pressure = 4e5f, .seconds = 2e-4f});
+    const Vec3 line[] = {{at.x - 1, at.y, at.z}, {at.x, at.y + 0.05f, at.z}, {at.x + 1, at.y, at.z}};
+    (void)world.cut({}, {.points = line, .point_count = 3, .direction = {0, 0, 1}});  // all that it passes through
 }
 
 void Game::show_lines() {
@@ -117,7 +126,9 @@ int main() {
         game.frame(1.0 / 90);
         game.draw_all(stamps);
     }
-    game.explode(player);
+    game.throw_away(player);
+    game.strike(body, game.world.pose(body).value().position);
+    game.frame(1.0 / 30);
     game.show_lines();
     const bool is_recorded = game.world.stop_recording().ok();
     for (const char* file : {"embedding.csnap", "embedding.csnap.crec"}) std::remove(file);

@@ -50,7 +50,7 @@ TEST(Options, WhatMakesNoSenseIsRefusedInOneSentence) {
         {},
         {"walk"},
         {"run"},
-        {"run", "castle"},
+        {"run", "cathedral"},
         {"run", "wall", "vase"},
         {"run", "wall", "--frames", "0"},
         {"run", "wall", "--frames", "many"},

@@ -4,6 +4,7 @@
 #include <map>
 
 #include "engine/random.hpp"
+#include "systems/cook/materials.hpp"
 #include "systems/damage/assemble.hpp"
 #include "systems/damage/contact.hpp"
 #include "systems/motion/integrate_packs.hpp"
@@ -237,6 +238,7 @@ Row<Shells> make_test_shell(State& state, const ShellMesh& mesh, double thicknes
     ShellRoom room;
     room.vertices = count + spare, room.elements = triangles + spare, room.hinges = (triangles + spare) / 2 * 3 + 3;
     room.blocks = room.links = (count + spare + 64) / kLanes * 14 + 64;
+    if (material_traits(state, material).has_grain()) room.links *= 3;
     const Row<Shells> row = make_shell(state, room);
     if (!row.exists()) return row;
     const ShellView shell(state, row);

@@ -11,9 +11,9 @@
 
 #include "engine/import_mesh.hpp"
 #include "systems/cook/extrude.hpp"
+#include "systems/cook/true_wall.hpp"
 #include "tests/support/plain_reader.hpp"
 #include "tests/support/shell_checks.hpp"
-#include "tests/support/true_wall.hpp"
 
 namespace cullet {
 namespace {

@@ -92,6 +92,36 @@ TEST(GrowCracks, AStripUnderTensionCracksStraightAcrossAndFallsInTwo) {
     EXPECT_EQ(shell.view.shells().has_cracks[shell.view.row], 1);
 }
 
+/// A strip that tears from its middle under 1.1 of the strength, its tips free to fork above this share of it.
+struct Torn {
+    uint32_t pieces, starts, tips;
+    uint64_t hash;
+    std::string rule;
+};
+Torn tear_strip(float branching) {
+    Shell shell = make_shell_of(sheet(40, 24, 0.2, 0.12, 0.35), 600, 600);
+    MaterialTraits& traits = shell.state->material_traits;
+    traits.append(1);
+    traits.branching[0] = branching;
+    const Row<Tasks> task = make_task(shell);
+    ban_all(shell.view);
+    shell.state->vertices.is_start_banned[shell.view.vertex(vertex_near(shell.view, {0.1f, 0.06f, 0}))] = 0;
+    const CrackSink all = run(shell, task, [](Vec3, int) { return tension_along({1, 0, 0}, 1.1 * kStrength); });
+    traits.branching[0] = 0;  // what the strip has become is compared, not the setting
+    return {component_count(shell.view), all.starts, count_state(shell.view, CrackState::Tip), shell.state->hash(),
+            broken_rule(shell)};
+}
+
+TEST(GrowCracks, TipsForkAboveTheShareOfTheStrengthThatTheMaterialNames) {
+    const Torn straight = tear_strip(0), forked = tear_strip(0.5f), out_of_reach = tear_strip(2);
+    EXPECT_EQ(straight.pieces, 2u);
+    EXPECT_GT(forked.pieces, 2u);
+    EXPECT_EQ(forked.starts, 1u) << "all of it is one crack";
+    EXPECT_EQ(forked.rule, "");
+    EXPECT_EQ(out_of_reach.hash, straight.hash) << "no tip is under twice the strength";
+    EXPECT_EQ(tear_strip(0.5f).hash, forked.hash);
+}
+
 // What cuts and inserts keep up to date row by row is what a pass over the whole shell gives.
 TEST(GrowCracks, LinksOfSlopesFollowEveryCutAndStartStrengthsHideNoStart) {
     Shell shell = make_shell_of(sheet(30, 30, 0.2, 0.2, 0.35), 400, 400);

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "engine/random.hpp"
+#include "systems/damage/crack_candidates.hpp"
 #include "systems/damage/crack_rules.hpp"
 #include "tests/support/crack_meshes.hpp"
 
@@ -39,6 +40,42 @@ TEST(InsertVertex, TwoTrianglesBecomeFourAndTheVertexLiesOnTheEdge) {
     EXPECT_LT(length(v.rest[view.vertex(w)] - (p + 0.375f * (q - p))), 1e-8f);
     EXPECT_NEAR(length(v.inward[view.vertex(w)]), 1, 1e-6);
     EXPECT_EQ(broken_rule(shell), "");
+}
+
+// Coarse fracture: a ban ends, and where an edge is split it ends when those of both ends have.
+TEST(InsertVertex, TheNewVertexIsBannedAsLongAsTheEndsOfItsEdge) {
+    struct Case {
+        float first, second;  // s; below 0: no ban
+        bool is_second_a_tip;
+        float wanted;
+    };
+    const Case cases[] = {{3e-5f, 2e-5f, false, 3e-5f},
+                          {-1, 2e-5f, false, 2e-5f},
+                          {1e-5f, 2e-5f, true, 1e-5f},
+                          {-1, 2e-5f, true, 0},
+                          {-1, -1, false, 0}};
+    for (const Case& c : cases) {
+        Shell shell = make_shell_of(sphere(2, 0.1), 4, 4);
+        const ShellView view = shell.view;
+        Vertices& v = shell.state->vertices;
+        const auto corner = shell.state->elements.corner[view.element(5)];
+        const uint32_t p = view.vertex(corner[1]), q = view.vertex(corner[2]);
+        const auto ban = [&](uint32_t row, float until) {
+            v.is_start_banned[row] = until >= 0;
+            v.ready_time[row] = std::max(until, 0.0f);
+        };
+        ban(p, c.first), ban(q, c.second);
+        if (c.is_second_a_tip) v.crack[q] = static_cast<uint8_t>(CrackState::Tip);
+        Touched touched;
+        bool is_full;
+        ASSERT_TRUE(can_insert(view, 5, 1, 0.5f, is_full));
+        const uint32_t w = view.vertex(insert_vertex(view, 5, 1, 0.5f, touched));
+        EXPECT_EQ(v.is_start_banned[w], c.first >= 0 || c.second >= 0);
+        EXPECT_EQ(v.ready_time[w], c.wanted);
+        EXPECT_EQ(v.crack[w], static_cast<uint8_t>(CrackState::None));
+        EXPECT_FALSE(c.wanted > 0 && may_start(v, w, FractureKind::Coarse, 0.5f * c.wanted));
+        EXPECT_FALSE(v.is_start_banned[w] && may_start(v, w, FractureKind::Large, 1)) << "its bans last";
+    }
 }
 
 TEST(InsertVertex, AtTheBorderOneTriangleBecomesTwo) {

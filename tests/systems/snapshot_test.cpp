@@ -6,6 +6,7 @@
 
 #include "engine/mesh_file.hpp"
 #include "systems/api/snapshot.hpp"
+#include "systems/damage/working_room.hpp"
 #include "tests/support/small_worlds.hpp"
 
 namespace cullet {
@@ -160,11 +161,12 @@ TEST(Snapshot, AFileGoesOnWhereItWasSaved) {
 TEST(Snapshot, RoomIsMadeReadyForTheLargestBodyAndNotForWhatASnapshotClaims) {
     test::Breakage hit = test::vase_and_ball(test::small_settings());
     const State& state = test::state_of(hit.world);
-    const ShellRoom vase = room_of(state, state.bodies.shell[hit.body.index]);
+    const ShellRoom vase = working_room(ShellView(test::state_of(hit.world), state.bodies.shell[hit.body.index]));
     hit.world.contents().data.ready_for = {1u << 28, 1u << 28, 1u << 28, 1u << 28, 1u << 28, 1u << 28, 1u << 28};
     World twin = restored(taken(hit.world));
     const ShellRoom& found = twin.contents().data.ready_for;
-    for (const auto rows : {&ShellRoom::vertices, &ShellRoom::elements, &ShellRoom::hinges, &ShellRoom::cells})
+    for (const auto rows : {&ShellRoom::vertices, &ShellRoom::elements, &ShellRoom::hinges, &ShellRoom::blocks,
+                            &ShellRoom::links, &ShellRoom::cells})
         EXPECT_EQ(found.*rows, vase.*rows);
 }
 

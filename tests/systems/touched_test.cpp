@@ -6,6 +6,8 @@
 #include <map>
 
 #include "engine/random.hpp"
+#include "systems/cook/materials.hpp"
+#include "systems/costs.hpp"
 #include "systems/damage/assemble.hpp"
 #include "systems/damage/grow_cracks.hpp"
 #include "tests/support/crack_meshes.hpp"
@@ -69,8 +71,22 @@ StressField field_of(uint64_t seed) {
     };
 }
 
-void compare_with_new_assembly(const Surface& surface, uint64_t seed) {
+/// The stress is that of the field, so wood of these numbers cracks as the others do, but its rows reach farther.
+void give_grain(State& state) {
+    MaterialTraits& traits = state.material_traits;
+    traits.append(1);
+    const Row<Materials> m(0);
+    traits.across_young_modulus[0] = 0.1f * state.materials.young_modulus[m];
+    traits.shear_modulus[0] = 0.08f * state.materials.young_modulus[m];
+    traits.across_strength[0] = 0.9f * state.materials.tensile_strength[m];
+    traits.across_fracture_energy[0] = state.materials.fracture_energy[m];
+    traits.grain.set(0, normalised(Vec3{1, 0.7f, 0.2f}));
+    ASSERT_TRUE(material_traits(state, m).has_grain());
+}
+
+void compare_with_new_assembly(const Surface& surface, uint64_t seed, bool has_grain = false) {
     Shell shell = make_shell_of(surface, 0, 0);
+    if (has_grain) give_grain(*shell.state);
     assemble(shell, 400);
     const ShellView view = shell.view;
     const Row<Tasks> task = make_task(shell);
@@ -84,6 +100,11 @@ void compare_with_new_assembly(const Surface& surface, uint64_t seed) {
     }
     ASSERT_GT(cuts, 20u);
     ASSERT_EQ(broken_rule(shell), "");
+    // Rows of a grain are paid for by themselves, and each refresh is local: the whole body was not assembled each
+    // time.
+    const uint64_t for_rows = shell.state->tasks.units_owed[task] - kUnitsCut * cuts;
+    EXPECT_EQ(for_rows > 0, has_grain);
+    EXPECT_LT(for_rows, kUnitsGrainRow * 60 * cuts);
 
     std::vector<LaneRow> found;
     std::vector<float> scale, hinge_scale, vertex_scale;
@@ -124,6 +145,13 @@ TEST(RefreshStiffness, GivesWhatANewAssemblyGivesOnASphere) {
 }
 TEST(RefreshStiffness, GivesWhatANewAssemblyGivesOnAClosedLathe) {
     compare_with_new_assembly(closed_lathe(36, 24, 0.1, 0.3), 40);
+}
+
+TEST(RefreshStiffness, GivesWhatANewAssemblyGivesOnAWoodenSheet) {
+    compare_with_new_assembly(sheet(30, 20, 0.3, 0.2, 0.3), 1, true);
+}
+TEST(RefreshStiffness, GivesWhatANewAssemblyGivesOnAWoodenSphere) {
+    compare_with_new_assembly(sphere(4, 0.1), 20, true);
 }
 
 }  // namespace

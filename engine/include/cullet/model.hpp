@@ -4,9 +4,11 @@
 #include <cstddef>
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <string>
 
 #include "cullet/host.hpp"
+#include "cullet/material.hpp"
 #include "cullet/result.hpp"
 #include "cullet/types.hpp"
 
@@ -18,7 +20,9 @@ struct MeshView {
     size_t position_count = 0;
     const uint32_t* indices = nullptr;  // 3 a triangle
     size_t triangle_count = 0;
-    const Vec3* corner_normals = nullptr;  // unit
+    /// Unit. Null: made from this mesh, smooth but for edges that turn by more than 40 degrees; cracks leave them as they
+    /// are.
+    const Vec3* corner_normals = nullptr;
     const Vec2* corner_uvs = nullptr;
     const uint16_t* materials = nullptr;  // 1 a triangle, comes back in the drawn mesh's order
     const char* name = "mesh";            // for sentences
@@ -56,14 +60,30 @@ struct MeshReport {
 /// Touches no world and no thread; about 2 microseconds a triangle. Refuses what cannot be a surface.
 Result<MeshReport> examine_mesh(const MeshView& mesh);
 
+/// How the inner surface is pushed to its depth. All but the default are there to compare with.
+enum class Propagation : uint8_t {
+    GuardedFront,      // all vertices together, what turns bad set back: nothing meets, no element is turned
+    Front,             // the same as published: quicker, leaves crossings and turned elements
+    SingleVertex,      // one vertex after the other, as published: nothing meets, elements are turned
+    SingleVertexTets,  // the same, with the elements tested too: as sound as the default, slower
+};
+
 struct CookSettings {
-    std::string material = "porcelain";  // glass, porcelain, brick, concrete
-    float thickness = 0.005f;            // m; thinner where the opposite wall is near
+    std::string material = "porcelain";         // a name in `materials`
+    const MaterialTable* materials = nullptr;   // null: the compiled table
+    std::optional<FractureKind> fracture = {};  // in place of the material's
+    Vec3 grain{0, 1, 0};       // of wood, along its fibres, mesh coordinates, any length; counts for no other material
+    float thickness = 0.005f;  // m; thinner where the opposite wall is near
     /// Edges longer than this are split first, m; 0: twice the thickness, or 2.5 % of the diagonal if that is larger.
     float longest_edge = 0;
     /// Points that are closer are one, as a share of the diagonal, 0 to 0.01. 0: equal ones only; 1e-7 heals a soup of
     /// triangles whose positions differ in the last digits.
     float weld_tolerance = 0;
+    Propagation propagation = Propagation::GuardedFront;
+    /// A closed part whose opposite wall lies within two thicknesses over most of its area has both of its walls
+    /// modelled: its outer wall becomes one sheet as thick as measured, and both skins break together. False: each wall
+    /// becomes a sheet of its own, at most half as thick.
+    bool joins_walls = true;
     uint64_t seed = 1;               // of the spread of strength
     bool measures_threshold = true;  // finds the speed of the first crack (adds 10 to 50 hits' time)
     /// Called now and then on the thread that cooks; never falls, ends with 1.
@@ -76,12 +96,16 @@ struct CookSettings {
 /// What cooking found, for people.
 struct ModelReport {
     uint32_t vertices = 0, elements = 0, cells = 0, degenerate_elements = 0;
-    double mass = 0;              // kg
-    double mean_thickness = 0;    // m
-    float first_crack_speed = 0;  // m/s against a floor; 0 when not measured
-    uint64_t units_of_a_hit = 0;  // predicted
-    std::string repairs;          // one sentence, empty when the mesh was sound
-    std::string advice;           // one sentence when a hit will not fit the default budget: which settings to change
+    double mass = 0;                 // kg
+    double mean_thickness = 0;       // m
+    float first_crack_speed = 0;     // m/s against a floor; 0 when not measured
+    uint64_t units_of_a_hit = 0;     // predicted
+    uint32_t collisions = 0;         // moves that were taken back while the inner surface was pushed in
+    uint32_t inverted_elements = 0;  // turned inside out; 0 but for the published ways of Propagation
+    uint32_t crossings = 0;          // pairs of faces that meet; 0 but for Propagation::Front
+    std::string walls;               // one sentence when both walls were modelled and became one sheet
+    std::string repairs;             // one sentence, empty when the mesh was sound
+    std::string advice;  // one sentence when a hit will not fit the default budget: which settings to change
 };
 
 /// A cooked model, not bound to a world. Immutable, so any number of worlds on any threads may use it.

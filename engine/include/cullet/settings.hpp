@@ -32,6 +32,10 @@ struct Settings {
     float hold_seconds = 0.1f;
     /// Fragments break again down to this generation (0: only whole bodies break).
     uint32_t generations = 3;
+    /// Pieces lighter than this share of the intact body, or of fewer elements than `break_elements`, do not break
+    /// again; 0 to 1. Each break of a smaller piece costs a task and gives crumbs.
+    float break_share = 0.05f;
+    uint32_t break_elements = 12;
     /// Pieces lighter than this share of the intact body, or of fewer elements than `debris_elements`, become debris.
     float debris_share = 0.0005f;
     uint32_t debris_elements = 6;

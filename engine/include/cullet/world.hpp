@@ -8,9 +8,11 @@
 #include <string>
 #include <vector>
 
+#include "cullet/damage.hpp"
 #include "cullet/events.hpp"
 #include "cullet/host.hpp"
 #include "cullet/model.hpp"
+#include "cullet/quick.hpp"
 #include "cullet/result.hpp"
 #include "cullet/rigid.hpp"
 #include "cullet/settings.hpp"
@@ -42,6 +44,8 @@ struct SpawnSettings {
     float strength_scale = 1;   // on the material's strength; fragments inherit it. Infinity never cracks
     const Box* pins = nullptr;  // vertices inside any of these are fixed to the world
     uint32_t pin_count = 0;
+    FractureMode fracture = FractureMode::Hidden;  // fragments inherit it, and `quick`
+    QuickSettings quick;
 };
 
 /// A solid sphere: a ball, a bullet.
@@ -123,6 +127,15 @@ class World {
     Result<void> apply_impulse(BodyId body, Vec3 impulse, Vec3 place);
     Result<void> wake(BodyId body);
 
+    // Blows (damage.hpp), taken at the start of the next step. Refused: what is not finite or out of range, a body that
+    // is gone, and more blows than wait at once (limits.queued_hits and one a body).
+    /// As if a rigid striker hit the body there.
+    Result<void> push_impact(BodyId body, const PushSettings& push);
+    /// On all bodies in reach.
+    Result<void> explode(const ExplosionSettings& explosion);
+    /// Of one breakable body, down to any size; of all of them that the surface passes through when `body` is null.
+    Result<void> cut(BodyId body, const CutSettings& cut);
+
     /// The place `by` becomes the origin: every coordinate c of the world, of events and of drawn poses becomes c - by;
     /// views and body frames stay. Between steps, at any time, hits that are worked off included. Nothing wakes. Places
     /// round to floats of the new size: far from the origin (0.25 mm at 4 km) a little is lost, near it nothing more.
@@ -133,6 +146,12 @@ class World {
     uint32_t bodies(BodyId* out, uint32_t capacity) const;
     /// The drawn mesh of a breakable body; empty for others.
     Result<BodyView> view(BodyId body) const;
+    /// Cracks that have not parted the body: both of their faces lie in one place, so that triangles do not show them.
+    /// Writes pairs of indices into view(body).vertices, each pair one line, once along the outer wall (uv.y is 0) and
+    /// once along the inner one, in the order of their places; to be drawn thin and dark, a little towards the eye.
+    /// Returns how many indices. Half of the view's index_count is always room enough; too little is refused. To be
+    /// asked when the stamp has changed: 0.2 microseconds an edge of the crack faces; allocates nothing.
+    Result<uint32_t> hairlines(BodyId body, uint32_t* indices, uint32_t room) const;
 
     // A snapshot holds all that later steps depend on, in the middle of a hit too; not the host's functions, nor the
     // veto. A world that loads it and the one that saved it go on with the same bytes; for that the one that saves

@@ -1,4 +1,4 @@
-#include "tests/support/true_wall.hpp"
+#include "systems/cook/true_wall.hpp"
 
 #include <algorithm>
 

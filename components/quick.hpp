@@ -1,0 +1,69 @@
+// The quick mode (thick shell note C3 to C5, B7): how bodies break that do not wait for a hidden run. All of it empty
+// until the first such body comes.
+#pragma once
+#include "components/springs.hpp"
+#include "components/tasks.hpp"
+
+namespace cullet {
+
+/// Row b is how body b breaks. Pieces inherit it.
+struct QuickBodies : Table<QuickBodies> {
+    using Table::Table;
+    static constexpr const char* kName = "quick_bodies";
+    static constexpr bool kIsOptional = true;
+    Column<uint8_t> is_quick{*this, "is_quick"};
+    Column<uint8_t> layers{*this, "layers"};                    // 1 or 2
+    Column<uint16_t> steps{*this, "steps"};                     // of a run
+    Column<uint16_t> crack_frequency{*this, "crack_frequency"};  // vertices split in a step; 0: by the kind of fracture
+    Column<float> strain_limit{*this, "strain_limit"};           // 0: the material's
+    Column<float> compression_limit{*this, "compression_limit"};  // in strain limits; 0: none
+    Column<float> crack_length{*this, "crack_length"};            // of the body's diagonal
+    Column<float> bump_angle{*this, "bump_angle", "rad"};
+};
+
+inline constexpr uint32_t kMostAwakePacks = 4096;  // of one run: 32,768 vertices
+
+/// Row t is the run of task t. All motion is seen from the body as it moved at the touch: a vertex at rest in it has
+/// velocity 0 until the run ends.
+struct QuickRuns : Table<QuickRuns> {
+    using Table::Table;
+    static constexpr const char* kName = "quick_runs";
+    static constexpr bool kIsOptional = true;
+    Column<uint8_t> is_quick{*this, "is_quick"};  // the task's body is
+    // Of the body, when the task opened.
+    Column<uint8_t> layers{*this, "layers"};
+    Column<uint16_t> steps{*this, "steps"};
+    Column<uint16_t> crack_frequency{*this, "crack_frequency"};  // 0: by the kind of fracture
+    Column<float> given_limit{*this, "given_limit"};             // 0: the material's
+    Column<float> compression_limit{*this, "compression_limit"};
+    Column<float> crack_length{*this, "crack_length"};
+    Column<float> bump_angle{*this, "bump_angle", "rad"};
+    // Of the run.
+    Column<uint8_t> is_full{*this, "is_full"};    // no room for more springs: nothing splits any more
+    Column<Row<ShellSprings>> springs{*this, "springs"};  // of the task's shell; kNone before the region is awake
+    /// First elements of the task's shell that are the body's, when it is a cut-out (cut_out.hpp): Elements.part says
+    /// which. 0: it is a copy of the whole.
+    Column<uint32_t> cut_elements{*this, "cut_elements"};
+    Column<uint32_t> pack_count{*this, "pack_count"};     // rows in AwakePacks
+    Column<uint32_t> awake_count{*this, "awake_count"};   // vertices that the region had when it woke
+    Column<float> softening{*this, "softening"};          // s of B7, >= 1: stiffness E / s, time stretched by its root
+    Column<float> strain_limit{*this, "strain_limit"};    // of a vertex of median strength, as the run sees it
+    Column<double> energy_scale{*this, "energy_scale", "J"};  // that body and strikers meet with: what 5 % are of
+    Column<float> diagonal{*this, "diagonal", "m"};       // of the body's bounds
+};
+
+/// Rows [t kMostAwakePacks, + pack_count) are the region of task t: packs of 8 vertices, rising. Bit k is vertex k.
+struct AwakePacks : Table<AwakePacks> {
+    using Table::Table;
+    static constexpr const char* kName = "awake_packs";
+    static constexpr bool kIsOptional = true;
+    Column<uint32_t> pack{*this, "pack"};
+    Column<uint8_t> awake{*this, "awake"};  // moves
+    Column<uint8_t> held{*this, "held"};    // stays where it is; its velocity is the impulse that springs gave it, over
+                                            // its mass, which the piece that it belongs to gets in the end
+};
+
+template <>
+inline constexpr uint32_t kRowsPerChunk<AwakePacks> = 32;
+
+}  // namespace cullet

@@ -1,0 +1,118 @@
+// Rows of springs come and go with their shells.
+#include "components/springs.hpp"
+
+#include <algorithm>
+
+#include "components/state.hpp"
+
+namespace cullet {
+namespace {
+
+struct Part {
+    AnyTable& table;
+    RangePool& pool;
+    Column<Range>& range;
+    uint32_t rows;  // wanted
+    const char* limit;
+};
+
+/// Every range of a row with its table and pool.
+std::array<Part, 7> parts_of(State& s, const SpringRoom& room = {}) {
+    ShellSprings& own = s.shell_springs;
+    const uint32_t packs = (room.vertices + kLanes - 1) / kLanes;
+    const auto layered = [&](uint32_t rows) { return room.has_layers ? rows : 0; };
+    return {{{s.springs, s.pools.springs, own.springs, room.springs, "limits.elements"},
+             {s.layer_springs, s.pools.layer_springs, own.layers, layered(room.springs), "limits.elements"},
+             {s.element_springs, s.pools.element_springs, own.edges, room.elements, "limits.elements"},
+             {s.spring_packs, s.pools.spring_packs, own.packs, packs, "limits.vertices"},
+             {s.spring_slots, s.pools.spring_slots, own.slots, room.slots, "limits.vertices"},
+             {s.layer_slots, s.pools.layer_slots, own.layer_slots, layered(room.slots), "limits.vertices"},
+             {s.twins, s.pools.twins, own.twins, layered(packs * kLanes), "limits.vertices"}}};
+}
+
+bool take(const Part& part, uint32_t row) {
+    part.range[row] = {};
+    if (part.rows == 0) return true;
+    const uint32_t first = part.pool.take(part.rows);
+    if (first == kNone) return false;
+    if (part.pool.end() > part.table.size()) part.table.append(part.pool.end() - part.table.size());
+    part.table.clear_rows(first, part.pool.rounded(part.rows));
+    part.range[row] = {first, 0, part.rows};
+    return true;
+}
+
+void give_back(State& state, Row<ShellSprings> row) {
+    for (const Part& part : parts_of(state)) part.pool.give_back(part.range[row].first, part.range[row].capacity);
+    state.shell_springs.clear_rows(row, 1);
+    state.pools.shell_springs.give_back(row, 1);
+}
+
+}  // namespace
+
+Row<ShellSprings> find_springs(const State& state, Row<Shells> shell) {
+    const ShellSprings& own = state.shell_springs;
+    for (uint32_t row = 0; row < own.size(); ++row)
+        if (own.is_used[row] && own.shell[row] == shell) return Row<ShellSprings>(row);
+    return {};
+}
+
+Row<ShellSprings> make_springs(State& state, Row<Shells> shell, const SpringRoom& room, const char** full) {
+    ShellSprings& own = state.shell_springs;
+    CULLET_ASSERT(!find_springs(state, shell).exists(), "shell %u has springs", shell.index);
+    const Row<ShellSprings> row(state.pools.shell_springs.take(1));
+    if (!row.exists()) {
+        if (full) *full = "limits.shells";
+        return {};
+    }
+    if (row >= own.size()) own.append(row + 1 - own.size());
+    own.clear_rows(row, 1);
+    own.is_used[row] = 1;
+    own.shell[row] = shell;
+    const char* missing = nullptr;
+    for (const Part& part : parts_of(state, room))
+        if (!take(part, row) && !missing) missing = part.limit;
+    if (!missing) return row;
+    give_back(state, row);
+    if (full) *full = missing;
+    return {};
+}
+
+void release_springs(State& state, Row<Shells> shell) {
+    if (const Row<ShellSprings> row = find_springs(state, shell); row.exists()) give_back(state, row);
+}
+
+bool copy_springs(State& state, Row<Shells> source, Row<Shells> copy, const char** full) {
+    const Row<ShellSprings> from = find_springs(state, source);
+    if (!from.exists()) return true;
+    ShellSprings& own = state.shell_springs;
+    SpringRoom room;
+    // As much spare as new springs have: packs that are full move to the end of the slots.
+    room.springs = std::max(own.springs[from].capacity, own.springs[from].count * 9 / 8 + 16);
+    const bool has_edges = own.edges[from].capacity > 0;  // springs given by hand belong to no element
+    room.elements = has_edges ? state.shells.elements[copy].capacity : 0;
+    room.vertices = state.shells.vertices[copy].capacity;
+    room.slots = std::max(own.slots[from].capacity, own.slots[from].count * 9 / 8 + 16);
+    room.has_layers = own.layers[from].capacity > 0;
+    CULLET_ASSERT(room.vertices >= state.shells.vertices[source].count &&
+                      (!has_edges || room.elements >= state.shells.elements[source].count),
+                  "springs of %u vertices do not fit %u", state.shells.vertices[source].count, room.vertices);
+    const Row<ShellSprings> to = make_springs(state, copy, room, full);
+    if (!to.exists()) return false;
+    std::array<Range, 7> ranges;
+    const auto parts = parts_of(state);
+    for (size_t k = 0; k < parts.size(); ++k) ranges[k] = parts[k].range[to];
+    own.copy_rows(own, from, to, 1);
+    own.shell[to] = copy;
+    for (size_t k = 0; k < parts.size(); ++k) {
+        const Range found = parts[k].range[from];
+        Range& range = parts[k].range[to];
+        range = ranges[k];
+        range.count = std::min(found.count, range.capacity);
+        if (range.count) parts[k].table.copy_rows(parts[k].table, found.first, range.first, range.count);
+    }
+    own.packs[to].count = own.packs[to].capacity;  // these follow the room for vertices; rows behind the copy are empty
+    own.twins[to].count = own.twins[to].capacity;
+    return true;
+}
+
+}  // namespace cullet

@@ -1,0 +1,98 @@
+// What bodies are made of: a compiled table of ten materials, and tables of the game's own that add rows and change
+// them. A table touches no world. Cooking takes one row and puts its values into the model; from there they come into
+// worlds, model files, snapshots and recordings. Who changes a row cooks again.
+#pragma once
+#include <cstddef>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "cullet/result.hpp"
+
+namespace cullet {
+
+/// Brittle bodies crack and fall apart. Ductile ones stretch, flow and tear, elastic ones stretch, spring back and tear;
+/// both are rigid until something hits them hard enough, and in worlds whose bodies a host moves they stay so.
+enum class MaterialKind : uint8_t { Brittle = 0, Ductile, Elastic };
+
+/// How near to each other cracks start (thick shell note, C2). Large: none starts for the rest of a hit within three
+/// edges of a cut, so few cracks run far. Coarse: only until a wave has gone twelve edges. Fine: nothing is banned, and
+/// cracked places may crack anew.
+enum class FractureKind : uint8_t { Large = 0, Coarse, Fine };
+
+/// One row. SI units; what a value may be stands in material_values().
+struct MaterialSettings {
+    std::string name;  // letters, digits, _ and -
+    MaterialKind kind = MaterialKind::Brittle;
+    FractureKind fracture = FractureKind::Large;
+    float density = 2400;            // kg/m3
+    float young_modulus = 70e9f;     // Pa; of wood along the grain, as are the next two
+    float poisson_ratio = 0.2f;      // of wood: contraction across for stretch along the grain
+    float tensile_strength = 50e6f;  // Pa, for loads of seconds; a blow's run takes twice that
+    float yield_strength = 0;        // Pa, of ductile ones; 0: none
+    float yield_strain = 0;          // where a ductile one begins to flow; 0: none
+    float break_strain = 7e-4f;      // where it tears
+    float fracture_energy = 20;      // J/m2, G_c
+    float crush_strength = 6e9f;     // Pa: pressure under which the struck face gives way for good
+    float restitution = 0.6f;
+    float friction = 0.45f;
+    float heading_power = 6;    // q of C1: how straight cracks run; glass 30
+    float tip_factor = 0.6f;    // on Griffith's limit at the mesh's resolution; at 1 most panes stay whole
+    float run_seconds = 1e-3f;  // least elastic time of a blow's run; half of it leaves a vase too whole
+    /// Tips above this share of the start strength (which is twice tensile_strength) fork with probability 1/2; 0:
+    /// never.
+    float branching = 0;
+    /// When a hit breaks the body, a crack that has stopped goes on if a border or another crack lies ahead within this
+    /// times its own length: what is left would break under the pieces' weight. 0: it stays a hairline.
+    float run_out = 0;
+    float bending_stiffness = 0;  // N m, of cloth; 0: E h^3 / 12 (1 - nu^2)
+    // Across the grain. across_young_modulus 0: the same in all directions, and the others count for nothing.
+    float across_young_modulus = 0;  // Pa
+    float shear_modulus = 0;         // Pa, between along and across
+    float across_strength = 0;       // Pa
+    float across_break_strain = 0;
+    float across_fracture_energy = 0;  // J/m2, of a crack that splits along the grain
+};
+
+/// One number of a row, for readers, checks and lists: its name, unit and range (both ends may be had).
+struct MaterialValue {
+    const char* name;  // as in MaterialSettings
+    const char* unit;
+    float MaterialSettings::*member;
+    double least, most;
+};
+struct MaterialValues {
+    const MaterialValue* data;
+    size_t count;
+    const MaterialValue* begin() const { return data; }
+    const MaterialValue* end() const { return data + count; }
+};
+MaterialValues material_values();
+/// "brittle", "ductile", "elastic"; "large", "coarse", "fine".
+const char* name_of(MaterialKind kind);
+const char* name_of(FractureKind kind);
+
+/// Empty, or a sentence: which value, what it is, the range. Looks at values that must fit each other too.
+Result<void> check_material(const MaterialSettings& material);
+
+/// A list of materials with different names. Copies are independent.
+class MaterialTable {
+ public:
+    /// The compiled ones: glass, porcelain, brick, concrete, steel, aluminium, copper, rubber, cloth, wood.
+    MaterialTable();
+    /// A name that is there already is refused, and a row that check_material refuses.
+    Result<void> add(const MaterialSettings& material);
+    /// Replaces the row of that name.
+    Result<void> change(const MaterialSettings& material);
+    /// An error names those there are.
+    Result<MaterialSettings> find(const std::string& name) const;
+    const std::vector<MaterialSettings>& rows() const { return rows_; }
+    /// "glass, porcelain, ..."
+    std::string names() const;
+
+ private:
+    MaterialSettings* row_of(const std::string& name);
+    std::vector<MaterialSettings> rows_;
+};
+
+}  // namespace cullet

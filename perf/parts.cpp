@@ -1,0 +1,124 @@
+// What a hit costs outside of its inner loop, and finding its pieces, on vases of 10 and 100 thousand elements.
+#include <algorithm>
+#include <cstdio>
+#include <functional>
+#include <vector>
+
+#include "engine/fp_mode.hpp"
+#include "perf/cook_vase.hpp"
+#include "perf/perf.hpp"
+#include "systems/damage/run_hit.hpp"
+#include "systems/fragments/flood_parts.hpp"
+#include "systems/fragments/group_fragments.hpp"
+
+namespace cullet::perf {
+namespace {
+
+constexpr Row<Tasks> kTask{0};
+constexpr float kFallSpeed = 5.4f;  // m/s, 1.5 m
+
+/// Least time of many runs, each of them short.
+double least(uint32_t rounds, const std::function<void()>& call) {
+    double best = 1e9;
+    for (uint32_t r = 0; r < rounds; ++r) best = std::min(best, seconds(call));
+    return best;
+}
+
+/// Opening a hit, numbering its parts and closing it: what surrounds the inner loop, without births.
+struct Surroundings {
+    double open = 0, group = 0;  // s
+    double all() const { return open + group; }
+};
+
+Surroundings measure_surroundings(float edge, uint32_t rounds, const char* name, Figures& figures) {
+    Surroundings found;
+    const Result<Model> model = cook_vase(edge);
+    if (!model.ok()) {
+        std::printf("%s\n", model.error().c_str());
+        return found;
+    }
+    CookedVase vase(*model);
+    const HitDescription hit = fall_on_floor(vase.state, vase.shell, normalised(Vec3{0.9f, -1.0f, 0.1f}), kFallSpeed);
+    std::vector<FragmentPart> parts(kMostParts);
+    found.open = found.group = 1e9;
+    for (uint32_t r = 0; r < rounds; ++r) {
+        found.open = std::min(found.open, seconds([&] { open_hit(vase.state, vase.shell, hit); }));
+        const ShellView shell(vase.state, vase.state.tasks.shell[kTask]);
+        found.group = std::min(found.group, seconds([&] { group_fragments(shell, parts); }));
+        close_hit(vase.state);
+    }
+    const std::string prefix = std::string(name) + ": ";
+    figures.add(prefix + "elements", vase.view().element_count(), "");
+    figures.add(prefix + "open a hit", 1e6 * found.open, "us");
+    figures.add(prefix + "number the parts", 1e6 * found.group, "us");
+    return found;
+}
+
+/// Flood and relabelling on a shell with cracks; and with the numbers, lists and masses of all parts in the elements'
+/// order, which the frame wants of it.
+bool compare_ways(const char* name, const ShellView& shell, uint32_t rounds, Figures& figures) {
+    std::vector<FragmentPart> parts(kMostParts);
+    FloodedParts flooded;
+    uint32_t count = 0;
+    const double relabel = least(rounds, [&] { count = group_fragments(shell, parts); });
+    const double flood = least(rounds, [&] { flood_parts(shell, flooded); });
+    const double numbered = least(rounds, [&] { group_from_cracks(shell, parts); });
+    const std::string prefix = std::string(name) + ": ";
+    figures.add(prefix + "elements", shell.element_count(), "");
+    figures.add(prefix + "pieces", count, "");
+    figures.add(prefix + "elements that the flood visits", flooded.visited, "");
+    figures.add_ratio(prefix + "relabelling / flood from the cracks", 1e6 * flood, 1e6 * relabel, "us", 5, true);
+    figures.add_ratio(prefix + "relabelling / flood with numbers and lists", 1e6 * numbered, 1e6 * relabel, "us", 0,
+                      true);
+    return flooded.pieces + 1 == count;
+}
+
+/// Cuts the links round the first element's neighbourhood of so many elements.
+void cut_out(const ShellView& shell, uint32_t elements) {
+    Elements& table = shell.state.elements;
+    std::vector<uint8_t> is_in(shell.element_count(), 0);
+    std::vector<uint32_t> in{0};
+    is_in[0] = 1;
+    for (size_t i = 0; i < in.size() && in.size() < elements; ++i)
+        for (const uint32_t n : table.neighbour[shell.element(in[i])])
+            if (n != kNone && !is_in[n]) is_in[n] = 1, in.push_back(n);
+    for (uint32_t e = 0; e < shell.element_count(); ++e)
+        for (size_t k = 0; k < 3; ++k) {
+            uint32_t& n = table.neighbour[shell.element(e)][k];
+            if (n == kNone || is_in[n] == is_in[e]) continue;
+            n = kNone;
+            table.edge_kind[shell.element(e)][k] = static_cast<uint8_t>(EdgeKind::Crack);
+        }
+}
+
+/// A whole vase in pieces, and one small piece out of a vase.
+bool measure_pieces(uint32_t rounds, Figures& figures) {
+    const Result<Model> model = cook_vase(0.006f);
+    if (!model.ok()) {
+        std::printf("%s\n", model.error().c_str());
+        return false;
+    }
+    CookedVase vase(*model);
+    const HitDescription hit = fall_on_floor(vase.state, vase.shell, normalised(Vec3{0.9f, -1.0f, 0.1f}), kFallSpeed);
+    run_hit(vase.state, vase.shell, hit);
+    bool agrees = compare_ways("broken vase of 10,000 elements", ShellView(vase.state, vase.state.tasks.shell[kTask]),
+                               rounds, figures);
+    close_hit(vase.state);
+    cut_out(vase.view(), 100);
+    agrees &= compare_ways("one piece of 100 out of 10,000 elements", vase.view(), rounds, figures);
+    return agrees;
+}
+
+}  // namespace
+
+bool measure_parts(const Options& options, Figures& figures) {
+    const FpMode mode;
+    const uint32_t rounds = options.rounds_of_a_pass(60);
+    const Surroundings small = measure_surroundings(0.006f, rounds, "vase of 10,000 elements", figures);
+    const Surroundings large = measure_surroundings(0.0019f, rounds, "vase of 100,000 elements", figures);
+    figures.add_ratio("a hit, inner loop and births aside: 100,000 / 10,000 elements", 1e6 * large.all(),
+                      1e6 * small.all(), "us", 1.5);
+    return measure_pieces(5 * rounds, figures);
+}
+
+}  // namespace cullet::perf

@@ -1,0 +1,81 @@
+#include "sample_game/reproduce/command.hpp"
+
+#include <fmt/format.h>
+
+#include <chrono>
+#include <cstdlib>
+#include <filesystem>
+
+#include "sample_game/report.hpp"
+#include "sample_game/reproduce/claims.hpp"
+#include "sample_game/reproduce/page.hpp"
+
+namespace cullet::reproduce {
+namespace {
+
+double seconds_now() {
+    return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
+}
+
+int refuse(const std::string& sentence, int code) {
+    fmt::print(stderr, "{}\n", sentence);
+    return code;
+}
+
+std::string data_folder(const std::string& given) {
+    if (!given.empty()) return given;
+    const char* folder = std::getenv("CULLET_TEST_DATA");
+    return folder ? folder : "../shared/data";
+}
+
+bool is_known(const std::string& id) {
+    for (const ClaimEntry& entry : thick_shell_claims())
+        if (id == entry.id) return true;
+    return false;
+}
+
+Result<std::vector<Claim>> make_claims(Bench& bench, const std::string& only) {
+    std::vector<Claim> claims;
+    for (const ClaimEntry& entry : thick_shell_claims()) {
+        if (!only.empty() && only != entry.id) continue;
+        const double start = seconds_now();
+        Result<Claim> claim = entry.make(bench);
+        if (!claim.ok()) return Error{fmt::format("{}: {}", entry.id, claim.error())};
+        claim->seconds = seconds_now() - start;
+        fmt::print("{:<22} {:<14} {:5.1f} s  {}\n", claim->id, name_of(claim->verdict), claim->seconds, claim->title);
+        std::fflush(stdout);
+        claims.push_back(std::move(claim).value());
+    }
+    return claims;
+}
+
+}  // namespace
+
+int run(const CommandOptions& options) {
+    if (options.model != "thick_shell")
+        return refuse(fmt::format("reproduce {}: not known; use thick_shell.", options.model), 2);
+    if (!options.only.empty() && !is_known(options.only))
+        return refuse(fmt::format("--only {}: there is no such claim; report.json lists them.", options.only), 2);
+    std::error_code error;
+    std::filesystem::create_directories(options.out, error);
+    if (error)
+        return refuse(fmt::format("--out {}: {}; choose a folder that can be made.", options.out, error.message()), 2);
+    Bench bench({options.out, data_folder(options.data), options.threads, options.is_reduced});
+    const double start = seconds_now();
+    const Result<std::vector<Claim>> claims = make_claims(bench, options.only);
+    if (!claims.ok()) return refuse("reproduce: " + claims.error(), 1);
+    const PageFacts facts{"Thick shells: the paper's claims and cullet's",
+                          describe_machine(),
+                          bench.threads(),
+                          options.is_reduced,
+                          seconds_now() - start,
+                          bench.notes()};
+    for (const auto& [text, name] : {std::pair(to_page(claims.value(), facts), "report.html"),
+                                     std::pair(to_json(claims.value(), facts), "report.json")})
+        if (auto written = write_text(text, options.out + "/" + name); !written.ok()) return refuse(written.error(), 1);
+    for (const std::string& note : bench.notes()) fmt::print("note  {}\n", note);
+    fmt::print("{}/report.html  {} claims in {:.0f} s\n", options.out, claims->size(), facts.seconds);
+    return 0;
+}
+
+}  // namespace cullet::reproduce

@@ -1,0 +1,38 @@
+// The surface of a cut: a plane, or what a polyline sweeps.
+#pragma once
+#include "components/state.hpp"
+
+namespace cullet {
+
+/// Where a place is, seen from a cutting surface.
+struct CutSide {
+    float distance = 0;     // m; the sign tells the side
+    bool is_beside = true;  // false: beyond an end of an open line
+};
+
+class CutSurface {
+ public:
+    /// Of a row of Blows, in the axes that it stands in.
+    CutSurface(const Blows& blows, uint32_t row);
+    /// Signed distance. Of a polyline: to its nearest segment; at a corner both share the sign of the one that the
+    /// place lies more squarely to, so that the sign is that of the side (Baerentzen and Aanaes 2005, in the plane).
+    CutSide side(Vec3 place) const;
+    bool is_plane() const { return count_ == 0; }
+
+ private:
+    struct Point {
+        float x, y;
+    };
+    Point flat(Vec3 place) const { return {dot(place, x_), dot(place, y_)}; }
+
+    Vec3 place_, normal_, x_, y_;
+    uint32_t count_ = 0;  // points
+    bool is_closed_ = false;
+    Point points_[kMostCutPoints];
+};
+
+/// Whether some vertices of the shell lie on one side and some on the other, beside the surface and not beyond its
+/// ends.
+bool passes_through(ShellView shell, const CutSurface& surface);
+
+}  // namespace cullet

@@ -1,0 +1,25 @@
+// Tasks for the blows of the game, as the contacts of this step have them.
+#pragma once
+#include "systems/world_data.hpp"
+
+namespace cullet {
+
+struct BlowOpening {
+    State& state;
+    RigidWorld& rigid;
+    const DamageSettings& settings;
+    DamageCounts& counts;
+    Events<ImpactEvent>& impact_events;
+    uint64_t frame;
+    void* opener;  // of the next
+    /// A task on the body's shell for a blow of this speed, or none where there is no room.
+    Row<Tasks> (*open)(void* opener, Row<Bodies> body, float speed);
+};
+
+/// In the order of their rows: a blow joins the task that its body got in this step, or gets one, or waits while a task
+/// runs, the body is held or it was hit less than 20 ms ago, and a cut while the frame's units are spent. What waits
+/// has moved the body as a rigid one at once, and its task is late. Pushes and explosions too weak to matter, or
+/// forbidden by the game, only move the body.
+void open_blows(BlowOpening& opening);
+
+}  // namespace cullet

@@ -1,0 +1,15 @@
+// Cracks that stopped short go on when the body has come apart.
+#pragma once
+#include "components/state.hpp"
+
+namespace cullet {
+
+/// For a run whose body is in pieces: each crack tip that has a border or a crack ahead, within 15 degrees of its
+/// heading or else within 35, and nearer than the material's `run_out` times the crack's own length (three mean edges
+/// at least), goes on straight to it. What holds such a ligament in the model is that the run is over; in a wall that
+/// falls, its pieces' weight breaks it. Tips without such an end stay where they are, as hairlines. Masses and
+/// velocities are kept as by every cut. Tips in order of their rows; O(tips x vertices), all in the frame in which the
+/// run ends: no units are asked for. Returns the number of cut edges.
+uint32_t run_out_cracks(State& state, Row<Tasks> task);
+
+}  // namespace cullet

@@ -1,0 +1,41 @@
+// Pieces found from their cracks inwards: what a hit costs then goes with the pieces that it frees and not with the
+// body.
+#pragma once
+#include <span>
+
+#include "components/state.hpp"
+#include "systems/fragments/group_fragments.hpp"
+
+namespace cullet {
+
+inline constexpr uint32_t kMostFloods = 2048;
+
+/// What came free of a shell that hung together before its edges were cut.
+struct FloodedParts {
+    /// Pieces, without the one that goes on as the rest of the shell; kNone where there are more than kMostFloods runs
+    /// of crack edges, and nothing was found out.
+    uint32_t pieces = 0;
+    uint32_t visited = 0;                  // elements looked at
+    uint16_t piece_of_flood[kMostFloods];  // or kRest
+    static constexpr uint16_t kRest = 0xffff;
+
+    /// Piece of an element, or kRest.
+    uint16_t piece_of(const ShellView& shell, uint32_t element) const;
+
+ private:
+    friend void flood_parts(ShellView shell, FloodedParts& found);
+    uint16_t parent[kMostFloods];
+};
+
+/// Floods from both sides of every crack edge at once, an element each in turn; floods that meet become one, and one
+/// that finds no more elements is a piece. It ends when one is left, which is the rest. Live elements of the shell must
+/// have hung together when all of its crack edges were whole. Pieces are numbered by their smallest element. Uses the
+/// scratch columns copy, next_in_cell, next and other_slope of its elements. O(elements of the pieces times the pieces
+/// that are as large + crack edges), and a look at a byte an edge.
+void flood_parts(ShellView shell, FloodedParts& found);
+
+/// What group_fragments does, for such a shell: the flood finds the pieces, and one pass writes the numbers and chains
+/// the elements. Where there are too many runs of crack edges group_fragments does it all.
+uint32_t group_from_cracks(ShellView shell, std::span<FragmentPart> parts);
+
+}  // namespace cullet

@@ -1,0 +1,21 @@
+// No break adds energy.
+#pragma once
+#include "systems/fragments/make_break.hpp"
+
+namespace cullet {
+
+/// Of a body as the rigid world moves it: m v^2/2 + w . I w/2, J; 0 for what does not move by itself.
+double rigid_energy(const Bodies& bodies, Row<Bodies> body);
+/// The same, if it moved so (world axes).
+double rigid_energy(const Bodies& bodies, Row<Bodies> body, const Motion& motion);
+
+/// Of what just came of a break: the pieces and the crumbs may together have at most `allowed` (J), what the body had
+/// and what strikers lost to it. The hidden run keeps to that, but not what follows from it: a rigid piece turns with
+/// the inertia of its tetrahedra and not of its vertices (a few per cent), and of two bodies that break each other
+/// the one takes the impulse that the other's run passed. Pieces that have more go nearer to the motion that they have
+/// in common, which keeps momentum and angular momentum: with E_c the energy of that, what goes beyond it is multiplied
+/// by s, s^2 = (allowed - E_c)/(E - E_c). Where E_c alone is too much, they turn less in common as well. Where a piece
+/// holds a pin they go nearer to rest, and the support takes it.
+void limit_energy(Births& births, const Break& plan, double allowed);
+
+}  // namespace cullet

@@ -1,0 +1,232 @@
+#include "systems/quick/cut_out.hpp"
+
+#include <algorithm>
+
+#include "systems/cook/materials.hpp"
+#include "systems/damage/grow_cracks.hpp"
+#include "systems/damage/ring.hpp"
+#include "systems/damage/struck_normal.hpp"
+#include "systems/damage/working_room.hpp"
+#include "systems/quick/cut_rows.hpp"
+#include "systems/quick/run_on.hpp"
+
+namespace cullet {
+namespace {
+
+// A split vertex may be one ring outside of what is awake; re-meshing changes the elements beyond its ring, and the
+// fans at the ends of the cut are one ring further. One more to spare.
+// Coarse cracks run on beyond that.
+constexpr uint32_t kBorderRings = 5;
+uint32_t border_rings(FractureKind kind) {
+    return kBorderRings + (kind == FractureKind::Coarse ? kCoarseRunSteps + 1 : 0);
+}
+/// Rows that a hit should find for what cracks add; a body with fewer is copied whole, which brings new ones.
+constexpr uint32_t kLeastSpare = 512;
+
+uint32_t spare_of(const Range& range) {
+    return range.capacity - range.count;
+}
+
+constexpr uint32_t kUnseen = kNone - 1, kDone = kNone - 2;  // of Vertices.copy: else the next of the queue, or kNone
+
+/// The flood from the patches. Vertices wait chained through Vertices.copy; elements are listed when the first of their
+/// corners is looked at.
+struct Flood {
+    const ShellView& shell;
+    uint32_t* list;
+    uint32_t most;  // elements
+    uint32_t count = 0;
+    uint32_t first = kNone, last = kNone, queued = 0;
+
+    uint32_t& next(uint32_t v) const { return shell.state.vertices.copy[shell.vertex(v)]; }
+    void add(uint32_t v) {
+        if (next(v) != kUnseen) return;
+        next(v) = kNone;
+        if (last != kNone) next(last) = v;
+        if (first == kNone) first = v;
+        last = v;
+        ++queued;
+    }
+    template <class F>
+    void for_each_beside(uint32_t v, F&& f) const {
+        Ring ring;
+        walk_ring(shell, v, ring);
+        for (uint32_t i = 0; i < ring.count; ++i)
+            f(ring.element[i], shell.state.elements.corner[shell.element(ring.element[i])]);
+    }
+};
+
+/// What hangs together with the contacts' vertices and lies within their patches.
+void add_patches(State& state, Row<Tasks> task, Flood& flood) {
+    TaskContacts& contacts = state.task_contacts;
+    const uint32_t begin = state.tasks.first_contact[task], end = begin + state.tasks.contact_count[task];
+    for (uint32_t c = begin; c < end; ++c) {
+        contacts.vertex[c] = nearest_vertex(flood.shell, contacts.point[c]);
+        if (contacts.vertex[c] != kNone) flood.add(contacts.vertex[c]);
+    }
+    const auto rest = [&](uint32_t v) { return state.vertices.rest[flood.shell.vertex(v)]; };
+    const auto is_in_patch = [&](uint32_t v) {
+        for (uint32_t c = begin; c < end; ++c)
+            if (contacts.vertex[c] != kNone && length(rest(v) - rest(contacts.vertex[c])) < contacts.radius[c])
+                return true;
+        return false;
+    };
+    for (uint32_t at = flood.first; at != kNone; at = flood.next(at))
+        flood.for_each_beside(at, [&](uint32_t, const std::array<uint32_t, 3>& corner) {
+            for (const uint32_t v : corner)
+                if (is_in_patch(v)) flood.add(v);
+        });
+}
+
+/// False: more elements than flood.most.
+bool spread(Flood& flood, uint32_t rings) {
+    uint32_t at = flood.first, ring = 0, end_of_ring = flood.queued;
+    for (uint32_t seen = 0; at != kNone; ++seen) {
+        if (seen == end_of_ring) {
+            if (ring == rings) break;
+            ++ring;
+            end_of_ring = flood.queued;
+        }
+        flood.for_each_beside(at, [&](uint32_t e, const std::array<uint32_t, 3>& corner) {
+            bool is_new = true;
+            for (const uint32_t v : corner) is_new = is_new && flood.next(v) != kDone;
+            if (is_new && flood.count < flood.most) flood.list[flood.count++] = e;
+            for (const uint32_t v : corner) flood.add(v);
+        });
+        if (flood.count == flood.most) return false;
+        const uint32_t next = flood.next(at);
+        flood.next(at) = kDone;
+        at = next;
+    }
+    return true;
+}
+
+void copy_vertices(const CutRows& rows, const ShellView& cut) {
+    Vertices& vertices = cut.state.vertices;
+    for (uint32_t v = 0; v < rows.source.vertex_count();) {
+        const uint32_t first = v, to = rows.vertex(v);
+        if (to == kNone) {
+            ++v;
+            continue;
+        }
+        while (v < rows.source.vertex_count() && rows.vertex(v) != kNone) ++v;
+        vertices.copy_rows(vertices, rows.source.vertex(first), cut.vertex(to), v - first);
+    }
+    for (uint32_t v = 0; v < rows.vertex_count; ++v) {
+        uint32_t& start = vertices.crack_start[cut.vertex(v)];
+        if (start != kNone) start = rows.vertex(start);
+    }
+}
+
+void copy_elements(const CutRows& rows, const ShellView& cut) {
+    State& state = cut.state;
+    Elements& elements = state.elements;
+    for (uint32_t e = 0; e < rows.element_count;) {
+        const uint32_t first = e, from = rows.list[e];
+        while (e < rows.element_count && rows.list[e] == from + (e - first)) ++e;
+        elements.copy_rows(elements, rows.source.element(from), cut.element(first), e - first);
+        state.triangle_springs.copy_rows(state.triangle_springs, rows.source.element(from), cut.element(first),
+                                         e - first);
+    }
+    for (uint32_t e = 0; e < rows.element_count; ++e) {
+        const uint32_t row = cut.element(e);
+        elements.part[row] = rows.list[e];
+        for (uint32_t k = 0; k < 3; ++k) {
+            elements.corner[row][k] = rows.vertex(elements.corner[row][k]);
+            state.vertices.element[cut.vertex(elements.corner[row][k])] = e;
+            uint32_t& n = elements.neighbour[row][k];
+            elements.hinge[row][k] = kNone;
+            if (n == kNone) continue;
+            n = rows.element(n);
+            if (n == kNone) elements.edge_kind[row][k] = static_cast<uint8_t>(EdgeKind::Border);
+        }
+    }
+}
+
+void copy_hinges(const CutRows& rows, const ShellView& cut) {
+    State& state = cut.state;
+    uint32_t next = 0, first = 0, run = 0;  // rows [first, first + run) of the body, to be copied behind next - run
+    const auto copy_run = [&] {
+        if (run > 0) state.hinges.copy_rows(state.hinges, rows.source.hinge(first), cut.hinge(next - run), run);
+    };
+    rows.for_each_hinge([&](uint32_t e, uint32_t k, uint32_t other, uint32_t other_k, uint32_t hinge) {
+        if (hinge != first + run) {
+            copy_run();
+            first = hinge, run = 0;
+        }
+        ++run;
+        state.elements.hinge[cut.element(e)][k] = next;
+        state.elements.hinge[cut.element(other)][other_k] = next++;
+    });
+    copy_run();
+    for (uint32_t h = 0; h < next; ++h)
+        for (uint32_t& v : state.hinges.vertex[cut.hinge(h)])
+            if (v != kNone) v = rows.vertex(v);
+}
+
+}  // namespace
+
+bool may_cut_out(const State& state, Row<Bodies> body) {
+    if (!is_quick_body(state, body)) return false;
+    const Row<Shells> shell = state.bodies.shell[body];
+    const Shells& shells = state.shells;
+    if (shells.vertices[shell].count <= kWholeCopyVertices || shells.users[shell] != 1) return false;
+    if (material_traits(state, shells.material[shell]).fracture == FractureKind::Large) return false;
+    return spare_of(shells.vertices[shell]) >= kLeastSpare && spare_of(shells.elements[shell]) >= 2 * kLeastSpare &&
+           spare_of(shells.hinges[shell]) >= 3 * kLeastSpare;
+}
+
+CutOutResult reserve_cut_out(State& state, Row<Tasks> task, const char** full) {
+    const ShellView source(state, state.tasks.source[task]);
+    CutRows rows(source);
+    Flood flood{source, rows.list, source.element_count() / 2};
+    std::fill_n(state.vertices.copy.data() + source.vertex(0), source.vertex_count(), kUnseen);
+    add_patches(state, task, flood);
+    const FractureKind kind = material_traits(state, state.shells.material[source.row]).fracture;
+    const uint32_t rings = region_rings(state.quick_runs.steps[task]) + 1 + border_rings(kind);
+    if (!spread(flood, rings) || flood.count == 0)
+        return CutOutResult::TooWide;
+    std::sort(rows.list, rows.list + flood.count);
+    rows.number(flood.count);
+    const Range vertices = source.vertices(), elements = source.elements(), hinges = source.hinges();
+    ShellRoom room =
+        quick_room(state, state.shells.material[source.row], rows.vertex_count, rows.element_count, rows.hinge_count);
+    // What is added must find room in the body's shell, too.
+    room.vertices = std::min(room.vertices, round_to_packs(rows.vertex_count) + spare_of(vertices));
+    room.elements = std::min(room.elements, rows.element_count + spare_of(elements));
+    room.hinges = std::min(room.hinges, rows.hinge_count + spare_of(hinges));
+    room.cells = state.shells.cells[source.row].count;
+    const Row<Shells> cut = make_shell_unclear(state, room, full);
+    if (!cut.exists()) return CutOutResult::NoRoom;
+    state.tasks.shell[task] = cut;
+    state.quick_runs.cut_elements[task] = rows.element_count;
+    state.shells.vertices[cut].count = rows.vertex_count;
+    state.shells.elements[cut].count = rows.element_count;
+    state.shells.hinges[cut].count = rows.hinge_count;
+    return CutOutResult::Reserved;
+}
+
+void fill_cut_out(State& state, Row<Tasks> task) {
+    const ShellView source(state, state.tasks.source[task]), cut(state, state.tasks.shell[task]);
+    Shells& shells = state.shells;
+    const CutRows rows(source, cut);
+    const Range vertices = cut.vertices(), elements = cut.elements(), hinges = cut.hinges();
+    Range cells = shells.cells[cut.row];
+    cells.count = shells.cells[source.row].count;
+    shells.copy_rows(shells, source.row, cut.row, 1);
+    shells.users[cut.row] = 1;
+    cut.vertices() = vertices, cut.elements() = elements, cut.hinges() = hinges;
+    shells.cells[cut.row] = cells;
+    shells.packs[cut.row] = shells.blocks[cut.row] = shells.links[cut.row] = shells.points[cut.row] = {};
+    shells.dead_elements[cut.row] = 0;
+    state.cells.copy_rows(state.cells, shells.cells[source.row].first, cells.first, cells.count);
+    copy_vertices(rows, cut);
+    copy_elements(rows, cut);
+    copy_hinges(rows, cut);
+    clear_spare_rows(state, cut.row);
+    // What cracks add has packs of its own.
+    cut.vertices().count = round_to_packs(rows.vertex_count);
+    forget_run(cut, shells.generation[source.row] > 0);
+}
+
+}  // namespace cullet

@@ -1,0 +1,23 @@
+#include "systems/quick/cut_rows.hpp"
+
+#include <algorithm>
+
+namespace cullet {
+
+void CutRows::number(uint32_t count) {
+    const Elements& elements = source.state.elements;
+    constexpr uint32_t kCorner = 0;
+    element_count = count;
+    std::fill_n(vertex_place_, source.vertex_count(), kNone);
+    for (uint32_t e = 0; e < count; ++e) {
+        element_place_[list[e]] = e;
+        for (const uint32_t v : elements.corner[source.element(list[e])]) vertex_place_[v] = kCorner;
+    }
+    vertex_count = 0;
+    for (uint32_t v = 0; v < source.vertex_count(); ++v)
+        if (vertex_place_[v] == kCorner) vertex_place_[v] = vertex_count++;
+    hinge_count = 0;
+    for_each_hinge([&](uint32_t, uint32_t, uint32_t, uint32_t, uint32_t) { ++hinge_count; });
+}
+
+}  // namespace cullet

@@ -1,0 +1,62 @@
+// Which rows of a body's shell a cut-out of it has.
+#pragma once
+#include "components/state.hpp"
+
+namespace cullet {
+
+inline uint32_t round_to_packs(uint32_t vertices) {
+    return (vertices + kLanes - 1) / kLanes * kLanes;
+}
+
+/// The cut-out has the elements of `list`, their corners, and the hinges between them, all in the order that they have
+/// in the body's shell. Kept in scratch of that shell: Vertices.copy and Elements.copy say where a row is in the
+/// cut-out, Elements.next_in_cell is the list.
+struct CutRows {
+    ShellView source;
+    uint32_t* list;
+    uint32_t element_count = 0, vertex_count = 0, hinge_count = 0;
+
+    /// Nothing is known yet but where the list is.
+    explicit CutRows(const ShellView& of)
+        : source(of),
+          list(of.state.elements.next_in_cell.data() + of.elements().first),
+          vertex_place_(of.state.vertices.copy.data() + of.vertices().first),
+          element_place_(of.state.elements.copy.data() + of.elements().first) {}
+    /// As number() left it in this step, for a cut-out whose counts stand.
+    CutRows(const ShellView& of, const ShellView& cut) : CutRows(of) {
+        element_count = cut.element_count(), vertex_count = cut.vertex_count(), hinge_count = cut.hinge_count();
+    }
+
+    /// Numbers what belongs to the first `count` elements of the list, which rise. O(vertices of the body).
+    void number(uint32_t count);
+
+    /// In the cut-out, or kNone.
+    uint32_t vertex(uint32_t v) const { return vertex_place_[v]; }
+    uint32_t element(uint32_t e) const {
+        const uint32_t place = element_place_[e];
+        return place < element_count && list[place] == e ? place : kNone;
+    }
+    /// Calls f(element, edge, other element, its edge, hinge of the body) for each hinge between two elements, the
+    /// elements by their numbers in the cut-out, in the order of the cut-out's hinges.
+    template <class F>
+    void for_each_hinge(F&& f) const {
+        const Elements& elements = source.state.elements;
+        for (uint32_t e = 0; e < element_count; ++e) {
+            const uint32_t row = source.element(list[e]);
+            for (uint32_t k = 0; k < 3; ++k) {
+                const uint32_t n = elements.neighbour[row][k], hinge = elements.hinge[row][k];
+                if (n == kNone || n < list[e] || hinge == kNone) continue;
+                const uint32_t other = element(n);
+                if (other == kNone) continue;
+                const auto& hinges = elements.hinge[source.element(n)];
+                for (uint32_t j = 0; j < 3; ++j)
+                    if (hinges[j] == hinge) f(e, k, other, j, hinge);
+            }
+        }
+    }
+
+ private:
+    uint32_t *vertex_place_, *element_place_;
+};
+
+}  // namespace cullet

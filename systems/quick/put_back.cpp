@@ -1,0 +1,266 @@
+// A cut-out's rows go back into the body's shell.
+#include <algorithm>
+
+#include "systems/damage/ring.hpp"
+#include "systems/fragments/group_fragments.hpp"
+#include "systems/quick/cut_out.hpp"
+#include "systems/quick/cut_rows.hpp"
+#include "systems/rigid/body_id.hpp"
+
+namespace cullet {
+namespace {
+
+/// Rows of the cut-out as rows of the body's shell. What the run added comes behind all that the body has.
+struct PutBack {
+    State& state;
+    const ShellView source, cut;
+    CutRows rows;
+    uint32_t* hinge_list;  // scratch of the body's shell: of the cut-out's hinges, the body's
+
+    PutBack(State& s, Row<Tasks> task)
+        : state(s),
+          source(s, s.tasks.source[task]),
+          cut(s, s.tasks.shell[task]),
+          rows(source),
+          hinge_list(s.elements.next.data() + source.elements().first) {
+        const uint32_t count = s.quick_runs.cut_elements[task];
+        std::copy_n(s.elements.part.data() + cut.elements().first, count, rows.list);
+        rows.number(count);
+        for (uint32_t v = 0; v < source.vertex_count(); ++v)
+            if (rows.vertex(v) != kNone) s.vertices.copy[cut.vertex(rows.vertex(v))] = v;
+        uint32_t hinge = 0;
+        rows.for_each_hinge([&](uint32_t, uint32_t, uint32_t, uint32_t, uint32_t h) { hinge_list[hinge++] = h; });
+    }
+
+    /// Behind the old vertices there are dead ones up to a whole pack.
+    uint32_t first_new_vertex() const { return round_to_packs(rows.vertex_count); }
+    uint32_t vertex(uint32_t v) const {
+        if (v == kNone) return v;
+        return v < rows.vertex_count ? state.vertices.copy[cut.vertex(v)]
+                                     : source.vertex_count() + (v - first_new_vertex());
+    }
+    uint32_t element(uint32_t e) const {
+        if (e == kNone) return e;
+        return e < rows.element_count ? rows.list[e] : source.element_count() + (e - rows.element_count);
+    }
+    uint32_t hinge(uint32_t h) const {
+        if (h == kNone) return h;
+        return h < rows.hinge_count ? hinge_list[h] : source.hinge_count() + (h - rows.hinge_count);
+    }
+    template <class F>
+    void for_each_vertex(F&& f) const {
+        for (uint32_t v = 0; v < rows.vertex_count; ++v) f(v);
+        for (uint32_t v = first_new_vertex(); v < cut.vertex_count(); ++v) f(v);
+    }
+};
+
+bool is_start(const ShellView& shell, uint32_t v) {
+    const Vertices& vertices = shell.state.vertices;
+    return vertices.crack_start[shell.vertex(v)] == v &&
+           vertices.crack[shell.vertex(v)] == static_cast<uint8_t>(CrackState::Cracked);
+}
+
+/// A fragment has forgotten its old starts (6.1).
+void tell_starts(const PutBack& p, Row<Bodies> body, Events<CrackStartedEvent>& cracks) {
+    const State& state = p.state;
+    const bool is_fragment = state.shells.generation[p.source.row] > 0;
+    p.for_each_vertex([&](uint32_t v) {
+        const bool is_old = !is_fragment && v < p.rows.vertex_count && is_start(p.source, p.vertex(v));
+        if (!is_start(p.cut, v) || is_old) return;
+        cracks.push({body_id(state.bodies, body), state.bodies.user_data[body],
+                     to_world(pose_of(state.bodies, body), state.vertices.rest[p.cut.vertex(v)])});
+    });
+}
+
+// Cuts and inserted vertices change rows round the cracks alone: to copy all of them costs ten times as much.
+void put_vertices(const PutBack& p) {
+    Vertices& vertices = p.state.vertices;
+    p.for_each_vertex([&](uint32_t v) {
+        const bool is_old = v < p.rows.vertex_count;
+        const uint32_t from = p.cut.vertex(v), to = p.source.vertex(p.vertex(v));
+        // The start of a crack that lies outside is not known in the cut-out.
+        uint32_t start = vertices.crack_start[from] == kNone ? kNone : p.vertex(vertices.crack_start[from]);
+        if (start == kNone && is_old) {
+            const uint32_t old = vertices.crack_start[to];
+            if (old != kNone && p.rows.vertex(old) == kNone && vertices.crack[from] != 0) start = old;
+        }
+        const bool is_same = is_old && vertices.mass[to] == vertices.mass[from] &&
+                             vertices.crack[to] == vertices.crack[from] && vertices.crack_start[to] == start &&
+                             vertices.heading[to] == vertices.heading[from];
+        if (is_same) return vertices.velocity.set(to, vertices.velocity[from]);
+        const uint32_t element = p.element(vertices.element[from]);
+        const uint32_t place = vertices.copy[to];  // in the cut-out; `from` has the way back
+        vertices.copy_rows(vertices, from, to, 1);
+        vertices.copy[to] = place;
+        vertices.element[to] = element;
+        vertices.crack_start[to] = start;
+        vertices.is_start_banned[to] = 0;
+        vertices.ready_time[to] = 0;
+        vertices.crush[to] = 0;
+        vertices.displacement.set(to, {});
+        for (const int side : {0, 1}) vertices.probe.set(to, {}, side);
+    });
+}
+
+/// What an element of the cut-out names, in the body's shell. Corners say whether anything else in its row changed.
+struct Links {
+    std::array<uint32_t, 3> corner, neighbour, hinge;
+    std::array<uint8_t, 3> edge_kind;
+    friend bool operator==(const Links&, const Links&) = default;
+};
+
+Links links_of(const Elements& elements, uint32_t row) {
+    return {elements.corner[row], elements.neighbour[row], elements.hinge[row], elements.edge_kind[row]};
+}
+
+/// `then`: as it is in the body, where it is there.
+Links links_now(const PutBack& p, uint32_t e, const Links* then) {
+    Links links = links_of(p.state.elements, p.cut.element(e));
+    for (uint32_t k = 0; k < 3; ++k) {
+        links.corner[k] = p.vertex(links.corner[k]);
+        links.neighbour[k] = p.element(links.neighbour[k]);
+        links.hinge[k] = p.hinge(links.hinge[k]);
+        // The border of the cut-out, which is none of the body's.
+        if (!then || links.edge_kind[k] != static_cast<uint8_t>(EdgeKind::Border) || then->neighbour[k] == kNone)
+            continue;
+        CULLET_ASSERT(p.rows.element(then->neighbour[k]) == kNone, "a run has made a border at element %u",
+                      p.element(e));
+        links.neighbour[k] = then->neighbour[k];
+        links.hinge[k] = then->hinge[k];
+        links.edge_kind[k] = static_cast<uint8_t>(EdgeKind::Interior);
+    }
+    return links;
+}
+
+/// Hulls of cells whose elements have other corners or borders are chosen anew at the next break.
+void mark_cell(const PutBack& p, uint32_t e, const Links& now, const Links* then) {
+    Cells& cells = p.state.cells;
+    const uint32_t cell = p.state.shells.cells[p.source.row].first + p.state.elements.cell[p.cut.element(e)];
+    if (!then || now.corner != then->corner || now.edge_kind != then->edge_kind) cells.is_stale[cell] = 1;
+    cells.element_count[cell] += !then;
+}
+
+void put_element(const PutBack& p, uint32_t e) {
+    State& state = p.state;
+    Elements& elements = state.elements;
+    const bool is_old = e < p.rows.element_count;
+    const uint32_t from = p.cut.element(e), to = p.source.element(p.element(e));
+    const Links before = links_of(elements, to), now = links_now(p, e, is_old ? &before : nullptr);
+    if (is_old && now == before) return;
+    mark_cell(p, e, now, is_old ? &before : nullptr);
+    const uint32_t part = elements.part[is_old ? to : p.source.element(p.rows.list[0])], place = elements.copy[to],
+                   listed = elements.next_in_cell[to], next = elements.next[to];
+    elements.copy_rows(elements, from, to, 1);
+    state.triangle_springs.copy_rows(state.triangle_springs, from, to, 1);
+    elements.copy[to] = place, elements.next_in_cell[to] = listed, elements.next[to] = next;  // what rows stand where
+    elements.part[to] = part;
+    elements.corner[to] = now.corner;
+    elements.neighbour[to] = now.neighbour;
+    elements.hinge[to] = now.hinge;
+    elements.edge_kind[to] = now.edge_kind;
+}
+
+/// The element that a vertex names may have lost it to a cut or to a vertex put on its edge.
+void follow_elements(const PutBack& p) {
+    Vertices& vertices = p.state.vertices;
+    for (uint32_t v = 0; v < p.rows.vertex_count; ++v) {
+        uint32_t& element = vertices.element[p.source.vertex(p.vertex(v))];
+        if (corner_of(p.source, element, p.vertex(v)) == 3) element = p.element(vertices.element[p.cut.vertex(v)]);
+    }
+}
+
+void put_hinges(const PutBack& p) {
+    Hinges& hinges = p.state.hinges;
+    for (uint32_t h = 0; h < p.cut.hinge_count(); ++h) {
+        const uint32_t from = p.cut.hinge(h), to = p.source.hinge(p.hinge(h));
+        auto vertex = hinges.vertex[from];
+        for (uint32_t& v : vertex) v = p.vertex(v);
+        const bool is_same = h < p.rows.hinge_count && hinges.vertex[to] == vertex &&
+                             hinges.stiffness[to] == hinges.stiffness[from] &&
+                             hinges.gradient[to] == hinges.gradient[from] && hinges.scale[to] == hinges.scale[from];
+        if (is_same) continue;
+        hinges.copy_rows(hinges, from, to, 1);
+        hinges.vertex[to] = vertex;
+    }
+}
+
+void move_the_rest(const PutBack& p, const BodyMotion& motion) {
+    Vertices& vertices = p.state.vertices;
+    for (uint32_t v = 0; v < p.source.vertex_count(); ++v) {
+        if (p.rows.vertex(v) != kNone) continue;
+        const uint32_t row = p.source.vertex(v);
+        vertices.velocity.set(row, vertices.inverse_mass[row] > 0 ? motion.at(vertices.rest[row]).to_float() : Vec3{});
+    }
+}
+
+void put_rows(State& state, Row<Tasks> task, const PutBack& p, const BodyMotion& motion,
+              Events<CrackStartedEvent>& cracks) {
+    tell_starts(p, state.tasks.body[task], cracks);
+    put_vertices(p);
+    for (uint32_t e = 0; e < p.cut.element_count(); ++e) put_element(p, e);
+    follow_elements(p);
+    put_hinges(p);
+    move_the_rest(p, motion);
+    const uint32_t vertices = p.cut.vertex_count() - p.first_new_vertex(),
+                   elements = p.cut.element_count() - p.rows.element_count,
+                   hinges = p.cut.hinge_count() - p.rows.hinge_count;
+    p.source.vertices().count += vertices;
+    p.source.elements().count += elements;
+    p.source.hinges().count += hinges;
+    if (state.tasks.crack_count[task] > 0) state.shells.has_cracks[p.source.row] = 1;
+    drop_stiffness(state, p.source.row);
+}
+
+}  // namespace
+
+void put_back(State& state, Row<Tasks> task, const BodyMotion& motion, Events<CrackStartedEvent>& cracks) {
+    Tasks& tasks = state.tasks;
+    // A mesh of several parts comes apart without a crack (find_parts).
+    const bool has_changed = tasks.crack_count[task] > 0 || !is_of_one_part(ShellView(state, tasks.source[task]));
+    if (static_cast<TaskState>(tasks.state[task]) != TaskState::Dropped && has_changed) {
+        const PutBack p(state, task);
+        // Later there is no way back. The body has no more pieces than the cut-out by itself.
+        const std::span parts(state.fragments.part.data() + size_t{task} * kMostParts, kMostParts);
+        if (group_fragments(p.cut, parts) > kMostParts)
+            tasks.state[task] = static_cast<uint8_t>(TaskState::Dropped);
+        else
+            put_rows(state, task, p, motion, cracks);
+    }
+    const Row<Shells> source = tasks.source[task];
+    release_shell(state, tasks.shell[task]);
+    ++state.shells.users[source];
+    tasks.shell[task] = source;
+    state.quick_runs.cut_elements[task] = 0;
+}
+
+// Whoever counts here must find what fill_cut_out made: put_back writes by it.
+std::string trouble_of_cut_out(State& state, uint32_t task) {
+    const Row<Shells> source_row = state.tasks.source[task], cut_row = state.tasks.shell[task];
+    const ShellView source(state, source_row), cut(state, cut_row);
+    const uint32_t count = state.quick_runs.cut_elements[task];
+    const std::string where = "quick_runs.cut_elements[" + std::to_string(task) + "]";
+    if (count > cut.element_count() || count > source.element_count())
+        return where + " is " + std::to_string(count) + ", more than its shells have";
+    if (state.shells.users[source_row] != 2) return where + ": the body shares its shell";
+    const uint32_t* listed = state.elements.part.data() + cut.elements().first;
+    for (uint32_t e = 0; e < count; ++e)
+        if (listed[e] >= source.element_count() || (e > 0 && listed[e] <= listed[e - 1]) ||
+            (state.elements.flags[source.element(listed[e])] & kDead))
+            return where + ": its elements are not rising ones of the body";
+    CutRows rows(source);
+    std::copy_n(listed, count, rows.list);
+    rows.number(count);
+    const uint32_t first_new = round_to_packs(rows.vertex_count);
+    const auto fits = [](uint32_t now, uint32_t before, const Range& body) {
+        return now >= before && now - before <= body.capacity - body.count;
+    };
+    if (!fits(cut.vertex_count(), first_new, source.vertices()) ||
+        !fits(cut.element_count(), count, source.elements()) ||
+        !fits(cut.hinge_count(), rows.hinge_count, source.hinges()))
+        return where + ": what cracks added finds no room in the body's shell";
+    if (state.shells.cells[cut_row].count != state.shells.cells[source_row].count)
+        return where + ": its cells are not those of the body";
+    return {};
+}
+
+}  // namespace cullet

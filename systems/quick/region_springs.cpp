@@ -1,0 +1,317 @@
+#include "systems/damage/ring.hpp"
+#include "systems/quick/region.hpp"
+#include "systems/springs/edge_stiffness.hpp"
+#include "systems/springs/give_springs.hpp"
+#include "systems/springs/spring_lists.hpp"
+
+namespace cullet {
+namespace {
+
+constexpr float kDampingRatio = 0.05f;
+constexpr uint32_t kSpareSlots = 1;  // a pack, as give_springs has it
+/// Of a vertex's stiffness over mass, over the region's mean: what is stiffer is softened to it. The step is 0.6 of the
+/// mean's bound, so at 1.8 it is 0.8 of the bound. Doubled, runs blow up; 1 softens half of an uneven mesh.
+constexpr double kMostRatio = 1.8;
+
+struct Layout {
+    State& state;
+    const ShellView& shell;
+    uint32_t first_element = kNone;  // awake ones, chained through Elements.next
+
+    uint32_t mark(uint32_t v) const { return state.vertices.copy[shell.vertex(v)]; }
+    bool is_awake(uint32_t e) const {
+        const uint32_t row = shell.element(e);
+        if (state.elements.flags[row] & kDead) return false;
+        const auto& c = state.elements.corner[row];
+        return mark(c[0]) == kAwakeMark || mark(c[1]) == kAwakeMark || mark(c[2]) == kAwakeMark;
+    }
+    void chain() {
+        uint32_t last = kNone;
+        for (uint32_t e = 0; e < shell.element_count(); ++e) {
+            if (!is_awake(e)) continue;
+            state.elements.next[shell.element(e)] = kNone;
+            (last == kNone ? first_element : state.elements.next[shell.element(last)]) = e;
+            last = e;
+        }
+    }
+    template <class F>
+    void for_each_element(F&& f) const {
+        for (uint32_t e = first_element; e != kNone; e = state.elements.next[shell.element(e)]) f(e);
+    }
+    /// The edge's spring belongs to the lower of its awake elements.
+    bool owns(uint32_t e, uint32_t k) const {
+        const uint32_t other = state.elements.neighbour[shell.element(e)][k];
+        return other == kNone || other > e || !is_awake(other);
+    }
+    uint32_t count_edges() const {
+        uint32_t count = 0;
+        for_each_element([&](uint32_t e) {
+            for (uint32_t k = 0; k < 3; ++k) count += owns(e, k);
+        });
+        return count;
+    }
+};
+
+uint32_t slots_of(const ShellView& shell, uint32_t pack) {
+    uint32_t most = 0;
+    for (uint32_t v = pack * kLanes; v < std::min((pack + 1) * kLanes, shell.vertex_count()); ++v) {
+        Ring ring;
+        walk_ring(shell, v, ring);
+        most = std::max(most, ring.count + (ring.count > 0 && !ring.is_closed));
+    }
+    return most + kSpareSlots;
+}
+
+/// A vertex put on an edge brings four springs, the copy of a split one an edge: the spare vertices bound both. A pack
+/// that outgrows its slots moves to the end; copies need packs of their own.
+SpringRoom room_for(const Layout& layout, Row<Tasks> task, uint32_t edges, bool has_layers) {
+    State& state = layout.state;
+    const AwakePacks& packs = state.awake_packs;
+    SpringRoom room;
+    const uint32_t spare = std::min(layout.shell.vertices().capacity - layout.shell.vertex_count(),
+                                    2 * kLanes * state.quick_runs.pack_count[task]);
+    room.springs = edges + 4 * spare + 64;
+    room.elements = layout.shell.elements().capacity;
+    room.vertices = layout.shell.vertices().capacity;
+    room.has_layers = has_layers;
+    uint32_t slots = 0;
+    const uint32_t count = state.quick_runs.pack_count[task];
+    for (uint32_t row = task * kMostAwakePacks; row < task * kMostAwakePacks + count; ++row)
+        slots += slots_of(layout.shell, packs.pack[row]);
+    room.slots = 2 * slots + 6 * spare + 64;
+    return room;
+}
+
+void list_edges(const Layout& layout, const SpringView& view) {
+    State& state = view.state;
+    const ShellView& shell = view.shell;
+    state.shell_springs.edges[view.row].count = shell.element_count();
+    for (uint32_t e = 0; e < shell.element_count(); ++e)
+        state.element_springs.spring[view.edges(e)] = {kAsleepSpring, kAsleepSpring, kAsleepSpring};
+    layout.for_each_element([&](uint32_t e) { state.element_springs.spring[view.edges(e)] = {kNone, kNone, kNone}; });
+    uint32_t next = 0;
+    layout.for_each_element([&](uint32_t e) {
+        for (uint32_t k = 0; k < 3; ++k) {
+            if (!layout.owns(e, k)) continue;
+            const auto& corner = state.elements.corner[shell.element(e)];
+            const uint32_t row = view.spring(next), other = state.elements.neighbour[shell.element(e)][k];
+            state.springs.a[row] = corner[k], state.springs.b[row] = corner[(k + 1) % 3];
+            state.springs.element[row] = e;
+            state.springs.can_crack[row] = 1;
+            state.springs.place[row] = {kNone, kNone};
+            state.element_springs.spring[view.edges(e)][k] = next;
+            if (other != kNone && layout.is_awake(other))
+                for (uint32_t j = 0; j < 3; ++j)
+                    if (state.elements.neighbour[shell.element(other)][j] == e)
+                        state.element_springs.spring[view.edges(other)][j] = next;
+            ++next;
+        }
+    });
+    state.shell_springs.springs[view.row].count = next;
+    if (view.has_layers()) state.shell_springs.layers[view.row].count = next;
+}
+
+void lay_packs(const RegionView& region) {
+    State& state = region.state;
+    const SpringView& view = region.springs;
+    Range& slots = view.own().slots[view.row];
+    for (uint32_t row = region.first_row(); row < region.first_row() + region.pack_count(); ++row) {
+        const uint32_t p = state.awake_packs.pack[row], pack = view.pack(p);
+        VertexSprings lists[kLanes];
+        for (uint32_t k = 0; k < kLanes; ++k) collect_springs(view, p * kLanes + k, lists[k]);
+        const uint32_t room = std::min(slots_needed(lists) + kSpareSlots, slots.capacity - slots.count);
+        state.spring_packs.first_slot[pack] = slots.count;
+        state.spring_packs.slot_capacity[pack] = static_cast<uint16_t>(room);
+        slots.count += room;
+        write_pack(view, p, lists);
+    }
+    if (view.has_layers()) view.own().layer_slots[view.row].count = slots.count;
+}
+
+void measure_springs(const RegionView& region) {
+    State& state = region.state;
+    const SpringView& view = region.springs;
+    if (view.has_layers()) region.for_each([&](uint32_t v, bool) { weigh_points(view, v); });
+    for (uint32_t s = 0; s < view.spring_count(); ++s) {
+        measure_spring(view, s, true);
+        state.springs.length[view.spring(s)] = state.springs.rest_length[view.spring(s)];
+        if (view.has_layers())
+            state.layer_springs.length[view.layer(s)] = state.layer_springs.inner_length[view.layer(s)];
+    }
+    if (view.has_layers()) region.for_each([&](uint32_t v, bool) { measure_twin(view, v, true); });
+}
+
+/// No closed fan round the vertex and its neighbours: a border or a crack is there.
+bool is_at_border(const ShellView& shell, uint32_t v) {
+    Ring ring, beside;
+    walk_ring(shell, v, ring);
+    if (!ring.is_closed) return true;
+    for (uint32_t i = 0; i < ring.count; ++i) {
+        const auto& corner = shell.state.elements.corner[shell.element(ring.element[i])];
+        walk_ring(shell, corner[(ring.corner[i] + 1u) % 3], beside);
+        if (!beside.is_closed) return true;
+    }
+    return false;
+}
+
+// The strain limit is that of blows on faces, which bend a sheet more than they stretch it. A blow on a border stretches
+// it at once, by v / c as a bar's end (times the root of s here: the run's velocities are true, its c is not), and a
+// wall by 44 times what a ball on its face does: with the limit of faces its pieces broke each other at 2 cm/s. So a run
+// whose blows are all on borders has v / c of the speed at which falls crack the body, as cooking found.
+float border_limit(const State& state, Row<Tasks> task, const ShellView& shell, float root) {
+    const TaskContacts& contacts = state.task_contacts;
+    const uint32_t first = state.tasks.first_contact[task], count = state.tasks.contact_count[task];
+    for (uint32_t c = first; c < first + count; ++c)
+        if (!is_at_border(shell, contacts.vertex[c])) return 0;
+    if (count == 0) return 0;
+    const Materials& materials = state.materials;
+    const uint32_t material = state.shells.material[shell.row];
+    const float slowness = std::sqrt(materials.density[material] / materials.young_modulus[material]);
+    return root * state.shells.first_crack_speed[shell.row] * slowness;
+}
+
+/// B7: s so that what breaks at eps_f in truth breaks at 2 %, which float positions resolve to a thousandth.
+void soften(State& state, Row<Tasks> task, Row<Shells> shell) {
+    constexpr float kShownStrain = 0.02f, kShortLoad = 2.0f;  // as kShortLoadFactor of the hidden run
+    QuickRuns& runs = state.quick_runs;
+    const Materials& materials = state.materials;
+    const uint32_t material = state.shells.material[shell];
+    const float breaking = kShortLoad * materials.tensile_strength[material] / materials.young_modulus[material];
+    const float root = std::max(1.0f, kShownStrain / breaking);
+    const float given = runs.given_limit[task];
+    runs.softening[task] = root * root;
+    const float limit =
+        given > 0 ? std::max(given, border_limit(state, task, ShellView(state, shell), root)) : breaking * root;
+    runs.strain_limit[task] = limit * state.tasks.strength_scale[task];
+}
+
+}  // namespace
+
+double stiffness_ratio(const SpringView& view, uint32_t v) {
+    const State& state = view.state;
+    VertexSprings list;
+    collect_springs(view, v, list);
+    double outer = 0, inner = 0, shared = 0;
+    for (uint32_t i = 0; i < list.count; ++i) {
+        outer += 2 * double{state.springs.stiffness[view.spring(list.spring[i])]};
+        if (!view.has_layers()) continue;
+        const uint32_t layer = view.layer(list.spring[i]);
+        const LayerSprings& layers = state.layer_springs;
+        inner += 2 * double{layers.inner_stiffness[layer]};
+        shared += layers.mid_stiffness[layer];
+        shared += (view.layout() == SpringLayout::Sandwich ? 4 : 2) * double{layers.cross_stiffness[layer]};
+    }
+    if (!view.has_layers()) return outer * state.vertices.inverse_mass[view.shell.vertex(v)];
+    const uint32_t twin = view.twin(v);
+    shared += 2 * double{state.twins.stiffness_rest[twin]} * state.twins.inverse_rest[twin];
+    return (std::max(outer, inner) + shared) * state.twins.inverse_mass[twin];
+}
+
+namespace {
+
+void soften_spring(const SpringView& view, uint32_t s, float factor) {
+    Springs& springs = view.state.springs;
+    springs.stiffness[view.spring(s)] *= factor;
+    springs.damping[view.spring(s)] *= factor;
+    if (view.has_layers()) {
+        LayerSprings& layers = view.state.layer_springs;
+        const uint32_t layer = view.layer(s);
+        for (auto* column :
+             {&layers.inner_stiffness, &layers.inner_damping, &layers.mid_stiffness, &layers.cross_stiffness})
+            (*column)[layer] *= factor;
+    }
+    write_spring(view, s);
+}
+
+/// What is left of the stiffness at v when its ratio may be no more than `limit`.
+void limit_vertex(const SpringView& view, uint32_t v, double limit) {
+    const double ratio = stiffness_ratio(view, v);
+    if (!(ratio > limit)) return;
+    const auto factor = static_cast<float>(limit / ratio);
+    VertexSprings list;
+    collect_springs(view, v, list);
+    for (uint32_t i = 0; i < list.count; ++i) soften_spring(view, list.spring[i], factor);
+    if (!view.has_layers()) return;
+    view.state.twins.stiffness_rest[view.twin(v)] *= factor;
+    view.state.twins.damping[view.twin(v)] *= factor;
+}
+
+double ratio_limit(const SpringView& view) {
+    const double dt = view.own().time_step[view.row];
+    return kMostRatio * 0.36 * 4 / (dt * dt);
+}
+
+}  // namespace
+
+// Vertices.copy tells which were looked at: each once, in the order of the list.
+void limit_springs(const RegionView& region, std::span<const uint32_t> vertices) {
+    constexpr uint32_t kWaits = 1, kDone = 2;
+    const SpringView& view = region.springs;
+    const ShellView& shell = region.shell;
+    Elements& elements = region.state.elements;
+    const double limit = ratio_limit(view);
+    const auto for_each_corner = [&](auto&& f) {
+        Ring ring;
+        for (const uint32_t v : vertices) {
+            walk_ring(shell, v, ring);
+            for (uint32_t i = 0; i < ring.count; ++i)
+                for (const uint32_t corner : elements.corner[shell.element(ring.element[i])])
+                    f(corner, region.state.vertices.copy[shell.vertex(corner)]);
+        }
+    };
+    for_each_corner([&](uint32_t, uint32_t& mark) { mark = kWaits; });
+    for_each_corner([&](uint32_t v, uint32_t& mark) {
+        if (mark == kDone) return;
+        mark = kDone;
+        limit_vertex(view, v, limit);
+    });
+}
+
+bool give_region_springs(State& state, Row<Tasks> task, uint32_t layers, const char** full) {
+    const Row<Shells> shell_row = state.tasks.shell[task];
+    const ShellView shell(state, shell_row);
+    QuickRuns& runs = state.quick_runs;
+    soften(state, task, shell_row);
+    Layout layout{state, shell};
+    layout.chain();
+    const bool has_layers = layers > 1;
+    const Row<ShellSprings> row =
+        make_springs(state, shell_row, room_for(layout, task, layout.count_edges(), has_layers), full);
+    if (!row.exists()) return false;
+    runs.springs[task] = row;
+    ShellSprings& own = state.shell_springs;
+    own.layout[row] = static_cast<uint8_t>(has_layers ? SpringLayout::Sandwich : SpringLayout::OneLayer);
+    own.young_modulus[row] =
+        state.materials.young_modulus[state.shells.material[shell_row]] / runs.softening[task];
+    own.damping_ratio[row] = kDampingRatio;
+    const float h = state.shells.thickness[shell_row];
+    const float natural = h > 0 ? state.shells.mean_edge[shell_row] / h : 1;
+    own.length_factor[row] = has_layers ? std::clamp(natural, kLeastLengthFactor, kMostLengthFactor) : 1;
+    own.time_step[row] = 1;  // until it is known: damping stands per second
+    own.packs[row].count = own.packs[row].capacity;
+    own.twins[row].count = own.twins[row].capacity;
+    const RegionView region(state, task);
+    const SpringView& view = region.springs;
+    list_edges(layout, view);
+    measure_springs(region);
+    lay_packs(region);
+    double sum = 0;
+    uint32_t count = 0;
+    region.for_each([&](uint32_t v, bool is_held) {
+        const double ratio = is_held ? 0 : stiffness_ratio(view, v);
+        sum += ratio;
+        count += ratio > 0;
+    });
+    const double step = count > 0 ? 0.6 * 2 / std::sqrt(sum / count) : 1;
+    own.time_step[row] = static_cast<float>(std::min(step, 1.0));
+    for (uint32_t s = 0; s < view.spring_count(); ++s) write_spring(view, s);
+    region.for_each([&](uint32_t v, bool) {
+        if (has_layers) measure_twin(view, v, false);
+    });
+    region.for_each([&](uint32_t v, bool is_held) {
+        if (!is_held) limit_vertex(view, v, ratio_limit(view));
+    });
+    return true;
+}
+
+}  // namespace cullet

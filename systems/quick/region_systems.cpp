@@ -1,0 +1,54 @@
+// The systems of the quick mode's inner loop.
+#include "systems/quick/grow_region.hpp"
+#include "systems/quick/region_motion.hpp"
+#include "systems/springs/spring_packs.hpp"
+#include "systems/systems.hpp"
+
+namespace cullet {
+
+void push_region_patches(EachBody task, ShellTables shells, Tasks&, const TaskContacts&, PatchVertices&) {
+    region_forces(RegionView(shells.state, Row<Tasks>(task.row)));
+}
+
+// The kernel knows packs by their place in the shell: it is called for runs of neighbouring ones.
+void integrate_region(Rows<AwakePacks> packs, OfTask task, Turn turn, ShellTables shells, In<&AwakePacks::pack> pack,
+                      In<&Vertices::probe>, InOut<&Vertices::velocity>, Out<&Vertices::probe>, In<&Twins::position>,
+                      InOut<&Twins::velocity>, Out<&Twins::position>, InOut<&SpringSlots::slot>,
+                      InOut<&LayerSlots::slot>, InOut<&SpringPacks::zero_lengths>) {
+    const SpringView view(shells.state, shells.state.quick_runs.springs[task.row]);
+    const SpringStep step(view, turn.old_side);
+    const uint32_t end = packs.first + packs.count;
+    for (uint32_t row = packs.first, next = 0; row < end; row = next) {
+        next = row + 1;
+        while (next < end && pack[next] == pack[next - 1] + 1) ++next;
+        if (view.has_layers())
+            integrate_sandwich_packs(step, pack[row], next - row);
+        else
+            integrate_spring_packs(step, pack[row], next - row);
+    }
+}
+
+void end_region_step(EachBody task, ShellTables shells, Tasks& tasks, TaskContacts&, const PatchVertices&) {
+    const Row<Tasks> t(task.row);
+    const RegionView region(shells.state, t);
+    ++region.springs.own().steps[region.springs.row];
+    hold_region(region);
+    push_region(region);
+    const float time = static_cast<float>(++tasks.steps_done[t]) * tasks.time_step[t];
+    if (time > tasks.end_time[t]) tasks.state[t] = static_cast<uint8_t>(TaskState::Whole);
+}
+
+void split_region(EachBody task, ShellTables shells, Tasks& tasks, TaskContacts&, PatchVertices&) {
+    const Row<Tasks> t(task.row);
+    if (static_cast<TaskState>(tasks.state[t]) == TaskState::Running) grow_region(shells.state, t);
+}
+
+// A run so short is not begun again: its step has the bound of the stiffest vertex in it.
+void check_region_energy(EachBody task, ShellTables shells, Tasks& tasks, TaskContacts&) {
+    const Row<Tasks> t(task.row);
+    if (static_cast<TaskState>(tasks.state[t]) == TaskState::Dropped) return;
+    if (has_blown_up(RegionView(shells.state, t)))
+        tasks.state[t] = static_cast<uint8_t>(TaskState::Dropped);
+}
+
+}  // namespace cullet

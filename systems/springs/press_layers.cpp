@@ -1,0 +1,145 @@
+// Area and volume energies (thick shell note B4): E = kappa C^2 / 2 with C = (A - A0) / A0 of each triangle, outer and
+// inner, and C = (V - V0) / V0 of each prism; F_i = -kappa C grad_i C. Without the damping kd dC/dt, for which the
+// springs' own stands: it would need the neighbours' velocities while they are written.
+#include <algorithm>
+
+#include "systems/damage/ring.hpp"
+#include "systems/springs/edge_stiffness.hpp"
+#include "systems/systems.hpp"
+
+namespace cullet {
+namespace {
+
+/// An energy of stiffness kappa may push no harder than this share of m h^2 / dt^2, or the step would blow up.
+constexpr double kMostShare = 0.1;
+
+struct Prism {
+    Vec3d point[6];  // a, b, c, a', b', c'
+};
+
+double area_of(Vec3d i, Vec3d j, Vec3d k) {
+    return 0.5 * length(cross(j - i, k - i));
+}
+
+/// Gradient of the area of (i, j, k) over i; zero without area.
+Vec3d area_gradient(Vec3d i, Vec3d j, Vec3d k) {
+    const Vec3d a = j - i, b = k - i, n = normalised(cross(a, b));
+    return -0.5 * (cross(b, n) + cross(n, a));
+}
+
+/// Corners of the prism's three tetrahedra (A7, as prism_tetrahedra cuts it), each in an order that gives its volume
+/// the same sign: the sum is the prism's.
+void tetrahedra_of(const std::array<uint32_t, 3>& corner, uint32_t (&tetrahedra)[3][4]) {
+    uint32_t order[3] = {0, 1, 2};
+    std::sort(order, order + 3, [&](uint32_t x, uint32_t y) { return corner[x] < corner[y]; });
+    const auto [p, q, r] = order;
+    const uint32_t all[3][4] = {{p, q, r, r + 3}, {p, q, r + 3, q + 3}, {p, p + 3, q + 3, r + 3}};
+    std::copy(&all[0][0], &all[0][0] + 12, &tetrahedra[0][0]);
+}
+
+/// Six times the volume up to a sign that is the element's for good, and the gradient over points `outer` and `outer` +
+/// 3.
+double volume_of(const Prism& prism, const uint32_t (&tetrahedra)[3][4], uint32_t outer, Vec3d (&gradient)[2]) {
+    double six = 0;
+    gradient[0] = gradient[1] = {};
+    for (const auto& t : tetrahedra) {
+        const Vec3d b = prism.point[t[1]] - prism.point[t[0]], c = prism.point[t[2]] - prism.point[t[0]],
+                    d = prism.point[t[3]] - prism.point[t[0]];
+        six += dot(b, cross(c, d));
+        const Vec3d over[4] = {-(cross(c, d) + cross(d, b) + cross(b, c)), cross(c, d), cross(d, b), cross(b, c)};
+        for (uint32_t k = 0; k < 4; ++k) {
+            if (t[k] == outer) gradient[0] += over[k];
+            if (t[k] == outer + 3) gradient[1] += over[k];
+        }
+    }
+    return six;
+}
+
+struct Presses {
+    const SpringView& view;
+    int side;
+    double dt, young, area_energy, volume_energy;
+
+    Presses(const SpringView& v, uint32_t current) : view(v), side(static_cast<int>(current)) {
+        const ShellSprings& own = v.own();
+        dt = own.time_step[v.row], young = own.young_modulus[v.row];
+        area_energy = own.area_energy[v.row], volume_energy = own.volume_energy[v.row];
+    }
+
+    Vec3d now(uint32_t v) const {
+        const Float4 p = view.state.vertices.probe.get(view.shell.vertex(v), side);
+        return {p.x, p.y, p.z};
+    }
+    Vec3d twin_now(uint32_t v) const {
+        const Float4 p = view.state.twins.position.get(view.twin(v), side);
+        return {p.x, p.y, p.z};
+    }
+
+    /// Adds what the element does to corner k of it.
+    void add(uint32_t element, uint32_t k, Vec3d& outer, Vec3d& inner) const {
+        const Elements& elements = view.state.elements;
+        const uint32_t row = view.shell.element(element);
+        const auto& corner = elements.corner[row];
+        const bool has_layers = view.has_layers();
+        Prism rest, moved;
+        double depth = 0;
+        for (uint32_t c = 0; c < 3; ++c) {
+            rest.point[c] = outer_rest(view, corner[c]), moved.point[c] = now(corner[c]);
+            depth += stiff_depth(view, corner[c]) / 3;
+            if (has_layers) rest.point[c + 3] = inner_rest(view, corner[c]), moved.point[c + 3] = twin_now(corner[c]);
+        }
+        const double rest_area = area_of(rest.point[0], rest.point[1], rest.point[2]);
+        if (!(rest_area > 0)) return;
+        const double stiffness = young * depth * rest_area, mass = elements.mass[row] / (has_layers ? 6 : 3);
+        const auto stretch = [&](uint32_t first, Vec3d& force) {
+            const auto p = [&](const Prism& of, uint32_t c) { return of.point[first + (k + c) % 3]; };
+            const double a0 = area_of(p(rest, 0), p(rest, 1), p(rest, 2));
+            if (!(a0 > 0)) return;
+            const double wanted = area_energy * stiffness * (has_layers ? 0.5 : 1);
+            const double kappa = std::min(wanted, kMostShare * mass * a0 / (dt * dt));
+            const double c = area_of(p(moved, 0), p(moved, 1), p(moved, 2)) / a0 - 1;
+            force += (-kappa * c / a0) * area_gradient(p(moved, 0), p(moved, 1), p(moved, 2));
+        };
+        if (area_energy > 0) stretch(0, outer);
+        if (!has_layers) return;
+        if (area_energy > 0) stretch(3, inner);
+        if (!(volume_energy > 0) || (elements.flags[row] & kDegenerate)) return;
+        uint32_t tetrahedra[3][4];
+        tetrahedra_of(corner, tetrahedra);
+        Vec3d gradient[2], unused[2];
+        const double v0 = volume_of(rest, tetrahedra, k, unused), v = volume_of(moved, tetrahedra, k, gradient);
+        if (!(v0 < 0 || v0 > 0)) return;
+        const double height = depth * double{view.own().length_factor[view.row]};
+        const double kappa = std::min(volume_energy * stiffness, kMostShare * mass * height * height / (dt * dt));
+        const double pressure = -kappa * (v / v0 - 1) / v0;
+        outer += pressure * gradient[0];
+        inner += pressure * gradient[1];
+    }
+};
+
+}  // namespace
+
+void press_layers(Rows<SpringPacks> packs, OfSprings springs, Turn turn, ShellTables shells, In<&Vertices::probe>,
+                  In<&Twins::position>, InOut<&Vertices::velocity> velocity, InOut<&Twins::velocity> twin_velocity) {
+    const SpringView view(shells.state, springs.row);
+    const Presses presses(view, turn.old_side);
+    const State& state = shells.state;
+    for (uint32_t p = packs.first - view.own().packs[springs.row].first, end = p + packs.count; p < end; ++p)
+        for (uint32_t v = p * kLanes; v < (p + 1) * kLanes && v < view.shell.vertex_count(); ++v) {
+            Ring ring;
+            walk_ring(view.shell, v, ring);
+            Vec3d outer, inner;
+            for (uint32_t i = 0; i < ring.count; ++i) presses.add(ring.element[i], ring.corner[i], outer, inner);
+            const uint32_t row = view.shell.vertex(v);
+            if (!view.has_layers()) {
+                const double push = presses.dt * state.vertices.inverse_mass[row];
+                velocity.set(row, velocity[row] + (push * outer).to_float());
+                continue;
+            }
+            const double push = presses.dt * state.twins.inverse_mass[view.twin(v)];
+            velocity.set(row, velocity[row] + (push * outer).to_float());
+            twin_velocity.set(view.twin(v), twin_velocity[view.twin(v)] + (push * inner).to_float());
+        }
+}
+
+}  // namespace cullet

@@ -1,0 +1,50 @@
+// The inner loop of springs: repeated 8 to 32 times a frame for one shell, by one thread or a team.
+#pragma once
+#include "components/state.hpp"
+#include "engine/inner_loop.hpp"
+
+namespace cullet {
+
+/// The springs that an inner loop runs for. The loop's world knows them: SpringWorld by their row.
+struct OfSprings {
+    Row<ShellSprings> row;
+};
+template <>
+struct Parameter<OfSprings> {
+    static void describe(std::vector<Access>&) {}
+    template <class W>
+    static OfSprings bind(Call<W>& call) {
+        return {call.world.springs_of(call.body)};
+    }
+};
+
+/// A loop's `body` is a row of ShellSprings.
+struct SpringWorld {
+    State& state;
+
+    template <class T>
+    T& table() {
+        return state.table<T>();
+    }
+    Row<ShellSprings> springs_of(uint32_t body) const { return Row<ShellSprings>(body); }
+    /// Rows of a table that belong to the shell; all packs that hold vertices.
+    template <class T>
+    Range rows_of(uint32_t body) const {
+        static_assert(std::is_same_v<T, SpringPacks>);
+        Range packs = state.shell_springs.packs[body];
+        const uint32_t vertices = state.shells.vertices[state.shell_springs.shell[body]].count;
+        packs.count = std::min(packs.count, (vertices + kLanes - 1) / kLanes);
+        return packs;
+    }
+};
+
+using SpringLoop = InnerLoop<SpringWorld>;
+/// What a substep of these springs is: integrate_springs, or integrate_layers; press_layers before them where the row
+/// has energies.
+SpringLoop make_spring_loop(SpringLayout layout, bool has_energies);
+bool has_energies(const ShellSprings& springs, Row<ShellSprings> row);
+
+/// `steps` substeps of one shell on the calling thread.
+void run_springs(State& state, Row<ShellSprings> row, uint32_t steps);
+
+}  // namespace cullet

@@ -1,0 +1,244 @@
+// Several hits at once: two in one frame, one while the last still runs, two bodies that both may break, and pieces
+// that break again. Momentum in numbers; the same bytes on any number of threads, after a save in the middle, in a
+// replay.
+#include <gtest/gtest.h>
+
+#include <filesystem>
+
+#include "cullet/recording.hpp"
+#include "tests/support/small_worlds.hpp"
+
+namespace cullet::test {
+namespace {
+
+struct Scenario {
+    const char* name;
+    void (*furnish)(World& world);
+    uint64_t units;
+    uint32_t least_broken;  // bodies and pieces
+    const char* look_at;    // system after which `is_so` is asked
+    bool (*is_so)(const State& state);
+};
+
+BodyId add_vase(World& world, Vec3 place = {}, Vec3 velocity = {}) {
+    SpawnSettings settings;
+    settings.pose.position = place;
+    settings.motion.velocity = velocity;
+    return world.spawn(world.add_model(small_vase()).value(), settings).value();
+}
+
+void add_ball(World& world, Vec3 place, Vec3 velocity, float mass = 0.3f) {
+    SphereSettings ball;
+    ball.pose.position = place;
+    ball.motion.velocity = velocity;
+    ball.radius = 0.03f;
+    ball.mass = mass;
+    (void)world.add_sphere(ball).value();
+}
+
+/// Mirror images of each other but for the mesh, from both sides at the same time.
+void two_balls_at_once(World& world) {
+    add_vase(world);
+    add_ball(world, {0, 0.15f, 0.25f}, {0, 0, -9});
+    add_ball(world, {0, 0.15f, -0.25f}, {0, 0, 9});
+}
+void one_ball_after_the_other(World& world) {
+    add_vase(world);
+    add_ball(world, {0, 0.15f, 0.25f}, {0, 0, -9});
+    add_ball(world, {0.45f, 0.1f, 0}, {-9, 0, 0});
+}
+void two_vases_head_on(World& world) {
+    add_vase(world, {0, 0, 0.3f}, {0, 0, -11});
+    add_vase(world, {0.01f, 0.02f, -0.3f}, {0, 0, 12});
+}
+void a_heavy_ball_through_pieces(World& world) {
+    add_vase(world);
+    add_ball(world, {0.01f, 0.13f, 0.25f}, {0, 0, -7});
+    add_ball(world, {0.0f, 0.16f, 1.6f}, {0, 0, -14}, 3);
+}
+
+bool has_two_patches(const State& s) {
+    for (uint32_t t = 0; t < s.tasks.size(); ++t) {
+        if (static_cast<TaskState>(s.tasks.state[t]) == TaskState::Free || s.tasks.contact_count[t] < 2) continue;
+        const uint32_t c = s.tasks.first_contact[t];
+        if (s.task_contacts.patch_count[c] > 0 && s.task_contacts.patch_count[c + 1] > 0 &&
+            s.task_contacts.striker[c] != s.task_contacts.striker[c + 1])
+            return true;
+    }
+    return false;
+}
+bool has_a_hit_waiting(const State& s) {
+    for (uint32_t q = 0; q < s.queued_hits.size(); ++q)
+        if (s.queued_hits.is_used[q]) return true;
+    return false;
+}
+bool has_a_task_each_against_the_other(const State& s) {
+    for (uint32_t t = 0; t < s.tasks.size(); ++t) {
+        if (static_cast<TaskState>(s.tasks.state[t]) == TaskState::Free || s.tasks.contact_count[t] == 0) continue;
+        const Row<Bodies> other = s.task_contacts.striker[s.tasks.first_contact[t]];
+        if (other.exists() && s.bodies.task[other] != kNone &&
+            s.task_contacts.striker[s.tasks.first_contact[s.bodies.task[other]]] == s.tasks.body[t] &&
+            s.task_contacts.striker_inverse_mass[s.tasks.first_contact[t]] > 0)
+            return true;
+    }
+    return false;
+}
+bool has_a_grandchild(const State& s) {
+    for (uint32_t b = 0; b < s.bodies.size(); ++b)
+        if (static_cast<BodyKind>(s.bodies.kind[b]) == BodyKind::Dynamic && s.bodies.shell[b].exists() &&
+            s.shells.generation[s.bodies.shell[b]] >= 2)
+            return true;
+    return false;
+}
+
+const Scenario kScenarios[] = {
+    {"TwoInOneFrame", two_balls_at_once, 3'000'000, 1, "start_tasks", has_two_patches},
+    {"WhileTheLastStillRuns", one_ball_after_the_other, 1'000'000, 1, "open_tasks", has_a_hit_waiting},
+    {"BothBreak", two_vases_head_on, 3'000'000, 2, "start_tasks", has_a_task_each_against_the_other},
+    {"PiecesAgain", a_heavy_ball_through_pieces, 5'000'000, 2, "make_births", has_a_grandchild},
+};
+
+Settings settings_of(const Scenario& scenario, uint32_t threads) {
+    Settings settings = small_settings();
+    settings.units_a_frame = scenario.units;
+    settings.threads = threads;
+    return settings;
+}
+
+constexpr int kFrames = 80;
+
+class Hits : public testing::TestWithParam<Scenario> {
+ protected:
+    World made(uint32_t threads = 1) const {
+        World world = make_world(settings_of(GetParam(), threads));
+        GetParam().furnish(world);
+        return world;
+    }
+};
+
+TEST_P(Hits, KeepMassAndMomentum) {
+    World world = made();
+    const Matter start = matter_of(world);
+    double scale = 0;  // of the balls' and vases' momenta, without regard to direction
+    const Bodies& bodies = state_of(world).bodies;
+    for (uint32_t b = 0; b < bodies.size(); ++b)
+        if (static_cast<BodyKind>(bodies.kind[b]) == BodyKind::Dynamic)
+            scale += bodies.mass[b] * length(Vec3d(bodies.velocity[b]));
+    bool is_seen = false;
+    after_each_system(world, [&](const std::string& system) {
+        if (system == GetParam().look_at) is_seen = is_seen || GetParam().is_so(state_of(world));
+    });
+    // A late result adds what pieces have about their mean to what the solver has left: from frame to frame energy may
+    // rise by it, over the start's it may not.
+    for (int frame = 0; frame < kFrames; ++frame) {
+        world.step();
+        EXPECT_LE(matter_of(world).kinetic_energy, start.kinetic_energy * 1.0001) << "frame " << frame;
+    }
+    EXPECT_TRUE(is_seen) << "the scene does not show what it is for";
+    EXPECT_GE(world.contents().data.counts.broke, GetParam().least_broken);
+    EXPECT_EQ(world.contents().data.counts.dropped, 0u);
+    const Matter end = matter_of(world);
+    EXPECT_NEAR(end.mass, start.mass, 1e-6 * start.mass);
+    const double* given = world.contents().data.counts.impulse_to_static;
+    const Vec3d to_held = world.contents().data.rigid->impulse_to_static();  // what stood held took it in
+    double lost = 0;
+    for (int k = 0; k < 3; ++k)
+        lost = std::max(lost, std::fabs(end.momentum[k] + given[k] + to_held[k] - start.momentum[k]));
+    EXPECT_LT(lost, 1e-4 * scale) << "of " << scale << " N s";
+    RecordProperty("lost_share", std::to_string(lost / scale));
+}
+
+TEST_P(Hits, GiveTheSameHashesOnOneTwoAndThreeThreads) {
+    World worlds[] = {made(1), made(2), made(3)};
+    for (int frame = 0; frame < kFrames; ++frame) {
+        for (World& world : worlds) world.step();
+        ASSERT_EQ(worlds[0].hash(), worlds[1].hash()) << "2 threads, frame " << frame;
+        ASSERT_EQ(worlds[0].hash(), worlds[2].hash()) << "3 threads, frame " << frame;
+    }
+}
+
+TEST_P(Hits, GoOnAlikeAfterASaveInTheMiddle) {
+    World world = made();
+    uint32_t saves = 0;
+    for (int frame = 0; frame < kFrames; ++frame) {
+        world.step();
+        if (open_tasks(world) == 0 || saves == 6) continue;
+        ++saves;
+        const Result<std::vector<uint8_t>> bytes = world.snapshot();
+        ASSERT_TRUE(bytes.ok()) << bytes.error();
+        World self = make_world(settings_of(GetParam(), 1)), twin = make_world(settings_of(GetParam(), 2));
+        const Result<void> loaded = self.restore(bytes->data(), bytes->size());
+        ASSERT_TRUE(loaded.ok()) << loaded.error();
+        ASSERT_TRUE(twin.restore(bytes->data(), bytes->size()).ok());
+        for (int further = 0; further < 25; ++further) {
+            self.step(), twin.step();
+            ASSERT_EQ(self.hash(), twin.hash()) << "saved after frame " << frame << ", " << further << " later";
+        }
+    }
+    EXPECT_GT(saves, 0u);
+}
+
+TEST_P(Hits, ReplayWithEveryHash) {
+    const std::string path =
+        (std::filesystem::temp_directory_path() / (std::string("cullet_hits_") + GetParam().name + ".crec")).string();
+    {
+        World world = make_world(settings_of(GetParam(), 1));
+        ASSERT_TRUE(world.start_recording(path).ok());
+        GetParam().furnish(world);
+        for (int frame = 0; frame < kFrames; ++frame) world.step();
+        ASSERT_TRUE(world.stop_recording().ok());
+    }
+    ReplaySettings settings;
+    settings.threads = {1, 3};
+    const Result<ReplayReport> report = replay(path, settings);
+    ASSERT_TRUE(report.ok()) << report.error();
+    EXPECT_EQ(report->frames, static_cast<uint64_t>(kFrames));
+    EXPECT_EQ(report->difference, "");
+    std::filesystem::remove(path);
+    std::filesystem::remove_all(path + ".models");
+}
+
+INSTANTIATE_TEST_SUITE_P(All, Hits, testing::ValuesIn(kScenarios), [](const auto& of) { return of.param.name; });
+
+// The game says where breaking ends.
+TEST(BreakLimits, PiecesBelowTheShareOrTheElementsOrBeyondTheGenerationsDoNotBreakAgain) {
+    const auto opened = [](auto change) {
+        Settings settings = small_settings();
+        change(settings);
+        World world = make_world(settings);
+        a_heavy_ball_through_pieces(world);
+        uint64_t again = 0;
+        for (int frame = 0; frame < kFrames; ++frame) {
+            world.step();
+            for (const ImpactEvent& e : world.events().impacts) {
+                const Row<Shells> shell = state_of(world).bodies.shell[e.body.index];
+                again += shell.exists() && state_of(world).shells.generation[shell] > 0 && world.is_alive(e.body);
+            }
+        }
+        return again;
+    };
+    const uint64_t usual = opened([](Settings&) {});
+    EXPECT_GT(usual, 0u);
+    EXPECT_GT(opened([](Settings& s) { s.break_share = 0, s.break_elements = 0; }), usual);
+    EXPECT_LT(opened([](Settings& s) { s.break_share = 0.6f; }), usual);
+    EXPECT_LT(opened([](Settings& s) { s.break_elements = 100'000; }), usual);
+    EXPECT_LT(opened([](Settings& s) { s.generations = 0; }), usual);
+}
+
+TEST(BreakLimits, AreCheckedAndNamed) {
+    const auto refused = [](auto change, const char* word) {
+        Settings settings = small_settings();
+        change(settings);
+        const Result<World> world = World::create(settings);
+        ASSERT_FALSE(world.ok());
+        EXPECT_NE(world.error().find(word), std::string::npos) << world.error();
+    };
+    refused([](Settings& s) { s.break_share = -0.1f; }, "break_share");
+    refused([](Settings& s) { s.break_share = 1.1f; }, "break_share");
+    refused([](Settings& s) { s.break_share = std::numeric_limits<float>::quiet_NaN(); }, "break_share");
+    refused([](Settings& s) { s.break_elements = 1'000'001; }, "break_elements");
+    refused([](Settings& s) { s.generations = 101; }, "generations");
+}
+
+}  // namespace
+}  // namespace cullet::test

@@ -1,0 +1,209 @@
+// Bodies that break quickly, in a world: the same bytes on any number of threads, from snapshots and recordings; mass and
+// momentum at the hand-off; pieces that break again; refusals.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "sample_game/allocations.hpp"
+#include "systems/quick/quick_body.hpp"
+#include "tests/support/small_worlds.hpp"
+
+namespace cullet::test {
+namespace {
+
+QuickSettings layered(uint32_t layers) {
+    QuickSettings quick;
+    quick.layers = layers;
+    return quick;
+}
+
+struct Kind {
+    const char* name;
+    const Model* model;
+    QuickSettings quick;
+};
+
+/// A quick body in mid-air, hit by a ball.
+Breakage quick_and_ball(const Settings& settings, const Model& model, const QuickSettings& quick, float speed,
+                        float mass = 0.3f) {
+    Breakage b{make_world(settings), {}, {}};
+    const ModelId id = b.world.add_model(model).value();
+    SpawnSettings spawn;
+    spawn.fracture = FractureMode::Quick;
+    spawn.quick = quick;
+    spawn.user_data = 42;
+    b.body = b.world.spawn(id, spawn).value();
+    b.ball = b.world.add_sphere(ball_at({0.01f, 0.13f, 0}, mass, speed)).value();
+    return b;
+}
+
+Settings threads_of(uint32_t threads) {
+    Settings settings = small_settings();
+    settings.gravity = {0, -9.81f, 0};
+    settings.threads = threads;
+    return settings;
+}
+
+constexpr float kSpeed = 40;  // m/s
+
+std::vector<uint64_t> hashes_of(World& world, uint32_t frames) {
+    std::vector<uint64_t> hashes;
+    for (uint32_t frame = 0; frame < frames; ++frame) {
+        world.step();
+        hashes.push_back(world.hash());
+    }
+    return hashes;
+}
+
+TEST(QuickWorld, HashesAreEqualOnOneTwoThreeAndEightThreads) {
+    for (const uint32_t layers : {1u, 2u}) {
+        std::vector<uint64_t> first;
+        for (const uint32_t threads : {1u, 2u, 3u, 8u}) {
+            Breakage b = quick_and_ball(threads_of(threads), small_vase(), layered(layers), kSpeed);
+            const std::vector<uint64_t> hashes = hashes_of(b.world, 40);
+            if (threads == 1) {
+                first = hashes;
+                EXPECT_GT(shells_of(b.world).size(), 1u) << layers << " layers: nothing came off";
+                continue;
+            }
+            EXPECT_EQ(hashes, first) << threads << " threads, " << layers << " layers";
+        }
+    }
+}
+
+TEST(QuickWorld, AHitIsOverInTheFrameOfTheTouch) {
+    Breakage b = quick_and_ball(small_settings(), small_vase(), {}, kSpeed);
+    uint32_t frames_with_tasks = 0;
+    for (int frame = 0; frame < 40; ++frame) {
+        b.world.step();
+        frames_with_tasks += open_tasks(b.world) > 0;
+    }
+    EXPECT_EQ(frames_with_tasks, 0u);
+    EXPECT_GT(b.world.contents().data.counts.opened, 0u);
+    EXPECT_EQ(b.world.contents().data.counts.late, 0u);
+}
+
+TEST(QuickWorld, MassAndMomentumAreKeptWhereItBreaks) {
+    for (const uint32_t layers : {1u, 2u}) {
+        Breakage b = quick_and_ball(small_settings(), small_vase(), layered(layers), kSpeed);
+        World* w = &b.world;
+        Matter before{};
+        uint64_t broke = 0;
+        uint32_t breaks = 0;
+        double worst = 0, worst_mass = 0;
+        const Matter start = matter_of(b.world);
+        const double scale = std::fabs(start.momentum[2]);
+        after_each_system(b.world, [&](const std::string& system) {
+            if (system == "settle_tasks") before = matter_of(*w), broke = w->contents().data.counts.broke;
+            if (system != "make_births" || w->contents().data.counts.broke == broke) return;
+            ++breaks;
+            const Matter after = matter_of(*w);
+            for (int k = 0; k < 3; ++k)
+                worst = std::max(worst, std::fabs(after.momentum[k] - before.momentum[k]) / scale);
+            worst_mass = std::max(worst_mass, std::fabs(after.mass / before.mass - 1));
+            EXPECT_LE(after.kinetic_energy, 1.0001 * before.kinetic_energy);
+        });
+        for (int frame = 0; frame < 60; ++frame) b.world.step();
+        std::printf("%u layers: %u breaks, momentum off by %.1e of the ball's, hidden rounding %.1e\n", layers, breaks,
+                    worst, b.world.contents().data.counts.worst_rounding);
+        EXPECT_GT(breaks, 0u);
+        EXPECT_LT(worst, 1e-6);
+        EXPECT_LT(worst_mass, 1e-6);
+        EXPECT_LT(b.world.contents().data.counts.worst_rounding, 2e-4);
+    }
+}
+
+TEST(QuickWorld, PiecesAreQuickAndBreakAgain) {
+    Settings settings = small_settings();
+    settings.gravity = {0, -9.81f, 0};
+    Breakage b = quick_and_ball(settings, small_vase(), {}, kSpeed);
+    for (int frame = 0; frame < 20; ++frame) b.world.step();
+    const State& state = state_of(b.world);
+    const std::vector<BodyId> pieces = shells_of(b.world);
+    ASSERT_GT(pieces.size(), 1u);
+    for (const BodyId id : pieces) EXPECT_TRUE(is_quick_body(state, Row<Bodies>(id.index)));
+    // The largest is hit again.
+    const BodyId largest = *std::max_element(pieces.begin(), pieces.end(), [&](BodyId a, BodyId c) {
+        return b.world.mass(a).value() < b.world.mass(c).value();
+    });
+    const Pose pose = b.world.pose(largest).value();
+    const Row<Shells> shell = state.bodies.shell[largest.index];
+    PushSettings push;
+    const Range vertices = state.shells.vertices[shell];
+    for (uint32_t v = vertices.first; v < vertices.first + vertices.count; ++v)
+        if (state.vertices.element[v] != kNone) {
+            push.place = to_world(pose, state.vertices.rest[v]);
+            push.normal = rotate(pose.orientation, state.vertices.inward[v]);
+        }
+    push.approach_speed = 2 * kSpeed, push.mass = 1, push.radius = 0.03f;
+    const uint64_t broke = b.world.contents().data.counts.broke;
+    ASSERT_TRUE(b.world.push_impact(largest, push).ok());
+    for (int frame = 0; frame < 10; ++frame) b.world.step();
+    EXPECT_GT(b.world.contents().data.counts.broke, broke);
+}
+
+TEST(QuickWorld, ASnapshotBetweenTwoFramesOfAHitGoesOnAsItWas) {
+    Settings settings = threads_of(1);
+    settings.units_a_frame = 100'000;  // a few steps a frame
+    for (const uint32_t layers : {1u, 2u}) {
+        Breakage b = quick_and_ball(settings, small_vase(), layered(layers), kSpeed);
+        for (int frame = 0; frame < 60 && open_tasks(b.world) == 0; ++frame) b.world.step();
+        for (int frame = 0; frame < 4; ++frame) b.world.step();
+        ASSERT_GT(open_tasks(b.world), 0u);
+        const auto bytes = b.world.snapshot();
+        ASSERT_TRUE(bytes.ok()) << bytes.error();
+        World other = make_world(settings);
+        const Result<void> loaded = other.restore(bytes->data(), bytes->size());
+        ASSERT_TRUE(loaded.ok()) << loaded.error();
+        EXPECT_EQ(hashes_of(b.world, 60), hashes_of(other, 60)) << layers << " layers";
+        EXPECT_GT(shells_of(b.world).size(), 1u);
+    }
+}
+
+TEST(QuickWorld, FramesDoNotAllocate) {
+    Breakage b = quick_and_ball(threads_of(1), small_vase(), layered(2), kSpeed);
+    start_counting_allocations();
+    for (int frame = 0; frame < 40; ++frame) b.world.step();
+    EXPECT_EQ(stop_counting_allocations().ours, 0u);
+    EXPECT_GT(shells_of(b.world).size(), 1u);
+}
+
+TEST(QuickWorld, SettingsOutOfRangeAreRefusedWithASentence) {
+    World world = make_world(small_settings());
+    const ModelId id = world.add_model(small_vase()).value();
+    const auto refused = [&](auto change, const std::string& name) {
+        SpawnSettings spawn;
+        spawn.fracture = FractureMode::Quick;
+        change(spawn.quick);
+        const Result<BodyId> body = world.spawn(id, spawn);
+        ASSERT_FALSE(body.ok()) << name;
+        EXPECT_NE(body.error().find("quick." + name), std::string::npos) << body.error();
+    };
+    refused([](QuickSettings& q) { q.layers = 3; }, "layers");
+    refused([](QuickSettings& q) { q.layers = 0; }, "layers");
+    refused([](QuickSettings& q) { q.steps = 7; }, "steps");
+    refused([](QuickSettings& q) { q.steps = 101; }, "steps");
+    refused([](QuickSettings& q) { q.crack_frequency = 1001; }, "crack_frequency");
+    refused([](QuickSettings& q) { q.strain_limit = 2; }, "strain_limit");
+    refused([](QuickSettings& q) { q.strain_limit = std::nanf(""); }, "strain_limit");
+    refused([](QuickSettings& q) { q.compression_limit = 0.5f; }, "compression_limit");
+    refused([](QuickSettings& q) { q.crack_length = -1; }, "crack_length");
+    refused([](QuickSettings& q) { q.bump_angle = 31; }, "bump_angle");
+}
+
+TEST(QuickWorld, AHiddenBodyInAReusedRowIsNotQuick) {
+    World world = make_world(small_settings());
+    const ModelId id = world.add_model(small_vase()).value();
+    SpawnSettings spawn;
+    spawn.fracture = FractureMode::Quick;
+    const BodyId quick = world.spawn(id, spawn).value();
+    EXPECT_TRUE(is_quick_body(state_of(world), Row<Bodies>(quick.index)));
+    ASSERT_TRUE(world.remove(quick).ok());
+    const BodyId hidden = world.spawn(id).value();
+    ASSERT_EQ(hidden.index, quick.index);
+    EXPECT_FALSE(is_quick_body(state_of(world), Row<Bodies>(hidden.index)));
+}
+
+}  // namespace
+}  // namespace cullet::test
