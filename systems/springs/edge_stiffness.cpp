@@ -40,9 +40,10 @@ EdgeAreas areas_at(const SpringView& view, uint32_t element, uint32_t edge) {
     for (const uint32_t e : {element, elements.neighbour[shell.element(element)][edge]}) {
         if (e == kNone || (elements.flags[shell.element(e)] & kDead)) continue;
         if ((view.own().keeps_lengths[view.row] & kKeepsLengths) && add_kept_areas(view, e, sum)) continue;
-        const auto [a, b, c] = elements.corner[shell.element(e)];
+        const auto& corner = elements.corner[shell.element(e)];
         const auto area = [&](auto rest) {
-            return 0.5 * length(cross(rest(view, b) - rest(view, a), rest(view, c) - rest(view, a)));
+            const auto first = rest(view, corner[0]);
+            return 0.5 * length(cross(rest(view, corner[1]) - first, rest(view, corner[2]) - first));
         };
         sum.outer += area(outer_rest);
         if (view.has_layers()) sum.inner += area(inner_rest);
