@@ -12,8 +12,8 @@ struct QuickBodies : Table<QuickBodies> {
     static constexpr const char* kName = "quick_bodies";
     static constexpr bool kIsOptional = true;
     Column<uint8_t> is_quick{*this, "is_quick"};
-    Column<uint8_t> layers{*this, "layers"};                    // 1 or 2
-    Column<uint16_t> steps{*this, "steps"};                     // of a run
+    Column<uint8_t> layers{*this, "layers"};                     // 1 or 2
+    Column<uint16_t> steps{*this, "steps"};                      // of a run
     Column<uint16_t> crack_frequency{*this, "crack_frequency"};  // vertices split in a step; 0: by the kind of fracture
     Column<float> strain_limit{*this, "strain_limit"};           // 0: the material's
     Column<float> compression_limit{*this, "compression_limit"};  // in strain limits; 0: none
@@ -39,17 +39,17 @@ struct QuickRuns : Table<QuickRuns> {
     Column<float> crack_length{*this, "crack_length"};
     Column<float> bump_angle{*this, "bump_angle", "rad"};
     // Of the run.
-    Column<uint8_t> is_full{*this, "is_full"};    // no room for more springs: nothing splits any more
+    Column<uint8_t> is_full{*this, "is_full"};            // no room for more springs: nothing splits any more
     Column<Row<ShellSprings>> springs{*this, "springs"};  // of the task's shell; kNone before the region is awake
     /// First elements of the task's shell that are the body's, when it is a cut-out (cut_out.hpp): Elements.part says
     /// which. 0: it is a copy of the whole.
     Column<uint32_t> cut_elements{*this, "cut_elements"};
-    Column<uint32_t> pack_count{*this, "pack_count"};     // rows in AwakePacks
-    Column<uint32_t> awake_count{*this, "awake_count"};   // vertices that the region had when it woke
-    Column<float> softening{*this, "softening"};          // s of B7, >= 1: stiffness E / s, time stretched by its root
-    Column<float> strain_limit{*this, "strain_limit"};    // of a vertex of median strength, as the run sees it
+    Column<uint32_t> pack_count{*this, "pack_count"};    // rows in AwakePacks
+    Column<uint32_t> awake_count{*this, "awake_count"};  // vertices that the region had when it woke
+    Column<float> softening{*this, "softening"};         // s of B7, >= 1: stiffness E / s, time stretched by its root
+    Column<float> strain_limit{*this, "strain_limit"};   // of a vertex of median strength, as the run sees it
     Column<double> energy_scale{*this, "energy_scale", "J"};  // that body and strikers meet with: what 5 % are of
-    Column<float> diagonal{*this, "diagonal", "m"};       // of the body's bounds
+    Column<float> diagonal{*this, "diagonal", "m"};           // of the body's bounds
 };
 
 /// Rows [t kMostAwakePacks, + pack_count) are the region of task t: packs of 8 vertices, rising. Bit k is vertex k.

@@ -37,7 +37,8 @@ struct ShellSprings : Table<ShellSprings> {
     Column<float> length_factor{*this, "length_factor"};        // gamma: depth in motion over the true one
     Column<float> area_energy{*this, "area_energy"};            // kappa_A of an element over E h A
     Column<float> volume_energy{*this, "volume_energy"};        // kappa_V of an element over E h A, before B4's bound
-    Column<uint8_t> keeps_lengths{*this, "keeps_lengths"};  // bits of edge_stiffness.hpp; 1: rest is the shape now, 2: slender
+    Column<uint8_t> keeps_lengths{*this,
+                                  "keeps_lengths"};  // bits of edge_stiffness.hpp; 1: rest is the shape now, 2: slender
     Column<float> time_step{*this, "time_step", "s"};
     Column<Vec3> gravity{*this, "gravity", "m/s2"};
     Column<Vec3> origin{*this, "origin", "m"};         // of the working frame, in the world
@@ -67,7 +68,7 @@ struct LayerSprings : Table<LayerSprings> {
     using Table::Table;
     static constexpr const char* kName = "layer_springs";
     static constexpr bool kIsOptional = true;
-    Column<float> inner_length{*this, "inner_length", "m"};  // at rest
+    Column<float> inner_length{*this, "inner_length", "m"};    // at rest
     Column<float> inner_plastic{*this, "inner_plastic", "m"};  // where the inner skin's force is 0
     Column<float> inner_stiffness{*this, "inner_stiffness", "N/m"};
     Column<float> inner_damping{*this, "inner_damping", "N s/m"};
@@ -85,8 +86,8 @@ struct ElementSprings : Table<ElementSprings> {
     static constexpr const char* kName = "element_springs";
     static constexpr bool kIsOptional = true;
     Column<std::array<uint32_t, 3>> spring{*this, "spring"};  // of edge k; kNone: not made yet
-    /// Mean of plastic over cooked lengths of the springs that it had when it was re-meshed, outer and inner skin; 0: it
-    /// never was.
+    /// Mean of plastic over cooked lengths of the springs that it had when it was re-meshed, outer and inner skin; 0:
+    /// it never was.
     Column<std::array<float, 2>> flow{*this, "flow"};
 };
 
@@ -144,8 +145,8 @@ struct Twins : Table<Twins> {
     Column<float> stiffness_rest{*this, "stiffness_rest", "N"};  // k times gamma depth
     Column<float> damping{*this, "damping", "N/m"};              // c / dt
     Column<float> length{*this, "length", "m"};                  // at the start of the last step
-    /// Body frame, from the outer point to the inner one when the springs last stopped: where start_springs puts it. Zero:
-    /// they never ran, it stands gamma times the depth inward.
+    /// Body frame, from the outer point to the inner one when the springs last stopped: where start_springs puts it.
+    /// Zero: they never ran, it stands gamma times the depth inward.
     Column<Vec3> through{*this, "through", "m"};
 };
 

@@ -233,11 +233,12 @@ template <>
 struct Parameter<ShellTables> {
     static void describe(std::vector<Access>& list) {
         for (const char* table :
-             {Shells::kName, Vertices::kName, Elements::kName, TriangleSprings::kName, Hinges::kName,
-              StiffnessPacks::kName, StiffnessBlocks::kName, StiffnessLinks::kName, Cells::kName, HullPoints::kName,
-              ShellSprings::kName, Springs::kName, LayerSprings::kName, ElementSprings::kName, SpringPacks::kName,
-              SpringSlots::kName, LayerSlots::kName, Twins::kName, QuickBodies::kName, QuickRuns::kName,
-              AwakePacks::kName, SoftBodies::kName, SoftStrikers::kName, SoftContacts::kName})
+             {Shells::kName,       Vertices::kName,       Elements::kName,        TriangleSprings::kName,
+              Hinges::kName,       StiffnessPacks::kName, StiffnessBlocks::kName, StiffnessLinks::kName,
+              Cells::kName,        HullPoints::kName,     ShellSprings::kName,    Springs::kName,
+              LayerSprings::kName, ElementSprings::kName, SpringPacks::kName,     SpringSlots::kName,
+              LayerSlots::kName,   Twins::kName,          QuickBodies::kName,     QuickRuns::kName,
+              AwakePacks::kName,   SoftBodies::kName,     SoftStrikers::kName,    SoftContacts::kName})
             list.push_back({table, true, true, false, Access::Kind::Table});
         for (const char* table : {Materials::kName, MaterialTraits::kName})
             list.push_back({table, true, false, false, Access::Kind::Table});

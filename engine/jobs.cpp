@@ -44,7 +44,8 @@ class TbbJobs final : public JobSystem {
     explicit TbbJobs(uint32_t threads) : threads_(threads), arena_(static_cast<int>(threads)) {
         arena_.initialize();
         // oneTBB starts its threads, and allocates, at the first pass that has more than one job: not in a frame.
-        parallel_for(8 * threads, [](void*, uint32_t) {}, nullptr);
+        parallel_for(
+            8 * threads, [](void*, uint32_t) {}, nullptr);
     }
     uint32_t worker_count() const override { return threads_; }
     void parallel_for(uint32_t count, Job job, void* context) override {

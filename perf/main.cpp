@@ -16,15 +16,20 @@ struct Scene {
     bool (*measure)(const Options&, Figures&);
     bool is_in_all = true;
 };
-const Scene kScenes[] = {
-    {"hidden_step", measure_hidden_step}, {"hit", measure_hit},
-    {"large_hit", measure_large_hit},     {"parts", measure_parts},
-    {"local_hit", measure_local_hit},     {"generation", measure_generation},
-    {"pile", measure_pile},
-    {"soft_body", measure_soft_body},     {"springs", measure_springs},
-    {"quick", measure_quick},
-    {"vase", measure_vase_frames},        {"wall", measure_wall_frames},
-    {"pane", measure_pane_frames},        {"pile_frames", measure_pile_frames, false}};  // a pass takes half an hour
+const Scene kScenes[] = {{"hidden_step", measure_hidden_step},
+                         {"hit", measure_hit},
+                         {"large_hit", measure_large_hit},
+                         {"parts", measure_parts},
+                         {"local_hit", measure_local_hit},
+                         {"generation", measure_generation},
+                         {"pile", measure_pile},
+                         {"soft_body", measure_soft_body},
+                         {"springs", measure_springs},
+                         {"quick", measure_quick},
+                         {"vase", measure_vase_frames},
+                         {"wall", measure_wall_frames},
+                         {"pane", measure_pane_frames},
+                         {"pile_frames", measure_pile_frames, false}};  // a pass takes half an hour
 
 std::string scene_names() {
     std::string names = "all (but pile_frames)";

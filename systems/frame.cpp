@@ -43,7 +43,12 @@ FramePlan<WorldData> make_frame_plan(bool is_hosted, const std::function<std::st
     plan.stage("solve");
     if (!is_hosted) plan.then<solve_rigid>().then<return_soft>().then<read_rigid>();
     plan.then<fall_debris>();
-    plan.stage("end").then<show_soft>().then<draw_shells>().then<bound_drawn>().then<refresh_queries>().then<compact_shells>();
+    plan.stage("end")
+        .then<show_soft>()
+        .then<draw_shells>()
+        .then<bound_drawn>()
+        .then<refresh_queries>()
+        .then<compact_shells>();
     return plan;
 }
 

@@ -192,8 +192,8 @@ void end_spring_step(EachBody body, OfSprings springs, ShellSprings& own);
 
 // ---- inner loop of a soft body: the systems of springs, and
 
-/// Contacts of the vertices that the springs' step put into a striker, in row order: inelastic impulses with Coulomb friction between
-/// vertices and the strikers' copies.
+/// Contacts of the vertices that the springs' step put into a striker, in row order: inelastic impulses with Coulomb
+/// friction between vertices and the strikers' copies.
 void meet_strikers(EachBody soft_body, OfSprings springs, Turn turn, ShellTables shells, SoftBodies& soft,
                    SoftStrikers& strikers, SoftContacts& contacts);
 /// Springs above yield get longer or shorter for good (6.8).

@@ -69,7 +69,7 @@ struct Body {
     float pressed_seconds = 0;  // that it was kept awake because something lay too deep in it
     bool is_held = false;
     bool is_soft = false;  // has no contacts
-    Motion kept;  // velocities of a held body
+    Motion kept;           // velocities of a held body
 
     btTransform anchor;  // the sleep timer's pose
     float still_seconds = 0;

@@ -85,8 +85,7 @@ class BulletWorld final : public RigidWorld {
     };
 
     bool is_known(RigidId id) const { return id < body_limit_ && bodies_[id].is_used; }
-    void set_pieces(Body& body, std::span<const ConvexPiece> pieces, float margin,
-                    const BodyFrame& old_frame);
+    void set_pieces(Body& body, std::span<const ConvexPiece> pieces, float margin, const BodyFrame& old_frame);
     void forget_seams(Body& body, Vec3 centre, float radius);
     const Hull* find_same(const ConvexPiece& piece, const Hull* old_hulls, RigidId own, const Hull*& cursor) const;
     void drop_pieces(Body& body);

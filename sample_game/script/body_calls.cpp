@@ -34,10 +34,10 @@ void read_quick(lua_State* lua, const Arguments& given, SpawnSettings& settings)
         settings.fracture = FractureMode::Quick;
     if (!given.has("quick")) return;
     given.push("quick");
-    const Arguments quick(lua, "game.spawn.quick",
-                          {"layers", "steps", "crack_frequency", "strain_limit", "compression_limit", "crack_length",
-                           "bump_angle"},
-                          false, lua_gettop(lua));
+    const Arguments quick(
+        lua, "game.spawn.quick",
+        {"layers", "steps", "crack_frequency", "strain_limit", "compression_limit", "crack_length", "bump_angle"},
+        false, lua_gettop(lua));
     QuickSettings& q = settings.quick;
     const auto whole = [&](const char* name, const Wanted& wanted, uint32_t otherwise) {
         return static_cast<uint32_t>(quick.number(name, wanted, otherwise));
@@ -148,7 +148,7 @@ int spawn(lua_State* lua) {
         lua, "game.spawn",
         {"mesh",     "cooked",      "model",          "material",  "fracture", "grain", "thickness", "edge",
          "seed",     "propagation", "join_walls",     "at",        "turn",     "pivot", "velocity",  "spin",
-         "friction", "restitution", "strength_scale", "breakable", "pins", "quick"});
+         "friction", "restitution", "strength_scale", "breakable", "pins",     "quick"});
     if (given.has("mesh") == given.has("cooked"))
         given.refuse("expected either mesh = game.mesh..., or cooked = what game.cook returned");
     uint32_t model = 0;

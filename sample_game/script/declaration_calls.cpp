@@ -107,20 +107,19 @@ int shell_keys(lua_State* lua) {
         .number("scene.edge_m", "m", given.number("edge", {"a length in m from 0 to 1", 0, 1}, 0), 0, 1,
                 "edge length of the mesh; 0: what cooking chooses")
         .number("scene.strength_scale", "1", 1, 1e-3, HUGE_VAL, "on the material's strength; inf never cracks")
-        .word("scene.fracture", "hidden", "hidden, quick", "hidden: exact, over some frames; quick: near the hit, at once")
+        .word("scene.fracture", "hidden", "hidden, quick",
+              "hidden: exact, over some frames; quick: near the hit, at once")
         .word("scene.cracks", "own", "own, fine, coarse, large", "the kind of fracture; own: the material's")
         .number("scene.layers", "1", 1, 1, 2, "of springs, in quick fracture; 2 feel the wall bend");
     if (!keys.set("scene.material=" + material).ok()) given.refuse_value("material", "one of " + materials);
     if (!keys.set("scene.fracture=" + given.word("fracture", "hidden or quick", "hidden")).ok())
         given.refuse_value("fracture", "hidden or quick");
     lua_newtable(lua);
-    const std::pair<const char*, const char*> names[] = {{"scene.material", "material"},
-                                                         {"scene.thickness_m", "thickness"},
-                                                         {"scene.edge_m", "edge"},
-                                                         {"scene.strength_scale", "strength_scale"},
-                                                         {"scene.fracture", "fracture"},
-                                                         {"scene.cracks", "cracks"},
-                                                         {"scene.layers", "layers"}};
+    const std::pair<const char*, const char*> names[] = {
+        {"scene.material", "material"}, {"scene.thickness_m", "thickness"},
+        {"scene.edge_m", "edge"},       {"scene.strength_scale", "strength_scale"},
+        {"scene.fracture", "fracture"}, {"scene.cracks", "cracks"},
+        {"scene.layers", "layers"}};
     for (const auto& [name, short_name] : names) {
         script_of(lua).apply_set(lua, name);
         if (std::string(name) == "scene.cracks" && keys.word_of(name) == "own") continue;  // nil: nothing is given

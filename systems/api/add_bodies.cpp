@@ -9,10 +9,10 @@
 #include "systems/damage/working_room.hpp"
 #include "systems/fragments/body_rows.hpp"
 #include "systems/fragments/rigid_shape.hpp"
-#include "systems/quick/calibrate.hpp"
-#include "systems/quick/cut_out.hpp"
 #include "systems/query/bound_drawn.hpp"
 #include "systems/query/query_index.hpp"
+#include "systems/quick/calibrate.hpp"
+#include "systems/quick/cut_out.hpp"
 #include "systems/rigid/body_id.hpp"
 #include "systems/soft/soft_body.hpp"
 #include "systems/view/draw_shell.hpp"
@@ -190,8 +190,7 @@ Result<BodyId> World::spawn(ModelId id, const SpawnSettings& settings) {
     }
     take_mass_properties(state, body);
     if (is_soft) {
-        const Result<Row<SoftBodies>> soft =
-            make_soft(state, body, d.step_info.dt, d.damage_settings.units_a_frame);
+        const Result<Row<SoftBodies>> soft = make_soft(state, body, d.step_info.dt, d.damage_settings.units_a_frame);
         if (!soft) {
             free_body(state, body);
             return Error{soft.error()};

@@ -241,7 +241,8 @@ void check_tasks(Checker& check) {
         check.expect(s.bodies.shell[body] == tasks.source[t],
                      Checker::place(tasks, "source", t) + " is " + std::to_string(tasks.source[t].index) +
                          ", not the shell of its body " + std::to_string(body.index));
-        check.expect(is_quick_task(s, t) || s.shells.packs[tasks.shell[t]].count > 0, Checker::place(tasks, "shell", t) + " has no stiffness");
+        check.expect(is_quick_task(s, t) || s.shells.packs[tasks.shell[t]].count > 0,
+                     Checker::place(tasks, "shell", t) + " has no stiffness");
         check.expect_flag(tasks, tasks.is_held, "is_held", t);
         check.expect_flag(tasks, tasks.is_late, "is_late", t);
         check_length(check, t);
@@ -299,8 +300,8 @@ void check_soft(Checker& check) {
                  "soft_strikers and soft_bodies do not fit each other in rows");
     std::vector<uint8_t> has_row(s.bodies.size(), 0);
     for (uint32_t row = 0; row < soft.size() && check.is_sound(); ++row) {
-        for (const auto* flag : {&soft.is_used, &soft.is_awake, &soft.is_called, &soft.is_elastic, &soft.is_torn,
-                                 &soft.is_moved})
+        for (const auto* flag :
+             {&soft.is_used, &soft.is_awake, &soft.is_called, &soft.is_elastic, &soft.is_torn, &soft.is_moved})
             check.expect_flag(soft, *flag, "is_used, is_awake, is_called, is_elastic, is_torn or is_moved", row);
         check.expect(soft.is_used[row] || !(soft.is_awake[row] || soft.is_torn[row]),
                      Checker::place(soft, "is_awake", row) + " or is_torn is set in a free row");

@@ -11,10 +11,10 @@
 #include "systems/api/settings_bytes.hpp"
 #include "systems/brittle/restart.hpp"
 #include "systems/damage/working_room.hpp"
-#include "systems/quick/quick_body.hpp"
 #include "systems/fragments/rigid_shape.hpp"
 #include "systems/query/bound_drawn.hpp"
 #include "systems/query/query_index.hpp"
+#include "systems/quick/quick_body.hpp"
 
 namespace cullet {
 
@@ -70,7 +70,8 @@ template <class Data, class F>
 void for_each_count(Data& d, F&& f) {
     auto& c = d.counts;
     f(c.opened), f(c.broke), f(c.whole), f(c.dropped), f(c.redone), f(c.late), f(c.frames_held), f(c.clamped);
-    f(c.cuts), f(c.starts), f(c.cuts_refused), f(c.units_used), f(c.units_left), f(c.slow_soft_frames), f(c.worst_rounding);
+    f(c.cuts), f(c.starts), f(c.cuts_refused), f(c.units_used), f(c.units_left), f(c.slow_soft_frames),
+        f(c.worst_rounding);
     for (auto& impulse : c.impulse_to_static) f(impulse);
 }
 
@@ -137,7 +138,7 @@ void restore_what_follows(World::Contents& world) {
         bound_view(state.bodies, Row<Bodies>(b), state.view_vertices, state.view_indices, d.view_boxes);
         if (state.bodies.is_breakable[b])
             d.make_ready(is_quick_body(state, Row<Bodies>(b)) ? quick_room(ShellView(state, shell))
-                                                 : working_room(ShellView(state, shell)));
+                                                              : working_room(ShellView(state, shell)));
         d.arena.reset();
         if (world.hosted) world.hosted->announce(b, convex_pieces(state, shell, d.arena));
     }

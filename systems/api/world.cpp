@@ -25,7 +25,8 @@ World::Contents::Contents(const Settings& s, const Host& h, std::unique_ptr<Rigi
     data.damage_loop = std::make_unique<DamageLoop>(data.state, *jobs, profiler);
     data.soft_loop = std::make_unique<SoftLoop>(data.state, *jobs, profiler);
     plan = make_frame_plan(
-        hosted != nullptr, [this] { return data.damage_loop->describe(); }, [this] { return data.soft_loop->describe(); });
+        hosted != nullptr, [this] { return data.damage_loop->describe(); },
+        [this] { return data.soft_loop->describe(); });
     plan.finish(profiler);
     counters = {profiler.add_counter("units used"), profiler.add_counter("units left"),
                 profiler.add_counter("open tasks"), profiler.add_counter("births"),

@@ -291,9 +291,9 @@ void check_vertices(Checker& check) {
         walk_ring(shell, v, ring);
         // A vertex on the border of a cut-out may have lost the elements between two of its fans.
         const bool is_cut = check.wear == Wear::CutOut && !ring.is_closed && ring.count < elements_at[v];
-        check.expect(is_cut || ring.count == elements_at[v], place("vertices.element", v) + " leads to " +
-                                                       std::to_string(ring.count) + " elements round the vertex, " +
-                                                       std::to_string(elements_at[v]) + " name it");
+        check.expect(is_cut || ring.count == elements_at[v],
+                     place("vertices.element", v) + " leads to " + std::to_string(ring.count) +
+                         " elements round the vertex, " + std::to_string(elements_at[v]) + " name it");
         if (!check.is_intact()) continue;  // pinned or not, and masses as cuts rounded them
         double mass = 0;
         for (uint32_t i = 0; i < ring.count; ++i) mass += shell.state.elements.mass[shell.element(ring.element[i])];

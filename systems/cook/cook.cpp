@@ -82,8 +82,8 @@ SourceArrays attributes_of(const Surface& surface, const Mesh& mesh, bool has_ma
     for (size_t t = 0; t < surface.triangles.size(); ++t) {
         const uint32_t source = surface.source_triangles[t];
         const Triangle& c = surface.triangles[t];
-        const Vec3d flat = cross(surface.positions[c[1]] - surface.positions[c[0]],
-                                 surface.positions[c[2]] - surface.positions[c[0]]);
+        const Vec3d flat =
+            cross(surface.positions[c[1]] - surface.positions[c[0]], surface.positions[c[2]] - surface.positions[c[0]]);
         for (int k = 0; k < 3; ++k) {
             const size_t corner = 3 * size_t{source} + surface.source_corners[t][static_cast<size_t>(k)];
             if (!mesh.corner_normals.empty()) arrays.normals.push_back(mesh.corner_normals[corner]);

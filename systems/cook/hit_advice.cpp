@@ -39,9 +39,9 @@ std::string hit_advice(uint64_t units, double mean_edge, double thickness, doubl
         "edges of about " + millimetres(asked) + " instead of " + millimetres(mean_edge) + " (" + setting + ")";
     if (wanted <= longest)
         text += now + " would fit, or ";
-    else if (mean_edge < 0.9 * longest)
+    else if (const double share = mean_edge / longest; share < 0.9)
         text += now + ", twice the thickness, would need " +
-                millions(static_cast<double>(units) * std::pow(mean_edge / longest, 3)) + "; then ";
+                millions(static_cast<double>(units) * share * share * share) + "; then ";
     return text + "raise units_a_frame or hold_seconds.";
 }
 

@@ -191,9 +191,8 @@ void build_patches(State& state, Row<Tasks> task) {
             keep_connected(shell, contacts.vertex[c], kFootprint * contacts.striker_radius[c], patch);
         double total = 0;
         for (uint32_t i = 0; i < patch.count; ++i) total += patch.candidate[i].weight;
-        const PatchLaw law =
-            patch_law(shell, patch, total, contacts, c, state.tasks.time_step[task], state.tasks.strength_scale[task],
-                      softening_of(state, task));
+        const PatchLaw law = patch_law(shell, patch, total, contacts, c, state.tasks.time_step[task],
+                                       state.tasks.strength_scale[task], softening_of(state, task));
         contacts.first_patch[c] = at;
         contacts.patch_count[c] = patch.count;
         for (uint32_t i = 0; i < patch.count; ++i, ++at) {

@@ -197,8 +197,8 @@ struct Opening {
                 tasks.shell[o.task] = make_shell_unclear(state, quick_room(source), &full);
             const Row<Shells> working = tasks.shell[o.task];
             if (working.exists()) {
-                const uint32_t vertices = result == CutOutResult::Reserved ? state.shells.vertices[working].count
-                                                                           : source.vertex_count();
+                const uint32_t vertices =
+                    result == CutOutResult::Reserved ? state.shells.vertices[working].count : source.vertex_count();
                 tasks.units_owed[o.task] += vertices * kUnitsQuickOpen;
             } else {
                 tasks.state[o.task] = static_cast<uint8_t>(TaskState::Dropped);

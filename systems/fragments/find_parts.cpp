@@ -16,8 +16,8 @@ void find_parts(Each<TaskEnded> ended, ShellTables shells, Tasks& tasks, Fragmen
     const bool was_one = is_of_one_part(shell), is_quick = is_quick_task(shells.state, t);
     if (tasks.crack_count[t] == 0 && was_one) return;
     const std::span parts(fragments.part.data() + size_t{t} * kMostParts, kMostParts);
-    // A body that may have been hit on a cut-out is not looked at as a whole; cracks that run out want the scratch that a
-    // flood uses.
+    // A body that may have been hit on a cut-out is not looked at as a whole; cracks that run out want the scratch that
+    // a flood uses.
     const bool runs_out = !is_quick || shell.vertex_count() <= kWholeCopyVertices;
     tasks.part_count[t] = was_one && !runs_out ? group_from_cracks(shell, parts) : group_fragments(shell, parts);
     if (tasks.part_count[t] > 1 && runs_out && run_out_cracks(shells.state, Row<Tasks>(t)) > 0)

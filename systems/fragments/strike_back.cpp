@@ -75,7 +75,8 @@ void hand_on(State& state, Row<Tasks> task, uint32_t contact, double surplus) {
     contacts.answer_energy[contact] = 0;
     if (!is_shared(state, contact)) return;
     for (uint32_t t = 0; t < state.tasks.size(); ++t) {
-        if (task == t || static_cast<TaskState>(state.tasks.state[t]) == TaskState::Free || state.tasks.is_late[t]) continue;
+        if (task == t || static_cast<TaskState>(state.tasks.state[t]) == TaskState::Free || state.tasks.is_late[t])
+            continue;
         const uint32_t end = state.tasks.first_contact[t] + state.tasks.contact_count[t];
         for (uint32_t c = state.tasks.first_contact[t]; c < end; ++c)
             if (contacts.striker[c] == contacts.striker[contact]) {

@@ -54,7 +54,8 @@ std::string trouble_of_run(const State& s, uint32_t t) {
         const uint32_t bits = s.awake_packs.awake[row] | uint32_t{s.awake_packs.held[row]};
         const uint32_t lanes = pack * kLanes < vertices ? std::min(kLanes, vertices - pack * kLanes) : 0;
         if ((row > first && pack <= s.awake_packs.pack[row - 1]) || bits >> lanes)
-            return place(s.awake_packs, "pack", row) + " is " + std::to_string(pack) + ", not rising or not of its shell";
+            return place(s.awake_packs, "pack", row) + " is " + std::to_string(pack) +
+                   ", not rising or not of its shell";
     }
     if (is_cut_out(s, t)) return trouble_of_cut_out(const_cast<State&>(s), t);  // scratch alone is written
     return {};
@@ -64,7 +65,8 @@ std::string trouble_of_run(const State& s, uint32_t t) {
 
 Result<void> check_quick_rows(const State& s, const std::string& name, const std::string& advice) {
     std::string trouble;
-    for (uint32_t b = 0; b < s.quick_bodies.size() && trouble.empty(); ++b) trouble = trouble_of_body(s.quick_bodies, b);
+    for (uint32_t b = 0; b < s.quick_bodies.size() && trouble.empty(); ++b)
+        trouble = trouble_of_body(s.quick_bodies, b);
     for (uint32_t t = 0; t < s.quick_runs.size() && trouble.empty(); ++t) trouble = trouble_of_run(s, t);
     // A task of a quick body without a run of its own would step stiffness that it does not have.
     for (uint32_t t = 0; t < s.tasks.size() && trouble.empty(); ++t)

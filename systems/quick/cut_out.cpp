@@ -184,8 +184,7 @@ CutOutResult reserve_cut_out(State& state, Row<Tasks> task, const char** full) {
     add_patches(state, task, flood);
     const FractureKind kind = material_traits(state, state.shells.material[source.row]).fracture;
     const uint32_t rings = region_rings(state.quick_runs.steps[task]) + 1 + border_rings(kind);
-    if (!spread(flood, rings) || flood.count == 0)
-        return CutOutResult::TooWide;
+    if (!spread(flood, rings) || flood.count == 0) return CutOutResult::TooWide;
     std::sort(rows.list, rows.list + flood.count);
     rows.number(flood.count);
     const Range vertices = source.vertices(), elements = source.elements(), hinges = source.hinges();

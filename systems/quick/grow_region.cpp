@@ -56,9 +56,12 @@ bool split_edge(Splitting& s, const StrainedEdge& edge) {
 /// How far cracks run on.
 float run_length(const State& state, Row<Tasks> task, FractureKind kind) {
     switch (kind) {
-        case FractureKind::Fine: break;
-        case FractureKind::Coarse: return kCoarseRun * state.shells.mean_edge[state.tasks.shell[task]];
-        case FractureKind::Large: return state.quick_runs.crack_length[task] * state.quick_runs.diagonal[task];
+        case FractureKind::Fine:
+            break;
+        case FractureKind::Coarse:
+            return kCoarseRun * state.shells.mean_edge[state.tasks.shell[task]];
+        case FractureKind::Large:
+            return state.quick_runs.crack_length[task] * state.quick_runs.diagonal[task];
     }
     return 0;
 }
@@ -69,9 +72,12 @@ uint32_t crack_frequency_of(const State& state, Row<Tasks> task) {
     const uint32_t given = state.quick_runs.crack_frequency[task];
     if (given > 0) return given;
     switch (material_traits(state, state.shells.material[state.tasks.shell[task]]).fracture) {
-        case FractureKind::Fine: return 64;
-        case FractureKind::Coarse: return 16;
-        case FractureKind::Large: break;
+        case FractureKind::Fine:
+            return 64;
+        case FractureKind::Coarse:
+            return 16;
+        case FractureKind::Large:
+            break;
     }
     return 1;
 }

@@ -51,16 +51,15 @@ void mend(const Ring& ring, const RingMeasure& m, RingSides& sides) {
     bool is_best_above = true;
     for (uint32_t from = 0; from < ring.count; ++from)
         for (uint32_t to = from + 1; to <= ring.count; ++to) {
-            if (to - from == ring.count) continue;                      // one side would be empty
-            if (!ring.is_closed && from != 0) continue;                 // a chain's run starts at its start
+            if (to - from == ring.count) continue;       // one side would be empty
+            if (!ring.is_closed && from != 0) continue;  // a chain's run starts at its start
             for (const bool is_above : {true, false}) {
                 const double wrong = wrong_area(ring, m, sides, from, to, is_above);
                 if (!(wrong < least)) continue;
                 least = wrong, best_from = from, best_to = to, is_best_above = is_above;
             }
         }
-    for (uint32_t i = 0; i < ring.count; ++i)
-        sides.is_above[i] = (i >= best_from && i < best_to) == is_best_above;
+    for (uint32_t i = 0; i < ring.count; ++i) sides.is_above[i] = (i >= best_from && i < best_to) == is_best_above;
     sides.was_mended = true;
 }
 

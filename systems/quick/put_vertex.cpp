@@ -84,7 +84,8 @@ void put_twin(const RegionView& region, uint32_t p, uint32_t q, uint32_t w, floa
     twins.velocity.set(row, twins.velocity[from] + tau * (twins.velocity[to] - twins.velocity[from]));
     for (int side = 0; side < 2; ++side) {
         const Float4 a = twins.position.data(side)[from], b = twins.position.data(side)[to];
-        twins.position.data(side)[row] = {a.x + tau * (b.x - a.x), a.y + tau * (b.y - a.y), a.z + tau * (b.z - a.z), -1};
+        twins.position.data(side)[row] = {a.x + tau * (b.x - a.x), a.y + tau * (b.y - a.y), a.z + tau * (b.z - a.z),
+                                          -1};
     }
     twins.inverse_rest[row] = 0;  // its length at rest is to be measured
     twins.length[row] = length(view.twin_position(w) - view.position(w));

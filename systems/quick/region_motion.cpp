@@ -260,8 +260,8 @@ TaskEnergy region_energy(const RegionView& region) {
         for_each_contact(state, region.task,
                          [&](uint32_t other) { is_shared = is_shared || share_a_striker(contacts, c, other); });
         if (is_shared) {  // what pushes did to it, as in the hidden run
-            const double start = contacts.start_speed[c] - dot(BodyMotion(state, region.task).at(contacts.point[c]),
-                                                               Vec3d(contacts.normal[c]));
+            const double start = contacts.start_speed[c] -
+                                 dot(BodyMotion(state, region.task).at(contacts.point[c]), Vec3d(contacts.normal[c]));
             energy.strikers += 0.5 * start * start / inverse_mass - 0.5 * contacts.impulse[c] * (start + speed);
         } else if (inverse_mass > 0) {
             energy.strikers += 0.5 * speed * speed / inverse_mass;
@@ -271,8 +271,8 @@ TaskEnergy region_energy(const RegionView& region) {
         for (uint32_t p = contacts.first_patch[c]; p < contacts.first_patch[c] + contacts.patch_count[c]; ++p) {
             if (!(patches.stiffness[p] > 0)) continue;
             const uint32_t v = patches.vertex[p];
-            const auto depth = static_cast<float>(contacts.striker_travel[c]) -
-                               dot(contacts.normal[c], region.moved(v));
+            const auto depth =
+                static_cast<float>(contacts.striker_travel[c]) - dot(contacts.normal[c], region.moved(v));
             energy.contact += patch_spring(patches, p).energy(depth, state.vertices.crush[region.shell.vertex(v)]);
         }
     });

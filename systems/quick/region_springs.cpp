@@ -154,10 +154,10 @@ bool is_at_border(const ShellView& shell, uint32_t v) {
     return false;
 }
 
-// The strain limit is that of blows on faces, which bend a sheet more than they stretch it. A blow on a border stretches
-// it at once, by v / c as a bar's end (times the root of s here: the run's velocities are true, its c is not), and a
-// wall by 44 times what a ball on its face does: with the limit of faces its pieces broke each other at 2 cm/s. So a run
-// whose blows are all on borders has v / c of the speed at which falls crack the body, as cooking found.
+// The strain limit is that of blows on faces, which bend a sheet more than they stretch it. A blow on a border
+// stretches it at once, by v / c as a bar's end (times the root of s here: the run's velocities are true, its c is
+// not), and a wall by 44 times what a ball on its face does: with the limit of faces its pieces broke each other at 2
+// cm/s. So a run whose blows are all on borders has v / c of the speed at which falls crack the body, as cooking found.
 float border_limit(const State& state, Row<Tasks> task, const ShellView& shell, float root) {
     const TaskContacts& contacts = state.task_contacts;
     const uint32_t first = state.tasks.first_contact[task], count = state.tasks.contact_count[task];
@@ -281,8 +281,7 @@ bool give_region_springs(State& state, Row<Tasks> task, uint32_t layers, const c
     runs.springs[task] = row;
     ShellSprings& own = state.shell_springs;
     own.layout[row] = static_cast<uint8_t>(has_layers ? SpringLayout::Sandwich : SpringLayout::OneLayer);
-    own.young_modulus[row] =
-        state.materials.young_modulus[state.shells.material[shell_row]] / runs.softening[task];
+    own.young_modulus[row] = state.materials.young_modulus[state.shells.material[shell_row]] / runs.softening[task];
     own.damping_ratio[row] = kDampingRatio;
     const float h = state.shells.thickness[shell_row];
     const float natural = h > 0 ? state.shells.mean_edge[shell_row] / h : 1;

@@ -47,8 +47,7 @@ void split_region(EachBody task, ShellTables shells, Tasks& tasks, TaskContacts&
 void check_region_energy(EachBody task, ShellTables shells, Tasks& tasks, TaskContacts&) {
     const Row<Tasks> t(task.row);
     if (static_cast<TaskState>(tasks.state[t]) == TaskState::Dropped) return;
-    if (has_blown_up(RegionView(shells.state, t)))
-        tasks.state[t] = static_cast<uint8_t>(TaskState::Dropped);
+    if (has_blown_up(RegionView(shells.state, t))) tasks.state[t] = static_cast<uint8_t>(TaskState::Dropped);
 }
 
 }  // namespace cullet

@@ -25,7 +25,8 @@ Vec3 turn(Vec3 v, Vec3 axis, double angle) {
     return c * v + s * cross(axis, v) + ((1 - c) * dot(axis, v)) * axis;
 }
 
-/// The plane in which the crack goes on; 0: it ends here. `ahead` and `up` are unit vectors, the way and the normal here.
+/// The plane in which the crack goes on; 0: it ends here. `ahead` and `up` are unit vectors, the way and the normal
+/// here.
 Vec3 next_plane(const Splitting& s, uint32_t tip, Vec3 start, Vec3 ahead, Vec3 up, Vec3& normal) {
     const uint32_t other = find_crack_ahead(s.shell(), tip, ahead, s.shell().shells().mean_edge[s.shell().row]);
     if (other != kNone) {

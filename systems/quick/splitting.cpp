@@ -20,8 +20,7 @@ void add_copies(const Splitting& s, uint32_t vertex, const Ends& ends, uint32_t 
         if (!is_awake && !s.region.is_held(origin)) continue;
         s.region.add(c, !is_awake);
         const SpringView& view = s.region.springs;
-        if (view.has_layers())
-            s.state().twins.copy_rows(s.state().twins, view.twin(origin), view.twin(c), 1);
+        if (view.has_layers()) s.state().twins.copy_rows(s.state().twins, view.twin(origin), view.twin(c), 1);
     }
 }
 

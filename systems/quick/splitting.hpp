@@ -38,8 +38,8 @@ void flush(Splitting& s);
 /// side, split nothing. Ends that were interior are tips then, of the crack that began at `root`.
 Split split_along(Splitting& s, uint32_t vertex, Vec3 normal, uint32_t root);
 
-/// C4, coarse: springs at the vertex, its copies from `first_copy` on and its neighbours crack no more, but those of the
-/// crack's ends do.
+/// C4, coarse: springs at the vertex, its copies from `first_copy` on and its neighbours crack no more, but those of
+/// the crack's ends do.
 void close_neighbours(const Splitting& s, uint32_t vertex, const Ends& ends, uint32_t first_copy);
 
 }  // namespace cullet

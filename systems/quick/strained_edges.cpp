@@ -44,8 +44,9 @@ void find_strained_edges(const RegionView& region, uint32_t most, StrainedEdges&
                 const uint32_t n = slot.neighbour[k];
                 if (n <= v || !(slot.stiffness_rest[k] > 0)) continue;
                 const float strain = slot.length[k] * slot.inverse_rest[k] - 1;
-                const float own = 0.5f * limit *
-                                  (vertices.strength_factor[first_vertex + v] + vertices.strength_factor[first_vertex + n]);
+                const float own =
+                    0.5f * limit *
+                    (vertices.strength_factor[first_vertex + v] + vertices.strength_factor[first_vertex + n]);
                 const float part = strain > 0 ? strain : squeeze > 0 ? -strain / squeeze : 0;
                 if (!(part > own) || vertices.is_start_banned[first_vertex + n]) continue;
                 found.add({own > 0 ? part / own : 1e30f, v, n});

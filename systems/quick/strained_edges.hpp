@@ -5,7 +5,7 @@
 namespace cullet {
 
 struct StrainedEdge {
-    float urgency;  // strain over the limit, or squeeze over that of squeezes; above 1
+    float urgency;       // strain over the limit, or squeeze over that of squeezes; above 1
     uint32_t low, high;  // vertices
 };
 /// More urgent first, then by vertices: no two are equal.

@@ -19,7 +19,7 @@ struct SpringSettings {
     float volume_energy = 0;      // kappa_V of a prism over E h A, 0 to 100; two layers only; 0: none
     float time_step = 0;          // s; 0: stable_spring_step
     bool is_slender = false;      // shear pairs at most half as stiff as the skins: a step twice as long (B5)
-    float spare = 0;              // rows for springs to come, beside an eighth of those there are: a share of them, 0 to 4
+    float spare = 0;  // rows for springs to come, beside an eighth of those there are: a share of them, 0 to 4
 };
 
 /// Gives the shell springs along its edges by the area rule (B3): k = E h (sum of areas of the triangles at the edge) /

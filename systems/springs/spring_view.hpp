@@ -4,8 +4,8 @@
 
 namespace cullet {
 
-/// In place of the springs of an element that moves with the body: none are ever made for it, and what has springs beside
-/// it has a border there (quick mode).
+/// In place of the springs of an element that moves with the body: none are ever made for it, and what has springs
+/// beside it has a border there (quick mode).
 inline constexpr uint32_t kAsleepSpring = kNone - 1;
 
 struct SpringView {

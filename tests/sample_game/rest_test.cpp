@@ -38,8 +38,8 @@ TEST_P(SceneRest, TenSecondsAfterTheStartNearlyAllSleepAndNothingSinksHoversOrFa
     EXPECT_GT(rest.measured, 3u);
     EXPECT_GE(rest.asleep_share, 0.95);
     EXPECT_LT(rest.kinetic_share, 1e-4);
-    // The wall misses three bounds: it is 0.1 m thick and falls into some 30 slabs; of the first seed's three sink by 3.5
-    // to 4.8 mm at one corner, and two small wedges that lie in the gap between slabs hover by 3.8 and 6.3 mm.
+    // The wall misses three bounds: it is 0.1 m thick and falls into some 30 slabs; of the first seed's three sink
+    // by 3.5 to 4.8 mm at one corner, and two small wedges that lie in the gap between slabs hover by 3.8 and 6.3 mm.
     const bool is_wall = std::string(GetParam().scene) == "wall";
     EXPECT_LT(rest.sink_p95_mm, is_wall ? 4.5 : 2);
     EXPECT_LT(rest.sink_max_mm, is_wall ? 5 : 4);

@@ -61,7 +61,8 @@ TEST(Script, AnErrorNamesFileLineWhatWasGivenAndWhatWasExpected) {
          "origin"},
         {"game.cut{at = {0, 1, 0}, points = {}}", "test.lua:1: game.cut: at belongs to a plane, and points are given"},
         {"local b = game.throw{radius = 0.1, mass = 1, at = {0, 1, 0}} b:cut{at = {0, 1, 0}, normal = {0, 1, 0}}",
-         "test.lua:1: body:cut: body 0 is not breakable, and cannot be cut: it was not spawned from a model; cut one that was."},
+         "test.lua:1: body:cut: body 0 is not breakable, and cannot be cut: it was not spawned from a model; cut one "
+         "that was."},
         {"local b = game.throw{radius = 0.1, mass = 1, at = {0, 1, 0}} b:push_impact{at = {0, 1, 0}, speed = 1, mass = "
          "1}",
          "test.lua:1: body:push_impact: direction is missing; expected {x, y, z}, each a direction, each part at most "

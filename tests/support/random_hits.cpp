@@ -70,9 +70,10 @@ void hit_once(World& world, const Shape& shape, Draw draw, SpawnSettings body) {
     const ModelId model = world.add_model(shape.model).value();
     const float radius = shape.radius;
     const Vec3 axis = draw.in_ball(1);
-    const double half = draw.between(0, 3.14159);
-    const Vec3 part = float(std::sin(half)) / length(axis) * axis;
-    body.pose.orientation = {part.x, part.y, part.z, float(std::cos(half))};
+    // Cosine and sine of half the angle by its quarter's tangent: libm's differ between libraries.
+    const double tangent = draw.between(-1, 1), scale = 1 / (1 + tangent * tangent);
+    const Vec3 part = float(2 * tangent * scale) / length(axis) * axis;
+    body.pose.orientation = {part.x, part.y, part.z, float((1 - tangent * tangent) * scale)};
     body.motion = {draw.in_ball(3), draw.in_ball(10)};
     const BodyId id = world.spawn(model, body).value();
     SphereSettings ball;

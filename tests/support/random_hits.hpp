@@ -42,8 +42,8 @@ struct Watch {
     void look(const World& world, const std::string& system);
 };
 
-/// A body that flies and turns, and a ball that catches up with it, towards a place within half its size; 16 frames, then
-/// the world is empty again. `spawn` says how the body breaks.
+/// A body that flies and turns, and a ball that catches up with it, towards a place within half its size; 16 frames,
+/// then the world is empty again. `spawn` says how the body breaks.
 void hit_once(World& world, const Shape& shape, Draw draw, SpawnSettings spawn = {});
 
 }  // namespace cullet::test

@@ -11,8 +11,8 @@
 
 namespace cullet {
 
-/// Brittle bodies crack and fall apart. Ductile ones stretch, flow and tear, elastic ones stretch, spring back and tear;
-/// both are rigid until something hits them hard enough, and in worlds whose bodies a host moves they stay so.
+/// Brittle bodies crack and fall apart. Ductile ones stretch, flow and tear, elastic ones stretch, spring back and
+/// tear; both are rigid until something hits them hard enough, and in worlds whose bodies a host moves they stay so.
 enum class MaterialKind : uint8_t { Brittle = 0, Ductile, Elastic };
 
 /// How near to each other cracks start (thick shell note, C2). Large: none starts for the rest of a hit within three

@@ -20,8 +20,8 @@ struct MeshView {
     size_t position_count = 0;
     const uint32_t* indices = nullptr;  // 3 a triangle
     size_t triangle_count = 0;
-    /// Unit. Null: made from this mesh, smooth but for edges that turn by more than 40 degrees; cracks leave them as they
-    /// are.
+    /// Unit. Null: made from this mesh, smooth but for edges that turn by more than 40 degrees; cracks leave them as
+    /// they are.
     const Vec3* corner_normals = nullptr;
     const Vec2* corner_uvs = nullptr;
     const uint16_t* materials = nullptr;  // 1 a triangle, comes back in the drawn mesh's order

@@ -34,8 +34,8 @@ struct DirtyRange {
     uint32_t first = 0, count = 0;
 };
 
-/// One body's drawn mesh: a closed surface. With equal positions taken as one, every edge is run as often one way as the
-/// other, by one triangle each but along cracks, where both sides lie on each other until they part.
+/// One body's drawn mesh: a closed surface. With equal positions taken as one, every edge is run as often one way as
+/// the other, by one triangle each but along cracks, where both sides lie on each other until they part.
 struct BodyView {
     const ViewVertex* vertices = nullptr;
     uint32_t vertex_count = 0;

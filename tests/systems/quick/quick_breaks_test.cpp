@@ -28,10 +28,11 @@ TEST(QuickBreaks, SomeHundredsAddNoEnergyAndKeepMassAndMomentum) {
         ASSERT_LE(watch.most_kept, 1 + 1e-6) << "hit " << hits;
     }
     const DamageCounts& counts = world.contents().data.counts;
-    std::printf("%u breaks in %u hits; at most %.4f of the energy kept, momentum to %.1e, mass to %.1e; %u of %u runs "
-                "dropped\n",
-                watch.breaks, hits, watch.most_kept, watch.worst_momentum, watch.worst_mass,
-                static_cast<uint32_t>(counts.dropped), static_cast<uint32_t>(counts.opened));
+    std::printf(
+        "%u breaks in %u hits; at most %.4f of the energy kept, momentum to %.1e, mass to %.1e; %u of %u runs "
+        "dropped\n",
+        watch.breaks, hits, watch.most_kept, watch.worst_momentum, watch.worst_mass,
+        static_cast<uint32_t>(counts.dropped), static_cast<uint32_t>(counts.opened));
     EXPECT_GE(watch.breaks, kBreaks);
     EXPECT_LT(watch.worst_momentum, 1e-6);
     EXPECT_LT(watch.worst_mass, 1e-6);

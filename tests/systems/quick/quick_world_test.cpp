@@ -1,5 +1,5 @@
-// Bodies that break quickly, in a world: the same bytes on any number of threads, from snapshots and recordings; mass and
-// momentum at the hand-off; pieces that break again; refusals.
+// Bodies that break quickly, in a world: the same bytes on any number of threads, from snapshots and recordings; mass
+// and momentum at the hand-off; pieces that break again; refusals.
 #include <gtest/gtest.h>
 
 #include <algorithm>

@@ -1,4 +1,5 @@
-// What holds after any history of splits, on generated meshes and on strangers' (thick shell note, section 14: T7 to T9, T12).
+// What holds after any history of splits, on generated meshes and on strangers' (thick shell note, section 14: T7 to
+// T9, T12).
 #include <gtest/gtest.h>
 #include <rapidcheck.h>
 
@@ -14,8 +15,8 @@
 namespace cullet::crack_test {
 namespace {
 
-/// T7, T8, T12 and links by broken_rule, T9 by mass, components never fewer, and nothing moves: momenta and energy of the
-/// split's own (a new vertex lumps mass anew, so they are taken behind it).
+/// T7, T8, T12 and links by broken_rule, T9 by mass, components never fewer, and nothing moves: momenta and energy of
+/// the split's own (a new vertex lumps mass anew, so they are taken behind it).
 void expect_sound_history(const Surface& surface, uint64_t seed, uint32_t splits, uint32_t looks_every) {
     Shell shell = make_shell_of(surface, 20 * splits, 40 * splits);
     shake(shell.view, seed);
@@ -60,7 +61,8 @@ TEST(SplitProperties, HoldOnStrangersMeshes) {
     const std::filesystem::path cache = std::filesystem::path(testing::TempDir()) / "cullet_split_properties";
     std::filesystem::create_directories(cache);
     uint32_t meshes = 0;
-    for (const char* name : {"spot_control_mesh.obj", "bowl.ply", "vase_thick.ply", "husky_loop1.ply", "espresso_cup.gltf"}) {
+    for (const char* name :
+         {"spot_control_mesh.obj", "bowl.ply", "vase_thick.ply", "husky_loop1.ply", "espresso_cup.gltf"}) {
         Result<Mesh> mesh = import_mesh(test::test_data() / "thick_shell" / name,
                                         std::string(CULLET_BINARY_DIR) + "/cullet_import", cache);
         ASSERT_TRUE(mesh.ok()) << mesh.error();
