@@ -96,13 +96,15 @@ struct TaskContacts : Table<TaskContacts> {
     Column<float> striker_own_inverse_mass{*this, "striker_own_inverse_mass", "1/kg"};  // 1/m; 0: does not yield
     Column<Vec3> striker_turn{*this, "striker_turn", "m"};                              // r x n about its centre
     Column<Vec3> striker_spin{*this, "striker_spin", "1/(kg m)"};                       // I^-1 (r x n)
-    Column<float> striker_radius{*this, "striker_radius", "m"};                         // 0: flat
-    Column<float> start_speed{*this, "start_speed", "m/s"};  // the striker's along the normal, body frame
+    Column<uint8_t> sharers{*this, "sharers"};  // tasks of one frame among which the striker is shared; 0: it is not
+    Column<float> striker_radius{*this, "striker_radius", "m"};  // 0: flat
+    Column<float> start_speed{*this, "start_speed", "m/s"};      // the striker's along the normal, body frame
     Column<double> striker_travel{*this, "striker_travel", "m"};
     Column<double> striker_speed{*this, "striker_speed", "m/s"};
     Column<double> impulse{*this, "impulse", "N s"};    // passed to the body along the normal so far
     Column<uint8_t> is_answered{*this, "is_answered"};  // the striker broke here first and has taken its own impulse
     Column<Vec3d> answer{*this, "answer", "N s"};       // what it passed to the body then, world axes: waits
+    Column<Vec3d> answer_turn{*this, "answer_turn", "N m s"};   // about the body's centre
     Column<double> answer_energy{*this, "answer_energy", "J"};  // what the body may gain by it
     Column<uint8_t> is_heir_striker{*this, "is_heir_striker"};  // and its largest piece, which is the larger one's
     Column<float> radius{*this, "radius", "m"};                 // r_c

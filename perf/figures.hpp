@@ -18,7 +18,8 @@ struct Figure {
     double value() const;
     /// 1.4826 x the median distance from the median (a standard deviation, if they were normal), in `unit`.
     double noise() const;
-    bool is_missed() const { return limit > 0 && (is_least ? value() < limit : value() > limit); }
+    /// A figure that is no number is missed.
+    bool is_missed() const { return limit > 0 && !(is_least ? value() >= limit : value() <= limit); }
 };
 
 /// How it was measured, for who compares.

@@ -24,36 +24,6 @@ double least(uint32_t rounds, const std::function<void()>& call) {
     return best;
 }
 
-/// Opening a hit, numbering its parts and closing it: what surrounds the inner loop, without births.
-struct Surroundings {
-    double open = 0, group = 0;  // s
-    double all() const { return open + group; }
-};
-
-Surroundings measure_surroundings(float edge, uint32_t rounds, const char* name, Figures& figures) {
-    Surroundings found;
-    const Result<Model> model = cook_vase(edge);
-    if (!model.ok()) {
-        std::printf("%s\n", model.error().c_str());
-        return found;
-    }
-    CookedVase vase(*model);
-    const HitDescription hit = fall_on_floor(vase.state, vase.shell, normalised(Vec3{0.9f, -1.0f, 0.1f}), kFallSpeed);
-    std::vector<FragmentPart> parts(kMostParts);
-    found.open = found.group = 1e9;
-    for (uint32_t r = 0; r < rounds; ++r) {
-        found.open = std::min(found.open, seconds([&] { open_hit(vase.state, vase.shell, hit); }));
-        const ShellView shell(vase.state, vase.state.tasks.shell[kTask]);
-        found.group = std::min(found.group, seconds([&] { group_fragments(shell, parts); }));
-        close_hit(vase.state);
-    }
-    const std::string prefix = std::string(name) + ": ";
-    figures.add(prefix + "elements", vase.view().element_count(), "");
-    figures.add(prefix + "open a hit", 1e6 * found.open, "us");
-    figures.add(prefix + "number the parts", 1e6 * found.group, "us");
-    return found;
-}
-
 /// Flood and relabelling on a shell with cracks; and with the numbers, lists and masses of all parts in the elements'
 /// order, which the frame wants of it.
 bool compare_ways(const char* name, const ShellView& shell, uint32_t rounds, Figures& figures) {
@@ -67,9 +37,9 @@ bool compare_ways(const char* name, const ShellView& shell, uint32_t rounds, Fig
     figures.add(prefix + "elements", shell.element_count(), "");
     figures.add(prefix + "pieces", count, "");
     figures.add(prefix + "elements that the flood visits", flooded.visited, "");
-    figures.add_ratio(prefix + "relabelling / flood from the cracks", 1e6 * flood, 1e6 * relabel, "us", 5, true);
-    figures.add_ratio(prefix + "relabelling / flood with numbers and lists", 1e6 * numbered, 1e6 * relabel, "us", 0,
+    figures.add_ratio(prefix + "relabelling / flood with numbers and lists", 1e6 * numbered, 1e6 * relabel, "us", 5,
                       true);
+    figures.add_ratio(prefix + "relabelling / flood that only counts them", 1e6 * flood, 1e6 * relabel, "us", 0, true);
     return flooded.pieces + 1 == count;
 }
 
@@ -113,12 +83,7 @@ bool measure_pieces(uint32_t rounds, Figures& figures) {
 
 bool measure_parts(const Options& options, Figures& figures) {
     const FpMode mode;
-    const uint32_t rounds = options.rounds_of_a_pass(60);
-    const Surroundings small = measure_surroundings(0.006f, rounds, "vase of 10,000 elements", figures);
-    const Surroundings large = measure_surroundings(0.0019f, rounds, "vase of 100,000 elements", figures);
-    figures.add_ratio("a hit, inner loop and births aside: 100,000 / 10,000 elements", 1e6 * large.all(),
-                      1e6 * small.all(), "us", 1.5);
-    return measure_pieces(5 * rounds, figures);
+    return measure_pieces(options.rounds_of_a_pass(300), figures);
 }
 
 }  // namespace cullet::perf

@@ -14,7 +14,7 @@
 namespace cullet::perf {
 namespace {
 
-/// What two threads make of one, of the bare kernel: seen 1.62 and 0.84 ns a spring (the design page). The yardstick is
+/// What two threads make of one, of the bare kernel: seen 1.62 and 0.84 ns a spring. The yardstick is
 /// compiled for one thread.
 constexpr double kTwoThreads = 1.9;
 
@@ -76,6 +76,10 @@ bool measure_kind(const char* kind, uint32_t layers, double substep_ms, const Op
     const Report& r = played.value();
     const auto budget = r.yardsticks.find("budget_ms");
     if (budget == r.yardsticks.end()) return false;
+    if (r.damage_frames.count == 0 || r.fragments.born == 0) {
+        std::printf("quick: %s, %u layers: nothing came off, so there is nothing to measure\n", kind, layers);
+        return false;
+    }
     const std::string prefix = std::string(kind) + (layers == 1 ? ", one layer: " : ", two layers: ");
     const double alone = r.damage_frames.p99_budgets * budget->second;
     figures.add(prefix + "frames that worked on hits, p99 without the rigid step, in bare substeps", alone / substep_ms,

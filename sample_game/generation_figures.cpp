@@ -84,7 +84,6 @@ Result<GenerationFigures> measure_generation_of(const Mesh& mesh, const std::vec
         for (const Propagation way : kWays) {
             ExtrusionSettings settings;
             settings.propagation = way;
-            settings.has_mitre = false;
             const double thickness = share * surface->diagonal;
             Result<Extrusion> found = Extrusion();
             const double seconds =

@@ -143,7 +143,8 @@ std::vector<Verdict> judge(const HitSubject& known, const Measured& m) {
     double most_energy = 0;
     for (size_t i = 0; i < m.thresholds.size(); ++i) {
         cracked += m.cracks_below[i], held += !m.breaks_above[i];
-        most_energy = std::max(most_energy, m.hits[i].report.end_energy / m.hits[i].report.start_energy);
+        const double kept = m.hits[i].report.end_energy / m.hits[i].report.start_energy;
+        if (!(kept <= most_energy)) most_energy = std::isnan(kept) ? HUGE_VAL : kept;
         dropped += m.thresholds[i].dropped + m.halved[i].dropped + m.hits[i].report.dropped;
     }
     add("placements that crack below 0.4 of the first crack's median", cracked, 0, 0);

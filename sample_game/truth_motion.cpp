@@ -131,8 +131,8 @@ std::vector<Verdict> spinning_shell() {
 std::vector<Verdict> tearing_strip() {
     const Tear whole = pull_apart(false), notched = pull_apart(true);
     // The largest strain is that before the step: the first spring goes one step late, or two.
-    return {{"strain at the first break over the limit", whole.strain_over_limit, 1 - whole.step_strain,
-             1 + 2 * whole.step_strain},
+    return {{"the bench cuts what passes the limit: strain at the first break over it", whole.strain_over_limit,
+             1 - whole.step_strain, 1 + 2 * whole.step_strain},
             {"notched: strain at the first break over the limit", notched.strain_over_limit, 0.1, 0.9},
             {"notched: all of the first springs lie at the notch", notched.is_at_notch ? 1.0 : 0.0, 1, 1}};
 }

@@ -185,6 +185,7 @@ Result<Claim> table_2(Bench& bench) {
                           "p99 ms", "p50 of all frames, ms", "pieces", "crumbs", "verdict"});
     const std::vector<Body> all = bodies(bench);
     size_t met = 0, rows = 0;
+    uint64_t dropped = 0, late = 0;
     std::string whole;  // rows in which nothing came off: no rate of breaking is one of these
     for (size_t b = 0; b < all.size(); ++b)
         for (size_t w = 0; w < std::size(kWays); ++w) {
@@ -192,7 +193,8 @@ Result<Claim> table_2(Bench& bench) {
             if (!run.ok()) return Error{run.error()};
             const bool is_broken = run->pieces > 1;
             if (!is_broken) whole += fmt::format("{}{} ({})", whole.empty() ? "" : "; ", all[b].name, kWays[w].name);
-            const bool is_met = is_broken && frame_rate(*run) >= all[b].paper[kWays[w].paper];
+            dropped += run->dropped, late += run->late;
+            const bool is_met = is_broken && run->dropped == 0 && frame_rate(*run) >= all[b].paper[kWays[w].paper];
             add_run(claim, table, all[b], kWays[w], *run, is_met);
             met += is_met, ++rows;
         }
@@ -200,8 +202,9 @@ Result<Claim> table_2(Bench& bench) {
     claim.ours = fmt::format(
         "Both modes, {} threads, each kind of fracture against the paper's of that name: {} of {} rows are as fast as "
         "the "
-        "paper's or faster.{} The wall is one sheet of about 600 vertices, which has fewer triangles than the paper's.",
-        bench.threads(), met, rows,
+        "paper's or faster; {} hits were dropped and {} decided late.{} The wall is one sheet of about 600 vertices, "
+        "which has fewer triangles than the paper's.",
+        bench.threads(), met, rows, dropped, late,
         whole.empty() ? "" : " Nothing came off, so that the row counts as not met: " + whole + ".");
     claim.verdict = met == rows ? Verdict::Met : Verdict::FallsShort;
     return claim;

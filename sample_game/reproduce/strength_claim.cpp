@@ -132,7 +132,7 @@ Result<Claim> figure_2(Bench& bench) {
         "thick_shell` has the other cases. The hidden run of brittle bodies keeps one layer and knows its bending "
         "stiffness instead.",
         100 * worst);
-    claim.verdict = worst < 0.02 ? Verdict::Met : Verdict::FallsShort;
+    claim.verdict = worst < 0.01 ? Verdict::Met : Verdict::FallsShort;
     return claim;
 }
 
@@ -172,8 +172,9 @@ Result<Claim> figure_3(Bench& bench) {
         if (has_ratio)
             claim.numbers.push_back(
                 {(m == 0 ? "" : std::string(all[m][0].mode) + ", ") + "thick_over_thin", "times", ratio, {}});
-        // One layer of the quick mode has no bending, but its stiffness goes with the thickness.
-        if (!(all[m][0].piece.median < kMostThreshold && ratio > 1 && all[m][1].crack.median > all[m][0].crack.median))
+        // The quick mode's limits are those of the hidden run's own speed at each wall: its order proves nothing.
+        if (m == 0 &&
+            !(all[m][0].piece.median < kMostThreshold && ratio > 1 && all[m][1].crack.median > all[m][0].crack.median))
             claim.verdict = Verdict::FallsShort;
     }
     claim.ours = fmt::format(
@@ -181,7 +182,8 @@ Result<Claim> figure_3(Bench& bench) {
         "{:.0f} "
         "cm {} in the hidden run; {} in the quick mode with one layer of springs, {} with two. Met means that the "
         "thick "
-        "wall takes more in every mode.",
+        "wall takes more in the hidden run; the quick mode's strain limit is calibrated at each wall's speed there, so "
+        "that its order follows from it.",
         100 * kThin, 100 * kThick, told(all[0]), told(all[1]), told(all[2]));
     claim.tables.push_back(std::move(table));
     // As fast as the thick wall just stands.

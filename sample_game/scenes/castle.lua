@@ -8,7 +8,7 @@ game.scene{
 local shell = game.shell_keys{material = "porcelain", thickness = 0.025, fracture = "quick"}
 local speed = game.key{name = "scene.speed_mps", unit = "m/s", default = 26, least = 0, most = 200, text = "of the balls"}
 local mass = game.key{name = "scene.mass_kg", unit = "kg", default = 120, least = 0.1, most = 1e5, text = "of each ball"}
-local vertices = game.key{name = "scene.vertices", unit = "1", default = 11000, least = 3000, most = 60000, text = "of the castle"}
+local vertices = game.key{name = "scene.vertices", unit = "1", default = 11000, least = 4472, most = 60000, text = "of the castle"}
 
 local castle = game.cook{
     mesh = game.mesh.castle{width = 3, vertices = vertices},

@@ -12,6 +12,7 @@ local side, height = 1.1, 0.9 -- m
 local cloth = game.cook{
     mesh = game.mesh.pane{side = side, edge = shell.edge},
     material = shell.material,
+    fracture = shell.cracks,
     thickness = shell.thickness,
 }
 game.camera{eye = {1.5, 1.35, 1.6}, target = {0, 0.6, 0}, field_of_view = 0.8}
@@ -35,6 +36,8 @@ local sheet = game.spawn{
     at = {0, height, border},
     turn = {axis = {1, 0, 0}, angle = -0.5 * math.pi},
     strength_scale = shell.strength_scale,
+    fracture = shell.fracture,
+    quick = {layers = shell.layers},
     pins = pins,
 }
 wait(1)

@@ -13,6 +13,7 @@ local side, foot = 0.8, 0.3 -- m; the sheet's lower border stands at foot
 local sheet = game.cook{
     mesh = game.mesh.pane{side = side, edge = shell.edge},
     material = shell.material,
+    fracture = shell.cracks,
     thickness = shell.thickness,
 }
 game.camera{eye = {1.25, 1.15, 1.15}, target = {0, 0.68, 0}, field_of_view = 0.8}
@@ -40,6 +41,8 @@ game.spawn{
     cooked = sheet,
     at = {0, foot, 0},
     strength_scale = shell.strength_scale,
+    fracture = shell.fracture,
+    quick = {layers = shell.layers},
     pins = {
         {low = {-border - out, -out, -out}, high = {border + out, rim, out}},
         {low = {-border - out, side - rim, -out}, high = {border + out, side + out, out}},

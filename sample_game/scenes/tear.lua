@@ -1,4 +1,4 @@
--- A cloth held along its upper border and by its lower corners is struck by a heavy ball, and tears.
+-- A cloth held along its whole border is struck by a heavy ball, and tears.
 game.scene{
     shows = "a heavy ball tears through a framed sheet",
     seconds = 5,
@@ -13,6 +13,7 @@ local side, foot = 1.0, 0.3 -- m; the sheet's lower border stands at foot
 local sheet = game.cook{
     mesh = game.mesh.pane{side = side, edge = shell.edge},
     material = shell.material,
+    fracture = shell.cracks,
     thickness = shell.thickness,
 }
 game.camera{eye = {1.5, 1.2, 1.6}, target = {0, 0.72, -0.1}, field_of_view = 0.8}
@@ -40,6 +41,8 @@ game.spawn{
     cooked = sheet,
     at = {0, foot, 0},
     strength_scale = shell.strength_scale,
+    fracture = shell.fracture,
+    quick = {layers = shell.layers},
     pins = {
         {low = {-border - out, -out, -out}, high = {border + out, rim, out}},
         {low = {-border - out, side - rim, -out}, high = {border + out, side + out, out}},

@@ -187,6 +187,8 @@ void check_contacts(Checker& check, uint32_t t) {
     for (uint32_t c = first; c < first + count && check.is_sound(); ++c) {
         const TaskContacts& contacts = s.task_contacts;
         check.expect_row(contacts, "vertex", c, contacts.vertex[c], vertices, false);
+        for (const auto* flag : {&contacts.is_answered, &contacts.is_heir_striker})
+            check.expect_flag(contacts, *flag, "is_answered or is_heir_striker", c);
         check.expect(!contacts.striker[c].exists() || is_body(s, contacts.striker[c]),
                      Checker::place(contacts, "striker", c) + " is " + std::to_string(contacts.striker[c].index) +
                          ", which is no body");

@@ -21,7 +21,7 @@ Result<void> World::remove(BodyId id) {
         if (static_cast<TaskState>(tasks.state[t]) == TaskState::Free) continue;
         const uint32_t first = tasks.first_contact[t];
         for (uint32_t c = first; c < first + tasks.contact_count[t]; ++c) {
-            // A striker that is gone takes no impulse: it counts as something that does not yield from here on.
+            // Who struck is gone: the run goes on as it was, and what it takes is booked to what never moves.
             if (state.task_contacts.striker[c] == body) state.task_contacts.striker[c] = {};
         }
         if (tasks.body[t] != body) continue;

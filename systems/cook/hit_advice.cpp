@@ -26,8 +26,9 @@ double edge_for_units(double mean_edge, uint64_t units, uint64_t wanted) {
 std::string hit_advice(uint64_t units, double mean_edge, double thickness, double longest_edge) {
     if (units <= kDefaultHoldUnits) return {};
     std::string text = "A hit needs about " + millions(static_cast<double>(units)) +
-                       " units and will be late at the default budget of " +
-                       millions(static_cast<double>(kDefaultHoldUnits)) + " a hold; ";
+                       " units in the hidden run and will be late at the default budget of " +
+                       millions(static_cast<double>(kDefaultHoldUnits)) +
+                       " a hold (bodies that break quickly do not need it); ";
     const double wanted = edge_for_units(mean_edge, units, kDefaultHoldUnits),
                  longest = kLongestInThicknesses * thickness;
     const double asked = wanted < longest ? wanted : longest;

@@ -208,7 +208,8 @@ void build_patches(State& state, Row<Tasks> task) {
 }
 
 bool share_a_striker(const TaskContacts& contacts, uint32_t c, uint32_t other) {
-    return c != other && contacts.striker_own_inverse_mass[c] > 0 && contacts.striker[c] == contacts.striker[other];
+    return c != other && contacts.striker_own_inverse_mass[c] > 0 && contacts.striker[c].exists() &&
+           contacts.striker[c] == contacts.striker[other];
 }
 
 double coupling(const TaskContacts& contacts, uint32_t c, uint32_t other) {

@@ -10,12 +10,6 @@
 namespace cullet {
 namespace {
 
-bool has_free_task(const Tasks& tasks) {
-    for (uint32_t t = 0; t < tasks.size(); ++t)
-        if (static_cast<TaskState>(tasks.state[t]) == TaskState::Free) return true;
-    return false;
-}
-
 ImpactEvent event_of(const State& state, uint32_t row) {
     const Blows& blows = state.blows;
     const Row<Bodies> body = blows.body[row];
@@ -195,6 +189,12 @@ struct Opener {
 };
 
 }  // namespace
+
+bool has_free_task(const Tasks& tasks) {
+    for (uint32_t t = 0; t < tasks.size(); ++t)
+        if (static_cast<TaskState>(tasks.state[t]) == TaskState::Free) return true;
+    return false;
+}
 
 void open_blows(BlowOpening& opening) {
     Blows& blows = opening.state.blows;

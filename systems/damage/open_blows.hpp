@@ -16,6 +16,9 @@ struct BlowOpening {
     Row<Tasks> (*open)(void* opener, Row<Bodies> body, float speed);
 };
 
+/// Whether a task may be opened at all (limits.open_hits).
+bool has_free_task(const Tasks& tasks);
+
 /// In the order of their rows: a blow joins the task that its body got in this step, or gets one, or waits while a task
 /// runs, the body is held or it was hit less than 20 ms ago, and a cut while the frame's units are spent. What waits
 /// has moved the body as a rigid one at once, and its task is late. Pushes and explosions too weak to matter, or

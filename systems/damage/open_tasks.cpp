@@ -268,38 +268,55 @@ void lay_queued(State& state, Row<Tasks> task, uint32_t q) {
     tasks.is_late[task] = 1;
 }
 
-// A striker that touches k bodies whose tasks open in one frame is given to each as k times as light: k strikers of a
-// k-th of its mass each lose together at least what one loses that all k push, by the convexity of |v|^2. Else each
-// task would take its own from the whole of its motion, and breaks would add energy.
-void share_strikers(State& state, std::span<const TaskOpened> opened) {
+// A hit that settle_tasks will hold: a bump below the first-crack speed is late, and the solver's affair, at once.
+bool will_be_held(const State& state, const DamageSettings& settings, Row<Tasks> task) {
     const Tasks& tasks = state.tasks;
-    TaskContacts& contacts = state.task_contacts;
-    const auto touches = [&](Row<Tasks> task, uint32_t striker) {
-        const uint32_t first = tasks.first_contact[task], end = first + tasks.contact_count[task];
-        for (uint32_t c = first; c < end; ++c)
-            if (contacts.striker[c] == striker) return true;
-        return false;
-    };
-    for (const TaskOpened& of : opened) {
-        const uint32_t first = tasks.first_contact[of.task], end = first + tasks.contact_count[of.task];
-        for (uint32_t c = first; c < end; ++c) {
-            if (!(contacts.striker_own_inverse_mass[c] > 0)) continue;
-            uint32_t sharers = 0;
-            for (const TaskOpened& other : opened) sharers += touches(other.task, contacts.striker[c]);
-            const float share = static_cast<float>(sharers);
-            contacts.striker_inverse_mass[c] *= share;
-            contacts.striker_own_inverse_mass[c] *= share;
-            contacts.striker_spin.set(c, share * contacts.striker_spin[c]);
-        }
-    }
+    return static_cast<TaskState>(tasks.state[task]) == TaskState::Running && !tasks.is_late[task] &&
+           settings.hold_seconds > 0 &&
+           tasks.approach_speed[task] > first_crack_speed(state.shells, tasks.source[task], tasks.strength_scale[task]);
 }
 
-// In the order of the queue's rows, one a body and frame.
+// A striker that touches k bodies whose tasks open in one frame is given to each as k times as light: k strikers of a
+// k-th of its mass each lose together at most what one loses that all k push, by the convexity of |v|^2. Else each
+// task would take its own from the whole of its motion, and breaks would add energy.
+void share_strikers(State& state, const DamageSettings& settings, std::span<const TaskOpened> opened) {
+    const Tasks& tasks = state.tasks;
+    TaskContacts& contacts = state.task_contacts;
+    const auto takes = [&](Row<Tasks> task, Row<Bodies> striker) {
+        const uint32_t first = tasks.first_contact[task], end = first + tasks.contact_count[task];
+        for (uint32_t c = first; c < end; ++c)
+            if (contacts.striker[c] == striker && contacts.striker_own_inverse_mass[c] > 0)
+                return will_be_held(state, settings, task);
+        return false;
+    };
+    const auto for_each_shared = [&](auto visit) {
+        for (const TaskOpened& of : opened) {
+            if (!will_be_held(state, settings, of.task)) continue;
+            const uint32_t first = tasks.first_contact[of.task], end = first + tasks.contact_count[of.task];
+            for (uint32_t c = first; c < end; ++c)
+                if (contacts.striker[c].exists() && contacts.striker_own_inverse_mass[c] > 0) visit(c);
+        }
+    };
+    for_each_shared([&](uint32_t c) {
+        uint32_t sharers = 0;
+        for (const TaskOpened& other : opened) sharers += takes(other.task, contacts.striker[c]);
+        contacts.sharers[c] = sharers > 1 ? static_cast<uint8_t>(std::min(sharers, 255u)) : uint8_t{0};
+    });
+    for_each_shared([&](uint32_t c) {
+        if (contacts.sharers[c] == 0) return;
+        const float share = contacts.sharers[c];
+        contacts.striker_inverse_mass[c] *= share;
+        contacts.striker_own_inverse_mass[c] *= share;
+        contacts.striker_spin.set(c, share * contacts.striker_spin[c]);
+    });
+}
+
+// In the order of the queue's rows, one a body and frame, while tasks last: the others wait.
 void open_queued(Opening& opening, const DamageSettings& settings, Events<ImpactEvent>& impact_events) {
     State& state = opening.state;
     const Bodies& bodies = state.bodies;
     QueuedHits& queued = state.queued_hits;
-    for (uint32_t q = 0; q < queued.size(); ++q) {
+    for (uint32_t q = 0; q < queued.size() && has_free_task(state.tasks); ++q) {
         if (!queued.is_used[q]) continue;
         const Row<Bodies> body = queued.body[q];
         if (bodies.task[body] != kNone || opening.frame < bodies.retry_frame[body] || bodies.hold_count[body]) continue;
@@ -356,8 +373,8 @@ void open_tasks(Serial, Step step, const Events<Impact>& impacts, ShellTables sh
         &opening,
         [](void* opener, Row<Bodies> body, float speed) { return static_cast<Opening*>(opener)->open(body, speed); }};
     open_blows(blows);
-    share_strikers(state, opened.all());
     opening.give_rows();
+    share_strikers(state, settings, opened.all());
 }
 
 }  // namespace cullet

@@ -77,7 +77,7 @@ HitReport finish_hit(State& state) {
     const ShellView shell(state, tasks.shell[kTask]);
     const std::span parts(state.fragments.part.data(), kMostParts);
     report.parts = group_fragments(shell, parts);
-    if (report.parts > 1 && !report.dropped && run_out_cracks(state, kTask) > 0)
+    if (report.parts > 1 && !report.dropped && run_out_cracks(state, kTask))
         report.parts = group_fragments(shell, parts);
     tasks.part_count[kTask] = report.parts;
     report.broke = report.parts > 1;

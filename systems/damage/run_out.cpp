@@ -84,15 +84,15 @@ uint32_t run_to(const ShellView& shell, uint32_t tip, uint32_t target, Touched& 
 
 }  // namespace
 
-uint32_t run_out_cracks(State& state, Row<Tasks> task) {
+bool run_out_cracks(State& state, Row<Tasks> task) {
     const ShellView shell(state, state.tasks.shell[task]);
     const Vertices& vertices = state.vertices;
     const float run_out = material_traits(state, shell.shells().material[shell.row]).run_out;
-    if (!(run_out > 0)) return 0;
+    if (!(run_out > 0)) return false;
     Touched touched;
     bool is_whole = true;
     uint32_t cuts = 0;
-    const uint32_t count = shell.vertex_count();
+    const uint32_t count = shell.vertex_count(), elements = shell.element_count();
     for (uint32_t v = 0; v < count; ++v) {
         const uint32_t root = vertices.crack_start[shell.vertex(v)];
         if (crack_at(shell, v) != CrackState::Tip || root >= count) continue;
@@ -109,7 +109,7 @@ uint32_t run_out_cracks(State& state, Row<Tasks> task) {
     if (!is_whole) shells.packs[shell.row].count = shells.blocks[shell.row].count = shells.links[shell.row].count = 0;
     state.tasks.crack_count[task] += cuts;
     state.tasks.units_owed[task] += kUnitsCut * cuts + touched.units;
-    return cuts;
+    return cuts > 0 || shell.element_count() != elements;
 }
 
 }  // namespace cullet

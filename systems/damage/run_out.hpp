@@ -9,7 +9,8 @@ namespace cullet {
 /// at least), goes on straight to it. What holds such a ligament in the model is that the run is over; in a wall that
 /// falls, its pieces' weight breaks it. Tips without such an end stay where they are, as hairlines. Masses and
 /// velocities are kept as by every cut. Tips in order of their rows; O(tips x vertices), all in the frame in which the
-/// run ends: no units are asked for. Returns the number of cut edges.
-uint32_t run_out_cracks(State& state, Row<Tasks> task);
+/// run ends: no units are asked for. Returns whether the mesh is another now: a vertex may come on an edge that is not
+/// cut after all, and its elements belong to no part that was found before.
+bool run_out_cracks(State& state, Row<Tasks> task);
 
 }  // namespace cullet

@@ -18,9 +18,10 @@ void find_parts(Each<TaskEnded> ended, ShellTables shells, Tasks& tasks, Fragmen
     const std::span parts(fragments.part.data() + size_t{t} * kMostParts, kMostParts);
     // A body that may have been hit on a cut-out is not looked at as a whole; cracks that run out want the scratch that
     // a flood uses.
-    const bool runs_out = !is_quick || shell.vertex_count() <= kWholeCopyVertices;
+    const uint32_t vertices = shells.state.shells.vertices[tasks.source[t]].count;  // before the cracks brought theirs
+    const bool runs_out = !is_quick || vertices <= kWholeCopyVertices;
     tasks.part_count[t] = was_one && !runs_out ? group_from_cracks(shell, parts) : group_fragments(shell, parts);
-    if (tasks.part_count[t] > 1 && runs_out && run_out_cracks(shells.state, Row<Tasks>(t)) > 0)
+    if (tasks.part_count[t] > 1 && runs_out && run_out_cracks(shells.state, Row<Tasks>(t)))
         tasks.part_count[t] = group_fragments(shell, parts);
     if (tasks.part_count[t] > 1) tasks.state[t] = static_cast<uint8_t>(TaskState::Broke);
     if (tasks.part_count[t] > kMostParts) tasks.state[t] = static_cast<uint8_t>(TaskState::Dropped);

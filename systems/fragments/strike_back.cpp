@@ -17,6 +17,7 @@ bool is_dynamic(const Bodies& bodies, Row<Bodies> b) {
 // Impulses and their moment about a body's centre, world axes.
 struct Push {
     Vec3d impulse, turn;
+    Push operator+(const Push& o) const { return {impulse + o.impulse, turn + o.turn}; }
 };
 
 Push push_at(const Bodies& bodies, Row<Bodies> body, Vec3d impulse, Vec3 place) {
@@ -40,22 +41,12 @@ void give(Bodies& bodies, RigidWorld& rigid, Row<Bodies> body, const Push& push)
 
 // What a body will lose when pay_answers gives it what waits at the contacts of its own task, J.
 double answers_loss(const State& state, Row<Bodies> body) {
-    const Bodies& bodies = state.bodies;
     const TaskContacts& contacts = state.task_contacts;
-    const uint32_t task = bodies.task[body], first = state.tasks.first_contact[task];
+    const uint32_t task = state.bodies.task[body], first = state.tasks.first_contact[task];
     Push sum;
-    for (uint32_t c = first; c < first + state.tasks.contact_count[task]; ++c) {
-        if (!contacts.is_answered[c]) continue;
-        const Push push = push_at(bodies, body, contacts.answer[c], to_world(pose_of(bodies, body), contacts.point[c]));
-        sum = {sum.impulse + push.impulse, sum.turn + push.turn};
-    }
-    return rigid_energy(bodies, body) - rigid_energy(bodies, body, pushed(bodies, body, sum));
-}
-
-// Whether open_tasks made the contact's striker lighter because it touches bodies of other tasks too.
-bool is_shared(const State& state, uint32_t contact) {
-    const double own = state.task_contacts.striker_own_inverse_mass[contact];
-    return own * state.bodies.mass[state.task_contacts.striker[contact]] > 1.5;
+    for (uint32_t c = first; c < first + state.tasks.contact_count[task]; ++c)
+        if (contacts.is_answered[c]) sum = sum + Push{contacts.answer[c], contacts.answer_turn[c]};
+    return rigid_energy(state.bodies, body) - rigid_energy(state.bodies, body, pushed(state.bodies, body, sum));
 }
 
 // What the striker lost at this contact, as light as it was made, after what it did at the task's contacts before it:
@@ -68,42 +59,72 @@ double share_lost(const TaskContacts& contacts, uint32_t first, uint32_t c) {
     return p * speed;
 }
 
-// A striker that has lost more than its share has taken it from what the next task that shares it will see it lose.
+// A striker gives each task its share alone, whatever the order in which they end; what it has lost beyond it waits
+// with the next task that shares it, and says that no energy was made by it.
 void hand_on(State& state, Row<Tasks> task, uint32_t contact, double surplus) {
     TaskContacts& contacts = state.task_contacts;
     surplus += contacts.answer_energy[contact];
     contacts.answer_energy[contact] = 0;
-    if (!is_shared(state, contact)) return;
+    if (contacts.sharers[contact] == 0) return;
     for (uint32_t t = 0; t < state.tasks.size(); ++t) {
         if (task == t || static_cast<TaskState>(state.tasks.state[t]) == TaskState::Free || state.tasks.is_late[t])
             continue;
         const uint32_t end = state.tasks.first_contact[t] + state.tasks.contact_count[t];
         for (uint32_t c = state.tasks.first_contact[t]; c < end; ++c)
-            if (contacts.striker[c] == contacts.striker[contact]) {
+            if (contacts.sharers[c] > 0 && contacts.striker[c] == contacts.striker[contact]) {
                 contacts.answer_energy[c] += surplus;
                 return;
             }
     }
 }
 
-// The contact of the striker's own task with `body`, nearest to `place`, that keeps what the striker is owed, or kNone:
-// it has none, or the rigid solver has dealt with it already. All of that task's contacts with the body count as
-// answered.
-uint32_t answering_contact(State& state, Row<Bodies> striker, Row<Bodies> body, Vec3 place) {
+// The first contact of the striker's own task with `body`, which keeps what the striker is owed, or kNone: it has none,
+// or the rigid solver has dealt with it already. All of that task's contacts with the body count as answered.
+uint32_t answering_contact(State& state, Row<Bodies> striker, Row<Bodies> body, bool is_heir) {
     const uint32_t t = state.bodies.task[striker];
     if (t == kNone || state.tasks.is_late[t]) return kNone;
-    uint32_t nearest = kNone;
-    float least = 0;
+    uint32_t found = kNone;
     const uint32_t first = state.tasks.first_contact[t];
     for (uint32_t c = first; c < first + state.tasks.contact_count[t]; ++c) {
         if (state.task_contacts.striker[c] != body) continue;
         state.task_contacts.is_answered[c] = 1;
-        const float distance = length(to_world(pose_of(state.bodies, striker), state.task_contacts.point[c]) - place);
-        if (nearest != kNone && distance >= least) continue;
-        nearest = c;
-        least = distance;
+        state.task_contacts.is_heir_striker[c] = is_heir;
+        found = std::min(found, c);
     }
-    return nearest;
+    return found;
+}
+
+// Of what one striker that broke first passed, and what the run of this body passed there: the difference of the two,
+// to its largest piece where that is the larger one's and gets slower by it (the pieces of this body have no energy to
+// pay for it). Returns what this body's own heir has to take, body axes; `allowed` follows. Its contacts are answered
+// then.
+Vec3d settle_answers(Births& births, Row<Tasks> task, const Pose& pose, uint32_t contact, double& allowed) {
+    State& state = births.state;
+    TaskContacts& contacts = state.task_contacts;
+    const Row<Bodies> striker = contacts.striker[contact];
+    Vec3d missing;
+    uint32_t hardest = contact;
+    const uint32_t first = state.tasks.first_contact[task];
+    for (uint32_t c = contact; c < first + state.tasks.contact_count[task]; ++c) {
+        if (!contacts.is_answered[c] || contacts.striker[c] != striker) continue;
+        const Vec3d blow = contacts.impulse[c] * Vec3d(contacts.normal[c]);
+        missing += contacts.answer[c] - Vec3d(rotate(pose.orientation, blow.to_float()));
+        allowed += contacts.answer_energy[c];
+        contacts.answer_energy[c] = 0;
+        contacts.is_answered[c] = 0;
+        if (contacts.impulse[c] > contacts.impulse[hardest]) hardest = c;
+    }
+    if (contacts.is_heir_striker[contact] && is_dynamic(state.bodies, striker)) {
+        const Push owed = push_at(state.bodies, striker, missing, to_world(pose, contacts.point[hardest]));
+        const double lost = rigid_energy(state.bodies, striker) -
+                            rigid_energy(state.bodies, striker, pushed(state.bodies, striker, owed));
+        if (lost > 0) {
+            give(state.bodies, births.rigid, striker, owed);
+            allowed += lost;
+            return {};
+        }
+    }
+    return Vec3d(rotate(conjugate(pose.orientation), missing.to_float()));
 }
 
 }  // namespace
@@ -120,6 +141,9 @@ double strike_back(Births& births, Row<Tasks> task, const Pose& pose, std::span<
     Vec3d to_static, came_in, moving, difference;
     double allowed = rigid_energy(state.bodies, body);
     const uint32_t first = state.tasks.first_contact[task];
+    bool was_answered[kMostContacts] = {};
+    for (uint32_t c = first; c < first + state.tasks.contact_count[task]; ++c)
+        was_answered[c - first] = contacts.is_answered[c];
     for (uint32_t c = first; c < first + state.tasks.contact_count[task]; ++c) {
         const Row<Bodies> striker = contacts.striker[c];
         const Vec3d blow = contacts.impulse[c] * Vec3d(contacts.normal[c]);
@@ -131,44 +155,32 @@ double strike_back(Births& births, Row<Tasks> task, const Pose& pose, std::span<
         const double before = rigid_energy(state.bodies, striker);
         came_in += blow;
         if (contacts.is_answered[c]) {
-            const Vec3d missing = contacts.answer[c] - in_world;
-            allowed += contacts.answer_energy[c];
-            contacts.answer_energy[c] = 0;
-            // Its largest piece gets the difference, if that makes it slower: the pieces of this body have no energy
-            // to pay for it.
-            const Push owed = push_at(state.bodies, striker, missing, place);
-            const double lost = before - rigid_energy(state.bodies, striker, pushed(state.bodies, striker, owed));
-            if (contacts.is_heir_striker[c] && is_dynamic(state.bodies, striker) && lost > 0) {
-                give(state.bodies, births.rigid, striker, owed);
-                allowed += lost;
-            } else {
-                difference += Vec3d(rotate(conjugate(pose.orientation), missing.to_float()));
-            }
-            contacts.is_answered[c] = 0;
-            continue;
+            difference += settle_answers(births, task, pose, c, allowed);
         }
+        if (was_answered[c - first]) continue;
         if (!is_dynamic(state.bodies, striker) || !(contacts.striker_inverse_mass[c] > 0)) {
             to_static += -1.0 * blow;
             if (!is_dynamic(state.bodies, striker)) allowed += given;  // a lift, or what the game pushes with
             continue;
         }
-        const uint32_t waits = answering_contact(state, striker, body, place);
-        if (waits == kNone) {
-            give(state.bodies, births.rigid, striker, push_at(state.bodies, striker, -1.0 * in_world, place));
-            const double lost = before - rigid_energy(state.bodies, striker);
-            const double share = is_shared(state, c) ? share_lost(contacts, first, c) : lost;
-            allowed += share;
-            hand_on(state, task, c, lost - share);
-            continue;
-        }
-        const double lost_before = answers_loss(state, striker);
-        contacts.answer.set(waits, contacts.answer[waits] - in_world);
-        const double lost = answers_loss(state, striker) - lost_before;
-        allowed += lost;
-        contacts.answer_energy[waits] -= lost;
+        const Push taken = push_at(state.bodies, striker, -1.0 * in_world, place);
         // Ties to the one that broke first.
         const bool is_larger = state.bodies.mass[body] >= state.bodies.mass[striker];
-        contacts.is_heir_striker[waits] = is_larger && !heir.is_static;
+        const uint32_t waits = answering_contact(state, striker, body, is_larger && !heir.is_static);
+        double lost;
+        if (waits == kNone) {
+            give(state.bodies, births.rigid, striker, taken);
+            lost = before - rigid_energy(state.bodies, striker);
+        } else {
+            const double lost_before = answers_loss(state, striker);
+            contacts.answer.set(waits, contacts.answer[waits] + taken.impulse);
+            contacts.answer_turn.set(waits, contacts.answer_turn[waits] + taken.turn);
+            lost = answers_loss(state, striker) - lost_before;
+            contacts.answer_energy[waits] -= lost;
+        }
+        const double share = contacts.sharers[c] > 0 ? share_lost(contacts, first, c) : lost;
+        allowed += share;
+        hand_on(state, task, c, lost - share);
     }
     // What the game's blows gave comes from outside: pushes are booked above, as contacts with nobody.
     const Vec3d exploded = take_explosions(state.blows, task);
@@ -201,9 +213,9 @@ void pay_answers(Bodies& bodies, const Tasks& tasks, TaskContacts& contacts, Rig
     for (uint32_t c = tasks.first_contact[task]; c < tasks.first_contact[task] + tasks.contact_count[task]; ++c) {
         if (!contacts.is_answered[c]) continue;
         if (is_dynamic(bodies, body) && length(contacts.answer[c]) > 0)
-            give(bodies, rigid, body,
-                 push_at(bodies, body, contacts.answer[c], to_world(pose_of(bodies, body), contacts.point[c])));
+            give(bodies, rigid, body, {contacts.answer[c], contacts.answer_turn[c]});
         contacts.answer.set(c, {});
+        contacts.answer_turn.set(c, {});
         contacts.answer_energy[c] = 0;
         contacts.is_answered[c] = 0;
     }

@@ -91,6 +91,25 @@ bool list_packs(State& state, Row<Tasks> task) {
     return true;
 }
 
+/// Puts what lies behind the listed packs to sleep, and holds what is next to it; returns how many are awake.
+uint32_t leave_out_the_rest(State& state, Row<Tasks> task) {
+    const ShellView shell(state, state.tasks.shell[task]);
+    const auto mark_of = [&](uint32_t v) -> uint32_t& { return state.vertices.copy[shell.vertex(v)]; };
+    const uint32_t end = (state.awake_packs.pack[(task + 1) * kMostAwakePacks - 1] + 1) * kLanes;
+    for (uint32_t v = end; v < shell.vertex_count(); ++v) mark_of(v) = kAsleepMark;
+    uint32_t awake = 0;
+    Ring ring;
+    for (uint32_t v = 0; v < std::min(end, shell.vertex_count()); ++v) {
+        if (mark_of(v) != kAwakeMark) continue;
+        walk_ring(shell, v, ring);
+        for (uint32_t i = 0; i < ring.count; ++i)
+            for (const uint32_t u : state.elements.corner[shell.element(ring.element[i])])
+                if (mark_of(u) == kAsleepMark) mark_of(v) = kHeldMark;
+        awake += mark_of(v) == kAwakeMark;
+    }
+    return awake;
+}
+
 }  // namespace
 
 void choose_region(State& state, Row<Tasks> task, uint32_t rings) {
@@ -104,8 +123,9 @@ void choose_region(State& state, Row<Tasks> task, uint32_t rings) {
         if (rings == 0) break;
         rings = rings * 3 / 4;
     }
-    // An explosion on a body of more packs, or seeds of as many: the last ones stay asleep.
-    state.quick_runs.pack_count[task] = kMostAwakePacks;
+    // An explosion on a body of more packs, or seeds of as many: the last ones sleep.
+    state.quick_runs.awake_count[task] = leave_out_the_rest(state, task);
+    list_packs(state, task);
 }
 
 void RegionView::add(uint32_t v, bool is_held) const {

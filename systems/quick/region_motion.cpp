@@ -1,5 +1,7 @@
 #include "systems/quick/region_motion.hpp"
 
+#include <optional>
+
 #include "systems/damage/blows.hpp"
 #include "systems/damage/contact.hpp"
 #include "systems/springs/edge_stiffness.hpp"
@@ -254,14 +256,16 @@ TaskEnergy region_energy(const RegionView& region) {
         energy.kinetic += 0.5 * state.vertices.mass[row] * square;
     });
     energy.membrane = spring_energy(view);
+    std::optional<BodyMotion> motion;  // a pass over the body: made when it is asked for
     for_each_contact(state, region.task, [&](uint32_t c) {
         const double inverse_mass = contacts.striker_inverse_mass[c], speed = contacts.striker_speed[c];
         bool is_shared = false;
         for_each_contact(state, region.task,
                          [&](uint32_t other) { is_shared = is_shared || share_a_striker(contacts, c, other); });
         if (is_shared) {  // what pushes did to it, as in the hidden run
-            const double start = contacts.start_speed[c] -
-                                 dot(BodyMotion(state, region.task).at(contacts.point[c]), Vec3d(contacts.normal[c]));
+            if (!motion) motion.emplace(state, region.task);
+            const double start =
+                contacts.start_speed[c] - dot(motion->at(contacts.point[c]), Vec3d(contacts.normal[c]));
             energy.strikers += 0.5 * start * start / inverse_mass - 0.5 * contacts.impulse[c] * (start + speed);
         } else if (inverse_mass > 0) {
             energy.strikers += 0.5 * speed * speed / inverse_mass;

@@ -44,6 +44,7 @@ TEST_P(SceneRest, TenSecondsAfterTheStartNearlyAllSleepAndNothingSinksHoversOrFa
     EXPECT_LT(rest.sink_p95_mm, is_wall ? 4.5 : 2);
     EXPECT_LT(rest.sink_max_mm, is_wall ? 5 : 4);
     EXPECT_LT(rest.overlap_max_mm, 4);
+    EXPECT_LT(rest.hover_p95_mm, is_wall ? 4 : 1);
     EXPECT_LT(rest.hover_max_mm, is_wall ? 6.5 : 1);
     EXPECT_EQ(rest.through, 0u);
 }

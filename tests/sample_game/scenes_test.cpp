@@ -113,6 +113,14 @@ uint32_t soft_and_awake(const World& world) {
     return count;
 }
 
+/// Vertices that were split, of all soft bodies.
+uint64_t tears(const World& world) {
+    const SoftBodies& soft = world.contents().data.state.soft_bodies;
+    uint64_t count = 0;
+    for (uint32_t s = 0; s < soft.size(); ++s) count += soft.is_used[s] ? soft.tear_count[s] : 0;
+    return count;
+}
+
 TEST_P(EveryScene, SomethingBreaksOrGivesWayNothingIsLostAndNoMemoryIsAskedFor) {
     const ScenePlan& plan = plan_of(GetParam());
     Result<GameWorld> game = GameWorld::create(plan);
@@ -133,6 +141,9 @@ TEST_P(EveryScene, SomethingBreaksOrGivesWayNothingIsLostAndNoMemoryIsAskedFor) 
     EXPECT_GE(drawn.checked(), game->sums().born);
     EXPECT_EQ(counts.ours, 0u);
     EXPECT_GT(game->sums().born + frames_soft, 0u);
+    if (std::string(GetParam().name) == "tear") {
+        EXPECT_GT(tears(game->world()), 10u);
+    }
     EXPECT_EQ(game->sums().events["fault"], 0u) << (game->sums().faults.empty() ? "" : game->sums().faults[0]);
     EXPECT_EQ(game->sums().events["refused"], 0u);
     const Matter matter = measure_matter(game->world());

@@ -58,12 +58,12 @@ void Watch::look(const World& world, const std::string& system) {
     if (system != "make_births" || broke == broke_before) return;
     ++breaks;
     const Matter after = matter_of(world);
-    most_kept = std::max(most_kept, (energy_of(world, after) - of_old_debris) / (energy_before - of_old_debris));
-    worst_mass = std::max(worst_mass, std::fabs(after.mass / before.mass - 1));
+    most_kept = worse(most_kept, (energy_of(world, after) - of_old_debris) / (energy_before - of_old_debris));
+    worst_mass = worse(worst_mass, std::fabs(after.mass / before.mass - 1));
     double change = 0;
     for (int k = 0; k < 3; ++k) change = std::hypot(change, after.momentum[k] - before.momentum[k]);
     // A momentum to compare with that no frame of reference makes zero.
-    worst_momentum = std::max(worst_momentum, change / std::sqrt(2 * before.mass * before.kinetic_energy));
+    worst_momentum = worse(worst_momentum, change / std::sqrt(2 * before.mass * before.kinetic_energy));
 }
 
 void hit_once(World& world, const Shape& shape, Draw draw, SpawnSettings body) {

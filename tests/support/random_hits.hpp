@@ -1,5 +1,7 @@
 // Random shapes, and balls that hit them while they fly: for what must hold in every break.
 #pragma once
+#include <cmath>
+
 #include "engine/random.hpp"
 #include "tests/support/small_worlds.hpp"
 
@@ -26,6 +28,11 @@ struct Shape {
 
 /// 0.1 to 0.6 m, of one of the four brittle materials that are not wood, 1 to 4 % of its size thick.
 Shape random_shape(uint32_t shape, std::optional<FractureKind> fracture = {});
+
+/// The larger; no number is larger than any, and stays.
+inline double worse(double a, double b) {
+    return std::isnan(a) || b <= a ? a : b;
+}
 
 /// What moves, before the systems of damage and after the births: nothing but them lies between, so that Bullet's
 /// solver has no part in it.

@@ -9,6 +9,7 @@
 #include "systems/fragments/cell_hulls.hpp"
 #include "systems/fragments/mass_properties.hpp"
 #include "systems/fragments/rigid_handoff.hpp"
+#include "systems/rigid/body_id.hpp"
 #include "systems/view/draw_shell.hpp"
 #include "tests/support/small_worlds.hpp"
 
@@ -329,6 +330,32 @@ TEST(Births, AFullQueueRefusesAndNamesItsSettingAndRemovingTheBodyCancelsWhatWai
     state.queued_hits.body[0] = Row<Bodies>(b.body.index);
     ASSERT_TRUE(b.world.remove(b.body).ok());
     EXPECT_EQ(state.queued_hits.is_used[0], 0);
+}
+
+TEST(Births, WhoBrokeFirstMayBeRemovedBeforeTheOtherBreaks) {
+    uint32_t removed = 0, broke = 0;
+    for (uint64_t budget = 1'000'000; budget <= 8'000'000; budget += 500'000) {
+        Settings settings = small_settings();
+        settings.units_a_frame = budget;
+        settings.hold_seconds = 0.5f;
+        World world = two_vases(settings, 8, 9);
+        const State& state = state_of(world);
+        bool is_gone = false;
+        for (int frame = 0; frame < 60; ++frame) {
+            world.step();
+            for (uint32_t c = 0; !is_gone && c < state.task_contacts.size(); ++c) {
+                if (!state.task_contacts.is_answered[c] || !state.task_contacts.striker[c].exists()) continue;
+                EXPECT_TRUE(world.remove(body_id(state.bodies, state.task_contacts.striker[c])).ok());
+                is_gone = true;
+                broke -= static_cast<uint32_t>(world.contents().data.counts.broke);
+                ++removed;
+            }
+            ASSERT_EQ(state.validate(), "") << budget << ", frame " << frame;
+        }
+        if (is_gone) broke += static_cast<uint32_t>(world.contents().data.counts.broke);
+    }
+    EXPECT_GT(removed, 0u);
+    EXPECT_GT(broke, 0u) << "no other broke after that";
 }
 
 TEST(Births, WhereBothBreakTheLargerOnesLargestPieceTakesTheDifference) {

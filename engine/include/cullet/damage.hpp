@@ -19,9 +19,9 @@ namespace cullet {
 struct PushSettings {
     Vec3 place;                // world, m; the nearest vertex of the surface is meant
     Vec3 normal{0, -1, 0};     // world, unit: the way the body is pushed
-    float approach_speed = 5;  // m/s, of the striker relative to the body there; above 0
+    float approach_speed = 5;  // m/s, of the striker relative to the body there; above 0, at most 100000
     float mass = 0.5f;         // kg, effective along the normal: 1 / (1/m + (r x n).I^-1 (r x n)); 1e-6 to 1e9
-    float radius = 0;          // m, of a ball; 0: flat
+    float radius = 0;          // m, of a ball, at most 10000; 0: flat
 };
 
 /// Impulse by distance and facing: a piece of surface dA whose unit normal is n, at distance d from the centre, in the
@@ -31,22 +31,23 @@ struct PushSettings {
 ///
 /// s = impulse + pressure * seconds at the centre: along the normal, by the cosine of the angle under which it sees the
 /// centre; of a shell that side of the wall counts which does. The walls of a breakable body shade what stands behind
-/// them in the same body; other bodies shade nothing. Balls and unbreakable bodies get the sum as an impulse, breakable
-/// ones get each piece of it where it is, at the start of a hidden run; static and kinematic bodies do not move.
+/// them in the same body; other bodies shade nothing. Balls and unbreakable bodies get the sum as an impulse, brittle
+/// ones get each piece of it where it is, when their run begins, ductile and elastic ones at their vertices at once;
+/// static and kinematic bodies do not move. Refused unless impulse + pressure * seconds is above 0, at most 1e9.
 struct ExplosionSettings {
     Vec3 centre;         // world, m
-    float radius = 2;    // R, m
-    float impulse = 0;   // N s/m2, at the centre; 100 breaks windows
-    float pressure = 0;  // Pa, at the centre, for
-    float seconds = 0;   // so long
+    float radius = 2;    // R, m; 0.001 to 100000
+    float impulse = 0;   // N s/m2, at the centre, 0 to 1e9; 100 breaks windows
+    float pressure = 0;  // Pa, at the centre, 0 to 1e12, for
+    float seconds = 0;   // so long, s; 0 to 10
 };
 
 /// Along a plane through `place`, or, with `points`, along the strip that a polyline sweeps when it moves along
 /// `direction` both ways without end. The first point again as the last closes the line: it cuts a shape out. An open
 /// line ends the cut at its ends: what is not cut through is a crack there, from which the next hit goes on.
 ///
-/// The wall comes apart exactly along the surface where elements may be split (thick shell note C5's limits on their
-/// shape), else along their edges nearest to it. Nothing moves by it: pieces go on with the motion of the body. While
+/// The wall comes apart exactly along the surface where elements may be split (not into slivers), else along
+/// their edges nearest to it. Nothing moves by it: pieces go on with the motion of the body. While
 /// the world has no room for the cut body (RefusedEvent says which limit) the cut waits.
 struct CutSettings {
     Vec3 place;                    // world, m

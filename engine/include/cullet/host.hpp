@@ -40,8 +40,9 @@ struct Host {
     HostJobs jobs;
     void* user = nullptr;
     /// One sentence, without a line end. Warnings: a limit that was reached (at the end of step(), each at most once a
-    /// simulated second; the events tell all), a model whose hits will be late (in add_model). Errors: faults of bodies
-    /// (at the end of step()). Refused calls speak through their Result alone. Must not call the world.
+    /// simulated second; the events tell all), a model whose hits will be late unless it breaks quickly (in add_model).
+    /// Errors: faults of bodies (at the end of step()). Refused calls speak through their Result alone. Must not call
+    /// the world.
     void (*log)(void* user, LogLevel level, const char* sentence) = nullptr;
     /// A named stretch of work, on the thread that steps: "cullet step" around the whole, in it one for each pass of
     /// the frame that has something to do, named by its systems. What runs on all workers has one zone around the pass;

@@ -15,7 +15,7 @@ namespace cullet {
 /// tear; both are rigid until something hits them hard enough, and in worlds whose bodies a host moves they stay so.
 enum class MaterialKind : uint8_t { Brittle = 0, Ductile, Elastic };
 
-/// How near to each other cracks start (thick shell note, C2). Large: none starts for the rest of a hit within three
+/// How near to each other cracks start. Large: none starts for the rest of a hit within three
 /// edges of a cut, so few cracks run far. Coarse: only until a wave has gone twelve edges. Fine: nothing is banned, and
 /// cracked places may crack anew.
 enum class FractureKind : uint8_t { Large = 0, Coarse, Fine };
@@ -34,9 +34,11 @@ struct MaterialSettings {
     float break_strain = 7e-4f;      // where it tears
     float fracture_energy = 20;      // J/m2, G_c
     float crush_strength = 6e9f;     // Pa: pressure under which the struck face gives way for good
+    /// Of the blow while its damage is worked off, and of how long a soft body swings. Rigid bounces have
+    /// ContactSettings::restitution instead, 0.2 if not given.
     float restitution = 0.6f;
-    float friction = 0.45f;
-    float heading_power = 6;    // q of C1: how straight cracks run; glass 30
+    float friction = 0.45f;     // of contacts, unless ContactSettings::friction is given
+    float heading_power = 6;    // how straight cracks run; glass 30
     float tip_factor = 0.6f;    // on Griffith's limit at the mesh's resolution; at 1 most panes stay whole
     float run_seconds = 1e-3f;  // least elastic time of a blow's run; half of it leaves a vase too whole
     /// Tips above this share of the start strength (which is twice tensile_strength) fork with probability 1/2; 0:

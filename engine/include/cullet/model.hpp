@@ -105,7 +105,7 @@ struct ModelReport {
     uint32_t crossings = 0;          // pairs of faces that meet; 0 but for Propagation::Front
     std::string walls;               // one sentence when both walls were modelled and became one sheet
     std::string repairs;             // one sentence, empty when the mesh was sound
-    std::string advice;  // one sentence when a hit will not fit the default budget: which settings to change
+    std::string advice;  // one sentence when a hidden run will not fit the default budget: which settings to change
 };
 
 /// A cooked model, not bound to a world. Immutable, so any number of worlds on any threads may use it.

@@ -18,10 +18,10 @@ struct QuickSettings {
     uint32_t steps = 60;  // of the run, 8 to 100; the neighbourhood is a third of it wide, in edges
     /// Vertices that may split in one step, 1 to 1000; 0: 64 fine, 16 coarse, 1 large. Fewer: longer cracks.
     uint32_t crack_frequency = 0;
-    /// Stretch of the softened springs at which an edge splits, 1e-5 to 1. 0: that of a fall on a floor at the speed at
+    /// Stretch of the softened springs at which an edge splits, 1e-5 to 1. 0: that of a ball on a face at the speed at
     /// which cooking found that the body cracks; where none was measured the material's (2 % of what is brittle).
     float strain_limit = 0;
-    /// Squeeze at which an edge splits, in strain limits; 10 is the paper's kind of value. 0: none does.
+    /// Squeeze at which an edge splits, in strain limits, 1 to 1e6; 10 is the paper's kind of value. 0: none does.
     float compression_limit = 0;
     float crack_length = 0.5f;  // of large fracture: how far each crack runs on, of the body's diagonal; 0 to 4
     float bump_angle = 12;      // degrees, by which a running crack's plane may turn at each vertex; 0 to 30

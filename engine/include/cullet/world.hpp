@@ -39,12 +39,15 @@ struct SpawnSettings {
     Pose pose;
     Motion motion;
     ContactSettings contact;
-    uint64_t user_data = 0;  // comes back in events; fragments inherit it
-    bool is_breakable = true;
-    float strength_scale = 1;   // on the material's strength; fragments inherit it. Infinity never cracks
-    const Box* pins = nullptr;  // vertices inside any of these are fixed to the world
+    uint64_t user_data = 0;    // comes back in events; fragments inherit it
+    bool is_breakable = true;  // false: rigid for good, of any material
+    /// Above 0; on the material's strength (soft ones: strains). Fragments inherit it. Infinity never cracks.
+    float strength_scale = 1;
+    /// Vertices inside any of these are fixed to the world: the body is static and `motion` counts for nothing. Refused
+    /// when no vertex lies in any.
+    const Box* pins = nullptr;
     uint32_t pin_count = 0;
-    FractureMode fracture = FractureMode::Hidden;  // fragments inherit it, and `quick`
+    FractureMode fracture = FractureMode::Hidden;  // of brittle materials; fragments inherit it, and `quick`
     QuickSettings quick;
 };
 
@@ -98,7 +101,7 @@ class World {
     /// A number for the whole state: equal on any number of threads.
     uint64_t hash() const;
 
-    /// Wakes all that sleeps.
+    /// m/s2, at most 10000 a component. Wakes all that sleeps.
     Result<void> set_gravity(Vec3 gravity);
     /// Asked before damage is looked at; false lets the hit pass as between rigid bodies. Called on the thread that
     /// steps, between the parallel parts; must not call the world.
@@ -133,7 +136,8 @@ class World {
     Result<void> push_impact(BodyId body, const PushSettings& push);
     /// On all bodies in reach.
     Result<void> explode(const ExplosionSettings& explosion);
-    /// Of one breakable body, down to any size; of all of them that the surface passes through when `body` is null.
+    /// Of one breakable body of a brittle material, down to any size; of all of them that the surface passes through
+    /// when `body` is null. Ductile, elastic and unbreakable bodies are refused by name, passed over otherwise.
     Result<void> cut(BodyId body, const CutSettings& cut);
 
     /// The place `by` becomes the origin: every coordinate c of the world, of events and of drawn poses becomes c - by;
