@@ -541,8 +541,8 @@ TEST_P(SceneHash, IsWhatTheSceneAlwaysGave) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Scenes, SceneHash,
-                         testing::Values(KnownHash{"vase", "0ec8eb09dc53f7e0"}, KnownHash{"wall", "64be48b68599f22a"},
-                                         KnownHash{"pane", "2b200cb0a8533519"}, KnownHash{"drop", "da57f16858561167"}),
+                         testing::Values(KnownHash{"vase", "2ab785f2cd242785"}, KnownHash{"wall", "564b2b16db3fa537"},
+                                         KnownHash{"pane", "e1f10f8dc39af21a"}, KnownHash{"drop", "03545faa84b37d98"}),
                          [](const auto& known) { return std::string(known.param.scene); });
 
 TEST(Script, AFileIsPlayedByItsPathAndOneThatIsNotThereIsNamed) {
