@@ -123,12 +123,16 @@ Mesh both_surfaces(const Surface& surface, std::span<const Vec3d> inner) {
     return both;
 }
 
-Result<GeneratedShell> generate(const Surface& surface, double thickness, const PropagationMode& mode,
+ExtrusionSettings settings_of(const PropagationMode& mode) {
+    ExtrusionSettings settings;
+    mode.choose(settings);
+    return settings;
+}
+
+Result<GeneratedShell> generate(const Surface& surface, double thickness, const ExtrusionSettings& settings,
                                 uint32_t rounds) {
     const FpMode fp;
     GeneratedShell shell;
-    ExtrusionSettings settings;
-    mode.choose(settings);
     shell.ms = 1e300;
     std::string refusal;
     for (uint32_t round = 0; round < rounds && refusal.empty(); ++round)

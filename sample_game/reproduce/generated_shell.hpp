@@ -15,6 +15,7 @@ struct PropagationMode {
     void (*choose)(ExtrusionSettings&);
 };
 std::span<const PropagationMode> propagation_modes();
+ExtrusionSettings settings_of(const PropagationMode& mode);
 
 struct GeneratedShell {
     Extrusion extrusion;
@@ -24,7 +25,9 @@ struct GeneratedShell {
     size_t crossings = 0, inverted = 0;
     double mean_depth = 0;
 };
-Result<GeneratedShell> generate(const Surface& surface, double thickness, const PropagationMode& mode, uint32_t rounds);
+/// Thickness in metres.
+Result<GeneratedShell> generate(const Surface& surface, double thickness, const ExtrusionSettings& settings,
+                                uint32_t rounds);
 
 /// Both surfaces in one mesh: the outer one, then the inner one turned round.
 Mesh both_surfaces(const Surface& surface, std::span<const Vec3d> inner);

@@ -62,8 +62,8 @@ Result<std::vector<Row>> measure(Bench& bench) {
             for (const PropagationMode& mode : propagation_modes()) {
                 progress.show(static_cast<double>(n) / static_cast<double>(all.size()), all[n].name);
                 // The paper gives eps without a unit; taken as a share of the bounding diagonal.
-                const Result<GeneratedShell> shell =
-                    generate(surface.value(), paper.eps * surface->diagonal, mode, bench.settings().is_reduced ? 1 : 3);
+                const Result<GeneratedShell> shell = generate(surface.value(), paper.eps * surface->diagonal,
+                                                              settings_of(mode), bench.settings().is_reduced ? 1 : 3);
                 if (!shell.ok()) return Error{shell.error()};
                 rows.push_back({all[n].name, mode.name, surface->positions.size(), surface->triangles.size(), paper,
                                 shell->ms, static_cast<double>(shell->extrusion.statistics.collisions),
@@ -76,6 +76,55 @@ Result<std::vector<Row>> measure(Bench& bench) {
 /// Three rows of the page speak of it.
 const Result<std::vector<Row>>& measured(Bench& bench) {
     return bench.once("table 1", [&bench] { return measure(bench); });
+}
+
+/// Of the published rows of pig and castle.
+struct Ways {
+    double least = 1e300, most = 0;              // time of single vertex over that of the front
+    double least_round = 1e300, most_round = 0;  // the same of a round alone: of five less one, nothing before or after
+    double fewest = 1e300, greatest = 0;         // collisions of the front over those of single vertex
+};
+
+struct TimedWay {
+    double ms = 0, round_ms = 0, collisions = 0;
+};
+
+Result<TimedWay> time_way(const Surface& surface, double eps, Propagation way, bool has_certificates,
+                          uint32_t repeats) {
+    ExtrusionSettings settings;
+    settings.propagation = way;
+    settings.has_certificates = has_certificates;
+    const Result<GeneratedShell> five = generate(surface, eps, settings, repeats);
+    settings.rounds = 1;
+    const Result<GeneratedShell> one = generate(surface, eps, settings, repeats);
+    if (!five.ok()) return Error{five.error()};
+    if (!one.ok()) return Error{one.error()};
+    return TimedWay{five->ms, (five->ms - one->ms) / 4, static_cast<double>(five->extrusion.statistics.collisions)};
+}
+
+Result<Ways> compare_ways(Bench& bench, bool has_certificates) {
+    Ways ways;
+    const uint32_t repeats = bench.settings().is_reduced ? 1 : 3;
+    for (const Subject& subject : subjects(bench)) {
+        if (!(subject.rows.front().single_s > 0)) continue;
+        const Result<Surface> surface = prepare_surface(subject.mesh);
+        if (!surface.ok()) return Error{surface.error()};
+        for (const PaperRow& paper : subject.rows) {
+            const double eps = paper.eps * surface->diagonal;
+            const Result<TimedWay> single =
+                time_way(surface.value(), eps, Propagation::SingleVertex, has_certificates, repeats);
+            const Result<TimedWay> front =
+                time_way(surface.value(), eps, Propagation::Front, has_certificates, repeats);
+            if (!single.ok()) return Error{single.error()};
+            if (!front.ok()) return Error{front.error()};
+            const double ratio = single->ms / front->ms, round = single->round_ms / front->round_ms,
+                         collisions = front->collisions / std::max(1.0, single->collisions);
+            ways.least = std::min(ways.least, ratio), ways.most = std::max(ways.most, ratio);
+            ways.least_round = std::min(ways.least_round, round), ways.most_round = std::max(ways.most_round, round);
+            ways.fewest = std::min(ways.fewest, collisions), ways.greatest = std::max(ways.greatest, collisions);
+        }
+    }
+    return ways;
 }
 
 Picture draw_front(Bench& bench, const Surface& ridge, const std::vector<Vec3d>& inner,
@@ -99,7 +148,8 @@ Result<Claim> figure_1(Bench& bench) {
     if (!ridge.ok()) return Error{ridge.error()};
     const double thickness = 0.06;
     const FrontStates states = propagate_front(ridge.value(), thickness, 5);
-    const Result<GeneratedShell> guarded = generate(ridge.value(), thickness, propagation_modes().back(), 1);
+    const Result<GeneratedShell> guarded =
+        generate(ridge.value(), thickness, settings_of(propagation_modes().back()), 1);
     if (!guarded.ok()) return Error{guarded.error()};
     claim.ours = fmt::format(
         "A ridge of 20 cm with a neck of 10 cm, and a wanted depth of 6 cm. Panels (a) to (c) are of the published "
@@ -211,29 +261,25 @@ Result<Claim> front_against_single(Bench& bench) {
     claim.where = "Section 5.1";
     claim.title = "The front is faster than moving single vertices";
     claim.paper = "The front is about 3 to 4 times faster than single vertices and meets fewer collisions.";
-    const Result<std::vector<Row>>& rows = measured(bench);
-    if (!rows.ok()) return Error{rows.error()};
-    std::vector<double> ratios, collisions;
-    for (const Row& single : rows.value())
-        for (const Row& front : rows.value())
-            if (single.mode == "single vertex" && front.mode == "front" && single.subject == front.subject &&
-                single.paper.eps == front.paper.eps && single.paper.front_s > 0) {
-                ratios.push_back(single.ms / front.ms);
-                collisions.push_back(front.collisions / std::max(1.0, single.collisions));
-            }
-    if (ratios.empty()) return Error{"table 1 has no row of both modes; this is a bug of the page"};
-    const auto [least, most] = std::minmax_element(ratios.begin(), ratios.end());
-    const auto [fewest, greatest] = std::minmax_element(collisions.begin(), collisions.end());
+    const Result<Ways> plain = compare_ways(bench, false), ours = compare_ways(bench, true);
+    if (!plain.ok()) return Error{plain.error()};
+    if (!ours.ok()) return Error{ours.error()};
     claim.ours = fmt::format(
-        "{:.2f} to {:.2f} times as fast, over the published rows of pig and castle, with {:.2f} to {:.2f} times the "
-        "collisions. Where the factor is smaller than published it is the slow mode that has become fast: certificates "
-        "drop nearly all candidates in every mode before the rounds begin.",
-        *least, *most, *fewest, *greatest);
-    claim.numbers = {{"single vertex over front, least", "", *least, 3.0},
-                     {"single vertex over front, most", "", *most, 4.0},
-                     {"collisions, front over single vertex, least", "", *fewest, 0.05},
-                     {"collisions, front over single vertex, most", "", *greatest, 0.25}};
-    claim.verdict = *least >= 3 ? Verdict::Met : Verdict::FallsShort;
+        "With every pair of faces tested in every round, as published, a round of the front is {:.1f} to {:.1f} times "
+        "as fast over the published rows of pig and castle, and the whole, with what both do before the rounds, {:.2f} "
+        "to {:.2f} times, with {:.2f} to {:.2f} times the collisions. As the library does it, where certificates drop "
+        "nearly all pairs before the rounds begin, the slow mode has become fast: {:.2f} to {:.2f}.",
+        plain->least_round, plain->most_round, plain->least, plain->most, plain->fewest, plain->greatest, ours->least,
+        ours->most);
+    claim.numbers = {{"single vertex over front, a round, every pair tested, least", "", plain->least_round, 3.0},
+                     {"single vertex over front, a round, every pair tested, most", "", plain->most_round, 4.0},
+                     {"single vertex over front, every pair tested, least", "", plain->least, 3.0},
+                     {"single vertex over front, every pair tested, most", "", plain->most, 4.0},
+                     {"collisions, front over single vertex, every pair tested, least", "", plain->fewest, 0.05},
+                     {"collisions, front over single vertex, every pair tested, most", "", plain->greatest, 0.25},
+                     {"single vertex over front, with certificates, least", "", ours->least, {}},
+                     {"single vertex over front, with certificates, most", "", ours->most, {}}};
+    claim.verdict = plain->least >= 3 ? Verdict::Met : Verdict::FallsShort;
     return claim;
 }
 

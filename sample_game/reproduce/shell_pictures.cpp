@@ -20,7 +20,7 @@ Result<Made> make(const Mesh& mesh, double share_of_diagonal) {
     Result<Surface> surface = prepare_surface(mesh);
     if (!surface.ok()) return Error{surface.error()};
     Result<GeneratedShell> shell =
-        generate(surface.value(), share_of_diagonal * surface->diagonal, propagation_modes().back(), 1);
+        generate(surface.value(), share_of_diagonal * surface->diagonal, settings_of(propagation_modes().back()), 1);
     if (!shell.ok()) return Error{shell.error()};
     Made made{std::move(surface).value(), std::move(shell).value(), {}};
     made.inner = inner_positions(made.surface, made.shell.extrusion);

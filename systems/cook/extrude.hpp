@@ -13,7 +13,8 @@ struct ExtrusionSettings {
     bool has_mitre = true;       // ask for more depth at sharp edges, where depth is measured askew to the wall
     bool straightens = true;     // even out directions where opposite walls pinch, if that makes the wall thicker
     Propagation propagation = Propagation::GuardedFront;
-    bool keeps_path = false;  // the depths after each round, for tests
+    bool has_certificates = true;  // drop pairs that can never meet before the rounds (A6); the paper has none
+    bool keeps_path = false;       // the depths after each round, for tests
 };
 
 struct ExtrusionStatistics {

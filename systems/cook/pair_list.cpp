@@ -62,13 +62,15 @@ class Lister {
         for (size_t k = 0; k < a.vertex_count; ++k)
             for (size_t l = 0; l < b.vertex_count; ++l)
                 if (a.vertex[k] == b.vertex[l]) ++shared_count, shared = a.vertex[k];
-        if (shared_count == 0 && are_hulls_apart(a, b)) return;
+        // Units side by side touch from the start: without certificates all of those would count as folded.
+        const bool may_drop = work_.settings.has_certificates || shared_count > 0;
+        if (may_drop && shared_count == 0 && are_hulls_apart(a, b)) return;
         if (shared_count == 1 && are_split_at(work_, a, b, shared)) return;
         if (has_split_ && meet_at_split_vertex(a, b)) return;
         if (are_strangers(i, j)) return;
         if (is_element(i) && is_element(j)) {
-            if (!stays_below(work_, i, j)) add(faces_.inner(i), faces_.outer(j));
-            if (!stays_below(work_, j, i)) add(faces_.outer(i), faces_.inner(j));
+            if (!may_drop || !stays_below(work_, i, j)) add(faces_.inner(i), faces_.outer(j));
+            if (!may_drop || !stays_below(work_, j, i)) add(faces_.outer(i), faces_.inner(j));
             if (shared_count != 2 || dot(work_.normals[i], work_.normals[j]) <= kTooFlatToFold)
                 add(faces_.inner(i), faces_.inner(j));
             return;

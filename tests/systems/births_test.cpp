@@ -8,9 +8,9 @@
 
 #include "systems/fragments/cell_hulls.hpp"
 #include "systems/fragments/mass_properties.hpp"
-#include "systems/fragments/rigid_handoff.hpp"
 #include "systems/rigid/body_id.hpp"
 #include "systems/view/draw_shell.hpp"
+#include "tests/support/break_checks.hpp"
 #include "tests/support/small_worlds.hpp"
 
 namespace cullet::test {
@@ -22,62 +22,6 @@ Breakage breakage_of(int which, const Settings& settings) {
 
 class EachHit : public testing::TestWithParam<int> {};
 INSTANTIATE_TEST_SUITE_P(VaseWallPane, EachHit, testing::Values(0, 1, 2));
-
-void expect_parts_are_a_partition(State& state, uint32_t t) {
-    const ShellView shell(state, state.tasks.shell[t]);
-    std::vector<uint32_t> seen(shell.element_count());
-    uint32_t last_first = 0;
-    for (uint32_t p = 0; p < state.tasks.part_count[t]; ++p) {
-        const FragmentPart& part = state.fragments.part[t * kMostParts + p];
-        EXPECT_TRUE(p == 0 || part.first_element > last_first);
-        last_first = part.first_element;
-        uint32_t least = kNone;
-        for (uint32_t e = part.first_element; e != kNone; e = state.elements.next[shell.element(e)]) {
-            ++seen[e];
-            least = std::min(least, e);
-            EXPECT_EQ(state.elements.part[shell.element(e)], p);
-            for (uint32_t n : state.elements.neighbour[shell.element(e)])
-                EXPECT_TRUE(n == kNone || state.elements.part[shell.element(n)] == p);
-        }
-        EXPECT_EQ(least, part.first_element);
-    }
-    for (uint32_t e = 0; e < shell.element_count(); ++e)
-        EXPECT_EQ(seen[e], (state.elements.flags[shell.element(e)] & kDead) ? 0u : 1u);
-}
-
-void expect_momenta_of_the_hidden_state(State& state, uint32_t t) {
-    const ShellView shell(state, state.tasks.shell[t]);
-    const std::span parts(state.fragments.part.data() + size_t{t} * kMostParts, state.tasks.part_count[t]);
-    std::vector<PartMotion> motions(parts.size());
-    HandoffStart start{Vec3d(state.tasks.start_velocity[t]), Vec3d(state.tasks.start_spin[t]),
-                       state.shells.centre[shell.row], 1e9};
-    const HandoffReport free = rigid_handoff(shell, start, parts, motions);
-    EXPECT_EQ(free.speed_clamps + free.spin_clamps, 0u);
-    EXPECT_LE(free.energy_unclamped, free.energy_hidden);
-    std::vector<Vec3d> momentum(parts.size()), turning(parts.size());
-    std::vector<double> size(parts.size());
-    for (uint32_t v = 0; v < shell.vertex_count(); ++v) {
-        const uint32_t row = shell.vertex(v), e = state.vertices.element[row];
-        if (e == kNone) continue;
-        const uint32_t p = state.elements.part[shell.element(e)];
-        const Vec3d mv = state.vertices.mass[row] * Vec3d(state.vertices.velocity[row]);
-        momentum[p] += mv;
-        turning[p] += cross(Vec3d(state.vertices.rest[row]), mv);
-        size[p] += length(mv);
-    }
-    for (uint32_t p = 0; p < parts.size(); ++p) {
-        const PartMotion& m = motions[p];
-        if (m.is_static) continue;
-        EXPECT_LT(length(m.mass * m.velocity - momentum[p]), 1e-6 * size[p]);
-        const Vec3d own = cross(m.centre, m.momentum) + m.inertia * m.spin;
-        EXPECT_LT(length(own - turning[p]), 1e-6 * size[p] * (m.radius + length(m.centre)));
-    }
-    start.impact_speed = state.tasks.approach_speed[t];
-    const HandoffReport clamped = rigid_handoff(shell, start, parts, motions);
-    EXPECT_LE(clamped.energy_after, clamped.energy_hidden);
-    const Vec3d lost = clamped.momentum_before - clamped.momentum_after - clamped.support_momentum;
-    EXPECT_LT(length(lost), 1e-6 * length(clamped.momentum_before) + 1e-12);
-}
 
 TEST_P(EachHit, HandsOffTheHiddenMomentaToPartsThatHoldEachElementOnce) {
     Settings settings = small_settings();
@@ -91,8 +35,8 @@ TEST_P(EachHit, HandsOffTheHiddenMomentaToPartsThatHoldEachElementOnce) {
         for (uint32_t t = 0; t < state.tasks.size(); ++t) {
             if (static_cast<TaskState>(state.tasks.state[t]) != TaskState::Broke) continue;
             ++looked_at;
-            expect_parts_are_a_partition(state, t);
-            expect_momenta_of_the_hidden_state(state, t);
+            EXPECT_EQ(flaw_of_partition(state, t), "");
+            EXPECT_EQ(flaw_of_handoff(state, t), "");
         }
     });
     for (int frame = 0; frame < 60; ++frame) b.world.step();

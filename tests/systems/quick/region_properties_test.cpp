@@ -1,0 +1,165 @@
+// T13 of the thick shell note: without a limit nothing splits; with none to bear each interior edge of a uniform
+// stretch can, and the run still ends, with no more splits a step than it may make.
+#include <gtest/gtest.h>
+
+#include <map>
+#include <memory>
+
+#include "engine/fp_mode.hpp"
+#include "sample_game/hit_bench.hpp"
+#include "systems/damage/brittle_loop.hpp"
+#include "systems/quick/quick_loop.hpp"
+#include "systems/quick/region_motion.hpp"
+#include "systems/quick/strained_edges.hpp"
+#include "tests/support/expect_always.hpp"
+
+namespace cullet {
+namespace {
+
+constexpr Row<Tasks> kTask{0};
+constexpr float kBoundless = 1e9f, kNothing = 1e-9f;  // limits of the strain
+
+/// The whole region at places (1 + strain) times those at rest, which is what the run starts with.
+void stretch(const RegionView& region, float strain) {
+    State& state = region.state;
+    region.for_each([&](uint32_t v, bool) {
+        const uint32_t row = region.shell.vertex(v);
+        const Vec3 place = (1 + strain) * state.vertices.rest[row];
+        for (uint32_t side = 0; side < 2; ++side) {
+            Float4& probe = state.vertices.probe.data(side)[row];
+            probe = {place.x, place.y, place.z, probe.w};
+        }
+    });
+    state.tasks.start_energy[kTask] += region_energy(region).total();
+    state.quick_runs.energy_scale[kTask] += region_energy(region).total();
+}
+
+/// Edges of two elements whose ends both move: of the ring that is held only what springs give it is known.
+uint32_t interior_springs(const RegionView& region) {
+    const ShellView& shell = region.shell;
+    uint32_t count = 0;
+    for (uint32_t e = 0; e < shell.element_count(); ++e)
+        for (uint32_t k = 0; k < 3; ++k) {
+            const uint32_t row = shell.element(e), n = region.state.elements.neighbour[row][k];
+            if (n == kNone || n < e) continue;
+            const uint32_t a = region.state.elements.corner[row][k], b = region.state.elements.corner[row][(k + 1) % 3];
+            count += region.is_awake(a) && region.is_awake(b);
+        }
+    return count;
+}
+
+uint32_t strained_interior_edges(const RegionView& region) {
+    auto found = std::make_unique<StrainedEdges>();
+    find_strained_edges(region, StrainedEdges::kMost, *found);
+    const ShellView& shell = region.shell;
+    std::map<std::pair<uint32_t, uint32_t>, uint32_t> sides;
+    for (uint32_t e = 0; e < shell.element_count(); ++e)
+        for (uint32_t k = 0; k < 3; ++k) {
+            const auto& corner = region.state.elements.corner[shell.element(e)];
+            ++sides[std::minmax(corner[k], corner[(k + 1) % 3])];
+        }
+    uint32_t count = 0;
+    for (uint32_t i = 0; i < found->count; ++i) {
+        const auto& edge = found->edge[i];
+        count += sides[{edge.low, edge.high}] == 2 && region.is_awake(edge.low) && region.is_awake(edge.high);
+    }
+    return count;
+}
+
+struct Outcome {
+    uint32_t steps = 0, splits = 0, most_in_a_step = 0;
+    bool has_ended = false;
+};
+
+/// Cut edges are counted: a split that does not run on has at most two.
+Outcome run_to_its_end(State& state) {
+    const BrittleLoop loop = make_quick_loop();
+    LoopWorld world{state};
+    Outcome run;
+    const uint32_t most = 4u * state.quick_runs.steps[kTask];
+    while (run.steps < most && static_cast<TaskState>(state.tasks.state[kTask]) == TaskState::Running) {
+        const uint32_t before = state.tasks.crack_count[kTask];
+        state.tasks.steps_granted[kTask] = 1;
+        loop.run_alone(world, {kTask, state.tasks.steps_done[kTask], 1, task_goes_on});
+        run.most_in_a_step = std::max(run.most_in_a_step, state.tasks.crack_count[kTask] - before);
+        ++run.steps;
+    }
+    run.splits = state.tasks.crack_count[kTask];
+    run.has_ended = static_cast<TaskState>(state.tasks.state[kTask]) != TaskState::Running;
+    return run;
+}
+
+/// A blow on a porcelain vase whose cracks do not run on, and a region that is stretched besides.
+struct StretchedHit {
+    HitBench& bench;
+    QuickSettings quick;
+
+    Outcome run(uint32_t placement, float strain, float limit) {
+        HitDescription hit = bench.blow(placement, 5);
+        quick.strain_limit = limit;
+        hit.quick = &quick;
+        RC_ASSERT(open_hit(bench.state(), bench.shell(), hit));
+        stretch(RegionView(bench.state(), kTask), strain);
+        const Outcome done = run_to_its_end(bench.state());
+        (void)finish_hit(bench.state());
+        close_hit(bench.state());
+        return done;
+    }
+};
+
+Model cook_fine_vase() {
+    Result<HitSubject> vase = make_subject(Subject::Vase);
+    EXPECT_TRUE(vase.ok()) << vase.error();
+    return std::move(vase->model);
+}
+
+TEST(RegionProperties, WithoutALimitNothingSplitsAndWithNoneToBearTheRunEndsWithinItsSplits) {
+    const FpMode mode;
+    HitBench bench(Subject::Vase, cook_fine_vase());
+    uint32_t splits = 0;
+    test::expect_always(40, [&](uint16_t placement, uint8_t share, bool two_layers) {
+        StretchedHit hit{bench, {}};
+        hit.quick.layers = two_layers ? 2 : 1;
+        hit.quick.steps = 60;
+        hit.quick.crack_frequency = static_cast<uint16_t>(1 + share % 32);
+        hit.quick.crack_length = 0;
+        const float strain = 1e-4f * static_cast<float>(1 + share);
+        const Outcome whole = hit.run(placement, strain, kBoundless);
+        RC_ASSERT(whole.has_ended);
+        RC_ASSERT(whole.splits == 0u);
+        const Outcome broken = hit.run(placement, strain, kNothing);
+        RC_ASSERT(broken.has_ended);
+        RC_ASSERT(broken.splits > 0u);
+        RC_ASSERT(broken.most_in_a_step <= 2u * hit.quick.crack_frequency);
+        splits += broken.splits;
+    });
+    std::printf("%u cut edges in 40 runs\n", splits);
+}
+
+TEST(RegionProperties, EachInteriorEdgeOfAUniformStretchCanSplit) {
+    const FpMode mode;
+    HitBench bench(Subject::Vase, cook_fine_vase());
+    test::expect_always(20, [&](uint16_t placement, uint8_t share) {
+        QuickSettings quick;
+        quick.steps = 6;  // a region of some hundred edges: as many as one look may find
+        quick.strain_limit = kBoundless;
+        HitDescription hit = bench.blow(placement, 5);
+        hit.quick = &quick;
+        State& state = bench.state();
+        RC_ASSERT(open_hit(state, bench.shell(), hit));
+        const RegionView region(state, kTask);
+        stretch(region, 1e-3f * static_cast<float>(1 + share));
+        const BrittleLoop loop = make_quick_loop();
+        LoopWorld world{state};
+        state.tasks.steps_granted[kTask] = 1;
+        loop.run_alone(world, {kTask, 0, 1, task_goes_on});
+        state.quick_runs.strain_limit[kTask] = kNothing;
+        RC_ASSERT(interior_springs(region) > 50u);
+        RC_ASSERT(strained_interior_edges(region) == interior_springs(region));
+        (void)finish_hit(state);
+        close_hit(state);
+    });
+}
+
+}  // namespace
+}  // namespace cullet
