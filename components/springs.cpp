@@ -14,6 +14,7 @@ struct Part {
     Column<Range>& range;
     uint32_t rows;  // wanted
     const char* limit;
+    bool is_cleared = true;
 };
 
 /// Every range of a row with its table and pool.
@@ -21,12 +22,13 @@ std::array<Part, 7> parts_of(State& s, const SpringRoom& room = {}) {
     ShellSprings& own = s.shell_springs;
     const uint32_t packs = (room.vertices + kLanes - 1) / kLanes;
     const auto layered = [&](uint32_t rows) { return room.has_layers ? rows : 0; };
-    return {{{s.springs, s.pools.springs, own.springs, room.springs, "limits.elements"},
-             {s.layer_springs, s.pools.layer_springs, own.layers, layered(room.springs), "limits.elements"},
+    const bool clears = room.clears_lists;
+    return {{{s.springs, s.pools.springs, own.springs, room.springs, "limits.elements", clears},
+             {s.layer_springs, s.pools.layer_springs, own.layers, layered(room.springs), "limits.elements", clears},
              {s.element_springs, s.pools.element_springs, own.edges, room.elements, "limits.elements"},
              {s.spring_packs, s.pools.spring_packs, own.packs, packs, "limits.vertices"},
-             {s.spring_slots, s.pools.spring_slots, own.slots, room.slots, "limits.vertices"},
-             {s.layer_slots, s.pools.layer_slots, own.layer_slots, layered(room.slots), "limits.vertices"},
+             {s.spring_slots, s.pools.spring_slots, own.slots, room.slots, "limits.vertices", clears},
+             {s.layer_slots, s.pools.layer_slots, own.layer_slots, layered(room.slots), "limits.vertices", clears},
              {s.twins, s.pools.twins, own.twins, layered(packs * kLanes), "limits.vertices"}}};
 }
 
@@ -35,8 +37,10 @@ bool take(const Part& part, uint32_t row) {
     if (part.rows == 0) return true;
     const uint32_t first = part.pool.take(part.rows);
     if (first == kNone) return false;
-    if (part.pool.end() > part.table.size()) part.table.append(part.pool.end() - part.table.size());
-    part.table.clear_rows(first, part.pool.rounded(part.rows));
+    const uint32_t old_end = part.table.size();  // what is appended is clear
+    if (part.pool.end() > old_end) part.table.append(part.pool.end() - old_end);
+    if (part.is_cleared && first < old_end)
+        part.table.clear_rows(first, std::min(part.pool.rounded(part.rows), old_end - first));
     part.range[row] = {first, 0, part.rows};
     return true;
 }

@@ -119,6 +119,19 @@ void State::commit_ahead(const ShellRoom& shell, uint32_t served) {
     commit(hull_points, pools.points, times(2 * kMostCellPoints, shell.cells));
     commit(view_vertices, pools.view_vertices, times(12, shell.elements));
     commit(view_indices, pools.view_indices, times(12, shell.elements));
+    // The springs of a region (quick mode): of all the body, when it is small. What cracks add is a few per cent, and a
+    // third of the vertices at least are rows to spare.
+    if (quick_bodies.size() == 0 || served == 0) return;
+    const bool has_layers = std::count(quick_bodies.layers.data(), quick_bodies.layers.data() + quick_bodies.size(), 2);
+    const uint64_t edges = uint64_t{3} * shell.vertices / 2, slots = uint64_t{5} * shell.vertices / kLanes;
+    commit(springs, pools.springs, edges);
+    commit(element_springs, pools.element_springs, shell.elements);
+    commit(spring_packs, pools.spring_packs, shell.vertices / kLanes);
+    commit(spring_slots, pools.spring_slots, slots);
+    if (!has_layers) return;
+    commit(layer_springs, pools.layer_springs, edges);
+    commit(layer_slots, pools.layer_slots, slots);
+    commit(twins, pools.twins, shell.vertices);
 }
 
 namespace {

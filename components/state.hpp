@@ -185,8 +185,10 @@ void release_shell(State& state, Row<Shells> shell);
 struct SpringRoom {
     uint32_t springs = 0, elements = 0, vertices = 0, slots = 0;
     bool has_layers = false;
+    bool clears_lists = true;  // springs, slots and both of the layers; false: each row is written before it is read
 };
-/// A row with empty ranges of these capacities, all zero, for a shell that has none; kNone when some table is full.
+/// A row with empty ranges of these capacities, all zero but for lists that are not to be cleared, for a shell that has
+/// none; kNone when some table is full.
 Row<ShellSprings> make_springs(State& state, Row<Shells> shell, const SpringRoom& room, const char** full = nullptr);
 /// Of the shell; kNone when it has none.
 Row<ShellSprings> find_springs(const State& state, Row<Shells> shell);

@@ -37,6 +37,10 @@ MemoryScope::~MemoryScope() {
     current_allocator = before_;
 }
 
+bool is_reserved_zero() {
+    return !current_allocator.allocate;
+}
+
 std::byte* reserve_memory(size_t bytes) {
     if (bytes == 0) return nullptr;
     bytes += sizeof(Header) + kColours * kLine;

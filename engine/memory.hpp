@@ -23,6 +23,8 @@ class MemoryScope {
 /// std::bad_alloc when there is none: files choose limits too, so who makes a world or a model answers with a sentence.
 /// Nothing is reserved within a step.
 std::byte* reserve_memory(size_t bytes);
+/// What this thread reserves now is zero: the system gives it, not a host's allocator.
+bool is_reserved_zero();
 void release_memory(std::byte* memory, size_t bytes);  // null is allowed
 /// Gives pages to [memory, memory + bytes) now, so that a frame meets no page fault.
 void commit_memory(std::byte* memory, size_t bytes);

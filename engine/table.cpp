@@ -13,7 +13,10 @@ uint32_t AnyTable::append(uint32_t count) {
     if (count > limit_ - size_) return kNone;
     const uint32_t first = size_;
     size_ += count;
-    clear_rows(first, count);
+    // Rows that never were are not written to become zero: a frame that takes more than it uses would pay for the
+    // pages.
+    if (first < used_) clear_rows(first, (used_ < size_ ? used_ : size_) - first);
+    used_ = used_ < size_ ? size_ : used_;
     return first;
 }
 

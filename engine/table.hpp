@@ -133,10 +133,11 @@ class AnyTable {
     std::string place_of(const ColumnInfo& column, int array, uint32_t row) const;
 
  protected:
-    explicit AnyTable(uint32_t limit) : limit_(limit) {}
+    explicit AnyTable(uint32_t limit) : limit_(limit), used_(is_reserved_zero() ? 0 : limit) {}
     ~AnyTable() = default;
 
     uint32_t size_ = 0, limit_ = 0, committed_ = 0;
+    uint32_t used_ = 0;  // rows from here on are zero as the system gave them
     const char* name_ = "";
     const std::vector<ColumnInfo>* columns_ = nullptr;
 };
@@ -159,6 +160,8 @@ class Table : public AnyTable {
     void swap(Self& other) {
         std::swap(size_, other.size_);
         std::swap(limit_, other.limit_);
+        std::swap(committed_, other.committed_);
+        std::swap(used_, other.used_);
         for (const ColumnInfo& c : list()) {
             auto* mine =
                 reinterpret_cast<ColumnMemory*>(reinterpret_cast<std::byte*>(static_cast<Self*>(this)) + c.offset);

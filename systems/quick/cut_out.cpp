@@ -1,13 +1,14 @@
 #include "systems/quick/cut_out.hpp"
 
 #include <algorithm>
+#include <cstring>
 
 #include "systems/cook/materials.hpp"
 #include "systems/damage/grow_cracks.hpp"
-#include "systems/damage/ring.hpp"
 #include "systems/damage/struck_normal.hpp"
 #include "systems/damage/working_room.hpp"
 #include "systems/quick/cut_rows.hpp"
+#include "systems/quick/elements_at.hpp"
 #include "systems/quick/run_on.hpp"
 
 namespace cullet {
@@ -27,14 +28,14 @@ uint32_t spare_of(const Range& range) {
     return range.capacity - range.count;
 }
 
-constexpr uint32_t kUnseen = kNone - 1, kDone = kNone - 2;  // of Vertices.copy: else the next of the queue, or kNone
+constexpr uint32_t kUnseen = kNone - 1;  // of Vertices.copy: else the next of the queue, or kNone
 
-/// The flood from the patches. Vertices wait chained through Vertices.copy; elements are listed when the first of their
-/// corners is looked at.
+/// The flood from the patches. Vertices wait chained through Vertices.copy; elements are found when the first of their
+/// corners is looked at, and marked in Elements.next.
 struct Flood {
     const ShellView& shell;
-    uint32_t* list;
-    uint32_t most;  // elements
+    uint32_t* is_found;  // of each element
+    uint32_t most;       // elements
     uint32_t count = 0;
     uint32_t first = kNone, last = kNone, queued = 0;
 
@@ -46,13 +47,6 @@ struct Flood {
         if (first == kNone) first = v;
         last = v;
         ++queued;
-    }
-    template <class F>
-    void for_each_beside(uint32_t v, F&& f) const {
-        Ring ring;
-        walk_ring(shell, v, ring);
-        for (uint32_t i = 0; i < ring.count; ++i)
-            f(ring.element[i], shell.state.elements.corner[shell.element(ring.element[i])]);
     }
 };
 
@@ -72,8 +66,8 @@ void add_patches(State& state, Row<Tasks> task, Flood& flood) {
         return false;
     };
     for (uint32_t at = flood.first; at != kNone; at = flood.next(at))
-        flood.for_each_beside(at, [&](uint32_t, const std::array<uint32_t, 3>& corner) {
-            for (const uint32_t v : corner)
+        for_each_element_at(flood.shell, at, [&](uint32_t e) {
+            for (const uint32_t v : state.elements.corner[flood.shell.element(e)])
                 if (is_in_patch(v)) flood.add(v);
         });
 }
@@ -87,18 +81,26 @@ bool spread(Flood& flood, uint32_t rings) {
             ++ring;
             end_of_ring = flood.queued;
         }
-        flood.for_each_beside(at, [&](uint32_t e, const std::array<uint32_t, 3>& corner) {
-            bool is_new = true;
-            for (const uint32_t v : corner) is_new = is_new && flood.next(v) != kDone;
-            if (is_new && flood.count < flood.most) flood.list[flood.count++] = e;
-            for (const uint32_t v : corner) flood.add(v);
+        for_each_element_at(flood.shell, at, [&](uint32_t e) {
+            if (flood.is_found[e]) return;
+            flood.is_found[e] = 1;
+            ++flood.count;
+            for (const uint32_t v : flood.shell.state.elements.corner[flood.shell.element(e)]) flood.add(v);
         });
-        if (flood.count == flood.most) return false;
-        const uint32_t next = flood.next(at);
-        flood.next(at) = kDone;
-        at = next;
+        if (flood.count >= flood.most) return false;
+        at = flood.next(at);
     }
     return true;
+}
+
+/// What is scratch is written before it is read, and a third of an element's row.
+void copy_kept_rows(AnyTable& table, uint32_t from, uint32_t to, uint32_t count) {
+    for (const ColumnInfo& c : table.columns())
+        for (int a = 0; c.keep == Keep::State && a < c.lanes * c.sides; ++a) {
+            std::byte* const memory = table.column_memory(c, a);
+            std::memcpy(memory + size_t{to} * c.row_bytes, memory + size_t{from} * c.row_bytes,
+                        size_t{count} * c.row_bytes);
+        }
 }
 
 void copy_vertices(const CutRows& rows, const ShellView& cut) {
@@ -124,7 +126,7 @@ void copy_elements(const CutRows& rows, const ShellView& cut) {
     for (uint32_t e = 0; e < rows.element_count;) {
         const uint32_t first = e, from = rows.list[e];
         while (e < rows.element_count && rows.list[e] == from + (e - first)) ++e;
-        elements.copy_rows(elements, rows.source.element(from), cut.element(first), e - first);
+        copy_kept_rows(elements, rows.source.element(from), cut.element(first), e - first);
         state.triangle_springs.copy_rows(state.triangle_springs, rows.source.element(from), cut.element(first),
                                          e - first);
     }
@@ -176,17 +178,28 @@ bool may_cut_out(const State& state, Row<Bodies> body) {
            spare_of(shells.hinges[shell]) >= 3 * kLeastSpare;
 }
 
+void clear_spare_vertices(const ShellView& copy) {
+    Vertices& vertices = copy.state.vertices;
+    const Range range = copy.vertices();
+    const uint32_t end = copy.state.pools.vertices.rounded(range.capacity);
+    vertices.clear_rows(range.first + range.count, end - range.count);
+    std::fill_n(vertices.element.data() + range.first + range.count, end - range.count, kNone);
+}
+
 CutOutResult reserve_cut_out(State& state, Row<Tasks> task, const char** full) {
     const ShellView source(state, state.tasks.source[task]);
     CutRows rows(source);
-    Flood flood{source, rows.list, source.element_count() / 2};
+    Flood flood{source, state.elements.next.data() + source.elements().first, source.element_count() / 2};
     std::fill_n(state.vertices.copy.data() + source.vertex(0), source.vertex_count(), kUnseen);
+    std::fill_n(flood.is_found, source.element_count(), 0u);
     add_patches(state, task, flood);
     const FractureKind kind = material_traits(state, state.shells.material[source.row]).fracture;
     const uint32_t rings = region_rings(state.quick_runs.steps[task]) + 1 + border_rings(kind);
     if (!spread(flood, rings) || flood.count == 0) return CutOutResult::TooWide;
-    std::sort(rows.list, rows.list + flood.count);
+    for (uint32_t e = 0, listed = 0; listed < flood.count; ++e)
+        if (flood.is_found[e]) rows.list[listed++] = e;
     rows.number(flood.count);
+    rows.count_hinges();
     const Range vertices = source.vertices(), elements = source.elements(), hinges = source.hinges();
     ShellRoom room =
         quick_room(state, state.shells.material[source.row], rows.vertex_count, rows.element_count, rows.hinge_count);
@@ -222,7 +235,7 @@ void fill_cut_out(State& state, Row<Tasks> task) {
     copy_vertices(rows, cut);
     copy_elements(rows, cut);
     copy_hinges(rows, cut);
-    clear_spare_rows(state, cut.row);
+    clear_spare_vertices(cut);
     // What cracks add has packs of its own.
     cut.vertices().count = round_to_packs(rows.vertex_count);
     forget_run(cut, shells.generation[source.row] > 0);

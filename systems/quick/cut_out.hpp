@@ -30,6 +30,10 @@ CutOutResult reserve_cut_out(State& state, Row<Tasks> task, const char** full);
 /// Copies the rows. The edges on the border of the cut-out are borders in it.
 void fill_cut_out(State& state, Row<Tasks> task);
 
+/// Of a quick run's copy: packs that cracks will begin are read whole. Rows to spare of its other tables are written
+/// when they are taken.
+void clear_spare_vertices(const ShellView& copy);
+
 /// Writes what the run changed into the body's shell, gives the cut-out back and makes the body's shell the task's, as
 /// it was where nothing broke or the run is dropped. Vertices.velocity is then what pieces start with: outside of the
 /// cut-out that of the body's own motion. Tells of each new start of a crack. Serial.

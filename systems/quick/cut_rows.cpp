@@ -16,6 +16,9 @@ void CutRows::number(uint32_t count) {
     vertex_count = 0;
     for (uint32_t v = 0; v < source.vertex_count(); ++v)
         if (vertex_place_[v] == kCorner) vertex_place_[v] = vertex_count++;
+}
+
+void CutRows::count_hinges() {
     hinge_count = 0;
     for_each_hinge([&](uint32_t, uint32_t, uint32_t, uint32_t, uint32_t) { ++hinge_count; });
 }

@@ -27,8 +27,10 @@ struct CutRows {
         element_count = cut.element_count(), vertex_count = cut.vertex_count(), hinge_count = cut.hinge_count();
     }
 
-    /// Numbers what belongs to the first `count` elements of the list, which rise. O(vertices of the body).
+    /// Numbers what belongs to the first `count` elements of the list, which rise. O(vertices of the body). Hinges are
+    /// not counted.
     void number(uint32_t count);
+    void count_hinges();
 
     /// In the cut-out, or kNone.
     uint32_t vertex(uint32_t v) const { return vertex_place_[v]; }

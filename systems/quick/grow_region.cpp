@@ -53,6 +53,14 @@ bool split_edge(Splitting& s, const StrainedEdge& edge) {
     return true;
 }
 
+/// Asked at each step: what material_traits gathers beside it is a microsecond and a half.
+FractureKind kind_of(const State& state, Row<Tasks> task) {
+    const Row<Materials> material = state.shells.material[state.tasks.shell[task]];
+    if (material < state.material_traits.size())
+        return static_cast<FractureKind>(state.material_traits.fracture[material]);
+    return material_traits(state, material).fracture;
+}
+
 /// How far cracks run on.
 float run_length(const State& state, Row<Tasks> task, FractureKind kind) {
     switch (kind) {
@@ -71,7 +79,7 @@ float run_length(const State& state, Row<Tasks> task, FractureKind kind) {
 uint32_t crack_frequency_of(const State& state, Row<Tasks> task) {
     const uint32_t given = state.quick_runs.crack_frequency[task];
     if (given > 0) return given;
-    switch (material_traits(state, state.shells.material[state.tasks.shell[task]]).fracture) {
+    switch (kind_of(state, task)) {
         case FractureKind::Fine:
             return 64;
         case FractureKind::Coarse:
@@ -92,7 +100,7 @@ uint32_t grow_region(State& state, Row<Tasks> task) {
     // Some of them will be gone, closed, or have no way to split.
     find_strained_edges(region, 4 * frequency, edges);
     if (edges.count == 0) return 0;
-    const FractureKind kind = material_traits(state, state.shells.material[region.shell.row]).fracture;
+    const FractureKind kind = kind_of(state, task);
     Splitting s{region, kind, runs.bump_angle[task], run_length(state, task, kind), tasks.steps_done[task]};
     uint32_t splits = 0;
     for (uint32_t i = 0; i < edges.count && splits < frequency && !s.is_full; ++i) {

@@ -28,8 +28,8 @@ struct PutBack {
         rows.number(count);
         for (uint32_t v = 0; v < source.vertex_count(); ++v)
             if (rows.vertex(v) != kNone) s.vertices.copy[cut.vertex(rows.vertex(v))] = v;
-        uint32_t hinge = 0;
-        rows.for_each_hinge([&](uint32_t, uint32_t, uint32_t, uint32_t, uint32_t h) { hinge_list[hinge++] = h; });
+        rows.for_each_hinge(
+            [&](uint32_t, uint32_t, uint32_t, uint32_t, uint32_t h) { hinge_list[rows.hinge_count++] = h; });
     }
 
     /// Behind the old vertices there are dead ones up to a whole pack.
@@ -140,7 +140,28 @@ void mark_cell(const PutBack& p, uint32_t e, const Links& now, const Links* then
     cells.element_count[cell] += !then;
 }
 
+/// What put_element finds of nearly all elements, without their links written down: the row has the same corners in the
+/// body, and at each edge the same neighbour, or the border of the cut-out.
+bool is_as_before(const PutBack& p, uint32_t e) {
+    if (e >= p.rows.element_count) return false;
+    const Elements& elements = p.state.elements;
+    const uint32_t from = p.cut.element(e), to = p.source.element(p.rows.list[e]);
+    const auto &corner = elements.corner[from], &neighbour = elements.neighbour[from], &hinge = elements.hinge[from];
+    const auto &old_neighbour = elements.neighbour[to], &old_hinge = elements.hinge[to];
+    bool is_same = true;
+    for (uint32_t k = 0; k < 3; ++k) {
+        is_same &= p.vertex(corner[k]) == elements.corner[to][k];
+        const uint8_t kind = elements.edge_kind[from][k];
+        const bool is_cut_border = kind == static_cast<uint8_t>(EdgeKind::Border) && old_neighbour[k] != kNone;
+        if (is_cut_border && p.rows.element(old_neighbour[k]) == kNone) continue;
+        is_same &= kind == elements.edge_kind[to][k] && p.element(neighbour[k]) == old_neighbour[k] &&
+                   p.hinge(hinge[k]) == old_hinge[k];
+    }
+    return is_same;
+}
+
 void put_element(const PutBack& p, uint32_t e) {
+    if (is_as_before(p, e)) return;
     State& state = p.state;
     Elements& elements = state.elements;
     const bool is_old = e < p.rows.element_count;
@@ -175,9 +196,9 @@ void put_hinges(const PutBack& p) {
         const uint32_t from = p.cut.hinge(h), to = p.source.hinge(p.hinge(h));
         auto vertex = hinges.vertex[from];
         for (uint32_t& v : vertex) v = p.vertex(v);
+        // Its gradient follows from where the four stand at rest.
         const bool is_same = h < p.rows.hinge_count && hinges.vertex[to] == vertex &&
-                             hinges.stiffness[to] == hinges.stiffness[from] &&
-                             hinges.gradient[to] == hinges.gradient[from] && hinges.scale[to] == hinges.scale[from];
+                             hinges.stiffness[to] == hinges.stiffness[from] && hinges.scale[to] == hinges.scale[from];
         if (is_same) continue;
         hinges.copy_rows(hinges, from, to, 1);
         hinges.vertex[to] = vertex;
@@ -250,6 +271,7 @@ std::string trouble_of_cut_out(State& state, uint32_t task) {
     CutRows rows(source);
     std::copy_n(listed, count, rows.list);
     rows.number(count);
+    rows.count_hinges();
     const uint32_t first_new = round_to_packs(rows.vertex_count);
     const auto fits = [](uint32_t now, uint32_t before, const Range& body) {
         return now >= before && now - before <= body.capacity - body.count;

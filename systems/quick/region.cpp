@@ -1,6 +1,7 @@
 #include "systems/quick/region.hpp"
 
 #include "systems/damage/ring.hpp"
+#include "systems/quick/elements_at.hpp"
 
 namespace cullet {
 namespace {
@@ -41,18 +42,21 @@ uint32_t mark(State& state, Row<Tasks> task, uint32_t rings) {
     const ShellView shell(state, state.tasks.shell[task]);
     Queue queue{shell};
     for (uint32_t v = 0; v < shell.vertex_count(); ++v) queue.next(v) = kUnseen;
+    uint32_t* const is_seen = state.elements.next.data() + shell.elements().first;
+    std::fill_n(is_seen, shell.element_count(), 0u);
     add_seeds(state, task, queue);
     uint32_t at = queue.first, awake = 0, seen = 0, ring = 0, end_of_ring = queue.count;
-    Ring around;
     while (at != kNone) {
         if (seen == end_of_ring) {
             if (ring == rings) break;  // what is queued behind it is held
             ++ring;
             end_of_ring = queue.count;
         }
-        walk_ring(shell, at, around);
-        for (uint32_t i = 0; i < around.count; ++i)
-            for (const uint32_t v : state.elements.corner[shell.element(around.element[i])]) queue.add(v);
+        for_each_element_at(shell, at, [&](uint32_t e) {
+            if (is_seen[e]) return;
+            is_seen[e] = 1;
+            for (const uint32_t v : state.elements.corner[shell.element(e)]) queue.add(v);
+        });
         ++seen, ++awake;
         at = queue.next(at);
     }

@@ -1,4 +1,7 @@
+#include <bit>
+
 #include "systems/damage/ring.hpp"
+#include "systems/quick/elements_at.hpp"
 #include "systems/quick/region.hpp"
 #include "systems/springs/edge_stiffness.hpp"
 #include "systems/springs/give_springs.hpp"
@@ -18,17 +21,20 @@ struct Layout {
     const ShellView& shell;
     uint32_t first_element = kNone;  // awake ones, chained through Elements.next
 
-    uint32_t mark(uint32_t v) const { return state.vertices.copy[shell.vertex(v)]; }
-    bool is_awake(uint32_t e) const {
-        const uint32_t row = shell.element(e);
+    bool is_awake(uint32_t e) const { return state.elements.copy[shell.element(e)] != 0; }
+    /// By the vertices' marks: what chain() writes into Elements.copy.
+    bool has_awake_corner(uint32_t row) const {
         if (state.elements.flags[row] & kDead) return false;
         const auto& c = state.elements.corner[row];
-        return mark(c[0]) == kAwakeMark || mark(c[1]) == kAwakeMark || mark(c[2]) == kAwakeMark;
+        const auto is_marked = [&](uint32_t v) { return state.vertices.copy[shell.vertex(v)] == kAwakeMark; };
+        return is_marked(c[0]) || is_marked(c[1]) || is_marked(c[2]);
     }
     void chain() {
         uint32_t last = kNone;
         for (uint32_t e = 0; e < shell.element_count(); ++e) {
-            if (!is_awake(e)) continue;
+            const bool is_chained = has_awake_corner(shell.element(e));
+            state.elements.copy[shell.element(e)] = is_chained;
+            if (!is_chained) continue;
             state.elements.next[shell.element(e)] = kNone;
             (last == kNone ? first_element : state.elements.next[shell.element(last)]) = e;
             last = e;
@@ -55,9 +61,9 @@ struct Layout {
 uint32_t slots_of(const ShellView& shell, uint32_t pack) {
     uint32_t most = 0;
     for (uint32_t v = pack * kLanes; v < std::min((pack + 1) * kLanes, shell.vertex_count()); ++v) {
-        Ring ring;
-        walk_ring(shell, v, ring);
-        most = std::max(most, ring.count + (ring.count > 0 && !ring.is_closed));
+        uint32_t elements = 0;
+        const bool is_closed = for_each_element_at(shell, v, [&](uint32_t) { ++elements; });
+        most = std::max(most, elements + (elements > 0 && !is_closed));
     }
     return most + kSpareSlots;
 }
@@ -74,6 +80,7 @@ SpringRoom room_for(const Layout& layout, Row<Tasks> task, uint32_t edges, bool 
     room.elements = layout.shell.elements().capacity;
     room.vertices = layout.shell.vertices().capacity;
     room.has_layers = has_layers;
+    room.clears_lists = false;
     uint32_t slots = 0;
     const uint32_t count = state.quick_runs.pack_count[task];
     for (uint32_t row = task * kMostAwakePacks; row < task * kMostAwakePacks + count; ++row)
@@ -111,14 +118,50 @@ void list_edges(const Layout& layout, const SpringView& view) {
     if (view.has_layers()) state.shell_springs.layers[view.row].count = next;
 }
 
-void lay_packs(const RegionView& region) {
+double stiffness_ratio(const SpringView& view, uint32_t v, const VertexSprings& list) {
+    const State& state = view.state;
+    double outer = 0, inner = 0, shared = 0;
+    for (uint32_t i = 0; i < list.count; ++i) {
+        outer += 2 * double{state.springs.stiffness[view.spring(list.spring[i])]};
+        if (!view.has_layers()) continue;
+        const uint32_t layer = view.layer(list.spring[i]);
+        const LayerSprings& layers = state.layer_springs;
+        inner += 2 * double{layers.inner_stiffness[layer]};
+        shared += layers.mid_stiffness[layer];
+        shared += (view.layout() == SpringLayout::Sandwich ? 4 : 2) * double{layers.cross_stiffness[layer]};
+    }
+    if (!view.has_layers()) return outer * state.vertices.inverse_mass[view.shell.vertex(v)];
+    const uint32_t twin = view.twin(v);
+    shared += 2 * double{state.twins.stiffness_rest[twin]} * state.twins.inverse_rest[twin];
+    return (std::max(outer, inner) + shared) * state.twins.inverse_mass[twin];
+}
+
+struct Ratios {
+    double sum = 0;
+    uint32_t count = 0;
+};
+
+// Vertices.copy, whose marks are read no more, keeps the vertex's ratio: the bits of a float that is not below it, 0
+// of what is held.
+Ratios lay_packs(const RegionView& region) {
     State& state = region.state;
     const SpringView& view = region.springs;
+    const AwakePacks& packs = state.awake_packs;
     Range& slots = view.own().slots[view.row];
+    Ratios ratios;
     for (uint32_t row = region.first_row(); row < region.first_row() + region.pack_count(); ++row) {
-        const uint32_t p = state.awake_packs.pack[row], pack = view.pack(p);
+        const uint32_t p = packs.pack[row], pack = view.pack(p);
         VertexSprings lists[kLanes];
-        for (uint32_t k = 0; k < kLanes; ++k) collect_springs(view, p * kLanes + k, lists[k]);
+        for (uint32_t k = 0; k < kLanes; ++k) {
+            const uint32_t v = p * kLanes + k;
+            collect_springs(view, v, lists[k]);
+            if (!((packs.awake[row] | packs.held[row]) >> k & 1)) continue;
+            const double ratio = packs.held[row] >> k & 1 ? 0 : stiffness_ratio(view, v, lists[k]);
+            ratios.sum += ratio;
+            ratios.count += ratio > 0;
+            state.vertices.copy[region.shell.vertex(v)] =
+                std::bit_cast<uint32_t>(1.000001f * static_cast<float>(ratio));
+        }
         const uint32_t room = std::min(slots_needed(lists) + kSpareSlots, slots.capacity - slots.count);
         state.spring_packs.first_slot[pack] = slots.count;
         state.spring_packs.slot_capacity[pack] = static_cast<uint16_t>(room);
@@ -126,6 +169,7 @@ void lay_packs(const RegionView& region) {
         write_pack(view, p, lists);
     }
     if (view.has_layers()) view.own().layer_slots[view.row].count = slots.count;
+    return ratios;
 }
 
 void measure_springs(const RegionView& region) {
@@ -188,23 +232,9 @@ void soften(State& state, Row<Tasks> task, Row<Shells> shell) {
 }  // namespace
 
 double stiffness_ratio(const SpringView& view, uint32_t v) {
-    const State& state = view.state;
     VertexSprings list;
     collect_springs(view, v, list);
-    double outer = 0, inner = 0, shared = 0;
-    for (uint32_t i = 0; i < list.count; ++i) {
-        outer += 2 * double{state.springs.stiffness[view.spring(list.spring[i])]};
-        if (!view.has_layers()) continue;
-        const uint32_t layer = view.layer(list.spring[i]);
-        const LayerSprings& layers = state.layer_springs;
-        inner += 2 * double{layers.inner_stiffness[layer]};
-        shared += layers.mid_stiffness[layer];
-        shared += (view.layout() == SpringLayout::Sandwich ? 4 : 2) * double{layers.cross_stiffness[layer]};
-    }
-    if (!view.has_layers()) return outer * state.vertices.inverse_mass[view.shell.vertex(v)];
-    const uint32_t twin = view.twin(v);
-    shared += 2 * double{state.twins.stiffness_rest[twin]} * state.twins.inverse_rest[twin];
-    return (std::max(outer, inner) + shared) * state.twins.inverse_mass[twin];
+    return stiffness_ratio(view, v, list);
 }
 
 namespace {
@@ -239,6 +269,21 @@ void limit_vertex(const SpringView& view, uint32_t v, double limit) {
 double ratio_limit(const SpringView& view) {
     const double dt = view.own().time_step[view.row];
     return kMostRatio * 0.36 * 4 / (dt * dt);
+}
+
+// Until the step is known damping stands per second.
+void divide_damping(const RegionView& region, float dt) {
+    State& state = region.state;
+    const SpringView& view = region.springs;
+    const uint32_t slots = view.own().slots[view.row].count;
+    const auto divide = [&](auto* slot) {
+        for (uint32_t i = 0; i < slots; ++i)
+            for (float& damping : slot[i].damping) damping /= dt;
+    };
+    divide(state.spring_slots.slot.data() + view.slot(0));
+    if (!view.has_layers()) return;
+    divide(state.layer_slots.slot.data() + view.layer_slot(0));
+    region.for_each([&](uint32_t v, bool) { state.twins.damping[view.twin(v)] /= dt; });
 }
 
 }  // namespace
@@ -293,22 +338,15 @@ bool give_region_springs(State& state, Row<Tasks> task, uint32_t layers, const c
     const SpringView& view = region.springs;
     list_edges(layout, view);
     measure_springs(region);
-    lay_packs(region);
-    double sum = 0;
-    uint32_t count = 0;
+    const Ratios ratios = lay_packs(region);
+    const double step = ratios.count > 0 ? 0.6 * 2 / std::sqrt(ratios.sum / ratios.count) : 1;
+    const auto dt = static_cast<float>(std::min(step, 1.0));
+    own.time_step[row] = dt;
+    divide_damping(region, dt);
+    const double limit = ratio_limit(view);
     region.for_each([&](uint32_t v, bool is_held) {
-        const double ratio = is_held ? 0 : stiffness_ratio(view, v);
-        sum += ratio;
-        count += ratio > 0;
-    });
-    const double step = count > 0 ? 0.6 * 2 / std::sqrt(sum / count) : 1;
-    own.time_step[row] = static_cast<float>(std::min(step, 1.0));
-    for (uint32_t s = 0; s < view.spring_count(); ++s) write_spring(view, s);
-    region.for_each([&](uint32_t v, bool) {
-        if (has_layers) measure_twin(view, v, false);
-    });
-    region.for_each([&](uint32_t v, bool is_held) {
-        if (!is_held) limit_vertex(view, v, ratio_limit(view));
+        if (!is_held && std::bit_cast<float>(state.vertices.copy[shell.vertex(v)]) > limit)
+            limit_vertex(view, v, limit);
     });
     return true;
 }
