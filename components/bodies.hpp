@@ -31,7 +31,7 @@ struct Bodies : Table<Bodies> {
     Column<double> mass{*this, "mass", "kg"};
     Column<Vec3d> centre{*this, "centre", "m"};        // body frame
     Column<Sym3d> inertia{*this, "inertia", "kg m2"};  // about the centre, body axes
-    Column<float> radius{*this, "radius", "m"};  // > 0: a sphere; else largest distance of a point from the centre
+    Column<float> radius{*this, "radius", "m"};        // > 0: a sphere; else no point is farther from the centre
     Column<uint8_t> is_sphere{*this, "is_sphere"};
     Column<float> friction{*this, "friction"};
     Column<float> restitution{*this, "restitution"};
@@ -53,8 +53,10 @@ struct Bodies : Table<Bodies> {
     Column<Range> view_indices{*this, "view_indices"};
     Column<std::array<uint32_t, kMostRuns>> run_indices{*this, "run_indices"};  // by kind, then by drawn material
     Column<std::array<uint16_t, kMostDrawnMaterials>> drawn_materials{*this, "drawn_materials"};  // rising; rest 0
-    Column<uint32_t> view_stamp{*this, "view_stamp"};    // changes when the drawn mesh changes
-    Column<uint64_t> drawn_frame{*this, "drawn_frame"};  // the step that drew it, or before which it was drawn
+    Column<std::array<uint32_t, 2>> redrawn{*this, "redrawn", "1",
+                                            Keep::Scratch};  // triangles [first, end) that the last change wrote
+    Column<uint32_t> view_stamp{*this, "view_stamp"};        // changes when the drawn mesh changes
+    Column<uint64_t> drawn_frame{*this, "drawn_frame"};      // the step that drew it, or before which it was drawn
 };
 
 /// One component of a broken shell: its elements are first_element, Elements.next of it, and so on in rising order
@@ -100,7 +102,8 @@ struct ViewVertices : Table<ViewVertices> {
 struct ViewIndices : Table<ViewIndices> {
     using Table::Table;
     static constexpr const char* kName = "view_indices";
-    Column<uint32_t> index{*this, "index"};  // relative to the body's first view vertex
+    Column<uint32_t> index{*this, "index"};    // relative to the body's first view vertex
+    Column<uint32_t> source{*this, "source"};  // of its triangle: 8 times the shell's element, plus which of its own
 };
 
 /// One row is one crumb too small to be a body: a point with mass and momentum.

@@ -11,6 +11,8 @@
 
 namespace cullet {
 
+/// Of an element: the outer face, the inner one, two of the wall below each edge.
+inline constexpr uint32_t kMostDrawnTriangles = 8;
 inline constexpr uint32_t kLanes = 8;  // vertices in a pack, on every machine
 inline constexpr uint32_t kVerticesPerCell =
     64;  // 8 packs, about 128 elements: a few convex pieces of the collision shape
@@ -56,6 +58,9 @@ struct Shells : Table<Shells> {
     Column<uint8_t> generation{*this, "generation"};  // 0 intact, fragments one more than their parent
     Column<uint8_t> has_cracks{*this, "has_cracks"};
     Column<uint32_t> dead_elements{*this, "dead_elements"};  // of pieces that moved, until the shell is compacted
+    /// So many first elements stand in order of cells, at least; 0: nobody has looked (cell_elements.hpp). What cracks
+    /// add comes behind them.
+    Column<uint32_t> sorted_elements{*this, "sorted_elements", "1", Keep::Scratch};
 };
 
 enum class CrackState : uint8_t { None = 0, Tip = 1, Cracked = 2 };  // Cracked: a crack passes through, or started here
@@ -114,6 +119,8 @@ struct Elements : Table<Elements> {
     Column<uint32_t> copy{*this, "copy", "1", Keep::Scratch};  // make_piece: row in the piece being made
     Column<uint32_t> next_in_cell{*this, "next_in_cell", "1", Keep::Scratch};  // make_piece
     Column<uint8_t> drawn_edges{*this, "drawn_edges", "1", Keep::Scratch};  // draw_shell: bit k, side quad k is written
+    /// Where its triangles stand in the drawn mesh (drawn_triangles.hpp). A hint: ViewIndices.source has the last word.
+    Column<std::array<uint32_t, kMostDrawnTriangles>> drawn{*this, "drawn", "1", Keep::Scratch};
     // The game's own surface, three entries a triangle, interpolated when an edge is split.
     Column<std::array<float, 9>> normal{*this, "normal"};
     Column<std::array<float, 6>> uv{*this, "uv"};
@@ -197,6 +204,9 @@ struct StiffnessLinks : Table<StiffnessLinks> {
     Column<StiffnessLink> link{*this, "link"};
 };
 
+/// Of Cells::is_changed: cracks passed, or elements of pieces were in it.
+inline constexpr uint8_t kCracked = 1, kLeft = 2;
+
 /// One row is a patch of neighbouring vertices: chunk of a job, bounds, a few convex pieces of the collision
 /// shape.
 struct Cells : Table<Cells> {
@@ -212,7 +222,8 @@ struct Cells : Table<Cells> {
     Column<uint32_t> last_element{*this, "last_element", "1", Keep::Scratch};
     Column<uint32_t> list_count{*this, "list_count", "1", Keep::Scratch};
     Column<uint32_t> merged{*this, "merged", "1", Keep::Scratch};
-    // Scratch of cell_hulls: a cell whose hull is to be chosen anew; the parent's cell that has the same points, kNone.
+    // Scratch of cell_hulls: a cell whose hull is to be chosen anew, kCracked or kLeft; the parent's cell that has the
+    // same points, kNone.
     Column<uint8_t> is_changed{*this, "is_changed", "1", Keep::Scratch};
     Column<uint32_t> same_cell{*this, "same_cell", "1", Keep::Scratch};
     Column<uint32_t> shape{*this, "shape", "1", Keep::Scratch};  // RigidWorld's, of a hull chosen in this step; kNone

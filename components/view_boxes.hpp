@@ -13,7 +13,8 @@ inline constexpr uint32_t kViewGranule = 16;  // ranges of view_indices begin at
 struct ViewBoxes : Table<ViewBoxes> {
     using Table::Table;
     static constexpr const char* kName = "view_boxes";
-    Column<std::array<float, 6>> box{*this, "box", "m", Keep::Scratch};  // low, then high
+    Column<std::array<float, 6>> box{*this, "box", "m", Keep::Scratch};     // low, then high
+    Column<uint8_t> is_outdated{*this, "is_outdated", "1", Keep::Scratch};  // a triangle of it was redrawn
 };
 
 }  // namespace cullet

@@ -102,6 +102,12 @@ class RigidWorld {
     /// New mass, centre, inertia and pieces for a body whose frame and pose stay (pieces came off, cells changed).
     virtual void set_shape(RigidId id, double mass, Vec3d centre, Sym3d inertia,
                            std::span<const ConvexPiece> pieces) = 0;
+    /// The same where most pieces stay: those named in `gone` (ConvexPiece::cell, rising; who is not there is passed
+    /// over) are taken out, `pieces`, rising too, come in. What it costs goes with the pieces that change. All pieces
+    /// that the body has were given by rising names. False: nothing is done, this world wants all pieces.
+    virtual bool change_shape(RigidId, double, Vec3d, Sym3d, std::span<const uint32_t>, std::span<const ConvexPiece>) {
+        return false;
+    }
 
     /// Shapes for pieces of this gap, numbered from 0: what finds the faces of a piece, most of the price of adding it,
     /// may run ahead and on all threads. Those of the last call that no piece took are forgotten.

@@ -112,17 +112,17 @@ void fall_debris(Rows<Debris> debris, Step step, InOut<&Debris::position> positi
 /// Soft bodies that are awake are drawn anew.
 void show_soft(Serial, ShellTables shells, const SoftBodies& soft, Bodies& bodies, ViewVertices& vertices,
                ViewIndices& indices, Events<ShellChanged>& changed, Events<RefusedEvent>& refused);
-/// The drawn mesh of each shell that changed.
+/// The drawn mesh of each shell that changed: of what a hit left of a body, the cells that it changed.
 void draw_shells(Each<ShellChanged> changed, Step step, ShellTables shells, Bodies& bodies, ViewVertices& vertices,
-                 ViewIndices& indices);
+                 ViewIndices& indices, ViewBoxes& boxes);
 /// Boxes of the drawn triangles of each shell that changed.
 void bound_drawn(Each<ShellChanged> changed, Bodies& bodies, const ViewVertices& vertices, const ViewIndices& indices,
                  ViewBoxes& boxes);
 /// The tree that queries go down.
 void refresh_queries(Serial, const Bodies& bodies, QueryIndex& index);
 /// Moves the live rows of shells together that lost a quarter of theirs to pieces, in quiet frames, for units.
-void compact_shells(Serial, ShellTables shells, Bodies& bodies, const Tasks& tasks, Fragments& fragments,
-                    DamageCounts& counts, const Events<TaskEnded>& ended);
+void compact_shells(Serial, ShellTables shells, Bodies& bodies, ViewIndices& indices, const Tasks& tasks,
+                    Fragments& fragments, DamageCounts& counts, const Events<TaskEnded>& ended);
 
 // ---- inner loop of a brittle thick shell: repeated for one task
 

@@ -36,6 +36,7 @@ struct TaskEnded {
 /// A shell whose drawn mesh is to be made.
 struct ShellChanged {
     Row<Bodies> body;
+    bool is_local = false;  // only cells that are changed (Cells::is_changed) are drawn otherwise than they were
 };
 
 struct DamageLoop;

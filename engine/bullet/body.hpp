@@ -46,6 +46,12 @@ struct Body {
     std::optional<btRigidBody> bullet;
     BodyShape shape;
     BodyFrame frame;
+    // Where the local points of the hulls stand: `frame` as it was when they were last made all at once. A small change
+    // of shape moves the centre of mass and turns the axes; the hulls that stay then keep their points.
+    BodyFrame hull_frame;
+    bool has_offset = false;  // hull_frame is not frame
+    btTransform hull_offset;  // hull frame -> Bullet frame, where they differ
+    Vec3 hull_centre;         // the centre of mass in the hull frame
     float mass = 0;
     btVector3 moments{0, 0, 0};
     float friction = 0, restitution = 0, rolling_friction = 0;
@@ -54,11 +60,11 @@ struct Body {
     uint32_t hull_count = 0;
     std::unique_ptr<StaticMesh> mesh;  // static triangles only
     bool is_level = false;             // of static triangles: its frame is the world's, also after a shift
-    Box local_box = empty_box();       // of the points with margins, Bullet frame
+    Box local_box = empty_box();       // of the points with margins, hull frame
     float thickness = 0;               // least width of a piece
-    float reach = 0;                   // of the farthest point from the centre of mass
+    float reach = 0;                   // of the farthest point from the centre of mass, at least
 
-    btTransform fresh_at;  // the transform that world points stand for
+    btTransform fresh_at;  // the hull frame's transform that world points stand for
     uint32_t moves = 0;    // counts changes of world points; pairs of unmoved bodies keep their contacts
     uint32_t shape_changes = 0;
 
@@ -81,6 +87,8 @@ struct Body {
     float moved_fraction = 1;  // of this step, less than 1 when stopped at a time of impact
     bool is_fast = false;      // swept in this step
 
+    /// The hull frame's transform where the Bullet frame's is `at`.
+    btTransform hulls_at(const btTransform& at) const { return has_offset ? at * hull_offset : at; }
     bool is_free() const { return kind == RigidKind::Dynamic && !is_held && bullet->isActive(); }
 };
 

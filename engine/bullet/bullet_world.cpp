@@ -53,6 +53,7 @@ BulletWorld::BulletWorld(uint32_t body_limit)
     skipped_.reserve(16 * static_cast<size_t>(body_limit) + 1024);
     shapes_.reserve(8 * static_cast<size_t>(body_limit) + 4096);
     seams_.reserve(4 * static_cast<size_t>(body_limit) + 4096);
+    lost_.reserve(4 * static_cast<size_t>(body_limit) + 4096);
 }
 
 BulletWorld::~BulletWorld() {
@@ -115,6 +116,18 @@ RigidCounts BulletWorld::counts() const {
     return counts;
 }
 
+// Without seams.
+Hull* BulletWorld::make_hull(const ConvexPiece& piece, const BodyFrame& frame, float margin) {
+    if (piece.shape < shapes_.size() && shapes_[piece.shape]) return take_shape(piece, frame, margin);
+    const Quat to_axes = conjugate(frame.axes);
+    Vec3 local[kMaxPoints];
+    const size_t count = std::min<size_t>(piece.points.size(), kMaxPoints);
+    for (size_t k = 0; k < count; ++k) local[k] = rotate(to_axes, piece.points[k] - frame.centre);
+    Hull* const hull = hulls_.take();
+    build_hull(*hull, {local, count}, margin, piece.cell);
+    return hull;
+}
+
 // Turned from the caller's axes into the body's. It may have fewer points than the piece: those inside are left out.
 Hull* BulletWorld::take_shape(const ConvexPiece& piece, const BodyFrame& frame, float margin) {
     Hull* const hull = std::exchange(shapes_[piece.shape], nullptr);
@@ -152,29 +165,24 @@ void BulletWorld::set_pieces(Body& body, std::span<const ConvexPiece> pieces, fl
     const Quat to_axes = conjugate(body.frame.axes);
     for (const ConvexPiece& piece : pieces) {
         if (piece.points.empty()) continue;
-        Vec3 local[kMaxPoints];
-        const size_t count = std::min<size_t>(piece.points.size(), kMaxPoints);
-        for (size_t k = 0; k < count; ++k) local[k] = rotate(to_axes, piece.points[k] - body.frame.centre);
         if (piece.same_body != cursor_body) cursor = nullptr;
         cursor_body = piece.same_body;
         const Hull* const same = piece.same_body == kNoRigid ? nullptr : find_same(piece, old_hulls, body.id, cursor);
         // The body's own hulls are turned where they stand.
         const bool is_own = same && piece.same_body == body.id;
-        const bool is_made = !same && piece.shape < shapes_.size() && shapes_[piece.shape];
-        Hull* const hull = is_own    ? unlink(old_hulls, same)
-                           : is_made ? take_shape(piece, body.frame, margin)
-                                     : hulls_.take();
+        Hull* const hull = is_own ? unlink(old_hulls, same)
+                           : same ? hulls_.take()
+                                  : make_hull(piece, body.frame, margin);
         if (is_own && cursor == same) cursor = same->next;
-        if (is_made) {
-            // It is as it is to be.
-        } else if (same) {
-            const Quat& axes = is_own ? old_axes : bodies_[piece.same_body].frame.axes;
+        if (same) {
+            Vec3 local[kMaxPoints];
+            const size_t count = std::min<size_t>(piece.points.size(), kMaxPoints);
+            for (size_t k = 0; k < count; ++k) local[k] = rotate(to_axes, piece.points[k] - body.frame.centre);
+            const Quat& axes = is_own ? old_axes : bodies_[piece.same_body].hull_frame.axes;
             bool is_face_inner[kMaxFaces];
             std::copy_n(same->is_face_inner, kMaxFaces, is_face_inner);
             build_hull_like(*hull, *same, matrix(to_axes * axes), {local, count}, margin, piece.cell);
             if (is_own) std::copy_n(is_face_inner, kMaxFaces, hull->is_face_inner);
-        } else {
-            build_hull(*hull, {local, count}, margin, piece.cell);
         }
         hull->has_seams = is_own;
         hull->ordinal = body.hull_count++;
@@ -190,7 +198,110 @@ void BulletWorld::set_pieces(Body& body, std::span<const ConvexPiece> pieces, fl
         hull = next;
     }
     mark_seams(body);
+    body.hull_frame = body.frame;
+    seat_hulls(body);
     measure_body(body);
+}
+
+// One walk: the named pieces leave, new ones take their places by name, ordinals follow.
+void BulletWorld::change_pieces(Body& body, std::span<const uint32_t> gone, std::span<const ConvexPiece> pieces) {
+    const Mat3 rotation = rotation_of(body.fresh_at);
+    const Vec3 origin = from_bullet(body.fresh_at.getOrigin());
+    Hull** link = &body.hulls;
+    size_t next_gone = 0, next_new = 0;
+    lost_.clear();
+    body.hull_count = 0;
+    const auto keep = [&](Hull* hull, bool has_seams) {
+        hull->has_seams = has_seams;
+        hull->ordinal = body.hull_count++;
+        link = &hull->next;
+    };
+    for (;;) {
+        Hull* const here = *link;
+        while (next_new < pieces.size() && (!here || pieces[next_new].cell < here->cell)) {
+            const ConvexPiece& piece = pieces[next_new++];
+            if (piece.points.empty()) continue;
+            Hull* const hull = make_hull(piece, body.hull_frame, body.margin);
+            refresh_world(*hull, rotation, origin);
+            hull->next = here;
+            *link = hull;
+            keep(hull, false);
+        }
+        if (!here) break;
+        while (next_gone < gone.size() && gone[next_gone] < here->cell) ++next_gone;
+        if (next_gone == gone.size() || gone[next_gone] != here->cell) {
+            keep(here, true);
+            continue;
+        }
+        lost_.push_back({here->local.centre, here->radius});
+        *link = here->next;
+        hulls_.give(here);
+    }
+}
+
+// Seams that lost pieces may have made are forgotten, and those of all pieces without any are found again among what is
+// near them.
+void BulletWorld::renew_seams(Body& body) {
+    Box lost = empty_box();
+    for (const Ball& ball : lost_) {
+        const Box box = grown({ball.centre, ball.centre}, ball.radius + kSeamRange);
+        include(lost, box.low);
+        include(lost, box.high);
+    }
+    Box changed = empty_box();
+    for (Hull* hull = body.hulls; hull; hull = hull->next) {
+        const Vec3 centre = hull->local.centre;
+        bool is_near = hull->has_seams && overlap({centre, centre}, lost, hull->radius);
+        if (is_near) {
+            is_near = false;
+            for (const Ball& ball : lost_)
+                is_near = is_near || !(length(centre - ball.centre) > hull->radius + ball.radius + kSeamRange);
+        }
+        if (is_near) {
+            hull->has_seams = false;
+            std::fill_n(hull->is_face_inner, kMaxFaces, false);
+        }
+        if (hull->has_seams) continue;
+        include(changed, hull->local_box.low);
+        include(changed, hull->local_box.high);
+    }
+    seams_.clear();
+    for (Hull* hull = body.hulls; hull; hull = hull->next) {
+        const Box box = grown(hull->local_box, kSeamReach);
+        if (overlap(box, changed, kSeamReach)) seams_.push_back({box, hull});
+    }
+    mark_new_seams();
+}
+
+// Of the pieces' own bounds: an upper bound of the reach, for one look at each piece.
+void BulletWorld::bound_pieces(Body& body) {
+    body.local_box = empty_box();
+    body.thickness = kFar;
+    body.reach = 0;
+    for (const Hull* hull = body.hulls; hull; hull = hull->next) {
+        include(body.local_box, hull->local_box.low);
+        include(body.local_box, hull->local_box.high);
+        const float reach = length(hull->local.centre - body.hull_centre) + hull->radius + hull->margin;
+        body.reach = std::max(body.reach, reach);
+        body.thickness = std::min(body.thickness, hull->thickness);
+    }
+    ++body.shape_changes;
+}
+
+// Where the hull frame stands in the Bullet frame.
+void BulletWorld::seat_hulls(Body& body) {
+    const BodyFrame &from = body.hull_frame, &to = body.frame;
+    const auto are_same = [](Vec3 a, Vec3 b) { return a.x == b.x && a.y == b.y && a.z == b.z; };
+    body.has_offset = !are_same(from.centre, to.centre) ||
+                      !are_same({from.axes.x, from.axes.y, from.axes.z}, {to.axes.x, to.axes.y, to.axes.z}) ||
+                      from.axes.w != to.axes.w;
+    body.hull_offset.setIdentity();
+    body.hull_centre = {};
+    if (!body.has_offset) return;
+    const Quat to_axes = conjugate(to.axes);
+    body.hull_offset =
+        btTransform(to_bullet(normalised(to_axes * from.axes)), to_bullet(rotate(to_axes, from.centre - to.centre)));
+    body.hull_centre = rotate(conjugate(from.axes), to.centre - from.centre);
 }
 
 // What a piece that is gone may have covered.
@@ -199,6 +310,21 @@ void BulletWorld::forget_seams(Body& body, Vec3 centre, float radius) {
         if (length(hull->local.centre - centre) > hull->radius + radius + kSeamRange) continue;
         hull->has_seams = false;
         std::fill_n(hull->is_face_inner, kMaxFaces, false);
+    }
+}
+
+void BulletWorld::mark_seam(const Seam& p, const Seam& q) {
+    if (!overlap(p.box, q.box, 0)) return;
+    mark_inner_faces(*p.hull, *q.hull);
+    mark_inner_faces(*q.hull, *p.hull);
+}
+
+// Of the pieces listed those that have none yet, against all.
+void BulletWorld::mark_new_seams() {
+    for (const Seam& p : seams_) {
+        if (p.hull->has_seams) continue;
+        for (const Seam& q : seams_)
+            if (q.hull->has_seams || q.hull->ordinal > p.hull->ordinal) mark_seam(p, q);
     }
 }
 
@@ -213,25 +339,13 @@ void BulletWorld::mark_seams(Body& body) {
         seams_.push_back({grown(box, hull->margin + kSeamReach), hull});
         new_count += !hull->has_seams;
     }
-    const auto mark = [](const Seam& p, const Seam& q) {
-        if (!overlap(p.box, q.box, 0)) return;
-        mark_inner_faces(*p.hull, *q.hull);
-        mark_inner_faces(*q.hull, *p.hull);
-    };
-    if (8 * new_count < seams_.size()) {
-        for (const Seam& p : seams_) {
-            if (p.hull->has_seams) continue;
-            for (const Seam& q : seams_)
-                if (q.hull->has_seams || q.hull->ordinal > p.hull->ordinal) mark(p, q);
-        }
-        return;
-    }
+    if (8 * new_count < seams_.size()) return mark_new_seams();
     std::sort(seams_.begin(), seams_.end(), [](const Seam& p, const Seam& q) {
         return p.box.low.x != q.box.low.x ? p.box.low.x < q.box.low.x : p.hull->ordinal < q.hull->ordinal;
     });
     for (size_t k = 0; k < seams_.size(); ++k)
         for (size_t j = k + 1; j < seams_.size() && seams_[j].box.low.x <= seams_[k].box.high.x; ++j) {
-            if (!seams_[k].hull->has_seams || !seams_[j].hull->has_seams) mark(seams_[k], seams_[j]);
+            if (!seams_[k].hull->has_seams || !seams_[j].hull->has_seams) mark_seam(seams_[k], seams_[j]);
         }
 }
 
@@ -395,9 +509,39 @@ void BulletWorld::set_shape(RigidId id, double mass, Vec3d centre, Sym3d inertia
     Motion moving = motion(id);
     const Vec3 shift = rotate(at.orientation, centre.to_float() - body.frame.centre);
     moving.velocity += cross(moving.angular_velocity, shift);
-    const BodyFrame old_frame = body.frame;
+    const BodyFrame old_frame = body.hull_frame;
     set_mass(body, mass, centre, inertia);
     set_pieces(body, pieces, body.margin, old_frame);
+    reseat(body, at);
+    body.fresh_at.setOrigin({kFar, kFar, kFar});  // the points are new, wherever they stand
+    refresh(body);
+    rouse(body, moving);
+}
+
+// Hulls that stay keep their frame and their points, in the world too.
+bool BulletWorld::change_shape(RigidId id, double mass, Vec3d centre, Sym3d inertia, std::span<const uint32_t> gone,
+                               std::span<const ConvexPiece> pieces) {
+    if (!is_known(id) || bodies_[id].mesh) return true;
+    InsideRigidEngine guard(counts_.allocations);
+    Body& body = bodies_[id];
+    refresh(body);
+    const Pose at = pose(id);
+    Motion moving = motion(id);
+    moving.velocity += cross(moving.angular_velocity, rotate(at.orientation, centre.to_float() - body.frame.centre));
+    set_mass(body, mass, centre, inertia);
+    seat_hulls(body);
+    change_pieces(body, gone, pieces);
+    renew_seams(body);
+    bound_pieces(body);
+    reseat(body, at);
+    ++body.moves;
+    update_box(body);
+    rouse(body, moving);
+    return true;
+}
+
+// The new frame where the old one stood.
+void BulletWorld::reseat(Body& body, const Pose& at) {
     btRigidBody& bullet = *body.bullet;
     if (body.kind == RigidKind::Dynamic && !body.is_held) {
         bullet.setMassProps(body.mass, body.moments);
@@ -405,24 +549,31 @@ void BulletWorld::set_shape(RigidId id, double mass, Vec3d centre, Sym3d inertia
     }
     bullet.setCenterOfMassTransform(to_bullet(at, body.frame));
     body.anchor = bullet.getWorldTransform();
-    body.fresh_at.setOrigin({kFar, kFar, kFar});  // the points are new, wherever they stand
-    refresh(body);
-    wake_touching(id);
+}
+
+void BulletWorld::rouse(Body& body, const Motion& moving) {
+    wake_touching(body.id);
     if (body.kind == RigidKind::Dynamic) wake_body(body);
-    set_motion(id, moving);
+    set_motion(body.id, moving);
 }
 
 // World points and boxes of a body that moved since they were made.
 void BulletWorld::refresh(Body& body) {
-    const btTransform& at = body.bullet->getWorldTransform();
+    const btTransform at = body.hulls_at(body.bullet->getWorldTransform());
     const bool is_new = !body.bullet->getBroadphaseProxy();
     if (!is_new && at == body.fresh_at) return;
     body.fresh_at = at;
     ++body.moves;
     const Mat3 rotation = rotation_of(at);
     for (Hull* hull = body.hulls; hull; hull = hull->next) refresh_world(*hull, rotation, from_bullet(at.getOrigin()));
+    if (is_new)
+        gather_box(body);
+    else
+        update_box(body);
+}
+
+void BulletWorld::update_box(Body& body) {
     gather_box(body);
-    if (is_new) return;
     const Box wide = grown(body.shape.box, kContactRange);
     broadphase_.setAabb(body.bullet->getBroadphaseProxy(), to_bullet(wide.low), to_bullet(wide.high), &dispatcher_);
 }

@@ -41,6 +41,8 @@ class BulletWorld final : public RigidWorld {
     void set_motion(RigidId id, const Motion& motion) override;
     void shift(Vec3 by) override;
     void set_shape(RigidId id, double mass, Vec3d centre, Sym3d inertia, std::span<const ConvexPiece> pieces) override;
+    bool change_shape(RigidId id, double mass, Vec3d centre, Sym3d inertia, std::span<const uint32_t> gone,
+                      std::span<const ConvexPiece> pieces) override;
     void reserve_shapes(uint32_t count) override;
     void make_shape(uint32_t shape, std::span<const Vec3> points) const override;
     void detect(float dt) override;
@@ -84,13 +86,27 @@ class BulletWorld final : public RigidWorld {
         btPersistentManifold* manifold;
     };
 
+    struct Seam {
+        Box box;
+        Hull* hull;
+    };
     bool is_known(RigidId id) const { return id < body_limit_ && bodies_[id].is_used; }
     void set_pieces(Body& body, std::span<const ConvexPiece> pieces, float margin, const BodyFrame& old_frame);
+    Hull* make_hull(const ConvexPiece& piece, const BodyFrame& frame, float margin);
+    void change_pieces(Body& body, std::span<const uint32_t> gone, std::span<const ConvexPiece> pieces);
     void forget_seams(Body& body, Vec3 centre, float radius);
+    void renew_seams(Body& body);
+    void bound_pieces(Body& body);
+    void seat_hulls(Body& body);
+    void reseat(Body& body, const Pose& at);
+    void rouse(Body& body, const Motion& moving);
+    void update_box(Body& body);
     const Hull* find_same(const ConvexPiece& piece, const Hull* old_hulls, RigidId own, const Hull*& cursor) const;
     void drop_pieces(Body& body);
     Hull* take_shape(const ConvexPiece& piece, const BodyFrame& frame, float margin);
     void mark_seams(Body& body);
+    void mark_new_seams();
+    static void mark_seam(const Seam& p, const Seam& q);
     void measure_body(Body& body);
     void set_mass(Body& body, double mass, Vec3d centre, const Sym3d& inertia);
     void enter(Body& body, const Pose& pose, uint32_t layer, uint32_t mask);
@@ -132,11 +148,12 @@ class BulletWorld final : public RigidWorld {
     btDbvtBroadphase broadphase_;
     btSequentialImpulseConstraintSolver solver_;
     DynamicsWorld world_;
-    struct Seam {
-        Box box;
-        Hull* hull;
-    };
     std::vector<Seam> seams_;  // of the body at hand
+    struct Ball {
+        Vec3 centre;
+        float radius;
+    };
+    std::vector<Ball> lost_;  // pieces that the body at hand has lost, its hull frame
     std::vector<RigidContact> contacts_;
     std::vector<SortedManifold> manifolds_;
     std::vector<IgnoredPair> ignored_;                  // sorted by (a, b)

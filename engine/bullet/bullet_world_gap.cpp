@@ -35,9 +35,10 @@ constexpr float kPressedSeconds = 2.5f;  // after which it sleeps as it lies
 // The corner of the body's box that moved farthest bounds all of its points: displacement is convex in the point.
 bool has_left(const Body& body, const btTransform& anchor, const btTransform& now, float distance) {
     for (int corner = 0; corner < 8; ++corner) {
-        const btVector3 p(corner & 1 ? body.local_box.high.x : body.local_box.low.x,
-                          corner & 2 ? body.local_box.high.y : body.local_box.low.y,
-                          corner & 4 ? body.local_box.high.z : body.local_box.low.z);
+        const btVector3 corner_point(corner & 1 ? body.local_box.high.x : body.local_box.low.x,
+                                     corner & 2 ? body.local_box.high.y : body.local_box.low.y,
+                                     corner & 4 ? body.local_box.high.z : body.local_box.low.z);
+        const btVector3 p = body.has_offset ? body.hull_offset * corner_point : corner_point;
         if ((now * p - anchor * p).length2() > distance * distance) return true;
     }
     return false;

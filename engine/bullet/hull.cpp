@@ -85,6 +85,12 @@ void set_faces(Hull& hull, const btConvexHullComputer& computer) {
 
 }  // namespace
 
+void set_local_box(Hull& hull) {
+    Box box = empty_box();
+    for (uint32_t k = 0; k < hull.point_count; ++k) include(box, hull.local.centre + hull.local[k]);
+    hull.local_box = grown(box, hull.margin);
+}
+
 namespace {
 
 void set_hull_points(Hull& hull, std::span<const Vec3> points, float margin, uint32_t cell) {
@@ -96,6 +102,7 @@ void set_hull_points(Hull& hull, std::span<const Vec3> points, float margin, uin
     hull.first_corner[0] = 0;
     std::fill_n(hull.is_face_inner, kMaxFaces, false);
     set_points(hull.local, points);
+    set_local_box(hull);
     float square = 0;
     for (uint32_t k = 0; k < hull.point_count; ++k) square = std::max(square, dot(hull.local[k], hull.local[k]));
     hull.radius = std::sqrt(square);

@@ -36,9 +36,9 @@ inline Box empty_box() {
 
 /// At most 32 points about a centre, in some axes. `count` is a multiple of 8; the rest repeats the first point.
 struct alignas(16) Points {
-    float x[kMaxPoints], y[kMaxPoints], z[kMaxPoints];
-    uint32_t count = 0;
     Vec3 centre;
+    uint32_t count = 0;
+    float x[kMaxPoints], y[kMaxPoints], z[kMaxPoints];
     Vec3 operator[](uint32_t k) const { return {x[k], y[k], z[k]}; }  // from the centre
 };
 
@@ -47,15 +47,19 @@ struct HullEdge {
     uint8_t left, right;  // faces
 };
 
+/// What walks over all pieces of a body read stands first, in two cache lines.
 struct Hull {
-    Points local;   // Bullet frame of the body
-    Points world;   // refreshed once a step while the body is awake
-    Box world_box;  // with the margin
+    Hull* next = nullptr;  // of the same body, or free
     uint32_t cell = 0, ordinal = 0, point_count = 0, face_count = 0, edge_count = 0;
     float margin = 0;
     float radius = 0;        // of the points about their centre, without the margin
     float thickness = 0;     // the least width over its face normals, with both margins; a sphere's diameter
     bool one_sided = false;  // a static triangle: only its front face pushes
+    bool has_seams = false;  // they are known; scratch of BulletWorld::set_pieces
+    Box world_box;           // with the margin
+    Box local_box;           // with the margin
+    Points local;            // hull frame of the body
+    Points world;            // refreshed once a step while the body is awake
     Vec3 face_normal[kMaxFaces];
     float face_height[kMaxFaces];  // normal . point, from the centre
     // Seams between the pieces of one body: nothing is ever pushed out through them.
@@ -63,8 +67,6 @@ struct Hull {
     uint16_t first_corner[kMaxFaces + 1];
     uint8_t corner[kMaxCorners];
     HullEdge edge[kMaxEdges];
-    bool has_seams = false;  // they are known; scratch of BulletWorld::set_pieces
-    Hull* next = nullptr;    // of the same body, or free
 };
 
 /// Fills everything but world columns and `next`. More than 32 points: the rest is left out. Points in a plane get the
@@ -77,6 +79,8 @@ void build_hull_like(Hull& hull, const Hull& like, const Mat3& turn, std::span<c
                      uint32_t cell);
 /// A static triangle in world axes: one face, to the side that its corners run counter-clockwise around.
 void build_triangle(Hull& hull, const Vec3 (&corners)[3], uint32_t cell);
+/// Of its local points.
+void set_local_box(Hull& hull);
 /// Marks the faces of `hull` that another piece of the same body covers: a point just outside of the face lies in it.
 void mark_inner_faces(Hull& hull, const Hull& other);
 /// World points and box for a body at `position` with its axes along the columns of `rotation`.

@@ -171,6 +171,10 @@ void flow_mesh(F& f, StaticMesh& mesh, ByteReader* in) {
 template <class F>
 void flow_body(F& f, Body& b) {
     flow_numbers(f, b.frame.centre), flow_numbers(f, b.frame.axes);
+    flow_numbers(f, b.hull_frame.centre), flow_numbers(f, b.hull_frame.axes);
+    f.flag(b.has_offset);
+    flow_numbers(f, b.hull_offset);
+    flow_numbers(f, b.hull_centre);
     f.number(b.mass);
     flow_numbers(f, b.moments);
     f.number(b.friction), f.number(b.restitution), f.number(b.rolling_friction), f.number(b.margin);
@@ -369,6 +373,7 @@ bool BulletWorld::load_body(ByteReader& in, Body& body) {
         *link = hull;
         link = &hull->next;
         flow_hull(f, *hull, &in);
+        set_local_box(*hull);
         hull->ordinal = body.hull_count++;
     }
     bool has_mesh = false;

@@ -33,7 +33,10 @@ void shift_manifold(btPersistentManifold& manifold, bool is_level_a, bool is_lev
 
 // Level geometry keeps its frame and moves in it: triangles are met in world axes.
 void shift_level(Body& body, Vec3 by) {
-    for (Hull* hull = body.hulls; hull; hull = hull->next) hull->local.centre += by;
+    for (Hull* hull = body.hulls; hull; hull = hull->next) {
+        hull->local.centre += by;
+        shift_box(hull->local_box, by);
+    }
     shift_box(body.local_box, by);
     if (body.mesh) shift_mesh(*body.mesh, by);
 }

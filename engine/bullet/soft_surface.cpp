@@ -93,7 +93,7 @@ uint32_t BulletWorld::near_bodies(Vec3 low, Vec3 high, std::span<RigidId> out) c
 bool BulletWorld::nearest_surface(RigidId id, Vec3 point, float reach, RigidSurface& out) const {
     if (!is_known(id)) return false;
     const Body& body = bodies_[id];
-    const btTransform& at = body.bullet->getWorldTransform();
+    const btTransform at = body.hulls_at(body.bullet->getWorldTransform());
     const Mat3 rotation = rotation_of(at);
     const Vec3 origin = from_bullet(at.getOrigin()), local = transposed_times(rotation, point - origin);
     const Box near = grown({point, point}, reach);

@@ -95,8 +95,9 @@ double travel(const Mover& mover, float dt) {
     return (length(mover.velocity) + length(mover.spin) * mover.body->reach) * dt;
 }
 
-float reach_of(const Hull& hull) {
-    return length(hull.local.centre) + hull.radius;
+float reach_of(const Body& body, const Hull& hull) {
+    const Vec3 from = body.has_offset ? hull.local.centre - body.hull_centre : hull.local.centre;
+    return length(from) + hull.radius;
 }
 
 // The spheres about both pieces do not meet on a straight way, turning included.
@@ -113,7 +114,7 @@ bool pass_by(const Hull& a, const Hull& b, Vec3d way, double turning) {
 // are those of the start. `axis` is a first guess, such as the last one of the same two bodies.
 double touch_fraction(const Mover& a, const Hull& hull_a, const Mover& b, const Hull& hull_b, float dt, double limit,
                       Vec3d& axis) {
-    const double turning = length(a.spin) * reach_of(hull_a) + length(b.spin) * reach_of(hull_b);
+    const double turning = length(a.spin) * reach_of(*a.body, hull_a) + length(b.spin) * reach_of(*b.body, hull_b);
     // A body that was stopped earlier in the step may stand still by now: then each motion alone counts too.
     const bool is_stopped = are_split(*a.body, *b.body);
     const Vec3d nothing, first = is_stopped ? -a.velocity : b.velocity - a.velocity,
@@ -126,7 +127,7 @@ double touch_fraction(const Mover& a, const Hull& hull_a, const Mover& b, const 
     bool is_axis_fixed = false;
     for (int round = 0; round < kRounds; ++round) {
         if (round > 0) {
-            const btTransform at_a = a.at(t, dt), at_b = b.at(t, dt);
+            const btTransform at_a = a.body->hulls_at(a.at(t, dt)), at_b = b.body->hulls_at(b.at(t, dt));
             transform_points(hull_a, rotation_of(at_a), from_bullet(at_a.getOrigin()), points_a);
             transform_points(hull_b, rotation_of(at_b), from_bullet(at_b.getOrigin()), points_b);
             now_a = &points_a, now_b = &points_b;
@@ -201,10 +202,10 @@ void Sweeper::sweep_pair(BulletWorld& world, Body& a, Body& b, float dt) {
     };
     for (const Hull* p = a.hulls; p; p = p->next) {
         const float span = dt * last_fraction(a, b);
-        const Box box = relative_box(p->world_box, mover_a, mover_b, reach_of(*p), span);
+        const Box box = relative_box(p->world_box, mover_a, mover_b, reach_of(a, *p), span);
         if (!overlap(box, b.shape.box, turned_b)) continue;
         for (const Hull* q : work.near_b)
-            if (overlap(box, q->world_box, turned(mover_b, reach_of(*q), span))) advance(*p, *q);
+            if (overlap(box, q->world_box, turned(mover_b, reach_of(b, *q), span))) advance(*p, *q);
         if (!b.mesh) continue;
         visit_triangles(*b.mesh, box, [&](uint32_t t) {
             build_triangle(work.triangle, b.mesh->triangles[t].corner, t);

@@ -98,6 +98,7 @@ ShellRoom own_room(State& state, Row<Shells> source, const SpawnSettings& settin
     if (!wants_own_shell(state, source, settings)) return room;
     const ShellRoom quick = quick_room(ShellView(state, source));
     room.vertices = quick.vertices, room.elements = quick.elements, room.hinges = quick.hinges;
+    room.points += room.points / 4 + 32 * kMostCellPoints;  // hulls that a hit changes are written behind the others
     return room;
 }
 
@@ -167,7 +168,7 @@ Result<BodyId> World::spawn(ModelId id, const SpawnSettings& settings) {
     }
     Bodies& bodies = state.bodies;
     bodies.shell[body] = shell;
-    if (!take_view(state, body)) {
+    if (!take_view(state, body, settings.is_breakable)) {
         free_body(state, body);
         return Error{"limits.view_vertices is reached (" + std::to_string(state.view_vertices.limit()) +
                      "); raise it."};

@@ -160,9 +160,13 @@ void check_bodies(Checker& check) {
         check.expect(runs == indices.count, Checker::place(bodies, "run_indices", b) + " add up to " +
                                                 std::to_string(runs) + "; the body has " +
                                                 std::to_string(indices.count) + " indices");
-        for (uint32_t i = 0; i < indices.count && check.is_sound(); ++i)
+        const uint32_t elements = bodies.shell[b].exists() ? s.shells.elements[bodies.shell[b]].count : 0;
+        for (uint32_t i = 0; i < indices.count && check.is_sound(); ++i) {
             check.expect_row(s.view_indices, "index", indices.first + i, s.view_indices.index[indices.first + i],
                              vertices.count, false);
+            check.expect_row(s.view_indices, "source", indices.first + i,
+                             s.view_indices.source[indices.first + i] / kMostDrawnTriangles, elements, false);
+        }
     }
 }
 

@@ -4,6 +4,7 @@
 #include "systems/api/model_row.hpp"
 #include "systems/cook/materials.hpp"
 #include "systems/cook/model_contents.hpp"
+#include "systems/fragments/cell_elements.hpp"
 #include "systems/world_contents.hpp"
 
 namespace cullet {
@@ -31,6 +32,7 @@ Result<ModelId> World::add_model(const Model& model) {
     state.shells.material[shell] = material;
     state.models.is_used[row] = 1;
     state.models.shell[row] = shell;
+    (void)sorted_elements(ShellView(state, shell));  // its bodies' copies know, too
     contents_->log.advise(contents_->host, *model.contents);
     const uint32_t generation = ++state.models.generation[row];
     return ModelId{row, generation};

@@ -15,6 +15,7 @@
 #include "systems/query/bound_drawn.hpp"
 #include "systems/query/query_index.hpp"
 #include "systems/quick/quick_body.hpp"
+#include "systems/view/draw_shell.hpp"
 
 namespace cullet {
 
@@ -53,7 +54,7 @@ namespace {
 constexpr uint64_t kLargestFile = 1ull << 36;
 constexpr const char* kAdvice = "The snapshot is damaged or of another build; take it again.";
 constexpr FileKind kKind{{'c', 's', 'n', 'a', 'p', '\r', '\n', '\x1a'},
-                         4,
+                         5,
                          "snapshot",
                          ".csnap",
                          "Write one with World::save.",
@@ -136,6 +137,8 @@ void restore_what_follows(World::Contents& world) {
         const Row<Shells> shell = state.bodies.shell[b];
         if (static_cast<BodyKind>(state.bodies.kind[b]) == BodyKind::Free || !shell.exists()) continue;
         bound_view(state.bodies, Row<Bodies>(b), state.view_vertices, state.view_indices, d.view_boxes);
+        remember_drawn(ShellView(state, shell), state.bodies.view_indices[b]);
+        state.bodies.redrawn[b] = {0, state.bodies.view_indices[b].count / 3};
         if (state.bodies.is_breakable[b])
             d.make_ready(is_quick_body(state, Row<Bodies>(b)) ? quick_room(ShellView(state, shell))
                                                               : working_room(ShellView(state, shell)));

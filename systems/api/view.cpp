@@ -29,8 +29,8 @@ Result<BodyView> World::view(BodyId id) const {
     view.stamp = bodies.view_stamp[body];
     // step_info.frame is the next step's number.
     if (bodies.drawn_frame[body] + 1 >= contents_->data.step_info.frame) {
-        view.dirty_vertices = {0, view.vertex_count};
-        view.dirty_indices = {0, view.index_count};
+        const auto [begin, end] = bodies.redrawn[body];
+        view.dirty_vertices = view.dirty_indices = {3 * begin, 3 * (end - begin)};
     }
     return view;
 }

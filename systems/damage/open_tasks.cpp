@@ -79,7 +79,8 @@ ImpactEvent event_of(const Bodies& bodies, const Impact& impact, double inverse_
 }
 
 // Contacts of one body, fastest first: those within a patch radius of one already taken belong to its patch (6.3).
-void lay_contacts(std::span<const Impact> impacts, State& state, Row<Tasks> task) {
+// `first_aimed` is the first of them as aimed() has it.
+void lay_contacts(std::span<const Impact> impacts, const Impact& first_aimed, State& state, Row<Tasks> task) {
     const Bodies& bodies = state.bodies;
     const Shells& shells = state.shells;
     Tasks& tasks = state.tasks;
@@ -99,7 +100,7 @@ void lay_contacts(std::span<const Impact> impacts, State& state, Row<Tasks> task
         bool joins = false;
         for (uint32_t c = first; c < first + count; ++c) joins = joins || is_taken(c);
         if (joins) continue;
-        const Impact impact = aimed(state, told);
+        const Impact impact = &told == impacts.data() ? first_aimed : aimed(state, told);
         const uint32_t c = first + count++;
         contacts.clear_rows(c, 1);
         contacts.point.set(c, point);
@@ -360,7 +361,7 @@ void open_tasks(Serial, Step step, const Events<Impact>& impacts, ShellTables sh
         }
         const Row<Tasks> task = opening.open(body, first.approach_speed);
         if (!task.exists()) continue;
-        lay_contacts(all.subspan(i, next - i), state, task);
+        lay_contacts(all.subspan(i, next - i), first, state, task);
         impact_events.push(event);
     }
     BlowOpening blows{

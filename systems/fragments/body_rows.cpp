@@ -50,6 +50,9 @@ uint32_t view_rows(const ShellView& shell, ForEach for_each) {
     return 6 * count;
 }
 
+/// One row in so many is spare where cracks may add to a mesh: without, each hit would draw all of it into other rows.
+constexpr uint32_t kViewSpare = 8;
+
 void shrink(RangePool& pool, Range& range, uint32_t rows) {
     const uint32_t kept = pool.rounded(rows), had = pool.rounded(range.capacity);
     pool.give_back(range.first + kept, had - kept);
@@ -83,20 +86,32 @@ bool take_view_rows(State& state, Row<Bodies> b, uint32_t rows) {
 
 }  // namespace
 
-bool take_view(State& state, Row<Bodies> b) {
+bool take_view(State& state, Row<Bodies> b, bool may_crack) {
     const ShellView shell(state, state.bodies.shell[b]);
-    return take_view_rows(state, b, view_rows(shell, [&](auto visit) {
-                              for (uint32_t e = 0; e < shell.element_count(); ++e)
-                                  if (!(state.elements.flags[shell.element(e)] & kDead)) visit(e);
-                          }));
+    const uint32_t rows = view_rows(shell, [&](auto visit) {
+        for (uint32_t e = 0; e < shell.element_count(); ++e)
+            if (!(state.elements.flags[shell.element(e)] & kDead)) visit(e);
+    });
+    return (may_crack && take_view_rows(state, b, rows + rows / kViewSpare)) || take_view_rows(state, b, rows);
 }
 
+namespace {
+
+uint32_t view_rows(const ShellView& shell, const FragmentPart& part) {
+    return view_rows(shell, [&](auto visit) {
+        for (uint32_t e = part.first_element; e != kNone; e = shell.state.elements.next[shell.element(e)]) visit(e);
+    });
+}
+
+}  // namespace
+
 bool take_view(State& state, Row<Bodies> b, ShellView shell, const FragmentPart& part) {
-    return take_view_rows(state, b, view_rows(shell, [&](auto visit) {
-                              for (uint32_t e = part.first_element; e != kNone;
-                                   e = state.elements.next[shell.element(e)])
-                                  visit(e);
-                          }));
+    return take_view_rows(state, b, view_rows(shell, part));
+}
+
+bool take_rest_view(State& state, Row<Bodies> b, ShellView shell, const FragmentPart& part) {
+    const uint32_t rows = view_rows(shell, part);
+    return take_view_rows(state, b, rows + rows / kViewSpare) || take_view_rows(state, b, rows);
 }
 
 }  // namespace cullet

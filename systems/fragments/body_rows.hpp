@@ -10,9 +10,12 @@ Row<Bodies> take_body(State& state);
 /// Gives back the row, its shell and its drawn mesh. The rigid world's body and open tasks are the caller's affair.
 void free_body(State& state, Row<Bodies> body);
 /// Ranges of the drawn mesh for the live elements of the body's present shell: those that it has, when they are large
-/// enough. False when limits.view_vertices is reached, and nothing changes.
-bool take_view(State& state, Row<Bodies> body);
+/// enough. False when limits.view_vertices is reached, and nothing changes. With `may_crack` there are more, if there
+/// is room, for what cracks add.
+bool take_view(State& state, Row<Bodies> body, bool may_crack = false);
 /// The same for one part of a shell that the body will have.
 bool take_view(State& state, Row<Bodies> body, ShellView shell, const FragmentPart& part);
+/// And for the part that goes on as the body, with the same spare rows.
+bool take_rest_view(State& state, Row<Bodies> body, ShellView shell, const FragmentPart& part);
 
 }  // namespace cullet

@@ -28,8 +28,10 @@ struct Break {
     ShellSums whole;             // of `broken` before they do
     float margin = 0;            // of the body's hulls so far
     Range points = {};           // for the hulls of what is left
-    bool is_refused = false;     // some part stays for want of room
-    Row<SoftBodies> soft = {};   // an awake soft body that tore: what has pins keeps the body, its points go on moving
+    /// The body keeps its rows, and hulls and drawn mesh but for the cells that changed (Cells::is_changed).
+    bool keeps_hulls = false, keeps_mesh = false;
+    bool is_refused = false;    // some part stays for want of room
+    Row<SoftBodies> soft = {};  // an awake soft body that tore: what has pins keeps the body, its points go on moving
 
     bool leaves(uint32_t part) const { return child[part].exists() || is_crumb[part]; }
     bool is_broken() const {

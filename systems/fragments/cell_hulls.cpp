@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "systems/fragments/cell_elements.hpp"
 #include "systems/fragments/cell_parts.hpp"
 #include "systems/fragments/extreme_points.hpp"
 
@@ -179,7 +180,7 @@ void write_points(const ShellView& shell, uint32_t cell, const Workspace& work) 
 /// Room for cells in turn, in the shell's range of points.
 class PointRoom {
  public:
-    explicit PointRoom(const ShellView& shell) : shell_(shell) {}
+    explicit PointRoom(const ShellView& shell, uint32_t first = 0) : shell_(shell), next_(first) {}
     /// For points that are chosen later.
     void reserve(uint32_t cell) {
         Cells& cells = shell_.state.cells;
@@ -208,7 +209,7 @@ class PointRoom {
         next_ += count;
     }
     const ShellView& shell_;
-    uint32_t next_ = 0;
+    uint32_t next_;
 };
 
 /// Links the elements of each cell in rising order, and counts them: elements stand sorted by cell.
@@ -229,6 +230,31 @@ void link_sorted(const ShellView& shell) {
         cells.is_stale[cell_row(shell, c)] = 0;
     }
     CULLET_ASSERT(e == count, "elements of shell %u are not sorted by cell", shell.row.index);
+    shell.shells().sorted_elements[shell.row] = count;
+}
+
+/// The same of live elements of cells that changed.
+void link_changed(const ShellView& shell) {
+    Elements& elements = shell.state.elements;
+    Cells& cells = shell.state.cells;
+    for (uint32_t c = 0; c < shell.shells().cells[shell.row].count; ++c) {
+        const uint32_t row = cell_row(shell, c);
+        if (!cells.is_changed[row]) continue;
+        cells.first_element[row] = cells.last_element[row] = kNone;
+        cells.element_count[row] = 0;
+    }
+    for_each_element_of_changed_cells(shell, [&](uint32_t e) {
+        const uint32_t row = shell.element(e);
+        if (elements.flags[row] & kDead) return;
+        const uint32_t c = cell_row(shell, elements.cell[row]);
+        elements.next_in_cell[row] = kNone;
+        if (cells.first_element[c] == kNone)
+            cells.first_element[c] = e;
+        else
+            elements.next_in_cell[shell.element(cells.last_element[c])] = e;
+        cells.last_element[c] = e;
+        ++cells.element_count[c];
+    });
 }
 
 /// The same of live elements in any order.
@@ -315,7 +341,7 @@ void find_changed_cells(ShellView shell, ShellView before) {
             for (int k = 0; k < 3; ++k)
                 is_same = is_same && (elements.neighbour[now][k] == kNone) == (elements.neighbour[then][k] == kNone);
         }
-        if (!is_same) cells.is_changed[cell_row(shell, elements.cell[now])] = 1;
+        if (!is_same) cells.is_changed[cell_row(shell, elements.cell[now])] = kCracked;
     }
 }
 
@@ -341,6 +367,41 @@ void copy_rest_hulls(ShellView shell, Range points, ShellView before) {
             room.reserve(c);
             cells.is_stale[row] = 0;
         }
+    }
+}
+
+bool has_room_to_renew(ShellView shell) {
+    const Cells& cells = shell.state.cells;
+    const Range points = shell.shells().points[shell.row];
+    uint64_t wanted = points.count;
+    for (uint32_t c = 0; c < shell.shells().cells[shell.row].count; ++c)
+        if (cells.is_changed[cell_row(shell, c)]) wanted += most_points(1, cells.element_count[cell_row(shell, c)]);
+    return wanted <= points.capacity;
+}
+
+void renew_rest_hulls(ShellView shell) {
+    Cells& cells = shell.state.cells;
+    link_changed(shell);
+    PointRoom room(shell, shell.shells().points[shell.row].count);
+    for (uint32_t c = 0; c < shell.shells().cells[shell.row].count; ++c) {
+        const uint32_t row = cell_row(shell, c);
+        cells.same_cell[row] = cells.is_changed[row] ? kNone : c;
+        if (!cells.is_changed[row]) continue;
+        room.reserve(c);
+        cells.is_stale[row] = 0;
+    }
+}
+
+void pack_renewed_hulls(ShellView shell) {
+    Cells& cells = shell.state.cells;
+    Range& points = shell.shells().points[shell.row];
+    for (uint32_t c = 0; c < shell.shells().cells[shell.row].count; ++c) {
+        const uint32_t row = cell_row(shell, c), count = cells.point_count[row];
+        if (cells.same_cell[row] != kNone) continue;
+        shell.state.hull_points.copy_rows(shell.state.hull_points, points.first + cells.first_point[row],
+                                          points.first + points.count, count);
+        cells.first_point[row] = points.count;
+        points.count += count;
     }
 }
 

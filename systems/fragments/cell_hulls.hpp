@@ -35,7 +35,16 @@ void choose_hull(ShellView shell, uint32_t cell);
 /// When no cell waits any more.
 void pack_hulls(ShellView shell);
 
+/// Of what is left of a body that keeps its points: cells that changed wait, and get room behind all points that are
+/// there; the others' same_cell is their own number. O(elements of these cells + cells).
+void renew_rest_hulls(ShellView shell);
+/// When no cell waits any more: the points of those that did move together. The old ones are left behind them unused.
+void pack_renewed_hulls(ShellView shell);
+/// Whether there is that room.
+bool has_room_to_renew(ShellView shell);
+
 /// Cells.is_changed of `shell`, a cracked copy of `before` with the same cells: where an element is new, has lost a
-/// neighbour or a corner, and where the points were stale before.
+/// neighbour or a corner, and where the points were stale before (kCracked).
 void find_changed_cells(ShellView shell, ShellView before);
+
 }  // namespace cullet

@@ -6,6 +6,7 @@
 #include "systems/fragments/rest_of_body.hpp"
 #include "systems/fragments/rigid_shape.hpp"
 #include "systems/systems.hpp"
+#include "systems/view/draw_shell.hpp"
 
 namespace cullet {
 namespace {
@@ -22,11 +23,23 @@ bool is_worth_it(const State& state, uint32_t b) {
            !find_springs(state, shell).exists();
 }
 
+// The drawn mesh names elements by the rows that they have now.
+void follow_drawn(State& state, Row<Bodies> body, ShellView old, ShellView now) {
+    const Range drawn = state.bodies.view_indices[body];
+    for (uint32_t i = drawn.first; i < drawn.first + drawn.count; ++i) {
+        uint32_t& source = state.view_indices.source[i];
+        const uint32_t e = source / kMostDrawnTriangles;
+        source = kMostDrawnTriangles * state.elements.copy[old.element(e)] + source % kMostDrawnTriangles;
+    }
+    remember_drawn(now, drawn);
+}
+
 bool compact(State& state, Row<Bodies> body, std::span<FragmentPart> slot) {
     const Row<Shells> old = state.bodies.shell[body];
     if (group_fragments(ShellView(state, old), slot) != 1) return false;
     const Row<Shells> compacted = compact_shell(state, old, slot[0]);
     if (!compacted.exists()) return false;
+    follow_drawn(state, body, ShellView(state, old), ShellView(state, compacted));
     release_shell(state, old);
     state.bodies.shell[body] = compacted;
     take_mass_properties(state, body);
@@ -37,7 +50,7 @@ bool compact(State& state, Row<Bodies> body, std::span<FragmentPart> slot) {
 
 // The drawn mesh and the hulls stay: nothing that the game or the rigid world sees changes, but the last bits of the
 // mass. The first body of a quiet frame is served even when it costs more than the budget, or it never would be.
-void compact_shells(Serial, ShellTables shells, Bodies& bodies, const Tasks& tasks, Fragments& fragments,
+void compact_shells(Serial, ShellTables shells, Bodies& bodies, ViewIndices&, const Tasks& tasks, Fragments& fragments,
                     DamageCounts& counts, const Events<TaskEnded>& ended) {
     bool is_quiet = ended.size() == 0;
     for (uint32_t t = 0; t < tasks.size() && is_quiet; ++t)

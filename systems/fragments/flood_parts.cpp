@@ -139,9 +139,7 @@ uint16_t FloodedParts::piece_of(const ShellView& shell, uint32_t element) const 
     const Elements& elements = shell.state.elements;
     const uint32_t place = elements.copy[shell.element(element)];
     if (place >= visited || elements.next_in_cell[shell.element(place)] != element) return kRest;
-    uint32_t flood = elements.other_slope[shell.element(place)][0];
-    while (parent[flood] != flood) flood = parent[flood];
-    return piece_of_flood[flood];
+    return piece_of_flood[root(elements.other_slope[shell.element(place)][0])];
 }
 
 void flood_parts(ShellView shell, FloodedParts& found) {
@@ -176,6 +174,69 @@ void flood_parts(ShellView shell, FloodedParts& found) {
     std::sort(order, order + roots, [&](uint16_t a, uint16_t b) { return smallest[a] < smallest[b]; });
     for (uint32_t i = 0; i < roots; ++i)
         found.piece_of_flood[order[i]] = order[i] == rest ? FloodedParts::kRest : static_cast<uint16_t>(found.pieces++);
+}
+
+namespace {
+
+/// Of the elements that are numbered 0.
+bool has_pins(const ShellView& shell) {
+    const Vertices& vertices = shell.state.vertices;
+    const uint8_t* const first = vertices.is_pinned.data() + shell.vertices().first;
+    const uint8_t* const end = first + shell.vertex_count();
+    for (const uint8_t* at = first; at < end; ++at) {
+        at = static_cast<const uint8_t*>(std::memchr(at, 1, static_cast<size_t>(end - at)));
+        if (!at) return false;
+        const uint32_t element = vertices.element[shell.vertex(static_cast<uint32_t>(at - first))];
+        if (element != kNone && shell.state.elements.part[shell.element(element)] == 0) return true;
+    }
+    return false;
+}
+
+void describe_rest(const ShellView& shell, std::span<FragmentPart> parts) {
+    const Shells& s = shell.shells();
+    const Elements& elements = shell.state.elements;
+    FragmentPart rest;
+    rest.element_count = shell.element_count() - s.dead_elements[shell.row];
+    rest.mass = s.mass[shell.row];
+    for (const FragmentPart& piece : parts.subspan(1)) {
+        rest.element_count -= piece.element_count;
+        rest.mass -= piece.mass;
+    }
+    rest.has_pins = has_pins(shell);
+    uint32_t e = 0;
+    while (e < shell.element_count() && elements.part[shell.element(e)] != 0) ++e;
+    rest.first_element = e < shell.element_count() ? e : kNone;
+    parts[0] = rest;
+}
+
+}  // namespace
+
+// The floods' own list of visited elements is put in order, with the flood beside each.
+uint32_t find_pieces(ShellView shell, std::span<FragmentPart> parts) {
+    FloodedParts found;
+    flood_parts(shell, found);
+    if (found.pieces == kNone || found.pieces >= parts.size()) return kNone;
+    Elements& elements = shell.state.elements;
+    using Entry = std::array<uint32_t, 3>;  // flood, element
+    Entry* const entries = elements.other_slope.data() + shell.elements().first;
+    const uint32_t* const visited = elements.next_in_cell.data() + shell.elements().first;
+    uint32_t count = 0;
+    for (uint32_t i = 0; i < found.visited; ++i) {
+        const uint32_t flood = found.root(entries[i][0]);
+        if (found.piece_of_flood[flood] != FloodedParts::kRest) entries[count++] = {flood, visited[i], 0};
+    }
+    std::sort(entries, entries + count, [](const Entry& a, const Entry& b) { return a[1] < b[1]; });
+    for (uint32_t p = 0; p < found.pieces; ++p) parts[p + 1] = {};
+    for (uint32_t i = 0; i < count; ++i) {
+        const uint32_t part = found.piece_of_flood[entries[i][0]] + 1u, e = entries[i][1];
+        elements.part[shell.element(e)] = part;
+        add_to_part(shell, parts[part], e);
+    }
+    const auto all = parts.first(found.pieces + 1);
+    describe_rest(shell, all);
+    for (const FragmentPart& piece : all.subspan(1))
+        if (!(piece.mass < all[0].mass)) return kNone;
+    return found.pieces + 1;
 }
 
 uint32_t group_from_cracks(ShellView shell, std::span<FragmentPart> parts) {

@@ -24,6 +24,11 @@ struct FloodedParts {
 
  private:
     friend void flood_parts(ShellView shell, FloodedParts& found);
+    friend uint32_t find_pieces(ShellView shell, std::span<FragmentPart> parts);
+    uint32_t root(uint32_t flood) const {
+        while (parent[flood] != flood) flood = parent[flood];
+        return flood;
+    }
     uint16_t parent[kMostFloods];
 };
 
@@ -33,6 +38,13 @@ struct FloodedParts {
 /// scratch columns copy, next_in_cell, next and other_slope of its elements. O(elements of the pieces times the pieces
 /// that are as large + crack edges), and a look at a byte an edge.
 void flood_parts(ShellView shell, FloodedParts& found);
+
+/// For such a shell whose live elements are all numbered 0 (is_numbered_zero): the pieces get the numbers from 1 on, by
+/// smallest element, with their lists. What is left keeps its number and its elements are not looked at: parts[0]
+/// describes it without a list (is_listed), its mass is the shell's less the pieces'. Returns how many parts there are;
+/// kNone, and numbers that are good for nothing, where there are too many runs of crack edges or parts, or a piece is
+/// as heavy as what is left. O(elements of the pieces), and a look at a byte an edge and a vertex.
+uint32_t find_pieces(ShellView shell, std::span<FragmentPart> parts);
 
 /// What group_fragments does, for such a shell: the flood finds the pieces, and one pass writes the numbers and chains
 /// the elements. Where there are too many runs of crack edges group_fragments does it all.

@@ -57,7 +57,29 @@ uint32_t group_fragments(ShellView shell, std::span<FragmentPart> parts) {
     return count;
 }
 
+bool is_numbered_zero(const ShellView& shell) {
+    static_assert(kNone + 1u == 0);
+    const uint32_t* const part = shell.state.elements.part.data() + shell.elements().first;
+    const uint32_t count = shell.element_count();
+    uint32_t others = 0;
+    for (uint32_t e = 0; e < count; ++e) others |= part[e] + 1 > 1;
+    return others == 0;
+}
+
+void list_part(ShellView shell, std::span<FragmentPart> parts, uint32_t part) {
+    FragmentPart& listed = parts[part];
+    if (is_listed(listed)) return;
+    const double mass = listed.mass;
+    const bool has_pins = listed.has_pins;
+    listed = {};
+    for (uint32_t e = 0; e < shell.element_count(); ++e)
+        if (shell.state.elements.part[shell.element(e)] == part) add_to_part(shell, listed, e);
+    listed.mass = mass;
+    listed.has_pins = has_pins;
+}
+
 bool is_of_one_part(const ShellView& shell) {
+    if (is_numbered_zero(shell)) return true;
     const Elements& elements = shell.state.elements;
     uint32_t part = kNone;
     for (uint32_t e = 0; e < shell.element_count(); ++e) {
@@ -75,11 +97,13 @@ void join_parts(ShellView shell, std::span<FragmentPart> parts, uint32_t from, u
     for (uint32_t e = parts[from].first_element; e != kNone; e = elements.next[shell.element(e)])
         elements.part[shell.element(e)] = to;
     FragmentPart& target = parts[to];
-    if (target.element_count == 0)
+    if (!is_listed(target))
+        target.first_element = std::min(target.first_element, parts[from].first_element);
+    else if (target.element_count == 0)
         target.first_element = parts[from].first_element;
     else
         elements.next[shell.element(target.last_element)] = parts[from].first_element;
-    target.last_element = parts[from].last_element;
+    if (is_listed(target)) target.last_element = parts[from].last_element;
     target.element_count += parts[from].element_count;
     target.mass += parts[from].mass;
     target.has_pins = target.has_pins || parts[from].has_pins;

@@ -13,6 +13,15 @@ uint32_t group_fragments(ShellView shell, std::span<FragmentPart> parts);
 
 /// By the numbers of the last grouping: cooking's, or that of the break that made the shell.
 bool is_of_one_part(const ShellView& shell);
+/// All live elements are numbered 0 and no dead one has a number.
+bool is_numbered_zero(const ShellView& shell);
+
+/// Whether the part's elements are chained: what is left of a body may not be (find_pieces).
+inline bool is_listed(const FragmentPart& part) {
+    return part.element_count == 0 || part.last_element != kNone;
+}
+/// Chains the elements of that number where they are not yet. O(elements).
+void list_part(ShellView shell, std::span<FragmentPart> parts, uint32_t part);
 
 /// Puts element e behind the part's others; they come in rising order.
 void add_to_part(const ShellView& shell, FragmentPart& part, uint32_t e);

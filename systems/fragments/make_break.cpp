@@ -108,7 +108,8 @@ uint32_t make_debris(Births& births, ShellView shell, const FragmentPart& part, 
     return row;
 }
 
-void place_body(Births& births, Row<Bodies> body, const Moment& moment, const Motion& motion, bool is_static) {
+void place_body(Births& births, Row<Bodies> body, const Moment& moment, const Motion& motion, bool is_static,
+                bool is_local) {
     Bodies& bodies = births.state.bodies;
     if (static_cast<BodyKind>(bodies.kind[body]) == BodyKind::Free) {
         // Nothing moved since the step began: a new piece was where its parent was.
@@ -123,8 +124,11 @@ void place_body(Births& births, Row<Bodies> body, const Moment& moment, const Mo
     bodies.spin.set(body, is_static ? Vec3{} : motion.angular_velocity);
     bodies.retry_frame[body] = births.step.frame + retry_frames(births.step.dt);
     bodies.is_asleep[body] = 0;
-    take_mass_properties(births.state, body);
-    births.changed.push({body});
+    if (is_local)
+        take_rest_properties(births.state, body);
+    else
+        take_mass_properties(births.state, body);
+    births.changed.push({body, is_local});
 }
 
 struct Bounds {
@@ -164,6 +168,14 @@ void part_strikers(Births& births, Row<Tasks> task, const Break& plan, bool is_l
     }
 }
 
+// False: this rigid world wants all pieces.
+bool change_rest(Births& births, Row<Bodies> body) {
+    const Bodies& bodies = births.state.bodies;
+    std::span<const uint32_t> gone;
+    const auto pieces = changed_pieces(births.state, bodies.shell[body], births.arena, gone);
+    return births.rigid.change_shape(body, bodies.mass[body], bodies.centre[body], bodies.inertia[body], gone, pieces);
+}
+
 // One piece's row, rigid body and event. The body frame and the pose stay the parent's.
 void make_birth(Births& births, const Break& plan, uint32_t p, const Moment& moment, Bounds& bounds) {
     State& state = births.state;
@@ -176,20 +188,33 @@ void make_birth(Births& births, const Break& plan, uint32_t p, const Moment& mom
     births.counts.clamped += is_too_fast || spins_too_fast;
     const bool was_static = static_cast<BodyKind>(bodies.kind[body]) == BodyKind::Static;
     const bool is_static = plan.motions[p].is_static;
-    place_body(births, child, moment, motion, is_static);
-    pack_hulls(ShellView(state, bodies.shell[child]));
+    const bool is_rest = p == plan.largest;
+    place_body(births, child, moment, motion, is_static, is_rest && plan.keeps_mesh);
+    if (is_rest && plan.keeps_hulls) {
+        pack_renewed_hulls(ShellView(state, bodies.shell[body]));
+        // What it was drawn as holds its hulls.
+        const auto& drawn = bodies.drawn_box[body];
+        bounds.low = {drawn[0], drawn[1], drawn[2]}, bounds.high = {drawn[3], drawn[4], drawn[5]};
+        if (was_static == is_static && change_rest(births, body)) {
+            if (!was_static) births.rigid.set_motion(body, motion);
+            return;
+        }
+    } else {
+        pack_hulls(ShellView(state, bodies.shell[child]));
+        bounds = {};
+    }
     const auto pieces = convex_pieces(state, bodies.shell[child], births.arena, body);
-    bounds = {};
-    for (const ConvexPiece& piece : pieces)
-        for (const Vec3 point : piece.points) bounds.add(point);
-    if (p == plan.largest && was_static == is_static) {
+    if (!is_rest || !plan.keeps_hulls)
+        for (const ConvexPiece& piece : pieces)
+            for (const Vec3 point : piece.points) bounds.add(point);
+    if (is_rest && was_static == is_static) {
         births.rigid.set_shape(body, bodies.mass[body], bodies.centre[body], bodies.inertia[body], pieces);
         if (!was_static) births.rigid.set_motion(body, motion);
         return;
     }
-    if (p == plan.largest) births.rigid.remove(body);
+    if (is_rest) births.rigid.remove(body);
     births.rigid.add(child, describe_rigid(state, child, pieces));
-    if (p == plan.largest) return;
+    if (is_rest) return;
     births.born.push({body_id(bodies, child), body_id(bodies, body), bodies.user_data[body],
                       to_world(moment.pose, bodies.centre[child].to_float()), motion, bodies.mass[child],
                       state.shells.generation[bodies.shell[child]]});

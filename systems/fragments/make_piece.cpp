@@ -93,7 +93,7 @@ void join_cells(const ShellView& shell, uint32_t from, uint32_t to) {
     cells.last_element[t] = cells.last_element[f];
     cells.list_count[t] += cells.list_count[f];
     cells.merged[f] = to;
-    cells.is_changed[t] = 1;
+    cells.is_changed[t] |= kCracked;
 }
 
 /// Joins small cells to neighbours, by rising cell, until none can. Returns how many cells are left.
@@ -289,7 +289,7 @@ Row<Shells> reserve_piece(State& state, Row<Shells> broken, const FragmentPart& 
     Cells& cells = state.cells;
     for_each_cell(shell, part, [&](uint32_t cell, uint32_t c) {
         const uint32_t own = cell_row(piece, state.shells.cells[row].count++);
-        const bool is_same = !cells.is_changed[c] && cells.list_count[c] == cells.element_count[c];
+        const bool is_same = !(cells.is_changed[c] & kCracked) && cells.list_count[c] == cells.element_count[c];
         cells.first_element[own] = cells.first_element[c];
         cells.same_cell[own] = is_same ? cell : kNone;
     });
@@ -334,6 +334,7 @@ Row<Shells> compact_shell(State& state, Row<Shells> old, const FragmentPart& who
     state.cells.copy_rows(state.cells, state.shells.cells[old].first, cells.first, cells.count);
     state.hull_points.copy_rows(state.hull_points, state.shells.points[old].first, points.first, points.count);
     state.shells.has_cracks[row] = state.shells.has_cracks[old];
+    state.shells.sorted_elements[row] = piece.element_count();
     return row;
 }
 

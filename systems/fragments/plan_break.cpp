@@ -10,6 +10,7 @@
 #include "systems/quick/quick_body.hpp"
 #include "systems/rigid/body_id.hpp"
 #include "systems/soft/soft_pieces.hpp"
+#include "systems/view/redraw_body.hpp"
 
 namespace cullet {
 namespace {
@@ -84,9 +85,24 @@ Break break_of(Planning& planning, Row<Tasks> task, Row<Bodies> body, Row<Shells
     return plan;
 }
 
+// Which cells pieces may leave, beside those that cracked.
+void mark_left_cells(const Break& plan, const ShellView& shell) {
+    const Elements& elements = shell.state.elements;
+    const uint32_t first_cell = shell.shells().cells[shell.row].first, rest = largest_part(plan.parts);
+    for (uint32_t p = 0; p < plan.parts.size(); ++p)
+        for (uint32_t e = p == rest ? kNone : plan.parts[p].first_element; e != kNone;
+             e = elements.next[shell.element(e)])
+            shell.state.cells.is_changed[first_cell + elements.cell[shell.element(e)]] |= kLeft;
+}
+
 // Room that the rest needs whatever leaves. False: none, and nothing else is to change.
 bool reserve_points(Planning& planning, Break& plan) {
     const Shells& shells = planning.state.shells;
+    const ShellView broken(planning.state, plan.broken);
+    find_changed_cells(broken, ShellView(planning.state, plan.before));
+    mark_left_cells(plan, broken);
+    plan.keeps_hulls = plan.broken == plan.before && !plan.soft.exists() && has_room_to_renew(broken);
+    if (plan.keeps_hulls) return true;
     const uint32_t rows = most_points(shells.cells[plan.broken].count, shells.elements[plan.broken].count);
     if (take_points(planning.state, rows, plan.points)) return true;
     planning.refused.push(refused_event(planning.state.bodies, plan.body, "limits.vertices"));
@@ -126,13 +142,30 @@ void choose_births(Planning& planning, Break& plan) {
     }
 }
 
+// The mesh that is drawn of the body is up to date, has room for what is new of the rest, and more of it stays than
+// goes.
+bool keeps_mesh(Planning& planning, const Break& plan) {
+    State& state = planning.state;
+    const Shells& shells = state.shells;
+    if (plan.soft.exists() || state.bodies.is_owed_births[plan.body] == kOwedDrawing) return false;
+    uint32_t left = 0;
+    for (uint32_t p = 0; p < plan.parts.size(); ++p)
+        if (plan.leaves(p)) left += plan.parts[p].element_count;
+    if (2 * left > shells.elements[plan.broken].count - shells.dead_elements[plan.broken]) return false;
+    const Range &vertices = state.bodies.view_vertices[plan.body], &indices = state.bodies.view_indices[plan.body];
+    return rows_to_draw(state, plan.body, ShellView(state, plan.broken), plan.largest) <=
+           std::min(vertices.capacity, indices.capacity);
+}
+
 // Room for the rest's drawn mesh. Where there is none the lightest pieces give their rows back and stay, and in the end
 // the crumbs do. False when even then there is none: the mesh that was drawn last stands.
 bool reserve_view(Planning& planning, Break& plan) {
     State& state = planning.state;
     const auto count = static_cast<uint32_t>(plan.order.size());
     uint32_t lightest = count;
-    while (!take_view(state, plan.body, ShellView(state, plan.broken), plan.parts[plan.largest])) {
+    if (keeps_mesh(planning, plan)) return plan.keeps_mesh = true;
+    list_part(ShellView(state, plan.broken), plan.parts, plan.largest);
+    while (!take_rest_view(state, plan.body, ShellView(state, plan.broken), plan.parts[plan.largest])) {
         do {
             if (--lightest == 0) {
                 for (uint32_t i = 1; i < count; ++i) {
@@ -141,7 +174,8 @@ bool reserve_view(Planning& planning, Break& plan) {
                     ++planning.crumbs_left;
                     stay(planning, plan, plan.order[i], "limits.view_vertices");
                 }
-                if (take_view(state, plan.body, ShellView(state, plan.broken), plan.parts[plan.largest])) return true;
+                if (take_rest_view(state, plan.body, ShellView(state, plan.broken), plan.parts[plan.largest]))
+                    return true;
                 planning.refused.push(refused_event(state.bodies, plan.body, "limits.view_vertices"));
                 return false;
             }
@@ -186,7 +220,7 @@ bool reserve_births(Planning& planning, Break& plan) {
     if (plan.is_broken()) return true;
     const bool is_new = plan.task.exists();
     state.pools.points.give_back(plan.points.first, plan.points.capacity);
-    if (is_drawn && (is_new || !was_drawn)) planning.changed.push({plan.body});
+    if (is_drawn && (is_new || !was_drawn)) planning.changed.push({plan.body, plan.keeps_mesh});
     stay_whole(planning, plan);
     return false;
 }
@@ -197,6 +231,7 @@ void move_with_body(State& state, Break& plan, Vec3d velocity, Vec3d spin) {
     const Bodies& bodies = state.bodies;
     const ShellView shell(state, plan.broken);
     for (uint32_t p = 0; p < plan.parts.size(); ++p) {
+        list_part(shell, plan.parts, p);
         Moments sum;
         for (uint32_t e = plan.parts[p].first_element; e != kNone; e = state.elements.next[shell.element(e)])
             sum = sum + element_moments(shell, e);
@@ -220,6 +255,7 @@ void order_births(Planning& planning, Break& plan) {
     for (uint32_t p = 0; p < plan.parts.size(); ++p)
         if (plan.leaves(p)) plan.left_elements += plan.parts[p].element_count;
     plan.whole = sums_of(ShellView(state, plan.broken));
+    if (plan.is_rest_smaller(state)) list_part(ShellView(state, plan.broken), plan.parts, plan.largest);
     hand_on_hits(state, plan);
     hand_on_blows(planning, plan);
     const uint32_t of = planning.breaks.size();
@@ -257,7 +293,6 @@ void plan_break(Planning& planning, Row<Tasks> task) {
                           plan.parts, plan.motions);
         plan.clamped = report.speed_clamps + report.spin_clamps;
     }
-    find_changed_cells(shell, ShellView(state, plan.before));
     if (reserve_births(planning, plan)) order_births(planning, plan);
 }
 
@@ -276,7 +311,6 @@ void ask_again(Planning& planning, Row<Bodies> body) {
     const Quat to_body_axes = conjugate(bodies.orientation[body]);
     move_with_body(state, plan, Vec3d(rotate(to_body_axes, bodies.velocity[body])),
                    Vec3d(rotate(to_body_axes, bodies.spin[body])));
-    find_changed_cells(shell, shell);
     if (reserve_births(planning, plan)) order_births(planning, plan);
 }
 
@@ -293,12 +327,11 @@ void plan_tear(Planning& planning, Row<SoftBodies> soft) {
     std::copy_n(slot.begin(), parts.size(), parts.begin());
     Break plan = break_of(planning, {}, body, shell.row, parts);
     plan.soft = soft;
+    const Range cells = state.shells.cells[shell.row];
+    for (uint32_t c = cells.first; c < cells.first + cells.count; ++c) state.cells.is_stale[c] = 1;
     if (!reserve_points(planning, plan)) return;
     soft_handoff(state, soft, plan.parts, plan.motions);
     measure_shell(shell);  // as it is shaped now: pieces are subtracted from it
-    const Range cells = state.shells.cells[shell.row];
-    for (uint32_t c = cells.first; c < cells.first + cells.count; ++c) state.cells.is_stale[c] = 1;
-    find_changed_cells(shell, shell);
     if (reserve_births(planning, plan)) order_births(planning, plan);
 }
 
@@ -306,9 +339,14 @@ void keep_cracks(Planning& planning, Row<Tasks> task) {
     State& state = planning.state;
     const Row<Bodies> body = state.tasks.body[task];
     const ShellView shell(state, state.tasks.shell[task]), before(state, state.bodies.shell[body]);
-    const FragmentPart& whole = state.fragments.part[task * kMostParts];
+    const std::span parts(&state.fragments.part[task * kMostParts], 1);
     const char* full = nullptr;
-    if (!take_view(state, body, shell, whole))
+    find_changed_cells(shell, before);
+    const Range &vertices = state.bodies.view_vertices[body], &indices = state.bodies.view_indices[body];
+    const bool is_local = rows_to_draw(state, body, shell, kNone) <= std::min(vertices.capacity, indices.capacity) &&
+                          state.bodies.is_owed_births[body] != kOwedDrawing;
+    if (!is_local) list_part(shell, parts, 0);
+    if (!is_local && !take_rest_view(state, body, shell, parts[0]))
         full = "limits.view_vertices";
     else if (!keep_hulls(shell, before))
         full = "limits.vertices";
@@ -319,7 +357,7 @@ void keep_cracks(Planning& planning, Row<Tasks> task) {
     }
     clear_run(shell, true, shell.row != before.row);
     adopt_shell(state, body, shell.row);
-    planning.changed.push({body});
+    planning.changed.push({body, is_local});
 }
 
 }  // namespace cullet

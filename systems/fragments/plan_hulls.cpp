@@ -37,6 +37,7 @@ void keep_rest(State& state, const Break& plan) {
     state.shells.dead_elements[shell.row] += plan.left_elements;
     ++state.shells.generation[shell.row];
     if (!plan.soft.exists()) clear_run(shell, false, plan.broken != plan.before);
+    if (plan.keeps_hulls) return renew_rest_hulls(shell);
     const Range points = state.shells.points[before.row], old_points = state.shells.points[shell.row];
     state.shells.points[shell.row] = plan.points;
     copy_rest_hulls(shell, points, before);

@@ -73,13 +73,12 @@ bool keep_hulls(ShellView shell, ShellView before) {
         return false;
     }
     state.pools.points.give_back(old.first, old.capacity);
-    find_changed_cells(shell, before);
     const uint32_t then = before.shells().cells[before.row].first;
     for (uint32_t c = 0; c < cells.count; ++c) {
         state.cells.first_point[cells.first + c] = state.cells.first_point[then + c];
         state.cells.point_count[cells.first + c] = state.cells.point_count[then + c];
         state.cells.part_points[cells.first + c] = state.cells.part_points[then + c];
-        state.cells.is_stale[cells.first + c] = state.cells.is_changed[cells.first + c];
+        state.cells.is_stale[cells.first + c] = state.cells.is_changed[cells.first + c] & kCracked;
     }
     own.count = points.count;
     state.hull_points.copy_rows(state.hull_points, points.first, own.first, points.count);

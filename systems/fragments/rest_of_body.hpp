@@ -24,7 +24,7 @@ void measure_part(ShellView shell, const FragmentPart& part);
 void adopt_shell(State& state, Row<Bodies> body, Row<Shells> shell);
 
 /// Hull points of `before` for a shell with the same cells that only cracked: hulls stay as they are, and the cells
-/// that cracks touched are chosen anew at the next break. False: no room.
+/// that cracks touched (find_changed_cells) are chosen anew at the next break. False: no room.
 bool keep_hulls(ShellView shell, ShellView before);
 
 }  // namespace cullet

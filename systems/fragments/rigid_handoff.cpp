@@ -18,25 +18,136 @@ void for_each_vertex(const ShellView& shell, std::span<PartMotion> motions, Visi
     }
 }
 
+void add_linear(const Vertices& vertices, uint32_t row, PartMotion& m) {
+    const double mass = vertices.mass[row];
+    const Vec3d v(vertices.velocity[row]);
+    m.mass += mass;
+    m.centre += mass * Vec3d(vertices.rest[row]);  // divided by the mass later
+    m.momentum += mass * v;
+    m.hidden_energy += mass / 2 * dot(v, v);
+}
+
+void add_angular(const Vertices& vertices, uint32_t row, PartMotion& m) {
+    const double mass = vertices.mass[row];
+    const Vec3d arm = Vec3d(vertices.rest[row]) - m.centre;
+    m.angular_momentum += mass * cross(arm, Vec3d(vertices.velocity[row]));
+    m.inertia = m.inertia + mass * inertia_of(outer(arm));
+    m.radius = std::max(m.radius, length(arm));
+}
+
 void sum_momenta(const ShellView& shell, std::span<PartMotion> motions) {
     const Vertices& vertices = shell.state.vertices;
-    for_each_vertex(shell, motions, [&](uint32_t row, PartMotion& m) {
-        const double mass = vertices.mass[row];
-        const Vec3d v(vertices.velocity[row]);
-        m.mass += mass;
-        m.centre += mass * Vec3d(vertices.rest[row]);
-        m.momentum += mass * v;
-        m.hidden_energy += mass / 2 * dot(v, v);
-    });
+    for_each_vertex(shell, motions, [&](uint32_t row, PartMotion& m) { add_linear(vertices, row, m); });
     for (PartMotion& m : motions)
         if (m.mass > 0) m.centre = (1 / m.mass) * m.centre;
-    for_each_vertex(shell, motions, [&](uint32_t row, PartMotion& m) {
-        const double mass = vertices.mass[row];
-        const Vec3d arm = Vec3d(vertices.rest[row]) - m.centre;
-        m.angular_momentum += mass * cross(arm, Vec3d(vertices.velocity[row]));
-        m.inertia = m.inertia + mass * inertia_of(outer(arm));
-        m.radius = std::max(m.radius, length(arm));
-    });
+    for_each_vertex(shell, motions, [&](uint32_t row, PartMotion& m) { add_angular(vertices, row, m); });
+}
+
+/// Of vertices, about the body frame's origin. They add and subtract.
+struct VertexSums {
+    double mass = 0;
+    Vec3d first, momentum, turning;  // sum of m p, m v, m p x v
+    Sym3d second;                    // m p p^T
+    double energy = 0;
+
+    void add(double m, Vec3d p, Vec3d v) {
+        const Vec3d impulse = m * v;
+        mass += m;
+        first += m * p;
+        momentum += impulse;
+        turning += cross(p, impulse);
+        second = second + m * outer(p);
+        energy += 0.5 * dot(impulse, v);
+    }
+};
+
+/// Four sums side by side, so that none waits for another.
+VertexSums sums_of_all(const ShellView& shell) {
+    const Vertices& vertices = shell.state.vertices;
+    VertexSums lane[4];
+    for (uint32_t v = 0; v < shell.vertex_count(); ++v) {
+        const uint32_t row = shell.vertex(v);
+        lane[v % 4].add(vertices.mass[row], Vec3d(vertices.rest[row]), Vec3d(vertices.velocity[row]));
+    }
+    VertexSums all = lane[0];
+    for (int k = 1; k < 4; ++k) {
+        all.mass += lane[k].mass;
+        all.first += lane[k].first;
+        all.momentum += lane[k].momentum;
+        all.turning += lane[k].turning;
+        all.second = all.second + lane[k].second;
+        all.energy += lane[k].energy;
+    }
+    return all;
+}
+
+/// Calls visit(row) for each vertex of a listed part, in the order of its elements: each vertex names one of them.
+template <class Visit>
+void for_each_vertex_of(const ShellView& shell, const FragmentPart& part, Visit visit) {
+    const State& state = shell.state;
+    for (uint32_t e = part.first_element; e != kNone; e = state.elements.next[shell.element(e)])
+        for (const uint32_t v : state.elements.corner[shell.element(e)])
+            if (state.vertices.element[shell.vertex(v)] == e) visit(shell.vertex(v));
+}
+
+/// Of a part that is not listed: all, less the listed ones.
+void subtract_listed(const ShellView& shell, std::span<const FragmentPart> parts, VertexSums& rest) {
+    const Vertices& vertices = shell.state.vertices;
+    VertexSums left;
+    for (const FragmentPart& part : parts) {
+        if (!is_listed(part)) continue;
+        for_each_vertex_of(shell, part, [&](uint32_t row) {
+            left.add(vertices.mass[row], Vec3d(vertices.rest[row]), Vec3d(vertices.velocity[row]));
+        });
+    }
+    rest.mass -= left.mass;
+    rest.first = rest.first - left.first;
+    rest.momentum = rest.momentum - left.momentum;
+    rest.turning = rest.turning - left.turning;
+    rest.second = rest.second - left.second;
+    rest.energy -= left.energy;
+}
+
+double farthest_from(const ShellView& shell, Vec3 centre) {
+    constexpr uint32_t kWide = 4;
+    const Vertices& vertices = shell.state.vertices;
+    const uint32_t first = shell.vertex(0);
+    const float *x = vertices.rest.lane(0) + first, *y = vertices.rest.lane(1) + first,
+                *z = vertices.rest.lane(2) + first;
+    const uint32_t* const element = vertices.element.data() + first;
+    float most[kWide] = {};
+    for (uint32_t v = 0; v + kWide <= shell.vertex_count(); v += kWide)
+        for (uint32_t i = 0; i < kWide; ++i) {
+            const float dx = x[v + i] - centre.x, dy = y[v + i] - centre.y, dz = z[v + i] - centre.z;
+            const float square = element[v + i] == kNone ? 0 : dx * dx + dy * dy + dz * dz;
+            most[i] = square > most[i] ? square : most[i];
+        }
+    return std::sqrt(static_cast<double>(*std::max_element(most, most + kWide)));
+}
+
+/// What sum_momenta finds where what is left of a body is not listed. Its radius counts the vertices of the pieces,
+/// too: they lie on the body that it was.
+void sum_momenta_of_pieces(const ShellView& shell, std::span<const FragmentPart> parts, std::span<PartMotion> motions) {
+    VertexSums rest = sums_of_all(shell);
+    subtract_listed(shell, parts, rest);
+    const Vertices& vertices = shell.state.vertices;
+    for (uint32_t p = 0; p < motions.size(); ++p) {
+        PartMotion& m = motions[p];
+        if (!is_listed(parts[p])) {
+            m.mass = rest.mass;
+            m.momentum = rest.momentum;
+            m.hidden_energy = rest.energy;
+            if (!(rest.mass > 0)) continue;
+            m.centre = (1 / rest.mass) * rest.first;
+            m.angular_momentum = rest.turning - cross(m.centre, rest.momentum);
+            m.inertia = inertia_of(rest.second - rest.mass * outer(m.centre));
+            m.radius = farthest_from(shell, m.centre.to_float());
+            continue;
+        }
+        for_each_vertex_of(shell, parts[p], [&](uint32_t row) { add_linear(vertices, row, m); });
+        if (m.mass > 0) m.centre = (1 / m.mass) * m.centre;
+        for_each_vertex_of(shell, parts[p], [&](uint32_t row) { add_angular(vertices, row, m); });
+    }
 }
 
 /// I^-1 L; zero for a part so thin that its inertia has no inverse in double, which only lowers the energy.
@@ -100,7 +211,10 @@ HandoffReport rigid_handoff(ShellView shell, const HandoffStart& start, std::spa
     CULLET_ASSERT(all_motions.size() >= parts.size(), "%zu motions for %zu parts", all_motions.size(), parts.size());
     const std::span<PartMotion> motions = all_motions.first(parts.size());
     std::fill(motions.begin(), motions.end(), PartMotion{});
-    sum_momenta(shell, motions);
+    if (std::all_of(parts.begin(), parts.end(), [](const FragmentPart& part) { return is_listed(part); }))
+        sum_momenta(shell, motions);
+    else
+        sum_momenta_of_pieces(shell, parts, motions);
     HandoffReport report;
     report.largest = largest_part(parts);
     for (uint32_t p = 0; p < motions.size(); ++p) {

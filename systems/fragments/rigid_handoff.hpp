@@ -41,7 +41,8 @@ struct HandoffReport {
     double energy_after = 0;
 };
 
-/// One motion a part; parts as group_fragments gave them, motions at least as many. Clamps: a part's speed relative to
+/// One motion a part; parts as group_fragments or find_pieces gave them, motions at least as many. What find_pieces has
+/// not listed is summed as a difference. Clamps: a part's speed relative to
 /// the body's motion before the hit (V + w x r at its centre) is at most twice the impact speed, and what is cut off
 /// goes to the largest part, which is not clamped; a part's spin relative to the body's before is at most
 /// 2 impact_speed / radius (relative, or a body that flew spinning would lose its spin on breaking).

@@ -5,15 +5,21 @@
 
 namespace cullet {
 
-std::span<const ConvexPiece> convex_pieces(const State& state, Row<Shells> shell, Arena& arena, RigidId broken_body) {
+namespace {
+
+template <class IsWanted>
+std::span<const ConvexPiece> pieces_of(const State& state, Row<Shells> shell, Arena& arena, RigidId broken_body,
+                                       IsWanted&& is_wanted) {
     const Range cells = state.shells.cells[shell];
     const uint32_t first_point = state.shells.points[shell].first;
     uint32_t part_count = 0, count = 0;
     for (uint32_t c = cells.first; c < cells.first + cells.count; ++c)
-        for (const uint8_t part_points : state.cells.part_points[c]) part_count += part_points > 0;
+        if (is_wanted(c))
+            for (const uint8_t part_points : state.cells.part_points[c]) part_count += part_points > 0;
     const auto pieces = arena.take<ConvexPiece>(part_count);
     for (uint32_t c = 0; c < cells.count; ++c) {
         const uint32_t row = cells.first + c, same = state.cells.same_cell[row], shape = state.cells.shape[row];
+        if (!is_wanted(row)) continue;
         uint32_t from = first_point + state.cells.first_point[row];
         for (uint32_t part = 0; part < kMostCellParts && count < pieces.size(); ++part) {
             const auto points = arena.take<Vec3>(state.cells.part_points[row][part]);
@@ -27,6 +33,26 @@ std::span<const ConvexPiece> convex_pieces(const State& state, Row<Shells> shell
         }
     }
     return pieces.first(count);
+}
+
+}  // namespace
+
+std::span<const ConvexPiece> convex_pieces(const State& state, Row<Shells> shell, Arena& arena, RigidId broken_body) {
+    return pieces_of(state, shell, arena, broken_body, [](uint32_t) { return true; });
+}
+
+std::span<const ConvexPiece> changed_pieces(const State& state, Row<Shells> shell, Arena& arena,
+                                            std::span<const uint32_t>& gone) {
+    const Range cells = state.shells.cells[shell];
+    const auto is_wanted = [&](uint32_t row) { return state.cells.same_cell[row] == kNone; };
+    uint32_t count = 0, next = 0;
+    for (uint32_t c = 0; c < cells.count; ++c) count += is_wanted(cells.first + c);
+    const auto names = arena.take<uint32_t>(kMostCellParts * count);
+    for (uint32_t c = 0; c < cells.count; ++c)
+        for (uint32_t part = 0; part < kMostCellParts && is_wanted(cells.first + c); ++part)
+            names[next++] = kMostCellParts * c + part;
+    gone = names;
+    return pieces_of(state, shell, arena, 0, is_wanted);
 }
 
 // Rolling friction is a length: 0.08 of the root of the drawn area's quarter keeps shards from rolling on their rims.
@@ -65,6 +91,16 @@ void take_mass_properties(State& state, Row<Bodies> b) {
         most = std::max(most, dot(arm, arm));
     }
     bodies.radius[b] = std::sqrt(most);
+}
+
+void take_rest_properties(State& state, Row<Bodies> b) {
+    const Row<Shells> shell = state.bodies.shell[b];
+    Bodies& bodies = state.bodies;
+    const Vec3 moved = (state.shells.centre[shell] - bodies.centre[b]).to_float();
+    bodies.mass[b] = state.shells.mass[shell];
+    bodies.centre.set(b, state.shells.centre[shell]);
+    bodies.inertia[b] = state.shells.inertia[shell];
+    bodies.radius[b] += length(moved);
 }
 
 }  // namespace cullet

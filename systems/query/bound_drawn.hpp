@@ -9,4 +9,8 @@ namespace cullet {
 void bound_view(Bodies& bodies, Row<Bodies> body, const ViewVertices& vertices, const ViewIndices& indices,
                 ViewBoxes& boxes);
 
+/// The same after redraw_body: of the boxes marked as outdated.
+void bound_redrawn(Bodies& bodies, Row<Bodies> body, const ViewVertices& vertices, const ViewIndices& indices,
+                   ViewBoxes& boxes);
+
 }  // namespace cullet

@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "systems/fragments/prism.hpp"
-#include "systems/view/draw_shell.hpp"
+#include "systems/view/drawn_triangles.hpp"
 
 namespace cullet {
 namespace {
@@ -32,6 +32,21 @@ Result<void> check_rows(const ShellView& shell, const Range& vertices, const Ran
         if (const uint32_t v = shell.state.view_indices.index[indices.first + i]; v >= vertices.count)
             return Error{"drawn mesh: index " + std::to_string(i) + " is " + std::to_string(v) + " of " +
                          std::to_string(vertices.count) + " vertices."};
+    return {};
+}
+
+Result<void> check_sources(const ShellView& shell, const Range& indices) {
+    std::vector<uint32_t> sources;
+    for (uint32_t i = 0; i < indices.count; i += 3)
+        sources.push_back(shell.state.view_indices.source[indices.first + i]);
+    for (const uint32_t source : sources)
+        if (const uint32_t e = source / kMostDrawnTriangles;
+            e >= shell.element_count() || !is_drawn(shell, e, source % kMostDrawnTriangles))
+            return Error{"drawn mesh: a triangle is of element " + std::to_string(e) + ", which does not have it."};
+    std::sort(sources.begin(), sources.end());
+    if (const auto twice = std::adjacent_find(sources.begin(), sources.end()); twice != sources.end())
+        return Error{"drawn mesh: element " + std::to_string(*twice / kMostDrawnTriangles) +
+                     " has a triangle that is drawn twice."};
     return {};
 }
 
@@ -117,8 +132,9 @@ double drawn_volume(const State& state, const Range& vertices, const Range& indi
 
 Result<void> check_drawn_mesh(ShellView shell, const Range& view_vertices, const Range& view_indices) {
     if (Result<void> rows = check_rows(shell, view_vertices, view_indices); !rows) return rows;
+    if (Result<void> sources = check_sources(shell, view_indices); !sources) return sources;
     std::vector<uint32_t> numbers(view_vertices.count);
-    number_drawn(shell, numbers);
+    number_drawn(shell, view_indices, numbers);
     if (Result<void> places = check_places(shell, view_vertices, numbers); !places) return places;
     if (Result<void> closed = check_edges(shell, view_vertices, view_indices, numbers); !closed) return closed;
     double volume = 0;

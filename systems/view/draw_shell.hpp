@@ -26,7 +26,8 @@ struct DrawnCount {
 DrawnCount count_drawn(ShellView shell);
 
 /// Writes the mesh into these ranges of ViewVertices and ViewIndices (capacities at least as counted), sets their
-/// counts and returns the runs. Outer corners have the game's normals and uvs; inner
+/// counts and returns the runs: triangle s has vertices and indices 3 s to 3 s + 2, and elements stand in rising order
+/// within a run. Outer corners have the game's normals and uvs; inner
 /// ones the same uvs and the normals turned round, or the triangle's own where the inner wall runs another way; rims
 /// and cracks flat normals and uv = (way along the free border, depth) in m. Each triangle has corners of its own.
 /// Nothing allocates. About 0.3 microseconds an element.
@@ -34,9 +35,12 @@ DrawnCount draw_shell(ShellView shell, Range& view_vertices, Range& view_indices
 /// The same into the body's own ranges and run columns; its stamp becomes another.
 void draw_body(State& state, Row<Bodies> body);
 
-/// Which point of the solid each vertex that draw_shell writes stands for: 2 * vertex of the shell, + 1 on the inner
-/// side where depth is above 0. `numbers` has room for count_drawn's vertices.
-void number_drawn(ShellView shell, std::span<uint32_t> numbers);
+/// Elements.drawn from ViewIndices.source.
+void remember_drawn(ShellView shell, const Range& view_indices);
+
+/// Which point of the solid each vertex of the drawn mesh stands for, by ViewIndices.source: 2 * vertex of the shell,
+/// + 1 on the inner side where depth is above 0. `numbers` has room for as many as there are indices.
+void number_drawn(ShellView shell, const Range& view_indices, std::span<uint32_t> numbers);
 
 /// Checks that each corner is drawn where its point is, to the bit, that every edge between two points belongs to
 /// exactly two triangles, once each way, and that the volume is the elements' within 1e-4. By number and not by place:

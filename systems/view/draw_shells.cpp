@@ -1,13 +1,14 @@
 #include "systems/systems.hpp"
 #include "systems/view/draw_shell.hpp"
+#include "systems/view/redraw_body.hpp"
 
 namespace cullet {
 
-void draw_shells(Each<ShellChanged> changed, Step step, ShellTables shells, Bodies& bodies, ViewVertices&,
-                 ViewIndices&) {
+void draw_shells(Each<ShellChanged> changed, Step step, ShellTables shells, Bodies& bodies, ViewVertices&, ViewIndices&,
+                 ViewBoxes& boxes) {
     const Row<Bodies> body = changed->body;
     if (static_cast<BodyKind>(bodies.kind[body]) == BodyKind::Free) return;
-    draw_body(shells.state, body);
+    if (!changed->is_local || !redraw_body(shells.state, body, boxes)) draw_body(shells.state, body);
     bodies.drawn_frame[body] = step.frame;
 }
 

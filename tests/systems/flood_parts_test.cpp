@@ -36,6 +36,42 @@ void cut_all_links(ShellView shell) {
     }
 }
 
+std::vector<uint32_t> list_of(const ShellView& shell, const FragmentPart& part) {
+    std::vector<uint32_t> list;
+    for (uint32_t e = part.first_element; e != kNone; e = shell.state.elements.next[shell.element(e)])
+        list.push_back(e);
+    return list;
+}
+
+/// find_pieces tells of pieces and rest what relabelling does; the rest's elements keep the number 0.
+void compare_pieces(ShellView shell) {
+    Elements& elements = shell.state.elements;
+    std::vector<FragmentPart> parts(kMostParts), all(kMostParts);
+    all.resize(std::min(group_fragments(shell, all), kMostParts));
+    std::vector<std::vector<uint32_t>> lists;
+    for (const FragmentPart& part : all) lists.push_back(list_of(shell, part));
+    for (uint32_t e = 0; e < shell.element_count(); ++e)
+        if (elements.part[shell.element(e)] != kNone) elements.part[shell.element(e)] = 0;
+    ASSERT_TRUE(is_numbered_zero(shell));
+    const uint32_t count = find_pieces(shell, parts);
+    if (count == kNone) return;
+    ASSERT_EQ(count, all.size());
+    const uint32_t rest = largest_part(all);
+    uint32_t next = 1;
+    for (uint32_t p = 0; p < count; ++p) {
+        const FragmentPart& found = parts[p == rest ? 0 : next++];
+        EXPECT_EQ(is_listed(found), p != rest);
+        EXPECT_EQ(found.first_element, all[p].first_element);
+        EXPECT_EQ(found.element_count, all[p].element_count);
+        EXPECT_EQ(found.has_pins, all[p].has_pins);
+        EXPECT_NEAR(found.mass, all[p].mass, p == rest ? 1e-12 * shell.shells().mass[shell.row] : 0);
+        for (const uint32_t e : lists[p])
+            ASSERT_EQ(elements.part[shell.element(e)], p == rest ? 0 : next - 1) << "element " << e;
+        if (p == rest) list_part(shell, parts, 0);
+        EXPECT_EQ(list_of(shell, found), lists[p]);
+    }
+}
+
 /// The flood's pieces are relabelling's parts, but for one, which is the rest.
 void compare(ShellView shell, uint32_t least_parts) {
     FloodedParts flooded;
@@ -77,6 +113,7 @@ void compare(ShellView shell, uint32_t least_parts) {
         ASSERT_EQ(own, piece[e]) << "element " << e;
     }
     EXPECT_EQ(next + 1, count);
+    compare_pieces(shell);
 }
 
 TEST(FloodParts, AShellWithoutACrackIsOnePartAndNothingIsVisited) {

@@ -239,13 +239,14 @@ TEST(WorldCalls, ABodySpawnedBetweenStepsHasAllOfItsMeshDirtyUntilTheNextStepIsO
     expect_dirty(false);
 }
 
-TEST(WorldCalls, WhatBreaksHasAllOfItsMeshDirtyForOneStep) {
+TEST(WorldCalls, WhatBreaksHasItsMeshDirtyForOneStep) {
     Breakage b = vase_and_ball(small_settings());
     ASSERT_GT(step_until_born(b.world, 10), 0u);
     for (const BodyId body : shells_of(b.world)) {
         const BodyView view = b.world.view(body).value();
-        EXPECT_EQ(view.dirty_vertices.count, view.vertex_count);
-        EXPECT_EQ(view.dirty_indices.count, view.index_count);
+        EXPECT_GT(view.dirty_vertices.count, 0u);
+        EXPECT_LE(view.dirty_vertices.first + view.dirty_vertices.count, view.vertex_count);
+        EXPECT_EQ(view.dirty_indices.count, view.dirty_vertices.count);
     }
     // Each stamp goes with its dirty range.
     for (int frame = 0; frame < 20; ++frame) {

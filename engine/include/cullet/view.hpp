@@ -27,9 +27,10 @@ struct MaterialRun {
     uint32_t first_index = 0, index_count = 0;
 };
 
-/// Elements [first, first + count) of a buffer, vertices or indices, that changed in the last step; count 0: none. In
-/// this version a mesh that changed is made anew, so that it is all of them or none. A body that was spawned since the
-/// last step has all of them until the next step is over.
+/// Elements [first, first + count) of a buffer, vertices or indices, among which are all that changed in the last step;
+/// count 0: none. What a hit leaves of a body keeps the order of its triangles but
+/// for those that fill the gaps. A body that was spawned since the last step has all of them until the next step is
+/// over.
 struct DirtyRange {
     uint32_t first = 0, count = 0;
 };

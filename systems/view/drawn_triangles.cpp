@@ -1,0 +1,110 @@
+#include "systems/view/drawn_triangles.hpp"
+
+#include "systems/fragments/prism.hpp"
+
+namespace cullet {
+namespace {
+
+uint32_t run_of(const DrawnMaterials& materials, SurfaceKind kind, uint16_t id) {
+    uint32_t at = 0;
+    while (at + 1 < materials.count && materials.id[at] < id) ++at;
+    return static_cast<uint32_t>(kind) * kMostDrawnMaterials + at;
+}
+
+DrawnPoint point(const ShellView& shell, uint32_t vertex, bool is_inner) {
+    return {vertex, is_inner && shell.state.vertices.depth[shell.vertex(vertex)] > 0};
+}
+
+/// Of the wall below edge k: rims are drawn with the inner surface.
+SurfaceKind kind_of(const ShellView& shell, uint32_t element, uint32_t which) {
+    if (which == kOuterFace) return SurfaceKind::Outer;
+    if (which == kInnerFace) return SurfaceKind::Inner;
+    const uint32_t edge = (which - kFirstWall) / 2;
+    const auto kind = static_cast<EdgeKind>(shell.state.elements.edge_kind[shell.element(element)][edge]);
+    return kind == EdgeKind::Crack ? SurfaceKind::Crack : SurfaceKind::Inner;
+}
+
+}  // namespace
+
+Vec3 drawn_place(const ShellView& shell, DrawnPoint p) {
+    const uint32_t row = shell.vertex(p.vertex);
+    return p.is_inner ? inner_twin(shell.state, row).to_float() : shell.state.vertices.rest[row];
+}
+
+// The two triangles of a wall are seen from outside of the solid, and split its quad as the prisms do (A7).
+std::array<DrawnPoint, 3> drawn_corners(const ShellView& shell, uint32_t element, uint32_t which) {
+    const auto corner = shell.state.elements.corner[shell.element(element)];
+    if (which == kOuterFace)
+        return {point(shell, corner[0], false), point(shell, corner[1], false), point(shell, corner[2], false)};
+    if (which == kInnerFace)
+        return {point(shell, corner[0], true), point(shell, corner[2], true), point(shell, corner[1], true)};
+    const uint32_t edge = (which - kFirstWall) / 2, half = (which - kFirstWall) % 2;
+    const uint32_t a = corner[edge], b = corner[(edge + 1) % 3];
+    const DrawnPoint ao = point(shell, a, false), bo = point(shell, b, false), ai = point(shell, a, true),
+                     bi = point(shell, b, true);
+    if (a < b) return half == 0 ? std::array{bo, ao, bi} : std::array{ao, ai, bi};
+    return half == 0 ? std::array{bo, ao, ai} : std::array{bo, ai, bi};
+}
+
+bool is_drawn(const ShellView& shell, uint32_t element, uint32_t which) {
+    const uint32_t row = shell.element(element);
+    if (shell.state.elements.flags[row] & kDead) return false;
+    if (which < kFirstWall) return true;
+    if (shell.state.elements.neighbour[row][(which - kFirstWall) / 2] != kNone) return false;
+    const auto p = drawn_corners(shell, element, which);
+    return !(p[0] == p[1] || p[1] == p[2] || p[2] == p[0]);
+}
+
+uint32_t drawn_run(const ShellView& shell, const DrawnMaterials& materials, uint32_t element, uint32_t which) {
+    return run_of(materials, kind_of(shell, element, which),
+                  shell.state.elements.drawn_material[shell.element(element)]);
+}
+
+void write_faces(const ShellView& shell, uint32_t e, ViewVertex* outer, ViewVertex* inner) {
+    const Elements& elements = shell.state.elements;
+    const uint32_t row = shell.element(e);
+    const auto corner = elements.corner[row];
+    const auto& normal = elements.normal[row];
+    Vec3 below[3];
+    for (int k = 0; k < 3; ++k) below[k] = drawn_place(shell, point(shell, corner[k], true));
+    const Vec3 flat = normalised(cross(below[2] - below[0], below[1] - below[0]));
+    for (int k = 0; k < 3; ++k) {
+        const Vec3 n{normal[3 * k], normal[3 * k + 1], normal[3 * k + 2]};
+        const Vec2 uv{elements.uv[row][2 * k], elements.uv[row][2 * k + 1]};
+        outer[k] = {shell.state.vertices.rest[shell.vertex(corner[k])], n, uv};
+        const bool runs_along = dot(-n, flat) > 0.8f || dot(flat, flat) < 0.5f;  // no area, no normal
+        inner[(3 - k) % 3] = {below[k], runs_along ? -n : flat, uv};
+    }
+}
+
+void write_wall(const ShellView& shell, uint32_t e, uint32_t which, float along, ViewVertex* out) {
+    const uint32_t k = (which - kFirstWall) / 2, a = shell.state.elements.corner[shell.element(e)][k];
+    const float edge = drawn_length(shell, e, k);
+    const auto corners = drawn_corners(shell, e, which);
+    Vec3 p[3];
+    for (int i = 0; i < 3; ++i) p[i] = drawn_place(shell, corners[i]);
+    const Vec3 normal = normalised(cross(p[1] - p[0], p[2] - p[0]));
+    for (int i = 0; i < 3; ++i) {
+        const float u = along + (corners[i].vertex == a ? 0.0f : edge);
+        const float v = corners[i].is_inner ? shell.state.vertices.depth[shell.vertex(corners[i].vertex)] : 0.0f;
+        out[i] = {p[i], normal, {u, v}};
+    }
+}
+
+float drawn_length(const ShellView& shell, uint32_t e, uint32_t k) {
+    const auto corner = shell.state.elements.corner[shell.element(e)];
+    return length(drawn_place(shell, {corner[(k + 1) % 3], false}) - drawn_place(shell, {corner[k], false}));
+}
+
+void step_along_border(const ShellView& shell, uint32_t& e, uint32_t& k) {
+    const Elements& elements = shell.state.elements;
+    k = (k + 1) % 3;
+    while (elements.neighbour[shell.element(e)][k] != kNone) {
+        const uint32_t from = elements.corner[shell.element(e)][k];
+        e = elements.neighbour[shell.element(e)][k];
+        const auto corner = elements.corner[shell.element(e)];
+        k = corner[0] == from ? 0 : corner[1] == from ? 1 : 2;
+    }
+}
+
+}  // namespace cullet

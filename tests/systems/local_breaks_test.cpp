@@ -1,0 +1,206 @@
+// What a hit leaves of a body is changed where it cracked alone: after each of many random breaks drawn meshes, boxes,
+// mass and collision shape are those that a look at the whole body gives.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cstring>
+#include <vector>
+
+#include "engine/random.hpp"
+#include "sample_game/meshes.hpp"
+#include "systems/cook/materials.hpp"
+#include "systems/fragments/group_fragments.hpp"
+#include "systems/fragments/mass_properties.hpp"
+#include "systems/fragments/rigid_shape.hpp"
+#include "systems/query/bound_drawn.hpp"
+#include "systems/view/draw_shell.hpp"
+#include "systems/world_contents.hpp"
+
+namespace cullet {
+namespace {
+
+Result<Model> cook_fine_vase(float edge) {
+    const Mesh mesh = make_vase(0.3f, edge);
+    MeshView view;
+    view.positions = mesh.positions.data(), view.position_count = mesh.positions.size();
+    view.indices = mesh.triangles[0].data(), view.triangle_count = mesh.triangles.size();
+    CookSettings settings;
+    settings.longest_edge = 100;
+    settings.measures_threshold = false;
+    settings.fracture = FractureKind::Fine;
+    return cook(view, settings);
+}
+
+/// Triangles by run, in an order that does not depend on how they were written.
+using DrawnTriangle = std::array<ViewVertex, 3>;
+std::vector<std::vector<DrawnTriangle>> triangles_of(const State& state, const Range& vertices, const Range& indices,
+                                                     const std::array<uint32_t, kMostRuns>& runs) {
+    std::vector<std::vector<DrawnTriangle>> found(kMostRuns);
+    uint32_t next = indices.first;
+    for (uint32_t r = 0; r < kMostRuns; ++r) {
+        for (uint32_t end = next + runs[r]; next < end; next += 3) {
+            DrawnTriangle triangle;
+            for (uint32_t k = 0; k < 3; ++k)
+                triangle[k] = state.view_vertices.vertex[vertices.first + state.view_indices.index[next + k]];
+            found[r].push_back(triangle);
+        }
+        std::sort(found[r].begin(), found[r].end(),
+                  [](const DrawnTriangle& a, const DrawnTriangle& b) { return std::memcmp(&a, &b, sizeof a) < 0; });
+    }
+    return found;
+}
+
+bool are_same(const std::vector<std::vector<DrawnTriangle>>& a, const std::vector<std::vector<DrawnTriangle>>& b) {
+    for (size_t r = 0; r < a.size(); ++r)
+        if (a[r].size() != b[r].size() || std::memcmp(a[r].data(), b[r].data(), a[r].size() * sizeof a[r][0]) != 0)
+            return false;
+    return true;
+}
+
+void expect_drawn_as_anew(World& world, Row<Bodies> body) {
+    State& state = world.contents().data.state;
+    const Bodies& bodies = state.bodies;
+    const ShellView shell(state, bodies.shell[body]);
+    const Result<void> sound = check_drawn_mesh(shell, bodies.view_vertices[body], bodies.view_indices[body]);
+    ASSERT_TRUE(sound.ok()) << sound.error();
+    const auto drawn =
+        triangles_of(state, bodies.view_vertices[body], bodies.view_indices[body], bodies.run_indices[body]);
+    const DrawnCount count = count_drawn(shell);
+    Range vertices{state.pools.view_vertices.take(count.vertices), 0, count.vertices};
+    Range indices{state.pools.view_indices.take(count.index_count()), 0, count.index_count()};
+    ASSERT_TRUE(vertices.first != kNone && indices.first != kNone);
+    if (state.pools.view_vertices.end() > state.view_vertices.size())
+        state.view_vertices.append(state.pools.view_vertices.end() - state.view_vertices.size());
+    if (state.pools.view_indices.end() > state.view_indices.size())
+        state.view_indices.append(state.pools.view_indices.end() - state.view_indices.size());
+    draw_shell(shell, vertices, indices);
+    EXPECT_TRUE(are_same(drawn, triangles_of(state, vertices, indices, count.indices)));
+    state.pools.view_vertices.give_back(vertices.first, vertices.capacity);
+    state.pools.view_indices.give_back(indices.first, indices.capacity);
+    remember_drawn(shell, bodies.view_indices[body]);
+}
+
+void expect_boxes_as_anew(World& world, Row<Bodies> body) {
+    WorldData& d = world.contents().data;
+    Bodies& bodies = d.state.bodies;
+    const Range drawn = bodies.view_indices[body];
+    const uint32_t boxes = (drawn.count / 3 + kTrianglesPerBox - 1) / kTrianglesPerBox;
+    const auto* const first = d.view_boxes.box.data() + drawn.first / kViewGranule;
+    const std::vector<std::array<float, 6>> before(first, first + boxes);
+    const auto whole = bodies.drawn_box[body];
+    bound_view(bodies, body, d.state.view_vertices, d.state.view_indices, d.view_boxes);
+    EXPECT_TRUE(std::equal(before.begin(), before.end(), first));
+    EXPECT_EQ(whole, bodies.drawn_box[body]);
+}
+
+void expect_mass_as_anew(World& world, Row<Bodies> body) {
+    State& state = world.contents().data.state;
+    const Bodies& bodies = state.bodies;
+    const ShellView shell(state, bodies.shell[body]);
+    const MassProperties anew = mass_properties(shell_moments(shell));
+    // Pieces are subtracted from what the body was before cracks put vertices on its edges; where the wall is curved
+    // these move mass inside of their elements.
+    EXPECT_NEAR(bodies.mass[body], anew.mass, 1e-9 * anew.mass);
+    EXPECT_LT(length(bodies.centre[body] - anew.centre), 2e-6);
+    EXPECT_NEAR(trace(bodies.inertia[body]), trace(anew.inertia), 1e-5 * trace(anew.inertia));
+    float farthest = 0;
+    for (uint32_t v = 0; v < shell.vertex_count(); ++v)
+        if (state.vertices.element[shell.vertex(v)] != kNone)
+            farthest = std::max(farthest, length(state.vertices.rest[shell.vertex(v)] - anew.centre.to_float()));
+    EXPECT_GE(bodies.radius[body], 0.9999f * farthest);
+    EXPECT_LE(bodies.radius[body], 1.5f * farthest);
+}
+
+/// Its surface, asked at random points of its drawn mesh, is that of a body made of all of its hulls at once.
+void expect_shape_as_anew(World& world, Row<Bodies> body, uint32_t seed) {
+    WorldData& d = world.contents().data;
+    const State& state = d.state;
+    const Bodies& bodies = state.bodies;
+    const auto rigid = make_bullet_world(bodies.limit());
+    d.arena.reset();
+    const auto pieces = convex_pieces(state, bodies.shell[body], d.arena);
+    RigidDescription description = describe_rigid(state, body, pieces);
+    description.pose = d.rigid->pose(body);
+    d.rigid->set_pose(body, description.pose);  // the last step moved it: its pieces follow
+    rigid->add(body, description);
+    const Range drawn = bodies.view_vertices[body];
+    for (uint32_t k = 0; k < 200; ++k) {
+        const uint32_t v = drawn.first + static_cast<uint32_t>(Random{seed}.bits(k) % drawn.count);
+        const Vec3 place = to_world(description.pose, state.view_vertices.vertex[v].position);
+        RigidSurface now, anew;
+        const bool is_near = d.rigid->nearest_surface(body, place, 0.02f, now);
+        ASSERT_EQ(is_near, rigid->nearest_surface(body, place, 0.02f, anew));
+        if (is_near) {
+            EXPECT_NEAR(now.distance, anew.distance, 2e-5f);  // its margin is that of its first wall
+        }
+    }
+}
+
+void expect_all_as_anew(World& world, uint32_t seed) {
+    State& state = world.contents().data.state;
+    const Bodies& bodies = state.bodies;
+    for (uint32_t b = 0; b < bodies.size(); ++b) {
+        const Row<Bodies> body(b);
+        if (static_cast<BodyKind>(bodies.kind[b]) == BodyKind::Free || !bodies.shell[b].exists()) continue;
+        expect_drawn_as_anew(world, body);
+        expect_boxes_as_anew(world, body);
+        expect_mass_as_anew(world, body);
+        expect_shape_as_anew(world, body, seed + b);
+    }
+}
+
+/// Balls from random sides, one after the other, at a body that floats. Returns how many pieces were born.
+uint32_t pelt(float edge, FractureMode mode, uint32_t hits) {
+    const Result<Model> model = cook_fine_vase(edge);
+    EXPECT_TRUE(model.ok());
+    Settings settings;
+    settings.gravity = {};
+    settings.units_a_frame = 1'000'000'000;
+    settings.debris_share = 0, settings.debris_elements = 3;
+    settings.limits.bodies = 400;
+    World world = World::create(settings).value();
+    const ModelId id = world.add_model(model.value()).value();
+    SpawnSettings spawn;
+    spawn.fracture = mode;
+    if (mode == FractureMode::Quick) spawn.quick.strain_limit = 0.02f;
+    const BodyId body = world.spawn(id, spawn).value();
+    const auto& d = world.contents().data;
+    uint32_t born = 0;
+    for (uint32_t hit = 0; hit < hits; ++hit) {
+        const auto uniform = [&](uint64_t k) { return static_cast<float>(Random{7}.uniform(hit, k)); };
+        const float height = 0.05f + 0.2f * uniform(0), turn = 2 * uniform(1) - 1,
+                    side = uniform(2) < 0.5f ? -1.0f : 1.0f;
+        const Vec3 way = normalised(Vec3{turn, 0, side * std::sqrt(1 - turn * turn)});
+        (void)world.set_pose(body, {});
+        (void)world.set_motion(body, {});
+        SphereSettings ball;
+        ball.radius = 0.03f, ball.mass = 0.3f;
+        ball.pose.position = Vec3{0, height, 0} + 0.4f * way;
+        ball.motion.velocity = -40.0f * way;
+        const BodyId thrown = world.add_sphere(ball).value();
+        for (uint32_t frame = 0; frame < 6; ++frame) {
+            world.step();
+            born += static_cast<uint32_t>(d.born_events.size());
+            if (!world.is_alive(body)) break;
+        }
+        (void)world.remove(thrown);
+        expect_all_as_anew(world, hit);
+        if (testing::Test::HasFatalFailure() || testing::Test::HasNonfatalFailure()) {
+            ADD_FAILURE() << "after hit " << hit;
+            break;
+        }
+    }
+    return born;
+}
+
+TEST(LocalBreaks, ALargeBodyHitOnCutOutsIsAsIfMadeAnewAfterEveryHit) {
+    EXPECT_GT(pelt(0.0062f, FractureMode::Quick, 8), 20u);
+}
+
+TEST(LocalBreaks, ASmallBodyHitOnWholeCopiesIsAsIfMadeAnewAfterEveryHit) {
+    EXPECT_GT(pelt(0.018f, FractureMode::Quick, 8), 10u);
+    EXPECT_GT(pelt(0.018f, FractureMode::Hidden, 4), 10u);
+}
+
+}  // namespace
+}  // namespace cullet
