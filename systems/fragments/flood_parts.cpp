@@ -211,7 +211,15 @@ void describe_rest(const ShellView& shell, std::span<FragmentPart> parts) {
 
 }  // namespace
 
-// The floods' own list of visited elements is put in order, with the flood beside each.
+namespace {
+
+/// One in so many is sorted sooner than all are looked through.
+constexpr uint32_t kSortedShare = 32;
+
+}  // namespace
+
+// Elements come into the lists in rising order: the floods' own list of visited ones is sorted, with the flood beside
+// each, or where it is long all elements are looked through for the numbers that it has left.
 uint32_t find_pieces(ShellView shell, std::span<FragmentPart> parts) {
     FloodedParts found;
     flood_parts(shell, found);
@@ -223,14 +231,20 @@ uint32_t find_pieces(ShellView shell, std::span<FragmentPart> parts) {
     uint32_t count = 0;
     for (uint32_t i = 0; i < found.visited; ++i) {
         const uint32_t flood = found.root(entries[i][0]);
-        if (found.piece_of_flood[flood] != FloodedParts::kRest) entries[count++] = {flood, visited[i], 0};
+        if (found.piece_of_flood[flood] == FloodedParts::kRest) continue;
+        elements.part[shell.element(visited[i])] = found.piece_of_flood[flood] + 1u;
+        entries[count++] = {flood, visited[i], 0};
     }
-    std::sort(entries, entries + count, [](const Entry& a, const Entry& b) { return a[1] < b[1]; });
     for (uint32_t p = 0; p < found.pieces; ++p) parts[p + 1] = {};
-    for (uint32_t i = 0; i < count; ++i) {
-        const uint32_t part = found.piece_of_flood[entries[i][0]] + 1u, e = entries[i][1];
-        elements.part[shell.element(e)] = part;
-        add_to_part(shell, parts[part], e);
+    const auto add = [&](uint32_t e) {
+        const uint32_t part = elements.part[shell.element(e)];
+        if (part != 0 && part != kNone) add_to_part(shell, parts[part], e);
+    };
+    if (count > shell.element_count() / kSortedShare) {
+        for (uint32_t e = 0; e < shell.element_count(); ++e) add(e);
+    } else {
+        std::sort(entries, entries + count, [](const Entry& a, const Entry& b) { return a[1] < b[1]; });
+        for (uint32_t i = 0; i < count; ++i) add(entries[i][1]);
     }
     const auto all = parts.first(found.pieces + 1);
     describe_rest(shell, all);

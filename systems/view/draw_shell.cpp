@@ -36,8 +36,9 @@ struct Writer {
     uint32_t* source;
     uint32_t next[kMostRuns];  // triangle of each run
 
-    uint32_t place(uint32_t e, uint32_t which) {
-        const uint32_t triangle = next[drawn_run(shell, materials, e, which)]++;
+    uint32_t place(uint32_t e, uint32_t which) { return place(e, which, drawn_run(shell, materials, e, which)); }
+    uint32_t place(uint32_t e, uint32_t which, uint32_t run) {
+        const uint32_t triangle = next[run]++;
         std::fill_n(source + 3 * triangle, 3, source_of(e, which));
         shell.state.elements.drawn[shell.element(e)][which] = triangle;
         return triangle;
@@ -67,12 +68,16 @@ void write_shell(Writer& w) {
         elements.drawn_edges[shell.element(e)] = 0;
         elements.drawn[shell.element(e)].fill(kNone);
         if (!is_live(shell, e)) continue;
-        const uint32_t outer = w.place(e, kOuterFace), inner = w.place(e, kInnerFace);
+        const uint32_t run = drawn_run(shell, w.materials, e, kOuterFace);
+        const uint32_t outer = w.place(e, kOuterFace, run), inner = w.place(e, kInnerFace, run + kMostDrawnMaterials);
         write_faces(shell, e, w.vertex + 3 * outer, w.vertex + 3 * inner);
     }
-    for (uint32_t e = 0; e < shell.element_count(); ++e)
+    for (uint32_t e = 0; e < shell.element_count(); ++e) {
+        const auto& neighbour = elements.neighbour[shell.element(e)];
+        if (neighbour[0] != kNone && neighbour[1] != kNone && neighbour[2] != kNone) continue;
         for (uint32_t k = 0; k < 3; ++k)
-            if (is_live(shell, e) && elements.neighbour[shell.element(e)][k] == kNone) write_border(w, e, k);
+            if (is_live(shell, e) && neighbour[k] == kNone) write_border(w, e, k);
+    }
 }
 
 }  // namespace
@@ -86,9 +91,12 @@ DrawnCount count_drawn(ShellView shell) {
     count.materials = materials_of(shell);
     for (uint32_t e = 0; e < shell.element_count(); ++e) {
         if (!is_live(shell, e)) continue;
+        const uint32_t run = drawn_run(shell, count.materials, e, kOuterFace);
+        count.indices[run] += 3;
+        count.indices[run + kMostDrawnMaterials] += 3;
         const auto& neighbour = shell.state.elements.neighbour[shell.element(e)];
-        const bool is_inside = neighbour[0] != kNone && neighbour[1] != kNone && neighbour[2] != kNone;
-        for (uint32_t which = 0; which < (is_inside ? kFirstWall : kMostDrawnTriangles); ++which)
+        if (neighbour[0] != kNone && neighbour[1] != kNone && neighbour[2] != kNone) continue;
+        for (uint32_t which = kFirstWall; which < kMostDrawnTriangles; ++which)
             if (is_drawn(shell, e, which)) count.indices[drawn_run(shell, count.materials, e, which)] += 3;
     }
     count.vertices = count.index_count();

@@ -541,8 +541,8 @@ TEST_P(SceneHash, IsWhatTheSceneAlwaysGave) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Scenes, SceneHash,
-                         testing::Values(KnownHash{"vase", "2ab785f2cd242785"}, KnownHash{"wall", "564b2b16db3fa537"},
-                                         KnownHash{"pane", "e1f10f8dc39af21a"}, KnownHash{"drop", "03545faa84b37d98"}),
+                         testing::Values(KnownHash{"vase", "cdace5046efc2f23"}, KnownHash{"wall", "db6302a292cc1805"},
+                                         KnownHash{"pane", "d6d89d8c58a68336"}, KnownHash{"drop", "f8b3ec634381791b"}),
                          [](const auto& known) { return std::string(known.param.scene); });
 
 TEST(Script, AFileIsPlayedByItsPathAndOneThatIsNotThereIsNamed) {
