@@ -94,6 +94,13 @@ bool wake_region(State& state, Row<Tasks> task, const char** full) {
     const uint32_t steps = state.quick_runs.steps[task];
     build_patches(state, task);
     choose_region(state, task, region_rings(steps));
+    const BodyMotion motion(state, task);
+    TaskContacts& contacts = state.task_contacts;
+    for_each_contact(state, task, [&](uint32_t c) {
+        const auto along = dot(motion.at(contacts.point[c]), Vec3d(contacts.normal[c]));
+        contacts.striker_speed[c] = contacts.start_speed[c] - along;
+        contacts.striker_travel[c] = contacts.impulse[c] = 0;
+    });
     if (!give_region_springs(state, task, state.quick_runs.layers[task], full)) {
         tasks.state[task] = static_cast<uint8_t>(TaskState::Dropped);
         return false;
@@ -103,13 +110,6 @@ bool wake_region(State& state, Row<Tasks> task, const char** full) {
     state.quick_runs.diagonal[task] = diagonal_of(ShellView(state, tasks.source[task]));
     rest_all(view);
     rest_twins(region);
-    const BodyMotion motion(state, task);
-    TaskContacts& contacts = state.task_contacts;
-    for_each_contact(state, task, [&](uint32_t c) {
-        const auto along = dot(motion.at(contacts.point[c]), Vec3d(contacts.normal[c]));
-        contacts.striker_speed[c] = contacts.start_speed[c] - along;
-        contacts.striker_travel[c] = contacts.impulse[c] = 0;
-    });
     tasks.time_step[task] = view.own().time_step[view.row];
     tasks.damping_time[task] = 0;
     tasks.end_time[task] = (static_cast<float>(steps) - 0.5f) * tasks.time_step[task];
