@@ -76,7 +76,7 @@ bool measure_kind(const char* kind, uint32_t layers, double substep_ms, const Op
     const Report& r = played.value();
     const auto budget = r.yardsticks.find("budget_ms");
     if (budget == r.yardsticks.end()) return false;
-    if (r.damage_frames.count == 0 || r.fragments.born == 0) {
+    if (r.damage_frames.count == 0 || r.fragments.born + r.fragments.debris == 0) {
         std::printf("quick: %s, %u layers: nothing came off, so there is nothing to measure\n", kind, layers);
         return false;
     }

@@ -45,6 +45,13 @@ HitDescription ball_on_face(const State& state, Row<Shells> shell, uint64_t plac
     return hit;
 }
 
+/// A working shell of fine fracture has three times the body's vertices and elements, and slots of springs as for nine
+/// times as many. With the room of a cooking no region of a closed body woke here, and its limit was the material's:
+/// cows and castles hardly cracked. What a table may hold and does not costs nothing.
+Limits limits_for(uint32_t vertices, uint32_t elements) {
+    return cooking_limits(4 * vertices, 2 * elements);
+}
+
 /// Largest stretch over the strength factor of its end, seen in one run.
 float largest_stretch(State& state, Row<Shells> shell, const HitDescription& hit) {
     if (!open_hit(state, shell, hit)) return 0;
@@ -72,7 +79,7 @@ float calibrated_strain_limit(const State& from, Row<Shells> source, const Quick
     if (!(speed > 0)) return 0;
     try {
         const FpMode mode;
-        State state(cooking_limits(from.shells.vertices[source].count, from.shells.elements[source].count));
+        State state(limits_for(from.shells.vertices[source].count, from.shells.elements[source].count));
         state.materials.append(from.materials.size());
         state.materials.copy_rows(from.materials, 0, 0, from.materials.size());
         state.material_traits.append(from.material_traits.size());

@@ -76,6 +76,17 @@ float inverse_mass_of(const SpringView& view, uint32_t v) {
                              : view.state.vertices.inverse_mass[view.shell.vertex(v)];
 }
 
+/// Speeds of the strikers as the body sees them, which its strain limit asks for.
+void see_strikers(State& state, Row<Tasks> task) {
+    const BodyMotion motion(state, task);
+    TaskContacts& contacts = state.task_contacts;
+    for_each_contact(state, task, [&](uint32_t c) {
+        const auto along = dot(motion.at(contacts.point[c]), Vec3d(contacts.normal[c]));
+        contacts.striker_speed[c] = contacts.start_speed[c] - along;
+        contacts.striker_travel[c] = contacts.impulse[c] = 0;
+    });
+}
+
 }  // namespace
 
 // Cuts and new vertices leave the centre where it is.
@@ -91,6 +102,7 @@ uint32_t region_rings(uint32_t steps) {
 bool wake_region(State& state, Row<Tasks> task, const char** full) {
     build_patches(state, task);
     choose_region(state, task, region_rings(state.quick_runs.steps[task]));
+    see_strikers(state, task);
     if (take_region_springs(state, task, state.quick_runs.layers[task], full)) return true;
     state.tasks.state[task] = static_cast<uint8_t>(TaskState::Dropped);
     return false;
@@ -108,6 +120,7 @@ bool wake_region_alone(State& state, Row<Tasks> task, const char** full) {
 
 void start_region(State& state, Row<Tasks> task) {
     Tasks& tasks = state.tasks;
+    const TaskContacts& contacts = state.task_contacts;
     const RegionView region(state, task);
     const SpringView& view = region.springs;
     const ShellView& shell = region.shell;
@@ -116,13 +129,6 @@ void start_region(State& state, Row<Tasks> task) {
     state.quick_runs.diagonal[task] = diagonal_of(ShellView(state, tasks.source[task]));
     rest_all(view);
     rest_twins(region);
-    const BodyMotion motion(state, task);
-    TaskContacts& contacts = state.task_contacts;
-    for_each_contact(state, task, [&](uint32_t c) {
-        const auto along = dot(motion.at(contacts.point[c]), Vec3d(contacts.normal[c]));
-        contacts.striker_speed[c] = contacts.start_speed[c] - along;
-        contacts.striker_travel[c] = contacts.impulse[c] = 0;
-    });
     tasks.time_step[task] = view.own().time_step[view.row];
     tasks.damping_time[task] = 0;
     tasks.end_time[task] = (static_cast<float>(steps) - 0.5f) * tasks.time_step[task];

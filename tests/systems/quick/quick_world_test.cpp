@@ -192,6 +192,33 @@ TEST(QuickWorld, SettingsOutOfRangeAreRefusedWithASentence) {
     refused([](QuickSettings& q) { q.bump_angle = 31; }, "bump_angle");
 }
 
+/// Whether a heavy striker cracks a loose wall of brick along the sheet, at the vertex nearest to `place`; `times` the
+/// speed of the first crack.
+bool cracks_along_the_sheet(uint32_t layers, Vec3 place, float times) {
+    World world = make_world(small_settings());
+    SpawnSettings spawn;
+    spawn.fracture = FractureMode::Quick, spawn.quick = layered(layers);
+    const BodyId body = world.spawn(world.add_model(small_wall()).value(), spawn).value();
+    PushSettings push;
+    push.place = place, push.normal = {0.6f, -0.8f, 0}, push.mass = 60;
+    push.approach_speed = times * small_wall().report().first_crack_speed;
+    EXPECT_TRUE(world.push_impact(body, push).ok());
+    for (int frame = 0; frame < 3; ++frame) world.step();
+    EXPECT_GT(world.contents().data.counts.opened, 0u);
+    const State& state = state_of(world);
+    return shells_of(world).size() > 1 || state.shells.has_cracks[state.bodies.shell[body.index]] != 0;
+}
+
+// With the limit of blows on a face a sheet of one layer cracked at a fortieth of the speed: walls went on breaking
+// under their own pieces.
+TEST(QuickWorld, ABlowAlongASheetCracksItNoSoonerThanAFallDoes) {
+    for (const uint32_t layers : {1u, 2u}) {
+        for (const Vec3 place : {Vec3{0, 0.45f, 0}, Vec3{-0.3f, 0.6f, 0}, Vec3{0.1f, 0.9f, 0}})
+            EXPECT_FALSE(cracks_along_the_sheet(layers, place, 0.7f)) << layers << " layers, y " << place.y;
+        EXPECT_TRUE(cracks_along_the_sheet(layers, {0.6f, 0.9f, 0}, 4)) << layers << " layers, at a corner";
+    }
+}
+
 TEST(QuickWorld, AHiddenBodyInAReusedRowIsNotQuick) {
     World world = make_world(small_settings());
     const ModelId id = world.add_model(small_vase()).value();
