@@ -13,13 +13,15 @@ void find_parts(Each<TaskEnded> ended, ShellTables shells, Tasks& tasks, Fragmen
     tasks.part_count[t] = 1;
     if (static_cast<TaskState>(tasks.state[t]) == TaskState::Dropped) return;
     const ShellView shell(shells.state, tasks.shell[t]);
-    const bool was_one = is_of_one_part(shell), is_quick = is_quick_task(shells.state, t);
+    const bool was_one = is_of_one_part(shell);
     if (tasks.crack_count[t] == 0 && was_one) return;
     const std::span parts(fragments.part.data() + size_t{t} * kMostParts, kMostParts);
     // A body that may have been hit on a cut-out is not looked at as a whole; cracks that run out want the scratch that
     // a flood uses.
     const uint32_t vertices = shells.state.shells.vertices[tasks.source[t]].count;  // before the cracks brought theirs
-    const bool runs_out = !is_quick || vertices <= kWholeCopyVertices;
+    // A hidden run's cracks have run out in its cut-out.
+    const bool was_hidden_region = tasks.shell[t] == tasks.source[t] && !is_quick_task(shells.state, t);
+    const bool runs_out = is_quick_task(shells.state, t) ? vertices <= kWholeCopyVertices : !was_hidden_region;
     tasks.part_count[t] = was_one && !runs_out ? group_from_cracks(shell, parts) : group_fragments(shell, parts);
     if (tasks.part_count[t] > 1 && runs_out && run_out_cracks(shells.state, Row<Tasks>(t)))
         tasks.part_count[t] = group_fragments(shell, parts);
