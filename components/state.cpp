@@ -70,7 +70,8 @@ State::State(const Limits& l)
       limits_(l),
       quick_bodies(l.bodies),
       quick_runs(l.tasks),
-      awake_packs(l.tasks * kMostAwakePacks) {
+      awake_packs(l.tasks * kMostAwakePacks),
+      region_rests(l.tasks) {
     tasks.append(l.tasks);
     task_contacts.append(l.tasks * kMostContacts);
     patch_vertices.append(l.tasks * kMostPatchVertices);

@@ -7,6 +7,7 @@
 #include "components/bodies.hpp"
 #include "components/materials.hpp"
 #include "components/quick.hpp"
+#include "components/regions.hpp"
 #include "components/shells.hpp"
 #include "components/soft.hpp"
 #include "components/springs.hpp"
@@ -130,6 +131,7 @@ struct State {
                           &State::quick_bodies,
                           &State::quick_runs,
                           &State::awake_packs,
+                          &State::region_rests,
                           &State::soft_bodies,
                           &State::soft_strikers,
                           &State::soft_contacts};
@@ -163,6 +165,7 @@ struct State {
     QuickBodies quick_bodies;
     QuickRuns quick_runs;
     AwakePacks awake_packs;
+    RegionRests region_rests;
 };
 
 /// What a shell uses now: room for a copy of it.
@@ -240,7 +243,8 @@ struct Parameter<ShellTables> {
               Cells::kName,        HullPoints::kName,     ShellSprings::kName,    Springs::kName,
               LayerSprings::kName, ElementSprings::kName, SpringPacks::kName,     SpringSlots::kName,
               LayerSlots::kName,   Twins::kName,          QuickBodies::kName,     QuickRuns::kName,
-              AwakePacks::kName,   SoftBodies::kName,     SoftStrikers::kName,    SoftContacts::kName})
+              AwakePacks::kName,   RegionRests::kName,    SoftBodies::kName,      SoftStrikers::kName,
+              SoftContacts::kName})
             list.push_back({table, true, true, false, Access::Kind::Table});
         for (const char* table : {Materials::kName, MaterialTraits::kName})
             list.push_back({table, true, false, false, Access::Kind::Table});

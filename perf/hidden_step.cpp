@@ -176,6 +176,38 @@ double difference(CookedVase& vase, OurStep& ours, float dt, float beta) {
     return most / farthest;
 }
 
+/// What a step moves besides stiffness, bytes a vertex: v and u read and written, the probe read, the next one fetched
+/// and written, the inverse mass.
+constexpr size_t kVectorBytes = 24 + 24 + 16 + 16 + 16 + 4;
+
+/// As many bytes as a step moves, read in order and summed: the least that memory takes for them.
+class Stream {
+ public:
+    explicit Stream(size_t bytes) : lines_(bytes / sizeof(Line)) {}
+    uint32_t chunks() const { return static_cast<uint32_t>((lines_.size() + kLines - 1) / kLines); }
+    void read(uint32_t chunk) {
+        const size_t first = size_t{chunk} * kLines, end = std::min(first + kLines, lines_.size());
+        sum_.fetch_add(sum(lines_[first].word, (end - first) * kWords), std::memory_order_relaxed);
+    }
+
+ private:
+    static constexpr size_t kWords = 16, kLines = 2048;
+    struct alignas(64) Line {
+        uint32_t word[kWords] = {};
+    };
+    __attribute__((target("avx2"))) static uint32_t sum(const uint32_t* words, size_t count) {
+        __m256i sums[8] = {};
+        for (size_t i = 0; i < count; i += 64)
+            for (size_t k = 0; k < 8 && i + 8 * k < count; ++k)
+                sums[k] =
+                    _mm256_add_epi32(sums[k], _mm256_load_si256(reinterpret_cast<const __m256i*>(words + i + 8 * k)));
+        for (size_t k = 1; k < 8; ++k) sums[0] = _mm256_add_epi32(sums[0], sums[k]);
+        return static_cast<uint32_t>(_mm256_extract_epi32(sums[0], 0) + _mm256_extract_epi32(sums[0], 5));
+    }
+    std::vector<Line> lines_;
+    std::atomic<uint32_t> sum_{0};  // so that nothing is left out
+};
+
 /// Limits of the issues: times the bare kernel, how much faster than plain element loops on one and two threads, how
 /// much faster on two threads than on one, times what a vertex of the smallest vase costs.
 struct Limits {
@@ -238,6 +270,15 @@ bool measure(const char* name, float height, float edge, const Limits& limits, c
         }
         teams.push_back(threads > 1 ? make_jobs(JobBackend::Threads, threads) : nullptr);
         timed.push_back({"ours" + suffix, steps, [&ours, t = teams.back().get()](uint32_t n) { ours.run(n, t); }});
+    }
+    Stream stream(bare.bytes() + kVectorBytes * shell.vertex_count());
+    for (const unsigned threads : options.threads) {
+        if (!BareHidden::is_supported()) break;
+        runners.push_back(std::make_unique<StepRunner>(threads, stream.chunks(),
+                                                       [&](uint32_t, uint32_t chunk) { stream.read(chunk); }));
+        timed.push_back(
+            {"its bytes read in order, " + std::to_string(threads) + (threads == 1 ? " thread" : " threads"), steps,
+             [r = runners.back().get()](uint32_t n) { r->run(n); }, [r = runners.back().get()] { r->prepare(); }});
     }
     const uint32_t row_packs = rows ? rows->pack_count() : 0;
     for (const unsigned threads : options.threads) {

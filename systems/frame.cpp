@@ -19,6 +19,7 @@ FramePlan<WorldData> make_frame_plan(bool is_hosted, const std::function<std::st
         .then<detect_contacts>()
         .then<predict_impacts>()
         .then<open_tasks>()
+        .then<widen_regions>()
         .then<fill_tasks>()
         .then<fill_stiffness>()
         .then<start_tasks>()

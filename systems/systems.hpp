@@ -34,6 +34,9 @@ void open_tasks(Serial, Step step, const Events<Impact>& impacts, ShellTables sh
 /// their springs.
 void wake_soft_bodies(Serial, Step step, ShellTables shells, const Tasks& tasks, const TaskContacts& contacts,
                       SoftBodies& soft, Bodies& bodies, RigidWorld& rigid);
+/// Hidden runs on a part of a body that came to its border begin again on a larger one (brittle/hidden_region.hpp).
+void widen_regions(Serial, ShellTables shells, Tasks& tasks, const Bodies& bodies, Events<TaskOpened>& opened,
+                   Events<StiffnessWanted>& stiffness_wanted, Events<RefusedEvent>& refused);
 /// Copies the body's shell into the task's.
 void fill_tasks(Each<TaskOpened> opened, ShellTables shells, Tasks& tasks);
 /// Assembles stiffness that the body's shell does not have: a piece that is hit for the first time.

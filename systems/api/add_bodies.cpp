@@ -87,12 +87,14 @@ Result<Row<Shells>> soft_copy(State& state, Row<Shells> source, const SpawnSetti
     return copy;
 }
 
-// Large quick bodies have a shell of their own from the start: what a hit changes is written into it (cut_out.hpp).
+// Large bodies have a shell of their own from the start: what a hit changes is written into it (cut_out.hpp).
 bool wants_own_shell(const State& state, Row<Shells> source, const SpawnSettings& settings) {
-    return settings.fracture == FractureMode::Quick && state.shells.vertices[source].count > kWholeCopyVertices;
+    if (settings.fracture == FractureMode::Quick) return state.shells.vertices[source].count > kWholeCopyVertices;
+    const bool is_brittle = material_traits(state, state.shells.material[source]).kind == MaterialKind::Brittle;
+    return is_brittle && settings.is_breakable && is_for_cut_outs(state, source, false);
 }
 
-// Rows of a body's own shell; of a large quick one with those that cracks will add.
+// Rows of a body's own shell; of a large one with those that cracks will add.
 ShellRoom own_room(State& state, Row<Shells> source, const SpawnSettings& settings) {
     ShellRoom room = room_of(state, source);
     if (!wants_own_shell(state, source, settings)) return room;
@@ -107,7 +109,8 @@ Result<Row<Shells>> own_copy(State& state, Row<Shells> source, const SpawnSettin
     ShellRoom room = own_room(state, source, settings);
     room.blocks = room.links = 0;
     const Row<Shells> copy = copy_shell(state, source, room, &full);
-    if (!copy.exists()) return Error{std::string("no room for a large body that breaks quickly; raise ") + full + "."};
+    if (!copy.exists())
+        return Error{std::string("no room for a large body that breaks near its hits; raise ") + full + "."};
     return copy;
 }
 

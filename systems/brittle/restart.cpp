@@ -1,5 +1,6 @@
 #include "systems/brittle/restart.hpp"
 
+#include "systems/brittle/hidden_region.hpp"
 #include "systems/damage/assemble.hpp"
 #include "systems/damage/blows.hpp"
 #include "systems/damage/contact.hpp"
@@ -29,6 +30,14 @@ void find_contact_vertices(State& state, Row<Tasks> task) {
 void fill_task(State& state, Row<Tasks> task) {
     Tasks& tasks = state.tasks;
     const Row<Shells> source = tasks.source[task], working = tasks.shell[task];
+    if (is_hidden_region(state, task)) {
+        fill_cut_out(state, task);
+        find_rest(state, task);
+        const ShellView cut(state, working);
+        begin_cracks(cut, state.shells.generation[source] > 0);
+        if (!lay_packs(cut)) tasks.state[task] = static_cast<uint8_t>(TaskState::Dropped);
+        return;
+    }
     if (is_cut_out(state, task)) return fill_cut_out(state, task);
     if (is_quick_task(state, task)) {
         copy_shell_rows(state, state, source, working, false);
@@ -61,9 +70,10 @@ void restore_scratch(State& state, Row<Tasks> task) {
 }
 
 void start_task(State& state, Row<Tasks> task) {
+    if (is_cut_out(state, task) && state.tasks.redo_count[task] > 0) list_cut_out(state, task);
     fill_task(state, task);
     const ShellView shell(state, state.tasks.shell[task]);
-    const bool is_assembled = state.shells.packs[state.tasks.source[task]].count > 0;
+    const bool is_assembled = state.shells.packs[state.tasks.source[task]].count > 0 && !is_cut_out(state, task);
     if (!is_assembled && static_cast<TaskState>(state.tasks.state[task]) != TaskState::Dropped)
         assemble_packs(shell, 0, shell.shells().packs[shell.row].count);
     start_run(state, task);

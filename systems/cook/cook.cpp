@@ -23,6 +23,7 @@
 #include "systems/damage/task_cost.hpp"
 #include "systems/damage/working_room.hpp"
 #include "systems/fragments/group_fragments.hpp"
+#include "systems/quick/cut_out.hpp"
 
 namespace cullet {
 namespace {
@@ -172,13 +173,15 @@ float estimated_threshold(const State& state, Row<Shells> shell) {
     return 0.2f * materials.tensile_strength[m] / std::sqrt(materials.young_modulus[m] * materials.density[m]);
 }
 
+// Of a large body whose cracks stay near the hit those of the part that it begins on.
 uint64_t units_of_a_hit(const State& state, Row<Shells> shell) {
     const Shells& s = state.shells;
-    const uint32_t vertices = s.vertices[shell].count;
+    const bool is_local = is_for_cut_outs(state, shell, false);
+    const uint32_t vertices = is_local ? kWholeCopyVertices : s.vertices[shell].count;
     const float run = run_seconds(state, s.material[shell], s.area[shell]);
     const auto steps = static_cast<uint64_t>(run / s.time_step[shell]) + 1;
     return steps * units_a_step(vertices + vertices / 10, 64) + 300 * kUnitsCut +
-           vertices * kUnitsOpen;  // a blow that breaks grows it by a tenth
+           vertices * (kUnitsOpen + (is_local ? kUnitsAssemble : 0));  // a blow that breaks grows it by a tenth
 }
 
 ModelReport report_on(const State& state, Row<Shells> shell, const SurfaceRepairs& repairs, const Extrusion& extrusion,

@@ -23,6 +23,7 @@ struct CrackSink {
     uint32_t starts = 0;
     uint32_t inserted = 0;         // vertices put on edges
     uint32_t refused = 0;          // cuts and insertions that the shell had no room for: raise its spare rows
+    bool is_at_border = false;     // a crack wants to start or go on by the border of a cut-out, and did not
     bool is_out_of_slots = false;  // stiffness rows could not be rebuilt: drop the task, its shell must not be stepped
 
     void add(const CrackEvent& e) {

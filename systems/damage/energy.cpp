@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "systems/brittle/hidden_region.hpp"
 #include "systems/damage/contact.hpp"
 #include "systems/damage/element_bending.hpp"
 #include "systems/damage/stress_check.hpp"
@@ -109,6 +110,7 @@ TaskEnergy task_energy(State& state, Row<Tasks> task) {
     energy.kinetic = sum_chunks(shell.vertex_count(), [&](uint32_t first, uint32_t count) {
         return kinetic_energy(shell, scratch, first, count);
     });
+    if (is_hidden_region(state, task)) energy.kinetic += rest_energy(state, task);
     energy.membrane = sum_chunks(shell.element_count(), [&](uint32_t first, uint32_t count) {
         return membrane_energy(shell, scratch, first, count);
     });

@@ -1,6 +1,7 @@
 #include "systems/damage/grow_cracks.hpp"
 
 #include "engine/random.hpp"
+#include "systems/brittle/hidden_region.hpp"
 #include "systems/costs.hpp"
 #include "systems/damage/aim.hpp"
 #include "systems/damage/crack_candidates.hpp"
@@ -15,6 +16,7 @@ constexpr float kNeverReady = 1e30f;  // s
 
 struct Batch {
     ShellView shell;
+    Row<Tasks> task;
     CrackLimits limits;
     HeadingFan fan;
     float time, check_interval;  // s, of the run and between two checks
@@ -130,6 +132,12 @@ bool try_fork(Batch& batch, uint32_t vertex, Vec3 normal, Vec3 direction, uint32
     return ends.count == 2 && try_cut(batch, vertex, ends, heading, root);
 }
 
+bool stops_at_border(Batch& batch, uint32_t vertex) {
+    if (!is_by_border(batch.shell.state, batch.task, vertex)) return false;
+    batch.sink.is_at_border = true;
+    return true;
+}
+
 void start_crack(Batch& batch, uint32_t vertex) {
     const ShellView shell = batch.shell;
     Vertices& vertices = shell.state.vertices;
@@ -137,6 +145,7 @@ void start_crack(Batch& batch, uint32_t vertex) {
     if (!may_start(vertices, row, batch.limits.fracture, batch.time)) return;
     const StartField field = start_field(shell, vertex, batch.limits.grain);
     if (!(field.stress > batch.limits.start * vertices.strength_factor[row])) return;
+    if (stops_at_border(batch, vertex)) return;
     Ring ring;
     walk_ring(shell, vertex, ring);
     const uint32_t refused = batch.sink.refused;
@@ -163,6 +172,7 @@ void advance_tip(Batch& batch, uint32_t vertex) {
     if (crack_at(batch, vertex) != CrackState::Tip || batch.time < vertices.ready_time[row]) return;
     const ChosenHeading chosen = tip_heading(shell, vertex, batch.fan, batch.limits.grain);
     if (!(chosen.stress > batch.limits.tip)) return;
+    if (stops_at_border(batch, vertex)) return;
     Ring ring;
     walk_ring(shell, vertex, ring);
     const Vec3 normal = ring_normal(shell, ring);
@@ -209,9 +219,15 @@ uint32_t grow_cracks(State& state, Row<Tasks> task, CrackSink& sink) {
     const ShellView shell(state, tasks.shell[task]);
     const float time = static_cast<float>(tasks.steps_done[task]) * tasks.time_step[task];
     const float check_interval = static_cast<float>(kStepsAStressCheck) * tasks.time_step[task];
-    Batch batch{
-        shell, crack_limits(shell, tasks.strength_scale[task]), {}, time, check_interval, sink, tasks.steps_done[task],
-        {}};
+    Batch batch{shell,
+                task,
+                crack_limits(shell, tasks.strength_scale[task]),
+                {},
+                time,
+                check_interval,
+                sink,
+                tasks.steps_done[task],
+                {}};
     Candidates candidates;
     choose_candidates(shell, batch.limits, time, batch.fan, candidates);
     if (candidates.count == 0) return 0;

@@ -1,5 +1,6 @@
 #include <algorithm>
 
+#include "systems/brittle/hidden_region.hpp"
 #include "systems/damage/assemble.hpp"
 #include "systems/damage/blows.hpp"
 #include "systems/damage/open_blows.hpp"
@@ -172,7 +173,7 @@ struct Opening {
         tasks.strength_scale[t] = bodies.strength_scale[body];
         set_task_times(state, task);
         set_quick_task(state, task, body);
-        const bool is_assembled = is_quick || state.shells.packs[source].count > 0;
+        const bool is_assembled = is_quick || waits || state.shells.packs[source].count > 0;
         const uint64_t units = is_quick ? kUnitsQuickOpen : kUnitsOpen + (is_assembled ? 0 : kUnitsAssemble);
         if (!waits) tasks.units_owed[t] = state.shells.vertices[source].count * units;
         bodies.task[body] = t;
@@ -193,7 +194,15 @@ struct Opening {
             const ShellView source(state, tasks.source[o.task]);
             CutOutResult result = CutOutResult::TooWide;
             const bool is_everywhere = has_explosion(state.blows, o.task) || is_cut_task(state.blows, o.task);
-            if (!is_everywhere) result = reserve_cut_out(state, o.task, &full);
+            if (!is_quick_task(state, o.task)) {
+                const uint32_t wanted = is_everywhere ? kNone : kWholeCopyVertices;
+                if (!give_hidden_rows(state, o.task, wanted, stiffness_wanted, &full)) {
+                    tasks.state[o.task] = static_cast<uint8_t>(TaskState::Dropped);
+                    refused.push(refused_event(state.bodies, tasks.body[o.task], full));
+                }
+                continue;
+            }
+            if (!is_everywhere) result = reserve_cut_out(state, o.task, quick_cut_out_size(state, o.task), &full);
             if (result == CutOutResult::TooWide)
                 tasks.shell[o.task] = make_shell_unclear(state, quick_room(source), &full);
             const Row<Shells> working = tasks.shell[o.task];

@@ -4,6 +4,7 @@
 #include <limits>
 
 #include "engine/random.hpp"
+#include "systems/brittle/hidden_region.hpp"
 #include "systems/brittle/restart.hpp"
 #include "systems/damage/brittle_loop.hpp"
 #include "systems/damage/crack_candidates.hpp"
@@ -20,20 +21,25 @@ namespace {
 
 constexpr Row<Tasks> kTask{0};
 
+/// Rows that start_task fills; of the whole shell where a region would be too wide.
+bool give_rows(State& state, uint32_t region_vertices, bool is_quick) {
+    const char* full = nullptr;
+    if (region_vertices > 0 && reserve_hidden_region(state, kTask, region_vertices, &full)) return true;
+    const ShellView source(state, state.tasks.source[kTask]);
+    state.tasks.shell[kTask] = make_shell_unclear(state, is_quick ? quick_room(source) : working_room(source), &full);
+    return state.tasks.shell[kTask].exists();
+}
+
 }  // namespace
 
 bool open_hit(State& state, Row<Shells> source, const HitDescription& hit) {
     const ShellView before(state, source);
-    const Row<Shells> working =
-        make_shell_unclear(state, hit.quick ? quick_room(before) : working_room(before));  // start_task fills it
-    if (!working.exists()) return false;
     Tasks& tasks = state.tasks;
     tasks.clear_rows(kTask, 1);
     tasks.state[kTask] = static_cast<uint8_t>(TaskState::Running);
     tasks.body[kTask] = {};
     tasks.source[kTask] = source;
-    tasks.shell[kTask] = working;
-    ++state.shells.users[source];
+    tasks.shell[kTask] = {};
     tasks.start_velocity.set(kTask, hit.velocity);
     tasks.start_spin.set(kTask, hit.spin);
     tasks.strength_scale[kTask] = hit.strength_scale;
@@ -56,9 +62,21 @@ bool open_hit(State& state, Row<Shells> source, const HitDescription& hit) {
         0, is_ball ? struck_normal(ShellView(state, source), hit.point, hit.normal, contacts.radius[0]) : hit.normal);
     const Vec3 arm = hit.point - state.shells.centre[source].to_float();
     tasks.approach_speed[kTask] = hit.striker_speed - dot(hit.velocity + cross(hit.spin, arm), hit.normal);
+    if (!give_rows(state, hit.region_vertices, hit.quick)) return false;
+    ++state.shells.users[source];
     start_task(state, kTask);
     const char* full = "";
     if (hit.quick) return wake_region_alone(state, kTask, &full);
+    return true;
+}
+
+bool widen_hit(State& state) {
+    if (!is_hidden_region(state, kTask) || !state.region_rests.wants_more[kTask]) return true;
+    release_shell(state, state.tasks.shell[kTask]);
+    state.quick_runs.cut_elements[kTask] = 0;
+    if (!give_rows(state, 2 * state.region_rests.most_vertices[kTask], false)) return false;
+    state.tasks.redo_count[kTask] = 0;
+    start_task(state, kTask);
     return true;
 }
 
@@ -75,6 +93,7 @@ HitReport finish_hit(State& state) {
     report.dropped = static_cast<TaskState>(tasks.state[kTask]) == TaskState::Dropped;
     report.cracked = report.cuts > 0;
     const ShellView shell(state, tasks.shell[kTask]);
+    report.moving = shell.vertex_count();
     const std::span parts(state.fragments.part.data(), kMostParts);
     report.parts = group_fragments(shell, parts);
     if (report.parts > 1 && !report.dropped && run_out_cracks(state, kTask))
@@ -103,6 +122,7 @@ HitReport run_hit(State& state, Row<Shells> shell, const HitDescription& hit, bo
         tasks.steps_granted[kTask] = is_over ? 3 : 1u << 20;
         loop.run_alone(world, {kTask, tasks.steps_done[kTask], tasks.steps_granted[kTask], task_goes_on});
         if (is_over && is_over(state)) break;
+        if (!widen_hit(state)) tasks.state[kTask] = static_cast<uint8_t>(TaskState::Dropped);
     }
     return finish_hit(state);
 }

@@ -14,13 +14,15 @@ struct HitDescription {
     float striker_inverse_mass = 0;  // 1/kg, 0: floor
     float striker_radius = 0;        // m, 0: flat
     float strength_scale = 1;
-    float step_scale = 1;  // on the shell's time step; its damping time, the body's own, stays. Truth halves it
+    float step_scale = 1;          // on the shell's time step; its damping time, the body's own, stays. Truth halves it
+    uint32_t region_vertices = 0;  // of the cut-out that the run begins on, as a large body's; 0: the whole shell
     const QuickSettings* quick = nullptr;  // the quick mode takes the hidden run's place
 };
 
 struct HitReport {
     bool cracked = false, broke = false, dropped = false;
     uint32_t steps = 0, cuts = 0, starts = 0, redos = 0, parts = 1;
+    uint32_t moving = 0;                     // vertices of the task's shell at the end
     uint32_t awake = 0;                      // vertices that the quick mode's region began with
     double start_energy = 0;                 // J, of body and strikers, all of it kinetic
     double end_energy = 0, end_kinetic = 0;  // J, with and without what the springs hold
@@ -31,14 +33,14 @@ struct HitReport {
 /// The three parts of run_hit, for those who drive the loop themselves: open_hit fills task row 0 (false: no room),
 /// the task runs until its state is no longer Running, finish_hit counts its parts.
 bool open_hit(State& state, Row<Shells> shell, const HitDescription& hit);
+/// A run that has come to the border of its region (hidden_region.hpp) begins again on a larger one. False: no room.
+bool widen_hit(State& state);
 HitReport finish_hit(State& state);
 
 /// Takes task row 0 of `state`, which must be free, and leaves it with the end's shell (close_hit). `is_over`, when
 /// given, ends the run early; it is asked after each repetition.
 HitReport run_hit(State& state, Row<Shells> shell, const HitDescription& hit, bool (*is_over)(const State&) = nullptr);
 void close_hit(State& state);
-/// The task of such a hit, opened and not yet run. False: no room.
-bool open_hit(State& state, Row<Shells> source, const HitDescription& hit);
 
 /// Lowest vertex in direction `down`, and what a fall on a floor in that direction looks like.
 HitDescription fall_on_floor(const State& state, Row<Shells> shell, Vec3 down, float speed);

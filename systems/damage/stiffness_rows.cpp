@@ -46,6 +46,12 @@ uint32_t packs_of(uint32_t vertices) {
     return (vertices + kLanes - 1) / kLanes;
 }
 
+void add_spare_slots(const ShellView& shell, uint32_t packs, uint32_t spare_packs, ShellRoom& room) {
+    const uint32_t moved = packs / 3 + 1, links_a_triangle = has_grain(shell) ? kGrainLinks : 1;
+    room.blocks += (spare_packs + moved) * (kNewPackSlots + 2 * kSpareSlots);
+    room.links += links_a_triangle * (spare_packs + moved) * (kNewPackSlots + 2 * kSpareSlots);
+}
+
 bool write_row(const ShellView& shell, const PlaneStress& stress, uint32_t vertex) {
     VertexRow row;
     build_row(shell, stress, vertex, row);
@@ -91,10 +97,24 @@ ShellRoom stiffness_room(ShellView shell, uint32_t spare_vertices) {
             room.blocks += blocks, room.links += links;
         }
     }
-    const uint32_t moved = packs / 3 + 1;
-    const uint32_t links_a_triangle = has_grain(shell) ? kGrainLinks : 1;
-    room.blocks += (spare_packs + moved) * (kNewPackSlots + 2 * kSpareSlots);
-    room.links += links_a_triangle * (spare_packs + moved) * (kNewPackSlots + 2 * kSpareSlots);
+    add_spare_slots(shell, packs, spare_packs, room);
+    return room;
+}
+
+void SlotCount::add(const ShellView& shell, uint32_t vertex) {
+    if (vertices_++ % kLanes == 0) {
+        blocks_ += pack_blocks_, links_ += pack_links_;
+        pack_blocks_ = pack_links_ = 0;
+    }
+    uint32_t blocks = 0, links = 0;
+    count_slots(shell, vertex, blocks, links);
+    pack_blocks_ = std::max(pack_blocks_, blocks), pack_links_ = std::max(pack_links_, links);
+}
+
+ShellRoom SlotCount::room(const ShellView& shell, uint32_t spare_vertices) const {
+    ShellRoom room;
+    room.blocks = blocks_ + pack_blocks_, room.links = links_ + pack_links_;
+    add_spare_slots(shell, packs_of(vertices_), packs_of(spare_vertices) + 1, room);
     return room;
 }
 

@@ -20,7 +20,9 @@ void find_parts(Each<TaskEnded> ended, ShellTables shells, Tasks& tasks, Fragmen
     // A body that may have been hit on a cut-out is not looked at as a whole; cracks that run out want the scratch that
     // a flood uses.
     const uint32_t vertices = shells.state.shells.vertices[tasks.source[t]].count;  // before the cracks brought theirs
-    const bool runs_out = !is_quick || vertices <= kWholeCopyVertices;
+    // A hidden run's cracks have run out in its cut-out.
+    const bool was_hidden_region = tasks.shell[t] == tasks.source[t] && !is_quick;
+    const bool runs_out = is_quick ? vertices <= kWholeCopyVertices : !was_hidden_region;
     tasks.part_count[t] = kNone;
     if (!runs_out && is_zero) tasks.part_count[t] = find_pieces(shell, parts);
     if (tasks.part_count[t] == kNone) {

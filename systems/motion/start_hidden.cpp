@@ -1,5 +1,6 @@
 #include "systems/motion/start_hidden.hpp"
 
+#include "systems/brittle/hidden_region.hpp"
 #include "systems/damage/energy.hpp"
 #include "systems/damage/stress_check.hpp"
 
@@ -36,13 +37,16 @@ void start_hidden(State& state, Row<Tasks> task) {
     Tasks& tasks = state.tasks;
     const ShellView shell(state, tasks.shell[task]);
     Vertices& vertices = state.vertices;
-    const Vec3d centre = centre_of_vertices(shell), velocity(tasks.start_velocity[task]), spin(tasks.start_spin[task]);
+    const bool is_region = is_hidden_region(state, task);
+    const Vec3d centre = is_region ? state.region_rests.body_centre[task] : centre_of_vertices(shell),
+                velocity(tasks.start_velocity[task]), spin(tasks.start_spin[task]);
     for (uint32_t v = 0; v < shell.vertex_count(); ++v) {
         const uint32_t row = shell.vertex(v);
         const bool is_free = vertices.inverse_mass[row] > 0;
         const Vec3d motion = velocity + cross(spin, Vec3d(vertices.rest[row]) - centre);
         set_motion(vertices, row, is_free ? motion.to_float() : Vec3{}, tasks.damping_time[task]);
     }
+    if (is_region) start_rest(state, task);
     TaskContacts& contacts = state.task_contacts;
     for (uint32_t c = tasks.first_contact[task]; c < tasks.first_contact[task] + tasks.contact_count[task]; ++c) {
         contacts.striker_travel[c] = contacts.impulse[c] = 0;

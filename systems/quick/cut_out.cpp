@@ -4,6 +4,7 @@
 #include <cstring>
 
 #include "systems/cook/materials.hpp"
+#include "systems/damage/assemble.hpp"
 #include "systems/damage/grow_cracks.hpp"
 #include "systems/damage/struck_normal.hpp"
 #include "systems/damage/working_room.hpp"
@@ -17,9 +18,8 @@ namespace {
 // A split vertex may be one ring outside of what is awake; re-meshing changes the elements beyond its ring, and the
 // fans at the ends of the cut are one ring further. One more to spare.
 // Coarse cracks run on beyond that.
-constexpr uint32_t kBorderRings = 5;
 uint32_t border_rings(FractureKind kind) {
-    return kBorderRings + (kind == FractureKind::Coarse ? kCoarseRunSteps + 1 : 0);
+    return kCutOutBorderRings + (kind == FractureKind::Coarse ? kCoarseRunSteps + 1 : 0);
 }
 /// Rows that a hit should find for what cracks add; a body with fewer is copied whole, which brings new ones.
 constexpr uint32_t kLeastSpare = 512;
@@ -73,11 +73,11 @@ void add_patches(State& state, Row<Tasks> task, Flood& flood) {
 }
 
 /// False: more elements than flood.most.
-bool spread(Flood& flood, uint32_t rings) {
+bool spread(Flood& flood, const CutOutSize& size) {
     uint32_t at = flood.first, ring = 0, end_of_ring = flood.queued;
     for (uint32_t seen = 0; at != kNone; ++seen) {
         if (seen == end_of_ring) {
-            if (ring == rings) break;
+            if (ring == size.rings || flood.queued >= size.vertices) break;
             ++ring;
             end_of_ring = flood.queued;
         }
@@ -101,6 +101,15 @@ void copy_kept_rows(AnyTable& table, uint32_t from, uint32_t to, uint32_t count)
             std::memcpy(memory + size_t{to} * c.row_bytes, memory + size_t{from} * c.row_bytes,
                         size_t{count} * c.row_bytes);
         }
+}
+
+/// Of rows that are assembled anew: slots of the body's packs are counted, of which a vertex has at least as many.
+void add_stiffness_room(const CutRows& rows, ShellRoom& room) {
+    SlotCount slots;
+    for (uint32_t v = 0; v < rows.source.vertex_count(); ++v)
+        if (rows.vertex(v) != kNone) slots.add(rows.source, v);
+    const ShellRoom stiffness = slots.room(rows.source, room.vertices - rows.vertex_count);
+    room.blocks = stiffness.blocks, room.links = stiffness.links;
 }
 
 void copy_vertices(const CutRows& rows, const ShellView& cut) {
@@ -168,12 +177,16 @@ void copy_hinges(const CutRows& rows, const ShellView& cut) {
 
 }  // namespace
 
+bool is_for_cut_outs(const State& state, Row<Shells> shell, bool is_quick) {
+    const Shells& shells = state.shells;
+    if (shells.vertices[shell].count <= (is_quick ? kWholeCopyVertices : kWholeHiddenVertices)) return false;
+    return material_traits(state, shells.material[shell]).fracture != FractureKind::Large;
+}
+
 bool may_cut_out(const State& state, Row<Bodies> body) {
-    if (!is_quick_body(state, body)) return false;
     const Row<Shells> shell = state.bodies.shell[body];
     const Shells& shells = state.shells;
-    if (shells.vertices[shell].count <= kWholeCopyVertices || shells.users[shell] != 1) return false;
-    if (material_traits(state, shells.material[shell]).fracture == FractureKind::Large) return false;
+    if (!is_for_cut_outs(state, shell, is_quick_body(state, body)) || shells.users[shell] != 1) return false;
     return spare_of(shells.vertices[shell]) >= kLeastSpare && spare_of(shells.elements[shell]) >= 2 * kLeastSpare &&
            spare_of(shells.hinges[shell]) >= 3 * kLeastSpare;
 }
@@ -186,16 +199,20 @@ void clear_spare_vertices(const ShellView& copy) {
     std::fill_n(vertices.element.data() + range.first + range.count, end - range.count, kNone);
 }
 
-CutOutResult reserve_cut_out(State& state, Row<Tasks> task, const char** full) {
+CutOutSize quick_cut_out_size(const State& state, Row<Tasks> task) {
+    const Row<Shells> source = state.tasks.source[task];
+    const FractureKind kind = material_traits(state, state.shells.material[source]).fracture;
+    return {region_rings(state.quick_runs.steps[task]) + 1 + border_rings(kind), kNone};
+}
+
+CutOutResult reserve_cut_out(State& state, Row<Tasks> task, const CutOutSize& size, const char** full) {
     const ShellView source(state, state.tasks.source[task]);
     CutRows rows(source);
     Flood flood{source, state.elements.next.data() + source.elements().first, source.element_count() / 2};
     std::fill_n(state.vertices.copy.data() + source.vertex(0), source.vertex_count(), kUnseen);
     std::fill_n(flood.is_found, source.element_count(), 0u);
     add_patches(state, task, flood);
-    const FractureKind kind = material_traits(state, state.shells.material[source.row]).fracture;
-    const uint32_t rings = region_rings(state.quick_runs.steps[task]) + 1 + border_rings(kind);
-    if (!spread(flood, rings) || flood.count == 0) return CutOutResult::TooWide;
+    if (!spread(flood, size) || flood.count == 0) return CutOutResult::TooWide;
     for (uint32_t e = 0, listed = 0; listed < flood.count; ++e)
         if (flood.is_found[e]) rows.list[listed++] = e;
     rows.number(flood.count);
@@ -207,7 +224,10 @@ CutOutResult reserve_cut_out(State& state, Row<Tasks> task, const char** full) {
     room.vertices = std::min(room.vertices, round_to_packs(rows.vertex_count) + spare_of(vertices));
     room.elements = std::min(room.elements, rows.element_count + spare_of(elements));
     room.hinges = std::min(room.hinges, rows.hinge_count + spare_of(hinges));
-    room.cells = state.shells.cells[source.row].count;
+    if (is_quick_task(state, task))
+        room.cells = state.shells.cells[source.row].count;
+    else
+        add_stiffness_room(rows, room);
     const Row<Shells> cut = make_shell_unclear(state, room, full);
     if (!cut.exists()) return CutOutResult::NoRoom;
     state.tasks.shell[task] = cut;
@@ -218,18 +238,32 @@ CutOutResult reserve_cut_out(State& state, Row<Tasks> task, const char** full) {
     return CutOutResult::Reserved;
 }
 
+void list_cut_out(State& state, Row<Tasks> task) {
+    const ShellView source(state, state.tasks.source[task]), cut(state, state.tasks.shell[task]);
+    CutRows rows(source);
+    const uint32_t count = state.quick_runs.cut_elements[task];
+    std::copy_n(state.elements.part.data() + cut.elements().first, count, rows.list);
+    rows.number(count);
+    rows.count_hinges();
+    cut.vertices().count = rows.vertex_count;
+    cut.elements().count = rows.element_count;
+    cut.hinges().count = rows.hinge_count;
+}
+
 void fill_cut_out(State& state, Row<Tasks> task) {
     const ShellView source(state, state.tasks.source[task]), cut(state, state.tasks.shell[task]);
     Shells& shells = state.shells;
     const CutRows rows(source, cut);
-    const Range vertices = cut.vertices(), elements = cut.elements(), hinges = cut.hinges();
+    const Range vertices = cut.vertices(), elements = cut.elements(), hinges = cut.hinges(),
+                packs = shells.packs[cut.row], blocks = shells.blocks[cut.row], links = shells.links[cut.row];
     Range cells = shells.cells[cut.row];
-    cells.count = shells.cells[source.row].count;
+    cells.count = cells.capacity > 0 ? shells.cells[source.row].count : 0;  // the number says how stiffness is stored
     shells.copy_rows(shells, source.row, cut.row, 1);
     shells.users[cut.row] = 1;
     cut.vertices() = vertices, cut.elements() = elements, cut.hinges() = hinges;
     shells.cells[cut.row] = cells;
-    shells.packs[cut.row] = shells.blocks[cut.row] = shells.links[cut.row] = shells.points[cut.row] = {};
+    shells.packs[cut.row] = packs, shells.blocks[cut.row] = blocks, shells.links[cut.row] = links;
+    shells.points[cut.row] = {};
     shells.dead_elements[cut.row] = 0;
     state.cells.copy_rows(state.cells, shells.cells[source.row].first, cells.first, cells.count);
     copy_vertices(rows, cut);

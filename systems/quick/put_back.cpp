@@ -89,11 +89,13 @@ void put_vertices(const PutBack& p) {
                              vertices.heading[to] == vertices.heading[from];
         if (is_same) return vertices.velocity.set(to, vertices.velocity[from]);
         const uint32_t element = p.element(vertices.element[from]);
-        const uint32_t place = vertices.copy[to];  // in the cut-out; `from` has the way back
+        const uint32_t place = vertices.copy[to];                             // in the cut-out; `from` has the way back
+        const float strength = vertices.strength_factor[is_old ? to : from];  // a hidden run lowers it at its border
         vertices.copy_rows(vertices, from, to, 1);
         vertices.copy[to] = place;
         vertices.element[to] = element;
         vertices.crack_start[to] = start;
+        vertices.strength_factor[to] = strength;
         vertices.is_start_banned[to] = 0;
         vertices.ready_time[to] = 0;
         vertices.crush[to] = 0;
@@ -280,8 +282,11 @@ std::string trouble_of_cut_out(State& state, uint32_t task) {
         !fits(cut.element_count(), count, source.elements()) ||
         !fits(cut.hinge_count(), rows.hinge_count, source.hinges()))
         return where + ": what cracks added finds no room in the body's shell";
-    if (state.shells.cells[cut_row].count != state.shells.cells[source_row].count)
+    const uint32_t cells = state.shells.cells[source_row].count;
+    if (state.shells.cells[cut_row].count != (is_quick_task(state, task) ? cells : 0))
         return where + ": its cells are not those of the body";
+    for (uint32_t e = 0; e < cut.element_count(); ++e)
+        if (state.elements.cell[cut.element(e)] >= cells) return where + ": an element is in none of the body's cells";
     return {};
 }
 

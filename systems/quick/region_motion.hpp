@@ -9,6 +9,7 @@ namespace cullet {
 struct BodyMotion {
     Vec3d centre, velocity, spin;
     BodyMotion(const State& state, Row<Tasks> task);
+    BodyMotion(Vec3d c, Vec3d v, Vec3d w) : centre(c), velocity(v), spin(w) {}
     Vec3d at(Vec3 place) const { return velocity + cross(spin, Vec3d(place) - centre); }
 };
 

@@ -1,12 +1,24 @@
-// The quick mode's part of the frame: regions wake before the loop and are closed behind it.
+// Regions of the quick mode wake before the loop; those and hidden ones are closed behind it.
+#include "systems/brittle/hidden_region.hpp"
 #include "systems/costs.hpp"
+#include "systems/damage/run_out.hpp"
+#include "systems/fragments/flood_parts.hpp"
 #include "systems/quick/cut_out.hpp"
 #include "systems/rigid/body_id.hpp"
 #include "systems/systems.hpp"
 
 namespace cullet {
-
 namespace {
+
+// What find_parts does for whole shells: cracks run out where something came free. Parts are not numbered: the numbers
+// say which elements of the body the cut-out has.
+void run_out_region(State& state, Row<Tasks> task) {
+    if (static_cast<TaskState>(state.tasks.state[task]) == TaskState::Dropped) return;
+    if (state.tasks.crack_count[task] == 0) return;
+    FloodedParts found;
+    flood_parts(ShellView(state, state.tasks.shell[task]), found);
+    if (found.pieces > 0) run_out_cracks(state, task);
+}
 
 bool is_woken(const State& state, Row<Tasks> task) {
     return is_quick_task(state, task) && static_cast<TaskState>(state.tasks.state[task]) == TaskState::Running;
@@ -51,6 +63,10 @@ void close_regions(Serial, const Events<TaskEnded>& ended, ShellTables shells, T
                    const Bodies&, Events<CrackStartedEvent>& cracks) {
     State& state = shells.state;
     for (const TaskEnded& e : ended) {
+        if (is_hidden_region(state, e.task)) {
+            run_out_region(state, e.task);
+            put_back(state, e.task, rest_motion(state, e.task), cracks);
+        }
         if (!is_quick_task(state, e.task)) continue;
         close_region(state, e.task);
         if (is_cut_out(state, e.task)) put_back(state, e.task, BodyMotion(state, e.task), cracks);
