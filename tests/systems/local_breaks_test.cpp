@@ -149,8 +149,16 @@ void expect_all_as_anew(World& world, uint32_t seed) {
     }
 }
 
-/// Balls from random sides, one after the other, at a body that floats. Returns how many pieces were born.
-uint32_t pelt(float edge, FractureMode mode, uint32_t hits) {
+enum class Saving : uint8_t { None, Saves, Restores };
+
+struct Pelted {
+    uint32_t born = 0;
+    uint64_t hash = 0;
+};
+
+/// Balls from random sides, one after the other, at a body that floats. With `saving` the world is saved after each,
+/// and goes on or is restored.
+Pelted pelt(float edge, FractureMode mode, uint32_t hits, Saving saving = Saving::None, uint32_t threads = 1) {
     const Result<Model> model = cook_fine_vase(edge);
     EXPECT_TRUE(model.ok());
     Settings settings;
@@ -158,13 +166,13 @@ uint32_t pelt(float edge, FractureMode mode, uint32_t hits) {
     settings.units_a_frame = 1'000'000'000;
     settings.debris_share = 0, settings.debris_elements = 3;
     settings.limits.bodies = 400;
+    settings.threads = threads;
     World world = World::create(settings).value();
     const ModelId id = world.add_model(model.value()).value();
     SpawnSettings spawn;
     spawn.fracture = mode;
     if (mode == FractureMode::Quick) spawn.quick.strain_limit = 0.02f;
     const BodyId body = world.spawn(id, spawn).value();
-    const auto& d = world.contents().data;
     uint32_t born = 0, least_drawn = 100;  // per cent of the body's mesh
     for (uint32_t hit = 0; hit < hits; ++hit) {
         const auto uniform = [&](uint64_t k) { return static_cast<float>(Random{7}.uniform(hit, k)); };
@@ -184,26 +192,41 @@ uint32_t pelt(float edge, FractureMode mode, uint32_t hits) {
             const BodyView view = world.view(body).value();
             if (view.stamp != stamp)
                 least_drawn = std::min(least_drawn, 100 * view.dirty_vertices.count / view.vertex_count);
-            born += static_cast<uint32_t>(d.born_events.size());
+            born += static_cast<uint32_t>(world.contents().data.born_events.size());
         }
         (void)world.remove(thrown);
-        expect_all_as_anew(world, hit);
+        if (saving == Saving::None) {
+            expect_all_as_anew(world, hit);
+        } else {
+            const auto saved = world.snapshot();
+            EXPECT_TRUE(saved.ok());
+            if (saving == Saving::Restores) {
+                EXPECT_TRUE(world.restore(saved->data(), saved->size(), "it").ok());
+            }
+        }
         if (testing::Test::HasFatalFailure() || testing::Test::HasNonfatalFailure()) {
             ADD_FAILURE() << "after hit " << hit;
             break;
         }
     }
     EXPECT_LT(least_drawn, 100u);  // some of it stood
-    return born;
+    return {born, world.contents().data.state.hash()};
 }
 
 TEST(LocalBreaks, ALargeBodyHitOnCutOutsIsAsIfMadeAnewAfterEveryHit) {
-    EXPECT_GT(pelt(0.0062f, FractureMode::Quick, 8), 20u);
+    EXPECT_GT(pelt(0.0062f, FractureMode::Quick, 8).born, 20u);
 }
 
 TEST(LocalBreaks, ASmallBodyHitOnWholeCopiesIsAsIfMadeAnewAfterEveryHit) {
-    EXPECT_GT(pelt(0.018f, FractureMode::Quick, 8), 10u);
-    EXPECT_GT(pelt(0.018f, FractureMode::Hidden, 4), 10u);
+    EXPECT_GT(pelt(0.018f, FractureMode::Quick, 8).born, 10u);
+    EXPECT_GT(pelt(0.018f, FractureMode::Hidden, 4).born, 10u);
+}
+
+TEST(LocalBreaks, GoOnAsTheyWouldHaveWhenTheWorldIsRestoredAndOnAnyThreads) {
+    const Pelted saved = pelt(0.0062f, FractureMode::Quick, 6, Saving::Saves);
+    EXPECT_GT(saved.born, 10u);
+    EXPECT_EQ(pelt(0.0062f, FractureMode::Quick, 6, Saving::Restores).hash, saved.hash);
+    EXPECT_EQ(pelt(0.0062f, FractureMode::Quick, 6, Saving::Saves, 3).hash, saved.hash);
 }
 
 }  // namespace
