@@ -103,7 +103,7 @@ struct SpringPacks : Table<SpringPacks> {
 };
 
 /// A slot of a pack: for each lane one neighbour and the spring to it. An unused lane has no stiffness and names a
-/// neighbour that its vertex has already, or the vertex itself.
+/// neighbour that its vertex has already; one of another's in the pack, or itself, where it has no springs.
 struct alignas(32) SpringSlot {
     uint32_t neighbour[kLanes];
     float inverse_rest[kLanes];    // 1 / plastic length, 1/m

@@ -16,10 +16,14 @@ inline constexpr uint64_t kUnitsAssemble = 550;    // a vertex of a shell whose 
 inline constexpr uint64_t kUnitsGrainRow = 3000;   // a row of a material with a grain, rebuilt after a cut
 inline constexpr uint64_t kUnitsCompact = 300;     // a live element of a shell that is compacted; 0.6 microseconds
 
-// Of the quick mode. A spring through one substep is 1; two layers are 4 springs an edge.
-inline constexpr uint64_t kUnitsQuickOpen = 100;  // a vertex of the body when a task opens: copy, marks
-inline constexpr uint64_t kUnitsQuickWake = 900;  // a vertex of the region: flood, springs, lists
-inline constexpr uint64_t kUnitsQuickCut = 2500;  // a cut edge: inserts, splits, springs made anew
+// Of the quick mode, measured at scene castle.
+inline constexpr uint64_t kUnitsQuickOpen = 180;     // a vertex of the copy when a task opens: flood, copy
+inline constexpr uint64_t kUnitsQuickWake = 380;     // a vertex of the region: flood, springs, lists
+inline constexpr uint64_t kUnitsQuickWakeTwo = 720;  // the same with two layers
+inline constexpr uint64_t kUnitsQuickSpring = 3;     // an edge through one substep, with looking at strains and energy
+inline constexpr uint64_t kUnitsQuickPair = 7;       // the same with two layers, which are 4 springs an edge
+inline constexpr uint64_t kUnitsQuickCut = 2500;     // a cut edge: inserts, splits, springs made anew
+inline constexpr uint64_t kUnitsQuickEnd = 400;      // a vertex of the copy when cracks are handed on: rows, pieces
 
 // Of soft bodies, measured on scenes tear and steel.
 inline constexpr uint64_t kUnitsSoftTenSprings = 20;  // ten springs of one layer through a substep

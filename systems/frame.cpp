@@ -23,6 +23,9 @@ FramePlan<WorldData> make_frame_plan(bool is_hosted, const std::function<std::st
         .then<fill_stiffness>()
         .then<start_tasks>()
         .then<wake_regions>()
+        .then<measure_regions>()
+        .then<lay_regions>()
+        .then<start_regions>()
         .then<wake_soft_bodies>();
     plan.stage("damage")
         .then<grant_units>()

@@ -42,9 +42,17 @@ void fill_stiffness(Each<StiffnessWanted> wanted, ShellTables shells, const Task
 void start_tasks(Each<TaskOpened> opened, ShellTables shells, Tasks& tasks, TaskContacts& contacts,
                  PatchVertices& patches, Blows& blows);
 
-/// Quick bodies: the springs of the neighbourhood of each hit (quick/region.hpp), at rest as the body sees them.
+/// Quick bodies: chooses the neighbourhood of each hit (quick/region.hpp) and takes rows for its springs.
 void wake_regions(Serial, const Events<TaskOpened>& opened, ShellTables shells, Tasks& tasks, TaskContacts& contacts,
-                  PatchVertices& patches, const Bodies& bodies, Events<RefusedEvent>& refused);
+                  PatchVertices& patches, const Bodies& bodies, Events<RegionPart>& parts,
+                  Events<RefusedEvent>& refused);
+/// Lengths, stiffness and damping of its springs.
+void measure_regions(Each<RegionPart> part, ShellTables shells, const Tasks& tasks);
+/// Its vertices' lists of them.
+void lay_regions(Each<RegionPart> part, ShellTables shells, const Tasks& tasks);
+/// Its time step, and it stands at rest as the body sees it.
+void start_regions(Serial, const Events<TaskOpened>& opened, ShellTables shells, Tasks& tasks, TaskContacts& contacts,
+                   PatchVertices& patches);
 
 // ---- damage
 

@@ -35,6 +35,7 @@ WorldData::WorldData(const Settings& settings)
       impacts(1u << 16),
       tasks_opened(settings.limits.open_hits),
       stiffness_wanted(state.stiffness_packs.limit() / kRowsPerChunk<StiffnessPacks> + settings.limits.open_hits),
+      region_parts(state.awake_packs.limit() / kRowsPerChunk<AwakePacks>),
       tasks_ended(settings.limits.open_hits),
       breaks(settings.limits.bodies + settings.limits.open_hits),
       births(2 * settings.limits.bodies + settings.limits.debris + settings.limits.open_hits),

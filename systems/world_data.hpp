@@ -29,6 +29,11 @@ struct StiffnessWanted {
     Row<Tasks> task;
     uint32_t first_pack;
 };
+/// Rows of AwakePacks of a region that wakes in this step, from this one on: a chunk of them.
+struct RegionPart {
+    Row<Tasks> task;
+    uint32_t first_row;
+};
 /// A damage task that ended in this step.
 struct TaskEnded {
     Row<Tasks> task;
@@ -82,6 +87,7 @@ struct WorldData {
     Events<Impact> impacts;
     Events<TaskOpened> tasks_opened;
     Events<StiffnessWanted> stiffness_wanted;
+    Events<RegionPart> region_parts;
     Events<TaskEnded> tasks_ended;
     Events<Break> breaks;
     Events<Birth> births;
@@ -137,6 +143,8 @@ T& WorldData::resource() {
         return tasks_opened;
     else if constexpr (std::is_same_v<T, Events<StiffnessWanted>>)
         return stiffness_wanted;
+    else if constexpr (std::is_same_v<T, Events<RegionPart>>)
+        return region_parts;
     else if constexpr (std::is_same_v<T, Events<TaskEnded>>)
         return tasks_ended;
     else if constexpr (std::is_same_v<T, Events<Break>>)

@@ -17,8 +17,26 @@ uint32_t steps_left(const Tasks& tasks, uint32_t t) {
                                                                 : 0;
 }
 
+struct Cost {
+    int64_t step, end;  // end: what the last step brings with it
+};
+
+Cost cost_of(const State& state, uint32_t t) {
+    if (is_quick_task(state, t))
+        return {static_cast<int64_t>(quick_units_a_step(state, t)), static_cast<int64_t>(quick_units_of_end(state, t))};
+    return {static_cast<int64_t>(units_a_step(state.shells, state.tasks, t)), 0};
+}
+
+/// As many of `most` as `budget` is enough for; `is_last`: the last of them ends the run.
+uint32_t affordable(int64_t budget, const Cost& cost, uint32_t most, bool is_last) {
+    const auto steps = static_cast<uint32_t>(std::min<int64_t>(most, std::max<int64_t>(budget, 0) / cost.step));
+    const bool is_dear = is_last && steps == most && steps > 0 && budget < steps * cost.step + cost.end;
+    return steps - is_dear;
+}
+
 }  // namespace
 
+// A quick run's last step waits for a frame that has units for what follows it, so that no frame has all of a hit.
 // What cracks cost more than was granted for is owed, and paid before the next frame's steps; cuts of the game are paid
 // in the frame that makes them. A task gets at least one
 // step a frame, so that none can starve.
@@ -50,15 +68,12 @@ void grant_units(Serial, ShellTables shells, Tasks& tasks, SoftBodies&, const Da
         goes_on = false;
         for (uint32_t i = 0; i < count; ++i) {
             const uint32_t t = order[i];
-            const auto cost =
-                static_cast<int64_t>(is_quick_task(shells.state, t) ? quick_units_a_step(shells.state, t)
-                                                                    : units_a_step(shells.state.shells, tasks, t));
+            const Cost cost = cost_of(shells.state, t);
+            const uint32_t left = steps_left(tasks, t), most = std::min(kStepsARound, left);
             uint32_t steps = 1;  // also where rounding leaves none: the step itself tells that the time is up
-            if (!is_first_round)
-                steps = static_cast<uint32_t>(std::min<int64_t>(std::min(kStepsARound, steps_left(tasks, t)),
-                                                                std::max<int64_t>(budget, 0) / cost));
+            if (!is_first_round) steps = affordable(budget, cost, most, most == left);
             tasks.steps_granted[t] += steps;
-            budget -= static_cast<int64_t>(steps) * cost;
+            budget -= static_cast<int64_t>(steps) * cost.step + (steps > 0 && steps >= left ? cost.end : 0);
             goes_on = goes_on || steps > 0;
         }
         goes_on = goes_on && budget > 0;

@@ -58,7 +58,7 @@ bool open_hit(State& state, Row<Shells> source, const HitDescription& hit) {
     tasks.approach_speed[kTask] = hit.striker_speed - dot(hit.velocity + cross(hit.spin, arm), hit.normal);
     start_task(state, kTask);
     const char* full = "";
-    if (hit.quick) return wake_region(state, kTask, &full);
+    if (hit.quick) return wake_region_alone(state, kTask, &full);
     return true;
 }
 

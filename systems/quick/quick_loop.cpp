@@ -1,5 +1,6 @@
 #include "systems/quick/quick_loop.hpp"
 
+#include "systems/costs.hpp"
 #include "systems/quick/quick_body.hpp"
 #include "systems/systems.hpp"
 
@@ -27,7 +28,11 @@ uint64_t quick_units_a_step(const State& state, uint32_t task) {
     if (!springs.exists()) return 1;
     const uint64_t edges = state.shell_springs.springs[springs].count;
     const bool has_layers = state.shell_springs.layers[springs].capacity > 0;
-    return edges * (has_layers ? 5 : 2) + 300;  // a quarter of it for looking at strains and the energy
+    return edges * (has_layers ? kUnitsQuickPair : kUnitsQuickSpring) + 300;
+}
+
+uint64_t quick_units_of_end(const State& state, uint32_t task) {
+    return state.shells.vertices[state.tasks.shell[task]].count * kUnitsQuickEnd;
 }
 
 }  // namespace cullet

@@ -9,5 +9,7 @@ BrittleLoop make_quick_loop();
 
 /// Units of one repetition, with its share of the checks.
 uint64_t quick_units_a_step(const State& state, uint32_t task);
+/// Of what follows the last one: the cut-out goes back, pieces are found, made and drawn.
+uint64_t quick_units_of_end(const State& state, uint32_t task);
 
 }  // namespace cullet

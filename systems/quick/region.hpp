@@ -58,9 +58,15 @@ inline constexpr uint32_t kAsleepMark = kNone, kAwakeMark = kNone - 1, kHeldMark
 /// are more packs than kMostAwakePacks. Serial.
 void choose_region(State& state, Row<Tasks> task, uint32_t rings);
 
-/// Springs of the elements that have an awake corner, softened, at rest where the rest shape is. False: no room, and
+/// Rows for the springs of the elements that have an awake corner, softened, and which edge each is. False: no room, and
 /// `full` names the limit. Needs choose_region's marks. Serial.
-bool give_region_springs(State& state, Row<Tasks> task, uint32_t layers, const char** full);
+bool take_region_springs(State& state, Row<Tasks> task, uint32_t layers, const char** full);
+/// The chunk of the region that begins with this row of AwakePacks: kRowsPerChunk packs, and as large a share of the
+/// springs. Chunks may be worked on at once, all of them by one call before any by the other.
+void measure_region_springs(const RegionView& region, uint32_t first_row);
+void lay_region_springs(const RegionView& region, uint32_t first_row);
+/// The time step, and what is stiffer than it allows is softened. Serial.
+void limit_region_springs(const RegionView& region);
 
 /// Bounds the stiffness of the springs at these vertices and their neighbours by what the time step allows (as B7 does
 /// for the hidden run): cuts and new vertices make short edges and light points.

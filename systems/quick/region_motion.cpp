@@ -89,17 +89,30 @@ uint32_t region_rings(uint32_t steps) {
 }
 
 bool wake_region(State& state, Row<Tasks> task, const char** full) {
-    Tasks& tasks = state.tasks;
-    const ShellView shell(state, tasks.shell[task]);
-    const uint32_t steps = state.quick_runs.steps[task];
     build_patches(state, task);
-    choose_region(state, task, region_rings(steps));
-    if (!give_region_springs(state, task, state.quick_runs.layers[task], full)) {
-        tasks.state[task] = static_cast<uint8_t>(TaskState::Dropped);
-        return false;
-    }
+    choose_region(state, task, region_rings(state.quick_runs.steps[task]));
+    if (take_region_springs(state, task, state.quick_runs.layers[task], full)) return true;
+    state.tasks.state[task] = static_cast<uint8_t>(TaskState::Dropped);
+    return false;
+}
+
+bool wake_region_alone(State& state, Row<Tasks> task, const char** full) {
+    if (!wake_region(state, task, full)) return false;
+    const RegionView region(state, task);
+    const uint32_t first = region.first_row(), end = first + region.pack_count();
+    for (uint32_t row = first; row < end; row += kRowsPerChunk<AwakePacks>) measure_region_springs(region, row);
+    for (uint32_t row = first; row < end; row += kRowsPerChunk<AwakePacks>) lay_region_springs(region, row);
+    start_region(state, task);
+    return true;
+}
+
+void start_region(State& state, Row<Tasks> task) {
+    Tasks& tasks = state.tasks;
     const RegionView region(state, task);
     const SpringView& view = region.springs;
+    const ShellView& shell = region.shell;
+    const uint32_t steps = state.quick_runs.steps[task];
+    limit_region_springs(region);
     state.quick_runs.diagonal[task] = diagonal_of(ShellView(state, tasks.source[task]));
     rest_all(view);
     rest_twins(region);
@@ -130,7 +143,6 @@ bool wake_region(State& state, Row<Tasks> task, const char** full) {
         scale += 0.5 * state.shells.mass[shell.row] * contacts.striker_speed[c] * contacts.striker_speed[c];
     });
     state.quick_runs.energy_scale[task] = scale;
-    return true;
 }
 
 void close_region(State& state, Row<Tasks> task) {

@@ -15,10 +15,14 @@ struct BodyMotion {
 /// How many rings round the patches a run of so many steps wakes: as far as a wave gets, and a few to spare.
 uint32_t region_rings(uint32_t steps);
 
-/// Wakes the region of a task whose shell is filled and whose contacts know their vertices: springs, patches, the
-/// striker's speed as the body sees it, step and end of the run. False: no room for its springs; the task is dropped.
-/// Serial.
+/// Chooses the region of a task whose shell is filled and whose contacts know their vertices, and takes its springs'
+/// rows. False: no room for them; the task is dropped. Serial.
 bool wake_region(State& state, Row<Tasks> task, const char** full);
+/// When its springs are measured and laid: patches, the striker's speed as the body sees it, step and end of the run.
+/// Serial.
+void start_region(State& state, Row<Tasks> task);
+/// All of it, for a task alone.
+bool wake_region_alone(State& state, Row<Tasks> task, const char** full);
 /// Vertices.velocity becomes what the body's own is at the touch and what the run gave, body axes; strikers' speeds as
 /// they were measured before; springs are given back. Serial; once for each run that woke.
 void close_region(State& state, Row<Tasks> task);

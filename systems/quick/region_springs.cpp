@@ -68,6 +68,12 @@ uint32_t slots_of(const ShellView& shell, uint32_t pack) {
     return most + kSpareSlots;
 }
 
+/// slots_of the region's i-th pack, from room_for to place_packs: in Elements.next_in_cell, which has more rows than
+/// that.
+uint32_t& slots_kept(const ShellView& shell, uint32_t i) {
+    return shell.state.elements.next_in_cell[shell.element(0) + i];
+}
+
 /// A vertex put on an edge brings four springs, the copy of a split one an edge: the spare vertices bound both. A pack
 /// that outgrows its slots moves to the end; copies need packs of their own.
 SpringRoom room_for(const Layout& layout, Row<Tasks> task, uint32_t edges, bool has_layers) {
@@ -83,8 +89,8 @@ SpringRoom room_for(const Layout& layout, Row<Tasks> task, uint32_t edges, bool 
     room.clears_lists = false;
     uint32_t slots = 0;
     const uint32_t count = state.quick_runs.pack_count[task];
-    for (uint32_t row = task * kMostAwakePacks; row < task * kMostAwakePacks + count; ++row)
-        slots += slots_of(layout.shell, packs.pack[row]);
+    for (uint32_t i = 0; i < count; ++i)
+        slots += slots_kept(layout.shell, i) = slots_of(layout.shell, packs.pack[task * kMostAwakePacks + i]);
     room.slots = 2 * slots + 6 * spare + 64;
     return room;
 }
@@ -136,53 +142,36 @@ double stiffness_ratio(const SpringView& view, uint32_t v, const VertexSprings& 
     return (std::max(outer, inner) + shared) * state.twins.inverse_mass[twin];
 }
 
-struct Ratios {
-    double sum = 0;
-    uint32_t count = 0;
-};
-
-// Vertices.copy, whose marks are read no more, keeps the vertex's ratio: the bits of a float that is not below it, 0
-// of what is held.
-Ratios lay_packs(const RegionView& region) {
+/// Where each pack's slots are, by its vertices' edges: as many as it needs, and one to spare.
+void place_packs(const RegionView& region) {
     State& state = region.state;
     const SpringView& view = region.springs;
-    const AwakePacks& packs = state.awake_packs;
     Range& slots = view.own().slots[view.row];
-    Ratios ratios;
-    for (uint32_t row = region.first_row(); row < region.first_row() + region.pack_count(); ++row) {
-        const uint32_t p = packs.pack[row], pack = view.pack(p);
-        VertexSprings lists[kLanes];
-        for (uint32_t k = 0; k < kLanes; ++k) {
-            const uint32_t v = p * kLanes + k;
-            collect_springs(view, v, lists[k]);
-            if (!((packs.awake[row] | packs.held[row]) >> k & 1)) continue;
-            const double ratio = packs.held[row] >> k & 1 ? 0 : stiffness_ratio(view, v, lists[k]);
-            ratios.sum += ratio;
-            ratios.count += ratio > 0;
-            state.vertices.copy[region.shell.vertex(v)] =
-                std::bit_cast<uint32_t>(1.000001f * static_cast<float>(ratio));
-        }
-        const uint32_t room = std::min(slots_needed(lists) + kSpareSlots, slots.capacity - slots.count);
+    for (uint32_t i = 0; i < region.pack_count(); ++i) {
+        const uint32_t pack = view.pack(state.awake_packs.pack[region.first_row() + i]);
+        const uint32_t room = std::min(slots_kept(region.shell, i), slots.capacity - slots.count);
         state.spring_packs.first_slot[pack] = slots.count;
         state.spring_packs.slot_capacity[pack] = static_cast<uint16_t>(room);
         slots.count += room;
-        write_pack(view, p, lists);
     }
     if (view.has_layers()) view.own().layer_slots[view.row].count = slots.count;
-    return ratios;
 }
 
-void measure_springs(const RegionView& region) {
-    State& state = region.state;
-    const SpringView& view = region.springs;
-    if (view.has_layers()) region.for_each([&](uint32_t v, bool) { weigh_points(view, v); });
-    for (uint32_t s = 0; s < view.spring_count(); ++s) {
-        measure_spring(view, s, true);
-        state.springs.length[view.spring(s)] = state.springs.rest_length[view.spring(s)];
-        if (view.has_layers())
-            state.layer_springs.length[view.layer(s)] = state.layer_springs.inner_length[view.layer(s)];
-    }
-    if (view.has_layers()) region.for_each([&](uint32_t v, bool) { measure_twin(view, v, true); });
+struct Chunk {
+    uint32_t first, end;
+};
+/// Of AwakePacks, in the chunk that begins with a row.
+Chunk packs_of_chunk(const RegionView& region, uint32_t first_row) {
+    return {first_row, std::min(first_row + kRowsPerChunk<AwakePacks>, region.first_row() + region.pack_count())};
+}
+/// Of springs: the share of its packs.
+Chunk springs_of_chunk(const RegionView& region, uint32_t first_row) {
+    const Chunk packs = packs_of_chunk(region, first_row);
+    const auto share = [&](uint32_t row) {
+        return static_cast<uint32_t>(uint64_t{region.springs.spring_count()} * (row - region.first_row()) /
+                                     region.pack_count());
+    };
+    return {share(packs.first), share(packs.end)};
 }
 
 /// No closed fan round the vertex and its neighbours: a border or a crack is there.
@@ -312,7 +301,7 @@ void limit_springs(const RegionView& region, std::span<const uint32_t> vertices)
     });
 }
 
-bool give_region_springs(State& state, Row<Tasks> task, uint32_t layers, const char** full) {
+bool take_region_springs(State& state, Row<Tasks> task, uint32_t layers, const char** full) {
     const Row<Shells> shell_row = state.tasks.shell[task];
     const ShellView shell(state, shell_row);
     QuickRuns& runs = state.quick_runs;
@@ -337,18 +326,64 @@ bool give_region_springs(State& state, Row<Tasks> task, uint32_t layers, const c
     const RegionView region(state, task);
     const SpringView& view = region.springs;
     list_edges(layout, view);
-    measure_springs(region);
-    const Ratios ratios = lay_packs(region);
-    const double step = ratios.count > 0 ? 0.6 * 2 / std::sqrt(ratios.sum / ratios.count) : 1;
-    const auto dt = static_cast<float>(std::min(step, 1.0));
-    own.time_step[row] = dt;
-    divide_damping(region, dt);
-    const double limit = ratio_limit(view);
-    region.for_each([&](uint32_t v, bool is_held) {
-        if (!is_held && std::bit_cast<float>(state.vertices.copy[shell.vertex(v)]) > limit)
-            limit_vertex(view, v, limit);
-    });
+    place_packs(region);
+    if (has_layers) region.for_each([&](uint32_t v, bool) { weigh_points(view, v); });
     return true;
+}
+
+void measure_region_springs(const RegionView& region, uint32_t first_row) {
+    State& state = region.state;
+    const SpringView& view = region.springs;
+    const Chunk springs = springs_of_chunk(region, first_row);
+    for (uint32_t s = springs.first; s < springs.end; ++s) {
+        measure_spring(view, s, true);
+        state.springs.length[view.spring(s)] = state.springs.rest_length[view.spring(s)];
+        if (view.has_layers())
+            state.layer_springs.length[view.layer(s)] = state.layer_springs.inner_length[view.layer(s)];
+    }
+}
+
+// Vertices.copy, whose marks are read no more, keeps the vertex's ratio: the bits of a float, 0 of what is held.
+void lay_region_springs(const RegionView& region, uint32_t first_row) {
+    State& state = region.state;
+    const SpringView& view = region.springs;
+    const AwakePacks& packs = state.awake_packs;
+    const Chunk rows = packs_of_chunk(region, first_row);
+    VertexSprings lists[kLanes];
+    for (uint32_t row = rows.first; row < rows.end; ++row) {
+        for (uint32_t k = 0; k < kLanes; ++k) {
+            const uint32_t v = packs.pack[row] * kLanes + k;
+            collect_springs(view, v, lists[k]);
+            if (!((packs.awake[row] | packs.held[row]) >> k & 1)) continue;
+            if (view.has_layers()) measure_twin(view, v, lists[k], true);
+            const double ratio = packs.held[row] >> k & 1 ? 0 : stiffness_ratio(view, v, lists[k]);
+            state.vertices.copy[region.shell.vertex(v)] = std::bit_cast<uint32_t>(static_cast<float>(ratio));
+        }
+        write_pack(view, packs.pack[row], lists);
+    }
+}
+
+void limit_region_springs(const RegionView& region) {
+    const SpringView& view = region.springs;
+    const auto ratio_of = [&](uint32_t v) {
+        return std::bit_cast<float>(region.state.vertices.copy[region.shell.vertex(v)]);
+    };
+    double sum = 0;
+    uint32_t count = 0;
+    region.for_each([&](uint32_t v, bool) {
+        sum += ratio_of(v);
+        count += ratio_of(v) > 0;
+    });
+    const double step = count > 0 ? 0.6 * 2 / std::sqrt(sum / count) : 1;
+    const auto dt = static_cast<float>(std::min(step, 1.0));
+    view.own().time_step[view.row] = dt;
+    divide_damping(region, dt);
+    // Softening only takes from what the ratios were.
+    const double limit = ratio_limit(view);
+    constexpr float kRounded = 1.000001f;
+    region.for_each([&](uint32_t v, bool) {
+        if (kRounded * ratio_of(v) > limit) limit_vertex(view, v, limit);
+    });
 }
 
 }  // namespace cullet

@@ -1,20 +1,50 @@
 // The quick mode's part of the frame: regions wake before the loop and are closed behind it.
+#include "systems/costs.hpp"
 #include "systems/quick/cut_out.hpp"
 #include "systems/rigid/body_id.hpp"
 #include "systems/systems.hpp"
 
 namespace cullet {
 
+namespace {
+
+bool is_woken(const State& state, Row<Tasks> task) {
+    return is_quick_task(state, task) && static_cast<TaskState>(state.tasks.state[task]) == TaskState::Running;
+}
+
+}  // namespace
+
 // One after another: rows of springs come from pools.
 void wake_regions(Serial, const Events<TaskOpened>& opened, ShellTables shells, Tasks& tasks, TaskContacts&,
-                  PatchVertices&, const Bodies& bodies, Events<RefusedEvent>& refused) {
+                  PatchVertices&, const Bodies& bodies, Events<RegionPart>& parts, Events<RefusedEvent>& refused) {
     State& state = shells.state;
+    parts.clear();
     for (const TaskOpened& o : opened) {
-        if (!is_quick_task(state, o.task)) continue;
-        if (static_cast<TaskState>(tasks.state[o.task]) != TaskState::Running) continue;
+        if (!is_woken(state, o.task)) continue;
         const char* full = "";
-        if (!wake_region(state, o.task, &full)) refused.push(refused_event(bodies, tasks.body[o.task], full));
+        if (!wake_region(state, o.task, &full)) {
+            refused.push(refused_event(bodies, tasks.body[o.task], full));
+            continue;
+        }
+        const uint64_t units = state.quick_runs.layers[o.task] > 1 ? kUnitsQuickWakeTwo : kUnitsQuickWake;
+        tasks.units_owed[o.task] += state.quick_runs.awake_count[o.task] * units;
+        const uint32_t first = o.task * kMostAwakePacks, count = state.quick_runs.pack_count[o.task];
+        for (uint32_t row = first; row < first + count; row += kRowsPerChunk<AwakePacks>) parts.push({o.task, row});
     }
+}
+
+void measure_regions(Each<RegionPart> part, ShellTables shells, const Tasks&) {
+    measure_region_springs(RegionView(shells.state, part->task), part->first_row);
+}
+
+void lay_regions(Each<RegionPart> part, ShellTables shells, const Tasks&) {
+    lay_region_springs(RegionView(shells.state, part->task), part->first_row);
+}
+
+void start_regions(Serial, const Events<TaskOpened>& opened, ShellTables shells, Tasks&, TaskContacts&,
+                   PatchVertices&) {
+    for (const TaskOpened& o : opened)
+        if (is_woken(shells.state, o.task)) start_region(shells.state, o.task);
 }
 
 void close_regions(Serial, const Events<TaskEnded>& ended, ShellTables shells, Tasks&, TaskContacts&, Fragments&,

@@ -154,6 +154,12 @@ void measure_spring(const SpringView& view, uint32_t s, bool is_new) {
 }
 
 void measure_twin(const SpringView& view, uint32_t v, bool is_new) {
+    VertexSprings list;
+    collect_springs(view, v, list);
+    measure_twin(view, v, list, is_new);
+}
+
+void measure_twin(const SpringView& view, uint32_t v, const VertexSprings& list, bool is_new) {
     Twins& twins = view.state.twins;
     const uint32_t row = view.twin(v);
     Ring ring;
@@ -166,8 +172,6 @@ void measure_twin(const SpringView& view, uint32_t v, bool is_new) {
         area += length(cross(outer_rest(view, b) - pa, outer_rest(view, c) - pa)) / 6;  // a third of the triangle
     }
     // Of its own springs alone: a cut beside it changes others of its triangles.
-    VertexSprings list;
-    collect_springs(view, v, list);
     for (uint32_t i = 0; i < list.count; ++i) skin += view.state.springs.stiffness[view.spring(list.spring[i])];
     if (is_new) twins.inverse_rest[row] = reach > 0 ? static_cast<float>(1 / reach) : 0;
     const double rest = twins.inverse_rest[row] > 0 ? 1 / double{twins.inverse_rest[row]} : 0;

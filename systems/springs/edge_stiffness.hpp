@@ -18,6 +18,9 @@ double stiff_depth(const SpringView& view, uint32_t vertex);
 void measure_spring(const SpringView& view, uint32_t spring, bool is_new);
 /// The internal spring of vertex v from its ring, and with `is_new` its length: k = min(E A / (gamma h), 10 k_skin).
 void measure_twin(const SpringView& view, uint32_t vertex, bool is_new);
+struct VertexSprings;
+/// The same where its springs are collected already.
+void measure_twin(const SpringView& view, uint32_t vertex, const VertexSprings& list, bool is_new);
 /// Masses of a vertex and its twin, a sixth of each element of the ring each, from the ring.
 void weigh_points(const SpringView& view, uint32_t vertex);
 

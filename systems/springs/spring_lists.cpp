@@ -92,7 +92,8 @@ uint32_t slots_needed(const VertexSprings (&lists)[kLanes]) {
 }
 
 // What pads a list names the vertex's first neighbour again, without stiffness: its length is that of a real spring, so
-// that the kernel sees lengths of 0 by their least.
+// that the kernel sees lengths of 0 by their least. A vertex without springs, at the edge of a region, is given
+// another's of the pack: by its own length of 0 the kernel would count the pack's lengths at each step.
 void write_pack(const SpringView& view, uint32_t pack, const VertexSprings (&lists)[kLanes]) {
     State& state = view.state;
     const uint32_t row = view.pack(pack), needed = slots_needed(lists), first = state.spring_packs.first_slot[row];
@@ -103,9 +104,15 @@ void write_pack(const SpringView& view, uint32_t pack, const VertexSprings (&lis
         state.spring_slots.slot[view.slot(first + i)] = {};
         if (view.has_layers()) state.layer_slots.slot[view.layer_slot(first + i)] = {};
     }
+    uint32_t lone = kNone;
+    for (uint32_t k = 0; k < kLanes && lone == kNone; ++k) {
+        if (lists[k].count == 0) continue;
+        const uint32_t s = view.spring(lists[k].spring[0]), a = state.springs.a[s];
+        lone = a == pack * kLanes + k ? state.springs.b[s] : a;
+    }
     for (uint32_t k = 0; k < kLanes; ++k) {
         const uint32_t v = pack * kLanes + k;
-        uint32_t pad = v;
+        uint32_t pad = lone == kNone ? v : lone;
         for (uint32_t i = 0; i < needed; ++i) {
             const uint32_t place = (first + i) * kLanes + k;
             if (i >= lists[k].count) {
