@@ -54,12 +54,16 @@ class PlainSprings {
 
 /// One fused pass over vertices in packs of 8: force, damping from the length kept in the slot, semi-implicit Euler,
 /// largest elongation a vertex. Each spring stands in the padded lists of both its ends; positions have two sides. Raw
-/// AVX2, one thread.
+/// AVX2.
 class BareSprings {
  public:
     BareSprings(const SpringNet& net, const std::vector<Vec3>& start);
     static bool is_supported();
     void step();
+    /// Packs [first, end) of a step from this side of the positions to the other: for threads that share the step and
+    /// wait for each other behind it.
+    void step_packs(uint32_t side, uint32_t first, uint32_t end);
+    uint32_t pack_count() const { return static_cast<uint32_t>(first_slots_.size()) - 1; }
     Vec3 position(uint32_t v) const;
     float strain(uint32_t v) const { return strain_[v]; }
 

@@ -48,12 +48,17 @@ Vec3 BareSprings::position(uint32_t v) const {
     return {x.x, x.y, x.z};
 }
 
-__attribute__((target("avx2"))) void BareSprings::step() {
-    const Float4* from = position_[side_].data();
-    Float4* to = position_[1 - side_].data();
+void BareSprings::step() {
+    step_packs(side_, 0, pack_count());
+    side_ = 1 - side_;
+}
+
+__attribute__((target("avx2"))) void BareSprings::step_packs(uint32_t side, uint32_t first, uint32_t end) {
+    const Float4* from = position_[side].data();
+    Float4* to = position_[1 - side].data();
     const __m256 dt = _mm256_set1_ps(dt_), push = _mm256_set1_ps(dt_ * inverse_mass_), one = _mm256_set1_ps(1);
     const __m256 tiny = _mm256_set1_ps(1e-30f);  // a padding slot has no length
-    for (uint32_t p = 0; p + 1 < first_slots_.size(); ++p) {
+    for (uint32_t p = first; p < end; ++p) {
         const uint32_t v = 8 * p;
         __m256 x0, y0, z0, x, y, z, fx = _mm256_setzero_ps(), fy = fx, fz = fx, most = SUB(fx, one);
         turn(pair(from + v, from + v + 4), pair(from + v + 1, from + v + 5), pair(from + v + 2, from + v + 6),
@@ -79,7 +84,6 @@ __attribute__((target("avx2"))) void BareSprings::step() {
         _mm256_storeu_ps(&velocity_[2][v], vz), _mm256_storeu_ps(&strain_[v], most);
         store(to + v, ADD(x0, MUL(dt, vx)), ADD(y0, MUL(dt, vy)), ADD(z0, MUL(dt, vz)));
     }
-    side_ = 1 - side_;
 }
 
 }  // namespace cullet::perf

@@ -269,7 +269,10 @@ void fill_cut_out(State& state, Row<Tasks> task) {
     copy_vertices(rows, cut);
     copy_elements(rows, cut);
     copy_hinges(rows, cut);
-    clear_spare_vertices(cut);
+    if (is_quick_task(state, task))
+        clear_spare_vertices(cut);
+    else
+        clear_spare_rows(state, cut.row);
     // What cracks add has packs of its own.
     cut.vertices().count = round_to_packs(rows.vertex_count);
     forget_run(cut, shells.generation[source.row] > 0);

@@ -8,6 +8,10 @@ inline uint32_t round_to_packs(uint32_t vertices) {
     return (vertices + kLanes - 1) / kLanes * kLanes;
 }
 
+/// Of Elements.flags in a cut-out: the run cut at one of its corners, or put a vertex beside it. The others are as they
+/// were, and so are hinges that none of them has.
+inline constexpr uint8_t kIsTouched = 4;
+
 /// The cut-out has the elements of `list`, their corners, and the hinges between them, all in the order that they have
 /// in the body's shell. Kept in scratch of that shell: Vertices.copy and Elements.copy say where a row is in the
 /// cut-out, Elements.next_in_cell is the list.

@@ -15,6 +15,7 @@ struct PutBack {
     State& state;
     const ShellView source, cut;
     CutRows rows;
+    bool is_marked;        // the run has told what it touched, as quick ones do
     uint32_t* hinge_list;  // scratch of the body's shell: of the cut-out's hinges, the body's
 
     PutBack(State& s, Row<Tasks> task)
@@ -22,6 +23,7 @@ struct PutBack {
           source(s, s.tasks.source[task]),
           cut(s, s.tasks.shell[task]),
           rows(source),
+          is_marked(is_quick_task(s, task)),
           hinge_list(s.elements.next.data() + source.elements().first) {
         const uint32_t count = s.quick_runs.cut_elements[task];
         std::copy_n(s.elements.part.data() + cut.elements().first, count, rows.list);
@@ -142,9 +144,9 @@ void mark_cell(const PutBack& p, uint32_t e, const Links& now, const Links* then
     cells.element_count[cell] += !then;
 }
 
-/// What put_element finds of nearly all elements, without their links written down: the row has the same corners in the
-/// body, and at each edge the same neighbour, or the border of the cut-out.
-bool is_as_before(const PutBack& p, uint32_t e) {
+/// What must be so of an element that is not marked: it has the same corners in the body, and at each edge the same
+/// neighbour, or the border of the cut-out.
+[[maybe_unused]] bool is_as_before(const PutBack& p, uint32_t e) {
     if (e >= p.rows.element_count) return false;
     const Elements& elements = p.state.elements;
     const uint32_t from = p.cut.element(e), to = p.source.element(p.rows.list[e]);
@@ -162,11 +164,18 @@ bool is_as_before(const PutBack& p, uint32_t e) {
     return is_same;
 }
 
+bool is_touched(const PutBack& p, uint32_t e) {
+    return !p.is_marked || e >= p.rows.element_count || (p.state.elements.flags[p.cut.element(e)] & kIsTouched) != 0;
+}
+
 void put_element(const PutBack& p, uint32_t e) {
-    if (is_as_before(p, e)) return;
     State& state = p.state;
     Elements& elements = state.elements;
     const bool is_old = e < p.rows.element_count;
+    if (!is_touched(p, e)) {
+        CULLET_ASSERT(is_as_before(p, e), "a run has changed element %u of a cut-out and did not mark it", e);
+        return;
+    }
     const uint32_t from = p.cut.element(e), to = p.source.element(p.element(e));
     const Links before = links_of(elements, to), now = links_now(p, e, is_old ? &before : nullptr);
     if (is_old && now == before) return;
@@ -177,6 +186,7 @@ void put_element(const PutBack& p, uint32_t e) {
     state.triangle_springs.copy_rows(state.triangle_springs, from, to, 1);
     elements.copy[to] = place, elements.next_in_cell[to] = listed, elements.next[to] = next;  // what rows stand where
     elements.part[to] = part;
+    elements.flags[to] = static_cast<uint8_t>(elements.flags[to] & ~kIsTouched);
     elements.corner[to] = now.corner;
     elements.neighbour[to] = now.neighbour;
     elements.hinge[to] = now.hinge;
@@ -192,19 +202,38 @@ void follow_elements(const PutBack& p) {
     }
 }
 
-void put_hinges(const PutBack& p) {
+void put_hinge(const PutBack& p, uint32_t h) {
     Hinges& hinges = p.state.hinges;
-    for (uint32_t h = 0; h < p.cut.hinge_count(); ++h) {
-        const uint32_t from = p.cut.hinge(h), to = p.source.hinge(p.hinge(h));
-        auto vertex = hinges.vertex[from];
-        for (uint32_t& v : vertex) v = p.vertex(v);
-        // Its gradient follows from where the four stand at rest.
-        const bool is_same = h < p.rows.hinge_count && hinges.vertex[to] == vertex &&
-                             hinges.stiffness[to] == hinges.stiffness[from] && hinges.scale[to] == hinges.scale[from];
-        if (is_same) continue;
-        hinges.copy_rows(hinges, from, to, 1);
-        hinges.vertex[to] = vertex;
+    const uint32_t from = p.cut.hinge(h), to = p.source.hinge(p.hinge(h));
+    auto vertex = hinges.vertex[from];
+    for (uint32_t& v : vertex) v = p.vertex(v);
+    // Its gradient follows from where the four stand at rest.
+    const bool is_same = h < p.rows.hinge_count && hinges.vertex[to] == vertex &&
+                         hinges.stiffness[to] == hinges.stiffness[from] && hinges.scale[to] == hinges.scale[from];
+    if (is_same) return;
+    hinges.copy_rows(hinges, from, to, 1);
+    hinges.vertex[to] = vertex;
+}
+
+/// Those that died, those of elements that changed, and new ones.
+void put_hinges(const PutBack& p) {
+    const Hinges& hinges = p.state.hinges;
+    const uint32_t old = p.rows.hinge_count;
+    for (uint32_t h = 0; h < old; ++h)
+        if (hinges.vertex[p.cut.hinge(h)][0] == kNone) put_hinge(p, h);
+    for (uint32_t e = 0; e < p.cut.element_count(); ++e) {
+        if (!is_touched(p, e)) continue;
+        for (const uint32_t h : p.state.elements.hinge[p.cut.element(e)])
+            if (h < old) put_hinge(p, h);
     }
+    for (uint32_t h = old; h < p.cut.hinge_count(); ++h) put_hinge(p, h);
+#ifdef CULLET_CHECKED
+    for (uint32_t h = 0; h < old; ++h) {
+        auto vertex = hinges.vertex[p.cut.hinge(h)];
+        for (uint32_t& v : vertex) v = p.vertex(v);
+        CULLET_ASSERT(hinges.vertex[p.source.hinge(p.hinge(h))] == vertex, "hinge %u of a cut-out is not put back", h);
+    }
+#endif
 }
 
 void move_the_rest(const PutBack& p, const BodyMotion& motion) {

@@ -58,8 +58,8 @@ inline constexpr uint32_t kAsleepMark = kNone, kAwakeMark = kNone - 1, kHeldMark
 /// are more packs than kMostAwakePacks. Serial.
 void choose_region(State& state, Row<Tasks> task, uint32_t rings);
 
-/// Rows for the springs of the elements that have an awake corner, softened, and which edge each is. False: no room, and
-/// `full` names the limit. Needs choose_region's marks. Serial.
+/// Rows for the springs of the elements that have an awake corner, softened, and which edge each is. False: no room,
+/// and `full` names the limit. Needs choose_region's marks. Serial.
 bool take_region_springs(State& state, Row<Tasks> task, uint32_t layers, const char** full);
 /// The chunk of the region that begins with this row of AwakePacks: kRowsPerChunk packs, and as large a share of the
 /// springs. Chunks may be worked on at once, all of them by one call before any by the other.

@@ -3,6 +3,9 @@
 #include <algorithm>
 
 #include "systems/damage/heading.hpp"
+#include "systems/quick/cut_out.hpp"
+#include "systems/quick/cut_rows.hpp"
+#include "systems/quick/elements_at.hpp"
 #include "systems/quick/plane_split.hpp"
 #include "systems/quick/put_vertex.hpp"
 #include "systems/springs/rebuild_springs.hpp"
@@ -38,9 +41,21 @@ void mark_tips(const Splitting& s, uint32_t vertex, const Ends& ends, uint32_t r
     }
 }
 
+/// For put_back.
+void mark_touched(const Splitting& s) {
+    if (!is_cut_out(s.state(), s.region.task)) return;
+    uint8_t* const flags = s.state().elements.flags.data() + s.shell().elements().first;
+    const auto mark = [&](uint32_t e) { flags[e] |= kIsTouched; };
+    for (const VertexList* list : {&s.touched.weighed, &s.touched.rows}) {
+        for (const uint32_t v : list->span()) for_each_element_at(s.shell(), v, mark);
+        for (uint32_t e = 0; list->has_overflowed && e < s.shell().element_count(); ++e) mark(e);
+    }
+}
+
 }  // namespace
 
 void flush(Splitting& s) {
+    mark_touched(s);
     uint32_t list[VertexList::kMost], count = 0;
     for (const uint32_t v : s.touched.weighed.span())
         if (s.region.is_awake(v) || s.region.is_held(v)) list[count++] = v;
