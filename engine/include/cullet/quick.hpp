@@ -4,10 +4,11 @@
 
 namespace cullet {
 
-/// Hidden: the whole body's elastic waves at its true stiffness, over several frames. Quick: the paper's mode. Softened
-/// springs of the neighbourhood of the hit alone, edges that stretch too far split at once; done within a frame, for
-/// bodies too large for the hidden run and for games that cannot wait. The material's FractureKind says how cracks run:
-/// fine crumbles, coarse keeps neighbours of a crack together, large runs each crack on.
+/// Hidden: the body's elastic waves at its true stiffness, over several frames; of large bodies whose cracks stay near
+/// the hit only as far as they matter. Quick: the paper's mode. Softened springs of the neighbourhood of the hit alone,
+/// edges that stretch too far split at once; done within a frame, for bodies too large for the hidden run and for games
+/// that cannot wait. The material's FractureKind says how cracks run: fine crumbles, coarse keeps neighbours of a crack
+/// together, large runs each crack on.
 enum class FractureMode : uint8_t { Hidden = 0, Quick };
 
 /// Of FractureMode::Quick.
