@@ -33,9 +33,9 @@ bool is_local(const std::string& system) {
 }
 
 bool is_around(const std::string& system) {
-    for (const char* own : {"take_blows", "predict_impacts", "open_tasks", "fill_tasks", "fill_stiffness",
-                            "start_tasks", "wake_regions", "measure_regions", "lay_regions", "start_regions",
-                            "grant_units", "settle_tasks", "close_regions", "find_parts"})
+    for (const char* own : {"take_blows", "predict_impacts", "open_tasks", "widen_regions", "fill_tasks",
+                            "fill_stiffness", "start_tasks", "wake_regions", "measure_regions", "lay_regions",
+                            "start_regions", "grant_units", "settle_tasks", "close_regions", "find_parts"})
         if (system.find(own) != std::string::npos) return true;
     return false;
 }

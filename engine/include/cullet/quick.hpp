@@ -4,10 +4,10 @@
 
 namespace cullet {
 
-/// Hidden: the whole body's elastic waves at its true stiffness, over several frames. Quick: the paper's mode. Softened
-/// springs of the neighbourhood of the hit alone, edges that stretch too far split at once; in a frame or a few, for
-/// bodies too large for the hidden run and for games that cannot wait. The material's FractureKind says how cracks run:
-/// fine crumbles, coarse keeps neighbours of a crack together, large runs each crack on.
+/// Hidden: elastic waves at true stiffness, over several frames; of large bodies only as far as they matter. Quick: the
+/// paper's mode. Softened springs of the neighbourhood of the hit alone, edges that stretch too far split at once; in a
+/// frame or a few, for bodies too large for the hidden run and for games that cannot wait. The material's FractureKind
+/// says how cracks run: fine crumbles, coarse keeps neighbours of a crack together, large runs each crack on.
 enum class FractureMode : uint8_t { Hidden = 0, Quick };
 
 /// Of FractureMode::Quick.
