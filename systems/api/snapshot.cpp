@@ -14,6 +14,7 @@
 #include "systems/fragments/rigid_shape.hpp"
 #include "systems/query/bound_drawn.hpp"
 #include "systems/query/query_index.hpp"
+#include "systems/quick/cut_out.hpp"
 #include "systems/quick/quick_body.hpp"
 #include "systems/view/draw_shell.hpp"
 
@@ -131,8 +132,13 @@ std::unique_ptr<World::Contents> make_alike(const Settings& settings, const Worl
 void restore_what_follows(World::Contents& world) {
     WorldData& d = world.data;
     State& state = d.state;
-    for (uint32_t t = 0; t < state.tasks.size(); ++t)
+    for (uint32_t t = 0; t < state.tasks.size(); ++t) {
         if (static_cast<TaskState>(state.tasks.state[t]) == TaskState::Running) restore_scratch(state, Row<Tasks>(t));
+        const bool has_copy = static_cast<TaskState>(state.tasks.state[t]) != TaskState::Free &&
+                              state.tasks.shell[t].exists() && !is_cut_out(state, t);
+        if (has_copy)  // of the whole body, whose drawn mesh it knows
+            remember_drawn(ShellView(state, state.tasks.shell[t]), state.bodies.view_indices[state.tasks.body[t]]);
+    }
     for (uint32_t b = 0; b < state.bodies.size(); ++b) {
         const Row<Shells> shell = state.bodies.shell[b];
         if (static_cast<BodyKind>(state.bodies.kind[b]) == BodyKind::Free || !shell.exists()) continue;

@@ -6,8 +6,8 @@
 
 namespace cullet {
 
-/// How many first elements stand in order of cells, looked for once a shell and then remembered: O(elements) the first
-/// time.
+/// How many first elements stand in order of cells, the most there are. Looked for once a shell and then remembered:
+/// O(elements) the first time.
 uint32_t sorted_elements(ShellView shell);
 
 /// Calls visit(element) for all elements, dead ones too, of the cells that is_wanted(cell) names: cell by cell, and

@@ -334,7 +334,6 @@ Row<Shells> compact_shell(State& state, Row<Shells> old, const FragmentPart& who
     state.cells.copy_rows(state.cells, state.shells.cells[old].first, cells.first, cells.count);
     state.hull_points.copy_rows(state.hull_points, state.shells.points[old].first, points.first, points.count);
     state.shells.has_cracks[row] = state.shells.has_cracks[old];
-    state.shells.sorted_elements[row] = piece.element_count();
     return row;
 }
 

@@ -260,6 +260,7 @@ void fill_cut_out(State& state, Row<Tasks> task) {
     cells.count = cells.capacity > 0 ? shells.cells[source.row].count : 0;  // the number says how stiffness is stored
     shells.copy_rows(shells, source.row, cut.row, 1);
     shells.users[cut.row] = 1;
+    shells.sorted_elements[cut.row] = 0;
     cut.vertices() = vertices, cut.elements() = elements, cut.hinges() = hinges;
     shells.cells[cut.row] = cells;
     shells.packs[cut.row] = packs, shells.blocks[cut.row] = blocks, shells.links[cut.row] = links;
