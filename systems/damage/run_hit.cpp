@@ -62,7 +62,10 @@ bool open_hit(State& state, Row<Shells> source, const HitDescription& hit) {
         0, is_ball ? struck_normal(ShellView(state, source), hit.point, hit.normal, contacts.radius[0]) : hit.normal);
     const Vec3 arm = hit.point - state.shells.centre[source].to_float();
     tasks.approach_speed[kTask] = hit.striker_speed - dot(hit.velocity + cross(hit.spin, arm), hit.normal);
-    if (!give_rows(state, hit.region_vertices, hit.quick)) return false;
+    if (!give_rows(state, hit.region_vertices, hit.quick)) {
+        tasks.state[kTask] = static_cast<uint8_t>(TaskState::Free);
+        return false;
+    }
     ++state.shells.users[source];
     start_task(state, kTask);
     const char* full = "";

@@ -1,7 +1,6 @@
 #include "systems/quick/cut_out.hpp"
 
 #include <algorithm>
-#include <cstring>
 
 #include "systems/cook/materials.hpp"
 #include "systems/damage/assemble.hpp"
@@ -91,16 +90,6 @@ bool spread(Flood& flood, const CutOutSize& size) {
         at = flood.next(at);
     }
     return true;
-}
-
-/// What is scratch is written before it is read, and a third of an element's row.
-void copy_kept_rows(AnyTable& table, uint32_t from, uint32_t to, uint32_t count) {
-    for (const ColumnInfo& c : table.columns())
-        for (int a = 0; c.keep == Keep::State && a < c.lanes * c.sides; ++a) {
-            std::byte* const memory = table.column_memory(c, a);
-            std::memcpy(memory + size_t{to} * c.row_bytes, memory + size_t{from} * c.row_bytes,
-                        size_t{count} * c.row_bytes);
-        }
 }
 
 /// Of rows that are assembled anew: slots of the body's packs are counted, of which a vertex has at least as many.

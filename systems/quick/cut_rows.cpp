@@ -1,6 +1,7 @@
 #include "systems/quick/cut_rows.hpp"
 
 #include <algorithm>
+#include <cstring>
 
 namespace cullet {
 
@@ -16,6 +17,15 @@ void CutRows::number(uint32_t count) {
     vertex_count = 0;
     for (uint32_t v = 0; v < source.vertex_count(); ++v)
         if (vertex_place_[v] == kCorner) vertex_place_[v] = vertex_count++;
+}
+
+void copy_kept_rows(AnyTable& table, uint32_t from, uint32_t to, uint32_t count) {
+    for (const ColumnInfo& c : table.columns())
+        for (int a = 0; c.keep == Keep::State && a < c.lanes * c.sides; ++a) {
+            std::byte* const memory = table.column_memory(c, a);
+            std::memcpy(memory + size_t{to} * c.row_bytes, memory + size_t{from} * c.row_bytes,
+                        size_t{count} * c.row_bytes);
+        }
 }
 
 void CutRows::count_hinges() {

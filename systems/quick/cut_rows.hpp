@@ -12,6 +12,10 @@ inline uint32_t round_to_packs(uint32_t vertices) {
 /// were, and so are hinges that none of them has.
 inline constexpr uint8_t kIsTouched = 4;
 
+/// Rows without their scratch, which is a third of an element's: in a cut-out it is written before it is read, and in
+/// the body it says what rows stand where.
+void copy_kept_rows(AnyTable& table, uint32_t from, uint32_t to, uint32_t count);
+
 /// The cut-out has the elements of `list`, their corners, and the hinges between them, all in the order that they have
 /// in the body's shell. Kept in scratch of that shell: Vertices.copy and Elements.copy say where a row is in the
 /// cut-out, Elements.next_in_cell is the list.

@@ -180,13 +180,9 @@ void put_element(const PutBack& p, uint32_t e) {
     const Links before = links_of(elements, to), now = links_now(p, e, is_old ? &before : nullptr);
     if (is_old && now == before) return;
     mark_cell(p, e, now, is_old ? &before : nullptr);
-    const uint32_t part = elements.part[is_old ? to : p.source.element(p.rows.list[0])], place = elements.copy[to],
-                   listed = elements.next_in_cell[to], next = elements.next[to];
-    const auto drawn = elements.drawn[to];
-    elements.copy_rows(elements, from, to, 1);
+    const uint32_t part = elements.part[is_old ? to : p.source.element(p.rows.list[0])];
+    copy_kept_rows(elements, from, to, 1);
     state.triangle_springs.copy_rows(state.triangle_springs, from, to, 1);
-    elements.copy[to] = place, elements.next_in_cell[to] = listed, elements.next[to] = next;  // what rows stand where
-    elements.drawn[to] = drawn;
     elements.part[to] = part;
     elements.flags[to] = static_cast<uint8_t>(elements.flags[to] & ~kIsTouched);
     elements.corner[to] = now.corner;

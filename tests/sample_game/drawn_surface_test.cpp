@@ -5,6 +5,7 @@
 #include <map>
 
 #include "engine/random.hpp"
+#include "sample_game/drawn_meshes.hpp"
 #include "sample_game/game_world.hpp"
 #include "sample_game/run_scene.hpp"
 #include "tests/support/closed_view.hpp"
@@ -87,6 +88,27 @@ TEST_P(EachDrawnScene, IsClosedInEveryFrame) {
 
 INSTANTIATE_TEST_SUITE_P(Scenes, EachDrawnScene, testing::ValuesIn(scenes().begin(), scenes().end()),
                          [](const auto& scene) { return scene.param.name; });
+
+// The drawn mesh of what is left is changed near the cracks alone there: each triangle is one that an element has,
+// once, and none is of an element that left.
+TEST(DrawnSurface, OfACastleHitOnCutOutsHasWhatIsLeftAndNothingElse) {
+    for (const char* fracture : {"hidden", "quick"}) {
+        RunOptions options;
+        options.scene = "castle";
+        options.threads = 2;
+        options.set = {std::string("scene.fracture=") + fracture, "scene.cracks=coarse"};
+        Result<GameWorld> game = GameWorld::create(plan_scene(*find_scene("castle"), options));
+        ASSERT_TRUE(game.ok()) << game.error();
+        DrawnMeshes drawn;
+        for (uint32_t frame = 0; frame < 60; ++frame) {
+            game->before_step();
+            game->step();
+            game->after_step();
+            ASSERT_EQ(drawn.check_changed(game->world()), "") << fracture << ", frame " << frame;
+        }
+        EXPECT_GT(game->sums().born, 2u) << fracture;
+    }
+}
 
 TEST(DrawnSurface, IsClosedThroughRandomBreaks) {
     const Random random{77};
