@@ -78,6 +78,8 @@ struct Vertices : Table<Vertices> {
     Column<Vec3> rest{*this, "rest", "m"};       // body frame
     Column<Vec3> inward{*this, "inward"};        // unit
     Column<float> depth{*this, "depth", "m"};    // >= 0; 0 where no direction sees all faces
+    /// From rest to where the point is drawn and collides: cracks are smoothed when their run has ended.
+    Column<Vec3> crack_shift{*this, "crack_shift", "m"};
     Column<uint32_t> element{*this, "element"};  // one incident element (any: a vertex has one fan); kNone = dead row
     Column<double> mass{*this, "mass", "kg"};    // a third of each incident element, summed over the ring
     Column<float> inverse_mass{*this, "inverse_mass", "1/kg"};  // 0 pinned or dead

@@ -3,6 +3,7 @@
 #include <deque>
 
 #include "engine/jobs.hpp"
+#include "engine/random.hpp"
 #include "sample_game/meshes.hpp"
 #include "systems/world_contents.hpp"
 
@@ -111,14 +112,31 @@ void add_bodies(Drawing& drawing, const GameWorld& game) {
     }
 }
 
+/// An icosahedron whose corners are pushed in and out, flattened: a chip of stone of about `radius`.
+Mesh make_chip(uint32_t number, float radius) {
+    constexpr uint64_t kSeed = 0x63686970;
+    constexpr float kFlat = 0.6f;
+    const Random random{kSeed};
+    Mesh chip = make_ball(radius, 0);
+    for (uint32_t v = 0; v < chip.positions.size(); ++v) {
+        const float out = 0.7f + 0.6f * static_cast<float>(random.uniform(number, v));
+        const Vec3 p = out * chip.positions[v];
+        chip.positions[v] = {p.x, kFlat * p.y, p.z};
+    }
+    return chip;
+}
+
+/// Crumbs are of no piece's colour: they are too many and too small to be told apart.
 void add_debris(Drawing& drawing, const GameWorld& game) {
     const Debris& debris = game.world().contents().data.state.debris;
-    const Mesh lump = make_ball(1, 0);
+    const Random random{0x7475726e};
     for (uint32_t d = 0; d < debris.size(); ++d) {
         if (!debris.is_used[d]) continue;
-        DrawnBody& body = drawing.add(lump, debris.radius[d]);
-        body.pose.position = debris.position[d];
-        body.colour = fragment_colour(debris.colour[d]);
+        const auto turn = [&](uint64_t k) { return static_cast<float>(random.uniform(d, k) - 0.5); };
+        DrawnBody& body = drawing.add(make_chip(d, debris.radius[d]));
+        body.pose = {debris.position[d], normalised(Quat{turn(0), turn(1), turn(2), turn(3)})};
+        body.colour = fragment_colour(0);
+        body.is_outlined = false;
     }
 }
 

@@ -39,6 +39,7 @@ FramePlan<WorldData> make_frame_plan(bool is_hosted, const std::function<std::st
         .then<close_regions>();
     plan.stage("apply")
         .then<find_parts>()
+        .then<smooth_cracks>()
         .then<plan_births>()
         .then<fill_births>()
         .then<plan_hulls>()

@@ -84,6 +84,8 @@ void close_regions(Serial, const Events<TaskEnded>& ended, ShellTables shells, T
 
 /// Which elements of a broken shell hang together.
 void find_parts(Each<TaskEnded> ended, ShellTables shells, Tasks& tasks, Fragments& fragments);
+/// Cracks of a run that ended are drawn, and collide, after one pass of (1/4, 1/2, 1/4) along them (C6).
+void smooth_cracks(Each<TaskEnded> ended, ShellTables shells, const Tasks& tasks);
 /// Which pieces become bodies or crumbs, in order of mass, and the rows that they need. What stayed whole keeps its
 /// cracks. What finds no room stays part of the body, and asks again.
 void plan_births(Serial, const Events<TaskEnded>& ended, ShellTables shells, const Tasks& tasks, Fragments& fragments,

@@ -3,6 +3,7 @@
 
 #include <array>
 
+#include "systems/fragments/prism.hpp"
 #include "systems/query/query_index.hpp"
 #include "systems/rigid/body_id.hpp"
 #include "systems/view/hull_edges.hpp"
@@ -87,8 +88,8 @@ void draw_cracks(const Pen& pen, const State& state, Row<Bodies> b) {
         const auto corner = state.elements.corner[e];
         for (size_t k = 0; k < 3; ++k) {
             if (static_cast<EdgeKind>(state.elements.edge_kind[e][k]) != EdgeKind::Crack) continue;
-            pen(to_world(pose, state.vertices.rest[vertices.first + corner[k]]),
-                to_world(pose, state.vertices.rest[vertices.first + corner[(k + 1) % 3]]), kDebugCrack);
+            pen(to_world(pose, smoothed_place(state, vertices.first + corner[k])),
+                to_world(pose, smoothed_place(state, vertices.first + corner[(k + 1) % 3])), kDebugCrack);
         }
     }
 }

@@ -62,6 +62,7 @@ constexpr Rule kRules[] = {
     {"vertices", "rest", Is::Number, -kFar, kFar},
     {"vertices", "inward", Is::Number, -kUnit, kUnit},
     {"vertices", "depth", Is::Number, 0, kFar},
+    {"vertices", "crack_shift", Is::Number, 0, 0, -kFar, kFar},
     {"vertices", "element", or_none(Is::Element)},
     {"vertices", "mass", Is::Number, 0, 1e30},
     {"vertices", "inverse_mass", Is::Number, 0, kHuge},

@@ -43,6 +43,7 @@ void interpolate_vertex(Vertices& v, uint32_t p, uint32_t q, uint32_t w, float t
     const float depth = length(to_inner);
     v.depth[w] = depth;
     v.inward.set(w, depth > 0 ? normalised(to_inner) : inward);
+    v.crack_shift.set(w, mix(v.crack_shift[p], v.crack_shift[q], tau));
     v.is_pinned[w] = v.is_pinned[p] && v.is_pinned[q];
     v.strength_factor[w] = mix(v.strength_factor[p], v.strength_factor[q], tau);
     v.stiffness_scale[w] = mix(v.stiffness_scale[p], v.stiffness_scale[q], tau);

@@ -5,6 +5,7 @@
 #include "systems/fragments/cell_elements.hpp"
 #include "systems/fragments/cell_parts.hpp"
 #include "systems/fragments/extreme_points.hpp"
+#include "systems/fragments/prism.hpp"
 
 namespace cullet {
 namespace {
@@ -95,7 +96,8 @@ void add_candidates(const ShellView& shell, std::span<const uint32_t> list, floa
     for (uint32_t i = 0; i < work.vertices.count; ++i) {
         const uint32_t row = shell.vertex(work.vertices.vertex[i]);
         const float pull = std::min(margin, 0.5f * vertices.depth[row]);
-        const Vec3 p = vertices.rest[row] + margin * normalised(work.vertices.way_in[i]), m = vertices.inward[row];
+        const Vec3 p = smoothed_place(shell.state, row) + margin * normalised(work.vertices.way_in[i]),
+                   m = vertices.inward[row];
         work.candidates[work.candidate_count++] = p + pull * m;
         work.candidates[work.candidate_count++] = p + (vertices.depth[row] - pull) * m;
     }

@@ -19,7 +19,17 @@ inline Vec3d inner_twin(const State& state, uint32_t row) {
            static_cast<double>(state.vertices.depth[row]) * Vec3d(state.vertices.inward[row]);
 }
 
-inline Prism load_prism(const ShellView& shell, uint32_t element) {
+/// Where the point is drawn and collides, outside and inside: at rest, but on a smoothed crack.
+inline Vec3 smoothed_place(const State& state, uint32_t row) {
+    return state.vertices.rest[row] + state.vertices.crack_shift[row];
+}
+inline Vec3d smoothed_twin(const State& state, uint32_t row) {
+    return inner_twin(state, row) + Vec3d(state.vertices.crack_shift[row]);
+}
+
+/// The prism whose points outer_of(row) and inner_of(row) say, Vec3d.
+template <class Outer, class Inner>
+Prism make_prism(const ShellView& shell, uint32_t element, Outer&& outer_of, Inner&& inner_of) {
     std::array<uint32_t, 3> c = shell.state.elements.corner[shell.element(element)];
     Prism prism;
     const auto order = [&](int i, int j) {
@@ -27,11 +37,24 @@ inline Prism load_prism(const ShellView& shell, uint32_t element) {
     };
     order(0, 1), order(1, 2), order(0, 1);
     for (int k = 0; k < 3; ++k) {
-        const uint32_t row = shell.vertex(c[k]);
-        prism.outer[k] = Vec3d(shell.state.vertices.rest[row]);
-        prism.inner[k] = inner_twin(shell.state, row);
+        prism.outer[k] = outer_of(shell.vertex(c[k]));
+        prism.inner[k] = inner_of(shell.vertex(c[k]));
     }
     return prism;
+}
+/// At rest.
+inline Prism load_prism(const ShellView& shell, uint32_t element) {
+    const State& state = shell.state;
+    return make_prism(
+        shell, element, [&](uint32_t row) { return Vec3d(state.vertices.rest[row]); },
+        [&](uint32_t row) { return inner_twin(state, row); });
+}
+/// As it is drawn.
+inline Prism load_smoothed_prism(const ShellView& shell, uint32_t element) {
+    const State& state = shell.state;
+    return make_prism(
+        shell, element, [&](uint32_t row) { return Vec3d(smoothed_place(state, row)); },
+        [&](uint32_t row) { return smoothed_twin(state, row); });
 }
 
 /// Calls visit(p, q, r, s, volume) for the three tetrahedra; volumes are positive in a sound element.

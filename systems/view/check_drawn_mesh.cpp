@@ -51,10 +51,10 @@ Result<void> check_sources(const ShellView& shell, const Range& indices) {
 }
 
 Result<void> check_places(const ShellView& shell, const Range& vertices, const std::vector<uint32_t>& numbers) {
-    const Vertices& table = shell.state.vertices;
     for (uint32_t v = 0; v < vertices.count; ++v) {
         const uint32_t row = shell.vertex(numbers[v] / 2);
-        const Vec3 wanted = numbers[v] % 2 ? inner_twin(shell.state, row).to_float() : table.rest[row];
+        const Vec3 wanted =
+            numbers[v] % 2 ? smoothed_twin(shell.state, row).to_float() : smoothed_place(shell.state, row);
         const Vec3 drawn = place_of(shell.state, vertices, v);
         if (std::memcmp(&wanted, &drawn, sizeof wanted) != 0)
             return Error{"drawn mesh: vertex " + std::to_string(v) + " is drawn at " + text(drawn) +
@@ -139,7 +139,7 @@ Result<void> check_drawn_mesh(ShellView shell, const Range& view_vertices, const
     if (Result<void> closed = check_edges(shell, view_vertices, view_indices, numbers); !closed) return closed;
     double volume = 0;
     for (uint32_t e = 0; e < shell.element_count(); ++e)
-        if (!(shell.state.elements.flags[shell.element(e)] & kDead)) volume += prism_volume(load_prism(shell, e));
+        if (!(shell.state.elements.flags[shell.element(e)] & kDead)) volume += prism_volume(load_smoothed_prism(shell, e));
     const double drawn = drawn_volume(shell.state, view_vertices, view_indices);
     if (!(std::fabs(drawn - volume) <= 1e-4 * std::fabs(volume)))
         return Error{"drawn mesh: its volume is " + std::to_string(drawn * 1e6) + " cm3, its elements' " +

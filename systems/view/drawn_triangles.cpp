@@ -28,7 +28,7 @@ SurfaceKind kind_of(const ShellView& shell, uint32_t element, uint32_t which) {
 
 Vec3 drawn_place(const ShellView& shell, DrawnPoint p) {
     const uint32_t row = shell.vertex(p.vertex);
-    return p.is_inner ? inner_twin(shell.state, row).to_float() : shell.state.vertices.rest[row];
+    return p.is_inner ? smoothed_twin(shell.state, row).to_float() : smoothed_place(shell.state, row);
 }
 
 // The two triangles of a wall are seen from outside of the solid, and split its quad as the prisms do (A7).
@@ -71,7 +71,7 @@ void write_faces(const ShellView& shell, uint32_t e, ViewVertex* outer, ViewVert
     for (int k = 0; k < 3; ++k) {
         const Vec3 n{normal[3 * k], normal[3 * k + 1], normal[3 * k + 2]};
         const Vec2 uv{elements.uv[row][2 * k], elements.uv[row][2 * k + 1]};
-        outer[k] = {shell.state.vertices.rest[shell.vertex(corner[k])], n, uv};
+        outer[k] = {smoothed_place(shell.state, shell.vertex(corner[k])), n, uv};
         const bool runs_along = dot(-n, flat) > 0.8f || dot(flat, flat) < 0.5f;  // no area, no normal
         inner[(3 - k) % 3] = {below[k], runs_along ? -n : flat, uv};
     }

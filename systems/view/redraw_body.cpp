@@ -147,7 +147,7 @@ bool stands(const Mesh& mesh, const ShellView& shell, const ViewVertex* vertex, 
     if (outer == kNone || mesh.find(e, kInnerFace) == kNone) return false;
     for (uint32_t k = 0; k < 3; ++k) {
         const uint32_t v = shell.state.elements.corner[shell.element(e)][k];
-        if (!is_same_place(vertex[3 * outer + k].position, shell.state.vertices.rest[shell.vertex(v)])) return false;
+        if (!is_same_place(vertex[3 * outer + k].position, drawn_place(shell, {v, false}))) return false;
     }
     return true;
 }
