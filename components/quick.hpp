@@ -19,6 +19,10 @@ struct QuickBodies : Table<QuickBodies> {
     Column<float> compression_limit{*this, "compression_limit"};  // in strain limits; 0: none
     Column<float> crack_length{*this, "crack_length"};            // of the body's diagonal
     Column<float> bump_angle{*this, "bump_angle", "rad"};
+    Column<uint8_t> layout{*this, "layout"};              // LayerLayout of two layers
+    Column<float> length_factor{*this, "length_factor"};  // gamma; 0: mean edge over thickness
+    Column<float> area_energy{*this, "area_energy"};      // over E h A (B4)
+    Column<float> volume_energy{*this, "volume_energy"};
 };
 
 inline constexpr uint32_t kMostAwakePacks = 4096;  // of one run: 32,768 vertices
@@ -38,6 +42,10 @@ struct QuickRuns : Table<QuickRuns> {
     Column<float> compression_limit{*this, "compression_limit"};
     Column<float> crack_length{*this, "crack_length"};
     Column<float> bump_angle{*this, "bump_angle", "rad"};
+    Column<uint8_t> layout{*this, "layout"};              // LayerLayout of two layers
+    Column<float> length_factor{*this, "length_factor"};  // gamma; 0: mean edge over thickness
+    Column<float> area_energy{*this, "area_energy"};      // over E h A (B4)
+    Column<float> volume_energy{*this, "volume_energy"};
     // Of the run.
     Column<uint8_t> is_full{*this, "is_full"};            // no room for more springs: nothing splits any more
     Column<Row<ShellSprings>> springs{*this, "springs"};  // of the task's shell; kNone before the region is awake

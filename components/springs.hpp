@@ -7,6 +7,7 @@
 // of the row: axes of the world about `origin`.
 #pragma once
 #include "components/shells.hpp"
+#include "cullet/layers.hpp"
 #include "engine/system.hpp"
 
 namespace cullet {
@@ -16,6 +17,12 @@ enum class SpringLayout : uint8_t {
     Sandwich = 1,  // two layers; mid springs and shear pairs bend and stretch them as the thickness says (B5)
     Crossed = 2,   // two layers as in the paper: cross springs
 };
+
+inline SpringLayout spring_layout(bool has_layers, LayerLayout layout) {
+    return !has_layers                      ? SpringLayout::OneLayer
+           : layout == LayerLayout::Crossed ? SpringLayout::Crossed
+                                            : SpringLayout::Sandwich;
+}
 
 /// One row is the springs of one shell.
 struct ShellSprings : Table<ShellSprings> {

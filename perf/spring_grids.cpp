@@ -67,7 +67,7 @@ class OurSprings {
     OurSprings(SpringBench& bench, unsigned threads)
         : world_{bench.state()},
           row_(bench.springs()),
-          loop_(make_spring_loop(bench.view().layout(), false)),
+          loop_(make_spring_loop(bench.view().layout())),
           jobs_(threads > 1 ? make_jobs(JobBackend::Threads, threads) : nullptr) {}
     void run(uint32_t steps) {
         const SpringLoop::Run run{row_, world_.state.shell_springs.steps[row_], steps, nullptr};

@@ -135,7 +135,7 @@ HitBench::HitBench(Subject subject, const Model& model, uint64_t seed) : subject
 void HitBench::break_quickly(std::optional<QuickSettings> quick, float first_crack) {
     quick_ = quick;
     if (quick_ && quick_->strain_limit == 0)
-        quick_->strain_limit = calibrated_strain_limit(*state_, shell_, *quick_, first_crack);
+        quick_->strain_limit = calibrated_strain_limit(*state_, shell_, *quick_, {}, first_crack);
 }
 
 HitDescription HitBench::blow(uint32_t placement, float speed) const {

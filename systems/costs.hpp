@@ -22,6 +22,8 @@ inline constexpr uint64_t kUnitsQuickWake = 380;     // a vertex of the region: 
 inline constexpr uint64_t kUnitsQuickWakeTwo = 720;  // the same with two layers
 inline constexpr uint64_t kUnitsQuickSpring = 3;     // an edge through one substep, with looking at strains and energy
 inline constexpr uint64_t kUnitsQuickPair = 7;       // the same with two layers, which are 4 springs an edge
+inline constexpr uint64_t kUnitsAreaEnergy = 110;    // an edge of a layer through one substep, where areas resist
+inline constexpr uint64_t kUnitsVolumeEnergy = 350;  // an edge of two layers, where volumes do
 inline constexpr uint64_t kUnitsQuickCut = 2500;     // a cut edge: inserts, splits, springs made anew
 inline constexpr uint64_t kUnitsQuickEnd = 400;      // a vertex of the copy when cracks are handed on: rows, pieces
 

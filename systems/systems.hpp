@@ -183,11 +183,7 @@ void check_region_energy(EachBody task, ShellTables shells, Tasks& tasks, TaskCo
 
 // ---- inner loop of springs: repeated for one shell that has them (ductile, quick mode, sheet metal)
 
-/// Area and volume energies of the row, where it has any (B4).
-void press_layers(Rows<SpringPacks> packs, OfSprings springs, Turn turn, ShellTables shells,
-                  In<&Vertices::probe> position, In<&Twins::position> twin_position,
-                  InOut<&Vertices::velocity> velocity, InOut<&Twins::velocity> twin_velocity);
-/// One layer, one fused pass (B3, B6): force, damping from the length kept in the slot, semi-implicit Euler, largest
+/// One layer, one fused pass (B3, B4, B6): force, area energy where the row has any, damping from the length kept in the slot, semi-implicit Euler, largest
 /// elongation a vertex.
 void integrate_springs(Rows<SpringPacks> packs, OfSprings springs, Turn turn, ShellTables shells,
                        In<&Vertices::inverse_mass> inverse_mass, In<&Vertices::probe> position,

@@ -33,6 +33,7 @@ game.spawn{
     strength_scale = shell.strength_scale,
     fracture = shell.fracture,
     quick = {layers = shell.layers},
+    springs = shell.springs,
     pins = {{low = {-2, -0.01, -2}, high = {2, 0.01, 2}}},
 }
 game.throw{radius = 0.13, mass = mass, at = {1.15, 0.72, 3.2}, velocity = {0, 0.36, -speed}}

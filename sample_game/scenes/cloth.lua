@@ -38,6 +38,7 @@ local sheet = game.spawn{
     strength_scale = shell.strength_scale,
     fracture = shell.fracture,
     quick = {layers = shell.layers},
+    springs = shell.springs,
     pins = pins,
 }
 wait(1)

@@ -24,6 +24,7 @@ game.spawn{
     strength_scale = shell.strength_scale,
     fracture = shell.fracture,
     quick = {layers = shell.layers},
+    springs = shell.springs,
     at = {0, height, 0.3 + 1.8 * size},
     turn = {axis = {game.seeded(1), 1, game.seeded(2)}, angle = 3.14159265 * game.seeded(3)},
     velocity = {0, 0.1 * speed, -speed},

@@ -45,6 +45,7 @@ game.spawn{
     strength_scale = shell.strength_scale,
     fracture = shell.fracture,
     quick = {layers = shell.layers},
+    springs = shell.springs,
     pins = {
         {low = {-border - out, -out, -out}, high = {border + out, rim, out}},
         {low = {-border - out, side - rim, -out}, high = {border + out, side + out, out}},

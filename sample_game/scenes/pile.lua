@@ -47,6 +47,7 @@ local function throw_vase()
         strength_scale = shell.strength_scale,
         fracture = shell.fracture,
         quick = {layers = shell.layers},
+        springs = shell.springs,
         turn = game.any_turn(number),
         pivot = {0, 0.5 * size, 0},
         at = {

@@ -37,6 +37,7 @@ game.spawn{
     strength_scale = shell.strength_scale,
     fracture = shell.fracture,
     quick = {layers = shell.layers, crack_length = 1}, -- round the whole vase
+    springs = shell.springs,
     at = middle(),
     pivot = {0, 0.5 * size, 0},
     turn = {axis = {seeded(1), 0.2, seeded(2)}, angle = 0.35 + 0.35 * seeded(3)},

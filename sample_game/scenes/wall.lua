@@ -29,5 +29,6 @@ game.spawn{
     strength_scale = shell.strength_scale,
     fracture = shell.fracture,
     quick = {layers = shell.layers},
+    springs = shell.springs,
     pins = {{low = {-2, -0.01, -2 * shell.thickness}, high = {2, 0.25 * shell.edge, 2 * shell.thickness}}},
 }

@@ -52,6 +52,20 @@ void read_quick(lua_State* lua, const Arguments& given, SpawnSettings& settings)
     lua_pop(lua, 1);
 }
 
+void read_layers(lua_State* lua, const Arguments& given, LayerSettings& l) {
+    if (!given.has("springs")) return;
+    given.push("springs");
+    const Arguments springs(lua, "game.spawn.springs", {"layout", "length_factor", "area_energy", "volume_energy"},
+                            false, lua_gettop(lua));
+    const std::string layout = springs.word("layout", "sandwich or crossed", "sandwich");
+    if (layout != "sandwich" && layout != "crossed") springs.refuse_value("layout", "sandwich or crossed");
+    l.layout = layout == "crossed" ? LayerLayout::Crossed : LayerLayout::Sandwich;
+    l.length_factor = springs.real("length_factor", {"0, or a number from 0.577 to 5", 0, 5}, l.length_factor);
+    l.area_energy = springs.real("area_energy", {"a number from 0 to 100", 0, 100}, l.area_energy);
+    l.volume_energy = springs.real("volume_energy", {"a number from 0 to 100", 0, 100}, l.volume_energy);
+    lua_pop(lua, 1);
+}
+
 FractureKind fracture_of(const Arguments& given) {
     const std::string name = given.word("fracture", "large, coarse or fine");
     for (const FractureKind kind : {FractureKind::Large, FractureKind::Coarse, FractureKind::Fine})
@@ -148,7 +162,7 @@ int spawn(lua_State* lua) {
         lua, "game.spawn",
         {"mesh",     "cooked",      "model",          "material",  "fracture", "grain", "thickness", "edge",
          "seed",     "propagation", "join_walls",     "at",        "turn",     "pivot", "velocity",  "spin",
-         "friction", "restitution", "strength_scale", "breakable", "pins",     "quick"});
+         "friction", "restitution", "strength_scale", "breakable", "pins",     "quick", "springs"});
     if (given.has("mesh") == given.has("cooked"))
         given.refuse("expected either mesh = game.mesh..., or cooked = what game.cook returned");
     uint32_t model = 0;
@@ -165,6 +179,7 @@ int spawn(lua_State* lua) {
     }
     SpawnSettings settings;
     read_quick(lua, given, settings);
+    read_layers(lua, given, settings.layers);
     settings.pose = pose_of(given);
     settings.motion = given.motion();
     settings.contact = given.contact();

@@ -110,7 +110,12 @@ int shell_keys(lua_State* lua) {
         .word("scene.fracture", "hidden", "hidden, quick",
               "hidden: exact, over some frames; quick: near the hit, at once")
         .word("scene.cracks", "own", "own, fine, coarse, large", "the kind of fracture; own: the material's")
-        .number("scene.layers", "1", 1, 1, 2, "of springs, in quick fracture; 2 feel the wall bend");
+        .number("scene.layers", "1", 1, 1, 2, "of springs, in quick fracture; 2 feel the wall bend")
+        .word("scene.layout", "sandwich", "sandwich, crossed",
+              "of two layers, quick or soft; crossed: the paper's, too stiff in bending")
+        .number("scene.length_factor", "1", 0, 0, 5, "distance of two layers over the thickness; 0: by the mesh")
+        .number("scene.area_energy", "1", 0, 0, 100, "of springs, quick or soft: against a change of area")
+        .number("scene.volume_energy", "1", 0, 0, 100, "the same of volume, between two layers");
     if (!keys.set("scene.material=" + material).ok()) given.refuse_value("material", "one of " + materials);
     if (!keys.set("scene.fracture=" + given.word("fracture", "hidden or quick", "hidden")).ok())
         given.refuse_value("fracture", "hidden or quick");
@@ -126,6 +131,14 @@ int shell_keys(lua_State* lua) {
         push_key(lua, keys, name);
         lua_setfield(lua, -2, short_name);
     }
+    lua_newtable(lua);
+    for (const char* name : {"layout", "length_factor", "area_energy", "volume_energy"}) {
+        const std::string key = std::string("scene.") + name;
+        script_of(lua).apply_set(lua, key);
+        push_key(lua, keys, key);
+        lua_setfield(lua, -2, name);
+    }
+    lua_setfield(lua, -2, "springs");
     return 1;
 }
 

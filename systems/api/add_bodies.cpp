@@ -149,6 +149,7 @@ Result<BodyId> World::spawn(ModelId id, const SpawnSettings& settings) {
         return Error{"pin_count is " + std::to_string(settings.pin_count) + " but pins is null; give the boxes."};
     if (const Result<void> valid = check_fracture(settings.fracture, settings.quick); !valid)
         return Error{valid.error()};
+    if (const Result<void> valid = check_layers(settings.layers); !valid) return Error{valid.error()};
     Row<Shells> shell = state.models.shell[model];
     const bool is_brittle = material_traits(state, state.shells.material[shell]).kind == MaterialKind::Brittle;
     // What never gives way needs no springs.
@@ -186,15 +187,17 @@ Result<BodyId> World::spawn(ModelId id, const SpawnSettings& settings) {
     bodies.is_breakable[body] = settings.is_breakable && settings.strength_scale < kNeverCracks && is_brittle;
     QuickSettings quick = settings.quick;
     if (settings.fracture == FractureMode::Quick && bodies.is_breakable[body] && quick.strain_limit == 0)
-        quick.strain_limit = calibrated_strain_limit(state, shell, quick, state.shells.first_crack_speed[shell]);
-    set_fracture(state, body, settings.fracture, quick);
+        quick.strain_limit =
+            calibrated_strain_limit(state, shell, quick, settings.layers, state.shells.first_crack_speed[shell]);
+    set_fracture(state, body, settings.fracture, quick, settings.layers);
     if (bodies.is_breakable[body]) {
         const ShellView view(state, shell);
         d.make_ready(is_quick_body(state, body) ? quick_room(view) : working_room(view));
     }
     take_mass_properties(state, body);
     if (is_soft) {
-        const Result<Row<SoftBodies>> soft = make_soft(state, body, d.step_info.dt, d.damage_settings.units_a_frame);
+        const Result<Row<SoftBodies>> soft =
+            make_soft(state, body, settings.layers, d.step_info.dt, d.damage_settings.units_a_frame);
         if (!soft) {
             free_body(state, body);
             return Error{soft.error()};

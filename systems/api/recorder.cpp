@@ -86,6 +86,8 @@ void Recorder::spawn(ModelId id, const SpawnSettings& s) {
     }
     out.number(static_cast<uint8_t>(s.fracture));
     for_each_number_of_quick(s.quick, into(out));
+    out.number(static_cast<uint8_t>(s.layers.layout));
+    for_each_number_of_layers(s.layers, into(out));
 }
 
 void Recorder::add_sphere(const SphereSettings& s) {

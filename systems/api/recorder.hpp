@@ -104,6 +104,10 @@ void for_each_number_of_quick(Q& q, F&& f) {
     f(q.layers), f(q.steps), f(q.crack_frequency), f(q.strain_limit), f(q.compression_limit), f(q.crack_length);
     f(q.bump_angle);
 }
+template <class L, class F>
+void for_each_number_of_layers(L& l, F&& f) {
+    f(l.length_factor), f(l.area_energy), f(l.volume_energy);
+}
 template <class Id, class F>
 void for_each_number_of_id(Id& id, F&& f) {
     f(id.index), f(id.generation);

@@ -284,6 +284,8 @@ void Replayer::spawn(ByteReader& in) {
     }
     s.fracture = static_cast<FractureMode>(in.number<uint8_t>("how it breaks"));
     for_each_number_of_quick(s.quick, from(in));
+    s.layers.layout = static_cast<LayerLayout>(in.number<uint8_t>("how its layers are tied"));
+    for_each_number_of_layers(s.layers, from(in));
     if (in.is_sound()) (void)world_->spawn(id, s);
 }
 

@@ -46,7 +46,7 @@ bool open_hit(State& state, Row<Shells> source, const HitDescription& hit) {
     set_task_times(state, kTask);
     tasks.time_step[kTask] *= hit.step_scale;
     set_quick_task(state, kTask, Row<Bodies>());
-    if (hit.quick) set_quick_task(state, kTask, *hit.quick);
+    if (hit.quick) set_quick_task(state, kTask, *hit.quick, hit.layers);
     tasks.contact_count[kTask] = 1;
     TaskContacts& contacts = state.task_contacts;
     contacts.clear_rows(0, 1);

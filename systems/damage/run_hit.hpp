@@ -1,6 +1,7 @@
 // One hit on one shell, from touch to end, without a world: what cooking measures with and truth is told by.
 #pragma once
 #include "components/state.hpp"
+#include "cullet/layers.hpp"
 #include "cullet/quick.hpp"
 
 namespace cullet {
@@ -17,6 +18,7 @@ struct HitDescription {
     float step_scale = 1;          // on the shell's time step; its damping time, the body's own, stays. Truth halves it
     uint32_t region_vertices = 0;  // of the cut-out that the run begins on, as a large body's; 0: the whole shell
     const QuickSettings* quick = nullptr;  // the quick mode takes the hidden run's place
+    LayerSettings layers;                  // of it
 };
 
 struct HitReport {

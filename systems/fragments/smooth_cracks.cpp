@@ -15,6 +15,9 @@ namespace {
 /// Of its area that a face keeps at least, seen along its normal: no shift turns one over.
 constexpr float kLeastFace = 0.3f;
 
+/// Of the mean edge: what moves less stays.
+constexpr float kLeastShift = 1e-3f;
+
 bool is_crack(const ShellView& shell, uint32_t e, uint32_t k) {
     const Elements& elements = shell.state.elements;
     return elements.neighbour[shell.element(e)][k] == kNone &&
@@ -103,7 +106,9 @@ class CrackPairs {
             if (!own.exist || !other.exist || !(own.next == other.previous) || !(own.previous == other.next)) continue;
             const Vec3 inward = shell_.state.vertices.inward[shell_.vertex(u)];
             const Vec3 along = 0.25f * (own.next + own.previous) - 0.5f * rest_of(shell_, u);
-            set(u, w, along - dot(along, inward) * inward);  // inner twins stand below: sideways alone
+            const Vec3 sideways = along - dot(along, inward) * inward;  // inner twins stand below
+            if (!(length(sideways) > kLeastShift * shell_.shells().mean_edge[shell_.row])) continue;
+            set(u, w, sideways);
             list_[kept++] = u, list_[kept++] = w;
         }
         count_ = kept;

@@ -75,7 +75,8 @@ float largest_stretch(State& state, Row<Shells> shell, const HitDescription& hit
 
 }  // namespace
 
-float calibrated_strain_limit(const State& from, Row<Shells> source, const QuickSettings& quick, float speed) {
+float calibrated_strain_limit(const State& from, Row<Shells> source, const QuickSettings& quick,
+                              const LayerSettings& layers, float speed) {
     if (!(speed > 0)) return 0;
     try {
         const FpMode mode;
@@ -92,7 +93,7 @@ float calibrated_strain_limit(const State& from, Row<Shells> source, const Quick
         float found[kPlaces];
         for (uint32_t n = 0; n < kPlaces; ++n) {
             HitDescription hit = ball_on_face(state, shell, n, speed);
-            hit.quick = &unbroken;
+            hit.quick = &unbroken, hit.layers = layers;
             found[n] = largest_stretch(state, shell, hit);
         }
         std::sort(found, found + kPlaces);

@@ -11,6 +11,14 @@ void grow(AnyTable& table, uint32_t row) {
     if (row >= table.size()) table.append(row + 1 - table.size());
 }
 
+template <class QuickTable>
+void set_layers(QuickTable& table, uint32_t row, const LayerSettings& layers) {
+    table.layout[row] = static_cast<uint8_t>(layers.layout);
+    table.length_factor[row] = layers.length_factor;
+    table.area_energy[row] = layers.area_energy;
+    table.volume_energy[row] = layers.volume_energy;
+}
+
 void begin_run(QuickRuns& runs, Row<Tasks> task, bool is_quick) {
     grow(runs, task);
     runs.clear_rows(task, 1);
@@ -41,7 +49,24 @@ Result<void> check_fracture(FractureMode mode, const QuickSettings& q) {
     return {};
 }
 
-void set_fracture(State& state, Row<Bodies> body, FractureMode mode, const QuickSettings& settings) {
+Result<void> check_layers(const LayerSettings& l) {
+    const auto refuse = [](const char* name, double value, const char* range) {
+        return Error{std::string("layers.") + name + " is " + std::to_string(value) + ", not " + range +
+                     ". Give a value in that range."};
+    };
+    const auto is_in = [](double value, double low, double high) { return value >= low && value <= high; };
+    if (l.layout != LayerLayout::Sandwich && l.layout != LayerLayout::Crossed)
+        return Error{"layers.layout is " + std::to_string(static_cast<int>(l.layout)) +
+                     ". Give LayerLayout::Sandwich or Crossed."};
+    if (!(l.length_factor == 0) && !is_in(l.length_factor, 0.577, 5))
+        return refuse("length_factor", l.length_factor, "0 or 0.577 to 5");
+    if (!is_in(l.area_energy, 0, 100)) return refuse("area_energy", l.area_energy, "0 to 100");
+    if (!is_in(l.volume_energy, 0, 100)) return refuse("volume_energy", l.volume_energy, "0 to 100");
+    return {};
+}
+
+void set_fracture(State& state, Row<Bodies> body, FractureMode mode, const QuickSettings& settings,
+                  const LayerSettings& layers) {
     QuickBodies& quick = state.quick_bodies;
     if (mode == FractureMode::Hidden) {
         if (body < quick.size()) quick.clear_rows(body, 1);
@@ -56,11 +81,12 @@ void set_fracture(State& state, Row<Bodies> body, FractureMode mode, const Quick
     quick.compression_limit[body] = settings.compression_limit;
     quick.crack_length[body] = settings.crack_length;
     quick.bump_angle[body] = kRadiansADegree * settings.bump_angle;
+    set_layers(quick, body, layers);
 }
 
 void inherit_fracture(State& state, Row<Bodies> parent, Row<Bodies> piece) {
     QuickBodies& quick = state.quick_bodies;
-    if (!is_quick_body(state, parent)) return set_fracture(state, piece, FractureMode::Hidden, {});
+    if (!is_quick_body(state, parent)) return set_fracture(state, piece, FractureMode::Hidden, {}, {});
     grow(quick, piece);
     quick.copy_rows(quick, parent, piece, 1);
 }
@@ -79,9 +105,13 @@ void set_quick_task(State& state, Row<Tasks> task, Row<Bodies> body) {
     runs.compression_limit[task] = quick.compression_limit[body];
     runs.crack_length[task] = quick.crack_length[body];
     runs.bump_angle[task] = quick.bump_angle[body];
+    runs.layout[task] = quick.layout[body];
+    runs.length_factor[task] = quick.length_factor[body];
+    runs.area_energy[task] = quick.area_energy[body];
+    runs.volume_energy[task] = quick.volume_energy[body];
 }
 
-void set_quick_task(State& state, Row<Tasks> task, const QuickSettings& settings) {
+void set_quick_task(State& state, Row<Tasks> task, const QuickSettings& settings, const LayerSettings& layers) {
     QuickRuns& runs = state.quick_runs;
     begin_run(runs, task, true);
     runs.layers[task] = static_cast<uint8_t>(settings.layers);
@@ -91,6 +121,7 @@ void set_quick_task(State& state, Row<Tasks> task, const QuickSettings& settings
     runs.compression_limit[task] = settings.compression_limit;
     runs.crack_length[task] = settings.crack_length;
     runs.bump_angle[task] = kRadiansADegree * settings.bump_angle;
+    set_layers(runs, task, layers);
 }
 
 }  // namespace cullet

@@ -1,6 +1,7 @@
 // Which bodies break quickly, and how.
 #pragma once
 #include "components/state.hpp"
+#include "cullet/layers.hpp"
 #include "cullet/quick.hpp"
 #include "cullet/result.hpp"
 
@@ -8,9 +9,11 @@ namespace cullet {
 
 /// Empty, or a sentence: which value, what it is, the range.
 Result<void> check_fracture(FractureMode mode, const QuickSettings& settings);
+Result<void> check_layers(const LayerSettings& settings);
 
 /// Writes the row of a body; of a hidden one only where some row is there already.
-void set_fracture(State& state, Row<Bodies> body, FractureMode mode, const QuickSettings& settings);
+void set_fracture(State& state, Row<Bodies> body, FractureMode mode, const QuickSettings& settings,
+                  const LayerSettings& layers);
 /// A piece breaks as its parent does.
 void inherit_fracture(State& state, Row<Bodies> parent, Row<Bodies> piece);
 
@@ -23,7 +26,7 @@ inline bool is_quick_task(const State& state, uint32_t task) {
 /// The row of a task whose body is `body`; none is written while no body is quick. Serial.
 void set_quick_task(State& state, Row<Tasks> task, Row<Bodies> body);
 /// The same of a task without a body.
-void set_quick_task(State& state, Row<Tasks> task, const QuickSettings& settings);
+void set_quick_task(State& state, Row<Tasks> task, const QuickSettings& settings, const LayerSettings& layers);
 
 /// s of B7 for the task's contact: stiffness is E / s, forces that do not grow with it are divided by the root of s. 1
 /// of hidden runs.

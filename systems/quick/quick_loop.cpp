@@ -2,6 +2,7 @@
 
 #include "systems/costs.hpp"
 #include "systems/quick/quick_body.hpp"
+#include "systems/springs/press_layers.hpp"
 #include "systems/systems.hpp"
 
 namespace cullet {
@@ -28,7 +29,8 @@ uint64_t quick_units_a_step(const State& state, uint32_t task) {
     if (!springs.exists()) return 1;
     const uint64_t edges = state.shell_springs.springs[springs].count;
     const bool has_layers = state.shell_springs.layers[springs].capacity > 0;
-    return edges * (has_layers ? kUnitsQuickPair : kUnitsQuickSpring) + 300;
+    return edges * (has_layers ? kUnitsQuickPair : kUnitsQuickSpring) +
+           units_of_energies(state.shell_springs, springs) + 300;
 }
 
 uint64_t quick_units_of_end(const State& state, uint32_t task) {

@@ -306,12 +306,12 @@ bool take_region_springs(State& state, Row<Tasks> task, uint32_t layers, const c
     if (!row.exists()) return false;
     runs.springs[task] = row;
     ShellSprings& own = state.shell_springs;
-    own.layout[row] = static_cast<uint8_t>(has_layers ? SpringLayout::Sandwich : SpringLayout::OneLayer);
+    own.layout[row] = static_cast<uint8_t>(spring_layout(has_layers, static_cast<LayerLayout>(runs.layout[task])));
     own.young_modulus[row] = state.materials.young_modulus[state.shells.material[shell_row]] / runs.softening[task];
     own.damping_ratio[row] = kDampingRatio;
-    const float h = state.shells.thickness[shell_row];
-    const float natural = h > 0 ? state.shells.mean_edge[shell_row] / h : 1;
-    own.length_factor[row] = has_layers ? std::clamp(natural, kLeastLengthFactor, kMostLengthFactor) : 1;
+    own.length_factor[row] = has_layers ? length_factor_of(state, shell_row, runs.length_factor[task]) : 1;
+    own.area_energy[row] = runs.area_energy[task];
+    own.volume_energy[row] = has_layers ? runs.volume_energy[task] : 0;
     own.time_step[row] = 1;  // until it is known: damping stands per second
     own.packs[row].count = own.packs[row].capacity;
     own.twins[row].count = own.twins[row].capacity;

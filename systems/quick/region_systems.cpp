@@ -1,6 +1,7 @@
 // The systems of the quick mode's inner loop.
 #include "systems/quick/grow_region.hpp"
 #include "systems/quick/region_motion.hpp"
+#include "systems/springs/press_layers.hpp"
 #include "systems/springs/spring_packs.hpp"
 #include "systems/systems.hpp"
 
@@ -17,14 +18,16 @@ void integrate_region(Rows<AwakePacks> packs, OfTask task, Turn turn, ShellTable
                       InOut<&LayerSlots::slot>, InOut<&SpringPacks::zero_lengths>) {
     const SpringView view(shells.state, shells.state.quick_runs.springs[task.row]);
     const SpringStep step(view, turn.old_side);
+    const bool is_pressed = has_energies(view.own(), view.row);
+    const auto integrate = view.layout() == SpringLayout::OneLayer   ? integrate_spring_packs
+                           : view.layout() == SpringLayout::Sandwich ? integrate_sandwich_packs
+                                                                     : integrate_crossed_packs;
     const uint32_t end = packs.first + packs.count;
     for (uint32_t row = packs.first, next = 0; row < end; row = next) {
         next = row + 1;
         while (next < end && pack[next] == pack[next - 1] + 1) ++next;
-        if (view.has_layers())
-            integrate_sandwich_packs(step, pack[row], next - row);
-        else
-            integrate_spring_packs(step, pack[row], next - row);
+        if (is_pressed) press_packs(view, turn.old_side, pack[row], next - row);
+        integrate(step, pack[row], next - row);
     }
 }
 

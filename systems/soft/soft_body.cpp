@@ -62,13 +62,17 @@ Row<Shells> copy_soft_shell(State& state, Row<Shells> source, const char** full)
     return copy_shell(state, source, room, full);
 }
 
-Result<Row<SoftBodies>> make_soft(State& state, Row<Bodies> body, float step_seconds, uint64_t units) {
+Result<Row<SoftBodies>> make_soft(State& state, Row<Bodies> body, const LayerSettings& layers, float step_seconds,
+                                  uint64_t units) {
     const Row<Shells> shell = state.bodies.shell[body];
     SoftMaterial material;
     if (!soft_material(state, state.shells.material[shell], material))
         return Error{"a brittle body has no springs; please report this."};
     SpringSettings settings;
-    settings.layout = material.has_bending ? SpringLayout::Sandwich : SpringLayout::OneLayer;
+    settings.layout = spring_layout(material.has_bending, layers.layout);
+    settings.length_factor = layers.length_factor;
+    settings.area_energy = layers.area_energy;
+    settings.volume_energy = layers.volume_energy;
     settings.young_modulus = material.young_modulus;
     settings.spare = kSpare;
     settings.is_slender = true;
@@ -77,7 +81,7 @@ Result<Row<SoftBodies>> make_soft(State& state, Row<Bodies> body, float step_sec
     const SpringView stiff(state, *springs);
     const double stable = kStepShare * 2 / std::sqrt(std::max(fastest_mode(stiff), 1.0)),
                  wanted = step_seconds / stable;
-    const uint64_t cost = soft_units_a_substep(stiff.spring_count(), material.has_bending);
+    const uint64_t cost = soft_units_a_substep(state.shell_springs, *springs);
     const uint64_t most = std::clamp<uint64_t>(units / kSoftShare / cost, kLeastSubsteps, kMostSubsteps);
     const auto substeps = static_cast<uint32_t>(std::clamp(std::ceil(wanted), double{kLeastSubsteps}, double(most)));
     const double step = double{step_seconds} / substeps, softening = std::max(1.0, step * step / (stable * stable));

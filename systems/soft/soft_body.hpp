@@ -32,7 +32,8 @@ Row<Shells> copy_soft_shell(State& state, Row<Shells> source, const char** full)
 /// (B7): E_eff = E (stable step / step)^2, s = E / E_eff, strains at yield and break sqrt(s) times the true ones, but
 /// no spring is shown stretched by more than the true strain at break, or twice its length where that is more.
 /// Allocates rows alone.
-Result<Row<SoftBodies>> make_soft(State& state, Row<Bodies> body, float step_seconds, uint64_t units);
+Result<Row<SoftBodies>> make_soft(State& state, Row<Bodies> body, const LayerSettings& layers, float step_seconds,
+                                  uint64_t units);
 /// A row for a piece of `parent`, whose shell has springs already: like it, rigid so far, and called to wake.
 void inherit_soft(State& state, Row<SoftBodies> parent, Row<Bodies> body);
 /// The row goes, if the body has one; its springs go with its shell.

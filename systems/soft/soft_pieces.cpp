@@ -57,6 +57,8 @@ bool give_piece_springs(State& s, const SpringView& parent, const FragmentPart& 
     settings.young_modulus = own.young_modulus[parent.row];
     settings.damping_ratio = own.damping_ratio[parent.row];
     settings.length_factor = parent.has_layers() ? own.length_factor[parent.row] : 0;
+    settings.area_energy = own.area_energy[parent.row];
+    settings.volume_energy = own.volume_energy[parent.row];
     settings.time_step = own.time_step[parent.row];
     settings.is_slender = own.keeps_lengths[parent.row] & kIsSlender;
     const Result<Row<ShellSprings>> given = give_springs(s, shell, settings);

@@ -4,6 +4,7 @@
 
 #include "systems/costs.hpp"
 #include "systems/soft/soft_body.hpp"
+#include "systems/springs/press_layers.hpp"
 
 namespace cullet {
 namespace {
@@ -15,9 +16,8 @@ struct Cost {
 Cost cost_of(const State& state, uint32_t s) {
     const Row<SoftBodies> row(s);
     const Row<ShellSprings> springs = springs_of(state, row);
-    const bool has_layers = static_cast<SpringLayout>(state.shell_springs.layout[springs]) != SpringLayout::OneLayer;
     const uint64_t vertices = state.shells.vertices[state.shell_springs.shell[springs]].count;
-    return {vertices * kUnitsSoftFrame, soft_units_a_substep(state.shell_springs.springs[springs].count, has_layers)};
+    return {vertices * kUnitsSoftFrame, soft_units_a_substep(state.shell_springs, springs)};
 }
 
 template <class F>
@@ -29,8 +29,11 @@ void for_each_awake(const State& state, F&& f) {
 
 }  // namespace
 
-uint64_t soft_units_a_substep(uint64_t springs, bool has_layers) {
-    return std::max<uint64_t>(springs * (has_layers ? kUnitsSoftTenPairs : kUnitsSoftTenSprings) / 10, 1);
+uint64_t soft_units_a_substep(const ShellSprings& springs, Row<ShellSprings> row) {
+    const uint64_t edges = springs.springs[row].count;
+    const bool has_layers = static_cast<SpringLayout>(springs.layout[row]) != SpringLayout::OneLayer;
+    return std::max<uint64_t>(edges * (has_layers ? kUnitsSoftTenPairs : kUnitsSoftTenSprings) / 10, 1) +
+           units_of_energies(springs, row);
 }
 
 uint64_t soft_units_wanted(const State& state) {

@@ -10,7 +10,7 @@ uint64_t soft_units_wanted(const State& state);
 /// with fewer than it asks for it runs slower than the world. `slow_frames` counts these. Returns what they cost.
 uint64_t grant_soft(State& state, uint64_t units, uint64_t& slow_frames);
 /// Of one substep of these springs, contacts and flow with it.
-uint64_t soft_units_a_substep(uint64_t springs, bool has_layers);
+uint64_t soft_units_a_substep(const ShellSprings& springs, Row<ShellSprings> row);
 /// That the body runs in this frame: the step, or less where it was granted fewer substeps.
 float soft_seconds(const SoftBodies& soft, uint32_t row, float step_seconds);
 

@@ -39,18 +39,13 @@ Result<void> check(const State& state, Row<Shells> shell, const SpringSettings& 
     return {};
 }
 
-float factor_of(const State& state, Row<Shells> shell, float wanted) {
-    const float h = state.shells.thickness[shell], natural = h > 0 ? state.shells.mean_edge[shell] / h : 1;
-    return std::clamp(wanted > 0 ? wanted : natural, kLeastLengthFactor, kMostLengthFactor);
-}
-
 void keep_settings(State& state, Row<ShellSprings> row, Row<Shells> shell, const SpringSettings& s) {
     ShellSprings& own = state.shell_springs;
     own.layout[row] = static_cast<uint8_t>(s.layout);
     own.young_modulus[row] =
         s.young_modulus > 0 ? s.young_modulus : state.materials.young_modulus[state.shells.material[shell]];
     own.damping_ratio[row] = s.damping_ratio;
-    own.length_factor[row] = s.layout == SpringLayout::OneLayer ? 1 : factor_of(state, shell, s.length_factor);
+    own.length_factor[row] = s.layout == SpringLayout::OneLayer ? 1 : length_factor_of(state, shell, s.length_factor);
     own.area_energy[row] = s.area_energy;
     own.volume_energy[row] = s.layout == SpringLayout::OneLayer ? 0 : s.volume_energy;
     own.keeps_lengths[row] = s.is_slender ? kIsSlender : 0;
@@ -147,6 +142,11 @@ Error no_room(const char* limit) {
 }
 
 }  // namespace
+
+float length_factor_of(const State& state, Row<Shells> shell, float wanted) {
+    const float h = state.shells.thickness[shell], natural = h > 0 ? state.shells.mean_edge[shell] / h : 1;
+    return std::clamp(wanted > 0 ? wanted : natural, kLeastLengthFactor, kMostLengthFactor);
+}
 
 Result<Row<ShellSprings>> give_springs(State& state, Row<Shells> shell_row, const SpringSettings& settings) {
     if (const Result<void> valid = check(state, shell_row, settings); !valid) return Error{valid.error()};

@@ -10,6 +10,9 @@ namespace cullet {
 /// Bounds of gamma (B5): below the first a sandwich has no skins that bend as the thickness does.
 inline constexpr float kLeastLengthFactor = 0.577350269f, kMostLengthFactor = 5;
 
+/// gamma as it is taken: `wanted`, or the mean edge over the thickness where that is 0; within the bounds.
+float length_factor_of(const State& state, Row<Shells> shell, float wanted);
+
 struct SpringSettings {
     SpringLayout layout = SpringLayout::OneLayer;
     float young_modulus = 0;      // Pa; 0: the material's. Smaller: softened, for a step that a frame can afford

@@ -1,3 +1,4 @@
+#include "systems/springs/press_layers.hpp"
 #include "systems/springs/spring_packs.hpp"
 #include "systems/systems.hpp"
 
@@ -6,8 +7,10 @@ namespace {
 
 template <class Kernel>
 void integrate(const Rows<SpringPacks>& packs, const SpringView& view, Turn turn, Kernel kernel) {
+    const uint32_t first = packs.first - view.own().packs[view.row].first;
+    if (has_energies(view.own(), view.row)) press_packs(view, turn.old_side, first, packs.count);
     const SpringStep step(view, turn.old_side);
-    kernel(step, packs.first - view.own().packs[view.row].first, packs.count);
+    kernel(step, first, packs.count);
 }
 
 }  // namespace

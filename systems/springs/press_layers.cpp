@@ -1,11 +1,13 @@
 // Area and volume energies (thick shell note B4): E = kappa C^2 / 2 with C = (A - A0) / A0 of each triangle, outer and
 // inner, and C = (V - V0) / V0 of each prism; F_i = -kappa C grad_i C. Without the damping kd dC/dt, for which the
 // springs' own stands: it would need the neighbours' velocities while they are written.
+#include "systems/springs/press_layers.hpp"
+
 #include <algorithm>
 
+#include "systems/costs.hpp"
 #include "systems/damage/ring.hpp"
 #include "systems/springs/edge_stiffness.hpp"
-#include "systems/systems.hpp"
 
 namespace cullet {
 namespace {
@@ -75,8 +77,9 @@ struct Presses {
         return {p.x, p.y, p.z};
     }
 
-    /// Adds what the element does to corner k of it.
+    /// Adds what the element does to corner k of it. What is asleep in a quick run does nothing.
     void add(uint32_t element, uint32_t k, Vec3d& outer, Vec3d& inner) const {
+        if (view.state.element_springs.spring[view.edges(element)][0] == kAsleepSpring) return;
         const Elements& elements = view.state.elements;
         const uint32_t row = view.shell.element(element);
         const auto& corner = elements.corner[row];
@@ -119,27 +122,33 @@ struct Presses {
 
 }  // namespace
 
-void press_layers(Rows<SpringPacks> packs, OfSprings springs, Turn turn, ShellTables shells, In<&Vertices::probe>,
-                  In<&Twins::position>, InOut<&Vertices::velocity> velocity, InOut<&Twins::velocity> twin_velocity) {
-    const SpringView view(shells.state, springs.row);
-    const Presses presses(view, turn.old_side);
-    const State& state = shells.state;
-    for (uint32_t p = packs.first - view.own().packs[springs.row].first, end = p + packs.count; p < end; ++p)
-        for (uint32_t v = p * kLanes; v < (p + 1) * kLanes && v < view.shell.vertex_count(); ++v) {
-            Ring ring;
-            walk_ring(view.shell, v, ring);
-            Vec3d outer, inner;
-            for (uint32_t i = 0; i < ring.count; ++i) presses.add(ring.element[i], ring.corner[i], outer, inner);
-            const uint32_t row = view.shell.vertex(v);
-            if (!view.has_layers()) {
-                const double push = presses.dt * state.vertices.inverse_mass[row];
-                velocity.set(row, velocity[row] + (push * outer).to_float());
-                continue;
-            }
-            const double push = presses.dt * state.twins.inverse_mass[view.twin(v)];
-            velocity.set(row, velocity[row] + (push * outer).to_float());
-            twin_velocity.set(view.twin(v), twin_velocity[view.twin(v)] + (push * inner).to_float());
-        }
+bool has_energies(const ShellSprings& springs, Row<ShellSprings> row) {
+    return springs.area_energy[row] > 0 || springs.volume_energy[row] > 0;
+}
+
+uint64_t units_of_energies(const ShellSprings& springs, Row<ShellSprings> row) {
+    const uint64_t edges = springs.springs[row].count, layers = springs.layers[row].capacity > 0 ? 2 : 1;
+    return (springs.area_energy[row] > 0 ? layers * edges * kUnitsAreaEnergy : 0) +
+           (springs.volume_energy[row] > 0 ? edges * kUnitsVolumeEnergy : 0);
+}
+
+void press_packs(const SpringView& view, uint32_t side, uint32_t first_pack, uint32_t pack_count) {
+    const Presses presses(view, side);
+    Vertices& vertices = view.state.vertices;
+    Twins& twins = view.state.twins;
+    const uint32_t end = std::min((first_pack + pack_count) * kLanes, view.shell.vertex_count());
+    Ring ring;
+    for (uint32_t v = first_pack * kLanes; v < end; ++v) {
+        walk_ring(view.shell, v, ring);
+        Vec3d outer, inner;
+        for (uint32_t i = 0; i < ring.count; ++i) presses.add(ring.element[i], ring.corner[i], outer, inner);
+        const uint32_t row = view.shell.vertex(v);
+        const double push =
+            presses.dt * (view.has_layers() ? twins.inverse_mass[view.twin(v)] : vertices.inverse_mass[row]);
+        vertices.velocity.set(row, vertices.velocity[row] + (push * outer).to_float());
+        if (view.has_layers())
+            twins.velocity.set(view.twin(v), twins.velocity[view.twin(v)] + (push * inner).to_float());
+    }
 }
 
 }  // namespace cullet

@@ -4,9 +4,8 @@
 
 namespace cullet {
 
-SpringLoop make_spring_loop(SpringLayout layout, bool has_energies) {
+SpringLoop make_spring_loop(SpringLayout layout) {
     SpringLoop loop;
-    if (has_energies) loop.then<press_layers>();
     if (layout == SpringLayout::OneLayer)
         loop.then<integrate_springs>();
     else
@@ -15,15 +14,10 @@ SpringLoop make_spring_loop(SpringLayout layout, bool has_energies) {
     return loop;
 }
 
-bool has_energies(const ShellSprings& springs, Row<ShellSprings> row) {
-    return springs.area_energy[row] > 0 || springs.volume_energy[row] > 0;
-}
-
 void run_springs(State& state, Row<ShellSprings> row, uint32_t steps) {
     const auto layout = static_cast<SpringLayout>(state.shell_springs.layout[row]);
     SpringWorld world{state};
-    make_spring_loop(layout, has_energies(state.shell_springs, row))
-        .run_alone(world, {row, state.shell_springs.steps[row], steps, nullptr});
+    make_spring_loop(layout).run_alone(world, {row, state.shell_springs.steps[row], steps, nullptr});
 }
 
 }  // namespace cullet

@@ -39,10 +39,8 @@ struct SpringWorld {
 };
 
 using SpringLoop = InnerLoop<SpringWorld>;
-/// What a substep of these springs is: integrate_springs, or integrate_layers; press_layers before them where the row
-/// has energies.
-SpringLoop make_spring_loop(SpringLayout layout, bool has_energies);
-bool has_energies(const ShellSprings& springs, Row<ShellSprings> row);
+/// What a substep of these springs is: integrate_springs, or integrate_layers.
+SpringLoop make_spring_loop(SpringLayout layout);
 
 /// `steps` substeps of one shell on the calling thread.
 void run_springs(State& state, Row<ShellSprings> row, uint32_t steps);

@@ -131,7 +131,7 @@ bool is_live(const ShellView& shell, uint32_t e) {
     return !(shell.state.elements.flags[shell.element(e)] & kDead);
 }
 
-/// Faces are drawn as they are while their outer corners stand where they stood: nothing else changes without them.
+/// Faces are drawn as they are while their corners stand where they stood: nothing else changes without them.
 bool draw_faces(Mesh& mesh, const ShellView& shell, uint32_t e) {
     uint32_t outer = mesh.find(e, kOuterFace), inner = mesh.find(e, kInnerFace);
     if (outer == kNone) outer = mesh.add(e, kOuterFace);
@@ -143,11 +143,12 @@ bool draw_faces(Mesh& mesh, const ShellView& shell, uint32_t e) {
 }
 
 bool stands(const Mesh& mesh, const ShellView& shell, const ViewVertex* vertex, uint32_t e) {
-    const uint32_t outer = mesh.find(e, kOuterFace);
-    if (outer == kNone || mesh.find(e, kInnerFace) == kNone) return false;
-    for (uint32_t k = 0; k < 3; ++k) {
-        const uint32_t v = shell.state.elements.corner[shell.element(e)][k];
-        if (!is_same_place(vertex[3 * outer + k].position, drawn_place(shell, {v, false}))) return false;
+    for (const uint32_t which : {kOuterFace, kInnerFace}) {
+        const uint32_t at = mesh.find(e, which);
+        if (at == kNone) return false;
+        const auto corners = drawn_corners(shell, e, which);
+        for (uint32_t k = 0; k < 3; ++k)
+            if (!is_same_place(vertex[3 * at + k].position, drawn_place(shell, corners[k]))) return false;
     }
     return true;
 }

@@ -12,6 +12,7 @@
 #include "cullet/events.hpp"
 #include "cullet/host.hpp"
 #include "cullet/model.hpp"
+#include "cullet/layers.hpp"
 #include "cullet/quick.hpp"
 #include "cullet/result.hpp"
 #include "cullet/rigid.hpp"
@@ -49,6 +50,7 @@ struct SpawnSettings {
     uint32_t pin_count = 0;
     FractureMode fracture = FractureMode::Hidden;  // of brittle materials; fragments inherit it, and `quick`
     QuickSettings quick;
+    LayerSettings layers;  // of quick bodies in a hit, and of ductile and elastic ones; fragments inherit it
 };
 
 /// A solid sphere: a ball, a bullet.

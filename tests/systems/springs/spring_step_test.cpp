@@ -253,7 +253,7 @@ TEST(SpringStep, HasTheSameBitsOnAnyNumberOfThreads) {
                 continue;
             }
             const auto jobs = make_jobs(JobBackend::Threads, threads);
-            const SpringLoop loop = make_spring_loop(layout, true);
+            const SpringLoop loop = make_spring_loop(layout);
             SpringWorld world{bench.state()};
             SpringLoop::Team team(loop, world, {bench.springs(), 0, 20, nullptr}, threads);
             parallel_for(*jobs, threads, [&](uint32_t worker) { team.work(worker); });
