@@ -67,4 +67,9 @@ class PlainHidden {
     std::vector<Hinge> hinges_;
 };
 
+struct Options;
+class Figures;
+/// Rows of scene hidden_step: a body of 98,000 vertices hit as in a frame. False: it was not opened so.
+bool measure_hidden_region_step(const Options& options, Figures& figures);
+
 }  // namespace cullet::perf

@@ -9,6 +9,7 @@
 #include "engine/jobs.hpp"
 #include "perf/perf.hpp"
 #include "perf/springs.hpp"
+#include "perf/stream.hpp"
 #include "sample_game/spring_bench.hpp"
 #include "systems/springs/spring_lists.hpp"
 #include "systems/springs/spring_loop.hpp"
@@ -102,8 +103,20 @@ double time_links(uint32_t n, uint32_t rounds) {
     return least / (4.0 * body->m_links.size());
 }
 
+/// What a substep moves: slots read, lengths written back, and of each vertex its place read, the next one fetched and
+/// written, its velocity read and written, its inverse mass.
+size_t bytes_of_substep(SpringBench& bench) {
+    const SpringView view = bench.view();
+    const SpringPacks& packs = bench.state().spring_packs;
+    size_t slots = 0;
+    for (uint32_t p = 0; p < view.pack_count(); ++p) slots += packs.slot_count[view.pack(p)];
+    return slots * (sizeof(SpringSlot) + sizeof SpringSlot{}.length) +
+           size_t{view.shell.vertex_count()} * (16 + 16 + 16 + 12 + 12 + 4);
+}
+
 struct GridTimes {
-    double bare = 1e9, plain = 1e9, bullet = 0;
+    double bare = 1e9, plain = 1e9, bullet = 0, stream = 1e9;
+    double bytes = 0;          // a spring
     std::vector<double> ours;  // by number of threads
 };
 
@@ -126,6 +139,8 @@ GridTimes time_grid(uint32_t n, const Options& options, double& apart) {
     }
     GridTimes times;
     times.ours.assign(options.threads.size(), 1e9);
+    Stream stream(bytes_of_substep(bench));
+    times.bytes = static_cast<double>(bytes_of_substep(bench)) / static_cast<double>(net.springs.size());
     const uint32_t steps = std::max(2u, 100000 / static_cast<uint32_t>(start.size()));
     const uint32_t rounds = options.rounds_of_a_pass(n > 500 ? 24 : 90);
     const double each = 1e9 / (double(steps) * static_cast<double>(net.springs.size()));
@@ -137,7 +152,12 @@ GridTimes time_grid(uint32_t n, const Options& options, double& apart) {
                        for (uint32_t i = 0; i < steps; ++i) loop.step();
                    });
         };
-        if (BareSprings::is_supported()) times.bare = std::min(times.bare, all(bare));
+        if (BareSprings::is_supported()) {
+            times.bare = std::min(times.bare, all(bare));
+            times.stream = std::min(times.stream, each * seconds([&] {
+                                                      for (uint32_t i = 0; i < steps; ++i) stream.read_all();
+                                                  }));
+        }
         if (round % 4 == 0) times.plain = std::min(times.plain, all(plain));
     }
     times.bullet = 1e9 * time_links(std::min(n, kLargestInBullet), std::max(2u, rounds / 4));
@@ -176,6 +196,9 @@ bool measure_springs(const Options& options, Figures& figures) {
         double apart = 0;
         const GridTimes times = time_grid(n, options, apart);
         figures.add(grid + ": plain loop, a spring and step", times.plain, "ns");
+        figures.add(grid + ": a substep moves", times.bytes, "bytes a spring");
+        if (BareSprings::is_supported())
+            figures.add(grid + ": its bytes read in order, 1 thread", times.stream, "ns a spring");
         // Its links of the largest grid are not measured: a ratio with a smaller one is of two sizes, and has no limit.
         const bool is_same_size = n <= kLargestInBullet;
         const std::string bullet =
@@ -199,8 +222,12 @@ bool measure_springs(const Options& options, Figures& figures) {
             if (threads == 2 && alone > 0)
                 figures.add_ratio(name + "one thread / two", ours, alone, "ns a spring", 1.7, true);
             if (threads == 1 && n == kSides[0]) smallest = ours;
-            if (threads == 1 && n == kSides[2] && smallest > 0)
+            if (threads == 1 && n == kSides[2] && smallest > 0) {
                 figures.add_ratio("growth from the smallest grid to the largest", ours, smallest, "ns a spring", 1.3);
+                if (BareSprings::is_supported())
+                    figures.add_ratio("the largest grid's bytes read in order / the smallest's substep", times.stream,
+                                      smallest, "ns a spring");
+            }
         }
         if (!BareSprings::is_supported()) continue;
         const double most = 1e-5 * n / 100;  // rounding grows with the size of the numbers

@@ -77,8 +77,7 @@ bool collect_starts(ShellView shell, const CrackLimits& limits, float limit, flo
 StartField grained_field(ShellView shell, uint32_t vertex, const GrainLimits& limits) {
     StartField field;
     const float least = std::min(limits.start_along, limits.start_across);
-    for (int face = 0; face < 2; ++face) {
-        const VertexStress s = vertex_stress(shell, vertex, face);
+    for (const VertexStress& s : vertex_stress(shell, vertex)) {
         // In the tangent plane a lies along the grain's projection, b across it; m is upright on grain and b.
         const Vec3 projection = limits.grain - dot(limits.grain, s.normal) * s.normal;
         const float p = std::min(1.0f, dot(projection, projection)), q = 1 - p, a_m = std::sqrt(q);
@@ -147,8 +146,7 @@ void find_start_strengths(ShellView shell) {
 StartField start_field(ShellView shell, uint32_t vertex, const GrainLimits& grain) {
     StartField field;
     if (grain.has_grain) return grained_field(shell, vertex, grain);
-    for (int face = 0; face < 2; ++face) {
-        const VertexStress s = vertex_stress(shell, vertex, face);
+    for (const VertexStress& s : vertex_stress(shell, vertex)) {
         float s1, s2;
         Vec3 across;
         principal(s, s1, s2, across);
@@ -162,8 +160,9 @@ ChosenHeading tip_heading(ShellView shell, uint32_t vertex, const HeadingFan& fa
     const Vec3 heading = shell.state.vertices.heading[shell.vertex(vertex)];
     FaceStress face[2];
     Vec3 x, y;
+    const std::array<VertexStress, 2> stress = vertex_stress(shell, vertex);
     for (int f = 0; f < 2; ++f) {
-        const VertexStress s = vertex_stress(shell, vertex, f);
+        const VertexStress& s = stress[f];
         x = into_plane(heading, s.normal);
         y = cross(s.normal, x);
         face[f] = in_axes(s, x, y);

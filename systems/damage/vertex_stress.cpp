@@ -12,36 +12,41 @@ Vec3 turned(Vec3 v, Vec3 n, Vec3 m) {
 
 }  // namespace
 
-VertexStress vertex_stress(ShellView shell, uint32_t vertex, int face) {
+std::array<VertexStress, 2> vertex_stress(ShellView shell, uint32_t vertex) {
     const TriangleSprings& springs = shell.state.triangle_springs;
     const Elements& elements = shell.state.elements;
-    const Column<Vec3>& stress = face == 0 ? elements.outer_stress : elements.inner_stress;
-    VertexStress result;
+    std::array<VertexStress, 2> result;
     Ring ring;
     collect_ring(shell, vertex, ring);
-    Vec3 normals[kMostRing];
+    Vec3 normals[kMostRing], normal, axis_x, axis_y;
     for (uint32_t i = 0; i < ring.count; ++i) {
         const uint32_t e = shell.element(ring.element[i]);
         normals[i] = cross(springs.axis_x[e], springs.axis_y[e]);
-        result.normal += springs.area[e] * normals[i];
+        normal += springs.area[e] * normals[i];
     }
-    result.normal = normalised(result.normal);
+    normal = normalised(normal);
     float area = 0;
     for (uint32_t i = 0; i < ring.count; ++i) {
         const uint32_t e = shell.element(ring.element[i]);
-        if (!(springs.area[e] > 0) || !(dot(normals[i], result.normal) > 0)) continue;
-        const Vec3 x = turned(springs.axis_x[e], normals[i], result.normal);
-        if (area == 0) result.axis_x = normalised(x), result.axis_y = cross(result.normal, result.axis_x);
+        if (!(springs.area[e] > 0) || !(dot(normals[i], normal) > 0)) continue;
+        const Vec3 x = turned(springs.axis_x[e], normals[i], normal);
+        if (area == 0) axis_x = normalised(x), axis_y = cross(normal, axis_x);
         // The element's axes in the vertex's: x = (c, s), y = (-s, c).
-        const float c = dot(x, result.axis_x), s = dot(x, result.axis_y);
-        const Vec3 t = stress[e];
+        const float c = dot(x, axis_x), s = dot(x, axis_y);
         const float a = springs.area[e];
-        result.xx += a * (c * c * t.x + s * s * t.y - 2 * c * s * t.z);
-        result.yy += a * (s * s * t.x + c * c * t.y + 2 * c * s * t.z);
-        result.xy += a * (c * s * (t.x - t.y) + (c * c - s * s) * t.z);
+        const auto add = [&](VertexStress& face, Vec3 t) {
+            face.xx += a * (c * c * t.x + s * s * t.y - 2 * c * s * t.z);
+            face.yy += a * (s * s * t.x + c * c * t.y + 2 * c * s * t.z);
+            face.xy += a * (c * s * (t.x - t.y) + (c * c - s * s) * t.z);
+        };
+        add(result[0], elements.outer_stress[e]);
+        add(result[1], elements.inner_stress[e]);
         area += a;
     }
-    if (area > 0) result.xx /= area, result.yy /= area, result.xy /= area;
+    for (VertexStress& face : result) {
+        face.axis_x = axis_x, face.axis_y = axis_y, face.normal = normal;
+        if (area > 0) face.xx /= area, face.yy /= area, face.xy /= area;
+    }
     return result;
 }
 

@@ -9,6 +9,7 @@
 #define CULLET_LANES_INL_HPP
 #endif
 
+#include <hwy/cache_control.h>
 #include <hwy/highway.h>
 
 #include "components/shells.hpp"
@@ -30,6 +31,12 @@ inline constexpr uint32_t kStep = 8;
 #endif
 static_assert(hn::MaxLanes(Floats()) == kStep, "a level whose registers are of another size would leave lanes out");
 using V = hn::Vec<Floats>;
+
+/// Asks for the lines of a slot that is read later.
+HWY_INLINE void prefetch(const void* slot, size_t bytes) {
+    const char* p = static_cast<const char*>(slot);
+    for (size_t i = 0; i < bytes; i += 64) hwy::Prefetch(p + i);
+}
 
 struct V3 {
     V x, y, z;

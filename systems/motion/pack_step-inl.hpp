@@ -6,8 +6,6 @@
 #define CULLET_PACK_STEP_INL_HPP
 #endif
 
-#include <hwy/cache_control.h>
-
 #include "systems/motion/integrate_packs.hpp"
 #include "systems/motion/lanes-inl.hpp"
 
@@ -16,11 +14,6 @@ namespace cullet {
 namespace HWY_NAMESPACE {
 
 inline constexpr uint32_t kPacksAhead = 1;  // 3 to 4 KB
-
-HWY_INLINE void prefetch(const void* slot, size_t bytes) {
-    const char* p = static_cast<const char*>(slot);
-    for (size_t i = 0; i < bytes; i += 64) hwy::Prefetch(p + i);
-}
 
 /// v += dt f / m, u += dt v, next w = u + beta v, for vertices v to v + kStep.
 HWY_INLINE void advance(const HiddenStep& step, uint32_t v, V3 force) {

@@ -27,8 +27,9 @@ struct SpringStep {
     Float4* next_inner_position;
     const float *twin_inverse_rest, *twin_stiffness_rest, *twin_damping;
     float* twin_length;
-    float dt;      // s
-    Vec3 gravity;  // m/s2
+    float dt;             // s
+    Vec3 gravity;         // m/s2
+    uint32_t pack_count;  // of the shell, whatever packs are stepped
 
     SpringStep() = default;
     /// `side`: the current one of the positions.
