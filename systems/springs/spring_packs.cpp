@@ -17,11 +17,6 @@ HWY_INLINE V load_floats(const float* row) {
     return hn::Load(Floats(), row);
 }
 
-// Stretch of an edge up to which its shear pair may grow stiffer (as the square of it) than the time step was found for:
-// the step leaves a tenth (kStepShare of soft_body.cpp). Beyond, it is held there: in rubber that is stretched five times
-// the pair would be 25 times as stiff, and run away. Without this sheets did, as soon as they tore.
-inline constexpr float kStiffStretch = 1.05f;
-
 /// What a spring pulls with, over its length: times x it is the force on the end that x starts at.
 struct Pull {
     V scale, strain, length;
@@ -167,14 +162,8 @@ HWY_INLINE void integrate_pairs(const SpringStep& given, uint32_t first_pack, ui
                     const V3 middle = add(dx, dy), across = add(xn - yn, through);
                     const V mid =
                         pull_of(middle, more.first_inverse + lane, more.first_stiffness + lane, nullptr, nullptr).scale;
-                    // Its force turns with dx + dy, so it grows stiffer as the square of their stretch.
-                    const V stretch = hn::Add(hn::Mul(hn::Set(d, 0.5f / kStiffStretch), hn::Add(outer.strain, inner.strain)),
-                                              hn::Set(d, 1 / kStiffStretch));
-                    const V softer = hn::Max(hn::Set(d, 1), hn::Mul(stretch, stretch));
-                    const V shear =
-                        hn::Div(hn::Mul(load_floats(more.second_inverse + lane),
-                                        hn::Sub(dot(middle, across), load_floats(more.second_stiffness + lane))),
-                                softer);
+                    const V shear = hn::Mul(load_floats(more.second_inverse + lane),
+                                            hn::Sub(dot(middle, across), load_floats(more.second_stiffness + lane)));
                     fx = add(fx, scaled(hn::Sub(mid, shear), middle));
                     fy = add(fy, scaled(hn::Add(mid, shear), middle));
                     shared = add(shared, scaled(shear, across));
