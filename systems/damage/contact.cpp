@@ -125,10 +125,11 @@ struct PatchLaw {
     double stiffness, crushed_stiffness, yield_force;
 };
 
-/// k_c = min(0.15 E h, 0.3 / (dt^2 max w_i / m_i)); twice the striker's own inverse mass joins the maximum, which matters
-/// for strikers lighter than a gram, and in softened quick runs for those of some ten grams. Crushed: k_c / e^2 within the same bound. Yield force H A s: A is the bearing disc, no
-/// wider than the striker; s is the game's scale on the strength. Brick of 0.1 m: 155 kN, which a ball of 30 kg reaches
-/// at 2.1 m/s on a wall that does not give way. Panes of 4 mm (40 kN) and vases of 5 mm (58 kN) break first.
+/// k_c = min(0.15 E h, 0.3 / (dt^2 max w_i / m_i)); twice the striker's own inverse mass joins the maximum, which
+/// matters for strikers lighter than a gram, and in softened quick runs for those of some ten grams. Crushed: k_c / e^2
+/// within the same bound. Yield force H A s: A is the bearing disc, no wider than the striker; s is the game's scale on
+/// the strength. Brick of 0.1 m: 155 kN, which a ball of 30 kg reaches at 2.1 m/s on a wall that does not give way.
+/// Panes of 4 mm (40 kN) and vases of 5 mm (58 kN) break first.
 PatchLaw patch_law(const ShellView& shell, const Patch& patch, double total, const TaskContacts& contacts, uint32_t c,
                    double dt, double strength_scale, double softening) {
     const State& state = shell.state;

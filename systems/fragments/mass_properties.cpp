@@ -16,8 +16,8 @@ bool is_live(const ShellView& shell, uint32_t element) {
 
 // Volumes above 0 alone make a second moment that some body has. Those of a prism that a soft body's motion has turned
 // inside out are not: its inertia would come out with a sign below 0, which the rigid solver answers with energy from
-// nowhere. Such an element weighs on its outer triangle, as one without volume does, and as a ball of its depth about it,
-// so that one whose corners lie on a line has an inertia too.
+// nowhere. Such an element weighs on its outer triangle, as one without volume does, and as a ball of its depth about
+// it, so that one whose corners lie on a line has an inertia too.
 Moments element_moments(const ShellView& shell, uint32_t element) {
     const Prism prism = load_prism(shell, element);
     const uint32_t row = shell.element(element);

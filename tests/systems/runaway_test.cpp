@@ -95,8 +95,7 @@ TEST(Runaway, ASoftBodyOfNoNumbersIsPutBackAndFrozenAndTouchesNothingElse) {
     ASSERT_TRUE(sheet.is_awake());
     const Motion before = sheet.world.motion(sheet.ball).value();
     for (uint32_t v = 0; v < sheet.shell().vertex_count(); ++v)
-        sheet.state().vertices.velocity.set(sheet.shell().vertex(v),
-                                            {v % 2 ? 1e30f : -1e30f, 0, 0});
+        sheet.state().vertices.velocity.set(sheet.shell().vertex(v), {v % 2 ? 1e30f : -1e30f, 0, 0});
     sheet.world.step();
     EXPECT_EQ(sheet.world.events().faults.count, 1u);
     EXPECT_EQ(length(sheet.world.motion(sheet.ball).value().velocity - before.velocity), 0);
@@ -111,11 +110,8 @@ TEST(Runaway, APushOfAHeavyStrikerMakesNoPartOfASoftBodyFasterThanTwiceItsSpeed)
     for (const bool is_pinned : {false, true})
         for (const float speed : {10.0f, 40.0f}) {
             Sheet sheet = make_sheet(rubber_sheet(), soft_settings(), is_pinned ? frame_pins() : std::vector<Box>{});
-            const PushSettings push{.place = {0.01f, 0.21f, 0},
-                                    .normal = {0, 0, -1},
-                                    .approach_speed = speed,
-                                    .mass = 3,
-                                    .radius = 0.02f};
+            const PushSettings push{
+                .place = {0.01f, 0.21f, 0}, .normal = {0, 0, -1}, .approach_speed = speed, .mass = 3, .radius = 0.02f};
             ASSERT_TRUE(sheet.world.push_impact(sheet.body, push).ok());
             float fastest = 0;
             after_each_system(sheet.world, [&](const std::string& system) {
