@@ -13,7 +13,9 @@ std::string DrawnMeshes::check_changed(World& world) {
     seen_.resize(bodies.size());
     for (uint32_t b = 0; b < bodies.size(); ++b) {
         const std::array<uint32_t, 2> now{bodies.generation[b], bodies.view_stamp[b]};
-        if (seen_[b] == now || !bodies.shell[b].exists()) continue;
+        const bool is_free =
+            static_cast<BodyKind>(bodies.kind[b]) == BodyKind::Free;  // such rows keep their shell's number
+        if (seen_[b] == now || is_free || !bodies.shell[b].exists()) continue;
         seen_[b] = now;
         ++checked_;
         const Result<void> sound =

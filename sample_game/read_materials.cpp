@@ -51,8 +51,9 @@ struct Reader {
                             MaterialSettings& row) const {
         const auto number = node.value<double>();
         if (!number || !(*number >= value.least && *number <= value.most))
-            return at(node, fmt::format("[{}] {} is {}; use {:.6g} to {:.6g} {}.", name, value.name, shown(node),
-                                        value.least, value.most, value.unit));
+            return at(node,
+                      fmt::format("[{}] {} is {}; use {:.6g} to {:.6g}{}.", name, value.name, shown(node), value.least,
+                                  value.most, std::string(value.unit) == "1" ? "" : std::string(" ") + value.unit));
         row.*value.member = static_cast<float>(*number);
         return {};
     }

@@ -63,10 +63,13 @@ void start_explosions(State& state, Row<Tasks> task) {
     bool is_kicked = false;
     for (uint32_t b = 0; b < blows.size(); ++b) {
         if (blows.task[b] != task.index || !is_kind(blows, b, BlowKind::Explosion)) continue;
-        kick_vertices(shell, explosion_of(blows, b), state.tasks.damping_time[task]);
+        kick_vertices(shell, explosion_of(blows, b));
         is_kicked = true;
     }
-    if (is_kicked && !is_quick_task(state, task)) state.tasks.start_energy[task] = task_energy(state, task).total();
+    // In the quick mode a probe is where the point stands, and what it starts with is summed up behind this.
+    if (!is_kicked || is_quick_task(state, task)) return;
+    aim_probes(shell, state.tasks.damping_time[task]);
+    state.tasks.start_energy[task] = task_energy(state, task).total();
 }
 
 bool has_explosion(const Blows& blows, Row<Tasks> task) {

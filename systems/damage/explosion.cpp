@@ -175,7 +175,7 @@ ExplosionSums measure_explosion(ShellView shell, const Explosion& explosion, Vec
     return sums;
 }
 
-void kick_vertices(ShellView shell, const Explosion& explosion, float damping_time) {
+void kick_vertices(ShellView shell, const Explosion& explosion) {
     Vertices& vertices = shell.state.vertices;
     for_each_lit(shell, explosion, [&](uint32_t row, Vec3 impulse, Vec3) {
         for (const uint32_t v : shell.state.elements.corner[row]) {
@@ -184,6 +184,10 @@ void kick_vertices(ShellView shell, const Explosion& explosion, float damping_ti
             vertices.velocity.set(at, vertices.velocity[at] + gained);
         }
     });
+}
+
+void aim_probes(ShellView shell, float damping_time) {
+    Vertices& vertices = shell.state.vertices;
     for (uint32_t v = 0; v < shell.vertex_count(); ++v) {
         const uint32_t row = shell.vertex(v);
         const Vec3 probe = vertices.displacement[row] + damping_time * vertices.velocity[row];

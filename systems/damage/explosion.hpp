@@ -23,9 +23,11 @@ struct ExplosionSums {
 /// O(elements of the shell). Elements behind others of the same shell, seen from the centre, get nothing.
 ExplosionSums measure_explosion(ShellView shell, const Explosion& explosion, Vec3d about);
 
-/// Gives every free vertex its share, a third of each of its elements': velocity and probe. The shell's vertices must
-/// have their velocities already.
-void kick_vertices(ShellView shell, const Explosion& explosion, float damping_time);
+/// Gives every free vertex its share, a third of each of its elements': velocity alone. The shell's vertices must have
+/// their velocities already.
+void kick_vertices(ShellView shell, const Explosion& explosion);
+/// Of a hidden run whose velocities have changed: where its forces are evaluated, on both sides.
+void aim_probes(ShellView shell, float damping_time);
 
 /// The same for an awake soft body, whose velocities run along the world's axes: `turn` takes the body's into them.
 void kick_points(const SpringView& view, const Explosion& explosion, Quat turn);

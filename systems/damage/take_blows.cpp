@@ -9,6 +9,9 @@
 namespace cullet {
 namespace {
 
+// Of the speed of a rigid striker: what it gives at most to what it meets, however light that is.
+constexpr float kMostReturned = 2;
+
 struct Taking {
     State& state;
     RigidWorld& rigid;
@@ -36,7 +39,8 @@ struct Taking {
         const Row<Shells> shell = state.bodies.shell[body];
         const float radius = std::max(
             {3 * state.shells.thickness[shell], 1.3f * state.shells.mean_edge[shell], 0.35f * blows.radius[row]});
-        push_soft(state, rigid, soft, blows.point[row], blows.impulse[row].to_float(), radius);
+        push_soft(state, rigid, soft, blows.point[row], blows.impulse[row].to_float(), radius,
+                  kMostReturned * blows.speed[row]);
         book(body, blows.impulse[row]);
     }
 

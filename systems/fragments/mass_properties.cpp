@@ -5,17 +5,27 @@
 namespace cullet {
 namespace {
 
+// Of the largest tetrahedron: a smaller one below 0 is one of no volume (a corner without depth).
+constexpr double kRounding = 1e-6;
+
 bool is_live(const ShellView& shell, uint32_t element) {
     return (shell.state.elements.flags[shell.element(element)] & kDead) == 0;
 }
 
 }  // namespace
 
+// Volumes above 0 alone make a second moment that some body has. Those of a prism that a soft body's motion has turned
+// inside out are not: its inertia would come out with a sign below 0, which the rigid solver answers with energy from
+// nowhere. Such an element weighs on its outer triangle, as one without volume does, and as a ball of its depth about
+// it, so that one whose corners lie on a line has an inertia too.
 Moments element_moments(const ShellView& shell, uint32_t element) {
     const Prism prism = load_prism(shell, element);
     const uint32_t row = shell.element(element);
     Moments sum;
+    double least = 0, most = 0;
     for_each_tetrahedron(prism, [&](Vec3d p, Vec3d q, Vec3d r, Vec3d s, double volume) {
+        least = volume < least ? volume : least;
+        most = volume > most ? volume : most;
         const Vec3d total = p + q + r + s;
         sum.mass += volume;
         sum.first += volume / 4 * total;
@@ -24,13 +34,22 @@ Moments element_moments(const ShellView& shell, uint32_t element) {
     const double mass = shell.state.elements.mass[row];
     const double density = shell.state.materials.density[shell.shells().material[shell.row]];
     // Mass has a floor of depth (build_shell); below a tenth of it the tetrahedra say nothing about where it lies.
-    if (sum.mass * density > 0.1 * mass) {
+    const bool is_turned = least < -kRounding * most;
+    if (!is_turned && sum.mass * density > 0.1 * mass) {
         const double scale = mass / sum.mass;
         return {mass, scale * sum.first, scale * sum.second};
     }
     const Vec3d total = prism.outer[0] + prism.outer[1] + prism.outer[2];
     const Sym3d squares = outer(prism.outer[0]) + outer(prism.outer[1]) + outer(prism.outer[2]);
-    return {mass, mass / 3 * total, mass / 12 * (squares + outer(total))};
+    Moments flat{mass, mass / 3 * total, mass / 12 * (squares + outer(total))};
+    if (!is_turned) return flat;
+    double square = 0;
+    for (int k = 0; k < 3; ++k) {
+        const Vec3d through = prism.inner[k] - prism.outer[k];
+        square += dot(through, through) / 3;
+    }
+    flat.second = flat.second + mass / 12 * square * Sym3d{1, 1, 1, 0, 0, 0};
+    return flat;
 }
 
 Moments shell_moments(const ShellView& shell) {

@@ -40,7 +40,7 @@ Result<void> check_fracture(FractureMode mode, const QuickSettings& q) {
     if (q.layers != 1 && q.layers != 2) return refuse("layers", q.layers, "1 or 2");
     if (!is_in(q.steps, 8, 100)) return refuse("steps", q.steps, "8 to 100");
     if (!is_in(q.crack_frequency, 0, 1000)) return refuse("crack_frequency", q.crack_frequency, "0 to 1000");
-    if (!(q.strain_limit == 0) && !is_in(q.strain_limit, 1e-5, 1))
+    if (!(q.strain_limit == 0) && !is_in(q.strain_limit, 1e-5f, 1))
         return refuse("strain_limit", q.strain_limit, "0 or 1e-5 to 1");
     if (!(q.compression_limit == 0) && !is_in(q.compression_limit, 1, 1e6))
         return refuse("compression_limit", q.compression_limit, "0 or 1 to 1e6");

@@ -1,5 +1,6 @@
 #include "systems/quick/region_motion.hpp"
 
+#include <algorithm>
 #include <optional>
 
 #include "systems/damage/blows.hpp"
@@ -15,6 +16,8 @@ namespace {
 /// met.
 constexpr float kEdgesAStep = 0.35f;
 constexpr uint32_t kSpareRings = 3;
+/// J/kg, what a centimetre a second is: under it lengths of springs, which are floats, round to as much as a run gains.
+constexpr double kLeastScale = 5e-5;
 
 /// Of the vertices' masses. Splits and inserted vertices leave it where it is.
 Vec3d centre_of_vertices(const ShellView& shell) {
@@ -143,7 +146,7 @@ void start_region(State& state, Row<Tasks> task) {
             state.twins.velocity.set(view.twin(v), state.vertices.velocity[shell.vertex(v)]);
         });
     tasks.start_energy[task] = region_energy(region).total();
-    double scale = tasks.start_energy[task];
+    double scale = std::max(tasks.start_energy[task], kLeastScale * state.shells.mass[shell.row]);
     for_each_contact(state, task, [&](uint32_t c) {
         if (contacts.striker_inverse_mass[c] > 0) return;
         scale += 0.5 * state.shells.mass[shell.row] * contacts.striker_speed[c] * contacts.striker_speed[c];

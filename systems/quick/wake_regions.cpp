@@ -1,6 +1,7 @@
 // Regions of the quick mode wake before the loop; those and hidden ones are closed behind it.
 #include "systems/brittle/hidden_region.hpp"
 #include "systems/costs.hpp"
+#include "systems/damage/forget_run.hpp"
 #include "systems/damage/run_out.hpp"
 #include "systems/fragments/flood_parts.hpp"
 #include "systems/quick/cut_out.hpp"
@@ -63,6 +64,7 @@ void close_regions(Serial, const Events<TaskEnded>& ended, ShellTables shells, T
                    const Bodies&, Events<CrackStartedEvent>& cracks) {
     State& state = shells.state;
     for (const TaskEnded& e : ended) {
+        if (static_cast<TaskState>(state.tasks.state[e.task]) == TaskState::Dropped) forget_run(state, e.task);
         if (is_hidden_region(state, e.task)) {
             run_out_region(state, e.task);
             put_back(state, e.task, rest_motion(state, e.task), cracks);

@@ -49,8 +49,10 @@ void reshape_soft(State& state, RigidWorld& rigid, Row<SoftBodies> soft, Arena& 
 /// From awake to rigid, reshaped. Springs keep their lengths.
 void freeze_soft(State& state, RigidWorld& rigid, Row<SoftBodies> soft, Arena& arena);
 /// A blow of the game's at a point of the body frame wakes the body: N s, body axes, shared out over the vertices
-/// within `radius` by m (1 - (r / radius)^2).
-void push_soft(State& state, RigidWorld& rigid, Row<SoftBodies> soft, Vec3 point, Vec3 impulse, float radius);
+/// within `radius` by m (1 - (r / radius)^2). Where that would make any faster than `fastest`, m/s, the radius is
+/// doubled; and a body that is too light as a whole (of what its pins leave free) gets less.
+void push_soft(State& state, RigidWorld& rigid, Row<SoftBodies> soft, Vec3 point, Vec3 impulse, float radius,
+               float fastest);
 /// The game has put an awake body somewhere, or given it another motion: its points follow as a rigid body's.
 void follow_body(State& state, Row<Bodies> body);
 

@@ -53,6 +53,11 @@ bool is_sound(const Frame& f) {
         look(f.view.position(v), f.state.vertices.velocity[row]);
         if (f.view.has_layers()) look(f.view.twin_position(v), f.state.twins.velocity[f.view.twin(v)]);
     });
+    for (uint32_t i = 0; i < f.state.soft_bodies.striker_count[f.soft]; ++i) {
+        const SoftStriker& striker = f.state.soft_strikers.striker[kMostStrikers * f.soft + i];
+        look(striker.centre, striker.velocity);
+        look(striker.spin, {});
+    }
     return sound;
 }
 
@@ -188,8 +193,29 @@ void take_shape(const Frame& f, const Pose& pose) {
     });
 }
 
+/// What is not finite goes out of every row that the run writes, those of lanes that no vertex has included.
+void forget_motion(const SpringView& view) {
+    State& s = view.state;
+    for (uint32_t v = 0; v < view.pack_count() * kLanes; ++v) {
+        view.place(v, {});
+        if (!view.has_layers()) continue;
+        view.place_twin(v, {});
+        s.twins.length[view.twin(v)] = 0;
+    }
+    for (uint32_t i = 0; i < view.spring_count(); ++i) {
+        s.springs.length[view.spring(i)] = 0;
+        if (view.has_layers()) s.layer_springs.length[view.layer(i)] = 0;
+    }
+}
+
+/// The run counts for nothing, for what it met neither; what made it run away would do so again in the next frame, so
+/// the body freezes in the shape before, until something wakes it.
 void put_back(const Frame& f) {
-    f.state.soft_bodies.has_fault[f.soft] = 1;
+    SoftBodies& soft = f.state.soft_bodies;
+    soft.has_fault[f.soft] = 1;
+    soft.striker_count[f.soft] = soft.contact_count[f.soft] = 0;
+    soft.quiet_seconds[f.soft] = kQuietSeconds;
+    forget_motion(f.view);
     const Bodies& bodies = f.state.bodies;
     start_springs(f.view, {pose_of(bodies, f.body), bodies.velocity[f.body], bodies.spin[f.body]});
 }

@@ -73,22 +73,34 @@ void freeze_soft(State& state, RigidWorld& rigid, Row<SoftBodies> s, Arena& aren
     soft.quiet_seconds[s] = 0;
 }
 
-void push_soft(State& state, RigidWorld& rigid, Row<SoftBodies> s, Vec3 point, Vec3 impulse, float radius) {
+// A blow takes some milliseconds, in which the sheet round it comes along; given at once to what lies under a heavy
+// striker it is kilometres a second for vertices of some grams.
+void push_soft(State& state, RigidWorld& rigid, Row<SoftBodies> s, Vec3 point, Vec3 impulse, float radius,
+               float fastest) {
+    constexpr int kMostDoublings = 16;
     if (!state.soft_bodies.is_awake[s]) wake_soft(state, rigid, s);
     state.soft_bodies.quiet_seconds[s] = 0;
     const SpringView view(state, springs_of(state, s));
     const Vec3 along = rotate(state.bodies.orientation[state.soft_bodies.body[s]], impulse);
     const auto weight = [&](uint32_t row) {
+        if (!(state.vertices.inverse_mass[row] > 0)) return 0.0;
         const Vec3 away = state.vertices.rest[row] - point;
         const float left = 1 - dot(away, away) / (radius * radius);
         return left > 0 ? state.vertices.mass[row] * double{left} : 0;
     };
-    double sum = 0;
-    for (uint32_t v = 0; v < view.shell.vertex_count(); ++v) sum += weight(view.shell.vertex(v));
+    const auto sum_weights = [&] {
+        double sum = 0;
+        for (uint32_t v = 0; v < view.shell.vertex_count(); ++v) sum += weight(view.shell.vertex(v));
+        return sum;
+    };
+    const double wanted = double{length(along)} / double{fastest};
+    double sum = sum_weights();
+    for (int k = 0; k < kMostDoublings && sum < wanted; ++k) radius *= 2, sum = sum_weights();
+    sum = std::max(sum, wanted);
     for (uint32_t v = 0; v < view.shell.vertex_count(); ++v) {
         const uint32_t row = view.shell.vertex(v);
         const double own = weight(row);
-        if (!(own > 0) || !(state.vertices.inverse_mass[row] > 0)) continue;
+        if (!(own > 0)) continue;
         const Vec3 gained = static_cast<float>(own / sum * double{state.vertices.inverse_mass[row]}) * along;
         state.vertices.velocity.set(row, state.vertices.velocity[row] + gained);
         if (view.has_layers()) state.twins.velocity.set(view.twin(v), state.twins.velocity[view.twin(v)] + gained);

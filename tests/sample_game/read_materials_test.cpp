@@ -79,6 +79,7 @@ TEST_F(ReadMaterials, AnErrorNamesFileLineMaterialKeyValueAndRangeAndChangesNoth
         {"[brick]\ndensity = 2000\n[clinker]\nlike = 'brick'\n\ndensity = -5",
          "mine.toml:6: [clinker] density is -5; use 1 to 100000 kg/m3."},
         {"[brick]\ndensity = 'heavy'", "mine.toml:2: [brick] density is \"heavy\"; use 1 to 100000 kg/m3."},
+        {"[steel]\nyield_strain = -1", "mine.toml:2: [steel] yield_strain is -1; use 0 to 10."},
         {"[brick]\ndensity = nan", "mine.toml:2: [brick] density is nan; use 1 to 100000 kg/m3."},
         {"[brick]\nkind = 'soft'", "mine.toml:2: [brick] kind is \"soft\"; use one of brittle, ductile, elastic."},
         {"[brick]\nfracture = 3", "mine.toml:2: [brick] fracture is 3; use one of large, coarse, fine."},
