@@ -6,6 +6,7 @@
 
 #include "engine/fp_mode.hpp"
 #include "systems/damage/insert_vertex.hpp"
+#include "systems/springs/press_layers.hpp"
 #include "systems/springs/spring_loop.hpp"
 #include "systems/springs/spring_packs.hpp"
 
@@ -166,6 +167,7 @@ void SpringBench::step() {
     uint32_t& steps = state_->shell_springs.steps[springs_];
     const SpringStep one(now, steps);
     const uint32_t packs = (size() + kLanes - 1) / kLanes;
+    if (has_energies(now.own(), now.row)) press_packs(now, steps & 1, 0, packs);
     switch (now.layout()) {
         case SpringLayout::OneLayer:
             integrate_spring_packs(one, 0, packs);

@@ -12,8 +12,9 @@
 namespace cullet {
 namespace {
 
-/// An energy of stiffness kappa may push no harder than this share of m h^2 / dt^2, or the step would blow up.
-constexpr double kMostShare = 0.1;
+/// B4: kappa_V <= 0.1 m h^2 / dt^2. And most of kappa sum |grad_i C|^2 dt^2 / m over an element's points, at rest and
+/// now: what stretches far gets steeper, and cuts make slivers. An energy of more would blow the step up.
+constexpr double kMostShare = 0.1, kMostSlope = 0.4;
 
 struct Prism {
     Vec3d point[6];  // a, b, c, a', b', c'
@@ -21,6 +22,12 @@ struct Prism {
 
 double area_of(Vec3d i, Vec3d j, Vec3d k) {
     return 0.5 * length(cross(j - i, k - i));
+}
+
+/// Sum of |grad A|^2 over the corners, over `area` squared, 1/m2.
+double area_slopes(Vec3d i, Vec3d j, Vec3d k, double area) {
+    const Vec3d a = j - i, b = k - i, c = k - j;
+    return (dot(a, a) + dot(b, b) + dot(c, c)) / (4 * area * area);
 }
 
 /// Gradient of the area of (i, j, k) over i; zero without area.
@@ -39,20 +46,16 @@ void tetrahedra_of(const std::array<uint32_t, 3>& corner, uint32_t (&tetrahedra)
     std::copy(&all[0][0], &all[0][0] + 12, &tetrahedra[0][0]);
 }
 
-/// Six times the volume up to a sign that is the element's for good, and the gradient over points `outer` and `outer` +
-/// 3.
-double volume_of(const Prism& prism, const uint32_t (&tetrahedra)[3][4], uint32_t outer, Vec3d (&gradient)[2]) {
+/// Six times the volume up to a sign that is the element's for good, and its gradient over the six points.
+double volume_of(const Prism& prism, const uint32_t (&tetrahedra)[3][4], Vec3d (&gradient)[6]) {
     double six = 0;
-    gradient[0] = gradient[1] = {};
+    for (Vec3d& g : gradient) g = {};
     for (const auto& t : tetrahedra) {
         const Vec3d b = prism.point[t[1]] - prism.point[t[0]], c = prism.point[t[2]] - prism.point[t[0]],
                     d = prism.point[t[3]] - prism.point[t[0]];
         six += dot(b, cross(c, d));
         const Vec3d over[4] = {-(cross(c, d) + cross(d, b) + cross(b, c)), cross(c, d), cross(d, b), cross(b, c)};
-        for (uint32_t k = 0; k < 4; ++k) {
-            if (t[k] == outer) gradient[0] += over[k];
-            if (t[k] == outer + 3) gradient[1] += over[k];
-        }
+        for (uint32_t k = 0; k < 4; ++k) gradient[t[k]] += over[k];
     }
     return six;
 }
@@ -99,7 +102,9 @@ struct Presses {
             const double a0 = area_of(p(rest, 0), p(rest, 1), p(rest, 2));
             if (!(a0 > 0)) return;
             const double wanted = area_energy * stiffness * (has_layers ? 0.5 : 1);
-            const double kappa = std::min(wanted, kMostShare * mass * a0 / (dt * dt));
+            const double slopes = std::max(area_slopes(p(rest, 0), p(rest, 1), p(rest, 2), a0),
+                                           area_slopes(p(moved, 0), p(moved, 1), p(moved, 2), a0));
+            const double kappa = std::min(wanted, kMostSlope * mass / (dt * dt * slopes));
             const double c = area_of(p(moved, 0), p(moved, 1), p(moved, 2)) / a0 - 1;
             force += (-kappa * c / a0) * area_gradient(p(moved, 0), p(moved, 1), p(moved, 2));
         };
@@ -109,14 +114,19 @@ struct Presses {
         if (!(volume_energy > 0) || (elements.flags[row] & kDegenerate)) return;
         uint32_t tetrahedra[3][4];
         tetrahedra_of(corner, tetrahedra);
-        Vec3d gradient[2], unused[2];
-        const double v0 = volume_of(rest, tetrahedra, k, unused), v = volume_of(moved, tetrahedra, k, gradient);
+        Vec3d gradient[6], gradient_at_rest[6];
+        const double v0 = volume_of(rest, tetrahedra, gradient_at_rest), v = volume_of(moved, tetrahedra, gradient);
         if (!(v0 < 0 || v0 > 0)) return;
+        double slopes = 0, slopes_at_rest = 0;
+        for (uint32_t i = 0; i < 6; ++i)
+            slopes += dot(gradient[i], gradient[i]), slopes_at_rest += dot(gradient_at_rest[i], gradient_at_rest[i]);
         const double height = depth * double{view.own().length_factor[view.row]};
-        const double kappa = std::min(volume_energy * stiffness, kMostShare * mass * height * height / (dt * dt));
+        const double most =
+            std::min(kMostShare * height * height, kMostSlope * v0 * v0 / std::max(slopes, slopes_at_rest));
+        const double kappa = std::min(volume_energy * stiffness, most * mass / (dt * dt));
         const double pressure = -kappa * (v / v0 - 1) / v0;
-        outer += pressure * gradient[0];
-        inner += pressure * gradient[1];
+        outer += pressure * gradient[k];
+        inner += pressure * gradient[k + 3];
     }
 };
 

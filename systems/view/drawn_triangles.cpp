@@ -24,6 +24,24 @@ SurfaceKind kind_of(const ShellView& shell, uint32_t element, uint32_t which) {
     return kind == EdgeKind::Crack ? SurfaceKind::Crack : SurfaceKind::Inner;
 }
 
+/// The game's uv where a corner is drawn: on a smoothed crack not where it was, but the triangle's own uv goes on.
+Vec2 drawn_uv(const ShellView& shell, uint32_t e, uint32_t k) {
+    const auto& uv = shell.state.elements.uv[shell.element(e)];
+    const auto corner = shell.state.elements.corner[shell.element(e)];
+    const auto at = [&](uint32_t i) { return Vec2{uv[2 * (i % 3)], uv[2 * (i % 3) + 1]}; };
+    const Vec2 own = at(k);
+    const Vec3 shift = shell.state.vertices.crack_shift[shell.vertex(corner[k])];
+    if (shift == Vec3{}) return own;
+    const auto rest = [&](uint32_t i) { return shell.state.vertices.rest[shell.vertex(corner[i % 3])]; };
+    // shift = s a + t b, along the edges from the corner.
+    const Vec3 a = rest(k + 1) - rest(k), b = rest(k + 2) - rest(k);
+    const float aa = dot(a, a), bb = dot(b, b), ab = dot(a, b), whole = aa * bb - ab * ab;
+    if (!(whole > 1e-6f * aa * bb)) return own;
+    const float x = dot(shift, a), y = dot(shift, b), s = (bb * x - ab * y) / whole, t = (aa * y - ab * x) / whole;
+    const Vec2 u = at(k + 1), v = at(k + 2);
+    return {own.x + s * (u.x - own.x) + t * (v.x - own.x), own.y + s * (u.y - own.y) + t * (v.y - own.y)};
+}
+
 }  // namespace
 
 Vec3 drawn_place(const ShellView& shell, DrawnPoint p) {
@@ -70,7 +88,7 @@ void write_faces(const ShellView& shell, uint32_t e, ViewVertex* outer, ViewVert
     const Vec3 flat = normalised(cross(below[2] - below[0], below[1] - below[0]));
     for (int k = 0; k < 3; ++k) {
         const Vec3 n{normal[3 * k], normal[3 * k + 1], normal[3 * k + 2]};
-        const Vec2 uv{elements.uv[row][2 * k], elements.uv[row][2 * k + 1]};
+        const Vec2 uv = drawn_uv(shell, e, static_cast<uint32_t>(k));
         outer[k] = {smoothed_place(shell.state, shell.vertex(corner[k])), n, uv};
         const bool runs_along = dot(-n, flat) > 0.8f || dot(flat, flat) < 0.5f;  // no area, no normal
         inner[(3 - k) % 3] = {below[k], runs_along ? -n : flat, uv};
