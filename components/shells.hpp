@@ -101,7 +101,9 @@ struct Vertices : Table<Vertices> {
 };
 
 enum class EdgeKind : uint8_t { Interior = 0, Border = 1, Crack = 2 };
-enum ElementFlag : uint8_t { kDegenerate = 1, kDead = 2 };
+/// Bits of Elements.flags. kIsTouched, in a cut-out only: the run cut at one of the element's corners, or put a vertex
+/// beside it. The others are as they were, and so are hinges that none of them has.
+enum ElementFlag : uint8_t { kDegenerate = 1, kDead = 2, kIsTouched = 4 };
 
 /// One row is one prism (a, b, c, a', b', c'). Edge k runs from corner k to corner (k + 1) % 3.
 struct Elements : Table<Elements> {

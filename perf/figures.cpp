@@ -46,6 +46,11 @@ void Figures::add_ratio(const std::string& name, double ours, double theirs, con
     f.parts_unit = parts_unit;
 }
 
+uint32_t Figures::missed() const {
+    return static_cast<uint32_t>(
+        std::count_if(all_.begin(), all_.end(), [](const Figure& f) { return f.is_missed(); }));
+}
+
 namespace {
 
 void print_line(const Figure& f) {

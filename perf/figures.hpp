@@ -1,6 +1,7 @@
 // Numbers with their noise. Everything is measured in several passes, one after the other over all scenes, so that a
 // busy quarter of an hour meets all alike; a figure is the middle of its passes, its noise how far they lie apart.
 #pragma once
+#include <cstdint>
 #include <string>
 #include <vector>
 
@@ -43,6 +44,8 @@ class Figures {
     void add_ratio(const std::string& name, double ours, double theirs, const std::string& parts_unit, double limit = 0,
                    bool is_least = false);
     const std::vector<Figure>& all() const { return all_; }
+    /// Figures that miss their limit.
+    uint32_t missed() const;
     /// One line a figure: ours, the yardstick, their ratio, the limit, the noise.
     void print() const;
     std::string json(const Origin& origin) const;

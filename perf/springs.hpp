@@ -31,12 +31,6 @@ class PlainSprings {
     PlainSprings(const SpringNet& net, const std::vector<Vec3>& start);
     void step();
     Vec3 position(uint32_t v) const { return vertices_[v].x; }
-    /// Adds to all velocities, m/s.
-    void accelerate(Vec3 by) {
-        for (Vertex& vertex : vertices_) vertex.v = vertex.v + by;
-    }
-    /// Puts a vertex there, at rest.
-    void put(uint32_t v, Vec3 place) { vertices_[v].x = place, vertices_[v].v = {}; }
 
  private:
     struct Vertex {
@@ -80,8 +74,8 @@ class BareSprings {
     std::vector<float> velocity_[3], strain_;
 };
 
-/// What steps of springs cost beside iterations of Bullet's soft body where both err alike. Seconds of a spring and
-/// step, and of a link and iteration.
-void measure_equal_error(double spring_step, double link_iteration, Figures& figures);
+/// What our substeps cost beside iterations of Bullet's soft body where both err alike, and how both err where they
+/// cost alike. Seconds of a spring and substep as the frame runs it, and of a link and iteration.
+void measure_equal_error(double substep, double link_iteration, Figures& figures);
 
 }  // namespace cullet::perf

@@ -31,13 +31,13 @@ Keys world_keys() {
                 "damage work a frame, 2 ns each")
         .number("hold_s", "s", static_cast<double>(defaults.hold_seconds), 0, 1,
                 "longest hold of a blow that is being worked off")
-        .number("generations", "1", defaults.generations, 0, 10, "fragments break again down to this one")
-        .number("debris_share", "1", static_cast<double>(defaults.debris_share), 0, 0.5,
+        .number("generations", "1", defaults.generations, 0, 100, "fragments break again down to this one")
+        .number("debris_share", "1", static_cast<double>(defaults.debris_share), 0, 1,
                 "pieces lighter than this share of the whole are debris")
         .number("break_share", "1", static_cast<double>(defaults.break_share), 0, 1,
                 "pieces lighter than this share do not break again")
         .number("break_elements", "1", defaults.break_elements, 0, 1e6, "pieces of fewer elements do not break again")
-        .number("debris_elements", "1", defaults.debris_elements, 1, 1000, "pieces of fewer elements are debris")
+        .number("debris_elements", "1", defaults.debris_elements, 0, 1e6, "pieces of fewer elements are debris")
         .number("gravity_mps2", "m/s2", 9.81, 0, 100, "downward")
         .number("threads", "1", 1, 1, 64, "threads that step the world; the same as --threads")
         .word("simd", "best", "best, scalar, sse4, avx2, avx512", "kernels of the whole program run at this level");

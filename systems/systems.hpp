@@ -70,10 +70,12 @@ void advance_soft(Serial, Step step, const RigidWorld& rigid, SoftLoop& loop);
 /// What soft bodies gave to what they met, and where they are now, for the rigid world.
 void pass_soft(Serial, Step step, ShellTables shells, SoftBodies& soft, SoftStrikers& strikers, Bodies& bodies,
                RigidWorld& rigid, DamageCounts& counts, Arena& arena, Events<FaultEvent>& faults);
-/// Holds bodies whose task goes on, releases those whose time is up or whose task ended.
+/// Holds bodies whose task goes on, releases those whose time is up or whose task ended; names quick runs that had no
+/// room to split on.
 void settle_tasks(Serial, Step step, Tasks& tasks, TaskContacts& contacts, Blows& blows, Bodies& bodies,
-                  const Shells& shells, RigidWorld& rigid, const DamageSettings& settings, DamageCounts& counts,
-                  Events<TaskEnded>& ended, Events<ImpactEvent>& impact_events);
+                  const Shells& shells, const QuickRuns& quick_runs, RigidWorld& rigid, const DamageSettings& settings,
+                  DamageCounts& counts, Events<TaskEnded>& ended, Events<ImpactEvent>& impact_events,
+                  Events<RefusedEvent>& refused);
 
 /// Regions whose run ended fall asleep: vertices get the body's own motion back, springs their rows. What a cut-out
 /// changed goes into the body's shell (quick/cut_out.hpp).

@@ -64,8 +64,8 @@ struct DamageSettings {
 /// Counts since the world was made; not state.
 struct DamageCounts {
     uint64_t opened = 0, broke = 0, whole = 0, dropped = 0, redone = 0, late = 0, frames_held = 0, clamped = 0;
-    uint64_t cuts = 0, starts = 0, cuts_refused = 0;
-    uint64_t units_used = 0, units_left = 0;  // of the last frame
+    uint64_t cuts = 0, starts = 0, cuts_refused = 0;  // refused: quick runs whose shell had no room for more
+    uint64_t units_used = 0, units_left = 0;          // of the last frame
     uint64_t slow_soft_frames = 0;            // soft bodies that had units for fewer substeps than a frame asks for
     double worst_rounding = 0;                // momentum that hidden runs lost, share of what the body had or got
     double impulse_to_static[3] = {0, 0, 0};  // N s, from damage to floors, pins and kinematic bodies

@@ -80,13 +80,12 @@ const Result<std::vector<Row>>& measured(Bench& bench) {
 
 /// Of the published rows of pig and castle.
 struct Ways {
-    double least = 1e300, most = 0;              // time of single vertex over that of the front
-    double least_round = 1e300, most_round = 0;  // the same of a round alone: of five less one, nothing before or after
-    double fewest = 1e300, greatest = 0;         // collisions of the front over those of single vertex
+    double least = 1e300, most = 0;       // time of single vertex over that of the front
+    double fewest = 1e300, greatest = 0;  // collisions of the front over those of single vertex
 };
 
 struct TimedWay {
-    double ms = 0, round_ms = 0, collisions = 0;
+    double ms = 0, collisions = 0;
 };
 
 Result<TimedWay> time_way(const Surface& surface, double eps, Propagation way, bool has_certificates,
@@ -94,12 +93,9 @@ Result<TimedWay> time_way(const Surface& surface, double eps, Propagation way, b
     ExtrusionSettings settings;
     settings.propagation = way;
     settings.has_certificates = has_certificates;
-    const Result<GeneratedShell> five = generate(surface, eps, settings, repeats);
-    settings.rounds = 1;
-    const Result<GeneratedShell> one = generate(surface, eps, settings, repeats);
-    if (!five.ok()) return Error{five.error()};
-    if (!one.ok()) return Error{one.error()};
-    return TimedWay{five->ms, (five->ms - one->ms) / 4, static_cast<double>(five->extrusion.statistics.collisions)};
+    const Result<GeneratedShell> shell = generate(surface, eps, settings, repeats);
+    if (!shell.ok()) return Error{shell.error()};
+    return TimedWay{shell->ms, static_cast<double>(shell->extrusion.statistics.collisions)};
 }
 
 Result<Ways> compare_ways(Bench& bench, bool has_certificates) {
@@ -117,10 +113,9 @@ Result<Ways> compare_ways(Bench& bench, bool has_certificates) {
                 time_way(surface.value(), eps, Propagation::Front, has_certificates, repeats);
             if (!single.ok()) return Error{single.error()};
             if (!front.ok()) return Error{front.error()};
-            const double ratio = single->ms / front->ms, round = single->round_ms / front->round_ms,
+            const double ratio = single->ms / front->ms,
                          collisions = front->collisions / std::max(1.0, single->collisions);
             ways.least = std::min(ways.least, ratio), ways.most = std::max(ways.most, ratio);
-            ways.least_round = std::min(ways.least_round, round), ways.most_round = std::max(ways.most_round, round);
             ways.fewest = std::min(ways.fewest, collisions), ways.greatest = std::max(ways.greatest, collisions);
         }
     }
@@ -154,11 +149,9 @@ Result<Claim> figure_1(Bench& bench) {
     claim.ours = fmt::format(
         "A ridge of 20 cm with a neck of 10 cm, and a wanted depth of 6 cm. Panels (a) to (c) are of the published "
         "rules at their plainest, written for this figure: no caps, every vertex goes on until its steps are small; "
-        "the "
-        "library's front of Table 1 caps depths by opposite walls first and stops after its rounds. {} triangles meet "
-        "in the "
-        "first "
-        "collision, {} pairs over all {} rounds, {} pairs are left at the end. Our guarded front on the same ridge: {} "
+        "the library's front of Table 1 caps depths by opposite walls first and stops after its rounds. {} triangles "
+        "meet in the first collision, {} pairs over all {} rounds, {} pairs are left at the end. Our guarded front on "
+        "the same ridge: {} "
         "pairs, {} elements turned inside out.",
         states.met, states.collisions, states.rounds, states.left, guarded->crossings, guarded->inverted);
     claim.numbers = {{"triangles in the first collision", "", static_cast<double>(states.met), {}},
@@ -214,8 +207,8 @@ Result<Claim> table_1(Bench& bench) {
     claim.tables.push_back(std::move(table));
     claim.ours = fmt::format(
         "The guarded front is at least {:.0f} times faster than the published front, on a machine 20 years younger, "
-        "with "
-        "the crossing test of the input and the proof of the result included. The published counts of collisions count "
+        "with the crossing test of the input and the proof of the result included. The published counts of collisions "
+        "count "
         "repeated tests and cannot be compared. The pig has 6,996 triangles: 4,000 on 3,500 vertices is no closed "
         "surface.",
         slowest_ratio);
@@ -265,21 +258,19 @@ Result<Claim> front_against_single(Bench& bench) {
     if (!plain.ok()) return Error{plain.error()};
     if (!ours.ok()) return Error{ours.error()};
     claim.ours = fmt::format(
-        "With every pair of faces tested in every round, as published, a round of the front is {:.1f} to {:.1f} times "
-        "as fast over the published rows of pig and castle, and the whole, with what both do before the rounds, {:.2f} "
-        "to {:.2f} times, with {:.2f} to {:.2f} times the collisions. As the library does it, where certificates drop "
-        "nearly all pairs before the rounds begin, the slow mode has become fast: {:.2f} to {:.2f}.",
-        plain->least_round, plain->most_round, plain->least, plain->most, plain->fewest, plain->greatest, ours->least,
-        ours->most);
-    claim.numbers = {{"single vertex over front, a round, every pair tested, least", "", plain->least_round, 3.0},
-                     {"single vertex over front, a round, every pair tested, most", "", plain->most_round, 4.0},
-                     {"single vertex over front, every pair tested, least", "", plain->least, 3.0},
+        "With every pair of faces tested in every round, as published, and with what both do before the rounds, the "
+        "front is {:.2f} to {:.2f} times as fast over the published rows of pig and castle, and meets {:.2f} to {:.2f} "
+        "times the collisions. As the library does it, where certificates drop nearly all pairs before the rounds "
+        "begin, the slow mode has become fast: {:.2f} to {:.2f}. Met means three times as fast and fewer collisions in "
+        "every row.",
+        plain->least, plain->most, plain->fewest, plain->greatest, ours->least, ours->most);
+    claim.numbers = {{"single vertex over front, every pair tested, least", "", plain->least, 3.0},
                      {"single vertex over front, every pair tested, most", "", plain->most, 4.0},
                      {"collisions, front over single vertex, every pair tested, least", "", plain->fewest, 0.05},
                      {"collisions, front over single vertex, every pair tested, most", "", plain->greatest, 0.25},
                      {"single vertex over front, with certificates, least", "", ours->least, {}},
                      {"single vertex over front, with certificates, most", "", ours->most, {}}};
-    claim.verdict = plain->least >= 3 ? Verdict::Met : Verdict::FallsShort;
+    claim.verdict = plain->least >= 3 && plain->greatest < 1 ? Verdict::Met : Verdict::FallsShort;
     return claim;
 }
 

@@ -94,6 +94,14 @@ std::string spread_text(const MedianSpread& spread) {
     if (!(spread.least < kMostThreshold)) return "";
     return speed_text(spread.least) + " to " + speed_text(spread.most);
 }
+double crack_ratio(const std::array<WallThresholds, 2>& walls) {
+    return walls[1].crack.median / walls[0].crack.median;
+}
+/// Where a mode's walls begin to crack: "0.67 and 1.08 m/s, at single places 0.61 to 0.83 and 0.24 to 1.2".
+std::string told_cracks(const std::array<WallThresholds, 2>& walls) {
+    return fmt::format("{} and {} m/s, at single places {} and {}", speed_text(walls[0].crack.median),
+                       speed_text(walls[1].crack.median), spread_text(walls[0].crack), spread_text(walls[1].crack));
+}
 /// Thin and thick wall in one mode: "at 0.85 and 4.95 m/s".
 std::string told(const std::array<WallThresholds, 2>& walls) {
     const double thin = walls[0].piece.median, thick = walls[1].piece.median;
@@ -172,19 +180,20 @@ Result<Claim> figure_3(Bench& bench) {
         if (has_ratio)
             claim.numbers.push_back(
                 {(m == 0 ? "" : std::string(all[m][0].mode) + ", ") + "thick_over_thin", "times", ratio, {}});
-        // The quick mode's limits are those of the hidden run's own speed at each wall: its order proves nothing.
+        // The quick mode's limits are found with a ball that grows with the wall: its order proves nothing.
         if (m == 0 &&
             !(all[m][0].piece.median < kMostThreshold && ratio > 1 && all[m][1].crack.median > all[m][0].crack.median))
             claim.verdict = Verdict::FallsShort;
     }
     claim.ours = fmt::format(
         "A ball of 30 kg at a brick wall of 2.4 x 1.8 m, foot held. The first piece comes off walls of {:.0f} and "
-        "{:.0f} "
-        "cm {} in the hidden run; {} in the quick mode with one layer of springs, {} with two. Met means that the "
-        "thick "
-        "wall takes more in the hidden run; the quick mode's strain limit is calibrated at each wall's speed there, so "
-        "that its order follows from it.",
-        100 * kThin, 100 * kThick, told(all[0]), told(all[1]), told(all[2]));
+        "{:.0f} cm {} in the hidden run; {} in the quick mode with one layer of springs, {} with two. Met means that "
+        "the thick wall takes more in the hidden run. There the first crack takes {:.1f} times the thin wall's speed; "
+        "in the quick mode, whose strain limit is found at each wall with a ball that grows with it (a twenty-fifth of "
+        "its mass, two thicknesses in radius), {:.1f} times with one layer and {:.1f} with two. First cracks of "
+        "thin and thick wall: hidden run {}; one layer {}; two layers {}.",
+        100 * kThin, 100 * kThick, told(all[0]), told(all[1]), told(all[2]), crack_ratio(all[0]), crack_ratio(all[1]),
+        crack_ratio(all[2]), told_cracks(all[0]), told_cracks(all[1]), told_cracks(all[2]));
     claim.tables.push_back(std::move(table));
     // As fast as the thick wall just stands.
     const double speed = 0.85 * std::min(thick.crack.least, thick.crack.median);

@@ -108,7 +108,7 @@ int shell_keys(lua_State* lua) {
                 "edge length of the mesh; 0: what cooking chooses")
         .number("scene.strength_scale", "1", 1, 1e-3, HUGE_VAL, "on the material's strength; inf never cracks")
         .word("scene.fracture", "hidden", "hidden, quick",
-              "hidden: exact, over some frames; quick: near the hit, at once")
+              "hidden: elastic waves, over some frames; quick: softened springs near the hit")
         .word("scene.cracks", "own", "own, fine, coarse, large", "the kind of fracture; own: the material's")
         .number("scene.layers", "1", 1, 1, 2, "of springs, in quick fracture; 2 feel the wall bend")
         .word("scene.layout", "sandwich", "sandwich, crossed",

@@ -3,6 +3,8 @@
 #include <cstdio>
 #include <cstring>
 
+#include "systems/damage/working_room.hpp"
+
 namespace cullet {
 
 bool HostLog::is_new(const char* setting, const Step& step) {
@@ -25,9 +27,12 @@ void HostLog::tell(const Host& host, const WorldData& data) {
     char sentence[256];
     for (const RefusedEvent& e : data.refused_events) {
         if (!is_new(e.setting, data.step_info)) continue;
-        std::snprintf(sentence, sizeof sentence,
-                      "Settings::%s is reached, asked for by body %u (user data %llu); raise it, or have less at once.",
-                      e.setting, e.body.index, static_cast<unsigned long long>(e.body_user_data));
+        const char* format =
+            std::strcmp(e.setting, kCrackRoom) == 0
+                ? "%s: cracks of body %u (user data %llu) filled their room; cook it with a shorter longest_edge."
+                : "Settings::%s is reached, asked for by body %u (user data %llu); raise it, or have less at once.";
+        std::snprintf(sentence, sizeof sentence, format, e.setting, e.body.index,
+                      static_cast<unsigned long long>(e.body_user_data));
         host.log(host.user, LogLevel::Warning, sentence);
     }
     for (const FaultEvent& e : data.fault_events) {

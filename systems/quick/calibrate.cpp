@@ -17,8 +17,8 @@ constexpr Row<Tasks> kTask{0};
 constexpr uint64_t kSeed = 0x717569636b;
 constexpr float kLeastLimit = 1e-5f, kMostLimit = 1;
 constexpr uint32_t kPlaces = 5;
-/// The ball: a twenty-fifth of the body's mass, two wall thicknesses wide. So are the balls that the known thresholds
-/// of pane and wall are for; a run is too short for twice or half of either to tell.
+/// The ball: a twenty-fifth of the body's mass, two wall thicknesses in radius. So, or nearly, are the balls that the
+/// known thresholds of pane and wall are for; a run is too short for twice or half of either to tell.
 constexpr float kBallMass = 1.0f / 25, kBallRadius = 2;
 constexpr uint64_t kMostTries = 64;  // for an element that nothing holds
 

@@ -8,10 +8,6 @@ inline uint32_t round_to_packs(uint32_t vertices) {
     return (vertices + kLanes - 1) / kLanes * kLanes;
 }
 
-/// Of Elements.flags in a cut-out: the run cut at one of its corners, or put a vertex beside it. The others are as they
-/// were, and so are hinges that none of them has.
-inline constexpr uint8_t kIsTouched = 4;
-
 /// Rows without their scratch, which is a third of an element's: in a cut-out it is written before it is read, and in
 /// the body it says what rows stand where.
 void copy_kept_rows(AnyTable& table, uint32_t from, uint32_t to, uint32_t count);

@@ -167,7 +167,7 @@ void find_strikers(State& state, const RigidWorld& rigid, Row<SoftBodies> s, con
     const uint32_t found = rigid.near_bodies(points.low + origin - grown, points.high + origin + grown, near);
     soft.striker_count[s] = 0;
     soft.start_momentum.set(s, motion_of(view).momentum);
-    soft.has_fault[s] = 0;
+    soft.has_fault[s] = soft.lacks_room[s] = 0;
     for (uint32_t k = 0; k < found && soft.striker_count[s] < kMostStrikers; ++k) {
         const Row<Bodies> other(near[k]);
         if (other == body || !rigid.may_meet(body, other) || rigid.is_ignored(body, other)) continue;

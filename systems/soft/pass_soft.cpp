@@ -1,5 +1,6 @@
 #include <algorithm>
 
+#include "systems/damage/working_room.hpp"
 #include "systems/fragments/body_rows.hpp"
 #include "systems/rigid/body_id.hpp"
 #include "systems/soft/soft_body.hpp"
@@ -143,13 +144,15 @@ void return_soft(Serial, const SoftBodies& soft, const SoftStrikers& strikers, R
         }
 }
 
-// Cracks have faces of their own, which need room. What broke in this step is drawn already.
+// Cracks have faces of their own, which need room, and so do splits: what found none is named in each such frame. What
+// broke in this step is drawn already.
 void show_soft(Serial, ShellTables shells, const SoftBodies& soft, Bodies& bodies, ViewVertices&, ViewIndices&,
                Events<ShellChanged>& changed, Events<RefusedEvent>& refused) {
     State& state = shells.state;
     for (uint32_t s = 0; s < soft.size(); ++s) {
         if (!soft.is_used[s] || !soft.is_awake[s]) continue;
         const Row<Bodies> body = soft.body[s];
+        if (soft.lacks_room[s]) refused.push(refused_event(bodies, body, kCrackRoom));
         const auto is_own = [&](const ShellChanged& c) { return c.body == body; };
         if (std::any_of(changed.begin(), changed.end(), is_own)) continue;
         if (state.shells.has_cracks[bodies.shell[body]] && !take_view(state, body))

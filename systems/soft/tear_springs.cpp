@@ -9,8 +9,8 @@
 namespace cullet {
 namespace {
 
-constexpr uint32_t kMostSplits =
-    4;  // a check, the most stretched first; more and a sheet is gone before it is seen to tear
+// A check, the most stretched first; more and a sheet is gone before it is seen to tear.
+constexpr uint32_t kMostSplits = 4;
 // Room that a split asks for: springs, and slots for packs that outgrow theirs.
 constexpr uint32_t kSplitSprings = 8, kSplitSlots = 96;
 

@@ -242,9 +242,4 @@ Result<Row<ShellSprings>> give_springs(State& state, Row<Shells> shell_row, std:
     return row;
 }
 
-float softened_modulus(float young_modulus, float density, float edge, float time_step) {
-    const float speed = 0.35f * edge / time_step;
-    return std::min(young_modulus, density * speed * speed);
-}
-
 }  // namespace cullet

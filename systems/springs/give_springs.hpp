@@ -51,8 +51,4 @@ float stable_spring_step(const SpringView& view);
 /// Changes the step that the springs take: the damping of every slot follows.
 void set_spring_step(const SpringView& view, float time_step);
 
-/// E that makes a step of `time_step` stable for edges of this length, no more than `young_modulus` (B7): rho (0.35 l /
-/// dt)^2. The strain limits of what is softened by s = E / E_eff grow by sqrt(s).
-float softened_modulus(float young_modulus, float density, float edge, float time_step);
-
 }  // namespace cullet

@@ -39,6 +39,10 @@ TEST(Figures, ARatioIsOursOverTheirsOrTheOtherWayRoundWhenItIsToBeLarge) {
     EXPECT_TRUE(figures.all()[0].is_missed());
     EXPECT_EQ(figures.all()[1].value(), 4);
     EXPECT_TRUE(figures.all()[1].is_missed());
+    EXPECT_EQ(figures.missed(), 2u);
+    figures.add("frame", 1, "ms", 2);
+    figures.add("pieces", 1, "");
+    EXPECT_EQ(figures.missed(), 2u);
 }
 
 TEST(Figures, TheFileSaysWhereItIsFromAndIsReadBackAsItWas) {

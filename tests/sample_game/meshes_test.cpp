@@ -131,8 +131,6 @@ TEST(Meshes, EveryTriangleOfALatheLooksAwayFromItsAxisOrAlongIt) {
     }
 }
 
-TEST(Meshes, ABowlHasOneRim) {}
-
 TEST(Meshes, SheetsHaveStraightBordersAndTheirExactArea) {
     expect_good(make_wall(), 0.078, 820, 1);
     expect_good(make_pane(), 0.010, 2900, 1);

@@ -9,9 +9,9 @@
 
 #include "sample_game/allocations.hpp"
 #include "sample_game/drawn_meshes.hpp"
-#include "sample_game/game_world.hpp"
 #include "sample_game/run_scene.hpp"
 #include "systems/world_contents.hpp"
+#include "tests/support/scene_hashes.hpp"
 
 namespace cullet {
 namespace {
@@ -37,24 +37,9 @@ const ScenePlan& plan_of(const Scene& scene) {
 class EveryScene : public testing::TestWithParam<Scene> {};
 
 std::vector<uint64_t> hashes_of(const ScenePlan& plan, const Host& host = {}) {
-    Result<GameWorld> game = GameWorld::create(plan, host);
-    EXPECT_TRUE(game.ok()) << game.error();
-    std::vector<uint64_t> hashes;
-    for (uint32_t frame = 0; game.ok() && frame < kFrames; ++frame) {
-        game->before_step();
-        game->step();
-        game->after_step();
-        hashes.push_back(game->world().hash());
-    }
-    return hashes;
+    return test::hashes_of(plan, kFrames, host);
 }
-
-/// "" or the first frame that differs.
-std::string difference(const std::vector<uint64_t>& a, const std::vector<uint64_t>& b) {
-    for (size_t f = 0; f < a.size(); ++f)
-        if (a[f] != b[f]) return "frame " + std::to_string(f);
-    return "";
-}
+using test::difference;
 
 /// Runs jobs from the last to the first, or in an order that changes with each call.
 struct OddJobs {
@@ -72,13 +57,13 @@ struct OddJobs {
     }
 };
 
-TEST_P(EveryScene, HashesAreEqualOnOneTwoAndThreeThreads) {
+TEST_P(EveryScene, HashesAreEqualOnOneTwoThreeAndEightThreads) {
     ScenePlan plan = plan_of(GetParam());
     plan.threads = 1;
     const std::vector<uint64_t> one = hashes_of(plan);
     ASSERT_EQ(one.size(), kFrames);
     EXPECT_NE(one.front(), one.back());
-    for (const uint32_t threads : {2u, 3u}) {
+    for (const uint32_t threads : {2u, 3u, 8u}) {
         plan.threads = threads;
         EXPECT_EQ(difference(one, hashes_of(plan)), "") << threads << " threads";
     }
@@ -170,7 +155,7 @@ TEST(Scenes, AnInfiniteStrengthNeverBreaks) {
     const Scene& pane = *find_scene("pane");
     Result<GameWorld> game = GameWorld::create(plan_scene(pane, options));
     ASSERT_TRUE(game.ok());
-    for (uint32_t frame = 0; frame < 60; ++frame) game->before_step(), game->step(), game->after_step();
+    for (uint32_t frame = 0; frame < 60; ++frame) test::play_frame(*game);
     EXPECT_EQ(game->sums().born, 0u);
     EXPECT_EQ(game->sums().events["crack_started"], 0u);
 }

@@ -29,7 +29,6 @@ struct Globe {
                 if (ring > 0) add({{{ring, s}, {ring + 1, s}, {ring, s + 1}}}, is_south, material(ring));
                 if (ring + 1 < kRings)
                     add({{{ring, s + 1}, {ring + 1, s}, {ring + 1, s + 1}}}, is_south, material(ring));
-                if (ring == 0) continue;
             }
     }
     void add(std::array<std::array<uint32_t, 2>, 3> at, bool is_flat, uint16_t material) {

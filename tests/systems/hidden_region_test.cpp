@@ -293,7 +293,7 @@ double threshold(Bare& bare, float turn, float height, uint32_t region, Has has)
     return high;
 }
 
-// Section 8 of the note: programs agree on medians of first cracks within 25 %, on loose pieces within 35 %.
+// Section 8 of the note: programs agree on medians of first cracks within 25 %. The 35 % on loose pieces are our own.
 TEST(HiddenRegion, CracksAndBreaksAtTheSpeedsOfTheWholeBody) {
     Bare bare(large_vase());
     std::vector<double> cracks, pieces;

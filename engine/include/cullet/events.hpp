@@ -58,8 +58,10 @@ struct DebrisEvent {
 struct RefusedEvent {
     BodyId body;
     uint64_t body_user_data = 0;
-    Vec3 place;                // world, its centre of mass, m
-    const char* setting = "";  // the one to raise, for example "limits.bodies"
+    Vec3 place;  // world, its centre of mass, m
+    /// The one to raise, for example "limits.bodies". "mesh_vertices": cracks of a quick or soft body have filled the
+    /// room that its mesh gives them, and nothing more of it splits in this hit; a shorter longest_edge gives more.
+    const char* setting = "";
 };
 
 /// Something went wrong with one body; it was frozen as it was and is reported once.

@@ -28,11 +28,11 @@ struct MaterialSettings {
     float density = 2400;            // kg/m3
     float young_modulus = 70e9f;     // Pa; of wood along the grain, as are the next two
     float poisson_ratio = 0.2f;      // of wood: contraction across for stretch along the grain
-    float tensile_strength = 50e6f;  // Pa, for loads of seconds; a blow's run takes twice that
-    float yield_strength = 0;        // Pa, of ductile ones; 0: none
+    float tensile_strength = 50e6f;  // Pa, for loads of seconds; a blow's run takes twice that; of brittle ones
+    float yield_strength = 0;        // Pa, 0: none. Kept for the table and checked; yield_strain decides
     float yield_strain = 0;          // where a ductile one begins to flow; 0: none
-    float break_strain = 7e-4f;      // where it tears
-    float fracture_energy = 20;      // J/m2, G_c
+    float break_strain = 7e-4f;      // where a ductile or elastic one tears; of a brittle one it decides nothing
+    float fracture_energy = 20;      // J/m2, G_c, of brittle ones
     float crush_strength = 6e9f;     // Pa: pressure under which the struck face gives way for good
     /// Of the blow while its damage is worked off, and of how long a soft body swings. Rigid bounces have
     /// ContactSettings::restitution instead, 0.2 if not given.
@@ -47,12 +47,12 @@ struct MaterialSettings {
     /// When a hit breaks the body, a crack that has stopped goes on if a border or another crack lies ahead within this
     /// times its own length: what is left would break under the pieces' weight. 0: it stays a hairline.
     float run_out = 0;
-    float bending_stiffness = 0;  // N m, of cloth; 0: E h^3 / 12 (1 - nu^2)
+    float bending_stiffness = 0;  // N m. Above 0, as of cloth: nothing resists bending. 0: E h^3 / 12 (1 - nu^2)
     // Across the grain. across_young_modulus 0: the same in all directions, and the others count for nothing.
-    float across_young_modulus = 0;  // Pa
-    float shear_modulus = 0;         // Pa, between along and across
-    float across_strength = 0;       // Pa
-    float across_break_strain = 0;
+    float across_young_modulus = 0;    // Pa
+    float shear_modulus = 0;           // Pa, between along and across
+    float across_strength = 0;         // Pa
+    float across_break_strain = 0;     // kept for the table; decides nothing
     float across_fracture_energy = 0;  // J/m2, of a crack that splits along the grain
 };
 

@@ -73,8 +73,9 @@ struct CookSettings {
     const MaterialTable* materials = nullptr;   // null: the compiled table
     std::optional<FractureKind> fracture = {};  // in place of the material's
     Vec3 grain{0, 1, 0};       // of wood, along its fibres, mesh coordinates, any length; counts for no other material
-    float thickness = 0.005f;  // m; thinner where the opposite wall is near
-    /// Edges longer than this are split first, m; 0: twice the thickness, or 2.5 % of the diagonal if that is larger.
+    float thickness = 0.005f;  // m, above 0, below the mesh's diagonal; thinner where the opposite wall is near
+    /// Edges longer than this are split first, m; at least 0. 0: twice the thickness, or 2.5 % of the diagonal if
+    /// larger.
     float longest_edge = 0;
     /// Points that are closer are one, as a share of the diagonal, 0 to 0.01. 0: equal ones only; 1e-7 heals a soup of
     /// triangles whose positions differ in the last digits.

@@ -30,7 +30,7 @@ struct Settings {
     /// slow machine.
     uint64_t units_a_frame = 8'000'000;
     /// A fast hit that is still being worked off holds its bodies where they touch for at most this long, s; 0 to 1. 0:
-    /// never. Bodies that break quickly are not held.
+    /// never. Bodies that break quickly are held too when their hits do not fit units_a_frame.
     float hold_seconds = 0.1f;
     /// Fragments break again down to this generation (0: only whole bodies break); 0 to 100.
     uint32_t generations = 3;
@@ -41,7 +41,7 @@ struct Settings {
     /// Pieces lighter than this share of the intact body, or of fewer elements than `debris_elements`, become debris;
     /// 0 to 1.
     float debris_share = 0.0005f;
-    uint32_t debris_elements = 6;
+    uint32_t debris_elements = 6;  // any number; 0 and 1: the share alone decides
     LimitSettings limits;
 };
 

@@ -30,8 +30,9 @@ struct Box {
 /// How a body meets others. Two bodies collide when each one's layer is in the other's mask. Of their frictions, and of
 /// their restitutions, the geometric mean counts.
 struct ContactSettings {
-    float friction = -1;     // < 0: the material's; 0.45 for what has none: spheres, static triangles, kinematic boxes
-    float restitution = -1;  // < 0: 0.2; used above 0.2 m/s
+    // At most 100. < 0: the material's; 0.45 for what has none: spheres, static triangles, kinematic boxes.
+    float friction = -1;
+    float restitution = -1;  // at most 1; < 0: 0.2; used above 0.2 m/s
     uint32_t layer = 1;      // bits
     uint32_t mask = 0xffffffffu;
 };
@@ -57,8 +58,8 @@ struct SpawnSettings {
 struct SphereSettings {
     Pose pose;
     Motion motion;
-    float radius = 0.1f;  // m
-    float mass = 1;       // kg
+    float radius = 0.1f;  // m, above 0, at most 1e6
+    float mass = 1;       // kg, above 0, at most 1e12
     ContactSettings contact;
     uint64_t user_data = 0;
 };
@@ -67,7 +68,7 @@ struct SphereSettings {
 struct KinematicSettings {
     Pose pose;
     Motion motion;
-    Vec3 half_extents{0.5f, 0.1f, 0.5f};  // of a box, m
+    Vec3 half_extents{0.5f, 0.1f, 0.5f};  // of a box, m, above 0, at most 1e6
     ContactSettings contact;
     uint64_t user_data = 0;
 };
@@ -109,15 +110,21 @@ class World {
     /// steps, between the parallel parts; must not call the world.
     void set_veto(bool (*allows)(void* user, const ImpactEvent& impact), void* user);
 
-    /// Models can go at any time; bodies made of them live on.
+    // All calls below refuse, with a sentence: handles of what is gone or never was; poses that are not finite, farther
+    // than 1e6 m from the origin along an axis or turned by no unit quaternion; velocities above 1e5 m/s or rad/s a
+    // component; values out of the ranges above; what a limit has no room for. What is refused changes nothing.
+    /// Models can go at any time; bodies made of them live on. Refused: an empty one, and one for which a table of the
+    /// world has no room.
     Result<ModelId> add_model(const Model& model);
     Result<void> remove_model(ModelId model);
 
     Result<BodyId> spawn(ModelId model, const SpawnSettings& settings = {});
     Result<BodyId> add_sphere(const SphereSettings& settings);
     Result<BodyId> add_kinematic_box(const KinematicSettings& settings);
-    /// Triangles in world coordinates that never move: floors, tables, level geometry.
+    /// Triangles in world coordinates that never move: floors, tables, level geometry. Refused: no triangles, indices
+    /// beyond the positions, positions that are not finite or beyond 1e6 m.
     Result<BodyId> add_static(const MeshView& triangles, const ContactSettings& contact = {}, uint64_t user_data = 0);
+    /// Hits on it that are worked off go with it.
     Result<void> remove(BodyId body);
 
     bool is_alive(BodyId body) const;
@@ -126,9 +133,12 @@ class World {
     Result<double> mass(BodyId body) const;  // kg
     Result<uint64_t> user_data(BodyId body) const;
     Result<bool> is_asleep(BodyId body) const;
+    /// Puts the body there at once and wakes it. Refused of static triangles.
     Result<void> set_pose(BodyId body, const Pose& pose);
+    /// Of its centre of mass. Wakes the body. Refused of static and pinned bodies.
     Result<void> set_motion(BodyId body, const Motion& motion);
-    /// At a world place, N s. Wakes the body.
+    /// At a world place, N s, any finite one that leaves the body's velocities in range. Wakes the body; does nothing
+    /// to one that forces do not move.
     Result<void> apply_impulse(BodyId body, Vec3 impulse, Vec3 place);
     Result<void> wake(BodyId body);
 

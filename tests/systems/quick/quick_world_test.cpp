@@ -57,6 +57,30 @@ std::vector<uint64_t> hashes_of(World& world, uint32_t frames) {
     return hashes;
 }
 
+TEST(QuickWorld, ARunWithoutRoomForMoreSplitsSaysSoAndIsCounted) {
+    for (const bool is_full : {false, true}) {
+        Breakage b = quick_and_ball(threads_of(1), small_vase(), {}, kSpeed);
+        State& state = state_of(b.world);
+        // As if its shell had no row left.
+        after_each_system(b.world, [&](const std::string& system) {
+            for (uint32_t t = 0; system == "start_regions" && t < state.quick_runs.size(); ++t)
+                if (state.quick_runs.is_quick[t]) state.quick_runs.is_full[t] = is_full;
+        });
+        uint32_t events = 0;
+        for (uint32_t frame = 0; frame < 30; ++frame) {
+            b.world.step();
+            for (const RefusedEvent& e : b.world.events().refused) {
+                EXPECT_STREQ(e.setting, "mesh_vertices");
+                EXPECT_EQ(e.body.index, b.body.index);
+                ++events;
+            }
+        }
+        EXPECT_EQ(b.world.contents().data.counts.cuts_refused, events);
+        EXPECT_EQ(events > 0, is_full);
+        EXPECT_EQ(shells_of(b.world).size() > 1, !is_full);
+    }
+}
+
 TEST(QuickWorld, HashesAreEqualOnOneTwoThreeAndEightThreads) {
     for (const uint32_t layers : {1u, 2u}) {
         std::vector<uint64_t> first;

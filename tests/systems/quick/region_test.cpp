@@ -140,14 +140,15 @@ TEST(QuickRegion, EnergyFallsOrStaysInRandomBlows) {
             HitBench bench(subject, known->model);
             QuickSettings quick;
             quick.layers = layers;
+            // Its limit as a spawn finds it: without a first-crack speed it is the material's, and no wall breaks.
+            bench.break_quickly(quick, static_cast<float>(known->known.first_crack));
             double worst = 0;
             uint32_t broke = 0, dropped = 0;
             constexpr uint32_t kBlows = 60;
             for (uint32_t i = 0; i < kBlows; ++i) {
                 const auto speed = static_cast<float>(3 + 47 * random.uniform(i, layers));
-                HitDescription hit = quick_blow(bench, 500 + i, speed, quick);
                 State& state = bench.state();
-                ASSERT_TRUE(open_hit(state, bench.shell(), hit));
+                ASSERT_TRUE(open_hit(state, bench.shell(), bench.blow(500 + i, speed)));
                 drive(state, [&](const RegionView& region) {
                     const TaskEnergy energy = region_energy(region);
                     const double wanted = state.tasks.start_energy[kTask] + energy.work;
@@ -160,6 +161,7 @@ TEST(QuickRegion, EnergyFallsOrStaysInRandomBlows) {
             }
             std::printf("%s, %u layers: %u blows, %u broke, %u dropped, at most %.4f of the energy put in\n",
                         known->name, layers, kBlows, broke, dropped, worst);
+            EXPECT_GE(broke, kBlows / 4) << known->name;
             EXPECT_EQ(dropped, 0u) << known->name;
             EXPECT_LE(worst, 1.05) << known->name;
         }

@@ -1,5 +1,5 @@
-// What holds after any history of splits, on generated meshes and on strangers' (thick shell note, section 14: T7 to
-// T9, T12).
+// What holds after any history of splits, on generated meshes and on strangers' (thick shell note, section 7: T7 to T9,
+// T12).
 #include <gtest/gtest.h>
 #include <rapidcheck.h>
 

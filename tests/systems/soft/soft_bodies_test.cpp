@@ -200,6 +200,23 @@ TEST(SoftBodies, TearBeforeTheyAreDrawnOutBeyondTheirBreakStrain) {
     EXPECT_LE(strain - kStep, limit + kStep);
 }
 
+TEST(SoftBodies, OnesWithoutRoomForMoreTearsSaySo) {
+    Sheet sheet = make_sheet(cloth_sheet(), soft_settings(), frame_pins(), 0.3f);
+    const std::vector<Vec3> shape = sheet.shape();
+    sheet.call();
+    sheet.world.step();
+    ASSERT_TRUE(sheet.is_awake());
+    EXPECT_EQ(sheet.world.events().refused.count, 0u);
+    // As if all slots were taken: a split finds none.
+    Range& slots = sheet.view().own().slots[sheet.view().row];
+    slots.capacity = slots.count;
+    put_stretched(sheet.view(), shape, 2 * sheet.state().soft_bodies.break_strain[sheet.soft()]);
+    sheet.world.step();
+    ASSERT_EQ(sheet.world.events().refused.count, 1u);
+    EXPECT_STREQ(sheet.world.events().refused.begin()->setting, "mesh_vertices");
+    EXPECT_EQ(sheet.state().soft_bodies.tear_count[sheet.soft()], 0u);
+}
+
 TEST(SoftBodies, WhatLosesItsPinsFalls) {
     Settings settings = soft_settings();
     settings.gravity = {0, -9.81f, 0};
