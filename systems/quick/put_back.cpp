@@ -28,8 +28,8 @@ struct PutBack {
         const uint32_t count = s.quick_runs.cut_elements[task];
         std::copy_n(s.elements.part.data() + cut.elements().first, count, rows.list);
         rows.number(count);
-        for (uint32_t v = 0; v < source.vertex_count(); ++v)
-            if (rows.vertex(v) != kNone) s.vertices.copy[cut.vertex(rows.vertex(v))] = v;
+        uint32_t place = 0;
+        rows.for_each_vertex([&](uint32_t v) { s.vertices.copy[cut.vertex(place++)] = v; });
         rows.for_each_hinge(
             [&](uint32_t, uint32_t, uint32_t, uint32_t, uint32_t h) { hinge_list[rows.hinge_count++] = h; });
     }
@@ -236,10 +236,31 @@ void put_hinges(const PutBack& p) {
 
 void move_the_rest(const PutBack& p, const BodyMotion& motion) {
     Vertices& vertices = p.state.vertices;
-    for (uint32_t v = 0; v < p.source.vertex_count(); ++v) {
-        if (p.rows.vertex(v) != kNone) continue;
-        const uint32_t row = p.source.vertex(v);
-        vertices.velocity.set(row, vertices.inverse_mass[row] > 0 ? motion.at(vertices.rest[row]).to_float() : Vec3{});
+    const uint32_t first = p.source.vertex(0), count = p.source.vertex_count();
+    const float *const x = vertices.rest.lane(0) + first, *const y = vertices.rest.lane(1) + first,
+                       *const z = vertices.rest.lane(2) + first;
+    const float* const inverse_mass = vertices.inverse_mass.data() + first;
+    float *const to_x = vertices.velocity.lane(0) + first, *const to_y = vertices.velocity.lane(1) + first,
+                 *const to_z = vertices.velocity.lane(2) + first;
+    // What the run gave the vertices of a word, while all of the word's are written: no branch in the loop.
+    constexpr uint32_t kWord = 32;
+    for (uint32_t word = 0; word < count; word += kWord) {
+        const uint32_t rows = std::min(kWord, count - word), in_cut = p.rows.has_vertex.words[word / kWord];
+        if (in_cut == ~0u) continue;
+        float own[3][kWord];
+        for (uint32_t left = in_cut; left != 0; left &= left - 1) {
+            const auto i = static_cast<uint32_t>(std::countr_zero(left));
+            own[0][i] = to_x[word + i], own[1][i] = to_y[word + i], own[2][i] = to_z[word + i];
+        }
+        for (uint32_t v = word; v < word + rows; ++v) {
+            const Vec3 moved = motion.at({x[v], y[v], z[v]}).to_float();
+            const bool is_free = inverse_mass[v] > 0;
+            to_x[v] = is_free ? moved.x : 0, to_y[v] = is_free ? moved.y : 0, to_z[v] = is_free ? moved.z : 0;
+        }
+        for (uint32_t left = in_cut; left != 0; left &= left - 1) {
+            const auto i = static_cast<uint32_t>(std::countr_zero(left));
+            to_x[word + i] = own[0][i], to_y[word + i] = own[1][i], to_z[word + i] = own[2][i];
+        }
     }
 }
 
@@ -297,6 +318,7 @@ std::string trouble_of_cut_out(State& state, uint32_t task) {
         if (listed[e] >= source.element_count() || (e > 0 && listed[e] <= listed[e - 1]) ||
             (state.elements.flags[source.element(listed[e])] & kDead))
             return where + ": its elements are not rising ones of the body";
+    if (!CutRows::has_room(source)) return where + ": the body has vertices that belong to no element";
     CutRows rows(source);
     std::copy_n(listed, count, rows.list);
     rows.number(count);
