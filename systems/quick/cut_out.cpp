@@ -27,8 +27,7 @@ uint32_t spare_of(const Range& range) {
     return range.capacity - range.count;
 }
 
-/// The flood from the patches. Vertices wait chained through Vertices.copy; elements are found when the first of their
-/// corners is looked at.
+/// The flood from the patches, whose vertices are chained through Vertices.copy.
 struct Flood {
     const ShellView& shell;
     RowBits is_found, is_queued;  // elements, vertices
@@ -70,25 +69,43 @@ void add_patches(State& state, Row<Tasks> task, Flood& flood) {
         });
 }
 
-/// False: more elements than flood.most.
-bool spread(Flood& flood, const CutOutSize& size) {
-    uint32_t at = flood.first, ring = 0, end_of_ring = flood.queued;
-    for (uint32_t seen = 0; at != kNone; ++seen) {
-        if (seen == end_of_ring) {
-            if (ring == size.rings || flood.queued >= size.vertices) break;
-            ++ring;
-            end_of_ring = flood.queued;
+/// Rings of vertices and all elements at them. An element of the next ring lies across an edge, of one found so far,
+/// with an end that is no newer than the ring: each element is looked at once, not from each of its corners. The list
+/// is the queue; Vertices.copy says in which ring a vertex came. False: more elements than flood.most.
+bool spread(Flood& flood, const CutOutSize& size, uint32_t* list) {
+    const Elements& elements = flood.shell.state.elements;
+    uint32_t* const ring_of = flood.shell.state.vertices.copy.data() + flood.shell.vertex(0);
+    const auto find = [&](uint32_t e, uint32_t ring) {
+        if (flood.is_found.has(e)) return;
+        flood.is_found.add(e);
+        list[flood.count++] = e;
+        for (const uint32_t v : elements.corner[flood.shell.element(e)]) {
+            if (flood.is_queued.has(v)) continue;
+            flood.is_queued.add(v);
+            ++flood.queued;
+            ring_of[v] = ring + 1;
         }
-        for_each_element_at(flood.shell, at, [&](uint32_t e) {
-            if (flood.is_found.has(e)) return;
-            flood.is_found.add(e);
-            ++flood.count;
-            for (const uint32_t v : flood.shell.state.elements.corner[flood.shell.element(e)]) flood.add(v);
-        });
-        if (flood.count >= flood.most) return false;
-        at = flood.next(at);
+    };
+    for (uint32_t v = flood.first; v != kNone;) {
+        const uint32_t next = flood.next(v);
+        for_each_element_at(flood.shell, v, [&](uint32_t e) { find(e, 0); });
+        ring_of[v] = 0;
+        v = next;
     }
-    return true;
+    uint32_t begin = 0;  // of those that the ring before found: all elements at its vertices border on one of them
+    for (uint32_t ring = 1; ring <= size.rings && flood.queued < size.vertices; ++ring) {
+        const uint32_t end = flood.count;
+        for (uint32_t i = begin; i < flood.count && flood.count < flood.most; ++i) {
+            const uint32_t row = flood.shell.element(list[i]);
+            const auto &corner = elements.corner[row], &neighbour = elements.neighbour[row];
+            const bool is_at[3] = {ring_of[corner[0]] <= ring, ring_of[corner[1]] <= ring, ring_of[corner[2]] <= ring};
+            for (uint32_t k = 0; k < 3; ++k)
+                if (neighbour[k] != kNone && (is_at[k] || is_at[(k + 1) % 3])) find(neighbour[k], ring);
+        }
+        if (flood.count == end || flood.count >= flood.most) break;
+        begin = end;
+    }
+    return flood.count < flood.most;
 }
 
 /// Of rows that are assembled anew: slots of the body's packs are counted, of which a vertex has at least as many.
@@ -203,7 +220,7 @@ CutOutResult reserve_cut_out(State& state, Row<Tasks> task, const CutOutSize& si
     flood.is_found.clear(source.element_count());
     flood.is_queued.clear(source.vertex_count());
     add_patches(state, task, flood);
-    if (!spread(flood, size) || flood.count == 0) return CutOutResult::TooWide;
+    if (!spread(flood, size, rows.list) || flood.count == 0) return CutOutResult::TooWide;
     uint32_t listed = 0;
     flood.is_found.for_each(source.element_count(), [&](uint32_t e) { rows.list[listed++] = e; });
     rows.number(flood.count);

@@ -19,8 +19,8 @@ inline constexpr uint8_t kIsTouched = 4;
 /// the body it says what rows stand where.
 void copy_kept_rows(AnyTable& table, uint32_t from, uint32_t to, uint32_t count);
 
-/// Which rows of a range are meant, 32 in a word: to clear them and to look for those that are costs a thirtieth of what
-/// a mark a row does.
+/// Which rows of a range are meant, 32 in a word: to clear them and to look for those that are costs a thirtieth of
+/// what a mark a row does.
 struct RowBits {
     uint32_t* words;
 

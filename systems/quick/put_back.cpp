@@ -1,5 +1,6 @@
 // A cut-out's rows go back into the body's shell.
 #include <algorithm>
+#include <bit>
 
 #include "systems/damage/ring.hpp"
 #include "systems/fragments/group_fragments.hpp"
@@ -164,6 +165,16 @@ void mark_cell(const PutBack& p, uint32_t e, const Links& now, const Links* then
     return is_same;
 }
 
+/// Vertices that name an element which a cut, or a vertex put on its edge, has taken from them name another.
+void leave_element(const PutBack& p, uint32_t e, const Links& now, const Links& then) {
+    Vertices& vertices = p.state.vertices;
+    for (const uint32_t v : then.corner) {
+        uint32_t& element = vertices.element[p.source.vertex(v)];
+        if (element == p.element(e) && std::find(now.corner.begin(), now.corner.end(), v) == now.corner.end())
+            element = p.element(vertices.element[p.cut.vertex(p.rows.vertex(v))]);
+    }
+}
+
 bool is_touched(const PutBack& p, uint32_t e) {
     return !p.is_marked || e >= p.rows.element_count || (p.state.elements.flags[p.cut.element(e)] & kIsTouched) != 0;
 }
@@ -180,6 +191,7 @@ void put_element(const PutBack& p, uint32_t e) {
     const Links before = links_of(elements, to), now = links_now(p, e, is_old ? &before : nullptr);
     if (is_old && now == before) return;
     mark_cell(p, e, now, is_old ? &before : nullptr);
+    if (is_old) leave_element(p, e, now, before);
     const uint32_t part = elements.part[is_old ? to : p.source.element(p.rows.list[0])];
     copy_kept_rows(elements, from, to, 1);
     state.triangle_springs.copy_rows(state.triangle_springs, from, to, 1);
@@ -189,15 +201,6 @@ void put_element(const PutBack& p, uint32_t e) {
     elements.neighbour[to] = now.neighbour;
     elements.hinge[to] = now.hinge;
     elements.edge_kind[to] = now.edge_kind;
-}
-
-/// The element that a vertex names may have lost it to a cut or to a vertex put on its edge.
-void follow_elements(const PutBack& p) {
-    Vertices& vertices = p.state.vertices;
-    for (uint32_t v = 0; v < p.rows.vertex_count; ++v) {
-        uint32_t& element = vertices.element[p.source.vertex(p.vertex(v))];
-        if (corner_of(p.source, element, p.vertex(v)) == 3) element = p.element(vertices.element[p.cut.vertex(v)]);
-    }
 }
 
 void put_hinge(const PutBack& p, uint32_t h) {
@@ -213,13 +216,13 @@ void put_hinge(const PutBack& p, uint32_t h) {
     hinges.vertex[to] = vertex;
 }
 
-/// Those that died, those of elements that changed, and new ones.
+/// Those that died, those of elements that changed or, where nobody told which did, all, and new ones.
 void put_hinges(const PutBack& p) {
     const Hinges& hinges = p.state.hinges;
     const uint32_t old = p.rows.hinge_count;
     for (uint32_t h = 0; h < old; ++h)
-        if (hinges.vertex[p.cut.hinge(h)][0] == kNone) put_hinge(p, h);
-    for (uint32_t e = 0; e < p.cut.element_count(); ++e) {
+        if (!p.is_marked || hinges.vertex[p.cut.hinge(h)][0] == kNone) put_hinge(p, h);
+    for (uint32_t e = 0; p.is_marked && e < p.cut.element_count(); ++e) {
         if (!is_touched(p, e)) continue;
         for (const uint32_t h : p.state.elements.hinge[p.cut.element(e)])
             if (h < old) put_hinge(p, h);
@@ -269,8 +272,13 @@ void put_rows(State& state, Row<Tasks> task, const PutBack& p, const BodyMotion&
     tell_starts(p, state.tasks.body[task], cracks);
     put_vertices(p);
     for (uint32_t e = 0; e < p.cut.element_count(); ++e) put_element(p, e);
-    follow_elements(p);
     put_hinges(p);
+#ifdef CULLET_CHECKED
+    p.for_each_vertex([&](uint32_t v) {
+        CULLET_ASSERT(corner_of(p.source, state.vertices.element[p.source.vertex(p.vertex(v))], p.vertex(v)) < 3,
+                      "vertex %u names an element that is not at it", p.vertex(v));
+    });
+#endif
     move_the_rest(p, motion);
     const uint32_t vertices = p.cut.vertex_count() - p.first_new_vertex(),
                    elements = p.cut.element_count() - p.rows.element_count,
@@ -282,6 +290,18 @@ void put_rows(State& state, Row<Tasks> task, const PutBack& p, const BodyMotion&
     drop_stiffness(state, p.source.row);
 }
 
+/// At first each contact has at most a part of its own, and no cut edge makes more than one of another.
+bool has_too_many_parts(const PutBack& p, Row<Tasks> task) {
+    const uint32_t most = kMostContacts + p.state.tasks.crack_count[task];
+#ifndef CULLET_CHECKED
+    if (most <= kMostParts) return false;
+#endif
+    const std::span parts(p.state.fragments.part.data() + size_t{task} * kMostParts, kMostParts);
+    const uint32_t count = group_fragments(p.cut, parts);
+    CULLET_ASSERT(count <= most, "%u parts of a cut-out, of which no more than %u edges were cut", count, most);
+    return count > kMostParts && most > kMostParts;
+}
+
 }  // namespace
 
 void put_back(State& state, Row<Tasks> task, const BodyMotion& motion, Events<CrackStartedEvent>& cracks) {
@@ -291,8 +311,7 @@ void put_back(State& state, Row<Tasks> task, const BodyMotion& motion, Events<Cr
     if (static_cast<TaskState>(tasks.state[task]) != TaskState::Dropped && has_changed) {
         const PutBack p(state, task);
         // Later there is no way back. The body has no more pieces than the cut-out by itself.
-        const std::span parts(state.fragments.part.data() + size_t{task} * kMostParts, kMostParts);
-        if (group_fragments(p.cut, parts) > kMostParts)
+        if (has_too_many_parts(p, task))
             tasks.state[task] = static_cast<uint8_t>(TaskState::Dropped);
         else
             put_rows(state, task, p, motion, cracks);
