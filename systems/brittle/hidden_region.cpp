@@ -103,7 +103,7 @@ void weigh_rest(State& state, Row<Tasks> task, const CutRows& rows) {
     const Vertices& vertices = state.vertices;
     MassSum rest, moving;
     for (uint32_t v = 0; v < source.vertex_count(); ++v) {
-        const uint32_t row = source.vertex(v), place = vertices.copy[row];
+        const uint32_t row = source.vertex(v), place = rows.vertex(v);
         if (vertices.element[row] == kNone) continue;
         const bool moves = place != kNone && vertices.copy[cut.vertex(place)] >= kHeldRings;
         (moves ? moving : rest).add(vertices, row);

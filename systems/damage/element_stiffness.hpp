@@ -25,11 +25,11 @@ inline PlaneStress plane_stress(const State& state, Row<Shells> shell) {
 
 /// What one triangle does to forces, unscaled.
 struct TriangleTerms {
-    Vec3d x, y;           // axes in the plane
-    double g[3][2];       // gradient of each corner's shape function, 1/m
-    double volume;        // area * h, m3
-    PlaneStress stress;   // Pa
-    PlaneStiffness full;  // in x, y; of a material with a grain
+    Vec3d x, y;                 // axes in the plane
+    double g[3][2];             // gradient of each corner's shape function, 1/m
+    double volume;              // area * h, m3
+    const PlaneStress& stress;  // Pa; the caller's, which is more than the rest of a triangle
+    PlaneStiffness full;        // in x, y; of a material with a grain
 
     TriangleTerms(const TriangleSprings& springs, uint32_t row, const PlaneStress& c)
         : x(springs.axis_x[row]),

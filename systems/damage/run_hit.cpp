@@ -88,7 +88,10 @@ HitReport finish_hit(State& state) {
     HitReport report;
     const bool is_quick = is_quick_task(state, kTask);
     const TaskEnergy of_region = is_quick ? region_energy(RegionView(state, kTask)) : TaskEnergy{};
-    if (is_quick) close_region(state, kTask), report.awake = state.quick_runs.awake_count[kTask];
+    if (is_quick) {
+        close_region(state, kTask, BodyMotion(state, kTask));
+        report.awake = state.quick_runs.awake_count[kTask];
+    }
     report.steps = tasks.steps_done[kTask];
     report.cuts = tasks.crack_count[kTask];
     report.starts = tasks.start_count[kTask];

@@ -27,6 +27,10 @@ void add_hinge(const ShellView& shell, uint32_t vertex, uint32_t hinge, VertexRo
     while (i < 4 && v[i] != vertex) ++i;
     if (i == 4) return;
     const float* gi = &g[3 * i];
+    // Three values of own times three of the other's, by rows: nine in a row are two at a time.
+    double own[9], others[9];
+    for (int r = 0; r < 3; ++r)
+        for (int c = 0; c < 3; ++c) own[3 * r + c] = gi[r];
     for (uint32_t j = 0; j < 4; ++j) {
         if (j == i) continue;
         const float* gj = &g[3 * j];
@@ -38,7 +42,8 @@ void add_hinge(const ShellView& shell, uint32_t vertex, uint32_t hinge, VertexRo
         } else {
             double* k = row.block(v[j]);
             for (int r = 0; r < 3; ++r)
-                for (int c = 0; c < 3; ++c) k[3 * r + c] -= stiffness * (double{gi[r]} * gj[c]);
+                for (int c = 0; c < 3; ++c) others[3 * r + c] = gj[c];
+            for (int m = 0; m < 9; ++m) k[m] -= stiffness * (own[m] * others[m]);
         }
     }
 }

@@ -27,20 +27,18 @@ uint32_t spare_of(const Range& range) {
     return range.capacity - range.count;
 }
 
-constexpr uint32_t kUnseen = kNone - 1;  // of Vertices.copy: else the next of the queue, or kNone
-
-/// The flood from the patches. Vertices wait chained through Vertices.copy; elements are found when the first of their
-/// corners is looked at, and marked in Elements.next.
+/// The flood from the patches, whose vertices are chained through Vertices.copy.
 struct Flood {
     const ShellView& shell;
-    uint32_t* is_found;  // of each element
-    uint32_t most;       // elements
+    RowBits is_found, is_queued;  // elements, vertices
+    uint32_t most;                // elements
     uint32_t count = 0;
     uint32_t first = kNone, last = kNone, queued = 0;
 
     uint32_t& next(uint32_t v) const { return shell.state.vertices.copy[shell.vertex(v)]; }
     void add(uint32_t v) {
-        if (next(v) != kUnseen) return;
+        if (is_queued.has(v)) return;
+        is_queued.add(v);
         next(v) = kNone;
         if (last != kNone) next(last) = v;
         if (first == kNone) first = v;
@@ -71,47 +69,67 @@ void add_patches(State& state, Row<Tasks> task, Flood& flood) {
         });
 }
 
-/// False: more elements than flood.most.
-bool spread(Flood& flood, const CutOutSize& size) {
-    uint32_t at = flood.first, ring = 0, end_of_ring = flood.queued;
-    for (uint32_t seen = 0; at != kNone; ++seen) {
-        if (seen == end_of_ring) {
-            if (ring == size.rings || flood.queued >= size.vertices) break;
-            ++ring;
-            end_of_ring = flood.queued;
+/// Rings of vertices and all elements at them. An element of the next ring lies across an edge, of one found so far,
+/// with an end that is no newer than the ring: each element is looked at once, not from each of its corners. The list
+/// is the queue; Vertices.copy says in which ring a vertex came. False: more elements than flood.most.
+bool spread(Flood& flood, const CutOutSize& size, uint32_t* list) {
+    const Elements& elements = flood.shell.state.elements;
+    uint32_t* const ring_of = flood.shell.state.vertices.copy.data() + flood.shell.vertex(0);
+    const auto find = [&](uint32_t e, uint32_t ring) {
+        if (flood.is_found.has(e)) return;
+        flood.is_found.add(e);
+        list[flood.count++] = e;
+        for (const uint32_t v : elements.corner[flood.shell.element(e)]) {
+            if (flood.is_queued.has(v)) continue;
+            flood.is_queued.add(v);
+            ++flood.queued;
+            ring_of[v] = ring + 1;
         }
-        for_each_element_at(flood.shell, at, [&](uint32_t e) {
-            if (flood.is_found[e]) return;
-            flood.is_found[e] = 1;
-            ++flood.count;
-            for (const uint32_t v : flood.shell.state.elements.corner[flood.shell.element(e)]) flood.add(v);
-        });
-        if (flood.count >= flood.most) return false;
-        at = flood.next(at);
+    };
+    for (uint32_t v = flood.first; v != kNone;) {
+        const uint32_t next = flood.next(v);
+        for_each_element_at(flood.shell, v, [&](uint32_t e) { find(e, 0); });
+        ring_of[v] = 0;
+        v = next;
     }
-    return true;
+    uint32_t begin = 0;  // of those that the ring before found: all elements at its vertices border on one of them
+    for (uint32_t ring = 1; ring <= size.rings && flood.queued < size.vertices; ++ring) {
+        const uint32_t end = flood.count;
+        for (uint32_t i = begin; i < flood.count && flood.count < flood.most; ++i) {
+            const uint32_t row = flood.shell.element(list[i]);
+            const auto &corner = elements.corner[row], &neighbour = elements.neighbour[row];
+            const bool is_at[3] = {ring_of[corner[0]] <= ring, ring_of[corner[1]] <= ring, ring_of[corner[2]] <= ring};
+            for (uint32_t k = 0; k < 3; ++k)
+                if (neighbour[k] != kNone && (is_at[k] || is_at[(k + 1) % 3])) find(neighbour[k], ring);
+        }
+        if (flood.count == end || flood.count >= flood.most) break;
+        begin = end;
+    }
+    return flood.count < flood.most;
 }
 
 /// Of rows that are assembled anew: slots of the body's packs are counted, of which a vertex has at least as many.
 void add_stiffness_room(const CutRows& rows, ShellRoom& room) {
     SlotCount slots;
-    for (uint32_t v = 0; v < rows.source.vertex_count(); ++v)
-        if (rows.vertex(v) != kNone) slots.add(rows.source, v);
+    rows.for_each_vertex([&](uint32_t v) { slots.add(rows.source, v); });
     const ShellRoom stiffness = slots.room(rows.source, room.vertices - rows.vertex_count);
     room.blocks = stiffness.blocks, room.links = stiffness.links;
 }
 
 void copy_vertices(const CutRows& rows, const ShellView& cut) {
     Vertices& vertices = cut.state.vertices;
-    for (uint32_t v = 0; v < rows.source.vertex_count();) {
-        const uint32_t first = v, to = rows.vertex(v);
-        if (to == kNone) {
-            ++v;
-            continue;
+    uint32_t next = 0, first = 0, run = 0;  // rows [first, first + run) of the body, to be copied behind next - run
+    const auto copy_run = [&] {
+        if (run > 0) vertices.copy_rows(vertices, rows.source.vertex(first), cut.vertex(next - run), run);
+    };
+    rows.for_each_vertex([&](uint32_t v) {
+        if (v != first + run) {
+            copy_run();
+            first = v, run = 0;
         }
-        while (v < rows.source.vertex_count() && rows.vertex(v) != kNone) ++v;
-        vertices.copy_rows(vertices, rows.source.vertex(first), cut.vertex(to), v - first);
-    }
+        ++run, ++next;
+    });
+    copy_run();
     for (uint32_t v = 0; v < rows.vertex_count; ++v) {
         uint32_t& start = vertices.crack_start[cut.vertex(v)];
         if (start != kNone) start = rows.vertex(start);
@@ -176,6 +194,7 @@ bool may_cut_out(const State& state, Row<Bodies> body) {
     const Row<Shells> shell = state.bodies.shell[body];
     const Shells& shells = state.shells;
     if (!is_for_cut_outs(state, shell, is_quick_body(state, body)) || shells.users[shell] != 1) return false;
+    if (!CutRows::has_room(ShellView(const_cast<State&>(state), shell))) return false;
     return spare_of(shells.vertices[shell]) >= kLeastSpare && spare_of(shells.elements[shell]) >= 2 * kLeastSpare &&
            spare_of(shells.hinges[shell]) >= 3 * kLeastSpare;
 }
@@ -197,13 +216,13 @@ CutOutSize quick_cut_out_size(const State& state, Row<Tasks> task) {
 CutOutResult reserve_cut_out(State& state, Row<Tasks> task, const CutOutSize& size, const char** full) {
     const ShellView source(state, state.tasks.source[task]);
     CutRows rows(source);
-    Flood flood{source, state.elements.next.data() + source.elements().first, source.element_count() / 2};
-    std::fill_n(state.vertices.copy.data() + source.vertex(0), source.vertex_count(), kUnseen);
-    std::fill_n(flood.is_found, source.element_count(), 0u);
+    Flood flood{source, rows.has_element, rows.has_vertex, source.element_count() / 2};
+    flood.is_found.clear(source.element_count());
+    flood.is_queued.clear(source.vertex_count());
     add_patches(state, task, flood);
-    if (!spread(flood, size) || flood.count == 0) return CutOutResult::TooWide;
-    for (uint32_t e = 0, listed = 0; listed < flood.count; ++e)
-        if (flood.is_found[e]) rows.list[listed++] = e;
+    if (!spread(flood, size, rows.list) || flood.count == 0) return CutOutResult::TooWide;
+    uint32_t listed = 0;
+    flood.is_found.for_each(source.element_count(), [&](uint32_t e) { rows.list[listed++] = e; });
     rows.number(flood.count);
     rows.count_hinges();
     const Range vertices = source.vertices(), elements = source.elements(), hinges = source.hinges();

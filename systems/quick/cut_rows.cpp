@@ -1,22 +1,22 @@
 #include "systems/quick/cut_rows.hpp"
 
-#include <algorithm>
 #include <cstring>
 
 namespace cullet {
 
+// A vertex belongs to some element, so that the bits of both, an eighth of a word an element and at most three times
+// that, fit three words an element.
 void CutRows::number(uint32_t count) {
+    static_assert(sizeof(std::array<uint32_t, 3>) == 3 * sizeof(uint32_t));
     const Elements& elements = source.state.elements;
-    constexpr uint32_t kCorner = 0;
     element_count = count;
-    std::fill_n(vertex_place_, source.vertex_count(), kNone);
+    has_vertex.clear(source.vertex_count());
     for (uint32_t e = 0; e < count; ++e) {
         element_place_[list[e]] = e;
-        for (const uint32_t v : elements.corner[source.element(list[e])]) vertex_place_[v] = kCorner;
+        for (const uint32_t v : elements.corner[source.element(list[e])]) has_vertex.add(v);
     }
     vertex_count = 0;
-    for (uint32_t v = 0; v < source.vertex_count(); ++v)
-        if (vertex_place_[v] == kCorner) vertex_place_[v] = vertex_count++;
+    for_each_vertex([&](uint32_t v) { vertex_place_[v] = vertex_count++; });
 }
 
 void copy_kept_rows(AnyTable& table, uint32_t from, uint32_t to, uint32_t count) {

@@ -15,8 +15,9 @@ bool for_each_element_at(const ShellView& shell, uint32_t vertex, F&& f) {
         uint32_t at = begin, steps = 0;
         while (at != kNone && steps++ < kMostRing) {
             if (turn == 2 || at != begin) f(at);
-            const uint32_t k = corner_of(shell, at, vertex);
-            if (k == 3) return false;
+            const auto& corner = elements.corner[shell.element(at)];
+            const uint32_t k = corner[0] == vertex ? 0 : corner[1] == vertex ? 1 : 2;
+            if (corner[k] != vertex) return false;
             at = elements.neighbour[shell.element(at)][(k + turn) % 3];
             if (at == begin) return true;
         }

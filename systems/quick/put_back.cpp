@@ -1,5 +1,6 @@
 // A cut-out's rows go back into the body's shell.
 #include <algorithm>
+#include <bit>
 
 #include "systems/damage/ring.hpp"
 #include "systems/fragments/group_fragments.hpp"
@@ -28,8 +29,8 @@ struct PutBack {
         const uint32_t count = s.quick_runs.cut_elements[task];
         std::copy_n(s.elements.part.data() + cut.elements().first, count, rows.list);
         rows.number(count);
-        for (uint32_t v = 0; v < source.vertex_count(); ++v)
-            if (rows.vertex(v) != kNone) s.vertices.copy[cut.vertex(rows.vertex(v))] = v;
+        uint32_t place = 0;
+        rows.for_each_vertex([&](uint32_t v) { s.vertices.copy[cut.vertex(place++)] = v; });
         rows.for_each_hinge(
             [&](uint32_t, uint32_t, uint32_t, uint32_t, uint32_t h) { hinge_list[rows.hinge_count++] = h; });
     }
@@ -164,6 +165,16 @@ void mark_cell(const PutBack& p, uint32_t e, const Links& now, const Links* then
     return is_same;
 }
 
+/// Vertices that name an element which a cut, or a vertex put on its edge, has taken from them name another.
+void leave_element(const PutBack& p, uint32_t e, const Links& now, const Links& then) {
+    Vertices& vertices = p.state.vertices;
+    for (const uint32_t v : then.corner) {
+        uint32_t& element = vertices.element[p.source.vertex(v)];
+        if (element == p.element(e) && std::find(now.corner.begin(), now.corner.end(), v) == now.corner.end())
+            element = p.element(vertices.element[p.cut.vertex(p.rows.vertex(v))]);
+    }
+}
+
 bool is_touched(const PutBack& p, uint32_t e) {
     return !p.is_marked || e >= p.rows.element_count || (p.state.elements.flags[p.cut.element(e)] & kIsTouched) != 0;
 }
@@ -180,6 +191,7 @@ void put_element(const PutBack& p, uint32_t e) {
     const Links before = links_of(elements, to), now = links_now(p, e, is_old ? &before : nullptr);
     if (is_old && now == before) return;
     mark_cell(p, e, now, is_old ? &before : nullptr);
+    if (is_old) leave_element(p, e, now, before);
     const uint32_t part = elements.part[is_old ? to : p.source.element(p.rows.list[0])];
     copy_kept_rows(elements, from, to, 1);
     state.triangle_springs.copy_rows(state.triangle_springs, from, to, 1);
@@ -189,15 +201,6 @@ void put_element(const PutBack& p, uint32_t e) {
     elements.neighbour[to] = now.neighbour;
     elements.hinge[to] = now.hinge;
     elements.edge_kind[to] = now.edge_kind;
-}
-
-/// The element that a vertex names may have lost it to a cut or to a vertex put on its edge.
-void follow_elements(const PutBack& p) {
-    Vertices& vertices = p.state.vertices;
-    for (uint32_t v = 0; v < p.rows.vertex_count; ++v) {
-        uint32_t& element = vertices.element[p.source.vertex(p.vertex(v))];
-        if (corner_of(p.source, element, p.vertex(v)) == 3) element = p.element(vertices.element[p.cut.vertex(v)]);
-    }
 }
 
 void put_hinge(const PutBack& p, uint32_t h) {
@@ -213,13 +216,13 @@ void put_hinge(const PutBack& p, uint32_t h) {
     hinges.vertex[to] = vertex;
 }
 
-/// Those that died, those of elements that changed, and new ones.
+/// Those that died, those of elements that changed or, where nobody told which did, all, and new ones.
 void put_hinges(const PutBack& p) {
     const Hinges& hinges = p.state.hinges;
     const uint32_t old = p.rows.hinge_count;
     for (uint32_t h = 0; h < old; ++h)
-        if (hinges.vertex[p.cut.hinge(h)][0] == kNone) put_hinge(p, h);
-    for (uint32_t e = 0; e < p.cut.element_count(); ++e) {
+        if (!p.is_marked || hinges.vertex[p.cut.hinge(h)][0] == kNone) put_hinge(p, h);
+    for (uint32_t e = 0; p.is_marked && e < p.cut.element_count(); ++e) {
         if (!is_touched(p, e)) continue;
         for (const uint32_t h : p.state.elements.hinge[p.cut.element(e)])
             if (h < old) put_hinge(p, h);
@@ -236,10 +239,31 @@ void put_hinges(const PutBack& p) {
 
 void move_the_rest(const PutBack& p, const BodyMotion& motion) {
     Vertices& vertices = p.state.vertices;
-    for (uint32_t v = 0; v < p.source.vertex_count(); ++v) {
-        if (p.rows.vertex(v) != kNone) continue;
-        const uint32_t row = p.source.vertex(v);
-        vertices.velocity.set(row, vertices.inverse_mass[row] > 0 ? motion.at(vertices.rest[row]).to_float() : Vec3{});
+    const uint32_t first = p.source.vertex(0), count = p.source.vertex_count();
+    const float *const x = vertices.rest.lane(0) + first, *const y = vertices.rest.lane(1) + first,
+                       *const z = vertices.rest.lane(2) + first;
+    const float* const inverse_mass = vertices.inverse_mass.data() + first;
+    float *const to_x = vertices.velocity.lane(0) + first, *const to_y = vertices.velocity.lane(1) + first,
+                 *const to_z = vertices.velocity.lane(2) + first;
+    // What the run gave the vertices of a word, while all of the word's are written: no branch in the loop.
+    constexpr uint32_t kWord = 32;
+    for (uint32_t word = 0; word < count; word += kWord) {
+        const uint32_t rows = std::min(kWord, count - word), in_cut = p.rows.has_vertex.words[word / kWord];
+        if (in_cut == ~0u) continue;
+        float own[3][kWord];
+        for (uint32_t left = in_cut; left != 0; left &= left - 1) {
+            const auto i = static_cast<uint32_t>(std::countr_zero(left));
+            own[0][i] = to_x[word + i], own[1][i] = to_y[word + i], own[2][i] = to_z[word + i];
+        }
+        for (uint32_t v = word; v < word + rows; ++v) {
+            const Vec3 moved = motion.at({x[v], y[v], z[v]}).to_float();
+            const bool is_free = inverse_mass[v] > 0;
+            to_x[v] = is_free ? moved.x : 0, to_y[v] = is_free ? moved.y : 0, to_z[v] = is_free ? moved.z : 0;
+        }
+        for (uint32_t left = in_cut; left != 0; left &= left - 1) {
+            const auto i = static_cast<uint32_t>(std::countr_zero(left));
+            to_x[word + i] = own[0][i], to_y[word + i] = own[1][i], to_z[word + i] = own[2][i];
+        }
     }
 }
 
@@ -248,8 +272,13 @@ void put_rows(State& state, Row<Tasks> task, const PutBack& p, const BodyMotion&
     tell_starts(p, state.tasks.body[task], cracks);
     put_vertices(p);
     for (uint32_t e = 0; e < p.cut.element_count(); ++e) put_element(p, e);
-    follow_elements(p);
     put_hinges(p);
+#ifdef CULLET_CHECKED
+    p.for_each_vertex([&](uint32_t v) {
+        CULLET_ASSERT(corner_of(p.source, state.vertices.element[p.source.vertex(p.vertex(v))], p.vertex(v)) < 3,
+                      "vertex %u names an element that is not at it", p.vertex(v));
+    });
+#endif
     move_the_rest(p, motion);
     const uint32_t vertices = p.cut.vertex_count() - p.first_new_vertex(),
                    elements = p.cut.element_count() - p.rows.element_count,
@@ -261,6 +290,18 @@ void put_rows(State& state, Row<Tasks> task, const PutBack& p, const BodyMotion&
     drop_stiffness(state, p.source.row);
 }
 
+/// At first each contact has at most a part of its own, and no cut edge makes more than one of another.
+bool has_too_many_parts(const PutBack& p, Row<Tasks> task) {
+    const uint32_t most = kMostContacts + p.state.tasks.crack_count[task];
+#ifndef CULLET_CHECKED
+    if (most <= kMostParts) return false;
+#endif
+    const std::span parts(p.state.fragments.part.data() + size_t{task} * kMostParts, kMostParts);
+    const uint32_t count = group_fragments(p.cut, parts);
+    CULLET_ASSERT(count <= most, "%u parts of a cut-out, of which no more than %u edges were cut", count, most);
+    return count > kMostParts && most > kMostParts;
+}
+
 }  // namespace
 
 void put_back(State& state, Row<Tasks> task, const BodyMotion& motion, Events<CrackStartedEvent>& cracks) {
@@ -270,8 +311,7 @@ void put_back(State& state, Row<Tasks> task, const BodyMotion& motion, Events<Cr
     if (static_cast<TaskState>(tasks.state[task]) != TaskState::Dropped && has_changed) {
         const PutBack p(state, task);
         // Later there is no way back. The body has no more pieces than the cut-out by itself.
-        const std::span parts(state.fragments.part.data() + size_t{task} * kMostParts, kMostParts);
-        if (group_fragments(p.cut, parts) > kMostParts)
+        if (has_too_many_parts(p, task))
             tasks.state[task] = static_cast<uint8_t>(TaskState::Dropped);
         else
             put_rows(state, task, p, motion, cracks);
@@ -297,6 +337,7 @@ std::string trouble_of_cut_out(State& state, uint32_t task) {
         if (listed[e] >= source.element_count() || (e > 0 && listed[e] <= listed[e - 1]) ||
             (state.elements.flags[source.element(listed[e])] & kDead))
             return where + ": its elements are not rising ones of the body";
+    if (!CutRows::has_room(source)) return where + ": the body has vertices that belong to no element";
     CutRows rows(source);
     std::copy_n(listed, count, rows.list);
     rows.number(count);

@@ -154,7 +154,7 @@ void start_region(State& state, Row<Tasks> task) {
     state.quick_runs.energy_scale[task] = scale;
 }
 
-void close_region(State& state, Row<Tasks> task) {
+void close_region(State& state, Row<Tasks> task, const BodyMotion& motion) {
     QuickRuns& runs = state.quick_runs;
     if (!runs.springs[task].exists()) return;
     const RegionView region(state, task);
@@ -166,7 +166,6 @@ void close_region(State& state, Row<Tasks> task) {
             const uint32_t row = shell.vertex(v);
             vertices.velocity.set(row, 0.5f * (vertices.velocity[row] + state.twins.velocity[view.twin(v)]));
         });
-    const BodyMotion motion(state, task);
     for (uint32_t v = 0; v < shell.vertex_count(); ++v) {
         const uint32_t row = shell.vertex(v);
         const bool is_free = vertices.inverse_mass[row] > 0;

@@ -25,8 +25,8 @@ void start_region(State& state, Row<Tasks> task);
 /// All of it, for a task alone.
 bool wake_region_alone(State& state, Row<Tasks> task, const char** full);
 /// Vertices.velocity becomes what the body's own is at the touch and what the run gave, body axes; strikers' speeds as
-/// they were measured before; springs are given back. Serial; once for each run that woke.
-void close_region(State& state, Row<Tasks> task);
+/// they were measured before; springs are given back. `motion` is the body's own. Serial; once for each run that woke.
+void close_region(State& state, Row<Tasks> task, const BodyMotion& motion);
 
 /// Patch springs, from the places before the step (6.3); true when some push. Forces are those of the softened body.
 bool region_forces(const RegionView& region);

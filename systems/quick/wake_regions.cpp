@@ -70,8 +70,9 @@ void close_regions(Serial, const Events<TaskEnded>& ended, ShellTables shells, T
             put_back(state, e.task, rest_motion(state, e.task), cracks);
         }
         if (!is_quick_task(state, e.task)) continue;
-        close_region(state, e.task);
-        if (is_cut_out(state, e.task)) put_back(state, e.task, BodyMotion(state, e.task), cracks);
+        const BodyMotion motion(state, e.task);  // a pass over the body
+        close_region(state, e.task, motion);
+        if (is_cut_out(state, e.task)) put_back(state, e.task, motion, cracks);
     }
 }
 

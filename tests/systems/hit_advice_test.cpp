@@ -4,22 +4,17 @@
 #include <gtest/gtest.h>
 
 #include "cullet/model.hpp"
-#include "sample_game/meshes.hpp"
 #include "systems/cook/model_contents.hpp"
+#include "tests/support/large_hits.hpp"
 
 namespace cullet {
 namespace {
 
 Model vase(float edge, float longest_edge = 100) {
-    const Mesh mesh = make_vase(0.30f, edge);
-    MeshView view;
-    view.positions = mesh.positions.data(), view.position_count = mesh.positions.size();
-    view.indices = mesh.triangles[0].data(), view.triangle_count = mesh.triangles.size();
     CookSettings settings;
     settings.thickness = 0.005f;
     settings.longest_edge = longest_edge;
-    settings.measures_threshold = false;
-    return cook(view, settings).value();
+    return test::cook_vase(0.30f, edge, settings).value();
 }
 double mean_edge(const Model& model) {
     return model.contents->state.shells.mean_edge[model.contents->shell];

@@ -7,7 +7,6 @@
 #include <vector>
 
 #include "engine/random.hpp"
-#include "sample_game/meshes.hpp"
 #include "systems/cook/materials.hpp"
 #include "systems/fragments/group_fragments.hpp"
 #include "systems/fragments/mass_properties.hpp"
@@ -15,20 +14,16 @@
 #include "systems/query/bound_drawn.hpp"
 #include "systems/view/draw_shell.hpp"
 #include "systems/world_contents.hpp"
+#include "tests/support/large_hits.hpp"
 
 namespace cullet {
 namespace {
 
 Result<Model> cook_fine_vase(float edge) {
-    const Mesh mesh = make_vase(0.3f, edge);
-    MeshView view;
-    view.positions = mesh.positions.data(), view.position_count = mesh.positions.size();
-    view.indices = mesh.triangles[0].data(), view.triangle_count = mesh.triangles.size();
     CookSettings settings;
     settings.longest_edge = 100;
-    settings.measures_threshold = false;
     settings.fracture = FractureKind::Fine;
-    return cook(view, settings);
+    return test::cook_vase(0.3f, edge, settings);
 }
 
 /// Triangles by run, in an order that does not depend on how they were written.
