@@ -26,9 +26,14 @@ void AnyTable::copy_rows(const AnyTable& source, uint32_t from, uint32_t to, uin
     CULLET_ASSERT(count <= source.size_ && from <= source.size_ - count && count <= size_ && to <= size_ - count,
                   "copy of rows %u + %u past the end of %s", from, count, name_);
     for (const ColumnInfo& c : *columns_)
-        for (int a = 0; a < c.lanes * c.sides; ++a)
-            std::memmove(column_memory(c, a) + size_t{to} * c.row_bytes,
-                         source.column_memory(c, a) + size_t{from} * c.row_bytes, size_t{count} * c.row_bytes);
+        for (int a = 0; a < c.lanes * c.sides; ++a) {
+            std::byte* const target = column_memory(c, a) + size_t{to} * c.row_bytes;
+            const std::byte* const origin = source.column_memory(c, a) + size_t{from} * c.row_bytes;
+            if (count == 1 && c.row_bytes == 4)  // half of what cracks copy: a call takes longer than the four bytes
+                std::memmove(target, origin, 4);
+            else
+                std::memmove(target, origin, size_t{count} * c.row_bytes);
+        }
 }
 
 void AnyTable::clear_rows(uint32_t first, uint32_t count) {

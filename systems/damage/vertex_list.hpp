@@ -13,8 +13,9 @@ struct VertexList {
     uint32_t vertex[kMost];
 
     void add(uint32_t v) {
-        for (uint32_t i = 0; i < count; ++i)
-            if (vertex[i] == v) return;
+        uint32_t found = 0;  // counted to the end: four at a time are faster than one by one to the first
+        for (uint32_t i = 0; i < count; ++i) found += vertex[i] == v;
+        if (found > 0) return;
         has_overflowed |= count == kMost;
         if (count < kMost) vertex[count++] = v;
     }

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "systems/quick/elements_at.hpp"
 #include "systems/springs/carry_flow.hpp"
 #include "systems/springs/edge_stiffness.hpp"
 #include "systems/springs/spring_lists.hpp"
@@ -25,6 +26,8 @@ class RowSet {
     }
     void add_all() { is_all_ = true; }
     bool is_all() const { return is_all_; }
+    uint32_t count(uint32_t end) const { return is_all_ ? end : count_; }
+    bool has(uint32_t row) const { return is_all_ || std::binary_search(rows_, rows_ + count_, row); }
     template <class F>
     void for_each(uint32_t end, F&& f) const {
         const uint32_t count = is_all_ ? end : count_;
@@ -40,24 +43,22 @@ class RowSet {
 constexpr size_t kMostTouched = 512;
 
 struct Sets {
-    RowSet vertices, elements, packs;
+    RowSet vertices, elements;
+    /// Packs whose lists, or whose neighbours' names, change: of touched vertices, and of springs that are made or get
+    /// other ends. They are written anew; others keep their places.
+    RowSet written;
 };
 
 void gather_sets(const SpringView& view, std::span<const uint32_t> touched, Sets& sets) {
-    if (touched.size() > kMostTouched) return sets.vertices.add_all(), sets.elements.add_all(), sets.packs.add_all();
+    if (touched.size() > kMostTouched) return sets.vertices.add_all(), sets.elements.add_all(), sets.written.add_all();
     for (const uint32_t v : touched) {
         Ring ring;
         walk_ring(view.shell, v, ring);
         sets.vertices.add(v);
-        sets.packs.add(v / kLanes);
-        for (uint32_t i = 0; i < ring.count; ++i) {
-            sets.elements.add(ring.element[i]);
-            for (const uint32_t corner : view.state.elements.corner[view.shell.element(ring.element[i])])
-                sets.packs.add(corner / kLanes);
-        }
+        sets.written.add(v / kLanes);
+        for (uint32_t i = 0; i < ring.count; ++i) sets.elements.add(ring.element[i]);
     }
-    if (sets.elements.is_all() || sets.packs.is_all()) sets.vertices.add_all(), sets.elements.add_all();
-    if (sets.elements.is_all()) sets.packs.add_all();
+    if (sets.elements.is_all()) sets.vertices.add_all(), sets.written.add_all();
 }
 
 bool is_dead(const SpringView& view, uint32_t e) {
@@ -118,18 +119,22 @@ void turn(const SpringView& view, uint32_t s) {
     std::swap(cross[0], cross[1]);
 }
 
-// a and b are the first and the second corner of the owner's edge.
-void set_ends(const SpringView& view, uint32_t s, uint32_t from, uint32_t to, bool is_turned) {
+// a and b are the first and the second corner of the owner's edge. True: they were others.
+bool set_ends(const SpringView& view, uint32_t s, uint32_t from, uint32_t to, bool is_turned, RowSet& written) {
     Springs& springs = view.state.springs;
     const uint32_t row = view.spring(s);
     if (is_turned) turn(view, s);
+    bool is_changed = false;
     const auto follow = [&](uint32_t& end, uint32_t now) {
         if (end != now && end != kNone && lacks_twin(view, now) && !lacks_twin(view, end))
             view.state.twins.copy_rows(view.state.twins, view.twin(end), view.twin(now), 1);
+        if (end != now && end != kNone) written.add(end / kLanes);
+        is_changed = is_changed || end != now;
         end = now;
     };
     follow(springs.a[row], from);
     follow(springs.b[row], to);
+    return is_changed;
 }
 
 /// A row that no element has: without ends, stiffness and length.
@@ -155,7 +160,7 @@ uint32_t new_spring(const SpringView& view, const EdgeState& edge) {
     return s;
 }
 
-void take_springs(const SpringView& view, const Sets& sets) {
+void take_springs(const SpringView& view, Sets& sets) {
     State& state = view.state;
     sets.elements.for_each(view.shell.element_count(), [&](uint32_t e) {
         for (uint32_t k = 0; k < 3 && !is_dead(view, e); ++k) {
@@ -164,7 +169,13 @@ void take_springs(const SpringView& view, const Sets& sets) {
             const uint32_t s = edge.fate == Fate::Stays ? edge.spring : new_spring(view, edge);
             const auto& corner = state.elements.corner[view.shell.element(e)];
             const uint32_t owner = state.springs.element[view.spring(s)];
-            set_ends(view, s, corner[k], corner[(k + 1) % 3], edge.fate != Fate::IsMissing && owner != e);
+            const uint32_t from = corner[k], to = corner[(k + 1) % 3];
+            const bool has_other_ends =
+                set_ends(view, s, from, to, edge.fate != Fate::IsMissing && owner != e, sets.written);
+            if (has_other_ends || edge.fate != Fate::Stays) {
+                sets.written.add(from / kLanes);
+                sets.written.add(to / kLanes);
+            }
             state.springs.element[view.spring(s)] = e;
             state.element_springs.spring[view.edges(e)][k] = s;
             if (edge.other != kNone) state.element_springs.spring[view.edges(edge.other)][edge.other_edge] = s;
@@ -210,6 +221,13 @@ uint32_t longest_list(const SpringView& view, uint32_t pack) {
 }
 
 bool has_room(const SpringView& view, const Sets& sets) {
+    const Range of_springs = view.own().springs[view.row], of_slots = view.own().slots[view.row];
+    // As many as there could be at most are seldom too many, and looking how many there will be takes as long as making
+    // them.
+    const uint32_t most_springs = 3 * sets.elements.count(view.shell.element_count()),
+                   most_slots = (kMostRing + 2) * 3 * sets.elements.count(view.shell.element_count());
+    if (of_springs.count + most_springs <= of_springs.capacity && of_slots.count + most_slots <= of_slots.capacity)
+        return true;
     uint32_t springs = 0, slots = 0;
     sets.elements.for_each(view.shell.element_count(), [&](uint32_t e) {
         for (uint32_t k = 0; k < 3 && !is_dead(view, e); ++k) {
@@ -217,12 +235,39 @@ bool has_room(const SpringView& view, const Sets& sets) {
             springs += fate == Fate::IsCutOff || fate == Fate::IsMissing;
         }
     });
-    sets.packs.for_each(view.pack_count(), [&](uint32_t p) {
+    RowSet packs;
+    sets.elements.for_each(view.shell.element_count(), [&](uint32_t e) {
+        for (const uint32_t corner : view.state.elements.corner[view.shell.element(e)]) packs.add(corner / kLanes);
+    });
+    packs.for_each(view.pack_count(), [&](uint32_t p) {
         const uint32_t needed = longest_list(view, p);
         if (needed > view.state.spring_packs.slot_capacity[view.pack(p)]) slots += needed + 1;
     });
-    const Range of_springs = view.own().springs[view.row], of_slots = view.own().slots[view.row];
     return of_springs.count + springs <= of_springs.capacity && of_slots.count + slots <= of_slots.capacity;
+}
+
+/// Of all springs at the vertex. In no order, and those of two elements twice: nothing is summed.
+void remember_lengths_at(const SpringView& view, uint32_t vertex) {
+    for_each_element_at(view.shell, vertex, [&](uint32_t e) {
+        const uint32_t k = corner_of(view.shell, e, vertex);
+        if (k == 3) return;
+        const std::array<uint32_t, 3>& springs = view.state.element_springs.spring[view.edges(e)];
+        for (const uint32_t j : {k, (k + 2) % 3})
+            if (springs[j] < kAsleepSpring) remember_length(view, springs[j]);
+    });
+}
+
+/// What measure() found, in the packs that keep their lists. Both ends of new springs are in packs that are written.
+void tell_other_packs(const SpringView& view, const Sets& sets) {
+    const State& state = view.state;
+    sets.elements.for_each(view.shell.element_count(), [&](uint32_t e) {
+        for (const uint32_t s : state.element_springs.spring[view.edges(e)]) {
+            if (s >= kAsleepSpring || state.springs.element[view.spring(s)] != e) continue;
+            const bool has_a = sets.written.has(state.springs.a[view.spring(s)] / kLanes),
+                       has_b = sets.written.has(state.springs.b[view.spring(s)] / kLanes);
+            if (!has_a || !has_b) write_spring(view, s);
+        }
+    });
 }
 
 /// A pack that has outgrown its slots gets new ones at the end of the shell's.
@@ -259,16 +304,16 @@ bool rebuild_springs(const SpringView& view, std::span<const uint32_t> touched) 
     measure(view, sets);
     VertexSprings lists[kLanes];
     // All lengths are read before any slot is written: packs share springs.
-    sets.packs.for_each(view.pack_count(), [&](uint32_t p) {
-        collect_pack(view, p, lists);
-        for (const VertexSprings& list : lists)
-            for (uint32_t i = 0; i < list.count; ++i) remember_length(view, list.spring[i]);
+    sets.written.for_each(view.pack_count(), [&](uint32_t p) {
+        for (uint32_t v = p * kLanes; v < std::min((p + 1) * kLanes, view.shell.vertex_count()); ++v)
+            remember_lengths_at(view, v);
     });
-    sets.packs.for_each(view.pack_count(), [&](uint32_t p) {
+    sets.written.for_each(view.pack_count(), [&](uint32_t p) {
         collect_pack(view, p, lists);
         make_pack_room(view, p, slots_needed(lists));
         write_pack(view, p, lists);
     });
+    if (!sets.written.is_all()) tell_other_packs(view, sets);
     return true;
 }
 
