@@ -9,6 +9,7 @@
 #include "systems/fragments/limit_energy.hpp"
 #include "systems/fragments/rigid_shape.hpp"
 #include "systems/fragments/strike_back.hpp"
+#include "systems/quick/quick_body.hpp"
 #include "systems/rigid/body_id.hpp"
 #include "systems/soft/soft_pieces.hpp"
 
@@ -208,7 +209,10 @@ void make_birth(Births& births, const Break& plan, uint32_t p, const Moment& mom
         for (const ConvexPiece& piece : pieces)
             for (const Vec3 point : piece.points) bounds.add(point);
     if (is_rest && was_static == is_static) {
-        births.rigid.set_shape(body, bodies.mass[body], bodies.centre[body], bodies.inertia[body], pieces);
+        // Hulls of a copy's cells that did not change are those of the body, by the same names.
+        const bool is_of_copy = !plan.keeps_hulls && !plan.soft.exists() && is_quick_body(state, body);
+        if (!is_of_copy || !change_rest(births, body))
+            births.rigid.set_shape(body, bodies.mass[body], bodies.centre[body], bodies.inertia[body], pieces);
         if (!was_static) births.rigid.set_motion(body, motion);
         return;
     }
