@@ -204,6 +204,44 @@ void clamp(const HandoffStart& start, std::span<PartMotion> motions, HandoffRepo
     }
 }
 
+double energy_of_all(std::span<const PartMotion> motions) {
+    double sum = 0;
+    for (const PartMotion& m : motions) sum += energy_of(m);
+    return sum;
+}
+
+/// All parts at `share` of the way from their free motion to the clamped one.
+void go_back(std::span<PartMotion> motions, double share) {
+    for (PartMotion& m : motions) {
+        m.momentum = m.free_momentum + share * (m.momentum - m.free_momentum);
+        m.spin = m.free_spin + share * (m.spin - m.free_spin);
+    }
+}
+
+/// Energy is a quadratic of the way, E(0) <= E_hidden < E(1): the largest share of it with E <= E_hidden. Momentum is
+/// the same all along.
+void keep_energy(std::span<PartMotion> motions, HandoffReport& report) {
+    if (!(energy_of_all(motions) > report.energy_hidden)) return;
+    double a = 0, b = 0;
+    for (const PartMotion& m : motions) {
+        if (m.is_static || !(m.mass > 0)) continue;
+        const Vec3d p = m.momentum - m.free_momentum, w = m.spin - m.free_spin;
+        a += dot(p, p) / (2 * m.mass) + dot(w, m.inertia * w) / 2;
+        b += dot(m.free_momentum, p) / m.mass + dot(m.free_spin, m.inertia * w);
+    }
+    constexpr double kRounded = 1 - 1e-9;
+    const double room = std::max(report.energy_hidden - report.energy_unclamped, 0.0);
+    const double share = a > 0 ? kRounded * std::clamp((std::sqrt(b * b + 4 * a * room) - b) / (2 * a), 0.0, 1.0) : 0;
+    go_back(motions, share);
+    report.support_momentum = report.free_support + share * (report.support_momentum - report.free_support);
+    report.spin_clamp_loss = share * report.spin_clamp_loss;
+    if (energy_of_all(motions) > report.energy_hidden) {
+        go_back(motions, 0);
+        report.support_momentum = report.free_support;
+        report.spin_clamp_loss = {};
+    }
+}
+
 }  // namespace
 
 HandoffReport rigid_handoff(ShellView shell, const HandoffStart& start, std::span<const FragmentPart> parts,
@@ -228,9 +266,12 @@ HandoffReport rigid_handoff(ShellView shell, const HandoffStart& start, std::spa
         } else {
             m.spin = spin_of(m);
         }
+        m.free_momentum = m.momentum, m.free_spin = m.spin;
         report.energy_unclamped += energy_of(m);
     }
+    report.free_support = report.support_momentum;
     clamp(start, motions, report);
+    keep_energy(motions, report);
     for (PartMotion& m : motions) {
         if (m.mass > 0) m.velocity = (1 / m.mass) * m.momentum;
         report.momentum_after += m.momentum;

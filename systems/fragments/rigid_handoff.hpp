@@ -18,14 +18,15 @@ struct HandoffStart {
 /// One part's motion, body axes. Mass, centre and inertia are those of its vertices: with them P and L are the hidden
 /// state's and the energy can only fall.
 struct PartMotion {
-    double mass = 0;           // kg
-    Vec3d centre;              // m, rest
-    Sym3d inertia;             // about the centre, kg m2
-    double radius = 0;         // farthest vertex from the centre, m
-    Vec3d momentum;            // N s, after the clamps; velocity is momentum / mass
-    Vec3d angular_momentum;    // about the centre, N m s, of the hidden state
-    Vec3d velocity, spin;      // of the centre; after the clamps. Zero for a part that holds a pin
-    double hidden_energy = 0;  // sum of m v^2 / 2, J
+    double mass = 0;                 // kg
+    Vec3d centre;                    // m, rest
+    Sym3d inertia;                   // about the centre, kg m2
+    double radius = 0;               // farthest vertex from the centre, m
+    Vec3d momentum;                  // N s, after the clamps; velocity is momentum / mass
+    Vec3d angular_momentum;          // about the centre, N m s, of the hidden state
+    Vec3d velocity, spin;            // of the centre; after the clamps. Zero for a part that holds a pin
+    Vec3d free_momentum, free_spin;  // before the clamps
+    double hidden_energy = 0;        // sum of m v^2 / 2, J
     bool is_static = false, is_speed_clamped = false, is_spin_clamped = false;
 };
 
@@ -35,6 +36,7 @@ struct HandoffReport {
     Vec3d momentum_before;        // N s, of the hidden state
     Vec3d momentum_after;         // of the moving parts; before = after + support, to rounding
     Vec3d support_momentum;       // what pinned parts took into the ground, and cut-offs when the largest is static
+    Vec3d free_support;           // of that, before the clamps
     Vec3d spin_clamp_loss;        // angular momentum that spin clamps took, N m s
     double energy_hidden = 0;     // J
     double energy_unclamped = 0;  // of the rigid motions before the clamps, <= hidden
@@ -45,7 +47,8 @@ struct HandoffReport {
 /// not listed is summed as a difference. Clamps: a part's speed relative to
 /// the body's motion before the hit (V + w x r at its centre) is at most twice the impact speed, and what is cut off
 /// goes to the largest part, which is not clamped; a part's spin relative to the body's before is at most
-/// 2 impact_speed / radius (relative, or a body that flew spinning would lose its spin on breaking).
+/// 2 impact_speed / radius (relative, or a body that flew spinning would lose its spin on breaking). Where the largest
+/// part would get more energy by that than there was, all clamps go as far as energy allows and no farther.
 HandoffReport rigid_handoff(ShellView shell, const HandoffStart& start, std::span<const FragmentPart> parts,
                             std::span<PartMotion> motions);
 

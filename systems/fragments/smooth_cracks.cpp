@@ -15,6 +15,8 @@ namespace {
 /// Of its area that a face keeps at least, seen along its normal: no shift turns one over.
 constexpr float kLeastFace = 0.3f;
 
+/// Cosine of 18 degrees, by which the faces round a vertex may lean from their mean: creases have 40 between two.
+constexpr float kCreaseCosine = 0.95f;
 /// Of the mean edge: what moves less stays.
 constexpr float kLeastShift = 1e-3f;
 
@@ -52,6 +54,25 @@ CrackNeighbours crack_neighbours(const ShellView& shell, uint32_t v) {
     };
     const CrackNeighbours found{corner(first, out + 1), corner(last, in), true};
     return {found.next, found.previous, !(found.next == found.previous)};  // a tip sees one point twice
+}
+
+/// Area-weighted normal of the fans of both sides, the same for both, or zero at a crease: no shift follows both faces.
+Vec3 surface_normal(const ShellView& shell, uint32_t u, uint32_t w) {
+    Vec3 sum, normals[2 * kMostRing];
+    uint32_t count = 0;
+    Ring ring;
+    for (const uint32_t v : {u, w}) {
+        walk_ring(shell, v, ring);
+        for (uint32_t i = 0; i < ring.count; ++i) {
+            const auto& corner = shell.state.elements.corner[shell.element(ring.element[i])];
+            const Vec3 a = rest_of(shell, corner[0]);
+            sum += normals[count++] = cross(rest_of(shell, corner[1]) - a, rest_of(shell, corner[2]) - a);
+        }
+    }
+    const Vec3 mean = normalised(sum);
+    for (uint32_t i = 0; i < count; ++i)
+        if (dot(normals[i], mean) < kCreaseCosine * length(normals[i])) return {};
+    return mean;
 }
 
 bool keeps_shape(const ShellView& shell, uint32_t v) {
@@ -104,9 +125,10 @@ class CrackPairs {
             if (is_moved(shell_, u) || is_moved(shell_, w)) continue;
             const CrackNeighbours own = crack_neighbours(shell_, u), other = crack_neighbours(shell_, w);
             if (!own.exist || !other.exist || !(own.next == other.previous) || !(own.previous == other.next)) continue;
-            const Vec3 inward = shell_.state.vertices.inward[shell_.vertex(u)];
+            const Vec3 normal = surface_normal(shell_, u, w);
+            if (normal == Vec3{}) continue;
             const Vec3 along = 0.25f * (own.next + own.previous) - 0.5f * rest_of(shell_, u);
-            const Vec3 sideways = along - dot(along, inward) * inward;  // inner twins stand below
+            const Vec3 sideways = along - dot(along, normal) * normal;  // within the surface
             if (!(length(sideways) > kLeastShift * shell_.shells().mean_edge[shell_.row])) continue;
             set(u, w, sideways);
             list_[kept++] = u, list_[kept++] = w;

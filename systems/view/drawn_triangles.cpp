@@ -24,22 +24,38 @@ SurfaceKind kind_of(const ShellView& shell, uint32_t element, uint32_t which) {
     return kind == EdgeKind::Crack ? SurfaceKind::Crack : SurfaceKind::Inner;
 }
 
-/// The game's uv where a corner is drawn: on a smoothed crack not where it was, but the triangle's own uv goes on.
-Vec2 drawn_uv(const ShellView& shell, uint32_t e, uint32_t k) {
-    const auto& uv = shell.state.elements.uv[shell.element(e)];
+/// Where corner k is drawn on a smoothed crack, along the edges to the next two corners: the triangle's own normals and
+/// uvs go on that far. 0, 0 where it stands.
+Vec2 drawn_share(const ShellView& shell, uint32_t e, uint32_t k) {
     const auto corner = shell.state.elements.corner[shell.element(e)];
-    const auto at = [&](uint32_t i) { return Vec2{uv[2 * (i % 3)], uv[2 * (i % 3) + 1]}; };
-    const Vec2 own = at(k);
     const Vec3 shift = shell.state.vertices.crack_shift[shell.vertex(corner[k])];
-    if (shift == Vec3{}) return own;
+    if (shift == Vec3{}) return {};
     const auto rest = [&](uint32_t i) { return shell.state.vertices.rest[shell.vertex(corner[i % 3])]; };
-    // shift = s a + t b, along the edges from the corner.
     const Vec3 a = rest(k + 1) - rest(k), b = rest(k + 2) - rest(k);
     const float aa = dot(a, a), bb = dot(b, b), ab = dot(a, b), whole = aa * bb - ab * ab;
-    if (!(whole > 1e-6f * aa * bb)) return own;
-    const float x = dot(shift, a), y = dot(shift, b), s = (bb * x - ab * y) / whole, t = (aa * y - ab * x) / whole;
-    const Vec2 u = at(k + 1), v = at(k + 2);
-    return {own.x + s * (u.x - own.x) + t * (v.x - own.x), own.y + s * (u.y - own.y) + t * (v.y - own.y)};
+    if (!(whole > 1e-6f * aa * bb)) return {};
+    const float x = dot(shift, a), y = dot(shift, b);
+    return {(bb * x - ab * y) / whole, (aa * y - ab * x) / whole};
+}
+
+struct Attributes {
+    Vec3 normal;
+    Vec2 uv;
+};
+/// The game's own, where the corner is drawn.
+Attributes drawn_attributes(const ShellView& shell, uint32_t e, uint32_t k) {
+    const auto& normal = shell.state.elements.normal[shell.element(e)];
+    const auto& uv = shell.state.elements.uv[shell.element(e)];
+    const auto n = [&](uint32_t i) {
+        return Vec3{normal[3 * (i % 3)], normal[3 * (i % 3) + 1], normal[3 * (i % 3) + 2]};
+    };
+    const auto t = [&](uint32_t i) { return Vec2{uv[2 * (i % 3)], uv[2 * (i % 3) + 1]}; };
+    const Vec2 share = drawn_share(shell, e, k);
+    if (share.x == 0 && share.y == 0) return {n(k), t(k)};
+    const Vec2 own = t(k), u = t(k + 1), v = t(k + 2);
+    return {normalised(n(k) + share.x * (n(k + 1) - n(k)) + share.y * (n(k + 2) - n(k))),
+            {own.x + share.x * (u.x - own.x) + share.y * (v.x - own.x),
+             own.y + share.x * (u.y - own.y) + share.y * (v.y - own.y)}};
 }
 
 }  // namespace
@@ -82,13 +98,11 @@ void write_faces(const ShellView& shell, uint32_t e, ViewVertex* outer, ViewVert
     const Elements& elements = shell.state.elements;
     const uint32_t row = shell.element(e);
     const auto corner = elements.corner[row];
-    const auto& normal = elements.normal[row];
     Vec3 below[3];
     for (int k = 0; k < 3; ++k) below[k] = drawn_place(shell, point(shell, corner[k], true));
     const Vec3 flat = normalised(cross(below[2] - below[0], below[1] - below[0]));
     for (int k = 0; k < 3; ++k) {
-        const Vec3 n{normal[3 * k], normal[3 * k + 1], normal[3 * k + 2]};
-        const Vec2 uv = drawn_uv(shell, e, static_cast<uint32_t>(k));
+        const auto [n, uv] = drawn_attributes(shell, e, static_cast<uint32_t>(k));
         outer[k] = {smoothed_place(shell.state, shell.vertex(corner[k])), n, uv};
         const bool runs_along = dot(-n, flat) > 0.8f || dot(flat, flat) < 0.5f;  // no area, no normal
         inner[(3 - k) % 3] = {below[k], runs_along ? -n : flat, uv};

@@ -541,8 +541,8 @@ TEST_P(SceneHash, IsWhatTheSceneAlwaysGave) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Scenes, SceneHash,
-                         testing::Values(KnownHash{"vase", "cdace5046efc2f23"}, KnownHash{"wall", "db6302a292cc1805"},
-                                         KnownHash{"pane", "d6d89d8c58a68336"}, KnownHash{"drop", "f8b3ec634381791b"}),
+                         testing::Values(KnownHash{"vase", "b8a2f21206a5ed4c"}, KnownHash{"wall", "0c4bc37813550c10"},
+                                         KnownHash{"pane", "6f895940d5a44193"}, KnownHash{"drop", "ad84e0f2592290a8"}),
                          [](const auto& known) { return std::string(known.param.scene); });
 
 TEST(Script, AFileIsPlayedByItsPathAndOneThatIsNotThereIsNamed) {

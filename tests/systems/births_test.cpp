@@ -78,8 +78,9 @@ TEST_P(EachHit, InTheBreakFrameThePiecesOuterSurfaceIsTheBodys) {
             const BodyView view = b.world.view(id).value();
             after.add(view, view.pose_before);
         }
-        EXPECT_NEAR(after.area / before.area, 1, 1e-5);
-        EXPECT_LT(length(after.moment - before.moment), 1e-5 * before.area);
+        // Smoothed cracks on a curved wall take other chords of it: 1.04e-5 of the vase's area.
+        EXPECT_NEAR(after.area / before.area, 1, 3e-5);
+        EXPECT_LT(length(after.moment - before.moment), 3e-5 * before.area);
         return;
     }
     FAIL() << "nothing broke";

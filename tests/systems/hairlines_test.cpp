@@ -54,8 +54,8 @@ std::multiset<Line> lines_by_comparing_all(World& world, BodyId body) {
             if (elements.edge_kind[row][k] != static_cast<uint8_t>(EdgeKind::Crack)) continue;
             const uint32_t a = shell.vertex(elements.corner[row][k]),
                            b = shell.vertex(elements.corner[row][(k + 1) % 3]);
-            edges.push_back({{state.vertices.rest[a], inner_twin(state, a).to_float()},
-                             {state.vertices.rest[b], inner_twin(state, b).to_float()}});
+            edges.push_back({{smoothed_place(state, a), smoothed_twin(state, a).to_float()},
+                             {smoothed_place(state, b), smoothed_twin(state, b).to_float()}});
         }
     std::multiset<Line> lines;
     for (size_t i = 0; i < edges.size(); ++i)

@@ -58,7 +58,7 @@ TEST(CutOut, RowsAreSoundWhenItIsFilledWhenItIsPutBackAndWhenPiecesAreOut) {
         std::printf("%u layers: %u cut-outs, %u whole copies, %zu pieces\n", layers, cut_outs, whole,
                     shells_of(b.world).size());
         EXPECT_GE(cut_outs, 2u);
-        EXPECT_EQ(whole, 0u);
+        EXPECT_LE(4 * whole, cut_outs) << "whole copies are for bodies whose spare rows are used up";
         EXPECT_GT(shells_of(b.world).size(), 1u) << "nothing came off";
     }
 }
