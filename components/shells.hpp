@@ -75,9 +75,9 @@ struct ColumnType<Float4> : ColumnLayout<Float4, Scalar::F32, 4> {};
 struct Vertices : Table<Vertices> {
     using Table::Table;
     static constexpr const char* kName = "vertices";
-    Column<Vec3> rest{*this, "rest", "m"};       // body frame
-    Column<Vec3> inward{*this, "inward"};        // unit
-    Column<float> depth{*this, "depth", "m"};    // >= 0; 0 where no direction sees all faces
+    Column<Vec3> rest{*this, "rest", "m"};     // body frame
+    Column<Vec3> inward{*this, "inward"};      // unit
+    Column<float> depth{*this, "depth", "m"};  // >= 0; 0 where no direction sees all faces
     /// From rest to where the point is drawn and collides: cracks are smoothed when their run has ended.
     Column<Vec3> crack_shift{*this, "crack_shift", "m"};
     Column<uint32_t> element{*this, "element"};  // one incident element (any: a vertex has one fan); kNone = dead row

@@ -185,8 +185,8 @@ void check_region_energy(EachBody task, ShellTables shells, Tasks& tasks, TaskCo
 
 // ---- inner loop of springs: repeated for one shell that has them (ductile, quick mode, sheet metal)
 
-/// One layer, one fused pass (B3, B4, B6): force, area energy where the row has any, damping from the length kept in the slot, semi-implicit Euler, largest
-/// elongation a vertex.
+/// One layer, one fused pass (B3, B4, B6): force, area energy where the row has any, damping from the length kept in
+/// the slot, semi-implicit Euler, largest elongation a vertex.
 void integrate_springs(Rows<SpringPacks> packs, OfSprings springs, Turn turn, ShellTables shells,
                        In<&Vertices::inverse_mass> inverse_mass, In<&Vertices::probe> position,
                        InOut<&Vertices::velocity> velocity, Out<&Vertices::probe> next_position,

@@ -139,7 +139,8 @@ Result<void> check_drawn_mesh(ShellView shell, const Range& view_vertices, const
     if (Result<void> closed = check_edges(shell, view_vertices, view_indices, numbers); !closed) return closed;
     double volume = 0;
     for (uint32_t e = 0; e < shell.element_count(); ++e)
-        if (!(shell.state.elements.flags[shell.element(e)] & kDead)) volume += prism_volume(load_smoothed_prism(shell, e));
+        if (!(shell.state.elements.flags[shell.element(e)] & kDead))
+            volume += prism_volume(load_smoothed_prism(shell, e));
     const double drawn = drawn_volume(shell.state, view_vertices, view_indices);
     if (!(std::fabs(drawn - volume) <= 1e-4 * std::fabs(volume)))
         return Error{"drawn mesh: its volume is " + std::to_string(drawn * 1e6) + " cm3, its elements' " +
