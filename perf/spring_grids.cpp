@@ -7,6 +7,7 @@
 
 #include "engine/fp_mode.hpp"
 #include "engine/jobs.hpp"
+#include "perf/our_springs.hpp"
 #include "perf/perf.hpp"
 #include "perf/springs.hpp"
 #include "perf/stream.hpp"
@@ -48,15 +49,7 @@ std::vector<Vec3> drawn_out(const SpringNet& net) {
 
 /// The net in tables, drawn out.
 SpringBench make_ours(const SpringNet& net, const std::vector<Vec3>& start) {
-    std::vector<Vec3d> points;
-    for (const Vec3 p : net.points) points.push_back(Vec3d(p));
-    std::vector<GivenSpring> springs;
-    for (const auto& [a, b] : net.springs)
-        springs.push_back({a, b, length(net.points[b] - net.points[a]), net.stiffness});
-    SpringSettings settings;
-    settings.time_step = net.dt;
-    settings.damping_ratio = net.damping / (2 * std::sqrt(net.stiffness * net.mass / 2));
-    SpringBench bench(points, std::vector<double>(points.size(), double{net.mass}), springs, settings);
+    SpringBench bench = bench_of(net);
     for (uint32_t v = 0; v < start.size(); ++v) bench.view().place(v, start[v]);
     measure_lengths(bench.view());
     return bench;

@@ -104,29 +104,7 @@ TEST(QuickWorld, AHitIsOverInTheFrameOfTheTouch) {
 TEST(QuickWorld, MassAndMomentumAreKeptWhereItBreaks) {
     for (const uint32_t layers : {1u, 2u}) {
         Breakage b = quick_and_ball(small_settings(), small_vase(), layered(layers), kSpeed);
-        World* w = &b.world;
-        Matter before{};
-        uint64_t broke = 0;
-        uint32_t breaks = 0;
-        double worst = 0, worst_mass = 0;
-        const Matter start = matter_of(b.world);
-        const double scale = std::fabs(start.momentum[2]);
-        after_each_system(b.world, [&](const std::string& system) {
-            if (system == "settle_tasks") before = matter_of(*w), broke = w->contents().data.counts.broke;
-            if (system != "make_births" || w->contents().data.counts.broke == broke) return;
-            ++breaks;
-            const Matter after = matter_of(*w);
-            for (int k = 0; k < 3; ++k) worst = worse(worst, std::fabs(after.momentum[k] - before.momentum[k]) / scale);
-            worst_mass = worse(worst_mass, std::fabs(after.mass / before.mass - 1));
-            EXPECT_LE(after.kinetic_energy, 1.0001 * before.kinetic_energy);
-        });
-        for (int frame = 0; frame < 60; ++frame) b.world.step();
-        std::printf("%u layers: %u breaks, momentum off by %.1e of the ball's, hidden rounding %.1e\n", layers, breaks,
-                    worst, b.world.contents().data.counts.worst_rounding);
-        EXPECT_GT(breaks, 0u);
-        EXPECT_LT(worst, 1e-6);
-        EXPECT_LT(worst_mass, 1e-6);
-        EXPECT_LT(b.world.contents().data.counts.worst_rounding, 2e-4);
+        expect_matter_is_kept(b, 60);
     }
 }
 
