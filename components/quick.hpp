@@ -47,7 +47,6 @@ struct QuickRuns : Table<QuickRuns> {
     Column<float> area_energy{*this, "area_energy"};      // over E h A (B4)
     Column<float> volume_energy{*this, "volume_energy"};
     // Of the run.
-    Column<uint8_t> is_full{*this, "is_full"};            // no room for more springs: nothing splits any more
     Column<Row<ShellSprings>> springs{*this, "springs"};  // of the task's shell; kNone before the region is awake
     /// First elements of the task's shell that are the body's, when it is a cut-out (cut_out.hpp): Elements.part says
     /// which. 0: it is a copy of the whole.

@@ -43,6 +43,7 @@ struct Tasks : Table<Tasks> {
     Column<uint8_t> redo_count{*this, "redo_count"};               // 0 to 2
     Column<uint32_t> crack_count{*this, "crack_count"};            // cut edges in this run
     Column<uint32_t> start_count{*this, "start_count"};            // cracks started in this run
+    Column<uint8_t> lacks_room{*this, "lacks_room"};               // its shell has none for a crack of this run
     Column<uint64_t> units_used{*this, "units_used"};
     Column<uint64_t> units_owed{*this, "units_owed"};  // by cuts, taken from the next grant
     Column<uint8_t> is_held{*this, "is_held"};         // body (and striker) stand still meanwhile

@@ -70,10 +70,10 @@ void advance_soft(Serial, Step step, const RigidWorld& rigid, SoftLoop& loop);
 /// What soft bodies gave to what they met, and where they are now, for the rigid world.
 void pass_soft(Serial, Step step, ShellTables shells, SoftBodies& soft, SoftStrikers& strikers, Bodies& bodies,
                RigidWorld& rigid, DamageCounts& counts, Arena& arena, Events<FaultEvent>& faults);
-/// Holds bodies whose task goes on, releases those whose time is up or whose task ended; names quick runs that had no
-/// room to split on.
+/// Holds bodies whose task goes on, releases those whose time is up or whose task ended; names runs whose cracks had no
+/// room.
 void settle_tasks(Serial, Step step, Tasks& tasks, TaskContacts& contacts, Blows& blows, Bodies& bodies,
-                  const Shells& shells, const QuickRuns& quick_runs, RigidWorld& rigid, const DamageSettings& settings,
+                  const Shells& shells, RigidWorld& rigid, const DamageSettings& settings,
                   DamageCounts& counts, Events<TaskEnded>& ended, Events<ImpactEvent>& impact_events,
                   Events<RefusedEvent>& refused);
 

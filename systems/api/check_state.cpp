@@ -251,6 +251,7 @@ void check_tasks(Checker& check) {
                      Checker::place(tasks, "shell", t) + " has no stiffness");
         check.expect_flag(tasks, tasks.is_held, "is_held", t);
         check.expect_flag(tasks, tasks.is_late, "is_late", t);
+        check.expect_flag(tasks, tasks.lacks_room, "lacks_room", t);
         check_length(check, t);
         check_contacts(check, t);
     }

@@ -58,6 +58,7 @@ void start_run(State& state, Row<Tasks> task) {
     build_patches(state, task);
     state.tasks.last_event_time[task] = 0;
     state.tasks.crack_count[task] = state.tasks.start_count[task] = 0;
+    state.tasks.lacks_room[task] = 0;
     start_hidden(state, task);
     start_explosions(state, task);
 }

@@ -17,6 +17,7 @@ void split_vertices(EachBody task, ShellTables shells, Tasks& tasks, TaskContact
         return;
     }
     if (was_whole && cuts > 0 && is_hidden_region(shells.state, t)) bear_more(shells.state, t);
+    if (sink.refused > 0) tasks.lacks_room[t] = 1;
     if (sink.is_out_of_slots) tasks.state[t] = static_cast<uint8_t>(TaskState::Dropped);
     if (cuts > 0) build_patches(shells.state, t);  // weights follow the masses that the cuts shared out
 }

@@ -77,7 +77,8 @@ bool try_cut(Batch& batch, uint32_t vertex, Ends& ends, const Vec3* heading, uin
     const Vertices& vertices = batch.shell.state.vertices;
     const uint32_t row = batch.shell.vertex(vertex);
     const Vec3 place = vertices.rest[row];
-    const float arrival = root == vertex ? batch.time : arrival_time(batch, vertices.ready_time[row]);
+    const bool is_tip = crack_at(batch, vertex) == CrackState::Tip;
+    const float arrival = is_tip ? arrival_time(batch, vertices.ready_time[row]) : batch.time;
     const CutOutcome outcome = cut_ends(batch.shell, vertex, ends, batch.touched);
     batch.sink.refused += outcome == CutOutcome::Full;
     if (outcome != CutOutcome::Cut) return false;
@@ -113,6 +114,23 @@ bool open_arms(Batch& batch, uint32_t vertex, const StartField& field) {
     return try_cut(batch, vertex, ends, heading, vertex);
 }
 
+// Whether cracks of this kind of fracture may fork here: large ones run on alone, and in coarse fracture the
+// neighbourhood of a fork, as that of any split vertex, starts no other.
+bool may_fork(const Batch& batch, uint32_t vertex, uint32_t root) {
+    const ShellView shell = batch.shell;
+    const Vertices& vertices = shell.state.vertices;
+    switch (batch.limits.fracture) {
+        case FractureKind::Large:
+            return false;
+        case FractureKind::Coarse:
+            return length(vertices.rest[shell.vertex(vertex)] - vertices.rest[shell.vertex(root)]) >=
+                   kForkSpacing * shell.shells().mean_edge[shell.row];
+        case FractureKind::Fine:
+            break;
+    }
+    return true;
+}
+
 // Whether a tip under this stress forks, with probability 1/2 by its place and time: a fork that was not taken may be
 // taken later.
 bool forks(const Batch& batch, uint32_t vertex, float stress) {
@@ -120,7 +138,8 @@ bool forks(const Batch& batch, uint32_t vertex, float stress) {
     return Random{kBranchSeed}.uniform(vertex, batch.step) < 0.5;
 }
 
-bool try_fork(Batch& batch, uint32_t vertex, Vec3 normal, Vec3 direction, uint32_t root) {
+// The branches' root is the fork, which spaces the next one from it.
+bool try_fork(Batch& batch, uint32_t vertex, Vec3 normal, Vec3 direction) {
     const Vec3 side = cross(normal, direction);
     Ends ends;
     Vec3 heading[kMostArms];
@@ -129,7 +148,7 @@ bool try_fork(Batch& batch, uint32_t vertex, Vec3 normal, Vec3 direction, uint32
         const Aim found = aim_at(batch, vertex, normal, branch);
         if (found.end != kNone && ends.add(found.end)) heading[ends.count - 1] = branch;
     }
-    return ends.count == 2 && try_cut(batch, vertex, ends, heading, root);
+    return ends.count == 2 && try_cut(batch, vertex, ends, heading, vertex);
 }
 
 bool stops_at_border(Batch& batch, uint32_t vertex) {
@@ -184,8 +203,8 @@ void advance_tip(Batch& batch, uint32_t vertex) {
         const Vec3 toward = into_plane(vertices.rest[shell.vertex(meeting)] - vertices.rest[row], normal);
         is_cut = try_step(batch, vertex, normal, toward, root);
     }
-    if (!is_cut && forks(batch, vertex, chosen.stress))
-        is_cut = try_fork(batch, vertex, normal, chosen.direction, root);
+    if (!is_cut && may_fork(batch, vertex, root) && forks(batch, vertex, chosen.stress))
+        is_cut = try_fork(batch, vertex, normal, chosen.direction);
     if (!is_cut) is_cut = try_step(batch, vertex, normal, chosen.direction, root);
     if (!is_cut) {
         // No way on now; it looks again after the time of one step.

@@ -23,6 +23,20 @@ CrackState crack_at(const ShellView& shell, uint32_t vertex) {
     return static_cast<CrackState>(shell.state.vertices.crack[shell.vertex(vertex)]);
 }
 
+/// Where the crack of this tip started: a fork is the root of its branches, and has the root of the crack that forked.
+/// kNone: that is not of this shell any more. A file's roots may go round in a ring, hence the bound.
+uint32_t origin_of(const ShellView& shell, uint32_t tip) {
+    const Vertices& vertices = shell.state.vertices;
+    const uint32_t count = shell.vertex_count();
+    uint32_t origin = vertices.crack_start[shell.vertex(tip)];
+    for (uint32_t forks = 0; origin < count && forks < count; ++forks) {
+        const uint32_t before = vertices.crack_start[shell.vertex(origin)];
+        if (before == origin || before >= count) break;
+        origin = before;
+    }
+    return origin < count ? origin : kNone;
+}
+
 bool may_end_at(const ShellView& shell, uint32_t vertex) {
     if (crack_at(shell, vertex) == CrackState::Cracked) return true;
     Ring ring;
@@ -96,9 +110,10 @@ bool run_out_cracks(State& state, Row<Tasks> task) {
     uint32_t cuts = 0;
     const uint32_t count = shell.vertex_count(), elements = shell.element_count();
     for (uint32_t v = 0; v < count; ++v) {
-        const uint32_t root = vertices.crack_start[shell.vertex(v)];
-        if (crack_at(shell, v) != CrackState::Tip || root >= count) continue;
-        const float crack = length(vertices.rest[shell.vertex(v)] - vertices.rest[shell.vertex(root)]);
+        if (crack_at(shell, v) != CrackState::Tip) continue;
+        const uint32_t origin = origin_of(shell, v);
+        if (origin == kNone) continue;
+        const float crack = length(vertices.rest[shell.vertex(v)] - vertices.rest[shell.vertex(origin)]);
         const float reach = run_out * std::max(crack, kStartSpacing * shell.shells().mean_edge[shell.row]);
         uint32_t target = kNone;
         for (const float turn : kTurns)

@@ -30,19 +30,13 @@ void for_body_and_strikers(const Tasks& tasks, const TaskContacts& contacts, uin
     }
 }
 
-/// The run stopped splitting because its shell had no room for more.
-bool is_full(const QuickRuns& runs, uint32_t t) {
-    return t < runs.size() && runs.is_quick[t] && runs.is_full[t];
-}
-
 }  // namespace
 
 // Hold and release both happen here, between detect and solve, so a release is bit for bit as if never held. A blow
 // slower than the first crack is solved at once: a harmless bump must not be seen to stick.
 void settle_tasks(Serial, Step step, Tasks& tasks, TaskContacts& contacts, Blows& blows, Bodies& bodies,
-                  const Shells& shells, const QuickRuns& quick_runs, RigidWorld& rigid, const DamageSettings& settings,
-                  DamageCounts& counts, Events<TaskEnded>& ended, Events<ImpactEvent>& impact_events,
-                  Events<RefusedEvent>& refused) {
+                  const Shells& shells, RigidWorld& rigid, const DamageSettings& settings, DamageCounts& counts,
+                  Events<TaskEnded>& ended, Events<ImpactEvent>& impact_events, Events<RefusedEvent>& refused) {
     ended.clear();
     for (uint32_t t = 0; t < tasks.size(); ++t) {
         const auto task_state = static_cast<TaskState>(tasks.state[t]);
@@ -79,7 +73,7 @@ void settle_tasks(Serial, Step step, Tasks& tasks, TaskContacts& contacts, Blows
             }
         }
         if (is_over) ended.push({Row<Tasks>(t)});
-        if (is_over && is_full(quick_runs, t)) {
+        if (is_over && tasks.lacks_room[t]) {
             ++counts.cuts_refused;
             refused.push(refused_event(bodies, tasks.body[t], kCrackRoom));
         }

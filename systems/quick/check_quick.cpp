@@ -37,7 +37,7 @@ std::string trouble_of_body(const QuickBodies& quick, uint32_t b) {
 
 std::string trouble_of_run(const State& s, uint32_t t) {
     const QuickRuns& runs = s.quick_runs;
-    if (runs.is_quick[t] > 1 || runs.is_full[t] > 1) return place(runs, "is_quick", t) + " or is_full is not 0 or 1";
+    if (runs.is_quick[t] > 1) return place(runs, "is_quick", t) + " is not 0 or 1";
     const bool is_open = t < s.tasks.size() && static_cast<TaskState>(s.tasks.state[t]) != TaskState::Free;
     if (!runs.is_quick[t] && is_open && is_cut_out(s, t))
         return trouble_of_hidden_region(const_cast<State&>(s), t);  // scratch alone is written

@@ -93,7 +93,7 @@ uint32_t crack_frequency_of(const State& state, Row<Tasks> task) {
 uint32_t grow_region(State& state, Row<Tasks> task) {
     QuickRuns& runs = state.quick_runs;
     Tasks& tasks = state.tasks;
-    if (runs.is_full[task]) return 0;
+    if (tasks.lacks_room[task]) return 0;  // for more springs: nothing splits any more
     const RegionView region(state, task);
     const uint32_t frequency = crack_frequency_of(state, task);
     StrainedEdges edges;
@@ -108,7 +108,7 @@ uint32_t grow_region(State& state, Row<Tasks> task) {
         if (s.touched.is_enough()) flush(s);
     }
     flush(s);
-    runs.is_full[task] = s.is_full;
+    tasks.lacks_room[task] = s.is_full;
     tasks.crack_count[task] += s.cut_edges;
     tasks.start_count[task] += s.starts;
     tasks.units_owed[task] += kUnitsQuickCut * s.cut_edges;

@@ -139,6 +139,7 @@ void start_region(State& state, Row<Tasks> task) {
     tasks.last_event_time[task] = 0;
     tasks.steps_done[task] = 0;
     tasks.crack_count[task] = tasks.start_count[task] = 0;
+    tasks.lacks_room[task] = 0;
     build_patches(state, task);  // now that step and softening are known
     start_explosions(state, task);
     if (view.has_layers())

@@ -92,11 +92,15 @@ TEST(FractureKinds, BranchingMakesMorePieces) {
     EXPECT_GT(hit_wall({}).parts, 1.5 * hit_wall({.branching = 0}).parts);
 }
 
+TEST(FractureKinds, LargeCracksDoNotFork) {
+    const Found alone = hit_wall({FractureKind::Large, 0}), told_to = hit_wall({FractureKind::Large, 0.3f});
+    EXPECT_EQ(alone.cuts, told_to.cuts);
+}
+
 TEST(FractureKinds, CracksThatRunOutLeaveFewDeadEnds) {
     for (const FractureKind fracture : {FractureKind::Large, FractureKind::Coarse, FractureKind::Fine})
         for (const float branching : {0.0f, 0.3f}) {
-            // Large with branching is a crater whose cracks end out of each other's reach: they stay.
-            if (fracture == FractureKind::Large && branching > 0) continue;
+            if (fracture == FractureKind::Large && branching > 0) continue;  // large cracks do not fork
             const Found stops = hit_wall({fracture, branching, 0}), runs = hit_wall({fracture, branching, 2});
             EXPECT_LT(runs.dead_ends, stops.dead_ends) << name_of(fracture);
             EXPECT_GE(runs.pieces, stops.pieces) << name_of(fracture);

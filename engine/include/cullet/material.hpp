@@ -42,7 +42,7 @@ struct MaterialSettings {
     float tip_factor = 0.6f;    // on Griffith's limit at the mesh's resolution; at 1 most panes stay whole
     float run_seconds = 1e-3f;  // least elastic time of a blow's run; half of it leaves a vase too whole
     /// Tips above this share of the start strength (which is twice tensile_strength) fork with probability 1/2; 0:
-    /// never.
+    /// never. Of fine and, four edges apart, coarse fracture; large cracks run on alone.
     float branching = 0;
     /// When a hit breaks the body, a crack that has stopped goes on if a border or another crack lies ahead within this
     /// times its own length: what is left would break under the pieces' weight. 0: it stays a hairline.

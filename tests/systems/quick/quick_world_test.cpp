@@ -56,7 +56,7 @@ TEST(QuickWorld, ARunWithoutRoomForMoreSplitsSaysSoAndIsCounted) {
         // As if its shell had no row left.
         after_each_system(b.world, [&](const std::string& system) {
             for (uint32_t t = 0; system == "start_regions" && t < state.quick_runs.size(); ++t)
-                if (state.quick_runs.is_quick[t]) state.quick_runs.is_full[t] = is_full;
+                if (state.quick_runs.is_quick[t]) state.tasks.lacks_room[t] = is_full;
         });
         uint32_t events = 0;
         for (uint32_t frame = 0; frame < 30; ++frame) {
