@@ -17,6 +17,12 @@ namespace {
 
 constexpr double kMedianBand = 0.35, kStepBand = 0.05;   // about the known medians; between a step and its half
 constexpr double kWholeBelow = 0.4, kBrokenAbove = 2.5;  // of the two medians
+// Note, section 15: the bands are asked of 20 placements; of how many the medians are, it leaves open. Speeds of the
+// vase's first piece spread by a factor of six with few of them near the middle, so with 20 the median jumps from one
+// placement to the next, 6 % off, when a single one breaks another way at half the step. With 40 it does not. The
+// chance that one of them lies in a tail grows with their number all the same, so the bands stay with the first 20;
+// what lies outside of them among the others is printed, and not judged.
+constexpr uint32_t kBandPlacements = 20;
 constexpr const char* kNames[] = {"first crack", "first piece"};
 
 /// Everything measured on one subject, by placement.
@@ -26,6 +32,11 @@ struct Measured {
     std::vector<uint8_t> cracks_below, breaks_above;
     MedianSpread spread[2], halved_spread[2];
 };
+
+/// How many of the first placements have this flag.
+uint32_t count_of(const std::vector<uint8_t>& flags, uint32_t first, uint8_t flag) {
+    return static_cast<uint32_t>(std::count(flags.begin(), flags.begin() + first, flag));
+}
 
 /// Calls work(bench, placement) for all placements on all threads.
 template <class Work>
@@ -84,7 +95,7 @@ MedianSpread over_hits(const Measured& m, Value value) {
 }
 
 /// Median over placements of what half the step changes, %: the median of the speeds jumps to its neighbour when one
-/// placement of 20 finds another way to break.
+/// placement finds another way to break.
 double paired_change(const Measured& m, int k) {
     std::vector<double> changes;
     for (size_t i = 0; i < m.thresholds.size(); ++i) {
@@ -104,6 +115,11 @@ void print_thresholds(const HitSubject& known, const Measured& m) {
             kNames[k], m.spread[k].median, m.spread[k].least, m.spread[k].most, wanted[k],
             100 * (m.spread[k].median / wanted[k] - 1), m.halved_spread[k].median,
             100 * (m.halved_spread[k].median / m.spread[k].median - 1), paired_change(m, k));
+    const auto all = static_cast<uint32_t>(m.thresholds.size());
+    fmt::print(
+        "  of all {} placements {} crack at {} of the first crack's median, {} stay whole at {} times the first "
+        "piece's\n",
+        all, count_of(m.cracks_below, all, 1), kWholeBelow, count_of(m.breaks_above, all, 0), kBrokenAbove);
 }
 
 void print_hits(const HitSubject& known, const Measured& m) {
@@ -139,16 +155,18 @@ std::vector<Verdict> judge(const HitSubject& known, const Measured& m) {
         add(fmt::format("{}, over the known {:.2f} m/s", kNames[k], wanted[k]), median / wanted[k], 1 - kMedianBand,
             1 + kMedianBand);
     }
-    uint32_t cracked = 0, held = 0, dropped = 0;
+    uint32_t dropped = 0;
     double most_energy = 0;
     for (size_t i = 0; i < m.thresholds.size(); ++i) {
-        cracked += m.cracks_below[i], held += !m.breaks_above[i];
         const double kept = m.hits[i].report.end_energy / m.hits[i].report.start_energy;
         if (!(kept <= most_energy)) most_energy = std::isnan(kept) ? HUGE_VAL : kept;
         dropped += m.thresholds[i].dropped + m.halved[i].dropped + m.hits[i].report.dropped;
     }
-    add("placements that crack below 0.4 of the first crack's median", cracked, 0, 0);
-    add("placements whole above 2.5 times the first piece's median", held, 0, 0);
+    const uint32_t few = std::min(kBandPlacements, static_cast<uint32_t>(m.thresholds.size()));
+    add(fmt::format("of {} placements, cracked at {} of the first crack's median", few, kWholeBelow),
+        count_of(m.cracks_below, few, 1), 0, 0);
+    add(fmt::format("of {} placements, whole at {} times the first piece's median", few, kBrokenAbove),
+        count_of(m.breaks_above, few, 0), 0, 0);
     add("energy after a blow over before, the most", most_energy, 0, 1.05);
     add("hits dropped", dropped, 0, 0);
     return verdicts;
@@ -218,6 +236,11 @@ nlohmann::json to_json(const HitSubject& known, const Measured& m) {
 
 Result<HitTruth> tell_hits(const TruthSettings& settings) {
     HitTruth truth;
+    fmt::print(
+        "medians are over {} placements, the bands of 0.4 and 2.5 medians over the first {} (with 20 the median of the "
+        "vase's\npieces jumps by the gap between two placements when one breaks another way; the bands are asked of "
+        "20)\n",
+        settings.placements, std::min(kBandPlacements, settings.placements));
     for (const Subject subject : kSubjects) {
         const Result<HitSubject> known = make_subject(subject);
         if (!known.ok()) return Error{known.error()};
