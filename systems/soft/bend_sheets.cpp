@@ -19,7 +19,7 @@ namespace {
 // Bending is far slower than stretching, so a hinge pushes once in some substeps: in a tenth of l^2 sqrt(rho h / D),
 // half over the fastest frequency of an even lattice. Twice as long and folds of one edge ring.
 constexpr double kPeriodShare = 0.1;
-constexpr uint32_t kMostSubstepsABend = 64;
+constexpr uint32_t kMostSubstepsABend = 256;
 // Most of k sum K_i^2 / m_i dt^2 of one hinge: small triangles and light corners beside a cut are bent softer.
 constexpr double kMostSlope = 0.05;
 
