@@ -34,15 +34,13 @@ struct MaterialTraits : Table<MaterialTraits> {
     Column<uint8_t> fracture{*this, "fracture"};  // FractureKind
     Column<float> branching{*this, "branching"};  // tips above this share of sigma_d may fork; 0: none does
     Column<float> run_out{*this, "run_out"};  // what a crack goes on for at the end of a run that breaks, of its length
-    Column<float> yield_strength{*this, "yield_strength", "Pa"};
     Column<float> yield_strain{*this, "yield_strain"};
     Column<float> break_strain{*this, "break_strain"};
-    Column<float> bending_stiffness{*this, "bending_stiffness", "N m"};  // 0: E h^3 / 12 (1 - nu^2)
+    Column<float> bending_stiffness{*this, "bending_stiffness", "N m"};  // of soft ones; 0: as E and the depth say
     // Across the grain; across_young_modulus 0: the same in all directions.
     Column<float> across_young_modulus{*this, "across_young_modulus", "Pa"};
     Column<float> shear_modulus{*this, "shear_modulus", "Pa"};
     Column<float> across_strength{*this, "across_strength", "Pa"};
-    Column<float> across_break_strain{*this, "across_break_strain"};
     Column<float> across_fracture_energy{*this, "across_fracture_energy", "J/m2"};
     Column<Vec3> grain{*this, "grain"};  // unit, body frame; models cooked with another one have another row
 };

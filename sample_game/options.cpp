@@ -160,7 +160,9 @@ Result<Options> parse_options(std::vector<std::string> arguments) {
                                          "Prints the verification cases of a method: figure, bounds, verdict; the "
                                          "last, speeds of first cracks and pieces, takes minutes");
     truth->add_option("model", options.truth.model, "thick_shell")->required();
-    truth->add_option("--placements", options.truth.placements, "Seeded placements of each scene")
+    truth
+        ->add_option("--placements", options.truth.placements,
+                     "Seeded placements of each scene for the medians; the bands are judged on the first 20")
         ->check(CLI::Range(1u, 1000u));
     truth->add_option("--threads", options.truth.threads, "Threads that share the placements; 2 if not given")
         ->check(CLI::Range(1u, 64u));

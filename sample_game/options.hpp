@@ -47,7 +47,7 @@ struct CookOptions {
 
 struct TruthOptions {
     std::string model;
-    uint32_t placements = 20, threads = 0;
+    uint32_t placements = 40, threads = 0;
     std::string out;  // a folder; empty: only printed
 };
 

@@ -14,10 +14,8 @@ constexpr uint64_t kLargestFile = 1u << 20;  // bytes; the compiled table would 
 constexpr size_t kMostRows = 256;
 // What a new row without `like` may leave out.
 constexpr const char* kOptional[] = {
-    "yield_strength", "yield_strain",    "bending_stiffness",   "across_young_modulus",
-    "shear_modulus",  "across_strength", "across_break_strain", "across_fracture_energy",
-    "heading_power",  "tip_factor",      "branching",           "run_out",
-    "run_seconds"};
+    "bending_stiffness", "across_young_modulus", "shear_modulus", "across_strength", "across_fracture_energy",
+    "heading_power",     "tip_factor",           "branching",     "run_out",         "run_seconds"};
 
 struct Reader {
     const std::string& path;
@@ -49,6 +47,9 @@ struct Reader {
 
     Result<void> read_value(const std::string& name, const MaterialValue& value, const toml::node& node,
                             MaterialSettings& row) const {
+        if (!value.is_of(row.kind))
+            return at(node, fmt::format("[{}] {} decides nothing in {} materials; leave it out.", name, value.name,
+                                        name_of(row.kind)));
         const auto number = node.value<double>();
         if (!number || !(*number >= value.least && *number <= value.most))
             return at(node,
@@ -60,8 +61,7 @@ struct Reader {
 
     Result<void> read_entry(const std::string& name, const std::string& key, const toml::node& node,
                             MaterialSettings& row) const {
-        if (key == "like") return {};  // read before
-        if (key == "kind") return read_kind(name, "kind", node, row.kind);
+        if (key == "like" || key == "kind") return {};  // read before
         if (key == "fracture") return read_kind(name, "fracture", node, row.fracture);
         std::string known = "like, kind, fracture";
         for (const MaterialValue& value : material_values()) {
@@ -71,21 +71,31 @@ struct Reader {
         return at(node, fmt::format("[{}] there is no {}; use {}.", name, key, known));
     }
 
-    /// The row that the section starts from.
+    /// The row that the section starts from, with its kind.
     Result<MaterialSettings> first_of(const std::string& name, const toml::table& section) const {
+        Result<MaterialSettings> row = row_before(name, section);
+        if (!row.ok()) return row;
+        const toml::node* const kind = section.get("kind");
+        if (kind)
+            if (Result<void> read = read_kind(name, "kind", *kind, row->kind); !read.ok()) return Error{read.error()};
+        if (section.get("like") || table.find(name).ok()) return row;
+        for (const MaterialValue& value : material_values()) {
+            const bool may_miss = !value.is_of(row->kind) ||
+                                  std::any_of(std::begin(kOptional), std::end(kOptional), [&](const char* optional) {
+                                      return std::string_view(optional) == value.name;
+                                  });
+            if (!may_miss && !section.get(value.name))
+                return at(section, fmt::format("[{}] is new and has no {}; give it, or like = one of {}.", name,
+                                               value.name, table.names()));
+        }
+        return row;
+    }
+
+    Result<MaterialSettings> row_before(const std::string& name, const toml::table& section) const {
         const toml::node* const like = section.get("like");
         if (!like) {
             const Result<MaterialSettings> own = table.find(name);
-            if (own.ok()) return own;
-            for (const MaterialValue& value : material_values()) {
-                const bool may_miss =
-                    std::any_of(std::begin(kOptional), std::end(kOptional),
-                                [&](const char* optional) { return std::string_view(optional) == value.name; });
-                if (!may_miss && !section.get(value.name))
-                    return at(section, fmt::format("[{}] is new and has no {}; give it, or like = one of {}.", name,
-                                                   value.name, table.names()));
-            }
-            return MaterialSettings{};
+            return own.ok() ? own.value() : MaterialSettings{};
         }
         const auto text = like->value<std::string>();
         const Result<MaterialSettings> found = table.find(text.value_or(""));

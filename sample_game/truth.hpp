@@ -8,7 +8,7 @@
 namespace cullet {
 
 struct TruthSettings {
-    uint32_t placements = 20;
+    uint32_t placements = 40;
     uint32_t threads = 2;  // share the placements; the figures are the same on any number. 0: 2
     std::string out;       // a folder for truth.json; empty: only printed
 };

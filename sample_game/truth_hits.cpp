@@ -7,6 +7,7 @@
 #include <cmath>
 #include <mutex>
 #include <nlohmann/json.hpp>
+#include <span>
 #include <thread>
 
 #include "sample_game/progress.hpp"
@@ -17,15 +18,25 @@ namespace {
 
 constexpr double kMedianBand = 0.35, kStepBand = 0.05;   // about the known medians; between a step and its half
 constexpr double kWholeBelow = 0.4, kBrokenAbove = 2.5;  // of the two medians
+// Note, section 15: the bands are asked of 20 placements, about their medians; of how many the medians between steps
+// are, it leaves open. Speeds of the vase's first piece spread by a factor of five and few lie near the middle: with 20
+// the median jumps by 6 %, from one placement to the next, when one of them breaks another way at half the step. With
+// 40 it moves by 4 %. The bands stay with 20: the more placements, the more surely one lies in a tail. How many of all
+// lie outside the bands about the medians of all is printed, and not judged.
+constexpr uint32_t kBandPlacements = 20;
 constexpr const char* kNames[] = {"first crack", "first piece"};
 
 /// Everything measured on one subject, by placement.
 struct Measured {
     std::vector<Thresholds> thresholds, halved;
     std::vector<HitResult> hits;
-    std::vector<uint8_t> cracks_below, breaks_above;
+    std::vector<uint8_t> cracks_below, breaks_above;  // of the first kBandPlacements
     MedianSpread spread[2], halved_spread[2];
 };
+
+uint32_t count_of(const std::vector<uint8_t>& flags, uint8_t flag) {
+    return static_cast<uint32_t>(std::count(flags.begin(), flags.end(), flag));
+}
 
 /// Calls work(bench, placement) for all placements on all threads.
 template <class Work>
@@ -49,7 +60,7 @@ void for_placements(const HitSubject& known, Subject subject, const TruthSetting
     for (std::thread& thread : threads) thread.join();
 }
 
-void spread(const std::vector<Thresholds>& all, MedianSpread (&spreads)[2]) {
+void spread(std::span<const Thresholds> all, MedianSpread (&spreads)[2]) {
     std::vector<double> values[2];
     for (const Thresholds& t : all) values[0].push_back(t.first_crack), values[1].push_back(t.first_piece);
     for (int k = 0; k < 2; ++k) spreads[k] = spread_of(values[k]);
@@ -57,16 +68,21 @@ void spread(const std::vector<Thresholds>& all, MedianSpread (&spreads)[2]) {
 
 Measured measure(const HitSubject& known, Subject subject, const TruthSettings& settings) {
     Measured m;
-    const uint32_t n = settings.placements;
-    m.thresholds.resize(n), m.halved.resize(n), m.hits.resize(n), m.cracks_below.resize(n), m.breaks_above.resize(n);
+    const uint32_t n = settings.placements, few = std::min(n, kBandPlacements);
+    m.thresholds.resize(n), m.halved.resize(n), m.hits.resize(n), m.cracks_below.resize(few),
+        m.breaks_above.resize(few);
     for_placements(known, subject, settings, "thresholds", [&](HitBench& bench, uint32_t i) {
         m.thresholds[i] = find_thresholds(bench, i, known.known.first_crack);
     });
     spread(m.thresholds, m.spread);
+    MedianSpread band[2];
+    spread(std::span(m.thresholds).first(few), band);
     for_placements(known, subject, settings, "bands and hits", [&](HitBench& bench, uint32_t i) {
         const auto at = [&](double speed) { return bench.blow(i, static_cast<float>(speed)); };
-        m.cracks_below[i] = bench.run(at(kWholeBelow * m.spread[0].median), true).cracked;
-        m.breaks_above[i] = bench.run(at(kBrokenAbove * m.spread[1].median)).broke;
+        if (i < few) {
+            m.cracks_below[i] = bench.run(at(kWholeBelow * band[0].median), true).cracked;
+            m.breaks_above[i] = bench.run(at(kBrokenAbove * band[1].median)).broke;
+        }
         m.hits[i] = bench.examine(at(known.hit_speed));
     });
     for_placements(known, subject, settings, "half the step", [&](HitBench& bench, uint32_t i) {
@@ -84,7 +100,7 @@ MedianSpread over_hits(const Measured& m, Value value) {
 }
 
 /// Median over placements of what half the step changes, %: the median of the speeds jumps to its neighbour when one
-/// placement of 20 finds another way to break.
+/// placement finds another way to break.
 double paired_change(const Measured& m, int k) {
     std::vector<double> changes;
     for (size_t i = 0; i < m.thresholds.size(); ++i) {
@@ -104,6 +120,13 @@ void print_thresholds(const HitSubject& known, const Measured& m) {
             kNames[k], m.spread[k].median, m.spread[k].least, m.spread[k].most, wanted[k],
             100 * (m.spread[k].median / wanted[k] - 1), m.halved_spread[k].median,
             100 * (m.halved_spread[k].median / m.spread[k].median - 1), paired_change(m, k));
+    uint32_t below = 0, above = 0;
+    for (const Thresholds& t : m.thresholds) {
+        below += t.first_crack < kWholeBelow * m.spread[0].median;
+        above += t.first_piece > kBrokenAbove * m.spread[1].median;
+    }
+    fmt::print("  of all {}, {} first crack below {} of the median and {} first break above {} times the median\n",
+               m.thresholds.size(), below, kWholeBelow, above, kBrokenAbove);
 }
 
 void print_hits(const HitSubject& known, const Measured& m) {
@@ -138,17 +161,21 @@ std::vector<Verdict> judge(const HitSubject& known, const Measured& m) {
             1 - kStepBand, 1 + kStepBand);
         add(fmt::format("{}, over the known {:.2f} m/s", kNames[k], wanted[k]), median / wanted[k], 1 - kMedianBand,
             1 + kMedianBand);
+        add(fmt::format("{}, half the step over the step in a placement, median", kNames[k]),
+            1 + paired_change(m, k) / 100, 1 - kStepBand, 1 + kStepBand);
     }
-    uint32_t cracked = 0, held = 0, dropped = 0;
+    uint32_t dropped = 0;
     double most_energy = 0;
     for (size_t i = 0; i < m.thresholds.size(); ++i) {
-        cracked += m.cracks_below[i], held += !m.breaks_above[i];
         const double kept = m.hits[i].report.end_energy / m.hits[i].report.start_energy;
         if (!(kept <= most_energy)) most_energy = std::isnan(kept) ? HUGE_VAL : kept;
         dropped += m.thresholds[i].dropped + m.halved[i].dropped + m.hits[i].report.dropped;
     }
-    add("placements that crack below 0.4 of the first crack's median", cracked, 0, 0);
-    add("placements whole above 2.5 times the first piece's median", held, 0, 0);
+    const size_t few = m.cracks_below.size();
+    add(fmt::format("of {} placements, cracked at {} of their first crack's median", few, kWholeBelow),
+        count_of(m.cracks_below, 1), 0, 0);
+    add(fmt::format("of {} placements, whole at {} times their first piece's median", few, kBrokenAbove),
+        count_of(m.breaks_above, 0), 0, 0);
     add("energy after a blow over before, the most", most_energy, 0, 1.05);
     add("hits dropped", dropped, 0, 0);
     return verdicts;
@@ -218,6 +245,12 @@ nlohmann::json to_json(const HitSubject& known, const Measured& m) {
 
 Result<HitTruth> tell_hits(const TruthSettings& settings) {
     HitTruth truth;
+    fmt::print(
+        "medians are of {} placements: of 20, the vase's pieces' jumps by 6 % when one placement breaks another way at "
+        "half the\nstep. The bands of 0.4 and 2.5 medians are judged on the first {} and their medians, as the method "
+        "asks; "
+        "how many of all lie\noutside is printed.\n",
+        settings.placements, std::min(kBandPlacements, settings.placements));
     for (const Subject subject : kSubjects) {
         const Result<HitSubject> known = make_subject(subject);
         if (!known.ok()) return Error{known.error()};

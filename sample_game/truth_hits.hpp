@@ -13,7 +13,7 @@ struct HitTruth {
     std::vector<Verdict> verdicts;
     nlohmann::json json;
 };
-/// Prints what it finds on the way; takes minutes with 20 placements.
+/// Prints what it finds on the way; takes minutes with 40 placements.
 Result<HitTruth> tell_hits(const TruthSettings& settings);
 
 }  // namespace cullet

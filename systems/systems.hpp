@@ -207,6 +207,8 @@ void end_spring_step(EachBody body, OfSprings springs, ShellSprings& own);
 /// friction between vertices and the strikers' copies.
 void meet_strikers(EachBody soft_body, OfSprings springs, Turn turn, ShellTables shells, SoftBodies& soft,
                    SoftStrikers& strikers, SoftContacts& contacts);
+/// Hinges of sheets whose material has a bending stiffness of its own, once in some substeps.
+void bend_sheets(EachBody soft_body, OfSprings springs, ShellTables shells);
 /// Springs above yield get longer or shorter for good (6.8).
 void flow_springs(Rows<Springs> rows, OfSprings springs, OfSoft soft_body, ShellTables shells, const SoftBodies& soft);
 /// Springs beyond what they bear: a vertex is split across the most stretched (C1, C3).

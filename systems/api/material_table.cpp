@@ -10,30 +10,29 @@ namespace cullet {
 namespace {
 
 using S = MaterialSettings;
+constexpr uint8_t kBrittle = 1, kDuctile = 2, kElastic = 4, kSoft = kDuctile | kElastic, kAll = kBrittle | kSoft;
 // Ranges reach well beyond what exists: they keep a wrong unit (GPa for Pa) and numbers that no run can follow out.
 constexpr MaterialValue kValues[] = {
-    {"density", "kg/m3", &S::density, 1, 1e5},
-    {"young_modulus", "Pa", &S::young_modulus, 1e3, 1e13},
-    {"poisson_ratio", "1", &S::poisson_ratio, 0, 0.499},
-    {"tensile_strength", "Pa", &S::tensile_strength, 1e2, 1e12},
-    {"yield_strength", "Pa", &S::yield_strength, 0, 1e12},
-    {"yield_strain", "1", &S::yield_strain, 0, 10},
-    {"break_strain", "1", &S::break_strain, 1e-7, 100},
-    {"fracture_energy", "J/m2", &S::fracture_energy, 1e-3, 1e9},
-    {"crush_strength", "Pa", &S::crush_strength, 1e3, 1e13},
-    {"restitution", "1", &S::restitution, 0, 1},
-    {"friction", "1", &S::friction, 0, 10},
-    {"heading_power", "1", &S::heading_power, 0, 100},
-    {"tip_factor", "1", &S::tip_factor, 0.01, 10},
-    {"run_seconds", "s", &S::run_seconds, 1e-4, 0.1},
-    {"branching", "1", &S::branching, 0, 10},
-    {"run_out", "1", &S::run_out, 0, 10},
-    {"bending_stiffness", "N m", &S::bending_stiffness, 0, 1e9},
-    {"across_young_modulus", "Pa", &S::across_young_modulus, 0, 1e13},
-    {"shear_modulus", "Pa", &S::shear_modulus, 0, 1e13},
-    {"across_strength", "Pa", &S::across_strength, 0, 1e12},
-    {"across_break_strain", "1", &S::across_break_strain, 0, 100},
-    {"across_fracture_energy", "J/m2", &S::across_fracture_energy, 0, 1e9},
+    {"density", "kg/m3", &S::density, 1, 1e5, kAll},
+    {"young_modulus", "Pa", &S::young_modulus, 1e3, 1e13, kAll},
+    {"poisson_ratio", "1", &S::poisson_ratio, 0, 0.499, kAll},
+    {"tensile_strength", "Pa", &S::tensile_strength, 1e2, 1e12, kBrittle},
+    {"yield_strain", "1", &S::yield_strain, 1e-7, 10, kDuctile},
+    {"break_strain", "1", &S::break_strain, 1e-7, 100, kSoft},
+    {"fracture_energy", "J/m2", &S::fracture_energy, 1e-3, 1e9, kBrittle},
+    {"crush_strength", "Pa", &S::crush_strength, 1e3, 1e13, kBrittle},
+    {"restitution", "1", &S::restitution, 0, 1, kAll},
+    {"friction", "1", &S::friction, 0, 10, kAll},
+    {"heading_power", "1", &S::heading_power, 0, 100, kBrittle},
+    {"tip_factor", "1", &S::tip_factor, 0.01, 10, kBrittle},
+    {"run_seconds", "s", &S::run_seconds, 1e-4, 0.1, kBrittle},
+    {"branching", "1", &S::branching, 0, 10, kBrittle},
+    {"run_out", "1", &S::run_out, 0, 10, kBrittle},
+    {"bending_stiffness", "N m", &S::bending_stiffness, 0, 1e9, kSoft},
+    {"across_young_modulus", "Pa", &S::across_young_modulus, 0, 1e13, kBrittle},
+    {"shear_modulus", "Pa", &S::shear_modulus, 0, 1e13, kBrittle},
+    {"across_strength", "Pa", &S::across_strength, 0, 1e12, kBrittle},
+    {"across_fracture_energy", "J/m2", &S::across_fracture_energy, 0, 1e9, kBrittle},
 };
 constexpr const char* kKindNames[] = {"brittle", "ductile", "elastic"};
 constexpr const char* kFractureNames[] = {"large", "coarse", "fine"};
@@ -73,7 +72,7 @@ constexpr AcrossValue kAcross[] = {{"across_young_modulus", &S::across_young_mod
 /// 2 nu^2 E_across < (1 - nu) E_along (its compliance's sign in the plane of equal tensions across), nu being used for
 /// both kinds of contraction.
 Result<void> check_grain(const S& m) {
-    if (m.across_young_modulus == 0) return {};
+    if (m.kind != MaterialKind::Brittle || m.across_young_modulus == 0) return {};
     for (const AcrossValue& across : kAcross) {
         const auto along = std::find_if(std::begin(kValues), std::end(kValues),
                                         [&](const MaterialValue& value) { return value.member == across.along; });
@@ -92,6 +91,13 @@ Result<void> check_grain(const S& m) {
                             " and young_modulus " + shown(static_cast<double>(m.young_modulus)) +
                             " Pa; use less than " + shown(most) + " Pa, or a smaller poisson_ratio.");
     return {};
+}
+
+/// What decides nothing becomes 0, so that rows with the same effect are the same.
+S without_idle_values(S m) {
+    for (const MaterialValue& value : kValues)
+        if (!value.is_of(m.kind)) m.*value.member = 0;
+    return m;
 }
 
 }  // namespace
@@ -113,6 +119,7 @@ Result<void> check_material(const S& m) {
         static_cast<size_t>(m.fracture) >= std::size(kFractureNames))
         return wrong(m, "kind or fracture is none of those that there are.");
     for (const MaterialValue& value : kValues) {
+        if (!value.is_of(m.kind)) continue;
         const double is = static_cast<double>(m.*value.member);
         // The ends as floats: what is written as 0.499 is not refused.
         if (!(is >= static_cast<double>(static_cast<float>(value.least)) &&
@@ -120,10 +127,10 @@ Result<void> check_material(const S& m) {
             return wrong(m, std::string(value.name) + " is " + shown(is) + unit_of(value) + "; use " +
                                 shown(value.least) + " to " + shown(value.most) + ".");
     }
-    if (m.kind == MaterialKind::Ductile && !(m.yield_strength > 0 && m.yield_strength <= m.tensile_strength))
-        return wrong(m, "yield_strength is " + shown(m.yield_strength) +
-                            " Pa; a ductile material yields above 0 and not above its tensile_strength, " +
-                            shown(m.tensile_strength) + " Pa.");
+    if (m.kind == MaterialKind::Ductile && !(m.yield_strain <= m.break_strain))
+        return wrong(m, "yield_strain is " + shown(m.yield_strain) +
+                            "; a ductile material flows before it tears, at its break_strain, " +
+                            shown(m.break_strain) + ".");
     return check_grain(m);
 }
 
@@ -137,7 +144,7 @@ S* MaterialTable::row_of(const std::string& name) {
 Result<void> MaterialTable::add(const S& material) {
     if (const Result<void> valid = check_material(material); !valid) return valid;
     if (row_of(material.name)) return wrong(material, "is in the table already; change it, or use another name.");
-    rows_.push_back(material);
+    rows_.push_back(without_idle_values(material));
     return {};
 }
 
@@ -145,7 +152,7 @@ Result<void> MaterialTable::change(const S& material) {
     if (const Result<void> valid = check_material(material); !valid) return valid;
     S* const row = row_of(material.name);
     if (!row) return wrong(material, "is not in the table, which has " + names() + "; add it.");
-    *row = material;
+    *row = without_idle_values(material);
     return {};
 }
 

@@ -166,7 +166,7 @@ void measure_thresholds(State& state, Row<Shells> shell, const CookSettings& set
     state.shells.first_crack_speed[shell] = 0.5f * (speeds[1] + speeds[2]);
 }
 
-// 0.1 sigma_d / (rho c): what a wave in a bar carries; only where nothing was measured.
+// 0.1 sigma_d / (rho c): what a wave in a bar carries; only where nothing was measured. 0 of what does not crack.
 float estimated_threshold(const State& state, Row<Shells> shell) {
     const uint32_t m = state.shells.material[shell];
     const Materials& materials = state.materials;

@@ -1,5 +1,7 @@
 #include "systems/cook/materials.hpp"
 
+#include <bit>
+
 namespace cullet {
 namespace {
 
@@ -17,12 +19,10 @@ void for_each_material_column(M& materials, F&& f) {
 template <class T, class F>
 void for_each_traits_column(T& traits, F&& f) {
     using S = MaterialSettings;
-    f(traits.yield_strength, &S::yield_strength), f(traits.yield_strain, &S::yield_strain);
-    f(traits.branching, &S::branching), f(traits.run_out, &S::run_out);
+    f(traits.yield_strain, &S::yield_strain), f(traits.branching, &S::branching), f(traits.run_out, &S::run_out);
     f(traits.break_strain, &S::break_strain), f(traits.bending_stiffness, &S::bending_stiffness);
     f(traits.across_young_modulus, &S::across_young_modulus), f(traits.shear_modulus, &S::shear_modulus);
-    f(traits.across_strength, &S::across_strength), f(traits.across_break_strain, &S::across_break_strain);
-    f(traits.across_fracture_energy, &S::across_fracture_energy);
+    f(traits.across_strength, &S::across_strength), f(traits.across_fracture_energy, &S::across_fracture_energy);
 }
 
 void write_row(Materials& materials, uint32_t row, const MaterialSettings& from) {
@@ -120,6 +120,15 @@ TraitsRow material_traits(const State& state, Row<Materials> row) {
     return found;
 }
 
+Result<void> check_row(const MaterialSettings& m) {
+    if (const Result<void> valid = check_material(m); !valid) return valid;
+    for (const MaterialValue& value : material_values())
+        if (!value.is_of(m.kind) && std::bit_cast<uint32_t>(m.*value.member) != 0)  // -0 would be read as another row
+            return Error{"material \"" + m.name + "\": " + value.name + " is " + std::to_string(m.*value.member) +
+                         ", and decides nothing in " + name_of(m.kind) + " materials; it has to be 0."};
+    return {};
+}
+
 Result<void> check_material_rows(const State& state) {
     const MaterialTraits& traits = state.material_traits;
     const auto place = [](uint32_t row) { return "row " + std::to_string(row) + " of materials: "; };
@@ -135,7 +144,7 @@ Result<void> check_material_rows(const State& state) {
                          std::to_string(traits.fracture[row]) + " does not exist."};
         MaterialSettings found = material_settings(state, Row<Materials>(row));
         found.name = "row-" + std::to_string(row);
-        if (const Result<void> valid = check_material(found); !valid) return valid;
+        if (const Result<void> valid = check_row(found); !valid) return valid;
         const float squared = dot(grain_of(state, row), grain_of(state, row));
         if (found.across_young_modulus > 0 ? std::abs(squared - 1) > 1e-5f : squared != 0)
             return Error{place(row) + "the grain's length squared is " + std::to_string(squared) + "."};

@@ -30,6 +30,8 @@ struct TraitsRow {
 };
 TraitsRow material_traits(const State& state, Row<Materials> row);
 
+/// Whether a row that was read is one that a table can have: check_material, and what decides nothing in its kind is 0.
+Result<void> check_row(const MaterialSettings& material);
 /// Whether rows that were read may be followed: values in their ranges, kinds that there are, grains of unit length.
 Result<void> check_material_rows(const State& state);
 

@@ -18,7 +18,7 @@ constexpr uint64_t kLargestFile = 1ull << 34;  // rows of it, and of what is der
 
 constexpr const char* kAdvice = "The model file is damaged or of another build; cook the mesh again and write it.";
 constexpr FileKind kKind{{'c', 'm', 'o', 'd', 'l', '\r', '\n', '\x1a'},
-                         6,
+                         7,
                          "model file",
                          ".cmodel",
                          "Write one with write_model.",
@@ -67,7 +67,7 @@ void put_material(ByteWriter& writer, const std::string& name, const MaterialSet
     for (const MaterialValue& value : material_values()) writer.number(material.*value.member);
     writer.number(grain.x), writer.number(grain.y), writer.number(grain.z);
 }
-/// A row that check_material finds good; trouble stays with the reader.
+/// A row that check_row finds good; trouble stays with the reader.
 void take_material(ByteReader& reader, MaterialSettings& material, Vec3& grain) {
     material.name = reader.text("the material's name");
     material.kind = static_cast<MaterialKind>(reader.number<uint8_t>("the material's kind"));
@@ -75,7 +75,7 @@ void take_material(ByteReader& reader, MaterialSettings& material, Vec3& grain) 
     for (const MaterialValue& value : material_values()) material.*value.member = reader.number<float>(value.name);
     grain = {reader.number<float>("the grain"), reader.number<float>("the grain"), reader.number<float>("the grain")};
     if (!reader.is_sound()) return;
-    const Result<void> valid = check_material(material);
+    const Result<void> valid = check_row(material);
     reader.expect(valid.ok(), valid.error());
     const float squared = dot(grain, grain);
     reader.expect(material.across_young_modulus > 0 ? std::abs(squared - 1) <= 1e-5f : squared == 0,
@@ -162,7 +162,6 @@ Result<Row<Shells>> copy_rows(State& state, const Found& found, const std::strin
     std::vector<Range> own;
     for_each_part(state, shell, [&](const AnyTable&, const Range& range) { own.push_back(range); });
     found.shell.copy_to(state.shells, shell);
-    state.shells.users[shell] = 1;
     size_t part = 0;
     std::string trouble;
     for_each_part(state, shell, [&](AnyTable& table, const Range& range) {
@@ -245,7 +244,10 @@ Result<Model> parse_model_file(std::span<const uint8_t> bytes, const std::string
         fill_materials(contents->state.materials);
         const Result<Row<Shells>> shell = copy_rows(contents->state, *found, name);
         if (!shell) return Error{shell.error()};
-        // The bytes name a row of the state that wrote them; what counts are the values.
+        // The values before the tables say which row it is; the writer left 0 there.
+        if (contents->state.shells.material[*shell] != Row<Materials>(0))
+            return damaged(name, "the shell's material is row " +
+                                     std::to_string(contents->state.shells.material[*shell].index) + ", not 0");
         contents->state.shells.material[*shell] = material_row(contents->state, found->material, found->grain);
         if (const Result<void> sound =
                 check_shell_rows(ShellView(contents->state, *shell), Wear::Intact, name, kAdvice);

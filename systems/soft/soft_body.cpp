@@ -48,7 +48,7 @@ bool soft_material(const State& state, Row<Materials> row, SoftMaterial& out) {
     if (row < traits.size()) {
         out.yield_strain = out.is_elastic ? 0 : traits.yield_strain[row];
         out.break_strain = traits.break_strain[row];
-        out.has_bending = !(traits.bending_stiffness[row] > 0);
+        out.is_sheet = traits.bending_stiffness[row] > 0;
     }
     return true;
 }
@@ -69,7 +69,7 @@ Result<Row<SoftBodies>> make_soft(State& state, Row<Bodies> body, const LayerSet
     if (!soft_material(state, state.shells.material[shell], material))
         return Error{"a brittle body has no springs; please report this."};
     SpringSettings settings;
-    settings.layout = spring_layout(material.has_bending, layers.layout);
+    settings.layout = spring_layout(!material.is_sheet, layers.layout);
     settings.length_factor = layers.length_factor;
     settings.area_energy = layers.area_energy;
     settings.volume_energy = layers.volume_energy;

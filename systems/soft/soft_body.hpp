@@ -17,7 +17,7 @@ inline constexpr uint64_t kSoftShare = 5;     // of the frame's units one soft b
 
 /// What a body that flows or stretches needs to know of its material.
 struct SoftMaterial {
-    bool is_elastic = false, has_bending = true;
+    bool is_elastic = false, is_sheet = false;  // a sheet has one layer, and a bending stiffness of its own
     float density = 0, young_modulus = 0, yield_strain = 0, break_strain = 0, restitution = 0;
 };
 /// False: brittle, and `out` is not written.

@@ -20,8 +20,9 @@ SoftInnerLoop make_soft_loop(SpringLayout layout) {
     loop.then<meet_strikers>()
         .then<end_spring_step>()
         .then<flow_springs>(kSubstepsAFlow)
-        .then<tear_springs>(kSubstepsAFlow)
-        .finish();
+        .then<tear_springs>(kSubstepsAFlow);
+    if (layout == SpringLayout::OneLayer) loop.then<bend_sheets>(kSubstepsAFlow);
+    loop.finish();
     return loop;
 }
 

@@ -27,7 +27,7 @@ struct SoftWorld {
 };
 
 using SoftInnerLoop = InnerLoop<SoftWorld>;
-/// A substep: the springs' own, then contacts; each fourth time plastic flow and tears.
+/// A substep: the springs' own, then contacts; each fourth time plastic flow and tears, and the bending of sheets.
 SoftInnerLoop make_soft_loop(SpringLayout layout);
 inline constexpr uint32_t kSubstepsAFlow = 4;
 /// With fewer, a substep of 4 microseconds is not worth sharing.

@@ -64,7 +64,6 @@ TEST_F(ReadMaterials, AFileAddsAndChangesRows) {
         young_modulus = 9e9
         poisson_ratio = 0.3
         tensile_strength = 1e6
-        break_strain = 1e-4
         fracture_energy = 1
         crush_strength = 5e6
         restitution = 0.3
@@ -79,7 +78,7 @@ TEST_F(ReadMaterials, AnErrorNamesFileLineMaterialKeyValueAndRangeAndChangesNoth
         {"[brick]\ndensity = 2000\n[clinker]\nlike = 'brick'\n\ndensity = -5",
          "mine.toml:6: [clinker] density is -5; use 1 to 100000 kg/m3."},
         {"[brick]\ndensity = 'heavy'", "mine.toml:2: [brick] density is \"heavy\"; use 1 to 100000 kg/m3."},
-        {"[steel]\nyield_strain = -1", "mine.toml:2: [steel] yield_strain is -1; use 0 to 10."},
+        {"[steel]\nyield_strain = -1", "mine.toml:2: [steel] yield_strain is -1; use 1e-07 to 10."},
         {"[brick]\ndensity = nan", "mine.toml:2: [brick] density is nan; use 1 to 100000 kg/m3."},
         {"[brick]\nkind = 'soft'", "mine.toml:2: [brick] kind is \"soft\"; use one of brittle, ductile, elastic."},
         {"[brick]\nfracture = 3", "mine.toml:2: [brick] fracture is 3; use one of large, coarse, fine."},
@@ -87,7 +86,13 @@ TEST_F(ReadMaterials, AnErrorNamesFileLineMaterialKeyValueAndRangeAndChangesNoth
         {"[jelly]\nlike = 'jam'", "mine.toml:2: [jelly] like is \"jam\"; use one of glass, porcelain,"},
         {"\n[jelly]\ndensity = 1000", "mine.toml:2: [jelly] is new and has no young_modulus; give it, or like ="},
         {"density = 3", "mine.toml:1: density = 3 stands outside of a material; write [name] above it."},
-        {"[steel]\nyield_strength = 1e9", "mine.toml:1: material \"steel\": yield_strength is 1e+09 Pa; a ductile"},
+        {"[steel]\nyield_strain = 0.3", "mine.toml:1: material \"steel\": yield_strain is 0.3; a ductile"},
+        {"[steel]\ntensile_strength = 1e9",
+         "mine.toml:2: [steel] tensile_strength decides nothing in ductile materials; leave it out."},
+        {"[brick]\nbreak_strain = 1e-3",
+         "mine.toml:2: [brick] break_strain decides nothing in brittle materials; leave it out."},
+        {"[clay]\nlike = 'brick'\nkind = 'ductile'\nyield_strain = 0.1",
+         "mine.toml:1: material \"clay\": break_strain is 0; use 1e-07 to 100."},
         {"['a b']\nlike = 'brick'", "mine.toml:1: a material's name is \"a b\"; use 1 to 64 letters"},
         {"[brick]\ndensity == 3", "mine.toml:2: this is no TOML: "},
     };

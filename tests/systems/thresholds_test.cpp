@@ -22,7 +22,7 @@ struct Found {
     }
 };
 
-// The bounds of the full case, 35 % about medians of 20 and 5 % between the steps, on medians of a few placements.
+// The bounds of the full case, 35 % about medians of 40 and 5 % between the steps, on medians of a few placements.
 // `halved` placements are looked at again at half the step.
 void expect_known_thresholds(Subject subject, uint32_t placements, uint32_t halved, double piece_band = 0.35) {
     const Result<HitSubject> known = make_subject(subject);

@@ -20,7 +20,8 @@ enum class MaterialKind : uint8_t { Brittle = 0, Ductile, Elastic };
 /// cracked places may crack anew.
 enum class FractureKind : uint8_t { Large = 0, Coarse, Fine };
 
-/// One row. SI units; what a value may be stands in material_values().
+/// One row. SI units; what a value may be, and in which kinds it decides something, stands in material_values(). A
+/// table keeps what decides nothing in a row's kind as 0.
 struct MaterialSettings {
     std::string name;  // letters, digits, _ and -
     MaterialKind kind = MaterialKind::Brittle;
@@ -28,16 +29,16 @@ struct MaterialSettings {
     float density = 2400;            // kg/m3
     float young_modulus = 70e9f;     // Pa; of wood along the grain, as are the next two
     float poisson_ratio = 0.2f;      // of wood: contraction across for stretch along the grain
-    float tensile_strength = 50e6f;  // Pa, for loads of seconds; a blow's run takes twice that; of brittle ones
-    float yield_strength = 0;        // Pa, 0: none. Kept for the table and checked; yield_strain decides
-    float yield_strain = 0;          // where a ductile one begins to flow; 0: none
-    float break_strain = 7e-4f;      // where a ductile or elastic one tears; of a brittle one it decides nothing
+    float tensile_strength = 50e6f;  // Pa, of brittle ones, for loads of seconds; a blow's run takes twice that
+    float yield_strain = 0;          // where a ductile one begins to flow
+    float break_strain = 0;          // where a ductile or elastic one tears
     float fracture_energy = 20;      // J/m2, G_c, of brittle ones
-    float crush_strength = 6e9f;     // Pa: pressure under which the struck face gives way for good
+    float crush_strength = 6e9f;     // Pa, of brittle ones: pressure under which the struck face gives way for good
     /// Of the blow while its damage is worked off, and of how long a soft body swings. Rigid bounces have
     /// ContactSettings::restitution instead, 0.2 if not given.
     float restitution = 0.6f;
-    float friction = 0.45f;     // of contacts, unless ContactSettings::friction is given
+    float friction = 0.45f;  // of contacts, unless ContactSettings::friction is given
+    // Of brittle ones, down to across_fracture_energy but for bending_stiffness.
     float heading_power = 6;    // how straight cracks run; glass 30
     float tip_factor = 0.6f;    // on Griffith's limit at the mesh's resolution; at 1 most panes stay whole
     float run_seconds = 1e-3f;  // least elastic time of a blow's run; half of it leaves a vase too whole
@@ -47,21 +48,25 @@ struct MaterialSettings {
     /// When a hit breaks the body, a crack that has stopped goes on if a border or another crack lies ahead within this
     /// times its own length: what is left would break under the pieces' weight. 0: it stays a hairline.
     float run_out = 0;
-    float bending_stiffness = 0;  // N m. Above 0, as of cloth: nothing resists bending. 0: E h^3 / 12 (1 - nu^2)
+    /// N m, of ductile and elastic ones. Above 0, as of cloth, a body is a sheet of one layer that bends by this, flat
+    /// at rest; 0: as E and the thickness say.
+    float bending_stiffness = 0;
     // Across the grain. across_young_modulus 0: the same in all directions, and the others count for nothing.
     float across_young_modulus = 0;    // Pa
     float shear_modulus = 0;           // Pa, between along and across
     float across_strength = 0;         // Pa
-    float across_break_strain = 0;     // kept for the table; decides nothing
     float across_fracture_energy = 0;  // J/m2, of a crack that splits along the grain
 };
 
-/// One number of a row, for readers, checks and lists: its name, unit and range (both ends may be had).
+/// One number of a row, for readers, checks and lists: its name, unit and range (both ends may be had), and the kinds
+/// of material in which it decides something. In the others it is 0.
 struct MaterialValue {
     const char* name;  // as in MaterialSettings
     const char* unit;
     float MaterialSettings::*member;
     double least, most;
+    uint8_t kinds;  // a bit a kind
+    bool is_of(MaterialKind kind) const { return kinds >> static_cast<uint8_t>(kind) & 1; }
 };
 struct MaterialValues {
     const MaterialValue* data;
@@ -82,7 +87,8 @@ class MaterialTable {
  public:
     /// The compiled ones: glass, porcelain, brick, concrete, steel, aluminium, copper, rubber, cloth, wood.
     MaterialTable();
-    /// A name that is there already is refused, and a row that check_material refuses.
+    /// A name that is there already is refused, and a row that check_material refuses. Values that decide nothing in
+    /// the row's kind become 0.
     Result<void> add(const MaterialSettings& material);
     /// Replaces the row of that name.
     Result<void> change(const MaterialSettings& material);

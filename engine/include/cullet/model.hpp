@@ -99,7 +99,7 @@ struct ModelReport {
     uint32_t vertices = 0, elements = 0, cells = 0, degenerate_elements = 0;
     double mass = 0;                 // kg
     double mean_thickness = 0;       // m
-    float first_crack_speed = 0;     // m/s against a floor; 0 when not measured
+    float first_crack_speed = 0;     // m/s against a floor; estimated when not measured; 0 of what does not crack
     uint64_t units_of_a_hit = 0;     // predicted
     uint32_t collisions = 0;         // moves that were taken back while the inner surface was pushed in
     uint32_t inverted_elements = 0;  // turned inside out; 0 but for the published ways of Propagation
