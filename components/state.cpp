@@ -71,7 +71,8 @@ State::State(const Limits& l)
       quick_bodies(l.bodies),
       quick_runs(l.tasks),
       awake_packs(l.tasks * kMostAwakePacks),
-      region_rests(l.tasks) {
+      region_rests(l.tasks),
+      vertex_blocks(l.vertices / kVerticesPerBlock + 1) {
     tasks.append(l.tasks);
     task_contacts.append(l.tasks * kMostContacts);
     patch_vertices.append(l.tasks * kMostPatchVertices);
@@ -225,6 +226,18 @@ bool take(AnyTable& table, RangePool& pool, uint32_t count, Range& range) {
 
 }  // namespace
 
+namespace {
+
+// Whoever had these rows before kept sums of others.
+void forget_blocks(State& state, const Range& vertices) {
+    const uint32_t first = vertices.first / kVerticesPerBlock;
+    const uint32_t end = (vertices.first + vertices.capacity + kVerticesPerBlock - 1) / kVerticesPerBlock;
+    for (uint8_t* flags : {state.vertex_blocks.sums.data(), state.vertex_blocks.moves.data()})
+        std::fill(flags + first, flags + end, uint8_t{0});
+}
+
+}  // namespace
+
 ShellRoom room_of(const State& state, Row<Shells> shell) {
     const Shells& s = state.shells;
     ShellRoom room;
@@ -261,6 +274,7 @@ Row<Shells> make_shell_unclear(State& state, const ShellRoom& room, const char**
     if (!take(state.cells, state.pools.cells, room.cells, s.cells[shell])) refuse("limits.vertices");
     if (!take(state.hull_points, state.pools.points, room.points, s.points[shell])) refuse("limits.vertices");
     s.users[shell] = 1;
+    forget_blocks(state, s.vertices[shell]);
     if (missing) {
         release_shell(state, shell);
         if (full) *full = missing;

@@ -12,6 +12,7 @@
 #include "components/soft.hpp"
 #include "components/springs.hpp"
 #include "components/tasks.hpp"
+#include "components/vertex_blocks.hpp"
 #include "engine/range_pool.hpp"
 #include "engine/system.hpp"
 
@@ -166,6 +167,7 @@ struct State {
     QuickRuns quick_runs;
     AwakePacks awake_packs;
     RegionRests region_rests;
+    VertexBlocks vertex_blocks;  // none of the tables: neither saved nor hashed
 };
 
 /// What a shell uses now: room for a copy of it.

@@ -27,8 +27,9 @@ double least(uint32_t rounds, const std::function<void()>& call) {
 /// As the frame finds them: a look at the numbers of before, then the pieces with numbers, lists and masses; what is
 /// left keeps its number. Where that is not the heaviest, or has another number, all parts get theirs anew.
 uint32_t find_as_the_frame_does(const ShellView& shell, std::span<FragmentPart> parts) {
-    const uint32_t count = is_numbered_zero(shell) ? find_pieces(shell, parts) : kNone;
-    return count != kNone ? count : group_from_cracks(shell, parts);
+    const uint32_t most = worthwhile_floods(shell);
+    const uint32_t count = is_numbered_zero(shell) ? find_pieces(shell, parts, most) : kNone;
+    return count != kNone ? count : group_from_cracks(shell, parts, most);
 }
 
 /// Flood and relabelling on a shell with cracks that hung together before. Both tell what the births need: the number

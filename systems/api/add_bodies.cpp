@@ -9,6 +9,7 @@
 #include "systems/damage/working_room.hpp"
 #include "systems/fragments/body_rows.hpp"
 #include "systems/fragments/rigid_shape.hpp"
+#include "systems/fragments/vertex_sums.hpp"
 #include "systems/query/bound_drawn.hpp"
 #include "systems/query/query_index.hpp"
 #include "systems/quick/calibrate.hpp"
@@ -94,6 +95,12 @@ bool wants_own_shell(const State& state, Row<Shells> source, const SpawnSettings
     return is_brittle && settings.is_breakable && is_for_cut_outs(state, source, false);
 }
 
+// Measured now, and not in the frame of the first hit.
+void remember_sums(const ShellView& shell) {
+    keep_vertex_sums(shell);
+    (void)vertex_sums(shell);
+}
+
 // Rows of a body's own shell; of a large one with those that cracks will add.
 ShellRoom own_room(State& state, Row<Shells> source, const SpawnSettings& settings) {
     ShellRoom room = room_of(state, source);
@@ -111,6 +118,7 @@ Result<Row<Shells>> own_copy(State& state, Row<Shells> source, const SpawnSettin
     const Row<Shells> copy = copy_shell(state, source, room, &full);
     if (!copy.exists())
         return Error{std::string("no room for a large body that breaks near its hits; raise ") + full + "."};
+    remember_sums(ShellView(state, copy));
     return copy;
 }
 
@@ -129,6 +137,7 @@ Result<Row<Shells>> pinned_copy(State& state, Row<Shells> source, const SpawnSet
         release_shell(state, copy);
         return Error{"the pinned body's stiffness does not fit the model's rows; please report this mesh."};
     }
+    if (wants_own_shell(state, source, settings)) remember_sums(shell);
     return copy;
 }
 

@@ -10,8 +10,10 @@
 #include "systems/api/checks.hpp"
 #include "systems/api/settings_bytes.hpp"
 #include "systems/brittle/restart.hpp"
+#include "systems/cook/materials.hpp"
 #include "systems/damage/working_room.hpp"
 #include "systems/fragments/rigid_shape.hpp"
+#include "systems/fragments/vertex_sums.hpp"
 #include "systems/query/bound_drawn.hpp"
 #include "systems/query/query_index.hpp"
 #include "systems/quick/cut_out.hpp"
@@ -128,6 +130,10 @@ std::unique_ptr<World::Contents> make_alike(const Settings& settings, const Worl
     }
 }
 
+bool is_brittle(const State& state, Row<Shells> shell) {
+    return material_traits(state, state.shells.material[shell]).kind == MaterialKind::Brittle;
+}
+
 /// What is not in the bytes because it follows from them.
 void restore_what_follows(World::Contents& world) {
     WorldData& d = world.data;
@@ -145,6 +151,7 @@ void restore_what_follows(World::Contents& world) {
         bound_view(state.bodies, Row<Bodies>(b), state.view_vertices, state.view_indices, d.view_boxes);
         remember_drawn(ShellView(state, shell), state.bodies.view_indices[b]);
         state.bodies.redrawn[b] = {0, state.bodies.view_indices[b].count / 3};
+        if (may_cut_out(state, Row<Bodies>(b)) && is_brittle(state, shell)) keep_vertex_sums(ShellView(state, shell));
         if (state.bodies.is_breakable[b])
             d.make_ready(is_quick_body(state, Row<Bodies>(b)) ? quick_room(ShellView(state, shell))
                                                               : working_room(ShellView(state, shell)));

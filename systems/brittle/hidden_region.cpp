@@ -6,6 +6,7 @@
 #include "systems/damage/assemble.hpp"
 #include "systems/damage/crack_candidates.hpp"
 #include "systems/damage/working_room.hpp"
+#include "systems/fragments/vertex_sums.hpp"
 #include "systems/quick/cut_rows.hpp"
 
 namespace cullet {
@@ -79,42 +80,26 @@ void list_border(State& state, Row<Tasks> task) {
     state.quick_runs.pack_count[task] = count;
 }
 
-/// Of vertices, one after another.
-struct MassSum {
-    double mass = 0;
-    Vec3d moment;
-    Sym3d second;
-    bool is_pinned = false;
-
-    void add(const Vertices& vertices, uint32_t row) {
+/// All that the cut-out does not have, and what is held in it: the body less what moves, which is at most half of it.
+void weigh_rest(State& state, Row<Tasks> task, const ShellView& source, const ShellView& cut) {
+    const Vertices& vertices = state.vertices;
+    const VertexSums body = vertex_sums(source);
+    VertexSums rest = body;
+    for (uint32_t row = cut.vertex(0); row < cut.vertex(cut.vertex_count()); ++row) {
+        if (vertices.element[row] == kNone || vertices.copy[row] < kHeldRings) continue;
         const double m = vertices.mass[row];
         const Vec3d x(vertices.rest[row]);
-        mass += m;
-        moment += m * x;
-        second = second + m * outer(x);
-        is_pinned = is_pinned || vertices.is_pinned[row];
-    }
-};
-
-/// All that the cut-out does not have, and what is held in it.
-void weigh_rest(State& state, Row<Tasks> task, const CutRows& rows) {
-    const ShellView& source = rows.source;
-    const ShellView cut(state, state.tasks.shell[task]);
-    const Vertices& vertices = state.vertices;
-    MassSum rest, moving;
-    for (uint32_t v = 0; v < source.vertex_count(); ++v) {
-        const uint32_t row = source.vertex(v), place = rows.vertex(v);
-        if (vertices.element[row] == kNone) continue;
-        const bool moves = place != kNone && vertices.copy[cut.vertex(place)] >= kHeldRings;
-        (moves ? moving : rest).add(vertices, row);
+        rest.mass -= m;
+        rest.first -= m * x;
+        rest.second = rest.second - m * outer(x);
+        rest.pinned -= vertices.is_pinned[row];
     }
     RegionRests& rests = state.region_rests;
-    const double mass = rest.mass + moving.mass;
-    const Vec3d centre = rest.mass > 0 ? (1 / rest.mass) * rest.moment : Vec3d{};
-    rests.inverse_mass[task] = rest.is_pinned || !(rest.mass > 0) ? 0 : 1 / rest.mass;
+    const Vec3d centre = rest.centre();
+    rests.inverse_mass[task] = rest.pinned > 0 || !(rest.mass > 0) ? 0 : 1 / rest.mass;
     rests.centre.set(task, centre);
     rests.inertia[task] = inertia_of(rest.second - rest.mass * outer(centre));
-    rests.body_centre.set(task, mass > 0 ? (1 / mass) * (rest.moment + moving.moment) : Vec3d{});
+    rests.body_centre.set(task, body.centre());
 }
 
 /// For both kinds of vertices by the border.
@@ -189,7 +174,7 @@ void find_rest(State& state, Row<Tasks> task) {
     rows.element_count = state.quick_runs.cut_elements[task];
     measure_from_border(rows, cut);
     list_border(state, task);
-    weigh_rest(state, task, rows);
+    weigh_rest(state, task, source, cut);
 }
 
 void start_rest(State& state, Row<Tasks> task) {

@@ -64,6 +64,7 @@ void start_run(State& state, Row<Tasks> task) {
 }
 
 void restore_scratch(State& state, Row<Tasks> task) {
+    if (is_cut_out(state, task)) remember_cut_out(state, task);
     if (is_quick_task(state, task)) return;
     const ShellView shell(state, state.tasks.shell[task]);
     link_slopes(shell);

@@ -84,7 +84,7 @@ constexpr Rule kRules[] = {
     {"elements", "edge_kind", Is::Number, 0, 1, 0, 2},
     {"elements", "mass", Is::Number, 0, 1e30},
     {"elements", "volume", Is::Number, 0, 1e30},
-    {"elements", "flags", Is::Number, 0, kDegenerate, 0, kDegenerate | kDead},
+    {"elements", "flags", Is::Number, 0, kDegenerate, 0, kDegenerate | kDead | kIsTouched},
     {"elements", "cell", Is::Cell},
     {"elements", "part", Is::Number, 0, kIds},
     {"elements", "normal", Is::Number, -kUnit, kUnit},

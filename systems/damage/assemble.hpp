@@ -33,16 +33,11 @@ void limit_all_stiffness(ShellView shell);
 /// Blocks, links and vertices that assembly will need for the shell plus `spare_vertices`: packs for the spare
 /// vertices, and room to move one pack in three. The other members are 0.
 ShellRoom stiffness_room(ShellView shell, uint32_t spare_vertices);
-/// The same of a shell that is made of some of the shell's vertices, given one after another as it will have them.
-class SlotCount {
- public:
-    void add(const ShellView& shell, uint32_t vertex);
-    ShellRoom room(const ShellView& shell, uint32_t spare_vertices) const;
-
- private:
-    uint32_t vertices_ = 0, blocks_ = 0, links_ = 0;  // slots of whole packs
-    uint32_t pack_blocks_ = 0, pack_links_ = 0;       // of the last one
-};
+/// The same of a shell whose vertices take these slots, one after another (slots_of_corner).
+ShellRoom stiffness_room(ShellView shell, std::span<const uint32_t> slots, uint32_t spare_vertices);
+/// What an element adds to the slots that the vertex at its corner k takes: blocks, and above the lowest 16 bits links.
+/// An open ring has one neighbour more than elements, which the element at its end adds.
+uint32_t slots_of_corner(bool ends_ring, bool has_hinge_opposite, bool has_grain);
 /// All packs, blocks, links into the shell's ranges. False when the ranges are too small (see stiffness_room).
 bool assemble_stiffness(ShellView shell);
 /// The same in two: the packs' places, then the rows of packs [first, end), different ones at once if need be.

@@ -247,6 +247,7 @@ uint32_t grow_cracks(State& state, Row<Tasks> task, CrackSink& sink) {
                 sink,
                 tasks.steps_done[task],
                 {}};
+    batch.touched.marks_elements = is_cut_out(state, task);
     Candidates candidates;
     choose_candidates(shell, batch.limits, time, batch.fan, candidates);
     if (candidates.count == 0) return 0;

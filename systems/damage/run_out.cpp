@@ -106,6 +106,7 @@ bool run_out_cracks(State& state, Row<Tasks> task) {
     const float run_out = material_traits(state, shell.shells().material[shell.row]).run_out;
     if (!(run_out > 0)) return false;
     Touched touched;
+    touched.marks_elements = is_cut_out(state, task);
     bool is_whole = true;
     uint32_t cuts = 0;
     const uint32_t count = shell.vertex_count(), elements = shell.element_count();

@@ -50,10 +50,18 @@ void count_all_slots(const ShellView& shell) {
     for (uint32_t e = shell.element(0); e < shell.element(0) + shell.element_count(); ++e) {
         if (elements.flags[e] & kDead) continue;
         for (uint32_t k = 0; k < 3; ++k) {
-            const uint32_t links = is_grained ? kGrainLinks : elements.hinge[e][(k + 1) % 3] != kNone;
-            slots[elements.corner[e][k]] += 1u + (elements.neighbour[e][k] == kNone) + (links << 16);
+            slots[elements.corner[e][k]] +=
+                slots_of_corner(elements.neighbour[e][k] == kNone, elements.hinge[e][(k + 1) % 3] != kNone, is_grained);
         }
     }
+}
+
+/// Of the widest of its vertices, blocks and links apart.
+uint32_t slots_of_pack(std::span<const uint32_t> vertices) {
+    uint32_t blocks = 0, links = 0;
+    for (const uint32_t slots : vertices)
+        blocks = std::max(blocks, slots & 0xffff), links = std::max(links, slots >> 16);
+    return blocks | links << 16;
 }
 
 uint32_t packs_of(uint32_t vertices) {
@@ -115,21 +123,19 @@ ShellRoom stiffness_room(ShellView shell, uint32_t spare_vertices) {
     return room;
 }
 
-void SlotCount::add(const ShellView& shell, uint32_t vertex) {
-    if (vertices_++ % kLanes == 0) {
-        blocks_ += pack_blocks_, links_ += pack_links_;
-        pack_blocks_ = pack_links_ = 0;
+ShellRoom stiffness_room(ShellView shell, std::span<const uint32_t> slots, uint32_t spare_vertices) {
+    const auto vertices = static_cast<uint32_t>(slots.size());
+    ShellRoom room;
+    for (uint32_t v = 0; v < vertices; v += kLanes) {
+        const uint32_t pack = slots_of_pack(slots.subspan(v, std::min(kLanes, vertices - v)));
+        room.blocks += pack & 0xffff, room.links += pack >> 16;
     }
-    uint32_t blocks = 0, links = 0;
-    count_slots(shell, vertex, blocks, links);
-    pack_blocks_ = std::max(pack_blocks_, blocks), pack_links_ = std::max(pack_links_, links);
+    add_spare_slots(shell, packs_of(vertices), packs_of(spare_vertices) + 1, room);
+    return room;
 }
 
-ShellRoom SlotCount::room(const ShellView& shell, uint32_t spare_vertices) const {
-    ShellRoom room;
-    room.blocks = blocks_ + pack_blocks_, room.links = links_ + pack_links_;
-    add_spare_slots(shell, packs_of(vertices_), packs_of(spare_vertices) + 1, room);
-    return room;
+uint32_t slots_of_corner(bool ends_ring, bool has_hinge_opposite, bool has_grain) {
+    return 1u + ends_ring + ((has_grain ? kGrainLinks : has_hinge_opposite) << 16);
 }
 
 bool lay_packs(ShellView shell) {
@@ -142,12 +148,11 @@ bool lay_packs(ShellView shell) {
         shell.state.stiffness_packs.clear_rows(shells.packs[shell.row].first + p, 1);
         ++shells.packs[shell.row].count;
         if (stores_pairs_once(shells, shell.row)) continue;
-        uint32_t blocks = 0, links = 0;
-        for (uint32_t v = p * kLanes; v < std::min((p + 1) * kLanes, shell.vertex_count()); ++v) {
-            const uint32_t slots = shell.state.vertices.copy[shell.vertex(v)];
-            blocks = std::max(blocks, slots & 0xffff), links = std::max(links, slots >> 16);
-        }
-        if (!block_slots(shell, p).reserve(blocks, 0) || !link_slots(shell, p).reserve(links, 0)) return false;
+        const uint32_t first = p * kLanes,
+                       slots = slots_of_pack({shell.state.vertices.copy.data() + shell.vertex(first),
+                                              std::min(kLanes, shell.vertex_count() - first)});
+        if (!block_slots(shell, p).reserve(slots & 0xffff, 0) || !link_slots(shell, p).reserve(slots >> 16, 0))
+            return false;
     }
     return !stores_pairs_once(shells, shell.row) || lay_pair_cells(shell);
 }

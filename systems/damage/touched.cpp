@@ -7,6 +7,7 @@
 #include "systems/damage/assemble.hpp"
 #include "systems/damage/element_bending.hpp"
 #include "systems/damage/stress_check.hpp"
+#include "systems/quick/elements_at.hpp"
 
 namespace cullet {
 
@@ -59,7 +60,17 @@ bool rebuild_grained_rows(ShellView shell, Touched& touched) {
 
 }  // namespace
 
+void mark_touched(const ShellView& shell, const Touched& touched) {
+    uint8_t* const flags = shell.state.elements.flags.data() + shell.elements().first;
+    const auto mark = [&](uint32_t e) { flags[e] |= kIsTouched; };
+    for (const VertexList* list : {&touched.weighed, &touched.rows}) {
+        for (const uint32_t v : list->span()) for_each_element_at(shell, v, mark);
+        for (uint32_t e = 0; list->has_overflowed && e < shell.element_count(); ++e) mark(e);
+    }
+}
+
 bool refresh_stiffness(ShellView shell, Touched& touched) {
+    if (touched.marks_elements) mark_touched(shell, touched);
     link_slopes(shell, touched.weighed.span());
     bool is_whole = true;
     if (touched.weighed.count > 0 && shell.shells().packs[shell.row].count > 0) {

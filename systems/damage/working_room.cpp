@@ -16,6 +16,14 @@ uint32_t spare_vertices(const State& state, Row<Materials> material, uint32_t ve
     return (std::max(192u, vertices / share) + kLanes - 1) / kLanes * kLanes;
 }
 
+ShellRoom room_with(uint32_t spare, uint32_t vertices, uint32_t elements, uint32_t hinges) {
+    ShellRoom room;
+    room.vertices = (vertices + kLanes - 1) / kLanes * kLanes + spare;
+    room.elements = elements + 2 * spare;
+    room.hinges = hinges + 3 * spare;
+    return room;
+}
+
 uint32_t spare_vertices(const ShellView& source) {
     return spare_vertices(source.state, source.shells().material[source.row], source.vertex_count());
 }
@@ -26,12 +34,12 @@ uint32_t spare_vertices(const ShellView& source) {
 // spare a wall of 823 vertices was full after seven of them, and the rest ended where it was.
 ShellRoom quick_room(const State& state, Row<Materials> material, uint32_t vertices, uint32_t elements,
                      uint32_t hinges) {
-    const uint32_t spare = 2 * spare_vertices(state, material, vertices);
-    ShellRoom room;
-    room.vertices = (vertices + kLanes - 1) / kLanes * kLanes + spare;
-    room.elements = elements + 2 * spare;
-    room.hinges = hinges + 3 * spare;
-    return room;
+    return room_with(2 * spare_vertices(state, material, vertices), vertices, elements, hinges);
+}
+
+ShellRoom hidden_room(const State& state, Row<Materials> material, uint32_t vertices, uint32_t elements,
+                      uint32_t hinges) {
+    return room_with(spare_vertices(state, material, vertices), vertices, elements, hinges);
 }
 
 ShellRoom quick_room(ShellView source) {

@@ -9,9 +9,11 @@ namespace cullet {
 ShellRoom working_room(ShellView source);
 /// For the quick mode: without stiffness, and with twice as much for cracks.
 ShellRoom quick_room(ShellView source);
-/// Of a part of a shell, without cells.
+/// Of a part of a shell, without cells; without stiffness.
 ShellRoom quick_room(const State& state, Row<Materials> material, uint32_t vertices, uint32_t elements,
                      uint32_t hinges);
+ShellRoom hidden_room(const State& state, Row<Materials> material, uint32_t vertices, uint32_t elements,
+                      uint32_t hinges);
 
 /// What RefusedEvent names where a body's cracks have filled this room, which is a share of its mesh: a finer one has
 /// more. Springs of soft bodies have theirs.

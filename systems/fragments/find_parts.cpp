@@ -23,10 +23,12 @@ void find_parts(Each<TaskEnded> ended, ShellTables shells, Tasks& tasks, Fragmen
     // A hidden run's cracks have run out in its cut-out.
     const bool was_hidden_region = tasks.shell[t] == tasks.source[t] && !is_quick;
     const bool runs_out = is_quick ? vertices <= kWholeCopyVertices : !was_hidden_region;
+    const uint32_t most = worthwhile_floods(shell);
     tasks.part_count[t] = kNone;
-    if (!runs_out && is_zero) tasks.part_count[t] = find_pieces(shell, parts);
+    if (!runs_out && is_zero) tasks.part_count[t] = find_pieces(shell, parts, most);
     if (tasks.part_count[t] == kNone) {
-        tasks.part_count[t] = was_one && !runs_out ? group_from_cracks(shell, parts) : group_fragments(shell, parts);
+        tasks.part_count[t] =
+            was_one && !runs_out ? group_from_cracks(shell, parts, most) : group_fragments(shell, parts);
     }
     if (tasks.part_count[t] > 1 && runs_out && run_out_cracks(shells.state, Row<Tasks>(t)))
         tasks.part_count[t] = group_fragments(shell, parts);

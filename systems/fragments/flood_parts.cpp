@@ -28,11 +28,12 @@ struct Visited {
 /// What each flood has not looked beyond yet: a list of places, joined in one step.
 class Floods {
  public:
-    Floods(const ShellView& shell, uint16_t* parent) : shell_(shell), visited(shell), parent_(parent) {}
+    Floods(const ShellView& shell, uint16_t* parent, uint32_t most)
+        : shell_(shell), visited(shell), parent_(parent), most_(std::min(most, kMostFloods)) {}
 
     bool seed(uint32_t e) {
         if (visited.has(e)) return true;
-        if (count_ == kMostFloods) return false;
+        if (count_ == most_) return false;
         parent_[count_] = static_cast<uint16_t>(count_);
         first_[count_] = last_[count_] = visited.add(e, count_);
         ++count_;
@@ -110,7 +111,7 @@ class Floods {
     }
 
     uint16_t* parent_;
-    uint32_t count_ = 0;
+    uint32_t most_, count_ = 0;
     uint32_t first_[kMostFloods], last_[kMostFloods];
     uint16_t open_[kMostFloods];
 };
@@ -142,9 +143,9 @@ uint16_t FloodedParts::piece_of(const ShellView& shell, uint32_t element) const 
     return piece_of_flood[root(elements.other_slope[shell.element(place)][0])];
 }
 
-void flood_parts(ShellView shell, FloodedParts& found) {
+void flood_parts(ShellView shell, FloodedParts& found, uint32_t most) {
     static_assert(sizeof(std::array<uint8_t, 3>) == 3);
-    Floods floods(shell, found.parent);
+    Floods floods(shell, found.parent, most);
     found.pieces = found.visited = 0;
     if (!for_each_at_crack(shell, [&](uint32_t e) { return floods.seed(e); })) {
         found.pieces = kNone;
@@ -215,14 +216,21 @@ namespace {
 
 /// One in so many is sorted sooner than all are looked through.
 constexpr uint32_t kSortedShare = 32;
+/// Where more than one element in so many lies at a crack, to number all of them is the shorter way: a vase of 10,000
+/// elements in 13 pieces is flooded in 76 us and relabelled in 88 us with all lists.
+constexpr uint32_t kCrackedShare = 32;
 
 }  // namespace
 
+uint32_t worthwhile_floods(const ShellView& shell) {
+    return std::min(shell.element_count() / kCrackedShare, kMostFloods);
+}
+
 // Elements come into the lists in rising order: the floods' own list of visited ones is sorted, with the flood beside
 // each, or where it is long all elements are looked through for the numbers that it has left.
-uint32_t find_pieces(ShellView shell, std::span<FragmentPart> parts) {
+uint32_t find_pieces(ShellView shell, std::span<FragmentPart> parts, uint32_t most) {
     FloodedParts found;
-    flood_parts(shell, found);
+    flood_parts(shell, found, most);
     if (found.pieces == kNone || found.pieces >= parts.size()) return kNone;
     Elements& elements = shell.state.elements;
     using Entry = std::array<uint32_t, 3>;  // flood, element
@@ -253,9 +261,9 @@ uint32_t find_pieces(ShellView shell, std::span<FragmentPart> parts) {
     return found.pieces + 1;
 }
 
-uint32_t group_from_cracks(ShellView shell, std::span<FragmentPart> parts) {
+uint32_t group_from_cracks(ShellView shell, std::span<FragmentPart> parts, uint32_t most) {
     FloodedParts found;
-    flood_parts(shell, found);
+    flood_parts(shell, found, most);
     if (found.pieces == kNone) return group_fragments(shell, parts);
     Elements& elements = shell.state.elements;
     // By smallest element, pieces and rest alike: in the order in which they are met.

@@ -54,6 +54,8 @@ void plan_births(Serial, const Events<TaskEnded>& ended, ShellTables shells, con
         if (result != TaskState::Dropped && tasks.start_count[task]) tell_cracks(shells.state, task, cracks);
         if (result == TaskState::Broke) plan_break(planning, task);
         if (result == TaskState::Whole && tasks.crack_count[task]) keep_cracks(planning, task);
+        if (result == TaskState::Whole && !tasks.crack_count[task] && tasks.shell[task] == tasks.source[task])
+            stop_blocks(ShellView(shells.state, tasks.shell[task]));
         // More pieces than there may be, with those that found no room before.
         if (result == TaskState::Dropped && tasks.crack_count[task] && tasks.shell[task] == tasks.source[task])
             clear_run(ShellView(shells.state, tasks.shell[task]), true, false);

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "systems/brittle/hidden_region.hpp"
 #include "systems/fragments/body_rows.hpp"
 #include "systems/fragments/cell_hulls.hpp"
 #include "systems/fragments/hand_on.hpp"
@@ -264,6 +265,12 @@ void order_births(Planning& planning, Break& plan) {
     planning.breaks.push(plan);
 }
 
+// Of a body that was hit on a cut-out.
+RestMotion rest_after_put_back(const State& state, Row<Tasks> task) {
+    const BodyMotion motion = is_quick_task(state, task) ? BodyMotion(state, task) : rest_motion(state, task);
+    return {motion.centre, motion.velocity, motion.spin};
+}
+
 }  // namespace
 
 uint32_t free_debris(const Debris& debris) {
@@ -285,11 +292,13 @@ void plan_break(Planning& planning, Row<Tasks> task) {
         return keep_cuts(state.blows, task);
     }
     const Vec3d velocity(state.tasks.start_velocity[task]), spin(state.tasks.start_spin[task]);
+    std::optional<RestMotion> rest;
+    if (broken == plan.before) rest = rest_after_put_back(state, task);
     if (is_cut_task(state.blows, task)) {
         move_with_body(state, plan, velocity, spin);  // nothing was run
     } else {
         const HandoffReport report =
-            rigid_handoff(shell, {velocity, spin, state.shells.centre[broken], state.tasks.approach_speed[task]},
+            rigid_handoff(shell, {velocity, spin, state.shells.centre[broken], state.tasks.approach_speed[task], rest},
                           plan.parts, plan.motions);
         plan.clamped = report.speed_clamps + report.spin_clamps;
     }

@@ -1,6 +1,7 @@
 #include "systems/fragments/cell_hulls.hpp"
 #include "systems/fragments/mass_properties.hpp"
 #include "systems/fragments/rest_of_body.hpp"
+#include "systems/fragments/vertex_sums.hpp"
 #include "systems/systems.hpp"
 
 namespace cullet {
@@ -24,6 +25,7 @@ void keep_rest(State& state, const Break& plan) {
     ShellSums left;
     for (uint32_t p = 0; p < plan.parts.size(); ++p) {
         if (!plan.leaves(p)) continue;
+        outdate_blocks(shell, plan.parts[p]);
         if (plan.child[p].exists()) {
             const ShellView piece(state, state.bodies.shell[plan.child[p]]);
             copy_piece_hulls(piece, before, plan.margin);

@@ -1,7 +1,11 @@
 #include "systems/fragments/rest_of_body.hpp"
 
+#include <algorithm>
+
 #include "systems/fragments/cell_hulls.hpp"
 #include "systems/fragments/mass_properties.hpp"
+#include "systems/fragments/vertex_sums.hpp"
+#include "systems/quick/cut_out.hpp"
 
 namespace cullet {
 
@@ -36,14 +40,26 @@ void clear_run(ShellView shell, bool is_whole, bool has_run) {
             vertices.crack_start[row] = kNone;
         const bool counts = is_whole || vertices.crack[row] == static_cast<uint8_t>(CrackState::Tip);
         has_cracks |= counts && vertices.crack[row] != 0;
-        vertices.velocity.set(row, {});
         if (!has_run) continue;
+        vertices.velocity.set(row, {});
         vertices.ready_time[row] = 0;
         vertices.is_start_banned[row] = 0;
         vertices.displacement.set(row, {});
         for (int side : {0, 1}) vertices.probe.set(row, {}, side);
     }
     shell.shells().has_cracks[shell.row] = has_cracks;
+    stop_blocks(shell);
+}
+
+void stop_blocks(ShellView shell) {
+    Vertices& vertices = shell.state.vertices;
+    uint8_t* const moves = shell.state.vertex_blocks.moves.data() + block_row(shell, 0);
+    for (uint32_t b = 0; b < block_count(shell); ++b) {
+        if (!moves[b]) continue;
+        moves[b] = 0;
+        const uint32_t begin = b * kVerticesPerBlock, end = std::min(begin + kVerticesPerBlock, shell.vertex_count());
+        for (uint32_t v = begin; v < end; ++v) vertices.velocity.set(shell.vertex(v), {});
+    }
 }
 
 void measure_part(ShellView shell, const FragmentPart& part) {
@@ -60,6 +76,8 @@ void adopt_shell(State& state, Row<Bodies> body, Row<Shells> shell) {
     state.bodies.shell[body] = shell;
     release_shell(state, before);
     drop_stiffness(state, shell);
+    const ShellView own(state, shell);
+    if (own.vertex_count() > kWholeCopyVertices) keep_vertex_sums(own);
 }
 
 bool keep_hulls(ShellView shell, ShellView before) {

@@ -16,6 +16,8 @@ void shed_part(ShellView shell, const FragmentPart& part);
 /// hidden run, if one was made on these rows: all of that is cleared. Fragments (`is_whole` false) count as cracked
 /// while a tip is left. O(the shell's vertices).
 void clear_run(ShellView shell, bool is_whole, bool has_run = true);
+/// The velocities that put_back wrote are cleared, as clear_run does it where no run was made on these rows.
+void stop_blocks(ShellView shell);
 
 /// Mass properties, area and thickness of the shell, summed over its one part that will be left.
 void measure_part(ShellView shell, const FragmentPart& part);

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "systems/fragments/vertex_sums.hpp"
+
 namespace cullet {
 namespace {
 
@@ -18,33 +20,46 @@ void for_each_vertex(const ShellView& shell, std::span<PartMotion> motions, Visi
     }
 }
 
-void add_linear(const Vertices& vertices, uint32_t row, PartMotion& m) {
+/// Of the vertex in a row, body axes.
+struct VertexVelocity {
+    const State& state;
+    const std::optional<RestMotion>& rest;
+
+    bool is_still(uint32_t row) const { return rest && !state.vertex_blocks.moves[row / kVerticesPerBlock]; }
+    Vec3d operator[](uint32_t row) const {
+        if (!is_still(row)) return Vec3d(state.vertices.velocity[row]);
+        return state.vertices.inverse_mass[row] > 0 ? rest->at(state.vertices.rest[row]) : Vec3d{};
+    }
+};
+
+void add_linear(const VertexVelocity& velocity, uint32_t row, PartMotion& m) {
+    const Vertices& vertices = velocity.state.vertices;
     const double mass = vertices.mass[row];
-    const Vec3d v(vertices.velocity[row]);
+    const Vec3d v = velocity[row];
     m.mass += mass;
     m.centre += mass * Vec3d(vertices.rest[row]);  // divided by the mass later
     m.momentum += mass * v;
     m.hidden_energy += mass / 2 * dot(v, v);
 }
 
-void add_angular(const Vertices& vertices, uint32_t row, PartMotion& m) {
+void add_angular(const VertexVelocity& velocity, uint32_t row, PartMotion& m) {
+    const Vertices& vertices = velocity.state.vertices;
     const double mass = vertices.mass[row];
     const Vec3d arm = Vec3d(vertices.rest[row]) - m.centre;
-    m.angular_momentum += mass * cross(arm, Vec3d(vertices.velocity[row]));
+    m.angular_momentum += mass * cross(arm, velocity[row]);
     m.inertia = m.inertia + mass * inertia_of(outer(arm));
     m.radius = std::max(m.radius, length(arm));
 }
 
-void sum_momenta(const ShellView& shell, std::span<PartMotion> motions) {
-    const Vertices& vertices = shell.state.vertices;
-    for_each_vertex(shell, motions, [&](uint32_t row, PartMotion& m) { add_linear(vertices, row, m); });
+void sum_momenta(const ShellView& shell, const VertexVelocity& velocity, std::span<PartMotion> motions) {
+    for_each_vertex(shell, motions, [&](uint32_t row, PartMotion& m) { add_linear(velocity, row, m); });
     for (PartMotion& m : motions)
         if (m.mass > 0) m.centre = (1 / m.mass) * m.centre;
-    for_each_vertex(shell, motions, [&](uint32_t row, PartMotion& m) { add_angular(vertices, row, m); });
+    for_each_vertex(shell, motions, [&](uint32_t row, PartMotion& m) { add_angular(velocity, row, m); });
 }
 
 /// Of vertices, about the body frame's origin. They add and subtract.
-struct VertexSums {
+struct MotionSums {
     double mass = 0;
     Vec3d first, momentum, turning;  // sum of m p, m v, m p x v
     Sym3d second;                    // m p p^T
@@ -59,25 +74,55 @@ struct VertexSums {
         second = second + m * outer(p);
         energy += 0.5 * dot(impulse, v);
     }
+    void add(const MotionSums& o) {
+        mass += o.mass;
+        first += o.first;
+        momentum += o.momentum;
+        turning += o.turning;
+        second = second + o.second;
+        energy += o.energy;
+    }
 };
 
-/// Four sums side by side, so that none waits for another.
-VertexSums sums_of_all(const ShellView& shell) {
+/// Of vertices that move as one rigid body does: u = a + w x p with a = v - w x c, so that sum m u = m a + w x S and
+/// sum m p x u = S x a + J w, where S = sum m p and J is the inertia about the origin.
+MotionSums sums_of_rigid(const VertexSums& of, const RestMotion& rest) {
+    const Vec3d w = rest.spin, a = rest.velocity - cross(w, rest.centre), turned = cross(w, of.first);
+    const Vec3d spun = inertia_of(of.second) * w;
+    MotionSums sums;
+    sums.mass = of.mass;
+    sums.first = of.first;
+    sums.second = of.second;
+    sums.momentum = of.mass * a + turned;
+    sums.turning = cross(of.first, a) + spun;
+    sums.energy = 0.5 * (of.mass * dot(a, a) + dot(w, spun)) + dot(a, turned);
+    return sums;
+}
+
+/// Four sums side by side, so that none waits for another. Of blocks that move with the rest what they weigh is known.
+MotionSums sums_of_all(const ShellView& shell, const VertexVelocity& velocity) {
     const Vertices& vertices = shell.state.vertices;
-    VertexSums lane[4];
-    for (uint32_t v = 0; v < shell.vertex_count(); ++v) {
-        const uint32_t row = shell.vertex(v);
-        lane[v % 4].add(vertices.mass[row], Vec3d(vertices.rest[row]), Vec3d(vertices.velocity[row]));
+    MotionSums lane[4];
+    VertexSums still;
+    for (uint32_t b = 0; b < block_count(shell); ++b) {
+        const uint32_t begin = b * kVerticesPerBlock, end = std::min(begin + kVerticesPerBlock, shell.vertex_count());
+        if (velocity.is_still(shell.vertex(begin))) {
+            const VertexSums block = block_sums(shell, b);
+            if (block.pinned == 0) {
+                still.mass += block.mass;
+                still.first += block.first;
+                still.second = still.second + block.second;
+                continue;
+            }
+        }
+        for (uint32_t v = begin; v < end; ++v) {
+            const uint32_t row = shell.vertex(v);
+            lane[v % 4].add(vertices.mass[row], Vec3d(vertices.rest[row]), velocity[row]);
+        }
     }
-    VertexSums all = lane[0];
-    for (int k = 1; k < 4; ++k) {
-        all.mass += lane[k].mass;
-        all.first += lane[k].first;
-        all.momentum += lane[k].momentum;
-        all.turning += lane[k].turning;
-        all.second = all.second + lane[k].second;
-        all.energy += lane[k].energy;
-    }
+    MotionSums all = lane[0];
+    for (int k = 1; k < 4; ++k) all.add(lane[k]);
+    if (velocity.rest) all.add(sums_of_rigid(still, *velocity.rest));
     return all;
 }
 
@@ -91,14 +136,14 @@ void for_each_vertex_of(const ShellView& shell, const FragmentPart& part, Visit 
 }
 
 /// Of a part that is not listed: all, less the listed ones.
-void subtract_listed(const ShellView& shell, std::span<const FragmentPart> parts, VertexSums& rest) {
+void subtract_listed(const ShellView& shell, const VertexVelocity& velocity, std::span<const FragmentPart> parts,
+                     MotionSums& rest) {
     const Vertices& vertices = shell.state.vertices;
-    VertexSums left;
+    MotionSums left;
     for (const FragmentPart& part : parts) {
         if (!is_listed(part)) continue;
-        for_each_vertex_of(shell, part, [&](uint32_t row) {
-            left.add(vertices.mass[row], Vec3d(vertices.rest[row]), Vec3d(vertices.velocity[row]));
-        });
+        for_each_vertex_of(
+            shell, part, [&](uint32_t row) { left.add(vertices.mass[row], Vec3d(vertices.rest[row]), velocity[row]); });
     }
     rest.mass -= left.mass;
     rest.first = rest.first - left.first;
@@ -108,7 +153,8 @@ void subtract_listed(const ShellView& shell, std::span<const FragmentPart> parts
     rest.energy -= left.energy;
 }
 
-double farthest_from(const ShellView& shell, Vec3 centre) {
+/// Of rows [begin, end).
+float farthest_of(const ShellView& shell, uint32_t begin, uint32_t end, Vec3 centre) {
     constexpr uint32_t kWide = 4;
     const Vertices& vertices = shell.state.vertices;
     const uint32_t first = shell.vertex(0);
@@ -116,21 +162,37 @@ double farthest_from(const ShellView& shell, Vec3 centre) {
                 *z = vertices.rest.lane(2) + first;
     const uint32_t* const element = vertices.element.data() + first;
     float most[kWide] = {};
-    for (uint32_t v = 0; v + kWide <= shell.vertex_count(); v += kWide)
-        for (uint32_t i = 0; i < kWide; ++i) {
-            const float dx = x[v + i] - centre.x, dy = y[v + i] - centre.y, dz = z[v + i] - centre.z;
-            const float square = element[v + i] == kNone ? 0 : dx * dx + dy * dy + dz * dz;
-            most[i] = square > most[i] ? square : most[i];
-        }
-    return std::sqrt(static_cast<double>(*std::max_element(most, most + kWide)));
+    const auto look = [&](uint32_t v, uint32_t i) {
+        const float dx = x[v] - centre.x, dy = y[v] - centre.y, dz = z[v] - centre.z;
+        const float square = element[v] == kNone ? 0 : dx * dx + dy * dy + dz * dz;
+        most[i] = square > most[i] ? square : most[i];
+    };
+    uint32_t v = begin;
+    for (; v + kWide <= end; v += kWide)
+        for (uint32_t i = 0; i < kWide; ++i) look(v + i, i);
+    for (; v < end; ++v) look(v, 0);
+    return *std::max_element(most, most + kWide);
+}
+
+double farthest_from(const ShellView& shell, Vec3 centre) {
+    const uint32_t count = shell.vertex_count();
+    if (!keeps_vertex_sums(shell)) return std::sqrt(static_cast<double>(farthest_of(shell, 0, count, centre)));
+    float most = 0;
+    for (uint32_t b = 0; b < block_count(shell); ++b) {
+        const double reach = reach_of_block(shell, b, centre);
+        if (reach * reach < static_cast<double>(most)) continue;
+        const uint32_t begin = b * kVerticesPerBlock;
+        most = std::max(most, farthest_of(shell, begin, std::min(begin + kVerticesPerBlock, count), centre));
+    }
+    return std::sqrt(static_cast<double>(most));
 }
 
 /// What sum_momenta finds where what is left of a body is not listed. Its radius counts the vertices of the pieces,
 /// too: they lie on the body that it was.
-void sum_momenta_of_pieces(const ShellView& shell, std::span<const FragmentPart> parts, std::span<PartMotion> motions) {
-    VertexSums rest = sums_of_all(shell);
-    subtract_listed(shell, parts, rest);
-    const Vertices& vertices = shell.state.vertices;
+void sum_momenta_of_pieces(const ShellView& shell, const VertexVelocity& velocity, std::span<const FragmentPart> parts,
+                           std::span<PartMotion> motions) {
+    MotionSums rest = sums_of_all(shell, velocity);
+    subtract_listed(shell, velocity, parts, rest);
     for (uint32_t p = 0; p < motions.size(); ++p) {
         PartMotion& m = motions[p];
         if (!is_listed(parts[p])) {
@@ -144,9 +206,9 @@ void sum_momenta_of_pieces(const ShellView& shell, std::span<const FragmentPart>
             m.radius = farthest_from(shell, m.centre.to_float());
             continue;
         }
-        for_each_vertex_of(shell, parts[p], [&](uint32_t row) { add_linear(vertices, row, m); });
+        for_each_vertex_of(shell, parts[p], [&](uint32_t row) { add_linear(velocity, row, m); });
         if (m.mass > 0) m.centre = (1 / m.mass) * m.centre;
-        for_each_vertex_of(shell, parts[p], [&](uint32_t row) { add_angular(vertices, row, m); });
+        for_each_vertex_of(shell, parts[p], [&](uint32_t row) { add_angular(velocity, row, m); });
     }
 }
 
@@ -249,10 +311,11 @@ HandoffReport rigid_handoff(ShellView shell, const HandoffStart& start, std::spa
     CULLET_ASSERT(all_motions.size() >= parts.size(), "%zu motions for %zu parts", all_motions.size(), parts.size());
     const std::span<PartMotion> motions = all_motions.first(parts.size());
     std::fill(motions.begin(), motions.end(), PartMotion{});
+    const VertexVelocity velocity{shell.state, start.rest};
     if (std::all_of(parts.begin(), parts.end(), [](const FragmentPart& part) { return is_listed(part); }))
-        sum_momenta(shell, motions);
+        sum_momenta(shell, velocity, motions);
     else
-        sum_momenta_of_pieces(shell, parts, motions);
+        sum_momenta_of_pieces(shell, velocity, parts, motions);
     HandoffReport report;
     report.largest = largest_part(parts);
     for (uint32_t p = 0; p < motions.size(); ++p) {

@@ -1,5 +1,6 @@
 // From the hidden state to rigid motions of the parts (thick shell note 6.6).
 #pragma once
+#include <optional>
 #include <span>
 
 #include "components/state.hpp"
@@ -7,12 +8,20 @@
 
 namespace cullet {
 
+/// How the vertices move that the run of a large body left alone: those of blocks that do not move
+/// (VertexBlocks::moves). Body axes.
+struct RestMotion {
+    Vec3d centre, velocity, spin;
+    Vec3d at(Vec3 place) const { return velocity + cross(spin, Vec3d(place) - centre); }
+};
+
 /// What the body did before the hit, body axes.
 struct HandoffStart {
-    Vec3d velocity;           // of the centre of mass, m/s
-    Vec3d spin;               // rad/s
-    Vec3d centre;             // of mass, m
-    double impact_speed = 0;  // m/s, > 0
+    Vec3d velocity;                       // of the centre of mass, m/s
+    Vec3d spin;                           // rad/s
+    Vec3d centre;                         // of mass, m
+    double impact_speed = 0;              // m/s, > 0
+    std::optional<RestMotion> rest = {};  // none: each vertex has its velocity
 };
 
 /// One part's motion, body axes. Mass, centre and inertia are those of its vertices: with them P and L are the hidden

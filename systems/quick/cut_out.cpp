@@ -4,6 +4,7 @@
 
 #include "systems/cook/materials.hpp"
 #include "systems/damage/assemble.hpp"
+#include "systems/damage/cut_edge.hpp"
 #include "systems/damage/grow_cracks.hpp"
 #include "systems/damage/struck_normal.hpp"
 #include "systems/damage/working_room.hpp"
@@ -79,6 +80,7 @@ bool spread(Flood& flood, const CutOutSize& size, uint32_t* list) {
         if (flood.is_found.has(e)) return;
         flood.is_found.add(e);
         list[flood.count++] = e;
+        __builtin_prefetch(&elements.neighbour[flood.shell.element(e)]);  // from memory; wanted in the next ring
         for (const uint32_t v : elements.corner[flood.shell.element(e)]) {
             if (flood.is_queued.has(v)) continue;
             flood.is_queued.add(v);
@@ -108,75 +110,101 @@ bool spread(Flood& flood, const CutOutSize& size, uint32_t* list) {
     return flood.count < flood.most;
 }
 
-/// Of rows that are assembled anew: slots of the body's packs are counted, of which a vertex has at least as many.
+/// Of rows that are assembled anew. Slots are counted behind the bits in Elements.other_slope: the cut-out has at most
+/// half of the elements, and so three halves of a vertex an element, where there are nearly three words.
 void add_stiffness_room(const CutRows& rows, ShellRoom& room) {
-    SlotCount slots;
-    rows.for_each_vertex([&](uint32_t v) { slots.add(rows.source, v); });
-    const ShellRoom stiffness = slots.room(rows.source, room.vertices - rows.vertex_count);
+    const ShellView& source = rows.source;
+    const Elements& elements = source.state.elements;
+    const bool has_grain = material_traits(source.state, source.shells().material[source.row]).has_grain();
+    uint32_t* const slots = rows.has_vertex.words + RowBits::words_of(source.vertex_count());
+    std::fill_n(slots, rows.vertex_count, 0u);
+    for (uint32_t e = 0; e < rows.element_count; ++e) {
+        const uint32_t row = source.element(rows.list[e]);
+        bool is_linked[3], has_hinge[3];
+        for (uint32_t k = 0; k < 3; ++k) {
+            const uint32_t n = elements.neighbour[row][k];
+            is_linked[k] = n != kNone && rows.has_element.has(n);
+            has_hinge[k] = is_linked[k] && elements.hinge[row][k] != kNone;
+        }
+        for (uint32_t k = 0; k < 3; ++k)
+            slots[rows.place_of(elements.corner[row][k])] +=
+                slots_of_corner(!is_linked[k], has_hinge[(k + 1) % 3], has_grain);
+    }
+    const ShellRoom stiffness = stiffness_room(source, {slots, rows.vertex_count}, room.vertices - rows.vertex_count);
     room.blocks = stiffness.blocks, room.links = stiffness.links;
 }
 
 void copy_vertices(const CutRows& rows, const ShellView& cut) {
     Vertices& vertices = cut.state.vertices;
-    uint32_t next = 0, first = 0, run = 0;  // rows [first, first + run) of the body, to be copied behind next - run
-    const auto copy_run = [&] {
-        if (run > 0) vertices.copy_rows(vertices, rows.source.vertex(first), cut.vertex(next - run), run);
-    };
+    // Where they are and how they move is written when the run starts.
+    const void* const of_runs[] = {vertices.velocity.data(), vertices.displacement.data(), vertices.probe.data(),
+                                   vertices.crush.data()};
+    AnyTable* const tables[] = {&vertices};
+    RowRuns runs(cut, tables, of_runs);
+    uint32_t next = 0;
+    CutMaps of_body(cut, rows.element_count);
+    of_body.clear();
     rows.for_each_vertex([&](uint32_t v) {
-        if (v != first + run) {
-            copy_run();
-            first = v, run = 0;
-        }
-        ++run, ++next;
+        of_body.add_vertex(v);
+        runs.add(rows.source.vertex(v), cut.vertex(next++));
     });
-    copy_run();
+    runs.copy();
     for (uint32_t v = 0; v < rows.vertex_count; ++v) {
         uint32_t& start = vertices.crack_start[cut.vertex(v)];
         if (start != kNone) start = rows.vertex(start);
     }
 }
 
-void copy_elements(const CutRows& rows, const ShellView& cut) {
+// Quick runs have springs of their own: what the hidden run's stiffness is made of stays in the body (put_back).
+void copy_elements(const CutRows& rows, const ShellView& cut, bool with_stiffness) {
     State& state = cut.state;
     Elements& elements = state.elements;
-    for (uint32_t e = 0; e < rows.element_count;) {
-        const uint32_t first = e, from = rows.list[e];
-        while (e < rows.element_count && rows.list[e] == from + (e - first)) ++e;
-        copy_kept_rows(elements, rows.source.element(from), cut.element(first), e - first);
-        state.triangle_springs.copy_rows(state.triangle_springs, rows.source.element(from), cut.element(first),
-                                         e - first);
-    }
+    AnyTable* const tables[] = {&elements, &state.triangle_springs};
+    const void* const of_lists[] = {elements.part.data()};  // which of the body it is
+    RowRuns runs(cut, std::span(tables).first(with_stiffness ? 2 : 1), of_lists);
+    for (uint32_t e = 0; e < rows.element_count; ++e) runs.add(rows.source.element(rows.list[e]), cut.element(e));
+    runs.copy();
     for (uint32_t e = 0; e < rows.element_count; ++e) {
         const uint32_t row = cut.element(e);
         elements.part[row] = rows.list[e];
         for (uint32_t k = 0; k < 3; ++k) {
-            elements.corner[row][k] = rows.vertex(elements.corner[row][k]);
+            elements.corner[row][k] = rows.place_of(elements.corner[row][k]);
             state.vertices.element[cut.vertex(elements.corner[row][k])] = e;
             uint32_t& n = elements.neighbour[row][k];
-            elements.hinge[row][k] = kNone;
-            if (n == kNone) continue;
-            n = rows.element(n);
-            if (n == kNone) elements.edge_kind[row][k] = static_cast<uint8_t>(EdgeKind::Border);
+            if (n != kNone) {
+                n = rows.element(n);
+                if (n == kNone) elements.edge_kind[row][k] = static_cast<uint8_t>(EdgeKind::Border);
+            }
+            if (n == kNone) elements.hinge[row][k] = kNone;
         }
     }
 }
 
-void copy_hinges(const CutRows& rows, const ShellView& cut) {
+void copy_hinges(const CutRows& rows, const ShellView& cut, bool with_stiffness) {
     State& state = cut.state;
-    uint32_t next = 0, first = 0, run = 0;  // rows [first, first + run) of the body, to be copied behind next - run
-    const auto copy_run = [&] {
-        if (run > 0) state.hinges.copy_rows(state.hinges, rows.source.hinge(first), cut.hinge(next - run), run);
-    };
-    rows.for_each_hinge([&](uint32_t e, uint32_t k, uint32_t other, uint32_t other_k, uint32_t hinge) {
-        if (hinge != first + run) {
-            copy_run();
-            first = hinge, run = 0;
+    Elements& elements = state.elements;
+    Hinges& hinges = state.hinges;
+    AnyTable* const tables[] = {&hinges};
+    const void* const of_stiffness[] = {hinges.gradient.data(), hinges.stiffness.data(), hinges.scale.data()};
+    RowRuns runs(cut, tables, std::span(of_stiffness).first(with_stiffness ? 0 : 3));
+    uint32_t next = 0;
+    CutMaps of_body(cut, rows.element_count);
+    // Elements name the body's hinges until both that have one name it as the cut-out does.
+    for (uint32_t e = 0; e < rows.element_count; ++e) {
+        const uint32_t row = cut.element(e);
+        for (uint32_t k = 0; k < 3; ++k) {
+            const uint32_t other = elements.neighbour[row][k], hinge = elements.hinge[row][k];
+            if (other == kNone || other < e || hinge == kNone) continue;
+            const auto& corner = elements.corner[row];
+            const uint8_t j = edge_between(cut, other, corner[(k + 1) % 3], corner[k]);
+            elements.hinge[row][k] = next;
+            if (j < 3) elements.hinge[cut.element(other)][j] = next;
+            of_body.add_hinge(hinge);
+            runs.add(rows.source.hinge(hinge), cut.hinge(next++));
         }
-        ++run;
-        state.elements.hinge[cut.element(e)][k] = next;
-        state.elements.hinge[cut.element(other)][other_k] = next++;
-    });
-    copy_run();
+    }
+    CULLET_ASSERT(next == rows.hinge_count, "%u hinges of a cut-out, %u were counted", next, rows.hinge_count);
+    runs.copy();
     for (uint32_t h = 0; h < next; ++h)
         for (uint32_t& v : state.hinges.vertex[cut.hinge(h)])
             if (v != kNone) v = rows.vertex(v);
@@ -226,13 +254,15 @@ CutOutResult reserve_cut_out(State& state, Row<Tasks> task, const CutOutSize& si
     rows.number(flood.count);
     rows.count_hinges();
     const Range vertices = source.vertices(), elements = source.elements(), hinges = source.hinges();
-    ShellRoom room =
-        quick_room(state, state.shells.material[source.row], rows.vertex_count, rows.element_count, rows.hinge_count);
+    const bool is_quick = is_quick_task(state, task);
+    const Row<Materials> material = state.shells.material[source.row];
+    ShellRoom room = is_quick ? quick_room(state, material, rows.vertex_count, rows.element_count, rows.hinge_count)
+                              : hidden_room(state, material, rows.vertex_count, rows.element_count, rows.hinge_count);
     // What is added must find room in the body's shell, too.
     room.vertices = std::min(room.vertices, round_to_packs(rows.vertex_count) + spare_of(vertices));
     room.elements = std::min(room.elements, rows.element_count + spare_of(elements));
     room.hinges = std::min(room.hinges, rows.hinge_count + spare_of(hinges));
-    if (is_quick_task(state, task))
+    if (is_quick)
         room.cells = state.shells.cells[source.row].count;
     else
         add_stiffness_room(rows, room);
@@ -251,11 +281,23 @@ void list_cut_out(State& state, Row<Tasks> task) {
     CutRows rows(source);
     const uint32_t count = state.quick_runs.cut_elements[task];
     std::copy_n(state.elements.part.data() + cut.elements().first, count, rows.list);
-    rows.number(count);
+    rows.mark_and_number(count);
     rows.count_hinges();
     cut.vertices().count = rows.vertex_count;
     cut.elements().count = rows.element_count;
     cut.hinges().count = rows.hinge_count;
+}
+
+void remember_cut_out(State& state, Row<Tasks> task) {
+    const ShellView source(state, state.tasks.source[task]), cut(state, state.tasks.shell[task]);
+    CutRows rows(source);
+    const uint32_t count = state.quick_runs.cut_elements[task];
+    std::copy_n(state.elements.part.data() + cut.elements().first, count, rows.list);
+    rows.mark_and_number(count);
+    CutMaps of_body(cut, count);
+    of_body.clear();
+    rows.for_each_vertex([&](uint32_t v) { of_body.add_vertex(v); });
+    rows.for_each_hinge([&](uint32_t h) { of_body.add_hinge(h); });
 }
 
 void fill_cut_out(State& state, Row<Tasks> task) {
@@ -276,9 +318,10 @@ void fill_cut_out(State& state, Row<Tasks> task) {
     shells.dead_elements[cut.row] = 0;
     state.cells.copy_rows(state.cells, shells.cells[source.row].first, cells.first, cells.count);
     copy_vertices(rows, cut);
-    copy_elements(rows, cut);
-    copy_hinges(rows, cut);
-    if (is_quick_task(state, task))
+    const bool is_quick = is_quick_task(state, task);
+    copy_elements(rows, cut, !is_quick);
+    copy_hinges(rows, cut, !is_quick);
+    if (is_quick)
         clear_spare_vertices(cut);
     else
         clear_spare_rows(state, cut.row);

@@ -48,13 +48,17 @@ void list_cut_out(State& state, Row<Tasks> task);
 /// Copies the rows. The edges on the border of the cut-out are borders in it.
 void fill_cut_out(State& state, Row<Tasks> task);
 
+/// What put_back needs in scratch, from State: after a load, in the middle of a run.
+void remember_cut_out(State& state, Row<Tasks> task);
+
 /// Of a quick run's copy: packs that cracks will begin are read whole. Rows to spare of its other tables are written
 /// when they are taken.
 void clear_spare_vertices(const ShellView& copy);
 
 /// Writes what the run changed into the body's shell, gives the cut-out back and makes the body's shell the task's, as
-/// it was where nothing broke or the run is dropped. Vertices.velocity is then what pieces start with: outside of the
-/// cut-out that of the body's own motion. Tells of each new start of a crack. Serial.
+/// it was where nothing broke or the run is dropped. Vertices.velocity is then what pieces start with, in the blocks
+/// that move (VertexBlocks::moves); all other vertices move by `motion`, the body's own. Tells of each new start of a
+/// crack. Serial.
 void put_back(State& state, Row<Tasks> task, const BodyMotion& motion, Events<CrackStartedEvent>& cracks);
 
 /// Empty, or what is wrong with the rows of a cut-out that came from a file.

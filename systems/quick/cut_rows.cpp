@@ -1,6 +1,8 @@
 #include "systems/quick/cut_rows.hpp"
 
+#include <algorithm>
 #include <cstring>
+#include <utility>
 
 namespace cullet {
 
@@ -28,9 +30,39 @@ void copy_kept_rows(AnyTable& table, uint32_t from, uint32_t to, uint32_t count)
         }
 }
 
+void RowRuns::copy() {
+    const std::span<const std::array<uint32_t, 3>> runs(runs_, std::exchange(count_, 0u));
+    for (AnyTable* const table : tables_)
+        for (const ColumnInfo& c : table->columns()) {
+            const bool is_other =
+                std::find(others_.begin(), others_.end(), table->column_memory(c, 0)) != others_.end();
+            for (int a = 0; c.keep == Keep::State && !is_other && a < c.lanes * c.sides; ++a) {
+                std::byte* const memory = table->column_memory(c, a);
+                for (const auto& [from, to, count] : runs)
+                    std::memcpy(memory + size_t{to} * c.row_bytes, memory + size_t{from} * c.row_bytes,
+                                size_t{count} * c.row_bytes);
+            }
+        }
+}
+
+void CutRows::number_vertices(std::span<const uint32_t> of_body) {
+    has_vertex.clear(source.vertex_count());
+    vertex_count = 0;
+    for (const uint32_t v : of_body) {
+        has_vertex.add(v);
+        vertex_place_[v] = vertex_count++;
+    }
+}
+
+void CutRows::mark_and_number(uint32_t count) {
+    has_element.clear(source.element_count());
+    for (uint32_t e = 0; e < count; ++e) has_element.add(list[e]);
+    number(count);
+}
+
 void CutRows::count_hinges() {
     hinge_count = 0;
-    for_each_hinge([&](uint32_t, uint32_t, uint32_t, uint32_t, uint32_t) { ++hinge_count; });
+    for_each_hinge([&](uint32_t) { ++hinge_count; });
 }
 
 }  // namespace cullet

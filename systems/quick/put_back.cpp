@@ -2,8 +2,10 @@
 #include <algorithm>
 #include <bit>
 
+#include "systems/damage/assemble.hpp"
 #include "systems/damage/ring.hpp"
 #include "systems/fragments/group_fragments.hpp"
+#include "systems/fragments/vertex_sums.hpp"
 #include "systems/quick/cut_out.hpp"
 #include "systems/quick/cut_rows.hpp"
 #include "systems/rigid/body_id.hpp"
@@ -16,31 +18,56 @@ struct PutBack {
     State& state;
     const ShellView source, cut;
     CutRows rows;
-    bool is_marked;        // the run has told what it touched, as quick ones do
-    uint32_t* hinge_list;  // scratch of the body's shell: of the cut-out's hinges, the body's
+    bool has_stiffness;  // of a hidden run, in the cut-out's elements and hinges
+    CutMaps of_body;
+    RowBits is_beside_cut;  // of the cut-out's vertices that the body has: those of touched elements
 
     PutBack(State& s, Row<Tasks> task)
         : state(s),
           source(s, s.tasks.source[task]),
           cut(s, s.tasks.shell[task]),
           rows(source),
-          is_marked(is_quick_task(s, task)),
-          hinge_list(s.elements.next.data() + source.elements().first) {
+          has_stiffness(!is_quick_task(s, task)),
+          of_body(cut, s.quick_runs.cut_elements[task]),
+          is_beside_cut{reinterpret_cast<uint32_t*>(s.elements.other_slope.data() + cut.elements().first)} {
         const uint32_t count = s.quick_runs.cut_elements[task];
         std::copy_n(s.elements.part.data() + cut.elements().first, count, rows.list);
-        rows.number(count);
-        uint32_t place = 0;
-        rows.for_each_vertex([&](uint32_t v) { s.vertices.copy[cut.vertex(place++)] = v; });
-        rows.for_each_hinge(
-            [&](uint32_t, uint32_t, uint32_t, uint32_t, uint32_t h) { hinge_list[rows.hinge_count++] = h; });
+        rows.element_count = count;
+        rows.hinge_count = of_body.hinge_count;
+        rows.number_vertices({of_body.vertex, of_body.vertex_count});
+#if CULLET_CHECKS_ON
+        check_maps(count);
+#endif
+        is_beside_cut.clear(rows.vertex_count);
+        for (uint32_t e = 0; e < cut.element_count(); ++e)
+            if (is_touched(e))
+                for (const uint32_t v : s.elements.corner[cut.element(e)])
+                    if (v < rows.vertex_count) is_beside_cut.add(v);
+    }
+
+    /// They are those that the list of elements gives.
+    [[maybe_unused]] void check_maps(uint32_t count) {
+        const uint32_t vertices = rows.vertex_count;
+        uint32_t v = 0, h = 0;
+        rows.mark_and_number(count);
+        CULLET_ASSERT(rows.vertex_count == vertices, "%u vertices of a cut-out, not %u", vertices, rows.vertex_count);
+        rows.for_each_vertex(
+            [&](uint32_t of) { CULLET_ASSERT(of_body.vertex[v++] == of, "vertex %u of a cut-out", of); });
+        rows.for_each_hinge([&](uint32_t of) { CULLET_ASSERT(of_body.hinge[h++] == of, "hinge %u of a cut-out", of); });
+        CULLET_ASSERT(h == rows.hinge_count, "%u hinges of a cut-out, not %u", rows.hinge_count, h);
+    }
+
+    bool is_touched(uint32_t e) const {
+        return e >= rows.element_count || (state.elements.flags[cut.element(e)] & kIsTouched) != 0;
     }
 
     /// Behind the old vertices there are dead ones up to a whole pack.
-    uint32_t first_new_vertex() const { return round_to_packs(rows.vertex_count); }
+    uint32_t first_new_vertex() const {
+        return round_to_packs(rows.vertex_count);
+    }
     uint32_t vertex(uint32_t v) const {
         if (v == kNone) return v;
-        return v < rows.vertex_count ? state.vertices.copy[cut.vertex(v)]
-                                     : source.vertex_count() + (v - first_new_vertex());
+        return v < rows.vertex_count ? of_body.vertex[v] : source.vertex_count() + (v - first_new_vertex());
     }
     uint32_t element(uint32_t e) const {
         if (e == kNone) return e;
@@ -48,7 +75,7 @@ struct PutBack {
     }
     uint32_t hinge(uint32_t h) const {
         if (h == kNone) return h;
-        return h < rows.hinge_count ? hinge_list[h] : source.hinge_count() + (h - rows.hinge_count);
+        return h < rows.hinge_count ? of_body.hinge[h] : source.hinge_count() + (h - rows.hinge_count);
     }
     template <class F>
     void for_each_vertex(F&& f) const {
@@ -75,24 +102,39 @@ void tell_starts(const PutBack& p, Row<Bodies> body, Events<CrackStartedEvent>& 
     });
 }
 
-// Cuts and inserted vertices change rows round the cracks alone: to copy all of them costs ten times as much.
+/// Of a vertex, as the body counts. That of a crack whose start lies outside is not known in the cut-out.
+uint32_t start_now(const PutBack& p, uint32_t v) {
+    const Vertices& vertices = p.state.vertices;
+    const uint32_t row = p.cut.vertex(v);
+    if (vertices.crack_start[row] != kNone) return p.vertex(vertices.crack_start[row]);
+    if (v >= p.rows.vertex_count || vertices.crack[row] == 0) return kNone;
+    const uint32_t old = vertices.crack_start[p.source.vertex(p.vertex(v))];
+    return old != kNone && p.rows.vertex(old) == kNone ? old : kNone;
+}
+
+bool has_same_crack(const PutBack& p, uint32_t v) {
+    const Vertices& vertices = p.state.vertices;
+    const uint32_t now = p.cut.vertex(v), then = p.source.vertex(p.vertex(v));
+    return vertices.crack[then] == vertices.crack[now] && vertices.crack_start[then] == start_now(p, v) &&
+           vertices.heading[then] == vertices.heading[now];
+}
+
+// Cuts and inserted vertices change rows round the cracks alone: to copy all of them costs ten times as much. Runs with
+// two layers weigh all of their vertices, which rounds. A fragment has forgotten old cracks anywhere.
 void put_vertices(const PutBack& p) {
     Vertices& vertices = p.state.vertices;
+    const bool is_fragment = p.state.shells.generation[p.source.row] > 0;
     p.for_each_vertex([&](uint32_t v) {
-        const bool is_old = v < p.rows.vertex_count;
+        const bool is_old = v < p.rows.vertex_count, may_differ = is_fragment || !is_old || p.is_beside_cut.has(v);
         const uint32_t from = p.cut.vertex(v), to = p.source.vertex(p.vertex(v));
-        // The start of a crack that lies outside is not known in the cut-out.
-        uint32_t start = vertices.crack_start[from] == kNone ? kNone : p.vertex(vertices.crack_start[from]);
-        if (start == kNone && is_old) {
-            const uint32_t old = vertices.crack_start[to];
-            if (old != kNone && p.rows.vertex(old) == kNone && vertices.crack[from] != 0) start = old;
-        }
-        const bool is_same = is_old && vertices.mass[to] == vertices.mass[from] &&
-                             vertices.crack[to] == vertices.crack[from] && vertices.crack_start[to] == start &&
-                             vertices.heading[to] == vertices.heading[from];
+        CULLET_ASSERT(may_differ || has_same_crack(p, v), "a run has changed vertex %u and no element at it", v);
+        const bool is_same =
+            !may_differ || (is_old && vertices.mass[to] == vertices.mass[from] && has_same_crack(p, v));
         if (is_same) return vertices.velocity.set(to, vertices.velocity[from]);
+        const uint32_t start = start_now(p, v);
+        outdate_block(p.source, p.vertex(v));
         const uint32_t element = p.element(vertices.element[from]);
-        const uint32_t place = vertices.copy[to];                             // in the cut-out; `from` has the way back
+        const uint32_t place = vertices.copy[to];                             // in the cut-out
         const float strength = vertices.strength_factor[is_old ? to : from];  // a hidden run lowers it at its border
         vertices.copy_rows(vertices, from, to, 1);
         vertices.copy[to] = place;
@@ -175,15 +217,23 @@ void leave_element(const PutBack& p, uint32_t e, const Links& now, const Links& 
     }
 }
 
-bool is_touched(const PutBack& p, uint32_t e) {
-    return !p.is_marked || e >= p.rows.element_count || (p.state.elements.flags[p.cut.element(e)] & kIsTouched) != 0;
+/// Whether a corner, or an end of a hinge, lies elsewhere than it did: not of one that a split only gave a copy.
+template <size_t count>
+bool has_moved(const PutBack& p, const std::array<uint32_t, count>& now, const std::array<uint32_t, count>& then) {
+    for (size_t k = 0; k < count; ++k) {
+        if (now[k] == then[k]) continue;
+        if (now[k] == kNone || then[k] == kNone) return true;
+        const Column<Vec3>& rest = p.state.vertices.rest;
+        if (!(rest[p.source.vertex(now[k])] == rest[p.source.vertex(then[k])])) return true;
+    }
+    return false;
 }
 
 void put_element(const PutBack& p, uint32_t e) {
     State& state = p.state;
     Elements& elements = state.elements;
     const bool is_old = e < p.rows.element_count;
-    if (!is_touched(p, e)) {
+    if (!p.is_touched(e)) {
         CULLET_ASSERT(is_as_before(p, e), "a run has changed element %u of a cut-out and did not mark it", e);
         return;
     }
@@ -194,13 +244,28 @@ void put_element(const PutBack& p, uint32_t e) {
     if (is_old) leave_element(p, e, now, before);
     const uint32_t part = elements.part[is_old ? to : p.source.element(p.rows.list[0])];
     copy_kept_rows(elements, from, to, 1);
-    state.triangle_springs.copy_rows(state.triangle_springs, from, to, 1);
     elements.part[to] = part;
     elements.flags[to] = static_cast<uint8_t>(elements.flags[to] & ~kIsTouched);
     elements.corner[to] = now.corner;
     elements.neighbour[to] = now.neighbour;
     elements.hinge[to] = now.hinge;
     elements.edge_kind[to] = now.edge_kind;
+    if (p.has_stiffness)
+        state.triangle_springs.copy_rows(state.triangle_springs, from, to, 1);
+    else if (!is_old || has_moved(p, now.corner, before.corner))
+        assemble_element(p.source, p.element(e));
+}
+
+/// What it is made of follows from where the four stand; a cut takes all of its stiffness.
+void name_hinge(const PutBack& p, uint32_t h, const std::array<uint32_t, 4>& vertex) {
+    Hinges& hinges = p.state.hinges;
+    const uint32_t row = p.source.hinge(p.hinge(h));
+    const auto then = hinges.vertex[row];
+    const bool is_old = h < p.rows.hinge_count;
+    if (is_old && then == vertex) return;
+    hinges.vertex[row] = vertex;
+    if (!is_old || (vertex[0] != kNone && has_moved(p, vertex, then))) assemble_hinge(p.source, p.hinge(h));
+    if (vertex[0] == kNone) hinges.stiffness[row] = 0;
 }
 
 void put_hinge(const PutBack& p, uint32_t h) {
@@ -208,6 +273,7 @@ void put_hinge(const PutBack& p, uint32_t h) {
     const uint32_t from = p.cut.hinge(h), to = p.source.hinge(p.hinge(h));
     auto vertex = hinges.vertex[from];
     for (uint32_t& v : vertex) v = p.vertex(v);
+    if (!p.has_stiffness) return name_hinge(p, h, vertex);
     // Its gradient follows from where the four stand at rest.
     const bool is_same = h < p.rows.hinge_count && hinges.vertex[to] == vertex &&
                          hinges.stiffness[to] == hinges.stiffness[from] && hinges.scale[to] == hinges.scale[from];
@@ -216,14 +282,14 @@ void put_hinge(const PutBack& p, uint32_t h) {
     hinges.vertex[to] = vertex;
 }
 
-/// Those that died, those of elements that changed or, where nobody told which did, all, and new ones.
+/// Those that died, those of elements that changed, and new ones.
 void put_hinges(const PutBack& p) {
     const Hinges& hinges = p.state.hinges;
     const uint32_t old = p.rows.hinge_count;
     for (uint32_t h = 0; h < old; ++h)
-        if (!p.is_marked || hinges.vertex[p.cut.hinge(h)][0] == kNone) put_hinge(p, h);
-    for (uint32_t e = 0; p.is_marked && e < p.cut.element_count(); ++e) {
-        if (!is_touched(p, e)) continue;
+        if (hinges.vertex[p.cut.hinge(h)][0] == kNone) put_hinge(p, h);
+    for (uint32_t e = 0; e < p.cut.element_count(); ++e) {
+        if (!p.is_touched(e)) continue;
         for (const uint32_t h : p.state.elements.hinge[p.cut.element(e)])
             if (h < old) put_hinge(p, h);
     }
@@ -237,9 +303,25 @@ void put_hinges(const PutBack& p) {
 #endif
 }
 
+/// Which blocks have vertices of the cut-out, or new ones: those move (VertexBlocks::moves).
+void mark_moving_blocks(const PutBack& p) {
+    const uint32_t count = p.source.vertex_count(), words = RowBits::words_of(count);
+    const uint32_t end = count + p.cut.vertex_count() - p.first_new_vertex();
+    uint8_t* const moves = p.state.vertex_blocks.moves.data() + block_row(p.source, 0);
+    static_assert(kVerticesPerBlock == 64);
+    for (uint32_t b = 0; b * kVerticesPerBlock < end; ++b) {
+        const bool has_new = (b + 1) * kVerticesPerBlock > count && end > count;
+        const uint32_t low = 2 * b < words ? p.rows.has_vertex.words[2 * b] : 0,
+                       high = 2 * b + 1 < words ? p.rows.has_vertex.words[2 * b + 1] : 0;
+        moves[b] = has_new || (low | high) != 0;
+    }
+}
+
+/// The other vertices of these blocks move as the body does. All others do, too, and nobody writes it down.
 void move_the_rest(const PutBack& p, const BodyMotion& motion) {
     Vertices& vertices = p.state.vertices;
     const uint32_t first = p.source.vertex(0), count = p.source.vertex_count();
+    const uint8_t* const moves = p.state.vertex_blocks.moves.data() + block_row(p.source, 0);
     const float *const x = vertices.rest.lane(0) + first, *const y = vertices.rest.lane(1) + first,
                        *const z = vertices.rest.lane(2) + first;
     const float* const inverse_mass = vertices.inverse_mass.data() + first;
@@ -249,7 +331,7 @@ void move_the_rest(const PutBack& p, const BodyMotion& motion) {
     constexpr uint32_t kWord = 32;
     for (uint32_t word = 0; word < count; word += kWord) {
         const uint32_t rows = std::min(kWord, count - word), in_cut = p.rows.has_vertex.words[word / kWord];
-        if (in_cut == ~0u) continue;
+        if (in_cut == ~0u || !moves[word / kVerticesPerBlock]) continue;
         float own[3][kWord];
         for (uint32_t left = in_cut; left != 0; left &= left - 1) {
             const auto i = static_cast<uint32_t>(std::countr_zero(left));
@@ -279,6 +361,7 @@ void put_rows(State& state, Row<Tasks> task, const PutBack& p, const BodyMotion&
                       "vertex %u names an element that is not at it", p.vertex(v));
     });
 #endif
+    mark_moving_blocks(p);
     move_the_rest(p, motion);
     const uint32_t vertices = p.cut.vertex_count() - p.first_new_vertex(),
                    elements = p.cut.element_count() - p.rows.element_count,
@@ -340,7 +423,7 @@ std::string trouble_of_cut_out(State& state, uint32_t task) {
     if (!CutRows::has_room(source)) return where + ": the body has vertices that belong to no element";
     CutRows rows(source);
     std::copy_n(listed, count, rows.list);
-    rows.number(count);
+    rows.mark_and_number(count);
     rows.count_hinges();
     const uint32_t first_new = round_to_packs(rows.vertex_count);
     const auto fits = [](uint32_t now, uint32_t before, const Range& body) {

@@ -5,6 +5,7 @@
 
 #include "systems/damage/blows.hpp"
 #include "systems/damage/contact.hpp"
+#include "systems/fragments/vertex_sums.hpp"
 #include "systems/springs/edge_stiffness.hpp"
 #include "systems/springs/spring_lists.hpp"
 #include "systems/springs/start_springs.hpp"
@@ -19,19 +20,6 @@ constexpr uint32_t kSpareRings = 3;
 /// J/kg, what a centimetre a second is: under it lengths of springs, which are floats, round to as much as a run gains.
 constexpr double kLeastScale = 5e-5;
 
-/// Of the vertices' masses. Splits and inserted vertices leave it where it is.
-Vec3d centre_of_vertices(const ShellView& shell) {
-    const Vertices& vertices = shell.state.vertices;
-    double mass = 0;
-    Vec3d sum;
-    for (uint32_t row = shell.vertex(0); row < shell.vertex(0) + shell.vertex_count(); ++row) {
-        if (vertices.element[row] == kNone) continue;
-        mass += vertices.mass[row];
-        sum += vertices.mass[row] * Vec3d(vertices.rest[row]);
-    }
-    return mass > 0 ? (1 / mass) * sum : Vec3d{};
-}
-
 template <class F>
 void for_each_contact(const State& state, Row<Tasks> task, F&& f) {
     const uint32_t first = state.tasks.first_contact[task];
@@ -39,15 +27,8 @@ void for_each_contact(const State& state, Row<Tasks> task, F&& f) {
 }
 
 float diagonal_of(const ShellView& shell) {
-    const Vertices& vertices = shell.state.vertices;
-    Vec3 low{1e30f, 1e30f, 1e30f}, high = -low;
-    for (uint32_t row = shell.vertex(0); row < shell.vertex(0) + shell.vertex_count(); ++row) {
-        if (vertices.element[row] == kNone) continue;
-        const Vec3 p = vertices.rest[row];
-        low = {std::min(low.x, p.x), std::min(low.y, p.y), std::min(low.z, p.z)};
-        high = {std::max(high.x, p.x), std::max(high.y, p.y), std::max(high.z, p.z)};
-    }
-    return high.x >= low.x ? length(high - low) : 0;
+    const VertexSums sums = vertex_sums(shell);
+    return sums.high.x >= sums.low.x ? length(sums.high - sums.low) : 0;
 }
 
 /// All of the shell stands still at its rest shape: what is asleep may be cut, too.
@@ -94,7 +75,7 @@ void see_strikers(State& state, Row<Tasks> task) {
 
 // Cuts and new vertices leave the centre where it is.
 BodyMotion::BodyMotion(const State& state, Row<Tasks> task)
-    : centre(centre_of_vertices(ShellView(const_cast<State&>(state), state.tasks.source[task]))),
+    : centre(vertex_sums(ShellView(const_cast<State&>(state), state.tasks.source[task])).centre()),
       velocity(state.tasks.start_velocity[task]),
       spin(state.tasks.start_spin[task]) {}
 

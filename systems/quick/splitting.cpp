@@ -41,21 +41,10 @@ void mark_tips(const Splitting& s, uint32_t vertex, const Ends& ends, uint32_t r
     }
 }
 
-/// For put_back.
-void mark_touched(const Splitting& s) {
-    if (!is_cut_out(s.state(), s.region.task)) return;
-    uint8_t* const flags = s.state().elements.flags.data() + s.shell().elements().first;
-    const auto mark = [&](uint32_t e) { flags[e] |= kIsTouched; };
-    for (const VertexList* list : {&s.touched.weighed, &s.touched.rows}) {
-        for (const uint32_t v : list->span()) for_each_element_at(s.shell(), v, mark);
-        for (uint32_t e = 0; list->has_overflowed && e < s.shell().element_count(); ++e) mark(e);
-    }
-}
-
 }  // namespace
 
 void flush(Splitting& s) {
-    mark_touched(s);
+    if (is_cut_out(s.state(), s.region.task)) mark_touched(s.shell(), s.touched);
     uint32_t list[VertexList::kMost], count = 0;
     for (const uint32_t v : s.touched.weighed.span())
         if (s.region.is_awake(v) || s.region.is_held(v)) list[count++] = v;

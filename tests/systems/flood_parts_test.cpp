@@ -167,5 +167,25 @@ TEST(FloodParts, ASmallPieceCostsAFloodOfItsSizeWhateverTheBody) {
     EXPECT_LT(visited[1], 1.2 * visited[0]);
 }
 
+TEST(FloodParts, MoreCracksThanAreWorthAFloodGiveTheSameParts) {
+    Fixture f(sample_vase(0.3, 0.005, 48, 40));
+    const ShellView shell = f.cut(nearest_seed(ShellView(f.state, f.whole), 12, 3));
+    std::vector<FragmentPart> flooded(kMostParts), numbered(kMostParts);
+    const uint32_t count = group_from_cracks(shell, flooded);
+    const uint32_t* const part = f.state.elements.part.data() + shell.elements().first;
+    const std::vector<uint32_t> labels(part, part + shell.element_count());
+    ASSERT_GT(count, 1u);
+    const uint32_t few = worthwhile_floods(shell);
+    EXPECT_EQ(few, shell.element_count() / 32);
+    FloodedParts found;
+    flood_parts(shell, found, few);
+    EXPECT_EQ(found.pieces, kNone);  // there are more
+    EXPECT_EQ(group_from_cracks(shell, numbered, few), count);
+    EXPECT_EQ(std::vector<uint32_t>(part, part + shell.element_count()), labels);
+    for (uint32_t p = 0; p < count; ++p) EXPECT_EQ(numbered[p].mass, flooded[p].mass);
+    for (uint32_t e = 0; e < shell.element_count(); ++e) f.state.elements.part[shell.element(e)] = 0;
+    EXPECT_EQ(find_pieces(shell, numbered, few), kNone);
+}
+
 }  // namespace
 }  // namespace cullet
