@@ -236,11 +236,11 @@ void soften_spring(const SpringView& view, uint32_t s, float factor) {
 
 /// What is left of the stiffness at v when its ratio may be no more than `limit`.
 void limit_vertex(const SpringView& view, uint32_t v, double limit) {
-    const double ratio = stiffness_ratio(view, v);
-    if (!(ratio > limit)) return;
-    const auto factor = static_cast<float>(limit / ratio);
     VertexSprings list;
     collect_springs(view, v, list);
+    const double ratio = stiffness_ratio(view, v, list);
+    if (!(ratio > limit)) return;
+    const auto factor = static_cast<float>(limit / ratio);
     for (uint32_t i = 0; i < list.count; ++i) soften_spring(view, list.spring[i], factor);
     if (!view.has_layers()) return;
     view.state.twins.stiffness_rest[view.twin(v)] *= factor;
@@ -276,21 +276,21 @@ void limit_springs(const RegionView& region, std::span<const uint32_t> vertices)
     const ShellView& shell = region.shell;
     Elements& elements = region.state.elements;
     const double limit = ratio_limit(view);
-    const auto for_each_corner = [&](auto&& f) {
-        Ring ring;
-        for (const uint32_t v : vertices) {
-            walk_ring(shell, v, ring);
-            for (uint32_t i = 0; i < ring.count; ++i)
-                for (const uint32_t corner : elements.corner[shell.element(ring.element[i])])
-                    f(corner, region.state.vertices.copy[shell.vertex(corner)]);
-        }
-    };
-    for_each_corner([&](uint32_t, uint32_t& mark) { mark = kWaits; });
-    for_each_corner([&](uint32_t v, uint32_t& mark) {
-        if (mark == kDone) return;
-        mark = kDone;
-        limit_vertex(view, v, limit);
-    });
+    for (const uint32_t v : vertices)
+        for_each_element_at(shell, v, [&](uint32_t e) {
+            for (const uint32_t corner : elements.corner[shell.element(e)])
+                region.state.vertices.copy[shell.vertex(corner)] = kWaits;
+        });
+    Ring ring;
+    for (const uint32_t v : vertices) {
+        walk_ring(shell, v, ring);
+        for (uint32_t i = 0; i < ring.count; ++i)
+            for (const uint32_t corner : elements.corner[shell.element(ring.element[i])]) {
+                uint32_t& mark = region.state.vertices.copy[shell.vertex(corner)];
+                if (mark != kDone) limit_vertex(view, corner, limit);
+                mark = kDone;
+            }
+    }
 }
 
 bool take_region_springs(State& state, Row<Tasks> task, uint32_t layers, const char** full) {
