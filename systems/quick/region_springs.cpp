@@ -58,13 +58,23 @@ struct Layout {
     }
 };
 
+/// How many edges each vertex has, asleep or not: in Vertices.copy, whose marks chain() was the last to read. Each of
+/// its elements brings one, and a border one more: nobody walks round vertices.
+void count_edges_at_vertices(const ShellView& shell) {
+    State& state = shell.state;
+    uint32_t* const edges = state.vertices.copy.data() + shell.vertex(0);
+    std::fill_n(edges, shell.vertex_count(), 0u);
+    for (uint32_t row = shell.element(0); row < shell.element(shell.element_count()); ++row) {
+        if (state.elements.flags[row] & kDead) continue;
+        const auto &corner = state.elements.corner[row], &neighbour = state.elements.neighbour[row];
+        for (uint32_t k = 0; k < 3; ++k) edges[corner[k]] += neighbour[k] == kNone ? 2 : 1;
+    }
+}
+
 uint32_t slots_of(const ShellView& shell, uint32_t pack) {
     uint32_t most = 0;
-    for (uint32_t v = pack * kLanes; v < std::min((pack + 1) * kLanes, shell.vertex_count()); ++v) {
-        uint32_t elements = 0;
-        const bool is_closed = for_each_element_at(shell, v, [&](uint32_t) { ++elements; });
-        most = std::max(most, elements + (elements > 0 && !is_closed));
-    }
+    for (uint32_t v = pack * kLanes; v < std::min((pack + 1) * kLanes, shell.vertex_count()); ++v)
+        most = std::max(most, shell.state.vertices.copy[shell.vertex(v)]);
     return most + kSpareSlots;
 }
 
@@ -89,6 +99,7 @@ SpringRoom room_for(const Layout& layout, Row<Tasks> task, uint32_t edges, bool 
     room.clears_lists = false;
     uint32_t slots = 0;
     const uint32_t count = state.quick_runs.pack_count[task];
+    count_edges_at_vertices(layout.shell);
     for (uint32_t i = 0; i < count; ++i)
         slots += slots_kept(layout.shell, i) = slots_of(layout.shell, packs.pack[task * kMostAwakePacks + i]);
     room.slots = 2 * slots + 6 * spare + 64;
