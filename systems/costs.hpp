@@ -17,15 +17,17 @@ inline constexpr uint64_t kUnitsGrainRow = 3000;   // a row of a material with a
 inline constexpr uint64_t kUnitsCompact = 300;     // a live element of a shell that is compacted; 0.6 microseconds
 
 // Of the quick mode, measured at scene castle.
-inline constexpr uint64_t kUnitsQuickOpen = 180;     // a vertex of the copy when a task opens: flood, copy
-inline constexpr uint64_t kUnitsQuickWake = 380;     // a vertex of the region: flood, springs, lists
+inline constexpr uint64_t kUnitsQuickOpen = 230;     // a vertex of a cut-out when a task opens: flood, copy
+inline constexpr uint64_t kUnitsQuickCopy = 60;      // a vertex of a body that is copied whole
+inline constexpr uint64_t kUnitsQuickWake = 470;     // a vertex of the region: flood, springs, lists
 inline constexpr uint64_t kUnitsQuickWakeTwo = 720;  // the same with two layers
 inline constexpr uint64_t kUnitsQuickSpring = 3;     // an edge through one substep, with looking at strains and energy
 inline constexpr uint64_t kUnitsQuickPair = 7;       // the same with two layers, which are 4 springs an edge
 inline constexpr uint64_t kUnitsAreaEnergy = 110;    // an edge of a layer through one substep, where areas resist
 inline constexpr uint64_t kUnitsVolumeEnergy = 350;  // an edge of two layers, where volumes do
-inline constexpr uint64_t kUnitsQuickCut = 2500;     // a cut edge: inserts, splits, springs made anew
-inline constexpr uint64_t kUnitsQuickEnd = 400;      // a vertex of the copy when cracks are handed on: rows, pieces
+// A cut edge: inserts, splits, springs made anew; 13 microseconds in which the other of two workers waits.
+inline constexpr uint64_t kUnitsQuickCut = 13000;
+inline constexpr uint64_t kUnitsQuickEnd = 400;  // a vertex of the copy when cracks are handed on: rows, pieces
 
 // Of soft bodies, measured on scenes tear and steel.
 inline constexpr uint64_t kUnitsSoftTenSprings = 20;  // ten springs of one layer through a substep

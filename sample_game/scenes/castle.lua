@@ -20,8 +20,9 @@ local castle = game.cook{
 if shell.fracture == "hidden" then
     game.fit_budget(castle)
 end
--- A hit is some 6 million units here. At the default budget it is decided within a frame, which it is seen in; at this
--- one it takes three: its neighbourhood is copied and woken, it cracks, it is handed on. Castle and ball are held so long.
+-- A hit is some 8 million units here. At the default budget it is decided within a frame, which it is seen in; at this
+-- one it takes four: its neighbourhood is copied and woken, it cracks in the next two, it is handed on. Castle and ball
+-- are held so long.
 if shell.fracture == "quick" then
     game.setting{units_a_frame = 2.2e6}
 end

@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <span>
 
 #include "systems/damage/task_cost.hpp"
 #include "systems/quick/quick_body.hpp"
@@ -34,12 +35,36 @@ uint32_t affordable(int64_t budget, const Cost& cost, uint32_t most, bool is_las
     return steps - is_dear;
 }
 
+/// The step that each task gets first: the oldest hits first, and of quick ones only the oldest where units are used up
+/// by then. Two hand-offs in one frame were its worst.
+uint32_t first_step(const State& state, uint32_t t, const Cost& cost, int64_t budget, bool is_first_quick) {
+    if (!is_quick_task(state, t) || is_first_quick) return 1;
+    const bool is_last = steps_left(state.tasks, t) <= 1;
+    return budget > 0 && (!is_last || budget >= cost.step + cost.end);
+}
+
+/// What no step wants is for what cracks cost, in equal shares of the quick runs, counted in their steps: the loop
+/// takes them back.
+void grant_cuts(State& state, std::span<const uint32_t> order, int64_t& budget) {
+    const auto is_cutting = [&](uint32_t t) { return is_quick_task(state, t) && state.tasks.steps_granted[t] > 0; };
+    auto sharers = std::count_if(order.begin(), order.end(), is_cutting);
+    for (const uint32_t t : order) {
+        if (!is_cutting(t)) continue;
+        const Cost cost = cost_of(state, t);
+        if (steps_left(state.tasks, t) == 0)
+            state.tasks.steps_granted[t] += static_cast<uint32_t>(cost.end / cost.step);
+        const auto steps = static_cast<uint32_t>(std::max<int64_t>(budget, 0) / sharers-- / cost.step);
+        state.tasks.steps_granted[t] += steps;
+        budget -= steps * cost.step;
+    }
+}
+
 }  // namespace
 
-// A quick run's last step waits for a frame that has units for what follows it, so that no frame has all of a hit.
-// What cracks cost more than was granted for is owed, and paid before the next frame's steps; cuts of the game are paid
-// in the frame that makes them. A task gets at least one
-// step a frame, so that none can starve.
+// A quick run's last step waits for a frame that has units for what follows it, so that no frame has all of a hit; its
+// cracks take from the frame's units while it runs. What they cost more than was granted for is owed, and paid before
+// the next frame's steps; cuts of the game are paid in the frame that makes them. A task gets at least one step a
+// frame, but for quick ones behind the oldest, so that none can starve.
 void grant_units(Serial, ShellTables shells, Tasks& tasks, SoftBodies&, const DamageSettings& settings,
                  DamageCounts& counts) {
     static constexpr uint32_t kMostTasks = 1024;
@@ -63,15 +88,17 @@ void grant_units(Serial, ShellTables shells, Tasks& tasks, SoftBodies&, const Da
         return tasks.body[a].index < tasks.body[b].index;
     });
     for (uint32_t i = 0; i < count; ++i) tasks.steps_granted[order[i]] = 0;
-    bool is_first_round = true, goes_on = count > 0;
+    bool is_first_round = true, goes_on = count > 0, has_quick = false;
     while (goes_on) {
         goes_on = false;
         for (uint32_t i = 0; i < count; ++i) {
             const uint32_t t = order[i];
             const Cost cost = cost_of(shells.state, t);
             const uint32_t left = steps_left(tasks, t), most = std::min(kStepsARound, left);
-            uint32_t steps = 1;  // also where rounding leaves none: the step itself tells that the time is up
-            if (!is_first_round) steps = affordable(budget, cost, most, most == left);
+            // Also where rounding leaves none: the step itself tells that the time is up.
+            uint32_t steps = is_first_round ? first_step(shells.state, t, cost, budget, !has_quick) : 0;
+            if (!is_first_round && tasks.steps_granted[t] > 0) steps = affordable(budget, cost, most, most == left);
+            has_quick = has_quick || is_quick_task(shells.state, t);
             tasks.steps_granted[t] += steps;
             budget -= static_cast<int64_t>(steps) * cost.step + (steps > 0 && steps >= left ? cost.end : 0);
             goes_on = goes_on || steps > 0;
@@ -79,6 +106,7 @@ void grant_units(Serial, ShellTables shells, Tasks& tasks, SoftBodies&, const Da
         goes_on = goes_on && budget > 0;
         is_first_round = false;
     }
+    grant_cuts(shells.state, {order, count}, budget);
     const uint64_t soft_budget = for_soft + static_cast<uint64_t>(std::max<int64_t>(budget, 0));
     const uint64_t soft_used = grant_soft(shells.state, soft_budget, counts.slow_soft_frames);
     counts.units_left = soft_budget - std::min(soft_used, soft_budget);

@@ -174,7 +174,7 @@ struct Opening {
         set_task_times(state, task);
         set_quick_task(state, task, body);
         const bool is_assembled = is_quick || waits || state.shells.packs[source].count > 0;
-        const uint64_t units = is_quick ? kUnitsQuickOpen : kUnitsOpen + (is_assembled ? 0 : kUnitsAssemble);
+        const uint64_t units = is_quick ? kUnitsQuickCopy : kUnitsOpen + (is_assembled ? 0 : kUnitsAssemble);
         if (!waits) tasks.units_owed[t] = state.shells.vertices[source].count * units;
         bodies.task[body] = t;
         opened.push({task});
@@ -207,9 +207,9 @@ struct Opening {
                 tasks.shell[o.task] = make_shell_unclear(state, quick_room(source), &full);
             const Row<Shells> working = tasks.shell[o.task];
             if (working.exists()) {
-                const uint32_t vertices =
-                    result == CutOutResult::Reserved ? state.shells.vertices[working].count : source.vertex_count();
-                tasks.units_owed[o.task] += vertices * kUnitsQuickOpen;
+                tasks.units_owed[o.task] += result == CutOutResult::Reserved
+                                                ? state.shells.vertices[working].count * kUnitsQuickOpen
+                                                : source.vertex_count() * kUnitsQuickCopy;
             } else {
                 tasks.state[o.task] = static_cast<uint8_t>(TaskState::Dropped);
                 refused.push(refused_event(state.bodies, tasks.body[o.task], full));

@@ -129,6 +129,19 @@ void order_vertices(const ShellView& shell, const FragmentPart& part, const Shel
     for (uint32_t i = 0; i < count; ++i) vertices.copy[shell.vertex(source[i])] = i;
 }
 
+/// The same where the piece is all that is left of the shell: nothing is to be sorted.
+void order_live_vertices(const ShellView& shell, const ShellView& piece, [[maybe_unused]] uint32_t expected) {
+    Vertices& vertices = shell.state.vertices;
+    uint32_t* const source = vertices.copy.data() + piece.vertices().first;
+    uint32_t count = 0;
+    for (uint32_t v = 0; v < shell.vertex_count(); ++v) {
+        if (vertices.element[shell.vertex(v)] == kNone) continue;
+        vertices.copy[shell.vertex(v)] = count;
+        source[count++] = v;
+    }
+    CULLET_ASSERT(count == expected, "%u live vertices, and elements with %u", count, expected);
+}
+
 /// Row of `vertex` in the piece, or kNone when the piece does not have it.
 uint32_t vertex_in_piece(const uint32_t* source, uint32_t count, uint32_t vertex) {
     const uint32_t* at = std::lower_bound(source, source + count, vertex);
@@ -193,12 +206,26 @@ void copy_cell(const ShellView& shell, const ShellView& piece, uint32_t head, ui
     }
 }
 
-uint32_t copy_hinge(const ShellView& shell, const ShellView& piece, uint32_t hinge) {
-    Hinges& hinges = shell.state.hinges;
+/// Which of the shell's hinges this one of the piece is going to be, until copy_hinges.
+uint32_t& source_of_hinge(const ShellView& piece, uint32_t hinge) {
+    return piece.state.hinges.vertex[piece.hinge(hinge)][0];
+}
+uint32_t list_hinge(const ShellView& piece, uint32_t hinge) {
     const uint32_t to = piece.hinges().count++;
-    hinges.copy_rows(hinges, shell.hinge(hinge), piece.hinge(to), 1);
-    for (uint32_t& v : hinges.vertex[piece.hinge(to)]) v = shell.state.vertices.copy[shell.vertex(v)];
+    source_of_hinge(piece, to) = hinge;
     return to;
+}
+/// In runs: hinges mostly stand in the order of their elements.
+void copy_hinges(const ShellView& shell, const ShellView& piece) {
+    Hinges& hinges = shell.state.hinges;
+    const uint32_t count = piece.hinges().count;
+    for (uint32_t h = 0; h < count;) {
+        const uint32_t first = h, from = source_of_hinge(piece, h);
+        while (h < count && source_of_hinge(piece, h) == from + (h - first)) ++h;
+        hinges.copy_rows(hinges, shell.hinge(from), piece.hinge(first), h - first);
+    }
+    for (uint32_t h = 0; h < count; ++h)
+        for (uint32_t& v : hinges.vertex[piece.hinge(h)]) v = shell.state.vertices.copy[shell.vertex(v)];
 }
 
 /// Turns what the copied elements name into the piece's own rows.
@@ -216,7 +243,7 @@ void renumber_elements(const ShellView& shell, const FragmentPart& part, const S
             elements.hinge[row][k] = kNone;
             if (n == kNone || h == kNone) continue;
             if (n > old) {
-                elements.hinge[row][k] = copy_hinge(shell, piece, h);
+                elements.hinge[row][k] = list_hinge(piece, h);
                 continue;
             }
             // The neighbour came first and has copied it; two elements may share two edges, hence the old number.
@@ -261,15 +288,15 @@ namespace {
 /// What follows the copied elements.
 void finish_piece(const ShellView& shell, const FragmentPart& part, const ShellView& piece, uint32_t vertex_count) {
     renumber_elements(shell, part, piece);
+    copy_hinges(shell, piece);
     clear_spare_rows(shell.state, piece.row);
     piece.vertices().count = (vertex_count + kLanes - 1) / kLanes * kLanes;
     sum_vertex_masses(piece);
     measure_shell(piece);
 }
 
-void begin_piece(const ShellView& shell, const FragmentPart& part, const ShellView& piece, uint32_t vertex_count) {
+void begin_piece(const ShellView& shell, const ShellView& piece, uint32_t vertex_count) {
     inherit(shell.shells(), shell.row, piece.row);
-    order_vertices(shell, part, piece, vertex_count);
     copy_vertices(shell, piece, vertex_count);
 }
 
@@ -299,7 +326,8 @@ Row<Shells> reserve_piece(State& state, Row<Shells> broken, const FragmentPart& 
 void fill_piece(State& state, Row<Shells> broken, const FragmentPart& part, Row<Shells> row) {
     const ShellView shell(state, broken), piece(state, row);
     const uint32_t vertex_count = piece.vertex_count();
-    begin_piece(shell, part, piece, vertex_count);
+    order_vertices(shell, part, piece, vertex_count);
+    begin_piece(shell, piece, vertex_count);
     for (uint32_t c = 0; c < state.shells.cells[row].count; ++c)
         copy_cell(shell, piece, state.cells.first_element[cell_row(piece, c)], c);
     finish_piece(shell, part, piece, vertex_count);
@@ -324,7 +352,8 @@ Row<Shells> compact_shell(State& state, Row<Shells> old, const FragmentPart& who
     if (!row.exists()) return row;
     const ShellView piece(state, row);
     state.shells.generation[row] = state.shells.generation[old];
-    begin_piece(shell, whole, piece, counts.vertices);
+    order_live_vertices(shell, piece, counts.vertices);
+    begin_piece(shell, piece, counts.vertices);
     for_each_cell(shell, whole,
                   [&](uint32_t cell, uint32_t c) { copy_cell(shell, piece, state.cells.first_element[c], cell); });
     finish_piece(shell, whole, piece, counts.vertices);

@@ -5,6 +5,7 @@
 #include "systems/costs.hpp"
 #include "systems/damage/contact.hpp"
 #include "systems/damage/ring.hpp"
+#include "systems/quick/quick_loop.hpp"
 #include "systems/quick/run_on.hpp"
 #include "systems/quick/strained_edges.hpp"
 
@@ -90,6 +91,19 @@ uint32_t crack_frequency_of(const State& state, Row<Tasks> task) {
     return 1;
 }
 
+namespace {
+
+/// By steps that are granted and will not be run in this frame; what is left is owed, and taken from the next grant.
+void pay_cuts(State& state, Row<Tasks> task, uint32_t cut_edges) {
+    const uint64_t cost = kUnitsQuickCut * cut_edges, a_step = quick_units_a_step(state, task);
+    uint32_t& granted = state.tasks.steps_granted[task];
+    const uint64_t steps = std::min<uint64_t>(granted, (cost + a_step - 1) / a_step);
+    granted -= static_cast<uint32_t>(steps);
+    state.tasks.units_owed[task] += cost - std::min(cost, steps * a_step);
+}
+
+}  // namespace
+
 uint32_t grow_region(State& state, Row<Tasks> task) {
     QuickRuns& runs = state.quick_runs;
     Tasks& tasks = state.tasks;
@@ -111,7 +125,7 @@ uint32_t grow_region(State& state, Row<Tasks> task) {
     tasks.lacks_room[task] = s.is_full;
     tasks.crack_count[task] += s.cut_edges;
     tasks.start_count[task] += s.starts;
-    tasks.units_owed[task] += kUnitsQuickCut * s.cut_edges;
+    pay_cuts(state, task, s.cut_edges);
     if (s.cut_edges > 0) build_patches(state, task);
     return s.cut_edges;
 }

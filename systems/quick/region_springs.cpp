@@ -58,13 +58,23 @@ struct Layout {
     }
 };
 
+/// How many edges each vertex has, asleep or not: in Vertices.copy, whose marks chain() was the last to read. Each of
+/// its elements brings one, and a border one more: nobody walks round vertices.
+void count_edges_at_vertices(const ShellView& shell) {
+    State& state = shell.state;
+    uint32_t* const edges = state.vertices.copy.data() + shell.vertex(0);
+    std::fill_n(edges, shell.vertex_count(), 0u);
+    for (uint32_t row = shell.element(0); row < shell.element(shell.element_count()); ++row) {
+        if (state.elements.flags[row] & kDead) continue;
+        const auto &corner = state.elements.corner[row], &neighbour = state.elements.neighbour[row];
+        for (uint32_t k = 0; k < 3; ++k) edges[corner[k]] += neighbour[k] == kNone ? 2 : 1;
+    }
+}
+
 uint32_t slots_of(const ShellView& shell, uint32_t pack) {
     uint32_t most = 0;
-    for (uint32_t v = pack * kLanes; v < std::min((pack + 1) * kLanes, shell.vertex_count()); ++v) {
-        uint32_t elements = 0;
-        const bool is_closed = for_each_element_at(shell, v, [&](uint32_t) { ++elements; });
-        most = std::max(most, elements + (elements > 0 && !is_closed));
-    }
+    for (uint32_t v = pack * kLanes; v < std::min((pack + 1) * kLanes, shell.vertex_count()); ++v)
+        most = std::max(most, shell.state.vertices.copy[shell.vertex(v)]);
     return most + kSpareSlots;
 }
 
@@ -89,6 +99,7 @@ SpringRoom room_for(const Layout& layout, Row<Tasks> task, uint32_t edges, bool 
     room.clears_lists = false;
     uint32_t slots = 0;
     const uint32_t count = state.quick_runs.pack_count[task];
+    count_edges_at_vertices(layout.shell);
     for (uint32_t i = 0; i < count; ++i)
         slots += slots_kept(layout.shell, i) = slots_of(layout.shell, packs.pack[task * kMostAwakePacks + i]);
     room.slots = 2 * slots + 6 * spare + 64;
@@ -236,11 +247,11 @@ void soften_spring(const SpringView& view, uint32_t s, float factor) {
 
 /// What is left of the stiffness at v when its ratio may be no more than `limit`.
 void limit_vertex(const SpringView& view, uint32_t v, double limit) {
-    const double ratio = stiffness_ratio(view, v);
-    if (!(ratio > limit)) return;
-    const auto factor = static_cast<float>(limit / ratio);
     VertexSprings list;
     collect_springs(view, v, list);
+    const double ratio = stiffness_ratio(view, v, list);
+    if (!(ratio > limit)) return;
+    const auto factor = static_cast<float>(limit / ratio);
     for (uint32_t i = 0; i < list.count; ++i) soften_spring(view, list.spring[i], factor);
     if (!view.has_layers()) return;
     view.state.twins.stiffness_rest[view.twin(v)] *= factor;
@@ -276,21 +287,21 @@ void limit_springs(const RegionView& region, std::span<const uint32_t> vertices)
     const ShellView& shell = region.shell;
     Elements& elements = region.state.elements;
     const double limit = ratio_limit(view);
-    const auto for_each_corner = [&](auto&& f) {
-        Ring ring;
-        for (const uint32_t v : vertices) {
-            walk_ring(shell, v, ring);
-            for (uint32_t i = 0; i < ring.count; ++i)
-                for (const uint32_t corner : elements.corner[shell.element(ring.element[i])])
-                    f(corner, region.state.vertices.copy[shell.vertex(corner)]);
-        }
-    };
-    for_each_corner([&](uint32_t, uint32_t& mark) { mark = kWaits; });
-    for_each_corner([&](uint32_t v, uint32_t& mark) {
-        if (mark == kDone) return;
-        mark = kDone;
-        limit_vertex(view, v, limit);
-    });
+    for (const uint32_t v : vertices)
+        for_each_element_at(shell, v, [&](uint32_t e) {
+            for (const uint32_t corner : elements.corner[shell.element(e)])
+                region.state.vertices.copy[shell.vertex(corner)] = kWaits;
+        });
+    Ring ring;
+    for (const uint32_t v : vertices) {
+        walk_ring(shell, v, ring);
+        for (uint32_t i = 0; i < ring.count; ++i)
+            for (const uint32_t corner : elements.corner[shell.element(ring.element[i])]) {
+                uint32_t& mark = region.state.vertices.copy[shell.vertex(corner)];
+                if (mark != kDone) limit_vertex(view, corner, limit);
+                mark = kDone;
+            }
+    }
 }
 
 bool take_region_springs(State& state, Row<Tasks> task, uint32_t layers, const char** full) {

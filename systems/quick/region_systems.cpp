@@ -1,5 +1,6 @@
 // The systems of the quick mode's inner loop.
 #include "systems/quick/grow_region.hpp"
+#include "systems/quick/quick_loop.hpp"
 #include "systems/quick/region_motion.hpp"
 #include "systems/springs/press_layers.hpp"
 #include "systems/springs/spring_packs.hpp"
@@ -31,14 +32,30 @@ void integrate_region(Rows<AwakePacks> packs, OfTask task, Turn turn, ShellTable
     }
 }
 
+namespace {
+
+/// What cuts have left of the frame's units is enough for the last step and what it brings with it.
+bool may_end(const State& state, Row<Tasks> task) {
+    const uint64_t a_step = quick_units_a_step(state, task);
+    return state.tasks.steps_granted[task] * a_step >= a_step + quick_units_of_end(state, task);
+}
+
+}  // namespace
+
+// Of the steps that are granted one is used up by each that is run, and as many as they are worth by cuts (pay_cuts).
 void end_region_step(EachBody task, ShellTables shells, Tasks& tasks, TaskContacts&, const PatchVertices&) {
     const Row<Tasks> t(task.row);
     const RegionView region(shells.state, t);
     ++region.springs.own().steps[region.springs.row];
     hold_region(region);
     push_region(region);
-    const float time = static_cast<float>(++tasks.steps_done[t]) * tasks.time_step[t];
-    if (time > tasks.end_time[t]) tasks.state[t] = static_cast<uint8_t>(TaskState::Whole);
+    tasks.steps_granted[t] -= tasks.steps_granted[t] > 0;
+    const auto time_at = [&](uint32_t steps) { return static_cast<float>(steps) * tasks.time_step[t]; };
+    const uint32_t done = ++tasks.steps_done[t];
+    if (time_at(done) > tasks.end_time[t])
+        tasks.state[t] = static_cast<uint8_t>(TaskState::Whole);
+    else if (time_at(done + 1) > tasks.end_time[t] && !may_end(shells.state, t))
+        tasks.steps_granted[t] = 0;
 }
 
 void split_region(EachBody task, ShellTables shells, Tasks& tasks, TaskContacts&, PatchVertices&) {

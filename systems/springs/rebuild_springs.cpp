@@ -52,11 +52,9 @@ struct Sets {
 void gather_sets(const SpringView& view, std::span<const uint32_t> touched, Sets& sets) {
     if (touched.size() > kMostTouched) return sets.vertices.add_all(), sets.elements.add_all(), sets.written.add_all();
     for (const uint32_t v : touched) {
-        Ring ring;
-        walk_ring(view.shell, v, ring);
         sets.vertices.add(v);
         sets.written.add(v / kLanes);
-        for (uint32_t i = 0; i < ring.count; ++i) sets.elements.add(ring.element[i]);
+        for_each_element_at(view.shell, v, [&](uint32_t e) { sets.elements.add(e); });
     }
     if (sets.elements.is_all()) sets.vertices.add_all(), sets.written.add_all();
 }
@@ -213,9 +211,9 @@ void collect_pack(const SpringView& view, uint32_t pack, VertexSprings (&lists)[
 uint32_t longest_list(const SpringView& view, uint32_t pack) {
     uint32_t most = 0;
     for (uint32_t v = pack * kLanes; v < std::min((pack + 1) * kLanes, view.shell.vertex_count()); ++v) {
-        Ring ring;
-        walk_ring(view.shell, v, ring);
-        most = std::max(most, ring.count + (ring.count > 0 && !ring.is_closed));
+        uint32_t elements = 0;
+        const bool is_closed = for_each_element_at(view.shell, v, [&](uint32_t) { ++elements; });
+        most = std::max(most, elements + (elements > 0 && !is_closed));
     }
     return most;
 }

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "systems/quick/elements_at.hpp"
+
 namespace cullet {
 namespace {
 
@@ -75,14 +77,14 @@ bool VertexSprings::add(uint32_t s) {
 void collect_springs(const SpringView& view, uint32_t vertex, VertexSprings& list) {
     list.count = 0;
     if (vertex >= view.shell.vertex_count()) return;
-    Ring ring;
-    walk_ring(view.shell, vertex, ring);
-    for (uint32_t i = 0; i < ring.count; ++i) {
-        const auto& of_element = view.state.element_springs.spring[view.edges(ring.element[i])];
-        const uint32_t k = ring.corner[i];
+    const Elements& elements = view.state.elements;
+    for_each_element_at(view.shell, vertex, [&](uint32_t e) {
+        const auto& corner = elements.corner[view.shell.element(e)];
+        const uint32_t k = corner[0] == vertex ? 0 : corner[1] == vertex ? 1 : 2;
+        const auto& of_element = view.state.element_springs.spring[view.edges(e)];
         for (const uint32_t s : {of_element[k], of_element[(k + 2) % 3]})
             if (s < kAsleepSpring) list.add(s);
-    }
+    });
 }
 
 uint32_t slots_needed(const VertexSprings (&lists)[kLanes]) {

@@ -101,6 +101,29 @@ TEST(QuickWorld, AHitIsOverInTheFrameOfTheTouch) {
     EXPECT_EQ(b.world.contents().data.counts.late, 0u);
 }
 
+// What a hand-off takes cannot be cut into parts, so that two in one frame were the worst of it.
+TEST(QuickWorld, WhereUnitsAreFewTwoHitsAreNotHandedOnInOneFrame) {
+    for (const bool are_few : {false, true}) {
+        Settings settings = small_settings();
+        settings.units_a_frame = are_few ? 500'000 : 100'000'000;
+        Breakage b = quick_and_ball(settings, small_vase(), {}, kSpeed);
+        SpawnSettings spawn;
+        spawn.fracture = FractureMode::Quick, spawn.pose.position = {5, 0, 0};
+        ASSERT_TRUE(b.world.spawn(b.world.add_model(small_vase()).value(), spawn).ok());
+        SphereSettings ball = ball_at({0.01f, 0.13f, 0}, 0.3f, kSpeed);
+        ball.pose.position += spawn.pose.position;
+        ASSERT_TRUE(b.world.add_sphere(ball).ok());
+        uint32_t most = 0;
+        after_each_system(b.world, [&](const std::string& system) {
+            if (system == "settle_tasks") most = std::max<uint32_t>(most, b.world.contents().data.tasks_ended.size());
+        });
+        const DamageCounts& counts = b.world.contents().data.counts;
+        for (int frame = 0; frame < 60 && counts.broke < 2; ++frame) b.world.step();
+        EXPECT_GE(counts.broke, 2u) << "none starves";
+        EXPECT_EQ(most, are_few ? 1u : 2u);
+    }
+}
+
 TEST(QuickWorld, MassAndMomentumAreKeptWhereItBreaks) {
     for (const uint32_t layers : {1u, 2u}) {
         Breakage b = quick_and_ball(small_settings(), small_vase(), layered(layers), kSpeed);

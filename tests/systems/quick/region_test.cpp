@@ -8,6 +8,7 @@
 #include "sample_game/hit_bench.hpp"
 #include "sample_game/meshes.hpp"
 #include "sample_game/props.hpp"
+#include "systems/costs.hpp"
 #include "systems/damage/contact.hpp"
 #include "systems/damage/ring.hpp"
 #include "systems/quick/quick_loop.hpp"
@@ -165,6 +166,53 @@ TEST(QuickRegion, EnergyFallsOrStaysInRandomBlows) {
             EXPECT_EQ(dropped, 0u) << known->name;
             EXPECT_LE(worst, 1.05) << known->name;
         }
+}
+
+TEST(QuickRegion, CutsUseUpStepsThatWereGrantedAndTheRunGoesOnAsItWas) {
+    const FpMode mode;
+    const Model model = cook_vase(0.3f);
+    HitBench bench(Subject::Vase, model);
+    const QuickSettings quick;
+    State& state = bench.state();
+    Tasks& tasks = state.tasks;
+    const HitDescription hit = quick_blow(bench, 1, 30, quick);
+    ASSERT_TRUE(open_hit(state, bench.shell(), hit));
+    drive(state, [](const RegionView&) {});
+    const HitReport alone = finish_hit(state);
+    close_hit(state);
+    ASSERT_GT(alone.cuts, 20u);
+
+    constexpr uint32_t kGranted = 40;
+    const BrittleLoop loop = make_quick_loop();
+    LoopWorld world{state};
+    ASSERT_TRUE(open_hit(state, bench.shell(), hit));
+    uint32_t calls = 0, stopped_by_cuts = 0;
+    while (static_cast<TaskState>(tasks.state[kTask]) == TaskState::Running) {
+        const uint32_t steps_before = tasks.steps_done[kTask], cuts_before = tasks.crack_count[kTask];
+        const uint64_t least_step = quick_units_a_step(state, kTask);
+        tasks.units_owed[kTask] = 0;
+        tasks.steps_granted[kTask] = kGranted;
+        loop.run_alone(world, {kTask, steps_before, kGranted, task_goes_on});
+        ++calls;
+        const uint32_t steps = tasks.steps_done[kTask] - steps_before;
+        const uint64_t cuts = kUnitsQuickCut * (tasks.crack_count[kTask] - cuts_before),
+                       most_step = quick_units_a_step(state, kTask);
+        EXPECT_GE(steps, 1u) << "none starves";
+        if (tasks.units_owed[kTask] > 0) {
+            // Used up, and what is owed is what could not be paid: cuts make springs, so a step costs more behind them.
+            EXPECT_EQ(tasks.steps_granted[kTask], 0u);
+            EXPECT_GE(cuts + steps * most_step + most_step, kGranted * least_step + tasks.units_owed[kTask]);
+            EXPECT_LE(cuts + steps * least_step, kGranted * most_step + tasks.units_owed[kTask]);
+            stopped_by_cuts += steps < kGranted;
+        }
+    }
+    const HitReport in_parts = finish_hit(state);
+    close_hit(state);
+    EXPECT_GT(stopped_by_cuts, 0u);
+    EXPECT_GT(calls, 2u);
+    EXPECT_EQ(in_parts.cuts, alone.cuts);
+    EXPECT_EQ(in_parts.parts, alone.parts);
+    EXPECT_EQ(in_parts.end_energy, alone.end_energy) << "to the last bit";
 }
 
 TEST(QuickRegion, NothingSplitsBelowTheLimitAndARunWithoutOneEnds) {
