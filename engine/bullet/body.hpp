@@ -86,6 +86,8 @@ struct Body {
 
     float moved_fraction = 1;  // of this step, less than 1 when stopped at a time of impact
     bool is_fast = false;      // swept in this step
+    bool is_airborne = false;  // nothing that stands touches it in this step, nor what it touches
+    RigidId flock = 0;         // one of the free bodies that touch it, or touch those that do
 
     /// The hull frame's transform where the Bullet frame's is `at`.
     btTransform hulls_at(const btTransform& at) const { return has_offset ? at * hull_offset : at; }

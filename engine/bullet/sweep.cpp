@@ -3,6 +3,7 @@
 #include <LinearMath/btTransformUtil.h>
 
 #include <algorithm>
+#include <utility>
 
 #include "engine/bullet/bullet_world.hpp"
 #include "engine/bullet/closest_points.hpp"
@@ -111,9 +112,10 @@ bool pass_by(const Hull& a, const Hull& b, Vec3d way, double turning) {
 }
 
 // The fraction of the step at which the two pieces come within kStop; `limit` when they do not before it. World points
-// are those of the start. `axis` is a first guess, such as the last one of the same two bodies.
+// are those of the start, or made here when a `has_moved` since. `axis` is a first guess, such as the last one of the
+// same two bodies.
 double touch_fraction(const Mover& a, const Hull& hull_a, const Mover& b, const Hull& hull_b, float dt, double limit,
-                      Vec3d& axis) {
+                      Vec3d& axis, bool has_moved = false) {
     const double turning = length(a.spin) * reach_of(*a.body, hull_a) + length(b.spin) * reach_of(*b.body, hull_b);
     // A body that was stopped earlier in the step may stand still by now: then each motion alone counts too.
     const bool is_stopped = are_split(*a.body, *b.body);
@@ -126,7 +128,7 @@ double touch_fraction(const Mover& a, const Hull& hull_a, const Mover& b, const 
     double t = 0, stop = kStop;
     bool is_axis_fixed = false;
     for (int round = 0; round < kRounds; ++round) {
-        if (round > 0) {
+        if (round > 0 || has_moved) {
             const btTransform at_a = a.body->hulls_at(a.at(t, dt)), at_b = b.body->hulls_at(b.at(t, dt));
             transform_points(hull_a, rotation_of(at_a), from_bullet(at_a.getOrigin()), points_a);
             transform_points(hull_b, rotation_of(at_b), from_bullet(at_b.getOrigin()), points_b);
@@ -249,6 +251,90 @@ uint32_t Sweeper::sweep(BulletWorld& world, float dt) {
     uint32_t stopped = 0;
     for (const Fast& fast : fast_) stopped += world.bodies_[fast.id].moved_fraction < 1;
     return stopped;
+}
+
+void Sweeper::carry_on(BulletWorld& world, float dt) {
+    carried_.clear();
+    for (const Fast& fast : fast_) {
+        const Body& body = world.bodies_[fast.id];
+        if (body.is_airborne && body.moved_fraction < 1) carried_.push_back(world.flock_of(fast.id));
+    }
+    if (carried_.empty()) return;
+    std::sort(carried_.begin(), carried_.end());
+    carried_.erase(std::unique(carried_.begin(), carried_.end()), carried_.end());
+    flock_.clear();
+    for (RigidId id = 0; id < world.body_end_; ++id)
+        if (world.bodies_[id].is_airborne && std::binary_search(carried_.begin(), carried_.end(), world.flock_of(id)))
+            flock_.push_back(id);
+    std::sort(flock_.begin(), flock_.end(),
+              [&](RigidId a, RigidId b) { return std::pair(world.flock_of(a), a) < std::pair(world.flock_of(b), b); });
+    for (size_t first = 0, end = 0; first < flock_.size(); first = end) {
+        while (end < flock_.size() && world.flock_of(flock_[end]) == world.flock_of(flock_[first])) ++end;
+        if (end - first > 1) carry_flock(world, {flock_.data() + first, end - first}, dt);
+    }
+}
+
+// What `body` may go of its lost way with the flock's velocity before it meets another body: at most `share`.
+double Sweeper::free_share(BulletWorld& world, Body& body, Vec3d velocity, float dt, double share) {
+    const float left = (1 - body.moved_fraction) * dt;
+    const Mover before = mover_of(body);
+    const Mover mover{&body, body.bullet->getWorldTransform(), velocity, {}};
+    const auto reached = [&](const Box& box, float reach) {
+        Box out = swept_box(box, before, reach, dt);  // where it may be now,
+        include_way(out, out, velocity, left);        // and goes
+        return out;
+    };
+    const Box all = reached(body.shape.box, body.reach);
+    near_.clear();
+    NearIds callback(near_);
+    world.broadphase_.aabbTest(to_bullet(all.low), to_bullet(all.high), callback);
+    std::sort(near_.begin(), near_.end());
+    const float moved = std::exchange(body.moved_fraction, 1.0f);  // Mover::at goes no farther
+    for (const RigidId id : near_) {
+        Body& other = world.bodies_[id];
+        if (world.flock_of(id) == world.flock_of(body.id) || !filters_meet(body, other) ||
+            world.is_apart_by_order(body.id, id))
+            continue;
+        const Mover still{&other, other.bullet->getWorldTransform(), {}, {}};
+        Vec3d axis;
+        const auto meet = [&](const Hull& p, const Hull& q) {
+            share = std::min(share, touch_fraction(mover, p, still, q, left, share, axis, true));
+        };
+        for (const Hull* p = body.hulls; p; p = p->next) {
+            const Box box = reached(p->world_box, reach_of(body, *p));
+            for (const Hull* q = other.hulls; q; q = q->next)
+                if (overlap(box, q->world_box, kBoxGrowth)) meet(*p, *q);
+            if (!other.mesh) continue;
+            visit_triangles(*other.mesh, box, [&](uint32_t t) {
+                build_triangle(world.work_.triangle, other.mesh->triangles[t].corner, t);
+                if (dot(velocity, Vec3d(world.work_.triangle.face_normal[0])) < 0) meet(*p, world.work_.triangle);
+            });
+        }
+    }
+    body.moved_fraction = moved;
+    return share;
+}
+
+void Sweeper::carry_flock(BulletWorld& world, std::span<const RigidId> flock, float dt) {
+    double mass = 0;
+    Vec3d momentum;
+    for (const RigidId id : flock) {
+        const Body& body = world.bodies_[id];
+        mass += static_cast<double>(body.mass);
+        momentum = momentum + static_cast<double>(body.mass) * Vec3d(from_bullet(body.bullet->getLinearVelocity()));
+    }
+    const Vec3d velocity = (1 / mass) * momentum;
+    double share = 1;
+    for (const RigidId id : flock)
+        if (world.bodies_[id].moved_fraction < 1 && share > 0)
+            share = free_share(world, world.bodies_[id], velocity, dt, share);
+    for (const RigidId id : flock) {
+        Body& body = world.bodies_[id];
+        btTransform moved = body.bullet->getWorldTransform();
+        const double left = share * (1 - static_cast<double>(body.moved_fraction)) * dt;
+        moved.setOrigin(moved.getOrigin() + to_bullet((left * velocity).to_float()));
+        body.bullet->proceedToTransform(moved);
+    }
 }
 
 }  // namespace cullet::bullet

@@ -5,6 +5,7 @@
 // body stands at its time of impact, half a millimetre away, loses the rest of the step, and meets its contact in the
 // next detect() with its velocity whole.
 #pragma once
+#include <span>
 #include <vector>
 
 #include "engine/bullet/pair_algorithm.hpp"
@@ -15,9 +16,15 @@ class BulletWorld;
 
 class Sweeper {
  public:
-    explicit Sweeper(uint32_t body_limit) { fast_.reserve(body_limit), near_.reserve(body_limit); }
+    explicit Sweeper(uint32_t body_limit) {
+        fast_.reserve(body_limit), near_.reserve(body_limit), carried_.reserve(body_limit), flock_.reserve(body_limit);
+    }
     /// Sets moved_fraction of every body, from 0 to 1; returns how many were stopped.
     uint32_t sweep(BulletWorld& world, float dt);
+    /// After the step: flocks of bodies that touch each other in flight, some of which stopped each other, go on for
+    /// what those lost of it with the velocity of their common centre of mass, as far as nothing else is in the way.
+    /// Shards of two vases that lie across each other would hang in the air while gravity makes them faster.
+    void carry_on(BulletWorld& world, float dt);
 
  private:
     struct Fast {
@@ -25,8 +32,12 @@ class Sweeper {
         Box swept;
     };
     void sweep_pair(BulletWorld& world, Body& a, Body& b, float dt);
+    void carry_flock(BulletWorld& world, std::span<const RigidId> flock, float dt);
+    double free_share(BulletWorld& world, Body& body, Vec3d velocity, float dt, double share);
     std::vector<Fast> fast_;
     std::vector<RigidId> near_;
+    std::vector<RigidId> carried_;  // flocks
+    std::vector<RigidId> flock_;    // their bodies, by flock
 };
 
 }  // namespace cullet::bullet

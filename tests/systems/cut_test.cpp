@@ -216,6 +216,24 @@ TEST(Cut, BetweenTheArmsOfALineNothingComesApart) {
         }
 }
 
+TEST(Cut, TheUpperHalfOfALevelCutStandsOnTheLowerOne) {
+    Settings settings = small_settings();
+    settings.gravity = {0, -9.81f, 0};
+    World world = make_world(settings);
+    add_floor(world);
+    const BodyId vase = spawn_one(world, small_vase());
+    world.step();
+    ASSERT_TRUE(world.cut(vase, plane({0, 0.17f, 0}, {0, 1, 0})).ok());
+    world.step();
+    const std::vector<BodyId> halves = shells_of(world);
+    ASSERT_EQ(halves.size(), 2u);
+    std::vector<Vec3> before;
+    for (const BodyId half : halves) before.push_back(world.pose(half)->position);
+    for (int frame = 0; frame < 90; ++frame) world.step();
+    for (size_t k = 0; k < 2; ++k)
+        EXPECT_LT(length(world.pose(halves[k])->position - before[k]), 0.01f) << "half " << k;  // it fell 13 cm
+}
+
 TEST(Cut, OfAllBodiesItTakesThoseThatItPassesThrough) {
     World world = make_world(small_settings());
     const ModelId model = world.add_model(small_pane()).value();
