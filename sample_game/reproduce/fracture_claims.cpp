@@ -139,7 +139,8 @@ Result<Claim> coarse_grained(Bench& bench) {
     }
     claim.ours = fmt::format(
         "The wall of figure 4. Hidden run: {} with coarse fracture, {} with fine; vertices near a start may start no "
-        "crack until a wave has passed a few edges, and a crack forks no nearer than four edges to its last fork. Quick mode, where the neighbours of a crack may not start one, as "
+        "crack until a wave has passed a few edges, and a crack forks no nearer than four edges to its last fork. "
+        "Quick mode, where the neighbours of a crack may not start one, as "
         "in the paper, and each crack runs on for six edges, which is ours: {}, and {}. Met means that in both modes "
         "the mean piece that came off (all but the largest, without crumbs) is heavier with coarse fracture.",
         weighed(*rows[0].run), weighed(*rows[1].run), weighed(*rows[2].run), weighed(*rows[3].run));

@@ -24,6 +24,7 @@ game.scene{shows = "the same ball at a thin and at a thick wall", seconds = 3}
 local thin = game.key{name = "scene.thin_m", unit = "m", default = 0.04, least = 0.001, most = 1, text = "left wall"}
 local thick = game.key{name = "scene.thick_m", unit = "m", default = 0.20, least = 0.001, most = 1, text = "right wall"}
 local speed = game.key{name = "scene.speed_mps", unit = "m/s", default = 3, least = 0.1, most = 100, text = "of the balls"}
+local mode = game.key{name = "scene.mode", default = "hidden", choices = "hidden, quick", text = "fracture"}
 game.camera{eye = {2.9, 1.9, 4.4}, target = {0.1, 0.72, -0.1}, field_of_view = 0.72}
 game.floor()
 for side = -1, 1, 2 do
@@ -35,11 +36,18 @@ for side = -1, 1, 2 do
     }
     game.spawn{
         cooked = wall,
+        fracture = mode,
         at = {1.35 * side, 0.002, 0},
         pins = {{low = {-2, -0.01, -2 * thickness}, high = {2, 0.02, 2 * thickness}}},
     }
-    -- It flies level when it arrives.
-    game.throw{radius = 0.14, mass = 30, at = {1.35 * side, 1.0, 0.9}, velocity = {0, 7 / speed, -speed}}
+    -- It starts 35 cm before the wall and flies level when it arrives, 1 m above the ground.
+    local time = 0.35 / speed
+    game.throw{
+        radius = 0.14,
+        mass = 30,
+        at = {1.35 * side, 1.0 - 4.9 * time * time, 0.49 + thickness / 2},
+        velocity = {0, 9.81 * time, -speed},
+    }
 end
 )";
 
@@ -110,6 +118,36 @@ std::string told(const std::array<WallThresholds, 2>& walls) {
     return fmt::format("at {} and {} m/s", speed_text(thin), speed_text(thick));
 }
 
+// Both walls and the same balls, as fast as the thick wall mostly stands in this mode.
+Result<void> play_walls(Bench& bench, Claim& claim, const WallThresholds& thick, const std::string& mode) {
+    const double speed = 0.85 * thick.crack.median;
+    ScenePlay play{"two_walls_" + mode,
+                   kTwoWalls,
+                   {fmt::format("scene.thin_m={}", kThin), fmt::format("scene.thick_m={}", kThick),
+                    fmt::format("scene.speed_mps={:.3f}", speed), "scene.mode=" + mode},
+                   150,
+                   {}};
+    const auto arrival = static_cast<uint32_t>(std::lround(60 * 0.35 / speed));
+    play.frames = std::max(150u, arrival + 80);
+    play.drawn = bench.settings().is_reduced ? std::vector<uint32_t>{play.frames}
+                                             : std::vector<uint32_t>{0, arrival + 15, play.frames};
+    const Result<SceneRun> run = run_scene(bench, play);
+    if (!run.ok()) return Error{run.error()};
+    // Both walls begin as one body: what is more than two came off.
+    const uint64_t came_off = run->pieces + run->crumbs - std::min<uint64_t>(2, run->pieces + run->crumbs);
+    const std::string name = mode == "hidden" ? "Hidden run" : "Quick mode";
+    const std::string captions[] = {
+        fmt::format("{}: the same ball, {:.1f} m/s, at a wall of 4 cm (left) and at one of 20 cm (right)", name, speed),
+        name + ", a quarter of a second after the blow",
+        came_off == 0 ? name + ", at the end: nothing came off either wall"
+                      : fmt::format("{}, at the end: {} pieces came off", name, came_off)};
+    const std::vector<std::string> told_pictures =
+        run->pictures.size() == 1 ? std::vector{captions[2]} : std::vector(std::begin(captions), std::end(captions));
+    if (auto added = bench.add_pictures(claim, run->pictures, mode, told_pictures); !added.ok())
+        return Error{added.error()};
+    return {};
+}
+
 }  // namespace
 
 Result<Claim> figure_2(Bench& bench) {
@@ -157,7 +195,6 @@ Result<Claim> figure_3(Bench& bench) {
     for (const StrengthMode& mode : kStrengthModes)
         all.push_back({thresholds_of(bench, thin_wall.value(), kThin, mode),
                        thresholds_of(bench, thick_wall.value(), kThick, mode)});
-    const auto& [thin, thick] = all[0];
     Table table{
         "Threshold speeds of the ball, m/s: medians of seeded places, and their spread",
         {{"mode", "wall", "first crack", "least to most", "first piece", "least to most", "thick over thin, piece"}}};
@@ -180,45 +217,23 @@ Result<Claim> figure_3(Bench& bench) {
         if (has_ratio)
             claim.numbers.push_back(
                 {(m == 0 ? "" : std::string(all[m][0].mode) + ", ") + "thick_over_thin", "times", ratio, {}});
-        // The quick mode's limits are found with a ball that grows with the wall: its order proves nothing.
-        if (m == 0 &&
-            !(all[m][0].piece.median < kMostThreshold && ratio > 1 && all[m][1].crack.median > all[m][0].crack.median))
+        if (!(all[m][0].piece.median < kMostThreshold && ratio > 1 && all[m][1].crack.median > all[m][0].crack.median))
             claim.verdict = Verdict::FallsShort;
     }
     claim.ours = fmt::format(
         "A ball of 30 kg at a brick wall of 2.4 x 1.8 m, foot held. The first piece comes off walls of {:.0f} and "
         "{:.0f} cm {} in the hidden run; {} in the quick mode with one layer of springs, {} with two. Met means that "
-        "the thick wall takes more in the hidden run. There the first crack takes {:.1f} times the thin wall's speed; "
+        "the thick wall takes more in each of them, by its medians. In the hidden run the first crack takes {:.1f} "
+        "times the thin wall's speed; "
         "in the quick mode, whose strain limit is found at each wall with a ball that grows with it (a twenty-fifth of "
         "its mass, two thicknesses in radius), {:.1f} times with one layer and {:.1f} with two. First cracks of "
         "thin and thick wall: hidden run {}; one layer {}; two layers {}.",
         100 * kThin, 100 * kThick, told(all[0]), told(all[1]), told(all[2]), crack_ratio(all[0]), crack_ratio(all[1]),
         crack_ratio(all[2]), told_cracks(all[0]), told_cracks(all[1]), told_cracks(all[2]));
     claim.tables.push_back(std::move(table));
-    // As fast as the thick wall just stands.
-    const double speed = 0.85 * std::min(thick.crack.least, thick.crack.median);
-    ScenePlay play{"two_walls",
-                   kTwoWalls,
-                   {fmt::format("scene.thin_m={}", kThin), fmt::format("scene.thick_m={}", kThick),
-                    fmt::format("scene.speed_mps={:.3f}", speed)},
-                   150,
-                   {}};
-    const auto arrival = static_cast<uint32_t>(std::lround(60 * 0.8 / speed));
-    play.frames = std::max(150u, arrival + 80);
-    play.drawn = bench.settings().is_reduced ? std::vector<uint32_t>{play.frames}
-                                             : std::vector<uint32_t>{0, arrival + 15, play.frames};
-    const Result<SceneRun> run = run_scene(bench, play);
-    if (!run.ok()) return Error{run.error()};
-    // Both walls begin as one body: what is more than two came off.
-    const uint64_t came_off = run->pieces + run->crumbs - std::min<uint64_t>(2, run->pieces + run->crumbs);
-    const std::string captions[] = {"The same ball at a wall of 4 cm (left) and at one of 20 cm (right)",
-                                    "A quarter of a second after the blow",
-                                    came_off == 0 ? "At the end: nothing came off either wall"
-                                                  : fmt::format("At the end: {} pieces came off", came_off)};
-    const std::vector<std::string> told_pictures =
-        run->pictures.size() == 1 ? std::vector{captions[2]} : std::vector(std::begin(captions), std::end(captions));
-    if (auto added = bench.add_pictures(claim, run->pictures, "", told_pictures); !added.ok())
-        return Error{added.error()};
+    for (const size_t m : {0, 1})
+        if (auto played = play_walls(bench, claim, all[m][1], m == 0 ? "hidden" : "quick"); !played.ok())
+            return Error{played.error()};
     return claim;
 }
 
