@@ -1,5 +1,6 @@
 #include "sample_game/game_world.hpp"
 
+#include <algorithm>
 #include <tuple>
 
 #include "sample_game/script/script.hpp"
@@ -108,6 +109,9 @@ void fill_counts(const World& world, Report& report) {
     report.sweeps = data.rigid->counts().sweeps;
     report.units.left = counts.units_left;
     report.units.slow_soft_frames = counts.slow_soft_frames;
+    const SoftBodies& soft = data.state.soft_bodies;
+    for (uint32_t s = 0; s < soft.size(); ++s)
+        if (soft.is_used[s]) report.units.softening = std::max(report.units.softening, double{soft.softening[s]});
     for (size_t k = 0; k < 3; ++k) report.momentum_ns.impulse[k] = counts.impulse_to_static[k];
     report.shapes = {{"sphere", 0}, {"hull", 0}, {"compound", 0}, {"box", 0}, {"triangles", 0}};
     const Bodies& bodies = data.state.bodies;

@@ -70,6 +70,7 @@ struct Report {
     struct {
         uint64_t used = 0, left = 0, most = 0;  // over the run; of the last frame; of the worst frame
         uint64_t slow_soft_frames = 0;          // soft bodies that had too few and ran slower, a frame each
+        double softening = 1;                   // of the softest of them: its springs have E over this to fit a frame
     } units;
     std::map<std::string, uint64_t> events, refused;
     uint64_t faults = 0;

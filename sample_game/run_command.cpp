@@ -27,6 +27,12 @@ void print_summary(const Report& r) {
                r.tasks.broke, r.tasks.late, r.tasks.dropped, r.tasks.frames_held);
     if (r.units.slow_soft_frames > 0)
         fmt::print("  slower       soft bodies had too few units in {} frames of theirs\n", r.units.slow_soft_frames);
+    // A closed shell of rubber falls in under its own weight at some hundreds; a framed sheet hardly shows it.
+    if (r.units.softening > 10)
+        fmt::print(
+            "  softened     a soft body has springs of 1/{:.0f} of its stiffness, to fit a frame: fewer and "
+            "longer edges, or more units_a_frame, make it stiffer\n",
+            r.units.softening);
     fmt::print(
         "  rest         {:.1f} % asleep; of {} drawn at rest: sink 95 % {:.2f}, worst {:.2f} mm, into each other 95 % "
         "{:.2f}, worst {:.2f} mm, hover 95 % {:.2f}, worst {:.2f} mm, {} below the ground\n",
