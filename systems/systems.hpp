@@ -73,9 +73,8 @@ void pass_soft(Serial, Step step, ShellTables shells, SoftBodies& soft, SoftStri
 /// Holds bodies whose task goes on, releases those whose time is up or whose task ended; names runs whose cracks had no
 /// room.
 void settle_tasks(Serial, Step step, Tasks& tasks, TaskContacts& contacts, Blows& blows, Bodies& bodies,
-                  const Shells& shells, RigidWorld& rigid, const DamageSettings& settings,
-                  DamageCounts& counts, Events<TaskEnded>& ended, Events<ImpactEvent>& impact_events,
-                  Events<RefusedEvent>& refused);
+                  const Shells& shells, RigidWorld& rigid, const DamageSettings& settings, DamageCounts& counts,
+                  Events<TaskEnded>& ended, Events<ImpactEvent>& impact_events, Events<RefusedEvent>& refused);
 
 /// Regions whose run ended fall asleep: vertices get the body's own motion back, springs their rows. What a cut-out
 /// changed goes into the body's shell (quick/cut_out.hpp).

@@ -9,11 +9,14 @@ namespace cullet {
 
 namespace {
 
+/// A vase of some hundred vertices takes up to 600 copies and inserted vertices in a hard hit.
+constexpr uint32_t kLeastSpare = 640;
+
 /// Finer fracture cuts more edges, and a cut without room for its copies is refused.
 uint32_t spare_vertices(const State& state, Row<Materials> material, uint32_t vertices) {
     const FractureKind fracture = material_traits(state, material).fracture;
     const uint32_t share = fracture == FractureKind::Fine ? 1 : fracture == FractureKind::Coarse ? 2 : 4;
-    return (std::max(192u, vertices / share) + kLanes - 1) / kLanes * kLanes;
+    return (std::max(kLeastSpare, vertices / share) + kLanes - 1) / kLanes * kLanes;
 }
 
 ShellRoom room_with(uint32_t spare, uint32_t vertices, uint32_t elements, uint32_t hinges) {

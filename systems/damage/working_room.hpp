@@ -4,7 +4,7 @@
 
 namespace cullet {
 
-/// Rows of a shell and what cracks add to it: a quarter more vertices, at least 192. A vase's first hit adds about 400:
+/// Rows of a shell and what cracks add to it: a quarter more vertices, at least 640. A vase's first hit adds about 400:
 /// a copy for each cut edge inside a crack, and 20 to 110 inserted ones.
 ShellRoom working_room(ShellView source);
 /// For the quick mode: without stiffness, and with twice as much for cracks.

@@ -38,15 +38,14 @@ TEST_P(SceneRest, TenSecondsAfterTheStartNearlyAllSleepAndNothingSinksHoversOrFa
     EXPECT_GT(rest.measured, 3u);
     EXPECT_GE(rest.asleep_share, 0.95);
     EXPECT_LT(rest.kinetic_share, 1e-4);
-    // The wall misses three bounds: it is 0.1 m thick and falls into some 30 slabs; of the first seed's three sink
-    // by 3.5 to 4.8 mm at one corner, and wedges that lie in the gap between slabs hover: by 0 to 16 mm in the first
-    // eight seeds, 7.3 in the worst of these.
+    // The wall misses three bounds: it is 0.1 m thick and falls into some 20 slabs. In three of its first eight seeds
+    // one wedge that lies in the gap between slabs hovers, by 9 to 19 mm: it rests on hulls, which fill what is hollow.
     const bool is_wall = std::string(GetParam().scene) == "wall";
-    EXPECT_LT(rest.sink_p95_mm, is_wall ? 4.5 : 2);
-    EXPECT_LT(rest.sink_max_mm, is_wall ? 5 : 4);
+    EXPECT_LT(rest.sink_p95_mm, is_wall ? 2.5 : 2);
+    EXPECT_LT(rest.sink_max_mm, 4);
     EXPECT_LT(rest.overlap_max_mm, 4);
-    EXPECT_LT(rest.hover_p95_mm, is_wall ? 7.5 : 1);
-    EXPECT_LT(rest.hover_max_mm, is_wall ? 7.5 : 1);
+    EXPECT_LT(rest.hover_p95_mm, is_wall ? 2 : 1);
+    EXPECT_LT(rest.hover_max_mm, is_wall ? 20 : 1);
     EXPECT_EQ(rest.through, 0u);
 }
 

@@ -102,9 +102,12 @@ Torn tear_strip(float branching) {
     Shell shell = make_shell_of(sheet(40, 24, 0.2, 0.12, 0.35), 600, 600);
     MaterialTraits& traits = shell.state->material_traits;
     traits.append(1);
+    traits.fracture[0] = static_cast<uint8_t>(FractureKind::Coarse);  // large cracks do not fork
     traits.branching[0] = branching;
     const Row<Tasks> task = make_task(shell);
     ban_all(shell.view);
+    for (uint32_t v = 0; v < shell.view.vertex_count(); ++v)
+        shell.state->vertices.ready_time[shell.view.vertex(v)] = 1;  // s: for the whole run
     shell.state->vertices.is_start_banned[shell.view.vertex(vertex_near(shell.view, {0.1f, 0.06f, 0}))] = 0;
     const CrackSink all = run(shell, task, [](Vec3, int) { return tension_along({1, 0, 0}, 1.1 * kStrength); });
     traits.branching[0] = 0;  // what the strip has become is compared, not the setting

@@ -66,12 +66,14 @@ std::vector<Cracked> broken_bodies() {
     all.push_back({"wall", wall_and_ball(settings).world});
     all.push_back({"pane", pane_and_ball(settings).world});
     // Quick cracks follow the edges of the mesh, and have the most kinks.
-    all.push_back({"quick vase", make_world(settings)});
-    SpawnSettings spawn;
-    spawn.fracture = FractureMode::Quick;
-    World& world = all.back().world;
-    (void)world.spawn(world.add_model(small_vase()).value(), spawn);
-    (void)world.add_sphere(ball_at({0.01f, 0.13f, 0}, 0.3f, 40));
+    for (const float height : {0.13f, 0.16f}) {
+        all.push_back({"quick vase", make_world(settings)});
+        SpawnSettings spawn;
+        spawn.fracture = FractureMode::Quick;
+        World& world = all.back().world;
+        (void)world.spawn(world.add_model(small_vase()).value(), spawn);
+        (void)world.add_sphere(ball_at({0.01f, height, 0}, 0.3f, 40));
+    }
     for (Cracked& c : all) EXPECT_GT(step_until_born(c.world, 60), 0u) << c.name;
     return all;
 }
