@@ -4,12 +4,43 @@
 #include "tests/support/break_checks.hpp"
 #include "tests/support/expect_always.hpp"
 #include "tests/support/random_hits.hpp"
+#include "tests/support/real_meshes.hpp"
 
 namespace cullet::test {
 namespace {
 
+std::vector<Shape> random_shapes() {
+    std::vector<Shape> shapes;
+    for (uint32_t s = 0; s < 16; ++s) shapes.push_back(random_shape(200 + s));
+    return shapes;
+}
+
+float radius_of(const Mesh& mesh) {
+    Vec3 low = mesh.positions[0], high = low;
+    for (const Vec3 p : mesh.positions) {
+        low = {std::min(low.x, p.x), std::min(low.y, p.y), std::min(low.z, p.z)};
+        high = {std::max(high.x, p.x), std::max(high.y, p.y), std::max(high.z, p.z)};
+    }
+    return length(high - low) / 2;
+}
+
+/// Of porcelain, 2 % of their size thick.
+std::vector<Shape> real_shapes() {
+    std::vector<Shape> shapes;
+    for (const char* name : {"bowl.ply", "plate.glb", "vase.glb", "spot_control_mesh.obj"}) {
+        const Mesh mesh = read_real_mesh(std::string("thick_shell/") + name);
+        const float radius = radius_of(mesh);
+        CookSettings settings{.material = "porcelain", .thickness = 0.04f * radius, .longest_edge = 100};
+        settings.measures_threshold = false;
+        Result<Model> model = cook(view_of(mesh), settings);
+        EXPECT_TRUE(model.ok()) << name << ": " << model.error();
+        if (model.ok()) shapes.push_back({std::move(model).value(), radius});
+    }
+    return shapes;
+}
+
 /// Breaks that the checks looked at.
-uint32_t expect_sound_breaks(FractureMode mode, uint32_t shapes, int cases) {
+uint32_t expect_sound_breaks(FractureMode mode, std::span<const Shape> shapes, int cases) {
     World world = make_world(small_settings());
     uint32_t breaks = 0;
     std::string flaw;
@@ -23,14 +54,12 @@ uint32_t expect_sound_breaks(FractureMode mode, uint32_t shapes, int cases) {
             if (flaw.empty()) flaw = flaw_of_handoff(state, t);
         }
     });
-    std::vector<Shape> known;
-    for (uint32_t s = 0; s < shapes; ++s) known.push_back(random_shape(200 + s));
     expect_always(cases, [&](uint32_t shape, uint32_t hit) {
         SpawnSettings spawn;
         spawn.fracture = mode;
         spawn.quick.strain_limit = 0.005f;
         flaw.clear();
-        hit_once(world, known[shape % shapes], {{11}, hit}, spawn);
+        hit_once(world, shapes[shape % shapes.size()], {{11}, hit}, spawn);
         RC_ASSERT(flaw == "");
     });
     std::printf("%u breaks of %d hits\n", breaks, cases);
@@ -38,11 +67,19 @@ uint32_t expect_sound_breaks(FractureMode mode, uint32_t shapes, int cases) {
 }
 
 TEST(BreakProperties, HiddenPartsHoldEachElementOnceAndKeepTheMomenta) {
-    EXPECT_GT(expect_sound_breaks(FractureMode::Hidden, 16, 80), 20u);
+    EXPECT_GT(expect_sound_breaks(FractureMode::Hidden, random_shapes(), 80), 20u);
 }
 
 TEST(BreakProperties, QuickPartsHoldEachElementOnceAndKeepTheMomenta) {
-    EXPECT_GT(expect_sound_breaks(FractureMode::Quick, 16, 80), 20u);
+    EXPECT_GT(expect_sound_breaks(FractureMode::Quick, random_shapes(), 80), 20u);
+}
+
+TEST(BreakProperties, HoldOnRealMeshesInBothModes) {
+    CULLET_SKIP_WITHOUT_DATA();
+    const std::vector<Shape> shapes = real_shapes();
+    ASSERT_EQ(shapes.size(), 4u);
+    for (const FractureMode mode : {FractureMode::Hidden, FractureMode::Quick})
+        EXPECT_GT(expect_sound_breaks(mode, shapes, 16), 3u);
 }
 
 }  // namespace
