@@ -63,31 +63,50 @@ bool is_brittle(const Scene& scene) {
     return name != "rubber" && name != "steel" && name != "cloth" && name != "tear";
 }
 
+/// Plays a scene and looks at every frame.
+void expect_closed(const Scene& scene, const RunOptions& options, uint32_t frames) {
+    Result<GameWorld> game = GameWorld::create(plan_scene(scene, options));
+    ASSERT_TRUE(game.ok()) << game.error();
+    Looking looking;
+    for (uint32_t frame = 0; frame < frames; ++frame) {
+        looking.look(game->world(), "before frame " + std::to_string(frame));
+        if (testing::Test::HasFatalFailure()) return;
+        game->before_step();
+        game->step();
+        game->after_step();
+    }
+    looking.look(game->world(), "at the end");
+    if (is_brittle(scene)) {
+        EXPECT_GT(looking.with_cracks, 0u);
+    }
+    EXPECT_GE(looking.looked_at, game->sums().born);
+}
+
 class EachDrawnScene : public testing::TestWithParam<Scene> {};
 
 TEST_P(EachDrawnScene, IsClosedInEveryFrame) {
     RunOptions options;
     options.scene = GetParam().name;
     options.threads = 2;
-    Result<GameWorld> game = GameWorld::create(plan_scene(GetParam(), options));
-    ASSERT_TRUE(game.ok()) << game.error();
-    Looking looking;
-    for (uint32_t frame = 0; frame < 120; ++frame) {
-        looking.look(game->world(), "before frame " + std::to_string(frame));
-        if (HasFatalFailure()) return;
-        game->before_step();
-        game->step();
-        game->after_step();
-    }
-    looking.look(game->world(), "at the end");
-    if (is_brittle(GetParam())) {
-        EXPECT_GT(looking.with_cracks, 0u);
-    }
-    EXPECT_GE(looking.looked_at, game->sums().born);
+    expect_closed(GetParam(), options, 120);
 }
 
 INSTANTIATE_TEST_SUITE_P(Scenes, EachDrawnScene, testing::ValuesIn(scenes().begin(), scenes().end()),
                          [](const auto& scene) { return scene.param.name; });
+
+TEST(DrawnSurface, OfQuickBodiesOfEachKindAndBothLayersIsClosedInEveryFrame) {
+    for (const char* scene : {"wall", "vase"})
+        for (const char* cracks : {"fine", "coarse", "large"})
+            for (const char* layers : {"1", "2"}) {
+                RunOptions options;
+                options.scene = scene;
+                options.threads = 2;
+                options.set = {"scene.fracture=quick", std::string("scene.cracks=") + cracks,
+                               std::string("scene.layers=") + layers};
+                SCOPED_TRACE(options.scene + " " + cracks + " " + layers);
+                expect_closed(*find_scene(scene), options, 70);
+            }
+}
 
 // The drawn mesh of what is left is changed near the cracks alone there: each triangle is one that an element has,
 // once, and none is of an element that left.
