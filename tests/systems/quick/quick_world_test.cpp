@@ -131,6 +131,36 @@ TEST(QuickWorld, MassAndMomentumAreKeptWhereItBreaks) {
     }
 }
 
+struct QuickOutcome {
+    uint64_t cuts;
+    size_t pieces;
+};
+QuickOutcome outcome_of(const QuickSettings& quick) {
+    Breakage b = quick_and_ball(small_settings(), small_vase(), quick, kSpeed);
+    for (int frame = 0; frame < 10; ++frame) b.world.step();
+    return {b.world.contents().data.counts.cuts, shells_of(b.world).size()};
+}
+
+TEST(QuickWorld, EachOptionActs) {
+    const QuickOutcome plain = outcome_of({});
+    EXPECT_GT(plain.pieces, 1u);
+    QuickSettings quick;
+    quick.crack_length = 0;  // what starts does not run on
+    EXPECT_LT(3 * outcome_of(quick).cuts, 2 * plain.cuts);
+    quick = {};
+    quick.crack_frequency = 64;  // large fracture's is 1
+    EXPECT_GT(outcome_of(quick).cuts, plain.cuts);
+    quick = {};
+    quick.steps = 8;
+    EXPECT_LT(outcome_of(quick).cuts, plain.cuts);
+    quick = {};
+    quick.strain_limit = 0.9f;
+    EXPECT_EQ(outcome_of(quick).cuts, 0u);
+    quick = {};
+    quick.bump_angle = 0;  // another way, of about the same length
+    EXPECT_NE(outcome_of(quick).cuts, plain.cuts);
+}
+
 TEST(QuickWorld, PiecesAreQuickAndBreakAgain) {
     Settings settings = small_settings();
     settings.gravity = {0, -9.81f, 0};

@@ -185,6 +185,40 @@ TEST(RegionProperties, WithoutALimitNothingSplitsAndWithNoneToBearTheRunEndsWith
     expect_splits_by_the_limit_alone(cook_vase(), 40);
 }
 
+// A region squeezed by 2 %: at a strain limit of 1 % none of its edges is too long; those shorter than the compression
+// limit times that may split, and no others.
+TEST(RegionProperties, WhatIsSqueezedSplitsAtTheCompressionLimit) {
+    const FpMode mode;
+    const Model model = cook_vase();
+    HitBench bench(Subject::Vase, model);
+    QuickSettings quick;
+    quick.steps = 6;
+    quick.strain_limit = kBoundless;
+    HitDescription hit = bench.blow(3, 5);
+    hit.quick = &quick;
+    State& state = bench.state();
+    ASSERT_TRUE(open_hit(state, bench.shell(), hit));
+    const RegionView region(state, kTask);
+    stretch(region, -0.02f);
+    const BrittleLoop loop = make_quick_loop();
+    LoopWorld world{state};
+    state.tasks.steps_granted[kTask] = 1;
+    loop.run_alone(world, {kTask, 0, 1, task_goes_on});
+    state.quick_runs.strain_limit[kTask] = 0.01f;
+    const uint32_t all = interior_springs(region);
+    uint32_t found[3];
+    const float limits[] = {0, 1, 3};  // none, 1 %, 3 %
+    for (size_t k = 0; k < 3; ++k) {
+        state.quick_runs.compression_limit[kTask] = limits[k];
+        found[k] = strained_interior_edges(region);
+    }
+    EXPECT_EQ(found[0], 0u) << "of " << all;
+    EXPECT_GT(found[1], all / 2) << "of " << all;
+    EXPECT_EQ(found[2], 0u) << "of " << all;
+    (void)finish_hit(state);
+    close_hit(state);
+}
+
 TEST(RegionProperties, EachInteriorEdgeOfAUniformStretchCanSplit) {
     const FpMode mode;
     expect_each_interior_edge_can_split(cook_vase(), 20);
