@@ -94,9 +94,9 @@ std::string Keys::help() const {
     std::string text;
     for (const Key& key : keys_) {
         if (!key.choices.empty())
-            text += fmt::format("    {:<22} {:<10} {}: {}\n", key.name, key.word, key.text, key.choices);
+            text += fmt::format("    {:<23} {:<10} {}: {}\n", key.name, key.word, key.text, key.choices);
         else
-            text += fmt::format("    {:<22} {:<10} {} ({} to {}{})\n", key.name, short_number(key.value), key.text,
+            text += fmt::format("    {:<23} {:<10} {} ({} to {}{})\n", key.name, short_number(key.value), key.text,
                                 short_number(key.least), short_number(key.most), key.unit == "1" ? "" : " " + key.unit);
     }
     return text;

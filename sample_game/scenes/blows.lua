@@ -18,7 +18,7 @@ local vase = game.cook{
     edge = shell.edge,
 }
 local function stand(x)
-    return game.spawn{cooked = vase, strength_scale = shell.strength_scale, fracture = shell.fracture, quick = {layers = shell.layers}, springs = shell.springs, at = {x, 0, 0}}
+    return game.spawn{cooked = vase, strength_scale = shell.strength_scale, fracture = shell.fracture, quick = shell.quick, springs = shell.springs, at = {x, 0, 0}}
 end
 local blown, cut, pierced = stand(-0.5), stand(0.05), stand(0.5)
 -- Something that does not break is thrown, too.

@@ -33,7 +33,7 @@ game.spawn{
     at = {0, 0.001, 0},
     strength_scale = shell.strength_scale,
     fracture = shell.fracture,
-    quick = {layers = shell.layers},
+    quick = shell.quick,
     springs = shell.springs,
     pins = {{low = {-2, -0.01, -2}, high = {2, 0.01, 2}}},
 }

@@ -37,7 +37,7 @@ local sheet = game.spawn{
     turn = {axis = {1, 0, 0}, angle = -0.5 * math.pi},
     strength_scale = shell.strength_scale,
     fracture = shell.fracture,
-    quick = {layers = shell.layers},
+    quick = shell.quick,
     springs = shell.springs,
     pins = pins,
 }

@@ -23,7 +23,7 @@ game.spawn{
     cooked = thing,
     strength_scale = shell.strength_scale,
     fracture = shell.fracture,
-    quick = {layers = shell.layers},
+    quick = shell.quick,
     springs = shell.springs,
     at = {0, height, 0.3 + 1.8 * size},
     turn = {axis = {game.seeded(1), 1, game.seeded(2)}, angle = 3.14159265 * game.seeded(3)},

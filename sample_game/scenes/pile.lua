@@ -46,7 +46,7 @@ local function throw_vase()
         cooked = vase,
         strength_scale = shell.strength_scale,
         fracture = shell.fracture,
-        quick = {layers = shell.layers},
+        quick = shell.quick,
         springs = shell.springs,
         turn = game.any_turn(number),
         pivot = {0, 0.5 * size, 0},

@@ -42,7 +42,7 @@ game.spawn{
     at = {0, foot, 0},
     strength_scale = shell.strength_scale,
     fracture = shell.fracture,
-    quick = {layers = shell.layers},
+    quick = shell.quick,
     springs = shell.springs,
     pins = {
         {low = {-border - out, -out, -out}, high = {border + out, rim, out}},

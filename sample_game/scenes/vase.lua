@@ -5,7 +5,7 @@ game.scene{
     seconds = 10,
     sheet = {26, 32, 38, 41, 44, 48, 54, 62, 72, 90, 150, 599},
 }
-local shell = game.shell_keys{material = "porcelain", thickness = 0.005, edge = 0.0075}
+local shell = game.shell_keys{material = "porcelain", thickness = 0.005, edge = 0.0075, crack_length = 1} -- round the whole vase
 local height = game.key{name = "scene.height_m", unit = "m", default = 1.5, least = 0.01, most = 20, text = "of the fall onto the table"}
 local speed = game.key{name = "scene.speed_mps", unit = "m/s", default = 0, least = 0, most = 50, text = "downward at the start"}
 local size = game.key{name = "scene.size_m", unit = "m", default = 0.3, least = 0.05, most = 3, text = "height of the vase"}
@@ -36,7 +36,7 @@ game.spawn{
     cooked = vase,
     strength_scale = shell.strength_scale,
     fracture = shell.fracture,
-    quick = {layers = shell.layers, crack_length = 1}, -- round the whole vase
+    quick = shell.quick,
     springs = shell.springs,
     at = middle(),
     pivot = {0, 0.5 * size, 0},

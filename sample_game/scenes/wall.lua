@@ -28,7 +28,7 @@ game.spawn{
     at = {0, 0.002, 0},
     strength_scale = shell.strength_scale,
     fracture = shell.fracture,
-    quick = {layers = shell.layers},
+    quick = shell.quick,
     springs = shell.springs,
     pins = {{low = {-2, -0.01, -2 * shell.thickness}, high = {2, 0.25 * shell.edge, 2 * shell.thickness}}},
 }

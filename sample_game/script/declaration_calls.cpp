@@ -97,7 +97,7 @@ int materials(lua_State* lua) {
 /// What every scene asks about the thing that breaks in it.
 int shell_keys(lua_State* lua) {
     Keys& keys = story_of(lua, "game.shell_keys").keys;
-    const Arguments given(lua, "game.shell_keys", {"material", "thickness", "edge", "fracture"});
+    const Arguments given(lua, "game.shell_keys", {"material", "thickness", "edge", "fracture", "crack_length"});
     if (keys.has("scene.material")) given.refuse("these keys are there already");
     const std::string material = given.word("material", "a material", "porcelain");
     const std::string materials = script_of(lua).stage().materials.names();
@@ -111,6 +111,13 @@ int shell_keys(lua_State* lua) {
               "hidden: elastic waves, over some frames; quick: softened springs near the hit")
         .word("scene.cracks", "own", "own, fine, coarse, large", "the kind of fracture; own: the material's")
         .number("scene.layers", "1", 1, 1, 2, "of springs, in quick fracture; 2 feel the wall bend")
+        .number("scene.steps", "1", 60, 8, 100, "of a quick run; the neighbourhood is a third of it wide, in edges")
+        .number("scene.crack_frequency", "1", 0, 0, 1000, "vertices that split in a quick step; 0: by the kind")
+        .number("scene.strain_limit", "1", 0, 0, 1, "stretch at which a quick edge splits; 0: as found when cooked")
+        .number("scene.compression_limit", "1", 0, 0, 1e6, "squeeze at which it does, in strain limits; 0: none")
+        .number("scene.crack_length", "1", given.number("crack_length", {"a number from 0 to 4", 0, 4}, 0.5), 0, 4,
+                "how far large quick cracks run on, of the body's diagonal")
+        .number("scene.bump_angle", "degrees", 12, 0, 30, "by which they may turn at each vertex")
         .word("scene.layout", "sandwich", "sandwich, crossed",
               "of two layers, quick or soft; crossed: the paper's, too stiff in bending")
         .number("scene.length_factor", "1", 0, 0, 5, "distance of two layers over the thickness; 0: by the mesh")
@@ -123,22 +130,26 @@ int shell_keys(lua_State* lua) {
     const std::pair<const char*, const char*> names[] = {
         {"scene.material", "material"}, {"scene.thickness_m", "thickness"},
         {"scene.edge_m", "edge"},       {"scene.strength_scale", "strength_scale"},
-        {"scene.fracture", "fracture"}, {"scene.cracks", "cracks"},
-        {"scene.layers", "layers"}};
+        {"scene.fracture", "fracture"}, {"scene.cracks", "cracks"}};
     for (const auto& [name, short_name] : names) {
         script_of(lua).apply_set(lua, name);
         if (std::string(name) == "scene.cracks" && keys.word_of(name) == "own") continue;  // nil: nothing is given
         push_key(lua, keys, name);
         lua_setfield(lua, -2, short_name);
     }
-    lua_newtable(lua);
-    for (const char* name : {"layout", "length_factor", "area_energy", "volume_energy"}) {
-        const std::string key = std::string("scene.") + name;
-        script_of(lua).apply_set(lua, key);
-        push_key(lua, keys, key);
-        lua_setfield(lua, -2, name);
-    }
-    lua_setfield(lua, -2, "springs");
+    const auto push_table = [&](const char* table, std::initializer_list<const char*> fields) {
+        lua_newtable(lua);
+        for (const char* name : fields) {
+            const std::string key = std::string("scene.") + name;
+            script_of(lua).apply_set(lua, key);
+            push_key(lua, keys, key);
+            lua_setfield(lua, -2, name);
+        }
+        lua_setfield(lua, -2, table);
+    };
+    push_table("quick", {"layers", "steps", "crack_frequency", "strain_limit", "compression_limit", "crack_length",
+                         "bump_angle"});
+    push_table("springs", {"layout", "length_factor", "area_energy", "volume_energy"});
     return 1;
 }
 

@@ -365,7 +365,7 @@ TEST(Script, KeysAreDeclaredListedSetAndRefused) {
     ASSERT_TRUE(story.ok()) << story.error();
     EXPECT_EQ(story->shows, "keys");
     EXPECT_EQ(story->seconds, 2);
-    EXPECT_NE(story->keys.help().find("scene.speed_mps        3          of it (0 to 9 m/s)"), std::string::npos)
+    EXPECT_NE(story->keys.help().find("scene.speed_mps         3          of it (0 to 9 m/s)"), std::string::npos)
         << story->keys.help();
     EXPECT_EQ(story->keys["gravity_mps2"], 1.62);
     EXPECT_EQ(notes_of(plan, 1), std::vector<std::string>{"3.0 a"});
