@@ -86,8 +86,9 @@ struct Body {
 
     float moved_fraction = 1;  // of this step, less than 1 when stopped at a time of impact
     bool is_fast = false;      // swept in this step
-    bool is_airborne = false;  // nothing that stands touches it in this step, nor what it touches
-    RigidId flock = 0;         // one of the free bodies that touch it, or touch those that do
+    // While bodies that stopped each other are carried on:
+    RigidId flock = 0;         // the first of the free bodies that touch it, or touch those that do
+    bool is_airborne = false;  // nothing that stands touches its flock
 
     /// The hull frame's transform where the Bullet frame's is `at`.
     btTransform hulls_at(const btTransform& at) const { return has_offset ? at * hull_offset : at; }

@@ -759,32 +759,7 @@ void BulletWorld::limit_closing(float dt) {
     }
 }
 
-RigidId BulletWorld::flock_of(RigidId id) const {
-    while (bodies_[id].flock != id) id = bodies_[id].flock;
-    return id;
-}
-
-// Flocks of free bodies that touch each other, named by their first body; a flock that touches anything else is not
-// airborne.
-void BulletWorld::find_airborne() {
-    for (RigidId id = 0; id < body_end_; ++id) {
-        bodies_[id].flock = id;
-        bodies_[id].is_airborne = bodies_[id].is_used && bodies_[id].is_free();
-    }
-    for (const bool joins : {true, false})
-        for (const SortedManifold& m : manifolds_) {
-            if (!m.manifold || m.manifold->getNumContacts() == 0) continue;
-            const RigidId a = flock_of(m.a), b = flock_of(m.b);
-            const bool are_free = bodies_[m.a].is_free() && bodies_[m.b].is_free();
-            if (joins && are_free) bodies_[std::max(a, b)].flock = std::min(a, b);
-            if (!joins && !are_free) bodies_[a].is_airborne = bodies_[b].is_airborne = false;
-        }
-    for (RigidId id = 0; id < body_end_; ++id)
-        bodies_[id].is_airborne = bodies_[id].is_airborne && bodies_[flock_of(id)].is_airborne;
-}
-
 void BulletWorld::integrate(float dt) {
-    find_airborne();
     counts_.sweeps += sweeper_.sweep(*this, dt);
     limit_closing(dt);
     for (RigidId id = 0; id < body_end_; ++id) {

@@ -124,8 +124,6 @@ class BulletWorld final : public RigidWorld {
     void set_velocities(Body& body, const btVector3& linear, const btVector3& angular);
     void sum_impulse_to_static();
     void limit_closing(float dt);
-    RigidId flock_of(RigidId id) const;
-    void find_airborne();
     void integrate(float dt);
     void update_sleep(float dt);
     bool may_sleep(Body& body, float dt);

@@ -253,23 +253,52 @@ uint32_t Sweeper::sweep(BulletWorld& world, float dt) {
     return stopped;
 }
 
-void Sweeper::carry_on(BulletWorld& world, float dt) {
-    carried_.clear();
-    for (const Fast& fast : fast_) {
-        const Body& body = world.bodies_[fast.id];
-        if (body.is_airborne && body.moved_fraction < 1) carried_.push_back(world.flock_of(fast.id));
+// Free bodies that touch each other are one flock, named by its first body; one that touches anything else is not
+// airborne.
+void Sweeper::find_flocks(BulletWorld& world) {
+    auto& bodies = world.bodies_;
+    const auto flock_of = [&](RigidId id) {
+        while (bodies[id].flock != id) id = bodies[id].flock;
+        return id;
+    };
+    const auto are_free = [&](const auto& m) { return bodies[m.a].is_free() && bodies[m.b].is_free(); };
+    const auto touch = [](const auto& m) { return m.manifold && m.manifold->getNumContacts() > 0; };
+    for (RigidId id = 0; id < world.body_end_; ++id) {
+        bodies[id].flock = id;
+        bodies[id].is_airborne = bodies[id].is_used && bodies[id].is_free();
     }
-    if (carried_.empty()) return;
+    for (const auto& m : world.manifolds_) {
+        if (!touch(m) || !are_free(m)) continue;
+        const RigidId a = flock_of(m.a), b = flock_of(m.b);
+        bodies[std::max(a, b)].flock = std::min(a, b);
+    }
+    // A flock's name is never above its bodies' ids.
+    for (RigidId id = 0; id < world.body_end_; ++id) bodies[id].flock = bodies[bodies[id].flock].flock;
+    for (const auto& m : world.manifolds_)
+        if (touch(m) && !are_free(m))
+            bodies[bodies[m.a].flock].is_airborne = bodies[bodies[m.b].flock].is_airborne = false;
+    for (RigidId id = 0; id < world.body_end_; ++id)
+        bodies[id].is_airborne = bodies[id].is_airborne && bodies[bodies[id].flock].is_airborne;
+}
+
+void Sweeper::carry_on(BulletWorld& world, float dt) {
+    const auto& bodies = world.bodies_;
+    const auto was_stopped = [&](const Fast& fast) { return bodies[fast.id].moved_fraction < 1; };
+    if (std::none_of(fast_.begin(), fast_.end(), was_stopped)) return;
+    find_flocks(world);
+    carried_.clear();
+    for (const Fast& fast : fast_)
+        if (was_stopped(fast) && bodies[fast.id].is_airborne) carried_.push_back(bodies[fast.id].flock);
     std::sort(carried_.begin(), carried_.end());
     carried_.erase(std::unique(carried_.begin(), carried_.end()), carried_.end());
     flock_.clear();
-    for (RigidId id = 0; id < world.body_end_; ++id)
-        if (world.bodies_[id].is_airborne && std::binary_search(carried_.begin(), carried_.end(), world.flock_of(id)))
+    for (RigidId id = 0; id < world.body_end_ && !carried_.empty(); ++id)
+        if (bodies[id].is_airborne && std::binary_search(carried_.begin(), carried_.end(), bodies[id].flock))
             flock_.push_back(id);
     std::sort(flock_.begin(), flock_.end(),
-              [&](RigidId a, RigidId b) { return std::pair(world.flock_of(a), a) < std::pair(world.flock_of(b), b); });
+              [&](RigidId a, RigidId b) { return std::pair(bodies[a].flock, a) < std::pair(bodies[b].flock, b); });
     for (size_t first = 0, end = 0; first < flock_.size(); first = end) {
-        while (end < flock_.size() && world.flock_of(flock_[end]) == world.flock_of(flock_[first])) ++end;
+        while (end < flock_.size() && bodies[flock_[end]].flock == bodies[flock_[first]].flock) ++end;
         if (end - first > 1) carry_flock(world, {flock_.data() + first, end - first}, dt);
     }
 }
@@ -292,10 +321,8 @@ double Sweeper::free_share(BulletWorld& world, Body& body, Vec3d velocity, float
     const float moved = std::exchange(body.moved_fraction, 1.0f);  // Mover::at goes no farther
     for (const RigidId id : near_) {
         Body& other = world.bodies_[id];
-        if (world.flock_of(id) == world.flock_of(body.id) || !filters_meet(body, other) ||
-            world.is_apart_by_order(body.id, id))
-            continue;
-        const Mover still{&other, other.bullet->getWorldTransform(), {}, {}};
+        if (other.flock == body.flock || !filters_meet(body, other) || world.is_apart_by_order(body.id, id)) continue;
+        const Mover still{&other, other.bullet->getWorldTransform(), {}, {}}, before_other = mover_of(other);
         Vec3d axis;
         const auto meet = [&](const Hull& p, const Hull& q) {
             share = std::min(share, touch_fraction(mover, p, still, q, left, share, axis, true));
@@ -303,7 +330,7 @@ double Sweeper::free_share(BulletWorld& world, Body& body, Vec3d velocity, float
         for (const Hull* p = body.hulls; p; p = p->next) {
             const Box box = reached(p->world_box, reach_of(body, *p));
             for (const Hull* q = other.hulls; q; q = q->next)
-                if (overlap(box, q->world_box, kBoxGrowth)) meet(*p, *q);
+                if (overlap(box, swept_box(q->world_box, before_other, other.reach, dt), 0)) meet(*p, *q);
             if (!other.mesh) continue;
             visit_triangles(*other.mesh, box, [&](uint32_t t) {
                 build_triangle(world.work_.triangle, other.mesh->triangles[t].corner, t);

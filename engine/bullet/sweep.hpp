@@ -32,11 +32,12 @@ class Sweeper {
         Box swept;
     };
     void sweep_pair(BulletWorld& world, Body& a, Body& b, float dt);
+    void find_flocks(BulletWorld& world);
     void carry_flock(BulletWorld& world, std::span<const RigidId> flock, float dt);
     double free_share(BulletWorld& world, Body& body, Vec3d velocity, float dt, double share);
     std::vector<Fast> fast_;
     std::vector<RigidId> near_;
-    std::vector<RigidId> carried_;  // flocks
+    std::vector<RigidId> carried_;  // flocks, ascending
     std::vector<RigidId> flock_;    // their bodies, by flock
 };
 

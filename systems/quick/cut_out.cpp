@@ -210,6 +210,12 @@ void copy_hinges(const CutRows& rows, const ShellView& cut, bool with_stiffness)
             if (v != kNone) v = rows.vertex(v);
 }
 
+// The body's rows that the cut-out's first `count` elements, which name them in Elements.part, are copies of.
+void number_again(CutRows& rows, const ShellView& cut, uint32_t count) {
+    std::copy_n(cut.state.elements.part.data() + cut.elements().first, count, rows.list);
+    rows.mark_and_number(count);
+}
+
 }  // namespace
 
 bool is_for_cut_outs(const State& state, Row<Shells> shell, bool is_quick) {
@@ -279,9 +285,7 @@ CutOutResult reserve_cut_out(State& state, Row<Tasks> task, const CutOutSize& si
 void list_cut_out(State& state, Row<Tasks> task) {
     const ShellView source(state, state.tasks.source[task]), cut(state, state.tasks.shell[task]);
     CutRows rows(source);
-    const uint32_t count = state.quick_runs.cut_elements[task];
-    std::copy_n(state.elements.part.data() + cut.elements().first, count, rows.list);
-    rows.mark_and_number(count);
+    number_again(rows, cut, state.quick_runs.cut_elements[task]);
     rows.count_hinges();
     cut.vertices().count = rows.vertex_count;
     cut.elements().count = rows.element_count;
@@ -291,10 +295,8 @@ void list_cut_out(State& state, Row<Tasks> task) {
 void remember_cut_out(State& state, Row<Tasks> task) {
     const ShellView source(state, state.tasks.source[task]), cut(state, state.tasks.shell[task]);
     CutRows rows(source);
-    const uint32_t count = state.quick_runs.cut_elements[task];
-    std::copy_n(state.elements.part.data() + cut.elements().first, count, rows.list);
-    rows.mark_and_number(count);
-    CutMaps of_body(cut, count);
+    number_again(rows, cut, state.quick_runs.cut_elements[task]);
+    CutMaps of_body(cut, rows.element_count);
     of_body.clear();
     rows.for_each_vertex([&](uint32_t v) { of_body.add_vertex(v); });
     rows.for_each_hinge([&](uint32_t h) { of_body.add_hinge(h); });

@@ -4,8 +4,8 @@
 #include <algorithm>
 #include <thread>
 
-#include "systems/cook/extrude.hpp"
 #include "tests/support/expect_always.hpp"
+#include "tests/support/extrusions.hpp"
 #include "tests/support/motion_contacts.hpp"
 #include "tests/support/random_meshes.hpp"
 #include "tests/support/shell_checks.hpp"
@@ -14,26 +14,12 @@
 namespace cullet {
 namespace {
 
-constexpr Propagation kWays[] = {Propagation::GuardedFront, Propagation::Front, Propagation::SingleVertex,
-                                 Propagation::SingleVertexTets};
-
-Surface prepared(const Mesh& mesh) {
-    Result<Surface> surface = prepare_surface(mesh);
-    EXPECT_TRUE(surface) << surface.error();
-    return surface ? *surface : Surface{};
-}
+using test::kWays, test::prepared, test::random_thickness;
 
 Extrusion extruded(const Surface& surface, double thickness, Propagation way) {
     ExtrusionSettings settings;
     settings.propagation = way;
-    Result<Extrusion> shell = extrude(surface, thickness, settings);
-    EXPECT_TRUE(shell) << shell.error();
-    return shell ? *shell : Extrusion{};
-}
-
-/// 0.5 to 15 % of the diagonal.
-double random_thickness(const Surface& surface, uint64_t seed) {
-    return surface.diagonal * 0.005 * std::pow(30.0, static_cast<double>(seed % 1000) / 1000);
+    return test::extruded(surface, thickness, settings);
 }
 
 Mesh pleated() {

@@ -5,30 +5,17 @@
 #include <thread>
 
 #include "sample_game/thresholds.hpp"
-#include "systems/cook/extrude.hpp"
 #include "systems/cook/tessellate.hpp"
 #include "systems/cook/tetrahedra.hpp"
 #include "tests/support/expect_always.hpp"
+#include "tests/support/extrusions.hpp"
 #include "tests/support/real_meshes.hpp"
 #include "tests/support/simple_meshes.hpp"
 
 namespace cullet {
 namespace {
 
-constexpr Propagation kWays[] = {Propagation::GuardedFront, Propagation::Front, Propagation::SingleVertex,
-                                 Propagation::SingleVertexTets};
-
-Surface prepared(const Mesh& mesh) {
-    Result<Surface> surface = prepare_surface(mesh);
-    if (!surface) ADD_FAILURE() << surface.error();
-    return surface ? std::move(surface).value() : Surface{};
-}
-
-Extrusion extruded(const Surface& surface, double thickness, const ExtrusionSettings& settings) {
-    Result<Extrusion> shell = extrude(surface, thickness, settings);
-    if (!shell) ADD_FAILURE() << shell.error();
-    return shell ? std::move(shell).value() : Extrusion{};
-}
+using test::extruded, test::kWays, test::prepared, test::random_thickness;
 
 Vec3d closest_on_triangle(Vec3d p, Vec3d a, Vec3d b, Vec3d c) {
     const Vec3d n = cross(b - a, c - a);
@@ -86,11 +73,6 @@ std::vector<Surface> convex_pieces(const char* name) {
         if (is_convex(piece)) convex.push_back(std::move(piece));
     }
     return convex;
-}
-
-/// 0.5 to 15 % of the diagonal.
-double random_thickness(const Surface& surface, uint32_t number) {
-    return surface.diagonal * 0.005 * std::pow(30.0, (number % 1000) / 1000.0);
 }
 
 /// Way from a vertex inward to the first face that lies across it in parallel, within 4 degrees; 0 where there is none

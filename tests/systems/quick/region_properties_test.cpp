@@ -156,22 +156,29 @@ void expect_splits_by_the_limit_alone(const Model& model, int cases) {
     std::printf("%u cut edges in %d runs, none dropped for its energy\n", splits, cases);
 }
 
+/// One step of a region that is stretched when its run starts, without a limit: its springs know their strains then.
+bool step_stretched(HitBench& bench, uint32_t placement, float strain) {
+    QuickSettings quick;
+    quick.steps = 6;  // a region of some hundred edges: as many as one look may find
+    quick.strain_limit = kBoundless;
+    HitDescription hit = bench.blow(placement, 5);
+    hit.quick = &quick;
+    State& state = bench.state();
+    if (!open_hit(state, bench.shell(), hit)) return false;
+    stretch(RegionView(state, kTask), strain);
+    const BrittleLoop loop = make_quick_loop();
+    LoopWorld world{state};
+    state.tasks.steps_granted[kTask] = 1;
+    loop.run_alone(world, {kTask, 0, 1, task_goes_on});
+    return true;
+}
+
 void expect_each_interior_edge_can_split(const Model& model, int cases) {
     HitBench bench(Subject::Vase, model);
     test::expect_always(cases, [&](uint16_t placement, uint8_t share) {
-        QuickSettings quick;
-        quick.steps = 6;  // a region of some hundred edges: as many as one look may find
-        quick.strain_limit = kBoundless;
-        HitDescription hit = bench.blow(placement, 5);
-        hit.quick = &quick;
         State& state = bench.state();
-        RC_ASSERT(open_hit(state, bench.shell(), hit));
+        RC_ASSERT(step_stretched(bench, placement, 1e-3f * static_cast<float>(1 + share)));
         const RegionView region(state, kTask);
-        stretch(region, 1e-3f * static_cast<float>(1 + share));
-        const BrittleLoop loop = make_quick_loop();
-        LoopWorld world{state};
-        state.tasks.steps_granted[kTask] = 1;
-        loop.run_alone(world, {kTask, 0, 1, task_goes_on});
         state.quick_runs.strain_limit[kTask] = kNothing;
         RC_ASSERT(interior_springs(region) > 50u);
         RC_ASSERT(strained_interior_edges(region) == interior_springs(region));
@@ -191,19 +198,9 @@ TEST(RegionProperties, WhatIsSqueezedSplitsAtTheCompressionLimit) {
     const FpMode mode;
     const Model model = cook_vase();
     HitBench bench(Subject::Vase, model);
-    QuickSettings quick;
-    quick.steps = 6;
-    quick.strain_limit = kBoundless;
-    HitDescription hit = bench.blow(3, 5);
-    hit.quick = &quick;
     State& state = bench.state();
-    ASSERT_TRUE(open_hit(state, bench.shell(), hit));
+    ASSERT_TRUE(step_stretched(bench, 3, -0.02f));
     const RegionView region(state, kTask);
-    stretch(region, -0.02f);
-    const BrittleLoop loop = make_quick_loop();
-    LoopWorld world{state};
-    state.tasks.steps_granted[kTask] = 1;
-    loop.run_alone(world, {kTask, 0, 1, task_goes_on});
     state.quick_runs.strain_limit[kTask] = 0.01f;
     const uint32_t all = interior_springs(region);
     uint32_t found[3];
