@@ -123,6 +123,7 @@ bool may_fork(const Batch& batch, uint32_t vertex, uint32_t root) {
         case FractureKind::Large:
             return false;
         case FractureKind::Coarse:
+            if (root >= shell.vertex_count()) return true;  // of a piece, which forgot where its cracks started
             return length(vertices.rest[shell.vertex(vertex)] - vertices.rest[shell.vertex(root)]) >=
                    kForkSpacing * shell.shells().mean_edge[shell.row];
         case FractureKind::Fine:

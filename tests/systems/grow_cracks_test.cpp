@@ -125,6 +125,31 @@ TEST(GrowCracks, TipsForkAboveTheShareOfTheStrengthThatTheMaterialNames) {
     EXPECT_EQ(tear_strip(0.5f).hash, forked.hash);
 }
 
+// A piece keeps its tips and forgets where their cracks started: the distance to it is not known.
+TEST(GrowCracks, ATipOfAPieceForksThoughItsStartIsForgotten) {
+    const auto tear = [](float branching) {
+        Shell shell = make_shell_of(sheet(40, 24, 0.2, 0.12, 0.35), 600, 600);
+        MaterialTraits& traits = shell.state->material_traits;
+        traits.append(1);
+        traits.fracture[0] = static_cast<uint8_t>(FractureKind::Coarse);
+        traits.branching[0] = branching;
+        const Row<Tasks> task = make_task(shell);
+        Vertices& vertices = shell.state->vertices;
+        ban_all(shell.view);
+        for (uint32_t v = 0; v < shell.view.vertex_count(); ++v) vertices.ready_time[shell.view.vertex(v)] = 1;
+        const uint32_t tip = shell.view.vertex(vertex_near(shell.view, {0.1f, 0, 0}));
+        vertices.crack[tip] = static_cast<uint8_t>(CrackState::Tip);
+        vertices.heading.set(tip, {0, 1, 0});
+        vertices.ready_time[tip] = 0;
+        vertices.crack_start[tip] = kNone;
+        (void)run(shell, task, [](Vec3, int) { return tension_along({1, 0, 0}, 1.1 * kStrength); });
+        EXPECT_EQ(broken_rule(shell), "");
+        return component_count(shell.view);
+    };
+    EXPECT_EQ(tear(0), 2u);
+    EXPECT_GT(tear(0.5f), 2u);
+}
+
 // What cuts and inserts keep up to date row by row is what a pass over the whole shell gives.
 TEST(GrowCracks, LinksOfSlopesFollowEveryCutAndStartStrengthsHideNoStart) {
     Shell shell = make_shell_of(sheet(30, 30, 0.2, 0.2, 0.35), 400, 400);
