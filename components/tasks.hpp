@@ -50,7 +50,16 @@ struct Tasks : Table<Tasks> {
     Column<uint8_t> is_late{*this, "is_late"};         // the contact was solved as between rigid bodies meanwhile
     Column<uint32_t> frames_held{*this, "frames_held"};
     Column<uint32_t> part_count{*this, "part_count"};  // components of its shell, once it ended
+    // Of a task that was opened before its touch, which is foreseen: it runs, or waits with its result.
+    Column<uint64_t> due_frame{*this, "due_frame"};  // of the touch; 0: the touch has come, or nobody foresaw it
+    Column<uint32_t> foreseen_cell{*this, "foreseen_cell"};        // of the body, where the fastest contact will be
+    Column<float> foreseen_speed{*this, "foreseen_speed", "m/s"};  // of that contact
 };
+
+/// Opened before its touch, which has not come yet: the world knows nothing of it.
+inline bool is_ahead(const Tasks& tasks, uint32_t task) {
+    return tasks.due_frame[task] > 0;
+}
 
 /// The task that an inner loop runs for.
 struct OfTask {

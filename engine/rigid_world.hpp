@@ -72,6 +72,17 @@ struct RigidSurface {
     float distance = 0;  // m, negative inside
 };
 
+inline constexpr uint32_t kMostForeseenContacts = 24;
+
+/// The first touch of a body that flies, before it comes.
+struct ForeseenTouch {
+    uint32_t steps = 0;  // calls of detect() until one finds these contacts: 1 is the next
+    Pose pose;           // of the body then; what it meets is where it is now
+    Motion motion;
+    uint32_t contact_count = 0;
+    std::array<RigidContact, kMostForeseenContacts> contacts;  // ordered as contacts() is
+};
+
 struct RigidCounts {
     uint32_t sweeps = 0;  // bodies placed at their time of impact, since creation
     uint32_t pairs = 0, contacts = 0;
@@ -122,6 +133,10 @@ class RigidWorld {
     virtual std::span<const RigidContact> contacts() const = 0;
 
     // The gap.
+    /// Where a body in flight first touches another one, should nothing push it before: the next `steps` steps are made
+    /// for it alone, among bodies that stand still or move slower than 1 m/s, where those are now. False: it does not,
+    /// or is not in flight (asleep, held, touched by something), or this world cannot tell. Changes nothing.
+    virtual bool foresee(RigidId, float, uint32_t, ForeseenTouch&) { return false; }
     /// Stands still with infinite mass for everybody until released; its velocities are kept. Hold and release both
     /// belong in the gap: a release is then bit for bit as if never held.
     virtual void hold(RigidId id) = 0;

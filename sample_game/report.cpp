@@ -70,7 +70,9 @@ Json of_work(const Report& r) {
               {"late", r.tasks.late},
               {"frames_held", r.tasks.frames_held},
               {"ahead_hits", r.tasks.ahead_hits},
-              {"ahead_misses", r.tasks.ahead_misses}}},
+              {"ahead_misses", r.tasks.ahead_misses},
+              {"first_breaks", r.tasks.first_breaks},
+              {"first_ready", r.tasks.first_ready}}},
             {"sweeps", r.sweeps},
             {"clamped", r.clamped},
             {"shapes", r.shapes}};

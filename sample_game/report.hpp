@@ -99,6 +99,7 @@ struct Report {
     struct {
         uint64_t opened = 0, broke = 0, dropped = 0, redone = 0, late = 0, frames_held = 0, ahead_hits = 0,
                  ahead_misses = 0;
+        uint64_t first_breaks = 0, first_ready = 0;  // of whole bodies by touch; in the very frame of the touch
     } tasks;
     uint64_t sweeps = 0, clamped = 0;
     std::map<std::string, uint64_t> shapes;

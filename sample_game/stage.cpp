@@ -31,6 +31,8 @@ Keys world_keys() {
                 "damage work a frame, 2 ns each")
         .number("hold_s", "s", static_cast<double>(defaults.hold_seconds), 0, 1,
                 "longest hold of a blow that is being worked off")
+        .number("frames_ahead", "frames", defaults.frames_ahead, 0, 60,
+                "that the touch of a body in flight is foreseen, and its hit worked off")
         .number("generations", "1", defaults.generations, 0, 100, "fragments break again down to this one")
         .number("debris_share", "1", static_cast<double>(defaults.debris_share), 0, 1,
                 "pieces lighter than this share of the whole are debris")

@@ -18,6 +18,8 @@ FramePlan<WorldData> make_frame_plan(bool is_hosted, const std::function<std::st
         .then<freeze_soft_bodies>()
         .then<detect_contacts>()
         .then<predict_impacts>()
+        .then<meet_foreseen>()
+        .then<foresee_impacts>()
         .then<open_tasks>()
         .then<widen_regions>()
         .then<fill_tasks>()

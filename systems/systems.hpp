@@ -23,13 +23,24 @@ void detect_contacts(Serial, Step step, RigidWorld& rigid);
 void predict_impacts(Serial, Step step, const RigidWorld& rigid, const Bodies& bodies, const Shells& shells,
                      const Tasks& tasks, const TaskContacts& contacts, const DamageSettings& settings,
                      Events<Impact>& impacts);
+/// The first touches of bodies in flight that may break something, up to settings.frames_ahead before they come.
+void foresee_impacts(Serial, Step step, RigidWorld& rigid, const Bodies& bodies, const Shells& shells,
+                     const Tasks& tasks, const TaskContacts& contacts, const DamageSettings& settings,
+                     Events<ForeseenHit>& foreseen);
+/// Tasks that were opened ahead of their touch: where it has come as foreseen (same striker, same cell, a tenth of the
+/// speed) they go on as tasks of this step, whose result is due in it; where it came otherwise, or did not come, they
+/// are dropped.
+void meet_foreseen(Serial, Step step, ShellTables shells, Tasks& tasks, TaskContacts& contacts, Blows& blows,
+                   const Bodies& bodies, const DamageSettings& settings, DamageCounts& counts, Events<Impact>& impacts,
+                   Events<ImpactEvent>& impact_events);
 /// One damage task a body that was hit: asks the game, takes rows for its working copy. A further hit on a body whose
-/// task is open waits in QueuedHits, and opens one when the body can. Blows of the game do as contacts do.
-void open_tasks(Serial, Step step, const Events<Impact>& impacts, ShellTables shells, const Materials& materials,
-                Bodies& bodies, Tasks& tasks, TaskContacts& contacts, QueuedHits& queued, Blows& blows,
-                RigidWorld& rigid, const DamageSettings& settings, DamageCounts& counts, Events<TaskOpened>& opened,
-                Events<StiffnessWanted>& stiffness_wanted, Events<ImpactEvent>& impact_events,
-                Events<RefusedEvent>& refused);
+/// task is open waits in QueuedHits, and opens one when the body can. Blows of the game do as contacts do, and touches
+/// that are foreseen, behind all others.
+void open_tasks(Serial, Step step, const Events<Impact>& impacts, const Events<ForeseenHit>& foreseen,
+                ShellTables shells, const Materials& materials, Bodies& bodies, Tasks& tasks, TaskContacts& contacts,
+                QueuedHits& queued, Blows& blows, RigidWorld& rigid, const DamageSettings& settings,
+                DamageCounts& counts, Events<TaskOpened>& opened, Events<StiffnessWanted>& stiffness_wanted,
+                Events<ImpactEvent>& impact_events, Events<RefusedEvent>& refused);
 /// Ductile and elastic bodies that something hits hard enough, or that lose what they lay against, begin to move by
 /// their springs.
 void wake_soft_bodies(Serial, Step step, ShellTables shells, const Tasks& tasks, const TaskContacts& contacts,

@@ -33,6 +33,7 @@ WorldData::WorldData(const Settings& settings)
       query_index(std::make_unique<QueryIndex>(settings.limits.bodies)),
       arena(kArenaBytes),
       impacts(1u << 16),
+      foreseen(kMostFlights),
       tasks_opened(settings.limits.open_hits),
       stiffness_wanted(state.stiffness_packs.limit() / kRowsPerChunk<StiffnessPacks> + settings.limits.open_hits),
       region_parts(state.awake_packs.limit() / kRowsPerChunk<AwakePacks>),
@@ -52,6 +53,7 @@ WorldData::WorldData(const Settings& settings)
     step_info.gravity = settings.gravity;
     damage_settings.units_a_frame = settings.units_a_frame;
     damage_settings.hold_seconds = settings.hold_seconds;
+    damage_settings.frames_ahead = settings.frames_ahead;
     damage_settings.generations = settings.generations;
     damage_settings.break_share = settings.break_share;
     damage_settings.break_elements = settings.break_elements;

@@ -16,9 +16,17 @@ namespace cullet {
 /// A blow predicted from one contact of this step, before the solve.
 struct Impact {
     Row<Bodies> body, striker;
-    Vec3 point;            // world, m
-    Vec3 normal;           // world, unit, the way the body is pushed
-    float approach_speed;  // m/s
+    Vec3 point;               // world, m
+    Vec3 normal;              // world, unit, the way the body is pushed
+    float approach_speed;     // m/s
+    uint32_t cell = 0;        // of the body's shell
+    bool is_settled = false;  // an open task knows it already
+};
+inline constexpr uint32_t kMostFlights = 32;  // that are foreseen in a frame
+/// The first touch of a body in flight, some frames before it comes.
+struct ForeseenHit {
+    Row<Bodies> body;
+    ForeseenTouch touch;
 };
 /// A damage task that took its rows in this step and must be filled.
 struct TaskOpened {
@@ -52,6 +60,7 @@ class QueryIndex;
 struct DamageSettings {
     uint64_t units_a_frame = 0;
     float hold_seconds = 0;
+    uint32_t frames_ahead = 0;
     uint32_t generations = 0;
     float break_share = 0;
     uint32_t break_elements = 0;
@@ -64,6 +73,9 @@ struct DamageSettings {
 /// Counts since the world was made; not state.
 struct DamageCounts {
     uint64_t opened = 0, broke = 0, whole = 0, dropped = 0, redone = 0, late = 0, frames_held = 0, clamped = 0;
+    // Touches that were foreseen: they came as they were, or they did not and the task was dropped.
+    uint64_t ahead_hits = 0, ahead_misses = 0;
+    uint64_t first_breaks = 0, first_ready = 0;  // bodies that broke for the first time, by touch; in its very frame
     uint64_t cuts = 0, starts = 0, cuts_refused = 0;  // refused: quick runs whose shell had no room for more
     uint64_t units_used = 0, units_left = 0;          // of the last frame
     uint64_t slow_soft_frames = 0;            // soft bodies that had units for fewer substeps than a frame asks for
@@ -86,6 +98,7 @@ struct WorldData {
     std::unique_ptr<QueryIndex> query_index;
     Arena arena;
     Events<Impact> impacts;
+    Events<ForeseenHit> foreseen;
     Events<TaskOpened> tasks_opened;
     Events<StiffnessWanted> stiffness_wanted;
     Events<RegionPart> region_parts;
@@ -140,6 +153,8 @@ T& WorldData::resource() {
         return arena;
     else if constexpr (std::is_same_v<T, Events<Impact>>)
         return impacts;
+    else if constexpr (std::is_same_v<T, Events<ForeseenHit>>)
+        return foreseen;
     else if constexpr (std::is_same_v<T, Events<TaskOpened>>)
         return tasks_opened;
     else if constexpr (std::is_same_v<T, Events<StiffnessWanted>>)

@@ -49,6 +49,7 @@ BulletWorld::BulletWorld(uint32_t body_limit)
     solver_.setRandSeed(kSolverSeed);
     contacts_.reserve(32 * static_cast<size_t>(body_limit) + 1024);
     manifolds_.reserve(8 * static_cast<size_t>(body_limit) + 1024);
+    in_the_way_.reserve(body_limit);
     ignored_.reserve(16 * static_cast<size_t>(body_limit) + 1024);
     skipped_.reserve(16 * static_cast<size_t>(body_limit) + 1024);
     shapes_.reserve(8 * static_cast<size_t>(body_limit) + 4096);

@@ -47,6 +47,7 @@ class BulletWorld final : public RigidWorld {
     void make_shape(uint32_t shape, std::span<const Vec3> points) const override;
     void detect(float dt) override;
     std::span<const RigidContact> contacts() const override { return contacts_; }
+    bool foresee(RigidId id, float dt, uint32_t steps, ForeseenTouch& out) override;
     void hold(RigidId id) override;
     void release(RigidId id) override;
     bool is_held(RigidId id) const override;
@@ -79,6 +80,7 @@ class BulletWorld final : public RigidWorld {
 
  private:
     friend class Sweeper;
+    friend class Flight;
     struct SortedManifold {
         RigidId a, b;
         uint32_t cell_a, cell_b;
@@ -156,6 +158,7 @@ class BulletWorld final : public RigidWorld {
     std::vector<Ball> lost_;  // pieces that the body at hand has lost, its hull frame
     std::vector<RigidContact> contacts_;
     std::vector<SortedManifold> manifolds_;
+    std::vector<RigidId> in_the_way_;                   // of the flight that is foreseen
     std::vector<IgnoredPair> ignored_;                  // sorted by (a, b)
     std::vector<std::pair<RigidId, RigidId>> skipped_;  // this step's, a < b
     Sweeper sweeper_;

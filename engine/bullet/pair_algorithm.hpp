@@ -79,6 +79,11 @@ class PairAlgorithm : public btCollisionAlgorithm {
     void getAllContactManifolds(btManifoldArray& manifolds) override;
 
     void process();
+    template <class Visit>
+    void for_each_manifold(Visit visit) const {
+        for (const PairRecord* r = records_; r; r = r->next)
+            if (r->manifold) visit(*r->manifold);
+    }
     /// Drops all contacts and what was remembered.
     void forget();
     /// True when no two pieces overlap by more than `allowed` (m), margins included.

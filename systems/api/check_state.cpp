@@ -230,9 +230,11 @@ void check_tasks(Checker& check) {
                  "tables of hits do not have the rows of their limits");
     for (uint32_t t = 0; t < tasks.size() && check.is_sound(); ++t) {
         if (!is_task(s, t)) continue;
-        check.expect(static_cast<TaskState>(tasks.state[t]) == TaskState::Running,
+        const auto task_state = static_cast<TaskState>(tasks.state[t]);
+        const bool waits = is_ahead(tasks, t) && (task_state == TaskState::Whole || task_state == TaskState::Dropped);
+        check.expect(task_state == TaskState::Running || waits,
                      Checker::place(tasks, "state", t) + " is " + std::to_string(tasks.state[t]) +
-                         "; between steps a task is free or running");
+                         "; between steps a task is free or running, or waits for its touch");
         const Row<Bodies> body = tasks.body[t];
         check.expect(
             is_body(s, body) && s.bodies.task[body] == t,

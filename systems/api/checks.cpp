@@ -95,6 +95,8 @@ Result<void> check_settings(const Settings& s) {
         return Error{"Settings::debris_share is " + std::to_string(s.debris_share) + "; use 0 to 1."};
     if (!(s.hold_seconds >= 0 && s.hold_seconds <= 1))
         return Error{"Settings::hold_seconds is " + std::to_string(s.hold_seconds) + "; use 0 to 1."};
+    if (s.frames_ahead > 60)
+        return Error{"Settings::frames_ahead is " + std::to_string(s.frames_ahead) + "; use 0 to 60."};
     if (s.threads == 0 || s.threads > 256)
         return Error{"Settings::threads is " + std::to_string(s.threads) + "; use 1 to 256."};
     for (const NamedLimit& limit : named(s.limits))

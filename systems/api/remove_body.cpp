@@ -1,6 +1,7 @@
 // A body goes, with the hits on it.
 #include "engine/host_scope.hpp"
 #include "systems/api/checks.hpp"
+#include "systems/damage/cancel_task.hpp"
 #include "systems/fragments/body_rows.hpp"
 #include "systems/query/query_index.hpp"
 #include "systems/rigid/body_id.hpp"
@@ -34,9 +35,7 @@ Result<void> World::remove(BodyId id) {
                 if (is_repeated || !striker.exists() || state.bodies.hold_count[striker] == 0) continue;
                 if (--state.bodies.hold_count[striker] == 0) d.rigid->release(striker);
             }
-        release_shell(state, tasks.shell[t]);
-        release_shell(state, tasks.source[t]);
-        tasks.state[t] = static_cast<uint8_t>(TaskState::Free);
+        cancel_task(state, Row<Tasks>(t));
     }
     QueuedHits& queued = state.queued_hits;
     for (uint32_t q = 0; q < queued.size(); ++q) {

@@ -40,7 +40,7 @@ void settle_tasks(Serial, Step step, Tasks& tasks, TaskContacts& contacts, Blows
     ended.clear();
     for (uint32_t t = 0; t < tasks.size(); ++t) {
         const auto task_state = static_cast<TaskState>(tasks.state[t]);
-        if (task_state == TaskState::Free) continue;
+        if (task_state == TaskState::Free || is_ahead(tasks, t)) continue;
         const bool is_over = task_state != TaskState::Running;
         if (!is_over && !tasks.is_held[t] && !tasks.is_late[t]) {
             const bool is_worth_it =

@@ -18,6 +18,18 @@ void close_task(State& state, Row<Tasks> task, Step step) {
     tasks.state[task] = static_cast<uint8_t>(TaskState::Free);
 }
 
+// A body that was whole and broke by touch alone: whether in the very frame of the touch.
+void count_first_break(const State& state, Row<Tasks> task, Step step, DamageCounts& counts) {
+    const Tasks& tasks = state.tasks;
+    const Blows& blows = state.blows;
+    if (static_cast<TaskState>(tasks.state[task]) != TaskState::Broke) return;
+    if (state.shells.generation[tasks.source[task]] > 0) return;
+    for (uint32_t b = 0; b < blows.size(); ++b)
+        if (blows.task[b] == task.index) return;
+    ++counts.first_breaks;
+    counts.first_ready += tasks.opened_frame[task] == step.frame;
+}
+
 void count_result(const Tasks& tasks, Row<Tasks> task, DamageCounts& counts) {
     const auto result = static_cast<TaskState>(tasks.state[task]);
     counts.broke += result == TaskState::Broke;
@@ -40,6 +52,7 @@ void make_births(Serial, Step step, const Events<TaskEnded>& ended, const Events
     size_t next = 0;
     while (next < all.size() && !all[next].task.exists()) make_break(births, all[next++]);
     for (const TaskEnded& e : ended) {
+        count_first_break(shells.state, e.task, step, counts);
         count_result(tasks, e.task, counts);
         if (next < all.size() && all[next].task == e.task) make_break(births, all[next++]);
         pay_answers(bodies, tasks, contacts, rigid, e.task);

@@ -67,7 +67,8 @@ void hand_on(State& state, Row<Tasks> task, uint32_t contact, double surplus) {
     contacts.answer_energy[contact] = 0;
     if (contacts.sharers[contact] == 0) return;
     for (uint32_t t = 0; t < state.tasks.size(); ++t) {
-        if (task == t || static_cast<TaskState>(state.tasks.state[t]) == TaskState::Free || state.tasks.is_late[t])
+        if (task == t || static_cast<TaskState>(state.tasks.state[t]) == TaskState::Free || state.tasks.is_late[t] ||
+            is_ahead(state.tasks, t))
             continue;
         const uint32_t end = state.tasks.first_contact[t] + state.tasks.contact_count[t];
         for (uint32_t c = state.tasks.first_contact[t]; c < end; ++c)
@@ -82,7 +83,7 @@ void hand_on(State& state, Row<Tasks> task, uint32_t contact, double surplus) {
 // or the rigid solver has dealt with it already. All of that task's contacts with the body count as answered.
 uint32_t answering_contact(State& state, Row<Bodies> striker, Row<Bodies> body, bool is_heir) {
     const uint32_t t = state.bodies.task[striker];
-    if (t == kNone || state.tasks.is_late[t]) return kNone;
+    if (t == kNone || state.tasks.is_late[t] || is_ahead(state.tasks, t)) return kNone;
     uint32_t found = kNone;
     const uint32_t first = state.tasks.first_contact[t];
     for (uint32_t c = first; c < first + state.tasks.contact_count[t]; ++c) {

@@ -10,7 +10,8 @@ namespace {
 // A brittle body that works off a hit of this one takes it for rigid.
 bool is_striking(const Tasks& tasks, const TaskContacts& contacts, Row<Bodies> body) {
     for (uint32_t t = 0; t < tasks.size(); ++t) {
-        if (static_cast<TaskState>(tasks.state[t]) != TaskState::Running || tasks.is_late[t]) continue;
+        if (static_cast<TaskState>(tasks.state[t]) != TaskState::Running || tasks.is_late[t] || is_ahead(tasks, t))
+            continue;
         for (uint32_t c = tasks.first_contact[t]; c < tasks.first_contact[t] + tasks.contact_count[t]; ++c)
             if (contacts.striker[c] == body) return true;
     }

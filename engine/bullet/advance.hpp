@@ -1,0 +1,72 @@
+// Conservative advancement (Mirtich 1996): how far two pieces may move along their motions before they touch, over axes
+// whose gap is measured from support points. Never late.
+#pragma once
+#include <BulletCollision/BroadphaseCollision/btBroadphaseInterface.h>
+#include <LinearMath/btTransformUtil.h>
+
+#include <algorithm>
+#include <vector>
+
+#include "engine/bullet/body.hpp"
+
+namespace cullet::bullet {
+
+/// A body's motion through one step, from where it stands now.
+struct Mover {
+    Body* body;
+    btTransform start;
+    Vec3d velocity, spin;
+
+    btTransform at(double fraction, float dt) const {
+        const auto f = static_cast<float>(std::min(fraction, static_cast<double>(body->moved_fraction)));
+        if (!(f > 0) || !is_moving()) return start;
+        btTransform out;
+        btTransformUtil::integrateTransform(start, to_bullet(velocity.to_float()), to_bullet(spin.to_float()), f * dt,
+                                            out);
+        return out;
+    }
+    bool is_moving() const { return dot(velocity, velocity) + dot(spin, spin) > 0; }
+};
+
+/// At rest, unless the body is free or driven.
+Mover mover_of(Body& body);
+
+/// How far turning takes a point `reach` away from the centre of mass, at most, m.
+float turned(const Mover& mover, float reach, float dt);
+void include_way(Box& out, const Box& box, Vec3d velocity, float dt);
+/// What a box sweeps over in the world: moved by the velocity, grown by what turning can do to points `reach` away from
+/// the centre of mass.
+Box swept_box(const Box& box, const Mover& mover, float reach, float dt);
+/// Both were stopped in this step, at different times: one stands still while the other moves on. Where only one is
+/// fast the other's way hardly counts.
+bool are_split(const Body& a, const Body& b);
+/// A body is swept when a point of it may travel farther than contacts reach plus a tenth of its least width: less than
+/// that, the overlap is small and pushed out on the right side.
+bool is_far(double way, float thickness);
+/// Of the point that goes farthest, m.
+double travel(const Mover& mover, float dt);
+/// Of a piece's farthest point from the centre of mass, at most, m.
+float reach_of(const Body& body, const Hull& hull);
+
+/// The fraction of the step at which the two pieces come within half a millimetre; `limit` when they do not before it.
+/// World points are those of the start, or made here when a `has_moved` since. `axis` is a first guess, such as the
+/// last one of the same two bodies.
+double touch_fraction(const Mover& a, const Hull& hull_a, const Mover& b, const Hull& hull_b, float dt, double limit,
+                      Vec3d& axis, bool has_moved = false);
+
+/// Rows of bodies whose boxes in the broadphase meet a box.
+struct NearIds : btBroadphaseAabbCallback {
+    explicit NearIds(std::vector<RigidId>& ids) : out(ids) {}
+    bool process(const btBroadphaseProxy* proxy) override {
+        const auto* object = static_cast<const btCollisionObject*>(proxy->m_clientObject);
+        out.push_back(static_cast<RigidId>(object->getUserIndex()));
+        return true;
+    }
+    std::vector<RigidId>& out;
+};
+bool filters_meet(const Body& a, const Body& b);
+
+/// How much a box is grown beyond what it sweeps over, m.
+inline constexpr float kBoxGrowth = 0.01f;
+
+}  // namespace cullet::bullet

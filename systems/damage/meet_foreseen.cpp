@@ -1,0 +1,102 @@
+#include <algorithm>
+#include <cmath>
+
+#include "systems/damage/cancel_task.hpp"
+#include "systems/damage/opening.hpp"
+#include "systems/systems.hpp"
+
+namespace cullet {
+namespace {
+
+constexpr float kSpeedShare = 0.1f;  // by which a touch may be slower or faster than foreseen
+constexpr uint64_t kLateFrames = 1;  // by which it may come later
+
+struct Meeting {
+    Step step;
+    State& state;
+    std::span<Impact> impacts;  // by body
+
+    std::span<Impact> on(Row<Bodies> body) const {
+        const auto is_before = [](const Impact& i, Row<Bodies> b) { return i.body.index < b.index; };
+        const auto first = std::lower_bound(impacts.begin(), impacts.end(), body, is_before);
+        auto end = first;
+        while (end != impacts.end() && end->body == body) ++end;
+        return {first, end};
+    }
+    /// Somebody who strikes two bodies at once gives each a share of itself: nobody foresaw that.
+    bool is_shared(const Impact& impact) const {
+        return std::any_of(impacts.begin(), impacts.end(), [&](const Impact& i) {
+            return i.striker == impact.striker && i.body != impact.body &&
+                   static_cast<BodyKind>(state.bodies.kind[i.striker]) == BodyKind::Dynamic;
+        });
+    }
+    /// The impact that was foreseen, or null: the fastest on the body is another's, elsewhere, or not as fast.
+    const Impact* find(uint32_t task) const {
+        const Tasks& tasks = state.tasks;
+        const auto all = on(tasks.body[task]);
+        const Row<Bodies> striker = state.task_contacts.striker[tasks.first_contact[task]];
+        const float speed = tasks.foreseen_speed[task];
+        if (all.empty() || all.front().striker != striker || is_shared(all.front())) return nullptr;
+        for (const Impact& i : all)
+            if (i.striker == striker && i.cell == tasks.foreseen_cell[task])
+                return std::fabs(i.approach_speed - speed) <= kSpeedShare * speed ? &i : nullptr;
+        return nullptr;
+    }
+    bool waits_for_a_blow(Row<Bodies> body) const {
+        const Blows& blows = state.blows;
+        for (uint32_t b = 0; b < blows.size(); ++b)
+            if (blows.body[b] == body && blows.task[b] == kNone) return true;
+        return false;
+    }
+    /// Whatever comes, it is not what was foreseen.
+    bool is_off(uint32_t task) const {
+        const Row<Bodies> body = state.tasks.body[task];
+        return static_cast<TaskState>(state.tasks.state[task]) == TaskState::Dropped || state.bodies.hold_count[body] ||
+               waits_for_a_blow(body);
+    }
+    bool may_still_come(uint32_t task) const {
+        return on(state.tasks.body[task]).empty() && step.frame <= state.tasks.due_frame[task] + kLateFrames;
+    }
+};
+
+}  // namespace
+
+void meet_foreseen(Serial, Step step, ShellTables shells, Tasks& tasks, TaskContacts& contacts, Blows&,
+                   const Bodies& bodies, const DamageSettings& settings, DamageCounts& counts, Events<Impact>& impacts,
+                   Events<ImpactEvent>& impact_events) {
+    State& state = shells.state;
+    const Meeting meeting{step, state, impacts.all()};
+    for (uint32_t t = 0; t < tasks.size(); ++t) {
+        if (static_cast<TaskState>(tasks.state[t]) == TaskState::Free || !is_ahead(tasks, t)) continue;
+        const bool is_off = meeting.is_off(t);
+        if (!is_off && meeting.may_still_come(t)) continue;
+        const Impact* const met = is_off ? nullptr : meeting.find(t);
+        if (!met) {
+            ++counts.ahead_misses;
+            cancel_task(state, Row<Tasks>(t));
+            continue;
+        }
+        const Impact impact = aimed(state, *met);
+        const uint32_t first = tasks.first_contact[t], end = first + tasks.contact_count[t];
+        const ImpactEvent event = event_of(bodies, impact, contacts.striker_inverse_mass[first]);
+        const bool is_allowed = !settings.allows || settings.allows(settings.allows_user, event);
+        for (Impact& i : meeting.on(tasks.body[t]))
+            for (uint32_t c = first; c < end; ++c)
+                i.is_settled = i.is_settled || !is_allowed || contacts.striker[c] == i.striker;
+        if (!is_allowed) {
+            cancel_task(state, Row<Tasks>(t));
+            continue;
+        }
+        ++counts.ahead_hits;
+        ++counts.opened;
+        impact_events.push(event);
+        tasks.due_frame[t] = 0;
+        tasks.opened_frame[t] = step.frame;
+    }
+    const auto all = impacts.all();
+    impacts.clear();
+    for (const Impact& i : all)
+        if (!i.is_settled) impacts.push(i);
+}
+
+}  // namespace cullet

@@ -1,0 +1,50 @@
+// How a damage task is opened on a body: what contacts, queued hits, blows and foreseen touches share.
+#pragma once
+#include "systems/world_data.hpp"
+
+namespace cullet {
+
+/// How a body yields to pushes along the unit normal at a world point.
+struct Yielding {
+    double own = 0;  // 1/m, 1/kg
+    Vec3d turn;      // r x n about its centre, its axes, m
+    Vec3d spin;      // I^-1 (r x n), its axes, 1/(kg m)
+    float effective() const { return static_cast<float>(own + dot(turn, spin)); }
+};
+/// What pushes a ball without friction points at its centre. Static and kinematic bodies, and bodies held by another
+/// task, do not yield.
+Yielding yielding_of(const Bodies& bodies, Row<Bodies> striker, Vec3 point, Vec3 normal);
+
+float patch_radius(const Shells& shells, Row<Shells> shell, float striker_radius);
+
+/// A blow as the task will have it: a ball's goes along the struck surface's normal, unless it does not close along
+/// that.
+Impact aimed(State& state, Impact impact);
+
+ImpactEvent event_of(const Bodies& bodies, const Impact& impact, double inverse_mass);
+
+/// Contacts of one body, fastest first: those within a patch radius of one already taken belong to its patch (6.3).
+/// `first_aimed` is the first of them as aimed() has it.
+void lay_contacts(std::span<const Impact> impacts, const Impact& first_aimed, State& state, Row<Tasks> task);
+
+struct Opening {
+    State& state;
+    Events<TaskOpened>& opened;
+    Events<StiffnessWanted>& stiffness_wanted;
+    Events<RefusedEvent>& refused;
+    DamageCounts& counts;
+    uint64_t frame;
+
+    /// A task with a working copy of the body's shell and no contacts yet; it does not exist where there is no room. A
+    /// cut-out waits for the contacts. Whoever opens ahead of a touch tells nobody that there was none.
+    Row<Tasks> open(Row<Bodies> body, float approach_speed, bool is_ahead = false);
+
+    /// Rows for the tasks that wait: of the neighbourhood of their contacts, or of the whole body where blows reach it
+    /// all, or the hit is wide. A task that finds none is dropped.
+    void give_rows();
+
+ private:
+    void refuse(Row<Bodies> body, const char* setting, bool is_ahead);
+};
+
+}  // namespace cullet
