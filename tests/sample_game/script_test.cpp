@@ -541,8 +541,8 @@ TEST_P(SceneHash, IsWhatTheSceneAlwaysGave) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Scenes, SceneHash,
-                         testing::Values(KnownHash{"vase", "e11cb221018139d8"}, KnownHash{"wall", "196b5903df3aaa7f"},
-                                         KnownHash{"pane", "b7c1c171880c1ca2"}, KnownHash{"drop", "ddbe0c8c8f01001e"}),
+                         testing::Values(KnownHash{"vase", "89ce7769fd352134"}, KnownHash{"wall", "f8c4f10ee26d266d"},
+                                         KnownHash{"pane", "dac081d86d2dc6bb"}, KnownHash{"drop", "300909b841a32344"}),
                          [](const auto& known) { return std::string(known.param.scene); });
 
 TEST(Script, AFileIsPlayedByItsPathAndOneThatIsNotThereIsNamed) {
