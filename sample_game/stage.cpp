@@ -54,6 +54,7 @@ Settings Stage::settings() const {
     s.threads = static_cast<uint32_t>(keys["threads"]);
     s.units_a_frame = static_cast<uint64_t>(keys["units_a_frame"]);
     s.hold_seconds = static_cast<float>(keys["hold_s"]);
+    s.frames_ahead = static_cast<uint32_t>(keys["frames_ahead"]);
     s.generations = static_cast<uint32_t>(keys["generations"]);
     s.debris_share = static_cast<float>(keys["debris_share"]);
     s.break_share = static_cast<float>(keys["break_share"]);

@@ -177,9 +177,9 @@ void set_limits(lua_State* lua, const Arguments& given, LimitSettings& limits) {
     lua_pop(lua, 1);
 }
 
-constexpr std::initializer_list<const char*> kSettings = {"units_a_frame",   "hold_s",         "generations",
-                                                          "break_share",     "break_elements", "debris_share",
-                                                          "debris_elements", "gravity_mps2",   "limits"};
+constexpr std::initializer_list<const char*> kSettings = {
+    "units_a_frame",  "hold_s",       "frames_ahead",    "generations",  "break_share",
+    "break_elements", "debris_share", "debris_elements", "gravity_mps2", "limits"};
 
 Stage& stage_without_world(lua_State* lua, const char* call) {
     Stage& stage = script_of(lua).stage();
