@@ -541,8 +541,8 @@ TEST_P(SceneHash, IsWhatTheSceneAlwaysGave) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Scenes, SceneHash,
-                         testing::Values(KnownHash{"vase", "e11cb221018139d8"}, KnownHash{"wall", "196b5903df3aaa7f"},
-                                         KnownHash{"pane", "b7c1c171880c1ca2"}, KnownHash{"drop", "ddbe0c8c8f01001e"}),
+                         testing::Values(KnownHash{"vase", "0366b03047732ad8"}, KnownHash{"wall", "270bb90c694f437c"},
+                                         KnownHash{"pane", "d2996762de93097a"}, KnownHash{"drop", "92498c37f8865b2e"}),
                          [](const auto& known) { return std::string(known.param.scene); });
 
 TEST(Script, AFileIsPlayedByItsPathAndOneThatIsNotThereIsNamed) {
