@@ -116,10 +116,4 @@ double touch_fraction(const Mover& a, const Hull& hull_a, const Mover& b, const 
     return t;
 }
 
-bool filters_meet(const Body& a, const Body& b) {
-    const btBroadphaseProxy *p = a.bullet->getBroadphaseProxy(), *q = b.bullet->getBroadphaseProxy();
-    return (p->m_collisionFilterGroup & q->m_collisionFilterMask) != 0 &&
-           (q->m_collisionFilterGroup & p->m_collisionFilterMask) != 0;
-}
-
 }  // namespace cullet::bullet

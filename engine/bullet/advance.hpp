@@ -1,11 +1,9 @@
 // Conservative advancement (Mirtich 1996): how far two pieces may move along their motions before they touch, over axes
 // whose gap is measured from support points. Never late.
 #pragma once
-#include <BulletCollision/BroadphaseCollision/btBroadphaseInterface.h>
 #include <LinearMath/btTransformUtil.h>
 
 #include <algorithm>
-#include <vector>
 
 #include "engine/bullet/body.hpp"
 
@@ -53,18 +51,6 @@ float reach_of(const Body& body, const Hull& hull);
 /// last one of the same two bodies.
 double touch_fraction(const Mover& a, const Hull& hull_a, const Mover& b, const Hull& hull_b, float dt, double limit,
                       Vec3d& axis, bool has_moved = false);
-
-/// Rows of bodies whose boxes in the broadphase meet a box.
-struct NearIds : btBroadphaseAabbCallback {
-    explicit NearIds(std::vector<RigidId>& ids) : out(ids) {}
-    bool process(const btBroadphaseProxy* proxy) override {
-        const auto* object = static_cast<const btCollisionObject*>(proxy->m_clientObject);
-        out.push_back(static_cast<RigidId>(object->getUserIndex()));
-        return true;
-    }
-    std::vector<RigidId>& out;
-};
-bool filters_meet(const Body& a, const Body& b);
 
 /// How much a box is grown beyond what it sweeps over, m.
 inline constexpr float kBoxGrowth = 0.01f;

@@ -16,8 +16,9 @@ namespace cullet::bullet {
 
 struct Body;
 
-/// What Bullet sees of a body: the bounds of its points, grown by the range of contacts. Its type number is Bullet's
-/// INVALID, for which only our pair algorithm is registered and which Bullet's own ray and sweep queries pass over.
+inline constexpr uint32_t kNoLeaf = 0xffffffffu;
+
+/// What Bullet sees of a body: the bounds of its points, grown by the range of contacts.
 class BodyShape : public btCollisionShape {
  public:
     BodyShape() { m_shapeType = INVALID_SHAPE_PROXYTYPE; }
@@ -45,6 +46,8 @@ struct Body {
     RigidKind kind = RigidKind::Dynamic;
     std::optional<btRigidBody> bullet;
     BodyShape shape;
+    uint32_t layer = 0, mask = 0;
+    uint32_t leaf = kNoLeaf;  // in the tree of boxes
     BodyFrame frame;
     // Where the local points of the hulls stand: `frame` as it was when they were last made all at once. A small change
     // of shape moves the centre of mass and turns the axes; the hulls that stay then keep their points.
@@ -93,6 +96,7 @@ struct Body {
     /// The hull frame's transform where the Bullet frame's is `at`.
     btTransform hulls_at(const btTransform& at) const { return has_offset ? at * hull_offset : at; }
     bool is_free() const { return kind == RigidKind::Dynamic && !is_held && bullet->isActive(); }
+    bool meets_layer_of(const Body& other) const { return (layer & other.mask) != 0 && (other.layer & mask) != 0; }
 };
 
 inline Mat3 rotation_of(const btTransform& transform) {

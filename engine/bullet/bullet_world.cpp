@@ -16,20 +16,9 @@ constexpr float kSettlingSpeed = 0.1f;   // m/s of the fastest point
 constexpr float kSettlingShare = 0.7f;   // of the speed that is left, a step
 constexpr float kPressedIn = 0.001f;     // m a step that an unsolved contact may deepen by
 constexpr float kSeamReach = 0.001f;     // m beyond the margins, more than mark_inner_faces() looks past a face
-constexpr unsigned long kSolverSeed = 1;
-
-btDefaultCollisionConstructionInfo construction_info(uint32_t body_limit) {
-    btDefaultCollisionConstructionInfo info;
-    const int rows = static_cast<int>(std::clamp<uint32_t>(8 * body_limit, 1024, 32768));
-    info.m_defaultMaxPersistentManifoldPoolSize = rows;
-    info.m_defaultMaxCollisionAlgorithmPoolSize = rows;
-    info.m_customCollisionAlgorithmMaxElementSize = sizeof(PairAlgorithm);
-    return info;
-}
-
-void near_callback(btBroadphasePair& pair, btCollisionDispatcher& dispatcher, const btDispatcherInfo&) {
-    static_cast<Dispatcher&>(dispatcher).world.meet(pair);
-}
+// Leaves of the tree stand this much about what they hold and the range of contacts: half of what pieces are watched
+// from. Ten times it and a heap has three times the pairs, a tenth and what falls is looked up in every step.
+constexpr float kLeafRoom = 0.01f;  // m
 
 }  // namespace
 
@@ -38,15 +27,12 @@ BulletWorld::BulletWorld(uint32_t body_limit)
       bodies_(new Body[body_limit]),
       hulls_(4 * static_cast<size_t>(body_limit) + 256),
       work_(body_limit),
-      configuration_(construction_info(body_limit)),
-      dispatcher_(&configuration_, *this),
-      world_(&dispatcher_, &broadphase_, &solver_, &configuration_),
+      tree_(body_limit),
+      pairs_(body_limit),
+      solver_(body_limit),
       sweeper_(body_limit) {
     work_.bodies = bodies_.get();
-    world_.setGravity({0, 0, 0});       // Bullet begins with 10 m/s2
-    dispatcher_.setDispatcherFlags(0);  // contact thresholds are ours, not relative to size
-    dispatcher_.setNearCallback(near_callback);
-    solver_.setRandSeed(kSolverSeed);
+    strayed_.reserve(4 * static_cast<size_t>(body_limit) + 1024);
     contacts_.reserve(32 * static_cast<size_t>(body_limit) + 1024);
     manifolds_.reserve(8 * static_cast<size_t>(body_limit) + 1024);
     in_the_way_.reserve(body_limit);
@@ -59,15 +45,17 @@ BulletWorld::BulletWorld(uint32_t body_limit)
 
 BulletWorld::~BulletWorld() {
     InsideRigidEngine guard;
-    for (RigidId id = 0; id < body_end_; ++id)
-        if (bodies_[id].is_used) world_.removeRigidBody(&*bodies_[id].bullet);
 }
 
 void BulletWorld::set_gravity(Vec3 gravity) {
     InsideRigidEngine guard(counts_.allocations);
-    for (RigidId id = 0; id < body_end_; ++id)
-        if (bodies_[id].is_used && bodies_[id].kind == RigidKind::Dynamic) wake_body(bodies_[id]);
-    world_.setGravity(to_bullet(gravity));
+    gravity_ = to_bullet(gravity);
+    for (RigidId id = 0; id < body_end_; ++id) {
+        Body& body = bodies_[id];
+        if (!body.is_used || body.kind != RigidKind::Dynamic) continue;
+        wake_body(body);
+        body.bullet->setGravity(gravity_);
+    }
 }
 
 void BulletWorld::drop_pieces(Body& body) {
@@ -406,8 +394,16 @@ void BulletWorld::enter(Body& body, const Pose& at, uint32_t layer, uint32_t mas
     body.has_left = false;
     body.idle_wakes = 0;
     body_end_ = std::max(body_end_, body.id + 1);
+    body.layer = layer, body.mask = mask;
     refresh(body);
-    world_.addRigidBody(&*body.bullet, static_cast<int>(layer), static_cast<int>(mask));
+    enter_tree(body);
+}
+
+void BulletWorld::enter_tree(Body& body) {
+    if (body.kind == RigidKind::Dynamic) body.bullet->setGravity(gravity_);
+    if (body.kind == RigidKind::Static) body.bullet->setActivationState(ISLAND_SLEEPING);
+    body.leaf = tree_.add(grown(body.shape.box, kContactRange + kLeafRoom), body.id);
+    strayed_.push_back(body.id);
 }
 
 void BulletWorld::add_static_triangles(RigidId id, std::span<const Vec3> positions,
@@ -457,7 +453,9 @@ void BulletWorld::remove(RigidId id) {
     wake_touching(id);
     for (SortedManifold& m : manifolds_)
         if (m.a == id || m.b == id) m.manifold = nullptr;
-    world_.removeRigidBody(&*body.bullet);
+    pairs_.drop(id);
+    tree_.remove(body.leaf);
+    body.leaf = kNoLeaf;
     body.bullet.reset();
     body.mesh.reset();
     drop_pieces(body);
@@ -546,7 +544,7 @@ void BulletWorld::reseat(Body& body, const Pose& at) {
     btRigidBody& bullet = *body.bullet;
     if (body.kind == RigidKind::Dynamic && !body.is_held) {
         bullet.setMassProps(body.mass, body.moments);
-        bullet.setGravity(world_.getGravity());
+        bullet.setGravity(gravity_);
     }
     bullet.setCenterOfMassTransform(to_bullet(at, body.frame));
     body.anchor = bullet.getWorldTransform();
@@ -561,7 +559,7 @@ void BulletWorld::rouse(Body& body, const Motion& moving) {
 // World points and boxes of a body that moved since they were made.
 void BulletWorld::refresh(Body& body) {
     const btTransform at = body.hulls_at(body.bullet->getWorldTransform());
-    const bool is_new = !body.bullet->getBroadphaseProxy();
+    const bool is_new = body.leaf == kNoLeaf;
     if (!is_new && at == body.fresh_at) return;
     body.fresh_at = at;
     ++body.moves;
@@ -575,8 +573,10 @@ void BulletWorld::refresh(Body& body) {
 
 void BulletWorld::update_box(Body& body) {
     gather_box(body);
-    const Box wide = grown(body.shape.box, kContactRange);
-    broadphase_.setAabb(body.bullet->getBroadphaseProxy(), to_bullet(wide.low), to_bullet(wide.high), &dispatcher_);
+    if (holds(tree_.box(body.leaf), grown(body.shape.box, kContactRange))) return;
+    tree_.remove(body.leaf);
+    body.leaf = tree_.add(grown(body.shape.box, kContactRange + kLeafRoom), body.id);
+    strayed_.push_back(body.id);
 }
 
 void BulletWorld::gather_box(Body& body) {
@@ -595,68 +595,56 @@ void BulletWorld::gather_box(Body& body) {
 
 void BulletWorld::detect(float dt) {
     InsideRigidEngine guard(counts_.allocations);
-    work_.weight_speed = world_.getGravity().length() * dt;
+    work_.weight_speed = gravity_.length() * dt;
     for (RigidId id = 0; id < body_end_; ++id) {
         Body& body = bodies_[id];
         if (!body.is_used || body.kind == RigidKind::Static) continue;
         if (body.kind == RigidKind::Kinematic || body.bullet->isActive()) refresh(body);
     }
-    world_.find_contacts();
-    sort_manifolds();
+    find_pairs();
+    for (const Pair& pair : pairs_.rows()) meet(pair);
+    list_manifolds();
     gather_contacts();
-    counts_.pairs = static_cast<uint32_t>(broadphase_.getOverlappingPairCache()->getNumOverlappingPairs());
+    counts_.pairs = static_cast<uint32_t>(pairs_.rows().size());
     counts_.contacts = static_cast<uint32_t>(contacts_.size());
 }
 
-void BulletWorld::meet(btBroadphasePair& pair) {
-    auto* object_0 = static_cast<btCollisionObject*>(pair.m_pProxy0->m_clientObject);
-    auto* object_1 = static_cast<btCollisionObject*>(pair.m_pProxy1->m_clientObject);
-    if (!dispatcher_.needsCollision(object_0, object_1)) return;
-    const auto id_0 = static_cast<RigidId>(object_0->getUserIndex()),
-               id_1 = static_cast<RigidId>(object_1->getUserIndex());
-    if (bodies_[id_0].kind != RigidKind::Dynamic && bodies_[id_1].kind != RigidKind::Dynamic) return;
-    if (!pair.m_algorithm) {
-        const btCollisionAlgorithmConstructionInfo info(&dispatcher_, -1);
-        void* const memory = dispatcher_.allocateCollisionAlgorithm(sizeof(PairAlgorithm));
-        pair.m_algorithm = new (memory) PairAlgorithm(info, id_0, id_1, work_);
+// What left its leaf meets all that its new one meets, in either order of their straying.
+void BulletWorld::find_pairs() {
+    for (const RigidId id : strayed_) {
+        const Body& body = bodies_[id];
+        if (!body.is_used) continue;
+        tree_.visit(tree_.box(body.leaf), [&](uint32_t other_id) {
+            const Body& other = bodies_[other_id];
+            if (other_id == id || (body.kind != RigidKind::Dynamic && other.kind != RigidKind::Dynamic)) return;
+            if (body.meets_layer_of(other)) pairs_.find(id, other_id);
+        });
     }
-    auto& algorithm = *static_cast<PairAlgorithm*>(pair.m_algorithm);
-    if (bodies_[id_0].is_soft || bodies_[id_1].is_soft) return algorithm.forget();
-    const auto ignored = find_ignored(id_0, id_1);
-    if (ignored != ignored_.end()) {
-        if (!ignored->until_apart || !algorithm.is_apart(kPushedApart)) return algorithm.forget();
-        ignored_.erase(ignored);
-    }
-    algorithm.process();
+    strayed_.clear();
+    pairs_.renew(work_, [this](RigidId a, RigidId b) {
+        return overlap(tree_.box(bodies_[a].leaf), tree_.box(bodies_[b].leaf), 0);
+    });
 }
 
-void BulletWorld::sort_manifolds() {
+void BulletWorld::meet(const Pair& pair) {
+    const Body &a = bodies_[pair.a], &b = bodies_[pair.b];
+    if (!a.bullet->isActive() && !b.bullet->isActive()) return;
+    if (a.is_soft || b.is_soft) return pair.algorithm->forget();
+    const auto ignored = find_ignored(pair.a, pair.b);
+    if (ignored != ignored_.end()) {
+        if (!ignored->until_apart || !pair.algorithm->is_apart(kPushedApart)) return pair.algorithm->forget();
+        ignored_.erase(ignored);
+    }
+    pair.algorithm->process();
+}
+
+void BulletWorld::list_manifolds() {
     manifolds_.clear();
-    for (int k = 0; k < dispatcher_.getNumManifolds(); ++k) {
-        btPersistentManifold* m = dispatcher_.getManifoldByIndexInternal(k);
-        const btManifoldPoint& p = m->getContactPoint(0);
-        manifolds_.push_back({static_cast<RigidId>(m->getBody0()->getUserIndex()),
-                              static_cast<RigidId>(m->getBody1()->getUserIndex()),
-                              static_cast<uint32_t>(m->m_companionIdA), static_cast<uint32_t>(m->m_companionIdB),
-                              p.m_index0, p.m_index1, m});
-    }
-    const auto comes_first = [](const SortedManifold& p, const SortedManifold& q) {
-        if (p.a != q.a) return p.a < q.a;
-        if (p.b != q.b) return p.b < q.b;
-        if (p.cell_a != q.cell_a) return p.cell_a < q.cell_a;
-        if (p.cell_b != q.cell_b) return p.cell_b < q.cell_b;
-        return p.ordinal_a != q.ordinal_a ? p.ordinal_a < q.ordinal_a : p.ordinal_b < q.ordinal_b;
-    };
-    std::sort(manifolds_.begin(), manifolds_.end(), comes_first);
-    for (size_t k = 1; k < manifolds_.size(); ++k)
-        CULLET_ASSERT(comes_first(manifolds_[k - 1], manifolds_[k]), "two manifolds of bodies %u and %u tie",
-                      manifolds_[k].a, manifolds_[k].b);
-    // Bullet's own sort of an island's manifolds ties between those of one pair of bodies: it starts from this order.
-    btPersistentManifold** const rows = dispatcher_.getInternalManifoldPointer();
-    for (size_t k = 0; k < manifolds_.size(); ++k) {
-        rows[k] = manifolds_[k].manifold;
-        rows[k]->m_index1a = static_cast<int>(k);
-    }
+    for (const Pair& pair : pairs_.rows())
+        pair.algorithm->visit_manifolds([&](btPersistentManifold& m, const PairRecord&) {
+            manifolds_.push_back(
+                {pair.a, pair.b, static_cast<uint32_t>(m.m_companionIdA), static_cast<uint32_t>(m.m_companionIdB), &m});
+        });
 }
 
 Vec3 BulletWorld::velocity_at(const Body& body, Vec3 point) const {
@@ -720,6 +708,15 @@ void BulletWorld::sum_impulse_to_static() {
     }
 }
 
+void BulletWorld::solve_contacts(float dt) {
+    solver_.clear();
+    for (RigidId id = 0; id < body_end_; ++id)
+        if (bodies_[id].is_used && bodies_[id].is_free()) solver_.add_body(*bodies_[id].bullet);
+    for (const SortedManifold& m : manifolds_)
+        if (m.manifold && (bodies_[m.a].is_free() || bodies_[m.b].is_free())) solver_.add_contacts(*m.manifold);
+    solver_.solve(dt);
+}
+
 void BulletWorld::solve(float dt) {
     InsideRigidEngine guard(counts_.allocations);
     wake_struck();
@@ -730,7 +727,7 @@ void BulletWorld::solve(float dt) {
         body.bullet->applyGravity();
         body.bullet->applyDamping(dt);
     }
-    world_.solve_contacts(dt);
+    solve_contacts(dt);
     sum_impulse_to_static();
     integrate(dt);
     update_sleep(dt);

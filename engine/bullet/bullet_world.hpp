@@ -3,20 +3,12 @@
 #include <atomic>
 #include <vector>
 
-#include "engine/bullet/dynamics_world.hpp"
-#include "engine/bullet/pair_algorithm.hpp"
+#include "engine/bullet/box_tree.hpp"
+#include "engine/bullet/contact_solver.hpp"
+#include "engine/bullet/pair_list.hpp"
 #include "engine/bullet/sweep.hpp"
 
 namespace cullet::bullet {
-
-class BulletWorld;
-
-class Dispatcher : public btCollisionDispatcher {
- public:
-    Dispatcher(btCollisionConfiguration* configuration, BulletWorld& owner)
-        : btCollisionDispatcher(configuration), world(owner) {}
-    BulletWorld& world;
-};
 
 struct IgnoredPair {
     RigidId a, b;  // a < b
@@ -71,8 +63,6 @@ class BulletWorld final : public RigidWorld {
     void save(ByteWriter& out) const override;
     Result<void> load(ByteReader& in) override;
 
-    /// Bullet's near callback: the narrow phase of one pair.
-    void meet(btBroadphasePair& pair);
     /// True when the two are not swept against each other: ignored, or both dynamic and skipped in this step. What
     /// does not move stops what is skipped all the same: a piece that broke off on the floor would else fly through it
     /// for a whole step.
@@ -84,7 +74,6 @@ class BulletWorld final : public RigidWorld {
     struct SortedManifold {
         RigidId a, b;
         uint32_t cell_a, cell_b;
-        int ordinal_a, ordinal_b;
         btPersistentManifold* manifold;
     };
 
@@ -117,7 +106,11 @@ class BulletWorld final : public RigidWorld {
     void load_pair(ByteReader& in, RigidId a, RigidId b);
     void refresh(Body& body);
     void gather_box(Body& body);
-    void sort_manifolds();
+    void enter_tree(Body& body);
+    void find_pairs();
+    void meet(const Pair& pair);
+    void list_manifolds();
+    void solve_contacts(float dt);
     void gather_contacts();
     void wake_touching(RigidId id);
     void wake_body(Body& body);
@@ -145,11 +138,11 @@ class BulletWorld final : public RigidWorld {
     std::vector<Hull*> shapes_;  // made ahead, in the caller's axes; null once a body has it
     mutable std::atomic<uint64_t> shape_allocations_ = 0;
     PairWork work_;
-    btDefaultCollisionConfiguration configuration_;
-    Dispatcher dispatcher_;
-    btDbvtBroadphase broadphase_;
-    btSequentialImpulseConstraintSolver solver_;
-    DynamicsWorld world_;
+    btVector3 gravity_{0, 0, 0};
+    BoxTree tree_;
+    std::vector<RigidId> strayed_;  // left their leaf since pairs were looked for last
+    PairList pairs_;
+    ContactSolver solver_;
     std::vector<Seam> seams_;  // of the body at hand
     struct Ball {
         Vec3 centre;
@@ -157,8 +150,8 @@ class BulletWorld final : public RigidWorld {
     };
     std::vector<Ball> lost_;  // pieces that the body at hand has lost, its hull frame
     std::vector<RigidContact> contacts_;
-    std::vector<SortedManifold> manifolds_;
     std::vector<RigidId> in_the_way_;                   // of the flight that is foreseen
+    std::vector<SortedManifold> manifolds_;             // in rising (a, b) and pieces of a and b
     std::vector<IgnoredPair> ignored_;                  // sorted by (a, b)
     std::vector<std::pair<RigidId, RigidId>> skipped_;  // this step's, a < b
     Sweeper sweeper_;

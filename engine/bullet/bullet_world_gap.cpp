@@ -71,7 +71,7 @@ void BulletWorld::stop_mass(Body& body) {
 // In the order of creation, so that mass and weight round as they did then.
 void BulletWorld::restore_mass(Body& body) {
     body.bullet->setMassProps(body.mass, body.moments);
-    body.bullet->setGravity(world_.getGravity());
+    body.bullet->setGravity(gravity_);
     body.bullet->updateInertiaTensor();
 }
 
@@ -89,8 +89,7 @@ bool BulletWorld::is_held(RigidId id) const {
     return is_known(id) && bodies_[id].is_held;
 }
 
-// The manifolds stay, without points, so that they still join their islands: Bullet's solver would otherwise move a
-// body twice.
+// The manifolds stay, without points: what the two remember of each other is not lost.
 void BulletWorld::skip_contacts(RigidId a, RigidId b) {
     if (!is_known(a) || !is_known(b) || a == b) return;
     if (a > b) std::swap(a, b);
@@ -189,7 +188,7 @@ void BulletWorld::sum_loads() {
 
 // After the solve: what leaves its place wakes what may have lain on it, and a heavy load what it lies on.
 void BulletWorld::wake_unsettled(float dt) {
-    const btVector3 up = -world_.getGravity();
+    const btVector3 up = -gravity_;
     const float weight_speed = up.length() * dt;
     for (const SortedManifold& m : manifolds_) {
         if (!m.manifold || m.manifold->getNumContacts() == 0) continue;

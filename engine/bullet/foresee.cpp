@@ -40,7 +40,7 @@ class Flight {
           stood_in_(body.shape.box),
           moved_fraction_(body.moved_fraction),
           is_fast_(body.is_fast) {
-        flying_.setGravity(world.world_.getGravity());
+        flying_.setGravity(world.gravity_);
         flying_.setLinearVelocity(body.bullet->getLinearVelocity());
         flying_.setAngularVelocity(body.bullet->getAngularVelocity());
         body.moved_fraction = 1;
@@ -66,11 +66,10 @@ class Flight {
         way = grown(way, turned(mover, body_.reach, seconds) + kBoxGrowth);
         auto& others = world_.in_the_way_;
         others.clear();
-        NearIds callback(others);
-        world_.broadphase_.aabbTest(to_bullet(way.low), to_bullet(way.high), callback);
+        world_.tree_.visit(way, [&](uint32_t id) { others.push_back(id); });
         std::erase_if(others, [&](RigidId id) {
             const Body& other = world_.bodies_[id];
-            return id == body_.id || !is_slow(other) || !filters_meet(body_, other) ||
+            return id == body_.id || !is_slow(other) || !body_.meets_layer_of(other) ||
                    world_.is_apart_by_order(body_.id, id);
         });
         std::sort(others.begin(), others.end());
@@ -144,10 +143,10 @@ class Flight {
     }
 
     void meet(RigidId id, ForeseenTouch& out) {
-        PairAlgorithm pair(btCollisionAlgorithmConstructionInfo(&world_.dispatcher_, -1), body_.id, id, world_.work_);
+        PairAlgorithm pair(std::min(body_.id, id), std::max(body_.id, id), world_.work_);
         pair.process();
         const bool is_first = body_.id < id;
-        pair.for_each_manifold([&](const btPersistentManifold& manifold) {
+        pair.visit_manifolds([&](const btPersistentManifold& manifold, const PairRecord&) {
             for (int k = 0; k < manifold.getNumContacts() && out.contact_count < kMostForeseenContacts; ++k) {
                 const btManifoldPoint& p = manifold.getContactPoint(k);
                 const Vec3 point = 0.5f * (from_bullet(p.m_positionWorldOnA) + from_bullet(p.m_positionWorldOnB)),
@@ -165,6 +164,7 @@ class Flight {
                                                      speed};
             }
         });
+        pair.forget();
     }
 
     BulletWorld& world_;

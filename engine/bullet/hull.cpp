@@ -1,8 +1,8 @@
 #include "engine/bullet/hull.hpp"
 
-#include <LinearMath/btConvexHullComputer.h>
-
 #include <algorithm>
+
+#include "engine/bullet/wrap_hull.hpp"
 
 namespace cullet::bullet {
 namespace {
@@ -48,38 +48,13 @@ Vec3d newell(const Hull& hull, uint32_t first, uint32_t end) {
     return sum;
 }
 
-// Faces and edges by Bullet's integer hull. An edge is written by the lower of its two faces.
-void set_faces(Hull& hull, const btConvexHullComputer& computer) {
-    uint8_t face_of_edge[kMaxCorners];
-    std::fill_n(face_of_edge, kMaxCorners, uint8_t{0xff});
-    uint32_t corners = 0;
-    for (int f = 0; f < computer.faces.size() && hull.face_count < kMaxFaces; ++f) {
-        const uint32_t first = corners;
-        const btConvexHullComputer::Edge* start = &computer.edges[computer.faces[f]];
-        const btConvexHullComputer::Edge* edge = start;
-        do {
-            if (corners == kMaxCorners) return;
-            hull.corner[corners++] = static_cast<uint8_t>(computer.original_vertex_index[edge->getSourceVertex()]);
-            const auto number = edge - &computer.edges[0];
-            if (number < static_cast<int>(kMaxCorners)) face_of_edge[number] = static_cast<uint8_t>(hull.face_count);
-            edge = edge->getNextEdgeOfFace();
-        } while (edge != start);
-        Vec3d area = newell(hull, first, corners);
+void set_normals(Hull& hull) {
+    for (uint32_t f = 0; f < hull.face_count; ++f) {
+        const Vec3d area = newell(hull, hull.first_corner[f], hull.first_corner[f + 1]);
         const double size = length(area);
         // A sliver has no direction to trust: under 1e-7 of the square of the hull's radius its plane is left out.
         const bool is_sliver = !(size > 1e-7 * hull.radius * hull.radius);
-        hull.face_normal[hull.face_count] = is_sliver ? Vec3{} : ((1 / size) * area).to_float();
-        hull.first_corner[hull.face_count++] = static_cast<uint16_t>(first);
-        hull.first_corner[hull.face_count] = static_cast<uint16_t>(corners);
-    }
-    for (int e = 0; e < computer.edges.size() && e < static_cast<int>(kMaxCorners); ++e) {
-        const auto& edge = computer.edges[e];
-        const auto reverse = edge.getReverseEdge() - &computer.edges[0];
-        if (reverse < e || reverse >= static_cast<int>(kMaxCorners) || hull.edge_count == kMaxEdges) continue;
-        if (face_of_edge[e] == 0xff || face_of_edge[reverse] == 0xff) continue;
-        hull.edge[hull.edge_count++] = {static_cast<uint8_t>(computer.original_vertex_index[edge.getSourceVertex()]),
-                                        static_cast<uint8_t>(computer.original_vertex_index[edge.getTargetVertex()]),
-                                        face_of_edge[e], face_of_edge[reverse]};
+        hull.face_normal[f] = is_sliver ? Vec3{} : ((1 / size) * area).to_float();
     }
 }
 
@@ -124,30 +99,19 @@ void build_hull(Hull& hull, std::span<const Vec3> points, float margin, uint32_t
     points = points.first(std::min<size_t>(points.size(), kMaxPoints));
     set_hull_points(hull, points, margin, cell);
     if (points.size() < 3) return;
-    float coordinates[kMaxPoints * 3];
-    for (uint32_t k = 0; k < hull.point_count; ++k) {
-        const Vec3 p = hull.local[k];
-        coordinates[3 * k] = p.x, coordinates[3 * k + 1] = p.y, coordinates[3 * k + 2] = p.z;
-    }
-    btConvexHullComputer computer;
-    computer.compute(coordinates, 3 * sizeof(float), static_cast<int>(hull.point_count), 0, 0);
-    const int corner_count = computer.original_vertex_index.size();
-    if (corner_count >= 4 && corner_count < static_cast<int>(hull.point_count)) {
+    wrap_hull(hull);
+    bool is_corner[kMaxPoints] = {};
+    for (uint32_t c = 0; c < hull.first_corner[hull.face_count]; ++c) is_corner[hull.corner[c]] = true;
+    const auto corners = static_cast<uint32_t>(std::count(is_corner, is_corner + hull.point_count, true));
+    if (corners >= 4 && corners < hull.point_count) {
         // Points inside of the hull are of no use: again without them.
-        Vec3 corners[kMaxPoints];
-        for (int k = 0; k < corner_count; ++k) corners[k] = points[computer.original_vertex_index[k]];
-        return build_hull(hull, {corners, static_cast<size_t>(corner_count)}, margin, cell);
+        Vec3 kept[kMaxPoints];
+        uint32_t count = 0;
+        for (uint32_t k = 0; k < hull.point_count; ++k)
+            if (is_corner[k]) kept[count++] = points[k];
+        return build_hull(hull, {kept, count}, margin, cell);
     }
-    set_faces(hull, computer);
-    // Bullet's faces run clockwise or not by its own choice: outwards is where the centre of the points is not.
-    Vec3 mean;
-    for (uint32_t k = 0; k < hull.point_count; ++k)
-        mean += (1.0f / static_cast<float>(hull.point_count)) * hull.local[k];
-    float inside = 0;
-    for (uint32_t f = 0; f < hull.face_count; ++f)
-        inside += dot(hull.face_normal[f], mean - hull.local[hull.corner[hull.first_corner[f]]]);
-    if (inside > 0)
-        for (uint32_t f = 0; f < hull.face_count; ++f) hull.face_normal[f] = -hull.face_normal[f];
+    set_normals(hull);
     set_heights(hull);
 }
 

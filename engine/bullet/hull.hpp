@@ -29,6 +29,10 @@ inline void include(Box& box, Vec3 p) {
 inline Box grown(const Box& box, float r) {
     return {box.low - Vec3{r, r, r}, box.high + Vec3{r, r, r}};
 }
+inline bool holds(const Box& box, const Box& inner) {
+    return box.low.x <= inner.low.x && box.low.y <= inner.low.y && box.low.z <= inner.low.z &&
+           box.high.x >= inner.high.x && box.high.y >= inner.high.y && box.high.z >= inner.high.z;
+}
 inline constexpr float kFar = 1e30f;
 inline Box empty_box() {
     return {{kFar, kFar, kFar}, {-kFar, -kFar, -kFar}};

@@ -102,16 +102,8 @@ void find_candidates(const Body& a, const Body& b, float grown, PairWork& work) 
               [](const Candidate& p, const Candidate& q) { return p.a != q.a ? p.a < q.a : p.b < q.b; });
 }
 
-PairAlgorithm::PairAlgorithm(const btCollisionAlgorithmConstructionInfo& info, RigidId a, RigidId b, PairWork& work)
-    : btCollisionAlgorithm(info), a_(std::min(a, b)), b_(std::max(a, b)), work_(work) {}
-
-void PairAlgorithm::getAllContactManifolds(btManifoldArray& manifolds) {
-    for (PairRecord* r = records_; r; r = r->next)
-        if (r->manifold) manifolds.push_back(r->manifold);
-}
-
 void PairAlgorithm::release(PairRecord& record) {
-    if (record.manifold) m_dispatcher->releaseManifold(record.manifold);
+    if (record.manifold) work_->manifolds.give(record.manifold);
     record.manifold = nullptr;
 }
 
@@ -120,7 +112,7 @@ void PairAlgorithm::forget() {
         PairRecord* const record = records_;
         records_ = record->next;
         release(*record);
-        work_.records.give(record);
+        work_->records.give(record);
     }
     is_fresh_ = false;
     travelled_ = records_until_ = 0;
@@ -138,20 +130,20 @@ void PairAlgorithm::follow(const Body& a, const Body& b) {
 
 // Records for all pieces that are near, or soon will be: slow pairs are looked through again only after a while.
 void PairAlgorithm::find_records(const Body& a, const Body& b) {
-    find_candidates(a, b, kCandidateRange + kAhead, work_);
+    find_candidates(a, b, kCandidateRange + kAhead, *work_);
     records_until_ = travelled_ + kAhead;
     PairRecord** link = &records_;
     const auto drop_first = [&] {
         PairRecord* const record = *link;
         *link = record->next;
         release(*record);
-        work_.records.give(record);
+        work_->records.give(record);
     };
     const PairRecord* last = nullptr;
-    for (const Candidate& c : work_.candidates) {
+    for (const Candidate& c : work_->candidates) {
         while (*link && ((*link)->a < c.a || ((*link)->a == c.a && (*link)->b < c.b))) drop_first();
         if (!*link || (*link)->a != c.a || (*link)->b != c.b) {
-            PairRecord* const record = work_.records.take();
+            PairRecord* const record = work_->records.take();
             // A new pair of pieces begins with the axis of its neighbour of the same piece.
             *record = {};
             record->a = c.a, record->b = c.b;
@@ -168,7 +160,7 @@ void PairAlgorithm::find_records(const Body& a, const Body& b) {
 }
 
 void PairAlgorithm::process() {
-    const Body &a = work_.bodies[a_], &b = work_.bodies[b_];
+    const Body &a = work_->bodies[a_], &b = work_->bodies[b_];
     if (changes_a_ != a.shape_changes || changes_b_ != b.shape_changes) forget();
     if (is_fresh_ && moves_a_ == a.moves && moves_b_ == b.moves) return;
     follow(a, b);
@@ -189,8 +181,8 @@ void PairAlgorithm::process() {
 
 void PairAlgorithm::meet(PairRecord& record, const Body& a, const Mat3& rotation_a, const Body& b,
                          const Mat3& rotation_b) {
-    const Hull &hull_a = hull_of(record.hull_a, a, record.a, work_),
-               &hull_b = hull_of(record.hull_b, b, record.b, work_);
+    const Hull &hull_a = hull_of(record.hull_a, a, record.a, *work_),
+               &hull_b = hull_of(record.hull_b, b, record.b, *work_);
     Patch patch = contact_patch(hull_a, rotation_a, hull_b, rotation_b, record.guess, record.is_own_guess);
     record.is_own_guess = true;
     record.good_until = travelled_ + std::max(patch.room, kSmallTravel);
@@ -221,7 +213,7 @@ void PairAlgorithm::follow_points(PairRecord& record, const Body& a, const Body&
 }
 
 void PairAlgorithm::list_offers() {
-    std::vector<Offer>& offers = work_.offers;
+    std::vector<Offer>& offers = work_->offers;
     offers.clear();
     for (PairRecord* r = records_; r; r = r->next)
         for (int k = 0; r->manifold && k < r->manifold->getNumContacts(); ++k) {
@@ -236,7 +228,7 @@ void PairAlgorithm::list_offers() {
 // goes where the other one is there and as deep. (Dropping all touches through seams let shards that stand on the end
 // of a seam sink by 3 mm, until their cores overlapped the floor.)
 void PairAlgorithm::drop_through_seams() {
-    std::vector<Offer>& offers = work_.offers;
+    std::vector<Offer>& offers = work_->offers;
     bool is_any = false;
     for (Offer& doubtful : offers) {
         if (!doubtful.is_through_seam) continue;
@@ -257,7 +249,7 @@ void PairAlgorithm::drop_through_seams() {
 
 // Points of one manifold are removed from the last on: Bullet puts the last one in the gap.
 void PairAlgorithm::remove_unchosen() {
-    const std::vector<Offer>& offers = work_.offers;
+    const std::vector<Offer>& offers = work_->offers;
     for (size_t k = offers.size(); k-- > 0;)
         if (!offers[k].is_chosen) offers[k].manifold->removeContactPoint(offers[k].index);
     for (PairRecord* r = records_; r; r = r->next)
@@ -267,7 +259,7 @@ void PairAlgorithm::remove_unchosen() {
 // Two shells that lie in each other touch in hundreds of points, of which the solver needs a dozen. The deepest comes
 // first, then always the one farthest from those chosen; turned normals, depth and a past as contact count as distance.
 void PairAlgorithm::choose_best() {
-    std::vector<Offer>& offers = work_.offers;
+    std::vector<Offer>& offers = work_->offers;
     list_offers();
     drop_through_seams();
     if (offers.size() <= kPairContacts) return;
@@ -291,10 +283,10 @@ void PairAlgorithm::choose_best() {
 // Friction and restitution of two bodies: the geometric mean, so that equal materials keep their own value. Rolling
 // friction crosswise as in Bullet: each one's length times the other's friction.
 void PairAlgorithm::write(PairRecord& record, const Patch& patch, uint32_t cell_a, uint32_t cell_b) {
-    const Body &a = work_.bodies[a_], &b = work_.bodies[b_];
+    const Body &a = work_->bodies[a_], &b = work_->bodies[b_];
     if (!record.manifold) {
-        record.manifold = m_dispatcher->getNewManifold(&*a.bullet, &*b.bullet);
-        record.manifold->setContactBreakingThreshold(kContactRange);
+        record.manifold = work_->manifolds.take();
+        *record.manifold = Manifold(a, b);
     }
     btPersistentManifold& manifold = *record.manifold;
     record.normal = transposed_times(rotation_of(b.fresh_at), patch.normal);
@@ -310,9 +302,9 @@ void PairAlgorithm::write(PairRecord& record, const Patch& patch, uint32_t cell_
     // Bullet bounds the impulse of rolling friction by the friction times the contact's impulse and also by the
     // friction itself, as if no impulse were above 1 N s: a ball of 30 kg rolled five times as far as one of a
     // kilogram.
-    const float rolling =
-        (a.rolling_friction * b.friction + b.rolling_friction * a.friction) * std::max(1.0f, mass * work_.weight_speed);
-    const float most = kRestingWeights * mass * work_.weight_speed;
+    const float rolling = (a.rolling_friction * b.friction + b.rolling_friction * a.friction) *
+                          std::max(1.0f, mass * work_->weight_speed);
+    const float most = kRestingWeights * mass * work_->weight_speed;
     manifold.setNumContacts(patch.count);
     for (int k = 0; k < patch.count; ++k) {
         const btVector3 on_a = to_bullet(patch.point[k].on_a), on_b = to_bullet(patch.point[k].on_b);
@@ -348,10 +340,10 @@ void PairAlgorithm::write(PairRecord& record, const Patch& patch, uint32_t cell_
 }
 
 bool PairAlgorithm::is_apart(float allowed) {
-    const Body &a = work_.bodies[a_], &b = work_.bodies[b_];
-    find_candidates(a, b, 0, work_);
-    for (const Candidate& c : work_.candidates) {
-        const Hull &hull_a = hull_of(c.hull_a, a, c.a, work_), &hull_b = hull_of(c.hull_b, b, c.b, work_);
+    const Body &a = work_->bodies[a_], &b = work_->bodies[b_];
+    find_candidates(a, b, 0, *work_);
+    for (const Candidate& c : work_->candidates) {
+        const Hull &hull_a = hull_of(c.hull_a, a, c.a, *work_), &hull_b = hull_of(c.hull_b, b, c.b, *work_);
         Vec3 guess;
         if (separation(hull_a, hull_b, guess, 0) < -allowed) return false;
     }

@@ -1,7 +1,6 @@
-// Contacts of one pair of bodies: our own algorithm behind Bullet's dispatcher, for all pairs.
+// Contacts of one pair of bodies, of whatever pieces.
 #pragma once
-#include <BulletCollision/BroadphaseCollision/btCollisionAlgorithm.h>
-#include <BulletCollision/CollisionDispatch/btCollisionDispatcher.h>
+#include <BulletCollision/NarrowPhaseCollision/btPersistentManifold.h>
 
 #include <vector>
 
@@ -10,6 +9,14 @@
 #include "engine/bullet/pool.hpp"
 
 namespace cullet::bullet {
+
+/// Contact points of two pieces, as Bullet's solver reads them.
+struct Manifold : btPersistentManifold {
+    Manifold() = default;
+    Manifold(const Body& a, const Body& b)
+        : btPersistentManifold(&*a.bullet, &*b.bullet, 0, kContactRange, BT_LARGE_FLOAT) {}
+    Manifold* next = nullptr;  // while it is free
+};
 
 /// Two pieces whose boxes are near: what is remembered of them from step to step.
 struct PairRecord {
@@ -20,7 +27,7 @@ struct PairRecord {
     bool is_through_seam = false;  // of the manifold's points, see Patch
     double good_until = 0;         // what the two found last holds while PairAlgorithm::travelled_ is less
     Vec3 normal;                   // of the manifold's points, in the frame of b
-    btPersistentManifold* manifold = nullptr;  // null while they do not touch
+    Manifold* manifold = nullptr;  // null while they do not touch
     PairRecord* next = nullptr;
 };
 
@@ -31,7 +38,7 @@ struct Candidate {
 
 /// One contact point of a pair of bodies while its best ones are chosen.
 struct Offer {
-    btPersistentManifold* manifold;
+    Manifold* manifold;
     int index;  // in the manifold
     Vec3 point, normal;
     float distance;
@@ -42,7 +49,9 @@ struct Offer {
 
 /// Working memory that the pairs of one world share.
 struct PairWork {
-    explicit PairWork(uint32_t body_limit) : records(128 * static_cast<size_t>(body_limit) + 16384) {
+    explicit PairWork(uint32_t body_limit)
+        : records(128 * static_cast<size_t>(body_limit) + 16384),
+          manifolds(16 * static_cast<size_t>(body_limit) + 1024) {
         // One pair at a time: the largest two bodies, of at most all hulls that there are room for.
         const size_t hulls = 4 * static_cast<size_t>(body_limit) + 4096;
         candidates.reserve(4 * hulls);
@@ -51,6 +60,7 @@ struct PairWork {
         near_b.reserve(hulls);
     }
     Pool<PairRecord> records;
+    Pool<Manifold> manifolds;
     std::vector<Candidate> candidates;
     std::vector<Offer> offers;
     std::vector<const Hull*> near_a, near_b;
@@ -64,26 +74,21 @@ void find_candidates(const Body& a, const Body& b, float grown, PairWork& work);
 /// The hull of a candidate's side; triangles are built in `work.triangle`.
 const Hull& hull_of(const Hull* hull, const Body& body, uint32_t ordinal, PairWork& work);
 
-class PairAlgorithm : public btCollisionAlgorithm {
+/// What it remembers goes back to `work` only by forget().
+class PairAlgorithm {
     friend struct PairBytes;  // saving and loading
 
  public:
-    PairAlgorithm(const btCollisionAlgorithmConstructionInfo& info, RigidId a, RigidId b, PairWork& work);
-    ~PairAlgorithm() override { forget(); }
-    void processCollision(const btCollisionObjectWrapper*, const btCollisionObjectWrapper*, const btDispatcherInfo&,
-                          btManifoldResult*) override {}  // the dispatcher calls process() itself
-    btScalar calculateTimeOfImpact(btCollisionObject*, btCollisionObject*, const btDispatcherInfo&,
-                                   btManifoldResult*) override {
-        return 1;
+    PairAlgorithm() = default;
+    PairAlgorithm(RigidId a, RigidId b, PairWork& work) : a_(a), b_(b), work_(&work) {}  // a < b
+    /// Calls found(manifold, record) for the pieces that touch, in rising (a, b).
+    template <class Found>
+    void visit_manifolds(Found found) const {
+        for (const PairRecord* r = records_; r; r = r->next)
+            if (r->manifold) found(*r->manifold, *r);
     }
-    void getAllContactManifolds(btManifoldArray& manifolds) override;
 
     void process();
-    template <class Visit>
-    void for_each_manifold(Visit visit) const {
-        for (const PairRecord* r = records_; r; r = r->next)
-            if (r->manifold) visit(*r->manifold);
-    }
     /// Drops all contacts and what was remembered.
     void forget();
     /// True when no two pieces overlap by more than `allowed` (m), margins included.
@@ -101,8 +106,8 @@ class PairAlgorithm : public btCollisionAlgorithm {
     void remove_unchosen();
     void choose_best();
 
-    RigidId a_, b_;  // a_ < b_
-    PairWork& work_;
+    RigidId a_ = kNoRigid, b_ = kNoRigid;  // a_ < b_
+    PairWork* work_ = nullptr;
     PairRecord* records_ = nullptr;  // sorted by (a, b)
     uint32_t moves_a_ = 0, moves_b_ = 0, changes_a_ = 0, changes_b_ = 0;
     bool is_fresh_ = false;
@@ -110,7 +115,10 @@ class PairAlgorithm : public btCollisionAlgorithm {
     // between their pieces changed by more.
     double travelled_ = 0, step_travel_ = 0;
     double records_until_ = 0;  // records_ holds all pieces within kCandidateRange while travelled_ is less
-    btTransform relative_;      // the smaller body in the frame of the larger one
+    btTransform relative_ = btTransform::getIdentity();  // the smaller body in the frame of the larger one
+
+ public:
+    PairAlgorithm* next = nullptr;  // while it is free
 };
 
 }  // namespace cullet::bullet

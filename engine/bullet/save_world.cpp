@@ -219,10 +219,6 @@ void flow_record(F& f, PairRecord& r) {
     flow_numbers(f, r.normal);
 }
 
-btBroadphaseProxy* proxy_of(Body& body) {
-    return body.bullet->getBroadphaseProxy();
-}
-
 }  // namespace
 
 /// What a pair remembers, as bytes: a friend of PairAlgorithm.
@@ -237,8 +233,8 @@ struct PairBytes {
 
     /// Of pieces that one of the two no longer has: the next step forgets it.
     static bool is_stale(const PairAlgorithm& pair) {
-        return pair.changes_a_ != pair.work_.bodies[pair.a_].shape_changes ||
-               pair.changes_b_ != pair.work_.bodies[pair.b_].shape_changes;
+        return pair.changes_a_ != pair.work_->bodies[pair.a_].shape_changes ||
+               pair.changes_b_ != pair.work_->bodies[pair.b_].shape_changes;
     }
 
     static void save(ByteWriter& out, PairAlgorithm& pair) {
@@ -263,7 +259,7 @@ struct PairBytes {
     }
 
     static void load(ByteReader& in, PairAlgorithm& pair) {
-        const Body &a = pair.work_.bodies[pair.a_], &b = pair.work_.bodies[pair.b_];
+        const Body &a = pair.work_->bodies[pair.a_], &b = pair.work_->bodies[pair.b_];
         std::vector<const Hull*> hulls_a, hulls_b;
         for (const Hull* h = a.hulls; h; h = h->next) hulls_a.push_back(h);
         for (const Hull* h = b.hulls; h; h = h->next) hulls_b.push_back(h);
@@ -273,7 +269,7 @@ struct PairBytes {
         PairRecord** link = &pair.records_;
         std::vector<std::pair<uint32_t, uint32_t>> pieces;
         for (uint32_t k = 0; k < count && in.is_sound(); ++k) {
-            PairRecord* const r = pair.work_.records.take();
+            PairRecord* const r = pair.work_->records.take();
             *r = {};
             *link = r;
             link = &r->next;
@@ -288,12 +284,12 @@ struct PairBytes {
             in.expect(points >= -1 && points <= MANIFOLD_CACHE_SIZE,
                       "a contact of " + std::to_string(points) + " points");
             if (!in.is_sound() || points < 0) continue;
-            r->manifold = pair.m_dispatcher->getNewManifold(&*a.bullet, &*b.bullet);
-            r->manifold->setContactBreakingThreshold(kContactRange);
+            r->manifold = pair.work_->manifolds.take();
+            *r->manifold = Manifold(a, b);
             r->manifold->m_companionIdA = static_cast<int>(r->hull_a ? r->hull_a->cell : r->a);
             r->manifold->m_companionIdB = static_cast<int>(r->hull_b ? r->hull_b->cell : r->b);
             r->manifold->setNumContacts(points);
-            // The first point says which pieces meet, also where none is left of the points (see sort_manifolds).
+            // The first point says which pieces meet, also where none is left of the points (see list_manifolds).
             for (int p = 0; p < std::max<int>(points, 1); ++p) {
                 btManifoldPoint point;
                 point.m_partId0 = point.m_partId1 = -1;
@@ -311,7 +307,7 @@ struct PairBytes {
 void BulletWorld::save(ByteWriter& out) const {
     auto& self = const_cast<BulletWorld&>(*this);  // one list of members serves both ways; nothing is changed
     Out f(out);
-    Vec3 gravity = from_bullet(world_.getGravity());
+    Vec3 gravity = from_bullet(gravity_);
     flow_numbers(f, gravity);
     f.number(self.counts_.sweeps), f.number(self.counts_.pairs), f.number(self.counts_.contacts);
     flow_numbers(f, self.to_static_);
@@ -332,25 +328,15 @@ void BulletWorld::save(ByteWriter& out) const {
         btVector3 velocity = bullet.getLinearVelocity(), spin = bullet.getAngularVelocity();
         flow_numbers(f, at), flow_numbers(f, velocity), flow_numbers(f, spin);
         out.number(static_cast<uint8_t>(bullet.isActive()));
-        out.number(static_cast<uint32_t>(proxy_of(body)->m_collisionFilterGroup));
-        out.number(static_cast<uint32_t>(proxy_of(body)->m_collisionFilterMask));
+        out.number(body.layer), out.number(body.mask);
     }
-    std::vector<std::pair<std::pair<RigidId, RigidId>, PairAlgorithm*>> pairs;
-    btBroadphasePairArray& found = self.broadphase_.getOverlappingPairCache()->getOverlappingPairArray();
-    for (int k = 0; k < found.size(); ++k) {
-        auto* const pair = static_cast<PairAlgorithm*>(found[k].m_algorithm);
-        if (!pair || PairBytes::is_stale(*pair)) continue;
-        const auto id = [](const btBroadphaseProxy* p) {
-            return static_cast<RigidId>(static_cast<const btCollisionObject*>(p->m_clientObject)->getUserIndex());
-        };
-        const RigidId a = id(found[k].m_pProxy0), b = id(found[k].m_pProxy1);
-        pairs.push_back({{std::min(a, b), std::max(a, b)}, pair});
-    }
-    std::sort(pairs.begin(), pairs.end(), [](const auto& p, const auto& q) { return p.first < q.first; });
-    out.number(static_cast<uint32_t>(pairs.size()));
-    for (const auto& [ids, pair] : pairs) {
-        out.number(ids.first), out.number(ids.second);
-        PairBytes::save(out, *pair);
+    const auto is_kept = [](const Pair& pair) { return !PairBytes::is_stale(*pair.algorithm); };
+    const auto& pairs = pairs_.rows();
+    out.number(static_cast<uint32_t>(std::count_if(pairs.begin(), pairs.end(), is_kept)));
+    for (const Pair& pair : pairs) {
+        if (!is_kept(pair)) continue;
+        out.number(pair.a), out.number(pair.b);
+        PairBytes::save(out, *pair.algorithm);
     }
     out.number(static_cast<uint32_t>(ignored_.size()));
     for (IgnoredPair pair : ignored_) {
@@ -388,7 +374,7 @@ bool BulletWorld::load_body(ByteReader& in, Body& body) {
     btVector3 velocity, spin;
     flow_numbers(f, at), flow_numbers(f, velocity), flow_numbers(f, spin);
     const auto is_active = in.number<uint8_t>("a sleep"), is_dynamic = uint8_t{body.kind == RigidKind::Dynamic};
-    const auto layer = in.number<uint32_t>("a layer"), mask = in.number<uint32_t>("a mask");
+    body.layer = in.number<uint32_t>("a layer"), body.mask = in.number<uint32_t>("a mask");
     in.expect(is_dynamic ? body.mass > 0 : body.mass == 0, "a mass of " + std::to_string(body.mass) + " kg");
     in.expect(is_dynamic || !body.is_held, "a body that is held but not dynamic");
     if (!in.is_sound()) return false;
@@ -397,7 +383,7 @@ bool BulletWorld::load_body(ByteReader& in, Body& body) {
         refresh_world(*hull, rotation, from_bullet(body.fresh_at.getOrigin()));
     make_bullet(body, at);
     gather_box(body);
-    world_.addRigidBody(&*body.bullet, static_cast<int>(layer), static_cast<int>(mask));
+    enter_tree(body);
     if (is_dynamic && (body.is_held || !is_active)) stop_mass(body);
     body.bullet->setLinearVelocity(velocity);
     body.bullet->setAngularVelocity(spin);
@@ -411,7 +397,7 @@ Result<void> BulletWorld::load(ByteReader& in) {
     In f(in);
     Vec3 gravity;
     flow_numbers(f, gravity);
-    world_.setGravity(to_bullet(gravity));
+    gravity_ = to_bullet(gravity);
     f.number(counts_.sweeps), f.number(counts_.pairs), f.number(counts_.contacts);
     flow_numbers(f, to_static_);
     const uint32_t end = in.count("the number of bodies", 1, body_limit_);
@@ -448,23 +434,16 @@ Result<void> BulletWorld::load(ByteReader& in) {
         if (in.is_sound()) ignored_.push_back(pair);
     }
     if (!in.is_sound()) return Error{in.trouble()};
-    sort_manifolds();
+    list_manifolds();
     return {};
 }
 
 void BulletWorld::load_pair(ByteReader& in, RigidId a, RigidId b) {
-    btOverlappingPairCache& cache = *broadphase_.getOverlappingPairCache();
-    btBroadphaseProxy *const proxy_a = proxy_of(bodies_[a]), *const proxy_b = proxy_of(bodies_[b]);
-    btBroadphasePair* pair = cache.findPair(proxy_a, proxy_b);
-    if (!pair) pair = cache.addOverlappingPair(proxy_a, proxy_b);
-    const btCollisionAlgorithmConstructionInfo info(&dispatcher_, -1);
+    if (bodies_[a].meets_layer_of(bodies_[b])) return PairBytes::load(in, pairs_.append(a, b, work_));
     // Where layers do not meet there is no pair: its memory of contacts is read and forgotten.
-    PairAlgorithm forgotten(info, a, b, work_);
-    if (!pair) return PairBytes::load(in, forgotten);
-    void* const memory = dispatcher_.allocateCollisionAlgorithm(sizeof(PairAlgorithm));
-    auto* const algorithm = new (memory) PairAlgorithm(info, a, b, work_);
-    pair->m_algorithm = algorithm;
-    PairBytes::load(in, *algorithm);
+    PairAlgorithm forgotten(a, b, work_);
+    PairBytes::load(in, forgotten);
+    forgotten.forget();
 }
 
 std::unique_ptr<RigidWorld> BulletWorld::make_another(uint32_t body_limit) const {

@@ -70,16 +70,12 @@ void BulletWorld::shift(Vec3 by) {
         Body& body = bodies_[id];
         if (!body.is_used) continue;
         shift_body(body, by);
-        const Box wide = grown(body.shape.box, kContactRange);
-        broadphase_.setAabb(body.bullet->getBroadphaseProxy(), to_bullet(wide.low), to_bullet(wide.high), &dispatcher_);
     }
-    for (int k = 0; k < dispatcher_.getNumManifolds(); ++k) {
-        btPersistentManifold& manifold = *dispatcher_.getManifoldByIndexInternal(k);
-        const auto is_level = [this](const btCollisionObject* object) {
-            return bodies_[static_cast<RigidId>(object->getUserIndex())].is_level;
-        };
-        shift_manifold(manifold, is_level(manifold.getBody0()), is_level(manifold.getBody1()), to_bullet(by));
-    }
+    tree_.shift(by);
+    for (const Pair& pair : pairs_.rows())
+        pair.algorithm->visit_manifolds([&](btPersistentManifold& manifold, const PairRecord&) {
+            shift_manifold(manifold, bodies_[pair.a].is_level, bodies_[pair.b].is_level, to_bullet(by));
+        });
     for (RigidContact& contact : contacts_) contact.point += by;
 }
 

@@ -78,9 +78,7 @@ void BulletWorld::set_soft(RigidId id, bool is_soft) {
 
 bool BulletWorld::may_meet(RigidId a, RigidId b) const {
     if (!is_known(a) || !is_known(b)) return false;
-    const btBroadphaseProxy *p = bodies_[a].bullet->getBroadphaseProxy(), *q = bodies_[b].bullet->getBroadphaseProxy();
-    return (p->m_collisionFilterGroup & q->m_collisionFilterMask) != 0 &&
-           (q->m_collisionFilterGroup & p->m_collisionFilterMask) != 0;
+    return bodies_[a].meets_layer_of(bodies_[b]);
 }
 
 uint32_t BulletWorld::near_bodies(Vec3 low, Vec3 high, std::span<RigidId> out) const {

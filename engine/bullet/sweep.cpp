@@ -28,9 +28,15 @@ Box relative_box(const Box& box, const Mover& a, const Mover& b, float reach, fl
 
 }  // namespace
 
+void Sweeper::find_near(const BulletWorld& world, const Box& box) {
+    near_.clear();
+    world.tree_.visit(box, [this](uint32_t id) { near_.push_back(id); });
+    std::sort(near_.begin(), near_.end());
+}
+
 void Sweeper::sweep_pair(BulletWorld& world, Body& a, Body& b, float dt) {
     if (a.kind != RigidKind::Dynamic && b.kind != RigidKind::Dynamic) return;
-    if (!filters_meet(a, b) || world.is_apart_by_order(a.id, b.id)) return;
+    if (!a.meets_layer_of(b) || world.is_apart_by_order(a.id, b.id)) return;
     PairWork& work = world.work_;
     const Mover mover_a = mover_of(a), mover_b = mover_of(b);
     const double relative =
@@ -81,10 +87,7 @@ uint32_t Sweeper::sweep(BulletWorld& world, float dt) {
         for (size_t k = 0; k < fast_.size(); ++k) {
             Body& a = world.bodies_[fast_[k].id];
             if (round == 0) {
-                near_.clear();
-                NearIds callback(near_);
-                world.broadphase_.aabbTest(to_bullet(fast_[k].swept.low), to_bullet(fast_[k].swept.high), callback);
-                std::sort(near_.begin(), near_.end());
+                find_near(world, fast_[k].swept);
                 for (const RigidId id : near_)
                     if (id != a.id && !world.bodies_[id].is_fast) sweep_pair(world, a, world.bodies_[id], dt);
             }
@@ -161,14 +164,11 @@ double Sweeper::free_share(BulletWorld& world, Body& body, Vec3d velocity, float
         return out;
     };
     const Box all = reached(body.shape.box, body.reach);
-    near_.clear();
-    NearIds callback(near_);
-    world.broadphase_.aabbTest(to_bullet(all.low), to_bullet(all.high), callback);
-    std::sort(near_.begin(), near_.end());
+    find_near(world, all);
     const float moved = std::exchange(body.moved_fraction, 1.0f);  // Mover::at goes no farther
     for (const RigidId id : near_) {
         Body& other = world.bodies_[id];
-        if (other.flock == body.flock || !filters_meet(body, other) || world.is_apart_by_order(body.id, id)) continue;
+        if (other.flock == body.flock || !body.meets_layer_of(other) || world.is_apart_by_order(body.id, id)) continue;
         const Mover still{&other, other.bullet->getWorldTransform(), {}, {}}, before_other = mover_of(other);
         Vec3d axis;
         const auto meet = [&](const Hull& p, const Hull& q) {

@@ -31,6 +31,7 @@ class Sweeper {
         RigidId id;
         Box swept;
     };
+    void find_near(const BulletWorld& world, const Box& box);
     void sweep_pair(BulletWorld& world, Body& a, Body& b, float dt);
     void find_flocks(BulletWorld& world);
     void carry_flock(BulletWorld& world, std::span<const RigidId> flock, float dt);

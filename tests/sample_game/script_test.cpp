@@ -541,8 +541,8 @@ TEST_P(SceneHash, IsWhatTheSceneAlwaysGave) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Scenes, SceneHash,
-                         testing::Values(KnownHash{"vase", "89ce7769fd352134"}, KnownHash{"wall", "f8c4f10ee26d266d"},
-                                         KnownHash{"pane", "dac081d86d2dc6bb"}, KnownHash{"drop", "300909b841a32344"}),
+                         testing::Values(KnownHash{"vase", "0366b03047732ad8"}, KnownHash{"wall", "270bb90c694f437c"},
+                                         KnownHash{"pane", "d2996762de93097a"}, KnownHash{"drop", "92498c37f8865b2e"}),
                          [](const auto& known) { return std::string(known.param.scene); });
 
 TEST(Script, AFileIsPlayedByItsPathAndOneThatIsNotThereIsNamed) {

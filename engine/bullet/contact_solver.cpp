@@ -1,0 +1,45 @@
+#include "engine/bullet/contact_solver.hpp"
+
+namespace cullet::bullet {
+namespace {
+
+constexpr unsigned long kSeed = 1;
+// Bodies of a heap have 4 to 6 contact points each, half of their neighbours' counted. Beyond that Bullet's arrays grow
+// while they run.
+constexpr int kPointsOfABody = 16;
+constexpr int kRollingRows = 3;  // of a point: one about the normal, two across
+
+}  // namespace
+
+ContactSolver::ContactSolver(uint32_t body_limit) {
+    const auto bodies = static_cast<int>(body_limit);
+    const int points = kPointsOfABody * bodies + 1024;
+    setRandSeed(kSeed);
+    info_.m_splitImpulse = 1;
+    info_.m_splitImpulsePenetrationThreshold = 0;  // all overlap is pushed out without adding velocity
+    info_.m_splitImpulseTurnErp = 0.1f;
+    info_.m_erp2 = 0.2f;
+    info_.m_linearSlop = 0;
+    info_.m_numIterations = 20;
+    info_.m_restitutionVelocityThreshold = 0.2f;  // m/s
+    // Friction along fixed directions: those of the velocity are noise once a heap is nearly at rest.
+    info_.m_solverMode = SOLVER_USE_WARMSTARTING | SOLVER_SIMD | SOLVER_USE_2_FRICTION_DIRECTIONS |
+                         SOLVER_DISABLE_VELOCITY_DEPENDENT_FRICTION_DIRECTION;
+    bodies_.reserve(body_limit);
+    manifolds_.reserve(static_cast<size_t>(points));
+    m_tmpSolverBodyPool.reserve(bodies + 1);  // and all that stands still
+    m_tmpSolverContactConstraintPool.reserve(points);
+    m_tmpSolverContactFrictionConstraintPool.reserve(2 * points);
+    m_tmpSolverContactRollingFrictionConstraintPool.reserve(kRollingRows * points);
+    m_orderTmpConstraintPool.reserve(points);
+    m_orderFrictionConstraintPool.reserve(2 * points);
+}
+
+void ContactSolver::solve(float dt) {
+    info_.m_timeStep = dt;
+    if (bodies_.empty()) return;
+    solveGroup(bodies_.data(), static_cast<int>(bodies_.size()), manifolds_.data(), static_cast<int>(manifolds_.size()),
+               nullptr, 0, info_, nullptr, nullptr);
+}
+
+}  // namespace cullet::bullet
