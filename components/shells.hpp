@@ -19,6 +19,9 @@ inline constexpr uint32_t kVerticesPerCell =
 inline constexpr uint32_t kMostCellParts = 4;     // convex pieces of a cell
 inline constexpr uint32_t kMostCellPoints = 128;  // corners of all of them
 
+/// What stands for a shell in the rigid world: hulls of its cells, or one hull or box for all of it (piece_shape.hpp).
+enum class ShapeKind : uint8_t { Cells = 0, Hull = 1, Box = 2 };
+
 /// Rows [first, first + count) of a table, with room for `capacity`.
 struct Range {
     uint32_t first = 0, count = 0, capacity = 0;
@@ -37,7 +40,13 @@ struct Shells : Table<Shells> {
     Column<Range> blocks{*this, "blocks"};  // StiffnessBlocks
     Column<Range> links{*this, "links"};    // StiffnessLinks
     Column<Range> cells{*this, "cells"};
-    Column<Range> points{*this, "points"};  // HullPoints of its cells
+    Column<Range> points{*this, "points"};                // HullPoints of its cells, or of the one hull or box
+    Column<uint8_t> shape{*this, "shape"};                // ShapeKind
+    Column<uint8_t> shape_points{*this, "shape_points"};  // of the one hull or box; 0: cells have their own
+    Column<float> box_ratio{*this, "box_ratio"};    // volume of the tightest box over the solid's; 0: not measured
+    Column<float> hull_ratio{*this, "hull_ratio"};  // the same of the one hull
+    Column<float> margin{*this, "margin", "m"};     // that hulls are grown by; what breaks keeps its own
+    Column<uint32_t> made_shape{*this, "made_shape", "1", Keep::Scratch};  // of the one hull, as Cells.shape
     Column<Row<Materials>> material{*this, "material"};
     Column<uint32_t> users{*this, "users"};                  // models, bodies and tasks that hold the row; 0 = free
     Column<double> mass{*this, "mass", "kg"};                // sum over elements, ordered
@@ -212,7 +221,7 @@ struct StiffnessLinks : Table<StiffnessLinks> {
 inline constexpr uint8_t kCracked = 1, kLeft = 2;
 
 /// One row is a patch of neighbouring vertices: chunk of a job, bounds, a few convex pieces of the collision
-/// shape.
+/// shape (none where one hull or box stands for the shell).
 struct Cells : Table<Cells> {
     using Table::Table;
     static constexpr const char* kName = "cells";
@@ -233,7 +242,7 @@ struct Cells : Table<Cells> {
     Column<uint32_t> shape{*this, "shape", "1", Keep::Scratch};  // RigidWorld's, of a hull chosen in this step; kNone
 };
 
-/// One row is a corner of one of a cell's hulls, body frame, pulled in by the collision margin.
+/// One row is a corner of one of a cell's hulls, or of a whole shell's, body frame, pulled in by the collision margin.
 struct HullPoints : Table<HullPoints> {
     using Table::Table;
     static constexpr const char* kName = "hull_points";

@@ -33,6 +33,50 @@ double spin_energy(const Bodies& bodies, uint32_t b) {
     return 0.5 * dot(w, bodies.inertia[b] * w);
 }
 
+const char* kind_of_shape(const State& state, uint32_t b) {
+    const Bodies& bodies = state.bodies;
+    if (bodies.is_sphere[b]) return "sphere";
+    if (!bodies.shell[b].exists())
+        return bodies.kind[b] == static_cast<uint8_t>(BodyKind::Kinematic) ? "box" : "triangles";
+    const auto shape = static_cast<ShapeKind>(state.shells.shape[bodies.shell[b]]);
+    if (shape != ShapeKind::Cells) return shape == ShapeKind::Box ? "box" : "hull";
+    return cell_count(state, b) > 1 ? "compound" : "hull";
+}
+
+FragmentShapes::Ratio ratio_of(std::vector<float> ratios) {
+    if (ratios.empty()) return {};
+    std::sort(ratios.begin(), ratios.end());
+    const auto at = [&](size_t k) { return static_cast<double>(ratios[k]); };
+    return {at(0), at(ratios.size() / 2), at(ratios.size() - 1)};
+}
+
+// A piece, or what pieces came off; one that was measured has both ratios.
+void count_shapes(const State& state, Report& report) {
+    static constexpr const char* kKinds[] = {"cells", "hull", "box"};  // ShapeKind
+    const Bodies& bodies = state.bodies;
+    const Shells& shells = state.shells;
+    std::vector<float> boxes[3], hulls[3];
+    report.shapes = {{"sphere", 0}, {"hull", 0}, {"compound", 0}, {"box", 0}, {"triangles", 0}};
+    for (const char* kind : kKinds) report.fragment_shapes[kind] = {};
+    for (uint32_t b = 0; b < bodies.size(); ++b) {
+        if (is_free(bodies, b)) continue;
+        ++report.shapes[kind_of_shape(state, b)];
+        const Row<Shells> shell = bodies.shell[b];
+        if (!shell.exists() || (!bodies.parent[b].exists() && !(shells.hull_ratio[shell] > 0))) continue;
+        const size_t kind = shells.shape[shell];
+        ++report.fragment_shapes[kKinds[kind]].count;
+        if (!(shells.hull_ratio[shell] > 0)) continue;
+        boxes[kind].push_back(shells.box_ratio[shell]);
+        hulls[kind].push_back(shells.hull_ratio[shell]);
+    }
+    for (size_t kind = 0; kind < 3; ++kind) {
+        FragmentShapes& found = report.fragment_shapes[kKinds[kind]];
+        found.measured = hulls[kind].size();
+        found.box_ratio = ratio_of(boxes[kind]);
+        found.hull_ratio = ratio_of(hulls[kind]);
+    }
+}
+
 }  // namespace
 
 Matter measure_matter(const World& world) {
@@ -114,17 +158,7 @@ void fill_counts(const World& world, Report& report) {
     for (uint32_t s = 0; s < soft.size(); ++s)
         if (soft.is_used[s]) report.units.softening = std::max(report.units.softening, double{soft.softening[s]});
     for (size_t k = 0; k < 3; ++k) report.momentum_ns.impulse[k] = counts.impulse_to_static[k];
-    report.shapes = {{"sphere", 0}, {"hull", 0}, {"compound", 0}, {"box", 0}, {"triangles", 0}};
-    const Bodies& bodies = data.state.bodies;
-    for (uint32_t b = 0; b < bodies.size(); ++b) {
-        if (is_free(bodies, b)) continue;
-        const uint32_t cells = cell_count(data.state, b);
-        const bool is_kinematic = bodies.kind[b] == static_cast<uint8_t>(BodyKind::Kinematic);
-        ++report.shapes[bodies.is_sphere[b]        ? "sphere"
-                        : bodies.shell[b].exists() ? (cells > 1 ? "compound" : "hull")
-                        : is_kinematic             ? "box"
-                                                   : "triangles"];
-    }
+    count_shapes(data.state, report);
 }
 
 }  // namespace cullet

@@ -24,6 +24,23 @@ Json to_object(const Spread& s) {
     return {{"p50", s.p50}, {"p95", s.p95}, {"p99", s.p99}, {"max", s.max}, {"total", s.total}, {"rows", s.rows}};
 }
 
+Json to_object(const FragmentShapes& s) {
+    const auto ratio = [](const FragmentShapes::Ratio& r) {
+        return Json{{"min", r.min}, {"median", r.median}, {"max", r.max}};
+    };
+    return {{"count", s.count},
+            {"measured", s.measured},
+            {"box_ratio", ratio(s.box_ratio)},
+            {"hull_ratio", ratio(s.hull_ratio)}};
+}
+
+Json of_shapes(const Report& r) {
+    Json shapes = r.shapes, fragments = Json::object();
+    for (const auto& [kind, found] : r.fragment_shapes) fragments[kind] = to_object(found);
+    shapes["fragments"] = fragments;
+    return shapes;
+}
+
 Json of_run(const Report& r) {
     return {{"scene", r.scene},     {"seed", r.seed},       {"dt_s", r.dt_s}, {"frames", r.frames},
             {"threads", r.threads}, {"machine", r.machine}, {"hash", r.hash}, {"hash_chain", r.hash_chain},
@@ -75,7 +92,7 @@ Json of_work(const Report& r) {
               {"first_ready", r.tasks.first_ready}}},
             {"sweeps", r.sweeps},
             {"clamped", r.clamped},
-            {"shapes", r.shapes}};
+            {"shapes", of_shapes(r)}};
 }
 
 Json of_time(const Report& r) {

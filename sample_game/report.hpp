@@ -41,6 +41,17 @@ struct Rest {
     uint64_t through = 0;   // bodies below the ground, awake ones too
 };
 
+/// Fragments that one kind of shape stands for: how much larger than the solid its tightest box and its convex hull
+/// are.
+struct FragmentShapes {
+    struct Ratio {
+        double min = 0, median = 0, max = 0;
+    };
+    uint64_t count = 0;
+    uint64_t measured = 0;  // not those of too many elements
+    Ratio box_ratio, hull_ratio;
+};
+
 struct Report {
     std::string scene;
     uint64_t seed = 0;
@@ -102,7 +113,8 @@ struct Report {
         uint64_t first_breaks = 0, first_ready = 0;  // of whole bodies by touch; in the very frame of the touch
     } tasks;
     uint64_t sweeps = 0, clamped = 0;
-    std::map<std::string, uint64_t> shapes;
+    std::map<std::string, uint64_t> shapes;                        // of all bodies at the end
+    std::map<std::string, FragmentShapes> fragment_shapes;         // of what broke: box, hull, cells
     uint64_t allocations_in_frames = 0, allocations_in_rigid = 0;  // within step(), from frame 30 on
     uint64_t peak_rss_bytes = 0;
     // Of this program, beside the names above.

@@ -105,12 +105,13 @@ void plan_births(Serial, const Events<TaskEnded>& ended, ShellTables shells, con
                  ViewIndices& view_indices, const DamageSettings& settings, Arena& arena, Events<Break>& breaks,
                  Events<Birth>& births, Events<ShellChanged>& changed, Events<CrackStartedEvent>& cracks,
                  Events<RefusedEvent>& refused, Events<FaultEvent>& faults);
-/// Copies each piece into its rows and marks the old ones dead.
+/// Copies each piece into its rows, marks the old ones dead and chooses what shapes collide (piece_shape.hpp).
 void fill_births(Each<Birth> birth, const Events<Break>& breaks, ShellTables shells, const Bodies& bodies);
 /// Measures what is left of each body; hulls of cells that moved as they were are copied, the others listed.
 void plan_hulls(Serial, const Events<Break>& breaks, ShellTables shells, Bodies& bodies, RigidWorld& rigid,
                 Events<HullWanted>& wanted);
-/// The hull points of each cell that changed, and the faces of its hull for the rigid world.
+/// The hull points of each cell that changed, and the faces of its hull, or of a piece's one shape, for the rigid
+/// world.
 void fill_hulls(Each<HullWanted> wanted, ShellTables shells, const RigidWorld& rigid);
 /// The pieces enter the rigid world, in order of mass; the striker gets the impulse that it really passed. Closes the
 /// tasks that ended.

@@ -59,6 +59,9 @@ void draw_pieces(const Pen& pen, const State& state, Row<Bodies> b, uint32_t col
     const Range cells = state.shells.cells[shell];
     const Pose pose = pose_of(state.bodies, b);
     std::array<Vec3, kMostCellPoints> points;
+    const uint32_t whole = state.shells.shape_points[shell];
+    for (uint32_t k = 0; k < whole; ++k) points[k] = state.hull_points.point[state.shells.points[shell].first + k];
+    draw_hull(pen, {points.data(), whole}, pose, colour);
     for (uint32_t c = cells.first; c < cells.first + cells.count; ++c) {
         uint32_t from = state.shells.points[shell].first + state.cells.first_point[c];
         for (const uint8_t count : state.cells.part_points[c]) {

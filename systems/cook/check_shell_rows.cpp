@@ -9,6 +9,7 @@
 #include "systems/damage/ring.hpp"
 #include "systems/damage/working_room.hpp"
 #include "systems/fragments/extreme_points.hpp"
+#include "systems/fragments/piece_shape.hpp"
 
 namespace cullet {
 namespace {
@@ -58,6 +59,11 @@ constexpr Rule kRules[] = {
     {"shells", "first_crack_speed", Is::Number, 0, kHuge},
     {"shells", "generation", Is::Number, 0, 0, 0, 255},
     {"shells", "has_cracks", Is::Number, 0, 0, 0, 1},
+    {"shells", "shape", Is::Number, 0, 0, 0, static_cast<double>(ShapeKind::Box)},
+    {"shells", "shape_points", Is::Number, 0, 0, 0, kMostHullPoints},
+    {"shells", "box_ratio", Is::Number, 0, 0, 0, kHuge},
+    {"shells", "hull_ratio", Is::Number, 0, 0, 0, kHuge},
+    {"shells", "margin", Is::Number, 0, kFar},
     {"shells", "dead_elements", Is::Number, 0, 0, 0, kIds},
     {"vertices", "rest", Is::Number, -kFar, kFar},
     {"vertices", "inward", Is::Number, -kUnit, kUnit},
@@ -378,6 +384,12 @@ void check_cells(Checker& check) {
     const State& state = shell.state;
     const Range cells = state.shells.cells[shell.row], points = state.shells.points[shell.row];
     if (check.wear == Wear::CutOut && cells.count == 0) return;
+    const uint32_t whole = state.shells.shape_points[shell.row];
+    check.expect((points.capacity == 0 && !check.is_intact()) || whole <= points.count,
+                 "shells.shape_points is " + std::to_string(whole) + "; there are " + std::to_string(points.count));
+    check.expect((whole == 0) == (shape_of(shell) == ShapeKind::Cells),
+                 "shells.shape_points is " + std::to_string(whole) + " for shells.shape " +
+                     std::to_string(state.shells.shape[shell.row]));
     std::vector<uint32_t> elements_of(cells.count, 0);
     uint32_t last = 0;
     for (uint32_t e = 0; e < shell.element_count() && check.is_sound(); ++e) {

@@ -28,6 +28,8 @@ struct Break {
     ShellSums whole;             // of `broken` before they do
     float margin = 0;            // of the body's hulls so far
     Range points = {};           // for the hulls of what is left
+    bool had_cells = true;       // with hulls of their own, not one shape for all of them
+    bool chooses_shape = false;  // what is left of the body, too (piece_shape.hpp)
     /// The body keeps its rows, and hulls and drawn mesh but for the cells that changed (Cells::is_changed).
     bool keeps_hulls = false, keeps_mesh = false;
     bool is_refused = false;    // some part stays for want of room
@@ -52,7 +54,7 @@ struct Birth {
     uint32_t part;
 };
 
-/// A cell of a body that came apart, whose hull is to be chosen.
+/// A cell of a body that came apart, whose hull is to be chosen; kNone: the one shape of all of it, which is.
 struct HullWanted {
     Row<Shells> shell;
     uint32_t cell;

@@ -5,6 +5,7 @@
 #include "systems/fragments/cell_elements.hpp"
 #include "systems/fragments/cell_parts.hpp"
 #include "systems/fragments/extreme_points.hpp"
+#include "systems/fragments/piece_shape.hpp"
 #include "systems/fragments/prism.hpp"
 
 namespace cullet {
@@ -280,7 +281,7 @@ void link_live(const ShellView& shell) {
 }  // namespace
 
 float hull_margin(const ShellView& shell) {
-    return std::min(0.2f * shell.shells().thickness[shell.row], 0.001f);
+    return shell.shells().margin[shell.row];
 }
 
 void choose_hull(ShellView shell, uint32_t cell) {
@@ -292,7 +293,7 @@ void choose_hull(ShellView shell, uint32_t cell) {
 void pack_hulls(ShellView shell) {
     Cells& cells = shell.state.cells;
     Range& points = shell.shells().points[shell.row];
-    points.count = 0;
+    points.count = shell.shells().shape_points[shell.row];
     for (uint32_t c = 0; c < shell.shells().cells[shell.row].count; ++c) {
         const uint32_t row = cell_row(shell, c), count = cells.point_count[row];
         shell.state.hull_points.copy_rows(shell.state.hull_points, points.first + cells.first_point[row],
@@ -303,6 +304,8 @@ void pack_hulls(ShellView shell) {
 }
 
 void build_hulls(ShellView shell) {
+    shell.shells().margin[shell.row] = margin_for(shell.shells().thickness[shell.row]);
+    clear_shape(shell);
     link_sorted(shell);
     PointRoom room(shell);
     for (uint32_t c = 0; c < shell.shells().cells[shell.row].count; ++c) {
@@ -312,11 +315,36 @@ void build_hulls(ShellView shell) {
     pack_hulls(shell);
 }
 
-void copy_piece_hulls(ShellView piece, ShellView parent, float parents_margin) {
+namespace {
+
+void empty_cells(const ShellView& shell) {
+    Cells& cells = shell.state.cells;
+    for (uint32_t c = 0; c < shell.shells().cells[shell.row].count; ++c) {
+        const uint32_t row = cell_row(shell, c);
+        cells.first_point[row] = cells.point_count[row] = 0;
+        cells.part_points[row] = {};
+        cells.is_stale[row] = 0;
+        cells.same_cell[row] = kNone;
+    }
+}
+
+}  // namespace
+
+void empty_piece_cells(ShellView piece) {
+    link_sorted(piece);
+    empty_cells(piece);
+}
+
+void empty_rest_cells(ShellView shell) {
+    link_live(shell);
+    empty_cells(shell);
+}
+
+void copy_piece_hulls(ShellView piece, ShellView parent, float parents_margin, bool have_cells) {
     Cells& cells = piece.state.cells;
     link_sorted(piece);
     PointRoom room(piece);
-    const bool may_copy = std::fabs(hull_margin(piece) - parents_margin) <= 0.05f * parents_margin;
+    const bool may_copy = have_cells && std::fabs(hull_margin(piece) - parents_margin) <= 0.05f * parents_margin;
     const uint32_t parent_points = parent.shells().points[parent.row].first;
     for (uint32_t c = 0; c < piece.shells().cells[piece.row].count; ++c) {
         uint32_t& same = cells.same_cell[cell_row(piece, c)];
@@ -347,9 +375,11 @@ void find_changed_cells(ShellView shell, ShellView before) {
     }
 }
 
-void copy_rest_hulls(ShellView shell, Range points, ShellView before) {
+void copy_rest_hulls(ShellView shell, Range points, ShellView before, bool have_cells) {
     Cells& cells = shell.state.cells;
     const uint32_t count = shell.shells().cells[shell.row].count;
+    shell.shells().shape[shell.row] = static_cast<uint8_t>(ShapeKind::Cells);
+    shell.shells().shape_points[shell.row] = 0;
     for (uint32_t c = 0; c < count; ++c) {  // before counts are changed where `before` is the same shell
         const uint32_t row = cell_row(shell, c), then = cell_row(before, c);
         cells.list_count[row] = cells.element_count[row];
@@ -361,7 +391,7 @@ void copy_rest_hulls(ShellView shell, Range points, ShellView before) {
     PointRoom room(shell);
     for (uint32_t c = 0; c < count; ++c) {
         const uint32_t row = cell_row(shell, c);
-        const bool is_same = !cells.is_changed[row] && cells.element_count[row] == cells.list_count[row];
+        const bool is_same = have_cells && !cells.is_changed[row] && cells.element_count[row] == cells.list_count[row];
         cells.same_cell[row] = is_same ? c : kNone;
         if (is_same) {
             room.copy(c, points.first, row);

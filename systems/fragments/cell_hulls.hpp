@@ -1,4 +1,5 @@
-// The collision shape of a shell: up to four convex hulls of at most 32 points for each cell.
+// The collision shape of a shell whose cells have shapes of their own: up to four convex hulls of at most 32 points for
+// each cell.
 #pragma once
 #include <algorithm>
 
@@ -6,7 +7,7 @@
 
 namespace cullet {
 
-/// The shell's collision margin: 0.2 of its mean depth, at most 1 mm.
+/// The shell's collision margin.
 float hull_margin(const ShellView& shell);
 
 /// Rows of HullPoints that will do for so many cells.
@@ -14,11 +15,11 @@ inline uint32_t most_points(uint32_t cells, uint32_t elements) {
     return std::min(cells * kMostCellPoints, 6 * elements);
 }
 
-/// Writes HullPoints, and the counts in Cells, for all cells. Elements must stand sorted by cell (build_shell and
-/// make_piece leave them so) and the points' range have most_points rows. Points are outer and inner corners, pulled
-/// into the solid by the margin along the shell's normal (at most to the middle of the wall) and away from rims and
-/// cracks, so that neighbours along a crack start apart. A cell is one hull, and up to four where 32 points leave out
-/// more than half a margin. A hull leaves out what lies less than 0.2 margins above it.
+/// Writes HullPoints, and the counts in Cells, for all cells, and the margin. Elements must stand sorted by cell
+/// (build_shell and make_piece leave them so) and the points' range have most_points rows. Points are outer and inner
+/// corners, pulled into the solid by the margin along the shell's normal (at most to the middle of the wall) and away
+/// from rims and cracks, so that neighbours along a crack start apart. A cell is one hull, and up to four where 32
+/// points leave out more than half a margin. A hull leaves out what lies less than 0.2 margins above it.
 void build_hulls(ShellView shell);
 
 // The same in steps, for a body that broke: what moved as it was is copied, the other cells are chosen anew, all at
@@ -26,10 +27,14 @@ void build_hulls(ShellView shell);
 
 /// Of a piece, sorted by cell: where Cells.same_cell names a cell of `parent`, the body's shell before, and the margins
 /// of both are within a twentieth, its points are copied. Elsewhere same_cell becomes kNone: the cell waits.
-void copy_piece_hulls(ShellView piece, ShellView parent, float parents_margin);
+/// `have_cells` false: the body had one shape, and no cell of it hulls.
+void copy_piece_hulls(ShellView piece, ShellView parent, float parents_margin, bool have_cells);
 /// Of what is left of the body, its elements in any order, into its own empty range of points: those of `before` (whose
 /// rows of points are `points`) where no element of the cell is changed or dead; same_cell as above.
-void copy_rest_hulls(ShellView shell, Range points, ShellView before);
+void copy_rest_hulls(ShellView shell, Range points, ShellView before, bool have_cells = true);
+/// Of a piece, and of what is left of a body, that has one shape for all of it (piece_shape.hpp): its cells have none.
+void empty_piece_cells(ShellView piece);
+void empty_rest_cells(ShellView shell);
 /// A cell that waits. It may have lost all of its elements.
 void choose_hull(ShellView shell, uint32_t cell);
 /// When no cell waits any more.

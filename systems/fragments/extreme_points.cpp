@@ -29,6 +29,7 @@ class Hull {
     void choose(uint32_t most, ExtremePoints& chosen) {
         chosen.count = 0;
         chosen.left_out = 0;
+        chosen.face_count = 0;
         if (points_.empty()) return;
         if (start()) {
             for (uint32_t i = 0; i < points_.size(); ++i) file(i, faces_, face_count_);
@@ -45,9 +46,16 @@ class Hull {
         }
         for (uint32_t k = 0; k < corner_count_; ++k)
             if (source_[k] != kNoPoint) chosen.index[chosen.count++] = source_[k];
+        list_faces(chosen);
     }
 
  private:
+    // Without a tip the corners are numbered as the points that were chosen.
+    void list_faces(ExtremePoints& chosen) const {
+        for (uint32_t f = 0; f < face_count_ && !has_tip_; ++f)
+            if (faces_[f].is_used && chosen.face_count < 2 * kMostHullPoints)
+                chosen.face[chosen.face_count++] = {faces_[f].corner[0], faces_[f].corner[1], faces_[f].corner[2]};
+    }
     template <class Measure>
     uint32_t best(Measure measure, float& most) const {
         uint32_t at = 0;

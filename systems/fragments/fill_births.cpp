@@ -1,4 +1,5 @@
 #include "systems/fragments/make_piece.hpp"
+#include "systems/fragments/piece_shape.hpp"
 #include "systems/fragments/rest_of_body.hpp"
 #include "systems/systems.hpp"
 
@@ -12,9 +13,14 @@ void fill_births(Each<Birth> birth, const Events<Break>& breaks, ShellTables she
     const ShellView broken(state, plan.broken);
     if (birth->part == plan.largest) {
         if (plan.is_rest_smaller(state)) measure_part(broken, part);
+        if (plan.chooses_shape) choose_shape(broken, plan.points.first, &part);
         return;
     }
-    if (plan.child[birth->part].exists()) fill_piece(state, plan.broken, part, bodies.shell[plan.child[birth->part]]);
+    if (plan.child[birth->part].exists()) {
+        const ShellView piece(state, bodies.shell[plan.child[birth->part]]);
+        fill_piece(state, plan.broken, part, piece.row);
+        if (!plan.soft.exists()) choose_shape(piece, piece.shells().points[piece.row].first);
+    }
     shed_part(broken, part);
 }
 

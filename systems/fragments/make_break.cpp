@@ -213,7 +213,9 @@ void make_birth(Births& births, const Break& plan, uint32_t p, const Moment& mom
             for (const Vec3 point : piece.points) bounds.add(point);
     if (is_rest && was_static == is_static) {
         // Hulls of a copy's cells that did not change are those of the body, by the same names.
-        const bool is_of_copy = !plan.keeps_hulls && !plan.soft.exists() && is_quick_body(state, body);
+        const bool has_cells = state.shells.shape_points[bodies.shell[body]] == 0;
+        const bool is_of_copy =
+            !plan.keeps_hulls && !plan.soft.exists() && plan.had_cells && has_cells && is_quick_body(state, body);
         if (!is_of_copy || !change_rest(births, body))
             births.rigid.set_shape(body, bodies.mass[body], bodies.centre[body], bodies.inertia[body], pieces);
         if (!was_static) births.rigid.set_motion(body, motion);

@@ -4,6 +4,7 @@
 
 #include "systems/fragments/cell_hulls.hpp"
 #include "systems/fragments/mass_properties.hpp"
+#include "systems/fragments/piece_shape.hpp"
 
 namespace cullet {
 namespace {
@@ -267,6 +268,14 @@ void inherit(Shells& shells, Row<Shells> from, Row<Shells> to) {
     shells.first_crack_speed[to] = shells.first_crack_speed[from];
 }
 
+void copy_shape(Shells& shells, Row<Shells> from, Row<Shells> to) {
+    shells.shape[to] = shells.shape[from];
+    shells.shape_points[to] = shells.shape_points[from];
+    shells.box_ratio[to] = shells.box_ratio[from];
+    shells.hull_ratio[to] = shells.hull_ratio[from];
+    shells.margin[to] = shells.margin[from];
+}
+
 ShellRoom room_of(const Counts& counts, const FragmentPart& part) {
     return {.vertices = (counts.vertices + kLanes - 1) / kLanes * kLanes,
             .elements = part.element_count,
@@ -293,6 +302,7 @@ void finish_piece(const ShellView& shell, const FragmentPart& part, const ShellV
     piece.vertices().count = (vertex_count + kLanes - 1) / kLanes * kLanes;
     sum_vertex_masses(piece);
     measure_shell(piece);
+    piece.shells().margin[piece.row] = margin_for(piece.shells().thickness[piece.row]);
 }
 
 void begin_piece(const ShellView& shell, const ShellView& piece, uint32_t vertex_count) {
@@ -363,6 +373,7 @@ Row<Shells> compact_shell(State& state, Row<Shells> old, const FragmentPart& who
     state.cells.copy_rows(state.cells, state.shells.cells[old].first, cells.first, cells.count);
     state.hull_points.copy_rows(state.hull_points, state.shells.points[old].first, points.first, points.count);
     state.shells.has_cracks[row] = state.shells.has_cracks[old];
+    copy_shape(state.shells, old, row);
     return row;
 }
 

@@ -7,6 +7,7 @@
 #include "systems/fragments/cell_hulls.hpp"
 #include "systems/fragments/hand_on.hpp"
 #include "systems/fragments/make_piece.hpp"
+#include "systems/fragments/piece_shape.hpp"
 #include "systems/fragments/rest_of_body.hpp"
 #include "systems/quick/quick_body.hpp"
 #include "systems/rigid/body_id.hpp"
@@ -82,7 +83,9 @@ Break break_of(Planning& planning, Row<Tasks> task, Row<Bodies> body, Row<Shells
     plan.debris = arena.take<uint32_t>(parts.size());
     std::fill(plan.debris.begin(), plan.debris.end(), kNone);
     plan.is_crumb = arena.take<uint8_t>(parts.size());
-    plan.margin = hull_margin(ShellView(planning.state, plan.before));
+    const ShellView before(planning.state, plan.before);
+    plan.margin = hull_margin(before);
+    plan.had_cells = shape_of(before) == ShapeKind::Cells;
     return plan;
 }
 
@@ -102,7 +105,9 @@ bool reserve_points(Planning& planning, Break& plan) {
     const ShellView broken(planning.state, plan.broken);
     find_changed_cells(broken, ShellView(planning.state, plan.before));
     mark_left_cells(plan, broken);
-    plan.keeps_hulls = plan.broken == plan.before && !plan.soft.exists() && has_room_to_renew(broken);
+    plan.chooses_shape = !plan.soft.exists() && broken.element_count() <= kMostWholeElements;
+    plan.keeps_hulls = plan.broken == plan.before && !plan.soft.exists() && plan.had_cells && !plan.chooses_shape &&
+                       has_room_to_renew(broken);
     if (plan.keeps_hulls) return true;
     const uint32_t rows = most_points(shells.cells[plan.broken].count, shells.elements[plan.broken].count);
     if (take_points(planning.state, rows, plan.points)) return true;
@@ -256,7 +261,8 @@ void order_births(Planning& planning, Break& plan) {
     for (uint32_t p = 0; p < plan.parts.size(); ++p)
         if (plan.leaves(p)) plan.left_elements += plan.parts[p].element_count;
     plan.whole = sums_of(ShellView(state, plan.broken));
-    if (plan.is_rest_smaller(state)) list_part(ShellView(state, plan.broken), plan.parts, plan.largest);
+    if (plan.is_rest_smaller(state) || plan.chooses_shape)
+        list_part(ShellView(state, plan.broken), plan.parts, plan.largest);
     hand_on_hits(state, plan);
     hand_on_blows(planning, plan);
     const uint32_t of = planning.breaks.size();

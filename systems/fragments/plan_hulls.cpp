@@ -1,5 +1,6 @@
 #include "systems/fragments/cell_hulls.hpp"
 #include "systems/fragments/mass_properties.hpp"
+#include "systems/fragments/piece_shape.hpp"
 #include "systems/fragments/rest_of_body.hpp"
 #include "systems/fragments/vertex_sums.hpp"
 #include "systems/systems.hpp"
@@ -10,6 +11,11 @@ namespace {
 void want_hulls(State& state, Row<Shells> shell, Events<HullWanted>& wanted) {
     Cells& cells = state.cells;
     const Range range = state.shells.cells[shell];
+    if (shape_of(ShellView(state, shell)) != ShapeKind::Cells) {
+        state.shells.made_shape[shell] = wanted.size();
+        wanted.push({shell, kNone});
+        return;
+    }
     for (uint32_t c = 0; c < range.count; ++c) {
         const uint32_t row = range.first + c;
         const bool is_wanted = cells.same_cell[row] == kNone;
@@ -28,7 +34,10 @@ void keep_rest(State& state, const Break& plan) {
         outdate_blocks(shell, plan.parts[p]);
         if (plan.child[p].exists()) {
             const ShellView piece(state, state.bodies.shell[plan.child[p]]);
-            copy_piece_hulls(piece, before, plan.margin);
+            if (shape_of(piece) == ShapeKind::Cells)
+                copy_piece_hulls(piece, before, plan.margin, plan.had_cells);
+            else
+                empty_piece_cells(piece);
             left = left + sums_of(piece);
             continue;
         }
@@ -42,7 +51,10 @@ void keep_rest(State& state, const Break& plan) {
     if (plan.keeps_hulls) return renew_rest_hulls(shell);
     const Range points = state.shells.points[before.row], old_points = state.shells.points[shell.row];
     state.shells.points[shell.row] = plan.points;
-    copy_rest_hulls(shell, points, before);
+    if (shape_of(shell) != ShapeKind::Cells && plan.chooses_shape)
+        empty_rest_cells(shell);
+    else
+        copy_rest_hulls(shell, points, before, plan.had_cells);
     state.pools.points.give_back(old_points.first, old_points.capacity);
     adopt_shell(state, plan.body, shell.row);
 }

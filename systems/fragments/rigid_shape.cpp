@@ -35,9 +35,20 @@ std::span<const ConvexPiece> pieces_of(const State& state, Row<Shells> shell, Ar
     return pieces.first(count);
 }
 
+std::span<const ConvexPiece> one_piece(const State& state, Row<Shells> shell, Arena& arena, bool is_made) {
+    const auto pieces = arena.take<ConvexPiece>(1);
+    const auto points = arena.take<Vec3>(state.shells.shape_points[shell]);
+    for (uint32_t k = 0; k < points.size(); ++k)
+        points[k] = state.hull_points.point[state.shells.points[shell].first + k];
+    pieces[0] = {points, 0};
+    if (is_made) pieces[0].shape = kMostCellParts * state.shells.made_shape[shell];
+    return pieces;
+}
+
 }  // namespace
 
 std::span<const ConvexPiece> convex_pieces(const State& state, Row<Shells> shell, Arena& arena, RigidId broken_body) {
+    if (state.shells.shape_points[shell]) return one_piece(state, shell, arena, broken_body != kNoRigid);
     return pieces_of(state, shell, arena, broken_body, [](uint32_t) { return true; });
 }
 

@@ -6,7 +6,8 @@
 
 namespace cullet {
 
-/// Hulls of all cells that have points, named kMostCellParts * cell + part; the spans live in the arena. With
+/// The one shape of the shell, named 0, or hulls of all cells that have points, named kMostCellParts * cell + part; the
+/// spans live in the arena. With
 /// `broken_body`, the one that came apart in this step, Cells.same_cell tells which of its hulls have the same points,
 /// and Cells.shape which were made ahead.
 std::span<const ConvexPiece> convex_pieces(const State& state, Row<Shells> shell, Arena& arena,
