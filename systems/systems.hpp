@@ -24,8 +24,8 @@ void predict_impacts(Serial, Step step, const RigidWorld& rigid, const Bodies& b
                      const Tasks& tasks, const TaskContacts& contacts, const DamageSettings& settings,
                      Events<Impact>& impacts);
 /// One damage task a body that was hit: asks the game, takes rows for its working copy. A further hit on a body whose
-/// task is open waits in QueuedHits, as all hits do while every task is taken; it opens one when the body can, the oldest
-/// first. Blows of the game do as contacts do.
+/// task is open waits in QueuedHits, as all hits do while every task is taken; it opens one when the body can, the
+/// oldest first. Blows of the game do as contacts do.
 void open_tasks(Serial, Step step, const Events<Impact>& impacts, ShellTables shells, const Materials& materials,
                 Bodies& bodies, Tasks& tasks, TaskContacts& contacts, QueuedHits& queued, Blows& blows,
                 RigidWorld& rigid, const DamageSettings& settings, DamageCounts& counts, Events<TaskOpened>& opened,
@@ -92,9 +92,10 @@ void smooth_cracks(Each<TaskEnded> ended, ShellTables shells, const Tasks& tasks
 /// cracks. What finds no room stays part of the body, and asks again.
 void plan_births(Serial, const Events<TaskEnded>& ended, ShellTables shells, const Tasks& tasks, Fragments& fragments,
                  QueuedHits& queued, Blows& blows, Bodies& bodies, const Debris& debris,
-                 const FragmentAges& fragment_ages, ViewVertices& view_vertices, ViewIndices& view_indices, const DamageSettings& settings, Arena& arena, Events<Break>& breaks,
-                 Events<Birth>& births, Events<ShellChanged>& changed, Events<CrackStartedEvent>& cracks,
-                 Events<RefusedEvent>& refused, Events<FaultEvent>& faults);
+                 const FragmentAges& fragment_ages, ViewVertices& view_vertices, ViewIndices& view_indices,
+                 const DamageSettings& settings, Arena& arena, Events<Break>& breaks, Events<Birth>& births,
+                 Events<ShellChanged>& changed, Events<CrackStartedEvent>& cracks, Events<RefusedEvent>& refused,
+                 Events<FaultEvent>& faults);
 /// Copies each piece into its rows and marks the old ones dead.
 void fill_births(Each<Birth> birth, const Events<Break>& breaks, ShellTables shells, const Bodies& bodies);
 /// Measures what is left of each body; hulls of cells that moved as they were are copied, the others listed.
@@ -106,7 +107,8 @@ void fill_hulls(Each<HullWanted> wanted, ShellTables shells, const RigidWorld& r
 /// tasks that ended.
 void make_births(Serial, Step step, const Events<TaskEnded>& ended, const Events<Break>& breaks, ShellTables shells,
                  Tasks& tasks, TaskContacts& contacts, Blows& blows, Bodies& bodies, Debris& debris,
-                 FragmentAges& fragment_ages, DebrisAges& debris_ages, RigidWorld& rigid, DamageCounts& counts, Arena& arena, Events<ShellChanged>& changed, Events<FragmentBornEvent>& born,
+                 FragmentAges& fragment_ages, DebrisAges& debris_ages, RigidWorld& rigid, DamageCounts& counts,
+                 Arena& arena, Events<ShellChanged>& changed, Events<FragmentBornEvent>& born,
                  Events<DebrisEvent>& debris_events);
 
 // ---- solve

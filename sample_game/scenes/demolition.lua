@@ -5,13 +5,14 @@ game.scene{
     seconds = 20,
     sheet = {0, 30, 60, 110, 180, 260, 360, 480, 620, 800, 1000, 1199},
 }
-local shell = game.shell_keys{material = "brick", thickness = 0.22, edge = 0.5}
+local shell = game.shell_keys{material = "brick", thickness = 0.22, edge = 0.42}
 local blasts = game.key{name = "scene.explosions", default = 100, least = 1, most = 1000, text = "in 20 seconds"}
-local impulse = game.key{name = "scene.impulse_nspm2", unit = "N s/m2", default = 4500, least = 1, most = 1e6, text = "of an explosion at its centre"}
+local impulse = game.key{name = "scene.impulse_nspm2", unit = "N s/m2", default = 6000, least = 1, most = 1e6, text = "of an explosion at its centre"}
 local most = game.key{name = "scene.fragments", default = 2000, least = 10, most = 100000, text = "pieces alive at once"}
 
 game.setting{
-    generations = 2,
+    break_share = 0.02,
+    debris_elements = 3,
     limits = {bodies = 4096, open_hits = 128, queued_hits = 2048, fragments = most, births_a_frame = 100},
 }
 local function cook(mesh)
@@ -27,9 +28,9 @@ local shapes = {
 }
 local lots = {1, 5, 2, 3, 4, 1, 2, 5, 1, 3}
 
-game.camera{eye = {-33, 13, 17}, target = {-2, 1.5, -1}, field_of_view = 0.62}
+game.camera{eye = {-35, 21, 25}, target = {-5, 0.5, -1}, field_of_view = 0.62}
 game.sun{towards = {0.45, 0.75, 0.6}, strength = 2.4}
-game.floor()
+game.floor{half_side = 80}
 local places = {}
 for side = -1, 1, 2 do
     for lot = 1, 10 do
@@ -60,12 +61,17 @@ every({frames = 5}, function()
         game.retire{count = over, asleep = true}
     end
 end)
+-- One building after the other, five explosions each, in an order of chance.
+for last = #places, 2, -1 do
+    local other = 1 + math.floor(game.random() * last)
+    places[last], places[other] = places[other], places[last]
+end
 for n = 1, blasts do
     at(19.5 * (n - 0.5) / blasts, function()
-        local place = places[1 + math.floor(game.random() * #places)]
+        local place = places[1 + (n - 1) * #places // blasts]
         game.explode{
             at = {place[1] + game.random(-2.5, 2.5), game.random(0.5, 2.5), place[3] + game.random(-2, 2)},
-            radius = 4.5,
+            radius = 5,
             impulse = impulse,
         }
     end)

@@ -74,8 +74,8 @@ template <class Data, class F>
 void for_each_count(Data& d, F&& f) {
     auto& c = d.counts;
     f(c.opened), f(c.broke), f(c.whole), f(c.dropped), f(c.redone), f(c.late), f(c.frames_held), f(c.clamped);
-    f(c.cuts), f(c.starts), f(c.cuts_refused), f(c.units_used), f(c.units_left), f(c.slow_soft_frames),
-        f(c.retired), f(c.faded), f(c.worst_rounding);
+    f(c.cuts), f(c.starts), f(c.cuts_refused), f(c.units_used), f(c.units_left), f(c.slow_soft_frames), f(c.retired),
+        f(c.faded), f(c.worst_rounding);
     for (auto& impulse : c.impulse_to_static) f(impulse);
 }
 

@@ -41,14 +41,22 @@ bool asks_as_soft(State& state, Row<Bodies> body) {
 }  // namespace
 
 void plan_births(Serial, const Events<TaskEnded>& ended, ShellTables shells, const Tasks& tasks, Fragments&,
-                 QueuedHits&, Blows&, Bodies& bodies, const Debris& debris,
-                 const FragmentAges& ages, ViewVertices&, ViewIndices&,
-                 const DamageSettings& settings, Arena& arena, Events<Break>& breaks, Events<Birth>& births,
-                 Events<ShellChanged>& changed, Events<CrackStartedEvent>& cracks, Events<RefusedEvent>& refused,
-                 Events<FaultEvent>& faults) {
+                 QueuedHits&, Blows&, Bodies& bodies, const Debris& debris, const FragmentAges& ages, ViewVertices&,
+                 ViewIndices&, const DamageSettings& settings, Arena& arena, Events<Break>& breaks,
+                 Events<Birth>& births, Events<ShellChanged>& changed, Events<CrackStartedEvent>& cracks,
+                 Events<RefusedEvent>& refused, Events<FaultEvent>& faults) {
     breaks.clear();
     births.clear();
-    Planning planning{shells.state, settings, arena, breaks, births, changed, refused, free_debris(debris), free_fragments(ages, settings), settings.births_a_frame};
+    Planning planning{shells.state,
+                      settings,
+                      arena,
+                      breaks,
+                      births,
+                      changed,
+                      refused,
+                      free_debris(debris),
+                      free_fragments(ages, settings),
+                      settings.births_a_frame};
     for (uint32_t b = 0; b < bodies.size(); ++b)
         if (bodies.is_owed_births[b] && bodies.task[b] == kNone && may_ask(planning, bodies.is_owed_births[b]) &&
             !asks_as_soft(shells.state, Row<Bodies>(b)))

@@ -80,12 +80,13 @@ struct StepReport {
     uint32_t open_hits = 0, held_bodies = 0;
     uint32_t bodies = 0, awake = 0, debris = 0;
     // What it costs, and what waits.
-    uint32_t fragments = 0;          // alive, as World::fragments lists them
-    uint32_t waiting_hits = 0;       // hits and blows that no damage task works on yet
-    uint32_t waiting_bodies = 0;     // bodies with pieces that are loose and found no room
-    uint64_t oldest_hit_frames = 0;  // since the oldest of the open and the waiting hits, blows left out; 0: there is none
-    uint64_t retired = 0;            // fragments, since the world was made
-    uint64_t faded = 0;              // crumbs, since the world was made
+    uint32_t fragments = 0;       // alive, as World::fragments lists them
+    uint32_t waiting_hits = 0;    // hits and blows that no damage task works on yet
+    uint32_t waiting_bodies = 0;  // bodies with pieces that are loose and found no room
+    uint64_t oldest_hit_frames =
+        0;                 // since the oldest of the open and the waiting hits, blows left out; 0: there is none
+    uint64_t retired = 0;  // fragments, since the world was made
+    uint64_t faded = 0;    // crumbs, since the world was made
 };
 
 /// What becomes of a fragment that the game has seen enough of.
