@@ -5,7 +5,8 @@
 
 namespace cullet {
 
-enum class BodyKind : uint8_t { Free = 0, Static, Kinematic, Dynamic };
+/// Scenery is drawn where it lies and stands in no rigid world.
+enum class BodyKind : uint8_t { Free = 0, Static, Kinematic, Dynamic, Scenery };
 
 struct Models;
 

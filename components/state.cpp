@@ -72,6 +72,8 @@ State::State(const Limits& l)
       quick_runs(l.tasks),
       awake_packs(l.tasks * kMostAwakePacks),
       region_rests(l.tasks),
+      fragment_ages(l.bodies),
+      debris_ages(l.debris),
       vertex_blocks(l.vertices / kVerticesPerBlock + 1) {
     tasks.append(l.tasks);
     task_contacts.append(l.tasks * kMostContacts);
@@ -138,9 +140,11 @@ void State::commit_ahead(const ShellRoom& shell, uint32_t served) {
 
 namespace {
 
-// A table that says kIsOptional counts only while it has rows: what came later leaves older scenes their hash.
+// A table that says kIsOptional counts only while it has rows: what came later leaves older scenes their hash. One that
+// says kIsBookkeeping never counts.
 template <class T>
 uint64_t hash_of(const T& table, uint64_t hash) {
+    if constexpr (requires { T::kIsBookkeeping; }) return hash;
     if constexpr (requires { T::kIsOptional; })
         if (table.size() == 0) return hash;
     return table.hash(hash);

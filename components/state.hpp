@@ -3,6 +3,7 @@
 #include <string>
 #include <tuple>
 
+#include "components/ages.hpp"
 #include "components/blows.hpp"
 #include "components/bodies.hpp"
 #include "components/materials.hpp"
@@ -135,7 +136,9 @@ struct State {
                           &State::region_rests,
                           &State::soft_bodies,
                           &State::soft_strikers,
-                          &State::soft_contacts};
+                          &State::soft_contacts,
+                          &State::fragment_ages,
+                          &State::debris_ages};
     }
     const Limits& limits() const { return limits_; }
     /// The table of type T.
@@ -167,6 +170,8 @@ struct State {
     QuickRuns quick_runs;
     AwakePacks awake_packs;
     RegionRests region_rests;
+    FragmentAges fragment_ages;
+    DebrisAges debris_ages;
     VertexBlocks vertex_blocks;  // none of the tables: neither saved nor hashed
 };
 

@@ -88,7 +88,7 @@ Matter measure_matter(const World& world) {
         const bool has_shell = bodies.shell[b].exists();
         if (!has_shell && !is_dynamic(bodies, b)) continue;
         matter.mass += bodies.mass[b];
-        matter.fragments += has_shell && bodies.parent[b].exists();
+        matter.fragments += born_of(state.fragment_ages, b) > 0;
         if (!is_dynamic(bodies, b) || bodies.has_pins[b]) continue;
         add_moving(matter, bodies.mass[b], bodies.velocity[b]);
         matter.kinetic_energy += spin_energy(bodies, b);

@@ -34,6 +34,16 @@ Mesh make_cow(float length = 0.6f, uint32_t vertices = 3000, uint64_t seed = 1);
 Mesh make_castle(float width = 3, uint32_t vertices = 6500, uint64_t seed = 1);
 /// A closed block of that size: x and z round 0, y from 0; at least 588 vertices and 2 V - 4 triangles.
 Mesh make_slab(Vec3 size = {2.4f, 1.8f, 0.1f}, uint32_t vertices = 600, uint64_t seed = 1);
+/// What stands in a street, m: the ground's outline round the origin, walls to `height`, over them a roof that rises by
+/// `roof`: a gable along x, of a round one a cone, 0: flat.
+struct BuildingShape {
+    float width = 6, depth = 5, height = 3, roof = 2;
+    float edge = 0.45f;
+    bool is_round = false, is_windowless = false;
+};
+/// The outer sheet of a house or a tower, open at the foot, y = 0, with a door toward +z and windows; which of them are
+/// bricked up is the seed's affair.
+Mesh make_building(const BuildingShape& shape, uint64_t seed = 1);
 /// One of the shapes above with its usual numbers, by the name that scripts and --mesh use ("vase", "pig", "castle");
 /// without triangles when there is none of that name.
 Mesh make_mesh_named(const std::string& name, uint64_t seed = 1);

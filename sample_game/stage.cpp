@@ -40,6 +40,8 @@ Keys world_keys() {
                 "pieces lighter than this share do not break again")
         .number("break_elements", "1", defaults.break_elements, 0, 1e6, "pieces of fewer elements do not break again")
         .number("debris_elements", "1", defaults.debris_elements, 0, 1e6, "pieces of fewer elements are debris")
+        .number("debris_s", "s", static_cast<double>(defaults.debris_seconds), 0, 1e6,
+                "crumbs are gone after so long; 0: they stay")
         .number("gravity_mps2", "m/s2", 9.81, 0, 100, "downward")
         .number("threads", "1", 1, 1, 64, "threads that step the world; the same as --threads")
         .word("simd", "best", "best, scalar, sse4, avx2, avx512", "kernels of the whole program run at this level");
@@ -60,6 +62,7 @@ Settings Stage::settings() const {
     s.break_share = static_cast<float>(keys["break_share"]);
     s.break_elements = static_cast<uint32_t>(keys["break_elements"]);
     s.debris_elements = static_cast<uint32_t>(keys["debris_elements"]);
+    s.debris_seconds = static_cast<float>(keys["debris_s"]);
     s.limits = limits;
     return s;
 }

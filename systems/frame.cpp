@@ -49,7 +49,7 @@ FramePlan<WorldData> make_frame_plan(bool is_hosted, const std::function<std::st
         .then<make_births>();
     plan.stage("solve");
     if (!is_hosted) plan.then<solve_rigid>().then<return_soft>().then<read_rigid>();
-    plan.then<fall_debris>();
+    plan.then<fade_debris>().then<fall_debris>();
     plan.stage("end")
         .then<show_soft>()
         .then<draw_shells>()

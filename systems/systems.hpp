@@ -34,8 +34,8 @@ void meet_foreseen(Serial, Step step, ShellTables shells, Tasks& tasks, TaskCont
                    const Bodies& bodies, const DamageSettings& settings, DamageCounts& counts, Events<Impact>& impacts,
                    Events<ImpactEvent>& impact_events);
 /// One damage task a body that was hit: asks the game, takes rows for its working copy. A further hit on a body whose
-/// task is open waits in QueuedHits, and opens one when the body can. Blows of the game do as contacts do, and touches
-/// that are foreseen, behind all others.
+/// task is open waits in QueuedHits, as all hits do while every task is taken; it opens one when the body can, the
+/// oldest first. Blows of the game do as contacts do, and touches that are foreseen, behind all others.
 void open_tasks(Serial, Step step, const Events<Impact>& impacts, const Events<ForeseenHit>& foreseen,
                 ShellTables shells, const Materials& materials, Bodies& bodies, Tasks& tasks, TaskContacts& contacts,
                 QueuedHits& queued, Blows& blows, RigidWorld& rigid, const DamageSettings& settings,
@@ -101,10 +101,11 @@ void smooth_cracks(Each<TaskEnded> ended, ShellTables shells, const Tasks& tasks
 /// Which pieces become bodies or crumbs, in order of mass, and the rows that they need. What stayed whole keeps its
 /// cracks. What finds no room stays part of the body, and asks again.
 void plan_births(Serial, const Events<TaskEnded>& ended, ShellTables shells, const Tasks& tasks, Fragments& fragments,
-                 QueuedHits& queued, Blows& blows, Bodies& bodies, const Debris& debris, ViewVertices& view_vertices,
-                 ViewIndices& view_indices, const DamageSettings& settings, Arena& arena, Events<Break>& breaks,
-                 Events<Birth>& births, Events<ShellChanged>& changed, Events<CrackStartedEvent>& cracks,
-                 Events<RefusedEvent>& refused, Events<FaultEvent>& faults);
+                 QueuedHits& queued, Blows& blows, Bodies& bodies, const Debris& debris,
+                 const FragmentAges& fragment_ages, ViewVertices& view_vertices, ViewIndices& view_indices,
+                 const DamageSettings& settings, Arena& arena, Events<Break>& breaks, Events<Birth>& births,
+                 Events<ShellChanged>& changed, Events<CrackStartedEvent>& cracks, Events<RefusedEvent>& refused,
+                 Events<FaultEvent>& faults);
 /// Copies each piece into its rows, marks the old ones dead and chooses what shapes collide (piece_shape.hpp).
 void fill_births(Each<Birth> birth, const Events<Break>& breaks, ShellTables shells, const Bodies& bodies);
 /// Measures what is left of each body; hulls of cells that moved as they were are copied, the others listed.
@@ -116,8 +117,9 @@ void fill_hulls(Each<HullWanted> wanted, ShellTables shells, const RigidWorld& r
 /// The pieces enter the rigid world, in order of mass; the striker gets the impulse that it really passed. Closes the
 /// tasks that ended.
 void make_births(Serial, Step step, const Events<TaskEnded>& ended, const Events<Break>& breaks, ShellTables shells,
-                 Tasks& tasks, TaskContacts& contacts, Blows& blows, Bodies& bodies, Debris& debris, RigidWorld& rigid,
-                 DamageCounts& counts, Arena& arena, Events<ShellChanged>& changed, Events<FragmentBornEvent>& born,
+                 Tasks& tasks, TaskContacts& contacts, Blows& blows, Bodies& bodies, Debris& debris,
+                 FragmentAges& fragment_ages, DebrisAges& debris_ages, RigidWorld& rigid, DamageCounts& counts,
+                 Arena& arena, Events<ShellChanged>& changed, Events<FragmentBornEvent>& born,
                  Events<DebrisEvent>& debris_events);
 
 // ---- solve
@@ -129,6 +131,9 @@ void solve_rigid(Serial, Step step, RigidWorld& rigid);
 void return_soft(Serial, const SoftBodies& soft, const SoftStrikers& strikers, RigidWorld& rigid);
 /// Poses, velocities and sleep of the rigid world, back into rows.
 void read_rigid(Serial, const RigidWorld& rigid, Bodies& bodies, Events<AsleepEvent>& asleep);
+/// Crumbs that are older than the game wants go.
+void fade_debris(Serial, Step step, Debris& debris, const DebrisAges& ages, const DamageSettings& settings,
+                 DamageCounts& counts);
 /// Crumbs fly on parabolas until they meet the floor below their place of birth.
 void fall_debris(Rows<Debris> debris, Step step, InOut<&Debris::position> position, InOut<&Debris::velocity> velocity,
                  In<&Debris::floor> floor, InOut<&Debris::is_resting> is_resting, In<&Debris::is_used> is_used);

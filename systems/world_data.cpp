@@ -59,6 +59,9 @@ WorldData::WorldData(const Settings& settings)
     damage_settings.break_elements = settings.break_elements;
     damage_settings.debris_share = settings.debris_share;
     damage_settings.debris_elements = settings.debris_elements;
+    damage_settings.debris_seconds = settings.debris_seconds;
+    damage_settings.fragments = settings.limits.fragments;
+    damage_settings.births_a_frame = settings.limits.births_a_frame;
 }
 
 WorldData::~WorldData() = default;

@@ -66,6 +66,8 @@ struct DamageSettings {
     uint32_t break_elements = 0;
     float debris_share = 0;
     uint32_t debris_elements = 0;
+    uint32_t fragments = 0, births_a_frame = 0;
+    float debris_seconds = 0;
     bool (*allows)(void* user, const ImpactEvent& impact) = nullptr;
     void* allows_user = nullptr;
 };
@@ -79,6 +81,7 @@ struct DamageCounts {
     uint64_t cuts = 0, starts = 0, cuts_refused = 0;  // refused: quick runs whose shell had no room for more
     uint64_t units_used = 0, units_left = 0;          // of the last frame
     uint64_t slow_soft_frames = 0;            // soft bodies that had units for fewer substeps than a frame asks for
+    uint64_t retired = 0, faded = 0;          // fragments and crumbs
     double worst_rounding = 0;                // momentum that hidden runs lost, share of what the body had or got
     double impulse_to_static[3] = {0, 0, 0};  // N s, from damage to floors, pins and kinematic bodies
 };

@@ -73,6 +73,7 @@ void open_calls(lua_State* lua) {
     open_bodies(lua);
     open_blows(lua);
     open_surroundings(lua);
+    open_costs(lua);
     open_queries(lua);
     lua_setglobal(lua, "game");
 }

@@ -22,6 +22,7 @@ void open_bodies(lua_State* lua);        // cook, spawn, throw, kinematic, and w
 void open_surroundings(lua_State* lua);  // floor, box, static, camera, sun
 void open_blows(lua_State* lua);         // explode, cut
 void open_body_blows(lua_State* lua);    // to the methods of a body: cut, push_impact
+void open_costs(lua_State* lua);         // retire, cost
 void open_queries(lua_State* lua);       // expect, fragments, mass, random ...
 
 /// A mesh as a script holds it.

@@ -162,15 +162,16 @@ constexpr LimitName kLimits[] = {
     {"bodies", &LimitSettings::bodies},       {"models", &LimitSettings::models},
     {"vertices", &LimitSettings::vertices},   {"elements", &LimitSettings::elements},
     {"open_hits", &LimitSettings::open_hits}, {"view_vertices", &LimitSettings::view_vertices},
-    {"debris", &LimitSettings::debris},       {"queued_hits", &LimitSettings::queued_hits}};
+    {"debris", &LimitSettings::debris},       {"queued_hits", &LimitSettings::queued_hits},
+    {"fragments", &LimitSettings::fragments}, {"births_a_frame", &LimitSettings::births_a_frame}};
 
 void set_limits(lua_State* lua, const Arguments& given, LimitSettings& limits) {
     if (!given.has("limits")) return;
     given.push("limits");
-    const Arguments parts(
-        lua, "game.setting.limits",
-        {"bodies", "models", "vertices", "elements", "open_hits", "view_vertices", "debris", "queued_hits"}, false,
-        lua_gettop(lua));
+    const Arguments parts(lua, "game.setting.limits",
+                          {"bodies", "models", "vertices", "elements", "open_hits", "view_vertices", "debris",
+                           "queued_hits", "fragments", "births_a_frame"},
+                          false, lua_gettop(lua));
     for (const LimitName& limit : kLimits)
         limits.*limit.value = static_cast<uint32_t>(
             parts.number(limit.name, {"a whole number from 1 to 268435456", 1, 268435456}, limits.*limit.value));
@@ -178,8 +179,8 @@ void set_limits(lua_State* lua, const Arguments& given, LimitSettings& limits) {
 }
 
 constexpr std::initializer_list<const char*> kSettings = {
-    "units_a_frame",  "hold_s",       "frames_ahead",    "generations",  "break_share",
-    "break_elements", "debris_share", "debris_elements", "gravity_mps2", "limits"};
+    "units_a_frame", "hold_s",          "frames_ahead", "generations",  "break_share", "break_elements",
+    "debris_share",  "debris_elements", "debris_s",     "gravity_mps2", "limits"};
 
 Stage& stage_without_world(lua_State* lua, const char* call) {
     Stage& stage = script_of(lua).stage();

@@ -102,6 +102,26 @@ int slab(lua_State* lua) {
                 make_slab(size, static_cast<uint32_t>(given.number("vertices", kVertices, 600)), seed_of(lua, given)));
 }
 
+int building(lua_State* lua, const char* call, BuildingShape shape) {
+    script_of(lua).act(lua);
+    const Arguments given(lua, call, {"width", "depth", "height", "roof", "edge", "windows", "seed"}, true);
+    shape.width = given.real("width", kSide, static_cast<double>(shape.width));
+    shape.depth = given.real("depth", kSide, static_cast<double>(shape.depth));
+    shape.height = given.real("height", kSide, static_cast<double>(shape.height));
+    shape.roof = given.real("roof", {"a height in m from 0 to 1000", 0, 1000}, static_cast<double>(shape.roof));
+    shape.edge = given.real("edge", kEdge, static_cast<double>(shape.edge));
+    shape.is_windowless = !given.is("windows", true);
+    return made(lua, make_building(shape, seed_of(lua, given)));
+}
+
+int house(lua_State* lua) {
+    return building(lua, "game.mesh.house", {});
+}
+
+int tower(lua_State* lua) {
+    return building(lua, "game.mesh.tower", {.width = 3, .depth = 3, .height = 7, .roof = 2.2f, .is_round = true});
+}
+
 int ball(lua_State* lua) {
     script_of(lua).act(lua);
     const Arguments given(lua, "game.mesh.ball", {"radius", "subdivisions"});
@@ -214,9 +234,10 @@ void open_meshes(lua_State* lua) {
     lua_setfield(lua, -2, "__index");
     lua_pop(lua, 1);
     static constexpr luaL_Reg calls[] = {
-        {"vase", vase},   {"piggy_bank", piggy_bank}, {"wall", wall}, {"pane", pane},    {"pig", pig},
-        {"cow", cow},     {"castle", castle},         {"slab", slab}, {"ball", ball},    {"box", box},
-        {"table", table}, {"given", given_mesh},      {"file", file}, {nullptr, nullptr}};
+        {"vase", vase},    {"piggy_bank", piggy_bank}, {"wall", wall}, {"pane", pane},   {"pig", pig},
+        {"cow", cow},      {"castle", castle},         {"slab", slab}, {"ball", ball},   {"box", box},
+        {"table", table},  {"given", given_mesh},      {"file", file}, {"house", house}, {"tower", tower},
+        {nullptr, nullptr}};
     lua_newtable(lua);
     add_calls(lua, calls);
     guard_names(lua, "game.mesh.");

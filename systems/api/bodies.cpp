@@ -78,7 +78,7 @@ Result<void> World::set_pose(BodyId id, const Pose& pose) {
     bodies.orientation[body] = unit.orientation;
     bodies.previous_position.set(body, unit.position);
     bodies.previous_orientation[body] = unit.orientation;
-    d.rigid->set_pose(body, unit);
+    if (static_cast<BodyKind>(bodies.kind[body]) != BodyKind::Scenery) d.rigid->set_pose(body, unit);
     follow_body(d.state, body);
     d.query_index->touch(bodies, body);
     wake_body(d, body);
@@ -90,9 +90,10 @@ Result<void> World::set_motion(BodyId id, const Motion& motion) {
     const Row<Bodies> body = body_row(d.state.bodies, id);
     if (!body.exists()) return stale("body", id.index);
     if (const Result<void> valid = check_motion(motion); !valid) return valid;
-    if (static_cast<BodyKind>(d.state.bodies.kind[body]) == BodyKind::Static)
+    const auto kind = static_cast<BodyKind>(d.state.bodies.kind[body]);
+    if (kind == BodyKind::Static || kind == BodyKind::Scenery)
         return Error{"body " + std::to_string(id.index) +
-                     " is static (level geometry, or pinned) and has no motion; use a kinematic body."};
+                     " is static (level geometry, pinned, or retired) and has no motion; use a kinematic body."};
     const HostScope call(contents_->host);
     if (contents_->recorder) contents_->recorder->set_motion(id, motion);
     d.state.bodies.velocity.set(body, motion.velocity);

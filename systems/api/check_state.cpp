@@ -132,7 +132,7 @@ void check_bodies(Checker& check) {
     const State& s = check.state;
     const Bodies& bodies = s.bodies;
     for (uint32_t b = 0; b < bodies.size() && check.is_sound(); ++b) {
-        check.expect(bodies.kind[b] <= static_cast<uint8_t>(BodyKind::Dynamic),
+        check.expect(bodies.kind[b] <= static_cast<uint8_t>(BodyKind::Scenery),
                      Checker::place(bodies, "kind", b) + " is " + std::to_string(bodies.kind[b]));
         if (!is_body(s, b)) continue;
         check.expect_row(bodies, "model", b, bodies.model[b], s.models.size(), true);

@@ -58,7 +58,7 @@ struct NamedLimit {
     uint32_t value, least, most;
 };
 
-std::array<NamedLimit, 8> named(const LimitSettings& l) {
+std::array<NamedLimit, 10> named(const LimitSettings& l) {
     return {{{"bodies", l.bodies, 1, 1u << 20},
              {"models", l.models, 1, 1u << 20},
              {"vertices", l.vertices, 4096, 1u << 26},
@@ -66,7 +66,9 @@ std::array<NamedLimit, 8> named(const LimitSettings& l) {
              {"open_hits", l.open_hits, 1, 1024},
              {"view_vertices", l.view_vertices, 4096, 1u << 28},
              {"debris", l.debris, 1, 1u << 24},
-             {"queued_hits", l.queued_hits, 1, 1u << 16}}};
+             {"queued_hits", l.queued_hits, 1, 1u << 16},
+             {"fragments", l.fragments, 1, 1u << 20},
+             {"births_a_frame", l.births_a_frame, 1, 1u << 20}}};
 }
 
 }  // namespace
@@ -93,6 +95,8 @@ Result<void> check_settings(const Settings& s) {
         return Error{"Settings::break_elements is " + std::to_string(s.break_elements) + "; use 0 to 1000000."};
     if (!(s.debris_share >= 0 && s.debris_share <= 1))
         return Error{"Settings::debris_share is " + std::to_string(s.debris_share) + "; use 0 to 1."};
+    if (!(s.debris_seconds >= 0 && s.debris_seconds <= 1e6f))
+        return Error{"Settings::debris_seconds is " + std::to_string(s.debris_seconds) + "; use 0 to 1000000."};
     if (!(s.hold_seconds >= 0 && s.hold_seconds <= 1))
         return Error{"Settings::hold_seconds is " + std::to_string(s.hold_seconds) + "; use 0 to 1."};
     if (s.frames_ahead > 60)

@@ -192,6 +192,12 @@ void Recorder::cut(BodyId id, const CutSettings& cut) {
     for (uint32_t i = 0; i < cut.point_count; ++i) for_each_number_of_vector(cut.points[i], into(out));
 }
 
+void Recorder::retire(const RetireSettings& settings) {
+    ByteWriter& out = call(GameCall::Retire);
+    out.number(static_cast<uint8_t>(settings.how)), out.number(static_cast<uint8_t>(settings.only_asleep));
+    for_each_number_of_retirement(settings, into(out));
+}
+
 void Recorder::begin_step() {
     if (calls_.bytes.size() > kMostChunkBytes) trouble_ = "the calls before one step are too many to be recorded.";
     if (is_sound()) file_.append(ChunkKind::Calls, calls_.bytes);

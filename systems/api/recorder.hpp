@@ -29,6 +29,7 @@ enum class GameCall : uint8_t {
     PushImpact,
     Explode,
     Cut,
+    Retire,
 };
 
 class Recorder {
@@ -55,6 +56,7 @@ class Recorder {
     void push_impact(BodyId id, const PushSettings& push);
     void explode(const ExplosionSettings& explosion);
     void cut(BodyId id, const CutSettings& cut);
+    void retire(const RetireSettings& settings);
 
     /// What was asked for since the last step goes to the file, so that a step that never ends has its calls there.
     void begin_step();
@@ -131,6 +133,12 @@ void for_each_number_of_cut(C& c, F&& f) {
     for_each_number_of_vector(c.normal, f);
     for_each_number_of_vector(c.direction, f);
     f(c.point_count);
+}
+
+/// Without the way.
+template <class R, class F>
+void for_each_number_of_retirement(R& r, F&& f) {
+    f(r.count), f(r.least_seconds);
 }
 
 /// "0.1.0, g++ 12.2.0, ..."

@@ -1,4 +1,6 @@
 // A body goes, with the hits on it.
+#include "systems/api/remove_body.hpp"
+
 #include "engine/host_scope.hpp"
 #include "systems/api/checks.hpp"
 #include "systems/damage/cancel_task.hpp"
@@ -10,13 +12,23 @@
 
 namespace cullet {
 
-Result<void> World::remove(BodyId id) {
-    WorldData& d = contents_->data;
+void drop_hits(State& state, Row<Bodies> body) {
+    QueuedHits& queued = state.queued_hits;
+    for (uint32_t q = 0; q < queued.size(); ++q) {
+        if (!queued.is_used[q]) continue;
+        if (queued.striker[q] == body) queued.striker[q] = {};
+        if (queued.body[q] == body) queued.clear_rows(q, 1);
+    }
+    for (uint32_t b = 0; b < state.blows.size();) {
+        if (state.blows.body[b] == body)
+            remove_blow(state.blows, b);
+        else
+            ++b;
+    }
+}
+
+void remove_body(WorldData& d, Row<Bodies> body) {
     State& state = d.state;
-    const Row<Bodies> body = body_row(state.bodies, id);
-    if (!body.exists()) return stale("body", id.index);
-    const HostScope call(contents_->host);
-    if (contents_->recorder) contents_->recorder->remove(id);
     Tasks& tasks = state.tasks;
     for (uint32_t t = 0; t < tasks.size(); ++t) {
         if (static_cast<TaskState>(tasks.state[t]) == TaskState::Free) continue;
@@ -37,25 +49,23 @@ Result<void> World::remove(BodyId id) {
             }
         cancel_task(state, Row<Tasks>(t));
     }
-    QueuedHits& queued = state.queued_hits;
-    for (uint32_t q = 0; q < queued.size(); ++q) {
-        if (!queued.is_used[q]) continue;
-        if (queued.striker[q] == body) queued.striker[q] = {};
-        if (queued.body[q] == body) queued.clear_rows(q, 1);
-    }
-    for (uint32_t b = 0; b < state.blows.size();) {
-        if (state.blows.body[b] == body)
-            remove_blow(state.blows, b);
-        else
-            ++b;
-    }
+    drop_hits(state, body);
     // Rows are used again: nobody may take the next one for a parent.
     for (uint32_t b = 0; b < state.bodies.size(); ++b)
         if (state.bodies.parent[b] == body) state.bodies.parent[b] = {};
-    d.rigid->remove(body);
+    if (static_cast<BodyKind>(state.bodies.kind[body]) != BodyKind::Scenery) d.rigid->remove(body);
     release_soft(state, body);
     free_body(state, body);
     d.query_index->touch(state.bodies, body);
+}
+
+Result<void> World::remove(BodyId id) {
+    WorldData& d = contents_->data;
+    const Row<Bodies> body = body_row(d.state.bodies, id);
+    if (!body.exists()) return stale("body", id.index);
+    const HostScope call(contents_->host);
+    if (contents_->recorder) contents_->recorder->remove(id);
+    remove_body(d, body);
     return {};
 }
 

@@ -220,6 +220,14 @@ void Replayer::do_call(ByteReader& in) {
         }
         case GameCall::Cut:
             return cut(in);
+        case GameCall::Retire: {
+            RetireSettings s;
+            s.how = static_cast<Retirement>(in.number<uint8_t>("what becomes of fragments"));
+            s.only_asleep = in.number<uint8_t>("which fragments") != 0;
+            for_each_number_of_retirement(s, from(in));
+            if (in.is_sound()) (void)world.retire(s);
+            return;
+        }
     }
     in.fail("there is no call of the kind " + std::to_string(static_cast<int>(call)));
 }

@@ -13,7 +13,8 @@ void for_each_setting(S& s, F&& f) {
     f(s.break_share), f(s.break_elements);
     auto& l = s.limits;
     f(l.bodies), f(l.models), f(l.vertices), f(l.elements), f(l.open_hits), f(l.view_vertices), f(l.debris),
-        f(l.queued_hits);
+        f(l.queued_hits), f(l.fragments), f(l.births_a_frame);
+    f(s.debris_seconds);
 }
 
 /// Settings that are good for a world; trouble stays with the reader.

@@ -57,7 +57,7 @@ namespace {
 constexpr uint64_t kLargestFile = 1ull << 36;
 constexpr const char* kAdvice = "The snapshot is damaged or of another build; take it again.";
 constexpr FileKind kKind{{'c', 's', 'n', 'a', 'p', '\r', '\n', '\x1a'},
-                         7,
+                         8,
                          "snapshot",
                          ".csnap",
                          "Write one with World::save.",
@@ -74,8 +74,8 @@ template <class Data, class F>
 void for_each_count(Data& d, F&& f) {
     auto& c = d.counts;
     f(c.opened), f(c.broke), f(c.whole), f(c.dropped), f(c.redone), f(c.late), f(c.frames_held), f(c.clamped);
-    f(c.cuts), f(c.starts), f(c.cuts_refused), f(c.units_used), f(c.units_left), f(c.slow_soft_frames),
-        f(c.worst_rounding);
+    f(c.cuts), f(c.starts), f(c.cuts_refused), f(c.units_used), f(c.units_left), f(c.slow_soft_frames), f(c.retired),
+        f(c.faded), f(c.worst_rounding);
     for (auto& impulse : c.impulse_to_static) f(impulse);
 }
 
@@ -98,6 +98,7 @@ Result<void> check_rigid(const WorldData& d, const std::string& name) {
         const auto kind = b < bodies.size() ? static_cast<BodyKind>(bodies.kind[b]) : BodyKind::Free;
         const std::optional<RigidKind> found = d.rigid->kind(b);
         const bool fits = kind == BodyKind::Free        ? !found
+                          : kind == BodyKind::Scenery   ? !found
                           : kind == BodyKind::Static    ? found == RigidKind::Static
                           : kind == BodyKind::Kinematic ? found == RigidKind::Kinematic
                                                         : found == RigidKind::Dynamic;
@@ -156,7 +157,8 @@ void restore_what_follows(World::Contents& world) {
             d.make_ready(is_quick_body(state, Row<Bodies>(b)) ? quick_room(ShellView(state, shell))
                                                               : working_room(ShellView(state, shell)));
         d.arena.reset();
-        if (world.hosted) world.hosted->announce(b, convex_pieces(state, shell, d.arena));
+        if (world.hosted && static_cast<BodyKind>(state.bodies.kind[b]) != BodyKind::Scenery)
+            world.hosted->announce(b, convex_pieces(state, shell, d.arena));
     }
     if (world.hosted) world.hosted->finish();
     d.query_index->refresh(state.bodies);

@@ -1,6 +1,7 @@
 // A world is made, stepped and asked how it goes.
 #include "engine/host_scope.hpp"
 #include "systems/api/checks.hpp"
+#include "systems/api/cost.hpp"
 #include "systems/cook/materials.hpp"
 #include "systems/damage/damage_loop.hpp"
 #include "systems/soft/soft_loop.hpp"
@@ -130,6 +131,7 @@ StepReport World::report() const {
         report.awake += kind == BodyKind::Dynamic && !bodies.is_asleep[b];
     }
     for (uint32_t i = 0; i < d.state.debris.size(); ++i) report.debris += d.state.debris.is_used[i];
+    report_cost(d, report);
     return report;
 }
 

@@ -88,13 +88,31 @@ class Shade {
         const Vec3 a = cross(p[0], p[1]), b = cross(p[1], p[2]), c = cross(p[2], p[0]);
         const Vec3 normal = cross(p[1] - p[0], p[2] - p[0]);
         const float height = dot(normal, p[0]);
-        for (int i = 0; i < dots(); ++i) {
-            const Vec3 d = middle_of_dot(i);
-            const float x = dot(a, d), y = dot(b, d), z = dot(c, d), along = dot(normal, d);
-            if (!(x >= 0 && y >= 0 && z >= 0) && !(x <= 0 && y <= 0 && z <= 0)) continue;
-            const float t = along != 0 ? height / along : 0;
-            if (t > 0) nearest_[i] = std::min(nearest_[i], t * length(d));
+        const int side = is_outside_ ? kSquareSide : kCubeSide;
+        for (int line = 0; line < dots(); line += side) {
+            if (!may_meet(a, b, c, middle_of_dot(line), middle_of_dot(line + side - 1))) continue;
+            for (int i = line; i < line + side; ++i) {
+                const Vec3 d = middle_of_dot(i);
+                const float x = dot(a, d), y = dot(b, d), z = dot(c, d), along = dot(normal, d);
+                if (!(x >= 0 && y >= 0 && z >= 0) && !(x <= 0 && y <= 0 && z <= 0)) continue;
+                const float t = along != 0 ? height / along : 0;
+                if (t > 0) nearest_[i] = std::min(nearest_[i], t * length(d));
+            }
         }
+    }
+
+    /// Whether some direction from `first` to `last`, which run along a line, may have three edges' planes on one side.
+    /// Products are linear along it, so that its ends bound them, to rounding. Without this a charge beside a wall
+    /// looks at 6,144 dots for each of the triangles that are near: 35 ms a frame in a street.
+    static bool may_meet(Vec3 a, Vec3 b, Vec3 c, Vec3 first, Vec3 last) {
+        constexpr float kRounding = 1e-4f;
+        bool has_upper = true, has_lower = true;
+        for (const Vec3 plane : {a, b, c}) {
+            const float from = dot(plane, first), to = dot(plane, last), slack = kRounding * length(plane);
+            has_upper = has_upper && std::max(from, to) >= -slack;
+            has_lower = has_lower && std::min(from, to) <= slack;
+        }
+        return has_upper || has_lower;
     }
 
     void draw(uint32_t e, float reach) {

@@ -113,13 +113,22 @@ void share_strikers(State& state, const DamageSettings& settings, std::span<cons
     });
 }
 
-// In the order of the queue's rows, one a body and frame, while tasks last: the others wait.
-void open_queued(Opening& opening, const DamageSettings& settings, Events<ImpactEvent>& impact_events) {
+// The least of the queue's frames from this one on, or the largest number there is.
+uint64_t next_queued_frame(const QueuedHits& queued, uint64_t from) {
+    uint64_t least = ~uint64_t{0};
+    for (uint32_t q = 0; q < queued.size(); ++q)
+        if (queued.is_used[q] && queued.frame[q] >= from) least = std::min(least, queued.frame[q]);
+    return least;
+}
+
+// Those of one frame in the order of the queue's rows, one a body and frame, while tasks last: the others wait.
+void open_queued_of(uint64_t frame, Opening& opening, const DamageSettings& settings,
+                    Events<ImpactEvent>& impact_events) {
     State& state = opening.state;
     const Bodies& bodies = state.bodies;
     QueuedHits& queued = state.queued_hits;
     for (uint32_t q = 0; q < queued.size() && has_free_task(state.tasks); ++q) {
-        if (!queued.is_used[q]) continue;
+        if (!queued.is_used[q] || queued.frame[q] != frame) continue;
         const Row<Bodies> body = queued.body[q];
         if (bodies.task[body] != kNone || opening.frame < bodies.retry_frame[body] || bodies.hold_count[body]) continue;
         if (may_break_again(state.shells, bodies.shell[body], settings)) {
@@ -134,6 +143,14 @@ void open_queued(Opening& opening, const DamageSettings& settings, Events<Impact
         }
         queued.clear_rows(q, 1);
     }
+}
+
+// Oldest first.
+void open_queued(Opening& opening, const DamageSettings& settings, Events<ImpactEvent>& impact_events) {
+    const QueuedHits& queued = opening.state.queued_hits;
+    for (uint64_t frame = next_queued_frame(queued, 0); frame < opening.frame && has_free_task(opening.state.tasks);
+         frame = next_queued_frame(queued, frame + 1))
+        open_queued_of(frame, opening, settings, impact_events);
 }
 
 }  // namespace
@@ -157,7 +174,7 @@ void open_tasks(Serial, Step step, const Events<Impact>& impacts, const Events<F
         const ImpactEvent event =
             event_of(bodies, first, yielding_of(bodies, first.striker, first.point, first.normal).effective());
         if (settings.allows && !settings.allows(settings.allows_user, event)) continue;
-        if (bodies.task[body] != kNone) {
+        if (bodies.task[body] != kNone || !has_free_task(state.tasks)) {
             queue_hits(all.subspan(i, next - i), state, step.frame, refused);
             continue;
         }

@@ -31,6 +31,7 @@ void free_body(State& state, Row<Bodies> b) {
     const uint32_t generation = bodies.generation[b];
     bodies.clear_rows(b, 1);
     if (b < state.quick_bodies.size()) state.quick_bodies.clear_rows(b, 1);
+    if (b < state.fragment_ages.size()) state.fragment_ages.clear_rows(b, 1);
     bodies.generation[b] = generation;
     bodies.task[b] = kNone;
     state.pools.bodies.give_back(b, 1);

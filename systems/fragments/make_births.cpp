@@ -44,9 +44,9 @@ void count_result(const Tasks& tasks, Row<Tasks> task, DamageCounts& counts) {
 }  // namespace
 
 void make_births(Serial, Step step, const Events<TaskEnded>& ended, const Events<Break>& breaks, ShellTables shells,
-                 Tasks& tasks, TaskContacts& contacts, Blows& blows, Bodies& bodies, Debris&, RigidWorld& rigid,
-                 DamageCounts& counts, Arena& arena, Events<ShellChanged>& changed, Events<FragmentBornEvent>& born,
-                 Events<DebrisEvent>& debris_events) {
+                 Tasks& tasks, TaskContacts& contacts, Blows& blows, Bodies& bodies, Debris&, FragmentAges&,
+                 DebrisAges&, RigidWorld& rigid, DamageCounts& counts, Arena& arena, Events<ShellChanged>& changed,
+                 Events<FragmentBornEvent>& born, Events<DebrisEvent>& debris_events) {
     Births births{shells.state, rigid, counts, arena, changed, born, debris_events, step};
     const auto all = breaks.all();
     size_t next = 0;

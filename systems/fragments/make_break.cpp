@@ -104,6 +104,7 @@ uint32_t make_debris(Births& births, ShellView shell, const FragmentPart& part, 
     debris.radius[row] = static_cast<float>(r);
     debris.floor[row] = births.rigid.height_below(place, -1e6f) + debris.radius[row];
     debris.colour[row] = state.bodies.colour[parent];
+    set_born(state.debris_ages, row, births.step.frame);
     births.debris_events.push(
         {body_id(state.bodies, parent), state.bodies.user_data[parent], place, motion.velocity, part.mass});
     return row;
@@ -224,6 +225,7 @@ void make_birth(Births& births, const Break& plan, uint32_t p, const Moment& mom
     if (is_rest) births.rigid.remove(body);
     births.rigid.add(child, describe_rigid(state, child, pieces));
     if (is_rest) return;
+    set_born(state.fragment_ages, child, births.step.frame + 1);
     births.born.push({body_id(bodies, child), body_id(bodies, body), bodies.user_data[body],
                       to_world(moment.pose, bodies.centre[child].to_float()), motion, bodies.mass[child],
                       state.shells.generation[bodies.shell[child]]});

@@ -25,6 +25,11 @@ void tell_cracks(State& state, Row<Tasks> task, Events<CrackStartedEvent>& crack
     }
 }
 
+// Bodies that wait are passed over, in silence, while no piece could leave: asking takes as long as a break.
+bool may_ask(const Planning& planning, uint8_t owed) {
+    return owed == kOwedDrawing || (planning.fragments_left > 0 && planning.births_left > 0);
+}
+
 // What is awake asks with its points' motion.
 bool asks_as_soft(State& state, Row<Bodies> body) {
     const Row<SoftBodies> soft = find_soft(state.soft_bodies, body);
@@ -36,15 +41,25 @@ bool asks_as_soft(State& state, Row<Bodies> body) {
 }  // namespace
 
 void plan_births(Serial, const Events<TaskEnded>& ended, ShellTables shells, const Tasks& tasks, Fragments&,
-                 QueuedHits&, Blows&, Bodies& bodies, const Debris& debris, ViewVertices&, ViewIndices&,
-                 const DamageSettings& settings, Arena& arena, Events<Break>& breaks, Events<Birth>& births,
-                 Events<ShellChanged>& changed, Events<CrackStartedEvent>& cracks, Events<RefusedEvent>& refused,
-                 Events<FaultEvent>& faults) {
+                 QueuedHits&, Blows&, Bodies& bodies, const Debris& debris, const FragmentAges& ages, ViewVertices&,
+                 ViewIndices&, const DamageSettings& settings, Arena& arena, Events<Break>& breaks,
+                 Events<Birth>& births, Events<ShellChanged>& changed, Events<CrackStartedEvent>& cracks,
+                 Events<RefusedEvent>& refused, Events<FaultEvent>& faults) {
     breaks.clear();
     births.clear();
-    Planning planning{shells.state, settings, arena, breaks, births, changed, refused, free_debris(debris)};
+    Planning planning{shells.state,
+                      settings,
+                      arena,
+                      breaks,
+                      births,
+                      changed,
+                      refused,
+                      free_debris(debris),
+                      free_fragments(ages, settings),
+                      settings.births_a_frame};
     for (uint32_t b = 0; b < bodies.size(); ++b)
-        if (bodies.is_owed_births[b] && bodies.task[b] == kNone && !asks_as_soft(shells.state, Row<Bodies>(b)))
+        if (bodies.is_owed_births[b] && bodies.task[b] == kNone && may_ask(planning, bodies.is_owed_births[b]) &&
+            !asks_as_soft(shells.state, Row<Bodies>(b)))
             ask_again(planning, Row<Bodies>(b));
     for (uint32_t s = 0; s < shells.state.soft_bodies.size(); ++s)
         if (shells.state.soft_bodies.is_torn[s]) plan_tear(planning, Row<SoftBodies>(s));

@@ -61,6 +61,17 @@ Row<Bodies> reserve_body(State& state, Row<Bodies> parent, Row<Shells> broken, c
     return {};
 }
 
+// The limit that refuses one more piece, or null.
+const char* full_of_births(const Planning& planning) {
+    if (planning.fragments_left == 0) return "limits.fragments";
+    return planning.births_left == 0 ? "limits.births_a_frame" : nullptr;
+}
+
+void count_births(Planning& planning, uint32_t born, uint32_t given_back) {
+    planning.fragments_left += given_back - born;
+    planning.births_left += given_back - born;
+}
+
 void stay(Planning& planning, Break& plan, uint32_t part, const char* setting) {
     planning.refused.push(refused_event(planning.state.bodies, plan.body, setting));
     plan.is_refused = true;
@@ -133,7 +144,7 @@ void choose_births(Planning& planning, Break& plan) {
     for (uint32_t i = 1; i < count; ++i) {
         const uint32_t p = plan.order[i];
         const FragmentPart& part = plan.parts[p];
-        const char* full = nullptr;
+        const char* full = full_of_births(planning);
         if (!part.has_pins && (part.mass < least_mass || part.element_count < planning.settings.debris_elements)) {
             if (planning.crumbs_left > 0) {
                 --planning.crumbs_left;
@@ -143,8 +154,11 @@ void choose_births(Planning& planning, Break& plan) {
             }
             continue;
         }
-        plan.child[p] = reserve_body(state, plan.body, plan.broken, part, &full);
-        if (!plan.child[p].exists()) stay(planning, plan, p, full);
+        if (!full) plan.child[p] = reserve_body(state, plan.body, plan.broken, part, &full);
+        if (plan.child[p].exists())
+            count_births(planning, 1, 0);
+        else
+            stay(planning, plan, p, full);
     }
 }
 
@@ -189,6 +203,7 @@ bool reserve_view(Planning& planning, Break& plan) {
         const uint32_t p = plan.order[lightest];
         free_body(state, plan.child[p]);
         plan.child[p] = {};
+        count_births(planning, 0, 1);
         stay(planning, plan, p, "limits.view_vertices");
     }
     return true;
@@ -283,6 +298,12 @@ uint32_t free_debris(const Debris& debris) {
     uint32_t used = 0;
     for (uint32_t d = 0; d < debris.size(); ++d) used += debris.is_used[d];
     return debris.limit() - used;
+}
+
+uint32_t free_fragments(const FragmentAges& ages, const DamageSettings& settings) {
+    uint32_t alive = 0;
+    for (uint32_t b = 0; b < ages.size(); ++b) alive += ages.born[b] > 0;
+    return settings.fragments - std::min(alive, settings.fragments);
 }
 
 void plan_break(Planning& planning, Row<Tasks> task) {

@@ -14,10 +14,13 @@ struct Planning {
     Events<ShellChanged>& changed;
     Events<RefusedEvent>& refused;
     uint32_t crumbs_left;  // that the world has room for, less those of the breaks planned so far
+    uint32_t fragments_left = kNone, births_left = kNone;  // the same of limits.fragments and limits.births_a_frame
 };
 
 /// Crumbs that the world has room for when a step's planning begins.
 uint32_t free_debris(const Debris& debris);
+/// Fragments that limits.fragments leaves room for then.
+uint32_t free_fragments(const FragmentAges& ages, const DamageSettings& settings);
 
 /// The task's shell has more than one part (Fragments). The largest keeps the body's handle and its rows in that shell,
 /// which becomes the body's own; the others get rows in order of mass, and their old rows will be dead. A piece that

@@ -79,6 +79,36 @@ struct StepReport {
     uint64_t units_used = 0, units_left = 0;
     uint32_t open_hits = 0, held_bodies = 0;
     uint32_t bodies = 0, awake = 0, debris = 0;
+    // What it costs, and what waits.
+    uint32_t fragments = 0;       // alive, as World::fragments lists them
+    uint32_t waiting_hits = 0;    // hits and blows that no damage task works on yet
+    uint32_t waiting_bodies = 0;  // bodies with pieces that are loose and found no room
+    uint64_t oldest_hit_frames =
+        0;                 // since the oldest of the open and the waiting hits, blows left out; 0: there is none
+    uint64_t retired = 0;  // fragments, since the world was made
+    uint64_t faded = 0;    // crumbs, since the world was made
+};
+
+/// What becomes of a fragment that the game has seen enough of.
+enum class Retirement : uint8_t {
+    Remove,  // it is gone, and its handle stale
+    Freeze,  // it is static where it is: others still lie on it and hit it, but it never moves or breaks again
+    Merge,   // it is scenery: drawn where it lies, met by nothing, asked by queries alone. Its rows stay until remove()
+};
+
+struct RetireSettings {
+    Retirement how = Retirement::Remove;
+    uint32_t count = 0xffffffffu;  // at most so many, the oldest first
+    float least_seconds = 0;       // since it broke off; 0 to 1e9
+    bool only_asleep = false;
+};
+
+/// A piece that broke off something and that the game has not retired.
+struct FragmentAge {
+    BodyId fragment;
+    uint64_t frames = 0;  // since it broke off
+    double mass = 0;      // kg
+    bool is_asleep = false;
 };
 
 class World {
@@ -126,6 +156,14 @@ class World {
     Result<BodyId> add_static(const MeshView& triangles, const ContactSettings& contact = {}, uint64_t user_data = 0);
     /// Hits on it that are worked off go with it.
     Result<void> remove(BodyId body);
+
+    /// Fragments go, the oldest first, those of one frame by row; how many did. Passed over: what a hit is being worked
+    /// off on, and its strikers; where they are to be frozen or merged those with loose pieces that wait, too.
+    /// Refused: what is out of range.
+    Result<uint32_t> retire(const RetireSettings& settings);
+    /// Fills `out` with up to `capacity` fragments, the oldest first, those of one frame by row, and returns how many
+    /// there are. What was frozen or merged is no more among them.
+    uint32_t fragments(FragmentAge* out, uint32_t capacity) const;
 
     bool is_alive(BodyId body) const;
     Result<Pose> pose(BodyId body) const;

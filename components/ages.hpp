@@ -1,0 +1,35 @@
+// When pieces were born. Bookkeeping: saved and compared between runs, but not in the hash, for by itself it moves
+// nothing; what is done by it shows in the rows that it is done to.
+#pragma once
+#include "engine/table.hpp"
+
+namespace cullet {
+
+/// One row is one row of Bodies.
+struct FragmentAges : Table<FragmentAges> {
+    using Table::Table;
+    static constexpr const char* kName = "fragment_ages";
+    static constexpr bool kIsBookkeeping = true;
+    Column<uint64_t> born{*this, "born"};  // 1 + the step in which it broke off; 0: no fragment, or retired
+};
+
+inline uint64_t born_of(const FragmentAges& ages, uint32_t body) {
+    return body < ages.size() ? ages.born[body] : 0;
+}
+
+/// One row is one row of Debris.
+struct DebrisAges : Table<DebrisAges> {
+    using Table::Table;
+    static constexpr const char* kName = "debris_ages";
+    static constexpr bool kIsBookkeeping = true;
+    Column<uint64_t> born{*this, "born"};  // the step
+};
+
+/// Of either table, which grows to the row.
+template <class Ages>
+void set_born(Ages& ages, uint32_t row, uint64_t born) {
+    if (row >= ages.size()) ages.append(row + 1 - ages.size());
+    ages.born[row] = born;
+}
+
+}  // namespace cullet

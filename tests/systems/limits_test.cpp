@@ -1,0 +1,155 @@
+// Limits on what lives and on what is born in a frame, and hits that wait while every task is taken.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <set>
+#include <string>
+#include <vector>
+
+#include "tests/support/small_worlds.hpp"
+
+namespace cullet::test {
+namespace {
+
+Settings settings_of(uint32_t fragments, uint32_t births) {
+    Settings settings = small_settings();
+    settings.debris_share = 0;
+    settings.debris_elements = 0;
+    settings.limits.fragments = fragments;
+    settings.limits.births_a_frame = births;
+    return settings;
+}
+
+/// What one frame gave: births, and the limits that refused some.
+struct FrameTold {
+    uint32_t born = 0;
+    std::vector<std::string> refused;
+    uint64_t hash = 0;
+    bool operator==(const FrameTold&) const = default;
+};
+std::vector<FrameTold> told(World& world, uint32_t frames) {
+    std::vector<FrameTold> list;
+    for (uint32_t f = 0; f < frames; ++f) {
+        world.step();
+        FrameTold now{world.events().fragments_born.count, {}, world.hash()};
+        for (const RefusedEvent& e : world.events().refused) now.refused.emplace_back(e.setting);
+        list.push_back(now);
+    }
+    return list;
+}
+
+uint32_t sum_of_births(const std::vector<FrameTold>& list) {
+    uint32_t sum = 0;
+    for (const FrameTold& frame : list) sum += frame.born;
+    return sum;
+}
+
+/// The first frame with births.
+size_t first_birth(const std::vector<FrameTold>& list) {
+    size_t frame = 0;
+    while (frame < list.size() && list[frame].born == 0) ++frame;
+    return frame;
+}
+
+TEST(Limits, BirthsAFrameAreSpreadOverTheNextFramesAndNoneIsLost) {
+    constexpr uint32_t kMost = 3;
+    Breakage all = vase_and_ball(settings_of(1000, 1000), 12);
+    const std::vector<FrameTold> free = told(all.world, 20);
+    const size_t first = first_birth(free);
+    ASSERT_LT(first, free.size());
+    ASSERT_GT(free[first].born, 2 * kMost);
+    Breakage few = vase_and_ball(settings_of(1000, kMost), 12);
+    expect_valid_after_each_system(few.world);
+    const double mass = matter_of(few.world).mass;
+    const std::vector<FrameTold> list = told(few.world, 60);
+    ASSERT_EQ(first_birth(list), first);
+    EXPECT_EQ(list[first].refused.size(), free[first].born - kMost) << "what is not born asks again";
+    EXPECT_EQ(list[first + 1].refused.size(), free[first].born - 2 * kMost);
+    for (const FrameTold& frame : list) {
+        EXPECT_LE(frame.born, kMost);
+        for (const std::string& name : frame.refused) EXPECT_EQ(name, "limits.births_a_frame");
+    }
+    EXPECT_GE(sum_of_births(list), free[first].born);
+    EXPECT_EQ(few.world.report().waiting_bodies, 0u);
+    EXPECT_NEAR(matter_of(few.world).mass, mass, 1e-9 * mass);
+}
+
+TEST(Limits, FragmentsBeyondTheLimitComeOffWhenOldOnesAreRetired) {
+    Breakage b = vase_and_ball(settings_of(4, 1000), 12);
+    const std::vector<FrameTold> list = told(b.world, 30);
+    EXPECT_EQ(b.world.report().fragments, 4u);
+    EXPECT_EQ(sum_of_births(list), 4u);
+    EXPECT_EQ(b.world.report().waiting_bodies, 1u);
+    std::set<std::string> names;
+    for (const FrameTold& frame : list) names.insert(frame.refused.begin(), frame.refused.end());
+    EXPECT_EQ(names, std::set<std::string>{"limits.fragments"});
+    ASSERT_EQ(b.world.retire({.count = 2}).value_or(0), 2u);
+    b.world.step();
+    EXPECT_EQ(b.world.events().fragments_born.count, 2u);
+    EXPECT_EQ(b.world.report().fragments, 4u);
+}
+
+TEST(Limits, TheSameIsRefusedOnAnyNumberOfThreads) {
+    std::vector<FrameTold> first;
+    for (const uint32_t threads : {1u, 2u, 3u, 8u}) {
+        Settings settings = settings_of(6, 2);
+        settings.threads = threads;
+        settings.limits.open_hits = 1;
+        settings.units_a_frame = 3'000'000;
+        Breakage b = vase_and_ball(settings, 12);
+        SpawnSettings vase;
+        vase.pose.position = {1, 0, 0};
+        (void)b.world.spawn({0, 1}, vase).value();
+        (void)b.world.add_sphere(ball_at({1.01f, 0.13f, 0}, 0.3f, 12)).value();
+        const std::vector<FrameTold> list = told(b.world, 40);
+        EXPECT_EQ(sum_of_births(list), 6u);
+        if (first.empty()) first = list;
+        EXPECT_EQ(list, first) << threads << " threads";
+    }
+}
+
+/// Vases in a row, each struck by a ball of its own in the same frame.
+World struck_row(uint32_t vases, uint32_t tasks, std::vector<BodyId>& struck) {
+    Settings settings = small_settings();
+    settings.limits = {512, 8, 1u << 17, 1u << 18, tasks, 1u << 20, 512, 512};
+    World world = make_world(settings);
+    const ModelId model = world.add_model(small_vase()).value();
+    for (uint32_t n = 0; n < vases; ++n) {
+        SpawnSettings vase;
+        vase.pose.position = {static_cast<float>(n), 0, 0};
+        struck.push_back(world.spawn(model, vase).value());
+        (void)world.add_sphere(ball_at({static_cast<float>(n) + 0.01f, 0.13f, 0}, 0.3f, 8)).value();
+    }
+    return world;
+}
+
+TEST(Limits, HitsOfOneFrameWaitForTasksAndAreWorkedOffInOrder) {
+    constexpr uint32_t kVases = 24, kTasks = 3;
+    std::vector<BodyId> struck, order;
+    World world = struck_row(kVases, kTasks, struck);
+    uint32_t most_waiting = 0;
+    uint64_t oldest = 0;
+    for (uint32_t frame = 0; frame < 60; ++frame) {
+        world.step();
+        for (const ImpactEvent& e : world.events().impacts)
+            if (std::find(order.begin(), order.end(), e.body) == order.end()) order.push_back(e.body);
+        for (const RefusedEvent& e : world.events().refused) ADD_FAILURE() << e.setting;
+        most_waiting = std::max(most_waiting, world.report().waiting_hits);
+        oldest = std::max(oldest, world.report().oldest_hit_frames);
+    }
+    EXPECT_EQ(most_waiting, kVases - kTasks);
+    EXPECT_GE(oldest, 5u);
+    EXPECT_EQ(world.report().waiting_hits, 0u);
+    std::vector<BodyId> asked;
+    for (const BodyId id : order)
+        if (std::find(struck.begin(), struck.end(), id) != struck.end()) asked.push_back(id);
+    EXPECT_EQ(asked, struck) << "in order of row, every one of them";
+    std::set<uint32_t> broken;
+    const State& state = state_of(world);
+    for (const BodyId id : shells_of(world))
+        if (born_of(state.fragment_ages, id.index)) broken.insert(state.bodies.parent[id.index].index);
+    for (const BodyId id : struck) EXPECT_TRUE(broken.contains(id.index)) << id.index;
+}
+
+}  // namespace
+}  // namespace cullet::test
