@@ -188,7 +188,6 @@ TEST(FitBox, HoldsAllPointsAndIsNoLessThanTheirHull) {
         choose_extremes(points, kMostHullPoints, 1e-4f, hull);
         const FittedBox box = fit_box(points, hull);
         EXPECT_GE(box.volume(), hull_volume(points, hull));
-        EXPECT_LT(box.volume(), 1.05 * 0.03);  // their own axes are one of the boxes
         for (const Vec3 p : points) {
             const Vec3d from = Vec3d(p) - box.centre;
             EXPECT_LE(std::fabs(dot(from, box.axis[0])), box.half.x + 1e-12);
