@@ -42,6 +42,8 @@ bool measure_local_hit(const Options& options, Figures& figures);
 bool measure_generation(const Options& options, Figures& figures);
 /// A settled pile of hulls in plain Bullet and in our world.
 bool measure_pile(const Options& options, Figures& figures);
+/// A thousand new pieces enter our rigid world, and plain Bullet in a bare loop.
+bool measure_handoff(const Options& options, Figures& figures);
 /// Link iterations and the whole world step of Bullet's soft body; the plain spring loop and the bare spring kernel on
 /// the same links. False: their results differ.
 bool measure_soft_body(const Options& options, Figures& figures);
