@@ -16,8 +16,10 @@ constexpr float kSettlingSpeed = 0.1f;   // m/s of the fastest point
 constexpr float kSettlingShare = 0.7f;   // of the speed that is left, a step
 constexpr float kPressedIn = 0.001f;     // m a step that an unsolved contact may deepen by
 constexpr float kSeamReach = 0.001f;     // m beyond the margins, more than mark_inner_faces() looks past a face
-// Leaves of the tree stand this much about what they hold and the range of contacts: half of what pieces are watched
-// from. Ten times it and a heap has three times the pairs, a tenth and what falls is looked up in every step.
+// Leaves of the tree hold what they are about with half of the way from which pieces are watched (see
+// pair_algorithm.cpp), and this room to move. Ten times it and a heap has three times the pairs, a tenth and what falls
+// is looked up in every step.
+constexpr float kWatched = 0.01f;   // m
 constexpr float kLeafRoom = 0.01f;  // m
 
 }  // namespace
@@ -402,7 +404,7 @@ void BulletWorld::enter(Body& body, const Pose& at, uint32_t layer, uint32_t mas
 void BulletWorld::enter_tree(Body& body) {
     if (body.kind == RigidKind::Dynamic) body.bullet->setGravity(gravity_);
     if (body.kind == RigidKind::Static) body.bullet->setActivationState(ISLAND_SLEEPING);
-    body.leaf = tree_.add(grown(body.shape.box, kContactRange + kLeafRoom), body.id);
+    body.leaf = tree_.add(grown(body.shape.box, kWatched + kLeafRoom), body.id);
     strayed_.push_back(body.id);
 }
 
@@ -573,9 +575,9 @@ void BulletWorld::refresh(Body& body) {
 
 void BulletWorld::update_box(Body& body) {
     gather_box(body);
-    if (holds(tree_.box(body.leaf), grown(body.shape.box, kContactRange))) return;
+    if (holds(tree_.box(body.leaf), grown(body.shape.box, kWatched))) return;
     tree_.remove(body.leaf);
-    body.leaf = tree_.add(grown(body.shape.box, kContactRange + kLeafRoom), body.id);
+    body.leaf = tree_.add(grown(body.shape.box, kWatched + kLeafRoom), body.id);
     strayed_.push_back(body.id);
 }
 
@@ -712,8 +714,13 @@ void BulletWorld::solve_contacts(float dt) {
     solver_.clear();
     for (RigidId id = 0; id < body_end_; ++id)
         if (bodies_[id].is_used && bodies_[id].is_free()) solver_.add_body(*bodies_[id].bullet);
-    for (const SortedManifold& m : manifolds_)
-        if (m.manifold && (bodies_[m.a].is_free() || bodies_[m.b].is_free())) solver_.add_contacts(*m.manifold);
+    // What stands still comes last: of all contacts those hold best that are solved last.
+    for (const bool is_standing : {false, true})
+        for (const SortedManifold& m : manifolds_) {
+            if (!m.manifold) continue;
+            const bool is_a_free = bodies_[m.a].is_free(), is_b_free = bodies_[m.b].is_free();
+            if (is_standing ? is_a_free != is_b_free : is_a_free && is_b_free) solver_.add_contacts(*m.manifold);
+        }
     solver_.solve(dt);
 }
 
