@@ -25,6 +25,7 @@ class Building {
         cells_ = {std::max(4, cells_in(static_cast<double>(shape.width), edge)),
                   std::max(3, cells_in(static_cast<double>(shape.height), edge)),
                   2 * std::max(2, cells_in(0.5 * static_cast<double>(shape.depth), edge))};
+        if (shape.is_round) cells_[0] = cells_[2];  // even: the cone has its tip
     }
 
     MeshDraft make() {

@@ -30,7 +30,7 @@ std::string shown(const Scene& scene) {
 std::string scene_list() {
     std::string text = "Scenes:\n";
     for (const Scene& scene : scenes()) text += fmt::format("  {:<10} {}\n", scene.name, shown(scene));
-    return text + "  show_reel  wall, vase, pane and drop, one after another, with pictures\n";
+    return text + "  show_reel  wall, vase, pane, drop and demolition, one after another, with pictures\n";
 }
 
 void add_run(CLI::App& app, RunOptions& run) {
@@ -131,7 +131,7 @@ Result<void> check_run(const RunOptions& run, bool asks_for_keys) {
     if (run.scene == "show_reel" && !run.trace.empty() && run.out.empty())
         return Error{"--trace: the show reel writes a trace for each scene; say where with --out FOLDER."};
     if (run.scene == "show_reel" && !run.record.empty())
-        return Error{"--record: the show reel is four runs; record one of its scenes."};
+        return Error{"--record: the show reel is five runs; record one of its scenes."};
     if (run.out.empty() && (run.draw > 0 || run.has_sheet || run.has_video))
         return Error{"--draw, --contact-sheet and --video write pictures: say where with --out FOLDER."};
     return {};

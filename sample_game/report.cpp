@@ -56,6 +56,8 @@ Json of_matter(const Report& r) {
              {{"born", r.fragments.born},
               {"live", r.fragments.live},
               {"asleep", r.fragments.asleep},
+              {"retired", r.fragments.retired},
+              {"faded", r.fragments.faded},
               {"debris", r.fragments.debris}}},
             {"awake", {{"bodies", r.awake.bodies}, {"cells", r.awake.cells}}},
             {"rest",

@@ -9,7 +9,7 @@
 namespace cullet {
 namespace {
 
-constexpr const char* kShowReel[] = {"wall", "vase", "pane", "drop"};
+constexpr const char* kShowReel[] = {"wall", "vase", "pane", "drop", "demolition"};
 
 int refuse(const std::string& sentence, int code) {
     fmt::print(stderr, "{}\n", sentence);
@@ -21,8 +21,9 @@ void print_summary(const Report& r) {
                r.seed);
     if (!r.hash.empty())
         fmt::print("  hash         {}{}{}\n", r.hash, r.hash_chain.empty() ? "" : ", all frames ", r.hash_chain);
-    fmt::print("  fragments    {} born, {} live, {} bodies asleep, {} awake, {} crumbs\n", r.fragments.born,
-               r.fragments.live, r.fragments.asleep, r.awake.bodies, r.fragments.debris);
+    fmt::print("  fragments    {} born, {} live, {} bodies asleep, {} awake, {} retired, {} crumbs, {} faded\n",
+               r.fragments.born, r.fragments.live, r.fragments.asleep, r.awake.bodies, r.fragments.retired,
+               r.fragments.debris, r.fragments.faded);
     fmt::print("  hits         {} opened, {} broke, {} late, {} dropped, {} frames held\n", r.tasks.opened,
                r.tasks.broke, r.tasks.late, r.tasks.dropped, r.tasks.frames_held);
     if (r.units.slow_soft_frames > 0)

@@ -96,7 +96,8 @@ void fill_sums(GameWorld& game, const Matter& start, Report& report) {
     report.momentum_ns.end = end.momentum;
     report.energy_j.start = start.kinetic_energy;
     report.energy_j.end = end.kinetic_energy;
-    report.fragments = {game.sums().born, end.fragments, end.asleep, game.world().report().debris};
+    const StepReport last = game.world().report();
+    report.fragments = {game.sums().born, end.fragments, end.asleep, last.debris, last.retired, last.faded};
     report.awake = {end.awake, end.awake_cells};
     report.rest = measure_rest(game, report.energy_j.peak);
     report.events = game.sums().events;

@@ -17,6 +17,8 @@ What there is to see, in $PWD/$out:
   vase/sheet.png   a porcelain vase meets a table's edge, its shards fall to the floor and break again
   pane/sheet.png   a steel ball goes through a framed pane: nearly straight cracks to the frame
   drop/sheet.png   a hollow porcelain pig is thrown at a wall
+  demolition/sheet.png   a street of 20 brick houses, towers and walls, under 100 explosions in 20 seconds: houses swell, come
+                         down in slabs, and lie in heaps (a minute or two)
   */report.json    each run in numbers: frame times, hits, fragments, mass, hash (README.md says how to read it)
   */trace.json     where the time went: open it at https://ui.perfetto.dev
 Every picture holds twelve moments, numbered by their frame (60 a second).

@@ -8,20 +8,20 @@
 set -uo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.." || exit 1
 
-presets=(release checked clang debug asan tsan) scenes=(vase wall pane drop pile blows castle rubber cloth steel tear)
+presets=(release checked clang debug asan tsan) scenes=(vase wall pane drop pile blows castle rubber cloth steel tear demolition)
 formats=(mesh_file model_file snapshot recording)
-threads=(1 2 3 8) levels=(scalar sse4 avx2 avx512) frames=600 inputs=200000 tests=() page=tests/ALL.md failed_only=false
+threads=(1 2 3 8) levels=(scalar sse4 avx2 avx512) frames=600 inputs=200000 fragments=1000000 tests=() page=tests/ALL.md failed_only=false
 if [[ ${1:-} == --failed ]]; then
     shift
     failed_only=true
 fi
 if [[ ${1:-} == --quick ]]; then
     shift
-    threads=(1 3 8) levels=(scalar avx2) frames=60 inputs=500 page=build/all/quick.md
+    threads=(1 3 8) levels=(scalar avx2) frames=60 inputs=500 fragments=10000 page=build/all/quick.md
     tests=(-R '^(jobs|table|inner_loop|frame_plan|mesh_file|math)_test$')
 fi
 parts=("$@")
-((${#parts[@]})) || parts=("${presets[@]}" "${scenes[@]}" "${formats[@]/#/fuzz_}" packages)
+((${#parts[@]})) || parts=("${presets[@]}" "${scenes[@]}" "${formats[@]/#/fuzz_}" soak packages)
 
 scripts/setup.sh --all || exit 1
 logs=$PWD/build/all
@@ -74,7 +74,7 @@ write_row() {
         echo
         echo "| part | result | commit | date | seconds |"
         echo "|---|---|---|---|---|"
-        for name in "${presets[@]}" "${scenes[@]}" "${formats[@]/#/fuzz_}" packages; do
+        for name in "${presets[@]}" "${scenes[@]}" "${formats[@]/#/fuzz_}" soak packages; do
             grep "^| $name |" <<<"$rows"
         done
     } >"$page.new"
@@ -116,6 +116,14 @@ fuzz_part() {
 packages_part() {
     scripts/test_package.sh || return 1
     echo "installed, built against, removed"
+}
+# A million fragments, at most 4,096 of them alive: memory and frame times flat, handles safe.
+soak_part() {
+    build release >/dev/null || return 1
+    CULLET_SOAK_FRAGMENTS=$fragments build/release/soak_test >"$logs/soak_test.log" 2>&1
+    local outcome=$?
+    grep -E 'born in|memory' "$logs/soak_test.log" | paste -sd';'
+    return $outcome
 }
 # One run: prints the chain of all frames' hashes, or why there is none.
 play() {
@@ -161,10 +169,12 @@ for part in "${parts[@]}"; do
         run=(scene_part "$part")
     elif among "$part" "${formats[@]/#/fuzz_}"; then
         run=(fuzz_part "${part#fuzz_}")
+    elif [[ $part == soak ]]; then
+        run=(soak_part)
     elif [[ $part == packages ]]; then
         run=(packages_part)
     else
-        echo "There is no part '$part'; there are ${presets[*]} ${scenes[*]} ${formats[*]/#/fuzz_} packages." >&2
+        echo "There is no part '$part'; there are ${presets[*]} ${scenes[*]} ${formats[*]/#/fuzz_} soak packages." >&2
         exit 2
     fi
     printf '%s ... ' "$part"

@@ -51,7 +51,7 @@ TEST(Report, EveryPromisedFieldIsThere) {
     const std::map<std::string, std::vector<const char*>> parts{
         {"mass_kg", {"start", "end", "debris"}},
         {"momentum_ns", {"start", "end", "impulse"}},
-        {"fragments", {"born", "live", "asleep", "debris"}},
+        {"fragments", {"born", "live", "asleep", "debris", "retired", "faded"}},
         {"awake", {"bodies", "cells"}},
         {"rest", {"asleep_share", "kinetic_share", "measured", "sink_mm", "overlap_mm", "hover_mm", "through"}},
         {"units", {"used", "left"}},
