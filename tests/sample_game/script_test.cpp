@@ -541,8 +541,8 @@ TEST_P(SceneHash, IsWhatTheSceneAlwaysGave) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Scenes, SceneHash,
-                         testing::Values(KnownHash{"vase", "e11cb221018139d8"}, KnownHash{"wall", "196b5903df3aaa7f"},
-                                         KnownHash{"pane", "b7c1c171880c1ca2"}, KnownHash{"drop", "ddbe0c8c8f01001e"}),
+                         testing::Values(KnownHash{"vase", "720d2eea6d33c983"}, KnownHash{"wall", "1afcfbf4a3b7ff5d"},
+                                         KnownHash{"pane", "b77ea5371b0fcf6c"}, KnownHash{"drop", "8b0f41cabc794ea7"}),
                          [](const auto& known) { return std::string(known.param.scene); });
 
 TEST(Script, AFileIsPlayedByItsPathAndOneThatIsNotThereIsNamed) {
