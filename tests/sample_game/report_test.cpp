@@ -58,6 +58,13 @@ TEST(Report, EveryPromisedFieldIsThere) {
         {"frame_ms", {"p50", "p95", "p99", "max", "total", "rows"}},
         {"fracture_frames", {"count", "p50_ms", "p99_ms", "max_ms"}},
         {"tasks", {"opened", "broke", "dropped", "redone", "late", "frames_held", "ahead_hits", "ahead_misses"}}};
+    Report with_shapes;
+    with_shapes.fragment_shapes["hull"] = {3, 2, {1.2, 1.5, 2}, {1, 1.125, 1.375}};
+    const auto shapes = nlohmann::json::parse(to_json(with_shapes))["shapes"]["fragments"]["hull"];
+    EXPECT_EQ(shapes["count"], 3);
+    EXPECT_EQ(shapes["measured"], 2);
+    EXPECT_EQ(shapes["box_ratio"]["median"], 1.5);
+    EXPECT_EQ(shapes["hull_ratio"]["max"], 1.375);
     for (const auto& [name, members] : parts)
         for (const char* member : members) EXPECT_TRUE(json[name].contains(member)) << name << "." << member;
 }
