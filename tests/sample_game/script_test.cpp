@@ -541,8 +541,8 @@ TEST_P(SceneHash, IsWhatTheSceneAlwaysGave) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Scenes, SceneHash,
-                         testing::Values(KnownHash{"vase", "0366b03047732ad8"}, KnownHash{"wall", "270bb90c694f437c"},
-                                         KnownHash{"pane", "d2996762de93097a"}, KnownHash{"drop", "92498c37f8865b2e"}),
+                         testing::Values(KnownHash{"vase", "754025b7f0201745"}, KnownHash{"wall", "2b3156af67717539"},
+                                         KnownHash{"pane", "d2996762de93097a"}, KnownHash{"drop", "6cf9300c82bd38db"}),
                          [](const auto& known) { return std::string(known.param.scene); });
 
 TEST(Script, AFileIsPlayedByItsPathAndOneThatIsNotThereIsNamed) {
