@@ -25,6 +25,13 @@ std::vector<Vec3> hull_points(float radius) {
             }
     return points;
 }
+/// A cube of as much volume as the icosahedron: 2.5362 of its radius cubed.
+std::vector<Vec3> cube_points(float radius) {
+    const float h = 0.5f * 1.3637f * radius - kMargin;
+    std::vector<Vec3> points;
+    for (int k = 0; k < 8; ++k) points.push_back({k & 1 ? h : -h, k & 2 ? h : -h, k & 4 ? h : -h});
+    return points;
+}
 Vec3 place_of(uint32_t k, float radius) {
     const auto at = [](uint32_t i) { return static_cast<float>(i) - 0.5f * static_cast<float>(kSide - 1); };
     const uint32_t x = k % kSide, y = k / (kSide * kSide), z = k / kSide % kSide;
@@ -56,7 +63,7 @@ class FrameTimes {
     std::vector<double> least_;
 };
 
-void run_plain(float radius, FrameTimes& times, uint32_t& contacts) {
+void run_plain(float radius, const std::vector<Vec3>& points, FrameTimes& times, uint32_t& contacts) {
     btDefaultCollisionConfiguration configuration;
     btCollisionDispatcher dispatcher(&configuration);
     btDbvtBroadphase broadphase;
@@ -68,7 +75,7 @@ void run_plain(float radius, FrameTimes& times, uint32_t& contacts) {
     floor.setWorldTransform(btTransform(btQuaternion::getIdentity(), {0, -0.5f, 0}));
     world.addRigidBody(&floor);
     btConvexHullShape hull;
-    for (const Vec3 p : hull_points(radius)) hull.addPoint({p.x, p.y, p.z}, false);
+    for (const Vec3 p : points) hull.addPoint({p.x, p.y, p.z}, false);
     hull.recalcLocalAabb();
     btVector3 inertia;
     hull.calculateLocalInertia(kMass, inertia);
@@ -89,14 +96,13 @@ void run_plain(float radius, FrameTimes& times, uint32_t& contacts) {
     world.removeRigidBody(&floor);
 }
 
-void run_ours(float radius, FrameTimes& times, uint32_t& contacts) {
+void run_ours(float radius, const std::vector<Vec3>& points, FrameTimes& times, uint32_t& contacts) {
     const FpMode mode;
     const auto world = make_bullet_world(kHulls + 1);
     world->set_gravity({0, -9.81f, 0});
     const Vec3 p[] = {{-20, 0, -20}, {20, 0, -20}, {20, 0, 20}, {-20, 0, 20}};
     const std::array<uint32_t, 3> t[] = {{0, 2, 1}, {0, 3, 2}};
     world->add_static_triangles(0, p, t, 0.5f, 0, 1, ~0u);
-    const std::vector<Vec3> points = hull_points(radius);
     const ConvexPiece piece{points, 0};
     for (uint32_t k = 0; k < kHulls; ++k) {
         RigidDescription d;
@@ -120,18 +126,29 @@ void run_ours(float radius, FrameTimes& times, uint32_t& contacts) {
 
 }  // namespace
 
+// The choice of shapes leaves the icosahedron a hull: the box about it has 1.9 times its volume, a box is chosen below
+// 1.15 (design section 8 and the shapes). What it makes boxes of are bricks, so these have a row of their own:
+// cubes, which plain Bullet is given as hulls of eight points, as it was the others.
 bool measure_pile(const Options& options, Figures& figures) {
-    for (const auto& [name, radius] : {std::pair("hulls of 0.15 m: ", 0.15f), std::pair("hulls of 0.05 m: ", 0.05f)}) {
+    struct Row {
+        const char* name;
+        float radius;
+        std::vector<Vec3> points;
+    };
+    const Row rows[] = {{"hulls of 0.15 m: ", 0.15f, hull_points(0.15f)},
+                        {"hulls of 0.05 m: ", 0.05f, hull_points(0.05f)},
+                        {"bricks of 0.2 m, boxes by choice: ", 0.15f, cube_points(0.15f)}};
+    for (const auto& [label, radius, points] : rows) {
+        const std::string name(label);
         FrameTimes plain, ours;
         uint32_t plain_contacts = 0, our_contacts = 0;
         for (uint32_t round = 0; round < options.rounds_of_a_pass(2); ++round) {
-            run_plain(radius, plain, plain_contacts);
-            run_ours(radius, ours, our_contacts);
+            run_plain(radius, points, plain, plain_contacts);
+            run_ours(radius, points, ours, our_contacts);
         }
-        figures.add(std::string(name) + "plain Bullet, contacts", plain_contacts, "");
-        figures.add(std::string(name) + "ours, contacts", our_contacts, "");
-        figures.add_ratio(std::string(name) + "a frame, ours / plain Bullet", 1e3 * ours.mean(), 1e3 * plain.mean(),
-                          "ms");
+        figures.add(name + "plain Bullet, contacts", plain_contacts, "");
+        figures.add(name + "ours, contacts", our_contacts, "");
+        figures.add_ratio(name + "a frame, ours / plain Bullet", 1e3 * ours.mean(), 1e3 * plain.mean(), "ms");
     }
     return true;
 }

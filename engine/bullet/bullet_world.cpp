@@ -22,6 +22,12 @@ constexpr float kSeamReach = 0.001f;     // m beyond the margins, more than mark
 constexpr float kWatched = 0.01f;   // m
 constexpr float kLeafRoom = 0.01f;  // m
 
+uint64_t scatter(RigidId a, RigidId b) {
+    uint64_t z = (uint64_t{a} << 32 | b) * 0x9e3779b97f4a7c15ull;
+    z = (z ^ (z >> 29)) * 0xbf58476d1ce4e5b9ull;
+    return z ^ (z >> 32);
+}
+
 }  // namespace
 
 BulletWorld::BulletWorld(uint32_t body_limit)
@@ -37,7 +43,11 @@ BulletWorld::BulletWorld(uint32_t body_limit)
     strayed_.reserve(4 * static_cast<size_t>(body_limit) + 1024);
     contacts_.reserve(32 * static_cast<size_t>(body_limit) + 1024);
     manifolds_.reserve(8 * static_cast<size_t>(body_limit) + 1024);
+<<<<<<< HEAD
     in_the_way_.reserve(body_limit);
+=======
+    scattered_.reserve(manifolds_.capacity());
+>>>>>>> bridge
     ignored_.reserve(16 * static_cast<size_t>(body_limit) + 1024);
     skipped_.reserve(16 * static_cast<size_t>(body_limit) + 1024);
     shapes_.reserve(8 * static_cast<size_t>(body_limit) + 4096);
@@ -710,17 +720,27 @@ void BulletWorld::sum_impulse_to_static() {
     }
 }
 
+// Which contacts are solved last hold best: those with what stands still. Before them pairs come scattered, the same
+// way in every step: rising ids would send errors through a heap from its oldest pieces to its youngest. Of 16 heaps of
+// curved shards 5 have a contact deeper than 4 mm in rising order, 5 with what stands last, 3 with both; the deepest
+// at the floor is 2.4, 1.5 and 1.2 mm in the mean.
 void BulletWorld::solve_contacts(float dt) {
     solver_.clear();
     for (RigidId id = 0; id < body_end_; ++id)
         if (bodies_[id].is_used && bodies_[id].is_free()) solver_.add_body(*bodies_[id].bullet);
-    // What stands still comes last: of all contacts those hold best that are solved last.
-    for (const bool is_standing : {false, true})
-        for (const SortedManifold& m : manifolds_) {
-            if (!m.manifold) continue;
-            const bool is_a_free = bodies_[m.a].is_free(), is_b_free = bodies_[m.b].is_free();
-            if (is_standing ? is_a_free != is_b_free : is_a_free && is_b_free) solver_.add_contacts(*m.manifold);
-        }
+    scattered_.clear();
+    for (const SortedManifold& m : manifolds_) {
+        if (!m.manifold) continue;
+        const bool is_a_free = bodies_[m.a].is_free(), is_b_free = bodies_[m.b].is_free();
+        if (!is_a_free && !is_b_free) continue;
+        const bool is_standing = !is_a_free || !is_b_free;
+        scattered_.push_back({is_standing, scatter(m.a, m.b), static_cast<uint32_t>(scattered_.size()), m.manifold});
+    }
+    std::sort(scattered_.begin(), scattered_.end(), [](const Scattered& p, const Scattered& q) {
+        if (p.is_standing != q.is_standing) return q.is_standing;
+        return p.number != q.number ? p.number < q.number : p.ordinal < q.ordinal;
+    });
+    for (const Scattered& m : scattered_) solver_.add_contacts(*m.manifold);
     solver_.solve(dt);
 }
 

@@ -13,9 +13,10 @@ struct Frame {
     Vec3 normal, right, forward;
 };
 
+/// Without values of its own: hundreds stand on the stack for each touch, of which few are used.
 struct Spot {
-    float x = 0, y = 0;           // in the plane
-    float low_a = 0, high_b = 0;  // heights of the facing surfaces of the cores
+    float x, y;           // in the plane
+    float low_a, high_b;  // heights of the facing surfaces of the cores
 };
 
 // Height of a supporting plane over the patch's plane: at + slope_x x + slope_y y.
@@ -96,23 +97,28 @@ void look(const Hull& hull, const Mat3& rotation, const Frame& frame, Vec3 offse
         if (sign * along < kFacingCosine) continue;
         for (uint32_t c = hull.first_corner[f]; c < hull.first_corner[f + 1]; ++c) is_facing[hull.corner[c]] = true;
     }
+    float height[kMaxPoints];  // towards the other hull
+    const Points& points = hull.local;
+    for (uint32_t k = 0; k < points.count; ++k)
+        height[k] = sign * (points.x[k] * n.x + points.y[k] * n.y + points.z[k] * n.z);
     float top = -kFar;
-    for (uint32_t k = 0; k < hull.point_count; ++k) top = std::max(top, sign * dot(hull.local[k], n));
+    for (uint32_t k = 0; k < hull.point_count; ++k) top = std::max(top, height[k]);
+    const auto spot_at = [&](uint32_t k) {
+        const Vec3 p = points[k];
+        return Spot{ox + dot(p, right), oy + dot(p, forward), 0, 0};
+    };
     Spot spots[kMaxPoints];
     uint32_t count = 0;
-    for (uint32_t k = 0; k < hull.point_count; ++k) {
-        const Vec3 p = hull.local[k];
-        if (is_facing[k] || sign * dot(p, n) > top - kSupportDepth)
-            spots[count++] = {ox + dot(p, right), oy + dot(p, forward), 0, 0};
-    }
+    for (uint32_t k = 0; k < hull.point_count; ++k)
+        if (is_facing[k] || height[k] > top - kSupportDepth) spots[count++] = spot_at(k);
     Spot chain[2 * kMaxPoints + 2];
     side.outline_count = convex_outline(spots, count, chain);
     std::copy_n(chain, side.outline_count, side.outline);
     if (side.plane_count == 0) side.plane[side.plane_count++] = {oz + sign * top, 0, 0};
+    // Points of the outline are not inside of it.
     for (uint32_t k = 0; k < hull.point_count && side.outline_count >= 3; ++k) {
-        const Vec3 p = hull.local[k];
-        if (!(sign * dot(p, n) > top - kBulgeDepth)) continue;
-        const Spot spot{ox + dot(p, right), oy + dot(p, forward), 0, 0};
+        if (!(height[k] > top - kBulgeDepth)) continue;
+        const Spot spot = spot_at(k);
         if (is_inside(spot, side)) side.bulge[side.bulge_count++] = spot;
     }
 }

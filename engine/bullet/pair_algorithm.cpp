@@ -163,6 +163,11 @@ void PairAlgorithm::process() {
     const Body &a = work_->bodies[a_], &b = work_->bodies[b_];
     if (changes_a_ != a.shape_changes || changes_b_ != b.shape_changes) forget();
     if (is_fresh_ && moves_a_ == a.moves && moves_b_ == b.moves) return;
+    // Nothing to remember and nothing near: the next look begins anew.
+    if (!records_ && !overlap(a.shape.box, b.shape.box, kCandidateRange + kAhead)) {
+        is_fresh_ = false;
+        return;
+    }
     follow(a, b);
     if (!is_fresh_ || travelled_ >= records_until_) find_records(a, b);
     is_fresh_ = true;

@@ -117,7 +117,11 @@ TEST_P(EveryScene, SomethingBreaksOrGivesWayNothingIsLostAndNoMemoryIsAskedFor) 
         game->before_step();
         if (frame >= kFirstCountedFrame) start_counting_allocations();
         game->step();
-        if (frame >= kFirstCountedFrame) counts.ours += stop_counting_allocations().ours;
+        if (frame >= kFirstCountedFrame) {
+            const AllocationCounts found = stop_counting_allocations();
+            counts.ours += found.ours;
+            counts.rigid += found.rigid;
+        }
         game->after_step();
         frames_soft += soft_and_awake(game->world()) > 0;
         ASSERT_EQ(game->world().contents().data.state.validate(), "") << "frame " << frame;
@@ -125,6 +129,7 @@ TEST_P(EveryScene, SomethingBreaksOrGivesWayNothingIsLostAndNoMemoryIsAskedFor) 
     }
     EXPECT_GE(drawn.checked(), game->sums().born);
     EXPECT_EQ(counts.ours, 0u);
+    EXPECT_EQ(counts.rigid, 0u);
     EXPECT_GT(game->sums().born + frames_soft, 0u);
     if (std::string(GetParam().name) == "tear") {
         EXPECT_GT(tears(game->world()), 10u);

@@ -541,8 +541,8 @@ TEST_P(SceneHash, IsWhatTheSceneAlwaysGave) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Scenes, SceneHash,
-                         testing::Values(KnownHash{"vase", "0366b03047732ad8"}, KnownHash{"wall", "270bb90c694f437c"},
-                                         KnownHash{"pane", "d2996762de93097a"}, KnownHash{"drop", "92498c37f8865b2e"}),
+                         testing::Values(KnownHash{"vase", "529c8da80fd97137"}, KnownHash{"wall", "97447d17ab1884ab"},
+                                         KnownHash{"pane", "d2996762de93097a"}, KnownHash{"drop", "79cc1267b9118c86"}),
                          [](const auto& known) { return std::string(known.param.scene); });
 
 TEST(Script, AFileIsPlayedByItsPathAndOneThatIsNotThereIsNamed) {
