@@ -1,5 +1,5 @@
 -- A street of 20 houses, towers and garden walls of brick, each held by the ground at its foot, and 100 explosions in 20
--- seconds that go up and down it. At most 2,000 pieces live: the oldest that lie still make room for new ones.
+-- seconds, five a building. At most 2,000 pieces live: the oldest that lie still make room for new ones.
 game.scene{
     shows = "a street of 20 houses, towers and walls under 100 explosions in 20 seconds",
     seconds = 20,

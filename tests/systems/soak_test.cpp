@@ -52,8 +52,8 @@ double median_of(std::vector<double> values) {
     return values[values.size() / 2];
 }
 
-/// Panes appear in a field of places, some a frame, and are shot; what is left of them goes after half a second, and of
-/// the pieces the oldest, so that at most `alive` are there.
+/// Panes appear in a field of places, some a frame, and are cut to pieces; what is left of them goes after half a
+/// second, and of the pieces the oldest, so that at most `alive` are there.
 class Field {
  public:
     explicit Field(uint32_t alive) : alive_(alive), world_(make_world(settings(alive))) {
@@ -62,7 +62,7 @@ class Field {
     }
 
     void step() {
-        for (uint32_t n = 0; n < panes_a_frame(); ++n) shoot_pane();
+        for (uint32_t n = 0; n < panes_a_frame(); ++n) cut_pane();
         while (rests_.size() > 30 * panes_a_frame()) {
             EXPECT_TRUE(world_.remove(rests_.front()).ok());
             keep_stale(rests_.front());
@@ -110,29 +110,30 @@ class Field {
         } while (profiler.frame_count() > frames);
     }
     // Places 1.5 m apart, each free again after 400 panes.
-    void shoot_pane() {
+    void cut_pane() {
         const uint32_t place = panes_++ % 400;
         SpawnSettings pane;
-        pane.strength_scale = 0.4f;
+        pane.motion = {{0.3f, 0.2f, -0.5f}, {3, 5, 12}};
         pane.pose.position = {1.5f * static_cast<float>(place % 20), 0, 1.5f * static_cast<float>(place / 20)};
         const Result<BodyId> body = world_.spawn(model_, pane);
         if (!body.ok()) return;
         rests_.push_back(*body);
-        PushSettings push;
-        push.place = pane.pose.position + Vec3{0.02f, 0.15f, 0};
-        push.normal = {0, 0, -1};
-        push.approach_speed = 30;
-        push.mass = 1;
-        push.radius = 0.02f;
-        EXPECT_TRUE(world_.push_impact(*body, push).ok());
+        // Five cuts each way, all worked off at once; what turns flies apart.
+        for (int k = 0; k < 10; ++k) {
+            CutSettings cut;
+            const float share = 0.05f * static_cast<float>(k % 5 + 1);
+            cut.place = pane.pose.position + (k < 5 ? Vec3{share - 0.15f, 0, 0} : Vec3{0, share, 0});
+            cut.normal = k < 5 ? Vec3{1, 0, 0} : Vec3{0, 1, 0};
+            EXPECT_TRUE(world_.cut(*body, cut).ok());
+        }
     }
     void retire_oldest() {
-        constexpr uint32_t kRoom = 128;  // for what is born in a frame
+        const uint32_t room = 40 * panes_a_frame();  // for what is born in a frame
         const uint32_t now = world_.report().fragments;
-        if (now + kRoom <= alive_) return;
+        if (now + room <= alive_) return;
         FragmentAge oldest;
         (void)world_.fragments(&oldest, 1);
-        EXPECT_TRUE(world_.retire({.count = now + kRoom - alive_}).ok());
+        EXPECT_TRUE(world_.retire({.count = now + room - alive_}).ok());
         keep_stale(oldest.fragment);
     }
     void keep_stale(BodyId id) {
