@@ -43,11 +43,8 @@ BulletWorld::BulletWorld(uint32_t body_limit)
     strayed_.reserve(4 * static_cast<size_t>(body_limit) + 1024);
     contacts_.reserve(32 * static_cast<size_t>(body_limit) + 1024);
     manifolds_.reserve(8 * static_cast<size_t>(body_limit) + 1024);
-<<<<<<< HEAD
     in_the_way_.reserve(body_limit);
-=======
     scattered_.reserve(manifolds_.capacity());
->>>>>>> bridge
     ignored_.reserve(16 * static_cast<size_t>(body_limit) + 1024);
     skipped_.reserve(16 * static_cast<size_t>(body_limit) + 1024);
     shapes_.reserve(8 * static_cast<size_t>(body_limit) + 4096);
