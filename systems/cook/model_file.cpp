@@ -18,7 +18,7 @@ constexpr uint64_t kLargestFile = 1ull << 34;  // rows of it, and of what is der
 
 constexpr const char* kAdvice = "The model file is damaged or of another build; cook the mesh again and write it.";
 constexpr FileKind kKind{{'c', 'm', 'o', 'd', 'l', '\r', '\n', '\x1a'},
-                         7,
+                         8,
                          "model file",
                          ".cmodel",
                          "Write one with write_model.",

@@ -541,8 +541,8 @@ TEST_P(SceneHash, IsWhatTheSceneAlwaysGave) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Scenes, SceneHash,
-                         testing::Values(KnownHash{"vase", "529c8da80fd97137"}, KnownHash{"wall", "97447d17ab1884ab"},
-                                         KnownHash{"pane", "d2996762de93097a"}, KnownHash{"drop", "79cc1267b9118c86"}),
+                         testing::Values(KnownHash{"vase", "aa5d5901eb38ef3a"}, KnownHash{"wall", "d36da06dd89ab864"},
+                                         KnownHash{"pane", "efd996ebdc576784"}, KnownHash{"drop", "74f83841a40e288a"}),
                          [](const auto& known) { return std::string(known.param.scene); });
 
 TEST(Script, AFileIsPlayedByItsPathAndOneThatIsNotThereIsNamed) {
