@@ -47,6 +47,7 @@ const Played& played() {
         RunOptions options;
         options.threads = 2;
         options.frames = 60;
+        options.set.push_back("frames_ahead=0");  // a hit is held
         options.trace = folder_for("trace") / "trace.json";
         Result<Report> report = run(kBreaking, options);
         EXPECT_TRUE(report.ok()) << report.error();

@@ -76,7 +76,7 @@ TEST(Collapse, ATowerWhoseFootIsShotAwayComesDownInPiecesThatHitEachOther) {
         if (frame % 10 == 0 && frame < 160) {
             const Vec3 places[] = {{1.2f, 0, 0}, {-1.2f, 0, 0}, {0, 0, 1.2f}, {0, 0, -1.2f}};
             const Vec3 at = places[frame / 10 % 4] + Vec3{0, 0.6f, 0};
-            ASSERT_TRUE(s.world.explode({.centre = at, .radius = 2.5f, .impulse = 8000}).ok());
+            ASSERT_TRUE(s.world.explode({.centre = at, .radius = 2.5f, .impulse = 12000}).ok());
         }
         s.world.step();
         const WorldData& d = s.world.contents().data;

@@ -36,9 +36,9 @@ struct Settings {
     /// A fast hit that is still being worked off holds its bodies where they touch for at most this long, s; 0 to 1. 0:
     /// never. Bodies that break quickly are held too when their hits do not fit units_a_frame.
     float hold_seconds = 0.1f;
-    /// The first touch of a body in flight is foreseen up to this many frames before it comes, against what stands still
-    /// or is slow, and its hit is worked off until then: a touch that comes as foreseen is applied at once, without a
-    /// hold. 0 to 60; 0: never. Not where the host moves the bodies.
+    /// The first touch of a body in flight is foreseen up to this many frames before it comes, against what stands
+    /// still or is slow, and its hit is worked off until then: a touch that comes as foreseen is applied at once,
+    /// without a hold. 0 to 60; 0: never. Not where the host moves the bodies.
     uint32_t frames_ahead = 8;
     /// Fragments break again down to this generation (0: only whole bodies break); 0 to 100.
     uint32_t generations = 3;
