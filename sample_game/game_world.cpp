@@ -148,8 +148,9 @@ void fill_counts(const World& world, Report& report) {
     std::apply([&](auto... table) { ((report.tables[(data.state.*table).name()] = (data.state.*table).size()), ...); },
                State::tables());
     const DamageCounts& counts = data.counts;
-    report.tasks = {counts.opened, counts.broke, counts.dropped, counts.redone, counts.late, counts.frames_held,
-                    counts.ahead_hits, counts.ahead_misses, counts.first_breaks, counts.first_ready};
+    report.tasks = {counts.opened,       counts.broke,       counts.dropped,    counts.redone,
+                    counts.late,         counts.frames_held, counts.ahead_hits, counts.ahead_misses,
+                    counts.first_breaks, counts.first_ready};
     report.clamped = counts.clamped;
     report.sweeps = data.rigid->counts().sweeps;
     report.units.left = counts.units_left;

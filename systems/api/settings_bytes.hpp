@@ -9,7 +9,8 @@ namespace cullet {
 template <class S, class F>
 void for_each_setting(S& s, F&& f) {
     f(s.gravity.x), f(s.gravity.y), f(s.gravity.z);
-    f(s.step_seconds), f(s.units_a_frame), f(s.hold_seconds), f(s.frames_ahead), f(s.generations), f(s.debris_share), f(s.debris_elements);
+    f(s.step_seconds), f(s.units_a_frame), f(s.hold_seconds), f(s.frames_ahead), f(s.generations), f(s.debris_share),
+        f(s.debris_elements);
     f(s.break_share), f(s.break_elements);
     auto& l = s.limits;
     f(l.bodies), f(l.models), f(l.vertices), f(l.elements), f(l.open_hits), f(l.view_vertices), f(l.debris),
