@@ -91,6 +91,15 @@ struct RigidCounts {
     uint64_t allocations = 0;
 };
 
+/// Work that came into the rigid world by other ways than forces, J, of all solves since creation. Without it contacts
+/// take energy and never give any.
+struct RigidWork {
+    double lifted = 0;  // against gravity, by moving overlapping bodies apart
+    double ahead = 0;   // gravity's on bodies that were stopped on their way: their velocity has that of the whole step
+    double driven = 0;  // kinematic bodies', at their contacts: at most so much
+    double sum() const { return lifted + ahead + driven; }
+};
+
 class RigidWorld {
  public:
     virtual ~RigidWorld() = default;
@@ -176,6 +185,7 @@ class RigidWorld {
     /// static, kinematic and held bodies. What sleep and rest took from slow bodies is in it. With it the momentum of
     /// the dynamic bodies changes by gravity's share alone.
     virtual Vec3d impulse_to_static() const = 0;
+    virtual RigidWork work() const { return {}; }
 
     /// Of a body that is there.
     virtual std::optional<RigidKind> kind(RigidId id) const = 0;

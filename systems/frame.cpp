@@ -1,6 +1,7 @@
 // The order of one frame: impact in, fragments out. Contacts are detected and impulses predicted, damage is decided,
 // and only then are contacts solved, so that what breaks does not throw the striker back. A host with its own physics
 // (World::create_hosted) has moved the bodies before the frame, and solves after it.
+#include "engine/assert.hpp"
 #include "systems/damage/damage_loop.hpp"
 #include "systems/query/query_index.hpp"
 #include "systems/soft/soft_loop.hpp"
@@ -14,8 +15,9 @@ FramePlan<WorldData> make_frame_plan(bool is_hosted, const std::function<std::st
     FramePlan<WorldData> plan;
     plan.stage("start").then<remember_poses>();
     if (is_hosted) plan.then<read_rigid>();
-    plan.then<take_blows>()
-        .then<freeze_soft_bodies>()
+    plan.then<take_blows>();
+    if (CULLET_CHECKS_ON) plan.then<open_energy_balance>();
+    plan.then<freeze_soft_bodies>()
         .then<detect_contacts>()
         .then<predict_impacts>()
         .then<meet_foreseen>()
@@ -49,7 +51,9 @@ FramePlan<WorldData> make_frame_plan(bool is_hosted, const std::function<std::st
         .then<make_births>();
     plan.stage("solve");
     if (!is_hosted) plan.then<solve_rigid>().then<return_soft>().then<read_rigid>();
-    plan.then<fade_debris>().then<fall_debris>();
+    plan.then<fall_debris>();
+    if (CULLET_CHECKS_ON) plan.then<close_energy_balance>();
+    plan.then<fade_debris>();
     plan.stage("end")
         .then<show_soft>()
         .then<draw_shells>()

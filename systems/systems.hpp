@@ -15,6 +15,9 @@ void remember_poses(Rows<Bodies> bodies, In<&Bodies::position> position, In<&Bod
 /// Which bodies the blows that the game asked for reach; balls and unbreakable bodies are pushed at once.
 void take_blows(Serial, Blows& blows, ShellTables shells, Bodies& bodies, RigidWorld& rigid, DamageCounts& counts,
                 Events<RefusedEvent>& refused);
+/// Checked and Debug builds: the energy that the frame begins with, the game's blows of unbreakable bodies in it.
+void open_energy_balance(Serial, Step step, ShellTables shells, const DamageCounts& counts, const RigidWorld& rigid,
+                         EnergyBalance& balance);
 /// Soft bodies that have been quiet long enough are rigid again, in the shape that they have.
 void freeze_soft_bodies(Serial, ShellTables shells, SoftBodies& soft, Bodies& bodies, RigidWorld& rigid, Arena& arena);
 /// Sweeps fast bodies to their time of impact, finds all contacts of this step.
@@ -131,12 +134,15 @@ void solve_rigid(Serial, Step step, RigidWorld& rigid);
 void return_soft(Serial, const SoftBodies& soft, const SoftStrikers& strikers, RigidWorld& rigid);
 /// Poses, velocities and sleep of the rigid world, back into rows.
 void read_rigid(Serial, const RigidWorld& rigid, Bodies& bodies, Events<AsleepEvent>& asleep);
-/// Crumbs that are older than the game wants go.
-void fade_debris(Serial, Step step, Debris& debris, const DebrisAges& ages, const DamageSettings& settings,
-                 DamageCounts& counts);
 /// Crumbs fly on parabolas until they meet the floor below their place of birth.
 void fall_debris(Rows<Debris> debris, Step step, InOut<&Debris::position> position, InOut<&Debris::velocity> velocity,
                  In<&Debris::floor> floor, InOut<&Debris::is_resting> is_resting, In<&Debris::is_used> is_used);
+/// Checked and Debug builds: between this and its opening the frame made no energy (motion/energy_balance.hpp).
+void close_energy_balance(Serial, Step step, ShellTables shells, const DamageCounts& counts, const RigidWorld& rigid,
+                          EnergyBalance& balance);
+/// Crumbs that are older than the game wants go.
+void fade_debris(Serial, Step step, Debris& debris, const DebrisAges& ages, const DamageSettings& settings,
+                 DamageCounts& counts);
 
 // ---- end
 

@@ -10,6 +10,7 @@
 #include "engine/events.hpp"
 #include "engine/rigid_world.hpp"
 #include "systems/fragments/break.hpp"
+#include "systems/motion/energy_balance.hpp"
 
 namespace cullet {
 
@@ -83,6 +84,8 @@ struct DamageCounts {
     uint64_t slow_soft_frames = 0;            // soft bodies that had units for fewer substeps than a frame asks for
     uint64_t retired = 0, faded = 0;          // fragments and crumbs
     double worst_rounding = 0;                // momentum that hidden runs lost, share of what the body had or got
+    // J, at most: of the game's blows, of what it moves, and what late breaks get back of what their touch took.
+    double work_from_outside = 0;
     double impulse_to_static[3] = {0, 0, 0};  // N s, from damage to floors, pins and kinematic bodies
 };
 
@@ -94,6 +97,7 @@ struct WorldData {
     Step step_info;
     DamageSettings damage_settings;
     DamageCounts counts;
+    EnergyBalance energy;  // Checked and Debug builds
     std::unique_ptr<RigidWorld> rigid;
     std::unique_ptr<DamageLoop> damage_loop;
     std::unique_ptr<SoftLoop> soft_loop;
@@ -144,6 +148,8 @@ T& WorldData::resource() {
         return damage_settings;
     else if constexpr (std::is_same_v<T, DamageCounts>)
         return counts;
+    else if constexpr (std::is_same_v<T, EnergyBalance>)
+        return energy;
     else if constexpr (std::is_same_v<T, RigidWorld>)
         return *rigid;
     else if constexpr (std::is_same_v<T, DamageLoop>)

@@ -58,6 +58,7 @@ class BulletWorld final : public RigidWorld {
     void wake(RigidId id) override;
     RigidCounts counts() const override;
     Vec3d impulse_to_static() const override { return to_static_; }
+    RigidWork work() const override { return work_done_; }
     std::optional<RigidKind> kind(RigidId id) const override;
     std::unique_ptr<RigidWorld> make_another(uint32_t body_limit) const override;
     void save(ByteWriter& out) const override;
@@ -124,6 +125,9 @@ class BulletWorld final : public RigidWorld {
     void settle(Body& body);
     void set_velocities(Body& body, const btVector3& linear, const btVector3& angular);
     void sum_impulse_to_static();
+    void sum_driven_work();
+    double height_energy() const;
+    double falling_power() const;
     void limit_closing(float dt);
     void integrate(float dt);
     void update_sleep(float dt);
@@ -164,6 +168,7 @@ class BulletWorld final : public RigidWorld {
     Sweeper sweeper_;
     RigidCounts counts_;
     Vec3d to_static_;
+    RigidWork work_done_;
 };
 
 }  // namespace cullet::bullet

@@ -2,6 +2,7 @@
 
 #include "engine/rigid_bounds.hpp"
 #include "systems/damage/energy.hpp"
+#include "systems/fragments/limit_energy.hpp"
 #include "systems/quick/quick_body.hpp"
 
 namespace cullet {
@@ -21,8 +22,10 @@ void push_body(Bodies& bodies, RigidWorld& rigid, DamageCounts& counts, Row<Bodi
     Vec3 spin = bodies.spin[body] + rotate(q, (inverse(bodies.inertia[body]) * turning).to_float());
     const bool is_too_fast = shorten(velocity, kFastest), spins_too_fast = shorten(spin, kFastest);
     counts.clamped += is_too_fast || spins_too_fast;
+    const double energy = rigid_energy(bodies, body);
     bodies.velocity.set(body, velocity);
     bodies.spin.set(body, spin);
+    counts.work_from_outside += rigid_energy(bodies, body) - energy;
     rigid.wake(body);
     bodies.is_asleep[body] = 0;
     rigid.set_motion(body, {velocity, spin});

@@ -117,11 +117,16 @@ double rigid_energy(const Bodies& bodies, Row<Bodies> body, const Motion& motion
     return 0.5 * (bodies.mass[body] * dot(v, v) + dot(w, bodies.inertia[body] * w));
 }
 
+double pieces_energy(const State& state, const Break& plan) {
+    double energy = 0;
+    for_each_mover(state, plan, [&](const Mover& m) { energy += m.energy(); });
+    return energy;
+}
+
 void limit_energy(Births& births, const Break& plan, double allowed) {
     State& state = births.state;
-    double energy = 0;
+    const double energy = pieces_energy(state, plan);
     bool is_pinned = false;
-    for_each_mover(state, plan, [&](const Mover& m) { energy += m.energy(); });
     for (const PartMotion& m : plan.motions) is_pinned = is_pinned || m.is_static;
     if (!(energy > allowed)) return;
     const Common common = is_pinned ? Common{} : common_motion(state, plan);

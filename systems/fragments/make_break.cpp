@@ -250,6 +250,20 @@ void make_births_of(Births& births, const Break& plan, const Moment& moment) {
     part_siblings(births, plan, bounds);
 }
 
+// J, what body and strikers had at the touch, by the run, and do not have any more: the rigid solver took it while the
+// pieces were not known yet.
+double owed_to_late(const State& state, Row<Tasks> task) {
+    double owed = state.tasks.start_energy[task] - rigid_energy(state.bodies, state.tasks.body[task]);
+    const uint32_t first = state.tasks.first_contact[task], end = first + state.tasks.contact_count[task];
+    const auto& strikers = state.task_contacts.striker;
+    for (uint32_t c = first; c < end; ++c) {
+        bool is_counted = false;
+        for (uint32_t b = first; b < c; ++b) is_counted = is_counted || strikers[b] == strikers[c];
+        if (!is_counted) owed -= rigid_energy(state.bodies, strikers[c]);
+    }
+    return std::max(0.0, owed);
+}
+
 }  // namespace
 
 void make_break(Births& births, const Break& plan) {
@@ -262,12 +276,17 @@ void make_break(Births& births, const Break& plan) {
     }
     births.counts.clamped += plan.clamped;
     const Moment moment = moment_of(state, plan.task, plan.motions);
-    // Late, the rigid solver has passed the blow's impulse; an explosion's energy comes from outside.
-    const bool is_limited = !moment.is_late && !has_explosion(state.blows, plan.task);
-    double allowed = 0;
-    if (!moment.is_late) allowed = strike_back(births, plan.task, moment.pose, plan.motions, plan.largest);
+    // Late, the rigid solver has passed the blow's impulse, and what it took by it comes back; an explosion's energy
+    // comes from outside.
+    const bool comes_from_outside = has_explosion(state.blows, plan.task);
+    const double before = rigid_energy(state.bodies, plan.body);
+    const double allowed = moment.is_late ? before + owed_to_late(state, plan.task)
+                                          : strike_back(births, plan.task, moment.pose, plan.motions, plan.largest);
     make_births_of(births, plan, moment);
-    if (is_limited) limit_energy(births, plan, allowed);
+    if (moment.is_late || !comes_from_outside) limit_energy(births, plan, allowed);
+    if (moment.is_late || comes_from_outside)
+        births.counts.work_from_outside +=
+            std::max(0.0, pieces_energy(state, plan) - (moment.is_late ? before : allowed));
     part_strikers(births, plan.task, plan, moment.is_late);
 }
 

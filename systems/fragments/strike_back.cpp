@@ -161,7 +161,9 @@ double strike_back(Births& births, Row<Tasks> task, const Pose& pose, std::span<
         if (was_answered[c - first]) continue;
         if (!is_dynamic(state.bodies, striker) || !(contacts.striker_inverse_mass[c] > 0)) {
             to_static += -1.0 * blow;
-            if (!is_dynamic(state.bodies, striker)) allowed += given;  // a lift, or what the game pushes with
+            if (is_dynamic(state.bodies, striker)) continue;
+            allowed += given;  // a lift, or what the game pushes with
+            births.counts.work_from_outside += given;
             continue;
         }
         const Push taken = push_at(state.bodies, striker, -1.0 * in_world, place);

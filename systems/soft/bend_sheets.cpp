@@ -9,6 +9,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "systems/soft/sheet_energy.hpp"
 #include "systems/soft/soft_loop.hpp"
 #include "systems/springs/spring_view.hpp"
 #include "systems/systems.hpp"
@@ -22,6 +23,14 @@ constexpr double kPeriodShare = 0.1;
 constexpr uint32_t kMostSubstepsABend = 256;
 // Most of k sum K_i^2 / m_i dt^2 of one hinge: small triangles and light corners beside a cut are bent softer.
 constexpr double kMostSlope = 0.05;
+
+/// What holds two triangles flat.
+struct Hinge {
+    uint32_t row[4];  // of Vertices
+    double weight[4], inverse_mass[4];
+    double stiffness;  // D / (A1 + A2), less where it would be too stiff for the step
+    Vec3d sum;         // K x
+};
 
 struct Sheet {
     const SpringView& view;
@@ -50,32 +59,52 @@ struct Sheet {
         return half;
     }
 
-    void bend(uint32_t element, size_t k, uint32_t across) const {
-        State& s = view.state;
+    /// False: a triangle of no area, or nothing of it is free.
+    bool find(uint32_t element, size_t k, uint32_t across, Hinge& out) const {
+        const State& s = view.state;
         const auto& corner = s.elements.corner[view.shell.element(element)];
         const auto& other = s.elements.corner[view.shell.element(across)];
         const uint32_t a = corner[k], b = corner[(k + 1) % 3];
         size_t j = 0;
         while (j < 3 && !(other[j] == b && other[(j + 1) % 3] == a)) ++j;
-        if (j == 3) return;
+        if (j == 3) return false;
         const Half one = half_of(element, k), two = half_of(across, j);
-        if (!(one.area > 0 && two.area > 0)) return;
+        if (!(one.area > 0 && two.area > 0)) return false;
         const uint32_t vertex[4] = {a, b, corner[(k + 2) % 3], other[(j + 2) % 3]};
         const double weight[4] = {one.cot_end + two.cot_start, one.cot_start + two.cot_end,
                                   -one.cot_start - one.cot_end, -two.cot_start - two.cot_end};
-        Vec3d sum;
-        double slope = 0, inverse_mass[4];
+        double slope = 0;
+        out.sum = {};
         for (size_t i = 0; i < 4; ++i) {
-            inverse_mass[i] = s.vertices.inverse_mass[view.shell.vertex(vertex[i])];
-            sum += weight[i] * Vec3d(view.position(vertex[i]));
-            slope += weight[i] * weight[i] * inverse_mass[i];
+            out.row[i] = view.shell.vertex(vertex[i]);
+            out.weight[i] = weight[i];
+            out.inverse_mass[i] = s.vertices.inverse_mass[out.row[i]];
+            out.sum += weight[i] * Vec3d(view.position(vertex[i]));
+            slope += weight[i] * weight[i] * out.inverse_mass[i];
         }
-        if (!(slope > 0)) return;
-        const double push = dt * std::min(bending / (one.area + two.area), kMostSlope / (dt * dt * slope));
+        if (!(slope > 0)) return false;
+        out.stiffness = std::min(bending / (one.area + two.area), kMostSlope / (dt * dt * slope));
+        return true;
+    }
+
+    void push(const Hinge& hinge) const {
         for (size_t i = 0; i < 4; ++i) {
-            const uint32_t row = view.shell.vertex(vertex[i]);
-            const Vec3 change = (-push * weight[i] * inverse_mass[i] * sum).to_float();
-            s.vertices.velocity.set(row, s.vertices.velocity[row] + change);
+            const double size = -(dt * hinge.stiffness) * hinge.weight[i] * hinge.inverse_mass[i];
+            auto& velocity = view.state.vertices.velocity;
+            velocity.set(hinge.row[i], velocity[hinge.row[i]] + (size * hinge.sum).to_float());
+        }
+    }
+
+    template <class F>
+    void for_each_hinge(F&& visit) const {
+        for (uint32_t e = 0; e < view.shell.element_count(); ++e) {
+            const uint32_t row = view.shell.element(e);
+            if (view.state.elements.flags[row] & kDead) continue;
+            for (size_t k = 0; k < 3; ++k) {
+                const uint32_t across = view.state.elements.neighbour[row][k];
+                Hinge hinge;
+                if (across != kNone && across > e && find(e, k, across, hinge)) visit(hinge);
+            }
         }
     }
 };
@@ -92,26 +121,35 @@ uint32_t substeps_a_bend(const SpringView& view, double bending) {
     return substeps;
 }
 
+double bending_of(const SpringView& view) {
+    const MaterialTraits& traits = view.state.material_traits;
+    const uint32_t material = view.state.shells.material[view.shell.row];
+    return material < traits.size() ? traits.bending_stiffness[material] : 0;
+}
+
+Sheet sheet_of(const SpringView& view, double bending, uint32_t substeps) {
+    return {view, bending, double{view.own().time_step[view.row]} * substeps};
+}
+
 }  // namespace
 
 void bend_sheets(EachBody, OfSprings of, ShellTables shells) {
-    State& state = shells.state;
-    const SpringView view(state, of.row);
-    const MaterialTraits& traits = state.material_traits;
-    const uint32_t material = state.shells.material[view.shell.row];
-    const double bending = material < traits.size() ? traits.bending_stiffness[material] : 0;
+    const SpringView view(shells.state, of.row);
+    const double bending = bending_of(view);
     if (!(bending > 0)) return;
     const uint32_t substeps = substeps_a_bend(view, bending);
     if (view.own().steps[view.row] % substeps != 0) return;
-    const Sheet sheet{view, bending, double{view.own().time_step[view.row]} * substeps};
-    for (uint32_t e = 0; e < view.shell.element_count(); ++e) {
-        const uint32_t row = view.shell.element(e);
-        if (state.elements.flags[row] & kDead) continue;
-        for (size_t k = 0; k < 3; ++k) {
-            const uint32_t across = state.elements.neighbour[row][k];
-            if (across != kNone && across > e) sheet.bend(e, k, across);
-        }
-    }
+    const Sheet sheet = sheet_of(view, bending, substeps);
+    sheet.for_each_hinge([&](const Hinge& hinge) { sheet.push(hinge); });
+}
+
+double sheet_energy(const SpringView& view) {
+    const double bending = bending_of(view);
+    double sum = 0;
+    if (!(bending > 0) || view.has_layers()) return sum;
+    const Sheet sheet = sheet_of(view, bending, substeps_a_bend(view, bending));
+    sheet.for_each_hinge([&](const Hinge& hinge) { sum += 0.5 * hinge.stiffness * dot(hinge.sum, hinge.sum); });
+    return sum;
 }
 
 }  // namespace cullet

@@ -83,6 +83,7 @@ void book(const State& state, const SoftBodies& soft, SoftStrikers& strikers, Da
         if (striker.yields != is_pinned) return;
         const double sign = is_pinned ? 1 : -1;
         for (int k = 0; k < 3; ++k) counts.impulse_to_static[k] += sign * striker.impulse[k];
+        if (!striker.yields) counts.work_from_outside += std::max(0.0, dot(striker.impulse, Vec3d(striker.velocity)));
     });
 }
 

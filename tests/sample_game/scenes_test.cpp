@@ -128,6 +128,11 @@ TEST_P(EveryScene, SomethingBreaksOrGivesWayNothingIsLostAndNoMemoryIsAskedFor) 
         ASSERT_EQ(drawn.check_changed(game->world()), "") << "frame " << frame;
     }
     EXPECT_GE(drawn.checked(), game->sums().born);
+    // Each frame's was bounded (motion/energy_balance.hpp); this is what the scene is known by.
+    const EnergyBalance& energy = game->world().contents().data.energy;
+    std::printf("%s: frames made at most %.3g J, frame %llu; the steps of rigid bodies %.3g J in all\n",
+                std::string(GetParam().name).c_str(), energy.most_gain,
+                static_cast<unsigned long long>(energy.most_frame), game->world().contents().data.rigid->work().sum());
     EXPECT_EQ(counts.ours, 0u);
     EXPECT_EQ(counts.rigid, 0u);
     EXPECT_GT(game->sums().born + frames_soft, 0u);

@@ -1,0 +1,47 @@
+#include "systems/motion/energy_balance.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "engine/assert.hpp"
+#include "systems/systems.hpp"
+
+namespace cullet {
+
+// Heights: floats of metres are good to 6e-8, kinetic energies to some 1e-7. What lies still is kept up by an impulse
+// of m g dt that contacts find to a thousandth or so: it may rise by as much of the g dt^2 that it would fall. Springs
+// that swing in semi-implicit steps have an energy that is off by up to step * frequency / 2 within a swing, and
+// softened shells (B7) take their largest steps.
+double energy_tolerance(const Step& step, const MechanicalEnergy& before, const MechanicalEnergy& after) {
+    constexpr double kRounding = 1e-6, kOfMotion = 1e-4, kOfFall = 1e-3, kOfStrain = 0.02;
+    const Vec3d fall = double{step.dt} * Vec3d(step.gravity);
+    return 1e-6 + kRounding * (std::fabs(before.height) + std::fabs(after.height)) +
+           kOfFall * after.mass * dot(fall, fall) + kOfMotion * (before.kinetic + after.kinetic) +
+           kOfStrain * (before.strain + after.strain);
+}
+
+void open_energy_balance(Serial, Step step, ShellTables shells, const DamageCounts& counts, const RigidWorld& rigid,
+                         EnergyBalance& balance) {
+    balance.start = world_energy(shells.state, step.gravity);
+    balance.from_outside = counts.work_from_outside;
+    balance.rigid = rigid.work();
+}
+
+void close_energy_balance(Serial, Step step, ShellTables shells, const DamageCounts& counts, const RigidWorld& rigid,
+                          EnergyBalance& balance) {
+    const MechanicalEnergy end = world_energy(shells.state, step.gravity);
+    const double outside = counts.work_from_outside - balance.from_outside,
+                 work = rigid.work().sum() - balance.rigid.sum();
+    balance.gain = end.total() - balance.start.total() - outside - work;
+    if (balance.gain > balance.most_gain) {
+        balance.most_gain = balance.gain;
+        balance.most_frame = step.frame;
+    }
+    CULLET_ASSERT(balance.gain <= energy_tolerance(step, balance.start, end),
+                  "frame %llu made %g J: kinetic %g to %g J, strain %g to %g J, by height %g J, from outside %g J, "
+                  "rigid steps %g J",
+                  static_cast<unsigned long long>(step.frame), balance.gain, balance.start.kinetic, end.kinetic,
+                  balance.start.strain, end.strain, end.height - balance.start.height, outside, work);
+}
+
+}  // namespace cullet

@@ -1,0 +1,23 @@
+// The mechanical energy of a world: what contacts and breaks take from and never add to.
+#pragma once
+#include "components/state.hpp"
+
+namespace cullet {
+
+/// J. Of what moves by forces, and of bodies that stand on pins, whose pieces will.
+struct MechanicalEnergy {
+    double kinetic = 0;  // of dynamic bodies as rigid ones, of crumbs, of soft bodies that are awake by their points
+    double height = 0;   // -m g . x, x from the world's origin
+    double strain = 0;   // of the springs of soft bodies that are awake
+    double waiting = 0;  // that bodies which struck each other gain when the task of the second ends; may be negative
+    double mass = 0;     // kg, of all that is counted
+    double total() const { return kinetic + height + strain + waiting; }
+    MechanicalEnergy& operator+=(const MechanicalEnergy& o);
+};
+
+/// Nothing of one that is neither dynamic nor on pins.
+MechanicalEnergy body_energy(State& state, Row<Bodies> body, Vec3 gravity);
+MechanicalEnergy debris_energy(const Debris& debris, uint32_t row, Vec3 gravity);
+MechanicalEnergy world_energy(State& state, Vec3 gravity);
+
+}  // namespace cullet
