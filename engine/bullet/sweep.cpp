@@ -71,6 +71,36 @@ void Sweeper::sweep_pair(BulletWorld& world, Body& a, Body& b, float dt) {
     }
 }
 
+void Sweeper::order_fast() {
+    by_low_.clear();
+    Vec3 low{1e30f, 1e30f, 1e30f}, high = -low;
+    for (uint32_t k = 0; k < fast_.size(); ++k) {
+        const Vec3 at = fast_[k].swept.low;
+        if (!(dot(at, at) >= 0)) continue;  // what is nowhere meets nothing, and has no place in an order
+        by_low_.push_back(k);
+        low = {std::min(low.x, at.x), std::min(low.y, at.y), std::min(low.z, at.z)};
+        high = {std::max(high.x, at.x), std::max(high.y, at.y), std::max(high.z, at.z)};
+    }
+    const Vec3 spread = high - low;
+    axis_ = spread.x >= spread.y && spread.x >= spread.z ? &Vec3::x : spread.y >= spread.z ? &Vec3::y : &Vec3::z;
+    longest_ = 0;
+    for (const uint32_t k : by_low_) longest_ = std::max(longest_, double{fast_[k].swept.high.*axis_} - low_of(k));
+    std::sort(by_low_.begin(), by_low_.end(),
+              [this](uint32_t a, uint32_t b) { return std::pair(low_of(a), a) < std::pair(low_of(b), b); });
+}
+
+// The fast ones behind the k-th whose ways meet its way, rising. None of them begins more than `longest_` before that
+// way does. All against all took half of a frame in which 4,096 flew.
+void Sweeper::find_fast(uint32_t k) {
+    near_.clear();
+    const Box& swept = fast_[k].swept;
+    auto next = std::lower_bound(by_low_.begin(), by_low_.end(), low_of(k) - longest_,
+                                 [this](uint32_t j, double from) { return low_of(j) < from; });
+    for (; next != by_low_.end() && low_of(*next) <= double{swept.high.*axis_}; ++next)
+        if (*next > k && overlap(swept, fast_[*next].swept, 0)) near_.push_back(*next);
+    std::sort(near_.begin(), near_.end());
+}
+
 uint32_t Sweeper::sweep(BulletWorld& world, float dt) {
     fast_.clear();
     for (RigidId id = 0; id < world.body_end_; ++id) {
@@ -83,19 +113,20 @@ uint32_t Sweeper::sweep(BulletWorld& world, float dt) {
         body.is_fast = true;
         fast_.push_back({id, swept_box(body.shape.box, mover, body.reach, dt)});
     }
+    order_fast();
     // The second round sees those that were stopped in the first standing still.
     for (int round = 0; round < 2; ++round) {
-        for (size_t k = 0; k < fast_.size(); ++k) {
+        for (uint32_t k = 0; k < fast_.size(); ++k) {
             Body& a = world.bodies_[fast_[k].id];
             if (round == 0) {
                 find_near(world, fast_[k].swept);
                 for (const RigidId id : near_)
                     if (id != a.id && !world.bodies_[id].is_fast) sweep_pair(world, a, world.bodies_[id], dt);
             }
-            for (size_t j = k + 1; j < fast_.size(); ++j) {
+            find_fast(k);
+            for (const uint32_t j : near_) {
                 Body& b = world.bodies_[fast_[j].id];
-                if (round == 1 && a.moved_fraction == 1 && b.moved_fraction == 1) continue;
-                if (overlap(fast_[k].swept, fast_[j].swept, 0)) sweep_pair(world, a, b, dt);
+                if (round == 0 || a.moved_fraction < 1 || b.moved_fraction < 1) sweep_pair(world, a, b, dt);
             }
         }
     }
