@@ -13,7 +13,8 @@ MechanicalEnergy soft_energy(State& state, Row<SoftBodies> soft, Vec3d gravity) 
     const SpringView view(state, springs_of(state, soft));
     const SpringMotion motion = motion_of(view);
     const Vec3d centre = motion.centre + Vec3d(view.own().origin[view.row]);
-    return {motion.kinetic, -motion.mass * dot(gravity, centre), spring_energy(view) + sheet_energy(view), motion.mass};
+    return {motion.kinetic, -motion.mass * dot(gravity, centre), spring_energy(view) + sheet_energy(view), 0,
+            motion.mass};
 }
 
 }  // namespace
