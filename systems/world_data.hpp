@@ -86,6 +86,7 @@ struct DamageCounts {
     double worst_rounding = 0;                // momentum that hidden runs lost, share of what the body had or got
     // J, at most: of the game's blows, of what it moves, and what late breaks get back of what their touch took.
     double work_from_outside = 0;
+    double crushing_energy = 0;               // J that pieces lost because their crack faces met at birth
     double impulse_to_static[3] = {0, 0, 0};  // N s, from damage to floors, pins and kinematic bodies
 };
 
