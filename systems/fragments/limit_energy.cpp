@@ -151,4 +151,34 @@ void limit_energy(Births& births, const Break& plan, double allowed) {
     });
 }
 
+// Of the relative motion u of masses M and m, M m / (M + m) u^2 / 2 goes to s^2 of it.
+void share_with_strikers(Births& births, const Break& plan, double allowed) {
+    State& state = births.state;
+    const Tasks& tasks = state.tasks;
+    const uint32_t first = tasks.first_contact[plan.task], end = first + tasks.contact_count[plan.task];
+    for (const PartMotion& m : plan.motions)
+        if (m.is_static) return;  // the support has taken what was too much
+    double excess = pieces_energy(state, plan) - allowed;
+    for (uint32_t c = first; c < end && excess > 1e-9 * allowed; ++c) {
+        const Row<Bodies> striker = state.task_contacts.striker[c];
+        if (!is_dynamic(state.bodies, striker)) continue;
+        double mass = 0;
+        for_each_mover(state, plan, [&](const Mover& m) { mass += m.mass; });
+        const Common common = common_motion(state, plan);
+        const double other = state.bodies.mass[striker];
+        const Vec3d relative = common.velocity - Vec3d(state.bodies.velocity[striker]);
+        const double motion = 0.5 * mass * other / (mass + other) * dot(relative, relative);
+        if (!(motion > 0)) continue;
+        const Vec3d given =
+            (1 - std::sqrt(std::max(0.0, 1 - excess / motion))) * mass * other / (mass + other) * relative;
+        excess -= std::min(excess, motion);
+        for_each_mover(state, plan, [&](const Mover& m) {
+            move(births, m, m.velocity - (1 / mass) * given, m.spin, body_id(state.bodies, plan.body));
+        });
+        const Vec3d velocity = Vec3d(state.bodies.velocity[striker]) + (1 / other) * given;
+        state.bodies.velocity.set(striker, velocity.to_float());
+        births.rigid.set_motion(striker, {state.bodies.velocity[striker], state.bodies.spin[striker]});
+    }
+}
+
 }  // namespace cullet

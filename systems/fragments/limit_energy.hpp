@@ -21,4 +21,10 @@ double pieces_energy(const State& state, const Break& plan);
 /// holds a pin they go nearer to rest, and the support takes it.
 void limit_energy(Births& births, const Break& plan, double allowed);
 
+/// What is still too much after that is the pieces' common motion: of three bodies that break each other in one frame
+/// the last got impulses that no other of the runs knew of. Pieces and strikers, one after another, go nearer to the
+/// velocity that they have in common, by an impulse between their centres, until both
+/// together have lost what was too much.
+void share_with_strikers(Births& births, const Break& plan, double allowed);
+
 }  // namespace cullet

@@ -285,6 +285,7 @@ void make_break(Births& births, const Break& plan) {
                                           : strike_back(births, plan.task, moment.pose, plan.motions, plan.largest);
     make_births_of(births, plan, moment);
     if (moment.is_late || !comes_from_outside) limit_energy(births, plan, allowed);
+    if (!moment.is_late && !comes_from_outside) share_with_strikers(births, plan, allowed);
     if (moment.is_late || comes_from_outside)
         births.counts.work_from_outside +=
             std::max(0.0, pieces_energy(state, plan) - (moment.is_late ? before : allowed));
