@@ -71,7 +71,11 @@ void Sweeper::sweep_pair(BulletWorld& world, Body& a, Body& b, float dt) {
     }
 }
 
-uint32_t Sweeper::sweep(BulletWorld& world, float dt) {
+// What goes no farther than the thinnest thing of all asks for is swept against nothing.
+void Sweeper::list_fast(BulletWorld& world, float dt) {
+    float thinnest = kFar;
+    for (RigidId id = 0; id < world.body_end_; ++id)
+        if (world.bodies_[id].is_used) thinnest = std::min(thinnest, world.bodies_[id].thickness);
     fast_.clear();
     for (RigidId id = 0; id < world.body_end_; ++id) {
         Body& body = world.bodies_[id];
@@ -79,23 +83,55 @@ uint32_t Sweeper::sweep(BulletWorld& world, float dt) {
         body.moved_fraction = 1;
         body.is_fast = false;
         const Mover mover = mover_of(body);
-        if (!may_meet_more(travel(mover, dt))) continue;
+        if (!is_far(travel(mover, dt), thinnest)) continue;
         body.is_fast = true;
         fast_.push_back({id, swept_box(body.shape.box, mover, body.reach, dt)});
     }
+}
+
+// Along x, so that a street full of shards is not held each against each.
+void Sweeper::sort_fast() {
+    by_low_x_.clear();
+    widest_ = 0;
+    for (uint32_t k = 0; k < fast_.size(); ++k) {
+        by_low_x_.push_back(k);
+        widest_ = std::max(widest_, fast_[k].swept.high.x - fast_[k].swept.low.x);
+    }
+    std::sort(by_low_x_.begin(), by_low_x_.end(), [this](uint32_t p, uint32_t q) {
+        const float x = fast_[p].swept.low.x, y = fast_[q].swept.low.x;
+        return x != y ? x < y : p < q;
+    });
+}
+
+void Sweeper::find_beside(uint32_t k) {
+    beside_.clear();
+    const Box& box = fast_[k].swept;
+    // The widest starts no farther to the left and still reaches this one, but for rounding.
+    const float leftmost = box.low.x - widest_ - kBoxGrowth;
+    auto at = std::partition_point(by_low_x_.begin(), by_low_x_.end(),
+                                   [&](uint32_t j) { return fast_[j].swept.low.x < leftmost; });
+    for (; at != by_low_x_.end() && fast_[*at].swept.low.x <= box.high.x; ++at)
+        if (*at > k && overlap(box, fast_[*at].swept, 0)) beside_.push_back(*at);
+    std::sort(beside_.begin(), beside_.end());
+}
+
+uint32_t Sweeper::sweep(BulletWorld& world, float dt) {
+    list_fast(world, dt);
+    sort_fast();
     // The second round sees those that were stopped in the first standing still.
     for (int round = 0; round < 2; ++round) {
-        for (size_t k = 0; k < fast_.size(); ++k) {
+        for (uint32_t k = 0; k < fast_.size(); ++k) {
             Body& a = world.bodies_[fast_[k].id];
             if (round == 0) {
                 find_near(world, fast_[k].swept);
                 for (const RigidId id : near_)
                     if (id != a.id && !world.bodies_[id].is_fast) sweep_pair(world, a, world.bodies_[id], dt);
             }
-            for (size_t j = k + 1; j < fast_.size(); ++j) {
+            find_beside(k);
+            for (const uint32_t j : beside_) {
                 Body& b = world.bodies_[fast_[j].id];
                 if (round == 1 && a.moved_fraction == 1 && b.moved_fraction == 1) continue;
-                if (overlap(fast_[k].swept, fast_[j].swept, 0)) sweep_pair(world, a, b, dt);
+                sweep_pair(world, a, b, dt);
             }
         }
     }

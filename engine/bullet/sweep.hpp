@@ -18,6 +18,7 @@ class Sweeper {
  public:
     explicit Sweeper(uint32_t body_limit) {
         fast_.reserve(body_limit), near_.reserve(body_limit), carried_.reserve(body_limit), flock_.reserve(body_limit);
+        by_low_x_.reserve(body_limit), beside_.reserve(body_limit);
     }
     /// Sets moved_fraction of every body, from 0 to 1; returns how many were stopped.
     uint32_t sweep(BulletWorld& world, float dt);
@@ -31,12 +32,19 @@ class Sweeper {
         RigidId id;
         Box swept;
     };
+    void list_fast(BulletWorld& world, float dt);
+    void sort_fast();
+    void find_beside(uint32_t k);
     void find_near(const BulletWorld& world, const Box& box);
     void sweep_pair(BulletWorld& world, Body& a, Body& b, float dt);
     void find_flocks(BulletWorld& world);
     void carry_flock(BulletWorld& world, std::span<const RigidId> flock, float dt);
     double free_share(BulletWorld& world, Body& body, Vec3d velocity, float dt, double share);
     std::vector<Fast> fast_;
+    std::vector<uint32_t> by_low_x_;  // places in fast_
+    float widest_ = 0;                // m, of their swept boxes along x
+    std::vector<uint32_t>
+        beside_;  // later places in fast_ whose swept boxes overlap that of the one at hand, ascending
     std::vector<RigidId> near_;
     std::vector<RigidId> carried_;  // flocks, ascending
     std::vector<RigidId> flock_;    // their bodies, by flock
