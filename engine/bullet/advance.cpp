@@ -199,11 +199,13 @@ double touch_fraction(const Mover& a, const Hull& hull_a, const Mover& b, const 
         const Approach coming_a(*now_a, a, at_a, axis, 1, reach_a, dt, is_stopped),
             coming_b(*now_b, b, at_b, axis, -1, reach_b, dt, is_stopped);
         const double apart = dot(axis, Vec3d(now_a->centre) - Vec3d(now_b->centre)) - margins;
-        // Along an axis that stays there is nothing new to measure at the stop.
-        const double taken = time_until(coming_a, coming_b, apart, is_axis_fixed ? stop : stop - kAim, left);
+        // Along an axis that stays there is nothing new to measure at the stop. All of the step counts, whatever the
+        // limit, so that a flight which is foreseen ends in the same bits.
+        const double rest = dt * (1 - t);
+        const double taken = time_until(coming_a, coming_b, apart, is_axis_fixed ? stop : stop - kAim, rest);
         if (taken >= left) return limit;
         t += taken / dt;
-        if (taken < kShort * left) return t;
+        if (taken < kShort * rest) return t;
     }
     return t;
 }
