@@ -89,35 +89,39 @@ void Sweeper::list_fast(BulletWorld& world, float dt) {
     }
 }
 
-// Along x, so that a street full of shards is not held each against each.
-void Sweeper::sort_fast() {
-    by_low_x_.clear();
-    widest_ = 0;
+void Sweeper::order_fast() {
+    by_low_.clear();
+    Vec3 low{1e30f, 1e30f, 1e30f}, high = -low;
     for (uint32_t k = 0; k < fast_.size(); ++k) {
-        by_low_x_.push_back(k);
-        widest_ = std::max(widest_, fast_[k].swept.high.x - fast_[k].swept.low.x);
+        const Vec3 at = fast_[k].swept.low;
+        if (!(dot(at, at) >= 0)) continue;  // what is nowhere meets nothing, and has no place in an order
+        by_low_.push_back(k);
+        low = {std::min(low.x, at.x), std::min(low.y, at.y), std::min(low.z, at.z)};
+        high = {std::max(high.x, at.x), std::max(high.y, at.y), std::max(high.z, at.z)};
     }
-    std::sort(by_low_x_.begin(), by_low_x_.end(), [this](uint32_t p, uint32_t q) {
-        const float x = fast_[p].swept.low.x, y = fast_[q].swept.low.x;
-        return x != y ? x < y : p < q;
-    });
+    const Vec3 spread = high - low;
+    axis_ = spread.x >= spread.y && spread.x >= spread.z ? &Vec3::x : spread.y >= spread.z ? &Vec3::y : &Vec3::z;
+    longest_ = 0;
+    for (const uint32_t k : by_low_) longest_ = std::max(longest_, double{fast_[k].swept.high.*axis_} - low_of(k));
+    std::sort(by_low_.begin(), by_low_.end(),
+              [this](uint32_t a, uint32_t b) { return std::pair(low_of(a), a) < std::pair(low_of(b), b); });
 }
 
-void Sweeper::find_beside(uint32_t k) {
-    beside_.clear();
-    const Box& box = fast_[k].swept;
-    // The widest starts no farther to the left and still reaches this one, but for rounding.
-    const float leftmost = box.low.x - widest_ - kBoxGrowth;
-    auto at = std::partition_point(by_low_x_.begin(), by_low_x_.end(),
-                                   [&](uint32_t j) { return fast_[j].swept.low.x < leftmost; });
-    for (; at != by_low_x_.end() && fast_[*at].swept.low.x <= box.high.x; ++at)
-        if (*at > k && overlap(box, fast_[*at].swept, 0)) beside_.push_back(*at);
-    std::sort(beside_.begin(), beside_.end());
+// The fast ones behind the k-th whose ways meet its way, rising. None of them begins more than `longest_` before that
+// way does. All against all took half of a frame in which 4,096 flew.
+void Sweeper::find_fast(uint32_t k) {
+    near_.clear();
+    const Box& swept = fast_[k].swept;
+    auto next = std::lower_bound(by_low_.begin(), by_low_.end(), low_of(k) - longest_,
+                                 [this](uint32_t j, double from) { return low_of(j) < from; });
+    for (; next != by_low_.end() && low_of(*next) <= double{swept.high.*axis_}; ++next)
+        if (*next > k && overlap(swept, fast_[*next].swept, 0)) near_.push_back(*next);
+    std::sort(near_.begin(), near_.end());
 }
 
 uint32_t Sweeper::sweep(BulletWorld& world, float dt) {
     list_fast(world, dt);
-    sort_fast();
+    order_fast();
     // The second round sees those that were stopped in the first standing still.
     for (int round = 0; round < 2; ++round) {
         for (uint32_t k = 0; k < fast_.size(); ++k) {
@@ -127,11 +131,10 @@ uint32_t Sweeper::sweep(BulletWorld& world, float dt) {
                 for (const RigidId id : near_)
                     if (id != a.id && !world.bodies_[id].is_fast) sweep_pair(world, a, world.bodies_[id], dt);
             }
-            find_beside(k);
-            for (const uint32_t j : beside_) {
+            find_fast(k);
+            for (const uint32_t j : near_) {
                 Body& b = world.bodies_[fast_[j].id];
-                if (round == 1 && a.moved_fraction == 1 && b.moved_fraction == 1) continue;
-                sweep_pair(world, a, b, dt);
+                if (round == 0 || a.moved_fraction < 1 || b.moved_fraction < 1) sweep_pair(world, a, b, dt);
             }
         }
     }
