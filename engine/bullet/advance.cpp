@@ -1,7 +1,6 @@
 #include "engine/bullet/advance.hpp"
 
 #include "engine/bullet/closest_points.hpp"
-#include "engine/bullet/overlap_axis.hpp"
 
 namespace cullet::bullet {
 namespace {
@@ -18,9 +17,9 @@ constexpr double kLeast = 0.0002;    // m: while their cores stay this far apart
 constexpr double kDepthShare = 1.0 / 3;
 // What moves less in a step is pushed out faster than it works its way in. At 0 shards of a heap that lie deep in each
 // other stand still at every wrong move and rock on; at 0.05 one corner of 10,000 sheets gets past the middle.
-constexpr double kLively = 0.03;    // m
-constexpr double kTurning = 0.004;  // m, see overlap_axis()
-constexpr int kRounds = 48;         // then the body stops where it is: early, never late
+constexpr double kLively = 0.03;  // m
+constexpr double kShort = 0.001;  // of the time left: as good as none
+constexpr int kRounds = 48;       // then the body stops where it is: early, never late
 
 // The spheres about both pieces do not meet on a straight way, turning included.
 bool pass_by(const Hull& a, const Hull& b, Vec3d way, double turning) {
@@ -37,6 +36,64 @@ double width_along(const Hull& hull, const Points& points, Vec3d axis) {
     const Vec3 direction = axis.to_float();
     const Vec3d high(points[support(points, direction)]), low(points[support(points, -direction)]);
     return dot(axis, high - low) + 2 * static_cast<double>(hull.margin);
+}
+
+// Where a set of points is along an axis, and how fast it moves there: height + speed t - bend t^2 / 2 bounds every
+// point from below. `sign` -1 mirrors the axis, so that what is highest becomes what is lowest.
+struct Approach {
+    float height[kMaxPoints], speed[kMaxPoints];  // m from the points' centre, m/s
+    uint32_t count = 0;
+    double bend = 0;  // m/s^2: turning takes a point r from the centre of mass along the axis by
+                      // (w x r) . n t, to less than |w|^2 |r| t^2 / 2
+
+    // Bullet turns by at most an eighth of a turn in a step and stands still after: turning helps only below that. What
+    // another body may have stopped (`is_stopped`) helps not at all.
+    Approach(const Points& points, const Mover& mover, const btTransform& at, Vec3d axis, double sign, float reach,
+             float dt, bool is_stopped)
+        : count(points.count) {
+        const Vec3 n = (sign * axis).to_float();
+        const Vec3 lever = cross(n, mover.spin.to_float());  // (w x r) . n = (n x w) . r
+        const Vec3 arm = points.centre - from_bullet(at.getOrigin());
+        const float moving = static_cast<float>(sign * dot(mover.velocity, axis)), swinging = dot(lever, arm);
+        const double rate = length(mover.spin);
+        bend = rate * rate * reach;
+        const bool turns_on = rate * dt < 0.7;
+        for (uint32_t k = 0; k < count; ++k) {
+            const float x = points.x[k], y = points.y[k], z = points.z[k];
+            const float turning = swinging + (lever.x * x + lever.y * y + lever.z * z);
+            const float both = moving + (turns_on ? turning : std::min(turning, 0.0f));
+            height[k] = n.x * x + n.y * y + n.z * z;
+            speed[k] = is_stopped ? std::min(both, 0.0f) : both;
+        }
+    }
+    struct Low {
+        double height, speed;
+    };
+    Low lowest(double t) const {
+        const auto time = static_cast<float>(t);
+        float least = kFar;
+        uint32_t which = 0;
+        for (uint32_t k = 0; k < count; ++k) {
+            const float h = height[k] + speed[k] * time;
+            if (h < least) least = h, which = k;
+        }
+        return {static_cast<double>(least) - 0.5 * bend * t * t, static_cast<double>(speed[which]) - bend * t};
+    }
+};
+
+// How long the gap along an axis stays above `stop`, at least: all of `left`, or less. The bound of the gap is concave,
+// so that Newton's steps from the end come down to the time from above.
+double time_until(const Approach& a, const Approach& b, double apart, double stop, double left) {
+    constexpr int kSteps = 12;
+    double t = left;
+    for (int step = 0; step < kSteps; ++step) {
+        const Approach::Low low = a.lowest(t), high = b.lowest(t);
+        const double room = apart + low.height + high.height - stop, closing = -(low.speed + high.speed);
+        if (room >= 0 || !(closing > 0)) break;
+        t = std::max(0.0, t + room / closing);
+        if (room > -0.5 * kAim) break;
+    }
+    return t;
 }
 
 }  // namespace
@@ -74,10 +131,6 @@ bool is_far(double way, float thickness) {
     return way > kContactRange + kThicknessShare * thickness;
 }
 
-bool may_meet_more(double way) {
-    return way > kContactRange;
-}
-
 double travel(const Mover& mover, float dt) {
     return (length(mover.velocity) + length(mover.spin) * mover.body->reach) * dt;
 }
@@ -103,14 +156,19 @@ double touch_fraction(const Mover& a, const Hull& hull_a, const Mover& b, const 
     const double margins = static_cast<double>(hull_a.margin) + hull_b.margin;
     Points points_a, points_b;
     const Points *now_a = &hull_a.world, *now_b = &hull_b.world;
+    const float reach_a = reach_of(*a.body, hull_a), reach_b = reach_of(*b.body, hull_b);
     double t = 0, stop = kStop;
-    bool is_axis_fixed = false;
+    // The pair's contact, found where the two stand now, has the axis.
+    const Vec3d met = has_moved ? Vec3d() : known.of(hull_a, hull_b);
+    bool is_axis_fixed = dot(met, met) > 0.5;
+    if (is_axis_fixed) axis = met;
     const bool is_lively = (turning + length(first) + length(second)) * dt > kLively;
     for (int round = 0; round < kRounds; ++round) {
+        const btTransform at_a = a.at(t, dt), at_b = b.at(t, dt);
         if (round > 0 || has_moved) {
-            const btTransform at_a = a.body->hulls_at(a.at(t, dt)), at_b = b.body->hulls_at(b.at(t, dt));
-            transform_points(hull_a, rotation_of(at_a), from_bullet(at_a.getOrigin()), points_a);
-            transform_points(hull_b, rotation_of(at_b), from_bullet(at_b.getOrigin()), points_b);
+            const btTransform hulls_a = a.body->hulls_at(at_a), hulls_b = b.body->hulls_at(at_b);
+            transform_points(hull_a, rotation_of(hulls_a), from_bullet(hulls_a.getOrigin()), points_a);
+            transform_points(hull_b, rotation_of(hulls_b), from_bullet(hulls_b.getOrigin()), points_b);
             now_a = &points_a, now_b = &points_b;
         }
         const double left = dt * (limit - t);
@@ -120,12 +178,6 @@ double touch_fraction(const Mover& a, const Hull& hull_a, const Mover& b, const 
                 closest_points(*now_a, *now_b, axis, turning * left + margins + kStop, {left * first, left * second});
             axis = closest.axis;
             if (closest.is_beyond) return limit;
-            if (round == 0 && !closest.is_apart && !has_moved && is_lively) {
-                const OverlapAxis least =
-                    overlap_axis(hull_a, rotation_of(a.body->fresh_at), hull_b, rotation_of(b.body->fresh_at),
-                                 known.of(hull_a, hull_b), kTurning);
-                if (least.is_found) axis = least.axis;
-            }
             if (closest.is_apart || round == 0) gap = gap_along(*now_a, *now_b, axis) - margins;
         } else {
             gap = gap_along(*now_a, *now_b, axis) - margins;
@@ -140,13 +192,20 @@ double touch_fraction(const Mover& a, const Hull& hull_a, const Mover& b, const 
             // deeper by as much.
             is_axis_fixed = stop >= gap;
             if (is_axis_fixed) stop = std::min(gap, std::max(gap - kDeeper, deepest));
+        } else if (round == 0) {
+            is_axis_fixed = false;
         }
         if (gap < stop) return t;
-        const double one = dot(first, axis), other = dot(second, axis);
-        const double closing = turning + (is_stopped ? std::max(0.0, one) + std::max(0.0, other) : one);
-        if (!(closing > 1e-6)) return limit;
-        t += (gap - stop + kAim) / (closing * dt);
-        if (t >= limit) return limit;
+        const Approach coming_a(*now_a, a, at_a, axis, 1, reach_a, dt, is_stopped),
+            coming_b(*now_b, b, at_b, axis, -1, reach_b, dt, is_stopped);
+        const double apart = dot(axis, Vec3d(now_a->centre) - Vec3d(now_b->centre)) - margins;
+        // Along an axis that stays there is nothing new to measure at the stop. All of the step counts, whatever the
+        // limit, so that a flight which is foreseen ends in the same bits.
+        const double rest = dt * (1 - t);
+        const double taken = time_until(coming_a, coming_b, apart, is_axis_fixed ? stop : stop - kAim, rest);
+        if (taken >= left) return limit;
+        t += taken / dt;
+        if (taken < kShort * rest) return t;
     }
     return t;
 }

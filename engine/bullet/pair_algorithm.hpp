@@ -88,7 +88,7 @@ class PairAlgorithm {
             if (r->manifold) found(*r->manifold, *r);
     }
 
-    /// The last axis of two pieces, by their ordinals; zero when they are not watched.
+    /// The axis of two pieces that touch, by their ordinals; zero when they do not.
     Vec3 axis_of(uint32_t a, uint32_t b) const;
     void process();
     /// Drops all contacts and what was remembered.

@@ -71,6 +71,24 @@ void Sweeper::sweep_pair(BulletWorld& world, Body& a, Body& b, float dt) {
     }
 }
 
+// What goes no farther than the thinnest thing of all asks for is swept against nothing.
+void Sweeper::list_fast(BulletWorld& world, float dt) {
+    float thinnest = kFar;
+    for (RigidId id = 0; id < world.body_end_; ++id)
+        if (world.bodies_[id].is_used) thinnest = std::min(thinnest, world.bodies_[id].thickness);
+    fast_.clear();
+    for (RigidId id = 0; id < world.body_end_; ++id) {
+        Body& body = world.bodies_[id];
+        if (!body.is_used || body.kind == RigidKind::Static) continue;
+        body.moved_fraction = 1;
+        body.is_fast = false;
+        const Mover mover = mover_of(body);
+        if (!is_far(travel(mover, dt), thinnest)) continue;
+        body.is_fast = true;
+        fast_.push_back({id, swept_box(body.shape.box, mover, body.reach, dt)});
+    }
+}
+
 void Sweeper::order_fast() {
     by_low_.clear();
     Vec3 low{1e30f, 1e30f, 1e30f}, high = -low;
@@ -102,17 +120,7 @@ void Sweeper::find_fast(uint32_t k) {
 }
 
 uint32_t Sweeper::sweep(BulletWorld& world, float dt) {
-    fast_.clear();
-    for (RigidId id = 0; id < world.body_end_; ++id) {
-        Body& body = world.bodies_[id];
-        if (!body.is_used || body.kind == RigidKind::Static) continue;
-        body.moved_fraction = 1;
-        body.is_fast = false;
-        const Mover mover = mover_of(body);
-        if (!may_meet_more(travel(mover, dt))) continue;
-        body.is_fast = true;
-        fast_.push_back({id, swept_box(body.shape.box, mover, body.reach, dt)});
-    }
+    list_fast(world, dt);
     order_fast();
     // The second round sees those that were stopped in the first standing still.
     for (int round = 0; round < 2; ++round) {

@@ -34,6 +34,7 @@ class Sweeper {
     };
     void find_near(const BulletWorld& world, const Box& box);
     double low_of(uint32_t k) const { return double{fast_[k].swept.low.*axis_}; }
+    void list_fast(BulletWorld& world, float dt);
     void order_fast();
     void find_fast(uint32_t k);
     void sweep_pair(BulletWorld& world, Body& a, Body& b, float dt);
