@@ -13,8 +13,6 @@ namespace {
 
 constexpr float kAngularDamping = 0.1f;  // 1/s, of what is touched: flight has none
 constexpr float kPushedApart = 0.0001f;  // m of overlap at which ignored siblings meet again
-constexpr float kSettlingSpeed = 0.1f;   // m/s of the fastest point
-constexpr float kSettlingShare = 0.7f;   // of the speed that is left, a step
 constexpr float kPressedIn = 0.001f;     // m a step that an unsolved contact may deepen by
 constexpr float kSeamReach = 0.001f;     // m beyond the margins, more than mark_inner_faces() looks past a face
 // Leaves of the tree hold what they are about with half of the way from which pieces are watched (see
@@ -681,15 +679,6 @@ void BulletWorld::gather_contacts() {
     }
 }
 
-// What lies in a heap and barely moves loses part of its speed each step: twenty iterations never quite stop a heap of
-// curved shards, which would creep on by a centimetre a second and not sleep.
-void BulletWorld::settle(Body& body) {
-    if (!body.is_touched || body.is_driven) return;
-    const btVector3 v = body.bullet->getLinearVelocity(), w = body.bullet->getAngularVelocity();
-    if (v.length() + w.length() * body.reach > kSettlingSpeed) return;
-    set_velocities(body, kSettlingShare * v, kSettlingShare * w);
-}
-
 // What rest takes from a body counts as given to what it lies on.
 void BulletWorld::set_velocities(Body& body, const btVector3& linear, const btVector3& angular) {
     to_static_ += static_cast<double>(body.mass) * Vec3d(from_bullet(body.bullet->getLinearVelocity() - linear));
@@ -788,7 +777,6 @@ void BulletWorld::solve(float dt) {
     for (RigidId id = 0; id < body_end_; ++id) {
         Body& body = bodies_[id];
         if (!body.is_used || !body.is_free()) continue;
-        settle(body);
         body.bullet->applyGravity();
         turn_freely(*body.bullet, dt);
         if (body.is_touched) body.bullet->applyDamping(dt);

@@ -122,7 +122,6 @@ class BulletWorld final : public RigidWorld {
     void wake_touching(RigidId id);
     void wake_body(Body& body);
     std::vector<IgnoredPair>::iterator find_ignored(RigidId a, RigidId b);
-    void settle(Body& body);
     void set_velocities(Body& body, const btVector3& linear, const btVector3& angular);
     void sum_impulse_to_static();
     void sum_driven_work();

@@ -13,8 +13,8 @@ namespace {
 constexpr float kStillDistance = 0.003f;  // m
 constexpr float kStillSeconds = 0.5f;
 // Deep heaps of curved shards creep on for long at a centimetre a second: a second below this speed is sleep
-// too, faster steps counting back twice.
-constexpr float kSlowSpeed = 0.15f;  // m/s of the fastest point
+// too, faster steps counting back twice. At three times it a slab that begins to tip over is frozen as it stands.
+constexpr float kSlowSpeed = 0.05f;  // m/s of the fastest point
 constexpr float kSlowSeconds = 1;
 // Sleepers stand as if of infinite mass, so that one that shakes does not keep its thousand neighbours awake. What
 // wakes them: a blow that would give them this speed,

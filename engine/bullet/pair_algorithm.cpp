@@ -304,11 +304,8 @@ void PairAlgorithm::write(PairRecord& record, const Patch& patch, uint32_t cell_
     bool is_taken[kPatchPoints] = {};
     const float friction = std::sqrt(a.friction * b.friction), restitution = std::sqrt(a.restitution * b.restitution);
     const float mass = a.mass > 0 && b.mass > 0 ? std::min(a.mass, b.mass) : std::max(a.mass, b.mass);
-    // Bullet bounds the impulse of rolling friction by the friction times the contact's impulse and also by the
-    // friction itself, as if no impulse were above 1 N s: a ball of 30 kg rolled five times as far as one of a
-    // kilogram.
-    const float rolling = (a.rolling_friction * b.friction + b.rolling_friction * a.friction) *
-                          std::max(1.0f, mass * work_->weight_speed);
+    const float arm = a.rolling_friction * b.friction + b.rolling_friction * a.friction;  // m
+    const float weight = mass * work_->weight_speed / static_cast<float>(patch.count);
     const float most = kRestingWeights * mass * work_->weight_speed;
     manifold.setNumContacts(patch.count);
     for (int k = 0; k < patch.count; ++k) {
@@ -321,7 +318,6 @@ void PairAlgorithm::write(PairRecord& record, const Patch& patch, uint32_t cell_
         point.m_positionWorldOnB = on_b;
         point.m_combinedFriction = friction;
         point.m_combinedRestitution = restitution;
-        point.m_combinedRollingFriction = point.m_combinedSpinningFriction = rolling;
         int nearest = -1;
         float least = kSamePoint * kSamePoint;
         for (int j = 0; j < before_count; ++j) {
@@ -340,6 +336,11 @@ void PairAlgorithm::write(PairRecord& record, const Patch& patch, uint32_t cell_
             point.m_appliedImpulseLateral1 = share * before[nearest].m_appliedImpulseLateral1;
             point.m_appliedImpulseLateral2 = share * before[nearest].m_appliedImpulseLateral2;
         }
+        // Bullet bounds the impulse of rolling friction by the friction times the contact's impulse and also by the
+        // friction itself, as if no impulse were above 1 N s: a ball of 30 kg rolled five times as far as one of a
+        // kilogram. What the contact passed in the last step stands for what it will, and the weight for a new one.
+        const float expected = is_known ? std::min(before[nearest].m_appliedImpulse, most) : weight;
+        point.m_combinedRollingFriction = point.m_combinedSpinningFriction = arm * std::max(1.0f, expected);
         manifold.getContactPoint(k) = point;
     }
 }

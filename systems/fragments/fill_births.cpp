@@ -13,13 +13,15 @@ void fill_births(Each<Birth> birth, const Events<Break>& breaks, ShellTables she
     const ShellView broken(state, plan.broken);
     if (birth->part == plan.largest) {
         if (plan.is_rest_smaller(state)) measure_part(broken, part);
-        if (plan.chooses_shape) choose_shape(broken, plan.points.first, &part);
+        if (plan.chooses_shape && !part.has_pins) choose_shape(broken, plan.points.first, &part);
+        if (plan.chooses_shape && part.has_pins) clear_shape(broken);
         return;
     }
     if (plan.child[birth->part].exists()) {
         const ShellView piece(state, bodies.shell[plan.child[birth->part]]);
         fill_piece(state, plan.broken, part, piece.row);
-        if (!plan.soft.exists()) choose_shape(piece, piece.shells().points[piece.row].first);
+        if (!plan.soft.exists() && !part.has_pins) choose_shape(piece, piece.shells().points[piece.row].first);
+        if (part.has_pins) clear_shape(piece);
     }
     shed_part(broken, part);
 }

@@ -12,7 +12,9 @@
 //
 // Only pieces of at most kMostWholeElements are measured. What keeps a body's handle chooses anew when it breaks again;
 // with more elements than that its cells go on alone, so that no hit costs what goes with the body. Intact bodies have
-// cells.
+// cells, and so has what stands pinned: others come to rest on it, in notches too, which one hull would fill (pieces of
+// a wall hover by 3 mm and more in 5 of 12 runs over hulls of what stands, in 3 over its cells), and its cells cost
+// nothing while it stands.
 #pragma once
 #include "components/state.hpp"
 

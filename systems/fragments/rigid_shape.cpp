@@ -66,7 +66,8 @@ std::span<const ConvexPiece> changed_pieces(const State& state, Row<Shells> shel
     return pieces_of(state, shell, arena, 0, is_wanted);
 }
 
-// Rolling friction is a length: 0.08 of the root of the drawn area's quarter keeps shards from rolling on their rims.
+// Rolling friction is a length, by which the point that bears a body may miss its centre: a hundredth of the root of
+// its area, as of a rim that is chipped. At eight times it slabs stand upright on one corner.
 RigidDescription describe_rigid(const State& state, Row<Bodies> b, std::span<const ConvexPiece> pieces) {
     const Bodies& bodies = state.bodies;
     const Row<Shells> shell = bodies.shell[b];
@@ -80,7 +81,7 @@ RigidDescription describe_rigid(const State& state, Row<Bodies> b, std::span<con
     d.margin = hull_margin(ShellView(const_cast<State&>(state), shell));
     d.friction = bodies.friction[b];
     d.restitution = bodies.restitution[b];
-    d.rolling_friction = 0.08f * std::sqrt(state.shells.area[shell]);
+    d.rolling_friction = 0.01f * std::sqrt(state.shells.area[shell]);
     d.layer = bodies.layer[b];
     d.mask = bodies.mask[b];
     d.pieces = pieces;

@@ -1,0 +1,172 @@
+// From the last break on: pieces sleep in time, then nothing moves, and what is not hit any more only loses energy.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cstdio>
+#include <cstring>
+
+#include "sample_game/run_scene.hpp"
+#include "systems/world_contents.hpp"
+#include "tests/support/scene_hashes.hpp"
+
+namespace cullet {
+namespace {
+
+constexpr uint32_t kAsleepBy = 300, kStillBy = 600, kStillFor = 120;  // frames after the last break
+constexpr uint32_t kMostFrames = 3000;
+constexpr uint32_t kWindow = 30;  // frames
+// A hit closes faster than this: what the rigid world wakes a sleeper for, above the 0.04 m/s of settled piles.
+constexpr float kHitSpeed = 0.05f;  // m/s
+// What the last bits of a solve leave over: half a millimetre a second.
+constexpr double kNoise = 1e-7;  // J/kg
+
+struct Moment {
+    double kinetic = 0, height = 0;  // J, of the pieces
+    bool is_hit = false;
+};
+
+struct Settling {
+    uint64_t last_break = 0;
+    std::vector<Moment> moments;     // after it
+    size_t pieces = 0, asleep = 0;   // kAsleepBy frames after it
+    std::vector<std::string> awake;  // then
+    size_t moved = 0;                // pieces that did between kStillBy and kStillBy + kStillFor
+    size_t fallen_off = 0;
+    double mass = 0;
+};
+
+/// Dynamic bodies that are not pinned; those that left the floor over its edge fall for ever and are only counted.
+std::vector<uint32_t> pieces_of(const Bodies& bodies, size_t& fallen_off) {
+    std::vector<uint32_t> pieces;
+    fallen_off = 0;
+    for (uint32_t b = 0; b < bodies.size(); ++b) {
+        if (bodies.kind[b] != static_cast<uint8_t>(BodyKind::Dynamic) || bodies.has_pins[b]) continue;
+        if (bodies.position[b].y < -1)
+            ++fallen_off;
+        else
+            pieces.push_back(b);
+    }
+    return pieces;
+}
+
+Moment measure(const WorldData& data, const std::vector<uint32_t>& pieces) {
+    Moment moment;
+    const Bodies& bodies = data.state.bodies;
+    for (const uint32_t b : pieces) {
+        const Vec3d v(bodies.velocity[b]), w(rotate(conjugate(bodies.orientation[b]), bodies.spin[b]));
+        moment.kinetic += 0.5 * (bodies.mass[b] * dot(v, v) + dot(w, bodies.inertia[b] * w));
+        const Vec3 centre = to_world({bodies.position[b], bodies.orientation[b]}, bodies.centre[b].to_float());
+        moment.height += bodies.mass[b] * 9.81 * static_cast<double>(centre.y);
+    }
+    for (const RigidContact& c : data.rigid->contacts()) moment.is_hit |= c.approach_speed > kHitSpeed;
+    return moment;
+}
+
+std::vector<Pose> poses_of(const Bodies& bodies, const std::vector<uint32_t>& pieces) {
+    std::vector<Pose> poses;
+    for (const uint32_t b : pieces) poses.push_back({bodies.position[b], bodies.orientation[b]});
+    return poses;
+}
+
+Settling settle(GameWorld& game) {
+    Settling out;
+    const WorldData& data = game.world().contents().data;
+    const Bodies& bodies = data.state.bodies;
+    std::vector<Pose> poses;
+    for (uint32_t frame = 0; frame < kMostFrames && out.moments.size() < kStillBy + kStillFor; ++frame) {
+        test::play_frame(game);
+        EXPECT_EQ(game.failure(), "");
+        if (game.broke() || !game.waits_at().empty()) {
+            out = {};
+            out.last_break = frame;
+            continue;
+        }
+        const std::vector<uint32_t> pieces = pieces_of(bodies, out.fallen_off);
+        out.moments.push_back(measure(data, pieces));
+        if (out.moments.size() == kAsleepBy) {
+            out.pieces = pieces.size();
+            for (const uint32_t b : pieces) {
+                out.mass += bodies.mass[b];
+                out.asleep += bodies.is_asleep[b];
+                if (bodies.is_asleep[b]) continue;
+                char text[160];
+                std::snprintf(text, sizeof text, "  awake: %u of %.3g kg at %.3f %.3f %.3f, %.3g m/s, %.3g rad/s", b,
+                              bodies.mass[b], bodies.position[b].x, bodies.position[b].y, bodies.position[b].z,
+                              length(bodies.velocity[b]), length(bodies.spin[b]));
+                out.awake.push_back(text);
+            }
+        }
+        if (out.moments.size() == kStillBy) poses = poses_of(bodies, pieces);
+        if (out.moments.size() < kStillBy + kStillFor) continue;
+        const std::vector<Pose> later = poses_of(bodies, pieces);
+        for (size_t k = 0; k < poses.size() && k < later.size(); ++k)
+            out.moved += std::memcmp(&poses[k], &later[k], sizeof(Pose)) != 0;
+    }
+    return out;
+}
+
+/// Of the frames of a window.
+struct Window {
+    double most = 0;            // kinetic energy
+    double start = 0, end = 0;  // of height
+};
+
+/// From the frame after the last hit on.
+std::vector<Window> windows_after_last_hit(const std::vector<Moment>& moments) {
+    size_t first = 0;
+    for (size_t f = 0; f < moments.size(); ++f)
+        if (moments[f].is_hit) first = f + 1;
+    std::vector<Window> windows;
+    for (size_t f = first; f + kWindow <= moments.size(); f += kWindow) {
+        Window& w = windows.emplace_back();
+        w.start = moments[f].height, w.end = moments[f + kWindow - 1].height;
+        for (size_t k = f; k < f + kWindow; ++k) w.most = std::max(w.most, moments[k].kinetic);
+    }
+    return windows;
+}
+
+struct Case {
+    const char* scene;
+    int seed;
+};
+class Settles : public testing::TestWithParam<Case> {};
+
+TEST_P(Settles, NearlyAllSleepFiveSecondsAfterTheLastBreakAndNoneMovesAfterTen) {
+    RunOptions options;
+    options.scene = GetParam().scene;
+    options.set.push_back("scene.seed=" + std::to_string(GetParam().seed));
+    options.threads = 2;
+    Result<GameWorld> game = GameWorld::create(plan_scene(*find_scene(options.scene), options));
+    ASSERT_TRUE(game.ok()) << game.error();
+    const Settling s = settle(*game);
+    ASSERT_EQ(s.moments.size(), kStillBy + kStillFor);
+    size_t first_still = s.moments.size(), last_hit = 0;
+    for (size_t f = 0; f < s.moments.size(); ++f)
+        if (s.moments[f].is_hit) last_hit = f;
+    while (first_still > 0 && s.moments[first_still - 1].kinetic == 0) --first_still;
+    std::printf(
+        "%s %d: last break in frame %llu; last hit %zu frames later, all still after %zu; asleep %zu of %zu, "
+        "moved %zu, off the floor %zu\n",
+        GetParam().scene, GetParam().seed, static_cast<unsigned long long>(s.last_break), last_hit, first_still,
+        s.asleep, s.pieces, s.moved, s.fallen_off);
+    for (const std::string& line : s.awake) std::printf("%s\n", line.c_str());
+    EXPECT_GE(100 * s.asleep, 99 * s.pieces);
+    EXPECT_EQ(s.moved, 0u);
+    // Nothing is hit, so nothing may gain speed but by falling: a piece that stands on its edge tips over.
+    const std::vector<Window> windows = windows_after_last_hit(s.moments);
+    for (const Window& w : windows) std::printf(w.most > 0 ? "  %.3g" : "", w.most);
+    std::printf(" J in windows of %u frames\n", kWindow);
+    for (size_t k = 1; k < windows.size(); ++k) {
+        const double fell = std::max(0.0, windows[k - 1].start - windows[k].end);
+        EXPECT_LE(windows[k].most, windows[k - 1].most + fell + kNoise * s.mass) << "window " << k;
+    }
+}
+
+INSTANTIATE_TEST_SUITE_P(Scenes, Settles,
+                         testing::Values(Case{"vase", 1}, Case{"vase", 2}, Case{"vase", 3}, Case{"pane", 1},
+                                         Case{"wall", 1}, Case{"wall", 2}, Case{"wall", 3}, Case{"wall", 4},
+                                         Case{"drop", 1}, Case{"drop", 2}, Case{"castle", 1}, Case{"castle", 2}),
+                         [](const auto& scene) { return scene.param.scene + std::to_string(scene.param.seed); });
+
+}  // namespace
+}  // namespace cullet
