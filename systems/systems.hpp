@@ -134,9 +134,11 @@ void read_rigid(Serial, const RigidWorld& rigid, Bodies& bodies, Events<AsleepEv
 /// Crumbs that are older than the game wants go.
 void fade_debris(Serial, Step step, Debris& debris, const DebrisAges& ages, const DamageSettings& settings,
                  DamageCounts& counts);
-/// Crumbs fly on parabolas until they meet the floor below their place of birth.
-void fall_debris(Rows<Debris> debris, Step step, InOut<&Debris::position> position, InOut<&Debris::velocity> velocity,
-                 In<&Debris::floor> floor, InOut<&Debris::is_resting> is_resting, In<&Debris::is_used> is_used);
+/// Crumbs fly on parabolas, bounce off the ground and off bodies larger than they are, slide and come to rest; of a
+/// host's world, which keeps its shapes to itself, they know the floor below their place of birth alone.
+void fall_debris(Rows<Debris> debris, Step step, const RigidWorld& rigid, InOut<&Debris::position> position,
+                 InOut<&Debris::velocity> velocity, In<&Debris::floor> floor, In<&Debris::radius> radius,
+                 InOut<&Debris::is_resting> is_resting, In<&Debris::is_used> is_used);
 
 // ---- end
 
