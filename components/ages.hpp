@@ -1,5 +1,5 @@
-// When pieces were born. Bookkeeping: saved and compared between runs, but not in the hash, for by itself it moves
-// nothing; what is done by it shows in the rows that it is done to.
+// When pieces were born. World::retire and the fading of crumbs go by it, so that two worlds which differ in it alone
+// do not go on alike: it is state.
 #pragma once
 #include "engine/table.hpp"
 
@@ -9,7 +9,7 @@ namespace cullet {
 struct FragmentAges : Table<FragmentAges> {
     using Table::Table;
     static constexpr const char* kName = "fragment_ages";
-    static constexpr bool kIsBookkeeping = true;
+    static constexpr bool kIsOptional = true;
     Column<uint64_t> born{*this, "born"};  // 1 + the step in which it broke off; 0: no fragment, or retired
 };
 
@@ -21,7 +21,7 @@ inline uint64_t born_of(const FragmentAges& ages, uint32_t body) {
 struct DebrisAges : Table<DebrisAges> {
     using Table::Table;
     static constexpr const char* kName = "debris_ages";
-    static constexpr bool kIsBookkeeping = true;
+    static constexpr bool kIsOptional = true;
     Column<uint64_t> born{*this, "born"};  // the step
 };
 

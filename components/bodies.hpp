@@ -116,7 +116,8 @@ struct Debris : Table<Debris> {
     Column<Vec3> velocity{*this, "velocity", "m/s"};
     Column<double> mass{*this, "mass", "kg"};
     Column<float> radius{*this, "radius", "m"};
-    Column<float> floor{*this, "floor", "m"};  // height of what is static below the place of its birth
+    // Height of what is static below the place of its birth, where a host keeps its shapes to itself.
+    Column<float> floor{*this, "floor", "m"};
     Column<uint8_t> is_resting{*this, "is_resting"};
     Column<uint32_t> colour{*this, "colour"};
 };

@@ -140,11 +140,9 @@ void State::commit_ahead(const ShellRoom& shell, uint32_t served) {
 
 namespace {
 
-// A table that says kIsOptional counts only while it has rows: what came later leaves older scenes their hash. One that
-// says kIsBookkeeping never counts.
+// A table that says kIsOptional counts only while it has rows: what came later leaves older scenes their hash.
 template <class T>
 uint64_t hash_of(const T& table, uint64_t hash) {
-    if constexpr (requires { T::kIsBookkeeping; }) return hash;
     if constexpr (requires { T::kIsOptional; })
         if (table.size() == 0) return hash;
     return table.hash(hash);

@@ -72,6 +72,14 @@ struct RigidSurface {
     float distance = 0;  // m, negative inside
 };
 
+/// Where something small meets a body on its way.
+struct RigidTouch {
+    float share = 0;        // of the way, 0 to 1
+    Vec3 place;             // of its centre then, free of the body: world
+    Vec3 normal, velocity;  // of the surface there: unit, out of the body; m/s
+    bool is_still = false;  // the body does not move: static, held or asleep
+};
+
 inline constexpr uint32_t kMostForeseenContacts = 24;
 
 /// The first touch of a body that flies, before it comes.
@@ -112,6 +120,11 @@ class RigidWorld {
                                       float restitution, uint32_t layer, uint32_t mask) = 0;
     virtual void add(RigidId id, const RigidDescription& description) = 0;
     virtual void remove(RigidId id) = 0;
+    /// The body is another one from now on, where it is: what sleeps on it sleeps on.
+    virtual void replace(RigidId id, const RigidDescription& description) {
+        remove(id);
+        add(id, description);
+    }
 
     virtual Pose pose(RigidId id) const = 0;
     virtual Motion motion(RigidId id) const = 0;  // velocity at the centre of mass
@@ -167,6 +180,10 @@ class RigidWorld {
     /// The nearest face within `reach` m of the point, at the pose that the body has now. Of a compound that of the
     /// piece whose faces are nearest, seams left out. May be asked on all threads at once. Balls have none.
     virtual bool nearest_surface(RigidId, Vec3, float, RigidSurface&) const { return false; }
+    /// Of a ball of `radius` on its way from one place to the other, in the `seconds` in which bodies came to where
+    /// they are: the first touch with those that reach at least `least_reach` m from their centres, and with all that
+    /// never move. What it begins too deep in is passed over. Changes nothing; may be asked on all threads at once.
+    virtual bool first_touch(Vec3, Vec3, float, float, float, RigidTouch&) const { return false; }
     /// By ignore_pair().
     virtual bool is_ignored(RigidId, RigidId) const { return false; }
     /// Layers and masks let them meet.

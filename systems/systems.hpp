@@ -134,9 +134,11 @@ void solve_rigid(Serial, Step step, RigidWorld& rigid);
 void return_soft(Serial, const SoftBodies& soft, const SoftStrikers& strikers, RigidWorld& rigid);
 /// Poses, velocities and sleep of the rigid world, back into rows.
 void read_rigid(Serial, const RigidWorld& rigid, Bodies& bodies, Events<AsleepEvent>& asleep);
-/// Crumbs fly on parabolas until they meet the floor below their place of birth.
-void fall_debris(Rows<Debris> debris, Step step, InOut<&Debris::position> position, InOut<&Debris::velocity> velocity,
-                 In<&Debris::floor> floor, InOut<&Debris::is_resting> is_resting, In<&Debris::is_used> is_used);
+/// Crumbs fly on parabolas, bounce off the ground and off bodies larger than they are, slide and come to rest; of a
+/// host's world, which keeps its shapes to itself, they know the floor below their place of birth alone.
+void fall_debris(Rows<Debris> debris, Step step, const RigidWorld& rigid, InOut<&Debris::position> position,
+                 InOut<&Debris::velocity> velocity, In<&Debris::floor> floor, In<&Debris::radius> radius,
+                 InOut<&Debris::is_resting> is_resting, In<&Debris::is_used> is_used);
 /// Checked and Debug builds: between this and its opening the frame made no energy (motion/energy_balance.hpp).
 void close_energy_balance(Serial, Step step, ShellTables shells, const DamageCounts& counts, const RigidWorld& rigid,
                           EnergyBalance& balance);

@@ -449,10 +449,19 @@ void BulletWorld::add(RigidId id, const RigidDescription& d) {
 }
 
 void BulletWorld::remove(RigidId id) {
+    if (is_known(id)) wake_touching(id);
+    take_out(id);
+}
+
+void BulletWorld::replace(RigidId id, const RigidDescription& description) {
+    take_out(id);
+    add(id, description);
+}
+
+void BulletWorld::take_out(RigidId id) {
     if (!is_known(id)) return;
     InsideRigidEngine guard(counts_.allocations);
     Body& body = bodies_[id];
-    wake_touching(id);
     for (SortedManifold& m : manifolds_)
         if (m.a == id || m.b == id) m.manifold = nullptr;
     pairs_.drop(id);

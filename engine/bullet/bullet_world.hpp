@@ -27,6 +27,7 @@ class BulletWorld final : public RigidWorld {
                               uint32_t layer, uint32_t mask) override;
     void add(RigidId id, const RigidDescription& description) override;
     void remove(RigidId id) override;
+    void replace(RigidId id, const RigidDescription& description) override;
     Pose pose(RigidId id) const override;
     Motion motion(RigidId id) const override;
     void set_pose(RigidId id, const Pose& pose) override;
@@ -54,6 +55,8 @@ class BulletWorld final : public RigidWorld {
     bool is_touched(RigidId id) const override { return is_known(id) && bodies_[id].is_touched; }
     void solve(float dt) override;
     float height_below(Vec3 point, float fallback) const override;
+    bool first_touch(Vec3 from, Vec3 to, float seconds, float radius, float least_reach,
+                     RigidTouch& out) const override;
     bool is_asleep(RigidId id) const override;
     void wake(RigidId id) override;
     RigidCounts counts() const override;
@@ -120,6 +123,7 @@ class BulletWorld final : public RigidWorld {
     void solve_contacts(float dt);
     void gather_contacts();
     void wake_touching(RigidId id);
+    void take_out(RigidId id);
     void wake_body(Body& body);
     std::vector<IgnoredPair>::iterator find_ignored(RigidId a, RigidId b);
     void set_velocities(Body& body, const btVector3& linear, const btVector3& angular);

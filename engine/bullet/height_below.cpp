@@ -36,7 +36,8 @@ float BulletWorld::height_below(Vec3 point, float fallback) const {
                 raise(part.high.y);
         }
         if (!body.mesh) continue;
-        for (const StaticTriangle& triangle : body.mesh->triangles) raise(height_of(triangle, point, fallback));
+        visit_triangles(*body.mesh, {{point.x, -kFar, point.z}, point},
+                        [&](uint32_t t) { raise(height_of(body.mesh->triangles[t], point, fallback)); });
     }
     return height;
 }

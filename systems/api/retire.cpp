@@ -45,7 +45,7 @@ void stand_still(WorldData& d, Row<Bodies> body, BodyKind kind) {
     Bodies& bodies = d.state.bodies;
     drop_hits(d.state, body);
     release_soft(d.state, body);
-    d.rigid->remove(body);
+    if (kind == BodyKind::Scenery) d.rigid->remove(body);
     bodies.kind[body] = static_cast<uint8_t>(kind);
     bodies.is_breakable[body] = 0;
     bodies.is_asleep[body] = 0;
@@ -54,7 +54,7 @@ void stand_still(WorldData& d, Row<Bodies> body, BodyKind kind) {
     d.state.fragment_ages.born[body] = 0;
     if (kind == BodyKind::Static) {
         d.arena.reset();
-        d.rigid->add(body, describe_rigid(d.state, body, convex_pieces(d.state, bodies.shell[body], d.arena)));
+        d.rigid->replace(body, describe_rigid(d.state, body, convex_pieces(d.state, bodies.shell[body], d.arena)));
     }
     d.query_index->touch(bodies, body);
 }

@@ -207,6 +207,8 @@ Result<std::unique_ptr<World::Contents>> parse_snapshot(std::span<const uint8_t>
         take_tables(in, d.state);
         if (!in.is_sound()) return Error{in.trouble()};
         if (const Result<void> sound = check_state(d.state, name); !sound) return Error{sound.error()};
+        const Result<void> due = check_times(d.state, d.step_info.frame, d.step_info.dt, name);
+        if (!due) return Error{due.error()};
         d.query_index->load(in, d.state.bodies);
         if (const Result<void> loaded = d.rigid->load(in); !loaded) return Error{loaded.error()};
         if (!in.expect(in.is_at_end(), "the world ends before the file does,")) return Error{in.trouble()};

@@ -102,7 +102,10 @@ uint32_t make_debris(Births& births, ShellView shell, const FragmentPart& part, 
     double r = 1;
     for (int i = 0; i < 60; ++i) r = (2 * r + 0.2387 * volume / (r * r)) / 3;
     debris.radius[row] = static_cast<float>(r);
-    debris.floor[row] = births.rigid.height_below(place, -1e6f) + debris.radius[row];
+    // Where the rigid world tells what is in the way, nothing else stops it.
+    constexpr float kNoFloor = -1e6f;
+    debris.floor[row] =
+        births.rigid.knows_surfaces() ? kNoFloor : births.rigid.height_below(place, kNoFloor) + debris.radius[row];
     debris.colour[row] = state.bodies.colour[parent];
     set_born(state.debris_ages, row, births.step.frame);
     births.debris_events.push(

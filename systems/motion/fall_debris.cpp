@@ -1,20 +1,96 @@
+#include <algorithm>
+
 #include "systems/systems.hpp"
 
 namespace cullet {
+namespace {
 
-// Semi-implicit Euler under standard gravity; a crumb that reaches its floor stays where it fell.
-void fall_debris(Rows<Debris> debris, Step step, InOut<&Debris::position> position, InOut<&Debris::velocity> velocity,
-                 In<&Debris::floor> floor, InOut<&Debris::is_resting> is_resting, In<&Debris::is_used> is_used) {
-    for (auto d : debris) {
-        if (!is_used[d] || is_resting[d]) continue;
-        const Vec3 falling = velocity[d] + step.dt * step.gravity;
-        Vec3 place = position[d] + step.dt * falling;
-        if (place.y <= floor[d]) {
-            place.y = floor[d];
-            is_resting[d] = 1;
+constexpr float kLargeReach = 4;  // radii of the crumb: what reaches less far is passed through, as other crumbs are
+constexpr float kBounce = 0.2f;   // of the speed that they close with, above kBounceSpeed
+constexpr float kBounceSpeed = 0.2f;  // m/s
+constexpr float kFriction = 0.5f;
+constexpr float kRestSpeed = 0.15f;   // m/s
+constexpr float kRestSlope = 0.7f;    // cosine: what it lies on is no steeper than 45 degrees
+constexpr uint64_t kRestFrames = 16;  // a crumb that rests looks every so often whether it still lies on something
+
+// As something of no mass: the body feels nothing of it. It is never sent off faster than it came, else a moving body
+// would make energy.
+Vec3 bounced(Vec3 velocity, const RigidTouch& touch) {
+    const Vec3 relative = velocity - touch.velocity;
+    const float closing = -dot(relative, touch.normal);
+    if (!(closing > 0)) return velocity;
+    const Vec3 sliding = relative + closing * touch.normal;
+    const float bounce = closing > kBounceSpeed ? kBounce : 0.0f, slides = length(sliding);
+    const float kept = slides > 0 ? std::max(0.0f, 1 - kFriction * (1 + bounce) * closing / slides) : 0.0f;
+    const Vec3 after = touch.velocity + kept * sliding + (bounce * closing) * touch.normal;
+    const float before_square = dot(velocity, velocity), square = dot(after, after);
+    return square > before_square ? std::sqrt(before_square / square) * after : after;
+}
+
+struct Crumb {
+    Vec3 place, velocity;
+    float radius;
+    bool rests = false;
+};
+
+// The way of a step, and of what is left of it along the surface that it meets; what it meets there stops it.
+void fly(Crumb& crumb, const RigidWorld& rigid, Step step) {
+    float left = step.dt;
+    for (int turn = 0; turn < 2; ++turn) {
+        const Vec3 to = crumb.place + left * crumb.velocity;
+        RigidTouch touch;
+        if (!rigid.first_touch(crumb.place, to, left, crumb.radius, kLargeReach * crumb.radius, touch)) {
+            crumb.place = to;
+            return;
         }
-        position.set(d, place);
-        velocity.set(d, is_resting[d] ? Vec3{} : falling);
+        crumb.place = touch.place;
+        crumb.velocity = bounced(crumb.velocity, touch);
+        left *= 1 - touch.share;
+        const float up = -dot(touch.normal, step.gravity);
+        if (touch.is_still && length(crumb.velocity) < kRestSpeed && up > kRestSlope * length(step.gravity)) {
+            crumb.rests = true;
+            crumb.velocity = {};
+            return;
+        }
+    }
+}
+
+bool lies_on_something(Vec3 place, float radius, const RigidWorld& rigid, Step step) {
+    constexpr float kProbe = 2e-3f;  // m
+    const float pull = length(step.gravity);
+    RigidTouch touch;
+    return pull > 0 &&
+           rigid.first_touch(place, place + (kProbe / pull) * step.gravity, 0, radius, kLargeReach * radius, touch);
+}
+
+}  // namespace
+
+// Semi-implicit Euler under gravity.
+void fall_debris(Rows<Debris> debris, Step step, const RigidWorld& rigid, InOut<&Debris::position> position,
+                 InOut<&Debris::velocity> velocity, In<&Debris::floor> floor, In<&Debris::radius> radius,
+                 InOut<&Debris::is_resting> is_resting, In<&Debris::is_used> is_used) {
+    const bool meets_bodies = rigid.knows_surfaces();
+    for (auto d : debris) {
+        if (!is_used[d]) continue;
+        if (is_resting[d]) {
+            if (!meets_bodies || (step.frame + d) % kRestFrames != 0) continue;
+            if (lies_on_something(position[d], radius[d], rigid, step)) continue;
+            is_resting[d] = 0;
+        }
+        Crumb crumb{position[d], velocity[d] + step.dt * step.gravity, radius[d]};
+        if (meets_bodies) {
+            fly(crumb, rigid, step);
+        } else {
+            crumb.place = crumb.place + step.dt * crumb.velocity;
+        }
+        if (crumb.place.y <= floor[d]) {
+            crumb.place.y = floor[d];
+            crumb.velocity = {};
+            crumb.rests = true;
+        }
+        position.set(d, crumb.place);
+        velocity.set(d, crumb.velocity);
+        is_resting[d] = crumb.rests;
     }
 }
 

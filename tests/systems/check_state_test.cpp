@@ -49,6 +49,26 @@ TEST(CheckState, AWorldWhoseRoomForDrawnMeshesIsFullIsLoadedAgain) {
     EXPECT_EQ(refusal(hit.world), "");
 }
 
+TEST(CheckState, FramesThatNothingWouldWaitForAreRefused) {
+    constexpr uint64_t kFar = 1'000'000;
+    expect_refused([](State& state, Row<Bodies>, Row<Bodies>) { state.tasks.due_frame[0] = kFar; },
+                   "tasks.due_frame[0]");
+    expect_refused([](State& state, Row<Bodies>, Row<Bodies>) { state.tasks.opened_frame[0] = kFar; },
+                   "tasks.opened_frame[0]");
+    expect_refused([](State& state, Row<Bodies> vase, Row<Bodies>) { state.bodies.retry_frame[vase] = kFar; },
+                   "bodies.retry_frame[0]");
+    expect_refused(
+        [](State& state, Row<Bodies> vase, Row<Bodies>) {
+            state.queued_hits.is_used[0] = 1;
+            state.queued_hits.body[0] = vase;
+            state.queued_hits.striker[0] = {};
+            state.queued_hits.frame[0] = kFar;
+        },
+        "queued_hits.frame[0]");
+    expect_refused([](State& state, Row<Bodies> vase, Row<Bodies>) { set_born(state.fragment_ages, vase, kFar); },
+                   "fragment_ages.born[0]");
+}
+
 TEST(CheckState, AQueuedHitOnABallIsRefused) {
     expect_refused(
         [](State& state, Row<Bodies>, Row<Bodies> ball) {

@@ -90,6 +90,47 @@ TEST(Retire, WhatIsFrozenStandsForGoodAndStopsOthers) {
     for (const FragmentAge& f : fragments_of(b.world)) EXPECT_FALSE(f.fragment == frozen);
 }
 
+/// A pane that lies on the floor in pieces which sleep.
+World sleeping_pieces() {
+    Settings settings = small_settings();
+    settings.gravity = {0, -9.81f, 0};
+    World world = make_world(settings);
+    add_floor(world);
+    SpawnSettings pane;
+    pane.pose = {{0, 0.3f, 0}, {0.644218f, 0, 0, 0.764842f}};
+    const BodyId whole = world.spawn(world.add_model(small_pane()).value(), pane).value();
+    for (int k = 0; k < 6; ++k) {
+        CutSettings cut;
+        const float share = 0.1f * static_cast<float>(k % 3) - 0.1f;
+        cut.place = world.pose(whole)->position + Vec3{share, 0, share};
+        cut.normal = k < 3 ? Vec3{1, 0, 0} : Vec3{0, 0, 1};
+        EXPECT_TRUE(world.cut(whole, cut).ok());
+    }
+    for (int frame = 0; frame < 600; ++frame) world.step();
+    return world;
+}
+
+TEST(Retire, WhatSleepsOnWhatIsFrozenSleepsOn) {
+    World world = sleeping_pieces();
+    const uint32_t awake = world.report().awake;
+    const std::vector<FragmentAge> list = fragments_of(world);
+    ASSERT_GT(list.size(), 3u);
+    ASSERT_EQ(awake, 0u);
+    EXPECT_EQ(world.retire({.how = Retirement::Freeze, .count = 2}).value_or(0), 2u);
+    for (int frame = 0; frame < 30; ++frame) {
+        world.step();
+        EXPECT_EQ(world.report().awake, 0u) << frame;
+    }
+}
+
+TEST(Retire, WorldsThatDifferInAgesAloneDifferInTheirHash) {
+    Breakage b = broken();
+    const uint64_t before = b.world.hash();
+    const BodyId one = fragments_of(b.world).front().fragment;
+    state_of(b.world).fragment_ages.born[one.index] += 1;
+    EXPECT_NE(b.world.hash(), before);
+}
+
 TEST(Retire, WhatIsMergedIsDrawnAndMetByNothing) {
     Breakage b = broken();
     const BodyId merged = fragments_of(b.world).front().fragment;

@@ -172,9 +172,7 @@ TEST(GiveSprings, AStateWithoutSpringsHashesAsIfThereWereNoSuchTables) {
     std::apply(
         [&](auto... table) {
             const auto add = [&]<class T>(T State::*t) {
-                if constexpr (
-                    !requires { T::kIsOptional; } && !requires { T::kIsBookkeeping; })
-                    plain = (state.*t).hash(plain);
+                if constexpr (!requires { T::kIsOptional; }) plain = (state.*t).hash(plain);
             };
             (add(table), ...);
         },
