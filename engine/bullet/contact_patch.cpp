@@ -2,22 +2,22 @@
 
 #include <algorithm>
 
+#include "engine/bullet/box_patch.hpp"
 #include "engine/bullet/closest_points.hpp"
+#include "engine/bullet/contact_spots.hpp"
 #include "engine/bullet/overlap_axis.hpp"
 
 namespace cullet::bullet {
+
+PatchFrame make_frame(Vec3 n) {
+    // The world axis least along the normal, ties to x then y, gives the first direction.
+    const Vec3 s{std::fabs(n.x), std::fabs(n.y), std::fabs(n.z)};
+    const Vec3 axis = s.x <= s.y && s.x <= s.z ? Vec3{1, 0, 0} : s.y <= s.z ? Vec3{0, 1, 0} : Vec3{0, 0, 1};
+    const Vec3 right = normalised(cross(axis, n));
+    return {n, right, cross(n, right)};
+}
+
 namespace {
-
-// The plane frame of a patch: origin at the centre of a, heights along the normal.
-struct Frame {
-    Vec3 normal, right, forward;
-};
-
-/// Without values of its own: hundreds stand on the stack for each touch, of which few are used.
-struct Spot {
-    float x, y;           // in the plane
-    float low_a, high_b;  // heights of the facing surfaces of the cores
-};
 
 // Height of a supporting plane over the patch's plane: at + slope_x x + slope_y y.
 struct Plane {
@@ -44,14 +44,6 @@ constexpr float kSupportDepth = 0.0002f;  // m
 // What bulges towards the other hull touches with points inside of its outline: those this close to the support plane
 // are offered too. At 0 a curved shard rocks for ever from one of its low points to the other and sinks by 4 mm.
 constexpr float kBulgeDepth = 0.003f;  // m
-
-Frame make_frame(Vec3 n) {
-    // The world axis least along the normal, ties to x then y, gives the first direction.
-    const Vec3 s{std::fabs(n.x), std::fabs(n.y), std::fabs(n.z)};
-    const Vec3 axis = s.x <= s.y && s.x <= s.z ? Vec3{1, 0, 0} : s.y <= s.z ? Vec3{0, 1, 0} : Vec3{0, 0, 1};
-    const Vec3 right = normalised(cross(axis, n));
-    return {n, right, cross(n, right)};
-}
 
 float area(const Spot& a, const Spot& b, const Spot& c) {
     return (b.x - a.x) * (c.y - a.y) - (b.y - a.y) * (c.x - a.x);
@@ -84,7 +76,7 @@ bool is_inside(const Spot& spot, const Side& side) {
 }
 
 // `sign` -1: the side that looks down the normal (hull a); +1: up (hull b). `offset` is the hull's centre in the frame.
-void look(const Hull& hull, const Mat3& rotation, const Frame& frame, Vec3 offset, float sign, Side& side) {
+void look(const Hull& hull, const Mat3& rotation, const PatchFrame& frame, Vec3 offset, float sign, Side& side) {
     const Vec3 n = transposed_times(rotation, frame.normal), right = transposed_times(rotation, frame.right),
                forward = transposed_times(rotation, frame.forward);
     const float ox = dot(offset, frame.right), oy = dot(offset, frame.forward), oz = dot(offset, frame.normal);
@@ -154,9 +146,6 @@ void measure(Spot& spot, const Side& a, const Side& b) {
     for (uint32_t k = 0; k < b.plane_count; ++k)
         spot.high_b = std::min(spot.high_b, b.plane[k].at + b.plane[k].slope_x * spot.x + b.plane[k].slope_y * spot.y);
 }
-float gap(const Spot& s) {
-    return s.low_a - s.high_b;
-}
 
 // A millimetre of depth counts as 20 mm of distance: a shard that rocks on two spots must have both of them, whatever
 // lies farther out and does not touch yet. At 0 it rocks on for ever, each step on the spot that it was given, and
@@ -211,12 +200,16 @@ int choose_four(const Spot* spots, uint32_t count, uint32_t (&chosen)[kPatchPoin
 constexpr double kOwnTurning = 0.004;
 constexpr double kBorrowedTurning = 0.003;
 
+}  // namespace
+
 bool is_through_seam(const Hull& hull, const Mat3& rotation, Vec3 outwards) {
     const Vec3 local = transposed_times(rotation, outwards);
     for (uint32_t f = 0; f < hull.face_count; ++f)
         if (hull.is_face_inner[f] && dot(hull.face_normal[f], local) > 0.8f) return true;
     return false;
 }
+
+namespace {
 
 struct Touch {
     bool is_near = false, is_through_seam = false;
@@ -283,9 +276,20 @@ void add_touch(Patch& patch, const Hull& a, const Hull& b, const Touch& touch) {
 
 }  // namespace
 
+void add_best_spots(Patch& patch, const Hull& a, const Hull& b, const PatchFrame& frame, const Spot* spots,
+                    uint32_t count) {
+    uint32_t chosen[kPatchPoints];
+    const int kept = choose_four(spots, count, chosen);
+    for (int k = 0; k < kept && patch.count < kPatchPoints; ++k) {
+        const Spot& s = spots[chosen[k]];
+        add_point(patch, a, b, s.x * frame.right + s.y * frame.forward, s.low_a, s.high_b);
+    }
+}
+
 Patch contact_patch(const Hull& a, const Mat3& rotation_a, const Hull& b, const Mat3& rotation_b, Vec3& guess,
                     bool is_own_guess) {
     Patch patch;
+    if (box_patch(a, rotation_a, b, rotation_b, guess, patch)) return patch;
     const Touch touch = find_touch(a, rotation_a, b, rotation_b, guess, is_own_guess);
     patch.room = touch.room;
     if (!touch.is_near) return patch;
@@ -293,7 +297,7 @@ Patch contact_patch(const Hull& a, const Mat3& rotation_a, const Hull& b, const 
     patch.is_through_seam = touch.is_through_seam;
     uint32_t count = 0;
     Spot spots[4 * kMaxPoints];
-    const Frame frame = make_frame(touch.normal);
+    const PatchFrame frame = make_frame(touch.normal);
     if (a.point_count > 1 && b.point_count > 1) {
         Side side_a, side_b;
         look(a, rotation_a, frame, {}, -1, side_a);
@@ -321,12 +325,7 @@ Patch contact_patch(const Hull& a, const Mat3& rotation_a, const Hull& b, const 
         // Keep room: the touch is the deepest point of the patch, the corners that lie around it are held up by it.
         if (count == 0) return patch;
     }
-    uint32_t chosen[kPatchPoints];
-    const int kept = choose_four(spots, count, chosen);
-    for (int k = 0; k < kept && patch.count < kPatchPoints; ++k) {
-        const Spot& s = spots[chosen[k]];
-        add_point(patch, a, b, s.x * frame.right + s.y * frame.forward, s.low_a, s.high_b);
-    }
+    add_best_spots(patch, a, b, frame, spots, count);
     return patch;
 }
 

@@ -104,9 +104,32 @@ void set_heights(Hull& hull) {
 
 }  // namespace
 
+// Three faces square to each other, and every point at half of the width along all three.
+void find_box(Hull& hull) {
+    constexpr float kSquare = 1e-3f;         // cosine; normals are as good as the grid of wrap_hull()
+    const float near = 1e-4f * hull.radius;  // m
+    hull.is_box = false;
+    if (hull.point_count != 8 || hull.face_count != 6 || hull.edge_count != 12) return;
+    uint32_t found = 0;
+    for (uint32_t f = 0; f < hull.face_count && found < 3; ++f) {
+        const Vec3 n = hull.face_normal[f];
+        bool is_square = dot(n, n) > 0.5f;
+        for (uint32_t k = 0; k < found; ++k) is_square = is_square && std::fabs(dot(n, hull.box_axis[k])) < kSquare;
+        if (!is_square) continue;
+        hull.box_axis[found] = n;
+        hull.box_half[found++] = hull.face_height[f];
+    }
+    if (found < 3) return;
+    for (uint32_t p = 0; p < hull.point_count; ++p)
+        for (uint32_t k = 0; k < 3; ++k)
+            if (!(std::fabs(std::fabs(dot(hull.local[p], hull.box_axis[k])) - hull.box_half[k]) < near)) return;
+    hull.is_box = true;
+}
+
 void build_hull(Hull& hull, std::span<const Vec3> points, float margin, uint32_t cell) {
     points = points.first(std::min<size_t>(points.size(), kMaxPoints));
     set_hull_points(hull, points, margin, cell);
+    hull.is_box = false;
     if (points.size() < 3) return;
     wrap_hull(hull);
     bool is_corner[kMaxPoints] = {};
@@ -122,6 +145,7 @@ void build_hull(Hull& hull, std::span<const Vec3> points, float margin, uint32_t
     }
     set_normals(hull);
     set_heights(hull);
+    find_box(hull);
 }
 
 void build_hull_like(Hull& hull, const Hull& like, const Mat3& turn, std::span<const Vec3> points, float margin,
@@ -141,6 +165,7 @@ void build_hull_like(Hull& hull, const Hull& like, const Mat3& turn, std::span<c
     hull.edge_count = edges;
     hull.thickness = width + 2 * margin;
     turn_faces(hull, turn, first - hull.local[0]);
+    find_box(hull);
 }
 
 void turn_hull(Hull& hull, const Mat3& r, Vec3 origin, float margin, uint32_t cell) {
@@ -179,12 +204,14 @@ void turn_hull(Hull& hull, const Mat3& r, Vec3 origin, float margin, uint32_t ce
     hull.margin = margin;
     hull.cell = cell;
     turn_faces(hull, r, shift);
+    find_box(hull);
 }
 
 void build_triangle(Hull& hull, const Vec3 (&corners)[3], uint32_t cell) {
     hull.cell = cell;
     hull.margin = 0;
     hull.one_sided = true;
+    hull.is_box = false;
     hull.point_count = 3;
     hull.face_count = 1;
     hull.edge_count = 0;

@@ -60,6 +60,9 @@ struct Hull {
     float thickness = 0;     // the least width over its face normals, with both margins; a sphere's diameter
     bool one_sided = false;  // a static triangle: only its front face pushes
     bool has_seams = false;  // they are known; scratch of BulletWorld::set_pieces
+    bool is_box = false;     // its core is one, with these
+    Vec3 box_axis[3];        // outward normals of three faces, hull frame
+    float box_half[3];       // m, from the centre
     Box world_box;           // with the margin
     Box local_box;           // with the margin
     Points local;            // hull frame of the body
@@ -86,6 +89,8 @@ void build_hull_like(Hull& hull, const Hull& like, const Mat3& turn, std::span<c
 void turn_hull(Hull& hull, const Mat3& turn, Vec3 origin, float margin, uint32_t cell);
 /// A static triangle in world axes: one face, to the side that its corners run counter-clockwise around.
 void build_triangle(Hull& hull, const Vec3 (&corners)[3], uint32_t cell);
+/// Finds out whether the core is a box, from points and faces.
+void find_box(Hull& hull);
 /// Of its local points.
 void set_local_box(Hull& hull);
 /// Marks the faces of `hull` that another piece of the same body covers: a point just outside of the face lies in it.

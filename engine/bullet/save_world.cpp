@@ -127,7 +127,8 @@ void flow_hull(F& f, Hull& h, ByteReader* in) {
             is_sound && e.a < h.point_count && e.b < h.point_count && e.left < h.face_count && e.right < h.face_count;
     }
     if constexpr (F::kReads)
-        in->expect(is_sound, "a corner or an edge of a hull names a point or a face that it does not have");
+        if (in->expect(is_sound, "a corner or an edge of a hull names a point or a face that it does not have"))
+            find_box(h);
 }
 
 template <class F>
