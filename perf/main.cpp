@@ -30,10 +30,11 @@ const Scene kScenes[] = {{"hidden_step", measure_hidden_step},
                          {"vase", measure_vase_frames},
                          {"wall", measure_wall_frames},
                          {"pane", measure_pane_frames},
-                         {"pile_frames", measure_pile_frames, false}};  // a pass takes half an hour
+                         {"pile_frames", measure_pile_frames, false},  // a pass takes half an hour
+                         {"soak", measure_soak, false}};               // and some minutes
 
 std::string scene_names() {
-    std::string names = "all (but pile_frames)";
+    std::string names = "all (but pile_frames and soak)";
     for (const Scene& scene : kScenes) names += std::string(", ") + scene.name;
     return names;
 }

@@ -18,6 +18,7 @@ class Sweeper {
  public:
     explicit Sweeper(uint32_t body_limit) {
         fast_.reserve(body_limit), near_.reserve(body_limit), carried_.reserve(body_limit), flock_.reserve(body_limit);
+        by_low_.reserve(body_limit);
     }
     /// Sets moved_fraction of every body, from 0 to 1; returns how many were stopped.
     uint32_t sweep(BulletWorld& world, float dt);
@@ -32,12 +33,18 @@ class Sweeper {
         Box swept;
     };
     void find_near(const BulletWorld& world, const Box& box);
+    double low_of(uint32_t k) const { return double{fast_[k].swept.low.*axis_}; }
+    void order_fast();
+    void find_fast(uint32_t k);
     void sweep_pair(BulletWorld& world, Body& a, Body& b, float dt);
     void find_flocks(BulletWorld& world);
     void carry_flock(BulletWorld& world, std::span<const RigidId> flock, float dt);
     double free_share(BulletWorld& world, Body& body, Vec3d velocity, float dt, double share);
     std::vector<Fast> fast_;
     std::vector<RigidId> near_;
+    std::vector<uint32_t> by_low_;  // of fast_, by the low end of what they sweep along axis_
+    float Vec3::*axis_ = &Vec3::x;  // along which fast bodies lie farthest apart
+    double longest_ = 0;            // m, of what one sweeps along it
     std::vector<RigidId> carried_;  // flocks, ascending
     std::vector<RigidId> flock_;    // their bodies, by flock
 };
