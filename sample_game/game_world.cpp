@@ -152,6 +152,7 @@ void fill_counts(const World& world, Report& report) {
                     counts.late,         counts.frames_held, counts.ahead_hits, counts.ahead_misses,
                     counts.first_breaks, counts.first_ready};
     report.clamped = counts.clamped;
+    report.crushed_j = counts.crushing_energy;
     report.sweeps = data.rigid->counts().sweeps;
     report.units.left = counts.units_left;
     report.units.slow_soft_frames = counts.slow_soft_frames;

@@ -94,6 +94,7 @@ Json of_work(const Report& r) {
               {"first_ready", r.tasks.first_ready}}},
             {"sweeps", r.sweeps},
             {"clamped", r.clamped},
+            {"crushed_j", r.crushed_j},
             {"shapes", of_shapes(r)}};
 }
 

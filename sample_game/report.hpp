@@ -114,6 +114,7 @@ struct Report {
         uint64_t first_breaks = 0, first_ready = 0;  // of whole bodies by touch; in the very frame of the touch
     } tasks;
     uint64_t sweeps = 0, clamped = 0;
+    double crushed_j = 0;  // at cracks whose faces were on their way into each other when their pieces were born
     std::map<std::string, uint64_t> shapes;                        // of all bodies at the end
     std::map<std::string, FragmentShapes> fragment_shapes;         // of what broke: box, hull, cells
     uint64_t allocations_in_frames = 0, allocations_in_rigid = 0;  // within step(), from frame 30 on

@@ -83,6 +83,7 @@ struct DamageCounts {
     uint64_t slow_soft_frames = 0;            // soft bodies that had units for fewer substeps than a frame asks for
     uint64_t retired = 0, faded = 0;          // fragments and crumbs
     double worst_rounding = 0;                // momentum that hidden runs lost, share of what the body had or got
+    double crushing_energy = 0;               // J that pieces lost because their crack faces met at birth
     double impulse_to_static[3] = {0, 0, 0};  // N s, from damage to floors, pins and kinematic bodies
 };
 

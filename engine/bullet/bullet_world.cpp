@@ -4,13 +4,14 @@
 #include <utility>
 
 #include "engine/assert.hpp"
+#include "engine/bullet/free_turn.hpp"
 #include "engine/bullet/principal_axes.hpp"
 #include "engine/rigid_allocations.hpp"
 
 namespace cullet::bullet {
 namespace {
 
-constexpr float kAngularDamping = 0.1f;  // 1/s
+constexpr float kAngularDamping = 0.1f;  // 1/s, of what is touched: flight has none
 constexpr float kPushedApart = 0.0001f;  // m of overlap at which ignored siblings meet again
 constexpr float kPressedIn = 0.001f;     // m a step that an unsolved contact may deepen by
 constexpr float kSeamReach = 0.001f;     // m beyond the margins, more than mark_inner_faces() looks past a face
@@ -375,7 +376,7 @@ void BulletWorld::make_bullet(Body& body, const btTransform& at) {
     body.bullet.emplace(info);
     btRigidBody& bullet = *body.bullet;
     bullet.setUserIndex(static_cast<int>(body.id));
-    bullet.setFlags(body.kind == RigidKind::Dynamic ? BT_ENABLE_GYROSCOPIC_FORCE_IMPLICIT_BODY : 0);
+    bullet.setFlags(0);  // see turn_freely()
     if (body.kind == RigidKind::Kinematic) {
         const int flags = bullet.getCollisionFlags() & ~btCollisionObject::CF_STATIC_OBJECT;
         bullet.setCollisionFlags(flags | btCollisionObject::CF_KINEMATIC_OBJECT);
@@ -731,7 +732,8 @@ void BulletWorld::solve(float dt) {
         Body& body = bodies_[id];
         if (!body.is_used || !body.is_free()) continue;
         body.bullet->applyGravity();
-        body.bullet->applyDamping(dt);
+        turn_freely(*body.bullet, dt);
+        if (body.is_touched) body.bullet->applyDamping(dt);
     }
     solve_contacts(dt);
     sum_impulse_to_static();

@@ -4,6 +4,7 @@
 
 #include "engine/bullet/advance.hpp"
 #include "engine/bullet/bullet_world.hpp"
+#include "engine/bullet/free_turn.hpp"
 #include "engine/rigid_allocations.hpp"
 
 namespace cullet::bullet {
@@ -21,8 +22,6 @@ bool is_slow(const Body& body) {
 btRigidBody::btRigidBodyConstructionInfo copied(const Body& body) {
     btRigidBody::btRigidBodyConstructionInfo info(body.mass, nullptr, nullptr, body.moments);
     info.m_startWorldTransform = body.bullet->getWorldTransform();
-    info.m_linearDamping = body.bullet->getLinearDamping();
-    info.m_angularDamping = body.bullet->getAngularDamping();
     return info;
 }
 
@@ -80,10 +79,8 @@ class Flight {
     void go() {
         flying_.clearForces();
         flying_.applyGravity();
-        flying_.applyDamping(dt_);
-        const btVector3 turning = flying_.computeGyroscopicImpulseImplicit_Body(dt_);
+        turn_freely(flying_, dt_);
         flying_.setLinearVelocity(flying_.getLinearVelocity() + flying_.getTotalForce() * flying_.getInvMass() * dt_);
-        flying_.setAngularVelocity(flying_.getAngularVelocity() + turning);
         const Mover mover = this->mover();
         float fraction = 1;
         const double way = travel(mover, dt_);

@@ -57,7 +57,7 @@ namespace {
 constexpr uint64_t kLargestFile = 1ull << 36;
 constexpr const char* kAdvice = "The snapshot is damaged or of another build; take it again.";
 constexpr FileKind kKind{{'c', 's', 'n', 'a', 'p', '\r', '\n', '\x1a'},
-                         8,
+                         9,
                          "snapshot",
                          ".csnap",
                          "Write one with World::save.",
@@ -75,7 +75,7 @@ void for_each_count(Data& d, F&& f) {
     auto& c = d.counts;
     f(c.opened), f(c.broke), f(c.whole), f(c.dropped), f(c.redone), f(c.late), f(c.frames_held), f(c.clamped);
     f(c.cuts), f(c.starts), f(c.cuts_refused), f(c.units_used), f(c.units_left), f(c.slow_soft_frames), f(c.retired),
-        f(c.faded), f(c.worst_rounding);
+        f(c.faded), f(c.worst_rounding), f(c.crushing_energy);
     for (auto& impulse : c.impulse_to_static) f(impulse);
 }
 

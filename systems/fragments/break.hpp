@@ -24,6 +24,7 @@ struct Break {
     std::span<uint32_t> debris;  // rows of crumbs once they are made, or kNone
     uint32_t largest = 0;
     uint32_t clamped = 0;        // motions that were
+    double crushed = 0;          // J, see HandoffReport
     uint32_t left_elements = 0;  // of all parts that leave
     ShellSums whole;             // of `broken` before they do
     float margin = 0;            // of the body's hulls so far

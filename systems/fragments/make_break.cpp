@@ -261,6 +261,7 @@ void make_break(Births& births, const Break& plan) {
         return;
     }
     births.counts.clamped += plan.clamped;
+    births.counts.crushing_energy += plan.crushed;
     const Moment moment = moment_of(state, plan.task, plan.motions);
     // Late, the rigid solver has passed the blow's impulse; an explosion's energy comes from outside.
     const bool is_limited = !moment.is_late && !has_explosion(state.blows, plan.task);

@@ -5,6 +5,7 @@
 #include "systems/brittle/hidden_region.hpp"
 #include "systems/fragments/body_rows.hpp"
 #include "systems/fragments/cell_hulls.hpp"
+#include "systems/fragments/crack_touches.hpp"
 #include "systems/fragments/hand_on.hpp"
 #include "systems/fragments/make_piece.hpp"
 #include "systems/fragments/piece_shape.hpp"
@@ -324,10 +325,12 @@ void plan_break(Planning& planning, Row<Tasks> task) {
     if (is_cut_task(state.blows, task)) {
         move_with_body(state, plan, velocity, spin);  // nothing was run
     } else {
-        const HandoffReport report =
-            rigid_handoff(shell, {velocity, spin, state.shells.centre[broken], state.tasks.approach_speed[task], rest},
-                          plan.parts, plan.motions);
+        HandoffStart start{velocity, spin, state.shells.centre[broken], state.tasks.approach_speed[task], rest};
+        start.touches = crack_touches(shell, broken == plan.before, planning.arena);
+        start.touching = planning.arena.take<Touching>(plan.parts.size());
+        const HandoffReport report = rigid_handoff(shell, start, plan.parts, plan.motions);
         plan.clamped = report.speed_clamps + report.spin_clamps;
+        plan.crushed = report.energy_crushed;
     }
     if (reserve_births(planning, plan)) order_births(planning, plan);
 }

@@ -212,16 +212,50 @@ void sum_momenta_of_pieces(const ShellView& shell, const VertexVelocity& velocit
     }
 }
 
+bool can_turn(const PartMotion& m) {
+    const double scale = trace(m.inertia);
+    return determinant(m.inertia) > 1e-12 * scale * scale * scale;
+}
+
 /// I^-1 L; zero for a part so thin that its inertia has no inverse in double, which only lowers the energy.
 Vec3d spin_of(const PartMotion& m) {
-    const double scale = trace(m.inertia);
-    if (!(determinant(m.inertia) > 1e-12 * scale * scale * scale)) return {};
+    if (!can_turn(m)) return {};
     return inverse(m.inertia) * m.angular_momentum;
 }
 
 double energy_of(const PartMotion& m) {
     if (m.is_static || !(m.mass > 0)) return 0;
     return dot(m.momentum, m.momentum) / (2 * m.mass) + dot(m.spin, m.inertia * m.spin) / 2;
+}
+
+/// What a static part takes goes to the support.
+void part_cracks(const HandoffStart& start, std::span<PartMotion> motions, HandoffReport& report) {
+    const std::span<Touching> parts = start.touching.first(motions.size());
+    for (uint32_t p = 0; p < motions.size(); ++p) {
+        const PartMotion& m = motions[p];
+        parts[p] = {m.centre, {}, m.spin, 0, {}};
+        if (m.is_static || !(m.mass > 0)) continue;
+        parts[p].velocity = (1 / m.mass) * m.momentum;
+        parts[p].inverse_mass = 1 / m.mass;
+        if (can_turn(m)) parts[p].inverse_inertia = inverse(m.inertia);
+    }
+    stop_approach(parts, start.touches, start.impact_speed);
+    double energy = 0;
+    for (uint32_t p = 0; p < motions.size(); ++p) {
+        PartMotion& m = motions[p];
+        if (parts[p].inverse_mass > 0) {
+            m.momentum = m.mass * parts[p].velocity;
+            m.spin = parts[p].spin;
+        }
+        m.free_momentum = m.momentum, m.free_spin = m.spin;
+        energy += energy_of(m);
+    }
+    for (const Touch& t : start.touches) {
+        if (motions[t.a].is_static) report.support_momentum += t.impulse * t.normal;
+        if (motions[t.b].is_static) report.support_momentum -= t.impulse * t.normal;
+    }
+    report.energy_crushed = report.energy_unclamped - energy;
+    report.energy_unclamped = energy;
 }
 
 /// Pulls the part's speed to the limit; returns the momentum that was cut off, so that the sum stays exact.
@@ -332,6 +366,7 @@ HandoffReport rigid_handoff(ShellView shell, const HandoffStart& start, std::spa
         m.free_momentum = m.momentum, m.free_spin = m.spin;
         report.energy_unclamped += energy_of(m);
     }
+    if (!start.touches.empty()) part_cracks(start, motions, report);
     report.free_support = report.support_momentum;
     clamp(start, motions, report);
     keep_energy(motions, report);

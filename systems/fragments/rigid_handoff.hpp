@@ -5,6 +5,7 @@
 
 #include "components/state.hpp"
 #include "systems/fragments/group_fragments.hpp"
+#include "systems/fragments/stop_approach.hpp"
 
 namespace cullet {
 
@@ -22,6 +23,8 @@ struct HandoffStart {
     Vec3d centre;                         // of mass, m
     double impact_speed = 0;              // m/s, > 0
     std::optional<RestMotion> rest = {};  // none: each vertex has its velocity
+    std::span<Touch> touches = {};        // of the parts, at their cracks,
+    std::span<Touching> touching = {};    // and room for as many as there are parts
 };
 
 /// One part's motion, body axes. Mass, centre and inertia are those of its vertices: with them P and L are the hidden
@@ -48,16 +51,18 @@ struct HandoffReport {
     Vec3d free_support;           // of that, before the clamps
     Vec3d spin_clamp_loss;        // angular momentum that spin clamps took, N m s
     double energy_hidden = 0;     // J
+    double energy_crushed = 0;    // of the rigid motions, at cracks whose faces were on their way into each other
     double energy_unclamped = 0;  // of the rigid motions before the clamps, <= hidden
     double energy_after = 0;
 };
 
-/// One motion a part; parts as group_fragments or find_pieces gave them, motions at least as many. What find_pieces has
-/// not listed is summed as a difference. Clamps: a part's speed relative to
-/// the body's motion before the hit (V + w x r at its centre) is at most twice the impact speed, and what is cut off
-/// goes to the largest part, which is not clamped; a part's spin relative to the body's before is at most
-/// 2 impact_speed / radius (relative, or a body that flew spinning would lose its spin on breaking). Where the largest
-/// part would get more energy by that than there was, all clamps go as far as energy allows and no farther.
+/// Hidden runs let crack faces pass through each other: parts that would go on to do so are stopped where they touch
+/// (stop_approach), before the clamps. One motion a part; parts as group_fragments or find_pieces gave them, motions at
+/// least as many. What find_pieces has not listed is summed as a difference. Clamps: a part's speed relative to the
+/// body's motion before the hit (V + w x r at its centre) is at most twice the impact speed, and what is cut off goes
+/// to the largest part, which is not clamped; a part's spin relative to the body's before is at most 2 impact_speed /
+/// radius (relative, or a body that flew spinning would lose its spin on breaking). Where the largest part would get
+/// more energy by that than there was, all clamps go as far as energy allows and no farther.
 HandoffReport rigid_handoff(ShellView shell, const HandoffStart& start, std::span<const FragmentPart> parts,
                             std::span<PartMotion> motions);
 

@@ -43,6 +43,7 @@ TEST(Report, EveryPromisedFieldIsThere) {
                              "tasks",
                              "sweeps",
                              "clamped",
+                             "crushed_j",
                              "shapes",
                              "allocations_in_frames",
                              "allocations_in_rigid",

@@ -14,10 +14,8 @@ namespace cullet::test {
 namespace {
 
 constexpr uint32_t kFrames = 30;
-constexpr float kTouch = 0.001f;          // m between bounds of pieces that were born in touch
-constexpr double kDamped = 0.998245;      // of the spin, a step: 0.9^(1/60)
-constexpr double kFastestSpin = 94.2478;  // rad/s, of Bullet's
-constexpr double kSeenDepth = 0.0005;     // m
+constexpr float kTouch = 0.001f;       // m between bounds of pieces that were born in touch
+constexpr double kSeenDepth = 0.0005;  // m
 
 /// One drawn triangle, whichever corner comes first.
 uint64_t hash_of(const ViewVertex* corner, const Pose& pose) {
@@ -61,9 +59,7 @@ Vec3d relative_speed(const State& state, BodyId a, BodyId b) {
 
 }  // namespace
 
-// Of the spin what would be left without any contact counts in full: the rigid world damps it by a tenth a second, and
-// bounds it to a quarter of a turn a step.
-double SiblingWatch::energy(int steps) const {
+double SiblingWatch::energy() const {
     const Bodies& bodies = state_of(world_).bodies;
     double mass = 0, sum = 0;
     Vec3d momentum;
@@ -72,11 +68,7 @@ double SiblingWatch::energy(int steps) const {
         const Vec3d v(bodies.velocity[b]), w(rotate(conjugate(bodies.orientation[b]), bodies.spin[b]));
         mass += bodies.mass[b];
         momentum += bodies.mass[b] * v;
-        double left = 1;
-        for (int k = 0; k < steps; ++k) left *= kDamped;
-        const double turns = std::min(1.0, kFastestSpin / std::max(1e-9, length(piece.spin)));
-        const double share = steps > 0 ? left * turns : 1;
-        sum += 0.5 * (bodies.mass[b] * dot(v, v) + dot(w, bodies.inertia[b] * w) / (share * share));
+        sum += 0.5 * (bodies.mass[b] * dot(v, v) + dot(w, bodies.inertia[b] * w));
     }
     return sum - dot(momentum, momentum) / (2 * mass);
 }
@@ -165,7 +157,7 @@ void SiblingWatch::look(const std::string& system) {
     if (world_.contents().data.counts.clamped == clamped_before_)
         figures_.turning_errors.push_back(length(now.turning - turning_before_) / now.turning_scale);
     measure_birth();
-    birth_energy_ = energy(0);
+    birth_energy_ = energy();
 }
 
 // A shard may cross the body and hit its other side: such blows, and what those that got one hit in their turn, are
@@ -232,7 +224,7 @@ void SiblingWatch::follow(const Shape& shape, Draw draw, const SpawnSettings& sp
         mark_struck();
         world_.step();
         const bool is_quiet = std::find(is_struck_.begin(), is_struck_.end(), 1) == is_struck_.end();
-        if (frame == 3 && is_quiet) figures_.lost.push_back(1 - energy(3) / birth_energy_);
+        if (frame == 3 && is_quiet) figures_.lost.push_back(1 - energy() / birth_energy_);
         if (looks_inside && (frame == 4 || frame == 9 || frame == kFrames - 1)) look_inside();
     }
     measure_pairs();

@@ -43,7 +43,7 @@ class SiblingWatch {
     };
     void begin();
     void measure_birth();
-    double energy(int steps) const;
+    double energy() const;
     void compare_surface();
     void mark_struck();
     void measure_pairs();
