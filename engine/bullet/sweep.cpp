@@ -55,6 +55,8 @@ void Sweeper::sweep_pair(BulletWorld& world, Body& a, Body& b, float dt) {
         if (t >= limit) return;
         if (a.is_fast) a.moved_fraction = std::min(a.moved_fraction, static_cast<float>(t));
         if (b.is_fast) b.moved_fraction = std::min(b.moved_fraction, static_cast<float>(t));
+        a.is_anchored = a.is_anchored || !b.is_free();
+        b.is_anchored = b.is_anchored || !a.is_free();
     };
     for (const Hull* p = a.hulls; p; p = p->next) {
         const float span = dt * last_fraction(a, b);
@@ -81,7 +83,7 @@ void Sweeper::list_fast(BulletWorld& world, float dt) {
         Body& body = world.bodies_[id];
         if (!body.is_used || body.kind == RigidKind::Static) continue;
         body.moved_fraction = 1;
-        body.is_fast = false;
+        body.is_fast = body.is_anchored = false;
         const Mover mover = mover_of(body);
         if (!is_far(travel(mover, dt), thinnest)) continue;
         body.is_fast = true;
@@ -143,32 +145,31 @@ uint32_t Sweeper::sweep(BulletWorld& world, float dt) {
     return stopped;
 }
 
-// Free bodies that touch each other are one flock, named by its first body; one that touches anything else is not
-// airborne.
+// Bodies that were stopped, though by nothing that stands, and touch each other are one flock, named by its first body.
 void Sweeper::find_flocks(BulletWorld& world) {
     auto& bodies = world.bodies_;
     const auto flock_of = [&](RigidId id) {
         while (bodies[id].flock != id) id = bodies[id].flock;
         return id;
     };
-    const auto are_free = [&](const auto& m) { return bodies[m.a].is_free() && bodies[m.b].is_free(); };
-    const auto touch = [](const auto& m) { return m.manifold && m.manifold->getNumContacts() > 0; };
-    for (RigidId id = 0; id < world.body_end_; ++id) {
-        bodies[id].flock = id;
-        bodies[id].is_airborne = bodies[id].is_used && bodies[id].is_free();
-    }
+    const auto is_adrift = [&](RigidId id) {
+        const Body& body = bodies[id];
+        return body.is_free() && body.moved_fraction < 1 && !body.is_anchored;
+    };
+    for (RigidId id = 0; id < world.body_end_; ++id) bodies[id].flock = id;
     for (const auto& m : world.manifolds_) {
-        if (!touch(m) || !are_free(m)) continue;
+        if (!m.manifold || m.manifold->getNumContacts() == 0 || !is_adrift(m.a) || !is_adrift(m.b)) continue;
         const RigidId a = flock_of(m.a), b = flock_of(m.b);
         bodies[std::max(a, b)].flock = std::min(a, b);
     }
-    // A flock's name is never above its bodies' ids.
-    for (RigidId id = 0; id < world.body_end_; ++id) bodies[id].flock = bodies[bodies[id].flock].flock;
-    for (const auto& m : world.manifolds_)
-        if (touch(m) && !are_free(m))
-            bodies[bodies[m.a].flock].is_airborne = bodies[bodies[m.b].flock].is_airborne = false;
-    for (RigidId id = 0; id < world.body_end_; ++id)
-        bodies[id].is_airborne = bodies[id].is_airborne && bodies[bodies[id].flock].is_airborne;
+    flock_.clear();
+    for (const Fast& fast : fast_) {
+        if (!is_adrift(fast.id)) continue;
+        bodies[fast.id].flock = flock_of(fast.id);
+        flock_.push_back(fast.id);
+    }
+    std::sort(flock_.begin(), flock_.end(),
+              [&](RigidId a, RigidId b) { return std::pair(bodies[a].flock, a) < std::pair(bodies[b].flock, b); });
 }
 
 void Sweeper::carry_on(BulletWorld& world, float dt) {
@@ -176,19 +177,9 @@ void Sweeper::carry_on(BulletWorld& world, float dt) {
     const auto was_stopped = [&](const Fast& fast) { return bodies[fast.id].moved_fraction < 1; };
     if (std::none_of(fast_.begin(), fast_.end(), was_stopped)) return;
     find_flocks(world);
-    carried_.clear();
-    for (const Fast& fast : fast_)
-        if (was_stopped(fast) && bodies[fast.id].is_airborne) carried_.push_back(bodies[fast.id].flock);
-    std::sort(carried_.begin(), carried_.end());
-    carried_.erase(std::unique(carried_.begin(), carried_.end()), carried_.end());
-    flock_.clear();
-    for (RigidId id = 0; id < world.body_end_ && !carried_.empty(); ++id)
-        if (bodies[id].is_airborne && std::binary_search(carried_.begin(), carried_.end(), bodies[id].flock))
-            flock_.push_back(id);
-    std::sort(flock_.begin(), flock_.end(),
-              [&](RigidId a, RigidId b) { return std::pair(bodies[a].flock, a) < std::pair(bodies[b].flock, b); });
     for (size_t first = 0, end = 0; first < flock_.size(); first = end) {
-        while (end < flock_.size() && bodies[flock_[end]].flock == bodies[flock_[first]].flock) ++end;
+        const RigidId flock = bodies[flock_[first]].flock;
+        while (end < flock_.size() && bodies[flock_[end]].flock == flock) ++end;
         if (end - first > 1) carry_flock(world, {flock_.data() + first, end - first}, dt);
     }
 }
@@ -229,7 +220,7 @@ double Sweeper::free_share(BulletWorld& world, Body& body, Vec3d velocity, float
     return share;
 }
 
-void Sweeper::carry_flock(BulletWorld& world, std::span<const RigidId> flock, float dt) {
+Vec3d Sweeper::common_velocity(const BulletWorld& world, std::span<const RigidId> flock) const {
     double mass = 0;
     Vec3d momentum;
     for (const RigidId id : flock) {
@@ -237,11 +228,32 @@ void Sweeper::carry_flock(BulletWorld& world, std::span<const RigidId> flock, fl
         mass += static_cast<double>(body.mass);
         momentum = momentum + static_cast<double>(body.mass) * Vec3d(from_bullet(body.bullet->getLinearVelocity()));
     }
-    const Vec3d velocity = (1 / mass) * momentum;
+    return (1 / mass) * momentum;
+}
+
+// What can hardly move leaves the flock, and is in the way of the others.
+void Sweeper::carry_flock(BulletWorld& world, std::span<RigidId> flock, float dt) {
+    constexpr int kRounds = 4;
+    constexpr double kHardly = 0.05;
     double share = 1;
-    for (const RigidId id : flock)
-        if (world.bodies_[id].moved_fraction < 1 && share > 0)
-            share = free_share(world, world.bodies_[id], velocity, dt, share);
+    Vec3d velocity;
+    for (int round = 0; round < kRounds; ++round) {
+        share = 1;
+        velocity = common_velocity(world, flock);
+        size_t kept = 0;
+        for (const RigidId id : flock) {
+            const double own = free_share(world, world.bodies_[id], velocity, dt, 1);
+            if (own < kHardly && round + 1 < kRounds) {
+                world.bodies_[id].flock = id;
+                continue;
+            }
+            flock[kept++] = id;
+            share = std::min(share, own);
+        }
+        const bool is_whole = kept == flock.size();
+        flock = flock.first(kept);
+        if (is_whole || flock.empty()) break;
+    }
     for (const RigidId id : flock) {
         Body& body = world.bodies_[id];
         btTransform moved = body.bullet->getWorldTransform();

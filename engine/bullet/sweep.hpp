@@ -17,14 +17,14 @@ class BulletWorld;
 class Sweeper {
  public:
     explicit Sweeper(uint32_t body_limit) {
-        fast_.reserve(body_limit), near_.reserve(body_limit), carried_.reserve(body_limit), flock_.reserve(body_limit);
+        fast_.reserve(body_limit), near_.reserve(body_limit), flock_.reserve(body_limit);
         by_low_.reserve(body_limit);
     }
     /// Sets moved_fraction of every body, from 0 to 1; returns how many were stopped.
     uint32_t sweep(BulletWorld& world, float dt);
-    /// After the step: flocks of bodies that touch each other in flight, some of which stopped each other, go on for
-    /// what those lost of it with the velocity of their common centre of mass, as far as nothing else is in the way.
-    /// Shards of two vases that lie across each other would hang in the air while gravity makes them faster.
+    /// After the step: flocks of bodies that touch and stopped each other go on for what they lost of it with the
+    /// velocity of their common centre of mass, as far as nothing else is in the way. Houses that come down would hang
+    /// in the air while gravity makes them faster.
     void carry_on(BulletWorld& world, float dt);
 
  private:
@@ -39,15 +39,15 @@ class Sweeper {
     void find_fast(uint32_t k);
     void sweep_pair(BulletWorld& world, Body& a, Body& b, float dt);
     void find_flocks(BulletWorld& world);
-    void carry_flock(BulletWorld& world, std::span<const RigidId> flock, float dt);
+    Vec3d common_velocity(const BulletWorld& world, std::span<const RigidId> flock) const;
+    void carry_flock(BulletWorld& world, std::span<RigidId> flock, float dt);
     double free_share(BulletWorld& world, Body& body, Vec3d velocity, float dt, double share);
     std::vector<Fast> fast_;
     std::vector<RigidId> near_;
     std::vector<uint32_t> by_low_;  // of fast_, by the low end of what they sweep along axis_
     float Vec3::*axis_ = &Vec3::x;  // along which fast bodies lie farthest apart
     double longest_ = 0;            // m, of what one sweeps along it
-    std::vector<RigidId> carried_;  // flocks, ascending
-    std::vector<RigidId> flock_;    // their bodies, by flock
+    std::vector<RigidId> flock_;    // bodies, by flock
 };
 
 }  // namespace cullet::bullet
