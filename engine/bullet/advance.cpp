@@ -8,9 +8,11 @@ namespace {
 constexpr float kThicknessShare = 0.1f;
 constexpr double kStop = 0.0005;  // m, the gap at which a sweep ends
 constexpr double kAim = 0.0001;   // m: an advance aims this much past the gap to stop at, so that it ends in few rounds
-constexpr double kTouching = 0.001;  // m: pieces nearer than this at the start touch already
-constexpr double kDeeper = 0.001;    // m that touching pieces may go deeper in a step,
-constexpr double kLeast = 0.0002;    // m: while their cores stay this far apart, so that gaps can be measured,
+constexpr double kTouching = 0.001;   // m: pieces nearer than this at the start touch already
+constexpr double kDeeper = 0.001;     // m that touching pieces may go deeper in a step,
+constexpr double kDeeperShare = 0.1;  // or this share of the thinner one's width, where both are free: slabs of a house
+// that comes down turn into each other by centimetres, and with a millimetre alone two thirds of its way are lost,
+constexpr double kLeast = 0.0002;  // m: while their cores stay this far apart, so that gaps can be measured,
 // and lively ones in all this share of the thinner one's width. Without it a sheet of 2 mm that strikes with its edge
 // and spins at 400 rad/s works its way through a plate of a centimetre, a millimetre a step. From a half on sides are
 // lost.
@@ -184,14 +186,15 @@ double touch_fraction(const Mover& a, const Hull& hull_a, const Mover& b, const 
         }
         if (round == 0 && gap < kTouching) {
             // They touch: the solver has slowed them where they do, but the rest of a piece may still swing in.
-            const double deepest = is_lively ? -kDepthShare * std::min(width_along(hull_a, *now_a, axis),
-                                                                       width_along(hull_b, *now_b, axis))
-                                             : -kFar;
-            stop = std::max({gap - kDeeper, kLeast - margins, deepest});
+            const double width = std::min(width_along(hull_a, *now_a, axis), width_along(hull_b, *now_b, axis));
+            const double deepest = is_lively ? -kDepthShare * width : -kFar;
+            const bool are_free = a.body->is_free() && b.body->is_free();
+            const double deeper = are_free ? std::max(kDeeper, kDeeperShare * width) : kDeeper;
+            stop = std::max({gap - deeper, kLeast - margins, deepest});
             // Where the cores (nearly) overlap there is no gap to measure: along the axis of least overlap they may go
             // deeper by as much.
             is_axis_fixed = stop >= gap;
-            if (is_axis_fixed) stop = std::min(gap, std::max(gap - kDeeper, deepest));
+            if (is_axis_fixed) stop = std::min(gap, std::max(gap - deeper, deepest));
         } else if (round == 0) {
             is_axis_fixed = false;
         }

@@ -821,6 +821,8 @@ void BulletWorld::limit_closing(float dt) {
             if (way <= allowed) continue;
             if (a.is_free()) a.moved_fraction = std::min(a.moved_fraction, allowed / way);
             if (b.is_free()) b.moved_fraction = std::min(b.moved_fraction, allowed / way);
+            a.is_anchored = a.is_anchored || !b.is_free();
+            b.is_anchored = b.is_anchored || !a.is_free();
         }
     }
 }

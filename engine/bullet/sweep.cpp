@@ -154,7 +154,7 @@ void Sweeper::find_flocks(BulletWorld& world) {
     };
     const auto is_adrift = [&](RigidId id) {
         const Body& body = bodies[id];
-        return body.is_free() && body.moved_fraction < 1 && !body.is_anchored;
+        return body.is_used && body.is_free() && body.moved_fraction < 1 && !body.is_anchored;
     };
     for (RigidId id = 0; id < world.body_end_; ++id) bodies[id].flock = id;
     for (const auto& m : world.manifolds_) {
@@ -163,10 +163,10 @@ void Sweeper::find_flocks(BulletWorld& world) {
         bodies[std::max(a, b)].flock = std::min(a, b);
     }
     flock_.clear();
-    for (const Fast& fast : fast_) {
-        if (!is_adrift(fast.id)) continue;
-        bodies[fast.id].flock = flock_of(fast.id);
-        flock_.push_back(fast.id);
+    for (RigidId id = 0; id < world.body_end_; ++id) {
+        if (!is_adrift(id)) continue;
+        bodies[id].flock = flock_of(id);
+        flock_.push_back(id);
     }
     std::sort(flock_.begin(), flock_.end(),
               [&](RigidId a, RigidId b) { return std::pair(bodies[a].flock, a) < std::pair(bodies[b].flock, b); });
@@ -174,8 +174,6 @@ void Sweeper::find_flocks(BulletWorld& world) {
 
 void Sweeper::carry_on(BulletWorld& world, float dt) {
     const auto& bodies = world.bodies_;
-    const auto was_stopped = [&](const Fast& fast) { return bodies[fast.id].moved_fraction < 1; };
-    if (std::none_of(fast_.begin(), fast_.end(), was_stopped)) return;
     find_flocks(world);
     for (size_t first = 0, end = 0; first < flock_.size(); first = end) {
         const RigidId flock = bodies[flock_[first]].flock;
