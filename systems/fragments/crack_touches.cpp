@@ -62,6 +62,7 @@ std::span<Touch> crack_touches(ShellView shell, bool is_local, Arena& arena) {
     uint32_t count = 0, touches = 0;
     for_each_crack_edge(shell, is_local, [&](uint32_t, uint32_t) { ++count; });
     const auto edges = arena.take<CrackEdge>(count);
+    if (edges.empty()) return {};
     count = 0;
     for_each_crack_edge(shell, is_local, [&](uint32_t e, uint32_t k) {
         const auto& corner = shell.state.elements.corner[shell.element(e)];
@@ -74,17 +75,24 @@ std::span<Touch> crack_touches(ShellView shell, bool is_local, Arena& arena) {
         return std::tuple(key(p.low), key(p.high), p.element, p.edge) <
                std::tuple(key(q.low), key(q.high), q.element, q.edge);
     });
-    const auto out = arena.take<Touch>(count);  // two of an edge, which has two sides
-    for (uint32_t i = 0, end = 0; i < count; i = end) {
-        for (end = i + 1; end < count && edges[end].low == edges[i].low && edges[end].high == edges[i].high;) ++end;
-        if (end - i != 2) continue;  // gone, or several sheets on one line
-        const uint32_t a = shell.state.elements.part[shell.element(edges[i].element)],
-                       b = shell.state.elements.part[shell.element(edges[i + 1].element)];
-        if (a == b) continue;
-        add_touches(shell, edges[i], a, b, out.data() + touches);
+    const auto for_each_crack = [&](auto visit) {
+        for (uint32_t i = 0, end = 0; i < count; i = end) {
+            for (end = i + 1; end < count && edges[end].low == edges[i].low && edges[end].high == edges[i].high;) ++end;
+            if (end - i != 2) continue;  // what lay beyond it is gone, or several sheets end on one line
+            const uint32_t a = shell.state.elements.part[shell.element(edges[i].element)],
+                           b = shell.state.elements.part[shell.element(edges[i + 1].element)];
+            if (a != b) visit(edges[i], a, b);
+        }
+    };
+    for_each_crack([&](const CrackEdge&, uint32_t, uint32_t) { touches += 2; });
+    const auto out = arena.take<Touch>(touches);
+    if (out.empty()) return out;
+    touches = 0;
+    for_each_crack([&](const CrackEdge& edge, uint32_t a, uint32_t b) {
+        add_touches(shell, edge, a, b, out.data() + touches);
         touches += 2;
-    }
-    return out.first(touches);
+    });
+    return out;
 }
 
 }  // namespace cullet
