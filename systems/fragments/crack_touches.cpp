@@ -1,6 +1,7 @@
 #include "systems/fragments/crack_touches.hpp"
 
 #include <algorithm>
+#include <bit>
 #include <tuple>
 
 #include "systems/fragments/cell_elements.hpp"
@@ -10,12 +11,21 @@ namespace cullet {
 namespace {
 
 struct CrackEdge {
+    uint64_t place;  // of both ends: equal where they are, and sorts in one comparison
     Vec3 low, high;  // rest positions of its ends, in the order of their coordinates
     uint32_t element, edge;
 };
 
 auto key(Vec3 p) {
     return std::tuple(p.x, p.y, p.z);
+}
+
+// Zeros of both signs are one place.
+uint64_t place_of(Vec3 low, Vec3 high) {
+    uint64_t hash = 0;
+    for (const float x : {low.x, low.y, low.z, high.x, high.y, high.z})
+        hash = (hash ^ std::bit_cast<uint32_t>(x + 0.0f)) * 0x9e3779b97f4a7c15ull, hash ^= hash >> 29;
+    return hash;
 }
 
 /// Calls visit(element, edge) for each free edge of a live element that is a crack.
@@ -69,9 +79,10 @@ std::span<Touch> crack_touches(ShellView shell, bool is_local, Arena& arena) {
         Vec3 low = shell.state.vertices.rest[shell.vertex(corner[k])],
              high = shell.state.vertices.rest[shell.vertex(corner[(k + 1) % 3])];
         if (key(high) < key(low)) std::swap(low, high);
-        edges[count++] = {low, high, e, k};
+        edges[count++] = {place_of(low, high), low, high, e, k};
     });
     std::sort(edges.begin(), edges.end(), [](const CrackEdge& p, const CrackEdge& q) {
+        if (p.place != q.place) return p.place < q.place;
         return std::tuple(key(p.low), key(p.high), p.element, p.edge) <
                std::tuple(key(q.low), key(q.high), q.element, q.edge);
     });
