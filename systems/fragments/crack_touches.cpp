@@ -1,6 +1,7 @@
 #include "systems/fragments/crack_touches.hpp"
 
 #include <algorithm>
+#include <bit>
 #include <tuple>
 
 #include "systems/fragments/cell_elements.hpp"
@@ -10,12 +11,21 @@ namespace cullet {
 namespace {
 
 struct CrackEdge {
+    uint64_t place;  // of both ends: equal where they are, and sorts in one comparison
     Vec3 low, high;  // rest positions of its ends, in the order of their coordinates
     uint32_t element, edge;
 };
 
 auto key(Vec3 p) {
     return std::tuple(p.x, p.y, p.z);
+}
+
+// Zeros of both signs are one place.
+uint64_t place_of(Vec3 low, Vec3 high) {
+    uint64_t hash = 0;
+    for (const float x : {low.x, low.y, low.z, high.x, high.y, high.z})
+        hash = (hash ^ std::bit_cast<uint32_t>(x + 0.0f)) * 0x9e3779b97f4a7c15ull, hash ^= hash >> 29;
+    return hash;
 }
 
 /// Calls visit(element, edge) for each free edge of a live element that is a crack.
@@ -62,29 +72,38 @@ std::span<Touch> crack_touches(ShellView shell, bool is_local, Arena& arena) {
     uint32_t count = 0, touches = 0;
     for_each_crack_edge(shell, is_local, [&](uint32_t, uint32_t) { ++count; });
     const auto edges = arena.take<CrackEdge>(count);
+    if (edges.empty()) return {};
     count = 0;
     for_each_crack_edge(shell, is_local, [&](uint32_t e, uint32_t k) {
         const auto& corner = shell.state.elements.corner[shell.element(e)];
         Vec3 low = shell.state.vertices.rest[shell.vertex(corner[k])],
              high = shell.state.vertices.rest[shell.vertex(corner[(k + 1) % 3])];
         if (key(high) < key(low)) std::swap(low, high);
-        edges[count++] = {low, high, e, k};
+        edges[count++] = {place_of(low, high), low, high, e, k};
     });
     std::sort(edges.begin(), edges.end(), [](const CrackEdge& p, const CrackEdge& q) {
+        if (p.place != q.place) return p.place < q.place;
         return std::tuple(key(p.low), key(p.high), p.element, p.edge) <
                std::tuple(key(q.low), key(q.high), q.element, q.edge);
     });
-    const auto out = arena.take<Touch>(count);  // two of an edge, which has two sides
-    for (uint32_t i = 0, end = 0; i < count; i = end) {
-        for (end = i + 1; end < count && edges[end].low == edges[i].low && edges[end].high == edges[i].high;) ++end;
-        if (end - i != 2) continue;  // gone, or several sheets on one line
-        const uint32_t a = shell.state.elements.part[shell.element(edges[i].element)],
-                       b = shell.state.elements.part[shell.element(edges[i + 1].element)];
-        if (a == b) continue;
-        add_touches(shell, edges[i], a, b, out.data() + touches);
+    const auto for_each_crack = [&](auto visit) {
+        for (uint32_t i = 0, end = 0; i < count; i = end) {
+            for (end = i + 1; end < count && edges[end].low == edges[i].low && edges[end].high == edges[i].high;) ++end;
+            if (end - i != 2) continue;  // what lay beyond it is gone, or several sheets end on one line
+            const uint32_t a = shell.state.elements.part[shell.element(edges[i].element)],
+                           b = shell.state.elements.part[shell.element(edges[i + 1].element)];
+            if (a != b) visit(edges[i], a, b);
+        }
+    };
+    for_each_crack([&](const CrackEdge&, uint32_t, uint32_t) { touches += 2; });
+    const auto out = arena.take<Touch>(touches);
+    if (out.empty()) return out;
+    touches = 0;
+    for_each_crack([&](const CrackEdge& edge, uint32_t a, uint32_t b) {
+        add_touches(shell, edge, a, b, out.data() + touches);
         touches += 2;
-    }
-    return out.first(touches);
+    });
+    return out;
 }
 
 }  // namespace cullet

@@ -366,7 +366,7 @@ HandoffReport rigid_handoff(ShellView shell, const HandoffStart& start, std::spa
         m.free_momentum = m.momentum, m.free_spin = m.spin;
         report.energy_unclamped += energy_of(m);
     }
-    if (!start.touches.empty()) part_cracks(start, motions, report);
+    if (!start.touches.empty() && start.touching.size() >= motions.size()) part_cracks(start, motions, report);
     report.free_support = report.support_momentum;
     clamp(start, motions, report);
     keep_energy(motions, report);

@@ -6,7 +6,8 @@ namespace cullet {
 namespace {
 
 constexpr double kClosed = 0.001;
-constexpr uint32_t kMostSweeps = 60;
+constexpr uint32_t kMostSweeps = 80;  // at a third of them a fifth more pairs are seen in each other later
+constexpr uint32_t kSweepsAFullOne = 4;
 
 void prepare(Touch& t, std::span<const Touching> bodies) {
     const Touching &a = bodies[t.a], &b = bodies[t.b];
@@ -40,9 +41,11 @@ double stop(Touch& t, std::span<Touching> bodies) {
 void stop_approach(std::span<Touching> bodies, std::span<Touch> touches, double speed) {
     for (Touch& t : touches) prepare(t, bodies);
     for (uint32_t sweep = 0; sweep < kMostSweeps; ++sweep) {
+        const bool is_full = sweep % kSweepsAFullOne == 0;
         double fastest = 0;
-        for (Touch& t : touches) fastest = std::max(fastest, stop(t, bodies));
-        if (!(fastest > kClosed * speed)) break;
+        for (Touch& t : touches)
+            if (is_full || t.impulse > 0) fastest = std::max(fastest, stop(t, bodies));
+        if (is_full && !(fastest > kClosed * speed)) break;
     }
 }
 

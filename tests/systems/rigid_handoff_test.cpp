@@ -4,6 +4,7 @@
 
 #include "engine/random.hpp"
 #include "systems/cook/apply_pins.hpp"
+#include "systems/fragments/crack_touches.hpp"
 #include "systems/fragments/make_piece.hpp"
 #include "systems/fragments/mass_properties.hpp"
 #include "tests/support/sample_shells.hpp"
@@ -59,6 +60,68 @@ struct Hit {
         return {p, l};
     }
 };
+
+// Edges that were cut between two parts, counted from the shell before: two touches each.
+uint32_t edges_between_parts(Hit& hit) {
+    const State& state = hit.state;
+    const ShellView before(hit.state, hit.intact), after = hit.view();
+    uint32_t count = 0;
+    for (uint32_t e = 0; e < before.element_count(); ++e)
+        for (const uint32_t n : state.elements.neighbour[before.element(e)])
+            count +=
+                n != kNone && n > e && state.elements.part[after.element(e)] != state.elements.part[after.element(n)];
+    return count;
+}
+
+void mark_cracks(Hit& hit) {
+    Elements& elements = hit.state.elements;
+    for (uint32_t e = 0; e < hit.view().element_count(); ++e)
+        for (uint32_t k = 0; k < 3; ++k)
+            if (elements.neighbour[hit.view().element(e)][k] == kNone)
+                elements.edge_kind[hit.view().element(e)][k] = static_cast<uint8_t>(EdgeKind::Crack);
+}
+
+double closing(std::span<const PartMotion> motions, const Touch& t) {
+    const auto velocity = [&](uint32_t p) {
+        return motions[p].velocity + cross(motions[p].spin, t.point - motions[p].centre);
+    };
+    return dot(velocity(t.b) - velocity(t.a), t.normal);
+}
+
+TEST(RigidHandoff, PartsAreNotBornOnTheirWayIntoEachOtherAndKeepTheirMomentaTogether) {
+    Arena arena(1 << 24);
+    for (uint64_t seed = 1; seed <= 20; ++seed) {
+        Hit hit(seed);
+        hit.start.impact_speed = 1e9;  // no clamps
+        rigid_handoff(hit.view(), hit.start, hit.parts, hit.motions);
+        mark_cracks(hit);
+        const auto touches = crack_touches(hit.view(), false, arena);
+        EXPECT_EQ(touches.size(), 2 * edges_between_parts(hit));
+        double before = 0, after = 0;
+        for (const Touch& t : touches) before = std::max(before, closing(hit.motions, t));
+        std::vector<Touching> room(hit.parts.size());
+        hit.start.touches = touches;
+        hit.start.touching = room;
+        hit.start.impact_speed = 100;  // what stop_approach measures by, still without clamps
+        const HandoffReport report = rigid_handoff(hit.view(), hit.start, hit.parts, hit.motions);
+        const auto [p, l] = hit.hidden_momenta(kNone);
+        Vec3d momentum, turning;
+        double size = 0;
+        for (const PartMotion& m : hit.motions) {
+            const Vec3d own = cross(m.centre, m.mass * m.velocity) + m.inertia * m.spin;
+            momentum += m.mass * m.velocity;
+            turning += own;
+            size += length(own);
+        }
+        EXPECT_LT(length(momentum - p), 1e-9 * length(p));
+        EXPECT_GT(report.energy_crushed, 0);
+        EXPECT_LE(report.energy_unclamped + report.energy_crushed, report.energy_hidden);
+        ASSERT_EQ(report.spin_clamps + report.speed_clamps, 0u);
+        EXPECT_LT(length(turning - l), 1e-6 * size);
+        for (const Touch& t : touches) after = std::max(after, closing(hit.motions, t));
+        EXPECT_LT(after, 0.05 * before);
+    }
+}
 
 TEST(RigidHandoff, MomentaAreTheHiddenStatesAndEnergyDoesNotRise) {
     for (uint64_t seed = 1; seed <= 20; ++seed) {

@@ -76,11 +76,11 @@ void expect_sound(const SiblingFigures& f, uint32_t breaks, const Bounds& today)
 }
 
 TEST(Siblings, OfHiddenBreaksAreDrawnAsTheBodyWasAndHardlyHinderEachOther) {
-    expect_sound(figures_of(FractureMode::Hidden, 500), 500, {0.0025, 1.9, 10.2});
+    expect_sound(figures_of(FractureMode::Hidden, 500), 500, {0.0025, 1.9, 10.5});
 }
 
 TEST(Siblings, OfQuickBreaksAreDrawnAsTheBodyWasAndHardlyHinderEachOther) {
-    expect_sound(figures_of(FractureMode::Quick, 500), 500, {0.0035, 1.1, 4.9});
+    expect_sound(figures_of(FractureMode::Quick, 500), 500, {0.0035, 1.1, 7.6});
 }
 
 }  // namespace
