@@ -104,6 +104,14 @@ void expect_kept(World& world) {
     EXPECT_LT(watch.worst_momentum, 1e-6);
 }
 
+TEST(WorldMomentum, WhatIsTooSmallToBeAPieceKeepsItsMassAndMomentumAsDebris) {
+    Settings settings = small_settings();
+    settings.debris_share = 0.05f;
+    Breakage b = vase_and_ball(settings, 12);
+    expect_kept(b.world);
+    EXPECT_GT(b.world.report().debris, 0u);
+}
+
 TEST(WorldMomentum, APinnedWallPassesWhatItsPiecesDoNotTakeIntoTheGround) {
     Breakage b = wall_and_ball(small_settings());
     expect_kept(b.world);
