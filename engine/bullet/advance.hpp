@@ -5,7 +5,7 @@
 
 #include <algorithm>
 
-#include "engine/bullet/body.hpp"
+#include "engine/bullet/pair_algorithm.hpp"
 
 namespace cullet::bullet {
 
@@ -38,19 +38,30 @@ Box swept_box(const Box& box, const Mover& mover, float reach, float dt);
 /// Both were stopped in this step, at different times: one stands still while the other moves on. Where only one is
 /// fast the other's way hardly counts.
 bool are_split(const Body& a, const Body& b);
-/// A body is swept when a point of it may travel farther than contacts reach plus a tenth of its least width: less than
-/// that, the overlap is small and pushed out on the right side.
+/// Two bodies are swept against each other when a point may travel farther than contacts reach plus a tenth of the
+/// least width of both: less than that, the overlap is small and pushed out on the right side.
 bool is_far(double way, float thickness);
+/// Farther than contacts reach: a body may meet what it did not in detect(), however thin.
+bool may_meet_more(double way);
 /// Of the point that goes farthest, m.
 double travel(const Mover& mover, float dt);
 /// Of a piece's farthest point from the centre of mass, at most, m.
 float reach_of(const Body& body, const Hull& hull);
 
+/// The axes along which the pieces of two bodies met last, for those of them that are known.
+struct KnownAxes {
+    const PairAlgorithm* pair = nullptr;  // null: they never met
+    bool is_turned = false;               // the first body is the pair's second one
+    /// From b towards a; zero for pieces that never met.
+    Vec3d of(const Hull& a, const Hull& b) const;
+};
+
 /// The fraction of the step at which the two pieces come within half a millimetre; `limit` when they do not before it.
 /// World points are those of the start, or made here when a `has_moved` since. `axis` is a first guess, such as the
-/// last one of the same two bodies.
+/// last one of the same two bodies. Pieces that touch already may go a millimetre deeper, lively ones in all a third of
+/// the thinner one's width, along the axis that `known` hands on to overlap_axis().
 double touch_fraction(const Mover& a, const Hull& hull_a, const Mover& b, const Hull& hull_b, float dt, double limit,
-                      Vec3d& axis, bool has_moved = false);
+                      Vec3d& axis, const KnownAxes& known = {}, bool has_moved = false);
 
 /// How much a box is grown beyond what it sweeps over, m.
 inline constexpr float kBoxGrowth = 0.01f;

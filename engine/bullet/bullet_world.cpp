@@ -129,11 +129,7 @@ Hull* BulletWorld::make_hull(const ConvexPiece& piece, const BodyFrame& frame, f
 // Turned from the caller's axes into the body's. It may have fewer points than the piece: those inside are left out.
 Hull* BulletWorld::take_shape(const ConvexPiece& piece, const BodyFrame& frame, float margin) {
     Hull* const hull = std::exchange(shapes_[piece.shape], nullptr);
-    const Quat to_axes = conjugate(frame.axes);
-    Vec3 local[kMaxPoints];
-    for (uint32_t k = 0; k < hull->point_count; ++k)
-        local[k] = rotate(to_axes, hull->local.centre + hull->local[k] - frame.centre);
-    build_hull_like(*hull, *hull, matrix(to_axes), {local, hull->point_count}, margin, piece.cell);
+    turn_hull(*hull, matrix(conjugate(frame.axes)), frame.centre, margin, piece.cell);
     return hull;
 }
 
@@ -332,9 +328,7 @@ void BulletWorld::mark_seams(Body& body) {
     seams_.clear();
     size_t new_count = 0;
     for (Hull* hull = body.hulls; hull; hull = hull->next) {
-        Box box = empty_box();
-        for (uint32_t k = 0; k < hull->point_count; ++k) include(box, hull->local.centre + hull->local[k]);
-        seams_.push_back({grown(box, hull->margin + kSeamReach), hull});
+        seams_.push_back({grown(hull->local_box, kSeamReach), hull});
         new_count += !hull->has_seams;
     }
     if (8 * new_count < seams_.size()) return mark_new_seams();
@@ -352,14 +346,14 @@ void BulletWorld::measure_body(Body& body) {
     body.thickness = kFar;
     body.reach = 0;
     for (const Hull* hull = body.hulls; hull; hull = hull->next) {
-        const Vec3 m{hull->margin, hull->margin, hull->margin};
+        const Points& p = hull->local;
         float square = 0;
         for (uint32_t k = 0; k < hull->point_count; ++k) {
-            const Vec3 p = hull->local.centre + hull->local[k];
-            include(body.local_box, p - m);
-            include(body.local_box, p + m);
-            square = std::max(square, dot(p, p));
+            const float x = p.centre.x + p.x[k], y = p.centre.y + p.y[k], z = p.centre.z + p.z[k];
+            square = std::max(square, x * x + y * y + z * z);
         }
+        include(body.local_box, hull->local_box.low);
+        include(body.local_box, hull->local_box.high);
         body.reach = std::max(body.reach, std::sqrt(square) + hull->margin);
         body.thickness = std::min(body.thickness, hull->thickness);
     }

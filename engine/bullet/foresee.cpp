@@ -86,8 +86,10 @@ class Flight {
         flying_.setAngularVelocity(flying_.getAngularVelocity() + turning);
         const Mover mover = this->mover();
         float fraction = 1;
-        if (is_far(travel(mover, dt_), body_.thickness))
-            for (const RigidId id : world_.in_the_way_) fraction = std::min(fraction, free_way(mover, id, fraction));
+        const double way = travel(mover, dt_);
+        for (const RigidId id : world_.in_the_way_)
+            if (is_far(way, std::min(body_.thickness, world_.bodies_[id].thickness)))
+                fraction = std::min(fraction, free_way(mover, id, fraction));
         btTransform moved;
         flying_.predictIntegratedTransform(fraction * dt_, moved);
         flying_.proceedToTransform(moved);

@@ -84,6 +84,15 @@ void set_hull_points(Hull& hull, std::span<const Vec3> points, float margin, uin
     hull.thickness = 2 * (hull.radius + margin);
 }
 
+// Of a hull that was seen in other axes before: heights change with the centre alone, which moved by `shift` (new
+// axes).
+void turn_faces(Hull& hull, const Mat3& turn, Vec3 shift) {
+    for (uint32_t f = 0; f < hull.face_count; ++f) {
+        hull.face_normal[f] = turn * hull.face_normal[f];
+        hull.face_height[f] -= dot(hull.face_normal[f], shift);
+    }
+}
+
 void set_heights(Hull& hull) {
     for (uint32_t f = 0; f < hull.face_count; ++f) {
         const Heights heights = heights_along(hull, hull.face_normal[f]);
@@ -118,16 +127,58 @@ void build_hull(Hull& hull, std::span<const Vec3> points, float margin, uint32_t
 void build_hull_like(Hull& hull, const Hull& like, const Mat3& turn, std::span<const Vec3> points, float margin,
                      uint32_t cell) {
     const uint32_t faces = like.face_count, edges = like.edge_count;  // `like` may be this hull
+    const Vec3 first = turn * like.local[0];
+    const float width = like.thickness - 2 * like.margin;
+    if (&hull != &like) {
+        std::copy(std::begin(like.first_corner), std::end(like.first_corner), hull.first_corner);
+        std::copy_n(like.corner, like.first_corner[faces], hull.corner);
+        std::copy_n(like.edge, edges, hull.edge);
+        std::copy_n(like.face_normal, faces, hull.face_normal);
+        std::copy_n(like.face_height, faces, hull.face_height);
+    }
     set_hull_points(hull, points, margin, cell);
     hull.face_count = faces;
     hull.edge_count = edges;
-    if (&hull != &like) {
-        std::copy_n(like.first_corner, faces + 1, hull.first_corner);
-        std::copy_n(like.corner, like.first_corner[faces], hull.corner);
-        std::copy_n(like.edge, edges, hull.edge);
-    }
-    for (uint32_t f = 0; f < hull.face_count; ++f) hull.face_normal[f] = turn * like.face_normal[f];
-    set_heights(hull);
+    hull.thickness = width + 2 * margin;
+    turn_faces(hull, turn, first - hull.local[0]);
+}
+
+void turn_hull(Hull& hull, const Mat3& r, Vec3 origin, float margin, uint32_t cell) {
+    constexpr uint32_t kLanes = 8;
+    Points& p = hull.local;
+    const Vec3 centre = r * (p.centre - origin);
+    float low[3][kLanes], high[3][kLanes];
+    for (int axis = 0; axis < 3; ++axis) std::fill_n(low[axis], kLanes, kFar), std::fill_n(high[axis], kLanes, -kFar);
+    for (uint32_t k = 0; k < p.count; k += kLanes)
+        for (uint32_t i = 0; i < kLanes; ++i) {
+            const float x = p.x[k + i], y = p.y[k + i], z = p.z[k + i];
+            float turned[3];
+            for (int axis = 0; axis < 3; ++axis) {
+                turned[axis] = r.row[axis].x * x + r.row[axis].y * y + r.row[axis].z * z;
+                low[axis][i] = turned[axis] < low[axis][i] ? turned[axis] : low[axis][i];
+                high[axis][i] = turned[axis] > high[axis][i] ? turned[axis] : high[axis][i];
+            }
+            p.x[k + i] = turned[0], p.y[k + i] = turned[1], p.z[k + i] = turned[2];
+        }
+    const auto least = [&](int axis) { return *std::min_element(low[axis], low[axis] + kLanes); };
+    const auto most = [&](int axis) { return *std::max_element(high[axis], high[axis] + kLanes); };
+    const Box box{{least(0), least(1), least(2)}, {most(0), most(1), most(2)}};
+    // About the middle of the new box.
+    const Vec3 shift = 0.5f * (box.low + box.high);
+    float square[kLanes] = {};
+    for (uint32_t k = 0; k < p.count; k += kLanes)
+        for (uint32_t i = 0; i < kLanes; ++i) {
+            const float x = p.x[k + i] -= shift.x, y = p.y[k + i] -= shift.y, z = p.z[k + i] -= shift.z;
+            const float s = x * x + y * y + z * z;
+            square[i] = s > square[i] ? s : square[i];
+        }
+    p.centre = centre + shift;
+    hull.radius = std::sqrt(*std::max_element(square, square + kLanes));
+    hull.local_box = grown({centre + box.low, centre + box.high}, margin);
+    hull.thickness += 2 * (margin - hull.margin);
+    hull.margin = margin;
+    hull.cell = cell;
+    turn_faces(hull, r, shift);
 }
 
 void build_triangle(Hull& hull, const Vec3 (&corners)[3], uint32_t cell) {
@@ -155,15 +206,18 @@ void mark_inner_faces(Hull& hull, const Hull& other) {
     // Past the margins of both and half a millimetre more, so that faces which lie on each other count and parallel
     // walls do not.
     const float outside = hull.margin + other.margin + 0.0005f;
+    const float reach = other.radius + other.margin;
     for (uint32_t f = 0; f < hull.face_count; ++f) {
+        // Pieces lie beside each other: what covers a face lies beyond it.
+        if (hull.is_face_inner[f] || dot(hull.face_normal[f], between) < hull.face_height[f]) continue;
         Vec3 middle;
         for (uint32_t c = hull.first_corner[f]; c < hull.first_corner[f + 1]; ++c) middle += hull.local[hull.corner[c]];
         const auto corners = static_cast<float>(hull.first_corner[f + 1] - hull.first_corner[f]);
         const Vec3 p = (1 / corners) * middle + outside * hull.face_normal[f] - between;
-        bool is_covered = true;
+        bool is_covered = dot(p, p) < reach * reach;
         for (uint32_t g = 0; g < other.face_count && is_covered; ++g)
             is_covered = dot(other.face_normal[g], p) <= other.face_height[g] + other.margin;
-        hull.is_face_inner[f] |= is_covered;
+        hull.is_face_inner[f] = is_covered;
     }
 }
 

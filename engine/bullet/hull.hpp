@@ -81,6 +81,9 @@ void build_hull(Hull& hull, std::span<const Vec3> points, float margin, uint32_t
 /// the hull itself.
 void build_hull_like(Hull& hull, const Hull& like, const Mat3& turn, std::span<const Vec3> points, float margin,
                      uint32_t cell);
+/// A hull seen from `origin` and in axes that `turn` takes its old ones to: points, normals and bounds are turned where
+/// they stand. World columns stay to be done.
+void turn_hull(Hull& hull, const Mat3& turn, Vec3 origin, float margin, uint32_t cell);
 /// A static triangle in world axes: one face, to the side that its corners run counter-clockwise around.
 void build_triangle(Hull& hull, const Vec3 (&corners)[3], uint32_t cell);
 /// Of its local points.

@@ -344,6 +344,12 @@ void PairAlgorithm::write(PairRecord& record, const Patch& patch, uint32_t cell_
     }
 }
 
+Vec3 PairAlgorithm::axis_of(uint32_t a, uint32_t b) const {
+    const PairRecord* r = records_;
+    while (r && (r->a < a || (r->a == a && r->b < b))) r = r->next;
+    return r && r->a == a && r->b == b ? r->guess : Vec3{};
+}
+
 bool PairAlgorithm::is_apart(float allowed) {
     const Body &a = work_->bodies[a_], &b = work_->bodies[b_];
     find_candidates(a, b, 0, *work_);

@@ -88,6 +88,8 @@ class PairAlgorithm {
             if (r->manifold) found(*r->manifold, *r);
     }
 
+    /// The last axis of two pieces, by their ordinals; zero when they are not watched.
+    Vec3 axis_of(uint32_t a, uint32_t b) const;
     void process();
     /// Drops all contacts and what was remembered.
     void forget();

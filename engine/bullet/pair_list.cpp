@@ -21,6 +21,12 @@ void PairList::give_back(const Pair& pair) {
     memory_.give(pair.algorithm);
 }
 
+const PairAlgorithm* PairList::memory_of(RigidId a, RigidId b) const {
+    const auto at =
+        std::partition_point(pairs_.begin(), pairs_.end(), [&](const Pair& pair) { return pair.comes_before(a, b); });
+    return at != pairs_.end() && at->a == a && at->b == b ? at->algorithm : nullptr;
+}
+
 void PairList::drop(RigidId id) {
     const auto is_gone = [&](const Pair& pair) {
         if (pair.a != id && pair.b != id) return false;

@@ -20,6 +20,8 @@ class PairList {
         found_.reserve(pairs_.capacity());
     }
     const std::vector<Pair>& rows() const { return pairs_; }
+    /// What is remembered of two bodies, a < b; null when they are no pair.
+    const PairAlgorithm* memory_of(RigidId a, RigidId b) const;
     /// In any order, repeats and all; they are pairs from the next renew() on.
     void find(RigidId a, RigidId b) { found_.push_back({std::min(a, b), std::max(a, b), nullptr}); }
     /// Drops the pairs of which `is_near(a, b)` is false and takes in what was found.

@@ -47,10 +47,11 @@ void Sweeper::sweep_pair(BulletWorld& world, Body& a, Body& b, float dt) {
     work.near_b.clear();
     for (const Hull* q = b.hulls; q; q = q->next)
         if (overlap(q->world_box, all_a, turned_b)) work.near_b.push_back(q);
+    const KnownAxes known{world.pairs_.memory_of(std::min(a.id, b.id), std::max(a.id, b.id)), b.id < a.id};
     Vec3d axis;
     const auto advance = [&](const Hull& p, const Hull& q) {
         const double limit = last_fraction(a, b);
-        const double t = touch_fraction(mover_a, p, mover_b, q, dt, limit, axis);
+        const double t = touch_fraction(mover_a, p, mover_b, q, dt, limit, axis, known);
         if (t >= limit) return;
         if (a.is_fast) a.moved_fraction = std::min(a.moved_fraction, static_cast<float>(t));
         if (b.is_fast) b.moved_fraction = std::min(b.moved_fraction, static_cast<float>(t));
@@ -108,7 +109,7 @@ uint32_t Sweeper::sweep(BulletWorld& world, float dt) {
         body.moved_fraction = 1;
         body.is_fast = false;
         const Mover mover = mover_of(body);
-        if (!is_far(travel(mover, dt), body.thickness)) continue;
+        if (!may_meet_more(travel(mover, dt))) continue;
         body.is_fast = true;
         fast_.push_back({id, swept_box(body.shape.box, mover, body.reach, dt)});
     }
@@ -203,7 +204,7 @@ double Sweeper::free_share(BulletWorld& world, Body& body, Vec3d velocity, float
         const Mover still{&other, other.bullet->getWorldTransform(), {}, {}}, before_other = mover_of(other);
         Vec3d axis;
         const auto meet = [&](const Hull& p, const Hull& q) {
-            share = std::min(share, touch_fraction(mover, p, still, q, left, share, axis, true));
+            share = std::min(share, touch_fraction(mover, p, still, q, left, share, axis, {}, true));
         };
         for (const Hull* p = body.hulls; p; p = p->next) {
             const Box box = reached(p->world_box, reach_of(body, *p));

@@ -66,7 +66,7 @@ void Watch::look(const World& world, const std::string& system) {
     worst_momentum = worse(worst_momentum, change / std::sqrt(2 * before.mass * before.kinetic_energy));
 }
 
-void hit_once(World& world, const Shape& shape, Draw draw, SpawnSettings body) {
+Throw throw_at(World& world, const Shape& shape, Draw draw, SpawnSettings body) {
     const ModelId model = world.add_model(shape.model).value();
     const float radius = shape.radius;
     const Vec3 axis = draw.in_ball(1);
@@ -85,12 +85,20 @@ void hit_once(World& world, const Shape& shape, Draw draw, SpawnSettings body) {
     const Vec3 centre = to_world(body.pose, bodies.centre[id.index].to_float());
     ball.pose.position = centre + draw.in_ball(0.5 * radius) - (1.6f * radius + ball.radius) * unit;
     ball.motion.velocity = body.motion.velocity + float(draw.between(3, 25)) * unit;
-    const BodyId striker = world.add_sphere(ball).value();
-    for (int frame = 0; frame < 16; ++frame) world.step();
-    EXPECT_TRUE(world.remove(striker).ok());
+    return {model, id, world.add_sphere(ball).value()};
+}
+
+void clear_away(World& world, ModelId model) {
     for (const BodyId left : shells_of(world)) EXPECT_TRUE(world.remove(left).ok());
     EXPECT_TRUE(world.remove_model(model).ok());
     world.step();
+}
+
+void hit_once(World& world, const Shape& shape, Draw draw, SpawnSettings body) {
+    const Throw thrown = throw_at(world, shape, draw, body);
+    for (int frame = 0; frame < 16; ++frame) world.step();
+    EXPECT_TRUE(world.remove(thrown.striker).ok());
+    clear_away(world, thrown.model);
 }
 
 }  // namespace cullet::test

@@ -49,8 +49,16 @@ struct Watch {
     void look(const World& world, const std::string& system);
 };
 
-/// A body that flies and turns, and a ball that catches up with it, towards a place within half its size; 16 frames,
-/// then the world is empty again. `spawn` says how the body breaks.
+struct Throw {
+    ModelId model;
+    BodyId body, striker;
+};
+/// A body that flies and turns, and a ball that catches up with it, towards a place within half its size. `spawn` says
+/// how the body breaks.
+Throw throw_at(World& world, const Shape& shape, Draw draw, SpawnSettings spawn = {});
+/// Removes all shells and the model; a step later the world is empty but for crumbs.
+void clear_away(World& world, ModelId model);
+/// Such a throw, and 16 frames; then the world is empty again.
 void hit_once(World& world, const Shape& shape, Draw draw, SpawnSettings spawn = {});
 
 }  // namespace cullet::test

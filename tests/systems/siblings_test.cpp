@@ -1,0 +1,87 @@
+// A thousand random breaks in both modes, in free flight: how far the pieces hinder or throw each other and are seen in
+// each other, how fast they leave, and that they are drawn as the body was.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <array>
+#include <cstdlib>
+
+#include "tests/support/sibling_watch.hpp"
+
+namespace cullet::test {
+namespace {
+
+constexpr uint32_t kShapes = 24, kMostHits = 3000, kLookedInside = 60;
+
+double quantile(std::vector<double> values, double share) {
+    if (values.empty()) return 0;
+    const auto at = static_cast<size_t>(share * static_cast<double>(values.size() - 1));
+    std::nth_element(values.begin(), values.begin() + static_cast<std::ptrdiff_t>(at), values.end());
+    return values[at];
+}
+
+SiblingFigures figures_of(FractureMode mode, uint32_t breaks) {
+    Settings settings = small_settings();
+    settings.generations = 0;  // a piece that breaks has other siblings
+    settings.debris_share = 0;
+    settings.debris_elements = 0;
+    World world = make_world(settings);
+    SiblingWatch watch(world);
+    after_each_system(world, [&](const std::string& system) { watch.look(system); });
+    constexpr std::array kinds{FractureKind::Fine, FractureKind::Coarse, FractureKind::Large};
+    std::vector<Shape> shapes;
+    for (uint32_t s = 0; s < kShapes; ++s)
+        shapes.push_back(mode == FractureMode::Quick ? random_shape(s, kinds[s / 4 % kinds.size()]) : random_shape(s));
+    uint32_t hits = 0;
+    for (; hits < kMostHits && watch.figures().breaks < breaks; ++hits) {
+        SpawnSettings spawn;
+        spawn.fracture = mode;
+        if (mode == FractureMode::Quick) spawn.quick.layers = 1 + hits / kShapes % 2;
+        watch.follow(shapes[hits % kShapes], {{9}, hits}, spawn, watch.figures().breaks < kLookedInside);
+    }
+    const SiblingFigures& f = watch.figures();
+    std::printf(
+        "%u breaks in %u hits, %u pieces, %u pairs; energy lost in 3 steps (%zu breaks): median %.3f %%, p90 %.2f %%; "
+        "speed gained (%zu): "
+        "p99 %.3f, most %.3f m/s (alone %zu: p99 %.3f, most %.3f); %u of %u pairs seen in each other, by %.1f mm; "
+        "fastest %.4f, rim %.4f impact speeds; "
+        "clamped %u; %u other surfaces; momentum kept to %.1e, angular to %.1e (median), %.1e (99 %%)\n",
+        f.breaks, hits, f.pieces, f.pairs, f.lost.size(), 100 * quantile(f.lost, 0.5), 100 * quantile(f.lost, 0.9),
+        f.gained.size(), quantile(f.gained, 0.99), quantile(f.gained, 1), f.gained_alone.size(),
+        quantile(f.gained_alone, 0.99), quantile(f.gained_alone, 1), f.seen_in, f.looked_at, 1000 * f.deepest,
+        f.fastest, f.fastest_rim, static_cast<uint32_t>(world.contents().data.counts.clamped), f.other_surfaces,
+        f.momentum_error, quantile(f.turning_errors, 0.5), quantile(f.turning_errors, 0.99));
+    return f;
+}
+
+/// What today's rule keeps to, where it is more than is wanted.
+struct Bounds {
+    double median_lost;            // wanted: 0.01
+    double gained_by_99_per_cent;  // m/s, wanted: 0.2
+    double most_gained;            // m/s, wanted: 1
+};
+
+void expect_sound(const SiblingFigures& f, uint32_t breaks, const Bounds& today) {
+    EXPECT_GE(f.breaks, breaks);
+    EXPECT_EQ(f.other_surfaces, 0u);
+    EXPECT_LT(10 * f.seen_in, f.looked_at);
+    EXPECT_LE(quantile(f.lost, 0.5), today.median_lost);
+    EXPECT_LE(quantile(f.gained, 0.99), today.gained_by_99_per_cent);
+    EXPECT_LE(quantile(f.gained, 1), today.most_gained);
+    // Limits of birth are 2 impact speeds, of the vertices' centre and from there; the solid's lies elsewhere. What is
+    // cut off goes no farther than energy allows.
+    EXPECT_LE(f.fastest, 2.02);
+    EXPECT_LE(f.fastest_rim, 2.2);
+    EXPECT_LE(f.momentum_error, 1e-6);
+}
+
+TEST(Siblings, OfHiddenBreaksAreDrawnAsTheBodyWasAndHardlyHinderEachOther) {
+    expect_sound(figures_of(FractureMode::Hidden, 500), 500, {0.01, 2.6, 16.9});
+}
+
+TEST(Siblings, OfQuickBreaksAreDrawnAsTheBodyWasAndHardlyHinderEachOther) {
+    expect_sound(figures_of(FractureMode::Quick, 500), 500, {0.005, 2.7, 14.7});
+}
+
+}  // namespace
+}  // namespace cullet::test
