@@ -136,9 +136,7 @@ void fade_debris(Serial, Step step, Debris& debris, const DebrisAges& ages, cons
                  DamageCounts& counts);
 /// Crumbs fly on parabolas, bounce off the ground and off bodies larger than they are, slide and come to rest; of a
 /// host's world, which keeps its shapes to itself, they know the floor below their place of birth alone.
-void fall_debris(Rows<Debris> debris, Step step, const RigidWorld& rigid, InOut<&Debris::position> position,
-                 InOut<&Debris::velocity> velocity, In<&Debris::floor> floor, In<&Debris::radius> radius,
-                 InOut<&Debris::is_resting> is_resting, In<&Debris::is_used> is_used);
+void fall_debris(Serial, Step step, const RigidWorld& rigid, Debris& debris, DamageCounts& counts);
 
 // ---- end
 
