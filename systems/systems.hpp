@@ -136,9 +136,7 @@ void return_soft(Serial, const SoftBodies& soft, const SoftStrikers& strikers, R
 void read_rigid(Serial, const RigidWorld& rigid, Bodies& bodies, Events<AsleepEvent>& asleep);
 /// Crumbs fly on parabolas, bounce off the ground and off bodies larger than they are, slide and come to rest; of a
 /// host's world, which keeps its shapes to itself, they know the floor below their place of birth alone.
-void fall_debris(Rows<Debris> debris, Step step, const RigidWorld& rigid, InOut<&Debris::position> position,
-                 InOut<&Debris::velocity> velocity, In<&Debris::floor> floor, In<&Debris::radius> radius,
-                 InOut<&Debris::is_resting> is_resting, In<&Debris::is_used> is_used);
+void fall_debris(Serial, Step step, const RigidWorld& rigid, Debris& debris, DamageCounts& counts);
 /// Checked and Debug builds: between this and its opening the frame made no energy (motion/energy_balance.hpp).
 void close_energy_balance(Serial, Step step, ShellTables shells, const DamageCounts& counts, const RigidWorld& rigid,
                           EnergyBalance& balance);

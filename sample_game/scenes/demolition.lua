@@ -7,11 +7,11 @@ game.scene{
 }
 local shell = game.shell_keys{material = "brick", thickness = 0.22, edge = 0.42}
 local blasts = game.key{name = "scene.explosions", default = 100, least = 1, most = 1000, text = "in 20 seconds"}
-local impulse = game.key{name = "scene.impulse_nspm2", unit = "N s/m2", default = 6000, least = 1, most = 1e6, text = "of an explosion at its centre"}
+local impulse = game.key{name = "scene.impulse_nspm2", unit = "N s/m2", default = 9000, least = 1, most = 1e6, text = "of an explosion at its centre"}
 local most = game.key{name = "scene.fragments", default = 2000, least = 10, most = 100000, text = "pieces alive at once"}
 
 game.setting{
-    break_share = 0.02,
+    break_share = 0.01,
     debris_elements = 3,
     limits = {bodies = 4096, open_hits = 128, queued_hits = 2048, fragments = most, births_a_frame = 100},
 }

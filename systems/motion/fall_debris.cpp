@@ -13,8 +13,8 @@ constexpr float kRestSpeed = 0.15f;   // m/s
 constexpr float kRestSlope = 0.7f;    // cosine: what it lies on is no steeper than 45 degrees
 constexpr uint64_t kRestFrames = 16;  // a crumb that rests looks every so often whether it still lies on something
 
-// As something of no mass: the body feels nothing of it. It is never sent off faster than it came, else a moving body
-// would make energy.
+// As something of no mass: the body feels nothing of it, and what the crumb gives is booked with the ground's. It is
+// never sent off faster than it came, else a moving body would make energy.
 Vec3 bounced(Vec3 velocity, const RigidTouch& touch) {
     const Vec3 relative = velocity - touch.velocity;
     const float closing = -dot(relative, touch.normal);
@@ -66,31 +66,32 @@ bool lies_on_something(Vec3 place, float radius, const RigidWorld& rigid, Step s
 }  // namespace
 
 // Semi-implicit Euler under gravity.
-void fall_debris(Rows<Debris> debris, Step step, const RigidWorld& rigid, InOut<&Debris::position> position,
-                 InOut<&Debris::velocity> velocity, In<&Debris::floor> floor, In<&Debris::radius> radius,
-                 InOut<&Debris::is_resting> is_resting, In<&Debris::is_used> is_used) {
+void fall_debris(Serial, Step step, const RigidWorld& rigid, Debris& debris, DamageCounts& counts) {
     const bool meets_bodies = rigid.knows_surfaces();
-    for (auto d : debris) {
-        if (!is_used[d]) continue;
-        if (is_resting[d]) {
+    for (uint32_t d = 0; d < debris.size(); ++d) {
+        if (!debris.is_used[d]) continue;
+        if (debris.is_resting[d]) {
             if (!meets_bodies || (step.frame + d) % kRestFrames != 0) continue;
-            if (lies_on_something(position[d], radius[d], rigid, step)) continue;
-            is_resting[d] = 0;
+            if (lies_on_something(debris.position[d], debris.radius[d], rigid, step)) continue;
+            debris.is_resting[d] = 0;
         }
-        Crumb crumb{position[d], velocity[d] + step.dt * step.gravity, radius[d]};
-        if (meets_bodies) {
+        const Vec3 falling = debris.velocity[d] + step.dt * step.gravity;
+        Crumb crumb{debris.position[d], falling, debris.radius[d]};
+        if (meets_bodies)
             fly(crumb, rigid, step);
-        } else {
+        else
             crumb.place = crumb.place + step.dt * crumb.velocity;
-        }
-        if (crumb.place.y <= floor[d]) {
-            crumb.place.y = floor[d];
+        if (crumb.place.y <= debris.floor[d]) {
+            crumb.place.y = debris.floor[d];
             crumb.velocity = {};
             crumb.rests = true;
         }
-        position.set(d, crumb.place);
-        velocity.set(d, crumb.velocity);
-        is_resting[d] = crumb.rests;
+        const Vec3d given = debris.mass[d] * (Vec3d(falling) - Vec3d(crumb.velocity));
+        counts.impulse_to_static[0] += given.x, counts.impulse_to_static[1] += given.y;
+        counts.impulse_to_static[2] += given.z;
+        debris.position.set(d, crumb.place);
+        debris.velocity.set(d, crumb.velocity);
+        debris.is_resting[d] = crumb.rests;
     }
 }
 
