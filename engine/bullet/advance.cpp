@@ -10,6 +10,7 @@ constexpr double kStop = 0.0005;  // m, the gap at which a sweep ends
 constexpr double kAim = 0.0001;   // m: an advance aims this much past the gap to stop at, so that it ends in few rounds
 constexpr double kTouching = 0.001;   // m: pieces nearer than this at the start touch already
 constexpr double kDeeper = 0.001;     // m that touching pieces may go deeper in a step,
+constexpr double kSliding = 2e-5;     // or this, on the way that a flock is carried on,
 constexpr double kDeeperShare = 0.1;  // or this share of the thinner one's width, where both are free: slabs of a house
 // that comes down turn into each other by centimetres, and with a millimetre alone two thirds of its way are lost,
 constexpr double kLeast = 0.0002;  // m: while their cores stay this far apart, so that gaps can be measured,
@@ -190,7 +191,7 @@ double touch_fraction(const Mover& a, const Hull& hull_a, const Mover& b, const 
             const double width = std::min(width_along(hull_a, *now_a, axis), width_along(hull_b, *now_b, axis));
             const double deepest = is_lively ? -kDepthShare * width : -kFar;
             const bool are_free = a.body->is_free() && b.body->is_free();
-            const double deeper = are_free ? std::max(kDeeper, kDeeperShare * width) : kDeeper;
+            const double deeper = has_moved ? kSliding : are_free ? std::max(kDeeper, kDeeperShare * width) : kDeeper;
             stop = std::max({gap - deeper, kLeast - margins, deepest});
             // Where the cores (nearly) overlap there is no gap to measure: along the axis of least overlap they may go
             // deeper by as much.

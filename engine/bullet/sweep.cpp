@@ -242,7 +242,7 @@ void Sweeper::carry_flock(BulletWorld& world, std::span<RigidId> flock, float dt
         for (const RigidId id : flock) {
             const double own = free_share(world, world.bodies_[id], velocity, dt, 1);
             if (own < kHardly && round + 1 < kRounds) {
-                world.bodies_[id].flock = id;
+                world.bodies_[id].flock = kNoRigid;  // nobody's
                 continue;
             }
             flock[kept++] = id;

@@ -541,8 +541,8 @@ TEST_P(SceneHash, IsWhatTheSceneAlwaysGave) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Scenes, SceneHash,
-                         testing::Values(KnownHash{"vase", "aa5d5901eb38ef3a"}, KnownHash{"wall", "d36da06dd89ab864"},
-                                         KnownHash{"pane", "efd996ebdc576784"}, KnownHash{"drop", "74f83841a40e288a"}),
+                         testing::Values(KnownHash{"vase", "cca69a4b3d12a3d3"}, KnownHash{"wall", "8d9c3e9a533fd50c"},
+                                         KnownHash{"pane", "93a3f23a23a5961c"}, KnownHash{"drop", "902033885f26b282"}),
                          [](const auto& known) { return std::string(known.param.scene); });
 
 TEST(Script, AFileIsPlayedByItsPathAndOneThatIsNotThereIsNamed) {

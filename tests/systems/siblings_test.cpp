@@ -76,7 +76,7 @@ void expect_sound(const SiblingFigures& f, uint32_t breaks, const Bounds& today)
 }
 
 TEST(Siblings, OfHiddenBreaksAreDrawnAsTheBodyWasAndHardlyHinderEachOther) {
-    expect_sound(figures_of(FractureMode::Hidden, 500), 500, {0.0025, 1.9, 10.5});
+    expect_sound(figures_of(FractureMode::Hidden, 500), 500, {0.0025, 2.2, 10.5});
 }
 
 TEST(Siblings, OfQuickBreaksAreDrawnAsTheBodyWasAndHardlyHinderEachOther) {
