@@ -139,7 +139,7 @@ void read_rigid(Serial, const RigidWorld& rigid, Bodies& bodies, Events<AsleepEv
 void fall_debris(Serial, Step step, const RigidWorld& rigid, Debris& debris, DamageCounts& counts);
 /// Checked and Debug builds: between this and its opening the frame made no energy (motion/energy_balance.hpp).
 void close_energy_balance(Serial, Step step, ShellTables shells, const DamageCounts& counts, const RigidWorld& rigid,
-                          EnergyBalance& balance);
+                          EnergyBalance& balance, Events<FaultEvent>& faults);
 /// Crumbs that are older than the game wants go.
 void fade_debris(Serial, Step step, Debris& debris, const DebrisAges& ages, const DamageSettings& settings,
                  DamageCounts& counts);

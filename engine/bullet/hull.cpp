@@ -236,7 +236,7 @@ void mark_inner_faces(Hull& hull, const Hull& other) {
     const float reach = other.radius + other.margin;
     for (uint32_t f = 0; f < hull.face_count; ++f) {
         // Pieces lie beside each other: what covers a face lies beyond it.
-        if (hull.is_face_inner[f] || dot(hull.face_normal[f], between) < hull.face_height[f]) continue;
+        if (hull.is_face_inner[f]) continue;
         Vec3 middle;
         for (uint32_t c = hull.first_corner[f]; c < hull.first_corner[f + 1]; ++c) middle += hull.local[hull.corner[c]];
         const auto corners = static_cast<float>(hull.first_corner[f + 1] - hull.first_corner[f]);

@@ -1,4 +1,4 @@
-// Whether a frame made energy: in Checked and Debug builds each one is asked.
+// Whether a frame made energy: in Checked and Debug builds each one is asked, and one that did is a fault.
 #pragma once
 #include "engine/rigid_world.hpp"
 #include "systems/motion/world_energy.hpp"
@@ -13,8 +13,9 @@ struct EnergyBalance {
     double from_outside = 0;  // DamageCounts.work_from_outside, as it was
     RigidWork rigid;          // as it was
     double gain = 0;          // J, of the last frame, beyond what is counted
-    double most_gain = 0;     // of all frames so far
-    uint64_t most_frame = 0;  // and in which
+    double most_share = 0;    // of the tolerance, of all frames so far,
+    double most_gain = 0;     // J, in the same frame,
+    uint64_t most_frame = 0;  // which is this one
 };
 
 /// What floats, contacts that are not solved to the end, and springs in steps of their own are allowed, J.

@@ -13,14 +13,15 @@ MechanicalEnergy soft_energy(State& state, Row<SoftBodies> soft, Vec3d gravity) 
     const SpringView view(state, springs_of(state, soft));
     const SpringMotion motion = motion_of(view);
     const Vec3d centre = motion.centre + Vec3d(view.own().origin[view.row]);
-    return {motion.kinetic, -motion.mass * dot(gravity, centre), spring_energy(view) + sheet_energy(view), 0,
+    return {motion.kinetic, -motion.mass * dot(gravity, centre), spring_energy(view) + sheet_energy(view), 0, 1,
             motion.mass};
 }
 
 }  // namespace
 
 MechanicalEnergy& MechanicalEnergy::operator+=(const MechanicalEnergy& o) {
-    kinetic += o.kinetic, height += o.height, strain += o.strain, waiting += o.waiting, mass += o.mass;
+    kinetic += o.kinetic, height += o.height, strain += o.strain, waiting += o.waiting, awake += o.awake,
+        mass += o.mass;
     return *this;
 }
 
@@ -31,15 +32,20 @@ MechanicalEnergy body_energy(State& state, Row<Bodies> body, Vec3 gravity) {
     if (kind != BodyKind::Dynamic && !(kind == BodyKind::Static && has_shell)) return {};
     const Row<SoftBodies> soft = has_shell ? find_soft(state.soft_bodies, body) : Row<SoftBodies>{};
     if (soft.exists() && state.soft_bodies.is_awake[soft]) return soft_energy(state, soft, Vec3d(gravity));
-    return {rigid_energy(bodies, body), -bodies.mass[body] * dot(Vec3d(gravity), Vec3d(centre_of(bodies, body))), 0, 0,
-            bodies.mass[body]};
+    return {
+        rigid_energy(bodies, body), -bodies.mass[body] * dot(Vec3d(gravity), Vec3d(centre_of(bodies, body))), 0, 0, 0,
+        bodies.mass[body]};
 }
 
 MechanicalEnergy debris_energy(const Debris& debris, uint32_t row, Vec3 gravity) {
     if (!debris.is_used[row]) return {};
     const Vec3d v(debris.velocity[row]);
-    return {0.5 * debris.mass[row] * dot(v, v), -debris.mass[row] * dot(Vec3d(gravity), Vec3d(debris.position[row])), 0,
-            0, debris.mass[row]};
+    return {0.5 * debris.mass[row] * dot(v, v),
+            -debris.mass[row] * dot(Vec3d(gravity), Vec3d(debris.position[row])),
+            0,
+            0,
+            0,
+            debris.mass[row]};
 }
 
 MechanicalEnergy world_energy(State& state, Vec3 gravity) {

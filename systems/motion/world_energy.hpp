@@ -10,6 +10,7 @@ struct MechanicalEnergy {
     double height = 0;   // -m g . x, x from the world's origin
     double strain = 0;   // of the springs of soft bodies that are awake
     double waiting = 0;  // that bodies which struck each other gain when the task of the second ends; may be negative
+    uint32_t awake = 0;  // soft bodies that move by their springs
     double mass = 0;     // kg, of all that is counted
     double total() const { return kinetic + height + strain + waiting; }
     MechanicalEnergy& operator+=(const MechanicalEnergy& o);

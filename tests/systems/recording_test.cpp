@@ -319,7 +319,9 @@ std::string told_of_a_push(const std::string& path, uint64_t steps) {
         for (uint64_t step = 0; step < steps; ++step) EXPECT_TRUE(run->step());
         if (which == 1)
             run->world().contents().after_each_system = [&run = *run](const PlannedSystem<WorldData>& system) {
-                if (system.name == "read_rigid") test::state_of(run.world()).bodies.velocity.set(1, {1, 2, 3});
+                if (system.name != "read_rigid") return;
+                test::state_of(run.world()).bodies.velocity.set(1, {1, 2, 3});
+                run.world().contents().data.counts.work_from_outside += 1000;  // J, more than that
             };
         return run;
     });
