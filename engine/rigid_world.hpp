@@ -100,7 +100,7 @@ struct RigidCounts {
 };
 
 /// Work that came into the rigid world by other ways than forces, J, of all solves since creation. Without it contacts
-/// take energy and never give any.
+/// take energy and never give any. Measured in Checked and Debug builds alone.
 struct RigidWork {
     double lifted = 0;  // against gravity, by moving overlapping bodies apart
     double ahead = 0;   // gravity's on bodies that were stopped on their way: their velocity has that of the whole step

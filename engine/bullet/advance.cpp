@@ -188,12 +188,11 @@ double touch_fraction(const Mover& a, const Hull& hull_a, const Mover& b, const 
         }
         if (round == 0 && gap < kTouching) {
             // They touch: the solver has slowed them where they do, but the rest of a piece may still swing in.
-            const double deepest = is_lively ? -kDepthShare * std::min(width_along(hull_a, *now_a, axis),
-                                                                       width_along(hull_b, *now_b, axis))
-                                             : -kFar;
-            const bool are_free = a.body->is_free() && b.body->is_free() && !has_moved;
-            const double thinner = are_free ? std::min(hull_a.thickness, hull_b.thickness) : 0;
-            const double allowed = std::min(gap - (has_moved ? kSliding : kDeeper), -kDeeperShare * thinner);
+            const double width = std::min(width_along(hull_a, *now_a, axis), width_along(hull_b, *now_b, axis));
+            const double deepest = is_lively ? -kDepthShare * width : -kFar;
+            double allowed = gap - (has_moved ? kSliding : kDeeper);
+            if (!has_moved && a.body->is_free() && b.body->is_free())
+                allowed = std::min(allowed, std::max(gap - kDeeperShare * width, -kDepthShare * width));
             stop = std::max({allowed, kLeast - margins, deepest});
             // Where the cores (nearly) overlap there is no gap to measure: along the axis of least overlap they may go
             // deeper by as much.

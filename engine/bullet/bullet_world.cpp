@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "engine/assert.hpp"
+#include "engine/bullet/advance.hpp"
 #include "engine/bullet/free_turn.hpp"
 #include "engine/bullet/principal_axes.hpp"
 #include "engine/rigid_allocations.hpp"
@@ -790,14 +791,14 @@ void BulletWorld::solve(float dt) {
         turn_freely(*body.bullet, dt);
         if (body.is_touched) body.bullet->applyDamping(dt);
     }
-    const double before = height_energy();
+    const double before = CULLET_CHECKS_ON ? height_energy() : 0;
     solve_contacts(dt);
     sum_impulse_to_static();
-    sum_driven_work();
-    const double lifted = height_energy(), falling = dt * falling_power();
+    if (CULLET_CHECKS_ON) sum_driven_work();
+    const double lifted = CULLET_CHECKS_ON ? height_energy() : 0, falling = CULLET_CHECKS_ON ? dt * falling_power() : 0;
     integrate(dt);
     work_done_.lifted += lifted - before;
-    work_done_.ahead += height_energy() - lifted + falling;
+    work_done_.ahead += CULLET_CHECKS_ON ? height_energy() - lifted + falling : 0;
     update_sleep(dt);
     for (RigidId id = 0; id < body_end_; ++id)
         if (bodies_[id].is_used) bodies_[id].bullet->clearForces();
@@ -840,6 +841,10 @@ void BulletWorld::integrate(float dt) {
         body.bullet->proceedToTransform(moved);
     }
     sweeper_.carry_on(*this, dt);
+    farthest_way_ = 0;
+    for (RigidId id = 0; id < body_end_; ++id)
+        if (bodies_[id].is_used)
+            farthest_way_ = std::max(farthest_way_, static_cast<float>(travel(mover_of(bodies_[id]), dt)));
 }
 
 }  // namespace cullet::bullet

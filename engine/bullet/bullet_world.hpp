@@ -171,7 +171,8 @@ class BulletWorld final : public RigidWorld {
     Sweeper sweeper_;
     RigidCounts counts_;
     Vec3d to_static_;
-    RigidWork work_done_;
+    RigidWork work_done_;     // in Checked and Debug builds
+    float farthest_way_ = 0;  // m, that a point of a body went in the last step, at most
 };
 
 }  // namespace cullet::bullet

@@ -90,14 +90,14 @@ bool BulletWorld::first_touch(Vec3 from, Vec3 to, float seconds, float radius, f
                               RigidTouch& out) const {
     Box box{from, from};
     include(box, to);
-    box = grown(box, radius);
+    box = grown(box, radius + farthest_way_);  // the tree holds bodies where they were before the step
     float share = 1;
     Vec3 normal, met_from;
     float depth = 0;
     RigidId met = kNoRigid;
     tree_.visit(box, [&](uint32_t id) {
         const Body& body = bodies_[id];
-        if (!body.is_used || (body.kind != RigidKind::Static && body.reach < least_reach)) return;
+        if (!body.is_used || body.is_soft || (body.kind != RigidKind::Static && body.reach < least_reach)) return;
         float nearest = 1, found_depth = 0;
         Vec3 found;
         bool is_met = false;
@@ -105,7 +105,7 @@ bool BulletWorld::first_touch(Vec3 from, Vec3 to, float seconds, float radius, f
         const Mat3 rotation = rotation_of(at);
         const Vec3 origin = from_bullet(at.getOrigin());
         // What moves has come from where the ball was that much nearer to it.
-        const Vec3 start = from + seconds * velocity_at(body, from);
+        const Vec3 start = from + seconds * body.moved_fraction * velocity_at(body, from);
         const float deepest = body.is_free() ? kDeepestInFree : radius + kDeepest;
         const Way way{transposed_times(rotation, start - origin), transposed_times(rotation, to - start), radius,
                       deepest};

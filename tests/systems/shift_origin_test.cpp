@@ -48,8 +48,10 @@ Outcome played(World& world, int frames) {
     }
     const std::vector<BodyId> bodies = shells_of(world);
     for (const BodyId body : bodies)
-        outcome.middle += 1.0f / static_cast<float>(bodies.size()) * world.pose(body).value().position;
+        outcome.middle +=
+            static_cast<float>(state_of(world).bodies.mass[body.index]) * world.pose(body).value().position;
     outcome.mass = matter_of(world).mass;
+    outcome.middle = static_cast<float>(1 / outcome.mass) * outcome.middle;
     return outcome;
 }
 
