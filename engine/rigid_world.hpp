@@ -199,7 +199,7 @@ class RigidWorld {
     virtual void wake(RigidId id) = 0;
     virtual RigidCounts counts() const = 0;
     /// N s, of all solves since creation: what dynamic bodies gave through contacts to whatever did not move by forces:
-    /// static, kinematic and held bodies. What sleep and rest took from slow bodies is in it. With it the momentum of
+    /// static, kinematic and held bodies. What sleep took from slow bodies is in it. With it the momentum of
     /// the dynamic bodies changes by gravity's share alone.
     virtual Vec3d impulse_to_static() const = 0;
     virtual RigidWork work() const { return {}; }

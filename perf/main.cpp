@@ -114,7 +114,8 @@ int main(int argc, char** argv) {
     app.add_option("--simd", options.simd, "level of the kernels: best, scalar, sse4, avx2, avx512");
     app.add_option("--passes", options.passes, "times through all scenes; noise is how far they lie apart")
         ->check(CLI::Range(1, 100));
-    app.add_option("--rounds", options.rounds, "runs a pass of which the least is taken; 0: the scene's own number");
+    app.add_option("--rounds", options.rounds,
+                   "runs a pass of which the least is taken; of soak: fragments; 0: the scene's own number");
     app.add_option("--json", options.json, "writes all figures to this file");
     app.add_option("--compare", files,
                    "OLD NEW: prints what moved by more than the noise of both, and measures nothing.\n"

@@ -689,7 +689,7 @@ void BulletWorld::gather_contacts() {
     }
 }
 
-// What rest takes from a body counts as given to what it lies on.
+// What sleep takes from a body counts as given to what it lies on.
 void BulletWorld::set_velocities(Body& body, const btVector3& linear, const btVector3& angular) {
     to_static_ += static_cast<double>(body.mass) * Vec3d(from_bullet(body.bullet->getLinearVelocity() - linear));
     body.bullet->setLinearVelocity(linear);
@@ -807,8 +807,8 @@ void BulletWorld::solve(float dt) {
     skipped_.clear();
 }
 
-// Twenty iterations leave a heap that is hit hard with metres per second of approach. Where a contact still closes
-// after them, its bodies move on only as far as takes it kPressedIn deeper; the next step goes on slowing them.
+// The solver's iterations leave a heap that is hit hard with metres per second of approach. Where a contact still
+// closes after them, its bodies move on only as far as takes it kPressedIn deeper; the next step goes on slowing them.
 void BulletWorld::limit_closing(float dt) {
     for (const SortedManifold& m : manifolds_) {
         if (!m.manifold) continue;

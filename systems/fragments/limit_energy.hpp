@@ -23,8 +23,8 @@ void limit_energy(Births& births, const Break& plan, double allowed);
 
 /// What is still too much after that is the pieces' common motion: of three bodies that break each other in one frame
 /// the last got impulses that no other of the runs knew of. Pieces and strikers, one after another, go nearer to the
-/// velocity that they have in common, by an impulse between their centres, until both
-/// together have lost what was too much.
+/// velocity that they have in common, by an impulse between their centres, until both together have lost what was too
+/// much.
 void share_with_strikers(Births& births, const Break& plan, double allowed);
 
 }  // namespace cullet

@@ -124,7 +124,10 @@ TEST(RigidWorld, AFreeSpinKeepsEnergyAndAngularMomentumHoweverFast) {
         const Vec3 after = momentum();
         EXPECT_NEAR(length(after) / length(before), 1, 0.001);
         EXPECT_NEAR(dot(spin(), i * spin()) / energy, 1, 1e-4);
-        EXPECT_GT(dot(normalised(after), normalised(before)), times == 1 ? 0.998f : -1.1f);
+        // Poses turn by at most 45 degrees a step: beyond that the axis of the momentum is lost.
+        if (times == 1) {
+            EXPECT_GT(dot(normalised(after), normalised(before)), 0.998f);
+        }
     }
 }
 
