@@ -10,8 +10,8 @@ inline constexpr uint64_t kUnitsStressCheck = 5;    // a vertex through one stre
 inline constexpr uint64_t kUnitsEnergyCheck = 5;    // a vertex
 inline constexpr uint64_t kUnitsContactVertex = 6;  // a patch vertex through one hidden step
 inline constexpr uint64_t kUnitsCut = 15000;  // a cut edge: inserts, splits, about 12 rows; 50 microseconds at most
-// Of a hidden run: with that much owed, 200 cut edges, it stops for this frame. Explosions in houses cut several hundred
-// in one frame, which then took 24 ms.
+// Of a hidden run: with that much owed, 200 cut edges, it stops for this frame. Explosions in houses cut several
+// hundred in one frame, which then took 24 ms.
 inline constexpr uint64_t kMostUnitsOwed = 3'000'000;
 inline constexpr uint64_t kUnitsCutElement = 200;  // an element that a cut of the game looks at, a segment of its line
 inline constexpr uint64_t kUnitsOpen = 220;        // a vertex when a task opens: copy, patches

@@ -8,22 +8,22 @@ namespace {
 constexpr float kThicknessShare = 0.1f;
 constexpr double kStop = 0.0005;  // m, the gap at which a sweep ends
 constexpr double kAim = 0.0001;   // m: an advance aims this much past the gap to stop at, so that it ends in few rounds
-constexpr double kTouching = 0.001;   // m: pieces nearer than this at the start touch already
-constexpr double kDeeper = 0.001;     // m that touching pieces may go deeper in a step,
-constexpr double kSliding = 2e-5;     // or this, on the way that a flock is carried on,
-constexpr double kDeeperShare = 0.1;  // or this share of the thinner one's width, where both are free: slabs of a house
-// that comes down turn into each other by centimetres, and with a millimetre alone two thirds of its way are lost,
-constexpr double kLeast = 0.0002;  // m: while their cores stay this far apart, so that gaps can be measured,
-// and lively ones in all this share of the thinner one's width. Without it a sheet of 2 mm that strikes with its edge
-// and spins at 400 rad/s works its way through a plate of a centimetre, a millimetre a step. From a half on sides are
-// lost.
+constexpr double kTouching = 0.001;  // m: pieces nearer than this at the start touch already
+// How much deeper touching pieces may go in a step, m. Where both are free also a share of the thinner one's width:
+// slabs of a house that comes down turn into each other by centimetres, and with a millimetre alone two thirds of their
+// way are lost. On the way that a flock is carried on they only slide.
+constexpr double kDeeper = 0.001, kDeeperShare = 0.1, kSliding = 2e-5;
+constexpr double kLeast = 0.0002;  // m that their cores stay apart, where they are, so that gaps can be measured
+// Lively ones may go in all this share of the thinner one's width deep. Without it a sheet of 2 mm that strikes with
+// its edge and spins at 400 rad/s works its way through a plate of a centimetre, a millimetre a step. From a half on
+// sides are lost.
 constexpr double kDepthShare = 1.0 / 3;
 // What moves less in a step is pushed out faster than it works its way in. At 0 shards of a heap that lie deep in each
 // other stand still at every wrong move and rock on; the larger, the more corners get past the middle of a shell of 4
 // mm (here at most 5 of 10,000 spinning sheets; past its far side none).
 constexpr double kLively = 0.03;  // m
 constexpr double kShort = 0.001;  // of the time left: as good as none
-constexpr int kRounds = 48;       // then the body stops where it is: early, never late
+constexpr int kRounds = 48;       // then the body stops where it is
 
 // The spheres about both pieces do not meet on a straight way, turning included.
 bool pass_by(const Hull& a, const Hull& b, Vec3d way, double turning) {
@@ -85,8 +85,9 @@ struct Approach {
     }
 };
 
-// How long the gap along an axis stays above `stop`, at least: all of `left`, or less. The bound of the gap is concave,
-// so that Newton's steps from the end come down to the time from above.
+// How long the gap along an axis stays above `stop`: all of `left`, or less, to within half of kAim. The bound of the
+// gap is concave, so that Newton's steps from the end come down to the time from above, doubling their digits; twelve
+// are more than they need.
 double time_until(const Approach& a, const Approach& b, double apart, double stop, double left) {
     constexpr int kSteps = 12;
     double t = left;

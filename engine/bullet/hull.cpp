@@ -235,7 +235,6 @@ void mark_inner_faces(Hull& hull, const Hull& other) {
     const float outside = hull.margin + other.margin + 0.0005f;
     const float reach = other.radius + other.margin;
     for (uint32_t f = 0; f < hull.face_count; ++f) {
-        // Pieces lie beside each other: what covers a face lies beyond it.
         if (hull.is_face_inner[f]) continue;
         Vec3 middle;
         for (uint32_t c = hull.first_corner[f]; c < hull.first_corner[f + 1]; ++c) middle += hull.local[hull.corner[c]];
