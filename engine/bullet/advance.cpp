@@ -9,10 +9,10 @@ constexpr float kThicknessShare = 0.1f;
 constexpr double kStop = 0.0005;  // m, the gap at which a sweep ends
 constexpr double kAim = 0.0001;   // m: an advance aims this much past the gap to stop at, so that it ends in few rounds
 constexpr double kTouching = 0.001;  // m: pieces nearer than this at the start touch already
-// How much deeper touching pieces may go in a step, m. Where both are free also a share of the thinner one's width:
-// slabs of a house that comes down turn into each other by centimetres, and with a millimetre alone two thirds of their
-// way are lost. On the way that a flock is carried on they only slide.
-constexpr double kDeeper = 0.001, kDeeperShare = 0.1, kSliding = 2e-5;
+// How much deeper touching pieces may go in a step where one of them stands, m; on the way that a flock is carried on
+// they only slide. Two free ones may go in a third of the thinner one's width, and what lies deeper than that is pushed
+// out, not stopped: a heap's pieces whose far corners swing in would stand still in the air with all their speed.
+constexpr double kDeeper = 0.001, kSliding = 2e-5;
 constexpr double kLeast = 0.0002;  // m that their cores stay apart, where they are, so that gaps can be measured
 // Lively ones may go in all this share of the thinner one's width deep. Without it a sheet of 2 mm that strikes with
 // its edge and spins at 400 rad/s works its way through a plate of a centimetre, a millimetre a step. From a half on
@@ -226,10 +226,12 @@ double touch_fraction(const Mover& a, const Hull& hull_a, const Mover& b, const 
         if (round == 0 && gap < kTouching) {
             // They touch: the solver has slowed them where they do, but the rest of a piece may still swing in.
             const double width = std::min(width_along(hull_a, *now_a, axis), width_along(hull_b, *now_b, axis));
-            const double deepest = is_lively ? -kDepthShare * width : -kFar;
+            const double third = -kDepthShare * width;
+            const bool are_free = !has_moved && a.body->is_free() && b.body->is_free();
+            if (are_free && gap < third) return limit;
+            const double deepest = is_lively ? third : -kFar;
             double allowed = gap - (has_moved ? kSliding : kDeeper);
-            if (!has_moved && a.body->is_free() && b.body->is_free())
-                allowed = std::min(allowed, std::max(gap - kDeeperShare * width, -kDepthShare * width));
+            if (are_free) allowed = std::min(allowed, third);
             stop = std::max({allowed, kLeast - margins, deepest});
             // Where the cores (nearly) overlap there is no gap to measure: along the axis of least overlap they may go
             // deeper by as much.
