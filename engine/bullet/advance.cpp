@@ -197,8 +197,7 @@ double touch_fraction(const Mover& a, const Hull& hull_a, const Mover& b, const 
         const double left = dt * (limit - t), together = dt * std::max(split - t, 0.0);
         double gap = -1;
         if (!is_axis_fixed) {
-            const Closest closest =
-                closest_points(*now_a, *now_b, axis, turning * left + margins + kStop,
+            const Closest closest = closest_points(*now_a, *now_b, axis, turning * left + margins + kStop,
                                                    {together * first, (left - together) * second});
             axis = closest.axis;
             if (closest.is_beyond) return limit;

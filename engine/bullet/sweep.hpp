@@ -26,6 +26,8 @@ class Sweeper {
     /// velocity of their common centre of mass, as far as nothing else is in the way. Houses that come down would hang
     /// in the air while gravity makes them faster.
     void carry_on(BulletWorld& world, float dt);
+    /// Then: what stopped a body within the range of contacts also takes the speed that leads into it.
+    void slow_down(BulletWorld& world);
 
  private:
     struct Fast {
@@ -35,13 +37,12 @@ class Sweeper {
     };
     /// What stopped a body in this step, last.
     struct Brake {
-        RigidId other = kNoRigid;                 // none: nothing did
-        uint32_t ordinal = 0, other_ordinal = 0;  // of the pieces that met
+        RigidId other = kNoRigid;                           // none: nothing did
+        uint32_t ordinal = 0, other_ordinal = 0;            // of the pieces that met
         const Hull *hull = nullptr, *other_hull = nullptr;  // null: a triangle
         Vec3 normal;                                        // from the other one towards the body
     };
     void stop(Body& body, const Hull& hull, const Body& other, const Hull& other_hull, Vec3 normal, float at);
-    void slow_down(BulletWorld& world);
     static bool stop_closing(BulletWorld& world, Body& a, const Hull& p, Body& b, const Hull& q, Vec3 normal);
     void find_near(const BulletWorld& world, const Box& box);
     double low_of(uint32_t k) const { return double{fast_[k].swept.low.*axis_}; }
