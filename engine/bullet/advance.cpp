@@ -51,11 +51,18 @@ struct Approach {
                       // (w x r) . n t, to less than |w|^2 |r| t^2 / 2
 
     // Bullet turns by at most an eighth of a turn in a step and stands still after: turning helps only below that. What
-    // another body may have stopped (`is_stopped`) helps not at all.
+    // another body has stopped already (`is_stopped`) only stands there.
     Approach(const Points& points, const Mover& mover, const btTransform& at, Vec3d axis, double sign, float reach,
              float dt, bool is_stopped)
         : count(points.count) {
         const Vec3 n = (sign * axis).to_float();
+        if (is_stopped) {
+            for (uint32_t k = 0; k < count; ++k) {
+                height[k] = n.x * points.x[k] + n.y * points.y[k] + n.z * points.z[k];
+                speed[k] = 0;
+            }
+            return;
+        }
         const Vec3 lever = cross(n, mover.spin.to_float());  // (w x r) . n = (n x w) . r
         const Vec3 arm = points.centre - from_bullet(at.getOrigin());
         const float moving = static_cast<float>(sign * dot(mover.velocity, axis)), swinging = dot(lever, arm);
@@ -65,9 +72,8 @@ struct Approach {
         for (uint32_t k = 0; k < count; ++k) {
             const float x = points.x[k], y = points.y[k], z = points.z[k];
             const float turning = swinging + (lever.x * x + lever.y * y + lever.z * z);
-            const float both = moving + (turns_on ? turning : std::min(turning, 0.0f));
             height[k] = n.x * x + n.y * y + n.z * z;
-            speed[k] = is_stopped ? std::min(both, 0.0f) : both;
+            speed[k] = moving + (turns_on ? turning : std::min(turning, 0.0f));
         }
     }
     struct Low {
@@ -99,6 +105,16 @@ double time_until(const Approach& a, const Approach& b, double apart, double sto
         if (room > -0.5 * kAim) break;
     }
     return t;
+}
+
+// Two pieces that touch turn together: the axis along which their depth is measured goes with either of them, but not
+// farther than this from where it was.
+constexpr double kAligned = 0.8;
+
+Vec3d carried(const Mover& mover, const btTransform& at, Vec3d axis) {
+    const btMatrix3x3 turn = at.getBasis() * mover.start.getBasis().transpose();
+    const Vec3d out(from_bullet(turn * to_bullet(axis.to_float())));
+    return (1 / length(out)) * out;
 }
 
 }  // namespace
@@ -153,21 +169,23 @@ Vec3d KnownAxes::of(const Hull& a, const Hull& b) const {
 double touch_fraction(const Mover& a, const Hull& hull_a, const Mover& b, const Hull& hull_b, float dt, double limit,
                       Vec3d& axis, const KnownAxes& known, bool has_moved) {
     const double turning = length(a.spin) * reach_of(*a.body, hull_a) + length(b.spin) * reach_of(*b.body, hull_b);
-    // A body that was stopped earlier in the step may stand still by now: then each motion alone counts too.
-    const bool is_stopped = are_split(*a.body, *b.body);
-    const Vec3d nothing, first = is_stopped ? -a.velocity : b.velocity - a.velocity,
-                         second = is_stopped ? b.velocity : nothing;
-    if (!is_stopped && pass_by(hull_a, hull_b, (dt * limit) * first, turning * dt * limit)) return limit;
+    // From here on only one of the two moves.
+    const double fraction_a = static_cast<double>(a.body->moved_fraction),
+                 fraction_b = static_cast<double>(b.body->moved_fraction);
+    const bool is_split = are_split(*a.body, *b.body);
+    const double split = is_split ? std::min({fraction_a, fraction_b, limit}) : limit;
+    const Vec3d first = b.velocity - a.velocity, second = fraction_a < fraction_b ? b.velocity : -a.velocity;
+    if (!is_split && pass_by(hull_a, hull_b, (dt * limit) * first, turning * dt * limit)) return limit;
     const double margins = static_cast<double>(hull_a.margin) + hull_b.margin;
     Points points_a, points_b;
     const Points *now_a = &hull_a.world, *now_b = &hull_b.world;
     const float reach_a = reach_of(*a.body, hull_a), reach_b = reach_of(*b.body, hull_b);
     double t = 0, stop = kStop;
     // The pair's contact, found where the two stand now, has the axis.
-    const Vec3d met = has_moved ? Vec3d() : known.of(hull_a, hull_b);
+    Vec3d met = has_moved ? Vec3d() : known.of(hull_a, hull_b);
     bool is_axis_fixed = dot(met, met) > 0.5;
     if (is_axis_fixed) axis = met;
-    const bool is_lively = (turning + length(first) + length(second)) * dt > kLively;
+    const bool is_lively = (turning + std::max(length(first), is_split ? length(second) : 0)) * dt > kLively;
     for (int round = 0; round < kRounds; ++round) {
         const btTransform at_a = a.at(t, dt), at_b = b.at(t, dt);
         if (round > 0 || has_moved) {
@@ -176,16 +194,26 @@ double touch_fraction(const Mover& a, const Hull& hull_a, const Mover& b, const 
             transform_points(hull_b, rotation_of(hulls_b), from_bullet(hulls_b.getOrigin()), points_b);
             now_a = &points_a, now_b = &points_b;
         }
-        const double left = dt * (limit - t);
+        const double left = dt * (limit - t), together = dt * std::max(split - t, 0.0);
         double gap = -1;
         if (!is_axis_fixed) {
-            const Closest closest =
-                closest_points(*now_a, *now_b, axis, turning * left + margins + kStop, {left * first, left * second});
+            const Closest closest = closest_points(*now_a, *now_b, axis, turning * left + margins + kStop,
+                                                   {together * first, (left - together) * second});
             axis = closest.axis;
             if (closest.is_beyond) return limit;
             if (closest.is_apart || round == 0) gap = gap_along(*now_a, *now_b, axis) - margins;
         } else {
             gap = gap_along(*now_a, *now_b, axis) - margins;
+            const auto offer = [&](Vec3d carried) {
+                if (!(dot(carried, met) > kAligned)) return;
+                const double other = gap_along(*now_a, *now_b, carried) - margins;
+                if (other > gap) gap = other, axis = carried;
+            };
+            if (round > 0) {
+                offer(met);
+                offer(carried(a, at_a, met));
+                offer(carried(b, at_b, met));
+            }
         }
         if (round == 0 && gap < kTouching) {
             // They touch: the solver has slowed them where they do, but the rest of a piece may still swing in.
@@ -198,19 +226,24 @@ double touch_fraction(const Mover& a, const Hull& hull_a, const Mover& b, const 
             // Where the cores (nearly) overlap there is no gap to measure: along the axis of least overlap they may go
             // deeper by as much.
             is_axis_fixed = stop >= gap;
-            if (is_axis_fixed) stop = std::min(gap, std::max(allowed, deepest));
+            if (is_axis_fixed) stop = std::min(gap, std::max(allowed, deepest)), met = axis;
         } else if (round == 0) {
             is_axis_fixed = false;
         }
         if (gap < stop) return t;
-        const Approach coming_a(*now_a, a, at_a, axis, 1, reach_a, dt, is_stopped),
-            coming_b(*now_b, b, at_b, axis, -1, reach_b, dt, is_stopped);
+        const bool is_alone = is_split && t >= split;
+        const Approach coming_a(*now_a, a, at_a, axis, 1, reach_a, dt, is_alone && fraction_a < fraction_b),
+            coming_b(*now_b, b, at_b, axis, -1, reach_b, dt, is_alone && fraction_b < fraction_a);
         const double apart = dot(axis, Vec3d(now_a->centre) - Vec3d(now_b->centre)) - margins;
         // Along an axis that stays there is nothing new to measure at the stop. All of the step counts, whatever the
         // limit, so that a flight which is foreseen ends in the same bits.
-        const double rest = dt * (1 - t);
+        const double rest = is_split && !is_alone ? together : dt * (1 - t);
         const double taken = time_until(coming_a, coming_b, apart, is_axis_fixed ? stop : stop - kAim, rest);
         if (taken >= left) return limit;
+        if (is_split && !is_alone && taken >= together) {
+            t = split;
+            continue;
+        }
         t += taken / dt;
         if (taken < kShort * rest) return t;
     }
