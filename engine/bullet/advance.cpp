@@ -195,7 +195,7 @@ Vec3d KnownAxes::of(const Hull& a, const Hull& b) const {
 double touch_fraction(const Mover& a, const Hull& hull_a, const Mover& b, const Hull& hull_b, float dt, double limit,
                       Vec3d& axis, const KnownAxes& known, bool has_moved) {
     const double turning = length(a.spin) * reach_of(*a.body, hull_a) + length(b.spin) * reach_of(*b.body, hull_b);
-    // From here on only one of the two moves.
+    // Where the two were stopped at different times one goes on alone after the first of them.
     const double fraction_a = static_cast<double>(a.body->moved_fraction),
                  fraction_b = static_cast<double>(b.body->moved_fraction);
     const bool is_split = are_split(*a.body, *b.body);
@@ -252,7 +252,7 @@ double touch_fraction(const Mover& a, const Hull& hull_a, const Mover& b, const 
         const bool is_alone = is_split && t >= split;
         const double rest = is_split && !is_alone ? together : dt * (1 - t);
         TurningFrame frame;
-        if (is_axis_fixed && !is_split) frame = TurningFrame::of(a, at_a, b, at_b, dt);
+        if (is_axis_fixed && !is_alone) frame = TurningFrame::of(a, at_a, b, at_b, dt);
         Approach coming_a(*now_a, a, at_a, axis, 1, reach_a, dt, is_alone && fraction_a < fraction_b, frame);
         const Approach coming_b(*now_b, b, at_b, axis, -1, reach_b, dt, is_alone && fraction_b < fraction_a, frame);
         coming_a.bend +=
@@ -264,6 +264,7 @@ double touch_fraction(const Mover& a, const Hull& hull_a, const Mover& b, const 
         if (taken >= left) return limit;
         if (is_split && !is_alone && taken >= together) {
             t = split;
+            axis = frame.turned(axis, together);
             continue;
         }
         t += taken / dt;
