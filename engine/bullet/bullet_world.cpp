@@ -822,8 +822,6 @@ void BulletWorld::limit_closing(float dt) {
             if (way <= allowed) continue;
             if (a.is_free()) a.moved_fraction = std::min(a.moved_fraction, allowed / way);
             if (b.is_free()) b.moved_fraction = std::min(b.moved_fraction, allowed / way);
-            a.is_anchored = a.is_anchored || !b.is_free();
-            b.is_anchored = b.is_anchored || !a.is_free();
         }
     }
 }
@@ -862,7 +860,7 @@ void BulletWorld::integrate(float dt) {
         body.bullet->predictIntegratedTransform(body.moved_fraction * dt, moved);
         body.bullet->proceedToTransform(moved);
     }
-    sweeper_.carry_on(*this, dt);
+    sweeper_.slow_down(*this);
     take_back_gravity(dt);
     sweeper_.slow_down(*this);
     farthest_way_ = 0;
