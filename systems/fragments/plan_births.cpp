@@ -74,7 +74,7 @@ void plan_births(Serial, const Events<TaskEnded>& ended, ShellTables shells, con
         // More pieces than there may be, with those that found no room before.
         if (result == TaskState::Dropped && tasks.crack_count[task] && tasks.shell[task] == tasks.source[task])
             clear_run(ShellView(shells.state, tasks.shell[task]), true, false);
-        if (result == TaskState::Dropped)
+        if (result == TaskState::Dropped && tasks.shell[task].exists())  // else it was refused
             faults.push({body_id(bodies, tasks.body[task]), bodies.user_data[tasks.body[task]],
                          centre_of(bodies, tasks.body[task]),
                          "A hit gained energy three times over, made more than 1024 pieces, or found no room for its "

@@ -123,6 +123,52 @@ World struck_row(uint32_t vases, uint32_t tasks, std::vector<BodyId>& struck) {
     return world;
 }
 
+/// Two vases, each struck by a ball of its own in the same frame, which cracks nothing; rows for that many vertices of
+/// all shells. A run takes some frames.
+World two_struck(uint32_t vertices, std::vector<BodyId>& struck) {
+    Settings settings = small_settings();
+    settings.limits.vertices = vertices;
+    settings.units_a_frame = 2'000'000;
+    World world = make_world(settings);
+    const ModelId model = world.add_model(small_vase()).value();
+    for (uint32_t n = 0; n < 2; ++n) {
+        SpawnSettings vase;
+        vase.pose.position = {static_cast<float>(n), 0, 0};
+        struck.push_back(world.spawn(model, vase).value());
+        (void)world.add_sphere(ball_at({static_cast<float>(n) + 0.01f, 0.13f, 0}, 0.3f, 1)).value();
+    }
+    return world;
+}
+
+/// How many of the bodies tell an impact, and whether some limit refused, in so many frames.
+std::pair<uint32_t, std::set<std::string>> hit_bodies(World& world, std::span<const BodyId> bodies, uint32_t frames) {
+    std::set<uint32_t> hit;
+    std::set<std::string> refused;
+    for (uint32_t frame = 0; frame < frames; ++frame) {
+        world.step();
+        EXPECT_EQ(world.events().faults.count, 0u);
+        for (const RefusedEvent& e : world.events().refused) refused.insert(e.setting);
+        for (const ImpactEvent& e : world.events().impacts)
+            for (const BodyId id : bodies)
+                if (e.body == id) hit.insert(id.index);
+    }
+    return {static_cast<uint32_t>(hit.size()), refused};
+}
+
+TEST(Limits, AHitThatFindsNoRowsWaitsForThoseOfAnother) {
+    std::vector<BodyId> struck;
+    World wide = two_struck(1u << 16, struck);
+    EXPECT_EQ(hit_bodies(wide, struck, 60), std::pair(2u, std::set<std::string>{}));
+    const State& state = state_of(wide);
+    const uint32_t own = state.shells.vertices[state.bodies.shell[struck[0].index]].capacity;
+    struck.clear();
+    World narrow = two_struck(3 * own + 1100, struck);  // the model's and a copy with room for cracks
+    const auto [hit, refused] = hit_bodies(narrow, struck, 60);
+    EXPECT_EQ(hit, 2u);
+    EXPECT_EQ(refused, std::set<std::string>{"limits.vertices"});
+    EXPECT_EQ(narrow.report().waiting_hits, 0u);
+}
+
 TEST(Limits, HitsOfOneFrameWaitForTasksAndAreWorkedOffInOrder) {
     constexpr uint32_t kVases = 24, kTasks = 3;
     std::vector<BodyId> struck, order;
