@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "systems/damage/task_cost.hpp"
 #include "tests/support/small_worlds.hpp"
 
 namespace cullet::test {
@@ -109,9 +110,9 @@ TEST(Limits, TheSameIsRefusedOnAnyNumberOfThreads) {
 }
 
 /// Vases in a row, each struck by a ball of its own in the same frame.
-World struck_row(uint32_t vases, uint32_t tasks, std::vector<BodyId>& struck) {
-    Settings settings = small_settings();
-    settings.limits = {512, 8, 1u << 17, 1u << 18, tasks, 1u << 20, 512, 512};
+World struck_row(Settings settings, uint32_t vases, uint32_t tasks, std::vector<BodyId>& struck) {
+    settings.limits.vertices = 1u << 17, settings.limits.elements = 1u << 18;
+    settings.limits.view_vertices = 1u << 20, settings.limits.open_hits = tasks;
     World world = make_world(settings);
     const ModelId model = world.add_model(small_vase()).value();
     for (uint32_t n = 0; n < vases; ++n) {
@@ -172,7 +173,7 @@ TEST(Limits, AHitThatFindsNoRowsWaitsForThoseOfAnother) {
 TEST(Limits, HitsOfOneFrameWaitForTasksAndAreWorkedOffInOrder) {
     constexpr uint32_t kVases = 24, kTasks = 3;
     std::vector<BodyId> struck, order;
-    World world = struck_row(kVases, kTasks, struck);
+    World world = struck_row(small_settings(), kVases, kTasks, struck);
     uint32_t most_waiting = 0;
     uint64_t oldest = 0;
     for (uint32_t frame = 0; frame < 60; ++frame) {
@@ -195,6 +196,64 @@ TEST(Limits, HitsOfOneFrameWaitForTasksAndAreWorkedOffInOrder) {
     for (const BodyId id : shells_of(world))
         if (born_of(state.fragment_ages, id.index)) broken.insert(state.bodies.parent[id.index].index);
     for (const BodyId id : struck) EXPECT_TRUE(broken.contains(id.index)) << id.index;
+}
+
+/// What the open tasks of one frame were granted, in units, against what they made of it.
+struct FrameWork {
+    uint64_t granted = 0, done = 0, first_steps = 0;
+    bool operator==(const FrameWork&) const = default;
+};
+
+/// One step of each open task is granted whatever is left, so that none starves; work beyond that fits.
+TEST(Limits, WorkAFrameStaysWithinItsUnitsOnAnyNumberOfThreads) {
+    constexpr uint64_t kUnits = 300'000;
+    std::vector<FrameTold> first_told;
+    std::vector<FrameWork> first_work;
+    for (const uint32_t threads : {1u, 2u, 3u, 8u}) {
+        Settings settings = small_settings();
+        settings.units_a_frame = kUnits;
+        settings.threads = threads;
+        settings.limits.fragments = 20, settings.limits.births_a_frame = 4;
+        std::vector<BodyId> struck;
+        World world = struck_row(settings, 12, 5, struck);
+        std::vector<FrameWork> work;
+        std::vector<uint32_t> steps, units;
+        after_each_system(world, [&](const std::string& system) {
+            const State& state = state_of(world);
+            const Tasks& tasks = state.tasks;
+            if (system == "grant_units") {
+                steps.clear(), units.clear();
+                work.emplace_back();
+            }
+            if (system != "grant_units" && system != "advance_damage") return;
+            for (uint32_t t = 0; t < tasks.size(); ++t) {
+                const bool runs = static_cast<TaskState>(tasks.state[t]) == TaskState::Running;
+                if (system == "grant_units") {
+                    steps.push_back(tasks.steps_done[t]);
+                    units.push_back(runs ? static_cast<uint32_t>(units_a_step(state.shells, tasks, t)) : 0);
+                    work.back().granted += runs ? uint64_t{tasks.steps_granted[t]} * units[t] : 0;
+                    work.back().first_steps += units[t];
+                } else if (t < units.size()) {
+                    work.back().done += uint64_t{tasks.steps_done[t] - steps[t]} * units[t];
+                }
+            }
+        });
+        std::vector<FrameTold> list;
+        for (uint32_t frame = 0; frame < 40; ++frame) {
+            const std::vector<FrameTold> one = told(world, 1);
+            list.insert(list.end(), one.begin(), one.end());
+            const FrameWork& now = work.back();
+            EXPECT_LE(now.granted, std::max(kUnits, now.first_steps)) << frame;
+            EXPECT_LE(now.done, now.granted) << frame;
+            EXPECT_LE(world.report().units_used, std::max(kUnits, now.first_steps)) << frame;
+            EXPECT_GE(world.report().units_used, now.granted) << frame;
+        }
+        const auto is_full = [](const FrameWork& w) { return 10 * w.done > 9 * kUnits; };
+        EXPECT_GE(std::count_if(work.begin(), work.end(), is_full), 10) << "the limit was reached";
+        if (first_work.empty()) first_work = work, first_told = list;
+        EXPECT_EQ(work, first_work) << threads << " threads";
+        EXPECT_EQ(list, first_told) << threads << " threads";
+    }
 }
 
 }  // namespace
