@@ -10,6 +10,7 @@
 #include "systems/damage/task_cost.hpp"
 #include "systems/damage/thresholds.hpp"
 #include "systems/damage/working_room.hpp"
+#include "systems/fragments/waiting_pieces.hpp"
 #include "systems/quick/cut_out.hpp"
 #include "systems/quick/quick_body.hpp"
 #include "systems/rigid/body_id.hpp"
@@ -152,6 +153,7 @@ Row<Tasks> Opening::open(Row<Bodies> body, float approach_speed, bool is_ahead) 
     tasks.start_velocity.set(t, rotate(to_body_axes, bodies.velocity[body]));
     tasks.start_spin.set(t, rotate(to_body_axes, bodies.spin[body]));
     tasks.strength_scale[t] = bodies.strength_scale[body];
+    if (bodies.is_owed_births[body]) forget_own_motions(before);
     set_task_times(state, task);
     set_quick_task(state, task, body);
     const bool is_assembled = is_quick || waits || state.shells.packs[source].count > 0;

@@ -42,13 +42,14 @@ bool asks_as_soft(State& state, Row<Bodies> body) {
 
 void plan_births(Serial, const Events<TaskEnded>& ended, ShellTables shells, const Tasks& tasks, Fragments&,
                  QueuedHits&, Blows&, Bodies& bodies, const Debris& debris, const FragmentAges& ages, ViewVertices&,
-                 ViewIndices&, const DamageSettings& settings, Arena& arena, Events<Break>& breaks,
-                 Events<Birth>& births, Events<ShellChanged>& changed, Events<CrackStartedEvent>& cracks,
-                 Events<RefusedEvent>& refused, Events<FaultEvent>& faults) {
+                 ViewIndices&, const DamageSettings& settings, DamageCounts& counts, Arena& arena,
+                 Events<Break>& breaks, Events<Birth>& births, Events<ShellChanged>& changed,
+                 Events<CrackStartedEvent>& cracks, Events<RefusedEvent>& refused, Events<FaultEvent>& faults) {
     breaks.clear();
     births.clear();
     Planning planning{shells.state,
                       settings,
+                      counts,
                       arena,
                       breaks,
                       births,

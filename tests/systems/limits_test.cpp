@@ -75,6 +75,46 @@ TEST(Limits, BirthsAFrameAreSpreadOverTheNextFramesAndNoneIsLost) {
     EXPECT_NEAR(matter_of(few.world).mass, mass, 1e-9 * mass);
 }
 
+/// J that the pieces have beyond their common velocity, and momentum of all, once nothing waits any more.
+std::pair<double, Vec3d> parting(const Settings& settings) {
+    Breakage b = vase_and_ball(settings, 12);
+    const Matter before = matter_of(b.world);
+    uint32_t waiting = 0;
+    const uint32_t frames = step_until_born(b.world, 20);
+    EXPECT_GT(frames, 0u);
+    for (uint32_t frame = 0; frame < 40; ++frame) {
+        waiting += b.world.report().waiting_bodies;
+        b.world.step();
+        EXPECT_EQ(b.world.events().faults.count, 0u);
+    }
+    EXPECT_EQ(b.world.report().waiting_bodies, 0u);
+    EXPECT_EQ(waiting > 0, settings.limits.births_a_frame < 100);
+    const Matter after = matter_of(b.world);
+    EXPECT_LE(after.kinetic_energy, (1 + 1e-6) * before.kinetic_energy);
+    double energy = 0, mass = 0;
+    Vec3d momentum;
+    const Bodies& bodies = state_of(b.world).bodies;
+    for (const BodyId id : shells_of(b.world)) {
+        const Row<Bodies> row(id.index);
+        const Vec3d v(bodies.velocity[row]);
+        mass += bodies.mass[row];
+        momentum += bodies.mass[row] * v;
+        energy += 0.5 * bodies.mass[row] * dot(v, v);
+    }
+    return {energy - dot(momentum, momentum) / (2 * mass), {after.momentum[0], after.momentum[1], after.momentum[2]}};
+}
+
+TEST(Limits, PiecesThatWaitForRoomLeaveWithTheirOwnMotion) {
+    const auto [free, momentum] = parting(settings_of(1000, 1000));
+    ASSERT_GT(free, 0);
+    for (const uint32_t births : {1u, 2u, 5u}) {
+        const auto [late, same] = parting(settings_of(1000, births));
+        EXPECT_GT(late, 0.8 * free) << births;
+        EXPECT_LT(late, 1.2 * free) << births;
+        EXPECT_LT(length(same - momentum), 1e-4 * length(momentum)) << births;
+    }
+}
+
 TEST(Limits, FragmentsBeyondTheLimitComeOffWhenOldOnesAreRetired) {
     Breakage b = vase_and_ball(settings_of(4, 1000), 12);
     const std::vector<FrameTold> list = told(b.world, 30);
