@@ -54,7 +54,6 @@ class BulletWorld final : public RigidWorld {
     bool may_meet(RigidId a, RigidId b) const override;
     bool is_touched(RigidId id) const override { return is_known(id) && bodies_[id].is_touched; }
     void solve(float dt) override;
-    float height_below(Vec3 point, float fallback) const override;
     bool first_touch(Vec3 from, Vec3 to, float seconds, float radius, float least_reach,
                      RigidTouch& out) const override;
     bool is_asleep(RigidId id) const override;
