@@ -92,6 +92,7 @@ struct Body {
     // While bodies that stopped each other are carried on:
     RigidId flock = 0;         // the first of the stopped bodies that touch it, or touch those that do
     bool is_anchored = false;  // stopped by something that stands
+    Vec3 carried;              // m, that it went on so in this step
 
     /// The hull frame's transform where the Bullet frame's is `at`.
     btTransform hulls_at(const btTransform& at) const { return has_offset ? at * hull_offset : at; }

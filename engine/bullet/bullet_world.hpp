@@ -132,6 +132,7 @@ class BulletWorld final : public RigidWorld {
     double height_energy() const;
     double falling_power() const;
     void limit_closing(float dt);
+    void take_back_gravity(float dt);
     void integrate(float dt);
     void update_sleep(float dt);
     bool may_sleep(Body& body, float dt);

@@ -26,7 +26,95 @@ Box relative_box(const Box& box, const Mover& a, const Mover& b, float reach, fl
     return grown(out, turned(a, reach, dt) + kBoxGrowth);
 }
 
+// What closes within so much of a way from the start of the step was within the range of contacts, seen and solved. At
+// five times it bodies lose more than their contacts take: shards of one break end 0.15 m/s more apart (99 of 100).
+constexpr float kMet = 0.001f;      // m
+constexpr float kLeading = 0.001f;  // m behind the corner that leads: what else may have stopped the two
+constexpr int kBlows = 4;           // of a pair, each at another corner: the first ones turn the bodies
+
+// The points of a hull that lead along `outwards`, of a body that stands where it was stopped.
+template <class Found>
+void visit_leading(const Body& body, const Hull& hull, Vec3 outwards, Found found) {
+    const btTransform at = body.hulls_at(body.bullet->getWorldTransform());
+    Points points;
+    transform_points(hull, rotation_of(at), from_bullet(at.getOrigin()), points);
+    float most = -kFar;
+    for (uint32_t k = 0; k < hull.point_count; ++k) most = std::max(most, dot(points[k], outwards));
+    for (uint32_t k = 0; k < hull.point_count; ++k)
+        if (dot(points[k], outwards) > most - kLeading) found(points.centre + points[k]);
+}
+
+// Where the point of a body was before the step that is now at `point`.
+Vec3 was_at(const Body& body, Vec3 point) {
+    const btTransform now = body.hulls_at(body.bullet->getWorldTransform());
+    return from_bullet(body.fresh_at * now.invXform(to_bullet(point)));
+}
+
 }  // namespace
+
+void Sweeper::stop(Body& body, const Hull& hull, const Body& other, const Hull& other_hull, Vec3 normal, float at) {
+    if (!body.is_fast || !(at < body.moved_fraction)) return;
+    body.moved_fraction = at;
+    const auto ordinal = [](const Body& of, const Hull& h) { return h.one_sided ? of.hull_count + h.cell : h.ordinal; };
+    brakes_[body.id] = {other.id,
+                        ordinal(body, hull),
+                        ordinal(other, other_hull),
+                        hull.one_sided ? nullptr : &hull,
+                        other_hull.one_sided ? nullptr : &other_hull,
+                        normal};
+}
+
+// What stopped a body near the start of its way takes the speed that leads into it, as a blow without restitution.
+// Contacts lie where two pieces face each other; a corner beside those that swings in is held up by the sweep alone. A
+// body that such a corner stops in every step would keep its speed and go a millimetre a step: heaps of fifty shards
+// sleep after 218 steps in the mean without these blows, after 192 with them.
+void Sweeper::slow_down(BulletWorld& world) {
+    for (const Fast& fast : fast_) {
+        const Brake& brake = brakes_[fast.id];
+        if (brake.other == kNoRigid) continue;
+        const Brake& theirs = brakes_[brake.other];
+        const bool is_shared =
+            theirs.other == fast.id && theirs.ordinal == brake.other_ordinal && theirs.other_ordinal == brake.ordinal;
+        if (is_shared && brake.other < fast.id) continue;
+        Body &a = world.bodies_[fast.id], &b = world.bodies_[brake.other];
+        const Hull& p = hull_of(brake.hull, a, brake.ordinal, world.work_);
+        const Hull& q = hull_of(brake.other_hull, b, brake.other_ordinal, world.work_);
+        for (int k = 0; k < kBlows; ++k)
+            if (!stop_closing(world, a, p, b, q, brake.normal)) break;
+    }
+}
+
+// At the corner of either piece that closes fastest; false when none does.
+bool Sweeper::stop_closing(BulletWorld& world, Body& a, const Hull& p, Body& b, const Hull& q, Vec3 normal) {
+    Vec3 place;
+    float closing = 0;  // m/s
+    const auto offer = [&](Vec3 point) {
+        const float speed = dot(world.velocity_at(b, point) - world.velocity_at(a, point), normal);
+        if (!(speed > closing) || dot(was_at(a, point) - was_at(b, point), normal) > kMet) return;
+        closing = speed, place = point;
+    };
+    visit_leading(a, p, -normal, offer);
+    visit_leading(b, q, normal, offer);
+    if (!(closing > 0)) return false;
+    const btVector3 along = to_bullet(normal), point = to_bullet(place);
+    const auto arm = [&](const Body& body) { return point - body.bullet->getCenterOfMassPosition(); };
+    const auto give = [&](const Body& body) {  // 1/kg
+        if (!body.is_free()) return 0.0f;
+        const btVector3 lever = arm(body).cross(along);
+        return body.bullet->getInvMass() + lever.dot(body.bullet->getInvInertiaTensorWorld() * lever);
+    };
+    const btVector3 impulse = (closing / (give(a) + give(b))) * along;
+    const auto push = [&](Body& body, const btVector3& by) {
+        if (body.is_free()) return body.bullet->applyImpulse(by, arm(body));
+        world.to_static_ += Vec3d(from_bullet(by));
+        if (!CULLET_CHECKS_ON || body.kind != RigidKind::Kinematic) return;
+        const double work = -static_cast<double>(dot(from_bullet(by), world.velocity_at(body, place)));
+        world.work_done_.driven += std::max(0.0, work);
+    };
+    push(a, impulse);
+    push(b, -impulse);
+    return true;
+}
 
 void Sweeper::find_near(const BulletWorld& world, const Box& box) {
     near_.clear();
@@ -53,8 +141,9 @@ void Sweeper::sweep_pair(BulletWorld& world, Body& a, Body& b, float dt) {
         const double limit = last_fraction(a, b);
         const double t = touch_fraction(mover_a, p, mover_b, q, dt, limit, axis, known);
         if (t >= limit) return;
-        if (a.is_fast) a.moved_fraction = std::min(a.moved_fraction, static_cast<float>(t));
-        if (b.is_fast) b.moved_fraction = std::min(b.moved_fraction, static_cast<float>(t));
+        const Vec3 normal = axis.to_float();
+        stop(a, p, b, q, normal, static_cast<float>(t));
+        stop(b, q, a, p, -normal, static_cast<float>(t));
         a.is_anchored = a.is_anchored || !b.is_free();
         b.is_anchored = b.is_anchored || !a.is_free();
     };
@@ -84,10 +173,12 @@ void Sweeper::list_fast(BulletWorld& world, float dt) {
         if (!body.is_used || body.kind == RigidKind::Static) continue;
         body.moved_fraction = 1;
         body.is_fast = body.is_anchored = false;
+        body.carried = {};
+        brakes_[id].other = kNoRigid;
         const Mover mover = mover_of(body);
         if (!is_far(travel(mover, dt), thinnest)) continue;
         body.is_fast = true;
-        fast_.push_back({id, swept_box(body.shape.box, mover, body.reach, dt)});
+        fast_.push_back({id, swept_box(body.shape.box, mover, body.reach, dt), -1});
     }
 }
 
@@ -124,20 +215,31 @@ void Sweeper::find_fast(uint32_t k) {
 uint32_t Sweeper::sweep(BulletWorld& world, float dt) {
     list_fast(world, dt);
     order_fast();
-    // The second round sees those that were stopped in the first standing still.
-    for (int round = 0; round < 2; ++round) {
+    // Who is stopped later than it was swept against another one stands where that one saw it pass: those two are
+    // looked at again.
+    constexpr int kRounds = 4;
+    bool is_any = true;
+    for (int round = 0; round < kRounds && is_any; ++round) {
+        is_any = false;
+        const auto meet = [&](Fast& fast, Fast& other) {
+            Body &a = world.bodies_[fast.id], &b = world.bodies_[other.id];
+            const float before_a = a.moved_fraction, before_b = b.moved_fraction;
+            sweep_pair(world, a, b, dt);
+            if (a.moved_fraction < before_a) fast.stopped_in = round, is_any = true;
+            if (b.moved_fraction < before_b) other.stopped_in = round, is_any = true;
+        };
         for (uint32_t k = 0; k < fast_.size(); ++k) {
-            Body& a = world.bodies_[fast_[k].id];
+            Fast& fast = fast_[k];
+            Body& a = world.bodies_[fast.id];
             if (round == 0) {
-                find_near(world, fast_[k].swept);
+                find_near(world, fast.swept);
                 for (const RigidId id : near_)
                     if (id != a.id && !world.bodies_[id].is_fast) sweep_pair(world, a, world.bodies_[id], dt);
+                if (a.moved_fraction < 1) fast.stopped_in = round, is_any = true;
             }
             find_fast(k);
-            for (const uint32_t j : near_) {
-                Body& b = world.bodies_[fast_[j].id];
-                if (round == 0 || a.moved_fraction < 1 || b.moved_fraction < 1) sweep_pair(world, a, b, dt);
-            }
+            for (const uint32_t j : near_)
+                if (round == 0 || std::max(fast.stopped_in, fast_[j].stopped_in) >= round - 1) meet(fast, fast_[j]);
         }
     }
     uint32_t stopped = 0;
@@ -256,7 +358,8 @@ void Sweeper::carry_flock(BulletWorld& world, std::span<RigidId> flock, float dt
         Body& body = world.bodies_[id];
         btTransform moved = body.bullet->getWorldTransform();
         const double left = share * (1 - static_cast<double>(body.moved_fraction)) * dt;
-        moved.setOrigin(moved.getOrigin() + to_bullet((left * velocity).to_float()));
+        body.carried = (left * velocity).to_float();
+        moved.setOrigin(moved.getOrigin() + to_bullet(body.carried));
         body.bullet->proceedToTransform(moved);
     }
 }

@@ -18,7 +18,7 @@ class Sweeper {
  public:
     explicit Sweeper(uint32_t body_limit) {
         fast_.reserve(body_limit), near_.reserve(body_limit), flock_.reserve(body_limit);
-        by_low_.reserve(body_limit);
+        by_low_.reserve(body_limit), brakes_.resize(body_limit);
     }
     /// Sets moved_fraction of every body, from 0 to 1; returns how many were stopped.
     uint32_t sweep(BulletWorld& world, float dt);
@@ -26,12 +26,24 @@ class Sweeper {
     /// velocity of their common centre of mass, as far as nothing else is in the way. Houses that come down would hang
     /// in the air while gravity makes them faster.
     void carry_on(BulletWorld& world, float dt);
+    /// Then: what stopped a body within the range of contacts also takes the speed that leads into it.
+    void slow_down(BulletWorld& world);
 
  private:
     struct Fast {
         RigidId id;
         Box swept;
+        int stopped_in;  // the last round in which it was, or -1
     };
+    /// What stopped a body in this step, last.
+    struct Brake {
+        RigidId other = kNoRigid;                           // none: nothing did
+        uint32_t ordinal = 0, other_ordinal = 0;            // of the pieces that met
+        const Hull *hull = nullptr, *other_hull = nullptr;  // null: a triangle
+        Vec3 normal;                                        // from the other one towards the body
+    };
+    void stop(Body& body, const Hull& hull, const Body& other, const Hull& other_hull, Vec3 normal, float at);
+    static bool stop_closing(BulletWorld& world, Body& a, const Hull& p, Body& b, const Hull& q, Vec3 normal);
     void find_near(const BulletWorld& world, const Box& box);
     double low_of(uint32_t k) const { return double{fast_[k].swept.low.*axis_}; }
     void list_fast(BulletWorld& world, float dt);
@@ -47,6 +59,7 @@ class Sweeper {
     std::vector<uint32_t> by_low_;  // of fast_, by the low end of what they sweep along axis_
     float Vec3::*axis_ = &Vec3::x;  // along which fast bodies lie farthest apart
     double longest_ = 0;            // m, of what one sweeps along it
+    std::vector<Brake> brakes_;     // by body
     std::vector<RigidId> flock_;    // bodies, by flock
 };
 
