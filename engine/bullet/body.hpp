@@ -71,6 +71,7 @@ struct Body {
     uint32_t moves = 0;    // counts changes of world points; pairs of unmoved bodies keep their contacts
     uint32_t shape_changes = 0;
 
+    uint32_t number = 0;        // the solver's, in this step
     bool is_touched = false;    // has a contact in this step
     bool is_driven = false;     // has one with a kinematic body that moves
     float slow_seconds = 0;     // touched and nearly at rest

@@ -763,21 +763,33 @@ double BulletWorld::falling_power() const {
 // at the floor is 2.4, 1.5 and 1.2 mm in the mean.
 void BulletWorld::solve_contacts(float dt) {
     solver_.clear();
-    for (RigidId id = 0; id < body_end_; ++id)
-        if (bodies_[id].is_used && bodies_[id].is_free()) solver_.add_body(*bodies_[id].bullet);
+    for (RigidId id = 0; id < body_end_; ++id) {
+        Body& body = bodies_[id];
+        body.number = ContactSolver::kStanding;
+        if (!body.is_used) continue;
+        const bool is_driver = body.kind == RigidKind::Kinematic && body.is_touched && body.bullet->isActive();
+        if (body.is_free() || is_driver) body.number = solver_.add_body(*body.bullet);
+    }
     scattered_.clear();
-    for (const SortedManifold& m : manifolds_) {
-        if (!m.manifold) continue;
-        const bool is_a_free = bodies_[m.a].is_free(), is_b_free = bodies_[m.b].is_free();
+    for (uint32_t first = 0, end = 0; first < manifolds_.size(); first = end) {
+        const RigidId a = manifolds_[first].a, b = manifolds_[first].b;
+        uint32_t contacts = 0;
+        for (; end < manifolds_.size() && manifolds_[end].a == a && manifolds_[end].b == b; ++end)
+            if (manifolds_[end].manifold) contacts += static_cast<uint32_t>(manifolds_[end].manifold->getNumContacts());
+        if (contacts == 0) continue;
+        const bool is_a_free = bodies_[a].is_free(), is_b_free = bodies_[b].is_free();
         if (!is_a_free && !is_b_free) continue;
-        const bool is_standing = !is_a_free || !is_b_free;
-        scattered_.push_back({is_standing, scatter(m.a, m.b), static_cast<uint32_t>(scattered_.size()), m.manifold});
+        scattered_.push_back({!is_a_free || !is_b_free, scatter(a, b), first, end});
     }
     std::sort(scattered_.begin(), scattered_.end(), [](const Scattered& p, const Scattered& q) {
         if (p.is_standing != q.is_standing) return q.is_standing;
-        return p.number != q.number ? p.number < q.number : p.ordinal < q.ordinal;
+        return p.number != q.number ? p.number < q.number : p.first < q.first;
     });
-    for (const Scattered& m : scattered_) solver_.add_contacts(*m.manifold);
+    for (const Scattered& pair : scattered_) {
+        solver_.add_pair(bodies_[manifolds_[pair.first].a].number, bodies_[manifolds_[pair.first].b].number);
+        for (uint32_t m = pair.first; m < pair.end; ++m)
+            if (manifolds_[m].manifold) solver_.add_contacts(*manifolds_[m].manifold);
+    }
     solver_.solve(dt);
 }
 
