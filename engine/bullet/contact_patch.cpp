@@ -5,6 +5,7 @@
 #include "engine/bullet/box_patch.hpp"
 #include "engine/bullet/closest_points.hpp"
 #include "engine/bullet/contact_spots.hpp"
+#include "engine/bullet/lanes.hpp"
 #include "engine/bullet/overlap_axis.hpp"
 
 namespace cullet::bullet {
@@ -70,9 +71,11 @@ uint32_t convex_outline(Spot* spots, uint32_t count, Spot* out) {
 }
 
 bool is_inside(const Spot& spot, const Side& side) {
-    for (uint32_t e = 0; e < side.outline_count; ++e)
-        if (!(area(side.outline[e], side.outline[(e + 1) % side.outline_count], spot) > kFlat)) return false;
-    return side.outline_count >= 3;
+    if (side.outline_count < 3) return false;
+    const Spot* from = &side.outline[side.outline_count - 1];
+    for (uint32_t e = 0; e < side.outline_count; from = &side.outline[e++])
+        if (!(area(*from, side.outline[e], spot) > kFlat)) return false;
+    return true;
 }
 
 // `sign` -1: the side that looks down the normal (hull a); +1: up (hull b). `offset` is the hull's centre in the frame.
@@ -121,11 +124,13 @@ uint32_t clip_outline(const Side& subject, const Side& clip, Spot* spots) {
     uint32_t count = subject.outline_count;
     std::copy_n(subject.outline, count, spots);
     for (uint32_t e = 0; e < clip.outline_count && count > 0; ++e) {
-        const Spot &p = clip.outline[e], &q = clip.outline[(e + 1) % clip.outline_count];
+        const Spot &p = clip.outline[e], &q = clip.outline[e + 1 == clip.outline_count ? 0 : e + 1];
         uint32_t kept = 0;
+        float there = area(p, q, spots[0]);
         for (uint32_t k = 0; k < count; ++k) {
-            const Spot &now = spots[k], &next = spots[(k + 1) % count];
-            const float here = area(p, q, now), there = area(p, q, next);
+            const Spot &now = spots[k], &next = spots[k + 1 == count ? 0 : k + 1];
+            const float here = there;
+            there = area(p, q, next);
             if (here >= 0) other[kept++] = now;
             if ((here > 0 && there < 0) || (here < 0 && there > 0)) {
                 const float t = here / (here - there);
@@ -139,12 +144,22 @@ uint32_t clip_outline(const Side& subject, const Side& clip, Spot* spots) {
     return count;
 }
 
-void measure(Spot& spot, const Side& a, const Side& b) {
-    spot.low_a = -kFar, spot.high_b = kFar;
-    for (uint32_t k = 0; k < a.plane_count; ++k)
-        spot.low_a = std::max(spot.low_a, a.plane[k].at + a.plane[k].slope_x * spot.x + a.plane[k].slope_y * spot.y);
-    for (uint32_t k = 0; k < b.plane_count; ++k)
-        spot.high_b = std::min(spot.high_b, b.plane[k].at + b.plane[k].slope_x * spot.x + b.plane[k].slope_y * spot.y);
+// Four spots at a time: `count` is made up to whole lanes by repeating the last one.
+void measure(Spot* spots, uint32_t count, const Side& a, const Side& b) {
+    static_assert(sizeof(Spot) == sizeof(Lanes) && 4 * kMaxPoints % kLanes == 0);
+    for (uint32_t k = count; k % kLanes != 0; ++k) spots[k] = spots[count - 1];
+    for (uint32_t first = 0; first < count; first += kLanes) {
+        float* const at = &spots[first].x;
+        Lanes x = load(at), y = load(at + 4), low_a = load(at + 8), high_b = load(at + 12);
+        transpose(x, y, low_a, high_b);
+        low_a = Lanes{} - kFar, high_b = Lanes{} + kFar;
+        for (uint32_t k = 0; k < a.plane_count; ++k)
+            low_a = most(a.plane[k].at + a.plane[k].slope_x * x + a.plane[k].slope_y * y, low_a);
+        for (uint32_t k = 0; k < b.plane_count; ++k)
+            high_b = least(b.plane[k].at + b.plane[k].slope_x * x + b.plane[k].slope_y * y, high_b);
+        transpose(x, y, low_a, high_b);
+        store(x, at), store(y, at + 4), store(low_a, at + 8), store(high_b, at + 12);
+    }
 }
 
 // A millimetre of depth counts as 20 mm of distance: a shard that rocks on two spots must have both of them, whatever
@@ -312,10 +327,9 @@ Patch contact_patch(const Hull& a, const Mat3& rotation_a, const Hull& b, const 
             if (is_inside(side_b.bulge[k], side_a)) spots[count++] = side_b.bulge[k];
         const float reach = kContactRange + a.margin + b.margin;
         uint32_t kept = 0;
-        for (uint32_t k = 0; k < count; ++k) {
-            measure(spots[k], side_a, side_b);
+        measure(spots, count, side_a, side_b);
+        for (uint32_t k = 0; k < count; ++k)
             if (gap(spots[k]) <= reach) spots[kept++] = spots[k];
-        }
         count = kept;
     }
     float shallow = kFar;
