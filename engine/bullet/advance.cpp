@@ -9,10 +9,10 @@ constexpr float kThicknessShare = 0.1f;
 constexpr double kStop = 0.0005;  // m, the gap at which a sweep ends
 constexpr double kAim = 0.0001;   // m: an advance aims this much past the gap to stop at, so that it ends in few rounds
 constexpr double kTouching = 0.001;  // m: pieces nearer than this at the start touch already
-// How much deeper touching pieces may go in a step, m. Where both are free also a share of the thinner one's width:
-// slabs of a house that comes down turn into each other by centimetres, and with a millimetre alone two thirds of their
-// way are lost. On the way that a flock is carried on they only slide.
-constexpr double kDeeper = 0.001, kDeeperShare = 0.1, kSliding = 2e-5;
+// How much deeper touching pieces may go in a step where one of them stands, m; on the way that a flock is carried on
+// they only slide. Two free ones may go in a third of the thinner one's width, and what lies deeper than that is pushed
+// out, not stopped: a heap's pieces whose far corners swing in would stand still in the air with all their speed.
+constexpr double kDeeper = 0.001, kSliding = 2e-5;
 constexpr double kLeast = 0.0002;  // m that their cores stay apart, where they are, so that gaps can be measured
 // Lively ones may go in all this share of the thinner one's width deep. Without it a sheet of 2 mm that strikes with
 // its edge and spins at 400 rad/s works its way through a plate of a centimetre, a millimetre a step. From a half on
@@ -21,9 +21,10 @@ constexpr double kDepthShare = 1.0 / 3;
 // What moves less in a step is pushed out faster than it works its way in. At 0 shards of a heap that lie deep in each
 // other stand still at every wrong move and rock on; the larger, the more corners get past the middle of a shell of 4
 // mm (here at most 5 of 10,000 spinning sheets; past its far side none).
-constexpr double kLively = 0.03;  // m
-constexpr double kShort = 0.001;  // of the time left: as good as none
-constexpr int kRounds = 48;       // then the body stops where it is
+constexpr double kLively = 0.03;   // m
+constexpr double kMostTurn = 0.7;  // rad in a step, below which Bullet turns all of it
+constexpr double kShort = 0.001;   // of the time left: as good as none
+constexpr int kRounds = 48;        // then the body stops where it is
 
 // The spheres about both pieces do not meet on a straight way, turning included.
 bool pass_by(const Hull& a, const Hull& b, Vec3d way, double turning) {
@@ -42,26 +43,61 @@ double width_along(const Hull& hull, const Points& points, Vec3d axis) {
     return dot(axis, high - low) + 2 * static_cast<double>(hull.margin);
 }
 
+// The frame in which two pieces that touch are looked at: it turns with both, so that what spins as one is at rest in
+// it. Their axis n turns along, dn/dt = w x n.
+struct TurningFrame {
+    Vec3d spin;    // rad/s
+    Vec3d middle;  // m, between the centres of mass
+
+    // Of two free bodies the mean spin; a body that is not free holds its contact's axis.
+    static TurningFrame of(const Mover& a, const btTransform& at_a, const Mover& b, const btTransform& at_b, float dt) {
+        TurningFrame frame;
+        frame.middle = 0.5 * (Vec3d(from_bullet(at_a.getOrigin())) + Vec3d(from_bullet(at_b.getOrigin())));
+        frame.spin = !a.body->is_free() ? a.spin : !b.body->is_free() ? b.spin : 0.5 * (a.spin + b.spin);
+        if (length(frame.spin) * dt >= kMostTurn) frame.spin = {};
+        return frame;
+    }
+    Vec3d turned(Vec3d axis, double seconds) const {
+        if (!(dot(spin, spin) > 0)) return axis;
+        btTransform out;
+        btTransformUtil::integrateTransform(btTransform::getIdentity(), btVector3(0, 0, 0), to_bullet(spin.to_float()),
+                                            static_cast<float>(seconds), out);
+        return Vec3d(from_bullet(out.getBasis() * to_bullet(axis.to_float())));
+    }
+    // Minus the second derivative of n . D, of two centres D apart that move away at V:
+    // -(2 (w x n) . V + (w x (w x n)) . D), and a third of what the third one can add in `seconds`. What opens the gap
+    // does not count.
+    double bend(Vec3d axis, Vec3d apart, Vec3d velocity, double seconds) const {
+        const Vec3d turning = cross(spin, axis);
+        const double rate = length(spin);
+        const double third = rate * rate * (3 * length(velocity) + rate * length(apart));
+        return std::max(0.0, third * seconds / 3 - 2 * dot(turning, velocity) - dot(cross(spin, turning), apart));
+    }
+};
+
 // Where a set of points is along an axis, and how fast it moves there: height + speed t - bend t^2 / 2 bounds every
 // point from below. `sign` -1 mirrors the axis, so that what is highest becomes what is lowest.
 struct Approach {
     float height[kMaxPoints], speed[kMaxPoints];  // m from the points' centre, m/s
     uint32_t count = 0;
-    double bend = 0;  // m/s^2: turning takes a point r from the centre of mass along the axis by
-                      // (w x r) . n t, to less than |w|^2 |r| t^2 / 2
+    double bend = 0;  // m/s^2: turning at d in a frame that turns at w takes a point r from the centre of mass along
+                      // the axis by (d x r) . n t, to less than |d| (|d| + |w|) |r| t^2 / 2
 
     // Bullet turns by at most an eighth of a turn in a step and stands still after: turning helps only below that. What
     // another body may have stopped (`is_stopped`) helps not at all.
     Approach(const Points& points, const Mover& mover, const btTransform& at, Vec3d axis, double sign, float reach,
-             float dt, bool is_stopped)
+             float dt, bool is_stopped, const TurningFrame& frame)
         : count(points.count) {
         const Vec3 n = (sign * axis).to_float();
-        const Vec3 lever = cross(n, mover.spin.to_float());  // (w x r) . n = (n x w) . r
+        const Vec3d spin = mover.spin - frame.spin;
+        const Vec3 lever = cross(n, spin.to_float());  // (w x r) . n = (n x w) . r
         const Vec3 arm = points.centre - from_bullet(at.getOrigin());
-        const float moving = static_cast<float>(sign * dot(mover.velocity, axis)), swinging = dot(lever, arm);
-        const double rate = length(mover.spin);
-        bend = rate * rate * reach;
-        const bool turns_on = rate * dt < 0.7;
+        const Vec3d from_middle = Vec3d(from_bullet(at.getOrigin())) - frame.middle;
+        const double moving_in_frame = dot(mover.velocity, axis) + dot(cross(frame.spin, axis), from_middle);
+        const float moving = static_cast<float>(sign * moving_in_frame), swinging = dot(lever, arm);
+        const double rate = length(spin);
+        bend = rate * (rate + length(frame.spin)) * reach;
+        const bool turns_on = length(mover.spin) * dt < kMostTurn;
         for (uint32_t k = 0; k < count; ++k) {
             const float x = points.x[k], y = points.y[k], z = points.z[k];
             const float turning = swinging + (lever.x * x + lever.y * y + lever.z * z);
@@ -190,10 +226,12 @@ double touch_fraction(const Mover& a, const Hull& hull_a, const Mover& b, const 
         if (round == 0 && gap < kTouching) {
             // They touch: the solver has slowed them where they do, but the rest of a piece may still swing in.
             const double width = std::min(width_along(hull_a, *now_a, axis), width_along(hull_b, *now_b, axis));
-            const double deepest = is_lively ? -kDepthShare * width : -kFar;
+            const double third = -kDepthShare * width;
+            const bool are_free = !has_moved && a.body->is_free() && b.body->is_free();
+            if (are_free && gap < third) return limit;
+            const double deepest = is_lively ? third : -kFar;
             double allowed = gap - (has_moved ? kSliding : kDeeper);
-            if (!has_moved && a.body->is_free() && b.body->is_free())
-                allowed = std::min(allowed, std::max(gap - kDeeperShare * width, -kDepthShare * width));
+            if (are_free) allowed = std::min(allowed, third);
             stop = std::max({allowed, kLeast - margins, deepest});
             // Where the cores (nearly) overlap there is no gap to measure: along the axis of least overlap they may go
             // deeper by as much.
@@ -203,15 +241,20 @@ double touch_fraction(const Mover& a, const Hull& hull_a, const Mover& b, const 
             is_axis_fixed = false;
         }
         if (gap < stop) return t;
-        const Approach coming_a(*now_a, a, at_a, axis, 1, reach_a, dt, is_stopped),
-            coming_b(*now_b, b, at_b, axis, -1, reach_b, dt, is_stopped);
+        const double rest = dt * (1 - t);
+        TurningFrame frame;
+        if (is_axis_fixed && !is_stopped) frame = TurningFrame::of(a, at_a, b, at_b, dt);
+        Approach coming_a(*now_a, a, at_a, axis, 1, reach_a, dt, is_stopped, frame);
+        const Approach coming_b(*now_b, b, at_b, axis, -1, reach_b, dt, is_stopped, frame);
+        coming_a.bend +=
+            frame.bend(axis, Vec3d(from_bullet(at_a.getOrigin() - at_b.getOrigin())), a.velocity - b.velocity, rest);
         const double apart = dot(axis, Vec3d(now_a->centre) - Vec3d(now_b->centre)) - margins;
         // Along an axis that stays there is nothing new to measure at the stop. All of the step counts, whatever the
         // limit, so that a flight which is foreseen ends in the same bits.
-        const double rest = dt * (1 - t);
         const double taken = time_until(coming_a, coming_b, apart, is_axis_fixed ? stop : stop - kAim, rest);
         if (taken >= left) return limit;
         t += taken / dt;
+        axis = frame.turned(axis, taken);
         if (taken < kShort * rest) return t;
     }
     return t;
