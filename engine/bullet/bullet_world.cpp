@@ -621,21 +621,26 @@ void BulletWorld::detect(float dt) {
     counts_.contacts = static_cast<uint32_t>(contacts_.size());
 }
 
-// What left its leaf meets all that its new one meets, in either order of their straying.
+// What left its leaf meets all that its new one meets, in either order of their straying. Pairs of which neither did
+// are what they were.
 void BulletWorld::find_pairs() {
+    if (strayed_.empty()) return;
     for (const RigidId id : strayed_) {
-        const Body& body = bodies_[id];
+        Body& body = bodies_[id];
         if (!body.is_used) continue;
+        body.has_strayed = true;
         tree_.visit(tree_.box(body.leaf), [&](uint32_t other_id) {
             const Body& other = bodies_[other_id];
             if (other_id == id || (body.kind != RigidKind::Dynamic && other.kind != RigidKind::Dynamic)) return;
             if (body.meets_layer_of(other)) pairs_.find(id, other_id);
         });
     }
-    strayed_.clear();
     pairs_.renew(work_, [this](RigidId a, RigidId b) {
-        return overlap(tree_.box(bodies_[a].leaf), tree_.box(bodies_[b].leaf), 0);
+        const Body &p = bodies_[a], &q = bodies_[b];
+        return (!p.has_strayed && !q.has_strayed) || overlap(tree_.box(p.leaf), tree_.box(q.leaf), 0);
     });
+    for (const RigidId id : strayed_) bodies_[id].has_strayed = false;
+    strayed_.clear();
 }
 
 void BulletWorld::meet(const Pair& pair) {
@@ -659,10 +664,25 @@ void BulletWorld::list_manifolds() {
         });
 }
 
+namespace {
+
+/// A body's motion now; none of what is neither free nor driven.
+struct Moving {
+    Vec3 centre, velocity, spin;
+
+    explicit Moving(const Body& body) {
+        if (!body.is_free() && body.kind != RigidKind::Kinematic) return;
+        centre = from_bullet(body.bullet->getCenterOfMassPosition());
+        velocity = from_bullet(body.bullet->getLinearVelocity());
+        spin = from_bullet(body.bullet->getAngularVelocity());
+    }
+    Vec3 at(Vec3 point) const { return velocity + cross(spin, point - centre); }
+};
+
+}  // namespace
+
 Vec3 BulletWorld::velocity_at(const Body& body, Vec3 point) const {
-    if (!body.is_free() && body.kind != RigidKind::Kinematic) return {};
-    const btRigidBody& bullet = *body.bullet;
-    return from_bullet(bullet.getVelocityInLocalPoint(to_bullet(point) - bullet.getCenterOfMassPosition()));
+    return Moving(body).at(point);
 }
 
 void BulletWorld::gather_contacts() {
@@ -677,11 +697,12 @@ void BulletWorld::gather_contacts() {
         a.is_driven |= b.kind == RigidKind::Kinematic && b.bullet->isActive();
         b.is_driven |= a.kind == RigidKind::Kinematic && a.bullet->isActive();
         if (!a.is_free() && !b.is_free()) continue;
+        const Moving moving_a(a), moving_b(b);
         for (int k = 0; k < m.manifold->getNumContacts(); ++k) {
             const btManifoldPoint& p = m.manifold->getContactPoint(k);
             const Vec3 point = 0.5f * (from_bullet(p.m_positionWorldOnA) + from_bullet(p.m_positionWorldOnB));
             const Vec3 normal = from_bullet(p.m_normalWorldOnB);
-            const float speed = dot(velocity_at(b, point) - velocity_at(a, point), normal);
+            const float speed = dot(moving_b.at(point) - moving_a.at(point), normal);
             a.overlap = std::max(a.overlap, -p.m_distance1);
             b.overlap = std::max(b.overlap, -p.m_distance1);
             contacts_.push_back({m.a, m.b, m.cell_a, m.cell_b, point, normal, p.m_distance1, speed});
@@ -826,10 +847,11 @@ void BulletWorld::limit_closing(float dt) {
         if (!m.manifold) continue;
         Body &a = bodies_[m.a], &b = bodies_[m.b];
         if (!a.is_free() && !b.is_free()) continue;
+        const Moving moving_a(a), moving_b(b);
         for (int k = 0; k < m.manifold->getNumContacts(); ++k) {
             const btManifoldPoint& p = m.manifold->getContactPoint(k);
             const Vec3 point = from_bullet(p.m_positionWorldOnB), normal = from_bullet(p.m_normalWorldOnB);
-            const float way = dot(velocity_at(b, point) - velocity_at(a, point), normal) * dt;
+            const float way = dot(moving_b.at(point) - moving_a.at(point), normal) * dt;
             const float allowed = std::max(p.m_distance1, 0.0f) + kPressedIn;
             if (way <= allowed) continue;
             if (a.is_free()) a.moved_fraction = std::min(a.moved_fraction, allowed / way);

@@ -28,7 +28,7 @@ struct Plane {
 // The side of a hull that looks at the other one: its supporting planes, and the outline of its points in the patch's
 // plane.
 struct Side {
-    Plane plane[kMaxFaces];
+    Plane plane[kMaxFaces + 1];  // and one written in vain
     uint32_t plane_count = 0;
     Spot outline[kMaxPoints];
     uint32_t outline_count = 0;
@@ -83,29 +83,40 @@ void look(const Hull& hull, const Mat3& rotation, const PatchFrame& frame, Vec3 
     const Vec3 n = transposed_times(rotation, frame.normal), right = transposed_times(rotation, frame.right),
                forward = transposed_times(rotation, frame.forward);
     const float ox = dot(offset, frame.right), oy = dot(offset, frame.forward), oz = dot(offset, frame.normal);
-    bool is_facing[kMaxPoints] = {};
-    for (uint32_t f = 0; f < hull.face_count; ++f) {
-        const float along = dot(hull.face_normal[f], n);
-        if (sign * along < kPlaneCosine) continue;
-        const float sx = -dot(hull.face_normal[f], right) / along, sy = -dot(hull.face_normal[f], forward) / along;
-        side.plane[side.plane_count++] = {oz + hull.face_height[f] / along - sx * ox - sy * oy, sx, sy};
-        if (sign * along < kFacingCosine) continue;
-        for (uint32_t c = hull.first_corner[f]; c < hull.first_corner[f + 1]; ++c) is_facing[hull.corner[c]] = true;
+    uint32_t facing_points = 0;
+    for (uint32_t first = 0; first < hull.face_count; first += kLanes) {
+        const LaneVec normal = load(&hull.face_normal[first]);
+        const Lanes along = normal.x * n.x + normal.y * n.y + normal.z * n.z;
+        const Lanes sx = -(normal.x * right.x + normal.y * right.y + normal.z * right.z) / along,
+                    sy = -(normal.x * forward.x + normal.y * forward.y + normal.z * forward.z) / along,
+                    at = oz + load(&hull.face_height[first]) / along - sx * ox - sy * oy;
+        // All are written, and the next one over those that look away: whether one does is anyone's guess.
+        for (uint32_t k = 0; k < kLanes && first + k < hull.face_count; ++k) {
+            const float facing = sign * along[k];
+            side.plane[side.plane_count] = {at[k], sx[k], sy[k]};
+            side.plane_count += facing >= kPlaneCosine;
+            facing_points |= facing >= kFacingCosine ? hull.face_points[first + k] : 0;
+        }
     }
-    float height[kMaxPoints];  // towards the other hull
+    alignas(Lanes) float height[kMaxPoints];  // towards the other hull
     const Points& points = hull.local;
-    for (uint32_t k = 0; k < points.count; ++k)
-        height[k] = sign * (points.x[k] * n.x + points.y[k] * n.y + points.z[k] * n.z);
-    float top = -kFar;
-    for (uint32_t k = 0; k < hull.point_count; ++k) top = std::max(top, height[k]);
+    Lanes tops = Lanes{} - kFar;
+    for (uint32_t k = 0; k < points.count; k += kLanes) {
+        const Lanes high = sign * (load(points.x + k) * n.x + load(points.y + k) * n.y + load(points.z + k) * n.z);
+        store(high, height + k);
+        tops = most(high, tops);
+    }
+    const float top = std::max(std::max(tops[0], tops[1]), std::max(tops[2], tops[3]));
     const auto spot_at = [&](uint32_t k) {
         const Vec3 p = points[k];
         return Spot{ox + dot(p, right), oy + dot(p, forward), 0, 0};
     };
-    Spot spots[kMaxPoints];
+    Spot spots[kMaxPoints + 1];
     uint32_t count = 0;
-    for (uint32_t k = 0; k < hull.point_count; ++k)
-        if (is_facing[k] || height[k] > top - kSupportDepth) spots[count++] = spot_at(k);
+    for (uint32_t k = 0; k < hull.point_count; ++k) {
+        spots[count] = spot_at(k);
+        count += (facing_points >> k & 1) != 0 || height[k] > top - kSupportDepth;
+    }
     Spot chain[2 * kMaxPoints + 2];
     side.outline_count = convex_outline(spots, count, chain);
     std::copy_n(chain, side.outline_count, side.outline);

@@ -6,6 +6,8 @@
 #include <cstdint>
 #include <cstring>
 
+#include "engine/math.hpp"
+
 /// Lanes that go through memory from one function to the next cost more than what is done with them.
 #define CULLET_LANES_INLINE [[gnu::always_inline]] inline
 
@@ -46,6 +48,16 @@ CULLET_LANES_INLINE Lanes dot(const LaneVec& a, const LaneVec& b) {
 }
 CULLET_LANES_INLINE LaneVec cross(const LaneVec& a, const LaneVec& b) {
     return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
+}
+
+/// The next four of vectors that stand one after another.
+CULLET_LANES_INLINE LaneVec load(const Vec3* from) {
+    static_assert(sizeof(Vec3) == 3 * sizeof(float));
+    const float* const at = &from->x;
+    const Lanes a = load(at), b = load(at + 4), c = load(at + 8);  // x0 y0 z0 x1, y1 z1 x2 y2, z2 x3 y3 z3
+    const Lanes xy = __builtin_shufflevector(b, c, 2, 3, 5, 6), yz = __builtin_shufflevector(a, b, 1, 2, 4, 5);
+    return {__builtin_shufflevector(a, xy, 0, 3, 4, 6), __builtin_shufflevector(yz, xy, 0, 2, 5, 7),
+            __builtin_shufflevector(yz, c, 1, 3, 4, 7)};
 }
 
 /// Four rows of four floats become columns.
