@@ -47,7 +47,8 @@ struct Body {
     std::optional<btRigidBody> bullet;
     BodyShape shape;
     uint32_t layer = 0, mask = 0;
-    uint32_t leaf = kNoLeaf;  // in the tree of boxes
+    uint32_t leaf = kNoLeaf;   // in the tree of boxes
+    bool has_strayed = false;  // left it since pairs were looked for; scratch
     BodyFrame frame;
     // Where the local points of the hulls stand: `frame` as it was when they were last made all at once. A small change
     // of shape moves the centre of mass and turns the axes; the hulls that stay then keep their points.
@@ -71,6 +72,7 @@ struct Body {
     uint32_t moves = 0;    // counts changes of world points; pairs of unmoved bodies keep their contacts
     uint32_t shape_changes = 0;
 
+    uint32_t number = 0;        // the solver's, in this step
     bool is_touched = false;    // has a contact in this step
     bool is_driven = false;     // has one with a kinematic body that moves
     float slow_seconds = 0;     // touched and nearly at rest
