@@ -266,8 +266,8 @@ void part_cracks(const HandoffStart& start, std::span<PartMotion> motions, Hando
         energy += energy_of(m);
     }
     for (const Touch& t : start.touches) {
-        if (motions[t.a].is_static) report.support_momentum += t.impulse;
-        if (motions[t.b].is_static) report.support_momentum -= t.impulse;
+        if (motions[t.a].is_static) report.support_momentum += share * t.impulse;
+        if (motions[t.b].is_static) report.support_momentum -= share * t.impulse;
     }
     report.energy_crushed = report.energy_unclamped - energy;
     report.energy_unclamped = energy;
