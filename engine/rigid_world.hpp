@@ -193,8 +193,9 @@ class RigidWorld {
 
     virtual void solve(float dt) = 0;
 
-    /// Height of the highest static triangle straight below `point`, or `fallback`.
-    virtual float height_below(Vec3 point, float fallback) const = 0;
+    /// Height of the highest static triangle straight below `point`, or `fallback`: where crumbs come to rest in a world
+    /// that does not know surfaces, and asked of no other.
+    virtual float height_below(Vec3, float fallback) const { return fallback; }
     virtual bool is_asleep(RigidId id) const = 0;
     virtual void wake(RigidId id) = 0;
     virtual RigidCounts counts() const = 0;

@@ -106,9 +106,9 @@ void smooth_cracks(Each<TaskEnded> ended, ShellTables shells, const Tasks& tasks
 void plan_births(Serial, const Events<TaskEnded>& ended, ShellTables shells, const Tasks& tasks, Fragments& fragments,
                  QueuedHits& queued, Blows& blows, Bodies& bodies, const Debris& debris,
                  const FragmentAges& fragment_ages, ViewVertices& view_vertices, ViewIndices& view_indices,
-                 const DamageSettings& settings, Arena& arena, Events<Break>& breaks, Events<Birth>& births,
-                 Events<ShellChanged>& changed, Events<CrackStartedEvent>& cracks, Events<RefusedEvent>& refused,
-                 Events<FaultEvent>& faults);
+                 const DamageSettings& settings, DamageCounts& counts, Arena& arena, Events<Break>& breaks,
+                 Events<Birth>& births, Events<ShellChanged>& changed, Events<CrackStartedEvent>& cracks,
+                 Events<RefusedEvent>& refused, Events<FaultEvent>& faults);
 /// Copies each piece into its rows, marks the old ones dead and chooses what shapes collide (piece_shape.hpp).
 void fill_births(Each<Birth> birth, const Events<Break>& breaks, ShellTables shells, const Bodies& bodies);
 /// Measures what is left of each body; hulls of cells that moved as they were are copied, the others listed.

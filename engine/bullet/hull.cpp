@@ -104,6 +104,14 @@ void set_heights(Hull& hull) {
 
 }  // namespace
 
+void set_face_points(Hull& hull) {
+    for (uint32_t f = 0; f < hull.face_count; ++f) {
+        hull.face_points[f] = 0;
+        for (uint32_t c = hull.first_corner[f]; c < hull.first_corner[f + 1]; ++c)
+            hull.face_points[f] |= 1u << hull.corner[c];
+    }
+}
+
 // Three faces square to each other, and every point at half of the width along all three.
 void find_box(Hull& hull) {
     constexpr float kSquare = 1e-3f;         // cosine; normals are as good as the grid of wrap_hull()
@@ -145,6 +153,7 @@ void build_hull(Hull& hull, std::span<const Vec3> points, float margin, uint32_t
     }
     set_normals(hull);
     set_heights(hull);
+    set_face_points(hull);
     find_box(hull);
 }
 
@@ -156,6 +165,7 @@ void build_hull_like(Hull& hull, const Hull& like, const Mat3& turn, std::span<c
     if (&hull != &like) {
         std::copy(std::begin(like.first_corner), std::end(like.first_corner), hull.first_corner);
         std::copy_n(like.corner, like.first_corner[faces], hull.corner);
+        std::copy_n(like.face_points, faces, hull.face_points);
         std::copy_n(like.edge, edges, hull.edge);
         std::copy_n(like.face_normal, faces, hull.face_normal);
         std::copy_n(like.face_height, faces, hull.face_height);
@@ -224,9 +234,28 @@ void build_triangle(Hull& hull, const Vec3 (&corners)[3], uint32_t cell) {
     for (uint32_t k = 0; k < 3; ++k) hull.radius = std::max(hull.radius, length(hull.local[k]));
     hull.first_corner[0] = 0, hull.first_corner[1] = 3;
     for (uint8_t k = 0; k < 3; ++k) hull.corner[k] = k;
+    hull.face_points[0] = 7;
     refresh_world(hull, Mat3{{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}}, {});
 }
 
+namespace {
+
+// The face of `hull` whose plane a point lies farthest in front of; the point is seen from the hull's centre.
+uint32_t foremost_face(const Hull& hull, Vec3 point) {
+    uint32_t best = 0;
+    float most = -kFar;
+    for (uint32_t f = 0; f < hull.face_count; ++f) {
+        const float height = dot(hull.face_normal[f], point) - hull.face_height[f];
+        best = height > most ? f : best;
+        most = height > most ? height : most;
+    }
+    return best;
+}
+
+}  // namespace
+
+// Most faces are told off by one plane of the other: that which the hull's centre lies farthest in front of. Heights
+// over it are found for all points at once, then each face costs a sum over its corners.
 void mark_inner_faces(Hull& hull, const Hull& other) {
     const Vec3 between = other.local.centre - hull.local.centre;
     if (&hull == &other || length(between) > hull.radius + other.radius + kSeamRange || other.face_count < 4) return;
@@ -234,15 +263,33 @@ void mark_inner_faces(Hull& hull, const Hull& other) {
     // walls do not.
     const float outside = hull.margin + other.margin + 0.0005f;
     const float reach = other.radius + other.margin;
+    const uint32_t foremost = foremost_face(other, -1 * between);
+    const Vec3 up = other.face_normal[foremost];
+    float height[kMaxPoints];
+    const Points& points = hull.local;
+    for (uint32_t k = 0; k < points.count; ++k)
+        height[k] = up.x * points.x[k] + up.y * points.y[k] + up.z * points.z[k];
+    // Of a face's middle, at most: from there it is `outside` to the point asked for. The slack is more than rounding.
+    const float highest = dot(up, between) + other.face_height[foremost] + other.margin + outside + 1e-4f * reach;
+    const auto is_below = [&other](Vec3 p, uint32_t g) {
+        return dot(other.face_normal[g], p) <= other.face_height[g] + other.margin;
+    };
+    uint32_t teller = foremost;
     for (uint32_t f = 0; f < hull.face_count; ++f) {
-        if (hull.is_face_inner[f]) continue;
+        const uint32_t first = hull.first_corner[f], end = hull.first_corner[f + 1];
+        const auto corners = static_cast<float>(end - first);
+        float sum = 0;
+        for (uint32_t c = first; c < end; ++c) sum += height[hull.corner[c]];
+        if (sum > corners * highest || hull.is_face_inner[f]) continue;
         Vec3 middle;
-        for (uint32_t c = hull.first_corner[f]; c < hull.first_corner[f + 1]; ++c) middle += hull.local[hull.corner[c]];
-        const auto corners = static_cast<float>(hull.first_corner[f + 1] - hull.first_corner[f]);
+        for (uint32_t c = first; c < end; ++c) middle += hull.local[hull.corner[c]];
         const Vec3 p = (1 / corners) * middle + outside * hull.face_normal[f] - between;
-        bool is_covered = dot(p, p) < reach * reach;
-        for (uint32_t g = 0; g < other.face_count && is_covered; ++g)
-            is_covered = dot(other.face_normal[g], p) <= other.face_height[g] + other.margin;
+        // What tells one face off mostly does so with the next.
+        bool is_covered = dot(p, p) < reach * reach && is_below(p, teller);
+        for (uint32_t g = 0; g < other.face_count && is_covered; ++g) {
+            is_covered = is_below(p, g);
+            if (!is_covered) teller = g;
+        }
         hull.is_face_inner[f] = is_covered;
     }
 }

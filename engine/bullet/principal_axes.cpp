@@ -3,12 +3,13 @@
 namespace cullet {
 namespace {
 
-// Ten sweeps of three rotations: convergence is quadratic, six reach rounding for any 3 x 3 tensor.
+// At most ten sweeps of three rotations: convergence is quadratic, six reach rounding for any 3 x 3 tensor.
 constexpr int kSweeps = 10;
+constexpr double kNegligible = 1e-17;  // rad: an angle that changes no double of a turned axis
 
-// Golub and Van Loan 8.5: the rotation in the plane (p, q) that makes a[p][q] zero.
-void rotate_plane(double a[3][3], double v[3][3], int p, int q) {
-    if (a[p][q] == 0) return;
+// Golub and Van Loan 8.5: the rotation in the plane (p, q) that makes a[p][q] zero. False: there is nothing to turn.
+bool rotate_plane(double a[3][3], double v[3][3], int p, int q) {
+    if (!(std::fabs(a[p][q]) > kNegligible * std::fabs(a[q][q] - a[p][p]))) return false;
     const double theta = (a[q][q] - a[p][p]) / (2 * a[p][q]);
     const double t = (theta >= 0 ? 1.0 : -1.0) / (std::fabs(theta) + std::sqrt(theta * theta + 1));
     const double c = 1 / std::sqrt(t * t + 1), s = t * c;
@@ -28,6 +29,7 @@ void rotate_plane(double a[3][3], double v[3][3], int p, int q) {
         v[k][q] = s * x + c * y;
     }
     a[p][q] = a[q][p] = 0;
+    return true;
 }
 
 // Shepperd's method: the largest of the four squares is divided by. Columns of m are the rotated axes.
@@ -53,10 +55,11 @@ Quat quaternion(const double m[3][3]) {
 PrincipalAxes principal_axes(const Sym3d& i) {
     double a[3][3] = {{i.xx, i.xy, i.xz}, {i.xy, i.yy, i.yz}, {i.xz, i.yz, i.zz}};
     double v[3][3] = {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
-    for (int sweep = 0; sweep < kSweeps; ++sweep) {
-        rotate_plane(a, v, 0, 1);
-        rotate_plane(a, v, 0, 2);
-        rotate_plane(a, v, 1, 2);
+    bool has_turned = true;
+    for (int sweep = 0; sweep < kSweeps && has_turned; ++sweep) {
+        has_turned = rotate_plane(a, v, 0, 1);
+        has_turned |= rotate_plane(a, v, 0, 2);
+        has_turned |= rotate_plane(a, v, 1, 2);
     }
     const auto positive = [](double x) { return x > 0 ? x : 0.0; };
     return {{positive(a[0][0]), positive(a[1][1]), positive(a[2][2])}, quaternion(v)};

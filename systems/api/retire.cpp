@@ -5,6 +5,7 @@
 #include "systems/api/checks.hpp"
 #include "systems/api/cost.hpp"
 #include "systems/api/remove_body.hpp"
+#include "systems/fragments/piece_shape.hpp"
 #include "systems/fragments/rigid_shape.hpp"
 #include "systems/query/query_index.hpp"
 #include "systems/rigid/body_id.hpp"
@@ -41,6 +42,25 @@ bool is_changing(State& state, Row<Bodies> body) {
     return state.bodies.is_owed_births[body] || (soft.exists() && state.soft_bodies.is_awake[soft]);
 }
 
+// Scenery is its drawn mesh: the rows that it was made of serve others. Its row among shells stays, with mass and area.
+void give_back_rows(State& state, Row<Shells> shell) {
+    if (state.shells.users[shell] > 1) return;
+    const auto back = [&](RangePool& pool, Column<Range>& column) {
+        pool.give_back(column[shell].first, column[shell].capacity);
+        column[shell] = {};
+    };
+    Shells& s = state.shells;
+    drop_stiffness(state, shell);
+    release_springs(state, shell);
+    back(state.pools.vertices, s.vertices);
+    back(state.pools.elements, s.elements);
+    back(state.pools.hinges, s.hinges);
+    back(state.pools.cells, s.cells);
+    back(state.pools.points, s.points);
+    s.dead_elements[shell] = 0;
+    clear_shape(ShellView(state, shell));
+}
+
 void stand_still(WorldData& d, Row<Bodies> body, BodyKind kind) {
     Bodies& bodies = d.state.bodies;
     drop_hits(d.state, body);
@@ -52,6 +72,7 @@ void stand_still(WorldData& d, Row<Bodies> body, BodyKind kind) {
     bodies.velocity.set(body, {});
     bodies.spin.set(body, {});
     d.state.fragment_ages.born[body] = 0;
+    if (kind == BodyKind::Scenery) give_back_rows(d.state, bodies.shell[body]);
     if (kind == BodyKind::Static) {
         d.arena.reset();
         d.rigid->replace(body, describe_rigid(d.state, body, convex_pieces(d.state, bodies.shell[body], d.arena)));

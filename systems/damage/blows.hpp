@@ -24,7 +24,7 @@ void pay_blow(Blows& blows, Bodies& bodies, RigidWorld& rigid, DamageCounts& cou
 void pay_blows(Blows& blows, Bodies& bodies, RigidWorld& rigid, DamageCounts& counts, Row<Tasks> task);
 
 /// The task is over: its blows go, after they were paid. A cut that found no room for all of it, or whose pieces found
-/// none, waits again.
+/// none, waits again, and so does every blow whose task found no rows but may find some later.
 void close_blows(Blows& blows, Bodies& bodies, const Tasks& tasks, RigidWorld& rigid, DamageCounts& counts,
                  Row<Tasks> task);
 

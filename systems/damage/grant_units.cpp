@@ -43,6 +43,18 @@ uint32_t first_step(const State& state, uint32_t t, const Cost& cost, int64_t bu
     return budget > 0 && (!is_last || budget >= cost.step + cost.end);
 }
 
+/// What was owed is paid first, but for the units of the step that each task gets whatever is left.
+void pay_owed(State& state, std::span<const uint32_t> open, int64_t& budget) {
+    int64_t kept = 0;
+    for (const uint32_t t : open) kept += cost_of(state, t).step;
+    for (const uint32_t t : open) {
+        const auto owed = static_cast<int64_t>(state.tasks.units_owed[t]);
+        const int64_t paid = std::min(owed, std::max<int64_t>(budget - kept, 0));
+        state.tasks.units_owed[t] -= static_cast<uint64_t>(paid);
+        budget -= paid;
+    }
+}
+
 /// What no step wants is for what cracks cost, in equal shares of the quick runs, counted in their steps: the loop
 /// takes them back.
 void grant_cuts(State& state, std::span<const uint32_t> order, int64_t& budget) {
@@ -79,10 +91,8 @@ void grant_units(Serial, ShellTables shells, Tasks& tasks, SoftBodies&, const Da
         }
         if (task_state != TaskState::Running) continue;
         order[count++] = t;
-        const auto paid = std::min<int64_t>(static_cast<int64_t>(tasks.units_owed[t]), std::max<int64_t>(budget, 0));
-        tasks.units_owed[t] -= static_cast<uint64_t>(paid);
-        budget -= paid;
     }
+    pay_owed(shells.state, {order, count}, budget);
     std::sort(order, order + count, [&](uint32_t a, uint32_t b) {
         if (tasks.opened_frame[a] != tasks.opened_frame[b]) return tasks.opened_frame[a] < tasks.opened_frame[b];
         return tasks.body[a].index < tasks.body[b].index;
@@ -110,7 +120,9 @@ void grant_units(Serial, ShellTables shells, Tasks& tasks, SoftBodies&, const Da
     const uint64_t soft_budget = for_soft + static_cast<uint64_t>(std::max<int64_t>(budget, 0));
     const uint64_t soft_used = grant_soft(shells.state, soft_budget, counts.slow_soft_frames);
     counts.units_left = soft_budget - std::min(soft_used, soft_budget);
-    counts.units_used = settings.units_a_frame - counts.units_left;
+    // More than there were by the first steps, where these alone are too many.
+    counts.units_used =
+        static_cast<uint64_t>(static_cast<int64_t>(settings.units_a_frame - for_soft) - budget) + soft_used;
 }
 
 }  // namespace cullet

@@ -5,6 +5,7 @@
 #include "systems/damage/blows.hpp"
 #include "systems/damage/task_cost.hpp"
 #include "systems/damage/thresholds.hpp"
+#include "systems/damage/working_room.hpp"
 #include "systems/rigid/body_id.hpp"
 
 namespace cullet {
@@ -177,7 +178,7 @@ struct Opener {
             const Row<Tasks> task = o.open(o.opener, body, is_cut ? 1.0f : blows.speed[row]);
             if (!task.exists()) {
                 pay(row);
-                return Outcome::Gone;
+                return may_find_room(state, body) ? Outcome::Waits : Outcome::Gone;
             }
             state.tasks.is_late[task] = !is_cut && blows.is_paid[row];
             join(row, task);

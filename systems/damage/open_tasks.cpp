@@ -4,6 +4,7 @@
 #include "systems/damage/open_blows.hpp"
 #include "systems/damage/opening.hpp"
 #include "systems/damage/thresholds.hpp"
+#include "systems/damage/working_room.hpp"
 #include "systems/rigid/body_id.hpp"
 #include "systems/systems.hpp"
 
@@ -13,33 +14,16 @@ namespace {
 // The fastest of each striker's contacts; a faster one takes the place of what the same striker did before.
 void queue_hits(std::span<const Impact> impacts, State& state, uint64_t frame, Events<RefusedEvent>& refused) {
     const Bodies& bodies = state.bodies;
-    QueuedHits& queued = state.queued_hits;
     for (const Impact& told : impacts) {
         const Impact impact = aimed(state, told);
-        uint32_t free = kNone, found = kNone;
-        for (uint32_t q = 0; q < queued.size(); ++q) {
-            if (!queued.is_used[q])
-                free = std::min(free, q);
-            else if (queued.body[q] == impact.body && queued.striker[q] == impact.striker)
-                found = q;
-        }
-        if (found != kNone && queued.approach_speed[found] >= impact.approach_speed) continue;
-        const uint32_t q = found != kNone ? found : free;
-        if (q == kNone) {
-            refused.push(refused_event(bodies, impact.body, "limits.queued_hits"));
-            return;
-        }
         const Pose pose = pose_of(bodies, impact.body);
-        queued.is_used[q] = 1;
-        queued.frame[q] = frame;
-        queued.body[q] = impact.body;
-        queued.striker[q] = impact.striker;
-        queued.point.set(q, to_body(pose, impact.point));
-        queued.normal.set(q, rotate(conjugate(pose.orientation), impact.normal));
-        queued.approach_speed[q] = impact.approach_speed;
-        queued.striker_inverse_mass[q] = yielding_of(bodies, impact.striker, impact.point, impact.normal).effective();
-        queued.striker_radius[q] =
-            impact.striker.exists() && bodies.is_sphere[impact.striker] ? bodies.radius[impact.striker] : 0.0f;
+        const Row<Bodies> striker = impact.striker;
+        const bool is_queued =
+            queue_hit(state, {frame, impact.body, striker, to_body(pose, impact.point),
+                              rotate(conjugate(pose.orientation), impact.normal), impact.approach_speed,
+                              yielding_of(bodies, striker, impact.point, impact.normal).effective(),
+                              striker.exists() && bodies.is_sphere[striker] ? bodies.radius[striker] : 0.0f});
+        if (!is_queued) return (void)refused.push(refused_event(bodies, impact.body, "limits.queued_hits"));
     }
 }
 
@@ -121,7 +105,8 @@ uint64_t next_queued_frame(const QueuedHits& queued, uint64_t from) {
     return least;
 }
 
-// Those of one frame in the order of the queue's rows, one a body and frame, while tasks last: the others wait.
+// Those of one frame in the order of the queue's rows, one a body and frame, while tasks last: the others wait, and so
+// does what finds no rows now but may find some later.
 void open_queued_of(uint64_t frame, Opening& opening, const DamageSettings& settings,
                     Events<ImpactEvent>& impact_events) {
     State& state = opening.state;
@@ -139,6 +124,8 @@ void open_queued_of(uint64_t frame, Opening& opening, const DamageSettings& sett
                 const Impact impact{body, queued.striker[q], to_world(pose, queued.point[q]),
                                     rotate(pose.orientation, queued.normal[q]), queued.approach_speed[q]};
                 impact_events.push(event_of(bodies, impact, queued.striker_inverse_mass[q]));
+            } else if (may_find_room(state, body)) {
+                continue;
             }
         }
         queued.clear_rows(q, 1);
@@ -163,7 +150,7 @@ void open_tasks(Serial, Step step, const Events<Impact>& impacts, const Events<F
     State& state = shells.state;
     opened.clear();
     stiffness_wanted.clear();
-    Opening opening{state, opened, stiffness_wanted, refused, counts, step.frame};
+    Opening opening{state, opened, stiffness_wanted, refused, counts, step.frame, step.dt};
     open_queued(opening, settings, impact_events);
     const auto all = impacts.all();
     for (size_t i = 0, next; i < all.size(); i = next) {
@@ -179,7 +166,10 @@ void open_tasks(Serial, Step step, const Events<Impact>& impacts, const Events<F
             continue;
         }
         const Row<Tasks> task = opening.open(body, first.approach_speed);
-        if (!task.exists()) continue;
+        if (!task.exists()) {
+            if (may_find_room(state, body)) queue_hits(all.subspan(i, next - i), state, step.frame, refused);
+            continue;
+        }
         lay_contacts(all.subspan(i, next - i), first, state, task);
         impact_events.push(event);
     }

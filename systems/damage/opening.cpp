@@ -10,6 +10,7 @@
 #include "systems/damage/task_cost.hpp"
 #include "systems/damage/thresholds.hpp"
 #include "systems/damage/working_room.hpp"
+#include "systems/fragments/waiting_pieces.hpp"
 #include "systems/quick/cut_out.hpp"
 #include "systems/quick/quick_body.hpp"
 #include "systems/rigid/body_id.hpp"
@@ -135,6 +136,7 @@ Row<Tasks> Opening::open(Row<Bodies> body, float approach_speed, bool is_ahead) 
     if (!waits) working = make_shell_unclear(state, is_quick ? quick_room(before) : working_room(before), &full);
     if (!waits && !working.exists()) {
         refuse(body, full, is_ahead);
+        if (!is_ahead) bodies.retry_frame[body] = frame + retry_frames(dt);
         return {};
     }
     const Row<Tasks> task(t);
@@ -151,6 +153,7 @@ Row<Tasks> Opening::open(Row<Bodies> body, float approach_speed, bool is_ahead) 
     tasks.start_velocity.set(t, rotate(to_body_axes, bodies.velocity[body]));
     tasks.start_spin.set(t, rotate(to_body_axes, bodies.spin[body]));
     tasks.strength_scale[t] = bodies.strength_scale[body];
+    if (bodies.is_owed_births[body]) forget_own_motions(before);
     set_task_times(state, task);
     set_quick_task(state, task, body);
     const bool is_assembled = is_quick || waits || state.shells.packs[source].count > 0;
@@ -175,8 +178,7 @@ void Opening::give_rows() {
         if (!is_quick_task(state, o.task)) {
             const uint32_t wanted = is_everywhere ? kNone : kWholeCopyVertices;
             if (!give_hidden_rows(state, o.task, wanted, stiffness_wanted, &full)) {
-                tasks.state[o.task] = static_cast<uint8_t>(TaskState::Dropped);
-                refuse(tasks.body[o.task], full, is_ahead(tasks, o.task));
+                drop(o.task, full);
             }
             continue;
         }
@@ -188,10 +190,58 @@ void Opening::give_rows() {
                                             ? state.shells.vertices[working].count * kUnitsQuickOpen
                                             : source.vertex_count() * kUnitsQuickCopy;
         } else {
-            tasks.state[o.task] = static_cast<uint8_t>(TaskState::Dropped);
-            refuse(tasks.body[o.task], full, is_ahead(tasks, o.task));
+            drop(o.task, full);
         }
     }
+}
+
+// Pushes and strikers that were removed stand in contacts without one, which may be several at once: a blow waits as it
+// is (close_blows), the others are lost.
+void Opening::drop(Row<Tasks> task, const char* full) {
+    Tasks& tasks = state.tasks;
+    const TaskContacts& contacts = state.task_contacts;
+    const Row<Bodies> body = tasks.body[task];
+    tasks.state[task] = static_cast<uint8_t>(TaskState::Dropped);
+    if (is_ahead(tasks, task)) return;
+    refuse(body, full, false);
+    if (!may_find_room(state, body)) return;
+    for (uint32_t b = 0; b < state.blows.size(); ++b)
+        if (state.blows.task[b] == task.index) state.blows.goes_on[b] = 1;
+    const uint32_t first = tasks.first_contact[task];
+    for (uint32_t c = first; c < first + tasks.contact_count[task]; ++c) {
+        if (!contacts.striker[c].exists() && contacts.striker_inverse_mass[c] > 0) continue;
+        const Vec3 arm = contacts.point[c] - state.bodies.centre[body].to_float();
+        const Vec3 moving = tasks.start_velocity[task] + cross(tasks.start_spin[task], arm);
+        const float approach = contacts.start_speed[c] - dot(moving, contacts.normal[c]);
+        const bool is_queued =
+            queue_hit(state, {frame, body, contacts.striker[c], contacts.point[c], contacts.normal[c], approach,
+                              contacts.striker_inverse_mass[c], contacts.striker_radius[c]});
+        if (!is_queued) return refuse(body, "limits.queued_hits", false);
+    }
+}
+
+bool queue_hit(State& state, const QueuedHit& hit) {
+    QueuedHits& queued = state.queued_hits;
+    uint32_t free = kNone, found = kNone;
+    for (uint32_t q = 0; q < queued.size(); ++q) {
+        if (!queued.is_used[q])
+            free = std::min(free, q);
+        else if (queued.body[q] == hit.body && queued.striker[q] == hit.striker)
+            found = q;
+    }
+    if (found != kNone && queued.approach_speed[found] >= hit.approach_speed) return true;
+    const uint32_t q = found != kNone ? found : free;
+    if (q == kNone) return false;
+    queued.is_used[q] = 1;
+    queued.frame[q] = hit.frame;
+    queued.body[q] = hit.body;
+    queued.striker[q] = hit.striker;
+    queued.point.set(q, hit.point);
+    queued.normal.set(q, hit.normal);
+    queued.approach_speed[q] = hit.approach_speed;
+    queued.striker_inverse_mass[q] = hit.striker_inverse_mass;
+    queued.striker_radius[q] = hit.striker_radius;
+    return true;
 }
 
 void Opening::refuse(Row<Bodies> body, const char* setting, bool is_ahead) {

@@ -27,6 +27,14 @@ ImpactEvent event_of(const Bodies& bodies, const Impact& impact, double inverse_
 /// `first_aimed` is the first of them as aimed() has it.
 void lay_contacts(std::span<const Impact> impacts, const Impact& first_aimed, State& state, Row<Tasks> task);
 
+/// A row of QueuedHits.
+struct QueuedHit {
+    uint64_t frame;
+    Row<Bodies> body, striker;
+    Vec3 point, normal;  // body frame and axes
+    float approach_speed, striker_inverse_mass, striker_radius;
+};
+
 struct Opening {
     State& state;
     Events<TaskOpened>& opened;
@@ -34,17 +42,22 @@ struct Opening {
     Events<RefusedEvent>& refused;
     DamageCounts& counts;
     uint64_t frame;
+    float dt;
 
     /// A task with a working copy of the body's shell and no contacts yet; it does not exist where there is no room. A
     /// cut-out waits for the contacts. Whoever opens ahead of a touch tells nobody that there was none.
     Row<Tasks> open(Row<Bodies> body, float approach_speed, bool is_ahead = false);
 
     /// Rows for the tasks that wait: of the neighbourhood of their contacts, or of the whole body where blows reach it
-    /// all, or the hit is wide. A task that finds none is dropped.
+    /// all, or the hit is wide. A task that finds none is dropped; its hits ask again.
     void give_rows();
 
  private:
     void refuse(Row<Bodies> body, const char* setting, bool is_ahead);
+    void drop(Row<Tasks> task, const char* full);
 };
+
+/// A hit waits in the queue for its body. At most one a striker: the faster. False: there is no room in it.
+bool queue_hit(State& state, const QueuedHit& hit);
 
 }  // namespace cullet

@@ -4,13 +4,15 @@
 
 #include "systems/cook/materials.hpp"
 #include "systems/damage/assemble.hpp"
+#include "systems/quick/quick_body.hpp"
 
 namespace cullet {
 
 namespace {
 
-/// A vase of some hundred vertices takes up to 600 copies and inserted vertices in a hard hit.
-constexpr uint32_t kLeastSpare = 640;
+/// A vase of some hundred vertices takes up to 600 copies and inserted vertices in a hard hit, a house of 900 under a
+/// charge within it up to a thousand.
+constexpr uint32_t kLeastSpare = 1024;
 
 /// Finer fracture cuts more edges, and a cut without room for its copies is refused.
 uint32_t spare_vertices(const State& state, Row<Materials> material, uint32_t vertices) {
@@ -63,6 +65,20 @@ ShellRoom working_room(ShellView source) {
     room.links = stiffness.links;
     room.cells = source.shells().cells[source.row].count;
     return room;
+}
+
+bool may_find_room(const State& state, Row<Bodies> body) {
+    const ShellView source(const_cast<State&>(state), state.bodies.shell[body]);
+    const Shells& own = state.shells;
+    const ShellRoom room = is_quick_body(state, body) ? quick_room(source) : working_room(source);
+    const auto fits = [](const AnyTable& table, const Range& beside, uint32_t wanted) {
+        return uint64_t{beside.capacity} + wanted <= table.limit();
+    };
+    return fits(state.vertices, own.vertices[source.row], room.vertices) &&
+           fits(state.elements, own.elements[source.row], room.elements) &&
+           fits(state.hinges, own.hinges[source.row], room.hinges) &&
+           fits(state.stiffness_blocks, own.blocks[source.row], room.blocks) &&
+           fits(state.stiffness_links, own.links[source.row], room.links);
 }
 
 // Where there is a grain the slowest waves are those across it.

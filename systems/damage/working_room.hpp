@@ -15,6 +15,10 @@ ShellRoom quick_room(const State& state, Row<Materials> material, uint32_t verti
 ShellRoom hidden_room(const State& state, Row<Materials> material, uint32_t vertices, uint32_t elements,
                       uint32_t hinges);
 
+/// False: a working copy of the body's shell has no room beside it even where nothing else is, so that a hit need not
+/// wait for it.
+bool may_find_room(const State& state, Row<Bodies> body);
+
 /// What RefusedEvent names where a body's cracks have filled this room, which is a share of its mesh: a finer one has
 /// more. Springs of soft bodies have theirs.
 inline constexpr const char* kCrackRoom = "mesh_vertices";

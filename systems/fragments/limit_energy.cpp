@@ -123,6 +123,18 @@ double pieces_energy(const State& state, const Break& plan) {
     return energy;
 }
 
+double owed_to_late(const State& state, Row<Tasks> task) {
+    double owed = state.tasks.start_energy[task] - rigid_energy(state.bodies, state.tasks.body[task]);
+    const uint32_t first = state.tasks.first_contact[task], end = first + state.tasks.contact_count[task];
+    const auto& strikers = state.task_contacts.striker;
+    for (uint32_t c = first; c < end; ++c) {
+        bool is_counted = false;
+        for (uint32_t b = first; b < c; ++b) is_counted = is_counted || strikers[b] == strikers[c];
+        if (!is_counted) owed -= rigid_energy(state.bodies, strikers[c]);
+    }
+    return std::max(0.0, owed);
+}
+
 void limit_energy(Births& births, const Break& plan, double allowed) {
     State& state = births.state;
     const double energy = pieces_energy(state, plan);

@@ -12,6 +12,10 @@ double rigid_energy(const Bodies& bodies, Row<Bodies> body, const Motion& motion
 /// J, of the pieces and crumbs that came of a break.
 double pieces_energy(const State& state, const Break& plan);
 
+/// J, what body and strikers had at the touch, by the run, and do not have any more: the rigid solver took it while the
+/// pieces were not known yet.
+double owed_to_late(const State& state, Row<Tasks> task);
+
 /// Of what just came of a break: the pieces and the crumbs may together have at most `allowed` (J), what the body had
 /// and what strikers lost to it. The hidden run keeps to that, but not what follows from it: a rigid piece turns with
 /// the inertia of its tetrahedra and not of its vertices (a few per cent), and of two bodies that break each other

@@ -9,6 +9,7 @@
 #include "systems/fragments/limit_energy.hpp"
 #include "systems/fragments/rigid_shape.hpp"
 #include "systems/fragments/strike_back.hpp"
+#include "systems/fragments/waiting_pieces.hpp"
 #include "systems/quick/quick_body.hpp"
 #include "systems/rigid/body_id.hpp"
 #include "systems/soft/soft_pieces.hpp"
@@ -152,7 +153,8 @@ struct Bounds {
 // own that would take it out of its sibling: unmet, the upper half of a vase fell 30 cm into the lower one and stayed
 // there. Such pieces meet at once; their overlap is pushed out without adding velocity.
 void part_siblings(Births& births, const Break& plan, std::span<const Bounds> bounds) {
-    if (!plan.task.exists() || is_cut_task(births.state.blows, plan.task)) return;
+    const bool has_own_motion = plan.task.exists() ? !is_cut_task(births.state.blows, plan.task) : plan.waited > 0;
+    if (!has_own_motion) return;
     const auto count = static_cast<uint32_t>(plan.parts.size());
     for (uint32_t p = 0; p < count; ++p)
         for (uint32_t q = p + 1; q < count; ++q)
@@ -253,28 +255,17 @@ void make_births_of(Births& births, const Break& plan, const Moment& moment) {
     part_siblings(births, plan, bounds);
 }
 
-// J, what body and strikers had at the touch, by the run, and do not have any more: the rigid solver took it while the
-// pieces were not known yet.
-double owed_to_late(const State& state, Row<Tasks> task) {
-    double owed = state.tasks.start_energy[task] - rigid_energy(state.bodies, state.tasks.body[task]);
-    const uint32_t first = state.tasks.first_contact[task], end = first + state.tasks.contact_count[task];
-    const auto& strikers = state.task_contacts.striker;
-    for (uint32_t c = first; c < end; ++c) {
-        bool is_counted = false;
-        for (uint32_t b = first; b < c; ++b) is_counted = is_counted || strikers[b] == strikers[c];
-        if (!is_counted) owed -= rigid_energy(state.bodies, strikers[c]);
-    }
-    return std::max(0.0, owed);
-}
-
 }  // namespace
 
 void make_break(Births& births, const Break& plan) {
     State& state = births.state;
     if (plan.soft.exists()) give_pieces_springs(state, plan);
     if (!plan.task.exists()) {
+        const double allowed = rigid_energy(state.bodies, plan.body) + plan.waited;
         make_births_of(births, plan, {pose_of(state.bodies, plan.body), {}, {}, {}, false});
-        if (plan.soft.exists()) keep_torn(state, births.rigid, plan);
+        if (plan.soft.exists()) return keep_torn(state, births.rigid, plan);
+        const double goes_on_waiting = waiting_energy(state, plan.body);
+        if (plan.waited > 0) limit_energy(births, plan, allowed - goes_on_waiting);
         return;
     }
     births.counts.clamped += plan.clamped;
@@ -289,9 +280,12 @@ void make_break(Births& births, const Break& plan) {
     make_births_of(births, plan, moment);
     if (moment.is_late || !comes_from_outside) limit_energy(births, plan, allowed);
     if (!moment.is_late && !comes_from_outside) share_with_strikers(births, plan, allowed);
+    double energy = pieces_energy(state, plan);
+    if (plan.is_refused)
+        energy += comes_from_outside ? waiting_energy(state, plan.body)
+                                     : limit_waiting(state, plan.body, std::max(0.0, allowed - energy));
     if (moment.is_late || comes_from_outside)
-        births.counts.work_from_outside +=
-            std::max(0.0, pieces_energy(state, plan) - (moment.is_late ? before : allowed));
+        births.counts.work_from_outside += std::max(0.0, energy - (moment.is_late ? before : allowed));
     part_strikers(births, plan.task, plan, moment.is_late);
 }
 

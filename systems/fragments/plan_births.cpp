@@ -42,13 +42,14 @@ bool asks_as_soft(State& state, Row<Bodies> body) {
 
 void plan_births(Serial, const Events<TaskEnded>& ended, ShellTables shells, const Tasks& tasks, Fragments&,
                  QueuedHits&, Blows&, Bodies& bodies, const Debris& debris, const FragmentAges& ages, ViewVertices&,
-                 ViewIndices&, const DamageSettings& settings, Arena& arena, Events<Break>& breaks,
-                 Events<Birth>& births, Events<ShellChanged>& changed, Events<CrackStartedEvent>& cracks,
-                 Events<RefusedEvent>& refused, Events<FaultEvent>& faults) {
+                 ViewIndices&, const DamageSettings& settings, DamageCounts& counts, Arena& arena,
+                 Events<Break>& breaks, Events<Birth>& births, Events<ShellChanged>& changed,
+                 Events<CrackStartedEvent>& cracks, Events<RefusedEvent>& refused, Events<FaultEvent>& faults) {
     breaks.clear();
     births.clear();
     Planning planning{shells.state,
                       settings,
+                      counts,
                       arena,
                       breaks,
                       births,
@@ -74,7 +75,7 @@ void plan_births(Serial, const Events<TaskEnded>& ended, ShellTables shells, con
         // More pieces than there may be, with those that found no room before.
         if (result == TaskState::Dropped && tasks.crack_count[task] && tasks.shell[task] == tasks.source[task])
             clear_run(ShellView(shells.state, tasks.shell[task]), true, false);
-        if (result == TaskState::Dropped)
+        if (result == TaskState::Dropped && tasks.shell[task].exists())  // else it was refused
             faults.push({body_id(bodies, tasks.body[task]), bodies.user_data[tasks.body[task]],
                          centre_of(bodies, tasks.body[task]),
                          "A hit gained energy three times over, made more than 1024 pieces, or found no room for its "

@@ -3,13 +3,16 @@
 #include <algorithm>
 
 #include "systems/brittle/hidden_region.hpp"
+#include "systems/damage/blows.hpp"
 #include "systems/fragments/body_rows.hpp"
 #include "systems/fragments/cell_hulls.hpp"
 #include "systems/fragments/crack_touches.hpp"
 #include "systems/fragments/hand_on.hpp"
+#include "systems/fragments/limit_energy.hpp"
 #include "systems/fragments/make_piece.hpp"
 #include "systems/fragments/piece_shape.hpp"
 #include "systems/fragments/rest_of_body.hpp"
+#include "systems/fragments/waiting_pieces.hpp"
 #include "systems/quick/quick_body.hpp"
 #include "systems/rigid/body_id.hpp"
 #include "systems/soft/soft_pieces.hpp"
@@ -21,16 +24,30 @@ namespace {
 // Cuts have no last generation: more are not told apart.
 constexpr uint32_t kMostGenerations = 255;
 
-// A piece that found no room stays part of another and moves with it.
+// A piece that found no room stays part of another and moves with it, as one that keeps momentum and angular momentum.
 void join_motions(PartMotion& motion, PartMotion& joined) {
     const double mass = motion.mass + joined.mass;
-    if (mass > 0) motion.centre = (1 / mass) * (motion.mass * motion.centre + joined.mass * joined.centre);
+    if (!(mass > 0)) return;
+    const bool is_static = motion.is_static || joined.is_static;
+    const Vec3d centre = (1 / mass) * (motion.mass * motion.centre + joined.mass * joined.centre);
+    Sym3d inertia;
+    Vec3d turning;
+    for (const PartMotion* m : {&motion, &joined}) {
+        const Vec3d arm = m->centre - centre;
+        inertia = inertia + m->inertia + m->mass * inertia_of(outer(arm));
+        turning += m->inertia * m->spin + cross(arm, m->momentum);
+    }
     motion.mass = mass;
-    motion.momentum += joined.momentum;
-    motion.is_static = motion.is_static || joined.is_static;
-    if (motion.is_static) motion.momentum = {};
-    motion.velocity = (1.0 / motion.mass) * motion.momentum;
-    if (motion.is_static) motion.spin = {};
+    motion.centre = centre;
+    motion.inertia = inertia;
+    motion.is_static = is_static;
+    motion.momentum = is_static ? Vec3d{} : motion.momentum + joined.momentum;
+    motion.velocity = (1 / mass) * motion.momentum;
+    const double scale = trace(inertia);
+    if (is_static)
+        motion.spin = {};
+    else if (determinant(inertia) > 1e-12 * scale * scale * scale)
+        motion.spin = inverse(inertia) * turning;
     joined = {};
 }
 
@@ -75,6 +92,11 @@ void count_births(Planning& planning, uint32_t born, uint32_t given_back) {
 
 void stay(Planning& planning, Break& plan, uint32_t part, const char* setting) {
     planning.refused.push(refused_event(planning.state.bodies, plan.body, setting));
+    const ShellView shell(planning.state, plan.broken);
+    if (!plan.soft.exists()) {
+        if (plan.task.exists() && !plan.is_refused) forget_own_motions(shell);
+        if (!plan.motions[part].is_static) keep_own_motion(shell, plan.parts[part], plan.motions[part]);
+    }
     plan.is_refused = true;
     join_parts(ShellView(planning.state, plan.broken), plan.parts, part, plan.largest);
     join_motions(plan.motions[plan.largest], plan.motions[part]);
@@ -216,14 +238,44 @@ void keep_cuts(Blows& blows, Row<Tasks> task) {
         if (blows.task[b] == task.index && is_kind(blows, b, BlowKind::Cut)) blows.goes_on[b] = 1;
 }
 
+// J that pieces may have beyond the body's motion where none of them left: what the contact that is solved now takes
+// for certain, as half of what two bodies lose that meet without bouncing; of a late result what it has taken.
+double lost_to_touch(const State& state, Row<Tasks> task) {
+    if (state.tasks.is_late[task]) return owed_to_late(state, task);
+    const TaskContacts& contacts = state.task_contacts;
+    const Row<Bodies> body = state.tasks.body[task];
+    const uint32_t first = state.tasks.first_contact[task], end = first + state.tasks.contact_count[task];
+    double most = 0;
+    for (uint32_t c = first; c < end; ++c) {
+        const Vec3d point(contacts.point[c]), normal(contacts.normal[c]);
+        const Vec3d arm = point - state.bodies.centre[body];
+        const Vec3d moving = Vec3d(state.tasks.start_velocity[task]) + cross(Vec3d(state.tasks.start_spin[task]), arm);
+        const double speed = double{contacts.start_speed[c]} - dot(moving, normal);
+        const double inverse_mass =
+            inverse_mass_at(state.bodies, body, point, normal) + double{contacts.striker_inverse_mass[c]};
+        const Row<Bodies> striker = contacts.striker[c];
+        const double bounce =
+            striker.exists() ? double{state.bodies.restitution[body]} * state.bodies.restitution[striker] : 1;
+        if (speed > 0 && inverse_mass > 0)
+            most = std::max(most, 0.5 * (1 - bounce * bounce) * 0.5 * speed * speed / inverse_mass);
+    }
+    return most;
+}
+
 // What frees no piece changes no velocity: the body keeps its cracks, and its loose pieces until there is room.
 void stay_whole(Planning& planning, Break& plan) {
     State& state = planning.state;
     const ShellView shell(state, plan.broken), before(state, state.bodies.shell[plan.body]);
     if (!plan.task.exists()) return;
     if (!keep_hulls(shell, before)) return keep_cuts(state.blows, plan.task);
-    clear_run(shell, true, shell.row != before.row);
+    clear_run(shell, true, shell.row != before.row, plan.is_refused);
     adopt_shell(state, plan.body, shell.row);
+    if (!plan.is_refused) return;
+    // An explosion's energy comes from outside.
+    if (has_explosion(state.blows, plan.task))
+        planning.counts.work_from_outside += waiting_energy(state, plan.body);
+    else
+        limit_waiting(state, plan.body, lost_to_touch(state, plan.task));
 }
 
 // What a hit changed in the body's own shell stays there. It is drawn, and its pieces go, when there is room.
@@ -237,7 +289,10 @@ bool reserve_births(Planning& planning, Break& plan) {
     State& state = planning.state;
     uint8_t& owed = state.bodies.is_owed_births[plan.body];
     choose_births(planning, plan);
-    const bool is_drawn = reserve_view(planning, plan), was_drawn = owed != kOwedDrawing;
+    const bool is_drawn = reserve_view(planning, plan);
+    if (plan.is_refused && !plan.soft.exists())
+        subtract_motion(ShellView(state, plan.broken), plan.motions[plan.largest]);
+    const bool was_drawn = owed != kOwedDrawing;
     owed = !is_drawn ? kOwedDrawing : plan.is_refused ? kOwedBirths : 0;
     if (plan.is_broken()) return true;
     const bool is_new = plan.task.exists();
@@ -347,9 +402,12 @@ void ask_again(Planning& planning, Row<Bodies> body) {
     Break plan = break_of(planning, {}, body, shell.row, parts);
     if (!reserve_points(planning, plan)) return;
     const Bodies& bodies = state.bodies;
+    if (bodies.is_asleep[body]) forget_own_motions(shell);
+    plan.waited = waiting_energy(state, body);
     const Quat to_body_axes = conjugate(bodies.orientation[body]);
     move_with_body(state, plan, Vec3d(rotate(to_body_axes, bodies.velocity[body])),
                    Vec3d(rotate(to_body_axes, bodies.spin[body])));
+    take_own_motions(shell, plan.parts, plan.motions);
     if (reserve_births(planning, plan)) order_births(planning, plan);
 }
 

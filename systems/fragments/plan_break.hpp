@@ -8,6 +8,7 @@ namespace cullet {
 struct Planning {
     State& state;
     const DamageSettings& settings;
+    DamageCounts& counts;
     Arena& arena;
     Events<Break>& breaks;
     Events<Birth>& births;
@@ -24,11 +25,12 @@ uint32_t free_fragments(const FragmentAges& ages, const DamageSettings& settings
 
 /// The task's shell has more than one part (Fragments). The largest keeps the body's handle and its rows in that shell,
 /// which becomes the body's own; the others get rows in order of mass, and their old rows will be dead. A piece that
-/// finds no room stays with the largest and is counted with the setting to raise.
+/// finds no room stays with the largest and is counted with the setting to raise; it keeps its own motion for when it
+/// leaves (waiting_pieces.hpp).
 void plan_break(Planning& planning, Row<Tasks> task);
 
 /// A body whose loose pieces found no room (is_owed_births) and that no task works on asks again. They leave with the
-/// body's own motion.
+/// body's motion and what they have of their own; asleep, they have none any more.
 void ask_again(Planning& planning, Row<Bodies> body);
 
 /// An awake soft body that tore: pieces leave it with the motion of their points. What has a pin keeps the handle, else

@@ -47,7 +47,7 @@ void keep_rest(State& state, const Break& plan) {
     if (!plan.is_rest_smaller(state)) write_sums(shell, plan.whole - left);
     state.shells.dead_elements[shell.row] += plan.left_elements;
     ++state.shells.generation[shell.row];
-    if (!plan.soft.exists()) clear_run(shell, false, plan.broken != plan.before);
+    if (!plan.soft.exists()) clear_run(shell, false, plan.broken != plan.before, plan.is_refused);
     if (plan.keeps_hulls) return renew_rest_hulls(shell);
     const Range points = state.shells.points[before.row], old_points = state.shells.points[shell.row];
     state.shells.points[shell.row] = plan.points;

@@ -31,7 +31,7 @@ void shed_part(ShellView shell, const FragmentPart& part) {
     }
 }
 
-void clear_run(ShellView shell, bool is_whole, bool has_run) {
+void clear_run(ShellView shell, bool is_whole, bool has_run, bool has_waiting) {
     Vertices& vertices = shell.state.vertices;
     uint8_t has_cracks = 0;
     for (uint32_t v = 0; v < shell.vertex_count(); ++v) {
@@ -41,7 +41,7 @@ void clear_run(ShellView shell, bool is_whole, bool has_run) {
         const bool counts = is_whole || vertices.crack[row] == static_cast<uint8_t>(CrackState::Tip);
         has_cracks |= counts && vertices.crack[row] != 0;
         if (!has_run) continue;
-        vertices.velocity.set(row, {});
+        if (!has_waiting) vertices.velocity.set(row, {});
         vertices.ready_time[row] = 0;
         vertices.is_start_banned[row] = 0;
         vertices.displacement.set(row, {});

@@ -14,8 +14,8 @@ void shed_part(ShellView shell, const FragmentPart& part);
 
 /// After the last shed_part: has_cracks, marks of cracks that pieces took with them, velocities, and the state of a
 /// hidden run, if one was made on these rows: all of that is cleared. Fragments (`is_whole` false) count as cracked
-/// while a tip is left. O(the shell's vertices).
-void clear_run(ShellView shell, bool is_whole, bool has_run = true);
+/// while a tip is left. Velocities of pieces that wait stay. O(the shell's vertices).
+void clear_run(ShellView shell, bool is_whole, bool has_run = true, bool has_waiting = false);
 /// The velocities that put_back wrote are cleared, as clear_run does it where no run was made on these rows.
 void stop_blocks(ShellView shell);
 

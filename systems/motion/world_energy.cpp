@@ -1,6 +1,7 @@
 #include "systems/motion/world_energy.hpp"
 
 #include "systems/fragments/limit_energy.hpp"
+#include "systems/fragments/waiting_pieces.hpp"
 #include "systems/rigid/body_id.hpp"
 #include "systems/soft/sheet_energy.hpp"
 #include "systems/soft/soft_body.hpp"
@@ -32,9 +33,12 @@ MechanicalEnergy body_energy(State& state, Row<Bodies> body, Vec3 gravity) {
     if (kind != BodyKind::Dynamic && !(kind == BodyKind::Static && has_shell)) return {};
     const Row<SoftBodies> soft = has_shell ? find_soft(state.soft_bodies, body) : Row<SoftBodies>{};
     if (soft.exists() && state.soft_bodies.is_awake[soft]) return soft_energy(state, soft, Vec3d(gravity));
-    return {
-        rigid_energy(bodies, body), -bodies.mass[body] * dot(Vec3d(gravity), Vec3d(centre_of(bodies, body))), 0, 0, 0,
-        bodies.mass[body]};
+    return {rigid_energy(bodies, body),
+            -bodies.mass[body] * dot(Vec3d(gravity), Vec3d(centre_of(bodies, body))),
+            0,
+            waiting_energy(state, body),
+            0,
+            bodies.mass[body]};
 }
 
 MechanicalEnergy debris_energy(const Debris& debris, uint32_t row, Vec3 gravity) {

@@ -9,7 +9,8 @@ struct MechanicalEnergy {
     double kinetic = 0;  // of dynamic bodies as rigid ones, of crumbs, of soft bodies that are awake by their points
     double height = 0;   // -m g . x, x from the world's origin
     double strain = 0;   // of the springs of soft bodies that are awake
-    double waiting = 0;  // that bodies which struck each other gain when the task of the second ends; may be negative
+    double waiting = 0;  // that bodies which struck each other gain when the task of the second ends, which may be
+                         // negative; and of pieces that wait for room, beyond their body's motion
     uint32_t awake = 0;  // soft bodies that move by their springs
     double mass = 0;     // kg, of all that is counted
     double total() const { return kinetic + height + strain + waiting; }

@@ -93,7 +93,8 @@ struct StepReport {
 enum class Retirement : uint8_t {
     Remove,  // it is gone, and its handle stale
     Freeze,  // it is static where it is: others still lie on it and hit it, but it never moves or breaks again
-    Merge,   // it is scenery: drawn where it lies, met by nothing, asked by queries alone. Its rows stay until remove()
+    Merge,   // it is scenery: drawn where it lies, met by nothing, asked by queries alone. What it was made of is given
+             // back; its handle and its drawn mesh stay until remove()
 };
 
 struct RetireSettings {
