@@ -103,7 +103,7 @@ struct RigidCounts {
 /// take energy and never give any. Measured in Checked and Debug builds alone.
 struct RigidWork {
     double lifted = 0;  // against gravity, by moving overlapping bodies apart
-    double ahead = 0;   // gravity's on bodies that were stopped on their way: their velocity has that of the whole step
+    double ahead = 0;   // gravity's on bodies that were stopped on their way, less what was taken back: at most 0
     double driven = 0;  // kinematic bodies', at their contacts: at most so much
     double sum() const { return lifted + ahead + driven; }
 };
@@ -193,8 +193,8 @@ class RigidWorld {
 
     virtual void solve(float dt) = 0;
 
-    /// Height of the highest static triangle straight below `point`, or `fallback`: where crumbs come to rest in a world
-    /// that does not know surfaces, and asked of no other.
+    /// Height of the highest static triangle straight below `point`, or `fallback`: where crumbs come to rest in a
+    /// world that does not know surfaces, and asked of no other.
     virtual float height_below(Vec3, float fallback) const { return fallback; }
     virtual bool is_asleep(RigidId id) const = 0;
     virtual void wake(RigidId id) = 0;

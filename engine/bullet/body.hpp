@@ -91,8 +91,6 @@ struct Body {
 
     float moved_fraction = 1;  // of this step, less than 1 when stopped at a time of impact
     bool is_fast = false;      // swept in this step
-    // While bodies that stopped each other are carried on:
-    Vec3 carried;  // m, that it went on so in this step
 
     /// The hull frame's transform where the Bullet frame's is `at`.
     btTransform hulls_at(const btTransform& at) const { return has_offset ? at * hull_offset : at; }

@@ -872,7 +872,7 @@ void BulletWorld::take_back_gravity(float dt) {
         if (!body.is_used || !(body.moved_fraction < 1) || !body.is_free()) continue;
         const btVector3 linear = body.bullet->getLinearVelocity();
         const double fall = dot(down, Vec3d(from_bullet(linear)));
-        const double lost = (1 - static_cast<double>(body.moved_fraction)) * dt * fall - dot(down, Vec3d(body.carried));
+        const double lost = (1 - static_cast<double>(body.moved_fraction)) * dt * fall;
         if (!(fall > 0) || !(lost > 0)) continue;
         const double kept = std::sqrt(std::max(0.0, fall * fall - 2 * strength * lost));
         const btVector3 slower = linear - to_bullet(((fall - kept) * down).to_float());
@@ -894,7 +894,6 @@ void BulletWorld::integrate(float dt) {
         body.bullet->predictIntegratedTransform(body.moved_fraction * dt, moved);
         body.bullet->proceedToTransform(moved);
     }
-    sweeper_.slow_down(*this);
     take_back_gravity(dt);
     sweeper_.slow_down(*this);
     farthest_way_ = 0;

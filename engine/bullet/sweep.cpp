@@ -170,7 +170,6 @@ void Sweeper::list_fast(BulletWorld& world, float dt) {
         if (!body.is_used || body.kind == RigidKind::Static) continue;
         body.moved_fraction = 1;
         body.is_fast = false;
-        body.carried = {};
         brakes_[id].other = kNoRigid;
         const Mover mover = mover_of(body);
         if (!is_far(travel(mover, dt), thinnest)) continue;

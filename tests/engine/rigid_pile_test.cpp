@@ -46,6 +46,9 @@ constexpr uint32_t kShards = 50;
 constexpr uint32_t kAsleepBy = 390, kStillFor = 120, kWindow = 30;  // steps; the last shard lands before step 120
 constexpr float kHitSpeed = 0.05f;                                  // m/s, above the 0.04 of settled piles
 
+// What the last bits of a solve leave over: half a millimetre a second.
+constexpr double kNoise = 1e-7;  // J/kg
+
 std::vector<Pose> poses_of(const RigidWorld& world) {
     std::vector<Pose> poses;
     for (uint32_t id = 1; id <= kShards; ++id) poses.push_back(world.pose(id));
@@ -115,9 +118,7 @@ Heap drop_heap(uint32_t seed) {
     return heap;
 }
 
-// One heap says little. Of 16 none has a contact deeper than 2 mm, and the worst of their 95th percentiles is 0.3 mm.
-// Ten of their 800 shards are awake after six and a half seconds, in two heaps that slide or rock; wanted are none, and
-// no speed gained at all.
+// One heap says little. Of 16 none has a contact deeper than 2.2 mm, and the worst of their 95th percentiles is 0.4 mm.
 TEST(RigidPile, FiftyCurvedShardsSleepWithinSixAndAHalfSecondsAndLieNowhereDeeperThanThreeMillimetres) {
     constexpr uint32_t kHeaps = 16;
     uint32_t asleep = 0, moved = 0;
@@ -129,12 +130,12 @@ TEST(RigidPile, FiftyCurvedShardsSleepWithinSixAndAHalfSecondsAndLieNowhereDeepe
         // Nothing is hit, so nothing gains speed but by falling: a shard that slides off another one.
         for (size_t k = 1; k < heap.windows.size(); ++k) {
             const double fell = std::max(0.0, heap.windows[k - 1].start - heap.windows[k].end);
-            EXPECT_LE(heap.windows[k].most, heap.windows[k - 1].most + fell + 0.001)  // J/kg
+            EXPECT_LE(heap.windows[k].most, heap.windows[k - 1].most + fell + kNoise)
                 << "seed " << seed << ", window " << k;
         }
     }
-    EXPECT_GE(100 * asleep, 98 * kHeaps * kShards);
-    EXPECT_LE(moved, 16u);
+    EXPECT_GE(100 * asleep, 99 * kHeaps * kShards);
+    EXPECT_EQ(moved, 0u);
 }
 
 }  // namespace

@@ -62,17 +62,36 @@ Moment measure(const WorldData& data, const std::vector<uint32_t>& pieces) {
     return moment;
 }
 
-std::vector<Pose> poses_of(const Bodies& bodies, const std::vector<uint32_t>& pieces) {
-    std::vector<Pose> poses;
-    for (const uint32_t b : pieces) poses.push_back({bodies.position[b], bodies.orientation[b]});
-    return poses;
+/// Where a piece is; by its handle, because rows are given to others once a piece is gone.
+struct Place {
+    Handle<Bodies> piece;
+    Pose pose;
+};
+
+std::vector<Place> places_of(const Bodies& bodies, const std::vector<uint32_t>& pieces) {
+    std::vector<Place> places;
+    for (const uint32_t b : pieces)
+        places.push_back({{b, bodies.generation[b]}, {bodies.position[b], bodies.orientation[b]}});
+    return places;
+}
+
+/// Pieces that are not where they were. What is gone since has not moved, what is new has.
+size_t count_moved(const std::vector<Place>& before, const std::vector<Place>& after) {
+    size_t moved = 0;
+    for (const Place& now : after) {
+        const auto same = [&](const Place& then) {
+            return then.piece == now.piece && std::memcmp(&then.pose, &now.pose, sizeof(Pose)) == 0;
+        };
+        moved += std::none_of(before.begin(), before.end(), same);
+    }
+    return moved;
 }
 
 Settling settle(GameWorld& game) {
     Settling out;
     const WorldData& data = game.world().contents().data;
     const Bodies& bodies = data.state.bodies;
-    std::vector<Pose> poses;
+    std::vector<Place> places;
     for (uint32_t frame = 0; frame < kMostFrames && out.moments.size() < kStillBy + kStillFor; ++frame) {
         test::play_frame(game);
         EXPECT_EQ(game.failure(), "");
@@ -96,11 +115,9 @@ Settling settle(GameWorld& game) {
                 out.awake.push_back(text);
             }
         }
-        if (out.moments.size() == kStillBy) poses = poses_of(bodies, pieces);
+        if (out.moments.size() == kStillBy) places = places_of(bodies, pieces);
         if (out.moments.size() < kStillBy + kStillFor) continue;
-        const std::vector<Pose> later = poses_of(bodies, pieces);
-        for (size_t k = 0; k < poses.size() && k < later.size(); ++k)
-            out.moved += std::memcmp(&poses[k], &later[k], sizeof(Pose)) != 0;
+        out.moved = count_moved(places, places_of(bodies, pieces));
     }
     return out;
 }
@@ -162,8 +179,9 @@ TEST_P(Settles, NearlyAllSleepFiveSecondsAfterTheLastBreakAndNoneMovesAfterTen) 
     }
 }
 
-// The castle ought to be among them: its bent pieces, several cells each, hook into each other while siblings pass, and
-// in one of two seeds one of seven still moves after five seconds.
+// The castle ought to be among them. Its second seed has a piece that hooks into what stands, 9 cm deep,
+// once siblings meet again: two cells press it to opposite sides, a fifth of the depth a step, and it leaps about by
+// decimetres.
 INSTANTIATE_TEST_SUITE_P(Scenes, Settles,
                          testing::Values(Case{"vase", 1}, Case{"vase", 2}, Case{"vase", 3}, Case{"pane", 1},
                                          Case{"wall", 1}, Case{"wall", 2}, Case{"wall", 3}, Case{"wall", 4},
