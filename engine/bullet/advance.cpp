@@ -9,10 +9,10 @@ constexpr float kThicknessShare = 0.1f;
 constexpr double kStop = 0.0005;  // m, the gap at which a sweep ends
 constexpr double kAim = 0.0001;   // m: an advance aims this much past the gap to stop at, so that it ends in few rounds
 constexpr double kTouching = 0.001;  // m: pieces nearer than this at the start touch already
-// How much deeper touching pieces may go in a step where one of them stands, m; on the way that a flock is carried on
-// they only slide. Two free ones may go in a third of the thinner one's width, and what lies deeper than that is pushed
-// out, not stopped: a heap's pieces whose far corners swing in would stand still in the air with all their speed.
-constexpr double kDeeper = 0.001, kSliding = 2e-5;
+// How much deeper touching pieces may go in a step where one of them stands, m. Two free ones may go in a third of the
+// thinner one's width, and what lies deeper than that is pushed out, not stopped: a heap's pieces whose far corners
+// swing in would stand still in the air with all their speed.
+constexpr double kDeeper = 0.001;
 constexpr double kLeast = 0.0002;  // m that their cores stay apart, where they are, so that gaps can be measured
 // Lively ones may go in all this share of the thinner one's width deep. Without it a sheet of 2 mm that strikes with
 // its edge and spins at 400 rad/s works its way through a plate of a centimetre, a millimetre a step. From a half on
@@ -193,7 +193,7 @@ Vec3d KnownAxes::of(const Hull& a, const Hull& b) const {
 }
 
 double touch_fraction(const Mover& a, const Hull& hull_a, const Mover& b, const Hull& hull_b, float dt, double limit,
-                      Vec3d& axis, const KnownAxes& known, bool has_moved) {
+                      Vec3d& axis, const KnownAxes& known) {
     const double turning = length(a.spin) * reach_of(*a.body, hull_a) + length(b.spin) * reach_of(*b.body, hull_b);
     // Where the two were stopped at different times one goes on alone after the first of them.
     const double fraction_a = static_cast<double>(a.body->moved_fraction),
@@ -208,13 +208,13 @@ double touch_fraction(const Mover& a, const Hull& hull_a, const Mover& b, const 
     const float reach_a = reach_of(*a.body, hull_a), reach_b = reach_of(*b.body, hull_b);
     double t = 0, stop = kStop;
     // The pair's contact, found where the two stand now, has the axis.
-    const Vec3d met = has_moved ? Vec3d() : known.of(hull_a, hull_b);
+    const Vec3d met = known.of(hull_a, hull_b);
     bool is_axis_fixed = dot(met, met) > 0.5;
     if (is_axis_fixed) axis = met;
     const bool is_lively = (turning + std::max(length(first), is_split ? length(second) : 0)) * dt > kLively;
     for (int round = 0; round < kRounds; ++round) {
         const btTransform at_a = a.at(t, dt), at_b = b.at(t, dt);
-        if (round > 0 || has_moved) {
+        if (round > 0) {
             const btTransform hulls_a = a.body->hulls_at(at_a), hulls_b = b.body->hulls_at(at_b);
             transform_points(hull_a, rotation_of(hulls_a), from_bullet(hulls_a.getOrigin()), points_a);
             transform_points(hull_b, rotation_of(hulls_b), from_bullet(hulls_b.getOrigin()), points_b);
@@ -235,10 +235,10 @@ double touch_fraction(const Mover& a, const Hull& hull_a, const Mover& b, const 
             // They touch: the solver has slowed them where they do, but the rest of a piece may still swing in.
             const double width = std::min(width_along(hull_a, *now_a, axis), width_along(hull_b, *now_b, axis));
             const double third = -kDepthShare * width;
-            const bool are_free = !has_moved && a.body->is_free() && b.body->is_free();
+            const bool are_free = a.body->is_free() && b.body->is_free();
             if (are_free && gap < third) return limit;
             const double deepest = is_lively ? third : -kFar;
-            double allowed = gap - (has_moved ? kSliding : kDeeper);
+            double allowed = gap - kDeeper;
             if (are_free) allowed = std::min(allowed, third);
             stop = std::max({allowed, kLeast - margins, deepest});
             // Where the cores (nearly) overlap there is no gap to measure: along the axis of least overlap they may go

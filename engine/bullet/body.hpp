@@ -47,7 +47,8 @@ struct Body {
     std::optional<btRigidBody> bullet;
     BodyShape shape;
     uint32_t layer = 0, mask = 0;
-    uint32_t leaf = kNoLeaf;  // in the tree of boxes
+    uint32_t leaf = kNoLeaf;   // in the tree of boxes
+    bool has_strayed = false;  // left it since pairs were looked for; scratch
     BodyFrame frame;
     // Where the local points of the hulls stand: `frame` as it was when they were last made all at once. A small change
     // of shape moves the centre of mass and turns the axes; the hulls that stay then keep their points.
@@ -71,6 +72,7 @@ struct Body {
     uint32_t moves = 0;    // counts changes of world points; pairs of unmoved bodies keep their contacts
     uint32_t shape_changes = 0;
 
+    uint32_t number = 0;        // the solver's, in this step
     bool is_touched = false;    // has a contact in this step
     bool is_driven = false;     // has one with a kinematic body that moves
     float slow_seconds = 0;     // touched and nearly at rest
@@ -90,9 +92,7 @@ struct Body {
     float moved_fraction = 1;  // of this step, less than 1 when stopped at a time of impact
     bool is_fast = false;      // swept in this step
     // While bodies that stopped each other are carried on:
-    RigidId flock = 0;         // the first of the stopped bodies that touch it, or touch those that do
-    bool is_anchored = false;  // stopped by something that stands
-    Vec3 carried;              // m, that it went on so in this step
+    Vec3 carried;  // m, that it went on so in this step
 
     /// The hull frame's transform where the Bullet frame's is `at`.
     btTransform hulls_at(const btTransform& at) const { return has_offset ? at * hull_offset : at; }

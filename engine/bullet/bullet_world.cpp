@@ -621,21 +621,26 @@ void BulletWorld::detect(float dt) {
     counts_.contacts = static_cast<uint32_t>(contacts_.size());
 }
 
-// What left its leaf meets all that its new one meets, in either order of their straying.
+// What left its leaf meets all that its new one meets, in either order of their straying. Pairs of which neither did
+// are what they were.
 void BulletWorld::find_pairs() {
+    if (strayed_.empty()) return;
     for (const RigidId id : strayed_) {
-        const Body& body = bodies_[id];
+        Body& body = bodies_[id];
         if (!body.is_used) continue;
+        body.has_strayed = true;
         tree_.visit(tree_.box(body.leaf), [&](uint32_t other_id) {
             const Body& other = bodies_[other_id];
             if (other_id == id || (body.kind != RigidKind::Dynamic && other.kind != RigidKind::Dynamic)) return;
             if (body.meets_layer_of(other)) pairs_.find(id, other_id);
         });
     }
-    strayed_.clear();
     pairs_.renew(work_, [this](RigidId a, RigidId b) {
-        return overlap(tree_.box(bodies_[a].leaf), tree_.box(bodies_[b].leaf), 0);
+        const Body &p = bodies_[a], &q = bodies_[b];
+        return (!p.has_strayed && !q.has_strayed) || overlap(tree_.box(p.leaf), tree_.box(q.leaf), 0);
     });
+    for (const RigidId id : strayed_) bodies_[id].has_strayed = false;
+    strayed_.clear();
 }
 
 void BulletWorld::meet(const Pair& pair) {
@@ -659,10 +664,25 @@ void BulletWorld::list_manifolds() {
         });
 }
 
+namespace {
+
+/// A body's motion now; none of what is neither free nor driven.
+struct Moving {
+    Vec3 centre, velocity, spin;
+
+    explicit Moving(const Body& body) {
+        if (!body.is_free() && body.kind != RigidKind::Kinematic) return;
+        centre = from_bullet(body.bullet->getCenterOfMassPosition());
+        velocity = from_bullet(body.bullet->getLinearVelocity());
+        spin = from_bullet(body.bullet->getAngularVelocity());
+    }
+    Vec3 at(Vec3 point) const { return velocity + cross(spin, point - centre); }
+};
+
+}  // namespace
+
 Vec3 BulletWorld::velocity_at(const Body& body, Vec3 point) const {
-    if (!body.is_free() && body.kind != RigidKind::Kinematic) return {};
-    const btRigidBody& bullet = *body.bullet;
-    return from_bullet(bullet.getVelocityInLocalPoint(to_bullet(point) - bullet.getCenterOfMassPosition()));
+    return Moving(body).at(point);
 }
 
 void BulletWorld::gather_contacts() {
@@ -677,11 +697,12 @@ void BulletWorld::gather_contacts() {
         a.is_driven |= b.kind == RigidKind::Kinematic && b.bullet->isActive();
         b.is_driven |= a.kind == RigidKind::Kinematic && a.bullet->isActive();
         if (!a.is_free() && !b.is_free()) continue;
+        const Moving moving_a(a), moving_b(b);
         for (int k = 0; k < m.manifold->getNumContacts(); ++k) {
             const btManifoldPoint& p = m.manifold->getContactPoint(k);
             const Vec3 point = 0.5f * (from_bullet(p.m_positionWorldOnA) + from_bullet(p.m_positionWorldOnB));
             const Vec3 normal = from_bullet(p.m_normalWorldOnB);
-            const float speed = dot(velocity_at(b, point) - velocity_at(a, point), normal);
+            const float speed = dot(moving_b.at(point) - moving_a.at(point), normal);
             a.overlap = std::max(a.overlap, -p.m_distance1);
             b.overlap = std::max(b.overlap, -p.m_distance1);
             contacts_.push_back({m.a, m.b, m.cell_a, m.cell_b, point, normal, p.m_distance1, speed});
@@ -763,21 +784,33 @@ double BulletWorld::falling_power() const {
 // at the floor is 2.4, 1.5 and 1.2 mm in the mean.
 void BulletWorld::solve_contacts(float dt) {
     solver_.clear();
-    for (RigidId id = 0; id < body_end_; ++id)
-        if (bodies_[id].is_used && bodies_[id].is_free()) solver_.add_body(*bodies_[id].bullet);
+    for (RigidId id = 0; id < body_end_; ++id) {
+        Body& body = bodies_[id];
+        body.number = ContactSolver::kStanding;
+        if (!body.is_used) continue;
+        const bool is_driver = body.kind == RigidKind::Kinematic && body.is_touched && body.bullet->isActive();
+        if (body.is_free() || is_driver) body.number = solver_.add_body(*body.bullet);
+    }
     scattered_.clear();
-    for (const SortedManifold& m : manifolds_) {
-        if (!m.manifold) continue;
-        const bool is_a_free = bodies_[m.a].is_free(), is_b_free = bodies_[m.b].is_free();
+    for (uint32_t first = 0, end = 0; first < manifolds_.size(); first = end) {
+        const RigidId a = manifolds_[first].a, b = manifolds_[first].b;
+        uint32_t contacts = 0;
+        for (; end < manifolds_.size() && manifolds_[end].a == a && manifolds_[end].b == b; ++end)
+            if (manifolds_[end].manifold) contacts += static_cast<uint32_t>(manifolds_[end].manifold->getNumContacts());
+        if (contacts == 0) continue;
+        const bool is_a_free = bodies_[a].is_free(), is_b_free = bodies_[b].is_free();
         if (!is_a_free && !is_b_free) continue;
-        const bool is_standing = !is_a_free || !is_b_free;
-        scattered_.push_back({is_standing, scatter(m.a, m.b), static_cast<uint32_t>(scattered_.size()), m.manifold});
+        scattered_.push_back({!is_a_free || !is_b_free, scatter(a, b), first, end});
     }
     std::sort(scattered_.begin(), scattered_.end(), [](const Scattered& p, const Scattered& q) {
         if (p.is_standing != q.is_standing) return q.is_standing;
-        return p.number != q.number ? p.number < q.number : p.ordinal < q.ordinal;
+        return p.number != q.number ? p.number < q.number : p.first < q.first;
     });
-    for (const Scattered& m : scattered_) solver_.add_contacts(*m.manifold);
+    for (const Scattered& pair : scattered_) {
+        solver_.add_pair(bodies_[manifolds_[pair.first].a].number, bodies_[manifolds_[pair.first].b].number);
+        for (uint32_t m = pair.first; m < pair.end; ++m)
+            if (manifolds_[m].manifold) solver_.add_contacts(*manifolds_[m].manifold);
+    }
     solver_.solve(dt);
 }
 
@@ -814,16 +847,15 @@ void BulletWorld::limit_closing(float dt) {
         if (!m.manifold) continue;
         Body &a = bodies_[m.a], &b = bodies_[m.b];
         if (!a.is_free() && !b.is_free()) continue;
+        const Moving moving_a(a), moving_b(b);
         for (int k = 0; k < m.manifold->getNumContacts(); ++k) {
             const btManifoldPoint& p = m.manifold->getContactPoint(k);
             const Vec3 point = from_bullet(p.m_positionWorldOnB), normal = from_bullet(p.m_normalWorldOnB);
-            const float way = dot(velocity_at(b, point) - velocity_at(a, point), normal) * dt;
+            const float way = dot(moving_b.at(point) - moving_a.at(point), normal) * dt;
             const float allowed = std::max(p.m_distance1, 0.0f) + kPressedIn;
             if (way <= allowed) continue;
             if (a.is_free()) a.moved_fraction = std::min(a.moved_fraction, allowed / way);
             if (b.is_free()) b.moved_fraction = std::min(b.moved_fraction, allowed / way);
-            a.is_anchored = a.is_anchored || !b.is_free();
-            b.is_anchored = b.is_anchored || !a.is_free();
         }
     }
 }
@@ -862,7 +894,7 @@ void BulletWorld::integrate(float dt) {
         body.bullet->predictIntegratedTransform(body.moved_fraction * dt, moved);
         body.bullet->proceedToTransform(moved);
     }
-    sweeper_.carry_on(*this, dt);
+    sweeper_.slow_down(*this);
     take_back_gravity(dt);
     sweeper_.slow_down(*this);
     farthest_way_ = 0;

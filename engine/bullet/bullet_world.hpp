@@ -83,8 +83,7 @@ class BulletWorld final : public RigidWorld {
     struct Scattered {
         bool is_standing;  // one of the two is not free
         uint64_t number;
-        uint32_t ordinal;
-        btPersistentManifold* manifold;
+        uint32_t first, end;  // of manifolds_
     };
     struct Seam {
         Box box;
@@ -165,7 +164,7 @@ class BulletWorld final : public RigidWorld {
     std::vector<RigidContact> contacts_;
     std::vector<RigidId> in_the_way_;                   // of the flight that is foreseen
     std::vector<SortedManifold> manifolds_;             // in rising (a, b) and pieces of a and b
-    std::vector<Scattered> scattered_;                  // those to solve, in the order of solving
+    std::vector<Scattered> scattered_;                  // pairs to solve, in the order of solving
     std::vector<IgnoredPair> ignored_;                  // sorted by (a, b)
     std::vector<std::pair<RigidId, RigidId>> skipped_;  // this step's, a < b
     Sweeper sweeper_;

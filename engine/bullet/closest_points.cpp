@@ -1,7 +1,8 @@
 #include "engine/bullet/closest_points.hpp"
 
 #include <algorithm>
-#include <cstring>
+
+#include "engine/bullet/lanes.hpp"
 
 namespace cullet::bullet {
 namespace {
@@ -116,27 +117,26 @@ constexpr double kAgreed = 1e-7;    // m between distance and bound
 
 }  // namespace
 
-// Four lanes by the compiler's vector types: the same operations in the same order on every machine.
+// Without a branch, for which of the lanes has it is anyone's guess.
 uint32_t support(const Points& p, Vec3 d) {
-    typedef float Lanes __attribute__((vector_size(16)));
     typedef int32_t Numbers __attribute__((vector_size(16)));
-    Lanes best = {-kFar, -kFar, -kFar, -kFar};
+    Lanes best = Lanes{} - kFar;
     Numbers number = {0, 1, 2, 3}, best_number = number;
-    for (uint32_t k = 0; k < p.count; k += 4) {
-        Lanes x, y, z;
-        std::memcpy(&x, p.x + k, sizeof x);
-        std::memcpy(&y, p.y + k, sizeof y);
-        std::memcpy(&z, p.z + k, sizeof z);
-        const Lanes along = x * d.x + y * d.y + z * d.z;
+    for (uint32_t k = 0; k < p.count; k += kLanes) {
+        const Lanes along = load(p.x + k) * d.x + load(p.y + k) * d.y + load(p.z + k) * d.z;
         const Numbers is_farther = along > best;
-        best = is_farther ? along : best;
+        best = most(along, best);
         best_number = is_farther ? number : best_number;
-        number += 4;
+        number += static_cast<int32_t>(kLanes);
     }
-    int lane = 0;
-    for (int k = 1; k < 4; ++k)
-        if (best[k] > best[lane] || (best[k] == best[lane] && best_number[k] < best_number[lane])) lane = k;
-    return static_cast<uint32_t>(best_number[lane]);
+    Lanes top = most(best, __builtin_shufflevector(best, best, 2, 3, 0, 1));
+    top = most(top, __builtin_shufflevector(top, top, 1, 0, 3, 2));
+    const Numbers none = {INT32_MAX, INT32_MAX, INT32_MAX, INT32_MAX};
+    Numbers lowest = best == top ? best_number : none, other = __builtin_shufflevector(lowest, lowest, 2, 3, 0, 1);
+    lowest = other < lowest ? other : lowest;
+    other = __builtin_shufflevector(lowest, lowest, 1, 0, 3, 2);
+    lowest = other < lowest ? other : lowest;
+    return static_cast<uint32_t>(lowest[0]);
 }
 
 double gap_along(const Points& a, const Points& b, Vec3d axis) {

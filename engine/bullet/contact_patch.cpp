@@ -5,6 +5,7 @@
 #include "engine/bullet/box_patch.hpp"
 #include "engine/bullet/closest_points.hpp"
 #include "engine/bullet/contact_spots.hpp"
+#include "engine/bullet/lanes.hpp"
 #include "engine/bullet/overlap_axis.hpp"
 
 namespace cullet::bullet {
@@ -27,7 +28,7 @@ struct Plane {
 // The side of a hull that looks at the other one: its supporting planes, and the outline of its points in the patch's
 // plane.
 struct Side {
-    Plane plane[kMaxFaces];
+    Plane plane[kMaxFaces + 1];  // and one written in vain
     uint32_t plane_count = 0;
     Spot outline[kMaxPoints];
     uint32_t outline_count = 0;
@@ -70,9 +71,11 @@ uint32_t convex_outline(Spot* spots, uint32_t count, Spot* out) {
 }
 
 bool is_inside(const Spot& spot, const Side& side) {
-    for (uint32_t e = 0; e < side.outline_count; ++e)
-        if (!(area(side.outline[e], side.outline[(e + 1) % side.outline_count], spot) > kFlat)) return false;
-    return side.outline_count >= 3;
+    if (side.outline_count < 3) return false;
+    const Spot* from = &side.outline[side.outline_count - 1];
+    for (uint32_t e = 0; e < side.outline_count; from = &side.outline[e++])
+        if (!(area(*from, side.outline[e], spot) > kFlat)) return false;
+    return true;
 }
 
 // `sign` -1: the side that looks down the normal (hull a); +1: up (hull b). `offset` is the hull's centre in the frame.
@@ -80,29 +83,40 @@ void look(const Hull& hull, const Mat3& rotation, const PatchFrame& frame, Vec3 
     const Vec3 n = transposed_times(rotation, frame.normal), right = transposed_times(rotation, frame.right),
                forward = transposed_times(rotation, frame.forward);
     const float ox = dot(offset, frame.right), oy = dot(offset, frame.forward), oz = dot(offset, frame.normal);
-    bool is_facing[kMaxPoints] = {};
-    for (uint32_t f = 0; f < hull.face_count; ++f) {
-        const float along = dot(hull.face_normal[f], n);
-        if (sign * along < kPlaneCosine) continue;
-        const float sx = -dot(hull.face_normal[f], right) / along, sy = -dot(hull.face_normal[f], forward) / along;
-        side.plane[side.plane_count++] = {oz + hull.face_height[f] / along - sx * ox - sy * oy, sx, sy};
-        if (sign * along < kFacingCosine) continue;
-        for (uint32_t c = hull.first_corner[f]; c < hull.first_corner[f + 1]; ++c) is_facing[hull.corner[c]] = true;
+    uint32_t facing_points = 0;
+    for (uint32_t first = 0; first < hull.face_count; first += kLanes) {
+        const LaneVec normal = load(&hull.face_normal[first]);
+        const Lanes along = normal.x * n.x + normal.y * n.y + normal.z * n.z;
+        const Lanes sx = -(normal.x * right.x + normal.y * right.y + normal.z * right.z) / along,
+                    sy = -(normal.x * forward.x + normal.y * forward.y + normal.z * forward.z) / along,
+                    at = oz + load(&hull.face_height[first]) / along - sx * ox - sy * oy;
+        // All are written, and the next one over those that look away: whether one does is anyone's guess.
+        for (uint32_t k = 0; k < kLanes && first + k < hull.face_count; ++k) {
+            const float facing = sign * along[k];
+            side.plane[side.plane_count] = {at[k], sx[k], sy[k]};
+            side.plane_count += facing >= kPlaneCosine;
+            facing_points |= facing >= kFacingCosine ? hull.face_points[first + k] : 0;
+        }
     }
-    float height[kMaxPoints];  // towards the other hull
+    alignas(Lanes) float height[kMaxPoints];  // towards the other hull
     const Points& points = hull.local;
-    for (uint32_t k = 0; k < points.count; ++k)
-        height[k] = sign * (points.x[k] * n.x + points.y[k] * n.y + points.z[k] * n.z);
-    float top = -kFar;
-    for (uint32_t k = 0; k < hull.point_count; ++k) top = std::max(top, height[k]);
+    Lanes tops = Lanes{} - kFar;
+    for (uint32_t k = 0; k < points.count; k += kLanes) {
+        const Lanes high = sign * (load(points.x + k) * n.x + load(points.y + k) * n.y + load(points.z + k) * n.z);
+        store(high, height + k);
+        tops = most(high, tops);
+    }
+    const float top = std::max(std::max(tops[0], tops[1]), std::max(tops[2], tops[3]));
     const auto spot_at = [&](uint32_t k) {
         const Vec3 p = points[k];
         return Spot{ox + dot(p, right), oy + dot(p, forward), 0, 0};
     };
-    Spot spots[kMaxPoints];
+    Spot spots[kMaxPoints + 1];
     uint32_t count = 0;
-    for (uint32_t k = 0; k < hull.point_count; ++k)
-        if (is_facing[k] || height[k] > top - kSupportDepth) spots[count++] = spot_at(k);
+    for (uint32_t k = 0; k < hull.point_count; ++k) {
+        spots[count] = spot_at(k);
+        count += (facing_points >> k & 1) != 0 || height[k] > top - kSupportDepth;
+    }
     Spot chain[2 * kMaxPoints + 2];
     side.outline_count = convex_outline(spots, count, chain);
     std::copy_n(chain, side.outline_count, side.outline);
@@ -121,11 +135,13 @@ uint32_t clip_outline(const Side& subject, const Side& clip, Spot* spots) {
     uint32_t count = subject.outline_count;
     std::copy_n(subject.outline, count, spots);
     for (uint32_t e = 0; e < clip.outline_count && count > 0; ++e) {
-        const Spot &p = clip.outline[e], &q = clip.outline[(e + 1) % clip.outline_count];
+        const Spot &p = clip.outline[e], &q = clip.outline[e + 1 == clip.outline_count ? 0 : e + 1];
         uint32_t kept = 0;
+        float there = area(p, q, spots[0]);
         for (uint32_t k = 0; k < count; ++k) {
-            const Spot &now = spots[k], &next = spots[(k + 1) % count];
-            const float here = area(p, q, now), there = area(p, q, next);
+            const Spot &now = spots[k], &next = spots[k + 1 == count ? 0 : k + 1];
+            const float here = there;
+            there = area(p, q, next);
             if (here >= 0) other[kept++] = now;
             if ((here > 0 && there < 0) || (here < 0 && there > 0)) {
                 const float t = here / (here - there);
@@ -139,12 +155,22 @@ uint32_t clip_outline(const Side& subject, const Side& clip, Spot* spots) {
     return count;
 }
 
-void measure(Spot& spot, const Side& a, const Side& b) {
-    spot.low_a = -kFar, spot.high_b = kFar;
-    for (uint32_t k = 0; k < a.plane_count; ++k)
-        spot.low_a = std::max(spot.low_a, a.plane[k].at + a.plane[k].slope_x * spot.x + a.plane[k].slope_y * spot.y);
-    for (uint32_t k = 0; k < b.plane_count; ++k)
-        spot.high_b = std::min(spot.high_b, b.plane[k].at + b.plane[k].slope_x * spot.x + b.plane[k].slope_y * spot.y);
+// Four spots at a time: `count` is made up to whole lanes by repeating the last one.
+void measure(Spot* spots, uint32_t count, const Side& a, const Side& b) {
+    static_assert(sizeof(Spot) == sizeof(Lanes) && 4 * kMaxPoints % kLanes == 0);
+    for (uint32_t k = count; k % kLanes != 0; ++k) spots[k] = spots[count - 1];
+    for (uint32_t first = 0; first < count; first += kLanes) {
+        float* const at = &spots[first].x;
+        Lanes x = load(at), y = load(at + 4), low_a = load(at + 8), high_b = load(at + 12);
+        transpose(x, y, low_a, high_b);
+        low_a = Lanes{} - kFar, high_b = Lanes{} + kFar;
+        for (uint32_t k = 0; k < a.plane_count; ++k)
+            low_a = most(a.plane[k].at + a.plane[k].slope_x * x + a.plane[k].slope_y * y, low_a);
+        for (uint32_t k = 0; k < b.plane_count; ++k)
+            high_b = least(b.plane[k].at + b.plane[k].slope_x * x + b.plane[k].slope_y * y, high_b);
+        transpose(x, y, low_a, high_b);
+        store(x, at), store(y, at + 4), store(low_a, at + 8), store(high_b, at + 12);
+    }
 }
 
 // A millimetre of depth counts as 20 mm of distance: a shard that rocks on two spots must have both of them, whatever
@@ -312,10 +338,9 @@ Patch contact_patch(const Hull& a, const Mat3& rotation_a, const Hull& b, const 
             if (is_inside(side_b.bulge[k], side_a)) spots[count++] = side_b.bulge[k];
         const float reach = kContactRange + a.margin + b.margin;
         uint32_t kept = 0;
-        for (uint32_t k = 0; k < count; ++k) {
-            measure(spots[k], side_a, side_b);
+        measure(spots, count, side_a, side_b);
+        for (uint32_t k = 0; k < count; ++k)
             if (gap(spots[k]) <= reach) spots[kept++] = spots[k];
-        }
         count = kept;
     }
     float shallow = kFar;

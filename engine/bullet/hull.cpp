@@ -104,6 +104,14 @@ void set_heights(Hull& hull) {
 
 }  // namespace
 
+void set_face_points(Hull& hull) {
+    for (uint32_t f = 0; f < hull.face_count; ++f) {
+        hull.face_points[f] = 0;
+        for (uint32_t c = hull.first_corner[f]; c < hull.first_corner[f + 1]; ++c)
+            hull.face_points[f] |= 1u << hull.corner[c];
+    }
+}
+
 // Three faces square to each other, and every point at half of the width along all three.
 void find_box(Hull& hull) {
     constexpr float kSquare = 1e-3f;         // cosine; normals are as good as the grid of wrap_hull()
@@ -145,6 +153,7 @@ void build_hull(Hull& hull, std::span<const Vec3> points, float margin, uint32_t
     }
     set_normals(hull);
     set_heights(hull);
+    set_face_points(hull);
     find_box(hull);
 }
 
@@ -156,6 +165,7 @@ void build_hull_like(Hull& hull, const Hull& like, const Mat3& turn, std::span<c
     if (&hull != &like) {
         std::copy(std::begin(like.first_corner), std::end(like.first_corner), hull.first_corner);
         std::copy_n(like.corner, like.first_corner[faces], hull.corner);
+        std::copy_n(like.face_points, faces, hull.face_points);
         std::copy_n(like.edge, edges, hull.edge);
         std::copy_n(like.face_normal, faces, hull.face_normal);
         std::copy_n(like.face_height, faces, hull.face_height);
@@ -224,6 +234,7 @@ void build_triangle(Hull& hull, const Vec3 (&corners)[3], uint32_t cell) {
     for (uint32_t k = 0; k < 3; ++k) hull.radius = std::max(hull.radius, length(hull.local[k]));
     hull.first_corner[0] = 0, hull.first_corner[1] = 3;
     for (uint8_t k = 0; k < 3; ++k) hull.corner[k] = k;
+    hull.face_points[0] = 7;
     refresh_world(hull, Mat3{{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}}, {});
 }
 

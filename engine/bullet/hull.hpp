@@ -8,7 +8,7 @@
 
 namespace cullet::bullet {
 
-inline constexpr uint32_t kMaxPoints = 32;
+inline constexpr uint32_t kMaxPoints = 32;                 // bits of a face's mask of points
 inline constexpr uint32_t kMaxFaces = 2 * kMaxPoints - 4;  // Euler, all faces triangles
 inline constexpr uint32_t kMaxEdges = 3 * kMaxPoints - 6;
 inline constexpr uint32_t kMaxCorners = 2 * kMaxEdges;  // corners of all faces together
@@ -73,6 +73,7 @@ struct Hull {
     bool is_face_inner[kMaxFaces];
     uint16_t first_corner[kMaxFaces + 1];
     uint8_t corner[kMaxCorners];
+    uint32_t face_points[kMaxFaces];  // its corners as bits, by point
     HullEdge edge[kMaxEdges];
 };
 
@@ -91,6 +92,8 @@ void turn_hull(Hull& hull, const Mat3& turn, Vec3 origin, float margin, uint32_t
 void build_triangle(Hull& hull, const Vec3 (&corners)[3], uint32_t cell);
 /// Finds out whether the core is a box, from points and faces.
 void find_box(Hull& hull);
+/// Of its faces' corners.
+void set_face_points(Hull& hull);
 /// Of its local points.
 void set_local_box(Hull& hull);
 /// Marks the faces of `hull` that another piece of the same body covers: a point just outside of the face lies in it.

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "engine/bullet/lanes.hpp"
+
 namespace cullet::bullet {
 namespace {
 
@@ -30,15 +32,22 @@ constexpr float kPastBonus = 0.01f;       // m
 constexpr float kSeamNear = 0.01f;        // m, between touches of one seam
 constexpr float kAsDeep = 0.0005f;        // m
 
-// Displacement is convex in the point: the corner of a box that moved farthest bounds all points in it.
+// Displacement is convex in the point: the corner of a box that moved farthest bounds all points in it. Of the middle
+// and of the half sides: (R' - R) p + (o' - o).
 double farthest_way(const Box& box, const btTransform& before, const btTransform& now) {
-    float most = 0;
-    for (int corner = 0; corner < 8; ++corner) {
-        const btVector3 p(corner & 1 ? box.high.x : box.low.x, corner & 2 ? box.high.y : box.low.y,
-                          corner & 4 ? box.high.z : box.low.z);
-        most = std::max(most, (now * p - before * p).length2());
+    const Mat3 from = rotation_of(before), to = rotation_of(now);
+    const Vec3 middle = 0.5f * (box.low + box.high), half = 0.5f * (box.high - box.low);
+    const Lanes x = Lanes{-1, 1, -1, 1} * half.x, y = Lanes{-1, -1, 1, 1} * half.y;
+    Lanes low{}, high{};
+    for (int k = 0; k < 3; ++k) {
+        const Vec3 row = to.row[k] - from.row[k];
+        const float straight = now.getOrigin()[k] - before.getOrigin()[k] + dot(row, middle);
+        const Lanes across = x * row.x + y * row.y + straight, below = across - row.z * half.z,
+                    above = across + row.z * half.z;
+        low = low + below * below, high = high + above * above;
     }
-    return std::sqrt(most);
+    const Lanes squares = most(low, high);
+    return std::sqrt(std::max(std::max(squares[0], squares[1]), std::max(squares[2], squares[3])));
 }
 
 void gather_near(const Body& body, const Box& box, float grown, std::vector<const Hull*>& out) {

@@ -128,7 +128,7 @@ void flow_hull(F& f, Hull& h, ByteReader* in) {
     }
     if constexpr (F::kReads)
         if (in->expect(is_sound, "a corner or an edge of a hull names a point or a face that it does not have"))
-            find_box(h);
+            set_face_points(h), find_box(h);
 }
 
 template <class F>

@@ -1,7 +1,6 @@
 #include "engine/bullet/sweep.hpp"
 
 #include <algorithm>
-#include <utility>
 
 #include "engine/bullet/advance.hpp"
 #include "engine/bullet/bullet_world.hpp"
@@ -144,8 +143,6 @@ void Sweeper::sweep_pair(BulletWorld& world, Body& a, Body& b, float dt) {
         const Vec3 normal = axis.to_float();
         stop(a, p, b, q, normal, static_cast<float>(t));
         stop(b, q, a, p, -normal, static_cast<float>(t));
-        a.is_anchored = a.is_anchored || !b.is_free();
-        b.is_anchored = b.is_anchored || !a.is_free();
     };
     for (const Hull* p = a.hulls; p; p = p->next) {
         const float span = dt * last_fraction(a, b);
@@ -172,7 +169,7 @@ void Sweeper::list_fast(BulletWorld& world, float dt) {
         Body& body = world.bodies_[id];
         if (!body.is_used || body.kind == RigidKind::Static) continue;
         body.moved_fraction = 1;
-        body.is_fast = body.is_anchored = false;
+        body.is_fast = false;
         body.carried = {};
         brakes_[id].other = kNoRigid;
         const Mover mover = mover_of(body);
@@ -245,123 +242,6 @@ uint32_t Sweeper::sweep(BulletWorld& world, float dt) {
     uint32_t stopped = 0;
     for (const Fast& fast : fast_) stopped += world.bodies_[fast.id].moved_fraction < 1;
     return stopped;
-}
-
-// Bodies that were stopped, though by nothing that stands, and touch each other are one flock, named by its first body.
-void Sweeper::find_flocks(BulletWorld& world) {
-    auto& bodies = world.bodies_;
-    const auto flock_of = [&](RigidId id) {
-        while (bodies[id].flock != id) id = bodies[id].flock;
-        return id;
-    };
-    const auto is_adrift = [&](RigidId id) {
-        const Body& body = bodies[id];
-        return body.is_used && body.is_free() && body.moved_fraction < 1 && !body.is_anchored;
-    };
-    for (RigidId id = 0; id < world.body_end_; ++id) bodies[id].flock = id;
-    for (const auto& m : world.manifolds_) {
-        if (!m.manifold || m.manifold->getNumContacts() == 0 || !is_adrift(m.a) || !is_adrift(m.b)) continue;
-        const RigidId a = flock_of(m.a), b = flock_of(m.b);
-        bodies[std::max(a, b)].flock = std::min(a, b);
-    }
-    flock_.clear();
-    for (RigidId id = 0; id < world.body_end_; ++id) {
-        if (!is_adrift(id)) continue;
-        bodies[id].flock = flock_of(id);
-        flock_.push_back(id);
-    }
-    std::sort(flock_.begin(), flock_.end(),
-              [&](RigidId a, RigidId b) { return std::pair(bodies[a].flock, a) < std::pair(bodies[b].flock, b); });
-}
-
-void Sweeper::carry_on(BulletWorld& world, float dt) {
-    const auto& bodies = world.bodies_;
-    find_flocks(world);
-    for (size_t first = 0, end = 0; first < flock_.size(); first = end) {
-        const RigidId flock = bodies[flock_[first]].flock;
-        while (end < flock_.size() && bodies[flock_[end]].flock == flock) ++end;
-        if (end - first > 1) carry_flock(world, {flock_.data() + first, end - first}, dt);
-    }
-}
-
-// What `body` may go of its lost way with the flock's velocity before it meets another body: at most `share`.
-double Sweeper::free_share(BulletWorld& world, Body& body, Vec3d velocity, float dt, double share) {
-    const float left = (1 - body.moved_fraction) * dt;
-    const Mover before = mover_of(body);
-    const Mover mover{&body, body.bullet->getWorldTransform(), velocity, {}};
-    const auto reached = [&](const Box& box, float reach) {
-        Box out = swept_box(box, before, reach, dt);  // where it may be now,
-        include_way(out, out, velocity, left);        // and goes
-        return out;
-    };
-    const Box all = reached(body.shape.box, body.reach);
-    find_near(world, all);
-    const float moved = std::exchange(body.moved_fraction, 1.0f);  // Mover::at goes no farther
-    for (const RigidId id : near_) {
-        Body& other = world.bodies_[id];
-        if (other.flock == body.flock || !body.meets_layer_of(other) || world.is_apart_by_order(body.id, id)) continue;
-        const Mover still{&other, other.bullet->getWorldTransform(), {}, {}}, before_other = mover_of(other);
-        Vec3d axis;
-        const auto meet = [&](const Hull& p, const Hull& q) {
-            share = std::min(share, touch_fraction(mover, p, still, q, left, share, axis, {}, true));
-        };
-        for (const Hull* p = body.hulls; p; p = p->next) {
-            const Box box = reached(p->world_box, reach_of(body, *p));
-            for (const Hull* q = other.hulls; q; q = q->next)
-                if (overlap(box, swept_box(q->world_box, before_other, other.reach, dt), 0)) meet(*p, *q);
-            if (!other.mesh) continue;
-            visit_triangles(*other.mesh, box, [&](uint32_t t) {
-                build_triangle(world.work_.triangle, other.mesh->triangles[t].corner, t);
-                if (dot(velocity, Vec3d(world.work_.triangle.face_normal[0])) < 0) meet(*p, world.work_.triangle);
-            });
-        }
-    }
-    body.moved_fraction = moved;
-    return share;
-}
-
-Vec3d Sweeper::common_velocity(const BulletWorld& world, std::span<const RigidId> flock) const {
-    double mass = 0;
-    Vec3d momentum;
-    for (const RigidId id : flock) {
-        const Body& body = world.bodies_[id];
-        mass += static_cast<double>(body.mass);
-        momentum = momentum + static_cast<double>(body.mass) * Vec3d(from_bullet(body.bullet->getLinearVelocity()));
-    }
-    return (1 / mass) * momentum;
-}
-
-// What can hardly move leaves the flock, and is in the way of the others.
-void Sweeper::carry_flock(BulletWorld& world, std::span<RigidId> flock, float dt) {
-    constexpr int kRounds = 4;
-    constexpr double kHardly = 0.05;
-    double share = 1;
-    Vec3d velocity;
-    for (int round = 0; round < kRounds; ++round) {
-        share = 1;
-        velocity = common_velocity(world, flock);
-        size_t kept = 0;
-        for (const RigidId id : flock) {
-            const double own = free_share(world, world.bodies_[id], velocity, dt, 1);
-            if (own < kHardly && round + 1 < kRounds) {
-                world.bodies_[id].flock = kNoRigid;  // nobody's
-                continue;
-            }
-            flock[kept++] = id;
-            share = std::min(share, own);
-        }
-        const bool is_whole = kept == flock.size();
-        flock = flock.first(kept);
-        if (is_whole || flock.empty()) break;
-    }
-    for (const RigidId id : flock) {
-        Body& body = world.bodies_[id];
-        btTransform moved = body.bullet->getWorldTransform();
-        const double left = share * (1 - static_cast<double>(body.moved_fraction)) * dt;
-        body.carried = (left * velocity).to_float();
-        moved.setOrigin(moved.getOrigin() + to_bullet(body.carried));
-        body.bullet->proceedToTransform(moved);
-    }
 }
 
 }  // namespace cullet::bullet

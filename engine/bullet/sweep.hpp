@@ -17,16 +17,12 @@ class BulletWorld;
 class Sweeper {
  public:
     explicit Sweeper(uint32_t body_limit) {
-        fast_.reserve(body_limit), near_.reserve(body_limit), flock_.reserve(body_limit);
+        fast_.reserve(body_limit), near_.reserve(body_limit);
         by_low_.reserve(body_limit), brakes_.resize(body_limit);
     }
     /// Sets moved_fraction of every body, from 0 to 1; returns how many were stopped.
     uint32_t sweep(BulletWorld& world, float dt);
-    /// After the step: flocks of bodies that touch and stopped each other go on for what they lost of it with the
-    /// velocity of their common centre of mass, as far as nothing else is in the way. Houses that come down would hang
-    /// in the air while gravity makes them faster.
-    void carry_on(BulletWorld& world, float dt);
-    /// Then: what stopped a body within the range of contacts also takes the speed that leads into it.
+    /// After the step: what bodies were stopped by takes the speed that leads into it.
     void slow_down(BulletWorld& world);
 
  private:
@@ -50,17 +46,12 @@ class Sweeper {
     void order_fast();
     void find_fast(uint32_t k);
     void sweep_pair(BulletWorld& world, Body& a, Body& b, float dt);
-    void find_flocks(BulletWorld& world);
-    Vec3d common_velocity(const BulletWorld& world, std::span<const RigidId> flock) const;
-    void carry_flock(BulletWorld& world, std::span<RigidId> flock, float dt);
-    double free_share(BulletWorld& world, Body& body, Vec3d velocity, float dt, double share);
     std::vector<Fast> fast_;
     std::vector<RigidId> near_;
     std::vector<uint32_t> by_low_;  // of fast_, by the low end of what they sweep along axis_
     float Vec3::*axis_ = &Vec3::x;  // along which fast bodies lie farthest apart
     double longest_ = 0;            // m, of what one sweeps along it
     std::vector<Brake> brakes_;     // by body
-    std::vector<RigidId> flock_;    // bodies, by flock
 };
 
 }  // namespace cullet::bullet

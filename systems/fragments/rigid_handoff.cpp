@@ -228,6 +228,20 @@ double energy_of(const PartMotion& m) {
     return dot(m.momentum, m.momentum) / (2 * m.mass) + dot(m.spin, m.inertia * m.spin) / 2;
 }
 
+/// How far the motions may go towards those of `parts`: 1 as a rule, less where they have more energy than before
+/// (see stop_approach). Energy is a quadratic of the share, a s^2 + 2 b s more than before.
+double share_within_energy(std::span<const Touching> parts, std::span<const PartMotion> motions) {
+    double a = 0, b = 0;
+    for (uint32_t p = 0; p < motions.size(); ++p) {
+        const PartMotion& m = motions[p];
+        if (!(parts[p].inverse_mass > 0)) continue;
+        const Vec3d impulse = m.mass * parts[p].velocity - m.momentum, turned = parts[p].spin - m.spin;
+        a += dot(impulse, impulse) / (2 * m.mass) + dot(turned, m.inertia * turned) / 2;
+        b += (dot(m.momentum, impulse) / m.mass + dot(m.spin, m.inertia * turned)) / 2;
+    }
+    return a + 2 * b > 0 ? std::clamp(-2 * b / a, 0.0, 1.0) : 1;
+}
+
 /// What a static part takes goes to the support.
 void part_cracks(const HandoffStart& start, std::span<PartMotion> motions, HandoffReport& report) {
     const std::span<Touching> parts = start.touching.first(motions.size());
@@ -240,19 +254,20 @@ void part_cracks(const HandoffStart& start, std::span<PartMotion> motions, Hando
         if (can_turn(m)) parts[p].inverse_inertia = inverse(m.inertia);
     }
     stop_approach(parts, start.touches, start.impact_speed);
+    const double share = share_within_energy(parts, motions);
     double energy = 0;
     for (uint32_t p = 0; p < motions.size(); ++p) {
         PartMotion& m = motions[p];
         if (parts[p].inverse_mass > 0) {
-            m.momentum = m.mass * parts[p].velocity;
-            m.spin = parts[p].spin;
+            m.momentum += share * (m.mass * parts[p].velocity - m.momentum);
+            m.spin += share * (parts[p].spin - m.spin);
         }
         m.free_momentum = m.momentum, m.free_spin = m.spin;
         energy += energy_of(m);
     }
     for (const Touch& t : start.touches) {
-        if (motions[t.a].is_static) report.support_momentum += t.impulse * t.normal;
-        if (motions[t.b].is_static) report.support_momentum -= t.impulse * t.normal;
+        if (motions[t.a].is_static) report.support_momentum += t.impulse;
+        if (motions[t.b].is_static) report.support_momentum -= t.impulse;
     }
     report.energy_crushed = report.energy_unclamped - energy;
     report.energy_unclamped = energy;

@@ -1,51 +1,77 @@
 #include "systems/fragments/stop_approach.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 namespace cullet {
 namespace {
 
+// Faces of a crack are rough: what slides along one has to climb its teeth, so that it opens by this much of what it
+// slides (the dilation of rock joints, 30 degrees). Smooth faces let shards spin on at their rims' speed among
+// neighbours that they leave at a tenth of it, and hit them in the next frames: of 1,000 random breaks the tenth that
+// loses most then loses 6 to 8 % of its energy in 3 steps, so 2.3 and 1.3; at 1 twice as many pairs are seen in each
+// other later.
+constexpr double kDilation = 0.6;
+// Points on a turning body bend towards its axis: a crack that opens too slowly closes again. It has to stay open for
+// so long, s, while neither turns farther than this, rad.
+constexpr double kAhead = 0.05, kMostTurned = 0.5;
 constexpr double kClosed = 0.001;
-constexpr uint32_t kMostSweeps = 80;  // at a third of them a fifth more pairs are seen in each other later
+constexpr uint32_t kMostSweeps = 80;  // at half of them a third more shards of quick breaks are struck by others later
 constexpr uint32_t kSweepsAFullOne = 4;
 
-void prepare(Touch& t, std::span<const Touching> bodies) {
-    const Touching &a = bodies[t.a], &b = bodies[t.b];
-    t.arm_a = t.point - a.centre;
-    t.arm_b = t.point - b.centre;
-    const Vec3d lever_a = cross(t.arm_a, t.normal), lever_b = cross(t.arm_b, t.normal);
-    t.turn_a = a.inverse_inertia * lever_a;
-    t.turn_b = b.inverse_inertia * lever_b;
-    const double give = a.inverse_mass + b.inverse_mass + dot(lever_a, t.turn_a) + dot(lever_b, t.turn_b);
-    t.stiffness = give > 0 ? 1 / give : 0;
-    t.impulse = 0;
+// Along the normal, 1/2 a t of the points' accelerations w x (w x r), where it leads into each other: m/s.
+double bending(const Touch& t, const Touching& a, const Touching& b) {
+    const Vec3d inwards = cross(a.spin, cross(a.spin, t.arm_a)) - cross(b.spin, cross(b.spin, t.arm_b));
+    const double closing = -dot(inwards, t.normal);
+    if (!(closing > 0)) return 0;
+    const double fastest = std::sqrt(std::max(dot(a.spin, a.spin), dot(b.spin, b.spin)));
+    return 0.5 * closing * (fastest * kAhead > kMostTurned ? kMostTurned / fastest : kAhead);
 }
 
-// The speed at which it closed.
+// The speed that was missing.
 double stop(Touch& t, std::span<Touching> bodies) {
     Touching &a = bodies[t.a], &b = bodies[t.b];
     const Vec3d parting = a.velocity + cross(a.spin, t.arm_a) - b.velocity - cross(b.spin, t.arm_b);
-    const double closing = -dot(parting, t.normal);
-    const double impulse = std::max(0.0, t.impulse + t.stiffness * closing), more = impulse - t.impulse;
-    if (more == 0) return 0;
-    t.impulse = impulse;
-    a.velocity += more * a.inverse_mass * t.normal;
-    a.spin += more * t.turn_a;
-    b.velocity -= more * b.inverse_mass * t.normal;
-    b.spin -= more * t.turn_b;
-    return closing;
+    const double opening = dot(parting, t.normal), wanted = bending(t, a, b);
+    const Vec3d sliding = parting - opening * t.normal;
+    const double slide = length(sliding);
+    if (opening >= wanted + kDilation * slide) return 0;
+    // The slope of the tooth that it slides against.
+    const Vec3d tooth = slide > 0 ? t.normal - (kDilation / slide) * sliding : t.normal;
+    const Vec3d along = (1 / length(tooth)) * tooth;
+    const double missing = wanted * dot(t.normal, along) - dot(parting, along);
+    const Vec3d lever_a = cross(t.arm_a, along), lever_b = cross(t.arm_b, along);
+    const Vec3d turn_a = a.inverse_inertia * lever_a, turn_b = b.inverse_inertia * lever_b;
+    const double give = a.inverse_mass + b.inverse_mass + dot(lever_a, turn_a) + dot(lever_b, turn_b);
+    if (!(give > 0)) return 0;
+    const double impulse = missing / give;
+    t.impulse += impulse * along;
+    a.velocity += impulse * a.inverse_mass * along;
+    a.spin += impulse * turn_a;
+    b.velocity -= impulse * b.inverse_mass * along;
+    b.spin -= impulse * turn_b;
+    return missing;
 }
 
 }  // namespace
 
 void stop_approach(std::span<Touching> bodies, std::span<Touch> touches, double speed) {
-    for (Touch& t : touches) prepare(t, bodies);
+    for (Touch& t : touches) {
+        t.arm_a = t.point - bodies[t.a].centre;
+        t.arm_b = t.point - bodies[t.b].centre;
+        t.impulse = {};
+        t.is_used = false;
+    }
     for (uint32_t sweep = 0; sweep < kMostSweeps; ++sweep) {
         const bool is_full = sweep % kSweepsAFullOne == 0;
-        double fastest = 0;
-        for (Touch& t : touches)
-            if (is_full || t.impulse > 0) fastest = std::max(fastest, stop(t, bodies));
-        if (is_full && !(fastest > kClosed * speed)) break;
+        double most = 0;
+        for (Touch& t : touches) {
+            if (!is_full && !t.is_used) continue;
+            const double missing = stop(t, bodies);
+            t.is_used = t.is_used || missing > 0;
+            most = std::max(most, missing);
+        }
+        if (is_full && !(most > kClosed * speed)) break;
     }
 }
 

@@ -1,4 +1,4 @@
-// Bodies that touch do not go on into each other.
+// Bodies that touch at rough faces do not go on into each other.
 #pragma once
 #include <span>
 
@@ -15,17 +15,19 @@ struct Touching {
 
 /// A point that two have in common. All in the same axes.
 struct Touch {
-    uint32_t a = 0, b = 0;               // of the touching
-    Vec3d point, normal;                 // unit, from b towards a
-    double impulse = 0;                  // N s, along it on a and against it on b: what was needed
-    Vec3d arm_a, arm_b, turn_a, turn_b;  // from the centres, and I^-1 (arm x normal): scratch
-    double stiffness = 0;                // N s for a metre a second: scratch
+    uint32_t a = 0, b = 0;  // of the touching
+    Vec3d point, normal;    // unit, from b towards a
+    Vec3d impulse;          // N s, on a, and the opposite on b: what was needed
+    Vec3d arm_a, arm_b;     // from the centres: scratch
+    bool is_used = false;   // scratch
 };
 
-/// Takes away the speed at which the two of each touch approach there: impulses without friction or restitution, equal
-/// and opposite, that never pull, by Gauss-Seidel sweeps in the order of the touches. Momentum and angular momentum are
-/// kept, what parts already is left alone, and each impulse lowers the energy. Sweeps end when nothing closes faster
-/// than a thousandth of `speed`, or after 80; three of four look only at touches that have needed an impulse.
+/// Takes away the speed at which the two of each touch approach there, and makes them open by a share of what they
+/// slide, and as fast as keeps them open while they turn on a little: impulses that never pull, on one line, equal and
+/// opposite, by Gauss-Seidel sweeps in the order of the touches. Momentum and angular momentum are kept, and what
+/// already parts so is left alone. Each impulse against an approach or a slide lowers the energy; those that open for
+/// what turns may raise it, so who needs it bounded has to look. Sweeps end when nothing lacks more than a thousandth
+/// of `speed`, or after 80; three of four look only at touches that have needed an impulse.
 void stop_approach(std::span<Touching> bodies, std::span<Touch> touches, double speed);
 
 }  // namespace cullet

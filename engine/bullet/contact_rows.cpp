@@ -1,0 +1,132 @@
+#include "engine/bullet/contact_rows.hpp"
+
+namespace cullet::bullet {
+namespace {
+
+// Four bodies of a batch in registers, between gathering and scattering.
+struct Four {
+    LaneVec velocity, spin;
+    Lanes inverse_mass;
+};
+
+template <float (SolverBody::*Velocity)[4], float (SolverBody::*Spin)[4]>
+CULLET_LANES_INLINE Four gather(const SolverBody* bodies, const uint32_t (&number)[kLanes]) {
+    const SolverBody &p = bodies[number[0]], &q = bodies[number[1]], &r = bodies[number[2]], &s = bodies[number[3]];
+    Lanes a = load(p.*Velocity), b = load(q.*Velocity), c = load(r.*Velocity), d = load(s.*Velocity);
+    transpose(a, b, c, d);
+    Lanes e = load(p.*Spin), f = load(q.*Spin), g = load(r.*Spin), h = load(s.*Spin);
+    transpose(e, f, g, h);
+    return {{a, b, c}, {e, f, g}, d};
+}
+
+// What stands stays as it is, even where a pair is not finite.
+template <float (SolverBody::*Velocity)[4], float (SolverBody::*Spin)[4]>
+CULLET_LANES_INLINE void scatter(const Four& four, SolverBody* bodies, const uint32_t (&number)[kLanes]) {
+    Lanes v[4] = {four.velocity.x, four.velocity.y, four.velocity.z, four.inverse_mass};
+    transpose(v[0], v[1], v[2], v[3]);
+    Lanes w[4] = {four.spin.x, four.spin.y, four.spin.z, Lanes{}};
+    transpose(w[0], w[1], w[2], w[3]);
+    for (uint32_t k = 0; k < kLanes; ++k) {
+        if (number[k] == 0) continue;
+        store(v[k], bodies[number[k]].*Velocity);
+        store(w[k], bodies[number[k]].*Spin);
+    }
+}
+
+CULLET_LANES_INLINE void give(const Row& row, const LaneVec& along, Lanes impulse, Four& a, Four& b) {
+    a.velocity = a.velocity + (impulse * a.inverse_mass) * along;
+    b.velocity = b.velocity - (impulse * b.inverse_mass) * along;
+    a.spin = a.spin + impulse * row.turn_a;
+    b.spin = b.spin - impulse * row.turn_b;
+}
+
+CULLET_LANES_INLINE void give_turn(const Row& row, Lanes impulse, Four& a, Four& b) {
+    a.spin = a.spin + impulse * row.turn_a;
+    b.spin = b.spin - impulse * row.turn_b;
+}
+
+CULLET_LANES_INLINE Lanes speed(const Row& row, const LaneVec& along, const Four& a, const Four& b) {
+    return dot(along, a.velocity - b.velocity) + (dot(row.arm_a, a.spin) - dot(row.arm_b, b.spin));
+}
+
+// The impulse that takes the row to its wanted speed, bounded in sum. Notes how much that changes the speed.
+CULLET_LANES_INLINE Lanes bounded(const Row& row, Lanes wanted, Lanes now, Lanes low, Lanes high, Lanes& sum,
+                                  Lanes& changed) {
+    const Lanes before = sum;
+    sum = least(most(before + row.mass * (wanted - now), low), high);
+    const Lanes impulse = sum - before, change = impulse * row.softness;
+    changed = most(changed, change * change);
+    return impulse;
+}
+
+float largest(Lanes lanes) {
+    float out = lanes[0];
+    for (uint32_t k = 1; k < kLanes; ++k)
+        if (!(lanes[k] <= out)) out = lanes[k];
+    return out;
+}
+
+constexpr Lanes kNone{}, kAny{1e10f, 1e10f, 1e10f, 1e10f};
+
+}  // namespace
+
+float solve_batch(const Batch& batch, PointRows* points, RollRows* rolls, SolverBody* bodies) {
+    Four a = gather<&SolverBody::velocity, &SolverBody::spin>(bodies, batch.body_a);
+    Four b = gather<&SolverBody::velocity, &SolverBody::spin>(bodies, batch.body_b);
+    Lanes changed{};
+    const uint32_t end = batch.first_point + batch.point_count;
+    for (uint32_t k = batch.first_point; k < end; ++k) {
+        PointRows& p = points[k];
+        give(p.hold, p.normal,
+             bounded(p.hold, p.hold.wanted, speed(p.hold, p.normal, a, b), kNone, kAny, p.hold.impulse, changed), a, b);
+    }
+    for (uint32_t k = batch.first_point; k < end; ++k) {
+        PointRows& p = points[k];
+        const Lanes limit = p.friction * p.hold.impulse;
+        for (int way = 0; way < 2; ++way) {
+            Row& row = p.slide[way];
+            const Lanes now = speed(row, p.across[way], a, b);
+            give(row, p.across[way], bounded(row, row.wanted, now, -limit, limit, row.impulse, changed), a, b);
+        }
+    }
+    for (uint32_t k = batch.first_point; batch.rolls && k < end; ++k) {
+        const Lanes limit = rolls[k].limit * least(points[k].hold.impulse, Lanes{1, 1, 1, 1});
+        for (Row& row : rolls[k].roll) {
+            const Lanes now = dot(row.arm_a, a.spin) - dot(row.arm_b, b.spin);
+            give_turn(row, bounded(row, row.wanted, now, -limit, limit, row.impulse, changed), a, b);
+        }
+    }
+    scatter<&SolverBody::velocity, &SolverBody::spin>(a, bodies, batch.body_a);
+    scatter<&SolverBody::velocity, &SolverBody::spin>(b, bodies, batch.body_b);
+    return largest(changed);
+}
+
+float push_batch(const Batch& batch, PointRows* points, SolverBody* bodies) {
+    Four a = gather<&SolverBody::push, &SolverBody::turn>(bodies, batch.body_a);
+    Four b = gather<&SolverBody::push, &SolverBody::turn>(bodies, batch.body_b);
+    Lanes changed{};
+    for (uint32_t k = batch.first_point; k < batch.first_point + batch.point_count; ++k) {
+        PointRows& p = points[k];
+        // What does not overlap takes no part.
+        const Lanes high = p.push_wanted > 0 ? kAny : kNone;
+        const Lanes now = speed(p.hold, p.normal, a, b);
+        give(p.hold, p.normal, bounded(p.hold, p.push_wanted, now, kNone, high, p.pushed, changed), a, b);
+    }
+    scatter<&SolverBody::push, &SolverBody::turn>(a, bodies, batch.body_a);
+    scatter<&SolverBody::push, &SolverBody::turn>(b, bodies, batch.body_b);
+    return largest(changed);
+}
+
+void start_batch(const Batch& batch, const PointRows* points, SolverBody* bodies) {
+    Four a = gather<&SolverBody::velocity, &SolverBody::spin>(bodies, batch.body_a);
+    Four b = gather<&SolverBody::velocity, &SolverBody::spin>(bodies, batch.body_b);
+    for (uint32_t k = batch.first_point; k < batch.first_point + batch.point_count; ++k) {
+        const PointRows& p = points[k];
+        give(p.hold, p.normal, p.hold.impulse, a, b);
+        for (int way = 0; way < 2; ++way) give(p.slide[way], p.across[way], p.slide[way].impulse, a, b);
+    }
+    scatter<&SolverBody::velocity, &SolverBody::spin>(a, bodies, batch.body_a);
+    scatter<&SolverBody::velocity, &SolverBody::spin>(b, bodies, batch.body_b);
+}
+
+}  // namespace cullet::bullet

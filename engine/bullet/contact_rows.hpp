@@ -1,0 +1,59 @@
+// Rows of contacts, four pairs of bodies at a time: what sequential impulses read and write in every iteration, packed
+// into lanes.
+//
+// A row is one direction in which two bodies are held: along the normal, along two directions across it, and about all
+// three where contacts roll. Its impulse J changes velocities by J along / m and spins by J turn, turn = I^-1 arm, arm
+// = r x along; its speed is along . (v_a - v_b) + arm_a . w_a - arm_b . w_b.
+#pragma once
+#include <cstdint>
+
+#include "engine/bullet/lanes.hpp"
+
+namespace cullet::bullet {
+
+/// What impulses have changed of a body in this step so far. The one at 0 is everything that stands.
+struct alignas(16) SolverBody {
+    float velocity[4] = {};  // m/s; [3] is the inverse mass, 1/kg
+    float spin[4] = {};      // rad/s
+    float push[4] = {};      // m/s that take the body out of overlaps, in this step alone; [3] as above
+    float turn[4] = {};      // rad/s likewise
+};
+
+/// An impulse's bound and sum, in one direction.
+struct Row {
+    LaneVec arm_a, arm_b, turn_a, turn_b;
+    Lanes softness{};  // 1/kg: m/s of the row's speed that an impulse of 1 N s makes; 0 where there is no contact
+    Lanes mass{};      // 1 / softness, or 0
+    Lanes wanted{};    // m/s of speed to gain
+    Lanes impulse{};   // N s so far
+};
+
+/// One contact point of each of four pairs.
+struct PointRows {
+    LaneVec normal, across[2];
+    Row hold, slide[2];
+    Lanes friction{};
+    Lanes push_wanted{}, pushed{};  // m/s, N s: split impulse (no velocity comes of it)
+};
+
+/// Rolling and spinning friction of the same point: `along` is none, arms are the axes.
+struct RollRows {
+    Row roll[3];
+    Lanes limit{};  // m: the most torque impulse, of a contact impulse of 1 N s and at all
+};
+
+/// Four pairs, no free body in two of them, with their points one behind the other.
+struct Batch {
+    uint32_t body_a[kLanes] = {}, body_b[kLanes] = {};
+    uint32_t first_point = 0, point_count = 0;  // of PointRows
+    bool rolls = false, pushes = false;         // any of them
+};
+
+/// One iteration over a batch. What comes back is the largest change of a row's speed, squared.
+float solve_batch(const Batch& batch, PointRows* points, RollRows* rolls, SolverBody* bodies);
+/// The same for the push out of overlaps.
+float push_batch(const Batch& batch, PointRows* points, SolverBody* bodies);
+/// Gives the bodies the impulses that the rows begin with.
+void start_batch(const Batch& batch, const PointRows* points, SolverBody* bodies);
+
+}  // namespace cullet::bullet
