@@ -20,9 +20,8 @@ double energy_tolerance(const Step& step, const MechanicalEnergy& before, const 
 }
 
 // What is not found term by term: points that lie too deep in a striker are put outside without speed, which strains
-// their springs; of two soft bodies each holds a copy of the other for the frame. Two sheets that meet at 20 m/s make
-// up to 3.6 % of their motion in a frame, and lose it again. What a dent holds back is no strain while its body lies
-// still.
+// their springs; of two soft bodies each holds a copy of the other for the frame. Two sheets that meet make up to 3.6 %
+// of their motion in a frame. What a dent holds back is no strain while its body lies still.
 double soft_tolerance(const MechanicalEnergy& before, const MechanicalEnergy& after) {
     constexpr double kOfMeeting = 0.05;
     const double most = std::max(before.kinetic + before.strain, after.kinetic + after.strain);
