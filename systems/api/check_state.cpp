@@ -44,6 +44,13 @@ struct Checker {
 bool is_body(const State& s, uint32_t b) {
     return b < s.bodies.size() && static_cast<BodyKind>(s.bodies.kind[b]) != BodyKind::Free;
 }
+// Of a merged fragment, which is its drawn mesh alone.
+bool is_of_scenery(const State& s, uint32_t shell) {
+    for (uint32_t b = 0; b < s.bodies.size(); ++b)
+        if (s.bodies.kind[b] == static_cast<uint8_t>(BodyKind::Scenery) && s.bodies.shell[b].index == shell)
+            return true;
+    return false;
+}
 bool is_shell(const State& s, uint32_t shell) {
     return shell < s.shells.size() && s.shells.users[shell] > 0;
 }
@@ -141,7 +148,8 @@ void check_bodies(Checker& check) {
                      Checker::place(bodies, "shell", b) + " is " + std::to_string(bodies.shell[b].index) +
                          ", which is no shell");
         if (!check.is_sound()) return;  // rows that are not there are not looked into
-        check.expect(!bodies.shell[b].exists() || s.shells.points[bodies.shell[b]].capacity > 0,
+        const bool is_scenery = bodies.kind[b] == static_cast<uint8_t>(BodyKind::Scenery);
+        check.expect(!bodies.shell[b].exists() || is_scenery || s.shells.points[bodies.shell[b]].capacity > 0,
                      Checker::place(bodies, "shell", b) + " has no hulls");
         const uint32_t task = bodies.task[b];
         check.expect(task == kNone || (is_task(s, task) && s.tasks.body[task] == b),
@@ -164,8 +172,9 @@ void check_bodies(Checker& check) {
         for (uint32_t i = 0; i < indices.count && check.is_sound(); ++i) {
             check.expect_row(s.view_indices, "index", indices.first + i, s.view_indices.index[indices.first + i],
                              vertices.count, false);
-            check.expect_row(s.view_indices, "source", indices.first + i,
-                             s.view_indices.source[indices.first + i] / kMostDrawnTriangles, elements, false);
+            if (!is_scenery)
+                check.expect_row(s.view_indices, "source", indices.first + i,
+                                 s.view_indices.source[indices.first + i] / kMostDrawnTriangles, elements, false);
         }
     }
 }
@@ -376,6 +385,7 @@ Result<void> check_state(const State& state, const std::string& name) {
             return Error{name + ": " + Checker::place(state.shells, "material", row) + " is " +
                          std::to_string(state.shells.material[row].index) + ", of " +
                          std::to_string(state.materials.size()) + ". " + kAdvice};
+        if (state.shells.vertices[row].capacity == 0 && is_of_scenery(state, row)) continue;
         const Wear wear = is_cut_out_shell(state, row) ? Wear::CutOut : Wear::Worn;
         const Result<void> sound = check_shell_rows(ShellView(rows, Row<Shells>(row)), wear, name, kAdvice);
         if (!sound) return sound;

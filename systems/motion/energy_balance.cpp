@@ -1,5 +1,6 @@
 #include "systems/motion/energy_balance.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 #include "systems/systems.hpp"
@@ -16,6 +17,15 @@ double energy_tolerance(const Step& step, const MechanicalEnergy& before, const 
     return 1e-6 + kRounding * (std::fabs(before.height) + std::fabs(after.height)) +
            kUnsolved * double{step.dt} * after.mass * length(Vec3d(step.gravity)) +
            kOfMotion * (before.kinetic + after.kinetic) + kOfStrain * (before.strain + after.strain);
+}
+
+// What is not found term by term: points that lie too deep in a striker are put outside without speed, which strains
+// their springs; of two soft bodies each holds a copy of the other for the frame. Two sheets that meet make up to 3.6 %
+// of their motion in a frame. What a dent holds back is no strain while its body lies still.
+double soft_tolerance(const MechanicalEnergy& before, const MechanicalEnergy& after) {
+    constexpr double kOfMeeting = 0.05;
+    const double most = std::max(before.kinetic + before.strain, after.kinetic + after.strain);
+    return kOfMeeting * most + (after.awake > before.awake ? after.strain : 0);
 }
 
 void open_energy_balance(Serial, Step step, ShellTables shells, const DamageCounts& counts, const RigidWorld& rigid,
@@ -37,9 +47,10 @@ void close_energy_balance(Serial, Step step, ShellTables shells, const DamageCou
         balance.most_gain = balance.gain;
         balance.most_frame = step.frame;
     }
-    // Springs of soft bodies have steps of their own, with damping and flow between them: theirs is measured alone.
     const bool is_soft = balance.start.awake > 0 || end.awake > 0;
-    if (share > 1 && !is_soft)
+    const double allowed =
+        energy_tolerance(step, balance.start, end) + (is_soft ? soft_tolerance(balance.start, end) : 0);
+    if (balance.gain > allowed)
         faults.push(
             {{}, 0, {}, "This frame made energy: more came out of it than went in (motion/energy_balance.hpp)."});
 }

@@ -20,5 +20,7 @@ struct EnergyBalance {
 
 /// What floats, contacts that are not solved to the end, and springs in steps of their own are allowed, J.
 double energy_tolerance(const Step& step, const MechanicalEnergy& before, const MechanicalEnergy& after);
+/// What frames with awake soft bodies are allowed beyond that, J.
+double soft_tolerance(const MechanicalEnergy& before, const MechanicalEnergy& after);
 
 }  // namespace cullet
