@@ -48,7 +48,6 @@ struct Body {
     BodyShape shape;
     uint32_t layer = 0, mask = 0;
     uint32_t leaf = kNoLeaf;   // in the tree of boxes
-    bool has_strayed = false;  // left it since pairs were looked for; scratch
     BodyFrame frame;
     // Where the local points of the hulls stand: `frame` as it was when they were last made all at once. A small change
     // of shape moves the centre of mass and turns the axes; the hulls that stay then keep their points.

@@ -36,6 +36,7 @@ BulletWorld::BulletWorld(uint32_t body_limit)
       hulls_(4 * static_cast<size_t>(body_limit) + 256),
       work_(body_limit),
       tree_(body_limit),
+      has_strayed_(body_limit),
       pairs_(body_limit),
       solver_(body_limit),
       sweeper_(body_limit) {
@@ -626,9 +627,9 @@ void BulletWorld::detect(float dt) {
 void BulletWorld::find_pairs() {
     if (strayed_.empty()) return;
     for (const RigidId id : strayed_) {
-        Body& body = bodies_[id];
+        const Body& body = bodies_[id];
         if (!body.is_used) continue;
-        body.has_strayed = true;
+        has_strayed_[id] = 1;
         tree_.visit(tree_.box(body.leaf), [&](uint32_t other_id) {
             const Body& other = bodies_[other_id];
             if (other_id == id || (body.kind != RigidKind::Dynamic && other.kind != RigidKind::Dynamic)) return;
@@ -636,10 +637,10 @@ void BulletWorld::find_pairs() {
         });
     }
     pairs_.renew(work_, [this](RigidId a, RigidId b) {
-        const Body &p = bodies_[a], &q = bodies_[b];
-        return (!p.has_strayed && !q.has_strayed) || overlap(tree_.box(p.leaf), tree_.box(q.leaf), 0);
+        if (!has_strayed_[a] && !has_strayed_[b]) return true;
+        return overlap(tree_.box(bodies_[a].leaf), tree_.box(bodies_[b].leaf), 0);
     });
-    for (const RigidId id : strayed_) bodies_[id].has_strayed = false;
+    for (const RigidId id : strayed_) has_strayed_[id] = 0;
     strayed_.clear();
 }
 

@@ -152,7 +152,8 @@ class BulletWorld final : public RigidWorld {
     PairWork work_;
     btVector3 gravity_{0, 0, 0};
     BoxTree tree_;
-    std::vector<RigidId> strayed_;  // left their leaf since pairs were looked for last
+    std::vector<RigidId> strayed_;      // left their leaf since pairs were looked for last
+    std::vector<uint8_t> has_strayed_;  // by id, while pairs are looked for
     PairList pairs_;
     ContactSolver solver_;
     std::vector<Seam> seams_;  // of the body at hand
