@@ -7,6 +7,7 @@
 #include "engine/bullet/advance.hpp"
 #include "engine/bullet/free_turn.hpp"
 #include "engine/bullet/principal_axes.hpp"
+#include "engine/bullet/stopped_fall.hpp"
 #include "engine/rigid_allocations.hpp"
 
 namespace cullet::bullet {
@@ -861,25 +862,16 @@ void BulletWorld::limit_closing(float dt) {
     }
 }
 
-// A body that was stopped on its way has gravity's velocity of the whole step, and fell a part of it. What it did not
-// fall it has not earned: from m v^2 / 2 of its fall goes m g times that height. What rises and was stopped lost more
-// than it climbed, and gets nothing back; what does not fall any more lies on something, which carried it.
 void BulletWorld::take_back_gravity(float dt) {
-    const double strength = static_cast<double>(gravity_.length());
-    if (!(strength > 0)) return;
-    const Vec3d down = (1 / strength) * Vec3d(from_bullet(gravity_));
     for (RigidId id = 0; id < body_end_; ++id) {
         Body& body = bodies_[id];
         if (!body.is_used || !(body.moved_fraction < 1) || !body.is_free()) continue;
-        const btVector3 linear = body.bullet->getLinearVelocity();
-        const double fall = dot(down, Vec3d(from_bullet(linear)));
-        const double lost = (1 - static_cast<double>(body.moved_fraction)) * dt * fall;
-        if (!(fall > 0) || !(lost > 0)) continue;
-        const double kept = std::sqrt(std::max(0.0, fall * fall - 2 * strength * lost));
-        const btVector3 slower = linear - to_bullet(((fall - kept) * down).to_float());
-        set_velocities(body, slower, body.bullet->getAngularVelocity());
-        const double mass = static_cast<double>(body.mass);
-        work_done_.ahead -= CULLET_CHECKS_ON ? 0.5 * mass * (fall * fall - kept * kept) : 0;
+        const btVector3 before = body.bullet->getLinearVelocity(),
+                        now = velocity_of_stopped(before, gravity_, body.moved_fraction, dt);
+        set_velocities(body, now, body.bullet->getAngularVelocity());
+        if (CULLET_CHECKS_ON)
+            work_done_.ahead -=
+                0.5 * static_cast<double>(body.mass) * static_cast<double>(before.length2() - now.length2());
     }
 }
 

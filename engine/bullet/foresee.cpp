@@ -5,6 +5,7 @@
 #include "engine/bullet/advance.hpp"
 #include "engine/bullet/bullet_world.hpp"
 #include "engine/bullet/free_turn.hpp"
+#include "engine/bullet/stopped_fall.hpp"
 #include "engine/rigid_allocations.hpp"
 
 namespace cullet::bullet {
@@ -90,6 +91,7 @@ class Flight {
         btTransform moved;
         flying_.predictIntegratedTransform(fraction * dt_, moved);
         flying_.proceedToTransform(moved);
+        flying_.setLinearVelocity(velocity_of_stopped(flying_.getLinearVelocity(), world_.gravity_, fraction, dt_));
         stand(body_.hulls_at(moved));
     }
 
