@@ -887,6 +887,8 @@ void BulletWorld::integrate(float dt) {
         body.bullet->predictIntegratedTransform(body.moved_fraction * dt, moved);
         body.bullet->proceedToTransform(moved);
     }
+    // Twice: the first blows of a pair turn its bodies to others'.
+    sweeper_.slow_down(*this);
     take_back_gravity(dt);
     sweeper_.slow_down(*this);
     farthest_way_ = 0;
