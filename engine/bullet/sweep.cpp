@@ -76,6 +76,7 @@ void Sweeper::slow_down(BulletWorld& world) {
             theirs.other == fast.id && theirs.ordinal == brake.other_ordinal && theirs.other_ordinal == brake.ordinal;
         if (is_shared && brake.other < fast.id) continue;
         Body &a = world.bodies_[fast.id], &b = world.bodies_[brake.other];
+        if (!a.is_touched || !b.is_touched) continue;  // a flight's end: its contact comes with the next step
         const Hull& p = hull_of(brake.hull, a, brake.ordinal, world.work_);
         const Hull& q = hull_of(brake.other_hull, b, brake.other_ordinal, world.work_);
         for (int k = 0; k < kBlows; ++k)
