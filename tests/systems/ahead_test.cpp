@@ -96,7 +96,7 @@ TEST(Ahead, AFlyingVaseBreaksOnTheFloorInTheFrameOfItsTouch) {
     (void)add_floor(world);
     SpawnSettings vase;
     vase.pose.position = {0, 1.2f, 0};
-    vase.motion.velocity = {0.5f, -3, 0};
+    vase.motion.velocity = {0.5f, -4, 0};
     vase.motion.angular_velocity = {1, 0, 2};
     (void)world.spawn(world.add_model(small_vase()).value(), vase).value();
     const Play result = play(world, 60, kNothing);
