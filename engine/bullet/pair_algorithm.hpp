@@ -10,7 +10,7 @@
 
 namespace cullet::bullet {
 
-/// Contact points of two pieces, as Bullet's solver reads them.
+/// Contact points of two pieces, in the form that Bullet keeps them in.
 struct Manifold : btPersistentManifold {
     Manifold() = default;
     Manifold(const Body& a, const Body& b)

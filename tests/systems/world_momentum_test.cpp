@@ -71,7 +71,7 @@ TEST(WorldMomentum, AFreeVaseAndItsStrikerKeepMassAndMomentumAtTheHandOff) {
     EXPECT_LT(watch.worst_momentum, 1e-6);
     const Ledger end = ledger_of(b.world);
     EXPECT_NEAR(end.mass, start.mass, 1e-6 * start.mass);
-    EXPECT_LT(length(end.momentum - start.momentum), 1e-4 * length(start.momentum));  // Bullet's solver included
+    EXPECT_LT(length(end.momentum - start.momentum), 1e-4 * length(start.momentum));  // the solver included
 }
 
 TEST(WorldMomentum, WhatTheStrikerLosesThePiecesGet) {
