@@ -103,7 +103,7 @@ struct RigidCounts {
 /// take energy and never give any. Measured in Checked and Debug builds alone.
 struct RigidWork {
     double lifted = 0;  // against gravity, by moving overlapping bodies apart
-    double ahead = 0;   // gravity's on bodies that were stopped on their way, less what was taken back: at most 0
+    double ahead = 0;   // gravity's on bodies that were stopped on their way, less what was taken back: hardly above 0
     double driven = 0;  // kinematic bodies', at their contacts: at most so much
     double sum() const { return lifted + ahead + driven; }
 };

@@ -54,6 +54,9 @@ Things gather(const GameWorld& game) {
             BodyRest& rest = things.rest.emplace_back();
             rest.body = id;
             rest.is_asleep = rows.is_asleep[b];
+            const Shells& shells = world.contents().data.state.shells;
+            rest.is_box =
+                rows.shell[b].exists() && static_cast<ShapeKind>(shells.shape[rows.shell[b]]) == ShapeKind::Box;
             rest.is_through = things.solids.back().all.high.y < ground_height;
         }
     }
@@ -105,13 +108,13 @@ Rest measure_rest(const GameWorld& game, double peak_kinetic_energy) {
     const uint64_t moving = matter.asleep + matter.awake;
     if (moving > 0) out.asleep_share = static_cast<double>(matter.asleep) / static_cast<double>(moving);
     if (peak_kinetic_energy > 0) out.kinetic_share = matter.kinetic_energy / peak_kinetic_energy;
-    std::vector<float> sinks, overlaps, hovers;
+    std::vector<float> sinks, overlaps, hovers, hovers_of_boxes;
     for (const BodyRest& body : measure_bodies(game)) {
         out.through += body.is_through;
         if (!body.is_asleep) continue;
         sinks.push_back(static_cast<float>(1000 * body.sink));
         overlaps.push_back(static_cast<float>(1000 * body.overlap));
-        hovers.push_back(static_cast<float>(1000 * body.hover));
+        (body.is_box ? hovers_of_boxes : hovers).push_back(static_cast<float>(1000 * body.hover));
     }
     out.measured = sinks.size();
     out.sink_p95_mm = static_cast<double>(percentile(sinks, 0.95));
@@ -120,6 +123,7 @@ Rest measure_rest(const GameWorld& game, double peak_kinetic_energy) {
     out.overlap_max_mm = static_cast<double>(percentile(overlaps, 1));
     out.hover_p95_mm = static_cast<double>(percentile(hovers, 0.95));
     out.hover_max_mm = static_cast<double>(percentile(hovers, 1));
+    out.hover_boxes_max_mm = static_cast<double>(percentile(hovers_of_boxes, 1));
     return out;
 }
 

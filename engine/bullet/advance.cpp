@@ -9,10 +9,11 @@ constexpr float kThicknessShare = 0.1f;
 constexpr double kStop = 0.0005;  // m, the gap at which a sweep ends
 constexpr double kAim = 0.0001;   // m: an advance aims this much past the gap to stop at, so that it ends in few rounds
 constexpr double kTouching = 0.001;  // m: pieces nearer than this at the start touch already
-// How much deeper touching pieces may go in a step where one of them stands, m. Two free ones may go in a third of the
-// thinner one's width, and what lies deeper than that is pushed out, not stopped: a heap's pieces whose far corners
-// swing in would stand still in the air with all their speed.
-constexpr double kDeeper = 0.001;
+// How much deeper touching pieces may go in a step, m; two free ones also a share of the thinner one's width, until
+// they are a third of it in each other: slabs of a house that comes down turn into each other by centimetres, and with
+// a millimetre alone two thirds of their way are lost. Without a bound one of 800 shards in heaps ends 8 mm deep in
+// others.
+constexpr double kDeeper = 0.001, kDeeperShare = 0.1;
 constexpr double kLeast = 0.0002;  // m that their cores stay apart, where they are, so that gaps can be measured
 // Lively ones may go in all this share of the thinner one's width deep. Without it a sheet of 2 mm that strikes with
 // its edge and spins at 400 rad/s works its way through a plate of a centimetre, a millimetre a step. From a half on
@@ -54,7 +55,7 @@ struct TurningFrame {
         TurningFrame frame;
         frame.middle = 0.5 * (Vec3d(from_bullet(at_a.getOrigin())) + Vec3d(from_bullet(at_b.getOrigin())));
         frame.spin = !a.body->is_free() ? a.spin : !b.body->is_free() ? b.spin : 0.5 * (a.spin + b.spin);
-        if (length(frame.spin) * dt >= kMostTurn) frame.spin = {};
+        if (std::max(length(a.spin), length(b.spin)) * dt >= kMostTurn) frame.spin = {};
         return frame;
     }
     Vec3d turned(Vec3d axis, double seconds) const {
@@ -70,7 +71,7 @@ struct TurningFrame {
     double bend(Vec3d axis, Vec3d apart, Vec3d velocity, double seconds) const {
         const Vec3d turning = cross(spin, axis);
         const double rate = length(spin);
-        const double third = rate * rate * (3 * length(velocity) + rate * length(apart));
+        const double third = rate * rate * ((3 + rate * seconds) * length(velocity) + rate * length(apart));
         return std::max(0.0, third * seconds / 3 - 2 * dot(turning, velocity) - dot(cross(spin, turning), apart));
     }
 };
@@ -236,10 +237,9 @@ double touch_fraction(const Mover& a, const Hull& hull_a, const Mover& b, const 
             const double width = std::min(width_along(hull_a, *now_a, axis), width_along(hull_b, *now_b, axis));
             const double third = -kDepthShare * width;
             const bool are_free = a.body->is_free() && b.body->is_free();
-            if (are_free && gap < third) return limit;
             const double deepest = is_lively ? third : -kFar;
             double allowed = gap - kDeeper;
-            if (are_free) allowed = std::min(allowed, third);
+            if (are_free) allowed = std::min(allowed, std::max(gap - kDeeperShare * width, third));
             stop = std::max({allowed, kLeast - margins, deepest});
             // Where the cores (nearly) overlap there is no gap to measure: along the axis of least overlap they may go
             // deeper by as much.

@@ -56,7 +56,7 @@ struct KnownAxes {
 
 /// The fraction of the step at which the two pieces come within half a millimetre; `limit` when they do not before it.
 /// World points are those of the start; `axis` is a first guess, such as the last one of the same two bodies. Pieces
-/// that touch already may go a millimetre deeper, of two free bodies a third of the thinner one's width, lively ones in
+/// that touch already may go a millimetre deeper, of two free bodies a tenth of the thinner one's width, lively ones in
 /// all a third of it, along the axis that `known` has for them.
 double touch_fraction(const Mover& a, const Hull& hull_a, const Mover& b, const Hull& hull_b, float dt, double limit,
                       Vec3d& axis, const KnownAxes& known = {});

@@ -70,6 +70,8 @@ class BulletWorld final : public RigidWorld {
     /// does not move stops what is skipped all the same: a piece that broke off on the floor would else fly through it
     /// for a whole step.
     bool is_apart_by_order(RigidId a, RigidId b) const;
+    /// True when the contacts of the two are left out in this step.
+    bool is_skipped(RigidId a, RigidId b) const;
 
  private:
     friend class Sweeper;

@@ -118,10 +118,13 @@ bool BulletWorld::is_ignored(RigidId a, RigidId b) const {
 }
 
 bool BulletWorld::is_apart_by_order(RigidId a, RigidId b) const {
-    const std::pair key(std::min(a, b), std::max(a, b));
     if (bodies_[a].is_soft || bodies_[b].is_soft || is_ignored(a, b)) return true;
     if (bodies_[a].kind != RigidKind::Dynamic || bodies_[b].kind != RigidKind::Dynamic) return false;
-    return std::find(skipped_.begin(), skipped_.end(), key) != skipped_.end();
+    return is_skipped(a, b);
+}
+
+bool BulletWorld::is_skipped(RigidId a, RigidId b) const {
+    return std::find(skipped_.begin(), skipped_.end(), std::pair(std::min(a, b), std::max(a, b))) != skipped_.end();
 }
 
 void BulletWorld::ignore_pair(RigidId a, RigidId b, float seconds, bool until_apart) {

@@ -19,7 +19,7 @@ CULLET_LANES_INLINE Four gather(const SolverBody* bodies, const uint32_t (&numbe
     return {{a, b, c}, {e, f, g}, d};
 }
 
-// What stands stays as it is, even where a pair is not finite.
+// What stands or is driven stays as it is, even where a pair is not finite.
 template <float (SolverBody::*Velocity)[4], float (SolverBody::*Spin)[4]>
 CULLET_LANES_INLINE void scatter(const Four& four, SolverBody* bodies, const uint32_t (&number)[kLanes]) {
     Lanes v[4] = {four.velocity.x, four.velocity.y, four.velocity.z, four.inverse_mass};
@@ -27,7 +27,7 @@ CULLET_LANES_INLINE void scatter(const Four& four, SolverBody* bodies, const uin
     Lanes w[4] = {four.spin.x, four.spin.y, four.spin.z, Lanes{}};
     transpose(w[0], w[1], w[2], w[3]);
     for (uint32_t k = 0; k < kLanes; ++k) {
-        if (number[k] == 0) continue;
+        if (!(v[k][3] > 0)) continue;  // its inverse mass
         store(v[k], bodies[number[k]].*Velocity);
         store(w[k], bodies[number[k]].*Spin);
     }

@@ -298,7 +298,7 @@ void ContactSolver::write_bodies(float dt) {
         if (!(body.getInvMass() > 0)) continue;
         const SolverBody& change = changes_[k];
         body.setLinearVelocity(body.getLinearVelocity() + vector(change.velocity) +
-                               dt * body.getInvMass() * body.getTotalForce());
+                               body.getTotalForce() * body.getInvMass() * dt);
         body.setAngularVelocity(body.getAngularVelocity() + vector(change.spin));
         const btVector3 push = vector(change.push), turn = vector(change.turn);
         if (push.isZero() && turn.isZero()) continue;

@@ -345,7 +345,7 @@ void PairAlgorithm::write(PairRecord& record, const Patch& patch, uint32_t cell_
             point.m_appliedImpulseLateral1 = share * before[nearest].m_appliedImpulseLateral1;
             point.m_appliedImpulseLateral2 = share * before[nearest].m_appliedImpulseLateral2;
         }
-        // Bullet bounds the impulse of rolling friction by the friction times the contact's impulse and also by the
+        // The solver bounds the impulse of rolling friction by the friction times the contact's impulse and also by the
         // friction itself, as if no impulse were above 1 N s: a ball of 30 kg rolled five times as far as one of a
         // kilogram. What the contact passed in the last step stands for what it will, and the weight for a new one.
         const float expected = is_known ? std::min(before[nearest].m_appliedImpulse, most) : weight;

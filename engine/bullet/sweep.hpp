@@ -2,8 +2,8 @@
 // measured from support points, after the impulses and with the velocities that they left.
 //
 // Sweeping the motion that is about to be made, and not the one before, also stops what a blow has just made fast. The
-// body stands at its time of impact, half a millimetre away, loses the rest of the step, and meets its contact in the
-// next detect() with its velocity whole.
+// body stands at its time of impact, half a millimetre away, loses the rest of the step and what gravity gave it for
+// that, and meets its contact in the next detect().
 #pragma once
 #include <span>
 #include <vector>

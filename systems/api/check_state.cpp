@@ -361,6 +361,16 @@ void check_users(Checker& check) {
                                                             std::to_string(users[row]) + " name the shell");
 }
 
+/// Of a merged fragment, which is drawn and no more. No one else may name it.
+bool has_no_rows(const Shells& shells, uint32_t shell) {
+    for (const auto* ranges : {&shells.vertices, &shells.elements, &shells.hinges, &shells.packs, &shells.blocks,
+                               &shells.links, &shells.cells, &shells.points}) {
+        const Range range = (*ranges)[shell];
+        if (range.count > 0 || range.capacity > 0) return false;
+    }
+    return shells.users[shell] == 1 && shells.shape_points[shell] == 0 && shells.dead_elements[shell] == 0;
+}
+
 bool is_cut_out_shell(const State& s, uint32_t shell) {
     for (uint32_t t = 0; t < s.tasks.size(); ++t)
         if (is_task(s, t) && s.tasks.shell[t] == shell && is_cut_out(s, t)) return true;
@@ -385,7 +395,7 @@ Result<void> check_state(const State& state, const std::string& name) {
             return Error{name + ": " + Checker::place(state.shells, "material", row) + " is " +
                          std::to_string(state.shells.material[row].index) + ", of " +
                          std::to_string(state.materials.size()) + ". " + kAdvice};
-        if (state.shells.vertices[row].capacity == 0 && is_of_scenery(state, row)) continue;
+        if (has_no_rows(state.shells, row) && is_of_scenery(state, row)) continue;
         const Wear wear = is_cut_out_shell(state, row) ? Wear::CutOut : Wear::Worn;
         const Result<void> sound = check_shell_rows(ShellView(rows, Row<Shells>(row)), wear, name, kAdvice);
         if (!sound) return sound;

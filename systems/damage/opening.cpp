@@ -121,6 +121,8 @@ void lay_contacts(std::span<const Impact> impacts, const Impact& first_aimed, St
 Row<Tasks> Opening::open(Row<Bodies> body, float approach_speed, bool is_ahead) {
     Tasks& tasks = state.tasks;
     Bodies& bodies = state.bodies;
+    // A hit makes pieces that wait go with their body: not before it is sure to come.
+    if (is_ahead && bodies.is_owed_births[body]) return {};
     uint32_t t = 0;
     while (t < tasks.size() && static_cast<TaskState>(tasks.state[t]) != TaskState::Free) ++t;
     if (t == tasks.size()) {

@@ -75,11 +75,11 @@ void expect_sound(const SiblingFigures& f, uint32_t breaks, const Bounds& today)
 }
 
 TEST(Siblings, OfHiddenBreaksAreDrawnAsTheBodyWasAndHardlyHinderEachOther) {
-    expect_sound(figures_of(FractureMode::Hidden, 500), 500, {0.0025, 1.75, 9.5});
+    expect_sound(figures_of(FractureMode::Hidden, 500), 500, {0.0025, 2, 10.5});
 }
 
 TEST(Siblings, OfQuickBreaksAreDrawnAsTheBodyWasAndHardlyHinderEachOther) {
-    expect_sound(figures_of(FractureMode::Quick, 500), 500, {0.0035, 0.75, 5.5});
+    expect_sound(figures_of(FractureMode::Quick, 500), 500, {0.004, 0.75, 6});
 }
 
 }  // namespace
