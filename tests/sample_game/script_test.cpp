@@ -541,8 +541,8 @@ TEST_P(SceneHash, IsWhatTheSceneAlwaysGave) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Scenes, SceneHash,
-                         testing::Values(KnownHash{"vase", "1b2295e630692a52"}, KnownHash{"wall", "18647fa140629227"},
-                                         KnownHash{"pane", "93a3f23a23a5961c"}, KnownHash{"drop", "9ba46a659f2f87a4"}),
+                         testing::Values(KnownHash{"vase", "2f0fdd5974dffa48"}, KnownHash{"wall", "9ec5875d096e6dd4"},
+                                         KnownHash{"pane", "fbe944b430edd9aa"}, KnownHash{"drop", "aa283f6bbd8789a2"}),
                          [](const auto& known) { return std::string(known.param.scene); });
 
 TEST(Script, AFileIsPlayedByItsPathAndOneThatIsNotThereIsNamed) {
