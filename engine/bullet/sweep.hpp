@@ -5,7 +5,6 @@
 // body stands at its time of impact, half a millimetre away, loses the rest of the step and what gravity gave it for
 // that, and meets its contact in the next detect().
 #pragma once
-#include <span>
 #include <vector>
 
 #include "engine/bullet/pair_algorithm.hpp"

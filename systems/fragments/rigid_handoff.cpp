@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "systems/fragments/part_vertices.hpp"
 #include "systems/fragments/vertex_sums.hpp"
 
 namespace cullet {
@@ -124,15 +125,6 @@ MotionSums sums_of_all(const ShellView& shell, const VertexVelocity& velocity) {
     for (int k = 1; k < 4; ++k) all.add(lane[k]);
     if (velocity.rest) all.add(sums_of_rigid(still, *velocity.rest));
     return all;
-}
-
-/// Calls visit(row) for each vertex of a listed part, in the order of its elements: each vertex names one of them.
-template <class Visit>
-void for_each_vertex_of(const ShellView& shell, const FragmentPart& part, Visit visit) {
-    const State& state = shell.state;
-    for (uint32_t e = part.first_element; e != kNone; e = state.elements.next[shell.element(e)])
-        for (const uint32_t v : state.elements.corner[shell.element(e)])
-            if (state.vertices.element[shell.vertex(v)] == e) visit(shell.vertex(v));
 }
 
 /// Of a part that is not listed: all, less the listed ones.

@@ -4,19 +4,11 @@
 #include <cmath>
 
 #include "systems/fragments/mass_properties.hpp"
+#include "systems/fragments/part_vertices.hpp"
 #include "systems/fragments/vertex_sums.hpp"
 
 namespace cullet {
 namespace {
-
-/// Calls visit(row) for each vertex of a listed part: each names one of its elements.
-template <class Visit>
-void for_each_vertex(const ShellView& shell, const FragmentPart& part, Visit visit) {
-    const State& state = shell.state;
-    for (uint32_t e = part.first_element; e != kNone; e = state.elements.next[shell.element(e)])
-        for (const uint32_t v : state.elements.corner[shell.element(e)])
-            if (state.vertices.element[shell.vertex(v)] == e) visit(shell.vertex(v));
-}
 
 bool is_moving(Vec3 v) {
     return v.x != 0 || v.y != 0 || v.z != 0;
@@ -53,7 +45,7 @@ void forget_own_motions(ShellView shell) {
 
 void keep_own_motion(ShellView shell, const FragmentPart& part, const PartMotion& motion) {
     Vertices& vertices = shell.state.vertices;
-    for_each_vertex(shell, part, [&](uint32_t row) {
+    for_each_vertex_of(shell, part, [&](uint32_t row) {
         const Vec3d arm = Vec3d(vertices.rest[row]) - motion.centre;
         vertices.velocity.set(row, (motion.velocity + cross(motion.spin, arm)).to_float());
     });
@@ -75,7 +67,7 @@ void take_own_motions(ShellView shell, std::span<const FragmentPart> parts, std:
     Vec3d momentum, turning;  // of the pieces, the latter about the body frame's origin
     for (uint32_t p = 0; p < parts.size(); ++p) {
         Sums sums;
-        for_each_vertex(shell, parts[p], [&](uint32_t row) {
+        for_each_vertex_of(shell, parts[p], [&](uint32_t row) {
             if (is_moving(vertices.velocity[row]))
                 sums.add(vertices.mass[row], Vec3d(vertices.rest[row]), Vec3d(vertices.velocity[row]));
             vertices.velocity.set(row, {});
