@@ -12,6 +12,7 @@
 namespace cullet {
 namespace {
 
+constexpr float kSiblingSeconds = 0.25f;  // that siblings are ignored for at most
 constexpr float kPushedApart = 0.0001f;  // m of overlap at which ignored siblings meet again
 constexpr float kLargestSaved = 1e12f;   // of any float: far beyond what a host may tell, and its square is a float
 
@@ -302,7 +303,12 @@ void HostRigidWorld::skip_contacts(RigidId a, RigidId b) {
     apart_.push_back({body_id(a), body_id(b), 0, false});
 }
 
-void HostRigidWorld::ignore_pair(RigidId a, RigidId b, float seconds, bool until_apart) {
+// A host has a narrow phase of its own, which knows of no cracks.
+void HostRigidWorld::part_siblings(RigidId a, RigidId b, std::span<const CrackTouch>) {
+    keep_apart(a, b, kSiblingSeconds, true);
+}
+
+void HostRigidWorld::keep_apart(RigidId a, RigidId b, float seconds, bool until_apart) {
     if (!is_known(a) || !is_known(b) || a == b) return;
     begin_lists();
     apart_.push_back({body_id(a), body_id(b), seconds, until_apart});

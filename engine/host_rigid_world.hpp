@@ -50,7 +50,8 @@ class HostRigidWorld final : public RigidWorld {
     void release(RigidId id) override;
     bool is_held(RigidId id) const override;
     void skip_contacts(RigidId a, RigidId b) override;
-    void ignore_pair(RigidId a, RigidId b, float seconds, bool until_apart) override;
+    void ignore_pair(RigidId a, RigidId b, float seconds) override { keep_apart(a, b, seconds, false); }
+    void part_siblings(RigidId a, RigidId b, std::span<const CrackTouch> touches) override;
     void solve(float) override {}  // the host does
     float height_below(Vec3 point, float fallback) const override;
     bool is_asleep(RigidId id) const override;
@@ -98,6 +99,7 @@ class HostRigidWorld final : public RigidWorld {
     void take_pieces(Row& row, std::span<const ConvexPiece> pieces);
     void make_room();
     Vec3 velocity_at(RigidId id, Vec3 point) const;
+    void keep_apart(RigidId a, RigidId b, float seconds, bool until_apart);
     Ignored* find_ignored(RigidId a, RigidId b);
     bool is_apart(const RigidContact& contact);
 

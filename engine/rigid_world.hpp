@@ -66,6 +66,12 @@ struct RigidContact {
         0;  // m/s along the normal, > 0 when they close, from the velocities before gravity of this step
 };
 
+/// A place on the crack between two bodies: world axes.
+struct CrackTouch {
+    Vec3 point, normal;  // normal: unit, from b towards a
+    float reach = 0;     // m, of this part of the crack to both sides of the point
+};
+
 /// The plane of a body's surface that is nearest to a point: world axes.
 struct RigidSurface {
     Vec3 point, normal;  // normal: unit, out of the body
@@ -166,9 +172,12 @@ class RigidWorld {
     virtual bool is_held(RigidId id) const = 0;
     /// Contacts between these two are not solved in this step.
     virtual void skip_contacts(RigidId a, RigidId b) = 0;
-    /// No narrow phase between these two until their pieces overlap by at most 0.1 mm, or `seconds` have passed
-    /// (siblings born in touch; a striker and the shards it made). With `until_apart` false only the time counts.
-    virtual void ignore_pair(RigidId a, RigidId b, float seconds, bool until_apart) = 0;
+    /// No narrow phase between these two for so long (a striker and the shards it made).
+    virtual void ignore_pair(RigidId a, RigidId b, float seconds) = 0;
+    /// The two were one body until now, and are where they were in it. Convex pieces of theirs that lie in each other,
+    /// as hulls about the teeth of a crack do, meet at those of `touches` that are near, or not at all, until they are
+    /// apart.
+    virtual void part_siblings(RigidId a, RigidId b, std::span<const CrackTouch> touches) = 0;
 
     /// A soft body stands as it is put and has no contacts; nothing is swept against it. Who runs its springs asks for
     /// the surfaces of what it may meet. Belongs in the gap, and on ends before detect().

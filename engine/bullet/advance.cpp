@@ -193,6 +193,11 @@ Vec3d KnownAxes::of(const Hull& a, const Hull& b) const {
     return is_turned ? -Vec3d(pair->axis_of(b.ordinal, a.ordinal)) : Vec3d(pair->axis_of(a.ordinal, b.ordinal));
 }
 
+bool KnownAxes::at_crack(const Hull& a, const Hull& b) const {
+    if (!pair || a.one_sided || b.one_sided) return false;
+    return is_turned ? pair->meet_at_crack(b.ordinal, a.ordinal) : pair->meet_at_crack(a.ordinal, b.ordinal);
+}
+
 double touch_fraction(const Mover& a, const Hull& hull_a, const Mover& b, const Hull& hull_b, float dt, double limit,
                       Vec3d& axis, const KnownAxes& known) {
     const double turning = length(a.spin) * reach_of(*a.body, hull_a) + length(b.spin) * reach_of(*b.body, hull_b);

@@ -52,6 +52,8 @@ struct KnownAxes {
     bool is_turned = false;               // the first body is the pair's second one
     /// From b towards a; zero for pieces that do not touch.
     Vec3d of(const Hull& a, const Hull& b) const;
+    /// They lie in each other since birth: contacts at their crack keep them from going deeper.
+    bool at_crack(const Hull& a, const Hull& b) const;
 };
 
 /// The fraction of the step at which the two pieces come within half a millimetre; `limit` when they do not before it.

@@ -1,6 +1,7 @@
 #include "engine/bullet/bullet_world.hpp"
 
 #include <algorithm>
+#include <tuple>
 #include <utility>
 
 #include "engine/assert.hpp"
@@ -14,7 +15,6 @@ namespace cullet::bullet {
 namespace {
 
 constexpr float kAngularDamping = 0.1f;  // 1/s, of what is touched: flight has none
-constexpr float kPushedApart = 0.0001f;  // m of overlap at which ignored siblings meet again
 constexpr float kPressedIn = 0.001f;     // m a step that an unsolved contact may deepen by
 constexpr float kSeamReach = 0.001f;     // m beyond the margins, more than mark_inner_faces() looks past a face
 // Leaves of the tree hold what they are about with half of the way from which pieces are watched (see
@@ -48,6 +48,7 @@ BulletWorld::BulletWorld(uint32_t body_limit)
     in_the_way_.reserve(body_limit);
     scattered_.reserve(manifolds_.capacity());
     ignored_.reserve(16 * static_cast<size_t>(body_limit) + 1024);
+    newborn_.reserve(16 * static_cast<size_t>(body_limit) + 1024);
     skipped_.reserve(16 * static_cast<size_t>(body_limit) + 1024);
     shapes_.reserve(8 * static_cast<size_t>(body_limit) + 4096);
     seams_.reserve(4 * static_cast<size_t>(body_limit) + 4096);
@@ -475,6 +476,7 @@ void BulletWorld::take_out(RigidId id) {
     drop_pieces(body);
     body.is_used = false;
     std::erase_if(ignored_, [id](const IgnoredPair& p) { return p.a == id || p.b == id; });
+    std::erase_if(newborn_, [id](const NewbornPieces& p) { return p.a == id || p.b == id; });
     while (body_end_ > 0 && !bodies_[body_end_ - 1].is_used) --body_end_;
 }
 
@@ -609,6 +611,7 @@ void BulletWorld::gather_box(Body& body) {
 
 void BulletWorld::detect(float dt) {
     InsideRigidEngine guard(counts_.allocations);
+    work_.dt = dt;
     work_.weight_speed = gravity_.length() * dt;
     for (RigidId id = 0; id < body_end_; ++id) {
         Body& body = bodies_[id];
@@ -617,6 +620,7 @@ void BulletWorld::detect(float dt) {
     }
     find_pairs();
     for (const Pair& pair : pairs_.rows()) meet(pair);
+    newborn_.clear();
     list_manifolds();
     gather_contacts();
     counts_.pairs = static_cast<uint32_t>(pairs_.rows().size());
@@ -649,12 +653,18 @@ void BulletWorld::meet(const Pair& pair) {
     const Body &a = bodies_[pair.a], &b = bodies_[pair.b];
     if (!a.bullet->isActive() && !b.bullet->isActive()) return;
     if (a.is_soft || b.is_soft) return pair.algorithm->forget();
-    const auto ignored = find_ignored(pair.a, pair.b);
-    if (ignored != ignored_.end()) {
-        if (!ignored->until_apart || !pair.algorithm->is_apart(kPushedApart)) return pair.algorithm->forget();
-        ignored_.erase(ignored);
-    }
-    pair.algorithm->process();
+    if (is_ignored(pair.a, pair.b)) return pair.algorithm->forget();
+    pair.algorithm->process(newborn_of(pair.a, pair.b));
+}
+
+std::span<const NewbornPieces> BulletWorld::newborn_of(RigidId a, RigidId b) const {
+    const auto before = [](const NewbornPieces& n, std::pair<RigidId, RigidId> key) {
+        return std::pair(n.a, n.b) < key;
+    };
+    const auto first = std::lower_bound(newborn_.begin(), newborn_.end(), std::pair(a, b), before);
+    auto last = first;
+    while (last != newborn_.end() && last->a == a && last->b == b) ++last;
+    return {first, last};
 }
 
 void BulletWorld::list_manifolds() {
@@ -824,7 +834,7 @@ void BulletWorld::solve(float dt) {
         if (!body.is_used || !body.is_free()) continue;
         body.bullet->applyGravity();
         turn_freely(*body.bullet, dt);
-        if (body.is_touched) body.bullet->applyDamping(dt);
+        if (body.is_touched && body.load > 0) body.bullet->applyDamping(dt);
     }
     const double before = CULLET_CHECKS_ON ? height_energy() : 0;
     solve_contacts(dt);
@@ -876,6 +886,9 @@ void BulletWorld::take_back_gravity(float dt) {
 }
 
 void BulletWorld::integrate(float dt) {
+    std::sort(newborn_.begin(), newborn_.end(), [](const NewbornPieces& p, const NewbornPieces& q) {
+        return std::tie(p.a, p.b, p.piece_a, p.piece_b) < std::tie(q.a, q.b, q.piece_a, q.piece_b);
+    });
     counts_.sweeps += sweeper_.sweep(*this, dt);
     limit_closing(dt);
     for (RigidId id = 0; id < body_end_; ++id) {

@@ -13,7 +13,6 @@ namespace cullet::bullet {
 struct IgnoredPair {
     RigidId a, b;  // a < b
     float seconds;
-    bool until_apart;
 };
 
 class BulletWorld final : public RigidWorld {
@@ -45,7 +44,8 @@ class BulletWorld final : public RigidWorld {
     void release(RigidId id) override;
     bool is_held(RigidId id) const override;
     void skip_contacts(RigidId a, RigidId b) override;
-    void ignore_pair(RigidId a, RigidId b, float seconds, bool until_apart) override;
+    void ignore_pair(RigidId a, RigidId b, float seconds) override;
+    void part_siblings(RigidId a, RigidId b, std::span<const CrackTouch> touches) override;
     void set_soft(RigidId id, bool is_soft) override;
     bool knows_surfaces() const override { return true; }
     uint32_t near_bodies(Vec3 low, Vec3 high, std::span<RigidId> out) const override;
@@ -72,6 +72,8 @@ class BulletWorld final : public RigidWorld {
     bool is_apart_by_order(RigidId a, RigidId b) const;
     /// True when the contacts of the two are left out in this step.
     bool is_skipped(RigidId a, RigidId b) const;
+    /// What was born in each other in this step, a < b.
+    std::span<const NewbornPieces> newborn_of(RigidId a, RigidId b) const;
 
  private:
     friend class Sweeper;
@@ -122,6 +124,7 @@ class BulletWorld final : public RigidWorld {
     void list_manifolds();
     void solve_contacts(float dt);
     void gather_contacts();
+    void look_at_newborn(const Body& a, const Body& b, std::span<const CrackTouch> touches, bool is_turned);
     void wake_touching(RigidId id);
     void take_out(RigidId id);
     void wake_body(Body& body);
@@ -169,6 +172,7 @@ class BulletWorld final : public RigidWorld {
     std::vector<SortedManifold> manifolds_;             // in rising (a, b) and pieces of a and b
     std::vector<Scattered> scattered_;                  // pairs to solve, in the order of solving
     std::vector<IgnoredPair> ignored_;                  // sorted by (a, b)
+    std::vector<NewbornPieces> newborn_;                // of siblings, until the next detect()
     std::vector<std::pair<RigidId, RigidId>> skipped_;  // this step's, a < b
     Sweeper sweeper_;
     RigidCounts counts_;

@@ -119,6 +119,7 @@ bool BulletWorld::is_ignored(RigidId a, RigidId b) const {
 
 bool BulletWorld::is_apart_by_order(RigidId a, RigidId b) const {
     if (bodies_[a].is_soft || bodies_[b].is_soft || is_ignored(a, b)) return true;
+    if (!newborn_of(std::min(a, b), std::max(a, b)).empty()) return true;
     if (bodies_[a].kind != RigidKind::Dynamic || bodies_[b].kind != RigidKind::Dynamic) return false;
     return is_skipped(a, b);
 }
@@ -127,20 +128,37 @@ bool BulletWorld::is_skipped(RigidId a, RigidId b) const {
     return std::find(skipped_.begin(), skipped_.end(), std::pair(std::min(a, b), std::max(a, b))) != skipped_.end();
 }
 
-void BulletWorld::ignore_pair(RigidId a, RigidId b, float seconds, bool until_apart) {
+void BulletWorld::ignore_pair(RigidId a, RigidId b, float seconds) {
     if (!is_known(a) || !is_known(b) || a == b) return;
     if (a > b) std::swap(a, b);
     InsideRigidEngine guard(counts_.allocations);
     const auto found = find_ignored(a, b);
     if (found != ignored_.end()) {
         found->seconds = std::max(found->seconds, seconds);
-        found->until_apart = found->until_apart && until_apart;
         return;
     }
     const auto place = std::lower_bound(ignored_.begin(), ignored_.end(), std::pair(a, b),
                                         [](const IgnoredPair& p, auto k) { return std::pair(p.a, p.b) < k; });
-    ignored_.insert(place, {a, b, seconds, until_apart});
+    ignored_.insert(place, {a, b, seconds});
     skip_contacts(a, b);
+}
+
+void BulletWorld::part_siblings(RigidId a, RigidId b, std::span<const CrackTouch> touches) {
+    if (!is_known(a) || !is_known(b) || a == b) return;
+    InsideRigidEngine guard(counts_.allocations);
+    refresh(bodies_[a]);
+    refresh(bodies_[b]);
+    look_at_newborn(bodies_[std::min(a, b)], bodies_[std::max(a, b)], touches, a > b);
+}
+
+void BulletWorld::look_at_newborn(const Body& a, const Body& b, std::span<const CrackTouch> touches, bool is_turned) {
+    find_candidates(a, b, 0, work_);
+    for (const Candidate& c : work_.candidates) {
+        Vec3 guess;
+        if (!c.hull_a || !c.hull_b || separation(*c.hull_a, *c.hull_b, guess, 0) >= 0) continue;
+        find_near(*c.hull_a, *c.hull_b, touches, work_.touches);
+        newborn_.push_back({a.id, b.id, c.a, c.b, crack_contact(work_.touches, a.fresh_at, b.fresh_at, is_turned)});
+    }
 }
 
 // Before the solve: sleepers that are struck, driven, or pressed since the last step by what is awake.

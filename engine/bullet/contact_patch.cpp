@@ -289,7 +289,7 @@ void add_point(Patch& patch, const Hull& a, const Hull& b, Vec3 from_centre, flo
     if (distance > kContactRange || patch.count == kPatchPoints) return;
     const Vec3 flat = a.world.centre + from_centre;
     patch.point[patch.count++] = {flat + (low_a - a.margin) * patch.normal, flat + (high_b + b.margin) * patch.normal,
-                                  distance};
+                                  distance, patch.normal};
 }
 
 // The touch itself as a point: all there is for spheres, corners and crossing edges.

@@ -12,11 +12,12 @@ inline constexpr int kPatchPoints = 4;          // what Bullet's cache holds
 struct PatchPoint {
     Vec3 on_a, on_b;  // world, on the surfaces with their margins
     float distance;   // m, negative when they overlap
+    Vec3 normal;      // world, unit, from b towards a
 };
 
 struct Patch {
     int count = 0;
-    Vec3 normal;  // world, unit, from b towards a
+    Vec3 normal;  // of all points, but where a crack has several
     // The direction leads out of one of the two through a seam: the touch may be the neighbouring piece's affair.
     bool is_through_seam = false;
     float room = 0;  // m that the two may move against each other before they have a contact; 0 when they have

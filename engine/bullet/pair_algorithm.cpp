@@ -25,6 +25,7 @@ constexpr float kAhead = 0.01f;           // m, of travel until pieces are looke
 // A patch is followed, not found anew, while the bodies move less than this against each other. At five times it a
 // stack of boxes drifts by millimetres.
 constexpr float kSmallTravel = 0.00001f;  // m
+constexpr float kPushedApart = 0.0001f;  // m of overlap that counts as none when siblings part
 constexpr float kTurnLength = 0.1f;       // m, that opposite normals count half of
 constexpr float kDepthWeight = 20;        // a millimetre deeper counts as 20 mm farther
 constexpr float kDeepEnough = 0.002f;     // m, deeper than which place alone counts
@@ -116,12 +117,17 @@ void PairAlgorithm::release(PairRecord& record) {
     record.manifold = nullptr;
 }
 
+void PairAlgorithm::drop(PairRecord* record) {
+    release(*record);
+    if (record->crack) work_->cracks.give(record->crack);
+    work_->records.give(record);
+}
+
 void PairAlgorithm::forget() {
     while (records_) {
         PairRecord* const record = records_;
         records_ = record->next;
-        release(*record);
-        work_->records.give(record);
+        drop(record);
     }
     is_fresh_ = false;
     travelled_ = records_until_ = 0;
@@ -145,8 +151,7 @@ void PairAlgorithm::find_records(const Body& a, const Body& b) {
     const auto drop_first = [&] {
         PairRecord* const record = *link;
         *link = record->next;
-        release(*record);
-        work_->records.give(record);
+        drop(record);
     };
     const PairRecord* last = nullptr;
     for (const Candidate& c : work_->candidates) {
@@ -168,7 +173,17 @@ void PairAlgorithm::find_records(const Body& a, const Body& b) {
     while (*link) drop_first();
 }
 
-void PairAlgorithm::process() {
+void PairAlgorithm::take_newborn(std::span<const NewbornPieces> newborn) {
+    PairRecord* r = records_;
+    for (const NewbornPieces& n : newborn) {
+        while (r && (r->a < n.piece_a || (r->a == n.piece_a && r->b < n.piece_b))) r = r->next;
+        if (!r || r->a != n.piece_a || r->b != n.piece_b || r->crack) continue;
+        r->crack = work_->cracks.take();
+        *r->crack = n.contact;
+    }
+}
+
+void PairAlgorithm::process(std::span<const NewbornPieces> newborn) {
     const Body &a = work_->bodies[a_], &b = work_->bodies[b_];
     if (changes_a_ != a.shape_changes || changes_b_ != b.shape_changes) forget();
     if (is_fresh_ && moves_a_ == a.moves && moves_b_ == b.moves) return;
@@ -180,6 +195,7 @@ void PairAlgorithm::process() {
     follow(a, b);
     if (!is_fresh_ || travelled_ >= records_until_) find_records(a, b);
     is_fresh_ = true;
+    take_newborn(newborn);
     moves_a_ = a.moves, moves_b_ = b.moves, changes_a_ = a.shape_changes, changes_b_ = b.shape_changes;
     const Mat3 rotation_a = rotation_of(a.fresh_at), rotation_b = rotation_of(b.fresh_at);
     for (PairRecord* record = records_; record; record = record->next) {
@@ -193,10 +209,29 @@ void PairAlgorithm::process() {
     choose_best();
 }
 
+// As long as they lie in each other, and not for long; false from then on.
+bool PairAlgorithm::write_crack(PairRecord& record, const Body& a, const Hull& hull_a, const Body& b,
+                                const Hull& hull_b) {
+    record.crack->seconds -= work_->dt;
+    if (!(record.crack->seconds > 0) || separation(hull_a, hull_b, record.guess, 0) >= -kPushedApart) {
+        work_->cracks.give(record.crack);
+        record.crack = nullptr;
+        return false;
+    }
+    record.good_until = travelled_;
+    const Patch patch = crack_patch(*record.crack, a.fresh_at, b.fresh_at);
+    if (patch.count > 0)
+        write(record, patch, hull_a.cell, hull_b.cell);
+    else
+        release(record);
+    return true;
+}
+
 void PairAlgorithm::meet(PairRecord& record, const Body& a, const Mat3& rotation_a, const Body& b,
                          const Mat3& rotation_b) {
     const Hull &hull_a = hull_of(record.hull_a, a, record.a, *work_),
                &hull_b = hull_of(record.hull_b, b, record.b, *work_);
+    if (record.crack && write_crack(record, a, hull_a, b, hull_b)) return;
     Patch patch = contact_patch(hull_a, rotation_a, hull_b, rotation_b, record.guess, record.is_own_guess);
     record.is_own_guess = true;
     record.good_until = travelled_ + std::max(patch.room, kSmallTravel);
@@ -319,7 +354,7 @@ void PairAlgorithm::write(PairRecord& record, const Patch& patch, uint32_t cell_
     manifold.setNumContacts(patch.count);
     for (int k = 0; k < patch.count; ++k) {
         const btVector3 on_a = to_bullet(patch.point[k].on_a), on_b = to_bullet(patch.point[k].on_b);
-        btManifoldPoint point(a.fresh_at.invXform(on_a), b.fresh_at.invXform(on_b), to_bullet(patch.normal),
+        btManifoldPoint point(a.fresh_at.invXform(on_a), b.fresh_at.invXform(on_b), to_bullet(patch.point[k].normal),
                               patch.point[k].distance);
         point.m_index0 = static_cast<int>(record.a);
         point.m_index1 = static_cast<int>(record.b);
@@ -360,15 +395,10 @@ Vec3 PairAlgorithm::axis_of(uint32_t a, uint32_t b) const {
     return r && r->a == a && r->b == b && r->manifold ? r->guess : Vec3{};
 }
 
-bool PairAlgorithm::is_apart(float allowed) {
-    const Body &a = work_->bodies[a_], &b = work_->bodies[b_];
-    find_candidates(a, b, 0, *work_);
-    for (const Candidate& c : work_->candidates) {
-        const Hull &hull_a = hull_of(c.hull_a, a, c.a, *work_), &hull_b = hull_of(c.hull_b, b, c.b, *work_);
-        Vec3 guess;
-        if (separation(hull_a, hull_b, guess, 0) < -allowed) return false;
-    }
-    return true;
+bool PairAlgorithm::meet_at_crack(uint32_t a, uint32_t b) const {
+    const PairRecord* r = records_;
+    while (r && (r->a < a || (r->a == a && r->b < b))) r = r->next;
+    return r && r->a == a && r->b == b && r->crack;
 }
 
 }  // namespace cullet::bullet

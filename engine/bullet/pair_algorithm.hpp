@@ -6,6 +6,7 @@
 
 #include "engine/bullet/body.hpp"
 #include "engine/bullet/contact_patch.hpp"
+#include "engine/bullet/crack_contact.hpp"
 #include "engine/bullet/pool.hpp"
 
 namespace cullet::bullet {
@@ -18,6 +19,13 @@ struct Manifold : btPersistentManifold {
     Manifold* next = nullptr;  // while it is free
 };
 
+/// Pieces of siblings that lie in each other when these are born.
+struct NewbornPieces {
+    RigidId a, b;               // a < b
+    uint32_t piece_a, piece_b;  // ordinals
+    CrackContact contact;
+};
+
 /// Two pieces whose boxes are near: what is remembered of them from step to step.
 struct PairRecord {
     uint32_t a, b;                 // ordinals of the pieces; triangles of a static mesh follow its convex parts
@@ -27,6 +35,7 @@ struct PairRecord {
     bool is_through_seam = false;  // of the manifold's points, see Patch
     double good_until = 0;         // what the two found last holds while PairAlgorithm::travelled_ is less
     Vec3 normal;                   // of the manifold's points, in the frame of b
+    CrackContact* crack = nullptr;  // of siblings' pieces that have lain in each other since birth
     Manifold* manifold = nullptr;  // null while they do not touch
     PairRecord* next = nullptr;
 };
@@ -51,22 +60,27 @@ struct Offer {
 struct PairWork {
     explicit PairWork(uint32_t body_limit)
         : records(128 * static_cast<size_t>(body_limit) + 16384),
-          manifolds(16 * static_cast<size_t>(body_limit) + 1024) {
+          manifolds(16 * static_cast<size_t>(body_limit) + 1024),
+          cracks(4 * static_cast<size_t>(body_limit) + 1024) {
         // One pair at a time: the largest two bodies, of at most all hulls that there are room for.
         const size_t hulls = 4 * static_cast<size_t>(body_limit) + 4096;
         candidates.reserve(4 * hulls);
         offers.reserve(8 * hulls);
         near_a.reserve(hulls);
         near_b.reserve(hulls);
+        touches.reserve(hulls);
     }
     Pool<PairRecord> records;
     Pool<Manifold> manifolds;
+    Pool<CrackContact> cracks;
     std::vector<Candidate> candidates;
     std::vector<Offer> offers;
     std::vector<const Hull*> near_a, near_b;
+    std::vector<const CrackTouch*> touches;  // of the pieces at hand
     Hull triangle;
     Body* bodies = nullptr;  // by id
-    float weight_speed = 0;  // m/s that gravity gives in a step
+    float dt = 0;            // s, of the step
+    float weight_speed = 0;  // m/s that gravity gives in it
 };
 
 /// Pieces of the two bodies whose boxes come within `grown` of each other, sorted by (a, b), into work.candidates.
@@ -88,18 +102,22 @@ class PairAlgorithm {
             if (r->manifold) found(*r->manifold, *r);
     }
 
+    /// Whether two pieces, by their ordinals, have lain in each other since birth.
+    bool meet_at_crack(uint32_t a, uint32_t b) const;
     /// The axis of two pieces that touch, by their ordinals; zero when they do not.
     Vec3 axis_of(uint32_t a, uint32_t b) const;
-    void process();
+    /// What lay in each other at birth is named once, in the first step after it.
+    void process(std::span<const NewbornPieces> newborn = {});
     /// Drops all contacts and what was remembered.
     void forget();
-    /// True when no two pieces overlap by more than `allowed` (m), margins included.
-    bool is_apart(float allowed);
 
  private:
     void follow(const Body& a, const Body& b);
     void find_records(const Body& a, const Body& b);
     void meet(PairRecord& record, const Body& a, const Mat3& rotation_a, const Body& b, const Mat3& rotation_b);
+    void take_newborn(std::span<const NewbornPieces> newborn);
+    void drop(PairRecord* record);
+    bool write_crack(PairRecord& record, const Body& a, const Hull& hull_a, const Body& b, const Hull& hull_b);
     void write(PairRecord& record, const Patch& patch, uint32_t cell_a, uint32_t cell_b);
     void follow_points(PairRecord& record, const Body& a, const Body& b);
     void release(PairRecord& record);

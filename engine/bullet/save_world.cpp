@@ -220,6 +220,22 @@ void flow_record(F& f, PairRecord& r) {
     flow_numbers(f, r.normal);
 }
 
+template <class F>
+void flow_crack(F& f, CrackContact& c) {
+    f.count(c.count, kPatchPoints, "the number of places of a crack");
+    for (uint32_t k = 0; k < c.count; ++k) {
+        flow_numbers(f, c.on_a[k]), flow_numbers(f, c.on_b[k]), flow_numbers(f, c.normal[k]);
+        f.number(c.reach[k]);
+    }
+    f.number(c.seconds);
+}
+
+template <class F>
+void flow_newborn(F& f, NewbornPieces& n) {
+    f.number(n.a), f.number(n.b), f.number(n.piece_a), f.number(n.piece_b);
+    flow_crack(f, n.contact);
+}
+
 }  // namespace
 
 /// What a pair remembers, as bytes: a friend of PairAlgorithm.
@@ -246,6 +262,9 @@ struct PairBytes {
         out.number(count);
         for (PairRecord* r = pair.records_; r; r = r->next) {
             flow_record(f, *r);
+            bool is_at_crack = r->crack != nullptr;
+            f.flag(is_at_crack);
+            if (is_at_crack) flow_crack(f, *r->crack);
             const int points = r->manifold ? r->manifold->getNumContacts() : -1;
             out.number(static_cast<int8_t>(points));
             for (int k = 0; k < points; ++k) flow_point(f, r->manifold->getContactPoint(k));
@@ -266,7 +285,7 @@ struct PairBytes {
         for (const Hull* h = b.hulls; h; h = h->next) hulls_b.push_back(h);
         In f(in);
         flow(f, pair);
-        const uint32_t count = in.count("the number of remembered pairs of pieces", 43, 1u << 26);
+        const uint32_t count = in.count("the number of remembered pairs of pieces", 44, 1u << 26);
         PairRecord** link = &pair.records_;
         std::vector<std::pair<uint32_t, uint32_t>> pieces;
         for (uint32_t k = 0; k < count && in.is_sound(); ++k) {
@@ -275,6 +294,13 @@ struct PairBytes {
             *link = r;
             link = &r->next;
             flow_record(f, *r);
+            bool is_at_crack = false;
+            f.flag(is_at_crack);
+            if (is_at_crack) {
+                r->crack = pair.work_->cracks.take();
+                *r->crack = {};
+                flow_crack(f, *r->crack);
+            }
             const bool knows_a = find_piece(a, r->a, hulls_a, r->hull_a);  // both fill in their hull
             const bool knows_b = find_piece(b, r->b, hulls_b, r->hull_b);
             in.expect(knows_a && knows_b && (r->hull_a || r->hull_b),
@@ -342,8 +368,9 @@ void BulletWorld::save(ByteWriter& out) const {
     out.number(static_cast<uint32_t>(ignored_.size()));
     for (IgnoredPair pair : ignored_) {
         f.number(pair.a), f.number(pair.b), f.number(pair.seconds);
-        f.flag(pair.until_apart);
     }
+    out.number(static_cast<uint32_t>(newborn_.size()));
+    for (NewbornPieces pieces : newborn_) flow_newborn(f, pieces);
 }
 
 bool BulletWorld::load_body(ByteReader& in, Body& body) {
@@ -423,16 +450,23 @@ Result<void> BulletWorld::load(ByteReader& in) {
         before = {a, b};
         load_pair(in, a, b);
     }
-    const uint32_t ignored = in.count("the number of ignored pairs", 13, 1u << 26);
+    const uint32_t ignored = in.count("the number of ignored pairs", 12, 1u << 26);
     for (uint32_t k = 0; k < ignored && in.is_sound(); ++k) {
         IgnoredPair pair{};
         f.number(pair.a), f.number(pair.b), f.number(pair.seconds);
-        f.flag(pair.until_apart);
         const bool is_rising =
             ignored_.empty() || std::pair(ignored_.back().a, ignored_.back().b) < std::pair(pair.a, pair.b);
         in.expect(is_known(pair.a) && is_known(pair.b) && pair.a < pair.b && is_rising,
                   "an ignored pair of bodies " + std::to_string(pair.a) + " and " + std::to_string(pair.b));
         if (in.is_sound()) ignored_.push_back(pair);
+    }
+    const uint32_t newborn = in.count("the number of newborn pieces", 24, 1u << 26);
+    for (uint32_t k = 0; k < newborn && in.is_sound(); ++k) {
+        NewbornPieces pieces{};
+        flow_newborn(f, pieces);
+        in.expect(is_known(pieces.a) && is_known(pieces.b) && pieces.a < pieces.b,
+                  "newborn pieces of bodies " + std::to_string(pieces.a) + " and " + std::to_string(pieces.b));
+        if (in.is_sound()) newborn_.push_back(pieces);
     }
     if (!in.is_sound()) return Error{in.trouble()};
     list_manifolds();

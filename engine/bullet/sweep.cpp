@@ -141,6 +141,7 @@ void Sweeper::sweep_pair(BulletWorld& world, Body& a, Body& b, float dt) {
     const KnownAxes known{world.pairs_.memory_of(std::min(a.id, b.id), std::max(a.id, b.id)), b.id < a.id};
     Vec3d axis;
     const auto advance = [&](const Hull& p, const Hull& q) {
+        if (known.at_crack(p, q)) return;
         const double limit = last_fraction(a, b);
         const double t = touch_fraction(mover_a, p, mover_b, q, dt, limit, axis, known);
         if (t >= limit) return;

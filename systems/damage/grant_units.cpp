@@ -55,6 +55,17 @@ void pay_owed(State& state, std::span<const uint32_t> open, int64_t& budget) {
     }
 }
 
+/// Ran before, was foreseen, and is touched in this frame: its pieces are born whatever is left.
+bool is_due(const Tasks& tasks, uint32_t t) {
+    return static_cast<TaskState>(tasks.state[t]) == TaskState::Broke && !is_ahead(tasks, t);
+}
+
+/// At most half of what is left, so that other hits go on.
+int64_t units_of_birth(const State& state, uint32_t t, int64_t budget) {
+    const auto vertices = static_cast<int64_t>(state.shells.vertices[state.tasks.shell[t]].count);
+    return std::min(static_cast<int64_t>(kUnitsBirth) * vertices, std::max<int64_t>(budget, 0) / 2);
+}
+
 /// What no step wants is for what cracks cost, in equal shares of the quick runs, counted in their steps: the loop
 /// takes them back.
 void grant_cuts(State& state, std::span<const uint32_t> order, int64_t& budget) {
@@ -75,7 +86,8 @@ void grant_cuts(State& state, std::span<const uint32_t> order, int64_t& budget) 
 
 // A quick run's last step waits for a frame that has units for what follows it, so that no frame has all of a hit; its
 // cracks take from the frame's units while it runs. What they cost more than was granted for is owed, and paid before
-// the next frame's steps; cuts of the game are paid in the frame that makes them. A task gets at least one step a
+// the next frame's steps; cuts of the game are paid in the frame that makes them, and so are births that are known
+// before the pass: a foreseen break beside a full frame of another hit was the worst of scene vase. A task gets at least one step a
 // frame, but for quick ones behind the oldest, so that none can starve.
 void grant_units(Serial, ShellTables shells, Tasks& tasks, SoftBodies&, const DamageSettings& settings,
                  DamageCounts& counts) {
@@ -89,6 +101,7 @@ void grant_units(Serial, ShellTables shells, Tasks& tasks, SoftBodies&, const Da
             budget -= static_cast<int64_t>(tasks.units_owed[t]);
             tasks.units_owed[t] = 0;
         }
+        if (is_due(tasks, t)) budget -= units_of_birth(shells.state, t, budget);
         if (task_state != TaskState::Running) continue;
         order[count++] = t;
     }

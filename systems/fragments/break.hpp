@@ -25,6 +25,7 @@ struct Break {
     uint32_t largest = 0;
     uint32_t clamped = 0;        // motions that were
     double crushed = 0;          // J, see HandoffReport
+    std::span<Touch> touches = {};  // of the parts, at their cracks
     double waited = 0;           // J that pieces which waited for this break have beyond the body's motion
     uint32_t left_elements = 0;  // of all parts that leave
     ShellSums whole;             // of `broken` before they do

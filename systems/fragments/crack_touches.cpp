@@ -58,10 +58,11 @@ void add_touches(const ShellView& shell, const CrackEdge& edge, uint32_t a, uint
     const Vec3d out_of_a = cross(inner - outer, outer_to - outer_from + inner_to - inner_from);
     const double size = length(out_of_a);
     const Vec3d normal = size > 0 ? (-1 / size) * out_of_a : Vec3d{};
-    for (const Vec3d point : {outer, inner}) {
+    for (const Vec3d point : {outer_from, outer_to, inner_from, inner_to}) {
         *out = {};
         out->a = a, out->b = b;
         out->point = point, out->normal = normal;
+        out->reach = length(outer_to - outer_from);
         ++out;
     }
 }
@@ -95,13 +96,13 @@ std::span<Touch> crack_touches(ShellView shell, bool is_local, Arena& arena) {
             if (a != b) visit(edges[i], a, b);
         }
     };
-    for_each_crack([&](const CrackEdge&, uint32_t, uint32_t) { touches += 2; });
+    for_each_crack([&](const CrackEdge&, uint32_t, uint32_t) { touches += 4; });
     const auto out = arena.take<Touch>(touches);
     if (out.empty()) return out;
     touches = 0;
     for_each_crack([&](const CrackEdge& edge, uint32_t a, uint32_t b) {
         add_touches(shell, edge, a, b, out.data() + touches);
-        touches += 2;
+        touches += 4;
     });
     return out;
 }

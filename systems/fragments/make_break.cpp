@@ -18,7 +18,7 @@ namespace cullet {
 namespace {
 
 // Siblings that start in touch, and a striker beside the shards it made, are not tested against each other for so long.
-constexpr float kSiblingSeconds = 0.25f, kStrikerSeconds = 0.1f;
+constexpr float kStrikerSeconds = 0.1f;
 constexpr float kTouch = 0.004f;  // m between the bounds of two siblings that count as in touch
 
 // What turns the hidden state's motions into the world's. `change` is the body's motion now less the hidden motion that
@@ -149,17 +149,50 @@ struct Bounds {
     }
 };
 
+/// Where parts had been one, pair by pair: world axes.
+class Cracks {
+ public:
+    /// Without room in the arena there are none.
+    Cracks(std::span<const Touch> touches, const Pose& pose, Arena& arena)
+        : of_(arena.take<Between>(touches.size())), touches_(arena.take<CrackTouch>(touches.size())) {
+        if (of_.size() < touches.size() || touches_.size() < touches.size()) of_ = {};
+        for (uint32_t t = 0; t < of_.size(); ++t)
+            of_[t] = {std::min(touches[t].a, touches[t].b), std::max(touches[t].a, touches[t].b), t};
+        std::sort(of_.begin(), of_.end());
+        for (size_t k = 0; k < of_.size(); ++k) {
+            const Touch& t = touches[of_[k].touch];
+            const Vec3 normal = rotate(pose.orientation, t.normal.to_float());
+            touches_[k] = {to_world(pose, t.point.to_float()), t.a < t.b ? normal : -normal, static_cast<float>(t.reach)};
+        }
+    }
+    /// Normals from q towards p, p < q.
+    std::span<const CrackTouch> between(uint32_t p, uint32_t q) const {
+        const auto first = std::lower_bound(of_.begin(), of_.end(), Between{p, q, 0}),
+                   last = std::lower_bound(first, of_.end(), Between{p, q + 1, 0});
+        return touches_.subspan(static_cast<size_t>(first - of_.begin()), static_cast<size_t>(last - first));
+    }
+
+ private:
+    struct Between {
+        uint32_t p, q, touch;
+        auto operator<=>(const Between&) const = default;
+    };
+    std::span<Between> of_;
+    std::span<CrackTouch> touches_;
+};
+
 // New pieces start in touch with each other, and with what struck them. What a cut or a tear parts has no motion of its
 // own that would take it out of its sibling: unmet, the upper half of a vase fell 30 cm into the lower one and stayed
 // there. Such pieces meet at once; their overlap is pushed out without adding velocity.
-void part_siblings(Births& births, const Break& plan, std::span<const Bounds> bounds) {
+void part_siblings(Births& births, const Break& plan, const Moment& moment, std::span<const Bounds> bounds) {
     const bool has_own_motion = plan.task.exists() ? !is_cut_task(births.state.blows, plan.task) : plan.waited > 0;
     if (!has_own_motion) return;
     const auto count = static_cast<uint32_t>(plan.parts.size());
+    const Cracks cracks(plan.touches, moment.pose, births.arena);
     for (uint32_t p = 0; p < count; ++p)
         for (uint32_t q = p + 1; q < count; ++q)
             if (plan.child[p].exists() && plan.child[q].exists() && bounds[p].is_near(bounds[q]))
-                births.rigid.ignore_pair(plan.child[p], plan.child[q], kSiblingSeconds, true);
+                births.rigid.part_siblings(plan.child[p], plan.child[q], cracks.between(p, q));
 }
 
 void part_strikers(Births& births, Row<Tasks> task, const Break& plan, bool is_late) {
@@ -173,7 +206,7 @@ void part_strikers(Births& births, Row<Tasks> task, const Break& plan, bool is_l
             if (!striker.exists()) continue;
             if (p == plan.largest && !is_late) births.rigid.skip_contacts(plan.body, striker);
             if (static_cast<BodyKind>(state.bodies.kind[striker]) == BodyKind::Dynamic)
-                births.rigid.ignore_pair(plan.child[p], striker, kStrikerSeconds, false);
+                births.rigid.ignore_pair(plan.child[p], striker, kStrikerSeconds);
         }
     }
 }
@@ -252,7 +285,7 @@ void make_births_of(Births& births, const Break& plan, const Moment& moment) {
         const uint32_t p = plan.order[i % count];
         if (plan.child[p].exists()) make_birth(births, plan, p, moment, bounds[p]);
     }
-    part_siblings(births, plan, bounds);
+    part_siblings(births, plan, moment, bounds);
 }
 
 }  // namespace

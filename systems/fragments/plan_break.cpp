@@ -381,7 +381,7 @@ void plan_break(Planning& planning, Row<Tasks> task) {
         move_with_body(state, plan, velocity, spin);  // nothing was run
     } else {
         HandoffStart start{velocity, spin, state.shells.centre[broken], state.tasks.approach_speed[task], rest};
-        start.touches = crack_touches(shell, broken == plan.before, planning.arena);
+        start.touches = plan.touches = crack_touches(shell, broken == plan.before, planning.arena);
         start.touching = planning.arena.take<Touching>(plan.parts.size());
         const HandoffReport report = rigid_handoff(shell, start, plan.parts, plan.motions);
         plan.clamped = report.speed_clamps + report.spin_clamps;

@@ -17,6 +17,7 @@ struct Touching {
 struct Touch {
     uint32_t a = 0, b = 0;  // of the touching
     Vec3d point, normal;    // unit, from b towards a
+    double reach = 0;       // m, of this part of the crack to both sides of the point
     Vec3d impulse;          // N s, on a, and the opposite on b: what was needed
     Vec3d arm_a, arm_b;     // from the centres: scratch
     bool is_used = false;   // scratch

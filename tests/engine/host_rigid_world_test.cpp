@@ -136,13 +136,13 @@ TEST(HostRigidWorld, AnIgnoredPairIsPassedOverWhileItOverlapsAndForNoLongerThanI
     Rows rows;
     rows.add(1);
     rows.add(2);
-    rows.world.ignore_pair(2, 1, 0.025f, true);
+    rows.world.part_siblings(2, 1, {});
     const HostContact deep{rows.id(1), rows.id(2), {}, {0, 1, 0}, -0.01f};
     for (const bool is_met : {false, false, false, true}) {
         rows.detect({deep});
         EXPECT_EQ(!rows.world.contacts().empty(), is_met);
     }
-    rows.world.ignore_pair(1, 2, 1, true);
+    rows.world.part_siblings(1, 2, {});
     rows.detect({deep});
     EXPECT_TRUE(rows.world.contacts().empty());
     rows.detect({});  // apart

@@ -181,7 +181,7 @@ TEST(RigidWorld, AnIgnoredPairMeetsAgainWhenApartOrWhenTimeIsUp) {
     auto world = make_bullet_world(8);
     add_box(*world, 0, {0, 0, 0}, {0.1f, 0.1f, 0.1f}, 1000);
     add_box(*world, 1, {0, 0.15f, 0}, {0.1f, 0.1f, 0.1f}, 1000);  // 5 cm inside of each other
-    world->ignore_pair(1, 0, 0.25f, true);
+    world->ignore_pair(1, 0, 0.25f);
     for (int k = 0; k < 15; ++k) {
         world->detect(kStep);
         EXPECT_TRUE(world->contacts().empty()) << k;
@@ -194,7 +194,7 @@ TEST(RigidWorld, AnIgnoredPairMeetsAgainWhenApartOrWhenTimeIsUp) {
     world->remove(1);
     add_box(*world, 0, {0, 0, 0}, {0.1f, 0.1f, 0.1f}, 1000);
     add_box(*world, 1, {0, 0.19f, 0}, {0.1f, 0.1f, 0.1f}, 1000);
-    world->ignore_pair(0, 1, 10, true);
+    world->part_siblings(0, 1, {});
     world->set_motion(1, {{0, 0.3f, 0}, {}});
     for (int k = 0; k < 2; ++k) {  // 10 mm apart after 2 steps of 5 mm
         world->detect(kStep);

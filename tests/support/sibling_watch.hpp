@@ -51,7 +51,7 @@ class SiblingWatch {
 
     World& world_;
     SiblingFigures figures_;
-    bool is_broken_ = false;
+    bool is_broken_ = false; int frame_ = 0; std::vector<Pose> start_;
     uint64_t broke_before_ = 0, clamped_before_ = 0;
     Vec3d momentum_before_, turning_before_;  // before the systems of damage
     double impact_speed_ = 0, birth_energy_ = 0;
