@@ -73,6 +73,7 @@ struct Body {
 
     uint32_t number = 0;        // the solver's, in this step
     bool is_touched = false;    // has a contact in this step
+    bool is_damped = false;     // has one that is not at the crack of its birth
     bool is_driven = false;     // has one with a kinematic body that moves
     float slow_seconds = 0;     // touched and nearly at rest
     float overlap = 0;          // m, of its deepest contact in this step

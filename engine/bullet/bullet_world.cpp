@@ -14,7 +14,7 @@
 namespace cullet::bullet {
 namespace {
 
-constexpr float kAngularDamping = 0.1f;  // 1/s, of what is touched: flight has none
+constexpr float kAngularDamping = 0.1f;  // 1/s, of what is touched: flight has none, nor has a birth
 constexpr float kPressedIn = 0.001f;     // m a step that an unsolved contact may deepen by
 constexpr float kSeamReach = 0.001f;     // m beyond the margins, more than mark_inner_faces() looks past a face
 // Leaves of the tree hold what they are about with half of the way from which pieces are watched (see
@@ -670,9 +670,9 @@ std::span<const NewbornPieces> BulletWorld::newborn_of(RigidId a, RigidId b) con
 void BulletWorld::list_manifolds() {
     manifolds_.clear();
     for (const Pair& pair : pairs_.rows())
-        pair.algorithm->visit_manifolds([&](btPersistentManifold& m, const PairRecord&) {
-            manifolds_.push_back(
-                {pair.a, pair.b, static_cast<uint32_t>(m.m_companionIdA), static_cast<uint32_t>(m.m_companionIdB), &m});
+        pair.algorithm->visit_manifolds([&](btPersistentManifold& m, const PairRecord& record) {
+            manifolds_.push_back({pair.a, pair.b, static_cast<uint32_t>(m.m_companionIdA),
+                                  static_cast<uint32_t>(m.m_companionIdB), &m, record.crack != nullptr});
         });
 }
 
@@ -700,12 +700,13 @@ Vec3 BulletWorld::velocity_at(const Body& body, Vec3 point) const {
 void BulletWorld::gather_contacts() {
     contacts_.clear();
     for (RigidId id = 0; id < body_end_; ++id) {
-        bodies_[id].is_touched = bodies_[id].is_driven = false;
+        bodies_[id].is_touched = bodies_[id].is_driven = bodies_[id].is_damped = false;
         bodies_[id].overlap = 0;
     }
     for (const SortedManifold& m : manifolds_) {
         Body &a = bodies_[m.a], &b = bodies_[m.b];
         a.is_touched = b.is_touched = true;
+        a.is_damped |= !m.is_at_crack, b.is_damped |= !m.is_at_crack;
         a.is_driven |= b.kind == RigidKind::Kinematic && b.bullet->isActive();
         b.is_driven |= a.kind == RigidKind::Kinematic && a.bullet->isActive();
         if (!a.is_free() && !b.is_free()) continue;
@@ -834,7 +835,7 @@ void BulletWorld::solve(float dt) {
         if (!body.is_used || !body.is_free()) continue;
         body.bullet->applyGravity();
         turn_freely(*body.bullet, dt);
-        if (body.is_touched && body.load > 0) body.bullet->applyDamping(dt);
+        if (body.is_damped) body.bullet->applyDamping(dt);
     }
     const double before = CULLET_CHECKS_ON ? height_energy() : 0;
     solve_contacts(dt);

@@ -82,6 +82,7 @@ class BulletWorld final : public RigidWorld {
         RigidId a, b;
         uint32_t cell_a, cell_b;
         btPersistentManifold* manifold;
+        bool is_at_crack;  // of siblings that are not apart yet
     };
 
     struct Scattered {

@@ -25,7 +25,6 @@ constexpr float kAhead = 0.01f;           // m, of travel until pieces are looke
 // A patch is followed, not found anew, while the bodies move less than this against each other. At five times it a
 // stack of boxes drifts by millimetres.
 constexpr float kSmallTravel = 0.00001f;  // m
-constexpr float kPushedApart = 0.0001f;  // m of overlap that counts as none when siblings part
 constexpr float kTurnLength = 0.1f;       // m, that opposite normals count half of
 constexpr float kDepthWeight = 20;        // a millimetre deeper counts as 20 mm farther
 constexpr float kDeepEnough = 0.002f;     // m, deeper than which place alone counts
@@ -213,7 +212,7 @@ void PairAlgorithm::process(std::span<const NewbornPieces> newborn) {
 bool PairAlgorithm::write_crack(PairRecord& record, const Body& a, const Hull& hull_a, const Body& b,
                                 const Hull& hull_b) {
     record.crack->seconds -= work_->dt;
-    if (!(record.crack->seconds > 0) || separation(hull_a, hull_b, record.guess, 0) >= -kPushedApart) {
+    if (!(record.crack->seconds > 0) || separation(hull_a, hull_b, record.guess, kContactRange) >= kContactRange) {
         work_->cracks.give(record.crack);
         record.crack = nullptr;
         return false;
@@ -329,8 +328,9 @@ void PairAlgorithm::choose_best() {
     remove_unchosen();
 }
 
-// Friction and restitution of two bodies: the geometric mean, so that equal materials keep their own value. Rolling
-// friction crosswise as in Bullet: each one's length times the other's friction.
+// Friction and restitution of two bodies: the geometric mean, so that equal materials keep their own value. What was
+// one does not bounce at its crack. Rolling friction crosswise as in Bullet: each one's length times the other's
+// friction.
 void PairAlgorithm::write(PairRecord& record, const Patch& patch, uint32_t cell_a, uint32_t cell_b) {
     const Body &a = work_->bodies[a_], &b = work_->bodies[b_];
     if (!record.manifold) {
@@ -346,7 +346,8 @@ void PairAlgorithm::write(PairRecord& record, const Patch& patch, uint32_t cell_
     const int before_count = manifold.getNumContacts();
     for (int k = 0; k < before_count; ++k) before[k] = manifold.getContactPoint(k);
     bool is_taken[kPatchPoints] = {};
-    const float friction = std::sqrt(a.friction * b.friction), restitution = std::sqrt(a.restitution * b.restitution);
+    const float friction = std::sqrt(a.friction * b.friction),
+                restitution = record.crack ? 0 : std::sqrt(a.restitution * b.restitution);
     const float mass = a.mass > 0 && b.mass > 0 ? std::min(a.mass, b.mass) : std::max(a.mass, b.mass);
     const float arm = a.rolling_friction * b.friction + b.rolling_friction * a.friction;  // m
     const float weight = mass * work_->weight_speed / static_cast<float>(patch.count);

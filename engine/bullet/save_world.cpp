@@ -4,6 +4,7 @@
 // running world is rebuilt from its own bytes when it is saved, and goes on as the one that is loaded later.
 #include <algorithm>
 #include <cmath>
+#include <tuple>
 
 #include "engine/assert.hpp"
 #include "engine/bullet/bullet_world.hpp"
@@ -464,7 +465,9 @@ Result<void> BulletWorld::load(ByteReader& in) {
     for (uint32_t k = 0; k < newborn && in.is_sound(); ++k) {
         NewbornPieces pieces{};
         flow_newborn(f, pieces);
-        in.expect(is_known(pieces.a) && is_known(pieces.b) && pieces.a < pieces.b,
+        const auto key = [](const NewbornPieces& n) { return std::tuple(n.a, n.b, n.piece_a, n.piece_b); };
+        const bool is_rising = newborn_.empty() || key(newborn_.back()) < key(pieces);
+        in.expect(is_known(pieces.a) && is_known(pieces.b) && pieces.a < pieces.b && is_rising,
                   "newborn pieces of bodies " + std::to_string(pieces.a) + " and " + std::to_string(pieces.b));
         if (in.is_sound()) newborn_.push_back(pieces);
     }

@@ -132,16 +132,15 @@ TEST(HostRigidWorld, ContactsOfWhatRestsIsHeldOrGoneAreLeftOut) {
     EXPECT_TRUE(rows.world.contacts().empty());
 }
 
-TEST(HostRigidWorld, AnIgnoredPairIsPassedOverWhileItOverlapsAndForNoLongerThanItsTime) {
+TEST(HostRigidWorld, SiblingsArePassedOverWhileTheyOverlapAndForAQuarterOfASecondAtMost) {
     Rows rows;
     rows.add(1);
     rows.add(2);
     rows.world.part_siblings(2, 1, {});
     const HostContact deep{rows.id(1), rows.id(2), {}, {0, 1, 0}, -0.01f};
-    for (const bool is_met : {false, false, false, true}) {
-        rows.detect({deep});
-        EXPECT_EQ(!rows.world.contacts().empty(), is_met);
-    }
+    int ignored = 0;
+    while (ignored < 100 && (rows.detect({deep}), rows.world.contacts().empty())) ++ignored;
+    EXPECT_NEAR(ignored, 25, 1);  // steps of 10 ms
     rows.world.part_siblings(1, 2, {});
     rows.detect({deep});
     EXPECT_TRUE(rows.world.contacts().empty());

@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
-#include <cstdlib>
 
 #include "sample_game/solid.hpp"
 #include "systems/rigid/body_id.hpp"
@@ -17,6 +16,8 @@ namespace {
 constexpr uint32_t kFrames = 30;
 constexpr float kTouch = 0.001f;       // m between bounds of pieces that were born in touch
 constexpr double kSeenDepth = 0.0005;  // m
+// m between two places of a body: what turns on and strikes, or crosses a hollow, meets what lay farther off.
+constexpr double kElsewhere = 0.01;
 
 /// One drawn triangle, whichever corner comes first.
 uint64_t hash_of(const ViewVertex* corner, const Pose& pose) {
@@ -161,8 +162,16 @@ void SiblingWatch::look(const std::string& system) {
     birth_energy_ = energy();
 }
 
+// Where the two that touch were in the body that they were of, whose frame both still have.
+double SiblingWatch::apart_at_birth(const RigidContact& contact) const {
+    const auto place_in = [&](uint32_t body) {
+        return rotate(conjugate(poses_[body].orientation), contact.point - poses_[body].position);
+    };
+    return length(place_in(contact.a) - place_in(contact.b));
+}
+
 // A shard may cross the body and hit its other side: such blows, and what those that got one hit in their turn, are
-// no matter of birth.
+// no matter of birth. Nor is what two neighbours do that turn on and meet elsewhere, but that is told apart.
 void SiblingWatch::mark_struck() {
     const auto contacts = world_.contents().data.rigid->contacts();
     const auto place_of = [&](uint32_t id) {
@@ -174,14 +183,10 @@ void SiblingWatch::mark_struck() {
         uint32_t p = place_of(c.a), q = place_of(c.b);
         if (p == kNone || q == kNone) continue;
         if (p > q) std::swap(p, q);
-        bool are_neighbours = std::binary_search(pairs_.begin(), pairs_.end(), std::pair(p, q));
-        static const double T = std::getenv("HACK_T") ? std::atof(std::getenv("HACK_T")) : 0;
-        if (T > 0 && !start_.empty()) {
-            const Pose &pa = start_[c.a], &pb = start_[c.b];
-            const double d = length(rotate(conjugate(pa.orientation), c.point - pa.position) - rotate(conjugate(pb.orientation), c.point - pb.position));
-            if (d > T) are_neighbours = false;
-        }
+        const bool are_neighbours = std::binary_search(pairs_.begin(), pairs_.end(), std::pair(p, q));
         if (!are_neighbours || is_struck_[p] || is_struck_[q]) is_struck_[p] = is_struck_[q] = 1;
+        if (is_struck_[p] || has_met_[p] || has_met_[q] || apart_at_birth(c) > kElsewhere)
+            has_met_[p] = has_met_[q] = 1;
     }
 }
 
@@ -191,6 +196,7 @@ void SiblingWatch::measure_pairs() {
         const double before = length(pieces_[p].velocity - pieces_[q].velocity);
         const double now = length(relative_speed(state_of(world_), pieces_[p].id, pieces_[q].id));
         figures_.gained.push_back(now - before);
+        if (!has_met_[p] && !has_met_[q]) figures_.thrown.push_back(now - before);
         if (pieces_.size() == 2) figures_.gained_alone.push_back(now - before);
     }
 }
@@ -202,22 +208,6 @@ void SiblingWatch::look_inside() {
         const Solid &a = solids[pairs_[k].first], &b = solids[pairs_[k].second];
         const double depth = std::max(deepest(a, b), deepest(b, a));
         figures_.deepest = std::max(figures_.deepest, depth);
-        if (depth > kSeenDepth && !is_seen_in_[k]) {
-            // which place
-            for (int side = 0; side < 2; ++side) {
-                const uint32_t ip = side ? pairs_[k].second : pairs_[k].first, iq = side ? pairs_[k].first : pairs_[k].second;
-                const Solid &in = solids[ip], &out = solids[iq];
-                const BodyView vi = world_.view(pieces_[ip].id).value(), vo = world_.view(pieces_[iq].id).value();
-                double most = 0; size_t at = 0;
-                for (size_t i = 0; i < in.points.size(); ++i) if (out.holds(in.points[i])) { const double d = out.depth(in.points[i]); if (d > most) most = d, at = i; }
-                if (!(most > 0)) continue;
-                const Vec3 local = vi.vertices[at].position;
-                double near = 9;
-                for (uint32_t v = 0; v < vo.vertex_count; ++v) near = std::min(near, double(length(vo.vertices[v].position - local)));
-                double slid = length(in.points[at] - to_world(vo.pose, local));
-                std::printf("SEENID %u %u local (%.4f %.4f %.4f) ", pieces_[ip].id.index, pieces_[iq].id.index, local.x, local.y, local.z); std::printf("SEEN depth_mm %.2f near_mm %.2f slid_mm %.1f radius_mm %.0f %.0f impact %.1f pieces %zu frame %d largest %d clamped %d\n", 1000*most, 1000*near, 1000*slid, 1000*pieces_[ip].radius, 1000*pieces_[iq].radius, impact_speed_, pieces_.size(), frame_, ip == 0 || iq == 0, int(world_.contents().data.counts.clamped - clamped_before_));
-            }
-        }
         is_seen_in_[k] |= depth > kSeenDepth;
     }
 }
@@ -243,43 +233,18 @@ void SiblingWatch::follow(const Shape& shape, Draw draw, const SpawnSettings& sp
             if (bounds[p].is_within(bounds[q], kTouch)) pairs_.emplace_back(p, q);
     is_seen_in_.assign(pairs_.size(), 0);
     is_struck_.assign(pieces_.size(), 0);
-    std::vector<double> last(pairs_.size()), jump(pairs_.size()); std::vector<int> when(pairs_.size(), -1); std::vector<float> dist(pairs_.size(), 9), d0(pairs_.size(), -1), ac(pairs_.size(), 0);
-    std::vector<std::vector<RigidContact>> log; std::vector<std::vector<Pose>> poses;
-    for (size_t k = 0; k < pairs_.size(); ++k) last[k] = length(pieces_[pairs_[k].first].velocity - pieces_[pairs_[k].second].velocity);
-    start_.clear();
+    has_met_.assign(pieces_.size(), 0);
     for (uint32_t frame = 1; frame < kFrames; ++frame) {
-        mark_struck();
-        std::vector<Pose>& start = start_; start.resize(state_of(world_).bodies.size());
-        for (uint32_t b = 0; b < start.size(); ++b) start[b] = Pose{state_of(world_).bodies.position[b], state_of(world_).bodies.orientation[b]};
-        std::vector<Vec3> v0; for (auto& pc : pieces_) v0.push_back(state_of(world_).bodies.velocity[pc.id.index]);
+        const Bodies& bodies = state_of(world_).bodies;
+        poses_.clear();
+        for (uint32_t b = 0; b < bodies.size(); ++b) poses_.push_back(pose_of(bodies, Row<Bodies>(b)));
         world_.step();
-        if (frame == 1 && std::getenv("HACK_DUMP") && pieces_.size() == 27 && impact_speed_ > 22.39 && impact_speed_ < 22.41) {
-            for (size_t i = 0; i < pieces_.size(); ++i) { const Vec3 v = state_of(world_).bodies.velocity[pieces_[i].id.index]; const auto b = pieces_[i].id.index;
-                std::printf("BODY %u kind %d mass %.4f R %.3f w %.1f v0 (%.2f %.2f %.2f) dv (%.2f %.2f %.2f) centre (%.3f %.3f %.3f)\n", b, int(state_of(world_).bodies.kind[b]), state_of(world_).bodies.mass[b], pieces_[i].radius, length(pieces_[i].spin), v0[i].x, v0[i].y, v0[i].z, v.x-v0[i].x, v.y-v0[i].y, v.z-v0[i].z, centre_of(state_of(world_).bodies, Row<Bodies>(b)).x, centre_of(state_of(world_).bodies, Row<Bodies>(b)).y, centre_of(state_of(world_).bodies, Row<Bodies>(b)).z); }
-            for (const RigidContact& c : world_.contents().data.rigid->contacts()) std::printf("CONTACT %u %u cells %u %u n (%.2f %.2f %.2f) dist_mm %.2f closing %.2f\n", c.a, c.b, c.cell_a, c.cell_b, c.normal.x, c.normal.y, c.normal.z, 1000*c.distance, c.approach_speed);
-        }
-        for (size_t k = 0; k < pairs_.size(); ++k) {
-            const double now = length(relative_speed(state_of(world_), pieces_[pairs_[k].first].id, pieces_[pairs_[k].second].id));
-            if (now - last[k] > 0.1 && when[k] < 0) {
-                when[k] = frame; jump[k] = now - last[k];
-                for (const RigidContact& c : world_.contents().data.rigid->contacts())
-                    if (false || (c.a == pieces_[pairs_[k].first].id.index && c.b == pieces_[pairs_[k].second].id.index) || (c.b == pieces_[pairs_[k].first].id.index && c.a == pieces_[pairs_[k].second].id.index)) { const State& st = state_of(world_); (void)st; if (c.distance < dist[k]) { dist[k] = c.distance; ac[k] = c.approach_speed; const Pose& pa = start[c.a], &pb = start[c.b]; d0[k] = length(rotate(conjugate(pa.orientation), c.point - pa.position) - rotate(conjugate(pb.orientation), c.point - pb.position)); } }
-            }
-            last[k] = now;
-        }
+        mark_struck();
         const bool is_quiet = std::find(is_struck_.begin(), is_struck_.end(), 1) == is_struck_.end();
         if (frame == 3 && is_quiet) figures_.lost.push_back(1 - energy() / birth_energy_);
-        if (looks_inside && (std::getenv("HACK_ALL") || frame == 4 || frame == 9 || frame == kFrames - 1)) frame_ = frame, look_inside();
+        if (looks_inside) look_inside();
     }
-    mark_struck();
     measure_pairs();
-    for (size_t k = 0; k < pairs_.size(); ++k) {
-        const auto [p, q] = pairs_[k];
-        if (is_struck_[p] || is_struck_[q]) continue;
-        const double before = length(pieces_[p].velocity - pieces_[q].velocity);
-        const double now = length(relative_speed(state_of(world_), pieces_[p].id, pieces_[q].id));
-        std::printf("PAIR gain %.3f before %.3f rim %.3f %.3f impact %.2f when %d jump %.3f dist_mm %.2f pieces %zu d0 %.4f rad %.3f %.3f ac %.2f\n", now - before, before, length(pieces_[p].spin)*pieces_[p].radius, length(pieces_[q].spin)*pieces_[q].radius, impact_speed_, when[k], jump[k], 1000*dist[k], pieces_.size(), d0[k], pieces_[p].radius, pieces_[q].radius, ac[k]);
-    }
     figures_.pairs += static_cast<uint32_t>(pairs_.size());
     if (looks_inside) {
         figures_.looked_at += static_cast<uint32_t>(pairs_.size());

@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "engine/rigid_world.hpp"
 #include "tests/support/random_hits.hpp"
 
 namespace cullet::test {
@@ -13,7 +14,8 @@ struct SiblingFigures {
     uint32_t breaks = 0, pieces = 0, pairs = 0;
     // Of breaks, and of pairs of pieces that were born in touch, in which nobody was struck by what was born elsewhere:
     std::vector<double> lost;             // share of the kinetic energy about the common centre that 3 steps take
-    std::vector<double> gained;           // m/s in half a second
+    std::vector<double> gained;           // m/s in half a second, all collisions counted
+    std::vector<double> thrown;           // of those by which nobody met what had been elsewhere in the body
     std::vector<double> gained_alone;     // of those the pairs of which nothing else came
     double fastest = 0;                   // largest |v - (V + w x r)| / impact speed, of all pieces but the largest
     double fastest_rim = 0;               // largest of |w| or |w - w of the body|, the lesser, r_max / impact speed
@@ -46,12 +48,13 @@ class SiblingWatch {
     double energy() const;
     void compare_surface();
     void mark_struck();
+    double apart_at_birth(const RigidContact& contact) const;
     void measure_pairs();
     void look_inside();
 
     World& world_;
     SiblingFigures figures_;
-    bool is_broken_ = false; int frame_ = 0; std::vector<Pose> start_;
+    bool is_broken_ = false;
     uint64_t broke_before_ = 0, clamped_before_ = 0;
     Vec3d momentum_before_, turning_before_;  // before the systems of damage
     double impact_speed_ = 0, birth_energy_ = 0;
@@ -60,7 +63,8 @@ class SiblingWatch {
     uint64_t surface_ = 0;
     std::vector<Piece> pieces_;
     std::vector<std::pair<uint32_t, uint32_t>> pairs_;
-    std::vector<uint8_t> is_seen_in_, is_struck_;
+    std::vector<uint8_t> is_seen_in_, is_struck_, has_met_;
+    std::vector<Pose> poses_;  // of bodies, when their contacts were found
 };
 
 }  // namespace cullet::test

@@ -42,44 +42,50 @@ SiblingFigures figures_of(FractureMode mode, uint32_t breaks) {
     std::printf(
         "%u breaks in %u hits, %u pieces, %u pairs; energy lost in 3 steps (%zu breaks): median %.3f %%, p90 %.2f %%; "
         "speed gained (%zu): "
-        "p99 %.3f, most %.3f m/s (alone %zu: p99 %.3f, most %.3f); %u of %u pairs seen in each other, by %.1f mm; "
+        "p99 %.3f, most %.3f m/s (alone %zu: p99 %.3f, most %.3f), thrown (%zu): p99 %.3f, most %.3f; %u of %u pairs seen in each other, by %.1f mm; "
         "fastest %.4f, rim %.4f impact speeds; "
         "clamped %u; %u other surfaces; momentum kept to %.1e, angular to %.1e (median), %.1e (99 %%)\n",
         f.breaks, hits, f.pieces, f.pairs, f.lost.size(), 100 * quantile(f.lost, 0.5), 100 * quantile(f.lost, 0.9),
         f.gained.size(), quantile(f.gained, 0.99), quantile(f.gained, 1), f.gained_alone.size(),
-        quantile(f.gained_alone, 0.99), quantile(f.gained_alone, 1), f.seen_in, f.looked_at, 1000 * f.deepest,
+        quantile(f.gained_alone, 0.99), quantile(f.gained_alone, 1), f.thrown.size(), quantile(f.thrown, 0.99),
+        quantile(f.thrown, 1), f.seen_in, f.looked_at, 1000 * f.deepest,
         f.fastest, f.fastest_rim, static_cast<uint32_t>(world.contents().data.counts.clamped), f.other_surfaces,
         f.momentum_error, quantile(f.turning_errors, 0.5), quantile(f.turning_errors, 0.99));
     return f;
 }
 
-/// What today's rule keeps to, where it is more than is wanted.
+/// What is wanted, of what birth itself does: median energy lost, m/s that 99 of 100 pairs and all of them are thrown.
+constexpr double kLost = 0.01, kThrown = 0.2, kMostThrown = 1;
+
+/// What today's world keeps to where all collisions of the next half second count: shards that turn, or fly through the
+/// hollow that they were the wall of, strike their neighbours at other places, as they would.
 struct Bounds {
-    double median_lost;            // wanted: 0.01
-    double gained_by_99_per_cent;  // m/s, wanted: 0.2
-    double most_gained;            // m/s, wanted: 1
+    double gained_by_99_per_cent, most_gained;  // m/s
 };
 
 void expect_sound(const SiblingFigures& f, uint32_t breaks, const Bounds& today) {
     EXPECT_GE(f.breaks, breaks);
     EXPECT_EQ(f.other_surfaces, 0u);
-    EXPECT_LT(10 * f.seen_in, f.looked_at);
-    EXPECT_LE(quantile(f.lost, 0.5), today.median_lost);
+    EXPECT_LT(10 * f.seen_in, f.looked_at);  // by half a millimetre, in any of 30 frames
+    EXPECT_LE(quantile(f.lost, 0.5), kLost);
+    EXPECT_GT(f.thrown.size(), 2000u);
+    EXPECT_LE(quantile(f.thrown, 0.99), kThrown);
+    EXPECT_LE(quantile(f.thrown, 1), kMostThrown);
     EXPECT_LE(quantile(f.gained, 0.99), today.gained_by_99_per_cent);
     EXPECT_LE(quantile(f.gained, 1), today.most_gained);
     // Limits of birth are 2 impact speeds, of the vertices' centre and from there; the solid's lies elsewhere. What is
     // cut off goes no farther than energy allows.
-    EXPECT_LE(f.fastest, 2.02);
+    EXPECT_LE(f.fastest, 2.05);
     EXPECT_LE(f.fastest_rim, 2.2);
     EXPECT_LE(f.momentum_error, 1e-6);
 }
 
-TEST(Siblings, OfHiddenBreaksAreDrawnAsTheBodyWasAndHardlyHinderEachOther) {
-    expect_sound(figures_of(FractureMode::Hidden, 500), 500, {0.0025, 2, 10.5});
+TEST(Siblings, OfHiddenBreaksAreDrawnAsTheBodyWasAndDoNotThrowEachOther) {
+    expect_sound(figures_of(FractureMode::Hidden, 500), 500, {3, 25});
 }
 
-TEST(Siblings, OfQuickBreaksAreDrawnAsTheBodyWasAndHardlyHinderEachOther) {
-    expect_sound(figures_of(FractureMode::Quick, 500), 500, {0.004, 0.75, 6});
+TEST(Siblings, OfQuickBreaksAreDrawnAsTheBodyWasAndDoNotThrowEachOther) {
+    expect_sound(figures_of(FractureMode::Quick, 500), 500, {0.8, 7});
 }
 
 }  // namespace
