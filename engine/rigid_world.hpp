@@ -68,7 +68,7 @@ struct RigidContact {
 
 /// A place on the crack between two bodies: world axes.
 struct CrackTouch {
-    Vec3 point, normal;  // normal: unit, from b towards a
+    Vec3 point, normal;  // normal: unit, from b towards a, or zero where there is none
     float reach = 0;     // m, of this part of the crack to both sides of the point
 };
 

@@ -19,7 +19,8 @@ void find_near(const Hull& a, const Hull& b, std::span<const CrackTouch> touches
     for (const CrackTouch& t : touches) {
         const Box at{t.point, t.point};
         const bool is_near = overlap(a.world_box, at, kNear) && overlap(b.world_box, at, kNear);
-        if (is_near && near.size() < near.capacity()) near.push_back(&t);
+        const bool has_direction = dot(t.normal, t.normal) > 0.5f;
+        if (is_near && has_direction && near.size() < near.capacity()) near.push_back(&t);
     }
 }
 

@@ -24,7 +24,8 @@ struct CrackContact {
     CrackContact* next = nullptr;
 };
 
-/// Touches near both hulls, as many as `near` has room for. World points of the hulls must be fresh.
+/// Touches near both hulls, as many as `near` has room for, but for those of edges so short that they have no normal.
+/// World points of the hulls must be fresh.
 void find_near(const Hull& a, const Hull& b, std::span<const CrackTouch> touches, std::vector<const CrackTouch*>& near);
 /// Of these touches those that lie farthest apart, none of none. `at_a` and `at_b` are where the hull frames stand. With
 /// `is_turned` the touches' normals lead from a towards b.

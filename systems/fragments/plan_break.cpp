@@ -408,6 +408,7 @@ void ask_again(Planning& planning, Row<Bodies> body) {
     move_with_body(state, plan, Vec3d(rotate(to_body_axes, bodies.velocity[body])),
                    Vec3d(rotate(to_body_axes, bodies.spin[body])));
     take_own_motions(shell, plan.parts, plan.motions);
+    plan.touches = crack_touches(shell, false, planning.arena);
     if (reserve_births(planning, plan)) order_births(planning, plan);
 }
 

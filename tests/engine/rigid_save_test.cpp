@@ -40,7 +40,7 @@ std::unique_ptr<RigidWorld> sheet() {
 
 TEST(RigidSave, ATreeOfTrianglesInWhichABoxIsTwoBoxesChildIsRefused) {
     constexpr size_t kTriangle = 39, kNode = 32,
-                     kAfter = 89;  // bytes; kAfter: the body behind its tree, and two counts
+                     kAfter = 93;  // bytes; kAfter: the body behind its tree, and three counts
     std::vector<uint8_t> bytes = saved(*sheet());
     EXPECT_EQ(refusal(bytes), "");
     const auto number = [&](size_t place) {

@@ -96,7 +96,7 @@ TEST(RigidHandoff, PartsAreNotBornOnTheirWayIntoEachOtherAndKeepTheirMomentaToge
         rigid_handoff(hit.view(), hit.start, hit.parts, hit.motions);
         mark_cracks(hit);
         const auto touches = crack_touches(hit.view(), false, arena);
-        EXPECT_EQ(touches.size(), 2 * edges_between_parts(hit));
+        EXPECT_EQ(touches.size(), 4 * edges_between_parts(hit));
         double before = 0, after = 0;
         for (const Touch& t : touches) before = std::max(before, closing(hit.motions, t));
         std::vector<Touching> room(hit.parts.size());
