@@ -37,7 +37,7 @@ struct Rest {
     double kinetic_share = 0;  // of the most that the run had
     // Of bodies asleep; percentiles by nearest rank.
     double sink_p95_mm = 0, sink_max_mm = 0, overlap_p95_mm = 0, overlap_max_mm = 0, hover_p95_mm = 0, hover_max_mm = 0;
-    double hover_boxes_max_mm = 0;  // the others' stand above
+    double hover_boxes_max_mm = 0, hover_hulls_max_mm = 0;  // the others' stand above
     uint64_t measured = 0;          // bodies asleep
     uint64_t through = 0;           // bodies below the ground, awake ones too
 };

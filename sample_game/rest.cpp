@@ -55,8 +55,9 @@ Things gather(const GameWorld& game) {
             rest.body = id;
             rest.is_asleep = rows.is_asleep[b];
             const Shells& shells = world.contents().data.state.shells;
-            rest.is_box =
-                rows.shell[b].exists() && static_cast<ShapeKind>(shells.shape[rows.shell[b]]) == ShapeKind::Box;
+            const bool is_shell = rows.shell[b].exists();
+            const auto shape = is_shell ? static_cast<ShapeKind>(shells.shape[rows.shell[b]]) : ShapeKind::Cells;
+            rest.is_box = shape == ShapeKind::Box, rest.is_hull = shape == ShapeKind::Hull;
             rest.is_through = things.solids.back().all.high.y < ground_height;
         }
     }
@@ -108,13 +109,14 @@ Rest measure_rest(const GameWorld& game, double peak_kinetic_energy) {
     const uint64_t moving = matter.asleep + matter.awake;
     if (moving > 0) out.asleep_share = static_cast<double>(matter.asleep) / static_cast<double>(moving);
     if (peak_kinetic_energy > 0) out.kinetic_share = matter.kinetic_energy / peak_kinetic_energy;
-    std::vector<float> sinks, overlaps, hovers, hovers_of_boxes;
+    std::vector<float> sinks, overlaps, hovers, hovers_of_boxes, hovers_of_hulls;
     for (const BodyRest& body : measure_bodies(game)) {
         out.through += body.is_through;
         if (!body.is_asleep) continue;
         sinks.push_back(static_cast<float>(1000 * body.sink));
         overlaps.push_back(static_cast<float>(1000 * body.overlap));
-        (body.is_box ? hovers_of_boxes : hovers).push_back(static_cast<float>(1000 * body.hover));
+        std::vector<float>& of_its_kind = body.is_box ? hovers_of_boxes : body.is_hull ? hovers_of_hulls : hovers;
+        of_its_kind.push_back(static_cast<float>(1000 * body.hover));
     }
     out.measured = sinks.size();
     out.sink_p95_mm = static_cast<double>(percentile(sinks, 0.95));
@@ -124,6 +126,7 @@ Rest measure_rest(const GameWorld& game, double peak_kinetic_energy) {
     out.hover_p95_mm = static_cast<double>(percentile(hovers, 0.95));
     out.hover_max_mm = static_cast<double>(percentile(hovers, 1));
     out.hover_boxes_max_mm = static_cast<double>(percentile(hovers_of_boxes, 1));
+    out.hover_hulls_max_mm = static_cast<double>(percentile(hovers_of_hulls, 1));
     return out;
 }
 

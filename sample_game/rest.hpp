@@ -12,7 +12,8 @@ namespace cullet {
 struct BodyRest {
     BodyId body;
     bool is_asleep = false;
-    bool is_box = false;      // its shape is one: up to 15 % larger than the solid, so that it may hover
+    // Its shape is one for all of it, up to 15 or 40 % larger than the solid, so that it may hover.
+    bool is_box = false, is_hull = false;
     double sink = 0;          // how deep its deepest drawn vertex lies in something that never moves
     double overlap = 0;       // the same in another moving body
     double hover = 0;         // from its drawn mesh to the nearest other thing, at most kMostHover; 0 once below 0.1 mm
