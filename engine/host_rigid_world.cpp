@@ -13,8 +13,8 @@ namespace cullet {
 namespace {
 
 constexpr float kSiblingSeconds = 0.25f;  // that siblings are ignored for at most
-constexpr float kPushedApart = 0.0001f;  // m of overlap at which ignored siblings meet again
-constexpr float kLargestSaved = 1e12f;   // of any float: far beyond what a host may tell, and its square is a float
+constexpr float kPushedApart = 0.0001f;   // m of overlap at which ignored siblings meet again
+constexpr float kLargestSaved = 1e12f;    // of any float: far beyond what a host may tell, and its square is a float
 
 bool is_unit(double square) {
     return std::fabs(square - 1) < 1e-3;  // false for what is no number

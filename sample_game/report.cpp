@@ -67,8 +67,10 @@ Json of_matter(const Report& r) {
               {"sink_mm", {{"p95", r.rest.sink_p95_mm}, {"max", r.rest.sink_max_mm}}},
               {"overlap_mm", {{"p95", r.rest.overlap_p95_mm}, {"max", r.rest.overlap_max_mm}}},
               {"hover_mm",
-               {{"p95", r.rest.hover_p95_mm}, {"max", r.rest.hover_max_mm}, {"boxes_max", r.rest.hover_boxes_max_mm},
-                 {"hulls_max", r.rest.hover_hulls_max_mm}}},
+               {{"p95", r.rest.hover_p95_mm},
+                {"max", r.rest.hover_max_mm},
+                {"boxes_max", r.rest.hover_boxes_max_mm},
+                {"hulls_max", r.rest.hover_hulls_max_mm}}},
               {"through", r.rest.through}}}};
 }
 

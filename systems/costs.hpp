@@ -13,8 +13,8 @@ inline constexpr uint64_t kUnitsCut = 15000;  // a cut edge: inserts, splits, ab
 // Of a hidden run: with that much owed, 200 cut edges, it stops for this frame. Explosions in houses cut several
 // hundred in one frame, which then took 24 ms.
 inline constexpr uint64_t kMostUnitsOwed = 3'000'000;
-// A vertex of a body whose pieces are born: rows, hulls, drawn meshes. A vase of 3,200 vertices in 20 pieces takes 13 ms
-// of work.
+// A vertex of a body whose pieces are born: rows, hulls, drawn meshes. A vase of 3,200 vertices in 20 pieces takes 13
+// ms of work.
 inline constexpr uint64_t kUnitsBirth = 1000;
 inline constexpr uint64_t kUnitsCutElement = 200;  // an element that a cut of the game looks at, a segment of its line
 inline constexpr uint64_t kUnitsOpen = 220;        // a vertex when a task opens: copy, patches

@@ -27,8 +27,8 @@ struct CrackContact {
 /// Touches near both hulls, as many as `near` has room for, but for those of edges so short that they have no normal.
 /// World points of the hulls must be fresh.
 void find_near(const Hull& a, const Hull& b, std::span<const CrackTouch> touches, std::vector<const CrackTouch*>& near);
-/// Of these touches those that lie farthest apart, none of none. `at_a` and `at_b` are where the hull frames stand. With
-/// `is_turned` the touches' normals lead from a towards b.
+/// Of these touches those that lie farthest apart, none of none. `at_a` and `at_b` are where the hull frames stand.
+/// With `is_turned` the touches' normals lead from a towards b.
 CrackContact crack_contact(std::span<const CrackTouch* const> near, const btTransform& at_a, const btTransform& at_b,
                            bool is_turned);
 /// Those of its places that still face each other. The normal of the patch is that of its first point.

@@ -28,15 +28,15 @@ struct NewbornPieces {
 
 /// Two pieces whose boxes are near: what is remembered of them from step to step.
 struct PairRecord {
-    uint32_t a, b;                 // ordinals of the pieces; triangles of a static mesh follow its convex parts
-    const Hull *hull_a, *hull_b;   // null: a triangle
-    Vec3 guess;                    // last axis from b towards a
-    bool is_own_guess = false;     // no longer borrowed from a neighbour
-    bool is_through_seam = false;  // of the manifold's points, see Patch
-    double good_until = 0;         // what the two found last holds while PairAlgorithm::travelled_ is less
-    Vec3 normal;                   // of the manifold's points, in the frame of b
+    uint32_t a, b;                  // ordinals of the pieces; triangles of a static mesh follow its convex parts
+    const Hull *hull_a, *hull_b;    // null: a triangle
+    Vec3 guess;                     // last axis from b towards a
+    bool is_own_guess = false;      // no longer borrowed from a neighbour
+    bool is_through_seam = false;   // of the manifold's points, see Patch
+    double good_until = 0;          // what the two found last holds while PairAlgorithm::travelled_ is less
+    Vec3 normal;                    // of the manifold's points, in the frame of b
     CrackContact* crack = nullptr;  // of siblings' pieces that have lain in each other since birth
-    Manifold* manifold = nullptr;  // null while they do not touch
+    Manifold* manifold = nullptr;   // null while they do not touch
     PairRecord* next = nullptr;
 };
 

@@ -162,7 +162,8 @@ class Cracks {
         for (size_t k = 0; k < of_.size(); ++k) {
             const Touch& t = touches[of_[k].touch];
             const Vec3 normal = rotate(pose.orientation, t.normal.to_float());
-            touches_[k] = {to_world(pose, t.point.to_float()), t.a < t.b ? normal : -normal, static_cast<float>(t.reach)};
+            touches_[k] = {to_world(pose, t.point.to_float()), t.a < t.b ? normal : -normal,
+                           static_cast<float>(t.reach)};
         }
     }
     /// Normals from q towards p, p < q.

@@ -541,8 +541,8 @@ TEST_P(SceneHash, IsWhatTheSceneAlwaysGave) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Scenes, SceneHash,
-                         testing::Values(KnownHash{"vase", "2f0fdd5974dffa48"}, KnownHash{"wall", "9ec5875d096e6dd4"},
-                                         KnownHash{"pane", "fbe944b430edd9aa"}, KnownHash{"drop", "aa283f6bbd8789a2"}),
+                         testing::Values(KnownHash{"vase", "124493c76d61754f"}, KnownHash{"wall", "00c75173eab0d987"},
+                                         KnownHash{"pane", "3f412c13c7c6d29f"}, KnownHash{"drop", "d5626360537fc3fe"}),
                          [](const auto& known) { return std::string(known.param.scene); });
 
 TEST(Script, AFileIsPlayedByItsPathAndOneThatIsNotThereIsNamed) {

@@ -42,15 +42,16 @@ SiblingFigures figures_of(FractureMode mode, uint32_t breaks) {
     std::printf(
         "%u breaks in %u hits, %u pieces, %u pairs; energy lost in 3 steps (%zu breaks): median %.3f %%, p90 %.2f %%; "
         "speed gained (%zu): "
-        "p99 %.3f, most %.3f m/s (alone %zu: p99 %.3f, most %.3f), thrown (%zu): p99 %.3f, most %.3f; %u of %u pairs seen in each other, by %.1f mm; "
+        "p99 %.3f, most %.3f m/s (alone %zu: p99 %.3f, most %.3f), thrown (%zu): p99 %.3f, most %.3f; %u of %u pairs "
+        "seen in each other, by %.1f mm; "
         "fastest %.4f, rim %.4f impact speeds; "
         "clamped %u; %u other surfaces; momentum kept to %.1e, angular to %.1e (median), %.1e (99 %%)\n",
         f.breaks, hits, f.pieces, f.pairs, f.lost.size(), 100 * quantile(f.lost, 0.5), 100 * quantile(f.lost, 0.9),
         f.gained.size(), quantile(f.gained, 0.99), quantile(f.gained, 1), f.gained_alone.size(),
         quantile(f.gained_alone, 0.99), quantile(f.gained_alone, 1), f.thrown.size(), quantile(f.thrown, 0.99),
-        quantile(f.thrown, 1), f.seen_in, f.looked_at, 1000 * f.deepest,
-        f.fastest, f.fastest_rim, static_cast<uint32_t>(world.contents().data.counts.clamped), f.other_surfaces,
-        f.momentum_error, quantile(f.turning_errors, 0.5), quantile(f.turning_errors, 0.99));
+        quantile(f.thrown, 1), f.seen_in, f.looked_at, 1000 * f.deepest, f.fastest, f.fastest_rim,
+        static_cast<uint32_t>(world.contents().data.counts.clamped), f.other_surfaces, f.momentum_error,
+        quantile(f.turning_errors, 0.5), quantile(f.turning_errors, 0.99));
     return f;
 }
 
