@@ -1,6 +1,9 @@
 // Hits that are foreseen: worked off before the touch, applied in its very frame, dropped where it comes otherwise.
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
+#include "systems/costs.hpp"
 #include "tests/support/small_worlds.hpp"
 
 namespace cullet::test {
@@ -53,6 +56,22 @@ TEST(Ahead, AHitOnAVaseBreaksItInTheFrameOfTheTouch) {
     EXPECT_EQ(ready.misses, 0u);
     EXPECT_EQ(ready.held, 0u);
     EXPECT_EQ(b.world.contents().data.counts.first_ready, 1u);
+}
+
+TEST(Ahead, BirthsArePaidFromTheUnitsOfTheirFrame) {
+    Breakage b = far_ball(ahead_settings());
+    const uint64_t budget = ahead_settings().units_a_frame;
+    const State& state = state_of(b.world);
+    uint64_t paid = 0, vertices = 0;
+    for (int frame = 0; frame < 40 && paid == 0; ++frame) {
+        for (uint32_t t = 0; t < state.tasks.size(); ++t)
+            if (static_cast<TaskState>(state.tasks.state[t]) == TaskState::Broke)
+                vertices = state.shells.vertices[state.tasks.shell[t]].count;
+        b.world.step();
+        if (b.world.events().fragments_born.count > 0) paid = b.world.report().units_used;
+    }
+    ASSERT_GT(vertices, 100u);
+    EXPECT_EQ(paid, std::min(kUnitsBirth * vertices, budget / 2)) << "no other hit runs in the frame of the touch";
 }
 
 /// The same run from the same bits: the pieces are those of the hit that was held, and fly as long.
