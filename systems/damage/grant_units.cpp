@@ -55,9 +55,10 @@ void pay_owed(State& state, std::span<const uint32_t> open, int64_t& budget) {
     }
 }
 
-/// Ran before, was foreseen, and is touched in this frame: its pieces are born whatever is left.
+/// Foreseen, run to its end before, and touched in this frame: what its cracks part is born whatever is left.
 bool is_due(const Tasks& tasks, uint32_t t) {
-    return static_cast<TaskState>(tasks.state[t]) == TaskState::Broke && !is_ahead(tasks, t);
+    return static_cast<TaskState>(tasks.state[t]) == TaskState::Whole && !is_ahead(tasks, t) &&
+           tasks.steps_done[t] > 0 && tasks.crack_count[t] > 0;
 }
 
 /// At most half of what is left, so that other hits go on.

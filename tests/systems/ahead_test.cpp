@@ -65,7 +65,7 @@ TEST(Ahead, BirthsArePaidFromTheUnitsOfTheirFrame) {
     uint64_t paid = 0, vertices = 0;
     for (int frame = 0; frame < 40 && paid == 0; ++frame) {
         for (uint32_t t = 0; t < state.tasks.size(); ++t)
-            if (static_cast<TaskState>(state.tasks.state[t]) == TaskState::Broke)
+            if (static_cast<TaskState>(state.tasks.state[t]) == TaskState::Whole)
                 vertices = state.shells.vertices[state.tasks.shell[t]].count;
         b.world.step();
         if (b.world.events().fragments_born.count > 0) paid = b.world.report().units_used;
