@@ -175,8 +175,8 @@ class RigidWorld {
     /// No narrow phase between these two for so long (a striker and the shards it made).
     virtual void ignore_pair(RigidId a, RigidId b, float seconds) = 0;
     /// The two were one body until now, and are where they were in it. Convex pieces of theirs that lie in each other,
-    /// as hulls about the teeth of a crack do, meet at those of `touches` that are near, or not at all, until they are
-    /// apart.
+    /// as hulls about the teeth of a crack do, or are nearer than contacts reach, meet at those of `touches` that are
+    /// near, or not at all, until they are farther apart, for a quarter of a second at most.
     virtual void part_siblings(RigidId a, RigidId b, std::span<const CrackTouch> touches) = 0;
 
     /// A soft body stands as it is put and has no contacts; nothing is swept against it. Who runs its springs asks for

@@ -1,8 +1,8 @@
 // Contacts of two pieces at the crack along which they were one.
 //
 // Hulls about the teeth of a crack lie in each other when they are born, and an axis of least overlap of theirs leads
-// anywhere: out of a shell rather than out of the crack. Until they are apart they meet at places of the crack itself,
-// for a quarter of a second at most: then what still is deep in another hull is pushed out.
+// anywhere: out of a shell rather than out of the crack. Until they are farther apart than contacts reach they meet at
+// places of the crack itself, for a quarter of a second at most: then what still is deep in another hull is pushed out.
 #pragma once
 #include <LinearMath/btTransform.h>
 

@@ -19,7 +19,7 @@ struct Manifold : btPersistentManifold {
     Manifold* next = nullptr;  // while it is free
 };
 
-/// Pieces of siblings that lie in each other when these are born.
+/// Pieces of siblings that lie in each other, or within the range of contacts, when these are born.
 struct NewbornPieces {
     RigidId a, b;               // a < b
     uint32_t piece_a, piece_b;  // ordinals
