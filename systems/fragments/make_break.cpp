@@ -17,7 +17,7 @@
 namespace cullet {
 namespace {
 
-// Siblings that start in touch, and a striker beside the shards it made, are not tested against each other for so long.
+// A striker beside the shards it made is not tested against them for so long.
 constexpr float kStrikerSeconds = 0.1f;
 constexpr float kTouch = 0.004f;  // m between the bounds of two siblings that count as in touch
 

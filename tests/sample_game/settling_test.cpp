@@ -185,8 +185,8 @@ TEST_P(Settles, NearlyAllSleepFiveSecondsAfterTheLastBreakAndNoneMovesAfterTen) 
 INSTANTIATE_TEST_SUITE_P(Scenes, Settles,
                          testing::Values(Case{"vase", 1}, Case{"vase", 2}, Case{"vase", 3}, Case{"pane", 1},
                                          Case{"wall", 1}, Case{"wall", 2}, Case{"wall", 3}, Case{"wall", 4},
-                                         Case{"drop", 1}, Case{"drop", 2}, Case{"castle", 1},
-                                         Case{"castle", 2}, Case{"castle", 3}, Case{"castle", 4}),
+                                         Case{"drop", 1}, Case{"drop", 2}, Case{"castle", 1}, Case{"castle", 2},
+                                         Case{"castle", 3}, Case{"castle", 4}),
                          [](const auto& scene) { return scene.param.scene + std::to_string(scene.param.seed); });
 
 }  // namespace
