@@ -84,6 +84,8 @@ struct Body {
 
     btTransform anchor;  // the sleep timer's pose
     float still_seconds = 0;
+    btTransform far_anchor;  // of the timer of what creeps and trembles
+    float creep_seconds = 0;
     bool has_left = false;    // its anchor, in this step
     uint32_t idle_wakes = 0;  // by neighbours, since it last left its anchor or was struck
     float load = 0;           // N s of this step, see sum_loads()

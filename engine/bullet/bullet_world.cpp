@@ -393,10 +393,10 @@ void BulletWorld::enter(Body& body, const Pose& at, uint32_t layer, uint32_t mas
     body.is_held = body.is_soft = false;
     body.is_fast = false;
     body.moved_fraction = 1;
-    body.still_seconds = body.slow_seconds = 0;
+    body.still_seconds = body.creep_seconds = body.slow_seconds = 0;
     body.pressed_seconds = body.overlap = 0;
     body.is_touched = body.is_driven = false;
-    body.anchor = body.bullet->getWorldTransform();
+    body.anchor = body.far_anchor = body.bullet->getWorldTransform();
     body.has_left = false;
     body.idle_wakes = 0;
     body_end_ = std::max(body_end_, body.id + 1);
@@ -563,7 +563,7 @@ void BulletWorld::reseat(Body& body, const Pose& at) {
         bullet.setGravity(gravity_);
     }
     bullet.setCenterOfMassTransform(to_bullet(at, body.frame));
-    body.anchor = bullet.getWorldTransform();
+    body.anchor = body.far_anchor = bullet.getWorldTransform();
 }
 
 void BulletWorld::rouse(Body& body, const Motion& moving) {
@@ -672,7 +672,8 @@ void BulletWorld::list_manifolds() {
     for (const Pair& pair : pairs_.rows())
         pair.algorithm->visit_manifolds([&](btPersistentManifold& m, const PairRecord& record) {
             manifolds_.push_back({pair.a, pair.b, static_cast<uint32_t>(m.m_companionIdA),
-                                  static_cast<uint32_t>(m.m_companionIdB), &m, record.crack != nullptr});
+                                  static_cast<uint32_t>(m.m_companionIdB), &m, record.crack != nullptr,
+                                  pair.algorithm->grip()});
         });
 }
 
@@ -716,8 +717,9 @@ void BulletWorld::gather_contacts() {
             const Vec3 point = 0.5f * (from_bullet(p.m_positionWorldOnA) + from_bullet(p.m_positionWorldOnB));
             const Vec3 normal = from_bullet(p.m_normalWorldOnB);
             const float speed = dot(moving_b.at(point) - moving_a.at(point), normal);
-            a.overlap = std::max(a.overlap, -p.m_distance1);
-            b.overlap = std::max(b.overlap, -p.m_distance1);
+            const float overlap = m.grip > 0 ? 0 : -p.m_distance1;  // of what is to be pushed out
+            a.overlap = std::max(a.overlap, overlap);
+            b.overlap = std::max(b.overlap, overlap);
             contacts_.push_back({m.a, m.b, m.cell_a, m.cell_b, point, normal, p.m_distance1, speed});
         }
     }
@@ -820,7 +822,8 @@ void BulletWorld::solve_contacts(float dt) {
         return p.number != q.number ? p.number < q.number : p.first < q.first;
     });
     for (const Scattered& pair : scattered_) {
-        solver_.add_pair(bodies_[manifolds_[pair.first].a].number, bodies_[manifolds_[pair.first].b].number);
+        const SortedManifold& first = manifolds_[pair.first];
+        solver_.add_pair(bodies_[first.a].number, bodies_[first.b].number, first.grip);
         for (uint32_t m = pair.first; m < pair.end; ++m)
             if (manifolds_[m].manifold) solver_.add_contacts(*manifolds_[m].manifold);
     }

@@ -83,6 +83,7 @@ class BulletWorld final : public RigidWorld {
         uint32_t cell_a, cell_b;
         btPersistentManifold* manifold;
         bool is_at_crack;  // of siblings that are not apart yet
+        float grip;        // N s, see PairAlgorithm::grip()
     };
 
     struct Scattered {

@@ -16,6 +16,10 @@ constexpr float kStillSeconds = 0.5f;
 // too, faster steps counting back twice. At three times it a slab that begins to tip over is frozen as it stands.
 constexpr float kSlowSpeed = 0.05f;  // m/s of the fastest point
 constexpr float kSlowSeconds = 1;
+// What rocks and trembles about its place is frozen, however deep it lies in something: so long within so much. What
+// tips over does not take so long, nor does what slides in earnest.
+constexpr float kCreepDistance = 0.015f;  // m
+constexpr float kCreepSeconds = 2;
 // Sleepers stand as if of infinite mass, so that one that shakes does not keep its thousand neighbours awake. What
 // wakes them: a blow that would give them this speed,
 constexpr float kWakeSpeed = 0.05f;  // m/s
@@ -44,7 +48,12 @@ bool has_left(const Body& body, const btTransform& anchor, const btTransform& no
     return false;
 }
 
+bool has_crept(const Body& body) {
+    return body.is_touched && body.creep_seconds >= kCreepSeconds;
+}
+
 float bearable_overlap(const Body& body) {
+    if (has_crept(body)) return kFar;
     if (body.pressed_seconds >= kPressedSeconds) return kFar;
     return kPressedDeep * (1 + kImpatience * body.pressed_seconds);
 }
@@ -233,8 +242,12 @@ void BulletWorld::wake_unsettled(float dt) {
 // Half of what it takes to sleep again is left to it: it lay still before.
 void BulletWorld::wake_beside(Body& body) {
     const uint32_t idle_wakes = body.idle_wakes;
+    const btTransform far_anchor = body.far_anchor;
+    const float creep_seconds = body.creep_seconds;
     wake_body(body);
     body.still_seconds = 0.5f * kStillSeconds;
+    body.far_anchor = far_anchor;
+    body.creep_seconds = std::min(creep_seconds, 0.5f * kCreepSeconds);
     body.idle_wakes = idle_wakes + 1;
 }
 
@@ -250,10 +263,20 @@ bool BulletWorld::may_sleep(Body& body, float dt) {
     } else {
         body.still_seconds = std::min(body.still_seconds + dt, 2 * kStillSeconds);
     }
+    if (body.is_driven || has_left(body, body.far_anchor, now, kCreepDistance)) {
+        body.far_anchor = now;
+        body.creep_seconds = 0;
+    } else {
+        body.creep_seconds = std::min(body.creep_seconds + dt, kCreepSeconds);
+    }
     const float speed = bullet.getLinearVelocity().length() + bullet.getAngularVelocity().length() * body.reach;
     const float slower = body.is_touched && speed < kSlowSpeed ? dt : -2 * dt;
     body.slow_seconds = std::clamp(body.slow_seconds + slower, 0.0f, 2 * kSlowSeconds);
     if (body.is_driven) body.still_seconds = body.slow_seconds = 0;
+    if (has_crept(body)) {
+        body.idle_wakes = kIdleWakes;
+        return true;
+    }
     if (body.still_seconds < kStillSeconds && body.slow_seconds < kSlowSeconds) return false;
     if (body.overlap <= bearable_overlap(body)) return true;
     body.pressed_seconds += dt;
@@ -286,8 +309,9 @@ void BulletWorld::wake_body(Body& body) {
     const bool was_asleep = !body.bullet->isActive();
     body.bullet->setActivationState(ACTIVE_TAG);
     body.still_seconds = body.slow_seconds = body.pressed_seconds = 0;
+    body.creep_seconds = 0;
     body.idle_wakes = 0;
-    body.anchor = body.bullet->getWorldTransform();
+    body.anchor = body.far_anchor = body.bullet->getWorldTransform();
     if (was_asleep && !body.is_held) restore_mass(body);
 }
 

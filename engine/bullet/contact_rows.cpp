@@ -78,11 +78,12 @@ float solve_batch(const Batch& batch, PointRows* points, RollRows* rolls, Solver
     for (uint32_t k = batch.first_point; k < end; ++k) {
         PointRows& p = points[k];
         give(p.hold, p.normal,
-             bounded(p.hold, p.hold.wanted, speed(p.hold, p.normal, a, b), kNone, kAny, p.hold.impulse, changed), a, b);
+             bounded(p.hold, p.hold.wanted, speed(p.hold, p.normal, a, b), -p.grip, kAny, p.hold.impulse, changed), a,
+             b);
     }
     for (uint32_t k = batch.first_point; k < end; ++k) {
         PointRows& p = points[k];
-        const Lanes limit = p.friction * p.hold.impulse;
+        const Lanes limit = p.friction * most(p.hold.impulse, kNone) + p.grip;
         for (int way = 0; way < 2; ++way) {
             Row& row = p.slide[way];
             const Lanes now = speed(row, p.across[way], a, b);
@@ -90,7 +91,7 @@ float solve_batch(const Batch& batch, PointRows* points, RollRows* rolls, Solver
         }
     }
     for (uint32_t k = batch.first_point; batch.rolls && k < end; ++k) {
-        const Lanes limit = rolls[k].limit * least(points[k].hold.impulse, Lanes{1, 1, 1, 1});
+        const Lanes limit = rolls[k].limit * least(most(points[k].hold.impulse, kNone), Lanes{1, 1, 1, 1});
         for (Row& row : rolls[k].roll) {
             const Lanes now = dot(row.arm_a, a.spin) - dot(row.arm_b, b.spin);
             give_turn(row, bounded(row, row.wanted, now, -limit, limit, row.impulse, changed), a, b);

@@ -33,6 +33,7 @@ struct PointRows {
     LaneVec normal, across[2];
     Row hold, slide[2];
     Lanes friction{};
+    Lanes grip{};                   // N s that hold against parting and sliding, beside what presses
     Lanes push_wanted{}, pushed{};  // m/s, N s: split impulse (no velocity comes of it)
 };
 

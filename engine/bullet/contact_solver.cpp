@@ -97,8 +97,8 @@ uint32_t ContactSolver::add_body(btRigidBody& body) {
     return static_cast<uint32_t>(bodies_.size() - 1);
 }
 
-void ContactSolver::add_pair(uint32_t a, uint32_t b) {
-    pairs_.push_back({a, b, static_cast<uint32_t>(points_.size()), 0, 0});
+void ContactSolver::add_pair(uint32_t a, uint32_t b, float grip) {
+    pairs_.push_back({a, b, static_cast<uint32_t>(points_.size()), 0, grip, 0});
 }
 
 void ContactSolver::add_contacts(btPersistentManifold& manifold) {
@@ -173,7 +173,7 @@ void ContactSolver::set_up_point(PointRows& p, RollRows* r, const Contacts* cons
                                  const Source& a, const Source& b, float dt) {
     float point_a[3][kLanes] = {}, point_b[3][kLanes] = {}, n[3][kLanes] = {}, t[2][3][kLanes] = {};
     float distance[kLanes] = {}, bounce[kLanes] = {}, friction[kLanes] = {}, impulse[3][kLanes] = {}, is[kLanes] = {};
-    float rolling[kLanes] = {};
+    float rolling[kLanes] = {}, grip[kLanes] = {};
     for (uint32_t lane = 0; lane < kLanes; ++lane) {
         if (!of[lane] || k >= of[lane]->count) continue;
         btManifoldPoint& from = *points_[of[lane]->first + k];
@@ -190,6 +190,8 @@ void ContactSolver::set_up_point(PointRows& p, RollRows* r, const Contacts* cons
         impulse[1][lane] = kWarm * from.m_appliedImpulseLateral1;
         impulse[2][lane] = kWarm * from.m_appliedImpulseLateral2;
         rolling[lane] = from.m_combinedRollingFriction;
+        grip[lane] = of[lane]->grip;
+        if (grip[lane] > 0) distance[lane] = bounce[lane] = 0;
     }
     const auto vector = [](const float(&from)[3][kLanes]) {
         return LaneVec{load(from[0]), load(from[1]), load(from[2])};
@@ -216,6 +218,7 @@ void ContactSolver::set_up_point(PointRows& p, RollRows* r, const Contacts* cons
         p.slide[way].impulse = load(impulse[1 + way]);
     }
     p.friction = load(friction);
+    p.grip = load(grip);
     if (!r) return;
     const LaneVec* const axes[] = {&p.normal, &p.across[0], &p.across[1]};
     for (int way = 0; way < 3; ++way) {

@@ -27,7 +27,9 @@ class ContactSolver {
     uint32_t add_body(btRigidBody& body);
     /// A pair of bodies with all their manifolds, by number: at least one is free. Those with something that is not
     /// free come last and hold best.
-    void add_pair(uint32_t a, uint32_t b);
+    /// With a grip, N s, contacts neither push out of overlaps nor bounce, but hold the two to each other with at most
+    /// so much in each direction, also against what would part them.
+    void add_pair(uint32_t a, uint32_t b, float grip);
     void add_contacts(btPersistentManifold& manifold);
     /// Impulses, and the push out of overlaps. Nothing is integrated.
     void solve(float dt);
@@ -36,6 +38,7 @@ class ContactSolver {
     struct Contacts {
         uint32_t a, b;  // bodies, by number
         uint32_t first, count;
+        float grip;    // N s
         uint32_t key;  // batches are filled in rising order of it
     };
     struct Source;

@@ -102,6 +102,9 @@ class PairAlgorithm {
             if (r->manifold) found(*r->manifold, *r);
     }
 
+    /// N s that hold the two to each other in this step, at each contact and in any direction; 0 unless they are
+    /// wedged.
+    float grip() const;
     /// Whether two pieces, by their ordinals, have lain in each other since birth.
     bool meet_at_crack(uint32_t a, uint32_t b) const;
     /// The axis of two pieces that touch, by their ordinals; zero when they do not.
@@ -125,6 +128,7 @@ class PairAlgorithm {
     void drop_through_seams();
     void remove_unchosen();
     void choose_best();
+    void note_wedged();
 
     RigidId a_ = kNoRigid, b_ = kNoRigid;  // a_ < b_
     PairWork* work_ = nullptr;
@@ -134,6 +138,8 @@ class PairAlgorithm {
     // The farthest way of any point of the smaller body in the frame of the larger one, summed over the steps: no gap
     // between their pieces changed by more.
     double travelled_ = 0, step_travel_ = 0;
+    float deep_seconds_ = 0;    // that they have lain deep in each other, and came out of it by nothing
+    float least_deep_ = kFar;   // m of overlap in that time
     double records_until_ = 0;  // records_ holds all pieces within kCandidateRange while travelled_ is less
     btTransform relative_ = btTransform::getIdentity();  // the smaller body in the frame of the larger one
 

@@ -190,7 +190,9 @@ void flow_body(F& f, Body& b) {
     f.flag(b.is_soft);
     flow_numbers(f, b.kept.velocity), flow_numbers(f, b.kept.angular_velocity);
     flow_numbers(f, b.anchor);
+    flow_numbers(f, b.far_anchor);
     f.number(b.still_seconds);
+    f.number(b.creep_seconds);
     f.flag(b.has_left);
     f.number(b.idle_wakes);
     f.number(b.load), f.number(b.slept_load), f.number(b.moved_fraction);
@@ -246,6 +248,7 @@ struct PairBytes {
         f.number(pair.moves_a_), f.number(pair.moves_b_), f.number(pair.changes_a_), f.number(pair.changes_b_);
         f.flag(pair.is_fresh_);
         f.number(pair.travelled_), f.number(pair.step_travel_), f.number(pair.records_until_);
+        f.number(pair.deep_seconds_), f.number(pair.least_deep_);
         flow_numbers(f, pair.relative_);
     }
 

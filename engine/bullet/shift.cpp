@@ -47,6 +47,7 @@ void shift_frame(Body& body, Vec3 by) {
     shift_transform(between, by);
     body.bullet->setInterpolationWorldTransform(between);
     shift_transform(body.anchor, by);
+    shift_transform(body.far_anchor, by);
     shift_transform(body.fresh_at, by);
 }
 
