@@ -68,22 +68,22 @@ float largest(Lanes lanes) {
 
 constexpr Lanes kNone{}, kAny{1e10f, 1e10f, 1e10f, 1e10f};
 
-}  // namespace
-
-float solve_batch(const Batch& batch, PointRows* points, RollRows* rolls, SolverBody* bodies) {
+// Grips are rare: rows without them are solved as if there were none.
+template <bool Grips>
+float solve_rows(const Batch& batch, PointRows* points, RollRows* rolls, SolverBody* bodies) {
     Four a = gather<&SolverBody::velocity, &SolverBody::spin>(bodies, batch.body_a);
     Four b = gather<&SolverBody::velocity, &SolverBody::spin>(bodies, batch.body_b);
     Lanes changed{};
     const uint32_t end = batch.first_point + batch.point_count;
     for (uint32_t k = batch.first_point; k < end; ++k) {
         PointRows& p = points[k];
-        give(p.hold, p.normal,
-             bounded(p.hold, p.hold.wanted, speed(p.hold, p.normal, a, b), -p.grip, kAny, p.hold.impulse, changed), a,
-             b);
+        const Lanes low = Grips ? -p.grip : kNone, now = speed(p.hold, p.normal, a, b);
+        give(p.hold, p.normal, bounded(p.hold, p.hold.wanted, now, low, kAny, p.hold.impulse, changed), a, b);
     }
     for (uint32_t k = batch.first_point; k < end; ++k) {
         PointRows& p = points[k];
-        const Lanes limit = p.friction * most(p.hold.impulse, kNone) + p.grip;
+        const Lanes pressed = p.friction * (Grips ? most(p.hold.impulse, kNone) : p.hold.impulse),
+                    limit = Grips ? pressed + p.grip : pressed;
         for (int way = 0; way < 2; ++way) {
             Row& row = p.slide[way];
             const Lanes now = speed(row, p.across[way], a, b);
@@ -91,7 +91,8 @@ float solve_batch(const Batch& batch, PointRows* points, RollRows* rolls, Solver
         }
     }
     for (uint32_t k = batch.first_point; batch.rolls && k < end; ++k) {
-        const Lanes limit = rolls[k].limit * least(most(points[k].hold.impulse, kNone), Lanes{1, 1, 1, 1});
+        const Lanes pressed = Grips ? most(points[k].hold.impulse, kNone) : points[k].hold.impulse,
+                    limit = rolls[k].limit * least(pressed, Lanes{1, 1, 1, 1});
         for (Row& row : rolls[k].roll) {
             const Lanes now = dot(row.arm_a, a.spin) - dot(row.arm_b, b.spin);
             give_turn(row, bounded(row, row.wanted, now, -limit, limit, row.impulse, changed), a, b);
@@ -100,6 +101,12 @@ float solve_batch(const Batch& batch, PointRows* points, RollRows* rolls, Solver
     scatter<&SolverBody::velocity, &SolverBody::spin>(a, bodies, batch.body_a);
     scatter<&SolverBody::velocity, &SolverBody::spin>(b, bodies, batch.body_b);
     return largest(changed);
+}
+
+}  // namespace
+
+float solve_batch(const Batch& batch, PointRows* points, RollRows* rolls, SolverBody* bodies) {
+    return (batch.grips ? solve_rows<true> : solve_rows<false>)(batch, points, rolls, bodies);
 }
 
 float push_batch(const Batch& batch, PointRows* points, SolverBody* bodies) {

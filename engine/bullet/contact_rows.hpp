@@ -46,8 +46,8 @@ struct RollRows {
 /// Four pairs, no free body in two of them, with their points one behind the other.
 struct Batch {
     uint32_t body_a[kLanes] = {}, body_b[kLanes] = {};
-    uint32_t first_point = 0, point_count = 0;  // of PointRows
-    bool rolls = false, pushes = false;         // any of them
+    uint32_t first_point = 0, point_count = 0;          // of PointRows
+    bool rolls = false, pushes = false, grips = false;  // any of them
 };
 
 /// One iteration over a batch. What comes back is the largest change of a row's speed, squared.

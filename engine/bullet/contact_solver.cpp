@@ -235,6 +235,7 @@ void ContactSolver::set_up(Batch& batch, const uint32_t* pairs, float dt) {
     for (uint32_t k = 0; k < kLanes; ++k) {
         if (pairs[k] == kNoPair) continue;
         of[k] = &pairs_[pairs[k]];
+        batch.grips |= of[k]->grip > 0;
         batch.rolls |= points_[of[k]->first]->m_combinedRollingFriction > 0;
     }
     const Source a(bodies_, batch.body_a, dt), b(bodies_, batch.body_b, dt);

@@ -221,16 +221,11 @@ void PairAlgorithm::process(std::span<const NewbornPieces> newborn) {
         else if (record->manifold)
             follow_points(*record, a, b);
     }
-    choose_best();
-    note_wedged();
+    note_wedged(choose_best());
 }
 
 // What stands in the ground is pushed out for as long as it takes.
-void PairAlgorithm::note_wedged() {
-    float deepest = 0;
-    for (const PairRecord* r = records_; r; r = r->next)
-        for (int k = 0; r->manifold && k < r->manifold->getNumContacts(); ++k)
-            deepest = std::max(deepest, -r->manifold->getContactPoint(k).m_distance1);
+void PairAlgorithm::note_wedged(float deepest) {
     const bool is_ground = work_->bodies[a_].is_level || work_->bodies[b_].is_level;
     const bool is_deep = deepest > (least_deep_ < kFar ? kFreeDepth : kWedgedDepth);
     if (!is_deep || is_ground) {
@@ -299,16 +294,20 @@ void PairAlgorithm::follow_points(PairRecord& record, const Body& a, const Body&
     }
 }
 
-void PairAlgorithm::list_offers() {
+// What comes back is how deep the deepest is, m.
+float PairAlgorithm::list_offers() {
     std::vector<Offer>& offers = work_->offers;
     offers.clear();
+    float deepest = 0;
     for (PairRecord* r = records_; r; r = r->next)
         for (int k = 0; r->manifold && k < r->manifold->getNumContacts(); ++k) {
             const btManifoldPoint& p = r->manifold->getContactPoint(k);
             const float past = p.m_lifeTime > 0 ? kPastBonus : 0.0f;
+            deepest = std::max(deepest, -p.m_distance1);
             offers.push_back({r->manifold, k, from_bullet(p.m_positionWorldOnB), from_bullet(p.m_normalWorldOnB),
                               p.m_distance1 - past / kDepthWeight, kFar, r->is_through_seam});
         }
+    return deepest;
 }
 
 // A corner of another body above a seam is met by the pieces on both sides of it, by one of them sideways: that touch
@@ -345,11 +344,12 @@ void PairAlgorithm::remove_unchosen() {
 
 // Two shells that lie in each other touch in hundreds of points, of which the solver needs a dozen. The deepest comes
 // first, then always the one farthest from those chosen; turned normals, depth and a past as contact count as distance.
-void PairAlgorithm::choose_best() {
+// What comes back is how deep the deepest is, m.
+float PairAlgorithm::choose_best() {
     std::vector<Offer>& offers = work_->offers;
-    list_offers();
+    const float deepest = list_offers();
     drop_through_seams();
-    if (offers.size() <= kPairContacts) return;
+    if (offers.size() <= kPairContacts) return deepest;
     for (uint32_t round = 0; round < kPairContacts; ++round) {
         Offer* best = nullptr;
         float best_score = -kFar;
@@ -365,6 +365,7 @@ void PairAlgorithm::choose_best() {
         }
     }
     remove_unchosen();
+    return deepest;
 }
 
 // Friction and restitution of two bodies: the geometric mean, so that equal materials keep their own value. What was

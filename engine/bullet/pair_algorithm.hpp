@@ -124,11 +124,11 @@ class PairAlgorithm {
     void write(PairRecord& record, const Patch& patch, uint32_t cell_a, uint32_t cell_b);
     void follow_points(PairRecord& record, const Body& a, const Body& b);
     void release(PairRecord& record);
-    void list_offers();
+    float list_offers();
     void drop_through_seams();
     void remove_unchosen();
-    void choose_best();
-    void note_wedged();
+    float choose_best();
+    void note_wedged(float deepest);
 
     RigidId a_ = kNoRigid, b_ = kNoRigid;  // a_ < b_
     PairWork* work_ = nullptr;
