@@ -9,6 +9,10 @@ namespace {
 
 constexpr float kNear = 0.003f;  // m beyond the boxes of two pieces at which a crack's touch is theirs
 constexpr float kNoWay = -1;
+// Deeper than this two places do not face each other any more: a shard at 100 rad/s turns by a right angle in a step.
+// Of 500 hidden breaks the most that neighbours throw each other is 1.06 m/s without this, 0.85 with it, at twice it,
+// too.
+constexpr float kFacing = 0.003f;  // m
 constexpr float kSeconds = 0.25f;  // at a second pieces of walls fall asleep a decimetre deep in each other
 
 }  // namespace
@@ -58,7 +62,8 @@ Patch crack_patch(const CrackContact& contact, const btTransform& at_a, const bt
                    on_b = from_bullet(at_b * to_bullet(contact.on_b[k])),
                    normal = from_bullet(at_b.getBasis() * to_bullet(contact.normal[k]));
         const float apart = dot(on_a - on_b, normal);
-        if (apart > kContactRange || length(on_a - on_b - apart * normal) > contact.reach[k]) continue;
+        if (apart > kContactRange || apart < -kFacing || length(on_a - on_b - apart * normal) > contact.reach[k])
+            continue;
         if (patch.count == 0) patch.normal = normal;
         patch.point[patch.count++] = {on_a, on_b, apart, normal};
     }

@@ -541,8 +541,8 @@ TEST_P(SceneHash, IsWhatTheSceneAlwaysGave) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Scenes, SceneHash,
-                         testing::Values(KnownHash{"vase", "6877d22e500d8347"}, KnownHash{"wall", "00c75173eab0d987"},
-                                         KnownHash{"pane", "3f412c13c7c6d29f"}, KnownHash{"drop", "99cfb7b3d5f2b5f1"}),
+                         testing::Values(KnownHash{"vase", "8a976e2fef9380d5"}, KnownHash{"wall", "a7276a653124fe11"},
+                                         KnownHash{"pane", "3f412c13c7c6d29f"}, KnownHash{"drop", "7fefd984c1603e36"}),
                          [](const auto& known) { return std::string(known.param.scene); });
 
 TEST(Script, AFileIsPlayedByItsPathAndOneThatIsNotThereIsNamed) {

@@ -18,6 +18,8 @@ constexpr float kTouch = 0.001f;       // m between bounds of pieces that were b
 constexpr double kSeenDepth = 0.0005;  // m
 // m between two places of a body: what turns on and strikes, or crosses a hollow, meets what lay farther off.
 constexpr double kElsewhere = 0.01;
+// m: what first meets there comes upon the surface. Deeper, hulls lie in each other since birth: that is its doing.
+constexpr float kUponSurface = -0.002f;
 
 /// One drawn triangle, whichever corner comes first.
 uint64_t hash_of(const ViewVertex* corner, const Pose& pose) {
@@ -185,8 +187,8 @@ void SiblingWatch::mark_struck() {
         if (p > q) std::swap(p, q);
         const bool are_neighbours = std::binary_search(pairs_.begin(), pairs_.end(), std::pair(p, q));
         if (!are_neighbours || is_struck_[p] || is_struck_[q]) is_struck_[p] = is_struck_[q] = 1;
-        if (is_struck_[p] || has_met_[p] || has_met_[q] || apart_at_birth(c) > kElsewhere)
-            has_met_[p] = has_met_[q] = 1;
+        const bool meets_elsewhere = apart_at_birth(c) > kElsewhere && c.distance > kUponSurface;
+        if (is_struck_[p] || has_met_[p] || has_met_[q] || meets_elsewhere) has_met_[p] = has_met_[q] = 1;
     }
 }
 

@@ -15,7 +15,7 @@ struct SiblingFigures {
     // Of breaks, and of pairs of pieces that were born in touch, in which nobody was struck by what was born elsewhere:
     std::vector<double> lost;             // share of the kinetic energy about the common centre that 3 steps take
     std::vector<double> gained;           // m/s in half a second, all collisions counted
-    std::vector<double> thrown;           // of those by which nobody met what had been elsewhere in the body
+    std::vector<double> thrown;           // of those by which nobody came upon what had been elsewhere in the body
     std::vector<double> gained_alone;     // of those the pairs of which nothing else came
     double fastest = 0;                   // largest |v - (V + w x r)| / impact speed, of all pieces but the largest
     double fastest_rim = 0;               // largest of |w| or |w - w of the body|, the lesser, r_max / impact speed
