@@ -18,9 +18,10 @@ namespace cullet::bullet {
 struct CrackContact {
     uint32_t count = 0;
     Vec3 on_a[kPatchPoints], on_b[kPatchPoints];
-    Vec3 normal[kPatchPoints];  // unit, from b towards a, frame of b
-    float reach[kPatchPoints];  // m that one may slide beside the other and still face it
-    float seconds = 0;          // that are left of it
+    Vec3 normal[kPatchPoints];       // unit, from b towards a, frame of b
+    Vec3 normal_of_a[kPatchPoints];  // the same, frame of a
+    float reach[kPatchPoints];       // m that one may slide beside the other and still face it
+    float seconds = 0;               // that are left of it
     CrackContact* next = nullptr;
 };
 

@@ -228,7 +228,7 @@ void flow_crack(F& f, CrackContact& c) {
     f.count(c.count, kPatchPoints, "the number of places of a crack");
     for (uint32_t k = 0; k < c.count; ++k) {
         flow_numbers(f, c.on_a[k]), flow_numbers(f, c.on_b[k]), flow_numbers(f, c.normal[k]);
-        f.number(c.reach[k]);
+        flow_numbers(f, c.normal_of_a[k]), f.number(c.reach[k]);
     }
     f.number(c.seconds);
 }
