@@ -815,7 +815,8 @@ void BulletWorld::solve_contacts(float dt) {
         if (contacts == 0) continue;
         const bool is_a_free = bodies_[a].is_free(), is_b_free = bodies_[b].is_free();
         if (!is_a_free && !is_b_free) continue;
-        scattered_.push_back({!is_a_free || !is_b_free, scatter(a, b), first, end});
+        const float grip = manifolds_[first].grip / static_cast<float>(contacts);
+        scattered_.push_back({!is_a_free || !is_b_free, grip, scatter(a, b), first, end});
     }
     std::sort(scattered_.begin(), scattered_.end(), [](const Scattered& p, const Scattered& q) {
         if (p.is_standing != q.is_standing) return q.is_standing;
@@ -823,7 +824,7 @@ void BulletWorld::solve_contacts(float dt) {
     });
     for (const Scattered& pair : scattered_) {
         const SortedManifold& first = manifolds_[pair.first];
-        solver_.add_pair(bodies_[first.a].number, bodies_[first.b].number, first.grip);
+        solver_.add_pair(bodies_[first.a].number, bodies_[first.b].number, pair.grip);
         for (uint32_t m = pair.first; m < pair.end; ++m)
             if (manifolds_[m].manifold) solver_.add_contacts(*manifolds_[m].manifold);
     }

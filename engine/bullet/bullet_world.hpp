@@ -88,6 +88,7 @@ class BulletWorld final : public RigidWorld {
 
     struct Scattered {
         bool is_standing;  // one of the two is not free
+        float grip;        // N s, at each of its contacts
         uint64_t number;
         uint32_t first, end;  // of manifolds_
     };

@@ -102,7 +102,7 @@ class PairAlgorithm {
             if (r->manifold) found(*r->manifold, *r);
     }
 
-    /// N s that hold the two to each other in this step, at each contact and in any direction; 0 unless they are
+    /// N s that hold the two to each other in this step, all contacts together and in any direction; 0 unless they are
     /// wedged.
     float grip() const;
     /// Whether two pieces, by their ordinals, have lain in each other since birth.

@@ -191,6 +191,39 @@ TEST(RigidWorld, AnIgnoredPairMeetsAgainWhenTimeIsUp) {
     EXPECT_FALSE(world->contacts().empty());
 }
 
+/// Three boxes in one: two prongs that stand 5 cm apart, and what joins them above.
+void add_fork(RigidWorld& world, RigidId id, Vec3 at) {
+    RigidDescription d;
+    const float m = d.margin;
+    const Vec3 prong{0.03f - m, 0.1f - m, 0.1f - m};
+    const std::vector<Vec3> left = box_points(prong, {-0.055f, 0, 0}), right = box_points(prong, {0.055f, 0, 0}),
+                            bridge = box_points({0.085f - m, 0.03f - m, 0.1f - m}, {0, 0.13f, 0});
+    const ConvexPiece pieces[] = {{left, 0}, {right, 1}, {bridge, 2}};
+    d.pieces = pieces;
+    d.mass = 6;
+    d.centre = {0, 0.04, 0};
+    d.inertia = {0.05, 0.05, 0.05};
+    d.pose.position = at;
+    world.add(id, d);
+}
+
+// Each prong pushes the box into the other one. It is turned a little, so that it is pushed up or down as well.
+TEST(RigidWorld, WhatIsWedgedComesToRestInItsPlaceAndABlowPartsIt) {
+    auto world = floor_world(16);
+    add_fork(*world, 1, {0, 0.1f, 0});
+    const Quat turned = normalised(Quat{0.02f, 0.03f, 0.05f, 1});
+    add_box(*world, 2, {0, 0.05f, 0}, {0.035f, 0.045f, 0.15f}, 2000, RigidKind::Dynamic, turned);
+    for (int k = 0; k < 300; ++k) step(*world);
+    EXPECT_TRUE(world->is_asleep(1));
+    EXPECT_TRUE(world->is_asleep(2));
+    EXPECT_LT(length(world->pose(2).position - world->pose(1).position), 0.12f);
+    EXPECT_GT(world->pose(2).position.y, 0.03f);
+    world->wake(2);
+    world->set_motion(2, {{0, 0, 20}, {}});
+    for (int k = 0; k < 30; ++k) step(*world);
+    EXPECT_GT(world->pose(2).position.z - world->pose(1).position.z, 0.26f);
+}
+
 // Two boxes in each other by a centimetre at their common crack, of which two places are given.
 std::unique_ptr<RigidWorld> siblings(float speed_of_upper) {
     auto world = make_bullet_world(8);
