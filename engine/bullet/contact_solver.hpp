@@ -27,8 +27,8 @@ class ContactSolver {
     uint32_t add_body(btRigidBody& body);
     /// A pair of bodies with all their manifolds, by number: at least one is free. Those with something that is not
     /// free come last and hold best.
-    /// With a grip, N s, contacts neither push out of overlaps nor bounce, but hold the two to each other with at most
-    /// so much in each direction, also against what would part them.
+    /// With a grip, N s, contacts neither push out of overlaps nor bounce, but each holds the two to each other with at
+    /// most so much in each direction, also against what would part them.
     void add_pair(uint32_t a, uint32_t b, float grip);
     void add_contacts(btPersistentManifold& manifold);
     /// Impulses, and the push out of overlaps. Nothing is integrated.

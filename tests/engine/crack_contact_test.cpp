@@ -99,6 +99,18 @@ TEST(CrackContact, LeavesOutWhatHasSlidPastItsEdgeOrParted) {
     EXPECT_EQ(crack_patch(contact, slid, kHere).count, 4);
 }
 
+TEST(CrackContact, LeavesOutFacesThatTurnedIntoEachOtherButNotThoseThatWerePressedIn) {
+    const CrackContact contact = contact_of(row_of_touches());
+    btTransform pressed = kHere;
+    pressed.setOrigin({0, -0.005f, 0});
+    EXPECT_EQ(crack_patch(contact, pressed, kHere).count, 4);
+    // About the row itself, so that its places stay where they are.
+    const btTransform turned(btQuaternion({1, 0, 0}, 0.6f), {0, -0.005f, 0});
+    EXPECT_EQ(crack_patch(contact, turned, kHere).count, 0);
+    const btTransform turned_apart(btQuaternion({1, 0, 0}, 0.6f), {0, 0.001f, 0});
+    EXPECT_EQ(crack_patch(contact, turned_apart, kHere).count, 4);
+}
+
 TEST(CrackContact, TurnsTheNormalWithTheOrderOfTheTwo) {
     const Patch patch = crack_patch(contact_of(row_of_touches(), true), kHere, kHere);
     ASSERT_EQ(patch.count, 4);
