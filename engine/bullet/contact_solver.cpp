@@ -27,8 +27,9 @@ constexpr float kWarm = 0.85f;             // of the last step's impulses are ha
 constexpr float kPushed = 0.2f;            // of an overlap is pushed out in a step,
 constexpr float kTurnedOut = 0.1f;         // of the turning that goes with it is done
 constexpr float kRestitutionSpeed = 0.2f;  // m/s, below which nothing bounces
-// Nor does what lies deeper than this already: what strikes is met before. A curved shard that rocks on the floor gets
-// corners in it that no contact held, and was thrown up by each of them for seven seconds.
+// Nor does what, at the speed at which it closes, lay deeper than this a step ago already: it does not strike, it sinks
+// in. A curved shard that rocks on the floor gets corners in it that no contact held, and was thrown up by each of them
+// for seven seconds.
 constexpr float kStruckDepth = 0.001f;  // m
 
 constexpr uint32_t kNoPair = 0xffffffffu;
@@ -209,7 +210,9 @@ void ContactSolver::set_up_point(PointRows& p, RollRows* r, const Contacts* cons
     };
     const auto forced = [&](const LaneVec& along) { return dot(along, a.force_speed - b.force_speed); };
     const Lanes apart = load(distance), opening = set(p.hold, p.normal);
-    const Lanes back = (opening < -kRestitutionSpeed) & (apart > -kStruckDepth) ? -load(bounce) * opening : Lanes{};
+    const Lanes a_step_ago = apart - opening * dt;
+    const Lanes back =
+        (opening < -kRestitutionSpeed) & (a_step_ago > -kStruckDepth) ? -load(bounce) * opening : Lanes{};
     // What is still apart may close that far.
     p.hold.wanted = there * (back - opening - forced(p.normal)) - per_second * most(apart, Lanes{});
     p.push_wanted = per_second * kPushed * most(-apart, Lanes{});

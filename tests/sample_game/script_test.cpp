@@ -541,8 +541,8 @@ TEST_P(SceneHash, IsWhatTheSceneAlwaysGave) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Scenes, SceneHash,
-                         testing::Values(KnownHash{"vase", "578f6435febea2ce"}, KnownHash{"wall", "7248770b155ff374"},
-                                         KnownHash{"pane", "bcf0153ff8064ed9"}, KnownHash{"drop", "e77439c9ef36029e"}),
+                         testing::Values(KnownHash{"vase", "6877d22e500d8347"}, KnownHash{"wall", "41e9e3a85c0dc981"},
+                                         KnownHash{"pane", "3f412c13c7c6d29f"}, KnownHash{"drop", "8925416bf41dbb91"}),
                          [](const auto& known) { return std::string(known.param.scene); });
 
 TEST(Script, AFileIsPlayedByItsPathAndOneThatIsNotThereIsNamed) {
