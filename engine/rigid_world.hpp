@@ -19,6 +19,7 @@ namespace cullet {
 
 struct ByteWriter;
 class ByteReader;
+class JobSystem;
 
 using RigidId = uint32_t;  // the caller's own small integer (a row of Bodies), below the limit given at creation
 inline constexpr RigidId kNoRigid = 0xffffffffu;
@@ -154,6 +155,9 @@ class RigidWorld {
     /// Finds the faces of these points. Writes to this shape alone: different ones may be made at once.
     virtual void make_shape(uint32_t shape, std::span<const Vec3> points) const = 0;
 
+    /// Where detect() and solve() may share their work out; without it they run on the calling thread alone. What they
+    /// find and make is the same. It must outlive the world.
+    virtual void use_jobs(JobSystem&) {}
     /// Finds contacts at the poses that bodies have now. Fast bodies, kinematic ones too, were stopped at their time of
     /// impact by the solve() before, half a millimetre away and with their velocities whole. At most 12 contacts a
     /// pair.

@@ -9,10 +9,7 @@ inline constexpr uint64_t kUnitsHiddenStep = 5;     // a vertex through one hidd
 inline constexpr uint64_t kUnitsStressCheck = 5;    // a vertex through one stress check, both faces
 inline constexpr uint64_t kUnitsEnergyCheck = 5;    // a vertex
 inline constexpr uint64_t kUnitsContactVertex = 6;  // a patch vertex through one hidden step
-inline constexpr uint64_t kUnitsCut = 15000;  // a cut edge: inserts, splits, about 12 rows; 50 microseconds at most
-// Of a hidden run: with that much owed, 200 cut edges, it stops for this frame. Explosions in houses cut several
-// hundred in one frame, which then took 24 ms.
-inline constexpr uint64_t kMostUnitsOwed = 3'000'000;
+inline constexpr uint64_t kUnitsCut = 15000;  // a cut edge: inserts, splits, about 12 rows; 20 microseconds, 50 at most
 // A vertex of a body whose pieces are born: rows, hulls, drawn meshes. A vase of 3,200 vertices in 20 pieces takes 13
 // ms of work.
 inline constexpr uint64_t kUnitsBirth = 1000;

@@ -72,6 +72,7 @@ struct Body {
     uint32_t shape_changes = 0;
 
     uint32_t number = 0;        // the solver's, in this step
+    bool is_refreshed = false;  // in this detect()
     bool is_touched = false;    // has a contact in this step
     bool is_damped = false;     // has one that is not at the crack of its birth
     bool is_driven = false;     // has one with a kinematic body that moves

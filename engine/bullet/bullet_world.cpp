@@ -22,6 +22,7 @@ constexpr float kSeamReach = 0.001f;     // m beyond the margins, more than mark
 // is looked up in every step.
 constexpr float kWatched = 0.01f;   // m
 constexpr float kLeafRoom = 0.01f;  // m
+constexpr uint32_t kBodiesAJob = 64, kPairsAJob = 32;
 
 uint64_t scatter(RigidId a, RigidId b) {
     uint64_t z = (uint64_t{a} << 32 | b) * 0x9e3779b97f4a7c15ull;
@@ -36,6 +37,7 @@ BulletWorld::BulletWorld(uint32_t body_limit)
       bodies_(new Body[body_limit]),
       hulls_(4 * static_cast<size_t>(body_limit) + 256),
       work_(body_limit),
+      scratches_(body_limit),
       tree_(body_limit),
       has_strayed_(body_limit),
       pairs_(body_limit),
@@ -113,7 +115,7 @@ void BulletWorld::make_shape(uint32_t shape, std::span<const Vec3> points) const
 
 RigidCounts BulletWorld::counts() const {
     RigidCounts counts = counts_;
-    counts.allocations += shape_allocations_.load(std::memory_order_relaxed);
+    counts.allocations += shape_allocations_.load(std::memory_order_relaxed) + scratches_.allocations();
     return counts;
 }
 
@@ -550,7 +552,8 @@ bool BulletWorld::change_shape(RigidId id, double mass, Vec3d centre, Sym3d iner
     bound_pieces(body);
     reseat(body, at);
     ++body.moves;
-    update_box(body);
+    gather_box(body);
+    update_leaf(body);
     rouse(body, moving);
     return true;
 }
@@ -572,23 +575,23 @@ void BulletWorld::rouse(Body& body, const Motion& moving) {
     set_motion(body.id, moving);
 }
 
-// World points and boxes of a body that moved since they were made.
-void BulletWorld::refresh(Body& body) {
+// World points and boxes of a body that moved since they were made: false for one that did not.
+bool BulletWorld::refresh_points(Body& body) {
     const btTransform at = body.hulls_at(body.bullet->getWorldTransform());
-    const bool is_new = body.leaf == kNoLeaf;
-    if (!is_new && at == body.fresh_at) return;
+    if (body.leaf != kNoLeaf && at == body.fresh_at) return false;
     body.fresh_at = at;
     ++body.moves;
     const Mat3 rotation = rotation_of(at);
     for (Hull* hull = body.hulls; hull; hull = hull->next) refresh_world(*hull, rotation, from_bullet(at.getOrigin()));
-    if (is_new)
-        gather_box(body);
-    else
-        update_box(body);
+    gather_box(body);
+    return true;
 }
 
-void BulletWorld::update_box(Body& body) {
-    gather_box(body);
+void BulletWorld::refresh(Body& body) {
+    if (refresh_points(body) && body.leaf != kNoLeaf) update_leaf(body);
+}
+
+void BulletWorld::update_leaf(Body& body) {
     if (holds(tree_.box(body.leaf), grown(body.shape.box, kWatched))) return;
     tree_.remove(body.leaf);
     body.leaf = tree_.add(grown(body.shape.box, kWatched + kLeafRoom), body.id);
@@ -609,22 +612,38 @@ void BulletWorld::gather_box(Body& body) {
     body.shape.box = box.low.x > box.high.x ? Box{origin, origin} : box;
 }
 
+void BulletWorld::use_jobs(JobSystem& jobs) {
+    InsideRigidEngine guard(counts_.allocations);
+    scratches_.use_jobs(jobs);
+}
+
 void BulletWorld::detect(float dt) {
     InsideRigidEngine guard(counts_.allocations);
     work_.dt = dt;
     work_.weight_speed = gravity_.length() * dt;
-    for (RigidId id = 0; id < body_end_; ++id) {
-        Body& body = bodies_[id];
-        if (!body.is_used || body.kind == RigidKind::Static) continue;
-        if (body.kind == RigidKind::Kinematic || body.bullet->isActive()) refresh(body);
-    }
+    refresh_all();
     find_pairs();
-    for (const Pair& pair : pairs_.rows()) meet(pair);
+    meet_all();
     newborn_.clear();
     list_manifolds();
     gather_contacts();
     counts_.pairs = static_cast<uint32_t>(pairs_.rows().size());
     counts_.contacts = static_cast<uint32_t>(contacts_.size());
+}
+
+// The tree in rising ids, so that it is the same for any number of threads.
+void BulletWorld::refresh_all() {
+    scratches_.run((body_end_ + kBodiesAJob - 1) / kBodiesAJob, [this](uint32_t job, PairScratch&) {
+        const RigidId end = std::min(body_end_, (job + 1) * kBodiesAJob);
+        for (RigidId id = job * kBodiesAJob; id < end; ++id) {
+            Body& body = bodies_[id];
+            body.is_refreshed = false;
+            if (!body.is_used || body.kind == RigidKind::Static) continue;
+            if (body.kind == RigidKind::Kinematic || body.bullet->isActive()) body.is_refreshed = refresh_points(body);
+        }
+    });
+    for (RigidId id = 0; id < body_end_; ++id)
+        if (bodies_[id].is_refreshed && bodies_[id].leaf != kNoLeaf) update_leaf(bodies_[id]);
 }
 
 // What left its leaf meets all that its new one meets, in either order of their straying. Pairs of which neither did
@@ -649,12 +668,21 @@ void BulletWorld::find_pairs() {
     strayed_.clear();
 }
 
-void BulletWorld::meet(const Pair& pair) {
+void BulletWorld::meet_all() {
+    const std::vector<Pair>& pairs = pairs_.rows();
+    const auto count = static_cast<uint32_t>(pairs.size());
+    scratches_.run((count + kPairsAJob - 1) / kPairsAJob, [&](uint32_t job, PairScratch& scratch) {
+        const uint32_t end = std::min(count, (job + 1) * kPairsAJob);
+        for (uint32_t k = job * kPairsAJob; k < end; ++k) meet(pairs[k], scratch);
+    });
+}
+
+void BulletWorld::meet(const Pair& pair, PairScratch& scratch) {
     const Body &a = bodies_[pair.a], &b = bodies_[pair.b];
     if (!a.bullet->isActive() && !b.bullet->isActive()) return;
     if (a.is_soft || b.is_soft) return pair.algorithm->forget();
     if (is_ignored(pair.a, pair.b)) return pair.algorithm->forget();
-    pair.algorithm->process(newborn_of(pair.a, pair.b));
+    pair.algorithm->process(scratch, newborn_of(pair.a, pair.b));
 }
 
 std::span<const NewbornPieces> BulletWorld::newborn_of(RigidId a, RigidId b) const {

@@ -6,6 +6,7 @@
 #include "engine/bullet/box_tree.hpp"
 #include "engine/bullet/contact_solver.hpp"
 #include "engine/bullet/pair_list.hpp"
+#include "engine/bullet/scratches.hpp"
 #include "engine/bullet/sweep.hpp"
 
 namespace cullet::bullet {
@@ -37,6 +38,7 @@ class BulletWorld final : public RigidWorld {
                       std::span<const ConvexPiece> pieces) override;
     void reserve_shapes(uint32_t count) override;
     void make_shape(uint32_t shape, std::span<const Vec3> points) const override;
+    void use_jobs(JobSystem& jobs) override;
     void detect(float dt) override;
     std::span<const RigidContact> contacts() const override { return contacts_; }
     bool foresee(RigidId id, float dt, uint32_t steps, ForeseenTouch& out) override;
@@ -106,7 +108,7 @@ class BulletWorld final : public RigidWorld {
     void seat_hulls(Body& body);
     void reseat(Body& body, const Pose& at);
     void rouse(Body& body, const Motion& moving);
-    void update_box(Body& body);
+    void update_leaf(Body& body);
     const Hull* find_same(const ConvexPiece& piece, const Hull* old_hulls, RigidId own, const Hull*& cursor) const;
     void drop_pieces(Body& body);
     Hull* take_shape(const ConvexPiece& piece, const BodyFrame& frame, float margin);
@@ -119,11 +121,14 @@ class BulletWorld final : public RigidWorld {
     void make_bullet(Body& body, const btTransform& at);
     bool load_body(ByteReader& in, Body& body);
     void load_pair(ByteReader& in, RigidId a, RigidId b);
+    bool refresh_points(Body& body);
     void refresh(Body& body);
     void gather_box(Body& body);
     void enter_tree(Body& body);
     void find_pairs();
-    void meet(const Pair& pair);
+    void refresh_all();
+    void meet_all();
+    void meet(const Pair& pair, PairScratch& scratch);
     void list_manifolds();
     void solve_contacts(float dt);
     void gather_contacts();
@@ -158,6 +163,7 @@ class BulletWorld final : public RigidWorld {
     std::vector<Hull*> shapes_;  // made ahead, in the caller's axes; null once a body has it
     mutable std::atomic<uint64_t> shape_allocations_ = 0;
     PairWork work_;
+    Scratches scratches_;
     btVector3 gravity_{0, 0, 0};
     BoxTree tree_;
     std::vector<RigidId> strayed_;      // left their leaf since pairs were looked for last

@@ -161,12 +161,13 @@ void BulletWorld::part_siblings(RigidId a, RigidId b, std::span<const CrackTouch
 }
 
 void BulletWorld::look_at_newborn(const Body& a, const Body& b, std::span<const CrackTouch> touches, bool is_turned) {
-    find_candidates(a, b, kContactRange, work_);
-    for (const Candidate& c : work_.candidates) {
+    PairScratch& scratch = scratches_.own();
+    find_candidates(a, b, kContactRange, scratch);
+    for (const Candidate& c : scratch.candidates) {
         Vec3 guess;
         if (!c.hull_a || !c.hull_b || separation(*c.hull_a, *c.hull_b, guess, kContactRange) >= kContactRange) continue;
-        find_near(*c.hull_a, *c.hull_b, touches, work_.touches);
-        newborn_.push_back({a.id, b.id, c.a, c.b, crack_contact(work_.touches, a.fresh_at, b.fresh_at, is_turned)});
+        find_near(*c.hull_a, *c.hull_b, touches, scratch.touches);
+        newborn_.push_back({a.id, b.id, c.a, c.b, crack_contact(scratch.touches, a.fresh_at, b.fresh_at, is_turned)});
     }
 }
 

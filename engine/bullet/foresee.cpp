@@ -134,7 +134,7 @@ class Flight {
             for (const Hull* q = other.hulls; q; q = q->next)
                 if (overlap(box, q->world_box, 0)) advance(*p, *q);
             if (!other.mesh) continue;
-            Hull& triangle = world_.work_.triangle;
+            Hull& triangle = world_.scratches_.own().triangle;
             visit_triangles(*other.mesh, box, [&](uint32_t t) {
                 build_triangle(triangle, other.mesh->triangles[t].corner, t);
                 if (dot(mover.velocity, Vec3d(triangle.face_normal[0])) < 0) advance(*p, triangle);
@@ -145,7 +145,7 @@ class Flight {
 
     void meet(RigidId id, ForeseenTouch& out) {
         PairAlgorithm pair(std::min(body_.id, id), std::max(body_.id, id), world_.work_);
-        pair.process();
+        pair.process(world_.scratches_.own());
         const bool is_first = body_.id < id;
         pair.visit_manifolds([&](const btPersistentManifold& manifold, const PairRecord&) {
             for (int k = 0; k < manifold.getNumContacts() && out.contact_count < kMostForeseenContacts; ++k) {

@@ -68,15 +68,15 @@ void gather_near(const Body& body, const Box& box, float grown, std::vector<cons
 
 // Triangles of a static mesh that a piece comes near to; `is_a` says which side of the pair the mesh is.
 void add_triangles(const Body& mesh_body, const std::vector<const Hull*>& pieces, bool is_mesh_a, float reach,
-                   PairWork& work) {
+                   PairScratch& scratch) {
     if (!mesh_body.mesh) return;
     for (const Hull* piece : pieces) {
         visit_triangles(*mesh_body.mesh, grown(piece->world_box, reach), [&](uint32_t t) {
             const uint32_t ordinal = mesh_body.hull_count + t;
             if (is_mesh_a)
-                work.candidates.push_back({ordinal, piece->ordinal, nullptr, piece});
+                scratch.candidates.push_back({ordinal, piece->ordinal, nullptr, piece});
             else
-                work.candidates.push_back({piece->ordinal, ordinal, piece, nullptr});
+                scratch.candidates.push_back({piece->ordinal, ordinal, piece, nullptr});
         });
     }
 }
@@ -104,25 +104,26 @@ float lighter_mass(const Body& a, const Body& b) {
 
 }  // namespace
 
-const Hull& hull_of(const Hull* hull, const Body& body, uint32_t ordinal, PairWork& work) {
+const Hull& hull_of(const Hull* hull, const Body& body, uint32_t ordinal, PairScratch& scratch) {
     if (hull) return *hull;
-    build_triangle(work.triangle, body.mesh->triangles[ordinal - body.hull_count].corner, ordinal);
-    work.triangle.ordinal = ordinal;
-    return work.triangle;
+    build_triangle(scratch.triangle, body.mesh->triangles[ordinal - body.hull_count].corner, ordinal);
+    scratch.triangle.ordinal = ordinal;
+    return scratch.triangle;
 }
 
-void find_candidates(const Body& a, const Body& b, float grown, PairWork& work) {
-    work.candidates.clear();
+void find_candidates(const Body& a, const Body& b, float grown, PairScratch& scratch) {
+    scratch.candidates.clear();
     if (!overlap(a.shape.box, b.shape.box, grown)) return;
-    gather_near(a, b.shape.box, grown, work.near_a);
-    gather_near(b, a.shape.box, grown, work.near_b);
-    for (const Hull* p : work.near_a)
-        for (const Hull* q : work.near_b)
-            if (overlap(p->world_box, q->world_box, grown)) work.candidates.push_back({p->ordinal, q->ordinal, p, q});
+    gather_near(a, b.shape.box, grown, scratch.near_a);
+    gather_near(b, a.shape.box, grown, scratch.near_b);
+    for (const Hull* p : scratch.near_a)
+        for (const Hull* q : scratch.near_b)
+            if (overlap(p->world_box, q->world_box, grown))
+                scratch.candidates.push_back({p->ordinal, q->ordinal, p, q});
     if (!a.mesh && !b.mesh) return;
-    add_triangles(a, work.near_b, true, grown, work);
-    add_triangles(b, work.near_a, false, grown, work);
-    std::sort(work.candidates.begin(), work.candidates.end(),
+    add_triangles(a, scratch.near_b, true, grown, scratch);
+    add_triangles(b, scratch.near_a, false, grown, scratch);
+    std::sort(scratch.candidates.begin(), scratch.candidates.end(),
               [](const Candidate& p, const Candidate& q) { return p.a != q.a ? p.a < q.a : p.b < q.b; });
 }
 
@@ -159,8 +160,8 @@ void PairAlgorithm::follow(const Body& a, const Body& b) {
 }
 
 // Records for all pieces that are near, or soon will be: slow pairs are looked through again only after a while.
-void PairAlgorithm::find_records(const Body& a, const Body& b) {
-    find_candidates(a, b, kCandidateRange + kAhead, *work_);
+void PairAlgorithm::find_records(const Body& a, const Body& b, PairScratch& scratch) {
+    find_candidates(a, b, kCandidateRange + kAhead, scratch);
     records_until_ = travelled_ + kAhead;
     PairRecord** link = &records_;
     const auto drop_first = [&] {
@@ -169,7 +170,7 @@ void PairAlgorithm::find_records(const Body& a, const Body& b) {
         drop(record);
     };
     const PairRecord* last = nullptr;
-    for (const Candidate& c : work_->candidates) {
+    for (const Candidate& c : scratch.candidates) {
         while (*link && ((*link)->a < c.a || ((*link)->a == c.a && (*link)->b < c.b))) drop_first();
         if (!*link || (*link)->a != c.a || (*link)->b != c.b) {
             PairRecord* const record = work_->records.take();
@@ -198,7 +199,7 @@ void PairAlgorithm::take_newborn(std::span<const NewbornPieces> newborn) {
     }
 }
 
-void PairAlgorithm::process(std::span<const NewbornPieces> newborn) {
+void PairAlgorithm::process(PairScratch& scratch, std::span<const NewbornPieces> newborn) {
     const Body &a = work_->bodies[a_], &b = work_->bodies[b_];
     if (changes_a_ != a.shape_changes || changes_b_ != b.shape_changes) forget();
     if (is_fresh_ && moves_a_ == a.moves && moves_b_ == b.moves) return;
@@ -208,7 +209,7 @@ void PairAlgorithm::process(std::span<const NewbornPieces> newborn) {
         return;
     }
     follow(a, b);
-    if (!is_fresh_ || travelled_ >= records_until_) find_records(a, b);
+    if (!is_fresh_ || travelled_ >= records_until_) find_records(a, b, scratch);
     is_fresh_ = true;
     take_newborn(newborn);
     moves_a_ = a.moves, moves_b_ = b.moves, changes_a_ = a.shape_changes, changes_b_ = b.shape_changes;
@@ -217,11 +218,11 @@ void PairAlgorithm::process(std::span<const NewbornPieces> newborn) {
         // Skipped in the gap: its points are gone.
         const bool is_emptied = record->manifold && record->manifold->getNumContacts() == 0;
         if (travelled_ >= record->good_until || is_emptied)
-            meet(*record, a, rotation_a, b, rotation_b);
+            meet(*record, a, rotation_a, b, rotation_b, scratch);
         else if (record->manifold)
             follow_points(*record, a, b);
     }
-    note_wedged(choose_best());
+    note_wedged(choose_best(scratch.offers));
 }
 
 // What stands in the ground is pushed out for as long as it takes.
@@ -261,9 +262,9 @@ bool PairAlgorithm::write_crack(PairRecord& record, const Body& a, const Hull& h
 }
 
 void PairAlgorithm::meet(PairRecord& record, const Body& a, const Mat3& rotation_a, const Body& b,
-                         const Mat3& rotation_b) {
-    const Hull &hull_a = hull_of(record.hull_a, a, record.a, *work_),
-               &hull_b = hull_of(record.hull_b, b, record.b, *work_);
+                         const Mat3& rotation_b, PairScratch& scratch) {
+    const Hull &hull_a = hull_of(record.hull_a, a, record.a, scratch),
+               &hull_b = hull_of(record.hull_b, b, record.b, scratch);
     if (record.crack && write_crack(record, a, hull_a, b, hull_b)) return;
     Patch patch = contact_patch(hull_a, rotation_a, hull_b, rotation_b, record.guess, record.is_own_guess);
     record.is_own_guess = true;
@@ -295,8 +296,7 @@ void PairAlgorithm::follow_points(PairRecord& record, const Body& a, const Body&
 }
 
 // What comes back is how deep the deepest is, m.
-float PairAlgorithm::list_offers() {
-    std::vector<Offer>& offers = work_->offers;
+float PairAlgorithm::list_offers(std::vector<Offer>& offers) {
     offers.clear();
     float deepest = 0;
     for (PairRecord* r = records_; r; r = r->next)
@@ -313,8 +313,7 @@ float PairAlgorithm::list_offers() {
 // A corner of another body above a seam is met by the pieces on both sides of it, by one of them sideways: that touch
 // goes where the other one is there and as deep. (Dropping all touches through seams let shards that stand on the end
 // of a seam sink by 3 mm, until their cores overlapped the floor.)
-void PairAlgorithm::drop_through_seams() {
-    std::vector<Offer>& offers = work_->offers;
+void PairAlgorithm::drop_through_seams(std::vector<Offer>& offers) {
     bool is_any = false;
     for (Offer& doubtful : offers) {
         if (!doubtful.is_through_seam) continue;
@@ -329,13 +328,12 @@ void PairAlgorithm::drop_through_seams() {
     }
     if (!is_any) return;
     for (Offer& offer : offers) offer.is_chosen = !offer.is_chosen;
-    remove_unchosen();
-    list_offers();
+    remove_unchosen(offers);
+    list_offers(offers);
 }
 
 // Points of one manifold are removed from the last on: Bullet puts the last one in the gap.
-void PairAlgorithm::remove_unchosen() {
-    const std::vector<Offer>& offers = work_->offers;
+void PairAlgorithm::remove_unchosen(const std::vector<Offer>& offers) {
     for (size_t k = offers.size(); k-- > 0;)
         if (!offers[k].is_chosen) offers[k].manifold->removeContactPoint(offers[k].index);
     for (PairRecord* r = records_; r; r = r->next)
@@ -345,10 +343,9 @@ void PairAlgorithm::remove_unchosen() {
 // Two shells that lie in each other touch in hundreds of points, of which the solver needs a dozen. The deepest comes
 // first, then always the one farthest from those chosen; turned normals, depth and a past as contact count as distance.
 // What comes back is how deep the deepest is, m.
-float PairAlgorithm::choose_best() {
-    std::vector<Offer>& offers = work_->offers;
-    const float deepest = list_offers();
-    drop_through_seams();
+float PairAlgorithm::choose_best(std::vector<Offer>& offers) {
+    const float deepest = list_offers(offers);
+    drop_through_seams(offers);
     if (offers.size() <= kPairContacts) return deepest;
     for (uint32_t round = 0; round < kPairContacts; ++round) {
         Offer* best = nullptr;
@@ -364,7 +361,7 @@ float PairAlgorithm::choose_best() {
             offer.apart = std::min(offer.apart, std::sqrt(dot(p, p) + dot(n, n)));
         }
     }
-    remove_unchosen();
+    remove_unchosen(offers);
     return deepest;
 }
 

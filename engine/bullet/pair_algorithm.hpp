@@ -56,37 +56,44 @@ struct Offer {
     bool is_chosen = false;
 };
 
-/// Working memory that the pairs of one world share.
+/// What the pairs of one world share.
 struct PairWork {
     explicit PairWork(uint32_t body_limit)
         : records(128 * static_cast<size_t>(body_limit) + 16384),
           manifolds(16 * static_cast<size_t>(body_limit) + 1024),
-          cracks(4 * static_cast<size_t>(body_limit) + 1024) {
-        // One pair at a time: the largest two bodies, of at most all hulls that there are room for.
+          cracks(4 * static_cast<size_t>(body_limit) + 1024) {}
+    SharedPool<PairRecord> records;
+    SharedPool<Manifold> manifolds;
+    SharedPool<CrackContact> cracks;
+    Body* bodies = nullptr;  // by id
+    float dt = 0;            // s, of the step
+    float weight_speed = 0;  // m/s that gravity gives in it
+};
+
+/// Working memory for one pair at a time: one for each thread.
+struct PairScratch {
+    explicit PairScratch(uint32_t body_limit) {
+        // The largest two bodies, of at most all hulls that there are room for.
         const size_t hulls = 4 * static_cast<size_t>(body_limit) + 4096;
         candidates.reserve(4 * hulls);
         offers.reserve(8 * hulls);
         near_a.reserve(hulls);
         near_b.reserve(hulls);
         touches.reserve(hulls);
+        bodies.reserve(body_limit);
     }
-    Pool<PairRecord> records;
-    Pool<Manifold> manifolds;
-    Pool<CrackContact> cracks;
     std::vector<Candidate> candidates;
     std::vector<Offer> offers;
     std::vector<const Hull*> near_a, near_b;
     std::vector<const CrackTouch*> touches;  // of the pieces at hand
+    std::vector<RigidId> bodies;             // near a sweep
     Hull triangle;
-    Body* bodies = nullptr;  // by id
-    float dt = 0;            // s, of the step
-    float weight_speed = 0;  // m/s that gravity gives in it
 };
 
-/// Pieces of the two bodies whose boxes come within `grown` of each other, sorted by (a, b), into work.candidates.
-void find_candidates(const Body& a, const Body& b, float grown, PairWork& work);
-/// The hull of a candidate's side; triangles are built in `work.triangle`.
-const Hull& hull_of(const Hull* hull, const Body& body, uint32_t ordinal, PairWork& work);
+/// Pieces of the two bodies whose boxes come within `grown` of each other, sorted by (a, b), into scratch.candidates.
+void find_candidates(const Body& a, const Body& b, float grown, PairScratch& scratch);
+/// The hull of a candidate's side; triangles are built in `scratch.triangle`.
+const Hull& hull_of(const Hull* hull, const Body& body, uint32_t ordinal, PairScratch& scratch);
 
 /// What it remembers goes back to `work` only by forget().
 class PairAlgorithm {
@@ -109,25 +116,27 @@ class PairAlgorithm {
     bool meet_at_crack(uint32_t a, uint32_t b) const;
     /// The axis of two pieces that touch, by their ordinals; zero when they do not.
     Vec3 axis_of(uint32_t a, uint32_t b) const;
-    /// What lay in each other at birth is named once, in the first step after it.
-    void process(std::span<const NewbornPieces> newborn = {});
+    /// What lay in each other at birth is named once, in the first step after it. Different pairs may be processed at
+    /// once.
+    void process(PairScratch& scratch, std::span<const NewbornPieces> newborn = {});
     /// Drops all contacts and what was remembered.
     void forget();
 
  private:
     void follow(const Body& a, const Body& b);
-    void find_records(const Body& a, const Body& b);
-    void meet(PairRecord& record, const Body& a, const Mat3& rotation_a, const Body& b, const Mat3& rotation_b);
+    void find_records(const Body& a, const Body& b, PairScratch& scratch);
+    void meet(PairRecord& record, const Body& a, const Mat3& rotation_a, const Body& b, const Mat3& rotation_b,
+              PairScratch& scratch);
     void take_newborn(std::span<const NewbornPieces> newborn);
     void drop(PairRecord* record);
     bool write_crack(PairRecord& record, const Body& a, const Hull& hull_a, const Body& b, const Hull& hull_b);
     void write(PairRecord& record, const Patch& patch, uint32_t cell_a, uint32_t cell_b);
     void follow_points(PairRecord& record, const Body& a, const Body& b);
     void release(PairRecord& record);
-    float list_offers();
-    void drop_through_seams();
-    void remove_unchosen();
-    float choose_best();
+    float list_offers(std::vector<Offer>& offers);
+    void drop_through_seams(std::vector<Offer>& offers);
+    void remove_unchosen(const std::vector<Offer>& offers);
+    float choose_best(std::vector<Offer>& offers);
     void note_wedged(float deepest);
 
     RigidId a_ = kNoRigid, b_ = kNoRigid;  // a_ < b_

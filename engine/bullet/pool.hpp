@@ -1,6 +1,7 @@
 // Rows of one type that keep their address, with a free list. Memory comes in chunks and never goes back; the first
 // chunk is made when the pool is, so that a world of the expected size asks for nothing later.
 #pragma once
+#include <atomic>
 #include <cstddef>
 #include <memory>
 #include <new>
@@ -41,6 +42,33 @@ class Pool {
     size_t chunk_rows_, used_ = 0;
     T* free_ = nullptr;
     std::vector<std::unique_ptr<std::byte[]>> chunks_;
+};
+
+/// The same for several threads at once. Which row one of them gets is a matter of chance.
+template <class T>
+class SharedPool {
+ public:
+    explicit SharedPool(size_t chunk_rows) : rows_(chunk_rows) {}
+    T* take() {
+        const Turn turn(is_busy_);
+        return rows_.take();
+    }
+    void give(T* row) {
+        const Turn turn(is_busy_);
+        rows_.give(row);
+    }
+
+ private:
+    struct Turn {
+        explicit Turn(std::atomic_flag& busy) : is_busy(busy) {
+            while (is_busy.test_and_set(std::memory_order_acquire)) {
+            }
+        }
+        ~Turn() { is_busy.clear(std::memory_order_release); }
+        std::atomic_flag& is_busy;
+    };
+    Pool<T> rows_;
+    std::atomic_flag is_busy_;
 };
 
 }  // namespace cullet::bullet

@@ -29,7 +29,8 @@ Box relative_box(const Box& box, const Mover& a, const Mover& b, float reach, fl
 // five times it bodies lose more than their contacts take: shards of one break end 0.15 m/s more apart (99 of 100).
 constexpr float kMet = 0.0015f;     // m, and not just as far as a touching body may go
 constexpr float kLeading = 0.001f;  // m behind the corner that leads: what else may have stopped the two
-constexpr int kBlows = 4;           // of a pair, each at another corner: the first ones turn the bodies
+constexpr uint32_t kFastAJob = 8;
+constexpr int kBlows = 4;  // of a pair, each at another corner: the first ones turn the bodies
 
 // The points of a hull that lead along `outwards`, of a body that stands where it was stopped.
 template <class Found>
@@ -78,8 +79,8 @@ void Sweeper::slow_down(BulletWorld& world) {
         Body &a = world.bodies_[fast.id], &b = world.bodies_[brake.other];
         // A flight's end, and what is skipped, comes with a later step.
         if (!a.is_touched || !b.is_touched || world.is_skipped(a.id, b.id)) continue;
-        const Hull& p = hull_of(brake.hull, a, brake.ordinal, world.work_);
-        const Hull& q = hull_of(brake.other_hull, b, brake.other_ordinal, world.work_);
+        const Hull& p = hull_of(brake.hull, a, brake.ordinal, world.scratches_.own());
+        const Hull& q = hull_of(brake.other_hull, b, brake.other_ordinal, world.scratches_.own());
         for (int k = 0; k < kBlows; ++k)
             if (!stop_closing(world, a, p, b, q, brake.normal)) break;
     }
@@ -119,25 +120,26 @@ bool Sweeper::stop_closing(BulletWorld& world, Body& a, const Hull& p, Body& b, 
     return true;
 }
 
-void Sweeper::find_near(const BulletWorld& world, const Box& box) {
-    near_.clear();
-    world.tree_.visit(box, [this](uint32_t id) { near_.push_back(id); });
-    std::sort(near_.begin(), near_.end());
+void Sweeper::find_near(const BulletWorld& world, const Box& box, std::vector<RigidId>& near) {
+    near.clear();
+    world.tree_.visit(box, [&near](uint32_t id) { near.push_back(id); });
+    std::sort(near.begin(), near.end());
 }
 
-void Sweeper::sweep_pair(BulletWorld& world, Body& a, Body& b, float dt) {
+// Calls touch(p, q, normal from q to p, fraction of the step) for pieces that touch before the two have both stopped.
+template <class Touch>
+void Sweeper::visit_touches(const BulletWorld& world, Body& a, Body& b, float dt, PairScratch& scratch, Touch touch) {
     if (a.kind != RigidKind::Dynamic && b.kind != RigidKind::Dynamic) return;
     if (!a.meets_layer_of(b) || world.is_apart_by_order(a.id, b.id)) return;
-    PairWork& work = world.work_;
     const Mover mover_a = mover_of(a), mover_b = mover_of(b);
     const double relative =
         length(mover_a.velocity - mover_b.velocity) + length(mover_a.spin) * a.reach + length(mover_b.spin) * b.reach;
     if (!are_split(a, b) && !is_far(relative * dt, std::min(a.thickness, b.thickness))) return;
     const float turned_b = turned(mover_b, b.reach, dt);
     const Box all_a = relative_box(a.shape.box, mover_a, mover_b, a.reach, dt);
-    work.near_b.clear();
+    scratch.near_b.clear();
     for (const Hull* q = b.hulls; q; q = q->next)
-        if (overlap(q->world_box, all_a, turned_b)) work.near_b.push_back(q);
+        if (overlap(q->world_box, all_a, turned_b)) scratch.near_b.push_back(q);
     const KnownAxes known{world.pairs_.memory_of(std::min(a.id, b.id), std::max(a.id, b.id)), b.id < a.id};
     Vec3d axis;
     const auto advance = [&](const Hull& p, const Hull& q) {
@@ -145,23 +147,34 @@ void Sweeper::sweep_pair(BulletWorld& world, Body& a, Body& b, float dt) {
         const double limit = last_fraction(a, b);
         const double t = touch_fraction(mover_a, p, mover_b, q, dt, limit, axis, known);
         if (t >= limit) return;
-        const Vec3 normal = axis.to_float();
-        stop(a, p, b, q, normal, static_cast<float>(t));
-        stop(b, q, a, p, -normal, static_cast<float>(t));
+        touch(p, q, axis.to_float(), static_cast<float>(t));
     };
     for (const Hull* p = a.hulls; p; p = p->next) {
         const float span = dt * last_fraction(a, b);
         const Box box = relative_box(p->world_box, mover_a, mover_b, reach_of(a, *p), span);
         if (!overlap(box, b.shape.box, turned_b)) continue;
-        for (const Hull* q : work.near_b)
+        for (const Hull* q : scratch.near_b)
             if (overlap(box, q->world_box, turned(mover_b, reach_of(b, *q), span))) advance(*p, *q);
         if (!b.mesh) continue;
         visit_triangles(*b.mesh, box, [&](uint32_t t) {
-            build_triangle(work.triangle, b.mesh->triangles[t].corner, t);
+            build_triangle(scratch.triangle, b.mesh->triangles[t].corner, t);
             // From behind a triangle is not there.
-            if (dot(mover_a.velocity, Vec3d(work.triangle.face_normal[0])) < 0) advance(*p, work.triangle);
+            if (dot(mover_a.velocity, Vec3d(scratch.triangle.face_normal[0])) < 0) advance(*p, scratch.triangle);
         });
     }
+}
+
+void Sweeper::sweep_pair(BulletWorld& world, Body& a, Body& b, float dt) {
+    visit_touches(world, a, b, dt, world.scratches_.own(), [&](const Hull& p, const Hull& q, Vec3 normal, float t) {
+        stop(a, p, b, q, normal, t);
+        stop(b, q, a, p, -normal, t);
+    });
+}
+
+bool Sweeper::touch_on_whole_ways(const BulletWorld& world, Body& a, Body& b, float dt, PairScratch& scratch) {
+    bool is_any = false;
+    visit_touches(world, a, b, dt, scratch, [&](const Hull&, const Hull&, Vec3, float) { is_any = true; });
+    return is_any;
 }
 
 // What goes no farther than the thinnest thing of all asks for is swept against nothing.
@@ -203,19 +216,77 @@ void Sweeper::order_fast() {
 
 // The fast ones behind the k-th whose ways meet its way, rising. None of them begins more than `longest_` before that
 // way does. All against all took half of a frame in which 4,096 flew.
-void Sweeper::find_fast(uint32_t k) {
-    near_.clear();
+void Sweeper::find_fast(uint32_t k, std::vector<uint32_t>& near) const {
+    near.clear();
     const Box& swept = fast_[k].swept;
     auto next = std::lower_bound(by_low_.begin(), by_low_.end(), low_of(k) - longest_,
                                  [this](uint32_t j, double from) { return low_of(j) < from; });
     for (; next != by_low_.end() && low_of(*next) <= double{swept.high.*axis_}; ++next)
-        if (*next > k && overlap(swept, fast_[*next].swept, 0)) near_.push_back(*next);
-    std::sort(near_.begin(), near_.end());
+        if (*next > k && overlap(swept, fast_[*next].swept, 0)) near.push_back(*next);
+    std::sort(near.begin(), near.end());
+}
+
+// Which pairs touch on their whole ways, on all threads: the ways of most do not meet at all. What comes of the others
+// depends on who was stopped before, so that they are swept one after another.
+void Sweeper::find_suspects(BulletWorld& world, float dt) {
+    suspect_count_.store(0, std::memory_order_relaxed);
+    const auto note = [this](uint32_t fast, RigidId other) {
+        const uint32_t row = suspect_count_.fetch_add(1, std::memory_order_relaxed);
+        if (row < suspects_.size()) suspects_[row] = {fast, other};
+    };
+    const auto count = static_cast<uint32_t>(fast_.size());
+    world.scratches_.run((count + kFastAJob - 1) / kFastAJob, [&](uint32_t job, PairScratch& scratch) {
+        for (uint32_t k = job * kFastAJob; k < std::min(count, (job + 1) * kFastAJob); ++k) {
+            Body& a = world.bodies_[fast_[k].id];
+            find_near(world, fast_[k].swept, scratch.bodies);
+            for (const RigidId id : scratch.bodies) {
+                Body& b = world.bodies_[id];
+                if (id != a.id && !b.is_fast && touch_on_whole_ways(world, a, b, dt, scratch)) note(k, id);
+            }
+            find_fast(k, scratch.bodies);
+            for (const uint32_t j : scratch.bodies) {
+                Body& b = world.bodies_[fast_[j].id];
+                if (touch_on_whole_ways(world, a, b, dt, scratch)) note(k, b.id);
+            }
+        }
+    });
+    const uint32_t found = suspect_count_.load(std::memory_order_relaxed);
+    are_all_suspects_ = found > suspects_.size();
+    suspects_end_ = are_all_suspects_ ? 0 : found;
+    std::sort(suspects_.begin(), suspects_.begin() + suspects_end_);
+}
+
+// In rising ids of the other bodies; those of a k that is asked for after lower ones.
+std::span<const Sweeper::Suspect> Sweeper::suspects_of(uint32_t k) const {
+    const auto end = suspects_.begin() + suspects_end_;
+    const auto first = std::lower_bound(suspects_.begin(), end, Suspect{k, 0});
+    return {first, std::lower_bound(first, end, Suspect{k + 1, 0})};
+}
+
+void Sweeper::sweep_slow(BulletWorld& world, uint32_t k, float dt) {
+    Body& a = world.bodies_[fast_[k].id];
+    if (!are_all_suspects_) {
+        for (const Suspect& suspect : suspects_of(k))
+            if (!world.bodies_[suspect.other].is_fast) sweep_pair(world, a, world.bodies_[suspect.other], dt);
+        return;
+    }
+    find_near(world, fast_[k].swept, near_);
+    for (const RigidId id : near_)
+        if (id != a.id && !world.bodies_[id].is_fast) sweep_pair(world, a, world.bodies_[id], dt);
+}
+
+// Neither is stopped so far, and their whole ways do not meet.
+bool Sweeper::go_clear(const BulletWorld& world, uint32_t k, uint32_t j) const {
+    const Body &a = world.bodies_[fast_[k].id], &b = world.bodies_[fast_[j].id];
+    if (are_all_suspects_ || a.moved_fraction < 1 || b.moved_fraction < 1) return false;
+    const std::span<const Suspect> of = suspects_of(k);
+    return !std::binary_search(of.begin(), of.end(), Suspect{k, b.id});
 }
 
 uint32_t Sweeper::sweep(BulletWorld& world, float dt) {
     list_fast(world, dt);
     order_fast();
+    find_suspects(world, dt);
     // Who is stopped later than it was swept against another one stands where that one saw it pass: those two are
     // looked at again.
     constexpr int kRounds = 4;
@@ -233,14 +304,15 @@ uint32_t Sweeper::sweep(BulletWorld& world, float dt) {
             Fast& fast = fast_[k];
             Body& a = world.bodies_[fast.id];
             if (round == 0) {
-                find_near(world, fast.swept);
-                for (const RigidId id : near_)
-                    if (id != a.id && !world.bodies_[id].is_fast) sweep_pair(world, a, world.bodies_[id], dt);
+                sweep_slow(world, k, dt);
                 if (a.moved_fraction < 1) fast.stopped_in = round, is_any = true;
             }
-            find_fast(k);
-            for (const uint32_t j : near_)
-                if (round == 0 || std::max(fast.stopped_in, fast_[j].stopped_in) >= round - 1) meet(fast, fast_[j]);
+            find_fast(k, near_);
+            for (const uint32_t j : near_) {
+                const bool is_new =
+                    round == 0 ? !go_clear(world, k, j) : std::max(fast.stopped_in, fast_[j].stopped_in) >= round - 1;
+                if (is_new) meet(fast, fast_[j]);
+            }
         }
     }
     uint32_t stopped = 0;

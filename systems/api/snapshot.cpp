@@ -117,6 +117,7 @@ Result<void> rebuild_rigid(World::Contents& world) {
     if (!rebuilt) return {};  // the host's
     ByteReader in(out.bytes, "snapshot", "Please report this.");
     if (Result<void> loaded = rebuilt->load(in); !loaded) return loaded;
+    rebuilt->use_jobs(*world.jobs);
     world.data.rigid = std::move(rebuilt);
     return {};
 }

@@ -22,6 +22,7 @@ World::Contents::Contents(const Settings& s, const Host& h, std::unique_ptr<Rigi
         hosted = made.get();
         data.rigid = std::move(made);
     }
+    data.rigid->use_jobs(*jobs);
     data.rigid->set_gravity(s.gravity);
     data.damage_loop = std::make_unique<DamageLoop>(data.state, *jobs, profiler);
     data.soft_loop = std::make_unique<SoftLoop>(data.state, *jobs, profiler);

@@ -9,6 +9,7 @@ void pass_impulses(EachBody task, Turn turn, ShellTables shells, Tasks& tasks, T
     const Row<Tasks> t(task.row);
     if (is_hidden_region(shells.state, t)) move_rest(shells.state, t, turn.old_side);
     apply_contact(shells.state, t, turn.old_side);
+    tasks.steps_granted[t] -= tasks.steps_granted[t] > 0;
     const float time = static_cast<float>(++tasks.steps_done[t]) * tasks.time_step[t];
     if (time > tasks.end_time[t] || time > tasks.last_event_time[t] + tasks.quiet_time[t])
         tasks.state[t] = static_cast<uint8_t>(TaskState::Whole);  // find_parts tells whether it broke

@@ -1,16 +1,30 @@
+#include <algorithm>
+
 #include "systems/brittle/hidden_region.hpp"
-#include "systems/costs.hpp"
 #include "systems/damage/contact.hpp"
 #include "systems/damage/grow_cracks.hpp"
+#include "systems/damage/task_cost.hpp"
 #include "systems/systems.hpp"
 
 namespace cullet {
+namespace {
+
+// By steps that are granted and will not be run in this frame; what is left is owed, and taken from the next grant.
+// Owed whole, explosions in houses cut for a second budget in the frame that spent its own on steps.
+void pay_cuts(State& state, Row<Tasks> task) {
+    Tasks& tasks = state.tasks;
+    const uint64_t a_step = units_a_step(state.shells, tasks, task);
+    const uint64_t steps = std::min<uint64_t>(tasks.steps_granted[task], tasks.units_owed[task] / a_step);
+    tasks.steps_granted[task] -= static_cast<uint32_t>(steps);
+    tasks.units_owed[task] -= steps * a_step;
+}
+
+}  // namespace
 
 void split_vertices(EachBody task, ShellTables shells, Tasks& tasks, TaskContacts&, PatchVertices&) {
     const Row<Tasks> t(task.row);
     if (static_cast<TaskState>(tasks.state[t]) != TaskState::Running) return;
     const bool was_whole = tasks.crack_count[t] == 0;
-    const uint64_t owed_before = tasks.units_owed[t];
     CrackSink sink;
     const uint32_t cuts = grow_cracks(shells.state, t, sink);
     if (sink.is_at_border) {  // it goes no further; widen_regions begins it again
@@ -21,8 +35,10 @@ void split_vertices(EachBody task, ShellTables shells, Tasks& tasks, TaskContact
     if (was_whole && cuts > 0 && is_hidden_region(shells.state, t)) bear_more(shells.state, t);
     if (sink.refused > 0) tasks.lacks_room[t] = 1;
     if (sink.is_out_of_slots) tasks.state[t] = static_cast<uint8_t>(TaskState::Dropped);
-    if (owed_before < kMostUnitsOwed && tasks.units_owed[t] >= kMostUnitsOwed) tasks.steps_granted[t] = 0;
-    if (cuts > 0) build_patches(shells.state, t);  // weights follow the masses that the cuts shared out
+    if (cuts > 0) {
+        pay_cuts(shells.state, t);
+        build_patches(shells.state, t);  // weights follow the masses that the cuts shared out
+    }
 }
 
 }  // namespace cullet

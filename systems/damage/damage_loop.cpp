@@ -1,5 +1,6 @@
 #include "systems/damage/damage_loop.hpp"
 
+#include "systems/damage/task_cost.hpp"
 #include "systems/quick/quick_body.hpp"
 #include "systems/quick/quick_loop.hpp"
 #include "systems/systems.hpp"

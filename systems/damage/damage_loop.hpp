@@ -16,8 +16,6 @@ struct DamageLoop {
         return brittle_.describe() + "      thick shell, quick: 8 to 100 times a hit\n" + quick_.describe();
     }
 
-    static constexpr uint32_t kTeamVertices = 1000;
-
     /// For the frame plan: its inner loop reads and writes all tables of a task.
     static constexpr auto tables() { return State::tables(); }
 

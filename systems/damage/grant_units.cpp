@@ -67,10 +67,21 @@ int64_t units_of_birth(const State& state, uint32_t t, int64_t budget) {
     return std::min(static_cast<int64_t>(kUnitsBirth) * vertices, std::max<int64_t>(budget, 0) / 2);
 }
 
-/// What no step wants is for what cracks cost, in equal shares of the quick runs, counted in their steps: the loop
-/// takes them back.
+/// Hidden runs that so small a share of the frame's units ends are not cut into rounds: shards do not wait for houses.
+/// As much again is for their cuts.
+constexpr int64_t kSmallShare = 64;
+void grant_small(State& state, std::span<const uint32_t> order, int64_t units_a_frame, int64_t& budget) {
+    for (const uint32_t t : order) {
+        const int64_t left = steps_left(state.tasks, t), units = 2 * left * cost_of(state, t).step;
+        if (is_quick_task(state, t) || units > units_a_frame / kSmallShare || units > budget) continue;
+        state.tasks.steps_granted[t] = static_cast<uint32_t>(2 * left);
+        budget -= units;
+    }
+}
+
+/// What no step wants is for what cracks cost, in equal shares, counted in steps: the loop takes them back.
 void grant_cuts(State& state, std::span<const uint32_t> order, int64_t& budget) {
-    const auto is_cutting = [&](uint32_t t) { return is_quick_task(state, t) && state.tasks.steps_granted[t] > 0; };
+    const auto is_cutting = [&](uint32_t t) { return state.tasks.steps_granted[t] > 0; };
     auto sharers = std::count_if(order.begin(), order.end(), is_cutting);
     for (const uint32_t t : order) {
         if (!is_cutting(t)) continue;
@@ -112,6 +123,7 @@ void grant_units(Serial, ShellTables shells, Tasks& tasks, SoftBodies&, const Da
         return tasks.body[a].index < tasks.body[b].index;
     });
     for (uint32_t i = 0; i < count; ++i) tasks.steps_granted[order[i]] = 0;
+    grant_small(shells.state, {order, count}, static_cast<int64_t>(settings.units_a_frame), budget);
     bool is_first_round = true, goes_on = count > 0, has_quick = false;
     while (goes_on) {
         goes_on = false;

@@ -4,12 +4,12 @@
 
 #include "systems/brittle/hidden_region.hpp"
 #include "systems/cook/materials.hpp"
-#include "systems/costs.hpp"
 #include "systems/damage/aim.hpp"
 #include "systems/damage/crack_rules.hpp"
 #include "systems/damage/cut_ends.hpp"
 #include "systems/damage/heading.hpp"
 #include "systems/damage/ring.hpp"
+#include "systems/damage/task_cost.hpp"
 
 namespace cullet {
 namespace {
@@ -126,7 +126,7 @@ bool run_out_cracks(State& state, Row<Tasks> task) {
     Shells& shells = shell.shells();
     if (!is_whole) shells.packs[shell.row].count = shells.blocks[shell.row].count = shells.links[shell.row].count = 0;
     state.tasks.crack_count[task] += cuts;
-    state.tasks.units_owed[task] += kUnitsCut * cuts + touched.units;
+    state.tasks.units_owed[task] += units_of_crack(shell.vertex_count()) * cuts + touched.units;
     return cuts > 0 || shell.element_count() != elements;
 }
 

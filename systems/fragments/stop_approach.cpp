@@ -12,6 +12,7 @@ namespace {
 // loses most then loses 6 to 8 % of its energy in 3 steps, so 2.3 and 1.3; at 1 twice as many pairs are seen in each
 // other later.
 constexpr double kDilation = 0.6;
+constexpr double kSteep = 0.857492925712544;  // 1 / sqrt(1 + kDilation^2), the cosine of a tooth's slope
 // Points on a turning body bend towards its axis: a crack that opens too slowly closes again. It has to stay open for
 // so long, s, while neither turns farther than this, rad.
 constexpr double kAhead = 0.05, kMostTurned = 0.5;
@@ -19,27 +20,33 @@ constexpr double kClosed = 0.001;
 constexpr uint32_t kMostSweeps = 80;  // at half of them a third more shards of quick breaks are struck by others later
 constexpr uint32_t kSweepsAFullOne = 4;
 
+// w x (w x r) along n, by dots alone.
+double inwards(Vec3d spin, Vec3d arm, Vec3d normal) {
+    return dot(spin, normal) * dot(spin, arm) - dot(spin, spin) * dot(arm, normal);
+}
+
 // Along the normal, 1/2 a t of the points' accelerations w x (w x r), where it leads into each other: m/s.
 double bending(const Touch& t, const Touching& a, const Touching& b) {
-    const Vec3d inwards = cross(a.spin, cross(a.spin, t.arm_a)) - cross(b.spin, cross(b.spin, t.arm_b));
-    const double closing = -dot(inwards, t.normal);
+    const double closing = inwards(b.spin, t.arm_b, t.normal) - inwards(a.spin, t.arm_a, t.normal);
     if (!(closing > 0)) return 0;
-    const double fastest = std::sqrt(std::max(dot(a.spin, a.spin), dot(b.spin, b.spin)));
-    return 0.5 * closing * (fastest * kAhead > kMostTurned ? kMostTurned / fastest : kAhead);
+    constexpr double kFast = (kMostTurned / kAhead) * (kMostTurned / kAhead);
+    const double square = std::max(dot(a.spin, a.spin), dot(b.spin, b.spin));
+    return 0.5 * closing * (square > kFast ? kMostTurned / std::sqrt(square) : kAhead);
 }
 
 // The speed that was missing.
 double stop(Touch& t, std::span<Touching> bodies) {
     Touching &a = bodies[t.a], &b = bodies[t.b];
     const Vec3d parting = a.velocity + cross(a.spin, t.arm_a) - b.velocity - cross(b.spin, t.arm_b);
-    const double opening = dot(parting, t.normal), wanted = bending(t, a, b);
+    const double opening = dot(parting, t.normal);
     const Vec3d sliding = parting - opening * t.normal;
-    const double slide = length(sliding);
-    if (opening >= wanted + kDilation * slide) return 0;
-    // The slope of the tooth that it slides against.
-    const Vec3d tooth = slide > 0 ? t.normal - (kDilation / slide) * sliding : t.normal;
-    const Vec3d along = (1 / length(tooth)) * tooth;
-    const double missing = wanted * dot(t.normal, along) - dot(parting, along);
+    const double lacking = bending(t, a, b) - opening, square_slide = dot(sliding, sliding);
+    // Where lacking <= -kDilation * slide it opens fast enough.
+    if (lacking <= 0 && lacking * lacking >= kDilation * kDilation * square_slide) return 0;
+    // Up the slope of the tooth that it slides against.
+    const double slide = std::sqrt(square_slide);
+    const Vec3d along = slide > 0 ? kSteep * t.normal - (kSteep * kDilation / slide) * sliding : t.normal;
+    const double missing = slide > 0 ? kSteep * (lacking + kDilation * slide) : lacking;
     const Vec3d lever_a = cross(t.arm_a, along), lever_b = cross(t.arm_b, along);
     const Vec3d turn_a = a.inverse_inertia * lever_a, turn_b = b.inverse_inertia * lever_b;
     const double give = a.inverse_mass + b.inverse_mass + dot(lever_a, turn_a) + dot(lever_b, turn_b);

@@ -541,8 +541,8 @@ TEST_P(SceneHash, IsWhatTheSceneAlwaysGave) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Scenes, SceneHash,
-                         testing::Values(KnownHash{"vase", "6877d22e500d8347"}, KnownHash{"wall", "41e9e3a85c0dc981"},
-                                         KnownHash{"pane", "3f412c13c7c6d29f"}, KnownHash{"drop", "8925416bf41dbb91"}),
+                         testing::Values(KnownHash{"vase", "0b4f26b8a1fce335"}, KnownHash{"wall", "11804ebe2b98f46e"},
+                                         KnownHash{"pane", "f37868e87e662add"}, KnownHash{"drop", "219fb09e944085a0"}),
                          [](const auto& known) { return std::string(known.param.scene); });
 
 TEST(Script, AFileIsPlayedByItsPathAndOneThatIsNotThereIsNamed) {

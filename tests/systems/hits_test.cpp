@@ -98,7 +98,7 @@ const Scenario kScenarios[] = {
     {"TwoInOneFrame", two_balls_at_once, kHidden, 3'000'000, 1, "start_tasks", has_two_patches},
     {"WhileTheLastStillRuns", one_ball_after_the_other, kHidden, 1'000'000, 1, "open_tasks", has_a_hit_waiting},
     {"BothBreak", two_vases_head_on, kHidden, 3'000'000, 2, "start_tasks", has_a_task_each_against_the_other},
-    {"PiecesAgain", a_heavy_ball_through_pieces, kHidden, 5'000'000, 2, "make_births", has_a_grandchild},
+    {"PiecesAgain", a_heavy_ball_through_pieces, kHidden, 8'000'000, 2, "make_births", has_a_grandchild},
     {"QuickTwoInOneFrame", two_balls_at_once, kQuick, 300'000, 1, "start_tasks", has_two_patches},
     {"QuickWhileTheLastStillRuns", one_ball_after_the_other, kQuick, 30'000, 1, "open_tasks", has_a_hit_waiting},
     {"QuickBothBreak", two_vases_head_on, kQuick, 300'000, 2, "start_tasks", has_a_task_each_against_the_other},

@@ -288,7 +288,8 @@ TEST(Limits, WorkAFrameStaysWithinItsUnitsOnAnyNumberOfThreads) {
             EXPECT_LE(world.report().units_used, std::max(kUnits, now.first_steps)) << frame;
             EXPECT_GE(world.report().units_used, now.granted) << frame;
         }
-        const auto is_full = [](const FrameWork& w) { return 10 * w.done > 9 * kUnits; };
+        // Cuts take the rest.
+        const auto is_full = [](const FrameWork& w) { return 10 * w.done > 8 * kUnits; };
         EXPECT_GE(std::count_if(work.begin(), work.end(), is_full), 10) << "the limit was reached";
         if (first_work.empty()) first_work = work, first_told = list;
         EXPECT_EQ(work, first_work) << threads << " threads";

@@ -7,9 +7,9 @@
 
 #include "engine/random.hpp"
 #include "systems/cook/materials.hpp"
-#include "systems/costs.hpp"
 #include "systems/damage/assemble.hpp"
 #include "systems/damage/grow_cracks.hpp"
+#include "systems/damage/task_cost.hpp"
 #include "tests/support/crack_meshes.hpp"
 
 namespace cullet {
@@ -91,18 +91,20 @@ void compare_with_new_assembly(const Surface& surface, uint64_t seed, bool has_g
     const ShellView view = shell.view;
     const Row<Tasks> task = make_task(shell);
     uint32_t cuts = 0;
+    uint64_t for_cuts = 0;
     for (uint32_t i = 0; i < 30; ++i) {
         set_time(shell, task, 20e-6 * i);
         set_stress(view, field_of(seed + i / 6));
         CrackSink sink;
-        cuts += grow_cracks(*shell.state, task, sink);
+        const uint32_t now = grow_cracks(*shell.state, task, sink);
+        cuts += now, for_cuts += units_of_crack(view.vertex_count()) * now;
         ASSERT_FALSE(sink.is_out_of_slots);
     }
     ASSERT_GT(cuts, 20u);
     ASSERT_EQ(broken_rule(shell), "");
     // Rows of a grain are paid for by themselves, and each refresh is local: the whole body was not assembled each
     // time.
-    const uint64_t for_rows = shell.state->tasks.units_owed[task] - kUnitsCut * cuts;
+    const uint64_t for_rows = shell.state->tasks.units_owed[task] - for_cuts;
     EXPECT_EQ(for_rows > 0, has_grain);
     EXPECT_LT(for_rows, kUnitsGrainRow * 60 * cuts);
 

@@ -7,6 +7,7 @@
 #include <thread>
 
 #include "systems/damage/damage_loop.hpp"
+#include "systems/damage/task_cost.hpp"
 #include "tests/support/small_worlds.hpp"
 
 namespace cullet::test {
@@ -71,7 +72,7 @@ uint64_t hash_of_run(const Scene& scene, const Settings& settings, const Host& h
 
 /// Above this many vertices all workers share one body: the vase must be among them.
 TEST(WorldHashScenes, TheVaseIsLargeEnoughForATeam) {
-    EXPECT_GT(small_vase().report().vertices, DamageLoop::kTeamVertices);
+    EXPECT_GT(small_vase().report().vertices, kTeamVertices);
 }
 
 /// Two worlds side by side: after each system the tables are compared; the first difference is told.
