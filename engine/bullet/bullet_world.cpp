@@ -856,7 +856,7 @@ void BulletWorld::solve_contacts(float dt) {
         for (uint32_t m = pair.first; m < pair.end; ++m)
             if (manifolds_[m].manifold) solver_.add_contacts(*manifolds_[m].manifold);
     }
-    solver_.solve(dt);
+    solver_.solve(dt, scratches_);
 }
 
 void BulletWorld::solve(float dt) {

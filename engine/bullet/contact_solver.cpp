@@ -36,6 +36,7 @@ constexpr uint32_t kNoPair = 0xffffffffu;
 constexpr uint32_t kColours = 64;         // of pairs of free bodies, as many again of those with something that stands,
 constexpr uint32_t kNoColour = kColours;  // and one for the rest of each: they go one by one
 constexpr uint32_t kSizes = 16;           // pairs of a colour by falling number of points, so that lanes are full
+constexpr uint32_t kBatchesAJob = 32;
 constexpr uint32_t kKeys = 2 * (kColours + 1) * kSizes;
 
 }  // namespace
@@ -252,7 +253,7 @@ void ContactSolver::set_up(Batch& batch, const uint32_t* pairs, float dt) {
     }
 }
 
-void ContactSolver::solve(float dt) {
+void ContactSolver::solve(float dt, Scratches& scratches) {
     if (bodies_.size() == 1) return;
     changes_.assign(bodies_.size(), {});
     for (size_t k = 1; k < bodies_.size(); ++k)
@@ -261,7 +262,11 @@ void ContactSolver::solve(float dt) {
     fill_batches();
     const size_t rows = batches_.empty() ? 0 : batches_.back().first_point + batches_.back().point_count;
     if (rows_.size() < rows) rows_.resize(rows), rolls_.resize(rows);
-    for (size_t k = 0; k < batches_.size(); ++k) set_up(batches_[k], &batch_pairs_[k * kLanes], dt);
+    const auto count = static_cast<uint32_t>(batches_.size());
+    scratches.run((count + kBatchesAJob - 1) / kBatchesAJob, [&](uint32_t job, PairScratch&) {
+        for (uint32_t k = job * kBatchesAJob; k < std::min(count, (job + 1) * kBatchesAJob); ++k)
+            set_up(batches_[k], &batch_pairs_[k * kLanes], dt);
+    });
     iterate();
     write_points();
     write_bodies(dt);

@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "engine/bullet/contact_rows.hpp"
+#include "engine/bullet/scratches.hpp"
 
 namespace cullet::bullet {
 
@@ -32,7 +33,7 @@ class ContactSolver {
     void add_pair(uint32_t a, uint32_t b, float grip);
     void add_contacts(btPersistentManifold& manifold);
     /// Impulses, and the push out of overlaps. Nothing is integrated.
-    void solve(float dt);
+    void solve(float dt, Scratches& scratches);
 
  private:
     struct Contacts {
