@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <memory>
 #include <new>
+#include <thread>
 #include <vector>
 
 namespace cullet::bullet {
@@ -61,8 +62,7 @@ class SharedPool {
  private:
     struct Turn {
         explicit Turn(std::atomic_flag& busy) : is_busy(busy) {
-            while (is_busy.test_and_set(std::memory_order_acquire)) {
-            }
+            while (is_busy.test_and_set(std::memory_order_acquire)) std::this_thread::yield();
         }
         ~Turn() { is_busy.clear(std::memory_order_release); }
         std::atomic_flag& is_busy;

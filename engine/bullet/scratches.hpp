@@ -2,6 +2,7 @@
 #pragma once
 #include <atomic>
 #include <deque>
+#include <thread>
 
 #include "engine/bullet/pair_algorithm.hpp"
 #include "engine/jobs.hpp"
@@ -50,7 +51,7 @@ class Scratches {
     }
     // No more jobs run at once than there are workers.
     Slot& lease() {
-        for (;;)
+        for (;; std::this_thread::yield())
             for (Slot& slot : slots_)
                 if (!slot.is_busy.test_and_set(std::memory_order_acquire)) return slot;
     }

@@ -1,0 +1,50 @@
+// The rigid world on the threads that there are: the same bytes whatever their number.
+#include <gtest/gtest.h>
+
+#include "engine/byte_stream.hpp"
+#include "engine/jobs.hpp"
+#include "tests/engine/rigid_scenes.hpp"
+
+namespace cullet {
+namespace {
+
+constexpr uint32_t kShards = 20;
+
+/// Shards of many cells fall on a floor, and balls of brick are shot through them: pairs come and go, and sweeps stop
+/// what is fast. The world's bytes after each tenth step.
+std::vector<std::vector<uint8_t>> course_of(JobSystem* jobs) {
+    auto world = floor_world(kShards + 16);
+    if (jobs) world->use_jobs(*jobs);
+    for (uint32_t k = 0; k < kShards; ++k)
+        add_shard(*world, 1 + k, {0.1f * real(k % 3), 0.1f + 0.1f * real(k), 0.08f * real(k % 4)},
+                  normalised(Quat{real(k % 5) - 2, real(k % 7) - 3, 1, 2}));
+    std::vector<std::vector<uint8_t>> course;
+    uint32_t sweeps = 0;
+    for (uint32_t step_number = 0; step_number < 60; ++step_number) {
+        if (step_number % 10 == 5) {
+            const RigidId shot = kShards + 1 + step_number / 10;
+            add_box(*world, shot, {-2, 0.1f, 0.1f}, {0.05f, 0.05f, 0.05f}, 2000);
+            world->set_motion(shot, {{60, 0.5f, 0}, {20, 5, 0}});
+        }
+        step(*world);
+        sweeps = world->counts().sweeps;
+        if (step_number % 10 != 9) continue;
+        ByteWriter out;
+        world->save(out);
+        course.push_back(out.bytes);
+    }
+    EXPECT_GT(sweeps, 20u);
+    EXPECT_GT(world->counts().contacts, 30u);
+    return course;
+}
+
+TEST(RigidThreads, GiveTheBytesOfNone) {
+    const auto alone = course_of(nullptr);
+    for (const uint32_t threads : {2u, 3u, 8u}) {
+        const auto jobs = make_jobs(JobBackend::Threads, threads);
+        EXPECT_EQ(course_of(jobs.get()), alone) << threads << " threads";
+    }
+}
+
+}  // namespace
+}  // namespace cullet
