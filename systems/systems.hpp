@@ -78,7 +78,7 @@ void start_regions(Serial, const Events<TaskOpened>& opened, ShellTables shells,
 void grant_units(Serial, ShellTables shells, Tasks& tasks, SoftBodies& soft, const DamageSettings& settings,
                  DamageCounts& counts);
 /// Runs the inner loop of each open task for the steps it was granted, on all workers.
-void advance_damage(Serial, DamageLoop& loop);
+void advance_damage(Serial, DamageLoop& loop, DamageCounts& counts);
 /// Runs the springs of each awake body through the frame, on all workers.
 void advance_soft(Serial, Step step, const RigidWorld& rigid, SoftLoop& loop);
 /// What soft bodies gave to what they met, and where they are now, for the rigid world.

@@ -1,5 +1,7 @@
 #include "systems/damage/damage_loop.hpp"
 
+#include <algorithm>
+
 #include "systems/damage/task_cost.hpp"
 #include "systems/quick/quick_body.hpp"
 #include "systems/quick/quick_loop.hpp"
@@ -15,7 +17,7 @@ DamageLoop::DamageLoop(State& state, JobSystem& jobs, Profiler& profiler)
       quick_(make_quick_loop()),
       zone_(profiler.add_zone("damage task")) {}
 
-void DamageLoop::advance() {
+uint64_t DamageLoop::advance() {
     static constexpr uint32_t kMostTasks = 1024;
     const Tasks& tasks = world_.state.tasks;
     uint32_t alone[kMostTasks], together[kMostTasks], alone_count = 0, together_count = 0;
@@ -52,10 +54,22 @@ void DamageLoop::advance() {
         loop_of(alone[i]).run_alone(world_, run_of(alone[i]));
         profiler_.add_span(zone_, start, now_ns());
     });
+    uint64_t unspent = 0;
+    const auto count_unspent = [&](uint32_t t) {
+        unspent +=
+            tasks.steps_granted[t] * (is_quick_task(world_.state, t) ? quick_units_a_step(world_.state, t)
+                                                                     : units_a_step(world_.state.shells, tasks, t));
+    };
+    std::for_each(together, together + together_count, count_unspent);
+    std::for_each(alone, alone + alone_count, count_unspent);
+    return unspent;
 }
 
-void advance_damage(Serial, DamageLoop& loop) {
-    loop.advance();
+// What was granted for cuts that did not come is left.
+void advance_damage(Serial, DamageLoop& loop, DamageCounts& counts) {
+    const uint64_t unspent = std::min(loop.advance(), counts.units_used);
+    counts.units_used -= unspent;
+    counts.units_left += unspent;
 }
 
 }  // namespace cullet

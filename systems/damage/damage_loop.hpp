@@ -11,7 +11,8 @@ struct DamageLoop {
 
     /// Every running task by its granted steps. With as many tasks as workers one job a task; with fewer, all workers
     /// share each task of more than kTeamVertices vertices, one after another, and the rest go one job a task.
-    void advance();
+    /// Returns the units that were granted and not used.
+    uint64_t advance();
     std::string describe() const {
         return brittle_.describe() + "      thick shell, quick: 8 to 100 times a hit\n" + quick_.describe();
     }
