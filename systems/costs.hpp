@@ -17,7 +17,7 @@ inline constexpr uint64_t kUnitsCutElement = 200;  // an element that a cut of t
 inline constexpr uint64_t kUnitsOpen = 220;        // a vertex when a task opens: copy, patches
 inline constexpr uint64_t kUnitsAssemble = 550;    // a vertex of a shell whose stiffness is not assembled yet
 inline constexpr uint64_t kUnitsGrainRow = 3000;   // a row of a material with a grain, rebuilt after a cut
-inline constexpr uint64_t kUnitsCompact = 300;     // a live element of a shell that is compacted; 0.6 microseconds
+inline constexpr uint64_t kUnitsCompact = 800;     // a live element of a shell that is compacted; 1.2 microseconds
 
 // Of the quick mode, measured at scene castle.
 inline constexpr uint64_t kUnitsQuickOpen = 230;     // a vertex of a cut-out when a task opens: flood, copy

@@ -14,9 +14,12 @@
 namespace cullet::bullet {
 namespace {
 
-constexpr float kAngularDamping = 0.1f;  // 1/s, of what is touched: flight has none, nor has a birth
-constexpr float kPressedIn = 0.001f;     // m a step that an unsolved contact may deepen by
-constexpr float kSeamReach = 0.001f;     // m beyond the margins, more than mark_inner_faces() looks past a face
+// Out of what sleeps, which does not give way. What fell asleep a millimetre deep in another lifted it by half of that
+// at once, and dropped it.
+constexpr float kPushedOffSleepers = 0.0001f;  // m in a step
+constexpr float kAngularDamping = 0.1f;        // 1/s, of what is touched: flight has none, nor has a birth
+constexpr float kPressedIn = 0.001f;           // m a step that an unsolved contact may deepen by
+constexpr float kSeamReach = 0.001f;           // m beyond the margins, more than mark_inner_faces() looks past a face
 // Leaves of the tree hold what they are about with half of the way from which pieces are watched (see
 // pair_algorithm.cpp), and this room to move. Ten times it and a heap has three times the pairs, a tenth and what falls
 // is looked up in every step.
@@ -852,7 +855,8 @@ void BulletWorld::solve_contacts(float dt) {
     });
     for (const Scattered& pair : scattered_) {
         const SortedManifold& first = manifolds_[pair.first];
-        solver_.add_pair(bodies_[first.a].number, bodies_[first.b].number, pair.grip);
+        const float most_push = is_asleep(first.a) || is_asleep(first.b) ? kPushedOffSleepers : kFar;
+        solver_.add_pair(bodies_[first.a].number, bodies_[first.b].number, pair.grip, most_push);
         for (uint32_t m = pair.first; m < pair.end; ++m)
             if (manifolds_[m].manifold) solver_.add_contacts(*manifolds_[m].manifold);
     }

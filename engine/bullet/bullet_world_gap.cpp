@@ -17,9 +17,11 @@ constexpr float kStillSeconds = 0.5f;
 constexpr float kSlowSpeed = 0.05f;  // m/s of the fastest point
 constexpr float kSlowSeconds = 1;
 // What rocks and trembles about its place is frozen, however deep it lies in something: so long within so much. What
-// tips over does not take so long, nor does what slides in earnest.
+// tips over does not take so long, nor does what slides in earnest. With two seconds of creeping and two and a half of
+// being pressed (below) two of four heaps of 1,200 shards have more than 1 % awake five seconds after the last break,
+// with these none of five.
 constexpr float kCreepDistance = 0.015f;  // m
-constexpr float kCreepSeconds = 2;
+constexpr float kCreepSeconds = 1.5f;
 // Sleepers stand as if of infinite mass, so that one that shakes does not keep its thousand neighbours awake. What
 // wakes them: a blow that would give them this speed,
 constexpr float kWakeSpeed = 0.05f;  // m/s
@@ -34,7 +36,7 @@ constexpr uint32_t kIdleWakes = 3;
 // some millimetres may never come out.
 constexpr float kPressedDeep = 0.0015f;  // m
 constexpr float kImpatience = 2;         // 1/s
-constexpr float kPressedSeconds = 2.5f;  // after which it sleeps as it lies
+constexpr float kPressedSeconds = 1.5f;  // after which it sleeps as it lies
 
 // The corner of the body's box that moved farthest bounds all of its points: displacement is convex in the point.
 bool has_left(const Body& body, const btTransform& anchor, const btTransform& now, float distance) {

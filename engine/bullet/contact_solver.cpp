@@ -102,8 +102,8 @@ uint32_t ContactSolver::add_body(btRigidBody& body) {
     return static_cast<uint32_t>(bodies_.size() - 1);
 }
 
-void ContactSolver::add_pair(uint32_t a, uint32_t b, float grip) {
-    pairs_.push_back({a, b, static_cast<uint32_t>(points_.size()), 0, grip, 0});
+void ContactSolver::add_pair(uint32_t a, uint32_t b, float grip, float most_push) {
+    pairs_.push_back({a, b, static_cast<uint32_t>(points_.size()), 0, grip, most_push, 0});
 }
 
 void ContactSolver::add_contacts(btPersistentManifold& manifold) {
@@ -178,7 +178,7 @@ void ContactSolver::set_up_point(PointRows& p, RollRows* r, const Contacts* cons
                                  const Source& a, const Source& b, float dt) {
     float point_a[3][kLanes] = {}, point_b[3][kLanes] = {}, n[3][kLanes] = {}, t[2][3][kLanes] = {};
     float distance[kLanes] = {}, bounce[kLanes] = {}, friction[kLanes] = {}, impulse[3][kLanes] = {}, is[kLanes] = {};
-    float rolling[kLanes] = {}, grip[kLanes] = {};
+    float rolling[kLanes] = {}, grip[kLanes] = {}, most_push[kLanes] = {};
     for (uint32_t lane = 0; lane < kLanes; ++lane) {
         if (!of[lane] || k >= of[lane]->count) continue;
         btManifoldPoint& from = *points_[of[lane]->first + k];
@@ -195,7 +195,7 @@ void ContactSolver::set_up_point(PointRows& p, RollRows* r, const Contacts* cons
         impulse[1][lane] = kWarm * from.m_appliedImpulseLateral1;
         impulse[2][lane] = kWarm * from.m_appliedImpulseLateral2;
         rolling[lane] = from.m_combinedRollingFriction;
-        grip[lane] = of[lane]->grip;
+        grip[lane] = of[lane]->grip, most_push[lane] = of[lane]->most_push;
         if (grip[lane] > 0) distance[lane] = bounce[lane] = 0;
     }
     const auto vector = [](const float(&from)[3][kLanes]) {
@@ -216,7 +216,7 @@ void ContactSolver::set_up_point(PointRows& p, RollRows* r, const Contacts* cons
         (opening < -kRestitutionSpeed) & (a_step_ago > -kStruckDepth) ? -load(bounce) * opening : Lanes{};
     // What is still apart may close that far.
     p.hold.wanted = there * (back - opening - forced(p.normal)) - per_second * most(apart, Lanes{});
-    p.push_wanted = per_second * kPushed * most(-apart, Lanes{});
+    p.push_wanted = per_second * least(kPushed * most(-apart, Lanes{}), load(most_push));
     p.pushed = Lanes{};
     p.hold.impulse = load(impulse[0]);
     for (int way = 0; way < 2; ++way) {

@@ -29,8 +29,9 @@ class ContactSolver {
     /// A pair of bodies with all their manifolds, by number: at least one is free. Those with something that is not
     /// free come last and hold best.
     /// With a grip, N s, contacts neither push out of overlaps nor bounce, but each holds the two to each other with at
-    /// most so much in each direction, also against what would part them.
-    void add_pair(uint32_t a, uint32_t b, float grip);
+    /// most so much in each direction, also against what would part them. Out of overlaps they are pushed by at most
+    /// `most_push`, m.
+    void add_pair(uint32_t a, uint32_t b, float grip, float most_push);
     void add_contacts(btPersistentManifold& manifold);
     /// Impulses, and the push out of overlaps. Nothing is integrated.
     void solve(float dt, Scratches& scratches);
@@ -39,8 +40,9 @@ class ContactSolver {
     struct Contacts {
         uint32_t a, b;  // bodies, by number
         uint32_t first, count;
-        float grip;    // N s
-        uint32_t key;  // batches are filled in rising order of it
+        float grip;       // N s
+        float most_push;  // m
+        uint32_t key;     // batches are filled in rising order of it
     };
     struct Source;
     void colour_pairs();

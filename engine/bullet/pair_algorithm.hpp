@@ -80,13 +80,14 @@ struct PairScratch {
         near_a.reserve(hulls);
         near_b.reserve(hulls);
         touches.reserve(hulls);
-        bodies.reserve(body_limit);
+        bodies.reserve(body_limit), fast.reserve(body_limit);
     }
     std::vector<Candidate> candidates;
     std::vector<Offer> offers;
     std::vector<const Hull*> near_a, near_b;
     std::vector<const CrackTouch*> touches;  // of the pieces at hand
-    std::vector<RigidId> bodies;             // near a sweep
+    std::vector<RigidId> bodies;             // near a sweep,
+    std::vector<uint32_t> fast;              // and the fast ones, as Sweeper numbers them
     Hull triangle;
 };
 

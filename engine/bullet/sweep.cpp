@@ -30,6 +30,7 @@ Box relative_box(const Box& box, const Mover& a, const Mover& b, float reach, fl
 constexpr float kMet = 0.0015f;     // m, and not just as far as a touching body may go
 constexpr float kLeading = 0.001f;  // m behind the corner that leads: what else may have stopped the two
 constexpr uint32_t kFastAJob = 8;
+constexpr float kNeverSeen = -1;
 constexpr int kBlows = 4;  // of a pair, each at another corner: the first ones turn the bodies
 
 // The points of a hull that lead along `outwards`, of a body that stands where it was stopped.
@@ -226,93 +227,104 @@ void Sweeper::find_fast(uint32_t k, std::vector<uint32_t>& near) const {
     std::sort(near.begin(), near.end());
 }
 
-// Which pairs touch on their whole ways, on all threads: the ways of most do not meet at all. What comes of the others
+// On all threads: whom each meets if nobody stops. The ways of most do not meet at all. What comes of the others
 // depends on who was stopped before, so that they are swept one after another.
-void Sweeper::find_suspects(BulletWorld& world, float dt) {
-    suspect_count_.store(0, std::memory_order_relaxed);
-    const auto note = [this](uint32_t fast, RigidId other) {
-        const uint32_t row = suspect_count_.fetch_add(1, std::memory_order_relaxed);
-        if (row < suspects_.size()) suspects_[row] = {fast, other};
-    };
+void Sweeper::find_neighbours(BulletWorld& world, float dt) {
+    row_count_.store(0, std::memory_order_relaxed);
     const auto count = static_cast<uint32_t>(fast_.size());
     world.scratches_.run((count + kFastAJob - 1) / kFastAJob, [&](uint32_t job, PairScratch& scratch) {
-        for (uint32_t k = job * kFastAJob; k < std::min(count, (job + 1) * kFastAJob); ++k) {
-            Body& a = world.bodies_[fast_[k].id];
-            find_near(world, fast_[k].swept, scratch.bodies);
-            for (const RigidId id : scratch.bodies) {
-                Body& b = world.bodies_[id];
-                if (id != a.id && !b.is_fast && touch_on_whole_ways(world, a, b, dt, scratch)) note(k, id);
-            }
-            find_fast(k, scratch.bodies);
-            for (const uint32_t j : scratch.bodies) {
-                Body& b = world.bodies_[fast_[j].id];
-                if (touch_on_whole_ways(world, a, b, dt, scratch)) note(k, b.id);
-            }
-        }
+        for (uint32_t k = job * kFastAJob; k < std::min(count, (job + 1) * kFastAJob); ++k)
+            list_neighbours(world, k, dt, scratch);
     });
-    const uint32_t found = suspect_count_.load(std::memory_order_relaxed);
-    are_all_suspects_ = found > suspects_.size();
-    suspects_end_ = are_all_suspects_ ? 0 : found;
-    std::sort(suspects_.begin(), suspects_.begin() + suspects_end_);
+    has_rows_ = row_count_.load(std::memory_order_relaxed) <= rows_.size();
 }
 
-// In rising ids of the other bodies; those of a k that is asked for after lower ones.
-std::span<const Sweeper::Suspect> Sweeper::suspects_of(uint32_t k) const {
-    const auto end = suspects_.begin() + suspects_end_;
-    const auto first = std::lower_bound(suspects_.begin(), end, Suspect{k, 0});
-    return {first, std::lower_bound(first, end, Suspect{k + 1, 0})};
-}
-
-void Sweeper::sweep_slow(BulletWorld& world, uint32_t k, float dt) {
-    Body& a = world.bodies_[fast_[k].id];
-    if (!are_all_suspects_) {
-        for (const Suspect& suspect : suspects_of(k))
-            if (!world.bodies_[suspect.other].is_fast) sweep_pair(world, a, world.bodies_[suspect.other], dt);
-        return;
+void Sweeper::list_neighbours(BulletWorld& world, uint32_t k, float dt, PairScratch& scratch) {
+    Fast& fast = fast_[k];
+    Body& a = world.bodies_[fast.id];
+    find_near(world, fast.swept, scratch.bodies);
+    std::erase_if(scratch.bodies, [&](RigidId id) {
+        Body& b = world.bodies_[id];
+        return id == a.id || b.is_fast || !touch_on_whole_ways(world, a, b, dt, scratch);
+    });
+    find_fast(k, scratch.fast);
+    fast.slow_count = static_cast<uint32_t>(scratch.bodies.size());
+    fast.fast_count = static_cast<uint32_t>(scratch.fast.size());
+    const size_t needed = scratch.bodies.size() + scratch.fast.size();
+    size_t row = row_count_.fetch_add(needed, std::memory_order_relaxed);
+    fast.first_row = static_cast<uint32_t>(row);
+    if (row + needed > rows_.size()) return;
+    for (const RigidId id : scratch.bodies) rows_[row++] = {id, kNeverSeen, kNeverSeen};
+    for (const uint32_t j : scratch.fast) {
+        const float seen = touch_on_whole_ways(world, a, world.bodies_[fast_[j].id], dt, scratch) ? kNeverSeen : 1;
+        rows_[row++] = {j, seen, seen};
     }
-    find_near(world, fast_[k].swept, near_);
-    for (const RigidId id : near_)
-        if (id != a.id && !world.bodies_[id].is_fast) sweep_pair(world, a, world.bodies_[id], dt);
 }
 
-// Neither is stopped so far, and their whole ways do not meet.
-bool Sweeper::go_clear(const BulletWorld& world, uint32_t k, uint32_t j) const {
-    const Body &a = world.bodies_[fast_[k].id], &b = world.bodies_[fast_[j].id];
-    if (are_all_suspects_ || a.moved_fraction < 1 || b.moved_fraction < 1) return false;
-    const std::span<const Suspect> of = suspects_of(k);
-    return !std::binary_search(of.begin(), of.end(), Suspect{k, b.id});
+// True: it was stopped.
+bool Sweeper::sweep_slow(BulletWorld& world, uint32_t k, float dt) {
+    Fast& fast = fast_[k];
+    Body& a = world.bodies_[fast.id];
+    if (has_rows_) {
+        for (uint32_t n = 0; n < fast.slow_count; ++n)
+            sweep_pair(world, a, world.bodies_[rows_[fast.first_row + n].other], dt);
+    } else {
+        std::vector<RigidId>& near = world.scratches_.own().bodies;
+        find_near(world, fast.swept, near);
+        for (const RigidId id : near)
+            if (id != a.id && !world.bodies_[id].is_fast) sweep_pair(world, a, world.bodies_[id], dt);
+    }
+    if (a.moved_fraction == 1) return false;
+    fast.stopped_in = 0;
+    return true;
+}
+
+// True: one of the two was stopped.
+bool Sweeper::sweep_two_fast(BulletWorld& world, Fast& fast, Fast& other, int round, float dt) {
+    Body &a = world.bodies_[fast.id], &b = world.bodies_[other.id];
+    const float before_a = a.moved_fraction, before_b = b.moved_fraction;
+    sweep_pair(world, a, b, dt);
+    if (a.moved_fraction < before_a) fast.stopped_in = round;
+    if (b.moved_fraction < before_b) other.stopped_in = round;
+    return a.moved_fraction < before_a || b.moved_fraction < before_b;
+}
+
+// Against the fast ones behind it. Who is stopped later than it was swept against another one stands where that one saw
+// it pass: those two are looked at again in the next round. True: somebody was stopped.
+bool Sweeper::sweep_fast(BulletWorld& world, uint32_t k, int round, float dt) {
+    Fast& fast = fast_[k];
+    bool is_any = false;
+    if (!has_rows_) {
+        std::vector<uint32_t>& near = world.scratches_.own().fast;
+        find_fast(k, near);
+        for (const uint32_t j : near)
+            if (round == 0 || std::max(fast.stopped_in, fast_[j].stopped_in) >= round - 1)
+                is_any |= sweep_two_fast(world, fast, fast_[j], round, dt);
+        return is_any;
+    }
+    const Body& a = world.bodies_[fast.id];
+    for (uint32_t n = 0; n < fast.fast_count; ++n) {
+        Neighbour& row = rows_[fast.first_row + fast.slow_count + n];
+        Fast& other = fast_[row.other];
+        const Body& b = world.bodies_[other.id];
+        if (row.seen_a == a.moved_fraction && row.seen_b == b.moved_fraction) continue;
+        is_any |= sweep_two_fast(world, fast, other, round, dt);
+        row.seen_a = a.moved_fraction, row.seen_b = b.moved_fraction;
+    }
+    return is_any;
 }
 
 uint32_t Sweeper::sweep(BulletWorld& world, float dt) {
+    constexpr int kRounds = 4;
     list_fast(world, dt);
     order_fast();
-    find_suspects(world, dt);
-    // Who is stopped later than it was swept against another one stands where that one saw it pass: those two are
-    // looked at again.
-    constexpr int kRounds = 4;
+    find_neighbours(world, dt);
     bool is_any = true;
     for (int round = 0; round < kRounds && is_any; ++round) {
         is_any = false;
-        const auto meet = [&](Fast& fast, Fast& other) {
-            Body &a = world.bodies_[fast.id], &b = world.bodies_[other.id];
-            const float before_a = a.moved_fraction, before_b = b.moved_fraction;
-            sweep_pair(world, a, b, dt);
-            if (a.moved_fraction < before_a) fast.stopped_in = round, is_any = true;
-            if (b.moved_fraction < before_b) other.stopped_in = round, is_any = true;
-        };
         for (uint32_t k = 0; k < fast_.size(); ++k) {
-            Fast& fast = fast_[k];
-            Body& a = world.bodies_[fast.id];
-            if (round == 0) {
-                sweep_slow(world, k, dt);
-                if (a.moved_fraction < 1) fast.stopped_in = round, is_any = true;
-            }
-            find_fast(k, near_);
-            for (const uint32_t j : near_) {
-                const bool is_new =
-                    round == 0 ? !go_clear(world, k, j) : std::max(fast.stopped_in, fast_[j].stopped_in) >= round - 1;
-                if (is_new) meet(fast, fast_[j]);
-            }
+            if (round == 0) is_any |= sweep_slow(world, k, dt);
+            is_any |= sweep_fast(world, k, round, dt);
         }
     }
     uint32_t stopped = 0;

@@ -6,8 +6,6 @@
 // that, and meets its contact in the next detect().
 #pragma once
 #include <atomic>
-#include <compare>
-#include <span>
 #include <vector>
 
 #include "engine/bullet/pair_algorithm.hpp"
@@ -19,9 +17,8 @@ class BulletWorld;
 class Sweeper {
  public:
     explicit Sweeper(uint32_t body_limit) {
-        fast_.reserve(body_limit), near_.reserve(body_limit);
-        by_low_.reserve(body_limit), brakes_.resize(body_limit);
-        suspects_.resize(4 * static_cast<size_t>(body_limit) + 1024);
+        fast_.reserve(body_limit), by_low_.reserve(body_limit), brakes_.resize(body_limit);
+        rows_.resize(16 * static_cast<size_t>(body_limit) + 4096);
     }
     /// Sets moved_fraction of every body, from 0 to 1; returns how many were stopped.
     uint32_t sweep(BulletWorld& world, float dt);
@@ -33,6 +30,12 @@ class Sweeper {
         RigidId id;
         Box swept;
         int stopped_in;  // the last round in which it was, or -1
+        // Its neighbours: those that stand or go slowly, if it touches them on its whole way, then fast ones behind it.
+        uint32_t first_row = 0, slow_count = 0, fast_count = 0;
+    };
+    struct Neighbour {
+        uint32_t other;        // body, or number in fast_
+        float seen_a, seen_b;  // moved_fraction of both when their ways were last known not to meet before
     };
     /// What stopped a body in this step, last.
     struct Brake {
@@ -43,12 +46,6 @@ class Sweeper {
     };
     void stop(Body& body, const Hull& hull, const Body& other, const Hull& other_hull, Vec3 normal, float at);
     static bool stop_closing(BulletWorld& world, Body& a, const Hull& p, Body& b, const Hull& q, Vec3 normal);
-    /// Two whose ways meet, if nobody stops: one of fast_, and a body.
-    struct Suspect {
-        uint32_t fast;
-        RigidId other;
-        auto operator<=>(const Suspect&) const = default;
-    };
     static void find_near(const BulletWorld& world, const Box& box, std::vector<RigidId>& near);
     double low_of(uint32_t k) const { return double{fast_[k].swept.low.*axis_}; }
     void list_fast(BulletWorld& world, float dt);
@@ -57,21 +54,20 @@ class Sweeper {
     template <class Touch>
     static void visit_touches(const BulletWorld& world, Body& a, Body& b, float dt, PairScratch& scratch, Touch touch);
     static bool touch_on_whole_ways(const BulletWorld& world, Body& a, Body& b, float dt, PairScratch& scratch);
-    void find_suspects(BulletWorld& world, float dt);
-    std::span<const Suspect> suspects_of(uint32_t k) const;
-    void sweep_slow(BulletWorld& world, uint32_t k, float dt);
-    bool go_clear(const BulletWorld& world, uint32_t k, uint32_t j) const;
+    void find_neighbours(BulletWorld& world, float dt);
+    void list_neighbours(BulletWorld& world, uint32_t k, float dt, PairScratch& scratch);
+    bool sweep_slow(BulletWorld& world, uint32_t k, float dt);
+    bool sweep_fast(BulletWorld& world, uint32_t k, int round, float dt);
+    bool sweep_two_fast(BulletWorld& world, Fast& fast, Fast& other, int round, float dt);
     void sweep_pair(BulletWorld& world, Body& a, Body& b, float dt);
     std::vector<Fast> fast_;
-    std::vector<RigidId> near_;
-    std::vector<uint32_t> by_low_;   // of fast_, by the low end of what they sweep along axis_
-    float Vec3::*axis_ = &Vec3::x;   // along which fast bodies lie farthest apart
-    double longest_ = 0;             // m, of what one sweeps along it
-    std::vector<Brake> brakes_;      // by body
-    std::vector<Suspect> suspects_;  // sorted up to suspects_end_
-    std::atomic<uint32_t> suspect_count_ = 0;
-    size_t suspects_end_ = 0;
-    bool are_all_suspects_ = false;  // more than there is room for
+    std::vector<uint32_t> by_low_;  // of fast_, by the low end of what they sweep along axis_
+    float Vec3::*axis_ = &Vec3::x;  // along which fast bodies lie farthest apart
+    double longest_ = 0;            // m, of what one sweeps along it
+    std::vector<Brake> brakes_;     // by body
+    std::vector<Neighbour> rows_;   // of one fast body after another, in any order of these
+    std::atomic<size_t> row_count_ = 0;
+    bool has_rows_ = true;  // there was room for all neighbours
 };
 
 }  // namespace cullet::bullet

@@ -7,6 +7,7 @@
 #include "systems/damage/thresholds.hpp"
 #include "systems/fragments/cell_hulls.hpp"
 #include "systems/fragments/limit_energy.hpp"
+#include "systems/fragments/limit_flight.hpp"
 #include "systems/fragments/rigid_shape.hpp"
 #include "systems/fragments/strike_back.hpp"
 #include "systems/fragments/waiting_pieces.hpp"
@@ -220,12 +221,36 @@ bool change_rest(Births& births, Row<Bodies> body) {
     return births.rigid.change_shape(body, bodies.mass[body], bodies.centre[body], bodies.inertia[body], gone, pieces);
 }
 
+// The limit of what leaves, and what it has cut off so far, which the largest piece takes, or the support when that
+// holds it. Body axes.
+struct Leaving {
+    FlightLimit limit;
+    Vec3d cut;  // N s
+};
+
+PartMotion motion_of(Births& births, const Break& plan, uint32_t p, const Moment& moment, Leaving& leaving) {
+    PartMotion part = plan.motions[p];
+    if (p != plan.largest) {
+        const bool was_clamped = part.is_speed_clamped || part.is_spin_clamped;
+        const Row<Shells> shell = births.state.bodies.shell[plan.child[p]];
+        leaving.cut += limit_flight(leaving.limit, births.state.shells.centre[shell], part);
+        births.counts.clamped += !was_clamped && (part.is_speed_clamped || part.is_spin_clamped);
+    } else if (!part.is_static && part.mass > 0) {
+        part.velocity += (1 / part.mass) * leaving.cut;
+    } else {
+        const Vec3 cut = rotate(moment.pose.orientation, leaving.cut.to_float());
+        auto& given = births.counts.impulse_to_static;
+        given[0] += double{cut.x}, given[1] += double{cut.y}, given[2] += double{cut.z};
+    }
+    return part;
+}
+
 // One piece's row, rigid body and event. The body frame and the pose stay the parent's.
-void make_birth(Births& births, const Break& plan, uint32_t p, const Moment& moment, Bounds& bounds) {
+void make_birth(Births& births, const Break& plan, uint32_t p, const Moment& moment, Bounds& bounds, Leaving& leaving) {
     State& state = births.state;
     Bodies& bodies = state.bodies;
     const Row<Bodies> body = plan.body, child = plan.child[p];
-    Motion motion = world_motion(moment, plan.motions[p]);
+    Motion motion = world_motion(moment, motion_of(births, plan, p, moment, leaving));
     // A blow without measure may leave pieces faster than the rigid world takes.
     const bool is_too_fast = shorten(motion.velocity, kFastest),
                spins_too_fast = shorten(motion.angular_velocity, kFastest);
@@ -282,9 +307,11 @@ void make_births_of(Births& births, const Break& plan, const Moment& moment) {
     }
     plan.child[plan.largest] = plan.body;
     const auto bounds = births.arena.take<Bounds>(count);
+    Leaving leaving;
+    if (plan.task.exists()) leaving.limit = flight_limit(state, plan.task);
     for (uint32_t i = 1; i <= count; ++i) {
         const uint32_t p = plan.order[i % count];
-        if (plan.child[p].exists()) make_birth(births, plan, p, moment, bounds[p]);
+        if (plan.child[p].exists()) make_birth(births, plan, p, moment, bounds[p], leaving);
     }
     part_siblings(births, plan, moment, bounds);
 }

@@ -8,8 +8,6 @@
 namespace cullet {
 namespace {
 
-constexpr double kMostRelativeSpeed = 2;  // times the impact speed, for shards and for their rims' spin
-
 /// Calls visit(row, motion) for each live vertex of a described part, in stored order.
 template <class Visit>
 void for_each_vertex(const ShellView& shell, std::span<PartMotion> motions, Visit visit) {

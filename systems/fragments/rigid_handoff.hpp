@@ -9,6 +9,8 @@
 
 namespace cullet {
 
+inline constexpr double kMostRelativeSpeed = 2;  // times the impact speed, for shards and for their rims' spin
+
 /// How the vertices move that the run of a large body left alone: those of blocks that do not move
 /// (VertexBlocks::moves). Body axes.
 struct RestMotion {

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cstring>
 #include <thread>
 
@@ -161,6 +162,31 @@ TEST(RigidWorld, ARemovedSupportWakesWhatLayOnIt) {
     world->solve(kStep);
     for (int k = 0; k < 120; ++k) step(*world);
     EXPECT_NEAR(world->pose(2).position.y, 0.05f, 0.001f);
+}
+
+// What moves a body out of an overlap is no velocity, so that it falls back by as much in the next step.
+TEST(RigidWorld, WhatLiesInASleeperIsLiftedOutOfItByATenthOfAMillimetreAStep) {
+    for (const bool is_asleep : {true, false}) {
+        auto world = floor_world(8);
+        add_box(*world, 1, {0, 0.05f, 0}, {0.2f, 0.05f, 0.2f}, 1000,
+                is_asleep ? RigidKind::Dynamic : RigidKind::Static);
+        for (int k = 0; k < 120; ++k) step(*world);
+        ASSERT_EQ(world->is_asleep(1), is_asleep);
+        add_box(*world, 2, {0, 0.1486f, 0}, {0.1f, 0.05f, 0.1f}, 1000);  // 1.4 mm in it
+        float most = 0;
+        for (int k = 0; k < 5; ++k) {
+            const float before = world->pose(2).position.y;
+            step(*world);
+            most = std::max(most, world->pose(2).position.y - before);
+        }
+        EXPECT_EQ(world->is_asleep(1), is_asleep);
+        if (is_asleep)
+            EXPECT_LT(most, 0.00011f);
+        else
+            EXPECT_GT(most, 0.0002f);
+        for (int k = 0; k < 60; ++k) step(*world);
+        EXPECT_NEAR(world->pose(2).position.y, 0.15f, 0.001f);
+    }
 }
 
 TEST(RigidWorld, SkippedContactsAreNotSolvedForOneStep) {

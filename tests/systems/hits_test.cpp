@@ -56,7 +56,7 @@ void two_vases_head_on(World& world, FractureMode mode) {
 void a_heavy_ball_through_pieces(World& world, FractureMode mode) {
     add_vase(world, mode);
     add_ball(world, {0.01f, 0.13f, 0.25f}, {0, 0, -7});
-    add_ball(world, {0.0f, 0.16f, 1.6f}, {0, 0, -14}, 3);
+    add_ball(world, {0.0f, 0.15f, 1.6f}, {0, 0, -14}, 3);
 }
 
 bool has_two_patches(const State& s) {
