@@ -14,8 +14,8 @@
 namespace cullet::bullet {
 namespace {
 
-// Out of what sleeps, which does not give way. What fell asleep a millimetre deep in another lifted it by half of that
-// at once, and dropped it.
+// Most by which a body is pushed out of a sleeper, which does not give way. A slab that fell asleep a millimetre and a
+// half deep in its neighbour lifted that one by half a millimetre at once, was woken by it, and dropped it.
 constexpr float kPushedOffSleepers = 0.0001f;  // m in a step
 constexpr float kAngularDamping = 0.1f;        // 1/s, of what is touched: flight has none, nor has a birth
 constexpr float kPressedIn = 0.001f;           // m a step that an unsolved contact may deepen by

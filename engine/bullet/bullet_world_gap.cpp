@@ -32,8 +32,7 @@ constexpr float kWakeLoads = 2, kWakeWeights = 3;
 constexpr uint32_t kIdleWakes = 3;
 
 // What lies deeper in something than this is kept awake to be pushed out; each second of it makes twice as much more
-// bear sleep: a slab of brick presses a piece below it by 7 mm, which takes the solver two seconds, and in a deep heap
-// some millimetres may never come out.
+// bear sleep: in a deep heap some millimetres may never come out.
 constexpr float kPressedDeep = 0.0015f;  // m
 constexpr float kImpatience = 2;         // 1/s
 constexpr float kPressedSeconds = 1.5f;  // after which it sleeps as it lies

@@ -36,7 +36,7 @@ constexpr float kAsDeep = 0.0005f;        // m
 // another: pushed out, they tremble for ever. What came this deep into something, and in so long not out to this share
 // of it, is wedged: not pushed any more, and held as friction holds a wedge, with this many weights of the lighter body
 // in all. With five weights at each contact, after one and a half seconds one of 16 heaps of fifty shards keeps a
-// contact 10 mm deep that would have come out; with two and a half 98.4 % of a pit of 1,270 sleep after five.
+// contact 10 mm deep that would have come out.
 constexpr float kWedgedDepth = 0.003f, kFreeDepth = 0.0015f;  // m, from and until which a pair counts as deep
 constexpr float kComesOut = 0.8f;
 constexpr float kWedgedSeconds = 2;

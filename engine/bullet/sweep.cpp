@@ -227,7 +227,7 @@ void Sweeper::find_fast(uint32_t k, std::vector<uint32_t>& near) const {
     std::sort(near.begin(), near.end());
 }
 
-// On all threads: whom each meets if nobody stops. The ways of most do not meet at all. What comes of the others
+// On all threads: who is near whom, and whose whole ways meet, which those of most do not. What comes of the others
 // depends on who was stopped before, so that they are swept one after another.
 void Sweeper::find_neighbours(BulletWorld& world, float dt) {
     row_count_.store(0, std::memory_order_relaxed);

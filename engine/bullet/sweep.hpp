@@ -18,7 +18,7 @@ class Sweeper {
  public:
     explicit Sweeper(uint32_t body_limit) {
         fast_.reserve(body_limit), by_low_.reserve(body_limit), brakes_.resize(body_limit);
-        rows_.resize(16 * static_cast<size_t>(body_limit) + 4096);
+        rows_.resize(48 * static_cast<size_t>(body_limit) + 16384);
     }
     /// Sets moved_fraction of every body, from 0 to 1; returns how many were stopped.
     uint32_t sweep(BulletWorld& world, float dt);
@@ -34,8 +34,9 @@ class Sweeper {
         uint32_t first_row = 0, slow_count = 0, fast_count = 0;
     };
     struct Neighbour {
-        uint32_t other;        // body, or number in fast_
-        float seen_a, seen_b;  // moved_fraction of both when their ways were last known not to meet before
+        uint32_t other;  // body, or number in fast_
+        float seen_a,
+            seen_b;  // moved_fraction of both after they were last swept: while they are that, they need not be
     };
     /// What stopped a body in this step, last.
     struct Brake {

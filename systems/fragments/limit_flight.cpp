@@ -8,7 +8,7 @@ namespace cullet {
 
 FlightLimit flight_limit(const State& state, Row<Tasks> task) {
     const Tasks& tasks = state.tasks;
-    if (is_cut_task(state.blows, task)) return {};
+    if (is_cut_task(state.blows, task) || has_explosion(state.blows, task)) return {};
     return {kMostRelativeSpeed * static_cast<double>(tasks.approach_speed[task]),
             Vec3d(state.bodies.centre[tasks.body[task]]), Vec3d(tasks.start_velocity[task]),
             Vec3d(tasks.start_spin[task])};
@@ -21,7 +21,10 @@ Vec3d limit_flight(const FlightLimit& limit, Vec3d solid_centre, PartMotion& par
     const Vec3d turning = part.spin - limit.spin;
     // What broke off a body that spins fast may keep that spin, or lose it.
     if (std::min(length(turning), length(part.spin)) * reach > most) {
-        part.spin = limit.spin + (most / (length(turning) * reach)) * turning;
+        const Vec3d kept = limit.spin + (most / (length(turning) * reach)) * turning;
+        // The body's own spin may have been the livelier one; then slow down about the part's own axis.
+        const bool is_livelier = dot(kept, part.inertia * kept) > dot(part.spin, part.inertia * part.spin);
+        part.spin = is_livelier ? std::min(1.0, most / (length(part.spin) * reach)) * part.spin : kept;
         part.is_spin_clamped = true;
     }
     const Vec3d before = limit.velocity + cross(limit.spin, solid_centre - limit.centre);

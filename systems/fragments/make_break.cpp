@@ -228,7 +228,8 @@ struct Leaving {
     Vec3d cut;  // N s
 };
 
-PartMotion motion_of(Births& births, const Break& plan, uint32_t p, const Moment& moment, Leaving& leaving) {
+// The largest part comes last.
+PartMotion limited_motion(Births& births, const Break& plan, uint32_t p, const Moment& moment, Leaving& leaving) {
     PartMotion part = plan.motions[p];
     if (p != plan.largest) {
         const bool was_clamped = part.is_speed_clamped || part.is_spin_clamped;
@@ -250,7 +251,7 @@ void make_birth(Births& births, const Break& plan, uint32_t p, const Moment& mom
     State& state = births.state;
     Bodies& bodies = state.bodies;
     const Row<Bodies> body = plan.body, child = plan.child[p];
-    Motion motion = world_motion(moment, motion_of(births, plan, p, moment, leaving));
+    Motion motion = world_motion(moment, limited_motion(births, plan, p, moment, leaving));
     // A blow without measure may leave pieces faster than the rigid world takes.
     const bool is_too_fast = shorten(motion.velocity, kFastest),
                spins_too_fast = shorten(motion.angular_velocity, kFastest);

@@ -67,8 +67,9 @@ std::span<const ConvexPiece> changed_pieces(const State& state, Row<Shells> shel
 }
 
 // Rolling friction is a length, by which the point that bears a body may miss its centre: three hundredths of the root
-// of its area, as of a rim that is chipped, and no more than what lies about in rubble. With a third of it whole vases
-// roll to and fro on a heap for six seconds after the last break; without a bound a slab of 750 kg takes ten to tip.
+// of its area, as of a rim that is chipped, and no more than the gravel of a floor. With a third of it whole vases roll
+// to and fro on a heap for six seconds after the last break; without a bound a slab of 750 kg takes ten to tip over,
+// and at eight hundredths slabs stand upright on one corner.
 constexpr float kRollingShare = 0.03f, kMostRolling = 0.015f;  // m
 RigidDescription describe_rigid(const State& state, Row<Bodies> b, std::span<const ConvexPiece> pieces) {
     const Bodies& bodies = state.bodies;

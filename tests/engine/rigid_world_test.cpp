@@ -164,7 +164,6 @@ TEST(RigidWorld, ARemovedSupportWakesWhatLayOnIt) {
     EXPECT_NEAR(world->pose(2).position.y, 0.05f, 0.001f);
 }
 
-// What moves a body out of an overlap is no velocity, so that it falls back by as much in the next step.
 TEST(RigidWorld, WhatLiesInASleeperIsLiftedOutOfItByATenthOfAMillimetreAStep) {
     for (const bool is_asleep : {true, false}) {
         auto world = floor_world(8);

@@ -17,6 +17,7 @@ PartMotion part_at(Vec3d centre, Vec3d velocity, Vec3d spin) {
     part.mass = 0.5;
     part.centre = centre;
     part.radius = 0.04;
+    part.inertia = {1e-4, 1e-4, 1e-4, 0, 0, 0};
     part.velocity = velocity;
     part.spin = spin;
     return part;
@@ -51,6 +52,14 @@ TEST(LimitFlight, LeavesTheSpinThatTheBodyHadAndTheLossOfIt) {
         EXPECT_EQ(part.spin.z, spin.z);
         EXPECT_FALSE(part.is_spin_clamped);
     }
+}
+
+TEST(LimitFlight, SlowsDownAboutThePiecesOwnAxisWhereTheBodysSpinWasTheLivelierOne) {
+    FlightLimit limit = limit_of_hit();
+    limit.spin = {0, 0, 1000};
+    PartMotion part = part_at(limit.centre, limit.velocity, {300, 0, 0});
+    limit_flight(limit, limit.centre, part);
+    EXPECT_NEAR(length(part.spin - Vec3d{250, 0, 0}), 0, 1e-9);
 }
 
 TEST(LimitFlight, TakesNothingFromWhatIsSlowerStandsOrWasNotHit) {
