@@ -65,6 +65,9 @@ bool measure_wall_frames(const Options& options, Figures& figures) {
 bool measure_pane_frames(const Options& options, Figures& figures) {
     return measure_scene("pane", options, 3, figures);
 }
+bool measure_demolition_frames(const Options& options, Figures& figures) {
+    return measure_scene("demolition", options, 3, figures);
+}
 bool measure_pile_frames(const Options& options, Figures& figures) {
     return measure_scene("pile", options, 1, figures);  // minutes
 }

@@ -39,7 +39,7 @@ WorldData::WorldData(const Settings& settings)
       region_parts(state.awake_packs.limit() / kRowsPerChunk<AwakePacks>),
       tasks_ended(settings.limits.open_hits),
       breaks(settings.limits.bodies + settings.limits.open_hits),
-      births(2 * settings.limits.bodies + settings.limits.debris + settings.limits.open_hits),
+      births(2 * (settings.limits.bodies + settings.limits.open_hits) + settings.limits.debris),
       hulls_wanted(state.cells.limit()),
       shells_changed(2 * settings.limits.bodies + settings.limits.open_hits),
       impact_events(settings.limits.open_hits + state.blows.limit()),  // one for each blow that joins a task

@@ -23,8 +23,8 @@ struct Break {
     std::span<uint8_t> is_crumb;
     std::span<uint32_t> debris;  // rows of crumbs once they are made, or kNone
     uint32_t largest = 0;
-    uint32_t clamped = 0;           // motions that were
-    double crushed = 0;             // J, see HandoffReport
+    std::span<Handoff> handoff = {};  // one or none: what the motions came from
+    bool is_settled = true;           // the motions are final, or will be when births are filled
     std::span<Touch> touches = {};  // of the parts, at their cracks
     double waited = 0;              // J that pieces which waited for this break have beyond the body's motion
     uint32_t left_elements = 0;     // of all parts that leave
@@ -51,7 +51,8 @@ struct Break {
     }
 };
 
-/// One part of a break, whose rows are to be filled.
+/// One part of a break, whose rows are to be filled; kNone: the hand-off is to be settled, which goes with the longest
+/// of them in time.
 struct Birth {
     uint32_t of;  // in Events<Break>
     uint32_t part;

@@ -9,6 +9,7 @@ namespace cullet {
 void fill_births(Each<Birth> birth, const Events<Break>& breaks, ShellTables shells, const Bodies& bodies) {
     State& state = shells.state;
     const Break& plan = breaks.all()[birth->of];
+    if (birth->part == kNone) return settle_momenta(plan.handoff[0].start, plan.motions, plan.handoff[0].report);
     const FragmentPart& part = plan.parts[birth->part];
     const ShellView broken(state, plan.broken);
     if (birth->part == plan.largest) {

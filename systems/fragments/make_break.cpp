@@ -330,8 +330,10 @@ void make_break(Births& births, const Break& plan) {
         if (plan.waited > 0) limit_energy(births, plan, allowed - goes_on_waiting);
         return;
     }
-    births.counts.clamped += plan.clamped;
-    births.counts.crushing_energy += plan.crushed;
+    for (const Handoff& handoff : plan.handoff) {
+        births.counts.clamped += handoff.report.speed_clamps + handoff.report.spin_clamps;
+        births.counts.crushing_energy += handoff.report.energy_crushed;
+    }
     const Moment moment = moment_of(state, plan.task, plan.motions);
     // Late, the rigid solver has passed the blow's impulse, and what it took by it comes back; an explosion's energy
     // comes from outside.

@@ -1,6 +1,7 @@
 #include "systems/fragments/plan_break.hpp"
 
 #include <algorithm>
+#include <memory>
 
 #include "systems/brittle/hidden_region.hpp"
 #include "systems/damage/blows.hpp"
@@ -90,7 +91,15 @@ void count_births(Planning& planning, uint32_t born, uint32_t given_back) {
     planning.births_left += given_back - born;
 }
 
+// Before parts are joined: the touches name them.
+void settle(Break& plan) {
+    if (plan.is_settled) return;
+    settle_momenta(plan.handoff[0].start, plan.motions, plan.handoff[0].report);
+    plan.is_settled = true;
+}
+
 void stay(Planning& planning, Break& plan, uint32_t part, const char* setting) {
+    settle(plan);
     planning.refused.push(refused_event(planning.state.bodies, plan.body, setting));
     const ShellView shell(planning.state, plan.broken);
     if (!plan.soft.exists()) {
@@ -337,6 +346,7 @@ void order_births(Planning& planning, Break& plan) {
     hand_on_hits(state, plan);
     hand_on_blows(planning, plan);
     const uint32_t of = planning.breaks.size();
+    if (!plan.is_settled) planning.births.push({of, kNone});
     for (const uint32_t p : plan.order)
         if (p == plan.largest || plan.leaves(p)) planning.births.push({of, p});
     planning.breaks.push(plan);
@@ -383,9 +393,9 @@ void plan_break(Planning& planning, Row<Tasks> task) {
         HandoffStart start{velocity, spin, state.shells.centre[broken], state.tasks.approach_speed[task], rest};
         start.touches = plan.touches = crack_touches(shell, broken == plan.before, planning.arena);
         start.touching = planning.arena.take<Touching>(plan.parts.size());
-        const HandoffReport report = rigid_handoff(shell, start, plan.parts, plan.motions);
-        plan.clamped = report.speed_clamps + report.spin_clamps;
-        plan.crushed = report.energy_crushed;
+        plan.handoff = planning.arena.take<Handoff>(1);
+        std::construct_at(plan.handoff.data(), Handoff{start, gather_momenta(shell, start, plan.parts, plan.motions)});
+        plan.is_settled = false;
     }
     if (reserve_births(planning, plan)) order_births(planning, plan);
 }

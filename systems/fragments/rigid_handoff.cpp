@@ -345,8 +345,8 @@ void keep_energy(std::span<PartMotion> motions, HandoffReport& report) {
 
 }  // namespace
 
-HandoffReport rigid_handoff(ShellView shell, const HandoffStart& start, std::span<const FragmentPart> parts,
-                            std::span<PartMotion> all_motions) {
+HandoffReport gather_momenta(ShellView shell, const HandoffStart& start, std::span<const FragmentPart> parts,
+                             std::span<PartMotion> all_motions) {
     CULLET_ASSERT(all_motions.size() >= parts.size(), "%zu motions for %zu parts", all_motions.size(), parts.size());
     const std::span<PartMotion> motions = all_motions.first(parts.size());
     std::fill(motions.begin(), motions.end(), PartMotion{});
@@ -371,6 +371,10 @@ HandoffReport rigid_handoff(ShellView shell, const HandoffStart& start, std::spa
         m.free_momentum = m.momentum, m.free_spin = m.spin;
         report.energy_unclamped += energy_of(m);
     }
+    return report;
+}
+
+void settle_momenta(const HandoffStart& start, std::span<PartMotion> motions, HandoffReport& report) {
     if (!start.touches.empty() && start.touching.size() >= motions.size()) part_cracks(start, motions, report);
     report.free_support = report.support_momentum;
     clamp(start, motions, report);
@@ -380,6 +384,12 @@ HandoffReport rigid_handoff(ShellView shell, const HandoffStart& start, std::spa
         report.momentum_after += m.momentum;
         report.energy_after += energy_of(m);
     }
+}
+
+HandoffReport rigid_handoff(ShellView shell, const HandoffStart& start, std::span<const FragmentPart> parts,
+                            std::span<PartMotion> motions) {
+    HandoffReport report = gather_momenta(shell, start, parts, motions);
+    settle_momenta(start, motions.first(parts.size()), report);
     return report;
 }
 

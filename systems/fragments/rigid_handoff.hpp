@@ -58,13 +58,25 @@ struct HandoffReport {
     double energy_after = 0;
 };
 
-/// Hidden runs let crack faces pass through each other: parts that would go on to do so are stopped where they touch
-/// (stop_approach), before the clamps. One motion a part; parts as group_fragments or find_pieces gave them, motions at
-/// least as many. What find_pieces has not listed is summed as a difference. Clamps: a part's speed relative to the
-/// body's motion before the hit (V + w x r at its centre) is at most twice the impact speed, and what is cut off goes
-/// to the largest part, which is not clamped; a part's spin relative to the body's before is at most 2 impact_speed /
-/// radius (relative, or a body that flew spinning would lose its spin on breaking). Where the largest part would get
-/// more energy by that than there was, all clamps go as far as energy allows and no farther.
+/// Each part's mass, momenta and inertia: sums over its vertices. One motion a part; parts as group_fragments or
+/// find_pieces gave them, motions at least as many. What find_pieces has not listed is summed as a difference.
+HandoffReport gather_momenta(ShellView shell, const HandoffStart& start, std::span<const FragmentPart> parts,
+                             std::span<PartMotion> motions);
+
+/// The rest of the hand-off, which looks at nothing but its arguments. Hidden runs let crack faces pass through each
+/// other: parts that would go on to do so are stopped where they touch (stop_approach), before the clamps. Clamps: a
+/// part's speed relative to the body's motion before the hit (V + w x r at its centre) is at most twice the impact
+/// speed, and what is cut off goes to the largest part, which is not clamped; a part's spin relative to the body's
+/// before is at most 2 impact_speed / radius (relative, or a body that flew spinning would lose its spin on breaking).
+/// Where the largest part would get more energy by that than there was, all clamps go as far as energy allows and no
+/// farther.
+void settle_momenta(const HandoffStart& start, std::span<PartMotion> motions, HandoffReport& report);
+
+/// Both. `start` and `report` are kept where the second half waits for a thread (fill_births).
+struct Handoff {
+    HandoffStart start;
+    HandoffReport report;
+};
 HandoffReport rigid_handoff(ShellView shell, const HandoffStart& start, std::span<const FragmentPart> parts,
                             std::span<PartMotion> motions);
 
