@@ -285,26 +285,36 @@ Row<Shells> make_shell_unclear(State& state, const ShellRoom& room, const char**
     return shell;
 }
 
-void clear_spare_rows(State& state, Row<Shells> shell) {
+namespace {
+
+void clear_behind(AnyTable& table, const RangePool& pool, const Range& range) {
+    const uint32_t end = pool.rounded(range.capacity);
+    if (range.count < end) table.clear_rows(range.first + range.count, end - range.count);
+}
+
+}  // namespace
+
+void clear_pack_ends(State& state, Row<Shells> shell) {
     const Shells& s = state.shells;
-    const auto clear = [](AnyTable& table, const RangePool& pool, Range range) {
-        const uint32_t end = pool.rounded(range.capacity);
-        if (range.count < end) table.clear_rows(range.first + range.count, end - range.count);
-    };
-    // Kernels read whole packs: the rows between the capacity and the end of what the pool gave are cleared too.
-    const Range vertices = s.vertices[shell];
-    clear(state.vertices, state.pools.vertices, vertices);
+    // The rows between the capacity and the end of what the pool gave are cleared too.
+    const Range vertices = s.vertices[shell], elements = s.elements[shell];
+    clear_behind(state.vertices, state.pools.vertices, vertices);
     for (uint32_t v = vertices.count; v < state.pools.vertices.rounded(vertices.capacity); ++v)
         state.vertices.element[vertices.first + v] = kNone;
-    clear(state.elements, state.pools.elements, s.elements[shell]);
-    clear(state.triangle_springs, state.pools.elements, s.elements[shell]);
-    clear(state.hinges, state.pools.hinges, s.hinges[shell]);
-    clear(state.stiffness_packs, state.pools.packs, s.packs[shell]);
+    clear_behind(state.stiffness_packs, state.pools.packs, s.packs[shell]);
+    if (elements.count % kLanes == 0) return;
+    const uint32_t behind = elements.first + elements.count, lanes = kLanes - elements.count % kLanes;
+    state.elements.clear_rows(behind, lanes);
+    state.triangle_springs.clear_rows(behind, lanes);
 }
 
 Row<Shells> make_shell(State& state, const ShellRoom& room, const char** full) {
     const Row<Shells> shell = make_shell_unclear(state, room, full);
-    if (shell.exists()) clear_spare_rows(state, shell);
+    if (!shell.exists()) return shell;
+    clear_pack_ends(state, shell);
+    clear_behind(state.elements, state.pools.elements, state.shells.elements[shell]);
+    clear_behind(state.triangle_springs, state.pools.elements, state.shells.elements[shell]);
+    clear_behind(state.hinges, state.pools.hinges, state.shells.hinges[shell]);
     return shell;
 }
 

@@ -181,10 +181,12 @@ ShellRoom room_of(const State& state, Row<Shells> shell);
 /// A shell with empty ranges of these capacities and one user, or kNone when some table is full (`full` then names its
 /// limit). Vertex rows start all dead (element kNone, inverse mass 0).
 Row<Shells> make_shell(State& state, const ShellRoom& room, const char** full = nullptr);
-/// The same with rows that hold whatever they held; who fills them calls clear_spare_rows when the counts are set.
+/// The same with rows that hold whatever they held; who fills them calls clear_pack_ends when the counts are set.
 Row<Shells> make_shell_unclear(State& state, const ShellRoom& room, const char** full = nullptr);
-/// Clears the rows behind the counts, up to what the pools gave.
-void clear_spare_rows(State& state, Row<Shells> shell);
+/// Clears what kernels read behind the counts, because they take whole packs: all vertices to spare, which cracks take
+/// one by one, and the last pack of elements. Other elements to spare are cleared with their pack when its first is
+/// taken, hinges when they are.
+void clear_pack_ends(State& state, Row<Shells> shell);
 /// Gives the assembled stiffness back: the next task assembles it anew.
 void drop_stiffness(State& state, Row<Shells> shell);
 /// A range of HullPoints; false: no room.

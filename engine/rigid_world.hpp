@@ -203,6 +203,9 @@ class RigidWorld {
     virtual bool may_meet(RigidId, RigidId) const { return false; }
     /// Something rigid touches it in this step.
     virtual bool is_touched(RigidId) const { return false; }
+    /// Touches something that stands or moves slowly, so that it does not fly on as it flies now. Pieces of one shower
+    /// touch each other all the way down.
+    virtual bool is_held_up(RigidId) const { return false; }
 
     virtual void solve(float dt) = 0;
 

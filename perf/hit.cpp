@@ -240,7 +240,7 @@ Counts count_work(Vase& vase, const BrittleLoop& loop) {
     const HitReport report = finish_hit(state);
     counts.steps = report.steps, counts.cuts = report.cuts, counts.parts = report.parts;
     counts.units = uint64_t{report.steps} * units_a_step(state.shells, state.tasks, kTask) +
-                   report.cuts * units_of_crack(state.shells.vertices[vase.shell].count) +
+                   report.cuts * units_of_crack(state.shells.vertices[vase.shell].count, false) +
                    state.shells.vertices[vase.shell].count * kUnitsOpen;
     close_hit(state);
     return counts;

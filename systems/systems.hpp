@@ -28,11 +28,11 @@ void predict_impacts(Serial, Step step, const RigidWorld& rigid, const Bodies& b
                      Events<Impact>& impacts);
 /// The first touches of bodies in flight that may break something, up to settings.frames_ahead before they come.
 void foresee_impacts(Serial, Step step, RigidWorld& rigid, const Bodies& bodies, const Shells& shells,
-                     const Tasks& tasks, const TaskContacts& contacts, const DamageSettings& settings,
+                     const Tasks& tasks, const TaskContacts& contacts, const DamageSettings& settings, Arena& arena,
                      Events<ForeseenHit>& foreseen);
 /// Tasks that were opened ahead of their touch: where it has come as foreseen (same striker, same cell, a tenth of the
-/// speed) they go on as tasks of this step, whose result is due in it; where it came otherwise, or did not come, they
-/// are dropped.
+/// speed, nobody faster by more) they go on as tasks of this step, whose result is due in it; where it came otherwise,
+/// or did not come, they are dropped.
 void meet_foreseen(Serial, Step step, ShellTables shells, Tasks& tasks, TaskContacts& contacts, Blows& blows,
                    const Bodies& bodies, const DamageSettings& settings, DamageCounts& counts, Events<Impact>& impacts,
                    Events<ImpactEvent>& impact_events);
@@ -109,7 +109,8 @@ void plan_births(Serial, const Events<TaskEnded>& ended, ShellTables shells, con
                  const DamageSettings& settings, DamageCounts& counts, Arena& arena, Events<Break>& breaks,
                  Events<Birth>& births, Events<ShellChanged>& changed, Events<CrackStartedEvent>& cracks,
                  Events<RefusedEvent>& refused, Events<FaultEvent>& faults);
-/// Copies each piece into its rows, marks the old ones dead and chooses what shapes collide (piece_shape.hpp).
+/// Copies each piece into its rows, marks the old ones dead and chooses what shapes collide (piece_shape.hpp); settles
+/// the pieces' motions meanwhile (settle_momenta).
 void fill_births(Each<Birth> birth, const Events<Break>& breaks, ShellTables shells, const Bodies& bodies);
 /// Measures what is left of each body; hulls of cells that moved as they were are copied, the others listed.
 void plan_hulls(Serial, const Events<Break>& breaks, ShellTables shells, Bodies& bodies, RigidWorld& rigid,

@@ -73,7 +73,8 @@ struct Body {
 
     uint32_t number = 0;        // the solver's, in this step
     bool is_refreshed = false;  // in this detect()
-    bool is_touched = false;    // has a contact in this step
+    bool is_touched = false;    // has a contact in this step,
+    bool is_held_up = false;    // one with what stands or moves slowly
     bool is_damped = false;     // has one that is not at the crack of its birth
     bool is_driven = false;     // has one with a kinematic body that moves
     float slow_seconds = 0;     // touched and nearly at rest
@@ -100,6 +101,9 @@ struct Body {
     bool is_free() const { return kind == RigidKind::Dynamic && !is_held && bullet->isActive(); }
     bool meets_layer_of(const Body& other) const { return (layer & other.mask) != 0 && (other.layer & mask) != 0; }
 };
+
+/// Its fastest point moves at less than a metre a second, or it does not move: what flies meets it about where it is.
+bool is_slow(const Body& body);
 
 inline Mat3 rotation_of(const btTransform& transform) {
     const btMatrix3x3& b = transform.getBasis();

@@ -400,7 +400,7 @@ void BulletWorld::enter(Body& body, const Pose& at, uint32_t layer, uint32_t mas
     body.moved_fraction = 1;
     body.still_seconds = body.creep_seconds = body.slow_seconds = 0;
     body.pressed_seconds = body.overlap = 0;
-    body.is_touched = body.is_driven = false;
+    body.is_touched = body.is_held_up = body.is_driven = false;
     body.anchor = body.far_anchor = body.bullet->getWorldTransform();
     body.has_left = false;
     body.idle_wakes = 0;
@@ -732,12 +732,13 @@ Vec3 BulletWorld::velocity_at(const Body& body, Vec3 point) const {
 void BulletWorld::gather_contacts() {
     contacts_.clear();
     for (RigidId id = 0; id < body_end_; ++id) {
-        bodies_[id].is_touched = bodies_[id].is_driven = bodies_[id].is_damped = false;
+        bodies_[id].is_touched = bodies_[id].is_held_up = bodies_[id].is_driven = bodies_[id].is_damped = false;
         bodies_[id].overlap = 0;
     }
     for (const SortedManifold& m : manifolds_) {
         Body &a = bodies_[m.a], &b = bodies_[m.b];
         a.is_touched = b.is_touched = true;
+        a.is_held_up |= is_slow(b), b.is_held_up |= is_slow(a);
         a.is_damped |= !m.is_at_crack, b.is_damped |= !m.is_at_crack;
         a.is_driven |= b.kind == RigidKind::Kinematic && b.bullet->isActive();
         b.is_driven |= a.kind == RigidKind::Kinematic && a.bullet->isActive();

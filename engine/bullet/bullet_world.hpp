@@ -55,6 +55,7 @@ class BulletWorld final : public RigidWorld {
     bool is_ignored(RigidId a, RigidId b) const override;
     bool may_meet(RigidId a, RigidId b) const override;
     bool is_touched(RigidId id) const override { return is_known(id) && bodies_[id].is_touched; }
+    bool is_held_up(RigidId id) const override { return is_known(id) && bodies_[id].is_held_up; }
     void solve(float dt) override;
     bool first_touch(Vec3 from, Vec3 to, float seconds, float radius, float least_reach,
                      RigidTouch& out) const override;

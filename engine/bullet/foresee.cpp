@@ -11,7 +11,15 @@
 namespace cullet::bullet {
 namespace {
 
+btRigidBody::btRigidBodyConstructionInfo copied(const Body& body) {
+    btRigidBody::btRigidBodyConstructionInfo info(body.mass, nullptr, nullptr, body.moments);
+    info.m_startWorldTransform = body.bullet->getWorldTransform();
+    return info;
+}
+
 constexpr float kSlow = 1;  // m/s of the fastest point: what moves faster is not where it is when the touch comes
+
+}  // namespace
 
 bool is_slow(const Body& body) {
     if (body.is_soft) return false;
@@ -19,14 +27,6 @@ bool is_slow(const Body& body) {
     if (!is_moving) return true;
     return body.bullet->getLinearVelocity().length() + body.bullet->getAngularVelocity().length() * body.reach < kSlow;
 }
-
-btRigidBody::btRigidBodyConstructionInfo copied(const Body& body) {
-    btRigidBody::btRigidBodyConstructionInfo info(body.mass, nullptr, nullptr, body.moments);
-    info.m_startWorldTransform = body.bullet->getWorldTransform();
-    return info;
-}
-
-}  // namespace
 
 /// One flight. The body's world points go along and are put back at the end: they follow from its pose.
 class Flight {
@@ -181,7 +181,7 @@ class Flight {
 bool BulletWorld::foresee(RigidId id, float dt, uint32_t steps, ForeseenTouch& out) {
     if (!is_known(id)) return false;
     Body& body = bodies_[id];
-    if (!body.is_free() || body.is_touched || body.is_soft) return false;
+    if (!body.is_free() || body.is_held_up || body.is_soft) return false;
     InsideRigidEngine guard(counts_.allocations);
     Flight flight(*this, body, dt);
     if (!flight.find_others(steps)) return false;

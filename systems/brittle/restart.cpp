@@ -41,12 +41,12 @@ void fill_task(State& state, Row<Tasks> task) {
     if (is_cut_out(state, task)) return fill_cut_out(state, task);
     if (is_quick_task(state, task)) {
         copy_shell_rows(state, state, source, working, false);
-        clear_spare_vertices(ShellView(state, working));
+        clear_pack_ends(state, working);
         return forget_run(ShellView(state, working), state.shells.generation[source] > 0);
     }
     const bool is_assembled = state.shells.packs[source].count > 0;
     copy_shell_rows(state, state, source, working, is_assembled);
-    clear_spare_rows(state, working);
+    clear_pack_ends(state, working);
     const ShellView shell(state, working);
     begin_cracks(shell, state.shells.generation[source] > 0);
     if (!is_assembled && !lay_packs(shell)) tasks.state[task] = static_cast<uint8_t>(TaskState::Dropped);

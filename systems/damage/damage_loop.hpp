@@ -9,8 +9,8 @@ namespace cullet {
 struct DamageLoop {
     DamageLoop(State& state, JobSystem& jobs, Profiler& profiler);
 
-    /// Every running task by its granted steps. With as many tasks as workers one job a task; with fewer, all workers
-    /// share each task of more than kTeamVertices vertices, one after another, and the rest go one job a task.
+    /// Every running task by its granted steps, longest first: one job a task, but for those of more than kTeamVertices
+    /// vertices that would keep one worker longer than the others, which all workers share, one after another.
     /// Returns the units that were granted and not used.
     uint64_t advance();
     std::string describe() const {

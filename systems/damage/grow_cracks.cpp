@@ -272,7 +272,7 @@ uint32_t grow_cracks(State& state, Row<Tasks> task, CrackSink& sink) {
     if (all_cuts / kCutsAPass != tasks.crack_count[task] / kCutsAPass) find_start_strengths(shell);
     tasks.crack_count[task] = all_cuts;
     tasks.start_count[task] += sink.starts - starts_before;
-    tasks.units_owed[task] += units_of_crack(shell.vertex_count()) * cuts + batch.touched.units;
+    tasks.units_owed[task] += units_of_crack(shell.vertex_count(), is_ahead(tasks, task)) * cuts + batch.touched.units;
     if (cuts) tasks.last_event_time[task] = time;
     return cuts;
 }

@@ -96,6 +96,10 @@ uint32_t halve(ShellView shell, uint32_t element, uint32_t k, uint32_t w, float 
     Elements& elements = shell.state.elements;
     const uint32_t made = shell.elements().count++;
     const uint32_t row = shell.element(element), made_row = shell.element(made);
+    if (made % kLanes == 0) {  // kernels read the pack that it begins as a whole
+        elements.clear_rows(made_row, kLanes);
+        shell.state.triangle_springs.clear_rows(made_row, kLanes);
+    }
     elements.copy_rows(elements, row, made_row, 1);
     shell.state.triangle_springs.copy_rows(shell.state.triangle_springs, row, made_row, 1);
     elements.start_strength[row] = elements.start_strength[made_row] = 0;  // the new vertex may start a crack

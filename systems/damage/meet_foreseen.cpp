@@ -30,16 +30,17 @@ struct Meeting {
                    static_cast<BodyKind>(state.bodies.kind[i.striker]) == BodyKind::Dynamic;
         });
     }
-    /// The impact that was foreseen, or null: the fastest on the body is another's, elsewhere, or not as fast.
+    /// The impact that was foreseen, or null: it is elsewhere or not as fast, or another on the body is faster by more
+    /// than that.
     const Impact* find(uint32_t task) const {
         const Tasks& tasks = state.tasks;
         const auto all = on(tasks.body[task]);
         const Row<Bodies> striker = state.task_contacts.striker[tasks.first_contact[task]];
-        const float speed = tasks.foreseen_speed[task];
-        if (all.empty() || all.front().striker != striker || is_shared(all.front())) return nullptr;
+        const float speed = tasks.foreseen_speed[task], share = kSpeedShare * speed;
+        if (all.empty() || all.front().approach_speed > speed + share) return nullptr;
         for (const Impact& i : all)
             if (i.striker == striker && i.cell == tasks.foreseen_cell[task])
-                return std::fabs(i.approach_speed - speed) <= kSpeedShare * speed ? &i : nullptr;
+                return !is_shared(i) && std::fabs(i.approach_speed - speed) <= share ? &i : nullptr;
         return nullptr;
     }
     bool waits_for_a_blow(Row<Bodies> body) const {

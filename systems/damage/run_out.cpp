@@ -126,7 +126,8 @@ bool run_out_cracks(State& state, Row<Tasks> task) {
     Shells& shells = shell.shells();
     if (!is_whole) shells.packs[shell.row].count = shells.blocks[shell.row].count = shells.links[shell.row].count = 0;
     state.tasks.crack_count[task] += cuts;
-    state.tasks.units_owed[task] += units_of_crack(shell.vertex_count()) * cuts + touched.units;
+    state.tasks.units_owed[task] +=
+        units_of_crack(shell.vertex_count(), is_ahead(state.tasks, task)) * cuts + touched.units;
     return cuts > 0 || shell.element_count() != elements;
 }
 

@@ -298,7 +298,7 @@ namespace {
 void finish_piece(const ShellView& shell, const FragmentPart& part, const ShellView& piece, uint32_t vertex_count) {
     renumber_elements(shell, part, piece);
     copy_hinges(shell, piece);
-    clear_spare_rows(shell.state, piece.row);
+    clear_pack_ends(shell.state, piece.row);
     piece.vertices().count = (vertex_count + kLanes - 1) / kLanes * kLanes;
     sum_vertex_masses(piece);
     measure_shell(piece);

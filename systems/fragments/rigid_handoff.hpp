@@ -72,11 +72,13 @@ HandoffReport gather_momenta(ShellView shell, const HandoffStart& start, std::sp
 /// farther.
 void settle_momenta(const HandoffStart& start, std::span<PartMotion> motions, HandoffReport& report);
 
-/// Both. `start` and `report` are kept where the second half waits for a thread (fill_births).
+/// Kept where the second half waits for a thread (fill_births).
 struct Handoff {
     HandoffStart start;
     HandoffReport report;
 };
+
+/// Both halves.
 HandoffReport rigid_handoff(ShellView shell, const HandoffStart& start, std::span<const FragmentPart> parts,
                             std::span<PartMotion> motions);
 

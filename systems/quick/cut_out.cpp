@@ -233,14 +233,6 @@ bool may_cut_out(const State& state, Row<Bodies> body) {
            spare_of(shells.hinges[shell]) >= 3 * kLeastSpare;
 }
 
-void clear_spare_vertices(const ShellView& copy) {
-    Vertices& vertices = copy.state.vertices;
-    const Range range = copy.vertices();
-    const uint32_t end = copy.state.pools.vertices.rounded(range.capacity);
-    vertices.clear_rows(range.first + range.count, end - range.count);
-    std::fill_n(vertices.element.data() + range.first + range.count, end - range.count, kNone);
-}
-
 CutOutSize quick_cut_out_size(const State& state, Row<Tasks> task) {
     const Row<Shells> source = state.tasks.source[task];
     const FractureKind kind = material_traits(state, state.shells.material[source]).fracture;
@@ -323,10 +315,7 @@ void fill_cut_out(State& state, Row<Tasks> task) {
     const bool is_quick = is_quick_task(state, task);
     copy_elements(rows, cut, !is_quick);
     copy_hinges(rows, cut, !is_quick);
-    if (is_quick)
-        clear_spare_vertices(cut);
-    else
-        clear_spare_rows(state, cut.row);
+    clear_pack_ends(state, cut.row);
     // What cracks add has packs of its own.
     cut.vertices().count = round_to_packs(rows.vertex_count);
     forget_run(cut, shells.generation[source.row] > 0);

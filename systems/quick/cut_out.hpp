@@ -51,10 +51,6 @@ void fill_cut_out(State& state, Row<Tasks> task);
 /// What put_back needs in scratch, from State: after a load, in the middle of a run.
 void remember_cut_out(State& state, Row<Tasks> task);
 
-/// Of a quick run's copy: packs that cracks will begin are read whole. Rows to spare of its other tables are written
-/// when they are taken.
-void clear_spare_vertices(const ShellView& copy);
-
 /// Writes what the run changed into the body's shell, gives the cut-out back and makes the body's shell the task's, as
 /// it was where nothing broke or the run is dropped. Vertices.velocity is then what pieces start with, in the blocks
 /// that move (VertexBlocks::moves); all other vertices move by `motion`, the body's own. Tells of each new start of a

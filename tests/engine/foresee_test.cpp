@@ -101,5 +101,25 @@ TEST(Foresee, WhatIsTouchedHeldAsleepOrFarFromAllHasNoFlight) {
     EXPECT_FALSE(world->foresee(7, kStep, 8, told));  // nobody
 }
 
+/// Pieces of one shower touch each other on their way; what lies on something that stands does not fly on.
+TEST(Foresee, TwoThatFlyTogetherHaveAFlightThoughTheyTouch) {
+    const FpMode mode;
+    const auto world = floor_world(8);
+    add_box(*world, 1, {0, 0.55f, 0}, {0.1f, 0.1f, 0.1f}, 1000);
+    add_box(*world, 2, {0.201f, 0.55f, 0}, {0.1f, 0.1f, 0.1f}, 1000);
+    for (const RigidId id : {1u, 2u}) world->set_motion(id, {{0, -4, 0}, {}});
+    add_box(*world, 3, {2, 0.1f, 0}, {0.1f, 0.1f, 0.1f}, 1000);
+    world->detect(kStep);
+    for (const RigidId id : {1u, 2u}) {
+        EXPECT_TRUE(world->is_touched(id));
+        EXPECT_FALSE(world->is_held_up(id));
+        ForeseenTouch told;
+        ASSERT_TRUE(world->foresee(id, kStep, 8, told)) << id;
+        for (uint32_t c = 0; c < told.contact_count; ++c)
+            EXPECT_TRUE(told.contacts[c].a == 0 || told.contacts[c].b == 0);
+    }
+    EXPECT_TRUE(world->is_held_up(3));
+}
+
 }  // namespace
 }  // namespace cullet

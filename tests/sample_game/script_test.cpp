@@ -541,8 +541,8 @@ TEST_P(SceneHash, IsWhatTheSceneAlwaysGave) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Scenes, SceneHash,
-                         testing::Values(KnownHash{"vase", "e4528fee222d6f97"}, KnownHash{"wall", "4275424dbab57ab7"},
-                                         KnownHash{"pane", "b305260889f106e2"}, KnownHash{"drop", "33b241c70de58a94"}),
+                         testing::Values(KnownHash{"vase", "fe07e75fd6d27ca4"}, KnownHash{"wall", "3550bad52962a07b"},
+                                         KnownHash{"pane", "72016f6c4c41762a"}, KnownHash{"drop", "94841864fcc005db"}),
                          [](const auto& known) { return std::string(known.param.scene); });
 
 TEST(Script, AFileIsPlayedByItsPathAndOneThatIsNotThereIsNamed) {

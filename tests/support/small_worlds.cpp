@@ -33,6 +33,10 @@ const Model& small_vase() {
     static const Model model = cooked(make_vase(0.3f, 0.0125f), "porcelain", 0.005f);
     return model;
 }
+const Model& fine_vase() {
+    static const Model model = cooked(make_vase(0.3f, 0.0075f), "porcelain", 0.005f);
+    return model;
+}
 const Model& small_pane() {
     static const Model model = cooked(make_pane(0.3f, 0.025f), "glass", 0.004f);
     return model;
@@ -77,11 +81,11 @@ SphereSettings ball_at(Vec3 place, float mass, float speed, float radius) {
     return ball;
 }
 
-Breakage vase_and_ball(const Settings& settings, float speed, const Host& host, float mass) {
+Breakage vase_and_ball(const Settings& settings, float speed, const Host& host, float mass, const Model& model) {
     Breakage b{make_world(settings, host), {}, {}};
     SpawnSettings vase;
     vase.user_data = 42;
-    b.body = spawned(b.world, small_vase(), vase);
+    b.body = spawned(b.world, model, vase);
     b.ball = b.world.add_sphere(ball_at({0.01f, 0.13f, 0}, mass, speed)).value();
     return b;
 }

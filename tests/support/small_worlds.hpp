@@ -12,6 +12,8 @@ namespace cullet::test {
 
 /// Porcelain, edge 12.5 mm, 1,150 vertices; glass, 0.3 m, edge 25 mm; brick, 1.2 x 0.9 m, edge 0.1 m.
 const Model& small_vase();
+/// So many vertices that all workers share its hits.
+const Model& fine_vase();
 const Model& small_pane();
 const Model& small_wall();
 
@@ -31,7 +33,8 @@ struct Breakage {
     BodyId body, ball;
 };
 /// A vase at rest in mid-air, hit on its belly by a ball of 0.3 kg.
-Breakage vase_and_ball(const Settings& settings, float speed = 8, const Host& host = {}, float mass = 0.3f);
+Breakage vase_and_ball(const Settings& settings, float speed = 8, const Host& host = {}, float mass = 0.3f,
+                       const Model& model = small_vase());
 /// Two vases in mid-air that fly at each other along z, m/s each.
 World two_vases(const Settings& settings, float first_speed, float second_speed);
 /// A wall whose foot is pinned, hit by a ball of 20 kg.

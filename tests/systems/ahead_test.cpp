@@ -12,7 +12,7 @@ namespace {
 /// So many units that the hit takes about five frames.
 Settings ahead_settings(uint32_t frames_ahead = 8) {
     Settings settings = small_settings();
-    settings.units_a_frame = 3'000'000;
+    settings.units_a_frame = 5'000'000;
     settings.frames_ahead = frames_ahead;
     return settings;
 }

@@ -102,7 +102,7 @@ const Scenario kScenarios[] = {
     {"QuickTwoInOneFrame", two_balls_at_once, kQuick, 300'000, 1, "start_tasks", has_two_patches},
     {"QuickWhileTheLastStillRuns", one_ball_after_the_other, kQuick, 30'000, 1, "open_tasks", has_a_hit_waiting},
     {"QuickBothBreak", two_vases_head_on, kQuick, 300'000, 2, "start_tasks", has_a_task_each_against_the_other},
-    {"QuickPiecesAgain", a_heavy_ball_through_pieces, kQuick, 500'000, 2, "make_births", has_a_grandchild},
+    {"QuickPiecesAgain", a_heavy_ball_through_pieces, kQuick, 1'000'000, 2, "make_births", has_a_grandchild},
 };
 
 Settings settings_of(const Scenario& scenario, uint32_t threads) {

@@ -297,5 +297,36 @@ TEST(Limits, WorkAFrameStaysWithinItsUnitsOnAnyNumberOfThreads) {
     }
 }
 
+/// Units for steps, and then for births: never both in one frame, whose worst they were.
+TEST(Limits, TheLastStepOfAHitWaitsForTheUnitsOfItsBirths) {
+    Settings settings = settings_of(1000, 1000);
+    settings.units_a_frame = 4'000'000;
+    Breakage b = vase_and_ball(settings, 12);
+    const State& state = state_of(b.world);
+    const Tasks& tasks = state.tasks;
+    uint32_t before = 0, done = 0, left = 0, waited = 0;
+    uint64_t births = 0, a_step = 0;
+    after_each_system(b.world, [&](const std::string& system) {
+        if (system != "grant_units" && system != "advance_damage") return;
+        for (uint32_t t = 0; t < tasks.size(); ++t) {
+            const auto task_state = static_cast<TaskState>(tasks.state[t]);
+            if (system == "grant_units" && task_state == TaskState::Running) {
+                before = tasks.steps_done[t], left = steps_left(tasks, t, 0);
+                births = units_of_birth(state.shells, tasks, t), a_step = units_a_step(state.shells, tasks, t);
+            } else if (system == "advance_damage" && task_state != TaskState::Free) {
+                done = tasks.steps_done[t] - before;
+                waited += task_state == TaskState::Running && tasks.crack_count[t] > 0 && steps_left(tasks, t, 0) <= 1;
+            }
+        }
+    });
+    const uint32_t frames = step_until_born(b.world, 60);
+    ASSERT_GT(frames, 1u);
+    EXPECT_EQ(waited, 1u) << "the frame before had used up its units";
+    EXPECT_LE(left, 1u);
+    EXPECT_EQ(done, 1u);
+    EXPECT_GT(births, 100 * a_step) << "or there were nothing to wait for";
+    EXPECT_GE(b.world.report().units_used, births);
+}
+
 }  // namespace
 }  // namespace cullet::test

@@ -40,7 +40,7 @@ ReplaySettings on(std::vector<uint32_t> threads) {
 /// All calls that there are, and a hit that takes several frames. Hashes of the steps.
 std::vector<uint64_t> play_and_record(const std::string& path, uint32_t frames = 60) {
     Settings settings = test::small_settings();
-    settings.units_a_frame = 600'000;
+    settings.units_a_frame = 1'500'000;
     World world = test::make_world(settings);
     EXPECT_TRUE(world.start_recording(path).ok());
     EXPECT_TRUE(world.set_gravity({0, -9.81f, 0}).ok());

@@ -77,7 +77,7 @@ TEST(ShiftOrigin, AShiftByNothingLeavesEveryBitOfARun) {
 TEST(ShiftOrigin, AShiftInFlightOrInDamageGoesOn) {
     for (const int frames : {2, 9}) {
         Settings settings = with_gravity();
-        settings.units_a_frame = 3'000'000;
+        settings.units_a_frame = 5'000'000;
         World world = make_world(settings);
         add_floor_at(world, {});
         SpawnSettings vase;

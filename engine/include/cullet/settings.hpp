@@ -29,9 +29,9 @@ struct Settings {
     float step_seconds = 1.0f / 60.0f;  // fixed step, s; 1/1000 to 1/20
     uint32_t threads = 1;  // of cullet's own, the caller counted; unused when the host gives jobs; 1 to 256
     /// Damage work and soft bodies a frame, in units of 2 ns of one thread: 8 million are 8 ms of a frame on two cores.
-    /// Ductile and elastic bodies that are awake take up to half of it first. 1000 to 1e15. More units
-    /// finish a hit in fewer frames. Never a wall clock, so that the same run gives the same bytes on a fast and on a
-    /// slow machine.
+    /// Ductile and elastic bodies that are awake take up to half of it first, and a hit that one worker has to do alone
+    /// takes at most half. 1000 to 1e15. More units finish a hit in fewer frames. Never a wall clock, so that the same
+    /// run gives the same bytes on a fast and on a slow machine.
     uint64_t units_a_frame = 8'000'000;
     /// A fast hit that is still being worked off holds its bodies where they touch for at most this long, s; 0 to 1. 0:
     /// never. Bodies that break quickly are held too when their hits do not fit units_a_frame.
