@@ -33,10 +33,11 @@ bool measure_scene(const char* name, unsigned threads, uint32_t repeat, Figures&
     figures.add(prefix + "a unit", yardstick("unit_ns"), "ns");
     figures.add(prefix + "the budget as time", yardstick("budget_ms"), "ms");
     figures.add(prefix + "frames that broke something, p99", static_cast<double>(r.fracture_frames.p99_ms), "ms");
+    const std::string scene_name = name;
+    const bool is_pile = scene_name == "pile", has_many = is_pile || scene_name == "demolition";
     figures.add(prefix + "frames that worked on hits, p99 without the rigid step", r.damage_frames.p99_budgets,
-                "budgets", std::string(name) != "pile" ? 1.25 : 0);
-    const bool has_limit = std::string(name) != "pile";
-    figures.add(prefix + "hitch", r.hitch, "x", has_limit ? 2 : 0);
+                "budgets", has_many ? 0 : 1.25);
+    figures.add(prefix + "hitch", r.hitch, "x", is_pile ? 0 : 2);
     figures.add(prefix + "hits", static_cast<double>(r.tasks.opened), "");
     figures.add(prefix + "hits decided after the hold", static_cast<double>(r.tasks.late), "");
     figures.add(prefix + "frames held", static_cast<double>(r.tasks.frames_held), "");
