@@ -215,13 +215,21 @@ std::string State::first_difference(const State& other) const {
 
 namespace {
 
+// Rows that nobody has reached before get their memory at once: those to spare are written late, and what is resident
+// would grow for as long as a game runs.
+void grow(AnyTable& table, uint32_t rows) {
+    if (rows <= table.size()) return;
+    (void)table.commit_rows(rows);
+    table.append(rows - table.size());
+}
+
 // Rows of `table` for a range, growing the table to reach them. False when there is no room.
 bool take(AnyTable& table, RangePool& pool, uint32_t count, Range& range) {
     range = {0, 0, 0};
     if (count == 0) return true;
     const uint32_t first = pool.take(count);
     if (first == kNone) return false;
-    if (pool.end() > table.size()) table.append(pool.end() - table.size());
+    grow(table, pool.end());
     range = {first, 0, count};
     return true;
 }
@@ -266,8 +274,7 @@ Row<Shells> make_shell_unclear(State& state, const ShellRoom& room, const char**
     s.clear_rows(shell, 1);
     if (!take(state.vertices, state.pools.vertices, room.vertices, s.vertices[shell])) refuse("limits.vertices");
     if (!take(state.elements, state.pools.elements, room.elements, s.elements[shell])) refuse("limits.elements");
-    const uint32_t rows = state.elements.size();
-    if (rows > state.triangle_springs.size()) state.triangle_springs.append(rows - state.triangle_springs.size());
+    grow(state.triangle_springs, state.elements.size());
     if (!take(state.hinges, state.pools.hinges, room.hinges, s.hinges[shell])) refuse("limits.elements");
     const uint32_t packs = room.blocks ? (room.vertices + kLanes - 1) / kLanes : 0;
     if (!take(state.stiffness_packs, state.pools.packs, packs, s.packs[shell])) refuse("limits.vertices");
