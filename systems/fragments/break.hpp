@@ -25,14 +25,14 @@ struct Break {
     uint32_t largest = 0;
     std::span<Handoff> handoff = {};  // one or none: what the motions came from
     bool is_settled = true;           // the motions are final, or will be when births are filled
-    std::span<Touch> touches = {};  // of the parts, at their cracks
-    double waited = 0;              // J that pieces which waited for this break have beyond the body's motion
-    uint32_t left_elements = 0;     // of all parts that leave
-    ShellSums whole;                // of `broken` before they do
-    float margin = 0;               // of the body's hulls so far
-    Range points = {};              // for the hulls of what is left
-    bool had_cells = true;          // with hulls of their own, not one shape for all of them
-    bool chooses_shape = false;     // what is left of the body, too (piece_shape.hpp)
+    std::span<Touch> touches = {};    // of the parts, at their cracks
+    double waited = 0;                // J that pieces which waited for this break have beyond the body's motion
+    uint32_t left_elements = 0;       // of all parts that leave
+    ShellSums whole;                  // of `broken` before they do
+    float margin = 0;                 // of the body's hulls so far
+    Range points = {};                // for the hulls of what is left
+    bool had_cells = true;            // with hulls of their own, not one shape for all of them
+    bool chooses_shape = false;       // what is left of the body, too (piece_shape.hpp)
     /// The body keeps its rows, and hulls and drawn mesh but for the cells that changed (Cells::is_changed).
     bool keeps_hulls = false, keeps_mesh = false;
     bool is_refused = false;    // some part stays for want of room

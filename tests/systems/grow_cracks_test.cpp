@@ -1,7 +1,6 @@
 // Cracks start, run, join and finish under stresses set by hand.
 #include "systems/damage/grow_cracks.hpp"
 #include "systems/costs.hpp"
-#include "systems/damage/task_cost.hpp"
 
 #include <gtest/gtest.h>
 
