@@ -93,6 +93,9 @@ struct Body {
     float load = 0;           // N s of this step, see sum_loads()
     float slept_load = 0;     // of the step in which it fell asleep
 
+    uint32_t birth = 0;         // siblings have the same, not 0,
+    float sibling_seconds = 0;  // so long
+
     float moved_fraction = 1;  // of this step, less than 1 when stopped at a time of impact
     bool is_fast = false;      // swept in this step
 
@@ -101,6 +104,11 @@ struct Body {
     bool is_free() const { return kind == RigidKind::Dynamic && !is_held && bullet->isActive(); }
     bool meets_layer_of(const Body& other) const { return (layer & other.mask) != 0 && (other.layer & mask) != 0; }
 };
+
+/// They were one body, and may not throw each other yet.
+inline bool are_siblings(const Body& a, const Body& b) {
+    return a.birth == b.birth && a.sibling_seconds > 0 && b.sibling_seconds > 0;
+}
 
 /// Its fastest point moves at less than a metre a second, or it does not move: what flies meets it about where it is.
 bool is_slow(const Body& body);

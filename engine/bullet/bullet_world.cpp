@@ -404,6 +404,7 @@ void BulletWorld::enter(Body& body, const Pose& at, uint32_t layer, uint32_t mas
     body.anchor = body.far_anchor = body.bullet->getWorldTransform();
     body.has_left = false;
     body.idle_wakes = 0;
+    body.sibling_seconds = 0;
     body_end_ = std::max(body_end_, body.id + 1);
     body.layer = layer, body.mask = mask;
     refresh(body);
@@ -857,7 +858,8 @@ void BulletWorld::solve_contacts(float dt) {
     for (const Scattered& pair : scattered_) {
         const SortedManifold& first = manifolds_[pair.first];
         const float most_push = is_asleep(first.a) || is_asleep(first.b) ? kPushedOffSleepers : kFar;
-        solver_.add_pair(bodies_[first.a].number, bodies_[first.b].number, pair.grip, most_push);
+        solver_.add_pair(bodies_[first.a].number, bodies_[first.b].number, pair.grip, most_push,
+                         !(pair.grip > 0) && are_siblings(bodies_[first.a], bodies_[first.b]));
         for (uint32_t m = pair.first; m < pair.end; ++m)
             if (manifolds_[m].manifold) solver_.add_contacts(*manifolds_[m].manifold);
     }
@@ -884,7 +886,7 @@ void BulletWorld::solve(float dt) {
     work_done_.ahead += CULLET_CHECKS_ON ? height_energy() - lifted + falling : 0;
     update_sleep(dt);
     for (RigidId id = 0; id < body_end_; ++id)
-        if (bodies_[id].is_used) bodies_[id].bullet->clearForces();
+        if (bodies_[id].is_used) bodies_[id].bullet->clearForces(), bodies_[id].sibling_seconds -= dt;
     for (IgnoredPair& pair : ignored_) pair.seconds -= dt;
     std::erase_if(ignored_, [](const IgnoredPair& p) { return !(p.seconds > 0); });
     skipped_.clear();

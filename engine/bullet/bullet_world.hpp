@@ -47,6 +47,7 @@ class BulletWorld final : public RigidWorld {
     bool is_held(RigidId id) const override;
     void skip_contacts(RigidId a, RigidId b) override;
     void ignore_pair(RigidId a, RigidId b, float seconds) override;
+    void name_siblings(std::span<const RigidId> ids) override;
     void part_siblings(RigidId a, RigidId b, std::span<const CrackTouch> touches) override;
     void set_soft(RigidId id, bool is_soft) override;
     bool knows_surfaces() const override { return true; }
@@ -185,6 +186,7 @@ class BulletWorld final : public RigidWorld {
     std::vector<NewbornPieces> newborn_;                // of siblings, until the next detect()
     std::vector<std::pair<RigidId, RigidId>> skipped_;  // this step's, a < b
     Sweeper sweeper_;
+    uint32_t births_ = 0;  // that siblings were named of, round and round
     RigidCounts counts_;
     Vec3d to_static_;
     RigidWork work_done_;     // in Checked and Debug builds

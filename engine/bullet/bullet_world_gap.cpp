@@ -59,6 +59,10 @@ float bearable_overlap(const Body& body) {
     return kPressedDeep * (1 + kImpatience * body.pressed_seconds);
 }
 
+// In which pieces of one break do not throw each other. For good, nothing that falls would ever be levered up by what
+// broke off with it.
+constexpr float kSiblingSeconds = 0.5f;
+
 }  // namespace
 
 void BulletWorld::hold(RigidId id) {
@@ -151,6 +155,12 @@ void BulletWorld::ignore_pair(RigidId a, RigidId b, float seconds) {
                                         [](const IgnoredPair& p, auto k) { return std::pair(p.a, p.b) < k; });
     ignored_.insert(place, {a, b, seconds});
     skip_contacts(a, b);
+}
+
+void BulletWorld::name_siblings(std::span<const RigidId> ids) {
+    ++births_;
+    for (const RigidId id : ids)
+        if (is_known(id)) bodies_[id].birth = births_, bodies_[id].sibling_seconds = kSiblingSeconds;
 }
 
 void BulletWorld::part_siblings(RigidId a, RigidId b, std::span<const CrackTouch> touches) {

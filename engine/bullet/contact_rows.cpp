@@ -68,17 +68,47 @@ float largest(Lanes lanes) {
 
 constexpr Lanes kNone{}, kAny{1e10f, 1e10f, 1e10f, 1e10f};
 
-// Grips are rare: rows without them are solved as if there were none.
-template <bool Grips>
-float solve_rows(const Batch& batch, PointRows* points, RollRows* rolls, SolverBody* bodies) {
+// So that an impulse of siblings leaves no more of their flight along `along` than there is, nor turns it round.
+CULLET_LANES_INLINE void bound_by_flight(const Row& row, Lanes are, Lanes flight, const LaneVec& along, const Four& a,
+                                         const Four& b, Lanes& low, Lanes& high) {
+    const Lanes now = flight + dot(along, a.velocity - b.velocity);
+    const Lanes stopping = row.impulse - now / (a.inverse_mass + b.inverse_mass);
+    const Lanes lowest = least(stopping, row.impulse), highest = most(stopping, row.impulse);
+    low = are > 0 ? least(most(low, lowest), high) : low;
+    high = are > 0 ? most(least(high, highest), low) : high;
+}
+
+// What siblings still approach by is taken from the spins that close the gap, by their shares in it. A spin that was
+// turned round by that gets it back.
+CULLET_LANES_INLINE void slow_spins(const PointRows& p, SiblingRows& s, Four& a, Four& b, Lanes& changed) {
+    const Row& row = p.hold;
+    const Lanes missing = s.are * (row.wanted - speed(row, p.normal, a, b));
+    const Lanes opening_a = s.opening_a + dot(row.arm_a, a.spin), opening_b = s.opening_b - dot(row.arm_b, b.spin);
+    const Lanes from_a = missing > 0 ? most(-opening_a, kNone) : least(s.paid_a, most(opening_a, kNone)),
+                from_b = missing > 0 ? most(-opening_b, kNone) : least(s.paid_b, most(opening_b, kNone)),
+                from_both = from_a + from_b;
+    const Lanes amount = missing > 0 ? least(missing, from_both) : most(missing, -from_both);
+    const Lanes share = from_both > 0 ? amount / from_both : kNone;
+    s.paid_a = s.paid_a + share * from_a, s.paid_b = s.paid_b + share * from_b;
+    a.spin = a.spin + (share * from_a * s.mass_a) * row.turn_a;
+    b.spin = b.spin - (share * from_b * s.mass_b) * row.turn_b;
+    changed = most(changed, amount * amount);
+}
+
+// Grips and siblings are rare: rows without them are solved as if there were none.
+template <bool Grips, bool Siblings>
+float solve_rows(const Batch& batch, PointRows* points, RollRows* rolls, SiblingRows* siblings, SolverBody* bodies) {
     Four a = gather<&SolverBody::velocity, &SolverBody::spin>(bodies, batch.body_a);
     Four b = gather<&SolverBody::velocity, &SolverBody::spin>(bodies, batch.body_b);
     Lanes changed{};
     const uint32_t end = batch.first_point + batch.point_count;
     for (uint32_t k = batch.first_point; k < end; ++k) {
         PointRows& p = points[k];
-        const Lanes low = Grips ? -p.grip : kNone, now = speed(p.hold, p.normal, a, b);
-        give(p.hold, p.normal, bounded(p.hold, p.hold.wanted, now, low, kAny, p.hold.impulse, changed), a, b);
+        Lanes low = Grips ? -p.grip : kNone, high = kAny;
+        const Lanes now = speed(p.hold, p.normal, a, b);
+        if (Siblings) bound_by_flight(p.hold, siblings[k].are, siblings[k].flight[0], p.normal, a, b, low, high);
+        give(p.hold, p.normal, bounded(p.hold, p.hold.wanted, now, low, high, p.hold.impulse, changed), a, b);
+        if (Siblings) slow_spins(p, siblings[k], a, b, changed);
     }
     for (uint32_t k = batch.first_point; k < end; ++k) {
         PointRows& p = points[k];
@@ -87,7 +117,10 @@ float solve_rows(const Batch& batch, PointRows* points, RollRows* rolls, SolverB
         for (int way = 0; way < 2; ++way) {
             Row& row = p.slide[way];
             const Lanes now = speed(row, p.across[way], a, b);
-            give(row, p.across[way], bounded(row, row.wanted, now, -limit, limit, row.impulse, changed), a, b);
+            Lanes low = -limit, high = limit;
+            if (Siblings)
+                bound_by_flight(row, siblings[k].are, siblings[k].flight[1 + way], p.across[way], a, b, low, high);
+            give(row, p.across[way], bounded(row, row.wanted, now, low, high, row.impulse, changed), a, b);
         }
     }
     for (uint32_t k = batch.first_point; batch.rolls && k < end; ++k) {
@@ -105,8 +138,11 @@ float solve_rows(const Batch& batch, PointRows* points, RollRows* rolls, SolverB
 
 }  // namespace
 
-float solve_batch(const Batch& batch, PointRows* points, RollRows* rolls, SolverBody* bodies) {
-    return (batch.grips ? solve_rows<true> : solve_rows<false>)(batch, points, rolls, bodies);
+float solve_batch(const Batch& batch, PointRows* points, RollRows* rolls, SiblingRows* siblings, SolverBody* bodies) {
+    const auto solve = batch.siblings ? batch.grips ? solve_rows<true, true> : solve_rows<false, true>
+                       : batch.grips ? solve_rows<true, false>
+                                      : solve_rows<false, false>;
+    return solve(batch, points, rolls, siblings, bodies);
 }
 
 float push_batch(const Batch& batch, PointRows* points, SolverBody* bodies) {

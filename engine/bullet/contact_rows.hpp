@@ -12,7 +12,8 @@
 namespace cullet::bullet {
 
 /// What impulses have changed of a body in this step so far. The one at 0 is everything that stands.
-struct alignas(16) SolverBody {
+/// A cache line, so that threads that solve others do not wait for it.
+struct alignas(64) SolverBody {
     float velocity[4] = {};  // m/s; [3] is the inverse mass, 1/kg
     float spin[4] = {};      // rad/s
     float push[4] = {};      // m/s that take the body out of overlaps, in this step alone; [3] as above
@@ -43,15 +44,26 @@ struct RollRows {
     Lanes limit{};  // m: the most torque impulse, of a contact impulse of 1 N s and at all
 };
 
+/// The same point of siblings, which must not throw each other: between them impulses of its rows only take away from
+/// the speed at which the two fly beside each other. Where that does not stop an approach, the spins that bring it
+/// about are slowed down, each for itself. Momentum is kept and energy falls; angular momentum goes with the spins.
+struct SiblingRows {
+    Lanes are{};                     // 1 for siblings, 0 for others
+    Lanes flight[3]{};               // m/s of the centres, along the normal and both ways across,
+    Lanes opening_a{}, opening_b{};  // and of either spin along the normal, all without this step's impulses
+    Lanes mass_a{}, mass_b{};        // kg: of either spin alone
+    Lanes paid_a{}, paid_b{};        // m/s that either spin has given up
+};
+
 /// Four pairs, no free body in two of them, with their points one behind the other.
 struct Batch {
     uint32_t body_a[kLanes] = {}, body_b[kLanes] = {};
-    uint32_t first_point = 0, point_count = 0;          // of PointRows
-    bool rolls = false, pushes = false, grips = false;  // any of them
+    uint32_t first_point = 0, point_count = 0;                            // of PointRows
+    bool rolls = false, pushes = false, grips = false, siblings = false;  // any of them
 };
 
 /// One iteration over a batch. What comes back is the largest change of a row's speed, squared.
-float solve_batch(const Batch& batch, PointRows* points, RollRows* rolls, SolverBody* bodies);
+float solve_batch(const Batch& batch, PointRows* points, RollRows* rolls, SiblingRows* siblings, SolverBody* bodies);
 /// The same for the push out of overlaps.
 float push_batch(const Batch& batch, PointRows* points, SolverBody* bodies);
 /// Gives the bodies the impulses that the rows begin with.

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
+#include <span>
 
 namespace cullet::bullet {
 namespace {
@@ -32,12 +33,18 @@ constexpr float kRestitutionSpeed = 0.2f;  // m/s, below which nothing bounces
 // for seven seconds.
 constexpr float kStruckDepth = 0.001f;  // m
 
+// Of a contact's softness, below which spins cannot be what closes it: the touch is central.
+constexpr float kLeastTurning = 1e-3f;
+
 constexpr uint32_t kNoPair = 0xffffffffu;
 constexpr uint32_t kColours = 64;         // of pairs of free bodies, as many again of those with something that stands,
 constexpr uint32_t kNoColour = kColours;  // and one for the rest of each: they go one by one
 constexpr uint32_t kSizes = 16;           // pairs of a colour by falling number of points, so that lanes are full
 constexpr uint32_t kBatchesAJob = 32;
-constexpr uint32_t kKeys = 2 * (kColours + 1) * kSizes;
+constexpr uint32_t kKeysOfAGroup = 2 * (kColours + 1) * kSizes;
+constexpr uint32_t kMostGroups = 8;
+// Contacts from which on two groups are worth the start of a job; four times as many for four of them.
+constexpr uint32_t kPointsOfTwoGroups = 500;
 
 }  // namespace
 
@@ -84,11 +91,17 @@ ContactSolver::ContactSolver(uint32_t body_limit) {
     pairs_.reserve(points / 2);
     points_.reserve(points);
     order_.reserve(points / 2);
-    key_begin_.resize(kKeys + 1);
+    key_begin_.resize(kMostGroups * kKeysOfAGroup + 1);
+    above_.reserve(bodies);
+    island_points_.reserve(bodies);
+    group_of_.reserve(bodies);
+    islands_.reserve(bodies);
+    groups_.reserve(kMostGroups);
     batches_.reserve(points / 2);
     batch_pairs_.reserve(2 * points);
     rows_.reserve(points / 2);
     rolls_.reserve(points / 2);
+    siblings_.reserve(points / 2);
     clear();
 }
 
@@ -102,8 +115,8 @@ uint32_t ContactSolver::add_body(btRigidBody& body) {
     return static_cast<uint32_t>(bodies_.size() - 1);
 }
 
-void ContactSolver::add_pair(uint32_t a, uint32_t b, float grip, float most_push) {
-    pairs_.push_back({a, b, static_cast<uint32_t>(points_.size()), 0, grip, most_push, 0});
+void ContactSolver::add_pair(uint32_t a, uint32_t b, float grip, float most_push, bool are_siblings) {
+    pairs_.push_back({a, b, static_cast<uint32_t>(points_.size()), 0, grip, most_push, are_siblings, 0});
 }
 
 void ContactSolver::add_contacts(btPersistentManifold& manifold) {
@@ -111,11 +124,55 @@ void ContactSolver::add_contacts(btPersistentManifold& manifold) {
     pairs_.back().count = static_cast<uint32_t>(points_.size()) - pairs_.back().first;
 }
 
+bool ContactSolver::is_free(uint32_t number) const {
+    return bodies_[number] && bodies_[number]->getInvMass() > 0;
+}
+
+// Ways are halved as they are gone.
+uint32_t ContactSolver::root_of(uint32_t number) {
+    while (above_[number] != number) number = above_[number] = above_[above_[number]];
+    return number;
+}
+
+uint32_t ContactSolver::root_of(const Contacts& pair) {
+    return root_of(is_free(pair.a) ? pair.a : pair.b);
+}
+
+// The largest island first, each to the group that has the fewest contacts.
+void ContactSolver::group_islands() {
+    uint32_t count = 1;
+    for (size_t points = kPointsOfTwoGroups; count < kMostGroups && points_.size() >= points; points *= 4) count *= 2;
+    groups_.assign(count, {});
+    if (count == 1) return;
+    above_.resize(bodies_.size());
+    for (uint32_t number = 0; number < above_.size(); ++number) above_[number] = number;
+    for (const Contacts& pair : pairs_) {
+        if (!is_free(pair.a) || !is_free(pair.b)) continue;
+        const uint32_t a = root_of(pair.a), b = root_of(pair.b);
+        above_[std::max(a, b)] = std::min(a, b);
+    }
+    island_points_.assign(bodies_.size(), 0);
+    for (const Contacts& pair : pairs_) island_points_[root_of(pair)] += pair.count;
+    islands_.clear();
+    for (uint32_t root = 0; root < island_points_.size(); ++root)
+        if (island_points_[root] > 0) islands_.push_back({island_points_[root], root});
+    std::sort(islands_.begin(), islands_.end(), [](const Island& p, const Island& q) {
+        return p.points != q.points ? p.points > q.points : p.root < q.root;
+    });
+    group_of_.resize(bodies_.size());
+    uint32_t points[kMostGroups] = {};
+    for (const Island& island : islands_) {
+        uint32_t* const fewest = std::min_element(points, points + count);
+        *fewest += island.points;
+        group_of_[island.root] = static_cast<uint32_t>(fewest - points);
+    }
+}
+
 // Keys, and pairs by key in the order that they were given.
 void ContactSolver::colour_pairs() {
     colours_.assign(bodies_.size(), 0);
-    const auto is_free = [this](uint32_t number) { return bodies_[number] && bodies_[number]->getInvMass() > 0; };
-    std::fill(key_begin_.begin(), key_begin_.end(), 0);
+    const auto keys = static_cast<uint32_t>(groups_.size()) * kKeysOfAGroup;
+    std::fill_n(key_begin_.begin(), keys + 1, 0);
     bool was_standing = false;
     for (Contacts& pair : pairs_) {
         const bool is_a_free = is_free(pair.a), is_b_free = is_free(pair.b), is_standing = !is_a_free || !is_b_free;
@@ -126,25 +183,30 @@ void ContactSolver::colour_pairs() {
         const auto colour = static_cast<uint32_t>(std::countr_one(of_a | of_b));
         if (colour != kNoColour) of_a |= uint64_t{1} << colour, of_b |= uint64_t{1} << colour;
         const uint32_t size = kSizes - std::min(pair.count, kSizes);
-        pair.key = (colour + (is_standing ? kColours + 1 : 0)) * kSizes + size;
+        const uint32_t group = groups_.size() == 1 ? 0 : group_of_[root_of(pair)];
+        pair.key = group * kKeysOfAGroup + (colour + (is_standing ? kColours + 1 : 0)) * kSizes + size;
         ++key_begin_[pair.key + 1];
     }
-    for (uint32_t key = 0; key < kKeys; ++key) key_begin_[key + 1] += key_begin_[key];
+    for (uint32_t key = 0; key < keys; ++key) key_begin_[key + 1] += key_begin_[key];
     order_.resize(pairs_.size());
     for (uint32_t k = 0; k < pairs_.size(); ++k) order_[key_begin_[pairs_[k].key]++] = k;
 }
 
 void ContactSolver::fill_batches() {
     batches_.clear(), batch_pairs_.clear();
+    const auto key_of = [this](size_t k) { return pairs_[order_[k]].key; };
     size_t first = 0;
-    while (first < order_.size()) {
-        const auto colour_of = [&](size_t k) { return pairs_[order_[k]].key / kSizes; };
-        const uint32_t colour = colour_of(first);
-        const size_t most = colour % (kColours + 1) == kNoColour ? 1 : kLanes;
-        size_t end = first + 1;
-        while (end < order_.size() && end < first + most && colour_of(end) == colour) ++end;
-        fill_batch(order_.data() + first, static_cast<uint32_t>(end - first));
-        first = end;
+    for (uint32_t g = 0; g < groups_.size(); ++g) {
+        groups_[g].first = static_cast<uint32_t>(batches_.size());
+        while (first < order_.size() && key_of(first) / kKeysOfAGroup == g) {
+            const uint32_t colour = key_of(first) / kSizes;
+            const size_t most = colour % (kColours + 1) == kNoColour ? 1 : kLanes;
+            size_t end = first + 1;
+            while (end < order_.size() && end < first + most && key_of(end) / kSizes == colour) ++end;
+            fill_batch(order_.data() + first, static_cast<uint32_t>(end - first));
+            first = end;
+        }
+        groups_[g].end = static_cast<uint32_t>(batches_.size());
     }
 }
 
@@ -174,11 +236,11 @@ void set_row(Row& row, const LaneVec& arm_a, const LaneVec& arm_b, const LaneVec
 
 }  // namespace
 
-void ContactSolver::set_up_point(PointRows& p, RollRows* r, const Contacts* const (&of)[kLanes], uint32_t k,
-                                 const Source& a, const Source& b, float dt) {
+void ContactSolver::set_up_point(PointRows& p, RollRows* r, SiblingRows* s, const Contacts* const (&of)[kLanes],
+                                 uint32_t k, const Source& a, const Source& b, float dt) {
     float point_a[3][kLanes] = {}, point_b[3][kLanes] = {}, n[3][kLanes] = {}, t[2][3][kLanes] = {};
     float distance[kLanes] = {}, bounce[kLanes] = {}, friction[kLanes] = {}, impulse[3][kLanes] = {}, is[kLanes] = {};
-    float rolling[kLanes] = {}, grip[kLanes] = {}, most_push[kLanes] = {};
+    float rolling[kLanes] = {}, grip[kLanes] = {}, most_push[kLanes] = {}, siblings[kLanes] = {};
     for (uint32_t lane = 0; lane < kLanes; ++lane) {
         if (!of[lane] || k >= of[lane]->count) continue;
         btManifoldPoint& from = *points_[of[lane]->first + k];
@@ -196,7 +258,9 @@ void ContactSolver::set_up_point(PointRows& p, RollRows* r, const Contacts* cons
         impulse[2][lane] = kWarm * from.m_appliedImpulseLateral2;
         rolling[lane] = from.m_combinedRollingFriction;
         grip[lane] = of[lane]->grip, most_push[lane] = of[lane]->most_push;
+        siblings[lane] = of[lane]->are_siblings;
         if (grip[lane] > 0) distance[lane] = bounce[lane] = 0;
+        if (of[lane]->are_siblings) bounce[lane] = 0;
     }
     const auto vector = [](const float(&from)[3][kLanes]) {
         return LaneVec{load(from[0]), load(from[1]), load(from[2])};
@@ -226,8 +290,20 @@ void ContactSolver::set_up_point(PointRows& p, RollRows* r, const Contacts* cons
     }
     p.friction = load(friction);
     p.grip = load(grip);
-    if (!r) return;
     const LaneVec* const axes[] = {&p.normal, &p.across[0], &p.across[1]};
+    if (s) {
+        s->are = load(siblings);
+        for (int way = 0; way < 3; ++way)
+            s->flight[way] = dot(*axes[way], a.velocity - b.velocity) + forced(*axes[way]);
+        const auto mass = [&](const LaneVec& arm, const LaneVec& turn) {
+            const Lanes softness = s->are * dot(arm, turn);
+            return softness > kLeastTurning * p.hold.softness ? 1 / softness : Lanes{};
+        };
+        s->opening_a = dot(p.hold.arm_a, a.spin), s->opening_b = -dot(p.hold.arm_b, b.spin);
+        s->paid_a = s->paid_b = Lanes{};
+        s->mass_a = mass(p.hold.arm_a, p.hold.turn_a), s->mass_b = mass(p.hold.arm_b, p.hold.turn_b);
+    }
+    if (!r) return;
     for (int way = 0; way < 3; ++way) {
         const LaneVec& axis = *axes[way];
         set_row(r->roll[way], axis, axis, a.turned_by(axis), b.turned_by(axis), Lanes{}, there);
@@ -243,12 +319,14 @@ void ContactSolver::set_up(Batch& batch, const uint32_t* pairs, float dt) {
         if (pairs[k] == kNoPair) continue;
         of[k] = &pairs_[pairs[k]];
         batch.grips |= of[k]->grip > 0;
+        batch.siblings |= of[k]->are_siblings;
         batch.rolls |= points_[of[k]->first]->m_combinedRollingFriction > 0;
     }
     const Source a(bodies_, batch.body_a, dt), b(bodies_, batch.body_b, dt);
     for (uint32_t k = 0; k < batch.point_count; ++k) {
         PointRows& p = rows_[batch.first_point + k];
-        set_up_point(p, batch.rolls ? &rolls_[batch.first_point + k] : nullptr, of, k, a, b, dt);
+        set_up_point(p, batch.rolls ? &rolls_[batch.first_point + k] : nullptr,
+                     batch.siblings ? &siblings_[batch.first_point + k] : nullptr, of, k, a, b, dt);
         for (uint32_t lane = 0; lane < kLanes; ++lane) batch.pushes |= p.push_wanted[lane] > 0;
     }
 }
@@ -258,36 +336,39 @@ void ContactSolver::solve(float dt, Scratches& scratches) {
     changes_.assign(bodies_.size(), {});
     for (size_t k = 1; k < bodies_.size(); ++k)
         changes_[k].velocity[3] = changes_[k].push[3] = static_cast<float>(bodies_[k]->getInvMass());
+    group_islands();
     colour_pairs();
     fill_batches();
     const size_t rows = batches_.empty() ? 0 : batches_.back().first_point + batches_.back().point_count;
-    if (rows_.size() < rows) rows_.resize(rows), rolls_.resize(rows);
+    if (rows_.size() < rows) rows_.resize(rows), rolls_.resize(rows), siblings_.resize(rows);
     const auto count = static_cast<uint32_t>(batches_.size());
     scratches.run((count + kBatchesAJob - 1) / kBatchesAJob, [&](uint32_t job, PairScratch&) {
         for (uint32_t k = job * kBatchesAJob; k < std::min(count, (job + 1) * kBatchesAJob); ++k)
             set_up(batches_[k], &batch_pairs_[k * kLanes], dt);
     });
-    iterate();
+    scratches.run(static_cast<uint32_t>(groups_.size()), [&](uint32_t job, PairScratch&) { iterate(groups_[job]); });
     write_points();
     write_bodies(dt);
 }
 
-void ContactSolver::iterate() {
+void ContactSolver::iterate(const Group& group) {
     const int iterations =
         std::clamp(kContactTurns / std::max(static_cast<int>(points_.size()), 1), kLeastIterations, kMostIterations);
+    const std::span<const Batch> batches(batches_.data() + group.first, group.end - group.first);
     float changed = kSettledSquare + 1;
     for (int k = 0; k < iterations && changed > kSettledSquare; ++k) {
         changed = 0;
-        for (const Batch& batch : batches_)
+        for (const Batch& batch : batches)
             if (batch.pushes) changed = std::max(changed, push_batch(batch, rows_.data(), changes_.data()));
     }
     // Impulses that are handed on change the bodies after the pushes have been found: these do not see velocities.
-    for (const Batch& batch : batches_) start_batch(batch, rows_.data(), changes_.data());
+    for (const Batch& batch : batches) start_batch(batch, rows_.data(), changes_.data());
     changed = kSettledSquare + 1;
     for (int k = 0; k < iterations && changed > kSettledSquare; ++k) {
         changed = 0;
-        for (const Batch& batch : batches_)
-            changed = std::max(changed, solve_batch(batch, rows_.data(), rolls_.data(), changes_.data()));
+        for (const Batch& batch : batches)
+            changed =
+                std::max(changed, solve_batch(batch, rows_.data(), rolls_.data(), siblings_.data(), changes_.data()));
     }
 }
 

@@ -3,7 +3,11 @@
 //
 // Pairs that share no free body are solved side by side: each takes the first colour that neither of its bodies has
 // yet, in the order that pairs are given, and a colour's pairs fill batches of four. Half of a step of Bullet's own
-// solver went into rows that wait for each other; islands are not needed, what bodies of two of them do never meets.
+// solver went into rows that wait for each other.
+//
+// Islands, bodies that touch each other with nothing that stands between them, go into two, four or eight groups by the
+// number of their contacts, whatever the number of threads: what bodies of two groups do never meets, so that groups
+// are solved side by side.
 #pragma once
 #include <BulletCollision/NarrowPhaseCollision/btPersistentManifold.h>
 #include <BulletDynamics/Dynamics/btRigidBody.h>
@@ -30,8 +34,8 @@ class ContactSolver {
     /// free come last and hold best.
     /// With a grip, N s, contacts neither push out of overlaps nor bounce, but each holds the two to each other with at
     /// most so much in each direction, also against what would part them. Out of overlaps they are pushed by at most
-    /// `most_push`, m.
-    void add_pair(uint32_t a, uint32_t b, float grip, float most_push);
+    /// `most_push`, m. Siblings do not throw each other (see SiblingRows), nor bounce; they have no grip.
+    void add_pair(uint32_t a, uint32_t b, float grip, float most_push, bool are_siblings);
     void add_contacts(btPersistentManifold& manifold);
     /// Impulses, and the push out of overlaps. Nothing is integrated.
     void solve(float dt, Scratches& scratches);
@@ -42,22 +46,37 @@ class ContactSolver {
         uint32_t first, count;
         float grip;       // N s
         float most_push;  // m
-        uint32_t key;     // batches are filled in rising order of it
+        bool are_siblings;
+        uint32_t key;  // batches are filled in rising order of it
     };
     struct Source;
+    struct Island {
+        uint32_t points, root;  // of its bodies' numbers the least
+    };
+    struct Group {
+        uint32_t first, end;  // batches
+    };
+    bool is_free(uint32_t number) const;
+    uint32_t root_of(uint32_t number);
+    uint32_t root_of(const Contacts& pair);
+    void group_islands();
     void colour_pairs();
     void fill_batches();
     void fill_batch(const uint32_t* pairs, uint32_t count);
     void set_up(Batch& batch, const uint32_t* pairs, float dt);
-    void set_up_point(PointRows& p, RollRows* r, const Contacts* const (&of)[kLanes], uint32_t k, const Source& a,
-                      const Source& b, float dt);
-    void iterate();
+    void set_up_point(PointRows& p, RollRows* r, SiblingRows* s, const Contacts* const (&of)[kLanes], uint32_t k,
+                      const Source& a, const Source& b, float dt);
+    void iterate(const Group& group);
     void write_points() const;
     void write_bodies(float dt);
 
-    std::vector<btRigidBody*> bodies_;         // by number; null at 0
-    std::vector<SolverBody> changes_;          // by number
-    std::vector<uint64_t> colours_;            // by number: a bit each, of those that the body has
+    std::vector<btRigidBody*> bodies_;                // by number; null at 0
+    std::vector<SolverBody> changes_;                 // by number
+    std::vector<uint64_t> colours_;                   // by number: a bit each, of those that the body has
+    std::vector<uint32_t> above_;                     // by number: on the way to the island's root
+    std::vector<uint32_t> island_points_, group_of_;  // by root
+    std::vector<Island> islands_;
+    std::vector<Group> groups_;
     std::vector<Contacts> pairs_;              // in the order of solving
     std::vector<btManifoldPoint*> points_;     // of the pairs, one pair after the other
     std::vector<uint32_t> order_, key_begin_;  // pairs_ by key
@@ -65,6 +84,7 @@ class ContactSolver {
     std::vector<uint32_t> batch_pairs_;  // four each, kNoPair where a lane is empty
     std::vector<PointRows> rows_;        // grows alone: what a batch uses it fills
     std::vector<RollRows> rolls_;
+    std::vector<SiblingRows> siblings_;
 };
 
 }  // namespace cullet::bullet

@@ -197,6 +197,7 @@ void flow_body(F& f, Body& b) {
     f.number(b.idle_wakes);
     f.number(b.load), f.number(b.slept_load), f.number(b.moved_fraction);
     f.flag(b.is_fast);
+    f.number(b.birth), f.number(b.sibling_seconds);
     f.flag(b.is_level);
 }
 
@@ -342,6 +343,7 @@ void BulletWorld::save(ByteWriter& out) const {
     flow_numbers(f, gravity);
     f.number(self.counts_.sweeps), f.number(self.counts_.pairs), f.number(self.counts_.contacts);
     flow_numbers(f, self.to_static_);
+    f.number(self.births_);
     out.number(body_end_);
     for (RigidId id = 0; id < body_end_; ++id) {
         Body& body = bodies_[id];
@@ -432,6 +434,7 @@ Result<void> BulletWorld::load(ByteReader& in) {
     gravity_ = to_bullet(gravity);
     f.number(counts_.sweeps), f.number(counts_.pairs), f.number(counts_.contacts);
     flow_numbers(f, to_static_);
+    f.number(births_);
     const uint32_t end = in.count("the number of bodies", 1, body_limit_);
     for (RigidId id = 0; id < end && in.is_sound(); ++id) {
         Body& body = bodies_[id];

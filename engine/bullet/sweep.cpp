@@ -87,6 +87,28 @@ void Sweeper::slow_down(BulletWorld& world) {
     }
 }
 
+// Takes `closing`, m/s of approach at a place, from the spins that bring it about, by their shares in it.
+void Sweeper::slow_spins(Body& a, Body& b, Vec3 place, Vec3 normal, float closing) {
+    const btVector3 along = to_bullet(normal), point = to_bullet(place);
+    Body* const bodies[] = {&a, &b};
+    btVector3 arm[2];
+    float closes[2] = {};
+    for (int k = 0; k < 2; ++k) {
+        if (!bodies[k]->is_free()) continue;
+        const btRigidBody& body = *bodies[k]->bullet;
+        arm[k] = (point - body.getCenterOfMassPosition()).cross(k == 0 ? along : -along);
+        closes[k] = std::max(0.0f, -arm[k].dot(body.getAngularVelocity()));
+    }
+    const float both = closes[0] + closes[1];
+    if (!(both > 0)) return;
+    for (int k = 0; k < 2; ++k) {
+        if (!(closes[k] > 0)) continue;
+        const float softness = arm[k].dot(bodies[k]->bullet->getInvInertiaTensorWorld() * arm[k]);
+        if (softness > 0)
+            bodies[k]->bullet->applyTorqueImpulse(std::min(1.0f, closing / both) * closes[k] / softness * arm[k]);
+    }
+}
+
 // At the corner of either piece that closes fastest; false when none does.
 bool Sweeper::stop_closing(BulletWorld& world, Body& a, const Hull& p, Body& b, const Hull& q, Vec3 normal) {
     Vec3 place;
@@ -101,6 +123,7 @@ bool Sweeper::stop_closing(BulletWorld& world, Body& a, const Hull& p, Body& b, 
     if (!(closing > 0)) return false;
     const btVector3 along = to_bullet(normal), point = to_bullet(place);
     const auto arm = [&](const Body& body) { return point - body.bullet->getCenterOfMassPosition(); };
+    const auto inverse_mass = [](const Body& body) { return body.is_free() ? body.bullet->getInvMass() : 0.0f; };
     const auto give = [&](const Body& body) {  // 1/kg
         if (!body.is_free()) return 0.0f;
         const btVector3 lever = arm(body).cross(along);
@@ -108,7 +131,18 @@ bool Sweeper::stop_closing(BulletWorld& world, Body& a, const Hull& p, Body& b, 
     };
     const float gives = give(a) + give(b);
     if (!(gives > 0)) return false;  // neither is free: what is driven meets what is held
-    const btVector3 impulse = (closing / gives) * along;
+    // Siblings do not throw each other (see SiblingRows).
+    const float straight = inverse_mass(a) + inverse_mass(b);
+    float blow = closing / gives;
+    if (are_siblings(a, b)) {
+        const auto flight_of = [&](const Body& body) {
+            return world.velocity_at(body, from_bullet(body.bullet->getCenterOfMassPosition()));
+        };
+        const float flight = dot(flight_of(b) - flight_of(a), normal);
+        blow = std::min(blow, std::max(flight, 0.0f) / straight);
+        slow_spins(a, b, place, normal, closing - blow * gives);
+    }
+    const btVector3 impulse = blow * along;
     const auto push = [&](Body& body, const btVector3& by) {
         if (body.is_free()) return body.bullet->applyImpulse(by, arm(body));
         world.to_static_ += Vec3d(from_bullet(by));

@@ -46,6 +46,7 @@ class Sweeper {
         Vec3 normal;                                        // from the other one towards the body
     };
     void stop(Body& body, const Hull& hull, const Body& other, const Hull& other_hull, Vec3 normal, float at);
+    static void slow_spins(Body& a, Body& b, Vec3 place, Vec3 normal, float closing);
     static bool stop_closing(BulletWorld& world, Body& a, const Hull& p, Body& b, const Hull& q, Vec3 normal);
     static void find_near(const BulletWorld& world, const Box& box, std::vector<RigidId>& near);
     double low_of(uint32_t k) const { return double{fast_[k].swept.low.*axis_}; }

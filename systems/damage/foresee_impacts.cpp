@@ -89,11 +89,11 @@ Reach reach_of_flight(const Bodies& bodies, uint32_t b, Vec3 gravity, float seco
 }
 
 /// Bodies that were never broken, of those that may be.
-std::span<const Reach> find_whole(const Bodies& bodies, const Shells& shells, const DamageSettings& settings,
-                                  Arena& arena) {
+std::span<const Reach> find_whole(const Bodies& bodies, const Shells& shells, const Tasks& tasks,
+                                  const DamageSettings& settings, Arena& arena) {
     const auto is_whole = [&](uint32_t b) {
         return static_cast<BodyKind>(bodies.kind[b]) != BodyKind::Free && !bodies.parent[b].exists() &&
-               bodies.task[b] == kNone && is_fragile(bodies, shells, settings, b);
+               (bodies.task[b] == kNone || is_ahead(tasks, bodies.task[b])) && is_fragile(bodies, shells, settings, b);
     };
     uint32_t count = 0;
     for (uint32_t b = 0; b < bodies.size(); ++b) count += is_whole(b);
@@ -117,7 +117,7 @@ void foresee_impacts(Serial, Step step, RigidWorld& rigid, const Bodies& bodies,
     const float least = least_wake_speed(bodies, shells, settings);
     const float seconds = step.dt * static_cast<float>(settings.frames_ahead), gained = length(step.gravity) * seconds;
     Flights flights{step, rigid, bodies, tasks, contacts, least, settings.frames_ahead, foreseen};
-    const auto whole = find_whole(bodies, shells, settings, arena);
+    const auto whole = find_whole(bodies, shells, tasks, settings, arena);
     // In the order of rows; pieces that are near something whole from the front, others from the back.
     const auto pieces = arena.take<uint32_t>(bodies.size());
     uint32_t left = kMostFlights, near = 0, others = 0;

@@ -2,13 +2,13 @@
 #include <cmath>
 
 #include "systems/damage/cancel_task.hpp"
+#include "systems/damage/open_ahead.hpp"
 #include "systems/damage/opening.hpp"
 #include "systems/systems.hpp"
 
 namespace cullet {
 namespace {
 
-constexpr float kSpeedShare = 0.1f;  // by which a touch may be slower or faster than foreseen
 constexpr uint64_t kLateFrames = 1;  // by which it may come later
 
 struct Meeting {
@@ -36,7 +36,7 @@ struct Meeting {
         const Tasks& tasks = state.tasks;
         const auto all = on(tasks.body[task]);
         const Row<Bodies> striker = state.task_contacts.striker[tasks.first_contact[task]];
-        const float speed = tasks.foreseen_speed[task], share = kSpeedShare * speed;
+        const float speed = tasks.foreseen_speed[task], share = kForeseenShare * speed;
         if (all.empty() || all.front().approach_speed > speed + share) return nullptr;
         for (const Impact& i : all)
             if (i.striker == striker && i.cell == tasks.foreseen_cell[task])

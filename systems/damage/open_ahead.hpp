@@ -4,8 +4,11 @@
 
 namespace cullet {
 
+/// By which a touch may be slower or faster than foreseen.
+inline constexpr float kForeseenShare = 0.1f;
+
 /// Behind the tasks of this step's contacts and blows, and at most on half of limits.open_hits: what is not here yet
-/// takes nothing away from what is.
+/// takes nothing away from what is. A touch that comes before the one that a body's task is for takes its place.
 void open_ahead(Opening& opening, const Events<ForeseenHit>& foreseen, const DamageSettings& settings);
 
 }  // namespace cullet

@@ -183,6 +183,14 @@ class Cracks {
     std::span<CrackTouch> touches_;
 };
 
+void name_siblings(Births& births, const Break& plan) {
+    const auto ids = births.arena.take<RigidId>(plan.parts.size());
+    size_t count = 0;
+    for (uint32_t p = 0; p < plan.parts.size(); ++p)
+        if (count < ids.size() && plan.child[p].exists()) ids[count++] = plan.child[p];
+    births.rigid.name_siblings(ids.first(count));
+}
+
 // New pieces start in touch with each other, and with what struck them. What a cut or a tear parts has no motion of its
 // own that would take it out of its sibling: unmet, the upper half of a vase fell 30 cm into the lower one and stayed
 // there. Such pieces meet at once; their overlap is pushed out without adding velocity.
@@ -314,6 +322,7 @@ void make_births_of(Births& births, const Break& plan, const Moment& moment) {
         const uint32_t p = plan.order[i % count];
         if (plan.child[p].exists()) make_birth(births, plan, p, moment, bounds[p], leaving);
     }
+    name_siblings(births, plan);
     part_siblings(births, plan, moment, bounds);
 }
 

@@ -28,7 +28,7 @@ struct Touch {
 /// opposite, by Gauss-Seidel sweeps in the order of the touches. Momentum and angular momentum are kept, and what
 /// already parts so is left alone. Each impulse against an approach or a slide lowers the energy; those that open for
 /// what turns may raise it, so who needs it bounded has to look. Sweeps end when nothing lacks more than a thousandth
-/// of `speed`, or after 80; three of four look only at touches that have needed an impulse.
+/// of `speed`, or after 80; most look only at touches that have needed an impulse.
 void stop_approach(std::span<Touching> bodies, std::span<Touch> touches, double speed);
 
 }  // namespace cullet

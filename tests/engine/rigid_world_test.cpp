@@ -305,6 +305,55 @@ TEST(RigidWorld, SiblingsWithoutTouchesPassForAQuarterOfASecondAtMost) {
     EXPECT_FALSE(world->contacts().empty());
 }
 
+// A bar that spins in its place strikes a box with its end.
+struct AfterTheStroke {
+    float apart, momentum, spin, deepest;  // m/s that the two fly apart, kg m/s, rad/s, m
+};
+AfterTheStroke stroke_of_a_spinning_bar(bool are_siblings) {
+    auto world = make_bullet_world(8);
+    add_box(*world, 0, {0, 0, 0}, {0.3f, 0.05f, 0.05f}, 1000);
+    add_box(*world, 1, {0.25f, 0.16f, 0}, {0.1f, 0.05f, 0.05f}, 1000);
+    const RigidId both[] = {0, 1};
+    if (are_siblings) world->name_siblings(both);
+    world->set_motion(0, {{}, {0, 0, 6}});
+    float deepest = 0;
+    for (int k = 0; k < 12; ++k) {
+        step(*world);
+        for (const RigidContact& contact : world->contacts()) deepest = std::min(deepest, contact.distance);
+    }
+    const Motion bar = world->motion(0), box = world->motion(1);
+    const Vec3 momentum = 6 * bar.velocity + 2 * box.velocity;
+    return {length(box.velocity - bar.velocity), length(momentum), length(bar.angular_velocity), deepest};
+}
+
+TEST(RigidWorld, SiblingsTakeFromEachOthersSpinAndDoNotThrowEachOther) {
+    const AfterTheStroke siblings = stroke_of_a_spinning_bar(true), others = stroke_of_a_spinning_bar(false);
+    EXPECT_GT(others.apart, 1);
+    EXPECT_LT(siblings.apart, 1e-4f);
+    EXPECT_LT(siblings.spin, 1);  // what it struck would else lie in its way
+    EXPECT_LT(siblings.momentum, 1e-4f);
+    EXPECT_GT(siblings.deepest, -0.001f);
+}
+
+// Both ways: what flies at its sibling is stopped without a bounce, and what slides along it is slowed down.
+TEST(RigidWorld, SiblingsStopEachOthersFlightAndMeetAsAnyTwoAfterHalfASecond) {
+    const auto struck = [](int steps_before) {
+        auto world = make_bullet_world(8);
+        add_box(*world, 0, {0, 0, 0}, {0.1f, 0.1f, 0.1f}, 1000);
+        add_box(*world, 1, {0, 0.25f, 0}, {0.1f, 0.1f, 0.1f}, 1000);
+        const RigidId both[] = {0, 1};
+        world->name_siblings(both);
+        for (int k = 0; k < steps_before; ++k) step(*world);
+        world->set_motion(1, {{0.5f, -3, 0}, {}});
+        for (int k = 0; k < 4; ++k) step(*world);
+        return world->motion(0).velocity - world->motion(1).velocity;
+    };
+    const Vec3 young = struck(0), old = struck(31);
+    EXPECT_NEAR(young.y, 0, 1e-3f);
+    EXPECT_LT(std::fabs(young.x), 0.5f);
+    EXPECT_LT(old.y, -0.3f);  // a bounce
+}
+
 // A body in mid-bounce on the floor beside another that it leans on; the first is held for `held` steps in the gap of
 // step 12.
 std::vector<Pose> bounce(int held) {

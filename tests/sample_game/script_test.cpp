@@ -541,8 +541,8 @@ TEST_P(SceneHash, IsWhatTheSceneAlwaysGave) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Scenes, SceneHash,
-                         testing::Values(KnownHash{"vase", "fe07e75fd6d27ca4"}, KnownHash{"wall", "3550bad52962a07b"},
-                                         KnownHash{"pane", "72016f6c4c41762a"}, KnownHash{"drop", "94841864fcc005db"}),
+                         testing::Values(KnownHash{"vase", "4d33cd2aad379a5d"}, KnownHash{"wall", "d8c174ccdf2ec34c"},
+                                         KnownHash{"pane", "b08e0ac9bbdebd40"}, KnownHash{"drop", "e28f0a7e468188ee"}),
                          [](const auto& known) { return std::string(known.param.scene); });
 
 TEST(Script, AFileIsPlayedByItsPathAndOneThatIsNotThereIsNamed) {

@@ -13,7 +13,7 @@
 namespace cullet::test {
 namespace {
 
-constexpr uint32_t kFrames = 30;
+constexpr uint32_t kFrames = 30, kMany = kNone - 1;
 constexpr float kTouch = 0.001f;       // m between bounds of pieces that were born in touch
 constexpr double kSeenDepth = 0.0005;  // m
 // m between two places of a body: what turns on and strikes, or crosses a hollow, meets what lay farther off.
@@ -172,17 +172,42 @@ double SiblingWatch::apart_at_birth(const RigidContact& contact) const {
     return length(place_in(contact.a) - place_in(contact.b));
 }
 
+uint32_t SiblingWatch::piece_of(uint32_t body) const {
+    for (uint32_t p = 0; p < pieces_.size(); ++p)
+        if (pieces_[p].id.index == body) return p;
+    return kNone;
+}
+
+// By what the rigid world found in the step that is over.
+void SiblingWatch::measure_meetings() {
+    const Bodies& bodies = state_of(world_).bodies;
+    const size_t count = pieces_.size();
+    partners_.assign(count, kNone);
+    for (const RigidContact& c : world_.contents().data.rigid->contacts()) {
+        const uint32_t p = piece_of(c.a), q = piece_of(c.b);
+        if (p != kNone) partners_[p] = partners_[p] == kNone || partners_[p] == q ? q : kMany;
+        if (q != kNone) partners_[q] = partners_[q] == kNone || partners_[q] == p ? p : kMany;
+    }
+    for (uint32_t p = 0; p < count; ++p) {
+        const uint32_t q = partners_[p];
+        if (q >= count || q < p || partners_[q] != p) continue;
+        const auto impulse = [&](uint32_t i) {
+            const Row<Bodies> b(pieces_[i].id.index);
+            return bodies.mass[b] * (Vec3d(bodies.velocity[b]) - velocities_[i]);
+        };
+        // Not equal and opposite: the sweep has stopped one of them at a third one.
+        if (length(impulse(p) + impulse(q)) > 0.001 * length(impulse(p))) continue;
+        const double before = length(velocities_[p] - velocities_[q]);
+        by_the_other_[p * count + q] += length(relative_speed(state_of(world_), pieces_[p].id, pieces_[q].id)) - before;
+        has_met_each_other_[p * count + q] = 1;
+    }
+}
+
 // A shard may cross the body and hit its other side: such blows, and what those that got one hit in their turn, are
 // no matter of birth. Nor is what two neighbours do that turn on and meet elsewhere, but that is told apart.
 void SiblingWatch::mark_struck() {
-    const auto contacts = world_.contents().data.rigid->contacts();
-    const auto place_of = [&](uint32_t id) {
-        for (uint32_t p = 0; p < pieces_.size(); ++p)
-            if (pieces_[p].id.index == id) return p;
-        return kNone;
-    };
-    for (const RigidContact& c : contacts) {
-        uint32_t p = place_of(c.a), q = place_of(c.b);
+    for (const RigidContact& c : world_.contents().data.rigid->contacts()) {
+        uint32_t p = piece_of(c.a), q = piece_of(c.b);
         if (p == kNone || q == kNone) continue;
         if (p > q) std::swap(p, q);
         const bool are_neighbours = std::binary_search(pairs_.begin(), pairs_.end(), std::pair(p, q));
@@ -236,17 +261,24 @@ void SiblingWatch::follow(const Shape& shape, Draw draw, const SpawnSettings& sp
     is_seen_in_.assign(pairs_.size(), 0);
     is_struck_.assign(pieces_.size(), 0);
     has_met_.assign(pieces_.size(), 0);
+    by_the_other_.assign(pieces_.size() * pieces_.size(), 0);
+    has_met_each_other_.assign(pieces_.size() * pieces_.size(), 0);
     for (uint32_t frame = 1; frame < kFrames; ++frame) {
         const Bodies& bodies = state_of(world_).bodies;
         poses_.clear();
         for (uint32_t b = 0; b < bodies.size(); ++b) poses_.push_back(pose_of(bodies, Row<Bodies>(b)));
+        velocities_.clear();
+        for (const Piece& piece : pieces_) velocities_.push_back(Vec3d(bodies.velocity[piece.id.index]));
         world_.step();
+        measure_meetings();
         mark_struck();
         const bool is_quiet = std::find(is_struck_.begin(), is_struck_.end(), 1) == is_struck_.end();
         if (frame == 3 && is_quiet) figures_.lost.push_back(1 - energy() / birth_energy_);
         if (looks_inside) look_inside();
     }
     measure_pairs();
+    for (size_t k = 0; k < by_the_other_.size(); ++k)
+        if (has_met_each_other_[k]) figures_.by_the_other.push_back(by_the_other_[k]);
     figures_.pairs += static_cast<uint32_t>(pairs_.size());
     if (looks_inside) {
         figures_.looked_at += static_cast<uint32_t>(pairs_.size());

@@ -15,6 +15,7 @@ struct SiblingFigures {
     // Of breaks, and of pairs of pieces that were born in touch, in which nobody was struck by what was born elsewhere:
     std::vector<double> lost;             // share of the kinetic energy about the common centre that 3 steps take
     std::vector<double> gained;           // m/s in half a second, all collisions counted
+    std::vector<double> by_the_other;     // of all pairs that met, in frames in which both met nobody else
     std::vector<double> thrown;           // of those by which nobody came upon what had been elsewhere in the body
     std::vector<double> gained_alone;     // of those the pairs of which nothing else came
     double fastest = 0;                   // largest |v - (V + w x r)| / impact speed, of all pieces but the largest
@@ -48,6 +49,8 @@ class SiblingWatch {
     double energy() const;
     void compare_surface();
     void mark_struck();
+    void measure_meetings();
+    uint32_t piece_of(uint32_t body) const;
     double apart_at_birth(const RigidContact& contact) const;
     void measure_pairs();
     void look_inside();
@@ -63,8 +66,11 @@ class SiblingWatch {
     uint64_t surface_ = 0;
     std::vector<Piece> pieces_;
     std::vector<std::pair<uint32_t, uint32_t>> pairs_;
-    std::vector<uint8_t> is_seen_in_, is_struck_, has_met_;
-    std::vector<Pose> poses_;  // of bodies, when their contacts were found
+    std::vector<uint8_t> is_seen_in_, is_struck_, has_met_, has_met_each_other_;
+    std::vector<Vec3d> velocities_;     // of pieces, before the frame
+    std::vector<uint32_t> partners_;    // of pieces, in the frame: whom it met, nobody, or many
+    std::vector<double> by_the_other_;  // of p * pieces + q
+    std::vector<Pose> poses_;           // of bodies, when their contacts were found
 };
 
 }  // namespace cullet::test
