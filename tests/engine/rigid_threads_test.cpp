@@ -1,6 +1,7 @@
 // The rigid world on the threads that there are: the same bytes whatever their number.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "engine/byte_stream.hpp"
@@ -46,6 +47,36 @@ TEST(RigidThreads, GiveTheBytesOfNone) {
     for (const uint32_t threads : {2u, 3u, 8u}) {
         const auto jobs = make_jobs(JobBackend::Threads, threads);
         EXPECT_EQ(course_of(jobs.get()), alone) << threads << " threads";
+    }
+}
+
+/// Forty stacks of four boxes: so many contacts that their islands are solved in two groups.
+std::vector<uint8_t> stacks_of(JobSystem* jobs) {
+    constexpr uint32_t kStacks = 40, kHigh = 4;
+    auto world = floor_world(kStacks * kHigh + 1);
+    if (jobs) world->use_jobs(*jobs);
+    for (uint32_t k = 0; k < kStacks * kHigh; ++k)
+        add_box(*world, 1 + k,
+                {0.3f * real(k % 8) - 1, 0.05f + 0.101f * real(k / kStacks), 0.3f * real(k % kStacks / 8) - 0.6f},
+                {0.1f, 0.05f, 0.1f}, 1000);
+    uint32_t contacts = 0;
+    for (int k = 0; k < 40; ++k) {
+        step(*world);
+        contacts = std::max(contacts, static_cast<uint32_t>(world->counts().contacts));
+    }
+    EXPECT_GT(contacts, 600u);
+    for (uint32_t k = 0; k < kStacks; ++k)
+        EXPECT_NEAR(world->pose(1 + (kHigh - 1) * kStacks + k).position.y, 0.35f, 0.002f);
+    ByteWriter out;
+    world->save(out);
+    return out.bytes;
+}
+
+TEST(RigidThreads, GiveTheBytesOfNoneWhereIslandsAreSolvedSideBySide) {
+    const auto alone = stacks_of(nullptr);
+    for (const uint32_t threads : {2u, 3u, 8u}) {
+        const auto jobs = make_jobs(JobBackend::Threads, threads);
+        EXPECT_EQ(stacks_of(jobs.get()), alone) << threads << " threads";
     }
 }
 

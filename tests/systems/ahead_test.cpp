@@ -108,6 +108,30 @@ TEST(Ahead, ATouchThatComesFasterElsewhereOrNotAtAllIsAMiss) {
     }
 }
 
+// A second ball, from the other side, when the first one is seven frames away.
+TEST(Ahead, AnEarlierTouchTakesThePlaceOfTheOneThatATaskIsFor) {
+    Settings settings = ahead_settings();
+    settings.units_a_frame = 20'000'000;
+    Breakage b = far_ball(settings);
+    expect_valid_after_each_system(b.world);
+    uint32_t thrown = 0;
+    const Play result = play(b.world, 40, [&](uint32_t frame) {
+        if (thrown || open_tasks(b.world) == 0) return;
+        thrown = frame;
+        SphereSettings ball;
+        ball.radius = 0.05f;
+        ball.mass = 1;
+        ball.pose.position = {0.01f, 0.13f, -0.75f};
+        ball.motion.velocity = {0, 0, 8};
+        EXPECT_TRUE(b.world.add_sphere(ball).ok());
+    });
+    ASSERT_GT(thrown, 0u);
+    EXPECT_LT(result.touch, thrown + 7);
+    EXPECT_EQ(result.born, result.touch);
+    EXPECT_EQ(b.world.contents().data.counts.first_ready, 1u);
+    EXPECT_GE(result.misses, 1u);
+}
+
 TEST(Ahead, AFlyingVaseBreaksOnTheFloorInTheFrameOfItsTouch) {
     Settings settings = ahead_settings();
     settings.gravity = {0, -9.81f, 0};
