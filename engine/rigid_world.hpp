@@ -179,7 +179,7 @@ class RigidWorld {
     /// No narrow phase between these two for so long (a striker and the shards it made).
     virtual void ignore_pair(RigidId a, RigidId b, float seconds) = 0;
     /// These were one body until now. For half a second what they do to each other does not throw them: it takes speed
-    /// from their flight beside each other and from their spins, and gives none.
+    /// from their flight beside each other and from their spins, and gives none. A host's contacts are its own affair.
     virtual void name_siblings(std::span<const RigidId>) {}
     /// The two were one body until now, and are where they were in it. Convex pieces of theirs that lie in each other,
     /// as hulls about the teeth of a crack do, or are nearer than contacts reach, meet at those of `touches` that are

@@ -93,8 +93,8 @@ struct Body {
     float load = 0;           // N s of this step, see sum_loads()
     float slept_load = 0;     // of the step in which it fell asleep
 
-    uint32_t birth = 0;         // siblings have the same, not 0,
-    float sibling_seconds = 0;  // so long
+    uint32_t birth = 0;         // siblings have the same,
+    float sibling_seconds = 0;  // while this lasts
 
     float moved_fraction = 1;  // of this step, less than 1 when stopped at a time of impact
     bool is_fast = false;      // swept in this step

@@ -885,8 +885,12 @@ void BulletWorld::solve(float dt) {
     work_done_.lifted += lifted - before;
     work_done_.ahead += CULLET_CHECKS_ON ? height_energy() - lifted + falling : 0;
     update_sleep(dt);
-    for (RigidId id = 0; id < body_end_; ++id)
-        if (bodies_[id].is_used) bodies_[id].bullet->clearForces(), bodies_[id].sibling_seconds -= dt;
+    for (RigidId id = 0; id < body_end_; ++id) {
+        Body& body = bodies_[id];
+        if (!body.is_used) continue;
+        body.bullet->clearForces();
+        body.sibling_seconds = std::max(0.0f, body.sibling_seconds - dt);
+    }
     for (IgnoredPair& pair : ignored_) pair.seconds -= dt;
     std::erase_if(ignored_, [](const IgnoredPair& p) { return !(p.seconds > 0); });
     skipped_.clear();

@@ -183,6 +183,7 @@ class Cracks {
     std::span<CrackTouch> touches_;
 };
 
+// What is left of the body is one of them.
 void name_siblings(Births& births, const Break& plan) {
     const auto ids = births.arena.take<RigidId>(plan.parts.size());
     size_t count = 0;
