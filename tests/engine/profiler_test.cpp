@@ -7,6 +7,7 @@
 #include <cmath>
 #include <filesystem>
 #include <fstream>
+#include <map>
 #include <nlohmann/json.hpp>
 #include <thread>
 
@@ -77,6 +78,19 @@ TEST(Profiler, TheTraceIsJsonWithFramesZonesAndCounters) {
     EXPECT_EQ(frames, 3u);
     EXPECT_EQ(zones, 6u);
     EXPECT_EQ(counters, 3u);
+}
+
+TEST(Profiler, EveryThreadWithASpanHasATrackAndAName) {
+    Profiler profiler;
+    const uint32_t zone = profiler.add_zone("a");
+    profiler.begin_frame(0);
+    profiler.add(zone, now_ns(), now_ns(), 1);
+    std::thread([&] { profiler.add_span(zone, now_ns(), now_ns()); }).join();
+    profiler.end_frame();
+    std::map<int, std::string> names;
+    for (const auto& event : trace_of(profiler)["traceEvents"])
+        if (event["name"] == "thread_name") names[event["tid"]] = event["args"]["name"];
+    EXPECT_EQ(names, (std::map<int, std::string>{{0, "worker 0, the one that steps"}, {1, "worker 1"}}));
 }
 
 TEST(Profiler, AnEmptyTraceIsJson) {

@@ -97,8 +97,8 @@ TEST(Trace, HasOneNamedTrackAWorker) {
         if (event["name"] == "thread_name") {
             EXPECT_TRUE(names.try_emplace(event["tid"], event["args"]["name"]).second);
         }
-    // oneTBB may serve a pass with other threads of its pool than the last one: no fewer than asked for.
-    EXPECT_GE(names.size(), 2u);
+    // How many did any work is oneTBB's choice: on a busy machine the first may be done before another comes, and a
+    // pass may be served by other threads of its pool than the last one. profiler_test has two for certain.
     EXPECT_EQ(names[0], "worker 0, the one that steps");
     std::set<int> used;
     for (const auto& [track, spans] : tracks_of(played().trace)) used.insert(track);
