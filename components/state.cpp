@@ -104,14 +104,18 @@ State::Pools::Pools(const State& s)
       layer_slots(s.layer_slots.limit(), 1, ranges_of(s.shells)),
       twins(s.twins.limit(), kVerticesPerCell, ranges_of(s.shells)) {}
 
+constexpr uint32_t kMostShellsAhead = 8;
+
 // `shell` is what a hit takes, a copy of all rows and what cracks add (working_room); what moves of the broken shell is
-// less than it. A drawn mesh has 6 corners an element and 6 a free edge, and the pieces' more than the body's.
-void State::commit_ahead(const ShellRoom& shell, uint32_t served) {
+// less than it: two a hit. A drawn mesh has 6 corners an element and 6 a free edge, and the pieces' more than the
+// body's. Where many bodies stand an explosion breaks some of them in one frame.
+void State::commit_ahead(const ShellRoom& shell, uint64_t bytes) {
     const auto commit = [&](AnyTable& table, const RangePool& pool, uint64_t rows) {
         const auto end = static_cast<uint32_t>(std::min<uint64_t>(pool.end() + rows, table.limit()));
-        if (served > 0 && rows > 0 && table.commit_rows(end)) --served;
+        if (rows > 0) bytes -= table.commit_rows(end, bytes);
     };
-    const auto times = [](uint64_t factor, uint32_t rows) { return factor * rows; };
+    const uint64_t shells_ahead = std::clamp(bodies.size(), 2u, kMostShellsAhead);
+    const auto times = [&](uint64_t factor, uint32_t rows) { return factor * rows * shells_ahead / 2; };
     commit(vertices, pools.vertices, times(2, shell.vertices) + 512);
     commit(elements, pools.elements, times(2, shell.elements) + 1024);
     commit(triangle_springs, pools.elements, times(2, shell.elements) + 1024);
@@ -125,9 +129,9 @@ void State::commit_ahead(const ShellRoom& shell, uint32_t served) {
     commit(view_indices, pools.view_indices, times(12, shell.elements));
     // The springs of a region (quick mode): of all the body, when it is small. What cracks add is a few per cent, and a
     // third of the vertices at least are rows to spare.
-    if (quick_bodies.size() == 0 || served == 0) return;
+    if (quick_bodies.size() == 0) return;
     const bool has_layers = std::count(quick_bodies.layers.data(), quick_bodies.layers.data() + quick_bodies.size(), 2);
-    const uint64_t edges = uint64_t{3} * shell.vertices / 2, slots = uint64_t{5} * shell.vertices / kLanes;
+    const uint64_t edges = times(3, shell.vertices) / 2, slots = times(5, shell.vertices) / kLanes;
     commit(springs, pools.springs, edges);
     commit(element_springs, pools.element_springs, shell.elements);
     commit(spring_packs, pools.spring_packs, shell.vertices / kLanes);
@@ -219,7 +223,7 @@ namespace {
 // would grow for as long as a game runs.
 void grow(AnyTable& table, uint32_t rows) {
     if (rows <= table.size()) return;
-    (void)table.commit_rows(rows);
+    table.commit_rows(rows);
     table.append(rows - table.size());
 }
 

@@ -148,9 +148,9 @@ struct State {
         return this->*member;
     }
 
-    /// Pages behind the rows in use: room for a hit on a shell of these rows and for the pieces. Touches no value. At
-    /// most `tables` tables are served at once.
-    void commit_ahead(const ShellRoom& shell, uint32_t tables = kNone);
+    /// Pages behind the rows in use: room for hits on shells of these rows and for the pieces, of at most `bytes`.
+    /// Touches no value.
+    void commit_ahead(const ShellRoom& shell, uint64_t bytes = ~uint64_t{0});
 
     uint64_t hash() const;
     std::string validate() const;

@@ -52,8 +52,6 @@ struct Tasks : Table<Tasks> {
     Column<uint32_t> part_count{*this, "part_count"};  // components of its shell, once it ended
     // Of a task that was opened before its touch, which is foreseen: it runs, or waits with its result.
     Column<uint64_t> due_frame{*this, "due_frame"};  // of the touch; 0: the touch has come, or nobody foresaw it
-    Column<uint32_t> foreseen_cell{*this, "foreseen_cell"};        // of the body, where the fastest contact will be
-    Column<float> foreseen_speed{*this, "foreseen_speed", "m/s"};  // of that contact
 };
 
 /// Opened before its touch, which has not come yet: the world knows nothing of it.
@@ -100,6 +98,8 @@ struct TaskContacts : Table<TaskContacts> {
     Column<Vec3> point{*this, "point", "m"};   // body frame
     Column<Vec3> normal{*this, "normal"};      // unit, body axes: the way the striker pushes the body
     Column<Row<Bodies>> striker{*this, "striker"};
+    Column<uint32_t> cell{*this, "cell"};                                       // of the body, that is touched
+    Column<float> approach_speed{*this, "approach_speed", "m/s"};               // as the rigid world told it
     Column<float> striker_inverse_mass{*this, "striker_inverse_mass", "1/kg"};  // effective along the normal; 0: floor
     // What a push at one contact does to the striker's speed at another that it has with the body:
     // n . n'/m + turn . spin'. Body axes.

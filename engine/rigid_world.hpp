@@ -166,8 +166,9 @@ class RigidWorld {
 
     // The gap.
     /// Where a body in flight first touches another one, should nothing push it before: the next `steps` steps are made
-    /// for it alone, among bodies that stand still or move slower than 1 m/s, where those are now. False: it does not,
-    /// or is not in flight (asleep, held, touched by something), or this world cannot tell. Changes nothing.
+    /// for it alone, among bodies that stand still or move slower than 1 m/s, where those are now. One that is held up
+    /// goes on as it did in the last steps, as slabs that topple do, and does not meet what it touches already. False:
+    /// it touches nobody, or does not move (asleep, held), or this world cannot tell. Changes nothing.
     virtual bool foresee(RigidId, float, uint32_t, ForeseenTouch&) { return false; }
     /// Stands still with infinite mass for everybody until released; its velocities are kept. Hold and release both
     /// belong in the gap: a release is then bit for bit as if never held.

@@ -45,15 +45,18 @@ void AnyTable::clear_rows(uint32_t first, uint32_t count) {
             std::memset(column_memory(c, a) + size_t{first} * c.row_bytes, 0, size_t{count} * c.row_bytes);
 }
 
-bool AnyTable::commit_rows(uint32_t count) {
+uint64_t AnyTable::commit_rows(uint32_t count, uint64_t most) {
     count = count < limit_ ? count : limit_;
     const uint32_t from = committed_ > size_ ? committed_ : size_;
-    if (count <= from) return false;
+    if (count <= from) return 0;
+    const uint64_t bytes = bytes_a_row(), rows = most / bytes;
+    if (rows == 0) return 0;
+    if (rows < count - from) count = from + static_cast<uint32_t>(rows);
     for (const ColumnInfo& c : *columns_)
         for (int a = 0; a < c.lanes * c.sides; ++a)
             commit_memory(column_memory(c, a) + size_t{from} * c.row_bytes, size_t{count - from} * c.row_bytes);
     committed_ = count;
-    return true;
+    return bytes * (count - from);
 }
 
 uint64_t AnyTable::hash(uint64_t seed) const {

@@ -23,10 +23,12 @@ struct Impact {
     uint32_t cell = 0;        // of the body's shell
     bool is_settled = false;  // an open task knows it already
 };
-inline constexpr uint32_t kMostFlights = 32;  // that are foreseen in a frame
+inline constexpr uint32_t kMostFlights = 48;   // that are foreseen in a frame
+inline constexpr uint32_t kMostToppling = 16;  // of those, at least for what is held up
 /// The first touch of a body in flight, some frames before it comes.
 struct ForeseenHit {
     Row<Bodies> body;
+    bool is_toppling = false;  // held up: it will not come as surely as from flight
     ForeseenTouch touch;
 };
 /// A damage task that took its rows in this step and must be filled.

@@ -96,6 +96,9 @@ struct Body {
     uint32_t birth = 0;         // siblings have the same,
     float sibling_seconds = 0;  // while this lasts
 
+    Motion started;  // with which it came into this step
+    Motion gained;   // m/s and rad/s a step, of what is held up: over the last steps, the last one counts half
+
     float moved_fraction = 1;  // of this step, less than 1 when stopped at a time of impact
     bool is_fast = false;      // swept in this step
 

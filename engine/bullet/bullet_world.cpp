@@ -405,6 +405,7 @@ void BulletWorld::enter(Body& body, const Pose& at, uint32_t layer, uint32_t mas
     body.has_left = false;
     body.idle_wakes = 0;
     body.sibling_seconds = 0;
+    body.gained = {};
     body_end_ = std::max(body_end_, body.id + 1);
     body.layer = layer, body.mask = mask;
     refresh(body);
@@ -866,12 +867,29 @@ void BulletWorld::solve_contacts(float dt) {
     solver_.solve(dt, scratches_);
 }
 
+namespace {
+
+Motion motion_now(const Body& body) {
+    return {from_bullet(body.bullet->getLinearVelocity()), from_bullet(body.bullet->getAngularVelocity())};
+}
+
+void note_gain(Body& body) {
+    if (!body.is_free()) return (void)(body.gained = {});
+    const Motion now = motion_now(body);
+    body.gained.velocity = 0.5f * (body.gained.velocity + now.velocity - body.started.velocity);
+    body.gained.angular_velocity =
+        0.5f * (body.gained.angular_velocity + now.angular_velocity - body.started.angular_velocity);
+}
+
+}  // namespace
+
 void BulletWorld::solve(float dt) {
     InsideRigidEngine guard(counts_.allocations);
     wake_struck();
     for (RigidId id = 0; id < body_end_; ++id) {
         Body& body = bodies_[id];
         if (!body.is_used || !body.is_free()) continue;
+        body.started = motion_now(body);
         body.bullet->applyGravity();
         turn_freely(*body.bullet, dt);
         if (body.is_damped) body.bullet->applyDamping(dt);
@@ -890,6 +908,7 @@ void BulletWorld::solve(float dt) {
         if (!body.is_used) continue;
         body.bullet->clearForces();
         body.sibling_seconds = std::max(0.0f, body.sibling_seconds - dt);
+        note_gain(body);
     }
     for (IgnoredPair& pair : ignored_) pair.seconds -= dt;
     std::erase_if(ignored_, [](const IgnoredPair& p) { return !(p.seconds > 0); });

@@ -40,6 +40,11 @@ class Flight {
           stood_in_(body.shape.box),
           moved_fraction_(body.moved_fraction),
           is_fast_(body.is_fast) {
+        if (body.is_held_up) {
+            const Mat3 to_world = rotation_of(flying_.getWorldTransform());
+            pushed_ = transposed_times(to_world, body.gained.velocity);
+            turned_ = transposed_times(to_world, body.gained.angular_velocity);
+        }
         flying_.setGravity(world.gravity_);
         flying_.setLinearVelocity(body.bullet->getLinearVelocity());
         flying_.setAngularVelocity(body.bullet->getAngularVelocity());
@@ -72,16 +77,24 @@ class Flight {
             return id == body_.id || !is_slow(other) || !body_.meets_layer_of(other) ||
                    world_.is_apart_by_order(body_.id, id);
         });
+        if (body_.is_held_up) std::erase_if(others, [&](RigidId id) { return meets_already(id); });
         std::sort(others.begin(), others.end());
         return !others.empty();
     }
 
     /// The solve() of one step; nothing touches the body.
     void go() {
-        flying_.clearForces();
-        flying_.applyGravity();
-        turn_freely(flying_, dt_);
-        flying_.setLinearVelocity(flying_.getLinearVelocity() + flying_.getTotalForce() * flying_.getInvMass() * dt_);
+        if (body_.is_held_up) {
+            const Mat3 to_world = rotation_of(flying_.getWorldTransform());
+            flying_.setLinearVelocity(flying_.getLinearVelocity() + to_bullet(to_world * pushed_));
+            flying_.setAngularVelocity(flying_.getAngularVelocity() + to_bullet(to_world * turned_));
+        } else {
+            flying_.clearForces();
+            flying_.applyGravity();
+            turn_freely(flying_, dt_);
+            flying_.setLinearVelocity(flying_.getLinearVelocity() +
+                                      flying_.getTotalForce() * flying_.getInvMass() * dt_);
+        }
         const Mover mover = this->mover();
         float fraction = 1;
         const double way = travel(mover, dt_);
@@ -110,6 +123,14 @@ class Flight {
     Mover mover() const {
         return {&body_, flying_.getWorldTransform(), Vec3d(from_bullet(flying_.getLinearVelocity())),
                 Vec3d(from_bullet(flying_.getAngularVelocity()))};
+    }
+    /// What holds it up, or slides along it: the way on is found by what it did in the last steps.
+    bool meets_already(RigidId id) {
+        if (!overlap(body_.shape.box, world_.bodies_[id].shape.box, 2 * kContactRange)) return false;
+        ForeseenTouch touch;
+        touch.contact_count = 0;
+        meet(id, touch);
+        return touch.contact_count > 0;
     }
     void stand(const btTransform& at) {
         is_away_ = true;
@@ -176,12 +197,13 @@ class Flight {
     Box stood_in_;
     float moved_fraction_;
     bool is_fast_, is_away_ = false;
+    Vec3 pushed_, turned_;  // of what is held up: gained a step, its axes
 };
 
 bool BulletWorld::foresee(RigidId id, float dt, uint32_t steps, ForeseenTouch& out) {
     if (!is_known(id)) return false;
     Body& body = bodies_[id];
-    if (!body.is_free() || body.is_held_up || body.is_soft) return false;
+    if (!body.is_free() || body.is_soft) return false;
     InsideRigidEngine guard(counts_.allocations);
     Flight flight(*this, body, dt);
     if (!flight.find_others(steps)) return false;

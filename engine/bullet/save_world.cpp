@@ -198,6 +198,7 @@ void flow_body(F& f, Body& b) {
     f.number(b.load), f.number(b.slept_load), f.number(b.moved_fraction);
     f.flag(b.is_fast);
     f.number(b.birth), f.number(b.sibling_seconds);
+    flow_numbers(f, b.gained.velocity), flow_numbers(f, b.gained.angular_velocity);
     f.flag(b.is_level);
 }
 

@@ -18,6 +18,7 @@ struct Flights {
     uint32_t frames;
     Events<ForeseenHit>& foreseen;
 
+    /// A task of its own or of somebody else's is open for its touch.
     bool is_expected(uint32_t b) const {
         if (bodies.task[b] != kNone) return true;
         for (uint32_t t = 0; t < tasks.size(); ++t) {
@@ -27,15 +28,16 @@ struct Flights {
         }
         return false;
     }
-    /// In flight, and fast enough by the time that it may touch something.
+    /// Free to move, and fast enough by the time that it may touch something.
     bool is_wanted(uint32_t b, float gained_speed) const {
         if (static_cast<BodyKind>(bodies.kind[b]) != BodyKind::Dynamic || bodies.is_asleep[b] || bodies.hold_count[b])
             return false;
+        if (const uint32_t task = bodies.task[b]; task != kNone && !is_ahead(tasks, task)) return false;
         const float speed = length(bodies.velocity[b]) + length(bodies.spin[b]) * bodies.radius[b] + gained_speed;
-        return speed > least_speed && !rigid.is_held_up(b) && !is_expected(b);
+        return speed > least_speed;
     }
     void follow(uint32_t b) {
-        ForeseenHit hit{Row<Bodies>(b), {}};
+        ForeseenHit hit{Row<Bodies>(b), rigid.is_held_up(b), {}};
         if (rigid.foresee(b, step.dt, frames, hit.touch)) foreseen.push(hit);
     }
 };
@@ -108,7 +110,9 @@ std::span<const Reach> find_whole(const Bodies& bodies, const Shells& shells, co
 }  // namespace
 
 // What the game threw comes first, then pieces that may reach what is whole still, also those of a shower that touch
-// each other; of the other pieces, which may be hundreds, so many a frame take turns.
+// each other; of the other pieces, which may be hundreds, so many a frame take turns. What is held up and topples has
+// flights of its own. All that may reach something whole is followed again while a task waits for its touch: others
+// may have pushed it meanwhile.
 void foresee_impacts(Serial, Step step, RigidWorld& rigid, const Bodies& bodies, const Shells& shells,
                      const Tasks& tasks, const TaskContacts& contacts, const DamageSettings& settings, Arena& arena,
                      Events<ForeseenHit>& foreseen) {
@@ -118,30 +122,38 @@ void foresee_impacts(Serial, Step step, RigidWorld& rigid, const Bodies& bodies,
     const float seconds = step.dt * static_cast<float>(settings.frames_ahead), gained = length(step.gravity) * seconds;
     Flights flights{step, rigid, bodies, tasks, contacts, least, settings.frames_ahead, foreseen};
     const auto whole = find_whole(bodies, shells, tasks, settings, arena);
-    // In the order of rows; pieces that are near something whole from the front, others from the back.
-    const auto pieces = arena.take<uint32_t>(bodies.size());
-    uint32_t left = kMostFlights, near = 0, others = 0;
+    const auto is_near_whole = [&](uint32_t b) {
+        const Reach reach = reach_of_flight(bodies, b, step.gravity, seconds);
+        return std::any_of(whole.begin(), whole.end(), [&](const Reach& r) { return r.meets(reach); });
+    };
+    // In the order of rows: the pieces that are near something whole from the front, others from the back.
+    const auto pieces = arena.take<uint32_t>(bodies.size()), toppling = arena.take<uint32_t>(bodies.size());
+    if (pieces.size() + toppling.size() < 2 * size_t{bodies.size()}) return;
+    uint32_t left = kMostFlights - kMostToppling, near = 0, others = 0, topplers = 0;
     for (uint32_t b = 0; b < bodies.size(); ++b) {
-        if (!flights.is_wanted(b, gained)) continue;
-        if (!bodies.parent[b].exists()) {
+        const bool is_held_up = rigid.is_held_up(b);
+        if (!flights.is_wanted(b, is_held_up ? 0 : gained)) continue;
+        if (is_held_up) {
+            if (is_near_whole(b)) toppling[topplers++] = b;
+        } else if (!bodies.parent[b].exists()) {
             if (left == 0) continue;
             --left;
             flights.follow(b);
-        } else if (!pieces.empty()) {
-            const Reach reach = reach_of_flight(bodies, b, step.gravity, seconds);
-            const bool is_near =
-                std::any_of(whole.begin(), whole.end(), [&](const Reach& r) { return r.meets(reach); });
-            if (is_near) pieces[near++] = b;
-            if (!is_near && !rigid.is_touched(b)) pieces[pieces.size() - ++others] = b;
+        } else if (is_near_whole(b)) {
+            pieces[near++] = b;
+        } else if (!rigid.is_touched(b) && !flights.is_expected(b)) {
+            pieces[pieces.size() - ++others] = b;
         }
     }
     const auto take_turns = [&](std::span<const uint32_t> of) {
         const auto count = static_cast<uint32_t>(of.size()), turns = std::min(left, count);
-        for (uint32_t k = 0; k < turns; ++k) flights.follow(of[(step.frame * kMostFlights + k) % count]);
+        for (uint32_t k = 0; k < turns; ++k) flights.follow(of[(step.frame * left + k) % count]);
         left -= turns;
     };
     take_turns(pieces.first(near));
     take_turns(pieces.last(others));
+    left = kMostToppling;
+    take_turns(toppling.first(topplers));
 }
 
 }  // namespace cullet

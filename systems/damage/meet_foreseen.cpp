@@ -30,18 +30,31 @@ struct Meeting {
                    static_cast<BodyKind>(state.bodies.kind[i.striker]) == BodyKind::Dynamic;
         });
     }
-    /// The impact that was foreseen, or null: it is elsewhere or not as fast, or another on the body is faster by more
-    /// than that.
-    const Impact* find(uint32_t task) const {
-        const Tasks& tasks = state.tasks;
-        const auto all = on(tasks.body[task]);
-        const Row<Bodies> striker = state.task_contacts.striker[tasks.first_contact[task]];
-        const float speed = tasks.foreseen_speed[task], share = kForeseenShare * speed;
-        if (all.empty() || all.front().approach_speed > speed + share) return nullptr;
+    /// What comes where and as fast as a contact was foreseen, or null.
+    const Impact* find(std::span<const Impact> all, uint32_t contact) const {
+        const TaskContacts& contacts = state.task_contacts;
+        const float speed = contacts.approach_speed[contact];
         for (const Impact& i : all)
-            if (i.striker == striker && i.cell == tasks.foreseen_cell[task])
-                return !is_shared(i) && std::fabs(i.approach_speed - speed) <= share ? &i : nullptr;
+            if (i.striker == contacts.striker[contact] && i.cell == contacts.cell[contact])
+                return !is_shared(i) && std::fabs(i.approach_speed - speed) <= kForeseenShare * speed ? &i : nullptr;
         return nullptr;
+    }
+    /// The fastest impact that was foreseen, or null: it is elsewhere or not as fast, or another on the body is faster
+    /// by more than that, or another striker that was to come with it does not.
+    const Impact* find(uint32_t task) const {
+        const TaskContacts& contacts = state.task_contacts;
+        const uint32_t first = state.tasks.first_contact[task], end = first + state.tasks.contact_count[task];
+        const auto all = on(state.tasks.body[task]);
+        if (all.empty() || all.front().approach_speed > (1 + kForeseenShare) * contacts.approach_speed[first])
+            return nullptr;
+        for (uint32_t c = first + 1; c < end; ++c) {
+            const Row<Bodies> striker = contacts.striker[c];
+            const auto is_his = [&](uint32_t before) { return contacts.striker[before] == striker; };
+            bool is_known = false;
+            for (uint32_t before = first; before < c; ++before) is_known = is_known || is_his(before);
+            if (!is_known && !find(all, c)) return nullptr;
+        }
+        return find(all, first);
     }
     bool waits_for_a_blow(Row<Bodies> body) const {
         const Blows& blows = state.blows;
@@ -55,8 +68,17 @@ struct Meeting {
         return static_cast<TaskState>(state.tasks.state[task]) == TaskState::Dropped || state.bodies.hold_count[body] ||
                waits_for_a_blow(body);
     }
+    /// In time, and nothing else hits the body meanwhile but bumps that leave it whole: these wait.
     bool may_still_come(uint32_t task) const {
-        return on(state.tasks.body[task]).empty() && step.frame <= state.tasks.due_frame[task] + kLateFrames;
+        const Tasks& tasks = state.tasks;
+        const auto all = on(tasks.body[task]);
+        if (step.frame > tasks.due_frame[task] + kLateFrames) return false;
+        const float speed = state.task_contacts.approach_speed[tasks.first_contact[task]];
+        return all.empty() || (is_bump(state, all.front(), speed) && !strikes(task, all));
+    }
+    bool strikes(uint32_t task, std::span<const Impact> all) const {
+        const Row<Bodies> striker = state.task_contacts.striker[state.tasks.first_contact[task]];
+        return std::any_of(all.begin(), all.end(), [&](const Impact& i) { return i.striker == striker; });
     }
 };
 

@@ -98,6 +98,8 @@ void lay_contacts(std::span<const Impact> impacts, const Impact& first_aimed, St
         contacts.point.set(c, point);
         contacts.normal.set(c, rotate(conjugate(pose.orientation), impact.normal));
         contacts.striker[c] = impact.striker;
+        contacts.cell[c] = told.cell;
+        contacts.approach_speed[c] = told.approach_speed;
         const Yielding yielding = yielding_of(bodies, impact.striker, impact.point, impact.normal);
         contacts.striker_inverse_mass[c] = yielding.effective();
         if (yielding.own > 0) {

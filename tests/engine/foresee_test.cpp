@@ -1,6 +1,7 @@
 // Touches of bodies in flight, foreseen in the rigid world.
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <map>
 #include <random>
 
@@ -99,6 +100,39 @@ TEST(Foresee, WhatIsTouchedHeldAsleepOrFarFromAllHasNoFlight) {
     world->hold(3);
     EXPECT_FALSE(world->foresee(3, kStep, 12, told));
     EXPECT_FALSE(world->foresee(7, kStep, 8, told));  // nobody
+}
+
+/// A slab of a metre that stands on its edge and leans falls over onto a block, 0.6 m high: about its foot, faster and
+/// faster.
+TEST(Foresee, WhatTopplesIsForeseenByHowItToppledSoFar) {
+    const FpMode mode;
+    const auto world = floor_world(8);
+    const float lean = 0.3f;
+    add_box(*world, 1,
+            {0.5f * std::sin(lean) + 0.05f * std::cos(lean), 0.5f * std::cos(lean) + 0.05f * std::sin(lean), 0},
+            {0.05f, 0.5f, 0.3f}, 2000, RigidKind::Dynamic, Quat{0, 0, -std::sin(lean / 2), std::cos(lean / 2)});
+    add_box(*world, 2, {0.95f, 0.3f, 0}, {0.15f, 0.3f, 0.3f}, 2000, RigidKind::Static);
+    std::vector<std::pair<uint32_t, ForeseenTouch>> told;  // in which frame
+    for (uint32_t frame = 0; frame < 120; ++frame) {
+        world->detect(kStep);
+        for (const RigidContact& c : world->contacts()) {
+            if (c.a != 1 || c.b != 2) continue;
+            uint32_t early = 0;
+            for (const auto& [at, touch] : told) {
+                if (at + 6 < frame) continue;  // the last six frames
+                ++early;
+                EXPECT_NEAR(static_cast<float>(at + touch.steps), static_cast<float>(frame), 1) << at;
+                EXPECT_NEAR(touch.contacts[0].approach_speed, c.approach_speed, 0.1f * c.approach_speed) << at;
+            }
+            EXPECT_EQ(early, 6u);
+            EXPECT_GT(c.approach_speed, 1);
+            return;
+        }
+        ForeseenTouch touch;
+        if (world->is_held_up(1) && world->foresee(1, kStep, 8, touch)) told.push_back({frame, touch});
+        world->solve(kStep);
+    }
+    FAIL() << "it did not fall over";
 }
 
 /// Pieces of one shower touch each other on their way; what lies on something that stands does not fly on.

@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "systems/costs.hpp"
+#include "systems/damage/thresholds.hpp"
 #include "tests/support/small_worlds.hpp"
 
 namespace cullet::test {
@@ -130,6 +131,74 @@ TEST(Ahead, AnEarlierTouchTakesThePlaceOfTheOneThatATaskIsFor) {
     EXPECT_EQ(result.born, result.touch);
     EXPECT_EQ(b.world.contents().data.counts.first_ready, 1u);
     EXPECT_GE(result.misses, 1u);
+}
+
+/// As far_ball, with another one that comes from the other side in the same frame.
+SphereSettings ball_from_behind(float speed) {
+    SphereSettings ball;
+    ball.radius = 0.05f;
+    ball.mass = 1;
+    ball.pose.position = {0.01f, 0.13f, -1.68f};
+    ball.motion.velocity = {0, 0, speed};
+    return ball;
+}
+
+TEST(Ahead, TwoThatComeTogetherHaveOneTask) {
+    Settings settings = ahead_settings();
+    settings.units_a_frame = 20'000'000;
+    Breakage b = far_ball(settings);
+    expect_valid_after_each_system(b.world);
+    ASSERT_TRUE(b.world.add_sphere(ball_from_behind(8)).ok());
+    uint32_t contacts = 0;
+    const Play result = play(b.world, 40, [&](uint32_t) {
+        const Tasks& tasks = tasks_of(b.world);
+        if (open_tasks(b.world) == 1) contacts = std::max(contacts, tasks.contact_count[0]);
+    });
+    EXPECT_EQ(contacts, 2u);
+    EXPECT_EQ(result.hits, 1u);
+    EXPECT_EQ(result.misses, 0u);
+    EXPECT_EQ(result.born, result.touch);
+    for (uint32_t q = 0; q < state_of(b.world).queued_hits.size(); ++q)
+        EXPECT_FALSE(state_of(b.world).queued_hits.is_used[q]) << "the second one was left over";
+}
+
+/// The second one is stopped on its way: what was worked off for both does not come.
+TEST(Ahead, WhereOneOfTwoDoesNotComeIsAMiss) {
+    Settings settings = ahead_settings();
+    settings.units_a_frame = 20'000'000;
+    Breakage b = far_ball(settings);
+    const BodyId second = b.world.add_sphere(ball_from_behind(8)).value();
+    bool is_stopped = false;
+    const Play result = play(b.world, 40, [&](uint32_t) {
+        const Tasks& tasks = tasks_of(b.world);
+        if (is_stopped || open_tasks(b.world) == 0 || tasks.contact_count[0] < 2 ||
+            static_cast<TaskState>(tasks.state[0]) == TaskState::Running)
+            return;
+        is_stopped = true;
+        ASSERT_TRUE(b.world.set_motion(second, {{0, 0, -8}, {}}).ok());
+    });
+    EXPECT_TRUE(is_stopped);
+    EXPECT_GE(result.misses, 1u);
+    EXPECT_GT(result.born, 0u);
+}
+
+TEST(Ahead, ABumpDoesNotTakeThePlaceOfAHit) {
+    Settings settings = ahead_settings();
+    settings.units_a_frame = 20'000'000;
+    Breakage b = far_ball(settings);
+    const float bump =
+        0.6f * first_crack_speed(state_of(b.world).shells, state_of(b.world).bodies.shell[b.body.index], 1);
+    bool is_thrown = false;
+    const Play result = play(b.world, 40, [&](uint32_t) {
+        if (is_thrown || open_tasks(b.world) == 0) return;
+        is_thrown = true;
+        SphereSettings ball = ball_from_behind(bump);
+        ball.pose.position.z = -0.2f;
+        EXPECT_TRUE(b.world.add_sphere(ball).ok());
+    });
+    EXPECT_TRUE(is_thrown);
+    EXPECT_GE(result.hits, 1u);
+    EXPECT_EQ(b.world.contents().data.counts.first_ready, 1u);
 }
 
 TEST(Ahead, AFlyingVaseBreaksOnTheFloorInTheFrameOfItsTouch) {

@@ -84,7 +84,7 @@ TEST(Pieces, PagesForAHitAndItsPiecesAreThereFromTheSpawnOn) {
             const auto tables = tables_of(test::state_of(world));
             for (int t = 0; t < kTables; ++t) {
                 EXPECT_GT(most[t], tables[t]->size()) << tables[t]->name();
-                EXPECT_FALSE(tables[t]->commit_rows(most[t])) << tables[t]->name() << " had fewer than " << most[t];
+                EXPECT_EQ(tables[t]->commit_rows(most[t]), 0u) << tables[t]->name() << " had fewer than " << most[t];
             }
         });
     }
