@@ -1,5 +1,6 @@
 #include "engine/table.hpp"
 
+#include <algorithm>
 #include <charconv>
 
 namespace cullet {
@@ -45,10 +46,14 @@ void AnyTable::clear_rows(uint32_t first, uint32_t count) {
             std::memset(column_memory(c, a) + size_t{first} * c.row_bytes, 0, size_t{count} * c.row_bytes);
 }
 
+// So many rows at least are asked for at once: a table that grows by a row a piece would ask for each of its columns a
+// piece, at a microsecond each.
+constexpr uint32_t kRowsAtOnce = 1024;
+
 uint64_t AnyTable::commit_rows(uint32_t count, uint64_t most) {
-    count = count < limit_ ? count : limit_;
     const uint32_t from = committed_ > size_ ? committed_ : size_;
-    if (count <= from) return 0;
+    if (count <= from || from >= limit_) return 0;
+    count = std::min(std::max(count, from + kRowsAtOnce), limit_);
     const uint64_t bytes = bytes_a_row(), rows = most / bytes;
     if (rows == 0) return 0;
     if (rows < count - from) count = from + static_cast<uint32_t>(rows);
