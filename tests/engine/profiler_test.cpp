@@ -88,7 +88,8 @@ TEST(Profiler, EveryThreadWithASpanHasATrackAndAName) {
     std::thread([&] { profiler.add_span(zone, now_ns(), now_ns()); }).join();
     profiler.end_frame();
     std::map<int, std::string> names;
-    for (const auto& event : trace_of(profiler)["traceEvents"])
+    const nlohmann::json trace = trace_of(profiler);
+    for (const auto& event : trace["traceEvents"])
         if (event["name"] == "thread_name") names[event["tid"]] = event["args"]["name"];
     EXPECT_EQ(names, (std::map<int, std::string>{{0, "worker 0, the one that steps"}, {1, "worker 1"}}));
 }

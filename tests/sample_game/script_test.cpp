@@ -541,8 +541,8 @@ TEST_P(SceneHash, IsWhatTheSceneAlwaysGave) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Scenes, SceneHash,
-                         testing::Values(KnownHash{"vase", "4d33cd2aad379a5d"}, KnownHash{"wall", "d8c174ccdf2ec34c"},
-                                         KnownHash{"pane", "b08e0ac9bbdebd40"}, KnownHash{"drop", "e28f0a7e468188ee"}),
+                         testing::Values(KnownHash{"vase", "5567a2cfc85aaf23"}, KnownHash{"wall", "2a7da71a25f3853a"},
+                                         KnownHash{"pane", "456aa62424648222"}, KnownHash{"drop", "2a3e3c847c42bd1a"}),
                          [](const auto& known) { return std::string(known.param.scene); });
 
 TEST(Script, AFileIsPlayedByItsPathAndOneThatIsNotThereIsNamed) {
