@@ -187,7 +187,7 @@ INSTANTIATE_TEST_SUITE_P(Scenes, Settles,
                                          Case{"wall", 1}, Case{"wall", 2}, Case{"wall", 3}, Case{"wall", 4},
                                          Case{"drop", 1}, Case{"drop", 2}, Case{"castle", 1}, Case{"castle", 2},
                                          Case{"castle", 3}, Case{"castle", 4}, Case{"pile", 1, "scene.count=200"},
-                                         Case{"pile", 2, "scene.count=200"}, Case{"pile", 4}, Case{"demolition", 1}),
+                                         Case{"pile", 2, "scene.count=200"}, Case{"pile", 3}, Case{"demolition", 1}),
                          [](const auto& scene) { return scene.param.scene + std::to_string(scene.param.seed); });
 
 }  // namespace
