@@ -104,7 +104,7 @@ State::Pools::Pools(const State& s)
       layer_slots(s.layer_slots.limit(), 1, ranges_of(s.shells)),
       twins(s.twins.limit(), kVerticesPerCell, ranges_of(s.shells)) {}
 
-constexpr uint32_t kMostShellsAhead = 8;
+constexpr uint32_t kMostShellsAhead = 8;  // that commit_ahead has room for
 
 // `shell` is what a hit takes, a copy of all rows and what cracks add (working_room); what moves of the broken shell is
 // less than it: two a hit. A drawn mesh has 6 corners an element and 6 a free edge, and the pieces' more than the
@@ -133,13 +133,13 @@ void State::commit_ahead(const ShellRoom& shell, uint64_t bytes) {
     const bool has_layers = std::count(quick_bodies.layers.data(), quick_bodies.layers.data() + quick_bodies.size(), 2);
     const uint64_t edges = times(3, shell.vertices) / 2, slots = times(5, shell.vertices) / kLanes;
     commit(springs, pools.springs, edges);
-    commit(element_springs, pools.element_springs, shell.elements);
-    commit(spring_packs, pools.spring_packs, shell.vertices / kLanes);
+    commit(element_springs, pools.element_springs, times(1, shell.elements));
+    commit(spring_packs, pools.spring_packs, times(1, shell.vertices / kLanes));
     commit(spring_slots, pools.spring_slots, slots);
     if (!has_layers) return;
     commit(layer_springs, pools.layer_springs, edges);
     commit(layer_slots, pools.layer_slots, slots);
-    commit(twins, pools.twins, shell.vertices);
+    commit(twins, pools.twins, times(1, shell.vertices));
 }
 
 namespace {

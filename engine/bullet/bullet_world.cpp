@@ -888,8 +888,9 @@ void BulletWorld::solve(float dt) {
     wake_struck();
     for (RigidId id = 0; id < body_end_; ++id) {
         Body& body = bodies_[id];
-        if (!body.is_used || !body.is_free()) continue;
-        body.started = motion_now(body);
+        if (!body.is_used) continue;
+        body.started = motion_now(body);  // also of sleepers: this solve() may wake them
+        if (!body.is_free()) continue;
         body.bullet->applyGravity();
         turn_freely(*body.bullet, dt);
         if (body.is_damped) body.bullet->applyDamping(dt);

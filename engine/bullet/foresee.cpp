@@ -1,5 +1,6 @@
 // The touch of a body in flight, before it comes: what solve() and detect() will do with the body is done here ahead of
 // time, step by step and in the same order, so that an undisturbed flight ends in the very bits that were foreseen.
+// What is held up gains in each step what it gained in the last ones, in its own axes, which turn with it: a guess.
 #include <algorithm>
 
 #include "engine/bullet/advance.hpp"

@@ -11,7 +11,8 @@
 namespace cullet {
 namespace {
 
-constexpr float kBumpShare = 0.5f;
+constexpr float kBumpShare = 0.5f;         // of a foreseen speed
+constexpr uint32_t kStepsToBeginAnew = 3;  // to the touch; a task of a house takes about so many frames
 
 /// A foreseen impact, and the hit that brings it.
 struct Foreseen {
@@ -19,7 +20,6 @@ struct Foreseen {
     const ForeseenHit* hit;
     uint32_t steps() const { return hit->touch.steps; }
 };
-constexpr uint32_t kStepsToBeginAnew = 3;
 constexpr uint32_t kMostForeseen = 2 * kMostFlights * kMostForeseenContacts, kMostAtOnce = 64;
 
 /// Rows of bodies in flight as they will be at the touch, while this lives.

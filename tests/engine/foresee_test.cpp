@@ -1,7 +1,6 @@
 // Touches of bodies in flight, foreseen in the rigid world.
 #include <gtest/gtest.h>
 
-#include <cmath>
 #include <map>
 #include <random>
 
@@ -107,10 +106,11 @@ TEST(Foresee, WhatIsTouchedHeldAsleepOrFarFromAllHasNoFlight) {
 TEST(Foresee, WhatTopplesIsForeseenByHowItToppledSoFar) {
     const FpMode mode;
     const auto world = floor_world(8);
-    const float lean = 0.3f;
-    add_box(*world, 1,
-            {0.5f * std::sin(lean) + 0.05f * std::cos(lean), 0.5f * std::cos(lean) + 0.05f * std::sin(lean), 0},
-            {0.05f, 0.5f, 0.3f}, 2000, RigidKind::Dynamic, Quat{0, 0, -std::sin(lean / 2), std::cos(lean / 2)});
+    // It leans by 0.3 rad.
+    const Quat turned = normalised(Quat{0, 0, -0.1494f, 0.9888f});
+    const Vec3 corner{0.05f, -0.5f, 0};
+    add_box(*world, 1, Vec3{0.1f, 0, 0} - rotate(turned, corner), {0.05f, 0.5f, 0.3f}, 2000, RigidKind::Dynamic,
+            turned);
     add_box(*world, 2, {0.95f, 0.3f, 0}, {0.15f, 0.3f, 0.3f}, 2000, RigidKind::Static);
     std::vector<std::pair<uint32_t, ForeseenTouch>> told;  // in which frame
     for (uint32_t frame = 0; frame < 120; ++frame) {
