@@ -23,11 +23,9 @@ Cost cost_of(const State& state, uint32_t t) {
             static_cast<int64_t>(units_of_birth(state.shells, state.tasks, t))};
 }
 
-/// What one worker has to do alone is at most half of a frame's units: the other has nothing to do meanwhile. Ahead of
-/// its touch a hit takes all: nothing is born in those frames.
+/// What one worker has to do alone is at most half of a frame's units: the other has nothing to do meanwhile.
 int64_t most_units(const State& state, uint32_t t, int64_t units_a_frame) {
-    const bool is_alone = moving_vertices(state, t) <= kTeamVertices;
-    return is_alone && !is_ahead(state.tasks, t) ? units_a_frame / 2 : units_a_frame;
+    return moving_vertices(state, t) <= kTeamVertices ? units_a_frame / 2 : units_a_frame;
 }
 
 /// As many of `most` as `budget` is enough for; `is_last`: the last of them ends the run.

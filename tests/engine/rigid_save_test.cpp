@@ -4,6 +4,7 @@
 #include <cstring>
 
 #include "engine/byte_stream.hpp"
+#include "engine/fp_mode.hpp"
 #include "tests/engine/rigid_scenes.hpp"
 
 namespace cullet {
@@ -21,6 +22,10 @@ std::string refusal(const std::vector<uint8_t>& bytes) {
     ByteReader in(bytes, "test", "");
     const Result<void> loaded = world->load(in);
     return loaded.ok() ? "" : loaded.error();
+}
+
+bool same(Vec3 a, Vec3 b) {
+    return a.x == b.x && a.y == b.y && a.z == b.z;
 }
 
 /// A sheet of 32 triangles, which stays triangles, as the only body.
@@ -82,6 +87,43 @@ TEST(RigidSave, ManifoldsWithoutPointsKeepTheirOrder) {
     ByteReader in(bytes, "test", "");
     ASSERT_TRUE(twin->load(in).ok()) << in.trouble();
     EXPECT_EQ(saved(*twin), bytes);
+}
+
+/// A box that is thrown into a heap of sleepers, saved before, while and after they wake: what is loaded takes the same
+/// step to the bit, and the same bodies wake.
+TEST(RigidSave, SleepersThatAreAboutToBeWokenWakeInWhatIsLoaded) {
+    const FpMode mode;
+    constexpr uint32_t kShards = 16, kBox = 1 + kShards;
+    const auto world = floor_world(32);
+    drop_shards(*world, 1, kShards);
+    const auto asleep = [](const RigidWorld& of) {
+        uint32_t count = 0;
+        for (RigidId id = 1; id <= kShards; ++id) count += of.is_asleep(id);
+        return count;
+    };
+    for (int frame = 0; frame < 900 && asleep(*world) < kShards; ++frame) step(*world);
+    ASSERT_EQ(asleep(*world), kShards);
+    add_box(*world, kBox, {-1, 0.15f, 0.02f}, {0.1f, 0.1f, 0.1f}, 1000);
+    world->set_motion(kBox, {{8, 0, 0}, {}});
+    bool has_slept = false, has_woken = false;  // when saved
+    for (int frame = 0; frame < 20; ++frame) {
+        const uint32_t sleepers = asleep(*world);
+        has_slept = has_slept || sleepers == kShards;
+        has_woken = has_woken || sleepers < kShards / 2;
+        const std::vector<uint8_t> bytes = saved(*world);
+        const auto twin = make_bullet_world(32);
+        ByteReader in(bytes, "test", "");
+        ASSERT_TRUE(twin->load(in).ok()) << in.trouble();
+        step(*world), step(*twin);
+        for (RigidId id = 1; id <= kBox; ++id) {
+            const Motion a = world->motion(id), b = twin->motion(id);
+            EXPECT_EQ(twin->is_asleep(id), world->is_asleep(id)) << frame << ": " << id;
+            EXPECT_TRUE(same(twin->pose(id).position, world->pose(id).position)) << frame << ": " << id;
+            EXPECT_TRUE(same(a.velocity, b.velocity)) << frame << ": " << id;
+            EXPECT_TRUE(same(a.angular_velocity, b.angular_velocity)) << frame << ": " << id;
+        }
+    }
+    EXPECT_TRUE(has_slept && has_woken);
 }
 
 }  // namespace

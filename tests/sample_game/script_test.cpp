@@ -541,8 +541,8 @@ TEST_P(SceneHash, IsWhatTheSceneAlwaysGave) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Scenes, SceneHash,
-                         testing::Values(KnownHash{"vase", "5567a2cfc85aaf23"}, KnownHash{"wall", "2a7da71a25f3853a"},
-                                         KnownHash{"pane", "456aa62424648222"}, KnownHash{"drop", "2a3e3c847c42bd1a"}),
+                         testing::Values(KnownHash{"vase", "7585c2bdfbe5749f"}, KnownHash{"wall", "05beb0ebc7a94c7d"},
+                                         KnownHash{"pane", "456aa62424648222"}, KnownHash{"drop", "401be9556057c985"}),
                          [](const auto& known) { return std::string(known.param.scene); });
 
 TEST(Script, AFileIsPlayedByItsPathAndOneThatIsNotThereIsNamed) {
