@@ -40,6 +40,9 @@ bool measure_scene(const char* name, unsigned threads, uint32_t repeat, Figures&
     figures.add(prefix + "hitch", r.hitch, "x", is_pile ? 0 : 2);
     figures.add(prefix + "hits", static_cast<double>(r.tasks.opened), "");
     figures.add(prefix + "hits decided after the hold", static_cast<double>(r.tasks.late), "");
+    const double first = std::max(1.0, static_cast<double>(r.tasks.first_breaks));
+    figures.add(prefix + "first breaks by touch that were not ready at the touch",
+                100 - 100 * static_cast<double>(r.tasks.first_ready) / first, "%", is_pile ? 0 : 20);
     figures.add(prefix + "frames held", static_cast<double>(r.tasks.frames_held), "");
     double total = 0;
     for (const auto& [system, spread] : r.systems) total += spread.total;

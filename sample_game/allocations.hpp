@@ -1,5 +1,5 @@
 // How often a program asks for memory: malloc and everything like it, operator new, on all threads. A step of a world
-// is meant to ask for none; what the rigid engine asks for is counted apart, because it is not ours to change.
+// is meant to ask for none, and neither is the rigid engine, whose calls are counted apart.
 //
 // Linking a call of these functions replaces malloc in the program (glibc), so nothing is to be switched on when built.
 // Under a sanitizer, which has a malloc of its own, operator new alone is counted.

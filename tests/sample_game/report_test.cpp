@@ -58,7 +58,9 @@ TEST(Report, EveryPromisedFieldIsThere) {
         {"units", {"used", "left"}},
         {"frame_ms", {"p50", "p95", "p99", "max", "total", "rows"}},
         {"fracture_frames", {"count", "p50_ms", "p99_ms", "max_ms"}},
-        {"tasks", {"opened", "broke", "dropped", "redone", "late", "frames_held", "ahead_hits", "ahead_misses"}}};
+        {"tasks",
+         {"opened", "broke", "dropped", "redone", "late", "frames_held", "ahead_hits", "ahead_misses", "first_breaks",
+          "first_ready"}}};
     Report with_shapes;
     with_shapes.fragment_shapes["hull"] = {3, 2, {1.2, 1.5, 2}, {1, 1.125, 1.375}};
     const auto shapes = nlohmann::json::parse(to_json(with_shapes))["shapes"]["fragments"]["hull"];

@@ -83,8 +83,8 @@ struct StepReport {
     uint32_t fragments = 0;       // alive, as World::fragments lists them
     uint32_t waiting_hits = 0;    // hits and blows that no damage task works on yet
     uint32_t waiting_bodies = 0;  // bodies with pieces that are loose and found no room
-    uint64_t oldest_hit_frames =
-        0;                 // since the oldest of the open and the waiting hits, blows left out; 0: there is none
+    // Since the oldest open hit or blow was opened, or the oldest waiting hit came; 0: there is none, or foreseen ones.
+    uint64_t oldest_hit_frames = 0;
     uint64_t retired = 0;  // fragments, since the world was made
     uint64_t faded = 0;    // crumbs, since the world was made
 };
