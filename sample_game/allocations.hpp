@@ -2,7 +2,7 @@
 // is meant to ask for none, and neither is the rigid engine, whose calls are counted apart.
 //
 // Linking a call of these functions replaces malloc in the program (glibc), so nothing is to be switched on when built.
-// Under a sanitizer, which has a malloc of its own, operator new alone is counted.
+// A sanitizer has a malloc of its own, which tells of each call.
 #pragma once
 #include <cstdint>
 

@@ -151,10 +151,9 @@ TEST(Limits, TheSameIsRefusedOnAnyNumberOfThreads) {
 
 /// Vases in a row, each struck by a ball of its own in the same frame.
 World struck_row(Settings settings, uint32_t vases, uint32_t tasks, std::vector<BodyId>& struck) {
-    const uint32_t scale = vases > 24 ? 16 : 1;
-    settings.limits.bodies *= scale, settings.limits.debris *= scale;
-    settings.limits.vertices = scale << 17, settings.limits.elements = scale << 18;
-    settings.limits.view_vertices = scale << 20, settings.limits.open_hits = tasks;
+    settings.limits.bodies = settings.limits.debris = 8192;
+    settings.limits.vertices = 1u << 21, settings.limits.elements = 1u << 22;
+    settings.limits.view_vertices = 1u << 24, settings.limits.open_hits = tasks;
     World world = make_world(settings);
     const ModelId model = world.add_model(small_vase()).value();
     for (uint32_t n = 0; n < vases; ++n) {

@@ -1,0 +1,34 @@
+// Whole bodies that break by touch: how many are ready when they touch, since it was foreseen. demolition_test asks the
+// same of its street.
+#include <gtest/gtest.h>
+
+#include <string>
+
+#include "sample_game/run_scene.hpp"
+
+namespace cullet {
+namespace {
+
+class Foreseen : public testing::TestWithParam<const char*> {};
+
+TEST_P(Foreseen, FourOfFiveFirstBreaksByTouchAreReady) {
+    uint64_t breaks = 0, ready = 0;
+    for (const char* seed : {"1", "2", "3"}) {
+        RunOptions options;
+        options.scene = GetParam();
+        options.set = {std::string("scene.seed=") + seed};
+        options.threads = 1;
+        const Result<Report> played = play(plan_scene(*find_scene(options.scene), options), options);
+        ASSERT_TRUE(played.ok()) << played.error();
+        breaks += played.value().tasks.first_breaks;
+        ready += played.value().tasks.first_ready;
+    }
+    EXPECT_GE(breaks, 3u);
+    EXPECT_GE(static_cast<double>(ready), 0.8 * static_cast<double>(breaks));
+}
+
+INSTANTIATE_TEST_SUITE_P(Scenes, Foreseen, testing::Values("vase", "wall", "pane"),
+                         [](const auto& scene) { return std::string(scene.param); });
+
+}  // namespace
+}  // namespace cullet
