@@ -15,17 +15,18 @@
 #include "engine/import_mesh.hpp"
 #include "engine/math.hpp"
 #include "engine/mesh_file.hpp"
+#include "tests/support/places.hpp"
 
 namespace cullet {
 namespace {
 
 namespace fs = std::filesystem;
 
-const std::string kProgram = std::string(CULLET_BINARY_DIR) + "/cullet_import";
+const std::string kProgram = build_folder() + "/cullet_import";
 
 fs::path test_data() {
     if (const char* folder = std::getenv("CULLET_TEST_DATA")) return folder;
-    return fs::path(CULLET_SOURCE_DIR) / "../shared/data";
+    return fs::path(source_folder()) / "../shared/data";
 }
 
 /// A folder of its own for each test, empty at the beginning, gone at the end.

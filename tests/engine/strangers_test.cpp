@@ -8,6 +8,7 @@
 #include "engine/import/sanitized.hpp"
 #include "engine/mesh_file.hpp"
 #include "tests/support/data_files.hpp"
+#include "tests/support/places.hpp"
 #include "tests/support/run_program.hpp"
 #include "tests/support/test_data.hpp"
 
@@ -16,7 +17,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-const std::string kProgram = std::string(CULLET_BINARY_DIR) + "/cullet_import";
+const std::string kProgram = build_folder() + "/cullet_import";
 constexpr double kLongest = kIsSanitized ? 60 : 15;  // s
 constexpr uint64_t kMostBytes = 3ull << 29;          // 1.5 GiB
 constexpr const char* kRepairs[] = {"dropped ", "flipped ", "turned ", "split ", "left ", "found ", "took ", "kept "};

@@ -7,6 +7,7 @@
 #include <string>
 
 #include "tests/fuzz/fuzz.hpp"
+#include "tests/support/places.hpp"
 
 namespace cullet::fuzz {
 namespace {
@@ -34,7 +35,7 @@ TEST_P(EveryFormat, EveryGoodFileIsAccepted) {
 
 TEST_P(EveryFormat, TheCorpusIsReadOrRefused) {
     const Format& format = *GetParam();
-    const std::string path = std::string(CULLET_SOURCE_DIR) + "/tests/fuzz/corpus/" + format.name + ".txt";
+    const std::string path = source_folder() + "/tests/fuzz/corpus/" + format.name + ".txt";
     std::ifstream file(path);
     size_t count = 0;
     for (std::string line; std::getline(file, line); ++count) {

@@ -7,12 +7,13 @@
 #include <nlohmann/json.hpp>
 
 #include "sample_game/run_scene.hpp"
+#include "tests/support/places.hpp"
 
 namespace cullet {
 namespace {
 
 // scripts/test.sh builds the Release game first and names it when it configures this tree.
-const std::string kReleaseGame = CULLET_RELEASE_GAME;
+const std::string kReleaseGame = release_game();
 
 class BuildsAgree : public testing::TestWithParam<Scene> {};
 
@@ -22,7 +23,7 @@ TEST_P(BuildsAgree, HashesOfAllFramesAreThoseOfTheReleaseGame) {
     options.scene = GetParam().name;
     options.frames = 100;
     options.threads = 2;
-    const std::string out = std::string(CULLET_BINARY_DIR) + "/builds_agree/" + options.scene;
+    const std::string out = build_folder() + "/builds_agree/" + options.scene;
     const std::string command =
         kReleaseGame + " run " + options.scene + " --frames 100 --threads 1 --out " + out + " >/dev/null";
     ASSERT_EQ(std::system(command.c_str()), 0) << command;

@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 
 #include "sample_game/run_scene.hpp"
+#include "tests/support/places.hpp"
 #include "tests/support/run_program.hpp"
 
 namespace cullet {
@@ -13,9 +14,9 @@ namespace {
 
 /// The Release game's report on so many threads.
 nlohmann::json report_of_release(unsigned threads) {
-    const std::string out = std::string(CULLET_BINARY_DIR) + "/street/" + std::to_string(threads);
+    const std::string out = build_folder() + "/street/" + std::to_string(threads);
     const test::ProgramRun run = test::run_program(
-        {CULLET_RELEASE_GAME, "run", "demolition", "--threads", std::to_string(threads), "--out", out});
+        {release_game(), "run", "demolition", "--threads", std::to_string(threads), "--out", out});
     EXPECT_EQ(run.exit_code, 0) << run.error;
     std::ifstream file(out + "/report.json");
     return nlohmann::json::parse(file, nullptr, false);
@@ -34,7 +35,7 @@ TEST(Demolition, TheWholeStreetIsTheSameOnAnyNumberOfThreads) {
     EXPECT_GT(report.fragments.born, 2000u);
     EXPECT_GE(static_cast<double>(report.tasks.first_ready), 0.8 * static_cast<double>(report.tasks.first_breaks));
     EXPECT_GT(report.tasks.first_breaks, 0u);
-    if (std::string(CULLET_RELEASE_GAME).empty()) GTEST_SKIP() << "configure with -DCULLET_RELEASE_GAME=PROGRAM";
+    if (release_game().empty()) GTEST_SKIP() << "configure with -DCULLET_RELEASE_GAME=PROGRAM";
     for (const unsigned threads : {1u, 2u, 3u, 8u}) {
         const nlohmann::json other = report_of_release(threads);
         ASSERT_TRUE(other.is_object()) << threads;

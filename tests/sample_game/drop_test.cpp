@@ -9,13 +9,14 @@
 #include "sample_game/game_world.hpp"
 #include "sample_game/run_scene.hpp"
 #include "systems/world_contents.hpp"
+#include "tests/support/places.hpp"
 
 namespace cullet {
 namespace {
 
 std::filesystem::path data_folder() {
     if (const char* given = std::getenv("CULLET_TEST_DATA")) return std::filesystem::path(given) / "thick_shell";
-    return std::filesystem::path(CULLET_SOURCE_DIR) / "../shared/data/thick_shell";
+    return std::filesystem::path(source_folder()) / "../shared/data/thick_shell";
 }
 
 class DropMesh : public testing::TestWithParam<const char*> {};

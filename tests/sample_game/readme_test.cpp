@@ -5,11 +5,13 @@
 #include <fstream>
 #include <iterator>
 
+#include "tests/support/places.hpp"
+
 namespace cullet {
 namespace {
 
 std::string text_of(const std::string& path) {
-    std::ifstream file(std::string(CULLET_SOURCE_DIR) + path);
+    std::ifstream file(source_folder() + path);
     return {std::istreambuf_iterator<char>(file), {}};
 }
 

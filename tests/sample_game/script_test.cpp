@@ -11,6 +11,7 @@
 
 #include "sample_game/game_world.hpp"
 #include "sample_game/run_scene.hpp"
+#include "tests/support/places.hpp"
 
 namespace cullet {
 namespace {
@@ -449,7 +450,7 @@ TEST(Script, TheSameScriptAndSeedGiveTheSameBytesOnOneTwoAndThreeThreads) {
 }
 
 std::string text_of(const std::string& path) {
-    std::ifstream file(std::string(CULLET_SOURCE_DIR) + path);
+    std::ifstream file(source_folder() + path);
     return {std::istreambuf_iterator<char>(file), {}};
 }
 
@@ -571,13 +572,13 @@ TEST(Script, AFolderAndAFileThatIsTooLongAreRefused) {
 std::pair<int, std::string> outcome_of(const std::string& arguments) {
     const std::string said = testing::TempDir() + "cullet_script_said.txt";
     const int status =
-        std::system((std::string(CULLET_BINARY_DIR) + "/sample_game " + arguments + " 2>" + said).c_str());
+        std::system((build_folder() + "/sample_game " + arguments + " 2>" + said).c_str());
     std::ifstream file(said);
     return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, {std::istreambuf_iterator<char>(file), {}}};
 }
 
 TEST(Program, AFullDiskIsOneSentence) {
-    if (!std::filesystem::exists(std::string(CULLET_BINARY_DIR) + "/sample_game"))
+    if (!std::filesystem::exists(build_folder() + "/sample_game"))
         GTEST_SKIP() << "build the program sample_game";
     const std::pair<int, std::string> all{2, "sample_game: cannot write to file: No space left on device.\n"};
     EXPECT_EQ(outcome_of("run --set help >/dev/full"), all);

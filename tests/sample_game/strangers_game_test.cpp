@@ -11,6 +11,7 @@
 #include "sample_game/import_model.hpp"
 #include "sample_game/props.hpp"
 #include "tests/support/data_files.hpp"
+#include "tests/support/places.hpp"
 #include "tests/support/run_program.hpp"
 #include "tests/support/test_data.hpp"
 
@@ -19,7 +20,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-const std::string kGame = std::string(CULLET_BINARY_DIR) + "/sample_game";
+const std::string kGame = build_folder() + "/sample_game";
 
 size_t files_in(const fs::path& folder) {
     size_t count = 0;

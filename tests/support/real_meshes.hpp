@@ -8,6 +8,7 @@
 
 #include "engine/import_mesh.hpp"
 #include "systems/cook/surface.hpp"
+#include "tests/support/places.hpp"
 #include "tests/support/test_data.hpp"
 
 namespace cullet::test {
@@ -17,7 +18,7 @@ inline Mesh read_real_mesh(const std::string& name) {
     const std::filesystem::path cache =
         std::filesystem::path(testing::TempDir()) / ("cullet_real_meshes." + std::to_string(getpid()));
     std::filesystem::create_directories(cache);
-    Result<Mesh> mesh = import_mesh(test_data() / name, std::string(CULLET_BINARY_DIR) + "/cullet_import", cache);
+    Result<Mesh> mesh = import_mesh(test_data() / name, build_folder() + "/cullet_import", cache);
     std::filesystem::remove_all(cache);
     if (!mesh) ADD_FAILURE() << mesh.error();
     return mesh ? std::move(mesh).value() : Mesh{};

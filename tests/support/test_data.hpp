@@ -3,12 +3,14 @@
 #include <cstdlib>
 #include <filesystem>
 
+#include "tests/support/places.hpp"
+
 namespace cullet::test {
 
 /// CULLET_TEST_DATA, or the folder shared/data beside the repository.
 inline std::filesystem::path test_data() {
     if (const char* folder = std::getenv("CULLET_TEST_DATA")) return folder;
-    return std::filesystem::path(CULLET_SOURCE_DIR) / "../shared/data";
+    return std::filesystem::path(source_folder()) / "../shared/data";
 }
 
 }  // namespace cullet::test

@@ -12,6 +12,7 @@
 #include "engine/import_mesh.hpp"
 #include "systems/cook/extrude.hpp"
 #include "systems/cook/true_wall.hpp"
+#include "tests/support/places.hpp"
 #include "tests/support/plain_reader.hpp"
 #include "tests/support/shell_checks.hpp"
 
@@ -20,7 +21,7 @@ namespace {
 
 std::string data_folder() {
     const char* given = std::getenv("CULLET_TEST_DATA");
-    return (given ? std::string(given) : std::string(CULLET_SOURCE_DIR) + "/../shared/data") + "/thick_shell";
+    return (given ? std::string(given) : source_folder() + "/../shared/data") + "/thick_shell";
 }
 
 constexpr size_t kClosedModels = 11;  // that the folder's README lists
@@ -29,7 +30,7 @@ constexpr size_t kClosedModels = 11;  // that the folder's README lists
 Mesh read_model_file(const std::filesystem::path& path) {
     const std::string cache = std::filesystem::temp_directory_path() / ("extrude_meshes." + std::to_string(getpid()));
     std::filesystem::create_directories(cache);
-    Result<Mesh> mesh = import_mesh(path, std::string(CULLET_BINARY_DIR) + "/cullet_import", cache);
+    Result<Mesh> mesh = import_mesh(path, build_folder() + "/cullet_import", cache);
     std::filesystem::remove_all(cache);
     EXPECT_TRUE(mesh.ok()) << mesh.error();
     return mesh.ok() ? std::move(mesh).value() : Mesh{};

@@ -9,6 +9,7 @@
 #include "engine/import_mesh.hpp"
 #include "systems/cook/surface.hpp"
 #include "tests/support/expect_always.hpp"
+#include "tests/support/places.hpp"
 #include "tests/support/plane_splits.hpp"
 #include "tests/support/test_data.hpp"
 
@@ -64,7 +65,7 @@ TEST(SplitProperties, HoldOnStrangersMeshes) {
     for (const char* name :
          {"spot_control_mesh.obj", "bowl.ply", "vase_thick.ply", "husky_loop1.ply", "espresso_cup.gltf"}) {
         Result<Mesh> mesh = import_mesh(test::test_data() / "thick_shell" / name,
-                                        std::string(CULLET_BINARY_DIR) + "/cullet_import", cache);
+                                        build_folder() + "/cullet_import", cache);
         ASSERT_TRUE(mesh.ok()) << mesh.error();
         const Result<cullet::Surface> clean = prepare_surface(mesh.value());
         ASSERT_TRUE(clean.ok()) << clean.error();

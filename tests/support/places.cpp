@@ -1,0 +1,9 @@
+#include "tests/support/places.hpp"
+
+namespace cullet {
+
+std::string source_folder() { return CULLET_SOURCE_DIR; }
+std::string build_folder() { return CULLET_BINARY_DIR; }
+std::string release_game() { return CULLET_RELEASE_GAME; }
+
+}  // namespace cullet

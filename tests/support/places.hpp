@@ -1,0 +1,14 @@
+// Where the tests find what they read and run. Functions and not macros, so that all tests are compiled with the same flags.
+#pragma once
+#include <string>
+
+namespace cullet {
+
+/// The folder of this checkout.
+std::string source_folder();
+/// The folder of this build, with its programs.
+std::string build_folder();
+/// The program sample_game of a Release build, "" when none was given (-DCULLET_RELEASE_GAME=PROGRAM).
+std::string release_game();
+
+}  // namespace cullet
