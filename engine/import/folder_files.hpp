@@ -1,5 +1,6 @@
 // How assimp opens files: those that a model may open (import_folder.hpp), and no others. An OBJ file is handed on with
-// ".5" written "0.5": assimp 5.2 takes the former for no number, and the vertex for none.
+// ".5" written "0.5": assimp 5.2 takes the former for no number, and the vertex for none. Text is handed on as UTF-8
+// without a byte order mark, which assimp takes for a part of the first word.
 #pragma once
 #include <assimp/DefaultIOSystem.h>
 #include <assimp/MemoryIOWrapper.h>
@@ -8,8 +9,11 @@
 #include <cstring>
 #include <filesystem>
 #include <memory>
+#include <set>
 #include <string>
+#include <utility>
 
+#include "engine/import/text_encoding.hpp"
 #include "engine/import_folder.hpp"
 
 namespace cullet {
@@ -24,25 +28,38 @@ class FolderFiles : public Assimp::DefaultIOSystem {
         const std::string real = folder_.find(file);
         if (real.empty()) return nullptr;
         std::unique_ptr<Assimp::IOStream> stream(DefaultIOSystem::Open(real.c_str(), mode));
-        if (stream == nullptr || !is_obj(file)) return stream.release();
-        std::string text(stream->FileSize(), '\0');
-        if (stream->Read(text.data(), 1, text.size()) != text.size()) return nullptr;
-        const size_t size_before = text.size();
-        text = with_leading_zeros(text);
-        if (text.size() == size_before) {
-            stream->Seek(0, aiOrigin_SET);
-            return stream.release();
-        }
-        auto bytes = std::make_unique<uint8_t[]>(text.size());
-        std::memcpy(bytes.get(), text.data(), text.size());
-        return new Assimp::MemoryIOStream(bytes.release(), text.size(), true);
+        if (stream == nullptr) return nullptr;
+        const std::string extension = lower_case_extension(file);
+        char front[4] = {};
+        const size_t length = stream->Read(front, 1, sizeof front);
+        stream->Seek(0, aiOrigin_SET);
+        const bool is_text = has_byte_order_mark({front, length}) || kTexts.count(extension) > 0;
+        if (!is_text) return stream.release();
+        std::string bytes(stream->FileSize(), '\0');
+        if (stream->Read(bytes.data(), 1, bytes.size()) != bytes.size()) return nullptr;
+        const size_t size_before = bytes.size();
+        std::string text = plain_text(std::move(bytes));
+        if (extension == ".obj") text = with_leading_zeros(text);
+        if (text.size() != size_before) return in_memory(text);
+        stream->Seek(0, aiOrigin_SET);
+        return stream.release();
     }
 
  private:
-    static bool is_obj(const std::string& file) {
+    /// Formats of text alone. What others hold is told from text by a byte order mark, which none of them begins with.
+    inline static const std::set<std::string> kTexts{".obj", ".mtl", ".off", ".dae",  ".gltf", ".x3d", ".amf",
+                                                     ".ase", ".ac",  ".nff", ".enff", ".raw",  ".xml", ".smd"};
+
+    static std::string lower_case_extension(const std::string& file) {
         std::string end = std::filesystem::path(file).extension().string();
         for (char& letter : end) letter = static_cast<char>(std::tolower(static_cast<unsigned char>(letter)));
-        return end == ".obj";
+        return end;
+    }
+
+    static Assimp::IOStream* in_memory(const std::string& text) {
+        auto bytes = std::make_unique<uint8_t[]>(text.size());
+        std::memcpy(bytes.get(), text.data(), text.size());
+        return new Assimp::MemoryIOStream(bytes.release(), text.size(), true);
     }
 
     /// Lines of points, normals and uvs ("v", "vn", "vt") with ".5" written "0.5"; the others as they are. A line ends
