@@ -35,6 +35,7 @@ struct ConvertedModel {
     uint64_t joined = 0;     // points of the file that were equal to another
     uint64_t left_out = 0;   // lines and points, among them faces of an OBJ with one or two corners
     uint64_t unusable_normals = 0, unusable_uvs = 0;  // of corners; taken from the triangle, set to 0
+    std::vector<std::string> notes;  // sentences, each with its full stop: what the file holds and the mesh does not
 };
 Result<ConvertedModel> convert_model(const std::string& path);
 

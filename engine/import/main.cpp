@@ -75,10 +75,12 @@ MeshView view_of(const Mesh& mesh) {
 
 std::string line_of(const std::string& path, const ConvertedModel& model, const MeshReport& report) {
     const Mesh& mesh = model.mesh;
+    std::string notes;
+    for (const std::string& note : model.notes) notes += " " + note;
     return path + ": " + count(mesh.positions.size(), "vertex", "vertices") + ", " +
            count(mesh.triangles.size(), "triangle", "triangles") + ", " +
            count(materials_of(mesh), "material", "materials") + ", " + box_of(mesh) + ", " + parts_of(report) + ". " +
-           repairs_of(model, report);
+           repairs_of(model, report) + notes;
 }
 
 Result<Delivery> convert_and_encode(const std::string& path) {
