@@ -3,12 +3,17 @@
 #include <assimp/scene.h>
 
 #include <assimp/Importer.hpp>
+#include <filesystem>
+#include <memory>
 #include <new>
 #include <utility>
 
 #include "engine/import/corners.hpp"
 #include "engine/import/folder_files.hpp"
 #include "engine/import/import.hpp"
+#include "engine/import/ply.hpp"
+#include "engine/import/stl.hpp"
+#include "engine/import/words.hpp"
 #include "engine/mesh_file.hpp"
 
 namespace cullet {
@@ -119,18 +124,39 @@ Error unreadable(const std::string& path, const std::string& reason) {
     return {path + ": cannot be read as a model (" + one_line(reason) + "). Repair the file or export it again."};
 }
 
-}  // namespace
-
-Result<ConvertedModel> convert_model(const std::string& path) {
+/// The importer is never torn down: assimp 5.2 frees some of what it has read twice (a thumbnail in a 3MF), and the
+/// process that reads ends when it has handed over the result.
+Result<Corners> read_by_assimp(const std::string& path) {
     std::set_new_handler(note_lack_of_memory);
-    Assimp::Importer importer;
-    importer.SetIOHandler(new FolderFiles(path));  // the importer deletes it
+    Assimp::Importer& importer = *new Assimp::Importer;
+    importer.SetIOHandler(new FolderFiles(path));  // the importer keeps it
     const aiScene* scene = importer.ReadFile(path, 0);
     if (scene == nullptr) return unreadable(path, importer.GetErrorString());
     if (auto r = check_indices(*scene, path); !r) return Error{r.error()};
     scene = importer.ApplyPostProcessing(aiProcess_Triangulate);
     if (scene == nullptr) return unreadable(path, importer.GetErrorString());
-    auto corners = gather(*scene, path);
+    return gather(*scene, path);
+}
+
+/// The bytes of the model go to a reader of ours.
+Result<Corners> read_by(Result<Corners> (*reader)(std::string bytes, const std::string& path),
+                        const std::string& path) {
+    FolderFiles files(path);
+    const std::unique_ptr<Assimp::IOStream> stream(files.open_as_it_is(path));
+    if (stream == nullptr) return unreadable(path, "it cannot be opened");
+    std::string bytes(stream->FileSize(), '\0');
+    if (stream->Read(bytes.data(), 1, bytes.size()) != bytes.size())
+        return unreadable(path, "it cannot be read to its end");
+    return reader(std::move(bytes), path);
+}
+
+}  // namespace
+
+Result<ConvertedModel> convert_model(const std::string& path) {
+    const std::string extension = small_letters(std::filesystem::path(path).extension().string());
+    auto corners = extension == ".stl"   ? read_by(read_stl, path)
+                   : extension == ".ply" ? read_by(read_ply, path)
+                                         : read_by_assimp(path);
     if (!corners) return Error{corners.error()};
     return joined_model(std::move(*corners), path);
 }

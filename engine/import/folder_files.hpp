@@ -5,7 +5,6 @@
 #include <assimp/DefaultIOSystem.h>
 #include <assimp/MemoryIOWrapper.h>
 
-#include <cctype>
 #include <cstring>
 #include <filesystem>
 #include <memory>
@@ -14,6 +13,7 @@
 #include <utility>
 
 #include "engine/import/text_encoding.hpp"
+#include "engine/import/words.hpp"
 #include "engine/import_folder.hpp"
 
 namespace cullet {
@@ -24,12 +24,16 @@ class FolderFiles : public Assimp::DefaultIOSystem {
 
     bool Exists(const char* file) const override { return !folder_.find(file).empty(); }
 
-    Assimp::IOStream* Open(const char* file, const char* mode) override {
+    /// The bytes as they are on the disk.
+    Assimp::IOStream* open_as_it_is(const std::string& file, const char* mode = "rb") {
         const std::string real = folder_.find(file);
-        if (real.empty()) return nullptr;
-        std::unique_ptr<Assimp::IOStream> stream(DefaultIOSystem::Open(real.c_str(), mode));
+        return real.empty() ? nullptr : DefaultIOSystem::Open(real.c_str(), mode);
+    }
+
+    Assimp::IOStream* Open(const char* file, const char* mode) override {
+        std::unique_ptr<Assimp::IOStream> stream(open_as_it_is(file, mode));
         if (stream == nullptr) return nullptr;
-        const std::string extension = lower_case_extension(file);
+        const std::string extension = small_letters(std::filesystem::path(file).extension().string());
         char front[4] = {};
         const size_t length = stream->Read(front, 1, sizeof front);
         stream->Seek(0, aiOrigin_SET);
@@ -49,12 +53,6 @@ class FolderFiles : public Assimp::DefaultIOSystem {
     /// Formats of text alone. What others hold is told from text by a byte order mark, which none of them begins with.
     inline static const std::set<std::string> kTexts{".obj", ".mtl", ".off", ".dae",  ".gltf", ".x3d", ".amf",
                                                      ".ase", ".ac",  ".nff", ".enff", ".raw",  ".xml", ".smd"};
-
-    static std::string lower_case_extension(const std::string& file) {
-        std::string end = std::filesystem::path(file).extension().string();
-        for (char& letter : end) letter = static_cast<char>(std::tolower(static_cast<unsigned char>(letter)));
-        return end;
-    }
 
     static Assimp::IOStream* in_memory(const std::string& text) {
         auto bytes = std::make_unique<uint8_t[]>(text.size());
