@@ -8,11 +8,14 @@
 #include <new>
 #include <utility>
 
+#include "engine/import/collada.hpp"
 #include "engine/import/corners.hpp"
+#include "engine/import/fbx_place.hpp"
 #include "engine/import/folder_files.hpp"
 #include "engine/import/import.hpp"
 #include "engine/import/ply.hpp"
 #include "engine/import/stl.hpp"
+#include "engine/import/three_mf.hpp"
 #include "engine/import/words.hpp"
 #include "engine/mesh_file.hpp"
 
@@ -79,14 +82,14 @@ void append_mesh(Corners& out, const aiMesh& mesh, const Affine& place) {
     }
 }
 
-Result<Corners> gather(const aiScene& scene, const std::string& path) {
+Result<Corners> gather(const aiScene& scene, const std::string& path, const Affine& root) {
     Corners corners;
     struct Item {
         const aiNode* node;
         Affine parent;
     };
     std::vector<Item> stack;
-    if (scene.mRootNode != nullptr) stack.push_back({scene.mRootNode, {}});
+    if (scene.mRootNode != nullptr) stack.push_back({scene.mRootNode, root});
     while (!stack.empty()) {
         const Item item = stack.back();
         stack.pop_back();
@@ -124,39 +127,115 @@ Error unreadable(const std::string& path, const std::string& reason) {
     return {path + ": cannot be read as a model (" + one_line(reason) + "). Repair the file or export it again."};
 }
 
-/// The importer is never torn down: assimp 5.2 frees some of what it has read twice (a thumbnail in a 3MF), and the
-/// process that reads ends when it has handed over the result.
-Result<Corners> read_by_assimp(const std::string& path) {
-    std::set_new_handler(note_lack_of_memory);
+/// Where the file does not say, the value stays.
+template <class T>
+void take(const aiScene& scene, const char* name, T& value) {
+    if (scene.mMetaData == nullptr) return;
+    T found{};
+    float short_one = 0;
+    if (scene.mMetaData->Get(name, found))
+        value = found;
+    else if (scene.mMetaData->Get(name, short_one))
+        value = static_cast<T>(short_one);
+}
+
+Affine place_of_fbx(const aiScene& scene, std::vector<std::string>& notes) {
+    FbxAxes axes;
+    take(scene, "UpAxis", axes.up);
+    take(scene, "UpAxisSign", axes.up_sign);
+    take(scene, "FrontAxis", axes.front);
+    take(scene, "FrontAxisSign", axes.front_sign);
+    take(scene, "CoordAxis", axes.coord);
+    take(scene, "CoordAxisSign", axes.coord_sign);
+    take(scene, "UnitScaleFactor", axes.unit);
+    return place_of(axes, notes);
+}
+
+std::string counted(uint64_t n, const char* one, const char* many, const char* what) {
+    return std::to_string(n) + " " + (n == 1 ? one : many) + " " + what;
+}
+
+/// What moves or bends the meshes and is left out. Of looks (pictures, colours, lights) nothing is said.
+void note_motion(const aiScene& scene, std::vector<std::string>& notes) {
+    uint64_t skins = 0, shapes = 0;
+    for (unsigned m = 0; m < scene.mNumMeshes; ++m) {
+        skins += scene.mMeshes[m]->mNumBones > 0;
+        shapes += scene.mMeshes[m]->mNumAnimMeshes > 0;
+    }
+    const uint64_t animations = scene.mNumAnimations;
+    if (skins > 0)
+        notes.push_back(counted(skins, "mesh with bones stands", "meshes with bones stand", "as modelled, not posed."));
+    if (shapes > 0)
+        notes.push_back(counted(shapes, "mesh with morph targets has", "meshes with morph targets have",
+                                "the shape without them."));
+    if (animations > 0)
+        notes.push_back(
+            counted(animations, "animation was left out.", "animations were left out.", "Nodes stand at rest."));
+}
+
+/// The importer is never torn down: assimp 5.2 frees some of what it has read twice, and the process that reads ends
+/// when it has handed over the result. `files` goes to the importer.
+Result<Corners> read_by_assimp(std::unique_ptr<FolderFiles> files, const std::string& path, bool is_fbx) {
     Assimp::Importer& importer = *new Assimp::Importer;
-    importer.SetIOHandler(new FolderFiles(path));  // the importer keeps it
+    importer.SetIOHandler(files.release());
     const aiScene* scene = importer.ReadFile(path, 0);
     if (scene == nullptr) return unreadable(path, importer.GetErrorString());
     if (auto r = check_indices(*scene, path); !r) return Error{r.error()};
     scene = importer.ApplyPostProcessing(aiProcess_Triangulate);
     if (scene == nullptr) return unreadable(path, importer.GetErrorString());
-    return gather(*scene, path);
+    std::vector<std::string> notes;
+    const Affine root = is_fbx ? place_of_fbx(*scene, notes) : Affine{};
+    auto corners = gather(*scene, path, root);
+    if (!corners) return corners;
+    note_motion(*scene, notes);
+    corners->notes.insert(corners->notes.end(), notes.begin(), notes.end());
+    return corners;
 }
 
-/// The bytes of the model go to a reader of ours.
+Result<std::string> bytes_of(FolderFiles& files, const std::string& path) {
+    const std::unique_ptr<Assimp::IOStream> stream(files.open_as_it_is(path));
+    if (stream == nullptr) return unreadable(path, "it cannot be opened");
+    return FolderFiles::whole(*stream);
+}
+
+/// For formats that assimp reads wrongly and that are read here, from their bytes to their triangles.
 Result<Corners> read_by(Result<Corners> (*reader)(std::string bytes, const std::string& path),
                         const std::string& path) {
     FolderFiles files(path);
-    const std::unique_ptr<Assimp::IOStream> stream(files.open_as_it_is(path));
-    if (stream == nullptr) return unreadable(path, "it cannot be opened");
-    std::string bytes(stream->FileSize(), '\0');
-    if (stream->Read(bytes.data(), 1, bytes.size()) != bytes.size())
-        return unreadable(path, "it cannot be read to its end");
-    return reader(std::move(bytes), path);
+    auto bytes = bytes_of(files, path);
+    if (!bytes) return Error{bytes.error()};
+    return reader(std::move(*bytes), path);
+}
+
+Result<Corners> read_collada(const std::string& path) {
+    auto files = std::make_unique<FolderFiles>(path);
+    auto bytes = bytes_of(*files, path);
+    if (!bytes) return Error{bytes.error()};
+    auto plain = plain_collada(std::move(*bytes), path);
+    if (!plain) return Error{plain.error()};
+    files->replace_model(std::move(plain->text));
+    auto corners = read_by_assimp(std::move(files), path, false);
+    if (corners) corners->notes.insert(corners->notes.begin(), plain->notes.begin(), plain->notes.end());
+    return corners;
+}
+
+Result<Corners> read_corners(const std::string& path) {
+    const std::string extension = small_letters(std::filesystem::path(path).extension().string());
+    if (extension == ".stl") return read_by(read_stl, path);
+    if (extension == ".ply") return read_by(read_ply, path);
+    if (extension == ".3mf") {
+        const std::string file = ModelFolder(path).find(path);
+        return file.empty() ? unreadable(path, "it cannot be opened") : read_3mf(file, path);
+    }
+    if (extension == ".dae") return read_collada(path);
+    return read_by_assimp(std::make_unique<FolderFiles>(path), path, extension == ".fbx");
 }
 
 }  // namespace
 
 Result<ConvertedModel> convert_model(const std::string& path) {
-    const std::string extension = small_letters(std::filesystem::path(path).extension().string());
-    auto corners = extension == ".stl"   ? read_by(read_stl, path)
-                   : extension == ".ply" ? read_by(read_ply, path)
-                                         : read_by_assimp(path);
+    std::set_new_handler(note_lack_of_memory);
+    auto corners = read_corners(path);
     if (!corners) return Error{corners.error()};
     return joined_model(std::move(*corners), path);
 }

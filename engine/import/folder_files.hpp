@@ -8,8 +8,10 @@
 #include <cstring>
 #include <filesystem>
 #include <memory>
+#include <optional>
 #include <set>
 #include <string>
+#include <string_view>
 #include <utility>
 
 #include "engine/import/text_encoding.hpp"
@@ -20,7 +22,7 @@ namespace cullet {
 
 class FolderFiles : public Assimp::DefaultIOSystem {
  public:
-    explicit FolderFiles(const std::string& model) : folder_(model) {}
+    explicit FolderFiles(const std::string& model) : model_(model), folder_(model) {}
 
     bool Exists(const char* file) const override { return !folder_.find(file).empty(); }
 
@@ -30,29 +32,38 @@ class FolderFiles : public Assimp::DefaultIOSystem {
         return real.empty() ? nullptr : DefaultIOSystem::Open(real.c_str(), mode);
     }
 
+    /// What is handed on in place of the model's own bytes.
+    void replace_model(std::string text) { model_text_ = std::move(text); }
+
     Assimp::IOStream* Open(const char* file, const char* mode) override {
+        if (model_text_ && folder_.find(file) == folder_.find(model_)) return in_memory(*model_text_);
         std::unique_ptr<Assimp::IOStream> stream(open_as_it_is(file, mode));
         if (stream == nullptr) return nullptr;
         const std::string extension = small_letters(std::filesystem::path(file).extension().string());
-        char front[4] = {};
-        const size_t length = stream->Read(front, 1, sizeof front);
+        char bytes[4] = {};
+        const std::string_view front(bytes, stream->Read(bytes, 1, sizeof bytes));
         stream->Seek(0, aiOrigin_SET);
-        const bool is_text = has_byte_order_mark({front, length}) || kTexts.count(extension) > 0;
-        if (!is_text) return stream.release();
-        std::string bytes(stream->FileSize(), '\0');
-        if (stream->Read(bytes.data(), 1, bytes.size()) != bytes.size()) return nullptr;
-        const size_t size_before = bytes.size();
-        std::string text = plain_text(std::move(bytes));
+        const bool is_coded = has_byte_order_mark(front) || (kTexts.count(extension) > 0 && is_like_utf16(front));
+        if (!is_coded && extension != ".obj") return stream.release();
+        std::string all = whole(*stream);
+        const size_t size_before = all.size();
+        std::string text = plain_text(std::move(all));
         if (extension == ".obj") text = with_leading_zeros(text);
         if (text.size() != size_before) return in_memory(text);
         stream->Seek(0, aiOrigin_SET);
         return stream.release();
     }
 
+    static std::string whole(Assimp::IOStream& stream) {
+        std::string bytes(stream.FileSize(), '\0');
+        bytes.resize(stream.Read(bytes.data(), 1, bytes.size()));
+        return bytes;
+    }
+
  private:
-    /// Formats of text alone. What others hold is told from text by a byte order mark, which none of them begins with.
-    inline static const std::set<std::string> kTexts{".obj", ".mtl", ".off", ".dae",  ".gltf", ".x3d", ".amf",
-                                                     ".ase", ".ac",  ".nff", ".enff", ".raw",  ".xml", ".smd"};
+    /// Formats of text, which may be UTF-16 without a mark. With a mark any file is text.
+    inline static const std::set<std::string> kTexts{".obj", ".mtl", ".off",  ".dae", ".fbx", ".x3d", ".amf", ".ase",
+                                                     ".ac",  ".nff", ".enff", ".raw", ".xml", ".smd", ".x",   ".dxf"};
 
     static Assimp::IOStream* in_memory(const std::string& text) {
         auto bytes = std::make_unique<uint8_t[]>(text.size());
@@ -79,7 +90,9 @@ class FolderFiles : public Assimp::DefaultIOSystem {
         return out;
     }
 
+    std::string model_;
     ModelFolder folder_;
+    std::optional<std::string> model_text_;
 };
 
 }  // namespace cullet

@@ -90,6 +90,10 @@ bool has_byte_order_mark(std::string_view bytes) {
     return marked_encoding(bytes).has_value();
 }
 
+bool is_like_utf16(std::string_view bytes) {
+    return guessed_encoding(bytes).has_value();
+}
+
 std::string plain_text(std::string bytes) {
     auto encoding = marked_encoding(bytes);
     if (!encoding) encoding = guessed_encoding(bytes);

@@ -8,10 +8,12 @@ namespace cullet {
 
 /// True when the bytes begin with a byte order mark of UTF-8, UTF-16 or UTF-32.
 bool has_byte_order_mark(std::string_view bytes);
+/// True for UTF-16 without a mark: the first two characters are plain ones, each with its zero byte.
+bool is_like_utf16(std::string_view bytes);
 
-/// The text as UTF-8 without a mark. UTF-16 and UTF-32 are known by their marks, UTF-16 also by the zero bytes of its
-/// first two characters, which must then be plain ones. Anything else comes back as it is: what follows a UTF-8 mark
-/// and bytes of other encodings are not looked at. Halves of pairs that stand alone become U+FFFD.
+/// The text as UTF-8 without a mark. UTF-16 and UTF-32 are known by their marks, UTF-16 also without. Anything else
+/// comes back as it is: what follows a UTF-8 mark and bytes of other encodings are not looked at. Halves of pairs that
+/// stand alone become U+FFFD.
 std::string plain_text(std::string bytes);
 
 }  // namespace cullet

@@ -1,0 +1,249 @@
+#include "engine/import/collada.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <map>
+#include <string_view>
+#include <utility>
+
+#include "engine/import/words.hpp"
+#include "engine/import/xml.hpp"
+#include "engine/mesh_file.hpp"
+
+namespace cullet {
+namespace {
+
+constexpr int64_t kLargestOffset = 1000;  // of an input; files have two or three
+constexpr int64_t kRestart = -1;
+
+std::string escaped(std::string_view text) {
+    std::string out;
+    for (const char c : text) switch (c) {
+            case '&':
+                out += "&amp;";
+                break;
+            case '<':
+                out += "&lt;";
+                break;
+            case '"':
+                out += "&quot;";
+                break;
+            default:
+                out += c;
+        }
+    return out;
+}
+
+std::string tag(std::string_view name, XmlListener::Attributes attributes, std::string_view but = "") {
+    std::string out = "<" + std::string(name);
+    for (; *attributes != nullptr; attributes += 2)
+        if (attributes[0] != but) out += " " + std::string(attributes[0]) + "=\"" + escaped(attributes[1]) + "\"";
+    return out;
+}
+
+/// One `tristrips` or `trifans` while it is read.
+struct Strips {
+    bool is_open = false, is_fan = false;
+    size_t first_byte = 0;
+    std::string prefix, tag, inputs;
+    size_t stride = 1, vertex_offset = 0;
+    std::vector<std::vector<int64_t>> lists;  // one a `p`
+};
+
+using Corner = const int64_t*;  // as many numbers as the stride
+
+std::string numbers(Corner corner, size_t stride) {
+    std::string out;
+    for (size_t i = 0; i < stride; ++i) out += std::to_string(corner[i]) + " ";
+    return out;
+}
+
+/// The triangles of one list, appended as text. Returns how many.
+uint64_t append_triangles(std::string& out, const std::vector<int64_t>& list, const Strips& strips) {
+    const size_t stride = strips.stride, count = list.size() / stride;
+    const auto vertex = [&](size_t i) { return list[i * stride + strips.vertex_offset]; };
+    uint64_t triangles = 0;
+    for (size_t begin = 0; begin < count;) {
+        size_t end = begin;
+        while (end < count && vertex(end) != kRestart) ++end;
+        for (size_t i = begin; i + 2 < end; ++i) {
+            const bool is_odd = (i - begin) % 2 == 1;
+            const size_t a = strips.is_fan ? begin : is_odd ? i + 1 : i;
+            const size_t b = strips.is_fan || !is_odd ? i + 1 : i;
+            const size_t c = i + 2;
+            if (vertex(a) == vertex(b) || vertex(b) == vertex(c) || vertex(c) == vertex(a)) continue;
+            for (const size_t corner : {a, b, c}) out += numbers(list.data() + corner * stride, stride);
+            ++triangles;
+        }
+        begin = end + 1;
+    }
+    return triangles;
+}
+
+class ColladaListener : public XmlListener {
+ public:
+    ColladaListener(std::string_view bytes, const std::string& path) : bytes_(bytes), path_(path) {}
+
+    void begin(std::string_view name, Attributes attributes) override {
+        const std::string_view local = without_prefix(name);
+        if (local == "tristrips" || local == "trifans") {
+            open_strips(name, local, attributes);
+        } else if (strips_.is_open && local == "input") {
+            take_input(name, attributes);
+        } else if (local == "p" || local == "h") {
+            text_.clear();
+            is_listening_ = strips_.is_open && local == "p";
+            if (local == "h") hole_ = first_byte();
+        } else if (local == "ph") {
+            drop(first_byte(), byte_count());
+            ++counts_["ph"];
+        } else {
+            count(local, attributes);
+        }
+    }
+
+    void end(std::string_view name) override {
+        const std::string_view local = without_prefix(name);
+        if (local == "p" && is_listening_) take_list();
+        if (local == "h") drop(hole_, first_byte() + byte_count() - hole_);
+        if (local == "ph") drop(first_byte(), byte_count());
+        if ((local == "tristrips" || local == "trifans") && strips_.is_open) close_strips();
+    }
+
+    void text(std::string_view piece) override {
+        if (is_listening_) text_ += piece;
+    }
+
+    Result<PlainCollada> finished() {
+        if (!trouble_.empty()) return Error{trouble_};
+        PlainCollada out;
+        out.notes = notes();
+        if (copied_ == 0) {
+            out.text = bytes_;
+            return out;
+        }
+        out.text = std::move(out_);
+        out.text += bytes_.substr(copied_);
+        return out;
+    }
+
+ private:
+    void say(const std::string& what) {
+        if (trouble_.empty()) trouble_ = path_ + ": " + what + ". Repair the file or export it again.";
+    }
+
+    /// Copies what stands before, and leaves out so many bytes.
+    void drop(size_t first, size_t size) {
+        if (strips_.is_open || first < copied_) return;
+        out_ += bytes_.substr(copied_, first - copied_);
+        copied_ = std::min(first + size, bytes_.size());
+    }
+
+    void open_strips(std::string_view name, std::string_view local, Attributes attributes) {
+        strips_ = {};
+        strips_.is_open = true;
+        strips_.is_fan = local == "trifans";
+        strips_.first_byte = first_byte();
+        strips_.prefix = name.substr(0, name.size() - local.size());
+        strips_.tag = tag(strips_.prefix + "triangles", attributes, "count");
+    }
+
+    void take_input(std::string_view name, Attributes attributes) {
+        strips_.inputs += tag(name, attributes) + "/>";
+        const char* const text = attribute(attributes, "offset");
+        const auto offset = number_of(text != nullptr ? text : "0");
+        if (!offset || !(*offset >= 0 && *offset <= static_cast<double>(kLargestOffset))) {
+            say("an input has the offset \"" + one_line(text != nullptr ? text : "", 40) + "\"");
+            return;
+        }
+        strips_.stride = std::max(strips_.stride, static_cast<size_t>(*offset) + 1);
+        const char* const semantic = attribute(attributes, "semantic");
+        if (semantic != nullptr && std::string_view(semantic) == "VERTEX")
+            strips_.vertex_offset = static_cast<size_t>(*offset);
+    }
+
+    void take_list() {
+        is_listening_ = false;
+        std::vector<int64_t> list;
+        Words words(text_);
+        for (std::string_view word = words.next(); !word.empty(); word = words.next()) {
+            const auto number = number_of(word);
+            if (!number || !(*number >= -1 && *number < 4294967296.0) || *number != std::floor(*number)) {
+                say("a strip or fan names vertex \"" + one_line(std::string(word), 40) + "\"");
+                return;
+            }
+            list.push_back(static_cast<int64_t>(*number));
+        }
+        strips_.lists.push_back(std::move(list));
+    }
+
+    void close_strips() {
+        std::string list;
+        uint64_t triangles = 0;
+        for (const auto& numbers : strips_.lists) {
+            if (numbers.size() % strips_.stride != 0)
+                say("a strip or fan has " + std::to_string(numbers.size()) + " numbers, " +
+                    std::to_string(strips_.stride) + " a corner");
+            triangles += append_triangles(list, numbers, strips_);
+        }
+        const size_t end = first_byte() + byte_count();
+        strips_.is_open = false;
+        drop(strips_.first_byte, end - strips_.first_byte);
+        if (triangles == 0) return;
+        const std::string& prefix = strips_.prefix;
+        out_ += strips_.tag + " count=\"" + std::to_string(triangles) + "\">" + strips_.inputs + "<" + prefix + "p>" +
+                list + "</" + prefix + "p></" + prefix + "triangles>";
+    }
+
+    void count(std::string_view local, Attributes attributes) {
+        if (local == "instance_geometry" || local == "instance_node" || local == "instance_controller") {
+            const char* const url = attribute(attributes, "url");
+            if (url != nullptr && url[0] != '#' && url[0] != 0) ++counts_["url"];
+        }
+        for (const char* noted : {"spline", "convex_mesh", "brep", "skew"})
+            if (local == noted) ++counts_[noted];
+    }
+
+    std::vector<std::string> notes() const {
+        constexpr struct {
+            const char *key, *one, *many, *what;
+        } kNotes[] = {{"ph", "polygon", "polygons", "came without the holes in it."},
+                      {"url", "mesh or node", "meshes or nodes", "of other files was left out."},
+                      {"spline", "spline", "splines", "was left out."},
+                      {"convex_mesh", "convex_mesh", "convex_meshes", "was left out."},
+                      {"brep", "brep", "breps", "was left out."},
+                      {"skew", "skew", "skews", "of nodes was left out: such nodes stand wrong."}};
+        std::vector<std::string> all;
+        for (const auto& note : kNotes) {
+            const auto found = counts_.find(note.key);
+            if (found == counts_.end()) continue;
+            std::string what = note.what;
+            if (found->second > 1 && what.find("was ") != what.npos) what.replace(what.find("was "), 4, "were ");
+            if (found->second > 1 && what.find(" it.") != what.npos) what.replace(what.find(" it."), 4, " them.");
+            all.push_back(std::to_string(found->second) + " " + (found->second == 1 ? note.one : note.many) + " " +
+                          what);
+        }
+        return all;
+    }
+
+    std::string_view bytes_;
+    const std::string& path_;
+    std::string out_, text_, trouble_;
+    size_t copied_ = 0, hole_ = 0;  // bytes
+    Strips strips_;
+    bool is_listening_ = false;
+    std::map<std::string, uint64_t> counts_;
+};
+
+}  // namespace
+
+Result<PlainCollada> plain_collada(std::string bytes, const std::string& path) {
+    const std::string plain = plain_xml(std::move(bytes));
+    ColladaListener listener(plain, path);
+    if (auto r = read_xml(plain, listener, path); !r) return Error{r.error()};
+    return listener.finished();
+}
+
+}  // namespace cullet
