@@ -12,6 +12,7 @@
 #include "engine/import/corners.hpp"
 #include "engine/import/fbx_place.hpp"
 #include "engine/import/folder_files.hpp"
+#include "engine/import/gltf/read_gltf.hpp"
 #include "engine/import/import.hpp"
 #include "engine/import/ply.hpp"
 #include "engine/import/stl.hpp"
@@ -219,7 +220,20 @@ Result<Corners> read_collada(const std::string& path) {
     return corners;
 }
 
+Result<Corners> read_gltf(const std::string& path) {
+    try {
+        const gltf::Document document(path);
+        if (!document.is_version_1()) return gltf::read_document(document);
+    } catch (const gltf::Refusal& refusal) {
+        return gltf::error_of(refusal, path);
+    }
+    auto corners = read_by_assimp(std::make_unique<FolderFiles>(path), path, false);
+    if (corners) corners->notes.push_back("Read as glTF 1, without skins and extensions: 2.0 is read better.");
+    return corners;
+}
+
 Result<Corners> read_corners(const std::string& path) {
+    if (gltf::is_gltf(path)) return read_gltf(path);
     const std::string extension = small_letters(std::filesystem::path(path).extension().string());
     if (extension == ".stl") return read_by(read_stl, path);
     if (extension == ".ply") return read_by(read_ply, path);
