@@ -1,10 +1,6 @@
 #include <fcntl.h>
-#include <linux/audit.h>
-#include <linux/filter.h>
-#include <linux/seccomp.h>
 #include <poll.h>
 #include <signal.h>
-#include <sys/ioctl.h>
 #include <sys/mman.h>
 #include <sys/prctl.h>
 #include <sys/resource.h>
@@ -16,14 +12,13 @@
 #include <algorithm>
 #include <cerrno>
 #include <chrono>
-#include <cstddef>
 #include <cstring>
 #include <exception>
-#include <initializer_list>
 #include <new>
 
 #include "engine/import/import.hpp"
 #include "engine/import/sanitized.hpp"
+#include "engine/import/system_calls.hpp"
 
 namespace cullet {
 namespace {
@@ -38,110 +33,6 @@ bool limit(__rlimit_resource resource, rlim_t value) {
     return limit(resource, value, value);
 }
 
-#if defined(__x86_64__)
-/// What reading a file, allocating, sleeping, throwing and dying take, by strace over all test data and by what assimp
-/// and its libraries import from libc; the rest are what other libcs use for the same. Nothing here
-/// reaches another process, opens anything but for reading, or changes what is on the disk.
-constexpr unsigned kAllowedCalls[] = {
-    // files that are open, and names looked up
-    SYS_read, SYS_readv, SYS_pread64, SYS_preadv, SYS_lseek, SYS_close, SYS_close_range, SYS_write, SYS_writev, SYS_dup,
-    SYS_dup2, SYS_dup3, SYS_pipe, SYS_pipe2, SYS_poll, SYS_ppoll, SYS_select, SYS_pselect6, SYS_stat, SYS_fstat,
-    SYS_lstat, SYS_newfstatat, SYS_statx, SYS_access, SYS_faccessat, SYS_faccessat2, SYS_readlink, SYS_readlinkat,
-    SYS_getdents64, SYS_getcwd, SYS_fadvise64,
-    // memory
-    SYS_brk, SYS_mmap, SYS_munmap, SYS_mremap, SYS_mprotect, SYS_madvise, SYS_mincore, SYS_msync, SYS_membarrier,
-    // one thread, its locks, signals to itself and its end
-    SYS_futex, SYS_set_robust_list, SYS_set_tid_address, SYS_rseq, SYS_sched_yield, SYS_rt_sigaction,
-    SYS_rt_sigprocmask, SYS_rt_sigreturn, SYS_rt_sigpending, SYS_rt_sigsuspend, SYS_sigaltstack, SYS_restart_syscall,
-    SYS_pause, SYS_nanosleep, SYS_clock_nanosleep, SYS_exit, SYS_exit_group,
-    // questions
-    SYS_clock_gettime, SYS_clock_getres, SYS_gettimeofday, SYS_time, SYS_times, SYS_getrandom, SYS_getpid, SYS_getppid,
-    SYS_gettid, SYS_getpgrp, SYS_getuid, SYS_geteuid, SYS_getgid, SYS_getegid, SYS_getrlimit, SYS_getrusage,
-    SYS_sched_getaffinity, SYS_getcpu, SYS_sysinfo, SYS_uname};
-constexpr unsigned kNewestKnownCall =
-    450;  // of Linux 5.17; libc is told that later ones do not exist, and does without
-
-/// The filter's code: it loads words of the call and leaves with a verdict.
-struct Filter {
-    std::vector<sock_filter> code;
-
-    void statement(unsigned op, unsigned k) { code.push_back(BPF_STMT(static_cast<unsigned short>(op), k)); }
-    void jump(unsigned op, unsigned k, unsigned yes, unsigned no) {
-        code.push_back(BPF_JUMP(static_cast<unsigned short>(BPF_JMP | BPF_K | op), k, static_cast<unsigned char>(yes),
-                                static_cast<unsigned char>(no)));
-    }
-    void leave(unsigned verdict) { statement(BPF_RET | BPF_K, verdict); }
-    void load(size_t offset) { statement(BPF_LD | BPF_W | BPF_ABS, static_cast<unsigned>(offset)); }
-    /// Words 0 and 1 are the low and the high half of the first argument, 2 and 3 of the second.
-    void load_argument_word(unsigned word) { load(offsetof(seccomp_data, args) + 4 * word); }
-
-    void allow(unsigned call) {
-        jump(BPF_JEQ, call, 0, 1);
-        leave(SECCOMP_RET_ALLOW);
-    }
-    struct Condition {
-        unsigned word;
-        unsigned op;  // BPF_JEQ or BPF_JSET
-        unsigned value;
-        bool wanted;
-    };
-    /// Allowed when all conditions hold, refused otherwise.
-    void allow_if(unsigned call, std::initializer_list<Condition> all) {
-        jump(BPF_JEQ, call, 0, static_cast<unsigned>(3 * all.size() + 1));
-        for (const Condition& c : all) {
-            load_argument_word(c.word);
-            jump(c.op, c.value, c.wanted ? 1 : 0, c.wanted ? 0 : 1);
-            leave(kRefuse);
-        }
-        leave(SECCOMP_RET_ALLOW);
-    }
-    /// Allowed when a word of its arguments has one of these values, refused otherwise.
-    void allow_with(unsigned call, unsigned word, std::initializer_list<unsigned> values) {
-        jump(BPF_JEQ, call, 0, static_cast<unsigned>(2 * values.size() + 2));
-        load_argument_word(word);
-        for (const unsigned value : values) {
-            jump(BPF_JEQ, value, 0, 1);
-            leave(SECCOMP_RET_ALLOW);
-        }
-        leave(kRefuse);
-    }
-
-    static constexpr unsigned kRefuse = SECCOMP_RET_ERRNO | EPERM;
-};
-
-/// A second fence behind the limits: no network, no other process or program and no signal to one, no file opened to
-/// write, none made, removed, renamed or dated. A list of what is forbidden, tried first, had a hole for every call
-/// that was not thought of. Refused calls fail and do not kill: libc and assimp know what to do without most of them.
-bool forbid_system_calls() {
-    constexpr unsigned writing = O_WRONLY | O_RDWR | O_CREAT | O_TRUNC;
-    Filter filter;
-    filter.load(offsetof(seccomp_data, arch));
-    filter.jump(BPF_JEQ, AUDIT_ARCH_X86_64, 1, 0);
-    filter.leave(SECCOMP_RET_KILL_PROCESS);
-    filter.load(offsetof(seccomp_data, nr));
-    filter.jump(BPF_JGE, 0x40000000u, 0, 1);  // the x32 names of the same calls
-    filter.leave(Filter::kRefuse);
-    filter.allow_if(SYS_open, {{2, BPF_JSET, writing, false}});
-    filter.allow_if(SYS_openat, {{4, BPF_JSET, writing, false}});
-    filter.allow_if(SYS_tgkill, {{0, BPF_JEQ, static_cast<unsigned>(::getpid()), true}});  // abort
-    // Its own limits, and only asked for: as root it could raise them.
-    filter.allow_if(SYS_prlimit64, {{0, BPF_JEQ, 0, true}, {4, BPF_JEQ, 0, true}, {5, BPF_JEQ, 0, true}});
-    // Not F_SETOWN, which has signals sent to others, nor leases and locks on others' files.
-    filter.allow_with(SYS_fcntl, 2, {F_GETFD, F_SETFD, F_GETFL, F_DUPFD, F_DUPFD_CLOEXEC});
-    filter.allow_with(SYS_ioctl, 2, {TCGETS});  // isatty; not TIOCSTI, which types into the terminal
-    for (const unsigned call : kAllowedCalls) filter.allow(call);
-    filter.jump(BPF_JGT, kNewestKnownCall, 0, 1);
-    filter.leave(SECCOMP_RET_ERRNO | ENOSYS);
-    filter.leave(Filter::kRefuse);
-    const sock_fprog program{static_cast<unsigned short>(filter.code.size()), filter.code.data()};
-    return ::prctl(PR_SET_SECCOMP, SECCOMP_MODE_FILTER, &program) == 0;
-}
-#else
-bool forbid_system_calls() {
-    return true;
-}
-#endif
-
 /// A kernel without seccomp filters leaves the rlimits, which is what older systems had. A sanitized build keeps to the
 /// processor time alone.
 bool limit_this_process(const ImportLimits& limits) {
@@ -153,7 +44,7 @@ bool limit_this_process(const ImportLimits& limits) {
     ::prctl(PR_SET_PDEATHSIG, SIGKILL);
     ::prctl(PR_SET_NO_NEW_PRIVS, 1, 0, 0, 0);
     ::prctl(PR_SET_DUMPABLE, 0);
-    forbid_system_calls();
+    forbid_system_calls();  // none on a kernel without filters: the limits stand alone there
     return limited;
 }
 

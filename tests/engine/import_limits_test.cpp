@@ -199,6 +199,44 @@ TEST_F(Limits, TheChildLeavesNothingWithTheKernel) {
               "");
 }
 
+/// libc tries newer calls first and takes the older ones only when it is told that those are not there.
+TEST_F(Limits, CallsNewerThanTheListDoNotExist) {
+    EXPECT_EQ(told_by_child([] {
+                  std::string said;
+                  for (const long call : {451, 452, 462, 500, 511})
+                      if (::syscall(call, 0, 0, 0, 0, 0, 0) != -1 || errno != ENOSYS)
+                          said += "call " + std::to_string(call) + ": " + std::strerror(errno) + "; ";
+                  return said;
+              }),
+              "");
+}
+
+#if defined(__x86_64__)
+/// The same calls under other numbers, which compare with nothing on the list.
+TEST_F(Limits, TheChildEndsAtCallsOfAnotherMachine) {
+    constexpr long kX32 = 0x40000000;
+    const std::string said = told_by_child([] {
+        ::syscall(kX32 | SYS_getpid);
+        return std::string("lives");
+    });
+    EXPECT_NE(said, "lives");
+}
+#endif
+
+/// Arguments of 32 bits: what stands above them is not looked at by the kernel, and not by the filter.
+TEST_F(Limits, TheUpperHalfOfAnArgumentHidesNothing) {
+    const std::string there = folder_ / "there";
+    EXPECT_EQ(told_by_child([&] {
+                  constexpr unsigned long kUpper = 1ul << 32;
+                  std::string said;
+                  said += expect_forbidden("open to write", ::syscall(SYS_open, there.c_str(), kUpper | O_WRONLY));
+                  said += expect_forbidden("F_SETOWN", ::syscall(SYS_fcntl, 0, kUpper | F_SETOWN, ::getppid()));
+                  if (::syscall(SYS_fcntl, 0, kUpper | F_GETFD, 0) < 0) said += "F_GETFD is refused; ";
+                  return said;
+              }),
+              "");
+}
+
 TEST_F(Limits, TheChildMayAbort) {
     const std::string said = told_by_child([] {
         ::abort();

@@ -1,0 +1,12 @@
+// What the kernel still does for the process that reads strangers' files.
+#pragma once
+
+namespace cullet {
+
+/// From now on this process reads files and ends, and nothing else: no network, no other process or program and no
+/// signal to one, no file opened to write, none made, removed, renamed or dated. Refused calls fail and do not kill:
+/// libc and assimp know what to do without most of them. For good: it cannot be taken back. False where the kernel has
+/// no such filters.
+bool forbid_system_calls();
+
+}  // namespace cullet
