@@ -303,8 +303,8 @@ class Reader {
                                               : " objects that the build does not name were") +
                                  " left out.");
         if (beams > 0)
-            out_.notes.push_back(std::to_string(beams) + (beams == 1 ? " beam" : " beams") +
-                                 " of a lattice were left out.");
+            out_.notes.push_back(std::to_string(beams) +
+                                 (beams == 1 ? " beam of a lattice was" : " beams of a lattice were") + " left out.");
     }
 
     const ZipFile& zip_;

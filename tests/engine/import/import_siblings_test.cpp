@@ -1,0 +1,355 @@
+// The house in every format, unit, axis and encoding, through the real import program.
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+#include <cmath>
+#include <cstdio>
+#include <filesystem>
+#include <fstream>
+
+#include "engine/mesh_file.hpp"
+#include "tests/support/damage.hpp"
+#include "tests/support/encodings.hpp"
+#include "tests/support/house.hpp"
+#include "tests/support/places.hpp"
+#include "tests/support/run_program.hpp"
+
+namespace cullet {
+namespace {
+
+namespace fs = std::filesystem;
+
+class ImportSiblings : public testing::Test {
+ protected:
+    void SetUp() override {
+        folder_ = fs::temp_directory_path() / ("import_siblings_test." + std::to_string(getpid()));
+        fs::remove_all(folder_);
+        fs::create_directories(folder_);
+    }
+    void TearDown() override { fs::remove_all(folder_); }
+
+    std::string write(const std::string& name, const std::string& bytes) {
+        std::ofstream(folder_ / name, std::ios::binary) << bytes;
+        return folder_ / name;
+    }
+    /// The line that the program says; the house is expected.
+    std::string import_house(const std::string& path, const std::string& what) {
+        const std::string out = folder_ / "out.cmesh";
+        const test::ProgramRun run = test::run_program({build_folder() + "/cullet_import", path, out});
+        EXPECT_EQ(run.exit_code, 0) << what << ": " << run.error;
+        const auto mesh = read_mesh_file(out);
+        EXPECT_TRUE(mesh.ok()) << mesh.error();
+        if (mesh) test::expect_house(*mesh, what);
+        fs::remove(out);
+        return run.output;
+    }
+    std::string import_refused(const std::string& path) {
+        const test::ProgramRun run =
+            test::run_program({build_folder() + "/cullet_import", path, folder_ / "out.cmesh"});
+        EXPECT_EQ(run.exit_code, 2) << run.output;
+        EXPECT_TRUE(!run.error.empty() && run.error.back() == '\n' &&
+                    test::is_a_sentence(run.error.substr(0, run.error.size() - 1), path))
+            << run.error;
+        return run.error;
+    }
+
+    fs::path folder_;
+};
+
+/// Where the corners of the house stand in a file.
+using Points = std::vector<Vec3d>;
+
+std::string text_of(double x) {
+    char text[32];
+    std::snprintf(text, sizeof text, "%.9g", x);
+    return text;
+}
+
+std::string list_of(const Points& points, const char* between) {
+    std::string text;
+    for (const Vec3d p : points)
+        for (const double x : {p.x, p.y, p.z}) text += (text.empty() ? "" : between) + text_of(x);
+    return text;
+}
+
+template <class Move>
+Points moved(const Move& move) {
+    Points points;
+    for (const Vec3d p : test::house_points()) points.push_back(move(p));
+    return points;
+}
+
+struct FbxSettings {
+    int up = 1, up_sign = 1, front = 2, front_sign = 1, coord = 0, coord_sign = 1;
+    double unit = 1;          // cm
+    std::string models = "";  // of the node that holds the mesh
+    std::string parents = "C: \"OO\",2001,0\n";
+};
+
+std::string fbx(const Points& points, const FbxSettings& s) {
+    const auto setting = [](const char* name, const char* type, double value) {
+        return std::string("P: \"") + name + "\", " + type + ", \"\"," + text_of(value) + "\n";
+    };
+    const char* const whole = "\"int\", \"Integer\"";
+    std::string indices;
+    for (const auto& t : test::house_triangles())
+        indices += (indices.empty() ? "" : ",") + std::to_string(t[0]) + "," + std::to_string(t[1]) + "," +
+                   std::to_string(-1 - t[2]);
+    const std::string model =
+        s.models.empty() ? "Model: 2001, \"Model::House\", \"Mesh\" {\nVersion: 232\n}\n" : s.models;
+    return "; FBX 7.4.0 project file\nFBXHeaderExtension:  {\nFBXHeaderVersion: 1003\nFBXVersion: 7400\n}\n"
+           "GlobalSettings:  {\nVersion: 1000\nProperties70:  {\n" +
+           setting("UpAxis", whole, s.up) + setting("UpAxisSign", whole, s.up_sign) +
+           setting("FrontAxis", whole, s.front) + setting("FrontAxisSign", whole, s.front_sign) +
+           setting("CoordAxis", whole, s.coord) + setting("CoordAxisSign", whole, s.coord_sign) +
+           setting("UnitScaleFactor", "\"double\", \"Number\"", s.unit) +
+           "}\n}\nObjects:  {\nGeometry: 1001, \"Geometry::House\", \"Mesh\" {\nVertices: *27 {\na: " +
+           list_of(points, ",") + "\n}\nPolygonVertexIndex: *42 {\na: " + indices + "\n}\nGeometryVersion: 124\n}\n" +
+           model + "}\nConnections:  {\n" + s.parents + "C: \"OO\",1001,2001\n}\n";
+}
+
+Points in_fbx_axes(const FbxSettings& s) {
+    return moved([&s](Vec3d p) {
+        double q[3] = {};
+        q[s.coord] = s.coord_sign * p.x, q[s.up] = s.up_sign * p.y, q[s.front] = s.front_sign * p.z;
+        return (100 / s.unit) * Vec3d{q[0], q[1], q[2]};
+    });
+}
+
+TEST_F(ImportSiblings, TheCasesThatWereMendedStayMended) {
+    size_t count = 0;
+    for (const auto& entry : fs::directory_iterator(fs::path(source_folder()) / "tests/cases/import")) {
+        const std::string name = entry.path().filename();
+        if (name.rfind("gltf", 0) == 0 || name.rfind(".", 0) == 0) continue;
+        import_house(entry.path(), name);
+        ++count;
+    }
+    EXPECT_EQ(count, 10u);
+}
+
+TEST_F(ImportSiblings, AnFbxStandsUprightWhateverItsAxes) {
+    double unit = 0.1;
+    for (int up = 0; up < 3; ++up)
+        for (int signs = 0; signs < 4; ++signs)
+            for (int turn = 1; turn < 3; ++turn) {
+                FbxSettings s;
+                s.up = up, s.coord = (up + turn) % 3, s.front = 3 - s.up - s.coord;
+                s.up_sign = (signs & 1) != 0 ? -1 : 1, s.coord_sign = (signs & 2) != 0 ? -1 : 1;
+                // right x up = front: one way round for x, y, z in turn, the other way otherwise.
+                s.front_sign = s.up_sign * s.coord_sign * (turn == 2 ? 1 : -1);
+                s.unit = unit = unit > 1000 ? 0.1 : unit * 2.54;
+                const std::string said = import_house(
+                    write("house.fbx", fbx(in_fbx_axes(s), s)),
+                    "up " + std::to_string(up) + " signs " + std::to_string(signs) + " turn " + std::to_string(turn));
+                EXPECT_EQ(said.find("axis"), said.npos) << said;
+            }
+}
+
+TEST_F(ImportSiblings, NodesInNodesOfAnFbxKeepUnitAndAxes) {
+    FbxSettings s;
+    s.up = 2, s.front = 1, s.front_sign = -1, s.unit = 2.54;
+    s.models =
+        "Model: 2002, \"Model::Outer\", \"Null\" {\nVersion: 232\nProperties70:  {\n"
+        "P: \"Lcl Translation\", \"Lcl Translation\", \"\", \"A\",10,20,30\n"
+        "P: \"Lcl Rotation\", \"Lcl Rotation\", \"\", \"A\",0,0,90\n}\n}\n"
+        "Model: 2001, \"Model::House\", \"Mesh\" {\nVersion: 232\nProperties70:  {\n"
+        "P: \"Lcl Scaling\", \"Lcl Scaling\", \"\", \"A\",2,2,2\n}\n}\n";
+    s.parents = "C: \"OO\",2002,0\nC: \"OO\",2001,2002\n";
+    Points points = in_fbx_axes(s);
+    for (Vec3d& p : points) {
+        const Vec3d q = 0.5 * (p - Vec3d{10, 20, 30});
+        p = {q.y, -q.x, q.z};  // a quarter turn back about z
+    }
+    import_house(write("house.fbx", fbx(points, s)), "nested");
+}
+
+TEST_F(ImportSiblings, AnFbxWhoseAxesOrUnitAreNoneSaysSo) {
+    FbxSettings s;
+    s.front = 1;
+    EXPECT_NE(import_house(write("a.fbx", fbx(in_fbx_axes(FbxSettings{}), s)), "axes").find("not three different"),
+              std::string::npos);
+    s = {};
+    s.unit = -1;
+    EXPECT_NE(import_house(write("b.fbx", fbx(in_fbx_axes(FbxSettings{}), s)), "unit").find("is no length"),
+              std::string::npos);
+}
+
+struct DaeSettings {
+    double metre = 1;
+    std::string up = "Y_UP", primitives, node_before, node_after;
+    int inputs = 1;  // 2: a texture coordinate beside each point
+};
+
+std::string dae(const Points& points, const DaeSettings& s) {
+    std::string uvs;
+    for (int i = 0; i < 9; ++i) uvs += "0." + std::to_string(i) + " 0.5 ";
+    const auto source = [](const std::string& id, const std::string& values, int count, const std::string& names) {
+        const int stride = static_cast<int>(names.size());
+        std::string parameters;
+        for (const char n : names) parameters += std::string("<param name=\"") + n + "\" type=\"float\"/>";
+        return "<source id=\"" + id + "\"><float_array id=\"" + id + "-a\" count=\"" + std::to_string(count * stride) +
+               "\">" + values + "</float_array><technique_common><accessor source=\"#" + id + "-a\" count=\"" +
+               std::to_string(count) + "\" stride=\"" + std::to_string(stride) + "\">" + parameters +
+               "</accessor></technique_common></source>";
+    };
+    return "<?xml version=\"1.0\" encoding=\"utf-8\"?>\n<COLLADA "
+           "xmlns=\"http://www.collada.org/2005/11/COLLADASchema\" version=\"1.4.1\"><asset><unit name=\"u\" meter=\"" +
+           text_of(s.metre) + "\"/><up_axis>" + s.up +
+           "</up_axis></asset><library_geometries><geometry id=\"g\"><mesh>" +
+           source("g-p", list_of(points, " "), 9, "XYZ") + source("g-t", uvs, 9, "ST") +
+           "<vertices id=\"g-v\"><input semantic=\"POSITION\" source=\"#g-p\"/></vertices>" + s.primitives +
+           "</mesh></geometry></library_geometries><library_visual_scenes><visual_scene id=\"s\">" + s.node_before +
+           "<node id=\"n\"><instance_geometry url=\"#g\"/></node>" + s.node_after +
+           "</visual_scene></library_visual_scenes><scene><instance_visual_scene url=\"#s\"/></scene></COLLADA>";
+}
+
+/// A primitive of that name: `lists` are its `p`, each corner as many numbers as there are inputs.
+std::string primitive(const std::string& name, size_t count, const std::vector<std::vector<int>>& lists, int inputs = 1,
+                      const std::string& counts = "") {
+    std::string text = "<" + name + " count=\"" + std::to_string(count) +
+                       "\"><input semantic=\"VERTEX\" source=\"#g-v\" offset=\"" + std::to_string(inputs - 1) + "\"/>";
+    if (inputs == 2) text += "<input semantic=\"TEXCOORD\" source=\"#g-t\" offset=\"0\" set=\"0\"/>";
+    text += counts;
+    for (const auto& list : lists) {
+        text += "<p>";
+        for (const int v : list)
+            text +=
+                inputs == 2 ? std::to_string(v < 0 ? 0 : v) + " " + std::to_string(v) + " " : std::to_string(v) + " ";
+        text += "</p>";
+    }
+    return text + "</" + name + ">";
+}
+
+std::vector<std::vector<int>> strips_apart() {
+    std::vector<std::vector<int>> lists(1);
+    for (const int n : test::house_strips())
+        if (n < 0)
+            lists.emplace_back();
+        else
+            lists.back().push_back(n);
+    return lists;
+}
+
+const std::vector<std::vector<int>> kWalls{{0, 1, 2, 3}, {0, 4, 5, 1}, {1, 5, 6, 2}, {2, 6, 7, 3}, {3, 7, 4, 0}};
+const std::vector<int> kRoof{8, 4, 7, 6, 5, 4};
+
+TEST_F(ImportSiblings, StripsFansAndPolygonsOfColladaAreAllRead) {
+    std::vector<int> walls;
+    for (const auto& wall : kWalls) walls.insert(walls.end(), wall.begin(), wall.end());
+    for (const int inputs : {1, 2}) {
+        const std::string roof = primitive("trifans", 1, {kRoof}, inputs);
+        const std::string all[] = {
+            primitive("tristrips", 9, strips_apart(), inputs),
+            primitive("tristrips", 1, {test::house_strips()}, inputs),  // -1 between
+            primitive("polylist", 5, {walls}, inputs, "<vcount>4 4 4 4 4</vcount>") + roof,
+            primitive("polygons", 5, kWalls, inputs) + roof,
+            primitive("trifans", 5, kWalls, inputs) + roof,
+            primitive("polygons", 5, kWalls, inputs) + primitive("trifans", 1, {{8, 4, 7, 6, -1, 8, 6, 5, 4}}, inputs),
+            "<trifans count=\"0\"/>" + primitive("tristrips", 9, strips_apart(), inputs) + "<tristrips/>"};
+        for (const std::string& primitives : all) {
+            DaeSettings s;
+            s.primitives = primitives;
+            import_house(write("house.dae", dae(test::house_points(), s)), primitives);
+        }
+    }
+}
+
+TEST_F(ImportSiblings, ColladaComesInMetresAndUprightWithNodesInNodes) {
+    DaeSettings s;
+    s.primitives = primitive("trifans", 5, kWalls) + primitive("trifans", 1, {kRoof});
+    s.node_before = "<node><translate>10 20 30</translate><rotate>0 0 1 90</rotate><node><scale>2 2 2</scale>";
+    s.node_after = "</node></node>";
+    for (const double metre : {0.01, 0.0254, 1.0})
+        for (const std::string up : {"X_UP", "Y_UP", "Z_UP"}) {
+            s.metre = metre, s.up = up;
+            const Points points = moved([&](Vec3d p) {
+                const Vec3d turned = up == "X_UP" ? Vec3d{p.y, -p.x, p.z} : up == "Z_UP" ? Vec3d{p.x, -p.z, p.y} : p;
+                const Vec3d q = 0.5 * ((1 / metre) * turned - Vec3d{10, 20, 30});
+                return Vec3d{q.y, -q.x, q.z};
+            });
+            import_house(write("house.dae", dae(points, s)), up + " " + text_of(metre));
+        }
+}
+
+TEST_F(ImportSiblings, WhatColladaHoldsAndNoMeshWillIsSaid) {
+    DaeSettings s;
+    std::string walls = primitive("polygons", 5, {kWalls.begin(), kWalls.end() - 1});
+    walls.insert(walls.rfind("</polygons>"), "<ph><p>3 7 4 0</p><h>0 1 2</h></ph>");
+    s.primitives = walls + primitive("trifans", 1, {kRoof});
+    EXPECT_NE(
+        import_house(write("h.dae", dae(test::house_points(), s)), "hole").find("1 polygon came without the holes"),
+        std::string::npos);
+    s.primitives = primitive("trifans", 5, kWalls) + primitive("trifans", 1, {kRoof});
+    s.node_before = "<node><instance_node url=\"other.dae#x\"/></node>";
+    EXPECT_NE(import_house(write("u.dae", dae(test::house_points(), s)), "url").find("1 mesh or node of other files"),
+              std::string::npos);
+    s.primitives = primitive("trifans", 1, {{8, 4, 99, 6}});
+    import_refused(write("w.dae", dae(test::house_points(), s)));
+    s.primitives = primitive("tristrips", 1, {{8, 4, -7, 6}});
+    EXPECT_NE(import_refused(write("n.dae", dae(test::house_points(), s))).find("names vertex \"-7\""),
+              std::string::npos);
+}
+
+std::string obj() {
+    std::string text;
+    for (const Vec3d p : test::house_points())
+        text += "v " + text_of(p.x) + " " + text_of(p.y) + " " + text_of(p.z) + "\n";
+    for (const auto& t : test::house_triangles())
+        text +=
+            "f " + std::to_string(t[0] + 1) + " " + std::to_string(t[1] + 1) + " " + std::to_string(t[2] + 1) + "\n";
+    return text;
+}
+
+std::string off() {
+    std::string text = "OFF\n9 14 0\n";
+    for (const Vec3d p : test::house_points()) text += text_of(p.x) + " " + text_of(p.y) + " " + text_of(p.z) + "\n";
+    for (const auto& t : test::house_triangles())
+        text += "3 " + std::to_string(t[0]) + " " + std::to_string(t[1]) + " " + std::to_string(t[2]) + "\n";
+    return text;
+}
+
+std::string stl() {
+    std::string text = "solid house\n";
+    for (const auto& t : test::house_triangles()) {
+        text += "facet normal 0 0 0\nouter loop\n";
+        for (const int v : t) {
+            const Vec3d p = test::house_points()[static_cast<size_t>(v)];
+            text += "vertex " + text_of(p.x) + " " + text_of(p.y) + " " + text_of(p.z) + "\n";
+        }
+        text += "endloop\nendfacet\n";
+    }
+    return text + "endsolid house\n";
+}
+
+std::string ply() {
+    std::string text =
+        "ply\nformat ascii 1.0\nelement vertex 9\nproperty float x\nproperty float y\nproperty float "
+        "z\nelement face 14\nproperty list uchar int vertex_indices\nend_header\n";
+    for (const Vec3d p : test::house_points()) text += text_of(p.x) + " " + text_of(p.y) + " " + text_of(p.z) + "\n";
+    for (const auto& t : test::house_triangles())
+        text += "3 " + std::to_string(t[0]) + " " + std::to_string(t[1]) + " " + std::to_string(t[2]) + "\n";
+    return text;
+}
+
+TEST_F(ImportSiblings, TextOfEveryFormatMayBeInAnyEncoding) {
+    DaeSettings d;
+    d.primitives = primitive("trifans", 5, kWalls) + primitive("trifans", 1, {kRoof});
+    FbxSettings f;
+    const std::pair<std::string, std::string> all[] = {{"house.obj", "mtllib house.mtl\nusemtl a\n" + obj()},
+                                                       {"house.off", off()},
+                                                       {"house.stl", stl()},
+                                                       {"house.ply", ply()},
+                                                       {"house.dae", dae(test::house_points(), d)},
+                                                       {"house.fbx", fbx(in_fbx_axes(f), f)}};
+    for (const auto encoding : test::kEncodings) {
+        write("house.mtl", test::coded("newmtl a\nKd 1 0 0\n", encoding));
+        for (const auto& [name, text] : all)
+            import_house(write(name, test::coded(text, encoding)),
+                         name + " " + std::to_string(static_cast<int>(encoding)));
+    }
+    for (const auto& [name, text] : all)
+        import_house(write(name, test::coded(text, test::Encoding::Utf16Big).substr(2)), name + " without a mark");
+}
+
+}  // namespace
+}  // namespace cullet
