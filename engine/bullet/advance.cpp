@@ -6,6 +6,7 @@ namespace cullet::bullet {
 namespace {
 
 constexpr float kThicknessShare = 0.1f;
+// Lengths are those of pieces of scale 1, see lengths.hpp.
 constexpr double kStop = 0.0005;  // m, the gap at which a sweep ends
 constexpr double kAim = 0.0001;   // m: an advance aims this much past the gap to stop at, so that it ends in few rounds
 constexpr double kTouching = 0.001;  // m: pieces nearer than this at the start touch already
@@ -128,10 +129,10 @@ struct Approach {
     }
 };
 
-// How long the gap along an axis stays above `stop`: all of `left`, or less, to within half of kAim. The bound of the
+// How long the gap along an axis stays above `stop`: all of `left`, or less, to within half of `aim`. The bound of the
 // gap is concave, so that Newton's steps from the end come down to the time from above, doubling their digits; twelve
 // are more than they need.
-double time_until(const Approach& a, const Approach& b, double apart, double stop, double left) {
+double time_until(const Approach& a, const Approach& b, double apart, double stop, double left, double aim) {
     constexpr int kSteps = 12;
     double t = left;
     for (int step = 0; step < kSteps; ++step) {
@@ -139,7 +140,7 @@ double time_until(const Approach& a, const Approach& b, double apart, double sto
         const double room = apart + low.height + high.height - stop, closing = -(low.speed + high.speed);
         if (room >= 0 || !(closing > 0)) break;
         t = std::max(0.0, t + room / closing);
-        if (room > -0.5 * kAim) break;
+        if (room > -0.5 * aim) break;
     }
     return t;
 }
@@ -175,8 +176,8 @@ bool are_split(const Body& a, const Body& b) {
     return a.is_fast && b.is_fast && a.moved_fraction != b.moved_fraction;
 }
 
-bool is_far(double way, float thickness) {
-    return way > kContactRange + kThicknessShare * thickness;
+bool is_far(double way, float scale, float thickness) {
+    return way > static_cast<double>(scale * kContactRange + kThicknessShare * thickness);
 }
 
 double travel(const Mover& mover, float dt) {
@@ -212,12 +213,13 @@ double touch_fraction(const Mover& a, const Hull& hull_a, const Mover& b, const 
     Points points_a, points_b;
     const Points *now_a = &hull_a.world, *now_b = &hull_b.world;
     const float reach_a = reach_of(*a.body, hull_a), reach_b = reach_of(*b.body, hull_b);
-    double t = 0, stop = kStop;
+    const double scale = static_cast<double>(scale_of(hull_a, hull_b)), aim = scale * kAim;
+    double t = 0, stop = scale * kStop;
     // The pair's contact, found where the two stand now, has the axis.
     const Vec3d met = known.of(hull_a, hull_b);
     bool is_axis_fixed = dot(met, met) > 0.5;
     if (is_axis_fixed) axis = met;
-    const bool is_lively = (turning + std::max(length(first), is_split ? length(second) : 0)) * dt > kLively;
+    const bool is_lively = (turning + std::max(length(first), is_split ? length(second) : 0)) * dt > scale * kLively;
     for (int round = 0; round < kRounds; ++round) {
         const btTransform at_a = a.at(t, dt), at_b = b.at(t, dt);
         if (round > 0) {
@@ -229,7 +231,7 @@ double touch_fraction(const Mover& a, const Hull& hull_a, const Mover& b, const 
         const double left = dt * (limit - t), together = dt * std::max(split - t, 0.0);
         double gap = -1;
         if (!is_axis_fixed) {
-            const Closest closest = closest_points(*now_a, *now_b, axis, turning * left + margins + kStop,
+            const Closest closest = closest_points(*now_a, *now_b, axis, turning * left + margins + scale * kStop,
                                                    {together * first, (left - together) * second});
             axis = closest.axis;
             if (closest.is_beyond) return limit;
@@ -237,15 +239,15 @@ double touch_fraction(const Mover& a, const Hull& hull_a, const Mover& b, const 
         } else {
             gap = gap_along(*now_a, *now_b, axis) - margins;
         }
-        if (round == 0 && gap < kTouching) {
+        if (round == 0 && gap < scale * kTouching) {
             // They touch: the solver has slowed them where they do, but the rest of a piece may still swing in.
             const double width = std::min(width_along(hull_a, *now_a, axis), width_along(hull_b, *now_b, axis));
             const double third = -kDepthShare * width;
             const bool are_free = a.body->is_free() && b.body->is_free();
             const double deepest = is_lively ? third : -kFar;
-            double allowed = gap - kDeeper;
+            double allowed = gap - scale * kDeeper;
             if (are_free) allowed = std::min(allowed, std::max(gap - kDeeperShare * width, third));
-            stop = std::max({allowed, kLeast - margins, deepest});
+            stop = std::max({allowed, scale * kLeast - margins, deepest});
             // Where the cores (nearly) overlap there is no gap to measure: along the axis of least overlap they may go
             // deeper by as much.
             is_axis_fixed = stop >= gap;
@@ -265,7 +267,7 @@ double touch_fraction(const Mover& a, const Hull& hull_a, const Mover& b, const 
         const double apart = dot(axis, Vec3d(now_a->centre) - Vec3d(now_b->centre)) - margins;
         // Along an axis that stays there is nothing new to measure at the stop. All of the step counts, whatever the
         // limit, so that a flight which is foreseen ends in the same bits.
-        const double taken = time_until(coming_a, coming_b, apart, is_axis_fixed ? stop : stop - kAim, rest);
+        const double taken = time_until(coming_a, coming_b, apart, is_axis_fixed ? stop : stop - aim, rest, aim);
         if (taken >= left) return limit;
         if (is_split && !is_alone && taken >= together) {
             t = split;

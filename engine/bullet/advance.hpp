@@ -40,7 +40,7 @@ Box swept_box(const Box& box, const Mover& mover, float reach, float dt);
 bool are_split(const Body& a, const Body& b);
 /// Two bodies are swept against each other when a point may travel farther than contacts reach plus a tenth of the
 /// least width of both: less than that, the overlap is small and pushed out on the right side.
-bool is_far(double way, float thickness);
+bool is_far(double way, float scale, float thickness);
 /// Of the point that goes farthest, m.
 double travel(const Mover& mover, float dt);
 /// Of a piece's farthest point from the centre of mass, at most, m.
@@ -56,7 +56,7 @@ struct KnownAxes {
     bool at_crack(const Hull& a, const Hull& b) const;
 };
 
-/// The fraction of the step at which the two pieces come within half a millimetre; `limit` when they do not before it.
+/// The fraction of the step at which the two pieces come within half a millimetre (lengths are those of scale 1); `limit` when they do not before it.
 /// World points are those of the start; `axis` is a first guess, such as the last one of the same two bodies. Pieces
 /// that touch already may go a millimetre deeper, of two free bodies a tenth of the thinner one's width, lively ones in
 /// all a third of it, along the axis that `known` has for them.

@@ -78,7 +78,7 @@ struct Body {
     bool is_damped = false;     // has one that is not at the crack of its birth
     bool is_driven = false;     // has one with a kinematic body that moves
     float slow_seconds = 0;     // touched and nearly at rest
-    float overlap = 0;          // m, of its deepest contact in this step
+    float overlap = 0;          // m, of its deepest contact in this step, by the contact's scale
     float pressed_seconds = 0;  // that it was kept awake because something lay too deep in it
     bool is_held = false;
     bool is_soft = false;  // has no contacts
@@ -107,6 +107,18 @@ struct Body {
     bool is_free() const { return kind == RigidKind::Dynamic && !is_held && bullet->isActive(); }
     bool meets_layer_of(const Body& other) const { return (layer & other.mask) != 0 && (other.layer & mask) != 0; }
 };
+
+inline bool is_ball(const Body& body) {
+    return body.hull_count == 1 && body.hulls->point_count == 1;
+}
+
+/// Of its thinnest piece, see lengths.hpp.
+inline float scale_of(const Body& body) {
+    return scale_of_width(body.margin, body.thickness, is_ball(body));
+}
+inline float scale_of(const Body& a, const Body& b) {
+    return std::min(scale_of(a), scale_of(b));
+}
 
 /// They were one body, and may not throw each other yet.
 inline bool are_siblings(const Body& a, const Body& b) {

@@ -137,7 +137,7 @@ bool box_patch(const Hull& a, const Mat3& rotation_a, const Hull& b, const Mat3&
     const Core core_a = core_of(a, rotation_a), core_b = core_of(b, rotation_b);
     const Vec3 to_a = a.world.centre - b.world.centre;
     const Facing facing = widest_gap(core_a, core_b, to_a);
-    const float reach = kContactRange + a.margin + b.margin;
+    const float reach = scale_of(a, b) * kContactRange + a.margin + b.margin;
     if (facing.gap > reach) {
         guess = facing.normal;
         patch.room = facing.gap - reach;

@@ -16,9 +16,9 @@ namespace {
 
 // Most by which a body is pushed out of a sleeper, which does not give way. A slab that fell asleep a millimetre and a
 // half deep in its neighbour lifted that one by half a millimetre at once, was woken by it, and dropped it.
-constexpr float kPushedOffSleepers = 0.0001f;  // m in a step
+constexpr float kPushedOffSleepers = 0.0001f;  // m in a step, at scale 1
 constexpr float kAngularDamping = 0.1f;        // 1/s, of what is touched: flight has none, nor has a birth
-constexpr float kPressedIn = 0.001f;           // m a step that an unsolved contact may deepen by
+constexpr float kPressedIn = 0.001f;           // m a step, at scale 1, that an unsolved contact may deepen by
 constexpr float kSeamReach = 0.001f;           // m beyond the margins, more than mark_inner_faces() looks past a face
 // Leaves of the tree hold what they are about with half of the way from which pieces are watched (see
 // pair_algorithm.cpp), and this room to move. Ten times it and a heap has three times the pairs, a tenth and what falls
@@ -429,6 +429,7 @@ void BulletWorld::add_static_triangles(RigidId id, std::span<const Vec3> positio
     body.kind = RigidKind::Static;
     body.is_level = true;
     body.friction = friction, body.restitution = restitution, body.rolling_friction = 0;
+    body.margin = 0;
     set_mass(body, 0, {}, {});
     auto mesh = std::make_unique<StaticMesh>(sort_static_triangles(positions, triangles));
     std::vector<ConvexPiece> pieces;
@@ -746,12 +747,13 @@ void BulletWorld::gather_contacts() {
         b.is_driven |= a.kind == RigidKind::Kinematic && a.bullet->isActive();
         if (!a.is_free() && !b.is_free()) continue;
         const Moving moving_a(a), moving_b(b);
+        const float scale = scale_of(a, b);
         for (int k = 0; k < m.manifold->getNumContacts(); ++k) {
             const btManifoldPoint& p = m.manifold->getContactPoint(k);
             const Vec3 point = 0.5f * (from_bullet(p.m_positionWorldOnA) + from_bullet(p.m_positionWorldOnB));
             const Vec3 normal = from_bullet(p.m_normalWorldOnB);
             const float speed = dot(moving_b.at(point) - moving_a.at(point), normal);
-            const float overlap = m.grip > 0 ? 0 : -p.m_distance1;  // of what is to be pushed out
+            const float overlap = m.grip > 0 ? 0 : -p.m_distance1 / scale;  // of what is to be pushed out
             a.overlap = std::max(a.overlap, overlap);
             b.overlap = std::max(b.overlap, overlap);
             contacts_.push_back({m.a, m.b, m.cell_a, m.cell_b, point, normal, p.m_distance1, speed});
@@ -858,7 +860,8 @@ void BulletWorld::solve_contacts(float dt) {
     });
     for (const Scattered& pair : scattered_) {
         const SortedManifold& first = manifolds_[pair.first];
-        const float most_push = is_asleep(first.a) || is_asleep(first.b) ? kPushedOffSleepers : kFar;
+        const float most_push = is_asleep(first.a) || is_asleep(first.b) 
+            ? scale_of(bodies_[first.a], bodies_[first.b]) * kPushedOffSleepers : kFar;
         solver_.add_pair(bodies_[first.a].number, bodies_[first.b].number, pair.grip, most_push,
                          !(pair.grip > 0) && are_siblings(bodies_[first.a], bodies_[first.b]));
         for (uint32_t m = pair.first; m < pair.end; ++m)
@@ -924,11 +927,12 @@ void BulletWorld::limit_closing(float dt) {
         Body &a = bodies_[m.a], &b = bodies_[m.b];
         if (!a.is_free() && !b.is_free()) continue;
         const Moving moving_a(a), moving_b(b);
+        const float pressed_in = scale_of(a, b) * kPressedIn;
         for (int k = 0; k < m.manifold->getNumContacts(); ++k) {
             const btManifoldPoint& p = m.manifold->getContactPoint(k);
             const Vec3 point = from_bullet(p.m_positionWorldOnB), normal = from_bullet(p.m_normalWorldOnB);
             const float way = dot(moving_b.at(point) - moving_a.at(point), normal) * dt;
-            const float allowed = std::max(p.m_distance1, 0.0f) + kPressedIn;
+            const float allowed = std::max(p.m_distance1, 0.0f) + pressed_in;
             if (way <= allowed) continue;
             if (a.is_free()) a.moved_fraction = std::min(a.moved_fraction, allowed / way);
             if (b.is_free()) b.moved_fraction = std::min(b.moved_fraction, allowed / way);

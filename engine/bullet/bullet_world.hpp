@@ -16,6 +16,18 @@ struct IgnoredPair {
     float seconds;
 };
 
+/// How fast things go under a gravity, against g: what falls as far takes `slower` times as long, and is `speed` times
+/// as fast by then. Weaker gravity asks for more patience, at most eight times as much; stronger gravity for no less.
+struct Pace {
+    explicit Pace(float gravity)
+        : is_weightless(!(gravity > 0)),
+          speed(std::min(std::sqrt(gravity / kEarth), 1.0f)),
+          slower(1 / std::max(speed, 0.125f)) {}
+    static constexpr float kEarth = 9.81f;  // m/s2
+    bool is_weightless;
+    float speed, slower;
+};
+
 class BulletWorld final : public RigidWorld {
  public:
     explicit BulletWorld(uint32_t body_limit);
@@ -148,13 +160,14 @@ class BulletWorld final : public RigidWorld {
     void take_back_gravity(float dt);
     void integrate(float dt);
     void update_sleep(float dt);
-    bool may_sleep(Body& body, float dt);
+    bool may_sleep(Body& body, float dt, const Pace& pace);
+    bool may_come_to_rest(const Body& body, const Pace& pace) const;
     void fall_asleep(Body& body);
     void stop_mass(Body& body);
     void restore_mass(Body& body);
     void wake_struck();
-    bool is_struck(const Body& sleeper, const Body& other, const btPersistentManifold& manifold) const;
-    void wake_unsettled(float dt);
+    bool is_struck(const Body& sleeper, const Body& other, const btPersistentManifold& manifold, const Pace& pace) const;
+    void wake_unsettled(float dt, const Pace& pace);
     void wake_beside(Body& body);
     void sum_loads();
     Vec3 velocity_at(const Body& body, Vec3 point) const;

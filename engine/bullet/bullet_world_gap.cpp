@@ -9,7 +9,9 @@ namespace {
 
 // Sleep: for half a second no point left the ball of 3 mm about where it was. (Bullet's speeds are too shaky in piles
 // of shards: a quarter of them never slept.) Twice the distance and slow slides are frozen, twice the time and piles
-// cost more.
+// cost more. Distances are those of what reaches this far from its middle, and farther; what is smaller has less, as it
+// is smaller. Times and speeds are those of g: see Pace.
+constexpr float kFullReach = 0.02f;       // m
 constexpr float kStillDistance = 0.003f;  // m
 constexpr float kStillSeconds = 0.5f;
 // Deep heaps of curved shards creep on for long at a centimetre a second: a second below this speed is sleep
@@ -25,6 +27,7 @@ constexpr float kCreepSeconds = 1.5f;
 // Sleepers stand as if of infinite mass, so that one that shakes does not keep its thousand neighbours awake. What
 // wakes them: a blow that would give them this speed,
 constexpr float kWakeSpeed = 0.05f;  // m/s
+constexpr float kStruckGap = 0.001f;  // m, at scale 1, across which a blow comes,
 // so many times the load that they fell asleep under, and weights of their own,
 constexpr float kWakeLoads = 2, kWakeWeights = 3;
 // or a neighbour that leaves its place: it may have been what they lay on. What lay still after so many such wakes is
@@ -36,6 +39,13 @@ constexpr uint32_t kIdleWakes = 3;
 constexpr float kPressedDeep = 0.0015f;  // m
 constexpr float kImpatience = 2;         // 1/s
 constexpr float kPressedSeconds = 1.5f;  // after which it sleeps as it lies
+
+// Where there is no gravity nothing holds anything: at rest is what would not leave its place in so long.
+constexpr float kDriftSeconds = 60;
+// A ball slower than this may be at rest; a faster one that has gone this share of the way that its speed takes it rolls.
+// (From rest down a slope it is a half.)
+constexpr float kRollingSpeed = 0.001f;  // m/s
+constexpr float kRollingShare = 0.25f;
 
 // The corner of the body's box that moved farthest bounds all of its points: displacement is convex in the point.
 bool has_left(const Body& body, const btTransform& anchor, const btTransform& now, float distance) {
@@ -49,12 +59,17 @@ bool has_left(const Body& body, const btTransform& anchor, const btTransform& no
     return false;
 }
 
-bool has_crept(const Body& body) {
-    return body.is_touched && body.creep_seconds >= kCreepSeconds;
+/// Of the lengths of sleep, 1 for what is as large as a hand or larger.
+float size_of(const Body& body) {
+    return std::clamp(body.reach / kFullReach, kLeastScale, 1.0f);
 }
 
-float bearable_overlap(const Body& body) {
-    if (has_crept(body)) return kFar;
+bool has_crept(const Body& body, const Pace& pace) {
+    return body.is_touched && body.creep_seconds >= pace.slower * kCreepSeconds;
+}
+
+float bearable_overlap(const Body& body, const Pace& pace) {
+    if (has_crept(body, pace)) return kFar;
     if (body.pressed_seconds >= kPressedSeconds) return kFar;
     return kPressedDeep * (1 + kImpatience * body.pressed_seconds);
 }
@@ -176,7 +191,9 @@ void BulletWorld::look_at_newborn(const Body& a, const Body& b, std::span<const 
     find_candidates(a, b, kContactRange, scratch);
     for (const Candidate& c : scratch.candidates) {
         Vec3 guess;
-        if (!c.hull_a || !c.hull_b || separation(*c.hull_a, *c.hull_b, guess, kContactRange) >= kContactRange) continue;
+        if (!c.hull_a || !c.hull_b) continue;
+        const float range = scale_of(*c.hull_a, *c.hull_b) * kContactRange;
+        if (separation(*c.hull_a, *c.hull_b, guess, range) >= range) continue;
         find_near(*c.hull_a, *c.hull_b, touches, scratch.touches);
         newborn_.push_back({a.id, b.id, c.a, c.b, crack_contact(scratch.touches, a.fresh_at, b.fresh_at, is_turned)});
     }
@@ -184,15 +201,16 @@ void BulletWorld::look_at_newborn(const Body& a, const Body& b, std::span<const 
 
 // Before the solve: sleepers that are struck, driven, or pressed since the last step by what is awake.
 void BulletWorld::wake_struck() {
+    const Pace pace(gravity_.length());
     for (const SortedManifold& m : manifolds_) {
         if (!m.manifold) continue;
         for (const auto& [sleeper, other] : {std::pair(m.a, m.b), std::pair(m.b, m.a)}) {
             Body &s = bodies_[sleeper], &o = bodies_[other];
             if (!is_asleep(sleeper)) continue;
             const bool is_driver = o.kind == RigidKind::Kinematic && o.bullet->isActive();
-            if (is_driver || (o.is_free() && is_struck(s, o, *m.manifold))) {
+            if (is_driver || (o.is_free() && is_struck(s, o, *m.manifold, pace))) {
                 wake_body(s);
-            } else if (o.is_free() && std::min(s.overlap, o.overlap) > bearable_overlap(s)) {
+            } else if (o.is_free() && std::min(s.overlap, o.overlap) > bearable_overlap(s, pace)) {
                 const float pressed = s.pressed_seconds;
                 wake_beside(s);  // what lies deep below a slab is pushed out only while the slab gives way
                 s.pressed_seconds = pressed;
@@ -202,16 +220,18 @@ void BulletWorld::wake_struck() {
 }
 
 // By the speed that the meeting would leave the sleeper with, were it free and the touch central.
-bool BulletWorld::is_struck(const Body& sleeper, const Body& other, const btPersistentManifold& manifold) const {
+bool BulletWorld::is_struck(const Body& sleeper, const Body& other, const btPersistentManifold& manifold,
+                            const Pace& pace) const {
+    const float near = scale_of(sleeper, other) * kStruckGap;
     float closing = 0;
     for (int k = 0; k < manifold.getNumContacts(); ++k) {
         const btManifoldPoint& p = manifold.getContactPoint(k);
         const Vec3 velocity = velocity_at(other, from_bullet(p.m_positionWorldOnB));
         const float along = dot(velocity, from_bullet(p.m_normalWorldOnB));
         const bool is_b = manifold.getBody1() == &*other.bullet;
-        if (p.m_distance1 < 0.001f) closing = std::max(closing, is_b ? along : -along);
+        if (p.m_distance1 < near) closing = std::max(closing, is_b ? along : -along);
     }
-    return closing * other.mass > kWakeSpeed * (other.mass + sleeper.mass);
+    return closing * other.mass > pace.speed * kWakeSpeed * (other.mass + sleeper.mass);
 }
 
 // What presses on each body in this step: all of it on what is awake, on sleepers what the waking give.
@@ -229,7 +249,7 @@ void BulletWorld::sum_loads() {
 }
 
 // After the solve: what leaves its place wakes what may have lain on it, and a heavy load what it lies on.
-void BulletWorld::wake_unsettled(float dt) {
+void BulletWorld::wake_unsettled(float dt, const Pace& pace) {
     const btVector3 up = -gravity_;
     const float weight_speed = up.length() * dt;
     for (const SortedManifold& m : manifolds_) {
@@ -240,7 +260,7 @@ void BulletWorld::wake_unsettled(float dt) {
         if (!other.has_left || !is_asleep(sleeper.id)) continue;
         const btRigidBody& leaver = *other.bullet;
         const float speed = leaver.getLinearVelocity().length() + leaver.getAngularVelocity().length() * other.reach;
-        if (sleeper.idle_wakes >= kIdleWakes && speed < kSlowSpeed) continue;
+        if (sleeper.idle_wakes >= kIdleWakes && speed < pace.speed * kSlowSpeed) continue;
         const float along = m.manifold->getContactPoint(0).m_normalWorldOnB.dot(up);
         if ((is_a_free ? -along : along) >= 0) wake_beside(sleeper);
     }
@@ -263,46 +283,65 @@ void BulletWorld::wake_beside(Body& body) {
     body.idle_wakes = idle_wakes + 1;
 }
 
-// Half a second within 3 mm, or a slow second; but what lies too deep in something stays awake to be pushed out.
-bool BulletWorld::may_sleep(Body& body, float dt) {
+// Of the fastest point, m/s.
+float speed_of(const Body& body) {
     const btRigidBody& bullet = *body.bullet;
-    const btTransform& now = bullet.getWorldTransform();
-    body.has_left = has_left(body, body.anchor, now, kStillDistance);
+    return bullet.getLinearVelocity().length() + bullet.getAngularVelocity().length() * body.reach;
+}
+
+// What nothing holds up goes on to move, however slowly it does now: it falls, or drifts where there is no gravity. A
+// ball that rolls goes on too: it has come far for its speed, where what trembles has not.
+bool BulletWorld::may_come_to_rest(const Body& body, const Pace& pace) const {
+    const float speed = speed_of(body);
+    if (pace.is_weightless) return speed * kDriftSeconds < size_of(body) * kStillDistance;
+    if (!body.is_touched) return false;
+    if (!is_ball(body) || speed < pace.speed * kRollingSpeed) return true;
+    const float gone = (body.bullet->getWorldTransform().getOrigin() - body.anchor.getOrigin()).length();
+    return gone < kRollingShare * speed * body.still_seconds;
+}
+
+// Half a second within 3 mm, or a slow second; but what lies too deep in something stays awake to be pushed out.
+bool BulletWorld::may_sleep(Body& body, float dt, const Pace& pace) {
+    const btTransform& now = body.bullet->getWorldTransform();
+    const float size = size_of(body), still_seconds = pace.slower * kStillSeconds,
+                slow_seconds = pace.slower * kSlowSeconds, creep_seconds = pace.slower * kCreepSeconds;
+    body.has_left = has_left(body, body.anchor, now, size * kStillDistance);
     if (body.has_left) {
         body.anchor = now;
         body.still_seconds = 0;
         body.idle_wakes = 0;
     } else {
-        body.still_seconds = std::min(body.still_seconds + dt, 2 * kStillSeconds);
+        body.still_seconds = std::min(body.still_seconds + dt, 2 * still_seconds);
     }
-    if (body.is_driven || has_left(body, body.far_anchor, now, kCreepDistance)) {
+    if (body.is_driven || has_left(body, body.far_anchor, now, size * kCreepDistance)) {
         body.far_anchor = now;
         body.creep_seconds = 0;
     } else {
-        body.creep_seconds = std::min(body.creep_seconds + dt, kCreepSeconds);
+        body.creep_seconds = std::min(body.creep_seconds + dt, creep_seconds);
     }
-    const float speed = bullet.getLinearVelocity().length() + bullet.getAngularVelocity().length() * body.reach;
-    const float slower = body.is_touched && speed < kSlowSpeed ? dt : -2 * dt;
-    body.slow_seconds = std::clamp(body.slow_seconds + slower, 0.0f, 2 * kSlowSeconds);
+    const bool is_slow = body.is_touched && !is_ball(body) && speed_of(body) < std::sqrt(size) * pace.speed * kSlowSpeed;
+    body.slow_seconds = std::clamp(body.slow_seconds + (is_slow ? dt : -2 * dt), 0.0f, 2 * slow_seconds);
     if (body.is_driven) body.still_seconds = body.slow_seconds = 0;
-    if (has_crept(body)) {
+    if (!may_come_to_rest(body, pace)) return false;
+    if (has_crept(body, pace)) {
         body.idle_wakes = kIdleWakes;
         return true;
     }
-    if (body.still_seconds < kStillSeconds && body.slow_seconds < kSlowSeconds) return false;
-    if (body.overlap <= bearable_overlap(body)) return true;
+    if (body.still_seconds < still_seconds && body.slow_seconds < slow_seconds) return false;
+    if (body.overlap <= bearable_overlap(body, pace)) return true;
     body.pressed_seconds += dt;
     return false;
 }
 
 void BulletWorld::update_sleep(float dt) {
     sum_loads();
+    const Pace pace(gravity_.length());
     for (RigidId id = 0; id < body_end_; ++id) {
         Body& body = bodies_[id];
         if (!body.is_used || body.kind != RigidKind::Dynamic || !body.is_free()) continue;
-        if (may_sleep(body, dt)) fall_asleep(body);
+        if (may_sleep(body, dt, pace)) fall_asleep(body);
     }
-    wake_unsettled(dt);
+    wake_unsettled(dt, pace);
 }
 
 // Asleep is held, but for the name: Bullet sees something static.

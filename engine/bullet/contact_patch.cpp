@@ -25,6 +25,8 @@ struct Plane {
     float at, slope_x, slope_y;
 };
 
+constexpr float kFlat = 1e-10f;  // m2, twice an area, of scale 1
+
 // The side of a hull that looks at the other one: its supporting planes, and the outline of its points in the patch's
 // plane.
 struct Side {
@@ -34,37 +36,40 @@ struct Side {
     uint32_t outline_count = 0;
     Spot bulge[kMaxPoints];  // low points inside of the outline
     uint32_t bulge_count = 0;
+    float flat = kFlat;  // m2, see convex_outline()
 };
 
 // A face belongs to the outline when its normal is within 60 degrees of the direction it should look in: the top face
 // of a thin shard never does. Its plane bounds the surface out to 84 degrees; steeper ones only magnify rounding.
 constexpr float kFacingCosine = 0.5f;
 constexpr float kPlaneCosine = 0.1f;
-// Points this close to the support plane belong to the outline too, whatever their faces.
+// Lengths are those of a piece of scale 1. Points this close to the support plane belong to the outline too, whatever
+// their faces.
 constexpr float kSupportDepth = 0.0002f;  // m
 // What bulges towards the other hull touches with points inside of its outline: those this close to the support plane
 // are offered too. At 0 a curved shard rocks for ever from one of its low points to the other and sinks by 4 mm.
 constexpr float kBulgeDepth = 0.003f;  // m
 
+constexpr float kApart = 1e-5f;   // m between cores, below which the direction between them is rounding
+constexpr float kAsDeep = 1e-4f;  // m, of two spots of a patch
+
 float area(const Spot& a, const Spot& b, const Spot& c) {
     return (b.x - a.x) * (c.y - a.y) - (b.y - a.y) * (c.x - a.x);
 }
 
-constexpr float kFlat = 1e-10f;  // m2, twice an area
-
 // Andrew's monotone chain; points within a hundredth of a square millimetre of a line are left out.
-uint32_t convex_outline(Spot* spots, uint32_t count, Spot* out) {
+uint32_t convex_outline(Spot* spots, uint32_t count, float flat, Spot* out) {
     std::sort(spots, spots + count, [](const Spot& a, const Spot& b) { return a.x != b.x ? a.x < b.x : a.y < b.y; });
     uint32_t n = 0;
     for (uint32_t k = 0; k < count; ++k) {
         if (k > 0 && spots[k].x == spots[k - 1].x && spots[k].y == spots[k - 1].y) continue;
-        while (n >= 2 && area(out[n - 2], out[n - 1], spots[k]) <= kFlat) --n;
+        while (n >= 2 && area(out[n - 2], out[n - 1], spots[k]) <= flat) --n;
         out[n++] = spots[k];
     }
     const uint32_t lower = n + 1;
     for (uint32_t k = count; k-- > 0;) {
         if (spots[k].x == out[n - 1].x && spots[k].y == out[n - 1].y) continue;
-        while (n >= lower && area(out[n - 2], out[n - 1], spots[k]) <= kFlat) --n;
+        while (n >= lower && area(out[n - 2], out[n - 1], spots[k]) <= flat) --n;
         out[n++] = spots[k];
     }
     return n > 1 ? n - 1 : n;
@@ -74,12 +79,14 @@ bool is_inside(const Spot& spot, const Side& side) {
     if (side.outline_count < 3) return false;
     const Spot* from = &side.outline[side.outline_count - 1];
     for (uint32_t e = 0; e < side.outline_count; from = &side.outline[e++])
-        if (!(area(*from, side.outline[e], spot) > kFlat)) return false;
+        if (!(area(*from, side.outline[e], spot) > side.flat)) return false;
     return true;
 }
 
 // `sign` -1: the side that looks down the normal (hull a); +1: up (hull b). `offset` is the hull's centre in the frame.
 void look(const Hull& hull, const Mat3& rotation, const PatchFrame& frame, Vec3 offset, float sign, Side& side) {
+    const float scale = scale_of(hull);
+    side.flat = scale * scale * kFlat;
     const Vec3 n = transposed_times(rotation, frame.normal), right = transposed_times(rotation, frame.right),
                forward = transposed_times(rotation, frame.forward);
     const float ox = dot(offset, frame.right), oy = dot(offset, frame.forward), oz = dot(offset, frame.normal);
@@ -115,15 +122,15 @@ void look(const Hull& hull, const Mat3& rotation, const PatchFrame& frame, Vec3 
     uint32_t count = 0;
     for (uint32_t k = 0; k < hull.point_count; ++k) {
         spots[count] = spot_at(k);
-        count += (facing_points >> k & 1) != 0 || height[k] > top - kSupportDepth;
+        count += (facing_points >> k & 1) != 0 || height[k] > top - scale * kSupportDepth;
     }
     Spot chain[2 * kMaxPoints + 2];
-    side.outline_count = convex_outline(spots, count, chain);
+    side.outline_count = convex_outline(spots, count, side.flat, chain);
     std::copy_n(chain, side.outline_count, side.outline);
     if (side.plane_count == 0) side.plane[side.plane_count++] = {oz + sign * top, 0, 0};
     // Points of the outline are not inside of it.
     for (uint32_t k = 0; k < hull.point_count && side.outline_count >= 3; ++k) {
-        if (!(height[k] > top - kBulgeDepth)) continue;
+        if (!(height[k] > top - scale * kBulgeDepth)) continue;
         const Spot spot = spot_at(k);
         if (is_inside(spot, side)) side.bulge[side.bulge_count++] = spot;
     }
@@ -180,7 +187,7 @@ constexpr float kPatchDepthWeight = 20;
 
 // Four of many: the extreme ones of a fixed direction, then of area, so that a resting patch picks the same corners
 // every step; the deepest takes the place of the shallowest when none of them is within 0.1 mm of it.
-int choose_four(const Spot* spots, uint32_t count, uint32_t (&chosen)[kPatchPoints]) {
+int choose_four(const Spot* spots, uint32_t count, float scale, uint32_t (&chosen)[kPatchPoints]) {
     if (count <= kPatchPoints) {
         for (uint32_t k = 0; k < count; ++k) chosen[k] = k;
         return static_cast<int>(count);
@@ -214,7 +221,7 @@ int choose_four(const Spot* spots, uint32_t count, uint32_t (&chosen)[kPatchPoin
         least = std::min(least, gap(spots[four[k]]));
         if (gap(spots[four[k]]) > gap(spots[four[shallowest]])) shallowest = k;
     }
-    if (gap(spots[deepest]) < least - 0.0001f) four[shallowest] = deepest;
+    if (gap(spots[deepest]) < least - scale * kAsDeep) four[shallowest] = deepest;
     int kept = 0;
     for (const uint32_t k : four)
         if (std::find(chosen, chosen + kept, k) == chosen + kept) chosen[kept++] = k;
@@ -247,7 +254,7 @@ struct Touch {
 
 Touch find_touch(const Hull& a, const Mat3& rotation_a, const Hull& b, const Mat3& rotation_b, Vec3& guess,
                  bool is_own_guess) {
-    const float reach = kContactRange + a.margin + b.margin;
+    const float scale = scale_of(a, b), reach = scale * kContactRange + a.margin + b.margin;
     const Vec3d before(guess);
     const Closest closest = closest_points(a.world, b.world, before, reach);
     guess = closest.axis.to_float();
@@ -256,9 +263,8 @@ Touch find_touch(const Hull& a, const Mat3& rotation_a, const Hull& b, const Mat
         touch.room = static_cast<float>(closest.bound - reach);
         return touch;
     }
-    // Closer than a hundredth of a millimetre the direction between the points is rounding: take the axis of least
-    // overlap.
-    if (closest.is_apart && closest.distance > 1e-5) {
+    // Closer than this the direction between the points is rounding: take the axis of least overlap.
+    if (closest.is_apart && closest.distance > static_cast<double>(scale * kApart)) {
         if (closest.distance > reach) return touch;
         touch.is_through_seam = is_through_seam(a, rotation_a, -guess) || is_through_seam(b, rotation_b, guess);
         touch.is_near = true;
@@ -269,7 +275,7 @@ Touch find_touch(const Hull& a, const Mat3& rotation_a, const Hull& b, const Mat
     }
     touch.is_near = true;
     const OverlapAxis least =
-        overlap_axis(a, rotation_a, b, rotation_b, before, is_own_guess ? kOwnTurning : kBorrowedTurning);
+        overlap_axis(a, rotation_a, b, rotation_b, before, static_cast<double>(scale) * (is_own_guess ? kOwnTurning : kBorrowedTurning));
     if (least.is_found) {
         guess = least.axis.to_float();
         touch.gap = static_cast<float>(least.gap);
@@ -286,7 +292,7 @@ Touch find_touch(const Hull& a, const Mat3& rotation_a, const Hull& b, const Mat
 
 void add_point(Patch& patch, const Hull& a, const Hull& b, Vec3 from_centre, float low_a, float high_b) {
     const float distance = low_a - a.margin - high_b - b.margin;
-    if (distance > kContactRange || patch.count == kPatchPoints) return;
+    if (distance > scale_of(a, b) * kContactRange || patch.count == kPatchPoints) return;
     const Vec3 flat = a.world.centre + from_centre;
     patch.point[patch.count++] = {flat + (low_a - a.margin) * patch.normal, flat + (high_b + b.margin) * patch.normal,
                                   distance, patch.normal};
@@ -295,7 +301,7 @@ void add_point(Patch& patch, const Hull& a, const Hull& b, Vec3 from_centre, flo
 // The touch itself as a point: all there is for spheres, corners and crossing edges.
 void add_touch(Patch& patch, const Hull& a, const Hull& b, const Touch& touch) {
     const float height = dot(touch.middle, touch.normal);
-    const bool is_apart = touch.gap > 1e-5f;
+    const bool is_apart = touch.gap > scale_of(a, b) * kApart;
     const float low = is_apart ? height + 0.5f * touch.gap : a.radius <= b.radius ? height : height + touch.gap;
     add_point(patch, a, b, touch.middle - height * touch.normal, low, low - touch.gap);
 }
@@ -305,7 +311,7 @@ void add_touch(Patch& patch, const Hull& a, const Hull& b, const Touch& touch) {
 void add_best_spots(Patch& patch, const Hull& a, const Hull& b, const PatchFrame& frame, const Spot* spots,
                     uint32_t count) {
     uint32_t chosen[kPatchPoints];
-    const int kept = choose_four(spots, count, chosen);
+    const int kept = choose_four(spots, count, scale_of(a, b), chosen);
     for (int k = 0; k < kept && patch.count < kPatchPoints; ++k) {
         const Spot& s = spots[chosen[k]];
         add_point(patch, a, b, s.x * frame.right + s.y * frame.forward, s.low_a, s.high_b);
@@ -323,6 +329,7 @@ Patch contact_patch(const Hull& a, const Mat3& rotation_a, const Hull& b, const 
     patch.is_through_seam = touch.is_through_seam;
     uint32_t count = 0;
     Spot spots[4 * kMaxPoints];
+    const float scale = scale_of(a, b);
     const PatchFrame frame = make_frame(touch.normal);
     if (a.point_count > 1 && b.point_count > 1) {
         Side side_a, side_b;
@@ -336,7 +343,7 @@ Patch contact_patch(const Hull& a, const Mat3& rotation_a, const Hull& b, const 
             if (is_inside(side_a.bulge[k], side_b)) spots[count++] = side_a.bulge[k];
         for (uint32_t k = 0; k < side_b.bulge_count; ++k)
             if (is_inside(side_b.bulge[k], side_a)) spots[count++] = side_b.bulge[k];
-        const float reach = kContactRange + a.margin + b.margin;
+        const float reach = scale * kContactRange + a.margin + b.margin;
         uint32_t kept = 0;
         measure(spots, count, side_a, side_b);
         for (uint32_t k = 0; k < count; ++k)
@@ -345,7 +352,7 @@ Patch contact_patch(const Hull& a, const Mat3& rotation_a, const Hull& b, const 
     }
     float shallow = kFar;
     for (uint32_t k = 0; k < count; ++k) shallow = std::min(shallow, gap(spots[k]));
-    if (touch.gap < shallow - 0.0001f) {
+    if (touch.gap < shallow - scale * kAsDeep) {
         add_touch(patch, a, b, touch);
         // Keep room: the touch is the deepest point of the patch, the corners that lie around it are held up by it.
         if (count == 0) return patch;

@@ -5,9 +5,7 @@
 
 namespace cullet::bullet {
 
-/// Points farther apart than this are no contact. Twice it and fast shards are braked by what they pass.
-inline constexpr float kContactRange = 0.005f;  // m
-inline constexpr int kPatchPoints = 4;          // what Bullet's cache holds
+inline constexpr int kPatchPoints = 4;  // what Bullet's cache holds
 
 struct PatchPoint {
     Vec3 on_a, on_b;  // world, on the surfaces with their margins

@@ -7,6 +7,7 @@
 namespace cullet::bullet {
 namespace {
 
+// Lengths are those of pieces of scale 1.
 constexpr float kNear = 0.003f;  // m beyond the boxes of two pieces at which a crack's touch is theirs
 constexpr float kNoWay = -1;
 // Two faces that turned this far against each other, by its cosine, and lie so deep in each other face no more: a shard
@@ -21,9 +22,10 @@ constexpr float kSeconds = 0.25f;    // at a second pieces of walls fall asleep 
 void find_near(const Hull& a, const Hull& b, std::span<const CrackTouch> touches,
                std::vector<const CrackTouch*>& near) {
     near.clear();
+    const float reach = scale_of(a, b) * kNear;
     for (const CrackTouch& t : touches) {
         const Box at{t.point, t.point};
-        const bool is_near = overlap(a.world_box, at, kNear) && overlap(b.world_box, at, kNear);
+        const bool is_near = overlap(a.world_box, at, reach) && overlap(b.world_box, at, reach);
         const bool has_direction = dot(t.normal, t.normal) > 0.5f;
         if (is_near && has_direction && near.size() < near.capacity()) near.push_back(&t);
     }
@@ -58,7 +60,7 @@ CrackContact crack_contact(std::span<const CrackTouch* const> near, const btTran
     return contact;
 }
 
-Patch crack_patch(const CrackContact& contact, const btTransform& at_a, const btTransform& at_b) {
+Patch crack_patch(const CrackContact& contact, const btTransform& at_a, const btTransform& at_b, float scale) {
     Patch patch;
     for (uint32_t k = 0; k < contact.count; ++k) {
         const Vec3 on_a = from_bullet(at_a * to_bullet(contact.on_a[k])),
@@ -66,8 +68,8 @@ Patch crack_patch(const CrackContact& contact, const btTransform& at_a, const bt
                    normal = from_bullet(at_b.getBasis() * to_bullet(contact.normal[k]));
         const float apart = dot(on_a - on_b, normal);
         const Vec3 normal_of_a = from_bullet(at_a.getBasis() * to_bullet(contact.normal_of_a[k]));
-        if (apart < -kTurnedIn && dot(normal, normal_of_a) < kFacing) continue;
-        if (apart > kContactRange || length(on_a - on_b - apart * normal) > contact.reach[k]) continue;
+        if (apart < -scale * kTurnedIn && dot(normal, normal_of_a) < kFacing) continue;
+        if (apart > scale * kContactRange || length(on_a - on_b - apart * normal) > contact.reach[k]) continue;
         if (patch.count == 0) patch.normal = normal;
         patch.point[patch.count++] = {on_a, on_b, apart, normal};
     }

@@ -100,7 +100,8 @@ class Flight {
         float fraction = 1;
         const double way = travel(mover, dt_);
         for (const RigidId id : world_.in_the_way_)
-            if (is_far(way, std::min(body_.thickness, world_.bodies_[id].thickness)))
+            if (const Body& other = world_.bodies_[id];
+                is_far(way, scale_of(body_, other), std::min(body_.thickness, other.thickness)))
                 fraction = std::min(fraction, free_way(mover, id, fraction));
         btTransform moved;
         flying_.predictIntegratedTransform(fraction * dt_, moved);

@@ -259,9 +259,9 @@ uint32_t foremost_face(const Hull& hull, Vec3 point) {
 void mark_inner_faces(Hull& hull, const Hull& other) {
     const Vec3 between = other.local.centre - hull.local.centre;
     if (&hull == &other || length(between) > hull.radius + other.radius + kSeamRange || other.face_count < 4) return;
-    // Past the margins of both and half a millimetre more, so that faces which lie on each other count and parallel
-    // walls do not.
-    const float outside = hull.margin + other.margin + 0.0005f;
+    // Past the margins of both and half a millimetre more (at scale 1), so that faces which lie on each other count and
+    // parallel walls do not.
+    const float outside = hull.margin + other.margin + 0.0005f * scale_of(hull, other);
     const float reach = other.radius + other.margin;
     const uint32_t foremost = foremost_face(other, -1 * between);
     const Vec3 up = other.face_normal[foremost];

@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <span>
 
+#include "engine/bullet/lengths.hpp"
 #include "engine/math.hpp"
 
 namespace cullet::bullet {
@@ -76,6 +77,14 @@ struct Hull {
     uint32_t face_points[kMaxFaces];  // its corners as bits, by point
     HullEdge edge[kMaxEdges];
 };
+
+/// See lengths.hpp; a static triangle is as good as thick.
+inline float scale_of(const Hull& hull) {
+    return hull.one_sided ? 1 : scale_of_width(hull.margin, hull.thickness, hull.point_count == 1);
+}
+inline float scale_of(const Hull& a, const Hull& b) {
+    return std::min(scale_of(a), scale_of(b));
+}
 
 /// Fills everything but world columns and `next`. More than 32 points: the rest is left out. Points in a plane get the
 /// two faces of their polygon; points on a line get none.

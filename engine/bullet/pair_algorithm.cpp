@@ -7,6 +7,8 @@
 namespace cullet::bullet {
 namespace {
 
+// Lengths are those of bodies of scale 1, see lengths.hpp.
+
 // A point of last step's patch within this distance hands its impulse on (warm starting); the nearest one not yet
 // taken.
 constexpr float kSamePoint = 0.01f;  // m
@@ -161,8 +163,9 @@ void PairAlgorithm::follow(const Body& a, const Body& b) {
 
 // Records for all pieces that are near, or soon will be: slow pairs are looked through again only after a while.
 void PairAlgorithm::find_records(const Body& a, const Body& b, PairScratch& scratch) {
-    find_candidates(a, b, kCandidateRange + kAhead, scratch);
-    records_until_ = travelled_ + kAhead;
+    const float scale = this->scale();
+    find_candidates(a, b, scale * (kCandidateRange + kAhead), scratch);
+    records_until_ = travelled_ + scale * kAhead;
     PairRecord** link = &records_;
     const auto drop_first = [&] {
         PairRecord* const record = *link;
@@ -204,7 +207,7 @@ void PairAlgorithm::process(PairScratch& scratch, std::span<const NewbornPieces>
     if (changes_a_ != a.shape_changes || changes_b_ != b.shape_changes) forget();
     if (is_fresh_ && moves_a_ == a.moves && moves_b_ == b.moves) return;
     // Nothing to remember and nothing near: the next look begins anew.
-    if (!records_ && !overlap(a.shape.box, b.shape.box, kCandidateRange + kAhead)) {
+    if (!records_ && !overlap(a.shape.box, b.shape.box, scale() * (kCandidateRange + kAhead))) {
         is_fresh_ = false;
         return;
     }
@@ -228,7 +231,7 @@ void PairAlgorithm::process(PairScratch& scratch, std::span<const NewbornPieces>
 // What stands in the ground is pushed out for as long as it takes.
 void PairAlgorithm::note_wedged(float deepest) {
     const bool is_ground = work_->bodies[a_].is_level || work_->bodies[b_].is_level;
-    const bool is_deep = deepest > (least_deep_ < kFar ? kFreeDepth : kWedgedDepth);
+    const bool is_deep = deepest > scale() * (least_deep_ < kFar ? kFreeDepth : kWedgedDepth);
     if (!is_deep || is_ground) {
         deep_seconds_ = 0, least_deep_ = kFar;
     } else if (deepest < kComesOut * least_deep_) {
@@ -247,13 +250,14 @@ float PairAlgorithm::grip() const {
 bool PairAlgorithm::write_crack(PairRecord& record, const Body& a, const Hull& hull_a, const Body& b,
                                 const Hull& hull_b) {
     record.crack->seconds -= work_->dt;
-    if (!(record.crack->seconds > 0) || separation(hull_a, hull_b, record.guess, kContactRange) >= kContactRange) {
+    const float scale = scale_of(hull_a, hull_b), range = scale * kContactRange;
+    if (!(record.crack->seconds > 0) || separation(hull_a, hull_b, record.guess, range) >= range) {
         work_->cracks.give(record.crack);
         record.crack = nullptr;
         return false;
     }
     record.good_until = travelled_;
-    const Patch patch = crack_patch(*record.crack, a.fresh_at, b.fresh_at);
+    const Patch patch = crack_patch(*record.crack, a.fresh_at, b.fresh_at, scale);
     if (patch.count > 0)
         write(record, patch, hull_a.cell, hull_b.cell);
     else
@@ -268,7 +272,7 @@ void PairAlgorithm::meet(PairRecord& record, const Body& a, const Mat3& rotation
     if (record.crack && write_crack(record, a, hull_a, b, hull_b)) return;
     Patch patch = contact_patch(hull_a, rotation_a, hull_b, rotation_b, record.guess, record.is_own_guess);
     record.is_own_guess = true;
-    record.good_until = travelled_ + std::max(patch.room, kSmallTravel);
+    record.good_until = travelled_ + std::max(patch.room, scale_of(hull_a, hull_b) * kSmallTravel);
     if (patch.count > 0 && !record.hull_b &&
         is_inner_edge(b.mesh->triangles[record.b - b.hull_count], hull_b, patch.normal, patch.point[0].on_b))
         patch.count = 0;
@@ -298,14 +302,15 @@ void PairAlgorithm::follow_points(PairRecord& record, const Body& a, const Body&
 // What comes back is how deep the deepest is, m.
 float PairAlgorithm::list_offers(std::vector<Offer>& offers) {
     offers.clear();
+    const float bonus = scale() * kPastBonus / kDepthWeight;
     float deepest = 0;
     for (PairRecord* r = records_; r; r = r->next)
         for (int k = 0; r->manifold && k < r->manifold->getNumContacts(); ++k) {
             const btManifoldPoint& p = r->manifold->getContactPoint(k);
-            const float past = p.m_lifeTime > 0 ? kPastBonus : 0.0f;
+            const float past = p.m_lifeTime > 0 ? bonus : 0.0f;
             deepest = std::max(deepest, -p.m_distance1);
             offers.push_back({r->manifold, k, from_bullet(p.m_positionWorldOnB), from_bullet(p.m_normalWorldOnB),
-                              p.m_distance1 - past / kDepthWeight, kFar, r->is_through_seam});
+                              p.m_distance1 - past, kFar, r->is_through_seam});
         }
     return deepest;
 }
@@ -314,14 +319,15 @@ float PairAlgorithm::list_offers(std::vector<Offer>& offers) {
 // goes where the other one is there and as deep. (Dropping all touches through seams let shards that stand on the end
 // of a seam sink by 3 mm, until their cores overlapped the floor.)
 void PairAlgorithm::drop_through_seams(std::vector<Offer>& offers) {
+    const float near = scale() * kSeamNear, as_deep = scale() * kAsDeep;
     bool is_any = false;
     for (Offer& doubtful : offers) {
         if (!doubtful.is_through_seam) continue;
         bool is_met = false;
         for (const Offer& sound : offers) {
             const Vec3 between = sound.point - doubtful.point;
-            is_met |= !sound.is_through_seam && sound.distance < doubtful.distance + kAsDeep &&
-                      dot(between, between) < kSeamNear * kSeamNear;
+            is_met |= !sound.is_through_seam && sound.distance < doubtful.distance + as_deep &&
+                      dot(between, between) < near * near;
         }
         doubtful.is_chosen = is_met;
         is_any |= is_met;
@@ -347,17 +353,18 @@ float PairAlgorithm::choose_best(std::vector<Offer>& offers) {
     const float deepest = list_offers(offers);
     drop_through_seams(offers);
     if (offers.size() <= kPairContacts) return deepest;
+    const float scale = this->scale(), deep_enough = scale * kDeepEnough, turn_length = scale * kTurnLength;
     for (uint32_t round = 0; round < kPairContacts; ++round) {
         Offer* best = nullptr;
         float best_score = -kFar;
         for (Offer& offer : offers) {
-            const float depth = round == 0 ? offer.distance : std::max(offer.distance, -kDeepEnough);
+            const float depth = round == 0 ? offer.distance : std::max(offer.distance, -deep_enough);
             const float score = (round == 0 ? 0 : offer.apart) - kDepthWeight * depth;
             if (!offer.is_chosen && score > best_score) best = &offer, best_score = score;
         }
         best->is_chosen = true;
         for (Offer& offer : offers) {
-            const Vec3 p = offer.point - best->point, n = kTurnLength * (offer.normal - best->normal);
+            const Vec3 p = offer.point - best->point, n = turn_length * (offer.normal - best->normal);
             offer.apart = std::min(offer.apart, std::sqrt(dot(p, p) + dot(n, n)));
         }
     }
@@ -388,7 +395,7 @@ void PairAlgorithm::write(PairRecord& record, const Patch& patch, uint32_t cell_
     const float mass = lighter_mass(a, b);
     const float arm = a.rolling_friction * b.friction + b.rolling_friction * a.friction;  // m
     const float weight = mass * work_->weight_speed / static_cast<float>(patch.count);
-    const float most = kRestingWeights * mass * work_->weight_speed;
+    const float most = kRestingWeights * mass * work_->weight_speed, scale = this->scale();
     manifold.setNumContacts(patch.count);
     for (int k = 0; k < patch.count; ++k) {
         const btVector3 on_a = to_bullet(patch.point[k].on_a), on_b = to_bullet(patch.point[k].on_b);
@@ -401,7 +408,7 @@ void PairAlgorithm::write(PairRecord& record, const Patch& patch, uint32_t cell_
         point.m_combinedFriction = friction;
         point.m_combinedRestitution = restitution;
         int nearest = -1;
-        float least = kSamePoint * kSamePoint;
+        float least = scale * scale * kSamePoint * kSamePoint;
         for (int j = 0; j < before_count; ++j) {
             const float square = (before[j].m_localPointA - point.m_localPointA).length2();
             if (!is_taken[j] && square < least) nearest = j, least = square;
@@ -411,7 +418,7 @@ void PairAlgorithm::write(PairRecord& record, const Patch& patch, uint32_t cell_
             is_taken[nearest] = true;
             point.m_lifeTime = before[nearest].m_lifeTime + 1;
         }
-        if (is_known && step_travel_ < kRestingTravel &&
+        if (is_known && step_travel_ < static_cast<double>(scale) * kRestingTravel &&
             before[nearest].m_normalWorldOnB.dot(point.m_normalWorldOnB) > 0.9f) {
             const float impulse = before[nearest].m_appliedImpulse, share = impulse > most ? most / impulse : 1;
             point.m_appliedImpulse = share * impulse;

@@ -124,6 +124,7 @@ class PairAlgorithm {
     void forget();
 
  private:
+    float scale() const { return scale_of(work_->bodies[a_], work_->bodies[b_]); }
     void follow(const Body& a, const Body& b);
     void find_records(const Body& a, const Body& b, PairScratch& scratch);
     void meet(PairRecord& record, const Body& a, const Mat3& rotation_a, const Body& b, const Mat3& rotation_b,

@@ -27,6 +27,7 @@ Box relative_box(const Box& box, const Mover& a, const Mover& b, float reach, fl
 
 // What closes within so much of a way from the start of the step was within the range of contacts, seen and solved. At
 // five times it bodies lose more than their contacts take: shards of one break end 0.15 m/s more apart (99 of 100).
+// Lengths are those of scale 1.
 constexpr float kMet = 0.0015f;     // m, and not just as far as a touching body may go
 constexpr float kLeading = 0.001f;  // m behind the corner that leads: what else may have stopped the two
 constexpr uint32_t kFastAJob = 8;
@@ -35,14 +36,14 @@ constexpr int kBlows = 4;  // of a pair, each at another corner: the first ones 
 
 // The points of a hull that lead along `outwards`, of a body that stands where it was stopped.
 template <class Found>
-void visit_leading(const Body& body, const Hull& hull, Vec3 outwards, Found found) {
+void visit_leading(const Body& body, const Hull& hull, Vec3 outwards, float within, Found found) {
     const btTransform at = body.hulls_at(body.bullet->getWorldTransform());
     Points points;
     transform_points(hull, rotation_of(at), from_bullet(at.getOrigin()), points);
     float most = -kFar;
     for (uint32_t k = 0; k < hull.point_count; ++k) most = std::max(most, dot(points[k], outwards));
     for (uint32_t k = 0; k < hull.point_count; ++k)
-        if (dot(points[k], outwards) > most - kLeading) found(points.centre + points[k]);
+        if (dot(points[k], outwards) > most - within) found(points.centre + points[k]);
 }
 
 // Where the point of a body was before the step that is now at `point`.
@@ -111,15 +112,16 @@ void Sweeper::slow_spins(Body& a, Body& b, Vec3 place, Vec3 normal, float closin
 
 // At the corner of either piece that closes fastest; false when none does.
 bool Sweeper::stop_closing(BulletWorld& world, Body& a, const Hull& p, Body& b, const Hull& q, Vec3 normal) {
+    const float scale = scale_of(p, q), met = scale * kMet, leading = scale * kLeading;
     Vec3 place;
     float closing = 0;  // m/s
     const auto offer = [&](Vec3 point) {
         const float speed = dot(world.velocity_at(b, point) - world.velocity_at(a, point), normal);
-        if (!(speed > closing) || dot(was_at(a, point) - was_at(b, point), normal) > kMet) return;
+        if (!(speed > closing) || dot(was_at(a, point) - was_at(b, point), normal) > met) return;
         closing = speed, place = point;
     };
-    visit_leading(a, p, -normal, offer);
-    visit_leading(b, q, normal, offer);
+    visit_leading(a, p, -normal, leading, offer);
+    visit_leading(b, q, normal, leading, offer);
     if (!(closing > 0)) return false;
     const btVector3 along = to_bullet(normal), point = to_bullet(place);
     const auto arm = [&](const Body& body) { return point - body.bullet->getCenterOfMassPosition(); };
@@ -169,7 +171,7 @@ void Sweeper::visit_touches(const BulletWorld& world, Body& a, Body& b, float dt
     const Mover mover_a = mover_of(a), mover_b = mover_of(b);
     const double relative =
         length(mover_a.velocity - mover_b.velocity) + length(mover_a.spin) * a.reach + length(mover_b.spin) * b.reach;
-    if (!are_split(a, b) && !is_far(relative * dt, std::min(a.thickness, b.thickness))) return;
+    if (!are_split(a, b) && !is_far(relative * dt, scale_of(a, b), std::min(a.thickness, b.thickness))) return;
     const float turned_b = turned(mover_b, b.reach, dt);
     const Box all_a = relative_box(a.shape.box, mover_a, mover_b, a.reach, dt);
     scratch.near_b.clear();
@@ -214,9 +216,12 @@ bool Sweeper::touch_on_whole_ways(const BulletWorld& world, Body& a, Body& b, fl
 
 // What goes no farther than the thinnest thing of all asks for is swept against nothing.
 void Sweeper::list_fast(BulletWorld& world, float dt) {
-    float thinnest = kFar;
-    for (RigidId id = 0; id < world.body_end_; ++id)
-        if (world.bodies_[id].is_used) thinnest = std::min(thinnest, world.bodies_[id].thickness);
+    float thinnest = kFar, least_scale = 1;
+    for (RigidId id = 0; id < world.body_end_; ++id) {
+        const Body& body = world.bodies_[id];
+        if (!body.is_used) continue;
+        thinnest = std::min(thinnest, body.thickness), least_scale = std::min(least_scale, scale_of(body));
+    }
     fast_.clear();
     for (RigidId id = 0; id < world.body_end_; ++id) {
         Body& body = world.bodies_[id];
@@ -225,7 +230,7 @@ void Sweeper::list_fast(BulletWorld& world, float dt) {
         body.moved_fraction = 1;
         body.is_fast = false;
         const Mover mover = mover_of(body);
-        if (!is_far(travel(mover, dt), thinnest)) continue;
+        if (!is_far(travel(mover, dt), least_scale, thinnest)) continue;
         body.is_fast = true;
         fast_.push_back({id, swept_box(body.shape.box, mover, body.reach, dt), -1});
     }
