@@ -222,7 +222,7 @@ Result<Corners> read_collada(const std::string& path) {
 
 Result<Corners> read_gltf(const std::string& path) {
     try {
-        const gltf::Document document(path);
+        const gltf::Document document(gltf::bytes_of_model(path), path);
         if (!document.is_version_1()) return gltf::read_document(document);
     } catch (const gltf::Refusal& refusal) {
         return gltf::error_of(refusal, path);

@@ -4,7 +4,6 @@
 #include <cmath>
 #include <cstdint>
 #include <cstring>
-#include <fstream>
 #include <nlohmann/json.hpp>
 #include <string>
 #include <variant>
@@ -166,9 +165,8 @@ class GltfFile {
 
 /// A model, or the sentence why not. Anything else that is thrown fails the test.
 inline Result<ConvertedModel> read_gltf_bytes(const std::string& bytes, const std::string& path) {
-    std::ofstream(path, std::ios::binary) << bytes;
     try {
-        return joined_model(gltf::read_document(gltf::Document(path)), path);
+        return joined_model(gltf::read_document(gltf::Document({bytes.begin(), bytes.end()}, path)), path);
     } catch (const gltf::Refusal& refusal) {
         return gltf::error_of(refusal, path);
     }

@@ -60,10 +60,7 @@ std::string reason_of(const nlohmann::json::exception& error) {
 
 }  // namespace
 
-Document::Document(const std::string& path) : path_(path) {
-    auto bytes = read_whole_file(path, kMostBytes);
-    if (!bytes) throw Refusal("cannot be opened");
-    bytes_ = std::move(*bytes);
+Document::Document(std::vector<uint8_t> bytes, const std::string& path) : path_(path), bytes_(std::move(bytes)) {
     const char* begin = reinterpret_cast<const char*>(bytes_.data());
     if (begins_as_binary(begin, bytes_.size())) {
         const std::string text = json_text_of_chunks();
@@ -139,6 +136,12 @@ Part Document::named(const char* list, const Part& asker) const {
 size_t Document::count(const char* list) const {
     const auto found = root().find(list);
     return found ? found->size() : 0;
+}
+
+std::vector<uint8_t> bytes_of_model(const std::string& path) {
+    auto bytes = read_whole_file(path, kMostBytes);
+    if (!bytes) throw Refusal("cannot be opened as an ordinary file");
+    return std::move(*bytes);
 }
 
 bool is_gltf(const std::string& path) {

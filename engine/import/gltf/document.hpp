@@ -12,8 +12,8 @@ namespace cullet::gltf {
 
 class Document {
  public:
-    /// Throws a Refusal for what is no glTF 1 or 2.
-    explicit Document(const std::string& path);
+    /// Throws a Refusal for what is no glTF 1 or 2. The path is that of the model: buffers lie beside it.
+    Document(std::vector<uint8_t> bytes, const std::string& path);
     Document(const Document&) = delete;
     Document& operator=(const Document&) = delete;
 
@@ -42,6 +42,9 @@ class Document {
     std::vector<std::string> notes_;
     bool has_binary_ = false, is_version_1_ = false;
 };
+
+/// The bytes of a model. Throws a Refusal when they cannot be had.
+std::vector<uint8_t> bytes_of_model(const std::string& path);
 
 /// By the name's ending, or by the first bytes of a .glb.
 bool is_gltf(const std::string& path);

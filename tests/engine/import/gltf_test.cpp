@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <fstream>
 #include <functional>
 #include <random>
 
@@ -104,7 +105,7 @@ TEST_F(Gltf, TheCaseOfAnUnknownExtensionIsRefusedByItsName) {
 TEST_F(Gltf, TheCasesNormalsAndTextureCoordinatesAreThose) {
     const auto read_case = [](const std::string& name) {
         const std::string path = source_folder() + "/tests/cases/import/" + name;
-        return joined_model(gltf::read_document(gltf::Document(path)), path).mesh;
+        return joined_model(gltf::read_document(gltf::Document(gltf::bytes_of_model(path), path)), path).mesh;
     };
     for (const Vec3 n : read_case("gltf_quantised_normals.gltf").corner_normals) EXPECT_EQ(n, (Vec3{0, 1, 0}));
     const Mesh mesh = read_case("gltf_uv_ushort.gltf");
