@@ -5,7 +5,7 @@
 
 #include <filesystem>
 
-#include "engine/import_mesh.hpp"
+#include "engine/import/import_mesh.hpp"
 #include "sample_game/cache.hpp"
 #include "sample_game/meshes.hpp"
 #include "sample_game/progress.hpp"

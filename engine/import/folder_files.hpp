@@ -14,9 +14,9 @@
 #include <string_view>
 #include <utility>
 
+#include "engine/import/import_folder.hpp"
 #include "engine/import/text_encoding.hpp"
 #include "engine/import/words.hpp"
-#include "engine/import_folder.hpp"
 
 namespace cullet {
 

@@ -12,7 +12,7 @@
 #include <fstream>
 
 #include "engine/import/sanitized.hpp"
-#include "engine/import_mesh.hpp"
+#include "engine/import/import_mesh.hpp"
 #include "engine/math.hpp"
 #include "engine/mesh_file.hpp"
 #include "tests/support/places.hpp"

@@ -6,7 +6,7 @@
 
 #include <string>
 
-#include "engine/import_mesh.hpp"
+#include "engine/import/import_mesh.hpp"
 #include "systems/cook/surface.hpp"
 #include "tests/support/places.hpp"
 #include "tests/support/test_data.hpp"

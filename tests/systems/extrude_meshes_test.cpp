@@ -9,7 +9,7 @@
 #include <filesystem>
 #include <map>
 
-#include "engine/import_mesh.hpp"
+#include "engine/import/import_mesh.hpp"
 #include "systems/cook/extrude.hpp"
 #include "systems/cook/true_wall.hpp"
 #include "tests/support/places.hpp"

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "engine/import/gltf/document.hpp"
-#include "engine/import_folder.hpp"
+#include "engine/import/import_folder.hpp"
 
 namespace cullet::gltf {
 

@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <filesystem>
 
-#include "engine/import_mesh.hpp"
+#include "engine/import/import_mesh.hpp"
 #include "systems/cook/surface.hpp"
 #include "tests/support/expect_always.hpp"
 #include "tests/support/places.hpp"

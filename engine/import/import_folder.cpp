@@ -1,4 +1,4 @@
-#include "engine/import_folder.hpp"
+#include "engine/import/import_folder.hpp"
 
 #include <sys/stat.h>
 

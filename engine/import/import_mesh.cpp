@@ -1,4 +1,4 @@
-#include "engine/import_mesh.hpp"
+#include "engine/import/import_mesh.hpp"
 
 #include <fcntl.h>
 #include <poll.h>
@@ -22,7 +22,7 @@
 #include <string_view>
 
 #include "engine/import/import.hpp"
-#include "engine/import_folder.hpp"
+#include "engine/import/import_folder.hpp"
 #include "engine/mesh_file.hpp"
 
 extern char** environ;
