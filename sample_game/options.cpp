@@ -6,6 +6,7 @@
 #include <algorithm>
 
 #include "cullet/material.hpp"
+#include "cullet/version.hpp"
 #include "sample_game/scene.hpp"
 
 namespace cullet {
@@ -18,6 +19,10 @@ std::string scene_names() {
     std::string names;
     for (const Scene& scene : scenes()) names += std::string(scene.name) + ", ";
     return names + "show_reel, or a file that ends in .lua";
+}
+
+std::string version_line() {
+    return fmt::format("sample_game of cullet {}", version());
 }
 
 std::string shown(const Scene& scene) {
@@ -35,7 +40,8 @@ std::string scene_list() {
 
 void add_run(CLI::App& app, RunOptions& run) {
     CLI::App* command = app.add_subcommand("run", "Plays a scene or a script and says how it went");
-    command->add_option("scene", run.scene, "One of " + scene_names());
+    command->footer(scene_list);
+    command->add_option("scene", run.scene, "A scene of the list below, or a file that ends in .lua");
     command
         ->add_option(
             "--mesh", run.mesh,
@@ -137,6 +143,24 @@ Result<void> check_run(const RunOptions& run, bool asks_for_keys) {
     return {};
 }
 
+std::string command_names(const CLI::App& app) {
+    std::string names;
+    for (const CLI::App* command : app.get_subcommands(nullptr)) names += ", " + command->get_name();
+    return names.substr(2);
+}
+
+/// CLI11 takes a first word that it does not know for an argument without a command, and misses the command.
+Result<void> check_command(const CLI::App& app, const std::vector<std::string>& arguments) {
+    if (arguments.empty()) return Error{"Which command? Give one of " + command_names(app) + "; --help tells of them."};
+    const std::string& first = arguments[0];
+    if (first.starts_with("-") && app.get_option_no_throw(first) == nullptr)
+        return Error{
+            fmt::format("{}: there is no such option before the command; --help shows what can be given.", first)};
+    const auto has_name = [&](const CLI::App* command) { return command->get_name() == first; };
+    if (first.starts_with("-") || !app.get_subcommands(has_name).empty()) return {};
+    return Error{fmt::format("{}: there is no such command; give one of {}.", first, command_names(app))};
+}
+
 std::string one_sentence(std::string text) {
     std::replace(text.begin(), text.end(), '\n', ' ');
     while (!text.empty() && text.back() == ' ') text.pop_back();
@@ -150,7 +174,7 @@ Result<Options> parse_options(std::vector<std::string> arguments) {
     Options options;
     CLI::App app("Things that shatter, without a window.", "sample_game");
     app.require_subcommand(1);
-    app.footer(scene_list());
+    app.set_version_flag("--version", version_line);
     add_run(app, options.run);
     add_cook(app, options.cook);
     add_replay(app, options.replay);
@@ -167,12 +191,16 @@ Result<Options> parse_options(std::vector<std::string> arguments) {
     truth->add_option("--threads", options.truth.threads, "Threads that share the placements; 2 if not given")
         ->check(CLI::Range(1u, 64u));
     truth->add_option("--out", options.truth.out, "Folder for truth.json");
+    app.footer(scene_list);
+    if (const Result<void> known = check_command(app, arguments); !known.ok()) return Error{known.error()};
     try {
         std::reverse(arguments.begin(), arguments.end());  // CLI11 takes them from the back
         app.parse(std::move(arguments));
     } catch (const CLI::CallForHelp&) {
-        options.help = app.help();
-        for (const CLI::App* command : app.get_subcommands()) options.help = command->help() + "\n" + scene_list();
+        options.help = app.help();  // of the command, where one was given
+        return options;
+    } catch (const CLI::CallForVersion&) {
+        options.help = version_line() + "\n";
         return options;
     } catch (const CLI::ParseError& error) {
         return Error{one_sentence(error.what()) + " sample_game --help shows what can be given."};

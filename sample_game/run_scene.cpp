@@ -115,6 +115,7 @@ void fill_sums(GameWorld& game, const Matter& start, Report& report) {
 Result<RunRecord> play_once(const ScenePlan& plan, const RunOptions& options, uint32_t repeat, Report& report) {
     ScenePlan own = plan;
     own.record = repeat == 0 ? options.record : "";
+    own.is_silent = repeat > 0;
     Result<GameWorld> made = GameWorld::create(own);
     if (!made.ok()) return Error{made.error()};
     GameWorld& game = made.value();

@@ -42,6 +42,7 @@ struct ScenePlan {
     std::string mesh_path, model;       // of --mesh and --model; empty: the script's own
     std::string materials_path;         // of --materials; empty: none
     std::string record;                 // a file; empty: nothing is written down
+    bool is_silent = false;             // print() says nothing: the run before said it
     std::shared_ptr<ModelShelf> shelf;  // what its runs have cooked
 };
 

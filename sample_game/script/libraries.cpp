@@ -7,6 +7,7 @@
 
 #include "engine/math.hpp"
 #include "sample_game/script/sandbox.hpp"
+#include "sample_game/script/script.hpp"
 
 namespace cullet {
 namespace {
@@ -171,7 +172,7 @@ int print_line(lua_State* lua) {
         line += (n > 1 ? " " : "") + (is_text ? std::string(text, length) : describe(lua, n));
     }
     spend(lua, 100 + line.size() / 8);
-    fmt::print("{}\n", line);
+    script_of(lua).say(line);
     return 0;
 }
 

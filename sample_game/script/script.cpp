@@ -17,6 +17,7 @@ const char kDeclared = 0;                      // its address is raised where a 
 const char kFailed = 0;                        // its address is raised when failure_ says why
 constexpr uint64_t kInstructionsAWake = 1000;  // 10 us: a coroutine is made, and its own count starts from 0
 constexpr uint64_t kInstructionsAnEvent = 50;
+constexpr size_t kMostUnsaid = 65536;  // bytes; the declarations of a script that fails may print more
 constexpr size_t kBytesAJob = 256, kBytesAListener = 128;
 
 std::string key_of(const std::string& assignment) {
@@ -117,7 +118,17 @@ void Script::prepare() {
 
 Result<void> Script::declare() {
     only_declares_ = true;
-    return start();
+    Result<void> done = start();
+    if (!done.ok()) fmt::print("{}", unsaid_);
+    return done;
+}
+
+void Script::say(const std::string& line) {
+    if (stage_.plan.is_silent) return;
+    if (!only_declares_)
+        fmt::print("{}\n", line);
+    else if (unsaid_.size() < kMostUnsaid)
+        unsaid_ += line + "\n";
 }
 
 Result<void> Script::start() {

@@ -33,6 +33,9 @@ class Script {
     /// Of a call that is no declaration: looks after --set, and ends a run of declarations alone.
     Stage& act(lua_State* lua);
     bool has_acted() const { return has_acted_; }
+    /// Prints a line. What a run of declarations alone would print comes in the run that follows, or when there is none
+    /// because the declarations failed.
+    void say(const std::string& line);
     /// Adds the key's value from the command line; once for each key that is declared.
     void apply_set(lua_State* lua, const std::string& name);
     bool is_given(const std::string& name) const;
@@ -83,7 +86,7 @@ class Script {
     uint64_t job_count_ = 0;
     std::vector<Listener> listeners_;
     std::vector<std::string> used_sets_;
-    std::string failure_;
+    std::string failure_, unsaid_;
     int listening_thread_ = 0;  // reference
     uint64_t pause_ = 0;
     uint32_t random_count_ = 0;

@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include "cullet/version.hpp"
 #include "sample_game/run_scene.hpp"
 
 namespace cullet {
@@ -101,6 +102,42 @@ TEST(Options, HelpIsNoError) {
         EXPECT_EQ(parsed.value().command, Command::Help);
         EXPECT_NE(parsed.value().help.find("pane"), std::string::npos);
     }
+}
+
+size_t times_said(const std::string& text, const std::string& words) {
+    size_t times = 0;
+    for (size_t at = text.find(words); at != text.npos; at = text.find(words, at + words.size())) ++times;
+    return times;
+}
+
+TEST(Options, HelpTellsOfEachSceneOnceAndOnlyWhereOneIsPlayed) {
+    for (const Scene& scene : scenes()) {
+        const std::string line = "\n  " + scene.name + " ", shows = read_story(plan_scene(scene, {})).value().shows;
+        for (const std::vector<std::string>& arguments : {std::vector<std::string>{"--help"}, {"run", "--help"}}) {
+            const std::string help = parse_options(arguments).value().help;
+            EXPECT_EQ(times_said(help, line), 1u) << help;
+            EXPECT_EQ(times_said(help, shows), 1u) << help;
+        }
+        for (const char* command : {"cook", "replay", "reproduce", "frame", "truth"})
+            EXPECT_EQ(times_said(parse_options({command, "--help"}).value().help, shows), 0u) << command;
+    }
+}
+
+TEST(Options, TheVersionIsTheLibrarys) {
+    const auto parsed = parse_options({"--version"});
+    ASSERT_TRUE(parsed.ok()) << parsed.error();
+    EXPECT_EQ(parsed.value().command, Command::Help);
+    EXPECT_EQ(parsed.value().help, std::string("sample_game of cullet ") + version() + "\n");
+}
+
+TEST(Options, AnUnknownCommandIsCalledThatAndAllThatThereAreAreNamed) {
+    for (const char* wrong : {"walk", "vase", "Run", "runn", "my.lua"}) {
+        const std::string refused = parse_options({wrong, "--frames", "3"}).error();
+        EXPECT_EQ(refused.rfind(std::string(wrong) + ": there is no such command", 0), 0u) << refused;
+        for (const char* command : {"run", "cook", "replay", "reproduce", "frame", "truth"})
+            EXPECT_NE(refused.find(command), std::string::npos) << refused;
+    }
+    EXPECT_NE(parse_options({"--walk"}).error().find("--walk"), std::string::npos) << parse_options({"--walk"}).error();
 }
 
 TEST(Options, SetHelpListsTheKeysOfAllScenesOrOfOne) {

@@ -555,6 +555,47 @@ TEST(Script, AFileIsPlayedByItsPathAndOneThatIsNotThereIsNamed) {
     EXPECT_NE(load_scene("cathedral").error().find("vase"), std::string::npos);
 }
 
+size_t times_in(const std::string& text, const std::string& words) {
+    size_t times = 0;
+    for (size_t at = text.find(words); at != text.npos; at = text.find(words, at + 1)) ++times;
+    return times;
+}
+
+TEST(Script, WhatItPrintsComesOnce) {
+    const auto path = (std::filesystem::path(testing::TempDir()) / "cullet_script_prints_once.lua").string();
+    std::ofstream(path) << "game.scene{seconds = 0.1}\nprint('before')\ngame.floor()\nprint('first')\n"
+                           "wait{frames = 2}\nprint('later')\n";
+    RunOptions options;
+    options.scene = path;
+    options.threads = 1;
+    for (const uint32_t repeat : {1u, 3u}) {
+        options.repeat = repeat;
+        testing::internal::CaptureStdout();
+        const int code = run_command(options);
+        const std::string said = testing::internal::GetCapturedStdout();
+        EXPECT_EQ(code, 0);
+        for (const char* line : {"before\n", "first\n", "later\n"}) EXPECT_EQ(times_in(said, line), 1u) << said;
+    }
+}
+
+// Who looks for the fault of a script wants to see what it printed until then.
+TEST(Script, WhatItPrintsBeforeItFailsComesOnceToo) {
+    const auto path = (std::filesystem::path(testing::TempDir()) / "cullet_script_prints_and_fails.lua").string();
+    RunOptions options;
+    options.scene = path;
+    options.threads = 1;
+    for (const char* fault : {"game.key{}", "game.spawn{}", "wait(0.1) game.spawn{}"}) {
+        std::ofstream(path) << "game.scene{seconds = 1}\nprint('before')\n" << fault << "\n";
+        testing::internal::CaptureStdout();
+        testing::internal::CaptureStderr();
+        const int code = run_command(options);
+        const std::string said = testing::internal::GetCapturedStdout(), why = testing::internal::GetCapturedStderr();
+        EXPECT_NE(code, 0) << fault;
+        EXPECT_EQ(times_in(said, "before\n"), 1u) << fault << ": " << said;
+        EXPECT_NE(why.find(":3: "), std::string::npos) << why;
+    }
+}
+
 TEST(Script, AFolderAndAFileThatIsTooLongAreRefused) {
     const auto folder = std::filesystem::path(testing::TempDir()) / "cullet_script_folder.lua";
     std::filesystem::create_directories(folder);
@@ -588,7 +629,7 @@ TEST(Program, AFullDiskIsOneSentence) {
     const auto path = (std::filesystem::path(testing::TempDir()) / "cullet_script_prints.lua").string();
     std::ofstream(path) << "game.scene{seconds = 1}\nfor n = 1, 3000 do print('a line', n) end\n";
     const auto [code, said] = outcome_of("run " + path + " >/dev/full");
-    EXPECT_EQ(code, 2);
+    EXPECT_EQ(code, 1);  // the script's own fault, as far as the program knows
     EXPECT_EQ(said.find(path + ":2: cannot write to file: No space left on device\n"), 0u) << said;
 }
 
