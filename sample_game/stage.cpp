@@ -9,6 +9,7 @@
 #include "sample_game/model_shelf.hpp"
 #include "sample_game/progress.hpp"
 #include "sample_game/read_materials.hpp"
+#include "systems/cook/hit_advice.hpp"
 
 namespace cullet {
 namespace {
@@ -126,7 +127,6 @@ Result<uint32_t> Stage::cook(const Mesh& mesh, const CookSettings& settings, boo
     if (report.inverted_elements + report.crossings > 0)
         notes.push_back(fmt::format("The published way of generation left {} inverted elements and {} crossings.",
                                     report.inverted_elements, report.crossings));
-    if (!report.advice.empty()) notes.push_back(report.advice);
     if (world) {
         const Result<ModelId> id = world->add_model(cooked.model);
         if (!id.ok()) return Error{id.error()};
@@ -134,6 +134,17 @@ Result<uint32_t> Stage::cook(const Mesh& mesh, const CookSettings& settings, boo
     }
     models.push_back(std::move(cooked));
     return static_cast<uint32_t>(models.size() - 1);
+}
+
+void Stage::advise(uint32_t model) {
+    CookedModel& cooked = models[model];
+    const ModelReport& report = cooked.model.report();
+    const Settings own = settings();
+    if (cooked.is_advised || report.advice.empty() ||
+        report.units_of_a_hit <= hold_units(own.units_a_frame, own.hold_seconds, own.step_seconds))
+        return;
+    cooked.is_advised = true;
+    notes.push_back(report.advice);
 }
 
 Result<BodyId> Stage::add_prop(Prop prop) {

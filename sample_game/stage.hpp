@@ -23,6 +23,7 @@ struct CookedModel {
     Model model;
     ModelId id;  // null until the world stands
     uint32_t look = 0;
+    bool is_advised = false;  // its note stands in `notes`
 };
 
 /// A kinematic box, which has no drawn mesh of the world's.
@@ -73,6 +74,8 @@ struct Stage {
     float ground_height() const;
     /// Cooks; shows progress. The place in `models`. Models of strangers' meshes are kept in the cache.
     Result<uint32_t> cook(const Mesh& mesh, const CookSettings& settings, bool is_strangers);
+    /// Notes, once, that hits on a body of this model that does not break quickly will be late, if so.
+    void advise(uint32_t model);
     Result<BodyId> add_prop(Prop prop);
     /// Reads the step's events; once a step.
     void after_step();

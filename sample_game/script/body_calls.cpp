@@ -194,6 +194,7 @@ int spawn(lua_State* lua) {
     settings.user_data = stage.models[model].look;
     const Result<BodyId> id = world.spawn(stage.models[model].id, settings);
     if (id.ok()) stage.sums.mass_put_in += world.mass(*id).value();
+    if (id.ok() && settings.is_breakable && settings.fracture == FractureMode::Hidden) stage.advise(model);
     return added(lua, "game.spawn", id);
 }
 

@@ -219,8 +219,8 @@ int at_least(lua_State* lua) {
     return 0;
 }
 
-/// A blow that does not fit a hold ends late: raises the budget until the predicted one fits, and says so in place of
-/// cooking's advice to do that.
+/// A blow that does not fit a hold ends late: raises the budget until the predicted one fits, and says so. Cooking's
+/// advice to do that is then not given.
 int fit_budget(lua_State* lua) {
     script_of(lua).act(lua);
     Stage& stage = stage_without_world(lua, "game.fit_budget");
@@ -231,7 +231,6 @@ int fit_budget(lua_State* lua) {
     if (frames < 1) return 0;
     const auto wanted = static_cast<uint64_t>(1.1 * hit / frames);
     if (wanted <= settings.units_a_frame) return 0;
-    std::erase(stage.notes, report.advice);
     stage.notes.push_back(fmt::format(
         "A hit on this mesh takes {:.0f} million units: units_a_frame was raised from {:.1f} to {:.1f} "
         "million so that it fits a hold of {:.0f} frames.",

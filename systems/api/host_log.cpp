@@ -42,8 +42,8 @@ void HostLog::tell(const Host& host, const WorldData& data) {
     }
 }
 
-void HostLog::advise(const Host& host, const Model::Contents& model) const {
-    if (!host.log || model.report.advice.empty()) return;
+void HostLog::advise(const Host& host, const Model::Contents& model, uint64_t hold_units) const {
+    if (!host.log || model.report.advice.empty() || model.report.units_of_a_hit <= hold_units) return;
     host.log(host.user, LogLevel::Warning, (model.name + ": " + model.report.advice).c_str());
 }
 

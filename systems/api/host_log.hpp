@@ -13,8 +13,8 @@ class HostLog {
     /// Limits that the last step met, each at most once in kQuietSeconds of simulated time, and every fault. Allocates
     /// nothing.
     void tell(const Host& host, const WorldData& data);
-    /// That a hit on this model will be late.
-    void advise(const Host& host, const Model::Contents& model) const;
+    /// That a hit on this model will be late in a world whose holds have so many units.
+    void advise(const Host& host, const Model::Contents& model, uint64_t hold_units) const;
 
     static constexpr float kQuietSeconds = 1;
 

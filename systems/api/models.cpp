@@ -2,6 +2,7 @@
 #include "engine/host_scope.hpp"
 #include "systems/api/checks.hpp"
 #include "systems/api/model_row.hpp"
+#include "systems/cook/hit_advice.hpp"
 #include "systems/cook/materials.hpp"
 #include "systems/cook/model_contents.hpp"
 #include "systems/fragments/cell_elements.hpp"
@@ -33,7 +34,9 @@ Result<ModelId> World::add_model(const Model& model) {
     state.models.is_used[row] = 1;
     state.models.shell[row] = shell;
     (void)sorted_elements(ShellView(state, shell));  // its bodies' copies know, too
-    contents_->log.advise(contents_->host, *model.contents);
+    const DamageSettings& damage = contents_->data.damage_settings;
+    contents_->log.advise(contents_->host, *model.contents,
+                          hold_units(damage.units_a_frame, damage.hold_seconds, contents_->data.step_info.dt));
     const uint32_t generation = ++state.models.generation[row];
     return ModelId{row, generation};
 }

@@ -184,8 +184,34 @@ uint64_t units_of_a_hit(const State& state, Row<Shells> shell) {
            vertices * (kUnitsOpen + (is_local ? kUnitsAssemble : 0));  // a blow that breaks grows it by a tenth
 }
 
-ModelReport report_on(const State& state, Row<Shells> shell, const SurfaceRepairs& repairs, const Extrusion& extrusion,
-                      double longest_edge) {
+/// Of all triangles, an edge between two of them twice.
+double mean_edge_of(const Mesh& mesh) {
+    double sum = 0;
+    for (const auto& triangle : mesh.triangles)
+        for (int k = 0; k < 3; ++k)
+            sum += length(Vec3d(mesh.positions[triangle[(k + 1) % 3]]) - Vec3d(mesh.positions[triangle[k]]));
+    return mesh.triangles.empty() ? 0 : sum / (3.0 * static_cast<double>(mesh.triangles.size()));
+}
+
+/// What to do about hits that will be late. `longest_edge`: the setting where it made the edges what they are, or 0.
+std::string advice_on(const State& state, Row<Shells> shell, uint64_t units, const Mesh& mesh, double longest_edge) {
+    const Shells& s = state.shells;
+    const HitOfModel hit{units,
+                         s.vertices[shell].count,
+                         is_for_cut_outs(state, shell, false),
+                         s.mean_edge[shell],
+                         s.thickness[shell],
+                         longest_edge};
+    return hit_advice(hit, [&mesh](double length) {
+        TessellationSettings tessellation;
+        tessellation.longest_edge = length;
+        const Result<Mesh> fine = tessellate(mesh, tessellation);
+        return fine ? mean_edge_of(*fine) : 0;
+    });
+}
+
+ModelReport report_on(const State& state, Row<Shells> shell, const SurfaceRepairs& repairs,
+                      const Extrusion& extrusion) {
     const Shells& s = state.shells;
     ModelReport report;
     report.vertices = s.vertices[shell].count;
@@ -200,9 +226,6 @@ ModelReport report_on(const State& state, Row<Shells> shell, const SurfaceRepair
     report.first_crack_speed = s.first_crack_speed[shell];
     report.units_of_a_hit = units_of_a_hit(state, shell);
     if (!repairs.is_clean()) report.repairs = describe(repairs);
-    // A hit on a ductile or elastic body is no hidden run.
-    if (material_traits(state, s.material[shell]).kind == MaterialKind::Brittle)
-        report.advice = hit_advice(report.units_of_a_hit, s.mean_edge[shell], s.thickness[shell], longest_edge);
     return report;
 }
 
@@ -329,7 +352,10 @@ Result<Model> cook(const MeshView& view, const CookSettings& settings) try {
     else
         state.shells.first_crack_speed[contents->shell] = estimated_threshold(state, contents->shell);
     if (settings.progress && !measures) settings.progress(settings.progress_user, 1);
-    contents->report = report_on(state, contents->shell, given->repairs, extrusion.value(), cut_at);
+    contents->report = report_on(state, contents->shell, given->repairs, extrusion.value());
+    // A hit on a ductile or elastic body is no hidden run.
+    if (material->settings.kind == MaterialKind::Brittle)
+        contents->report.advice = advice_on(state, contents->shell, units, *mesh, cut_at);
     if (joined) contents->report.walls = describe(*joined, *surface, *extrusion);
     if (thinned > 0)
         contents->report.repairs += (contents->report.repairs.empty() ? "" : " ") + std::string("Thinned ") +

@@ -116,10 +116,11 @@ TEST(HostLog, AModelWhoseHitsWillBeLateIsAnnouncedWhenItIsAdded) {
     heard.sentences.clear();
     Model slow = small_pane();
     auto contents = std::const_pointer_cast<Model::Contents>(slow.contents);  // ours for a moment
-    const std::string before = contents->report.advice;
+    const ModelReport before = contents->report;
     contents->report.advice = "A hit will be late.";
+    contents->report.units_of_a_hit = uint64_t{1} << 60;
     ASSERT_TRUE(world.add_model(slow).ok());
-    contents->report.advice = before;
+    contents->report = before;
     ASSERT_EQ(heard.sentences.size(), 1u);
     EXPECT_EQ(heard.sentences[0].first, LogLevel::Warning);
     EXPECT_EQ(heard.sentences[0].second, contents->name + ": A hit will be late.");
