@@ -1,5 +1,6 @@
 #!/usr/bin/env bash
 # From a clean clone to pictures of things that shatter: sets up, builds, plays the show reel without a window.
+#   scripts/play.sh [OPTIONS of sample_game run show_reel]     --video: a film of each of the five, some ten minutes more
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
 
@@ -9,6 +10,9 @@ cmake --build --preset release --target sample_game cullet_import
 out=out/show_reel
 mkdir -p "$out"
 build/release/sample_game run show_reel --out "$out" --contact-sheet "$@"
+# One film always: three seconds of the vase.
+mkdir -p "$out/film"
+build/release/sample_game run vase --frames 180 --hash off --video --out "$out/film" >/dev/null
 
 cat <<END
 
@@ -19,6 +23,7 @@ What there is to see, in $PWD/$out:
   drop/sheet.png   a hollow porcelain pig is thrown at a wall
   demolition/sheet.png   a street of 20 brick houses, towers and walls, under 100 explosions in 20 seconds: houses swell, come
                          down in slabs, and lie in heaps (a minute or two)
+  film/film.mp4    the vase as a film; --video makes one of each scene
   */report.json    each run in numbers: frame times, hits, fragments, mass, hash (README.md says how to read it)
   */trace.json     where the time went: open it at https://ui.perfetto.dev
 Every picture holds twelve moments, numbered by their frame (60 a second).

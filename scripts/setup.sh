@@ -8,6 +8,7 @@ packages=(
     libeigen3-dev libbullet-dev libembree-dev libtbb-dev libhwy-dev libxxhash-dev
     libassimp-dev libdraco-dev libexpat1-dev libminizip-dev libseccomp-dev libcli11-dev nlohmann-json3-dev libfmt-dev libpng-dev liblua5.4-dev libtomlplusplus-dev
     libgtest-dev librapidcheck-dev dpkg-dev file binutils
+    ffmpeg  # a program of its own, for films (run --video)
 )
 if [[ ${1:-} == --all ]]; then
     packages+=(clang libclang-rt-14-dev llvm)  # the run-time libraries of the sanitizers; llvm-symbolizer

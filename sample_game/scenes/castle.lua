@@ -26,7 +26,7 @@ end
 if shell.fracture == "quick" then
     game.setting{units_a_frame = 2.2e6}
 end
-game.camera{eye = {3.3, 2.5, 5.3}, target = {0.1, 1.02, 0}, field_of_view = 0.6}
+game.camera{eye = {3.9, 2.9, 6.3}, target = {0, 1.08, 0.2}, field_of_view = 0.6}
 game.floor()
 game.spawn{
     cooked = castle,

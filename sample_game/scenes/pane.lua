@@ -16,7 +16,7 @@ local pane = game.cook{
     fracture = shell.cracks,
     thickness = shell.thickness,
 }
-game.camera{eye = {0.42, 0.72, 0.92}, target = {0, 0.48, 0}, field_of_view = 0.72}
+game.camera{eye = {0.48, 0.76, 1.08}, target = {0, 0.44, 0.03}, field_of_view = 0.72}
 game.floor()
 
 -- Four beams round the pane with 2 mm of room, the lower one on two posts.

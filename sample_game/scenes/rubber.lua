@@ -16,7 +16,7 @@ local sheet = game.cook{
     fracture = shell.cracks,
     thickness = shell.thickness,
 }
-game.camera{eye = {1.25, 1.15, 1.15}, target = {0, 0.68, 0}, field_of_view = 0.8}
+game.camera{eye = {2.2, 1.45, 2.8}, target = {0, 0.48, 0.75}, field_of_view = 0.8}
 game.floor()
 local function beam(low, high)
     game.box{low = low, high = high, colour = {0.16, 0.17, 0.18}}

@@ -16,7 +16,7 @@ local plate = game.cook{
     fracture = shell.cracks,
     thickness = shell.thickness,
 }
-game.camera{eye = {1.25, 1.15, 1.15}, target = {0, 0.68, 0}, field_of_view = 0.8}
+game.camera{eye = {1.5, 1.25, 1.85}, target = {0.08, 0.54, 0.3}, field_of_view = 0.8}
 game.floor()
 local function beam(low, high)
     game.box{low = low, high = high, colour = {0.16, 0.17, 0.18}}

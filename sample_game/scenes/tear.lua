@@ -16,7 +16,7 @@ local sheet = game.cook{
     fracture = shell.cracks,
     thickness = shell.thickness,
 }
-game.camera{eye = {1.5, 1.2, 1.6}, target = {0, 0.72, -0.1}, field_of_view = 0.8}
+game.camera{eye = {1.9, 1.4, 2.6}, target = {0, 0.64, -0.1}, field_of_view = 0.8}
 game.floor()
 local function beam(low, high)
     game.box{low = low, high = high, colour = {0.16, 0.17, 0.18}}
