@@ -191,7 +191,7 @@ void HostRigidWorld::make_room() {
 
 void HostRigidWorld::add_static_triangles(RigidId id, std::span<const Vec3> positions,
                                           std::span<const std::array<uint32_t, 3>> triangles, float, float, uint32_t,
-                                          uint32_t) {
+                                          uint32_t, bool) {
     if (id >= rows_.size() || rows_[id].is_used) return;
     rows_[id] = {};
     rows_[id].is_used = true;

@@ -31,7 +31,7 @@ class HostRigidWorld final : public RigidWorld {
     void set_gravity(Vec3) override {}  // the host's own affair
     void add_static_triangles(RigidId id, std::span<const Vec3> positions,
                               std::span<const std::array<uint32_t, 3>> triangles, float friction, float restitution,
-                              uint32_t layer, uint32_t mask) override;
+                              uint32_t layer, uint32_t mask, bool one_sided) override;
     void add(RigidId id, const RigidDescription& description) override;
     void remove(RigidId id) override;
     Pose pose(RigidId id) const override;

@@ -53,6 +53,7 @@ struct RigidDescription {
     uint32_t layer = 1;           // bits
     uint32_t mask = 0xffffffffu;  // layers it meets
     float radius = 0;             // > 0: a sphere about the body frame's origin, pieces unused
+    RigidId parent = kNoRigid;    // it was part of this body until now, and is where it was in it
     std::span<const ConvexPiece> pieces;
 };
 
@@ -71,6 +72,10 @@ struct RigidContact {
 struct CrackTouch {
     Vec3 point, normal;  // normal: unit, from b towards a, or zero where there is none
     float reach = 0;     // m, of this part of the crack to both sides of the point
+};
+
+struct LeftOut {
+    uint32_t count = 0, first = 0;  // triangles; the first of them
 };
 
 /// The plane of a body's surface that is nearest to a point: world axes.
@@ -122,9 +127,13 @@ class RigidWorld {
     virtual void set_gravity(Vec3 gravity) = 0;
 
     /// Triangles in world axes that never move. `id` names it in contacts.
+    /// Triangles that are no closed convex part bear from both sides, unless `one_sided`: then only the side that sees
+    /// the corners counter-clockwise does.
     virtual void add_static_triangles(RigidId id, std::span<const Vec3> positions,
                                       std::span<const std::array<uint32_t, 3>> triangles, float friction,
-                                      float restitution, uint32_t layer, uint32_t mask) = 0;
+                                      float restitution, uint32_t layer, uint32_t mask, bool one_sided = false) = 0;
+    /// What of these triangles has no area, or was there before: nothing meets it.
+    virtual LeftOut left_out(RigidId) const { return {}; }
     virtual void add(RigidId id, const RigidDescription& description) = 0;
     virtual void remove(RigidId id) = 0;
     /// The body is another one from now on, where it is: what sleeps on it sleeps on.
@@ -195,8 +204,12 @@ class RigidWorld {
     /// Bodies whose bounds meet this box, rising; how many, at most as many as `out` has room for.
     virtual uint32_t near_bodies(Vec3, Vec3, std::span<RigidId>) const { return 0; }
     /// The nearest face within `reach` m of the point, at the pose that the body has now. Of a compound that of the
-    /// piece whose faces are nearest, seams left out. May be asked on all threads at once. Balls have none.
-    virtual bool nearest_surface(RigidId, Vec3, float, RigidSurface&) const { return false; }
+    /// piece whose faces are nearest, seams left out. May be asked on all threads at once. Balls have none. A triangle
+    /// that bears from both sides shows the one that sees `seen_from`, or the point where that is null.
+    virtual bool nearest_surface(RigidId, Vec3, float, RigidSurface&, const Vec3* = nullptr) const { return false; }
+    /// Of something small that comes off a body at this place: where it is on the side of static triangles that the
+    /// body is on.
+    virtual Vec3 to_side_of(RigidId, Vec3 place) const { return place; }
     /// Of a ball of `radius` on its way from one place to the other, in the `seconds` in which bodies came to where
     /// they are: the first touch with those that reach at least `least_reach` m from their centres, and with all that
     /// never move. What it begins too deep in is passed over. Changes nothing; may be asked on all threads at once.

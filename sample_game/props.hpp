@@ -9,6 +9,7 @@ namespace cullet {
 struct Prop {
     Mesh mesh;  // world coordinates
     ContactSettings contact;
+    bool one_sided = false;  // its triangles bear on the side that sees them counter-clockwise alone
     Vec3 colour{0.45f, 0.42f, 0.38f};
     bool is_ground = false;  // drawn as the ground with its grid, at its upper side
 };

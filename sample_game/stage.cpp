@@ -150,7 +150,7 @@ void Stage::advise(uint32_t model) {
 Result<BodyId> Stage::add_prop(Prop prop) {
     Result<World*> stands = stand();
     if (!stands.ok()) return Error{stands.error()};
-    Result<BodyId> id = (*stands)->add_static(view_of(prop.mesh), prop.contact);
+    Result<BodyId> id = (*stands)->add_static(view_of(prop.mesh), prop.contact, 0, prop.one_sided);
     if (id.ok()) props.push_back(std::move(prop));
     return id;
 }

@@ -62,6 +62,7 @@ struct Body {
     Hull* hulls = nullptr;  // in the order of the caller's pieces
     uint32_t hull_count = 0;
     std::unique_ptr<StaticMesh> mesh;  // static triangles only
+    LeftOut left_out;                  // of what they were made of; not saved
     bool is_level = false;             // of static triangles: its frame is the world's, also after a shift
     Box local_box = empty_box();       // of the points with margins, hull frame
     float thickness = 0;               // least width of a piece
@@ -99,8 +100,9 @@ struct Body {
     Motion started;  // with which it came into this step
     Motion gained;   // m/s and rad/s a step, of what is held up: over the last steps, the last one counts half
 
-    float moved_fraction = 1;  // of this step, less than 1 when stopped at a time of impact
-    bool is_fast = false;      // swept in this step
+    float moved_fraction = 1;     // of this step, less than 1 when stopped at a time of impact
+    bool is_fast = false;         // swept in this step
+    bool is_put_through = false;  // a sheet, by this step
 
     /// The hull frame's transform where the Bullet frame's is `at`.
     btTransform hulls_at(const btTransform& at) const { return has_offset ? at * hull_offset : at; }

@@ -58,6 +58,7 @@ BulletWorld::BulletWorld(uint32_t body_limit)
     shapes_.reserve(8 * static_cast<size_t>(body_limit) + 4096);
     seams_.reserve(4 * static_cast<size_t>(body_limit) + 4096);
     lost_.reserve(4 * static_cast<size_t>(body_limit) + 4096);
+    inner_points_.reserve(4 * static_cast<size_t>(body_limit) + 4096);
 }
 
 BulletWorld::~BulletWorld() {
@@ -421,7 +422,7 @@ void BulletWorld::enter_tree(Body& body) {
 
 void BulletWorld::add_static_triangles(RigidId id, std::span<const Vec3> positions,
                                        std::span<const std::array<uint32_t, 3>> triangles, float friction,
-                                       float restitution, uint32_t layer, uint32_t mask) {
+                                       float restitution, uint32_t layer, uint32_t mask, bool one_sided) {
     InsideRigidEngine guard(counts_.allocations);
     if (id >= body_limit_ || bodies_[id].is_used) return;
     Body& body = bodies_[id];
@@ -431,11 +432,13 @@ void BulletWorld::add_static_triangles(RigidId id, std::span<const Vec3> positio
     body.friction = friction, body.restitution = restitution, body.rolling_friction = 0;
     body.margin = 0;
     set_mass(body, 0, {}, {});
-    auto mesh = std::make_unique<StaticMesh>(sort_static_triangles(positions, triangles));
+    auto mesh = std::make_unique<StaticMesh>(sort_static_triangles(positions, triangles, one_sided));
     std::vector<ConvexPiece> pieces;
     for (const auto& solid : mesh->solids) pieces.push_back({solid, static_cast<uint32_t>(pieces.size())});
     set_pieces(body, pieces, 0, body.frame);
+    body.left_out = {mesh->left_out, mesh->first_left};
     body.mesh = mesh->triangles.empty() ? nullptr : std::move(mesh);
+    mesh_count_ += body.mesh != nullptr;
     enter(body, {}, layer, mask);
 }
 
@@ -446,6 +449,7 @@ void BulletWorld::add(RigidId id, const RigidDescription& d) {
     body.id = id;
     body.kind = d.kind;
     body.is_level = false;
+    body.left_out = {};
     body.friction = d.friction, body.restitution = d.restitution, body.rolling_friction = d.rolling_friction;
     body.mesh.reset();
     set_mass(body, d.mass, d.centre, d.inertia);
@@ -457,6 +461,12 @@ void BulletWorld::add(RigidId id, const RigidDescription& d) {
         set_pieces(body, d.pieces, d.margin, body.frame);
     body.margin = d.radius > 0 ? d.radius : d.margin;
     enter(body, d.pose, d.layer, d.mask);
+    if (is_known(d.parent) && d.parent != id) {
+        list_inner_points(bodies_[d.parent]);
+        settle_born(body);
+    } else {
+        settle_laid(body);
+    }
     set_motion(id, d.motion);
 }
 
@@ -480,6 +490,7 @@ void BulletWorld::take_out(RigidId id) {
     tree_.remove(body.leaf);
     body.leaf = kNoLeaf;
     body.bullet.reset();
+    mesh_count_ -= body.mesh != nullptr;
     body.mesh.reset();
     drop_pieces(body);
     body.is_used = false;
@@ -507,6 +518,7 @@ void BulletWorld::set_pose(RigidId id, const Pose& at) {
     body.bullet->setCenterOfMassTransform(to_bullet(at, body.frame));
     if (body.kind == RigidKind::Dynamic) wake_body(body);
     refresh(body);
+    settle_laid(body);
 }
 
 void BulletWorld::set_motion(RigidId id, const Motion& m) {
@@ -533,11 +545,14 @@ void BulletWorld::set_shape(RigidId id, double mass, Vec3d centre, Sym3d inertia
     const Vec3 shift = rotate(at.orientation, centre.to_float() - body.frame.centre);
     moving.velocity += cross(moving.angular_velocity, shift);
     const BodyFrame old_frame = body.hull_frame;
+    refresh(body);
+    list_inner_points(body);
     set_mass(body, mass, centre, inertia);
     set_pieces(body, pieces, body.margin, old_frame);
     reseat(body, at);
     body.fresh_at.setOrigin({kFar, kFar, kFar});  // the points are new, wherever they stand
     refresh(body);
+    settle_born(body);
     rouse(body, moving);
 }
 
@@ -551,6 +566,7 @@ bool BulletWorld::change_shape(RigidId id, double mass, Vec3d centre, Sym3d iner
     const Pose at = pose(id);
     Motion moving = motion(id);
     moving.velocity += cross(moving.angular_velocity, rotate(at.orientation, centre.to_float() - body.frame.centre));
+    list_inner_points(body);
     set_mass(body, mass, centre, inertia);
     seat_hulls(body);
     change_pieces(body, gone, pieces);
@@ -560,6 +576,7 @@ bool BulletWorld::change_shape(RigidId id, double mass, Vec3d centre, Sym3d iner
     ++body.moves;
     gather_box(body);
     update_leaf(body);
+    settle_born(body);
     rouse(body, moving);
     return true;
 }
@@ -968,6 +985,7 @@ void BulletWorld::integrate(float dt) {
         body.bullet->predictIntegratedTransform(body.moved_fraction * dt, moved);
         body.bullet->proceedToTransform(moved);
     }
+    bring_all_back();
     // Twice: the first blows of a pair turn its bodies to others'.
     sweeper_.slow_down(*this);
     take_back_gravity(dt);

@@ -36,7 +36,8 @@ class BulletWorld final : public RigidWorld {
     void set_gravity(Vec3 gravity) override;
     void add_static_triangles(RigidId id, std::span<const Vec3> positions,
                               std::span<const std::array<uint32_t, 3>> triangles, float friction, float restitution,
-                              uint32_t layer, uint32_t mask) override;
+                              uint32_t layer, uint32_t mask, bool one_sided) override;
+    LeftOut left_out(RigidId id) const override;
     void add(RigidId id, const RigidDescription& description) override;
     void remove(RigidId id) override;
     void replace(RigidId id, const RigidDescription& description) override;
@@ -64,7 +65,8 @@ class BulletWorld final : public RigidWorld {
     void set_soft(RigidId id, bool is_soft) override;
     bool knows_surfaces() const override { return true; }
     uint32_t near_bodies(Vec3 low, Vec3 high, std::span<RigidId> out) const override;
-    bool nearest_surface(RigidId id, Vec3 point, float reach, RigidSurface& out) const override;
+    bool nearest_surface(RigidId id, Vec3 point, float reach, RigidSurface& out, const Vec3* seen_from) const override;
+    Vec3 to_side_of(RigidId id, Vec3 place) const override;
     bool is_ignored(RigidId a, RigidId b) const override;
     bool may_meet(RigidId a, RigidId b) const override;
     bool is_touched(RigidId id) const override { return is_known(id) && bodies_[id].is_touched; }
@@ -90,6 +92,13 @@ class BulletWorld final : public RigidWorld {
     bool is_skipped(RigidId a, RigidId b) const;
     /// What was born in each other in this step, a < b.
     std::span<const NewbornPieces> newborn_of(RigidId a, RigidId b) const;
+
+    /// How a body got behind a sheet.
+    struct PutThrough {
+        float depth = 0;  // m that it is to go back along the normal; 0: it did not
+        Vec3 normal, place;
+        RigidId mesh = kNoRigid;
+    };
 
  private:
     friend class Sweeper;
@@ -159,6 +168,20 @@ class BulletWorld final : public RigidWorld {
     void limit_closing(float dt);
     void take_back_gravity(float dt);
     void integrate(float dt);
+    template <class Call>
+    void visit_meshes(const Body& body, const Box& box, Call call) const;
+    PutThrough find_put_through(const Body& body) const;
+    PutThrough find_born_through(const Body& body) const;
+    PutThrough find_laid_through(const Body& body) const;
+    bool is_cut_by(const Body& body, const Body& mesh_body, PairScratch& scratch) const;
+    void move_by(Body& body, Vec3 way);
+    void stop_at_sheet(Body& body, const PutThrough& put);
+    void bring_back(Body& body);
+    void bring_all_back();
+    void list_inner_points(const Body& body);
+    void settle_born(Body& body);
+    void settle_laid(Body& body);
+    void lift_new(Body& body, const PutThrough& put);
     void update_sleep(float dt);
     bool may_sleep(Body& body, float dt, const Pace& pace);
     bool may_come_to_rest(const Body& body, const Pace& pace) const;
@@ -190,7 +213,10 @@ class BulletWorld final : public RigidWorld {
         Vec3 centre;
         float radius;
     };
-    std::vector<Ball> lost_;  // pieces that the body at hand has lost, its hull frame
+    std::vector<Ball> lost_;          // pieces that the body at hand has lost, its hull frame
+    std::vector<Vec3> inner_points_;  // of the pieces of what a body at hand comes from
+    float inner_reach_ = 0;           // m, of the largest of these
+    uint32_t mesh_count_ = 0;         // bodies with static triangles
     std::vector<RigidContact> contacts_;
     std::vector<RigidId> in_the_way_;                   // of the flight that is foreseen
     std::vector<SortedManifold> manifolds_;             // in rising (a, b) and pieces of a and b

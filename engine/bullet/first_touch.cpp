@@ -66,10 +66,13 @@ bool meets_ball(Vec3 centre, float radii, const Way& way, float& share, Vec3& no
     return true;
 }
 
-/// One-sided: from behind a triangle is not there.
-bool meets_triangle(const StaticTriangle& triangle, const Way& way, float& share, Vec3& normal, float& depth) {
+/// On the side that it comes from; from behind a one-sided triangle is not there.
+bool meets_triangle(const StaticTriangle& triangle, bool one_sided, const Way& way, float& share, Vec3& normal,
+                    float& depth) {
     const Vec3* c = triangle.corner;
-    const Vec3 n = normalised(cross(c[1] - c[0], c[2] - c[0]));
+    const Vec3 front = normalised(cross(c[1] - c[0], c[2] - c[0]));
+    const float side = !one_sided && dot(front, way.from - c[0]) < 0 ? -1.0f : 1.0f;
+    const Vec3 n = side * front;
     const float going = dot(n, way.along), height = dot(n, way.from - c[0]), over = height - way.radius;
     if (!(going < 0) || over + going > 0 || -over > way.deepest) return false;
     const float at = std::max(0.0f, over / -going);
@@ -77,7 +80,7 @@ bool meets_triangle(const StaticTriangle& triangle, const Way& way, float& share
     const Vec3 place = way.from + at * way.along;
     for (int k = 0; k < 3; ++k) {
         const Vec3 edge = c[(k + 1) % 3] - c[k];
-        if (dot(cross(n, edge), place - c[k]) < 0) return false;
+        if (side * dot(cross(n, edge), place - c[k]) < 0) return false;
     }
     share = at, normal = n, depth = std::max(0.0f, -over);
     return true;
@@ -121,8 +124,8 @@ bool BulletWorld::first_touch(Vec3 from, Vec3 to, float seconds, float radius, f
         found = rotation * found;
         if (body.mesh)
             visit_triangles(*body.mesh, box, [&](uint32_t t) {
-                if (meets_triangle(body.mesh->triangles[t], {from, to - from, radius, deepest}, nearest, found,
-                                   found_depth))
+                if (meets_triangle(body.mesh->triangles[t], body.mesh->one_sided, {from, to - from, radius, deepest},
+                                   nearest, found, found_depth))
                     is_met = true;
             });
         if (!is_met || nearest > share || (nearest == share && id > met)) return;

@@ -6,6 +6,7 @@
 #include "engine/bullet/advance.hpp"
 #include "engine/bullet/bullet_world.hpp"
 #include "engine/bullet/free_turn.hpp"
+#include "engine/bullet/sides.hpp"
 #include "engine/bullet/stopped_fall.hpp"
 #include "engine/rigid_allocations.hpp"
 
@@ -158,8 +159,9 @@ class Flight {
                 if (overlap(box, q->world_box, 0)) advance(*p, *q);
             if (!other.mesh) continue;
             Hull& triangle = world_.scratches_.own().triangle;
+            const Vec3 seen_from = inner_point(*p, body_.fresh_at);
             visit_triangles(*other.mesh, box, [&](uint32_t t) {
-                build_triangle(triangle, other.mesh->triangles[t].corner, t);
+                build_seen_triangle(triangle, *other.mesh, t, t, seen_from);
                 if (dot(mover.velocity, Vec3d(triangle.face_normal[0])) < 0) advance(*p, triangle);
             });
         }

@@ -217,10 +217,11 @@ void turn_hull(Hull& hull, const Mat3& r, Vec3 origin, float margin, uint32_t ce
     find_box(hull);
 }
 
-void build_triangle(Hull& hull, const Vec3 (&corners)[3], uint32_t cell) {
+void build_triangle(Hull& hull, const Vec3 (&corners)[3], uint32_t cell, bool is_turned) {
     hull.cell = cell;
     hull.margin = 0;
     hull.one_sided = true;
+    hull.is_turned = is_turned;
     hull.is_box = false;
     hull.point_count = 3;
     hull.face_count = 1;
@@ -229,11 +230,12 @@ void build_triangle(Hull& hull, const Vec3 (&corners)[3], uint32_t cell) {
     set_points(hull.local, corners);
     hull.face_normal[0] =
         normalised(cross(Vec3d(corners[1]) - Vec3d(corners[0]), Vec3d(corners[2]) - Vec3d(corners[0]))).to_float();
+    if (is_turned) hull.face_normal[0] = -hull.face_normal[0];
     hull.face_height[0] = dot(hull.face_normal[0], hull.local[0]);
     hull.radius = 0;
     for (uint32_t k = 0; k < 3; ++k) hull.radius = std::max(hull.radius, length(hull.local[k]));
     hull.first_corner[0] = 0, hull.first_corner[1] = 3;
-    for (uint8_t k = 0; k < 3; ++k) hull.corner[k] = k;
+    for (uint8_t k = 0; k < 3; ++k) hull.corner[k] = static_cast<uint8_t>(is_turned ? 2 - k : k);
     hull.face_points[0] = 7;
     refresh_world(hull, Mat3{{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}}, {});
 }

@@ -59,7 +59,8 @@ struct Hull {
     float margin = 0;
     float radius = 0;        // of the points about their centre, without the margin
     float thickness = 0;     // the least width over its face normals, with both margins; a sphere's diameter
-    bool one_sided = false;  // a static triangle: only its front face pushes
+    bool one_sided = false;  // a static triangle: only the face that it is built with pushes
+    bool is_turned = false;  // that is its back
     bool has_seams = false;  // they are known; scratch of BulletWorld::set_pieces
     bool is_box = false;     // its core is one, with these
     Vec3 box_axis[3];        // outward normals of three faces, hull frame
@@ -97,8 +98,9 @@ void build_hull_like(Hull& hull, const Hull& like, const Mat3& turn, std::span<c
 /// A hull seen from `origin` and in axes that `turn` takes its old ones to: points, normals and bounds are turned where
 /// they stand. World columns stay to be done.
 void turn_hull(Hull& hull, const Mat3& turn, Vec3 origin, float margin, uint32_t cell);
-/// A static triangle in world axes: one face, to the side that its corners run counter-clockwise around.
-void build_triangle(Hull& hull, const Vec3 (&corners)[3], uint32_t cell);
+/// A static triangle in world axes: one face, to the side that its corners run counter-clockwise around, or to the
+/// other one.
+void build_triangle(Hull& hull, const Vec3 (&corners)[3], uint32_t cell, bool is_turned = false);
 /// Finds out whether the core is a box, from points and faces.
 void find_box(Hull& hull);
 /// Of its faces' corners.

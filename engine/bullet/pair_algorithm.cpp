@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "engine/bullet/lanes.hpp"
+#include "engine/bullet/sides.hpp"
 
 namespace cullet::bullet {
 namespace {
@@ -94,7 +95,7 @@ bool is_inner_edge(const StaticTriangle& triangle, const Hull& hull, Vec3 normal
         const float off = length(cross(along, touch - from));
         if (off > 1e-4f * length(along)) continue;
         is_on_edge = true;
-        if (triangle.is_edge_sharp[k]) return false;
+        if (hull.is_turned ? triangle.is_edge_sharp_behind[k] : triangle.is_edge_sharp[k]) return false;
     }
     return is_on_edge;
 }
@@ -106,9 +107,9 @@ float lighter_mass(const Body& a, const Body& b) {
 
 }  // namespace
 
-const Hull& hull_of(const Hull* hull, const Body& body, uint32_t ordinal, PairScratch& scratch) {
+const Hull& hull_of(const Hull* hull, const Body& body, uint32_t ordinal, Vec3 seen_from, PairScratch& scratch) {
     if (hull) return *hull;
-    build_triangle(scratch.triangle, body.mesh->triangles[ordinal - body.hull_count].corner, ordinal);
+    build_seen_triangle(scratch.triangle, *body.mesh, ordinal - body.hull_count, ordinal, seen_from);
     scratch.triangle.ordinal = ordinal;
     return scratch.triangle;
 }
@@ -267,8 +268,11 @@ bool PairAlgorithm::write_crack(PairRecord& record, const Body& a, const Hull& h
 
 void PairAlgorithm::meet(PairRecord& record, const Body& a, const Mat3& rotation_a, const Body& b,
                          const Mat3& rotation_b, PairScratch& scratch) {
-    const Hull &hull_a = hull_of(record.hull_a, a, record.a, scratch),
-               &hull_b = hull_of(record.hull_b, b, record.b, scratch);
+    Vec3 seen_from;
+    if (!record.hull_b) seen_from = inner_point(*record.hull_a, a.fresh_at);
+    if (!record.hull_a) seen_from = inner_point(*record.hull_b, b.fresh_at);
+    const Hull &hull_a = hull_of(record.hull_a, a, record.a, seen_from, scratch),
+               &hull_b = hull_of(record.hull_b, b, record.b, seen_from, scratch);
     if (record.crack && write_crack(record, a, hull_a, b, hull_b)) return;
     Patch patch = contact_patch(hull_a, rotation_a, hull_b, rotation_b, record.guess, record.is_own_guess);
     record.is_own_guess = true;

@@ -93,8 +93,8 @@ struct PairScratch {
 
 /// Pieces of the two bodies whose boxes come within `grown` of each other, sorted by (a, b), into scratch.candidates.
 void find_candidates(const Body& a, const Body& b, float grown, PairScratch& scratch);
-/// The hull of a candidate's side; triangles are built in `scratch.triangle`.
-const Hull& hull_of(const Hull* hull, const Body& body, uint32_t ordinal, PairScratch& scratch);
+/// The hull of a candidate's side; triangles are built in `scratch.triangle`, with the face that sees `seen_from`.
+const Hull& hull_of(const Hull* hull, const Body& body, uint32_t ordinal, Vec3 seen_from, PairScratch& scratch);
 
 /// What it remembers goes back to `work` only by forget().
 class PairAlgorithm {

@@ -134,9 +134,10 @@ void flow_hull(F& f, Hull& h, ByteReader* in) {
 
 template <class F>
 void flow_mesh(F& f, StaticMesh& mesh, ByteReader* in) {
+    f.flag(mesh.one_sided);
     auto triangles = static_cast<uint32_t>(mesh.triangles.size()), nodes = static_cast<uint32_t>(mesh.nodes.size());
     if constexpr (F::kReads) {
-        triangles = in->count("the number of static triangles", 39, 1u << 28);
+        triangles = in->count("the number of static triangles", 42, 1u << 28);
         nodes = in->count("the number of boxes over static triangles", 32, 1u << 28);
         in->expect(triangles > 0 && nodes > 0, "a static mesh has no triangles or no boxes");
         mesh.triangles.resize(triangles);
@@ -147,6 +148,7 @@ void flow_mesh(F& f, StaticMesh& mesh, ByteReader* in) {
     for (StaticTriangle& t : mesh.triangles) {
         for (Vec3& corner : t.corner) flow_numbers(f, corner);
         for (bool& is_sharp : t.is_edge_sharp) f.flag(is_sharp);
+        for (bool& is_sharp : t.is_edge_sharp_behind) f.flag(is_sharp);
     }
     // Children come after their parent, so that a walk down always ends, and have one, so that it ends soon; leaves
     // have no more triangles than there are. A height of 60 is more than any balanced tree's.
@@ -404,6 +406,7 @@ bool BulletWorld::load_body(ByteReader& in, Body& body) {
     if (has_mesh && in.is_sound()) {
         body.mesh = std::make_unique<StaticMesh>();
         flow_mesh(f, *body.mesh, &in);
+        ++mesh_count_;
     }
     btTransform at;
     btVector3 velocity, spin;

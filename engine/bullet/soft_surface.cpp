@@ -2,12 +2,13 @@
 #include <algorithm>
 
 #include "engine/bullet/bullet_world.hpp"
+#include "engine/bullet/sides.hpp"
 #include "engine/rigid_allocations.hpp"
 
 namespace cullet::bullet {
 namespace {
 
-constexpr float kFarIn = 0.05f;  // m behind a one-sided triangle that still count as in it
+constexpr float kFarIn = 0.05f;  // m past a triangle that still count as in it
 
 /// Greatest distance of the point over the faces of a hull, both in the hull's axes; `inner` ones count when asked.
 /// Below 0 inside. -kFar: no faces.
@@ -28,9 +29,10 @@ Vec3 closest_on_segment(Vec3 a, Vec3 b, Vec3 p) {
     return a + std::clamp(t, 0.0f, 1.0f) * along;
 }
 
-/// Of a one-sided triangle. False: the point is not above it, nor just below.
-bool triangle_surface(const StaticTriangle& triangle, Vec3 p, float reach, RigidSurface& out) {
-    const Vec3 *c = triangle.corner, across = cross(c[1] - c[0], c[2] - c[0]), n = normalised(across);
+/// Of a triangle seen from behind or from its front. False: the point is not above it, nor just below.
+bool triangle_surface(const StaticTriangle& triangle, bool is_behind, Vec3 p, float reach, RigidSurface& out) {
+    const Vec3 *c = triangle.corner, front = normalised(cross(c[1] - c[0], c[2] - c[0])),
+               n = is_behind ? -front : front;
     const float height = dot(n, p - c[0]);
     if (!(dot(n, n) > 0) || height > reach || height < -kFarIn) return false;
     bool is_above = true;
@@ -38,11 +40,12 @@ bool triangle_surface(const StaticTriangle& triangle, Vec3 p, float reach, Rigid
     Vec3 edge_point;
     for (int k = 0; k < 3; ++k) {
         const Vec3 a = c[k], b = c[(k + 1) % 3];
-        if (dot(cross(n, b - a), p - a) >= 0) continue;
+        if (dot(cross(front, b - a), p - a) >= 0) continue;
         is_above = false;
         const Vec3 on = closest_on_segment(a, b, p);
         const float square = dot(p - on, p - on);
-        if (!triangle.is_edge_sharp[k] || square >= nearest) continue;
+        const bool is_sharp = is_behind ? triangle.is_edge_sharp_behind[k] : triangle.is_edge_sharp[k];
+        if (!is_sharp || square >= nearest) continue;
         nearest = square;
         edge_point = on;
     }
@@ -88,7 +91,7 @@ uint32_t BulletWorld::near_bodies(Vec3 low, Vec3 high, std::span<RigidId> out) c
     return count;
 }
 
-bool BulletWorld::nearest_surface(RigidId id, Vec3 point, float reach, RigidSurface& out) const {
+bool BulletWorld::nearest_surface(RigidId id, Vec3 point, float reach, RigidSurface& out, const Vec3* seen_from) const {
     if (!is_known(id)) return false;
     const Body& body = bodies_[id];
     const btTransform at = body.hulls_at(body.bullet->getWorldTransform());
@@ -120,7 +123,9 @@ bool BulletWorld::nearest_surface(RigidId id, Vec3 point, float reach, RigidSurf
     // Triangles stand in the world's axes, but for a shift (static_mesh.hpp).
     visit_triangles(*body.mesh, near, [&](uint32_t t) {
         RigidSurface surface;
-        if (!triangle_surface(body.mesh->triangles[t], point, reach, surface)) return;
+        const StaticTriangle& triangle = body.mesh->triangles[t];
+        const bool is_turned = !body.mesh->one_sided && is_behind(triangle, seen_from ? *seen_from : point);
+        if (!triangle_surface(triangle, is_turned, point, reach, surface)) return;
         if (is_found && std::fabs(surface.distance) >= std::fabs(out.distance)) return;
         out = surface;
         is_found = true;

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <map>
+#include <set>
 #include <tuple>
 
 namespace cullet::bullet {
@@ -72,22 +73,32 @@ bool is_convex_solid(std::span<const Vec3> positions, const std::vector<Triangle
     return true;
 }
 
-// An edge is sharp when it is open, or when the neighbour's far corner stands more than half a degree behind this
-// triangle.
+using EdgeSharers = std::multimap<std::pair<uint32_t, uint32_t>, uint32_t>;  // edge, lower corner first -> triangles
+
+std::pair<uint32_t, uint32_t> edge_between(uint32_t a, uint32_t b) {
+    return {std::min(a, b), std::max(a, b)};
+}
+
+// An edge is sharp when it is open, or when the far corners of all its neighbours stand more than half a degree behind
+// this triangle, or before it, seen from behind. How a neighbour is wound says nothing about where it stands.
 StaticTriangle make_triangle(std::span<const Vec3> positions, const std::vector<Triangle>& triangles, uint32_t t,
-                             const EdgeOwners& owners) {
+                             const EdgeSharers& sharers) {
     StaticTriangle out{};
     const Triangle& corners = triangles[t];
     for (int k = 0; k < 3; ++k) out.corner[k] = positions[corners[k]];
     const Vec3d a(out.corner[0]), n = normalised(cross(Vec3d(out.corner[1]) - a, Vec3d(out.corner[2]) - a));
     for (int k = 0; k < 3; ++k) {
-        const auto owner = owners.find({corners[(k + 1) % 3], corners[k]});
-        out.is_edge_sharp[k] = true;
-        if (owner == owners.end()) continue;
-        for (const uint32_t far : triangles[owner->second]) {
-            if (far == corners[k] || far == corners[(k + 1) % 3]) continue;
-            const Vec3d away = Vec3d(positions[far]) - Vec3d(positions[corners[k]]);
-            out.is_edge_sharp[k] = dot(n, away) < -0.009 * length(away);
+        out.is_edge_sharp[k] = out.is_edge_sharp_behind[k] = true;
+        const auto [first, last] = sharers.equal_range(edge_between(corners[k], corners[(k + 1) % 3]));
+        for (auto sharer = first; sharer != last; ++sharer) {
+            if (sharer->second == t) continue;
+            for (const uint32_t far : triangles[sharer->second]) {
+                if (far == corners[k] || far == corners[(k + 1) % 3]) continue;
+                const Vec3d away = Vec3d(positions[far]) - Vec3d(positions[corners[k]]);
+                const double height = dot(n, away), flat = 0.009 * length(away);
+                out.is_edge_sharp[k] = out.is_edge_sharp[k] && height < -flat;
+                out.is_edge_sharp_behind[k] = out.is_edge_sharp_behind[k] && height > flat;
+            }
         }
     }
     return out;
@@ -124,25 +135,59 @@ void build_node(StaticMesh& mesh, uint32_t node, uint32_t first, uint32_t count)
 
 }  // namespace
 
-StaticMesh sort_static_triangles(std::span<const Vec3> positions, std::span<const std::array<uint32_t, 3>> triangles) {
-    StaticMesh mesh;
-    const std::vector<uint32_t> welded = weld(positions);
-    std::vector<Triangle> kept;
-    for (const Triangle& t : triangles) {
-        if (t[0] >= welded.size() || t[1] >= welded.size() || t[2] >= welded.size()) continue;
-        const Triangle w{welded[t[0]], welded[t[1]], welded[t[2]]};
-        const Vec3d a(positions[w[0]]);
-        if (length(cross(Vec3d(positions[w[1]]) - a, Vec3d(positions[w[2]]) - a)) > 0) kept.push_back(w);
+namespace {
+
+// Lowest corner first, and with two sides that bear also without its winding: equal triangles are equal then.
+Triangle name_of(Triangle t, bool one_sided) {
+    if (!one_sided) {
+        std::sort(t.begin(), t.end());
+        return t;
     }
+    std::rotate(t.begin(), std::min_element(t.begin(), t.end()), t.end());
+    return t;
+}
+
+// Triangles with area, each once, with welded corners. A closed part that has a triangle twice is still closed.
+std::vector<Triangle> keep_sound(std::span<const Vec3> positions, std::span<const Triangle> triangles,
+                                 const std::vector<uint32_t>& welded, StaticMesh& mesh) {
+    std::vector<Triangle> kept;
+    std::set<Triangle> names;
+    for (uint32_t k = 0; k < triangles.size(); ++k) {
+        const Triangle& t = triangles[k];
+        bool is_sound = t[0] < welded.size() && t[1] < welded.size() && t[2] < welded.size();
+        if (is_sound) {
+            const Triangle w{welded[t[0]], welded[t[1]], welded[t[2]]};
+            const Vec3d a(positions[w[0]]);
+            is_sound = length(cross(Vec3d(positions[w[1]]) - a, Vec3d(positions[w[2]]) - a)) > 0 &&
+                       names.insert(name_of(w, mesh.one_sided)).second;
+            if (is_sound) kept.push_back(w);
+        }
+        if (!is_sound && mesh.left_out++ == 0) mesh.first_left = k;
+    }
+    return kept;
+}
+
+}  // namespace
+
+StaticMesh sort_static_triangles(std::span<const Vec3> positions, std::span<const std::array<uint32_t, 3>> triangles,
+                                 bool one_sided) {
+    StaticMesh mesh;
+    mesh.one_sided = one_sided;
+    const std::vector<uint32_t> welded = weld(positions);
+    const std::vector<Triangle> kept = keep_sound(positions, triangles, welded, mesh);
     EdgeOwners owners;
+    EdgeSharers sharers;
     for (uint32_t t = 0; t < kept.size(); ++t)
-        for (int k = 0; k < 3; ++k) owners.insert({{kept[t][k], kept[t][(k + 1) % 3]}, t});
+        for (int k = 0; k < 3; ++k) {
+            owners.insert({{kept[t][k], kept[t][(k + 1) % 3]}, t});
+            sharers.insert({edge_between(kept[t][k], kept[t][(k + 1) % 3]), t});
+        }
     for (const auto& part : connected_parts(positions.size(), kept)) {
         std::vector<Vec3> corners;
         if (is_convex_solid(positions, kept, part, owners, corners))
             mesh.solids.push_back(std::move(corners));
         else
-            for (const uint32_t t : part) mesh.triangles.push_back(make_triangle(positions, kept, t, owners));
+            for (const uint32_t t : part) mesh.triangles.push_back(make_triangle(positions, kept, t, sharers));
     }
     if (mesh.triangles.empty()) return mesh;
     mesh.nodes.resize(1);

@@ -1,6 +1,6 @@
 // Static triangles, sorted out: closed convex parts of at most 32 corners (floors, tables, walls made as boxes) become
 // convex pieces, which push out on the nearest side and have no inner edges to stumble over; all other triangles stay
-// triangles, one-sided, in a tree of boxes.
+// triangles, in a tree of boxes. A triangle bears from both sides (see sides.hpp), unless it is asked for one.
 #pragma once
 #include <array>
 #include <vector>
@@ -12,11 +12,14 @@ namespace cullet::bullet {
 struct StaticTriangle {
     Vec3 corner[3];
     // Edge k runs from corner k to the next. A convex or open edge may push outwards; at the others only the face
-    // pushes.
-    bool is_edge_sharp[3];
+    // pushes. What is convex seen from the front is hollow seen from behind.
+    bool is_edge_sharp[3], is_edge_sharp_behind[3];
 };
 
 struct StaticMesh {
+    bool one_sided = false;   // only the side that sees the corners counter-clockwise bears
+    uint32_t left_out = 0;    // triangles without area, or the same as an earlier one
+    uint32_t first_left = 0;  // the first of them, as they were given
     std::vector<std::vector<Vec3>> solids;
     std::vector<StaticTriangle> triangles;
 
@@ -27,7 +30,8 @@ struct StaticMesh {
     std::vector<Node> nodes;  // the root is node 0
 };
 
-StaticMesh sort_static_triangles(std::span<const Vec3> positions, std::span<const std::array<uint32_t, 3>> triangles);
+StaticMesh sort_static_triangles(std::span<const Vec3> positions, std::span<const std::array<uint32_t, 3>> triangles,
+                                 bool one_sided = false);
 
 /// Calls visit(index) for every triangle whose box meets `box`, in the tree's own order.
 template <class Visit>

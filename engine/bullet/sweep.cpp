@@ -4,6 +4,7 @@
 
 #include "engine/bullet/advance.hpp"
 #include "engine/bullet/bullet_world.hpp"
+#include "engine/bullet/sides.hpp"
 
 namespace cullet::bullet {
 namespace {
@@ -81,8 +82,8 @@ void Sweeper::slow_down(BulletWorld& world) {
         Body &a = world.bodies_[fast.id], &b = world.bodies_[brake.other];
         // A flight's end, and what is skipped, comes with a later step.
         if (!a.is_touched || !b.is_touched || world.is_skipped(a.id, b.id)) continue;
-        const Hull& p = hull_of(brake.hull, a, brake.ordinal, world.scratches_.own());
-        const Hull& q = hull_of(brake.other_hull, b, brake.other_ordinal, world.scratches_.own());
+        const Hull& p = hull_of(brake.hull, a, brake.ordinal, {}, world.scratches_.own());
+        const Hull& q = hull_of(brake.other_hull, b, brake.other_ordinal, {}, world.scratches_.own());
         for (int k = 0; k < kBlows; ++k)
             if (!stop_closing(world, a, p, b, q, brake.normal)) break;
     }
@@ -193,9 +194,10 @@ void Sweeper::visit_touches(const BulletWorld& world, Body& a, Body& b, float dt
         for (const Hull* q : scratch.near_b)
             if (overlap(box, q->world_box, turned(mover_b, reach_of(b, *q), span))) advance(*p, *q);
         if (!b.mesh) continue;
+        const Vec3 seen_from = inner_point(*p, a.fresh_at);
         visit_triangles(*b.mesh, box, [&](uint32_t t) {
-            build_triangle(scratch.triangle, b.mesh->triangles[t].corner, t);
-            // From behind a triangle is not there.
+            build_seen_triangle(scratch.triangle, *b.mesh, t, t, seen_from);
+            // Away from the face that it sees.
             if (dot(mover_a.velocity, Vec3d(scratch.triangle.face_normal[0])) < 0) advance(*p, scratch.triangle);
         });
     }

@@ -41,13 +41,14 @@ int add_box(lua_State* lua) {
 
 int add_static(lua_State* lua) {
     script_of(lua).act(lua);
-    const Arguments given(lua, "game.static", {"mesh", "at", "colour", "friction", "restitution"});
+    const Arguments given(lua, "game.static", {"mesh", "at", "colour", "friction", "restitution", "one_sided"});
     given.push("mesh");
     Prop prop;
     prop.mesh = mesh_at(lua, lua_gettop(lua), "game.static: mesh").mesh;
     lua_pop(lua, 1);
     if (given.has("at")) prop.mesh = moved(std::move(prop.mesh), given.vector("at", kPlace));
     prop.colour = given.vector("colour", kShare, prop.colour);
+    prop.one_sided = given.is("one_sided", false);
     return add(lua, given, "game.static", std::move(prop));
 }
 

@@ -280,10 +280,24 @@ Result<BodyId> World::add_kinematic_box(const KinematicSettings& settings) {
     return body_id(bodies, body);
 }
 
-Result<BodyId> World::add_static(const MeshView& mesh, const ContactSettings& contact, uint64_t user_data) {
+namespace {
+
+// Where nobody listens it is not said.
+void tell_left_out(const Host& host, const std::string& name, LeftOut left_out, size_t triangles) {
+    if (left_out.count == 0 || !host.log) return;
+    const std::string sentence = name + ": " + std::to_string(left_out.count) + " of " + std::to_string(triangles) +
+                                 " triangles have no area or repeat another one; they are left out (the first: " +
+                                 std::to_string(left_out.first) + ").";
+    host.log(host.user, LogLevel::Warning, sentence.c_str());
+}
+
+}  // namespace
+
+Result<BodyId> World::add_static(const MeshView& mesh, const ContactSettings& contact, uint64_t user_data,
+                                 bool one_sided) {
     WorldData& d = contents_->data;
     const HostScope call(contents_->host);
-    if (contents_->recorder) contents_->recorder->add_static(mesh, contact, user_data);
+    if (contents_->recorder) contents_->recorder->add_static(mesh, contact, user_data, one_sided);
     const std::string name = mesh.name ? mesh.name : "static mesh";
     if (!mesh.positions || !mesh.indices || mesh.triangle_count == 0)
         return Error{name + ": has no triangles; give positions and indices."};
@@ -305,7 +319,8 @@ Result<BodyId> World::add_static(const MeshView& mesh, const ContactSettings& co
     Bodies& bodies = d.state.bodies;
     fill_body(bodies, body, BodyKind::Static, {}, {}, contact, kPlainFriction, user_data);
     d.rigid->add_static_triangles(body, {mesh.positions, mesh.position_count}, triangles, bodies.friction[body],
-                                  bodies.restitution[body], bodies.layer[body], bodies.mask[body]);
+                                  bodies.restitution[body], bodies.layer[body], bodies.mask[body], one_sided);
+    tell_left_out(contents_->host, name, d.rigid->left_out(body), mesh.triangle_count);
     d.query_index->set_triangles(body, {mesh.positions, mesh.position_count}, triangles);
     d.query_index->touch(bodies, body);
     return body_id(bodies, body);

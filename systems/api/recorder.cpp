@@ -109,7 +109,7 @@ void Recorder::add_kinematic_box(const KinematicSettings& s) {
 }
 
 // Places and corners are all that static triangles have.
-void Recorder::add_static(const MeshView& mesh, const ContactSettings& contact, uint64_t user_data) {
+void Recorder::add_static(const MeshView& mesh, const ContactSettings& contact, uint64_t user_data, bool one_sided) {
     ByteWriter& out = call(GameCall::AddStatic);
     const bool is_there = mesh.positions && mesh.indices;
     const size_t points = is_there ? mesh.position_count : 0, triangles = is_there ? mesh.triangle_count : 0;
@@ -119,6 +119,7 @@ void Recorder::add_static(const MeshView& mesh, const ContactSettings& contact, 
     out.put(mesh.indices, triangles * 3 * sizeof(uint32_t));
     for_each_number_of_contact(contact, into(out));
     out.number(user_data);
+    out.number(uint8_t{one_sided});
 }
 
 void Recorder::remove(BodyId id) {

@@ -44,7 +44,7 @@ class Recorder {
     void spawn(ModelId id, const SpawnSettings& settings);
     void add_sphere(const SphereSettings& settings);
     void add_kinematic_box(const KinematicSettings& settings);
-    void add_static(const MeshView& mesh, const ContactSettings& contact, uint64_t user_data);
+    void add_static(const MeshView& mesh, const ContactSettings& contact, uint64_t user_data, bool one_sided);
     void remove(BodyId id);
     void set_pose(BodyId id, const Pose& pose);
     void set_motion(BodyId id, const Motion& motion);

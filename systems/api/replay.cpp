@@ -268,9 +268,11 @@ void Replayer::add_static(ByteReader& in) {
     for_each_number_of_contact(contact, from(in));
     uint64_t user_data = 0;
     from(in)(user_data);
+    const auto one_sided = in.number<uint8_t>("whether triangles bear from one side");
+    in.expect(one_sided <= 1, "triangles that bear from " + std::to_string(one_sided) + " sides but one");
     if (!in.is_sound()) return;
     const MeshView view{positions.data(), positions.size(), indices.data(), triangles};
-    (void)world_->add_static(view, contact, user_data);
+    (void)world_->add_static(view, contact, user_data, one_sided != 0);
 }
 
 void Replayer::spawn(ByteReader& in) {

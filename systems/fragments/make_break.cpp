@@ -94,7 +94,7 @@ uint32_t make_debris(Births& births, ShellView shell, const FragmentPart& part, 
     double volume = 0;
     for (uint32_t e = part.first_element; e != kNone; e = state.elements.next[shell.element(e)])
         volume += state.elements.volume[shell.element(e)];
-    const Vec3 place = to_world(moment.pose, centre.to_float());
+    const Vec3 place = births.rigid.to_side_of(parent, to_world(moment.pose, centre.to_float()));
     debris.is_used[row] = 1;
     debris.is_resting[row] = 0;
     debris.position.set(row, place);
@@ -297,7 +297,9 @@ void make_birth(Births& births, const Break& plan, uint32_t p, const Moment& mom
         return;
     }
     if (is_rest) births.rigid.remove(body);
-    births.rigid.add(child, describe_rigid(state, child, pieces));
+    RigidDescription description = describe_rigid(state, child, pieces);
+    description.parent = body;
+    births.rigid.add(child, description);
     if (is_rest) return;
     set_born(state.fragment_ages, child, births.step.frame + 1);
     births.born.push({body_id(bodies, child), body_id(bodies, body), bodies.user_data[body],

@@ -48,6 +48,7 @@ SoftStriker striker_of(const State& state, const RigidWorld& rigid, Row<Bodies> 
 
 struct Points {
     Vec3 low{1e30f, 1e30f, 1e30f}, high{-1e30f, -1e30f, -1e30f};
+    Vec3 middle;  // the mean of its points
     float fastest = 0;
     void add(Vec3 p) {
         low = {std::min(low.x, p.x), std::min(low.y, p.y), std::min(low.z, p.z)};
@@ -59,14 +60,18 @@ Points points_of(const SpringView& view) {
     const State& s = view.state;
     Points points;
     float square = 0;
+    Vec3d sum;
+    double count = 0;
     for (uint32_t v = 0; v < view.shell.vertex_count(); ++v) {
         const uint32_t row = view.shell.vertex(v);
         if (!(s.vertices.mass[row] > 0)) continue;
         points.add(view.position(v));
+        sum += Vec3d(view.position(v)), ++count;
         const Vec3 velocity = s.vertices.velocity[row];
         square = std::max(square, dot(velocity, velocity));
     }
     points.fastest = std::sqrt(square);
+    if (count > 0) points.middle = ((1 / count) * sum).to_float();
     return points;
 }
 
@@ -91,6 +96,7 @@ struct Gathering {
     Row<SoftBodies> soft;
     SpringView view;
     Step step;
+    Vec3 seen_from;  // world: sheets are met on the side of the middle of the body
     uint32_t first, room, count = 0;
 
     /// `distance`: of the plane from the striker's centre, with the wall's offset.
@@ -133,7 +139,7 @@ struct Gathering {
                 normal = (1 / distance) * arm;
             } else {
                 RigidSurface surface;
-                if (!rigid.nearest_surface(striker.body, p + origin, reach, surface)) continue;
+                if (!rigid.nearest_surface(striker.body, p + origin, reach, surface, &seen_from)) continue;
                 normal = surface.normal;
                 point = surface.point - origin - striker.centre;
             }
@@ -151,15 +157,16 @@ void find_strikers(State& state, const RigidWorld& rigid, Row<SoftBodies> s, con
     const SpringView view(state, springs_of(state, s));
     const Vec3 origin = view.own().origin[view.row];
     const Range vertices = view.shell.vertices();
+    const Points points = points_of(view);
     Gathering gathering{state,
                         rigid,
                         s,
                         view,
                         step,
+                        points.middle + origin,
                         first_contact_row(vertices.first),
                         kContactsAVertex * (vertices.capacity / kLanes)};
     view.own().gravity.set(view.row, step.gravity);
-    const Points points = points_of(view);
     const float wide = kReach + view.shell.shells().thickness[view.shell.row] +
                        (points.fastest + fastest_body(state.bodies)) * step.dt;
     RigidId near[kMostNear];

@@ -44,7 +44,7 @@ std::unique_ptr<RigidWorld> sheet() {
 }
 
 TEST(RigidSave, ATreeOfTrianglesInWhichABoxIsTwoBoxesChildIsRefused) {
-    constexpr size_t kTriangle = 39, kNode = 32,
+    constexpr size_t kTriangle = 42, kNode = 32,
                      kAfter = 93;  // bytes; kAfter: the body behind its tree, and three counts
     std::vector<uint8_t> bytes = saved(*sheet());
     EXPECT_EQ(refusal(bytes), "");

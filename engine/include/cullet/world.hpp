@@ -152,9 +152,14 @@ class World {
     Result<BodyId> spawn(ModelId model, const SpawnSettings& settings = {});
     Result<BodyId> add_sphere(const SphereSettings& settings);
     Result<BodyId> add_kinematic_box(const KinematicSettings& settings);
-    /// Triangles in world coordinates that never move: floors, tables, level geometry. Refused: no triangles, indices
-    /// beyond the positions, positions that are not finite or beyond 1e6 m.
-    Result<BodyId> add_static(const MeshView& triangles, const ContactSettings& contact = {}, uint64_t user_data = 0);
+    /// Triangles in world coordinates that never move: floors, tables, level geometry. They bear from both sides,
+    /// however they are wound: nothing passes one, and what a step, a break or a spawn has put a little way behind one
+    /// comes back. `one_sided`: only the side that sees the corners counter-clockwise bears, and things come out
+    /// through it freely. Closed convex parts of at most 32 corners that are wound outwards are solid in either case.
+    /// Triangles without area, and those that were given before, are left out; Host::log tells how many. Refused: no
+    /// triangles, indices beyond the positions, positions that are not finite or beyond 1e6 m.
+    Result<BodyId> add_static(const MeshView& triangles, const ContactSettings& contact = {}, uint64_t user_data = 0,
+                              bool one_sided = false);
     /// Hits on it that are worked off go with it.
     Result<void> remove(BodyId body);
 

@@ -1,0 +1,78 @@
+#include "engine/bullet/sides.hpp"
+
+#include <algorithm>
+
+namespace cullet::bullet {
+namespace {
+
+constexpr float kClear = 1e-5f;        // m; a sheet of 0.2 mm has its middle at ten times that
+constexpr float kRounding = 2.5e-7f;   // of a coordinate: two steps of a float
+constexpr double kBesideEdges = 1e-5;  // m past its edges that a triangle reaches: ways through an edge pass neither
+constexpr double kBesideShare = 1e-6;  // of its size, the same
+
+double height_over(const StaticTriangle& triangle, Vec3d normal, Vec3 point) {
+    return dot(normal, Vec3d(point) - Vec3d(triangle.corner[0]));
+}
+
+Vec3d normal_of(const StaticTriangle& triangle) {
+    const Vec3d a(triangle.corner[0]);
+    return normalised(cross(Vec3d(triangle.corner[1]) - a, Vec3d(triangle.corner[2]) - a));
+}
+
+bool is_over(const StaticTriangle& triangle, Vec3d normal, Vec3d place) {
+    for (int k = 0; k < 3; ++k) {
+        const Vec3d from(triangle.corner[k]), edge = Vec3d(triangle.corner[(k + 1) % 3]) - from;
+        const double size = length(edge), inside = dot(cross(normal, edge), place - from);
+        if (inside < -size * (kBesideEdges + kBesideShare * size)) return false;
+    }
+    return true;
+}
+
+void try_triangle(const StaticTriangle& triangle, bool one_sided, Vec3 from, Vec3 to, double clear, Crossing& first) {
+    const Vec3d normal = normal_of(triangle);
+    const double start = height_over(triangle, normal, from), end = height_over(triangle, normal, to);
+    const double side = start < 0 ? -1 : 1, before = side * start, after = side * end;
+    if ((one_sided && side < 0) || after >= clear || after >= before) return;
+    const double share = after < 0 ? before / (before - after) : 1;
+    if (share >= first.share || !is_over(triangle, normal, Vec3d(from) + share * (Vec3d(to) - Vec3d(from)))) return;
+    first = {share, (side * normal).to_float(), static_cast<float>(clear - after)};
+}
+
+}  // namespace
+
+Vec3 inner_point(const Hull& hull, const Mat3& rotation, Vec3 origin) {
+    const Points& p = hull.local;
+    float x = 0, y = 0, z = 0;
+    for (uint32_t k = 0; k < hull.point_count; ++k) x += p.x[k], y += p.y[k], z += p.z[k];
+    const float share = 1 / static_cast<float>(std::max(hull.point_count, 1u));
+    return origin + rotation * (p.centre + share * Vec3{x, y, z});
+}
+
+bool is_behind(const StaticTriangle& triangle, Vec3 point) {
+    return height_over(triangle, normal_of(triangle), point) < 0;
+}
+
+void build_seen_triangle(Hull& hull, const StaticMesh& mesh, uint32_t t, uint32_t cell, Vec3 seen_from) {
+    const StaticTriangle& triangle = mesh.triangles[t];
+    build_triangle(hull, triangle.corner, cell, !mesh.one_sided && is_behind(triangle, seen_from));
+}
+
+Crossing first_crossing(const StaticMesh& mesh, Vec3 from, Vec3 to, float clear) {
+    Crossing first;
+    Box box{from, from};
+    include(box, to);
+    uint32_t lowest = 0;
+    visit_triangles(mesh, grown(box, 2 * clear), [&](uint32_t t) {
+        Crossing found;
+        try_triangle(mesh.triangles[t], mesh.one_sided, from, to, static_cast<double>(clear), found);
+        if (found.share > first.share || (found.share == first.share && t > lowest) || found.share > 1) return;
+        first = found, lowest = t;
+    });
+    return first;
+}
+
+float clearance_at(Vec3 place) {
+    return kClear + kRounding * std::max({std::fabs(place.x), std::fabs(place.y), std::fabs(place.z)});
+}
+
+}  // namespace cullet::bullet
