@@ -4,6 +4,7 @@
 
 #include <assimp/Importer.hpp>
 #include <filesystem>
+#include <functional>
 #include <memory>
 #include <new>
 #include <utility>
@@ -16,8 +17,11 @@
 #include "engine/import/import.hpp"
 #include "engine/import/ply.hpp"
 #include "engine/import/stl.hpp"
+#include "engine/import/text_encoding.hpp"
 #include "engine/import/three_mf.hpp"
 #include "engine/import/words.hpp"
+#include "engine/import/xml.hpp"
+#include "engine/import/xml_unit.hpp"
 #include "engine/mesh_file.hpp"
 
 namespace cullet {
@@ -140,6 +144,34 @@ void take(const aiScene& scene, const char* name, T& value) {
         value = static_cast<T>(short_one);
 }
 
+std::string counted(uint64_t n, const char* one, const char* many, const char* what) {
+    return std::to_string(n) + " " + (n == 1 ? one : many) + " " + what;
+}
+
+/// What assimp passes over without a word, told from the names that stand in the file, text or binary.
+std::vector<std::string> notes_of_fbx(std::string_view bytes) {
+    std::vector<std::string> notes;
+    if (bytes.find("UnitScaleFactor") == bytes.npos)
+        notes.push_back("It names no unit; its numbers were taken for centimetres.");
+    for (const std::string_view curved : {"NurbsSurface", "NurbsCurve", "\"Patch\""})
+        if (bytes.find(curved) != bytes.npos) {
+            notes.push_back("Its curves and curved surfaces were left out.");
+            break;
+        }
+    return notes;
+}
+
+std::vector<std::string> notes_of_obj(std::string_view bytes) {
+    uint64_t curves = 0;
+    Words words(bytes);
+    for (std::string_view word = words.next(); !word.empty(); word = words.next()) {
+        curves += word == "surf" || word == "curv";
+        words.skip_line();
+    }
+    if (curves == 0) return {};
+    return {counted(curves, "curve or curved surface was", "curves or curved surfaces were", "left out.")};
+}
+
 Affine place_of_fbx(const aiScene& scene, std::vector<std::string>& notes) {
     FbxAxes axes;
     take(scene, "UpAxis", axes.up);
@@ -150,10 +182,6 @@ Affine place_of_fbx(const aiScene& scene, std::vector<std::string>& notes) {
     take(scene, "CoordAxisSign", axes.coord_sign);
     take(scene, "UnitScaleFactor", axes.unit);
     return place_of(axes, notes);
-}
-
-std::string counted(uint64_t n, const char* one, const char* many, const char* what) {
-    return std::to_string(n) + " " + (n == 1 ? one : many) + " " + what;
 }
 
 /// What moves or bends the meshes and is left out. Of looks (pictures, colours, lights) nothing is said.
@@ -174,9 +202,16 @@ void note_motion(const aiScene& scene, std::vector<std::string>& notes) {
             counted(animations, "animation was left out.", "animations were left out.", "Nodes stand at rest."));
 }
 
+/// The file's coordinates in ours, and sentences on them.
+using Place = std::function<Affine(const aiScene&, std::vector<std::string>& notes)>;
+
+Affine as_it_stands(const aiScene&, std::vector<std::string>&) {
+    return {};
+}
+
 /// The importer is never torn down: assimp 5.2 frees some of what it has read twice, and the process that reads ends
 /// when it has handed over the result. `files` goes to the importer.
-Result<Corners> read_by_assimp(std::unique_ptr<FolderFiles> files, const std::string& path, bool is_fbx) {
+Result<Corners> read_by_assimp(std::unique_ptr<FolderFiles> files, const std::string& path, const Place& place) {
     Assimp::Importer& importer = *new Assimp::Importer;
     importer.SetIOHandler(files.release());
     const aiScene* scene = importer.ReadFile(path, 0);
@@ -185,11 +220,16 @@ Result<Corners> read_by_assimp(std::unique_ptr<FolderFiles> files, const std::st
     scene = importer.ApplyPostProcessing(aiProcess_Triangulate);
     if (scene == nullptr) return unreadable(path, importer.GetErrorString());
     std::vector<std::string> notes;
-    const Affine root = is_fbx ? place_of_fbx(*scene, notes) : Affine{};
+    const Affine root = place(*scene, notes);
     auto corners = gather(*scene, path, root);
     if (!corners) return corners;
     note_motion(*scene, notes);
     corners->notes.insert(corners->notes.end(), notes.begin(), notes.end());
+    return corners;
+}
+
+Result<Corners> with_notes(Result<Corners> corners, const std::vector<std::string>& notes) {
+    if (corners) corners->notes.insert(corners->notes.begin(), notes.begin(), notes.end());
     return corners;
 }
 
@@ -208,16 +248,37 @@ Result<Corners> read_by(Result<Corners> (*reader)(std::string bytes, const std::
     return reader(std::move(*bytes), path);
 }
 
-Result<Corners> read_collada(const std::string& path) {
+/// `change` gives the text that assimp is to read, and notes.
+template <class Change>
+Result<Corners> read_changed(const std::string& path, const Change& change) {
     auto files = std::make_unique<FolderFiles>(path);
     auto bytes = bytes_of(*files, path);
     if (!bytes) return Error{bytes.error()};
-    auto plain = plain_collada(std::move(*bytes), path);
+    auto plain = change(std::move(*bytes));
     if (!plain) return Error{plain.error()};
     files->replace_model(std::move(plain->text));
-    auto corners = read_by_assimp(std::move(files), path, false);
-    if (corners) corners->notes.insert(corners->notes.begin(), plain->notes.begin(), plain->notes.end());
-    return corners;
+    return with_notes(read_by_assimp(std::move(files), path, as_it_stands), plain->notes);
+}
+
+/// The file as it is; `look` gives notes.
+template <class Look>
+Result<Corners> read_with_notes(const std::string& path, const Place& place, const Look& look) {
+    auto files = std::make_unique<FolderFiles>(path);
+    auto bytes = bytes_of(*files, path);
+    if (!bytes) return Error{bytes.error()};
+    const std::vector<std::string> notes = look(plain_text(std::move(*bytes)));
+    return with_notes(read_by_assimp(std::move(files), path, place), notes);
+}
+
+/// AMF and X3D say how long their unit is; assimp does not look.
+Result<Corners> read_in_its_unit(const std::string& path) {
+    auto files = std::make_unique<FolderFiles>(path);
+    auto bytes = bytes_of(*files, path);
+    if (!bytes) return Error{bytes.error()};
+    const auto unit = unit_of_xml(plain_text(std::move(*bytes)), path);
+    if (!unit) return Error{unit.error()};
+    const Affine root = scaled(*unit);
+    return read_by_assimp(std::move(files), path, [root](const aiScene&, std::vector<std::string>&) { return root; });
 }
 
 Result<Corners> read_gltf(const std::string& path) {
@@ -227,7 +288,7 @@ Result<Corners> read_gltf(const std::string& path) {
     } catch (const gltf::Refusal& refusal) {
         return gltf::error_of(refusal, path);
     }
-    auto corners = read_by_assimp(std::make_unique<FolderFiles>(path), path, false);
+    auto corners = read_by_assimp(std::make_unique<FolderFiles>(path), path, as_it_stands);
     if (corners) corners->notes.push_back("Read as glTF 1, without skins and extensions: 2.0 is read better.");
     return corners;
 }
@@ -241,8 +302,12 @@ Result<Corners> read_corners(const std::string& path) {
         const std::string file = ModelFolder(path).find(path);
         return file.empty() ? unreadable(path, "it cannot be opened") : read_3mf(file, path);
     }
-    if (extension == ".dae") return read_collada(path);
-    return read_by_assimp(std::make_unique<FolderFiles>(path), path, extension == ".fbx");
+    if (extension == ".dae")
+        return read_changed(path, [&path](std::string bytes) { return plain_collada(std::move(bytes), path); });
+    if (extension == ".fbx") return read_with_notes(path, place_of_fbx, notes_of_fbx);
+    if (extension == ".obj") return read_with_notes(path, as_it_stands, notes_of_obj);
+    if (extension == ".amf" || extension == ".x3d") return read_in_its_unit(path);
+    return read_by_assimp(std::make_unique<FolderFiles>(path), path, as_it_stands);
 }
 
 }  // namespace

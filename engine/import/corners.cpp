@@ -95,6 +95,12 @@ double determinant(const Affine& a) {
     return dot(a.row[0], cross(a.row[1], a.row[2]));
 }
 
+Affine scaled(double scale) {
+    Affine a;
+    a.row[0].x = a.row[1].y = a.row[2].z = scale;
+    return a;
+}
+
 Affine chained(const Affine& parent, const Affine& child) {
     Affine both;
     for (int i = 0; i < 3; ++i) {

@@ -23,6 +23,8 @@ Vec3d placed(const Affine& a, Vec3d point);
 /// determinant, so that normals stay on the outside of a mirrored surface once the winding is turned.
 Vec3d turned_normal(const Affine& a, Vec3d n);
 double determinant(const Affine& a);
+/// x -> scale x.
+Affine scaled(double scale);
 /// x -> parent(child(x)).
 Affine chained(const Affine& parent, const Affine& child);
 

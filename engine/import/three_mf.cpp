@@ -8,8 +8,10 @@
 #include <set>
 #include <utility>
 
+#include "engine/import/text_encoding.hpp"
 #include "engine/import/words.hpp"
 #include "engine/import/xml.hpp"
+#include "engine/import/xml_unit.hpp"
 #include "engine/import/zip.hpp"
 #include "engine/mesh_file.hpp"
 
@@ -42,16 +44,6 @@ struct Part {
     uint64_t beams = 0;
     std::string trouble;  // the first sentence, without the file's name
 };
-
-std::optional<double> metres_of(const std::string& unit) {
-    if (unit == "micron") return 1e-6;
-    if (unit == "millimeter") return 1e-3;
-    if (unit == "centimeter") return 1e-2;
-    if (unit == "inch") return 0.0254;
-    if (unit == "foot") return 0.3048;
-    if (unit == "meter") return 1;
-    return std::nullopt;
-}
 
 /// Extensions that change no shape, or that are read.
 bool is_known_extension(std::string_view space) {
@@ -184,12 +176,6 @@ struct RelationListener : XmlListener {
     }
 };
 
-Affine scaled(double scale) {
-    Affine a;
-    a.row[0].x = a.row[1].y = a.row[2].z = scale;
-    return a;
-}
-
 class Reader {
  public:
     Reader(const ZipFile& zip, const std::string& path) : zip_(zip), path_(path) {}
@@ -210,7 +196,7 @@ class Reader {
     std::string root_name() const {
         RelationListener relations;
         if (const auto bytes = zip_.read("_rels/.rels"))
-            if (read_xml(plain_xml(*bytes), relations, path_) && !relations.target.empty()) return relations.target;
+            if (read_xml(plain_text(*bytes), relations, path_) && !relations.target.empty()) return relations.target;
         return "3D/3dmodel.model";
     }
 
@@ -226,7 +212,7 @@ class Reader {
                          "\" is not there, encrypted or damaged. Copy or export it again."};
         part = std::make_unique<Part>();
         PartListener listener(*part);
-        if (auto r = read_xml(plain_xml(std::move(*bytes)), listener, path_); !r) return Error{r.error()};
+        if (auto r = read_xml(plain_text(std::move(*bytes)), listener, path_); !r) return Error{r.error()};
         if (!part->trouble.empty())
             return Error{path_ + ": " + part->trouble + ". Repair the file or export it again."};
         return part.get();

@@ -6,12 +6,29 @@
 #include <climits>
 #include <exception>
 #include <memory>
-#include <utility>
 
-#include "engine/import/text_encoding.hpp"
 #include "engine/mesh_file.hpp"
 
 namespace cullet {
+namespace {
+
+/// Whether every byte above 127 belongs to a group as UTF-8 makes them.
+bool is_utf8(std::string_view bytes) {
+    for (size_t i = 0; i < bytes.size(); ++i) {
+        const auto byte = static_cast<unsigned char>(bytes[i]);
+        if (byte < 0x80) continue;
+        size_t more = byte >= 0xC2 && byte < 0xE0   ? 1
+                      : byte >= 0xE0 && byte < 0xF0 ? 2
+                      : byte >= 0xF0 && byte < 0xF5 ? 3
+                                                    : 0;
+        if (more == 0 || i + more >= bytes.size()) return false;
+        for (; more > 0; --more)
+            if ((static_cast<unsigned char>(bytes[++i]) & 0xC0) != 0x80) return false;
+    }
+    return true;
+}
+
+}  // namespace
 
 /// What expat calls. An exception must not pass through it: it is kept until expat has come back.
 struct XmlCalls {
@@ -42,13 +59,6 @@ struct XmlCalls {
     static void text(void* user, const char* text, int size) {
         guarded(user, [&](XmlListener& listener) { listener.text({text, static_cast<size_t>(size)}); });
     }
-    static int encoding(void*, const char*, XML_Encoding* info) {
-        for (int i = 0; i < 256; ++i) info->map[i] = i;
-        info->data = nullptr;
-        info->convert = nullptr;
-        info->release = nullptr;
-        return XML_STATUS_OK;
-    }
 };
 
 std::string_view without_prefix(std::string_view name) {
@@ -64,14 +74,13 @@ const char* attribute(XmlListener::Attributes attributes, std::string_view name)
 
 Result<void> read_xml(std::string_view bytes, XmlListener& listener, const std::string& path) {
     const std::unique_ptr<std::remove_pointer_t<XML_Parser>, decltype(&XML_ParserFree)> parser(
-        XML_ParserCreate(nullptr), XML_ParserFree);
+        XML_ParserCreate(is_utf8(bytes) ? "UTF-8" : "ISO-8859-1"), XML_ParserFree);
     if (parser == nullptr) throw std::bad_alloc();
     if (bytes.size() > INT_MAX) return Error{path + ": has more than 2 GiB of XML. Split the model."};
     XmlCalls calls{parser.get(), listener, nullptr};
     XML_SetUserData(parser.get(), &calls);
     XML_SetElementHandler(parser.get(), XmlCalls::begin, XmlCalls::end);
     XML_SetCharacterDataHandler(parser.get(), XmlCalls::text);
-    XML_SetUnknownEncodingHandler(parser.get(), XmlCalls::encoding, nullptr);
     const XML_Status status = XML_Parse(parser.get(), bytes.data(), static_cast<int>(bytes.size()), XML_TRUE);
     if (calls.thrown) std::rethrow_exception(calls.thrown);
     if (status == XML_STATUS_OK) return {};
@@ -79,20 +88,6 @@ Result<void> read_xml(std::string_view bytes, XmlListener& listener, const std::
     if (trouble == XML_ERROR_NO_MEMORY) throw std::bad_alloc();
     return Error{path + ": line " + std::to_string(XML_GetCurrentLineNumber(parser.get())) +
                  " of its XML cannot be read (" + XML_ErrorString(trouble) + "). Repair the file or export it again."};
-}
-
-std::string plain_xml(std::string bytes) {
-    const size_t size = bytes.size();
-    std::string text = plain_text(std::move(bytes));
-    if (text.size() == size || text.rfind("<?xml", 0) != 0) return text;
-    const size_t end = text.find("?>"), begin = text.find("encoding");
-    if (end == text.npos || begin > end) return text;
-    const size_t open = text.find_first_of("\"'", begin);
-    const size_t close = open < end ? text.find(text[open], open + 1) : text.npos;
-    if (close < end)
-        std::fill(text.begin() + static_cast<std::ptrdiff_t>(begin),
-                  text.begin() + static_cast<std::ptrdiff_t>(close) + 1, ' ');
-    return text;
 }
 
 }  // namespace cullet

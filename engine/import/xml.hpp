@@ -32,11 +32,9 @@ const char* attribute(XmlListener::Attributes attributes, std::string_view name)
 /// "node" of "x:node".
 std::string_view without_prefix(std::string_view name);
 
-/// The bytes as UTF-8 or as their declaration says; encodings of one byte that expat does not know are taken for
-/// Latin-1: only names differ. Entities that grow without end and files that others name are refused by expat.
+/// The bytes as plain_text() gives them: UTF-8, or where they are not that, Latin-1, whatever their declaration says.
+/// Programs declare what is not so, and only names differ. Entities that grow without end and files that others name
+/// are refused by expat.
 Result<void> read_xml(std::string_view bytes, XmlListener& listener, const std::string& path);
-
-/// plain_text(), and the declaration of an encoding that is no longer true blotted out by blanks.
-std::string plain_xml(std::string bytes);
 
 }  // namespace cullet

@@ -79,6 +79,16 @@ Points moved(const Move& move) {
     return points;
 }
 
+std::string obj() {
+    std::string text;
+    for (const Vec3d p : test::house_points())
+        text += "v " + text_of(p.x) + " " + text_of(p.y) + " " + text_of(p.z) + "\n";
+    for (const auto& t : test::house_triangles())
+        text +=
+            "f " + std::to_string(t[0] + 1) + " " + std::to_string(t[1] + 1) + " " + std::to_string(t[2] + 1) + "\n";
+    return text;
+}
+
 struct FbxSettings {
     int up = 1, up_sign = 1, front = 2, front_sign = 1, coord = 0, coord_sign = 1;
     double unit = 1;          // cm
@@ -271,6 +281,20 @@ TEST_F(ImportSiblings, ColladaComesInMetresAndUprightWithNodesInNodes) {
         }
 }
 
+TEST_F(ImportSiblings, WhatAnFbxOrObjHoldsAndNoMeshWillIsSaid) {
+    const FbxSettings s;
+    std::string text = fbx(in_fbx_axes(s), s);
+    const size_t unit = text.find("P: \"UnitScaleFactor\"");
+    text.erase(unit, text.find('\n', unit) - unit);
+    EXPECT_NE(import_house(write("a.fbx", text), "unit").find("names no unit"), std::string::npos);
+    text = fbx(in_fbx_axes(s), s);
+    text.insert(text.find("Geometry: 1001"), "Geometry: 1002, \"Geometry::Bent\", \"NurbsSurface\" {\nVersion: 1\n}\n");
+    EXPECT_NE(import_house(write("b.fbx", text), "NURBS").find("curved surfaces were left out"), std::string::npos);
+    EXPECT_NE(import_house(write("c.obj", obj() + "cstype bspline\nsurf 0 1 0 1 1 2 3 4\nend\n"), "surf")
+                  .find("1 curve or curved surface was left out"),
+              std::string::npos);
+}
+
 TEST_F(ImportSiblings, WhatColladaHoldsAndNoMeshWillIsSaid) {
     DaeSettings s;
     std::string walls = primitive("polygons", 5, {kWalls.begin(), kWalls.end() - 1});
@@ -288,16 +312,6 @@ TEST_F(ImportSiblings, WhatColladaHoldsAndNoMeshWillIsSaid) {
     s.primitives = primitive("tristrips", 1, {{8, 4, -7, 6}});
     EXPECT_NE(import_refused(write("n.dae", dae(test::house_points(), s))).find("names vertex \"-7\""),
               std::string::npos);
-}
-
-std::string obj() {
-    std::string text;
-    for (const Vec3d p : test::house_points())
-        text += "v " + text_of(p.x) + " " + text_of(p.y) + " " + text_of(p.z) + "\n";
-    for (const auto& t : test::house_triangles())
-        text +=
-            "f " + std::to_string(t[0] + 1) + " " + std::to_string(t[1] + 1) + " " + std::to_string(t[2] + 1) + "\n";
-    return text;
 }
 
 std::string off() {
@@ -329,6 +343,54 @@ std::string ply() {
     for (const auto& t : test::house_triangles())
         text += "3 " + std::to_string(t[0]) + " " + std::to_string(t[1]) + " " + std::to_string(t[2]) + "\n";
     return text;
+}
+
+TEST_F(ImportSiblings, NamesOfColladaMayBeOfAnyEncodingOrNoXmlAtAll) {
+    DaeSettings s;
+    s.primitives = primitive("trifans", 5, kWalls) + primitive("trifans", 1, {kRoof});
+    s.node_before = "<node name=\"T\xfcr\"/>";
+    import_house(write("house.dae", dae(test::house_points(), s)), "Latin-1 that calls itself UTF-8");
+    std::string utf16 = dae(test::house_points(), s);
+    utf16.replace(utf16.find("utf-8"), 5, "utf-16");
+    import_house(write("house.dae", utf16), "declared to be UTF-16");
+    std::vector<int> triangles;
+    for (const auto& t : test::house_triangles()) triangles.insert(triangles.end(), t.begin(), t.end());
+    s.primitives = primitive("triangles", 14, {triangles});
+    s.node_before = "<node name=\"a & b\"/>";
+    import_house(write("house.dae", dae(test::house_points(), s)), "a bare &");
+}
+
+std::string amf(double scale, const std::string& unit) {
+    std::string text = "<?xml version=\"1.0\"?><amf" + unit + "><object id=\"0\"><mesh><vertices>";
+    for (const Vec3d p : test::house_points())
+        text += "<vertex><coordinates><x>" + text_of(scale * p.x) + "</x><y>" + text_of(scale * p.y) + "</y><z>" +
+                text_of(scale * p.z) + "</z></coordinates></vertex>";
+    text += "</vertices><volume>";
+    for (const auto& t : test::house_triangles())
+        text += "<triangle><v1>" + std::to_string(t[0]) + "</v1><v2>" + std::to_string(t[1]) + "</v2><v3>" +
+                std::to_string(t[2]) + "</v3></triangle>";
+    return text + "</volume></mesh></object></amf>";
+}
+
+TEST_F(ImportSiblings, AmfAndX3dComeInMetres) {
+    for (const auto& [unit, metres] : std::vector<std::pair<std::string, double>>{
+             {"micron", 1e-6}, {"millimeter", 1e-3}, {"inch", 0.0254}, {"feet", 0.3048}, {"meter", 1}})
+        import_house(write("house.amf", amf(1 / metres, " unit=\"" + unit + "\"")), unit);
+    import_house(write("house.amf", amf(1000, "")), "millimetres when it says nothing");
+    EXPECT_NE(import_refused(write("house.amf", amf(1, " unit=\"ell\""))).find("its unit is \"ell\""),
+              std::string::npos);
+    for (const double metres : {1.0, 0.01}) {
+        std::string indices;
+        for (const auto& t : test::house_triangles())
+            for (const int v : {t[0], t[1], t[2], -1}) indices += std::to_string(v) + " ";
+        const std::string unit = metres == 1 ? "" : "<unit category=\"length\" name=\"u\" conversionFactor=\"0.01\"/>";
+        import_house(write("house.x3d", "<?xml version=\"1.0\"?><X3D version=\"3.3\"><head>" + unit +
+                                            "</head><Scene><Shape><IndexedFaceSet coordIndex=\"" + indices +
+                                            "\"><Coordinate point=\"" +
+                                            list_of(moved([&](Vec3d p) { return (1 / metres) * p; }), " ") +
+                                            "\"/></IndexedFaceSet></Shape></Scene></X3D>"),
+                     "x3d");
+    }
 }
 
 TEST_F(ImportSiblings, TextOfEveryFormatMayBeInAnyEncoding) {
