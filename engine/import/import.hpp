@@ -26,9 +26,9 @@ inline double longest_wait(const ImportLimits& limits) {
     return std::max(limits.seconds + 1.0, 1.4 * limits.seconds);
 }
 
-/// Any model that assimp reads as one mesh in the scene's units: node transforms applied (a mirroring one turns the
-/// winding), polygons cut into triangles, points joined where all three coordinates are equal, triangles with a
-/// repeated corner, lines and points left out. May crash, hang or throw: call it inside run_limited only.
+/// Any model that can be read as one mesh, in metres where its format knows a unit: node transforms applied (a
+/// mirroring one turns the winding), polygons cut into triangles, points joined where all three coordinates are equal,
+/// triangles with a repeated corner, lines and points left out. May crash, hang or throw: call it inside run_limited only.
 struct ConvertedModel {
     Mesh mesh;
     uint64_t collapsed = 0;  // triangles left out
