@@ -15,6 +15,7 @@
 #include "components/tasks.hpp"
 #include "components/vertex_blocks.hpp"
 #include "engine/range_pool.hpp"
+#include "engine/scratch.hpp"
 #include "engine/system.hpp"
 
 namespace cullet {
@@ -172,7 +173,8 @@ struct State {
     RegionRests region_rests;
     FragmentAges fragment_ages;
     DebrisAges debris_ages;
-    VertexBlocks vertex_blocks;  // none of the tables: neither saved nor hashed
+    VertexBlocks vertex_blocks;     // none of the tables: neither saved nor hashed
+    mutable ScratchMemory scratch;  // of functions that need more than a stack holds
 };
 
 /// What a shell uses now: room for a copy of it.

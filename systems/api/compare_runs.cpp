@@ -80,7 +80,8 @@ std::string first_difference(const std::function<std::unique_ptr<Replayer>(int w
         put_tables(rows, state);
         limits = state.limits();
     });
-    State copy(limits);
+    const auto own = std::make_unique<State>(limits);
+    State& copy = *own;
     ByteReader in(rows.bytes, "a step", "Please report this.");
     take_tables(in, copy);
     std::string found;

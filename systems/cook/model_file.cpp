@@ -1,6 +1,7 @@
 #include "systems/cook/model_file.hpp"
 
 #include <algorithm>
+#include <memory>
 #include <new>
 
 #include "engine/file_header.hpp"
@@ -104,14 +105,15 @@ Result<Found> find_all(std::span<const uint8_t> payload, const std::string& name
         number = reader.number<std::remove_reference_t<decltype(number)>>("the report");
     });
     // Tables of no rows, for their lists of columns.
-    State like(Limits{.bodies = 1,
-                      .shells = 1,
-                      .vertices = 64,
-                      .elements = 64,
-                      .tasks = 1,
-                      .models = 1,
-                      .view_vertices = 64,
-                      .debris = 1});
+    const auto none = std::make_unique<State>(Limits{.bodies = 1,
+                                                     .shells = 1,
+                                                     .vertices = 64,
+                                                     .elements = 64,
+                                                     .tasks = 1,
+                                                     .models = 1,
+                                                     .view_vertices = 64,
+                                                     .debris = 1});
+    State& like = *none;
     like.shells.append(1);
     found.shell = find_table(reader, like.shells);
     for_each_part(like, Row<Shells>(0), [&](const AnyTable& table, const Range&) {

@@ -184,7 +184,8 @@ void build_patches(State& state, Row<Tasks> task) {
     const uint32_t count = std::min(state.tasks.contact_count[task], kMostContacts);
     if (count == 0) return;
     uint32_t at = task * kMostPatchVertices;
-    Patch patch;
+    const Scratch<Patch> room(state.scratch);
+    Patch& patch = *room;
     patch.most = kMostPatchVertices / count;
     for (uint32_t c = first; c < first + count; ++c) {
         const double radius = patch_radius(shell, contacts.striker_radius[c]);

@@ -1,6 +1,7 @@
 #include "systems/damage/damage_loop.hpp"
 
 #include <algorithm>
+#include <array>
 #include <span>
 
 #include "systems/damage/task_cost.hpp"
@@ -64,7 +65,8 @@ uint32_t shared_works(std::span<const Work> works, uint32_t workers) {
 uint64_t DamageLoop::advance() {
     const State& state = world_.state;
     const Tasks& tasks = state.tasks;
-    Work works[kMostTasks];
+    const Scratch<std::array<Work, kMostTasks>> list(state.scratch);
+    Work* const works = list->data();
     uint32_t count = 0;
     for (uint32_t t = 0; t < tasks.size() && count < kMostTasks; ++t) {
         if (static_cast<TaskState>(tasks.state[t]) != TaskState::Running || tasks.steps_granted[t] == 0) continue;

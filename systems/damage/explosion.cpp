@@ -182,7 +182,7 @@ class Shade {
 template <class Visit>
 void for_each_lit(const ShellView& shell, const Explosion& explosion, Visit visit) {
     const State& state = shell.state;
-    const Shade shade(shell, explosion);
+    const Scratch<Shade> shade(state.scratch, shell, explosion);
     const float thickness = shell.shells().thickness[shell.row];
     for (uint32_t e = 0; e < shell.element_count(); ++e) {
         const uint32_t row = shell.element(e);
@@ -198,7 +198,7 @@ void for_each_lit(const ShellView& shell, const Explosion& explosion, Visit visi
         if (!(size > 0) || !(distance > 0)) continue;
         const float facing = dot(area, away) / (size * distance);  // < 0: the outer face sees the centre
         const float longest = std::max({length(p[1] - p[0]), length(p[2] - p[1]), length(p[0] - p[2])});
-        if (!shade.is_lit(away, std::fabs(facing), longest, thickness)) continue;
+        if (!shade->is_lit(away, std::fabs(facing), longest, thickness)) continue;
         const float left = 1 - distance / explosion.radius;
         visit(row, (explosion.strength * left * left * facing) * area, middle);
     }

@@ -116,7 +116,13 @@ void grant_cuts(State& state, std::span<const uint32_t> order, std::span<const i
 void grant_units(Serial, ShellTables shells, Tasks& tasks, SoftBodies&, const DamageSettings& settings,
                  DamageCounts& counts) {
     static constexpr uint32_t kMostTasks = 1024;
-    uint32_t order[kMostTasks], count = 0;
+    struct Work {
+        uint32_t order[kMostTasks];
+        int64_t ends[kMostTasks];  // what was paid for the ends of tasks
+    };
+    const Scratch<Work> work(shells.state.scratch);
+    auto& [order, ends] = *work;
+    uint32_t count = 0;
     const uint64_t for_soft = std::min(soft_units_wanted(shells.state), settings.units_a_frame / 2);
     int64_t budget = static_cast<int64_t>(settings.units_a_frame - for_soft);
     for (uint32_t t = 0; t < tasks.size() && count < kMostTasks; ++t) {
@@ -137,7 +143,7 @@ void grant_units(Serial, ShellTables shells, Tasks& tasks, SoftBodies&, const Da
     pay_owed(shells.state, {order, count}, budget);
     const auto units_a_frame = static_cast<int64_t>(settings.units_a_frame);
     grant_small(shells.state, {order, count}, units_a_frame, budget);
-    int64_t ends[kMostTasks] = {};  // what was paid for them
+    std::fill_n(ends, count, int64_t{0});
     bool is_first_round = true, goes_on = count > 0, has_quick = false;
     while (goes_on) {
         goes_on = false;

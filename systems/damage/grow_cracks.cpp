@@ -249,7 +249,8 @@ uint32_t grow_cracks(State& state, Row<Tasks> task, CrackSink& sink) {
                 tasks.steps_done[task],
                 {}};
     batch.touched.marks_elements = is_cut_out(state, task);
-    Candidates candidates;
+    const Scratch<Candidates> chosen(state.scratch);
+    Candidates& candidates = *chosen;
     choose_candidates(shell, batch.limits, time, batch.fan, candidates);
     if (candidates.count == 0) return 0;
     const uint32_t cuts_before = sink.cut_edges, starts_before = sink.starts;

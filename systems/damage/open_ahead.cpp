@@ -186,8 +186,8 @@ bool is_bump(const State& state, const Impact& impact, float foreseen) {
 
 void open_ahead(Opening& opening, const Events<ForeseenHit>& foreseen, const DamageSettings& settings) {
     State& state = opening.state;
-    std::array<Foreseen, kMostForeseen> room;
-    const auto all = find_blows(opening, foreseen.all(), settings, room);
+    const Scratch<std::array<Foreseen, kMostForeseen>> room(state.scratch);
+    const auto all = find_blows(opening, foreseen.all(), settings, *room);
     std::sort(all.begin(), all.end(), [](const Foreseen& p, const Foreseen& q) {
         if (p.impact.body != q.impact.body) return p.impact.body.index < q.impact.body.index;
         if (p.steps() != q.steps()) return p.steps() < q.steps();

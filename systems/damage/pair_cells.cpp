@@ -69,9 +69,9 @@ struct Neighbours {
 using NearNeighbours = Neighbours<kMostNeighbours>;
 using OppositeNeighbours = Neighbours<kMostLinks>;  // a grain links all vertices of a triangle's hinges
 
-/// Whom build_row would find; without a grain without the numbers.
+/// Whom build_row would find; without a grain without the numbers. `row` is room for them.
 void find_neighbours(const ShellView& shell, const PlaneStress& stress, uint32_t vertex, NearNeighbours& blocks,
-                     OppositeNeighbours& links) {
+                     OppositeNeighbours& links, VertexRow& row) {
     const State& state = shell.state;
     blocks.count = links.count = 0;
     Ring ring;
@@ -80,7 +80,6 @@ void find_neighbours(const ShellView& shell, const PlaneStress& stress, uint32_t
         for (const uint32_t v : state.elements.corner[shell.element(ring.element[i])])
             if (v != vertex) blocks.add(v, false);
     if (stress.has_grain) {
-        VertexRow row;
         build_row(shell, stress, vertex, row);
         for (uint32_t i = 0; i < row.link_count; ++i) links.add(row.link[i].neighbour, true);
         return;
@@ -149,17 +148,27 @@ uint32_t paired_cells() {
     return bound_of_cells;
 }
 
+namespace {
+
+struct CellWork {
+    PairCell<kMostNeighbours> blocks;
+    PairCell<kMostLinks> links;
+    NearNeighbours near;
+    OppositeNeighbours opposite;
+    VertexRow row;
+};
+
+}  // namespace
+
 bool lay_pair_cells(ShellView shell) {
     const uint32_t packs = shell.shells().packs[shell.row].count;
     const PlaneStress stress = plane_stress(shell.state, shell.row);
     for (uint32_t first = 0; first < packs; first += kPairCellPacks) {
         const uint32_t end = std::min(first + kPairCellPacks, packs), first_vertex = first * kLanes;
-        PairCell<kMostNeighbours> blocks;
-        PairCell<kMostLinks> links;
-        NearNeighbours near;
-        OppositeNeighbours opposite;
+        const Scratch<CellWork> work(shell.state.scratch);
+        auto& [blocks, links, near, opposite, row] = *work;
         for (uint32_t v = first_vertex; v < std::min(end * kLanes, shell.vertex_count()); ++v) {
-            find_neighbours(shell, stress, v, near, opposite);
+            find_neighbours(shell, stress, v, near, opposite, row);
             share(near, v, blocks);
             share(opposite, v, links);
         }

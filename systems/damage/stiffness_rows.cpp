@@ -74,8 +74,8 @@ void add_spare_slots(const ShellView& shell, uint32_t packs, uint32_t spare_pack
     room.links += links_a_triangle * (spare_packs + moved) * (kNewPackSlots + 2 * kSpareSlots);
 }
 
-bool write_row(const ShellView& shell, const PlaneStress& stress, uint32_t vertex) {
-    VertexRow row;
+bool write_row(const ShellView& shell, const PlaneStress& stress, uint32_t vertex, VertexRow& row) {
+    row.block_count = row.link_count = 0;
     build_row(shell, stress, vertex, row);
     if (stores_pairs_once(shell.shells(), shell.row)) drop_others_pairs(shell, vertex, row);
     const uint32_t pack = vertex / kLanes, lane = vertex % kLanes;
@@ -162,8 +162,9 @@ bool assemble_packs(ShellView shell, uint32_t first, uint32_t end) {
     const uint32_t last = std::min(end * kLanes, shell.vertex_count());
     [[maybe_unused]] const uint32_t blocks = shell.shells().blocks[shell.row].count,
                                     links = shell.shells().links[shell.row].count;
+    const Scratch<VertexRow> row(shell.state.scratch);
     for (uint32_t v = first * kLanes; v < last; ++v)
-        if (!write_row(shell, stress, v)) return false;
+        if (!write_row(shell, stress, v, *row)) return false;
     // Others may be writing other packs of the shell: none of them moves.
     CULLET_ASSERT(shell.shells().blocks[shell.row].count == blocks && shell.shells().links[shell.row].count == links,
                   "packs %u to %u of shell %u were laid too narrow", first, end, shell.row.index);
@@ -177,8 +178,9 @@ bool assemble_stiffness(ShellView shell) {
 bool rebuild_rows(ShellView shell, std::span<const uint32_t> vertices) {
     if (!append_packs(shell)) return false;
     const PlaneStress stress = plane_stress(shell.state, shell.row);
+    const Scratch<VertexRow> row(shell.state.scratch);
     for (const uint32_t v : vertices)
-        if (!write_row(shell, stress, v)) return false;
+        if (!write_row(shell, stress, v, *row)) return false;
     return true;
 }
 

@@ -52,7 +52,8 @@ struct WideRows {
 static_assert(6 * WideRows::kMostElements >= VertexList::kMost);
 
 bool rebuild_grained_rows(ShellView shell, Touched& touched) {
-    WideRows wide;
+    const Scratch<WideRows> work(shell.state.scratch);
+    WideRows& wide = *work;
     const bool is_local = !touched.rows.has_overflowed && wide.gather(shell, touched.rows.span());
     touched.units += kUnitsGrainRow * (is_local ? wide.count : shell.vertex_count());
     return is_local && rebuild_rows(shell, {wide.vertex, wide.count});

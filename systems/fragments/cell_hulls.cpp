@@ -104,8 +104,9 @@ void add_candidates(const ShellView& shell, std::span<const uint32_t> list, floa
     }
 }
 
-void keep_extremes(Workspace& work, float margin) {
-    choose_extremes({work.candidates, work.candidate_count}, kMostHullPoints, kGoodEnough * margin, work.chosen);
+void keep_extremes(const ShellView& shell, Workspace& work, float margin) {
+    choose_extremes(shell.state.scratch, {work.candidates, work.candidate_count}, kMostHullPoints, kGoodEnough * margin,
+                    work.chosen);
 }
 
 /// A cell of more elements than a batch has: one hull.
@@ -119,7 +120,7 @@ void choose_points_by_batches(const ShellView& shell, uint32_t first, float marg
         std::copy_n(part.point, part.count, work.candidates);
         work.candidate_count = part.count;
         add_candidates(shell, {work.elements, count}, margin, work);
-        keep_extremes(work, margin);
+        keep_extremes(shell, work, margin);
         part.count = work.chosen.count;
         for (uint32_t i = 0; i < part.count; ++i) part.point[i] = work.candidates[work.chosen.index[i]];
     }
@@ -129,7 +130,7 @@ void choose_part(const ShellView& shell, std::span<const uint32_t> list, float m
                  Workspace::Part& part) {
     work.candidate_count = 0;
     add_candidates(shell, list, margin, work);
-    keep_extremes(work, margin);
+    keep_extremes(shell, work, margin);
     part.count = work.chosen.count;
     part.left_out = work.chosen.left_out;
     for (uint32_t i = 0; i < part.count; ++i) part.point[i] = work.candidates[work.chosen.index[i]];
@@ -285,9 +286,9 @@ float hull_margin(const ShellView& shell) {
 }
 
 void choose_hull(ShellView shell, uint32_t cell) {
-    Workspace work;
-    choose_points(shell, shell.state.cells.first_element[cell_row(shell, cell)], hull_margin(shell), work);
-    write_points(shell, cell, work);
+    const Scratch<Workspace> work(shell.state.scratch);
+    choose_points(shell, shell.state.cells.first_element[cell_row(shell, cell)], hull_margin(shell), *work);
+    write_points(shell, cell, *work);
 }
 
 void pack_hulls(ShellView shell) {

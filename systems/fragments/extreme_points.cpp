@@ -192,9 +192,11 @@ class Hull {
 
 }  // namespace
 
-void choose_extremes(std::span<const Vec3> points, uint32_t most, float enough, ExtremePoints& chosen) {
+void choose_extremes(ScratchMemory& scratch, std::span<const Vec3> points, uint32_t most, float enough,
+                     ExtremePoints& chosen) {
     points = points.first(std::min<size_t>(points.size(), kMostExtremeCandidates));
-    Hull(points, enough).choose(std::min(most, kMostHullPoints), chosen);
+    const Scratch<Hull> hull(scratch, points, enough);
+    hull->choose(std::min(most, kMostHullPoints), chosen);
 }
 
 }  // namespace cullet

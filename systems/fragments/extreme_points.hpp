@@ -5,6 +5,7 @@
 #include <span>
 
 #include "engine/math.hpp"
+#include "engine/scratch.hpp"
 
 namespace cullet {
 
@@ -23,7 +24,8 @@ struct ExtremePoints {
 /// more than `enough` above one or `most` (at most 32) are chosen. Points in a plane give a polygon, points on a line
 /// its two ends. Above 4,096 points the rest is not seen. Directions that are fixed beforehand, 15 degrees apart, left
 /// out blunt corners of slabs 0.6 m wide by 10 mm.
-void choose_extremes(std::span<const Vec3> points, uint32_t most, float enough, ExtremePoints& chosen);
+void choose_extremes(ScratchMemory& scratch, std::span<const Vec3> points, uint32_t most, float enough,
+                     ExtremePoints& chosen);
 
 inline constexpr uint32_t kMostExtremeCandidates = 4096;
 

@@ -145,7 +145,14 @@ uint16_t FloodedParts::piece_of(const ShellView& shell, uint32_t element) const 
 
 void flood_parts(ShellView shell, FloodedParts& found, uint32_t most) {
     static_assert(sizeof(std::array<uint8_t, 3>) == 3);
-    Floods floods(shell, found.parent, most);
+    struct Work {
+        Floods floods;
+        uint32_t smallest[kMostFloods];
+        uint16_t order[kMostFloods];
+        Work(const ShellView& of, uint16_t* parent, uint32_t most_floods) : floods(of, parent, most_floods) {}
+    };
+    const Scratch<Work> work(shell.state.scratch, shell, found.parent, most);
+    auto& [floods, smallest, order] = *work;
     found.pieces = found.visited = 0;
     if (!for_each_at_crack(shell, [&](uint32_t e) { return floods.seed(e); })) {
         found.pieces = kNone;
@@ -158,8 +165,7 @@ void flood_parts(ShellView shell, FloodedParts& found, uint32_t most) {
     for (uint32_t f = 0; f < floods.count(); ++f)
         if (floods.root(f) == f && !floods.is_exhausted(f)) rest = f;
     // Smallest elements: floods are seeded in rising order, but one may hold smaller elements than its seed.
-    uint32_t smallest[kMostFloods], roots = 0;
-    uint16_t order[kMostFloods];
+    uint32_t roots = 0;
     for (uint32_t f = 0; f < floods.count(); ++f) smallest[f] = kNone;
     for (uint32_t i = 0; i < floods.visited.count; ++i) {
         const uint32_t f = floods.root(floods.visited.flood[i][0]);
@@ -229,7 +235,8 @@ uint32_t worthwhile_floods(const ShellView& shell) {
 // Elements come into the lists in rising order: the floods' own list of visited ones is sorted, with the flood beside
 // each, or where it is long all elements are looked through for the numbers that it has left.
 uint32_t find_pieces(ShellView shell, std::span<FragmentPart> parts, uint32_t most) {
-    FloodedParts found;
+    const Scratch<FloodedParts> flooded(shell.state.scratch);
+    FloodedParts& found = *flooded;
     flood_parts(shell, found, most);
     if (found.pieces == kNone || found.pieces >= parts.size()) return kNone;
     Elements& elements = shell.state.elements;
@@ -262,12 +269,17 @@ uint32_t find_pieces(ShellView shell, std::span<FragmentPart> parts, uint32_t mo
 }
 
 uint32_t group_from_cracks(ShellView shell, std::span<FragmentPart> parts, uint32_t most) {
-    FloodedParts found;
+    struct Work {
+        FloodedParts found;
+        uint32_t number[kMostFloods];
+    };
+    const Scratch<Work> work(shell.state.scratch);
+    auto& [found, number] = *work;
     flood_parts(shell, found, most);
     if (found.pieces == kNone) return group_fragments(shell, parts);
     Elements& elements = shell.state.elements;
     // By smallest element, pieces and rest alike: in the order in which they are met.
-    uint32_t number[kMostFloods], rest = kNone, count = 0;
+    uint32_t rest = kNone, count = 0;
     std::fill_n(number, found.pieces, kNone);
     for (uint32_t e = 0; e < shell.element_count(); ++e) {
         const uint32_t row = shell.element(e);

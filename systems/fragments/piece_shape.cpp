@@ -115,10 +115,12 @@ void choose_shape(ShellView shell, uint32_t first_point, const FragmentPart* par
     Shells& shells = shell.shells();
     clear_shape(shell);
     const uint32_t elements = part ? part->element_count : shell.element_count();
-    Solid solid;
+    const Scratch<Solid> gathered(shell.state.scratch);
+    Solid& solid = *gathered;
     if (elements > kMostWholeElements || !gather(shell, part, solid)) return;
     ExtremePoints chosen;
-    choose_extremes(solid.points(), kMostHullPoints, kGoodEnough * shells.margin[shell.row], chosen);
+    choose_extremes(shell.state.scratch, solid.points(), kMostHullPoints, kGoodEnough * shells.margin[shell.row],
+                    chosen);
     const double density = shell.state.materials.density[shells.material[shell.row]];
     const double volume = (part ? part->mass : shells.mass[shell.row]) / density;
     if (chosen.face_count == 0 || !(volume > 0)) return;

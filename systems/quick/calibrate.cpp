@@ -1,6 +1,7 @@
 #include "systems/quick/calibrate.hpp"
 
 #include <algorithm>
+#include <memory>
 #include <new>
 
 #include "engine/fp_mode.hpp"
@@ -80,7 +81,9 @@ float calibrated_strain_limit(const State& from, Row<Shells> source, const Quick
     if (!(speed > 0)) return 0;
     try {
         const FpMode mode;
-        State state(limits_for(from.shells.vertices[source].count, from.shells.elements[source].count));
+        const auto own =
+            std::make_unique<State>(limits_for(from.shells.vertices[source].count, from.shells.elements[source].count));
+        State& state = *own;
         state.materials.append(from.materials.size());
         state.materials.copy_rows(from.materials, 0, 0, from.materials.size());
         state.material_traits.append(from.material_traits.size());

@@ -110,7 +110,8 @@ uint32_t grow_region(State& state, Row<Tasks> task) {
     if (tasks.lacks_room[task]) return 0;  // for more springs: nothing splits any more
     const RegionView region(state, task);
     const uint32_t frequency = crack_frequency_of(state, task);
-    StrainedEdges edges;
+    const Scratch<StrainedEdges> found(state.scratch);
+    StrainedEdges& edges = *found;
     // Some of them will be gone, closed, or have no way to split.
     find_strained_edges(region, 4 * frequency, edges);
     if (edges.count == 0) return 0;

@@ -16,9 +16,9 @@ namespace {
 void run_out_region(State& state, Row<Tasks> task) {
     if (static_cast<TaskState>(state.tasks.state[task]) == TaskState::Dropped) return;
     if (state.tasks.crack_count[task] == 0) return;
-    FloodedParts found;
-    flood_parts(ShellView(state, state.tasks.shell[task]), found);
-    if (found.pieces > 0) run_out_cracks(state, task);
+    const Scratch<FloodedParts> found(state.scratch);
+    flood_parts(ShellView(state, state.tasks.shell[task]), *found);
+    if (found->pieces > 0) run_out_cracks(state, task);
 }
 
 bool is_woken(const State& state, Row<Tasks> task) {

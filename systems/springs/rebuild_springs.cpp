@@ -47,6 +47,7 @@ struct Sets {
     /// Packs whose lists, or whose neighbours' names, change: of touched vertices, and of springs that are made or get
     /// other ends. They are written anew; others keep their places.
     RowSet written;
+    VertexSprings lists[kLanes];  // of one pack
 };
 
 void gather_sets(const SpringView& view, std::span<const uint32_t> touched, Sets& sets) {
@@ -233,7 +234,8 @@ bool has_room(const SpringView& view, const Sets& sets) {
             springs += fate == Fate::IsCutOff || fate == Fate::IsMissing;
         }
     });
-    RowSet packs;
+    const Scratch<RowSet> found(view.state.scratch);
+    RowSet& packs = *found;
     sets.elements.for_each(view.shell.element_count(), [&](uint32_t e) {
         for (const uint32_t corner : view.state.elements.corner[view.shell.element(e)]) packs.add(corner / kLanes);
     });
@@ -294,22 +296,22 @@ void list_new_elements(const SpringView& view) {
 }  // namespace
 
 bool rebuild_springs(const SpringView& view, std::span<const uint32_t> touched) {
-    Sets sets;
+    const Scratch<Sets> work(view.state.scratch);
+    Sets& sets = *work;
     list_new_elements(view);
     gather_sets(view, touched, sets);
     if (!has_room(view, sets)) return false;
     take_springs(view, sets);
     measure(view, sets);
-    VertexSprings lists[kLanes];
     // All lengths are read before any slot is written: packs share springs.
     sets.written.for_each(view.pack_count(), [&](uint32_t p) {
         for (uint32_t v = p * kLanes; v < std::min((p + 1) * kLanes, view.shell.vertex_count()); ++v)
             remember_lengths_at(view, v);
     });
     sets.written.for_each(view.pack_count(), [&](uint32_t p) {
-        collect_pack(view, p, lists);
-        make_pack_room(view, p, slots_needed(lists));
-        write_pack(view, p, lists);
+        collect_pack(view, p, sets.lists);
+        make_pack_room(view, p, slots_needed(sets.lists));
+        write_pack(view, p, sets.lists);
     });
     if (!sets.written.is_all()) tell_other_packs(view, sets);
     return true;

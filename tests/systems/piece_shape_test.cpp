@@ -154,6 +154,7 @@ TEST(PieceShape, WhatIsDrawnLiesWithinAMarginOfWhatCollides) {
 }
 
 TEST(FitBox, ATurnedBoxOfPointsIsFoundAsItIs) {
+    ScratchMemory scratch;
     const Random random{3};
     for (uint32_t round = 0; round < 50; ++round) {
         const auto in = [&](uint32_t k) { return static_cast<float>(random.uniform(round, k)); };
@@ -168,7 +169,7 @@ TEST(FitBox, ATurnedBoxOfPointsIsFoundAsItIs) {
                              rotate(turn, {(2 * in(3 * k) - 1) * half.x, (2 * in(3 * k + 1) - 1) * half.y,
                                            (2 * in(3 * k + 2) - 1) * half.z}));
         ExtremePoints hull;
-        choose_extremes(points, kMostHullPoints, 1e-5f, hull);
+        choose_extremes(scratch, points, kMostHullPoints, 1e-5f, hull);
         const double volume = 8 * double{half.x} * double{half.y} * double{half.z};
         EXPECT_NEAR(hull_volume(points, hull), volume, 2e-3 * volume);
         EXPECT_NEAR(fit_box(points, hull).volume(), volume, 2e-3 * volume);
@@ -177,6 +178,7 @@ TEST(FitBox, ATurnedBoxOfPointsIsFoundAsItIs) {
 }
 
 TEST(FitBox, HoldsAllPointsAndIsNoLessThanTheirHull) {
+    ScratchMemory scratch;
     const Random random{7};
     for (uint32_t round = 0; round < 50; ++round) {
         std::vector<Vec3> points;
@@ -185,7 +187,7 @@ TEST(FitBox, HoldsAllPointsAndIsNoLessThanTheirHull) {
                               0.3f * static_cast<float>(random.uniform(round, 3 * k + 1)),
                               0.1f * static_cast<float>(random.uniform(round, 3 * k + 2))});
         ExtremePoints hull;
-        choose_extremes(points, kMostHullPoints, 1e-4f, hull);
+        choose_extremes(scratch, points, kMostHullPoints, 1e-4f, hull);
         const FittedBox box = fit_box(points, hull);
         EXPECT_GE(box.volume(), hull_volume(points, hull));
         for (const Vec3 p : points) {
@@ -198,9 +200,10 @@ TEST(FitBox, HoldsAllPointsAndIsNoLessThanTheirHull) {
 }
 
 TEST(FitBox, PointsInAPlaneHaveNoVolume) {
+    ScratchMemory scratch;
     const std::vector<Vec3> points{{0, 0, 0}, {1, 0, 0}, {1, 0, 1}, {0, 0, 1}};
     ExtremePoints hull;
-    choose_extremes(points, kMostHullPoints, 1e-4f, hull);
+    choose_extremes(scratch, points, kMostHullPoints, 1e-4f, hull);
     EXPECT_EQ(hull.face_count, 0u);
     EXPECT_EQ(hull_volume(points, hull), 0);
     EXPECT_EQ(fit_box(points, hull).volume(), 0);

@@ -28,7 +28,7 @@ struct HostJobs {
     void* user = nullptr;
     uint32_t (*worker_count)(void* user) = nullptr;
     /// Must call job(context, i) once for each i in [0, count) and return when all are done. Any order, any threads;
-    /// jobs do not wait for each other, so one thread may run them all.
+    /// jobs do not wait for each other, so one thread may run them all. A job needs 64 KiB of stack at most.
     void (*parallel_for)(void* user, uint32_t count, void (*job)(void* context, uint32_t index),
                          void* context) = nullptr;
 };

@@ -1,0 +1,67 @@
+// Working memory of functions that need more than a stack should hold: a step runs on 64 KiB of stack, a host's jobs
+// do.
+#pragma once
+#include <array>
+#include <atomic>
+#include <cstddef>
+#include <cstdint>
+#include <new>
+#include <utility>
+
+#include "engine/memory.hpp"
+
+namespace cullet {
+
+/// Blocks that any thread takes and gives back without a lock. Which block it is says nothing, and what stands in it is
+/// left over from others: nothing may be read before it is written.
+class ScratchMemory {
+ public:
+    /// A function takes one block and the functions it calls at most two more. Whoever finds none waits, so that this
+    /// is enough for 42 workers at once without any waiting.
+    static constexpr size_t kBlocks = 128;
+    static constexpr size_t kBlockBytes = 160 * 1024;
+
+    ScratchMemory() : memory_(reserve_memory(kBlocks * kBlockBytes)) {}
+    ~ScratchMemory() { release_memory(memory_, kBlocks * kBlockBytes); }
+    ScratchMemory(const ScratchMemory&) = delete;
+    ScratchMemory& operator=(const ScratchMemory&) = delete;
+
+    /// Aligned to 64. The lowest that is free, so that few threads use few pages.
+    std::byte* take();
+    void give_back(std::byte* block);
+
+ private:
+    static constexpr size_t kBits = 64;
+    std::byte* memory_;
+    std::array<std::atomic<uint64_t>, kBlocks / kBits> taken_ = {};
+};
+
+/// One T in such a block while this lives. Arrays of T that have no initial value hold anything.
+template <class T>
+class Scratch {
+ public:
+    template <class... Arguments>
+    explicit Scratch(ScratchMemory& memory, Arguments&&... arguments) : memory_(memory), block_(memory.take()) {
+        static_assert(sizeof(T) <= ScratchMemory::kBlockBytes && alignof(T) <= 64);
+        if constexpr (sizeof...(Arguments) == 0)
+            value_ = new (block_) T;
+        else
+            value_ = new (block_) T(std::forward<Arguments>(arguments)...);
+    }
+    ~Scratch() {
+        value_->~T();
+        memory_.give_back(block_);
+    }
+    Scratch(const Scratch&) = delete;
+    Scratch& operator=(const Scratch&) = delete;
+
+    T& operator*() const { return *value_; }
+    T* operator->() const { return value_; }
+
+ private:
+    ScratchMemory& memory_;
+    std::byte* block_;
+    T* value_;
+};
+
+}  // namespace cullet

@@ -1,0 +1,23 @@
+#!/bin/sh
+# No function of the libraries given takes more than 6 KiB of stack at once: 64 KiB are enough for a step, because no
+# frame on the way has a large part of them. Who needs more takes it from State::scratch or from the frame's arena.
+# Frames are read from what the compiler made of the prologues.
+most=6144
+found=$(for library in "$@"; do
+    objdump -d --no-show-raw-insn "$library" | awk '
+        /^[0-9a-f]+ <.*>:$/ { name = substr($2, 2, length($2) - 3); next }
+        /[[:space:]]sub +\$0x[0-9a-f]+,%rsp/ {
+            match($0, /\$0x[0-9a-f]+/); print substr($0, RSTART + 3, RLENGTH - 3), name
+        }
+        /[[:space:]]lea +-0x[0-9a-f]+\(%rsp\),%r11/ {
+            match($0, /-0x[0-9a-f]+/); print substr($0, RSTART + 3, RLENGTH - 3), name
+        }'
+done | while read -r hex name; do
+    # Eight digits and more are negative: memory is given back.
+    [ "${#hex}" -ge 4 ] && [ "${#hex}" -lt 8 ] && [ $((0x$hex)) -gt $most ] && echo "$((0x$hex)) $name"
+done | sort -rn | c++filt)
+if [ -n "$found" ]; then
+    echo "Frames of more than $most bytes:"
+    echo "$found"
+    exit 1
+fi
