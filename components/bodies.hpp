@@ -44,6 +44,7 @@ struct Bodies : Table<Bodies> {
     Column<uint8_t> is_asleep{*this, "is_asleep"};
     Column<uint8_t> hold_count{*this, "hold_count"};  // open tasks that hold it, as body or as striker
     Column<uint8_t> has_pins{*this, "has_pins"};      // some vertex is pinned: the body is static in the rigid world
+    Column<Range> pins{*this, "pins"};                // of PinBoxes; pieces that keep pins share the rows
     Column<uint8_t> is_owed_births{*this, "is_owed_births"};  // some limit refused pieces that are loose: asks again
     Column<uint64_t> retry_frame{*this, "retry_frame"};       // no new task before this frame (20 ms between tries)
     Column<uint32_t> task{*this, "task"};                     // open task or kNone
@@ -58,6 +59,14 @@ struct Bodies : Table<Bodies> {
                                             Keep::Scratch};  // triangles [first, end) that the last change wrote
     Column<uint32_t> view_stamp{*this, "view_stamp"};        // changes when the drawn mesh changes
     Column<uint64_t> drawn_frame{*this, "drawn_frame"};      // the step that drew it, or before which it was drawn
+};
+
+/// One row is a box whose vertices a spawn pinned: body frame, borders included. A cut asks where it runs among them.
+struct PinBoxes : Table<PinBoxes> {
+    using Table::Table;
+    static constexpr const char* kName = "pin_boxes";
+    Column<Vec3> low{*this, "low", "m"};
+    Column<Vec3> high{*this, "high", "m"};
 };
 
 /// One component of a broken shell: its elements are first_element, Elements.next of it, and so on in rising order

@@ -74,6 +74,7 @@ State::State(const Limits& l)
       region_rests(l.tasks),
       fragment_ages(l.bodies),
       debris_ages(l.debris),
+      pin_boxes(4 * l.bodies + 64),
       vertex_blocks(l.vertices / kVerticesPerBlock + 1) {
     tasks.append(l.tasks);
     task_contacts.append(l.tasks * kMostContacts);

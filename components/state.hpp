@@ -139,7 +139,8 @@ struct State {
                           &State::soft_strikers,
                           &State::soft_contacts,
                           &State::fragment_ages,
-                          &State::debris_ages};
+                          &State::debris_ages,
+                          &State::pin_boxes};
     }
     const Limits& limits() const { return limits_; }
     /// The table of type T.
@@ -173,6 +174,7 @@ struct State {
     RegionRests region_rests;
     FragmentAges fragment_ages;
     DebrisAges debris_ages;
+    PinBoxes pin_boxes;
     VertexBlocks vertex_blocks;     // none of the tables: neither saved nor hashed
     mutable ScratchMemory scratch;  // of functions that need more than a stack holds
 };

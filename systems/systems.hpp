@@ -55,9 +55,10 @@ void widen_regions(Serial, ShellTables shells, Tasks& tasks, const Bodies& bodie
 void fill_tasks(Each<TaskOpened> opened, ShellTables shells, Tasks& tasks);
 /// Assembles stiffness that the body's shell does not have: a piece that is hit for the first time.
 void fill_stiffness(Each<StiffnessWanted> wanted, ShellTables shells, const Tasks& tasks);
-/// Lays the contact patches, gives every vertex the body's velocity and what explosions add. Cuts are made here.
+/// Lays the contact patches, gives every vertex the body's velocity and what explosions add. Cuts are made here, and
+/// ask the boxes of the body's pins which of their sides they hold.
 void start_tasks(Each<TaskOpened> opened, ShellTables shells, Tasks& tasks, TaskContacts& contacts,
-                 PatchVertices& patches, Blows& blows);
+                 PatchVertices& patches, Blows& blows, const Bodies& bodies, const PinBoxes& pins);
 
 /// Quick bodies: chooses the neighbourhood of each hit (quick/region.hpp) and takes rows for its springs.
 void wake_regions(Serial, const Events<TaskOpened>& opened, ShellTables shells, Tasks& tasks, TaskContacts& contacts,
@@ -98,7 +99,7 @@ void close_regions(Serial, const Events<TaskEnded>& ended, ShellTables shells, T
 // ---- apply
 
 /// Which elements of a broken shell hang together.
-void find_parts(Each<TaskEnded> ended, ShellTables shells, Tasks& tasks, Fragments& fragments);
+void find_parts(Each<TaskEnded> ended, ShellTables shells, const Bodies& bodies, Tasks& tasks, Fragments& fragments);
 /// Cracks of a run that ended are drawn, and collide, after one pass of (1/4, 1/2, 1/4) along them (C6).
 void smooth_cracks(Each<TaskEnded> ended, ShellTables shells, const Tasks& tasks);
 /// Which pieces become bodies or crumbs, in order of mass, and the rows that they need. What stayed whole keeps its

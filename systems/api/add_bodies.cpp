@@ -8,6 +8,7 @@
 #include "systems/cook/materials.hpp"
 #include "systems/damage/working_room.hpp"
 #include "systems/fragments/body_rows.hpp"
+#include "systems/fragments/pin_boxes.hpp"
 #include "systems/fragments/rigid_shape.hpp"
 #include "systems/fragments/vertex_sums.hpp"
 #include "systems/query/bound_drawn.hpp"
@@ -192,6 +193,11 @@ Result<BodyId> World::spawn(ModelId id, const SpawnSettings& settings) {
               state.materials.friction[state.shells.material[shell]], settings.user_data);
     bodies.model[body] = model;
     bodies.has_pins[body] = is_static;
+    if (is_static) bodies.pins[body] = add_pin_boxes(state, {settings.pins, settings.pin_count});
+    if (is_static && bodies.pins[body].count == 0) {
+        free_body(state, body);
+        return Error{"no room for " + std::to_string(settings.pin_count) + " pin boxes; raise limits.bodies."};
+    }
     bodies.strength_scale[body] = std::min(settings.strength_scale, kNeverCracks);
     bodies.is_breakable[body] = settings.is_breakable && settings.strength_scale < kNeverCracks && is_brittle;
     QuickSettings quick = settings.quick;

@@ -158,6 +158,10 @@ void check_bodies(Checker& check) {
         check.expect_flag(bodies, bodies.is_breakable, "is_breakable", b);
         check.expect_flag(bodies, bodies.is_asleep, "is_asleep", b);
         check.expect_flag(bodies, bodies.has_pins, "has_pins", b);
+        const Range pins = bodies.pins[b];
+        check.expect(pins.first <= s.pin_boxes.size() && pins.count <= s.pin_boxes.size() - pins.first,
+                     Checker::place(bodies, "pins", b) + " are rows " + std::to_string(pins.first) + " + " +
+                         std::to_string(pins.count) + " of " + std::to_string(s.pin_boxes.size()));
         const uint8_t owed = bodies.is_owed_births[b];
         check.expect(owed <= kOwedDrawing && (owed == 0 || bodies.shell[b].exists()),
                      Checker::place(bodies, "is_owed_births", b) + " is " + std::to_string(owed) + ", not 0 to " +

@@ -1,5 +1,8 @@
 #include "systems/damage/cut_shell.hpp"
 
+#include <algorithm>
+#include <cmath>
+
 #include "systems/damage/assemble.hpp"
 #include "systems/damage/crack_rules.hpp"
 #include "systems/damage/cut_edge.hpp"
@@ -13,10 +16,18 @@ namespace {
 // Of Vertices.copy while a cut is made: how many of the vertex's edges come apart, and whether it was interior before.
 constexpr uint32_t kWasInterior = 1u << 31;
 constexpr float kFlat = 0.05f;  // sine of the angle under which a surface counts as crossing an edge
+// At an edge with a pinned end: how near to it a vertex is put, and the share of C5's limits on the shape that holds. A
+// narrow strip along the pins hangs on; beyond these it counts as nothing, and all that is cut off falls.
+constexpr float kSnapAtPins = 0.05f, kShapeAtPins = 0.2f;
+// Of the mean edge: vertices that are put on the surface lie on it by rounding.
+constexpr float kOnSurface = 1e-3f;
+// Of an edge: so far beyond the cut a box has to reach to hold that side. One that ends at the cut does not.
+constexpr float kBeyond = 0.01f;
 
 struct Cutting {
     ShellView shell;
     const CutSurface& surface;
+    Range pins;  // of PinBoxes
     CutReport report;
     Touched touched;
 
@@ -29,6 +40,13 @@ struct Cutting {
         return (1.0f / 3) * sum;
     }
     bool is_left(uint32_t element) const { return surface.side(middle_of(element)).distance >= 0; }
+
+    /// One end of edge k is pinned and the other is not.
+    bool is_at_pins(uint32_t element, uint32_t k) const {
+        const auto& corner = state().elements.corner[shell.element(element)];
+        const auto& is_pinned = state().vertices.is_pinned;
+        return is_pinned[shell.vertex(corner[k])] != is_pinned[shell.vertex(corner[(k + 1) % 3])];
+    }
 
     /// Where edge k of the element crosses the surface, as a share of its length, or 0. Signs also change half way
     /// between two arms of a line, far from both: there the distances add up to more than the edge is long.
@@ -57,8 +75,10 @@ void insert_vertices(Cutting& cutting) {
         for (uint32_t k = 0; k < 3;) {
             const float tau = cutting.crossing(e, k);
             bool is_full = false;
-            if (tau > kSnap && tau < 1 - kSnap && shell.vertex_count() < most &&
-                can_insert(shell, e, k, tau, is_full)) {
+            const bool is_at_pins = cutting.is_at_pins(e, k);
+            const float snap = is_at_pins ? kSnapAtPins : kSnap;
+            if (tau > snap && tau < 1 - snap && shell.vertex_count() < most &&
+                can_insert(shell, e, k, tau, is_full, is_at_pins ? kShapeAtPins : 1)) {
                 insert_vertex(shell, e, k, tau, cutting.touched);
                 cutting.touched.clear();
                 ++cutting.report.inserted;
@@ -145,14 +165,61 @@ void mark_cracks(Cutting& cutting) {
     }
 }
 
+/// Whether a box reaches beyond the cut to the side that the vertex's elements are on: at an edge that leads there.
+bool is_held_at_cut(const Cutting& cutting, uint32_t vertex, const Ring& ring, bool is_left, float on_surface) {
+    const ShellView shell = cutting.shell;
+    const State& state = cutting.state();
+    const Vec3 from = state.vertices.rest[shell.vertex(vertex)];
+    const float own = std::fabs(cutting.side_of(vertex).distance);
+    for (uint32_t i = 0; i < ring.count; ++i)
+        for (const uint32_t v : state.elements.corner[shell.element(ring.element[i])]) {
+            const CutSide side = cutting.side_of(v);
+            if (v == vertex || (side.distance >= 0) != is_left || std::fabs(side.distance) <= on_surface) continue;
+            const float along = std::min(own / (own + std::fabs(side.distance)) + kBeyond, 1.0f);
+            const Vec3 to = state.vertices.rest[shell.vertex(v)];
+            if (is_held(state.pin_boxes, cutting.pins, from + along * (to - from))) return true;
+        }
+    return false;
+}
+
+/// Vertices that the cut was drawn to, and new ones on it. Others keep what they have.
+void pin_along_cut(Cutting& cutting) {
+    if (cutting.pins.count == 0) return;
+    const ShellView shell = cutting.shell;
+    Vertices& vertices = cutting.state().vertices;
+    const float on_surface = kOnSurface * shell.shells().mean_edge[shell.row];
+    for (uint32_t v = 0; v < shell.vertex_count(); ++v) {
+        const uint32_t row = shell.vertex(v);
+        if (vertices.element[row] == kNone) continue;
+        const CutSide own = cutting.side_of(v);
+        if (!own.is_beside) continue;
+        Ring ring;
+        walk_ring(shell, v, ring);
+        if (ring.count == 0 || ring.is_cut_short) continue;
+        const bool is_left = cutting.is_left(ring.element[0]);
+        bool is_on_one_side = true;
+        for (uint32_t i = 1; i < ring.count; ++i)
+            is_on_one_side = is_on_one_side && cutting.is_left(ring.element[i]) == is_left;
+        const bool is_on_surface = std::fabs(own.distance) <= on_surface;
+        if (!is_on_surface && (!is_on_one_side || is_left == (own.distance >= 0))) continue;
+        // Where the cut ends its last vertex has elements on both sides.
+        const bool is_pinned = is_on_one_side ? is_held_at_cut(cutting, v, ring, is_left, on_surface)
+                                              : is_held(cutting.state().pin_boxes, cutting.pins, vertices.rest[row]);
+        if (is_pinned == (vertices.is_pinned[row] != 0)) continue;
+        vertices.is_pinned[row] = is_pinned;
+        weigh_vertex(shell, v);
+        ++cutting.report.pins_changed;
+    }
+}
+
 }  // namespace
 
-CutReport cut_shell(ShellView shell, const CutSurface& surface) {
-    Cutting cutting{shell, surface, {}, {}};
+CutReport cut_shell(ShellView shell, const CutSurface& surface, Range pins) {
+    Cutting cutting{shell, surface, pins, {}, {}};
     Shells& shells = shell.shells();
     shells.packs[shell.row].count = shells.blocks[shell.row].count = shells.links[shell.row].count = 0;
     insert_vertices(cutting);
-    if (count_cuts(cutting) == 0) return cutting.report;
+    const bool opens = count_cuts(cutting) > 0;
     for (uint32_t e = 0; e < shell.element_count(); ++e)
         for (uint32_t k = 0; k < 3; ++k) {
             const uint32_t other = shell.state.elements.neighbour[shell.element(e)][k];
@@ -162,9 +229,10 @@ CutReport cut_shell(ShellView shell, const CutSurface& surface) {
             else
                 cutting.report.is_full = true;
         }
-    mark_cracks(cutting);
+    if (opens) mark_cracks(cutting);
+    pin_along_cut(cutting);
     if (cutting.report.cut_edges) shells.has_cracks[shell.row] = 1;
-    limit_all_stiffness(shell);
+    if (opens || cutting.report.pins_changed > 0) limit_all_stiffness(shell);
     return cutting.report;
 }
 

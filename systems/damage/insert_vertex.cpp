@@ -9,10 +9,10 @@
 namespace cullet {
 namespace {
 
-bool is_well_shaped(Vec3 a, Vec3 b, Vec3 c, float mean_area) {
+bool is_well_shaped(Vec3 a, Vec3 b, Vec3 c, float mean_area, float share) {
     const float twice_area = length(cross(b - a, c - a));
     const float longest = std::max({dot(b - a, b - a), dot(c - b, c - b), dot(a - c, a - c)});
-    return twice_area > kLeastShape * longest && 0.5f * twice_area >= kLeastArea * mean_area;
+    return twice_area > share * kLeastShape * longest && 0.5f * twice_area >= share * kLeastArea * mean_area;
 }
 
 // Opposite corners gain an element each.
@@ -151,7 +151,7 @@ void refresh_hinge(ShellView shell, uint32_t element, uint32_t k, bool is_new, T
 
 }  // namespace
 
-bool can_insert(ShellView shell, uint32_t element, uint32_t edge, float tau, bool& is_full) {
+bool can_insert(ShellView shell, uint32_t element, uint32_t edge, float tau, bool& is_full, float share) {
     const State& state = shell.state;
     is_full = false;
     const uint32_t row = shell.element(element);
@@ -162,13 +162,15 @@ bool can_insert(ShellView shell, uint32_t element, uint32_t edge, float tau, boo
     const Vec3 w = mix(rest(p), rest(q), tau);
     const float l = shell.shells().mean_edge[shell.row];
     const float mean_area = kEquilateralArea * l * l;
-    if (!is_well_shaped(rest(p), w, rest(r), mean_area) || !is_well_shaped(w, rest(q), rest(r), mean_area))
+    if (!is_well_shaped(rest(p), w, rest(r), mean_area, share) ||
+        !is_well_shaped(w, rest(q), rest(r), mean_area, share))
         return false;
     if (!has_place_in_ring(shell, r)) return false;
     if (const uint32_t other = state.elements.neighbour[row][edge]; other != kNone) {
         const uint32_t s = state.elements.corner[shell.element(other)][(edge_between(shell, other, q, p) + 2) % 3];
         if (s == r) return false;  // two triangles back to back
-        if (!is_well_shaped(rest(q), w, rest(s), mean_area) || !is_well_shaped(w, rest(p), rest(s), mean_area))
+        if (!is_well_shaped(rest(q), w, rest(s), mean_area, share) ||
+            !is_well_shaped(w, rest(p), rest(s), mean_area, share))
             return false;
         if (!has_place_in_ring(shell, s)) return false;
     }

@@ -10,8 +10,9 @@ inline constexpr uint32_t kInsertVertices = 1, kInsertElements = 2, kInsertHinge
 
 /// True when the two or four triangles that a vertex at `tau` (0 at the edge's first corner) makes of the edge's one or
 /// two are no slivers (thick shell note C5: 2 A / longest^2 > kLeastShape, area >= kLeastArea of the mean), the edge is
-/// no crack, no ring grows past kMostRing, and the shell has room. `is_full` then tells why not.
-bool can_insert(ShellView shell, uint32_t element, uint32_t edge, float tau, bool& is_full);
+/// no crack, no ring grows past kMostRing, and the shell has room. `is_full` then tells why not. `share`: of both
+/// limits on the shape.
+bool can_insert(ShellView shell, uint32_t element, uint32_t edge, float tau, bool& is_full, float share = 1);
 
 /// Puts a vertex on edge `edge` of `element` at tau of its length: two triangles become four, at a border one becomes
 /// two. All columns are interpolated: the inner twin too lies on the straight line between the inner twins, so that

@@ -36,13 +36,14 @@ struct Break {
     /// The body keeps its rows, and hulls and drawn mesh but for the cells that changed (Cells::is_changed).
     bool keeps_hulls = false, keeps_mesh = false;
     bool is_refused = false;    // some part stays for want of room
+    bool lets_go = false;       // the body stood on pins, and what is left of it has none
     Row<SoftBodies> soft = {};  // an awake soft body that tore: what has pins keeps the body, its points go on moving
 
     bool leaves(uint32_t part) const { return child[part].exists() || is_crumb[part]; }
     bool is_broken() const {
         for (uint32_t p = 0; p < parts.size(); ++p)
             if (leaves(p)) return true;
-        return false;
+        return lets_go;
     }
     /// More is gone than stays: what stays is measured anew, not as a difference.
     bool is_rest_smaller(const State& state) const {

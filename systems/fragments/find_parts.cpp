@@ -8,7 +8,9 @@ namespace cullet {
 
 // A mesh of several parts, which nothing but the rigid body held together, comes apart at the first hit that is worth a
 // task, cracked or not.
-void find_parts(Each<TaskEnded> ended, ShellTables shells, Tasks& tasks, Fragments& fragments) {
+//
+// A cut may leave a body that stood on pins in one piece without any: it falls.
+void find_parts(Each<TaskEnded> ended, ShellTables shells, const Bodies& bodies, Tasks& tasks, Fragments& fragments) {
     const uint32_t t = ended->task;
     tasks.part_count[t] = 1;
     if (static_cast<TaskState>(tasks.state[t]) == TaskState::Dropped) return;
@@ -32,7 +34,8 @@ void find_parts(Each<TaskEnded> ended, ShellTables shells, Tasks& tasks, Fragmen
     }
     if (tasks.part_count[t] > 1 && runs_out && run_out_cracks(shells.state, Row<Tasks>(t)))
         tasks.part_count[t] = group_fragments(shell, parts);
-    if (tasks.part_count[t] > 1) tasks.state[t] = static_cast<uint8_t>(TaskState::Broke);
+    const bool lets_go = tasks.part_count[t] == 1 && bodies.has_pins[tasks.body[t]] && !parts[0].has_pins;
+    if (tasks.part_count[t] > 1 || lets_go) tasks.state[t] = static_cast<uint8_t>(TaskState::Broke);
     if (tasks.part_count[t] > kMostParts) tasks.state[t] = static_cast<uint8_t>(TaskState::Dropped);
 }
 

@@ -127,6 +127,7 @@ void place_body(Births& births, Row<Bodies> body, const Moment& moment, const Mo
     }
     bodies.kind[body] = static_cast<uint8_t>(is_static ? BodyKind::Static : BodyKind::Dynamic);
     bodies.has_pins[body] = is_static;
+    if (!is_static) bodies.pins[body] = {};
     bodies.velocity.set(body, is_static ? Vec3{} : motion.velocity);
     bodies.spin.set(body, is_static ? Vec3{} : motion.angular_velocity);
     bodies.retry_frame[body] = births.step.frame + retry_frames(births.step.dt);

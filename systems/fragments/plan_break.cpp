@@ -72,6 +72,7 @@ Row<Bodies> reserve_body(State& state, Row<Bodies> parent, Row<Shells> broken, c
         b.mask[body] = b.mask[parent];
         b.user_data[body] = b.user_data[parent];
         b.is_breakable[body] = b.is_breakable[parent];
+        if (part.has_pins) b.pins[body] = b.pins[parent];
         inherit_fracture(state, parent, body);
         return body;
     }
@@ -303,6 +304,7 @@ bool reserve_births(Planning& planning, Break& plan) {
         subtract_motion(ShellView(state, plan.broken), plan.motions[plan.largest]);
     const bool was_drawn = owed != kOwedDrawing;
     owed = !is_drawn ? kOwedDrawing : plan.is_refused ? kOwedBirths : 0;
+    plan.lets_go = !plan.soft.exists() && state.bodies.has_pins[plan.body] && !plan.motions[plan.largest].is_static;
     if (plan.is_broken()) return true;
     const bool is_new = plan.task.exists();
     state.pools.points.give_back(plan.points.first, plan.points.capacity);
