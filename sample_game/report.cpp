@@ -12,6 +12,7 @@
 #include <thread>
 
 #include "engine/profiler.hpp"
+#include "sample_game/notes.hpp"
 
 namespace cullet {
 namespace {
@@ -138,7 +139,7 @@ Json of_time(const Report& r) {
             {"peak_rss_bytes", r.peak_rss_bytes},
             {"repeats", r.repeats},
             {"repeats_agree", r.repeats_agree},
-            {"notes", r.notes}};
+            {"notes", counted_notes(r.notes)}};
 }
 
 }  // namespace

@@ -4,6 +4,7 @@
 #include <filesystem>
 
 #include "sample_game/film.hpp"
+#include "sample_game/notes.hpp"
 #include "sample_game/run_scene.hpp"
 
 namespace cullet {
@@ -51,7 +52,7 @@ void print_summary(const Report& r) {
                kFirstCountedFrame, r.allocations_in_rigid);
     for (const auto& [setting, count] : r.refused) fmt::print("  refused      {} times: raise {}\n", count, setting);
     for (const std::string& fault : r.fault_list) fmt::print("  fault        {}\n", fault);
-    for (const std::string& note : r.notes) fmt::print("  note         {}\n", note);
+    for (const std::string& note : counted_notes(r.notes)) fmt::print("  note         {}\n", note);
 }
 
 void print_files(const RunOptions& options) {

@@ -5,6 +5,8 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
+#include "sample_game/notes.hpp"
+
 namespace cullet::reproduce {
 namespace {
 
@@ -147,7 +149,7 @@ std::string to_page(std::span<const Claim> claims, const PageFacts& facts) {
         html += fmt::format("<span class=\"{}\">{} {}</span>", style_of(verdict), count_of(claims, verdict),
                             name_of(verdict));
     html += "</p>\n";
-    for (const std::string& note : facts.notes) html += fmt::format("<p class=\"facts\">{}</p>\n", escaped(note));
+    for (const std::string& note : counted_notes(facts.notes)) html += fmt::format("<p class=\"facts\">{}</p>\n", escaped(note));
     for (const Claim& claim : claims) html += section_of(claim);
     return html + "</main></body></html>\n";
 }
@@ -159,7 +161,7 @@ std::string to_json(std::span<const Claim> claims, const PageFacts& facts) {
     json["threads"] = facts.threads;
     json["reduced"] = facts.is_reduced;
     json["seconds"] = facts.seconds;
-    json["notes"] = facts.notes;
+    json["notes"] = counted_notes(facts.notes);
     for (const Claim& claim : claims) {
         nlohmann::ordered_json& row = json["claims"].emplace_back();
         row["id"] = claim.id;

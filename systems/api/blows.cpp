@@ -101,11 +101,11 @@ std::string why_not_cut(const State& state, Row<Bodies> body) {
 }  // namespace
 
 Result<void> World::push_impact(BodyId id, const PushSettings& push) {
+    const HostScope call(contents_->host);
     State& state = contents_->data.state;
     const Row<Bodies> body = body_row(state.bodies, id);
     if (!body.exists()) return stale("body", id.index);
     if (Result<void> valid = check_push(push); !valid) return valid;
-    const HostScope call(contents_->host);
     if (contents_->recorder) contents_->recorder->push_impact(id, push);
     const Result<uint32_t> row = take_row(state.blows, BlowKind::Push);
     if (!row) return Error{row.error()};
@@ -121,8 +121,8 @@ Result<void> World::push_impact(BodyId id, const PushSettings& push) {
 }
 
 Result<void> World::explode(const ExplosionSettings& explosion) {
-    if (Result<void> valid = check_explosion(explosion); !valid) return valid;
     const HostScope call(contents_->host);
+    if (Result<void> valid = check_explosion(explosion); !valid) return valid;
     if (contents_->recorder) contents_->recorder->explode(explosion);
     Blows& blows = contents_->data.state.blows;
     const Result<uint32_t> row = take_row(blows, BlowKind::Explosion);
@@ -134,6 +134,7 @@ Result<void> World::explode(const ExplosionSettings& explosion) {
 }
 
 Result<void> World::cut(BodyId id, const CutSettings& cut) {
+    const HostScope call(contents_->host);
     State& state = contents_->data.state;
     const Row<Bodies> body = body_row(state.bodies, id);
     if (!(id == BodyId{})) {
@@ -142,7 +143,6 @@ Result<void> World::cut(BodyId id, const CutSettings& cut) {
             return Error{"body " + std::to_string(id.index) + " is not breakable, and cannot be cut: " + why + "."};
     }
     if (Result<void> valid = check_cut(cut); !valid) return valid;
-    const HostScope call(contents_->host);
     if (contents_->recorder) contents_->recorder->cut(id, cut);
     const Result<uint32_t> row = take_row(state.blows, BlowKind::Cut);
     if (!row) return Error{row.error()};

@@ -53,6 +53,10 @@ bool is_finite(Vec3 v) {
     return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z);
 }
 
+bool is_same(Quat a, Quat b) {
+    return a.x == b.x && a.y == b.y && a.z == b.z && a.w == b.w;
+}
+
 void wake_body(WorldData& d, Row<Bodies> body) {
     if (static_cast<BodyKind>(d.state.bodies.kind[body]) != BodyKind::Dynamic) return;
     d.rigid->wake(body);
@@ -62,6 +66,7 @@ void wake_body(WorldData& d, Row<Bodies> body) {
 }  // namespace
 
 Result<void> World::set_pose(BodyId id, const Pose& pose) {
+    const HostScope call(contents_->host);
     WorldData& d = contents_->data;
     const Row<Bodies> body = body_row(d.state.bodies, id);
     if (!body.exists()) return stale("body", id.index);
@@ -70,9 +75,16 @@ Result<void> World::set_pose(BodyId id, const Pose& pose) {
     if (static_cast<BodyKind>(bodies.kind[body]) == BodyKind::Static && !bodies.shell[body].exists())
         return Error{"body " + std::to_string(id.index) +
                      " is made of static triangles in world coordinates; remove it and add it where it is to stand."};
-    const HostScope call(contents_->host);
     if (contents_->recorder) contents_->recorder->set_pose(id, pose);
     const Pose unit{pose.position, normalised(pose.orientation)};
+    const bool is_there =
+        bodies.position[body] == unit.position &&
+        (is_same(bodies.orientation[body], unit.orientation) || is_same(bodies.orientation[body], pose.orientation));
+    if (is_there) {
+        bodies.previous_position.set(body, bodies.position[body]);
+        bodies.previous_orientation[body] = bodies.orientation[body];
+        return {};
+    }
     // Put there, not moved there: nothing to draw between the two places.
     bodies.position.set(body, unit.position);
     bodies.orientation[body] = unit.orientation;
@@ -86,6 +98,7 @@ Result<void> World::set_pose(BodyId id, const Pose& pose) {
 }
 
 Result<void> World::set_motion(BodyId id, const Motion& motion) {
+    const HostScope call(contents_->host);
     WorldData& d = contents_->data;
     const Row<Bodies> body = body_row(d.state.bodies, id);
     if (!body.exists()) return stale("body", id.index);
@@ -94,24 +107,28 @@ Result<void> World::set_motion(BodyId id, const Motion& motion) {
     if (kind == BodyKind::Static || kind == BodyKind::Scenery)
         return Error{"body " + std::to_string(id.index) +
                      " is static (level geometry, pinned, or retired) and has no motion; use a kinematic body."};
-    const HostScope call(contents_->host);
     if (contents_->recorder) contents_->recorder->set_motion(id, motion);
+    // What sleeps is still: a motion that it has already, or none, changes nothing.
+    Bodies& bodies = d.state.bodies;
+    const bool is_moving = !(motion.velocity == Vec3{} && motion.angular_velocity == Vec3{});
+    const bool has_it = bodies.velocity[body] == motion.velocity && bodies.spin[body] == motion.angular_velocity;
+    if (bodies.is_asleep[body] && (has_it || !is_moving)) return {};
     d.state.bodies.velocity.set(body, motion.velocity);
     d.state.bodies.spin.set(body, motion.angular_velocity);
     d.rigid->set_motion(body, motion);
     follow_body(d.state, body);
-    wake_body(d, body);
+    if (is_moving) wake_body(d, body);
     return {};
 }
 
 Result<void> World::apply_impulse(BodyId id, Vec3 impulse, Vec3 place) {
+    const HostScope call(contents_->host);
     const Bodies& bodies = contents_->data.state.bodies;
     const Row<Bodies> body = body_row(bodies, id);
     if (!body.exists()) return stale("body", id.index);
     if (!is_finite(impulse) || !is_finite(place))
         return Error{"impulse is " + text(impulse) + " at " + text(place) + "; give finite N s and m."};
     if (static_cast<BodyKind>(bodies.kind[body]) != BodyKind::Dynamic) return {};  // nothing moves it
-    const HostScope call(contents_->host);
     const Pose pose = pose_of(bodies, body);
     const Vec3 arm = place - to_world(pose, bodies.centre[body].to_float());
     const Vec3d turn(rotate(conjugate(pose.orientation), cross(arm, impulse)));

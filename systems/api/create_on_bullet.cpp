@@ -1,6 +1,7 @@
 // The one call of a world that needs Bullet: it is in cullet::cullet and not in cullet::core.
 #include <new>
 
+#include "engine/bullet/other_bullet.hpp"
 #include "engine/host_scope.hpp"
 #include "systems/api/checks.hpp"
 #include "systems/world_contents.hpp"
@@ -8,9 +9,10 @@
 namespace cullet {
 
 Result<World> World::create(const Settings& settings, const Host& host) {
+    const HostScope call(host);
     if (const Result<void> valid = check_settings(settings); !valid) return Error{valid.error()};
     if (const Result<void> valid = check_host(host); !valid) return Error{valid.error()};
-    const HostScope call(host);
+    if (const std::string other = bullet::other_bullet(); !other.empty()) return Error{other};
     const MemoryScope memory(host.allocator);
     try {
         return World(std::make_unique<Contents>(settings, host, make_bullet_world(settings.limits.bodies)));

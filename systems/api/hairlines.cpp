@@ -48,6 +48,7 @@ struct Drawn {
 // Works on the drawn mesh alone, in the caller's memory: first the edges, sorted by place, then the lines over them. A
 // line takes two rows and comes from two edges at least.
 Result<uint32_t> World::hairlines(BodyId id, uint32_t* indices, uint32_t room) const {
+    const FpMode mode;
     const State& state = contents_->data.state;
     const Bodies& bodies = state.bodies;
     const Row<Bodies> body = body_row(bodies, id);

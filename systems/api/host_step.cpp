@@ -8,9 +8,9 @@
 namespace cullet {
 
 Result<World> World::create_hosted(const Settings& settings, const Host& host) {
+    const HostScope call(host);
     if (const Result<void> valid = check_settings(settings); !valid) return Error{valid.error()};
     if (const Result<void> valid = check_host(host); !valid) return Error{valid.error()};
-    const HostScope call(host);
     const MemoryScope memory(host.allocator);
     try {
         return World(std::make_unique<Contents>(settings, host, nullptr));

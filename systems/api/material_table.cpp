@@ -142,6 +142,7 @@ S* MaterialTable::row_of(const std::string& name) {
 }
 
 Result<void> MaterialTable::add(const S& material) {
+    const FpMode mode;
     if (const Result<void> valid = check_material(material); !valid) return valid;
     if (row_of(material.name)) return wrong(material, "is in the table already; change it, or use another name.");
     rows_.push_back(without_idle_values(material));
@@ -149,6 +150,7 @@ Result<void> MaterialTable::add(const S& material) {
 }
 
 Result<void> MaterialTable::change(const S& material) {
+    const FpMode mode;
     if (const Result<void> valid = check_material(material); !valid) return valid;
     S* const row = row_of(material.name);
     if (!row) return wrong(material, "is not in the table, which has " + names() + "; add it.");

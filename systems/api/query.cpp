@@ -323,6 +323,7 @@ Vec3 clamped(Vec3 corner) {
 }  // namespace
 
 SurfaceHit ray(const World& world, Vec3 origin, Vec3 direction, float length_, uint32_t mask) {
+    const FpMode mode;
     const WorldData& d = world.contents().data;
     const double scale = length(Vec3d(direction));
     if (!is_within(origin, kFarthest) || !(scale > 0 && scale < 1e30) || !(length_ >= 0)) return {};
@@ -341,6 +342,7 @@ SurfaceHit ray(const World& world, Vec3 origin, Vec3 direction, float length_, u
 }
 
 SurfaceHit closest(const World& world, Vec3 point, float reach, uint32_t mask) {
+    const FpMode mode;
     const WorldData& d = world.contents().data;
     if (!is_within(point, kFarthest) || !(reach >= 0)) return {};
     const Vec3d p(point);
@@ -358,6 +360,7 @@ SurfaceHit closest(const World& world, Vec3 point, float reach, uint32_t mask) {
 }
 
 uint32_t overlap(const World& world, Vec3 centre, float radius, BodyId* out, uint32_t capacity, uint32_t mask) {
+    const FpMode mode;
     const WorldData& d = world.contents().data;
     if (!is_within(centre, kFarthest) || !(radius >= 0)) return 0;
     const Vec3d p(centre);
@@ -367,6 +370,7 @@ uint32_t overlap(const World& world, Vec3 centre, float radius, BodyId* out, uin
 }
 
 uint32_t overlap(const World& world, const Box& box, BodyId* out, uint32_t capacity, uint32_t mask) {
+    const FpMode mode;
     const WorldData& d = world.contents().data;
     if (!(box.low.x <= box.high.x && box.low.y <= box.high.y && box.low.z <= box.high.z)) return 0;
     const AxisBox extent{clamped(box.low), clamped(box.high)};

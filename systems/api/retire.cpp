@@ -83,8 +83,8 @@ void stand_still(WorldData& d, Row<Bodies> body, BodyKind kind) {
 }  // namespace
 
 Result<uint32_t> World::retire(const RetireSettings& settings) {
-    if (const Result<void> valid = check(settings); !valid) return Error{valid.error()};
     const HostScope call(contents_->host);
+    if (const Result<void> valid = check(settings); !valid) return Error{valid.error()};
     if (contents_->recorder) contents_->recorder->retire(settings);
     WorldData& d = contents_->data;
     const auto least_frames = static_cast<uint64_t>(std::ceil(settings.least_seconds / d.step_info.dt));

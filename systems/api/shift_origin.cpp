@@ -57,10 +57,10 @@ void shift_events(WorldData& d, Vec3 by) {
 }  // namespace
 
 Result<void> World::shift_origin(Vec3 by) {
+    const HostScope call(contents_->host);
     WorldData& d = contents_->data;
     if (!is_within(by, kFarthest))
         return Error{"shift_origin by " + text(by) + "; give metres, at most 1000000 along each axis."};
-    const HostScope call(contents_->host);
     if (contents_->recorder) contents_->recorder->shift_origin(by);
     shift_springs(d.state.shell_springs, -by);
     d.rigid->shift(-by);

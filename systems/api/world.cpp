@@ -162,10 +162,11 @@ uint64_t World::hash() const {
 }
 
 Result<void> World::set_gravity(Vec3 gravity) {
-    if (const Result<void> valid = check_gravity("gravity", gravity); !valid) return valid;
     const HostScope call(contents_->host);
+    if (const Result<void> valid = check_gravity("gravity", gravity); !valid) return valid;
     if (contents_->recorder) contents_->recorder->set_gravity(gravity);
     WorldData& d = contents_->data;
+    if (d.step_info.gravity == gravity) return {};
     d.step_info.gravity = gravity;
     d.rigid->set_gravity(gravity);  // wakes them
     for (uint32_t b = 0; b < d.state.bodies.size(); ++b) d.state.bodies.is_asleep[b] = 0;
@@ -179,8 +180,9 @@ void World::set_veto(bool (*allows)(void* user, const ImpactEvent& impact), void
 std::string World::describe_frame() {
     Settings settings;
     settings.limits = {16, 1, 4096, 4096, 1, 4096, 16};
-    const Contents contents(settings, {}, std::make_unique<HostRigidWorld>(HostRoom{}, nullptr));
-    return contents.plan.describe();
+    const auto contents =
+        std::make_unique<Contents>(settings, Host{}, std::make_unique<HostRigidWorld>(HostRoom{}, nullptr));
+    return contents->plan.describe();
 }
 
 }  // namespace cullet

@@ -9,6 +9,7 @@ namespace cullet {
 
 // The same preparation that cooking begins with, looked at and thrown away.
 Result<MeshReport> examine_mesh(const MeshView& view) {
+    const FpMode mode;
     try {
         const Result<Mesh> mesh = mesh_of_view(view);
         if (!mesh) return Error{mesh.error()};

@@ -29,6 +29,20 @@ TEST(Result, ValueOrStandsInForAnError) {
     EXPECT_EQ(bad.error(), "speed is -1 m/s; use 0 or more.");
 }
 
+// In every build: whoever goes on without the value would go on with whatever stands there.
+TEST(Result, TheValueOfARefusalStopsWithItsSentence) {
+    const auto of = [] { return Result<std::string>(Error{"speed is -1 m/s; use 0 or more."}); };
+    const char* const sentence = "speed is -1 m/s; use 0 or more";
+    EXPECT_DEATH((void)of().value(), sentence);
+    EXPECT_DEATH((void)*of(), sentence);
+    EXPECT_DEATH((void)of()->size(), sentence);
+    Result<std::string> named = of();
+    EXPECT_DEATH((void)named.value(), sentence);
+    const Result<std::string> fixed = of();
+    EXPECT_DEATH((void)fixed.value(), sentence);
+    EXPECT_DEATH((void)fixed->size(), sentence);
+}
+
 TEST(Version, TheTextIsMadeOfTheMacros) {
     EXPECT_EQ(version(), std::to_string(CULLET_VERSION_MAJOR) + "." + std::to_string(CULLET_VERSION_MINOR) + "." +
                              std::to_string(CULLET_VERSION_PATCH));

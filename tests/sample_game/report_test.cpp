@@ -6,6 +6,10 @@
 #include <filesystem>
 #include <fstream>
 #include <nlohmann/json.hpp>
+#include <sstream>
+
+#include "sample_game/run_scene.hpp"
+#include "tests/support/places.hpp"
 
 namespace cullet {
 namespace {
@@ -100,6 +104,26 @@ TEST(Report, BytesThatAreNoTextDoNotStopIt) {
     Report report;
     report.notes = {"caf\xe9.obj"};
     EXPECT_FALSE(Json::parse(to_json(report))["notes"][0].get<std::string>().empty());
+}
+
+TEST(Report, EqualNotesAreOneLineWithANumber) {
+    Report report;
+    report.notes = {"a ball found no room", "a pane stands", "a ball found no room", "a ball found no room"};
+    const Json notes = Json::parse(to_json(report))["notes"];
+    EXPECT_EQ(notes, Json({"3 times: a ball found no room", "a pane stands"}));
+}
+
+// 5,000 balls are thrown where 4,096 bodies fit.
+TEST(Report, RefusedSpawnsAreToldOfInALine) {
+    const std::string path = source_folder() + "/tests/cases/notes_of_refused_spawns.lua";
+    std::stringstream script;
+    script << std::ifstream(path).rdbuf();
+    const RunOptions options;
+    const Result<Report> report = play(plan_scene({"test", path, script.str()}, options), options);
+    ASSERT_TRUE(report.ok()) << report.error();
+    const Json notes = Json::parse(to_json(*report))["notes"];
+    EXPECT_LE(notes.size(), 3u) << notes;
+    EXPECT_NE(notes.dump().find("905 times: "), std::string::npos) << notes;
 }
 
 TEST(Report, AFolderThatIsNotThereIsNamed) {

@@ -1,5 +1,7 @@
 // How cullet refuses bad input: a value, or one sentence that says what, where, which value and what to do.
 #pragma once
+#include <cstdio>
+#include <cstdlib>
 #include <optional>
 #include <string>
 #include <utility>
@@ -11,7 +13,15 @@ struct Error {
     std::string message;
 };
 
-/// A T or an Error. Nothing in cullet's interface throws.
+/// Prints the sentence of a refusal whose value was asked for, and ends the program: what comes after would be wrong.
+[[noreturn]] inline void stop_for_want_of_value(const std::string& sentence) {
+    std::fprintf(stderr, "cullet: the value of a refused call was taken. It was refused because: %s\n",
+                 sentence.c_str());
+    std::abort();
+}
+
+/// A T or an Error. Nothing in cullet's interface throws. Whoever takes the value of an Error is stopped with its
+/// sentence, in every build: ask ok() first.
 template <class T>
 class [[nodiscard]] Result {
  public:
@@ -19,14 +29,14 @@ class [[nodiscard]] Result {
     Result(Error error) : error_(std::move(error)) {}
     bool ok() const { return value_.has_value(); }
     explicit operator bool() const { return ok(); }
-    T& value() & { return *value_; }
-    const T& value() const& { return *value_; }
-    T&& value() && { return std::move(*value_); }
-    T& operator*() & { return *value_; }
-    const T& operator*() const& { return *value_; }
-    T&& operator*() && { return std::move(*value_); }
-    T* operator->() { return &*value_; }
-    const T* operator->() const { return &*value_; }
+    T& value() & { return *here(); }
+    const T& value() const& { return *here(); }
+    T&& value() && { return std::move(*here()); }
+    T& operator*() & { return *here(); }
+    const T& operator*() const& { return *here(); }
+    T&& operator*() && { return std::move(*here()); }
+    T* operator->() { return here(); }
+    const T* operator->() const { return here(); }
     /// The value, or `other` in place of an error.
     T value_or(T other) const& { return ok() ? *value_ : std::move(other); }
     T value_or(T other) && { return ok() ? std::move(*value_) : std::move(other); }
@@ -34,6 +44,14 @@ class [[nodiscard]] Result {
     const std::string& error() const { return error_.message; }
 
  private:
+    T* here() {
+        if (!value_) stop_for_want_of_value(error_.message);
+        return &*value_;
+    }
+    const T* here() const {
+        if (!value_) stop_for_want_of_value(error_.message);
+        return &*value_;
+    }
     std::optional<T> value_;
     Error error_;
 };

@@ -2,6 +2,9 @@
 //
 // Threads: a world belongs to one thread at a time; different worlds may be used from different threads at once. Calls
 // other than step() go between steps. Nothing here throws. step() allocates nothing of cullet's.
+//
+// Stack: 64 KiB are enough for any call here, for cook and for the files, and for each job that a host's job system
+// runs. A host's own functions (log, zones, veto, jobs) come on top of that.
 #pragma once
 #include <cstdint>
 #include <memory>
@@ -135,7 +138,7 @@ class World {
     /// A number for the whole state: equal on any number of threads.
     uint64_t hash() const;
 
-    /// m/s2, at most 10000 a component. Wakes all that sleeps.
+    /// m/s2, at most 10000 a component. Wakes all that sleeps, unless it is the gravity that there is already.
     Result<void> set_gravity(Vec3 gravity);
     /// Asked before damage is looked at; false lets the hit pass as between rigid bodies. Called on the thread that
     /// steps, between the parallel parts; must not call the world.
@@ -177,12 +180,14 @@ class World {
     Result<double> mass(BodyId body) const;  // kg
     Result<uint64_t> user_data(BodyId body) const;
     Result<bool> is_asleep(BodyId body) const;
-    /// Puts the body there at once and wakes it. Refused of static triangles.
+    /// Puts the body there at once and wakes it, and what touches it; nobody, where it is there already. Refused of
+    /// static triangles.
     Result<void> set_pose(BodyId body, const Pose& pose);
-    /// Of its centre of mass. Wakes the body. Refused of static and pinned bodies.
+    /// Of its centre of mass. Wakes the body, unless it sleeps and this is its motion already, or none. Refused of
+    /// static and pinned bodies.
     Result<void> set_motion(BodyId body, const Motion& motion);
-    /// At a world place, N s, any finite one that leaves the body's velocities in range. Wakes the body; does nothing
-    /// to one that forces do not move.
+    /// At a world place, N s, any finite one that leaves the body's velocities in range. Wakes the body, unless the
+    /// impulse is none; does nothing to one that forces do not move.
     Result<void> apply_impulse(BodyId body, Vec3 impulse, Vec3 place);
     Result<void> wake(BodyId body);
 
