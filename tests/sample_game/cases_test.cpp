@@ -32,9 +32,7 @@ constexpr Unmended kUnmended[] = {
     {"weak_gravity", 3},
     {"slow_press", 4},
     {"ball_on_a_slope", 5},
-    {"cut_below_the_pins", 6},
     {"heavy_on_three_light", 7},
-    {"notes_of_refused_spawns", 9},
 };
 
 /// A case with other settings than its own, whose name says which.
