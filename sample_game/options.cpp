@@ -161,6 +161,11 @@ Result<void> check_command(const CLI::App& app, const std::vector<std::string>& 
     return Error{fmt::format("{}: there is no such command; give one of {}.", first, command_names(app))};
 }
 
+std::string where_to_look(const CLI::App& app) {
+    const auto given = app.get_subcommands();
+    return "sample_game " + (given.empty() ? "" : given[0]->get_name() + " ") + "--help shows what can be given.";
+}
+
 std::string one_sentence(std::string text) {
     std::replace(text.begin(), text.end(), '\n', ' ');
     while (!text.empty() && text.back() == ' ') text.pop_back();
@@ -202,8 +207,12 @@ Result<Options> parse_options(std::vector<std::string> arguments) {
     } catch (const CLI::CallForVersion&) {
         options.help = version_line() + "\n";
         return options;
+    } catch (const CLI::ExtrasError&) {
+        const std::string extra = app.remaining(true).at(0);
+        const char* what = extra.starts_with("-") ? "there is no such option" : "one argument too many";
+        return Error{fmt::format("{}: {}. {}", extra, what, where_to_look(app))};
     } catch (const CLI::ParseError& error) {
-        return Error{one_sentence(error.what()) + " sample_game --help shows what can be given."};
+        return Error{one_sentence(error.what()) + " " + where_to_look(app)};
     }
     options.command = app.got_subcommand("run")         ? Command::Run
                       : app.got_subcommand("frame")     ? Command::Frame

@@ -50,7 +50,10 @@ void print_summary(const Report& r) {
     fmt::print("{}  {}\n", systems_table(r), worst_frame_line(r));
     fmt::print("  allocations  {} in steps from frame {} on, {} of the rigid engine\n", r.allocations_in_frames,
                kFirstCountedFrame, r.allocations_in_rigid);
-    for (const auto& [setting, count] : r.refused) fmt::print("  refused      {} times: raise {}\n", count, setting);
+    for (const auto& [setting, count] : r.refused)
+        fmt::print("  refused      {} times: {}\n", count,
+                   setting == "longest_edge" ? "cook with a shorter longest edge, which gives cracks more room"
+                                             : "raise " + setting);
     for (const std::string& fault : r.fault_list) fmt::print("  fault        {}\n", fault);
     for (const std::string& note : counted_notes(r.notes)) fmt::print("  note         {}\n", note);
 }

@@ -29,7 +29,7 @@ local shapes = {
 }
 local lots = {1, 5, 2, 3, 4, 1, 2, 5, 1, 3}
 
-game.camera{eye = {-35, 21, 25}, target = {-5, 0.5, -1}, field_of_view = 0.62}
+game.camera{eye = {-50, 26, 44}, target = {-10, 0.5, -1}, field_of_view = 0.62}
 game.sun{towards = {0.45, 0.75, 0.6}, strength = 2.4}
 game.floor{half_side = 80}
 local places = {}

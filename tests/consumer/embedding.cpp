@@ -42,7 +42,7 @@ void Game::frame(double seconds) {
 void Game::react() {
     for (const ImpactEvent& e : world.events().impacts) play_sound(e.place, e.energy);
     for (const DebrisEvent& e : world.events().debris) add_particle(e.place, e.velocity);
-    for (const RefusedEvent& e : world.events().refused) std::printf("raise Settings::%s\n", e.setting);
+    for (const RefusedEvent& e : world.events().refused) std::printf("limit reached: %s\n", e.setting);
 }
 
 void Game::draw_all(std::vector<uint32_t>& stamps) {

@@ -140,6 +140,17 @@ TEST(Options, AnUnknownCommandIsCalledThatAndAllThatThereAreAreNamed) {
     EXPECT_NE(parse_options({"--walk"}).error().find("--walk"), std::string::npos) << parse_options({"--walk"}).error();
 }
 
+TEST(Options, WhatNothingTakesIsNamedWithTheHelpOfItsCommand) {
+    EXPECT_EQ(parse_options({"run", "vase", "--frmes", "3"}).error(),
+              "--frmes: there is no such option. sample_game run --help shows what can be given.");
+    EXPECT_EQ(parse_options({"run", "wall", "vase"}).error(),
+              "vase: one argument too many. sample_game run --help shows what can be given.");
+    EXPECT_EQ(parse_options({"frame", "by", "frame"}).error(),
+              "by: one argument too many. sample_game frame --help shows what can be given.");
+    const std::string refused = parse_options({"cook", "--out", "x.cmodel"}).error();
+    EXPECT_NE(refused.find("sample_game cook --help"), std::string::npos) << refused;
+}
+
 TEST(Options, SetHelpListsTheKeysOfAllScenesOrOfOne) {
     EXPECT_EQ(parse_options({"run", "--set", "help"}).value().command, Command::KeysHelp);
     const std::string all = keys_help("").value(), wall = keys_help("wall").value();

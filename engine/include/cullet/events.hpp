@@ -59,8 +59,8 @@ struct RefusedEvent {
     BodyId body;
     uint64_t body_user_data = 0;
     Vec3 place;  // world, its centre of mass, m
-    /// The one to raise, for example "limits.bodies". "mesh_vertices": cracks have filled the room that the body's
-    /// mesh gives them, and no more of it splits in this hit; a shorter longest_edge gives more.
+    /// Of Settings, the one to raise, for example "limits.bodies"; or "longest_edge" of CookSettings, to be shortened:
+    /// cracks have filled the room that the body's mesh gives them, and no more of it splits in this hit.
     const char* setting = "";
 };
 

@@ -62,7 +62,7 @@ TEST(QuickWorld, ARunWithoutRoomForMoreSplitsSaysSoAndIsCounted) {
         for (uint32_t frame = 0; frame < 30; ++frame) {
             b.world.step();
             for (const RefusedEvent& e : b.world.events().refused) {
-                EXPECT_STREQ(e.setting, "mesh_vertices");
+                EXPECT_STREQ(e.setting, "longest_edge");
                 EXPECT_EQ(e.body.index, b.body.index);
                 ++events;
             }

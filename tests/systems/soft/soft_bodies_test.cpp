@@ -213,7 +213,7 @@ TEST(SoftBodies, OnesWithoutRoomForMoreTearsSaySo) {
     put_stretched(sheet.view(), shape, 2 * sheet.state().soft_bodies.break_strain[sheet.soft()]);
     sheet.world.step();
     ASSERT_EQ(sheet.world.events().refused.count, 1u);
-    EXPECT_STREQ(sheet.world.events().refused.begin()->setting, "mesh_vertices");
+    EXPECT_STREQ(sheet.world.events().refused.begin()->setting, "longest_edge");
     EXPECT_EQ(sheet.state().soft_bodies.tear_count[sheet.soft()], 0u);
 }
 
