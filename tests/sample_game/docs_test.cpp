@@ -100,7 +100,8 @@ Names known_names() {
 }
 
 /// Names that are somebody else's, or that a page makes up to show something with.
-const Names kOthers{"XDG_CACHE_HOME", "BUILD_SHARED_LIBS", "is_over", "is_ovr"};
+const Names kOthers{"XDG_CACHE_HOME", "BUILD_SHARED_LIBS", "RTLD_LOCAL", "RTLD_DEEPBIND", "X_UP", "Y_UP",
+                    "Z_UP",           "is_over",           "is_ovr"};
 
 /// The page without its blocks of code, which tests of their own build and run.
 std::string prose_of(const fs::path& page) {
