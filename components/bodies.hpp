@@ -47,7 +47,11 @@ struct Bodies : Table<Bodies> {
     Column<Range> pins{*this, "pins"};                // of PinBoxes; pieces that keep pins share the rows
     Column<uint8_t> is_owed_births{*this, "is_owed_births"};  // some limit refused pieces that are loose: asks again
     Column<uint64_t> retry_frame{*this, "retry_frame"};       // no new task before this frame (20 ms between tries)
-    Column<uint32_t> task{*this, "task"};                     // open task or kNone
+    // Steps in a row whose loads were more than it bears, and runs for such loads that did not break it.
+    Column<uint8_t> overloaded_steps{*this, "overloaded_steps"};
+    Column<uint8_t> overload_runs{*this, "overload_runs"};
+    Column<uint32_t> first_load{*this, "first_load", "1", Keep::Scratch};  // of the list of its loads, or kNone
+    Column<uint32_t> task{*this, "task"};                                  // open task or kNone
     Column<uint32_t> colour{*this, "colour"};                 // stable number for pictures
     // Drawn mesh in view space.
     Column<std::array<float, 6>> drawn_box{*this, "drawn_box", "m", Keep::Scratch};  // low, high; body frame

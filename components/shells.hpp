@@ -64,6 +64,7 @@ struct Shells : Table<Shells> {
     Column<float> hinge_limit{*this, "hinge_limit", "1/s2"};
     Column<float> vertex_limit{*this, "vertex_limit", "1/s2"};
     Column<float> first_crack_speed{*this, "first_crack_speed", "m/s"};  // measured by cooking against a floor
+    Column<float> first_crack_force{*this, "first_crack_force", "N"};    // that one place bears for long, likewise
     Column<uint8_t> generation{*this, "generation"};  // 0 intact, fragments one more than their parent
     Column<uint8_t> has_cracks{*this, "has_cracks"};
     Column<uint32_t> dead_elements{*this, "dead_elements"};  // of pieces that moved, until the shell is compacted

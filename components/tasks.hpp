@@ -48,6 +48,7 @@ struct Tasks : Table<Tasks> {
     Column<uint64_t> units_owed{*this, "units_owed"};  // by cuts, taken from the next grant
     Column<uint8_t> is_held{*this, "is_held"};         // body (and striker) stand still meanwhile
     Column<uint8_t> is_late{*this, "is_late"};         // the contact was solved as between rigid bodies meanwhile
+    Column<float> load{*this, "load", "N"};  // the run stands for what presses on the body, not for a blow; 0: a blow
     Column<uint32_t> frames_held{*this, "frames_held"};
     Column<uint32_t> part_count{*this, "part_count"};  // components of its shell, once it ended
     // Of a task that was opened before its touch, which is foreseen: it runs, or waits with its result.
@@ -136,6 +137,7 @@ struct QueuedHits : Table<QueuedHits> {
     Column<float> approach_speed{*this, "approach_speed", "m/s"};
     Column<float> striker_inverse_mass{*this, "striker_inverse_mass", "1/kg"};  // effective along the normal
     Column<float> striker_radius{*this, "striker_radius", "m"};                 // 0: flat
+    Column<float> load{*this, "load", "N"};                                     // as of its task
 };
 
 /// One row is one vertex that a striker may push.

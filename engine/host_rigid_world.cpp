@@ -33,10 +33,12 @@ const char* trouble_of(const HostBody& b) {
         return "the angular velocity is not within 100000 rad/s a component";
     return nullptr;
 }
+constexpr float kMostImpulse = 1e20f;  // N s
 const char* trouble_of(const HostContact& c) {
     if (!is_within(c.point, kFarthest)) return "the point is not within 1000000 m of the origin along each axis";
     if (!is_unit(dot(c.normal, c.normal))) return "the normal has not the length 1";
     if (!(std::fabs(c.distance) <= kFarthest)) return "the distance is not within 1000000 m";
+    if (!(c.impulse >= 0 && c.impulse <= kMostImpulse)) return "the impulse is not between 0 and 1e20 N s";
     return nullptr;
 }
 
@@ -97,7 +99,7 @@ Result<void> HostRigidWorld::take(const HostFrame& frame) {
     for (uint32_t i = 0; i < frame.contact_count; ++i) {
         const HostContact& c = frame.contacts[i];
         if (!is_known(c.a) || !is_known(c.b) || c.a.index == c.b.index) continue;
-        RigidContact contact{c.a.index, c.b.index, c.piece_a, c.piece_b, c.point, c.normal, c.distance, 0};
+        RigidContact contact{c.a.index, c.b.index, c.piece_a, c.piece_b, c.point, c.normal, c.distance, 0, c.impulse};
         if (contact.a > contact.b) {
             std::swap(contact.a, contact.b);
             std::swap(contact.cell_a, contact.cell_b);
@@ -136,10 +138,17 @@ bool HostRigidWorld::is_apart(const RigidContact& contact) {
 }
 
 // By content and not by the host's order, so that a host whose threads race gives the same bytes.
+// One is driven and the other static: no solver moves them, but what is pinned may break.
+bool HostRigidWorld::is_driven_in(RigidId a, RigidId b) const {
+    if (rows_[a].kind == RigidKind::Static) std::swap(a, b);
+    return rows_[a].kind == RigidKind::Kinematic && rows_[b].kind == RigidKind::Static;
+}
+
 void HostRigidWorld::detect(float dt) {
     for (Ignored& pair : ignored_) pair.is_near = false;
     std::erase_if(contacts_, [this](const RigidContact& c) {
-        return !is_known(c.a) || !is_known(c.b) || (!is_free(c.a) && !is_free(c.b)) || is_apart(c);
+        return !is_known(c.a) || !is_known(c.b) || (!is_free(c.a) && !is_free(c.b) && !is_driven_in(c.a, c.b)) ||
+               is_apart(c);
     });
     for (Ignored& pair : ignored_) pair.seconds -= dt;
     std::erase_if(ignored_, [](const Ignored& p) { return !(p.seconds > 0) || (p.until_apart && !p.is_near); });
@@ -148,7 +157,7 @@ void HostRigidWorld::detect(float dt) {
     std::sort(contacts_.begin(), contacts_.end(), [](const RigidContact& p, const RigidContact& q) {
         const auto key = [](const RigidContact& c) {
             return std::tuple(c.a, c.b, c.cell_a, c.cell_b, c.point.x, c.point.y, c.point.z, c.distance,
-                              c.approach_speed, c.normal.x, c.normal.y, c.normal.z);
+                              c.approach_speed, c.normal.x, c.normal.y, c.normal.z, c.impulse);
         };
         return key(p) < key(q);
     });

@@ -93,6 +93,7 @@ class HostRigidWorld final : public RigidWorld {
     bool is_known(RigidId id) const { return id < rows_.size() && rows_[id].is_used; }
     bool is_known(BodyId id) const { return is_known(id.index) && generations_[id.index] == id.generation; }
     bool is_free(RigidId id) const;
+    bool is_driven_in(RigidId a, RigidId b) const;
     BodyId body_id(RigidId id) const { return {id, generations_[id]}; }
     void begin_lists();
     void tell_all();

@@ -66,6 +66,7 @@ struct RigidContact {
     float distance = 0;  // m, negative when they overlap
     float approach_speed =
         0;  // m/s along the normal, > 0 when they close, from the velocities before gravity of this step
+    float impulse = 0;  // N s along the normal: of the last solve, in loads() alone
 };
 
 /// A place on the crack between two bodies: world axes.
@@ -225,6 +226,10 @@ class RigidWorld {
     virtual bool is_held_up(RigidId) const { return false; }
 
     virtual void solve(float dt) = 0;
+    /// The contacts of the last solve, until the next detect(): what they bore, and in `approach_speed` how fast they
+    /// close after it, beyond what is still apart: what the solver could not hold. In the order of contacts(). A host
+    /// tells both with the contacts of the next step.
+    virtual std::span<const RigidContact> loads() const { return contacts(); }
 
     /// Height of the highest static triangle straight below `point`, or `fallback`: where crumbs come to rest in a
     /// world that does not know surfaces, and asked of no other.

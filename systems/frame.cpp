@@ -51,6 +51,7 @@ FramePlan<WorldData> make_frame_plan(bool is_hosted, const std::function<std::st
         .then<make_births>();
     plan.stage("solve");
     if (!is_hosted) plan.then<solve_rigid>().then<return_soft>().then<read_rigid>();
+    plan.then<weigh_loads>();
     plan.then<fall_debris>();
     if (CULLET_CHECKS_ON) plan.then<close_energy_balance>();
     plan.then<fade_debris>();

@@ -7,8 +7,8 @@
 #include "engine/assert.hpp"
 #include "engine/bullet/advance.hpp"
 #include "engine/bullet/free_turn.hpp"
-#include "engine/bullet/principal_axes.hpp"
 #include "engine/bullet/stopped_fall.hpp"
+#include "engine/principal_axes.hpp"
 #include "engine/rigid_allocations.hpp"
 
 namespace cullet::bullet {
@@ -49,6 +49,7 @@ BulletWorld::BulletWorld(uint32_t body_limit)
     work_.bodies = bodies_.get();
     strayed_.reserve(4 * static_cast<size_t>(body_limit) + 1024);
     contacts_.reserve(32 * static_cast<size_t>(body_limit) + 1024);
+    loads_.reserve(32 * static_cast<size_t>(body_limit) + 1024);
     manifolds_.reserve(8 * static_cast<size_t>(body_limit) + 1024);
     in_the_way_.reserve(body_limit);
     scattered_.reserve(manifolds_.capacity());
@@ -669,6 +670,14 @@ void BulletWorld::refresh_all() {
         if (bodies_[id].is_refreshed && bodies_[id].leaf != kNoLeaf) update_leaf(bodies_[id]);
 }
 
+// What is driven touches static bodies too, as pinned ones, which it may break: no solver moves either. Floors of
+// triangles have no hulls to be broken.
+bool BulletWorld::may_touch(const Body& a, const Body& b) {
+    if (a.kind == RigidKind::Dynamic || b.kind == RigidKind::Dynamic) return true;
+    const Body &driven = a.kind == RigidKind::Kinematic ? a : b, &other = &driven == &a ? b : a;
+    return driven.kind == RigidKind::Kinematic && other.kind == RigidKind::Static && other.hull_count > 0;
+}
+
 // What left its leaf meets all that its new one meets, in either order of their straying. Pairs of which neither did
 // are what they were.
 void BulletWorld::find_pairs() {
@@ -679,7 +688,7 @@ void BulletWorld::find_pairs() {
         has_strayed_[id] = 1;
         tree_.visit(tree_.box(body.leaf), [&](uint32_t other_id) {
             const Body& other = bodies_[other_id];
-            if (other_id == id || (body.kind != RigidKind::Dynamic && other.kind != RigidKind::Dynamic)) return;
+            if (other_id == id || !may_touch(body, other)) return;
             if (body.meets_layer_of(other)) pairs_.find(id, other_id);
         });
     }
@@ -730,6 +739,12 @@ void BulletWorld::list_manifolds() {
 
 namespace {
 
+/// One is driven and the other static: they touch, and no solver moves them.
+bool is_driven_in(const Body& a, const Body& b) {
+    const auto drives = [](const Body& body) { return body.kind == RigidKind::Kinematic && body.bullet->isActive(); };
+    return (drives(a) && b.kind == RigidKind::Static) || (drives(b) && a.kind == RigidKind::Static);
+}
+
 /// A body's motion now; none of what is neither free nor driven.
 struct Moving {
     Vec3 centre, velocity, spin;
@@ -762,7 +777,7 @@ void BulletWorld::gather_contacts() {
         a.is_damped |= !m.is_at_crack, b.is_damped |= !m.is_at_crack;
         a.is_driven |= b.kind == RigidKind::Kinematic && b.bullet->isActive();
         b.is_driven |= a.kind == RigidKind::Kinematic && a.bullet->isActive();
-        if (!a.is_free() && !b.is_free()) continue;
+        if (!a.is_free() && !b.is_free() && !is_driven_in(a, b)) continue;
         const Moving moving_a(a), moving_b(b);
         const float scale = scale_of(a, b);
         for (int k = 0; k < m.manifold->getNumContacts(); ++k) {
@@ -774,6 +789,24 @@ void BulletWorld::gather_contacts() {
             a.overlap = std::max(a.overlap, overlap);
             b.overlap = std::max(b.overlap, overlap);
             contacts_.push_back({m.a, m.b, m.cell_a, m.cell_b, point, normal, p.m_distance1, speed});
+        }
+    }
+}
+
+void BulletWorld::gather_loads(float dt) {
+    loads_.clear();
+    for (const SortedManifold& m : manifolds_) {
+        if (!m.manifold) continue;
+        const Body &a = bodies_[m.a], &b = bodies_[m.b];
+        if (!a.is_free() && !b.is_free() && !is_driven_in(a, b)) continue;
+        const Moving moving_a(a), moving_b(b);
+        for (int k = 0; k < m.manifold->getNumContacts(); ++k) {
+            const btManifoldPoint& p = m.manifold->getContactPoint(k);
+            const Vec3 point = 0.5f * (from_bullet(p.m_positionWorldOnA) + from_bullet(p.m_positionWorldOnB));
+            const Vec3 normal = from_bullet(p.m_normalWorldOnB);
+            const float closing =
+                dot(moving_b.at(point) - moving_a.at(point), normal) - std::max(p.m_distance1, 0.0f) / dt;
+            loads_.push_back({m.a, m.b, m.cell_a, m.cell_b, point, normal, p.m_distance1, closing, p.m_appliedImpulse});
         }
     }
 }
@@ -917,6 +950,7 @@ void BulletWorld::solve(float dt) {
     }
     const double before = CULLET_CHECKS_ON ? height_energy() : 0;
     solve_contacts(dt);
+    gather_loads(dt);
     sum_impulse_to_static();
     if (CULLET_CHECKS_ON) sum_driven_work();
     const double lifted = CULLET_CHECKS_ON ? height_energy() : 0, falling = CULLET_CHECKS_ON ? dt * falling_power() : 0;

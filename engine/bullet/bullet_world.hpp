@@ -72,6 +72,7 @@ class BulletWorld final : public RigidWorld {
     bool is_touched(RigidId id) const override { return is_known(id) && bodies_[id].is_touched; }
     bool is_held_up(RigidId id) const override { return is_known(id) && bodies_[id].is_held_up; }
     void solve(float dt) override;
+    std::span<const RigidContact> loads() const override { return loads_; }
     bool first_touch(Vec3 from, Vec3 to, float seconds, float radius, float least_reach,
                      RigidTouch& out) const override;
     bool is_asleep(RigidId id) const override;
@@ -148,6 +149,7 @@ class BulletWorld final : public RigidWorld {
     void refresh(Body& body);
     void gather_box(Body& body);
     void enter_tree(Body& body);
+    static bool may_touch(const Body& a, const Body& b);
     void find_pairs();
     void refresh_all();
     void meet_all();
@@ -155,6 +157,7 @@ class BulletWorld final : public RigidWorld {
     void list_manifolds();
     void solve_contacts(float dt);
     void gather_contacts();
+    void gather_loads(float dt);
     void look_at_newborn(const Body& a, const Body& b, std::span<const CrackTouch> touches, bool is_turned);
     void wake_touching(RigidId id);
     void take_out(RigidId id);
@@ -218,6 +221,7 @@ class BulletWorld final : public RigidWorld {
     float inner_reach_ = 0;           // m, of the largest of these
     uint32_t mesh_count_ = 0;         // bodies with static triangles
     std::vector<RigidContact> contacts_;
+    std::vector<RigidContact> loads_;                   // of the last solve
     std::vector<RigidId> in_the_way_;                   // of the flight that is foreseen
     std::vector<SortedManifold> manifolds_;             // in rising (a, b) and pieces of a and b
     std::vector<Scattered> scattered_;                  // pairs to solve, in the order of solving

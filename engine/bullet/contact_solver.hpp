@@ -47,6 +47,7 @@ class ContactSolver {
         float grip;       // N s
         float most_push;  // m
         bool are_siblings;
+        bool is_laden;
         uint32_t key;  // batches are filled in rising order of it
     };
     struct Source;
@@ -54,18 +55,21 @@ class ContactSolver {
         uint32_t points, root;  // of its bodies' numbers the least
     };
     struct Group {
-        uint32_t first, end;  // batches
+        uint32_t first, end;    // batches
+        bool is_laden = false;  // of islands in which something bears many times its weight
     };
     bool is_free(uint32_t number) const;
     uint32_t root_of(uint32_t number);
     uint32_t root_of(const Contacts& pair);
-    void group_islands();
+    bool is_laden(const Contacts& pair, float dt) const;
+    void group_islands(float dt);
     void colour_pairs();
     void fill_batches();
     void fill_batch(const uint32_t* pairs, uint32_t count);
     void set_up(Batch& batch, const uint32_t* pairs, float dt);
     void set_up_point(PointRows& p, RollRows* r, SiblingRows* s, const Contacts* const (&of)[kLanes], uint32_t k,
                       const Source& a, const Source& b, float dt);
+    int iterations_of(const Group& group) const;
     void iterate(const Group& group);
     void write_points() const;
     void write_bodies(float dt);
@@ -75,6 +79,7 @@ class ContactSolver {
     std::vector<uint64_t> colours_;                   // by number: a bit each, of those that the body has
     std::vector<uint32_t> above_;                     // by number: on the way to the island's root
     std::vector<uint32_t> island_points_, group_of_;  // by root
+    std::vector<uint8_t> laden_;                      // by root
     std::vector<Island> islands_;
     std::vector<Group> groups_;
     std::vector<Contacts> pairs_;              // in the order of solving

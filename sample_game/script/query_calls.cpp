@@ -192,6 +192,7 @@ void fill(lua_State* lua, const ImpactEvent& e) {
     set(lua, "speed", static_cast<double>(e.approach_speed)), set(lua, "energy", e.energy);
     if (e.striker) set(lua, "striker", e.striker);
     lua_pushboolean(lua, e.is_held), lua_setfield(lua, -2, "is_held");
+    lua_pushnumber(lua, static_cast<lua_Number>(e.load)), lua_setfield(lua, -2, "load");
 }
 void fill(lua_State* lua, const CrackStartedEvent& e) {
     set(lua, "body", e.body), set(lua, "place", e.place);

@@ -172,7 +172,7 @@ void Recorder::frame(const HostFrame& frame) {
         for_each_number_of_id(c.b, into(out));
         for_each_number_of_vector(c.point, into(out));
         for_each_number_of_vector(c.normal, into(out));
-        out.number(c.distance), out.number(c.piece_a), out.number(c.piece_b);
+        out.number(c.distance), out.number(c.piece_a), out.number(c.piece_b), out.number(c.impulse);
     }
 }
 

@@ -308,14 +308,14 @@ void Replayer::step_hosted(ByteReader& in) {
         for_each_number_of_motion(b.motion, from(in));
         b.is_asleep = in.number<uint8_t>("a sleep") != 0;
     }
-    if (!in.expect(uint64_t{contacts} * 52 <= in.left(), "more contacts than bytes")) return;
+    if (!in.expect(uint64_t{contacts} * 56 <= in.left(), "more contacts than bytes")) return;
     std::vector<HostContact> touches(contacts);
     for (HostContact& c : touches) {
         for_each_number_of_id(c.a, from(in));
         for_each_number_of_id(c.b, from(in));
         for_each_number_of_vector(c.point, from(in));
         for_each_number_of_vector(c.normal, from(in));
-        from(in)(c.distance), from(in)(c.piece_a), from(in)(c.piece_b);
+        from(in)(c.distance), from(in)(c.piece_a), from(in)(c.piece_b), from(in)(c.impulse);
     }
     if (!in.is_sound()) return;
     (void)world_->step(HostFrame{rows.data(), bodies, touches.data(), contacts});

@@ -57,6 +57,7 @@ constexpr Rule kRules[] = {
     {"shells", "hinge_limit", Is::Number, 0, kHuge},
     {"shells", "vertex_limit", Is::Number, 0, kHuge},
     {"shells", "first_crack_speed", Is::Number, 0, kHuge},
+    {"shells", "first_crack_force", Is::Number, 0, kHuge},
     {"shells", "generation", Is::Number, 0, 0, 0, 255},
     {"shells", "has_cracks", Is::Number, 0, 0, 0, 1},
     {"shells", "shape", Is::Number, 0, 0, 0, static_cast<double>(ShapeKind::Box)},

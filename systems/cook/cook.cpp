@@ -29,6 +29,9 @@ namespace cullet {
 namespace {
 
 constexpr uint32_t kThresholdPlaces = 4;
+// Of the force that a blow may pass, so much is borne for long: hidden runs give a wall twice the strength that the
+// table has for seconds (thick shell note, B7).
+constexpr float kForLong = 0.5f;
 // Of a hit: beyond the first a threshold is estimated, since measuring it would take minutes (a wall of 1,600 stones
 // takes half of that); beyond the second a hit would.
 constexpr uint64_t kMostMeasuredUnits = 2'000'000'000, kMostUnits = 20'000'000'000;
@@ -156,14 +159,24 @@ Result<void> make_stiff(State& state, Row<Shells>& shell) {
 }
 
 void measure_thresholds(State& state, Row<Shells> shell, const CookSettings& settings) {
-    float speeds[kThresholdPlaces];
+    float speeds[kThresholdPlaces], forces[kThresholdPlaces];
     for (uint32_t place = 0; place < kThresholdPlaces; ++place) {
-        speeds[place] = first_crack_speed(state, shell, seeded_direction(settings.seed, place));
+        const FirstCrack crack = first_crack(state, shell, seeded_direction(settings.seed, place));
+        speeds[place] = crack.speed;
+        forces[place] = crack.force;
         if (settings.progress)
             settings.progress(settings.progress_user, 0.4f + 0.6f * static_cast<float>(place + 1) / kThresholdPlaces);
     }
     std::sort(speeds, speeds + kThresholdPlaces);
+    std::sort(forces, forces + kThresholdPlaces);
     state.shells.first_crack_speed[shell] = 0.5f * (speeds[1] + speeds[2]);
+    state.shells.first_crack_force[shell] = kForLong * 0.5f * (forces[1] + forces[2]);
+}
+
+// (2/3) sigma_t h^2: what a square of the wall bears in its middle that lies on two of its edges.
+float estimated_force(const State& state, Row<Shells> shell) {
+    const float h = state.shells.thickness[shell];
+    return 0.667f * state.materials.tensile_strength[state.shells.material[shell]] * h * h;
 }
 
 // 0.1 sigma_d / (rho c): what a wave in a bar carries; only where nothing was measured. 0 of what does not crack.
@@ -171,6 +184,12 @@ float estimated_threshold(const State& state, Row<Shells> shell) {
     const uint32_t m = state.shells.material[shell];
     const Materials& materials = state.materials;
     return 0.2f * materials.tensile_strength[m] / std::sqrt(materials.young_modulus[m] * materials.density[m]);
+}
+
+void estimate_thresholds(State& state, Row<Shells> shell) {
+    state.shells.first_crack_speed[shell] = estimated_threshold(state, shell);
+    state.shells.first_crack_force[shell] =
+        state.shells.first_crack_speed[shell] > 0 ? estimated_force(state, shell) : 0;
 }
 
 // Of a large body whose cracks stay near the hit those of the part that it begins on.
@@ -224,6 +243,7 @@ ModelReport report_on(const State& state, Row<Shells> shell, const SurfaceRepair
     report.mass = s.mass[shell];
     report.mean_thickness = s.thickness[shell];
     report.first_crack_speed = s.first_crack_speed[shell];
+    report.first_crack_force = s.first_crack_force[shell];
     report.units_of_a_hit = units_of_a_hit(state, shell);
     if (!repairs.is_clean()) report.repairs = describe(repairs);
     return report;
@@ -350,7 +370,7 @@ Result<Model> cook(const MeshView& view, const CookSettings& settings) try {
     if (measures)
         measure_thresholds(state, contents->shell, settings);
     else
-        state.shells.first_crack_speed[contents->shell] = estimated_threshold(state, contents->shell);
+        estimate_thresholds(state, contents->shell);
     if (settings.progress && !measures) settings.progress(settings.progress_user, 1);
     contents->report = report_on(state, contents->shell, given->repairs, extrusion.value());
     // A hit on a ductile or elastic body is no hidden run.

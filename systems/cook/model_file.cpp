@@ -19,7 +19,7 @@ constexpr uint64_t kLargestFile = 1ull << 34;  // rows of it, and of what is der
 
 constexpr const char* kAdvice = "The model file is damaged or of another build; cook the mesh again and write it.";
 constexpr FileKind kKind{{'c', 'm', 'o', 'd', 'l', '\r', '\n', '\x1a'},
-                         8,
+                         9,
                          "model file",
                          ".cmodel",
                          "Write one with write_model.",
@@ -52,6 +52,7 @@ void for_each_number(Report& report, F&& f) {
     f(report.mass);
     f(report.mean_thickness);
     f(report.first_crack_speed);
+    f(report.first_crack_force);
     f(report.vertices);
     f(report.elements);
     f(report.cells);
@@ -194,10 +195,11 @@ Result<void> check_report(const Found& found, const State& state, Row<Shells> sh
                                  std::to_string(r.elements) + " elements, " + std::to_string(r.cells) + " cells and " +
                                  std::to_string(r.degenerate_elements) + " degenerate elements, unlike the tables");
     if (r.mass != s.mass[shell] || r.mean_thickness != double{s.thickness[shell]} ||
-        r.first_crack_speed != s.first_crack_speed[shell])
-        return damaged(name, "the report's mass, thickness or first crack speed, " + std::to_string(r.mass) + " kg, " +
-                                 std::to_string(r.mean_thickness) + " m, " + std::to_string(r.first_crack_speed) +
-                                 " m/s, is not the shell's");
+        r.first_crack_speed != s.first_crack_speed[shell] || r.first_crack_force != s.first_crack_force[shell])
+        return damaged(name, "the report's mass, thickness, first crack speed or first crack force, " +
+                                 std::to_string(r.mass) + " kg, " + std::to_string(r.mean_thickness) + " m, " +
+                                 std::to_string(r.first_crack_speed) + " m/s, " + std::to_string(r.first_crack_force) +
+                                 " N, is not the shell's");
     return {};
 }
 

@@ -52,6 +52,7 @@ void lay_queued(State& state, Row<Tasks> task, uint32_t q) {
     contacts.radius[c] = patch_radius(state.shells, shell, queued.striker_radius[q]);
     tasks.contact_count[task] = 1;
     tasks.is_late[task] = 1;
+    tasks.load[task] = queued.load[q];
 }
 
 // A hit that settle_tasks will hold: a bump below the first-crack speed is late, and the solver's affair, at once.
@@ -127,7 +128,9 @@ void open_queued_of(uint64_t frame, Opening& opening, const DamageSettings& sett
                 const Pose pose = pose_of(bodies, body);
                 const Impact impact{body, queued.striker[q], to_world(pose, queued.point[q]),
                                     rotate(pose.orientation, queued.normal[q]), queued.approach_speed[q]};
-                impact_events.push(event_of(bodies, impact, queued.striker_inverse_mass[q]));
+                ImpactEvent event = event_of(bodies, impact, queued.striker_inverse_mass[q]);
+                event.load = queued.load[q];
+                impact_events.push(event);
             } else if (may_find_room(state, body) &&
                        static_cast<float>(opening.frame - frame) * opening.dt < kMostSecondsQueued) {
                 continue;

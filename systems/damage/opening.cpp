@@ -219,7 +219,7 @@ void Opening::drop(Row<Tasks> task, const char* full) {
         const float approach = contacts.start_speed[c] - dot(moving, contacts.normal[c]);
         const bool is_queued =
             queue_hit(state, {frame, body, contacts.striker[c], contacts.point[c], contacts.normal[c], approach,
-                              contacts.striker_inverse_mass[c], contacts.striker_radius[c]});
+                              contacts.striker_inverse_mass[c], contacts.striker_radius[c], tasks.load[task]});
         if (!is_queued) return refuse(body, "limits.queued_hits", false);
     }
 }
@@ -245,6 +245,7 @@ bool queue_hit(State& state, const QueuedHit& hit) {
     queued.approach_speed[q] = hit.approach_speed;
     queued.striker_inverse_mass[q] = hit.striker_inverse_mass;
     queued.striker_radius[q] = hit.striker_radius;
+    queued.load[q] = hit.load;
     return true;
 }
 

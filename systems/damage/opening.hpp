@@ -33,6 +33,7 @@ struct QueuedHit {
     Row<Bodies> body, striker;
     Vec3 point, normal;  // body frame and axes
     float approach_speed, striker_inverse_mass, striker_radius;
+    float load = 0;  // N, see Tasks
 };
 
 struct Opening {

@@ -164,11 +164,11 @@ Vec3 seeded_direction(uint64_t seed, uint64_t n) {
     return Vec3d(r * cosine, z, r * sine).to_float();
 }
 
-float first_crack_speed(State& state, Row<Shells> shell, Vec3 down) {
+FirstCrack first_crack(State& state, Row<Shells> shell, Vec3 down) {
     static constexpr float kSpeed = 1;
     HitDescription hit = fall_on_floor(state, shell, down, kSpeed);
     hit.strength_scale = 1e9f;  // may not crack: stresses are compared below
-    if (!open_hit(state, shell, hit)) return 0;
+    if (!open_hit(state, shell, hit)) return {};
     const BrittleLoop loop = make_brittle_loop();
     LoopWorld world{state};
     Tasks& tasks = state.tasks;
@@ -176,9 +176,14 @@ float first_crack_speed(State& state, Row<Shells> shell, Vec3 down) {
     const CrackLimits limits = crack_limits(working, 1);
     const float limit = limits.start;
     float most = 1e-6f;
+    double passed = 0, most_force = 0, force = 0;
     while (static_cast<TaskState>(tasks.state[kTask]) == TaskState::Running) {
         tasks.steps_granted[kTask] = 3;
         loop.run_alone(world, {kTask, tasks.steps_done[kTask], 3, task_goes_on});
+        const double impulse = state.task_contacts.impulse[0];
+        most_force = std::max(most_force, (impulse - passed) / (3 * double{tasks.time_step[kTask]}));
+        passed = impulse;
+        const float before = most;
         // Only a vertex beside an element above the present maximum can raise it; the least strength factor is 0.5.
         for (uint32_t e = 0; e < working.element_count(); ++e) {
             const uint32_t row = working.element(e);
@@ -189,9 +194,10 @@ float first_crack_speed(State& state, Row<Shells> shell, Vec3 down) {
                 most = std::max(most, ratio);
             }
         }
+        if (most > before) force = most_force;
     }
     close_hit(state);
-    return kSpeed / most;
+    return {kSpeed / most, static_cast<float>(force / double{most})};
 }
 
 }  // namespace cullet

@@ -50,9 +50,13 @@ HitDescription fall_on_floor(const State& state, Row<Shells> shell, Vec3 down, f
 /// A direction from (seed, n), even over the sphere.
 Vec3 seeded_direction(uint64_t seed, uint64_t n);
 
-/// Speed of a fall on a floor at which the first crack starts, m/s. Up to the first crack the hidden run is homogeneous
-/// of degree one in the speed (linear shell, springs without a gap that only push), so one run that may not crack gives
-/// it exactly: the speed over the largest ratio of stress to limit.
-float first_crack_speed(State& state, Row<Shells> shell, Vec3 down);
+struct FirstCrack {
+    float speed = 0;  // m/s
+    float force = 0;  // N, the most that the contact has passed until then
+};
+/// Of a fall on a floor, when the first crack starts. Up to it the hidden run is homogeneous of degree one in the speed
+/// (linear shell, springs without a gap that only push), so one run that may not crack gives it exactly: the speed, and
+/// the force, over the largest ratio of stress to limit.
+FirstCrack first_crack(State& state, Row<Shells> shell, Vec3 down);
 
 }  // namespace cullet

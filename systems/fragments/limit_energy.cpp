@@ -104,6 +104,10 @@ void move(Births& births, const Mover& m, Vec3d velocity, Vec3d spin, BodyId par
         if (e.fragment.index == m.body.index) e.motion = motion;
 }
 
+// Of the energy of the blow that stands for a load: what is squeezed bursts with what its springs held, and who presses
+// follows slowly.
+constexpr double kFreedByLoad = 0.1;
+
 }  // namespace
 
 double rigid_energy(const Bodies& bodies, Row<Bodies> body) {
@@ -124,6 +128,10 @@ double pieces_energy(const State& state, const Break& plan) {
 }
 
 double owed_to_late(const State& state, Row<Tasks> task) {
+    if (state.tasks.load[task] > 0) {
+        const double speed = double{state.tasks.approach_speed[task]};
+        return kFreedByLoad * 0.5 * state.bodies.mass[state.tasks.body[task]] * speed * speed;
+    }
     double owed = state.tasks.start_energy[task] - rigid_energy(state.bodies, state.tasks.body[task]);
     const uint32_t first = state.tasks.first_contact[task], end = first + state.tasks.contact_count[task];
     const auto& strikers = state.task_contacts.striker;

@@ -266,6 +266,7 @@ void inherit(Shells& shells, Row<Shells> from, Row<Shells> to) {
     shells.hinge_limit[to] = shells.hinge_limit[from];
     shells.vertex_limit[to] = shells.vertex_limit[from];
     shells.first_crack_speed[to] = shells.first_crack_speed[from];
+    shells.first_crack_force[to] = shells.first_crack_force[from];
 }
 
 void copy_shape(Shells& shells, Row<Shells> from, Row<Shells> to) {

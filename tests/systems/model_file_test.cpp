@@ -353,8 +353,8 @@ TEST(ModelFile, LinksThatDoNotLeadBackAreRefused) {
 TEST(ModelFile, OtherFilesVersionsAndMaterialsAreToldApart) {
     expect_refused(std::vector<uint8_t>{'P', 'K', 3, 4}, "is no model file");
     std::vector<uint8_t> bytes = good_bytes();
-    put(bytes, 8, 7u);
-    expect_refused(bytes, "has version 7, this build reads version 8");
+    put(bytes, 8, 8u);
+    expect_refused(bytes, "has version 8, this build reads version 9");
     const Result<Model> read = parse_model_file(good_bytes(), "t");
     auto& contents = const_cast<Model::Contents&>(*read->contents);
     contents.material = "a jelly";

@@ -29,6 +29,9 @@ struct ImpactEvent {
     float approach_speed = 0;  // m/s
     double energy = 0;         // J, of the approach
     bool is_held = false;      // body and striker stand still until the damage is decided
+    // N that squeeze the body for longer than it bears, and no blow: a weight, a press. The speed and the energy are
+    // those of the blow that is run in its place.
+    float load = 0;
 };
 
 struct CrackStartedEvent {

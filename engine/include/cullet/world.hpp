@@ -67,7 +67,8 @@ struct SphereSettings {
     uint64_t user_data = 0;
 };
 
-/// A convex solid that the game moves by its velocities: a lift, a door.
+/// A convex solid that the game moves by its velocities: a lift, a door. A breakable body that it presses against
+/// something that does not yield breaks, however slowly it comes.
 struct KinematicSettings {
     Pose pose;
     Motion motion;

@@ -1,4 +1,4 @@
-#include "engine/bullet/principal_axes.hpp"
+#include "engine/principal_axes.hpp"
 
 namespace cullet {
 namespace {

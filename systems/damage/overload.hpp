@@ -1,0 +1,42 @@
+// What presses on a body, against what it bears.
+#pragma once
+#include <span>
+
+#include "components/state.hpp"
+
+namespace cullet {
+
+/// One contact of a body as a load.
+struct BodyLoad {
+    Vec3d place;              // from the centre of mass, body axes, m
+    Vec3d push;               // unit, body axes: the way the body is pushed
+    double force = 0;         // N, that the last solve passed, and what it would have taken to stop who pushes
+    double bears = 0;         // N, that the one who touches can set against a push towards it
+    double driven_speed = 0;  // m/s along `push`, of one that moves whatever stands in its way
+    bool stands = false;      // it yields to no force: static, kinematic or held
+    uint32_t contact = 0;     // of RigidWorld::loads()
+};
+inline constexpr uint32_t kMostLoads = 64;  // of one body that are looked at
+inline constexpr double kBearsAll = 1e30;   // N
+
+struct Overload {
+    double share = 0;        // of what the body bears; more than 1 breaks it
+    double load = 0;         // N, that squeeze it
+    uint32_t contact = 0;    // of RigidWorld::loads(), where it is worst
+    bool is_driven = false;  // two that do not yield close on it: no force is enough for long
+};
+
+/// N that one place of the body bears for long: less once it has cracks.
+double force_borne(const State& state, Row<Bodies> body);
+/// At least so much bends the body too far, whatever lies under it, N.
+double least_bending_force(const State& state, Row<Bodies> body);
+
+/// The worst of three:
+/// - Squeezed: along each push, the forces that push that way, as far as the others bear them, over first_crack_force.
+/// - Bent: the moment of the loads in sections across its principal axes, over strength times section modulus, W = V/L
+///   <x^2> / c (exact for bars, flat sheets and tubes: b h^2 / 6, pi R^2 h). What the loads leave over accelerates it
+///   evenly. Pins bear like a beam's supports, the nearest to both sides of the load.
+/// - Driven: two that do not yield come nearer to each other and both touch it.
+Overload overload_of(const State& state, Row<Bodies> body, std::span<const BodyLoad> loads);
+
+}  // namespace cullet
