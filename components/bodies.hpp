@@ -52,7 +52,7 @@ struct Bodies : Table<Bodies> {
     Column<uint8_t> overload_runs{*this, "overload_runs"};
     Column<uint32_t> first_load{*this, "first_load", "1", Keep::Scratch};  // of the list of its loads, or kNone
     Column<uint32_t> task{*this, "task"};                                  // open task or kNone
-    Column<uint32_t> colour{*this, "colour"};                 // stable number for pictures
+    Column<uint32_t> colour{*this, "colour"};                              // stable number for pictures
     // Drawn mesh in view space.
     Column<std::array<float, 6>> drawn_box{*this, "drawn_box", "m", Keep::Scratch};  // low, high; body frame
     Column<Range> view_vertices{*this, "view_vertices"};

@@ -16,7 +16,7 @@ struct BodyLoad {
     bool stands = false;      // it yields to no force: static, kinematic or held
     uint32_t contact = 0;     // of RigidWorld::loads()
 };
-inline constexpr uint32_t kMostLoads = 64;  // of one body that are looked at
+inline constexpr uint32_t kMostLoads = 32;  // of one body that are looked at
 inline constexpr double kBearsAll = 1e30;   // N
 
 struct Overload {
