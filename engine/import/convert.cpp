@@ -2,6 +2,7 @@
 #include <assimp/postprocess.h>
 #include <assimp/scene.h>
 
+#include <algorithm>
 #include <assimp/Importer.hpp>
 #include <filesystem>
 #include <functional>
@@ -22,6 +23,7 @@
 #include "engine/import/words.hpp"
 #include "engine/import/xml.hpp"
 #include "engine/import/xml_unit.hpp"
+#include "engine/import/zip.hpp"
 #include "engine/mesh_file.hpp"
 
 namespace cullet {
@@ -210,11 +212,13 @@ Affine as_it_stands(const aiScene&, std::vector<std::string>&) {
 }
 
 /// The importer is never torn down: assimp 5.2 frees some of what it has read twice, and the process that reads ends
-/// when it has handed over the result. `files` goes to the importer.
-Result<Corners> read_by_assimp(std::unique_ptr<FolderFiles> files, const std::string& path, const Place& place) {
+/// when it has handed over the result. `files` goes to the importer, which asks it for `name` where the model has
+/// another.
+Result<Corners> read_by_assimp(std::unique_ptr<FolderFiles> files, const std::string& path, const Place& place,
+                               const std::string& name = "") {
     Assimp::Importer& importer = *new Assimp::Importer;
     importer.SetIOHandler(files.release());
-    const aiScene* scene = importer.ReadFile(path, 0);
+    const aiScene* scene = importer.ReadFile(name.empty() ? path : name, 0);
     if (scene == nullptr) return unreadable(path, importer.GetErrorString());
     if (auto r = check_indices(*scene, path); !r) return Error{r.error()};
     scene = importer.ApplyPostProcessing(aiProcess_Triangulate);
@@ -248,16 +252,38 @@ Result<Corners> read_by(Result<Corners> (*reader)(std::string bytes, const std::
     return reader(std::move(*bytes), path);
 }
 
-/// `change` gives the text that assimp is to read, and notes.
-template <class Change>
-Result<Corners> read_changed(const std::string& path, const Change& change) {
-    auto files = std::make_unique<FolderFiles>(path);
-    auto bytes = bytes_of(*files, path);
-    if (!bytes) return Error{bytes.error()};
-    auto plain = change(std::move(*bytes));
+/// `bytes` are those of the model, or of one inside it.
+Result<Corners> read_collada(const std::string& path, std::string bytes) {
+    auto plain = plain_collada(std::move(bytes), path);
     if (!plain) return Error{plain.error()};
-    files->replace_model(std::move(plain->text));
-    return with_notes(read_by_assimp(std::move(files), path, as_it_stands), plain->notes);
+    auto files = std::make_unique<FolderFiles>(path);
+    const std::string name = path + ".dae";  // whatever it is called: assimp goes by the last part
+    files->replace_model(std::move(plain->text), name);
+    return with_notes(read_by_assimp(std::move(files), path, as_it_stands, name), plain->notes);
+}
+
+Result<Corners> read_collada(const std::string& path) {
+    FolderFiles files(path);
+    auto bytes = bytes_of(files, path);
+    if (!bytes) return Error{bytes.error()};
+    return read_collada(path, std::move(*bytes));
+}
+
+/// Collada in a ZIP.
+Result<Corners> read_packed_collada(const std::string& path) {
+    const ZipFile zip(ModelFolder(path).find(path));
+    if (!zip.is_open()) return unreadable(path, "it is no ZIP file, or cut off");
+    const auto is_model = [](const std::string& name) {
+        return is_word(std::filesystem::path(name).extension().string(), ".dae");
+    };
+    const auto model = std::find_if(zip.names().begin(), zip.names().end(), is_model);
+    auto bytes = model == zip.names().end() ? std::nullopt : zip.read(*model);
+    if (!bytes) return unreadable(path, "no Collada file is in it, or it is damaged");
+    auto corners = read_collada(path, std::move(*bytes));
+    const auto models = std::count_if(zip.names().begin(), zip.names().end(), is_model);
+    if (corners && models > 1)
+        corners->notes.push_back("Of " + std::to_string(models) + " models in it the first was read.");
+    return corners;
 }
 
 /// The file as it is; `look` gives notes.
@@ -302,8 +328,8 @@ Result<Corners> read_corners(const std::string& path) {
         const std::string file = ModelFolder(path).find(path);
         return file.empty() ? unreadable(path, "it cannot be opened") : read_3mf(file, path);
     }
-    if (extension == ".dae")
-        return read_changed(path, [&path](std::string bytes) { return plain_collada(std::move(bytes), path); });
+    if (extension == ".dae") return read_collada(path);
+    if (extension == ".zae") return read_packed_collada(path);
     if (extension == ".fbx") return read_with_notes(path, place_of_fbx, notes_of_fbx);
     if (extension == ".obj") return read_with_notes(path, as_it_stands, notes_of_obj);
     if (extension == ".amf" || extension == ".x3d") return read_in_its_unit(path);

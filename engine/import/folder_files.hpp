@@ -24,7 +24,7 @@ class FolderFiles : public Assimp::DefaultIOSystem {
  public:
     explicit FolderFiles(const std::string& model) : model_(model), folder_(model) {}
 
-    bool Exists(const char* file) const override { return !folder_.find(file).empty(); }
+    bool Exists(const char* file) const override { return is_model(file) || !folder_.find(file).empty(); }
 
     /// The bytes as they are on the disk.
     Assimp::IOStream* open_as_it_is(const std::string& file, const char* mode = "rb") {
@@ -32,11 +32,14 @@ class FolderFiles : public Assimp::DefaultIOSystem {
         return real.empty() ? nullptr : DefaultIOSystem::Open(real.c_str(), mode);
     }
 
-    /// What is handed on in place of the model's own bytes.
-    void replace_model(std::string text) { model_text_ = std::move(text); }
+    /// What is handed on in place of the model's own bytes, under its name or another one.
+    void replace_model(std::string text, const std::string& name) {
+        model_text_ = std::move(text);
+        model_ = name;
+    }
 
     Assimp::IOStream* Open(const char* file, const char* mode) override {
-        if (model_text_ && folder_.find(file) == folder_.find(model_)) return in_memory(*model_text_);
+        if (is_model(file)) return in_memory(*model_text_);
         std::unique_ptr<Assimp::IOStream> stream(open_as_it_is(file, mode));
         if (stream == nullptr) return nullptr;
         const std::string extension = small_letters(std::filesystem::path(file).extension().string());
@@ -61,6 +64,11 @@ class FolderFiles : public Assimp::DefaultIOSystem {
     }
 
  private:
+    bool is_model(const std::string& file) const {
+        if (!model_text_) return false;
+        return file == model_ || (!folder_.find(file).empty() && folder_.find(file) == folder_.find(model_));
+    }
+
     /// Formats of text, which may be UTF-16 without a mark. With a mark any file is text.
     inline static const std::set<std::string> kTexts{".obj", ".mtl", ".off",  ".dae", ".fbx", ".x3d", ".amf", ".ase",
                                                      ".ac",  ".nff", ".enff", ".raw", ".xml", ".smd", ".x",   ".dxf"};

@@ -13,6 +13,7 @@
 #include "tests/support/house.hpp"
 #include "tests/support/places.hpp"
 #include "tests/support/run_program.hpp"
+#include "tests/support/small_zip.hpp"
 
 namespace cullet {
 namespace {
@@ -343,6 +344,18 @@ std::string ply() {
     for (const auto& t : test::house_triangles())
         text += "3 " + std::to_string(t[0]) + " " + std::to_string(t[1]) + " " + std::to_string(t[2]) + "\n";
     return text;
+}
+
+TEST_F(ImportSiblings, ColladaMayBePackedInAZip) {
+    DaeSettings s;
+    s.primitives = primitive("trifans", 5, kWalls) + primitive("trifans", 1, {kRoof});
+    const std::string model = dae(test::house_points(), s);
+    import_house(write("house.zae", test::small_zip({{"manifest.xml", "<x/>"}, {"a/house.DAE", model}})), "packed");
+    EXPECT_NE(import_house(write("two.zae", test::small_zip({{"a.dae", model}, {"b.dae", model}})), "two")
+                  .find("Of 2 models"),
+              std::string::npos);
+    import_refused(write("none.zae", test::small_zip({{"a.txt", model}})));
+    import_refused(write("none.zae", "no zip"));
 }
 
 TEST_F(ImportSiblings, NamesOfColladaMayBeOfAnyEncodingOrNoXmlAtAll) {
