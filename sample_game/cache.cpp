@@ -43,7 +43,7 @@ std::vector<Entry> entries_of(const std::string& folder) {
         if (gone) continue;
         if (path.extension() == ".part") {
             if (fs::file_time_type::clock::now() - used > kOldestPart) fs::remove(path, gone);
-        } else if (path.extension() == ".cmesh" || path.extension() == ".cmodel") {
+        } else if (path.extension() == ".cmesh" || path.extension() == ".cmodel" || path.extension() == ".notes") {
             entries.push_back({used, bytes, path});
         }
     }

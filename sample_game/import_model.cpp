@@ -31,6 +31,10 @@ struct PassingFolder {
     PassingFolder& operator=(const PassingFolder&) = delete;
 };
 
+void say_notes(const std::string& path, const std::string& notes) {
+    if (!notes.empty()) fmt::print(stderr, "{}: {}\n", fs::path(path).filename().string(), notes);
+}
+
 }  // namespace
 
 Result<Mesh> import_model(const std::string& path) {
@@ -44,13 +48,17 @@ Result<Mesh> import_model(const std::string& path) {
     const auto waiting = [&progress](double seconds, double most) {
         progress.show(seconds / most, fmt::format("of the {:.0f} s that it may take", most));
     };
+    std::string notes;
     if (cache.empty()) {
         const PassingFolder passing;
         if (passing.path.empty())
             return Error{path + ": no folder for its mesh file can be written; set TMPDIR to one that can."};
-        return import_mesh(path, program, passing.path, waiting);
+        Result<Mesh> mesh = import_mesh(path, program, passing.path, waiting, &notes);
+        say_notes(path, notes);
+        return mesh;
     }
-    Result<Mesh> mesh = import_mesh(path, program, cache, waiting);
+    Result<Mesh> mesh = import_mesh(path, program, cache, waiting, &notes);
+    say_notes(path, notes);
     trim_cache(cache);
     return mesh;
 }

@@ -108,13 +108,14 @@ bool append_named_files(const std::string& path, std::string_view text, std::vec
     return true;
 }
 
-/// The part of a glTF file that names others: all of a .gltf, the JSON that a .glb begins with (its length stands at
-/// byte 12, in version 1 as in version 2). Of other formats nothing: none of those that games use keeps triangles
-/// beside it.
+/// The part of a glTF file that names others: all of a .gltf, the JSON that a binary one begins with, whatever it is
+/// called (its length stands at byte 12, in version 1 as in version 2). Of other formats nothing: none of those that
+/// games use keeps triangles beside it.
 std::string_view naming_text(const std::string& extension, const std::vector<uint8_t>& bytes) {
     const std::string_view all(reinterpret_cast<const char*>(bytes.data()), bytes.size());
-    if (extension == ".gltf") return all;
-    if (extension != ".glb" || bytes.size() < 20) return {};
+    const bool is_binary = all.substr(0, 4) == "glTF";
+    if (extension == ".gltf" && !is_binary) return all;
+    if (!is_binary || bytes.size() < 20) return {};
     uint32_t length = 0;
     std::memcpy(&length, bytes.data() + 12, sizeof length);
     return all.substr(20, length);
@@ -127,6 +128,8 @@ XXH128_hash_t hash_of(std::string_view text) {
 /// The name of the cache entry; empty when the result is not to be kept.
 std::string content_key(const std::string& path, const std::vector<uint8_t>& bytes, const std::string& version) {
     const std::string extension = lower_case_extension(path);
+    const auto begin = bytes.begin(), end = begin + static_cast<ptrdiff_t>(std::min<size_t>(bytes.size(), 4));
+    if (extension == ".gltf" && std::find(begin, end, 0) != end) return "";  // UTF-16: no names are found in it
     std::vector<XXH128_hash_t> parts{XXH3_128bits(bytes.data(), bytes.size()), hash_of(extension), hash_of(version)};
     if (!append_named_files(path, naming_text(extension, bytes), parts)) return "";
     const XXH128_hash_t all = XXH3_128bits(parts.data(), parts.size() * sizeof parts[0]);
@@ -155,7 +158,7 @@ std::string listen(int pipe, const ImportWaiting& waiting, bool& is_late) {
         const ssize_t n = ::read(pipe, buffer, sizeof buffer);
         if (n < 0 && errno == EINTR) continue;
         if (n <= 0) return said;
-        if (said.size() < 4096) said.append(buffer, static_cast<size_t>(n));
+        if (said.size() < 4 * kLongestSentence) said.append(buffer, static_cast<size_t>(n));
     }
 }
 
@@ -213,36 +216,62 @@ Result<std::string> version_of(const std::string& program) {
     return said;
 }
 
-/// The mesh file that the program makes of a model. An absolute path cannot be taken for an option.
-Result<Mesh> read_imported(const std::string& path, const std::string& program, const std::string& out,
-                           const ImportWaiting& waiting) {
-    const auto said = run_importer({program, fs::absolute(path).string(), out}, waiting);
-    if (said) return read_mesh_file(out);
+struct Imported {
+    Mesh mesh;
+    std::string notes;
+};
+
+/// The mesh file that the program makes of a model, and the second line that it says, if there is one. An absolute path
+/// cannot be taken for an option.
+Result<Imported> read_imported(const std::string& path, const std::string& program, const std::string& out,
+                               const ImportWaiting& waiting) {
+    const auto said = run_importer({program, fs::absolute(path).string(), out, "--notes-apart"}, waiting);
+    if (said) {
+        auto mesh = read_mesh_file(out);
+        if (!mesh) return Error{mesh.error()};
+        const size_t end = said->find('\n');
+        return Imported{std::move(*mesh), end == said->npos ? "" : said->substr(end + 1)};
+    }
     if (!said.error().empty()) return Error{said.error()};
     return Error{path + ": the import program stopped without a word. Run it by hand: " + program + " " + path};
 }
 
-Result<Mesh> import_without_cache(const std::string& path, const std::string& program, const fs::path& folder,
-                                  const ImportWaiting& waiting) {
+Result<Imported> import_without_cache(const std::string& path, const std::string& program, const fs::path& folder,
+                                      const ImportWaiting& waiting) {
     const std::string out = folder / ("passing." + std::to_string(::gettid()) + ".cmesh");
     auto mesh = read_imported(path, program, out, waiting);
     ::unlink(out.c_str());
     return mesh;
 }
 
-Result<Mesh> import_with_cache(const std::string& path, const std::string& program, const std::string& cached,
-                               const ImportWaiting& waiting) {
+/// Notes stand beside the mesh file, where there are any.
+Result<Imported> import_with_cache(const std::string& path, const std::string& program, const std::string& cached,
+                                   const ImportWaiting& waiting) {
+    const std::string beside = cached + ".notes";
     auto mesh = read_mesh_file(cached);
-    if (!mesh) return read_imported(path, program, cached, waiting);
-    ::utimensat(AT_FDCWD, cached.c_str(), nullptr, 0);  // used now; whoever keeps the folder small sees it
-    return mesh;
+    if (!mesh) {
+        auto imported = read_imported(path, program, cached, waiting);
+        if (imported && !imported->notes.empty()) {
+            const auto* bytes = reinterpret_cast<const uint8_t*>(imported->notes.data());
+            (void)write_whole_file({bytes, imported->notes.size()}, beside).ok();  // without it they are said once
+        }
+        return imported;
+    }
+    for (const std::string& used : {cached, beside})
+        ::utimensat(AT_FDCWD, used.c_str(), nullptr, 0);  // used now; whoever keeps the folder small sees it
+    const auto notes = read_whole_file(beside, kLongestSentence);
+    return Imported{std::move(*mesh), notes ? std::string(notes->begin(), notes->end()) : ""};
 }
 
-Result<Mesh> import_any(const std::string& path, const std::string& program, const std::string& cache_folder,
-                        const ImportWaiting& waiting) {
+Result<Imported> import_any(const std::string& path, const std::string& program, const std::string& cache_folder,
+                            const ImportWaiting& waiting) {
     auto bytes = read_whole_file(path, kLargestModel);
     if (!bytes) return Error{bytes.error()};
-    if (is_mesh_file(*bytes)) return parse_mesh_file(*bytes, path);
+    if (is_mesh_file(*bytes)) {
+        auto mesh = parse_mesh_file(*bytes, path);
+        if (!mesh) return Error{mesh.error()};
+        return Imported{std::move(*mesh), ""};
+    }
 
     const auto version = version_of(program);
     if (!version) return Error{version.error()};
@@ -250,22 +279,24 @@ Result<Mesh> import_any(const std::string& path, const std::string& program, con
     fs::create_directories(cache_folder, trouble);
     const fs::path folder = fs::absolute(cache_folder);
     const std::string key = content_key(path, *bytes, *version);
-    auto mesh = key.empty() ? import_without_cache(path, program, folder, waiting)
-                            : import_with_cache(path, program, folder / (key + ".cmesh"), waiting);
-    if (!mesh) return Error{mesh.error()};
-    mesh->name = one_line(fs::path(path).stem().string()).substr(0, kLongestMeshName);
-    if (auto r = validate_mesh(*mesh, path); !r) return Error{r.error()};
-    return mesh;
+    auto imported = key.empty() ? import_without_cache(path, program, folder, waiting)
+                                : import_with_cache(path, program, folder / (key + ".cmesh"), waiting);
+    if (!imported) return Error{imported.error()};
+    Mesh& mesh = imported->mesh;
+    mesh.name = one_line(fs::path(path).stem().string()).substr(0, kLongestMeshName);
+    if (auto r = validate_mesh(mesh, path); !r) return Error{r.error()};
+    return imported;
 }
 
 }  // namespace
 
 Result<Mesh> import_mesh(const std::string& path, const std::string& program_path, const std::string& cache_folder,
-                         const ImportWaiting& waiting) {
+                         const ImportWaiting& waiting, std::string* notes) {
     try {
-        auto mesh = import_any(path, program_path, cache_folder, waiting);
-        if (!mesh) return Error{one_line(mesh.error(), kLongestSentence)};
-        return mesh;
+        auto imported = import_any(path, program_path, cache_folder, waiting);
+        if (!imported) return Error{one_line(imported.error(), kLongestSentence)};
+        if (notes != nullptr) *notes = one_line(imported->notes, kLongestSentence);
+        return std::move(imported->mesh);
     } catch (const std::exception& e) {
         return Error{one_line(path) + ": cannot be imported (" + e.what() + "). Free memory or check the path."};
     }

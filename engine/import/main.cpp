@@ -1,4 +1,4 @@
-// cullet_import IN OUT.cmesh [--memory-mib 1024] [--seconds 10], or cullet_import --version
+// cullet_import IN OUT.cmesh [--memory-mib 1024] [--seconds 10] [--notes-apart], or cullet_import --version
 // Exit code 0 and one line of counts and repairs, or 2 and one sentence. OUT is written whole or not at all, and over
 // ordinary files only, never over IN.
 #include <assimp/version.h>
@@ -6,6 +6,7 @@
 #include <unistd.h>
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <cmath>
 #include <cstdio>
 
@@ -17,6 +18,7 @@ namespace cullet {
 namespace {
 
 constexpr size_t kLongestLine = 4000;  // bytes; a path and all the repairs that there are
+constexpr char kNotesBegin = '\n';     // between the line and its notes, while they are on the way
 
 std::string count(uint64_t n, const char* one, const char* many) {
     return std::to_string(n) + " " + (n == 1 ? one : many);
@@ -76,7 +78,7 @@ MeshView view_of(const Mesh& mesh) {
 std::string line_of(const std::string& path, const ConvertedModel& model, const MeshReport& report) {
     const Mesh& mesh = model.mesh;
     std::string notes;
-    for (const std::string& note : model.notes) notes += " " + note;
+    for (const std::string& note : model.notes) notes += (notes.empty() ? kNotesBegin : ' ') + note;
     return path + ": " + count(mesh.positions.size(), "vertex", "vertices") + ", " +
            count(mesh.triangles.size(), "triangle", "triangles") + ", " +
            count(materials_of(mesh), "material", "materials") + ", " + box_of(mesh) + ", " + parts_of(report) + ". " +
@@ -146,6 +148,13 @@ Result<std::string> import_model(const std::string& in, const std::string& out, 
     return delivery->line;
 }
 
+/// On one line, or on a second one what the mesh does not hold.
+void print(const std::string& line, bool notes_apart) {
+    const size_t notes = notes_apart ? std::min(line.find(kNotesBegin), line.size()) : line.size();
+    std::printf("%s\n", one_line(line.substr(0, notes), kLongestLine).c_str());
+    if (notes < line.size()) std::printf("%s\n", one_line(line.substr(notes + 1), kLongestLine).c_str());
+}
+
 }  // namespace
 }  // namespace cullet
 
@@ -161,6 +170,8 @@ int main(int argc, char** argv) {
     app.add_option("--seconds", limits.seconds, "most processor time for reading the model, s")
         ->check(CLI::Range(1, 3600))
         ->capture_default_str();
+    bool notes_apart = false;
+    app.add_flag("--notes-apart", notes_apart, "a second line for what the model holds and the mesh file does not");
     app.set_version_flag("--version", cullet::version());
     try {
         app.parse(argc, argv);
@@ -173,7 +184,7 @@ int main(int argc, char** argv) {
     try {
         const auto line = cullet::import_model(in, out, limits);
         if (line.ok()) {
-            std::printf("%s\n", cullet::one_line(line.value(), cullet::kLongestLine).c_str());
+            cullet::print(line.value(), notes_apart);
             return 0;
         }
         std::fprintf(stderr, "%s\n", cullet::one_line(line.error(), cullet::kLongestLine).c_str());

@@ -512,6 +512,45 @@ TEST_F(Import, ANewBufferBesideAModelIsANewModelForTextAndBinaryGltf) {
         }
 }
 
+TEST_F(Import, WhatTheMeshDoesNotHoldIsToldByTheProgramByTheImportAndByTheCache) {
+    file("side.bin", triangle_bytes());
+    std::string json = triangle_gltf("side.bin");
+    json.insert(json.size() - 1, R"(,"cameras":[{},{}],"extensionsUsed":["X_NEW"])");
+    const std::string path = file("m.gltf", json);
+    const std::string wanted = "Read without the extension \"X_NEW\". Not kept: 2 cameras.";
+    const ProgramRun alone = run(path, folder_ / "out.cmesh");
+    EXPECT_NE(alone.said.find(". " + wanted + "\n"), std::string::npos) << alone.said;
+    EXPECT_EQ(std::count(alone.said.begin(), alone.said.end(), '\n'), 1) << alone.said;
+    for (int round = 0; round < 2; ++round) {
+        std::string notes = "old";
+        ASSERT_TRUE(import_mesh(path, kProgram, cache(), {}, &notes).ok());
+        EXPECT_EQ(notes, wanted) << round;
+    }
+    std::string notes = "old";
+    ASSERT_TRUE(import_mesh(file("cube.obj", kCube), kProgram, cache(), {}, &notes).ok());
+    EXPECT_EQ(notes, "");
+}
+
+TEST_F(Import, ABinaryGltfOfAnyNameBelongsToItsBuffersAndOneOfWideLettersIsNotKept) {
+    const std::string json = triangle_gltf("side.bin");
+    for (const float size : {1.0f, 2.0f}) {
+        file("side.bin", triangle_bytes(size));
+        const auto mesh = import_mesh(file("m.model", binary_gltf(json)), kProgram, cache());
+        ASSERT_TRUE(mesh.ok()) << mesh.error();
+        EXPECT_EQ(mesh->positions[1].x, size);
+    }
+    const size_t kept = cached_files();
+    std::string wide = "\xFF\xFE";
+    for (const char c : json) wide += std::string{c, '\0'};
+    for (const float size : {1.0f, 2.0f}) {
+        file("side.bin", triangle_bytes(size));
+        const auto mesh = import_mesh(file("m.gltf", wide), kProgram, cache());
+        ASSERT_TRUE(mesh.ok()) << mesh.error();
+        EXPECT_EQ(mesh->positions[1].x, size);
+    }
+    EXPECT_EQ(cached_files(), kept);
+}
+
 TEST_F(Import, TheCacheLooksAtNoFileThatTheModelMayNotOpen) {
     fs::create_directories(folder_ / "inner");
     file("inner/side.bin", triangle_bytes());

@@ -41,7 +41,7 @@ std::optional<Part> Part::find(std::initializer_list<const char*> names) const {
 
 Part Part::need(const char* name) const {
     std::optional<Part> part = find(name);
-    if (!part) throw Refusal((place_.empty() ? "the file" : place_) + " has no \"" + name + "\"");
+    if (!part) refuse("has no \"" + std::string(name) + "\"");
     return *part;
 }
 

@@ -25,7 +25,9 @@ class Part {
     Part(const nlohmann::json& value, std::string place) : value_(&value), place_(std::move(place)) {}
 
     const std::string& place() const { return place_; }
-    [[noreturn]] void refuse(const std::string& what) const { throw Refusal(place_ + " " + what); }
+    [[noreturn]] void refuse(const std::string& what) const {
+        throw Refusal((place_.empty() ? "the whole" : place_) + " " + what);
+    }
 
     /// A member of this object, if it is there.
     std::optional<Part> find(const char* name) const;
