@@ -99,7 +99,10 @@ TEST(SmallStack, HiddenAndQuickBreaksOnAFloor) {
                 SpawnSettings spawn = falling(mode);
                 spawn.strength_scale = 0.02f;
                 EXPECT_TRUE(world.spawn(world.add_model(model).value(), spawn).ok());
-                play_until_born(world, material);
+                if (std::string(material) == "wood")  // its fibres mostly hold: cracks alone
+                    play(world, 40);
+                else
+                    play_until_born(world, material);
             });
         }
 }
