@@ -174,11 +174,13 @@ BulletWorld::PutThrough BulletWorld::find_born_through(const Body& body) const {
 }
 
 // What is put somewhere is on the side of its centre of mass, where a sheet cuts it. Where none does, a sheet between
-// its centre and a piece is one that it reaches around.
-BulletWorld::PutThrough BulletWorld::find_laid_through(const Body& body) const {
+// its centre and a piece is one that it reaches around. `centre` is the one that it was put down with: a move out of
+// one sheet may take it through another.
+BulletWorld::PutThrough BulletWorld::find_laid_through(const Body& body, Vec3 centre) const {
     PutThrough deepest;
-    const Vec3 centre = from_bullet(body.bullet->getCenterOfMassPosition());
-    visit_meshes(body, body.shape.box, [&](const Body& other) {
+    Box box = body.shape.box;
+    include(box, centre);
+    visit_meshes(body, box, [&](const Body& other) {
         PutThrough here;
         for (const Hull* hull = body.hulls; hull; hull = hull->next) {
             const Vec3 to = inner_point(*hull, body.fresh_at);
@@ -226,11 +228,12 @@ void BulletWorld::settle_born(Body& body) {
 
 void BulletWorld::settle_laid(Body& body) {
     if (mesh_count_ == 0 || body.kind != RigidKind::Dynamic || body.is_soft) return;
-    const PutThrough first = find_laid_through(body);
+    const Vec3 centre = from_bullet(body.bullet->getCenterOfMassPosition());
+    const PutThrough first = find_laid_through(body, centre);
     if (!(first.depth > 0) || !is_cut_by(body, bodies_[first.mesh], scratches_.own())) return;
     lift_new(body, first);
     for (int move = 1; move < kFirstMoves; ++move) {
-        const PutThrough put = find_laid_through(body);
+        const PutThrough put = find_laid_through(body, centre);
         if (!(put.depth > 0)) return;
         lift_new(body, put);
     }

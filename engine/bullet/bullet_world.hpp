@@ -175,7 +175,7 @@ class BulletWorld final : public RigidWorld {
     void visit_meshes(const Body& body, const Box& box, Call call) const;
     PutThrough find_put_through(const Body& body) const;
     PutThrough find_born_through(const Body& body) const;
-    PutThrough find_laid_through(const Body& body) const;
+    PutThrough find_laid_through(const Body& body, Vec3 centre) const;
     bool is_cut_by(const Body& body, const Body& mesh_body, PairScratch& scratch) const;
     void move_by(Body& body, Vec3 way);
     void stop_at_sheet(Body& body, const PutThrough& put);

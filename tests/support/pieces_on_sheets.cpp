@@ -13,7 +13,7 @@ namespace cullet {
 namespace {
 
 constexpr uint32_t kPiecesAWorld = 125;
-constexpr float kHalf = 60;  // m, of a sheet's side
+constexpr float kHalf = 300;  // m, of a sheet: nothing gets to its edges
 constexpr float kBehind = 0.001f;
 
 /// A row of random numbers.
