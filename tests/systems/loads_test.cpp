@@ -53,7 +53,7 @@ struct Press {
 constexpr Press kPresses[] = {
     {"FromAbove", "game.kinematic{half_extents = {0.5, 0.1, 0.5}, at = {0, 0.41, 0}, velocity = {0, %g, 0}}", 0.01},
     {"FromTheSide",
-     "game.box{low = {0.09, 0, -1}, high = {0.4, 1, 1}} "
+     "game.box{low = {0.105, 0, -1}, high = {0.4, 1, 1}} "
      "game.kinematic{half_extents = {0.05, 0.5, 0.5}, at = {-0.16, 0.501, 0}, velocity = {%g, 0, 0}}",
      0.05},
     {"FromBelow",
