@@ -36,6 +36,7 @@ struct Bodies : Table<Bodies> {
     Column<uint8_t> is_sphere{*this, "is_sphere"};
     Column<float> friction{*this, "friction"};
     Column<float> restitution{*this, "restitution"};
+    Column<float> rolling_friction{*this, "rolling_friction"};  // < 0: by its shape
     Column<uint32_t> layer{*this, "layer"};
     Column<uint32_t> mask{*this, "mask"};
     Column<uint64_t> user_data{*this, "user_data"};

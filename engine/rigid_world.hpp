@@ -49,7 +49,8 @@ struct RigidDescription {
     float margin = 0.001f;  // m
     float friction = 0.45f;
     float restitution = 0.2f;     // used above 0.2 m/s
-    float rolling_friction = 0;   // a length, m
+    float rolling_friction = 0;   // of its own shape: a length, m; both bodies' count together, but beside a ball
+    float rolling_share = 0;      // of a ball's radius, of balls and of what they roll on: the larger one counts
     uint32_t layer = 1;           // bits
     uint32_t mask = 0xffffffffu;  // layers it meets
     float radius = 0;             // > 0: a sphere about the body frame's origin, pieces unused
@@ -135,6 +136,8 @@ class RigidWorld {
                                       float restitution, uint32_t layer, uint32_t mask, bool one_sided = false) = 0;
     /// What of these triangles has no area, or was there before: nothing meets it.
     virtual LeftOut left_out(RigidId) const { return {}; }
+    /// RigidDescription::rolling_share of a body that is there: for static triangles.
+    virtual void set_rolling_share(RigidId, float) {}
     virtual void add(RigidId id, const RigidDescription& description) = 0;
     virtual void remove(RigidId id) = 0;
     /// The body is another one from now on, where it is: what sleeps on it sleeps on.

@@ -57,7 +57,7 @@ struct Body {
     Vec3 hull_centre;         // the centre of mass in the hull frame
     float mass = 0;
     btVector3 moments{0, 0, 0};
-    float friction = 0, restitution = 0, rolling_friction = 0;
+    float friction = 0, restitution = 0, rolling_friction = 0, rolling_share = 0;
     float margin = 0;
     Hull* hulls = nullptr;  // in the order of the caller's pieces
     uint32_t hull_count = 0;

@@ -17,7 +17,7 @@ namespace {
 // Most by which a body is pushed out of a sleeper, which does not give way. A slab that fell asleep a millimetre and a
 // half deep in its neighbour lifted that one by half a millimetre at once, was woken by it, and dropped it.
 constexpr float kPushedOffSleepers = 0.0001f;  // m in a step, at scale 1
-constexpr float kAngularDamping = 0.1f;        // 1/s, of what is touched: flight has none, nor has a birth
+constexpr float kAngularDamping = 0.1f;        // 1/s, of what is touched: flight has none, nor a birth, nor a ball
 constexpr float kPressedIn = 0.001f;           // m a step, at scale 1, that an unsolved contact may deepen by
 constexpr float kSeamReach = 0.001f;           // m beyond the margins, more than mark_inner_faces() looks past a face
 // Leaves of the tree hold what they are about with half of the way from which pieces are watched (see
@@ -380,7 +380,7 @@ void BulletWorld::set_mass(Body& body, double mass, Vec3d centre, const Sym3d& i
 void BulletWorld::make_bullet(Body& body, const btTransform& at) {
     btRigidBody::btRigidBodyConstructionInfo info(body.mass, nullptr, &body.shape, body.moments);
     info.m_startWorldTransform = at;
-    info.m_angularDamping = kAngularDamping;
+    if (!is_ball(body)) info.m_angularDamping = kAngularDamping;
     info.m_friction = body.friction;
     info.m_restitution = body.restitution;
     info.m_rollingFriction = info.m_spinningFriction = body.rolling_friction;
@@ -430,7 +430,7 @@ void BulletWorld::add_static_triangles(RigidId id, std::span<const Vec3> positio
     body.id = id;
     body.kind = RigidKind::Static;
     body.is_level = true;
-    body.friction = friction, body.restitution = restitution, body.rolling_friction = 0;
+    body.friction = friction, body.restitution = restitution, body.rolling_friction = body.rolling_share = 0;
     body.margin = 0;
     set_mass(body, 0, {}, {});
     auto mesh = std::make_unique<StaticMesh>(sort_static_triangles(positions, triangles, one_sided));
@@ -443,6 +443,10 @@ void BulletWorld::add_static_triangles(RigidId id, std::span<const Vec3> positio
     enter(body, {}, layer, mask);
 }
 
+void BulletWorld::set_rolling_share(RigidId id, float share) {
+    if (is_known(id)) bodies_[id].rolling_share = share;
+}
+
 void BulletWorld::add(RigidId id, const RigidDescription& d) {
     InsideRigidEngine guard(counts_.allocations);
     if (id >= body_limit_ || bodies_[id].is_used) return;
@@ -452,6 +456,7 @@ void BulletWorld::add(RigidId id, const RigidDescription& d) {
     body.is_level = false;
     body.left_out = {};
     body.friction = d.friction, body.restitution = d.restitution, body.rolling_friction = d.rolling_friction;
+    body.rolling_share = d.rolling_share;
     body.mesh.reset();
     set_mass(body, d.mass, d.centre, d.inertia);
     const Vec3 origin;
@@ -910,14 +915,14 @@ void BulletWorld::solve_contacts(float dt) {
     });
     for (const Scattered& pair : scattered_) {
         const SortedManifold& first = manifolds_[pair.first];
-        const float most_push = is_asleep(first.a) || is_asleep(first.b) 
-            ? scale_of(bodies_[first.a], bodies_[first.b]) * kPushedOffSleepers : kFar;
-        solver_.add_pair(bodies_[first.a].number, bodies_[first.b].number, pair.grip, most_push,
-                         !(pair.grip > 0) && are_siblings(bodies_[first.a], bodies_[first.b]));
+        const Body &a = bodies_[first.a], &b = bodies_[first.b];
+        const float scale = scale_of(a, b);
+        const float most_push = is_asleep(a.id) || is_asleep(b.id) ? scale * kPushedOffSleepers : kFar;
+        solver_.add_pair(a.number, b.number, pair.grip, most_push, !(pair.grip > 0) && are_siblings(a, b), scale);
         for (uint32_t m = pair.first; m < pair.end; ++m)
             if (manifolds_[m].manifold) solver_.add_contacts(*manifolds_[m].manifold);
     }
-    solver_.solve(dt, scratches_);
+    solver_.solve(dt, 1 / Pace(gravity_.length()).slower, scratches_);
 }
 
 namespace {

@@ -38,6 +38,7 @@ class BulletWorld final : public RigidWorld {
                               std::span<const std::array<uint32_t, 3>> triangles, float friction, float restitution,
                               uint32_t layer, uint32_t mask, bool one_sided) override;
     LeftOut left_out(RigidId id) const override;
+    void set_rolling_share(RigidId id, float share) override;
     void add(RigidId id, const RigidDescription& description) override;
     void remove(RigidId id) override;
     void replace(RigidId id, const RigidDescription& description) override;
@@ -192,7 +193,8 @@ class BulletWorld final : public RigidWorld {
     void stop_mass(Body& body);
     void restore_mass(Body& body);
     void wake_struck();
-    bool is_struck(const Body& sleeper, const Body& other, const btPersistentManifold& manifold, const Pace& pace) const;
+    bool is_struck(const Body& sleeper, const Body& other, const btPersistentManifold& manifold,
+                   const Pace& pace) const;
     void wake_unsettled(float dt, const Pace& pace);
     void wake_beside(Body& body);
     void sum_loads();

@@ -125,7 +125,7 @@ float solve_rows(const Batch& batch, PointRows* points, RollRows* rolls, Sibling
     }
     for (uint32_t k = batch.first_point; batch.rolls && k < end; ++k) {
         const Lanes pressed = Grips ? most(points[k].hold.impulse, kNone) : points[k].hold.impulse,
-                    limit = rolls[k].limit * least(pressed, Lanes{1, 1, 1, 1});
+                    limit = rolls[k].limit * pressed;
         for (Row& row : rolls[k].roll) {
             const Lanes now = dot(row.arm_a, a.spin) - dot(row.arm_b, b.spin);
             give_turn(row, bounded(row, row.wanted, now, -limit, limit, row.impulse, changed), a, b);
@@ -133,7 +133,7 @@ float solve_rows(const Batch& batch, PointRows* points, RollRows* rolls, Sibling
     }
     scatter<&SolverBody::velocity, &SolverBody::spin>(a, bodies, batch.body_a);
     scatter<&SolverBody::velocity, &SolverBody::spin>(b, bodies, batch.body_b);
-    return largest(changed);
+    return batch.weight * largest(changed);
 }
 
 }  // namespace
@@ -158,7 +158,7 @@ float push_batch(const Batch& batch, PointRows* points, SolverBody* bodies) {
     }
     scatter<&SolverBody::push, &SolverBody::turn>(a, bodies, batch.body_a);
     scatter<&SolverBody::push, &SolverBody::turn>(b, bodies, batch.body_b);
-    return largest(changed);
+    return batch.weight * largest(changed);
 }
 
 void start_batch(const Batch& batch, const PointRows* points, SolverBody* bodies) {

@@ -41,7 +41,7 @@ struct PointRows {
 /// Rolling and spinning friction of the same point: `along` is none, arms are the axes.
 struct RollRows {
     Row roll[3];
-    Lanes limit{};  // m: the most torque impulse, of a contact impulse of 1 N s and at all
+    Lanes limit{};  // m: the most torque impulse, of a contact impulse of 1 N s
 };
 
 /// The same point of siblings, which must not throw each other: between them impulses of its rows only take away from
@@ -59,10 +59,12 @@ struct SiblingRows {
 struct Batch {
     uint32_t body_a[kLanes] = {}, body_b[kLanes] = {};
     uint32_t first_point = 0, point_count = 0;                            // of PointRows
+    float weight = 1;                                                     // of its squared changes of speed
     bool rolls = false, pushes = false, grips = false, siblings = false;  // any of them
 };
 
-/// One iteration over a batch. What comes back is the largest change of a row's speed, squared.
+/// One iteration over a batch. What comes back is the largest change of a row's speed, squared,
+/// times the weight of the batch.
 float solve_batch(const Batch& batch, PointRows* points, RollRows* rolls, SiblingRows* siblings, SolverBody* bodies);
 /// The same for the push out of overlaps.
 float push_batch(const Batch& batch, PointRows* points, SolverBody* bodies);

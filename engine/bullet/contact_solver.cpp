@@ -15,7 +15,9 @@ namespace {
 constexpr size_t kPointsOfABody = 16;
 // Iterations end once the largest change of a contact's speed in one of them is below this, (m/s) squared: at a hundred
 // times it heaps sleep as soon and lie a quarter deeper in each other; at ten times it they lie as here, but a stack of
-// five boxes leans by 3.4 mm, a tenth of that here.
+// five boxes leans by 3.4 mm, a tenth of that here. An error in speed is a depth after so many steps: it goes with the
+// scale of the pair, and with how fast things fall. With a millimetre a second for all, walls of a quarter of a
+// millimetre lie a quarter of that deep in the floor.
 constexpr float kSettledSquare = 1e-6f;
 // Until then a step takes as many as come to this many contacts in all, within these bounds. Of 16 heaps of fifty
 // curved shards one has a contact deeper than 3 mm with three quarters as many and half of that for the pushes, none
@@ -31,7 +33,7 @@ constexpr float kRestitutionSpeed = 0.2f;  // m/s, below which nothing bounces
 // Nor does what, at the speed at which it closes, lay deeper than this a step ago already: it does not strike, it sinks
 // in. A curved shard that rocks on the floor gets corners in it that no contact held, and was thrown up by each of them
 // for seven seconds.
-constexpr float kStruckDepth = 0.001f;  // m
+constexpr float kStruckDepth = 0.001f;  // m, at scale 1
 
 // Of a contact's softness, below which spins cannot be what closes it: the touch is central.
 constexpr float kLeastTurning = 1e-3f;
@@ -124,8 +126,8 @@ uint32_t ContactSolver::add_body(btRigidBody& body) {
     return static_cast<uint32_t>(bodies_.size() - 1);
 }
 
-void ContactSolver::add_pair(uint32_t a, uint32_t b, float grip, float most_push, bool are_siblings) {
-    pairs_.push_back({a, b, static_cast<uint32_t>(points_.size()), 0, grip, most_push, are_siblings, false, 0});
+void ContactSolver::add_pair(uint32_t a, uint32_t b, float grip, float most_push, bool are_siblings, float scale) {
+    pairs_.push_back({a, b, static_cast<uint32_t>(points_.size()), 0, grip, most_push, are_siblings, false, scale, 0});
 }
 
 void ContactSolver::add_contacts(btPersistentManifold& manifold) {
@@ -277,7 +279,7 @@ void ContactSolver::set_up_point(PointRows& p, RollRows* r, SiblingRows* s, cons
                                  uint32_t k, const Source& a, const Source& b, float dt) {
     float point_a[3][kLanes] = {}, point_b[3][kLanes] = {}, n[3][kLanes] = {}, t[2][3][kLanes] = {};
     float distance[kLanes] = {}, bounce[kLanes] = {}, friction[kLanes] = {}, impulse[3][kLanes] = {}, is[kLanes] = {};
-    float rolling[kLanes] = {}, grip[kLanes] = {}, most_push[kLanes] = {}, siblings[kLanes] = {};
+    float struck[kLanes] = {}, rolling[kLanes] = {}, grip[kLanes] = {}, most_push[kLanes] = {}, siblings[kLanes] = {};
     for (uint32_t lane = 0; lane < kLanes; ++lane) {
         if (!of[lane] || k >= of[lane]->count) continue;
         btManifoldPoint& from = *points_[of[lane]->first + k];
@@ -293,6 +295,7 @@ void ContactSolver::set_up_point(PointRows& p, RollRows* r, SiblingRows* s, cons
         impulse[0][lane] = kWarm * from.m_appliedImpulse;
         impulse[1][lane] = kWarm * from.m_appliedImpulseLateral1;
         impulse[2][lane] = kWarm * from.m_appliedImpulseLateral2;
+        struck[lane] = of[lane]->scale * kStruckDepth;
         rolling[lane] = from.m_combinedRollingFriction;
         grip[lane] = of[lane]->grip, most_push[lane] = of[lane]->most_push;
         siblings[lane] = of[lane]->are_siblings;
@@ -314,7 +317,7 @@ void ContactSolver::set_up_point(PointRows& p, RollRows* r, SiblingRows* s, cons
     const Lanes apart = load(distance), opening = set(p.hold, p.normal);
     const Lanes a_step_ago = apart - opening * dt;
     const Lanes back =
-        (opening < -kRestitutionSpeed) & (a_step_ago > -kStruckDepth) ? -load(bounce) * opening : Lanes{};
+        (opening < -kRestitutionSpeed) & (a_step_ago > -load(struck)) ? -load(bounce) * opening : Lanes{};
     // What is still apart may close that far.
     p.hold.wanted = there * (back - opening - forced(p.normal)) - per_second * most(apart, Lanes{});
     p.push_wanted = per_second * least(kPushed * most(-apart, Lanes{}), load(most_push));
@@ -350,15 +353,18 @@ void ContactSolver::set_up_point(PointRows& p, RollRows* r, SiblingRows* s, cons
     r->limit = load(rolling);
 }
 
-void ContactSolver::set_up(Batch& batch, const uint32_t* pairs, float dt) {
+void ContactSolver::set_up(Batch& batch, const uint32_t* pairs, float dt, float pace) {
     const Contacts* of[kLanes] = {};
+    float scale = 1;
     for (uint32_t k = 0; k < kLanes; ++k) {
         if (pairs[k] == kNoPair) continue;
         of[k] = &pairs_[pairs[k]];
+        scale = std::min(scale, of[k]->scale);
         batch.grips |= of[k]->grip > 0;
         batch.siblings |= of[k]->are_siblings;
         batch.rolls |= points_[of[k]->first]->m_combinedRollingFriction > 0;
     }
+    batch.weight = 1 / (scale * scale * pace * pace);
     const Source a(bodies_, batch.body_a, dt), b(bodies_, batch.body_b, dt);
     for (uint32_t k = 0; k < batch.point_count; ++k) {
         PointRows& p = rows_[batch.first_point + k];
@@ -368,7 +374,7 @@ void ContactSolver::set_up(Batch& batch, const uint32_t* pairs, float dt) {
     }
 }
 
-void ContactSolver::solve(float dt, Scratches& scratches) {
+void ContactSolver::solve(float dt, float pace, Scratches& scratches) {
     if (bodies_.size() == 1) return;
     changes_.assign(bodies_.size(), {});
     for (size_t k = 1; k < bodies_.size(); ++k)
@@ -381,7 +387,7 @@ void ContactSolver::solve(float dt, Scratches& scratches) {
     const auto count = static_cast<uint32_t>(batches_.size());
     scratches.run((count + kBatchesAJob - 1) / kBatchesAJob, [&](uint32_t job, PairScratch&) {
         for (uint32_t k = job * kBatchesAJob; k < std::min(count, (job + 1) * kBatchesAJob); ++k)
-            set_up(batches_[k], &batch_pairs_[k * kLanes], dt);
+            set_up(batches_[k], &batch_pairs_[k * kLanes], dt, pace);
     });
     scratches.run(static_cast<uint32_t>(groups_.size()), [&](uint32_t job, PairScratch&) { iterate(groups_[job]); });
     write_points();

@@ -34,11 +34,13 @@ class ContactSolver {
     /// free come last and hold best.
     /// With a grip, N s, contacts neither push out of overlaps nor bounce, but each holds the two to each other with at
     /// most so much in each direction, also against what would part them. Out of overlaps they are pushed by at most
-    /// `most_push`, m. Siblings do not throw each other (see SiblingRows), nor bounce; they have no grip.
-    void add_pair(uint32_t a, uint32_t b, float grip, float most_push, bool are_siblings);
+    /// `most_push`, m. Siblings do not throw each other (see SiblingRows), nor bounce; they have no grip. The pair has
+    /// the scale of lengths.hpp.
+    void add_pair(uint32_t a, uint32_t b, float grip, float most_push, bool are_siblings, float scale);
     void add_contacts(btPersistentManifold& manifold);
-    /// Impulses, and the push out of overlaps. Nothing is integrated.
-    void solve(float dt, Scratches& scratches);
+    /// Impulses, and the push out of overlaps. Nothing is integrated. `pace` is 1 under g, less where things fall
+    /// slower.
+    void solve(float dt, float pace, Scratches& scratches);
 
  private:
     struct Contacts {
@@ -48,6 +50,7 @@ class ContactSolver {
         float most_push;  // m
         bool are_siblings;
         bool is_laden;
+        float scale;
         uint32_t key;  // batches are filled in rising order of it
     };
     struct Source;
@@ -66,7 +69,7 @@ class ContactSolver {
     void colour_pairs();
     void fill_batches();
     void fill_batch(const uint32_t* pairs, uint32_t count);
-    void set_up(Batch& batch, const uint32_t* pairs, float dt);
+    void set_up(Batch& batch, const uint32_t* pairs, float dt, float pace);
     void set_up_point(PointRows& p, RollRows* r, SiblingRows* s, const Contacts* const (&of)[kLanes], uint32_t k,
                       const Source& a, const Source& b, float dt);
     int iterations_of(const Group& group) const;

@@ -7,9 +7,10 @@
 namespace cullet::bullet {
 namespace {
 
-constexpr float kClear = 2e-4f;  // m between it and what it has met, or its next step would begin in it
+// m between it and what it has met, or its next step would begin in it: at most a tenth of its radius.
+constexpr float kClear = 2e-4f;
 // m that it may be in something and is still pushed out of it. Of what does not move by forces, beyond its radius; of
-// all else at all: a crumb is born among pieces that it overlaps, which must not throw it.
+// all else at all, at most a third of it: a crumb is born among pieces that it overlaps, which must not throw it.
 constexpr float kDeepest = 0.01f, kDeepestInFree = 0.001f;
 
 struct Way {
@@ -109,7 +110,7 @@ bool BulletWorld::first_touch(Vec3 from, Vec3 to, float seconds, float radius, f
         const Vec3 origin = from_bullet(at.getOrigin());
         // What moves has come from where the ball was that much nearer to it.
         const Vec3 start = from + seconds * body.moved_fraction * velocity_at(body, from);
-        const float deepest = body.is_free() ? kDeepestInFree : radius + kDeepest;
+        const float deepest = body.is_free() ? std::min(kDeepestInFree, radius / 3) : radius + kDeepest;
         const Way way{transposed_times(rotation, start - origin), transposed_times(rotation, to - start), radius,
                       deepest};
         Box local{way.from, way.from};
@@ -133,7 +134,7 @@ bool BulletWorld::first_touch(Vec3 from, Vec3 to, float seconds, float radius, f
     });
     if (met == kNoRigid) return false;
     const Body& body = bodies_[met];
-    const Vec3 place = met_from + share * (to - met_from) + (depth + kClear) * normal;
+    const Vec3 place = met_from + share * (to - met_from) + (depth + std::min(kClear, 0.1f * radius)) * normal;
     const bool is_still = !body.is_free() && body.kind != RigidKind::Kinematic;
     out = {share, place, normal, velocity_at(body, place - radius * normal), is_still};
     return true;

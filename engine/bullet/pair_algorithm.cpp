@@ -100,6 +100,13 @@ bool is_inner_edge(const StaticTriangle& triangle, const Hull& hull, Vec3 normal
     return is_on_edge;
 }
 
+// m, by which the point that bears one of the two may miss its middle: see ContactSettings::rolling_friction.
+float rolling_arm(const Body& a, const Body& b) {
+    if (!is_ball(a) && !is_ball(b)) return a.rolling_friction + b.rolling_friction;
+    const float radius = !is_ball(a) ? b.margin : !is_ball(b) ? a.margin : std::min(a.margin, b.margin);
+    return std::max(a.rolling_share, b.rolling_share) * radius;
+}
+
 // Of those that have one.
 float lighter_mass(const Body& a, const Body& b) {
     return a.mass > 0 && b.mass > 0 ? std::min(a.mass, b.mass) : std::max(a.mass, b.mass);
@@ -377,8 +384,7 @@ float PairAlgorithm::choose_best(std::vector<Offer>& offers) {
 }
 
 // Friction and restitution of two bodies: the geometric mean, so that equal materials keep their own value. What was
-// one does not bounce at its crack. Rolling friction crosswise as in Bullet: each one's length times the other's
-// friction.
+// one does not bounce at its crack.
 void PairAlgorithm::write(PairRecord& record, const Patch& patch, uint32_t cell_a, uint32_t cell_b) {
     const Body &a = work_->bodies[a_], &b = work_->bodies[b_];
     if (!record.manifold) {
@@ -397,8 +403,7 @@ void PairAlgorithm::write(PairRecord& record, const Patch& patch, uint32_t cell_
     const float friction = std::sqrt(a.friction * b.friction),
                 restitution = record.crack ? 0 : std::sqrt(a.restitution * b.restitution);
     const float mass = lighter_mass(a, b);
-    const float arm = a.rolling_friction * b.friction + b.rolling_friction * a.friction;  // m
-    const float weight = mass * work_->weight_speed / static_cast<float>(patch.count);
+    const float arm = rolling_arm(a, b);
     const float most = kRestingWeights * mass * work_->weight_speed, scale = this->scale();
     manifold.setNumContacts(patch.count);
     for (int k = 0; k < patch.count; ++k) {
@@ -429,11 +434,7 @@ void PairAlgorithm::write(PairRecord& record, const Patch& patch, uint32_t cell_
             point.m_appliedImpulseLateral1 = share * before[nearest].m_appliedImpulseLateral1;
             point.m_appliedImpulseLateral2 = share * before[nearest].m_appliedImpulseLateral2;
         }
-        // The solver bounds the impulse of rolling friction by the friction times the contact's impulse and also by the
-        // friction itself, as if no impulse were above 1 N s: a ball of 30 kg rolled five times as far as one of a
-        // kilogram. What the contact passed in the last step stands for what it will, and the weight for a new one.
-        const float expected = is_known ? std::min(before[nearest].m_appliedImpulse, most) : weight;
-        point.m_combinedRollingFriction = point.m_combinedSpinningFriction = arm * std::max(1.0f, expected);
+        point.m_combinedRollingFriction = point.m_combinedSpinningFriction = arm;
         manifold.getContactPoint(k) = point;
     }
 }

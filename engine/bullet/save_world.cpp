@@ -181,7 +181,8 @@ void flow_body(F& f, Body& b) {
     flow_numbers(f, b.hull_centre);
     f.number(b.mass);
     flow_numbers(f, b.moments);
-    f.number(b.friction), f.number(b.restitution), f.number(b.rolling_friction), f.number(b.margin);
+    f.number(b.friction), f.number(b.restitution), f.number(b.rolling_friction);
+    f.number(b.rolling_share), f.number(b.margin);
     flow_numbers(f, b.local_box);
     f.number(b.thickness), f.number(b.reach);
     flow_numbers(f, b.fresh_at);

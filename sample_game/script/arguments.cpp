@@ -129,6 +129,7 @@ ContactSettings Arguments::contact() const {
     ContactSettings contact;
     contact.friction = real("friction", {"a number from 0 to 100", 0, 100}, -1);
     contact.restitution = real("restitution", kShare, -1);
+    contact.rolling_friction = real("rolling_friction", kShare, -1);
     return contact;
 }
 

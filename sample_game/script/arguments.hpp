@@ -38,7 +38,7 @@ class Arguments {
     Vec3 vector(const char* name, const Wanted& wanted, Vec3 otherwise) const;
     /// {axis = {x, y, z}, angle = radians}, or {x =, y =, z =, w =}.
     Quat turn(const char* name) const;
-    ContactSettings contact() const;  // friction, restitution
+    ContactSettings contact() const;  // friction, restitution, rolling_friction
     Motion motion() const;            // velocity, spin
     /// Leaves the value on the stack.
     void push(const char* name) const;

@@ -158,11 +158,31 @@ Pose pose_of(const Arguments& given) {
 
 int spawn(lua_State* lua) {
     script_of(lua).act(lua);
-    const Arguments given(
-        lua, "game.spawn",
-        {"mesh",     "cooked",      "model",          "material",  "fracture", "grain", "thickness", "edge",
-         "seed",     "propagation", "join_walls",     "at",        "turn",     "pivot", "velocity",  "spin",
-         "friction", "restitution", "strength_scale", "breakable", "pins",     "quick", "springs"});
+    const Arguments given(lua, "game.spawn",
+                          {"mesh",
+                           "cooked",
+                           "model",
+                           "material",
+                           "fracture",
+                           "grain",
+                           "thickness",
+                           "edge",
+                           "seed",
+                           "propagation",
+                           "join_walls",
+                           "at",
+                           "turn",
+                           "pivot",
+                           "velocity",
+                           "spin",
+                           "friction",
+                           "restitution",
+                           "rolling_friction",
+                           "strength_scale",
+                           "breakable",
+                           "pins",
+                           "quick",
+                           "springs"});
     if (given.has("mesh") == given.has("cooked"))
         given.refuse("expected either mesh = game.mesh..., or cooked = what game.cook returned");
     uint32_t model = 0;
@@ -200,7 +220,8 @@ int spawn(lua_State* lua) {
 
 int throw_ball(lua_State* lua) {
     script_of(lua).act(lua);
-    const Arguments given(lua, "game.throw", {"radius", "mass", "at", "velocity", "spin", "friction", "restitution"});
+    const Arguments given(lua, "game.throw",
+                          {"radius", "mass", "at", "velocity", "spin", "friction", "restitution", "rolling_friction"});
     SphereSettings ball;
     ball.radius = static_cast<float>(given.number("radius", kLength));
     ball.mass = static_cast<float>(given.number("mass", kMass));
@@ -216,9 +237,9 @@ int throw_ball(lua_State* lua) {
 
 int kinematic(lua_State* lua) {
     script_of(lua).act(lua);
-    const Arguments given(
-        lua, "game.kinematic",
-        {"half_extents", "at", "turn", "pivot", "velocity", "spin", "friction", "restitution", "colour"});
+    const Arguments given(lua, "game.kinematic",
+                          {"half_extents", "at", "turn", "pivot", "velocity", "spin", "friction", "restitution",
+                           "rolling_friction", "colour"});
     KinematicSettings settings;
     settings.half_extents = given.vector("half_extents", kLength);
     settings.pose = pose_of(given);

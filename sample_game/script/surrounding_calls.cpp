@@ -25,14 +25,15 @@ int add(lua_State* lua, const Arguments& given, const char* call, Prop prop) {
 
 int add_floor(lua_State* lua) {
     script_of(lua).act(lua);
-    const Arguments given(lua, "game.floor", {"half_side", "height", "friction", "restitution"}, true);
+    const Arguments given(lua, "game.floor", {"half_side", "height", "friction", "restitution", "rolling_friction"},
+                          true);
     return add(lua, given, "game.floor",
                floor_prop(given.real("half_side", kLength, 30), given.real("height", kAnyNumber, 0)));
 }
 
 int add_box(lua_State* lua) {
     script_of(lua).act(lua);
-    const Arguments given(lua, "game.box", {"low", "high", "colour", "friction", "restitution"});
+    const Arguments given(lua, "game.box", {"low", "high", "colour", "friction", "restitution", "rolling_friction"});
     const Vec3 low = given.vector("low", kPlace), high = given.vector("high", kPlace);
     if (!(low.x < high.x && low.y < high.y && low.z < high.z))
         given.refuse("high is not above low along all three axes; expected two opposite corners");
@@ -41,7 +42,8 @@ int add_box(lua_State* lua) {
 
 int add_static(lua_State* lua) {
     script_of(lua).act(lua);
-    const Arguments given(lua, "game.static", {"mesh", "at", "colour", "friction", "restitution", "one_sided"});
+    const Arguments given(lua, "game.static",
+                          {"mesh", "at", "colour", "friction", "restitution", "rolling_friction", "one_sided"});
     given.push("mesh");
     Prop prop;
     prop.mesh = mesh_at(lua, lua_gettop(lua), "game.static: mesh").mesh;

@@ -40,6 +40,7 @@ void fill_body(Bodies& bodies, Row<Bodies> b, BodyKind kind, const Pose& pose, c
     bodies.spin.set(b, motion.angular_velocity);
     bodies.friction[b] = contact.friction >= 0 ? contact.friction : friction;
     bodies.restitution[b] = contact.restitution >= 0 ? contact.restitution : 0.2f;
+    bodies.rolling_friction[b] = contact.rolling_friction >= 0 ? contact.rolling_friction : -1;
     bodies.layer[b] = contact.layer;
     bodies.mask[b] = contact.mask;
     bodies.user_data[b] = user_data;
@@ -55,6 +56,7 @@ RigidDescription description_of(const Bodies& bodies, Row<Bodies> b, RigidKind k
     d.inertia = bodies.inertia[b];
     d.friction = bodies.friction[b];
     d.restitution = bodies.restitution[b];
+    d.rolling_share = std::max(bodies.rolling_friction[b], 0.0f);
     d.layer = bodies.layer[b];
     d.mask = bodies.mask[b];
     return d;
@@ -62,6 +64,8 @@ RigidDescription description_of(const Bodies& bodies, Row<Bodies> b, RigidKind k
 
 // Of what has no material.
 constexpr float kPlainFriction = 0.45f;
+// Of its radius: as of a hard ball on a rough floor. One that is let go at 1 m/s rolls for 7 m.
+constexpr float kRollingOfBalls = 0.01f;
 // From here on nothing cracks; columns hold no infinity.
 constexpr float kNeverCracks = 1e9f;
 
@@ -249,8 +253,8 @@ Result<BodyId> World::add_sphere(const SphereSettings& settings) {
     bodies.is_sphere[body] = 1;
     RigidDescription description = description_of(bodies, body, RigidKind::Dynamic);
     description.radius = settings.radius;
-    // Times the floor's friction: on one of 0.45 a ball at 1 m/s rolls for about a second.
-    description.rolling_friction = 0.3f * settings.radius;
+    if (settings.contact.rolling_friction < 0) description.rolling_share = kRollingOfBalls;
+    description.rolling_friction = description.rolling_share * settings.radius;
     d.rigid->add(body, description);
     d.query_index->touch(bodies, body);
     return body_id(bodies, body);
@@ -327,6 +331,7 @@ Result<BodyId> World::add_static(const MeshView& mesh, const ContactSettings& co
     d.rigid->add_static_triangles(body, {mesh.positions, mesh.position_count}, triangles, bodies.friction[body],
                                   bodies.restitution[body], bodies.layer[body], bodies.mask[body], one_sided);
     tell_left_out(contents_->host, name, d.rigid->left_out(body), mesh.triangle_count);
+    d.rigid->set_rolling_share(body, std::max(bodies.rolling_friction[body], 0.0f));
     d.query_index->set_triangles(body, {mesh.positions, mesh.position_count}, triangles);
     d.query_index->touch(bodies, body);
     return body_id(bodies, body);

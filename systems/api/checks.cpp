@@ -35,6 +35,9 @@ Result<void> check_contact(const ContactSettings& contact) {
     if (!(contact.restitution <= 1))
         return Error{"contact.restitution is " + std::to_string(contact.restitution) +
                      "; use 0 to 1, or less than 0 for 0.2."};
+    if (!(contact.rolling_friction <= 1))
+        return Error{"contact.rolling_friction is " + std::to_string(contact.rolling_friction) +
+                     "; use 0 to 1, or less than 0 for the default (0.01 of a ball's radius)."};
     return {};
 }
 

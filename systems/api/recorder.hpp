@@ -99,7 +99,7 @@ void for_each_number_of_motion(M& m, F&& f) {
 }
 template <class C, class F>
 void for_each_number_of_contact(C& c, F&& f) {
-    f(c.friction), f(c.restitution), f(c.layer), f(c.mask);
+    f(c.friction), f(c.restitution), f(c.rolling_friction), f(c.layer), f(c.mask);
 }
 template <class Q, class F>
 void for_each_number_of_quick(Q& q, F&& f) {

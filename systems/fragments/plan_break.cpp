@@ -67,7 +67,8 @@ Row<Bodies> reserve_body(State& state, Row<Bodies> parent, Row<Shells> broken, c
         Bodies& b = state.bodies;
         b.model[body] = b.model[parent];
         b.parent[body] = parent;
-        for (auto* column : {&b.friction, &b.restitution, &b.strength_scale}) (*column)[body] = (*column)[parent];
+        for (auto* column : {&b.friction, &b.restitution, &b.rolling_friction, &b.strength_scale})
+            (*column)[body] = (*column)[parent];
         b.layer[body] = b.layer[parent];
         b.mask[body] = b.mask[parent];
         b.user_data[body] = b.user_data[parent];

@@ -66,11 +66,22 @@ std::span<const ConvexPiece> changed_pieces(const State& state, Row<Shells> shel
     return pieces_of(state, shell, arena, 0, is_wanted);
 }
 
-// Rolling friction is a length, by which the point that bears a body may miss its centre: three hundredths of the root
-// of its area, as of a rim that is chipped, and no more than the gravel of a floor. With a third of it whole vases roll
+// Rolling friction is a length, by which the point that bears a body may miss its centre: a seventieth of the root of
+// its area, as of a rim that is chipped, and no more than the gravel of a floor. With a third of it whole vases roll
 // to and fro on a heap for six seconds after the last break; without a bound a slab of 750 kg takes ten to tip over,
-// and at eight hundredths slabs stand upright on one corner.
-constexpr float kRollingShare = 0.03f, kMostRolling = 0.015f;  // m
+// and at three times it slabs stand upright on one corner. Where it was set it is that of a ball of as much surface.
+constexpr float kRollingShare = 0.0135f, kMostRolling = 0.00675f;  // m
+constexpr float kRadiusShare = 0.2820948f;                         // sqrt(1 / (4 pi)), of the root of a ball's surface
+
+namespace {
+
+float rolling_length(float setting, float area) {
+    const float root = std::sqrt(area);
+    return setting >= 0 ? setting * kRadiusShare * root : std::min(kRollingShare * root, kMostRolling);
+}
+
+}  // namespace
+
 RigidDescription describe_rigid(const State& state, Row<Bodies> b, std::span<const ConvexPiece> pieces) {
     const Bodies& bodies = state.bodies;
     const Row<Shells> shell = bodies.shell[b];
@@ -84,7 +95,8 @@ RigidDescription describe_rigid(const State& state, Row<Bodies> b, std::span<con
     d.margin = hull_margin(ShellView(const_cast<State&>(state), shell));
     d.friction = bodies.friction[b];
     d.restitution = bodies.restitution[b];
-    d.rolling_friction = std::min(kRollingShare * std::sqrt(state.shells.area[shell]), kMostRolling);
+    d.rolling_friction = rolling_length(bodies.rolling_friction[b], state.shells.area[shell]);
+    d.rolling_share = std::max(bodies.rolling_friction[b], 0.0f);
     d.layer = bodies.layer[b];
     d.mask = bodies.mask[b];
     d.pieces = pieces;

@@ -9,7 +9,7 @@ constexpr float kLargeReach = 4;  // radii of the crumb: what reaches less far i
 constexpr float kBounce = 0.2f;   // of the speed that they close with, above kBounceSpeed
 constexpr float kBounceSpeed = 0.2f;  // m/s
 constexpr float kFriction = 0.5f;
-constexpr float kRestSpeed = 0.15f;   // m/s
+constexpr float kRestSpeed = 0.15f;   // m/s under g; where it is weaker, as much less as things fall slower
 constexpr float kRestSlope = 0.7f;    // cosine: what it lies on is no steeper than 45 degrees
 constexpr uint64_t kRestFrames = 16;  // a crumb that rests looks every so often whether it still lies on something
 
@@ -33,6 +33,11 @@ struct Crumb {
     bool rests = false;
 };
 
+float rest_speed(Vec3 gravity) {
+    constexpr float kEarth = 9.81f;  // m/s2
+    return kRestSpeed * std::min(1.0f, std::sqrt(length(gravity) / kEarth));
+}
+
 // The way of a step, and of what is left of it along the surface that it meets; what it meets there stops it.
 void fly(Crumb& crumb, const RigidWorld& rigid, Step step) {
     float left = step.dt;
@@ -47,7 +52,8 @@ void fly(Crumb& crumb, const RigidWorld& rigid, Step step) {
         crumb.velocity = bounced(crumb.velocity, touch);
         left *= 1 - touch.share;
         const float up = -dot(touch.normal, step.gravity);
-        if (touch.is_still && length(crumb.velocity) < kRestSpeed && up > kRestSlope * length(step.gravity)) {
+        if (touch.is_still && length(crumb.velocity) < rest_speed(step.gravity) &&
+            up > kRestSlope * length(step.gravity)) {
             crumb.rests = true;
             crumb.velocity = {};
             return;
@@ -56,11 +62,10 @@ void fly(Crumb& crumb, const RigidWorld& rigid, Step step) {
 }
 
 bool lies_on_something(Vec3 place, float radius, const RigidWorld& rigid, Step step) {
-    constexpr float kProbe = 2e-3f;  // m
-    const float pull = length(step.gravity);
+    const float probe = std::min(2e-3f, radius), pull = length(step.gravity);  // m, m/s2
     RigidTouch touch;
     return pull > 0 &&
-           rigid.first_touch(place, place + (kProbe / pull) * step.gravity, 0, radius, kLargeReach * radius, touch);
+           rigid.first_touch(place, place + (probe / pull) * step.gravity, 0, radius, kLargeReach * radius, touch);
 }
 
 }  // namespace

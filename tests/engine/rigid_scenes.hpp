@@ -126,7 +126,7 @@ inline const ShardShape& test_shard() {
 }
 
 inline void add_shard(RigidWorld& world, RigidId id, Vec3 at, Quat orientation) {
-    add_shape(world, id, test_shard(), {at, orientation}, 0.001f, 0.01f * 0.177f);
+    add_shape(world, id, test_shard(), {at, orientation}, 0.001f, 0.0045f * 0.177f);
 }
 
 /// A static-like plate of 0.4 m by 0.4 m and 4 mm, made of 8 x 8 cells, kinematic at rest, top at 2 mm.

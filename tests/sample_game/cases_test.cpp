@@ -29,7 +29,6 @@ constexpr Unmended kUnmended[] = {
     {"sliding_slowly_over_touching_boxes", 1},
     {"small_shards_on_a_sheet", 2},
     {"tiny_vase", 3},
-    {"ball_on_a_slope", 5},
 };
 
 /// A case with other settings than its own, whose name says which.

@@ -77,7 +77,7 @@ TEST(Script, AnErrorNamesFileLineWhatWasGivenAndWhatWasExpected) {
          "test.lua:1: game.throw: at.z is -nan; expected a place in m, at most 1000000 from the origin"},
         {"game.throw{radius = 0.1, mass = 1, at = {0, 1, 0}, colour = 3}",
          "test.lua:1: game.throw: there is no colour; it knows radius, mass, at, velocity, spin, friction, "
-         "restitution"},
+         "restitution, rolling_friction"},
         {"game.throw(3)", "test.lua:1: game.throw: given 3; expected a table: game.throw{radius = ...}"},
         {"game.cook{mesh = game.mesh.vase{}, model = 'lattice'}",
          "test.lua:1: game.cook: model is \"lattice\"; expected one of thick_shell"},
@@ -612,15 +612,13 @@ TEST(Script, AFolderAndAFileThatIsTooLongAreRefused) {
 /// Exit code and what the program says on its standard error.
 std::pair<int, std::string> outcome_of(const std::string& arguments) {
     const std::string said = testing::TempDir() + "cullet_script_said.txt";
-    const int status =
-        std::system((build_folder() + "/sample_game " + arguments + " 2>" + said).c_str());
+    const int status = std::system((build_folder() + "/sample_game " + arguments + " 2>" + said).c_str());
     std::ifstream file(said);
     return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, {std::istreambuf_iterator<char>(file), {}}};
 }
 
 TEST(Program, AFullDiskIsOneSentence) {
-    if (!std::filesystem::exists(build_folder() + "/sample_game"))
-        GTEST_SKIP() << "build the program sample_game";
+    if (!std::filesystem::exists(build_folder() + "/sample_game")) GTEST_SKIP() << "build the program sample_game";
     const std::pair<int, std::string> all{2, "sample_game: cannot write to file: No space left on device.\n"};
     EXPECT_EQ(outcome_of("run --set help >/dev/full"), all);
     EXPECT_EQ(outcome_of("frame >/dev/full"), all);

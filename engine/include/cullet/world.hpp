@@ -36,7 +36,12 @@ struct ContactSettings {
     // At most 100. < 0: the material's; 0.45 for what has none: spheres, static triangles, kinematic boxes.
     float friction = -1;
     float restitution = -1;  // at most 1; < 0: 0.2; used above 0.2 m/s
-    uint32_t layer = 1;      // bits
+    // Of balls and what they roll on, as a share of the ball's radius: on a level floor a ball of uniform density slows
+    // by rolling_friction * g / 1.4, and on a slope it starts to roll where the slope's tangent is larger. Of two
+    // bodies the larger one counts. At most 1; < 0: 0.01 of a ball, 0 of all else. What is no ball rolls as on the rim
+    // of a chipped thing, by its shape; with 0 and more it rolls like a ball of as much surface instead.
+    float rolling_friction = -1;
+    uint32_t layer = 1;  // bits
     uint32_t mask = 0xffffffffu;
 };
 
