@@ -22,7 +22,7 @@ local function stand(x)
 end
 local blown, cut, pierced = stand(-0.5), stand(0.05), stand(0.5)
 -- Something that does not break is thrown, too.
-local ball = game.throw{radius = 0.03, mass = 0.3, at = {-0.62, 0.03, 0.28}, velocity = {0, 0, 0}}
+local ball = game.throw{radius = 0.03, rolling_friction = 0.135, mass = 0.3, at = {-0.62, 0.03, 0.28}, velocity = {0, 0, 0}}
 
 wait{frames = 12}
 game.explode{at = {-0.5, 0.14, 0.22}, radius = 0.45, impulse = impulse}

@@ -37,6 +37,6 @@ game.spawn{
     springs = shell.springs,
     pins = {{low = {-2, -0.01, -2}, high = {2, 0.01, 2}}},
 }
-game.throw{radius = 0.13, mass = mass, at = {1.15, 0.72, 3.2}, velocity = {0, 0.36, -speed}}
-game.throw{radius = 0.13, mass = mass, at = {-1.15, 0.95, 5.8}, velocity = {0, 0.8, -speed}}
-game.throw{radius = 0.13, mass = mass, at = {0.3, 1.5, 12}, velocity = {0, 1.6, -speed}}
+game.throw{radius = 0.13, rolling_friction = 0.135, mass = mass, at = {1.15, 0.72, 3.2}, velocity = {0, 0.36, -speed}}
+game.throw{radius = 0.13, rolling_friction = 0.135, mass = mass, at = {-1.15, 0.95, 5.8}, velocity = {0, 0.8, -speed}}
+game.throw{radius = 0.13, rolling_friction = 0.135, mass = mass, at = {0.3, 1.5, 12}, velocity = {0, 1.6, -speed}}

@@ -42,7 +42,7 @@ local sheet = game.spawn{
     pins = pins,
 }
 wait(1)
-local ball = game.throw{radius = 0.09, mass = mass, at = {0.04, 1.02, 0.03}, velocity = {0, 0, 0}}
+local ball = game.throw{radius = 0.09, rolling_friction = 0.135, mass = mass, at = {0.04, 1.02, 0.03}, velocity = {0, 0, 0}}
 wait(4)
 local place = ball:position()
 game.note(string.format("the ball lies at height %.3f m", place.y))

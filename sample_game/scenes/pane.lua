@@ -34,6 +34,7 @@ beam({half, 0, -depth}, {half + thick, low - thick, depth})
 
 game.throw{
     radius = 0.0145,
+    rolling_friction = 0.135,
     mass = mass,
     at = {0.15 * game.seeded(1), foot + 0.5 * side + 0.15 * game.seeded(2), 0.8},
     velocity = {0, 0, -speed},

@@ -32,6 +32,7 @@ beam({half, 0, -depth}, {half + thick, low - thick, depth})
 
 local ball = game.throw{
     radius = 0.07,
+    rolling_friction = 0.135,
     mass = mass,
     at = {0.04, foot + 0.55 * side, 0.9},
     velocity = {0, 0.6, -speed},

@@ -32,6 +32,7 @@ beam({half, 0, -depth}, {half + thick, low - thick, depth})
 
 local ball = game.throw{
     radius = 0.1,
+    rolling_friction = 0.135,
     mass = mass,
     at = {0.03, foot + 0.5 * side, 1.4},
     velocity = {0, 0.4, -speed},

@@ -19,6 +19,7 @@ game.camera{eye = {1.9, 1.5, 3.0}, target = {-0.05, 0.75, -0.1}, field_of_view =
 game.floor()
 game.throw{
     radius = 0.14,
+    rolling_friction = 0.135,
     mass = mass,
     at = {0.5 * game.seeded(1), 0.95 + 0.3 * game.seeded(2), 1.5},
     velocity = {0, 1.2, -speed}, -- at 10 m/s it flies level when it arrives
