@@ -11,8 +11,8 @@ namespace cullet::bullet {
 
 inline constexpr float kFullWidth = 0.005f;   // m, from which on a piece has the scale 1
 inline constexpr float kFullMargin = 0.001f;  // m, which it has then, see margin_for()
-// Of walls of a tenth of a millimetre. Half a micrometre is what an advance aims past its gap by then, and a float is
-// no finer eight metres from the origin.
+// Of walls of a tenth of a millimetre. Two micrometres are what an advance aims past its gap by then, and a float is no
+// finer 16 metres from the origin.
 inline constexpr float kLeastScale = 0.02f;
 
 /// The scale of a convex piece: by its margin, a fifth of its wall; by its width where it has none, or is a ball.
