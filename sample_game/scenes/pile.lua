@@ -24,7 +24,7 @@ local vase = game.cook{
     thickness = shell.thickness,
     edge = shell.edge,
 }
-game.camera{eye = {1.3, 2.6, 1.8}, target = {0, 0.25, 0}, field_of_view = 0.72}
+game.camera{eye = {1.0, 3.2, 1.45}, target = {0, 0.3, 0}, field_of_view = 0.72}
 game.floor()
 -- Walls go down into the ground: standing on it they would press into it what is a millimetre deep in both.
 local single = game.single -- numbers as the world holds them, so that the pit stands bit for bit where it always did
