@@ -199,8 +199,33 @@ bool KnownAxes::at_crack(const Hull& a, const Hull& b) const {
     return is_turned ? pair->meet_at_crack(b.ordinal, a.ordinal) : pair->meet_at_crack(a.ordinal, b.ordinal);
 }
 
-double touch_fraction(const Mover& a, const Hull& hull_a, const Mover& b, const Hull& hull_b, float dt, double limit,
-                      Vec3d& axis, const KnownAxes& known) {
+namespace {
+
+// Of two pieces that come to a touch along `axis`, from b towards a: where that is an edge inside of what stands still,
+// the axis becomes that of an open face.
+Push turn_axis(const Surroundings& around, const Mover& a, const Hull& hull_a, const Points& now_a, const Mover& b,
+               const Hull& hull_b, const Points& now_b, const Closest& closest, Vec3d& axis) {
+    const bool is_b_still = may_have_inner_edges(*b.body);
+    if (!is_b_still && !may_have_inner_edges(*a.body)) return Push::AsFound;
+    const Touched touched = is_b_still ? Touched{*b.body, hull_b, *a.body, hull_a, now_a}
+                                       : Touched{*a.body, hull_a, *b.body, hull_b, now_b};
+    Vec3 normal = (is_b_still ? axis : -axis).to_float();
+    Push push = Push::Turned;
+    if (closest.is_apart) {
+        const Vec3 place =
+            now_a.centre + (is_b_still ? closest.on_b : closest.on_a).to_float() + touched.hull.margin * normal;
+        push = turn_to_open_face(around, touched, {&place, 1}, normal);
+    } else if (!find_open_face(around, touched, touched.points.centre, normal)) {
+        push = Push::None;
+    }
+    if (push == Push::Turned) axis = is_b_still ? Vec3d(normal) : -Vec3d(normal);
+    return push;
+}
+
+}  // namespace
+
+double touch_fraction(const Surroundings& around, const Mover& a, const Hull& hull_a, const Mover& b,
+                      const Hull& hull_b, float dt, double limit, Vec3d& axis, const KnownAxes& known) {
     const double turning = length(a.spin) * reach_of(*a.body, hull_a) + length(b.spin) * reach_of(*b.body, hull_b);
     // Where the two were stopped at different times one goes on alone after the first of them.
     const double fraction_a = static_cast<double>(a.body->moved_fraction),
@@ -215,6 +240,7 @@ double touch_fraction(const Mover& a, const Hull& hull_a, const Mover& b, const 
     const float reach_a = reach_of(*a.body, hull_a), reach_b = reach_of(*b.body, hull_b);
     const double scale = static_cast<double>(scale_of(hull_a, hull_b)), aim = scale * kAim;
     double t = 0, stop = scale * kStop;
+    bool is_at_stop = false;  // all but there
     // The pair's contact, found where the two stand now, has the axis.
     const Vec3d met = known.of(hull_a, hull_b);
     bool is_axis_fixed = dot(met, met) > 0.5;
@@ -230,16 +256,29 @@ double touch_fraction(const Mover& a, const Hull& hull_a, const Mover& b, const 
         }
         const double left = dt * (limit - t), together = dt * std::max(split - t, 0.0);
         double gap = -1;
+        bool is_turned = false;
         if (!is_axis_fixed) {
             const Closest closest = closest_points(*now_a, *now_b, axis, turning * left + margins + scale * kStop,
                                                    {together * first, (left - together) * second});
             axis = closest.axis;
             if (closest.is_beyond) return limit;
             if (closest.is_apart || round == 0) gap = gap_along(*now_a, *now_b, axis) - margins;
+            if (is_at_stop || gap < (round == 0 ? scale * kTouching : stop)) {
+                const Push push = turn_axis(around, a, hull_a, *now_a, b, hull_b, *now_b, closest, axis);
+                if (push == Push::None) return limit;
+                is_turned = push == Push::Turned;
+                if (is_at_stop && !is_turned) return t;
+                is_at_stop = false;
+            }
         } else {
             gap = gap_along(*now_a, *now_b, axis) - margins;
         }
-        if (round == 0 && gap < scale * kTouching) {
+        if (is_turned) {
+            // The face is there already, beside the edge: no deeper behind it than what touches it may go.
+            is_axis_fixed = true;
+            gap = gap_along(*now_a, *now_b, axis) - margins;
+            stop = gap < scale * kTouching ? gap - scale * kDeeper : scale * kStop;
+        } else if (round == 0 && gap < scale * kTouching) {
             // They touch: the solver has slowed them where they do, but the rest of a piece may still swing in.
             const double width = std::min(width_along(hull_a, *now_a, axis), width_along(hull_b, *now_b, axis));
             const double third = -kDepthShare * width;
@@ -276,7 +315,9 @@ double touch_fraction(const Mover& a, const Hull& hull_a, const Mover& b, const 
         }
         t += taken / dt;
         axis = frame.turned(axis, taken);
-        if (taken < kShort * rest) return t;
+        if (taken >= kShort * rest) continue;
+        if (is_axis_fixed) return t;
+        is_at_stop = true;
     }
     return t;
 }

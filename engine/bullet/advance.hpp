@@ -56,12 +56,13 @@ struct KnownAxes {
     bool at_crack(const Hull& a, const Hull& b) const;
 };
 
-/// The fraction of the step at which the two pieces come within half a millimetre (lengths are those of scale 1); `limit` when they do not before it.
-/// World points are those of the start; `axis` is a first guess, such as the last one of the same two bodies. Pieces
-/// that touch already may go a millimetre deeper, of two free bodies a tenth of the thinner one's width, lively ones in
-/// all a third of it, along the axis that `known` has for them.
-double touch_fraction(const Mover& a, const Hull& hull_a, const Mover& b, const Hull& hull_b, float dt, double limit,
-                      Vec3d& axis, const KnownAxes& known = {});
+/// The fraction of the step at which the two pieces come within half a millimetre (lengths are those of scale 1);
+/// `limit` when they do not before it. World points are those of the start; `axis` is a first guess, such as the last
+/// one of the same two bodies. Pieces that touch already may go a millimetre deeper, of two free bodies a tenth of the
+/// thinner one's width, lively ones in all a third of it, along the axis that `known` has for them. What comes to an
+/// edge inside of something flat goes on as if it touched the open face there.
+double touch_fraction(const Surroundings& around, const Mover& a, const Hull& hull_a, const Mover& b,
+                      const Hull& hull_b, float dt, double limit, Vec3d& axis, const KnownAxes& known = {});
 
 /// How much a box is grown beyond what it sweeps over, m.
 inline constexpr float kBoxGrowth = 0.01f;

@@ -47,6 +47,7 @@ BulletWorld::BulletWorld(uint32_t body_limit)
       solver_(body_limit),
       sweeper_(body_limit) {
     work_.bodies = bodies_.get();
+    work_.around = {bodies_.get(), &tree_};
     strayed_.reserve(4 * static_cast<size_t>(body_limit) + 1024);
     contacts_.reserve(32 * static_cast<size_t>(body_limit) + 1024);
     loads_.reserve(32 * static_cast<size_t>(body_limit) + 1024);

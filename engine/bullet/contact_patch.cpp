@@ -275,7 +275,8 @@ Touch find_touch(const Hull& a, const Mat3& rotation_a, const Hull& b, const Mat
     }
     touch.is_near = true;
     const OverlapAxis least =
-        overlap_axis(a, rotation_a, b, rotation_b, before, static_cast<double>(scale) * (is_own_guess ? kOwnTurning : kBorrowedTurning));
+        overlap_axis(a, rotation_a, b, rotation_b, before,
+                     static_cast<double>(scale) * (is_own_guess ? kOwnTurning : kBorrowedTurning));
     if (least.is_found) {
         guess = least.axis.to_float();
         touch.gap = static_cast<float>(least.gap);
@@ -318,6 +319,74 @@ void add_best_spots(Patch& patch, const Hull& a, const Hull& b, const PatchFrame
     }
 }
 
+namespace {
+
+// Where the sides that face each other lie over each other, no farther apart than contacts reach.
+uint32_t facing_spots(const Hull& a, const Mat3& rotation_a, const Hull& b, const Mat3& rotation_b,
+                      const PatchFrame& frame, Spot (&spots)[4 * kMaxPoints]) {
+    if (a.point_count == 1 || b.point_count == 1) return 0;
+    Side side_a, side_b;
+    look(a, rotation_a, frame, {}, -1, side_a);
+    look(b, rotation_b, frame, b.world.centre - a.world.centre, 1, side_b);
+    uint32_t count = 0;
+    if (side_b.outline_count >= 3)
+        count = clip_outline(side_a, side_b, spots);
+    else if (side_a.outline_count >= 3)
+        count = clip_outline(side_b, side_a, spots);
+    for (uint32_t k = 0; k < side_a.bulge_count; ++k)
+        if (is_inside(side_a.bulge[k], side_b)) spots[count++] = side_a.bulge[k];
+    for (uint32_t k = 0; k < side_b.bulge_count; ++k)
+        if (is_inside(side_b.bulge[k], side_a)) spots[count++] = side_b.bulge[k];
+    const float reach = scale_of(a, b) * kContactRange + a.margin + b.margin;
+    uint32_t kept = 0;
+    measure(spots, count, side_a, side_b);
+    for (uint32_t k = 0; k < count; ++k)
+        if (gap(spots[k]) <= reach) spots[kept++] = spots[k];
+    return kept;
+}
+
+// A ball over a face, or this little past its edges.
+constexpr float kPastEdge = 0.0005f;  // m
+
+bool is_over(const Spot& spot, const Side& side, float slack) {
+    if (side.outline_count < 3) return false;
+    const Spot* from = &side.outline[side.outline_count - 1];
+    for (uint32_t e = 0; e < side.outline_count; from = &side.outline[e++]) {
+        const Spot& to = side.outline[e];
+        const float size = std::sqrt((to.x - from->x) * (to.x - from->x) + (to.y - from->y) * (to.y - from->y));
+        if (area(*from, to, spot) < -slack * size) return false;
+    }
+    return true;
+}
+
+}  // namespace
+
+Patch patch_along(const Hull& a, const Mat3& rotation_a, const Hull& b, const Mat3& rotation_b, Vec3 normal) {
+    Patch patch;
+    patch.normal = normal;
+    const PatchFrame frame = make_frame(normal);
+    Spot spots[4 * kMaxPoints];
+    const uint32_t count = facing_spots(a, rotation_a, b, rotation_b, frame, spots);
+    add_best_spots(patch, a, b, frame, spots, count);
+    if (a.point_count > 1 && b.point_count > 1) return patch;
+    const bool is_a_ball = a.point_count == 1;
+    const Vec3 to_b = b.world.centre - a.world.centre, at = is_a_ball ? Vec3{} : to_b;
+    Side side;
+    look(is_a_ball ? b : a, is_a_ball ? rotation_b : rotation_a, frame, is_a_ball ? to_b : Vec3{},
+         is_a_ball ? 1.0f : -1.0f, side);
+    Spot spot{dot(at, frame.right), dot(at, frame.forward), 0, 0};
+    if (!is_over(spot, side, scale_of(a, b) * kPastEdge + (is_a_ball ? b.margin : a.margin))) return patch;
+    spot.low_a = spot.high_b = dot(at, normal);
+    for (uint32_t k = 0; k < side.plane_count; ++k) {
+        const Plane& plane = side.plane[k];
+        const float height = plane.at + plane.slope_x * spot.x + plane.slope_y * spot.y;
+        if (k == 0 || (is_a_ball ? height < spot.high_b : height > spot.low_a))
+            (is_a_ball ? spot.high_b : spot.low_a) = height;
+    }
+    if (gap(spot) <= scale_of(a, b) * kContactRange + a.margin + b.margin) add_best_spots(patch, a, b, frame, &spot, 1);
+    return patch;
+}
+
 Patch contact_patch(const Hull& a, const Mat3& rotation_a, const Hull& b, const Mat3& rotation_b, Vec3& guess,
                     bool is_own_guess) {
     Patch patch;
@@ -327,29 +396,10 @@ Patch contact_patch(const Hull& a, const Mat3& rotation_a, const Hull& b, const 
     if (!touch.is_near) return patch;
     patch.normal = touch.normal;
     patch.is_through_seam = touch.is_through_seam;
-    uint32_t count = 0;
     Spot spots[4 * kMaxPoints];
     const float scale = scale_of(a, b);
     const PatchFrame frame = make_frame(touch.normal);
-    if (a.point_count > 1 && b.point_count > 1) {
-        Side side_a, side_b;
-        look(a, rotation_a, frame, {}, -1, side_a);
-        look(b, rotation_b, frame, b.world.centre - a.world.centre, 1, side_b);
-        if (side_b.outline_count >= 3)
-            count = clip_outline(side_a, side_b, spots);
-        else if (side_a.outline_count >= 3)
-            count = clip_outline(side_b, side_a, spots);
-        for (uint32_t k = 0; k < side_a.bulge_count; ++k)
-            if (is_inside(side_a.bulge[k], side_b)) spots[count++] = side_a.bulge[k];
-        for (uint32_t k = 0; k < side_b.bulge_count; ++k)
-            if (is_inside(side_b.bulge[k], side_a)) spots[count++] = side_b.bulge[k];
-        const float reach = scale * kContactRange + a.margin + b.margin;
-        uint32_t kept = 0;
-        measure(spots, count, side_a, side_b);
-        for (uint32_t k = 0; k < count; ++k)
-            if (gap(spots[k]) <= reach) spots[kept++] = spots[k];
-        count = kept;
-    }
+    const uint32_t count = facing_spots(a, rotation_a, b, rotation_b, frame, spots);
     float shallow = kFar;
     for (uint32_t k = 0; k < count; ++k) shallow = std::min(shallow, gap(spots[k]));
     if (touch.gap < shallow - scale * kAsDeep) {

@@ -27,6 +27,9 @@ struct Patch {
 Patch contact_patch(const Hull& a, const Mat3& rotation_a, const Hull& b, const Mat3& rotation_b, Vec3& guess,
                     bool is_own_guess);
 
+/// The points of the two where a normal from b towards a is given: none where no part of one lies over the other.
+Patch patch_along(const Hull& a, const Mat3& rotation_a, const Hull& b, const Mat3& rotation_b, Vec3 normal);
+
 /// The gap between the grown hulls (cores less both margins), bounded from below once above `enough`; -1 when the cores
 /// overlap.
 float separation(const Hull& a, const Hull& b, Vec3& guess, float enough);

@@ -150,7 +150,7 @@ class Flight {
         double share = limit;
         Vec3d axis;
         const auto advance = [&](const Hull& p, const Hull& q) {
-            share = std::min(share, touch_fraction(mover, p, still, q, dt_, share, axis));
+            share = std::min(share, touch_fraction(world_.work_.around, mover, p, still, q, dt_, share, axis));
         };
         for (const Hull* p = body_.hulls; p; p = p->next) {
             const Box box = swept_box(p->world_box, mover, reach_of(body_, *p), dt_);

@@ -84,22 +84,6 @@ void add_triangles(const Body& mesh_body, const std::vector<const Hull*>& pieces
     }
 }
 
-// The touch of a piece with an inner edge of a flat or hollow mesh belongs to the neighbouring face: it would push
-// sideways. `normal` points from the triangle to the piece.
-bool is_inner_edge(const StaticTriangle& triangle, const Hull& hull, Vec3 normal, Vec3 touch) {
-    if (dot(hull.face_normal[0], normal) > 0.999f) return false;
-    if (dot(hull.face_normal[0], normal) < -0.01f) return true;  // seen from behind
-    bool is_on_edge = false;
-    for (int k = 0; k < 3; ++k) {
-        const Vec3 from = triangle.corner[k], along = triangle.corner[(k + 1) % 3] - from;
-        const float off = length(cross(along, touch - from));
-        if (off > 1e-4f * length(along)) continue;
-        is_on_edge = true;
-        if (hull.is_turned ? triangle.is_edge_sharp_behind[k] : triangle.is_edge_sharp[k]) return false;
-    }
-    return is_on_edge;
-}
-
 // m, by which the point that bears one of the two may miss its middle: see ContactSettings::rolling_friction.
 float rolling_arm(const Body& a, const Body& b) {
     if (!is_ball(a) && !is_ball(b)) return a.rolling_friction + b.rolling_friction;
@@ -273,6 +257,32 @@ bool PairAlgorithm::write_crack(PairRecord& record, const Body& a, const Hull& h
     return true;
 }
 
+// Of a patch that pushes along an edge inside of what is flat, what lies over an open face of the same piece stays.
+void PairAlgorithm::keep_to_open_faces(Patch& patch, PairRecord& record, const Body& a, const Hull& hull_a,
+                                       const Body& b, const Hull& hull_b) {
+    const auto keep = [&](const Body& body, const Hull& hull, const Body& other, const Hull& piece, bool is_a) {
+        if (patch.count == 0 || !may_have_inner_edges(body)) return;
+        Vec3 places[kPatchPoints];
+        int deepest = 0;
+        for (int k = 0; k < patch.count; ++k) {
+            places[k] = is_a ? patch.point[k].on_a : patch.point[k].on_b;
+            if (patch.point[k].distance < patch.point[deepest].distance) deepest = k;
+        }
+        std::swap(places[0], places[deepest]);
+        Vec3 normal = is_a ? -patch.normal : patch.normal;
+        if (hull.one_sided && dot(hull.face_normal[0], normal) < -0.01f) return (void)(patch.count = 0);  // from behind
+        const Push push = turn_to_open_face(work_->around, {body, hull, other, piece, piece.world},
+                                            {places, static_cast<size_t>(patch.count)}, normal);
+        if (push == Push::AsFound) return;
+        patch.count = 0;
+        if (push == Push::None) return;
+        record.guess = is_a ? -normal : normal;
+        patch = patch_along(hull_a, rotation_of(a.fresh_at), hull_b, rotation_of(b.fresh_at), record.guess);
+    };
+    keep(b, hull_b, a, hull_a, false);
+    keep(a, hull_a, b, hull_b, true);
+}
+
 void PairAlgorithm::meet(PairRecord& record, const Body& a, const Mat3& rotation_a, const Body& b,
                          const Mat3& rotation_b, PairScratch& scratch) {
     Vec3 seen_from;
@@ -284,12 +294,7 @@ void PairAlgorithm::meet(PairRecord& record, const Body& a, const Mat3& rotation
     Patch patch = contact_patch(hull_a, rotation_a, hull_b, rotation_b, record.guess, record.is_own_guess);
     record.is_own_guess = true;
     record.good_until = travelled_ + std::max(patch.room, scale_of(hull_a, hull_b) * kSmallTravel);
-    if (patch.count > 0 && !record.hull_b &&
-        is_inner_edge(b.mesh->triangles[record.b - b.hull_count], hull_b, patch.normal, patch.point[0].on_b))
-        patch.count = 0;
-    if (patch.count > 0 && !record.hull_a &&
-        is_inner_edge(a.mesh->triangles[record.a - a.hull_count], hull_a, -patch.normal, patch.point[0].on_a))
-        patch.count = 0;
+    if (patch.count > 0) keep_to_open_faces(patch, record, a, hull_a, b, hull_b);
     if (patch.count > 0)
         write(record, patch, hull_a.cell, hull_b.cell);
     else

@@ -7,6 +7,7 @@
 #include "engine/bullet/body.hpp"
 #include "engine/bullet/contact_patch.hpp"
 #include "engine/bullet/crack_contact.hpp"
+#include "engine/bullet/inner_edges.hpp"
 #include "engine/bullet/pool.hpp"
 
 namespace cullet::bullet {
@@ -66,6 +67,7 @@ struct PairWork {
     SharedPool<Manifold> manifolds;
     SharedPool<CrackContact> cracks;
     Body* bodies = nullptr;  // by id
+    Surroundings around;
     float dt = 0;            // s, of the step
     float weight_speed = 0;  // m/s that gravity gives in it
 };
@@ -129,6 +131,8 @@ class PairAlgorithm {
     void find_records(const Body& a, const Body& b, PairScratch& scratch);
     void meet(PairRecord& record, const Body& a, const Mat3& rotation_a, const Body& b, const Mat3& rotation_b,
               PairScratch& scratch);
+    void keep_to_open_faces(Patch& patch, PairRecord& record, const Body& a, const Hull& hull_a, const Body& b,
+                            const Hull& hull_b);
     void take_newborn(std::span<const NewbornPieces> newborn);
     void drop(PairRecord* record);
     bool write_crack(PairRecord& record, const Body& a, const Hull& hull_a, const Body& b, const Hull& hull_b);

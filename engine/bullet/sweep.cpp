@@ -183,7 +183,7 @@ void Sweeper::visit_touches(const BulletWorld& world, Body& a, Body& b, float dt
     const auto advance = [&](const Hull& p, const Hull& q) {
         if (known.at_crack(p, q)) return;
         const double limit = last_fraction(a, b);
-        const double t = touch_fraction(mover_a, p, mover_b, q, dt, limit, axis, known);
+        const double t = touch_fraction(world.work_.around, mover_a, p, mover_b, q, dt, limit, axis, known);
         if (t >= limit) return;
         touch(p, q, axis.to_float(), static_cast<float>(t));
     };

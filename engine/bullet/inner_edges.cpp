@@ -1,0 +1,246 @@
+#include "engine/bullet/inner_edges.hpp"
+
+#include <algorithm>
+#include <array>
+
+#include "engine/bullet/closest_points.hpp"
+
+namespace cullet::bullet {
+namespace {
+
+// What is within this of a touch lies beside it, and steps lower than this are none. At five times it kerbs of some
+// millimetres are lost, at a fifth tiles that were set by hand have edges again.
+constexpr float kFlush = 0.0005f;  // m, of scale 1, see lengths.hpp
+// A normal within a twentieth of a degree of a face's is that face's, and a neighbour that rises by less in the
+// direction of a normal does not lie in its way. At one degree balls at 20 m/s hop by a centimetre.
+constexpr float kFacing = 0.9999996f;
+constexpr float kRise = 0.001f;
+// A neighbour covers a face that it goes on before: within 60 degrees of the face's normal. Its own surface then leads
+// past the face: faces of it that look the same way or against it, within 45 degrees, are no surface to come out of.
+constexpr float kBefore = 0.5f;
+constexpr float kAlong = 0.7f;
+constexpr int kTurns = 3;  // of a direction into a cone
+constexpr int kFaces = 4;  // looked at until one is open
+// A place on an edge is as exact as its coordinates.
+float on_edge(Vec3 place) {
+    return 1e-5f + 1e-6f * std::max({std::fabs(place.x), std::fabs(place.y), std::fabs(place.z)});
+}
+
+/// A place and a direction in the axes of a hull, from its centre.
+struct Local {
+    Vec3 place, direction;
+    Local(const Body& body, const Hull& hull, Vec3 at, Vec3 along) {
+        if (hull.one_sided) {
+            place = at - hull.local.centre, direction = along;
+            return;
+        }
+        const Mat3 rotation = rotation_of(body.fresh_at);
+        place = transposed_times(rotation, at - from_bullet(body.fresh_at.getOrigin())) - hull.local.centre;
+        direction = transposed_times(rotation, along);
+    }
+};
+
+/// Planes that bound a neighbour near a place: unit normals out of it.
+struct Bounds {
+    Vec3 out[kMaxFaces];
+    uint32_t count = 0;
+};
+
+// How far `direction` leads into the cone that the planes leave open: its cosine to the nearest direction in there that
+// a few turns find. 0: it leads out, or along the rim.
+float leads_in(const Bounds& bounds, Vec3 direction) {
+    Vec3 way = direction;
+    for (int turn = 0; turn < kTurns; ++turn)
+        for (uint32_t k = 0; k < bounds.count; ++k) way = way - std::max(0.0f, dot(way, bounds.out[k])) * bounds.out[k];
+    const float size = length(way);
+    if (!(size > 1e-4f)) return 0;
+    for (uint32_t k = 0; k < bounds.count; ++k)
+        if (dot(way, bounds.out[k]) > 0.01f * size) return 0;
+    return dot(way, direction) / size;
+}
+
+/// What a neighbour is at a place.
+struct Beside {
+    bool is_near = false;
+    float leads_in = 0;  // cosine, of the direction in question
+    bool has_way_out = false;
+    Vec3 way_out;  // world: to the neighbour's surface and kFlush past it (of the touch's scale)
+};
+
+Beside look_at(const Body& body, const Hull& hull, Vec3 place, Vec3 direction, float reach, float flush) {
+    if (hull.face_count < 4) return {};  // what is flat has no sides to tell where it ends
+    const Local at(body, hull, place, direction);
+    const float edge = on_edge(place);
+    Bounds bounds;
+    Beside beside;
+    float highest = -kFar;
+    uint32_t out = 0;
+    for (uint32_t f = 0; f < hull.face_count; ++f) {
+        const Vec3 normal = hull.face_normal[f];
+        if (!(dot(normal, normal) > 0.5f)) continue;
+        const float height = dot(normal, at.place) - hull.face_height[f] - hull.margin;
+        if (height > reach) return {};
+        if (height > -edge) bounds.out[bounds.count++] = normal;
+        if (height > highest && std::fabs(dot(normal, at.direction)) < kAlong)
+            highest = height, out = f, beside.has_way_out = true;
+    }
+    beside.is_near = true;
+    beside.leads_in = leads_in(bounds, at.direction);
+    if (beside.has_way_out)
+        beside.way_out = (std::max(0.0f, -highest) + flush) * (rotation_of(body.fresh_at) * hull.face_normal[out]);
+    return beside;
+}
+
+// `seen_from` lies on the side of the triangle that is out.
+Beside look_at(const StaticTriangle& triangle, Vec3 place, Vec3 direction, float reach, float flush, Vec3 seen_from) {
+    const Vec3* c = triangle.corner;
+    const Vec3d across = cross(Vec3d(c[1]) - Vec3d(c[0]), Vec3d(c[2]) - Vec3d(c[0]));
+    const Vec3 normal = normalised(across).to_float();
+    const float height = dot(normal, place - c[0]), edge = on_edge(place);
+    if (!(std::fabs(height) <= reach)) return {};
+    Bounds bounds;
+    for (int k = 0; k < 3; ++k) {
+        const Vec3 outwards = normalised(cross(c[(k + 1) % 3] - c[k], normal));
+        const float past = dot(outwards, place - c[k]);
+        if (!(past <= reach)) return {};
+        if (past > -edge) bounds.out[bounds.count++] = outwards;
+    }
+    Beside beside;
+    beside.is_near = true;
+    // In its plane, whichever side the direction is on.
+    const float up = dot(normal, direction);
+    const Vec3 flat = direction - up * normal;
+    const float size = length(flat);
+    if (size > 1e-3f) beside.leads_in = size * leads_in(bounds, (1 / size) * flat);
+    if (std::fabs(up) < kAlong) {
+        const float side = dot(normal, seen_from - c[0]) < 0 ? -1.0f : 1.0f;
+        beside.has_way_out = true;
+        beside.way_out = (std::max(0.0f, -side * height) + flush) * (side * normal);
+    }
+    return beside;
+}
+
+bool are_same(const StaticTriangle& triangle, const Hull& hull) {
+    const Points& p = hull.world;
+    for (int k = 0; k < 3; ++k) {
+        const Vec3 d = triangle.corner[k] - (p.centre + p[static_cast<uint32_t>(k)]);
+        if (dot(d, d) > 0) return false;
+    }
+    return true;
+}
+
+/// Calls found(beside) for what is near the place, until it says true; whether it did.
+template <class Found>
+bool any_beside(const Surroundings& around, const Touched& touched, Vec3 place, Vec3 direction, Found found) {
+    const float flush = kFlush * scale_of(touched.hull, touched.piece), reach = flush + touched.hull.margin;
+    const Box box = grown({place, place}, reach);
+    bool is_any = false;
+    const auto look_in = [&](const Body& body) {
+        for (const Hull* hull = body.hulls; hull && !is_any; hull = hull->next) {
+            if (hull == &touched.hull || !overlap(hull->world_box, box, 0)) continue;
+            const Beside beside = look_at(body, *hull, place, direction, reach, flush);
+            is_any = beside.is_near && found(beside);
+        }
+        if (!body.mesh || is_any) return;
+        const Vec3 seen_from = touched.points.centre;
+        visit_triangles(*body.mesh, box, [&](uint32_t t) {
+            const StaticTriangle& triangle = body.mesh->triangles[t];
+            if (is_any || (touched.hull.one_sided && &body == &touched.body && are_same(triangle, touched.hull)))
+                return;
+            const Beside beside = look_at(triangle, place, direction, reach, flush, seen_from);
+            is_any = beside.is_near && found(beside);
+        });
+    };
+    look_in(touched.body);
+    if (is_any || touched.body.kind != RigidKind::Static) return is_any;
+    around.tree->visit(box, [&](uint32_t id) {
+        const Body& body = around.bodies[id];
+        if (is_any || &body == &touched.body || body.kind != RigidKind::Static) return;
+        if (!body.is_used || body.is_soft || !body.meets_layer_of(touched.other)) return;
+        if (overlap(body.shape.box, box, 0)) look_in(body);
+    });
+    return is_any;
+}
+
+// Is the place on the face `face` of the hull, or over it?
+bool is_on_face(const Body& body, const Hull& hull, uint32_t face, Vec3 place) {
+    const Local at(body, hull, place, {});
+    if (hull.one_sided) {
+        const Vec3 normal = hull.is_turned ? -hull.face_normal[0] : hull.face_normal[0];
+        for (uint32_t k = 0; k < 3; ++k) {
+            const Vec3 from = hull.local[k], along = hull.local[(k + 1) % 3] - from;
+            if (dot(normalised(cross(along, normal)), at.place - from) > on_edge(place)) return false;
+        }
+        return true;
+    }
+    for (uint32_t f = 0; f < hull.face_count; ++f)
+        if (f != face && dot(hull.face_normal[f], at.place) > hull.face_height[f] + hull.margin + on_edge(place))
+            return false;
+    return true;
+}
+
+Vec3 out_of_face(const Body& body, const Hull& hull, uint32_t face) {
+    return hull.one_sided ? hull.face_normal[0] : rotation_of(body.fresh_at) * hull.face_normal[face];
+}
+
+// A neighbour goes on before the face, and nothing of the face stands out of the neighbour there.
+bool is_face_covered(const Surroundings& around, const Touched& touched, uint32_t face, Vec3 normal, Vec3 place) {
+    return any_beside(around, touched, place, normal, [&](const Beside& beside) {
+        if (beside.leads_in < kBefore || !beside.has_way_out) return false;
+        return !is_on_face(touched.body, touched.hull, face, place + beside.way_out);
+    });
+}
+
+struct Facing {
+    uint32_t face = 0;
+    float cosine = -kFar;
+    Vec3 normal;
+};
+
+Facing facing_face(const Touched& touched, Vec3 normal) {
+    Facing best;
+    for (uint32_t f = 0; f < touched.hull.face_count; ++f) {
+        const Vec3 out = out_of_face(touched.body, touched.hull, f);
+        const float cosine = dot(out, normal);
+        if (cosine > best.cosine) best = {f, cosine, out};
+    }
+    return best;
+}
+
+}  // namespace
+
+bool find_open_face(const Surroundings& around, const Touched& touched, Vec3 place, Vec3& normal) {
+    const Hull& hull = touched.hull;
+    std::array<double, kMaxFaces> gap;
+    for (uint32_t f = 0; f < hull.face_count; ++f) {
+        const Vec3 out = out_of_face(touched.body, hull, f);
+        const bool is_sound = dot(out, out) > 0.5f && !hull.is_face_inner[f];
+        gap[f] = is_sound ? gap_along(touched.points, hull.world, Vec3d(out)) : -1e30;
+    }
+    for (int k = 0; k < kFaces; ++k) {
+        const auto most = std::max_element(gap.begin(), gap.begin() + hull.face_count);
+        if (most == gap.begin() + hull.face_count || *most <= -1e30) return false;
+        const auto face = static_cast<uint32_t>(most - gap.begin());
+        normal = out_of_face(touched.body, hull, face);
+        if (hull.one_sided || !is_face_covered(around, touched, face, normal, place)) return true;
+        *most = -1e30;
+    }
+    return false;
+}
+
+Push turn_to_open_face(const Surroundings& around, const Touched& touched, std::span<const Vec3> places, Vec3& normal) {
+    if (touched.hull.face_count == 0 || places.empty()) return Push::AsFound;
+    const Facing facing = facing_face(touched, normal);
+    const Vec3 wanted = normal;
+    if (facing.cosine > kFacing) {
+        for (const Vec3 place : places)
+            if (!is_face_covered(around, touched, facing.face, wanted, place)) return Push::AsFound;
+        if (touched.hull.one_sided) return Push::None;
+    } else if (!any_beside(around, touched, places[0], wanted,
+                           [](const Beside& beside) { return beside.leads_in > kRise; })) {
+        return Push::AsFound;
+    }
+    return find_open_face(around, touched, places[0], normal) ? Push::Turned : Push::None;
+}
+
+}  // namespace cullet::bullet
