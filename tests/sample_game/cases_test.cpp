@@ -24,9 +24,6 @@ struct Unmended {
     int must;
 };
 constexpr Unmended kUnmended[] = {
-    {"sliding_over_inner_edges", 1},
-    {"sliding_over_touching_boxes", 1},
-    {"sliding_slowly_over_touching_boxes", 1},
     {"small_shards_on_a_sheet", 2},
     {"tiny_vase", 3},
 };
