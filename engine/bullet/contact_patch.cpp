@@ -321,9 +321,10 @@ void add_best_spots(Patch& patch, const Hull& a, const Hull& b, const PatchFrame
 
 namespace {
 
-// Where the sides that face each other lie over each other, no farther apart than contacts reach.
-uint32_t facing_spots(const Hull& a, const Mat3& rotation_a, const Hull& b, const Mat3& rotation_b,
-                      const PatchFrame& frame, Spot (&spots)[4 * kMaxPoints]) {
+// Where the sides that face each other lie over each other, no farther apart than contacts reach. With a frame of its
+// own, so that none on the stack is large.
+[[gnu::noinline]] uint32_t facing_spots(const Hull& a, const Mat3& rotation_a, const Hull& b, const Mat3& rotation_b,
+                                        const PatchFrame& frame, Spot (&spots)[4 * kMaxPoints]) {
     if (a.point_count == 1 || b.point_count == 1) return 0;
     Side side_a, side_b;
     look(a, rotation_a, frame, {}, -1, side_a);
@@ -359,6 +360,26 @@ bool is_over(const Spot& spot, const Side& side, float slack) {
     return true;
 }
 
+// The lowest point of a ball over the side of the other hull.
+[[gnu::noinline]] void add_ball(Patch& patch, const Hull& a, const Mat3& rotation_a, const Hull& b,
+                                const Mat3& rotation_b, const PatchFrame& frame) {
+    const bool is_a_ball = a.point_count == 1;
+    const Vec3 to_b = b.world.centre - a.world.centre, at = is_a_ball ? Vec3{} : to_b;
+    Side side;
+    look(is_a_ball ? b : a, is_a_ball ? rotation_b : rotation_a, frame, is_a_ball ? to_b : Vec3{},
+         is_a_ball ? 1.0f : -1.0f, side);
+    Spot spot{dot(at, frame.right), dot(at, frame.forward), 0, 0};
+    if (!is_over(spot, side, scale_of(a, b) * kPastEdge + (is_a_ball ? b.margin : a.margin))) return;
+    spot.low_a = spot.high_b = dot(at, patch.normal);
+    for (uint32_t k = 0; k < side.plane_count; ++k) {
+        const Plane& plane = side.plane[k];
+        const float height = plane.at + plane.slope_x * spot.x + plane.slope_y * spot.y;
+        if (k == 0 || (is_a_ball ? height < spot.high_b : height > spot.low_a))
+            (is_a_ball ? spot.high_b : spot.low_a) = height;
+    }
+    if (gap(spot) <= scale_of(a, b) * kContactRange + a.margin + b.margin) add_best_spots(patch, a, b, frame, &spot, 1);
+}
+
 }  // namespace
 
 Patch patch_along(const Hull& a, const Mat3& rotation_a, const Hull& b, const Mat3& rotation_b, Vec3 normal) {
@@ -368,22 +389,7 @@ Patch patch_along(const Hull& a, const Mat3& rotation_a, const Hull& b, const Ma
     Spot spots[4 * kMaxPoints];
     const uint32_t count = facing_spots(a, rotation_a, b, rotation_b, frame, spots);
     add_best_spots(patch, a, b, frame, spots, count);
-    if (a.point_count > 1 && b.point_count > 1) return patch;
-    const bool is_a_ball = a.point_count == 1;
-    const Vec3 to_b = b.world.centre - a.world.centre, at = is_a_ball ? Vec3{} : to_b;
-    Side side;
-    look(is_a_ball ? b : a, is_a_ball ? rotation_b : rotation_a, frame, is_a_ball ? to_b : Vec3{},
-         is_a_ball ? 1.0f : -1.0f, side);
-    Spot spot{dot(at, frame.right), dot(at, frame.forward), 0, 0};
-    if (!is_over(spot, side, scale_of(a, b) * kPastEdge + (is_a_ball ? b.margin : a.margin))) return patch;
-    spot.low_a = spot.high_b = dot(at, normal);
-    for (uint32_t k = 0; k < side.plane_count; ++k) {
-        const Plane& plane = side.plane[k];
-        const float height = plane.at + plane.slope_x * spot.x + plane.slope_y * spot.y;
-        if (k == 0 || (is_a_ball ? height < spot.high_b : height > spot.low_a))
-            (is_a_ball ? spot.high_b : spot.low_a) = height;
-    }
-    if (gap(spot) <= scale_of(a, b) * kContactRange + a.margin + b.margin) add_best_spots(patch, a, b, frame, &spot, 1);
+    if (a.point_count == 1 || b.point_count == 1) add_ball(patch, a, rotation_a, b, rotation_b, frame);
     return patch;
 }
 
