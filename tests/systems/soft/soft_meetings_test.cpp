@@ -2,6 +2,7 @@
 #include <filesystem>
 
 #include "cullet/recording.hpp"
+#include "tests/support/write_watch.hpp"
 #include "tests/systems/soft/soft_world.hpp"
 
 namespace cullet::test {
@@ -227,41 +228,17 @@ TEST(SoftMeetings, ShortOfUnitsASheetRunsSlowerAndThatIsCounted) {
     EXPECT_LT(least, 0) << "it never stands still";
 }
 
-// What the frame plan prints is what its systems do: after each, only tables that it says that it writes are others.
 TEST(SoftMeetings, SystemsWriteTheTablesThatTheySayThatTheyWrite) {
     Settings settings = soft_settings();
     settings.gravity = {0, -9.81f, 0};
     Sheet sheet = make_sheet(cloth_sheet(), settings, frame_pins(), 0.3f);
     throw_ball(sheet, 5, 20, 0.09f);
-    State& state = sheet.state();
-    std::vector<uint32_t> before, after;
-    // Systems that share a pass are told of after all of them: what the first does not say the next may.
-    std::vector<std::pair<std::string, Access>> unsaid;
-    sheet.world.contents().after_each_system = [&](const PlannedSystem<WorldData>& system) {
-        after.clear();
-        state.digest_columns(after);
-        if (after != before)
-            for (const auto& [name, column] : unsaid) ADD_FAILURE() << name << " writes " << column.name;
-        if (after != before) unsaid.clear();
-        for (size_t c = 0; c < after.size() && after.size() == before.size(); ++c) {
-            if (after[c] == before[c]) continue;
-            Access column;
-            column.name = state.digested_column(c);
-            column.kind = Access::Kind::Table;
-            if (column.name.find('.') != std::string::npos) unsaid.emplace_back(system.name, column);  // no pool
-        }
-        std::erase_if(unsaid, [&](const auto& one) {
-            return std::any_of(system.accesses.begin(), system.accesses.end(),
-                               [&](const Access& access) { return access.writes && access.overlaps(one.second); });
-        });
-        before = after;
-    };
+    WriteWatch watch(sheet.world);
     for (int frame = 0; frame < 30; ++frame) {
-        before.clear();
-        state.digest_columns(before);
+        watch.watch_next_step();
         sheet.world.step();
     }
-    for (const auto& [name, column] : unsaid) ADD_FAILURE() << name << " writes " << column.name;
+    for (const std::string& sentence : watch.unsaid()) ADD_FAILURE() << sentence;
 }
 
 }  // namespace

@@ -1,0 +1,120 @@
+// The shape of systems/, counted. Each bound is today's count and may only fall; what it is to become stands beside it.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <map>
+#include <regex>
+#include <set>
+#include <string>
+#include <vector>
+
+#include "tests/support/places.hpp"
+
+namespace cullet {
+namespace {
+
+namespace fs = std::filesystem;
+
+// Today's counts.
+constexpr uint32_t kFilesWithState = 0;
+constexpr uint32_t kUnnamedParameters = 0;
+constexpr uint32_t kMutualFolders = 0;
+constexpr uint32_t kWideSystems = 0;
+
+struct Source {
+    std::string path;    // "systems/damage/ring.cpp"
+    std::string folder;  // "damage", "models/thick_shell/hidden"; "" of systems/ itself
+    std::string text;    // without comments
+};
+
+std::string text_of(const fs::path& path) {
+    std::ifstream file(path);
+    return {std::istreambuf_iterator<char>(file), {}};
+}
+
+std::vector<Source> sources_of_systems() {
+    static const std::regex comment("//[^\n]*");
+    const fs::path root = source_folder();
+    std::vector<Source> sources;
+    for (const fs::directory_entry& entry : fs::recursive_directory_iterator(root / "systems")) {
+        const std::string kind = entry.path().extension().string();
+        if (kind != ".cpp" && kind != ".hpp") continue;
+        const std::string folder = fs::relative(entry.path().parent_path(), root / "systems").generic_string();
+        sources.push_back({fs::relative(entry.path(), root).generic_string(), folder == "." ? "" : folder,
+                           std::regex_replace(text_of(entry.path()), comment, "")});
+    }
+    std::sort(sources.begin(), sources.end(), [](const Source& a, const Source& b) { return a.path < b.path; });
+    return sources;
+}
+
+uint32_t matches(const std::string& text, const std::regex& what) {
+    return static_cast<uint32_t>(
+        std::distance(std::sregex_iterator(text.begin(), text.end(), what), std::sregex_iterator()));
+}
+
+/// Folders that each folder includes from.
+std::map<std::string, std::set<std::string>> arrows(const std::vector<Source>& sources) {
+    static const std::regex include("#include \"systems/([^\"]+)/[^/\"]+\"");
+    std::map<std::string, std::set<std::string>> result;
+    for (const Source& source : sources)
+        for (std::sregex_iterator at(source.text.begin(), source.text.end(), include), end; at != end; ++at)
+            if ((*at)[1] != source.folder) result[source.folder].insert((*at)[1]);
+    return result;
+}
+
+/// Parameters of the functions that a header declares, by name.
+std::map<std::string, uint32_t> parameter_counts(const std::string& header) {
+    static const std::regex function("void (\\w+)\\(([^;{]*)\\);");
+    std::map<std::string, uint32_t> counts;
+    for (std::sregex_iterator at(header.begin(), header.end(), function), end; at != end; ++at)
+        counts[(*at)[1]] = matches((*at)[2], std::regex(",")) + 1;
+    return counts;
+}
+
+TEST(House, WholeStatesOutsideOfTheApiGetFewer) {
+    static const std::regex whole_state("\\bState\\s?[&*]");
+    uint32_t files = 0;
+    for (const Source& source : sources_of_systems())
+        if (!source.folder.starts_with("api")) files += std::regex_search(source.text, whole_state);
+    EXPECT_LE(files, kFilesWithState) << "files that are given the whole State; wanted: 0";
+}
+
+TEST(House, TableParametersWithoutANameGetFewer) {
+    static const std::regex unnamed("[(,]\\s*(const )?[A-Z]\\w*(<[\\w:]+>)?&(?=[,)])");
+    uint32_t parameters = 0;
+    for (const Source& source : sources_of_systems())
+        if (source.path.ends_with(".cpp")) parameters += matches(source.text, unnamed);
+    EXPECT_LE(parameters, kUnnamedParameters) << "wanted: 0";
+}
+
+TEST(House, FoldersThatIncludeEachOtherGetFewer) {
+    const auto to = arrows(sources_of_systems());
+    uint32_t pairs = 0;
+    std::string named;
+    for (const auto& [folder, others] : to)
+        for (const std::string& other : others)
+            if (folder < other && to.contains(other) && to.at(other).contains(folder)) {
+                ++pairs;
+                named += "\n  " + folder + " and " + other;
+            }
+    EXPECT_LE(pairs, kMutualFolders) << "wanted: 0; today:" << named;
+}
+
+TEST(House, SystemsWithMoreThanNineParametersGetFewer) {
+    uint32_t wide = 0;
+    std::string named;
+    for (const Source& source : sources_of_systems())
+        if (source.path.ends_with("systems.hpp"))
+            for (const auto& [name, count] : parameter_counts(source.text))
+                if (count > 9) {
+                    ++wide;
+                    named += "\n  " + name + " " + std::to_string(count);
+                }
+    EXPECT_LE(wide, kWideSystems) << "wanted: 0; today:" << named;
+}
+
+}  // namespace
+}  // namespace cullet
