@@ -1,5 +1,5 @@
 // Bodies of ductile and elastic materials: rigid in the rigid world until something hits them hard enough, then their
-// springs are run each frame and their mesh is shown as it moves (thick shell note 6.8; plans/ductile.md).
+// springs are run each frame and their mesh is shown as it moves (thick shell note 6.8).
 //
 // While a body is awake Vertices.probe and Twins.position hold its points in the working frame of its springs, and
 // after each frame Vertices.rest is the shape that they have, in the body frame: drawing, queries, hulls and births see

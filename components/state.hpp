@@ -270,7 +270,5 @@ struct Parameter<ShellTables> {
 
 template <>
 inline constexpr uint32_t kRowsPerChunk<StiffnessPacks> = 32;  // 256 vertices
-template <>
-inline constexpr uint32_t kRowsPerChunk<Hinges> = 1024;
 
 }  // namespace cullet

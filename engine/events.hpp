@@ -1,5 +1,4 @@
-// What happened, in order. A queue of fixed room in memory of its own; parallel systems write through Emit
-// (system.hpp).
+// What happened, in order. A queue of fixed room in memory of its own, which serial systems write.
 #pragma once
 #include <cstdint>
 #include <span>
@@ -29,8 +28,6 @@ class Events {
         data()[size_++] = event;
         return true;
     }
-    /// Counts events that were lost before they came here.
-    void drop(uint32_t count) { dropped_ += count; }
     void clear() { size_ = 0; }
     std::span<const E> all() const { return {reinterpret_cast<const E*>(memory_), size_}; }
     std::span<E> all() { return {data(), size_}; }

@@ -23,15 +23,10 @@ struct PlannedSystem {
     CallKind kind = CallKind::Serial;
     std::vector<Access> accesses;
     uint32_t chunk_rows = 1;
-    /// Rows (in an inner loop: of the task), bodies or islands to call it for.
+    /// Rows (in an inner loop: of the task) or events to call it for.
     uint32_t (*row_count)(World&) = nullptr;
     Rows<void> (*rows_of_body)(World&, uint32_t body) = nullptr;
     void (*invoke)(Call<World>&) = nullptr;
-    /// The body that the n-th call is for, where it is not n.
-    uint32_t (*body_of_call)(World&, uint32_t call) = nullptr;
-    /// Emit: bytes a row, and how a chunk's buffer joins its queue.
-    uint32_t emit_bytes_a_row = 0;
-    void (*join)(World&, const void* buffer, uint32_t count) = nullptr;
     uint32_t every = 1;  // inner loops: in each n-th repetition
     uint32_t zone = 0;
     std::vector<uint32_t> after;  // systems that must have ended, by place in the list
@@ -59,25 +54,9 @@ PlannedSystem<World> plan_system(std::string stage) {
         if constexpr (std::tuple_size_v<typename Sig::Eaches> == 1) {
             using E = std::remove_pointer_t<std::tuple_element_t<0, typename Sig::Eaches>>;
             planned.row_count = [](World& world) { return world.template resource<Events<E>>().size(); };
-        } else if constexpr (requires(World & w) { w.body_call_count(); }) {
-            planned.row_count = [](World& world) { return world.body_call_count(); };
-            if constexpr (requires(World & w) { w.body_of_call(0u); })
-                planned.body_of_call = [](World& world, uint32_t call) { return world.body_of_call(call); };
         }
-    } else if constexpr (Sig::kKind == CallKind::Islands) {
-        planned.row_count = [](World& world) { return world.island_count(); };
     } else {
         planned.row_count = [](World&) { return 1u; };
-    }
-    if constexpr (std::tuple_size_v<typename Sig::Emits> == 1) {
-        using E = std::remove_pointer_t<std::tuple_element_t<0, typename Sig::Emits>>;
-        using Value = typename E::Value;
-        planned.emit_bytes_a_row = E::kMostARow * sizeof(Value);
-        planned.join = [](World& world, const void* buffer, uint32_t count) {
-            auto& queue = world.template resource<Events<Value>>();
-            if (!buffer) return queue.drop(count);
-            for (uint32_t i = 0; i < count; ++i) queue.push(static_cast<const Value*>(buffer)[i]);
-        };
     }
     return planned;
 }
@@ -107,7 +86,7 @@ void derive_edges(std::vector<PlannedSystem<World>>& systems) {
 /// A system and what it reads and writes, as text of one line or more.
 template <class World>
 std::string describe(const PlannedSystem<World>& system, const std::vector<PlannedSystem<World>>& list) {
-    static const char* const kKinds[] = {"rows", "bodies", "islands", "serial"};
+    static const char* const kKinds[] = {"rows", "bodies", "serial"};
     std::string reads, writes, after;
     const auto add = [](std::string& text, const std::string& name) { text += (text.empty() ? "" : ", ") + name; };
     // Two parameters may name the same table: it is said once.
@@ -168,13 +147,13 @@ class FramePlan {
 
     /// One frame. `after_each(system)` is called between passes when given (validation). The host's zones, when given,
     /// begin and end here, on the calling thread, around each pass that has something to do.
-    void step(World& world, JobSystem& jobs, Profiler& profiler, Arena& arena,
+    void step(World& world, JobSystem& jobs, Profiler& profiler,
               const std::function<void(const PlannedSystem<World>&)>* after_each = nullptr,
               const Host* host = nullptr) {
         static const Host no_host;
         const FpMode mode;  // passes of one call run here, not in a job
         for (const Pass& pass : passes_) {
-            run_pass(pass, world, jobs, profiler, arena, host ? *host : no_host);
+            run_pass(pass, world, jobs, profiler, host ? *host : no_host);
             if (after_each)
                 for (uint32_t s = pass.first; s < pass.first + pass.count; ++s) (*after_each)(systems_[s]);
         }
@@ -205,12 +184,7 @@ class FramePlan {
     };
     struct Chunks {
         uint32_t rows, count;
-        std::byte* buffer;
-        uint32_t* emitted;
         uint64_t busy_ns = 0;  // of all chunks, where systems share the pass
-    };
-    struct alignas(64) Line {
-        std::byte bytes[64];
     };
     static constexpr uint32_t kMostInPass = 16;
 
@@ -221,34 +195,17 @@ class FramePlan {
         Call<World> call{world};
         call.first = chunk * system.chunk_rows;
         call.count = chunks.rows - call.first < system.chunk_rows ? chunks.rows - call.first : system.chunk_rows;
-        if (system.kind == CallKind::Bodies)
-            call.body = system.body_of_call ? system.body_of_call(world, chunk) : chunk;
-        if (system.kind == CallKind::Islands) {
-            if constexpr (requires(World & w) { w.island(0u); }) {
-                const std::span<const uint32_t> rows = world.island(chunk);  // the world keeps the list
-                call.island = rows.data();
-                call.island_size = static_cast<uint32_t>(rows.size());
-            }
-        }
-        if (chunks.buffer) call.emit_buffer = chunks.buffer + size_t{call.first} * system.emit_bytes_a_row;
-        if (chunks.emitted) call.emit_count = chunks.emitted + chunk;
+        if (system.kind == CallKind::Bodies) call.body = chunk;
         system.invoke(call);
     }
-    void run_pass(const Pass& pass, World& world, JobSystem& jobs, Profiler& profiler, Arena& arena, const Host& host) {
+    void run_pass(const Pass& pass, World& world, JobSystem& jobs, Profiler& profiler, const Host& host) {
         Chunks chunks[kMostInPass];
         uint32_t total = 0;
         for (uint32_t i = 0; i < pass.count; ++i) {
             const PlannedSystem<World>& system = systems_[pass.first + i];
-            chunks[i] = {system.row_count(world), 0, nullptr, nullptr};
+            chunks[i] = {system.row_count(world), 0};
             chunks[i].count = chunk_count(system, chunks[i].rows);
             total += chunks[i].count;
-            if (system.emit_bytes_a_row == 0 || chunks[i].count == 0) continue;
-            chunks[i].emitted = arena.take<uint32_t>(chunks[i].count).data();
-            if (!chunks[i].emitted)
-                assertion_failed("arena", __FILE__, __LINE__, "no room to count events of %s", system.name.c_str());
-            for (uint32_t c = 0; c < chunks[i].count; ++c) chunks[i].emitted[c] = 0;
-            const size_t lines = (size_t{chunks[i].rows} * system.emit_bytes_a_row + sizeof(Line) - 1) / sizeof(Line);
-            chunks[i].buffer = reinterpret_cast<std::byte*>(arena.take<Line>(lines).data());
         }
         if (total > 0 && host.zone_begin) host.zone_begin(host.user, pass.name.c_str());
         const uint64_t start = now_ns();
@@ -271,12 +228,6 @@ class FramePlan {
         if (total > 0 && host.zone_end) host.zone_end(host.user);
         for (uint32_t i = 0; i < pass.count; ++i) {
             const PlannedSystem<World>& system = systems_[pass.first + i];
-            for (uint32_t c = 0; chunks[i].emitted && c < chunks[i].count; ++c)
-                system.join(world,
-                            chunks[i].buffer
-                                ? chunks[i].buffer + size_t{c} * system.chunk_rows * system.emit_bytes_a_row
-                                : nullptr,
-                            chunks[i].emitted[c]);
             const bool is_shared = pass.count > 1 && total > 1;
             if (chunks[i].count == 0) continue;
             if (is_shared)

@@ -20,9 +20,7 @@ class InnerLoop {
     template <auto System>
     InnerLoop& then(uint32_t every = 1) {
         using Sig = Signature<decltype(System)>;
-        static_assert(Sig::kKind != CallKind::Islands && std::tuple_size_v<typename Sig::Emits> == 0 &&
-                          std::tuple_size_v<typename Sig::Eaches> == 0,
-                      "Islands, Each and Emit belong to the frame");
+        static_assert(std::tuple_size_v<typename Sig::Eaches> == 0, "Each belongs to the frame");
         CULLET_ASSERT(every == 1 || (every > 1 && !Sig::kHasTwoSided),
                       "every %u: the sides of a two-sided column take turns each repetition", every);
         systems_.push_back(plan_system<World, System>("inner loop"));

@@ -1,5 +1,5 @@
-// What cullet asks of a rigid-body engine. Bullet stands behind it (engine/bullet/); a host's own engine is to be the
-// second implementation. One step is: sweep and detect(), then the gap in which damage is decided and bodies are born,
+// What cullet asks of a rigid-body engine. Bullet stands behind it (engine/bullet/), or a host's own engine
+// (engine/host_rigid_world.hpp). One step is: sweep and detect(), then the gap in which damage is decided and bodies are born,
 // held, released or removed, then solve().
 //
 // A body frame is the frame of the mesh it was cooked from: fragments keep their parent's. Its centre of mass and its

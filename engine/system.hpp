@@ -4,6 +4,7 @@
 //     Out<&T::column>    writes the rows it was given; the new side of a two-sided column
 //     InOut<&T::column>  reads and writes the rows it was given
 //     Table&, const Table&, Resource&, const Resource&   the whole of it: writes, or reads
+//     a group of these (table_group.hpp)                 by value
 //     Step and other plain values                        by value
 //
 // and exactly one of these says how often it is called, on what:
@@ -11,10 +12,7 @@
 //     Rows<T>            once a chunk of rows of T, in parallel
 //     EachBody           in an inner loop: once for the task that it runs for; owns every row of that task
 //     Each<E>            once an event of the queue Events<E>, in parallel; owns every row of the event's body
-//     Islands            once a group of bodies that touch, in parallel
 //     Serial             once, on one thread
-//
-// Emit<E, n> beside Rows writes at most n events a row; buffers are joined in chunk order.
 #pragma once
 #include <array>
 #include <string>
@@ -26,6 +24,7 @@
 #include "engine/arena.hpp"
 #include "engine/events.hpp"
 #include "engine/table.hpp"
+#include "engine/table_group.hpp"
 
 namespace cullet {
 
@@ -112,11 +111,6 @@ struct Each {
     const E* operator->() const { return event; }
     const E& operator*() const { return *event; }
 };
-/// The group of touching bodies this call is for: rows[0 .. count), ascending.
-struct Islands {
-    const uint32_t* rows;
-    uint32_t count;
-};
 struct Serial {};
 
 /// The fixed step.
@@ -126,27 +120,10 @@ struct Step {
     uint64_t frame = 0;
 };
 
-template <class E, uint32_t MostARow>
-class Emit {
- public:
-    using Value = E;
-    static constexpr uint32_t kMostARow = MostARow;
-    Emit(E* buffer, uint32_t* count) : buffer_(buffer), count_(count) {}
-    /// Without a buffer (the frame's arena is full) the event is counted and lost.
-    void push(const E& event) const {
-        if (buffer_) buffer_[*count_] = event;
-        ++*count_;
-    }
-
- private:
-    E* buffer_;
-    uint32_t* count_;
-};
-
 // ---------------------------------------------------------------------------------------------------------------------
 // From a parameter list to accesses and calls.
 
-enum class CallKind : uint8_t { Rows, Bodies, Islands, Serial };
+enum class CallKind : uint8_t { Rows, Bodies, Serial };
 
 /// What a system touches: "vertices.velocity", "springs" (a whole table), "RigidWorld" (a resource).
 struct Access {
@@ -163,11 +140,7 @@ struct Call {
     World& world;
     uint32_t first = 0, count = 0;  // rows
     uint32_t body = 0;
-    const uint32_t* island = nullptr;
-    uint32_t island_size = 0;
     int side = 0;  // the old side of two-sided columns
-    void* emit_buffer = nullptr;
-    uint32_t* emit_count = nullptr;
 };
 
 std::string type_name_of(std::string_view pretty);
@@ -248,27 +221,11 @@ struct Parameter<Each<E>> {
     }
 };
 template <>
-struct Parameter<Islands> {
-    static void describe(std::vector<Access>&) {}
-    template <class W>
-    static Islands bind(Call<W>& call) {
-        return {call.island, call.island_size};
-    }
-};
-template <>
 struct Parameter<Serial> {
     static void describe(std::vector<Access>&) {}
     template <class W>
     static Serial bind(Call<W>&) {
         return {};
-    }
-};
-template <class E, uint32_t N>
-struct Parameter<Emit<E, N>> {
-    static void describe(std::vector<Access>& list) { list.push_back({type_name<Events<E>>(), false, true, false}); }
-    template <class W>
-    static Emit<E, N> bind(Call<W>& call) {
-        return {static_cast<E*>(call.emit_buffer), call.emit_count};
     }
 };
 template <class T>
@@ -307,6 +264,26 @@ requires(!std::is_lvalue_reference_v<P> && std::is_same_v<P, Step>) struct Param
     }
 };
 
+/// A group stands for the parameters that its members would be.
+template <IsGroup G>
+struct Parameter<G> {
+    static void describe(std::vector<Access>& list) { describe_all(list, group::MembersOf<G>{}); }
+    template <class W>
+    static G bind(Call<W>& call) {
+        return bind_all(call, group::MembersOf<G>{});
+    }
+
+ private:
+    template <class... M>
+    static void describe_all(std::vector<Access>& list, TypeList<M...>) {
+        (Parameter<M>::describe(list), ...);
+    }
+    template <class W, class... M>
+    static G bind_all(Call<W>& call, TypeList<M...>) {
+        return G{Parameter<M>::bind(call)...};
+    }
+};
+
 template <class P>
 struct IsRows : std::false_type {};
 template <class T>
@@ -319,11 +296,6 @@ template <class E>
 struct IsEach<Each<E>> : std::true_type {
     using Event = E;
 };
-template <class P>
-struct IsEmit : std::false_type {};
-template <class E, uint32_t N>
-struct IsEmit<Emit<E, N>> : std::true_type {};
-
 template <class P>
 struct IsTwoSided : std::false_type {};
 template <auto M>
@@ -346,11 +318,10 @@ template <class... P>
 struct Signature<void (*)(P...)> {
     static constexpr int kCallParameters = (0 + ... +
                                             int{IsRows<P>::value || IsEach<P>::value || std::is_same_v<P, EachBody> ||
-                                                std::is_same_v<P, Islands> || std::is_same_v<P, Serial>});
-    static_assert(kCallParameters == 1, "a system takes exactly one of Rows<T>, EachBody, Each<E>, Islands, Serial");
+                                                std::is_same_v<P, Serial>});
+    static_assert(kCallParameters == 1, "a system takes exactly one of Rows<T>, EachBody, Each<E>, Serial");
     static constexpr CallKind kKind = (... || IsRows<P>::value)                                    ? CallKind::Rows
                                       : (... || (std::is_same_v<P, EachBody> || IsEach<P>::value)) ? CallKind::Bodies
-                                      : (... || std::is_same_v<P, Islands>)                        ? CallKind::Islands
                                                                                                    : CallKind::Serial;
     template <class A>
     static constexpr bool races_with_any() {
@@ -360,24 +331,26 @@ struct Signature<void (*)(P...)> {
                   "a parallel system reads any row of a column that it writes: declare the column Buffers::Two");
     template <class A>
     static constexpr bool kChanges = std::is_lvalue_reference_v<A> && !std::is_const_v<std::remove_reference_t<A>>;
-    static_assert(kKind == CallKind::Serial || kKind == CallKind::Bodies || !(... || kChanges<P>),
+    template <class... M>
+    static constexpr bool changes_any(TypeList<M...>) {
+        return (... || kChanges<M>);
+    }
+    template <class... M>
+    static constexpr bool changes_a_resource(TypeList<M...>) {
+        return (... || (kChanges<M> && !IsTable<M> && !HoldsEveryTable<M>));
+    }
+    static_assert(kKind == CallKind::Serial || kKind == CallKind::Bodies ||
+                      !(... || changes_any(typename group::References<P>::Type{})),
                   "only Serial, EachBody and Each systems may change a whole table, only Serial ones a resource");
     static_assert(
         kKind != CallKind::Bodies || (... || std::is_same_v<P, EachBody>) ||
-            !(... || (kChanges<P> && !IsTable<P> && !HoldsEveryTable<P>)),
+            !(... || changes_a_resource(typename group::References<P>::Type{})),
         "calls of an Each system run at once: only a Serial system may change a resource, the arena or a queue");
 
     template <class P1>
     static auto row_table_of() {
         if constexpr (IsRows<P1>::value)
             return std::tuple<typename IsRows<P1>::Table*>{};
-        else
-            return std::tuple<>{};
-    }
-    template <class P1>
-    static auto emit_of() {
-        if constexpr (IsEmit<P1>::value)
-            return std::tuple<P1*>{};
         else
             return std::tuple<>{};
     }
@@ -390,8 +363,6 @@ struct Signature<void (*)(P...)> {
             return std::tuple<>{};
     }
     using Eaches = decltype(std::tuple_cat(each_of<P>()...));
-    using Emits = decltype(std::tuple_cat(emit_of<P>()...));
-    static_assert(std::tuple_size_v<Emits> <= 1, "one Emit a system");
     static constexpr bool kHasTwoSided = (... || IsTwoSided<P>::value);
 
     static std::vector<Access> accesses() {
@@ -424,17 +395,7 @@ void run(World& world) {
         using T = std::remove_pointer_t<std::tuple_element_t<0, typename Sig::RowTables>>;
         call.count = world.template table<T>().size();
     }
-    if constexpr (std::tuple_size_v<typename Sig::Emits> == 1) {
-        using E = std::remove_pointer_t<std::tuple_element_t<0, typename Sig::Emits>>;
-        std::vector<typename E::Value> events(size_t{call.count} * E::kMostARow);
-        uint32_t emitted = 0;
-        call.emit_buffer = events.data();
-        call.emit_count = &emitted;
-        Sig::template invoke<System>(call);
-        for (uint32_t e = 0; e < emitted; ++e) world.template resource<Events<typename E::Value>>().push(events[e]);
-    } else {
-        Sig::template invoke<System>(call);
-    }
+    Sig::template invoke<System>(call);
 }
 
 }  // namespace cullet

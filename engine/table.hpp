@@ -43,13 +43,6 @@ struct Row {
     bool exists() const { return index != kNone; }
 };
 
-/// What a game keeps: a row and the generation of its user. Zero is null; a stale handle is an ordinary event.
-template <class T>
-struct Handle {
-    uint32_t index = 0, generation = 0;
-    friend bool operator==(const Handle&, const Handle&) = default;
-};
-
 enum class Scalar : uint8_t { Bytes, U8, U16, U32, U64, F32, F64, Row };
 
 struct ColumnInfo {

@@ -92,7 +92,7 @@ void World::Contents::step() {
     d.arena.reset();
     if (recorder) recorder->begin_step();
     profiler.begin_frame(d.step_info.frame);
-    plan.step(d, *jobs, profiler, d.arena, after_each_system ? &after_each_system : nullptr, &host);
+    plan.step(d, *jobs, profiler, after_each_system ? &after_each_system : nullptr, &host);
     count();
     profiler.end_frame();
     d.state.commit_ahead(d.ready_for, kBytesAhead);

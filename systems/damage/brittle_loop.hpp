@@ -18,7 +18,6 @@ struct LoopWorld {
     Range rows_of(uint32_t task) const {
         const Row<Shells> shell = state.tasks.shell[task];
         if constexpr (std::is_same_v<T, Elements>) return state.shells.elements[shell];
-        if constexpr (std::is_same_v<T, Hinges>) return state.shells.hinges[shell];
         if constexpr (std::is_same_v<T, StiffnessPacks>) return state.shells.packs[shell];
         if constexpr (std::is_same_v<T, AwakePacks>)
             return {task * kMostAwakePacks, state.quick_runs.pack_count[task], kMostAwakePacks};

@@ -26,6 +26,10 @@ SoftInnerLoop make_soft_loop(SpringLayout layout) {
     return loop;
 }
 
+std::string SoftLoop::describe() const {
+    return one_layer_.describe() + "      the same, of bodies with an inner and an outer layer\n" + layers_.describe();
+}
+
 SoftLoop::SoftLoop(State& state, JobSystem& jobs, Profiler& profiler)
     : world_{state},
       jobs_(jobs),

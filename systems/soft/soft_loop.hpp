@@ -40,7 +40,7 @@ struct SoftLoop {
     /// than kSoftTeamVertices are shared by all workers, one after another, unless there are as many of them as
     /// workers; the others go one job a body.
     void advance(const RigidWorld& rigid, const Step& step);
-    std::string describe() const { return layers_.describe(); }
+    std::string describe() const;
     /// For the frame plan: its inner loop reads and writes all tables.
     static constexpr auto tables() { return State::tables(); }
 

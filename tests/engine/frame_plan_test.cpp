@@ -3,9 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <atomic>
 #include <limits>
-#include <thread>
 
 #include "engine/random.hpp"
 
@@ -30,15 +28,10 @@ struct BirdsEggs : Table<BirdsEggs> {  // its name starts like the other table's
 
 struct Cried {
     uint32_t bird, cry;
-    uint64_t wide;
 };
 struct Weather {
     float wind = 2;
     uint32_t storms = 0;
-};
-struct CallLog {
-    std::array<std::atomic<uint32_t>, 16> bodies{};
-    std::vector<std::vector<uint32_t>> islands = std::vector<std::vector<uint32_t>>(8);
 };
 
 struct Sky {
@@ -48,8 +41,6 @@ struct Sky {
     Step step{.dt = 0.5f, .gravity = {}, .frame = 41};
     Arena arena{1 << 20};
     Events<Cried> cries{100000};
-    CallLog log;
-    std::vector<std::vector<uint32_t>> groups{{0, 3}, {1}, {2, 4, 5}};
 
     static constexpr auto tables() { return std::tuple{&Sky::birds, &Sky::birds_eggs}; }
     template <class T>
@@ -69,15 +60,9 @@ struct Sky {
             return arena;
         else if constexpr (std::is_same_v<T, Events<Cried>>)
             return cries;
-        else if constexpr (std::is_same_v<T, CallLog>)
-            return log;
         else
             return *this;
     }
-    uint32_t body_call_count() { return 5; }
-    uint32_t body_of_call(uint32_t call) { return 3 * call; }
-    uint32_t island_count() { return static_cast<uint32_t>(groups.size()); }
-    const std::vector<uint32_t>& island(uint32_t n) { return groups[n]; }
 };
 
 void steer(Rows<Birds> rows, const Weather& weather, In<&Birds::position> position, InOut<&Birds::velocity> velocity) {
@@ -109,22 +94,15 @@ void rebuild(Serial, Sky& sky) {
     sky.birds.clear_rows(0, 1);
 }
 // Bird b cries b % 4 times.
-void cry(Rows<Birds> rows, In<&Birds::flock>, Emit<Cried, 3> emit) {
-    for (const auto b : rows)
-        for (uint32_t n = 0; n < b % 4; ++n) emit.push({b, n, 7});
+void cry(Serial, const Birds& birds, Events<Cried>& cries) {
+    for (uint32_t b = 0; b < birds.size(); ++b)
+        for (uint32_t n = 0; n < b % 4; ++n) cries.push({b, n});
 }
 void listen(Serial, const Events<Cried>& cries, Weather& weather) {
     weather.storms += cries.size();
 }
 void answer(Each<Cried> cried, Birds& birds) {
     birds.hunger[cried->bird * 4 + cried->cry] += 1;
-}
-void visit(EachBody body, const CallLog& log) {
-    ++const_cast<CallLog&>(log).bodies[body.row];
-}
-void join(Islands island, const CallLog& log) {
-    auto& list = const_cast<CallLog&>(log).islands[island.rows[0]];
-    list.assign(island.rows, island.rows + island.count);
 }
 template <int n>
 void independent(Serial) {}
@@ -203,7 +181,7 @@ TEST(FramePlan, TwoUsersOfTheArenaNeverRunAtOnce) {
     EXPECT_EQ((after_last<forecast, plan_route>()), Names{"forecast"});
 }
 
-TEST(FramePlan, EmitAndEachMeetTheQueue) {
+TEST(FramePlan, WhoFillsAQueueAndEachMeetAtIt) {
     EXPECT_EQ((after_last<cry, listen>()), Names{"cry"});
     EXPECT_EQ((after_last<cry, answer>()), Names{"cry"});
     EXPECT_EQ((after_last<answer, cry>()), Names{"answer"});
@@ -229,7 +207,7 @@ TEST(FramePlan, MoreSystemsThanAPassHoldsOpenAnother) {
     EXPECT_EQ(plan.pass_count(), 3u);
     Sky sky;
     const auto jobs = make_jobs(JobBackend::Threads, 2);
-    plan.step(sky, *jobs, profiler, sky.arena);
+    plan.step(sky, *jobs, profiler);
 }
 
 TEST(FramePlan, ItDescribesItself) {
@@ -248,8 +226,8 @@ TEST(FramePlan, ItDescribesItself) {
               "        writes birds.position\n"
               "        after  steer\n"
               "speak\n"
-              "    cry  [rows]\n"
-              "        reads  birds.flock\n"
+              "    cry  [serial]\n"
+              "        reads  birds, Events<Cried>\n"
               "        writes Events<Cried>\n"
               "      repeats: a loop\n"
               "        inside\n"
@@ -273,43 +251,11 @@ std::vector<std::unique_ptr<JobSystem>> all_jobs() {
     return list;
 }
 
-TEST(FramePlan, EventsAreJoinedInTheOrderOfRowsOnAnyBackend) {
-    for (const auto& jobs : all_jobs()) {
-        Profiler profiler;
-        Plan plan = make_plan<cry, listen>(profiler);
-        Sky sky;
-        sky.birds.append(1001);
-        profiler.begin_frame(0);
-        plan.step(sky, *jobs, profiler, sky.arena);
-        uint32_t n = 0;
-        for (uint32_t b = 0; b < 1001; ++b)
-            for (uint32_t c = 0; c < b % 4; ++c, ++n) {
-                ASSERT_EQ(sky.cries.all()[n].bird, b);
-                ASSERT_EQ(sky.cries.all()[n].cry, c);
-                ASSERT_EQ(sky.cries.all()[n].wide, 7u);
-            }
-        EXPECT_EQ(n, sky.cries.size());
-        EXPECT_EQ(sky.weather.storms, n);
-        EXPECT_EQ(profiler.zone_rows(0), 1001u);
-    }
-}
-
-TEST(FramePlan, WithAFullArenaTheEventsAreLostAndCounted) {
-    Profiler profiler;
-    Plan plan = make_plan<cry, listen>(profiler);
-    Sky sky;
-    sky.birds.append(1000);
-    Arena small(1000);
-    plan.step(sky, *make_jobs(JobBackend::Threads, 2), profiler, small);
-    EXPECT_EQ(sky.cries.size(), 0u);
-    EXPECT_EQ(sky.cries.dropped(), 1500u);
-}
-
 TEST(FramePlan, AnEmptyWorldTakesAStep) {
     Profiler profiler;
     Plan plan = make_plan<steer, fly, starve, cry, answer, brood>(profiler);
     Sky sky;
-    plan.step(sky, *make_jobs(JobBackend::Threads, 2), profiler, sky.arena);
+    plan.step(sky, *make_jobs(JobBackend::Threads, 2), profiler);
     EXPECT_EQ(sky.cries.size(), 0u);
 }
 
@@ -322,26 +268,13 @@ TEST(FramePlan, EachEventIsAnsweredOnce) {
         for (uint32_t b = 100; b < 400; ++b) sky.birds.flock[b] = 1;
         // Only 100 birds' cries fit the answers' table: 4 rows a bird.
         sky.birds.truncate(100);
-        plan.step(sky, *jobs, profiler, sky.arena);
+        plan.step(sky, *jobs, profiler);
         sky.birds.append(300);
         for (uint32_t b = 0; b < 100; ++b)
             for (uint32_t c = 0; c < 4; ++c)
                 if (b * 4 + c < 100) {
                     ASSERT_EQ(sky.birds.hunger[b * 4 + c], c < b % 4 ? 1.0f : 0.0f);
                 }
-    }
-}
-
-TEST(FramePlan, BodiesAndIslandsAreCalledByTheirLists) {
-    for (const auto& jobs : all_jobs()) {
-        Profiler profiler;
-        Plan plan = make_plan<visit, join>(profiler);
-        Sky sky;
-        plan.step(sky, *jobs, profiler, sky.arena);
-        for (uint32_t b = 0; b < 16; ++b) EXPECT_EQ(sky.log.bodies[b], b % 3 == 0 && b < 15 ? 1u : 0u);
-        EXPECT_EQ(sky.log.islands[0], (std::vector<uint32_t>{0, 3}));
-        EXPECT_EQ(sky.log.islands[1], (std::vector<uint32_t>{1}));
-        EXPECT_EQ(sky.log.islands[2], (std::vector<uint32_t>{2, 4, 5}));
     }
 }
 
@@ -354,7 +287,7 @@ TEST(FramePlan, AStepGivesTheSameBytesOnAnyBackend) {
         sky.birds.append(777);
         sky.birds_eggs.append(50);
         for (uint32_t b = 0; b < 777; ++b) sky.birds.position.set(b, {static_cast<float>(Random{4}.uniform(b)), 1, 2});
-        for (int frame = 0; frame < 20; ++frame) plan.step(sky, *jobs, profiler, sky.arena);
+        for (int frame = 0; frame < 20; ++frame) plan.step(sky, *jobs, profiler);
         const uint64_t hash = sky.birds_eggs.hash(sky.birds.hash(0));
         if (!first) first = hash;
         EXPECT_EQ(hash, first);
@@ -365,7 +298,7 @@ TEST(FramePlan, ASystemThatRunsOnTheCallerHasOurFloatingPointModeToo) {
     Profiler profiler;
     Plan plan = make_plan<tiny>(profiler);
     Sky sky;
-    plan.step(sky, *make_jobs(JobBackend::Threads, 2), profiler, sky.arena);
+    plan.step(sky, *make_jobs(JobBackend::Threads, 2), profiler);
     EXPECT_EQ(sky.weather.wind, 0.0f);
     volatile float small = 1e-25f;
     EXPECT_GT(small * 1e-20f, 0.0f) << "and the caller keeps its own";
@@ -379,7 +312,7 @@ TEST(FramePlan, TheValidatorSeesEachSystemOnce) {
     const std::function<void(const PlannedSystem<Sky>&)> note = [&](const auto& system) {
         seen.push_back(system.name);
     };
-    plan.step(sky, *make_jobs(JobBackend::Threads, 1), profiler, sky.arena, &note);
+    plan.step(sky, *make_jobs(JobBackend::Threads, 1), profiler, &note);
     EXPECT_EQ(seen, (Names{"steer", "starve", "fly"}));
 }
 

@@ -63,9 +63,11 @@ Moment measure(const WorldData& data, const std::vector<uint32_t>& pieces) {
     return moment;
 }
 
-/// Where a piece is; by its handle, because rows are given to others once a piece is gone.
+/// Where a piece is; by row and generation, because rows are given to others once a piece is gone.
 struct Place {
-    Handle<Bodies> piece;
+    struct {
+        uint32_t index, generation;
+    } piece;
     Pose pose;
 };
 
