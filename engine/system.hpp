@@ -331,20 +331,25 @@ struct Signature<void (*)(P...)> {
                   "a parallel system reads any row of a column that it writes: declare the column Buffers::Two");
     template <class A>
     static constexpr bool kChanges = std::is_lvalue_reference_v<A> && !std::is_const_v<std::remove_reference_t<A>>;
-    template <class... M>
-    static constexpr bool changes_any(TypeList<M...>) {
-        return (... || kChanges<M>);
+    /// Of what a parameter brings: itself, or a group's members.
+    template <class A>
+    static constexpr bool changes_any() {
+        if constexpr (IsGroup<A>)
+            return []<class... M>(TypeList<M...>) { return (... || changes_any<M>()); }(group::MembersOf<A>{});
+        else
+            return kChanges<A>;
     }
-    template <class... M>
-    static constexpr bool changes_a_resource(TypeList<M...>) {
-        return (... || (kChanges<M> && !IsTable<M> && !HoldsEveryTable<M>));
+    template <class A>
+    static constexpr bool changes_a_resource() {
+        if constexpr (IsGroup<A>)
+            return []<class... M>(TypeList<M...>) { return (... || changes_a_resource<M>()); }(group::MembersOf<A>{});
+        else
+            return kChanges<A> && !IsTable<A> && !HoldsEveryTable<A>;
     }
-    static_assert(kKind == CallKind::Serial || kKind == CallKind::Bodies ||
-                      !(... || changes_any(typename group::References<P>::Type{})),
+    static_assert(kKind == CallKind::Serial || kKind == CallKind::Bodies || !(... || changes_any<P>()),
                   "only Serial, EachBody and Each systems may change a whole table, only Serial ones a resource");
     static_assert(
-        kKind != CallKind::Bodies || (... || std::is_same_v<P, EachBody>) ||
-            !(... || changes_a_resource(typename group::References<P>::Type{})),
+        kKind != CallKind::Bodies || (... || std::is_same_v<P, EachBody>) || !(... || changes_a_resource<P>()),
         "calls of an Each system run at once: only a Serial system may change a resource, the arena or a queue");
 
     template <class P1>

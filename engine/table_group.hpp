@@ -1,5 +1,5 @@
-// A group is a plain struct of references to tables, or to other things that a world has, that systems and their helpers
-// take together, as one parameter:
+// A group is a plain struct of references to tables, or to other things that a world has, or of smaller groups, that
+// systems and their helpers take together, as one parameter:
 //
 //     struct TaskRuns {
 //         Tasks& tasks;
@@ -8,11 +8,9 @@
 //     };
 //     void start_tasks(Each<TaskOpened> opened, ShellMesh mesh, TaskRuns runs);
 //
-// narrow<Smaller>(larger, ...) gives a helper less, and never more: what the arguments do not hold, or hold as const, does
-// not compile. So the parameters of a function are all that it reaches.
+// narrow<Smaller>(larger, ...) gives a helper less, and never more: what the arguments do not hold, or hold as const,
+// does not compile. So the parameters of a function are all that it reaches.
 #pragma once
-#include <cstddef>
-#include <tuple>
 #include <type_traits>
 #include <utility>
 
@@ -34,7 +32,11 @@ template <class G, class... Given>
 constexpr int member_count() {
     if constexpr (sizeof...(Given) > kMostMembers)
         return 0;
-    else if constexpr (requires { G{Given{}...}; } && !requires { G{Given{}..., Anything{}}; })
+    else if constexpr (
+        requires { G{Given{}...}; } &&
+        !requires {
+            G{Given{}..., Anything{}};
+        })
         return static_cast<int>(sizeof...(Given));
     else
         return member_count<G, Given..., Anything>();
@@ -80,9 +82,11 @@ struct ListTypes {
 template <class G>
 using MembersOf = decltype(visit(std::declval<G&>(), ListTypes{}));
 
+template <class T>
+constexpr bool is_group();
 template <class... T>
-constexpr bool are_references(TypeList<T...>) {
-    return (... && std::is_lvalue_reference_v<T>);
+constexpr bool are_references_or_groups(TypeList<T...>) {
+    return (... && (std::is_lvalue_reference_v<T> || is_group<T>()));
 }
 template <class T>
 constexpr bool is_group() {
@@ -91,33 +95,46 @@ constexpr bool is_group() {
     else if constexpr (member_count<T>() == 0)
         return false;
     else
-        return are_references(MembersOf<T>{});
+        return are_references_or_groups(MembersOf<T>{});
 }
 
 }  // namespace group
 
-/// A plain struct of references and nothing else.
+/// A plain struct of references, or of such structs, and nothing else.
 template <class T>
 concept IsGroup = group::is_group<T>();
 
 namespace group {
 
-/// The references that a parameter brings: a group's members, or the parameter.
-template <class T>
-struct References {
-    using Type = TypeList<T>;
-};
-template <IsGroup T>
-struct References<T> {
-    using Type = MembersOf<T>;
-};
-
+/// Whether one thing may be handed on as another: the same type, and const only where const is asked for.
 template <class Wanted, class Held>
 inline constexpr bool kGives = std::is_same_v<std::remove_const_t<Wanted>, std::remove_const_t<Held>> &&
                                (std::is_const_v<Wanted> || !std::is_const_v<Held>);
-template <class Wanted, class... T>
-constexpr bool has(TypeList<T...>) {
-    return (... || kGives<Wanted, std::remove_reference_t<T>>);
+
+/// Whether `Given`, a table or a group, holds what is wanted: a table, or all of a group.
+template <class Wanted, class... Given>
+constexpr bool holds();
+template <class Wanted, class... M>
+constexpr bool holds_any(TypeList<M...>) {
+    return (... || holds<Wanted, std::remove_reference_t<M>>());
+}
+template <class... M, class... Given>
+constexpr bool holds_all(TypeList<M...>, TypeList<Given...>) {
+    return (... && holds<std::remove_reference_t<M>, Given...>());
+}
+template <class Wanted, class... Given>
+constexpr bool holds() {
+    if constexpr (IsGroup<std::remove_const_t<Wanted>>)
+        return holds_all(MembersOf<std::remove_const_t<Wanted>>{}, TypeList<Given...>{});
+    else if constexpr (sizeof...(Given) > 1)
+        return (... || holds<Wanted, Given>());
+    else
+        return (... || []<class G>(TypeList<G>) {
+            if constexpr (IsGroup<std::remove_const_t<G>>)
+                return holds_any<Wanted>(MembersOf<std::remove_const_t<G>>{});
+            else
+                return kGives<Wanted, G>;
+        }(TypeList<Given>{}));
 }
 
 /// Where a table lies in what is given; null: nowhere.
@@ -135,41 +152,36 @@ constexpr Wanted* find(Given& given) {
         return nullptr;
 }
 
-/// Becomes the reference that a member of a narrower group asks for.
-template <class... Given>
-struct Picker {
-    std::tuple<Given&...> given;
-    template <class Wanted>
-    requires(... || (IsGroup<std::remove_const_t<Given>>
-                         ? has<Wanted>(typename References<std::remove_const_t<Given>>::Type{})
-                         : kGives<Wanted, Given>)) operator Wanted&() const {
-        return std::apply(
-            [](Given&... one) -> Wanted& {
-                Wanted* found = nullptr;
-                ((found = found ? found : find<Wanted>(one)), ...);
-                return *found;
-            },
-            given);
+template <class G, class... M, class... Given>
+constexpr G make(TypeList<M...>, Given&... given);
+/// A member of a narrower group, by its declared type.
+template <class M, class... Given>
+constexpr M pick(Given&... given) {
+    if constexpr (std::is_lvalue_reference_v<M>) {
+        using Wanted = std::remove_reference_t<M>;
+        Wanted* found = nullptr;
+        ((found = found ? found : find<Wanted>(given)), ...);
+        return *found;
+    } else {
+        return make<M>(MembersOf<M>{}, given...);
     }
-};
-
-template <class Smaller, class P, std::size_t... n>
-constexpr Smaller pick(const P& picker, std::index_sequence<n...>) {
-    return Smaller{((void)n, picker)...};
+}
+template <class G, class... M, class... Given>
+constexpr G make(TypeList<M...>, Given&... given) {
+    return G{pick<M>(given...)...};
 }
 
 }  // namespace group
 
-/// The group `Smaller` out of groups and tables that hold all that it asks for.
-template <IsGroup Smaller, class... Given>
-constexpr Smaller narrow(Given&&... given) {
-    const group::Picker<std::remove_reference_t<Given>...> picker{{given...}};
-    return group::pick<Smaller>(picker, std::make_index_sequence<group::member_count<Smaller>()>());
-}
-/// Whether that compiles.
+/// Whether tables and groups hold all that the group `Smaller` asks for.
 template <class Smaller, class... Given>
-concept NarrowsTo = IsGroup<Smaller> && []<class... Wanted>(TypeList<Wanted...>) {
-    return (... && std::is_convertible_v<group::Picker<std::remove_reference_t<Given>...>, Wanted>);
-}(group::MembersOf<Smaller>{});
+concept NarrowsTo = IsGroup<Smaller> && group::holds<Smaller, std::remove_reference_t<Given>...>();
+
+/// The group `Smaller`, out of tables and groups.
+template <IsGroup Smaller, class... Given>
+requires NarrowsTo<Smaller, Given...>
+constexpr Smaller narrow(Given&&... given) {
+    return group::make<Smaller>(group::MembersOf<Smaller>{}, given...);
+}
 
 }  // namespace cullet

@@ -39,12 +39,20 @@ struct Drive {
 struct Roofing {
     Roofs& roofs;
 };
+struct House {  // groups of groups
+    Doorway doorway;
+    Roofing roofing;
+};
+struct Street {
+    Car car;
+    House house;
+};
 struct Numbers {
     float a = 0;
     int b = 0;
 };
 
-static_assert(IsGroup<Car> && IsGroup<Doorway>);
+static_assert(IsGroup<Car> && IsGroup<Doorway> && IsGroup<House> && IsGroup<Street>);
 static_assert(!IsGroup<Wheels> && !IsGroup<Numbers> && !IsGroup<Step> && !IsGroup<Serial> && !IsGroup<float>);
 static_assert(NarrowsTo<Drive, Car>, "fewer tables");
 static_assert(NarrowsTo<Doorway, Car>, "written ones as read ones");
@@ -54,6 +62,8 @@ static_assert(NarrowsTo<Drive, Wheels, const Roofs>);
 static_assert(!NarrowsTo<Roofing, Car>, "what is only read is not written");
 static_assert(!NarrowsTo<Car, Drive>, "what was not given is not there");
 static_assert(!NarrowsTo<Drive, const Wheels, Roofs>);
+static_assert(NarrowsTo<House, Car, Roofs> && NarrowsTo<Roofing, House> && NarrowsTo<Drive, Street>);
+static_assert(!NarrowsTo<House, Car> && !NarrowsTo<Car, House>);
 
 TEST(TableGroup, AHelperSeesTheSameTablesThroughANarrowerGroup) {
     Wheels wheels(10);
@@ -65,6 +75,9 @@ TEST(TableGroup, AHelperSeesTheSameTablesThroughANarrowerGroup) {
     EXPECT_EQ(&drive.roofs, &roofs);
     EXPECT_EQ(&narrow<Doorway>(drive, doors).doors, &doors);
     EXPECT_EQ(&narrow<Car>(drive, doors).doors, &doors);
+    const House house = narrow<House>(car, roofs);
+    EXPECT_EQ(&house.roofing.roofs, &roofs);
+    EXPECT_EQ(&narrow<Roofing>(Street{car, house}).roofs, &roofs);
 }
 
 struct Garage {
@@ -90,6 +103,7 @@ struct Garage {
 void roll(Serial, Step step, Drive drive) {
     if (drive.roofs.size() == 0) drive.wheels.turn[0] += step.dt;
 }
+void build(Serial, House) {}
 void knock(Serial, Doorway) {}
 void shut(Serial, Doors& doors) {
     doors.truncate(0);
@@ -120,6 +134,8 @@ TEST(TableGroup, TheFramePlanOrdersByTheTablesInIt) {
               "        writes roofs\n"
               "        after  roll\n");
     EXPECT_EQ(plan.pass_count(), 2u);
+    plan.then<build>().finish(profiler);
+    EXPECT_NE(plan.describe().find("reads  doors, roofs\n        writes roofs\n"), std::string::npos);
     Garage garage;
     garage.wheels.append(1);
     plan.step(garage, *make_jobs(JobBackend::Threads, 1), profiler);
