@@ -4,6 +4,7 @@
 #include <cstdio>
 
 #include "cullet/material.hpp"
+#include "engine/fp_mode.hpp"
 #include "systems/cook/materials.hpp"
 
 namespace cullet {
