@@ -84,9 +84,14 @@ using MembersOf = decltype(visit(std::declval<G&>(), ListTypes{}));
 
 template <class T>
 constexpr bool is_group();
+/// A struct that lists all tables of a world is none of its tables: who holds it reaches everything.
+template <class T>
+concept IsWholeState = requires {
+    std::remove_cvref_t<T>::tables();
+};
 template <class... T>
 constexpr bool are_references_or_groups(TypeList<T...>) {
-    return (... && (std::is_lvalue_reference_v<T> || is_group<T>()));
+    return (... && ((std::is_lvalue_reference_v<T> && !IsWholeState<T>) || is_group<T>()));
 }
 template <class T>
 constexpr bool is_group() {

@@ -2,6 +2,7 @@
 #include <new>
 
 #include "cullet/model.hpp"
+#include "engine/fp_mode.hpp"
 #include "systems/cook/mesh_of_view.hpp"
 #include "systems/cook/surface.hpp"
 

@@ -53,6 +53,13 @@ struct Numbers {
 };
 
 static_assert(IsGroup<Car> && IsGroup<Doorway> && IsGroup<House> && IsGroup<Street>);
+struct EveryTable {
+    static constexpr int tables() { return 0; }
+};
+struct Escape {
+    EveryTable& all;
+};
+static_assert(!IsGroup<Escape>, "a group names its tables");
 static_assert(!IsGroup<Wheels> && !IsGroup<Numbers> && !IsGroup<Step> && !IsGroup<Serial> && !IsGroup<float>);
 static_assert(NarrowsTo<Drive, Car>, "fewer tables");
 static_assert(NarrowsTo<Doorway, Car>, "written ones as read ones");
