@@ -35,6 +35,8 @@ Hull box_at(Vec3 middle, Vec3 half) {
     return hull;
 }
 
+constexpr float kScale = 1;  // of walls of 5 mm and more
+
 TEST(CrackContact, TakesThePlacesThatLieFarthestApart) {
     const CrackContact contact = contact_of(row_of_touches());
     ASSERT_EQ(contact.count, 4u);
@@ -51,7 +53,7 @@ TEST(CrackContact, TakesThePlacesThatLieFarthestApart) {
 
 TEST(CrackContact, OfNoTouchesHasNone) {
     EXPECT_EQ(contact_of({}).count, 0u);
-    EXPECT_EQ(crack_patch(contact_of({}), kHere, kHere).count, 0);
+    EXPECT_EQ(crack_patch(contact_of({}), kHere, kHere, kScale).count, 0);
 }
 
 TEST(CrackContact, OfFewPlacesTakesEachOnce) {
@@ -78,11 +80,11 @@ TEST(CrackContact, TellsHowFarItsPlacesAreApartAlongTheNormalAsBothTurn) {
     const CrackContact contact = contact_of(row_of_touches());
     btTransform raised = kHere;
     raised.setOrigin({0.003f, 0.002f, 0});
-    const Patch patch = crack_patch(contact, raised, kHere);
+    const Patch patch = crack_patch(contact, raised, kHere, kScale);
     ASSERT_EQ(patch.count, 4);
     for (int k = 0; k < 4; ++k) EXPECT_NEAR(patch.point[k].distance, 0.002f, 1e-6f);
     const btTransform turned(btQuaternion({0, 0, 1}, 1.0f), {1, 2, 3});
-    const Patch both = crack_patch(contact, turned * raised, turned);
+    const Patch both = crack_patch(contact, turned * raised, turned, kScale);
     ASSERT_EQ(both.count, 4);
     for (int k = 0; k < 4; ++k) EXPECT_NEAR(both.point[k].distance, 0.002f, 1e-6f);
     EXPECT_NEAR(length(both.normal - from_bullet(turned.getBasis() * btVector3(0, 1, 0))), 0, 1e-6f);
@@ -93,26 +95,26 @@ TEST(CrackContact, LeavesOutWhatHasSlidPastItsEdgeOrParted) {
     btTransform slid = kHere, parted = kHere;
     slid.setOrigin({0, -0.001f, 0.021f});
     parted.setOrigin({0, kContactRange + 0.001f, 0});
-    EXPECT_EQ(crack_patch(contact, slid, kHere).count, 0);
-    EXPECT_EQ(crack_patch(contact, parted, kHere).count, 0);
+    EXPECT_EQ(crack_patch(contact, slid, kHere, kScale).count, 0);
+    EXPECT_EQ(crack_patch(contact, parted, kHere, kScale).count, 0);
     slid.setOrigin({0, -0.001f, 0.019f});
-    EXPECT_EQ(crack_patch(contact, slid, kHere).count, 4);
+    EXPECT_EQ(crack_patch(contact, slid, kHere, kScale).count, 4);
 }
 
 TEST(CrackContact, LeavesOutFacesThatTurnedIntoEachOtherButNotThoseThatWerePressedIn) {
     const CrackContact contact = contact_of(row_of_touches());
     btTransform pressed = kHere;
     pressed.setOrigin({0, -0.005f, 0});
-    EXPECT_EQ(crack_patch(contact, pressed, kHere).count, 4);
+    EXPECT_EQ(crack_patch(contact, pressed, kHere, kScale).count, 4);
     // About the row itself, so that its places stay where they are.
     const btTransform turned(btQuaternion({1, 0, 0}, 0.6f), {0, -0.005f, 0});
-    EXPECT_EQ(crack_patch(contact, turned, kHere).count, 0);
+    EXPECT_EQ(crack_patch(contact, turned, kHere, kScale).count, 0);
     const btTransform turned_apart(btQuaternion({1, 0, 0}, 0.6f), {0, 0.001f, 0});
-    EXPECT_EQ(crack_patch(contact, turned_apart, kHere).count, 4);
+    EXPECT_EQ(crack_patch(contact, turned_apart, kHere, kScale).count, 4);
 }
 
 TEST(CrackContact, TurnsTheNormalWithTheOrderOfTheTwo) {
-    const Patch patch = crack_patch(contact_of(row_of_touches(), true), kHere, kHere);
+    const Patch patch = crack_patch(contact_of(row_of_touches(), true), kHere, kHere, kScale);
     ASSERT_EQ(patch.count, 4);
     EXPECT_EQ(patch.point[0].normal.y, -1);
 }

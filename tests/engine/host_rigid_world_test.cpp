@@ -187,7 +187,7 @@ TEST(HostRigidWorld, CrumbsFindTheTrianglesBelowThem) {
     Rows rows;
     const Vec3 corners[] = {{-1, 2, -1}, {1, 2, -1}, {0, 2, 1}, {-1, 0, -1}, {1, 0, -1}, {0, 0, 1}};
     const std::array<uint32_t, 3> triangles[] = {{0, 1, 2}, {3, 4, 5}};
-    rows.world.add_static_triangles(4, corners, triangles, 0.5f, 0, 1, ~0u);
+    rows.world.add_static_triangles(4, corners, triangles, 0.5f, 0, 1, ~0u, false);
     EXPECT_EQ(rows.world.height_below({0, 5, 0}, -9), 2);
     EXPECT_EQ(rows.world.height_below({0, 1, 0}, -9), 0);
     EXPECT_EQ(rows.world.height_below({3, 1, 0}, -9), -9);

@@ -355,14 +355,21 @@ std::vector<Trip> slide(const Floor& floor, const std::vector<Slider>& sliders, 
 }
 
 struct Figures {
-    uint32_t cases = 0, hops = 0, aside = 0, held = 0, struck = 0, struck_on_hills = 0, bad = 0;
-    float highest = 0;
+    uint32_t cases = 0, hops = 0, aside = 0, held = 0, struck = 0, bad = 0;
+    float highest = 0;  // m
+    void print(const char* of) const {
+        std::printf("%s: %u cases: %u hop, the highest %.1f mm; %u turned aside, %u held up, %u struck; %u in all\n",
+                    of, cases, hops, 1000 * highest, aside, held, struck, bad);
+    }
 };
+
+// Of hills as of all other floors 1 in 100 is wanted. Slow panes are still held up on them, and boxes struck.
+constexpr uint32_t kMostOfHundredHills = 10;
 
 TEST(InnerEdges, WhatSlidesOverAFloorOfManyPartsGoesAsOverOneOfTwoTriangles) {
     const char* wanted = std::getenv("CULLET_INNER_EDGES_CASES");
     const uint32_t grounds = wanted ? static_cast<uint32_t>(std::atoi(wanted)) / kAbreast : 126;
-    Figures all;
+    Figures flat, hills;
     for (uint32_t seed = 0; seed < grounds; ++seed) {
         Chance chance{std::mt19937(seed)};
         const Ground ground = random_ground(chance);
@@ -374,18 +381,15 @@ TEST(InnerEdges, WhatSlidesOverAFloorOfManyPartsGoesAsOverOneOfTwoTriangles) {
         const float dt = chance.below(2) ? 1.0f / 60 : 1.0f / 120;
         const auto got = slide(ground.floor, sliders, dt), plain = slide(ground.plain, sliders, dt);
         for (uint32_t k = 0; k < kAbreast; ++k) {
-            ++all.cases;
+            Figures& figures = ground.floor.name == std::string("hill") ? hills : flat;
+            ++figures.cases;
             const float hop = got[k].top - plain[k].top;
-            // What hills throw off lands as it may: that is told, and counts for nothing.
-            const bool is_hill = ground.floor.name == std::string("hill");
             const bool hops = hop > 0.003f, is_aside = std::fabs(got[k].aside - plain[k].aside) > 0.02f * plain[k].way,
-                       is_held = got[k].way<0.95f * plain[k].way, is_hard = got[k].struck> plain[k].struck + 0.5f,
-                       is_struck = is_hard && !is_hill;
-            all.struck_on_hills += is_hard && is_hill;
-            all.hops += hops, all.aside += is_aside, all.held += is_held, all.struck += is_struck;
-            all.highest = std::max(all.highest, hop);
+                       is_held = got[k].way<0.95f * plain[k].way, is_struck = got[k].struck> plain[k].struck + 0.5f;
+            figures.hops += hops, figures.aside += is_aside, figures.held += is_held, figures.struck += is_struck;
+            figures.highest = std::max(figures.highest, hop);
             if (!hops && !is_aside && !is_held && !is_struck) continue;
-            ++all.bad;
+            ++figures.bad;
             std::printf(
                 "seed %u lane %u: %s on %s at %.1f m/s, %.0f steps a second: hop %.1f mm, aside %.1f of %.0f mm, "
                 "way %.3f of %.3f m, struck at %.2f (%.2f) m/s\n",
@@ -394,12 +398,11 @@ TEST(InnerEdges, WhatSlidesOverAFloorOfManyPartsGoesAsOverOneOfTwoTriangles) {
                 plain[k].struck);
         }
     }
-    std::printf(
-        "%u cases: %u hop, the highest %.1f mm; %u turned aside, %u held up, %u struck; %u in all; "
-        "%u struck on hills\n",
-        all.cases, all.hops, 1000 * all.highest, all.aside, all.held, all.struck, all.bad, all.struck_on_hills);
-    EXPECT_LE(100 * all.bad, all.cases);
-    EXPECT_LT(all.highest, 0.01f);
+    flat.print("flat floors");
+    hills.print("hills");
+    EXPECT_LE(100 * flat.bad, flat.cases);
+    EXPECT_LE(100 * hills.bad, kMostOfHundredHills * hills.cases);
+    EXPECT_LT(std::max(flat.highest, hills.highest), 0.01f);
 }
 
 }  // namespace
