@@ -19,10 +19,10 @@ namespace {
 namespace fs = std::filesystem;
 
 // Today's counts.
-constexpr uint32_t kFilesWithState = 0;
-constexpr uint32_t kUnnamedParameters = 0;
-constexpr uint32_t kMutualFolders = 0;
-constexpr uint32_t kWideSystems = 0;
+constexpr uint32_t kFilesWithState = 162;
+constexpr uint32_t kUnnamedParameters = 70;
+constexpr uint32_t kMutualFolders = 17;
+constexpr uint32_t kWideSystems = 11;
 
 struct Source {
     std::string path;    // "systems/damage/ring.cpp"
