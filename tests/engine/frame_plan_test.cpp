@@ -229,6 +229,7 @@ TEST(FramePlan, ItDescribesItself) {
               "    cry  [serial]\n"
               "        reads  birds, Events<Cried>\n"
               "        writes Events<Cried>\n"
+              "        after  fly\n"
               "      repeats: a loop\n"
               "        inside\n"
               "    brood  [rows]\n"

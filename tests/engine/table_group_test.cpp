@@ -107,17 +107,22 @@ struct Garage {
     }
 };
 
-void roll(Serial, Step step, Drive drive) {
+}  // namespace
+
+// Systems have names of their own.
+static void roll(Serial, Step step, Drive drive) {
     if (drive.roofs.size() == 0) drive.wheels.turn[0] += step.dt;
 }
-void build(Serial, House) {}
-void knock(Serial, Doorway) {}
-void shut(Serial, Doors& doors) {
+static void build(Serial, House) {}
+static void knock(Serial, Doorway) {}
+static void shut(Serial, Doors& doors) {
     doors.truncate(0);
 }
-void paint(Serial, Roofing roofing) {
+static void paint(Serial, Roofing roofing) {
     roofing.roofs.append(1);
 }
+
+namespace {
 
 TEST(TableGroup, TheFramePlanOrdersByTheTablesInIt) {
     Profiler profiler;
