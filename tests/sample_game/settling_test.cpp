@@ -65,8 +65,9 @@ Moment measure(const WorldData& data, const std::vector<uint32_t>& pieces) {
 
 /// Where a piece is; by row and generation, because rows are given to others once a piece is gone.
 struct Place {
-    struct {
+    struct Piece {
         uint32_t index, generation;
+        bool operator==(const Piece&) const = default;
     } piece;
     Pose pose;
 };
