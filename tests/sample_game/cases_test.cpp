@@ -24,7 +24,6 @@ struct Unmended {
     int must;
 };
 constexpr Unmended kUnmended[] = {
-    {"small_shards_on_a_sheet", 2},
     {"tiny_vase", 3},
 };
 
