@@ -38,7 +38,7 @@ Played play_script(const std::string& text, double seconds, uint32_t threads = 2
     return played;
 }
 
-constexpr const char* kVase =
+const std::string kVase =
     "game.scene{shows = 'a load', seconds = 60} game.floor() "
     "local vase = game.cook{mesh = game.mesh.vase{height = 0.3, edge = 0.02}, material = 'porcelain', thickness = "
     "0.005, edge = 0.02} ";
@@ -66,8 +66,7 @@ class SlowPress : public testing::TestWithParam<std::tuple<Press, double>> {};
 TEST_P(SlowPress, BreaksAVaseBeforeItIsTwoCentimetresInIt) {
     const auto& [press, speed] = GetParam();
     const double along = std::string(press.name) == "FromAbove" ? -speed : speed;
-    const std::string script =
-        std::string(kVase) + "game.spawn{cooked = vase, at = {0, 0.001, 0}} " + format(press.script, along);
+    const std::string script = kVase + "game.spawn{cooked = vase, at = {0, 0.001, 0}} " + format(press.script, along);
     const double most = (press.gap + 0.02) / speed + 0.25;  // a hit takes some frames at any speed
     const Played played = play_script(script, most);
     EXPECT_EQ(played.failure, "");
@@ -82,7 +81,7 @@ INSTANTIATE_TEST_SUITE_P(All, SlowPress, testing::Combine(testing::ValuesIn(kPre
 
 TEST(Loads, ALiftThatCarriesAVaseAndAPressThatStopsShortBreakNothing) {
     const Played played = play_script(
-        std::string(kVase) +
+        kVase +
             "game.kinematic{half_extents = {0.5, 0.1, 0.5}, at = {0, 0.1, 0}, velocity = {0, 0.3, 0}} "
             "game.spawn{cooked = vase, at = {0, 0.2005, 0}} "
             "game.spawn{cooked = vase, at = {2, 0.001, 0}} "
@@ -109,7 +108,7 @@ TEST(Loads, ADoorThatClosesOnAPinnedPaneBreaksIt) {
 
 TEST(Loads, AVaseCarriesTwentyKilogramsForFiveSeconds) {
     const Played played =
-        play_script(std::string(kVase) +
+        play_script(kVase +
                         "game.spawn{cooked = vase, at = {0, 0.001, 0}} "
                         "local w = game.spawn{mesh = game.mesh.box{half_extents = {0.1, 0.05, 0.1}}, material = "
                         "'steel', thickness = 0.04, breakable = false, at = {0, 0.352, 0}, edge = 0.2} "
@@ -150,7 +149,7 @@ TEST(Loads, AHundredTonnesOnAShelfBreakItInHalfASecond) {
 
 TEST(Loads, ABreakByLoadIsTheSameOnAnyNumberOfThreads) {
     const std::string script =
-        std::string(kVase) + "game.spawn{cooked = vase, at = {0, 0.001, 0}} " + format(kPresses[0].script, -0.2);
+        kVase + "game.spawn{cooked = vase, at = {0, 0.001, 0}} " + format(kPresses[0].script, -0.2);
     const uint64_t one = play_script(script, 1, 1, false).hash;
     for (const uint32_t threads : {2u, 3u, 8u}) EXPECT_EQ(play_script(script, 1, threads, false).hash, one);
 }
