@@ -94,13 +94,20 @@ void BulletWorld::stop_at_sheet(Body& body, const PutThrough& put) {
 }
 
 void BulletWorld::bring_back(Body& body) {
-    for (int move = 0; move < kMoves; ++move) {
+    const Vec3 from = from_bullet(body.bullet->getCenterOfMassPosition());
+    bool is_back = false;
+    for (int move = 0; move < kMoves && !is_back; ++move) {
         const PutThrough put = find_put_through(body);
-        if (!(put.depth > 0)) return;
+        is_back = !(put.depth > 0);
+        if (is_back) break;
         move_by(body, put.depth * put.normal);
         stop_at_sheet(body, put);
     }
-    if (find_put_through(body).depth > 0) body.bullet->proceedToTransform(where_it_stood(body));
+    if (!is_back && find_put_through(body).depth > 0) body.bullet->proceedToTransform(where_it_stood(body));
+    if (CULLET_CHECKS_ON) {
+        const Vec3 way = from_bullet(body.bullet->getCenterOfMassPosition()) - from;
+        work_done_.lifted -= static_cast<double>(body.mass) * static_cast<double>(dot(from_bullet(gravity_), way));
+    }
 }
 
 // After the step: who was put through is found on all threads, each of them is brought back by itself, in rising ids,

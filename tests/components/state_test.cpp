@@ -263,12 +263,12 @@ TEST(State, WhoEditsWholeShellsClaimsTheirSpringsAndReadsTheirMaterials) {
 }
 
 TEST(State, EveryTableIsListedOnce) {
-    // The struct holds nothing but the listed tables, the pools, the limits and the sums of vertices, which are made
+    // The struct holds nothing but the listed tables, the pools, the limits, scratch memory and the sums of vertices, which are made
     // anew from the listed ones: their sizes add up.
     size_t bytes = 0;
     constexpr size_t limits = (sizeof(Limits) + alignof(State) - 1) / alignof(State) * alignof(State);
     std::apply([&](auto... table) { ((bytes += sizeof(std::declval<State&>().*table)), ...); }, State::tables());
-    EXPECT_EQ(bytes + sizeof(State::Pools) + sizeof(VertexBlocks) + limits, sizeof(State));
+    EXPECT_EQ(bytes + sizeof(State::Pools) + sizeof(VertexBlocks) + sizeof(ScratchMemory) + limits, sizeof(State));
 }
 
 TEST(State, HashValidationAndDifferenceReachTheLastTable) {

@@ -14,6 +14,7 @@ constexpr float kGravity = 9.81f, kRight = 1.5707963f;
 struct Slope {
     World world;
     BodyId ball;
+    Vec3 start;  // of its middle
 };
 
 // A sheet of 400 m square, tilted about z by so many degrees: it falls towards +x. The ball touches it in the middle.
@@ -21,7 +22,7 @@ Slope ball_on_slope(float degrees, float radius, float mass, const ContactSettin
                     const ContactSettings& of_slope = {}, float gravity = kGravity) {
     Settings settings = small_settings();
     settings.gravity = {0, -gravity, 0};
-    Slope out{make_world(settings), {}};
+    Slope out{make_world(settings), {}, {}};
     const float angle = degrees / 90 * kRight, x = 200 * std::cos(angle), y = 200 * std::sin(angle);
     const Vec3 corners[] = {{-x, y, -150}, {-x, y, 250}, {x, -y, 250}, {x, -y, -150}};
     const uint32_t quad[] = {0, 1, 2, 0, 2, 3};
@@ -29,13 +30,14 @@ Slope ball_on_slope(float degrees, float radius, float mass, const ContactSettin
     SphereSettings ball;
     ball.radius = radius, ball.mass = mass, ball.contact = of_ball;
     ball.pose.position = {radius * std::sin(angle), radius * std::cos(angle), 0};
+    out.start = ball.pose.position;
     out.ball = out.world.add_sphere(ball).value();
     return out;
 }
 
 float way_of(const Slope& s) {
-    const Vec3 at = s.world.pose(s.ball).value().position;
-    return std::sqrt(at.x * at.x + at.y * at.y);
+    const Vec3 way = s.world.pose(s.ball).value().position - s.start;
+    return std::sqrt(way.x * way.x + way.y * way.y);
 }
 
 void steps(World& world, int count) {

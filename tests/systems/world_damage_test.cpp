@@ -150,7 +150,7 @@ TEST(WorldDamage, FragmentsInheritWhatTheGameSet) {
     SpawnSettings vase;
     vase.user_data = 7;
     vase.strength_scale = 0.8f;
-    vase.contact = {0.31f, 0.11f, 4, 0xffu};
+    vase.contact.friction = 0.31f, vase.contact.restitution = 0.11f, vase.contact.layer = 4, vase.contact.mask = 0xffu;
     const BodyId body = world.spawn(world.add_model(small_vase()).value(), vase).value();
     (void)world.add_sphere(ball_at({0.01f, 0.13f, 0}, 0.3f, 8)).value();
     ASSERT_GT(step_until_born(world, 10), 0u);
