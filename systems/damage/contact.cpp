@@ -48,6 +48,12 @@ struct Patch {
     }
 };
 
+double patch_radius(const ShellView& shell, float striker_radius) {
+    const Shells& shells = shell.shells();
+    const double h = std::max(shells.thickness[shell.row], shells.depth_floor[shell.row]);
+    return std::max({3 * h, 1.3 * shells.mean_edge[shell.row], kFootprint * striker_radius});
+}
+
 void find_candidates(const ShellView& shell, uint32_t centre, double radius, Patch& patch) {
     const Vertices& vertices = shell.state.vertices;
     const uint32_t c = shell.vertex(centre);
@@ -170,11 +176,6 @@ void keep_stiffest(State& state, uint32_t first, uint32_t count) {
 
 }  // namespace
 
-double patch_radius(const Shells& shells, Row<Shells> shell, float striker_radius) {
-    const double h = std::max(shells.thickness[shell], shells.depth_floor[shell]);
-    return std::max({3 * h, 1.3 * shells.mean_edge[shell], kFootprint * striker_radius});
-}
-
 void build_patches(State& state, Row<Tasks> task) {
     const ShellView shell(state, state.tasks.shell[task]);
     TaskContacts& contacts = state.task_contacts;
@@ -187,7 +188,7 @@ void build_patches(State& state, Row<Tasks> task) {
     Patch& patch = *room;
     patch.most = kMostPatchVertices / count;
     for (uint32_t c = first; c < first + count; ++c) {
-        const double radius = patch_radius(state.shells, shell.row, contacts.striker_radius[c]);
+        const double radius = patch_radius(shell, contacts.striker_radius[c]);
         contacts.radius[c] = static_cast<float>(radius);
         patch.count = 0;
         find_candidates(shell, contacts.vertex[c], radius, patch);

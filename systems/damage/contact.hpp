@@ -10,11 +10,8 @@ namespace cullet {
 
 /// PatchVertices of all contacts of the task from present masses: when it opens, and again after every split. Needs the
 /// contacts' vertex, normal, striker_radius and striker_inverse_mass, and the task's time_step. A vertex belongs to a
-/// patch within patch_radius() of its vertex, when it lies on the same side of the surface.
+/// patch within r_c = max(3 h, 1.3 l, 0.35 R) of its vertex, when it lies on the same side of the surface.
 void build_patches(State& state, Row<Tasks> task);
-
-/// r_c of a contact, m: max(3 h, 1.3 l, 0.35 R). h is no less than the depth that thin joined walls keep.
-double patch_radius(const Shells& shells, Row<Shells> shell, float striker_radius);
 
 /// Whether a push at one contact of a task changes the striker's speed at another.
 bool share_a_striker(const TaskContacts& contacts, uint32_t contact, uint32_t other);

@@ -3,7 +3,6 @@
 #include <algorithm>
 
 #include "systems/damage/blows.hpp"
-#include "systems/damage/contact.hpp"
 #include "systems/damage/task_cost.hpp"
 #include "systems/damage/thresholds.hpp"
 #include "systems/damage/working_room.hpp"
@@ -30,15 +29,18 @@ ImpactEvent event_of(const State& state, uint32_t row) {
     return e;
 }
 
-float radius_of(const State& state, uint32_t row, uint32_t t) {
-    return static_cast<float>(patch_radius(state.shells, state.tasks.source[t], state.blows.radius[row]));
+// r_c of the note, section 6.3.
+float patch_radius(const State& state, uint32_t row, uint32_t t) {
+    const Shells& shells = state.shells;
+    const Row<Shells> shell = state.tasks.source[t];
+    return std::max({3 * shells.thickness[shell], 1.3f * shells.mean_edge[shell], 0.35f * state.blows.radius[row]});
 }
 
 // The task's contact in whose patch the push lies, or kNone. Vertices of two patches take one spring alone: a second
 // push there would be lost.
 uint32_t contact_at(const State& state, uint32_t row, uint32_t t) {
     const TaskContacts& contacts = state.task_contacts;
-    const float radius = radius_of(state, row, t);
+    const float radius = patch_radius(state, row, t);
     const uint32_t first = state.tasks.first_contact[t];
     for (uint32_t c = first; c < first + state.tasks.contact_count[t]; ++c)
         if (length(contacts.point[c] - state.blows.point[row]) < std::max(radius, contacts.radius[c])) return c;
@@ -85,7 +87,7 @@ void merge_push(State& state, uint32_t row, uint32_t t, uint32_t c) {
     contacts.striker_inverse_mass[c] = static_cast<float>(1 / (mass + added));
     contacts.start_speed[c] = dot(moving_at(state, t, contacts.point[c]), contacts.normal[c]) + speed;
     if (gained > before) contacts.striker_radius[c] = blows.radius[row];
-    contacts.radius[c] = std::max(contacts.radius[c], radius_of(state, row, t));
+    contacts.radius[c] = std::max(contacts.radius[c], patch_radius(state, row, t));
 }
 
 void lay_push(State& state, uint32_t row, uint32_t t) {
@@ -101,7 +103,7 @@ void lay_push(State& state, uint32_t row, uint32_t t) {
     contacts.striker_inverse_mass[c] = blows.inverse_mass[row];
     contacts.striker_radius[c] = blows.radius[row];
     contacts.start_speed[c] = dot(moving_at(state, t, blows.point[row]), blows.direction[row]) + blows.speed[row];
-    contacts.radius[c] = radius_of(state, row, t);
+    contacts.radius[c] = patch_radius(state, row, t);
 }
 
 enum class Outcome : uint8_t { Waits, Joined, Gone };

@@ -1,6 +1,5 @@
 #include <algorithm>
 
-#include "systems/damage/contact.hpp"
 #include "systems/damage/open_ahead.hpp"
 #include "systems/damage/open_blows.hpp"
 #include "systems/damage/opening.hpp"
@@ -50,7 +49,7 @@ void lay_queued(State& state, Row<Tasks> task, uint32_t q) {
         contacts.start_speed[c] = along;
     else
         tasks.start_velocity.set(task, tasks.start_velocity[task] - along * queued.normal[q]);
-    contacts.radius[c] = static_cast<float>(patch_radius(state.shells, shell, queued.striker_radius[q]));
+    contacts.radius[c] = patch_radius(state.shells, shell, queued.striker_radius[q]);
     tasks.contact_count[task] = 1;
     tasks.is_late[task] = 1;
     tasks.load[task] = queued.load[q];

@@ -6,7 +6,6 @@
 #include "systems/costs.hpp"
 #include "systems/damage/assemble.hpp"
 #include "systems/damage/blows.hpp"
-#include "systems/damage/contact.hpp"
 #include "systems/damage/struck_normal.hpp"
 #include "systems/damage/task_cost.hpp"
 #include "systems/damage/thresholds.hpp"
@@ -38,16 +37,20 @@ Yielding yielding_of(const Bodies& bodies, Row<Bodies> striker, Vec3 point, Vec3
     return {own, turn, inverse(bodies.inertia[striker]) * turn};
 }
 
+float patch_radius(const Shells& shells, Row<Shells> shell, float striker_radius) {
+    return std::max({3 * shells.thickness[shell], 1.3f * shells.mean_edge[shell], 0.35f * striker_radius});
+}
+
 Impact aimed(State& state, Impact impact) {
     const Bodies& bodies = state.bodies;
     const Row<Bodies> striker = impact.striker;
     if (!striker.exists() || !bodies.is_sphere[striker]) return impact;
     const Row<Shells> shell = bodies.shell[impact.body];
     const Pose pose = pose_of(bodies, impact.body);
-    const Vec3 normal = rotate(
-        pose.orientation, struck_normal(ShellView(state, shell), to_body(pose, impact.point),
-                                        rotate(conjugate(pose.orientation), impact.normal),
-                                        static_cast<float>(patch_radius(state.shells, shell, bodies.radius[striker]))));
+    const Vec3 normal =
+        rotate(pose.orientation, struck_normal(ShellView(state, shell), to_body(pose, impact.point),
+                                               rotate(conjugate(pose.orientation), impact.normal),
+                                               patch_radius(state.shells, shell, bodies.radius[striker])));
     const Vec3 closing = bodies.velocity[striker] - velocity_at(bodies, impact.body, impact.point);
     if (!(dot(closing, normal) > 0)) return impact;
     impact.normal = normal;
@@ -83,7 +86,7 @@ void lay_contacts(std::span<const Impact> impacts, const Impact& first_aimed, St
         const Vec3 point = to_body(pose, told.point);
         const float striker_radius =
             told.striker.exists() && bodies.is_sphere[told.striker] ? bodies.radius[told.striker] : 0.0f;
-        const auto radius = static_cast<float>(patch_radius(shells, shell, striker_radius));
+        const float radius = patch_radius(shells, shell, striker_radius);
         const uint32_t first = tasks.first_contact[task];
         const auto is_taken = [&](uint32_t c) { return length(contacts.point[c] - point) < radius; };
         bool joins = false;

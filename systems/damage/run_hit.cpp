@@ -7,7 +7,6 @@
 #include "systems/brittle/hidden_region.hpp"
 #include "systems/brittle/restart.hpp"
 #include "systems/damage/brittle_loop.hpp"
-#include "systems/damage/contact.hpp"
 #include "systems/damage/crack_candidates.hpp"
 #include "systems/damage/energy.hpp"
 #include "systems/damage/run_out.hpp"
@@ -56,7 +55,8 @@ bool open_hit(State& state, Row<Shells> source, const HitDescription& hit) {
     contacts.striker_inverse_mass[0] = hit.striker_inverse_mass;
     contacts.striker_radius[0] = hit.striker_radius;
     contacts.start_speed[0] = hit.striker_speed;
-    contacts.radius[0] = static_cast<float>(patch_radius(state.shells, source, hit.striker_radius));
+    contacts.radius[0] = std::max(
+        {3 * state.shells.thickness[source], 1.3f * state.shells.mean_edge[source], 0.35f * hit.striker_radius});
     const bool is_ball = hit.striker_radius > 0;
     contacts.normal.set(
         0, is_ball ? struck_normal(ShellView(state, source), hit.point, hit.normal, contacts.radius[0]) : hit.normal);

@@ -37,8 +37,7 @@ TEST_P(DeclaredWrites, EverySystemOfTheSceneKeepsToThem) {
         game->before_step();
         const Tasks& tasks = game->world().contents().data.state.tasks;
         bool has_task = false;
-        for (uint32_t t = 0; t < tasks.size(); ++t)
-            has_task = has_task || tasks.state[t] != static_cast<uint8_t>(TaskState::Free);
+        for (uint32_t t = 0; t < tasks.size(); ++t) has_task = has_task || tasks.state[t] != static_cast<uint8_t>(TaskState::Free);
         if (has_task || game->broke() || frame % 8 == 0) {
             watch.watch_next_step();
             ++watched;
