@@ -542,8 +542,8 @@ TEST_P(SceneHash, IsWhatTheSceneAlwaysGave) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Scenes, SceneHash,
-                         testing::Values(KnownHash{"vase", "7585c2bdfbe5749f"}, KnownHash{"wall", "05beb0ebc7a94c7d"},
-                                         KnownHash{"pane", "456aa62424648222"}, KnownHash{"drop", "401be9556057c985"}),
+                         testing::Values(KnownHash{"vase", "c7a3a54bbbb2b980"}, KnownHash{"wall", "573f0720a72bcdf9"},
+                                         KnownHash{"pane", "ab79b4f44fb2d5f2"}, KnownHash{"drop", "12e2c12b39337396"}),
                          [](const auto& known) { return std::string(known.param.scene); });
 
 TEST(Script, AFileIsPlayedByItsPathAndOneThatIsNotThereIsNamed) {
