@@ -1,6 +1,6 @@
 // What cullet asks of a rigid-body engine. Bullet stands behind it (engine/bullet/), or a host's own engine
-// (engine/host_rigid_world.hpp). One step is: sweep and detect(), then the gap in which damage is decided and bodies are born,
-// held, released or removed, then solve().
+// (engine/host_rigid_world.hpp). One step is: sweep and detect(), then the gap in which damage is decided and bodies
+// are born, held, released or removed, then solve().
 //
 // A body frame is the frame of the mesh it was cooked from: fragments keep their parent's. Its centre of mass and its
 // inertia tensor are given in that frame; principal axes are the bridge's own affair.
@@ -66,7 +66,7 @@ struct RigidContact {
     Vec3 normal;         // world, unit, from b towards a
     float distance = 0;  // m, negative when they overlap
     float approach_speed =
-        0;  // m/s along the normal, > 0 when they close, from the velocities before gravity of this step
+        0;              // m/s along the normal, > 0 when they close, from the velocities before gravity of this step
     float impulse = 0;  // N s along the normal: of the last solve, in loads() alone
 };
 

@@ -316,9 +316,9 @@ template <class Function>
 struct Signature;
 template <class... P>
 struct Signature<void (*)(P...)> {
-    static constexpr int kCallParameters = (0 + ... +
-                                            int{IsRows<P>::value || IsEach<P>::value || std::is_same_v<P, EachBody> ||
-                                                std::is_same_v<P, Serial>});
+    static constexpr int kCallParameters =
+        (0 + ... +
+         int{IsRows<P>::value || IsEach<P>::value || std::is_same_v<P, EachBody> || std::is_same_v<P, Serial>});
     static_assert(kCallParameters == 1, "a system takes exactly one of Rows<T>, EachBody, Each<E>, Serial");
     static constexpr CallKind kKind = (... || IsRows<P>::value)                                    ? CallKind::Rows
                                       : (... || (std::is_same_v<P, EachBody> || IsEach<P>::value)) ? CallKind::Bodies

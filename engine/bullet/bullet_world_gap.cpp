@@ -26,7 +26,7 @@ constexpr float kCreepDistance = 0.015f;  // m
 constexpr float kCreepSeconds = 1.5f;
 // Sleepers stand as if of infinite mass, so that one that shakes does not keep its thousand neighbours awake. What
 // wakes them: a blow that would give them this speed,
-constexpr float kWakeSpeed = 0.05f;  // m/s
+constexpr float kWakeSpeed = 0.05f;   // m/s
 constexpr float kStruckGap = 0.001f;  // m, at scale 1, across which a blow comes,
 // so many times the load that they fell asleep under, and weights of their own,
 constexpr float kWakeLoads = 2, kWakeWeights = 3;
@@ -42,8 +42,8 @@ constexpr float kPressedSeconds = 1.5f;  // after which it sleeps as it lies
 
 // Where there is no gravity nothing holds anything: at rest is what would not leave its place in so long.
 constexpr float kDriftSeconds = 60;
-// A ball slower than this may be at rest; a faster one that has gone this share of the way that its speed takes it rolls.
-// (From rest down a slope it is a half.)
+// A ball slower than this may be at rest; a faster one that has gone this share of the way that its speed takes it
+// rolls. (From rest down a slope it is a half.)
 constexpr float kRollingSpeed = 0.001f;  // m/s
 constexpr float kRollingShare = 0.25f;
 
@@ -319,7 +319,8 @@ bool BulletWorld::may_sleep(Body& body, float dt, const Pace& pace) {
     } else {
         body.creep_seconds = std::min(body.creep_seconds + dt, creep_seconds);
     }
-    const bool is_slow = body.is_touched && !is_ball(body) && speed_of(body) < std::sqrt(size) * pace.speed * kSlowSpeed;
+    const bool is_slow =
+        body.is_touched && !is_ball(body) && speed_of(body) < std::sqrt(size) * pace.speed * kSlowSpeed;
     body.slow_seconds = std::clamp(body.slow_seconds + (is_slow ? dt : -2 * dt), 0.0f, 2 * slow_seconds);
     if (body.is_driven) body.still_seconds = body.slow_seconds = 0;
     if (!may_come_to_rest(body, pace)) return false;

@@ -32,7 +32,8 @@ void find_near(const Hull& a, const Hull& b, std::span<const CrackTouch> touches
 /// With `is_turned` the touches' normals lead from a towards b.
 CrackContact crack_contact(std::span<const CrackTouch* const> near, const btTransform& at_a, const btTransform& at_b,
                            bool is_turned);
-/// Those of its places that still face each other, of two pieces of this scale. The normal of the patch is that of its first point.
+/// Those of its places that still face each other, of two pieces of this scale. The normal of the patch is that of its
+/// first point.
 Patch crack_patch(const CrackContact& contact, const btTransform& at_a, const btTransform& at_b, float scale);
 
 }  // namespace cullet::bullet

@@ -28,7 +28,8 @@ inline double longest_wait(const ImportLimits& limits) {
 
 /// Any model that can be read as one mesh, in metres where its format knows a unit: node transforms applied (a
 /// mirroring one turns the winding), polygons cut into triangles, points joined where all three coordinates are equal,
-/// triangles with a repeated corner, lines and points left out. May crash, hang or throw: call it inside run_limited only.
+/// triangles with a repeated corner, lines and points left out. May crash, hang or throw: call it inside run_limited
+/// only.
 struct ConvertedModel {
     Mesh mesh;
     uint64_t collapsed = 0;  // triangles left out

@@ -149,7 +149,8 @@ std::string to_page(std::span<const Claim> claims, const PageFacts& facts) {
         html += fmt::format("<span class=\"{}\">{} {}</span>", style_of(verdict), count_of(claims, verdict),
                             name_of(verdict));
     html += "</p>\n";
-    for (const std::string& note : counted_notes(facts.notes)) html += fmt::format("<p class=\"facts\">{}</p>\n", escaped(note));
+    for (const std::string& note : counted_notes(facts.notes))
+        html += fmt::format("<p class=\"facts\">{}</p>\n", escaped(note));
     for (const Claim& claim : claims) html += section_of(claim);
     return html + "</main></body></html>\n";
 }

@@ -2,8 +2,8 @@
 // rest, no default weights of morph targets, no instances and no required extensions.
 #pragma once
 #include "cullet/result.hpp"
-#include "engine/import/gltf/document.hpp"
 #include "engine/import/corners.hpp"
+#include "engine/import/gltf/document.hpp"
 
 namespace cullet::gltf {
 

@@ -97,12 +97,12 @@ struct CookSettings {
 /// What cooking found, for people.
 struct ModelReport {
     uint32_t vertices = 0, elements = 0, cells = 0, degenerate_elements = 0;
-    double mass = 0;                 // kg
-    double mean_thickness = 0;       // m
-    float first_crack_speed = 0;     // m/s against a floor; estimated when not measured; 0 of what does not crack
-    float first_crack_force = 0;     // N that one place bears for long, likewise; a long thin thing bends and bears less
-    uint64_t units_of_a_hit = 0;     // predicted
-    uint32_t collisions = 0;         // moves that were taken back while the inner surface was pushed in
+    double mass = 0;              // kg
+    double mean_thickness = 0;    // m
+    float first_crack_speed = 0;  // m/s against a floor; estimated when not measured; 0 of what does not crack
+    float first_crack_force = 0;  // N that one place bears for long, likewise; a long thin thing bends and bears less
+    uint64_t units_of_a_hit = 0;  // predicted
+    uint32_t collisions = 0;      // moves that were taken back while the inner surface was pushed in
     uint32_t inverted_elements = 0;  // turned inside out; 0 but for the published ways of Propagation
     uint32_t crossings = 0;          // pairs of faces that meet; 0 but for Propagation::Front
     std::string walls;               // one sentence when both walls were modelled and became one sheet

@@ -46,8 +46,8 @@ struct HostContact {
     Vec3 normal;                        // world, unit, from b towards a
     float distance = 0;                 // m, negative when they overlap
     uint32_t piece_a = 0, piece_b = 0;  // HostPiece::name, or 0: only the order of contacts hangs on it
-    // N s along the normal that the host's last solve passed here, as its warm start knows it. Weights and presses break
-    // what they lie on by it; left at 0 they break only what is seen to be driven against what does not yield.
+    // N s along the normal that the host's last solve passed here, as its warm start knows it. Weights and presses
+    // break what they lie on by it; left at 0 they break only what is seen to be driven against what does not yield.
     float impulse = 0;
 };
 
