@@ -11,7 +11,7 @@
 #include "perf/our_springs.hpp"
 #include "perf/perf.hpp"
 #include "perf/soft_world.hpp"
-#include "systems/springs/spring_loop.hpp"
+#include "systems/models/thick_shell/springs/spring_loop.hpp"
 
 namespace cullet::perf {
 namespace {

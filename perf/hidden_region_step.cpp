@@ -7,8 +7,8 @@
 #include "perf/our_step.hpp"
 #include "perf/perf.hpp"
 #include "perf/turns.hpp"
-#include "systems/brittle/hidden_region.hpp"
-#include "systems/damage/run_hit.hpp"
+#include "systems/models/thick_shell/hidden/hidden_region.hpp"
+#include "systems/models/thick_shell/hidden/run_hit.hpp"
 
 namespace cullet::perf {
 namespace {

@@ -10,12 +10,12 @@
 #include "perf/cook_vase.hpp"
 #include "perf/hidden_yardsticks.hpp"
 #include "perf/perf.hpp"
-#include "systems/damage/brittle_loop.hpp"
-#include "systems/damage/run_hit.hpp"
-#include "systems/damage/task_cost.hpp"
-#include "systems/fragments/group_fragments.hpp"
-#include "systems/fragments/make_piece.hpp"
-#include "systems/fragments/rigid_handoff.hpp"
+#include "systems/births/rigid_handoff.hpp"
+#include "systems/models/thick_shell/hidden/brittle_loop.hpp"
+#include "systems/models/thick_shell/hidden/run_hit.hpp"
+#include "systems/structures/shell/group_fragments.hpp"
+#include "systems/structures/shell/make_piece.hpp"
+#include "systems/tasks/task_cost.hpp"
 
 namespace cullet::perf {
 namespace {

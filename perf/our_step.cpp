@@ -1,6 +1,6 @@
 #include "perf/our_step.hpp"
 
-#include "systems/brittle/hidden_region.hpp"
+#include "systems/models/thick_shell/hidden/hidden_region.hpp"
 #include "systems/systems.hpp"
 
 namespace cullet::perf {

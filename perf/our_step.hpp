@@ -1,7 +1,7 @@
 // Our hidden step as the frame runs it, for tasks without contacts.
 #pragma once
 #include "engine/jobs.hpp"
-#include "systems/damage/brittle_loop.hpp"
+#include "systems/models/thick_shell/hidden/brittle_loop.hpp"
 
 namespace cullet::perf {
 

@@ -7,9 +7,9 @@
 #include "engine/fp_mode.hpp"
 #include "perf/cook_vase.hpp"
 #include "perf/perf.hpp"
-#include "systems/damage/run_hit.hpp"
-#include "systems/fragments/flood_parts.hpp"
-#include "systems/fragments/group_fragments.hpp"
+#include "systems/models/thick_shell/hidden/run_hit.hpp"
+#include "systems/structures/shell/flood_parts.hpp"
+#include "systems/structures/shell/group_fragments.hpp"
 
 namespace cullet::perf {
 namespace {

@@ -9,8 +9,8 @@
 #include "perf/our_springs.hpp"
 #include "perf/perf.hpp"
 #include "perf/soft_world.hpp"
-#include "systems/springs/spring_lists.hpp"
-#include "systems/springs/spring_loop.hpp"
+#include "systems/models/thick_shell/springs/spring_lists.hpp"
+#include "systems/models/thick_shell/springs/spring_loop.hpp"
 
 namespace cullet::perf {
 namespace {

@@ -12,8 +12,8 @@
 #include "perf/springs.hpp"
 #include "perf/stream.hpp"
 #include "sample_game/spring_bench.hpp"
-#include "systems/springs/spring_lists.hpp"
-#include "systems/springs/spring_loop.hpp"
+#include "systems/models/thick_shell/springs/spring_lists.hpp"
+#include "systems/models/thick_shell/springs/spring_loop.hpp"
 
 namespace cullet::perf {
 namespace {

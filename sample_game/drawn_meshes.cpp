@@ -2,7 +2,7 @@
 
 #include <fmt/format.h>
 
-#include "systems/view/draw_shell.hpp"
+#include "systems/structures/shell/draw_shell.hpp"
 #include "systems/world_contents.hpp"
 
 namespace cullet {

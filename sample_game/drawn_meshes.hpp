@@ -10,8 +10,8 @@ namespace cullet {
 
 class DrawnMeshes {
  public:
-    /// Checks the drawn mesh (systems/view/draw_shell.hpp) of each body where it is not what the last call saw. "" or a
-    /// sentence on the first that is wrong. Allocates.
+    /// Checks the drawn mesh (systems/structures/shell/draw_shell.hpp) of each body where it is not what the last call
+    /// saw. "" or a sentence on the first that is wrong. Allocates.
     std::string check_changed(World& world);
     uint64_t checked() const { return checked_; }
 

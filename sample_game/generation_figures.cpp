@@ -10,9 +10,9 @@
 
 #include "engine/fp_mode.hpp"
 #include "sample_game/propagation.hpp"
-#include "systems/cook/crossings.hpp"
-#include "systems/cook/extrude.hpp"
-#include "systems/cook/true_wall.hpp"
+#include "systems/models/thick_shell/cook/crossings.hpp"
+#include "systems/models/thick_shell/cook/extrude.hpp"
+#include "systems/models/thick_shell/cook/true_wall.hpp"
 
 namespace cullet {
 namespace {

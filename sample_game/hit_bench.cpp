@@ -8,11 +8,11 @@
 #include "engine/random.hpp"
 #include "sample_game/meshes.hpp"
 #include "sample_game/props.hpp"
-#include "systems/cook/apply_pins.hpp"
+#include "systems/births/rigid_handoff.hpp"
 #include "systems/cook/model_contents.hpp"
-#include "systems/fragments/rest_of_body.hpp"
-#include "systems/fragments/rigid_handoff.hpp"
-#include "systems/quick/calibrate.hpp"
+#include "systems/models/thick_shell/cook/apply_pins.hpp"
+#include "systems/models/thick_shell/quick/calibrate.hpp"
+#include "systems/structures/shell/rest_of_body.hpp"
 
 namespace cullet {
 namespace {

@@ -4,7 +4,7 @@
 #include <optional>
 
 #include "cullet/model.hpp"
-#include "systems/damage/run_hit.hpp"
+#include "systems/models/thick_shell/hidden/run_hit.hpp"
 
 namespace cullet {
 

@@ -5,10 +5,10 @@
 #include <stdexcept>
 
 #include "engine/fp_mode.hpp"
-#include "systems/damage/insert_vertex.hpp"
-#include "systems/springs/press_layers.hpp"
-#include "systems/springs/spring_loop.hpp"
-#include "systems/springs/spring_packs.hpp"
+#include "systems/models/thick_shell/springs/press_layers.hpp"
+#include "systems/models/thick_shell/springs/spring_loop.hpp"
+#include "systems/models/thick_shell/springs/spring_packs.hpp"
+#include "systems/structures/shell/insert_vertex.hpp"
 
 namespace cullet {
 namespace {

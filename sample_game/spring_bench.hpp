@@ -4,8 +4,8 @@
 #include <functional>
 #include <memory>
 
-#include "systems/springs/give_springs.hpp"
-#include "systems/springs/start_springs.hpp"
+#include "systems/models/thick_shell/springs/give_springs.hpp"
+#include "systems/models/thick_shell/springs/start_springs.hpp"
 
 namespace cullet {
 

@@ -9,7 +9,7 @@
 #include "sample_game/model_shelf.hpp"
 #include "sample_game/progress.hpp"
 #include "sample_game/read_materials.hpp"
-#include "systems/cook/hit_advice.hpp"
+#include "systems/models/thick_shell/cook/hit_advice.hpp"
 
 namespace cullet {
 namespace {

@@ -10,10 +10,10 @@
 #include "sample_game/meshes.hpp"
 #include "sample_game/props.hpp"
 #include "sample_game/truth_cases.hpp"
-#include "systems/cook/apply_pins.hpp"
 #include "systems/cook/model_contents.hpp"
-#include "systems/damage/run_hit.hpp"
-#include "systems/motion/integrate_packs.hpp"
+#include "systems/models/thick_shell/cook/apply_pins.hpp"
+#include "systems/models/thick_shell/hidden/integrate_packs.hpp"
+#include "systems/models/thick_shell/hidden/run_hit.hpp"
 
 namespace cullet {
 namespace {

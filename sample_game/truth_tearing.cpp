@@ -5,8 +5,8 @@
 
 #include "sample_game/spring_truth.hpp"
 #include "sample_game/truth_cases.hpp"
-#include "systems/fragments/group_fragments.hpp"
-#include "systems/soft/soft_loop.hpp"
+#include "systems/models/thick_shell/soft/soft_loop.hpp"
+#include "systems/structures/shell/group_fragments.hpp"
 
 namespace cullet {
 namespace {

@@ -5,7 +5,7 @@
 #include "engine/fp_mode.hpp"
 #include "engine/profiler.hpp"
 #include "systems/cook/model_contents.hpp"
-#include "systems/motion/integrate_packs.hpp"
+#include "systems/models/thick_shell/hidden/integrate_packs.hpp"
 
 namespace cullet {
 namespace {

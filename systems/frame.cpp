@@ -2,10 +2,10 @@
 // and only then are contacts solved, so that what breaks does not throw the striker back. A host with its own physics
 // (World::create_hosted) has moved the bodies before the frame, and solves after it.
 #include "engine/assert.hpp"
-#include "systems/damage/damage_loop.hpp"
-#include "systems/query/query_index.hpp"
-#include "systems/soft/soft_loop.hpp"
+#include "systems/drawn/query_index.hpp"
+#include "systems/models/thick_shell/soft/soft_loop.hpp"
 #include "systems/systems.hpp"
+#include "systems/tasks/damage_loop.hpp"
 #include "systems/world_contents.hpp"
 
 namespace cullet {

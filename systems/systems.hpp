@@ -1,7 +1,7 @@
 // Every system of a frame. The parameters of each are all that it sees, ShellTables standing for all tables of shells;
 // frame.cpp gives their order.
 #pragma once
-#include "systems/springs/spring_loop.hpp"
+#include "systems/models/thick_shell/springs/spring_loop.hpp"
 #include "systems/world_data.hpp"
 
 namespace cullet {
@@ -48,7 +48,8 @@ void open_tasks(Serial, Step step, const Events<Impact>& impacts, const Events<F
 /// their springs.
 void wake_soft_bodies(Serial, Step step, ShellTables shells, const Tasks& tasks, const TaskContacts& contacts,
                       SoftBodies& soft, Bodies& bodies, RigidWorld& rigid);
-/// Hidden runs on a part of a body that came to its border begin again on a larger one (brittle/hidden_region.hpp).
+/// Hidden runs on a part of a body that came to its border begin again on a larger one
+/// (models/thick_shell/hidden/hidden_region.hpp).
 void widen_regions(Serial, ShellTables shells, Tasks& tasks, const Bodies& bodies, Events<TaskOpened>& opened,
                    Events<StiffnessWanted>& stiffness_wanted, Events<RefusedEvent>& refused);
 /// Copies the body's shell into the task's.
@@ -60,7 +61,8 @@ void fill_stiffness(Each<StiffnessWanted> wanted, ShellTables shells, const Task
 void start_tasks(Each<TaskOpened> opened, ShellTables shells, Tasks& tasks, TaskContacts& contacts,
                  PatchVertices& patches, Blows& blows, const Bodies& bodies, const PinBoxes& pins);
 
-/// Quick bodies: chooses the neighbourhood of each hit (quick/region.hpp) and takes rows for its springs.
+/// Quick bodies: chooses the neighbourhood of each hit (models/thick_shell/quick/region.hpp) and takes rows for its
+/// springs.
 void wake_regions(Serial, const Events<TaskOpened>& opened, ShellTables shells, Tasks& tasks, TaskContacts& contacts,
                   PatchVertices& patches, const Bodies& bodies, Events<RegionPart>& parts,
                   Events<RefusedEvent>& refused);
@@ -92,7 +94,7 @@ void settle_tasks(Serial, Step step, Tasks& tasks, TaskContacts& contacts, Blows
                   Events<TaskEnded>& ended, Events<ImpactEvent>& impact_events, Events<RefusedEvent>& refused);
 
 /// Regions whose run ended fall asleep: vertices get the body's own motion back, springs their rows. What a cut-out
-/// changed goes into the body's shell (quick/cut_out.hpp).
+/// changed goes into the body's shell (models/thick_shell/quick/cut_out.hpp).
 void close_regions(Serial, const Events<TaskEnded>& ended, ShellTables shells, Tasks& tasks, TaskContacts& contacts,
                    Fragments& fragments, const Bodies& bodies, Events<CrackStartedEvent>& cracks);
 
@@ -136,14 +138,14 @@ void solve_rigid(Serial, Step step, RigidWorld& rigid);
 void return_soft(Serial, const SoftBodies& soft, const SoftStrikers& strikers, RigidWorld& rigid);
 /// Poses, velocities and sleep of the rigid world, back into rows.
 void read_rigid(Serial, const RigidWorld& rigid, Bodies& bodies, Events<AsleepEvent>& asleep);
-/// What lies on a body or squeezes it, by the impulses of the last solve (a host tells them with its contacts): for some
-/// steps more than it bears (damage/overload.hpp), and a hit waits for it in QueuedHits that stands for the load.
+/// What lies on a body or squeezes it, by the impulses of the last solve (a host tells them with its contacts): for
+/// some steps more than it bears (impacts/overload.hpp), and a hit waits for it in QueuedHits that stands for the load.
 void weigh_loads(Serial, Step step, const RigidWorld& rigid, ShellTables shells, Bodies& bodies, QueuedHits& queued,
                  const DamageSettings& settings, Arena& arena, Events<RefusedEvent>& refused);
 /// Crumbs fly on parabolas, bounce off the ground and off bodies larger than they are, slide and come to rest; of a
 /// host's world, which keeps its shapes to itself, they know the floor below their place of birth alone.
 void fall_debris(Serial, Step step, const RigidWorld& rigid, Debris& debris, DamageCounts& counts);
-/// Checked and Debug builds: between this and its opening the frame made no energy (motion/energy_balance.hpp).
+/// Checked and Debug builds: between this and its opening the frame made no energy (bodies/energy_balance.hpp).
 void close_energy_balance(Serial, Step step, ShellTables shells, const DamageCounts& counts, const RigidWorld& rigid,
                           EnergyBalance& balance, Events<FaultEvent>& faults);
 /// Crumbs that are older than the game wants go.

@@ -2,9 +2,9 @@
 
 #include <algorithm>
 
-#include "systems/damage/damage_loop.hpp"
-#include "systems/query/query_index.hpp"
-#include "systems/soft/soft_loop.hpp"
+#include "systems/drawn/query_index.hpp"
+#include "systems/models/thick_shell/soft/soft_loop.hpp"
+#include "systems/tasks/damage_loop.hpp"
 
 namespace cullet {
 namespace {

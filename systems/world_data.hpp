@@ -9,8 +9,8 @@
 #include "engine/arena.hpp"
 #include "engine/events.hpp"
 #include "engine/rigid_world.hpp"
-#include "systems/fragments/break.hpp"
-#include "systems/motion/energy_balance.hpp"
+#include "systems/births/break.hpp"
+#include "systems/bodies/energy_balance.hpp"
 
 namespace cullet {
 

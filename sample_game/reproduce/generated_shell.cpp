@@ -8,8 +8,8 @@
 #include "engine/fp_mode.hpp"
 #include "engine/jobs.hpp"
 #include "sample_game/palette.hpp"
-#include "systems/cook/crossings.hpp"
-#include "systems/cook/tetrahedra.hpp"
+#include "systems/models/thick_shell/cook/crossings.hpp"
+#include "systems/models/thick_shell/cook/tetrahedra.hpp"
 
 namespace cullet::reproduce {
 namespace {

@@ -1,8 +1,8 @@
 // Blows that a game asks for. Here they are looked at and queued; the next step takes them (take_blows).
 #include "engine/host_scope.hpp"
 #include "systems/api/checks.hpp"
+#include "systems/bodies/body_id.hpp"
 #include "systems/cook/materials.hpp"
-#include "systems/rigid/body_id.hpp"
 #include "systems/world_contents.hpp"
 
 namespace cullet {

@@ -1,9 +1,9 @@
 // What a game asks of a body, and what it does to one.
 #include "engine/host_scope.hpp"
 #include "systems/api/checks.hpp"
-#include "systems/query/query_index.hpp"
-#include "systems/rigid/body_id.hpp"
-#include "systems/soft/soft_body.hpp"
+#include "systems/bodies/body_id.hpp"
+#include "systems/drawn/query_index.hpp"
+#include "systems/models/thick_shell/soft/soft_body.hpp"
 #include "systems/world_contents.hpp"
 
 namespace cullet {

@@ -3,12 +3,12 @@
 #include <algorithm>
 
 #include "systems/api/snapshot.hpp"
-#include "systems/cook/check_shell_rows.hpp"
 #include "systems/cook/materials.hpp"
-#include "systems/damage/working_room.hpp"
-#include "systems/quick/check_quick.hpp"
-#include "systems/quick/cut_out.hpp"
-#include "systems/springs/check_springs.hpp"
+#include "systems/models/thick_shell/cook/check_shell_rows.hpp"
+#include "systems/models/thick_shell/quick/check_quick.hpp"
+#include "systems/models/thick_shell/quick/cut_out.hpp"
+#include "systems/models/thick_shell/springs/check_springs.hpp"
+#include "systems/structures/shell/working_room.hpp"
 
 namespace cullet {
 namespace {

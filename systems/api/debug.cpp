@@ -3,10 +3,10 @@
 
 #include <array>
 
-#include "systems/fragments/prism.hpp"
-#include "systems/query/query_index.hpp"
-#include "systems/rigid/body_id.hpp"
-#include "systems/view/hull_edges.hpp"
+#include "systems/bodies/body_id.hpp"
+#include "systems/drawn/query_index.hpp"
+#include "systems/structures/shell/hull_edges.hpp"
+#include "systems/structures/shell/prism.hpp"
 #include "systems/world_contents.hpp"
 
 namespace cullet {

@@ -5,7 +5,7 @@
 #include <tuple>
 
 #include "systems/api/checks.hpp"
-#include "systems/rigid/body_id.hpp"
+#include "systems/bodies/body_id.hpp"
 #include "systems/world_contents.hpp"
 
 namespace cullet {

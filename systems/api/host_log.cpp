@@ -3,7 +3,7 @@
 #include <cstdio>
 #include <cstring>
 
-#include "systems/damage/working_room.hpp"
+#include "systems/structures/shell/working_room.hpp"
 
 namespace cullet {
 

@@ -2,10 +2,10 @@
 #include "engine/host_scope.hpp"
 #include "systems/api/checks.hpp"
 #include "systems/api/model_row.hpp"
-#include "systems/cook/hit_advice.hpp"
 #include "systems/cook/materials.hpp"
 #include "systems/cook/model_contents.hpp"
-#include "systems/fragments/cell_elements.hpp"
+#include "systems/models/thick_shell/cook/hit_advice.hpp"
+#include "systems/structures/shell/cell_elements.hpp"
 #include "systems/world_contents.hpp"
 
 namespace cullet {

@@ -4,9 +4,9 @@
 #include <cmath>
 
 #include "systems/api/checks.hpp"
-#include "systems/query/query_index.hpp"
-#include "systems/query/triangle_queries.hpp"
-#include "systems/rigid/body_id.hpp"
+#include "systems/bodies/body_id.hpp"
+#include "systems/drawn/query_index.hpp"
+#include "systems/hulls/triangle_queries.hpp"
 #include "systems/world_contents.hpp"
 
 namespace cullet {

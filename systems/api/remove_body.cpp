@@ -3,11 +3,11 @@
 
 #include "engine/host_scope.hpp"
 #include "systems/api/checks.hpp"
-#include "systems/damage/cancel_task.hpp"
-#include "systems/fragments/body_rows.hpp"
-#include "systems/query/query_index.hpp"
-#include "systems/rigid/body_id.hpp"
-#include "systems/soft/soft_body.hpp"
+#include "systems/bodies/body_id.hpp"
+#include "systems/bodies/body_rows.hpp"
+#include "systems/drawn/query_index.hpp"
+#include "systems/models/thick_shell/soft/soft_body.hpp"
+#include "systems/tasks/cancel_task.hpp"
 #include "systems/world_contents.hpp"
 
 namespace cullet {

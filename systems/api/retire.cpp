@@ -5,11 +5,11 @@
 #include "systems/api/checks.hpp"
 #include "systems/api/cost.hpp"
 #include "systems/api/remove_body.hpp"
-#include "systems/fragments/piece_shape.hpp"
-#include "systems/fragments/rigid_shape.hpp"
-#include "systems/query/query_index.hpp"
-#include "systems/rigid/body_id.hpp"
-#include "systems/soft/soft_body.hpp"
+#include "systems/bodies/body_id.hpp"
+#include "systems/bodies/rigid_shape.hpp"
+#include "systems/drawn/query_index.hpp"
+#include "systems/models/thick_shell/soft/soft_body.hpp"
+#include "systems/structures/shell/piece_shape.hpp"
 #include "systems/world_contents.hpp"
 
 namespace cullet {

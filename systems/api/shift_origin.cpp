@@ -1,8 +1,8 @@
 // Another place becomes the origin.
 #include "engine/host_scope.hpp"
 #include "systems/api/checks.hpp"
-#include "systems/query/query_index.hpp"
-#include "systems/rigid/body_id.hpp"
+#include "systems/bodies/body_id.hpp"
+#include "systems/drawn/query_index.hpp"
 #include "systems/world_contents.hpp"
 
 namespace cullet {

@@ -3,8 +3,8 @@
 #include "systems/api/checks.hpp"
 #include "systems/api/cost.hpp"
 #include "systems/cook/materials.hpp"
-#include "systems/damage/damage_loop.hpp"
-#include "systems/soft/soft_loop.hpp"
+#include "systems/models/thick_shell/soft/soft_loop.hpp"
+#include "systems/tasks/damage_loop.hpp"
 #include "systems/world_contents.hpp"
 
 namespace cullet {

@@ -9,8 +9,8 @@
 #include "engine/memory.hpp"
 #include "engine/mesh_file.hpp"
 #include "engine/table_bytes.hpp"
-#include "systems/cook/check_shell_rows.hpp"
 #include "systems/cook/materials.hpp"
+#include "systems/models/thick_shell/cook/check_shell_rows.hpp"
 
 namespace cullet {
 namespace {

@@ -6,7 +6,7 @@
 #include <cstring>
 
 #include "sample_game/run_scene.hpp"
-#include "systems/rigid/body_id.hpp"
+#include "systems/bodies/body_id.hpp"
 #include "systems/world_contents.hpp"
 #include "tests/support/scene_hashes.hpp"
 

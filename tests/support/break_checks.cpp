@@ -4,8 +4,8 @@
 #include <cmath>
 #include <vector>
 
-#include "systems/fragments/mass_properties.hpp"
-#include "systems/fragments/rigid_handoff.hpp"
+#include "systems/births/rigid_handoff.hpp"
+#include "systems/structures/shell/mass_properties.hpp"
 
 namespace cullet::test {
 namespace {

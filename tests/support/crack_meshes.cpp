@@ -5,8 +5,8 @@
 #include <set>
 
 #include "engine/random.hpp"
-#include "systems/damage/assemble.hpp"
-#include "systems/damage/ring.hpp"
+#include "systems/models/thick_shell/hidden/assemble.hpp"
+#include "systems/structures/shell/ring.hpp"
 
 namespace cullet::crack_test {
 namespace {

@@ -4,7 +4,7 @@
 #include <array>
 #include <vector>
 
-#include "systems/cook/extrude.hpp"
+#include "systems/models/thick_shell/cook/extrude.hpp"
 
 namespace cullet::test {
 

@@ -1,9 +1,9 @@
 // Splits along planes as the quick mode makes them, for tests.
 #pragma once
 #include "engine/random.hpp"
-#include "systems/damage/insert_vertex.hpp"
-#include "systems/damage/split_fans.hpp"
-#include "systems/quick/plane_split.hpp"
+#include "systems/models/thick_shell/quick/plane_split.hpp"
+#include "systems/structures/shell/insert_vertex.hpp"
+#include "systems/structures/shell/split_fans.hpp"
 #include "tests/support/crack_meshes.hpp"
 
 namespace cullet::crack_test {

@@ -4,7 +4,7 @@
 #include <map>
 
 #include "engine/random.hpp"
-#include "systems/fragments/mass_properties.hpp"
+#include "systems/structures/shell/mass_properties.hpp"
 
 namespace cullet {
 namespace {

@@ -5,9 +5,9 @@
 #include <algorithm>
 #include <ostream>
 
-#include "systems/cook/box_tree.hpp"
-#include "systems/cook/extrude.hpp"
-#include "systems/cook/tetrahedra.hpp"
+#include "systems/hulls/box_tree.hpp"
+#include "systems/models/thick_shell/cook/extrude.hpp"
+#include "systems/models/thick_shell/cook/tetrahedra.hpp"
 
 namespace cullet::test {
 

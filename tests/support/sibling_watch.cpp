@@ -7,8 +7,8 @@
 #include <cmath>
 
 #include "sample_game/solid.hpp"
-#include "systems/rigid/body_id.hpp"
-#include "systems/view/drawn_triangles.hpp"
+#include "systems/bodies/body_id.hpp"
+#include "systems/drawn/drawn_triangles.hpp"
 
 namespace cullet::test {
 namespace {

@@ -4,7 +4,7 @@
 #include <algorithm>
 
 #include "systems/costs.hpp"
-#include "systems/damage/thresholds.hpp"
+#include "systems/impacts/thresholds.hpp"
 #include "tests/support/small_worlds.hpp"
 
 namespace cullet::test {

@@ -6,11 +6,11 @@
 #include <cmath>
 #include <map>
 
-#include "systems/fragments/cell_hulls.hpp"
-#include "systems/fragments/mass_properties.hpp"
-#include "systems/fragments/waiting_pieces.hpp"
-#include "systems/rigid/body_id.hpp"
-#include "systems/view/draw_shell.hpp"
+#include "systems/births/waiting_pieces.hpp"
+#include "systems/bodies/body_id.hpp"
+#include "systems/structures/shell/cell_hulls.hpp"
+#include "systems/structures/shell/draw_shell.hpp"
+#include "systems/structures/shell/mass_properties.hpp"
 #include "tests/support/break_checks.hpp"
 #include "tests/support/small_worlds.hpp"
 

@@ -5,7 +5,7 @@
 #include <cstdio>
 
 #include "sample_game/meshes.hpp"
-#include "systems/rigid/body_id.hpp"
+#include "systems/bodies/body_id.hpp"
 #include "tests/support/small_worlds.hpp"
 
 namespace cullet::test {

@@ -2,7 +2,7 @@
 #include <gtest/gtest.h>
 
 #include "sample_game/meshes.hpp"
-#include "systems/fragments/pin_boxes.hpp"
+#include "systems/structures/shell/pin_boxes.hpp"
 #include "tests/support/random_hits.hpp"
 #include "tests/support/small_worlds.hpp"
 

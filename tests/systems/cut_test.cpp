@@ -5,7 +5,7 @@
 #include <cmath>
 
 #include "engine/random.hpp"
-#include "systems/damage/cut_shell.hpp"
+#include "systems/structures/shell/cut_shell.hpp"
 #include "tests/support/small_worlds.hpp"
 
 namespace cullet::test {

@@ -9,7 +9,7 @@
 #include "sample_game/meshes.hpp"
 #include "sample_game/props.hpp"
 #include "systems/cook/materials.hpp"
-#include "systems/damage/crack_candidates.hpp"
+#include "systems/models/thick_shell/hidden/crack_candidates.hpp"
 
 namespace cullet {
 namespace {

@@ -1,5 +1,5 @@
 // The hidden step against formulas, conservation laws and plain loops.
-#include "systems/motion/integrate_packs.hpp"
+#include "systems/models/thick_shell/hidden/integrate_packs.hpp"
 
 #include <gtest/gtest.h>
 
@@ -9,11 +9,11 @@
 
 #include "engine/random.hpp"
 #include "engine/simd.hpp"
-#include "systems/damage/assemble.hpp"
-#include "systems/damage/contact.hpp"
-#include "systems/damage/element_stiffness.hpp"
-#include "systems/damage/energy.hpp"
-#include "systems/motion/start_hidden.hpp"
+#include "systems/models/thick_shell/hidden/assemble.hpp"
+#include "systems/models/thick_shell/hidden/contact.hpp"
+#include "systems/models/thick_shell/hidden/element_stiffness.hpp"
+#include "systems/models/thick_shell/hidden/energy.hpp"
+#include "systems/models/thick_shell/hidden/start_hidden.hpp"
 #include "tests/support/shell_meshes.hpp"
 
 namespace cullet::test {

@@ -25,7 +25,7 @@ constexpr uint32_t kMutualFolders = 17;
 constexpr uint32_t kWideSystems = 11;
 
 struct Source {
-    std::string path;    // "systems/damage/ring.cpp"
+    std::string path;    // "systems/structures/shell/ring.cpp"
     std::string folder;  // "damage", "models/thick_shell/hidden"; "" of systems/ itself
     std::string text;    // without comments
 };

@@ -4,11 +4,11 @@
 #include <algorithm>
 #include <cmath>
 
-#include "systems/damage/explosion.hpp"
-#include "systems/fragments/mass_properties.hpp"
-#include "systems/fragments/prism.hpp"
+#include "systems/impacts/explosion.hpp"
+#include "systems/structures/shell/mass_properties.hpp"
+#include "systems/structures/shell/prism.hpp"
 #include "tests/support/sample_shells.hpp"
-#include "tests/systems/soft/soft_world.hpp"
+#include "tests/systems/models/thick_shell/soft/soft_world.hpp"
 
 namespace cullet::test {
 namespace {

@@ -7,7 +7,7 @@
 #include "engine/fp_mode.hpp"
 #include "engine/hash.hpp"
 #include "sample_game/hit_bench.hpp"
-#include "systems/damage/brittle_loop.hpp"
+#include "systems/models/thick_shell/hidden/brittle_loop.hpp"
 
 namespace cullet {
 namespace {

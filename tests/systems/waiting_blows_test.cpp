@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <vector>
 
-#include "systems/damage/explosion.hpp"
+#include "systems/impacts/explosion.hpp"
 #include "tests/support/small_worlds.hpp"
 
 namespace cullet::test {

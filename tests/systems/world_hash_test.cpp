@@ -6,8 +6,8 @@
 #include <numeric>
 #include <thread>
 
-#include "systems/damage/damage_loop.hpp"
-#include "systems/damage/task_cost.hpp"
+#include "systems/tasks/damage_loop.hpp"
+#include "systems/tasks/task_cost.hpp"
 #include "tests/support/small_worlds.hpp"
 
 namespace cullet::test {

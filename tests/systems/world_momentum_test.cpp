@@ -4,7 +4,7 @@
 #include <cmath>
 #include <cstring>
 
-#include "systems/damage/energy.hpp"
+#include "systems/models/thick_shell/hidden/energy.hpp"
 #include "tests/support/small_worlds.hpp"
 
 namespace cullet::test {

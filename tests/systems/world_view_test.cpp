@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "sample_game/allocations.hpp"
-#include "systems/view/draw_shell.hpp"
+#include "systems/structures/shell/draw_shell.hpp"
 #include "tests/support/small_worlds.hpp"
 
 namespace cullet::test {

@@ -1,0 +1,86 @@
+#include "systems/births/plan_break.hpp"
+#include "systems/bodies/body_id.hpp"
+#include "systems/structures/shell/rest_of_body.hpp"
+#include "systems/systems.hpp"
+
+namespace cullet {
+namespace {
+
+// A crack starts at a vertex that names itself. Vertices keep their numbers in the working shell, so those that did so
+// in the body's before the hit are old.
+void tell_cracks(State& state, Row<Tasks> task, Events<CrackStartedEvent>& cracks) {
+    if (state.tasks.shell[task] == state.tasks.source[task]) return;  // put_back has told
+    const Row<Bodies> body = state.tasks.body[task];
+    const ShellView now(state, state.tasks.shell[task]), before(state, state.tasks.source[task]);
+    const auto is_start = [&](const ShellView& shell, uint32_t v) {
+        const uint32_t row = shell.vertex(v);
+        return state.vertices.crack_start[row] == v &&
+               state.vertices.crack[row] == static_cast<uint8_t>(CrackState::Cracked);
+    };
+    const bool is_fragment = state.shells.generation[before.row] > 0;  // it has forgotten its old starts (6.1)
+    for (uint32_t v = 0; v < now.vertex_count(); ++v) {
+        if (!is_start(now, v) || (!is_fragment && v < before.vertex_count() && is_start(before, v))) continue;
+        cracks.push({body_id(state.bodies, body), state.bodies.user_data[body],
+                     to_world(pose_of(state.bodies, body), state.vertices.rest[now.vertex(v)])});
+    }
+}
+
+// Bodies that wait are passed over, in silence, while no piece could leave: asking takes as long as a break.
+bool may_ask(const Planning& planning, uint8_t owed) {
+    return owed == kOwedDrawing || (planning.fragments_left > 0 && planning.births_left > 0);
+}
+
+// What is awake asks with its points' motion.
+bool asks_as_soft(State& state, Row<Bodies> body) {
+    const Row<SoftBodies> soft = find_soft(state.soft_bodies, body);
+    if (!soft.exists() || !state.soft_bodies.is_awake[soft]) return false;
+    state.soft_bodies.is_torn[soft] = 1;
+    return true;
+}
+
+}  // namespace
+
+void plan_births(Serial, const Events<TaskEnded>& ended, ShellTables shells, const Tasks& tasks, Fragments&,
+                 QueuedHits&, Blows&, Bodies& bodies, const Debris& debris, const FragmentAges& ages, ViewVertices&,
+                 ViewIndices&, const DamageSettings& settings, DamageCounts& counts, Arena& arena,
+                 Events<Break>& breaks, Events<Birth>& births, Events<ShellChanged>& changed,
+                 Events<CrackStartedEvent>& cracks, Events<RefusedEvent>& refused, Events<FaultEvent>& faults) {
+    breaks.clear();
+    births.clear();
+    Planning planning{shells.state,
+                      settings,
+                      counts,
+                      arena,
+                      breaks,
+                      births,
+                      changed,
+                      refused,
+                      free_debris(debris),
+                      free_fragments(ages, settings),
+                      settings.births_a_frame};
+    for (uint32_t b = 0; b < bodies.size(); ++b)
+        if (bodies.is_owed_births[b] && bodies.task[b] == kNone && may_ask(planning, bodies.is_owed_births[b]) &&
+            !asks_as_soft(shells.state, Row<Bodies>(b)))
+            ask_again(planning, Row<Bodies>(b));
+    for (uint32_t s = 0; s < shells.state.soft_bodies.size(); ++s)
+        if (shells.state.soft_bodies.is_torn[s]) plan_tear(planning, Row<SoftBodies>(s));
+    for (const TaskEnded& e : ended) {
+        const Row<Tasks> task = e.task;
+        const auto result = static_cast<TaskState>(tasks.state[task]);
+        if (result != TaskState::Dropped && tasks.start_count[task]) tell_cracks(shells.state, task, cracks);
+        if (result == TaskState::Broke) plan_break(planning, task);
+        if (result == TaskState::Whole && tasks.crack_count[task]) keep_cracks(planning, task);
+        if (result == TaskState::Whole && !tasks.crack_count[task] && tasks.shell[task] == tasks.source[task])
+            stop_blocks(ShellView(shells.state, tasks.shell[task]));
+        // More pieces than there may be, with those that found no room before.
+        if (result == TaskState::Dropped && tasks.crack_count[task] && tasks.shell[task] == tasks.source[task])
+            clear_run(ShellView(shells.state, tasks.shell[task]), true, false);
+        if (result == TaskState::Dropped && tasks.shell[task].exists())  // else it was refused
+            faults.push({body_id(bodies, tasks.body[task]), bodies.user_data[tasks.body[task]],
+                         centre_of(bodies, tasks.body[task]),
+                         "A hit gained energy three times over, made more than 1024 pieces, or found no room for its "
+                         "stiffness; the body stays as it was."});
+    }
+}
+
+}  // namespace cullet

@@ -1,0 +1,77 @@
+#include "systems/structures/shell/cell_hulls.hpp"
+#include "systems/structures/shell/mass_properties.hpp"
+#include "systems/structures/shell/piece_shape.hpp"
+#include "systems/structures/shell/rest_of_body.hpp"
+#include "systems/structures/shell/vertex_sums.hpp"
+#include "systems/systems.hpp"
+
+namespace cullet {
+namespace {
+
+void want_hulls(State& state, Row<Shells> shell, Events<HullWanted>& wanted) {
+    Cells& cells = state.cells;
+    const Range range = state.shells.cells[shell];
+    if (shape_of(ShellView(state, shell)) != ShapeKind::Cells) {
+        state.shells.made_shape[shell] = wanted.size();
+        wanted.push({shell, kNone});
+        return;
+    }
+    for (uint32_t c = 0; c < range.count; ++c) {
+        const uint32_t row = range.first + c;
+        const bool is_wanted = cells.same_cell[row] == kNone;
+        cells.shape[row] = is_wanted ? wanted.size() : kNone;
+        if (is_wanted) wanted.push({shell, c});
+    }
+}
+
+// The smaller sides have moved (design section 3): the rest keeps its rows, those of the pieces are dead. What rows the
+// body had before tell which hulls are as they were. Children first: their hulls are found among the body's.
+void keep_rest(State& state, const Break& plan) {
+    const ShellView shell(state, plan.broken), before(state, plan.before);
+    ShellSums left;
+    for (uint32_t p = 0; p < plan.parts.size(); ++p) {
+        if (!plan.leaves(p)) continue;
+        outdate_blocks(shell, plan.parts[p]);
+        if (plan.child[p].exists()) {
+            const ShellView piece(state, state.bodies.shell[plan.child[p]]);
+            if (shape_of(piece) == ShapeKind::Cells)
+                copy_piece_hulls(piece, before, plan.margin, plan.had_cells);
+            else
+                empty_piece_cells(piece);
+            left = left + sums_of(piece);
+            continue;
+        }
+        for (uint32_t e = plan.parts[p].first_element; e != kNone; e = state.elements.next[shell.element(e)])
+            left = left + element_sums(shell, e);
+    }
+    if (!plan.is_rest_smaller(state)) write_sums(shell, plan.whole - left);
+    state.shells.dead_elements[shell.row] += plan.left_elements;
+    ++state.shells.generation[shell.row];
+    if (!plan.soft.exists()) clear_run(shell, false, plan.broken != plan.before, plan.is_refused);
+    if (plan.keeps_hulls) return renew_rest_hulls(shell);
+    const Range points = state.shells.points[before.row], old_points = state.shells.points[shell.row];
+    state.shells.points[shell.row] = plan.points;
+    if (shape_of(shell) != ShapeKind::Cells && plan.chooses_shape)
+        empty_rest_cells(shell);
+    else
+        copy_rest_hulls(shell, points, before, plan.had_cells);
+    state.pools.points.give_back(old_points.first, old_points.capacity);
+    adopt_shell(state, plan.body, shell.row);
+}
+
+}  // namespace
+
+void plan_hulls(Serial, const Events<Break>& breaks, ShellTables shells, Bodies& bodies, RigidWorld& rigid,
+                Events<HullWanted>& wanted) {
+    wanted.clear();
+    if (breaks.size() == 0) return;
+    for (const Break& plan : breaks) {
+        keep_rest(shells.state, plan);
+        want_hulls(shells.state, plan.broken, wanted);
+        for (const Row<Bodies> child : plan.child)
+            if (child.exists()) want_hulls(shells.state, bodies.shell[child], wanted);
+    }
+    rigid.reserve_shapes(kMostCellParts * wanted.size());
+}
+
+}  // namespace cullet

@@ -1,0 +1,118 @@
+#include "systems/bodies/body_rows.hpp"
+
+#include "systems/structures/shell/draw_shell.hpp"
+
+namespace cullet {
+
+Row<Bodies> take_body(State& state) {
+    const uint32_t row = state.pools.bodies.take(1);
+    if (row == kNone) return {};
+    Bodies& bodies = state.bodies;
+    if (row >= bodies.size()) bodies.append(row + 1 - bodies.size());
+    const uint32_t generation = bodies.generation[row] + 1;
+    bodies.clear_rows(row, 1);
+    bodies.generation[row] = generation ? generation : 1;  // 0 is the null handle
+    bodies.model[row] = {};
+    bodies.shell[row] = {};
+    bodies.parent[row] = {};
+    bodies.task[row] = kNone;
+    bodies.orientation[row] = {};
+    bodies.previous_orientation[row] = {};
+    bodies.strength_scale[row] = 1;
+    bodies.colour[row] = row;
+    return Row<Bodies>(row);
+}
+
+void free_body(State& state, Row<Bodies> b) {
+    Bodies& bodies = state.bodies;
+    if (bodies.shell[b].exists()) release_shell(state, bodies.shell[b]);
+    state.pools.view_vertices.give_back(bodies.view_vertices[b].first, bodies.view_vertices[b].capacity);
+    state.pools.view_indices.give_back(bodies.view_indices[b].first, bodies.view_indices[b].capacity);
+    const uint32_t generation = bodies.generation[b];
+    bodies.clear_rows(b, 1);
+    if (b < state.quick_bodies.size()) state.quick_bodies.clear_rows(b, 1);
+    if (b < state.fragment_ages.size()) state.fragment_ages.clear_rows(b, 1);
+    bodies.generation[b] = generation;
+    bodies.task[b] = kNone;
+    state.pools.bodies.give_back(b, 1);
+}
+
+namespace {
+
+// Most rows that draw_shell can write, of either table: 6 corners an element and 6 of the wall below each free edge. An
+// exact count would ask where depth is 0, for ten times the time.
+template <class ForEach>
+uint32_t view_rows(const ShellView& shell, ForEach for_each) {
+    uint32_t count = 0;
+    for_each([&](uint32_t e) {
+        ++count;
+        for (uint32_t n : shell.state.elements.neighbour[shell.element(e)]) count += n == kNone;
+    });
+    return 6 * count;
+}
+
+/// One row in so many is spare where cracks may add to a mesh: without, each hit would draw all of it into other rows.
+constexpr uint32_t kViewSpare = 8;
+
+void shrink(RangePool& pool, Range& range, uint32_t rows) {
+    const uint32_t kept = pool.rounded(rows), had = pool.rounded(range.capacity);
+    pool.give_back(range.first + kept, had - kept);
+    range.capacity = rows;
+}
+
+bool take_view_rows(State& state, Row<Bodies> b, uint32_t rows) {
+    Range &vertices = state.bodies.view_vertices[b], &indices = state.bodies.view_indices[b];
+    if (rows <= vertices.capacity && rows <= indices.capacity) {
+        shrink(state.pools.view_vertices, vertices, rows);
+        shrink(state.pools.view_indices, indices, rows);
+        return true;
+    }
+    const uint32_t vertex = state.pools.view_vertices.take(rows);
+    const uint32_t index = vertex == kNone ? kNone : state.pools.view_indices.take(rows);
+    if (index == kNone) {
+        if (vertex != kNone) state.pools.view_vertices.give_back(vertex, rows);
+        return false;
+    }
+    const auto grow = [](AnyTable& table, const RangePool& pool) {
+        if (pool.end() > table.size()) table.append(pool.end() - table.size());
+    };
+    grow(state.view_vertices, state.pools.view_vertices);
+    grow(state.view_indices, state.pools.view_indices);
+    state.pools.view_vertices.give_back(vertices.first, vertices.capacity);
+    state.pools.view_indices.give_back(indices.first, indices.capacity);
+    vertices = {vertex, 0, rows};
+    indices = {index, 0, rows};
+    return true;
+}
+
+}  // namespace
+
+bool take_view(State& state, Row<Bodies> b, bool may_crack) {
+    const ShellView shell(state, state.bodies.shell[b]);
+    const uint32_t rows = view_rows(shell, [&](auto visit) {
+        for (uint32_t e = 0; e < shell.element_count(); ++e)
+            if (!(state.elements.flags[shell.element(e)] & kDead)) visit(e);
+    });
+    return (may_crack && take_view_rows(state, b, rows + rows / kViewSpare)) || take_view_rows(state, b, rows);
+}
+
+namespace {
+
+uint32_t view_rows(const ShellView& shell, const FragmentPart& part) {
+    return view_rows(shell, [&](auto visit) {
+        for (uint32_t e = part.first_element; e != kNone; e = shell.state.elements.next[shell.element(e)]) visit(e);
+    });
+}
+
+}  // namespace
+
+bool take_view(State& state, Row<Bodies> b, ShellView shell, const FragmentPart& part) {
+    return take_view_rows(state, b, view_rows(shell, part));
+}
+
+bool take_rest_view(State& state, Row<Bodies> b, ShellView shell, const FragmentPart& part) {
+    const uint32_t rows = view_rows(shell, part);
+    return take_view_rows(state, b, rows + rows / kViewSpare) || take_view_rows(state, b, rows);
+}
+
+}  // namespace cullet

@@ -1,0 +1,256 @@
+#include "systems/impacts/opening.hpp"
+
+#include <algorithm>
+
+#include "systems/births/waiting_pieces.hpp"
+#include "systems/bodies/body_id.hpp"
+#include "systems/costs.hpp"
+#include "systems/impacts/blows.hpp"
+#include "systems/impacts/thresholds.hpp"
+#include "systems/models/thick_shell/hidden/assemble.hpp"
+#include "systems/models/thick_shell/hidden/hidden_region.hpp"
+#include "systems/models/thick_shell/hidden/struck_normal.hpp"
+#include "systems/models/thick_shell/quick/cut_out.hpp"
+#include "systems/models/thick_shell/quick/quick_body.hpp"
+#include "systems/structures/shell/working_room.hpp"
+#include "systems/tasks/task_cost.hpp"
+
+namespace cullet {
+namespace {
+
+Vec3 velocity_at(const Bodies& bodies, Row<Bodies> b, Vec3 point) {
+    if (!b.exists()) return {};
+    const Vec3 centre = to_world(pose_of(bodies, b), bodies.centre[b].to_float());
+    return bodies.velocity[b] + cross(bodies.spin[b], point - centre);
+}
+
+}  // namespace
+
+Yielding yielding_of(const Bodies& bodies, Row<Bodies> striker, Vec3 point, Vec3 normal) {
+    if (!striker.exists() || static_cast<BodyKind>(bodies.kind[striker]) != BodyKind::Dynamic) return {};
+    if (bodies.hold_count[striker]) return {};
+    const double own = 1.0 / bodies.mass[striker];
+    if (bodies.is_sphere[striker]) return {own, {}, {}};
+    const Vec3d n(rotate(conjugate(bodies.orientation[striker]), normal));
+    const Vec3d arm = Vec3d(to_body(pose_of(bodies, striker), point)) - bodies.centre[striker];
+    const Vec3d turn = cross(arm, n);
+    return {own, turn, inverse(bodies.inertia[striker]) * turn};
+}
+
+float patch_radius(const Shells& shells, Row<Shells> shell, float striker_radius) {
+    return std::max({3 * shells.thickness[shell], 1.3f * shells.mean_edge[shell], 0.35f * striker_radius});
+}
+
+Impact aimed(State& state, Impact impact) {
+    const Bodies& bodies = state.bodies;
+    const Row<Bodies> striker = impact.striker;
+    if (!striker.exists() || !bodies.is_sphere[striker]) return impact;
+    const Row<Shells> shell = bodies.shell[impact.body];
+    const Pose pose = pose_of(bodies, impact.body);
+    const Vec3 normal =
+        rotate(pose.orientation, struck_normal(ShellView(state, shell), to_body(pose, impact.point),
+                                               rotate(conjugate(pose.orientation), impact.normal),
+                                               patch_radius(state.shells, shell, bodies.radius[striker])));
+    const Vec3 closing = bodies.velocity[striker] - velocity_at(bodies, impact.body, impact.point);
+    if (!(dot(closing, normal) > 0)) return impact;
+    impact.normal = normal;
+    impact.approach_speed = dot(closing, normal);
+    return impact;
+}
+
+ImpactEvent event_of(const Bodies& bodies, const Impact& impact, double inverse_mass) {
+    ImpactEvent e;
+    e.body = body_id(bodies, impact.body);
+    e.striker = body_id(bodies, impact.striker);
+    e.body_user_data = bodies.user_data[impact.body];
+    e.striker_user_data = impact.striker.exists() ? bodies.user_data[impact.striker] : 0;
+    e.place = impact.point;
+    e.normal = impact.normal;
+    e.approach_speed = impact.approach_speed;
+    const double speed = impact.approach_speed;
+    e.energy = 0.5 * speed * speed / (inverse_mass + 1.0 / bodies.mass[impact.body]);
+    return e;
+}
+
+void lay_contacts(std::span<const Impact> impacts, const Impact& first_aimed, State& state, Row<Tasks> task) {
+    const Bodies& bodies = state.bodies;
+    const Shells& shells = state.shells;
+    Tasks& tasks = state.tasks;
+    TaskContacts& contacts = state.task_contacts;
+    const Row<Bodies> body = tasks.body[task];
+    const Row<Shells> shell = tasks.source[task];
+    const Pose pose = pose_of(bodies, body);
+    uint32_t count = 0;
+    for (const Impact& told : impacts) {
+        if (count == kMostContacts) break;
+        const Vec3 point = to_body(pose, told.point);
+        const float striker_radius =
+            told.striker.exists() && bodies.is_sphere[told.striker] ? bodies.radius[told.striker] : 0.0f;
+        const float radius = patch_radius(shells, shell, striker_radius);
+        const uint32_t first = tasks.first_contact[task];
+        const auto is_taken = [&](uint32_t c) { return length(contacts.point[c] - point) < radius; };
+        bool joins = false;
+        for (uint32_t c = first; c < first + count; ++c) joins = joins || is_taken(c);
+        if (joins) continue;
+        const Impact impact = &told == impacts.data() ? first_aimed : aimed(state, told);
+        const uint32_t c = first + count++;
+        contacts.clear_rows(c, 1);
+        contacts.point.set(c, point);
+        contacts.normal.set(c, rotate(conjugate(pose.orientation), impact.normal));
+        contacts.striker[c] = impact.striker;
+        contacts.cell[c] = told.cell;
+        contacts.approach_speed[c] = told.approach_speed;
+        const Yielding yielding = yielding_of(bodies, impact.striker, impact.point, impact.normal);
+        contacts.striker_inverse_mass[c] = yielding.effective();
+        if (yielding.own > 0) {
+            const auto in_body_axes = [&](Vec3d of_striker) {
+                return rotate(conjugate(pose.orientation),
+                              rotate(bodies.orientation[impact.striker], of_striker.to_float()));
+            };
+            contacts.striker_own_inverse_mass[c] = static_cast<float>(yielding.own);
+            contacts.striker_turn.set(c, in_body_axes(yielding.turn));
+            contacts.striker_spin.set(c, in_body_axes(yielding.spin));
+        }
+        contacts.striker_radius[c] = striker_radius;
+        contacts.start_speed[c] = dot(
+            striker_radius > 0 ? bodies.velocity[impact.striker] : velocity_at(bodies, impact.striker, impact.point),
+            impact.normal);
+        contacts.radius[c] = radius;
+    }
+    tasks.contact_count[task] = count;
+}
+
+Row<Tasks> Opening::open(Row<Bodies> body, float approach_speed, bool is_ahead) {
+    Tasks& tasks = state.tasks;
+    Bodies& bodies = state.bodies;
+    // A hit makes pieces that wait go with their body: not before it is sure to come.
+    if (is_ahead && bodies.is_owed_births[body]) return {};
+    uint32_t t = 0;
+    while (t < tasks.size() && static_cast<TaskState>(tasks.state[t]) != TaskState::Free) ++t;
+    if (t == tasks.size()) {
+        refuse(body, "limits.open_hits", is_ahead);
+        return {};
+    }
+    const char* full = nullptr;
+    const Row<Shells> source = bodies.shell[body];
+    const bool is_quick = is_quick_body(state, body);
+    const ShellView before(state, source);
+    const bool waits = may_cut_out(state, body);
+    Row<Shells> working;
+    if (!waits) working = make_shell_unclear(state, is_quick ? quick_room(before) : working_room(before), &full);
+    if (!waits && !working.exists()) {
+        refuse(body, full, is_ahead);
+        if (!is_ahead) bodies.retry_frame[body] = frame + retry_frames(dt);
+        return {};
+    }
+    const Row<Tasks> task(t);
+    tasks.clear_rows(t, 1);
+    tasks.state[t] = static_cast<uint8_t>(TaskState::Running);
+    tasks.body[t] = body;
+    tasks.source[t] = source;
+    ++state.shells.users[source];
+    tasks.shell[t] = working;
+    tasks.opened_frame[t] = frame;
+    tasks.first_contact[t] = t * kMostContacts;
+    tasks.approach_speed[t] = approach_speed;
+    const Quat to_body_axes = conjugate(bodies.orientation[body]);
+    tasks.start_velocity.set(t, rotate(to_body_axes, bodies.velocity[body]));
+    tasks.start_spin.set(t, rotate(to_body_axes, bodies.spin[body]));
+    tasks.strength_scale[t] = bodies.strength_scale[body];
+    if (bodies.is_owed_births[body]) forget_own_motions(before);
+    set_task_times(state, task);
+    set_quick_task(state, task, body);
+    const bool is_assembled = is_quick || waits || state.shells.packs[source].count > 0;
+    const uint64_t units = is_quick ? kUnitsQuickCopy : kUnitsOpen + (is_assembled ? 0 : kUnitsAssemble);
+    if (!waits) tasks.units_owed[t] = state.shells.vertices[source].count * units;
+    bodies.task[body] = t;
+    opened.push({task});
+    const uint32_t packs = is_assembled ? 0 : (state.shells.vertices[source].count + kLanes - 1) / kLanes;
+    for (uint32_t p = 0; p < packs; p += kRowsPerChunk<StiffnessPacks>) stiffness_wanted.push({task, p});
+    counts.opened += !is_ahead;
+    return task;
+}
+
+void Opening::give_rows() {
+    Tasks& tasks = state.tasks;
+    for (const TaskOpened& o : opened) {
+        if (tasks.shell[o.task].exists()) continue;
+        const char* full = nullptr;
+        const ShellView source(state, tasks.source[o.task]);
+        CutOutResult result = CutOutResult::TooWide;
+        const bool is_everywhere = has_explosion(state.blows, o.task) || is_cut_task(state.blows, o.task);
+        if (!is_quick_task(state, o.task)) {
+            const uint32_t wanted = is_everywhere ? kNone : kWholeCopyVertices;
+            if (!give_hidden_rows(state, o.task, wanted, stiffness_wanted, &full)) {
+                drop(o.task, full);
+            }
+            continue;
+        }
+        if (!is_everywhere) result = reserve_cut_out(state, o.task, quick_cut_out_size(state, o.task), &full);
+        if (result == CutOutResult::TooWide) tasks.shell[o.task] = make_shell_unclear(state, quick_room(source), &full);
+        const Row<Shells> working = tasks.shell[o.task];
+        if (working.exists()) {
+            tasks.units_owed[o.task] += result == CutOutResult::Reserved
+                                            ? state.shells.vertices[working].count * kUnitsQuickOpen
+                                            : source.vertex_count() * kUnitsQuickCopy;
+        } else {
+            drop(o.task, full);
+        }
+    }
+}
+
+// Pushes and strikers that were removed stand in contacts without one, which may be several at once: a blow waits as it
+// is (close_blows), the others are lost.
+void Opening::drop(Row<Tasks> task, const char* full) {
+    Tasks& tasks = state.tasks;
+    const TaskContacts& contacts = state.task_contacts;
+    const Row<Bodies> body = tasks.body[task];
+    tasks.state[task] = static_cast<uint8_t>(TaskState::Dropped);
+    if (is_ahead(tasks, task)) return;
+    refuse(body, full, false);
+    if (!may_find_room(state, body)) return;
+    for (uint32_t b = 0; b < state.blows.size(); ++b)
+        if (state.blows.task[b] == task.index) state.blows.goes_on[b] = 1;
+    const uint32_t first = tasks.first_contact[task];
+    for (uint32_t c = first; c < first + tasks.contact_count[task]; ++c) {
+        if (!contacts.striker[c].exists() && contacts.striker_inverse_mass[c] > 0) continue;
+        const Vec3 arm = contacts.point[c] - state.bodies.centre[body].to_float();
+        const Vec3 moving = tasks.start_velocity[task] + cross(tasks.start_spin[task], arm);
+        const float approach = contacts.start_speed[c] - dot(moving, contacts.normal[c]);
+        const bool is_queued =
+            queue_hit(state, {frame, body, contacts.striker[c], contacts.point[c], contacts.normal[c], approach,
+                              contacts.striker_inverse_mass[c], contacts.striker_radius[c], tasks.load[task]});
+        if (!is_queued) return refuse(body, "limits.queued_hits", false);
+    }
+}
+
+bool queue_hit(State& state, const QueuedHit& hit) {
+    QueuedHits& queued = state.queued_hits;
+    uint32_t free = kNone, found = kNone;
+    for (uint32_t q = 0; q < queued.size(); ++q) {
+        if (!queued.is_used[q])
+            free = std::min(free, q);
+        else if (queued.body[q] == hit.body && queued.striker[q] == hit.striker)
+            found = q;
+    }
+    if (found != kNone && queued.approach_speed[found] >= hit.approach_speed) return true;
+    const uint32_t q = found != kNone ? found : free;
+    if (q == kNone) return false;
+    queued.is_used[q] = 1;
+    queued.frame[q] = hit.frame;
+    queued.body[q] = hit.body;
+    queued.striker[q] = hit.striker;
+    queued.point.set(q, hit.point);
+    queued.normal.set(q, hit.normal);
+    queued.approach_speed[q] = hit.approach_speed;
+    queued.striker_inverse_mass[q] = hit.striker_inverse_mass;
+    queued.striker_radius[q] = hit.striker_radius;
+    queued.load[q] = hit.load;
+    return true;
+}
+
+void Opening::refuse(Row<Bodies> body, const char* setting, bool is_ahead) {
+    if (!is_ahead) refused.push(refused_event(state.bodies, body, setting));
+}
+
+}  // namespace cullet

@@ -1,0 +1,202 @@
+#include <algorithm>
+
+#include "systems/bodies/body_id.hpp"
+#include "systems/impacts/blows.hpp"
+#include "systems/impacts/cut_surface.hpp"
+#include "systems/models/thick_shell/soft/soft_body.hpp"
+#include "systems/systems.hpp"
+
+namespace cullet {
+namespace {
+
+// Of the speed of a rigid striker: what it gives at most to what it meets, however light that is.
+constexpr float kMostReturned = 2;
+
+struct Taking {
+    State& state;
+    RigidWorld& rigid;
+    DamageCounts& counts;
+    Events<RefusedEvent>& refused;
+    uint32_t named = 0;  // blows on one body that are still to be written: what reaches many leaves them room
+
+    bool has_shell(Row<Bodies> b) const {
+        return static_cast<BodyKind>(state.bodies.kind[b]) != BodyKind::Free && state.bodies.shell[b].exists();
+    }
+
+    Row<SoftBodies> soft_of(Row<Bodies> b) const {
+        if (state.bodies.hold_count[b]) return {};  // the striker of a brittle body's hit: it is rigid till that ends
+        return find_soft(state.soft_bodies, b);
+    }
+    /// It comes from outside.
+    void book(Row<Bodies> b, Vec3d impulse) {
+        if (static_cast<BodyKind>(state.bodies.kind[b]) != BodyKind::Dynamic) return;
+        const Vec3d booked(rotate(state.bodies.orientation[b], impulse.to_float()));
+        for (int k = 0; k < 3; ++k) counts.impulse_to_static[k] -= booked[k];
+    }
+    void push_points(uint32_t row, Row<SoftBodies> soft) {
+        const Blows& blows = state.blows;
+        const Row<Bodies> body = blows.body[row];
+        const Row<Shells> shell = state.bodies.shell[body];
+        const float radius = std::max(
+            {3 * state.shells.thickness[shell], 1.3f * state.shells.mean_edge[shell], 0.35f * blows.radius[row]});
+        push_soft(state, rigid, soft, blows.point[row], blows.impulse[row].to_float(), radius,
+                  kMostReturned * blows.speed[row]);
+        book(body, blows.impulse[row]);
+    }
+
+    /// A copy of the blow for this body, at the end; kNone where there is no room.
+    uint32_t copy_for(uint32_t row, Row<Bodies> body) {
+        const bool has_room = state.blows.size() + named < state.blows.limit();
+        const uint32_t made = has_room ? state.blows.append(1) : kNone;
+        if (made == kNone) {
+            refused.push(refused_event(state.bodies, body, "limits.queued_hits"));
+            return kNone;
+        }
+        state.blows.copy_rows(state.blows, row, made, 1);
+        state.blows.body[made] = body;
+        return made;
+    }
+
+    /// Where the push meets the surface: the nearest live vertex at rest. What has no shell is met where the game says.
+    Vec3 place_of_push(uint32_t row) const {
+        Vec3 nearest = state.blows.point[row];
+        const Row<Bodies> body = state.blows.body[row];
+        if (!has_shell(body)) return nearest;
+        const ShellView shell(state, state.bodies.shell[body]);
+        float least = 1e30f;
+        for (uint32_t v = 0; v < shell.vertex_count(); ++v) {
+            const uint32_t at = shell.vertex(v);
+            if (state.vertices.element[at] == kNone) continue;
+            const Vec3 away = state.vertices.rest[at] - state.blows.point[row];
+            if (dot(away, away) >= least) continue;
+            least = dot(away, away);
+            nearest = state.vertices.rest[at];
+        }
+        return nearest;
+    }
+
+    // The striker bounces off as a rigid one: J = (1 + e) v / (1/m_body + 1/m_striker).
+    void measure_push(uint32_t row) {
+        Blows& blows = state.blows;
+        const Row<Bodies> body = blows.body[row];
+        blows.point.set(row, place_of_push(row));
+        const Vec3d point(blows.point[row]), normal(blows.direction[row]);
+        const double both = inverse_mass_at(state.bodies, body, point, normal) + double{blows.inverse_mass[row]};
+        const double size = (1 + double{state.bodies.restitution[body]}) * double{blows.speed[row]} / both;
+        blows.impulse.set(row, size * normal);
+        blows.turning.set(row, cross(point - state.bodies.centre[body], size * normal));
+    }
+
+    void explode_ball(uint32_t row, Row<Bodies> body) {
+        const Bodies& bodies = state.bodies;
+        const Vec3d away = Vec3d(centre_of(bodies, body) - state.blows.point[row]);
+        const double distance = length(away);
+        const double size =
+            impulse_on_ball(distance, double{bodies.radius[body]}, state.blows.radius[row], state.blows.strength[row]);
+        if (!(size > 0)) return;
+        const Vec3 along = rotate(conjugate(bodies.orientation[body]), ((1 / distance) * away).to_float());
+        push_body(state.bodies, rigid, counts, body, size * Vec3d(along), {});
+    }
+
+    void explode_shell(uint32_t row, Row<Bodies> body) {
+        const Bodies& bodies = state.bodies;
+        Explosion explosion = explosion_of(state.blows, row);
+        explosion.centre = to_body(pose_of(bodies, body), explosion.centre);
+        const ExplosionSums sums =
+            measure_explosion(ShellView(state, bodies.shell[body]), explosion, bodies.centre[body]);
+        if (!(sums.size > 0)) return;
+        if (const Row<SoftBodies> soft = soft_of(body); soft.exists()) {
+            if (!state.soft_bodies.is_awake[soft]) wake_soft(state, rigid, soft);
+            state.soft_bodies.quiet_seconds[soft] = 0;
+            kick_points(SpringView(state, springs_of(state, soft)), explosion, bodies.orientation[body]);
+            return book(body, sums.impulse);
+        }
+        if (!bodies.is_breakable[body]) return push_body(state.bodies, rigid, counts, body, sums.impulse, sums.turning);
+        const uint32_t made = copy_for(row, body);
+        if (made == kNone) return push_body(state.bodies, rigid, counts, body, sums.impulse, sums.turning);
+        Blows& blows = state.blows;
+        blows.point.set(made, explosion.centre);
+        blows.impulse.set(made, sums.impulse);
+        blows.turning.set(made, sums.turning);
+        blows.speed[made] = sums.speed;
+        // The way the body is pushed: events tell it.
+        blows.direction.set(made, normalised(sums.impulse).to_float());
+    }
+
+    void explode(uint32_t row) {
+        const Bodies& bodies = state.bodies;
+        for (uint32_t b = 0; b < bodies.size(); ++b) {
+            const Row<Bodies> body(b);
+            const auto kind = static_cast<BodyKind>(bodies.kind[b]);
+            const bool is_hit = kind == BodyKind::Dynamic || (kind == BodyKind::Static && has_shell(body));
+            if (!is_hit) continue;
+            const float away = length(centre_of(bodies, body) - state.blows.point[row]);
+            if (away > state.blows.radius[row] + bodies.radius[b]) continue;
+            if (has_shell(body))
+                explode_shell(row, body);
+            else if (bodies.is_sphere[b])
+                explode_ball(row, body);
+        }
+    }
+
+    void cut(uint32_t row) {
+        const uint32_t bodies = state.bodies.size();
+        for (uint32_t b = 0; b < bodies; ++b) {
+            const Row<Bodies> body(b);
+            if (!has_shell(body) || !state.bodies.is_breakable[b]) continue;
+            const uint32_t made = copy_for(row, body);
+            if (made == kNone) continue;
+            Blows& blows = state.blows;
+            const Pose pose = pose_of(state.bodies, b);
+            blows.point.set(made, to_body(pose, blows.point[made]));
+            blows.direction.set(made, rotate(conjugate(pose.orientation), blows.direction[made]));
+            for (uint32_t i = 0; i < blows.point_count[made]; ++i)
+                set_cut_point(blows, made, i, to_body(pose, cut_point(blows, made, i)));
+            if (!passes_through(ShellView(state, state.bodies.shell[b]), CutSurface(blows, made)))
+                remove_blow(blows, made);
+        }
+    }
+};
+
+}  // namespace
+
+// New rows stand behind those that wait. Each is written anew at the end, once for each body that it reaches, and then
+// the old ones go: rows keep the order of the calls, and in it that of the bodies.
+void take_blows(Serial, Blows& blows, ShellTables shells, Bodies& bodies, RigidWorld& rigid, DamageCounts& counts,
+                Events<RefusedEvent>& refused) {
+    if (blows.size() == 0) return;
+    Taking taking{shells.state, rigid, counts, refused};
+    uint32_t first = 0;
+    while (first < blows.size() && blows.is_taken[first]) ++first;
+    const uint32_t end = blows.size();
+    for (uint32_t row = first; row < end; ++row) taking.named += blows.body[row].exists();
+    for (uint32_t row = first; row < end; ++row) {
+        const Row<Bodies> body = blows.body[row];
+        if (!body.exists()) {
+            if (is_kind(blows, row, BlowKind::Explosion))
+                taking.explode(row);
+            else
+                taking.cut(row);
+            continue;
+        }
+        --taking.named;
+        if (is_kind(blows, row, BlowKind::Push)) {
+            taking.measure_push(row);
+            if (const Row<SoftBodies> soft = taking.soft_of(body); soft.exists()) {
+                taking.push_points(row, soft);
+                continue;
+            }
+            if (!taking.has_shell(body) || !bodies.is_breakable[body]) {
+                pay_blow(blows, bodies, rigid, counts, row);
+                continue;
+            }
+        }
+        // Where there is no room the body is at least moved.
+        if (taking.copy_for(row, body) == kNone) pay_blow(blows, bodies, rigid, counts, row);
+    }
+    const uint32_t made = blows.size() - end;
+    if (made && end > first) blows.copy_rows(blows, end, first, made);
+    blows.truncate(first + made);
+}
+
+}  // namespace cullet

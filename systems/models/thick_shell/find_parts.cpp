@@ -1,0 +1,42 @@
+#include "systems/models/thick_shell/hidden/run_out.hpp"
+#include "systems/models/thick_shell/quick/cut_out.hpp"
+#include "systems/models/thick_shell/quick/quick_body.hpp"
+#include "systems/structures/shell/flood_parts.hpp"
+#include "systems/systems.hpp"
+
+namespace cullet {
+
+// A mesh of several parts, which nothing but the rigid body held together, comes apart at the first hit that is worth a
+// task, cracked or not.
+//
+// A cut may leave a body that stood on pins in one piece without any: it falls.
+void find_parts(Each<TaskEnded> ended, ShellTables shells, const Bodies& bodies, Tasks& tasks, Fragments& fragments) {
+    const uint32_t t = ended->task;
+    tasks.part_count[t] = 1;
+    if (static_cast<TaskState>(tasks.state[t]) == TaskState::Dropped) return;
+    const ShellView shell(shells.state, tasks.shell[t]);
+    const bool is_zero = is_numbered_zero(shell), was_one = is_zero || is_of_one_part(shell),
+               is_quick = is_quick_task(shells.state, t);
+    if (tasks.crack_count[t] == 0 && was_one) return;
+    const std::span parts(fragments.part.data() + size_t{t} * kMostParts, kMostParts);
+    // A body that may have been hit on a cut-out is not looked at as a whole; cracks that run out want the scratch that
+    // a flood uses.
+    const uint32_t vertices = shells.state.shells.vertices[tasks.source[t]].count;  // before the cracks brought theirs
+    // A hidden run's cracks have run out in its cut-out.
+    const bool was_hidden_region = tasks.shell[t] == tasks.source[t] && !is_quick;
+    const bool runs_out = is_quick ? vertices <= kWholeCopyVertices : !was_hidden_region;
+    const uint32_t most = worthwhile_floods(shell);
+    tasks.part_count[t] = kNone;
+    if (!runs_out && is_zero) tasks.part_count[t] = find_pieces(shell, parts, most);
+    if (tasks.part_count[t] == kNone) {
+        tasks.part_count[t] =
+            was_one && !runs_out ? group_from_cracks(shell, parts, most) : group_fragments(shell, parts);
+    }
+    if (tasks.part_count[t] > 1 && runs_out && run_out_cracks(shells.state, Row<Tasks>(t)))
+        tasks.part_count[t] = group_fragments(shell, parts);
+    const bool lets_go = tasks.part_count[t] == 1 && bodies.has_pins[tasks.body[t]] && !parts[0].has_pins;
+    if (tasks.part_count[t] > 1 || lets_go) tasks.state[t] = static_cast<uint8_t>(TaskState::Broke);
+    if (tasks.part_count[t] > kMostParts) tasks.state[t] = static_cast<uint8_t>(TaskState::Dropped);
+}
+
+}  // namespace cullet

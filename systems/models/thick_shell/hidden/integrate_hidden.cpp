@@ -1,0 +1,35 @@
+#include "systems/models/thick_shell/hidden/integrate_packs.hpp"
+#include "systems/models/thick_shell/hidden/pair_cells.hpp"
+#include "systems/systems.hpp"
+
+namespace cullet {
+
+void integrate_hidden(Rows<StiffnessPacks> packs, OfTask task, Turn, const Tasks& tasks, const Shells& shells,
+                      const StiffnessPacks& slots, const StiffnessBlocks& blocks, const StiffnessLinks& links,
+                      In<&Vertices::inverse_mass> inverse_mass, In<&Vertices::probe> probe,
+                      InOut<&Vertices::velocity> velocity, InOut<&Vertices::displacement> displacement,
+                      Out<&Vertices::probe> next_probe) {
+    const Row<Shells> shell = tasks.shell[task.row];
+    const uint32_t first_pack = shells.packs[shell].first, first = shells.vertices[shell].first;
+    HiddenStep step;
+    step.dt = tasks.time_step[task.row];
+    step.beta = tasks.damping_time[task.row];
+    step.first_block = slots.first_block.data() + first_pack;
+    step.block_count = slots.block_count.data() + first_pack;
+    step.first_link = slots.first_link.data() + first_pack;
+    step.link_count = slots.link_count.data() + first_pack;
+    step.blocks = blocks.block.data() + shells.blocks[shell].first;
+    step.links = links.link.data() + shells.links[shell].first;
+    step.inverse_mass = inverse_mass.data() + first;
+    for (int k = 0; k < 3; ++k) {
+        step.u[k] = displacement.lane(k) + first;
+        step.v[k] = velocity.lane(k) + first;
+    }
+    step.probe = probe.data() + first;
+    step.next_probe = next_probe.data() + first;
+    step.pack_count = shells.packs[shell].count;
+    step.has_pair_cells = stores_pairs_once(shells, shell);
+    integrate_packs(step, packs.first - first_pack, packs.count);
+}
+
+}  // namespace cullet

@@ -1,0 +1,34 @@
+#include "systems/models/thick_shell/hidden/restart.hpp"
+#include "systems/structures/shell/cut_shell.hpp"
+#include "systems/systems.hpp"
+#include "systems/tasks/task_cost.hpp"
+
+namespace cullet {
+namespace {
+
+// Nothing is left to run: what came apart is found as after any task.
+void make_cuts(State& state, Row<Tasks> task, Range pins) {
+    Tasks& tasks = state.tasks;
+    Blows& blows = state.blows;
+    const ShellView shell(state, tasks.shell[task]);
+    for (uint32_t b = 0; b < blows.size(); ++b) {
+        if (blows.task[b] != task.index) continue;
+        tasks.units_owed[task] += units_of_cut(state.shells, tasks.source[task], blows, b);
+        const CutReport report = cut_shell(shell, CutSurface(blows, b), pins);
+        // Pins alone that changed are looked at as an opened edge is.
+        tasks.crack_count[task] += report.cut_edges > 0 ? report.cut_edges : report.pins_changed > 0;
+        blows.goes_on[b] = report.is_full;
+    }
+    tasks.state[task] = static_cast<uint8_t>(TaskState::Whole);
+}
+
+}  // namespace
+
+void start_tasks(Each<TaskOpened> opened, ShellTables shells, Tasks& tasks, TaskContacts&, PatchVertices&, Blows& blows,
+                 const Bodies& bodies, const PinBoxes&) {
+    if (!tasks.shell[opened->task].exists()) return;  // no room
+    start_run(shells.state, opened->task);
+    if (is_cut_task(blows, opened->task)) make_cuts(shells.state, opened->task, bodies.pins[tasks.body[opened->task]]);
+}
+
+}  // namespace cullet

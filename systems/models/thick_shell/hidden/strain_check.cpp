@@ -1,0 +1,11 @@
+#include "systems/models/thick_shell/hidden/element_stress.hpp"
+#include "systems/systems.hpp"
+
+namespace cullet {
+
+void strain_check(Rows<Elements> elements, OfTask task, Turn turn, ShellTables shells, const Tasks& tasks) {
+    const ShellView shell(shells.state, tasks.shell[task.row]);
+    strain_elements(shell, turn.new_side, elements.first - shell.elements().first, elements.count);
+}
+
+}  // namespace cullet

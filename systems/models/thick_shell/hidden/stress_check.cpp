@@ -1,0 +1,14 @@
+#include "systems/models/thick_shell/hidden/element_stress.hpp"
+
+#include "systems/models/thick_shell/hidden/crack_candidates.hpp"
+#include "systems/systems.hpp"
+
+namespace cullet {
+
+void stress_check(Rows<Elements> elements, OfTask task, ShellTables shells, const Tasks& tasks) {
+    const ShellView shell(shells.state, tasks.shell[task.row]);
+    const float start_limit = crack_limits(shell, tasks.strength_scale[task.row]).start;
+    stress_elements(shell, elements.first - shell.elements().first, elements.count, start_limit);
+}
+
+}  // namespace cullet

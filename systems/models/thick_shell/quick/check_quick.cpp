@@ -1,0 +1,91 @@
+#include "systems/models/thick_shell/quick/check_quick.hpp"
+
+#include <algorithm>
+
+#include "systems/models/thick_shell/hidden/hidden_region.hpp"
+#include "systems/models/thick_shell/quick/cut_out.hpp"
+
+namespace cullet {
+namespace {
+
+std::string place(const AnyTable& table, const char* column, uint32_t row) {
+    return std::string(table.name()) + "." + column + "[" + std::to_string(row) + "]";
+}
+
+bool is_in(double value, double low, double high) {
+    return value >= low && value <= high;
+}
+
+template <class QuickTable>
+bool has_sound_layers(const QuickTable& table, uint32_t row) {
+    return table.layout[row] <= static_cast<uint8_t>(LayerLayout::Crossed) &&
+           (table.length_factor[row] == 0 || is_in(table.length_factor[row], 0.576, 5)) &&
+           is_in(table.area_energy[row], 0, 100) && is_in(table.volume_energy[row], 0, 100);
+}
+
+std::string trouble_of_body(const QuickBodies& quick, uint32_t b) {
+    if (quick.is_quick[b] > 1) return place(quick, "is_quick", b) + " is not 0 or 1";
+    if (!quick.is_quick[b]) return {};
+    if (quick.layers[b] < 1 || quick.layers[b] > 2) return place(quick, "layers", b) + " is not 1 or 2";
+    if (!is_in(quick.steps[b], 8, 100)) return place(quick, "steps", b) + " is not 8 to 100";
+    if (quick.crack_frequency[b] > 1000) return place(quick, "crack_frequency", b) + " is above 1000";
+    const bool fits = is_in(quick.strain_limit[b], 0, 1) && is_in(quick.compression_limit[b], 0, 1e6) &&
+                      is_in(quick.crack_length[b], 0, 4) && is_in(quick.bump_angle[b], 0, 0.53) &&
+                      has_sound_layers(quick, b);
+    return fits ? std::string() : place(quick, "strain_limit", b) + " or a number beside it is out of range";
+}
+
+std::string trouble_of_run(const State& s, uint32_t t) {
+    const QuickRuns& runs = s.quick_runs;
+    if (runs.is_quick[t] > 1) return place(runs, "is_quick", t) + " is not 0 or 1";
+    const bool is_open = t < s.tasks.size() && static_cast<TaskState>(s.tasks.state[t]) != TaskState::Free;
+    if (!runs.is_quick[t] && is_open && is_cut_out(s, t))
+        return trouble_of_hidden_region(const_cast<State&>(s), t);  // scratch alone is written
+    if (!runs.is_quick[t] || !is_open) return {};
+    const Row<Bodies> body = s.tasks.body[t];
+    if (!is_quick_body(s, body)) return place(runs, "is_quick", t) + " is 1, but its body is not";
+    const uint32_t springs = runs.springs[t];
+    if (springs >= s.shell_springs.size() || !s.shell_springs.is_used[springs] ||
+        s.shell_springs.shell[springs] != s.tasks.shell[t])
+        return place(runs, "springs", t) + " is " + std::to_string(springs) + ", not the springs of its shell";
+    if (runs.layers[t] < 1 || runs.layers[t] > 2 || !is_in(runs.steps[t], 8, 100) || runs.crack_frequency[t] > 1000 ||
+        !is_in(runs.compression_limit[t], 0, 1e6) || !is_in(runs.crack_length[t], 0, 4) ||
+        !is_in(runs.bump_angle[t], 0, 0.53) || !has_sound_layers(runs, t))
+        return place(runs, "layers", t) + " or a number beside it is out of range";
+    if (!(runs.softening[t] >= 1) || !(runs.strain_limit[t] > 0) || !(runs.diagonal[t] >= 0))
+        return place(runs, "softening", t) + " or a number beside it is out of range";
+    if ((s.shell_springs.steps[springs] & 1) != (s.tasks.steps_done[t] & 1))
+        return place(s.shell_springs, "steps", springs) + " and its task's differ";
+    const uint32_t first = t * kMostAwakePacks, count = runs.pack_count[t];
+    if (count > kMostAwakePacks || first + count > s.awake_packs.size())
+        return place(runs, "pack_count", t) + " is " + std::to_string(count);
+    const uint32_t vertices = s.shells.vertices[s.tasks.shell[t]].count;
+    for (uint32_t row = first; row < first + count; ++row) {
+        const uint32_t pack = s.awake_packs.pack[row];
+        const uint32_t bits = s.awake_packs.awake[row] | uint32_t{s.awake_packs.held[row]};
+        const uint32_t lanes = pack * kLanes < vertices ? std::min(kLanes, vertices - pack * kLanes) : 0;
+        if ((row > first && pack <= s.awake_packs.pack[row - 1]) || bits >> lanes)
+            return place(s.awake_packs, "pack", row) + " is " + std::to_string(pack) +
+                   ", not rising or not of its shell";
+    }
+    if (is_cut_out(s, t)) return trouble_of_cut_out(const_cast<State&>(s), t);  // scratch alone is written
+    return {};
+}
+
+}  // namespace
+
+Result<void> check_quick_rows(const State& s, const std::string& name, const std::string& advice) {
+    std::string trouble;
+    for (uint32_t b = 0; b < s.quick_bodies.size() && trouble.empty(); ++b)
+        trouble = trouble_of_body(s.quick_bodies, b);
+    for (uint32_t t = 0; t < s.quick_runs.size() && trouble.empty(); ++t) trouble = trouble_of_run(s, t);
+    // A task of a quick body without a run of its own would step stiffness that it does not have.
+    for (uint32_t t = 0; t < s.tasks.size() && trouble.empty(); ++t)
+        if (static_cast<TaskState>(s.tasks.state[t]) != TaskState::Free && is_quick_body(s, s.tasks.body[t]) &&
+            !is_quick_task(s, t))
+            trouble = place(s.tasks, "body", t) + " is quick, and its task is not";
+    if (!trouble.empty()) return Error{name + ": " + trouble + ". " + advice};
+    return {};
+}
+
+}  // namespace cullet

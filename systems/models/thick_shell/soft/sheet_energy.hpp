@@ -1,0 +1,9 @@
+#pragma once
+#include "systems/models/thick_shell/springs/spring_view.hpp"
+
+namespace cullet {
+
+/// Of the hinges of a sheet whose material has a bending stiffness of its own (bend_sheets.cpp), J; 0 for others.
+double sheet_energy(const SpringView& view);
+
+}  // namespace cullet

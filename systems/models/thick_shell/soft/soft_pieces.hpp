@@ -1,0 +1,20 @@
+// What comes off an awake soft body.
+#pragma once
+#include <span>
+
+#include "engine/rigid_world.hpp"
+#include "systems/births/break.hpp"
+
+namespace cullet {
+
+/// Motions of the parts of an awake body's shell from their points' velocities, body axes: momentum and angular
+/// momentum are those of the points, and energy can only fall. What holds a pin stands still.
+void soft_handoff(const State& state, Row<SoftBodies> soft, std::span<const FragmentPart> parts,
+                  std::span<PartMotion> motions);
+/// New bodies of the break get springs that remember what those of their elements did, and wake in the next step.
+/// One that finds no room stays rigid.
+void give_pieces_springs(State& state, const Break& plan);
+/// What is left of the body goes on: points that left stand still, and the rigid world has no contacts of it.
+void keep_torn(State& state, RigidWorld& rigid, const Break& plan);
+
+}  // namespace cullet

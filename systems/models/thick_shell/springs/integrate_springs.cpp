@@ -1,0 +1,38 @@
+#include "systems/models/thick_shell/springs/press_layers.hpp"
+#include "systems/models/thick_shell/springs/spring_packs.hpp"
+#include "systems/systems.hpp"
+
+namespace cullet {
+namespace {
+
+template <class Kernel>
+void integrate(const Rows<SpringPacks>& packs, const SpringView& view, Turn turn, Kernel kernel) {
+    const uint32_t first = packs.first - view.own().packs[view.row].first;
+    if (has_energies(view.own(), view.row)) press_packs(view, turn.old_side, first, packs.count);
+    const SpringStep step(view, turn.old_side);
+    kernel(step, first, packs.count);
+}
+
+}  // namespace
+
+// The kernel reads and writes through the columns' addresses; the parameters say which.
+void integrate_springs(Rows<SpringPacks> packs, OfSprings springs, Turn turn, ShellTables shells,
+                       In<&Vertices::inverse_mass>, In<&Vertices::probe>, InOut<&Vertices::velocity>,
+                       Out<&Vertices::probe>, InOut<&SpringSlots::slot>, InOut<&SpringPacks::zero_lengths>) {
+    integrate(packs, SpringView(shells.state, springs.row), turn, integrate_spring_packs);
+}
+
+void integrate_layers(Rows<SpringPacks> packs, OfSprings springs, Turn turn, ShellTables shells, In<&Vertices::probe>,
+                      InOut<&Vertices::velocity>, Out<&Vertices::probe>, In<&Twins::position>, InOut<&Twins::velocity>,
+                      Out<&Twins::position>, InOut<&SpringSlots::slot>, InOut<&LayerSlots::slot>,
+                      InOut<&SpringPacks::zero_lengths>) {
+    const SpringView view(shells.state, springs.row);
+    integrate(packs, view, turn,
+              view.layout() == SpringLayout::Crossed ? integrate_crossed_packs : integrate_sandwich_packs);
+}
+
+void end_spring_step(EachBody, OfSprings springs, ShellSprings& own) {
+    ++own.steps[springs.row];
+}
+
+}  // namespace cullet

@@ -1,0 +1,120 @@
+#include "systems/structures/shell/group_fragments.hpp"
+
+#include <algorithm>
+
+namespace cullet {
+namespace {
+
+// Union-find inside the part column. The smaller element becomes the root, so every parent is at most its child, and
+// one rising pass can turn parents into part numbers.
+uint32_t find_root(uint32_t* parent, uint32_t e) {
+    while (parent[e] != e) e = parent[e] = parent[parent[e]];
+    return e;
+}
+
+void join_neighbours(ShellView shell, uint32_t* parent) {
+    const Elements& elements = shell.state.elements;
+    for (uint32_t e = 0; e < shell.element_count(); ++e) parent[e] = e;
+    for (uint32_t e = 0; e < shell.element_count(); ++e) {
+        if (elements.flags[shell.element(e)] & kDead) continue;
+        for (uint32_t n : elements.neighbour[shell.element(e)]) {
+            if (n == kNone || n > e) continue;
+            const uint32_t a = find_root(parent, e), b = find_root(parent, n);
+            parent[std::max(a, b)] = std::min(a, b);
+        }
+    }
+}
+
+}  // namespace
+
+void add_to_part(const ShellView& shell, FragmentPart& part, uint32_t e) {
+    Elements& elements = shell.state.elements;
+    if (part.first_element == kNone) part.first_element = e;
+    if (part.last_element != kNone) elements.next[shell.element(part.last_element)] = e;
+    elements.next[shell.element(e)] = kNone;
+    part.last_element = e;
+    ++part.element_count;
+    part.mass += elements.mass[shell.element(e)];
+    for (uint32_t v : elements.corner[shell.element(e)])
+        if (shell.state.vertices.is_pinned[shell.vertex(v)]) part.has_pins = true;
+}
+
+uint32_t group_fragments(ShellView shell, std::span<FragmentPart> parts) {
+    uint32_t* part = shell.state.elements.part.data() + shell.elements().first;
+    join_neighbours(shell, part);
+    uint32_t count = 0;
+    for (uint32_t e = 0; e < shell.element_count(); ++e) {
+        if (shell.state.elements.flags[shell.element(e)] & kDead) {
+            part[e] = kNone;
+            continue;
+        }
+        const bool is_root = part[e] == e;
+        part[e] = is_root ? count : part[part[e]];
+        if (is_root && count < parts.size()) parts[count] = {};
+        count += is_root;
+        if (part[e] < parts.size()) add_to_part(shell, parts[part[e]], e);
+    }
+    return count;
+}
+
+bool is_numbered_zero(const ShellView& shell) {
+    static_assert(kNone + 1u == 0);
+    const uint32_t* const part = shell.state.elements.part.data() + shell.elements().first;
+    const uint32_t count = shell.element_count();
+    uint32_t others = 0;
+    for (uint32_t e = 0; e < count; ++e) others |= part[e] + 1 > 1;
+    return others == 0;
+}
+
+void list_part(ShellView shell, std::span<FragmentPart> parts, uint32_t part) {
+    FragmentPart& listed = parts[part];
+    if (is_listed(listed)) return;
+    const double mass = listed.mass;
+    const bool has_pins = listed.has_pins;
+    listed = {};
+    for (uint32_t e = 0; e < shell.element_count(); ++e)
+        if (shell.state.elements.part[shell.element(e)] == part) add_to_part(shell, listed, e);
+    listed.mass = mass;
+    listed.has_pins = has_pins;
+}
+
+bool is_of_one_part(const ShellView& shell) {
+    if (is_numbered_zero(shell)) return true;
+    const Elements& elements = shell.state.elements;
+    uint32_t part = kNone;
+    for (uint32_t e = 0; e < shell.element_count(); ++e) {
+        const uint32_t row = shell.element(e);
+        if (elements.flags[row] & kDead) continue;
+        if (part == kNone) part = elements.part[row];
+        if (elements.part[row] != part) return false;
+    }
+    return true;
+}
+
+void join_parts(ShellView shell, std::span<FragmentPart> parts, uint32_t from, uint32_t to) {
+    if (from == to || parts[from].element_count == 0) return;
+    Elements& elements = shell.state.elements;
+    for (uint32_t e = parts[from].first_element; e != kNone; e = elements.next[shell.element(e)])
+        elements.part[shell.element(e)] = to;
+    FragmentPart& target = parts[to];
+    if (!is_listed(target))
+        target.first_element = std::min(target.first_element, parts[from].first_element);
+    else if (target.element_count == 0)
+        target.first_element = parts[from].first_element;
+    else
+        elements.next[shell.element(target.last_element)] = parts[from].first_element;
+    if (is_listed(target)) target.last_element = parts[from].last_element;
+    target.element_count += parts[from].element_count;
+    target.mass += parts[from].mass;
+    target.has_pins = target.has_pins || parts[from].has_pins;
+    parts[from] = {};
+}
+
+uint32_t largest_part(std::span<const FragmentPart> parts) {
+    uint32_t best = 0;
+    for (uint32_t p = 1; p < parts.size(); ++p)
+        if (parts[p].mass > parts[best].mass) best = p;
+    return best;
+}
+
+}  // namespace cullet

@@ -1,0 +1,178 @@
+#include <algorithm>
+#include <span>
+
+#include "systems/models/thick_shell/quick/quick_body.hpp"
+#include "systems/models/thick_shell/quick/quick_loop.hpp"
+#include "systems/models/thick_shell/soft/soft_units.hpp"
+#include "systems/systems.hpp"
+#include "systems/tasks/task_cost.hpp"
+
+namespace cullet {
+namespace {
+
+constexpr uint32_t kStepsARound = 16;
+
+struct Cost {
+    int64_t step, end;  // end: what the last step brings with it
+};
+
+Cost cost_of(const State& state, uint32_t t) {
+    if (is_quick_task(state, t))
+        return {static_cast<int64_t>(quick_units_a_step(state, t)), static_cast<int64_t>(quick_units_of_end(state, t))};
+    return {static_cast<int64_t>(units_a_step(state.shells, state.tasks, t)),
+            static_cast<int64_t>(units_of_birth(state.shells, state.tasks, t))};
+}
+
+/// What one worker has to do alone is at most half of a frame's units: the other has nothing to do meanwhile.
+int64_t most_units(const State& state, uint32_t t, int64_t units_a_frame) {
+    return moving_vertices(state, t) <= kTeamVertices ? units_a_frame / 2 : units_a_frame;
+}
+
+/// As many of `most` as `budget` is enough for; `is_last`: the last of them ends the run.
+uint32_t affordable(int64_t budget, const Cost& cost, uint32_t most, bool is_last) {
+    const auto steps = static_cast<uint32_t>(std::min<int64_t>(most, std::max<int64_t>(budget, 0) / cost.step));
+    const bool is_dear = is_last && steps == most && steps > 0 && budget < steps * cost.step + cost.end;
+    return steps - is_dear;
+}
+
+/// The step that each task gets first: the oldest hits first, and of quick ones only the oldest where units are used up
+/// by then. One that ends a run, with births, waits for units unless it is the oldest of all: two hand-offs in one
+/// frame were its worst.
+uint32_t first_step(const State& state, uint32_t t, const Cost& cost, int64_t budget, bool is_oldest,
+                    bool is_first_quick) {
+    if (is_oldest) return 1;
+    if (cost.end > 0 && steps_left(state.tasks, t) <= 1) return budget >= cost.step + cost.end;
+    return !is_quick_task(state, t) || is_first_quick || budget > 0;
+}
+
+/// What was owed is paid first, but for the units of the step that each task gets whatever is left, and of the end of
+/// the oldest.
+void pay_owed(State& state, std::span<const uint32_t> order, int64_t& budget) {
+    int64_t kept = 0;
+    for (const uint32_t t : order) {
+        const Cost cost = cost_of(state, t);
+        kept += cost.step + (t == order[0] && steps_left(state.tasks, t) <= 1 ? cost.end : 0);
+    }
+    for (const uint32_t t : order) {
+        const auto owed = static_cast<int64_t>(state.tasks.units_owed[t]);
+        const int64_t paid = std::min(owed, std::max<int64_t>(budget - kept, 0));
+        state.tasks.units_owed[t] -= static_cast<uint64_t>(paid);
+        budget -= paid;
+    }
+}
+
+/// Foreseen, run to its end before, and touched in this frame: what its cracks part is born whatever is left.
+bool is_due(const Tasks& tasks, uint32_t t) {
+    return static_cast<TaskState>(tasks.state[t]) == TaskState::Whole && !is_ahead(tasks, t) &&
+           tasks.steps_done[t] > 0 && tasks.crack_count[t] > 0;
+}
+
+/// At most half of what is left, so that other hits go on.
+int64_t units_of_due_birth(const State& state, uint32_t t, int64_t budget) {
+    return std::min(static_cast<int64_t>(units_of_birth(state.shells, state.tasks, t)),
+                    std::max<int64_t>(budget, 0) / 2);
+}
+
+/// Hidden runs that so small a share of the frame's units ends, births and all, are not cut into rounds: shards and
+/// garden walls do not wait for houses. As much as for their steps is for their cuts.
+constexpr int64_t kSmallShare = 16;
+void grant_small(State& state, std::span<const uint32_t> order, int64_t units_a_frame, int64_t& budget) {
+    Tasks& tasks = state.tasks;
+    for (const uint32_t t : order) {
+        const int64_t step = cost_of(state, t).step;
+        const auto births = static_cast<int64_t>(kUnitsBirth * state.shells.vertices[tasks.shell[t]].count);
+        const int64_t steps = 2 * int64_t{steps_left(tasks, t)} + births / step, units = steps * step;
+        if (is_quick_task(state, t) || units > units_a_frame / kSmallShare || units > budget) continue;
+        tasks.steps_granted[t] = static_cast<uint32_t>(steps);
+        budget -= units;
+    }
+}
+
+/// What no step wants is for what cracks cost, in equal shares, counted in steps: the loop takes them back. `ends` are
+/// paid already.
+void grant_cuts(State& state, std::span<const uint32_t> order, std::span<const int64_t> ends, int64_t most,
+                int64_t& budget) {
+    Tasks& tasks = state.tasks;
+    const auto is_cutting = [&](uint32_t t) { return tasks.steps_granted[t] > 0; };
+    auto sharers = std::count_if(order.begin(), order.end(), is_cutting);
+    for (size_t i = 0; i < order.size(); ++i) {
+        const uint32_t t = order[i];
+        if (!is_cutting(t)) continue;
+        const Cost cost = cost_of(state, t);
+        const int64_t room = most_units(state, t, most) - tasks.steps_granted[t] * cost.step;
+        const int64_t share = std::clamp<int64_t>(budget / sharers--, 0, std::max<int64_t>(room, 0));
+        tasks.steps_granted[t] += static_cast<uint32_t>(ends[i] / cost.step + share / cost.step);
+        budget -= share / cost.step * cost.step;
+    }
+}
+
+}  // namespace
+
+// A run's last step waits for a frame that has units for what follows it, so that no frame has all of a hit; its cracks
+// take from the frame's units while it runs. What they cost more than was granted for is owed, and paid before
+// the next frame's steps; cuts of the game are paid in the frame that makes them, and so are births that are known
+// before the pass: a foreseen break beside a full frame of another hit was the worst of scene vase. A task gets at
+// least one step a frame, but for quick ones behind the oldest, so that none can starve.
+void grant_units(Serial, ShellTables shells, Tasks& tasks, SoftBodies&, const DamageSettings& settings,
+                 DamageCounts& counts) {
+    static constexpr uint32_t kMostTasks = 1024;
+    struct Work {
+        uint32_t order[kMostTasks];
+        int64_t ends[kMostTasks];  // what was paid for the ends of tasks
+    };
+    const Scratch<Work> work(shells.state.scratch);
+    auto& [order, ends] = *work;
+    uint32_t count = 0;
+    const uint64_t for_soft = std::min(soft_units_wanted(shells.state), settings.units_a_frame / 2);
+    int64_t budget = static_cast<int64_t>(settings.units_a_frame - for_soft);
+    for (uint32_t t = 0; t < tasks.size() && count < kMostTasks; ++t) {
+        const auto task_state = static_cast<TaskState>(tasks.state[t]);
+        if (task_state == TaskState::Whole) {  // a cut, which is made already
+            budget -= static_cast<int64_t>(tasks.units_owed[t]);
+            tasks.units_owed[t] = 0;
+        }
+        if (is_due(tasks, t)) budget -= units_of_due_birth(shells.state, t, budget);
+        if (task_state != TaskState::Running) continue;
+        order[count++] = t;
+    }
+    std::sort(order, order + count, [&](uint32_t a, uint32_t b) {
+        if (tasks.opened_frame[a] != tasks.opened_frame[b]) return tasks.opened_frame[a] < tasks.opened_frame[b];
+        return tasks.body[a].index < tasks.body[b].index;
+    });
+    for (uint32_t i = 0; i < count; ++i) tasks.steps_granted[order[i]] = 0;
+    pay_owed(shells.state, {order, count}, budget);
+    const auto units_a_frame = static_cast<int64_t>(settings.units_a_frame);
+    grant_small(shells.state, {order, count}, units_a_frame, budget);
+    std::fill_n(ends, count, int64_t{0});
+    bool is_first_round = true, goes_on = count > 0, has_quick = false;
+    while (goes_on) {
+        goes_on = false;
+        for (uint32_t i = 0; i < count; ++i) {
+            const uint32_t t = order[i];
+            const Cost cost = cost_of(shells.state, t);
+            const uint32_t left = steps_left(tasks, t), most = std::min(kStepsARound, left);
+            // Also where rounding leaves none: the step itself tells that the time is up.
+            uint32_t steps = is_first_round ? first_step(shells.state, t, cost, budget, i == 0, !has_quick) : 0;
+            const int64_t own = most_units(shells.state, t, units_a_frame) - tasks.steps_granted[t] * cost.step;
+            if (!is_first_round && tasks.steps_granted[t] > 0)
+                steps = affordable(std::min(budget, own), cost, most, most == left);
+            has_quick = has_quick || is_quick_task(shells.state, t);
+            tasks.steps_granted[t] += steps;
+            budget -= steps * cost.step;
+            if (steps > 0 && steps >= left) ends[i] = std::clamp<int64_t>(budget, 0, cost.end);
+            budget -= steps > 0 && steps >= left ? ends[i] : 0;
+            goes_on = goes_on || steps > 0;
+        }
+        goes_on = goes_on && budget > 0;
+        is_first_round = false;
+    }
+    grant_cuts(shells.state, {order, count}, {ends, count}, units_a_frame, budget);
+    const uint64_t soft_budget = for_soft + static_cast<uint64_t>(std::max<int64_t>(budget, 0));
+    const uint64_t soft_used = grant_soft(shells.state, soft_budget, counts.slow_soft_frames);
+    counts.units_left = soft_budget - std::min(soft_used, soft_budget);
+    // More than there were by the first steps, where these alone are too many.
+    counts.units_used =
+        static_cast<uint64_t>(static_cast<int64_t>(settings.units_a_frame - for_soft) - budget) + soft_used;
+}
+
+}  // namespace cullet

@@ -1,0 +1,83 @@
+#include "systems/births/strike_back.hpp"
+#include "systems/bodies/body_id.hpp"
+#include "systems/impacts/blows.hpp"
+#include "systems/impacts/thresholds.hpp"
+#include "systems/structures/shell/working_room.hpp"
+#include "systems/systems.hpp"
+
+namespace cullet {
+namespace {
+
+bool is_dynamic(const Bodies& bodies, Row<Bodies> b) {
+    return b.exists() && static_cast<BodyKind>(bodies.kind[b]) == BodyKind::Dynamic;
+}
+
+void hold(Bodies& bodies, RigidWorld& rigid, Row<Bodies> b) {
+    if (is_dynamic(bodies, b) && bodies.hold_count[b]++ == 0) rigid.hold(b);
+}
+void let_go(Bodies& bodies, RigidWorld& rigid, Row<Bodies> b) {
+    if (is_dynamic(bodies, b) && bodies.hold_count[b] > 0 && --bodies.hold_count[b] == 0) rigid.release(b);
+}
+
+template <class F>
+void for_body_and_strikers(const Tasks& tasks, const TaskContacts& contacts, uint32_t t, F&& call) {
+    call(tasks.body[t]);
+    for (uint32_t c = tasks.first_contact[t]; c < tasks.first_contact[t] + tasks.contact_count[t]; ++c) {
+        bool is_first = true;
+        for (uint32_t before = tasks.first_contact[t]; before < c; ++before)
+            is_first = is_first && contacts.striker[before] != contacts.striker[c];
+        if (is_first) call(contacts.striker[c]);
+    }
+}
+
+}  // namespace
+
+// Hold and release both happen here, between detect and solve, so a release is bit for bit as if never held. A blow
+// slower than the first crack is solved at once: a harmless bump must not be seen to stick.
+void settle_tasks(Serial, Step step, Tasks& tasks, TaskContacts& contacts, Blows& blows, Bodies& bodies,
+                  const Shells& shells, RigidWorld& rigid, const DamageSettings& settings, DamageCounts& counts,
+                  Events<TaskEnded>& ended, Events<ImpactEvent>& impact_events, Events<RefusedEvent>& refused) {
+    ended.clear();
+    for (uint32_t t = 0; t < tasks.size(); ++t) {
+        const auto task_state = static_cast<TaskState>(tasks.state[t]);
+        if (task_state == TaskState::Free || is_ahead(tasks, t)) continue;
+        const bool is_over = task_state != TaskState::Running;
+        if (!is_over && !tasks.is_held[t] && !tasks.is_late[t]) {
+            const bool is_worth_it =
+                settings.hold_seconds > 0 &&
+                tasks.approach_speed[t] > first_crack_speed(shells, tasks.source[t], tasks.strength_scale[t]);
+            if (is_worth_it) {
+                tasks.is_held[t] = 1;
+                for (ImpactEvent& e : impact_events.all())
+                    e.is_held = e.is_held || e.body == body_id(bodies, tasks.body[t]);
+                for_body_and_strikers(tasks, contacts, t, [&](Row<Bodies> b) { hold(bodies, rigid, b); });
+            } else {
+                tasks.is_late[t] = 1;
+                pay_blows(blows, bodies, rigid, counts, Row<Tasks>(t));
+            }
+        }
+        if (tasks.is_held[t]) {
+            const bool is_time_up =
+                static_cast<float>(tasks.frames_held[t] + 1) * step.dt > settings.hold_seconds + 0.5f * step.dt;
+            if (is_over || is_time_up) {
+                for_body_and_strikers(tasks, contacts, t, [&](Row<Bodies> b) { let_go(bodies, rigid, b); });
+                tasks.is_held[t] = 0;
+                tasks.is_late[t] = !is_over;
+                if (!is_over) {
+                    pay_answers(bodies, tasks, contacts, rigid, Row<Tasks>(t));
+                    pay_blows(blows, bodies, rigid, counts, Row<Tasks>(t));
+                }
+            } else {
+                ++tasks.frames_held[t];
+                ++counts.frames_held;
+            }
+        }
+        if (is_over) ended.push({Row<Tasks>(t)});
+        if (is_over && tasks.lacks_room[t]) {
+            ++counts.cuts_refused;
+            refused.push(refused_event(bodies, tasks.body[t], kCrackRoom));
+        }
+    }
+}
+
+}  // namespace cullet
