@@ -408,7 +408,10 @@ Patch contact_patch(const Hull& a, const Mat3& rotation_a, const Hull& b, const 
     const uint32_t count = facing_spots(a, rotation_a, b, rotation_b, frame, spots);
     float shallow = kFar;
     for (uint32_t k = 0; k < count; ++k) shallow = std::min(shallow, gap(spots[k]));
-    if (touch.gap < shallow - scale * kAsDeep) {
+    // Of a triangle that the cores lie in, the spots over it are all that lies in it: the least overlap is that of what
+    // goes on past its edges.
+    const bool is_measured = (a.one_sided || b.one_sided) && !(touch.gap > 0) && count > 0;
+    if (!is_measured && touch.gap < shallow - scale * kAsDeep) {
         add_touch(patch, a, b, touch);
         // Keep room: the touch is the deepest point of the patch, the corners that lie around it are held up by it.
         if (count == 0) return patch;

@@ -96,6 +96,16 @@ float lighter_mass(const Body& a, const Body& b) {
     return a.mass > 0 && b.mass > 0 ? std::min(a.mass, b.mass) : std::max(a.mass, b.mass);
 }
 
+// The touch of a triangle is from behind, or that of a side that its piece is not on: past a ridge the far side's plane
+// rises over the piece, which lies behind it but on the near side. (Thin panes on hills were held from both sides.) A
+// core that is apart from the triangle is on the side that it is touched from.
+bool is_out_of_sight(const Body& body, const Hull& triangle, const Body& other, const Hull& piece, Vec3 normal,
+                     Vec3 place, float distance) {
+    if (dot(triangle.face_normal[0], normal) < -0.01f) return true;
+    if (body.mesh->one_sided || distance > -piece.margin) return false;
+    return is_hidden(*body.mesh, triangle.ordinal - body.hull_count, inner_point(piece, other.fresh_at), place);
+}
+
 }  // namespace
 
 const Hull& hull_of(const Hull* hull, const Body& body, uint32_t ordinal, Vec3 seen_from, PairScratch& scratch) {
@@ -270,7 +280,9 @@ void PairAlgorithm::keep_to_open_faces(Patch& patch, PairRecord& record, const B
         }
         std::swap(places[0], places[deepest]);
         Vec3 normal = is_a ? -patch.normal : patch.normal;
-        if (hull.one_sided && dot(hull.face_normal[0], normal) < -0.01f) return (void)(patch.count = 0);  // from behind
+        if (hull.one_sided &&
+            is_out_of_sight(body, hull, other, piece, normal, places[0], patch.point[deepest].distance))
+            return (void)(patch.count = 0);
         const Push push = turn_to_open_face(work_->around, {body, hull, other, piece, piece.world},
                                             {places, static_cast<size_t>(patch.count)}, normal);
         if (push == Push::AsFound) return;

@@ -10,6 +10,8 @@ constexpr float kRounding = 2.5e-7f;   // of a coordinate: two steps of a float
 constexpr double kBesideEdges = 1e-5;  // m past its edges that a triangle reaches: ways through an edge pass neither
 constexpr double kBesideShare = 1e-6;  // of its size, the same
 
+constexpr float kInto = 0.05f;  // of the way to a place on a triangle, that is looked at beside it
+
 double height_over(const StaticTriangle& triangle, Vec3d normal, Vec3 point) {
     return dot(normal, Vec3d(point) - Vec3d(triangle.corner[0]));
 }
@@ -38,6 +40,16 @@ void try_triangle(const StaticTriangle& triangle, bool one_sided, Vec3 from, Vec
     first = {share, (side * normal).to_float(), static_cast<float>(clear - after)};
 }
 
+// Exactly, so that of two triangles at an edge one is crossed.
+bool is_crossed(const StaticTriangle& triangle, Vec3d from, Vec3d to) {
+    const Vec3d a = Vec3d(triangle.corner[0]) - from, b = Vec3d(triangle.corner[1]) - from,
+                c = Vec3d(triangle.corner[2]) - from, way = to - from, normal = cross(b - a, c - a);
+    const double start = -dot(normal, a), end = start + dot(normal, way);
+    if ((start < 0) == (end < 0)) return false;
+    const bool ab = dot(way, cross(a, b)) < 0, bc = dot(way, cross(b, c)) < 0, ca = dot(way, cross(c, a)) < 0;
+    return ab == bc && bc == ca;
+}
+
 }  // namespace
 
 Vec3 inner_point(const Hull& hull, const Mat3& rotation, Vec3 origin) {
@@ -55,6 +67,21 @@ bool is_behind(const StaticTriangle& triangle, Vec3 point) {
 void build_seen_triangle(Hull& hull, const StaticMesh& mesh, uint32_t t, uint32_t cell, Vec3 seen_from) {
     const StaticTriangle& triangle = mesh.triangles[t];
     build_triangle(hull, triangle.corner, cell, !mesh.one_sided && is_behind(triangle, seen_from));
+}
+
+bool is_hidden(const StaticMesh& mesh, uint32_t t, Vec3 from, Vec3 place) {
+    const Vec3* c = mesh.triangles[t].corner;
+    // A little into the triangle: a place on an edge is one of the neighbour, too.
+    const Vec3 middle = (1.0f / 3) * (c[0] + c[1] + c[2]), inwards = middle - place;
+    const float far = length(inwards), into = std::min(far, kInto * length(place - from));
+    const Vec3 to = far > 0 ? place + (into / far) * inwards : place;
+    Box box{from, from};
+    include(box, to);
+    bool is_odd = false;
+    visit_triangles(mesh, box, [&](uint32_t k) {
+        if (k != t && is_crossed(mesh.triangles[k], Vec3d(from), Vec3d(to))) is_odd = !is_odd;
+    });
+    return is_odd;
 }
 
 Crossing first_crossing(const StaticMesh& mesh, Vec3 from, Vec3 to, float clear) {

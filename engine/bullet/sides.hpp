@@ -18,6 +18,10 @@ bool is_behind(const StaticTriangle& triangle, Vec3 point);
 /// Triangle t with its face towards `seen_from`; of a one-sided mesh its front.
 void build_seen_triangle(Hull& hull, const StaticMesh& mesh, uint32_t t, uint32_t cell, Vec3 seen_from);
 
+/// An odd number of other triangles of the mesh stand between a point and a place on triangle t: what is behind t there
+/// is before the surface that t belongs to. A ridge's far side is so seen over the near one.
+bool is_hidden(const StaticMesh& mesh, uint32_t t, Vec3 from, Vec3 place);
+
 /// Where a way passes a triangle that bears on the side that it comes from.
 struct Crossing {
     double share = 2;  // of the way, 0 to 1; 2: nowhere

@@ -10,206 +10,10 @@
 #include <string>
 
 #include "tests/engine/rigid_scenes.hpp"
+#include "tests/support/random_floors.hpp"
 
 namespace cullet {
 namespace {
-
-using Triangle = std::array<uint32_t, 3>;
-
-/// Static parts that make up a floor 12 m long and 3 m wide; each is a body of its own.
-struct Part {
-    std::vector<Vec3> points;
-    std::vector<Triangle> triangles;
-    std::vector<std::vector<Vec3>> pieces;  // in place of triangles
-    float margin = 0;
-};
-struct Floor {
-    const char* name = "";
-    std::vector<Part> parts;
-    std::function<float(float, float)> height = [](float, float) { return 0.0f; };
-};
-
-constexpr float kLow = -1, kHigh = 11, kSide = 1.5f;
-constexpr float kTilt = 0.17f;  // of the steepest hills, less than 10 degrees
-
-struct Chance {
-    std::mt19937 engine;
-    float between(float low, float high) {
-        return low + (high - low) * static_cast<float>(engine() % 1000003) / 1000003;
-    }
-    uint32_t below(uint32_t end) { return static_cast<uint32_t>(engine() % end); }
-};
-
-// Counter-clockwise from above.
-void add_triangle(Part& part, Vec3 a, Vec3 b, Vec3 c) {
-    if ((b.z - a.z) * (c.x - a.x) - (b.x - a.x) * (c.z - a.z) < 0) std::swap(b, c);
-    const auto first = static_cast<uint32_t>(part.points.size());
-    part.points.insert(part.points.end(), {a, b, c});
-    part.triangles.push_back({first, first + 1, first + 2});
-}
-
-Floor two_triangles() {
-    Floor floor{"two triangles", {Part{}}};
-    add_triangle(floor.parts[0], {kLow, 0, -kSide}, {kHigh, 0, -kSide}, {kHigh, 0, kSide});
-    add_triangle(floor.parts[0], {kLow, 0, -kSide}, {kHigh, 0, kSide}, {kLow, 0, kSide});
-    return floor;
-}
-
-std::vector<float> cuts(Chance& chance, float low, float high, float least, float most) {
-    std::vector<float> at{low};
-    while (at.back() < high - most) at.push_back(at.back() + chance.between(least, most));
-    at.push_back(high);
-    return at;
-}
-
-using Height = std::function<float(float, float)>;
-
-/// Each cell cut along one diagonal or the other, or in four about a point inside.
-Floor grid(const char* name, Chance& chance, const std::vector<float>& xs, const std::vector<float>& zs,
-           const Height& height) {
-    Floor floor{name, {Part{}}};
-    floor.height = height;
-    Part& part = floor.parts[0];
-    const auto at = [&](float x, float z) { return Vec3{x, height(x, z), z}; };
-    const bool is_flat = height(0.3f, 0.2f) == 0 && height(4.1f, 0.7f) == 0;
-    for (size_t i = 0; i + 1 < xs.size(); ++i)
-        for (size_t j = 0; j + 1 < zs.size(); ++j) {
-            const Vec3 a = at(xs[i], zs[j]), b = at(xs[i + 1], zs[j]), c = at(xs[i + 1], zs[j + 1]),
-                       d = at(xs[i], zs[j + 1]);
-            const uint32_t kind = chance.below(is_flat ? 3 : 2);
-            if (kind == 0) {
-                add_triangle(part, a, b, c), add_triangle(part, a, c, d);
-            } else if (kind == 1) {
-                add_triangle(part, a, b, d), add_triangle(part, b, c, d);
-            } else {
-                const Vec3 m = at(xs[i] + (xs[i + 1] - xs[i]) * chance.between(0.05f, 0.95f),
-                                  zs[j] + (zs[j + 1] - zs[j]) * chance.between(0.05f, 0.95f));
-                add_triangle(part, a, b, m), add_triangle(part, b, c, m), add_triangle(part, c, d, m),
-                    add_triangle(part, d, a, m);
-            }
-        }
-    return floor;
-}
-
-Floor bricks(Chance& chance) {
-    Floor floor{"T-junctions", {Part{}}};
-    const auto rows = cuts(chance, -kSide, kSide, 0.05f, 0.6f);
-    for (size_t j = 0; j + 1 < rows.size(); ++j) {
-        const auto xs = cuts(chance, kLow, kHigh, 0.05f, 0.8f);
-        for (size_t i = 0; i + 1 < xs.size(); ++i) {
-            const Vec3 a{xs[i], 0, rows[j]}, b{xs[i + 1], 0, rows[j]}, c{xs[i + 1], 0, rows[j + 1]},
-                d{xs[i], 0, rows[j + 1]};
-            add_triangle(floor.parts[0], a, b, c), add_triangle(floor.parts[0], a, c, d);
-        }
-    }
-    return floor;
-}
-
-Floor fan(Chance& chance) {
-    Floor floor{"fan", {Part{}}};
-    const Vec3 middle{chance.between(0, 4), 0, chance.between(-0.5f, 0.5f)};
-    std::vector<Vec3> rim;
-    for (const float x : cuts(chance, kLow, kHigh, 0.02f, 0.5f)) rim.push_back({x, 0, -kSide});
-    for (const float z : cuts(chance, -kSide, kSide, 0.02f, 0.5f)) rim.push_back({kHigh, 0, z});
-    auto back = cuts(chance, kLow, kHigh, 0.02f, 0.5f);
-    for (size_t k = back.size(); k-- > 0;) rim.push_back({back[k], 0, kSide});
-    back = cuts(chance, -kSide, kSide, 0.02f, 0.5f);
-    for (size_t k = back.size(); k-- > 0;) rim.push_back({kLow, 0, back[k]});
-    for (size_t k = 0; k < rim.size(); ++k) {
-        const Vec3 next = rim[(k + 1) % rim.size()];
-        if (length(next - rim[k]) > 0) add_triangle(floor.parts[0], middle, rim[k], next);
-    }
-    return floor;
-}
-
-Floor slivers(Chance& chance) {
-    Floor floor{"slivers", {Part{}}};
-    float x = kLow;
-    while (x < kHigh) {
-        const float wide = chance.below(3) == 0 ? chance.between(0.05f, 0.3f) : chance.between(0.0003f, 0.01f);
-        const float next = std::min(kHigh, x + wide);
-        const Vec3 a{x, 0, -kSide}, b{next, 0, -kSide}, c{next, 0, kSide}, d{x, 0, kSide};
-        if (next > x) add_triangle(floor.parts[0], a, b, c), add_triangle(floor.parts[0], a, c, d);
-        x = next;
-    }
-    return floor;
-}
-
-/// Boxes side by side, 0.2 m high: bodies of triangles or of convex pieces with a margin, or pieces of one body.
-Floor tiles(Chance& chance) {
-    const uint32_t kind = chance.below(3);
-    Floor floor{kind == 0 ? "tiles of triangles" : kind == 1 ? "tiles with margins" : "pieces of one body", {}};
-    const auto xs = cuts(chance, kLow, kHigh, 0.15f, 0.9f);
-    if (kind == 2) floor.parts.emplace_back();
-    for (size_t i = 0; i + 1 < xs.size(); ++i) {
-        const auto zs = cuts(chance, -kSide, kSide, 0.3f, 2.0f);
-        for (size_t j = 0; j + 1 < zs.size(); ++j) {
-            const float margin = kind == 0 ? 0 : 0.001f;
-            const Vec3 half{0.5f * (xs[i + 1] - xs[i]), 0.1f, 0.5f * (zs[j + 1] - zs[j])},
-                centre{0.5f * (xs[i] + xs[i + 1]), -0.1f, 0.5f * (zs[j] + zs[j + 1])};
-            const auto points = box_points(half - Vec3{margin, margin, margin}, centre);
-            if (kind != 2) floor.parts.emplace_back();
-            Part& part = floor.parts.back();
-            part.margin = margin;
-            if (kind == 0) {
-                part.points = points;
-                part.triangles = {{0, 2, 1}, {1, 2, 3}, {4, 5, 6}, {5, 7, 6}, {0, 1, 4}, {1, 5, 4},
-                                  {2, 6, 3}, {3, 6, 7}, {0, 4, 2}, {2, 4, 6}, {1, 3, 5}, {3, 7, 5}};
-            } else {
-                part.pieces.push_back(points);
-            }
-        }
-    }
-    return floor;
-}
-
-Height hill_of(Chance& chance) {
-    const float along = chance.between(0.3f, 1.2f), across = chance.between(0.2f, 0.8f), phase = chance.between(0, 6),
-                steep = chance.between(0.03f, kTilt);
-    return
-        [=](float x, float z) { return steep / (along + across) * std::sin(along * x + phase) * std::cos(across * z); };
-}
-
-std::vector<float> even_cuts(float low, float high, float wide) {
-    std::vector<float> at;
-    const int count = static_cast<int>(std::ceil((high - low) / wide));
-    for (int k = 0; k <= count; ++k) at.push_back(low + (high - low) * real(k) / real(count));
-    return at;
-}
-
-struct Ground {
-    Floor floor, plain;
-};
-
-Ground random_ground(Chance& chance) {
-    const Height flat = [](float, float) { return 0.0f; };
-    switch (chance.below(7)) {
-        case 0: {
-            const float cell = chance.between(0.08f, 0.5f);
-            return {grid("grid", chance, even_cuts(kLow, kHigh, cell), even_cuts(-kSide, kSide, cell), flat),
-                    two_triangles()};
-        }
-        case 1:
-            return {grid("uneven grid", chance, cuts(chance, kLow, kHigh, 0.02f, 0.6f),
-                         cuts(chance, -kSide, kSide, 0.1f, 0.9f), flat),
-                    two_triangles()};
-        case 2:
-            return {bricks(chance), two_triangles()};
-        case 3:
-            return {fan(chance), two_triangles()};
-        case 4:
-            return {slivers(chance), two_triangles()};
-        case 5:
-            return {tiles(chance), two_triangles()};
-        default: {
-            const Height hill = hill_of(chance);
-            const float cell = chance.between(0.08f, 0.2f);
-            Chance other = chance;
-            return {grid("hill", chance, even_cuts(kLow, kHigh, cell), even_cuts(-kSide, kSide, cell), hill),
-                    grid("finest hill", other, even_cuts(kLow, kHigh, 0.05f), even_cuts(-kSide, kSide, 0.05f), hill)};
-        }
-    }
-}
 
 struct Slider {
     const char* name = "";
@@ -286,7 +90,7 @@ Slider random_slider(Chance& chance) {
 
 void add_floor(RigidWorld& world, const Floor& floor) {
     RigidId id = 0;
-    for (const Part& part : floor.parts) {
+    for (const FloorPart& part : floor.parts) {
         if (!part.triangles.empty()) {
             world.add_static_triangles(id++, part.points, part.triangles, 0.45f, 0.2f, 1, ~0u);
             continue;
@@ -301,9 +105,11 @@ void add_floor(RigidWorld& world, const Floor& floor) {
     }
 }
 
+/// Up to one step: of the whole trip to there `top` and `struck`.
 struct Trip {
     float top = 0, way = 0, aside = 0, struck = 0;
 };
+using Trips = std::vector<Trip>;  // of one slider, by steps, as long as there is floor before it
 
 constexpr uint32_t kAbreast = 4;  // lanes
 constexpr uint32_t kFirst = 4000, kLimit = 4100;
@@ -312,11 +118,34 @@ Quat about_y(float angle) {
     return {0, std::sin(0.5f * angle), 0, std::cos(0.5f * angle)};
 }
 
-std::vector<Trip> slide(const Floor& floor, const std::vector<Slider>& sliders, float dt) {
-    const auto world = make_bullet_world(kLimit);
+// The turn that takes the vertical to `up`, unit.
+Quat tilt_to(Vec3 up) {
+    const Quat half{up.z, 0, -up.x, 1 + up.y};
+    const float size = std::sqrt(half.x * half.x + half.z * half.z + half.w * half.w);
+    return {half.x / size, 0, half.z / size, half.w / size};
+}
+
+/// Along the hill at its middle, half a millimetre above the highest place below it.
+Pose laid_on(const Height& height, const Slider& s) {
+    const float x = 0, z = s.side, d = 0.01f;
+    const Vec3 up = normalised(Vec3{height(x - d, z) - height(x + d, z), 2 * d, height(x, z - d) - height(x, z + d)});
+    const Quat turn = tilt_to(up) * about_y(s.turn);
+    Pose pose{Vec3{x, height(x, z), z} + s.lift * up, turn};
+    float lift = 0;
+    for (const auto& piece : s.pieces)
+        for (const Vec3 point : piece) {
+            const Vec3 at = pose.position + rotate(turn, point) - s.margin * up;
+            lift = std::max(lift, height(at.x, at.z) - at.y);
+        }
+    pose.position.y += lift + 0.0005f;
+    return pose;
+}
+
+// `is_level`: as on flat ground, however steep the hill is.
+std::unique_ptr<RigidWorld> laid_world(const Floor& floor, const std::vector<Slider>& sliders, bool is_level = false) {
+    auto world = make_bullet_world(kLimit);
     world->set_gravity({0, -9.81f, 0});
     add_floor(*world, floor);
-    std::vector<Vec3> from;
     for (uint32_t k = 0; k < sliders.size(); ++k) {
         const Slider& s = sliders[k];
         std::vector<ConvexPiece> pieces;
@@ -326,29 +155,37 @@ std::vector<Trip> slide(const Floor& floor, const std::vector<Slider>& sliders, 
         d.radius = s.radius;
         d.margin = s.margin;
         d.mass = s.mass, d.centre = s.centre, d.inertia = s.inertia;
-        const float z = s.side, x = 0;
-        d.pose = {{x, floor.height(x, z) + s.lift + 0.0005f, z}, about_y(s.turn)};
-        d.motion = {{s.speed, 0, 0}, {}};
+        d.pose = laid_on(floor.height, s);
+        const float slope = 100 * (floor.height(0.01f, s.side) - floor.height(0, s.side));
+        d.motion = {{s.speed, slope * s.speed, 0}, {}};
         if (s.radius > 0) d.motion.angular_velocity = {0, 0, -s.speed / s.radius};
-        from.push_back(d.pose.position);
+        if (is_level) d.pose = {{0, floor.height(0, s.side) + s.lift + 0.0005f, s.side}, about_y(s.turn)};
         world->add(kFirst + k, d);
     }
-    std::vector<Trip> trips(sliders.size());
+    return world;
+}
+
+std::vector<Trips> slide(const Floor& floor, const std::vector<Slider>& sliders, float dt) {
+    const auto world = laid_world(floor, sliders);
+    std::vector<Vec3> from;
+    for (uint32_t k = 0; k < sliders.size(); ++k) from.push_back(world->pose(kFirst + k).position);
+    std::vector<Trips> trips(sliders.size());
+    std::vector<float> struck(sliders.size());
     std::vector<bool> is_over(sliders.size());
     for (int n = 0; real(n) * dt < 1; ++n) {
         world->detect(dt);
         for (const RigidContact& c : world->contacts()) {
             const uint32_t k = std::max(c.a, c.b) - kFirst;
-            if (!is_over[k] && c.distance < 0.001f) trips[k].struck = std::max(trips[k].struck, c.approach_speed);
+            if (c.distance < 0.001f) struck[k] = std::max(struck[k], c.approach_speed);
         }
         world->solve(dt);
         for (uint32_t k = 0; k < sliders.size(); ++k) {
             const Vec3 p = world->pose(kFirst + k).position;
-            is_over[k] = is_over[k] || p.x > kHigh - 1.2f;
+            is_over[k] = is_over[k] || p.x > kFloorHigh - 1.2f;
             if (is_over[k]) continue;
-            Trip& t = trips[k];
-            t.top = std::max(t.top, p.y - floor.height(p.x, p.z) - sliders[k].lift);
-            t.way = p.x - from[k].x, t.aside = p.z - from[k].z;
+            const float height = p.y - floor.height(p.x, p.z) - sliders[k].lift;
+            const float top = std::max(trips[k].empty() ? 0.0f : trips[k].back().top, height);
+            trips[k].push_back({top, p.x - from[k].x, p.z - from[k].z, struck[k]});
         }
     }
     return trips;
@@ -363,9 +200,6 @@ struct Figures {
     }
 };
 
-// Of hills as of all other floors 1 in 100 is wanted. Slow panes are still held up on them, and boxes struck.
-constexpr uint32_t kMostOfHundredHills = 12;
-
 TEST(InnerEdges, WhatSlidesOverAFloorOfManyPartsGoesAsOverOneOfTwoTriangles) {
     const char* wanted = std::getenv("CULLET_INNER_EDGES_CASES");
     const uint32_t grounds = wanted ? static_cast<uint32_t>(std::atoi(wanted)) / kAbreast : 126;
@@ -379,13 +213,15 @@ TEST(InnerEdges, WhatSlidesOverAFloorOfManyPartsGoesAsOverOneOfTwoTriangles) {
             sliders.back().side = -0.9f + 0.6f * real(k) + chance.between(-0.02f, 0.02f);
         }
         const float dt = chance.below(2) ? 1.0f / 60 : 1.0f / 120;
-        const auto got = slide(ground.floor, sliders, dt), plain = slide(ground.plain, sliders, dt);
+        const auto all_got = slide(ground.floor, sliders, dt), all_plain = slide(ground.plain, sliders, dt);
         for (uint32_t k = 0; k < kAbreast; ++k) {
-            Figures& figures = ground.floor.name == std::string("hill") ? hills : flat;
+            Figures& figures = ground.is_hill ? hills : flat;
             ++figures.cases;
-            const float hop = got[k].top - plain[k].top;
-            const bool hops = hop > 0.003f, is_aside = std::fabs(got[k].aside - plain[k].aside) > 0.02f * plain[k].way,
-                       is_held = got[k].way<0.95f * plain[k].way, is_struck = got[k].struck> plain[k].struck + 0.5f;
+            const size_t steps = std::min(all_got[k].size(), all_plain[k].size());
+            const Trip got = all_got[k][steps - 1], plain = all_plain[k][steps - 1];
+            const float hop = got.top - plain.top;
+            const bool hops = hop > 0.003f, is_aside = std::fabs(got.aside - plain.aside) > 0.02f * plain.way,
+                       is_held = got.way<0.95f * plain.way, is_struck = got.struck> plain.struck + 0.5f;
             figures.hops += hops, figures.aside += is_aside, figures.held += is_held, figures.struck += is_struck;
             figures.highest = std::max(figures.highest, hop);
             if (!hops && !is_aside && !is_held && !is_struck) continue;
@@ -394,15 +230,66 @@ TEST(InnerEdges, WhatSlidesOverAFloorOfManyPartsGoesAsOverOneOfTwoTriangles) {
                 "seed %u lane %u: %s on %s at %.1f m/s, %.0f steps a second: hop %.1f mm, aside %.1f of %.0f mm, "
                 "way %.3f of %.3f m, struck at %.2f (%.2f) m/s\n",
                 seed, k, sliders[k].name, ground.floor.name, sliders[k].speed, 1 / dt, 1000 * hop,
-                1000 * (got[k].aside - plain[k].aside), 1000 * plain[k].way, got[k].way, plain[k].way, got[k].struck,
-                plain[k].struck);
+                1000 * (got.aside - plain.aside), 1000 * plain.way, got.way, plain.way, got.struck, plain.struck);
         }
     }
     flat.print("flat floors");
     hills.print("hills");
     EXPECT_LE(100 * flat.bad, flat.cases);
-    EXPECT_LE(100 * hills.bad, kMostOfHundredHills * hills.cases);
+    EXPECT_LE(100 * (flat.bad + hills.bad), flat.cases + hills.cases);
+    // What takes off at 15 m/s flies decimetres high, from one triangle here and from another there: of 588 hills 20
+    // differ. With cells of 4 cm in place of 8 to 20, 14 do.
+    // differ.
+    EXPECT_LE(100 * hills.bad, 4 * hills.cases);
     EXPECT_LT(std::max(flat.highest, hills.highest), 0.01f);
+}
+
+/// Four of them, each in its lane, of the kinds from `first` on.
+std::vector<Slider> sliders_abreast(Chance& chance, const std::vector<std::string>& kinds, float least_speed) {
+    std::vector<Slider> sliders;
+    while (sliders.size() < kAbreast) {
+        const Slider slider = random_slider(chance);
+        if (slider.speed < least_speed || std::find(kinds.begin(), kinds.end(), slider.name) == kinds.end()) continue;
+        sliders.push_back(slider);
+        sliders.back().side = -0.9f + 0.6f * real(sliders.size() - 1);
+    }
+    return sliders;
+}
+
+// Past a ridge the planes of triangles rise over the pieces of what lies on the near side: they were held from both.
+TEST(InnerEdges, WhatIsLaidLevelIntoAHillComesOutOfIt) {
+    uint32_t stuck = 0;
+    for (uint32_t seed = 0; seed < 12; ++seed) {
+        Chance chance{std::mt19937(seed)};
+        const Ground ground = random_hill(chance);
+        const auto world = laid_world(ground.floor, sliders_abreast(chance, {"pane", "shard"}, 0), true);
+        for (int n = 0; n < 60; ++n) step(*world);
+        std::vector<float> deepest(kAbreast, 0);
+        world->detect(kStep);
+        for (const RigidContact& c : world->contacts()) {
+            float& d = deepest[std::max(c.a, c.b) - kFirst];
+            d = std::min(d, c.distance);
+        }
+        for (const float d : deepest) stuck += d < -0.0015f;
+    }
+    EXPECT_EQ(stuck, 0u);
+}
+
+// Without friction's share: mu g t^2 / 2, of the way.
+TEST(InnerEdges, WhatGlidesFastOverAFineHillKeepsItsWay) {
+    uint32_t held = 0, cases = 0;
+    for (uint32_t seed = 0; seed < 6; ++seed) {
+        Chance chance{std::mt19937(seed)};
+        const Ground ground = random_hill(chance);
+        const auto sliders = sliders_abreast(chance, {"pane", "shard", "box", "box of pieces"}, 8);
+        const auto trips = slide(ground.plain, sliders, 1.0f / 120);
+        for (uint32_t k = 0; k < kAbreast; ++k) {
+            const float seconds = real(trips[k].size()) / 120;
+            const float whole = sliders[k].speed * seconds - 0.5f * 0.6f * 9.81f * seconds * seconds;
+            ++cases, held += trips[k].back().way < 0.9f * whole;
+        }
+    }
+    EXPECT_EQ(held, 0u) << "of " << cases;
 }
 
 }  // namespace
