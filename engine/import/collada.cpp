@@ -4,13 +4,16 @@
 #include <array>
 #include <cmath>
 #include <cstdint>
+#include <initializer_list>
 #include <map>
+#include <set>
 #include <string_view>
 #include <utility>
 
 #include "engine/import/text_encoding.hpp"
 #include "engine/import/words.hpp"
 #include "engine/import/xml.hpp"
+#include "engine/import/xml_unit.hpp"
 #include "engine/mesh_file.hpp"
 
 namespace cullet {
@@ -18,6 +21,7 @@ namespace {
 
 constexpr int64_t kLargestOffset = 1000;  // of an input; files have two or three
 constexpr int64_t kRestart = -1;
+constexpr unsigned kDepthOfUnit = 3;  // COLLADA, asset, unit; meshes may have assets of their own, which do not count
 
 std::string escaped(std::string_view text) {
     std::string out;
@@ -88,27 +92,36 @@ class ColladaListener : public XmlListener {
     ColladaListener(std::string_view bytes, const std::string& path) : bytes_(bytes), path_(path) {}
 
     void begin(std::string_view name, Attributes attributes) override {
+        ++depth_;
+        if (left_out_depth_ > 0) return;
         const std::string_view local = without_prefix(name);
         if (local == "tristrips" || local == "trifans") {
             open_strips(name, local, attributes);
         } else if (strips_.is_open && local == "input") {
             take_input(name, attributes);
-        } else if (local == "p" || local == "h") {
+        } else if (local == "p") {
             text_.clear();
-            is_listening_ = strips_.is_open && local == "p";
-            if (local == "h") hole_ = first_byte();
+            is_listening_ = strips_.is_open;
+        } else if (local == "h") {
+            leave_out();
         } else if (local == "ph") {
             drop(first_byte(), byte_count());
             ++counts_["ph"];
         } else {
-            count(local, attributes);
+            look_at(local, attributes);
         }
     }
 
     void end(std::string_view name) override {
+        const unsigned depth = depth_--;
+        if (left_out_depth_ > 0) {
+            if (depth != left_out_depth_) return;
+            drop(left_out_byte_, first_byte() + byte_count() - left_out_byte_);
+            left_out_depth_ = 0;
+            return;
+        }
         const std::string_view local = without_prefix(name);
         if (local == "p" && is_listening_) take_list();
-        if (local == "h") drop(hole_, first_byte() + byte_count() - hole_);
         if (local == "ph") drop(first_byte(), byte_count());
         if ((local == "tristrips" || local == "trifans") && strips_.is_open) close_strips();
     }
@@ -119,6 +132,7 @@ class ColladaListener : public XmlListener {
 
     Result<PlainCollada> finished() {
         if (!trouble_.empty()) return Error{trouble_};
+        for (const std::string& id : named_) counts_["lost"] += ids_.count(id) == 0;
         PlainCollada out;
         out.notes = notes();
         if (copied_ == 0) {
@@ -131,6 +145,12 @@ class ColladaListener : public XmlListener {
     }
 
  private:
+    /// From here to the end of this element.
+    void leave_out() {
+        left_out_depth_ = depth_;
+        left_out_byte_ = first_byte();
+    }
+
     void say(const std::string& what) {
         if (trouble_.empty()) trouble_ = path_ + ": " + what + ". Repair the file or export it again.";
     }
@@ -198,33 +218,57 @@ class ColladaListener : public XmlListener {
                 list + "</" + prefix + "p></" + prefix + "triangles>";
     }
 
-    void count(std::string_view local, Attributes attributes) {
-        if (local == "instance_geometry" || local == "instance_node" || local == "instance_controller") {
-            const char* const url = attribute(attributes, "url");
-            if (url != nullptr && url[0] != '#' && url[0] != 0) ++counts_["url"];
+    void look_at(std::string_view local, Attributes attributes) {
+        const auto is_any_of = [local](std::initializer_list<const char*> names) {
+            return std::find(names.begin(), names.end(), local) != names.end();
+        };
+        if (is_any_of({"geometry", "controller", "node"}))
+            for (const char* name : {"id", "name"})
+                if (const char* const id = attribute(attributes, name)) ids_.insert(id);
+        if (is_any_of({"instance_geometry", "instance_controller", "instance_node"}))
+            if (!look_for(attribute(attributes, "url"))) leave_out();
+        if (is_any_of({"skin", "morph"})) look_for(attribute(attributes, "source"));
+        if (is_any_of({"spline", "convex_mesh", "brep", "skew"})) ++counts_[std::string(local)];
+        if (local == "skew") leave_out();  // assimp 5.2 ends in abort() at it
+        if (local == "unit" && depth_ == kDepthOfUnit) check_unit(attributes);
+    }
+
+    /// False for what is in another file: assimp refuses a file that names one, and passes over what is not there
+    /// without a word.
+    bool look_for(const char* url) {
+        if (url == nullptr) return true;
+        if (url[0] != '#') {
+            ++counts_["url"];
+            return false;
         }
-        for (const char* noted : {"spline", "convex_mesh", "brep", "skew"})
-            if (local == noted) ++counts_[noted];
+        named_.push_back(url + 1);
+        return true;
+    }
+
+    void check_unit(Attributes attributes) {
+        const char* const metres = attribute(attributes, "meter");
+        if (metres != nullptr && !is_length(number_of(Words(metres).next())))
+            say("its unit is \"" + one_line(metres, 40) + "\" m, which is no length");
     }
 
     std::vector<std::string> notes() const {
         constexpr struct {
-            const char *key, *one, *many, *what;
-        } kNotes[] = {{"ph", "polygon", "polygons", "came without the holes in it."},
-                      {"url", "mesh or node", "meshes or nodes", "of other files was left out."},
-                      {"spline", "spline", "splines", "was left out."},
-                      {"convex_mesh", "convex_mesh", "convex_meshes", "was left out."},
-                      {"brep", "brep", "breps", "was left out."},
-                      {"skew", "skew", "skews", "of nodes was left out: such nodes stand wrong."}};
+            const char *key, *one, *many;
+        } kNotes[] = {
+            {"ph", "polygon came without the holes in it.", "polygons came without the holes in them."},
+            {"url", "mesh or node of other files was left out.", "meshes or nodes of other files were left out."},
+            {"lost", "mesh or node that is named but not in the file was left out.",
+             "meshes or nodes that are named but not in the file were left out."},
+            {"spline", "spline was left out.", "splines were left out."},
+            {"convex_mesh", "convex_mesh was left out.", "convex_meshes were left out."},
+            {"brep", "brep was left out.", "breps were left out."},
+            {"skew", "skew of nodes was left out: such nodes stand wrong.",
+             "skews of nodes were left out: such nodes stand wrong."}};
         std::vector<std::string> all;
         for (const auto& note : kNotes) {
             const auto found = counts_.find(note.key);
-            if (found == counts_.end()) continue;
-            std::string what = note.what;
-            if (found->second > 1 && what.find("was ") != what.npos) what.replace(what.find("was "), 4, "were ");
-            if (found->second > 1 && what.find(" it.") != what.npos) what.replace(what.find(" it."), 4, " them.");
-            all.push_back(std::to_string(found->second) + " " + (found->second == 1 ? note.one : note.many) + " " +
-                          what);
+            if (found == counts_.end() || found->second == 0) continue;
+            all.push_back(std::to_string(found->second) + " " + (found->second == 1 ? note.one : note.many));
         }
         return all;
     }
@@ -232,10 +276,14 @@ class ColladaListener : public XmlListener {
     std::string_view bytes_;
     const std::string& path_;
     std::string out_, text_, trouble_;
-    size_t copied_ = 0, hole_ = 0;  // bytes
+    size_t copied_ = 0, left_out_byte_ = 0;  // bytes
+    unsigned depth_ = 0;                     // 1 in the first element
+    unsigned left_out_depth_ = 0;            // of the element that is being left out; 0 outside of such
     Strips strips_;
     bool is_listening_ = false;
     std::map<std::string, uint64_t> counts_;
+    std::set<std::string> ids_;       // of what can stand at a node
+    std::vector<std::string> named_;  // of these, by nodes
 };
 
 }  // namespace
@@ -245,7 +293,7 @@ Result<PlainCollada> plain_collada(std::string bytes, const std::string& path) {
     ColladaListener listener(plain, path);
     if (auto r = read_xml(plain, listener, path); !r) {
         // assimp takes XML that is none, such as a bare & in a name; where nothing is to be changed, it may.
-        for (const char* name : {"tristrips", "trifans", "<ph"})
+        for (const char* name : {"tristrips", "trifans", "<ph", "skew"})
             if (plain.find(name) != plain.npos) return Error{r.error()};
         return PlainCollada{plain, {}};
     }

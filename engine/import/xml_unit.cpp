@@ -23,7 +23,7 @@ struct UnitListener : XmlListener {
         const char* const factor = attribute(attributes, "conversionFactor");
         named = factor != nullptr ? factor : "";
         const auto number = number_of(named);
-        metres = number && *number > 0 && *number < 1e12 ? number : std::nullopt;
+        metres = is_length(number) ? number : std::nullopt;
     }
 };
 
@@ -38,6 +38,10 @@ std::optional<double> metres_of(std::string_view unit) {
     for (const auto& known : kUnits)
         if (unit == known.name) return known.metres;
     return std::nullopt;
+}
+
+bool is_length(std::optional<double> metres) {
+    return metres && *metres > 0 && *metres < 1e12;
 }
 
 Result<double> unit_of_xml(std::string_view bytes, const std::string& path) {

@@ -6,6 +6,7 @@
 #include <cstdio>
 #include <filesystem>
 #include <fstream>
+#include <tuple>
 
 #include "engine/mesh_file.hpp"
 #include "tests/support/damage.hpp"
@@ -187,8 +188,9 @@ TEST_F(ImportSiblings, AnFbxWhoseAxesOrUnitAreNoneSaysSo) {
 
 struct DaeSettings {
     double metre = 1;
-    std::string up = "Y_UP", primitives, node_before, node_after;
-    int inputs = 1;  // 2: a texture coordinate beside each point
+    std::string up = "Y_UP", primitives, node_before, node_after, geometries, libraries;
+    std::string unit;  // instead of metre, as it stands there
+    int inputs = 1;    // 2: a texture coordinate beside each point
 };
 
 std::string dae(const Points& points, const DaeSettings& s) {
@@ -205,11 +207,12 @@ std::string dae(const Points& points, const DaeSettings& s) {
     };
     return "<?xml version=\"1.0\" encoding=\"utf-8\"?>\n<COLLADA "
            "xmlns=\"http://www.collada.org/2005/11/COLLADASchema\" version=\"1.4.1\"><asset><unit name=\"u\" meter=\"" +
-           text_of(s.metre) + "\"/><up_axis>" + s.up +
+           (s.unit.empty() ? text_of(s.metre) : s.unit) + "\"/><up_axis>" + s.up +
            "</up_axis></asset><library_geometries><geometry id=\"g\"><mesh>" +
            source("g-p", list_of(points, " "), 9, "XYZ") + source("g-t", uvs, 9, "ST") +
            "<vertices id=\"g-v\"><input semantic=\"POSITION\" source=\"#g-p\"/></vertices>" + s.primitives +
-           "</mesh></geometry></library_geometries><library_visual_scenes><visual_scene id=\"s\">" + s.node_before +
+           "</mesh></geometry>" + s.geometries + "</library_geometries>" + s.libraries +
+           "<library_visual_scenes><visual_scene id=\"s\">" + s.node_before +
            "<node id=\"n\"><instance_geometry url=\"#g\"/></node>" + s.node_after +
            "</visual_scene></library_visual_scenes><scene><instance_visual_scene url=\"#s\"/></scene></COLLADA>";
 }
@@ -313,6 +316,82 @@ TEST_F(ImportSiblings, WhatColladaHoldsAndNoMeshWillIsSaid) {
     s.primitives = primitive("tristrips", 1, {{8, 4, -7, 6}});
     EXPECT_NE(import_refused(write("n.dae", dae(test::house_points(), s))).find("names vertex \"-7\""),
               std::string::npos);
+}
+
+DaeSettings fan_house() {
+    DaeSettings s;
+    s.primitives = primitive("trifans", 5, kWalls) + primitive("trifans", 1, {kRoof});
+    return s;
+}
+
+TEST_F(ImportSiblings, SkewsOfColladaAreLeftOutAndSaidWhereverTheyStand) {
+    const std::string skew = "<skew sid=\"s\">45 0 1 0 1 0 0</skew>";
+    const std::tuple<std::string, std::string, std::string> all[] = {
+        {"<node>" + skew, "</node>", "1 skew of nodes was left out"},
+        {"<node>" + skew + "</node>", "", "1 skew of nodes was left out"},
+        {"<node><skew/><translate>0 0 0</translate><skew></skew>", "</node>", "2 skews of nodes were left out"},
+        {"<node><node>" + skew + "<scale>1 1 1</scale></node></node>", "<node>" + skew + "</node>", "2 skews"}};
+    for (const auto& [before, after, note] : all) {
+        DaeSettings s = fan_house();
+        s.node_before = before, s.node_after = after;
+        EXPECT_NE(import_house(write("house.dae", dae(test::house_points(), s)), before).find(note), std::string::npos)
+            << before;
+    }
+    DaeSettings s = fan_house();
+    s.libraries = "<library_nodes><node id=\"unused\">" + skew + "</node></library_nodes>";
+    EXPECT_NE(import_house(write("house.dae", dae(test::house_points(), s)), "library").find("1 skew"),
+              std::string::npos);
+}
+
+TEST_F(ImportSiblings, WhatAColladaNamesInOtherFilesOrNowhereIsSaid) {
+    for (const char* kind : {"geometry", "controller", "node"})
+        for (const auto& [url, note] : std::vector<std::pair<std::string, std::string>>{
+                 {"other.dae#x", "1 mesh or node of other files was left out"},
+                 {"file:///x.dae#g", "1 mesh or node of other files was left out"},
+                 {"#nope", "1 mesh or node that is named but not in the file was left out"}}) {
+            DaeSettings s = fan_house();
+            const std::string tag = std::string("instance_") + kind;
+            s.node_before = "<node><" + tag + " url=\"" + url + "\"><bind_material/></" + tag + "></node>";
+            EXPECT_NE(import_house(write("house.dae", dae(test::house_points(), s)), tag + url).find(note),
+                      std::string::npos)
+                << tag << url;
+            s.node_before = "<node><" + tag + " url=\"" + url + "\"/></node>";
+            import_house(write("house.dae", dae(test::house_points(), s)), tag + url);
+        }
+}
+
+TEST_F(ImportSiblings, GeometriesOfColladaThatAreNoMeshAreSaid) {
+    for (const auto& [body, note] : std::vector<std::pair<std::string, std::string>>{
+             {"<spline closed=\"1\"/>", "1 spline was left out"},
+             {"<convex_mesh convex_hull_of=\"#g\"/>", "1 convex_mesh was left out"},
+             {"<brep/>", "1 brep was left out"}}) {
+        DaeSettings s = fan_house();
+        s.geometries = "<geometry id=\"o\">" + body + "</geometry>";
+        EXPECT_NE(import_house(write("house.dae", dae(test::house_points(), s)), body).find(note), std::string::npos)
+            << body;
+    }
+}
+
+TEST_F(ImportSiblings, AUnitOfColladaThatIsNoLengthIsRefused) {
+    for (const std::string unit : {"0", "-1", "nan", "inf", "1e300", "metre"}) {
+        DaeSettings s = fan_house();
+        s.unit = unit;
+        EXPECT_NE(import_refused(write("house.dae", dae(test::house_points(), s)))
+                      .find("its unit is \"" + unit + "\" m, which is no length"),
+                  std::string::npos);
+    }
+}
+
+/// A mark makes a text three bytes longer, a zero before each ".5" one: three of them leave its length as it was.
+TEST_F(ImportSiblings, AMarkedObjIsReadHoweverManyNumbersBeginWithTheirPoint) {
+    const auto with_points = [](size_t count) {
+        std::string text = obj();
+        for (size_t i = 0; i < count; ++i) text += "vt .5 0.5\n";
+        return text;
+    };
+    for (size_t count = 1; count < 6; ++count)
+        for (const auto encoding : test::kEncodings)
+            import_house(write("house.obj", test::coded(with_points(count), encoding)), std::to_string(count));
 }
 
 std::string off() {
