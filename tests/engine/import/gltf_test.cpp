@@ -688,11 +688,34 @@ TEST_F(Gltf, TextureCoordinatesAreThoseThatTheBaseColourTakes) {
     const ConvertedModel read_one = model(file);
     for (size_t c = 0; c < 42; ++c) {
         const double u = kHouseTriangles[c / 3][c % 3] / 8.0, v = u / 2;
-        EXPECT_NEAR(read_one.mesh.corner_uvs[c].x, 0.5 - 3 * v, 1e-4);
-        EXPECT_NEAR(read_one.mesh.corner_uvs[c].y, 1 - (0.25 + 2 * u), 1e-4);
+        EXPECT_NEAR(read_one.mesh.corner_uvs[c].x, 0.5 + 3 * v, 1e-4);
+        EXPECT_NEAR(read_one.mesh.corner_uvs[c].y, 1 - (0.25 - 2 * u), 1e-4);
     }
     EXPECT_TRUE(says(read_one, "those that the base colour is looked up with"));
     EXPECT_TRUE(says(read_one, "Other textures of a material take other coordinates"));
+}
+
+/// The example in the text of KHR_texture_transform: what is turned by a quarter, halved and moved by (0, 1) shows the
+/// lower left quarter of the picture.
+TEST_F(Gltf, TheExampleOfTheTextureTransformShowsTheLowerLeftQuarter) {
+    GltfFile file = house();
+    std::vector<double> uvs;
+    for (int p = 0; p < 9; ++p) uvs.insert(uvs.end(), {p / 8.0, (p * 5 % 9) / 8.0});
+    file.primitive()["attributes"]["TEXCOORD_0"] = file.accessor(uvs, 2, {});
+    file.primitive()["material"] = 0;
+    file.json["materials"][0]["emissiveTexture"] = {
+        {"index", 0},
+        {"extensions",
+         {{"KHR_texture_transform", {{"offset", {0, 1}}, {"rotation", 1.57079632679}, {"scale", {0.5, 0.5}}}}}}};
+    Vec2 low{1, 1}, high{0, 0};
+    for (const Vec2 uv : model(file).mesh.corner_uvs) {
+        low = {std::fmin(low.x, uv.x), std::fmin(low.y, uv.y)};
+        high = {std::fmax(high.x, uv.x), std::fmax(high.y, uv.y)};
+    }
+    EXPECT_NEAR(low.x, 0, 1e-6);
+    EXPECT_NEAR(low.y, 0, 1e-6);
+    EXPECT_NEAR(high.x, 0.5, 1e-6);
+    EXPECT_NEAR(high.y, 0.5, 1e-6);  // a mesh file counts v from below
 }
 
 }  // namespace
