@@ -52,7 +52,7 @@ class FolderFiles : public Assimp::DefaultIOSystem {
         const size_t size_before = all.size();
         std::string text = plain_text(std::move(all));
         if (extension == ".obj") text = with_leading_zeros(text);
-        if (text.size() != size_before) return in_memory(text);
+        if (is_coded || text.size() != size_before) return in_memory(text);  // zeros in front only lengthen it
         stream->Seek(0, aiOrigin_SET);
         return stream.release();
     }
