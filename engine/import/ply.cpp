@@ -51,25 +51,33 @@ class Values {
 
     double next(PlyType type) { return format_ == PlyFormat::Text ? next_of_text(type) : next_of_binary(type); }
 
+    void begin_row() { has_line_ = false; }
+    /// In text a row is a line. False when words are left in its last one; where all its values stand in one line,
+    /// these belong to nothing that the head knows, and are passed over and counted.
+    bool ends_row() {
+        if (format_ != PlyFormat::Text || words_.next_of_line().empty()) return true;
+        if (!has_line_ || words_.line() != line_) return false;
+        words_.skip_line();
+        ++long_rows_;
+        return true;
+    }
+    uint64_t take_long_rows() { return std::exchange(long_rows_, 0); }
+
     /// So many values of that type may still be there.
     bool can_hold(uint64_t count, PlyType type) const {
         const uint64_t size = format_ == PlyFormat::Text ? 2 : size_of(type);  // a digit and a blank; the last has none
         return count <= (left() + 1) / size;
     }
     uint64_t left() const { return bytes_.size() - (format_ == PlyFormat::Text ? words_.offset() : at_); }
-    /// In text a row is a line; words that are left in it belong to nothing that the head knows.
-    bool ends_row() { return format_ != PlyFormat::Text || words_.next_of_line().empty(); }
     /// Bytes behind the last row that are no blanks.
-    uint64_t rest() const {
-        if (format_ != PlyFormat::Text) return left();
-        const size_t end = bytes_.find_last_not_of(std::string_view(" \t\r\n\v\f\0\x1a", 8));
-        return end == bytes_.npos || end < words_.offset() ? 0 : end + 1 - words_.offset();
-    }
+    uint64_t rest() const { return format_ == PlyFormat::Text ? bytes_behind(bytes_, words_.offset()) : left(); }
     bool has_failed() const { return has_failed_; }
 
  private:
     double next_of_text(PlyType type) {
         const auto number = number_of(words_.next());
+        if (!has_line_) line_ = words_.line();
+        has_line_ = true;
         has_failed_ = has_failed_ || !number || (is_whole(type) && *number != std::floor(*number));
         return number ? *number : 0;
     }
@@ -92,16 +100,33 @@ class Values {
     PlyFormat format_;
     Words words_;
     size_t at_ = 0;
-    bool has_failed_ = false;
+    uint64_t line_ = 0, long_rows_ = 0;
+    bool has_failed_ = false, has_line_ = false;
 };
 
 /// How the numbers of a list make triangles.
 enum class Kind : uint8_t { Polygons, Strips, Fans };
 
 constexpr uint32_t kRestart = ~0u;
+constexpr uint32_t kNoMaterial = ~0u, kMostMaterials = 65535;
+constexpr size_t kMostNamed = 8;  // properties in a sentence
+
+/// What -1 becomes in that type.
+uint32_t restart_of(PlyType type) {
+    return type == PlyType::Uint8 ? 255 : type == PlyType::Uint16 ? 65535 : kRestart;
+}
+
+/// Of looks nothing is said.
+bool is_colour(const std::string& name) {
+    for (const char* part : {"red", "green", "blue", "alpha"})
+        if (name == part || name.ends_with(std::string("_") + part)) return true;
+    return name == "r" || name == "g" || name == "b" || name == "a";
+}
 
 struct Piece {
     Kind kind = Kind::Polygons;
+    uint32_t restart = kRestart;  // begins the next strip where there is no such vertex
+    uint32_t material = kNoMaterial;
     size_t first = 0, count = 0;  // in the list of all numbers
     size_t first_uv = 0;          // in the list of corners' texture coordinates
     bool has_uvs = false;
@@ -115,7 +140,8 @@ struct Content {
     std::vector<Piece> pieces;
     std::vector<Vec2> corner_uvs;
     bool has_normals = false, has_uvs = false, has_vertices = false;
-    uint64_t edges = 0;
+    uint64_t edges = 0, uneven_uvs = 0;
+    uint32_t materials = 0;  // one more than the largest number
     std::vector<std::string> notes;
 };
 
@@ -140,8 +166,10 @@ class Reader {
         for (const PlyElement& element : header_.elements)
             if (auto r = read_element(element); !r) return Error{r.error()};
         if (const uint64_t rest = values_.rest(); rest > 0)
-            content_.notes.push_back(text(rest) + (rest == 1 ? " byte" : " bytes") +
-                                     " behind the last row went unread.");
+            content_.notes.push_back(counted(rest, "byte", "bytes") + " behind the last row went unread.");
+        if (content_.uneven_uvs > 0)
+            content_.notes.push_back("The texture coordinates of " + counted(content_.uneven_uvs, "face", "faces") +
+                                     " are not as many as the corners and went unread.");
         return std::move(content_);
     }
 
@@ -149,6 +177,15 @@ class Reader {
     Result<void> read_element(const PlyElement& element) {
         if (element.properties.empty() || element.rows == 0) return {};
         if (auto r = check_rows(element); !r) return r;
+        if (auto r = read_rows(element); !r) return r;
+        if (const uint64_t rows = values_.take_long_rows(); rows > 0)
+            content_.notes.push_back(counted(rows, "line", "lines") + " of \"" + one_line(element.name, 40) + "\" " +
+                                     (rows == 1 ? "holds" : "hold") +
+                                     " more values than the head names; the last ones went unread.");
+        return {};
+    }
+
+    Result<void> read_rows(const PlyElement& element) {
         if (element.name == "vertex" || element.name == "vertices") return read_vertices(element);
         if (element.name == "face" || element.name == "faces") return read_lists(element, Kind::Polygons);
         if (element.name.rfind("tristrip", 0) == 0) return read_lists(element, Kind::Strips);
@@ -156,8 +193,8 @@ class Reader {
         if (element.name == "edge" || element.name == "edges")
             content_.edges += element.rows;
         else
-            content_.notes.push_back(text(element.rows) + (element.rows == 1 ? " row" : " rows") +
-                                     " of the element \"" + one_line(element.name, 40) + "\" went unread.");
+            content_.notes.push_back(counted(element.rows, "row", "rows") + " of the element \"" +
+                                     one_line(element.name, 40) + "\" went unread.");
         return read_past(element);
     }
 
@@ -168,8 +205,8 @@ class Reader {
                 header_.format == PlyFormat::Text ? 2 : size_of(property.is_list ? property.count_type : property.type);
         if (element.rows <= (values_.left() + 1) / bytes && element.rows <= kMostMeshRows) return {};
         return Error{path_ + ": states " + text(element.rows) + " rows of \"" + one_line(element.name, 40) +
-                     "\", but only " + text(values_.left()) +
-                     " bytes follow. It is cut off or its head is wrong; copy or export it again."};
+                     "\", but only " + counted(values_.left(), "byte follows", "bytes follow") +
+                     ". It is cut off or its head is wrong; copy or export it again."};
     }
 
     /// After each row, with its number.
@@ -206,6 +243,7 @@ class Reader {
 
     Result<void> read_past(const PlyElement& element) {
         for (uint64_t row = 0; row < element.rows; ++row) {
+            values_.begin_row();
             for (const PlyProperty& property : element.properties)
                 if (!skip(property)) return wrong_list(element, row);
             if (auto r = check_row(element, row); !r) return r;
@@ -228,7 +266,13 @@ class Reader {
             return Error{path_ + ": its vertices have no x, y and z. Repair the file or export it again."};
         content_.has_normals = has[3] && has[4] && has[5];
         content_.has_uvs = has[6] && has[7];
+        std::vector<std::string> unread;
+        for (size_t p = 0; p < places.size(); ++p)
+            if (places[p] < 0 || (places[p] >= 3 && !(places[p] < 6 ? content_.has_normals : content_.has_uvs)))
+                unread.push_back(element.properties[p].name);
+        note_unread(element, unread);
         for (uint64_t row = 0; row < element.rows; ++row) {
+            values_.begin_row();
             double value[8] = {};
             for (size_t p = 0; p < places.size(); ++p)
                 if (places[p] >= 0)
@@ -243,13 +287,24 @@ class Reader {
         return {};
     }
 
-    /// The list of vertices: by its name, or the only one that there is.
+    void note_unread(const PlyElement& element, std::vector<std::string> names) {
+        std::erase_if(names, is_colour);
+        if (names.empty()) return;
+        std::string list;
+        for (size_t i = 0; i < std::min(names.size(), kMostNamed); ++i)
+            list += (i == 0 ? "\"" : ", \"") + one_line(names[i], 40) + "\"";
+        if (names.size() > kMostNamed) list += " and " + text(names.size() - kMostNamed) + " more";
+        content_.notes.push_back("Of \"" + one_line(element.name, 40) + "\" " +
+                                 (names.size() == 1 ? "the property " : "the properties ") + list + " went unread.");
+    }
+
+    /// The list of vertices: by its name, or the only one of whole numbers that there is.
     static size_t list_of(const PlyElement& element) {
         size_t only = element.properties.size(), lists = 0;
         for (size_t p = 0; p < element.properties.size(); ++p) {
             const PlyProperty& property = element.properties[p];
+            if (property.is_list && property.name.rfind("vertex_ind", 0) == 0) return p;
             if (!property.is_list || !is_whole(property.type)) continue;
-            if (property.name.rfind("vertex_ind", 0) == 0) return p;
             only = p;
             ++lists;
         }
@@ -261,28 +316,60 @@ class Reader {
         if (list == element.properties.size())
             return Error{path_ + ": the element \"" + one_line(element.name, 40) +
                          "\" has no list \"vertex_indices\" of whole numbers. Repair the file or export it again."};
+        if (!is_whole(element.properties[list].type))
+            content_.notes.push_back("The numbers of vertices in \"" + one_line(element.name, 40) +
+                                     "\" are of a type with fractions; they were taken as whole ones.");
+        std::vector<std::string> unread;
+        for (size_t p = 0; p < element.properties.size(); ++p) {
+            const PlyProperty& property = element.properties[p];
+            const bool is_read = p == list || is_material(property) || (is_texture(property) && kind == Kind::Polygons);
+            if (!is_read) unread.push_back(property.name);
+        }
+        note_unread(element, unread);
         for (uint64_t row = 0; row < element.rows; ++row) {
+            values_.begin_row();
             Piece piece;
             piece.kind = kind;
+            piece.restart = restart_of(element.properties[list].type);
             for (size_t p = 0; p < element.properties.size(); ++p) {
                 const PlyProperty& property = element.properties[p];
-                const bool is_read = p == list              ? read_numbers(property, piece)
-                                     : is_texture(property) ? read_corner_uvs(property, piece)
-                                                            : skip(property);
+                const bool is_read = p == list               ? read_numbers(property, piece)
+                                     : is_texture(property)  ? read_corner_uvs(property, piece)
+                                     : is_material(property) ? read_material(property, piece)
+                                                             : skip(property);
                 if (!is_read) return wrong_list(element, row);
             }
             if (auto r = check_row(element, row); !r) return r;
             if (has_bad_number_)
                 return Error{path_ + ": row " + text(row) + " of \"" + one_line(element.name, 40) + "\" names vertex " +
                              text_of(bad_number_) + ". Repair the file or export it again."};
-            piece.has_uvs =
-                piece.has_uvs && kind == Kind::Polygons && content_.corner_uvs.size() - piece.first_uv == piece.count;
+            if (has_bad_material_)
+                return Error{path_ + ": row " + text(row) + " of \"" + one_line(element.name, 40) + "\" has material " +
+                             text_of(bad_number_) + ", not a whole number below 65535. Merge some materials."};
+            const bool has_uvs = piece.has_uvs && kind == Kind::Polygons;
+            piece.has_uvs = has_uvs && content_.corner_uvs.size() - piece.first_uv == piece.count;
+            content_.uneven_uvs += has_uvs && !piece.has_uvs;
             content_.pieces.push_back(piece);
         }
         return {};
     }
 
     static bool is_texture(const PlyProperty& property) { return property.is_list && property.name == "texcoord"; }
+
+    static bool is_material(const PlyProperty& property) {
+        return !property.is_list && property.name == "material_index";
+    }
+
+    /// A number below 0 is none.
+    bool read_material(const PlyProperty& property, Piece& piece) {
+        const double number = values_.next(property.type);
+        if (!(number >= 0)) return true;
+        has_bad_material_ = has_bad_material_ || !(number < kMostMaterials) || number != std::floor(number);
+        if (has_bad_material_) return bad_number_ = number, true;
+        piece.material = static_cast<uint32_t>(number);
+        content_.materials = std::max(content_.materials, piece.material + 1);
+        return true;
+    }
 
     bool read_numbers(const PlyProperty& property, Piece& piece) {
         const auto count = next_count(property);
@@ -297,7 +384,7 @@ class Reader {
     /// What can be no vertex becomes kRestart, which a polygon may not hold. The largest number of an unsigned type
     /// begins a strip where the file has not that many vertices; this is decided when they are known.
     uint32_t number_in(PlyType type, double value, Kind kind) {
-        if (value >= 0 && value < 4294967295.0) return static_cast<uint32_t>(value);
+        if (value >= 0 && value < 4294967295.0 && value == std::floor(value)) return static_cast<uint32_t>(value);
         const bool is_restart = value == -1 || (type == PlyType::Uint32 && value == 4294967295.0);
         if (!is_restart || kind == Kind::Polygons) {
             has_bad_number_ = true;
@@ -322,7 +409,7 @@ class Reader {
     Values values_;
     const std::string& path_;
     Content content_;
-    bool has_bad_number_ = false;
+    bool has_bad_number_ = false, has_bad_material_ = false;
     double bad_number_ = 0;
 };
 
@@ -350,15 +437,14 @@ class Builder {
  private:
     uint32_t number(const Piece& piece, size_t i) const { return content_.numbers[piece.first + i]; }
 
-    /// 255 and 65535 are what -1 becomes in the smaller unsigned types.
-    bool is_restart(uint32_t number) const {
-        return number == kRestart || (number >= content_.positions.size() && (number == 255 || number == 65535));
+    bool is_restart(const Piece& piece, uint32_t number) const {
+        return number == kRestart || (number == piece.restart && number >= content_.positions.size());
     }
 
     Result<void> check_numbers(const Piece& piece) const {
         for (size_t i = 0; i < piece.count; ++i) {
             const uint32_t v = number(piece, i);
-            if (v < content_.positions.size() || (piece.kind != Kind::Polygons && is_restart(v))) continue;
+            if (v < content_.positions.size() || (piece.kind != Kind::Polygons && is_restart(piece, v))) continue;
             return Error{path_ + ": row " + text(static_cast<uint64_t>(&piece - content_.pieces.data())) +
                          " of its faces or strips names vertex " + (v == kRestart ? "-1" : text(uint64_t{v})) +
                          ", but there are " + text(content_.positions.size()) +
@@ -381,7 +467,7 @@ class Builder {
             const Vec2 of_corners[3] = {piece.has_uvs ? uvs[uv + t[0]] : Vec2{},
                                         piece.has_uvs ? uvs[uv + t[1]] : Vec2{},
                                         piece.has_uvs ? uvs[uv + t[2]] : Vec2{}};
-            append({number(piece, t[0]), number(piece, t[1]), number(piece, t[2])},
+            append(piece, {number(piece, t[0]), number(piece, t[1]), number(piece, t[2])},
                    piece.has_uvs ? of_corners : nullptr);
         }
     }
@@ -390,21 +476,22 @@ class Builder {
     void append_strips(const Piece& piece) {
         for (size_t begin = 0; begin < piece.count;) {
             size_t end = begin;
-            while (end < piece.count && !is_restart(number(piece, end))) ++end;
+            while (end < piece.count && !is_restart(piece, number(piece, end))) ++end;
             if (end - begin == 1 || end - begin == 2) ++out_.left_out;
             for (size_t i = begin; i + 2 < end; ++i) {
                 const bool is_odd = (i - begin) % 2 == 1;
                 const uint32_t a = piece.kind == Kind::Fans ? number(piece, begin) : number(piece, is_odd ? i + 1 : i);
                 const uint32_t b = piece.kind == Kind::Fans ? number(piece, i + 1) : number(piece, is_odd ? i : i + 1);
                 const uint32_t c = number(piece, i + 2);
-                if (a != b && b != c && c != a) append({a, b, c}, nullptr);
+                if (a != b && b != c && c != a) append(piece, {a, b, c}, nullptr);
             }
             begin = end + 1;
         }
     }
 
-    void append(std::array<uint32_t, 3> vertices, const Vec2* uvs) {
+    void append(const Piece& piece, std::array<uint32_t, 3> vertices, const Vec2* uvs) {
         SourceTriangle triangle;
+        triangle.material = static_cast<uint16_t>(std::min(piece.material, content_.materials));
         triangle.has_normals = content_.has_normals;
         triangle.has_uvs = uvs != nullptr || content_.has_uvs;
         for (size_t c = 0; c < 3; ++c) {

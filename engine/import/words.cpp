@@ -97,6 +97,15 @@ std::optional<double> number_of(std::string_view word) {
     return is_negative ? -*special : *special;
 }
 
+uint64_t bytes_behind(std::string_view text, size_t offset) {
+    const size_t end = text.find_last_not_of(std::string_view(" \t\r\n\v\f\0\x1a", 8));
+    return end == text.npos || end < offset ? 0 : end + 1 - offset;
+}
+
+std::string counted(uint64_t n, const std::string& one, const std::string& many) {
+    return std::to_string(n) + " " + (n == 1 ? one : many);
+}
+
 std::string small_letters(std::string_view word) {
     std::string small(word);
     for (char& c : small) c = small_letter(c);

@@ -36,6 +36,12 @@ class Words {
 /// none: "nan", "-nan(ind)", "1.#QNAN", "inf", "-1.#INF". Beyond the range of double it is infinite or 0.
 std::optional<double> number_of(std::string_view word);
 
+/// How many bytes stand behind `offset`, without the blanks, zero bytes and Ctrl-Z that end the text.
+uint64_t bytes_behind(std::string_view text, size_t offset);
+
+/// "1 byte", "2 bytes".
+std::string counted(uint64_t n, const std::string& one, const std::string& many);
+
 /// Letters A to Z small.
 std::string small_letters(std::string_view word);
 

@@ -242,6 +242,90 @@ TEST(Ply, WhatIsNotReadIsNamed) {
     EXPECT_EQ(corners->notes[1], "4 bytes behind the last row went unread.");
 }
 
+/// 255 and 65535 begin a strip only where -1 becomes them; in wider types they are vertices that are not there.
+TEST(Ply, AStripBeginsAnewByTheNumberOfItsOwnTypeAlone) {
+    for (const int number : {255, 65535}) {
+        std::vector<int> numbers;
+        for (const int n : test::house_strips()) numbers.push_back(n < 0 ? number : n);
+        const std::string named = "names vertex " + std::to_string(number) + ", but there are 9";
+        for (const Form form : kForms) {
+            EXPECT_NE(error_of(strips<int32_t, int32_t>(form, "int", "int", numbers).bytes()).find(named),
+                      std::string::npos);
+            EXPECT_NE(error_of(strips<int32_t, uint32_t>(form, "int", "uint", numbers).bytes()).find(named),
+                      std::string::npos);
+        }
+    }
+    std::vector<int> numbers;
+    for (const int n : test::house_strips()) numbers.push_back(n < 0 ? 255 : n);
+    test::expect_house(read(strips<int32_t, uint8_t>(Form::Little, "int", "uchar", numbers)), "uchar");
+    error_of(strips<int32_t, uint16_t>(Form::Little, "int", "ushort", numbers).bytes());
+    error_of(strips<int32_t, int16_t>(Form::Little, "int", "short", numbers).bytes());
+}
+
+TEST(Ply, ValuesBeyondTheHeadInALineAreSaid) {
+    Ply ply = strips<int32_t, int32_t>(Form::Text, "int", "int", test::house_strips());
+    std::string rows;
+    for (const char c : ply.rows) rows += c == '\n' ? std::string(" 0.5 7\n") : std::string(1, c);
+    ply.rows = rows;
+    const auto corners = read_ply(ply.bytes(), "house.ply");
+    test::expect_house(mesh_of(corners), "two more columns");
+    ASSERT_EQ(corners->notes.size(), 2u);
+    EXPECT_EQ(corners->notes[0],
+              "9 lines of \"vertex\" hold more values than the head names; the last ones went unread.");
+    EXPECT_EQ(corners->notes[1],
+              "1 line of \"tristrips\" holds more values than the head names; the last ones went unread.");
+}
+
+TEST(Ply, VerticesMayBeNamedByFloatsThatAreWhole) {
+    for (const Form form : kForms) {
+        const auto corners =
+            read_ply(strips<int32_t, float>(form, "int", "float", test::house_strips()).bytes(), "house.ply");
+        test::expect_house(mesh_of(corners), "floats");
+        ASSERT_EQ(corners->notes.size(), 1u);
+        EXPECT_NE(corners->notes[0].find("of a type with fractions"), std::string::npos) << corners->notes[0];
+    }
+    Ply ply(Form::Text);
+    ply.house_vertices().element("face", 1).property("list uchar float vertex_indices");
+    ply.rows += "3 0 1.5 2\n";
+    EXPECT_NE(error_of(ply.bytes()).find("names vertex 1.5"), std::string::npos);
+}
+
+TEST(Ply, PropertiesThatAreNotReadAreNamedAndColoursAreNot) {
+    Ply ply(Form::Text);
+    ply.element("vertex", 3).property("float x").property("float y").property("float z").property("float quality");
+    ply.property("float nx").property("uchar red").property("uchar diffuse_green").property("uchar alpha");
+    ply.rows += "0 0 0 1 1 9 9 9\n1 0 0 1 1 9 9 9\n0 1 0 1 1 9 9 9\n";
+    ply.element("face", 1).property("list uchar int vertex_indices").property("float nx").property("int texnumber");
+    ply.property("list uchar float texcoord").property("uchar blue");
+    ply.rows += "3 0 1 2 0 4 2 0.5 0.5 9\n";
+    const auto corners = read_ply(ply.bytes(), "house.ply");
+    ASSERT_TRUE(corners.ok()) << corners.error();
+    ASSERT_EQ(corners->notes.size(), 3u);
+    EXPECT_EQ(corners->notes[0], "Of \"vertex\" the properties \"quality\", \"nx\" went unread.");
+    EXPECT_EQ(corners->notes[1], "Of \"face\" the properties \"nx\", \"texnumber\" went unread.");
+    EXPECT_EQ(corners->notes[2], "The texture coordinates of 1 face are not as many as the corners and went unread.");
+}
+
+TEST(Ply, MaterialsOfFacesAreTheirNumbersAndNoneIsTheNumberAfterTheLast) {
+    for (const Form form : kForms) {
+        Ply ply(form);
+        ply.house_vertices().element("face", 3).property("list uchar int vertex_indices");
+        ply.property("int material_index");
+        for (const int material : {4, -1, 0}) {
+            for (const int n : {0, 1, 2}) {
+                if (n == 0) ply.value(uint8_t{3});
+                ply.value(int32_t{n});
+            }
+            ply.value(int32_t{material}).end_row();
+        }
+        EXPECT_EQ(read(ply).materials, (std::vector<uint16_t>{4, 5, 0}));
+    }
+    Ply ply(Form::Text);
+    ply.house_vertices().element("face", 1).property("list uchar int vertex_indices").property("int material_index");
+    ply.rows += "3 0 1 2 65535\n";
+    EXPECT_NE(error_of(ply.bytes()).find("has material 65535"), std::string::npos);
+}
+
 TEST(Ply, LinesOfTheHeadEndWithAnyOfThree) {
     for (const Form form : kForms)
         for (const std::string end : {"\n", "\r\n", "\r"}) {
@@ -263,9 +347,11 @@ TEST(Ply, WhatDoesNotFitItsHeadIsRefused) {
     Ply cut = strips<int32_t, int32_t>(Form::Big, "int", "int", test::house_strips());
     cut.rows.resize(cut.rows.size() - 1);
     error_of(cut.bytes());
-    Ply text = strips<int32_t, int32_t>(Form::Text, "int", "int", test::house_strips());
-    text.rows.replace(text.rows.find('\n'), 1, " 5\n");
-    EXPECT_NE(error_of(text.bytes()).find("row 0 of \"vertex\" is not as its head says"), std::string::npos);
+    for (const std::string row : {"0 0\n", "0\n0 0 5\n", "0 0 x\n"}) {
+        Ply text = strips<int32_t, int32_t>(Form::Text, "int", "int", test::house_strips());
+        text.rows.replace(0, text.rows.find('\n') + 1, row);
+        EXPECT_NE(error_of(text.bytes()).find("row 0 of \"vertex\" is not as its head says"), std::string::npos) << row;
+    }
     for (const char* head :
          {"", "ply\n", "ply\nformat ascii 1.0\n", "ply\nend_header\n", "ply\nformat utf8 1.0\nend_header\n",
           "ply\nformat ascii 1.0\nelement vertex -1\nend_header\n",
