@@ -13,7 +13,7 @@
 namespace cullet {
 
 constexpr unsigned kImporterVersion =
-    3;  // raise it when the same file gives another mesh: cached ones are then made anew
+    4;  // raise it when the same file gives another mesh: cached ones are then made anew
 
 struct ImportLimits {
     uint64_t memory_mib = 1024;  // address space; also the largest mesh file

@@ -26,10 +26,20 @@ std::optional<uint32_t> facets_of(std::string_view bytes) {
     return facets;
 }
 
-/// "solid" at the front, or a facet begun in a line of its own near it. A binary file has zero bytes there.
+/// The words that stand inside of a facet of a text, one after another.
+bool has_loop(std::string_view text) {
+    Words words(text);
+    std::string_view before, word = words.next();
+    for (; !word.empty(); before = word, word = words.next())
+        if (is_word(before, "outer") && is_word(word, "loop") && is_word(words.peek(), "vertex")) return true;
+    return false;
+}
+
+/// "solid" at the front, or a facet begun in a line of its own near it. A binary file has zero bytes there; some
+/// programs fill the name in a text with them, so then the words of a facet decide.
 bool has_words_of_stl(std::string_view text) {
     const std::string_view front = text.substr(0, kFront);
-    if (front.substr(0, 512).find('\0') != front.npos) return false;
+    if (front.substr(0, 512).find('\0') != front.npos) return has_loop(front);
     Words words(front);
     if (is_word(words.peek(), "solid")) return true;
     for (std::string_view word = words.next(); !word.empty(); word = words.next()) {
@@ -37,6 +47,15 @@ bool has_words_of_stl(std::string_view text) {
         words.skip_line();
     }
     return false;
+}
+
+/// Programs that write while they slice do not come back to fill the number in: all bytes behind it are facets.
+bool is_without_count(std::string_view bytes, uint32_t stated) {
+    return (stated == 0 || stated == 0xFFFFFFFF) && bytes.size() > kHeader && (bytes.size() - kHeader) % kFacet == 0;
+}
+
+bool is_comment(std::string_view word) {
+    return word.substr(0, 1) == "#" || word.substr(0, 1) == ";" || word.substr(0, 2) == "//";
 }
 
 bool is_usable(Vec3d normal) {
@@ -52,9 +71,10 @@ void append_facet(Corners& out, const Vec3d* corners, Vec3d normal, bool has_nor
     if (append_triangle(out, triangle, {})) out.points += 3;
 }
 
-std::string bytes_behind(uint64_t count) {
-    return std::to_string(count) + (count == 1 ? " byte" : " bytes") + " behind the last facet " +
-           (count == 1 ? "was" : "were") + " left unread.";
+void note_bytes_behind(Corners& out, uint64_t count) {
+    if (count > 0)
+        out.notes.push_back(counted(count, "byte behind the last facet was", "bytes behind the last facet were") +
+                            " left unread.");
 }
 
 Vec3d vector_at(const char* at) {
@@ -78,8 +98,7 @@ Result<Corners> read_binary(std::string_view bytes, uint32_t facets) {
         const Vec3d corners[3] = {vector_at(at + 12), vector_at(at + 24), vector_at(at + 36)};
         append_facet(out, corners, vector_at(at), uses_normals);
     }
-    const uint64_t behind = bytes.size() - kHeader - kFacet * facets;
-    if (behind > 0) out.notes.push_back(bytes_behind(behind));
+    note_bytes_behind(out, bytes.size() - kHeader - kFacet * facets);
     return out;
 }
 
@@ -119,15 +138,18 @@ class TextReader {
             words_.skip_line();
             ++lines;
         }
-        out_.notes.push_back(std::to_string(lines) + (lines == 1 ? " line" : " lines") + " before the first solid " +
-                             (lines == 1 ? "was" : "were") + " left unread.");
+        if (lines > 0)
+            out_.notes.push_back(
+                counted(lines, "line before the first solid was", "lines before the first solid were") +
+                " left unread.");
         return {};
     }
 
     /// From its first word, or from its first facet where that word is missing, to its last.
     Result<void> read_solid() {
         const bool is_named = is_word(words_.peek(), "solid");
-        if (is_named) skip_name();
+        facets_before_ = corner_counts_.size();
+        if (is_named) skip_words_of_line();
         for (;;) {
             const std::string_view word = words_.peek();
             if (is_word(word, "facet")) {
@@ -144,15 +166,26 @@ class TextReader {
                 ++colours_;
             } else if (word.empty()) {
                 if (!is_named) return {};
-                return cut_off("endsolid");
+                if (facets_of_solid() == 0) return cut_off("endsolid");
+                out_.notes.push_back("It ends without its \"endsolid\"; the facets that are there were read.");
+                return {};
+            } else if (is_comment(word)) {
+                words_.next();
+                words_.skip_line();
+                ++odd_lines_;
+            } else if (facets_of_solid() == 0) {
+                skip_words_of_line();
+                ++odd_lines_;
             } else {
                 return Error{unknown_word()};
             }
         }
     }
 
+    size_t facets_of_solid() const { return corner_counts_.size() - facets_before_; }
+
     /// A name is the rest of its line, and may be the word "facet"; "facet normal" begins the first facet there.
-    void skip_name() {
+    void skip_words_of_line() {
         words_.next();
         for (;;) {
             const Words before = words_;
@@ -183,8 +216,8 @@ class TextReader {
             return Error{path_ + ": the facet that ends in line " + std::to_string(words_.line()) + " has " +
                          std::to_string(facet.corners.size()) + " corners, not 3 to " +
                          std::to_string(kMostCornersOfAFacet) + ". Repair the file or export it again."};
-        if (auto r = expect("endloop"); !r) return r;
-        if (auto r = expect("endfacet"); !r) return r;
+        if (auto r = expect_end("loop"); !r) return r;
+        if (auto r = expect_end("facet"); !r) return r;
         append(facet);
         return {};
     }
@@ -237,15 +270,21 @@ class TextReader {
     }
 
     void note_rest() {
-        if (colours_ > 0)
-            out_.notes.push_back(std::to_string(colours_) + (colours_ == 1 ? " line" : " lines") +
-                                 " of colours went unread.");
-        const size_t end = text_.find_last_not_of(std::string_view(" \t\r\n\v\f\0\x1a", 8));
-        const size_t behind = end == text_.npos || end < words_.offset() ? 0 : end + 1 - words_.offset();
-        if (behind > 0) out_.notes.push_back(bytes_behind(behind));
+        if (colours_ > 0) out_.notes.push_back(counted(colours_, "line", "lines") + " of colours went unread.");
+        if (odd_lines_ > 0)
+            out_.notes.push_back(counted(odd_lines_, "line that is no facet was", "lines that are no facets were") +
+                                 " left unread.");
+        note_bytes_behind(out_, bytes_behind(text_, words_.offset()));
     }
 
-    Result<void> expect(const char* wanted) {
+    /// "endloop", or in two words.
+    Result<void> expect_end(const std::string& what) {
+        if (!is_word(words_.peek(), "end")) return expect("end" + what);
+        words_.next();
+        return expect(what);
+    }
+
+    Result<void> expect(const std::string& wanted) {
         const std::string_view word = words_.peek();
         if (word.empty()) return cut_off(wanted);
         if (!is_word(word, wanted)) return Error{unknown_word()};
@@ -258,7 +297,7 @@ class TextReader {
         return {path_ + ": line " + std::to_string(words_.line()) + " has the word \"" + one_line(word, 40) +
                 "\" where STL has none. Repair the file or export it again."};
     }
-    Error cut_off(const char* wanted) const {
+    Error cut_off(const std::string& wanted) const {
         return {path_ + ": ends without its \"" + wanted + "\": it is cut off. Copy or export it again."};
     }
 
@@ -268,7 +307,8 @@ class TextReader {
     Corners out_;
     std::vector<Vec3d> normals_, corners_;
     std::vector<uint32_t> corner_counts_;
-    uint64_t colours_ = 0;
+    uint64_t colours_ = 0, odd_lines_ = 0;
+    size_t facets_before_ = 0;  // this solid
     bool is_closed_ = false;
 };
 
@@ -280,6 +320,14 @@ Result<Corners> read_stl(std::string bytes, const std::string& path) {
     if (facets && bytes.size() == needed) return read_binary(bytes, *facets);
     std::string text = plain_text(bytes);
     if (has_words_of_stl(text)) return TextReader(text, path).read();
+    if (facets && is_without_count(bytes, *facets)) {
+        const auto there = static_cast<uint32_t>((bytes.size() - kHeader) / kFacet);
+        auto corners = read_binary(bytes, there);
+        if (corners)
+            corners->notes.push_back("It states " + std::to_string(*facets) + " facets; the " + std::to_string(there) +
+                                     " that are there were read.");
+        return corners;
+    }
     if (facets && *facets > 0 && bytes.size() > needed) return read_binary(bytes, *facets);
     if (!facets)
         return Error{path + ": has " + std::to_string(bytes.size()) +

@@ -89,9 +89,69 @@ TEST(Stl, FirstLinesMayBeOdd) {
 
 TEST(Stl, ASolidWithoutItsFirstWordIsRead) {
     const std::string house = text_house();
-    test::expect_house(read(house.substr(house.find('\n') + 1)), "no solid");
-    const size_t end = house.rfind("endsolid");
-    test::expect_house(read(house.substr(house.find('\n') + 1, end - house.find('\n') - 1)), "facets alone");
+    const size_t begin = house.find('\n') + 1;
+    for (const size_t end : {house.size(), house.rfind("endsolid")}) {
+        const auto corners = read_stl(house.substr(begin, end - begin), "house.stl");
+        test::expect_house(mesh_of(corners), "facets alone");
+        EXPECT_TRUE(corners->notes.empty()) << corners->notes[0];
+    }
+}
+
+TEST(Stl, LinesThatAreNoFacetsAreSkippedAndCounted) {
+    const std::string house = text_house(), house_with_ends = text_house("0 0 0", " ");
+    const size_t first = house.find("  facet"), middle = house.find("  facet", house.size() / 2);
+    for (const std::string lines : {"# by hand\n; 1999\n", "units mm\nfacets 14\n", "author facet solid\n\nx\n"}) {
+        std::string text = house;
+        const auto corners = read_stl(text.insert(first, lines), "house.stl");
+        test::expect_house(mesh_of(corners), lines);
+        ASSERT_EQ(corners->notes.size(), 1u) << lines;
+        EXPECT_EQ(corners->notes[0], "2 lines that are no facets were left unread.");
+    }
+    std::string text = house;
+    const auto corners = read_stl(text.insert(middle, "// facet normal 0 0 0\n"), "house.stl");
+    test::expect_house(mesh_of(corners), "a comment between facets");
+    EXPECT_EQ(corners->notes, (std::vector<std::string>{"1 line that is no facet was left unread."}));
+    text = house;
+    EXPECT_NE(error_of(text.insert(middle, "units mm\n")).find("has the word \"units\""), std::string::npos);
+}
+
+TEST(Stl, ATextThatEndsBehindAWholeFacetIsReadAndSaid) {
+    const std::string house = text_house();
+    const auto corners = read_stl(house.substr(0, house.rfind("endsolid")), "house.stl");
+    test::expect_house(mesh_of(corners), "no endsolid");
+    EXPECT_EQ(corners->notes,
+              (std::vector<std::string>{"It ends without its \"endsolid\"; the facets that are there were read."}));
+}
+
+TEST(Stl, EndsMayBeTwoWords) {
+    std::string house = text_house();
+    for (const std::string word : {"loop", "facet", "solid"})
+        for (size_t at = house.find("end" + word); at != house.npos; at = house.find("end" + word, at + 1))
+            house.insert(at + 3, " ");
+    test::expect_house(read(house), "two words");
+}
+
+TEST(Stl, TheNameOfATextMayBeFilledWithZeros) {
+    const std::string house = text_house();
+    for (const size_t zeros : {1u, 70u, 300u}) {
+        std::string text = house;
+        test::expect_house(read(text.insert(house.find('\n'), std::string(zeros, '\0'))), std::to_string(zeros));
+        test::expect_house(read("solid" + std::string(zeros, '\0') + house.substr(house.find('\n'))), "no name");
+    }
+}
+
+TEST(Stl, ABinaryFileWithoutItsCountIsReadToItsEndAndSaid) {
+    for (const uint32_t stated : {0u, 0xFFFFFFFFu})
+        for (const std::string front : {"binary", "solid", "facet normal"}) {
+            std::string bytes = binary_house(front);
+            std::memcpy(bytes.data() + 80, &stated, 4);
+            const auto corners = read_stl(bytes, "house.stl");
+            test::expect_house(mesh_of(corners), front);
+            EXPECT_EQ(corners->notes, (std::vector<std::string>{"It states " + std::to_string(stated) +
+                                                                " facets; the 14 that are there were read."}));
+            bytes.pop_back();
+            error_of(bytes);
+        }
 }
 
 TEST(Stl, LinesEndWithAnyOfThree) {
@@ -157,9 +217,9 @@ TEST(Stl, AFileThatIsCutOffIsRefused) {
               std::string::npos);
     EXPECT_NE(error_of(binary_house().substr(0, 500)).find("cut off"), std::string::npos);
     const std::string house = text_house();
-    for (const double share : {0.3, 0.5, 0.9, 0.99})
+    for (const double share : {0.3, 0.45, 0.9, 0.99})  // none right behind a facet
         error_of(house.substr(0, static_cast<size_t>(share * static_cast<double>(house.size()))));
-    EXPECT_NE(error_of(house.substr(0, house.rfind("endsolid"))).find("without its \"endsolid\""), std::string::npos);
+    EXPECT_NE(error_of("solid house\n").find("without its \"endsolid\""), std::string::npos);
     error_of("");
     error_of("what is this");
 }
