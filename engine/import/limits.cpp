@@ -33,10 +33,13 @@ bool limit(__rlimit_resource resource, rlim_t value) {
     return limit(resource, value, value);
 }
 
-/// A kernel without seccomp filters leaves the rlimits, which is what older systems had. A sanitized build keeps to the
-/// processor time alone.
-bool limit_this_process(const ImportLimits& limits) {
-    if (kIsSanitized) return limit(RLIMIT_CPU, 10 * limits.seconds, 10 * limits.seconds + 1);
+/// What is in the way, with what to do; "" when the limits stand. A kernel without filters of system calls leaves the
+/// rlimits, which is what older systems had; where it has them and they cannot be set, nothing is read. A sanitized
+/// build keeps to the processor time alone.
+std::string limit_this_process(const ImportLimits& limits) {
+    constexpr const char* kNoLimits =
+        "the limits of the import process cannot be set. Lower --memory-mib or --seconds.";
+    if (kIsSanitized) return limit(RLIMIT_CPU, 10 * limits.seconds, 10 * limits.seconds + 1) ? "" : kNoLimits;
     const rlim_t bytes = static_cast<rlim_t>(limits.memory_mib) << 20;
     const bool limited = limit(RLIMIT_CORE, 0) && limit(RLIMIT_AS, bytes) && limit(RLIMIT_FSIZE, bytes) &&
                          limit(RLIMIT_CPU, limits.seconds, limits.seconds + 1) && limit(RLIMIT_NOFILE, 64);
@@ -44,8 +47,10 @@ bool limit_this_process(const ImportLimits& limits) {
     ::prctl(PR_SET_PDEATHSIG, SIGKILL);
     ::prctl(PR_SET_NO_NEW_PRIVS, 1, 0, 0, 0);
     ::prctl(PR_SET_DUMPABLE, 0);
-    forbid_system_calls();  // none on a kernel without filters: the limits stand alone there
-    return limited;
+    if (!forbid_system_calls() && has_filters_of_system_calls())
+        return "the system calls of the import process cannot be limited, so nothing is read. Run it where a process "
+               "may set a seccomp filter.";
+    return limited ? "" : kNoLimits;
 }
 
 bool write_all(int file, const void* data, size_t size) {
@@ -98,9 +103,8 @@ bool keep_only(int& message_pipe, int& result_file) {
     if (!keep_only(message_pipe, result_file)) ::_exit(2);
     std::string message;
     try {
-        if (!limit_this_process(limits)) {
-            message =
-                "-" + subject + ": the limits of the import process cannot be set. Lower --memory-mib or --seconds.";
+        if (const std::string trouble = limit_this_process(limits); !trouble.empty()) {
+            message = "-" + subject + ": " + trouble;
         } else {
             auto result = work();
             if (!result)

@@ -97,4 +97,8 @@ bool forbid_system_calls() {
     return filter.load();
 }
 
+bool has_filters_of_system_calls() {
+    return ::prctl(PR_GET_SECCOMP) >= 0 || errno != EINVAL;
+}
+
 }  // namespace cullet

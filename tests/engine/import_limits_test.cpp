@@ -2,6 +2,7 @@
 #include <fcntl.h>
 #include <gtest/gtest.h>
 #include <sched.h>
+#include <seccomp.h>
 #include <signal.h>
 #include <sys/file.h>
 #include <sys/ioctl.h>
@@ -21,6 +22,7 @@
 #include <sys/xattr.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cerrno>
 #include <chrono>
 #include <cstring>
@@ -305,6 +307,43 @@ TEST_F(Limits, AParentWithoutStandardFilesGetsItsResult) {
     int status = 0;
     ASSERT_EQ(::waitpid(host, &status, 0), host);
     EXPECT_TRUE(WIFEXITED(status) && WEXITSTATUS(status) == 0);
+}
+
+/// What run_limited() says in a process that can set no filters; with `has_none` the kernel seems to know of none.
+std::string told_without_filters(bool has_none) {
+    int ends[2] = {};
+    if (::pipe(ends) != 0) return "no pipe";
+    const pid_t child = ::fork();
+    if (child == 0) {
+        const auto refuse = [](scmp_filter_ctx filter, int error, long option) {
+            const scmp_arg_cmp condition{0, SCMP_CMP_EQ, static_cast<scmp_datum_t>(option), 0};
+            seccomp_rule_add_array(filter, SCMP_ACT_ERRNO(static_cast<uint32_t>(error)), SCMP_SYS(prctl), 1,
+                                   &condition);
+        };
+        const scmp_filter_ctx filter = seccomp_init(SCMP_ACT_ALLOW);
+        seccomp_rule_add(filter, SCMP_ACT_ERRNO(EPERM), SCMP_SYS(seccomp), 0);
+        refuse(filter, EPERM, PR_SET_SECCOMP);
+        if (has_none) refuse(filter, EINVAL, PR_GET_SECCOMP);
+        const bool is_set = seccomp_load(filter) == 0;
+        const std::string said = is_set ? told_by_child([] { return std::string("read"); }) : "no filter in the test";
+        const bool is_written = ::write(ends[1], said.data(), said.size()) == static_cast<ssize_t>(said.size());
+        ::_exit(is_written ? 0 : 1);
+    }
+    ::close(ends[1]);
+    std::string said(4096, '\0');
+    const ssize_t size = ::read(ends[0], said.data(), said.size());
+    ::close(ends[0]);
+    int status = 0;
+    ::waitpid(child, &status, 0);
+    return said.substr(0, static_cast<size_t>(std::max<ssize_t>(size, 0)));
+}
+
+TEST_F(Limits, NothingIsReadWhereAFilterIsRefusedButOnAKernelWithoutFilters) {
+    EXPECT_EQ(
+        told_without_filters(false),
+        "refused: file: the system calls of the import process cannot be limited, so nothing is read. Run it where "
+        "a process may set a seccomp filter.");
+    EXPECT_EQ(told_without_filters(true), "read");
 }
 
 TEST_F(Limits, TheChildReadsFiles) {
