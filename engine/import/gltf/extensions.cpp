@@ -15,9 +15,29 @@ constexpr std::string_view kHonoured[] = {"EXT_mesh_gpu_instancing", "KHR_draco_
                                           "KHR_mesh_quantization", "KHR_texture_transform"};
 
 /// They tell of looks, light, sound, words and moves. A mesh file holds none of these, whether they are read or not.
-constexpr std::string_view kBesideTheMesh[] = {"KHR_materials_",
-                                               "ADOBE_materials_",
-                                               "MSFT_packing_",
+/// Whole names: of an extension that only begins like one of these nobody knows what it does to a shape.
+constexpr std::string_view kBesideTheMesh[] = {"KHR_materials_anisotropy",
+                                               "KHR_materials_clearcoat",
+                                               "KHR_materials_common",
+                                               "KHR_materials_diffuse_transmission",
+                                               "KHR_materials_dispersion",
+                                               "KHR_materials_emissive_strength",
+                                               "KHR_materials_ior",
+                                               "KHR_materials_iridescence",
+                                               "KHR_materials_pbrSpecularGlossiness",
+                                               "KHR_materials_sheen",
+                                               "KHR_materials_specular",
+                                               "KHR_materials_subsurface",
+                                               "KHR_materials_transmission",
+                                               "KHR_materials_unlit",
+                                               "KHR_materials_variants",
+                                               "KHR_materials_volume",
+                                               "KHR_materials_volume_scatter",
+                                               "ADOBE_materials_clearcoat_specular",
+                                               "ADOBE_materials_clearcoat_tint",
+                                               "ADOBE_materials_thin_transparency",
+                                               "MSFT_packing_normalRoughnessMetallic",
+                                               "MSFT_packing_occlusionRoughnessMetallic",
                                                "KHR_texture_basisu",
                                                "EXT_texture_webp",
                                                "EXT_texture_avif",
@@ -26,13 +46,23 @@ constexpr std::string_view kBesideTheMesh[] = {"KHR_materials_",
                                                "EXT_lights_image_based",
                                                "EXT_lights_ies",
                                                "KHR_audio",
+                                               "KHR_audio_emitter",
                                                "KHR_animation_pointer",
                                                "KHR_xmp",
+                                               "KHR_xmp_json_ld",
                                                "EXT_mesh_features",
                                                "EXT_instance_features",
                                                "EXT_structural_metadata",
-                                               "AGI_",
-                                               "VRM"};
+                                               "AGI_articulations",
+                                               "AGI_stk_metadata",
+                                               "VRM",
+                                               "VRMC_vrm",
+                                               "VRMC_vrm_animation",
+                                               "VRMC_materials_mtoon",
+                                               "VRMC_materials_hdr_emissiveMultiplier",
+                                               "VRMC_springBone",
+                                               "VRMC_springBone_extended_collider",
+                                               "VRMC_node_constraint"};
 
 /// Not required, they only repeat what stands in the file in plain form as well.
 constexpr std::string_view kPacked[] = {"EXT_meshopt_compression", "KHR_meshopt_compression"};
@@ -41,10 +71,8 @@ bool is_honoured(std::string_view name) {
     return std::find(std::begin(kHonoured), std::end(kHonoured), name) != std::end(kHonoured);
 }
 
-/// Names that end in "_" above, and families, stand for all that begin so.
 bool is_beside_the_mesh(std::string_view name) {
-    return std::any_of(std::begin(kBesideTheMesh), std::end(kBesideTheMesh),
-                       [name](std::string_view known) { return name.substr(0, known.size()) == known; });
+    return std::find(std::begin(kBesideTheMesh), std::end(kBesideTheMesh), name) != std::end(kBesideTheMesh);
 }
 
 bool is_packed(std::string_view name) {

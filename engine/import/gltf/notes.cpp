@@ -3,13 +3,10 @@
 #include <algorithm>
 
 #include "engine/import/gltf/extensions.hpp"
+#include "engine/import/words.hpp"
 
 namespace cullet::gltf {
 namespace {
-
-std::string counted(uint64_t n, const std::string& one, const std::string& many) {
-    return std::to_string(n) + " " + (n == 1 ? one : many);
-}
 
 /// Over all primitives that are shown.
 struct Held {
@@ -37,12 +34,14 @@ std::string not_kept(const Document& document, const Held& held) {
         if (is_there) text += (text.empty() ? "Not kept: " : ", ") + what;
     };
     const uint64_t animations = document.count("animations"), cameras = document.count("cameras");
+    const auto lights = document.root().find({"extensions", "KHR_lights_punctual", "lights"});
     say(held.has_colours, "vertex colours");
     say(held.has_tangents, "tangents");
     say(held.further_uvs > 0, counted(held.further_uvs, "further set", "further sets") + " of texture coordinates");
     say(held.targets > 0, counted(held.targets, "morph target", "morph targets") + " (applied by default weight)");
     say(animations > 0, counted(animations, "animation", "animations"));
     say(cameras > 0, counted(cameras, "camera", "cameras"));
+    say(lights && lights->size() > 0, counted(lights ? lights->size() : 0, "light", "lights"));
     return text.empty() ? text : text + ".";
 }
 
