@@ -49,9 +49,10 @@ bool has_words_of_stl(std::string_view text) {
     return false;
 }
 
-/// Programs that write while they slice do not come back to fill the number in: all bytes behind it are facets.
+/// Programs that write as they go may not come back to fill the number in: all bytes behind it are facets. Any other
+/// number that is too large is a damaged file.
 bool is_without_count(std::string_view bytes, uint32_t stated) {
-    return (stated == 0 || stated == 0xFFFFFFFF) && bytes.size() > kHeader && (bytes.size() - kHeader) % kFacet == 0;
+    return stated == 0 && bytes.size() > kHeader && (bytes.size() - kHeader) % kFacet == 0;
 }
 
 bool is_comment(std::string_view word) {

@@ -141,17 +141,18 @@ TEST(Stl, TheNameOfATextMayBeFilledWithZeros) {
 }
 
 TEST(Stl, ABinaryFileWithoutItsCountIsReadToItsEndAndSaid) {
-    for (const uint32_t stated : {0u, 0xFFFFFFFFu})
-        for (const std::string front : {"binary", "solid", "facet normal"}) {
-            std::string bytes = binary_house(front);
-            std::memcpy(bytes.data() + 80, &stated, 4);
-            const auto corners = read_stl(bytes, "house.stl");
-            test::expect_house(mesh_of(corners), front);
-            EXPECT_EQ(corners->notes, (std::vector<std::string>{"It states " + std::to_string(stated) +
-                                                                " facets; the 14 that are there were read."}));
-            bytes.pop_back();
-            error_of(bytes);
-        }
+    for (const std::string front : {"binary", "solid", "facet normal"}) {
+        std::string bytes = binary_house(front);
+        std::memset(bytes.data() + 80, 0, 4);
+        const auto corners = read_stl(bytes, "house.stl");
+        test::expect_house(mesh_of(corners), front);
+        EXPECT_EQ(corners->notes, (std::vector<std::string>{"It states 0 facets; the 14 that are there were read."}));
+        bytes.pop_back();
+        error_of(bytes);
+        bytes = binary_house(front);
+        std::memset(bytes.data() + 80, 0xFF, 4);
+        EXPECT_NE(error_of(bytes).find("states 4294967295 facets"), std::string::npos);
+    }
 }
 
 TEST(Stl, LinesEndWithAnyOfThree) {
