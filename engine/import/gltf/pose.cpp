@@ -6,13 +6,6 @@
 namespace cullet::gltf {
 namespace {
 
-constexpr double kRounding = 1e-5;  // of a mesh's diagonal; joints that differ by less rest as they were bound
-
-void add(Affine& sum, double weight, const Affine& affine) {
-    for (int i = 0; i < 3; ++i) sum.row[i] += weight * affine.row[i];
-    sum.move += weight * affine.move;
-}
-
 /// Calls visit(joint, weight) for what moves a point; true when there was anything.
 template <class Visit>
 bool each_influence(const Primitive& primitive, uint64_t point, size_t joints, const Visit& visit) {
@@ -31,25 +24,6 @@ bool each_influence(const Primitive& primitive, uint64_t point, size_t joints, c
     return is_moved;
 }
 
-struct Box {
-    Vec3d low, high;
-    bool is_empty = true;
-
-    void grow(Vec3d p) {
-        if (is_empty) low = high = p, is_empty = false;
-        low = {std::min(low.x, p.x), std::min(low.y, p.y), std::min(low.z, p.z)};
-        high = {std::max(high.x, p.x), std::max(high.y, p.y), std::max(high.z, p.z)};
-    }
-    Vec3d corner(int c) const { return {c & 1 ? high.x : low.x, c & 2 ? high.y : low.y, c & 4 ? high.z : low.z}; }
-};
-
-bool agree(const Affine& a, const Affine& b, const Box& box) {
-    const double diagonal = length(turned(a, box.high - box.low));
-    for (int c = 0; c < 8; ++c)
-        if (!(length(placed(a, box.corner(c)) - placed(b, box.corner(c))) <= kRounding * diagonal)) return false;
-    return true;
-}
-
 }  // namespace
 
 Skin read_skin(const Document& document, const Part& asker, const Nodes& nodes, Accessors& accessors) {
@@ -64,12 +38,12 @@ Skin read_skin(const Document& document, const Part& asker, const Nodes& nodes, 
         document.named("nodes", joints.item(j));
         const Affine& place = nodes.places[joints.item(j).whole(nodes.places.size())];
         if (matrices == nullptr) {
-            skin.push_back(place);
+            skin.push_back(joint_at(place, {}));
             continue;
         }
         double numbers[16];
         for (unsigned i = 0; i < 16; ++i) numbers[i] = matrices->number(j, i);
-        skin.push_back(chained(place, affine_of(numbers, matrices->place)));
+        skin.push_back(joint_at(place, affine_of(numbers, matrices->place)));
     }
     return skin;
 }
@@ -95,16 +69,10 @@ SourceCorner Pose::corner(const Primitive& primitive, uint64_t point) const {
 }
 
 Affine Pose::place_of(const Primitive& primitive, uint64_t point) const {
-    Affine sum{{{}, {}, {}}, {}};
-    double total = 0;
-    each_influence(primitive, point, skin->size(), [&](uint64_t joint, double weight) {
-        add(sum, weight, (*skin)[joint]);
-        total += weight;
-    });
-    if (!(total > 0)) return skin->front();
-    Affine mean{{{}, {}, {}}, {}};
-    add(mean, 1 / total, sum);
-    return mean;
+    Blend blend;
+    each_influence(primitive, point, skin->size(),
+                   [&](uint64_t joint, double weight) { blend.add(weight, (*skin)[joint].place); });
+    return blend.mean().value_or(skin->front().place);
 }
 
 std::optional<Affine> common_place(const GltfMesh& mesh, Pose& pose) {
@@ -120,13 +88,7 @@ std::optional<Affine> common_place(const GltfMesh& mesh, Pose& pose) {
             ++pose.points_without_joint;
         }
     }
-    std::optional<Affine> common;
-    for (size_t j = 0; j < skin.size(); ++j) {
-        if (!is_used[j]) continue;
-        if (!common) common = skin[j];
-        if (!agree(*common, skin[j], box)) return std::nullopt;
-    }
-    return common;
+    return cullet::common_place(skin, is_used, box);
 }
 
 }  // namespace cullet::gltf

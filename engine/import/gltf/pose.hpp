@@ -8,12 +8,11 @@
 #include "engine/import/corners.hpp"
 #include "engine/import/gltf/nodes.hpp"
 #include "engine/import/gltf/primitives.hpp"
+#include "engine/import/skin.hpp"
 
 namespace cullet::gltf {
 
-/// From a mesh's own axes to the scene's, for each joint of a skin: its place times its inverse bind matrix. The place
-/// of the node that shows the mesh does not matter.
-using Skin = std::vector<Affine>;
+/// The place of the node that shows the mesh does not matter.
 Skin read_skin(const Document& document, const Part& asker, const Nodes& nodes, Accessors& accessors);
 
 struct Pose {
@@ -28,9 +27,7 @@ struct Pose {
     Affine place_of(const Primitive& primitive, uint64_t point) const;
 };
 
-/// The one place of a mesh whose joints all rest as it was bound, which is the rule; nothing when they do not. Joined
-/// by rounding alone: inverse bind matrices have 24 bits, and points of equal place may hang on different joints.
-/// Counts the points without a joint on the way.
+/// As that of skin.hpp. Counts the points without a joint on the way.
 std::optional<Affine> common_place(const GltfMesh& mesh, Pose& pose);
 
 }  // namespace cullet::gltf

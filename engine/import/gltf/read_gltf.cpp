@@ -115,20 +115,9 @@ class Reader {
         triangle.material = primitive.material;
         for (size_t c = 0; c < 3; ++c) triangle.corner[c] = pose.corner(primitive, points[c]);
         if (!pose.skin) return append_triangle(corners_, triangle, place);
-        int mirrored = 0;
-        for (size_t c = 0; c < 3; ++c)
-            mirrored += move_by_joints(triangle.corner[c], pose.place_of(primitive, points[c]));
-        if (mirrored >= 2) std::swap(triangle.corner[1], triangle.corner[2]);
-        return append_triangle(corners_, triangle, {});
-    }
-
-    /// True when the joints mirror what is about the corner. Its normal stays on the outside.
-    static bool move_by_joints(SourceCorner& corner, const Affine& place) {
-        const bool is_mirrored = determinant(place) < 0;
-        corner.position = placed(place, corner.position);
-        corner.normal = turned_normal(place, corner.normal);
-        if (is_mirrored) corner.normal = -corner.normal;
-        return is_mirrored;
+        std::array<Affine, 3> places;
+        for (size_t c = 0; c < 3; ++c) places[c] = pose.place_of(primitive, points[c]);
+        return append_posed_triangle(corners_, triangle, places);
     }
 
     const Document& document_;

@@ -122,6 +122,7 @@ const Encoding kEncodings[] = {{5120, false}, {5120, true},  {5121, false}, {512
 TEST_F(Gltf, EveryEncodingStrideOffsetAndSparseRowGivesTheNumbersThatWereStored) {
     std::mt19937 random(31);
     const auto below = [&random](unsigned n) { return static_cast<unsigned>(random() % n); };
+    int compared = 0;
     for (int round = 0; round < 300; ++round) {
         GltfFile file;
         constexpr size_t kRows = 30;
@@ -165,6 +166,7 @@ TEST_F(Gltf, EveryEncodingStrideOffsetAndSparseRowGivesTheNumbersThatWereStored)
         ASSERT_TRUE(read_one.ok()) << read_one.error();
         const Mesh& mesh = read_one->mesh;
         if (read_one->collapsed > 0) continue;  // small bytes may fall on each other
+        ++compared;
         ASSERT_EQ(mesh.triangles.size(), kRows / 3);
         for (size_t c = 0; c < kRows; ++c) {
             const Vec3 p = mesh.positions[mesh.triangles[c / 3][c % 3]];
@@ -175,6 +177,7 @@ TEST_F(Gltf, EveryEncodingStrideOffsetAndSparseRowGivesTheNumbersThatWereStored)
             EXPECT_EQ(mesh.corner_uvs[c].y, static_cast<float>(1 - uvs[2 * c + 1]));
         }
     }
+    EXPECT_GE(compared, 250);
 }
 
 TEST_F(Gltf, BothLowestValuesOfASignedTypeAreMinusOne) {
@@ -321,6 +324,16 @@ TEST_F(Gltf, TextBinaryAndFileBesideAreTheSame) {
     }
 }
 
+/// A .glb with something in front of its JSON.
+std::string with_json(const std::string& binary, const std::string& front) {
+    const size_t end = binary.find("BIN") - 4;
+    std::string json = front + binary.substr(20, end - 20);
+    json.resize((json.size() + 3) / 4 * 4, ' ');
+    const std::string rest = binary.substr(end);
+    return "glTF" + GltfFile::word(2) + GltfFile::word(20 + json.size() + rest.size()) + GltfFile::word(json.size()) +
+           "JSON" + json + rest;
+}
+
 TEST_F(Gltf, MarksOtherEncodingsZerosAndStrangeLettersDoNoHarm) {
     const GltfFile file = house();
     std::string wide = "\xFF\xFE";
@@ -329,11 +342,12 @@ TEST_F(Gltf, MarksOtherEncodingsZerosAndStrangeLettersDoNoHarm) {
     named.json["nodes"][0]["name"] = "Gr#sse";
     std::string latin = named.text();
     latin[latin.find('#')] = '\xF6';
-    GltfFile marked_chunk = file;
-    std::string binary = file.binary();
-    const size_t blank = binary.find("}]}");
-    ASSERT_NE(blank, binary.npos);
-    for (const std::string& bytes : {"\xEF\xBB\xBF" + file.text(), wide, latin}) {
+    const std::string binary = file.binary(), json = file.text();
+    std::string zeros = binary;  // in place of the blanks that pad its chunk of JSON
+    const size_t json_bytes = zeros.find("BIN") - 4 - 20;
+    for (size_t at = 20 + json_bytes; zeros[at - 1] == ' '; --at) zeros[at - 1] = '\0';
+    for (const std::string& bytes :
+         {"\xEF\xBB\xBF" + json, wide, latin, zeros, with_json(binary, "\xEF\xBB\xBF"), with_json(binary, " \n ")}) {
         const auto read_one = test::read_gltf_bytes(bytes, folder_ / "m.gltf");
         ASSERT_TRUE(read_one.ok()) << read_one.error();
         expect_house(read_one->mesh);
@@ -457,6 +471,7 @@ TEST_F(Gltf, ADeepTreeIsRead) {
 TEST_F(Gltf, ASkinnedMeshStandsWhereItsJointsPutItWhereverItsNodeIs) {
     std::mt19937 random(3);
     const Encoding weight_encodings[] = {{5126, false}, {5121, true}, {5123, true}};
+    int turned_over = 0;
     for (int round = 0; round < 60; ++round) {
         GltfFile file = house();
         Affine place[2], inverse[2];
@@ -488,6 +503,12 @@ TEST_F(Gltf, ASkinnedMeshStandsWhereItsJointsPutItWhereverItsNodeIs) {
                                     v * placed(chained(place[1], inverse[1]), kHousePoints[p]));
         };
         ASSERT_EQ(mesh.triangles.size(), 14u);
+        const auto is_mirrored = [&](uint32_t p) {
+            const Affine a = chained(place[0], inverse[0]), b = chained(place[1], inverse[1]);
+            Affine sum;
+            for (int i = 0; i < 3; ++i) sum.row[i] = weights[4 * p] * a.row[i] + weights[4 * p + 1] * b.row[i];
+            return determinant(sum) < 0;
+        };
         for (size_t t = 0; t < 14; ++t) {
             double nearest[2] = {0, 0};  // as it stands, and turned over
             for (size_t c = 0; c < 3; ++c)
@@ -497,12 +518,20 @@ TEST_F(Gltf, ASkinnedMeshStandsWhereItsJointsPutItWhereverItsNodeIs) {
                     nearest[k] = std::max(nearest[k], length(p - wanted(kHouseTriangles[t][from])));
                 }
             EXPECT_LT(std::min(nearest[0], nearest[1]), 2e-5);
+            const auto& corners = kHouseTriangles[t];
+            const auto mirrored = std::count_if(corners.begin(), corners.end(), is_mirrored);
+            if (mirrored % 3 == 0) {
+                EXPECT_LT(nearest[mirrored == 3 ? 1 : 0], 2e-5) << t;
+            }
+            turned_over += mirrored == 3;
         }
     }
+    EXPECT_GE(turned_over, 50);
 }
 
-TEST_F(Gltf, JointsThatRestAsBoundLeaveAMeshWholeToTheLastBit) {
-    // The same house as six seams would have it: each corner a point of its own, hung on other joints in another order.
+/// The same house as six seams would have it: each corner a point of its own, hung on other joints in another order.
+/// The joints stand about a point so far from the origin.
+GltfFile bound_house(double far) {
     GltfFile file;
     std::vector<Vec3d> points;
     std::vector<double> joints, weights, inverses;
@@ -521,7 +550,7 @@ TEST_F(Gltf, JointsThatRestAsBoundLeaveAMeshWholeToTheLastBit) {
     file.json["nodes"] = {{{"mesh", 0}, {"skin", 0}}};
     for (int j = 0; j < 3; ++j) {
         // A turn about y and a move: its inverse is easily written.
-        const double angle = 0.4 + j, c = std::cos(angle), s = std::sin(angle), x = 30.3 * j, z = -7.7;
+        const double angle = 0.4 + j, c = std::cos(angle), s = std::sin(angle), x = 30.3 * j + far, z = -7.7 - far;
         const Affine place{{{c, 0, s}, {0, 1, 0}, {-s, 0, c}}, {x, 1.5, z}};
         const Affine inverse{{{c, 0, -s}, {0, 1, 0}, {s, 0, c}}, {-c * x + s * z, -1.5, -s * x - c * z}};
         file.json["nodes"].push_back({{"matrix", matrix_of(place)}});
@@ -530,9 +559,15 @@ TEST_F(Gltf, JointsThatRestAsBoundLeaveAMeshWholeToTheLastBit) {
     file.json["scenes"][0]["nodes"] = {0, 1, 2, 3};
     file.json["skins"] = {
         {{"joints", {1, 2, 3}}, {"inverseBindMatrices", file.accessor(inverses, 16, {}, 0, 0, "MAT4")}}};
-    const ConvertedModel read_one = model(file);
-    expect_house(read_one.mesh, 1e-5);
-    EXPECT_EQ(read_one.joined, 42u - 9u);
+    return file;
+}
+
+TEST_F(Gltf, JointsThatRestAsBoundLeaveAMeshWholeToTheLastBitHoweverFarTheyStand) {
+    for (const double far : {0.0, 500.0, 2000.0, 20000.0, 1e6}) {
+        const ConvertedModel read_one = model(bound_house(far));
+        expect_house(read_one.mesh, 1e-5 + far * 1e-6);
+        EXPECT_EQ(read_one.joined, 42u - 9u) << far;
+    }
 }
 
 TEST_F(Gltf, JointsThatAreNotThereAreRefusedAndPointsWithoutAnyAreSaid) {
@@ -598,6 +633,7 @@ TEST_F(Gltf, MorphTargetsOfIntegersMoveNormalsAndTextureCoordinatesToo) {
 
 TEST_F(Gltf, InstancesStandAtTheirNodeInPlaceOfIt) {
     std::mt19937 random(12);
+    int mirrored = 0;
     const auto unit = [&random] { return static_cast<double>(random()) / 2147483648.0 - 1; };
     for (const Encoding turn_encoding : {Encoding{5126, false}, Encoding{5120, true}, Encoding{5122, true}}) {
         GltfFile file = house();
@@ -606,7 +642,8 @@ TEST_F(Gltf, InstancesStandAtTheirNodeInPlaceOfIt) {
         for (int i = 0; i < 5; ++i) {
             for (int k = 0; k < 3; ++k) moves.push_back(static_cast<double>(static_cast<float>(20 * unit())));
             for (int k = 0; k < 4; ++k) turns.push_back(turn_encoding.stored(unit()));
-            for (int k = 0; k < 3; ++k) sizes.push_back(static_cast<double>(static_cast<float>(1.5 + unit())));
+            for (int k = 0; k < 3; ++k)
+                sizes.push_back(static_cast<double>(static_cast<float>((unit() < 0 ? -1 : 1) * (1.5 + unit()))));
         }
         file.json["nodes"][0] = {{"mesh", 0}, {"matrix", matrix_of(node)}};
         file.json["nodes"][0]["extensions"]["EXT_mesh_gpu_instancing"]["attributes"] = {
@@ -621,17 +658,26 @@ TEST_F(Gltf, InstancesStandAtTheirNodeInPlaceOfIt) {
             const Affine own =
                 gltf::placed_by({moves[3 * i], moves[3 * i + 1], moves[3 * i + 2]}, &turns[4 * i],
                                 {sizes[3 * i], sizes[3 * i + 1], sizes[3 * i + 2]}, gltf::Part(none, "test"));
-            const Vec3d p(mesh.positions[mesh.triangles[14 * i][0]]);
-            EXPECT_LT(length(p - placed(chained(node, own), kHousePoints[0])), 1e-4);
+            const Affine place = chained(node, own);
+            const bool is_mirrored = determinant(place) < 0;
+            mirrored += is_mirrored;
+            for (size_t c = 0; c < 42; ++c) {
+                const size_t from = is_mirrored && c % 3 > 0 ? 3 - c % 3 : c % 3;  // its winding is turned
+                const Vec3d p(mesh.positions[mesh.triangles[14 * i + c / 3][c % 3]]);
+                EXPECT_LT(length(p - placed(place, kHousePoints[kHouseTriangles[c / 3][from]])), 1e-4);
+            }
         }
     }
+    EXPECT_GE(mirrored, 3);
+    EXPECT_LE(mirrored, 12);
 }
 
 // --- extensions and what is not kept ---
 
 TEST_F(Gltf, RequiredExtensionsThatAreNotReadAreRefusedByTheirNames) {
     for (const char* name : {"EXT_meshopt_compression", "KHR_meshopt_compression", "MSFT_lod", "KHR_node_visibility",
-                             "KHR_gaussian_splatting", "X"}) {
+                             "KHR_gaussian_splatting", "KHR_materials_displacement", "KHR_texture_basisu_geometry",
+                             "VRMC_shape", "AGI_terrain", "KHR_materials_", "KHR_audio2", "X"}) {
         GltfFile file = house();
         file.json["extensionsUsed"] = file.json["extensionsRequired"] = {"KHR_mesh_quantization", name};
         const std::string said = refusal(file);
@@ -662,11 +708,13 @@ TEST_F(Gltf, WhatAMeshFileDoesNotHoldIsOneSentence) {
         attributes[set] = file.accessor(std::vector<double>(18, 0.5), 2, {});
     file.json["animations"] = {1, 2, 3};
     file.json["cameras"] = {1};
+    file.json["extensions"]["KHR_lights_punctual"]["lights"] = {{{"type", "point"}}, {{"type", "spot"}}};
     const ConvertedModel read_one = model(file);
     expect_house(read_one.mesh);
     ASSERT_EQ(read_one.notes.size(), 1u);
     EXPECT_EQ(read_one.notes[0],
-              "Not kept: vertex colours, tangents, 2 further sets of texture coordinates, 3 animations, 1 camera.");
+              "Not kept: vertex colours, tangents, 2 further sets of texture coordinates, 3 animations, 1 camera, 2 "
+              "lights.");
 }
 
 TEST_F(Gltf, TextureCoordinatesAreThoseThatTheBaseColourTakes) {
