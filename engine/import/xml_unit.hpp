@@ -1,5 +1,6 @@
 // The units of formats for printing, of X3D and of Collada.
 #pragma once
+#include <cstdint>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -14,7 +15,14 @@ std::optional<double> metres_of(std::string_view unit);
 /// Whether a number can be the length of a unit in metres: above 0 and below 1e12.
 bool is_length(std::optional<double> metres);
 
-/// How long the unit of an AMF or X3D is, in metres. An AMF that names none is in millimetres, an X3D in metres.
-Result<double> unit_of_xml(std::string_view bytes, const std::string& path);
+/// What an AMF or X3D says of places, and assimp 5.2 does not see.
+struct XmlPlaces {
+    double metres = 1;    // how long its unit is; an AMF that names none is in millimetres, an X3D in metres
+    uint64_t turned = 0;  // instances in constellations of an AMF that are turned
+};
+
+/// `text` as plain_text() gives it. Blanks take the place of what turns an instance: assimp 5.2 moves it by that many
+/// units instead.
+Result<XmlPlaces> places_of_xml(std::string& text, const std::string& path);
 
 }  // namespace cullet

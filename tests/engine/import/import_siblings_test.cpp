@@ -294,6 +294,12 @@ TEST_F(ImportSiblings, WhatAnFbxOrObjHoldsAndNoMeshWillIsSaid) {
     text = fbx(in_fbx_axes(s), s);
     text.insert(text.find("Geometry: 1001"), "Geometry: 1002, \"Geometry::Bent\", \"NurbsSurface\" {\nVersion: 1\n}\n");
     EXPECT_NE(import_house(write("b.fbx", text), "NURBS").find("curved surfaces were left out"), std::string::npos);
+    for (const char* name : {"NurbsCurve", "Patch", "TrimNurbsSurface", "Boundary"}) {
+        text = fbx(in_fbx_axes(s), s);
+        text.insert(text.find("Geometry: 1001"),
+                    std::string("Geometry: 1002, \"Geometry::Bent\", \"") + name + "\" {\nVersion: 1\n}\n");
+        EXPECT_NE(import_house(write("b.fbx", text), name).find("curved surfaces were left out"), std::string::npos);
+    }
     EXPECT_NE(import_house(write("c.obj", obj() + "cstype bspline\nsurf 0 1 0 1 1 2 3 4\nend\n"), "surf")
                   .find("1 curve or curved surface was left out"),
               std::string::npos);
@@ -380,6 +386,92 @@ TEST_F(ImportSiblings, AUnitOfColladaThatIsNoLengthIsRefused) {
                       .find("its unit is \"" + unit + "\" m, which is no length"),
                   std::string::npos);
     }
+}
+
+/// Two joints in nodes of their own, every point on both; the mesh is bound a hundred times as large, and its own node
+/// stands elsewhere.
+DaeSettings skinned_house(const std::string& joint_places, bool has_uvs) {
+    DaeSettings s;
+    const auto floats = [](const std::string& id, const std::string& values, int count, int stride,
+                           const std::string& type) {
+        return "<source id=\"" + id + "\"><float_array id=\"" + id + "-a\" count=\"" + std::to_string(count * stride) +
+               "\">" + values + "</float_array><technique_common><accessor source=\"#" + id + "-a\" count=\"" +
+               std::to_string(count) + "\" stride=\"" + std::to_string(stride) + "\"><param name=\"P\" type=\"" + type +
+               "\"/></accessor></technique_common></source>";
+    };
+    s.primitives = primitive("trifans", 5, kWalls, has_uvs ? 2 : 1) + primitive("trifans", 1, {kRoof}, has_uvs ? 2 : 1);
+    std::string counts, influences;
+    for (int p = 0; p < 9; ++p) counts += "2 ", influences += "0 0 1 1 ";
+    // The inverse places of joints at (10, 0, 0) and (0, -5, 2).
+    s.libraries =
+        "<library_controllers><controller id=\"c\"><skin source=\"#g\"><bind_shape_matrix>0.01 0 0 0 0 0.01 0 0 0 0 "
+        "0.01 0 0 0 0 1</bind_shape_matrix><source id=\"c-j\"><Name_array id=\"c-j-a\" count=\"2\">first "
+        "second</Name_array><technique_common><accessor source=\"#c-j-a\" count=\"2\" stride=\"1\"><param "
+        "name=\"JOINT\" type=\"name\"/></accessor></technique_common></source>" +
+        floats("c-b", "1 0 0 -10 0 1 0 0 0 0 1 0 0 0 0 1 1 0 0 0 0 1 0 5 0 0 1 -2 0 0 0 1", 2, 16, "float4x4") +
+        floats("c-w", "0.25 0.75", 2, 1, "float") +
+        "<joints><input semantic=\"JOINT\" source=\"#c-j\"/><input semantic=\"INV_BIND_MATRIX\" "
+        "source=\"#c-b\"/></joints><vertex_weights count=\"9\"><input semantic=\"JOINT\" source=\"#c-j\" "
+        "offset=\"0\"/><input semantic=\"WEIGHT\" source=\"#c-w\" offset=\"1\"/><vcount>" +
+        counts + "</vcount><v>" + influences + "</v></vertex_weights></skin></controller></library_controllers>";
+    s.node_before = joint_places;
+    return s;
+}
+
+std::string joint(const std::string& name, const std::string& move) {
+    return "<node id=\"" + name + "\" sid=\"" + name + "\" name=\"" + name + "\" type=\"JOINT\"><translate>" + move +
+           "</translate></node>";
+}
+
+TEST_F(ImportSiblings, SkinsOfColladaStandAsTheirJointsRest) {
+    std::string text = dae(moved([](Vec3d p) { return 100 * p; }),
+                           skinned_house(joint("first", "10 0 0") + joint("second", "0 -5 2"), false));
+    const std::string instance = "<instance_geometry url=\"#g\"/>";
+    text.replace(text.find(instance), instance.size(), "<translate>7 7 7</translate><instance_controller url=\"#c\"/>");
+    EXPECT_EQ(import_house(write("bound.dae", text), "as bound").find("stand"), std::string::npos);
+
+    // The first joint has moved by (4, 0, 0): a quarter of that is the house's.
+    std::string posed = text;
+    posed.replace(posed.find("10 0 0</translate>"), 6, "14 0 0");
+    posed.replace(posed.find("0.01 0 0 0 0 0.01"), 10, "0.01 0 0 -1");
+    import_house(write("posed.dae", posed), "posed");
+
+    std::string lost = text;
+    lost.replace(lost.find("second</Name_array>"), 6, "gone");
+    const test::ProgramRun run =
+        test::run_program({build_folder() + "/cullet_import", write("lost.dae", lost), folder_ / "lost.cmesh"});
+    EXPECT_NE(run.output.find("2 meshes with bones stand as modelled"), run.output.npos)  // one a primitive
+        << run.output << run.error;
+}
+
+TEST_F(ImportSiblings, SkinsOfFbxStandAsTheirBonesRest) {
+    FbxSettings s;
+    s.models =
+        "Model: 2001, \"Model::House\", \"Mesh\" {\nVersion: 232\nProperties70:  {\n"
+        "P: \"Lcl Scaling\", \"Lcl Scaling\", \"\", \"A\",2,2,2\n}\n}\n"
+        "Model: 2002, \"Model::Bone\", \"LimbNode\" {\nVersion: 232\nProperties70:  {\n"
+        "P: \"Lcl Translation\", \"Lcl Translation\", \"\", \"A\",10,20,30\n}\n}\n"
+        "Deformer: 3001, \"Deformer::\", \"Skin\" {\nVersion: 101\n}\n"
+        "Deformer: 3002, \"SubDeformer::\", \"Cluster\" {\nVersion: 100\nIndexes: *9 {\na: 0,1,2,3,4,5,6,7,8\n}\n"
+        "Weights: *9 {\na: 1,1,1,1,1,1,1,1,1\n}\nTransform: *16 {\na: 2,0,0,0,0,2,0,0,0,0,2,0,-60,-20,-30,1\n}\n"
+        "TransformLink: *16 {\na: 1,0,0,0,0,1,0,0,0,0,1,0,60,20,30,1\n}\n}\n";
+    s.parents = "C: \"OO\",2001,0\nC: \"OO\",2002,0\nC: \"OO\",3001,1001\nC: \"OO\",3002,3001\nC: \"OO\",2002,3002\n";
+    // Bound with the bone at x = 60 cm, which rests at 10: all points have moved by -50.
+    const Points points = moved([](Vec3d p) { return 0.5 * (100 * p + Vec3d{50, 0, 0}); });
+    EXPECT_EQ(import_house(write("skin.fbx", fbx(points, s)), "posed").find("stand"), std::string::npos);
+}
+
+/// Sets of texture coordinates beyond the first, with the same numbers.
+TEST_F(ImportSiblings, FurtherTextureCoordinatesAreSaid) {
+    DaeSettings s;
+    s.primitives = primitive("trifans", 5, kWalls, 2) + primitive("trifans", 1, {kRoof}, 2);
+    EXPECT_EQ(import_house(write("one.dae", dae(test::house_points(), s)), "one").find("texture"), std::string::npos);
+    const std::string input = "<input semantic=\"TEXCOORD\" source=\"#g-t\" offset=\"0\" set=\"0\"/>";
+    for (size_t at = s.primitives.find(input); at != s.primitives.npos; at = s.primitives.find(input, at + 200))
+        s.primitives.insert(at, "<input semantic=\"TEXCOORD\" source=\"#g-t\" offset=\"0\" set=\"1\"/>");
+    EXPECT_NE(import_house(write("two.dae", dae(test::house_points(), s)), "two")
+                  .find("1 further set of texture coordinates was left out"),
+              std::string::npos);
 }
 
 /// A mark makes a text three bytes longer, a zero before each ".5" one: three of them leave its length as it was.
@@ -471,6 +563,29 @@ TEST_F(ImportSiblings, AmfAndX3dComeInMetres) {
     import_house(write("house.amf", amf(1000, "")), "millimetres when it says nothing");
     EXPECT_NE(import_refused(write("house.amf", amf(1, " unit=\"ell\""))).find("its unit is \"ell\""),
               std::string::npos);
+    EXPECT_NE(
+        import_house(write("packed.amf", test::small_zip({{"packed.amf", amf(1000, "")}})), "packed").find("closed"),
+        std::string::npos);
+    EXPECT_NE(import_refused(write("packed.amf", test::small_zip({{"a.txt", "x"}}))).find("no .amf file is in it"),
+              std::string::npos);
+    // The house at the first place of a constellation: assimp 5.2 takes what turns an instance for a way.
+    const auto instance = [](const std::string& what) { return "<instance objectid=\"0\">" + what + "</instance>"; };
+    for (const auto& [inside, note] : std::vector<std::pair<std::string, std::string>>{
+             {instance("<deltax>-5000</deltax><deltay>0</deltay>"), ""},
+             {instance("<deltax>-5000</deltax><rx>0</rx><ry/><rz>0.0</rz>"), ""},
+             {instance("<deltax>-5000</deltax><rz>90</rz>"), "1 instance of a constellation is turned"},
+             {instance("<rx>-45</rx><deltax>-5000</deltax><ry> 1e1 </ry>"),
+              "1 instance of a constellation is turned"}}) {
+        std::string placed = amf(1000, "");
+        for (size_t at = placed.find("<x>"); at != placed.npos; at = placed.find("<x>", at + 3)) {
+            const size_t end = placed.find("</x>", at);
+            placed.replace(at + 3, end - at - 3, text_of(5000 + std::stod(placed.substr(at + 3, end - at - 3))));
+        }
+        placed.insert(placed.rfind("</amf>"), "<constellation id=\"1\">" + inside + "</constellation>");
+        const std::string said = import_house(write("house.amf", placed), inside);
+        EXPECT_EQ(said.find("turned in the file") == said.npos, note.empty()) << said;
+        EXPECT_NE(said.find(note), said.npos) << said;
+    }
     for (const double metres : {1.0, 0.01}) {
         std::string indices;
         for (const auto& t : test::house_triangles())
