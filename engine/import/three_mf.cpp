@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <map>
 #include <memory>
 #include <optional>
@@ -20,6 +21,8 @@ namespace {
 
 constexpr size_t kMostParts = 4096;  // files of XML in one model
 constexpr int kDeepest = 64;         // components in components
+constexpr uint32_t kNone = ~0u;
+constexpr uint16_t kNoMaterial = 65535;  // becomes the number after the last
 
 /// An object at a place: an item of the build, or a component.
 struct Use {
@@ -28,11 +31,28 @@ struct Use {
     Affine place;
 };
 
+/// What `pid` names: a list of which triangles and objects take one by its number.
+struct Group {
+    enum class Kind : uint8_t { Materials, Coordinates, Colours, Mixed };
+    Kind kind = Kind::Colours;
+    uint32_t count = 0;  // of materials
+    uint32_t first = 0;  // number of its first material in the whole file
+    std::vector<Vec2> coordinates;
+};
+
+/// Which of them, by name, until all groups are known.
+struct Property {
+    uint32_t group = kNone;  // a row of Part::groups
+    uint32_t number[3] = {kNone, kNone, kNone};
+};
+
 struct Object {
     std::vector<Vec3d> vertices;
     std::vector<std::array<uint32_t, 3>> triangles;
+    std::vector<Property> properties;  // one a triangle, once there is one; those left are the object's own
+    Property own;
     std::vector<Use> components;
-    bool is_used = false;
+    bool is_used = false, is_support = false;
 };
 
 /// One file of XML.
@@ -41,8 +61,10 @@ struct Part {
     std::map<std::string, Object> objects;
     std::vector<std::string> order;  // of the objects
     std::vector<Use> items;
+    std::vector<Group> groups;
+    std::map<std::string, uint32_t> group_of;  // by number; also of those that are only named
     uint64_t beams = 0;
-    std::string trouble;  // the first sentence, without the file's name
+    std::string trouble, remedy;  // the first, without the file's name; and what to do
 };
 
 /// Extensions that change no shape, or that are read.
@@ -68,14 +90,71 @@ class PartListener : public XmlListener {
         if (local == "component" && object_ != nullptr) append_use(object_->components, attributes);
         if (local == "item") append_use(part_.items, attributes);
         part_.beams += local == "beam";
+        begin_group(local, attributes);
     }
     void end(std::string_view name) override {
         if (without_prefix(name) == "object") object_ = nullptr;
     }
 
  private:
-    void say(const std::string& trouble) {
-        if (part_.trouble.empty()) part_.trouble = trouble;
+    void say(const std::string& trouble, const std::string& remedy = "Repair the file or export it again.") {
+        if (!part_.trouble.empty()) return;
+        part_.trouble = trouble;
+        part_.remedy = remedy;
+    }
+
+    uint32_t group_of(const std::string& id) {
+        const auto [found, is_new] = part_.group_of.try_emplace(id, static_cast<uint32_t>(part_.groups.size()));
+        if (is_new) part_.groups.emplace_back();
+        return found->second;
+    }
+
+    void begin_group(std::string_view local, Attributes attributes) {
+        constexpr std::pair<std::string_view, Group::Kind> kKinds[] = {{"basematerials", Group::Kind::Materials},
+                                                                       {"texture2dgroup", Group::Kind::Coordinates},
+                                                                       {"colorgroup", Group::Kind::Colours},
+                                                                       {"compositematerials", Group::Kind::Mixed},
+                                                                       {"multiproperties", Group::Kind::Mixed}};
+        for (const auto& [name, kind] : kKinds) {
+            if (local != name) continue;
+            const char* const id = attribute(attributes, "id");
+            open_group_ = group_of(id != nullptr ? id : "");
+            part_.groups[open_group_] = {};
+            part_.groups[open_group_].kind = kind;
+        }
+        if (open_group_ == kNone) return;
+        Group& group = part_.groups[open_group_];
+        group.count += local == "base" && group.kind == Group::Kind::Materials;
+        if (local != "tex2coord" || group.kind != Group::Kind::Coordinates) return;
+        const auto value = [&](const char* name) {
+            const char* const text = attribute(attributes, name);
+            return static_cast<float>((text != nullptr ? number_of(text) : std::nullopt).value_or(NAN));
+        };
+        group.coordinates.push_back({value("u"), value("v")});
+    }
+
+    /// A whole number below 2^32 - 1, or kNone.
+    static uint32_t row_in(Attributes attributes, const char* name) {
+        const char* const text = attribute(attributes, name);
+        const auto number = text != nullptr ? number_of(text) : std::nullopt;
+        const bool is_row = number && *number >= 0 && *number < 4294967295.0 && *number == std::floor(*number);
+        return is_row ? static_cast<uint32_t>(*number) : kNone;
+    }
+
+    /// A triangle takes what it does not say from its object; a corner what it does not say from the first.
+    void append_property(Attributes attributes) {
+        Property property = object_->own;
+        const char* const group = attribute(attributes, "pid");
+        if (group != nullptr) property.group = group_of(group);
+        const char* const names[3] = {"p1", "p2", "p3"};
+        if (attribute(attributes, "p1") != nullptr)
+            for (size_t c = 0; c < 3; ++c) {
+                const uint32_t number = row_in(attributes, names[c]);
+                property.number[c] = number != kNone ? number : property.number[0];
+            }
+        if (property.group == kNone && object_->properties.empty()) return;
+        object_->properties.resize(object_->triangles.size(), object_->own);
+        object_->properties.push_back(property);
     }
 
     void begin_model(Attributes attributes) {
@@ -92,7 +171,8 @@ class PartListener : public XmlListener {
             const auto space = spaces_.find(std::string(prefix));
             const std::string extension = space == spaces_.end() ? std::string(prefix) : space->second;
             if (!is_known_extension(extension))
-                say("it requires the extension \"" + one_line(extension, 200) + "\", which is not read");
+                say("it requires the extension \"" + one_line(extension, 200) + "\", which is not read",
+                    "Export the model without it.");
         }
     }
 
@@ -103,6 +183,10 @@ class PartListener : public XmlListener {
         if (!is_new) say("two objects have the number \"" + one_line(key, 40) + "\"");
         if (is_new) part_.order.push_back(key);
         object_ = &found->second;
+        if (const char* const group = attribute(attributes, "pid")) object_->own.group = group_of(group);
+        for (uint32_t& number : object_->own.number) number = row_in(attributes, "pindex");
+        const char* const type = attribute(attributes, "type");
+        object_->is_support = type != nullptr && (is_word(type, "support") || is_word(type, "solidsupport"));
     }
 
     double number(Attributes attributes, const char* name) {
@@ -119,6 +203,7 @@ class PartListener : public XmlListener {
     }
 
     void append_triangle(Attributes attributes) {
+        append_property(attributes);
         std::array<uint32_t, 3> triangle{};
         const char* const names[3] = {"v1", "v2", "v3"};
         for (size_t c = 0; c < 3; ++c) {
@@ -163,6 +248,7 @@ class PartListener : public XmlListener {
     Part& part_;
     std::map<std::string, std::string> spaces_;  // prefix to name
     Object* object_ = nullptr;                   // a map keeps its values in place
+    uint32_t open_group_ = kNone;
 };
 
 /// The part that the package begins with.
@@ -188,6 +274,7 @@ class Reader {
         if (items.empty()) items = all_objects(**root);
         for (const Use& item : items)
             if (auto r = append_use(item, **root, scaled(unit_), 0); !r) return Error{r.error()};
+        std::replace(out_.materials.begin(), out_.materials.end(), kNoMaterial, static_cast<uint16_t>(materials_));
         add_notes();
         return std::move(out_);
     }
@@ -213,8 +300,13 @@ class Reader {
         part = std::make_unique<Part>();
         PartListener listener(*part);
         if (auto r = read_xml(plain_text(std::move(*bytes)), listener, path_); !r) return Error{r.error()};
-        if (!part->trouble.empty())
-            return Error{path_ + ": " + part->trouble + ". Repair the file or export it again."};
+        if (!part->trouble.empty()) return Error{path_ + ": " + part->trouble + ". " + part->remedy};
+        for (Group& group : part->groups) {
+            group.first = materials_;
+            if (group.count >= kNoMaterial - materials_)
+                return Error{path_ + ": has more than 65534 materials. Merge some materials."};
+            materials_ += group.count;
+        }
         return part.get();
     }
 
@@ -247,13 +339,36 @@ class Reader {
             return Error{path_ + ": an item or component names object \"" + one_line(use.object, 40) +
                          "\", which is not there. Repair the file or export it again."};
         found->second.is_used = true;
-        if (auto r = append_mesh(found->first, found->second, place); !r) return r;
+        supports_ += found->second.is_support;
+        if (found->second.is_support) return {};
+        empty_ += found->second.triangles.empty() && found->second.components.empty();
+        if (auto r = append_mesh(found->first, found->second, *part, place); !r) return r;
         for (const Use& component : found->second.components)
             if (auto r = append_use(component, *part, place, depth + 1); !r) return r;
         return {};
     }
 
-    Result<void> append_mesh(const std::string& id, const Object& object, const Affine& place) {
+    /// The material, or the texture coordinates, of triangle t.
+    void put_property(SourceTriangle& triangle, const Object& object, const Part& part, size_t t) {
+        triangle.material = kNoMaterial;
+        const Property& property = t < object.properties.size() ? object.properties[t] : object.own;
+        if (property.group == kNone) return;
+        const Group& group = part.groups[property.group];
+        mixed_ += group.kind == Group::Kind::Mixed;
+        if (group.kind == Group::Kind::Materials) {
+            const bool is_there = property.number[0] < group.count;
+            if (is_there) triangle.material = static_cast<uint16_t>(group.first + property.number[0]);
+            lost_ += !is_there;
+        }
+        if (group.kind != Group::Kind::Coordinates) return;
+        triangle.has_uvs = true;
+        for (size_t c = 0; c < 3; ++c) {
+            const bool is_there = property.number[c] < group.coordinates.size();
+            triangle.corner[c].uv = is_there ? group.coordinates[property.number[c]] : Vec2{NAN, NAN};
+        }
+    }
+
+    Result<void> append_mesh(const std::string& id, const Object& object, const Part& part, const Affine& place) {
         std::vector<bool> is_used(object.vertices.size());
         for (size_t t = 0; t < object.triangles.size(); ++t) {
             SourceTriangle triangle;
@@ -265,6 +380,7 @@ class Reader {
                                  std::to_string(object.vertices.size()) + ". Repair the file or export it again."};
                 triangle.corner[c].position = object.vertices[v];
             }
+            put_property(triangle, object, part, t);
             if (!append_triangle(out_, triangle, place)) continue;
             for (const uint32_t v : object.triangles[t]) {
                 out_.points += !is_used[v];
@@ -283,20 +399,26 @@ class Reader {
             beams += part->beams;
             for (const auto& [id, object] : part->objects) unused += !object.is_used && !object.triangles.empty();
         }
-        if (unused > 0)
-            out_.notes.push_back(std::to_string(unused) +
-                                 (unused == 1 ? " object that the build does not name was"
-                                              : " objects that the build does not name were") +
-                                 " left out.");
-        if (beams > 0)
-            out_.notes.push_back(std::to_string(beams) +
-                                 (beams == 1 ? " beam of a lattice was" : " beams of a lattice were") + " left out.");
+        const auto say = [this](uint64_t n, const char* one, const char* many) {
+            if (n > 0) out_.notes.push_back(counted(n, one, many));
+        };
+        say(unused, "object that the build does not name was left out.",
+            "objects that the build does not name were left out.");
+        say(supports_, "object that is a support was left out.", "objects that are supports were left out.");
+        say(empty_, "object without triangles, such as one of slices alone, was left out.",
+            "objects without triangles, such as those of slices alone, were left out.");
+        say(beams, "beam of a lattice was left out.", "beams of a lattice were left out.");
+        say(mixed_, "triangle of mixed materials has no material's number.",
+            "triangles of mixed materials have no material's number.");
+        say(lost_, "triangle names a material that is not there.", "triangles name materials that are not there.");
     }
 
     const ZipFile& zip_;
     const std::string& path_;
     std::map<std::string, std::unique_ptr<Part>> parts_;
-    double unit_ = 1e-3;  // m, of the first part
+    double unit_ = 1e-3;      // m, of the first part
+    uint32_t materials_ = 0;  // of all parts so far
+    uint64_t supports_ = 0, empty_ = 0, mixed_ = 0, lost_ = 0;
     Corners out_;
 };
 

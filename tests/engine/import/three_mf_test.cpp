@@ -4,6 +4,8 @@
 #include <sys/mman.h>
 #include <unistd.h>
 
+#include <functional>
+
 #include "tests/support/damage.hpp"
 #include "tests/support/house.hpp"
 #include "tests/support/small_zip.hpp"
@@ -165,7 +167,7 @@ TEST_F(ThreeMf, WhatIsNotReadIsSaidOrRefusedByName) {
     const std::string beams =
         "unit=\"meter\" xmlns:b=\"http://schemas.microsoft.com/3dmanufacturing/beamlattice/2017/02\"";
     EXPECT_NE(error_of(read(package(model(beams + " requiredextensions=\"b\"", house("1", 1), kItem))))
-                  .find("3dmanufacturing/beamlattice/2017/02"),
+                  .find("3dmanufacturing/beamlattice/2017/02\", which is not read. Export the model without it."),
               std::string::npos);
     std::string lattice = house("1", 1);
     lattice.insert(lattice.find("</mesh>"),
@@ -174,6 +176,97 @@ TEST_F(ThreeMf, WhatIsNotReadIsSaidOrRefusedByName) {
     test::expect_house(mesh_of(optional), "beams");
     ASSERT_EQ(optional->notes.size(), 1u);
     EXPECT_EQ(optional->notes[0], "1 beam of a lattice was left out.");
+}
+
+/// Triangle t of the house gets attributes of its own.
+std::string house_with(const std::string& object, const std::function<std::string(int)>& attributes) {
+    std::string text = house("1", 1);
+    text.insert(text.find(" type="), object);
+    int t = 0;
+    for (size_t at = text.find("<triangle "); at != text.npos; at = text.find("<triangle ", at + 10))
+        text.insert(at + 10, attributes(t++));
+    return text;
+}
+
+const std::string kMaterials =
+    "<basematerials id=\"5\"><base name=\"a\" displaycolor=\"#FFFFFF\"/><base name=\"b\" displaycolor=\"#000000\"/>"
+    "</basematerials><basematerials id=\"6\"><base name=\"c\" displaycolor=\"#FF0000\"/></basematerials>";
+
+TEST_F(ThreeMf, BaseMaterialsAreTheirNumbersInTheFileAndNoneIsTheNumberAfterTheLast) {
+    const auto materials = [this](const std::string& object, const std::function<std::string(int)>& attributes) {
+        const auto corners = read(package(model("unit=\"meter\"", kMaterials + house_with(object, attributes), kItem)));
+        test::expect_house(mesh_of(corners), object);
+        EXPECT_TRUE(corners->notes.empty()) << corners->notes[0];
+        return mesh_of(corners).materials;
+    };
+    EXPECT_EQ(materials("", [](int) { return ""; }), std::vector<uint16_t>(14, 3));
+    EXPECT_EQ(materials(" pid=\"6\" pindex=\"0\"", [](int) { return ""; }), std::vector<uint16_t>(14, 2));
+    std::vector<uint16_t> wanted(14, 1);
+    wanted[3] = 0, wanted[4] = 2;
+    EXPECT_EQ(materials(" pid=\"5\" pindex=\"1\"",
+                        [](int t) { return t == 3   ? "p1=\"0\" "
+                                           : t == 4 ? "pid=\"6\" p1=\"0\" "
+                                                    : ""; }),
+              wanted);
+    wanted.assign(14, 3);
+    wanted[13] = 1;
+    EXPECT_EQ(materials("", [](int t) { return t == 13 ? "pid=\"5\" p1=\"1\" " : ""; }), wanted);
+    EXPECT_EQ(mesh_of(read(package(model("unit=\"meter\"", house("1", 1), kItem)))).materials,
+              std::vector<uint16_t>(14, 0));
+}
+
+TEST_F(ThreeMf, TextureCoordinatesAreThoseOfTheCorners) {
+    const std::string group =
+        "<m:texture2dgroup id=\"7\" texid=\"9\"><m:tex2coord u=\"0.25\" v=\"1\"/><m:tex2coord u=\"0.5\" v=\"-2\"/>"
+        "</m:texture2dgroup>";
+    const std::string space =
+        "unit=\"meter\" xmlns:m=\"http://schemas.microsoft.com/3dmanufacturing/material/2015/02\"";
+    const auto corners = read(package(model(space,
+                                            group + house_with("",
+                                                               [](int t) -> std::string {
+                                                                   return t == 2
+                                                                              ? "pid=\"7\" p1=\"1\" p2=\"0\" p3=\"1\" "
+                                                                          : t == 3 ? "pid=\"7\" p1=\"1\" "
+                                                                                   : "";
+                                                               }),
+                                            kItem)));
+    const Mesh mesh = mesh_of(corners);
+    test::expect_house(mesh, "coordinates");
+    ASSERT_EQ(mesh.corner_uvs.size(), 42u);
+    const float wanted[6] = {0.5f, 0.25f, 0.5f, 0.5f, 0.5f, 0.5f};
+    for (size_t c = 0; c < 6; ++c) {
+        EXPECT_EQ(mesh.corner_uvs[6 + c].x, wanted[c]);
+        EXPECT_EQ(mesh.corner_uvs[6 + c].y, wanted[c] == 0.5f ? -2.0f : 1.0f);
+    }
+    EXPECT_EQ(corners->unusable_uvs, 0u);
+    const auto lost = read(
+        package(model(space, group + house_with(" pid=\"7\" pindex=\"2\"", [](int) { return std::string(); }), kItem)));
+    EXPECT_EQ(lost->unusable_uvs, 42u);
+}
+
+TEST_F(ThreeMf, MixedAndMissingMaterialsSupportsAndSlicesAreSaid) {
+    const auto note = [this](const std::string& resources, const std::string& build) {
+        const auto corners = read(package(model("unit=\"meter\"", resources, build)));
+        test::expect_house(mesh_of(corners), resources);
+        return corners.ok() && corners->notes.size() == 1 ? corners->notes[0] : "not one note";
+    };
+    const auto none = [](int) { return std::string(); };
+    for (const char* kind : {"compositematerials", "multiproperties"})
+        EXPECT_EQ(note("<" + std::string(kind) + " id=\"8\"/>" + house_with(" pid=\"8\" pindex=\"0\"", none), kItem),
+                  "14 triangles of mixed materials have no material's number.");
+    EXPECT_EQ(
+        note(kMaterials + house_with(" pid=\"5\"", [](int t) { return t == 1 ? "p1=\"9\" " : "p1=\"0\" "; }), kItem),
+        "1 triangle names a material that is not there.");
+    for (const char* kind : {"support", "solidsupport"}) {
+        std::string support = house("2", 1);
+        support.replace(support.find("\"model\""), 7, "\"" + std::string(kind) + "\"");
+        EXPECT_EQ(note(house("1", 1) + support, kItem + "<item objectid=\"2\"/>"),
+                  "1 object that is a support was left out.");
+    }
+    EXPECT_EQ(
+        note(house("1", 1) + "<object id=\"2\" s:slicestackid=\"3\"><mesh><vertices/><triangles/></mesh></object>",
+             kItem + "<item objectid=\"2\"/>"),
+        "1 object without triangles, such as one of slices alone, was left out.");
 }
 
 TEST_F(ThreeMf, WrongNumbersCirclesAndBombsAreRefused) {
