@@ -45,7 +45,7 @@ void add_run(CLI::App& app, RunOptions& run) {
     command
         ->add_option(
             "--mesh", run.mesh,
-            "A model file for scenes that take one, in any format that assimp reads; or vase, pig, cow, castle, "
+            "A model file for scenes that take one, in any format of docs/importing.md; or vase, pig, cow, castle, "
             "castle_fine, slab, piggy_bank, wall, pane")
         ->check(CLI::Validator(
             [](const std::string& name) { return std::string(name.empty() ? "the name is empty; give a file" : ""); },
@@ -79,7 +79,7 @@ void add_run(CLI::App& app, RunOptions& run) {
 
 void add_cook(CLI::App& app, CookOptions& cook) {
     CLI::App* command = app.add_subcommand("cook", "Cooks a mesh into a model file (.cmodel), so that a game need not");
-    command->add_option("mesh", cook.mesh, "A model file in any format that assimp reads, or a .cmesh")->required();
+    command->add_option("mesh", cook.mesh, "A model file in any format of docs/importing.md, or a .cmesh")->required();
     command->add_option("--out", cook.out, "The model file to write")->required();
     command->add_option("--material", cook.material, "One of " + MaterialTable().names() + ", or of --materials")
         ->capture_default_str();
@@ -173,6 +173,18 @@ std::string one_sentence(std::string text) {
     return text;
 }
 
+/// Of an option that stands without what belongs to it. CLI11 begins with its name and goes on in its own words.
+std::string lacking(const CLI::App& app, const std::string& said) {
+    const std::string name = said.substr(0, said.find(':'));
+    const auto given = app.get_subcommands();
+    const CLI::App& command = given.empty() ? app : *given[0];
+    const CLI::Option* const option = command.get_option_no_throw(name);
+    if (option == nullptr || said.find("missing") == said.npos) return one_sentence(said);
+    const std::string type = option->get_type_name();
+    const bool is_number = type.starts_with("UINT") || type.starts_with("INT") || type.starts_with("FLOAT");
+    return name + ": wants " + (is_number ? "a number." : "a word behind it.");
+}
+
 }  // namespace
 
 Result<Options> parse_options(std::vector<std::string> arguments) {
@@ -211,6 +223,8 @@ Result<Options> parse_options(std::vector<std::string> arguments) {
         const std::string extra = app.remaining(true).at(0);
         const char* what = extra.starts_with("-") ? "there is no such option" : "one argument too many";
         return Error{fmt::format("{}: {}. {}", extra, what, where_to_look(app))};
+    } catch (const CLI::ArgumentMismatch& error) {
+        return Error{lacking(app, error.what()) + " " + where_to_look(app)};
     } catch (const CLI::ParseError& error) {
         return Error{one_sentence(error.what()) + " " + where_to_look(app)};
     }

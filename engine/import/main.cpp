@@ -1,5 +1,6 @@
 // cullet_import IN OUT.cmesh [--memory-mib 1024] [--seconds 10] [--notes-apart], or cullet_import --version
-// Exit code 0 and one line of counts and repairs, or 2 and one sentence. OUT is written whole or not at all, and over
+// Exit code 0 and one line of counts and repairs (with --notes-apart a second one for what the mesh file does not hold,
+// where there is anything), or 2 and one sentence. OUT is written whole or not at all, and over
 // ordinary files only, never over IN.
 #include <assimp/version.h>
 #include <sys/stat.h>
@@ -7,11 +8,14 @@
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
+#include <cerrno>
 #include <cmath>
 #include <cstdio>
+#include <cstring>
 
 #include "cullet/model.hpp"
 #include "engine/import/import.hpp"
+#include "engine/import/words.hpp"
 #include "engine/mesh_file.hpp"
 
 namespace cullet {
@@ -19,10 +23,6 @@ namespace {
 
 constexpr size_t kLongestLine = 4000;  // bytes; a path and all the repairs that there are
 constexpr char kNotesBegin = '\n';     // between the line and its notes, while they are on the way
-
-std::string count(uint64_t n, const char* one, const char* many) {
-    return std::to_string(n) + " " + (n == 1 ? one : many);
-}
 
 std::string box_of(const Mesh& mesh) {
     Vec3 low = mesh.positions[0], high = mesh.positions[0];
@@ -45,7 +45,7 @@ uint64_t materials_of(const Mesh& mesh) {
 }
 
 std::string parts_of(const MeshReport& report) {
-    std::string text = count(report.parts, "part", "parts");
+    std::string text = counted(report.parts, "part", "parts");
     if (report.closed_parts == report.parts) return text + (report.parts == 1 ? ", closed" : ", all closed");
     return text + (report.closed_parts == 0 ? ", open" : ", " + std::to_string(report.closed_parts) + " closed");
 }
@@ -55,7 +55,7 @@ std::string repairs_of(const ConvertedModel& model, const MeshReport& report) {
     std::string text;
     const auto say = [&text](uint64_t n, const std::string& before, const char* one, const char* many,
                              const std::string& after = "") {
-        if (n > 0) text += (text.empty() ? "Reading " : ", ") + before + " " + count(n, one, many) + after;
+        if (n > 0) text += (text.empty() ? "Reading " : ", ") + before + " " + counted(n, one, many) + after;
     };
     say(model.joined, "joined", "equal point", "equal points");
     say(model.collapsed, "dropped", "triangle", "triangles", " with a repeated corner");
@@ -79,9 +79,9 @@ std::string line_of(const std::string& path, const ConvertedModel& model, const 
     const Mesh& mesh = model.mesh;
     std::string notes;
     for (const std::string& note : model.notes) notes += (notes.empty() ? kNotesBegin : ' ') + note;
-    return path + ": " + count(mesh.positions.size(), "vertex", "vertices") + ", " +
-           count(mesh.triangles.size(), "triangle", "triangles") + ", " +
-           count(materials_of(mesh), "material", "materials") + ", " + box_of(mesh) + ", " + parts_of(report) + ". " +
+    return one_line(path) + ": " + counted(mesh.positions.size(), "vertex", "vertices") + ", " +
+           counted(mesh.triangles.size(), "triangle", "triangles") + ", " +
+           counted(materials_of(mesh), "material", "materials") + ", " + box_of(mesh) + ", " + parts_of(report) + ". " +
            repairs_of(model, report) + notes;
 }
 
@@ -122,6 +122,15 @@ std::string version() {
            "." + std::to_string(aiGetVersionMinor()) + "." + std::to_string(aiGetVersionPatch());
 }
 
+/// Before a process is started for it.
+Result<void> check_in(const std::string& in) {
+    struct stat model {};
+    if (::access(in.c_str(), R_OK) != 0 || ::stat(in.c_str(), &model) != 0)
+        return Error{in + ": cannot open the file (" + std::strerror(errno) + "). Check the path."};
+    if (S_ISREG(model.st_mode) && model.st_size == 0) return Error{in + ": is empty. Copy or export it again."};
+    return {};
+}
+
 /// Before the model is read, so that nobody waits for a refusal.
 Result<void> check_out(const std::string& in, const std::string& out) {
     if (const auto target = target_of(out); !target) return Error{target.error()};
@@ -135,6 +144,7 @@ Result<void> check_out(const std::string& in, const std::string& out) {
 
 /// The child is not believed either: its bytes go through the reader.
 Result<std::string> import_model(const std::string& in, const std::string& out, const ImportLimits& limits) {
+    if (auto r = check_in(in); !r) return Error{r.error()};
     if (auto r = check_out(in, out); !r) return Error{r.error()};
     const auto work = [&in] { return convert_and_encode(in); };
     auto delivery = [&] {
@@ -161,7 +171,10 @@ void print(const std::string& line, bool notes_apart) {
 int main(int argc, char** argv) {
     std::string in, out;
     cullet::ImportLimits limits;
-    CLI::App app{"Reads a model of any format that assimp knows and writes one mesh file (.cmesh).", "cullet_import"};
+    CLI::App app{
+        "Reads a model (OBJ, PLY, STL, 3MF, FBX, Collada, glTF and more: docs/importing.md) and writes one mesh file "
+        "(.cmesh).",
+        "cullet_import"};
     app.add_option("in", in, "the model")->required();
     app.add_option("out", out, "the mesh file to write")->required();
     app.add_option("--memory-mib", limits.memory_mib, "most memory for reading the model, MiB")
@@ -177,6 +190,11 @@ int main(int argc, char** argv) {
         app.parse(argc, argv);
     } catch (const CLI::Success& e) {  // --help, --version
         return app.exit(e);
+    } catch (const CLI::ArgumentMismatch& e) {  // an option at the end, without its number
+        const std::string said = cullet::one_line(e.what());
+        std::fprintf(stderr, "cullet_import: %s: wants a number. See cullet_import --help.\n",
+                     said.substr(0, said.find(':')).c_str());
+        return 2;
     } catch (const CLI::ParseError& e) {
         std::fprintf(stderr, "cullet_import: %s. See cullet_import --help.\n", cullet::one_line(e.what()).c_str());
         return 2;

@@ -11,8 +11,8 @@
 #include <filesystem>
 #include <fstream>
 
-#include "engine/import/sanitized.hpp"
 #include "engine/import/import_mesh.hpp"
+#include "engine/import/sanitized.hpp"
 #include "engine/math.hpp"
 #include "engine/mesh_file.hpp"
 #include "tests/support/places.hpp"
@@ -256,8 +256,12 @@ TEST_F(Import, ANameOfTwoLinesIsOneSentence) {
     };
     expect_one_line(import_mesh(path, kProgram, cache()).error());
     std::ofstream(path) << kCube;
-    const auto cube = import_mesh(path, kProgram, cache());
+    std::string notes = "none yet";
+    const auto cube = import_mesh(path, kProgram, cache(), {}, &notes);
     EXPECT_TRUE(cube.ok()) << cube.error();
+    EXPECT_EQ(notes, "");
+    const ProgramRun by_hand = run(path, folder_ / "out.cmesh");
+    EXPECT_EQ(std::count(by_hand.said.begin(), by_hand.said.end(), '\n'), 1) << by_hand.said;
     std::ofstream(path) << "v 0 0 0\n";
     expect_one_line(import_mesh(path, kProgram, cache()).error());
     expect_one_line(read_mesh_file(path).error());
@@ -368,6 +372,21 @@ TEST_F(Import, WrongArgumentsAreOneSentence) {
     EXPECT_EQ(result.exit_code, 2);
     EXPECT_EQ(std::count(result.said.begin(), result.said.end(), '\n'), 1) << result.said;
     EXPECT_EQ(run(file("cube.obj", kCube), folder_ / "none" / "out.cmesh").exit_code, 2);
+}
+
+TEST_F(Import, AFileThatIsNotThereOrEmptyIsToldApartFromOneThatCannotBeRead) {
+    for (const std::string name : {"no.stl", "no.obj", "no.glb", "no.gltf", "no.dae", "no.3mf", "no.fbx", "no"}) {
+        const std::string path = folder_ / name;
+        const std::string missing = run(path, folder_ / "out.cmesh").said;
+        EXPECT_EQ(missing, path + ": cannot open the file (No such file or directory). Check the path.\n");
+        EXPECT_EQ(run(file(name, ""), folder_ / "out.cmesh").said, path + ": is empty. Copy or export it again.\n");
+    }
+}
+
+TEST_F(Import, AnOptionWithoutItsNumberSaysWhatItWants) {
+    for (const std::string option : {"--seconds", "--memory-mib"})
+        EXPECT_EQ(run(file("cube.obj", kCube), folder_ / "out.cmesh", option).said,
+                  "cullet_import: " + option + ": wants a number. See cullet_import --help.\n");
 }
 
 /// One triangle, whose corners stand in the buffer of that name.

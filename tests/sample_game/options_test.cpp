@@ -46,6 +46,17 @@ TEST(Options, EverySceneCanBeRunByItsName) {
     EXPECT_TRUE(parse_options({"run", "show_reel"}).ok());
 }
 
+TEST(Options, AnOptionWithoutWhatBelongsToItSaysWhatItWants) {
+    for (const char* name : {"--frames", "--dt-ms", "--threads", "--repeat", "--draw"})
+        EXPECT_EQ(parse_options({"run", "vase", name}).error().rfind(std::string(name) + ": wants a number. ", 0), 0u)
+            << parse_options({"run", "vase", name}).error();
+    for (const char* name : {"--mesh", "--out", "--set", "--materials", "--hash"})
+        EXPECT_EQ(
+            parse_options({"run", "vase", name}).error().rfind(std::string(name) + ": wants a word behind it. ", 0), 0u)
+            << parse_options({"run", "vase", name}).error();
+    EXPECT_EQ(parse_options({"cook", "a.obj", "--seed"}).error().rfind("--seed: wants a number. ", 0), 0u);
+}
+
 TEST(Options, WhatMakesNoSenseIsRefusedInOneSentence) {
     const std::vector<std::vector<std::string>> wrong{
         {},

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "engine/import/text_encoding.hpp"
+#include "engine/import/words.hpp"
 #include "engine/mesh_file.hpp"
 
 namespace cullet::gltf {
@@ -61,6 +62,7 @@ std::string reason_of(const nlohmann::json::exception& error) {
 }  // namespace
 
 Document::Document(std::vector<uint8_t> bytes, const std::string& path) : path_(path), bytes_(std::move(bytes)) {
+    if (bytes_.empty()) throw Refusal("is empty", "Copy or export it again.");
     const char* begin = reinterpret_cast<const char*>(bytes_.data());
     if (begins_as_binary(begin, bytes_.size())) {
         const std::string text = json_text_of_chunks();
@@ -145,9 +147,7 @@ std::vector<uint8_t> bytes_of_model(const std::string& path) {
 }
 
 bool is_gltf(const std::string& path) {
-    std::string extension = std::filesystem::path(path).extension().string();
-    for (char& c : extension)
-        if (c >= 'A' && c <= 'Z') c = static_cast<char>(c + 32);
+    const std::string extension = small_letters(std::filesystem::path(path).extension().string());
     if (extension == ".gltf" || extension == ".glb") return true;
     std::error_code trouble;
     if (!std::filesystem::is_regular_file(path, trouble)) return false;  // opening a pipe would wait

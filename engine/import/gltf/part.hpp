@@ -26,7 +26,7 @@ class Part {
 
     const std::string& place() const { return place_; }
     [[noreturn]] void refuse(const std::string& what) const {
-        throw Refusal((place_.empty() ? "the whole" : place_) + " " + what);
+        throw Refusal((place_.empty() ? "the file" : place_) + " " + what);
     }
 
     /// A member of this object, if it is there.
