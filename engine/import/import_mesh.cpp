@@ -23,6 +23,7 @@
 
 #include "engine/import/import.hpp"
 #include "engine/import/import_folder.hpp"
+#include "engine/import/words.hpp"
 #include "engine/mesh_file.hpp"
 
 extern char** environ;
@@ -40,10 +41,7 @@ constexpr double kLongestImport = 20;             // s; a program that has not g
 constexpr size_t kLongestSentence = 4096;         // bytes
 
 std::string lower_case_extension(const std::string& path) {
-    std::string extension = fs::path(path).extension().string();
-    for (char& c : extension)
-        if (c >= 'A' && c <= 'Z') c = static_cast<char>(c + 32);
-    return extension;
+    return small_letters(fs::path(path).extension().string());
 }
 
 /// The values of "uri" in a glTF text that name files, in the order of the text; nothing when there are too many. No
@@ -236,27 +234,40 @@ Result<Imported> read_imported(const std::string& path, const std::string& progr
     return Error{path + ": the import program stopped without a word. Run it by hand: " + program + " " + path};
 }
 
+/// Where a mesh stands before it has its name, in a folder that several runs may share.
+std::string passing_file(const fs::path& folder) {
+    return folder / ("passing." + std::to_string(::gettid()) + ".cmesh");
+}
+
 Result<Imported> import_without_cache(const std::string& path, const std::string& program, const fs::path& folder,
                                       const ImportWaiting& waiting) {
-    const std::string out = folder / ("passing." + std::to_string(::gettid()) + ".cmesh");
+    const std::string out = passing_file(folder);
     auto mesh = read_imported(path, program, out, waiting);
     ::unlink(out.c_str());
     return mesh;
 }
 
-/// Notes stand beside the mesh file, where there are any.
+/// Notes stand beside the mesh file, where there are any, and before it: whoever finds the mesh finds them too. When
+/// they cannot be written, the mesh is not kept.
+Result<Imported> import_into_cache(const std::string& path, const std::string& program, const std::string& cached,
+                                   const ImportWaiting& waiting) {
+    const std::string out = passing_file(fs::path(cached).parent_path()), beside = cached + ".notes";
+    auto imported = read_imported(path, program, out, waiting);
+    bool is_kept = imported.ok();
+    if (is_kept && imported->notes.empty()) ::unlink(beside.c_str());
+    if (is_kept && !imported->notes.empty()) {
+        const auto* bytes = reinterpret_cast<const uint8_t*>(imported->notes.data());
+        is_kept = write_whole_file({bytes, imported->notes.size()}, beside).ok();
+    }
+    if (!is_kept || ::rename(out.c_str(), cached.c_str()) != 0) ::unlink(out.c_str());
+    return imported;
+}
+
 Result<Imported> import_with_cache(const std::string& path, const std::string& program, const std::string& cached,
                                    const ImportWaiting& waiting) {
     const std::string beside = cached + ".notes";
     auto mesh = read_mesh_file(cached);
-    if (!mesh) {
-        auto imported = read_imported(path, program, cached, waiting);
-        if (imported && !imported->notes.empty()) {
-            const auto* bytes = reinterpret_cast<const uint8_t*>(imported->notes.data());
-            (void)write_whole_file({bytes, imported->notes.size()}, beside).ok();  // without it they are said once
-        }
-        return imported;
-    }
+    if (!mesh) return import_into_cache(path, program, cached, waiting);
     for (const std::string& used : {cached, beside})
         ::utimensat(AT_FDCWD, used.c_str(), nullptr, 0);  // used now; whoever keeps the folder small sees it
     const auto notes = read_whole_file(beside, kLongestSentence);
