@@ -84,7 +84,7 @@ Names known_names() {
     add_words(names, keys_help("").value());
     add_words(names, to_json(Report()));
     add_words(names, World::describe_frame());
-    for (const char* folder : {"sample_game", "engine/import", "systems/api", "systems/damage", "perf"})
+    for (const char* folder : {"sample_game", "engine/import", "systems", "perf"})
         each_file(folder, [&](const fs::path& file) { add_quoted(names, file); });
     // Files and folders, targets, and what the environment may say.
     for (const char* folder : {"engine", "components", "systems", "sample_game", "tests", "perf", "scripts", "docs"})
