@@ -249,6 +249,21 @@ void keep_cuts(Blows& blows, Row<Tasks> task) {
         if (blows.task[b] == task.index && is_kind(blows, b, BlowKind::Cut)) blows.goes_on[b] = 1;
 }
 
+// A contact is not solved where the striker breaks too, on time and at this body: what the touch takes is in the motion
+// of the striker's pieces, in this frame or since one before it.
+bool goes_to_striker(const Tasks& tasks, const TaskContacts& contacts, const Bodies& bodies, Row<Bodies> body,
+                     uint32_t contact) {
+    if (contacts.is_answered[contact]) return true;
+    const Row<Bodies> striker = contacts.striker[contact];
+    const uint32_t own = striker.exists() ? bodies.task[striker] : kNone;
+    if (own == kNone || static_cast<TaskState>(tasks.state[own]) != TaskState::Broke || tasks.is_late[own])
+        return false;
+    const uint32_t first = tasks.first_contact[own], end = first + tasks.contact_count[own];
+    for (uint32_t c = first; c < end; ++c)
+        if (contacts.striker[c] == body) return true;
+    return false;
+}
+
 // J that pieces may have beyond the body's motion where none of them left: what the contact that is solved now takes
 // for certain, as half of what two bodies lose that meet without bouncing; of a late result what it has taken.
 double lost_to_touch(const State& state, Row<Tasks> task) {
@@ -258,6 +273,7 @@ double lost_to_touch(const State& state, Row<Tasks> task) {
     const uint32_t first = state.tasks.first_contact[task], end = first + state.tasks.contact_count[task];
     double most = 0;
     for (uint32_t c = first; c < end; ++c) {
+        if (goes_to_striker(state.tasks, contacts, state.bodies, body, c)) continue;
         const Vec3d point(contacts.point[c]), normal(contacts.normal[c]);
         const Vec3d arm = point - state.bodies.centre[body];
         const Vec3d moving = Vec3d(state.tasks.start_velocity[task]) + cross(Vec3d(state.tasks.start_spin[task]), arm);
