@@ -34,6 +34,8 @@ constexpr float kDeepEnough = 0.002f;     // m, deeper than which place alone co
 constexpr float kPastBonus = 0.01f;       // m
 constexpr float kSeamNear = 0.01f;        // m, between touches of one seam
 constexpr float kAsDeep = 0.0005f;        // m
+constexpr float kDeepInside = 0.005f;     // m, in an inner face
+constexpr float kDeepBehind = 0.01f;      // m, an open one
 
 // Shards with holes and hooks can be threaded through each other, so that each way out of one piece leads deeper into
 // another: pushed out, they tremble for ever. What came this deep into something, and in so long not out to this share
@@ -268,10 +270,13 @@ bool PairAlgorithm::write_crack(PairRecord& record, const Body& a, const Hull& h
 }
 
 // Of a patch that pushes along an edge inside of what is flat, what lies over an open face of the same piece stays.
+// What lies deep in an inner face, or much deeper behind the open one, did not come in through that: it is wedged among
+// pieces, and goes the way that it was found. Turned out by 7 cm it shook for as long as anybody looked.
 void PairAlgorithm::keep_to_open_faces(Patch& patch, PairRecord& record, const Body& a, const Hull& hull_a,
                                        const Body& b, const Hull& hull_b) {
     const auto keep = [&](const Body& body, const Hull& hull, const Body& other, const Hull& piece, bool is_a) {
         if (patch.count == 0 || !may_have_inner_edges(body)) return;
+        const float scale = scale_of(hull, piece);
         Vec3 places[kPatchPoints];
         int deepest = 0;
         for (int k = 0; k < patch.count; ++k) {
@@ -285,11 +290,14 @@ void PairAlgorithm::keep_to_open_faces(Patch& patch, PairRecord& record, const B
             return (void)(patch.count = 0);
         const Push push = turn_to_open_face(work_->around, {body, hull, other, piece, piece.world},
                                             {places, static_cast<size_t>(patch.count)}, normal);
-        if (push == Push::AsFound) return;
-        patch.count = 0;
-        if (push == Push::None) return;
-        record.guess = is_a ? -normal : normal;
-        patch = patch_along(hull_a, rotation_of(a.fresh_at), hull_b, rotation_of(b.fresh_at), record.guess);
+        if (push == Push::AsFound || patch.point[deepest].distance < -scale * kDeepInside) return;
+        if (push == Push::None) return (void)(patch.count = 0);
+        const Vec3 turned = is_a ? -normal : normal;
+        const Patch along = patch_along(hull_a, rotation_of(a.fresh_at), hull_b, rotation_of(b.fresh_at), turned);
+        for (int k = 0; k < along.count; ++k)
+            if (along.point[k].distance < -scale * kDeepBehind) return;
+        record.guess = turned;
+        patch = along;
     };
     keep(b, hull_b, a, hull_a, false);
     keep(a, hull_a, b, hull_b, true);
