@@ -185,46 +185,66 @@ void measure(Spot* spots, uint32_t count, const Side& a, const Side& b) {
 // sinks by 9 mm; the noise of a level patch (a micrometre) moves no choice.
 constexpr float kPatchDepthWeight = 20;
 
+float flat_distance(const Spot& a, const Spot& b) {
+    return std::sqrt((a.x - b.x) * (a.x - b.x) + (a.y - b.y) * (a.y - b.y));
+}
+
+// Among spots where the cores overlap place alone counts: what is stuck deep in a floor needs its corners.
+float raised(const Spot& s) {
+    return kPatchDepthWeight * std::max(gap(s), 0.0f);
+}
+
+template <class Value>
+uint32_t pick(const Spot* spots, uint32_t count, Value&& value) {
+    uint32_t best = 0;
+    float most = -kFar;
+    for (uint32_t k = 0; k < count; ++k) {
+        const float v = value(spots[k]);
+        if (v > most) best = k, most = v;
+    }
+    return best;
+}
+
+// Some of the four may be one spot.
+void choose_corners(const Spot* spots, uint32_t count, uint32_t (&four)[kPatchPoints]) {
+    four[0] = pick(spots, count, [&](const Spot& s) { return s.x + 0.37f * s.y - raised(s); });
+    const Spot& first = spots[four[0]];
+    four[1] = pick(spots, count, [&](const Spot& s) { return flat_distance(s, first) - raised(s); });
+    const Spot& second = spots[four[1]];
+    // A thousandth of a millimetre: where both are one spot, all areas are zero.
+    const float base = flat_distance(first, second) + 1e-6f;
+    const auto beside = [&](const Spot& s) { return area(first, second, s) / base; };
+    four[2] = pick(spots, count, [&](const Spot& s) { return beside(s) - raised(s); });
+    four[3] = pick(spots, count, [&](const Spot& s) { return -beside(s) - raised(s); });
+}
+
 // Four of many: the extreme ones of a fixed direction, then of area, so that a resting patch picks the same corners
-// every step; the deepest takes the place of the shallowest when none of them is within 0.1 mm of it.
+// every step. The deepest takes a place that is left, or that of the nearest of them, when none of them is within 0.1
+// mm of it. In the place of the shallowest it took the only spot at the other end of a bent slab, which rocked from one
+// end to the other, 17 mm deep in a floor with both.
 int choose_four(const Spot* spots, uint32_t count, float scale, uint32_t (&chosen)[kPatchPoints]) {
     if (count <= kPatchPoints) {
         for (uint32_t k = 0; k < count; ++k) chosen[k] = k;
         return static_cast<int>(count);
     }
-    const auto pick = [&](auto&& value) {
-        uint32_t best = 0;
-        float most = -kFar;
-        for (uint32_t k = 0; k < count; ++k) {
-            const float v = value(spots[k]);
-            if (v > most) best = k, most = v;
-        }
-        return best;
-    };
-    // Among spots where the cores overlap place alone counts: what is stuck deep in a floor needs its corners.
-    const auto raised = [](const Spot& s) { return kPatchDepthWeight * std::max(gap(s), 0.0f); };
-    const auto far = [](const Spot& a, const Spot& b) {
-        return std::sqrt((a.x - b.x) * (a.x - b.x) + (a.y - b.y) * (a.y - b.y));
-    };
-    const uint32_t first = pick([&](const Spot& s) { return s.x + 0.37f * s.y - raised(s); });
-    const uint32_t second = pick([&](const Spot& s) { return far(s, spots[first]) - raised(s); });
-    // A thousandth of a millimetre: where both are one spot, all areas are zero.
-    const float base = far(spots[first], spots[second]) + 1e-6f;
-    const auto beside = [&](const Spot& s) { return area(spots[first], spots[second], s) / base; };
-    const uint32_t third = pick([&](const Spot& s) { return beside(s) - raised(s); });
-    const uint32_t fourth = pick([&](const Spot& s) { return -beside(s) - raised(s); });
-    const uint32_t deepest = pick([](const Spot& s) { return -gap(s); });
-    uint32_t four[4] = {first, second, third, fourth};
-    uint32_t shallowest = 0;
-    float least = kFar;
-    for (uint32_t k = 0; k < 4; ++k) {
-        least = std::min(least, gap(spots[four[k]]));
-        if (gap(spots[four[k]]) > gap(spots[four[shallowest]])) shallowest = k;
-    }
-    if (gap(spots[deepest]) < least - scale * kAsDeep) four[shallowest] = deepest;
+    uint32_t four[kPatchPoints];
+    choose_corners(spots, count, four);
     int kept = 0;
-    for (const uint32_t k : four)
-        if (std::find(chosen, chosen + kept, k) == chosen + kept) chosen[kept++] = k;
+    float least = kFar;
+    for (const uint32_t k : four) {
+        if (std::find(chosen, chosen + kept, k) != chosen + kept) continue;
+        chosen[kept++] = k;
+        least = std::min(least, gap(spots[k]));
+    }
+    const uint32_t deepest = pick(spots, count, [](const Spot& s) { return -gap(s); });
+    if (!(gap(spots[deepest]) < least - scale * kAsDeep)) return kept;
+    if (kept < kPatchPoints) {
+        chosen[kept++] = deepest;
+        return kept;
+    }
+    *std::min_element(chosen, chosen + kept, [&](uint32_t a, uint32_t b) {
+        return flat_distance(spots[a], spots[deepest]) < flat_distance(spots[b], spots[deepest]);
+    }) = deepest;
     return kept;
 }
 
