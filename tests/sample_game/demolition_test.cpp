@@ -33,8 +33,12 @@ TEST(Demolition, TheWholeStreetIsTheSameOnAnyNumberOfThreads) {
     EXPECT_EQ(report.frames, 1200u);
     EXPECT_LE(report.fragments.live, 2000u);
     EXPECT_GT(report.fragments.born, 2000u);
-    EXPECT_GE(static_cast<double>(report.tasks.first_ready), 0.8 * static_cast<double>(report.tasks.first_breaks));
-    EXPECT_GT(report.tasks.first_breaks, 0u);
+    // Of a thousand touches that are foreseen a third come so, in a shower of pieces that push each other. Nearly all
+    // buildings break by explosions: none to five a street by touch alone, too few to ask a share of them to be ready.
+    // ready_test asks that of scenes in which nothing else breaks a body.
+    const uint64_t hits = report.tasks.ahead_hits, followed = hits + report.tasks.ahead_misses;
+    EXPECT_GE(hits, 200u);
+    EXPECT_GE(4 * hits, followed);
     if (release_game().empty()) GTEST_SKIP() << "configure with -DCULLET_RELEASE_GAME=PROGRAM";
     for (const unsigned threads : {1u, 2u, 3u, 8u}) {
         const nlohmann::json other = report_of_release(threads);

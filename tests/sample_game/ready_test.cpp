@@ -1,5 +1,4 @@
-// Whole bodies that break by touch: how many are ready when they touch, since it was foreseen. demolition_test asks the
-// same of its street.
+// Whole bodies that break by touch: how many are ready when they touch, since it was foreseen.
 #include <gtest/gtest.h>
 
 #include <string>
