@@ -83,8 +83,10 @@ bool is_inside(const Spot& spot, const Side& side) {
     return true;
 }
 
+// Of pieces that overlap by so much, m, what bulges so far less touches too.
 // `sign` -1: the side that looks down the normal (hull a); +1: up (hull b). `offset` is the hull's centre in the frame.
-void look(const Hull& hull, const Mat3& rotation, const PatchFrame& frame, Vec3 offset, float sign, Side& side) {
+void look(const Hull& hull, const Mat3& rotation, const PatchFrame& frame, Vec3 offset, float sign, float overlap,
+          Side& side) {
     const float scale = scale_of(hull);
     side.flat = scale * scale * kFlat;
     const Vec3 n = transposed_times(rotation, frame.normal), right = transposed_times(rotation, frame.right),
@@ -130,7 +132,7 @@ void look(const Hull& hull, const Mat3& rotation, const PatchFrame& frame, Vec3 
     if (side.plane_count == 0) side.plane[side.plane_count++] = {oz + sign * top, 0, 0};
     // Points of the outline are not inside of it.
     for (uint32_t k = 0; k < hull.point_count && side.outline_count >= 3; ++k) {
-        if (!(height[k] > top - scale * kBulgeDepth)) continue;
+        if (!(height[k] > top - scale * kBulgeDepth - overlap)) continue;
         const Spot spot = spot_at(k);
         if (is_inside(spot, side)) side.bulge[side.bulge_count++] = spot;
     }
@@ -344,11 +346,11 @@ namespace {
 // Where the sides that face each other lie over each other, no farther apart than contacts reach. With a frame of its
 // own, so that none on the stack is large.
 [[gnu::noinline]] uint32_t facing_spots(const Hull& a, const Mat3& rotation_a, const Hull& b, const Mat3& rotation_b,
-                                        const PatchFrame& frame, Spot (&spots)[4 * kMaxPoints]) {
+                                        const PatchFrame& frame, float overlap, Spot (&spots)[4 * kMaxPoints]) {
     if (a.point_count == 1 || b.point_count == 1) return 0;
     Side side_a, side_b;
-    look(a, rotation_a, frame, {}, -1, side_a);
-    look(b, rotation_b, frame, b.world.centre - a.world.centre, 1, side_b);
+    look(a, rotation_a, frame, {}, -1, overlap, side_a);
+    look(b, rotation_b, frame, b.world.centre - a.world.centre, 1, overlap, side_b);
     uint32_t count = 0;
     if (side_b.outline_count >= 3)
         count = clip_outline(side_a, side_b, spots);
@@ -387,7 +389,7 @@ bool is_over(const Spot& spot, const Side& side, float slack) {
     const Vec3 to_b = b.world.centre - a.world.centre, at = is_a_ball ? Vec3{} : to_b;
     Side side;
     look(is_a_ball ? b : a, is_a_ball ? rotation_b : rotation_a, frame, is_a_ball ? to_b : Vec3{},
-         is_a_ball ? 1.0f : -1.0f, side);
+         is_a_ball ? 1.0f : -1.0f, 0, side);
     Spot spot{dot(at, frame.right), dot(at, frame.forward), 0, 0};
     if (!is_over(spot, side, scale_of(a, b) * kPastEdge + (is_a_ball ? b.margin : a.margin))) return;
     spot.low_a = spot.high_b = dot(at, patch.normal);
@@ -407,7 +409,8 @@ Patch patch_along(const Hull& a, const Mat3& rotation_a, const Hull& b, const Ma
     patch.normal = normal;
     const PatchFrame frame = make_frame(normal);
     Spot spots[4 * kMaxPoints];
-    const uint32_t count = facing_spots(a, rotation_a, b, rotation_b, frame, spots);
+    const auto apart = static_cast<float>(gap_along(a.world, b.world, Vec3d(normal)));
+    const uint32_t count = facing_spots(a, rotation_a, b, rotation_b, frame, std::max(0.0f, -apart), spots);
     add_best_spots(patch, a, b, frame, spots, count);
     if (a.point_count == 1 || b.point_count == 1) add_ball(patch, a, rotation_a, b, rotation_b, frame);
     return patch;
@@ -425,7 +428,7 @@ Patch contact_patch(const Hull& a, const Mat3& rotation_a, const Hull& b, const 
     Spot spots[4 * kMaxPoints];
     const float scale = scale_of(a, b);
     const PatchFrame frame = make_frame(touch.normal);
-    const uint32_t count = facing_spots(a, rotation_a, b, rotation_b, frame, spots);
+    const uint32_t count = facing_spots(a, rotation_a, b, rotation_b, frame, std::max(0.0f, -touch.gap), spots);
     float shallow = kFar;
     for (uint32_t k = 0; k < count; ++k) shallow = std::min(shallow, gap(spots[k]));
     // Of a triangle that the cores lie in, the spots over it are all that lies in it: the least overlap is that of what
