@@ -16,8 +16,9 @@ namespace {
 constexpr uint32_t kFrames = 30, kMany = kNone - 1;
 constexpr float kTouch = 0.001f;       // m between bounds of pieces that were born in touch
 constexpr double kSeenDepth = 0.0005;  // m
-// m between two places of a body: what turns on and strikes, or crosses a hollow, meets what lay farther off.
-constexpr double kElsewhere = 0.01;
+// Walls of the thinner piece between two places of a body: what turns on and strikes, or crosses a hollow, meets what
+// lay farther off. And no more than this, m.
+constexpr double kElsewhere = 2, kMostElsewhere = 0.01;
 // m: what first meets there comes upon the surface. Deeper, hulls lie in each other since birth: that is its doing.
 constexpr float kUponSurface = -0.002f;
 
@@ -172,6 +173,12 @@ double SiblingWatch::apart_at_birth(const RigidContact& contact) const {
     return length(place_in(contact.a) - place_in(contact.b));
 }
 
+double SiblingWatch::thinner_wall(const RigidContact& contact) const {
+    const State& state = state_of(world_);
+    const auto wall = [&](uint32_t body) { return state.shells.thickness[state.bodies.shell[body]]; };
+    return static_cast<double>(std::min(wall(contact.a), wall(contact.b)));
+}
+
 uint32_t SiblingWatch::piece_of(uint32_t body) const {
     for (uint32_t p = 0; p < pieces_.size(); ++p)
         if (pieces_[p].id.index == body) return p;
@@ -212,7 +219,8 @@ void SiblingWatch::mark_struck() {
         if (p > q) std::swap(p, q);
         const bool are_neighbours = std::binary_search(pairs_.begin(), pairs_.end(), std::pair(p, q));
         if (!are_neighbours || is_struck_[p] || is_struck_[q]) is_struck_[p] = is_struck_[q] = 1;
-        const bool meets_elsewhere = apart_at_birth(c) > kElsewhere && c.distance > kUponSurface;
+        const double far = std::min(kMostElsewhere, kElsewhere * thinner_wall(c));
+        const bool meets_elsewhere = apart_at_birth(c) > far && c.distance > kUponSurface;
         if (is_struck_[p] || has_met_[p] || has_met_[q] || meets_elsewhere) has_met_[p] = has_met_[q] = 1;
     }
 }

@@ -52,6 +52,7 @@ class SiblingWatch {
     void measure_meetings();
     uint32_t piece_of(uint32_t body) const;
     double apart_at_birth(const RigidContact& contact) const;
+    double thinner_wall(const RigidContact& contact) const;  // m
     void measure_pairs();
     void look_inside();
 

@@ -65,7 +65,8 @@ constexpr double kLost = 0.01, kThrown = 0.2, kMostThrown = 1;
 /// that flies at one of the two, and is stopped by it, changes their speed beside each other.
 struct Bounds {
     double gained_by_99_per_cent, most_gained;  // m/s
-    // Of one pair of hidden breaks since contacts go with sizes; wanted: kMostThrown.
+    // Wanted: kMostThrown. One piece of a wall of 4 mm turns and comes upon its neighbour 7 mm from where they were
+    // one.
     double most_thrown;  // m/s
 };
 
@@ -89,7 +90,7 @@ void expect_sound(const SiblingFigures& f, uint32_t breaks, const Bounds& today)
 }
 
 TEST(Siblings, OfHiddenBreaksAreDrawnAsTheBodyWasAndDoNotThrowEachOther) {
-    expect_sound(figures_of(FractureMode::Hidden, 500), 500, {0.85, 8, 6.5});
+    expect_sound(figures_of(FractureMode::Hidden, 500), 500, {0.85, 8, 2.1});
 }
 
 TEST(Siblings, OfQuickBreaksAreDrawnAsTheBodyWasAndDoNotThrowEachOther) {
