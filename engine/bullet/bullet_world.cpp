@@ -276,7 +276,7 @@ void BulletWorld::renew_seams(Body& body) {
         const Box box = grown(hull->local_box, kSeamReach);
         if (overlap(box, changed, kSeamReach)) seams_.push_back({box, hull});
     }
-    mark_new_seams();
+    mark_new_seams(body.kind == RigidKind::Static);
 }
 
 // Of the pieces' own bounds: an upper bound of the reach, for one look at each piece.
@@ -319,18 +319,20 @@ void BulletWorld::forget_seams(Body& body, Vec3 centre, float radius) {
     }
 }
 
-void BulletWorld::mark_seam(const Seam& p, const Seam& q) {
+// `is_whole`: of what stands still faces are inner only where they are covered to their corners; the rest is looked for
+// where it is touched, see inner_edges.hpp. What moves is not searched in heaps: there the middle tells.
+void BulletWorld::mark_seam(const Seam& p, const Seam& q, bool is_whole) {
     if (!overlap(p.box, q.box, 0)) return;
-    mark_inner_faces(*p.hull, *q.hull);
-    mark_inner_faces(*q.hull, *p.hull);
+    mark_inner_faces(*p.hull, *q.hull, is_whole);
+    mark_inner_faces(*q.hull, *p.hull, is_whole);
 }
 
 // Of the pieces listed those that have none yet, against all.
-void BulletWorld::mark_new_seams() {
+void BulletWorld::mark_new_seams(bool is_whole) {
     for (const Seam& p : seams_) {
         if (p.hull->has_seams) continue;
         for (const Seam& q : seams_)
-            if (q.hull->has_seams || q.hull->ordinal > p.hull->ordinal) mark_seam(p, q);
+            if (q.hull->has_seams || q.hull->ordinal > p.hull->ordinal) mark_seam(p, q, is_whole);
     }
 }
 
@@ -343,13 +345,14 @@ void BulletWorld::mark_seams(Body& body) {
         seams_.push_back({grown(hull->local_box, kSeamReach), hull});
         new_count += !hull->has_seams;
     }
-    if (8 * new_count < seams_.size()) return mark_new_seams();
+    const bool is_whole = body.kind == RigidKind::Static;
+    if (8 * new_count < seams_.size()) return mark_new_seams(is_whole);
     std::sort(seams_.begin(), seams_.end(), [](const Seam& p, const Seam& q) {
         return p.box.low.x != q.box.low.x ? p.box.low.x < q.box.low.x : p.hull->ordinal < q.hull->ordinal;
     });
     for (size_t k = 0; k < seams_.size(); ++k)
         for (size_t j = k + 1; j < seams_.size() && seams_[j].box.low.x <= seams_[k].box.high.x; ++j) {
-            if (!seams_[k].hull->has_seams || !seams_[j].hull->has_seams) mark_seam(seams_[k], seams_[j]);
+            if (!seams_[k].hull->has_seams || !seams_[j].hull->has_seams) mark_seam(seams_[k], seams_[j], is_whole);
         }
 }
 

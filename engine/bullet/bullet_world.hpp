@@ -138,8 +138,8 @@ class BulletWorld final : public RigidWorld {
     void drop_pieces(Body& body);
     Hull* take_shape(const ConvexPiece& piece, const BodyFrame& frame, float margin);
     void mark_seams(Body& body);
-    void mark_new_seams();
-    static void mark_seam(const Seam& p, const Seam& q);
+    void mark_new_seams(bool is_whole);
+    static void mark_seam(const Seam& p, const Seam& q, bool is_whole);
     void measure_body(Body& body);
     void set_mass(Body& body, double mass, Vec3d centre, const Sym3d& inertia);
     void enter(Body& body, const Pose& pose, uint32_t layer, uint32_t mask);

@@ -254,11 +254,26 @@ uint32_t foremost_face(const Hull& hull, Vec3 point) {
     return best;
 }
 
+// Every corner of the face, half a millimetre (at scale 1) within it and `outside` before it, lies in the other one, or
+// as near as where that one leans back by 30 degrees.
+bool are_corners_covered(const Hull& hull, uint32_t face, Vec3 middle, const Hull& other, float outside) {
+    const float inwards = 0.0005f * scale_of(hull, other), near = other.margin + 0.58f * outside;
+    const Vec3 before = hull.local.centre - other.local.centre + outside * hull.face_normal[face];
+    for (uint32_t c = hull.first_corner[face]; c < hull.first_corner[face + 1]; ++c) {
+        const Vec3 corner = hull.local[hull.corner[c]], way = middle - corner;
+        const float far = length(way);
+        const Vec3 p = before + corner + (far > inwards ? inwards / far : 1) * way;
+        for (uint32_t g = 0; g < other.face_count; ++g)
+            if (dot(other.face_normal[g], p) > other.face_height[g] + near) return false;
+    }
+    return true;
+}
+
 }  // namespace
 
 // Most faces are told off by one plane of the other: that which the hull's centre lies farthest in front of. Heights
 // over it are found for all points at once, then each face costs a sum over its corners.
-void mark_inner_faces(Hull& hull, const Hull& other) {
+void mark_inner_faces(Hull& hull, const Hull& other, bool is_whole) {
     const Vec3 between = other.local.centre - hull.local.centre;
     if (&hull == &other || length(between) > hull.radius + other.radius + kSeamRange || other.face_count < 4) return;
     // Past the margins of both and half a millimetre more (at scale 1), so that faces which lie on each other count and
@@ -292,6 +307,7 @@ void mark_inner_faces(Hull& hull, const Hull& other) {
             is_covered = is_below(p, g);
             if (!is_covered) teller = g;
         }
+        if (is_covered && is_whole) is_covered = are_corners_covered(hull, f, (1 / corners) * middle, other, outside);
         hull.is_face_inner[f] = is_covered;
     }
 }

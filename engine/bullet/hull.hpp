@@ -107,8 +107,10 @@ void find_box(Hull& hull);
 void set_face_points(Hull& hull);
 /// Of its local points.
 void set_local_box(Hull& hull);
-/// Marks the faces of `hull` that another piece of the same body covers: a point just outside of the face lies in it.
-void mark_inner_faces(Hull& hull, const Hull& other);
+/// Marks the faces of `hull` that another piece of the same body covers: a point just outside of the face's middle lies
+/// in it; with `is_whole` those outside of its corners, too. (The riser of a stair is covered in its middle by the step
+/// before, if both stand on the ground, and is to be struck above.)
+void mark_inner_faces(Hull& hull, const Hull& other, bool is_whole = false);
 /// World points and box for a body at `position` with its axes along the columns of `rotation`.
 void refresh_world(Hull& hull, const Mat3& rotation, Vec3 position);
 /// World points only, into another column.

@@ -26,6 +26,12 @@ float on_edge(Vec3 place) {
     return 1e-5f + 1e-6f * std::max({std::fabs(place.x), std::fabs(place.y), std::fabs(place.z)});
 }
 
+// At a rounded edge the surface lies this much below the plane of a side of it: the place is `margin` along `direction`
+// from the core. Without this, the end of a kerb's piece is inner where the next one begins.
+float below_plane(float margin, Vec3 side, Vec3 direction) {
+    return margin * (1 - std::max(0.0f, dot(side, direction)));
+}
+
 /// A place and a direction in the axes of a hull, from its centre.
 struct Local {
     Vec3 place, direction;
@@ -67,7 +73,13 @@ struct Beside {
     Vec3 way_out;  // world: to the neighbour's surface and kFlush past it (of the touch's scale)
 };
 
-Beside look_at(const Body& body, const Hull& hull, Vec3 place, Vec3 direction, float reach, float flush) {
+/// Where it is looked for, of what was touched there.
+struct Reach {
+    float flush, margin;  // m
+    float most() const { return flush + margin; }
+};
+
+Beside look_at(const Body& body, const Hull& hull, Vec3 place, Vec3 direction, Reach reach) {
     if (hull.face_count < 4) return {};  // what is flat has no sides to tell where it ends
     const Local at(body, hull, place, direction);
     const float edge = on_edge(place);
@@ -79,31 +91,32 @@ Beside look_at(const Body& body, const Hull& hull, Vec3 place, Vec3 direction, f
         const Vec3 normal = hull.face_normal[f];
         if (!(dot(normal, normal) > 0.5f)) continue;
         const float height = dot(normal, at.place) - hull.face_height[f] - hull.margin;
-        if (height > reach) return {};
-        if (height > -edge) bounds.out[bounds.count++] = normal;
+        if (height > reach.most()) return {};
+        if (height > -edge - below_plane(reach.margin, normal, at.direction)) bounds.out[bounds.count++] = normal;
         if (height > highest && std::fabs(dot(normal, at.direction)) < kAlong)
             highest = height, out = f, beside.has_way_out = true;
     }
     beside.is_near = true;
     beside.leads_in = leads_in(bounds, at.direction);
     if (beside.has_way_out)
-        beside.way_out = (std::max(0.0f, -highest) + flush) * (rotation_of(body.fresh_at) * hull.face_normal[out]);
+        beside.way_out =
+            (std::max(0.0f, -highest) + reach.flush) * (rotation_of(body.fresh_at) * hull.face_normal[out]);
     return beside;
 }
 
 // `seen_from` lies on the side of the triangle that is out.
-Beside look_at(const StaticTriangle& triangle, Vec3 place, Vec3 direction, float reach, float flush, Vec3 seen_from) {
+Beside look_at(const StaticTriangle& triangle, Vec3 place, Vec3 direction, Reach reach, Vec3 seen_from) {
     const Vec3* c = triangle.corner;
     const Vec3d across = cross(Vec3d(c[1]) - Vec3d(c[0]), Vec3d(c[2]) - Vec3d(c[0]));
     const Vec3 normal = normalised(across).to_float();
     const float height = dot(normal, place - c[0]), edge = on_edge(place);
-    if (!(std::fabs(height) <= reach)) return {};
+    if (!(std::fabs(height) <= reach.most())) return {};
     Bounds bounds;
     for (int k = 0; k < 3; ++k) {
         const Vec3 outwards = normalised(cross(c[(k + 1) % 3] - c[k], normal));
         const float past = dot(outwards, place - c[k]);
-        if (!(past <= reach)) return {};
-        if (past > -edge) bounds.out[bounds.count++] = outwards;
+        if (!(past <= reach.most())) return {};
+        if (past > -edge - below_plane(reach.margin, outwards, direction)) bounds.out[bounds.count++] = outwards;
     }
     Beside beside;
     beside.is_near = true;
@@ -115,7 +128,7 @@ Beside look_at(const StaticTriangle& triangle, Vec3 place, Vec3 direction, float
     if (std::fabs(up) < kAlong) {
         const float side = dot(normal, seen_from - c[0]) < 0 ? -1.0f : 1.0f;
         beside.has_way_out = true;
-        beside.way_out = (std::max(0.0f, -side * height) + flush) * (side * normal);
+        beside.way_out = (std::max(0.0f, -side * height) + reach.flush) * (side * normal);
     }
     return beside;
 }
@@ -132,13 +145,13 @@ bool are_same(const StaticTriangle& triangle, const Hull& hull) {
 /// Calls found(beside) for what is near the place, until it says true; whether it did.
 template <class Found>
 bool any_beside(const Surroundings& around, const Touched& touched, Vec3 place, Vec3 direction, Found found) {
-    const float flush = kFlush * scale_of(touched.hull, touched.piece), reach = flush + touched.hull.margin;
-    const Box box = grown({place, place}, reach);
+    const Reach reach{kFlush * scale_of(touched.hull, touched.piece), touched.hull.margin};
+    const Box box = grown({place, place}, reach.most());
     bool is_any = false;
     const auto look_in = [&](const Body& body) {
         for (const Hull* hull = body.hulls; hull && !is_any; hull = hull->next) {
             if (hull == &touched.hull || !overlap(hull->world_box, box, 0)) continue;
-            const Beside beside = look_at(body, *hull, place, direction, reach, flush);
+            const Beside beside = look_at(body, *hull, place, direction, reach);
             is_any = beside.is_near && found(beside);
         }
         if (!body.mesh || is_any) return;
@@ -147,7 +160,7 @@ bool any_beside(const Surroundings& around, const Touched& touched, Vec3 place, 
             const StaticTriangle& triangle = body.mesh->triangles[t];
             if (is_any || (touched.hull.one_sided && &body == &touched.body && are_same(triangle, touched.hull)))
                 return;
-            const Beside beside = look_at(triangle, place, direction, reach, flush, seen_from);
+            const Beside beside = look_at(triangle, place, direction, reach, seen_from);
             is_any = beside.is_near && found(beside);
         });
     };

@@ -3,9 +3,11 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <vector>
 
 #include "engine/random.hpp"
+#include "tests/engine/rigid_scenes.hpp"
 
 namespace cullet::bullet {
 namespace {
@@ -95,6 +97,21 @@ TEST(Hull, OfTwoPiecesSideBySideTheFacesBetweenThemAreInner) {
     ASSERT_EQ(inner_of(right).size(), 1u);
     EXPECT_LT(inner_of(right)[0].x, -0.999f);
     EXPECT_TRUE(inner_of(above).empty());
+}
+
+TEST(Hull, TheRiserOfAStepIsInnerInItsMiddleAloneWhenTheStepBeforeStandsOnTheSameGround) {
+    for (const float low : {0.3f, 0.98f, 1.0f}) {
+        Hull before, step;
+        build_hull(before, box_points({0.5f, 0.5f * low, 0.5f}, {-0.502f, 0.5f * low, 0}), 0.001f, 0);
+        build_hull(step, box_points({0.5f, 0.5f, 0.5f}, {0.5f, 0.5f, 0}), 0.001f, 1);
+        const auto inner_count = [&](bool is_whole) {
+            Hull hull = step;
+            mark_inner_faces(hull, before, is_whole);
+            return std::count(hull.is_face_inner, hull.is_face_inner + hull.face_count, true);
+        };
+        EXPECT_EQ(inner_count(false), low > 0.5f) << low;
+        EXPECT_EQ(inner_count(true), low == 1.0f) << low;
+    }
 }
 
 }  // namespace

@@ -10,100 +10,10 @@
 #include <string>
 
 #include "tests/engine/rigid_scenes.hpp"
-#include "tests/support/random_floors.hpp"
+#include "tests/support/random_sliders.hpp"
 
 namespace cullet {
 namespace {
-
-struct Slider {
-    const char* name = "";
-    std::vector<std::vector<Vec3>> pieces;
-    float margin = 0.001f, radius = 0;
-    double mass = 1;
-    Vec3d centre;
-    Sym3d inertia;
-    float lift = 0;  // m, of its frame when it lies on the floor
-    float turn = 0, speed = 0, side = 0;
-};
-
-void make_slab(Slider& slider, Vec3 half, int count_x, int count_z, double density) {
-    const float m = slider.margin;
-    const Vec3 cell{half.x / real(count_x), half.y, half.z / real(count_z)};
-    for (int i = 0; i < count_x; ++i)
-        for (int k = 0; k < count_z; ++k) {
-            const Vec3 centre{cell.x * real(2 * i + 1 - count_x), 0, cell.z * real(2 * k + 1 - count_z)};
-            // Cells meet: only the outside is pulled in.
-            const float ml = i == 0 ? m : 0, mh = i + 1 == count_x ? m : 0, nl = k == 0 ? m : 0,
-                        nh = k + 1 == count_z ? m : 0;
-            std::vector<Vec3> points = box_points(cell - Vec3{0.5f * (ml + mh), m, 0.5f * (nl + nh)},
-                                                  centre + Vec3{0.5f * (ml - mh), 0, 0.5f * (nl - nh)});
-            slider.pieces.push_back(points);
-        }
-    slider.mass = density * 8 * half.x * half.y * half.z;
-    const double s = slider.mass / 3, x = half.x * half.x, y = half.y * half.y, z = half.z * half.z;
-    slider.inertia = {s * (y + z), s * (x + z), s * (x + y)};
-    slider.lift = half.y;
-}
-
-Slider random_slider(Chance& chance) {
-    Slider slider;
-    slider.speed = 0.5f * std::pow(60.0f, chance.between(0, 1));
-    slider.turn = chance.between(0, 3.14f);
-    switch (chance.below(5)) {
-        case 0:
-            slider.name = "box";
-            make_slab(slider, {chance.between(0.02f, 0.15f), chance.between(0.02f, 0.1f), chance.between(0.02f, 0.15f)},
-                      1, 1, 2400);
-            break;
-        case 1:
-            slider.name = "box of pieces";
-            make_slab(slider, {chance.between(0.04f, 0.15f), chance.between(0.02f, 0.1f), chance.between(0.04f, 0.15f)},
-                      2, 3, 2400);
-            break;
-        case 2: {
-            slider.name = "ball";
-            slider.radius = slider.lift = chance.between(0.02f, 0.15f);
-            slider.mass = 2400 * 4.19 * slider.radius * slider.radius * slider.radius;
-            const double i = 0.4 * slider.mass * slider.radius * slider.radius;
-            slider.inertia = {i, i, i};
-            break;
-        }
-        case 3:
-            slider.name = "pane";
-            make_slab(slider,
-                      {chance.between(0.05f, 0.15f), chance.between(0.002f, 0.004f), chance.between(0.05f, 0.15f)}, 4,
-                      4, 2400);
-            break;
-        default: {
-            slider.name = "shard";
-            const ShardShape& shard = test_shard();
-            slider.pieces = shard.cells;
-            slider.mass = shard.mass, slider.centre = shard.centre, slider.inertia = shard.inertia;
-            float low = 0;
-            for (const auto& cell : shard.cells)
-                for (const Vec3 p : cell) low = std::min(low, p.y);
-            slider.lift = slider.margin - low;
-        }
-    }
-    return slider;
-}
-
-void add_floor(RigidWorld& world, const Floor& floor) {
-    RigidId id = 0;
-    for (const FloorPart& part : floor.parts) {
-        if (!part.triangles.empty()) {
-            world.add_static_triangles(id++, part.points, part.triangles, 0.45f, 0.2f, 1, ~0u);
-            continue;
-        }
-        std::vector<ConvexPiece> pieces;
-        for (const auto& p : part.pieces) pieces.push_back({p, static_cast<uint32_t>(pieces.size())});
-        RigidDescription d;
-        d.kind = RigidKind::Static;
-        d.margin = part.margin;
-        d.pieces = pieces;
-        world.add(id++, d);
-    }
-}
 
 /// Up to one step: of the whole trip to there `top` and `struck`.
 struct Trip {
@@ -114,33 +24,6 @@ using Trips = std::vector<Trip>;  // of one slider, by steps, as long as there i
 constexpr uint32_t kAbreast = 4;  // lanes
 constexpr uint32_t kFirst = 4000, kLimit = 4100;
 
-Quat about_y(float angle) {
-    return {0, std::sin(0.5f * angle), 0, std::cos(0.5f * angle)};
-}
-
-// The turn that takes the vertical to `up`, unit.
-Quat tilt_to(Vec3 up) {
-    const Quat half{up.z, 0, -up.x, 1 + up.y};
-    const float size = std::sqrt(half.x * half.x + half.z * half.z + half.w * half.w);
-    return {half.x / size, 0, half.z / size, half.w / size};
-}
-
-/// Along the hill at its middle, half a millimetre above the highest place below it.
-Pose laid_on(const Height& height, const Slider& s) {
-    const float x = 0, z = s.side, d = 0.01f;
-    const Vec3 up = normalised(Vec3{height(x - d, z) - height(x + d, z), 2 * d, height(x, z - d) - height(x, z + d)});
-    const Quat turn = tilt_to(up) * about_y(s.turn);
-    Pose pose{Vec3{x, height(x, z), z} + s.lift * up, turn};
-    float lift = 0;
-    for (const auto& piece : s.pieces)
-        for (const Vec3 point : piece) {
-            const Vec3 at = pose.position + rotate(turn, point) - s.margin * up;
-            lift = std::max(lift, height(at.x, at.z) - at.y);
-        }
-    pose.position.y += lift + 0.0005f;
-    return pose;
-}
-
 // `is_level`: as on flat ground, however steep the hill is.
 std::unique_ptr<RigidWorld> laid_world(const Floor& floor, const std::vector<Slider>& sliders, bool is_level = false) {
     auto world = make_bullet_world(kLimit);
@@ -148,19 +31,9 @@ std::unique_ptr<RigidWorld> laid_world(const Floor& floor, const std::vector<Sli
     add_floor(*world, floor);
     for (uint32_t k = 0; k < sliders.size(); ++k) {
         const Slider& s = sliders[k];
-        std::vector<ConvexPiece> pieces;
-        for (const auto& p : s.pieces) pieces.push_back({p, static_cast<uint32_t>(pieces.size())});
-        RigidDescription d;
-        d.pieces = pieces;
-        d.radius = s.radius;
-        d.margin = s.margin;
-        d.mass = s.mass, d.centre = s.centre, d.inertia = s.inertia;
-        d.pose = laid_on(floor.height, s);
-        const float slope = 100 * (floor.height(0.01f, s.side) - floor.height(0, s.side));
-        d.motion = {{s.speed, slope * s.speed, 0}, {}};
-        if (s.radius > 0) d.motion.angular_velocity = {0, 0, -s.speed / s.radius};
-        if (is_level) d.pose = {{0, floor.height(0, s.side) + s.lift + 0.0005f, s.side}, about_y(s.turn)};
-        world->add(kFirst + k, d);
+        const float slope = is_level ? 0 : 100 * (floor.height(0.01f, s.side) - floor.height(0, s.side));
+        const Pose pose = is_level ? laid_level(floor.height, s) : laid_on(floor.height, s);
+        add_slider(*world, kFirst + k, s, pose, {s.speed, slope * s.speed, 0});
     }
     return world;
 }
