@@ -3,13 +3,22 @@
 # frame on the way has a large part of them. Who needs more takes it from State::scratch or from the frame's arena.
 # Frames are read from what the compiler made of the prologues.
 most=6144
+fewest_functions=300  # of a library; fewer means that nothing was read
+command -v objdump >/dev/null || { echo "objdump is missing: install binutils."; exit 1; }
+for library in "$@"; do
+    functions=$(objdump -d --no-show-raw-insn "$library" | grep -c '^[0-9a-f]* <.*>:$')
+    if [ "$functions" -lt $fewest_functions ]; then
+        echo "$library: objdump shows $functions functions, expected at least $fewest_functions."
+        exit 1
+    fi
+done
 found=$(for library in "$@"; do
     objdump -d --no-show-raw-insn "$library" | awk '
         /^[0-9a-f]+ <.*>:$/ { name = substr($2, 2, length($2) - 3); next }
         /[[:space:]]sub +\$0x[0-9a-f]+,%rsp/ {
             match($0, /\$0x[0-9a-f]+/); print substr($0, RSTART + 3, RLENGTH - 3), name
         }
-        /[[:space:]]lea +-0x[0-9a-f]+\(%rsp\),%r11/ {
+        /[[:space:]]lea +-0x[0-9a-f]+\(%rsp\),%r(11|sp)/ {
             match($0, /-0x[0-9a-f]+/); print substr($0, RSTART + 3, RLENGTH - 3), name
         }'
 done | while read -r hex name; do
