@@ -120,6 +120,9 @@ Result<void> Script::declare() {
     only_declares_ = true;
     Result<void> done = start();
     if (!done.ok()) fmt::print("{}", unsaid_);
+    if (!done.ok() && lost_lines_ > 0)
+        fmt::print("... and {} more {} that the script printed before it failed.\n", lost_lines_,
+                   lost_lines_ == 1 ? "line" : "lines");
     return done;
 }
 
@@ -129,6 +132,8 @@ void Script::say(const std::string& line) {
         fmt::print("{}\n", line);
     else if (unsaid_.size() < kMostUnsaid)
         unsaid_ += line + "\n";
+    else
+        ++lost_lines_;
 }
 
 Result<void> Script::start() {

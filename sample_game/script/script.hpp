@@ -87,6 +87,7 @@ class Script {
     std::vector<Listener> listeners_;
     std::vector<std::string> used_sets_;
     std::string failure_, unsaid_;
+    uint64_t lost_lines_ = 0;   // printed while declaring, beyond what is kept
     int listening_thread_ = 0;  // reference
     uint64_t pause_ = 0;
     uint32_t random_count_ = 0;

@@ -596,6 +596,30 @@ TEST(Script, WhatItPrintsBeforeItFailsComesOnceToo) {
     }
 }
 
+/// Of what is printed before declarations fail 64 KiB are kept; a silent plan says nothing at all.
+TEST(Script, LinesThatAreNotKeptAreCounted) {
+    ScenePlan plan;
+    plan.scene.file = plan.scene.name = "test.lua";
+    plan.scene.text =
+        "game.scene{seconds = 1}\nfor n = 1, 3000 do print('" + std::string(99, 'x') + "') end\ngame.key{}\n";
+    for (const bool is_silent : {false, true}) {
+        plan.is_silent = is_silent;
+        testing::internal::CaptureStdout();
+        const auto story = read_story(plan);
+        std::fflush(stdout);
+        const std::string said = testing::internal::GetCapturedStdout();
+        EXPECT_FALSE(story.ok());
+        EXPECT_NE(story.error().find("test.lua:3: "), std::string::npos) << story.error();
+        const auto lines = std::count(said.begin(), said.end(), '\n');
+        if (is_silent) {
+            EXPECT_EQ(said, "");
+        } else {
+            EXPECT_EQ(lines, 657);  // 656 of 100 bytes are the first above 65,536
+            EXPECT_NE(said.find("... and 2344 more lines that the script printed before it failed.\n"), said.npos);
+        }
+    }
+}
+
 TEST(Script, AFolderAndAFileThatIsTooLongAreRefused) {
     const auto folder = std::filesystem::path(testing::TempDir()) / "cullet_script_folder.lua";
     std::filesystem::create_directories(folder);
