@@ -12,23 +12,17 @@
 #include "engine/import/corners.hpp"
 #include "engine/import/gltf/read_gltf.hpp"
 #include "engine/math.hpp"
+#include "tests/support/house.hpp"
 
 namespace cullet::test {
 
-/// A house: 9 points, 14 triangles, closed, 1 x 2.5 x 3 m from the origin, 6.5 m3.
-inline const std::vector<Vec3d> kHousePoints{{0, 0, 0}, {1, 0, 0}, {1, 0, 3}, {0, 0, 3},     {0, 2, 0},
-                                             {1, 2, 0}, {1, 2, 3}, {0, 2, 3}, {0.25, 2.5, 1}};
-inline const std::vector<std::array<uint32_t, 3>> kHouseTriangles{{0, 1, 2}, {0, 2, 3}, {0, 4, 5}, {0, 5, 1}, {1, 5, 6},
-                                                                  {1, 6, 2}, {2, 6, 7}, {2, 7, 3}, {3, 7, 4}, {3, 4, 0},
-                                                                  {4, 7, 8}, {7, 6, 8}, {6, 5, 8}, {5, 4, 8}};
-
-inline double volume_of(const Mesh& mesh) {
-    double six_volumes = 0;
-    for (const auto& t : mesh.triangles)
-        six_volumes +=
-            dot(Vec3d(mesh.positions[t[0]]), cross(Vec3d(mesh.positions[t[1]]), Vec3d(mesh.positions[t[2]])));
-    return six_volumes / 6;
-}
+inline const std::vector<Vec3d>& kHousePoints = house_points();
+inline const std::vector<std::array<uint32_t, 3>> kHouseTriangles = [] {
+    std::vector<std::array<uint32_t, 3>> triangles;
+    for (const auto& t : house_triangles())
+        triangles.push_back({static_cast<uint32_t>(t[0]), static_cast<uint32_t>(t[1]), static_cast<uint32_t>(t[2])});
+    return triangles;
+}();
 
 inline Vec3d size_of(const Mesh& mesh) {
     Vec3d low{1e300, 1e300, 1e300}, high{-1e300, -1e300, -1e300};
@@ -40,7 +34,7 @@ inline Vec3d size_of(const Mesh& mesh) {
 }
 
 /// What a number is when it is stored as that type: the nearest there is, normalised or as it is.
-struct Encoding {
+struct NumberEncoding {
     unsigned type = 5126;
     bool is_normalized = false;
 
@@ -93,7 +87,7 @@ class GltfFile {
         return json["bufferViews"].size() - 1;
     }
     /// Rows of `components` numbers. `stride` 0: packed. `offset` bytes stand before the first.
-    size_t accessor(const std::vector<double>& numbers, unsigned components, Encoding encoding, size_t stride = 0,
+    size_t accessor(const std::vector<double>& numbers, unsigned components, NumberEncoding encoding, size_t stride = 0,
                     size_t offset = 0, const char* type = nullptr) {
         std::vector<uint8_t> data(offset, 0xCD);
         for (size_t i = 0; i < numbers.size(); ++i) {
@@ -110,7 +104,7 @@ class GltfFile {
         json["accessors"].push_back(accessor);
         return json["accessors"].size() - 1;
     }
-    size_t points(const std::vector<Vec3d>& points, Encoding encoding = {}) {
+    size_t points(const std::vector<Vec3d>& points, NumberEncoding encoding = {}) {
         return accessor(numbers_of(points), 3, encoding);
     }
     size_t indices(const std::vector<std::array<uint32_t, 3>>& triangles, unsigned type = 5123) {

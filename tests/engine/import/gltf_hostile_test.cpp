@@ -12,7 +12,7 @@
 namespace cullet {
 namespace {
 
-using test::Encoding;
+using Encoding = test::NumberEncoding;
 using test::GltfFile;
 using test::kHousePoints;
 using test::kHouseTriangles;

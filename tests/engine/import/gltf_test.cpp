@@ -18,7 +18,7 @@ namespace cullet {
 namespace {
 
 namespace fs = std::filesystem;
-using test::Encoding;
+using Encoding = test::NumberEncoding;
 using test::GltfFile;
 using test::kHousePoints;
 using test::kHouseTriangles;
