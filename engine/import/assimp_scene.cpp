@@ -8,6 +8,7 @@
 #include <assimp/Importer.hpp>
 #include <map>
 #include <new>
+#include <span>
 #include <utility>
 
 #include "engine/import/assimp_bones.hpp"
@@ -93,23 +94,18 @@ class Gatherer {
             return Error{path_ + ": " + mesh_title(scene_, m) + " has material " + std::to_string(mesh.mMaterialIndex) +
                          ", above 65535. Merge some materials."};
         append_mesh(mesh, BonePose(mesh, places_, place));
-        if (out_.materials.size() > kMostMeshRows)
-            return Error{path_ + ": has more than " + std::to_string(kMostMeshRows) + " triangles. Split the model."};
-        return {};
+        return check_triangles(out_, path_);
     }
 
     void append_mesh(const aiMesh& mesh, const BonePose& pose) {
         points_without_bone_ += pose.points_without_bone();
         skins_without_nodes_ += pose.lacks_nodes();
-        std::vector<bool> is_used(mesh.mNumVertices);
+        UsedPoints used(mesh.mNumVertices);
         for (unsigned f = 0; f < mesh.mNumFaces; ++f) {
             const aiFace& face = mesh.mFaces[f];
             out_.left_out += face.mNumIndices == 1 || face.mNumIndices == 2;
             if (face.mNumIndices != 3 || !append_face(mesh, face, pose)) continue;
-            for (unsigned c = 0; c < 3; ++c) {
-                out_.points += !is_used[face.mIndices[c]];
-                is_used[face.mIndices[c]] = true;
-            }
+            used.add(out_, std::span(face.mIndices, 3));
         }
     }
 

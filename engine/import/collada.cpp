@@ -10,6 +10,7 @@
 #include <string_view>
 #include <utility>
 
+#include "engine/import/polygon.hpp"
 #include "engine/import/text_encoding.hpp"
 #include "engine/import/words.hpp"
 #include "engine/import/xml.hpp"
@@ -73,13 +74,11 @@ uint64_t append_triangles(std::string& out, const std::vector<int64_t>& list, co
     for (size_t begin = 0; begin < count;) {
         size_t end = begin;
         while (end < count && vertex(end) != kRestart) ++end;
-        for (size_t i = begin; i + 2 < end; ++i) {
-            const bool is_odd = (i - begin) % 2 == 1;
-            const size_t a = strips.is_fan ? begin : is_odd ? i + 1 : i;
-            const size_t b = strips.is_fan || !is_odd ? i + 1 : i;
-            const size_t c = i + 2;
-            if (vertex(a) == vertex(b) || vertex(b) == vertex(c) || vertex(c) == vertex(a)) continue;
-            for (const size_t corner : {a, b, c}) out += numbers(list.data() + corner * stride, stride);
+        for (size_t t = 0; begin + t + 2 < end; ++t) {
+            const auto [a, b, c] = strips.is_fan ? corners_in_fan(t) : corners_in_strip(t);
+            const int64_t first = vertex(begin + a), second = vertex(begin + b), third = vertex(begin + c);
+            if (first == second || second == third || third == first) continue;
+            for (const size_t corner : {a, b, c}) out += numbers(list.data() + (begin + corner) * stride, stride);
             ++triangles;
         }
         begin = end + 1;
@@ -268,7 +267,7 @@ class ColladaListener : public XmlListener {
         for (const auto& note : kNotes) {
             const auto found = counts_.find(note.key);
             if (found == counts_.end() || found->second == 0) continue;
-            all.push_back(std::to_string(found->second) + " " + (found->second == 1 ? note.one : note.many));
+            all.push_back(counted(found->second, note.one, note.many));
         }
         return all;
     }

@@ -136,6 +136,15 @@ bool append_triangle(Corners& out, const SourceTriangle& triangle, const Affine&
     return true;
 }
 
+bool has_too_many_triangles(const Corners& corners) {
+    return corners.materials.size() > kMostMeshRows;
+}
+
+Result<void> check_triangles(const Corners& corners, const std::string& path) {
+    if (!has_too_many_triangles(corners)) return {};
+    return Error{path + ": has more than " + std::to_string(kMostMeshRows) + " triangles. Split the model."};
+}
+
 ConvertedModel joined_model(Corners&& corners, const std::string& path) {
     ConvertedModel model;
     Mesh& mesh = model.mesh;

@@ -58,6 +58,27 @@ struct Corners {
 /// must not stay behind. A place that mirrors turns the winding.
 bool append_triangle(Corners& out, const SourceTriangle& triangle, const Affine& place);
 
+/// Counts the points of a mesh that triangles use, at one of its places.
+class UsedPoints {
+ public:
+    explicit UsedPoints(uint64_t points) : is_used_(points) {}
+    /// Those of a triangle that was appended.
+    template <class Points>
+    void add(Corners& out, const Points& points) {
+        for (const auto p : points) {
+            out.points += !is_used_[p];
+            is_used_[p] = true;
+        }
+    }
+
+ private:
+    std::vector<bool> is_used_;
+};
+
+/// More than a mesh file holds.
+bool has_too_many_triangles(const Corners& corners);
+Result<void> check_triangles(const Corners& corners, const std::string& path);
+
 /// Joins points whose three coordinates are equal to the last bit. The mesh is named after the file.
 ConvertedModel joined_model(Corners&& corners, const std::string& path);
 

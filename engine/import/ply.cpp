@@ -416,18 +416,17 @@ class Reader {
 /// The triangles of the content, all numbers checked.
 class Builder {
  public:
-    Builder(const Content& content, const std::string& path) : content_(content), path_(path) {}
+    Builder(const Content& content, const std::string& path)
+        : content_(content), path_(path), used_(content.positions.size()) {}
 
     Result<Corners> build() {
-        is_used_.resize(content_.positions.size());
         for (const Piece& piece : content_.pieces) {
             if (auto r = check_numbers(piece); !r) return Error{r.error()};
             if (piece.kind == Kind::Polygons)
                 append_polygon(piece);
             else
                 append_strips(piece);
-            if (out_.materials.size() > kMostMeshRows)
-                return Error{path_ + ": has more than " + text(kMostMeshRows) + " triangles. Split the model."};
+            if (auto r = check_triangles(out_, path_); !r) return Error{r.error()};
         }
         out_.left_out += content_.edges;
         out_.notes = content_.notes;
@@ -478,11 +477,10 @@ class Builder {
             size_t end = begin;
             while (end < piece.count && !is_restart(piece, number(piece, end))) ++end;
             if (end - begin == 1 || end - begin == 2) ++out_.left_out;
-            for (size_t i = begin; i + 2 < end; ++i) {
-                const bool is_odd = (i - begin) % 2 == 1;
-                const uint32_t a = piece.kind == Kind::Fans ? number(piece, begin) : number(piece, is_odd ? i + 1 : i);
-                const uint32_t b = piece.kind == Kind::Fans ? number(piece, i + 1) : number(piece, is_odd ? i : i + 1);
-                const uint32_t c = number(piece, i + 2);
+            for (size_t t = 0; begin + t + 2 < end; ++t) {
+                const auto corners = piece.kind == Kind::Fans ? corners_in_fan(t) : corners_in_strip(t);
+                const auto at = [&](size_t corner) { return number(piece, begin + corners[corner]); };
+                const uint32_t a = at(0), b = at(1), c = at(2);
                 if (a != b && b != c && c != a) append(piece, {a, b, c}, nullptr);
             }
             begin = end + 1;
@@ -501,16 +499,13 @@ class Builder {
             if (triangle.has_uvs) triangle.corner[c].uv = uvs != nullptr ? uvs[c] : content_.uvs[v];
         }
         if (!append_triangle(out_, triangle, {})) return;
-        for (const uint32_t v : vertices) {
-            out_.points += !is_used_[v];
-            is_used_[v] = true;
-        }
+        used_.add(out_, vertices);
     }
 
     const Content& content_;
     const std::string& path_;
     Corners out_;
-    std::vector<bool> is_used_;
+    UsedPoints used_;
 };
 
 }  // namespace

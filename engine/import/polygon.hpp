@@ -1,6 +1,7 @@
-// Polygons of strangers, cut into triangles.
+// Polygons, strips and fans of strangers, cut into triangles.
 #pragma once
 #include <array>
+#include <cstddef>
 #include <cstdint>
 #include <span>
 #include <vector>
@@ -14,5 +15,15 @@ namespace cullet {
 /// their whole area. What has no such shape (crossing itself, no area, a corner that is not finite) becomes a fan.
 /// Mostly O(n^2) for n corners; a comb of many teeth may cost O(n^3).
 std::vector<std::array<uint32_t, 3>> cut_polygon(std::span<const Vec3d> corners);
+
+/// Which corners of a strip are those of its triangle t, in the turning sense of the first triangle.
+constexpr std::array<size_t, 3> corners_in_strip(size_t t) {
+    return {t, t + 1 + t % 2, t + 2 - t % 2};
+}
+
+/// The same of a fan, about its first corner, which stands last, as glTF has it.
+constexpr std::array<size_t, 3> corners_in_fan(size_t t) {
+    return {t + 1, t + 2, 0};
+}
 
 }  // namespace cullet

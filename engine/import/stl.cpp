@@ -91,7 +91,7 @@ bool has_normals(const char* facets, uint32_t count) {
     return false;
 }
 
-Result<Corners> read_binary(std::string_view bytes, uint32_t facets) {
+Result<Corners> read_binary(std::string_view bytes, uint32_t facets, const std::string& path) {
     Corners out;
     const char* at = bytes.data() + kHeader;
     const bool uses_normals = has_normals(at, facets);
@@ -99,6 +99,7 @@ Result<Corners> read_binary(std::string_view bytes, uint32_t facets) {
         const Vec3d corners[3] = {vector_at(at + 12), vector_at(at + 24), vector_at(at + 36)};
         append_facet(out, corners, vector_at(at), uses_normals);
     }
+    if (auto r = check_triangles(out, path); !r) return Error{r.error()};
     note_bytes_behind(out, bytes.size() - kHeader - kFacet * facets);
     return out;
 }
@@ -127,7 +128,9 @@ class TextReader {
             }
         }
         note_rest();
-        return gathered();
+        gather();
+        if (auto r = check_triangles(out_, path_); !r) return Error{r.error()};
+        return std::move(out_);
     }
 
  private:
@@ -255,7 +258,7 @@ class TextReader {
         corners_.insert(corners_.end(), facet.corners.begin(), facet.corners.end());
     }
 
-    Corners gathered() {
+    void gather() {
         bool uses_normals = false;
         for (const Vec3d normal : normals_) uses_normals = uses_normals || is_usable(normal);
         size_t first = 0;
@@ -267,7 +270,6 @@ class TextReader {
             }
             first += corners.size();
         }
-        return std::move(out_);
     }
 
     void note_rest() {
@@ -318,18 +320,18 @@ class TextReader {
 Result<Corners> read_stl(std::string bytes, const std::string& path) {
     const auto facets = facets_of(bytes);
     const uint64_t needed = facets ? kHeader + kFacet * uint64_t{*facets} : 0;
-    if (facets && bytes.size() == needed) return read_binary(bytes, *facets);
+    if (facets && bytes.size() == needed) return read_binary(bytes, *facets, path);
     std::string text = plain_text(bytes);
     if (has_words_of_stl(text)) return TextReader(text, path).read();
     if (facets && is_without_count(bytes, *facets)) {
         const auto there = static_cast<uint32_t>((bytes.size() - kHeader) / kFacet);
-        auto corners = read_binary(bytes, there);
+        auto corners = read_binary(bytes, there, path);
         if (corners)
             corners->notes.push_back("It states " + std::to_string(*facets) + " facets; the " + std::to_string(there) +
                                      " that are there were read.");
         return corners;
     }
-    if (facets && *facets > 0 && bytes.size() > needed) return read_binary(bytes, *facets);
+    if (facets && *facets > 0 && bytes.size() > needed) return read_binary(bytes, *facets, path);
     if (!facets)
         return Error{path + ": has " + std::to_string(bytes.size()) +
                      " bytes and none of the words of STL, too few for a binary one. Export the model again."};

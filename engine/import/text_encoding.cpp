@@ -94,6 +94,28 @@ bool is_like_utf16(std::string_view bytes) {
     return guessed_encoding(bytes).has_value();
 }
 
+int utf8_followers(std::string_view text) {
+    const auto byte = [text](size_t i) { return i < text.size() ? static_cast<unsigned char>(text[i]) : 0u; };
+    const unsigned first = byte(0);
+    const int followers = first < 0x80 ? 0 : first >= 0xC2 && first < 0xE0 ? 1 : first >= 0xE0 && first < 0xF0 ? 2 : 3;
+    if (first >= 0x80 && (first < 0xC2 || first > 0xF4)) return -1;
+    for (int i = 1; i <= followers; ++i)
+        if ((byte(static_cast<size_t>(i)) & 0xC0) != 0x80) return -1;
+    const unsigned second = byte(1);
+    const bool is_too_long = (first == 0xE0 && second < 0xA0) || (first == 0xF0 && second < 0x90);
+    const bool is_no_character = (first == 0xED && second >= 0xA0) || (first == 0xF4 && second >= 0x90);
+    return is_too_long || is_no_character ? -1 : followers;
+}
+
+bool is_utf8(std::string_view text) {
+    for (size_t i = 0; i < text.size(); ++i) {
+        const int followers = utf8_followers(text.substr(i, 4));
+        if (followers < 0) return false;
+        i += static_cast<size_t>(followers);
+    }
+    return true;
+}
+
 std::string plain_text(std::string bytes) {
     auto encoding = marked_encoding(bytes);
     if (!encoding) encoding = guessed_encoding(bytes);

@@ -11,6 +11,10 @@ bool has_byte_order_mark(std::string_view bytes);
 /// True for UTF-16 without a mark: the first two characters are plain ones, each with its zero byte.
 bool is_like_utf16(std::string_view bytes);
 
+/// The bytes of the character at the front that follow its first one; -1 where it is none of UTF-8.
+int utf8_followers(std::string_view text);
+bool is_utf8(std::string_view text);
+
 /// The text as UTF-8 without a mark. UTF-16 and UTF-32 are known by their marks, UTF-16 also without. Anything else
 /// comes back as it is: what follows a UTF-8 mark and bytes of other encodings are not looked at. Halves of pairs that
 /// stand alone become U+FFFD.

@@ -369,7 +369,7 @@ class Reader {
     }
 
     Result<void> append_mesh(const std::string& id, const Object& object, const Part& part, const Affine& place) {
-        std::vector<bool> is_used(object.vertices.size());
+        UsedPoints used(object.vertices.size());
         for (size_t t = 0; t < object.triangles.size(); ++t) {
             SourceTriangle triangle;
             for (size_t c = 0; c < 3; ++c) {
@@ -382,14 +382,9 @@ class Reader {
             }
             put_property(triangle, object, part, t);
             if (!append_triangle(out_, triangle, place)) continue;
-            for (const uint32_t v : object.triangles[t]) {
-                out_.points += !is_used[v];
-                is_used[v] = true;
-            }
+            used.add(out_, object.triangles[t]);
         }
-        if (out_.materials.size() > kMostMeshRows)
-            return Error{path_ + ": has more than " + std::to_string(kMostMeshRows) + " triangles. Split the model."};
-        return {};
+        return check_triangles(out_, path_);
     }
 
     void add_notes() {

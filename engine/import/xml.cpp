@@ -7,29 +7,10 @@
 #include <exception>
 #include <memory>
 
+#include "engine/import/text_encoding.hpp"
 #include "engine/mesh_file.hpp"
 
 namespace cullet {
-namespace {
-
-/// Whether every byte above 127 belongs to a group as UTF-8 makes them.
-bool is_utf8(std::string_view bytes) {
-    for (size_t i = 0; i < bytes.size(); ++i) {
-        const auto byte = static_cast<unsigned char>(bytes[i]);
-        if (byte < 0x80) continue;
-        size_t more = byte >= 0xC2 && byte < 0xE0   ? 1
-                      : byte >= 0xE0 && byte < 0xF0 ? 2
-                      : byte >= 0xF0 && byte < 0xF5 ? 3
-                                                    : 0;
-        if (more == 0 || i + more >= bytes.size()) return false;
-        for (; more > 0; --more)
-            if ((static_cast<unsigned char>(bytes[++i]) & 0xC0) != 0x80) return false;
-    }
-    return true;
-}
-
-}  // namespace
-
 /// What expat calls. An exception must not pass through it: it is kept until expat has come back.
 struct XmlCalls {
     XML_Parser parser;

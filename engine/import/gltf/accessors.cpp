@@ -20,7 +20,7 @@ unsigned components_of(const Part& type) {
 unsigned component_type_of(const Part& part) {
     const Part type = part.need("componentType");
     const uint64_t number = type.whole(kLargestWhole);
-    if (number < kByte || number > kFloat || number == kInt)
+    if (number < kByte || number > kFloat || number == 5124)
         type.refuse("is " + std::to_string(number) + ", not 5120 to 5123, 5125 or 5126");
     return static_cast<unsigned>(number);
 }
@@ -42,8 +42,6 @@ double number_at(const uint8_t* bytes, unsigned component_type) {
             return read_as<int16_t>(bytes);
         case kUnsignedShort:
             return read_as<uint16_t>(bytes);
-        case kInt:
-            return read_as<int32_t>(bytes);
         case kUnsignedInt:
             return read_as<uint32_t>(bytes);
         default:
@@ -77,12 +75,8 @@ unsigned bytes_of(unsigned component_type) {
         case kShort:
         case kUnsignedShort:
             return 2;
-        case kInt:
-        case kUnsignedInt:
-        case kFloat:
-            return 4;
         default:
-            return 0;
+            return 4;
     }
 }
 

@@ -13,9 +13,17 @@
 
 namespace cullet::gltf {
 
-enum ComponentType : unsigned { kByte = 5120, kUnsignedByte, kShort, kUnsignedShort, kInt, kUnsignedInt, kFloat };
+/// 5124 is none that a file may hold.
+enum ComponentType : unsigned {
+    kByte = 5120,
+    kUnsignedByte = 5121,
+    kShort = 5122,
+    kUnsignedShort = 5123,
+    kUnsignedInt = 5125,
+    kFloat = 5126
+};
 
-/// Of one component; 0 for a number that is no type. kInt is none that a file may hold.
+/// Of one component.
 unsigned bytes_of(unsigned component_type);
 
 class Accessor {
@@ -32,9 +40,8 @@ class Accessor {
     /// `row` below count and `component` below components, or it throws: indices come from the file.
     double number(uint64_t row, unsigned component) const;
     uint64_t whole(uint64_t row, unsigned component) const;
-    /// The first three, or two.
+    /// The first three.
     Vec3d vector(uint64_t row) const { return {number(row, 0), number(row, 1), number(row, 2)}; }
-    Vec2 pair(uint64_t row) const { return {static_cast<float>(number(row, 0)), static_cast<float>(number(row, 1))}; }
     /// Whoever asks for more components than there are, or for other kinds, is told so.
     void expect_components(unsigned wanted) const;
     void expect_whole_numbers() const;

@@ -25,25 +25,11 @@ uint32_t word_at(const std::vector<uint8_t>& bytes, size_t at) {
            static_cast<uint32_t>(bytes[at + 2]) << 16 | static_cast<uint32_t>(bytes[at + 3]) << 24;
 }
 
-/// The bytes of the character at the front that follow its first one; -1 where it is none of UTF-8.
-int followers_of(std::string_view text) {
-    const auto byte = [text](size_t i) { return i < text.size() ? static_cast<unsigned char>(text[i]) : 0u; };
-    const unsigned first = byte(0);
-    const int followers = first < 0x80 ? 0 : first >= 0xC2 && first < 0xE0 ? 1 : first >= 0xE0 && first < 0xF0 ? 2 : 3;
-    if (first >= 0x80 && (first < 0xC2 || first > 0xF4)) return -1;
-    for (int i = 1; i <= followers; ++i)
-        if ((byte(static_cast<size_t>(i)) & 0xC0) != 0x80) return -1;
-    const unsigned second = byte(1);
-    const bool is_too_long = (first == 0xE0 && second < 0xA0) || (first == 0xF0 && second < 0x90);
-    const bool is_no_character = (first == 0xED && second >= 0xA0) || (first == 0xF4 && second >= 0x90);
-    return is_too_long || is_no_character ? -1 : followers;
-}
-
 /// With '?' for each byte that belongs to no character: names in the code page of somebody's machine.
 std::string with_characters_only(std::string_view text) {
     std::string out(text);
     for (size_t i = 0; i < out.size(); ++i) {
-        const int followers = followers_of(text.substr(i, 4));
+        const int followers = utf8_followers(text.substr(i, 4));
         if (followers < 0)
             out[i] = '?';
         else

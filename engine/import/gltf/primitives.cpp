@@ -2,6 +2,8 @@
 
 #include <utility>
 
+#include "engine/import/polygon.hpp"
+
 namespace cullet::gltf {
 namespace {
 
@@ -45,7 +47,6 @@ uint64_t Primitive::point(uint64_t corner) const {
     return point;
 }
 
-/// Every second triangle of a strip takes its last two points the other way round. A fan's common point stands last.
 std::array<uint64_t, 3> Primitive::triangle(uint64_t t) const {
     if (unpacked != nullptr) {
         const auto& packed = unpacked->triangles[t];
@@ -53,9 +54,10 @@ std::array<uint64_t, 3> Primitive::triangle(uint64_t t) const {
             if (p >= position->count) throw Refusal(place + " names packed point " + std::to_string(p));
         return {packed[0], packed[1], packed[2]};
     }
-    if (mode == kTriangleStrip) return {point(t), point(t + 1 + t % 2), point(t + 2 - t % 2)};
-    if (mode == kTriangleFan) return {point(t + 1), point(t + 2), point(0)};
-    return {point(3 * t), point(3 * t + 1), point(3 * t + 2)};
+    const std::array<size_t, 3> corners = mode == kTriangleStrip ? corners_in_strip(t)
+                                          : mode == kTriangleFan ? corners_in_fan(t)
+                                                                 : std::array<size_t, 3>{3 * t, 3 * t + 1, 3 * t + 2};
+    return {point(corners[0]), point(corners[1]), point(corners[2])};
 }
 
 const Accessor* Meshes::attribute(const Primitive& primitive, const Part& attributes, const std::string& name,

@@ -93,22 +93,19 @@ class Reader {
         for (const Affine& place : pose.places) {
             corners_.left_out += primitive.points_and_lines();
             shown_.corners_left_over += primitive.corners_left_over();
-            std::vector<bool> is_used(primitive.triangles() > 0 ? primitive.position->count : 0);
+            UsedPoints used(primitive.triangles() > 0 ? primitive.position->count : 0);
             for (uint64_t t = 0; t < primitive.triangles(); ++t) {
+                if (has_too_many_triangles(corners_))
+                    throw Refusal("has more than " + std::to_string(kMostMeshRows) + " triangles", "Split the model.");
                 const auto points = primitive.triangle(t);
                 if (!append(primitive, pose, points, place)) continue;
-                for (const uint64_t p : points) {
-                    corners_.points += !is_used[p];
-                    is_used[p] = true;
-                }
+                used.add(corners_, points);
             }
         }
     }
 
     bool append(const Primitive& primitive, const Pose& pose, const std::array<uint64_t, 3>& points,
                 const Affine& place) {
-        if (corners_.materials.size() >= kMostMeshRows)
-            throw Refusal("has more than " + std::to_string(kMostMeshRows) + " triangles", "Split the model.");
         SourceTriangle triangle;
         triangle.has_normals = primitive.normal != nullptr;
         triangle.has_uvs = primitive.uv != nullptr;

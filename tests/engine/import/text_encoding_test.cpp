@@ -55,6 +55,16 @@ TEST(TextEncoding, HalvesOfPairsAndOddBytesDoNoHarm) {
     }
 }
 
+TEST(TextEncoding, SurrogatesOverlongAndCutOffCharactersAreNoUtf8) {
+    for (const std::string good : {"", "a", "\xC3\xA9", "\xE2\x82\xAC", "\xF0\x9F\x98\x80", "x\xC3\xA9y",
+                                   "\xED\x9F\xBF", "\xEE\x80\x80", "\xF4\x8F\xBF\xBF"})
+        EXPECT_TRUE(is_utf8(good)) << good;
+    for (const std::string bad :
+         {"\xE9", "\xC0\x80", "\xC1\xBF", "\xE0\x80\x80", "\xE0\x9F\xBF", "\xED\xA0\x80", "\xF0\x80\x80\x80",
+          "\xF4\x90\x80\x80", "\xF5\x80\x80\x80", "\xC3", "\xE2\x82", "\xC3\xA9\x80", "a\xFF"})
+        EXPECT_FALSE(is_utf8(bad)) << bad;
+}
+
 TEST(Words, NumbersOfAllProgramsAreRead) {
     EXPECT_EQ(number_of("1"), 1);
     EXPECT_EQ(number_of("+1.5e+2"), 150);
