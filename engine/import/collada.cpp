@@ -288,7 +288,7 @@ class ColladaListener : public XmlListener {
 }  // namespace
 
 Result<PlainCollada> plain_collada(std::string bytes, const std::string& path) {
-    const std::string plain = plain_text(std::move(bytes));
+    const std::string plain = plain_xml(std::move(bytes));
     ColladaListener listener(plain, path);
     if (auto r = read_xml(plain, listener, path); !r) {
         // assimp takes XML that is none, such as a bare & in a name; where nothing is to be changed, it may.

@@ -111,7 +111,7 @@ Result<Corners> read_in_its_unit(const std::string& path) {
         *bytes = std::move(packed->bytes);
         notes = packed->notes;
     }
-    std::string text = plain_text(std::move(*bytes));
+    std::string text = plain_xml(std::move(*bytes));
     const auto places = places_of_xml(text, path);
     if (!places) return Error{places.error()};
     if (places->turned > 0)

@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <optional>
+#include <utility>
 
 namespace cullet {
 namespace {
@@ -122,6 +123,12 @@ std::string plain_text(std::string bytes) {
     if (!encoding) return bytes;
     if (encoding->unit == 1) return bytes.erase(0, encoding->mark);
     return decoded(bytes, *encoding);
+}
+
+std::string plain_xml(std::string bytes) {
+    std::string text = plain_text(std::move(bytes));
+    text.erase(text.find_last_not_of(std::string_view(" \t\r\n\v\f\0\x1a", 8)) + 1);
+    return text.erase(0, text.find_first_not_of(" \t\r\n"));
 }
 
 }  // namespace cullet

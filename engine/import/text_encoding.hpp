@@ -20,4 +20,8 @@ bool is_utf8(std::string_view text);
 /// stand alone become U+FFFD.
 std::string plain_text(std::string bytes);
 
+/// The same without blanks in front, and without blanks, zero bytes and Ctrl-Z behind: XML must begin with its first
+/// tag and end with its last.
+std::string plain_xml(std::string bytes);
+
 }  // namespace cullet

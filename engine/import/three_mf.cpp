@@ -283,7 +283,7 @@ class Reader {
     std::string root_name() const {
         RelationListener relations;
         if (const auto bytes = zip_.read("_rels/.rels"))
-            if (read_xml(plain_text(*bytes), relations, path_) && !relations.target.empty()) return relations.target;
+            if (read_xml(plain_xml(*bytes), relations, path_) && !relations.target.empty()) return relations.target;
         return "3D/3dmodel.model";
     }
 
@@ -299,7 +299,7 @@ class Reader {
                          "\" is not there, encrypted or damaged. Copy or export it again."};
         part = std::make_unique<Part>();
         PartListener listener(*part);
-        if (auto r = read_xml(plain_text(std::move(*bytes)), listener, path_); !r) return Error{r.error()};
+        if (auto r = read_xml(plain_xml(std::move(*bytes)), listener, path_); !r) return Error{r.error()};
         if (!part->trouble.empty()) return Error{path_ + ": " + part->trouble + ". " + part->remedy};
         for (Group& group : part->groups) {
             group.first = materials_;

@@ -32,7 +32,7 @@ const char* attribute(XmlListener::Attributes attributes, std::string_view name)
 /// "node" of "x:node".
 std::string_view without_prefix(std::string_view name);
 
-/// The bytes as plain_text() gives them: UTF-8, or where they are not that, Latin-1, whatever their declaration says.
+/// The bytes as plain_xml() gives them: UTF-8, or where they are not that, Latin-1, whatever their declaration says.
 /// Programs declare what is not so, and only names differ. Entities that grow without end and files that others name
 /// are refused by expat.
 Result<void> read_xml(std::string_view bytes, XmlListener& listener, const std::string& path);

@@ -21,7 +21,7 @@ struct XmlPlaces {
     uint64_t turned = 0;  // instances in constellations of an AMF that are turned
 };
 
-/// `text` as plain_text() gives it. Blanks take the place of what turns an instance: assimp 5.2 moves it by that many
+/// `text` as plain_xml() gives it. Blanks take the place of what turns an instance: assimp 5.2 moves it by that many
 /// units instead.
 Result<XmlPlaces> places_of_xml(std::string& text, const std::string& path);
 

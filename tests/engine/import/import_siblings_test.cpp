@@ -474,6 +474,45 @@ TEST_F(ImportSiblings, FurtherTextureCoordinatesAreSaid) {
               std::string::npos);
 }
 
+std::string amf(double scale, const std::string& unit) {
+    std::string text = "<?xml version=\"1.0\"?><amf" + unit + "><object id=\"0\"><mesh><vertices>";
+    for (const Vec3d p : test::house_points())
+        text += "<vertex><coordinates><x>" + text_of(scale * p.x) + "</x><y>" + text_of(scale * p.y) + "</y><z>" +
+                text_of(scale * p.z) + "</z></coordinates></vertex>";
+    text += "</vertices><volume>";
+    for (const auto& t : test::house_triangles())
+        text += "<triangle><v1>" + std::to_string(t[0]) + "</v1><v2>" + std::to_string(t[1]) + "</v2><v3>" +
+                std::to_string(t[2]) + "</v3></triangle>";
+    return text + "</volume></mesh></object></amf>";
+}
+
+std::string x3d(double metres) {
+    std::string indices;
+    for (const auto& t : test::house_triangles())
+        for (const int v : {t[0], t[1], t[2], -1}) indices += std::to_string(v) + " ";
+    const std::string unit = metres == 1 ? "" : "<unit category=\"length\" name=\"u\" conversionFactor=\"0.01\"/>";
+    return "<?xml version=\"1.0\"?><X3D version=\"3.3\"><head>" + unit +
+           "</head><Scene><Shape><IndexedFaceSet coordIndex=\"" + indices + "\"><Coordinate point=\"" +
+           list_of(moved([&](Vec3d p) { return (1 / metres) * p; }), " ") +
+           "\"/></IndexedFaceSet></Shape></Scene></X3D>";
+}
+
+TEST_F(ImportSiblings, BlanksBeforeXmlAndZerosBehindItDoNoHarm) {
+    DaeSettings s;
+    s.primitives = primitive("tristrips", 9, strips_apart());
+    const std::string all[] = {"house.dae", "house.amf", "house.x3d"};
+    const std::string texts[] = {dae(test::house_points(), s), amf(1000, ""), x3d(1)};
+    for (size_t i = 0; i < 3; ++i)
+        for (const auto& [front, behind] :
+             std::vector<std::pair<std::string, std::string>>{{"\n", ""},
+                                                              {" \r\n\t", "\n\n"},
+                                                              {"", std::string(5, '\0')},
+                                                              {"\xEF\xBB\xBF\n", std::string("\n\0\x1a", 3)}})
+            import_house(write(all[i], front + texts[i] + behind), all[i]);
+    const std::string wide = test::coded("\n" + texts[0] + "\n\n", test::Encoding::Utf16Little);
+    import_house(write("house.dae", wide + std::string(4, '\0')), "UTF-16");
+}
+
 /// A mark makes a text three bytes longer, a zero before each ".5" one: three of them leave its length as it was.
 TEST_F(ImportSiblings, AMarkedObjIsReadHoweverManyNumbersBeginWithTheirPoint) {
     const auto with_points = [](size_t count) {
@@ -544,18 +583,6 @@ TEST_F(ImportSiblings, NamesOfColladaMayBeOfAnyEncodingOrNoXmlAtAll) {
     import_house(write("house.dae", dae(test::house_points(), s)), "a bare &");
 }
 
-std::string amf(double scale, const std::string& unit) {
-    std::string text = "<?xml version=\"1.0\"?><amf" + unit + "><object id=\"0\"><mesh><vertices>";
-    for (const Vec3d p : test::house_points())
-        text += "<vertex><coordinates><x>" + text_of(scale * p.x) + "</x><y>" + text_of(scale * p.y) + "</y><z>" +
-                text_of(scale * p.z) + "</z></coordinates></vertex>";
-    text += "</vertices><volume>";
-    for (const auto& t : test::house_triangles())
-        text += "<triangle><v1>" + std::to_string(t[0]) + "</v1><v2>" + std::to_string(t[1]) + "</v2><v3>" +
-                std::to_string(t[2]) + "</v3></triangle>";
-    return text + "</volume></mesh></object></amf>";
-}
-
 TEST_F(ImportSiblings, AmfAndX3dComeInMetres) {
     for (const auto& [unit, metres] : std::vector<std::pair<std::string, double>>{
              {"micron", 1e-6}, {"millimeter", 1e-3}, {"inch", 0.0254}, {"feet", 0.3048}, {"meter", 1}})
@@ -586,18 +613,7 @@ TEST_F(ImportSiblings, AmfAndX3dComeInMetres) {
         EXPECT_EQ(said.find("turned in the file") == said.npos, note.empty()) << said;
         EXPECT_NE(said.find(note), said.npos) << said;
     }
-    for (const double metres : {1.0, 0.01}) {
-        std::string indices;
-        for (const auto& t : test::house_triangles())
-            for (const int v : {t[0], t[1], t[2], -1}) indices += std::to_string(v) + " ";
-        const std::string unit = metres == 1 ? "" : "<unit category=\"length\" name=\"u\" conversionFactor=\"0.01\"/>";
-        import_house(write("house.x3d", "<?xml version=\"1.0\"?><X3D version=\"3.3\"><head>" + unit +
-                                            "</head><Scene><Shape><IndexedFaceSet coordIndex=\"" + indices +
-                                            "\"><Coordinate point=\"" +
-                                            list_of(moved([&](Vec3d p) { return (1 / metres) * p; }), " ") +
-                                            "\"/></IndexedFaceSet></Shape></Scene></X3D>"),
-                     "x3d");
-    }
+    for (const double metres : {1.0, 0.01}) import_house(write("house.x3d", x3d(metres)), "x3d");
 }
 
 TEST_F(ImportSiblings, TextOfEveryFormatMayBeInAnyEncoding) {

@@ -145,6 +145,7 @@ TEST_F(ThreeMf, PartsOfTheirOwnAreRead) {
 TEST_F(ThreeMf, TheXmlMayBeUtf16OrHaveAMark) {
     const std::string text = model("unit=\"meter\"", house("1", 1), kItem);
     test::expect_house(mesh_of(read(package("\xEF\xBB\xBF" + text))), "UTF-8");
+    test::expect_house(mesh_of(read(package("\n " + text + std::string("\n\0\0", 3)))), "blanks and zeros");
     std::string little = "\xFF\xFE", big = "\xFE\xFF", coded = text;
     coded.replace(coded.find("UTF-8"), 5, "UTF-16");
     for (const char c : coded) {
