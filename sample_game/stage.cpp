@@ -159,6 +159,7 @@ void Stage::after_step() {
     ++frame;
     const StepEvents step = world->events();
     sums.events["impact"] += step.impacts.count;
+    for (const ImpactEvent& event : step.impacts) sums.events["load"] += event.load > 0;
     sums.events["crack_started"] += step.cracks_started.count;
     sums.events["fragment_born"] += step.fragments_born.count;
     sums.events["debris"] += step.debris.count;

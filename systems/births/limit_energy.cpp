@@ -104,9 +104,18 @@ void move(Births& births, const Mover& m, Vec3d velocity, Vec3d spin, BodyId par
         if (e.fragment.index == m.body.index) e.motion = motion;
 }
 
-// Of the energy of the blow that stands for a load: what is squeezed bursts with what its springs held, and who presses
-// follows slowly.
-constexpr double kFreedByLoad = 0.1;
+// Of the energy of the blow that stands for a load, and of what the whole body would hold at its strength: what is
+// squeezed bursts with what its springs held, and who presses follows slowly. A bar that is bent holds a ninth.
+constexpr double kFreedByLoad = 0.1, kHeldByLoad = 0.1;
+
+// J. sigma^2 / 2 E of the volume.
+double held_energy(const State& state, Row<Bodies> body) {
+    const uint32_t m = state.shells.material[state.bodies.shell[body]];
+    const Materials& materials = state.materials;
+    const double strength = double{state.bodies.strength_scale[body]} * materials.tensile_strength[m];
+    const double volume = state.bodies.mass[body] / materials.density[m];
+    return kHeldByLoad * 0.5 * strength * strength / materials.young_modulus[m] * volume;
+}
 
 }  // namespace
 
@@ -130,7 +139,8 @@ double pieces_energy(const State& state, const Break& plan) {
 double owed_to_late(const State& state, Row<Tasks> task) {
     if (state.tasks.load[task] > 0) {
         const double speed = double{state.tasks.approach_speed[task]};
-        return kFreedByLoad * 0.5 * state.bodies.mass[state.tasks.body[task]] * speed * speed;
+        const Row<Bodies> body = state.tasks.body[task];
+        return std::min(kFreedByLoad * 0.5 * state.bodies.mass[body] * speed * speed, held_energy(state, body));
     }
     double owed = state.tasks.start_energy[task] - rigid_energy(state.bodies, state.tasks.body[task]);
     const uint32_t first = state.tasks.first_contact[task], end = first + state.tasks.contact_count[task];

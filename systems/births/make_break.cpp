@@ -131,6 +131,7 @@ void place_body(Births& births, Row<Bodies> body, const Moment& moment, const Mo
     bodies.velocity.set(body, is_static ? Vec3{} : motion.velocity);
     bodies.spin.set(body, is_static ? Vec3{} : motion.angular_velocity);
     bodies.retry_frame[body] = births.step.frame + retry_frames(births.step.dt);
+    bodies.overload_runs[body] = 0;
     bodies.is_asleep[body] = 0;
     if (is_local)
         take_rest_properties(births.state, body);

@@ -4,6 +4,7 @@
 #include "systems/impacts/open_ahead.hpp"
 #include "systems/impacts/open_blows.hpp"
 #include "systems/impacts/opening.hpp"
+#include "systems/impacts/snap.hpp"
 #include "systems/impacts/thresholds.hpp"
 #include "systems/structures/shell/working_room.hpp"
 #include "systems/systems.hpp"
@@ -106,6 +107,24 @@ uint64_t next_queued_frame(const QueuedHits& queued, uint64_t from) {
     return least;
 }
 
+// A load that is no blow: the cut that it asks for is opened with the other blows of this step. False: it waits.
+bool open_snap(Opening& opening, uint32_t q, Events<ImpactEvent>& impact_events) {
+    State& state = opening.state;
+    const QueuedHits& queued = state.queued_hits;
+    const Row<Bodies> body = queued.body[q];
+    if (!snap(state.blows, state.bodies, state.shells, state.vertices, body, queued.point[q], queued.normal[q],
+              queued.frame[q] * 0x10001 + body.index))
+        return false;
+    const Pose pose = pose_of(state.bodies, body);
+    ImpactEvent event = event_of(
+        state.bodies,
+        {body, queued.striker[q], to_world(pose, queued.point[q]), rotate(pose.orientation, queued.normal[q]), 0},
+        queued.striker_inverse_mass[q]);
+    event.load = queued.load[q];
+    impact_events.push(event);
+    return true;
+}
+
 // A hit that found no rows in so long finds none: models and other bodies keep them. Later nobody would know what it
 // was that broke.
 constexpr float kMostSecondsQueued = 2;
@@ -122,7 +141,12 @@ void open_queued_of(uint64_t frame, Opening& opening, const DamageSettings& sett
         const Row<Bodies> body = queued.body[q];
         if (bodies.task[body] != kNone || opening.frame < bodies.retry_frame[body] || bodies.hold_count[body]) continue;
         if (may_break_again(state.shells, bodies.shell[body], settings)) {
-            const Row<Tasks> task = opening.open(body, queued.approach_speed[q]);
+            const bool is_snap = queued.load[q] > 0 && !(queued.approach_speed[q] > 0);
+            if (is_snap && open_snap(opening, q, impact_events)) {
+                queued.clear_rows(q, 1);
+                continue;
+            }
+            const Row<Tasks> task = is_snap ? Row<Tasks>{} : opening.open(body, queued.approach_speed[q]);
             if (task.exists()) {
                 lay_queued(state, task, q);
                 const Pose pose = pose_of(bodies, body);

@@ -33,7 +33,7 @@ struct QueuedHit {
     Row<Bodies> body, striker;
     Vec3 point, normal;  // body frame and axes
     float approach_speed, striker_inverse_mass, striker_radius;
-    float load = 0;  // N, see Tasks
+    float load = 0;  // N, see Tasks; with no speed: it comes apart across `normal` at `point`, see snap()
 };
 
 struct Opening {

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "engine/principal_axes.hpp"
+#include "systems/impacts/balance.hpp"
 
 namespace cullet {
 namespace {
@@ -15,6 +16,8 @@ constexpr double kDrivenSpeed = 1e-3, kOpposite = -0.8;
 // What falls and lands is stopped by contacts on one side for some steps, and is no beam under a load: in a heap that
 // comes down slabs broke once more. Of a load the other contacts bear all but the body's own weight.
 constexpr double kBalancedShare = 0.3;
+// Of a bracket's arm: how near to its pins it breaks.
+constexpr double kOffPins = 0.95;
 // What is less slender does not bend before it is crushed.
 constexpr double kSlender = 3;
 
@@ -54,15 +57,38 @@ void squeeze(bool is_pinned, std::span<const BodyLoad> loads, double borne, Over
     }
 }
 
-bool are_closing(bool is_pinned, std::span<const BodyLoad> loads) {
-    for (const BodyLoad& a : loads) {
-        if (is_pinned && a.driven_speed > kDrivenSpeed) return true;
-        for (const BodyLoad& b : loads)
-            if (a.driven_speed > kDrivenSpeed && b.stands && dot(a.push, b.push) < kOpposite &&
-                a.driven_speed + b.driven_speed > kDrivenSpeed)
-                return true;
+// From opposite sides.
+bool are_closing(bool is_pinned, const BodyLoad& driver, std::span<const BodyLoad> loads, bool is_direct) {
+    if (is_pinned) return true;
+    return std::any_of(loads.begin(), loads.end(), [&](const BodyLoad& l) {
+        return (is_direct ? l.stands : l.is_backed) && dot(driver.push, l.push) < kOpposite &&
+               driver.driven_speed + l.driven_speed > kDrivenSpeed;
+    });
+}
+
+// A push of the driver's is balanced by those that stand and do not make way.
+bool has_no_way_out(const BodyLoad& driver, std::span<const BodyLoad> loads, double reach, std::span<BodyLoad> room) {
+    if (room.size() < loads.size()) return false;
+    uint32_t count = 0;
+    for (const BodyLoad& l : loads) {
+        if (&l == &driver || !l.is_backed || l.driven_speed < -kDrivenSpeed) continue;
+        room[count++] = l;
     }
-    return false;
+    room[count] = driver;
+    room[count].is_backed = false;
+    room[count].force = 1;
+    return balance(room.first(count + 1), {}, reach);
+}
+
+void find_drivers(bool is_pinned, std::span<const BodyLoad> loads, double reach, std::span<BodyLoad> room,
+                  Overload& worst) {
+    for (const BodyLoad& driver : loads) {
+        if (!(driver.driven_speed > kDrivenSpeed)) continue;
+        worst.driven_speed = std::max(worst.driven_speed, driver.driven_speed);
+        worst.is_between = worst.is_between || (driver.stands && are_closing(is_pinned, driver, loads, true));
+        worst.is_driven = worst.is_driven || worst.is_between || are_closing(is_pinned, driver, loads, false) ||
+                          has_no_way_out(driver, loads, reach, room);
+    }
 }
 
 /// The body along its principal axes.
@@ -95,9 +121,15 @@ struct Beam {
     double length(int i) const { return std::max(high[i] - low[i], 1e-9); }
 };
 
+/// N m, the largest, and where it is along the axis, m from the centre.
+struct Moment {
+    double size = 0, at = 0;
+};
+
 // Free: the loads to one side of a section, and the even rest; its largest values are at loads.
-double free_moment(const Beam& beam, int i, int j, std::span<const BodyLoad> loads) {
-    double sum = 0, most = 0;
+Moment free_moment(const Beam& beam, int i, int j, std::span<const BodyLoad> loads) {
+    Moment most;
+    double sum = 0;
     for (const BodyLoad& l : loads) sum += l.force * dot(beam.axis[j], l.push);
     for (const BodyLoad& at : loads) {
         const double x = dot(beam.axis[i], at.place), way = std::max(0.0, x - beam.low[i]);
@@ -106,7 +138,7 @@ double free_moment(const Beam& beam, int i, int j, std::span<const BodyLoad> loa
             const double arm = x - dot(beam.axis[i], l.place);
             if (arm > 0) moment += arm * l.force * dot(beam.axis[j], l.push);
         }
-        most = std::max(most, std::abs(moment));
+        if (std::abs(moment) > most.size) most = {std::abs(moment), x};
     }
     return most;
 }
@@ -120,23 +152,68 @@ struct Span {
         const double arm = std::min(before, behind);
         return arm < 1e29 ? force * arm : 0;
     }
+    /// From the place to the largest moment; off the pins, so that the cut is not among them.
+    double to_largest() const {
+        if (before < 1e29 && behind < 1e29) return 0;
+        return before < behind ? -kOffPins * before : behind < 1e29 ? kOffPins * behind : 0;
+    }
 };
-double pinned_moment(const State& state, Row<Bodies> body, const Beam& beam, int i, int j,
-                     std::span<const BodyLoad> loads) {
+/// Along an axis, from the frame's origin, m.
+struct Held {
+    double low, high;
+};
+
+// A pinned vertex, and all of the boxes around it: what lies in a wall is held as far as the wall goes.
+Held held_by(const State& state, Row<Bodies> body, Vec3d axis, uint32_t vertex) {
+    const Vec3 at = state.vertices.rest[vertex];
+    Held held{dot(axis, Vec3d(at)), dot(axis, Vec3d(at))};
+    const Range boxes = state.bodies.pins[body];
+    for (uint32_t p = boxes.first; p < boxes.first + boxes.count; ++p) {
+        const Vec3 low = state.pin_boxes.low[p], high = state.pin_boxes.high[p];
+        const auto is_between = [&](float l, float v, float h) { return l <= v && v <= h; };
+        if (!is_between(low.x, at.x, high.x) || !is_between(low.y, at.y, high.y) || !is_between(low.z, at.z, high.z))
+            continue;
+        const Vec3d half = 0.5 * (Vec3d(high) - Vec3d(low));
+        const double middle = dot(axis, 0.5 * (Vec3d(low) + Vec3d(high)));
+        const double reach = std::abs(axis.x) * half.x + std::abs(axis.y) * half.y + std::abs(axis.z) * half.z;
+        held = {std::min(held.low, middle - reach), std::max(held.high, middle + reach)};
+    }
+    return held;
+}
+
+Span span_at(const State& state, Row<Bodies> body, Vec3d axis, double at) {
+    Span span;
     const Range vertices = state.shells.vertices[state.bodies.shell[body]];
-    double moment = 0;
+    for (uint32_t v = vertices.first; v < vertices.first + vertices.count; ++v) {
+        if (state.vertices.element[v] == kNone || !state.vertices.is_pinned[v]) continue;
+        const Held held = held_by(state, body, axis, v);
+        if (held.low <= at && at <= held.high) return {0, 0};
+        if (held.high < at) span.before = std::min(span.before, at - held.high);
+        if (held.low > at) span.behind = std::min(span.behind, held.low - at);
+    }
+    return span;
+}
+
+// Of a bracket it is largest where the pins end.
+Moment pinned_moment(const State& state, Row<Bodies> body, const Beam& beam, int i, int j,
+                     std::span<const BodyLoad> loads) {
+    double moment = 0, most = 0, at = 0;
     for (const BodyLoad& l : loads) {
         const double force = l.force * dot(beam.axis[j], l.push), x = dot(beam.axis[i], l.place);
-        Span span;
-        for (uint32_t v = vertices.first; v < vertices.first + vertices.count; ++v) {
-            if (state.vertices.element[v] == kNone || !state.vertices.is_pinned[v]) continue;
-            const double to = dot(beam.axis[i], Vec3d(state.vertices.rest[v]) - state.bodies.centre[body]) - x;
-            if (to >= 0) span.behind = std::min(span.behind, to);
-            if (to <= 0) span.before = std::min(span.before, -to);
-        }
-        moment += span.moment(force);
+        const Span span = span_at(state, body, beam.axis[i], x + dot(beam.axis[i], Vec3d(state.bodies.centre[body])));
+        const double own = span.moment(force);
+        moment += own;
+        if (std::abs(own) <= most) continue;
+        most = std::abs(own);
+        at = x + span.to_largest();
     }
-    return std::abs(moment);
+    return {std::abs(moment), at};
+}
+
+double sum_of(std::span<const BodyLoad> loads) {
+    double sum = 0;
+    for (const BodyLoad& l : loads) sum += l.force;
+    return sum;
 }
 
 void bend(const State& state, Row<Bodies> body, bool is_pinned, std::span<const BodyLoad> loads, Overload& worst) {
@@ -145,11 +222,52 @@ void bend(const State& state, Row<Bodies> body, bool is_pinned, std::span<const 
     for (int i = 0; i < 3; ++i)
         for (int j = 0; j < 3; ++j) {
             if (i == j || beam.length(i) < kSlender * beam.length(j)) continue;
-            const double moment =
+            const Moment moment =
                 is_pinned ? pinned_moment(state, body, beam, i, j, loads) : free_moment(beam, i, j, loads);
             const double bearable = stress * beam.modulus[i][j];
-            if (moment > worst.share * bearable) worst.share = moment / bearable;
+            if (moment.size <= worst.share * bearable) continue;
+            worst.share = moment.size / bearable;
+            worst.is_bent = true;
+            worst.load = std::max(worst.load, 0.5 * sum_of(loads));
+            worst.section = state.bodies.centre[body] + moment.at * beam.axis[i];
+            worst.section_normal = beam.axis[i];
         }
+}
+
+// Where the blow that stands for the load is to fall: by whom drives, else by the hardest push of what lies on it.
+const BodyLoad& hardest(std::span<const BodyLoad> loads) {
+    size_t hardest = 0;
+    double most = -1;
+    for (const BodyLoad& l : loads) {
+        const double rank = l.driven_speed > kDrivenSpeed ? kBearsAll : l.is_backed ? 1e-12 * l.force : l.force;
+        if (rank <= most) continue;
+        most = rank;
+        hardest = static_cast<size_t>(&l - loads.data());
+    }
+    return loads[hardest];
+}
+
+// What is squeezed splits along the push, across its longest side: the axis of least inertia.
+Vec3d split_normal(const Bodies& bodies, Row<Bodies> body, Vec3d push) {
+    const PrincipalAxes principal = principal_axes(bodies.inertia[body]);
+    const double moment[3] = {principal.moments.x, principal.moments.y, principal.moments.z};
+    const Vec3 unit[3] = {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
+    Vec3d best;
+    double least = 1e300;
+    for (int i = 0; i < 3; ++i) {
+        const Vec3d axis(rotate(principal.axes, unit[i]));
+        const Vec3d across = axis - dot(axis, push) * push;
+        if (length(across) < 0.5 || moment[i] >= least) continue;
+        least = moment[i];
+        best = across;
+    }
+    return normalised(best);
+}
+
+bool are_balanced(std::span<const BodyLoad> loads) {
+    Vec3d net;
+    for (const BodyLoad& l : loads) net += l.force * l.push;
+    return length(net) < kBalancedShare * sum_of(loads);
 }
 
 }  // namespace
@@ -168,24 +286,21 @@ double least_bending_force(const State& state, Row<Bodies> body) {
            (6 * size * size);
 }
 
-Overload overload_of(const State& state, Row<Bodies> body, std::span<const BodyLoad> loads) {
+Overload overload_of(const State& state, Row<Bodies> body, std::span<BodyLoad> loads, Vec3d weight,
+                     std::span<BodyLoad> room) {
     Overload worst;
-    double most = -1;
-    for (const BodyLoad& l : loads) {
-        // Where the blow that stands for the load is to fall: by whom drives, else by the hardest push.
-        const double rank = l.driven_speed > kDrivenSpeed ? kBearsAll : l.force;
-        if (rank <= most) continue;
-        most = rank;
-        worst.contact = l.contact;
-    }
+    if (loads.empty()) return worst;
+    const BodyLoad at = hardest(loads);
+    worst.contact = at.contact;
+    worst.section = state.bodies.centre[body] + 0.5 * at.place;
+    worst.section_normal = split_normal(state.bodies, body, at.push);
     const bool is_pinned = is_supported(state.bodies, body);
+    find_drivers(is_pinned, loads, state.bodies.radius[body], room, worst);
     squeeze(is_pinned, loads, force_borne(state, body), worst);
-    double sum = 0;
-    Vec3d net;
-    for (const BodyLoad& l : loads) sum += l.force, net += l.force * l.push;
-    const bool is_at_rest = is_pinned || length(net) < kBalancedShare * sum;
-    if (is_at_rest && sum > least_bending_force(state, body)) bend(state, body, is_pinned, loads, worst);
-    worst.is_driven = are_closing(is_pinned, loads);
+    const auto may_bend = [&] { return sum_of(loads) > least_bending_force(state, body); };
+    if (may_bend() && (is_pinned || are_balanced(loads) || balance(loads, weight, state.bodies.radius[body])) &&
+        may_bend())
+        bend(state, body, is_pinned, loads, worst);
     return worst;
 }
 

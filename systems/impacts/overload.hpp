@@ -8,22 +8,30 @@ namespace cullet {
 
 /// One contact of a body as a load.
 struct BodyLoad {
-    Vec3d place;              // from the centre of mass, body axes, m
-    Vec3d push;               // unit, body axes: the way the body is pushed
-    double force = 0;         // N, that the last solve passed, and what it would have taken to stop who pushes
-    double bears = 0;         // N, that the one who touches can set against a push towards it
-    double driven_speed = 0;  // m/s along `push`, of one that moves whatever stands in its way
-    bool stands = false;      // it yields to no force: static, kinematic or held
-    uint32_t contact = 0;     // of RigidWorld::loads()
+    Vec3d place;       // from the centre of mass, body axes, m
+    Vec3d push;        // unit, body axes: the way the body is pushed
+    double force = 0;  // N, that the last solve passed, and what it would have taken to stop who pushes
+    double bears = 0;  // N, that the one who touches can set against a push towards it
+    double driven_speed =
+        0;  // m/s along `push`, of one that moves whatever stands in its way, or stands behind who touches
+    bool stands = false;     // it yields to no force: static, kinematic or held
+    bool is_backed = false;  // it stands, or what stands is behind it, seen from the body
+    uint32_t contact = 0;    // of RigidWorld::loads()
 };
-inline constexpr uint32_t kMostLoads = 32;  // of one body that are looked at
-inline constexpr double kBearsAll = 1e30;   // N
+inline constexpr uint32_t kMostLoads = 256;  // of one body that are looked at
+inline constexpr double kBearsAll = 1e30;    // N
 
 struct Overload {
-    double share = 0;        // of what the body bears; more than 1 breaks it
-    double load = 0;         // N, that squeeze it
-    uint32_t contact = 0;    // of RigidWorld::loads(), where it is worst
-    bool is_driven = false;  // two that do not yield close on it: no force is enough for long
+    double share = 0;         // of what the body bears; more than 1 breaks it
+    double load = 0;          // N, that squeeze it
+    uint32_t contact = 0;     // of RigidWorld::loads(), where it is worst
+    bool is_driven = false;   // two that do not yield close on it: no force is enough for long
+    bool is_between = false;  // driven, and all that close on it touch it themselves
+    bool is_bent = false;     // `share` is that of a bending moment
+    double driven_speed = 0;  // m/s, of the fastest that drives
+    // Where it would come apart, body frame and axes: across the bar where the moment is largest, or along the push
+    // that squeezes it.
+    Vec3d section, section_normal;
 };
 
 /// N that one place of the body bears for long: less once it has cracks.
@@ -36,7 +44,11 @@ double least_bending_force(const State& state, Row<Bodies> body);
 /// - Bent: the moment of the loads in sections across its principal axes, over strength times section modulus, W = V/L
 ///   <x^2> / c (exact for bars, flat sheets and tubes: b h^2 / 6, pi R^2 h). What the loads leave over accelerates it
 ///   evenly. Pins bear like a beam's supports, the nearest to both sides of the load.
-/// - Driven: two that do not yield come nearer to each other and both touch it.
-Overload overload_of(const State& state, Row<Bodies> body, std::span<const BodyLoad> loads);
+/// - Driven: those that do not yield close on it, from opposite sides or so that it has no way out, and touch it or
+///   press on it through others.
+/// `weight`: N, body axes. Where the loads are not in balance as they were solved, those that are backed get what
+/// balances the others. `room`: for as many loads again.
+Overload overload_of(const State& state, Row<Bodies> body, std::span<BodyLoad> loads, Vec3d weight,
+                     std::span<BodyLoad> room);
 
 }  // namespace cullet

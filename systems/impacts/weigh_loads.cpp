@@ -3,9 +3,12 @@
 
 #include "systems/bodies/body_id.hpp"
 #include "systems/impacts/fragile.hpp"
+#include "systems/impacts/load_lists.hpp"
 #include "systems/impacts/opening.hpp"
 #include "systems/impacts/overload.hpp"
+#include "systems/structures/shell/working_room.hpp"
 #include "systems/systems.hpp"
+#include "systems/tasks/task_cost.hpp"
 
 namespace cullet {
 namespace {
@@ -13,78 +16,27 @@ namespace {
 // More than a body bears, for so long, breaks it: what falls or is struck passes more for a step or two. Between two
 // that do not yield no load is borne, and in half of the time a slow press comes a centimetre.
 constexpr float kOverloadSeconds = 0.06f, kDrivenSeconds = 0.03f;
-// Below this share of the least that could break it nothing is looked at.
-constexpr double kLookShare = 0.7;
+// Below this share of the least that could break it nothing is looked at, and below the second no sleeper is woken.
+constexpr double kLookShare = 0.7, kLaidOn = 0.25;
 // The blow that stands for a load: below the first crack the force of a contact goes with the speed, so that
 // first_crack_speed times the share passes what presses. Twice that, since pieces come off at up to 2.5 times the speed
-// of the first crack, and what presses goes on pressing; half as much more for each run that did not break the body.
-constexpr float kBreakingSpeed = 2, kMostShare = 1.5f, kHarder = 1.5f, kMostSpeed = 10;
+// of the first crack, and what presses goes on pressing; half as much more for a second run.
+constexpr float kBreakingSpeed = 2, kMostShare = 1.5f, kHarder = 1.5f;
+// What no such blow breaks snaps. A bar that bears tonnes in its middle takes blows of 100 m/s, which bore holes; what
+// drives does not wait for a second run, nor for a first one while it comes so far, as a share of the size.
+constexpr float kFastestRun = 15, kDeepest = 0.05f;
+constexpr uint8_t kMostRuns = 2, kMostDrivenRuns = 1;
+// Of fewer elements a blow knocks out a corner, and what is left may have too few to break again.
+constexpr uint32_t kFewestForARun = 200;
 // After each such run the body is left alone twice as long, but no longer than 64 times.
 constexpr uint8_t kMostLoadRuns = 6;
 
+// In place of a number of steps: it slept until something was laid on it.
+constexpr uint8_t kWasWoken = 255;
+
 uint32_t steps_in(float seconds, float dt) {
-    return std::clamp(static_cast<uint32_t>(std::ceil(seconds / dt)), 2u, 255u);
+    return std::clamp(static_cast<uint32_t>(std::ceil(seconds / dt)), 2u, 254u);
 }
-
-bool yields(const Bodies& bodies, Row<Bodies> b) {
-    return b.exists() && static_cast<BodyKind>(bodies.kind[b]) == BodyKind::Dynamic && !bodies.hold_count[b];
-}
-
-/// Side `side` of a contact as a load of its body. A solver that has few iterations leaves what is heavy, or driven,
-/// closing on the body: stopping it takes its mass times that speed, as long as the body cannot give way.
-BodyLoad load_of(const Bodies& bodies, const RigidContact& c, int side, uint32_t contact, float dt) {
-    const Impact as = impact_of(c, side);
-    const Pose pose = pose_of(bodies, as.body);
-    const Quat to_axes = conjugate(pose.orientation);
-    const Row<Bodies> other = as.striker;
-    BodyLoad l;
-    l.contact = contact;
-    l.place = Vec3d(to_body(pose, as.point)) - bodies.centre[as.body];
-    l.push = Vec3d(rotate(to_axes, as.normal));
-    l.stands = !yields(bodies, other);
-    const double mass = l.stands ? bodies.mass[as.body] : bodies.mass[other];
-    l.force = (c.impulse + mass * std::max(0.0f, c.approach_speed)) / dt;
-    l.bears = l.stands ? kBearsAll : l.force;
-    if (other.exists() && static_cast<BodyKind>(bodies.kind[other]) == BodyKind::Kinematic) {
-        const Vec3 centre = to_world(pose_of(bodies, other), bodies.centre[other].to_float());
-        l.driven_speed = dot(bodies.velocity[other] + cross(bodies.spin[other], as.point - centre), as.normal);
-    }
-    return l;
-}
-
-bool touches(const RigidContact& c) {
-    return c.impulse > 0 || c.distance <= 0;
-}
-
-/// The contacts of a body, as a list through `next`: entry 2 c + side, in the order of contacts.
-struct LoadLists {
-    Bodies& bodies;
-    std::span<const RigidContact> contacts;
-    std::span<uint32_t> next;
-
-    LoadLists(Bodies& of, std::span<const RigidContact> all, Arena& arena, const Shells& shells,
-              const DamageSettings& settings)
-        : bodies(of), contacts(all), next(arena.take<uint32_t>(2 * all.size())) {
-        for (uint32_t b = 0; b < bodies.size(); ++b) bodies.first_load[b] = kNone;
-        for (size_t c = next.size() / 2; c-- > 0;) {
-            if (!touches(contacts[c])) continue;
-            for (int side = 1; side >= 0; --side) {
-                const Row<Bodies> body(side == 0 ? contacts[c].a : contacts[c].b);
-                if (!is_fragile(bodies, shells, settings, body)) continue;
-                const auto entry = static_cast<uint32_t>(2 * c) + static_cast<uint32_t>(side);
-                next[entry] = bodies.first_load[body];
-                bodies.first_load[body] = entry;
-            }
-        }
-    }
-    /// The first kMostLoads; how many.
-    uint32_t take(Row<Bodies> body, float dt, std::span<BodyLoad, kMostLoads> loads) const {
-        uint32_t count = 0;
-        for (uint32_t entry = bodies.first_load[body]; entry != kNone && count < kMostLoads; entry = next[entry])
-            loads[count++] = load_of(bodies, contacts[entry / 2], static_cast<int>(entry & 1), entry / 2, dt);
-        return count;
-    }
-};
 
 // Whether there is anything to look at.
 bool may_be_overloaded(const State& state, Row<Bodies> body, std::span<const BodyLoad> loads) {
@@ -94,12 +46,61 @@ bool may_be_overloaded(const State& state, Row<Bodies> body, std::span<const Bod
     return is_driven || sum > kLookShare * std::min(2 * force_borne(state, body), least_bending_force(state, body));
 }
 
+// It may break, is not held, and no hit on it is worked off.
+bool may_be_loaded(const State& state, Row<Bodies> body, const DamageSettings& settings) {
+    const Bodies& bodies = state.bodies;
+    return is_fragile(bodies, state.shells, settings, body) && !bodies.hold_count[body] && bodies.task[body] == kNone &&
+           state.shells.first_crack_force[bodies.shell[body]] > 0 && force_borne(state, body) < kBearsAll;
+}
+
+// What is laid on a sleeper little by little is not to find it asleep for ever: its supports tell their loads only
+// awake.
+bool is_to_wake(const State& state, Row<Bodies> body, std::span<const BodyLoad> loads) {
+    double sum = 0;
+    for (const BodyLoad& l : loads) sum += l.force;
+    return sum > kLaidOn * std::min(2 * force_borne(state, body), least_bending_force(state, body));
+}
+
+// What sleeps on it weighs nothing in the solver, and is told of once the body is awake.
+void wake_touchers(Bodies& bodies, RigidWorld& rigid, Row<Bodies> body, std::span<const RigidContact> contacts,
+                   std::span<const BodyLoad> loads) {
+    for (const BodyLoad& l : loads) {
+        const RigidContact& c = contacts[l.contact];
+        const Row<Bodies> other(c.a == body.index ? c.b : c.a);
+        if (!bodies.is_asleep[other]) continue;
+        rigid.wake(other);
+        bodies.is_asleep[other] = 0;
+    }
+}
+
+// N, body axes.
+Vec3d weight_of(const Bodies& bodies, Row<Bodies> body, Vec3 gravity) {
+    return bodies.mass[body] * Vec3d(rotate(conjugate(bodies.orientation[body]), gravity));
+}
+
 float speed_of(const State& state, Row<Bodies> body, const Overload& over) {
-    float times =
-        kBreakingSpeed * (over.is_driven ? kMostShare : std::clamp(static_cast<float>(over.share), 1.0f, kMostShare));
-    for (uint8_t run = 0; run < state.bodies.overload_runs[body]; ++run) times *= kHarder;
-    return std::min(times, kMostSpeed) *
+    const float share = over.is_driven ? kMostShare : std::clamp(static_cast<float>(over.share), 1.0f, kMostShare);
+    return kBreakingSpeed * share * (state.bodies.overload_runs[body] ? kHarder : 1) *
            first_crack_speed(state.shells, state.bodies.shell[body], state.bodies.strength_scale[body]);
+}
+
+// s, of a hidden run on the whole body when it gets all units.
+double seconds_of_run(const State& state, Row<Bodies> body, const DamageSettings& settings, float dt) {
+    const Row<Shells> shell = state.bodies.shell[body];
+    const Shells& shells = state.shells;
+    const double steps = run_seconds(state, shells.material[shell], shells.area[shell]) / shells.time_step[shell];
+    const auto units = steps * static_cast<double>(units_a_step(shells.vertices[shell].count, 64));
+    return dt * units / static_cast<double>(std::max<uint64_t>(settings.units_a_frame, 1));
+}
+
+bool is_for_a_run(const State& state, Row<Bodies> body, const Overload& over, const DamageSettings& settings,
+                  float dt) {
+    const Bodies& bodies = state.bodies;
+    if (bodies.overload_runs[body] >= (over.is_driven ? kMostDrivenRuns : kMostRuns)) return false;
+    if (speed_of(state, body, over) > kFastestRun) return false;
+    if (state.shells.elements[bodies.shell[body]].count < kFewestForARun) return false;
+    return !over.is_driven || is_quick_body(state, body) ||
+           over.driven_speed * seconds_of_run(state, body, settings, dt) < kDeepest * 2 * bodies.radius[body];
 }
 
 // A striker of twenty masses stands for who presses. Against what is free it stands still: the body comes to it.
@@ -120,34 +121,56 @@ QueuedHit hit_of(const State& state, Row<Bodies> body, const RigidContact& c, co
     return hit;
 }
 
+QueuedHit snap_of(QueuedHit hit, const Overload& over) {
+    hit.point = over.section.to_float();
+    hit.normal = over.section_normal.to_float();
+    hit.approach_speed = 0;
+    return hit;
+}
+
 }  // namespace
 
-void weigh_loads(Serial, Step step, const RigidWorld& rigid, ShellTables shells, Bodies& bodies, QueuedHits&,
+void weigh_loads(Serial, Step step, RigidWorld& rigid, ShellTables shells, Bodies& bodies, QueuedHits&,
                  const DamageSettings& settings, Arena& arena, Events<RefusedEvent>& refused) {
     State& state = shells.state;
     const auto contacts = rigid.loads();
-    const LoadLists lists(bodies, contacts, arena, state.shells, settings);
-    BodyLoad room[kMostLoads];
+    const LoadLists lists(bodies, contacts, arena);
+    const auto room = arena.take<BodyLoad>(kMostLoads), spare = arena.take<BodyLoad>(kMostLoads);
     for (uint32_t b = 0; b < bodies.size(); ++b) {
         const Row<Bodies> body(b);
-        if (bodies.first_load[b] == kNone || bodies.is_asleep[b] || bodies.hold_count[b] || bodies.task[b] != kNone ||
-            !(state.shells.first_crack_force[bodies.shell[b]] > 0) || !(force_borne(state, body) < kBearsAll)) {
+        if (!lists.has_loads(body) || !may_be_loaded(state, body, settings)) {
             bodies.overloaded_steps[b] = 0;
             continue;
         }
-        const std::span<const BodyLoad> loads(room, lists.take(body, step.dt, room));
-        const Overload over = may_be_overloaded(state, body, loads) ? overload_of(state, body, loads) : Overload{};
+        const auto loads = room.first(lists.take(body, step.dt, room));
+        if (bodies.is_asleep[b]) {
+            if (!is_to_wake(state, body, loads)) continue;
+            rigid.wake(body);
+            bodies.is_asleep[b] = 0;
+            bodies.overloaded_steps[b] = kWasWoken;
+            continue;
+        }
+        if (bodies.overloaded_steps[b] == kWasWoken) {
+            wake_touchers(bodies, rigid, body, contacts, loads);
+            bodies.overloaded_steps[b] = 0;
+            continue;
+        }
+        const Overload over = may_be_overloaded(state, body, loads)
+                                  ? overload_of(state, body, loads, weight_of(bodies, body, step.gravity), spare)
+                                  : Overload{};
         if (!over.is_driven && !(over.share > 1)) {
             bodies.overloaded_steps[b] = 0;
             if (over.share < 0.5) bodies.overload_runs[b] = 0;
             continue;
         }
-        const uint32_t wanted = steps_in(over.is_driven ? kDrivenSeconds : kOverloadSeconds, step.dt)
-                                << std::min(bodies.overload_runs[b], kMostLoadRuns);
-        if (bodies.overloaded_steps[b] < 255) ++bodies.overloaded_steps[b];
-        if (bodies.overloaded_steps[b] < std::min(wanted, 255u)) continue;
+        const uint32_t wanted = over.is_driven ? steps_in(over.is_between ? kDrivenSeconds : kOverloadSeconds, step.dt)
+                                               : steps_in(kOverloadSeconds, step.dt)
+                                                     << std::min(bodies.overload_runs[b], kMostLoadRuns);
+        if (bodies.overloaded_steps[b] < kWasWoken - 1) ++bodies.overloaded_steps[b];
+        if (bodies.overloaded_steps[b] < std::min<uint32_t>(wanted, kWasWoken - 1)) continue;
         bodies.overloaded_steps[b] = 0;
-        const QueuedHit hit = hit_of(state, body, contacts[over.contact], over, step.frame);
+        const QueuedHit blow = hit_of(state, body, contacts[over.contact], over, step.frame);
+        const QueuedHit hit = is_for_a_run(state, body, over, settings, step.dt) ? blow : snap_of(blow, over);
         if (settings.allows) {
             const Impact as = impact_of(contacts[over.contact], contacts[over.contact].a == b ? 0 : 1);
             ImpactEvent event = event_of(bodies, as, hit.striker_inverse_mass);

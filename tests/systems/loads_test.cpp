@@ -141,12 +141,10 @@ TEST(Loads, AShelfBearsAThirdOfWhatABeamDoesAndBreaksAtTwice) {
     EXPECT_GT(heavy.pieces, 0u);
 }
 
-// Wanted: it breaks within half a second. Today the solver lets 100 t press the whole shelf past its supports, so that no
-// load balances and none is read. The test fails when it is mended, and is turned round then.
-TEST(Loads, AHundredTonnesOnAShelfStillPressItPastItsSupportsInOnePiece) {
-    const Played played = play_script(shelf(100000), 0.5);
+TEST(Loads, AHundredTonnesBreakAShelfOfFourCentimetresWithinAThirdOfASecond) {
+    const Played played = play_script(shelf(100000), 0.35);
     EXPECT_EQ(played.failure, "");
-    EXPECT_EQ(played.pieces, 0u);
+    EXPECT_GT(played.pieces, 0u);
 }
 
 TEST(Loads, ABreakByLoadIsTheSameOnAnyNumberOfThreads) {

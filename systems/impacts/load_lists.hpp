@@ -1,0 +1,39 @@
+// The contacts of the last solve, body by body, and each as a load.
+#pragma once
+#include <span>
+
+#include "engine/arena.hpp"
+#include "engine/rigid_world.hpp"
+#include "systems/impacts/overload.hpp"
+
+namespace cullet {
+
+/// Through Bodies.first_load and `next`: entry 2 c + side is contact c on its body a (side 0) or b, in the order of
+/// contacts. No entries, when the arena is full.
+class LoadLists {
+ public:
+    LoadLists(Bodies& bodies, std::span<const RigidContact> contacts, Arena& arena);
+
+    bool has_loads(Row<Bodies> body) const { return bodies_.first_load[body] != kNone; }
+    /// As many as there is room for, the first; how many.
+    uint32_t take(Row<Bodies> body, float dt, std::span<BodyLoad> loads) const;
+
+ private:
+    BodyLoad load_of(uint32_t entry, float dt) const;
+    struct Behind {
+        bool stands = false;
+        float speed = -1e30f;  // m/s, of the fastest, along the push towards `from`
+    };
+    void look_behind(Row<Bodies> body, Row<Bodies> from, Vec3 push, uint32_t& looks, Behind& behind) const;
+    void share_what_is_missing(std::span<BodyLoad> loads, Row<Bodies> body, float dt) const;
+    Row<Bodies> toucher(uint32_t entry) const {
+        const RigidContact& c = contacts_[entry / 2];
+        return Row<Bodies>(entry & 1 ? c.a : c.b);
+    }
+
+    Bodies& bodies_;
+    std::span<const RigidContact> contacts_;
+    std::span<uint32_t> next_;
+};
+
+}  // namespace cullet

@@ -1,0 +1,94 @@
+#include "systems/impacts/snap.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "engine/principal_axes.hpp"
+#include "engine/random.hpp"
+
+namespace cullet {
+namespace {
+
+// Of the width along which the crack runs: how far it strays, and how far the line goes on beyond the body.
+constexpr float kStray = 0.04f, kPast = 0.25f;
+// Of the body, along the normal, that is left on either side.
+constexpr float kKept = 0.1f;
+constexpr uint32_t kFewestPoints = 2, kMostPoints = 12;
+
+/// How far the body goes along a direction, from the frame's origin, m.
+struct Extent {
+    float low = 1e30f, high = -1e30f;
+    float size() const { return high - low; }
+};
+Extent extent_along(const Vertices& vertices, Range rows, Vec3 direction) {
+    Extent e;
+    for (uint32_t v = rows.first; v < rows.first + rows.count; ++v) {
+        if (vertices.element[v] == kNone) continue;
+        const float at = dot(direction, vertices.rest[v]);
+        e.low = std::min(e.low, at), e.high = std::max(e.high, at);
+    }
+    return e;
+}
+
+Vec3 across(Vec3 v, Vec3 normal) {
+    return v - dot(v, normal) * normal;
+}
+
+// The crack goes straight through the thinnest side, which is the axis of most inertia.
+Vec3 sweep_of(const Bodies& bodies, Row<Bodies> body, Vec3 normal) {
+    const PrincipalAxes principal = principal_axes(bodies.inertia[body]);
+    const Vec3 unit[3] = {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
+    const double moments[3] = {principal.moments.x, principal.moments.y, principal.moments.z};
+    Vec3 best;
+    double most = -1;
+    for (int i = 0; i < 3; ++i) {
+        const Vec3 axis = across(rotate(principal.axes, unit[i]), normal);
+        if (length(axis) < 0.5f || moments[i] <= most) continue;
+        most = moments[i];
+        best = axis;
+    }
+    return normalised(best);
+}
+
+}  // namespace
+
+bool snap(Blows& blows, const Bodies& bodies, const Shells& shells, const Vertices& vertices, Row<Bodies> body,
+          Vec3 place, Vec3 normal, uint64_t seed) {
+    if (blows.size() >= blows.limit() / 2) return false;
+    const Row<Shells> shell = bodies.shell[body];
+    const Range rows = shells.vertices[shell];
+    const Vec3 sweep = sweep_of(bodies, body, normal), line = cross(sweep, normal);
+    const Extent along = extent_along(vertices, rows, normal), wide = extent_along(vertices, rows, line);
+    if (!(along.size() > 0 && wide.size() > 0)) return false;
+    const uint32_t row = blows.append(1);
+    if (row == kNone) return false;
+    blows.clear_rows(row, 1);
+    blows.kind[row] = static_cast<uint8_t>(BlowKind::Cut);
+    blows.body[row] = body;
+    blows.task[row] = kNone;
+    blows.is_taken[row] = 1;
+    blows.direction.set(row, sweep);
+    const float edge = std::max(shells.mean_edge[shell], 1e-3f * wide.size());
+    const uint32_t points =
+        std::clamp(static_cast<uint32_t>(std::ceil(wide.size() / edge)), kFewestPoints, kMostPoints);
+    const float at =
+        std::clamp(dot(normal, place), along.low + kKept * along.size(), along.high - kKept * along.size());
+    const float stray = std::min(kStray * wide.size(), 0.5f * kKept * along.size());
+    const Random random{seed};
+    const auto aside = [&](uint32_t i) { return stray * static_cast<float>(2 * random.uniform(i) - 1); };
+    // A jagged line through few elements, or one that has parted nothing, gives way to a plane.
+    if (points < 3 || bodies.overload_runs[body] > 1) {
+        blows.point.set(row, at * normal + (wide.low + 0.5f * wide.size()) * line + dot(sweep, place) * sweep);
+        blows.direction.set(row, normalised(normal + (2 * aside(0) / wide.size()) * line));
+        return true;
+    }
+    blows.point_count[row] = points;
+    for (uint32_t i = 0; i < points; ++i) {
+        const float share = -kPast + (1 + 2 * kPast) * static_cast<float>(i) / static_cast<float>(points - 1);
+        set_cut_point(blows, row, i,
+                      (at + aside(i)) * normal + (wide.low + share * wide.size()) * line + dot(sweep, place) * sweep);
+    }
+    return true;
+}
+
+}  // namespace cullet
