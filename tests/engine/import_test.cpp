@@ -550,6 +550,35 @@ TEST_F(Import, WhatTheMeshDoesNotHoldIsToldByTheProgramByTheImportAndByTheCache)
     EXPECT_EQ(notes, "");
 }
 
+/// Whoever finds a mesh in the cache finds its notes: where these cannot be written, the mesh is not kept.
+TEST_F(Import, AMeshIsNotKeptWithoutItsNotes) {
+    file("side.bin", triangle_bytes());
+    std::string json = triangle_gltf("side.bin");
+    json.insert(json.size() - 1, R"(,"cameras":[{}])");
+    const std::string path = file("m.gltf", json);
+    const auto entries = [this] {
+        std::vector<fs::path> found;
+        for (const auto& entry : fs::directory_iterator(cache()))
+            if (entry.path().extension() == ".cmesh") found.push_back(entry.path());
+        return found;
+    };
+    ASSERT_TRUE(import_mesh(path, kProgram, cache()).ok());
+    ASSERT_EQ(entries().size(), 1u);
+    const fs::path mesh = entries()[0], notes = mesh.string() + ".notes";
+    ASSERT_TRUE(fs::exists(notes));
+    fs::remove(mesh);
+    fs::remove(notes);
+    fs::create_directory(notes);
+    std::string said;
+    ASSERT_TRUE(import_mesh(path, kProgram, cache(), {}, &said).ok());
+    EXPECT_EQ(said, "Not kept: 1 camera.");
+    EXPECT_TRUE(entries().empty());
+    fs::remove(notes);
+    ASSERT_TRUE(import_mesh(path, kProgram, cache()).ok());
+    EXPECT_EQ(entries().size(), 1u);
+    EXPECT_TRUE(fs::is_regular_file(notes));
+}
+
 TEST_F(Import, ABinaryGltfOfAnyNameBelongsToItsBuffersAndOneOfWideLettersIsNotKept) {
     const std::string json = triangle_gltf("side.bin");
     for (const float size : {1.0f, 2.0f}) {
