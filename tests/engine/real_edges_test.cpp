@@ -121,8 +121,8 @@ std::vector<Outcome> meet(const Floor& floor, const std::vector<Slider>& sliders
         world->detect(dt);
         for (const RigidContact& c : world->contacts()) {
             const uint32_t k = std::max(c.a, c.b) - kFirst;
-            if (c.distance > 0.001f) continue;
             out[k].struck = std::max(out[k].struck, c.approach_speed);
+            if (c.distance > 0.001f) continue;
             if (std::fabs(c.normal.x) > 0.1f && steps_since[k] < 0) steps_since[k] = 0;
         }
         world->solve(dt);

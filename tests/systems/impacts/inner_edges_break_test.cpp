@@ -1,0 +1,135 @@
+// Shells that slide: on a floor of many parts none breaks that does not break on two triangles, and a kerb breaks them.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <cstdio>
+
+#include "tests/engine/rigid_scenes.hpp"
+#include "tests/support/random_floors.hpp"
+#include "tests/support/small_worlds.hpp"
+
+namespace cullet::test {
+namespace {
+
+constexpr uint32_t kBoxFaces[] = {0, 2, 1, 1, 2, 3, 4, 5, 6, 5, 7, 6, 0, 1, 4, 1, 5, 4,
+                                  2, 6, 3, 3, 6, 7, 0, 4, 2, 2, 4, 6, 1, 3, 5, 3, 7, 5};
+
+// Convex parts, which are boxes, as twelve triangles each.
+void add_part(World& world, const FloorPart& part) {
+    std::vector<Vec3> points = part.points;
+    std::vector<uint32_t> indices;
+    for (const auto& triangle : part.triangles) indices.insert(indices.end(), triangle.begin(), triangle.end());
+    for (const auto& piece : part.pieces) {
+        const auto first = static_cast<uint32_t>(points.size());
+        for (size_t k = 0; k < piece.size(); ++k) {
+            const float m = part.margin;
+            points.push_back(piece[k] + Vec3{k & 1 ? m : -m, k & 2 ? m : -m, k & 4 ? m : -m});
+        }
+        for (const uint32_t index : kBoxFaces) indices.push_back(first + index);
+    }
+    MeshView view;
+    view.positions = points.data();
+    view.position_count = points.size();
+    view.indices = indices.data();
+    view.triangle_count = indices.size() / 3;
+    const Result<BodyId> added = world.add_static(view);
+    ASSERT_TRUE(added.ok()) << added.error();
+}
+
+struct Thing {
+    const Model* model;
+    SpawnSettings settings;
+};
+
+/// A pane that lies on the floor, or a vase on its foot.
+Thing any_thing(Chance& chance, float side, float speed) {
+    const bool is_pane = chance.below(3) > 0;
+    Thing thing{is_pane ? &small_pane() : &small_vase(), {}};
+    const float turn = chance.between(0, 3.14f);
+    const Quat about_y{0, std::sin(0.5f * turn), 0, std::cos(0.5f * turn)}, flat{0.70710678f, 0, 0, 0.70710678f};
+    thing.settings.pose = {{0, is_pane ? 0.003f : 0.001f, side}, is_pane ? about_y * flat : about_y};
+    thing.settings.motion.velocity = {speed, 0, 0};
+    return thing;
+}
+
+// For a second; how many pieces there are then.
+uint32_t pieces_after_sliding(const Floor& floor, const std::vector<Thing>& things) {
+    Settings settings = small_settings();
+    settings.gravity = {0, -9.81f, 0};
+    settings.limits.bodies = 4096;
+    World world = make_world(settings);
+    for (const FloorPart& part : floor.parts) add_part(world, part);
+    for (const Thing& thing : things) {
+        const Result<ModelId> id = world.add_model(*thing.model);
+        EXPECT_TRUE(id.ok());
+        EXPECT_TRUE(world.spawn(id.value(), thing.settings).ok());
+    }
+    for (int frame = 0; frame < 60; ++frame) world.step();
+    return static_cast<uint32_t>(shells_of(world).size());
+}
+
+TEST(InnerEdgesBreak, NoShellBreaksOnAFloorOfManyPartsThatDoesNotOnTwoTriangles) {
+    uint32_t whole = 0, broken = 0;
+    for (uint32_t seed = 0; seed < 40; ++seed) {
+        Chance chance{std::mt19937(seed)};
+        const Ground ground = random_flat_ground(chance);
+        const float speed = chance.between(1, 8);
+        const std::vector<Thing> things{any_thing(chance, chance.between(-0.5f, 0.5f), speed)};
+        if (pieces_after_sliding(ground.plain, things) > 1) continue;
+        ++whole;
+        const uint32_t pieces = pieces_after_sliding(ground.floor, things);
+        broken += pieces > 1;
+        if (pieces > 1) std::printf("seed %u: %u pieces on %s at %.1f m/s\n", seed, pieces, ground.floor.name, speed);
+    }
+    std::printf("%u whole on two triangles, %u of them broken\n", whole, broken);
+    EXPECT_GE(whole, 24u);
+    EXPECT_EQ(broken, 0u);
+}
+
+/// A floor to x = 1 and what is `height` higher behind it, of uneven boxes on one ground: bodies, or parts of one mesh.
+Floor kerb(Chance& chance, float height, bool is_one_body) {
+    Floor floor;
+    if (is_one_body) floor.parts.emplace_back();
+    for (float x = -1; x < 2;) {
+        const float next = x < 1 ? std::min(1.0f, x + chance.between(0.1f, 0.5f)) : x + 1;
+        for (float z = -1; z < 1;) {
+            const float beside = std::min(1.0f, z + chance.between(0.1f, 0.5f));
+            const Vec3 low{x, -0.2f, z}, high{next, x < 1 ? 0 : height, beside};
+            std::vector<Vec3> corners;
+            for (int k = 0; k < 8; ++k)
+                corners.push_back({k & 1 ? high.x : low.x, k & 2 ? high.y : low.y, k & 4 ? high.z : low.z});
+            if (!is_one_body) floor.parts.emplace_back();
+            floor.parts.back().pieces.push_back(corners);
+            z = beside;
+        }
+        x = next;
+    }
+    return floor;
+}
+
+TEST(InnerEdgesBreak, AShellThatMeetsAKerbOfManyPartsAtFiveToTenMetresASecondBreaksAsAtOneBox) {
+    uint32_t breaking = 0, cases = 0, others = 0;
+    for (uint32_t seed = 0; seed < 12; ++seed) {
+        Chance chance{std::mt19937(seed)};
+        const float height = chance.between(0.03f, 0.2f);
+        Thing thing = any_thing(chance, 0.1f, chance.between(5, 10));
+        thing.settings.pose.position.x = 0.5f;
+        Floor plain = two_triangles();
+        plain.parts.emplace_back();
+        plain.parts.back().pieces.push_back(box_points({1, 0.5f * height + 0.1f, 2}, {2, 0.5f * height - 0.1f, 0}));
+        const bool breaks = pieces_after_sliding(plain, {thing}) > 1;
+        breaking += breaks;
+        for (const bool is_one_body : {false, true}) {
+            const bool also = pieces_after_sliding(kerb(chance, height, is_one_body), {thing}) > 1;
+            ++cases, others += also != breaks;
+            if (also != breaks)
+                std::printf("seed %u: a kerb %.0f mm high, of %s, %s\n", seed, 1000 * height,
+                            is_one_body ? "one mesh" : "tiles", also ? "breaks it" : "does not break it");
+        }
+    }
+    EXPECT_GE(breaking, 6u);
+    EXPECT_LE(12 * others, cases) << "one of 24 does not break on one mesh";
+}
+
+}  // namespace
+}  // namespace cullet::test
