@@ -24,7 +24,7 @@ constexpr double kLookShare = 0.7, kLaidOn = 0.25;
 constexpr float kBreakingSpeed = 2, kMostShare = 1.5f, kHarder = 1.5f;
 // What no such blow breaks snaps. A bar that bears tonnes in its middle takes blows of 100 m/s, which bore holes; what
 // drives does not wait for a second run, nor for a first one while it comes so far, as a share of the size.
-constexpr float kFastestRun = 15, kDeepest = 0.05f;
+constexpr float kFastestRun = 15, kDeepest = 0.05f, kWithCracks = 1.6f;
 constexpr uint8_t kMostRuns = 2, kMostDrivenRuns = 1;
 // Of fewer elements a blow knocks out a corner, and what is left may have too few to break again.
 constexpr uint32_t kFewestForARun = 200;
@@ -84,11 +84,12 @@ float speed_of(const State& state, Row<Bodies> body, const Overload& over) {
            first_crack_speed(state.shells, state.bodies.shell[body], state.bodies.strength_scale[body]);
 }
 
-// s, of a hidden run on the whole body when it gets all units.
+// s, of a hidden run on the whole body when it gets all units; cracks and pieces take half as much again.
 double seconds_of_run(const State& state, Row<Bodies> body, const DamageSettings& settings, float dt) {
     const Row<Shells> shell = state.bodies.shell[body];
     const Shells& shells = state.shells;
-    const double steps = run_seconds(state, shells.material[shell], shells.area[shell]) / shells.time_step[shell];
+    const double steps =
+        kWithCracks * run_seconds(state, shells.material[shell], shells.area[shell]) / shells.time_step[shell];
     const auto units = steps * static_cast<double>(units_a_step(shells.vertices[shell].count, 64));
     return dt * units / static_cast<double>(std::max<uint64_t>(settings.units_a_frame, 1));
 }

@@ -32,6 +32,7 @@ struct Moment {
 
 struct Settling {
     uint64_t last_break = 0;         // or fall
+    uint32_t loads = 0;              // of all frames: what was taken for more than a body bears
     std::vector<Moment> moments;     // after it
     size_t pieces = 0, asleep = 0;   // kAsleepBy frames after it
     std::vector<std::string> awake;  // then
@@ -103,11 +104,13 @@ bool has_fallen(const RigidWorld& rigid) {
 
 Settling settle(GameWorld& game) {
     Settling out;
+    uint32_t loads = 0;
     const WorldData& data = game.world().contents().data;
     const Bodies& bodies = data.state.bodies;
     std::vector<Place> places;
     for (uint32_t frame = 0; frame < kMostFrames && out.moments.size() < kStillBy + kStillFor; ++frame) {
         test::play_frame(game);
+        for (const ImpactEvent& event : game.world().events().impacts) loads += event.load > 0;
         EXPECT_EQ(game.failure(), "");
         if (game.broke() || !game.waits_at().empty() || has_fallen(*data.rigid)) {
             out = {};
@@ -133,6 +136,7 @@ Settling settle(GameWorld& game) {
         if (out.moments.size() < kStillBy + kStillFor) continue;
         out.moved = count_moved(places, places_of(bodies, pieces));
     }
+    out.loads = loads;
     return out;
 }
 
@@ -183,6 +187,9 @@ TEST_P(Settles, NearlyAllSleepFiveSecondsAfterTheLastBreakOrFallAndNoneMovesAfte
         GetParam().scene, GetParam().seed, static_cast<unsigned long long>(s.last_break), last_hit, first_still,
         s.asleep, s.pieces, s.moved, s.fallen_off);
     for (const std::string& line : s.awake) std::printf("%s\n", line.c_str());
+    // Heaps bear themselves. Under a fallen house a slab that bridges may not: of 631 breaks in demolition one.
+    std::printf("  %u breaks asked for by loads\n", s.loads);
+    EXPECT_LE(s.loads, std::string(GetParam().scene) == "demolition" ? 5u : 1u);
     EXPECT_GE(100 * s.asleep, 99 * s.pieces);
     EXPECT_EQ(s.moved, 0u);
     // Nothing is hit, so nothing may gain speed but by falling: a piece that stands on its edge tips over.

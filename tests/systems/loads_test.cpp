@@ -79,6 +79,17 @@ INSTANTIATE_TEST_SUITE_P(All, SlowPress, testing::Combine(testing::ValuesIn(kPre
                                     "MillimetresASecond";
                          });
 
+// Its hidden run would take 11 frames, in which the press comes 4 cm. The first centimetre is air.
+TEST(Loads, AFineVaseBreaksBeforeThePressIsTwoCentimetresInIt) {
+    const Played played = play_script(
+        "game.scene{shows = 'a load', seconds = 60} game.floor() "
+        "game.spawn{mesh = game.mesh.vase{height = 0.3, edge = 0.006}, material = 'porcelain', thickness = 0.005, at = "
+        "{0, 0.001, 0}} game.kinematic{half_extents = {0.5, 0.1, 0.5}, at = {0, 0.41, 0}, velocity = {0, -0.2, 0}}",
+        0.15);
+    EXPECT_EQ(played.failure, "");
+    EXPECT_GT(played.pieces, 0u) << played.frames << " frames";
+}
+
 TEST(Loads, ALiftThatCarriesAVaseAndAPressThatStopsShortBreakNothing) {
     const Played played = play_script(
         kVase +
