@@ -83,7 +83,7 @@ bool is_inside(const Spot& spot, const Side& side) {
     return true;
 }
 
-// Of pieces that overlap by so much, m, what bulges so far less touches too.
+// Of pieces that overlap by more, m, all that lies in the other is offered.
 // `sign` -1: the side that looks down the normal (hull a); +1: up (hull b). `offset` is the hull's centre in the frame.
 void look(const Hull& hull, const Mat3& rotation, const PatchFrame& frame, Vec3 offset, float sign, float overlap,
           Side& side) {
@@ -132,7 +132,7 @@ void look(const Hull& hull, const Mat3& rotation, const PatchFrame& frame, Vec3 
     if (side.plane_count == 0) side.plane[side.plane_count++] = {oz + sign * top, 0, 0};
     // Points of the outline are not inside of it.
     for (uint32_t k = 0; k < hull.point_count && side.outline_count >= 3; ++k) {
-        if (!(height[k] > top - scale * kBulgeDepth - overlap)) continue;
+        if (!(height[k] > top - std::max(scale * kBulgeDepth, overlap))) continue;
         const Spot spot = spot_at(k);
         if (is_inside(spot, side)) side.bulge[side.bulge_count++] = spot;
     }
