@@ -151,4 +151,14 @@ struct PatchVertices : Table<PatchVertices> {
     Column<float> force{*this, "force", "N"};  // along the normal, from the displacements before the step
 };
 
+/// Repetitions until the run's time is up, less those done and those that this frame has granted.
+inline uint32_t steps_left(const Tasks& tasks, uint32_t t, uint32_t granted) {
+    const auto total = static_cast<uint32_t>(tasks.end_time[t] / tasks.time_step[t]) + 1;
+    const uint32_t begun = tasks.steps_done[t] + granted;
+    return total > begun ? total - begun : 0;
+}
+inline uint32_t steps_left(const Tasks& tasks, uint32_t t) {
+    return steps_left(tasks, t, tasks.steps_granted[t]);
+}
+
 }  // namespace cullet

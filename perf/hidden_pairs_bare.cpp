@@ -2,7 +2,7 @@
 
 #include "perf/bare_lanes.hpp"
 #include "perf/hidden_yardsticks.hpp"
-#include "systems/models/thick_shell/hidden/pair_cells.hpp"
+#include "systems/models/thick_shell/stiffness/pair_cells.hpp"
 
 namespace cullet::perf {
 namespace {

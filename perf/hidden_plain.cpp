@@ -1,5 +1,5 @@
 #include "perf/hidden_yardsticks.hpp"
-#include "systems/models/thick_shell/hidden/element_stiffness.hpp"
+#include "systems/models/thick_shell/stiffness/element_stiffness.hpp"
 
 namespace cullet::perf {
 

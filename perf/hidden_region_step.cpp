@@ -8,7 +8,7 @@
 #include "perf/perf.hpp"
 #include "perf/turns.hpp"
 #include "systems/models/thick_shell/hidden/hidden_region.hpp"
-#include "systems/models/thick_shell/hidden/run_hit.hpp"
+#include "systems/models/thick_shell/run_hit.hpp"
 
 namespace cullet::perf {
 namespace {

@@ -12,10 +12,10 @@
 #include "perf/step_runner.hpp"
 #include "perf/stream.hpp"
 #include "perf/turns.hpp"
-#include "systems/models/thick_shell/hidden/assemble.hpp"
-#include "systems/models/thick_shell/hidden/element_stress.hpp"
 #include "systems/models/thick_shell/hidden/energy.hpp"
-#include "systems/models/thick_shell/hidden/pair_cells.hpp"
+#include "systems/models/thick_shell/stiffness/assemble.hpp"
+#include "systems/models/thick_shell/stiffness/element_stress.hpp"
+#include "systems/models/thick_shell/stiffness/pair_cells.hpp"
 #include "systems/systems.hpp"
 
 namespace cullet::perf {

@@ -10,12 +10,12 @@
 #include "perf/cook_vase.hpp"
 #include "perf/hidden_yardsticks.hpp"
 #include "perf/perf.hpp"
-#include "systems/births/rigid_handoff.hpp"
 #include "systems/models/thick_shell/hidden/brittle_loop.hpp"
-#include "systems/models/thick_shell/hidden/run_hit.hpp"
+#include "systems/models/thick_shell/hidden/run_cost.hpp"
+#include "systems/models/thick_shell/run_hit.hpp"
 #include "systems/structures/shell/group_fragments.hpp"
 #include "systems/structures/shell/make_piece.hpp"
-#include "systems/tasks/task_cost.hpp"
+#include "systems/structures/shell/rigid_handoff.hpp"
 
 namespace cullet::perf {
 namespace {

@@ -7,7 +7,7 @@
 #include "engine/fp_mode.hpp"
 #include "perf/cook_vase.hpp"
 #include "perf/perf.hpp"
-#include "systems/models/thick_shell/hidden/run_hit.hpp"
+#include "systems/models/thick_shell/run_hit.hpp"
 #include "systems/structures/shell/flood_parts.hpp"
 #include "systems/structures/shell/group_fragments.hpp"
 

@@ -10,7 +10,7 @@
 
 #include "engine/fp_mode.hpp"
 #include "sample_game/propagation.hpp"
-#include "systems/models/thick_shell/cook/crossings.hpp"
+#include "systems/cook/crossings.hpp"
 #include "systems/models/thick_shell/cook/extrude.hpp"
 #include "systems/models/thick_shell/cook/true_wall.hpp"
 

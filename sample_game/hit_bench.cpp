@@ -8,11 +8,11 @@
 #include "engine/random.hpp"
 #include "sample_game/meshes.hpp"
 #include "sample_game/props.hpp"
-#include "systems/births/rigid_handoff.hpp"
 #include "systems/cook/model_contents.hpp"
+#include "systems/models/thick_shell/calibrate.hpp"
 #include "systems/models/thick_shell/cook/apply_pins.hpp"
-#include "systems/models/thick_shell/quick/calibrate.hpp"
 #include "systems/structures/shell/rest_of_body.hpp"
+#include "systems/structures/shell/rigid_handoff.hpp"
 
 namespace cullet {
 namespace {

@@ -4,7 +4,7 @@
 #include <optional>
 
 #include "cullet/model.hpp"
-#include "systems/models/thick_shell/hidden/run_hit.hpp"
+#include "systems/models/thick_shell/run_hit.hpp"
 
 namespace cullet {
 

@@ -13,7 +13,7 @@
 #include "systems/cook/model_contents.hpp"
 #include "systems/models/thick_shell/cook/apply_pins.hpp"
 #include "systems/models/thick_shell/hidden/integrate_packs.hpp"
-#include "systems/models/thick_shell/hidden/run_hit.hpp"
+#include "systems/models/thick_shell/run_hit.hpp"
 
 namespace cullet {
 namespace {

@@ -10,7 +10,7 @@
 #include "engine/events.hpp"
 #include "engine/rigid_world.hpp"
 #include "systems/births/break.hpp"
-#include "systems/bodies/energy_balance.hpp"
+#include "systems/checks/energy_balance.hpp"
 
 namespace cullet {
 

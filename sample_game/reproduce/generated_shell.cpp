@@ -8,7 +8,7 @@
 #include "engine/fp_mode.hpp"
 #include "engine/jobs.hpp"
 #include "sample_game/palette.hpp"
-#include "systems/models/thick_shell/cook/crossings.hpp"
+#include "systems/cook/crossings.hpp"
 #include "systems/models/thick_shell/cook/tetrahedra.hpp"
 
 namespace cullet::reproduce {

@@ -1,23 +1,24 @@
 // Bodies come into a world: of models, spheres, boxes that the game moves, level geometry.
 #include <algorithm>
 
+#include "components/body_id.hpp"
 #include "engine/host_scope.hpp"
 #include "systems/api/checks.hpp"
 #include "systems/api/model_row.hpp"
-#include "systems/bodies/body_id.hpp"
 #include "systems/bodies/body_rows.hpp"
-#include "systems/bodies/rigid_shape.hpp"
 #include "systems/cook/materials.hpp"
 #include "systems/drawn/bound_drawn.hpp"
 #include "systems/drawn/query_index.hpp"
+#include "systems/models/thick_shell/calibrate.hpp"
 #include "systems/models/thick_shell/cook/apply_pins.hpp"
-#include "systems/models/thick_shell/quick/calibrate.hpp"
-#include "systems/models/thick_shell/quick/cut_out.hpp"
+#include "systems/models/thick_shell/shared/cut_out.hpp"
+#include "systems/models/thick_shell/shared/quick_body.hpp"
+#include "systems/models/thick_shell/shared/working_room.hpp"
 #include "systems/models/thick_shell/soft/soft_body.hpp"
 #include "systems/structures/shell/draw_shell.hpp"
 #include "systems/structures/shell/pin_boxes.hpp"
+#include "systems/structures/shell/rigid_shape.hpp"
 #include "systems/structures/shell/vertex_sums.hpp"
-#include "systems/structures/shell/working_room.hpp"
 #include "systems/world_contents.hpp"
 
 namespace cullet {

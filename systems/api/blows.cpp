@@ -1,7 +1,7 @@
 // Blows that a game asks for. Here they are looked at and queued; the next step takes them (take_blows).
+#include "components/body_id.hpp"
 #include "engine/host_scope.hpp"
 #include "systems/api/checks.hpp"
-#include "systems/bodies/body_id.hpp"
 #include "systems/cook/materials.hpp"
 #include "systems/world_contents.hpp"
 

@@ -1,7 +1,7 @@
 // What a game asks of a body, and what it does to one.
+#include "components/body_id.hpp"
 #include "engine/host_scope.hpp"
 #include "systems/api/checks.hpp"
-#include "systems/bodies/body_id.hpp"
 #include "systems/drawn/query_index.hpp"
 #include "systems/models/thick_shell/soft/soft_body.hpp"
 #include "systems/world_contents.hpp"

@@ -6,9 +6,10 @@
 #include "systems/cook/materials.hpp"
 #include "systems/models/thick_shell/cook/check_shell_rows.hpp"
 #include "systems/models/thick_shell/quick/check_quick.hpp"
-#include "systems/models/thick_shell/quick/cut_out.hpp"
+#include "systems/models/thick_shell/shared/cut_out.hpp"
+#include "systems/models/thick_shell/shared/quick_body.hpp"
+#include "systems/models/thick_shell/shared/working_room.hpp"
 #include "systems/models/thick_shell/springs/check_springs.hpp"
-#include "systems/structures/shell/working_room.hpp"
 
 namespace cullet {
 namespace {

@@ -1,6 +1,6 @@
 // Frames that rows wait for. One far in the future would let a task, a hit or a body wait for ever.
 #include "systems/api/snapshot.hpp"
-#include "systems/impacts/thresholds.hpp"
+#include "systems/bodies/thresholds.hpp"
 #include "systems/world_contents.hpp"
 
 namespace cullet {

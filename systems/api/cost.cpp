@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "systems/bodies/body_id.hpp"
+#include "components/body_id.hpp"
 #include "systems/world_contents.hpp"
 
 namespace cullet {

@@ -3,7 +3,7 @@
 
 #include <array>
 
-#include "systems/bodies/body_id.hpp"
+#include "components/body_id.hpp"
 #include "systems/drawn/query_index.hpp"
 #include "systems/structures/shell/hull_edges.hpp"
 #include "systems/structures/shell/prism.hpp"

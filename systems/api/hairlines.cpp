@@ -4,8 +4,8 @@
 #include <algorithm>
 #include <tuple>
 
+#include "components/body_id.hpp"
 #include "systems/api/checks.hpp"
-#include "systems/bodies/body_id.hpp"
 #include "systems/world_contents.hpp"
 
 namespace cullet {

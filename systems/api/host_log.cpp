@@ -3,7 +3,7 @@
 #include <cstdio>
 #include <cstring>
 
-#include "systems/structures/shell/working_room.hpp"
+#include "systems/models/thick_shell/shared/working_room.hpp"
 
 namespace cullet {
 

@@ -3,8 +3,8 @@
 
 #include <cmath>
 
+#include "components/body_id.hpp"
 #include "systems/api/checks.hpp"
-#include "systems/bodies/body_id.hpp"
 #include "systems/drawn/query_index.hpp"
 #include "systems/hulls/triangle_queries.hpp"
 #include "systems/world_contents.hpp"

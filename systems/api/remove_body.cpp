@@ -1,9 +1,9 @@
 // A body goes, with the hits on it.
 #include "systems/api/remove_body.hpp"
 
+#include "components/body_id.hpp"
 #include "engine/host_scope.hpp"
 #include "systems/api/checks.hpp"
-#include "systems/bodies/body_id.hpp"
 #include "systems/bodies/body_rows.hpp"
 #include "systems/drawn/query_index.hpp"
 #include "systems/models/thick_shell/soft/soft_body.hpp"

@@ -6,7 +6,7 @@
 #include "systems/api/model_hash.hpp"
 #include "systems/api/recorder.hpp"
 #include "systems/api/settings_bytes.hpp"
-#include "systems/cook/model_file.hpp"
+#include "systems/models/thick_shell/model_file.hpp"
 
 namespace cullet {
 namespace {

@@ -1,15 +1,15 @@
 // The game has seen enough of the oldest fragments.
 #include <cmath>
 
+#include "components/body_id.hpp"
 #include "engine/host_scope.hpp"
 #include "systems/api/checks.hpp"
 #include "systems/api/cost.hpp"
 #include "systems/api/remove_body.hpp"
-#include "systems/bodies/body_id.hpp"
-#include "systems/bodies/rigid_shape.hpp"
 #include "systems/drawn/query_index.hpp"
 #include "systems/models/thick_shell/soft/soft_body.hpp"
 #include "systems/structures/shell/piece_shape.hpp"
+#include "systems/structures/shell/rigid_shape.hpp"
 #include "systems/world_contents.hpp"
 
 namespace cullet {

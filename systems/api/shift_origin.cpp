@@ -1,7 +1,7 @@
 // Another place becomes the origin.
+#include "components/body_id.hpp"
 #include "engine/host_scope.hpp"
 #include "systems/api/checks.hpp"
-#include "systems/bodies/body_id.hpp"
 #include "systems/drawn/query_index.hpp"
 #include "systems/world_contents.hpp"
 

@@ -9,16 +9,16 @@
 #include "engine/table_bytes.hpp"
 #include "systems/api/checks.hpp"
 #include "systems/api/settings_bytes.hpp"
-#include "systems/bodies/rigid_shape.hpp"
 #include "systems/cook/materials.hpp"
 #include "systems/drawn/bound_drawn.hpp"
 #include "systems/drawn/query_index.hpp"
 #include "systems/models/thick_shell/hidden/restart.hpp"
-#include "systems/models/thick_shell/quick/cut_out.hpp"
-#include "systems/models/thick_shell/quick/quick_body.hpp"
+#include "systems/models/thick_shell/shared/cut_out.hpp"
+#include "systems/models/thick_shell/shared/quick_body.hpp"
+#include "systems/models/thick_shell/shared/working_room.hpp"
 #include "systems/structures/shell/draw_shell.hpp"
+#include "systems/structures/shell/rigid_shape.hpp"
 #include "systems/structures/shell/vertex_sums.hpp"
-#include "systems/structures/shell/working_room.hpp"
 
 namespace cullet {
 

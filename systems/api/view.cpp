@@ -1,6 +1,6 @@
 // What a game draws of a body.
+#include "components/body_id.hpp"
 #include "systems/api/checks.hpp"
-#include "systems/bodies/body_id.hpp"
 #include "systems/world_contents.hpp"
 
 namespace cullet {

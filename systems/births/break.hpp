@@ -3,9 +3,9 @@
 #include <span>
 
 #include "components/state.hpp"
-#include "systems/births/rigid_handoff.hpp"
 #include "systems/structures/shell/group_fragments.hpp"
 #include "systems/structures/shell/mass_properties.hpp"
+#include "systems/structures/shell/rigid_handoff.hpp"
 
 namespace cullet {
 

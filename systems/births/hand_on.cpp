@@ -1,6 +1,6 @@
 #include "systems/births/hand_on.hpp"
 
-#include "systems/bodies/body_id.hpp"
+#include "components/body_id.hpp"
 
 namespace cullet {
 namespace {

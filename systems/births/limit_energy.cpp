@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "systems/bodies/body_id.hpp"
+#include "components/body_id.hpp"
 
 namespace cullet {
 namespace {
@@ -118,17 +118,6 @@ double held_energy(const State& state, Row<Bodies> body) {
 }
 
 }  // namespace
-
-double rigid_energy(const Bodies& bodies, Row<Bodies> body) {
-    if (!is_dynamic(bodies, body)) return 0;  // nobody: a push of the game's
-    return rigid_energy(bodies, body, {bodies.velocity[body], bodies.spin[body]});
-}
-
-double rigid_energy(const Bodies& bodies, Row<Bodies> body, const Motion& motion) {
-    if (!is_dynamic(bodies, body)) return 0;
-    const Vec3d v(motion.velocity), w(rotate(conjugate(bodies.orientation[body]), motion.angular_velocity));
-    return 0.5 * (bodies.mass[body] * dot(v, v) + dot(w, bodies.inertia[body] * w));
-}
 
 double pieces_energy(const State& state, const Break& plan) {
     double energy = 0;

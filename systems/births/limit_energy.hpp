@@ -1,13 +1,9 @@
 // No break adds energy.
 #pragma once
 #include "systems/births/make_break.hpp"
+#include "systems/bodies/rigid_energy.hpp"
 
 namespace cullet {
-
-/// Of a body as the rigid world moves it: m v^2/2 + w . I w/2, J; 0 for what does not move by itself.
-double rigid_energy(const Bodies& bodies, Row<Bodies> body);
-/// The same, if it moved so (world axes).
-double rigid_energy(const Bodies& bodies, Row<Bodies> body, const Motion& motion);
 
 /// J, of the pieces and crumbs that came of a break.
 double pieces_energy(const State& state, const Break& plan);

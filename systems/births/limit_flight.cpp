@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "systems/impacts/blows.hpp"
+#include "systems/bodies/blows.hpp"
 
 namespace cullet {
 

@@ -1,7 +1,7 @@
 // How fast pieces may leave a body that was hit.
 #pragma once
 #include "components/state.hpp"
-#include "systems/births/rigid_handoff.hpp"
+#include "systems/structures/shell/rigid_handoff.hpp"
 
 namespace cullet {
 

@@ -1,7 +1,7 @@
 #include "systems/births/make_break.hpp"
 #include "systems/births/strike_back.hpp"
-#include "systems/impacts/blows.hpp"
-#include "systems/impacts/thresholds.hpp"
+#include "systems/bodies/blows.hpp"
+#include "systems/bodies/thresholds.hpp"
 #include "systems/structures/shell/cell_hulls.hpp"
 #include "systems/systems.hpp"
 

@@ -2,18 +2,18 @@
 
 #include <algorithm>
 
+#include "components/body_id.hpp"
 #include "engine/rigid_bounds.hpp"
 #include "systems/births/limit_energy.hpp"
 #include "systems/births/limit_flight.hpp"
 #include "systems/births/strike_back.hpp"
-#include "systems/births/waiting_pieces.hpp"
-#include "systems/bodies/body_id.hpp"
-#include "systems/bodies/rigid_shape.hpp"
-#include "systems/impacts/blows.hpp"
-#include "systems/impacts/thresholds.hpp"
-#include "systems/models/thick_shell/quick/quick_body.hpp"
+#include "systems/bodies/blows.hpp"
+#include "systems/bodies/thresholds.hpp"
+#include "systems/models/thick_shell/shared/quick_body.hpp"
 #include "systems/models/thick_shell/soft/soft_pieces.hpp"
 #include "systems/structures/shell/cell_hulls.hpp"
+#include "systems/structures/shell/rigid_shape.hpp"
+#include "systems/structures/shell/waiting_pieces.hpp"
 
 namespace cullet {
 namespace {
@@ -335,11 +335,11 @@ void make_births_of(Births& births, const Break& plan, const Moment& moment) {
 
 void make_break(Births& births, const Break& plan) {
     State& state = births.state;
-    if (plan.soft.exists()) give_pieces_springs(state, plan);
+    if (plan.soft.exists()) give_pieces_springs(state, plan.soft, plan.body, plan.order, plan.parts, plan.child);
     if (!plan.task.exists()) {
         const double allowed = rigid_energy(state.bodies, plan.body) + plan.waited;
         make_births_of(births, plan, {pose_of(state.bodies, plan.body), {}, {}, {}, false});
-        if (plan.soft.exists()) return keep_torn(state, births.rigid, plan);
+        if (plan.soft.exists()) return keep_torn(state, births.rigid, plan.soft, plan.body);
         const double goes_on_waiting = waiting_energy(state, plan.body);
         if (plan.waited > 0) limit_energy(births, plan, allowed - goes_on_waiting);
         return;

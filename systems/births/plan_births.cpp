@@ -1,5 +1,5 @@
+#include "components/body_id.hpp"
 #include "systems/births/plan_break.hpp"
-#include "systems/bodies/body_id.hpp"
 #include "systems/structures/shell/rest_of_body.hpp"
 #include "systems/systems.hpp"
 

@@ -3,14 +3,13 @@
 #include <algorithm>
 #include <memory>
 
+#include "components/body_id.hpp"
 #include "systems/births/hand_on.hpp"
 #include "systems/births/limit_energy.hpp"
-#include "systems/births/waiting_pieces.hpp"
-#include "systems/bodies/body_id.hpp"
+#include "systems/bodies/blows.hpp"
 #include "systems/bodies/body_rows.hpp"
-#include "systems/impacts/blows.hpp"
 #include "systems/models/thick_shell/hidden/hidden_region.hpp"
-#include "systems/models/thick_shell/quick/quick_body.hpp"
+#include "systems/models/thick_shell/shared/quick_body.hpp"
 #include "systems/models/thick_shell/soft/soft_pieces.hpp"
 #include "systems/structures/shell/cell_hulls.hpp"
 #include "systems/structures/shell/crack_touches.hpp"
@@ -18,6 +17,7 @@
 #include "systems/structures/shell/piece_shape.hpp"
 #include "systems/structures/shell/redraw_body.hpp"
 #include "systems/structures/shell/rest_of_body.hpp"
+#include "systems/structures/shell/waiting_pieces.hpp"
 
 namespace cullet {
 namespace {

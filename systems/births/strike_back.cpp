@@ -2,9 +2,9 @@
 
 #include <algorithm>
 
+#include "components/body_id.hpp"
 #include "systems/births/limit_energy.hpp"
-#include "systems/bodies/body_id.hpp"
-#include "systems/impacts/blows.hpp"
+#include "systems/bodies/blows.hpp"
 #include "systems/models/thick_shell/hidden/contact.hpp"
 
 namespace cullet {

@@ -4,7 +4,7 @@
 
 #include "systems/births/limit_energy.hpp"
 #include "systems/births/make_break.hpp"
-#include "systems/births/rigid_handoff.hpp"
+#include "systems/structures/shell/rigid_handoff.hpp"
 
 namespace cullet {
 

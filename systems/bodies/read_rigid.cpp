@@ -1,4 +1,4 @@
-#include "systems/bodies/body_id.hpp"
+#include "components/body_id.hpp"
 #include "systems/systems.hpp"
 
 namespace cullet {

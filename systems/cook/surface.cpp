@@ -3,8 +3,8 @@
 #include <algorithm>
 
 #include "systems/cook/clean_mesh.hpp"
+#include "systems/cook/crossings.hpp"
 #include "systems/cook/sheets.hpp"
-#include "systems/models/thick_shell/cook/crossings.hpp"
 
 namespace cullet {
 

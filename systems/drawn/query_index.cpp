@@ -3,8 +3,8 @@
 #include <cmath>
 #include <numeric>
 
+#include "components/body_id.hpp"
 #include "engine/byte_stream.hpp"
-#include "systems/bodies/body_id.hpp"
 
 namespace cullet {
 namespace {

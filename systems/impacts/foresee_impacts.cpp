@@ -1,7 +1,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "systems/bodies/body_id.hpp"
+#include "components/body_id.hpp"
 #include "systems/impacts/fragile.hpp"
 #include "systems/systems.hpp"
 

@@ -1,6 +1,6 @@
 // Which contacts are blows that a body may not survive.
 #pragma once
-#include "systems/impacts/thresholds.hpp"
+#include "systems/bodies/thresholds.hpp"
 
 namespace cullet {
 

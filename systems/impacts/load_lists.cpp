@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "systems/bodies/body_id.hpp"
+#include "components/body_id.hpp"
 #include "systems/impacts/fragile.hpp"
 
 namespace cullet {

@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <cmath>
 
-#include "systems/bodies/body_id.hpp"
+#include "components/body_id.hpp"
+#include "systems/bodies/thresholds.hpp"
 #include "systems/impacts/fragile.hpp"
-#include "systems/impacts/thresholds.hpp"
 #include "systems/tasks/cancel_task.hpp"
 
 namespace cullet {

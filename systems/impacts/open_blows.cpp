@@ -2,11 +2,11 @@
 
 #include <algorithm>
 
-#include "systems/bodies/body_id.hpp"
-#include "systems/impacts/blows.hpp"
-#include "systems/impacts/thresholds.hpp"
-#include "systems/structures/shell/working_room.hpp"
-#include "systems/tasks/task_cost.hpp"
+#include "components/body_id.hpp"
+#include "systems/bodies/blows.hpp"
+#include "systems/bodies/thresholds.hpp"
+#include "systems/models/thick_shell/hidden/run_cost.hpp"
+#include "systems/models/thick_shell/shared/working_room.hpp"
 
 namespace cullet {
 namespace {

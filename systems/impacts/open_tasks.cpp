@@ -1,12 +1,12 @@
 #include <algorithm>
 
-#include "systems/bodies/body_id.hpp"
+#include "components/body_id.hpp"
+#include "systems/bodies/thresholds.hpp"
 #include "systems/impacts/open_ahead.hpp"
 #include "systems/impacts/open_blows.hpp"
 #include "systems/impacts/opening.hpp"
 #include "systems/impacts/snap.hpp"
-#include "systems/impacts/thresholds.hpp"
-#include "systems/structures/shell/working_room.hpp"
+#include "systems/models/thick_shell/shared/working_room.hpp"
 #include "systems/systems.hpp"
 
 namespace cullet {

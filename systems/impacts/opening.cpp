@@ -2,18 +2,19 @@
 
 #include <algorithm>
 
-#include "systems/births/waiting_pieces.hpp"
-#include "systems/bodies/body_id.hpp"
+#include "components/body_id.hpp"
+#include "systems/bodies/blows.hpp"
+#include "systems/bodies/thresholds.hpp"
 #include "systems/costs.hpp"
-#include "systems/impacts/blows.hpp"
-#include "systems/impacts/thresholds.hpp"
-#include "systems/models/thick_shell/hidden/assemble.hpp"
 #include "systems/models/thick_shell/hidden/hidden_region.hpp"
-#include "systems/models/thick_shell/hidden/struck_normal.hpp"
-#include "systems/models/thick_shell/quick/cut_out.hpp"
-#include "systems/models/thick_shell/quick/quick_body.hpp"
-#include "systems/structures/shell/working_room.hpp"
-#include "systems/tasks/task_cost.hpp"
+#include "systems/models/thick_shell/hidden/run_cost.hpp"
+#include "systems/models/thick_shell/quick/quick_cut_out.hpp"
+#include "systems/models/thick_shell/shared/cut_out.hpp"
+#include "systems/models/thick_shell/shared/quick_body.hpp"
+#include "systems/models/thick_shell/shared/working_room.hpp"
+#include "systems/models/thick_shell/stiffness/assemble.hpp"
+#include "systems/structures/shell/struck_normal.hpp"
+#include "systems/structures/shell/waiting_pieces.hpp"
 
 namespace cullet {
 namespace {

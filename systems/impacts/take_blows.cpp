@@ -1,9 +1,10 @@
 #include <algorithm>
 
-#include "systems/bodies/body_id.hpp"
-#include "systems/impacts/blows.hpp"
-#include "systems/impacts/cut_surface.hpp"
+#include "components/body_id.hpp"
+#include "systems/bodies/blows.hpp"
 #include "systems/models/thick_shell/soft/soft_body.hpp"
+#include "systems/models/thick_shell/springs/start_springs.hpp"
+#include "systems/structures/shell/cut_surface.hpp"
 #include "systems/systems.hpp"
 
 namespace cullet {
@@ -108,7 +109,10 @@ struct Taking {
         if (const Row<SoftBodies> soft = soft_of(body); soft.exists()) {
             if (!state.soft_bodies.is_awake[soft]) wake_soft(state, rigid, soft);
             state.soft_bodies.quiet_seconds[soft] = 0;
-            kick_points(SpringView(state, springs_of(state, soft)), explosion, bodies.orientation[body]);
+            {
+                const SpringView view(state, springs_of(state, soft));
+                kick_points(view.shell, view.has_layers() ? view.twin(0) : kNone, explosion, bodies.orientation[body]);
+            }
             return book(body, sums.impulse);
         }
         if (!bodies.is_breakable[body]) return push_body(state.bodies, rigid, counts, body, sums.impulse, sums.turning);

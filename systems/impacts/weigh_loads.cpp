@@ -1,12 +1,12 @@
 #include <algorithm>
 #include <cmath>
 
-#include "systems/bodies/body_id.hpp"
+#include "components/body_id.hpp"
 #include "systems/impacts/fragile.hpp"
 #include "systems/impacts/load_lists.hpp"
 #include "systems/impacts/opening.hpp"
 #include "systems/impacts/overload.hpp"
-#include "systems/structures/shell/working_room.hpp"
+#include "systems/models/thick_shell/shared/working_room.hpp"
 #include "systems/systems.hpp"
 #include "systems/tasks/task_cost.hpp"
 

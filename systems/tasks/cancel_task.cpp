@@ -1,6 +1,6 @@
 #include "systems/tasks/cancel_task.hpp"
 
-#include "systems/models/thick_shell/quick/quick_body.hpp"
+#include "systems/models/thick_shell/shared/quick_body.hpp"
 
 namespace cullet {
 

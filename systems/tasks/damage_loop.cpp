@@ -4,8 +4,8 @@
 #include <array>
 #include <span>
 
-#include "systems/models/thick_shell/quick/quick_body.hpp"
 #include "systems/models/thick_shell/quick/quick_loop.hpp"
+#include "systems/models/thick_shell/shared/quick_body.hpp"
 #include "systems/systems.hpp"
 #include "systems/tasks/task_cost.hpp"
 

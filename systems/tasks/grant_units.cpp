@@ -1,8 +1,8 @@
 #include <algorithm>
 #include <span>
 
-#include "systems/models/thick_shell/quick/quick_body.hpp"
 #include "systems/models/thick_shell/quick/quick_loop.hpp"
+#include "systems/models/thick_shell/shared/quick_body.hpp"
 #include "systems/models/thick_shell/soft/soft_units.hpp"
 #include "systems/systems.hpp"
 #include "systems/tasks/task_cost.hpp"

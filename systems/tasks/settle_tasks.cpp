@@ -1,8 +1,8 @@
+#include "components/body_id.hpp"
 #include "systems/births/strike_back.hpp"
-#include "systems/bodies/body_id.hpp"
-#include "systems/impacts/blows.hpp"
-#include "systems/impacts/thresholds.hpp"
-#include "systems/structures/shell/working_room.hpp"
+#include "systems/bodies/blows.hpp"
+#include "systems/bodies/thresholds.hpp"
+#include "systems/models/thick_shell/shared/working_room.hpp"
 #include "systems/systems.hpp"
 
 namespace cullet {

@@ -1,5 +1,5 @@
 // Reads anything as a model file; what is accepted is put into a world and hit.
-#include "systems/cook/model_file.hpp"
+#include "systems/models/thick_shell/model_file.hpp"
 
 #include "engine/memory.hpp"
 #include "tests/fuzz/fuzz.hpp"

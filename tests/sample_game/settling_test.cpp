@@ -6,8 +6,8 @@
 #include <cstdio>
 #include <cstring>
 
+#include "components/body_id.hpp"
 #include "sample_game/run_scene.hpp"
-#include "systems/bodies/body_id.hpp"
 #include "systems/world_contents.hpp"
 #include "tests/support/scene_hashes.hpp"
 

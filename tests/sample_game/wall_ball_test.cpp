@@ -5,8 +5,8 @@
 
 #include "sample_game/game_world.hpp"
 #include "sample_game/run_scene.hpp"
-#include "systems/births/rigid_handoff.hpp"
 #include "systems/models/thick_shell/hidden/contact.hpp"
+#include "systems/structures/shell/rigid_handoff.hpp"
 #include "systems/world_contents.hpp"
 
 namespace cullet {

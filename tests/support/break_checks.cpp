@@ -4,8 +4,8 @@
 #include <cmath>
 #include <vector>
 
-#include "systems/births/rigid_handoff.hpp"
 #include "systems/structures/shell/mass_properties.hpp"
+#include "systems/structures/shell/rigid_handoff.hpp"
 
 namespace cullet::test {
 namespace {

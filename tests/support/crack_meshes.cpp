@@ -5,7 +5,7 @@
 #include <set>
 
 #include "engine/random.hpp"
-#include "systems/models/thick_shell/hidden/assemble.hpp"
+#include "systems/models/thick_shell/stiffness/assemble.hpp"
 #include "systems/structures/shell/ring.hpp"
 
 namespace cullet::crack_test {

@@ -8,7 +8,7 @@
 #include "sample_game/allocations.hpp"
 #include "sample_game/meshes.hpp"
 #include "systems/models/thick_shell/cook/check_shell_rows.hpp"
-#include "systems/models/thick_shell/quick/cut_out.hpp"
+#include "systems/models/thick_shell/shared/cut_out.hpp"
 #include "tests/support/random_hits.hpp"
 
 namespace cullet::test {

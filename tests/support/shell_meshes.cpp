@@ -5,9 +5,9 @@
 
 #include "engine/random.hpp"
 #include "systems/cook/materials.hpp"
-#include "systems/models/thick_shell/hidden/assemble.hpp"
 #include "systems/models/thick_shell/hidden/contact.hpp"
 #include "systems/models/thick_shell/hidden/integrate_packs.hpp"
+#include "systems/models/thick_shell/stiffness/assemble.hpp"
 
 namespace cullet::test {
 namespace {

@@ -6,9 +6,9 @@
 #include <bit>
 #include <cmath>
 
+#include "components/body_id.hpp"
 #include "sample_game/solid.hpp"
-#include "systems/bodies/body_id.hpp"
-#include "systems/drawn/drawn_triangles.hpp"
+#include "systems/structures/shell/drawn_triangles.hpp"
 
 namespace cullet::test {
 namespace {

@@ -3,8 +3,8 @@
 
 #include <algorithm>
 
+#include "systems/bodies/thresholds.hpp"
 #include "systems/costs.hpp"
-#include "systems/impacts/thresholds.hpp"
 #include "tests/support/small_worlds.hpp"
 
 namespace cullet::test {

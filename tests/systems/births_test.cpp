@@ -6,11 +6,11 @@
 #include <cmath>
 #include <map>
 
-#include "systems/births/waiting_pieces.hpp"
-#include "systems/bodies/body_id.hpp"
+#include "components/body_id.hpp"
 #include "systems/structures/shell/cell_hulls.hpp"
 #include "systems/structures/shell/draw_shell.hpp"
 #include "systems/structures/shell/mass_properties.hpp"
+#include "systems/structures/shell/waiting_pieces.hpp"
 #include "tests/support/break_checks.hpp"
 #include "tests/support/small_worlds.hpp"
 

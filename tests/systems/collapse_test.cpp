@@ -4,8 +4,8 @@
 #include <algorithm>
 #include <cstdio>
 
+#include "components/body_id.hpp"
 #include "sample_game/meshes.hpp"
-#include "systems/bodies/body_id.hpp"
 #include "tests/support/small_worlds.hpp"
 
 namespace cullet::test {

@@ -1,7 +1,7 @@
 // A charge that lies against a wall: the wall shades what stands behind it.
 #include <gtest/gtest.h>
 
-#include "systems/impacts/explosion.hpp"
+#include "systems/structures/shell/explosion.hpp"
 #include "tests/support/sample_shells.hpp"
 #include "tests/support/simple_meshes.hpp"
 

@@ -9,11 +9,11 @@
 
 #include "engine/random.hpp"
 #include "engine/simd.hpp"
-#include "systems/models/thick_shell/hidden/assemble.hpp"
 #include "systems/models/thick_shell/hidden/contact.hpp"
-#include "systems/models/thick_shell/hidden/element_stiffness.hpp"
 #include "systems/models/thick_shell/hidden/energy.hpp"
 #include "systems/models/thick_shell/hidden/start_hidden.hpp"
+#include "systems/models/thick_shell/stiffness/assemble.hpp"
+#include "systems/models/thick_shell/stiffness/element_stiffness.hpp"
 #include "tests/support/shell_meshes.hpp"
 
 namespace cullet::test {

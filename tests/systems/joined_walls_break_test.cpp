@@ -11,7 +11,7 @@
 #include "sample_game/import_model.hpp"
 #include "sample_game/props.hpp"
 #include "systems/cook/model_contents.hpp"
-#include "systems/models/thick_shell/hidden/run_hit.hpp"
+#include "systems/models/thick_shell/run_hit.hpp"
 #include "tests/support/test_data.hpp"
 
 namespace cullet {

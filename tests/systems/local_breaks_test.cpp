@@ -7,12 +7,12 @@
 #include <vector>
 
 #include "engine/random.hpp"
-#include "systems/bodies/rigid_shape.hpp"
 #include "systems/cook/materials.hpp"
 #include "systems/drawn/bound_drawn.hpp"
 #include "systems/structures/shell/draw_shell.hpp"
 #include "systems/structures/shell/group_fragments.hpp"
 #include "systems/structures/shell/mass_properties.hpp"
+#include "systems/structures/shell/rigid_shape.hpp"
 #include "systems/world_contents.hpp"
 #include "tests/support/large_hits.hpp"
 

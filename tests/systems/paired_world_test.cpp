@@ -3,7 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "sample_game/meshes.hpp"
-#include "systems/models/thick_shell/hidden/pair_cells.hpp"
+#include "systems/models/thick_shell/stiffness/pair_cells.hpp"
 #include "tests/support/small_worlds.hpp"
 
 namespace cullet::test {

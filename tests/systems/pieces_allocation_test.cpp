@@ -8,10 +8,10 @@
 #include "cullet/material.hpp"
 #include "sample_game/allocations.hpp"
 #include "sample_game/meshes.hpp"
-#include "systems/births/rigid_handoff.hpp"
 #include "systems/structures/shell/draw_shell.hpp"
 #include "systems/structures/shell/make_piece.hpp"
 #include "systems/structures/shell/mass_properties.hpp"
+#include "systems/structures/shell/rigid_handoff.hpp"
 #include "tests/support/sample_shells.hpp"
 #include "tests/support/small_worlds.hpp"
 

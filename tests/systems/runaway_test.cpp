@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "systems/impacts/explosion.hpp"
+#include "systems/structures/shell/explosion.hpp"
 #include "systems/structures/shell/mass_properties.hpp"
 #include "systems/structures/shell/prism.hpp"
 #include "tests/support/sample_shells.hpp"

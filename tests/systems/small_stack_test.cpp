@@ -7,7 +7,7 @@
 #include "cullet/query.hpp"
 #include "cullet/recording.hpp"
 #include "sample_game/meshes.hpp"
-#include "systems/models/thick_shell/hidden/pair_cells.hpp"
+#include "systems/models/thick_shell/stiffness/pair_cells.hpp"
 #include "tests/support/small_stack.hpp"
 #include "tests/support/small_worlds.hpp"
 

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <vector>
 
-#include "systems/impacts/explosion.hpp"
+#include "systems/structures/shell/explosion.hpp"
 #include "tests/support/small_worlds.hpp"
 
 namespace cullet::test {

@@ -6,15 +6,15 @@
 #include <span>
 
 #include "systems/cook/materials.hpp"
-#include "systems/models/thick_shell/hidden/assemble.hpp"
 #include "systems/models/thick_shell/hidden/crack_candidates.hpp"
-#include "systems/models/thick_shell/hidden/element_bending.hpp"
-#include "systems/models/thick_shell/hidden/element_stress.hpp"
 #include "systems/models/thick_shell/hidden/energy.hpp"
 #include "systems/models/thick_shell/hidden/integrate_packs.hpp"
 #include "systems/models/thick_shell/hidden/start_hidden.hpp"
-#include "systems/models/thick_shell/hidden/stiffness_slots.hpp"
-#include "systems/structures/shell/working_room.hpp"
+#include "systems/models/thick_shell/shared/working_room.hpp"
+#include "systems/models/thick_shell/stiffness/assemble.hpp"
+#include "systems/models/thick_shell/stiffness/element_bending.hpp"
+#include "systems/models/thick_shell/stiffness/element_stress.hpp"
+#include "systems/models/thick_shell/stiffness/stiffness_slots.hpp"
 #include "tests/support/shell_meshes.hpp"
 
 namespace cullet::test {

@@ -5,7 +5,7 @@
 #include <limits>
 #include <map>
 
-#include "systems/impacts/thresholds.hpp"
+#include "systems/bodies/thresholds.hpp"
 #include "tests/support/small_worlds.hpp"
 
 namespace cullet::test {

@@ -6,8 +6,8 @@
 #include <numeric>
 #include <thread>
 
+#include "systems/models/thick_shell/hidden/run_cost.hpp"
 #include "systems/tasks/damage_loop.hpp"
-#include "systems/tasks/task_cost.hpp"
 #include "tests/support/small_worlds.hpp"
 
 namespace cullet::test {

@@ -1,6 +1,6 @@
 #include "systems/models/thick_shell/hidden/run_out.hpp"
-#include "systems/models/thick_shell/quick/cut_out.hpp"
-#include "systems/models/thick_shell/quick/quick_body.hpp"
+#include "systems/models/thick_shell/shared/cut_out.hpp"
+#include "systems/models/thick_shell/shared/quick_body.hpp"
 #include "systems/structures/shell/flood_parts.hpp"
 #include "systems/systems.hpp"
 

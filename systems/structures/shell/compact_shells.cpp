@@ -1,11 +1,11 @@
 #include <algorithm>
 
-#include "systems/bodies/rigid_shape.hpp"
 #include "systems/costs.hpp"
 #include "systems/structures/shell/draw_shell.hpp"
 #include "systems/structures/shell/group_fragments.hpp"
 #include "systems/structures/shell/make_piece.hpp"
 #include "systems/structures/shell/rest_of_body.hpp"
+#include "systems/structures/shell/rigid_shape.hpp"
 #include "systems/systems.hpp"
 
 namespace cullet {

@@ -4,7 +4,7 @@
 
 #include "components/state.hpp"
 #include "engine/arena.hpp"
-#include "systems/births/stop_approach.hpp"
+#include "systems/hulls/stop_approach.hpp"
 
 namespace cullet {
 

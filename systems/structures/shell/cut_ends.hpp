@@ -1,7 +1,7 @@
 // Opens edges from one vertex and gives every fan its vertex.
 #pragma once
-#include "systems/models/thick_shell/hidden/crack_rules.hpp"
-#include "systems/models/thick_shell/hidden/touched.hpp"
+#include "systems/structures/shell/mesh_quality.hpp"
+#include "systems/structures/shell/touched.hpp"
 
 namespace cullet {
 

@@ -3,11 +3,9 @@
 #include <algorithm>
 #include <cmath>
 
-#include "systems/models/thick_shell/hidden/assemble.hpp"
-#include "systems/models/thick_shell/hidden/crack_rules.hpp"
-#include "systems/models/thick_shell/hidden/heading.hpp"
 #include "systems/structures/shell/cut_edge.hpp"
 #include "systems/structures/shell/insert_vertex.hpp"
+#include "systems/structures/shell/mesh_quality.hpp"
 #include "systems/structures/shell/split_fans.hpp"
 
 namespace cullet {
@@ -214,8 +212,8 @@ void pin_along_cut(Cutting& cutting) {
 
 }  // namespace
 
-CutReport cut_shell(ShellView shell, const CutSurface& surface, Range pins) {
-    Cutting cutting{shell, surface, pins, {}, {}};
+CutReport cut_shell(ShellView shell, const CutSurface& surface, Range pins, const CutRepair& repair) {
+    Cutting cutting{shell, surface, pins, {}, Touched(repair)};
     Shells& shells = shell.shells();
     shells.packs[shell.row].count = shells.blocks[shell.row].count = shells.links[shell.row].count = 0;
     insert_vertices(cutting);
@@ -232,7 +230,7 @@ CutReport cut_shell(ShellView shell, const CutSurface& surface, Range pins) {
     if (opens) mark_cracks(cutting);
     pin_along_cut(cutting);
     if (cutting.report.cut_edges) shells.has_cracks[shell.row] = 1;
-    if (opens || cutting.report.pins_changed > 0) limit_all_stiffness(shell);
+    if (opens || cutting.report.pins_changed > 0) cutting.touched.repair.limit(shell);
     return cutting.report;
 }
 

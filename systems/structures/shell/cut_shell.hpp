@@ -1,7 +1,8 @@
 // Takes a wall apart along a surface, at once and without forces.
 #pragma once
-#include "systems/impacts/cut_surface.hpp"
+#include "systems/structures/shell/cut_surface.hpp"
 #include "systems/structures/shell/pin_boxes.hpp"
+#include "systems/structures/shell/touched.hpp"
 
 namespace cullet {
 
@@ -24,6 +25,6 @@ struct CutReport {
 /// What ends inside of the wall is a crack tip. `pins`: the body's boxes; a vertex at the cut stands for where the cut
 /// runs on the side that its elements are on, and is pinned when a box holds that place. Needs no stiffness, and lets
 /// go of what the shell has assembled: a later hit assembles it anew. O(elements).
-CutReport cut_shell(ShellView shell, const CutSurface& surface, Range pins = {});
+CutReport cut_shell(ShellView shell, const CutSurface& surface, Range pins, const CutRepair& repair);
 
 }  // namespace cullet

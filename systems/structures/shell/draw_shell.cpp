@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <numeric>
 
-#include "systems/drawn/drawn_triangles.hpp"
+#include "systems/structures/shell/drawn_triangles.hpp"
 
 namespace cullet {
 namespace {

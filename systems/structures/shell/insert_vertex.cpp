@@ -2,9 +2,8 @@
 
 #include <algorithm>
 
-#include "systems/models/thick_shell/hidden/assemble.hpp"
-#include "systems/models/thick_shell/hidden/crack_rules.hpp"
 #include "systems/structures/shell/cut_edge.hpp"
+#include "systems/structures/shell/mesh_quality.hpp"
 
 namespace cullet {
 namespace {
@@ -82,8 +81,8 @@ Vec3 turn_tensor(Vec3 t, Vec3 x, Vec3 y, Vec3 a, Vec3 b) {
 }
 
 // Springs of an element whose corners changed in its plane; its stress follows into the new axes.
-void refresh_element(ShellView shell, uint32_t element, Vec3 axis_x, Vec3 axis_y) {
-    assemble_element(shell, element);
+void refresh_element(ShellView shell, uint32_t element, Vec3 axis_x, Vec3 axis_y, const CutRepair& repair) {
+    repair.element(shell, element);
     const uint32_t row = shell.element(element);
     const Vec3 a = shell.state.triangle_springs.axis_x[row], b = shell.state.triangle_springs.axis_y[row];
     Elements& elements = shell.state.elements;
@@ -145,7 +144,7 @@ void refresh_hinge(ShellView shell, uint32_t element, uint32_t k, bool is_new, T
     const uint32_t opposite = elements.corner[shell.element(other)][(j + 2) % 3];
     const uint32_t hinge = elements.hinge[row][k];
     shell.state.hinges.vertex[shell.hinge(hinge)] = {corner[k], corner[(k + 1) % 3], corner[(k + 2) % 3], opposite};
-    assemble_hinge(shell, hinge);
+    touched.repair.hinge(shell, hinge);
     touched.add_hinge(shell, hinge);
 }
 
@@ -193,8 +192,8 @@ uint32_t insert_vertex(ShellView shell, uint32_t element, uint32_t edge, float t
     const uint32_t w = shell.vertices().count++;
     interpolate_vertex(state.vertices, shell.vertex(p), shell.vertex(q), shell.vertex(w), tau);
     const uint32_t made = halve(shell, element, k, w, tau);
-    refresh_element(shell, element, axis_x, axis_y);
-    refresh_element(shell, made, axis_x, axis_y);
+    refresh_element(shell, element, axis_x, axis_y, touched.repair);
+    refresh_element(shell, made, axis_x, axis_y, touched.repair);
 
     uint32_t s = kNone;
     if (other != kNone) {
@@ -210,8 +209,8 @@ uint32_t insert_vertex(ShellView shell, uint32_t element, uint32_t edge, float t
         elements.neighbour[shell.element(made)][k] = other;
         elements.neighbour[other_row][j] = made;
         elements.hinge[shell.element(made)][k] = elements.hinge[other_row][j] = kNone;
-        refresh_element(shell, other, other_x, other_y);
-        refresh_element(shell, other_made, other_x, other_y);
+        refresh_element(shell, other, other_x, other_y, touched.repair);
+        refresh_element(shell, other_made, other_x, other_y, touched.repair);
         refresh_hinge(shell, element, k, false, touched);
         if (had_hinge) refresh_hinge(shell, made, k, true, touched);
         refresh_hinge(shell, other, (j + 1) % 3, true, touched);

@@ -1,7 +1,7 @@
 // Splits one edge, so that a crack can pass where it wants to.
 #pragma once
-#include "systems/models/thick_shell/hidden/touched.hpp"
 #include "systems/structures/shell/ring.hpp"
+#include "systems/structures/shell/touched.hpp"
 
 namespace cullet {
 

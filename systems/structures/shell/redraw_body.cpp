@@ -1,7 +1,7 @@
 #include <algorithm>
 
-#include "systems/drawn/drawn_triangles.hpp"
 #include "systems/structures/shell/cell_elements.hpp"
+#include "systems/structures/shell/drawn_triangles.hpp"
 #include "systems/structures/shell/redraw_body.hpp"
 
 namespace cullet {

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 
-#include "systems/models/thick_shell/quick/cut_out.hpp"
 #include "systems/structures/shell/cell_hulls.hpp"
 #include "systems/structures/shell/mass_properties.hpp"
 #include "systems/structures/shell/vertex_sums.hpp"

@@ -128,4 +128,8 @@ void weigh_vertex(ShellView shell, uint32_t vertex) {
     vertices.inverse_mass[row] = is_free ? static_cast<float>(1 / mass) : 0.0f;
 }
 
+Vec3 into_plane(Vec3 direction, Vec3 normal) {
+    return normalised(direction - dot(direction, normal) * normal);
+}
+
 }  // namespace cullet

@@ -50,4 +50,7 @@ Vec3 ring_normal(ShellView shell, const Ring& ring);
 /// increments, so that any history of cuts gives the same bits for the same ring.
 void weigh_vertex(ShellView shell, uint32_t vertex);
 
+/// `direction` turned into the plane of unit `normal`, as a unit vector; zero when it stands upright on the plane.
+Vec3 into_plane(Vec3 direction, Vec3 normal);
+
 }  // namespace cullet

@@ -2,9 +2,6 @@
 
 #include <algorithm>
 
-#include "systems/models/thick_shell/hidden/assemble.hpp"
-#include "systems/models/thick_shell/hidden/pair_cells.hpp"
-
 namespace cullet {
 namespace {
 
@@ -63,13 +60,13 @@ bool is_row_neighbour(ShellView shell, const Ring& before, uint32_t vertex, uint
 // the vertex's lane may hold what the copy, in another pair cell, must hold with both.
 void rename_in_rows(ShellView shell, const Ring& before, uint32_t vertex, uint32_t copy, const VertexList& others,
                     Touched& touched) {
-    const bool once = stores_pairs_once(shell.shells(), shell.row);
+    const bool once = !touched.repair.can_rename(shell.shells(), shell.row);
     for (uint32_t i = 0; i < others.count; ++i) {
         const uint32_t other = others.vertex[i];
         if (once || is_row_neighbour(shell, before, vertex, other))
             touched.rows.add(other);
         else
-            rename_neighbour(shell, other, vertex, copy);
+            touched.repair.rename(shell, other, vertex, copy);
     }
     if (others.has_overflowed) touched.rows.has_overflowed = true;
 }

@@ -1,6 +1,6 @@
 // One vertex a fan.
 #pragma once
-#include "systems/models/thick_shell/hidden/touched.hpp"
+#include "systems/structures/shell/touched.hpp"
 
 namespace cullet {
 

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "systems/impacts/explosion.hpp"
+#include "systems/structures/shell/explosion.hpp"
 #include "tests/support/simple_meshes.hpp"
 #include "tests/support/small_worlds.hpp"
 

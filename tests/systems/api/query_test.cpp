@@ -7,8 +7,8 @@
 #include <limits>
 #include <thread>
 
+#include "components/body_id.hpp"
 #include "engine/random.hpp"
-#include "systems/bodies/body_id.hpp"
 #include "systems/drawn/query_index.hpp"
 #include "systems/hulls/triangle_queries.hpp"
 #include "tests/support/small_worlds.hpp"

@@ -5,8 +5,8 @@
 #include <filesystem>
 #include <vector>
 
+#include "components/body_id.hpp"
 #include "cullet/recording.hpp"
-#include "systems/bodies/body_id.hpp"
 #include "tests/support/small_worlds.hpp"
 
 namespace cullet::test {

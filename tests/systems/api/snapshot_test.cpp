@@ -6,7 +6,7 @@
 
 #include "engine/mesh_file.hpp"
 #include "systems/api/snapshot.hpp"
-#include "systems/structures/shell/working_room.hpp"
+#include "systems/models/thick_shell/shared/working_room.hpp"
 #include "tests/support/small_worlds.hpp"
 
 namespace cullet {

@@ -11,8 +11,8 @@
 #include "sample_game/meshes.hpp"
 #include "sample_game/props.hpp"
 #include "systems/cook/model_contents.hpp"
-#include "systems/cook/model_file.hpp"
-#include "systems/models/thick_shell/hidden/grain_stiffness.hpp"
+#include "systems/models/thick_shell/model_file.hpp"
+#include "systems/models/thick_shell/stiffness/grain_stiffness.hpp"
 #include "systems/world_contents.hpp"
 
 namespace cullet {

@@ -1,6 +1,6 @@
 #include "systems/models/thick_shell/cook/apply_pins.hpp"
 
-#include "systems/models/thick_shell/hidden/assemble.hpp"
+#include "systems/models/thick_shell/stiffness/assemble.hpp"
 
 namespace cullet {
 namespace {

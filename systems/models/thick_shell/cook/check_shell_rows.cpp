@@ -7,9 +7,9 @@
 #include "engine/mesh_file.hpp"
 #include "systems/hulls/extreme_points.hpp"
 #include "systems/models/thick_shell/cook/check_shell_rows.hpp"
+#include "systems/models/thick_shell/shared/working_room.hpp"
 #include "systems/structures/shell/piece_shape.hpp"
 #include "systems/structures/shell/ring.hpp"
-#include "systems/structures/shell/working_room.hpp"
 
 namespace cullet {
 namespace {

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <cstdio>
 
-#include "systems/models/thick_shell/quick/cut_out.hpp"
+#include "systems/models/thick_shell/shared/cut_out.hpp"
 
 namespace cullet {
 namespace {

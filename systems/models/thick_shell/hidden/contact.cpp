@@ -3,8 +3,8 @@
 #include <algorithm>
 
 #include "systems/cook/materials.hpp"
-#include "systems/models/thick_shell/hidden/pair_cells.hpp"
-#include "systems/models/thick_shell/quick/quick_body.hpp"
+#include "systems/models/thick_shell/shared/quick_body.hpp"
+#include "systems/models/thick_shell/stiffness/pair_cells.hpp"
 #include "systems/structures/shell/ring.hpp"
 
 namespace cullet {

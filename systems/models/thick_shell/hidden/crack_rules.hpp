@@ -1,6 +1,6 @@
 // The numbers that decide where cracks start and run (thick shell note C1, C2, C5, section 8).
 #pragma once
-#include <cstdint>
+#include "systems/structures/shell/mesh_quality.hpp"
 
 namespace cullet {
 
@@ -31,7 +31,6 @@ inline constexpr float kBranchCosine = 0.8660254f, kBranchSine = 0.5f;
 /// sigma_2 / sigma_1 from which a start opens four and six edges instead of two. Everyday 0.5 and 0.75: plates bent by
 /// a ball see 1. Raised to 1 there are no stars, only round plugs.
 inline constexpr float kFourArmRatio = 0.5f, kSixArmRatio = 0.75f;
-inline constexpr uint32_t kMostArms = 6;
 
 /// Speed of a crack tip over sqrt(E / density). Everyday 0.2 to 0.5 (glass 0.3: 1,500 of 5,300 m/s). Doubled, tips
 /// outrun the waves that steer them and cracks come out straight.
@@ -51,14 +50,6 @@ inline constexpr float kJoinCosine = 0.5f;
 /// once.
 inline constexpr float kRootReach = 3.0f;
 
-/// Part of an edge's length near its ends where a crack takes the end instead of a new vertex. Everyday 0.2 to 0.3.
-/// Doubled (0.5), nothing is ever inserted and cracks follow the mesh's edges.
-inline constexpr float kSnap = 0.25f;
-/// Least 2 A / longest^2 of a new triangle (equilateral 0.87) and least area over the mean. Doubled, most inserts are
-/// refused and cracks kink; halved, slivers shrink the stable time step's reserve.
-inline constexpr float kLeastShape = 0.22f, kLeastArea = 0.12f;
-/// Area of an equilateral triangle of edge 1: what "mean area" means on graded and re-meshed shells.
-inline constexpr float kEquilateralArea = 0.433f;
 /// Cosine of the largest turn from the wanted direction to the edge that is taken instead: 60 degrees.
 inline constexpr float kTurnCosine = 0.5f;
 

@@ -3,9 +3,9 @@
 #include <algorithm>
 
 #include "systems/models/thick_shell/hidden/contact.hpp"
-#include "systems/models/thick_shell/hidden/element_bending.hpp"
-#include "systems/models/thick_shell/hidden/element_stress.hpp"
 #include "systems/models/thick_shell/hidden/hidden_region.hpp"
+#include "systems/models/thick_shell/stiffness/element_bending.hpp"
+#include "systems/models/thick_shell/stiffness/element_stress.hpp"
 
 namespace cullet {
 namespace {

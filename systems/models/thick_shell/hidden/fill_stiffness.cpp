@@ -1,6 +1,6 @@
 #include <algorithm>
 
-#include "systems/models/thick_shell/hidden/assemble.hpp"
+#include "systems/models/thick_shell/stiffness/assemble.hpp"
 #include "systems/systems.hpp"
 
 namespace cullet {

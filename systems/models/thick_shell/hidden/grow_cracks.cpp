@@ -5,8 +5,10 @@
 #include "systems/models/thick_shell/hidden/crack_candidates.hpp"
 #include "systems/models/thick_shell/hidden/hidden_region.hpp"
 #include "systems/models/thick_shell/hidden/join.hpp"
+#include "systems/models/thick_shell/hidden/run_cost.hpp"
+#include "systems/models/thick_shell/shared/forget_cracks.hpp"
+#include "systems/models/thick_shell/stiffness/refresh.hpp"
 #include "systems/structures/shell/cut_ends.hpp"
-#include "systems/tasks/task_cost.hpp"
 
 namespace cullet {
 namespace {
@@ -217,20 +219,8 @@ void advance_tip(Batch& batch, uint32_t vertex) {
 
 }  // namespace
 
-void forget_run(ShellView shell, bool is_fragment) {
-    Vertices& vertices = shell.state.vertices;
-    for (uint32_t v = shell.vertices().first; v < shell.vertices().first + shell.vertex_count(); ++v) {
-        vertices.is_start_banned[v] = 0;
-        vertices.ready_time[v] = 0;
-        if (!is_fragment) continue;
-        vertices.crack_start[v] = kNone;
-        if (vertices.crack[v] == static_cast<uint8_t>(CrackState::Cracked))
-            vertices.crack[v] = static_cast<uint8_t>(CrackState::None);
-    }
-}
-
 void begin_cracks(ShellView shell, bool is_fragment) {
-    forget_run(shell, is_fragment);
+    forget_cracks(shell, is_fragment);
     find_start_strengths(shell);
 }
 
@@ -247,7 +237,7 @@ uint32_t grow_cracks(State& state, Row<Tasks> task, CrackSink& sink) {
                 check_interval,
                 sink,
                 tasks.steps_done[task],
-                {}};
+                Touched(kStiffnessRepair)};
     batch.touched.marks_elements = is_cut_out(state, task);
     const Scratch<Candidates> chosen(state.scratch);
     Candidates& candidates = *chosen;

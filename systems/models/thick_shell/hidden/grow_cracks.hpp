@@ -5,11 +5,8 @@
 
 namespace cullet {
 
-/// Before a run: no vertex is banned from starting and every tip may advance at once. Cuts, tips and headings stay. A
-/// fragment keeps its tips and forgets its other cracks, whose edges are plain borders now (thick shell note 6.1).
+/// Before a run: forget_cracks, and every vertex gets the stress at which it starts a crack.
 void begin_cracks(ShellView shell, bool is_fragment);
-/// The same without what the stress check needs.
-void forget_run(ShellView shell, bool is_fragment);
 
 /// Starts and advances the cracks that the stress check's stresses ask for (thick shell note C1, C2, C3, C5), tips
 /// first, then the most overloaded vertex; then limits the stiffness of what changed and rebuilds its rows. Each cut

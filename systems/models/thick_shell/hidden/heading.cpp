@@ -41,8 +41,4 @@ ChosenHeading choose_heading(const HeadingFan& fan, Vec3 x, Vec3 y, const FaceSt
     return {normalised(best_cosine * x + best_sine * y), most};
 }
 
-Vec3 into_plane(Vec3 direction, Vec3 normal) {
-    return normalised(direction - dot(direction, normal) * normal);
-}
-
 }  // namespace cullet

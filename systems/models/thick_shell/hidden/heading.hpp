@@ -34,7 +34,4 @@ struct ChosenHeading {
 ChosenHeading choose_heading(const HeadingFan& fan, Vec3 x, Vec3 y, const FaceStress (&face)[2],
                              const GrainLimits& grain = {});
 
-/// `direction` turned into the plane of unit `normal`, as a unit vector; zero when it stands upright on the plane.
-Vec3 into_plane(Vec3 direction, Vec3 normal);
-
 }  // namespace cullet

@@ -3,11 +3,11 @@
 #include <algorithm>
 
 #include "systems/costs.hpp"
-#include "systems/models/thick_shell/hidden/assemble.hpp"
 #include "systems/models/thick_shell/hidden/crack_candidates.hpp"
-#include "systems/models/thick_shell/quick/cut_rows.hpp"
+#include "systems/models/thick_shell/shared/cut_rows.hpp"
+#include "systems/models/thick_shell/shared/working_room.hpp"
+#include "systems/models/thick_shell/stiffness/assemble.hpp"
 #include "systems/structures/shell/vertex_sums.hpp"
-#include "systems/structures/shell/working_room.hpp"
 
 namespace cullet {
 namespace {

@@ -9,7 +9,8 @@
 // those that are harder break it where they hit.
 #pragma once
 #include "engine/events.hpp"
-#include "systems/models/thick_shell/quick/cut_out.hpp"
+#include "systems/models/thick_shell/shared/cut_out.hpp"
+#include "systems/models/thick_shell/shared/quick_body.hpp"
 #include "systems/world_data.hpp"
 
 namespace cullet {

@@ -1,5 +1,5 @@
 #include "systems/models/thick_shell/hidden/integrate_packs.hpp"
-#include "systems/models/thick_shell/hidden/pair_cells.hpp"
+#include "systems/models/thick_shell/stiffness/pair_cells.hpp"
 #include "systems/systems.hpp"
 
 namespace cullet {

@@ -7,7 +7,7 @@
 #include "systems/models/thick_shell/hidden/integrate_packs.hpp"
 #include "systems/models/thick_shell/hidden/integrate_pairs.hpp"
 #include "systems/models/thick_shell/hidden/pack_step-inl.hpp"
-#include "systems/models/thick_shell/hidden/pair_cells.hpp"
+#include "systems/models/thick_shell/stiffness/pair_cells.hpp"
 
 HWY_BEFORE_NAMESPACE();
 namespace cullet {

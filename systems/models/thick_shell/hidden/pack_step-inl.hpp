@@ -7,7 +7,7 @@
 #endif
 
 #include "systems/models/thick_shell/hidden/integrate_packs.hpp"
-#include "systems/models/thick_shell/hidden/lanes-inl.hpp"
+#include "systems/models/thick_shell/springs/lanes-inl.hpp"
 
 HWY_BEFORE_NAMESPACE();
 namespace cullet {

@@ -1,15 +1,16 @@
 #include "systems/models/thick_shell/hidden/restart.hpp"
 
-#include "systems/impacts/blows.hpp"
-#include "systems/models/thick_shell/hidden/assemble.hpp"
 #include "systems/models/thick_shell/hidden/contact.hpp"
 #include "systems/models/thick_shell/hidden/crack_candidates.hpp"
-#include "systems/models/thick_shell/hidden/element_stress.hpp"
 #include "systems/models/thick_shell/hidden/grow_cracks.hpp"
 #include "systems/models/thick_shell/hidden/hidden_region.hpp"
+#include "systems/models/thick_shell/hidden/start_explosions.hpp"
 #include "systems/models/thick_shell/hidden/start_hidden.hpp"
-#include "systems/models/thick_shell/hidden/struck_normal.hpp"
-#include "systems/models/thick_shell/quick/cut_out.hpp"
+#include "systems/models/thick_shell/shared/cut_out.hpp"
+#include "systems/models/thick_shell/shared/forget_cracks.hpp"
+#include "systems/models/thick_shell/stiffness/assemble.hpp"
+#include "systems/models/thick_shell/stiffness/element_stress.hpp"
+#include "systems/structures/shell/struck_normal.hpp"
 
 namespace cullet {
 namespace {
@@ -42,7 +43,7 @@ void fill_task(State& state, Row<Tasks> task) {
     if (is_quick_task(state, task)) {
         copy_shell_rows(state, state, source, working, false);
         clear_pack_ends(state, working);
-        return forget_run(ShellView(state, working), state.shells.generation[source] > 0);
+        return forget_cracks(ShellView(state, working), state.shells.generation[source] > 0);
     }
     const bool is_assembled = state.shells.packs[source].count > 0;
     copy_shell_rows(state, state, source, working, is_assembled);

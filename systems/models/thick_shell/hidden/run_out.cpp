@@ -7,9 +7,10 @@
 #include "systems/models/thick_shell/hidden/crack_rules.hpp"
 #include "systems/models/thick_shell/hidden/heading.hpp"
 #include "systems/models/thick_shell/hidden/hidden_region.hpp"
+#include "systems/models/thick_shell/hidden/run_cost.hpp"
+#include "systems/models/thick_shell/stiffness/refresh.hpp"
 #include "systems/structures/shell/cut_ends.hpp"
 #include "systems/structures/shell/ring.hpp"
-#include "systems/tasks/task_cost.hpp"
 
 namespace cullet {
 namespace {
@@ -105,7 +106,7 @@ bool run_out_cracks(State& state, Row<Tasks> task) {
     const Vertices& vertices = state.vertices;
     const float run_out = material_traits(state, shell.shells().material[shell.row]).run_out;
     if (!(run_out > 0)) return false;
-    Touched touched;
+    Touched touched(kStiffnessRepair);
     touched.marks_elements = is_cut_out(state, task);
     bool is_whole = true;
     uint32_t cuts = 0;

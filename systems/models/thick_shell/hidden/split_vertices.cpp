@@ -3,8 +3,8 @@
 #include "systems/models/thick_shell/hidden/contact.hpp"
 #include "systems/models/thick_shell/hidden/grow_cracks.hpp"
 #include "systems/models/thick_shell/hidden/hidden_region.hpp"
+#include "systems/models/thick_shell/hidden/run_cost.hpp"
 #include "systems/systems.hpp"
-#include "systems/tasks/task_cost.hpp"
 
 namespace cullet {
 namespace {

@@ -1,8 +1,8 @@
 #include "systems/models/thick_shell/hidden/start_hidden.hpp"
 
-#include "systems/models/thick_shell/hidden/element_stress.hpp"
 #include "systems/models/thick_shell/hidden/energy.hpp"
 #include "systems/models/thick_shell/hidden/hidden_region.hpp"
+#include "systems/models/thick_shell/stiffness/element_stress.hpp"
 
 namespace cullet {
 namespace {

@@ -1,7 +1,8 @@
 #include "systems/models/thick_shell/hidden/restart.hpp"
+#include "systems/models/thick_shell/hidden/run_cost.hpp"
+#include "systems/models/thick_shell/stiffness/refresh.hpp"
 #include "systems/structures/shell/cut_shell.hpp"
 #include "systems/systems.hpp"
-#include "systems/tasks/task_cost.hpp"
 
 namespace cullet {
 namespace {
@@ -14,7 +15,7 @@ void make_cuts(State& state, Row<Tasks> task, Range pins) {
     for (uint32_t b = 0; b < blows.size(); ++b) {
         if (blows.task[b] != task.index) continue;
         tasks.units_owed[task] += units_of_cut(state.shells, tasks.source[task], blows, b);
-        const CutReport report = cut_shell(shell, CutSurface(blows, b), pins);
+        const CutReport report = cut_shell(shell, CutSurface(blows, b), pins, kStiffnessRepair);
         // Pins alone that changed are looked at as an opened edge is.
         tasks.crack_count[task] += report.cut_edges > 0 ? report.cut_edges : report.pins_changed > 0;
         blows.goes_on[b] = report.is_full;

@@ -1,4 +1,4 @@
-#include "systems/models/thick_shell/hidden/element_stress.hpp"
+#include "systems/models/thick_shell/stiffness/element_stress.hpp"
 #include "systems/systems.hpp"
 
 namespace cullet {

@@ -3,7 +3,7 @@
 #include <algorithm>
 
 #include "systems/models/thick_shell/hidden/hidden_region.hpp"
-#include "systems/models/thick_shell/quick/cut_out.hpp"
+#include "systems/models/thick_shell/shared/cut_out.hpp"
 
 namespace cullet {
 namespace {

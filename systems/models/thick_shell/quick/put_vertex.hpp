@@ -1,7 +1,7 @@
 // A vertex on an edge of a shell that moves by springs.
 #pragma once
-#include "systems/models/thick_shell/hidden/touched.hpp"
 #include "systems/models/thick_shell/quick/region.hpp"
+#include "systems/structures/shell/touched.hpp"
 
 namespace cullet {
 

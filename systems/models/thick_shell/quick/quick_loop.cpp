@@ -1,7 +1,7 @@
 #include "systems/models/thick_shell/quick/quick_loop.hpp"
 
 #include "systems/costs.hpp"
-#include "systems/models/thick_shell/quick/quick_body.hpp"
+#include "systems/models/thick_shell/shared/quick_body.hpp"
 #include "systems/models/thick_shell/springs/press_layers.hpp"
 #include "systems/systems.hpp"
 

@@ -1,6 +1,6 @@
 #include "systems/models/thick_shell/quick/region.hpp"
 
-#include "systems/models/thick_shell/quick/elements_at.hpp"
+#include "systems/structures/shell/elements_at.hpp"
 #include "systems/structures/shell/ring.hpp"
 
 namespace cullet {

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <span>
 
-#include "systems/models/thick_shell/quick/quick_body.hpp"
+#include "systems/models/thick_shell/shared/quick_body.hpp"
 #include "systems/models/thick_shell/springs/spring_view.hpp"
 
 namespace cullet {

@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <optional>
 
-#include "systems/impacts/blows.hpp"
 #include "systems/models/thick_shell/hidden/contact.hpp"
+#include "systems/models/thick_shell/hidden/start_explosions.hpp"
 #include "systems/models/thick_shell/springs/edge_stiffness.hpp"
 #include "systems/models/thick_shell/springs/spring_lists.hpp"
 #include "systems/models/thick_shell/springs/start_springs.hpp"
@@ -72,12 +72,6 @@ void see_strikers(State& state, Row<Tasks> task) {
 }
 
 }  // namespace
-
-// Cuts and new vertices leave the centre where it is.
-BodyMotion::BodyMotion(const State& state, Row<Tasks> task)
-    : centre(vertex_sums(ShellView(const_cast<State&>(state), state.tasks.source[task])).centre()),
-      velocity(state.tasks.start_velocity[task]),
-      spin(state.tasks.start_spin[task]) {}
 
 uint32_t region_rings(uint32_t steps) {
     return static_cast<uint32_t>(static_cast<float>(steps) * kEdgesAStep) + kSpareRings;

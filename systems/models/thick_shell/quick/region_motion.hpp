@@ -2,16 +2,9 @@
 #pragma once
 #include "systems/models/thick_shell/hidden/energy.hpp"
 #include "systems/models/thick_shell/quick/region.hpp"
+#include "systems/models/thick_shell/shared/body_motion.hpp"
 
 namespace cullet {
-
-/// The body's own motion at a place while a task runs, body axes: about the centre of the vertices' masses.
-struct BodyMotion {
-    Vec3d centre, velocity, spin;
-    BodyMotion(const State& state, Row<Tasks> task);
-    BodyMotion(Vec3d c, Vec3d v, Vec3d w) : centre(c), velocity(v), spin(w) {}
-    Vec3d at(Vec3 place) const { return velocity + cross(spin, Vec3d(place) - centre); }
-};
 
 /// How many rings round the patches a run of so many steps wakes: as far as a wave gets, and a few to spare.
 uint32_t region_rings(uint32_t steps);

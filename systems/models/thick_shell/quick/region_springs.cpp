@@ -1,10 +1,10 @@
 #include <bit>
 
-#include "systems/models/thick_shell/quick/elements_at.hpp"
 #include "systems/models/thick_shell/quick/region.hpp"
 #include "systems/models/thick_shell/springs/edge_stiffness.hpp"
 #include "systems/models/thick_shell/springs/give_springs.hpp"
 #include "systems/models/thick_shell/springs/spring_lists.hpp"
+#include "systems/structures/shell/elements_at.hpp"
 #include "systems/structures/shell/ring.hpp"
 
 namespace cullet {

@@ -3,12 +3,12 @@
 #include <algorithm>
 
 #include "systems/models/thick_shell/hidden/heading.hpp"
-#include "systems/models/thick_shell/quick/cut_out.hpp"
-#include "systems/models/thick_shell/quick/cut_rows.hpp"
-#include "systems/models/thick_shell/quick/elements_at.hpp"
 #include "systems/models/thick_shell/quick/plane_split.hpp"
 #include "systems/models/thick_shell/quick/put_vertex.hpp"
+#include "systems/models/thick_shell/shared/cut_out.hpp"
+#include "systems/models/thick_shell/shared/cut_rows.hpp"
 #include "systems/models/thick_shell/springs/rebuild_springs.hpp"
+#include "systems/structures/shell/elements_at.hpp"
 
 namespace cullet {
 namespace {

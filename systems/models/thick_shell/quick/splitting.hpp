@@ -2,6 +2,7 @@
 #pragma once
 #include "systems/cook/materials.hpp"
 #include "systems/models/thick_shell/quick/region.hpp"
+#include "systems/models/thick_shell/stiffness/refresh.hpp"
 #include "systems/structures/shell/cut_ends.hpp"
 
 namespace cullet {
@@ -17,7 +18,7 @@ struct Splitting {
     float bump_angle;  // rad
     float run_length;  // m, how far from where it started a crack runs on; 0: not at all
     uint32_t step;     // of the run
-    Touched touched{};
+    Touched touched{kStiffnessRepair};
     uint32_t cut_edges = 0, starts = 0;
     bool is_full = false;          // no room for more
     bool are_springs_old = false;  // there was none for the springs of what was cut: those there are hold on

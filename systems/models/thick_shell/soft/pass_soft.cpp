@@ -1,11 +1,11 @@
 #include <algorithm>
 
-#include "systems/bodies/body_id.hpp"
+#include "components/body_id.hpp"
 #include "systems/bodies/body_rows.hpp"
+#include "systems/models/thick_shell/shared/working_room.hpp"
 #include "systems/models/thick_shell/soft/soft_body.hpp"
 #include "systems/models/thick_shell/soft/soft_units.hpp"
 #include "systems/models/thick_shell/springs/start_springs.hpp"
-#include "systems/structures/shell/working_room.hpp"
 #include "systems/systems.hpp"
 
 namespace cullet {

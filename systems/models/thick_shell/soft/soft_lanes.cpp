@@ -2,8 +2,8 @@
 #define HWY_TARGET_INCLUDE "systems/models/thick_shell/soft/soft_lanes.cpp"
 #include <hwy/foreach_target.h>
 // After foreach_target.h.
-#include "systems/models/thick_shell/hidden/lanes-inl.hpp"
 #include "systems/models/thick_shell/soft/soft_lanes.hpp"
+#include "systems/models/thick_shell/springs/lanes-inl.hpp"
 
 HWY_BEFORE_NAMESPACE();
 namespace cullet {

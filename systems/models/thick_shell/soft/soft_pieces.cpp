@@ -114,18 +114,18 @@ void soft_handoff(const State& s, Row<SoftBodies> soft, std::span<const Fragment
     }
 }
 
-void give_pieces_springs(State& s, const Break& plan) {
-    const SpringView parent(s, springs_of(s, plan.soft));
-    for (const uint32_t p : plan.order) {
-        if (p == plan.largest || !plan.child[p].exists()) continue;
-        const Row<Bodies> child = plan.child[p];
-        if (!give_piece_springs(s, parent, plan.parts[p], s.bodies.shell[child])) continue;
-        inherit_soft(s, plan.soft, child);
+void give_pieces_springs(State& s, Row<SoftBodies> torn, Row<Bodies> body, std::span<const uint32_t> order,
+                         std::span<const FragmentPart> parts, std::span<const Row<Bodies>> child) {
+    const SpringView parent(s, springs_of(s, torn));
+    for (const uint32_t p : order) {
+        if (!child[p].exists() || child[p] == body) continue;
+        if (!give_piece_springs(s, parent, parts[p], s.bodies.shell[child[p]])) continue;
+        inherit_soft(s, torn, child[p]);
     }
 }
 
-void keep_torn(State& s, RigidWorld& rigid, const Break& plan) {
-    const SpringView view(s, springs_of(s, plan.soft));
+void keep_torn(State& s, RigidWorld& rigid, Row<SoftBodies> torn, Row<Bodies> body) {
+    const SpringView view(s, springs_of(s, torn));
     drop_dead_springs(view);
     for (uint32_t v = 0; v < view.shell.vertex_count(); ++v) {
         const uint32_t row = view.shell.vertex(v);
@@ -136,7 +136,7 @@ void keep_torn(State& s, RigidWorld& rigid, const Break& plan) {
         s.twins.inverse_mass[view.twin(v)] = 0;
         s.twins.mass_share[view.twin(v)] = 0;
     }
-    rigid.set_soft(plan.body, true);
+    rigid.set_soft(body, true);
 }
 
 }  // namespace cullet

@@ -3,7 +3,7 @@
 #include <span>
 
 #include "engine/rigid_world.hpp"
-#include "systems/births/break.hpp"
+#include "systems/structures/shell/rigid_handoff.hpp"
 
 namespace cullet {
 
@@ -11,10 +11,12 @@ namespace cullet {
 /// momentum are those of the points, and energy can only fall. What holds a pin stands still.
 void soft_handoff(const State& state, Row<SoftBodies> soft, std::span<const FragmentPart> parts,
                   std::span<PartMotion> motions);
-/// New bodies of the break get springs that remember what those of their elements did, and wake in the next step.
-/// One that finds no room stays rigid.
-void give_pieces_springs(State& state, const Break& plan);
+/// New bodies that a torn one made of its parts, in this order of parts, get springs that remember what those of their
+/// elements did, and wake in the next step. One that finds no room stays rigid. A part that made none has no child, and
+/// the child of the part that keeps the body is the body.
+void give_pieces_springs(State& state, Row<SoftBodies> torn, Row<Bodies> body, std::span<const uint32_t> order,
+                         std::span<const FragmentPart> parts, std::span<const Row<Bodies>> child);
 /// What is left of the body goes on: points that left stand still, and the rigid world has no contacts of it.
-void keep_torn(State& state, RigidWorld& rigid, const Break& plan);
+void keep_torn(State& state, RigidWorld& rigid, Row<SoftBodies> torn, Row<Bodies> body);
 
 }  // namespace cullet

@@ -2,8 +2,8 @@
 
 #include <algorithm>
 
+#include "components/body_id.hpp"
 #include "engine/rigid_bounds.hpp"
-#include "systems/bodies/body_id.hpp"
 #include "systems/models/thick_shell/soft/soft_body.hpp"
 #include "systems/models/thick_shell/soft/soft_units.hpp"
 #include "systems/models/thick_shell/springs/best_turn.hpp"

@@ -1,5 +1,6 @@
 #include "systems/models/thick_shell/soft/split_plane.hpp"
 
+#include "systems/models/thick_shell/stiffness/refresh.hpp"
 #include "systems/structures/shell/cut_edge.hpp"
 #include "systems/structures/shell/split_fans.hpp"
 
@@ -91,7 +92,7 @@ PlaneSplit split_plane(const SpringView& view, uint32_t vertex, Vec3 normal) {
     for (uint32_t k = 0; k < cut_count; ++k)
         if (cut_edge(shell, cuts[k].element, cuts[k].edge)) split.is_done = true;
     if (!split.is_done) return split;
-    Touched rows;
+    Touched rows(kStiffnessRepair);
     split_fans(shell, vertex, ring, rows);
     const auto touch = [&](uint32_t v) { split.touched[split.touched_count++] = v; };
     touch(vertex);

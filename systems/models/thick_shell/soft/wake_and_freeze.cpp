@@ -1,11 +1,11 @@
 #include <algorithm>
 
-#include "systems/bodies/body_id.hpp"
-#include "systems/bodies/rigid_shape.hpp"
+#include "components/body_id.hpp"
 #include "systems/models/thick_shell/soft/soft_body.hpp"
 #include "systems/models/thick_shell/springs/start_springs.hpp"
 #include "systems/structures/shell/cell_hulls.hpp"
 #include "systems/structures/shell/mass_properties.hpp"
+#include "systems/structures/shell/rigid_shape.hpp"
 
 namespace cullet {
 namespace {

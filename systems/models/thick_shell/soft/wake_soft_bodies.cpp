@@ -1,6 +1,6 @@
 #include <algorithm>
 
-#include "systems/bodies/body_id.hpp"
+#include "components/body_id.hpp"
 #include "systems/models/thick_shell/soft/soft_body.hpp"
 #include "systems/systems.hpp"
 

@@ -2,10 +2,10 @@
 
 #include <algorithm>
 
-#include "systems/models/thick_shell/quick/elements_at.hpp"
 #include "systems/models/thick_shell/springs/carry_flow.hpp"
 #include "systems/models/thick_shell/springs/edge_stiffness.hpp"
 #include "systems/models/thick_shell/springs/spring_lists.hpp"
+#include "systems/structures/shell/elements_at.hpp"
 
 namespace cullet {
 namespace {

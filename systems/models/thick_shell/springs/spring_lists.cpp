@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "systems/models/thick_shell/quick/elements_at.hpp"
+#include "systems/structures/shell/elements_at.hpp"
 
 namespace cullet {
 namespace {

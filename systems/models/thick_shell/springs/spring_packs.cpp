@@ -4,7 +4,7 @@
 // After foreach_target.h.
 #include <algorithm>
 
-#include "systems/models/thick_shell/hidden/lanes-inl.hpp"
+#include "systems/models/thick_shell/springs/lanes-inl.hpp"
 #include "systems/models/thick_shell/springs/spring_packs.hpp"
 
 HWY_BEFORE_NAMESPACE();

@@ -42,7 +42,7 @@ TEST(CutEnds, TwoCutsInsideOpenASlitAndVerticesMinusEdgesFallByOne) {
     Shell shell = make_shell_of(sheet(8, 8, 1, 1), 8, 0);
     const uint32_t v = vertex_near(shell.view, {0.5f, 0.5f, 0});
     Ends ends = ends_of({v - 1, v + 1});
-    Touched touched;
+    Touched touched{kStiffnessRepair};
     const Counts before(shell.view);
     ASSERT_EQ(cut_ends(shell.view, v, ends, touched), CutOutcome::Cut);
     const Counts after(shell.view);
@@ -57,7 +57,7 @@ TEST(CutEnds, OneCutFromTheBorderKeepsVerticesMinusEdges) {
     Shell shell = make_shell_of(sheet(8, 8, 1, 1), 8, 0);
     const uint32_t v = vertex_near(shell.view, {0.5f, 0, 0});
     Ends ends = ends_of({v + 9});
-    Touched touched;
+    Touched touched{kStiffnessRepair};
     const Counts before(shell.view);
     ASSERT_EQ(cut_ends(shell.view, v, ends, touched), CutOutcome::Cut);
     const Counts after(shell.view);
@@ -70,7 +70,7 @@ TEST(CutEnds, EndsOnTheBorderAddOneVertexEachAndAPieceComesOff) {
     Shell shell = make_shell_of(sheet(2, 2, 1, 1), 8, 0);
     const uint32_t v = vertex_near(shell.view, {0.5f, 0.5f, 0});
     Ends ends = ends_of({v - 1, v + 1});
-    Touched touched;
+    Touched touched{kStiffnessRepair};
     const Counts before(shell.view);
     ASSERT_EQ(cut_ends(shell.view, v, ends, touched), CutOutcome::Cut);
     const Counts after(shell.view);
@@ -84,7 +84,7 @@ TEST(CutEnds, OneCutInsideIsRefusedAndNothingChanges) {
     const uint64_t before = shell.state->hash();
     const auto ends_at = interior_ends(shell.view, 20);
     Ends ends = ends_of({ends_at[0]});
-    Touched touched;
+    Touched touched{kStiffnessRepair};
     EXPECT_EQ(cut_ends(shell.view, 20, ends, touched), CutOutcome::Impossible);
     EXPECT_EQ(shell.state->hash(), before);
 }
@@ -94,7 +94,7 @@ TEST(CutEnds, AShellWithoutRoomRefusesTheCutAndNothingChanges) {
     const uint32_t v = vertex_near(shell.view, {0.5f, 0.5f, 0});
     const uint64_t before = shell.state->hash();
     Ends ends = ends_of({v - 1, v + 1});
-    Touched touched;
+    Touched touched{kStiffnessRepair};
     EXPECT_EQ(cut_ends(shell.view, v, ends, touched), CutOutcome::Full);
     EXPECT_EQ(shell.state->hash(), before);
 }
@@ -104,7 +104,7 @@ TEST(CutEnds, ASingleTriangleCannotBeCut) {
     one.place = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}};
     one.triangle = {{0, 1, 2}};
     Shell shell = make_shell_of(one, 8, 8);
-    Touched touched;
+    Touched touched{kStiffnessRepair};
     for (uint32_t v = 0; v < 3; ++v) {
         Ends ends = ends_of({(v + 1) % 3});
         EXPECT_EQ(cut_ends(shell.view, v, ends, touched), CutOutcome::Impossible);
@@ -117,7 +117,7 @@ TEST(CutEnds, CopiesKeepPlaceVelocityAndPin) {
     const uint32_t v = vertex_near(shell.view, {0.5f, 0.5f, 0});
     shell.state->vertices.is_pinned[shell.view.vertex(v)] = 1;
     Ends ends = ends_of({v - 1, v + 1});
-    Touched touched;
+    Touched touched{kStiffnessRepair};
     const uint32_t copy = shell.view.vertex_count();
     ASSERT_EQ(cut_ends(shell.view, v, ends, touched), CutOutcome::Cut);
     const Vertices& t = shell.state->vertices;
@@ -138,7 +138,7 @@ void cut_at_random(const Surface& surface, uint64_t seed, uint32_t rounds, uint3
     double energy = start.energy;
     uint32_t cuts = 0, inserts = 0;
     for (uint32_t round = 0; round < rounds; ++round) {
-        Touched touched;
+        Touched touched{kStiffnessRepair};
         if (round % 3 == 0) {
             const uint32_t e = static_cast<uint32_t>(random.bits(round, 1) % view.element_count());
             const uint32_t k = static_cast<uint32_t>(random.bits(round, 2) % 3);
@@ -187,7 +187,7 @@ TEST(CutEnds, RandomCutsKeepEveryRuleAfterEachSingleCut) {
 
 TEST(CutEnds, CuttingEveryEdgeLeavesEveryElementAlone) {
     Shell shell = make_shell_of(sphere(2, 0.1), 3 * 128, 0);
-    Touched touched;
+    Touched touched{kStiffnessRepair};
     // Each vertex once or more: all its interior edges, one or two at a time.
     for (int pass = 0; pass < 8; ++pass)
         for (uint32_t v = 0; v < shell.view.vertex_count(); ++v) {

@@ -29,7 +29,7 @@ TEST(InsertVertex, TwoTrianglesBecomeFourAndTheVertexLiesOnTheEdge) {
     const ShellView view = shell.view;
     const uint32_t elements = view.element_count(), hinges = view.hinge_count();
     const auto corner = shell.state->elements.corner[view.element(5)];
-    Touched touched;
+    Touched touched{kStiffnessRepair};
     bool is_full;
     ASSERT_TRUE(can_insert(view, 5, 1, 0.375f, is_full));
     const uint32_t w = insert_vertex(view, 5, 1, 0.375f, touched);
@@ -66,7 +66,7 @@ TEST(InsertVertex, TheNewVertexIsBannedAsLongAsTheEndsOfItsEdge) {
         };
         ban(p, c.first), ban(q, c.second);
         if (c.is_second_a_tip) v.crack[q] = static_cast<uint8_t>(CrackState::Tip);
-        Touched touched;
+        Touched touched{kStiffnessRepair};
         bool is_full;
         ASSERT_TRUE(can_insert(view, 5, 1, 0.5f, is_full));
         const uint32_t w = view.vertex(insert_vertex(view, 5, 1, 0.5f, touched));
@@ -85,7 +85,7 @@ TEST(InsertVertex, AtTheBorderOneTriangleBecomesTwo) {
         for (uint32_t k = 0; k < 3; ++k) {
             if (shell.state->elements.neighbour[view.element(e)][k] != kNone) continue;
             const uint32_t elements = view.element_count();
-            Touched touched;
+            Touched touched{kStiffnessRepair};
             bool is_full;
             ASSERT_TRUE(can_insert(view, e, k, 0.5f, is_full));
             insert_vertex(view, e, k, 0.5f, touched);
@@ -109,7 +109,7 @@ TEST(InsertVertex, MassCentreAndMomentumStayAndEnergyNeverRises) {
         const uint32_t e = static_cast<uint32_t>(random.bits(i, 0) % view.element_count());
         const float tau = static_cast<float>(0.25 + 0.5 * random.uniform(i, 1));
         const uint32_t k = static_cast<uint32_t>(random.bits(i, 2) % 3);
-        Touched touched;
+        Touched touched{kStiffnessRepair};
         bool is_full;
         if (!can_insert(view, e, k, tau, is_full)) continue;
         insert_vertex(view, e, k, tau, touched);
@@ -133,7 +133,7 @@ TEST(InsertVertex, ARotatingSphereLosesBelowTwoInTenThousandOfItsAngularMomentum
     const Random random{6};
     for (uint32_t i = 0, inserted = 0; inserted < 100; ++i) {
         const uint32_t e = static_cast<uint32_t>(random.bits(i, 0) % view.element_count());
-        Touched touched;
+        Touched touched{kStiffnessRepair};
         bool is_full;
         if (!can_insert(view, e, i % 3, 0.5f, is_full)) continue;
         insert_vertex(view, e, i % 3, 0.5f, touched);
@@ -152,7 +152,7 @@ TEST(InsertVertex, NoTriangleFallsBelowTheLeastShape) {
     for (uint32_t i = 0; i < 3000; ++i) {
         const uint32_t e = static_cast<uint32_t>(random.bits(i, 0) % view.element_count());
         const float tau = static_cast<float>(0.25 + 0.5 * random.uniform(i, 1));
-        Touched touched;
+        Touched touched{kStiffnessRepair};
         bool is_full;
         if (can_insert(view, e, i % 3, tau, is_full)) insert_vertex(view, e, i % 3, tau, touched);
     }
@@ -175,7 +175,7 @@ TEST(InsertVertex, TextureCoordinatesAndStressFollowThePlane) {
     const Sym3d wanted{3e6, -1e6, 0, 2e6, 0, 0};
     set_stress(view, [&](Vec3, int) { return wanted; });
     for (uint32_t e = 0; e < 30; ++e) {
-        Touched touched;
+        Touched touched{kStiffnessRepair};
         bool is_full;
         if (can_insert(view, e, e % 3, 0.4f, is_full)) insert_vertex(view, e, e % 3, 0.4f, touched);
     }

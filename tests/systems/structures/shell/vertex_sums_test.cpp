@@ -4,11 +4,11 @@
 #include <gtest/gtest.h>
 
 #include "engine/random.hpp"
-#include "systems/births/rigid_handoff.hpp"
 #include "systems/models/thick_shell/cook/apply_pins.hpp"
-#include "systems/models/thick_shell/hidden/struck_normal.hpp"
 #include "systems/structures/shell/flood_parts.hpp"
 #include "systems/structures/shell/rest_of_body.hpp"
+#include "systems/structures/shell/rigid_handoff.hpp"
+#include "systems/structures/shell/struck_normal.hpp"
 #include "tests/support/sample_shells.hpp"
 
 namespace cullet {

@@ -5,7 +5,7 @@
 
 #include "cullet/world.hpp"
 #include "systems/cook/model_contents.hpp"
-#include "systems/models/thick_shell/quick/cut_out.hpp"
+#include "systems/models/thick_shell/shared/cut_out.hpp"
 #include "tests/support/large_hits.hpp"
 
 namespace cullet {

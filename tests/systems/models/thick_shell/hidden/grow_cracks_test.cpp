@@ -10,8 +10,8 @@
 #include "engine/random.hpp"
 #include "systems/models/thick_shell/hidden/crack_candidates.hpp"
 #include "systems/models/thick_shell/hidden/crack_rules.hpp"
-#include "systems/models/thick_shell/hidden/element_stress.hpp"
-#include "systems/tasks/task_cost.hpp"
+#include "systems/models/thick_shell/hidden/run_cost.hpp"
+#include "systems/models/thick_shell/stiffness/element_stress.hpp"
 #include "tests/support/crack_meshes.hpp"
 
 namespace cullet {

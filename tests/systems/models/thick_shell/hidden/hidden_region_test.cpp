@@ -11,7 +11,7 @@
 #include "systems/models/thick_shell/hidden/brittle_loop.hpp"
 #include "systems/models/thick_shell/hidden/contact.hpp"
 #include "systems/models/thick_shell/hidden/energy.hpp"
-#include "systems/models/thick_shell/hidden/run_hit.hpp"
+#include "systems/models/thick_shell/run_hit.hpp"
 #include "tests/support/large_hits.hpp"
 
 namespace cullet::test {

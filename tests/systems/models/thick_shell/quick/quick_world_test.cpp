@@ -6,7 +6,7 @@
 #include <cmath>
 
 #include "sample_game/allocations.hpp"
-#include "systems/models/thick_shell/quick/quick_body.hpp"
+#include "systems/models/thick_shell/shared/quick_body.hpp"
 #include "tests/support/large_hits.hpp"
 #include "tests/support/random_hits.hpp"
 #include "tests/support/small_worlds.hpp"

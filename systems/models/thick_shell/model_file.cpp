@@ -1,0 +1,295 @@
+#include "systems/models/thick_shell/model_file.hpp"
+
+#include <algorithm>
+#include <memory>
+#include <new>
+
+#include "engine/file_header.hpp"
+#include "engine/host_scope.hpp"
+#include "engine/memory.hpp"
+#include "engine/mesh_file.hpp"
+#include "engine/table_bytes.hpp"
+#include "systems/cook/materials.hpp"
+#include "systems/models/thick_shell/cook/check_shell_rows.hpp"
+
+namespace cullet {
+namespace {
+
+constexpr uint64_t kLargestFile = 1ull << 34;  // rows of it, and of what is derived from them, count in 32 bits
+
+constexpr const char* kAdvice = "The model file is damaged or of another build; cook the mesh again and write it.";
+constexpr FileKind kKind{{'c', 'm', 'o', 'd', 'l', '\r', '\n', '\x1a'},
+                         9,
+                         "model file",
+                         ".cmodel",
+                         "Write one with write_model.",
+                         kAdvice,
+                         "Cook the mesh again and write it."};
+
+Error damaged(const std::string& name, const std::string& what) {
+    return {name + ": " + what + ". " + kAdvice};
+}
+
+/// The tables of a shell in the file's order, each with the range of Shells that counts its rows.
+template <class F>
+void for_each_part(State& state, Row<Shells> shell, F&& f) {
+    Shells& s = state.shells;
+    f(state.vertices, s.vertices[shell]);
+    f(state.elements, s.elements[shell]);
+    f(state.triangle_springs, s.elements[shell]);
+    f(state.hinges, s.hinges[shell]);
+    f(state.stiffness_packs, s.packs[shell]);
+    f(state.stiffness_blocks, s.blocks[shell]);
+    f(state.stiffness_links, s.links[shell]);
+    f(state.cells, s.cells[shell]);
+    f(state.hull_points, s.points[shell]);
+}
+
+/// The report's numbers in the file's order, for both ways.
+template <class Report, class F>
+void for_each_number(Report& report, F&& f) {
+    f(report.units_of_a_hit);
+    f(report.mass);
+    f(report.mean_thickness);
+    f(report.first_crack_speed);
+    f(report.first_crack_force);
+    f(report.vertices);
+    f(report.elements);
+    f(report.cells);
+    f(report.degenerate_elements);
+    f(report.collisions);
+    f(report.inverted_elements);
+    f(report.crossings);
+}
+
+void put_material(ByteWriter& writer, const std::string& name, const MaterialSettings& material, Vec3 grain) {
+    writer.text(name);
+    writer.number(static_cast<uint8_t>(material.kind));
+    writer.number(static_cast<uint8_t>(material.fracture));
+    for (const MaterialValue& value : material_values()) writer.number(material.*value.member);
+    writer.number(grain.x), writer.number(grain.y), writer.number(grain.z);
+}
+/// A row that check_row finds good; trouble stays with the reader.
+void take_material(ByteReader& reader, MaterialSettings& material, Vec3& grain) {
+    material.name = reader.text("the material's name");
+    material.kind = static_cast<MaterialKind>(reader.number<uint8_t>("the material's kind"));
+    material.fracture = static_cast<FractureKind>(reader.number<uint8_t>("the material's fracture"));
+    for (const MaterialValue& value : material_values()) material.*value.member = reader.number<float>(value.name);
+    grain = {reader.number<float>("the grain"), reader.number<float>("the grain"), reader.number<float>("the grain")};
+    if (!reader.is_sound()) return;
+    const Result<void> valid = check_row(material);
+    reader.expect(valid.ok(), valid.error());
+    const float squared = dot(grain, grain);
+    reader.expect(material.across_young_modulus > 0 ? std::abs(squared - 1) <= 1e-5f : squared == 0,
+                  "the grain's length squared is " + std::to_string(squared));
+}
+
+/// Everything of the payload, with the rows still in the bytes.
+struct Found {
+    std::string name;
+    MaterialSettings material;
+    Vec3 grain;
+    ModelReport report;
+    FoundTable shell;
+    std::vector<FoundTable> parts;
+};
+
+Result<Found> find_all(std::span<const uint8_t> payload, const std::string& name) {
+    Found found;
+    ByteReader reader(payload, name, kAdvice, kFileHeaderBytes);
+    found.name = reader.text("the model's name");
+    take_material(reader, found.material, found.grain);
+    found.report.repairs = reader.text("the sentence of repairs");
+    found.report.advice = reader.text("the sentence of advice");
+    found.report.walls = reader.text("the sentence of walls");
+    for_each_number(found.report, [&](auto& number) {
+        number = reader.number<std::remove_reference_t<decltype(number)>>("the report");
+    });
+    // Tables of no rows, for their lists of columns.
+    const auto none = std::make_unique<State>(Limits{.bodies = 1,
+                                                     .shells = 1,
+                                                     .vertices = 64,
+                                                     .elements = 64,
+                                                     .tasks = 1,
+                                                     .models = 1,
+                                                     .view_vertices = 64,
+                                                     .debris = 1});
+    State& like = *none;
+    like.shells.append(1);
+    found.shell = find_table(reader, like.shells);
+    for_each_part(like, Row<Shells>(0), [&](const AnyTable& table, const Range&) {
+        found.parts.push_back(reader.is_sound() ? find_table(reader, table) : FoundTable{});
+    });
+    reader.expect(reader.is_at_end(), "the last table ends before the file does,");
+    reader.expect(found.shell.rows == 1, "there are " + std::to_string(found.shell.rows) + " shells, not 1,");
+    if (!reader.is_sound()) return Error{reader.trouble()};
+    return found;
+}
+
+enum Part { kVertices, kElements, kSprings, kHinges, kPacks, kBlocks, kLinks, kCells, kPoints };
+
+/// Room for the shell alone. Components derive the limits of the smaller tables from those of vertices and elements.
+Limits limits_for(const std::vector<FoundTable>& parts) {
+    Limits limits = cooking_limits(0, 0);
+    limits.shells = 2;
+    const auto rows = [&](Part part) { return parts[part].rows; };
+    const uint32_t slots = std::max(rows(kBlocks), rows(kLinks)), points = rows(kPoints) / 16 + 1;
+    limits.vertices = std::max({rows(kVertices), slots / 12 * 8 + 8, 8 * rows(kCells), 8 * points}) + 1024;
+    limits.elements = std::max(rows(kElements), rows(kHinges)) + 1024;
+    return limits;
+}
+
+Result<void> check_counts(const Found& found, const std::string& name) {
+    const auto rows = [&](Part part) { return found.parts[part].rows; };
+    const auto count = [](uint32_t n) { return std::to_string(n); };
+    if (rows(kVertices) == 0 || rows(kElements) == 0 || rows(kBlocks) == 0 || rows(kCells) == 0)
+        return damaged(name, "it has " + count(rows(kVertices)) + " vertices, " + count(rows(kElements)) +
+                                 " elements, " + count(rows(kBlocks)) + " stiffness blocks and " + count(rows(kCells)) +
+                                 " cells; none of them may be 0");
+    if (rows(kVertices) % kLanes != 0 || rows(kPacks) != rows(kVertices) / kLanes || rows(kSprings) != rows(kElements))
+        return damaged(name, count(rows(kVertices)) + " vertices and " + count(rows(kElements)) + " elements have " +
+                                 count(rows(kPacks)) + " packs and " + count(rows(kSprings)) +
+                                 " triangle springs; 8 vertices make a pack, and an element has one row of springs");
+    return {};
+}
+
+/// Moves the rows into ranges of the state. The file's ranges say again how many rows there are.
+Result<Row<Shells>> copy_rows(State& state, const Found& found, const std::string& name) {
+    const auto rows = [&](Part part) { return found.parts[part].rows; };
+    const char* full = "";
+    const Row<Shells> shell = make_shell(
+        state,
+        {rows(kVertices), rows(kElements), rows(kHinges), rows(kBlocks), rows(kLinks), rows(kCells), rows(kPoints)},
+        &full);
+    if (!shell.exists()) return damaged(name, std::string("its counts do not fit each other (") + full + ")");
+    std::vector<Range> own;
+    for_each_part(state, shell, [&](const AnyTable&, const Range& range) { own.push_back(range); });
+    found.shell.copy_to(state.shells, shell);
+    size_t part = 0;
+    std::string trouble;
+    for_each_part(state, shell, [&](AnyTable& table, const Range& range) {
+        const uint32_t count = found.parts[part].rows;
+        const bool is_second = part == kSprings;  // the elements' range, already set
+        if (!is_second && (range.first != 0 || range.count != count || range.capacity != count) && trouble.empty())
+            trouble = std::string("the shell's range of ") + table.name() + " is " + std::to_string(range.first) +
+                      " + " + std::to_string(range.count) + " of " + std::to_string(range.capacity) + ", not 0 + " +
+                      std::to_string(count);
+        found.parts[part].copy_to(table, own[part].first);
+        ++part;
+    });
+    part = 0;
+    for_each_part(state, shell, [&](const AnyTable&, Range& range) {
+        range = own[part];
+        range.count = found.parts[part++].rows;
+    });
+    if (!trouble.empty()) return damaged(name, trouble);
+    return shell;
+}
+
+Result<void> check_report(const Found& found, const State& state, Row<Shells> shell, const std::string& name) {
+    const Shells& s = state.shells;
+    const ModelReport& r = found.report;
+    if (r.vertices != s.vertices[shell].count || r.elements != s.elements[shell].count ||
+        r.cells != s.cells[shell].count || r.degenerate_elements > r.elements || r.inverted_elements > r.elements)
+        return damaged(name, "the report counts " + std::to_string(r.vertices) + " vertices, " +
+                                 std::to_string(r.elements) + " elements, " + std::to_string(r.cells) + " cells and " +
+                                 std::to_string(r.degenerate_elements) + " degenerate elements, unlike the tables");
+    if (r.mass != s.mass[shell] || r.mean_thickness != double{s.thickness[shell]} ||
+        r.first_crack_speed != s.first_crack_speed[shell] || r.first_crack_force != s.first_crack_force[shell])
+        return damaged(name, "the report's mass, thickness, first crack speed or first crack force, " +
+                                 std::to_string(r.mass) + " kg, " + std::to_string(r.mean_thickness) + " m, " +
+                                 std::to_string(r.first_crack_speed) + " m/s, " + std::to_string(r.first_crack_force) +
+                                 " N, is not the shell's");
+    return {};
+}
+
+}  // namespace
+
+std::vector<uint8_t> encode_model_file(const Model::Contents& contents) {
+    // Reads only; the parts are listed once, for states that may change.
+    State& state = const_cast<State&>(contents.state);
+    Shells row(1);
+    row.append(1);
+    row.copy_rows(state.shells, contents.shell, 0, 1);
+    row.users[0] = 1;
+    row.material[0] = Row<Materials>(0);  // its values stand before the tables
+    for (Column<Range>* range :
+         {&row.vertices, &row.elements, &row.hinges, &row.packs, &row.blocks, &row.links, &row.cells, &row.points})
+        (*range)[0] = {0, (*range)[0].count, (*range)[0].count};
+    ByteWriter writer;
+    writer.bytes.resize(kFileHeaderBytes);
+    writer.text(contents.name);
+    const Row<Materials> material = contents.state.shells.material[contents.shell];
+    if (material < contents.state.materials.size())
+        put_material(writer, contents.material, material_settings(contents.state, material),
+                     material_traits(contents.state, material).grain);
+    else
+        put_material(writer, {}, {}, {});  // of a shell that is not sound: no reader takes a material without a name
+    writer.text(contents.report.repairs);
+    writer.text(contents.report.advice);
+    writer.text(contents.report.walls);
+    for_each_number(contents.report, [&](const auto& number) { writer.number(number); });
+    put_table(writer, row, 0, 1);
+    for_each_part(state, contents.shell, [&](const AnyTable& table, const Range& range) {
+        put_table(writer, table, range.first, range.count);
+    });
+    finish_file(kKind, writer.bytes);
+    return std::move(writer.bytes);
+}
+
+Result<Model> parse_model_file(std::span<const uint8_t> bytes, const std::string& name) {
+    try {
+        const auto payload = payload_of(kKind, bytes, name);
+        if (!payload) return Error{payload.error()};
+        const Result<Found> found = find_all(*payload, name);
+        if (!found) return Error{found.error()};
+        if (const Result<void> fits = check_counts(*found, name); !fits) return Error{fits.error()};
+        const auto contents = std::make_shared<Model::Contents>(limits_for(found->parts));
+        fill_materials(contents->state.materials);
+        const Result<Row<Shells>> shell = copy_rows(contents->state, *found, name);
+        if (!shell) return Error{shell.error()};
+        // The values before the tables say which row it is; the writer left 0 there.
+        if (contents->state.shells.material[*shell] != Row<Materials>(0))
+            return damaged(name, "the shell's material is row " +
+                                     std::to_string(contents->state.shells.material[*shell].index) + ", not 0");
+        contents->state.shells.material[*shell] = material_row(contents->state, found->material, found->grain);
+        if (const Result<void> sound =
+                check_shell_rows(ShellView(contents->state, *shell), Wear::Intact, name, kAdvice);
+            !sound)
+            return Error{sound.error()};
+        if (const Result<void> fits = check_report(*found, contents->state, *shell, name); !fits)
+            return Error{fits.error()};
+        contents->shell = *shell;
+        contents->name = found->name;
+        contents->material = found->material.name;
+        contents->report = found->report;
+        Model model;
+        model.contents = contents;
+        return model;
+    } catch (const std::bad_alloc&) {
+        return Error{name + ": no memory for " + std::to_string(bytes.size()) +
+                     " bytes of model. Free memory or cook with longer edges."};
+    }
+}
+
+Result<void> write_model(const Model& model, const std::string& path) {
+    if (!model.contents) return Error{path + ": the model is empty; cook one before writing it."};
+    try {
+        return write_whole_file(encode_model_file(*model.contents), path);
+    } catch (const std::bad_alloc&) {
+        return Error{path + ": no memory for the bytes of the model. Free memory."};
+    }
+}
+
+Result<Model> read_model(const std::string& path, const Host* given) {
+    static const Host no_host;
+    const Host& host = given ? *given : no_host;
+    if (const Result<void> valid = check_host(host); !valid) return Error{valid.error()};
+    const HostScope call(host);
+    const MemoryScope memory(host.allocator);
+    const Result<std::vector<uint8_t>> bytes = read_whole_file(path, kLargestFile);
+    if (!bytes) return Error{bytes.error()};
+    return parse_model_file(*bytes, path);
+}
+
+}  // namespace cullet

@@ -1,0 +1,60 @@
+// A working copy of the neighbourhood of a hit, for bodies that are too large to be copied whole: what a hit costs then
+// goes with its region and not with the body.
+#pragma once
+#include <string>
+
+#include "engine/events.hpp"
+#include "systems/models/thick_shell/shared/body_motion.hpp"
+#include "systems/world_data.hpp"
+
+namespace cullet {
+
+/// Quick bodies of more vertices have a shell of their own from the start and are hit on cut-outs of it. A whole copy
+/// of so many rows takes 0.4 ms.
+inline constexpr uint32_t kWholeCopyVertices = 4000;
+/// Hidden ones of more: a cut-out has kWholeCopyVertices at first (thick shell note, 6.2), and is at most half of a
+/// body.
+inline constexpr uint32_t kWholeHiddenVertices = 2 * kWholeCopyVertices;
+
+/// Bodies of so many vertices and this kind of fracture have a shell of their own for cut-outs: cracks of large
+/// fracture do not stay near the hit.
+bool is_for_cut_outs(const State& state, Row<Shells> shell, bool is_quick);
+
+/// Whether hits on the body may run on cut-outs: it is for them, has its shell to itself, and rows to spare for what
+/// cracks add.
+bool may_cut_out(const State& state, Row<Bodies> body);
+
+inline bool is_cut_out(const State& state, uint32_t task) {
+    return task < state.quick_runs.size() && state.quick_runs.cut_elements[task] > 0;
+}
+
+/// Rings round the patches, or what the hidden run may have: whole rings until there are so many vertices.
+struct CutOutSize {
+    uint32_t rings = kNone, vertices = kNone;
+};
+/// Rings next to the border of a cut-out in which nothing may be cut.
+inline constexpr uint32_t kCutOutBorderRings = 5;
+
+enum class CutOutResult : uint8_t { Reserved, TooWide, NoRoom };
+
+/// Takes rows for the neighbourhood of the task's contacts and lists its elements. TooWide: it is more than half of the
+/// body. Serial; fill_cut_out follows in the same step.
+CutOutResult reserve_cut_out(State& state, Row<Tasks> task, const CutOutSize& size, const char** full);
+/// Before a second fill_cut_out, of a run that begins again: what the first one found in scratch.
+void list_cut_out(State& state, Row<Tasks> task);
+/// Copies the rows. The edges on the border of the cut-out are borders in it.
+void fill_cut_out(State& state, Row<Tasks> task);
+
+/// What put_back needs in scratch, from State: after a load, in the middle of a run.
+void remember_cut_out(State& state, Row<Tasks> task);
+
+/// Writes what the run changed into the body's shell, gives the cut-out back and makes the body's shell the task's, as
+/// it was where nothing broke or the run is dropped. Vertices.velocity is then what pieces start with, in the blocks
+/// that move (VertexBlocks::moves); all other vertices move by `motion`, the body's own. Tells of each new start of a
+/// crack. Serial.
+void put_back(State& state, Row<Tasks> task, const BodyMotion& motion, Events<CrackStartedEvent>& cracks);
+
+/// Empty, or what is wrong with the rows of a cut-out that came from a file.
+std::string trouble_of_cut_out(State& state, uint32_t task);
+
+}  // namespace cullet

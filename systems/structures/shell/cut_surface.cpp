@@ -1,0 +1,76 @@
+#include "systems/structures/shell/cut_surface.hpp"
+
+#include <algorithm>
+
+#include "systems/structures/shell/cut_shell.hpp"
+
+namespace cullet {
+
+CutSurface::CutSurface(const Blows& blows, uint32_t row)
+    : place_(blows.point[row]), normal_(blows.direction[row]), count_(blows.point_count[row]) {
+    if (count_ == 0) return;
+    const Vec3 helper = std::fabs(normal_.x) < 0.6f ? Vec3{1, 0, 0} : Vec3{0, 1, 0};
+    x_ = normalised(cross(helper, normal_));
+    y_ = cross(normal_, x_);
+    const Vec3 first = cut_point(blows, row, 0), last = cut_point(blows, row, count_ - 1);
+    is_closed_ = count_ > 3 && first == last;
+    for (uint32_t i = 0; i < count_; ++i) points_[i] = flat(cut_point(blows, row, i));
+}
+
+CutSide CutSurface::side(Vec3 place) const {
+    if (count_ == 0) return {dot(place - place_, normal_), true};
+    const Point p = flat(place);
+    const uint32_t segments = count_ - 1;
+    // How far to the left of segment i's line, m.
+    const auto left_of = [&](uint32_t i) {
+        const float dx = points_[i + 1].x - points_[i].x, dy = points_[i + 1].y - points_[i].y;
+        const float l = std::sqrt(dx * dx + dy * dy);
+        return l > 0 ? (dx * (p.y - points_[i].y) - dy * (p.x - points_[i].x)) / l : 0.0f;
+    };
+    float least = 1e30f, along = 0;
+    uint32_t nearest = 0;
+    for (uint32_t i = 0; i < segments; ++i) {
+        const float dx = points_[i + 1].x - points_[i].x, dy = points_[i + 1].y - points_[i].y;
+        const float square = dx * dx + dy * dy;
+        if (!(square > 0)) continue;
+        const float t = (dx * (p.x - points_[i].x) + dy * (p.y - points_[i].y)) / square;
+        const float clamped = std::clamp(t, 0.0f, 1.0f);
+        const float ax = p.x - points_[i].x - clamped * dx, ay = p.y - points_[i].y - clamped * dy;
+        const float away = ax * ax + ay * ay;
+        if (!(away < least)) continue;
+        least = away;
+        nearest = i;
+        along = t;
+    }
+    const float distance = std::sqrt(least);
+    float left = left_of(nearest);
+    CutSide found;
+    const bool is_before = along <= 0, is_behind = along >= 1;
+    if (is_before || is_behind) {
+        const bool has_other = is_closed_ || (is_before ? nearest > 0 : nearest + 1 < segments);
+        found.is_beside = has_other;
+        if (has_other) {
+            const uint32_t other = is_before ? (nearest + segments - 1) % segments : (nearest + 1) % segments;
+            const float other_left = left_of(other);
+            if (std::fabs(other_left) > std::fabs(left)) left = other_left;
+        }
+    }
+    found.distance = left < 0 ? -distance : distance;
+    return found;
+}
+
+bool passes_through(ShellView shell, const CutSurface& surface) {
+    // What lies on the surface, a cut edge before all, is on no side of it.
+    const float least = 1e-3f * shell.shells().mean_edge[shell.row];
+    bool is_left = false, is_right = false;
+    for (uint32_t v = 0; v < shell.vertex_count(); ++v) {
+        if (shell.state.vertices.element[shell.vertex(v)] == kNone) continue;
+        const CutSide side = surface.side(middle_of_wall(shell, v));
+        is_left = is_left || side.distance > least;
+        is_right = is_right || side.distance < -least;
+        if (is_left && is_right) return true;
+    }
+    return false;
+}
+
+}  // namespace cullet

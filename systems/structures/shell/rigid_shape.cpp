@@ -1,0 +1,133 @@
+#include "systems/structures/shell/rigid_shape.hpp"
+
+#include "components/body_id.hpp"
+#include "systems/structures/shell/cell_hulls.hpp"
+
+namespace cullet {
+
+namespace {
+
+template <class IsWanted>
+std::span<const ConvexPiece> pieces_of(const State& state, Row<Shells> shell, Arena& arena, RigidId broken_body,
+                                       IsWanted&& is_wanted) {
+    const Range cells = state.shells.cells[shell];
+    const uint32_t first_point = state.shells.points[shell].first;
+    uint32_t part_count = 0, count = 0;
+    for (uint32_t c = cells.first; c < cells.first + cells.count; ++c)
+        if (is_wanted(c))
+            for (const uint8_t part_points : state.cells.part_points[c]) part_count += part_points > 0;
+    const auto pieces = arena.take<ConvexPiece>(part_count);
+    for (uint32_t c = 0; c < cells.count; ++c) {
+        const uint32_t row = cells.first + c, same = state.cells.same_cell[row], shape = state.cells.shape[row];
+        if (!is_wanted(row)) continue;
+        uint32_t from = first_point + state.cells.first_point[row];
+        for (uint32_t part = 0; part < kMostCellParts && count < pieces.size(); ++part) {
+            const auto points = arena.take<Vec3>(state.cells.part_points[row][part]);
+            if (points.empty()) continue;
+            for (Vec3& p : points) p = state.hull_points.point[from++];
+            ConvexPiece& piece = pieces[count++] = {points, kMostCellParts * c + part};
+            if (broken_body == kNoRigid) continue;
+            piece.same_body = same == kNone ? kNoRigid : broken_body;
+            piece.same_cell = same == kNone ? kNone : kMostCellParts * same + part;
+            piece.shape = shape == kNone ? kNone : kMostCellParts * shape + part;
+        }
+    }
+    return pieces.first(count);
+}
+
+std::span<const ConvexPiece> one_piece(const State& state, Row<Shells> shell, Arena& arena, bool is_made) {
+    const auto pieces = arena.take<ConvexPiece>(1);
+    const auto points = arena.take<Vec3>(state.shells.shape_points[shell]);
+    for (uint32_t k = 0; k < points.size(); ++k)
+        points[k] = state.hull_points.point[state.shells.points[shell].first + k];
+    pieces[0] = {points, 0};
+    if (is_made) pieces[0].shape = kMostCellParts * state.shells.made_shape[shell];
+    return pieces;
+}
+
+}  // namespace
+
+std::span<const ConvexPiece> convex_pieces(const State& state, Row<Shells> shell, Arena& arena, RigidId broken_body) {
+    if (state.shells.shape_points[shell]) return one_piece(state, shell, arena, broken_body != kNoRigid);
+    return pieces_of(state, shell, arena, broken_body, [](uint32_t) { return true; });
+}
+
+std::span<const ConvexPiece> changed_pieces(const State& state, Row<Shells> shell, Arena& arena,
+                                            std::span<const uint32_t>& gone) {
+    const Range cells = state.shells.cells[shell];
+    const auto is_wanted = [&](uint32_t row) { return state.cells.same_cell[row] == kNone; };
+    uint32_t count = 0, next = 0;
+    for (uint32_t c = 0; c < cells.count; ++c) count += is_wanted(cells.first + c);
+    const auto names = arena.take<uint32_t>(kMostCellParts * count);
+    for (uint32_t c = 0; c < cells.count; ++c)
+        for (uint32_t part = 0; part < kMostCellParts && is_wanted(cells.first + c); ++part)
+            names[next++] = kMostCellParts * c + part;
+    gone = names;
+    return pieces_of(state, shell, arena, 0, is_wanted);
+}
+
+// Rolling friction is a length, by which the point that bears a body may miss its centre: a seventieth of the root of
+// its area, as of a rim that is chipped, and no more than the gravel of a floor. With a third of it whole vases roll
+// to and fro on a heap for six seconds after the last break; without a bound a slab of 750 kg takes ten to tip over,
+// and at three times it slabs stand upright on one corner. Where it was set it is that of a ball of as much surface.
+constexpr float kRollingShare = 0.0135f, kMostRolling = 0.00675f;  // m
+constexpr float kRadiusShare = 0.2820948f;                         // sqrt(1 / (4 pi)), of the root of a ball's surface
+
+namespace {
+
+float rolling_length(float setting, float area) {
+    const float root = std::sqrt(area);
+    return setting >= 0 ? setting * kRadiusShare * root : std::min(kRollingShare * root, kMostRolling);
+}
+
+}  // namespace
+
+RigidDescription describe_rigid(const State& state, Row<Bodies> b, std::span<const ConvexPiece> pieces) {
+    const Bodies& bodies = state.bodies;
+    const Row<Shells> shell = bodies.shell[b];
+    RigidDescription d;
+    d.kind = bodies.kind[b] == static_cast<uint8_t>(BodyKind::Dynamic) ? RigidKind::Dynamic : RigidKind::Static;
+    d.pose = pose_of(bodies, b);
+    d.motion = {bodies.velocity[b], bodies.spin[b]};
+    d.mass = bodies.mass[b];
+    d.centre = bodies.centre[b];
+    d.inertia = bodies.inertia[b];
+    d.margin = hull_margin(ShellView(const_cast<State&>(state), shell));
+    d.friction = bodies.friction[b];
+    d.restitution = bodies.restitution[b];
+    d.rolling_friction = rolling_length(bodies.rolling_friction[b], state.shells.area[shell]);
+    d.rolling_share = std::max(bodies.rolling_friction[b], 0.0f);
+    d.layer = bodies.layer[b];
+    d.mask = bodies.mask[b];
+    d.pieces = pieces;
+    return d;
+}
+
+void take_mass_properties(State& state, Row<Bodies> b) {
+    const Row<Shells> shell = state.bodies.shell[b];
+    Bodies& bodies = state.bodies;
+    bodies.mass[b] = state.shells.mass[shell];
+    bodies.centre.set(b, state.shells.centre[shell]);
+    bodies.inertia[b] = state.shells.inertia[shell];
+    const Vec3 centre = bodies.centre[b].to_float();
+    float most = 0;
+    const Range vertices = state.shells.vertices[shell];
+    for (uint32_t v = vertices.first; v < vertices.first + vertices.count; ++v) {
+        if (state.vertices.element[v] == kNone) continue;
+        const Vec3 arm = state.vertices.rest[v] - centre;
+        most = std::max(most, dot(arm, arm));
+    }
+    bodies.radius[b] = std::sqrt(most);
+}
+
+void take_rest_properties(State& state, Row<Bodies> b) {
+    const Row<Shells> shell = state.bodies.shell[b];
+    Bodies& bodies = state.bodies;
+    const Vec3 moved = (state.shells.centre[shell] - bodies.centre[b]).to_float();
+    bodies.mass[b] = state.shells.mass[shell];
+    bodies.centre.set(b, state.shells.centre[shell]);
+    bodies.inertia[b] = state.shells.inertia[shell];
+    bodies.radius[b] += length(moved);
+}
+
+}  // namespace cullet

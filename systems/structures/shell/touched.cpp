@@ -1,0 +1,16 @@
+#include "systems/structures/shell/touched.hpp"
+
+#include "systems/structures/shell/elements_at.hpp"
+
+namespace cullet {
+
+void mark_touched(const ShellView& shell, const Touched& touched) {
+    uint8_t* const flags = shell.state.elements.flags.data() + shell.elements().first;
+    const auto mark = [&](uint32_t e) { flags[e] |= kIsTouched; };
+    for (const VertexList* list : {&touched.weighed, &touched.rows}) {
+        for (const uint32_t v : list->span()) for_each_element_at(shell, v, mark);
+        for (uint32_t e = 0; list->has_overflowed && e < shell.element_count(); ++e) mark(e);
+    }
+}
+
+}  // namespace cullet
