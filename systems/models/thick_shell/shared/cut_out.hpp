@@ -5,13 +5,11 @@
 
 #include "engine/events.hpp"
 #include "systems/models/thick_shell/shared/body_motion.hpp"
+#include "systems/structures/shell/rest_of_body.hpp"
 #include "systems/world_data.hpp"
 
 namespace cullet {
 
-/// Quick bodies of more vertices have a shell of their own from the start and are hit on cut-outs of it. A whole copy
-/// of so many rows takes 0.4 ms.
-inline constexpr uint32_t kWholeCopyVertices = 4000;
 /// Hidden ones of more: a cut-out has kWholeCopyVertices at first (thick shell note, 6.2), and is at most half of a
 /// body.
 inline constexpr uint32_t kWholeHiddenVertices = 2 * kWholeCopyVertices;
