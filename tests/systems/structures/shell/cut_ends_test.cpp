@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "engine/random.hpp"
+#include "systems/models/thick_shell/stiffness/refresh.hpp"
 #include "systems/structures/shell/cut_edge.hpp"
 #include "systems/structures/shell/insert_vertex.hpp"
 #include "systems/structures/shell/split_fans.hpp"

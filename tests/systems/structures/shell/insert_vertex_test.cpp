@@ -6,6 +6,7 @@
 #include "engine/random.hpp"
 #include "systems/models/thick_shell/hidden/crack_candidates.hpp"
 #include "systems/models/thick_shell/hidden/crack_rules.hpp"
+#include "systems/models/thick_shell/stiffness/refresh.hpp"
 #include "tests/support/crack_meshes.hpp"
 
 namespace cullet {
