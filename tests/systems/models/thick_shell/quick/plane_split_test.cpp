@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include "engine/random.hpp"
+#include "systems/models/thick_shell/stiffness/refresh.hpp"
 #include "tests/support/plane_splits.hpp"
 
 namespace cullet::crack_test {
@@ -22,7 +23,7 @@ TEST(PlaneSplit, AnyHistoryOfSplitsKeepsTheMeshSoundAndMovesNothing) {
         Shell shell = make_shell_of(body.surface, 4000, 8000);
         shake(shell.view, 7);
         const Random random{11};
-        Touched touched;
+        Touched touched(kStiffnessRepair);
         uint32_t cuts = 0, inserted = 0;
         for (uint32_t n = 0; n < 150; ++n) {
             const auto vertex = static_cast<uint32_t>(random.bits(n, 1) % shell.view.vertex_count());

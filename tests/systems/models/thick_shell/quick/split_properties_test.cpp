@@ -8,6 +8,7 @@
 
 #include "engine/import/import_mesh.hpp"
 #include "systems/cook/surface.hpp"
+#include "systems/models/thick_shell/stiffness/refresh.hpp"
 #include "tests/support/expect_always.hpp"
 #include "tests/support/places.hpp"
 #include "tests/support/plane_splits.hpp"
@@ -22,7 +23,7 @@ void expect_sound_history(const Surface& surface, uint64_t seed, uint32_t splits
     Shell shell = make_shell_of(surface, 20 * splits, 40 * splits);
     shake(shell.view, seed);
     const Random random{seed};
-    Touched touched;
+    Touched touched(kStiffnessRepair);
     uint32_t parts = component_count(shell.view);
     for (uint32_t n = 0; n < splits; ++n) {
         const auto vertex = static_cast<uint32_t>(random.bits(n, 1) % shell.view.vertex_count());

@@ -9,6 +9,7 @@
 #include "systems/models/thick_shell/springs/check_springs.hpp"
 #include "systems/models/thick_shell/springs/edge_stiffness.hpp"
 #include "systems/models/thick_shell/springs/spring_loop.hpp"
+#include "systems/models/thick_shell/stiffness/refresh.hpp"
 #include "systems/structures/shell/insert_vertex.hpp"
 #include "tests/support/spring_strip.hpp"
 
@@ -161,7 +162,7 @@ SpringBench make_uneven(SpringLayout layout) {
 std::vector<uint32_t> insert_vertices(SpringBench& bench, uint32_t count) {
     const SpringView view = bench.view();
     const Elements& elements = bench.state().elements;
-    Touched touched;
+    Touched touched(kStiffnessRepair);
     const uint32_t before = view.shell.element_count();
     for (uint32_t i = 0, e = 3; i < count; e = (e + 7) % before) {
         const uint32_t k = e % 3, row = view.shell.element(e), other = elements.neighbour[row][k];
