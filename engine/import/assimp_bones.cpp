@@ -48,7 +48,7 @@ BonePose::BonePose(const aiMesh& mesh, const Places& places, const Affine& node)
     read_influences(mesh);
     std::vector<bool> is_used(skin_.size());
     for (const auto& [joint, weight] : influences_) is_used[joint] = true;
-    Box box;
+    BindBox box;
     for (unsigned v = 0; v < mesh.mNumVertices; ++v) {
         box.grow({mesh.mVertices[v].x, mesh.mVertices[v].y, mesh.mVertices[v].z});
         points_without_bone_ += first_[v] == first_[v + 1];

@@ -14,7 +14,7 @@ void add_to(Affine& sum, double weight, const Affine& affine) {
     sum.move += weight * affine.move;
 }
 
-bool rest_alike(const Joint& a, const Joint& b, const Box& box) {
+bool rest_alike(const Joint& a, const Joint& b, const BindBox& box) {
     const double diagonal = length(turned(a.place, box.high - box.low));
     const double most = kRounding * diagonal + a.rounding + b.rounding;
     for (int c = 0; c < 8; ++c)
@@ -38,13 +38,13 @@ Joint joint_at(const Affine& node, const Affine& inverse_bind) {
     return {chained(node, inverse_bind), kRoundingOfMoves * way};
 }
 
-void Box::grow(Vec3d p) {
+void BindBox::grow(Vec3d p) {
     if (is_empty) low = high = p, is_empty = false;
     low = {std::min(low.x, p.x), std::min(low.y, p.y), std::min(low.z, p.z)};
     high = {std::max(high.x, p.x), std::max(high.y, p.y), std::max(high.z, p.z)};
 }
 
-std::optional<Affine> common_place(const Skin& skin, const std::vector<bool>& is_used, const Box& box) {
+std::optional<Affine> common_place(const Skin& skin, const std::vector<bool>& is_used, const BindBox& box) {
     const Joint* common = nullptr;
     for (size_t j = 0; j < skin.size(); ++j) {
         if (!is_used[j]) continue;

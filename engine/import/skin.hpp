@@ -21,7 +21,7 @@ using Skin = std::vector<Joint>;
 /// only the rounding of that is left.
 Joint joint_at(const Affine& node, const Affine& inverse_bind);
 
-struct Box {
+struct BindBox {
     Vec3d low, high;
     bool is_empty = true;
 
@@ -31,7 +31,7 @@ struct Box {
 
 /// The one place of a mesh whose joints all rest as it was bound, which is the rule; nothing when they do not. Equal
 /// but for rounding: points of equal place may hang on different joints and must not come apart. `box` holds the mesh.
-std::optional<Affine> common_place(const Skin& skin, const std::vector<bool>& is_used, const Box& box);
+std::optional<Affine> common_place(const Skin& skin, const std::vector<bool>& is_used, const BindBox& box);
 
 /// What several joints make of a point.
 class Blend {

@@ -78,7 +78,7 @@ Affine Pose::place_of(const Primitive& primitive, uint64_t point) const {
 std::optional<Affine> common_place(const GltfMesh& mesh, Pose& pose) {
     const Skin& skin = *pose.skin;
     std::vector<bool> is_used(skin.size());
-    Box box;
+    BindBox box;
     for (const Primitive& primitive : mesh.primitives) {
         if (primitive.position == nullptr) continue;
         for (uint64_t point = 0; point < primitive.position->count; ++point) {
