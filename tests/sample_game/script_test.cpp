@@ -542,8 +542,8 @@ TEST_P(SceneHash, IsWhatTheSceneAlwaysGave) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Scenes, SceneHash,
-                         testing::Values(KnownHash{"vase", "c7a3a54bbbb2b980"}, KnownHash{"wall", "573f0720a72bcdf9"},
-                                         KnownHash{"pane", "ab79b4f44fb2d5f2"}, KnownHash{"drop", "12e2c12b39337396"}),
+                         testing::Values(KnownHash{"vase", "37eb1d0946dc00a7"}, KnownHash{"wall", "6c10de0860a89807"},
+                                         KnownHash{"pane", "3b03a741bb1d2bca"}, KnownHash{"drop", "7af685c19e835fd4"}),
                          [](const auto& known) { return std::string(known.param.scene); });
 
 TEST(Script, AFileIsPlayedByItsPathAndOneThatIsNotThereIsNamed) {
