@@ -51,6 +51,8 @@ struct Bodies : Table<Bodies> {
     // Steps in a row whose loads were more than it bears, and runs for such loads that did not break it.
     Column<uint8_t> overloaded_steps{*this, "overloaded_steps"};
     Column<uint8_t> overload_runs{*this, "overload_runs"};
+    // What is laid on it while it sleeps wakes it above this load.
+    Column<float> waking_load{*this, "waking_load", "N"};
     Column<uint32_t> first_load{*this, "first_load", "1", Keep::Scratch};  // of the list of its loads, or kNone
     Column<uint32_t> task{*this, "task"};                                  // open task or kNone
     Column<uint32_t> colour{*this, "colour"};                              // stable number for pictures

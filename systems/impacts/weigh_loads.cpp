@@ -18,6 +18,9 @@ namespace {
 constexpr float kOverloadSeconds = 0.06f, kDrivenSeconds = 0.03f;
 // Below this share of the least that could break it nothing is looked at, and below the second no sleeper is woken.
 constexpr double kLookShare = 0.7, kLaidOn = 0.25;
+// A load that it was woken for and bore wakes it again when it has grown so many times, and, as this fades, after a
+// second and a half of sleep: what rocks on it would keep both awake.
+constexpr double kGrown = 20, kFades = 2;  // times, 1/s
 // The blow that stands for a load: below the first crack the force of a contact goes with the speed, so that
 // first_crack_speed times the share passes what presses. Twice that, since pieces come off at up to 2.5 times the speed
 // of the first crack, and what presses goes on pressing; half as much more for a second run.
@@ -38,12 +41,18 @@ uint32_t steps_in(float seconds, float dt) {
     return std::clamp(static_cast<uint32_t>(std::ceil(seconds / dt)), 2u, 254u);
 }
 
+double sum_of(std::span<const BodyLoad> loads) {
+    double sum = 0;
+    for (const BodyLoad& l : loads) sum += l.force;
+    return sum;
+}
+
 // Whether there is anything to look at.
 bool may_be_overloaded(const State& state, Row<Bodies> body, std::span<const BodyLoad> loads) {
-    double sum = 0;
     bool is_driven = false;
-    for (const BodyLoad& l : loads) sum += l.force, is_driven = is_driven || l.driven_speed > 0;
-    return is_driven || sum > kLookShare * std::min(2 * force_borne(state, body), least_bending_force(state, body));
+    for (const BodyLoad& l : loads) is_driven = is_driven || l.driven_speed > 0;
+    return is_driven ||
+           sum_of(loads) > kLookShare * std::min(2 * force_borne(state, body), least_bending_force(state, body));
 }
 
 // It may break, is not held, and no hit on it is worked off.
@@ -55,10 +64,9 @@ bool may_be_loaded(const State& state, Row<Bodies> body, const DamageSettings& s
 
 // What is laid on a sleeper little by little is not to find it asleep for ever: its supports tell their loads only
 // awake.
-bool is_to_wake(const State& state, Row<Bodies> body, std::span<const BodyLoad> loads) {
-    double sum = 0;
-    for (const BodyLoad& l : loads) sum += l.force;
-    return sum > kLaidOn * std::min(2 * force_borne(state, body), least_bending_force(state, body));
+bool is_to_wake(const State& state, Row<Bodies> body, double load) {
+    return load > double{state.bodies.waking_load[body]} &&
+           load > kLaidOn * std::min(2 * force_borne(state, body), least_bending_force(state, body));
 }
 
 // What sleeps on it weighs nothing in the solver, and is told of once the body is awake.
@@ -141,11 +149,15 @@ void weigh_loads(Serial, Step step, RigidWorld& rigid, ShellTables shells, Bodie
         const Row<Bodies> body(b);
         if (!lists.has_loads(body) || !may_be_loaded(state, body, settings)) {
             bodies.overloaded_steps[b] = 0;
+            bodies.waking_load[b] = 0;
             continue;
         }
         const auto loads = room.first(lists.take(body, step.dt, room));
         if (bodies.is_asleep[b]) {
-            if (!is_to_wake(state, body, loads)) continue;
+            const double load = sum_of(loads);
+            bodies.waking_load[b] *= 1 - static_cast<float>(std::min(kFades * double{step.dt}, 1.0));
+            if (!is_to_wake(state, body, load)) continue;
+            bodies.waking_load[b] = static_cast<float>(std::min(kGrown * load, 1e30));
             rigid.wake(body);
             bodies.is_asleep[b] = 0;
             bodies.overloaded_steps[b] = kWasWoken;
