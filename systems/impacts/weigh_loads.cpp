@@ -18,9 +18,9 @@ namespace {
 constexpr float kOverloadSeconds = 0.06f, kDrivenSeconds = 0.03f;
 // Below this share of the least that could break it nothing is looked at, and below the second no sleeper is woken.
 constexpr double kLookShare = 0.7, kLaidOn = 0.25;
-// A load that it was woken for and bore wakes it again when it has grown so many times, and, as this fades, after a
-// second and a half of sleep: what rocks on it would keep both awake.
-constexpr double kGrown = 20, kFades = 2;  // times, 1/s
+// A load that it was woken for and bore wakes it again when it has grown so many times, and, as this fades, after
+// half a second of sleep: what rocks on it would keep both awake.
+constexpr double kGrown = 3, kFades = 2;  // times, 1/s
 // The blow that stands for a load: below the first crack the force of a contact goes with the speed, so that
 // first_crack_speed times the share passes what presses. Twice that, since pieces come off at up to 2.5 times the speed
 // of the first crack, and what presses goes on pressing; half as much more for a second run.

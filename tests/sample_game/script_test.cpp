@@ -542,8 +542,8 @@ TEST_P(SceneHash, IsWhatTheSceneAlwaysGave) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Scenes, SceneHash,
-                         testing::Values(KnownHash{"vase", "37eb1d0946dc00a7"}, KnownHash{"wall", "6c10de0860a89807"},
-                                         KnownHash{"pane", "3b03a741bb1d2bca"}, KnownHash{"drop", "7af685c19e835fd4"}),
+                         testing::Values(KnownHash{"vase", "50017822065e0143"}, KnownHash{"wall", "ece69f1f0455507d"},
+                                         KnownHash{"pane", "5ab17f3555218158"}, KnownHash{"drop", "78ec9be565e85f2e"}),
                          [](const auto& known) { return std::string(known.param.scene); });
 
 TEST(Script, AFileIsPlayedByItsPathAndOneThatIsNotThereIsNamed) {
