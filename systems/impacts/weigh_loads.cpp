@@ -18,9 +18,9 @@ namespace {
 constexpr float kOverloadSeconds = 0.06f, kDrivenSeconds = 0.03f;
 // Below this share of the least that could break it nothing is looked at, and below the second no sleeper is woken.
 constexpr double kLookShare = 0.7, kLaidOn = 0.25;
-// A load that it was woken for and bore wakes it again when it has grown so many times, and, as this fades, after
-// half a second of sleep: what rocks on it would keep both awake.
-constexpr double kGrown = 3, kFades = 2;  // times, 1/s
+// Each time that a load wakes it, it takes twice as much to wake it again, from this share of the load on: what rocks
+// on it would keep both awake for ever. When all that lies on it sleeps the count begins anew.
+constexpr double kFirstWaking = 1.0 / 256;
 // The blow that stands for a load: below the first crack the force of a contact goes with the speed, so that
 // first_crack_speed times the share passes what presses. Twice that, since pieces come off at up to 2.5 times the speed
 // of the first crack, and what presses goes on pressing; half as much more for a second run.
@@ -155,9 +155,9 @@ void weigh_loads(Serial, Step step, RigidWorld& rigid, ShellTables shells, Bodie
         const auto loads = room.first(lists.take(body, step.dt, room));
         if (bodies.is_asleep[b]) {
             const double load = sum_of(loads);
-            bodies.waking_load[b] *= 1 - static_cast<float>(std::min(kFades * double{step.dt}, 1.0));
             if (!is_to_wake(state, body, load)) continue;
-            bodies.waking_load[b] = static_cast<float>(std::min(kGrown * load, 1e30));
+            bodies.waking_load[b] =
+                static_cast<float>(std::clamp(2 * double{bodies.waking_load[b]}, kFirstWaking * load, 1e30));
             rigid.wake(body);
             bodies.is_asleep[b] = 0;
             bodies.overloaded_steps[b] = kWasWoken;
