@@ -15,6 +15,10 @@ inline Row<Bodies> body_row(const Bodies& bodies, BodyId id) {
                           static_cast<BodyKind>(bodies.kind[id.index]) != BodyKind::Free;
     return is_alive ? Row<Bodies>(id.index) : Row<Bodies>();
 }
+/// It is there and moves by forces.
+inline bool is_dynamic(const Bodies& bodies, Row<Bodies> b) {
+    return b.exists() && static_cast<BodyKind>(bodies.kind[b]) == BodyKind::Dynamic;
+}
 inline Pose pose_of(const Bodies& bodies, uint32_t b) {
     return {bodies.position[b], bodies.orientation[b]};
 }

@@ -94,7 +94,7 @@ void settle_tasks(Serial, Step step, Tasks& tasks, TaskContacts& contacts, Blows
                   Events<TaskEnded>& ended, Events<ImpactEvent>& impact_events, Events<RefusedEvent>& refused);
 
 /// Regions whose run ended fall asleep: vertices get the body's own motion back, springs their rows. What a cut-out
-/// changed goes into the body's shell (models/thick_shell/quick/cut_out.hpp).
+/// changed goes into the body's shell (models/thick_shell/shared/cut_out.hpp).
 void close_regions(Serial, const Events<TaskEnded>& ended, ShellTables shells, Tasks& tasks, TaskContacts& contacts,
                    Fragments& fragments, const Bodies& bodies, Events<CrackStartedEvent>& cracks);
 
@@ -145,7 +145,7 @@ void weigh_loads(Serial, Step step, RigidWorld& rigid, ShellTables shells, Bodie
 /// Crumbs fly on parabolas, bounce off the ground and off bodies larger than they are, slide and come to rest; of a
 /// host's world, which keeps its shapes to itself, they know the floor below their place of birth alone.
 void fall_debris(Serial, Step step, const RigidWorld& rigid, Debris& debris, DamageCounts& counts);
-/// Checked and Debug builds: between this and its opening the frame made no energy (bodies/energy_balance.hpp).
+/// Checked and Debug builds: between this and its opening the frame made no energy (checks/energy_balance.hpp).
 void close_energy_balance(Serial, Step step, ShellTables shells, const DamageCounts& counts, const RigidWorld& rigid,
                           EnergyBalance& balance, Events<FaultEvent>& faults);
 /// Crumbs that are older than the game wants go.

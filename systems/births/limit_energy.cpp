@@ -8,10 +8,6 @@
 namespace cullet {
 namespace {
 
-bool is_dynamic(const Bodies& bodies, Row<Bodies> b) {
-    return b.exists() && static_cast<BodyKind>(bodies.kind[b]) == BodyKind::Dynamic;
-}
-
 // The inertia about the centre, in world axes.
 Sym3d world_inertia(const Bodies& bodies, Row<Bodies> b) {
     const Quat q = bodies.orientation[b];

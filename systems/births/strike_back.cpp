@@ -10,10 +10,6 @@
 namespace cullet {
 namespace {
 
-bool is_dynamic(const Bodies& bodies, Row<Bodies> b) {
-    return b.exists() && static_cast<BodyKind>(bodies.kind[b]) == BodyKind::Dynamic;
-}
-
 // Impulses and their moment about a body's centre, world axes.
 struct Push {
     Vec3d impulse, turn;

@@ -1,13 +1,8 @@
 #include "systems/bodies/rigid_energy.hpp"
 
+#include "components/body_id.hpp"
+
 namespace cullet {
-namespace {
-
-bool is_dynamic(const Bodies& bodies, Row<Bodies> b) {
-    return b.exists() && static_cast<BodyKind>(bodies.kind[b]) == BodyKind::Dynamic;
-}
-
-}  // namespace
 
 double rigid_energy(const Bodies& bodies, Row<Bodies> body) {
     if (!is_dynamic(bodies, body)) return 0;  // nobody: a push of the game's

@@ -52,7 +52,7 @@ void close_energy_balance(Serial, Step step, ShellTables shells, const DamageCou
         energy_tolerance(step, balance.start, end) + (is_soft ? soft_tolerance(balance.start, end) : 0);
     if (balance.gain > allowed)
         faults.push(
-            {{}, 0, {}, "This frame made energy: more came out of it than went in (bodies/energy_balance.hpp)."});
+            {{}, 0, {}, "This frame made energy: more came out of it than went in (checks/energy_balance.hpp)."});
 }
 
 }  // namespace cullet

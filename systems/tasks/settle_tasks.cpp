@@ -8,10 +8,6 @@
 namespace cullet {
 namespace {
 
-bool is_dynamic(const Bodies& bodies, Row<Bodies> b) {
-    return b.exists() && static_cast<BodyKind>(bodies.kind[b]) == BodyKind::Dynamic;
-}
-
 void hold(Bodies& bodies, RigidWorld& rigid, Row<Bodies> b) {
     if (is_dynamic(bodies, b) && bodies.hold_count[b]++ == 0) rigid.hold(b);
 }

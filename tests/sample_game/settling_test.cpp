@@ -187,10 +187,11 @@ TEST_P(Settles, NearlyAllSleepFiveSecondsAfterTheLastBreakOrFallAndNoneMovesAfte
         GetParam().scene, GetParam().seed, static_cast<unsigned long long>(s.last_break), last_hit, first_still,
         s.asleep, s.pieces, s.moved, s.fallen_off);
     for (const std::string& line : s.awake) std::printf("%s\n", line.c_str());
-    // Heaps bear themselves. Under a fallen house a slab that bridges may not: of 631 breaks in demolition one.
+    // Heaps bear themselves. In demolition one of some 600 breaks was asked for by a load; nobody has looked at it.
     std::printf("  %u breaks asked for by loads\n", s.loads);
-    EXPECT_LE(s.loads, std::string(GetParam().scene) == "demolition" ? 5u : 1u);
-    // One in a hundred may rock on, and one of the castle's ten: a third of a tonne on a rounded side.
+    EXPECT_LE(s.loads, std::string(GetParam().scene) == "demolition" ? 1u : 0u);
+    // One in a hundred may rock on. Wanted: none of the castle's ten, of which a third of a tonne on a rounded side
+    // does.
     EXPECT_LE(s.pieces - s.asleep, std::max<size_t>(1, s.pieces / 100));
     EXPECT_EQ(s.moved, 0u);
     // Nothing is hit, so nothing may gain speed but by falling: a piece that stands on its edge tips over.
