@@ -1,11 +1,10 @@
-// What a step, a birth or a spawn has put behind a sheet comes back to its side: the whole body moves along the sheet's
+// What a step or a birth has put behind a sheet comes back to its side: the whole body moves along the sheet's
 // normal, until the inner points of its pieces (sides.hpp) are where they came from. Contacts and sweeps do all they
 // can first. What they cannot: shells that are thinner than one step's error, what a heap presses, what is born a
 // millimetre deep.
 #include <algorithm>
 
 #include "engine/bullet/bullet_world.hpp"
-#include "engine/bullet/closest_points.hpp"
 #include "engine/bullet/sides.hpp"
 #include "engine/rigid_allocations.hpp"
 
@@ -46,15 +45,6 @@ void keep_deepest(const Crossing& found, Vec3 place, uint32_t mesh, BulletWorld:
 }
 
 }  // namespace
-
-/// Calls call(mesh body) for static triangles near the box that the body meets.
-template <class Call>
-void BulletWorld::visit_meshes(const Body& body, const Box& box, Call call) const {
-    tree_.visit(box, [&](uint32_t id) {
-        const Body& other = bodies_[id];
-        if (other.mesh && body.meets_layer_of(other) && !is_ignored(body.id, id)) call(other);
-    });
-}
 
 // The deepest of a body's pieces on its way from where it stood. The tree names bodies in any order.
 BulletWorld::PutThrough BulletWorld::find_put_through(const Body& body) const {
@@ -150,20 +140,6 @@ Vec3 nearest_of(std::span<const Vec3> points, Vec3 place) {
 
 }  // namespace
 
-// Some piece of the body stands in a triangle of the mesh.
-bool BulletWorld::is_cut_by(const Body& body, const Body& mesh_body, PairScratch& scratch) const {
-    bool is_cut = false;
-    for (const Hull* hull = body.hulls; hull && !is_cut; hull = hull->next)
-        visit_triangles(*mesh_body.mesh, hull->world_box, [&](uint32_t t) {
-            if (is_cut) return;
-            build_triangle(scratch.triangle, mesh_body.mesh->triangles[t].corner, t);
-            const double margin = static_cast<double>(hull->margin);
-            const Closest closest = closest_points(hull->world, scratch.triangle.world, {}, margin);
-            is_cut = !closest.is_apart || closest.distance < margin;
-        });
-    return is_cut;
-}
-
 // A piece that has come off is on the side of the piece of its parent that was nearest.
 BulletWorld::PutThrough BulletWorld::find_born_through(const Body& body) const {
     PutThrough deepest;
@@ -174,24 +150,6 @@ BulletWorld::PutThrough BulletWorld::find_born_through(const Body& body) const {
             if (!has_triangles_near(*other.mesh, grown({to, to}, inner_reach_))) continue;
             const Vec3 from = nearest_of(inner_points_, to);
             keep_deepest(first_crossing(*other.mesh, from, to, clearance_at(to)), to, other.id, here);
-        }
-        if (here.depth > deepest.depth || (here.depth == deepest.depth && here.mesh < deepest.mesh)) deepest = here;
-    });
-    return deepest;
-}
-
-// What is put somewhere is on the side of its centre of mass, where a sheet cuts it. Where none does, a sheet between
-// its centre and a piece is one that it reaches around. `centre` is the one that it was put down with: a move out of
-// one sheet may take it through another.
-BulletWorld::PutThrough BulletWorld::find_laid_through(const Body& body, Vec3 centre) const {
-    PutThrough deepest;
-    Box box = body.shape.box;
-    include(box, centre);
-    visit_meshes(body, box, [&](const Body& other) {
-        PutThrough here;
-        for (const Hull* hull = body.hulls; hull; hull = hull->next) {
-            const Vec3 to = inner_point(*hull, body.fresh_at);
-            keep_deepest(first_crossing(*other.mesh, centre, to, clearance_at(to)), to, other.id, here);
         }
         if (here.depth > deepest.depth || (here.depth == deepest.depth && here.mesh < deepest.mesh)) deepest = here;
     });
@@ -228,19 +186,6 @@ void BulletWorld::settle_born(Body& body) {
     if (mesh_count_ == 0 || inner_points_.empty() || body.kind != RigidKind::Dynamic || body.is_soft) return;
     for (int move = 0; move < kFirstMoves; ++move) {
         const PutThrough put = find_born_through(body);
-        if (!(put.depth > 0)) return;
-        lift_new(body, put);
-    }
-}
-
-void BulletWorld::settle_laid(Body& body) {
-    if (mesh_count_ == 0 || body.kind != RigidKind::Dynamic || body.is_soft) return;
-    const Vec3 centre = from_bullet(body.bullet->getCenterOfMassPosition());
-    const PutThrough first = find_laid_through(body, centre);
-    if (!(first.depth > 0) || !is_cut_by(body, bodies_[first.mesh], scratches_.own())) return;
-    lift_new(body, first);
-    for (int move = 1; move < kFirstMoves; ++move) {
-        const PutThrough put = find_laid_through(body, centre);
         if (!(put.depth > 0)) return;
         lift_new(body, put);
     }

@@ -62,6 +62,7 @@ BulletWorld::BulletWorld(uint32_t body_limit)
     seams_.reserve(4 * static_cast<size_t>(body_limit) + 4096);
     lost_.reserve(4 * static_cast<size_t>(body_limit) + 4096);
     inner_points_.reserve(4 * static_cast<size_t>(body_limit) + 4096);
+    ways_.reserve(4096);
 }
 
 BulletWorld::~BulletWorld() {

@@ -3,6 +3,7 @@
 #include <atomic>
 #include <vector>
 
+#include "engine/bullet/body_ways.hpp"
 #include "engine/bullet/box_tree.hpp"
 #include "engine/bullet/contact_solver.hpp"
 #include "engine/bullet/pair_list.hpp"
@@ -172,12 +173,19 @@ class BulletWorld final : public RigidWorld {
     void limit_closing(float dt);
     void take_back_gravity(float dt);
     void integrate(float dt);
+    /// Calls call(mesh body) for static triangles near the box that the body meets.
     template <class Call>
-    void visit_meshes(const Body& body, const Box& box, Call call) const;
+    void visit_meshes(const Body& body, const Box& box, Call call) const {
+        tree_.visit(box, [&](uint32_t id) {
+            const Body& other = bodies_[id];
+            if (other.mesh && body.meets_layer_of(other) && !is_ignored(body.id, id)) call(other);
+        });
+    }
     PutThrough find_put_through(const Body& body) const;
     PutThrough find_born_through(const Body& body) const;
-    PutThrough find_laid_through(const Body& body, Vec3 centre) const;
-    bool is_cut_by(const Body& body, const Body& mesh_body, PairScratch& scratch) const;
+    bool find_cut_of(const Body& body, Vec3 from, Vec3 over, Vec3 to, Cut& cut) const;
+    uint32_t find_middle_piece(const Body& body, Vec3 centre) const;
+    bool may_be_cut(const Body& body, Vec3 centre) const;
     void move_by(Body& body, Vec3 way);
     void stop_at_sheet(Body& body, const PutThrough& put);
     void bring_back(Body& body);
@@ -221,6 +229,7 @@ class BulletWorld final : public RigidWorld {
     std::vector<Ball> lost_;          // pieces that the body at hand has lost, its hull frame
     std::vector<Vec3> inner_points_;  // of the pieces of what a body at hand comes from
     float inner_reach_ = 0;           // m, of the largest of these
+    BodyWays ways_;                   // of what is put down
     uint32_t mesh_count_ = 0;         // bodies with static triangles
     std::vector<RigidContact> contacts_;
     std::vector<RigidContact> loads_;                   // of the last solve

@@ -1,6 +1,7 @@
 #include "engine/bullet/sides.hpp"
 
 #include <algorithm>
+#include <tuple>
 
 namespace cullet::bullet {
 namespace {
@@ -40,14 +41,29 @@ void try_triangle(const StaticTriangle& triangle, bool one_sided, Vec3 from, Vec
     first = {share, (side * normal).to_float(), static_cast<float>(clear - after)};
 }
 
-// Exactly, so that of two triangles at an edge one is crossed.
-bool is_crossed(const StaticTriangle& triangle, Vec3d from, Vec3d to) {
+// On which side of an edge, between corners seen from `from`, a way passes. A way through the edge itself passes as one
+// that is turned by next to nothing, along x first: always the same, so that of two triangles at an edge, or of a fan
+// about a corner, one is crossed. The other way round every value is the negative to the last bit.
+bool is_left_of(Vec3d way, Vec3d a, Vec3d b) {
+    const Vec3d side = cross(a, b);
+    for (const double turned : {dot(way, side), side.x, side.y, side.z})
+        if (turned != 0) return turned < 0;
+    return std::tie(a.x, a.y, a.z) < std::tie(b.x, b.y, b.z);
+}
+
+/// The line through both places goes through the triangle.
+bool is_on_line(const StaticTriangle& triangle, Vec3d from, Vec3d to) {
     const Vec3d a = Vec3d(triangle.corner[0]) - from, b = Vec3d(triangle.corner[1]) - from,
-                c = Vec3d(triangle.corner[2]) - from, way = to - from, normal = cross(b - a, c - a);
-    const double start = -dot(normal, a), end = start + dot(normal, way);
-    if ((start < 0) == (end < 0)) return false;
-    const bool ab = dot(way, cross(a, b)) < 0, bc = dot(way, cross(b, c)) < 0, ca = dot(way, cross(c, a)) < 0;
+                c = Vec3d(triangle.corner[2]) - from, way = to - from;
+    const bool ab = is_left_of(way, a, b), bc = is_left_of(way, b, c), ca = is_left_of(way, c, a);
     return ab == bc && bc == ca;
+}
+
+bool is_crossed(const StaticTriangle& triangle, Vec3 from, Vec3 to) {
+    const Vec3d normal = normal_of(triangle);
+    const bool starts_behind = height_over(triangle, normal, from) < 0,
+               ends_behind = height_over(triangle, normal, to) < 0;
+    return starts_behind != ends_behind && is_on_line(triangle, Vec3d(from), Vec3d(to));
 }
 
 }  // namespace
@@ -79,7 +95,7 @@ bool is_hidden(const StaticMesh& mesh, uint32_t t, Vec3 from, Vec3 place) {
     include(box, to);
     bool is_odd = false;
     visit_triangles(mesh, box, [&](uint32_t k) {
-        if (k != t && is_crossed(mesh.triangles[k], Vec3d(from), Vec3d(to))) is_odd = !is_odd;
+        if (k != t && is_crossed(mesh.triangles[k], from, to)) is_odd = !is_odd;
     });
     return is_odd;
 }
@@ -96,6 +112,28 @@ Crossing first_crossing(const StaticMesh& mesh, Vec3 from, Vec3 to, float clear)
         first = found, lowest = t;
     });
     return first;
+}
+
+bool find_cut(const StaticMesh& mesh, Vec3 from, Vec3 over, Vec3 to, Cut& cut) {
+    Box box{from, from};
+    include(box, over), include(box, to);
+    bool is_cut = false;
+    uint32_t lowest = 0;
+    visit_triangles(mesh, box, [&](uint32_t t) {
+        if (is_cut && t > lowest) return;
+        const StaticTriangle& triangle = mesh.triangles[t];
+        const Vec3d normal = normal_of(triangle);
+        const double start = height_over(triangle, normal, from), end = height_over(triangle, normal, to);
+        const double side = start < 0 ? -1 : 1;
+        if (!(side * end < 0)) return;
+        // The plane is passed on one half of the way or on the other, at its middle on the second one.
+        const bool is_first = side * height_over(triangle, normal, over) < 0;
+        if (!is_on_line(triangle, Vec3d(is_first ? from : over), Vec3d(is_first ? over : to))) return;
+        is_cut = true, lowest = t;
+        cut = {triangle.corner[0], (side * normal).to_float(), !mesh.one_sided || side > 0,
+               !mesh.one_sided || side < 0};
+    });
+    return is_cut;
 }
 
 float clearance_at(Vec3 place) {

@@ -33,6 +33,16 @@ struct Crossing {
 /// triangle passes it, too, unless it led away from it.
 Crossing first_crossing(const StaticMesh& mesh, Vec3 from, Vec3 to, float clear);
 
+/// Where a sheet cuts a way: the plane of the triangle there, with its normal to the side that the way comes from.
+struct Cut {
+    Vec3 place, normal;
+    bool bears = true, bears_back = true;  // against who comes so, and the other way round: one-sided sheets do one
+};
+
+/// The way from one place over another one to a third ends on the other side of a triangle, that it goes through; the
+/// lowest one. A way that goes around the sheet, or comes back through it, is not cut.
+bool find_cut(const StaticMesh& mesh, Vec3 from, Vec3 over, Vec3 to, Cut& cut);
+
 /// m that inner points keep from triangles: more than what rounding moves them by at such a place, and much less than
 /// half of the thinnest piece.
 float clearance_at(Vec3 place);

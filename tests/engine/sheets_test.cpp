@@ -2,8 +2,10 @@
 // another number of pieces a rate; 20000 take a minute or two in Release.
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <cstdio>
 #include <cstdlib>
+#include <random>
 
 #include "tests/engine/rigid_scenes.hpp"
 #include "tests/support/pieces_on_sheets.hpp"
@@ -142,6 +144,75 @@ TEST(Sheets, WhatReachesAroundTheEdgeOfASheetStaysWhereItIsPut) {
     EXPECT_EQ(at.y, 0);
     for (int k = 0; k < 30; ++k) step(*world);
     EXPECT_LT(length(world->pose(1).position), 0.001f);
+}
+
+/// A table whose boards and legs are cut into boxes, and a level of one ground and one fence.
+struct LaidTable {
+    Vec3 half;  // of the table
+    uint32_t boxes_a_leg = 1;
+    float sunk = 0, fence_height = 0, fence_at = 0, turn = 0;
+};
+
+RigidDescription table_of(const LaidTable& table, std::vector<std::vector<Vec3>>& cells,
+                          std::vector<ConvexPiece>& pieces) {
+    cells.clear(), pieces.clear();
+    const float thin = 0.025f, gap = 0.003f, tall = 2 * table.half.y - 2 * thin, box = tall / real(table.boxes_a_leg);
+    cells.push_back(box_points({table.half.x, thin - gap, table.half.z}, {0, 2 * table.half.y - thin, 0}));
+    for (int leg = 0; leg < 4; ++leg)
+        for (uint32_t k = 0; k < table.boxes_a_leg; ++k) {
+            const Vec3 at{(leg & 1 ? 1.0f : -1.0f) * (table.half.x - thin), (real(k) + 0.5f) * box,
+                          (leg & 2 ? 1.0f : -1.0f) * (table.half.z - thin)};
+            cells.push_back(box_points({thin - gap, 0.5f * box - gap, thin - gap}, at));
+        }
+    for (const auto& cell : cells) pieces.push_back({cell, static_cast<uint32_t>(pieces.size())});
+    RigidDescription d;
+    d.pieces = pieces;
+    d.margin = gap;
+    d.mass = 20;
+    d.inertia = {3, 3, 3};
+    d.centre = {0, 1.4 * static_cast<double>(table.half.y), 0};
+    d.pose = {{0, -table.sunk, 0}, {0, std::sin(0.5f * table.turn), 0, std::cos(0.5f * table.turn)}};
+    return d;
+}
+
+void add_fenced_ground(RigidWorld& world, const LaidTable& table, bool is_joined, bool is_apart) {
+    const float x = table.fence_at, high = table.fence_height;
+    const auto turned = [&](Vec3 p) {
+        return rotate({0, std::sin(0.5f * table.turn), 0, std::cos(0.5f * table.turn)}, p);
+    };
+    std::vector<Vec3> corners{{-3, 0, -3}, {-3, 0, 3}, {3, 0, 3}, {3, 0, -3}};
+    std::vector<std::array<uint32_t, 3>> ground{{0, 1, 2}, {0, 2, 3}}, fence{{4, 5, 6}, {4, 6, 7}};
+    if (is_joined) ground = {{0, 1, 5}, {0, 5, 4}, {5, 2, 3}, {5, 3, 4}};  // the fence stands on edges of the ground
+    corners.insert(corners.end(), {{x, 0, -3}, {x, 0, 3}, {x, high, 3}, {x, high, -3}});
+    for (Vec3& corner : corners) corner = turned(corner);
+    if (is_apart)
+        world.add_static_triangles(1, corners, fence, 0.5f, 0, 1, ~0u);
+    else
+        ground.insert(ground.end(), fence.begin(), fence.end());
+    world.add_static_triangles(0, corners, ground, 0.5f, 0, 1, ~0u);
+}
+
+TEST(Sheets, ATableThatIsPutDownTooDeepOverAFenceRisesAndDoesNotGoAside) {
+    std::mt19937 random(5);
+    const auto between = [&](float low, float high) { return low + (high - low) * real(random() % 10000) / 10000; };
+    for (int k = 0; k < 300; ++k) {
+        LaidTable table{{between(0.3f, 1), between(0.2f, 0.6f), between(0.3f, 1)}, 1 + k % 5 * 2u};
+        table.sunk = between(0.01f, 0.6f) * table.half.y;
+        table.fence_height = between(0.05f, 0.9f) * (2 * table.half.y - 0.05f - table.sunk);
+        table.fence_at = between(-0.9f, 0.9f) * (table.half.x - 0.06f);
+        table.turn = between(-3, 3);
+        auto world = make_bullet_world(8);
+        add_fenced_ground(*world, table, k % 3 == 0, k % 3 == 1);
+        std::vector<std::vector<Vec3>> cells;
+        std::vector<ConvexPiece> pieces;
+        world->add(2, table_of(table, cells, pieces));
+        const Vec3 at = world->pose(2).position;
+        ASSERT_LT(std::hypot(at.x, at.z), 1e-5f) << k;
+        ASSERT_GE(at.y, -table.sunk - 1e-6f) << k;
+        ASSERT_LT(at.y, 0.001f) << k;
+        const float first_middle = 0.5f * (2 * table.half.y - 0.05f) / real(table.boxes_a_leg);
+        ASSERT_GE(at.y + first_middle, 0) << k;
+    }
 }
 
 TEST(Sheets, TrianglesWithoutAreaAndRepeatedOnesAreCounted) {
