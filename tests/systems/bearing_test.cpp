@@ -3,6 +3,7 @@
 
 #include <cstdarg>
 #include <cstdio>
+#include <cstdlib>
 #include <random>
 
 #include "sample_game/game_world.hpp"
@@ -197,13 +198,17 @@ constexpr Kind kKinds[] = {{"Shelf", shelf_case, 1.5},
                            {"OnLooseBlocks", blocks_case, 1.5},
                            {"Growing", growing_case, 3}};
 constexpr uint32_t kCases = 14;  // of each kind, that stand and that break
+uint32_t cases() {
+    const char* asked = std::getenv("CULLET_BEARING_CASES");
+    return asked ? static_cast<uint32_t>(std::atoi(asked)) : kCases;
+}
 
 class Bearing : public testing::TestWithParam<std::tuple<Kind, bool>> {};
 
 TEST_P(Bearing, StandsBelowAHalfAndBreaksAboveOneAndAHalf) {
     const auto& [kind, breaks] = GetParam();
     uint32_t wrong = 0;
-    for (uint32_t seed = 1; seed <= kCases; ++seed) {
+    for (uint32_t seed = 1; seed <= cases(); ++seed) {
         Draw draw(1000 * seed + static_cast<uint32_t>(kind.name[0]));
         const Case of = kind.of(draw, breaks);
         const double rate = draw.of(kRates);
@@ -313,7 +318,7 @@ class SlowClosing : public testing::TestWithParam<ClosingKind> {};
 // frames.
 TEST_P(SlowClosing, BreaksBeforeAnythingIsDeepInIt) {
     uint32_t wrong = 0;
-    for (uint32_t seed = 1; seed <= kCases; ++seed) {
+    for (uint32_t seed = 1; seed <= cases(); ++seed) {
         Draw draw(77 * seed + static_cast<uint32_t>(GetParam().name[0]));
         const Closing of = GetParam().of(draw);
         const double rate = draw.of(kRates), seconds = (of.gap + of.size / 15) / of.speed + 0.25;

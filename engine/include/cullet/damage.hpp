@@ -46,9 +46,9 @@ struct ExplosionSettings {
 /// `direction` both ways without end. The first point again as the last closes the line: it cuts a shape out. An open
 /// line ends the cut at its ends: what is not cut through is a crack there, from which the next hit goes on.
 ///
-/// The wall comes apart exactly along the surface where elements may be split (not into slivers), else along
-/// their edges nearest to it. Nothing moves by it: pieces go on with the motion of the body. While
-/// the world has no room for the cut body (RefusedEvent says which limit) the cut waits.
+/// The wall comes apart exactly along the surface, or along edges where splitting makes slivers and is off by less than
+/// a twentieth of the smaller part's reach; walls are not split into thinner ones. Nothing moves by it: pieces go on
+/// with the motion of the body. Without room for the cut body in the world (RefusedEvent says which limit) it waits.
 struct CutSettings {
     Vec3 place;                    // world, m
     Vec3 normal{0, 1, 0};          // world, unit, of the plane

@@ -17,24 +17,38 @@ constexpr float kFlat = 0.05f;  // sine of the angle under which a surface count
 // At an edge with a pinned end: how near to it a vertex is put, and the share of C5's limits on the shape that holds. A
 // narrow strip along the pins hangs on; beyond these it counts as nothing, and all that is cut off falls.
 constexpr float kSnapAtPins = 0.05f, kShapeAtPins = 0.2f;
+// Of how far the smaller part reaches: so far from the surface an end of an edge may lie that is taken for it. Doubled,
+// masses are off by a tenth where triangles are large; halved, fine meshes get slivers.
+constexpr float kMayBeOff = 0.05f;
+// Share of C5's limits on the shape where no end is near enough.
+constexpr float kShapeElse = 1e-4f;
 // Of the mean edge: vertices that are put on the surface lie on it by rounding.
 constexpr float kOnSurface = 1e-3f;
 // Of an edge: so far beyond the cut a box has to reach to hold that side. One that ends at the cut does not.
 constexpr float kBeyond = 0.01f;
 
+/// Of an edge.
+struct Crossing {
+    float tau = 0;  // share of its length; 0: it does not cross
+    float off = 0;  // m, of its nearer end from the surface
+};
+
 struct Cutting {
     ShellView shell;
     const CutSurface& surface;
-    Range pins;  // of PinBoxes
+    Range pins;        // of PinBoxes
+    float layer;       // share of the way through the wall where the surface is looked for
+    float may_be_off;  // m, of a vertex that is taken for one on the surface
     CutReport report;
     Touched touched;
 
     State& state() const { return shell.state; }
-    CutSide side_of(uint32_t vertex) const { return surface.side(middle_of_wall(shell, vertex)); }
+    Vec3 place_of(uint32_t vertex) const { return place_in_wall(shell, vertex, layer); }
+    CutSide side_of(uint32_t vertex) const { return surface.side(place_of(vertex)); }
 
     Vec3 middle_of(uint32_t element) const {
         Vec3 sum;
-        for (const uint32_t v : state().elements.corner[shell.element(element)]) sum += middle_of_wall(shell, v);
+        for (const uint32_t v : state().elements.corner[shell.element(element)]) sum += place_of(v);
         return (1.0f / 3) * sum;
     }
     bool is_left(uint32_t element) const { return surface.side(middle_of(element)).distance >= 0; }
@@ -46,22 +60,34 @@ struct Cutting {
         return is_pinned[shell.vertex(corner[k])] != is_pinned[shell.vertex(corner[(k + 1) % 3])];
     }
 
-    /// Where edge k of the element crosses the surface, as a share of its length, or 0. Signs also change half way
-    /// between two arms of a line, far from both: there the distances add up to more than the edge is long.
-    float crossing(uint32_t element, uint32_t k) const {
+    /// Where edge k of the element crosses the surface.
+    Crossing crossing(uint32_t element, uint32_t k) const {
         const auto& corner = state().elements.corner[shell.element(element)];
         const uint32_t p = corner[k], q = corner[(k + 1) % 3];
         const CutSide a = side_of(p), b = side_of(q);
-        if ((a.distance >= 0) == (b.distance >= 0)) return 0;
-        const float both = std::fabs(a.distance) + std::fabs(b.distance);
-        const Vec3 from = middle_of_wall(shell, p), to = middle_of_wall(shell, q);
+        if ((a.distance >= 0) == (b.distance >= 0)) return {};
+        const float off_a = std::fabs(a.distance), off_b = std::fabs(b.distance), both = off_a + off_b;
+        const Vec3 from = place_of(p), to = place_of(q);
         const float edge = length(to - from);
-        // An edge that lies in the surface but for a few degrees is opened as it is.
-        if (both < kFlat * edge || both > 1.001f * edge) return 0;
-        const float tau = std::fabs(a.distance) / both;
-        return surface.side(from + tau * (to - from)).is_beside ? tau : 0;
+        // An edge that lies in the surface but for a few degrees is opened as it is. Signs also change half way between
+        // two arms of a line, far from both: there the distances add up to more than the edge is long.
+        if ((both < kFlat * edge && both <= may_be_off) || both > 1.001f * edge) return {};
+        const float tau = surface.is_plane() ? off_a / both : surface.crossing(from, to);
+        const CutSide at = surface.side(from + tau * (to - from));
+        if (!at.is_beside || std::fabs(at.distance) > kOnSurface * edge) return {};
+        return {tau, std::min(off_a, off_b)};
     }
 };
+
+// Whether a vertex is to be put there.
+bool is_wanted(const Cutting& cutting, uint32_t element, uint32_t k, const Crossing& at, bool& is_full) {
+    if (!(at.tau > 0)) return false;
+    const bool is_at_pins = cutting.is_at_pins(element, k), is_near = at.off <= cutting.may_be_off;
+    const float snap = is_at_pins ? kSnapAtPins : is_near ? kSnap : 0;
+    if (is_near && (at.tau <= snap || at.tau >= 1 - snap)) return false;
+    const float share = is_near ? (is_at_pins ? kShapeAtPins : 1) : kShapeElse;
+    return can_insert(cutting.shell, element, k, at.tau, is_full, share);
+}
 
 // Elements that an insertion makes stand at the end and are looked at in turn. Half of the spare vertices are for the
 // copies that the cut itself needs, one a vertex on it.
@@ -71,13 +97,10 @@ void insert_vertices(Cutting& cutting) {
     for (uint32_t e = 0; e < shell.element_count(); ++e) {
         if (cutting.state().elements.flags[shell.element(e)] & kDead) continue;
         for (uint32_t k = 0; k < 3;) {
-            const float tau = cutting.crossing(e, k);
+            const Crossing at = cutting.crossing(e, k);
             bool is_full = false;
-            const bool is_at_pins = cutting.is_at_pins(e, k);
-            const float snap = is_at_pins ? kSnapAtPins : kSnap;
-            if (tau > snap && tau < 1 - snap && shell.vertex_count() < most &&
-                can_insert(shell, e, k, tau, is_full, is_at_pins ? kShapeAtPins : 1)) {
-                insert_vertex(shell, e, k, tau, cutting.touched);
+            if (shell.vertex_count() < most && is_wanted(cutting, e, k, at, is_full)) {
+                insert_vertex(shell, e, k, at.tau, cutting.touched);
                 cutting.touched.clear();
                 ++cutting.report.inserted;
                 k = 0;  // its corners are others now
@@ -96,7 +119,7 @@ bool comes_apart(const Cutting& cutting, uint32_t element, uint32_t k) {
     if (other == kNone || cutting.is_left(element) == cutting.is_left(other)) return false;
     if (cutting.surface.is_plane()) return true;
     const auto& corner = cutting.state().elements.corner[shell.element(element)];
-    const Vec3 from = middle_of_wall(shell, corner[k]), to = middle_of_wall(shell, corner[(k + 1) % 3]);
+    const Vec3 from = cutting.place_of(corner[k]), to = cutting.place_of(corner[(k + 1) % 3]);
     const CutSide middle = cutting.surface.side(0.5f * (from + to));
     return middle.is_beside && std::fabs(middle.distance) <= length(to - from);
 }
@@ -213,7 +236,8 @@ void pin_along_cut(Cutting& cutting) {
 }  // namespace
 
 CutReport cut_shell(ShellView shell, const CutSurface& surface, Range pins, const CutRepair& repair) {
-    Cutting cutting{shell, surface, pins, {}, Touched(repair)};
+    const CutReach reach = reach_of(shell, surface);
+    Cutting cutting{shell, surface, pins, reach.layer, kMayBeOff * reach.smaller(), {}, Touched(repair)};
     Shells& shells = shell.shells();
     shells.packs[shell.row].count = shells.blocks[shell.row].count = shells.links[shell.row].count = 0;
     insert_vertices(cutting);

@@ -6,11 +6,15 @@
 
 namespace cullet {
 
-/// Halfway between the outer surface and the inner twin, rest shape: where the surface of a cut is looked for.
-inline Vec3 middle_of_wall(const ShellView& shell, uint32_t vertex) {
+/// At a share of the way from the outer surface to the inner twin, rest shape.
+inline Vec3 place_in_wall(const ShellView& shell, uint32_t vertex, float share) {
     const Vertices& vertices = shell.state.vertices;
     const uint32_t row = shell.vertex(vertex);
-    return vertices.rest[row] + (0.5f * vertices.depth[row]) * vertices.inward[row];
+    return vertices.rest[row] + (share * vertices.depth[row]) * vertices.inward[row];
+}
+/// Halfway: where the surface of a cut is looked for, unless it runs between that and the outer surface alone.
+inline Vec3 middle_of_wall(const ShellView& shell, uint32_t vertex) {
+    return place_in_wall(shell, vertex, 0.5f);
 }
 
 struct CutReport {
@@ -20,11 +24,13 @@ struct CutReport {
     bool is_full = false;       // there was no room for all: what was cut stays cut
 };
 
-/// Puts vertices where edges cross the surface, if C5's limits on the shape allow it and not within kSnap of an end;
-/// then opens every edge between two elements whose middles lie on different sides, and gives every fan its vertex.
-/// What ends inside of the wall is a crack tip. `pins`: the body's boxes; a vertex at the cut stands for where the cut
-/// runs on the side that its elements are on, and is pinned when a box holds that place. Needs no stiffness, and lets
-/// go of what the shell has assembled: a later hit assembles it anew. O(elements).
+/// Puts vertices where edges cross the surface. Within kSnap of an end, or where C5's limits on the shape forbid it, an
+/// end is as good, but only if it lies near to the surface, seen from the smaller part: large triangles are parted
+/// where the cut says, into slivers if need be. Then opens every edge between two elements whose middles lie on
+/// different sides, and gives every fan its vertex. What ends inside of the wall is a crack tip. `pins`: the body's
+/// boxes; a vertex at the cut stands for where the cut runs on the side that its elements are on, and is pinned when a
+/// box holds that place. Needs no stiffness, and lets go of what the shell has assembled: a later hit assembles it
+/// anew. O(elements).
 CutReport cut_shell(ShellView shell, const CutSurface& surface, Range pins, const CutRepair& repair);
 
 }  // namespace cullet

@@ -5,6 +5,35 @@
 #include "systems/structures/shell/cut_shell.hpp"
 
 namespace cullet {
+namespace {
+
+// Of the mean edge: what is nearer lies on the surface, and on no side of it.
+constexpr float kOnSurface = 1e-3f;
+// That find where an edge crosses a line.
+constexpr int kHalvings = 24;
+// Layers of the wall, and the share of the outer one's reach below which the middle is not looked at.
+constexpr float kMiddle = 0.5f, kOuter = 0, kMassive = 0.5f;
+
+// Not at a border: the outer ends of what was cut lean over the cut.
+bool is_inside(ShellView shell, uint32_t vertex) {
+    Ring ring;
+    walk_ring(shell, vertex, ring);
+    return ring.is_closed;
+}
+
+CutReach reach_in(ShellView shell, const CutSurface& surface, float layer) {
+    CutReach reach;
+    reach.layer = layer;
+    for (uint32_t v = 0; v < shell.vertex_count(); ++v) {
+        if (shell.state.vertices.element[shell.vertex(v)] == kNone) continue;
+        const float distance = surface.side(place_in_wall(shell, v, layer)).distance;
+        float& most = distance > 0 ? reach.left : reach.right;
+        if (std::fabs(distance) > most && (layer == kMiddle || is_inside(shell, v))) most = std::fabs(distance);
+    }
+    return reach;
+}
+
+}  // namespace
 
 CutSurface::CutSurface(const Blows& blows, uint32_t row)
     : place_(blows.point[row]), normal_(blows.direction[row]), count_(blows.point_count[row]) {
@@ -59,18 +88,23 @@ CutSide CutSurface::side(Vec3 place) const {
     return found;
 }
 
-bool passes_through(ShellView shell, const CutSurface& surface) {
-    // What lies on the surface, a cut edge before all, is on no side of it.
-    const float least = 1e-3f * shell.shells().mean_edge[shell.row];
-    bool is_left = false, is_right = false;
-    for (uint32_t v = 0; v < shell.vertex_count(); ++v) {
-        if (shell.state.vertices.element[shell.vertex(v)] == kNone) continue;
-        const CutSide side = surface.side(middle_of_wall(shell, v));
-        is_left = is_left || side.distance > least;
-        is_right = is_right || side.distance < -least;
-        if (is_left && is_right) return true;
+float CutSurface::crossing(Vec3 from, Vec3 to) const {
+    const bool is_left = side(from).distance >= 0;
+    float low = 0, high = 1;
+    for (int i = 0; i < kHalvings; ++i) {
+        const float middle = 0.5f * (low + high);
+        ((side(from + middle * (to - from)).distance >= 0) == is_left ? low : high) = middle;
     }
-    return false;
+    return 0.5f * (low + high);
+}
+
+CutReach reach_of(ShellView shell, const CutSurface& surface) {
+    const CutReach middle = reach_in(shell, surface, kMiddle), outer = reach_in(shell, surface, kOuter);
+    return middle.smaller() < kMassive * outer.smaller() ? outer : middle;
+}
+
+bool passes_through(ShellView shell, const CutSurface& surface) {
+    return reach_of(shell, surface).smaller() > kOnSurface * shell.shells().mean_edge[shell.row];
 }
 
 }  // namespace cullet

@@ -17,6 +17,8 @@ class CutSurface {
     /// Signed distance. Of a polyline: to its nearest segment; at a corner both share the sign of the one that the
     /// place lies more squarely to, so that the sign is that of the side (Baerentzen and Aanaes 2005, in the plane).
     CutSide side(Vec3 place) const;
+    /// Share of the way between two places on different sides where the sign changes.
+    float crossing(Vec3 from, Vec3 to) const;
     bool is_plane() const { return count_ == 0; }
 
  private:
@@ -31,8 +33,18 @@ class CutSurface {
     Point points_[kMostCutPoints];
 };
 
-/// Whether some vertices of the shell lie on one side and some on the other, beside the surface and not beyond its
-/// ends.
+/// How far the shell goes to either side of a surface, m.
+struct CutReach {
+    float left = 0, right = 0;
+    float layer = 0.5f;  // share of the way inward through the wall
+    float smaller() const { return left < right ? left : right; }
+};
+/// In the middle of the wall; or at its outer side, when in the middle less than half as much is beyond the surface:
+/// close to the end of what is massive. Seen from the outer side, borders do not count.
+CutReach reach_of(ShellView shell, const CutSurface& surface);
+
+/// Whether some vertices of the shell lie on one side and some on the other. What lies on the surface, a cut edge
+/// before all, is on no side of it.
 bool passes_through(ShellView shell, const CutSurface& surface);
 
 }  // namespace cullet
