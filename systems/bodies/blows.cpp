@@ -58,6 +58,12 @@ void close_blows(Blows& blows, Bodies& bodies, const Tasks& tasks, RigidWorld& r
     }
 }
 
+bool has_waiting_cut(const Blows& blows, Row<Bodies> body) {
+    for (uint32_t b = 0; b < blows.size(); ++b)
+        if (blows.body[b] == body && blows.task[b] == kNone && is_kind(blows, b, BlowKind::Cut)) return true;
+    return false;
+}
+
 bool has_explosion(const Blows& blows, Row<Tasks> task) {
     for (uint32_t b = 0; b < blows.size(); ++b)
         if (blows.task[b] == task.index && is_kind(blows, b, BlowKind::Explosion)) return true;

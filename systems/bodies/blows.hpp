@@ -28,6 +28,9 @@ void pay_blows(Blows& blows, Bodies& bodies, RigidWorld& rigid, DamageCounts& co
 void close_blows(Blows& blows, Bodies& bodies, const Tasks& tasks, RigidWorld& rigid, DamageCounts& counts,
                  Row<Tasks> task);
 
+/// A cut of the body that no task has: it goes before hits. What is struck in every frame would never come to it.
+bool has_waiting_cut(const Blows& blows, Row<Bodies> body);
+
 bool has_explosion(const Blows& blows, Row<Tasks> task);
 
 /// N s, body axes, that explosions gave to the task's run and that nobody has been paid for; from now on they count as

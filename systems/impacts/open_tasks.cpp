@@ -1,6 +1,7 @@
 #include <algorithm>
 
 #include "components/body_id.hpp"
+#include "systems/bodies/blows.hpp"
 #include "systems/bodies/thresholds.hpp"
 #include "systems/impacts/open_ahead.hpp"
 #include "systems/impacts/open_blows.hpp"
@@ -140,13 +141,14 @@ void open_queued_of(uint64_t frame, Opening& opening, const DamageSettings& sett
         if (!queued.is_used[q] || queued.frame[q] != frame) continue;
         const Row<Bodies> body = queued.body[q];
         if (bodies.task[body] != kNone || opening.frame < bodies.retry_frame[body] || bodies.hold_count[body]) continue;
+        if (has_waiting_cut(state.blows, body)) continue;
         if (may_break_again(state.shells, bodies.shell[body], settings)) {
-            const bool is_snap = queued.load[q] > 0 && !(queued.approach_speed[q] > 0);
-            if (is_snap && open_snap(opening, q, impact_events)) {
+            const bool snaps = is_snap(queued.load[q], queued.approach_speed[q]);
+            if (snaps && open_snap(opening, q, impact_events)) {
                 queued.clear_rows(q, 1);
                 continue;
             }
-            const Row<Tasks> task = is_snap ? Row<Tasks>{} : opening.open(body, queued.approach_speed[q]);
+            const Row<Tasks> task = snaps ? Row<Tasks>{} : opening.open(body, queued.approach_speed[q]);
             if (task.exists()) {
                 lay_queued(state, task, q);
                 const Pose pose = pose_of(bodies, body);
@@ -193,7 +195,7 @@ void open_tasks(Serial, Step step, const Events<Impact>& impacts, const Events<F
         const ImpactEvent event =
             event_of(bodies, first, yielding_of(bodies, first.striker, first.point, first.normal).effective());
         if (settings.allows && !settings.allows(settings.allows_user, event)) continue;
-        if (bodies.task[body] != kNone || !has_free_task(state.tasks)) {
+        if (bodies.task[body] != kNone || !has_free_task(state.tasks) || has_waiting_cut(state.blows, body)) {
             queue_hits(all.subspan(i, next - i), state, step.frame, refused);
             continue;
         }

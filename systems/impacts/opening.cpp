@@ -25,6 +25,13 @@ Vec3 velocity_at(const Bodies& bodies, Row<Bodies> b, Vec3 point) {
     return bodies.velocity[b] + cross(bodies.spin[b], point - centre);
 }
 
+// Of two that one striker owes a body the faster is enough. A snap goes before all: what closes slowly on a cracked
+// body strikes it anew in each frame, without breaking it.
+bool goes_before(float load, float speed, float load_of_other, float speed_of_other) {
+    if (is_snap(load_of_other, speed_of_other)) return false;
+    return is_snap(load, speed) || speed > speed_of_other;
+}
+
 }  // namespace
 
 Yielding yielding_of(const Bodies& bodies, Row<Bodies> striker, Vec3 point, Vec3 normal) {
@@ -234,7 +241,8 @@ bool queue_hit(State& state, const QueuedHit& hit) {
         else if (queued.body[q] == hit.body && queued.striker[q] == hit.striker)
             found = q;
     }
-    if (found != kNone && queued.approach_speed[found] >= hit.approach_speed) return true;
+    if (found != kNone && !goes_before(hit.load, hit.approach_speed, queued.load[found], queued.approach_speed[found]))
+        return true;
     const uint32_t q = found != kNone ? found : free;
     if (q == kNone) return false;
     queued.is_used[q] = 1;

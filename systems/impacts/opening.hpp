@@ -58,7 +58,12 @@ struct Opening {
     void drop(Row<Tasks> task, const char* full);
 };
 
-/// A hit waits in the queue for its body. At most one a striker: the faster. False: there is no room in it.
+/// What stands in the queue without speed, for a load: it cuts its body.
+inline bool is_snap(float load, float approach_speed) {
+    return load > 0 && !(approach_speed > 0);
+}
+/// A hit waits in the queue for its body. At most one a striker: the faster, or one that snaps it. False: there is no
+/// room in it.
 bool queue_hit(State& state, const QueuedHit& hit);
 
 }  // namespace cullet
