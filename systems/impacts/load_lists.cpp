@@ -20,9 +20,16 @@ bool stands(const Bodies& bodies, Row<Bodies> b) {
     return !yields(bodies, b) || bodies.is_asleep[b];
 }
 
-// m/s, of who is driven; what stands still or sleeps has none.
+bool is_driven(const Bodies& bodies, Row<Bodies> b) {
+    return b.exists() && static_cast<BodyKind>(bodies.kind[b]) == BodyKind::Kinematic;
+}
+
+// m/s and rad/s, of who is driven; what stands still or sleeps has none.
+Vec3 spin_of(const Bodies& bodies, Row<Bodies> b) {
+    return is_driven(bodies, b) ? bodies.spin[b] : Vec3{};
+}
 Vec3 velocity_at(const Bodies& bodies, Row<Bodies> b, Vec3 point) {
-    if (!b.exists() || static_cast<BodyKind>(bodies.kind[b]) != BodyKind::Kinematic) return {};
+    if (!is_driven(bodies, b)) return {};
     const Vec3 centre = to_world(pose_of(bodies, b), bodies.centre[b].to_float());
     return bodies.velocity[b] + cross(bodies.spin[b], point - centre);
 }
@@ -47,18 +54,24 @@ LoadLists::LoadLists(Bodies& bodies, std::span<const RigidContact> contacts, Are
     }
 }
 
-// Who cannot be pushed further against `push` (world) by `from`: it sleeps or does not yield, or such a one is behind.
-void LoadLists::look_behind(Row<Bodies> body, Row<Bodies> from, Vec3 push, uint32_t& looks, Behind& behind) const {
+void LoadLists::Behind::meet(const Bodies& bodies, Row<Bodies> other) {
+    const float at = dot(velocity_at(bodies, other, place), push);
+    if (stands && at <= speed) return;
+    who = other;
+    stands = true;
+    speed = at;
+}
+
+// Who cannot be pushed further against the push by `from`: it sleeps or does not yield, or such a one is behind.
+void LoadLists::look_behind(Row<Bodies> body, Row<Bodies> from, uint32_t& looks, Behind& behind) const {
     for (uint32_t entry = bodies_.first_load[body]; entry != kNone; entry = next_[entry]) {
         if (++looks > kMostLooks) return;
         const Impact as = impact_of(contacts_[entry / 2], static_cast<int>(entry & 1));
-        if (as.striker == from || dot(as.normal, push) < kBehind) continue;
-        if (stands(bodies_, as.striker)) {
-            behind.stands = true;
-            behind.speed = std::max(behind.speed, dot(velocity_at(bodies_, as.striker, as.point), push));
-        } else {
-            look_behind(as.striker, body, push, looks, behind);
-        }
+        if (as.striker == from || dot(as.normal, behind.push) < kBehind) continue;
+        if (stands(bodies_, as.striker))
+            behind.meet(bodies_, as.striker);
+        else
+            look_behind(as.striker, body, looks, behind);
     }
 }
 
@@ -67,17 +80,28 @@ BodyLoad LoadLists::load_of(uint32_t entry, float dt) const {
     const Impact as = impact_of(c, static_cast<int>(entry & 1));
     const Pose pose = pose_of(bodies_, as.body);
     const Row<Bodies> other = as.striker;
+    const auto in_body_axes = [&](Vec3 v) { return Vec3d(rotate(conjugate(pose.orientation), v)); };
     BodyLoad l;
     l.contact = entry / 2;
     l.place = Vec3d(to_body(pose, as.point)) - bodies_.centre[as.body];
-    l.push = Vec3d(rotate(conjugate(pose.orientation), as.normal));
+    l.push = in_body_axes(as.normal);
     l.force = c.impulse / dt;
+    l.depth = -c.distance;
     l.stands = !yields(bodies_, other);
-    Behind behind{stands(bodies_, other), dot(velocity_at(bodies_, other, as.point), as.normal)};
+    Behind behind;
+    behind.place = as.point;
+    behind.push = as.normal;
     uint32_t looks = 0;
-    if (!behind.stands) look_behind(other, as.body, as.normal, looks, behind);
+    if (stands(bodies_, other))
+        behind.meet(bodies_, other);
+    else
+        look_behind(other, as.body, looks, behind);
     l.is_backed = behind.stands;
-    l.driven_speed = behind.stands ? behind.speed : 0;
+    if (!behind.stands) return l;
+    const Vec3 centre = to_world(pose, bodies_.centre[as.body].to_float());
+    l.driven_speed = behind.speed;
+    l.velocity = in_body_axes(velocity_at(bodies_, behind.who, centre));
+    l.spin = in_body_axes(spin_of(bodies_, behind.who));
     return l;
 }
 

@@ -21,10 +21,14 @@ class LoadLists {
  private:
     BodyLoad load_of(uint32_t entry, float dt) const;
     struct Behind {
-        bool stands = false;
-        float speed = -1e30f;  // m/s, of the fastest, along the push towards `from`
+        Row<Bodies> who;       // the fastest that stands there; none: nobody does
+        bool stands = false;   // somebody does
+        float speed = -1e30f;  // m/s, of it at `place` along `push`
+        Vec3 place, push;      // of the load: world
+
+        void meet(const Bodies& bodies, Row<Bodies> other);
     };
-    void look_behind(Row<Bodies> body, Row<Bodies> from, Vec3 push, uint32_t& looks, Behind& behind) const;
+    void look_behind(Row<Bodies> body, Row<Bodies> from, uint32_t& looks, Behind& behind) const;
     void share_what_is_missing(std::span<BodyLoad> loads, Row<Bodies> body, float dt) const;
     Row<Bodies> toucher(uint32_t entry) const {
         const RigidContact& c = contacts_[entry / 2];

@@ -5,14 +5,15 @@
 
 #include "engine/principal_axes.hpp"
 #include "systems/impacts/balance.hpp"
+#include "systems/impacts/closing.hpp"
 
 namespace cullet {
 namespace {
 
 // A body that has cracks bears half, as for blows (kWakeShare).
 constexpr double kCrackedShare = 0.5;
-// Below it two that close on a body stand still, m/s; opposite to each other is what is within 37 degrees of it.
-constexpr double kDrivenSpeed = 1e-3, kOpposite = -0.8;
+// Whoever lies deeper in it, as a share of its wall and of its size, closes on it however slowly it comes.
+constexpr double kDeepInWall = 0.1, kDeepInAll = 0.01;
 // What falls and lands is stopped by contacts on one side for some steps, and is no beam under a load: in a heap that
 // comes down slabs broke once more. Of a load the other contacts bear all but the body's own weight.
 constexpr double kBalancedShare = 0.3;
@@ -54,40 +55,6 @@ void squeeze(bool is_pinned, std::span<const BodyLoad> loads, double borne, Over
         const double force = s.squeeze();
         worst.load = std::max(worst.load, force);
         if (force > worst.share * borne) worst.share = force / borne;
-    }
-}
-
-// From opposite sides.
-bool are_closing(bool is_pinned, const BodyLoad& driver, std::span<const BodyLoad> loads, bool is_direct) {
-    if (is_pinned) return true;
-    return std::any_of(loads.begin(), loads.end(), [&](const BodyLoad& l) {
-        return (is_direct ? l.stands : l.is_backed) && dot(driver.push, l.push) < kOpposite &&
-               driver.driven_speed + l.driven_speed > kDrivenSpeed;
-    });
-}
-
-// A push of the driver's is balanced by those that stand and do not make way.
-bool has_no_way_out(const BodyLoad& driver, std::span<const BodyLoad> loads, double reach, std::span<BodyLoad> room) {
-    if (room.size() < loads.size()) return false;
-    uint32_t count = 0;
-    for (const BodyLoad& l : loads) {
-        if (&l == &driver || !l.is_backed || l.driven_speed < -kDrivenSpeed) continue;
-        room[count++] = l;
-    }
-    room[count] = driver;
-    room[count].is_backed = false;
-    room[count].force = 1;
-    return balance(room.first(count + 1), {}, reach);
-}
-
-void find_drivers(bool is_pinned, std::span<const BodyLoad> loads, double reach, std::span<BodyLoad> room,
-                  Overload& worst) {
-    for (const BodyLoad& driver : loads) {
-        if (!(driver.driven_speed > kDrivenSpeed)) continue;
-        worst.driven_speed = std::max(worst.driven_speed, driver.driven_speed);
-        worst.is_between = worst.is_between || (driver.stands && are_closing(is_pinned, driver, loads, true));
-        worst.is_driven = worst.is_driven || worst.is_between || are_closing(is_pinned, driver, loads, false) ||
-                          has_no_way_out(driver, loads, reach, room);
     }
 }
 
@@ -227,19 +194,18 @@ void bend(const State& state, Row<Bodies> body, bool is_pinned, std::span<const 
             const double bearable = stress * beam.modulus[i][j];
             if (moment.size <= worst.share * bearable) continue;
             worst.share = moment.size / bearable;
-            worst.is_bent = true;
             worst.load = std::max(worst.load, 0.5 * sum_of(loads));
             worst.section = state.bodies.centre[body] + moment.at * beam.axis[i];
             worst.section_normal = beam.axis[i];
         }
 }
 
-// Where the blow that stands for the load is to fall: by whom drives, else by the hardest push of what lies on it.
+// Where the blow that stands for the load is to fall, when nobody drives: by the hardest push of what lies on it.
 const BodyLoad& hardest(std::span<const BodyLoad> loads) {
     size_t hardest = 0;
     double most = -1;
     for (const BodyLoad& l : loads) {
-        const double rank = l.driven_speed > kDrivenSpeed ? kBearsAll : l.is_backed ? 1e-12 * l.force : l.force;
+        const double rank = l.is_backed ? 1e-12 * l.force : l.force;
         if (rank <= most) continue;
         most = rank;
         hardest = static_cast<size_t>(&l - loads.data());
@@ -262,6 +228,12 @@ Vec3d split_normal(const Bodies& bodies, Row<Bodies> body, Vec3d push) {
         best = across;
     }
     return normalised(best);
+}
+
+ClosingBody closing_body(const State& state, Row<Bodies> body) {
+    const double wall = state.shells.thickness[state.bodies.shell[body]], size = 2 * double{state.bodies.radius[body]};
+    return {is_supported(state.bodies, body), state.bodies.radius[body],
+            std::min(kDeepInWall * wall, kDeepInAll * size)};
 }
 
 bool are_balanced(std::span<const BodyLoad> loads) {
@@ -290,12 +262,15 @@ Overload overload_of(const State& state, Row<Bodies> body, std::span<BodyLoad> l
                      std::span<BodyLoad> room) {
     Overload worst;
     if (loads.empty()) return worst;
-    const BodyLoad at = hardest(loads);
+    const bool is_pinned = is_supported(state.bodies, body);
+    const Closing closing = closing_on(closing_body(state, body), loads, room);
+    const BodyLoad at = closing.driver ? *closing.driver : hardest(loads);
+    worst.is_driven = closing.driver != nullptr;
+    worst.is_between = closing.is_between;
+    worst.driven_speed = worst.is_driven ? at.driven_speed : 0;
     worst.contact = at.contact;
     worst.section = state.bodies.centre[body] + 0.5 * at.place;
     worst.section_normal = split_normal(state.bodies, body, at.push);
-    const bool is_pinned = is_supported(state.bodies, body);
-    find_drivers(is_pinned, loads, state.bodies.radius[body], room, worst);
     squeeze(is_pinned, loads, force_borne(state, body), worst);
     const auto may_bend = [&] { return sum_of(loads) > least_bending_force(state, body); };
     if (may_bend() && (is_pinned || are_balanced(loads) || balance(loads, weight, state.bodies.radius[body])) &&

@@ -8,15 +8,16 @@ namespace cullet {
 
 /// One contact of a body as a load.
 struct BodyLoad {
-    Vec3d place;       // from the centre of mass, body axes, m
-    Vec3d push;        // unit, body axes: the way the body is pushed
-    double force = 0;  // N, that the last solve passed, and what it would have taken to stop who pushes
-    double bears = 0;  // N, that the one who touches can set against a push towards it
-    double driven_speed =
-        0;  // m/s along `push`, of one that moves whatever stands in its way, or stands behind who touches
-    bool stands = false;     // it yields to no force: static, kinematic or held
-    bool is_backed = false;  // it stands, or what stands is behind it, seen from the body
-    uint32_t contact = 0;    // of RigidWorld::loads()
+    Vec3d place;              // from the centre of mass, body axes, m
+    Vec3d push;               // unit, body axes: the way the body is pushed
+    double force = 0;         // N, that the last solve passed, and what it would have taken to stop who pushes
+    double bears = 0;         // N, that the one who touches can set against a push towards it
+    Vec3d velocity, spin;     // m/s at the centre of mass and rad/s, body axes: of who stands, or stands behind
+    double driven_speed = 0;  // m/s, of that motion along `push` at `place`
+    double depth = 0;         // m, that who touches lies in the body
+    bool stands = false;      // it yields to no force: static, kinematic or held
+    bool is_backed = false;   // it stands, or what stands is behind it, seen from the body
+    uint32_t contact = 0;     // of RigidWorld::loads()
 };
 inline constexpr uint32_t kMostLoads = 256;  // of one body that are looked at
 inline constexpr double kBearsAll = 1e30;    // N
@@ -27,8 +28,7 @@ struct Overload {
     uint32_t contact = 0;     // of RigidWorld::loads(), where it is worst
     bool is_driven = false;   // two that do not yield close on it: no force is enough for long
     bool is_between = false;  // driven, and all that close on it touch it themselves
-    bool is_bent = false;     // `share` is that of a bending moment
-    double driven_speed = 0;  // m/s, of the fastest that drives
+    double driven_speed = 0;  // m/s, of the fastest that closes on it
     // Where it would come apart, body frame and axes: across the bar where the moment is largest, or along the push
     // that squeezes it.
     Vec3d section, section_normal;

@@ -1,41 +1,17 @@
 // What lies on a body or squeezes it breaks it as soon as it is more than it bears.
 #include <gtest/gtest.h>
 
-#include <cstdio>
-
-#include "sample_game/game_world.hpp"
-#include "sample_game/run_scene.hpp"
+#include "tests/support/play_script.hpp"
 
 namespace cullet {
 namespace {
 
-std::string format(const char* text, auto... values) {
-    char buffer[4000];
-    std::snprintf(buffer, sizeof buffer, text, values...);
-    return buffer;
-}
+using test::format;
+using test::Played;
 
-struct Played {
-    uint32_t pieces = 0;  // alive, at the end
-    uint32_t frames = 0;  // until the first came off, or all
-    std::string failure;
-    uint64_t hash = 0;
-};
 /// The script for so many seconds, at most until something breaks.
 Played play_script(const std::string& text, double seconds, uint32_t threads = 2, bool stops = true) {
-    RunOptions options;
-    options.threads = threads;
-    Result<GameWorld> game = GameWorld::create(plan_scene({"loads", "loads.lua", text}, options));
-    Played played;
-    if (!game.ok()) return played.failure = game.error(), played;
-    for (; played.frames < 60 * seconds; ++played.frames) {
-        game->before_step(), game->step(), game->after_step();
-        played.pieces = game->world().fragments(nullptr, 0);
-        if (stops && played.pieces > 0) break;
-    }
-    played.failure = game->failure();
-    played.hash = game->world().hash();
-    return played;
+    return test::play_script(text, {seconds, 60, threads, stops});
 }
 
 const std::string kVase =
