@@ -72,15 +72,17 @@ struct Body {
     uint32_t moves = 0;    // counts changes of world points; pairs of unmoved bodies keep their contacts
     uint32_t shape_changes = 0;
 
-    uint32_t number = 0;        // the solver's, in this step
-    bool is_refreshed = false;  // in this detect()
-    bool is_touched = false;    // has a contact in this step,
-    bool is_held_up = false;    // one with what stands or moves slowly
-    bool is_damped = false;     // has one that is not at the crack of its birth
-    bool is_driven = false;     // has one with a kinematic body that moves
-    float slow_seconds = 0;     // touched and nearly at rest
-    float overlap = 0;          // m, of its deepest contact in this step, by the contact's scale
-    float pressed_seconds = 0;  // that it was kept awake because something lay too deep in it
+    uint32_t number = 0;         // the solver's, in this step
+    bool is_refreshed = false;   // in this detect()
+    bool is_touched = false;     // has a contact in this step,
+    bool is_held_up = false;     // one with what stands or moves slowly
+    bool is_damped = false;      // has one that is not at the crack of its birth
+    bool is_driven = false;      // has one with a kinematic body that moves
+    float slow_seconds = 0;      // touched and nearly at rest
+    float overlap = 0;           // m, of its deepest contact in this step, by the contact's scale
+    float sunk = 0;              // the same, in what never moves
+    float pressed_seconds = 0;   // that it was kept awake because something lay too deep in it
+    float settling_seconds = 0;  // that it was laid to rest, and pushed out of what it lies in
     bool is_held = false;
     bool is_soft = false;  // has no contacts
     Motion kept;           // velocities of a held body

@@ -407,7 +407,7 @@ void BulletWorld::enter(Body& body, const Pose& at, uint32_t layer, uint32_t mas
     body.is_fast = false;
     body.moved_fraction = 1;
     body.still_seconds = body.creep_seconds = body.slow_seconds = 0;
-    body.pressed_seconds = body.overlap = 0;
+    body.pressed_seconds = body.settling_seconds = body.overlap = body.sunk = 0;
     body.is_touched = body.is_held_up = body.is_driven = false;
     body.anchor = body.far_anchor = body.bullet->getWorldTransform();
     body.has_left = false;
@@ -779,7 +779,7 @@ void BulletWorld::gather_contacts() {
     contacts_.clear();
     for (RigidId id = 0; id < body_end_; ++id) {
         bodies_[id].is_touched = bodies_[id].is_held_up = bodies_[id].is_driven = bodies_[id].is_damped = false;
-        bodies_[id].overlap = 0;
+        bodies_[id].overlap = bodies_[id].sunk = 0;
     }
     for (const SortedManifold& m : manifolds_) {
         Body &a = bodies_[m.a], &b = bodies_[m.b];
@@ -799,6 +799,8 @@ void BulletWorld::gather_contacts() {
             const float overlap = m.grip > 0 ? 0 : -p.m_distance1 / scale;  // of what is to be pushed out
             a.overlap = std::max(a.overlap, overlap);
             b.overlap = std::max(b.overlap, overlap);
+            if (b.kind == RigidKind::Static) a.sunk = std::max(a.sunk, overlap);
+            if (a.kind == RigidKind::Static) b.sunk = std::max(b.sunk, overlap);
             contacts_.push_back({m.a, m.b, m.cell_a, m.cell_b, point, normal, p.m_distance1, speed});
         }
     }
@@ -961,6 +963,7 @@ void BulletWorld::solve(float dt) {
     }
     const double before = CULLET_CHECKS_ON ? height_energy() : 0;
     solve_contacts(dt);
+    still_settling();
     gather_loads(dt);
     sum_impulse_to_static();
     if (CULLET_CHECKS_ON) sum_driven_work();

@@ -197,6 +197,8 @@ class BulletWorld final : public RigidWorld {
     void update_sleep(float dt);
     bool may_sleep(Body& body, float dt, const Pace& pace);
     bool may_come_to_rest(const Body& body, const Pace& pace) const;
+    void still_settling();
+    bool has_settled(Body& body, float dt);
     void fall_asleep(Body& body);
     void stop_mass(Body& body);
     void restore_mass(Body& body);

@@ -40,6 +40,14 @@ constexpr float kPressedDeep = 0.0015f;  // m
 constexpr float kImpatience = 2;         // 1/s
 constexpr float kPressedSeconds = 1.5f;  // after which it sleeps as it lies
 
+// What comes to rest deeper than this in what never moves is laid to rest first: without speed, so that nothing but the
+// pushes out of overlaps moves it, until it has come out or this time is over; once, while it stays in its place. A
+// shard of two millimetres is turned over by the gravity of a single step, corner after corner into the floor, and
+// would sleep half a wall deep in it. (Of shards in each other a heap has always some, which wake each other.)
+constexpr float kShallow = 0.00005f;  // m, at scale 1
+constexpr float kSettlingSeconds = 0.6f;
+constexpr float kBorneShare = 0.5f;  // of its weight, that bears it while it is laid to rest
+
 // Where there is no gravity nothing holds anything: at rest is what would not leave its place in so long.
 constexpr float kDriftSeconds = 60;
 // A ball slower than this may be at rest; a faster one that has gone this share of the way that its speed takes it
@@ -206,11 +214,12 @@ void BulletWorld::wake_struck() {
         if (!m.manifold) continue;
         for (const auto& [sleeper, other] : {std::pair(m.a, m.b), std::pair(m.b, m.a)}) {
             Body &s = bodies_[sleeper], &o = bodies_[other];
-            if (!is_asleep(sleeper)) continue;
+            if (!is_asleep(sleeper) && !(s.settling_seconds > 0)) continue;
             const bool is_driver = o.kind == RigidKind::Kinematic && o.bullet->isActive();
             if (is_driver || (o.is_free() && is_struck(s, o, *m.manifold, pace))) {
                 wake_body(s);
-            } else if (o.is_free() && std::min(s.overlap, o.overlap) > bearable_overlap(s, pace)) {
+            } else if (is_asleep(sleeper) && o.is_free() &&
+                       std::min(s.overlap, o.overlap) > bearable_overlap(s, pace)) {
                 const float pressed = s.pressed_seconds;
                 wake_beside(s);  // what lies deep below a slab is pushed out only while the slab gives way
                 s.pressed_seconds = pressed;
@@ -340,15 +349,38 @@ void BulletWorld::update_sleep(float dt) {
     for (RigidId id = 0; id < body_end_; ++id) {
         Body& body = bodies_[id];
         if (!body.is_used || body.kind != RigidKind::Dynamic || !body.is_free()) continue;
-        if (may_sleep(body, dt, pace)) fall_asleep(body);
+        const bool is_settling = body.settling_seconds > 0, was_woken_in_place = body.idle_wakes > 0;
+        if (!is_settling && !may_sleep(body, dt, pace)) continue;
+        if ((was_woken_in_place && !is_settling) || has_settled(body, dt)) fall_asleep(body);
     }
     wake_unsettled(dt, pace);
+}
+
+void BulletWorld::still_settling() {
+    for (RigidId id = 0; id < body_end_; ++id) {
+        Body& body = bodies_[id];
+        if (body.is_used && body.settling_seconds > 0 && body.is_free()) set_velocities(body, {0, 0, 0}, {0, 0, 0});
+    }
+}
+
+// False: it is pushed out of something, or awake again, for nothing bears it any more.
+bool BulletWorld::has_settled(Body& body, float dt) {
+    if (body.sunk <= kShallow || body.settling_seconds >= kSettlingSeconds) return true;
+    const bool is_borne = body.load >= kBorneShare * body.mass * gravity_.length() * dt;
+    body.has_left = false;
+    // In the step before it was laid to rest it may have been tipping over.
+    if (body.settling_seconds > 0 && (!is_borne || body.is_driven))
+        wake_beside(body);
+    else
+        body.settling_seconds += dt;
+    return false;
 }
 
 // Asleep is held, but for the name: Bullet sees something static.
 void BulletWorld::fall_asleep(Body& body) {
     set_velocities(body, {0, 0, 0}, {0, 0, 0});
     body.bullet->setActivationState(ISLAND_SLEEPING);
+    body.settling_seconds = 0;
     body.slept_load = body.load;
     stop_mass(body);
 }
@@ -361,7 +393,7 @@ void BulletWorld::wake_body(Body& body) {
     const bool was_asleep = !body.bullet->isActive();
     body.bullet->setActivationState(ACTIVE_TAG);
     body.still_seconds = body.slow_seconds = body.pressed_seconds = 0;
-    body.creep_seconds = 0;
+    body.creep_seconds = body.settling_seconds = 0;
     body.idle_wakes = 0;
     body.anchor = body.far_anchor = body.bullet->getWorldTransform();
     if (was_asleep && !body.is_held) restore_mass(body);
@@ -377,7 +409,8 @@ void BulletWorld::wake_touching(RigidId id) {
     for (const SortedManifold& m : manifolds_) {
         if (!m.manifold || (m.a != id && m.b != id)) continue;
         Body& other = bodies_[m.a == id ? m.b : m.a];
-        if (other.is_used && other.kind == RigidKind::Dynamic && !other.bullet->isActive()) wake_body(other);
+        if (!other.is_used || other.kind != RigidKind::Dynamic) continue;
+        if (!other.bullet->isActive() || other.settling_seconds > 0) wake_body(other);
     }
 }
 

@@ -188,7 +188,8 @@ void flow_body(F& f, Body& b) {
     flow_numbers(f, b.fresh_at);
     f.number(b.moves), f.number(b.shape_changes);
     f.flag(b.is_touched), f.flag(b.is_driven);
-    f.number(b.slow_seconds), f.number(b.overlap), f.number(b.pressed_seconds);
+    f.number(b.slow_seconds), f.number(b.overlap), f.number(b.sunk);
+    f.number(b.pressed_seconds), f.number(b.settling_seconds);
     f.flag(b.is_held);
     f.flag(b.is_soft);
     flow_numbers(f, b.kept.velocity), flow_numbers(f, b.kept.angular_velocity);

@@ -57,6 +57,52 @@ TEST(Lengths, APlateRestsOnTheFloorToATenthOfItsWallWhateverItsSize) {
         }
 }
 
+/// A chip of a curved wall, of one piece: bent like a sphere of 20 walls, some walls wide, with a ragged rim.
+std::vector<Vec3> chip_points(float wall, uint32_t which) {
+    std::vector<Vec3> points;
+    const float sphere = 20 * wall, wide = (3 + 3 * any(which, 10)) * wall;
+    for (uint32_t k = 0; k < 12; ++k) {
+        const float angle = 0.5236f * (real(k) + any(which, 20 + k)), out = wide * (0.5f + 0.5f * any(which, 40 + k));
+        for (const float r : {sphere - 0.4f * wall, sphere + 0.4f * wall}) {
+            const Vec3 way = normalised(Vec3{out * std::cos(angle), sphere, out * std::sin(angle)});
+            points.push_back(r * way - Vec3{0, sphere, 0});
+        }
+    }
+    for (const float x : {-0.3f, 0.3f})
+        for (const float z : {-0.3f, 0.3f}) {
+            const Vec3 way = normalised(Vec3{x * wide, sphere, z * wide});
+            points.push_back((sphere + 0.4f * wall) * way - Vec3{0, sphere, 0});
+        }
+    return points;
+}
+
+// A step of gravity turns a chip of two millimetres over, a corner at a time into the floor.
+TEST(Lengths, ChipsOfACurvedWallLieOnTheFloorToATenthOfTheirWallWhateverTheirSize) {
+    for (const float wall : {0.00025f, 0.0008f, 0.0025f, 0.005f})
+        for (uint32_t k = 0; k < 40; ++k) {
+            const std::vector<Vec3> points = chip_points(wall, k);
+            const ConvexPiece piece{points, 0};
+            RigidDescription d;
+            d.margin = std::min(0.001f, 0.2f * wall);
+            d.pieces = {&piece, 1};
+            d.mass = 2400 * 50 * double{wall} * wall * wall;
+            const double about = d.mass * 5 * double{wall} * wall;
+            d.inertia = {about, 2 * about, about};
+            d.pose = {{0, 15 * wall, 0}, any_turn(k)};
+            d.motion = {{2 * any(k, 5), -1, 0}, {100 * any(k, 6), 0, 50}};
+            auto world = floor_world(2);
+            world->add(1, d);
+            for (int frame = 0; frame < 480 && !world->is_asleep(1); ++frame) step(*world);
+            EXPECT_TRUE(world->is_asleep(1)) << 1000 * wall << " mm, " << k;
+            float lowest = 1e30f;
+            const Pose pose = world->pose(1);
+            for (const Vec3 p : points)
+                lowest = std::min(lowest, (rotate(pose.orientation, p) + pose.position).y - d.margin);
+            EXPECT_GT(lowest, -0.1f * wall) << 1000 * wall << " mm, " << k;
+            EXPECT_LT(lowest, 0.1f * wall) << 1000 * wall << " mm, " << k;
+        }
+}
+
 // Plates that fall on each other: none goes below the floor, all of them sleep.
 TEST(Lengths, AHeapOfThinPlatesStaysAboveTheFloorAndSleeps) {
     for (const float wall : {0.00025f, 0.001f, 0.005f}) {

@@ -69,15 +69,19 @@ std::span<const ConvexPiece> changed_pieces(const State& state, Row<Shells> shel
 // Rolling friction is a length, by which the point that bears a body may miss its centre: a seventieth of the root of
 // its area, as of a rim that is chipped, and no more than the gravel of a floor. With a third of it whole vases roll
 // to and fro on a heap for six seconds after the last break; without a bound a slab of 750 kg takes ten to tip over,
-// and at three times it slabs stand upright on one corner. Where it was set it is that of a ball of as much surface.
-constexpr float kRollingShare = 0.0135f, kMostRolling = 0.00675f;  // m
-constexpr float kRadiusShare = 0.2820948f;                         // sqrt(1 / (4 pi)), of the root of a ball's surface
+// and at three times it slabs stand upright on one corner. What is too large for gravel rolls on its own rim: the round
+// of a tower of 20 m, with the bound alone, rolls for minutes, and with the share of shards no slab of it would tip
+// over. Where it was set it is that of a ball of as much surface.
+constexpr float kRollingShare = 0.0135f, kLargeRollingShare = 0.002f;
+constexpr float kMostRolling = 0.00675f;    // m, of what is not large
+constexpr float kRadiusShare = 0.2820948f;  // sqrt(1 / (4 pi)), of the root of a ball's surface
 
 namespace {
 
 float rolling_length(float setting, float area) {
     const float root = std::sqrt(area);
-    return setting >= 0 ? setting * kRadiusShare * root : std::min(kRollingShare * root, kMostRolling);
+    if (setting >= 0) return setting * kRadiusShare * root;
+    return std::min(kRollingShare * root, std::max(kMostRolling, kLargeRollingShare * root));
 }
 
 }  // namespace
