@@ -229,7 +229,8 @@ void hold_region(const RegionView& region) {
 }
 
 bool has_blown_up(const RegionView& region) {
-    const TaskEnergy energy = region_energy(region);
+    TaskEnergy energy = region_energy(region);
+    energy.membrane = kept_spring_energy(region.springs);
     const double wanted = region.state.tasks.start_energy[region.task] + energy.work;
     return !(energy.total() <= wanted + 0.05 * std::max(region.state.quick_runs.energy_scale[region.task], wanted));
 }

@@ -163,47 +163,83 @@ RigidMotion stop_springs(const SpringView& view) {
     return motion;
 }
 
-double spring_energy(const SpringView& view) {
+namespace {
+
+/// Both points of a vertex on one side of the positions; the inner one means nothing without layers.
+struct Points {
+    Vec3d outer, inner;
+};
+
+Points points_of(const SpringView& view, uint32_t v, int side) {
+    const auto place = [](const Float4& p) { return Vec3d(Vec3{p.x, p.y, p.z}); };
+    return {place(view.state.vertices.probe.get(view.shell.vertex(v), side)),
+            view.has_layers() ? place(view.state.twins.position.get(view.twin(v), side)) : Vec3d{}};
+}
+
+// Of each spring half of its stiffness times what it is longer now and on the other side of the positions.
+double energy_between(const SpringView& view, int now, int then) {
     const State& s = view.state;
     double sum = 0;
-    const auto spring = [&](double stiffness, Vec3d a, Vec3d b, double rest) {
-        const double e = length(b - a) - rest;
-        sum += 0.5 * stiffness * e * e;
-    };
+    const auto longer = [](Vec3d a, Vec3d b, double rest) { return length(b - a) - rest; };
     for (uint32_t i = 0; i < view.spring_count(); ++i) {
-        const uint32_t row = view.spring(i), a = s.springs.a[row], b = s.springs.b[row];
-        if (a == kNone) continue;
-        const Vec3d xa(view.position(a)), xb(view.position(b));
-        spring(s.springs.stiffness[row], xa, xb, s.springs.plastic_length[row]);
+        const uint32_t row = view.spring(i);
+        if (s.springs.a[row] == kNone) continue;
+        const auto both = [&](double stiffness, auto&& elongation) {
+            const auto at = [&](int side) {
+                return elongation(points_of(view, s.springs.a[row], side), points_of(view, s.springs.b[row], side));
+            };
+            const double e = at(now);
+            sum += 0.5 * stiffness * e * (now == then ? e : at(then));
+        };
+        both(s.springs.stiffness[row],
+             [&](const Points& a, const Points& b) { return longer(a.outer, b.outer, s.springs.plastic_length[row]); });
         if (!view.has_layers()) continue;
         const LayerSprings& layers = s.layer_springs;
         const uint32_t layer = view.layer(i);
-        const auto flowed = [](double now, double rest) { return rest > 0 ? now / rest : 1; };
+        const auto flowed = [](double length, double rest) { return rest > 0 ? length / rest : 1; };
         const double flow = 0.5 * (flowed(s.springs.plastic_length[row], s.springs.rest_length[row]) +
                                    flowed(layers.inner_plastic[layer], layers.inner_length[layer]));
-        const Vec3d ya(view.twin_position(a)), yb(view.twin_position(b));
-        spring(layers.inner_stiffness[layer], ya, yb, layers.inner_plastic[layer]);
+        both(layers.inner_stiffness[layer],
+             [&](const Points& a, const Points& b) { return longer(a.inner, b.inner, layers.inner_plastic[layer]); });
         const double first = flow * layers.cross_length[layer][0], second = flow * layers.cross_length[layer][1];
         if (view.layout() == SpringLayout::Crossed) {
-            spring(layers.cross_stiffness[layer], xa, yb, first);
-            spring(layers.cross_stiffness[layer], xb, ya, second);
+            both(layers.cross_stiffness[layer],
+                 [&](const Points& a, const Points& b) { return longer(a.outer, b.inner, first); });
+            both(layers.cross_stiffness[layer],
+                 [&](const Points& a, const Points& b) { return longer(b.outer, a.inner, second); });
             continue;
         }
-        spring(layers.mid_stiffness[layer], 0.5 * (xa + ya), 0.5 * (xb + yb), flow * layers.mid_length[layer]);
+        both(layers.mid_stiffness[layer], [&](const Points& a, const Points& b) {
+            return longer(0.5 * (a.outer + a.inner), 0.5 * (b.outer + b.inner), flow * layers.mid_length[layer]);
+        });
         const double l = 0.5 * (first + second);
         if (!(l > 0)) continue;
-        const double e = (dot(xb - ya, xb - ya) - dot(yb - xa, yb - xa) - (second * second - first * first)) / (2 * l);
-        sum += 0.5 * layers.cross_stiffness[layer] * e * e;
+        both(layers.cross_stiffness[layer], [&](const Points& a, const Points& b) {
+            const Vec3d one = b.outer - a.inner, other = b.inner - a.outer;
+            return (dot(one, one) - dot(other, other) - (second * second - first * first)) / (2 * l);
+        });
     }
     if (!view.has_layers()) return sum;
     for (uint32_t v = 0; v < view.shell.vertex_count(); ++v) {
-        const uint32_t twin = view.twin(v);
-        const double inverse = s.twins.inverse_rest[twin];
-        if (inverse > 0)
-            spring(s.twins.stiffness_rest[twin] * inverse, Vec3d(view.position(v)), Vec3d(view.twin_position(v)),
-                   1 / inverse);
+        const double inverse = s.twins.inverse_rest[view.twin(v)];
+        if (!(inverse > 0)) continue;
+        const auto at = [&](int side) {
+            const Points points = points_of(view, v, side);
+            return longer(points.outer, points.inner, 1 / inverse);
+        };
+        sum += 0.5 * s.twins.stiffness_rest[view.twin(v)] * inverse * at(now) * at(then);
     }
     return sum;
+}
+
+}  // namespace
+
+double spring_energy(const SpringView& view) {
+    return energy_between(view, view.side(), view.side());
+}
+
+double kept_spring_energy(const SpringView& view) {
+    return energy_between(view, view.side(), 1 - view.side());
 }
 
 }  // namespace cullet

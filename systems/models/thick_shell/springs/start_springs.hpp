@@ -35,5 +35,9 @@ SpringMotion motion_of(const SpringView& view);
 
 /// Energy of all springs (B3, B4, B5), from lengths as they are now: J.
 double spring_energy(const SpringView& view);
+/// What makes up, with the kinetic energy as it is now, the energy that the steps keep: k e e' / 2 of lengths as they
+/// are now and were a step ago. Of spring_energy() a stiff vertex, whose step is near its bound, shows several times
+/// that in one step and a fraction of it in the next: places are half a step ahead of velocities.
+double kept_spring_energy(const SpringView& view);
 
 }  // namespace cullet
