@@ -190,9 +190,8 @@ TEST_P(Settles, NearlyAllSleepFiveSecondsAfterTheLastBreakOrFallAndNoneMovesAfte
     // Heaps bear themselves. In demolition one of some 600 breaks was asked for by a load; nobody has looked at it.
     std::printf("  %u breaks asked for by loads\n", s.loads);
     EXPECT_LE(s.loads, std::string(GetParam().scene) == "demolition" ? 1u : 0u);
-    // One in a hundred may rock on. Wanted: none of the castle's ten, of which a third of a tonne on a rounded side
-    // does.
-    EXPECT_LE(s.pieces - s.asleep, std::max<size_t>(1, s.pieces / 100));
+    // Of a heap of a thousand two may rock on.
+    EXPECT_LE(s.pieces - s.asleep, s.pieces / 500);
     EXPECT_EQ(s.moved, 0u);
     // Nothing is hit, so nothing may gain speed but by falling: a piece that stands on its edge tips over.
     const std::vector<Window> windows = windows_after_last_hit(s.moments);
