@@ -65,4 +65,21 @@ PrincipalAxes principal_axes(const Sym3d& i) {
     return {{positive(a[0][0]), positive(a[1][1]), positive(a[2][2])}, quaternion(v)};
 }
 
+Vec3d axis_across(const Sym3d& inertia, Vec3d normal, Inertia wanted) {
+    const PrincipalAxes principal = principal_axes(inertia);
+    const double sign = wanted == Inertia::Most ? 1 : -1;
+    const double rank[3] = {sign * principal.moments.x, sign * principal.moments.y, sign * principal.moments.z};
+    const Vec3 unit[3] = {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
+    Vec3d best;
+    double most = -1e300;
+    for (int i = 0; i < 3; ++i) {
+        const Vec3d axis(rotate(principal.axes, unit[i]));
+        const Vec3d across = axis - dot(axis, normal) * normal;
+        if (length(across) < 0.5 || rank[i] <= most) continue;
+        most = rank[i];
+        best = across;
+    }
+    return normalised(best);
+}
+
 }  // namespace cullet

@@ -52,6 +52,11 @@ LoadLists::LoadLists(Bodies& bodies, std::span<const RigidContact> contacts, Are
             bodies.first_load[body] = entry;
         }
     }
+    for (uint32_t b = 0; b < bodies.size(); ++b) {
+        uint32_t count = 0;
+        for (uint32_t entry = bodies.first_load[b]; entry != kNone; entry = next_[entry]) ++count;
+        longest_ = std::max(longest_, count);
+    }
 }
 
 void LoadLists::Behind::meet(const Bodies& bodies, Row<Bodies> other) {
@@ -83,6 +88,7 @@ BodyLoad LoadLists::load_of(uint32_t entry, float dt) const {
     const auto in_body_axes = [&](Vec3 v) { return Vec3d(rotate(conjugate(pose.orientation), v)); };
     BodyLoad l;
     l.contact = entry / 2;
+    l.toucher = other;
     l.place = Vec3d(to_body(pose, as.point)) - bodies_.centre[as.body];
     l.push = in_body_axes(as.normal);
     l.force = c.impulse / dt;
@@ -108,13 +114,9 @@ BodyLoad LoadLists::load_of(uint32_t entry, float dt) const {
 // A solver that has few iterations leaves what is heavy, or driven, closing on the body: stopping it takes its mass
 // times that speed, as long as the body cannot give way. All contacts with one toucher stop it together.
 void LoadLists::share_what_is_missing(std::span<BodyLoad> loads, Row<Bodies> body, float dt) const {
-    const auto toucher_of = [&](const BodyLoad& l) {
-        const RigidContact& c = contacts_[l.contact];
-        return Row<Bodies>(c.a == body.index ? c.b : c.a);
-    };
     for (size_t first = 0, end; first < loads.size(); first = end) {
-        const Row<Bodies> other = toucher_of(loads[first]);
-        for (end = first + 1; end < loads.size() && toucher_of(loads[end]) == other;) ++end;
+        const Row<Bodies> other = loads[first].toucher;
+        for (end = first + 1; end < loads.size() && loads[end].toucher == other;) ++end;
         const double mass = bodies_.mass[loads[first].stands ? body : other] / static_cast<double>(end - first);
         for (BodyLoad& l : loads.subspan(first, end - first)) {
             l.force += mass * std::max(0.0f, contacts_[l.contact].approach_speed) / dt;

@@ -14,6 +14,7 @@ class LoadLists {
  public:
     LoadLists(Bodies& bodies, std::span<const RigidContact> contacts, Arena& arena);
 
+    uint32_t longest() const { return longest_; }  // loads of one body
     bool has_loads(Row<Bodies> body) const { return bodies_.first_load[body] != kNone; }
     /// As many as there is room for, the first; how many.
     uint32_t take(Row<Bodies> body, float dt, std::span<BodyLoad> loads) const;
@@ -30,14 +31,11 @@ class LoadLists {
     };
     void look_behind(Row<Bodies> body, Row<Bodies> from, uint32_t& looks, Behind& behind) const;
     void share_what_is_missing(std::span<BodyLoad> loads, Row<Bodies> body, float dt) const;
-    Row<Bodies> toucher(uint32_t entry) const {
-        const RigidContact& c = contacts_[entry / 2];
-        return Row<Bodies>(entry & 1 ? c.a : c.b);
-    }
 
     Bodies& bodies_;
     std::span<const RigidContact> contacts_;
     std::span<uint32_t> next_;
+    uint32_t longest_ = 0;
 };
 
 }  // namespace cullet

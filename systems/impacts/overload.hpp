@@ -2,7 +2,8 @@
 #pragma once
 #include <span>
 
-#include "components/state.hpp"
+#include "engine/rigid_world.hpp"
+#include "systems/impacts/loaded_body.hpp"
 
 namespace cullet {
 
@@ -15,12 +16,26 @@ struct BodyLoad {
     Vec3d velocity, spin;     // m/s at the centre of mass and rad/s, body axes: of who stands, or stands behind
     double driven_speed = 0;  // m/s, of that motion along `push` at `place`
     double depth = 0;         // m, that who touches lies in the body
+    double spread = 1;        // share of the force that one place has to bear
     bool stands = false;      // it yields to no force: static, kinematic or held
     bool is_backed = false;   // it stands, or what stands is behind it, seen from the body
-    uint32_t contact = 0;     // of RigidWorld::loads()
+    bool is_laid = false;     // it goes straight through the body into what is backed there
+    Row<Bodies> toucher;
+    uint32_t contact = 0;  // of RigidWorld::loads()
 };
-inline constexpr uint32_t kMostLoads = 256;  // of one body that are looked at
-inline constexpr double kBearsAll = 1e30;    // N
+inline constexpr double kBearsAll = 1e30;  // N
+
+double sum_of(std::span<const BodyLoad> loads);  // N, of the forces
+
+/// A load along an axis: m from the centre of mass, N.
+struct AxisForce {
+    double at, force;
+};
+/// For as many loads again.
+struct OverloadRoom {
+    std::span<BodyLoad> loads;
+    std::span<AxisForce> forces;
+};
 
 struct Overload {
     double share = 0;         // of what the body bears; more than 1 breaks it
@@ -35,9 +50,7 @@ struct Overload {
 };
 
 /// N that one place of the body bears for long: less once it has cracks.
-double force_borne(const State& state, Row<Bodies> body);
-/// At least so much bends the body too far, whatever lies under it, N.
-double least_bending_force(const State& state, Row<Bodies> body);
+double force_borne(const LoadedBody& of);
 
 /// The worst of three:
 /// - Squeezed: along each push, the forces that push that way, as far as the others bear them, over first_crack_force.
@@ -46,9 +59,10 @@ double least_bending_force(const State& state, Row<Bodies> body);
 ///   evenly. Pins bear like a beam's supports, the nearest to both sides of the load.
 /// - Driven: those that do not yield close on it, from opposite sides or so that it has no way out, and touch it or
 ///   press on it through others.
+/// A load over somebody who bears the body just there bends nothing, and squeezes by its pressure where it lies flat.
 /// `weight`: N, body axes. Where the loads are not in balance as they were solved, those that are backed get what
-/// balances the others. `room`: for as many loads again.
-Overload overload_of(const State& state, Row<Bodies> body, std::span<BodyLoad> loads, Vec3d weight,
-                     std::span<BodyLoad> room);
+/// balances the others.
+Overload overload_of(const LoadedBody& of, const RigidWorld& rigid, std::span<BodyLoad> loads, Vec3d weight,
+                     const OverloadRoom& room);
 
 }  // namespace cullet

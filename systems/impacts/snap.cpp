@@ -30,26 +30,6 @@ Extent extent_along(const Vertices& vertices, Range rows, Vec3 direction) {
     return e;
 }
 
-Vec3 across(Vec3 v, Vec3 normal) {
-    return v - dot(v, normal) * normal;
-}
-
-// The crack goes straight through the thinnest side, which is the axis of most inertia.
-Vec3 sweep_of(const Bodies& bodies, Row<Bodies> body, Vec3 normal) {
-    const PrincipalAxes principal = principal_axes(bodies.inertia[body]);
-    const Vec3 unit[3] = {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
-    const double moments[3] = {principal.moments.x, principal.moments.y, principal.moments.z};
-    Vec3 best;
-    double most = -1;
-    for (int i = 0; i < 3; ++i) {
-        const Vec3 axis = across(rotate(principal.axes, unit[i]), normal);
-        if (length(axis) < 0.5f || moments[i] <= most) continue;
-        most = moments[i];
-        best = axis;
-    }
-    return normalised(best);
-}
-
 }  // namespace
 
 bool snap(Blows& blows, const Bodies& bodies, const Shells& shells, const Vertices& vertices, Row<Bodies> body,
@@ -57,7 +37,9 @@ bool snap(Blows& blows, const Bodies& bodies, const Shells& shells, const Vertic
     if (blows.size() >= blows.limit() / 2) return false;
     const Row<Shells> shell = bodies.shell[body];
     const Range rows = shells.vertices[shell];
-    const Vec3 sweep = sweep_of(bodies, body, normal), line = cross(sweep, normal);
+    // The crack goes straight through the thinnest side.
+    const Vec3 sweep = axis_across(bodies.inertia[body], Vec3d(normal), Inertia::Most).to_float();
+    const Vec3 line = cross(sweep, normal);
     const Extent along = extent_along(vertices, rows, normal), wide = extent_along(vertices, rows, line);
     if (!(along.size() > 0 && wide.size() > 0)) return false;
     const uint32_t row = blows.append(1);

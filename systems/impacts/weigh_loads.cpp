@@ -2,6 +2,7 @@
 #include <cmath>
 
 #include "components/body_id.hpp"
+#include "systems/impacts/bending.hpp"
 #include "systems/impacts/fragile.hpp"
 #include "systems/impacts/load_lists.hpp"
 #include "systems/impacts/opening.hpp"
@@ -34,50 +35,48 @@ constexpr uint32_t kFewestForARun = 200;
 // After each such run the body is left alone twice as long, but no longer than 64 times.
 constexpr uint8_t kMostLoadRuns = 6;
 
+// Steps are counted once a sixtieth of a second and no more often, so that what is counted fits into a byte.
+constexpr float kLeastCounted = 1.0f / 60;
 // In place of a number of steps: it slept until something was laid on it.
 constexpr uint8_t kWasWoken = 255;
 
-uint32_t steps_in(float seconds, float dt) {
-    return std::clamp(static_cast<uint32_t>(std::ceil(seconds / dt)), 2u, 254u);
+uint32_t counts_in(float seconds, float dt) {
+    return std::clamp(static_cast<uint32_t>(std::ceil(seconds / std::max(dt, kLeastCounted))), 2u, kWasWoken - 1u);
 }
-
-double sum_of(std::span<const BodyLoad> loads) {
-    double sum = 0;
-    for (const BodyLoad& l : loads) sum += l.force;
-    return sum;
+bool is_counted(Step step) {
+    if (step.dt > 0.99f * kLeastCounted) return true;
+    const double of_one = double{step.dt} / double{kLeastCounted}, frame = static_cast<double>(step.frame);
+    return std::floor(frame * of_one) < std::floor((frame + 1) * of_one);
 }
 
 // Whether there is anything to look at.
-bool may_be_overloaded(const State& state, Row<Bodies> body, std::span<const BodyLoad> loads) {
-    bool is_driven = false;
-    for (const BodyLoad& l : loads) is_driven = is_driven || l.driven_speed > 0;
-    return is_driven ||
-           sum_of(loads) > kLookShare * std::min(2 * force_borne(state, body), least_bending_force(state, body));
+double least_load(const LoadedBody& of) {
+    return std::min(2 * force_borne(of), least_bending_force(of));
+}
+bool may_be_overloaded(const LoadedBody& of, std::span<const BodyLoad> loads) {
+    const auto is_driven = [](const BodyLoad& l) { return l.driven_speed > 0; };
+    return std::any_of(loads.begin(), loads.end(), is_driven) || sum_of(loads) > kLookShare * least_load(of);
 }
 
 // It may break, is not held, and no hit on it is worked off.
-bool may_be_loaded(const State& state, Row<Bodies> body, const DamageSettings& settings) {
-    const Bodies& bodies = state.bodies;
-    return is_fragile(bodies, state.shells, settings, body) && !bodies.hold_count[body] && bodies.task[body] == kNone &&
-           state.shells.first_crack_force[bodies.shell[body]] > 0 && force_borne(state, body) < kBearsAll;
+bool may_be_loaded(const LoadedBody& of, const DamageSettings& settings) {
+    return is_fragile(of.bodies, of.shells, settings, of.body) && !of.bodies.hold_count[of.body] &&
+           of.bodies.task[of.body] == kNone && of.shells.first_crack_force[of.shell()] > 0 &&
+           force_borne(of) < kBearsAll;
 }
 
 // What is laid on a sleeper little by little is not to find it asleep for ever: its supports tell their loads only
 // awake.
-bool is_to_wake(const State& state, Row<Bodies> body, double load) {
-    return load > double{state.bodies.waking_load[body]} &&
-           load > kLaidOn * std::min(2 * force_borne(state, body), least_bending_force(state, body));
+bool is_to_wake(const LoadedBody& of, double load) {
+    return load > double{of.bodies.waking_load[of.body]} && load > kLaidOn * least_load(of);
 }
 
 // What sleeps on it weighs nothing in the solver, and is told of once the body is awake.
-void wake_touchers(Bodies& bodies, RigidWorld& rigid, Row<Bodies> body, std::span<const RigidContact> contacts,
-                   std::span<const BodyLoad> loads) {
+void wake_touchers(Bodies& bodies, RigidWorld& rigid, std::span<const BodyLoad> loads) {
     for (const BodyLoad& l : loads) {
-        const RigidContact& c = contacts[l.contact];
-        const Row<Bodies> other(c.a == body.index ? c.b : c.a);
-        if (!bodies.is_asleep[other]) continue;
-        rigid.wake(other);
-        bodies.is_asleep[other] = 0;
+        if (!bodies.is_asleep[l.toucher]) continue;
+        rigid.wake(l.toucher);
+        bodies.is_asleep[l.toucher] = 0;
     }
 }
 
@@ -137,25 +136,46 @@ QueuedHit snap_of(QueuedHit hit, const Overload& over) {
     return hit;
 }
 
+// So many counted steps in a row it has to be too much.
+uint32_t counts_wanted(const Overload& over, uint8_t runs, float dt) {
+    if (over.is_driven) return counts_in(over.is_between ? kDrivenSeconds : kOverloadSeconds, dt);
+    return counts_in(kOverloadSeconds, dt) << std::min(runs, kMostLoadRuns);
+}
+
+// The veto is asked about the blow that is to come, told as it will be.
+bool is_allowed(const Bodies& bodies, const QueuedHit& hit, const DamageSettings& settings) {
+    if (!settings.allows) return true;
+    const Pose pose = pose_of(bodies, hit.body);
+    ImpactEvent event = event_of(
+        bodies,
+        {hit.body, hit.striker, to_world(pose, hit.point), rotate(pose.orientation, hit.normal), hit.approach_speed},
+        hit.striker_inverse_mass);
+    event.load = hit.load;
+    return settings.allows(settings.allows_user, event);
+}
+
 }  // namespace
 
 void weigh_loads(Serial, Step step, RigidWorld& rigid, ShellTables shells, Bodies& bodies, QueuedHits&,
                  const DamageSettings& settings, Arena& arena, Events<RefusedEvent>& refused) {
+    if (!is_counted(step)) return;
     State& state = shells.state;
     const auto contacts = rigid.loads();
     const LoadLists lists(bodies, contacts, arena);
-    const auto room = arena.take<BodyLoad>(kMostLoads), spare = arena.take<BodyLoad>(kMostLoads);
+    const auto found = arena.take<BodyLoad>(lists.longest());
+    const OverloadRoom room{arena.take<BodyLoad>(lists.longest()), arena.take<AxisForce>(lists.longest())};
     for (uint32_t b = 0; b < bodies.size(); ++b) {
         const Row<Bodies> body(b);
-        if (!lists.has_loads(body) || !may_be_loaded(state, body, settings)) {
+        const LoadedBody of{bodies, state.shells, state.vertices, state.materials, state.pin_boxes, body};
+        if (!lists.has_loads(body) || !may_be_loaded(of, settings)) {
             bodies.overloaded_steps[b] = 0;
             bodies.waking_load[b] = 0;
             continue;
         }
-        const auto loads = room.first(lists.take(body, step.dt, room));
+        const auto loads = found.first(lists.take(body, step.dt, found));
         if (bodies.is_asleep[b]) {
             const double load = sum_of(loads);
-            if (!is_to_wake(state, body, load)) continue;
+            if (!is_to_wake(of, load)) continue;
             bodies.waking_load[b] =
                 static_cast<float>(std::clamp(2 * double{bodies.waking_load[b]}, kFirstWaking * load, 1e30));
             rigid.wake(body);
@@ -164,32 +184,24 @@ void weigh_loads(Serial, Step step, RigidWorld& rigid, ShellTables shells, Bodie
             continue;
         }
         if (bodies.overloaded_steps[b] == kWasWoken) {
-            wake_touchers(bodies, rigid, body, contacts, loads);
+            wake_touchers(bodies, rigid, loads);
             bodies.overloaded_steps[b] = 0;
             continue;
         }
-        const Overload over = may_be_overloaded(state, body, loads)
-                                  ? overload_of(state, body, loads, weight_of(bodies, body, step.gravity), spare)
+        const Overload over = may_be_overloaded(of, loads)
+                                  ? overload_of(of, rigid, loads, weight_of(bodies, body, step.gravity), room)
                                   : Overload{};
         if (!over.is_driven && !(over.share > 1)) {
             bodies.overloaded_steps[b] = 0;
             if (over.share < 0.5) bodies.overload_runs[b] = 0;
             continue;
         }
-        const uint32_t wanted = over.is_driven ? steps_in(over.is_between ? kDrivenSeconds : kOverloadSeconds, step.dt)
-                                               : steps_in(kOverloadSeconds, step.dt)
-                                                     << std::min(bodies.overload_runs[b], kMostLoadRuns);
-        if (bodies.overloaded_steps[b] < kWasWoken - 1) ++bodies.overloaded_steps[b];
-        if (bodies.overloaded_steps[b] < std::min<uint32_t>(wanted, kWasWoken - 1)) continue;
+        const uint32_t wanted = counts_wanted(over, bodies.overload_runs[b], step.dt);
+        if (++bodies.overloaded_steps[b] < std::min<uint32_t>(wanted, kWasWoken - 1)) continue;
         bodies.overloaded_steps[b] = 0;
         const QueuedHit blow = hit_of(state, body, contacts[over.contact], over, step.frame);
         const QueuedHit hit = is_for_a_run(state, body, over, settings, step.dt) ? blow : snap_of(blow, over);
-        if (settings.allows) {
-            const Impact as = impact_of(contacts[over.contact], contacts[over.contact].a == b ? 0 : 1);
-            ImpactEvent event = event_of(bodies, as, hit.striker_inverse_mass);
-            event.load = hit.load;
-            if (!settings.allows(settings.allows_user, event)) continue;
-        }
+        if (!is_allowed(bodies, hit, settings)) continue;
         bodies.overload_runs[b] = std::min<uint8_t>(static_cast<uint8_t>(bodies.overload_runs[b] + 1), kMostLoadRuns);
         if (!queue_hit(state, hit)) refused.push(refused_event(bodies, body, "limits.queued_hits"));
     }

@@ -1,0 +1,26 @@
+// A body under loads: the tables that say what it bears.
+#pragma once
+#include "components/state.hpp"
+
+namespace cullet {
+
+struct LoadedBody {
+    const Bodies& bodies;
+    const Shells& shells;
+    const Vertices& vertices;
+    const Materials& materials;
+    const PinBoxes& pin_boxes;
+    Row<Bodies> body;
+
+    Row<Shells> shell() const { return bodies.shell[body]; }
+    Row<Materials> material() const { return shells.material[shell()]; }
+    bool is_pinned() const { return static_cast<BodyKind>(bodies.kind[body]) == BodyKind::Static; }
+    /// A body that has cracks bears half, as for blows (kWakeShare).
+    double strength_share() const {
+        return (shells.has_cracks[shell()] ? 0.5 : 1.0) * double{bodies.strength_scale[body]};
+    }
+    double strength() const { return strength_share() * materials.tensile_strength[material()]; }  // Pa
+    double solid_volume() const { return bodies.mass[body] / materials.density[material()]; }
+};
+
+}  // namespace cullet
