@@ -14,8 +14,8 @@ struct Models;
 inline constexpr uint8_t kOwedBirths = 1, kOwedDrawing = 2;
 
 /// One row is one thing that the rigid world moves. Rows are reused; the generation tells a stale handle.
-struct Bodies : Table<Bodies> {
-    using Table::Table;
+struct Bodies : RangeTable<Bodies> {
+    using RangeTable::RangeTable;
     static constexpr const char* kName = "bodies";
     Column<uint32_t> generation{*this, "generation"};
     Column<uint8_t> kind{*this, "kind"};          // BodyKind
@@ -110,14 +110,14 @@ template <>
 struct ColumnType<ViewVertex> : ColumnLayout<ViewVertex, Scalar::F32, 8> {};
 
 /// One row is one corner of a drawn mesh, as the game reads it.
-struct ViewVertices : Table<ViewVertices> {
-    using Table::Table;
+struct ViewVertices : RangeTable<ViewVertices, 16> {
+    using RangeTable::RangeTable;
     static constexpr const char* kName = "view_vertices";
     Column<ViewVertex> vertex{*this, "vertex", "m, 1, 1"};
 };
 
-struct ViewIndices : Table<ViewIndices> {
-    using Table::Table;
+struct ViewIndices : RangeTable<ViewIndices, 16> {
+    using RangeTable::RangeTable;
     static constexpr const char* kName = "view_indices";
     Column<uint32_t> index{*this, "index"};    // relative to the body's first view vertex
     Column<uint32_t> source{*this, "source"};  // of its triangle: 8 times the shell's element, plus which of its own

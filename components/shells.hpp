@@ -7,7 +7,7 @@
 #include <array>
 
 #include "components/materials.hpp"
-#include "engine/table.hpp"
+#include "engine/range_table.hpp"
 
 namespace cullet {
 
@@ -22,16 +22,9 @@ inline constexpr uint32_t kMostCellPoints = 128;  // corners of all of them
 /// What stands for a shell in the rigid world: hulls of its cells, or one hull or box for all of it (piece_shape.hpp).
 enum class ShapeKind : uint8_t { Cells = 0, Hull = 1, Box = 2 };
 
-/// Rows [first, first + count) of a table, with room for `capacity`.
-struct Range {
-    uint32_t first = 0, count = 0, capacity = 0;
-};
-template <>
-struct ColumnType<Range> : ColumnLayout<Range, Scalar::U32, 3> {};
-
 /// One row is one shell.
-struct Shells : Table<Shells> {
-    using Table::Table;
+struct Shells : RangeTable<Shells> {
+    using RangeTable::RangeTable;
     static constexpr const char* kName = "shells";
     Column<Range> vertices{*this, "vertices"};  // first row is a multiple of 64
     Column<Range> elements{*this, "elements"};  // and TriangleSprings, the same rows
@@ -82,8 +75,8 @@ template <>
 struct ColumnType<Float4> : ColumnLayout<Float4, Scalar::F32, 4> {};
 
 /// One row is one point of the outer surface; its inner twin is rest + depth * inward. 8 rows are one pack of a kernel.
-struct Vertices : Table<Vertices> {
-    using Table::Table;
+struct Vertices : RangeTable<Vertices, kVerticesPerCell> {
+    using RangeTable::RangeTable;
     static constexpr const char* kName = "vertices";
     Column<Vec3> rest{*this, "rest", "m"};     // body frame
     Column<Vec3> inward{*this, "inward"};      // unit
@@ -116,8 +109,8 @@ enum class EdgeKind : uint8_t { Interior = 0, Border = 1, Crack = 2 };
 enum ElementFlag : uint8_t { kDegenerate = 1, kDead = 2, kIsTouched = 4 };
 
 /// One row is one prism (a, b, c, a', b', c'). Edge k runs from corner k to corner (k + 1) % 3.
-struct Elements : Table<Elements> {
-    using Table::Table;
+struct Elements : RangeTable<Elements, 16> {
+    using RangeTable::RangeTable;
     static constexpr const char* kName = "elements";
     Column<std::array<uint32_t, 3>> corner{*this, "corner"};  // vertices, counter-clockwise from outside
     Column<std::array<uint32_t, 3>> neighbour{*this,
@@ -172,8 +165,8 @@ struct TriangleSprings : Table<TriangleSprings> {
 };
 
 /// One row is one interior edge that resists bending: theta = sum of gradient . u over its four vertices (B3).
-struct Hinges : Table<Hinges> {
-    using Table::Table;
+struct Hinges : RangeTable<Hinges, 16> {
+    using RangeTable::RangeTable;
     static constexpr const char* kName = "hinges";
     Column<std::array<uint32_t, 4>> vertex{*this,
                                            "vertex"};  // 0, 1: the edge; 2, 3: the corners opposite; [0] == kNone: dead
@@ -183,8 +176,8 @@ struct Hinges : Table<Hinges> {
 };
 
 /// One row is 8 vertices' share of the stiffness: f_i = sum_j K_ij (w_j - w_i), difference form (section 10).
-struct StiffnessPacks : Table<StiffnessPacks> {
-    using Table::Table;
+struct StiffnessPacks : RangeTable<StiffnessPacks, 8> {
+    using RangeTable::RangeTable;
     static constexpr const char* kName = "stiffness_packs";
     Column<uint32_t> first_block{*this, "first_block"};  // relative to the shell's blocks
     Column<uint16_t> block_count{*this, "block_count"};
@@ -207,13 +200,13 @@ struct alignas(32) StiffnessLink {
     float row[3][kLanes];     // -k g_i, N
     float column[3][kLanes];  // g_j, 1/m
 };
-struct StiffnessBlocks : Table<StiffnessBlocks> {
-    using Table::Table;
+struct StiffnessBlocks : RangeTable<StiffnessBlocks> {
+    using RangeTable::RangeTable;
     static constexpr const char* kName = "stiffness_blocks";
     Column<StiffnessBlock> block{*this, "block"};
 };
-struct StiffnessLinks : Table<StiffnessLinks> {
-    using Table::Table;
+struct StiffnessLinks : RangeTable<StiffnessLinks> {
+    using RangeTable::RangeTable;
     static constexpr const char* kName = "stiffness_links";
     Column<StiffnessLink> link{*this, "link"};
 };
@@ -223,8 +216,8 @@ inline constexpr uint8_t kCracked = 1, kLeft = 2;
 
 /// One row is a patch of neighbouring vertices: chunk of a job, bounds, a few convex pieces of the collision
 /// shape (none where one hull or box stands for the shell).
-struct Cells : Table<Cells> {
-    using Table::Table;
+struct Cells : RangeTable<Cells> {
+    using RangeTable::RangeTable;
     static constexpr const char* kName = "cells";
     Column<uint32_t> first_point{*this, "first_point"};  // relative to the shell's points
     Column<uint32_t> point_count{*this, "point_count"};  // <= 128; 0: the cell has lost all of its elements
@@ -244,8 +237,8 @@ struct Cells : Table<Cells> {
 };
 
 /// One row is a corner of one of a cell's hulls, or of a whole shell's, body frame, pulled in by the collision margin.
-struct HullPoints : Table<HullPoints> {
-    using Table::Table;
+struct HullPoints : RangeTable<HullPoints> {
+    using RangeTable::RangeTable;
     static constexpr const char* kName = "hull_points";
     Column<Vec3> point{*this, "point", "m"};
 };

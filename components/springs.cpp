@@ -3,7 +3,7 @@
 
 #include <algorithm>
 
-#include "components/state.hpp"
+#include "components/shell_rows.hpp"
 
 namespace cullet {
 namespace {
@@ -18,18 +18,18 @@ struct Part {
 };
 
 /// Every range of a row with its table and pool.
-std::array<Part, 7> parts_of(State& s, const SpringRoom& room = {}) {
+std::array<Part, 7> parts_of(ShellRows& s, const SpringRoom& room = {}) {
     ShellSprings& own = s.shell_springs;
     const uint32_t packs = (room.vertices + kLanes - 1) / kLanes;
     const auto layered = [&](uint32_t rows) { return room.has_layers ? rows : 0; };
     const bool clears = room.clears_lists;
-    return {{{s.springs, s.pools.springs, own.springs, room.springs, "limits.elements", clears},
-             {s.layer_springs, s.pools.layer_springs, own.layers, layered(room.springs), "limits.elements", clears},
-             {s.element_springs, s.pools.element_springs, own.edges, room.elements, "limits.elements"},
-             {s.spring_packs, s.pools.spring_packs, own.packs, packs, "limits.vertices"},
-             {s.spring_slots, s.pools.spring_slots, own.slots, room.slots, "limits.vertices", clears},
-             {s.layer_slots, s.pools.layer_slots, own.layer_slots, layered(room.slots), "limits.vertices", clears},
-             {s.twins, s.pools.twins, own.twins, layered(packs * kLanes), "limits.vertices"}}};
+    return {{{s.springs, s.springs.pool, own.springs, room.springs, "limits.elements", clears},
+             {s.layer_springs, s.layer_springs.pool, own.layers, layered(room.springs), "limits.elements", clears},
+             {s.element_springs, s.element_springs.pool, own.edges, room.elements, "limits.elements"},
+             {s.spring_packs, s.spring_packs.pool, own.packs, packs, "limits.vertices"},
+             {s.spring_slots, s.spring_slots.pool, own.slots, room.slots, "limits.vertices", clears},
+             {s.layer_slots, s.layer_slots.pool, own.layer_slots, layered(room.slots), "limits.vertices", clears},
+             {s.twins, s.twins.pool, own.twins, layered(packs * kLanes), "limits.vertices"}}};
 }
 
 bool take(const Part& part, uint32_t row) {
@@ -45,25 +45,25 @@ bool take(const Part& part, uint32_t row) {
     return true;
 }
 
-void give_back(State& state, Row<ShellSprings> row) {
+void give_back(ShellRows& state, Row<ShellSprings> row) {
     for (const Part& part : parts_of(state)) part.pool.give_back(part.range[row].first, part.range[row].capacity);
     state.shell_springs.clear_rows(row, 1);
-    state.pools.shell_springs.give_back(row, 1);
+    state.shell_springs.pool.give_back(row, 1);
 }
 
 }  // namespace
 
-Row<ShellSprings> find_springs(const State& state, Row<Shells> shell) {
+Row<ShellSprings> find_springs(const ShellRows& state, Row<Shells> shell) {
     const ShellSprings& own = state.shell_springs;
     for (uint32_t row = 0; row < own.size(); ++row)
         if (own.is_used[row] && own.shell[row] == shell) return Row<ShellSprings>(row);
     return {};
 }
 
-Row<ShellSprings> make_springs(State& state, Row<Shells> shell, const SpringRoom& room, const char** full) {
+Row<ShellSprings> make_springs(ShellRows& state, Row<Shells> shell, const SpringRoom& room, const char** full) {
     ShellSprings& own = state.shell_springs;
     CULLET_ASSERT(!find_springs(state, shell).exists(), "shell %u has springs", shell.index);
-    const Row<ShellSprings> row(state.pools.shell_springs.take(1));
+    const Row<ShellSprings> row(state.shell_springs.pool.take(1));
     if (!row.exists()) {
         if (full) *full = "limits.shells";
         return {};
@@ -81,11 +81,11 @@ Row<ShellSprings> make_springs(State& state, Row<Shells> shell, const SpringRoom
     return {};
 }
 
-void release_springs(State& state, Row<Shells> shell) {
+void release_springs(ShellRows& state, Row<Shells> shell) {
     if (const Row<ShellSprings> row = find_springs(state, shell); row.exists()) give_back(state, row);
 }
 
-bool copy_springs(State& state, Row<Shells> source, Row<Shells> copy, const char** full) {
+bool copy_springs(ShellRows& state, Row<Shells> source, Row<Shells> copy, const char** full) {
     const Row<ShellSprings> from = find_springs(state, source);
     if (!from.exists()) return true;
     ShellSprings& own = state.shell_springs;

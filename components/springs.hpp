@@ -25,8 +25,8 @@ inline SpringLayout spring_layout(bool has_layers, LayerLayout layout) {
 }
 
 /// One row is the springs of one shell.
-struct ShellSprings : Table<ShellSprings> {
-    using Table::Table;
+struct ShellSprings : RangeTable<ShellSprings> {
+    using RangeTable::RangeTable;
     static constexpr const char* kName = "shell_springs";
     static constexpr bool kIsOptional = true;
     Column<uint8_t> is_used{*this, "is_used"};
@@ -54,8 +54,8 @@ struct ShellSprings : Table<ShellSprings> {
 };
 
 /// One row is one spring along an edge, of the outer skin where there are two.
-struct Springs : Table<Springs> {
-    using Table::Table;
+struct Springs : RangeTable<Springs, 16> {
+    using RangeTable::RangeTable;
     static constexpr const char* kName = "springs";
     static constexpr bool kIsOptional = true;
     Column<uint32_t> a{*this, "a"};                              // vertices; kNone in both: a row that is not used
@@ -71,8 +71,8 @@ struct Springs : Table<Springs> {
 };
 
 /// One row is what two layers add to the spring in the same row: its inner skin, and what ties the skins.
-struct LayerSprings : Table<LayerSprings> {
-    using Table::Table;
+struct LayerSprings : RangeTable<LayerSprings, 16> {
+    using RangeTable::RangeTable;
     static constexpr const char* kName = "layer_springs";
     static constexpr bool kIsOptional = true;
     Column<float> inner_length{*this, "inner_length", "m"};    // at rest
@@ -88,8 +88,8 @@ struct LayerSprings : Table<LayerSprings> {
 };
 
 /// One row is the springs of the edges of the element in the same row of the shell's elements.
-struct ElementSprings : Table<ElementSprings> {
-    using Table::Table;
+struct ElementSprings : RangeTable<ElementSprings, 16> {
+    using RangeTable::RangeTable;
     static constexpr const char* kName = "element_springs";
     static constexpr bool kIsOptional = true;
     Column<std::array<uint32_t, 3>> spring{*this, "spring"};  // of edge k; kNone: not made yet
@@ -99,8 +99,8 @@ struct ElementSprings : Table<ElementSprings> {
 };
 
 /// One row is the list of 8 vertices.
-struct SpringPacks : Table<SpringPacks> {
-    using Table::Table;
+struct SpringPacks : RangeTable<SpringPacks, 8> {
+    using RangeTable::RangeTable;
     static constexpr const char* kName = "spring_packs";
     static constexpr bool kIsOptional = true;
     Column<uint32_t> first_slot{*this, "first_slot"};  // relative to the shell's slots
@@ -126,22 +126,22 @@ struct alignas(32) LayerSlot {
     /// Sandwich: the shear pair, K = k / (4 L^2) in N/m3 and |d1|^2 - |d2|^2 at rest. Crossed: from the inner point.
     float second_inverse[kLanes], second_stiffness[kLanes];
 };
-struct SpringSlots : Table<SpringSlots> {
-    using Table::Table;
+struct SpringSlots : RangeTable<SpringSlots> {
+    using RangeTable::RangeTable;
     static constexpr const char* kName = "spring_slots";
     static constexpr bool kIsOptional = true;
     Column<SpringSlot> slot{*this, "slot"};
 };
-struct LayerSlots : Table<LayerSlots> {
-    using Table::Table;
+struct LayerSlots : RangeTable<LayerSlots> {
+    using RangeTable::RangeTable;
     static constexpr const char* kName = "layer_slots";
     static constexpr bool kIsOptional = true;
     Column<LayerSlot> slot{*this, "slot"};
 };
 
 /// One row is the inner point of the vertex in the same row of the shell, and the internal spring between both.
-struct Twins : Table<Twins> {
-    using Table::Table;
+struct Twins : RangeTable<Twins, kVerticesPerCell> {
+    using RangeTable::RangeTable;
     static constexpr const char* kName = "twins";
     static constexpr bool kIsOptional = true;
     Column<Float4, Buffers::Two> position{*this, "position", "m"};  // working frame; .w as Vertices.probe

@@ -4,6 +4,8 @@
 //     Out<&T::column>    writes the rows it was given; the new side of a two-sided column
 //     InOut<&T::column>  reads and writes the rows it was given
 //     Table&, const Table&, Resource&, const Resource&   the whole of it: writes, or reads
+//     Set&, const Set&   all tables of a set and of those that it stands on: RunRows : ShellRows : ...
+//     InChunks<Set>      the same for a parallel system, which writes the rows of its own chunk alone
 //     a group of these (table_group.hpp)                 by value
 //     Step and other plain values                        by value
 //
@@ -235,13 +237,32 @@ template <class T>
 concept HoldsEveryTable = requires {
     std::remove_cvref_t<T>::tables();
 };
+/// A struct of tables that lists them (own_tables()) and what it stands on (Below): a smaller set, or a group.
+template <class T>
+concept IsTableSet = !HoldsEveryTable<T> && requires {
+    std::remove_cvref_t<T>::own_tables();
+};
+template <class T, class Set, class... Own>
+constexpr bool is_among(std::tuple<Own Set::*...>) {
+    return (... || std::is_same_v<T, Own>);
+}
+/// The table of type T in a set.
+template <class T, IsTableSet Set>
+T& table_in(Set& set) {
+    if constexpr (is_among<T>(Set::own_tables()))
+        return set.*std::get<T Set::*>(Set::own_tables());
+    else
+        return table_in<T>(static_cast<typename Set::Below&>(set));
+}
 template <class P>
 requires std::is_lvalue_reference_v<P>
 struct Parameter<P> {
     using Plain = std::remove_cvref_t<P>;
     static constexpr bool kWrites = !std::is_const_v<std::remove_reference_t<P>>;
     static void describe(std::vector<Access>& list) {
-        if constexpr (IsTable<P>)
+        if constexpr (IsTableSet<P>)
+            describe_set(list);
+        else if constexpr (IsTable<P>)
             list.push_back({Plain::kName, true, kWrites, false, Access::Kind::Table});
         else
             list.push_back({type_name<Plain>(), true, kWrites, false,
@@ -249,10 +270,26 @@ struct Parameter<P> {
     }
     template <class W>
     static P bind(Call<W>& call) {
-        if constexpr (IsTable<P>)
+        if constexpr (IsTableSet<P>)
+            return call.world.template set<Plain>();
+        else if constexpr (IsTable<P>)
             return call.world.template table<Plain>();
         else
             return call.world.template resource<Plain>();
+    }
+
+ private:
+    static void describe_set(std::vector<Access>& list) {
+        using Below = typename Plain::Below;
+        if constexpr (IsTableSet<Below>)
+            Parameter<std::conditional_t<kWrites, Below&, const Below&>>::describe(list);
+        else
+            Parameter<Below>::describe(list);
+        std::apply(
+            [&]<class... T>(T Plain::*...) {
+                (list.push_back({T::kName, true, kWrites, false, Access::Kind::Table}), ...);
+            },
+            Plain::own_tables());
     }
 };
 template <class P>
@@ -261,6 +298,22 @@ requires(!std::is_lvalue_reference_v<P> && std::is_same_v<P, Step>) struct Param
     template <class W>
     static P bind(Call<W>& call) {
         return call.world.template resource<P>();
+    }
+};
+
+/// A set in a system that is called once a chunk of rows: it reads what it likes, and writes what belongs to its rows.
+template <IsTableSet Set>
+struct InChunks {
+    explicit InChunks(Set& s) : set(s) {}
+    Set* operator->() const { return &set; }
+    Set& set;
+};
+template <class Set>
+struct Parameter<InChunks<Set>> {
+    static void describe(std::vector<Access>& list) { Parameter<Set&>::describe(list); }
+    template <class W>
+    static InChunks<Set> bind(Call<W>& call) {
+        return InChunks<Set>(Parameter<Set&>::bind(call));
     }
 };
 
@@ -344,7 +397,7 @@ struct Signature<void (*)(P...)> {
         if constexpr (IsGroup<A>)
             return []<class... M>(TypeList<M...>) { return (... || changes_a_resource<M>()); }(group::MembersOf<A>{});
         else
-            return kChanges<A> && !IsTable<A> && !HoldsEveryTable<A>;
+            return kChanges<A> && !IsTable<A> && !IsTableSet<A> && !HoldsEveryTable<A>;
     }
     static_assert(kKind == CallKind::Serial || kKind == CallKind::Bodies || !(... || changes_any<P>()),
                   "only Serial, EachBody and Each systems may change a whole table, only Serial ones a resource");

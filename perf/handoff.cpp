@@ -7,6 +7,7 @@
 #include <memory>
 #include <vector>
 
+#include "components/state.hpp"
 #include "engine/arena.hpp"
 #include "engine/fp_mode.hpp"
 #include "perf/perf.hpp"

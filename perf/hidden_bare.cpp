@@ -15,7 +15,7 @@ bool BareHidden::is_supported() {
 
 BareHidden::BareHidden(ShellView shell, float dt, float beta)
     : dt_(dt), beta_(beta), has_pair_cells_(stores_pairs_once(shell.shells(), shell.row)) {
-    const State& s = shell.state;
+    const ShellRows& s = shell.state;
     const Range packs = s.shells.packs[shell.row];
     size_t floats = 0;
     for (uint32_t p = 0; p < packs.count; ++p) {

@@ -4,7 +4,7 @@
 namespace cullet::perf {
 
 PlainHidden::PlainHidden(ShellView shell, float dt, float beta) : dt_(dt), beta_(beta) {
-    const State& s = shell.state;
+    const ShellRows& s = shell.state;
     const PlaneStress c = plane_stress(s, shell.row);
     c11_ = static_cast<float>(c.c11), c12_ = static_cast<float>(c.c12), c33_ = static_cast<float>(c.c33);
     for (uint32_t v = 0; v < shell.vertex_count(); ++v) {

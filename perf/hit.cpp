@@ -4,6 +4,7 @@
 #include <cstdio>
 #include <memory>
 
+#include "components/state.hpp"
 #include "engine/fp_mode.hpp"
 #include "engine/hash.hpp"
 #include "engine/jobs.hpp"
@@ -181,7 +182,7 @@ Measured measure_slices(Vase& vase, const BrittleLoop& loop, JobSystem* team, do
     Measured result;
     Ending ending;
     State& state = vase.state;
-    LoopWorld world{state};
+    LoopWorld world{state, state.blows};
     for (uint32_t round = 0; round < rounds; ++round) {
         const uint64_t bare = yardstick();
         for (LeastTimes* t : {&open, &steps, &group, &hand_off}) t->begin_run();
@@ -229,7 +230,7 @@ Counts count_work(Vase& vase, const BrittleLoop& loop) {
     const ShellView shell(state, state.tasks.shell[kTask]);
     Counts counts;
     counts.slots_before = stiffness_slots(shell);
-    LoopWorld world{state};
+    LoopWorld world{state, state.blows};
     while (is_running(state)) {
         const uint32_t done = state.tasks.steps_done[kTask], vertices = shell.vertex_count();
         state.tasks.steps_granted[kTask] = kSliceSteps;
@@ -264,7 +265,7 @@ void measure_vase(const char* name, float edge, const Options& options, uint32_t
 
     Systems systems(loop);
     Ending ending;
-    LoopWorld world{vase.state};
+    LoopWorld world{vase.state, vase.state.blows};
     uint64_t hash = 0;
     const auto yardstick = [&] {
         if (BareHidden::is_supported()) run_bare(bare_hidden, counts.steps, bare_times);

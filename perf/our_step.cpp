@@ -7,13 +7,13 @@ namespace cullet::perf {
 namespace {
 
 /// What pass_impulses does for a region, without its contacts.
-void follow_rest(EachBody task, Turn turn, ShellTables shells) {
-    move_rest(shells.state, Row<Tasks>(task.row), turn.old_side);
+void follow_rest(EachBody task, Turn turn, RunRows& rows) {
+    move_rest(rows, Row<Tasks>(task.row), turn.old_side);
 }
 
 }  // namespace
 
-OurStep::OurStep(State& state, bool with_rest) : world_{state} {
+OurStep::OurStep(RunRows& state, bool with_rest) : world_{state, none_} {
     loop_.then<integrate_hidden>();
     if (with_rest) loop_.then<follow_rest>();
     loop_.finish();

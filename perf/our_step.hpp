@@ -9,10 +9,11 @@ namespace cullet::perf {
 /// region's rest. Of task row 0.
 class OurStep {
  public:
-    explicit OurStep(State& state, bool with_rest = false);
+    explicit OurStep(RunRows& state, bool with_rest = false);
     void run(uint32_t steps, JobSystem* team);
 
  private:
+    const Blows none_{1};
     LoopWorld world_;
     BrittleLoop loop_;
 };

@@ -31,7 +31,7 @@ SpringNet castle_net() {
     Result<Model> model = cook(view_of(mesh), settings);
     SpringNet net;
     if (!model.ok()) return net;
-    const State& state = model->contents->state;
+    const Workbench& state = model->contents->state;
     const Range vertices = state.shells.vertices[model->contents->shell];
     const Range elements = state.shells.elements[model->contents->shell];
     for (uint32_t v = 0; v < vertices.count; ++v) net.points.push_back(state.vertices.rest[vertices.first + v]);

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include "components/state.hpp"
 #include "systems/structures/shell/draw_shell.hpp"
 #include "systems/world_contents.hpp"
 
@@ -19,7 +20,8 @@ std::string DrawnMeshes::check_changed(World& world) {
         seen_[b] = now;
         ++checked_;
         const Result<void> sound =
-            check_drawn_mesh(ShellView(state, bodies.shell[b]), bodies.view_vertices[b], bodies.view_indices[b]);
+            check_drawn_mesh(ShellView(state, bodies.shell[b]), {state.view_vertices, state.view_indices},
+                             bodies.view_vertices[b], bodies.view_indices[b]);
         if (!sound.ok()) return fmt::format("body {}: {}", b, sound.error());
     }
     return "";

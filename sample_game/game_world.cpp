@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <tuple>
 
+#include "components/state.hpp"
 #include "sample_game/script/script.hpp"
 #include "systems/world_contents.hpp"
 

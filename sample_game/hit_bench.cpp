@@ -4,6 +4,7 @@
 #include <cmath>
 #include <vector>
 
+#include "components/state.hpp"
 #include "engine/fp_mode.hpp"
 #include "engine/random.hpp"
 #include "sample_game/meshes.hpp"
@@ -117,7 +118,7 @@ Result<HitSubject> make_subject(Subject subject, uint64_t seed) {
 }
 
 HitBench::HitBench(Subject subject, const Model& model, uint64_t seed) : subject_(subject), seed_(seed) {
-    const State& cooked = model.contents->state;
+    const Workbench& cooked = model.contents->state;
     state_ = std::make_unique<State>(cooking_limits(model.report().vertices, model.report().elements));
     state_->materials.append(cooked.materials.size());
     state_->materials.copy_rows(cooked.materials, 0, 0, cooked.materials.size());
@@ -161,7 +162,7 @@ HitDescription HitBench::blow(uint32_t placement, float speed) const {
 
 HitReport HitBench::run(const HitDescription& hit, bool ends_at_first_cut) {
     const FpMode mode;
-    const auto is_cut = [](const State& state) { return state.tasks.crack_count[Row<Tasks>(0)] > 0; };
+    const auto is_cut = [](const RunRows& state) { return state.tasks.crack_count[Row<Tasks>(0)] > 0; };
     const HitReport report = run_hit(*state_, shell_, hit, ends_at_first_cut ? +is_cut : nullptr);
     close_hit(*state_);
     return report;

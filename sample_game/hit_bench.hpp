@@ -3,6 +3,7 @@
 #include <array>
 #include <optional>
 
+#include "components/state.hpp"
 #include "cullet/model.hpp"
 #include "systems/models/thick_shell/run_hit.hpp"
 

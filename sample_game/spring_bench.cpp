@@ -4,6 +4,7 @@
 #include <map>
 #include <stdexcept>
 
+#include "components/state.hpp"
 #include "engine/fp_mode.hpp"
 #include "systems/models/thick_shell/springs/press_layers.hpp"
 #include "systems/models/thick_shell/springs/spring_loop.hpp"
@@ -66,7 +67,7 @@ void link(const ShellView& shell) {
 
 void fill_shell(const ShellView& shell, const BenchMesh& mesh, double thickness,
                 const std::function<bool(Vec3d)>& is_pinned) {
-    State& s = shell.state;
+    ShellRows& s = shell.state;
     std::vector<Vec3d> normal(mesh.points.size());
     double edges = 0, area_sum = 0;
     const double density = s.materials.density[s.shells.material[shell.row]];

@@ -4,6 +4,7 @@
 #include <functional>
 #include <memory>
 
+#include "components/state.hpp"
 #include "systems/models/thick_shell/springs/give_springs.hpp"
 #include "systems/models/thick_shell/springs/start_springs.hpp"
 

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <memory>
 
+#include "components/state.hpp"
 #include "engine/fp_mode.hpp"
 #include "engine/math.hpp"
 #include "sample_game/meshes.hpp"
@@ -41,7 +42,7 @@ Result<Plate> make_plate(uint32_t edges, double unevenness) {
     const Mesh mesh = make_pane(static_cast<float>(kSide), static_cast<float>(kSide / (edges + 1.5)), 1, unevenness);
     const Result<Model> model = cook(view_of(mesh), settings);
     if (!model.ok()) return Error{model.error()};
-    const State& cooked = model->contents->state;
+    const Workbench& cooked = model->contents->state;
     Plate plate;
     plate.state = std::make_unique<State>(cooking_limits(model->report().vertices, model->report().elements));
     State& state = *plate.state;

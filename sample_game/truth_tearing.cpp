@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "components/state.hpp"
 #include "sample_game/spring_truth.hpp"
 #include "sample_game/truth_cases.hpp"
 #include "systems/models/thick_shell/soft/soft_loop.hpp"

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "components/state.hpp"
 #include "engine/fp_mode.hpp"
 #include "engine/profiler.hpp"
 #include "systems/cook/model_contents.hpp"
@@ -16,7 +17,7 @@ constexpr double kUnitsAVertex = 5;
 }  // namespace
 
 std::map<std::string, double> measure_yardsticks(const Model& model) {
-    const State& source = model.contents->state;
+    const Workbench& source = model.contents->state;
     const Range vertices = source.shells.vertices[model.contents->shell];
     State state(cooking_limits(vertices.capacity, source.shells.elements[model.contents->shell].capacity));
     const char* full = "";

@@ -1,5 +1,4 @@
-// Every system of a frame. The parameters of each are all that it sees, ShellTables standing for all tables of shells;
-// frame.cpp gives their order.
+// Every system of a frame. The parameters of each are all that it sees; frame.cpp gives their order.
 #pragma once
 #include "systems/models/thick_shell/springs/spring_loop.hpp"
 #include "systems/world_data.hpp"
@@ -13,121 +12,100 @@ void remember_poses(Rows<Bodies> bodies, In<&Bodies::position> position, In<&Bod
                     Out<&Bodies::previous_position> previous_position,
                     Out<&Bodies::previous_orientation> previous_orientation);
 /// Which bodies the blows that the game asked for reach; balls and unbreakable bodies are pushed at once.
-void take_blows(Serial, Blows& blows, ShellTables shells, Bodies& bodies, RigidWorld& rigid, DamageCounts& counts,
+void take_blows(Serial, Blows& blows, SoftRows& rows, RigidWorld& rigid, DamageCounts& counts,
                 Events<RefusedEvent>& refused);
 /// Checked and Debug builds: the energy that the frame begins with, the game's blows of unbreakable bodies in it.
-void open_energy_balance(Serial, Step step, ShellTables shells, const DamageCounts& counts, const RigidWorld& rigid,
-                         EnergyBalance& balance);
+void open_energy_balance(Serial, Step step, SoftRows& rows, const Debris& debris, const DamageCounts& counts,
+                         const RigidWorld& rigid, EnergyBalance& balance);
 /// Soft bodies that have been quiet long enough are rigid again, in the shape that they have.
-void freeze_soft_bodies(Serial, ShellTables shells, SoftBodies& soft, Bodies& bodies, RigidWorld& rigid, Arena& arena);
+void freeze_soft_bodies(Serial, SoftRows& rows, RigidWorld& rigid, Arena& arena);
 /// Sweeps fast bodies to their time of impact, finds all contacts of this step.
 void detect_contacts(Serial, Step step, RigidWorld& rigid);
 /// Contacts that a breakable body may not survive, sorted by body and speed.
 void predict_impacts(Serial, Step step, const RigidWorld& rigid, const Bodies& bodies, const Shells& shells,
-                     const Tasks& tasks, const TaskContacts& contacts, const DamageSettings& settings,
-                     Events<Impact>& impacts);
+                     RunsNow runs, const DamageSettings& settings, Events<Impact>& impacts);
 /// The first touches of bodies in flight that may break something, up to settings.frames_ahead before they come.
-void foresee_impacts(Serial, Step step, RigidWorld& rigid, const Bodies& bodies, const Shells& shells,
-                     const Tasks& tasks, const TaskContacts& contacts, const DamageSettings& settings, Arena& arena,
-                     Events<ForeseenHit>& foreseen);
+void foresee_impacts(Serial, Step step, RigidWorld& rigid, const Bodies& bodies, const Shells& shells, RunsNow runs,
+                     const DamageSettings& settings, Arena& arena, Events<ForeseenHit>& foreseen);
 /// Tasks that were opened ahead of their touch: where it has come as foreseen (same striker, same cell, a tenth of the
 /// speed, nobody faster by more) they go on as tasks of this step, whose result is due in it; where it came otherwise,
 /// or did not come, they are dropped.
-void meet_foreseen(Serial, Step step, ShellTables shells, Tasks& tasks, TaskContacts& contacts, Blows& blows,
-                   const Bodies& bodies, const DamageSettings& settings, DamageCounts& counts, Events<Impact>& impacts,
+void meet_foreseen(Serial, Step step, BodyRows& rows, const Blows& blows, DamageLedger ledger, Events<Impact>& impacts,
                    Events<ImpactEvent>& impact_events);
 /// One damage task a body that was hit: asks the game, takes rows for its working copy. A further hit on a body whose
 /// task is open waits in QueuedHits, as all hits do while every task is taken; it opens one when the body can, the
 /// oldest first. Blows of the game do as contacts do, and touches that are foreseen, behind all others.
-void open_tasks(Serial, Step step, const Events<Impact>& impacts, const Events<ForeseenHit>& foreseen,
-                ShellTables shells, const Materials& materials, Bodies& bodies, Tasks& tasks, TaskContacts& contacts,
-                QueuedHits& queued, Blows& blows, RigidWorld& rigid, const DamageSettings& settings,
-                DamageCounts& counts, Events<TaskOpened>& opened, Events<StiffnessWanted>& stiffness_wanted,
-                Events<ImpactEvent>& impact_events, Events<RefusedEvent>& refused);
+void open_tasks(Serial, Step step, const Events<Impact>& impacts, const Events<ForeseenHit>& foreseen, SoftRows& rows,
+                WaitingHits waiting, RigidWorld& rigid, DamageLedger ledger, OpenedTasks out);
 /// Ductile and elastic bodies that something hits hard enough, or that lose what they lay against, begin to move by
 /// their springs.
-void wake_soft_bodies(Serial, Step step, ShellTables shells, const Tasks& tasks, const TaskContacts& contacts,
-                      SoftBodies& soft, Bodies& bodies, RigidWorld& rigid);
+void wake_soft_bodies(Serial, SoftRows& rows, RigidWorld& rigid);
 /// Hidden runs on a part of a body that came to its border begin again on a larger one
 /// (models/thick_shell/hidden/hidden_region.hpp).
-void widen_regions(Serial, ShellTables shells, Tasks& tasks, const Bodies& bodies, Events<TaskOpened>& opened,
-                   Events<StiffnessWanted>& stiffness_wanted, Events<RefusedEvent>& refused);
+void widen_regions(Serial, BodyRows& rows, Events<TaskOpened>& opened, Events<StiffnessWanted>& stiffness_wanted,
+                   Events<RefusedEvent>& refused);
 /// Copies the body's shell into the task's.
-void fill_tasks(Each<TaskOpened> opened, ShellTables shells, Tasks& tasks);
+void fill_tasks(Each<TaskOpened> opened, RunRows& rows);
 /// Assembles stiffness that the body's shell does not have: a piece that is hit for the first time.
-void fill_stiffness(Each<StiffnessWanted> wanted, ShellTables shells, const Tasks& tasks);
+void fill_stiffness(Each<StiffnessWanted> wanted, RunRows& rows);
 /// Lays the contact patches, gives every vertex the body's velocity and what explosions add. Cuts are made here, and
 /// ask the boxes of the body's pins which of their sides they hold.
-void start_tasks(Each<TaskOpened> opened, ShellTables shells, Tasks& tasks, TaskContacts& contacts,
-                 PatchVertices& patches, Blows& blows, const Bodies& bodies, const PinBoxes& pins);
+void start_tasks(Each<TaskOpened> opened, BodyRows& rows, Blows& blows);
 
 /// Quick bodies: chooses the neighbourhood of each hit (models/thick_shell/quick/region.hpp) and takes rows for its
 /// springs.
-void wake_regions(Serial, const Events<TaskOpened>& opened, ShellTables shells, Tasks& tasks, TaskContacts& contacts,
-                  PatchVertices& patches, const Bodies& bodies, Events<RegionPart>& parts,
-                  Events<RefusedEvent>& refused);
+void wake_regions(Serial, const Events<TaskOpened>& opened, RunRows& rows, const Bodies& bodies,
+                  Events<RegionPart>& parts, Events<RefusedEvent>& refused);
 /// Lengths, stiffness and damping of its springs.
-void measure_regions(Each<RegionPart> part, ShellTables shells, const Tasks& tasks);
+void measure_regions(Each<RegionPart> part, RunRows& rows);
 /// Its vertices' lists of them.
-void lay_regions(Each<RegionPart> part, ShellTables shells, const Tasks& tasks);
+void lay_regions(Each<RegionPart> part, RunRows& rows);
 /// Its time step, and it stands at rest as the body sees it.
-void start_regions(Serial, const Events<TaskOpened>& opened, ShellTables shells, Tasks& tasks, TaskContacts& contacts,
-                   PatchVertices& patches);
+void start_regions(Serial, const Events<TaskOpened>& opened, RunRows& rows, const Blows& blows);
 
 // ---- damage
 
 /// Shares the frame's units: one step to each open task, then equal rounds, in order of (frame of impact, body row).
 /// Soft bodies that are awake come first, with up to half of the units: they run on the world's clock.
-void grant_units(Serial, ShellTables shells, Tasks& tasks, SoftBodies& soft, const DamageSettings& settings,
-                 DamageCounts& counts);
+void grant_units(Serial, SoftRows& rows, DamageLedger ledger);
 /// Runs the inner loop of each open task for the steps it was granted, on all workers.
-void advance_damage(Serial, DamageLoop& loop, DamageCounts& counts);
+void advance_damage(Serial, RunRows& rows, const Blows& blows, DamageLoop& loop, DamageCounts& counts);
 /// Runs the springs of each awake body through the frame, on all workers.
-void advance_soft(Serial, Step step, const RigidWorld& rigid, SoftLoop& loop);
+void advance_soft(Serial, Step step, SoftRows& rows, const RigidWorld& rigid, SoftLoop& loop);
 /// What soft bodies gave to what they met, and where they are now, for the rigid world.
-void pass_soft(Serial, Step step, ShellTables shells, SoftBodies& soft, SoftStrikers& strikers, Bodies& bodies,
-               RigidWorld& rigid, DamageCounts& counts, Arena& arena, Events<FaultEvent>& faults);
+void pass_soft(Serial, Step step, SoftRows& rows, RigidWorld& rigid, DamageCounts& counts, Arena& arena,
+               Events<FaultEvent>& faults);
 /// Holds bodies whose task goes on, releases those whose time is up or whose task ended; names runs whose cracks had no
 /// room.
-void settle_tasks(Serial, Step step, Tasks& tasks, TaskContacts& contacts, Blows& blows, Bodies& bodies,
-                  const Shells& shells, RigidWorld& rigid, const DamageSettings& settings, DamageCounts& counts,
-                  Events<TaskEnded>& ended, Events<ImpactEvent>& impact_events, Events<RefusedEvent>& refused);
+void settle_tasks(Serial, Step step, RunTables runs, Bodies& bodies, const Shells& shells, RigidWorld& rigid,
+                  DamageLedger ledger, Events<TaskEnded>& ended, ToldOfHits told);
 
 /// Regions whose run ended fall asleep: vertices get the body's own motion back, springs their rows. What a cut-out
 /// changed goes into the body's shell (models/thick_shell/shared/cut_out.hpp).
-void close_regions(Serial, const Events<TaskEnded>& ended, ShellTables shells, Tasks& tasks, TaskContacts& contacts,
-                   Fragments& fragments, const Bodies& bodies, Events<CrackStartedEvent>& cracks);
+void close_regions(Serial, const Events<TaskEnded>& ended, BodyRows& rows, Events<CrackStartedEvent>& cracks);
 
 // ---- apply
 
 /// Which elements of a broken shell hang together.
-void find_parts(Each<TaskEnded> ended, ShellTables shells, const Bodies& bodies, Tasks& tasks, Fragments& fragments);
+void find_parts(Each<TaskEnded> ended, BodyRows& rows, Fragments& fragments);
 /// Cracks of a run that ended are drawn, and collide, after one pass of (1/4, 1/2, 1/4) along them (C6).
-void smooth_cracks(Each<TaskEnded> ended, ShellTables shells, const Tasks& tasks);
+void smooth_cracks(Each<TaskEnded> ended, RunRows& rows, const Blows& blows);
 /// Which pieces become bodies or crumbs, in order of mass, and the rows that they need. What stayed whole keeps its
 /// cracks. What finds no room stays part of the body, and asks again.
-void plan_births(Serial, const Events<TaskEnded>& ended, ShellTables shells, const Tasks& tasks, Fragments& fragments,
-                 QueuedHits& queued, Blows& blows, Bodies& bodies, const Debris& debris,
-                 const FragmentAges& fragment_ages, ViewVertices& view_vertices, ViewIndices& view_indices,
-                 const DamageSettings& settings, DamageCounts& counts, Arena& arena, Events<Break>& breaks,
-                 Events<Birth>& births, Events<ShellChanged>& changed, Events<CrackStartedEvent>& cracks,
-                 Events<RefusedEvent>& refused, Events<FaultEvent>& faults);
+void plan_births(Serial, const Events<TaskEnded>& ended, SoftRows& rows, WaitingHits waiting, Fragments& fragments,
+                 const Debris& debris, DamageLedger ledger, Arena& arena, PlannedBirths planned);
 /// Copies each piece into its rows, marks the old ones dead and chooses what shapes collide (piece_shape.hpp); settles
 /// the pieces' motions meanwhile (settle_momenta).
-void fill_births(Each<Birth> birth, const Events<Break>& breaks, ShellTables shells, const Bodies& bodies);
+void fill_births(Each<Birth> birth, const Events<Break>& breaks, ShellRows& rows, const Bodies& bodies);
 /// Measures what is left of each body; hulls of cells that moved as they were are copied, the others listed.
-void plan_hulls(Serial, const Events<Break>& breaks, ShellTables shells, Bodies& bodies, RigidWorld& rigid,
-                Events<HullWanted>& wanted);
+void plan_hulls(Serial, const Events<Break>& breaks, BodyRows& rows, RigidWorld& rigid, Events<HullWanted>& wanted);
 /// The hull points of each cell that changed, and the faces of its hull, or of a piece's one shape, for the rigid
 /// world.
-void fill_hulls(Each<HullWanted> wanted, ShellTables shells, const RigidWorld& rigid);
+void fill_hulls(Each<HullWanted> wanted, ShellRows& rows, const RigidWorld& rigid);
 /// The pieces enter the rigid world, in order of mass; the striker gets the impulse that it really passed. Closes the
 /// tasks that ended.
-void make_births(Serial, Step step, const Events<TaskEnded>& ended, const Events<Break>& breaks, ShellTables shells,
-                 Tasks& tasks, TaskContacts& contacts, Blows& blows, Bodies& bodies, Debris& debris,
-                 FragmentAges& fragment_ages, DebrisAges& debris_ages, RigidWorld& rigid, DamageCounts& counts,
-                 Arena& arena, Events<ShellChanged>& changed, Events<FragmentBornEvent>& born,
-                 Events<DebrisEvent>& debris_events);
+void make_births(Serial, Step step, EndedTasks over, SoftRows& rows, Blows& blows, Crumbs crumbs, RigidWorld& rigid,
+                 BirthAccounts accounts, ToldOfBirths told);
 
 // ---- solve
 
@@ -140,14 +118,14 @@ void return_soft(Serial, const SoftBodies& soft, const SoftStrikers& strikers, R
 void read_rigid(Serial, const RigidWorld& rigid, Bodies& bodies, Events<AsleepEvent>& asleep);
 /// What lies on a body or squeezes it, by the impulses of the last solve (a host tells them with its contacts): for
 /// some steps more than it bears (impacts/overload.hpp), and a hit waits for it in QueuedHits that stands for the load.
-void weigh_loads(Serial, Step step, RigidWorld& rigid, ShellTables shells, Bodies& bodies, QueuedHits& queued,
+void weigh_loads(Serial, Step step, RigidWorld& rigid, BodyRows& rows, QueuedHits& queued,
                  const DamageSettings& settings, Arena& arena, Events<RefusedEvent>& refused);
 /// Crumbs fly on parabolas, bounce off the ground and off bodies larger than they are, slide and come to rest; of a
 /// host's world, which keeps its shapes to itself, they know the floor below their place of birth alone.
 void fall_debris(Serial, Step step, const RigidWorld& rigid, Debris& debris, DamageCounts& counts);
 /// Checked and Debug builds: between this and its opening the frame made no energy (checks/energy_balance.hpp).
-void close_energy_balance(Serial, Step step, ShellTables shells, const DamageCounts& counts, const RigidWorld& rigid,
-                          EnergyBalance& balance, Events<FaultEvent>& faults);
+void close_energy_balance(Serial, Step step, SoftRows& rows, const Debris& debris, const DamageCounts& counts,
+                          const RigidWorld& rigid, EnergyBalance& balance, Events<FaultEvent>& faults);
 /// Crumbs that are older than the game wants go.
 void fade_debris(Serial, Step step, Debris& debris, const DebrisAges& ages, const DamageSettings& settings,
                  DamageCounts& counts);
@@ -155,79 +133,57 @@ void fade_debris(Serial, Step step, Debris& debris, const DebrisAges& ages, cons
 // ---- end
 
 /// Soft bodies that are awake are drawn anew.
-void show_soft(Serial, ShellTables shells, const SoftBodies& soft, Bodies& bodies, ViewVertices& vertices,
-               ViewIndices& indices, Events<ShellChanged>& changed, Events<RefusedEvent>& refused);
+void show_soft(Serial, SoftRows& rows, Events<ShellChanged>& changed, Events<RefusedEvent>& refused);
 /// The drawn mesh of each shell that changed: of what a hit left of a body, the cells that it changed.
-void draw_shells(Each<ShellChanged> changed, Step step, ShellTables shells, Bodies& bodies, ViewVertices& vertices,
-                 ViewIndices& indices, ViewBoxes& boxes);
+void draw_shells(Each<ShellChanged> changed, Step step, BodyRows& rows, ViewBoxes& boxes);
 /// Boxes of the drawn triangles of each shell that changed.
 void bound_drawn(Each<ShellChanged> changed, Bodies& bodies, const ViewVertices& vertices, const ViewIndices& indices,
                  ViewBoxes& boxes);
 /// The tree that queries go down.
 void refresh_queries(Serial, const Bodies& bodies, QueryIndex& index);
 /// Moves the live rows of shells together that lost a quarter of theirs to pieces, in quiet frames, for units.
-void compact_shells(Serial, ShellTables shells, Bodies& bodies, ViewIndices& indices, const Tasks& tasks,
-                    Fragments& fragments, DamageCounts& counts, const Events<TaskEnded>& ended);
+void compact_shells(Serial, BodyRows& rows, Fragments& fragments, DamageCounts& counts, const Events<TaskEnded>& ended);
 
 // ---- inner loop of a brittle thick shell: repeated for one task
 
 /// Contact springs of the patches, from the displacements before the step (6.3).
-void push_patches(EachBody task, ShellTables shells, Tasks& tasks, const TaskContacts& contacts,
-                  PatchVertices& patches);
+void push_patches(EachBody task, RunRows& rows);
 /// One fused pass (section 10): f_i = sum_j K_ij (w_j - w_i); v += dt f / m; u += dt v; next w = u + beta v.
-void integrate_hidden(Rows<StiffnessPacks> packs, OfTask task, Turn turn, const Tasks& tasks, const Shells& shells,
-                      const StiffnessPacks& slots, const StiffnessBlocks& blocks, const StiffnessLinks& links,
+void integrate_hidden(Rows<StiffnessPacks> packs, OfTask task, RunStiffness of,
                       In<&Vertices::inverse_mass> inverse_mass, In<&Vertices::probe> probe,
                       InOut<&Vertices::velocity> velocity, InOut<&Vertices::displacement> displacement,
                       Out<&Vertices::probe> next_probe);
 /// Gives patch vertices and strikers what the springs pushed; the run ends when its time is up or all is quiet (6.4).
-void pass_impulses(EachBody task, Turn turn, ShellTables shells, Tasks& tasks, TaskContacts& contacts,
-                   const PatchVertices& patches);
+void pass_impulses(EachBody task, Turn turn, RunRows& rows);
 /// Strain of each element and its slopes against its edges.
-void strain_check(Rows<Elements> elements, OfTask task, Turn turn, ShellTables shells, const Tasks& tasks);
+void strain_check(Rows<Elements> elements, OfTask task, Turn turn, InChunks<RunRows> rows);
 /// Stress of both faces of each element, and the largest principal value (C1).
-void stress_check(Rows<Elements> elements, OfTask task, ShellTables shells, const Tasks& tasks);
+void stress_check(Rows<Elements> elements, OfTask task, InChunks<RunRows> rows);
 /// Starts and advances cracks, one body a call, in order of urgency (C1 to C5).
-void split_vertices(EachBody task, ShellTables shells, Tasks& tasks, TaskContacts& contacts, PatchVertices& patches);
+void split_vertices(EachBody task, RunRows& rows);
 /// Above 1.05 of the start's energy the run begins again with half the step, at most twice (B7).
-void check_energy(EachBody task, ShellTables shells, const Materials& materials, const Blows& blows, Tasks& tasks,
-                  TaskContacts& contacts, PatchVertices& patches);
+void check_energy(EachBody task, RunRows& rows, const Blows& blows);
 
 // ---- inner loop of the quick mode: repeated for one task whose region is awake
 
 /// Patch springs, from the places before the step, softened as the region is.
-void push_region_patches(EachBody task, ShellTables shells, Tasks& tasks, const TaskContacts& contacts,
-                         PatchVertices& patches);
+void push_region_patches(EachBody task, RunRows& rows);
 /// integrate_springs, or integrate_layers, for the region's packs.
-void integrate_region(Rows<AwakePacks> packs, OfTask task, Turn turn, ShellTables shells, In<&AwakePacks::pack> pack,
-                      In<&Vertices::probe> position, InOut<&Vertices::velocity> velocity,
-                      Out<&Vertices::probe> next_position, In<&Twins::position> twin_position,
-                      InOut<&Twins::velocity> twin_velocity, Out<&Twins::position> next_twin_position,
-                      InOut<&SpringSlots::slot> slots, InOut<&LayerSlots::slot> layer_slots,
-                      InOut<&SpringPacks::zero_lengths> zero_lengths);
+void integrate_region(Rows<AwakePacks> packs, OfTask task, Turn turn, InChunks<RunRows> rows);
 /// What is held goes back, patches push, strikers move; the run ends after its steps.
-void end_region_step(EachBody task, ShellTables shells, Tasks& tasks, TaskContacts& contacts,
-                     const PatchVertices& patches);
+void end_region_step(EachBody task, RunRows& rows);
 /// Splits what has stretched too far (C3 to C5, paper mode).
-void split_region(EachBody task, ShellTables shells, Tasks& tasks, TaskContacts& contacts, PatchVertices& patches);
+void split_region(EachBody task, RunRows& rows);
 /// Above 1.05 of the start's energy the run is dropped.
-void check_region_energy(EachBody task, ShellTables shells, Tasks& tasks, TaskContacts& contacts);
+void check_region_energy(EachBody task, RunRows& rows);
 
 // ---- inner loop of springs: repeated for one shell that has them (ductile, quick mode, sheet metal)
 
 /// One layer, one fused pass (B3, B4, B6): force, area energy where the row has any, damping from the length kept in
 /// the slot, semi-implicit Euler, largest elongation a vertex.
-void integrate_springs(Rows<SpringPacks> packs, OfSprings springs, Turn turn, ShellTables shells,
-                       In<&Vertices::inverse_mass> inverse_mass, In<&Vertices::probe> position,
-                       InOut<&Vertices::velocity> velocity, Out<&Vertices::probe> next_position,
-                       InOut<&SpringSlots::slot> slots, InOut<&SpringPacks::zero_lengths> zero_lengths);
+void integrate_springs(Rows<SpringPacks> packs, OfSprings springs, Turn turn, InChunks<ShellRows> rows);
 /// The same for both layers and what ties them (B5).
-void integrate_layers(Rows<SpringPacks> packs, OfSprings springs, Turn turn, ShellTables shells,
-                      In<&Vertices::probe> position, InOut<&Vertices::velocity> velocity,
-                      Out<&Vertices::probe> next_position, In<&Twins::position> twin_position,
-                      InOut<&Twins::velocity> twin_velocity, Out<&Twins::position> next_twin_position,
-                      InOut<&SpringSlots::slot> slots, InOut<&LayerSlots::slot> layer_slots,
-                      InOut<&SpringPacks::zero_lengths> zero_lengths);
+void integrate_layers(Rows<SpringPacks> packs, OfSprings springs, Turn turn, InChunks<ShellRows> rows);
 /// The sides of the positions change places.
 void end_spring_step(EachBody body, OfSprings springs, ShellSprings& own);
 
@@ -235,13 +191,13 @@ void end_spring_step(EachBody body, OfSprings springs, ShellSprings& own);
 
 /// Contacts of the vertices that the springs' step put into a striker, in row order: inelastic impulses with Coulomb
 /// friction between vertices and the strikers' copies.
-void meet_strikers(EachBody soft_body, OfSprings springs, Turn turn, ShellTables shells, SoftBodies& soft,
-                   SoftStrikers& strikers, SoftContacts& contacts);
+void meet_strikers(EachBody soft_body, OfSprings springs, Turn turn, SoftRows& rows);
 /// Hinges of sheets whose material has a bending stiffness of its own, once in some substeps.
-void bend_sheets(EachBody soft_body, OfSprings springs, ShellTables shells);
+void bend_sheets(EachBody soft_body, OfSprings springs, ShellRows& rows);
 /// Springs above yield get longer or shorter for good (6.8).
-void flow_springs(Rows<Springs> rows, OfSprings springs, OfSoft soft_body, ShellTables shells, const SoftBodies& soft);
+void flow_springs(Rows<Springs> springs, OfSprings of, OfSoft soft_body, InChunks<ShellRows> rows,
+                  const SoftBodies& soft);
 /// Springs beyond what they bear: a vertex is split across the most stretched (C1, C3).
-void tear_springs(EachBody soft_body, OfSprings springs, ShellTables shells, SoftBodies& soft);
+void tear_springs(EachBody soft_body, OfSprings springs, SoftRows& rows);
 
 }  // namespace cullet

@@ -92,6 +92,64 @@ struct DamageCounts {
     double impulse_to_static[3] = {0, 0, 0};  // N s, from damage to floors, pins and kinematic bodies
 };
 
+// What systems take together.
+
+/// What waits for its turn.
+struct WaitingHits {
+    QueuedHits& queued;
+    Blows& blows;
+};
+/// Open tasks, with what struck.
+struct RunTables {
+    Tasks& tasks;
+    TaskContacts& contacts;
+    Blows& blows;
+};
+struct RunsNow {
+    const Tasks& tasks;
+    const TaskContacts& contacts;
+};
+/// What the game allows, and what was done.
+struct DamageLedger {
+    const DamageSettings& settings;
+    DamageCounts& counts;
+};
+struct ToldOfHits {
+    Events<ImpactEvent>& impacts;
+    Events<RefusedEvent>& refused;
+};
+struct OpenedTasks {
+    Events<TaskOpened>& opened;
+    Events<StiffnessWanted>& stiffness_wanted;
+    Events<ImpactEvent>& impacts;
+    Events<RefusedEvent>& refused;
+};
+struct PlannedBirths {
+    Events<Break>& breaks;
+    Events<Birth>& births;
+    Events<ShellChanged>& changed;
+    Events<CrackStartedEvent>& cracks;
+    Events<RefusedEvent>& refused;
+    Events<FaultEvent>& faults;
+};
+struct EndedTasks {
+    const Events<TaskEnded>& ended;
+    const Events<Break>& breaks;
+};
+struct Crumbs {
+    Debris& debris;
+    DebrisAges& ages;
+};
+struct BirthAccounts {
+    DamageCounts& counts;
+    Arena& arena;
+};
+struct ToldOfBirths {
+    Events<ShellChanged>& changed;
+    Events<FragmentBornEvent>& born;
+    Events<DebrisEvent>& debris;
+};
+
 struct WorldData {
     explicit WorldData(const Settings& settings);
     ~WorldData();
@@ -136,6 +194,10 @@ struct WorldData {
             return view_boxes;
         else
             return state.table<T>();
+    }
+    template <class Set>
+    Set& set() {
+        return state;
     }
     template <class T>
     T& resource();

@@ -5,6 +5,7 @@
 #include <array>
 #include <set>
 
+#include "components/state.hpp"
 #include "engine/fp_mode.hpp"
 #include "sample_game/hit_bench.hpp"
 #include "sample_game/reproduce/claims.hpp"

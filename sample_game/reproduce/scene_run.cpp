@@ -6,6 +6,7 @@
 #include <cmath>
 #include <numeric>
 
+#include "components/state.hpp"
 #include "sample_game/draw_world.hpp"
 #include "sample_game/game_world.hpp"
 #include "sample_game/progress.hpp"

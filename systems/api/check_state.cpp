@@ -97,14 +97,14 @@ void check_ranges(Checker& check) {
             if (is_shell(s, row)) ranges.add("shell", row, column[row]);
         ranges.finish();
     };
-    of_shells(s.vertices, s.pools.vertices, shells.vertices);
-    of_shells(s.elements, s.pools.elements, shells.elements);
-    of_shells(s.hinges, s.pools.hinges, shells.hinges);
-    of_shells(s.stiffness_packs, s.pools.packs, shells.packs);
-    of_shells(s.stiffness_blocks, s.pools.blocks, shells.blocks);
-    of_shells(s.stiffness_links, s.pools.links, shells.links);
-    of_shells(s.cells, s.pools.cells, shells.cells);
-    of_shells(s.hull_points, s.pools.points, shells.points);
+    of_shells(s.vertices, s.vertices.pool, shells.vertices);
+    of_shells(s.elements, s.elements.pool, shells.elements);
+    of_shells(s.hinges, s.hinges.pool, shells.hinges);
+    of_shells(s.stiffness_packs, s.stiffness_packs.pool, shells.packs);
+    of_shells(s.stiffness_blocks, s.stiffness_blocks.pool, shells.blocks);
+    of_shells(s.stiffness_links, s.stiffness_links.pool, shells.links);
+    of_shells(s.cells, s.cells.pool, shells.cells);
+    of_shells(s.hull_points, s.hull_points.pool, shells.points);
     const ShellSprings& springs = s.shell_springs;
     const auto of_springs = [&](const AnyTable& table, const RangePool& pool, const Column<Range>& column) {
         RangeCheck ranges(check, table, pool);
@@ -112,27 +112,27 @@ void check_ranges(Checker& check) {
             if (springs.is_used[row]) ranges.add("springs", row, column[row]);
         ranges.finish();
     };
-    of_springs(s.springs, s.pools.springs, springs.springs);
-    of_springs(s.layer_springs, s.pools.layer_springs, springs.layers);
-    of_springs(s.element_springs, s.pools.element_springs, springs.edges);
-    of_springs(s.spring_packs, s.pools.spring_packs, springs.packs);
-    of_springs(s.spring_slots, s.pools.spring_slots, springs.slots);
-    of_springs(s.layer_slots, s.pools.layer_slots, springs.layer_slots);
-    of_springs(s.twins, s.pools.twins, springs.twins);
+    of_springs(s.springs, s.springs.pool, springs.springs);
+    of_springs(s.layer_springs, s.layer_springs.pool, springs.layers);
+    of_springs(s.element_springs, s.element_springs.pool, springs.edges);
+    of_springs(s.spring_packs, s.spring_packs.pool, springs.packs);
+    of_springs(s.spring_slots, s.spring_slots.pool, springs.slots);
+    of_springs(s.layer_slots, s.layer_slots.pool, springs.layer_slots);
+    of_springs(s.twins, s.twins.pool, springs.twins);
     const auto of_bodies = [&](const AnyTable& table, const RangePool& pool, const Column<Range>& column) {
         RangeCheck ranges(check, table, pool);
         for (uint32_t b = 0; b < s.bodies.size(); ++b)
             if (is_body(s, b)) ranges.add("body", b, column[b]);
         ranges.finish();
     };
-    of_bodies(s.view_vertices, s.pools.view_vertices, s.bodies.view_vertices);
-    of_bodies(s.view_indices, s.pools.view_indices, s.bodies.view_indices);
+    of_bodies(s.view_vertices, s.view_vertices.pool, s.bodies.view_vertices);
+    of_bodies(s.view_indices, s.view_indices.pool, s.bodies.view_indices);
     check.expect(s.triangle_springs.size() == s.elements.size(), "triangle_springs and elements differ in rows");
     for (uint32_t row = 0; row < shells.size(); ++row)
-        check.expect(!is_shell(s, row) || s.pools.shells.is_taken(row, 1),
+        check.expect(!is_shell(s, row) || s.shells.pool.is_taken(row, 1),
                      Checker::place(shells, "users", row) + " names users of a free row");
     for (uint32_t b = 0; b < s.bodies.size(); ++b)
-        check.expect(!is_body(s, b) || s.pools.bodies.is_taken(b, 1),
+        check.expect(!is_body(s, b) || s.bodies.pool.is_taken(b, 1),
                      Checker::place(s.bodies, "kind", b) + " names a body in a free row");
 }
 

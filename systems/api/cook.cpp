@@ -126,7 +126,7 @@ void drop_triangles(Mesh& mesh, std::span<const uint32_t> dropped) {
 
 // Springs, limits, rows and time step. The rows' room is known only when the springs are: the shell moves to ranges
 // that have it.
-Result<void> make_stiff(State& state, Row<Shells>& shell) {
+Result<void> make_stiff(RunRows& state, Row<Shells>& shell) {
     const ShellView soft(state, shell);
     assemble_springs(soft);
     measure_limits(soft);
@@ -158,7 +158,7 @@ Result<void> make_stiff(State& state, Row<Shells>& shell) {
     return {};
 }
 
-void measure_thresholds(State& state, Row<Shells> shell, const CookSettings& settings) {
+void measure_thresholds(RunRows& state, Row<Shells> shell, const CookSettings& settings) {
     float speeds[kThresholdPlaces], forces[kThresholdPlaces];
     for (uint32_t place = 0; place < kThresholdPlaces; ++place) {
         const FirstCrack crack = first_crack(state, shell, seeded_direction(settings.seed, place));
@@ -174,26 +174,26 @@ void measure_thresholds(State& state, Row<Shells> shell, const CookSettings& set
 }
 
 // (2/3) sigma_t h^2: what a square of the wall bears in its middle that lies on two of its edges.
-float estimated_force(const State& state, Row<Shells> shell) {
+float estimated_force(const RunRows& state, Row<Shells> shell) {
     const float h = state.shells.thickness[shell];
     return 0.667f * state.materials.tensile_strength[state.shells.material[shell]] * h * h;
 }
 
 // 0.1 sigma_d / (rho c): what a wave in a bar carries; only where nothing was measured. 0 of what does not crack.
-float estimated_threshold(const State& state, Row<Shells> shell) {
+float estimated_threshold(const RunRows& state, Row<Shells> shell) {
     const uint32_t m = state.shells.material[shell];
     const Materials& materials = state.materials;
     return 0.2f * materials.tensile_strength[m] / std::sqrt(materials.young_modulus[m] * materials.density[m]);
 }
 
-void estimate_thresholds(State& state, Row<Shells> shell) {
+void estimate_thresholds(RunRows& state, Row<Shells> shell) {
     state.shells.first_crack_speed[shell] = estimated_threshold(state, shell);
     state.shells.first_crack_force[shell] =
         state.shells.first_crack_speed[shell] > 0 ? estimated_force(state, shell) : 0;
 }
 
 // Of a large body whose cracks stay near the hit those of the part that it begins on.
-uint64_t units_of_a_hit(const State& state, Row<Shells> shell) {
+uint64_t units_of_a_hit(const RunRows& state, Row<Shells> shell) {
     const Shells& s = state.shells;
     const bool is_local = is_for_cut_outs(state, shell, false);
     const uint32_t vertices = is_local ? kWholeCopyVertices : s.vertices[shell].count;
@@ -213,7 +213,7 @@ double mean_edge_of(const Mesh& mesh) {
 }
 
 /// What to do about hits that will be late. `longest_edge`: the setting where it made the edges what they are, or 0.
-std::string advice_on(const State& state, Row<Shells> shell, uint64_t units, const Mesh& mesh, double longest_edge) {
+std::string advice_on(const RunRows& state, Row<Shells> shell, uint64_t units, const Mesh& mesh, double longest_edge) {
     const Shells& s = state.shells;
     const HitOfModel hit{units,
                          s.vertices[shell].count,
@@ -229,7 +229,7 @@ std::string advice_on(const State& state, Row<Shells> shell, uint64_t units, con
     });
 }
 
-ModelReport report_on(const State& state, Row<Shells> shell, const SurfaceRepairs& repairs,
+ModelReport report_on(const RunRows& state, Row<Shells> shell, const SurfaceRepairs& repairs,
                       const Extrusion& extrusion) {
     const Shells& s = state.shells;
     ModelReport report;
@@ -262,7 +262,7 @@ Limits cooking_limits(uint32_t vertices, uint32_t elements) {
     return limits;
 }
 
-Row<Shells> import_shell(State& to, const State& from, Row<Shells> shell, const char** full) {
+Row<Shells> import_shell(ShellRows& to, const ShellRows& from, Row<Shells> shell, const char** full) {
     const ShellRoom room = room_of(from, shell);
     const Row<Shells> copy = make_shell(to, room, full);
     if (copy.exists()) copy_shell_rows(to, from, shell, copy, room.blocks > 0);
@@ -336,7 +336,7 @@ Result<Model> cook(const MeshView& view, const CookSettings& settings) try {
     const auto vertices = static_cast<uint32_t>(surface->positions.size());
     const auto elements = static_cast<uint32_t>(surface->triangles.size());
     const auto contents = std::make_shared<Model::Contents>(cooking_limits(vertices, elements));
-    State& state = contents->state;
+    Workbench& state = contents->state;
     fill_materials(state.materials);
     const SourceArrays arrays = attributes_of(surface.value(), *fine, makes_normals);
     ShellSource source;
@@ -350,8 +350,9 @@ Result<Model> cook(const MeshView& view, const CookSettings& settings) try {
     source.drawn_material = arrays.materials;
     source.is_degenerate = extrusion->is_degenerate_element;
     source.wanted_depth = settings.thickness;
-    const Result<Row<Shells>> shell =
-        build_shell(state, source, material_row(state, material->settings, material->grain));
+    const Result<Row<Shells>> shell = build_shell(
+        state, source,
+        material_row({state.materials, state.material_traits, state.shells}, material->settings, material->grain));
     if (!shell) return Error{name + ": " + shell.error()};
     contents->shell = shell.value();
     contents->name = name;

@@ -20,10 +20,10 @@ Result<ModelId> World::add_model(const Model& model) {
     if (row == state.models.size() && state.models.append(1) == kNone)
         return Error{"limits.models is reached (" + std::to_string(state.models.limit()) +
                      "); raise it or remove a model."};
-    const State& cooked = model.contents->state;
+    const Workbench& cooked = model.contents->state;
     const Row<Materials> own = cooked.shells.material[model.contents->shell];
-    const Row<Materials> material =
-        material_row(state, material_settings(cooked, own), material_traits(cooked, own).grain);
+    const Row<Materials> material = material_row({state.materials, state.material_traits, state.shells},
+                                                 material_settings(cooked, own), material_traits(cooked, own).grain);
     if (!material.exists())
         return Error{model.contents->name + ": the world holds " + std::to_string(kMostMaterials) +
                      " materials already; remove models and bodies of one of them."};

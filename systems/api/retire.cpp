@@ -52,11 +52,11 @@ void give_back_rows(State& state, Row<Shells> shell) {
     Shells& s = state.shells;
     drop_stiffness(state, shell);
     release_springs(state, shell);
-    back(state.pools.vertices, s.vertices);
-    back(state.pools.elements, s.elements);
-    back(state.pools.hinges, s.hinges);
-    back(state.pools.cells, s.cells);
-    back(state.pools.points, s.points);
+    back(state.vertices.pool, s.vertices);
+    back(state.elements.pool, s.elements);
+    back(state.hinges.pool, s.hinges);
+    back(state.cells.pool, s.cells);
+    back(state.hull_points.pool, s.points);
     s.dead_elements[shell] = 0;
     clear_shape(ShellView(state, shell));
 }

@@ -24,7 +24,7 @@ namespace cullet {
 
 void put_tables(ByteWriter& out, const State& state) {
     std::apply([&](auto... table) { (put_table(out, state.*table, 0, (state.*table).size()), ...); }, State::tables());
-    for (const RangePool* pool : state.pools.all()) pool->save(out);
+    for (const RangePool* pool : state.pools()) pool->save(out);
 }
 
 void take_tables(ByteReader& in, State& state) {
@@ -39,7 +39,7 @@ void take_tables(ByteReader& in, State& state) {
         found.copy_to(table, 0);
     };
     std::apply([&](auto... table) { (take_table(state.*table), ...); }, State::tables());
-    for (RangePool* pool : state.pools.all())
+    for (RangePool* pool : state.pools())
         if (in.is_sound()) pool->load(in);
 }
 
@@ -145,13 +145,14 @@ void restore_what_follows(World::Contents& world) {
         const bool has_copy = static_cast<TaskState>(state.tasks.state[t]) != TaskState::Free &&
                               state.tasks.shell[t].exists() && !is_cut_out(state, t);
         if (has_copy)  // of the whole body, whose drawn mesh it knows
-            remember_drawn(ShellView(state, state.tasks.shell[t]), state.bodies.view_indices[state.tasks.body[t]]);
+            remember_drawn(ShellView(state, state.tasks.shell[t]), state.view_indices,
+                           state.bodies.view_indices[state.tasks.body[t]]);
     }
     for (uint32_t b = 0; b < state.bodies.size(); ++b) {
         const Row<Shells> shell = state.bodies.shell[b];
         if (static_cast<BodyKind>(state.bodies.kind[b]) == BodyKind::Free || !shell.exists()) continue;
         bound_view(state.bodies, Row<Bodies>(b), state.view_vertices, state.view_indices, d.view_boxes);
-        remember_drawn(ShellView(state, shell), state.bodies.view_indices[b]);
+        remember_drawn(ShellView(state, shell), state.view_indices, state.bodies.view_indices[b]);
         state.bodies.redrawn[b] = {0, state.bodies.view_indices[b].count / 3};
         if (may_cut_out(state, Row<Bodies>(b)) && is_brittle(state, shell)) keep_vertex_sums(ShellView(state, shell));
         if (state.bodies.is_breakable[b])

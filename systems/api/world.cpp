@@ -30,8 +30,8 @@ World::Contents::Contents(const Settings& s, const Host& h, std::unique_ptr<Rigi
     }
     data.rigid->use_jobs(*jobs);
     data.rigid->set_gravity(s.gravity);
-    data.damage_loop = std::make_unique<DamageLoop>(data.state, *jobs, profiler);
-    data.soft_loop = std::make_unique<SoftLoop>(data.state, *jobs, profiler);
+    data.damage_loop = std::make_unique<DamageLoop>(*jobs, profiler);
+    data.soft_loop = std::make_unique<SoftLoop>(*jobs, profiler);
     plan = make_frame_plan(
         hosted != nullptr, [this] { return data.damage_loop->describe(); },
         [this] { return data.soft_loop->describe(); });

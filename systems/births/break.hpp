@@ -2,7 +2,7 @@
 #pragma once
 #include <span>
 
-#include "components/state.hpp"
+#include "components/body_rows.hpp"
 #include "systems/structures/shell/group_fragments.hpp"
 #include "systems/structures/shell/mass_properties.hpp"
 #include "systems/structures/shell/rigid_handoff.hpp"
@@ -46,7 +46,7 @@ struct Break {
         return lets_go;
     }
     /// More is gone than stays: what stays is measured anew, not as a difference.
-    bool is_rest_smaller(const State& state) const {
+    bool is_rest_smaller(const ShellRows& state) const {
         const Shells& s = state.shells;
         return left_elements > s.elements[broken].count - s.dead_elements[broken] - left_elements;
     }

@@ -6,7 +6,7 @@ namespace cullet {
 namespace {
 
 uint32_t owner_of(const ShellView& shell, Vec3 point, uint32_t otherwise) {
-    const State& state = shell.state;
+    const ShellRows& state = shell.state;
     float least = 1e30f;
     uint32_t owner = otherwise;
     for (uint32_t v = 0; v < shell.vertex_count(); ++v) {
@@ -22,7 +22,7 @@ uint32_t owner_of(const ShellView& shell, Vec3 point, uint32_t otherwise) {
 
 // A push goes to the piece that owns the nearest vertex; a crumb takes it along. False: the row is gone.
 bool hand_on_push(Planning& planning, const Break& plan, uint32_t row) {
-    Blows& blows = planning.state.blows;
+    Blows& blows = planning.blows;
     const uint32_t owner = owner_of(ShellView(planning.state, plan.broken), blows.point[row], plan.largest);
     if (plan.is_crumb[owner]) {
         remove_blow(blows, row);
@@ -41,8 +41,8 @@ void share_impulse(Blows& blows, uint32_t row, double share) {
 }  // namespace
 
 void hand_on_blows(Planning& planning, const Break& plan) {
-    State& state = planning.state;
-    Blows& blows = state.blows;
+    const Bodies& bodies = planning.state.bodies;
+    Blows& blows = planning.blows;
     double mass = 0, left = 0;
     for (uint32_t p = 0; p < plan.parts.size(); ++p) {
         mass += plan.parts[p].mass;
@@ -59,7 +59,7 @@ void hand_on_blows(Planning& planning, const Break& plan) {
             if (!plan.child[p].exists()) continue;
             const uint32_t made = blows.append(1);
             if (made == kNone) {
-                planning.refused.push(refused_event(state.bodies, plan.body, "limits.queued_hits"));
+                planning.refused.push(refused_event(bodies, plan.body, "limits.queued_hits"));
                 break;
             }
             blows.copy_rows(blows, b, made, 1);
@@ -73,9 +73,9 @@ void hand_on_blows(Planning& planning, const Break& plan) {
     }
 }
 
-void hand_on_hits(State& state, const Break& plan) {
-    const ShellView shell(state, plan.broken);
-    QueuedHits& queued = state.queued_hits;
+void hand_on_hits(Planning& planning, const Break& plan) {
+    const ShellView shell(planning.state, plan.broken);
+    QueuedHits& queued = planning.queued;
     for (uint32_t q = 0; q < queued.size(); ++q) {
         if (!queued.is_used[q] || queued.body[q] != plan.body) continue;
         const uint32_t owner = owner_of(shell, queued.point[q], plan.largest);

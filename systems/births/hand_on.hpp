@@ -5,7 +5,7 @@
 namespace cullet {
 
 /// Hits go to the piece that owns the nearest vertex; a crumb takes its own along.
-void hand_on_hits(State& state, const Break& plan);
+void hand_on_hits(Planning& planning, const Break& plan);
 
 /// Blows: a push goes as a hit does, explosions and cuts go to all pieces. They have moved the body already. Each piece
 /// keeps its share, by mass, of the impulse.

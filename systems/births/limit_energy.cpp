@@ -32,8 +32,7 @@ struct Mover {
 };
 
 template <class Visit>
-void for_each_mover(const State& state, const Break& plan, Visit visit) {
-    const Bodies& bodies = state.bodies;
+void for_each_mover(const Bodies& bodies, const Debris& debris, const Break& plan, Visit visit) {
     for (uint32_t p = 0; p < plan.parts.size(); ++p) {
         const Row<Bodies> b = plan.child[p];
         const uint32_t d = plan.debris[p];
@@ -41,8 +40,7 @@ void for_each_mover(const State& state, const Break& plan, Visit visit) {
             visit(Mover{b, kNone, bodies.mass[b], Vec3d(centre_of(bodies, b)), Vec3d(bodies.velocity[b]),
                         Vec3d(bodies.spin[b]), world_inertia(bodies, b)});
         else if (d != kNone)
-            visit(Mover{
-                {}, d, state.debris.mass[d], Vec3d(state.debris.position[d]), Vec3d(state.debris.velocity[d]), {}, {}});
+            visit(Mover{{}, d, debris.mass[d], Vec3d(debris.position[d]), Vec3d(debris.velocity[d]), {}, {}});
     }
 }
 
@@ -61,10 +59,10 @@ void turn_by(Common& common, Vec3d turning) {
 }
 
 // The rigid motion that has the pieces' momentum and angular momentum.
-Common common_motion(const State& state, const Break& plan) {
+Common common_motion(const Bodies& bodies, const Debris& debris, const Break& plan) {
     Common common;
     double mass = 0;
-    for_each_mover(state, plan, [&](const Mover& m) {
+    for_each_mover(bodies, debris, plan, [&](const Mover& m) {
         mass += m.mass;
         common.centre += m.mass * m.place;
         common.momentum += m.mass * m.velocity;
@@ -73,7 +71,7 @@ Common common_motion(const State& state, const Break& plan) {
     common.centre = (1 / mass) * common.centre;
     common.velocity = (1 / mass) * common.momentum;
     Vec3d turning;
-    for_each_mover(state, plan, [&](const Mover& m) {
+    for_each_mover(bodies, debris, plan, [&](const Mover& m) {
         const Vec3d arm = m.place - common.centre;
         common.inertia = common.inertia + m.inertia + m.mass * inertia_of(outer(arm));
         turning += m.inertia * m.spin + m.mass * cross(arm, m.velocity);
@@ -83,10 +81,10 @@ Common common_motion(const State& state, const Break& plan) {
 }
 
 void move(Births& births, const Mover& m, Vec3d velocity, Vec3d spin, BodyId parent) {
-    State& state = births.state;
+    BodyRows& state = births.state;
     if (m.debris != kNone) {
-        const Vec3 place = state.debris.position[m.debris];
-        state.debris.velocity.set(m.debris, velocity.to_float());
+        const Vec3 place = births.debris.position[m.debris];
+        births.debris.velocity.set(m.debris, velocity.to_float());
         for (DebrisEvent& e : births.debris_events.all())
             if (e.parent.index == parent.index && e.place.x == place.x && e.place.y == place.y && e.place.z == place.z)
                 e.velocity = velocity.to_float();
@@ -105,7 +103,7 @@ void move(Births& births, const Mover& m, Vec3d velocity, Vec3d spin, BodyId par
 constexpr double kFreedByLoad = 0.1, kHeldByLoad = 0.1;
 
 // J. sigma^2 / 2 E of the volume.
-double held_energy(const State& state, Row<Bodies> body) {
+double held_energy(const BodyRows& state, Row<Bodies> body) {
     const uint32_t m = state.shells.material[state.bodies.shell[body]];
     const Materials& materials = state.materials;
     const double strength = double{state.bodies.strength_scale[body]} * materials.tensile_strength[m];
@@ -115,13 +113,13 @@ double held_energy(const State& state, Row<Bodies> body) {
 
 }  // namespace
 
-double pieces_energy(const State& state, const Break& plan) {
+double pieces_energy(const Bodies& bodies, const Debris& debris, const Break& plan) {
     double energy = 0;
-    for_each_mover(state, plan, [&](const Mover& m) { energy += m.energy(); });
+    for_each_mover(bodies, debris, plan, [&](const Mover& m) { energy += m.energy(); });
     return energy;
 }
 
-double owed_to_late(const State& state, Row<Tasks> task) {
+double owed_to_late(const BodyRows& state, Row<Tasks> task) {
     if (state.tasks.load[task] > 0) {
         const double speed = double{state.tasks.approach_speed[task]};
         const Row<Bodies> body = state.tasks.body[task];
@@ -139,12 +137,13 @@ double owed_to_late(const State& state, Row<Tasks> task) {
 }
 
 void limit_energy(Births& births, const Break& plan, double allowed) {
-    State& state = births.state;
-    const double energy = pieces_energy(state, plan);
+    const Bodies& bodies = births.state.bodies;
+    const Debris& debris = births.debris;
+    const double energy = pieces_energy(bodies, debris, plan);
     bool is_pinned = false;
     for (const PartMotion& m : plan.motions) is_pinned = is_pinned || m.is_static;
     if (!(energy > allowed)) return;
-    const Common common = is_pinned ? Common{} : common_motion(state, plan);
+    const Common common = is_pinned ? Common{} : common_motion(bodies, debris, plan);
     Common kept = common;
     if (common.energy() > allowed) {
         const double straight = 0.5 * dot(common.momentum, common.velocity), turning = common.energy() - straight;
@@ -152,7 +151,7 @@ void limit_energy(Births& births, const Break& plan, double allowed) {
     }
     const double beyond = energy - common.energy();
     const double s = beyond > 0 ? std::sqrt(std::max(0.0, allowed - kept.energy()) / beyond) : 1;
-    for_each_mover(state, plan, [&](const Mover& m) {
+    for_each_mover(bodies, debris, plan, [&](const Mover& m) {
         const Vec3d arm = m.place - common.centre;
         const Vec3d beside = m.velocity - common.velocity - cross(common.spin, arm);
         const Vec3d velocity = kept.velocity + cross(kept.spin, arm) + s * beside;
@@ -162,37 +161,38 @@ void limit_energy(Births& births, const Break& plan, double allowed) {
             births.counts.impulse_to_static[1] += lost.y;
             births.counts.impulse_to_static[2] += lost.z;
         }
-        move(births, m, velocity, kept.spin + s * (m.spin - common.spin), body_id(state.bodies, plan.body));
+        move(births, m, velocity, kept.spin + s * (m.spin - common.spin), body_id(bodies, plan.body));
     });
 }
 
 // Of the relative motion u of masses M and m, M m / (M + m) u^2 / 2 goes to s^2 of it.
 void share_with_strikers(Births& births, const Break& plan, double allowed) {
-    State& state = births.state;
-    const Tasks& tasks = state.tasks;
+    const Tasks& tasks = births.state.tasks;
+    Bodies& bodies = births.state.bodies;
+    const Debris& debris = births.debris;
     const uint32_t first = tasks.first_contact[plan.task], end = first + tasks.contact_count[plan.task];
     for (const PartMotion& m : plan.motions)
         if (m.is_static) return;  // the support has taken what was too much
-    double excess = pieces_energy(state, plan) - allowed;
+    double excess = pieces_energy(bodies, debris, plan) - allowed;
     for (uint32_t c = first; c < end && excess > 1e-9 * allowed; ++c) {
-        const Row<Bodies> striker = state.task_contacts.striker[c];
-        if (!is_dynamic(state.bodies, striker)) continue;
+        const Row<Bodies> striker = births.state.task_contacts.striker[c];
+        if (!is_dynamic(bodies, striker)) continue;
         double mass = 0;
-        for_each_mover(state, plan, [&](const Mover& m) { mass += m.mass; });
-        const Common common = common_motion(state, plan);
-        const double other = state.bodies.mass[striker];
-        const Vec3d relative = common.velocity - Vec3d(state.bodies.velocity[striker]);
+        for_each_mover(bodies, debris, plan, [&](const Mover& m) { mass += m.mass; });
+        const Common common = common_motion(bodies, debris, plan);
+        const double other = bodies.mass[striker];
+        const Vec3d relative = common.velocity - Vec3d(bodies.velocity[striker]);
         const double motion = 0.5 * mass * other / (mass + other) * dot(relative, relative);
         if (!(motion > 0)) continue;
         const Vec3d given =
             (1 - std::sqrt(std::max(0.0, 1 - excess / motion))) * mass * other / (mass + other) * relative;
         excess -= std::min(excess, motion);
-        for_each_mover(state, plan, [&](const Mover& m) {
-            move(births, m, m.velocity - (1 / mass) * given, m.spin, body_id(state.bodies, plan.body));
+        for_each_mover(bodies, debris, plan, [&](const Mover& m) {
+            move(births, m, m.velocity - (1 / mass) * given, m.spin, body_id(bodies, plan.body));
         });
-        const Vec3d velocity = Vec3d(state.bodies.velocity[striker]) + (1 / other) * given;
-        state.bodies.velocity.set(striker, velocity.to_float());
-        births.rigid.set_motion(striker, {state.bodies.velocity[striker], state.bodies.spin[striker]});
+        const Vec3d velocity = Vec3d(bodies.velocity[striker]) + (1 / other) * given;
+        bodies.velocity.set(striker, velocity.to_float());
+        births.rigid.set_motion(striker, {bodies.velocity[striker], bodies.spin[striker]});
     }
 }
 

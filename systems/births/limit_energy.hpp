@@ -6,11 +6,11 @@
 namespace cullet {
 
 /// J, of the pieces and crumbs that came of a break.
-double pieces_energy(const State& state, const Break& plan);
+double pieces_energy(const Bodies& bodies, const Debris& debris, const Break& plan);
 
 /// J, what body and strikers had at the touch, by the run, and do not have any more: the rigid solver took it while the
 /// pieces were not known yet.
-double owed_to_late(const State& state, Row<Tasks> task);
+double owed_to_late(const BodyRows& state, Row<Tasks> task);
 
 /// Of what just came of a break: the pieces and the crumbs may together have at most `allowed` (J), what the body had
 /// and what strikers lost to it. The hidden run keeps to that, but not what follows from it: a rigid piece turns with

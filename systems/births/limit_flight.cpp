@@ -6,9 +6,9 @@
 
 namespace cullet {
 
-FlightLimit flight_limit(const State& state, Row<Tasks> task) {
+FlightLimit flight_limit(const BodyRows& state, const Blows& blows, Row<Tasks> task) {
     const Tasks& tasks = state.tasks;
-    if (is_cut_task(state.blows, task) || has_explosion(state.blows, task)) return {};
+    if (is_cut_task(blows, task) || has_explosion(blows, task)) return {};
     return {kMostRelativeSpeed * static_cast<double>(tasks.approach_speed[task]),
             Vec3d(state.bodies.centre[tasks.body[task]]), Vec3d(tasks.start_velocity[task]),
             Vec3d(tasks.start_spin[task])};

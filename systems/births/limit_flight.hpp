@@ -1,6 +1,7 @@
 // How fast pieces may leave a body that was hit.
 #pragma once
-#include "components/state.hpp"
+#include "components/blows.hpp"
+#include "components/body_rows.hpp"
 #include "systems/structures/shell/rigid_handoff.hpp"
 
 namespace cullet {
@@ -16,7 +17,7 @@ struct FlightLimit {
 };
 
 /// None where nothing struck: cuts, explosions.
-FlightLimit flight_limit(const State& state, Row<Tasks> task);
+FlightLimit flight_limit(const BodyRows& state, const Blows& blows, Row<Tasks> task);
 
 /// Of a piece whose solid has this centre, body axes. Returns the momentum that was cut off, N s: it is another's.
 Vec3d limit_flight(const FlightLimit& limit, Vec3d solid_centre, PartMotion& part);

@@ -8,7 +8,7 @@
 namespace cullet {
 namespace {
 
-void close_task(State& state, Row<Tasks> task, Step step) {
+void close_task(BodyRows& state, Row<Tasks> task, Step step) {
     Tasks& tasks = state.tasks;
     const Row<Bodies> body = tasks.body[task];
     state.bodies.task[body] = kNone;
@@ -19,9 +19,8 @@ void close_task(State& state, Row<Tasks> task, Step step) {
 }
 
 // A body that was whole and broke by touch alone: whether in the very frame of the touch.
-void count_first_break(const State& state, Row<Tasks> task, Step step, DamageCounts& counts) {
+void count_first_break(const RunRows& state, const Blows& blows, Row<Tasks> task, Step step, DamageCounts& counts) {
     const Tasks& tasks = state.tasks;
-    const Blows& blows = state.blows;
     if (static_cast<TaskState>(tasks.state[task]) != TaskState::Broke) return;
     if (state.shells.generation[tasks.source[task]] > 0) return;
     for (uint32_t b = 0; b < blows.size(); ++b)
@@ -43,21 +42,20 @@ void count_result(const Tasks& tasks, Row<Tasks> task, DamageCounts& counts) {
 
 }  // namespace
 
-void make_births(Serial, Step step, const Events<TaskEnded>& ended, const Events<Break>& breaks, ShellTables shells,
-                 Tasks& tasks, TaskContacts& contacts, Blows& blows, Bodies& bodies, Debris&, FragmentAges&,
-                 DebrisAges&, RigidWorld& rigid, DamageCounts& counts, Arena& arena, Events<ShellChanged>& changed,
-                 Events<FragmentBornEvent>& born, Events<DebrisEvent>& debris_events) {
-    Births births{shells.state, rigid, counts, arena, changed, born, debris_events, step};
-    const auto all = breaks.all();
+void make_births(Serial, Step step, EndedTasks over, SoftRows& rows, Blows& blows, Crumbs crumbs, RigidWorld& rigid,
+                 BirthAccounts accounts, ToldOfBirths told) {
+    Births births{rows,           blows,        crumbs.debris, crumbs.ages, rigid, accounts.counts,
+                  accounts.arena, told.changed, told.born,     told.debris, step};
+    const auto all = over.breaks.all();
     size_t next = 0;
     while (next < all.size() && !all[next].task.exists()) make_break(births, all[next++]);
-    for (const TaskEnded& e : ended) {
-        count_first_break(shells.state, e.task, step, counts);
-        count_result(tasks, e.task, counts);
+    for (const TaskEnded& e : over.ended) {
+        count_first_break(rows, blows, e.task, step, accounts.counts);
+        count_result(rows.tasks, e.task, accounts.counts);
         if (next < all.size() && all[next].task == e.task) make_break(births, all[next++]);
-        pay_answers(bodies, tasks, contacts, rigid, e.task);
-        close_blows(blows, bodies, tasks, rigid, counts, e.task);
-        close_task(shells.state, e.task, step);
+        pay_answers(rows.bodies, rows.tasks, rows.task_contacts, rigid, e.task);
+        close_blows(blows, rows.bodies, rows.tasks, rigid, accounts.counts, e.task);
+        close_task(rows, e.task, step);
     }
 }
 

@@ -64,7 +64,7 @@ Mean mean_of(std::span<const PartMotion> motions) {
     return mean;
 }
 
-Moment moment_of(const State& state, Row<Tasks> task, std::span<const PartMotion> motions) {
+Moment moment_of(const BodyRows& state, Row<Tasks> task, std::span<const PartMotion> motions) {
     const Row<Bodies> body = state.tasks.body[task];
     const Mean mean = mean_of(motions);
     Moment m{pose_of(state.bodies, body), mean.centre, {}, {}, state.tasks.is_late[task] != 0};
@@ -86,8 +86,8 @@ Motion world_motion(const Moment& m, const PartMotion& part) {
 // The row of the crumb.
 uint32_t make_debris(Births& births, ShellView shell, const FragmentPart& part, const Motion& motion,
                      const Moment& moment, Row<Bodies> parent, Vec3d centre) {
-    State& state = births.state;
-    Debris& debris = state.debris;
+    BodyRows& state = births.state;
+    Debris& debris = births.debris;
     uint32_t row = 0;
     while (row < debris.size() && debris.is_used[row]) ++row;
     if (row == debris.size() && debris.append(1) == kNone) return kNone;  // planning counted: there is room
@@ -109,7 +109,7 @@ uint32_t make_debris(Births& births, ShellView shell, const FragmentPart& part, 
     debris.floor[row] =
         births.rigid.knows_surfaces() ? kNoFloor : births.rigid.height_below(place, kNoFloor) + debris.radius[row];
     debris.colour[row] = state.bodies.colour[parent];
-    set_born(state.debris_ages, row, births.step.frame);
+    set_born(births.debris_ages, row, births.step.frame);
     births.debris_events.push(
         {body_id(state.bodies, parent), state.bodies.user_data[parent], place, motion.velocity, part.mass});
     return row;
@@ -198,7 +198,7 @@ void name_siblings(Births& births, const Break& plan) {
 // own that would take it out of its sibling: unmet, the upper half of a vase fell 30 cm into the lower one and stayed
 // there. Such pieces meet at once; their overlap is pushed out without adding velocity.
 void part_siblings(Births& births, const Break& plan, const Moment& moment, std::span<const Bounds> bounds) {
-    const bool has_own_motion = plan.task.exists() ? !is_cut_task(births.state.blows, plan.task) : plan.waited > 0;
+    const bool has_own_motion = plan.task.exists() ? !is_cut_task(births.blows, plan.task) : plan.waited > 0;
     if (!has_own_motion) return;
     const auto count = static_cast<uint32_t>(plan.parts.size());
     const Cracks cracks(plan.touches, moment.pose, births.arena);
@@ -209,7 +209,7 @@ void part_siblings(Births& births, const Break& plan, const Moment& moment, std:
 }
 
 void part_strikers(Births& births, Row<Tasks> task, const Break& plan, bool is_late) {
-    State& state = births.state;
+    BodyRows& state = births.state;
     const auto count = static_cast<uint32_t>(plan.parts.size());
     const uint32_t first = state.tasks.first_contact[task];
     for (uint32_t p = 0; p < count; ++p) {
@@ -259,7 +259,7 @@ PartMotion limited_motion(Births& births, const Break& plan, uint32_t p, const M
 
 // One piece's row, rigid body and event. The body frame and the pose stay the parent's.
 void make_birth(Births& births, const Break& plan, uint32_t p, const Moment& moment, Bounds& bounds, Leaving& leaving) {
-    State& state = births.state;
+    BodyRows& state = births.state;
     Bodies& bodies = state.bodies;
     const Row<Bodies> body = plan.body, child = plan.child[p];
     Motion motion = world_motion(moment, limited_motion(births, plan, p, moment, leaving));
@@ -311,7 +311,7 @@ void make_birth(Births& births, const Break& plan, uint32_t p, const Moment& mom
 
 // Children first: their hulls are found among the body's, which change last.
 void make_births_of(Births& births, const Break& plan, const Moment& moment) {
-    State& state = births.state;
+    BodyRows& state = births.state;
     const auto count = static_cast<uint32_t>(plan.parts.size());
     for (uint32_t i = 1; i < count; ++i) {
         const uint32_t p = plan.order[i];
@@ -322,7 +322,7 @@ void make_births_of(Births& births, const Break& plan, const Moment& moment) {
     plan.child[plan.largest] = plan.body;
     const auto bounds = births.arena.take<Bounds>(count);
     Leaving leaving;
-    if (plan.task.exists()) leaving.limit = flight_limit(state, plan.task);
+    if (plan.task.exists()) leaving.limit = flight_limit(state, births.blows, plan.task);
     for (uint32_t i = 1; i <= count; ++i) {
         const uint32_t p = plan.order[i % count];
         if (plan.child[p].exists()) make_birth(births, plan, p, moment, bounds[p], leaving);
@@ -334,7 +334,7 @@ void make_births_of(Births& births, const Break& plan, const Moment& moment) {
 }  // namespace
 
 void make_break(Births& births, const Break& plan) {
-    State& state = births.state;
+    SoftRows& state = births.state;
     if (plan.soft.exists()) give_pieces_springs(state, plan.soft, plan.body, plan.order, plan.parts, plan.child);
     if (!plan.task.exists()) {
         const double allowed = rigid_energy(state.bodies, plan.body) + plan.waited;
@@ -351,14 +351,14 @@ void make_break(Births& births, const Break& plan) {
     const Moment moment = moment_of(state, plan.task, plan.motions);
     // Late, the rigid solver has passed the blow's impulse, and what it took by it comes back; an explosion's energy
     // comes from outside.
-    const bool comes_from_outside = has_explosion(state.blows, plan.task);
+    const bool comes_from_outside = has_explosion(births.blows, plan.task);
     const double before = rigid_energy(state.bodies, plan.body);
     const double allowed = moment.is_late ? before + owed_to_late(state, plan.task)
                                           : strike_back(births, plan.task, moment.pose, plan.motions, plan.largest);
     make_births_of(births, plan, moment);
     if (moment.is_late || !comes_from_outside) limit_energy(births, plan, allowed);
     if (!moment.is_late && !comes_from_outside) share_with_strikers(births, plan, allowed);
-    double energy = pieces_energy(state, plan);
+    double energy = pieces_energy(state.bodies, births.debris, plan);
     if (plan.is_refused)
         energy += comes_from_outside ? waiting_energy(state, plan.body)
                                      : limit_waiting(state, plan.body, std::max(0.0, allowed - energy));

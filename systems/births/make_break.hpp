@@ -6,7 +6,10 @@ namespace cullet {
 
 /// What making births may touch.
 struct Births {
-    State& state;
+    SoftRows& state;
+    Blows& blows;
+    Debris& debris;
+    DebrisAges& debris_ages;
     RigidWorld& rigid;
     DamageCounts& counts;
     Arena& arena;

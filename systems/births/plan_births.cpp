@@ -8,7 +8,7 @@ namespace {
 
 // A crack starts at a vertex that names itself. Vertices keep their numbers in the working shell, so those that did so
 // in the body's before the hit are old.
-void tell_cracks(State& state, Row<Tasks> task, Events<CrackStartedEvent>& cracks) {
+void tell_cracks(BodyRows& state, Row<Tasks> task, Events<CrackStartedEvent>& cracks) {
     if (state.tasks.shell[task] == state.tasks.source[task]) return;  // put_back has told
     const Row<Bodies> body = state.tasks.body[task];
     const ShellView now(state, state.tasks.shell[task]), before(state, state.tasks.source[task]);
@@ -31,7 +31,7 @@ bool may_ask(const Planning& planning, uint8_t owed) {
 }
 
 // What is awake asks with its points' motion.
-bool asks_as_soft(State& state, Row<Bodies> body) {
+bool asks_as_soft(SoftRows& state, Row<Bodies> body) {
     const Row<SoftBodies> soft = find_soft(state.soft_bodies, body);
     if (!soft.exists() || !state.soft_bodies.is_awake[soft]) return false;
     state.soft_bodies.is_torn[soft] = 1;
@@ -40,46 +40,49 @@ bool asks_as_soft(State& state, Row<Bodies> body) {
 
 }  // namespace
 
-void plan_births(Serial, const Events<TaskEnded>& ended, ShellTables shells, const Tasks& tasks, Fragments&,
-                 QueuedHits&, Blows&, Bodies& bodies, const Debris& debris, const FragmentAges& ages, ViewVertices&,
-                 ViewIndices&, const DamageSettings& settings, DamageCounts& counts, Arena& arena,
-                 Events<Break>& breaks, Events<Birth>& births, Events<ShellChanged>& changed,
-                 Events<CrackStartedEvent>& cracks, Events<RefusedEvent>& refused, Events<FaultEvent>& faults) {
-    breaks.clear();
-    births.clear();
-    Planning planning{shells.state,
-                      settings,
-                      counts,
+void plan_births(Serial, const Events<TaskEnded>& ended, SoftRows& rows, WaitingHits waiting, Fragments& fragments,
+                 const Debris& debris, DamageLedger ledger, Arena& arena, PlannedBirths planned) {
+    planned.breaks.clear();
+    planned.births.clear();
+    const Bodies& bodies = rows.bodies;
+    const Tasks& tasks = rows.tasks;
+    Planning planning{rows,
+                      fragments,
+                      waiting.queued,
+                      waiting.blows,
+                      ledger.settings,
+                      ledger.counts,
                       arena,
-                      breaks,
-                      births,
-                      changed,
-                      refused,
+                      planned.breaks,
+                      planned.births,
+                      planned.changed,
+                      planned.refused,
                       free_debris(debris),
-                      free_fragments(ages, settings),
-                      settings.births_a_frame};
+                      free_fragments(rows.fragment_ages, ledger.settings),
+                      ledger.settings.births_a_frame};
     for (uint32_t b = 0; b < bodies.size(); ++b)
         if (bodies.is_owed_births[b] && bodies.task[b] == kNone && may_ask(planning, bodies.is_owed_births[b]) &&
-            !asks_as_soft(shells.state, Row<Bodies>(b)))
+            !asks_as_soft(rows, Row<Bodies>(b)))
             ask_again(planning, Row<Bodies>(b));
-    for (uint32_t s = 0; s < shells.state.soft_bodies.size(); ++s)
-        if (shells.state.soft_bodies.is_torn[s]) plan_tear(planning, Row<SoftBodies>(s));
+    for (uint32_t s = 0; s < rows.soft_bodies.size(); ++s)
+        if (rows.soft_bodies.is_torn[s]) plan_tear(planning, Row<SoftBodies>(s));
     for (const TaskEnded& e : ended) {
         const Row<Tasks> task = e.task;
         const auto result = static_cast<TaskState>(tasks.state[task]);
-        if (result != TaskState::Dropped && tasks.start_count[task]) tell_cracks(shells.state, task, cracks);
+        if (result != TaskState::Dropped && tasks.start_count[task]) tell_cracks(rows, task, planned.cracks);
         if (result == TaskState::Broke) plan_break(planning, task);
         if (result == TaskState::Whole && tasks.crack_count[task]) keep_cracks(planning, task);
         if (result == TaskState::Whole && !tasks.crack_count[task] && tasks.shell[task] == tasks.source[task])
-            stop_blocks(ShellView(shells.state, tasks.shell[task]));
+            stop_blocks(ShellView(rows, tasks.shell[task]));
         // More pieces than there may be, with those that found no room before.
         if (result == TaskState::Dropped && tasks.crack_count[task] && tasks.shell[task] == tasks.source[task])
-            clear_run(ShellView(shells.state, tasks.shell[task]), true, false);
+            clear_run(ShellView(rows, tasks.shell[task]), true, false);
         if (result == TaskState::Dropped && tasks.shell[task].exists())  // else it was refused
-            faults.push({body_id(bodies, tasks.body[task]), bodies.user_data[tasks.body[task]],
-                         centre_of(bodies, tasks.body[task]),
-                         "A hit gained energy three times over, made more than 1024 pieces, or found no room for its "
-                         "stiffness; the body stays as it was."});
+            planned.faults.push(
+                {body_id(bodies, tasks.body[task]), bodies.user_data[tasks.body[task]],
+                 centre_of(bodies, tasks.body[task]),
+                 "A hit gained energy three times over, made more than 1024 pieces, or found no room for its "
+                 "stiffness; the body stays as it was."});
     }
 }
 

@@ -53,7 +53,7 @@ void join_motions(PartMotion& motion, PartMotion& joined) {
 }
 
 // Rows, shell and drawn mesh of a new body, or a row that does not exist and the name of the limit.
-Row<Bodies> reserve_body(State& state, Row<Bodies> parent, Row<Shells> broken, const FragmentPart& part,
+Row<Bodies> reserve_body(BodyRows& state, Row<Bodies> parent, Row<Shells> broken, const FragmentPart& part,
                          const char** full) {
     const Row<Bodies> body = take_body(state);
     if (!body.exists()) {
@@ -162,7 +162,7 @@ bool reserve_points(Planning& planning, Break& plan) {
 
 // Which pieces are crumbs, bodies, or stay; heaviest first, ties by number.
 void choose_births(Planning& planning, Break& plan) {
-    State& state = planning.state;
+    SoftRows& state = planning.state;
     const auto count = static_cast<uint32_t>(plan.parts.size());
     for (uint32_t i = 0; i < count; ++i) plan.order[i] = i;
     std::sort(plan.order.begin(), plan.order.end(), [&](uint32_t a, uint32_t b) {
@@ -199,7 +199,7 @@ void choose_births(Planning& planning, Break& plan) {
 // The mesh that is drawn of the body is up to date, has room for what is new of the rest, and more of it stays than
 // goes.
 bool keeps_mesh(Planning& planning, const Break& plan) {
-    State& state = planning.state;
+    SoftRows& state = planning.state;
     const Shells& shells = state.shells;
     if (plan.soft.exists() || state.bodies.is_owed_births[plan.body] == kOwedDrawing) return false;
     uint32_t left = 0;
@@ -214,7 +214,7 @@ bool keeps_mesh(Planning& planning, const Break& plan) {
 // Room for the rest's drawn mesh. Where there is none the lightest pieces give their rows back and stay, and in the end
 // the crumbs do. False when even then there is none: the mesh that was drawn last stands.
 bool reserve_view(Planning& planning, Break& plan) {
-    State& state = planning.state;
+    SoftRows& state = planning.state;
     const auto count = static_cast<uint32_t>(plan.order.size());
     uint32_t lightest = count;
     if (keeps_mesh(planning, plan)) return plan.keeps_mesh = true;
@@ -266,7 +266,7 @@ bool goes_to_striker(const Tasks& tasks, const TaskContacts& contacts, const Bod
 
 // J that pieces may have beyond the body's motion where none of them left: what the contact that is solved now takes
 // for certain, as half of what two bodies lose that meet without bouncing; of a late result what it has taken.
-double lost_to_touch(const State& state, Row<Tasks> task) {
+double lost_to_touch(const BodyRows& state, Row<Tasks> task) {
     if (state.tasks.is_late[task]) return owed_to_late(state, task);
     const TaskContacts& contacts = state.task_contacts;
     const Row<Bodies> body = state.tasks.body[task];
@@ -291,29 +291,29 @@ double lost_to_touch(const State& state, Row<Tasks> task) {
 
 // What frees no piece changes no velocity: the body keeps its cracks, and its loose pieces until there is room.
 void stay_whole(Planning& planning, Break& plan) {
-    State& state = planning.state;
+    SoftRows& state = planning.state;
     const ShellView shell(state, plan.broken), before(state, state.bodies.shell[plan.body]);
     if (!plan.task.exists()) return;
-    if (!keep_hulls(shell, before)) return keep_cuts(state.blows, plan.task);
+    if (!keep_hulls(shell, before)) return keep_cuts(planning.blows, plan.task);
     clear_run(shell, true, shell.row != before.row, plan.is_refused);
     adopt_shell(state, plan.body, shell.row);
     if (!plan.is_refused) return;
     // An explosion's energy comes from outside.
-    if (has_explosion(state.blows, plan.task))
+    if (has_explosion(planning.blows, plan.task))
         planning.counts.work_from_outside += waiting_energy(state, plan.body);
     else
         limit_waiting(state, plan.body, lost_to_touch(state, plan.task));
 }
 
 // What a hit changed in the body's own shell stays there. It is drawn, and its pieces go, when there is room.
-void leave_cracked(State& state, Row<Bodies> body) {
+void leave_cracked(BodyRows& state, Row<Bodies> body) {
     clear_run(ShellView(state, state.bodies.shell[body]), true, false);
     state.bodies.is_owed_births[body] = kOwedBirths;
 }
 
 // Plans and reserves; what is refused asks again in the next frame. True: something leaves.
 bool reserve_births(Planning& planning, Break& plan) {
-    State& state = planning.state;
+    SoftRows& state = planning.state;
     uint8_t& owed = state.bodies.is_owed_births[plan.body];
     choose_births(planning, plan);
     const bool is_drawn = reserve_view(planning, plan);
@@ -324,7 +324,7 @@ bool reserve_births(Planning& planning, Break& plan) {
     plan.lets_go = !plan.soft.exists() && state.bodies.has_pins[plan.body] && !plan.motions[plan.largest].is_static;
     if (plan.is_broken()) return true;
     const bool is_new = plan.task.exists();
-    state.pools.points.give_back(plan.points.first, plan.points.capacity);
+    state.hull_points.pool.give_back(plan.points.first, plan.points.capacity);
     if (is_drawn && (is_new || !was_drawn)) planning.changed.push({plan.body, plan.keeps_mesh});
     stay_whole(planning, plan);
     return false;
@@ -332,7 +332,7 @@ bool reserve_births(Planning& planning, Break& plan) {
 
 // Every piece goes on with the body's own motion, about the centres that the rigid world knows, so that momentum and
 // angular momentum are kept to rounding.
-void move_with_body(State& state, Break& plan, Vec3d velocity, Vec3d spin) {
+void move_with_body(BodyRows& state, Break& plan, Vec3d velocity, Vec3d spin) {
     const Bodies& bodies = state.bodies;
     const ShellView shell(state, plan.broken);
     for (uint32_t p = 0; p < plan.parts.size(); ++p) {
@@ -356,13 +356,13 @@ void move_with_body(State& state, Break& plan, Vec3d velocity, Vec3d spin) {
 
 // Something leaves: what is to be filled, heaviest first, so that the longest work begins first.
 void order_births(Planning& planning, Break& plan) {
-    State& state = planning.state;
+    SoftRows& state = planning.state;
     for (uint32_t p = 0; p < plan.parts.size(); ++p)
         if (plan.leaves(p)) plan.left_elements += plan.parts[p].element_count;
     plan.whole = sums_of(ShellView(state, plan.broken));
     if (plan.is_rest_smaller(state) || plan.chooses_shape)
         list_part(ShellView(state, plan.broken), plan.parts, plan.largest);
-    hand_on_hits(state, plan);
+    hand_on_hits(planning, plan);
     hand_on_blows(planning, plan);
     const uint32_t of = planning.breaks.size();
     if (!plan.is_settled) planning.births.push({of, kNone});
@@ -372,7 +372,7 @@ void order_births(Planning& planning, Break& plan) {
 }
 
 // Of a body that was hit on a cut-out.
-RestMotion rest_after_put_back(const State& state, Row<Tasks> task) {
+RestMotion rest_after_put_back(const RunRows& state, Row<Tasks> task) {
     const BodyMotion motion = is_quick_task(state, task) ? BodyMotion(state, task) : rest_motion(state, task);
     return {motion.centre, motion.velocity, motion.spin};
 }
@@ -392,21 +392,21 @@ uint32_t free_fragments(const FragmentAges& ages, const DamageSettings& settings
 }
 
 void plan_break(Planning& planning, Row<Tasks> task) {
-    State& state = planning.state;
+    SoftRows& state = planning.state;
     const Row<Bodies> body = state.tasks.body[task];
     const Row<Shells> broken = state.tasks.shell[task];
     const ShellView shell(state, broken);
     Break plan =
         break_of(planning, task, body, broken,
-                 std::span(state.fragments.part.data() + size_t{task} * kMostParts, state.tasks.part_count[task]));
+                 std::span(planning.fragments.part.data() + size_t{task} * kMostParts, state.tasks.part_count[task]));
     if (!reserve_points(planning, plan)) {
         if (broken == plan.before) leave_cracked(state, body);
-        return keep_cuts(state.blows, task);
+        return keep_cuts(planning.blows, task);
     }
     const Vec3d velocity(state.tasks.start_velocity[task]), spin(state.tasks.start_spin[task]);
     std::optional<RestMotion> rest;
     if (broken == plan.before) rest = rest_after_put_back(state, task);
-    if (is_cut_task(state.blows, task)) {
+    if (is_cut_task(planning.blows, task)) {
         move_with_body(state, plan, velocity, spin);  // nothing was run
     } else {
         HandoffStart start{velocity, spin, state.shells.centre[broken], state.tasks.approach_speed[task], rest};
@@ -421,9 +421,9 @@ void plan_break(Planning& planning, Row<Tasks> task) {
 
 // The slot serves one body after the other: the parts move into the arena.
 void ask_again(Planning& planning, Row<Bodies> body) {
-    State& state = planning.state;
+    SoftRows& state = planning.state;
     const ShellView shell(state, state.bodies.shell[body]);
-    const std::span slot(state.fragments.part.data() + size_t{state.tasks.limit()} * kMostParts, kMostParts);
+    const std::span slot(planning.fragments.part.data() + size_t{state.tasks.limit()} * kMostParts, kMostParts);
     const uint32_t count = group_fragments(shell, slot);
     if (count > kMostParts) return;
     const auto parts = planning.arena.take<FragmentPart>(count);
@@ -443,10 +443,10 @@ void ask_again(Planning& planning, Row<Bodies> body) {
 
 // The parts' velocities are those of their points, as at any hand-off; which hulls fit is not known any more.
 void plan_tear(Planning& planning, Row<SoftBodies> soft) {
-    State& state = planning.state;
+    SoftRows& state = planning.state;
     const Row<Bodies> body = state.soft_bodies.body[soft];
     const ShellView shell(state, state.bodies.shell[body]);
-    const std::span slot(state.fragments.part.data() + size_t{state.tasks.limit()} * kMostParts, kMostParts);
+    const std::span slot(planning.fragments.part.data() + size_t{state.tasks.limit()} * kMostParts, kMostParts);
     const uint32_t count = group_fragments(shell, slot);
     state.soft_bodies.is_torn[soft] = 0;
     if (count < 2 || count > kMostParts) return;
@@ -463,10 +463,10 @@ void plan_tear(Planning& planning, Row<SoftBodies> soft) {
 }
 
 void keep_cracks(Planning& planning, Row<Tasks> task) {
-    State& state = planning.state;
+    SoftRows& state = planning.state;
     const Row<Bodies> body = state.tasks.body[task];
     const ShellView shell(state, state.tasks.shell[task]), before(state, state.bodies.shell[body]);
-    const std::span parts(&state.fragments.part[task * kMostParts], 1);
+    const std::span parts(&planning.fragments.part[task * kMostParts], 1);
     const char* full = nullptr;
     find_changed_cells(shell, before);
     const Range &vertices = state.bodies.view_vertices[body], &indices = state.bodies.view_indices[body];
@@ -480,7 +480,7 @@ void keep_cracks(Planning& planning, Row<Tasks> task) {
     if (full) {
         planning.refused.push(refused_event(state.bodies, body, full));
         if (shell.row == before.row) leave_cracked(state, body);
-        return keep_cuts(state.blows, task);
+        return keep_cuts(planning.blows, task);
     }
     clear_run(shell, true, shell.row != before.row);
     adopt_shell(state, body, shell.row);

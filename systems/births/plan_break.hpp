@@ -6,7 +6,10 @@ namespace cullet {
 
 /// What planning may touch.
 struct Planning {
-    State& state;
+    SoftRows& state;
+    Fragments& fragments;
+    QueuedHits& queued;
+    Blows& blows;
     const DamageSettings& settings;
     DamageCounts& counts;
     Arena& arena;

@@ -8,7 +8,7 @@
 namespace cullet {
 namespace {
 
-void want_hulls(State& state, Row<Shells> shell, Events<HullWanted>& wanted) {
+void want_hulls(ShellRows& state, Row<Shells> shell, Events<HullWanted>& wanted) {
     Cells& cells = state.cells;
     const Range range = state.shells.cells[shell];
     if (shape_of(ShellView(state, shell)) != ShapeKind::Cells) {
@@ -26,7 +26,7 @@ void want_hulls(State& state, Row<Shells> shell, Events<HullWanted>& wanted) {
 
 // The smaller sides have moved (design section 3): the rest keeps its rows, those of the pieces are dead. What rows the
 // body had before tell which hulls are as they were. Children first: their hulls are found among the body's.
-void keep_rest(State& state, const Break& plan) {
+void keep_rest(BodyRows& state, const Break& plan) {
     const ShellView shell(state, plan.broken), before(state, plan.before);
     ShellSums left;
     for (uint32_t p = 0; p < plan.parts.size(); ++p) {
@@ -55,21 +55,20 @@ void keep_rest(State& state, const Break& plan) {
         empty_rest_cells(shell);
     else
         copy_rest_hulls(shell, points, before, plan.had_cells);
-    state.pools.points.give_back(old_points.first, old_points.capacity);
+    state.hull_points.pool.give_back(old_points.first, old_points.capacity);
     adopt_shell(state, plan.body, shell.row);
 }
 
 }  // namespace
 
-void plan_hulls(Serial, const Events<Break>& breaks, ShellTables shells, Bodies& bodies, RigidWorld& rigid,
-                Events<HullWanted>& wanted) {
+void plan_hulls(Serial, const Events<Break>& breaks, BodyRows& rows, RigidWorld& rigid, Events<HullWanted>& wanted) {
     wanted.clear();
     if (breaks.size() == 0) return;
     for (const Break& plan : breaks) {
-        keep_rest(shells.state, plan);
-        want_hulls(shells.state, plan.broken, wanted);
+        keep_rest(rows, plan);
+        want_hulls(rows, plan.broken, wanted);
         for (const Row<Bodies> child : plan.child)
-            if (child.exists()) want_hulls(shells.state, bodies.shell[child], wanted);
+            if (child.exists()) want_hulls(rows, rows.bodies.shell[child], wanted);
     }
     rigid.reserve_shapes(kMostCellParts * wanted.size());
 }

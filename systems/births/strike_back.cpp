@@ -36,7 +36,7 @@ void give(Bodies& bodies, RigidWorld& rigid, Row<Bodies> body, const Push& push)
 }
 
 // What a body will lose when pay_answers gives it what waits at the contacts of its own task, J.
-double answers_loss(const State& state, Row<Bodies> body) {
+double answers_loss(const BodyRows& state, Row<Bodies> body) {
     const TaskContacts& contacts = state.task_contacts;
     const uint32_t task = state.bodies.task[body], first = state.tasks.first_contact[task];
     Push sum;
@@ -57,7 +57,7 @@ double share_lost(const TaskContacts& contacts, uint32_t first, uint32_t c) {
 
 // A striker gives each task its share alone, whatever the order in which they end; what it has lost beyond it waits
 // with the next task that shares it, and says that no energy was made by it.
-void hand_on(State& state, Row<Tasks> task, uint32_t contact, double surplus) {
+void hand_on(RunRows& state, Row<Tasks> task, uint32_t contact, double surplus) {
     TaskContacts& contacts = state.task_contacts;
     surplus += contacts.answer_energy[contact];
     contacts.answer_energy[contact] = 0;
@@ -77,7 +77,7 @@ void hand_on(State& state, Row<Tasks> task, uint32_t contact, double surplus) {
 
 // The first contact of the striker's own task with `body`, which keeps what the striker is owed, or kNone: it has none,
 // or the rigid solver has dealt with it already. All of that task's contacts with the body count as answered.
-uint32_t answering_contact(State& state, Row<Bodies> striker, Row<Bodies> body, bool is_heir) {
+uint32_t answering_contact(BodyRows& state, Row<Bodies> striker, Row<Bodies> body, bool is_heir) {
     const uint32_t t = state.bodies.task[striker];
     if (t == kNone || state.tasks.is_late[t] || is_ahead(state.tasks, t)) return kNone;
     uint32_t found = kNone;
@@ -96,7 +96,7 @@ uint32_t answering_contact(State& state, Row<Bodies> striker, Row<Bodies> body, 
 // pay for it). Returns what this body's own heir has to take, body axes; `allowed` follows. Its contacts are answered
 // then.
 Vec3d settle_answers(Births& births, Row<Tasks> task, const Pose& pose, uint32_t contact, double& allowed) {
-    State& state = births.state;
+    BodyRows& state = births.state;
     TaskContacts& contacts = state.task_contacts;
     const Row<Bodies> striker = contacts.striker[contact];
     Vec3d missing;
@@ -131,7 +131,7 @@ Vec3d settle_answers(Births& births, Row<Tasks> task, const Pose& pose, uint32_t
 // the body, whose own frame does as badly: stiffness entries are floats, so a vertex's column of blocks is off its row
 // by 2e-8, and pieces that turn pull on that with all their displacement. Uncracked bodies lose 1e-7 to 1e-6.
 double strike_back(Births& births, Row<Tasks> task, const Pose& pose, std::span<PartMotion> motions, uint32_t largest) {
-    State& state = births.state;
+    BodyRows& state = births.state;
     const Row<Bodies> body = state.tasks.body[task];
     TaskContacts& contacts = state.task_contacts;
     PartMotion& heir = motions[largest];
@@ -182,7 +182,7 @@ double strike_back(Births& births, Row<Tasks> task, const Pose& pose, std::span<
         hand_on(state, task, c, lost - share);
     }
     // What the game's blows gave comes from outside: pushes are booked above, as contacts with nobody.
-    const Vec3d exploded = take_explosions(state.blows, task);
+    const Vec3d exploded = take_explosions(births.blows, task);
     came_in += exploded;
     to_static += -1.0 * exploded;
     bool is_pinned = false;

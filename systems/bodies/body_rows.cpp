@@ -4,8 +4,8 @@
 
 namespace cullet {
 
-Row<Bodies> take_body(State& state) {
-    const uint32_t row = state.pools.bodies.take(1);
+Row<Bodies> take_body(BodyRows& state) {
+    const uint32_t row = state.bodies.pool.take(1);
     if (row == kNone) return {};
     Bodies& bodies = state.bodies;
     if (row >= bodies.size()) bodies.append(row + 1 - bodies.size());
@@ -23,18 +23,18 @@ Row<Bodies> take_body(State& state) {
     return Row<Bodies>(row);
 }
 
-void free_body(State& state, Row<Bodies> b) {
+void free_body(BodyRows& state, Row<Bodies> b) {
     Bodies& bodies = state.bodies;
     if (bodies.shell[b].exists()) release_shell(state, bodies.shell[b]);
-    state.pools.view_vertices.give_back(bodies.view_vertices[b].first, bodies.view_vertices[b].capacity);
-    state.pools.view_indices.give_back(bodies.view_indices[b].first, bodies.view_indices[b].capacity);
+    state.view_vertices.pool.give_back(bodies.view_vertices[b].first, bodies.view_vertices[b].capacity);
+    state.view_indices.pool.give_back(bodies.view_indices[b].first, bodies.view_indices[b].capacity);
     const uint32_t generation = bodies.generation[b];
     bodies.clear_rows(b, 1);
     if (b < state.quick_bodies.size()) state.quick_bodies.clear_rows(b, 1);
     if (b < state.fragment_ages.size()) state.fragment_ages.clear_rows(b, 1);
     bodies.generation[b] = generation;
     bodies.task[b] = kNone;
-    state.pools.bodies.give_back(b, 1);
+    state.bodies.pool.give_back(b, 1);
 }
 
 namespace {
@@ -60,26 +60,26 @@ void shrink(RangePool& pool, Range& range, uint32_t rows) {
     range.capacity = rows;
 }
 
-bool take_view_rows(State& state, Row<Bodies> b, uint32_t rows) {
+bool take_view_rows(BodyRows& state, Row<Bodies> b, uint32_t rows) {
     Range &vertices = state.bodies.view_vertices[b], &indices = state.bodies.view_indices[b];
     if (rows <= vertices.capacity && rows <= indices.capacity) {
-        shrink(state.pools.view_vertices, vertices, rows);
-        shrink(state.pools.view_indices, indices, rows);
+        shrink(state.view_vertices.pool, vertices, rows);
+        shrink(state.view_indices.pool, indices, rows);
         return true;
     }
-    const uint32_t vertex = state.pools.view_vertices.take(rows);
-    const uint32_t index = vertex == kNone ? kNone : state.pools.view_indices.take(rows);
+    const uint32_t vertex = state.view_vertices.pool.take(rows);
+    const uint32_t index = vertex == kNone ? kNone : state.view_indices.pool.take(rows);
     if (index == kNone) {
-        if (vertex != kNone) state.pools.view_vertices.give_back(vertex, rows);
+        if (vertex != kNone) state.view_vertices.pool.give_back(vertex, rows);
         return false;
     }
     const auto grow = [](AnyTable& table, const RangePool& pool) {
         if (pool.end() > table.size()) table.append(pool.end() - table.size());
     };
-    grow(state.view_vertices, state.pools.view_vertices);
-    grow(state.view_indices, state.pools.view_indices);
-    state.pools.view_vertices.give_back(vertices.first, vertices.capacity);
-    state.pools.view_indices.give_back(indices.first, indices.capacity);
+    grow(state.view_vertices, state.view_vertices.pool);
+    grow(state.view_indices, state.view_indices.pool);
+    state.view_vertices.pool.give_back(vertices.first, vertices.capacity);
+    state.view_indices.pool.give_back(indices.first, indices.capacity);
     vertices = {vertex, 0, rows};
     indices = {index, 0, rows};
     return true;
@@ -87,7 +87,7 @@ bool take_view_rows(State& state, Row<Bodies> b, uint32_t rows) {
 
 }  // namespace
 
-bool take_view(State& state, Row<Bodies> b, bool may_crack) {
+bool take_view(BodyRows& state, Row<Bodies> b, bool may_crack) {
     const ShellView shell(state, state.bodies.shell[b]);
     const uint32_t rows = view_rows(shell, [&](auto visit) {
         for (uint32_t e = 0; e < shell.element_count(); ++e)
@@ -106,11 +106,11 @@ uint32_t view_rows(const ShellView& shell, const FragmentPart& part) {
 
 }  // namespace
 
-bool take_view(State& state, Row<Bodies> b, ShellView shell, const FragmentPart& part) {
+bool take_view(BodyRows& state, Row<Bodies> b, ShellView shell, const FragmentPart& part) {
     return take_view_rows(state, b, view_rows(shell, part));
 }
 
-bool take_rest_view(State& state, Row<Bodies> b, ShellView shell, const FragmentPart& part) {
+bool take_rest_view(BodyRows& state, Row<Bodies> b, ShellView shell, const FragmentPart& part) {
     const uint32_t rows = view_rows(shell, part);
     return take_view_rows(state, b, rows + rows / kViewSpare) || take_view_rows(state, b, rows);
 }

@@ -10,7 +10,7 @@
 namespace cullet {
 namespace {
 
-MechanicalEnergy soft_energy(State& state, Row<SoftBodies> soft, Vec3d gravity) {
+MechanicalEnergy soft_energy(SoftRows& state, Row<SoftBodies> soft, Vec3d gravity) {
     const SpringView view(state, springs_of(state, soft));
     const SpringMotion motion = motion_of(view);
     const Vec3d centre = motion.centre + Vec3d(view.own().origin[view.row]);
@@ -26,7 +26,7 @@ MechanicalEnergy& MechanicalEnergy::operator+=(const MechanicalEnergy& o) {
     return *this;
 }
 
-MechanicalEnergy body_energy(State& state, Row<Bodies> body, Vec3 gravity) {
+MechanicalEnergy body_energy(SoftRows& state, Row<Bodies> body, Vec3 gravity) {
     const Bodies& bodies = state.bodies;
     const auto kind = static_cast<BodyKind>(bodies.kind[body]);
     const bool has_shell = bodies.shell[body].exists();
@@ -52,7 +52,7 @@ MechanicalEnergy debris_energy(const Debris& debris, uint32_t row, Vec3 gravity)
             debris.mass[row]};
 }
 
-MechanicalEnergy world_energy(State& state, Vec3 gravity) {
+MechanicalEnergy world_energy(SoftRows& state, const Debris& debris, Vec3 gravity) {
     MechanicalEnergy sum;
     for (uint32_t t = 0; t < state.tasks.size(); ++t) {
         if (static_cast<TaskState>(state.tasks.state[t]) == TaskState::Free) continue;
@@ -60,7 +60,7 @@ MechanicalEnergy world_energy(State& state, Vec3 gravity) {
         for (uint32_t c = first; c < end; ++c) sum.waiting += state.task_contacts.answer_energy[c];
     }
     for (uint32_t b = 0; b < state.bodies.size(); ++b) sum += body_energy(state, Row<Bodies>(b), gravity);
-    for (uint32_t d = 0; d < state.debris.size(); ++d) sum += debris_energy(state.debris, d, gravity);
+    for (uint32_t d = 0; d < debris.size(); ++d) sum += debris_energy(debris, d, gravity);
     return sum;
 }
 

@@ -1,6 +1,6 @@
 // The mechanical energy of a world: what contacts and breaks take from and never add to.
 #pragma once
-#include "components/state.hpp"
+#include "components/body_rows.hpp"
 
 namespace cullet {
 
@@ -18,8 +18,8 @@ struct MechanicalEnergy {
 };
 
 /// Nothing of one that is neither dynamic nor on pins.
-MechanicalEnergy body_energy(State& state, Row<Bodies> body, Vec3 gravity);
+MechanicalEnergy body_energy(SoftRows& state, Row<Bodies> body, Vec3 gravity);
 MechanicalEnergy debris_energy(const Debris& debris, uint32_t row, Vec3 gravity);
-MechanicalEnergy world_energy(State& state, Vec3 gravity);
+MechanicalEnergy world_energy(SoftRows& state, const Debris& debris, Vec3 gravity);
 
 }  // namespace cullet

@@ -39,11 +39,11 @@ bool is_compiled(uint32_t row) {
     return row < kFirstMaterials;
 }
 
-Vec3 grain_of(const State& state, uint32_t row) {
+Vec3 grain_of(const MaterialRows& state, uint32_t row) {
     return row < state.material_traits.size() ? state.material_traits.grain[row] : Vec3{};
 }
 
-bool has_values(const State& state, uint32_t row, const MaterialSettings& wanted, Vec3 grain) {
+bool has_values(const MaterialRows& state, uint32_t row, const MaterialSettings& wanted, Vec3 grain) {
     const MaterialSettings found = material_settings(state, Row<Materials>(row));
     const Vec3 away = grain_of(state, row) - grain;
     bool is_same = found.kind == wanted.kind && found.fracture == wanted.fracture && dot(away, away) == 0;
@@ -51,17 +51,17 @@ bool has_values(const State& state, uint32_t row, const MaterialSettings& wanted
     return is_same;
 }
 
-bool is_used(const State& state, uint32_t row) {
-    for (uint32_t s = 0; s < state.shells.size(); ++s)
-        if (state.shells.users[s] > 0 && state.shells.material[s] == row) return true;
+bool is_used(const Shells& shells, uint32_t row) {
+    for (uint32_t s = 0; s < shells.size(); ++s)
+        if (shells.users[s] > 0 && shells.material[s] == row) return true;
     return false;
 }
 
 /// A new row, or one that nothing is made of any more.
-uint32_t take_row(State& state) {
+uint32_t take_row(MaterialTables state) {
     if (state.materials.size() < state.materials.limit()) return state.materials.append(1);
     for (uint32_t row = kFirstMaterials; row < state.materials.size(); ++row)
-        if (!is_used(state, row)) return row;
+        if (!is_used(state.shells, row)) return row;
     return kNone;
 }
 
@@ -71,7 +71,7 @@ void fill_materials(Materials& materials) {
     for (uint32_t i = 0; i < kFirstMaterials; ++i) write_row(materials, materials.append(1), compiled_materials()[i]);
 }
 
-MaterialSettings material_settings(const State& state, Row<Materials> row) {
+MaterialSettings material_settings(const MaterialRows& state, Row<Materials> row) {
     MaterialSettings found;
     const MaterialTraits& traits = state.material_traits;
     if (row < traits.size()) {
@@ -86,14 +86,15 @@ MaterialSettings material_settings(const State& state, Row<Materials> row) {
     return found;
 }
 
-Row<Materials> material_row(State& state, const MaterialSettings& material, Vec3 grain) {
+Row<Materials> material_row(MaterialTables state, const MaterialSettings& material, Vec3 grain) {
+    const MaterialRows rows{state.materials, state.material_traits};
     for (uint32_t row = 0; row < state.materials.size(); ++row)
-        if (has_values(state, row, material, grain)) return Row<Materials>(row);
+        if (has_values(rows, row, material, grain)) return Row<Materials>(row);
     const uint32_t row = take_row(state);
     if (row == kNone) return {};
     MaterialTraits& traits = state.material_traits;
     while (traits.size() <= row) {
-        const MaterialSettings found = material_settings(state, Row<Materials>(traits.size()));
+        const MaterialSettings found = material_settings(rows, Row<Materials>(traits.size()));
         write_row(traits, traits.append(1), found, {});
     }
     write_row(state.materials, row, material);
@@ -101,7 +102,7 @@ Row<Materials> material_row(State& state, const MaterialSettings& material, Vec3
     return Row<Materials>(row);
 }
 
-TraitsRow material_traits(const State& state, Row<Materials> row) {
+TraitsRow material_traits(const MaterialRows& state, Row<Materials> row) {
     const MaterialTraits& t = state.material_traits;
     if (row < t.size())
         return {static_cast<MaterialKind>(t.kind[row]),
@@ -129,7 +130,7 @@ Result<void> check_row(const MaterialSettings& m) {
     return {};
 }
 
-Result<void> check_material_rows(const State& state) {
+Result<void> check_material_rows(const MaterialRows& state) {
     const MaterialTraits& traits = state.material_traits;
     const auto place = [](uint32_t row) { return "row " + std::to_string(row) + " of materials: "; };
     if (traits.size() > 0 && traits.size() != state.materials.size())

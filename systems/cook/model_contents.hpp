@@ -1,6 +1,6 @@
 // A cooked model: tables of its own that hold one shell.
 #pragma once
-#include "components/state.hpp"
+#include "components/workbench.hpp"
 #include "cullet/model.hpp"
 #include "engine/mesh.hpp"
 
@@ -8,7 +8,7 @@ namespace cullet {
 
 struct Model::Contents {
     explicit Contents(const Limits& limits) : state(limits) {}
-    State state;  // the first materials and its own, and the rows of one shell
+    Workbench state;  // the first materials and its own, and the rows of one shell
     Row<Shells> shell;
     std::string name, material;
     ModelReport report;
@@ -23,6 +23,6 @@ struct MeshData::Contents {
 Limits cooking_limits(uint32_t vertices, uint32_t elements);
 
 /// Copies a shell between states; kNone and the limit's name when there is no room.
-Row<Shells> import_shell(State& to, const State& from, Row<Shells> shell, const char** full);
+Row<Shells> import_shell(ShellRows& to, const ShellRows& from, Row<Shells> shell, const char** full);
 
 }  // namespace cullet

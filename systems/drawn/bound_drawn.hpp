@@ -1,5 +1,5 @@
 #pragma once
-#include "components/state.hpp"
+#include "components/body_rows.hpp"
 #include "components/view_boxes.hpp"
 
 namespace cullet {

@@ -113,15 +113,14 @@ std::span<const Reach> find_whole(const Bodies& bodies, const Shells& shells, co
 // each other; of the other pieces, which may be hundreds, so many a frame take turns. What is held up and topples has
 // flights of its own. All that may reach something whole is followed again while a task waits for its touch: others
 // may have pushed it meanwhile.
-void foresee_impacts(Serial, Step step, RigidWorld& rigid, const Bodies& bodies, const Shells& shells,
-                     const Tasks& tasks, const TaskContacts& contacts, const DamageSettings& settings, Arena& arena,
-                     Events<ForeseenHit>& foreseen) {
+void foresee_impacts(Serial, Step step, RigidWorld& rigid, const Bodies& bodies, const Shells& shells, RunsNow runs,
+                     const DamageSettings& settings, Arena& arena, Events<ForeseenHit>& foreseen) {
     foreseen.clear();
     if (settings.frames_ahead == 0) return;
     const float least = least_wake_speed(bodies, shells, settings);
     const float seconds = step.dt * static_cast<float>(settings.frames_ahead), gained = length(step.gravity) * seconds;
-    Flights flights{step, rigid, bodies, tasks, contacts, least, settings.frames_ahead, foreseen};
-    const auto whole = find_whole(bodies, shells, tasks, settings, arena);
+    Flights flights{step, rigid, bodies, runs.tasks, runs.contacts, least, settings.frames_ahead, foreseen};
+    const auto whole = find_whole(bodies, shells, runs.tasks, settings, arena);
     const auto is_near_whole = [&](uint32_t b) {
         const Reach reach = reach_of_flight(bodies, b, step.gravity, seconds);
         return std::any_of(whole.begin(), whole.end(), [&](const Reach& r) { return r.meets(reach); });

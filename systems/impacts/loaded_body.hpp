@@ -1,6 +1,6 @@
 // A body under loads: the tables that say what it bears.
 #pragma once
-#include "components/state.hpp"
+#include "components/body_rows.hpp"
 
 namespace cullet {
 

@@ -13,7 +13,8 @@ constexpr uint64_t kLateFrames = 1;  // by which it may come later
 
 struct Meeting {
     Step step;
-    State& state;
+    const BodyRows& state;
+    const Blows& blows;
     std::span<Impact> impacts;  // by body
 
     std::span<Impact> on(Row<Bodies> body) const {
@@ -57,7 +58,6 @@ struct Meeting {
         return find(all, first);
     }
     bool waits_for_a_blow(Row<Bodies> body) const {
-        const Blows& blows = state.blows;
         for (uint32_t b = 0; b < blows.size(); ++b)
             if (blows.body[b] == body && blows.task[b] == kNone) return true;
         return false;
@@ -84,34 +84,35 @@ struct Meeting {
 
 }  // namespace
 
-void meet_foreseen(Serial, Step step, ShellTables shells, Tasks& tasks, TaskContacts& contacts, Blows&,
-                   const Bodies& bodies, const DamageSettings& settings, DamageCounts& counts, Events<Impact>& impacts,
+void meet_foreseen(Serial, Step step, BodyRows& rows, const Blows& blows, DamageLedger ledger, Events<Impact>& impacts,
                    Events<ImpactEvent>& impact_events) {
-    State& state = shells.state;
-    const Meeting meeting{step, state, impacts.all()};
+    const DamageSettings& settings = ledger.settings;
+    Tasks& tasks = rows.tasks;
+    TaskContacts& contacts = rows.task_contacts;
+    const Meeting meeting{step, rows, blows, impacts.all()};
     for (uint32_t t = 0; t < tasks.size(); ++t) {
         if (static_cast<TaskState>(tasks.state[t]) == TaskState::Free || !is_ahead(tasks, t)) continue;
         const bool is_off = meeting.is_off(t);
         if (!is_off && meeting.may_still_come(t)) continue;
         const Impact* const met = is_off ? nullptr : meeting.find(t);
         if (!met) {
-            ++counts.ahead_misses;
-            cancel_task(state, Row<Tasks>(t));
+            ++ledger.counts.ahead_misses;
+            cancel_task(rows, Row<Tasks>(t));
             continue;
         }
-        const Impact impact = aimed(state, *met);
+        const Impact impact = aimed(rows, *met);
         const uint32_t first = tasks.first_contact[t], end = first + tasks.contact_count[t];
-        const ImpactEvent event = event_of(bodies, impact, contacts.striker_inverse_mass[first]);
+        const ImpactEvent event = event_of(rows.bodies, impact, contacts.striker_inverse_mass[first]);
         const bool is_allowed = !settings.allows || settings.allows(settings.allows_user, event);
         for (Impact& i : meeting.on(tasks.body[t]))
             for (uint32_t c = first; c < end; ++c)
                 i.is_settled = i.is_settled || !is_allowed || contacts.striker[c] == i.striker;
         if (!is_allowed) {
-            cancel_task(state, Row<Tasks>(t));
+            cancel_task(rows, Row<Tasks>(t));
             continue;
         }
-        ++counts.ahead_hits;
-        ++counts.opened;
+        ++ledger.counts.ahead_hits;
+        ++ledger.counts.opened;
         impact_events.push(event);
         tasks.due_frame[t] = 0;
         tasks.opened_frame[t] = step.frame;

@@ -67,8 +67,7 @@ uint32_t free_tasks(const Tasks& tasks) {
 }
 
 /// A hit that has come already and waits for its turn goes first, unless it is a bump.
-bool has_queued_hit(const State& state, Row<Bodies> body) {
-    const QueuedHits& queued = state.queued_hits;
+bool has_queued_hit(const BodyRows& state, const QueuedHits& queued, Row<Bodies> body) {
     const float bump = first_crack_speed(state.shells, state.bodies.shell[body], state.bodies.strength_scale[body]);
     for (uint32_t q = 0; q < queued.size(); ++q)
         if (queued.is_used[q] && queued.body[q] == body && queued.approach_speed[q] >= bump) return true;
@@ -78,7 +77,7 @@ bool has_queued_hit(const State& state, Row<Bodies> body) {
 /// Blows on bodies that may have a task for them.
 std::span<Foreseen> find_blows(const Opening& opening, std::span<const ForeseenHit> hits,
                                const DamageSettings& settings, std::span<Foreseen> room) {
-    const State& state = opening.state;
+    const BodyRows& state = opening.state;
     const Bodies& bodies = state.bodies;
     uint32_t count = 0;
     for (const ForeseenHit& hit : hits)
@@ -96,7 +95,7 @@ std::span<Foreseen> find_blows(const Opening& opening, std::span<const ForeseenH
 
 /// Of what is foreseen of one body the blows that come together, those that come first, but for bumps that are not
 /// worth to wait for: a body has one task.
-std::span<const Foreseen> first_together(const State& state, std::span<const Foreseen> all) {
+std::span<const Foreseen> first_together(const BodyRows& state, std::span<const Foreseen> all) {
     std::span<const Foreseen> chosen;
     for (size_t i = 0, next; i < all.size(); i = next) {
         for (next = i; next < all.size() && all[next].steps() == all[i].steps();) ++next;
@@ -153,7 +152,7 @@ bool still_holds(const Opening& opening, Row<Tasks> task, std::span<const Forese
 /// The fastest of them first. What topples comes with others only if it is the fastest: it may come otherwise, and
 /// would take their task with it.
 void open_one(Opening& opening, std::span<const Foreseen> together) {
-    State& state = opening.state;
+    BodyRows& state = opening.state;
     Tasks& tasks = state.tasks;
     const Row<Bodies> body = together.front().impact.body;
     if (const Row<Tasks> task(state.bodies.task[body]); task.exists()) {
@@ -178,14 +177,14 @@ void open_one(Opening& opening, std::span<const Foreseen> together) {
 
 }  // namespace
 
-bool is_bump(const State& state, const Impact& impact, float foreseen) {
+bool is_bump(const BodyRows& state, const Impact& impact, float foreseen) {
     const float scale = state.bodies.strength_scale[impact.body];
     return impact.approach_speed <
            std::min(first_crack_speed(state.shells, state.bodies.shell[impact.body], scale), kBumpShare * foreseen);
 }
 
 void open_ahead(Opening& opening, const Events<ForeseenHit>& foreseen, const DamageSettings& settings) {
-    State& state = opening.state;
+    BodyRows& state = opening.state;
     const Scratch<std::array<Foreseen, kMostForeseen>> room(state.scratch);
     const auto all = find_blows(opening, foreseen.all(), settings, *room);
     std::sort(all.begin(), all.end(), [](const Foreseen& p, const Foreseen& q) {
@@ -196,7 +195,7 @@ void open_ahead(Opening& opening, const Events<ForeseenHit>& foreseen, const Dam
     for (size_t i = 0, next; i < all.size(); i = next) {
         const Row<Bodies> body = all[i].impact.body;
         for (next = i; next < all.size() && all[next].impact.body == body;) ++next;
-        if (2 * free_tasks(state.tasks) <= state.tasks.size() || has_queued_hit(state, body)) continue;
+        if (2 * free_tasks(state.tasks) <= state.tasks.size() || has_queued_hit(state, opening.queued, body)) continue;
         const std::span<const Foreseen> on_body = all.subspan(i, next - i), together = first_together(state, on_body);
         const Row<Tasks> task(state.bodies.task[body]);
         if (!task.exists() || !still_holds(opening, task, on_body, together)) open_one(opening, together);

@@ -11,68 +11,65 @@
 namespace cullet {
 namespace {
 
-ImpactEvent event_of(const State& state, uint32_t row) {
-    const Blows& blows = state.blows;
+ImpactEvent event_of(const Bodies& bodies, const Blows& blows, uint32_t row) {
     const Row<Bodies> body = blows.body[row];
-    const Pose pose = pose_of(state.bodies, body);
+    const Pose pose = pose_of(bodies, body);
     ImpactEvent e;
-    e.body = body_id(state.bodies, body);
-    e.body_user_data = state.bodies.user_data[body];
+    e.body = body_id(bodies, body);
+    e.body_user_data = bodies.user_data[body];
     e.place = to_world(pose, blows.point[row]);
     e.normal = rotate(pose.orientation, blows.direction[row]);
     e.approach_speed = blows.speed[row];
     const double speed = blows.speed[row], size = length(blows.impulse[row]);
     if (is_kind(blows, row, BlowKind::Push))
-        e.energy = 0.5 * speed * speed / (double{blows.inverse_mass[row]} + 1 / state.bodies.mass[body]);
+        e.energy = 0.5 * speed * speed / (double{blows.inverse_mass[row]} + 1 / bodies.mass[body]);
     else
-        e.energy = 0.5 * size * size / state.bodies.mass[body];
+        e.energy = 0.5 * size * size / bodies.mass[body];
     return e;
 }
 
 // r_c of the note, section 6.3.
-float patch_radius(const State& state, uint32_t row, uint32_t t) {
+float patch_radius(const RunRows& state, const Blows& blows, uint32_t row, uint32_t t) {
     const Shells& shells = state.shells;
     const Row<Shells> shell = state.tasks.source[t];
-    return std::max({3 * shells.thickness[shell], 1.3f * shells.mean_edge[shell], 0.35f * state.blows.radius[row]});
+    return std::max({3 * shells.thickness[shell], 1.3f * shells.mean_edge[shell], 0.35f * blows.radius[row]});
 }
 
 // The task's contact in whose patch the push lies, or kNone. Vertices of two patches take one spring alone: a second
 // push there would be lost.
-uint32_t contact_at(const State& state, uint32_t row, uint32_t t) {
+uint32_t contact_at(const RunRows& state, const Blows& blows, uint32_t row, uint32_t t) {
     const TaskContacts& contacts = state.task_contacts;
-    const float radius = patch_radius(state, row, t);
+    const float radius = patch_radius(state, blows, row, t);
     const uint32_t first = state.tasks.first_contact[t];
     for (uint32_t c = first; c < first + state.tasks.contact_count[t]; ++c)
-        if (length(contacts.point[c] - state.blows.point[row]) < std::max(radius, contacts.radius[c])) return c;
+        if (length(contacts.point[c] - blows.point[row]) < std::max(radius, contacts.radius[c])) return c;
     return kNone;
 }
 
 // Two that strike as one: bodies get their own impulse back, and what pushes another way another answer.
-bool may_merge(const State& state, uint32_t row, uint32_t c) {
+bool may_merge(const TaskContacts& contacts, const Blows& blows, uint32_t row, uint32_t c) {
     constexpr float kSameWay = 0.7f;  // cosine of 45 degrees
-    const TaskContacts& contacts = state.task_contacts;
     return !contacts.striker[c].exists() && contacts.striker_inverse_mass[c] > 0 &&
-           dot(contacts.normal[c], state.blows.direction[row]) > kSameWay;
+           dot(contacts.normal[c], blows.direction[row]) > kSameWay;
 }
 
 // Whether a task of this step, or one that is to be opened, can take the blow too.
-bool fits(const State& state, uint32_t row, uint32_t t, bool is_late) {
-    const bool is_cut = is_kind(state.blows, row, BlowKind::Cut);
-    if (is_cut != is_cut_task(state.blows, Row<Tasks>(t))) return false;
-    if (!is_late && !is_cut && state.blows.is_paid[row]) return false;  // or the run would give it a second time
-    if (!is_kind(state.blows, row, BlowKind::Push)) return true;
-    const uint32_t at = contact_at(state, row, t);
-    return at == kNone ? state.tasks.contact_count[t] < kMostContacts : may_merge(state, row, at);
+bool fits(const RunRows& state, const Blows& blows, uint32_t row, uint32_t t, bool is_late) {
+    const bool is_cut = is_kind(blows, row, BlowKind::Cut);
+    if (is_cut != is_cut_task(blows, Row<Tasks>(t))) return false;
+    if (!is_late && !is_cut && blows.is_paid[row]) return false;  // or the run would give it a second time
+    if (!is_kind(blows, row, BlowKind::Push)) return true;
+    const uint32_t at = contact_at(state, blows, row, t);
+    return at == kNone ? state.tasks.contact_count[t] < kMostContacts : may_merge(state.task_contacts, blows, row, at);
 }
 
-Vec3 moving_at(const State& state, uint32_t t, Vec3 point) {
+Vec3 moving_at(const BodyRows& state, uint32_t t, Vec3 point) {
     const Vec3 arm = point - state.bodies.centre[state.tasks.body[t]].to_float();
     return state.tasks.start_velocity[t] + cross(state.tasks.start_spin[t], arm);
 }
 
 // Masses add; speed, way and place are the mean by momentum: what sticks together and goes on as one.
-void merge_push(State& state, uint32_t row, uint32_t t, uint32_t c) {
-    const Blows& blows = state.blows;
+void merge_push(BodyRows& state, const Blows& blows, uint32_t row, uint32_t t, uint32_t c) {
     TaskContacts& contacts = state.task_contacts;
     const double mass = 1 / double{contacts.striker_inverse_mass[c]}, added = 1 / double{blows.inverse_mass[row]};
     const Vec3 point = contacts.point[c], normal = contacts.normal[c];
@@ -87,13 +84,12 @@ void merge_push(State& state, uint32_t row, uint32_t t, uint32_t c) {
     contacts.striker_inverse_mass[c] = static_cast<float>(1 / (mass + added));
     contacts.start_speed[c] = dot(moving_at(state, t, contacts.point[c]), contacts.normal[c]) + speed;
     if (gained > before) contacts.striker_radius[c] = blows.radius[row];
-    contacts.radius[c] = std::max(contacts.radius[c], patch_radius(state, row, t));
+    contacts.radius[c] = std::max(contacts.radius[c], patch_radius(state, blows, row, t));
 }
 
-void lay_push(State& state, uint32_t row, uint32_t t) {
-    if (const uint32_t at = contact_at(state, row, t); at != kNone) return merge_push(state, row, t, at);
+void lay_push(BodyRows& state, const Blows& blows, uint32_t row, uint32_t t) {
+    if (const uint32_t at = contact_at(state, blows, row, t); at != kNone) return merge_push(state, blows, row, t, at);
     Tasks& tasks = state.tasks;
-    const Blows& blows = state.blows;
     TaskContacts& contacts = state.task_contacts;
     const uint32_t c = tasks.first_contact[t] + tasks.contact_count[t]++;
     contacts.clear_rows(c, 1);
@@ -103,20 +99,22 @@ void lay_push(State& state, uint32_t row, uint32_t t) {
     contacts.striker_inverse_mass[c] = blows.inverse_mass[row];
     contacts.striker_radius[c] = blows.radius[row];
     contacts.start_speed[c] = dot(moving_at(state, t, blows.point[row]), blows.direction[row]) + blows.speed[row];
-    contacts.radius[c] = patch_radius(state, row, t);
+    contacts.radius[c] = patch_radius(state, blows, row, t);
 }
 
 enum class Outcome : uint8_t { Waits, Joined, Gone };
 
 struct Opener {
     BlowOpening& o;
+    SoftRows& state = o.opening.state;
+    Blows& blows = o.opening.blows;
     uint64_t cut_units = 0;  // of the cuts that this step makes
 
     /// Cuts are made whole, in the step that opens their task: at least one, then as long as the frame's units last.
     bool may_cut(uint32_t row) {
-        const Row<Shells> shell = o.state.bodies.shell[o.state.blows.body[row]];
+        const Row<Shells> shell = state.bodies.shell[blows.body[row]];
         const uint64_t units =
-            o.state.shells.vertices[shell].count * kUnitsOpen + units_of_cut(o.state.shells, shell, o.state.blows, row);
+            state.shells.vertices[shell].count * kUnitsOpen + units_of_cut(state.shells, shell, blows, row);
         if (cut_units > 0 && cut_units + units > o.settings.units_a_frame) return false;
         cut_units += units;
         return true;
@@ -124,40 +122,36 @@ struct Opener {
 
     // What sleeps may lose its support to a cut.
     void wake(Row<Bodies> body) {
-        if (static_cast<BodyKind>(o.state.bodies.kind[body]) != BodyKind::Dynamic) return;
+        if (static_cast<BodyKind>(state.bodies.kind[body]) != BodyKind::Dynamic) return;
         o.rigid.wake(body);
-        o.state.bodies.is_asleep[body] = 0;
+        state.bodies.is_asleep[body] = 0;
     }
-    void pay(uint32_t row) { pay_blow(o.state.blows, o.state.bodies, o.rigid, o.counts, row); }
+    void pay(uint32_t row) { pay_blow(blows, state.bodies, o.rigid, o.opening.counts, row); }
 
     void join(uint32_t row, uint32_t t) {
-        Tasks& tasks = o.state.tasks;
+        Tasks& tasks = state.tasks;
         if (tasks.is_late[t]) pay(row);
         wake(tasks.body[t]);
-        o.state.blows.task[row] = t;
-        if (is_kind(o.state.blows, row, BlowKind::Cut)) return;
-        if (is_kind(o.state.blows, row, BlowKind::Push))
-            lay_push(o.state, row, t);
+        blows.task[row] = t;
+        if (is_kind(blows, row, BlowKind::Cut)) return;
+        if (is_kind(blows, row, BlowKind::Push))
+            lay_push(state, blows, row, t);
         else
             tasks.quiet_time[t] = tasks.end_time[t];  // no touch tells when it is over
-        tasks.approach_speed[t] = std::max(tasks.approach_speed[t], o.state.blows.speed[row]);
-        o.impact_events.push(event_of(o.state, row));
+        tasks.approach_speed[t] = std::max(tasks.approach_speed[t], blows.speed[row]);
+        o.impact_events.push(event_of(state.bodies, blows, row));
     }
 
     /// New ones that damage is not worth looking at for, or is forbidden for.
     bool is_harmless(uint32_t row) const {
-        const State& state = o.state;
-        const Row<Bodies> body = state.blows.body[row];
-        if (state.blows.speed[row] <=
-            wake_speed(state.shells, state.bodies.shell[body], state.bodies.strength_scale[body]))
+        const Row<Bodies> body = blows.body[row];
+        if (blows.speed[row] <= wake_speed(state.shells, state.bodies.shell[body], state.bodies.strength_scale[body]))
             return true;
         if (!may_break_again(state.shells, state.bodies.shell[body], o.settings)) return true;
-        return o.settings.allows && !o.settings.allows(o.settings.allows_user, event_of(state, row));
+        return o.settings.allows && !o.settings.allows(o.settings.allows_user, event_of(state.bodies, blows, row));
     }
 
     Outcome look_at(uint32_t row) {
-        State& state = o.state;
-        Blows& blows = state.blows;
         const Row<Bodies> body = blows.body[row];
         const bool is_cut = is_kind(blows, row, BlowKind::Cut), is_new = !blows.is_taken[row];
         blows.is_taken[row] = 1;
@@ -168,14 +162,14 @@ struct Opener {
         if (!is_cut && !may_break_again(state.shells, state.bodies.shell[body], o.settings)) return Outcome::Gone;
         const uint32_t open = state.bodies.task[body];
         if (open != kNone) {
-            const bool is_fresh = state.tasks.opened_frame[open] == o.frame;
-            if (is_fresh && fits(state, row, open, state.tasks.is_late[open]) && (!is_cut || may_cut(row))) {
+            const bool is_fresh = state.tasks.opened_frame[open] == o.opening.frame;
+            if (is_fresh && fits(state, blows, row, open, state.tasks.is_late[open]) && (!is_cut || may_cut(row))) {
                 join(row, open);
                 return Outcome::Joined;
             }
-        } else if (!state.bodies.hold_count[body] && o.frame >= state.bodies.retry_frame[body] &&
+        } else if (!state.bodies.hold_count[body] && o.opening.frame >= state.bodies.retry_frame[body] &&
                    has_free_task(state.tasks) && (!is_cut || may_cut(row))) {
-            const Row<Tasks> task = o.open(o.opener, body, is_cut ? 1.0f : blows.speed[row]);
+            const Row<Tasks> task = o.opening.open(body, is_cut ? 1.0f : blows.speed[row]);
             if (!task.exists()) {
                 pay(row);
                 return may_find_room(state, body) ? Outcome::Waits : Outcome::Gone;
@@ -198,7 +192,7 @@ bool has_free_task(const Tasks& tasks) {
 }
 
 void open_blows(BlowOpening& opening) {
-    Blows& blows = opening.state.blows;
+    Blows& blows = opening.opening.blows;
     Opener opener{opening};
     for (uint32_t row = 0; row < blows.size();) {
         if (blows.task[row] == kNone && opener.look_at(row) == Outcome::Gone)

@@ -1,19 +1,14 @@
 // Tasks for the blows of the game, as the contacts of this step have them.
 #pragma once
-#include "systems/world_data.hpp"
+#include "systems/impacts/opening.hpp"
 
 namespace cullet {
 
 struct BlowOpening {
-    State& state;
+    Opening& opening;
     RigidWorld& rigid;
     const DamageSettings& settings;
-    DamageCounts& counts;
     Events<ImpactEvent>& impact_events;
-    uint64_t frame;
-    void* opener;  // of the next
-    /// A task on the body's shell for a blow of this speed, or none where there is no room.
-    Row<Tasks> (*open)(void* opener, Row<Bodies> body, float speed);
 };
 
 /// Whether a task may be opened at all (limits.open_hits).

@@ -14,28 +14,28 @@ namespace cullet {
 namespace {
 
 // The fastest of each striker's contacts; a faster one takes the place of what the same striker did before.
-void queue_hits(std::span<const Impact> impacts, State& state, uint64_t frame, Events<RefusedEvent>& refused) {
+void queue_hits(std::span<const Impact> impacts, Opening& opening) {
+    BodyRows& state = opening.state;
     const Bodies& bodies = state.bodies;
     for (const Impact& told : impacts) {
         const Impact impact = aimed(state, told);
         const Pose pose = pose_of(bodies, impact.body);
         const Row<Bodies> striker = impact.striker;
         const bool is_queued =
-            queue_hit(state, {frame, impact.body, striker, to_body(pose, impact.point),
-                              rotate(conjugate(pose.orientation), impact.normal), impact.approach_speed,
-                              yielding_of(bodies, striker, impact.point, impact.normal).effective(),
-                              striker.exists() && bodies.is_sphere[striker] ? bodies.radius[striker] : 0.0f});
-        if (!is_queued) return (void)refused.push(refused_event(bodies, impact.body, "limits.queued_hits"));
+            queue_hit(opening.queued, {opening.frame, impact.body, striker, to_body(pose, impact.point),
+                                       rotate(conjugate(pose.orientation), impact.normal), impact.approach_speed,
+                                       yielding_of(bodies, striker, impact.point, impact.normal).effective(),
+                                       striker.exists() && bodies.is_sphere[striker] ? bodies.radius[striker] : 0.0f});
+        if (!is_queued) return (void)opening.refused.push(refused_event(bodies, impact.body, "limits.queued_hits"));
     }
 }
 
 // The contact as it was: striker and body meet at the speed that they had relative to each other then. Something that
 // does not yield must stand still, or it would do work on the body: then the body is given the speed. A late result
 // uses velocities relative to the body's mean alone, so either is as good.
-void lay_queued(State& state, Row<Tasks> task, uint32_t q) {
+void lay_queued(BodyRows& state, const QueuedHits& queued, Row<Tasks> task, uint32_t q) {
     Tasks& tasks = state.tasks;
     TaskContacts& contacts = state.task_contacts;
-    const QueuedHits& queued = state.queued_hits;
     const Row<Shells> shell = tasks.source[task];
     const uint32_t c = tasks.first_contact[task];
     const Vec3 arm = queued.point[q] - state.bodies.centre[tasks.body[task]].to_float();
@@ -58,7 +58,7 @@ void lay_queued(State& state, Row<Tasks> task, uint32_t q) {
 }
 
 // A hit that settle_tasks will hold: a bump below the first-crack speed is late, and the solver's affair, at once.
-bool will_be_held(const State& state, const DamageSettings& settings, Row<Tasks> task) {
+bool will_be_held(const RunRows& state, const DamageSettings& settings, Row<Tasks> task) {
     const Tasks& tasks = state.tasks;
     return static_cast<TaskState>(tasks.state[task]) == TaskState::Running && !tasks.is_late[task] &&
            settings.hold_seconds > 0 &&
@@ -68,7 +68,7 @@ bool will_be_held(const State& state, const DamageSettings& settings, Row<Tasks>
 // A striker that touches k bodies whose tasks open in one frame is given to each as k times as light: k strikers of a
 // k-th of its mass each lose together at most what one loses that all k push, by the convexity of |v|^2. Else each
 // task would take its own from the whole of its motion, and breaks would add energy.
-void share_strikers(State& state, const DamageSettings& settings, std::span<const TaskOpened> opened) {
+void share_strikers(SoftRows& state, const DamageSettings& settings, std::span<const TaskOpened> opened) {
     const Tasks& tasks = state.tasks;
     TaskContacts& contacts = state.task_contacts;
     const auto takes = [&](Row<Tasks> task, Row<Bodies> striker) {
@@ -110,10 +110,10 @@ uint64_t next_queued_frame(const QueuedHits& queued, uint64_t from) {
 
 // A load that is no blow: the cut that it asks for is opened with the other blows of this step. False: it waits.
 bool open_snap(Opening& opening, uint32_t q, Events<ImpactEvent>& impact_events) {
-    State& state = opening.state;
-    const QueuedHits& queued = state.queued_hits;
+    BodyRows& state = opening.state;
+    const QueuedHits& queued = opening.queued;
     const Row<Bodies> body = queued.body[q];
-    if (!snap(state.blows, state.bodies, state.shells, state.vertices, body, queued.point[q], queued.normal[q],
+    if (!snap(opening.blows, state.bodies, state.shells, state.vertices, body, queued.point[q], queued.normal[q],
               queued.frame[q] * 0x10001 + body.index))
         return false;
     const Pose pose = pose_of(state.bodies, body);
@@ -134,14 +134,14 @@ constexpr float kMostSecondsQueued = 2;
 // does what finds no rows now but may find some soon.
 void open_queued_of(uint64_t frame, Opening& opening, const DamageSettings& settings,
                     Events<ImpactEvent>& impact_events) {
-    State& state = opening.state;
+    BodyRows& state = opening.state;
     const Bodies& bodies = state.bodies;
-    QueuedHits& queued = state.queued_hits;
+    QueuedHits& queued = opening.queued;
     for (uint32_t q = 0; q < queued.size() && has_free_task(state.tasks); ++q) {
         if (!queued.is_used[q] || queued.frame[q] != frame) continue;
         const Row<Bodies> body = queued.body[q];
         if (bodies.task[body] != kNone || opening.frame < bodies.retry_frame[body] || bodies.hold_count[body]) continue;
-        if (has_waiting_cut(state.blows, body)) continue;
+        if (has_waiting_cut(opening.blows, body)) continue;
         if (may_break_again(state.shells, bodies.shell[body], settings)) {
             const bool snaps = is_snap(queued.load[q], queued.approach_speed[q]);
             if (snaps && open_snap(opening, q, impact_events)) {
@@ -150,7 +150,7 @@ void open_queued_of(uint64_t frame, Opening& opening, const DamageSettings& sett
             }
             const Row<Tasks> task = snaps ? Row<Tasks>{} : opening.open(body, queued.approach_speed[q]);
             if (task.exists()) {
-                lay_queued(state, task, q);
+                lay_queued(state, queued, task, q);
                 const Pose pose = pose_of(bodies, body);
                 const Impact impact{body, queued.striker[q], to_world(pose, queued.point[q]),
                                     rotate(pose.orientation, queued.normal[q]), queued.approach_speed[q]};
@@ -168,7 +168,7 @@ void open_queued_of(uint64_t frame, Opening& opening, const DamageSettings& sett
 
 // Oldest first.
 void open_queued(Opening& opening, const DamageSettings& settings, Events<ImpactEvent>& impact_events) {
-    const QueuedHits& queued = opening.state.queued_hits;
+    const QueuedHits& queued = opening.queued;
     for (uint64_t frame = next_queued_frame(queued, 0); frame < opening.frame && has_free_task(opening.state.tasks);
          frame = next_queued_frame(queued, frame + 1))
         open_queued_of(frame, opening, settings, impact_events);
@@ -176,50 +176,41 @@ void open_queued(Opening& opening, const DamageSettings& settings, Events<Impact
 
 }  // namespace
 
-void open_tasks(Serial, Step step, const Events<Impact>& impacts, const Events<ForeseenHit>& foreseen,
-                ShellTables shells, const Materials&, Bodies& bodies, Tasks&, TaskContacts&, QueuedHits&, Blows&,
-                RigidWorld& rigid, const DamageSettings& settings, DamageCounts& counts, Events<TaskOpened>& opened,
-                Events<StiffnessWanted>& stiffness_wanted, Events<ImpactEvent>& impact_events,
-                Events<RefusedEvent>& refused) {
-    State& state = shells.state;
-    opened.clear();
-    stiffness_wanted.clear();
-    Opening opening{state, opened, stiffness_wanted, refused, counts, step.frame, step.dt};
-    open_queued(opening, settings, impact_events);
+void open_tasks(Serial, Step step, const Events<Impact>& impacts, const Events<ForeseenHit>& foreseen, SoftRows& rows,
+                WaitingHits waiting, RigidWorld& rigid, DamageLedger ledger, OpenedTasks out) {
+    out.opened.clear();
+    out.stiffness_wanted.clear();
+    const DamageSettings& settings = ledger.settings;
+    const Bodies& bodies = rows.bodies;
+    Opening opening{rows,        waiting.queued, waiting.blows, out.opened, out.stiffness_wanted,
+                    out.refused, ledger.counts,  step.frame,    step.dt};
+    open_queued(opening, settings, out.impacts);
     const auto all = impacts.all();
     for (size_t i = 0, next; i < all.size(); i = next) {
         next = i + 1;
         while (next < all.size() && all[next].body == all[i].body) ++next;
         const Row<Bodies> body = all[i].body;
-        const Impact first = aimed(state, all[i]);
+        const Impact first = aimed(rows, all[i]);
         const ImpactEvent event =
             event_of(bodies, first, yielding_of(bodies, first.striker, first.point, first.normal).effective());
         if (settings.allows && !settings.allows(settings.allows_user, event)) continue;
-        if (bodies.task[body] != kNone || !has_free_task(state.tasks) || has_waiting_cut(state.blows, body)) {
-            queue_hits(all.subspan(i, next - i), state, step.frame, refused);
+        if (bodies.task[body] != kNone || !has_free_task(rows.tasks) || has_waiting_cut(waiting.blows, body)) {
+            queue_hits(all.subspan(i, next - i), opening);
             continue;
         }
         const Row<Tasks> task = opening.open(body, first.approach_speed);
         if (!task.exists()) {
-            if (may_find_room(state, body)) queue_hits(all.subspan(i, next - i), state, step.frame, refused);
+            if (may_find_room(rows, body)) queue_hits(all.subspan(i, next - i), opening);
             continue;
         }
-        lay_contacts(all.subspan(i, next - i), first, state, task);
-        impact_events.push(event);
+        lay_contacts(all.subspan(i, next - i), first, rows, task);
+        out.impacts.push(event);
     }
-    BlowOpening blows{
-        state,
-        rigid,
-        settings,
-        counts,
-        impact_events,
-        step.frame,
-        &opening,
-        [](void* opener, Row<Bodies> body, float speed) { return static_cast<Opening*>(opener)->open(body, speed); }};
+    BlowOpening blows{opening, rigid, settings, out.impacts};
     open_blows(blows);
     open_ahead(opening, foreseen, settings);
     opening.give_rows();
-    share_strikers(state, settings, opened.all());
+    share_strikers(rows, settings, out.opened.all());
 }
 
 }  // namespace cullet

@@ -49,7 +49,7 @@ float patch_radius(const Shells& shells, Row<Shells> shell, float striker_radius
     return std::max({3 * shells.thickness[shell], 1.3f * shells.mean_edge[shell], 0.35f * striker_radius});
 }
 
-Impact aimed(State& state, Impact impact) {
+Impact aimed(BodyRows& state, Impact impact) {
     const Bodies& bodies = state.bodies;
     const Row<Bodies> striker = impact.striker;
     if (!striker.exists() || !bodies.is_sphere[striker]) return impact;
@@ -80,7 +80,7 @@ ImpactEvent event_of(const Bodies& bodies, const Impact& impact, double inverse_
     return e;
 }
 
-void lay_contacts(std::span<const Impact> impacts, const Impact& first_aimed, State& state, Row<Tasks> task) {
+void lay_contacts(std::span<const Impact> impacts, const Impact& first_aimed, BodyRows& state, Row<Tasks> task) {
     const Bodies& bodies = state.bodies;
     const Shells& shells = state.shells;
     Tasks& tasks = state.tasks;
@@ -186,7 +186,7 @@ void Opening::give_rows() {
         const char* full = nullptr;
         const ShellView source(state, tasks.source[o.task]);
         CutOutResult result = CutOutResult::TooWide;
-        const bool is_everywhere = has_explosion(state.blows, o.task) || is_cut_task(state.blows, o.task);
+        const bool is_everywhere = has_explosion(blows, o.task) || is_cut_task(blows, o.task);
         if (!is_quick_task(state, o.task)) {
             const uint32_t wanted = is_everywhere ? kNone : kWholeCopyVertices;
             if (!give_hidden_rows(state, o.task, wanted, stiffness_wanted, &full)) {
@@ -217,8 +217,8 @@ void Opening::drop(Row<Tasks> task, const char* full) {
     if (is_ahead(tasks, task)) return;
     refuse(body, full, false);
     if (!may_find_room(state, body)) return;
-    for (uint32_t b = 0; b < state.blows.size(); ++b)
-        if (state.blows.task[b] == task.index) state.blows.goes_on[b] = 1;
+    for (uint32_t b = 0; b < blows.size(); ++b)
+        if (blows.task[b] == task.index) blows.goes_on[b] = 1;
     const uint32_t first = tasks.first_contact[task];
     for (uint32_t c = first; c < first + tasks.contact_count[task]; ++c) {
         if (!contacts.striker[c].exists() && contacts.striker_inverse_mass[c] > 0) continue;
@@ -226,14 +226,13 @@ void Opening::drop(Row<Tasks> task, const char* full) {
         const Vec3 moving = tasks.start_velocity[task] + cross(tasks.start_spin[task], arm);
         const float approach = contacts.start_speed[c] - dot(moving, contacts.normal[c]);
         const bool is_queued =
-            queue_hit(state, {frame, body, contacts.striker[c], contacts.point[c], contacts.normal[c], approach,
-                              contacts.striker_inverse_mass[c], contacts.striker_radius[c], tasks.load[task]});
+            queue_hit(queued, {frame, body, contacts.striker[c], contacts.point[c], contacts.normal[c], approach,
+                               contacts.striker_inverse_mass[c], contacts.striker_radius[c], tasks.load[task]});
         if (!is_queued) return refuse(body, "limits.queued_hits", false);
     }
 }
 
-bool queue_hit(State& state, const QueuedHit& hit) {
-    QueuedHits& queued = state.queued_hits;
+bool queue_hit(QueuedHits& queued, const QueuedHit& hit) {
     uint32_t free = kNone, found = kNone;
     for (uint32_t q = 0; q < queued.size(); ++q) {
         if (!queued.is_used[q])

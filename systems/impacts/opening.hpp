@@ -19,13 +19,13 @@ float patch_radius(const Shells& shells, Row<Shells> shell, float striker_radius
 
 /// A blow as the task will have it: a ball's goes along the struck surface's normal, unless it does not close along
 /// that.
-Impact aimed(State& state, Impact impact);
+Impact aimed(BodyRows& state, Impact impact);
 
 ImpactEvent event_of(const Bodies& bodies, const Impact& impact, double inverse_mass);
 
 /// Contacts of one body, fastest first: those within a patch radius of one already taken belong to its patch (6.3).
 /// `first_aimed` is the first of them as aimed() has it.
-void lay_contacts(std::span<const Impact> impacts, const Impact& first_aimed, State& state, Row<Tasks> task);
+void lay_contacts(std::span<const Impact> impacts, const Impact& first_aimed, BodyRows& state, Row<Tasks> task);
 
 /// A row of QueuedHits.
 struct QueuedHit {
@@ -37,7 +37,9 @@ struct QueuedHit {
 };
 
 struct Opening {
-    State& state;
+    SoftRows& state;
+    QueuedHits& queued;
+    Blows& blows;
     Events<TaskOpened>& opened;
     Events<StiffnessWanted>& stiffness_wanted;
     Events<RefusedEvent>& refused;
@@ -64,6 +66,6 @@ inline bool is_snap(float load, float approach_speed) {
 }
 /// A hit waits in the queue for its body. At most one a striker: the faster, or one that snaps it. False: there is no
 /// room in it.
-bool queue_hit(State& state, const QueuedHit& hit);
+bool queue_hit(QueuedHits& queued, const QueuedHit& hit);
 
 }  // namespace cullet

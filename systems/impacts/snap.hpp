@@ -1,6 +1,7 @@
 // What is loaded beyond its strength, and no blow would break as a load does, comes apart along one jagged surface.
 #pragma once
-#include "components/state.hpp"
+#include "components/blows.hpp"
+#include "components/body_rows.hpp"
 
 namespace cullet {
 

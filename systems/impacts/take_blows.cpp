@@ -14,7 +14,8 @@ namespace {
 constexpr float kMostReturned = 2;
 
 struct Taking {
-    State& state;
+    SoftRows& state;
+    Blows& blows;
     RigidWorld& rigid;
     DamageCounts& counts;
     Events<RefusedEvent>& refused;
@@ -35,7 +36,6 @@ struct Taking {
         for (int k = 0; k < 3; ++k) counts.impulse_to_static[k] -= booked[k];
     }
     void push_points(uint32_t row, Row<SoftBodies> soft) {
-        const Blows& blows = state.blows;
         const Row<Bodies> body = blows.body[row];
         const Row<Shells> shell = state.bodies.shell[body];
         const float radius = std::max(
@@ -47,28 +47,28 @@ struct Taking {
 
     /// A copy of the blow for this body, at the end; kNone where there is no room.
     uint32_t copy_for(uint32_t row, Row<Bodies> body) {
-        const bool has_room = state.blows.size() + named < state.blows.limit();
-        const uint32_t made = has_room ? state.blows.append(1) : kNone;
+        const bool has_room = blows.size() + named < blows.limit();
+        const uint32_t made = has_room ? blows.append(1) : kNone;
         if (made == kNone) {
             refused.push(refused_event(state.bodies, body, "limits.queued_hits"));
             return kNone;
         }
-        state.blows.copy_rows(state.blows, row, made, 1);
-        state.blows.body[made] = body;
+        blows.copy_rows(blows, row, made, 1);
+        blows.body[made] = body;
         return made;
     }
 
     /// Where the push meets the surface: the nearest live vertex at rest. What has no shell is met where the game says.
     Vec3 place_of_push(uint32_t row) const {
-        Vec3 nearest = state.blows.point[row];
-        const Row<Bodies> body = state.blows.body[row];
+        Vec3 nearest = blows.point[row];
+        const Row<Bodies> body = blows.body[row];
         if (!has_shell(body)) return nearest;
         const ShellView shell(state, state.bodies.shell[body]);
         float least = 1e30f;
         for (uint32_t v = 0; v < shell.vertex_count(); ++v) {
             const uint32_t at = shell.vertex(v);
             if (state.vertices.element[at] == kNone) continue;
-            const Vec3 away = state.vertices.rest[at] - state.blows.point[row];
+            const Vec3 away = state.vertices.rest[at] - blows.point[row];
             if (dot(away, away) >= least) continue;
             least = dot(away, away);
             nearest = state.vertices.rest[at];
@@ -78,7 +78,6 @@ struct Taking {
 
     // The striker bounces off as a rigid one: J = (1 + e) v / (1/m_body + 1/m_striker).
     void measure_push(uint32_t row) {
-        Blows& blows = state.blows;
         const Row<Bodies> body = blows.body[row];
         blows.point.set(row, place_of_push(row));
         const Vec3d point(blows.point[row]), normal(blows.direction[row]);
@@ -90,10 +89,10 @@ struct Taking {
 
     void explode_ball(uint32_t row, Row<Bodies> body) {
         const Bodies& bodies = state.bodies;
-        const Vec3d away = Vec3d(centre_of(bodies, body) - state.blows.point[row]);
+        const Vec3d away = Vec3d(centre_of(bodies, body) - blows.point[row]);
         const double distance = length(away);
         const double size =
-            impulse_on_ball(distance, double{bodies.radius[body]}, state.blows.radius[row], state.blows.strength[row]);
+            impulse_on_ball(distance, double{bodies.radius[body]}, blows.radius[row], blows.strength[row]);
         if (!(size > 0)) return;
         const Vec3 along = rotate(conjugate(bodies.orientation[body]), ((1 / distance) * away).to_float());
         push_body(state.bodies, rigid, counts, body, size * Vec3d(along), {});
@@ -101,7 +100,7 @@ struct Taking {
 
     void explode_shell(uint32_t row, Row<Bodies> body) {
         const Bodies& bodies = state.bodies;
-        Explosion explosion = explosion_of(state.blows, row);
+        Explosion explosion = explosion_of(blows, row);
         explosion.centre = to_body(pose_of(bodies, body), explosion.centre);
         const ExplosionSums sums =
             measure_explosion(ShellView(state, bodies.shell[body]), explosion, bodies.centre[body]);
@@ -118,7 +117,6 @@ struct Taking {
         if (!bodies.is_breakable[body]) return push_body(state.bodies, rigid, counts, body, sums.impulse, sums.turning);
         const uint32_t made = copy_for(row, body);
         if (made == kNone) return push_body(state.bodies, rigid, counts, body, sums.impulse, sums.turning);
-        Blows& blows = state.blows;
         blows.point.set(made, explosion.centre);
         blows.impulse.set(made, sums.impulse);
         blows.turning.set(made, sums.turning);
@@ -134,8 +132,8 @@ struct Taking {
             const auto kind = static_cast<BodyKind>(bodies.kind[b]);
             const bool is_hit = kind == BodyKind::Dynamic || (kind == BodyKind::Static && has_shell(body));
             if (!is_hit) continue;
-            const float away = length(centre_of(bodies, body) - state.blows.point[row]);
-            if (away > state.blows.radius[row] + bodies.radius[b]) continue;
+            const float away = length(centre_of(bodies, body) - blows.point[row]);
+            if (away > blows.radius[row] + bodies.radius[b]) continue;
             if (has_shell(body))
                 explode_shell(row, body);
             else if (bodies.is_sphere[b])
@@ -150,7 +148,6 @@ struct Taking {
             if (!has_shell(body) || !state.bodies.is_breakable[b]) continue;
             const uint32_t made = copy_for(row, body);
             if (made == kNone) continue;
-            Blows& blows = state.blows;
             const Pose pose = pose_of(state.bodies, b);
             blows.point.set(made, to_body(pose, blows.point[made]));
             blows.direction.set(made, rotate(conjugate(pose.orientation), blows.direction[made]));
@@ -166,10 +163,11 @@ struct Taking {
 
 // New rows stand behind those that wait. Each is written anew at the end, once for each body that it reaches, and then
 // the old ones go: rows keep the order of the calls, and in it that of the bodies.
-void take_blows(Serial, Blows& blows, ShellTables shells, Bodies& bodies, RigidWorld& rigid, DamageCounts& counts,
+void take_blows(Serial, Blows& blows, SoftRows& rows, RigidWorld& rigid, DamageCounts& counts,
                 Events<RefusedEvent>& refused) {
     if (blows.size() == 0) return;
-    Taking taking{shells.state, rigid, counts, refused};
+    Bodies& bodies = rows.bodies;
+    Taking taking{rows, blows, rigid, counts, refused};
     uint32_t first = 0;
     while (first < blows.size() && blows.is_taken[first]) ++first;
     const uint32_t end = blows.size();

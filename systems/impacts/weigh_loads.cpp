@@ -85,14 +85,14 @@ Vec3d weight_of(const Bodies& bodies, Row<Bodies> body, Vec3 gravity) {
     return bodies.mass[body] * Vec3d(rotate(conjugate(bodies.orientation[body]), gravity));
 }
 
-float speed_of(const State& state, Row<Bodies> body, const Overload& over) {
+float speed_of(const BodyRows& state, Row<Bodies> body, const Overload& over) {
     const float share = over.is_driven ? kMostShare : std::clamp(static_cast<float>(over.share), 1.0f, kMostShare);
     return kBreakingSpeed * share * (state.bodies.overload_runs[body] ? kHarder : 1) *
            first_crack_speed(state.shells, state.bodies.shell[body], state.bodies.strength_scale[body]);
 }
 
 // s, of a hidden run on the whole body when it gets all units; cracks and pieces take half as much again.
-double seconds_of_run(const State& state, Row<Bodies> body, const DamageSettings& settings, float dt) {
+double seconds_of_run(const BodyRows& state, Row<Bodies> body, const DamageSettings& settings, float dt) {
     const Row<Shells> shell = state.bodies.shell[body];
     const Shells& shells = state.shells;
     const double steps =
@@ -101,7 +101,7 @@ double seconds_of_run(const State& state, Row<Bodies> body, const DamageSettings
     return dt * units / static_cast<double>(std::max<uint64_t>(settings.units_a_frame, 1));
 }
 
-bool is_for_a_run(const State& state, Row<Bodies> body, const Overload& over, const DamageSettings& settings,
+bool is_for_a_run(const BodyRows& state, Row<Bodies> body, const Overload& over, const DamageSettings& settings,
                   float dt) {
     const Bodies& bodies = state.bodies;
     if (bodies.overload_runs[body] >= (over.is_driven ? kMostDrivenRuns : kMostRuns)) return false;
@@ -112,7 +112,7 @@ bool is_for_a_run(const State& state, Row<Bodies> body, const Overload& over, co
 }
 
 // A striker of twenty masses stands for who presses. Against what is free it stands still: the body comes to it.
-QueuedHit hit_of(const State& state, Row<Bodies> body, const RigidContact& c, const Overload& over, uint64_t frame) {
+QueuedHit hit_of(const BodyRows& state, Row<Bodies> body, const RigidContact& c, const Overload& over, uint64_t frame) {
     const Bodies& bodies = state.bodies;
     const Impact as = impact_of(c, body.index == c.a ? 0 : 1);
     const Pose pose = pose_of(bodies, body);
@@ -156,17 +156,17 @@ bool is_allowed(const Bodies& bodies, const QueuedHit& hit, const DamageSettings
 
 }  // namespace
 
-void weigh_loads(Serial, Step step, RigidWorld& rigid, ShellTables shells, Bodies& bodies, QueuedHits&,
+void weigh_loads(Serial, Step step, RigidWorld& rigid, BodyRows& rows, QueuedHits& queued,
                  const DamageSettings& settings, Arena& arena, Events<RefusedEvent>& refused) {
     if (!is_counted(step)) return;
-    State& state = shells.state;
+    Bodies& bodies = rows.bodies;
     const auto contacts = rigid.loads();
     const LoadLists lists(bodies, contacts, arena);
     const auto found = arena.take<BodyLoad>(lists.longest());
     const OverloadRoom room{arena.take<BodyLoad>(lists.longest()), arena.take<AxisForce>(lists.longest())};
     for (uint32_t b = 0; b < bodies.size(); ++b) {
         const Row<Bodies> body(b);
-        const LoadedBody of{bodies, state.shells, state.vertices, state.materials, state.pin_boxes, body};
+        const LoadedBody of{bodies, rows.shells, rows.vertices, rows.materials, rows.pin_boxes, body};
         if (!lists.has_loads(body) || !may_be_loaded(of, settings)) {
             bodies.overloaded_steps[b] = 0;
             bodies.waking_load[b] = 0;
@@ -199,11 +199,11 @@ void weigh_loads(Serial, Step step, RigidWorld& rigid, ShellTables shells, Bodie
         const uint32_t wanted = counts_wanted(over, bodies.overload_runs[b], step.dt);
         if (++bodies.overloaded_steps[b] < std::min<uint32_t>(wanted, kWasWoken - 1)) continue;
         bodies.overloaded_steps[b] = 0;
-        const QueuedHit blow = hit_of(state, body, contacts[over.contact], over, step.frame);
-        const QueuedHit hit = is_for_a_run(state, body, over, settings, step.dt) ? blow : snap_of(blow, over);
+        const QueuedHit blow = hit_of(rows, body, contacts[over.contact], over, step.frame);
+        const QueuedHit hit = is_for_a_run(rows, body, over, settings, step.dt) ? blow : snap_of(blow, over);
         if (!is_allowed(bodies, hit, settings)) continue;
         bodies.overload_runs[b] = std::min<uint8_t>(static_cast<uint8_t>(bodies.overload_runs[b] + 1), kMostLoadRuns);
-        if (!queue_hit(state, hit)) refused.push(refused_event(bodies, body, "limits.queued_hits"));
+        if (!queue_hit(queued, hit)) refused.push(refused_event(bodies, body, "limits.queued_hits"));
     }
 }
 

@@ -4,7 +4,7 @@
 
 namespace cullet {
 
-void cancel_task(State& state, Row<Tasks> task) {
+void cancel_task(BodyRows& state, Row<Tasks> task) {
     Tasks& tasks = state.tasks;
     if (is_quick_task(state, task)) {
         QuickRuns& runs = state.quick_runs;

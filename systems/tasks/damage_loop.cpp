@@ -11,9 +11,8 @@
 
 namespace cullet {
 
-DamageLoop::DamageLoop(State& state, JobSystem& jobs, Profiler& profiler)
-    : world_{state},
-      jobs_(jobs),
+DamageLoop::DamageLoop(JobSystem& jobs, Profiler& profiler)
+    : jobs_(jobs),
       profiler_(profiler),
       brittle_(make_brittle_loop()),
       quick_(make_quick_loop()),
@@ -28,12 +27,12 @@ struct Work {
     uint64_t units;
 };
 
-uint64_t units_of_step(const State& state, uint32_t t) {
+uint64_t units_of_step(const RunRows& state, uint32_t t) {
     return is_quick_task(state, t) ? quick_units_a_step(state, t) : units_a_step(state.shells, state.tasks, t);
 }
 
 /// What a run that has ended brings with it in this frame, paid before it.
-uint64_t units_of_end(const State& state, uint32_t t) {
+uint64_t units_of_end(const RunRows& state, uint32_t t) {
     if (static_cast<TaskState>(state.tasks.state[t]) == TaskState::Running) return 0;
     return is_quick_task(state, t) ? quick_units_of_end(state, t) : units_of_birth(state.shells, state.tasks, t);
 }
@@ -62,8 +61,8 @@ uint32_t shared_works(std::span<const Work> works, uint32_t workers) {
 
 }  // namespace
 
-uint64_t DamageLoop::advance() {
-    const State& state = world_.state;
+uint64_t DamageLoop::advance(RunRows& state, const Blows& blows) {
+    LoopWorld world{state, blows};
     const Tasks& tasks = state.tasks;
     const Scratch<std::array<Work, kMostTasks>> list(state.scratch);
     Work* const works = list->data();
@@ -81,12 +80,10 @@ uint64_t DamageLoop::advance() {
     const auto run_of = [&](uint32_t t) {
         return BrittleLoop::Run{t, tasks.steps_done[t], tasks.steps_granted[t], task_goes_on};
     };
-    const auto loop_of = [&](uint32_t t) -> const BrittleLoop& {
-        return is_quick_task(world_.state, t) ? quick_ : brittle_;
-    };
+    const auto loop_of = [&](uint32_t t) -> const BrittleLoop& { return is_quick_task(state, t) ? quick_ : brittle_; };
     for (uint32_t i = 0; i < together_count; ++i) {
         const uint32_t task = works[i].task;
-        BrittleLoop::Team team(loop_of(task), world_, run_of(task), workers);
+        BrittleLoop::Team team(loop_of(task), world, run_of(task), workers);
         parallel_for(jobs_, workers, [&](uint32_t worker) {
             const uint64_t start = now_ns();
             team.work(worker);
@@ -96,7 +93,7 @@ uint64_t DamageLoop::advance() {
     parallel_for(jobs_, count - together_count, [&](uint32_t i) {
         const uint32_t task = works[together_count + i].task;
         const uint64_t start = now_ns();
-        loop_of(task).run_alone(world_, run_of(task));
+        loop_of(task).run_alone(world, run_of(task));
         profiler_.add_span(zone_, start, now_ns());
     });
     uint64_t unspent = 0;
@@ -109,8 +106,8 @@ uint64_t DamageLoop::advance() {
 }
 
 // What was granted for cuts that did not come is left.
-void advance_damage(Serial, DamageLoop& loop, DamageCounts& counts) {
-    const uint64_t unspent = std::min(loop.advance(), counts.units_used);
+void advance_damage(Serial, RunRows& rows, const Blows& blows, DamageLoop& loop, DamageCounts& counts) {
+    const uint64_t unspent = std::min(loop.advance(rows, blows), counts.units_used);
     counts.units_used -= unspent;
     counts.units_left += unspent;
 }

@@ -7,21 +7,17 @@
 namespace cullet {
 
 struct DamageLoop {
-    DamageLoop(State& state, JobSystem& jobs, Profiler& profiler);
+    DamageLoop(JobSystem& jobs, Profiler& profiler);
 
     /// Every running task by its granted steps, longest first: one job a task, but for those of more than kTeamVertices
     /// vertices that would keep one worker longer than the others, which all workers share, one after another.
     /// Returns the units that were granted and not used.
-    uint64_t advance();
+    uint64_t advance(RunRows& rows, const Blows& blows);
     std::string describe() const {
         return brittle_.describe() + "      thick shell, quick: 8 to 100 times a hit\n" + quick_.describe();
     }
 
-    /// For the frame plan: its inner loop reads and writes all tables of a task.
-    static constexpr auto tables() { return State::tables(); }
-
  private:
-    LoopWorld world_;
     JobSystem& jobs_;
     Profiler& profiler_;
     BrittleLoop brittle_, quick_;

@@ -16,7 +16,7 @@ struct Cost {
     int64_t step, end;  // end: what the last step brings with it
 };
 
-Cost cost_of(const State& state, uint32_t t) {
+Cost cost_of(const SoftRows& state, uint32_t t) {
     if (is_quick_task(state, t))
         return {static_cast<int64_t>(quick_units_a_step(state, t)), static_cast<int64_t>(quick_units_of_end(state, t))};
     return {static_cast<int64_t>(units_a_step(state.shells, state.tasks, t)),
@@ -24,7 +24,7 @@ Cost cost_of(const State& state, uint32_t t) {
 }
 
 /// What one worker has to do alone is at most half of a frame's units: the other has nothing to do meanwhile.
-int64_t most_units(const State& state, uint32_t t, int64_t units_a_frame) {
+int64_t most_units(const RunRows& state, uint32_t t, int64_t units_a_frame) {
     return moving_vertices(state, t) <= kTeamVertices ? units_a_frame / 2 : units_a_frame;
 }
 
@@ -38,7 +38,7 @@ uint32_t affordable(int64_t budget, const Cost& cost, uint32_t most, bool is_las
 /// The step that each task gets first: the oldest hits first, and of quick ones only the oldest where units are used up
 /// by then. One that ends a run, with births, waits for units unless it is the oldest of all: two hand-offs in one
 /// frame were its worst.
-uint32_t first_step(const State& state, uint32_t t, const Cost& cost, int64_t budget, bool is_oldest,
+uint32_t first_step(const RunRows& state, uint32_t t, const Cost& cost, int64_t budget, bool is_oldest,
                     bool is_first_quick) {
     if (is_oldest) return 1;
     if (cost.end > 0 && steps_left(state.tasks, t) <= 1) return budget >= cost.step + cost.end;
@@ -47,7 +47,7 @@ uint32_t first_step(const State& state, uint32_t t, const Cost& cost, int64_t bu
 
 /// What was owed is paid first, but for the units of the step that each task gets whatever is left, and of the end of
 /// the oldest.
-void pay_owed(State& state, std::span<const uint32_t> order, int64_t& budget) {
+void pay_owed(SoftRows& state, std::span<const uint32_t> order, int64_t& budget) {
     int64_t kept = 0;
     for (const uint32_t t : order) {
         const Cost cost = cost_of(state, t);
@@ -68,7 +68,7 @@ bool is_due(const Tasks& tasks, uint32_t t) {
 }
 
 /// At most half of what is left, so that other hits go on.
-int64_t units_of_due_birth(const State& state, uint32_t t, int64_t budget) {
+int64_t units_of_due_birth(const RunRows& state, uint32_t t, int64_t budget) {
     return std::min(static_cast<int64_t>(units_of_birth(state.shells, state.tasks, t)),
                     std::max<int64_t>(budget, 0) / 2);
 }
@@ -76,7 +76,7 @@ int64_t units_of_due_birth(const State& state, uint32_t t, int64_t budget) {
 /// Hidden runs that so small a share of the frame's units ends, births and all, are not cut into rounds: shards and
 /// garden walls do not wait for houses. As much as for their steps is for their cuts.
 constexpr int64_t kSmallShare = 16;
-void grant_small(State& state, std::span<const uint32_t> order, int64_t units_a_frame, int64_t& budget) {
+void grant_small(SoftRows& state, std::span<const uint32_t> order, int64_t units_a_frame, int64_t& budget) {
     Tasks& tasks = state.tasks;
     for (const uint32_t t : order) {
         const int64_t step = cost_of(state, t).step;
@@ -90,7 +90,7 @@ void grant_small(State& state, std::span<const uint32_t> order, int64_t units_a_
 
 /// What no step wants is for what cracks cost, in equal shares, counted in steps: the loop takes them back. `ends` are
 /// paid already.
-void grant_cuts(State& state, std::span<const uint32_t> order, std::span<const int64_t> ends, int64_t most,
+void grant_cuts(SoftRows& state, std::span<const uint32_t> order, std::span<const int64_t> ends, int64_t most,
                 int64_t& budget) {
     Tasks& tasks = state.tasks;
     const auto is_cutting = [&](uint32_t t) { return tasks.steps_granted[t] > 0; };
@@ -113,51 +113,51 @@ void grant_cuts(State& state, std::span<const uint32_t> order, std::span<const i
 // the next frame's steps; cuts of the game are paid in the frame that makes them, and so are births that are known
 // before the pass: a foreseen break beside a full frame of another hit was the worst of scene vase. A task gets at
 // least one step a frame, but for quick ones behind the oldest, so that none can starve.
-void grant_units(Serial, ShellTables shells, Tasks& tasks, SoftBodies&, const DamageSettings& settings,
-                 DamageCounts& counts) {
+void grant_units(Serial, SoftRows& rows, DamageLedger ledger) {
     static constexpr uint32_t kMostTasks = 1024;
     struct Work {
         uint32_t order[kMostTasks];
-        int64_t ends[kMostTasks];  // what was paid for the ends of tasks
+        int64_t ends[kMostTasks];  // what was paid for the ends of rows.tasks
     };
-    const Scratch<Work> work(shells.state.scratch);
+    const Scratch<Work> work(rows.scratch);
     auto& [order, ends] = *work;
     uint32_t count = 0;
-    const uint64_t for_soft = std::min(soft_units_wanted(shells.state), settings.units_a_frame / 2);
-    int64_t budget = static_cast<int64_t>(settings.units_a_frame - for_soft);
-    for (uint32_t t = 0; t < tasks.size() && count < kMostTasks; ++t) {
-        const auto task_state = static_cast<TaskState>(tasks.state[t]);
+    const uint64_t for_soft = std::min(soft_units_wanted(rows), ledger.settings.units_a_frame / 2);
+    int64_t budget = static_cast<int64_t>(ledger.settings.units_a_frame - for_soft);
+    for (uint32_t t = 0; t < rows.tasks.size() && count < kMostTasks; ++t) {
+        const auto task_state = static_cast<TaskState>(rows.tasks.state[t]);
         if (task_state == TaskState::Whole) {  // a cut, which is made already
-            budget -= static_cast<int64_t>(tasks.units_owed[t]);
-            tasks.units_owed[t] = 0;
+            budget -= static_cast<int64_t>(rows.tasks.units_owed[t]);
+            rows.tasks.units_owed[t] = 0;
         }
-        if (is_due(tasks, t)) budget -= units_of_due_birth(shells.state, t, budget);
+        if (is_due(rows.tasks, t)) budget -= units_of_due_birth(rows, t, budget);
         if (task_state != TaskState::Running) continue;
         order[count++] = t;
     }
     std::sort(order, order + count, [&](uint32_t a, uint32_t b) {
-        if (tasks.opened_frame[a] != tasks.opened_frame[b]) return tasks.opened_frame[a] < tasks.opened_frame[b];
-        return tasks.body[a].index < tasks.body[b].index;
+        if (rows.tasks.opened_frame[a] != rows.tasks.opened_frame[b])
+            return rows.tasks.opened_frame[a] < rows.tasks.opened_frame[b];
+        return rows.tasks.body[a].index < rows.tasks.body[b].index;
     });
-    for (uint32_t i = 0; i < count; ++i) tasks.steps_granted[order[i]] = 0;
-    pay_owed(shells.state, {order, count}, budget);
-    const auto units_a_frame = static_cast<int64_t>(settings.units_a_frame);
-    grant_small(shells.state, {order, count}, units_a_frame, budget);
+    for (uint32_t i = 0; i < count; ++i) rows.tasks.steps_granted[order[i]] = 0;
+    pay_owed(rows, {order, count}, budget);
+    const auto units_a_frame = static_cast<int64_t>(ledger.settings.units_a_frame);
+    grant_small(rows, {order, count}, units_a_frame, budget);
     std::fill_n(ends, count, int64_t{0});
     bool is_first_round = true, goes_on = count > 0, has_quick = false;
     while (goes_on) {
         goes_on = false;
         for (uint32_t i = 0; i < count; ++i) {
             const uint32_t t = order[i];
-            const Cost cost = cost_of(shells.state, t);
-            const uint32_t left = steps_left(tasks, t), most = std::min(kStepsARound, left);
+            const Cost cost = cost_of(rows, t);
+            const uint32_t left = steps_left(rows.tasks, t), most = std::min(kStepsARound, left);
             // Also where rounding leaves none: the step itself tells that the time is up.
-            uint32_t steps = is_first_round ? first_step(shells.state, t, cost, budget, i == 0, !has_quick) : 0;
-            const int64_t own = most_units(shells.state, t, units_a_frame) - tasks.steps_granted[t] * cost.step;
-            if (!is_first_round && tasks.steps_granted[t] > 0)
+            uint32_t steps = is_first_round ? first_step(rows, t, cost, budget, i == 0, !has_quick) : 0;
+            const int64_t own = most_units(rows, t, units_a_frame) - rows.tasks.steps_granted[t] * cost.step;
+            if (!is_first_round && rows.tasks.steps_granted[t] > 0)
                 steps = affordable(std::min(budget, own), cost, most, most == left);
-            has_quick = has_quick || is_quick_task(shells.state, t);
-            tasks.steps_granted[t] += steps;
+            has_quick = has_quick || is_quick_task(rows, t);
+            rows.tasks.steps_granted[t] += steps;
             budget -= steps * cost.step;
             if (steps > 0 && steps >= left) ends[i] = std::clamp<int64_t>(budget, 0, cost.end);
             budget -= steps > 0 && steps >= left ? ends[i] : 0;
@@ -166,13 +166,13 @@ void grant_units(Serial, ShellTables shells, Tasks& tasks, SoftBodies&, const Da
         goes_on = goes_on && budget > 0;
         is_first_round = false;
     }
-    grant_cuts(shells.state, {order, count}, {ends, count}, units_a_frame, budget);
+    grant_cuts(rows, {order, count}, {ends, count}, units_a_frame, budget);
     const uint64_t soft_budget = for_soft + static_cast<uint64_t>(std::max<int64_t>(budget, 0));
-    const uint64_t soft_used = grant_soft(shells.state, soft_budget, counts.slow_soft_frames);
-    counts.units_left = soft_budget - std::min(soft_used, soft_budget);
+    const uint64_t soft_used = grant_soft(rows, soft_budget, ledger.counts.slow_soft_frames);
+    ledger.counts.units_left = soft_budget - std::min(soft_used, soft_budget);
     // More than there were by the first steps, where these alone are too many.
-    counts.units_used =
-        static_cast<uint64_t>(static_cast<int64_t>(settings.units_a_frame - for_soft) - budget) + soft_used;
+    ledger.counts.units_used =
+        static_cast<uint64_t>(static_cast<int64_t>(ledger.settings.units_a_frame - for_soft) - budget) + soft_used;
 }
 
 }  // namespace cullet

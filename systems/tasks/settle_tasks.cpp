@@ -30,48 +30,47 @@ void for_body_and_strikers(const Tasks& tasks, const TaskContacts& contacts, uin
 
 // Hold and release both happen here, between detect and solve, so a release is bit for bit as if never held. A blow
 // slower than the first crack is solved at once: a harmless bump must not be seen to stick.
-void settle_tasks(Serial, Step step, Tasks& tasks, TaskContacts& contacts, Blows& blows, Bodies& bodies,
-                  const Shells& shells, RigidWorld& rigid, const DamageSettings& settings, DamageCounts& counts,
-                  Events<TaskEnded>& ended, Events<ImpactEvent>& impact_events, Events<RefusedEvent>& refused) {
+void settle_tasks(Serial, Step step, RunTables runs, Bodies& bodies, const Shells& shells, RigidWorld& rigid,
+                  DamageLedger ledger, Events<TaskEnded>& ended, ToldOfHits told) {
     ended.clear();
-    for (uint32_t t = 0; t < tasks.size(); ++t) {
-        const auto task_state = static_cast<TaskState>(tasks.state[t]);
-        if (task_state == TaskState::Free || is_ahead(tasks, t)) continue;
+    for (uint32_t t = 0; t < runs.tasks.size(); ++t) {
+        const auto task_state = static_cast<TaskState>(runs.tasks.state[t]);
+        if (task_state == TaskState::Free || is_ahead(runs.tasks, t)) continue;
         const bool is_over = task_state != TaskState::Running;
-        if (!is_over && !tasks.is_held[t] && !tasks.is_late[t]) {
-            const bool is_worth_it =
-                settings.hold_seconds > 0 &&
-                tasks.approach_speed[t] > first_crack_speed(shells, tasks.source[t], tasks.strength_scale[t]);
+        if (!is_over && !runs.tasks.is_held[t] && !runs.tasks.is_late[t]) {
+            const bool is_worth_it = ledger.settings.hold_seconds > 0 &&
+                                     runs.tasks.approach_speed[t] >
+                                         first_crack_speed(shells, runs.tasks.source[t], runs.tasks.strength_scale[t]);
             if (is_worth_it) {
-                tasks.is_held[t] = 1;
-                for (ImpactEvent& e : impact_events.all())
-                    e.is_held = e.is_held || e.body == body_id(bodies, tasks.body[t]);
-                for_body_and_strikers(tasks, contacts, t, [&](Row<Bodies> b) { hold(bodies, rigid, b); });
+                runs.tasks.is_held[t] = 1;
+                for (ImpactEvent& e : told.impacts.all())
+                    e.is_held = e.is_held || e.body == body_id(bodies, runs.tasks.body[t]);
+                for_body_and_strikers(runs.tasks, runs.contacts, t, [&](Row<Bodies> b) { hold(bodies, rigid, b); });
             } else {
-                tasks.is_late[t] = 1;
-                pay_blows(blows, bodies, rigid, counts, Row<Tasks>(t));
+                runs.tasks.is_late[t] = 1;
+                pay_blows(runs.blows, bodies, rigid, ledger.counts, Row<Tasks>(t));
             }
         }
-        if (tasks.is_held[t]) {
-            const bool is_time_up =
-                static_cast<float>(tasks.frames_held[t] + 1) * step.dt > settings.hold_seconds + 0.5f * step.dt;
+        if (runs.tasks.is_held[t]) {
+            const bool is_time_up = static_cast<float>(runs.tasks.frames_held[t] + 1) * step.dt >
+                                    ledger.settings.hold_seconds + 0.5f * step.dt;
             if (is_over || is_time_up) {
-                for_body_and_strikers(tasks, contacts, t, [&](Row<Bodies> b) { let_go(bodies, rigid, b); });
-                tasks.is_held[t] = 0;
-                tasks.is_late[t] = !is_over;
+                for_body_and_strikers(runs.tasks, runs.contacts, t, [&](Row<Bodies> b) { let_go(bodies, rigid, b); });
+                runs.tasks.is_held[t] = 0;
+                runs.tasks.is_late[t] = !is_over;
                 if (!is_over) {
-                    pay_answers(bodies, tasks, contacts, rigid, Row<Tasks>(t));
-                    pay_blows(blows, bodies, rigid, counts, Row<Tasks>(t));
+                    pay_answers(bodies, runs.tasks, runs.contacts, rigid, Row<Tasks>(t));
+                    pay_blows(runs.blows, bodies, rigid, ledger.counts, Row<Tasks>(t));
                 }
             } else {
-                ++tasks.frames_held[t];
-                ++counts.frames_held;
+                ++runs.tasks.frames_held[t];
+                ++ledger.counts.frames_held;
             }
         }
         if (is_over) ended.push({Row<Tasks>(t)});
-        if (is_over && tasks.lacks_room[t]) {
-            ++counts.cuts_refused;
-            refused.push(refused_event(bodies, tasks.body[t], kCrackRoom));
+        if (is_over && runs.tasks.lacks_room[t]) {
+            ++ledger.counts.cuts_refused;
+            told.refused.push(refused_event(bodies, runs.tasks.body[t], kCrackRoom));
         }
     }
 }

@@ -1,4 +1,5 @@
 #include "components/state.hpp"
+#include "components/workbench.hpp"
 
 #include <gtest/gtest.h>
 
@@ -21,9 +22,9 @@ const ShellRoom kRoom{70, 120, 150, 60, 40, 5, 90};  // 70 vertices: 9 packs, a 
 
 uint64_t hash_of_pools(const State& state) {
     uint64_t hash = 0;
-    for (const RangePool* pool :
-         {&state.pools.shells, &state.pools.vertices, &state.pools.elements, &state.pools.hinges, &state.pools.packs,
-          &state.pools.blocks, &state.pools.links, &state.pools.cells, &state.pools.points})
+    for (const RangePool* pool : {&state.shells.pool, &state.vertices.pool, &state.elements.pool, &state.hinges.pool,
+                                  &state.stiffness_packs.pool, &state.stiffness_blocks.pool,
+                                  &state.stiffness_links.pool, &state.cells.pool, &state.hull_points.pool})
         hash = pool->hash(hash);
     return hash;
 }
@@ -247,7 +248,7 @@ TEST(State, AfterManyShellsCameAndWentEverythingIsBack) {
 
 TEST(State, WhoEditsWholeShellsClaimsTheirSpringsAndReadsTheirMaterials) {
     std::vector<Access> claimed;
-    Parameter<ShellTables>::describe(claimed);
+    Parameter<ShellRows&>::describe(claimed);
     std::map<std::string, bool> is_written;
     for (const Access& access : claimed) EXPECT_TRUE(is_written.emplace(access.name, access.writes).second);
     for (const char* table :
@@ -262,13 +263,27 @@ TEST(State, WhoEditsWholeShellsClaimsTheirSpringsAndReadsTheirMaterials) {
     }
 }
 
+template <class From, class To>
+constexpr bool kGives = std::is_convertible_v<From&, To&>;
+
+TEST(State, ASetGivesWhatItStandsOnAndNeverMore) {
+    static_assert(kGives<State, SoftRows> && kGives<SoftRows, BodyRows> && kGives<BodyRows, RunRows>);
+    static_assert(kGives<RunRows, ShellRows> && kGives<ShellRows, const MaterialRows>);
+    static_assert(!kGives<ShellRows, RunRows> && !kGives<RunRows, BodyRows> && !kGives<BodyRows, SoftRows>);
+    static_assert(!kGives<SoftRows, State>, "no helper finds its way back to everything");
+    static_assert(!kGives<const RunRows, ShellRows>, "who reads does not write");
+    static_assert(!std::is_assignable_v<decltype((std::declval<RunRows&>().materials.density[0])), float>,
+                  "only the game changes materials");
+    static_assert(kGives<Workbench, RunRows> && !kGives<Workbench, BodyRows>, "cooking has no bodies");
+}
+
 TEST(State, EveryTableIsListedOnce) {
-    // The struct holds nothing but the listed tables, the pools, the limits, scratch memory and the sums of vertices, which are made
-    // anew from the listed ones: their sizes add up.
+    // The struct holds nothing but the listed tables, the limits, scratch memory, what finds the materials, and the
+    // sums of vertices, which are made anew from the listed ones: their sizes add up.
     size_t bytes = 0;
     constexpr size_t limits = (sizeof(Limits) + alignof(State) - 1) / alignof(State) * alignof(State);
     std::apply([&](auto... table) { ((bytes += sizeof(std::declval<State&>().*table)), ...); }, State::tables());
-    EXPECT_EQ(bytes + sizeof(State::Pools) + sizeof(VertexBlocks) + sizeof(ScratchMemory) + limits, sizeof(State));
+    EXPECT_EQ(bytes + sizeof(MaterialRows) + sizeof(VertexBlocks) + sizeof(ScratchMemory) + limits, sizeof(State));
 }
 
 TEST(State, HashValidationAndDifferenceReachTheLastTable) {
@@ -285,7 +300,7 @@ TEST(State, HashValidationAndDifferenceReachTheLastTable) {
     a.view_indices.index[2] = 0;
     a.view_vertices.vertex[0].uv.y = 0;
     EXPECT_EQ(a.hash(), b.hash());
-    a.pools.shells.take(1);
+    a.shells.pool.take(1);
     EXPECT_NE(a.hash(), b.hash()) << "what is taken decides what comes next";
 }
 

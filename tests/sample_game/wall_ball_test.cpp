@@ -3,6 +3,7 @@
 
 #include <map>
 
+#include "components/state.hpp"
 #include "sample_game/game_world.hpp"
 #include "sample_game/run_scene.hpp"
 #include "systems/models/thick_shell/hidden/contact.hpp"

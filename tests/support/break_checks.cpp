@@ -4,6 +4,7 @@
 #include <cmath>
 #include <vector>
 
+#include "components/state.hpp"
 #include "systems/structures/shell/mass_properties.hpp"
 #include "systems/structures/shell/rigid_handoff.hpp"
 

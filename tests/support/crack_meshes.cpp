@@ -4,6 +4,7 @@
 #include <map>
 #include <set>
 
+#include "components/state.hpp"
 #include "engine/random.hpp"
 #include "systems/models/thick_shell/stiffness/assemble.hpp"
 #include "systems/structures/shell/ring.hpp"
@@ -200,7 +201,7 @@ Sym3d tension_along(Vec3 direction, double pascal) {
 }
 
 void set_stress(ShellView shell, const StressField& field) {
-    State& s = shell.state;
+    ShellRows& s = shell.state;
     for (uint32_t e = 0; e < shell.element_count(); ++e) {
         const uint32_t row = shell.element(e);
         Vec3 centre;

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstdio>
 
+#include "components/state.hpp"
 #include "sample_game/allocations.hpp"
 #include "sample_game/meshes.hpp"
 #include "systems/models/thick_shell/cook/check_shell_rows.hpp"

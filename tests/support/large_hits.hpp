@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "components/state.hpp"
 #include "cullet/model.hpp"
 #include "tests/support/small_worlds.hpp"
 

@@ -6,6 +6,7 @@
 #include <array>
 #include <cmath>
 
+#include "components/state.hpp"
 #include "tests/support/random_meshes.hpp"
 
 namespace cullet::test {

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <map>
 
+#include "components/state.hpp"
 #include "engine/random.hpp"
 #include "systems/structures/shell/mass_properties.hpp"
 

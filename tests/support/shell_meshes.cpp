@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <map>
 
+#include "components/state.hpp"
 #include "engine/random.hpp"
 #include "systems/cook/materials.hpp"
 #include "systems/models/thick_shell/hidden/contact.hpp"

@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "components/body_id.hpp"
+#include "components/state.hpp"
 #include "sample_game/solid.hpp"
 #include "systems/structures/shell/drawn_triangles.hpp"
 

@@ -4,6 +4,7 @@
 
 #include <cstdlib>
 
+#include "components/state.hpp"
 #include "sample_game/meshes.hpp"
 
 namespace cullet::test {

@@ -3,6 +3,7 @@
 #include <string>
 #include <vector>
 
+#include "components/state.hpp"
 #include "cullet/world.hpp"
 #include "engine/mesh.hpp"
 #include "sample_game/game_world.hpp"

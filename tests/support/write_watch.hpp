@@ -5,6 +5,7 @@
 #include <utility>
 #include <vector>
 
+#include "components/state.hpp"
 #include "systems/world_contents.hpp"
 
 namespace cullet::test {

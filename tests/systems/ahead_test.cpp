@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include "components/state.hpp"
 #include "systems/bodies/thresholds.hpp"
 #include "systems/costs.hpp"
 #include "tests/support/small_worlds.hpp"

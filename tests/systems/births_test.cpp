@@ -7,6 +7,7 @@
 #include <map>
 
 #include "components/body_id.hpp"
+#include "components/state.hpp"
 #include "systems/structures/shell/cell_hulls.hpp"
 #include "systems/structures/shell/draw_shell.hpp"
 #include "systems/structures/shell/mass_properties.hpp"
@@ -198,8 +199,9 @@ TEST(Births, RefusedForWantOfABodyTheyComeOffTheFrameAfterOneIsRemoved) {
     for (const BodyId id : shells_of(b.world)) {
         State& state = state_of(b.world);
         const auto& bodies = state.bodies;
-        const Result<void> closed = check_drawn_mesh(ShellView(state, bodies.shell[id.index]),
-                                                     bodies.view_vertices[id.index], bodies.view_indices[id.index]);
+        const Result<void> closed =
+            check_drawn_mesh(ShellView(state, bodies.shell[id.index]), {state.view_vertices, state.view_indices},
+                             bodies.view_vertices[id.index], bodies.view_indices[id.index]);
         EXPECT_TRUE(closed.ok()) << closed.error();
     }
 }

@@ -4,6 +4,7 @@
 #include <cstdio>
 #include <filesystem>
 
+#include "components/state.hpp"
 #include "cullet/recording.hpp"
 #include "tests/support/small_worlds.hpp"
 

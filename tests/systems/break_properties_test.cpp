@@ -1,6 +1,7 @@
 // What holds for every break, of any shape and by any blow, in both modes (T10, T11 of the thick shell note).
 #include <gtest/gtest.h>
 
+#include "components/state.hpp"
 #include "tests/support/break_checks.hpp"
 #include "tests/support/expect_always.hpp"
 #include "tests/support/random_hits.hpp"

@@ -5,6 +5,7 @@
 #include <cstdio>
 
 #include "components/body_id.hpp"
+#include "components/state.hpp"
 #include "sample_game/meshes.hpp"
 #include "tests/support/small_worlds.hpp"
 

@@ -1,6 +1,7 @@
 // A cut through or beside pinned vertices leaves pins on the side that the pins' boxes hold, and nowhere else.
 #include <gtest/gtest.h>
 
+#include "components/state.hpp"
 #include "sample_game/meshes.hpp"
 #include "systems/structures/shell/pin_boxes.hpp"
 #include "tests/support/random_hits.hpp"

@@ -1,7 +1,6 @@
 // What the frame plan prints is what its systems do: after each, only tables that it says that it writes are others.
 #include <gtest/gtest.h>
 
-#include <set>
 #include <string>
 
 #include "sample_game/run_scene.hpp"
@@ -10,9 +9,6 @@
 
 namespace cullet {
 namespace {
-
-// What is still undeclared; wanted: nothing.
-const std::set<std::string> kKnown = {"meet_foreseen writes bodies.task"};
 
 class DeclaredWrites : public testing::TestWithParam<Scene> {};
 
@@ -37,7 +33,8 @@ TEST_P(DeclaredWrites, EverySystemOfTheSceneKeepsToThem) {
         game->before_step();
         const Tasks& tasks = game->world().contents().data.state.tasks;
         bool has_task = false;
-        for (uint32_t t = 0; t < tasks.size(); ++t) has_task = has_task || tasks.state[t] != static_cast<uint8_t>(TaskState::Free);
+        for (uint32_t t = 0; t < tasks.size(); ++t)
+            has_task = has_task || tasks.state[t] != static_cast<uint8_t>(TaskState::Free);
         if (has_task || game->broke() || frame % 8 == 0) {
             watch.watch_next_step();
             ++watched;
@@ -46,7 +43,7 @@ TEST_P(DeclaredWrites, EverySystemOfTheSceneKeepsToThem) {
         game->after_step();
     }
     ASSERT_EQ(game->failure(), "");
-    for (const std::string& sentence : watch.unsaid()) EXPECT_TRUE(kKnown.contains(sentence)) << sentence;
+    for (const std::string& sentence : watch.unsaid()) ADD_FAILURE() << sentence;
 }
 
 INSTANTIATE_TEST_SUITE_P(Scenes, DeclaredWrites, testing::ValuesIn(scenes().begin(), scenes().end()),

@@ -1,6 +1,7 @@
 // A charge that lies against a wall: the wall shades what stands behind it.
 #include <gtest/gtest.h>
 
+#include "components/state.hpp"
 #include "systems/structures/shell/explosion.hpp"
 #include "tests/support/sample_shells.hpp"
 #include "tests/support/simple_meshes.hpp"
@@ -34,7 +35,7 @@ ShellView box_shell(State& state) {
 /// The formula's impulse on the elements whose middles `is_meant` names, all of them lit.
 template <class IsMeant>
 Vec3d lit_impulse(const ShellView& shell, Vec3 centre, IsMeant is_meant) {
-    const State& state = shell.state;
+    const ShellRows& state = shell.state;
     Vec3d sum;
     for (uint32_t e = 0; e < shell.element_count(); ++e) {
         Vec3d p[3];

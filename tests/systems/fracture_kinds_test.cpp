@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include "components/state.hpp"
 #include "engine/fp_mode.hpp"
 #include "engine/random.hpp"
 #include "sample_game/hit_bench.hpp"

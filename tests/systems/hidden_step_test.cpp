@@ -1,4 +1,5 @@
 // The hidden step against formulas, conservation laws and plain loops.
+#include "components/state.hpp"
 #include "systems/models/thick_shell/hidden/integrate_packs.hpp"
 
 #include <gtest/gtest.h>
@@ -35,7 +36,7 @@ void shake(ShellView shell, double size, double speed, uint64_t seed = 7) {
 
 /// Forces by loops over elements and hinges, in double.
 std::vector<Vec3d> plain_forces(ShellView shell) {
-    const State& s = shell.state;
+    const ShellRows& s = shell.state;
     std::vector<Vec3d> f(shell.vertex_count());
     const PlaneStress c = plane_stress(s, shell.row);
     const auto u = [&](uint32_t v) { return Vec3d(s.vertices.displacement[shell.vertex(v)]); };

@@ -5,6 +5,7 @@
 
 #include <filesystem>
 
+#include "components/state.hpp"
 #include "cullet/recording.hpp"
 #include "tests/support/small_worlds.hpp"
 

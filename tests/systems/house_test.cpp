@@ -11,6 +11,7 @@
 #include <string>
 #include <vector>
 
+#include "components/state.hpp"
 #include "tests/support/places.hpp"
 
 namespace cullet {
@@ -19,10 +20,10 @@ namespace {
 namespace fs = std::filesystem;
 
 // Today's counts.
-constexpr uint32_t kFilesWithState = 165;
-constexpr uint32_t kUnnamedParameters = 70;
+constexpr uint32_t kFilesWithState = 0;
+constexpr uint32_t kUnnamedParameters = 16;  // copies that are deleted, calls that need no argument; none of a system
 constexpr uint32_t kMutualFolders = 0;
-constexpr uint32_t kWideSystems = 11;
+constexpr uint32_t kWideSystems = 0;
 
 struct Source {
     std::string path;    // "systems/structures/shell/ring.cpp"
@@ -75,11 +76,17 @@ std::map<std::string, uint32_t> parameter_counts(const std::string& header) {
 }
 
 TEST(House, WholeStatesOutsideOfTheApiGetFewer) {
-    static const std::regex whole_state("\\bState\\s?[&*]");
+    // The binder, world_data, hands its tables out. Keep::State is of columns.
+    static const std::regex whole_state("(^|[^:\\w])State\\b");
     uint32_t files = 0;
-    for (const Source& source : sources_of_systems())
-        if (!source.folder.starts_with("api")) files += std::regex_search(source.text, whole_state);
-    EXPECT_LE(files, kFilesWithState) << "files that are given the whole State; wanted: 0";
+    std::string named;
+    for (const Source& source : sources_of_systems()) {
+        if (source.folder.starts_with("api") || source.path.starts_with("systems/world_data.")) continue;
+        if (!std::regex_search(source.text, whole_state)) continue;
+        ++files;
+        named += "\n  " + source.path;
+    }
+    EXPECT_LE(files, kFilesWithState) << "files that name the whole State; wanted: 0; today:" << named;
 }
 
 TEST(House, TableParametersWithoutANameGetFewer) {

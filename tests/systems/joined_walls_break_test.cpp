@@ -6,6 +6,7 @@
 #include <memory>
 #include <set>
 
+#include "components/state.hpp"
 #include "cullet/query.hpp"
 #include "engine/fp_mode.hpp"
 #include "sample_game/import_model.hpp"
@@ -51,7 +52,7 @@ struct Bare {
 
     explicit Bare(const Model& model)
         : state(std::make_unique<State>(cooking_limits(model.report().vertices, model.report().elements))) {
-        const State& cooked = model.contents->state;
+        const Workbench& cooked = model.contents->state;
         state->materials.append(cooked.materials.size());
         state->materials.copy_rows(cooked.materials, 0, 0, cooked.materials.size());
         state->material_traits.append(cooked.material_traits.size());
@@ -96,7 +97,7 @@ struct Skins {
 /// Of one part of the shell: vertices whose outer point lies on a skin of the input and whose inner point lies on
 /// another, that looks the other way.
 Skins skins_of(const ShellView& shell, uint32_t part, const Input& input, float near) {
-    const State& s = shell.state;
+    const ShellRows& s = shell.state;
     std::set<uint32_t> seen;
     Skins skins;
     for (uint32_t e = 0; e < shell.element_count(); ++e) {

@@ -6,6 +6,7 @@
 #include <cstring>
 #include <vector>
 
+#include "components/state.hpp"
 #include "engine/random.hpp"
 #include "systems/cook/materials.hpp"
 #include "systems/drawn/bound_drawn.hpp"
@@ -56,23 +57,24 @@ void expect_drawn_as_anew(World& world, Row<Bodies> body) {
     State& state = world.contents().data.state;
     const Bodies& bodies = state.bodies;
     const ShellView shell(state, bodies.shell[body]);
-    const Result<void> sound = check_drawn_mesh(shell, bodies.view_vertices[body], bodies.view_indices[body]);
+    const Result<void> sound = check_drawn_mesh(shell, {state.view_vertices, state.view_indices},
+                                                bodies.view_vertices[body], bodies.view_indices[body]);
     ASSERT_TRUE(sound.ok()) << sound.error();
     const auto drawn =
         triangles_of(state, bodies.view_vertices[body], bodies.view_indices[body], bodies.run_indices[body]);
     const DrawnCount count = count_drawn(shell);
-    Range vertices{state.pools.view_vertices.take(count.vertices), 0, count.vertices};
-    Range indices{state.pools.view_indices.take(count.index_count()), 0, count.index_count()};
+    Range vertices{state.view_vertices.pool.take(count.vertices), 0, count.vertices};
+    Range indices{state.view_indices.pool.take(count.index_count()), 0, count.index_count()};
     ASSERT_TRUE(vertices.first != kNone && indices.first != kNone);
-    if (state.pools.view_vertices.end() > state.view_vertices.size())
-        state.view_vertices.append(state.pools.view_vertices.end() - state.view_vertices.size());
-    if (state.pools.view_indices.end() > state.view_indices.size())
-        state.view_indices.append(state.pools.view_indices.end() - state.view_indices.size());
-    draw_shell(shell, vertices, indices);
+    if (state.view_vertices.pool.end() > state.view_vertices.size())
+        state.view_vertices.append(state.view_vertices.pool.end() - state.view_vertices.size());
+    if (state.view_indices.pool.end() > state.view_indices.size())
+        state.view_indices.append(state.view_indices.pool.end() - state.view_indices.size());
+    draw_shell(shell, {state.view_vertices, state.view_indices}, vertices, indices);
     EXPECT_TRUE(are_same(drawn, triangles_of(state, vertices, indices, count.indices)));
-    state.pools.view_vertices.give_back(vertices.first, vertices.capacity);
-    state.pools.view_indices.give_back(indices.first, indices.capacity);
-    remember_drawn(shell, bodies.view_indices[body]);
+    state.view_vertices.pool.give_back(vertices.first, vertices.capacity);
+    state.view_indices.pool.give_back(indices.first, indices.capacity);
+    remember_drawn(shell, state.view_indices, bodies.view_indices[body]);
 }
 
 void expect_boxes_as_anew(World& world, Row<Bodies> body) {

@@ -2,6 +2,7 @@
 // pieces.
 #include <gtest/gtest.h>
 
+#include "components/state.hpp"
 #include "sample_game/meshes.hpp"
 #include "systems/models/thick_shell/stiffness/pair_cells.hpp"
 #include "tests/support/small_worlds.hpp"

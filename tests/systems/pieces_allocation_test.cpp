@@ -5,6 +5,7 @@
 #include <array>
 #include <utility>
 
+#include "components/state.hpp"
 #include "cullet/material.hpp"
 #include "sample_game/allocations.hpp"
 #include "sample_game/meshes.hpp"
@@ -34,7 +35,7 @@ TEST(Pieces, GroupingHandOffPiecesHullsAndDrawingDoNotAllocate) {
     rigid_handoff(shell, {{}, {}, {}, 5}, found, motions);
     for (const FragmentPart& part : found) {
         const Row<Shells> piece = make_piece(state, row, part, 1);
-        draw_shell(ShellView(state, piece), vertices, indices);
+        draw_shell(ShellView(state, piece), {state.view_vertices, state.view_indices}, vertices, indices);
         mass_properties(shell_moments(ShellView(state, piece)));
         release_shell(state, piece);
     }

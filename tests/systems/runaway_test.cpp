@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "components/state.hpp"
 #include "systems/structures/shell/explosion.hpp"
 #include "systems/structures/shell/mass_properties.hpp"
 #include "systems/structures/shell/prism.hpp"

@@ -4,6 +4,7 @@
 #include <thread>
 #include <vector>
 
+#include "components/state.hpp"
 #include "engine/fp_mode.hpp"
 #include "engine/hash.hpp"
 #include "sample_game/hit_bench.hpp"
@@ -18,7 +19,7 @@ constexpr uint32_t kUnlimited = 1u << 20;
 /// Drives the task that open_hit made; `steps_a_call` at a time, by one thread alone or by a team.
 void drive(State& state, uint32_t steps_a_call, uint32_t team_size) {
     const BrittleLoop loop = make_brittle_loop();
-    LoopWorld world{state};
+    LoopWorld world{state, state.blows};
     Tasks& tasks = state.tasks;
     while (static_cast<TaskState>(tasks.state[kTask]) == TaskState::Running) {
         tasks.steps_granted[kTask] = steps_a_call;

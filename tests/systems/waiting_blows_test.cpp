@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <vector>
 
+#include "components/state.hpp"
 #include "systems/structures/shell/explosion.hpp"
 #include "tests/support/small_worlds.hpp"
 

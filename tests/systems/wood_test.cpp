@@ -5,6 +5,7 @@
 #include <map>
 #include <span>
 
+#include "components/state.hpp"
 #include "systems/cook/materials.hpp"
 #include "systems/models/thick_shell/hidden/crack_candidates.hpp"
 #include "systems/models/thick_shell/hidden/energy.hpp"
@@ -35,7 +36,9 @@ struct Board {
     Board(double degrees, const ShellMesh& mesh, double wall) : thickness(wall) {
         fill_materials(state.materials);
         const Vec3 grain = Vec3d(std::cos(degrees * kDegree), std::sin(degrees * kDegree), 0).to_float();
-        shell = make_test_shell(state, mesh, thickness, material_row(state, wood(), grain), {}, 64);
+        shell = make_test_shell(state, mesh, thickness,
+                                material_row({state.materials, state.material_traits, state.shells}, wood(), grain), {},
+                                64);
     }
     ShellView view() { return {state, shell}; }
     /// Takes the bounds of B7 away, which soften small triangles: what is left are the formulas.
@@ -223,7 +226,8 @@ void expect_rows_are_the_gradient_of_the_energy(Board& board, std::span<const ui
 TEST(Wood, ARunLastsAsLongAsTheSlowestWavesNeed) {
     State state;
     fill_materials(state.materials);
-    const Row<Materials> grained = material_row(state, wood(), {1, 0, 0});
+    const Row<Materials> grained =
+        material_row({state.materials, state.material_traits, state.shells}, wood(), {1, 0, 0});
     for (const float area : {0.25f, 1.0f, 9.0f})
         EXPECT_NEAR(run_seconds(state, grained, area), 3.6e-3f * std::sqrt(area), 1e-6f) << area << " m2";
     EXPECT_EQ(run_seconds(state, grained, 1e-4f), 1e-3f) << "never less than the material's own";

@@ -5,6 +5,7 @@
 #include <limits>
 #include <map>
 
+#include "components/state.hpp"
 #include "systems/bodies/thresholds.hpp"
 #include "tests/support/small_worlds.hpp"
 

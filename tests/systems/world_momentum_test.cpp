@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstring>
 
+#include "components/state.hpp"
 #include "systems/models/thick_shell/hidden/energy.hpp"
 #include "tests/support/small_worlds.hpp"
 

@@ -3,6 +3,7 @@
 
 #include <limits>
 
+#include "components/state.hpp"
 #include "tests/support/small_worlds.hpp"
 
 namespace cullet::test {

@@ -5,6 +5,7 @@
 #include <map>
 #include <vector>
 
+#include "components/state.hpp"
 #include "sample_game/allocations.hpp"
 #include "systems/structures/shell/draw_shell.hpp"
 #include "tests/support/small_worlds.hpp"
@@ -15,8 +16,9 @@ namespace {
 void expect_closed(World& world, BodyId id) {
     State& state = state_of(world);
     const Bodies& bodies = state.bodies;
-    const Result<void> closed = check_drawn_mesh(ShellView(state, bodies.shell[id.index]),
-                                                 bodies.view_vertices[id.index], bodies.view_indices[id.index]);
+    const Result<void> closed =
+        check_drawn_mesh(ShellView(state, bodies.shell[id.index]), {state.view_vertices, state.view_indices},
+                         bodies.view_vertices[id.index], bodies.view_indices[id.index]);
     EXPECT_TRUE(closed.ok()) << closed.error();
     const BodyView view = world.view(id).value();
     uint32_t next = 0;

@@ -30,7 +30,7 @@ struct ImpactEvent {
     double energy = 0;         // J, of the approach
     bool is_held = false;      // body and striker stand still until the damage is decided
     // N that squeeze the body for longer than it bears, and no blow: a weight, a press. The speed and the energy are
-    // those of the blow that is run in its place.
+    // those of the blow that is run in its place, or 0 where the body snaps at once.
     float load = 0;
 };
 

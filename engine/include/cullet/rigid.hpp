@@ -81,7 +81,7 @@ struct HostShape {
     double inertia[6] = {};  // about the centre, body axes: xx yy zz xy xz yz, kg m2
     float margin = 0;        // m
     float friction = 0, restitution = 0;
-    float rolling_friction = 0;  // a length, m
+    float rolling_friction = 0;  // a length, m: of both that touch together
     uint32_t layer = 1, mask = 0xffffffffu;
     const HostPiece* pieces = nullptr;
     uint32_t piece_count = 0;

@@ -4,6 +4,7 @@
 #include <memory>
 #include <new>
 
+#include "components/workbench.hpp"
 #include "engine/fp_mode.hpp"
 #include "engine/random.hpp"
 #include "systems/cook/model_contents.hpp"
@@ -24,7 +25,7 @@ constexpr float kBallMass = 1.0f / 25, kBallRadius = 2;
 constexpr uint64_t kMostTries = 64;  // for an element that nothing holds
 
 /// The middle of a seeded face that the ground does not hold, struck from outside along its normal.
-HitDescription ball_on_face(const State& state, Row<Shells> shell, uint64_t place, float speed) {
+HitDescription ball_on_face(const ShellRows& state, Row<Shells> shell, uint64_t place, float speed) {
     const Range elements = state.shells.elements[shell];
     const uint32_t first = state.shells.vertices[shell].first;
     HitDescription hit;
@@ -54,10 +55,11 @@ Limits limits_for(uint32_t vertices, uint32_t elements) {
 }
 
 /// Largest stretch over the strength factor of its end, seen in one run.
-float largest_stretch(State& state, Row<Shells> shell, const HitDescription& hit) {
+float largest_stretch(RunRows& state, Row<Shells> shell, const HitDescription& hit) {
     if (!open_hit(state, shell, hit)) return 0;
     const BrittleLoop loop = make_quick_loop();
-    LoopWorld world{state};
+    const Blows none(1);
+    LoopWorld world{state, none};
     Tasks& tasks = state.tasks;
     float most = 0;
     while (static_cast<TaskState>(tasks.state[kTask]) == TaskState::Running) {
@@ -76,14 +78,14 @@ float largest_stretch(State& state, Row<Shells> shell, const HitDescription& hit
 
 }  // namespace
 
-float calibrated_strain_limit(const State& from, Row<Shells> source, const QuickSettings& quick,
+float calibrated_strain_limit(const ShellRows& from, Row<Shells> source, const QuickSettings& quick,
                               const LayerSettings& layers, float speed) {
     if (!(speed > 0)) return 0;
     try {
         const FpMode mode;
-        const auto own =
-            std::make_unique<State>(limits_for(from.shells.vertices[source].count, from.shells.elements[source].count));
-        State& state = *own;
+        const auto own = std::make_unique<Workbench>(
+            limits_for(from.shells.vertices[source].count, from.shells.elements[source].count));
+        Workbench& state = *own;
         state.materials.append(from.materials.size());
         state.materials.copy_rows(from.materials, 0, 0, from.materials.size());
         state.material_traits.append(from.material_traits.size());

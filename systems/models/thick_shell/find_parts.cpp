@@ -10,33 +10,34 @@ namespace cullet {
 // task, cracked or not.
 //
 // A cut may leave a body that stood on pins in one piece without any: it falls.
-void find_parts(Each<TaskEnded> ended, ShellTables shells, const Bodies& bodies, Tasks& tasks, Fragments& fragments) {
+void find_parts(Each<TaskEnded> ended, BodyRows& rows, Fragments& fragments) {
     const uint32_t t = ended->task;
-    tasks.part_count[t] = 1;
-    if (static_cast<TaskState>(tasks.state[t]) == TaskState::Dropped) return;
-    const ShellView shell(shells.state, tasks.shell[t]);
+    rows.tasks.part_count[t] = 1;
+    if (static_cast<TaskState>(rows.tasks.state[t]) == TaskState::Dropped) return;
+    const ShellView shell(rows, rows.tasks.shell[t]);
     const bool is_zero = is_numbered_zero(shell), was_one = is_zero || is_of_one_part(shell),
-               is_quick = is_quick_task(shells.state, t);
-    if (tasks.crack_count[t] == 0 && was_one) return;
+               is_quick = is_quick_task(rows, t);
+    if (rows.tasks.crack_count[t] == 0 && was_one) return;
     const std::span parts(fragments.part.data() + size_t{t} * kMostParts, kMostParts);
     // A body that may have been hit on a cut-out is not looked at as a whole; cracks that run out want the scratch that
     // a flood uses.
-    const uint32_t vertices = shells.state.shells.vertices[tasks.source[t]].count;  // before the cracks brought theirs
+    const uint32_t vertices = rows.shells.vertices[rows.tasks.source[t]].count;  // before the cracks brought theirs
     // A hidden run's cracks have run out in its cut-out.
-    const bool was_hidden_region = tasks.shell[t] == tasks.source[t] && !is_quick;
+    const bool was_hidden_region = rows.tasks.shell[t] == rows.tasks.source[t] && !is_quick;
     const bool runs_out = is_quick ? vertices <= kWholeCopyVertices : !was_hidden_region;
     const uint32_t most = worthwhile_floods(shell);
-    tasks.part_count[t] = kNone;
-    if (!runs_out && is_zero) tasks.part_count[t] = find_pieces(shell, parts, most);
-    if (tasks.part_count[t] == kNone) {
-        tasks.part_count[t] =
+    rows.tasks.part_count[t] = kNone;
+    if (!runs_out && is_zero) rows.tasks.part_count[t] = find_pieces(shell, parts, most);
+    if (rows.tasks.part_count[t] == kNone) {
+        rows.tasks.part_count[t] =
             was_one && !runs_out ? group_from_cracks(shell, parts, most) : group_fragments(shell, parts);
     }
-    if (tasks.part_count[t] > 1 && runs_out && run_out_cracks(shells.state, Row<Tasks>(t)))
-        tasks.part_count[t] = group_fragments(shell, parts);
-    const bool lets_go = tasks.part_count[t] == 1 && bodies.has_pins[tasks.body[t]] && !parts[0].has_pins;
-    if (tasks.part_count[t] > 1 || lets_go) tasks.state[t] = static_cast<uint8_t>(TaskState::Broke);
-    if (tasks.part_count[t] > kMostParts) tasks.state[t] = static_cast<uint8_t>(TaskState::Dropped);
+    if (rows.tasks.part_count[t] > 1 && runs_out && run_out_cracks(rows, Row<Tasks>(t)))
+        rows.tasks.part_count[t] = group_fragments(shell, parts);
+    const bool lets_go =
+        rows.tasks.part_count[t] == 1 && rows.bodies.has_pins[rows.tasks.body[t]] && !parts[0].has_pins;
+    if (rows.tasks.part_count[t] > 1 || lets_go) rows.tasks.state[t] = static_cast<uint8_t>(TaskState::Broke);
+    if (rows.tasks.part_count[t] > kMostParts) rows.tasks.state[t] = static_cast<uint8_t>(TaskState::Dropped);
 }
 
 }  // namespace cullet

@@ -32,7 +32,7 @@ Error damaged(const std::string& name, const std::string& what) {
 
 /// The tables of a shell in the file's order, each with the range of Shells that counts its rows.
 template <class F>
-void for_each_part(State& state, Row<Shells> shell, F&& f) {
+void for_each_part(ShellRows& state, Row<Shells> shell, F&& f) {
     Shells& s = state.shells;
     f(state.vertices, s.vertices[shell]);
     f(state.elements, s.elements[shell]);
@@ -106,15 +106,9 @@ Result<Found> find_all(std::span<const uint8_t> payload, const std::string& name
         number = reader.number<std::remove_reference_t<decltype(number)>>("the report");
     });
     // Tables of no rows, for their lists of columns.
-    const auto none = std::make_unique<State>(Limits{.bodies = 1,
-                                                     .shells = 1,
-                                                     .vertices = 64,
-                                                     .elements = 64,
-                                                     .tasks = 1,
-                                                     .models = 1,
-                                                     .view_vertices = 64,
-                                                     .debris = 1});
-    State& like = *none;
+    const auto none = std::make_unique<Workbench>(
+        Limits{.bodies = 1, .shells = 1, .vertices = 64, .elements = 64, .tasks = 1, .models = 1});
+    ShellRows& like = *none;
     like.shells.append(1);
     found.shell = find_table(reader, like.shells);
     for_each_part(like, Row<Shells>(0), [&](const AnyTable& table, const Range&) {
@@ -154,7 +148,7 @@ Result<void> check_counts(const Found& found, const std::string& name) {
 }
 
 /// Moves the rows into ranges of the state. The file's ranges say again how many rows there are.
-Result<Row<Shells>> copy_rows(State& state, const Found& found, const std::string& name) {
+Result<Row<Shells>> copy_rows(ShellRows& state, const Found& found, const std::string& name) {
     const auto rows = [&](Part part) { return found.parts[part].rows; };
     const char* full = "";
     const Row<Shells> shell = make_shell(
@@ -186,7 +180,7 @@ Result<Row<Shells>> copy_rows(State& state, const Found& found, const std::strin
     return shell;
 }
 
-Result<void> check_report(const Found& found, const State& state, Row<Shells> shell, const std::string& name) {
+Result<void> check_report(const Found& found, const ShellRows& state, Row<Shells> shell, const std::string& name) {
     const Shells& s = state.shells;
     const ModelReport& r = found.report;
     if (r.vertices != s.vertices[shell].count || r.elements != s.elements[shell].count ||
@@ -207,7 +201,7 @@ Result<void> check_report(const Found& found, const State& state, Row<Shells> sh
 
 std::vector<uint8_t> encode_model_file(const Model::Contents& contents) {
     // Reads only; the parts are listed once, for states that may change.
-    State& state = const_cast<State&>(contents.state);
+    Workbench& state = const_cast<Workbench&>(contents.state);
     Shells row(1);
     row.append(1);
     row.copy_rows(state.shells, contents.shell, 0, 1);
@@ -252,7 +246,9 @@ Result<Model> parse_model_file(std::span<const uint8_t> bytes, const std::string
         if (contents->state.shells.material[*shell] != Row<Materials>(0))
             return damaged(name, "the shell's material is row " +
                                      std::to_string(contents->state.shells.material[*shell].index) + ", not 0");
-        contents->state.shells.material[*shell] = material_row(contents->state, found->material, found->grain);
+        contents->state.shells.material[*shell] =
+            material_row({contents->state.materials, contents->state.material_traits, contents->state.shells},
+                         found->material, found->grain);
         if (const Result<void> sound =
                 check_shell_rows(ShellView(contents->state, *shell), Wear::Intact, name, kAdvice);
             !sound)

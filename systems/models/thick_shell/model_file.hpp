@@ -12,7 +12,7 @@
 #include <span>
 #include <vector>
 
-#include "components/state.hpp"
+#include "components/shell_rows.hpp"
 #include "systems/cook/model_contents.hpp"
 
 namespace cullet {

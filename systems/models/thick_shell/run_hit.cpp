@@ -22,7 +22,7 @@ namespace {
 constexpr Row<Tasks> kTask{0};
 
 /// Rows that start_task fills; of the whole shell where a region would be too wide.
-bool give_rows(State& state, uint32_t region_vertices, bool is_quick) {
+bool give_rows(RunRows& state, uint32_t region_vertices, bool is_quick) {
     const char* full = nullptr;
     if (region_vertices > 0 && reserve_hidden_region(state, kTask, region_vertices, &full)) return true;
     const ShellView source(state, state.tasks.source[kTask]);
@@ -32,7 +32,7 @@ bool give_rows(State& state, uint32_t region_vertices, bool is_quick) {
 
 }  // namespace
 
-bool open_hit(State& state, Row<Shells> source, const HitDescription& hit) {
+bool open_hit(RunRows& state, Row<Shells> source, const HitDescription& hit) {
     const ShellView before(state, source);
     Tasks& tasks = state.tasks;
     tasks.clear_rows(kTask, 1);
@@ -45,7 +45,7 @@ bool open_hit(State& state, Row<Shells> source, const HitDescription& hit) {
     tasks.strength_scale[kTask] = hit.strength_scale;
     set_task_times(state, kTask);
     tasks.time_step[kTask] *= hit.step_scale;
-    set_quick_task(state, kTask, Row<Bodies>());
+    set_hidden_task(state.quick_runs, kTask);
     if (hit.quick) set_quick_task(state, kTask, *hit.quick, hit.layers);
     tasks.contact_count[kTask] = 1;
     TaskContacts& contacts = state.task_contacts;
@@ -67,23 +67,23 @@ bool open_hit(State& state, Row<Shells> source, const HitDescription& hit) {
         return false;
     }
     ++state.shells.users[source];
-    start_task(state, kTask);
+    start_task(state, Blows(1), kTask);
     const char* full = "";
-    if (hit.quick) return wake_region_alone(state, kTask, &full);
+    if (hit.quick) return wake_region_alone(state, Blows(1), kTask, &full);
     return true;
 }
 
-bool widen_hit(State& state) {
+bool widen_hit(RunRows& state) {
     if (!is_hidden_region(state, kTask) || !state.region_rests.wants_more[kTask]) return true;
     release_shell(state, state.tasks.shell[kTask]);
     state.quick_runs.cut_elements[kTask] = 0;
     if (!give_rows(state, 2 * state.region_rests.most_vertices[kTask], false)) return false;
     state.tasks.redo_count[kTask] = 0;
-    start_task(state, kTask);
+    start_task(state, Blows(1), kTask);
     return true;
 }
 
-HitReport finish_hit(State& state) {
+HitReport finish_hit(RunRows& state) {
     Tasks& tasks = state.tasks;
     HitReport report;
     const bool is_quick = is_quick_task(state, kTask);
@@ -100,7 +100,8 @@ HitReport finish_hit(State& state) {
     report.cracked = report.cuts > 0;
     const ShellView shell(state, tasks.shell[kTask]);
     report.moving = shell.vertex_count();
-    const std::span parts(state.fragments.part.data(), kMostParts);
+    const Scratch<std::array<FragmentPart, kMostParts>> parts_of(state.scratch);
+    const std::span parts(*parts_of);
     report.parts = group_fragments(shell, parts);
     if (report.parts > 1 && !report.dropped && run_out_cracks(state, kTask))
         report.parts = group_fragments(shell, parts);
@@ -115,14 +116,15 @@ HitReport finish_hit(State& state) {
     return report;
 }
 
-HitReport run_hit(State& state, Row<Shells> shell, const HitDescription& hit, bool (*is_over)(const State&)) {
+HitReport run_hit(RunRows& state, Row<Shells> shell, const HitDescription& hit, bool (*is_over)(const RunRows&)) {
     if (!open_hit(state, shell, hit)) {
         HitReport report;
         report.dropped = true;
         return report;
     }
     const BrittleLoop loop = hit.quick ? make_quick_loop() : make_brittle_loop();
-    LoopWorld world{state};
+    const Blows none(1);
+    LoopWorld world{state, none};
     Tasks& tasks = state.tasks;
     while (static_cast<TaskState>(tasks.state[kTask]) == TaskState::Running) {
         tasks.steps_granted[kTask] = is_over ? 3 : 1u << 20;
@@ -133,13 +135,13 @@ HitReport run_hit(State& state, Row<Shells> shell, const HitDescription& hit, bo
     return finish_hit(state);
 }
 
-void close_hit(State& state) {
+void close_hit(RunRows& state) {
     release_shell(state, state.tasks.shell[kTask]);
     release_shell(state, state.tasks.source[kTask]);
     state.tasks.state[kTask] = static_cast<uint8_t>(TaskState::Free);
 }
 
-HitDescription fall_on_floor(const State& state, Row<Shells> shell, Vec3 down, float speed) {
+HitDescription fall_on_floor(const ShellRows& state, Row<Shells> shell, Vec3 down, float speed) {
     const Range vertices = state.shells.vertices[shell];
     HitDescription hit;
     float lowest = -1e30f;
@@ -164,13 +166,14 @@ Vec3 seeded_direction(uint64_t seed, uint64_t n) {
     return Vec3d(r * cosine, z, r * sine).to_float();
 }
 
-FirstCrack first_crack(State& state, Row<Shells> shell, Vec3 down) {
+FirstCrack first_crack(RunRows& state, Row<Shells> shell, Vec3 down) {
     static constexpr float kSpeed = 1;
     HitDescription hit = fall_on_floor(state, shell, down, kSpeed);
     hit.strength_scale = 1e9f;  // may not crack: stresses are compared below
     if (!open_hit(state, shell, hit)) return {};
     const BrittleLoop loop = make_brittle_loop();
-    LoopWorld world{state};
+    const Blows none(1);
+    LoopWorld world{state, none};
     Tasks& tasks = state.tasks;
     const ShellView working(state, tasks.shell[kTask]);
     const CrackLimits limits = crack_limits(working, 1);

@@ -186,12 +186,13 @@ class CrackPairs {
 }  // namespace
 
 // What the game cut stays as straight, or as sharp, as it said.
-void smooth_cracks(Each<TaskEnded> ended, ShellTables shells, const Tasks& tasks) {
+void smooth_cracks(Each<TaskEnded> ended, RunRows& rows, const Blows& blows) {
     const Row<Tasks> task = ended->task;
-    if (static_cast<TaskState>(tasks.state[task]) == TaskState::Dropped || tasks.crack_count[task] == 0) return;
-    if (is_cut_task(shells.state.blows, task)) return;
-    const ShellView shell(shells.state, tasks.shell[task]);
-    CrackPairs pairs(shell, tasks.shell[task] == tasks.source[task]);
+    if (static_cast<TaskState>(rows.tasks.state[task]) == TaskState::Dropped || rows.tasks.crack_count[task] == 0)
+        return;
+    if (is_cut_task(blows, task)) return;
+    const ShellView shell(rows, rows.tasks.shell[task]);
+    CrackPairs pairs(shell, rows.tasks.shell[task] == rows.tasks.source[task]);
     pairs.shift();
     pairs.keep_faces();
     pairs.mark_cells();

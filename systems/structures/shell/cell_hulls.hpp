@@ -3,7 +3,7 @@
 #pragma once
 #include <algorithm>
 
-#include "components/state.hpp"
+#include "components/shell_rows.hpp"
 
 namespace cullet {
 

@@ -2,7 +2,7 @@
 #pragma once
 #include <span>
 
-#include "components/state.hpp"
+#include "components/shell_rows.hpp"
 
 namespace cullet {
 

@@ -12,7 +12,7 @@ namespace cullet {
 namespace {
 
 // A row that is free says nothing of a shell: it is all zeros, and shell 0 is somebody else's.
-bool is_worth_it(const State& state, uint32_t b) {
+bool is_worth_it(const BodyRows& state, uint32_t b) {
     const Bodies& bodies = state.bodies;
     const Shells& shells = state.shells;
     if (static_cast<BodyKind>(bodies.kind[b]) == BodyKind::Free) return false;
@@ -24,17 +24,17 @@ bool is_worth_it(const State& state, uint32_t b) {
 }
 
 // The drawn mesh names elements by the rows that they have now.
-void follow_drawn(State& state, Row<Bodies> body, ShellView old, ShellView now) {
+void follow_drawn(BodyRows& state, Row<Bodies> body, ShellView old, ShellView now) {
     const Range drawn = state.bodies.view_indices[body];
     for (uint32_t i = drawn.first; i < drawn.first + drawn.count; ++i) {
         uint32_t& source = state.view_indices.source[i];
         const uint32_t e = source / kMostDrawnTriangles;
         source = kMostDrawnTriangles * state.elements.copy[old.element(e)] + source % kMostDrawnTriangles;
     }
-    remember_drawn(now, drawn);
+    remember_drawn(now, state.view_indices, drawn);
 }
 
-bool compact(State& state, Row<Bodies> body, std::span<FragmentPart> slot) {
+bool compact(BodyRows& state, Row<Bodies> body, std::span<FragmentPart> slot) {
     const Row<Shells> old = state.bodies.shell[body];
     if (group_fragments(ShellView(state, old), slot) != 1) return false;
     const Row<Shells> compacted = compact_shell(state, old, slot[0]);
@@ -50,21 +50,21 @@ bool compact(State& state, Row<Bodies> body, std::span<FragmentPart> slot) {
 
 // The drawn mesh and the hulls stay: nothing that the game or the rigid world sees changes, but the last bits of the
 // mass. The first body of a quiet frame is served even when it costs more than the budget, or it never would be.
-void compact_shells(Serial, ShellTables shells, Bodies& bodies, ViewIndices&, const Tasks& tasks, Fragments& fragments,
-                    DamageCounts& counts, const Events<TaskEnded>& ended) {
+void compact_shells(Serial, BodyRows& rows, Fragments& fragments, DamageCounts& counts,
+                    const Events<TaskEnded>& ended) {
     bool is_quiet = ended.size() == 0;
-    for (uint32_t t = 0; t < tasks.size() && is_quiet; ++t)
-        is_quiet = static_cast<TaskState>(tasks.state[t]) == TaskState::Free;
+    for (uint32_t t = 0; t < rows.tasks.size() && is_quiet; ++t)
+        is_quiet = static_cast<TaskState>(rows.tasks.state[t]) == TaskState::Free;
     if (!is_quiet) return;
-    const std::span slot(fragments.part.data() + size_t{tasks.limit()} * kMostParts, kMostParts);
+    const std::span slot(fragments.part.data() + size_t{rows.tasks.limit()} * kMostParts, kMostParts);
     bool is_first = true;
-    for (uint32_t b = 0; b < bodies.size(); ++b) {
-        if (!is_worth_it(shells.state, b)) continue;
-        const Row<Shells> shell = bodies.shell[b];
-        const uint64_t live = shells.state.shells.elements[shell].count - shells.state.shells.dead_elements[shell];
+    for (uint32_t b = 0; b < rows.bodies.size(); ++b) {
+        if (!is_worth_it(rows, b)) continue;
+        const Row<Shells> shell = rows.bodies.shell[b];
+        const uint64_t live = rows.shells.elements[shell].count - rows.shells.dead_elements[shell];
         const uint64_t cost = kUnitsCompact * live;
         if (!is_first && cost > counts.units_left) return;
-        if (!compact(shells.state, Row<Bodies>(b), slot)) continue;
+        if (!compact(rows, Row<Bodies>(b), slot)) continue;
         is_first = false;
         counts.units_left -= std::min(cost, counts.units_left);
         counts.units_used += cost;

@@ -2,7 +2,7 @@
 #pragma once
 #include <span>
 
-#include "components/state.hpp"
+#include "components/shell_rows.hpp"
 #include "engine/arena.hpp"
 #include "systems/hulls/stop_approach.hpp"
 

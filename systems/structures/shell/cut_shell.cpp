@@ -36,13 +36,14 @@ struct Crossing {
 struct Cutting {
     ShellView shell;
     const CutSurface& surface;
-    Range pins;        // of PinBoxes
+    const PinBoxes& pin_boxes;
+    Range pins;
     float layer;       // share of the way through the wall where the surface is looked for
     float may_be_off;  // m, of a vertex that is taken for one on the surface
     CutReport report;
     Touched touched;
 
-    State& state() const { return shell.state; }
+    ShellRows& state() const { return shell.state; }
     Vec3 place_of(uint32_t vertex) const { return place_in_wall(shell, vertex, layer); }
     CutSide side_of(uint32_t vertex) const { return surface.side(place_of(vertex)); }
 
@@ -189,7 +190,7 @@ void mark_cracks(Cutting& cutting) {
 /// Whether a box reaches beyond the cut to the side that the vertex's elements are on: at an edge that leads there.
 bool is_held_at_cut(const Cutting& cutting, uint32_t vertex, const Ring& ring, bool is_left, float on_surface) {
     const ShellView shell = cutting.shell;
-    const State& state = cutting.state();
+    const ShellRows& state = cutting.state();
     const Vec3 from = state.vertices.rest[shell.vertex(vertex)];
     const float own = std::fabs(cutting.side_of(vertex).distance);
     for (uint32_t i = 0; i < ring.count; ++i)
@@ -198,7 +199,7 @@ bool is_held_at_cut(const Cutting& cutting, uint32_t vertex, const Ring& ring, b
             if (v == vertex || (side.distance >= 0) != is_left || std::fabs(side.distance) <= on_surface) continue;
             const float along = std::min(own / (own + std::fabs(side.distance)) + kBeyond, 1.0f);
             const Vec3 to = state.vertices.rest[shell.vertex(v)];
-            if (is_held(state.pin_boxes, cutting.pins, from + along * (to - from))) return true;
+            if (is_held(cutting.pin_boxes, cutting.pins, from + along * (to - from))) return true;
         }
     return false;
 }
@@ -225,7 +226,7 @@ void pin_along_cut(Cutting& cutting) {
         if (!is_on_surface && (!is_on_one_side || is_left == (own.distance >= 0))) continue;
         // Where the cut ends its last vertex has elements on both sides.
         const bool is_pinned = is_on_one_side ? is_held_at_cut(cutting, v, ring, is_left, on_surface)
-                                              : is_held(cutting.state().pin_boxes, cutting.pins, vertices.rest[row]);
+                                              : is_held(cutting.pin_boxes, cutting.pins, vertices.rest[row]);
         if (is_pinned == (vertices.is_pinned[row] != 0)) continue;
         vertices.is_pinned[row] = is_pinned;
         weigh_vertex(shell, v);
@@ -235,9 +236,10 @@ void pin_along_cut(Cutting& cutting) {
 
 }  // namespace
 
-CutReport cut_shell(ShellView shell, const CutSurface& surface, Range pins, const CutRepair& repair) {
+CutReport cut_shell(ShellView shell, const CutSurface& surface, const PinBoxes& pin_boxes, Range pins,
+                    const CutRepair& repair) {
     const CutReach reach = reach_of(shell, surface);
-    Cutting cutting{shell, surface, pins, reach.layer, kMayBeOff * reach.smaller(), {}, Touched(repair)};
+    Cutting cutting{shell, surface, pin_boxes, pins, reach.layer, kMayBeOff * reach.smaller(), {}, Touched(repair)};
     Shells& shells = shell.shells();
     shells.packs[shell.row].count = shells.blocks[shell.row].count = shells.links[shell.row].count = 0;
     insert_vertices(cutting);

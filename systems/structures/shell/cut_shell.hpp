@@ -31,6 +31,7 @@ struct CutReport {
 /// boxes; a vertex at the cut stands for where the cut runs on the side that its elements are on, and is pinned when a
 /// box holds that place. Needs no stiffness, and lets go of what the shell has assembled: a later hit assembles it
 /// anew. O(elements).
-CutReport cut_shell(ShellView shell, const CutSurface& surface, Range pins, const CutRepair& repair);
+CutReport cut_shell(ShellView shell, const CutSurface& surface, const PinBoxes& pin_boxes, Range pins,
+                    const CutRepair& repair);
 
 }  // namespace cullet

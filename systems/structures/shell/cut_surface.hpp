@@ -1,6 +1,7 @@
 // The surface of a cut: a plane, or what a polyline sweeps.
 #pragma once
-#include "components/state.hpp"
+#include "components/blows.hpp"
+#include "components/shell_rows.hpp"
 
 namespace cullet {
 

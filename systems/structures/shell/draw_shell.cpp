@@ -103,49 +103,48 @@ DrawnCount count_drawn(ShellView shell) {
     return count;
 }
 
-DrawnCount draw_shell(ShellView shell, Range& view_vertices, Range& view_indices) {
+DrawnCount draw_shell(ShellView shell, DrawnRows to, Range& view_vertices, Range& view_indices) {
     const DrawnCount count = count_drawn(shell);
-    State& state = shell.state;
     CULLET_ASSERT(count.vertices <= view_vertices.capacity && count.index_count() <= view_indices.capacity,
                   "%u view vertices and %u indices do not fit their ranges", count.vertices, count.index_count());
     Writer w{shell,
              count.materials,
-             state.view_vertices.vertex.data() + view_vertices.first,
-             state.view_indices.source.data() + view_indices.first,
+             to.view_vertices.vertex.data() + view_vertices.first,
+             to.view_indices.source.data() + view_indices.first,
              {}};
     std::exclusive_scan(count.indices.begin(), count.indices.end(), w.next, 0u);
     for (uint32_t& next : w.next) next /= 3;
     write_shell(w);
-    uint32_t* const index = state.view_indices.index.data() + view_indices.first;
+    uint32_t* const index = to.view_indices.index.data() + view_indices.first;
     std::iota(index, index + count.index_count(), 0u);
     view_vertices.count = count.vertices;
     view_indices.count = count.index_count();
     return count;
 }
 
-void draw_body(State& state, Row<Bodies> body) {
+void draw_body(BodyRows& state, Row<Bodies> body) {
     Bodies& bodies = state.bodies;
-    const DrawnCount drawn =
-        draw_shell(ShellView(state, bodies.shell[body]), bodies.view_vertices[body], bodies.view_indices[body]);
+    const DrawnCount drawn = draw_shell(ShellView(state, bodies.shell[body]), {state.view_vertices, state.view_indices},
+                                        bodies.view_vertices[body], bodies.view_indices[body]);
     bodies.run_indices[body] = drawn.indices;
     bodies.drawn_materials[body] = drawn.materials.id;
     bodies.redrawn[body] = {0, drawn.index_count() / 3};
     ++bodies.view_stamp[body];
 }
 
-void remember_drawn(ShellView shell, const Range& view_indices) {
+void remember_drawn(ShellView shell, const ViewIndices& rows, const Range& view_indices) {
     Elements& elements = shell.state.elements;
     for (uint32_t e = 0; e < shell.element_count(); ++e) elements.drawn[shell.element(e)].fill(kNone);
     for (uint32_t i = 0; i < view_indices.count; i += 3) {
-        const uint32_t source = shell.state.view_indices.source[view_indices.first + i];
+        const uint32_t source = rows.source[view_indices.first + i];
         const uint32_t e = source / kMostDrawnTriangles;
         if (e < shell.element_count()) elements.drawn[shell.element(e)][source % kMostDrawnTriangles] = i / 3;
     }
 }
 
-void number_drawn(ShellView shell, const Range& view_indices, std::span<uint32_t> numbers) {
+void number_drawn(ShellView shell, const ViewIndices& rows, const Range& view_indices, std::span<uint32_t> numbers) {
     for (uint32_t i = 0; i < view_indices.count; i += 3) {
-        const uint32_t source = shell.state.view_indices.source[view_indices.first + i];
+        const uint32_t source = rows.source[view_indices.first + i];
         const auto corners = drawn_corners(shell, source / kMostDrawnTriangles, source % kMostDrawnTriangles);
         for (uint32_t k = 0; k < 3; ++k) numbers[i + k] = 2 * corners[k].vertex + corners[k].is_inner;
     }

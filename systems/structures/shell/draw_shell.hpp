@@ -3,7 +3,7 @@
 #include <array>
 #include <span>
 
-#include "components/state.hpp"
+#include "components/body_rows.hpp"
 #include "cullet/result.hpp"
 
 namespace cullet {
@@ -21,6 +21,12 @@ struct DrawnCount {
     uint32_t index_count() const;
 };
 
+/// Where drawn meshes stand.
+struct DrawnRows {
+    ViewVertices& view_vertices;
+    ViewIndices& view_indices;
+};
+
 /// Rows that draw_shell will write. Side quads split as the prisms do (A7), so the drawn volume is the elements'.
 /// Triangles that collapse where depth is 0 are left out; the rest still closes.
 DrawnCount count_drawn(ShellView shell);
@@ -31,22 +37,22 @@ DrawnCount count_drawn(ShellView shell);
 /// ones the same uvs and the normals turned round, or the triangle's own where the inner wall runs another way; rims
 /// and cracks flat normals and uv = (way along the free border, depth) in m. Each triangle has corners of its own.
 /// Nothing allocates. About 0.3 microseconds an element.
-DrawnCount draw_shell(ShellView shell, Range& view_vertices, Range& view_indices);
+DrawnCount draw_shell(ShellView shell, DrawnRows to, Range& view_vertices, Range& view_indices);
 /// The same into the body's own ranges and run columns; its stamp becomes another.
-void draw_body(State& state, Row<Bodies> body);
+void draw_body(BodyRows& state, Row<Bodies> body);
 
 /// Elements.drawn from ViewIndices.source.
-void remember_drawn(ShellView shell, const Range& view_indices);
+void remember_drawn(ShellView shell, const ViewIndices& rows, const Range& view_indices);
 
 /// Which point of the solid each vertex of the drawn mesh stands for, by ViewIndices.source: 2 * vertex of the shell,
 /// + 1 on the inner side where depth is above 0. `numbers` has room for as many as there are indices.
-void number_drawn(ShellView shell, const Range& view_indices, std::span<uint32_t> numbers);
+void number_drawn(ShellView shell, const ViewIndices& rows, const Range& view_indices, std::span<uint32_t> numbers);
 
 /// Checks that each corner is drawn where its point is, to the bit, that every edge between two points belongs to
 /// exactly two triangles, once each way, and that the volume is the elements' within 1e-4. By number and not by place:
 /// the two sides of a crack stand at one place. Two kinds of edges belong to four triangles, twice each way: where both
 /// ends have depth 0, outer and inner face are one; a crack of a single edge has not yet split its ends. For tests and
 /// --validate; it allocates.
-Result<void> check_drawn_mesh(ShellView shell, const Range& view_vertices, const Range& view_indices);
+Result<void> check_drawn_mesh(ShellView shell, DrawnRows drawn, const Range& view_vertices, const Range& view_indices);
 
 }  // namespace cullet

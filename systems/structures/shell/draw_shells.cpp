@@ -4,12 +4,11 @@
 
 namespace cullet {
 
-void draw_shells(Each<ShellChanged> changed, Step step, ShellTables shells, Bodies& bodies, ViewVertices&, ViewIndices&,
-                 ViewBoxes& boxes) {
+void draw_shells(Each<ShellChanged> changed, Step step, BodyRows& rows, ViewBoxes& boxes) {
     const Row<Bodies> body = changed->body;
-    if (static_cast<BodyKind>(bodies.kind[body]) == BodyKind::Free) return;
-    if (!changed->is_local || !redraw_body(shells.state, body, boxes)) draw_body(shells.state, body);
-    bodies.drawn_frame[body] = step.frame;
+    if (static_cast<BodyKind>(rows.bodies.kind[body]) == BodyKind::Free) return;
+    if (!changed->is_local || !redraw_body(rows, body, boxes)) draw_body(rows, body);
+    rows.bodies.drawn_frame[body] = step.frame;
 }
 
 }  // namespace cullet

@@ -85,7 +85,7 @@ class Shade {
     uint64_t bit_of(int dot) const { return uint64_t{1} << (is_outside_ ? dot % kSquareSide : dot % kCubeSide); }
     bool is_wanted(int dot) const { return wanted_[line_of(dot)] & bit_of(dot); }
     void want(uint32_t e, float reach) {
-        const State& state = shell_.state;
+        const ShellRows& state = shell_.state;
         const auto& corner = state.elements.corner[shell_.element(e)];
         const Vec3 middle =
             middle_of(state.vertices.rest[shell_.vertex(corner[0])], state.vertices.rest[shell_.vertex(corner[1])],
@@ -142,7 +142,7 @@ class Shade {
     }
 
     void draw(uint32_t e, float reach) {
-        const State& state = shell_.state;
+        const ShellRows& state = shell_.state;
         const auto& corner = state.elements.corner[shell_.element(e)];
         Vec3 p[3];
         for (int k = 0; k < 3; ++k) p[k] = state.vertices.rest[shell_.vertex(corner[k])] - from_;
@@ -181,7 +181,7 @@ class Shade {
 /// Calls visit(element row, impulse, middle of the outer face) for each lit element in reach.
 template <class Visit>
 void for_each_lit(const ShellView& shell, const Explosion& explosion, Visit visit) {
-    const State& state = shell.state;
+    const ShellRows& state = shell.state;
     const Scratch<Shade> shade(state.scratch, shell, explosion);
     const float thickness = shell.shells().thickness[shell.row];
     for (uint32_t e = 0; e < shell.element_count(); ++e) {
@@ -233,7 +233,7 @@ void kick_vertices(ShellView shell, const Explosion& explosion) {
 }
 
 void kick_points(ShellView shell, uint32_t first_twin, const Explosion& explosion, Quat turn) {
-    State& state = shell.state;
+    ShellRows& state = shell.state;
     for_each_lit(shell, explosion, [&](uint32_t row, Vec3 impulse, Vec3) {
         const Vec3 along = rotate(turn, impulse);
         for (const uint32_t v : state.elements.corner[row]) {

@@ -1,6 +1,6 @@
 // What an explosion does to one body: its impulse by distance and facing (cullet/damage.hpp has the formula).
 #pragma once
-#include "components/state.hpp"
+#include "components/shell_rows.hpp"
 
 namespace cullet {
 

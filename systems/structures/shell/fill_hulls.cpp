@@ -6,7 +6,7 @@ namespace cullet {
 
 namespace {
 
-void make_shape(const State& state, const RigidWorld& rigid, uint32_t shape, uint32_t first, uint32_t count) {
+void make_shape(const ShellRows& state, const RigidWorld& rigid, uint32_t shape, uint32_t first, uint32_t count) {
     Vec3 points[kMostHullPoints];
     for (uint32_t p = 0; p < count; ++p) points[p] = state.hull_points.point[first + p];
     if (count > 0) rigid.make_shape(shape, {points, count});
@@ -14,19 +14,18 @@ void make_shape(const State& state, const RigidWorld& rigid, uint32_t shape, uin
 
 }  // namespace
 
-void fill_hulls(Each<HullWanted> wanted, ShellTables shells, const RigidWorld& rigid) {
-    State& state = shells.state;
+void fill_hulls(Each<HullWanted> wanted, ShellRows& rows, const RigidWorld& rigid) {
     const Row<Shells> shell = wanted->shell;
-    uint32_t from = state.shells.points[shell].first;
+    uint32_t from = rows.shells.points[shell].first;
     if (wanted->cell == kNone)
-        return make_shape(state, rigid, kMostCellParts * state.shells.made_shape[shell], from,
-                          state.shells.shape_points[shell]);
-    choose_hull(ShellView(state, shell), wanted->cell);
-    const uint32_t cell = state.shells.cells[shell].first + wanted->cell;
-    from += state.cells.first_point[cell];
+        return make_shape(rows, rigid, kMostCellParts * rows.shells.made_shape[shell], from,
+                          rows.shells.shape_points[shell]);
+    choose_hull(ShellView(rows, shell), wanted->cell);
+    const uint32_t cell = rows.shells.cells[shell].first + wanted->cell;
+    from += rows.cells.first_point[cell];
     for (uint32_t part = 0; part < kMostCellParts; ++part) {
-        const uint32_t count = state.cells.part_points[cell][part];
-        make_shape(state, rigid, kMostCellParts * state.cells.shape[cell] + part, from, count);
+        const uint32_t count = rows.cells.part_points[cell][part];
+        make_shape(rows, rigid, kMostCellParts * rows.cells.shape[cell] + part, from, count);
         from += count;
     }
 }

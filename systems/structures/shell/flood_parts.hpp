@@ -3,7 +3,7 @@
 #pragma once
 #include <span>
 
-#include "components/state.hpp"
+#include "components/shell_rows.hpp"
 #include "systems/structures/shell/group_fragments.hpp"
 
 namespace cullet {

@@ -2,7 +2,8 @@
 #pragma once
 #include <span>
 
-#include "components/state.hpp"
+#include "components/bodies.hpp"
+#include "components/shell_rows.hpp"
 
 namespace cullet {
 

@@ -151,7 +151,7 @@ void refresh_hinge(ShellView shell, uint32_t element, uint32_t k, bool is_new, T
 }  // namespace
 
 bool can_insert(ShellView shell, uint32_t element, uint32_t edge, float tau, bool& is_full, float share) {
-    const State& state = shell.state;
+    const ShellRows& state = shell.state;
     is_full = false;
     const uint32_t row = shell.element(element);
     if (state.elements.edge_kind[row][edge] == static_cast<uint8_t>(EdgeKind::Crack)) return false;
@@ -180,7 +180,7 @@ bool can_insert(ShellView shell, uint32_t element, uint32_t edge, float tau, boo
 }
 
 uint32_t insert_vertex(ShellView shell, uint32_t element, uint32_t edge, float tau, Touched& touched) {
-    State& state = shell.state;
+    ShellRows& state = shell.state;
     Elements& elements = state.elements;
     const uint32_t row = shell.element(element);
     const uint32_t k = edge, next = (edge + 1) % 3, last = (edge + 2) % 3;

@@ -27,7 +27,7 @@ struct Counts {
 
 // Marks the part's vertices and lists its elements by cell. A vertex's mark is any number but kNone.
 Counts mark_part(const ShellView& shell, const FragmentPart& part) {
-    State& state = shell.state;
+    ShellRows& state = shell.state;
     Elements& elements = state.elements;
     Cells& cells = state.cells;
     for_each_element(shell, part, [&](uint32_t e) {
@@ -231,7 +231,7 @@ void copy_hinges(const ShellView& shell, const ShellView& piece) {
 
 /// Turns what the copied elements name into the piece's own rows.
 void renumber_elements(const ShellView& shell, const FragmentPart& part, const ShellView& piece) {
-    State& state = shell.state;
+    ShellRows& state = shell.state;
     Elements& elements = state.elements;
     for_each_element(shell, part, [&](uint32_t old) {
         const uint32_t e = elements.copy[shell.element(old)], row = piece.element(e);
@@ -314,7 +314,7 @@ void begin_piece(const ShellView& shell, const ShellView& piece, uint32_t vertex
 }  // namespace
 
 // Cells of the broken shell may be shared by parts: what they say of this one is written to the piece's own.
-Row<Shells> reserve_piece(State& state, Row<Shells> broken, const FragmentPart& part, uint8_t generation,
+Row<Shells> reserve_piece(ShellRows& state, Row<Shells> broken, const FragmentPart& part, uint8_t generation,
                           const char** full) {
     const ShellView shell(state, broken);
     Counts counts = mark_part(shell, part);
@@ -334,7 +334,7 @@ Row<Shells> reserve_piece(State& state, Row<Shells> broken, const FragmentPart& 
     return row;
 }
 
-void fill_piece(State& state, Row<Shells> broken, const FragmentPart& part, Row<Shells> row) {
+void fill_piece(ShellRows& state, Row<Shells> broken, const FragmentPart& part, Row<Shells> row) {
     const ShellView shell(state, broken), piece(state, row);
     const uint32_t vertex_count = piece.vertex_count();
     order_vertices(shell, part, piece, vertex_count);
@@ -344,7 +344,7 @@ void fill_piece(State& state, Row<Shells> broken, const FragmentPart& part, Row<
     finish_piece(shell, part, piece, vertex_count);
 }
 
-Row<Shells> make_piece(State& state, Row<Shells> broken, const FragmentPart& part, uint8_t generation,
+Row<Shells> make_piece(ShellRows& state, Row<Shells> broken, const FragmentPart& part, uint8_t generation,
                        const char** full) {
     const Row<Shells> row = reserve_piece(state, broken, part, generation, full);
     if (!row.exists()) return row;
@@ -353,7 +353,7 @@ Row<Shells> make_piece(State& state, Row<Shells> broken, const FragmentPart& par
     return row;
 }
 
-Row<Shells> compact_shell(State& state, Row<Shells> old, const FragmentPart& whole, const char** full) {
+Row<Shells> compact_shell(ShellRows& state, Row<Shells> old, const FragmentPart& whole, const char** full) {
     const ShellView shell(state, old);
     const Counts counts = mark_part(shell, whole);
     ShellRoom room = room_of(counts, whole);

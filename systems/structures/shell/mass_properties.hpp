@@ -1,6 +1,6 @@
 // Mass, centre and inertia of sets of elements, from their tetrahedra.
 #pragma once
-#include "components/state.hpp"
+#include "components/shell_rows.hpp"
 
 namespace cullet {
 

@@ -33,7 +33,7 @@ void for_each_element(const ShellView& shell, const FragmentPart* part, Visit vi
 
 /// False: there are too many. Each vertex names one of its elements.
 bool gather(const ShellView& shell, const FragmentPart* part, Solid& solid) {
-    const State& state = shell.state;
+    const ShellRows& state = shell.state;
     bool has_room = true;
     for_each_element(shell, part, [&](uint32_t e) {
         for (const uint32_t v : state.elements.corner[shell.element(e)]) {

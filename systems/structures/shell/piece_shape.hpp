@@ -16,7 +16,7 @@
 // a wall hover by 3 mm and more in 5 of 12 runs over hulls of what stands, in 3 over its cells), and its cells cost
 // nothing while it stands.
 #pragma once
-#include "components/state.hpp"
+#include "components/body_rows.hpp"
 
 namespace cullet {
 

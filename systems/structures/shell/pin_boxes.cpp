@@ -5,7 +5,7 @@ namespace {
 
 // Bodies that share a range name the same rows, and ranges do not overlap otherwise: they move down one by one, in the
 // order of their rows.
-void drop_unused(State& state) {
+void drop_unused(BodyRows& state) {
     PinBoxes& boxes = state.pin_boxes;
     Bodies& bodies = state.bodies;
     uint32_t kept = 0;
@@ -28,7 +28,7 @@ void drop_unused(State& state) {
 
 }  // namespace
 
-Range add_pin_boxes(State& state, std::span<const Box> boxes) {
+Range add_pin_boxes(BodyRows& state, std::span<const Box> boxes) {
     PinBoxes& rows = state.pin_boxes;
     const auto count = static_cast<uint32_t>(boxes.size());
     if (boxes.size() > rows.limit()) return {};

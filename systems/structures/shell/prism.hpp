@@ -3,7 +3,7 @@
 #pragma once
 #include <utility>
 
-#include "components/state.hpp"
+#include "components/shell_rows.hpp"
 
 namespace cullet {
 
@@ -14,16 +14,16 @@ struct Prism {
 };
 
 /// Where the vertex's inner twin is, in double from the stored floats.
-inline Vec3d inner_twin(const State& state, uint32_t row) {
+inline Vec3d inner_twin(const ShellRows& state, uint32_t row) {
     return Vec3d(state.vertices.rest[row]) +
            static_cast<double>(state.vertices.depth[row]) * Vec3d(state.vertices.inward[row]);
 }
 
 /// Where the point is drawn and collides, outside and inside: at rest, but on a smoothed crack.
-inline Vec3 smoothed_place(const State& state, uint32_t row) {
+inline Vec3 smoothed_place(const ShellRows& state, uint32_t row) {
     return state.vertices.rest[row] + state.vertices.crack_shift[row];
 }
-inline Vec3d smoothed_twin(const State& state, uint32_t row) {
+inline Vec3d smoothed_twin(const ShellRows& state, uint32_t row) {
     return inner_twin(state, row) + Vec3d(state.vertices.crack_shift[row]);
 }
 
@@ -44,14 +44,14 @@ Prism make_prism(const ShellView& shell, uint32_t element, Outer&& outer_of, Inn
 }
 /// At rest.
 inline Prism load_prism(const ShellView& shell, uint32_t element) {
-    const State& state = shell.state;
+    const ShellRows& state = shell.state;
     return make_prism(
         shell, element, [&](uint32_t row) { return Vec3d(state.vertices.rest[row]); },
         [&](uint32_t row) { return inner_twin(state, row); });
 }
 /// As it is drawn.
 inline Prism load_smoothed_prism(const ShellView& shell, uint32_t element) {
-    const State& state = shell.state;
+    const ShellRows& state = shell.state;
     return make_prism(
         shell, element, [&](uint32_t row) { return Vec3d(smoothed_place(state, row)); },
         [&](uint32_t row) { return smoothed_twin(state, row); });

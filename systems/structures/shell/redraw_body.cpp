@@ -10,11 +10,11 @@ namespace {
 /// The mesh while triangles leave and come. Between two runs there may be gaps.
 class Mesh {
  public:
-    Mesh(const ShellView& shell, Row<Bodies> body, ViewBoxes* boxes)
-        : shell_(shell), bodies_(shell.state.bodies), body_(body), boxes_(boxes) {
+    Mesh(const ShellView& shell, BodyRows& rows, Row<Bodies> body, ViewBoxes* boxes)
+        : shell_(shell), rows_(rows), bodies_(rows.bodies), body_(body), boxes_(boxes) {
         const Range vertices = bodies_.view_vertices[body], indices = bodies_.view_indices[body];
-        vertex_ = shell.state.view_vertices.vertex.data() + vertices.first;
-        source_ = shell.state.view_indices.source.data() + indices.first;
+        vertex_ = rows.view_vertices.vertex.data() + vertices.first;
+        source_ = rows.view_indices.source.data() + indices.first;
         room_ = std::min(vertices.capacity, indices.capacity) / 3;
         first_box_ = indices.first / kViewGranule;
         materials_.id = bodies_.drawn_materials[body];
@@ -80,7 +80,7 @@ class Mesh {
             bodies.run_indices[body_][r] = 3 * length_[r];
         }
         Range &vertices = bodies.view_vertices[body_], &indices = bodies.view_indices[body_];
-        uint32_t* const index = shell_.state.view_indices.index.data() + indices.first;
+        uint32_t* const index = rows_.view_indices.index.data() + indices.first;
         for (uint32_t i = indices.count; i < 3 * next; ++i) index[i] = i;
         if (boxes_ && next > 0 && 3 * next < indices.count)
             boxes_->is_outdated[first_box_ + (next - 1) / kTrianglesPerBox] = 1;
@@ -108,6 +108,7 @@ class Mesh {
     }
 
     const ShellView& shell_;
+    BodyRows& rows_;
     Bodies& bodies_;
     Row<Bodies> body_;
     ViewBoxes* boxes_;
@@ -182,8 +183,8 @@ bool draw_border(Mesh& mesh, const ShellView& shell, uint32_t e, uint32_t k) {
 
 }  // namespace
 
-uint32_t rows_to_draw(const State& state, Row<Bodies> body, ShellView shell, uint32_t part) {
-    const Mesh mesh(shell, body, nullptr);
+uint32_t rows_to_draw(const BodyRows& state, Row<Bodies> body, ShellView shell, uint32_t part) {
+    const Mesh mesh(shell, const_cast<BodyRows&>(state), body, nullptr);
     uint32_t count = state.bodies.view_indices[body].count;
     for_each_element_of_changed_cells(shell, [&](uint32_t e) {
         if (!is_live(shell, e) || (part != kNone && state.elements.part[shell.element(e)] != part)) return;
@@ -195,10 +196,10 @@ uint32_t rows_to_draw(const State& state, Row<Bodies> body, ShellView shell, uin
     return count;
 }
 
-bool redraw_body(State& state, Row<Bodies> body, ViewBoxes& boxes) {
+bool redraw_body(BodyRows& state, Row<Bodies> body, ViewBoxes& boxes) {
     const ShellView shell(state, state.bodies.shell[body]);
     Elements& elements = state.elements;
-    Mesh mesh(shell, body, &boxes);
+    Mesh mesh(shell, state, body, &boxes);
     const ViewVertex* const vertex = state.view_vertices.vertex.data() + state.bodies.view_vertices[body].first;
     for_each_element_of_changed_cells(shell, [&](uint32_t e) {
         elements.drawn_edges[shell.element(e)] = 0;

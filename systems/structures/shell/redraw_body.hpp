@@ -1,6 +1,6 @@
 // What a hit changed of a drawn mesh.
 #pragma once
-#include "components/state.hpp"
+#include "components/body_rows.hpp"
 #include "components/view_boxes.hpp"
 
 namespace cullet {
@@ -10,10 +10,10 @@ namespace cullet {
 /// the triangles are those that draw_body would write, bit for bit, in another order within the runs. Boxes that hold
 /// them are marked as outdated. False: there is no room, and the mesh is good for nothing but to be drawn anew.
 /// O(elements of changed cells + borders + boxes).
-bool redraw_body(State& state, Row<Bodies> body, ViewBoxes& boxes);
+bool redraw_body(BodyRows& state, Row<Bodies> body, ViewBoxes& boxes);
 
 /// View vertices that the mesh may need in between, once the body has this shell: what it has, and what is to come of
 /// the elements that `part` (kNone: any) numbers.
-uint32_t rows_to_draw(const State& state, Row<Bodies> body, ShellView shell, uint32_t part);
+uint32_t rows_to_draw(const BodyRows& state, Row<Bodies> body, ShellView shell, uint32_t part);
 
 }  // namespace cullet

@@ -68,7 +68,7 @@ void measure_part(ShellView shell, const FragmentPart& part) {
     write_sums(shell, sums);
 }
 
-void adopt_shell(State& state, Row<Bodies> body, Row<Shells> shell) {
+void adopt_shell(BodyRows& state, Row<Bodies> body, Row<Shells> shell) {
     const Row<Shells> before = state.bodies.shell[body];
     if (before == shell) return;
     ++state.shells.users[shell];
@@ -80,7 +80,7 @@ void adopt_shell(State& state, Row<Bodies> body, Row<Shells> shell) {
 }
 
 bool keep_hulls(ShellView shell, ShellView before) {
-    State& state = shell.state;
+    ShellRows& state = shell.state;
     if (shell.row == before.row) return true;
     const Range points = before.shells().points[before.row], cells = shell.shells().cells[shell.row];
     Range& own = shell.shells().points[shell.row];
@@ -89,7 +89,7 @@ bool keep_hulls(ShellView shell, ShellView before) {
         own = old;
         return false;
     }
-    state.pools.points.give_back(old.first, old.capacity);
+    state.hull_points.pool.give_back(old.first, old.capacity);
     const uint32_t then = before.shells().cells[before.row].first;
     for (uint32_t c = 0; c < cells.count; ++c) {
         state.cells.first_point[cells.first + c] = state.cells.first_point[then + c];

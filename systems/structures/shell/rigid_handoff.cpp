@@ -21,7 +21,7 @@ void for_each_vertex(const ShellView& shell, std::span<PartMotion> motions, Visi
 
 /// Of the vertex in a row, body axes.
 struct VertexVelocity {
-    const State& state;
+    const ShellRows& state;
     const std::optional<RestMotion>& rest;
 
     bool is_still(uint32_t row) const { return rest && !state.vertex_blocks.moves[row / kVerticesPerBlock]; }

@@ -3,7 +3,7 @@
 #include <optional>
 #include <span>
 
-#include "components/state.hpp"
+#include "components/body_rows.hpp"
 #include "systems/hulls/stop_approach.hpp"
 #include "systems/structures/shell/group_fragments.hpp"
 

@@ -8,7 +8,7 @@ namespace cullet {
 namespace {
 
 template <class IsWanted>
-std::span<const ConvexPiece> pieces_of(const State& state, Row<Shells> shell, Arena& arena, RigidId broken_body,
+std::span<const ConvexPiece> pieces_of(const ShellRows& state, Row<Shells> shell, Arena& arena, RigidId broken_body,
                                        IsWanted&& is_wanted) {
     const Range cells = state.shells.cells[shell];
     const uint32_t first_point = state.shells.points[shell].first;
@@ -35,7 +35,7 @@ std::span<const ConvexPiece> pieces_of(const State& state, Row<Shells> shell, Ar
     return pieces.first(count);
 }
 
-std::span<const ConvexPiece> one_piece(const State& state, Row<Shells> shell, Arena& arena, bool is_made) {
+std::span<const ConvexPiece> one_piece(const ShellRows& state, Row<Shells> shell, Arena& arena, bool is_made) {
     const auto pieces = arena.take<ConvexPiece>(1);
     const auto points = arena.take<Vec3>(state.shells.shape_points[shell]);
     for (uint32_t k = 0; k < points.size(); ++k)
@@ -47,12 +47,13 @@ std::span<const ConvexPiece> one_piece(const State& state, Row<Shells> shell, Ar
 
 }  // namespace
 
-std::span<const ConvexPiece> convex_pieces(const State& state, Row<Shells> shell, Arena& arena, RigidId broken_body) {
+std::span<const ConvexPiece> convex_pieces(const ShellRows& state, Row<Shells> shell, Arena& arena,
+                                           RigidId broken_body) {
     if (state.shells.shape_points[shell]) return one_piece(state, shell, arena, broken_body != kNoRigid);
     return pieces_of(state, shell, arena, broken_body, [](uint32_t) { return true; });
 }
 
-std::span<const ConvexPiece> changed_pieces(const State& state, Row<Shells> shell, Arena& arena,
+std::span<const ConvexPiece> changed_pieces(const ShellRows& state, Row<Shells> shell, Arena& arena,
                                             std::span<const uint32_t>& gone) {
     const Range cells = state.shells.cells[shell];
     const auto is_wanted = [&](uint32_t row) { return state.cells.same_cell[row] == kNone; };
@@ -86,7 +87,7 @@ float rolling_length(float setting, float area) {
 
 }  // namespace
 
-RigidDescription describe_rigid(const State& state, Row<Bodies> b, std::span<const ConvexPiece> pieces) {
+RigidDescription describe_rigid(const BodyRows& state, Row<Bodies> b, std::span<const ConvexPiece> pieces) {
     const Bodies& bodies = state.bodies;
     const Row<Shells> shell = bodies.shell[b];
     RigidDescription d;
@@ -96,7 +97,7 @@ RigidDescription describe_rigid(const State& state, Row<Bodies> b, std::span<con
     d.mass = bodies.mass[b];
     d.centre = bodies.centre[b];
     d.inertia = bodies.inertia[b];
-    d.margin = hull_margin(ShellView(const_cast<State&>(state), shell));
+    d.margin = hull_margin(ShellView(const_cast<BodyRows&>(state), shell));
     d.friction = bodies.friction[b];
     d.restitution = bodies.restitution[b];
     d.rolling_friction = rolling_length(bodies.rolling_friction[b], state.shells.area[shell]);
@@ -107,7 +108,7 @@ RigidDescription describe_rigid(const State& state, Row<Bodies> b, std::span<con
     return d;
 }
 
-void take_mass_properties(State& state, Row<Bodies> b) {
+void take_mass_properties(BodyRows& state, Row<Bodies> b) {
     const Row<Shells> shell = state.bodies.shell[b];
     Bodies& bodies = state.bodies;
     bodies.mass[b] = state.shells.mass[shell];
@@ -124,7 +125,7 @@ void take_mass_properties(State& state, Row<Bodies> b) {
     bodies.radius[b] = std::sqrt(most);
 }
 
-void take_rest_properties(State& state, Row<Bodies> b) {
+void take_rest_properties(BodyRows& state, Row<Bodies> b) {
     const Row<Shells> shell = state.bodies.shell[b];
     Bodies& bodies = state.bodies;
     const Vec3 moved = (state.shells.centre[shell] - bodies.centre[b]).to_float();

@@ -1,6 +1,6 @@
 // The elements and hinges round one vertex, found over neighbour links. The mesh's only such walk.
 #pragma once
-#include "components/state.hpp"
+#include "components/shell_rows.hpp"
 
 namespace cullet {
 

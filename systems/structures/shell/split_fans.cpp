@@ -39,7 +39,7 @@ void rename_in_hinges(ShellView shell, uint32_t element, uint32_t vertex, uint32
 
 // Whether an element or hinge of the vertex, as it is now, holds `other` too.
 bool is_row_neighbour(ShellView shell, const Ring& before, uint32_t vertex, uint32_t other) {
-    const State& state = shell.state;
+    const ShellRows& state = shell.state;
     for (uint32_t i = 0; i < before.count; ++i) {
         const uint32_t row = shell.element(before.element[i]);
         const auto& corner = state.elements.corner[row];
@@ -83,7 +83,7 @@ uint32_t count_fans(ShellView shell, const Ring& before) {
 }
 
 uint32_t split_fans(ShellView shell, uint32_t vertex, const Ring& before, Touched& touched) {
-    State& state = shell.state;
+    ShellRows& state = shell.state;
     const uint32_t start = first_fan(shell, before);
     if (before.count == 0) return 0;
     if (start == kNone) {

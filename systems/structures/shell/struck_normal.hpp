@@ -1,6 +1,6 @@
 // The way a ball's blow goes.
 #pragma once
-#include "components/state.hpp"
+#include "components/shell_rows.hpp"
 
 namespace cullet {
 

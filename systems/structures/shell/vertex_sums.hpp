@@ -3,7 +3,8 @@
 #pragma once
 #include <algorithm>
 
-#include "components/state.hpp"
+#include "components/bodies.hpp"
+#include "components/shell_rows.hpp"
 
 namespace cullet {
 

@@ -38,7 +38,7 @@ Vec3d spin_by(const Sym3d& inertia, Vec3d turning) {
 }  // namespace
 
 void forget_own_motions(ShellView shell) {
-    State& state = shell.state;
+    ShellRows& state = shell.state;
     for (uint32_t v = 0; v < shell.vertex_count(); ++v) state.vertices.velocity.set(shell.vertex(v), {});
     for (uint32_t b = 0; b < block_count(shell); ++b) state.vertex_blocks.moves[block_row(shell, b)] = 0;
 }
@@ -91,7 +91,7 @@ void take_own_motions(ShellView shell, std::span<const FragmentPart> parts, std:
         if (!m.is_static) m.momentum = m.mass * m.velocity;
 }
 
-double waiting_energy(const State& state, Row<Bodies> body) {
+double waiting_energy(const BodyRows& state, Row<Bodies> body) {
     const Bodies& bodies = state.bodies;
     const Row<Shells> shell = bodies.shell[body];
     if (bodies.is_owed_births[body] == 0 || !shell.exists()) return 0;
@@ -110,7 +110,7 @@ double waiting_energy(const State& state, Row<Bodies> body) {
                                 std::max(0.0, dot(spin_by(rest.inertia, turning), turning)));
 }
 
-double limit_waiting(State& state, Row<Bodies> body, double allowed) {
+double limit_waiting(BodyRows& state, Row<Bodies> body, double allowed) {
     const double energy = waiting_energy(state, body);
     if (!(energy > allowed)) return energy;
     const auto share = static_cast<float>(std::sqrt(std::max(0.0, allowed) / energy));

@@ -2,7 +2,7 @@
 #pragma once
 #include <span>
 
-#include "components/state.hpp"
+#include "components/body_rows.hpp"
 #include "systems/structures/shell/rigid_handoff.hpp"
 
 namespace cullet {
@@ -21,8 +21,8 @@ void subtract_motion(ShellView shell, const PartMotion& of_body);
 void take_own_motions(ShellView shell, std::span<const FragmentPart> parts, std::span<PartMotion> motions);
 
 /// J that the body's waiting pieces and its rest have beyond the body's own motion.
-double waiting_energy(const State& state, Row<Bodies> body);
+double waiting_energy(const BodyRows& state, Row<Bodies> body);
 /// Where that is more than `allowed`, all of them slow down to it. What they have then.
-double limit_waiting(State& state, Row<Bodies> body, double allowed);
+double limit_waiting(BodyRows& state, Row<Bodies> body, double allowed);
 
 }  // namespace cullet

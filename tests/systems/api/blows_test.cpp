@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "components/state.hpp"
 #include "systems/structures/shell/explosion.hpp"
 #include "tests/support/simple_meshes.hpp"
 #include "tests/support/small_worlds.hpp"

@@ -3,6 +3,7 @@
 
 #include <functional>
 
+#include "components/state.hpp"
 #include "systems/api/snapshot.hpp"
 #include "tests/support/small_worlds.hpp"
 

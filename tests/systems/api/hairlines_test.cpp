@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <set>
 
+#include "components/state.hpp"
 #include "sample_game/meshes.hpp"
 #include "systems/structures/shell/prism.hpp"
 #include "tests/support/small_worlds.hpp"

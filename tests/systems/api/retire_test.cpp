@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "components/body_id.hpp"
+#include "components/state.hpp"
 #include "cullet/recording.hpp"
 #include "tests/support/small_worlds.hpp"
 
@@ -142,8 +143,8 @@ TEST(Retire, WhatIsMergedIsDrawnAndMetByNothing) {
     ASSERT_EQ(b.world.retire({.how = Retirement::Merge, .count = 1}).value_or(0), 1u);
     EXPECT_EQ(b.world.view(merged)->index_count, indices);
     const State& state = state_of(b.world);
-    EXPECT_FALSE(state.pools.vertices.is_taken(vertices.first, vertices.capacity));
-    EXPECT_FALSE(state.pools.elements.is_taken(elements.first, elements.capacity));
+    EXPECT_FALSE(state.vertices.pool.is_taken(vertices.first, vertices.capacity));
+    EXPECT_FALSE(state.elements.pool.is_taken(elements.first, elements.capacity));
     EXPECT_EQ(state.validate(), "");
     const Vec3 before = b.world.pose(merged)->position;
     const Vec3 place = centre_of(state_of(b.world).bodies, Row<Bodies>(merged.index));

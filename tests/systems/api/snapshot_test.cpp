@@ -4,6 +4,7 @@
 #include <cstdio>
 #include <filesystem>
 
+#include "components/state.hpp"
 #include "engine/mesh_file.hpp"
 #include "systems/api/snapshot.hpp"
 #include "systems/models/thick_shell/shared/working_room.hpp"

@@ -1,4 +1,5 @@
 // The compiled table, tables of the game's own, and where a material's values go.
+#include "components/state.hpp"
 #include "systems/cook/materials.hpp"
 
 #include <gtest/gtest.h>
@@ -186,7 +187,7 @@ TEST(Materials, CookingTakesTheTablesRowAndTheModelFileKeepsIt) {
     EXPECT_NEAR(model->report().mass / porcelain->report().mass, 1300.0 / 2400, 1e-6);
     const Result<Model> read = parse_model_file(encode_model_file(*model->contents), "t");
     ASSERT_TRUE(read.ok()) << read.error();
-    const State& state = read->contents->state;
+    const Workbench& state = read->contents->state;
     const Row<Materials> row = state.shells.material[read->contents->shell];
     const MaterialSettings found = material_settings(state, row);
     for (const MaterialValue& value : material_values())

@@ -229,7 +229,7 @@ float mean_edge(ShellView shell) {
 
 }  // namespace
 
-Result<Row<Shells>> build_shell(State& state, const ShellSource& source, Row<Materials> material) {
+Result<Row<Shells>> build_shell(ShellRows& state, const ShellSource& source, Row<Materials> material) {
     for (auto check : {check_sizes, check_values, check_links, check_fans})
         if (const Result<void> sound = check(source); !sound) return Error{sound.error()};
     if (material >= state.materials.size() || !(state.materials.density[material] > 0))

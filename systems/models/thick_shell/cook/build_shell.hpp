@@ -2,7 +2,7 @@
 #pragma once
 #include <span>
 
-#include "components/state.hpp"
+#include "components/shell_rows.hpp"
 #include "cullet/result.hpp"
 
 namespace cullet {
@@ -25,6 +25,6 @@ struct ShellSource {
 /// Strengths are the median. Springs, stiffness, limits, strengths and time step are filled in afterwards
 /// (systems/damage). An error names the first bad
 /// entry. Cost: about 10 microseconds a vertex.
-Result<Row<Shells>> build_shell(State& state, const ShellSource& source, Row<Materials> material);
+Result<Row<Shells>> build_shell(ShellRows& state, const ShellSource& source, Row<Materials> material);
 
 }  // namespace cullet

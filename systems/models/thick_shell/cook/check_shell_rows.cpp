@@ -135,7 +135,7 @@ struct Checker {
     /// Of the shell, with those behind its vertices that packs reach over.
     uint32_t vertex_rows() const {
         const Range vertices = shell.vertices();
-        return is_intact() ? vertices.count : shell.state.pools.vertices.rounded(vertices.capacity);
+        return is_intact() ? vertices.count : shell.state.vertices.pool.rounded(vertices.capacity);
     }
 
     bool is_sound() const { return trouble.empty(); }
@@ -340,7 +340,7 @@ void check_slots(Checker& check, const char* what, const uint32_t* first, const 
 
 void check_stiffness(Checker& check) {
     const ShellView& shell = check.shell;
-    const State& state = shell.state;
+    const ShellRows& state = shell.state;
     const StiffnessPacks& p = state.stiffness_packs;
     const Range packs = state.shells.packs[shell.row], blocks = state.shells.blocks[shell.row],
                 links = state.shells.links[shell.row];
@@ -382,7 +382,7 @@ void check_stiffness(Checker& check) {
 
 void check_cells(Checker& check) {
     const ShellView& shell = check.shell;
-    const State& state = shell.state;
+    const ShellRows& state = shell.state;
     const Range cells = state.shells.cells[shell.row], points = state.shells.points[shell.row];
     if (check.wear == Wear::CutOut && cells.count == 0) return;
     const uint32_t whole = state.shells.shape_points[shell.row];
@@ -442,7 +442,7 @@ void check_masses(Checker& check) {
 
 Result<void> check_shell_rows(const ShellView& shell, Wear wear, const std::string& name, const char* advice) {
     Checker check{shell, name, advice, wear, {}};
-    State& state = shell.state;
+    ShellRows& state = shell.state;
     const Shells& s = state.shells;
     check_columns(check, s, {shell.row, 1, 1});
     check_columns(check, state.vertices, s.vertices[shell.row]);

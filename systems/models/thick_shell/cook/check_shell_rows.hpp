@@ -1,6 +1,6 @@
 // Whether the rows of a shell are such that systems can work on them: for files, which are not believed.
 #pragma once
-#include "components/state.hpp"
+#include "components/shell_rows.hpp"
 #include "cullet/result.hpp"
 
 namespace cullet {

@@ -1,17 +1,26 @@
 // The inner loop of a brittle thick shell, on tables alone: a frame's damage tasks and single hits (cooking, truth) run
 // the same.
 #pragma once
-#include "components/state.hpp"
+#include "components/blows.hpp"
+#include "components/run_rows.hpp"
 #include "engine/inner_loop.hpp"
 
 namespace cullet {
 
 struct LoopWorld {
-    State& state;
+    RunRows& state;
+    const Blows& blows;  // a run that begins again is kicked again
 
     template <class T>
-    T& table() {
-        return state.table<T>();
+    auto& table() {
+        if constexpr (std::is_same_v<T, Blows>)
+            return blows;
+        else
+            return table_in<T>(state);
+    }
+    template <class Set>
+    Set& set() {
+        return state;
     }
     /// Rows of a table that belong to a task's working shell.
     template <class T>

@@ -132,7 +132,7 @@ struct PatchLaw {
 /// Panes of 4 mm (40 kN) and vases of 5 mm (58 kN) break first.
 PatchLaw patch_law(const ShellView& shell, const Patch& patch, double total, const TaskContacts& contacts, uint32_t c,
                    double dt, double strength_scale, double softening) {
-    const State& state = shell.state;
+    const ShellRows& state = shell.state;
     const uint32_t material = shell.shells().material[shell.row];
     double mobility = kStrikerShare * contacts.striker_inverse_mass[c];
     for (uint32_t i = 0; i < patch.count; ++i)
@@ -152,7 +152,7 @@ PatchLaw patch_law(const ShellView& shell, const Patch& patch, double total, con
 }
 
 /// Row of `vertex` in a contact's patch, whose vertices ascend, or kNone.
-uint32_t find_in_patch(const State& state, uint32_t contact, uint32_t vertex) {
+uint32_t find_in_patch(const RunRows& state, uint32_t contact, uint32_t vertex) {
     const uint32_t first = state.task_contacts.first_patch[contact];
     const uint32_t* begin = state.patch_vertices.vertex.data() + first;
     const uint32_t* end = begin + state.task_contacts.patch_count[contact];
@@ -161,7 +161,7 @@ uint32_t find_in_patch(const State& state, uint32_t contact, uint32_t vertex) {
 }
 
 /// A vertex of several patches takes only the largest stiffness, ties go to the earlier contact.
-void keep_stiffest(State& state, uint32_t first, uint32_t count) {
+void keep_stiffest(RunRows& state, uint32_t first, uint32_t count) {
     PatchVertices& patches = state.patch_vertices;
     for (uint32_t c = first; c < first + count; ++c) {
         const uint32_t begin = state.task_contacts.first_patch[c];
@@ -176,7 +176,7 @@ void keep_stiffest(State& state, uint32_t first, uint32_t count) {
 
 }  // namespace
 
-void build_patches(State& state, Row<Tasks> task) {
+void build_patches(RunRows& state, Row<Tasks> task) {
     const ShellView shell(state, state.tasks.shell[task]);
     TaskContacts& contacts = state.task_contacts;
     PatchVertices& patches = state.patch_vertices;
@@ -228,7 +228,7 @@ PatchSpring patch_spring(const PatchVertices& patches, uint32_t p) {
     return {patches.stiffness[p], patches.crushed_stiffness[p], patches.yield_force[p]};
 }
 
-bool contact_forces(State& state, Row<Tasks> task) {
+bool contact_forces(RunRows& state, Row<Tasks> task) {
     const ShellView shell(state, state.tasks.shell[task]);
     PatchVertices& patches = state.patch_vertices;
     Vertices& vertices = state.vertices;
@@ -250,7 +250,7 @@ bool contact_forces(State& state, Row<Tasks> task) {
     return touches;
 }
 
-void apply_contact(State& state, Row<Tasks> task, uint32_t side) {
+void apply_contact(RunRows& state, Row<Tasks> task, uint32_t side) {
     const ShellView shell(state, state.tasks.shell[task]);
     TaskContacts& contacts = state.task_contacts;
     Vertices& vertices = state.vertices;
@@ -286,7 +286,7 @@ void apply_contact(State& state, Row<Tasks> task, uint32_t side) {
 }
 
 Vec3d pin_force(ShellView shell, uint32_t side) {
-    const State& state = shell.state;
+    const ShellRows& state = shell.state;
     const StiffnessPacks& packs = state.stiffness_packs;
     const Float4* w = state.vertices.probe.data(static_cast<int>(side & 1)) + shell.vertices().first;
     const uint8_t* is_pinned = state.vertices.is_pinned.data() + shell.vertices().first;

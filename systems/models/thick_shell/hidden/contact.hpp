@@ -3,7 +3,7 @@
 //
 //     contact_forces(side) -> integrate_packs over all packs -> apply_contact(side)
 #pragma once
-#include "components/state.hpp"
+#include "components/run_rows.hpp"
 #include "systems/models/thick_shell/hidden/crush.hpp"
 
 namespace cullet {
@@ -11,7 +11,7 @@ namespace cullet {
 /// PatchVertices of all contacts of the task from present masses: when it opens, and again after every split. Needs the
 /// contacts' vertex, normal, striker_radius and striker_inverse_mass, and the task's time_step. A vertex belongs to a
 /// patch within r_c = max(3 h, 1.3 l, 0.35 R) of its vertex, when it lies on the same side of the surface.
-void build_patches(State& state, Row<Tasks> task);
+void build_patches(RunRows& state, Row<Tasks> task);
 
 /// Whether a push at one contact of a task changes the striker's speed at another.
 bool share_a_striker(const TaskContacts& contacts, uint32_t contact, uint32_t other);
@@ -25,11 +25,11 @@ PatchSpring patch_spring(const PatchVertices& patches, uint32_t row);
 
 /// Forces along n from the depths travel - n.u_i before the step, and what they crush (crush.hpp). True when some
 /// spring pushes.
-bool contact_forces(State& state, Row<Tasks> task);
+bool contact_forces(RunRows& state, Row<Tasks> task);
 
 /// After the fused pass of the step that read `side` of the probe: adds dt f/m to v, dt^2 f/m to u, dt (dt + beta) f/m
 /// to the next probe; moves the strikers and books their impulse.
-void apply_contact(State& state, Row<Tasks> task, uint32_t side);
+void apply_contact(RunRows& state, Row<Tasks> task, uint32_t side);
 
 /// Force that the body's springs exert on its pinned vertices at side `side` of the probe, N. Times dt, step by step,
 /// this is the impulse that goes to the ground: with `impulse` of the contacts, what the body's momentum changes by is

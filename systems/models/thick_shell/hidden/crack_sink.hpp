@@ -1,6 +1,6 @@
 // What a call of grow_cracks tells.
 #pragma once
-#include "components/state.hpp"
+#include "components/shell_rows.hpp"
 
 namespace cullet {
 

@@ -20,7 +20,7 @@ double sum_chunks(uint32_t count, Part part) {
     return sum;
 }
 
-void add_contacts(const State& state, Row<Tasks> task, const ShellView& shell, TaskEnergy& energy) {
+void add_contacts(const RunRows& state, Row<Tasks> task, const ShellView& shell, TaskEnergy& energy) {
     const TaskContacts& contacts = state.task_contacts;
     const PatchVertices& patches = state.patch_vertices;
     const uint32_t first = state.tasks.first_contact[task];
@@ -103,7 +103,7 @@ double bending_energy(ShellView shell, uint32_t first, uint32_t count) {
     return 0.25 * (sum[0] + sum[1] + sum[2]);
 }
 
-TaskEnergy task_energy(State& state, Row<Tasks> task) {
+TaskEnergy task_energy(RunRows& state, Row<Tasks> task) {
     const ShellView shell(state, state.tasks.shell[task]);
     const uint32_t scratch = ~state.tasks.steps_done[task] & 1;
     TaskEnergy energy;

@@ -1,7 +1,7 @@
 // Energy of a hidden run, for the test of every 64 steps (thick shell note B7: above 1.05 of the start, redo with
 // dt/2).
 #pragma once
-#include "components/state.hpp"
+#include "components/run_rows.hpp"
 
 namespace cullet {
 
@@ -14,7 +14,7 @@ struct TaskEnergy {
 /// Energy at (u, v) as they are. Sums in double over fixed chunks, added in order. Uses the side of the probe that the
 /// next step will write (steps_done tells which), and Elements.slope, as scratch: call it between steps. Costs about
 /// one step.
-TaskEnergy task_energy(State& state, Row<Tasks> task);
+TaskEnergy task_energy(RunRows& state, Row<Tasks> task);
 
 /// B7's redo criterion: energy above 1.05 of the start and of the work put in, or not finite.
 bool is_blown_up(const TaskEnergy& energy, double start_energy);

@@ -5,9 +5,9 @@
 
 namespace cullet {
 
-void fill_stiffness(Each<StiffnessWanted> wanted, ShellTables shells, const Tasks& tasks) {
-    if (static_cast<TaskState>(tasks.state[wanted->task]) == TaskState::Dropped) return;
-    const ShellView shell(shells.state, tasks.shell[wanted->task]);
+void fill_stiffness(Each<StiffnessWanted> wanted, RunRows& rows) {
+    if (static_cast<TaskState>(rows.tasks.state[wanted->task]) == TaskState::Dropped) return;
+    const ShellView shell(rows, rows.tasks.shell[wanted->task]);
     const uint32_t end = wanted->first_pack + kRowsPerChunk<StiffnessPacks>;
     [[maybe_unused]] const bool is_whole =
         assemble_packs(shell, wanted->first_pack, std::min(end, shell.shells().packs[shell.row].count));

@@ -3,9 +3,9 @@
 
 namespace cullet {
 
-void fill_tasks(Each<TaskOpened> opened, ShellTables shells, Tasks& tasks) {
-    if (!tasks.shell[opened->task].exists()) return;  // no room
-    fill_task(shells.state, opened->task);
+void fill_tasks(Each<TaskOpened> opened, RunRows& rows) {
+    if (!rows.tasks.shell[opened->task].exists()) return;  // no room
+    fill_task(rows, opened->task);
 }
 
 }  // namespace cullet

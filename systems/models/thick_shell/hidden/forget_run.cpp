@@ -6,7 +6,7 @@ namespace cullet {
 namespace {
 
 void forget_springs(const SpringView& view) {
-    State& s = view.state;
+    ShellRows& s = view.state;
     const ShellSprings& own = view.own();
     const auto clear = [&](AnyTable& table, const Column<Range>& column) {
         const Range range = column[view.row];
@@ -29,7 +29,7 @@ void forget_springs(const SpringView& view) {
 
 }  // namespace
 
-void forget_run(State& state, Row<Tasks> task) {
+void forget_run(RunRows& state, Row<Tasks> task) {
     TaskContacts& contacts = state.task_contacts;
     const uint32_t first = state.tasks.first_contact[task], end = first + state.tasks.contact_count[task];
     for (uint32_t c = first; c < end; ++c) {

@@ -17,8 +17,9 @@ constexpr uint64_t kBranchSeed = 0x6272616e6368;
 constexpr float kNeverReady = 1e30f;  // s
 
 struct Batch {
-    ShellView shell;
+    const RunRows& runs;
     Row<Tasks> task;
+    ShellView shell;
     CrackLimits limits;
     HeadingFan fan;
     float time, check_interval;  // s, of the run and between two checks
@@ -155,7 +156,7 @@ bool try_fork(Batch& batch, uint32_t vertex, Vec3 normal, Vec3 direction) {
 }
 
 bool stops_at_border(Batch& batch, uint32_t vertex) {
-    if (!is_by_border(batch.shell.state, batch.task, vertex)) return false;
+    if (!is_by_border(batch.runs, batch.task, vertex)) return false;
     batch.sink.is_at_border = true;
     return true;
 }
@@ -224,13 +225,14 @@ void begin_cracks(ShellView shell, bool is_fragment) {
     find_start_strengths(shell);
 }
 
-uint32_t grow_cracks(State& state, Row<Tasks> task, CrackSink& sink) {
+uint32_t grow_cracks(RunRows& state, Row<Tasks> task, CrackSink& sink) {
     Tasks& tasks = state.tasks;
     const ShellView shell(state, tasks.shell[task]);
     const float time = static_cast<float>(tasks.steps_done[task]) * tasks.time_step[task];
     const float check_interval = static_cast<float>(kStepsAStressCheck) * tasks.time_step[task];
-    Batch batch{shell,
+    Batch batch{state,
                 task,
+                shell,
                 crack_limits(shell, tasks.strength_scale[task]),
                 {},
                 time,

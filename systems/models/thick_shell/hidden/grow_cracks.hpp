@@ -1,6 +1,6 @@
 // The serial half of a stress check: cracks start and run.
 #pragma once
-#include "components/state.hpp"
+#include "components/run_rows.hpp"
 #include "systems/models/thick_shell/hidden/crack_sink.hpp"
 
 namespace cullet {
@@ -14,6 +14,6 @@ void begin_cracks(ShellView shell, bool is_fragment);
 /// refused and counted, and the shell stays as it is.
 /// Adds to the task's crack and start counts, its last event time and the units it owes; the caller rebuilds contact
 /// patches. Returns the number of cut edges. Cost: one pass over the elements, about 10 microseconds a cut edge.
-uint32_t grow_cracks(State& state, Row<Tasks> task, CrackSink& sink);
+uint32_t grow_cracks(RunRows& state, Row<Tasks> task, CrackSink& sink);
 
 }  // namespace cullet

@@ -28,7 +28,7 @@ void grow(Table& table, uint32_t rows) {
 
 /// Calls f(vertex) for each held vertex of the cut-out, rising.
 template <class F>
-void for_each_held(const State& state, Row<Tasks> task, F&& f) {
+void for_each_held(const RunRows& state, Row<Tasks> task, F&& f) {
     const AwakePacks& packs = state.awake_packs;
     const uint32_t first = task * kMostAwakePacks, end = first + state.quick_runs.pack_count[task];
     for (uint32_t row = first; row < end; ++row)
@@ -38,7 +38,7 @@ void for_each_held(const State& state, Row<Tasks> task, F&& f) {
 
 /// Writes how many edges each vertex is from the cut-out's border into Vertices.copy, up to kUncutRings.
 void measure_from_border(const CutRows& rows, const ShellView& cut) {
-    const State& state = cut.state;
+    const ShellRows& state = cut.state;
     const Elements& elements = state.elements;
     uint32_t* const far = cut.state.vertices.copy.data() + cut.vertex(0);
     std::fill_n(far, cut.vertex_count(), kUncutRings);
@@ -58,7 +58,7 @@ void measure_from_border(const CutRows& rows, const ShellView& cut) {
 }
 
 /// Packs with vertices by the border; AwakePacks calls the held ones held, and what moves but is not cut awake.
-void list_border(State& state, Row<Tasks> task) {
+void list_border(RunRows& state, Row<Tasks> task) {
     const ShellView cut(state, state.tasks.shell[task]);
     AwakePacks& packs = state.awake_packs;
     const uint32_t first = task * kMostAwakePacks;
@@ -81,7 +81,7 @@ void list_border(State& state, Row<Tasks> task) {
 }
 
 /// All that the cut-out does not have, and what is held in it: the body less what moves, which is at most half of it.
-void weigh_rest(State& state, Row<Tasks> task, const ShellView& source, const ShellView& cut) {
+void weigh_rest(RunRows& state, Row<Tasks> task, const ShellView& source, const ShellView& cut) {
     const Vertices& vertices = state.vertices;
     const VertexSums body = vertex_sums(source);
     VertexSums rest = body;
@@ -104,7 +104,7 @@ void weigh_rest(State& state, Row<Tasks> task, const ShellView& source, const Sh
 
 /// For both kinds of vertices by the border.
 template <class F>
-void for_each_by_border(const State& state, Row<Tasks> task, F&& f) {
+void for_each_by_border(const RunRows& state, Row<Tasks> task, F&& f) {
     const AwakePacks& packs = state.awake_packs;
     const uint32_t first = task * kMostAwakePacks, end = first + state.quick_runs.pack_count[task];
     for (uint32_t row = first; row < end; ++row)
@@ -113,7 +113,7 @@ void for_each_by_border(const State& state, Row<Tasks> task, F&& f) {
 }
 
 /// Puts a held vertex where the rest has it.
-void follow(State& state, Row<Tasks> task, uint32_t row, const BodyMotion& now) {
+void follow(RunRows& state, Row<Tasks> task, uint32_t row, const BodyMotion& now) {
     const RegionRests& rests = state.region_rests;
     Vertices& vertices = state.vertices;
     const Vec3 v = now.at(vertices.rest[row]).to_float();
@@ -124,12 +124,12 @@ void follow(State& state, Row<Tasks> task, uint32_t row, const BodyMotion& now) 
 
 }  // namespace
 
-BodyMotion rest_motion(const State& state, Row<Tasks> task) {
+BodyMotion rest_motion(const RunRows& state, Row<Tasks> task) {
     const RegionRests& rests = state.region_rests;
     return {rests.centre[task], rests.velocity[task], rests.spin[task]};
 }
 
-bool reserve_hidden_region(State& state, Row<Tasks> task, uint32_t vertices, const char** full) {
+bool reserve_hidden_region(RunRows& state, Row<Tasks> task, uint32_t vertices, const char** full) {
     if (vertices > kMostAwakePacks * kLanes / 2) return false;
     grow(state.quick_runs, task + 1);
     grow(state.region_rests, task + 1);
@@ -147,7 +147,7 @@ bool reserve_hidden_region(State& state, Row<Tasks> task, uint32_t vertices, con
     return true;
 }
 
-bool give_hidden_rows(State& state, Row<Tasks> task, uint32_t vertices, Events<StiffnessWanted>& wanted,
+bool give_hidden_rows(RunRows& state, Row<Tasks> task, uint32_t vertices, Events<StiffnessWanted>& wanted,
                       const char** full) {
     Tasks& tasks = state.tasks;
     const ShellView source(state, tasks.source[task]);
@@ -168,7 +168,7 @@ bool give_hidden_rows(State& state, Row<Tasks> task, uint32_t vertices, Events<S
     return true;
 }
 
-void find_rest(State& state, Row<Tasks> task) {
+void find_rest(RunRows& state, Row<Tasks> task) {
     const ShellView source(state, state.tasks.source[task]), cut(state, state.tasks.shell[task]);
     CutRows rows(source);
     rows.element_count = state.quick_runs.cut_elements[task];
@@ -177,7 +177,7 @@ void find_rest(State& state, Row<Tasks> task) {
     weigh_rest(state, task, source, cut);
 }
 
-void start_rest(State& state, Row<Tasks> task) {
+void start_rest(RunRows& state, Row<Tasks> task) {
     RegionRests& rests = state.region_rests;
     const Vec3d velocity(state.tasks.start_velocity[task]), spin(state.tasks.start_spin[task]);
     const bool is_free = rests.inverse_mass[task] > 0;
@@ -197,7 +197,7 @@ void start_rest(State& state, Row<Tasks> task) {
     });
 }
 
-void move_rest(State& state, Row<Tasks> task, uint32_t side) {
+void move_rest(RunRows& state, Row<Tasks> task, uint32_t side) {
     RegionRests& rests = state.region_rests;
     Vertices& vertices = state.vertices;
     const ShellView cut(state, state.tasks.shell[task]);
@@ -228,7 +228,7 @@ void move_rest(State& state, Row<Tasks> task, uint32_t side) {
     });
 }
 
-void bear_more(State& state, Row<Tasks> task) {
+void bear_more(RunRows& state, Row<Tasks> task) {
     const ShellView cut(state, state.tasks.shell[task]);
     for_each_by_border(state, task, [&](uint32_t v) {
         state.vertices.strength_factor[cut.vertex(v)] *= kGrowsOnceCrackedAt / kGrowsAt;
@@ -236,7 +236,7 @@ void bear_more(State& state, Row<Tasks> task) {
     find_start_strengths(cut);
 }
 
-double rest_energy(const State& state, Row<Tasks> task) {
+double rest_energy(const RunRows& state, Row<Tasks> task) {
     const RegionRests& rests = state.region_rests;
     if (!(rests.inverse_mass[task] > 0)) return 0;
     const Vec3d v = rests.velocity[task], w = rests.spin[task];
@@ -249,7 +249,7 @@ double rest_energy(const State& state, Row<Tasks> task) {
     return 0.5 * energy;
 }
 
-bool is_by_border(const State& state, Row<Tasks> task, uint32_t vertex) {
+bool is_by_border(const RunRows& state, Row<Tasks> task, uint32_t vertex) {
     if (!is_hidden_region(state, task)) return false;
     const AwakePacks& packs = state.awake_packs;
     const uint32_t* const begin = packs.pack.data() + size_t{task} * kMostAwakePacks;
@@ -260,7 +260,7 @@ bool is_by_border(const State& state, Row<Tasks> task, uint32_t vertex) {
     return (packs.held[row] | packs.awake[row]) >> (vertex % kLanes) & 1;
 }
 
-std::string trouble_of_hidden_region(State& state, uint32_t task) {
+std::string trouble_of_hidden_region(RunRows& state, uint32_t task) {
     const std::string where = "region_rests[" + std::to_string(task) + "]";
     const RegionRests& rests = state.region_rests;
     if (task >= rests.size() || rests.most_vertices[task] == 0) return where + ": a cut-out has none";

@@ -16,36 +16,36 @@
 namespace cullet {
 
 /// Whether the task is a hidden run on a cut-out.
-inline bool is_hidden_region(const State& state, uint32_t task) {
+inline bool is_hidden_region(const RunRows& state, uint32_t task) {
     return is_cut_out(state, task) && !is_quick_task(state, task);
 }
 
 /// Rows for a hidden task on a body that may be cut out: of at least `vertices` round its contacts, or of the whole
 /// body where that is too wide (kNone: at once). The packs whose stiffness is to be assembled are told. False: no room,
 /// and `full` names the limit. Serial; fill_task follows in the same step.
-bool give_hidden_rows(State& state, Row<Tasks> task, uint32_t vertices, Events<StiffnessWanted>& wanted,
+bool give_hidden_rows(RunRows& state, Row<Tasks> task, uint32_t vertices, Events<StiffnessWanted>& wanted,
                       const char** full);
 /// A cut-out alone; false: it is too wide, or there is no room.
-bool reserve_hidden_region(State& state, Row<Tasks> task, uint32_t vertices, const char** full);
+bool reserve_hidden_region(RunRows& state, Row<Tasks> task, uint32_t vertices, const char** full);
 
 /// After fill_cut_out: which vertices the rest holds, which are too near to it for cracks, and what the rest is.
-void find_rest(State& state, Row<Tasks> task);
+void find_rest(RunRows& state, Row<Tasks> task);
 /// The rest has the body's motion at the touch, and its vertices in the cut-out the rest's.
-void start_rest(State& state, Row<Tasks> task);
+void start_rest(RunRows& state, Row<Tasks> task);
 /// After a step, which moved held vertices as if they were free: what the stiffness gave them goes to the rest, and
 /// they go where it goes. `side`: of the probe that the step read.
-void move_rest(State& state, Row<Tasks> task, uint32_t side);
+void move_rest(RunRows& state, Row<Tasks> task, uint32_t side);
 /// After the run's first crack: its border takes more stress before the region grows.
-void bear_more(State& state, Row<Tasks> task);
+void bear_more(RunRows& state, Row<Tasks> task);
 /// Kinetic energy of the rest less that of its vertices in the cut-out, which are counted as the cut-out's, J.
-double rest_energy(const State& state, Row<Tasks> task);
+double rest_energy(const RunRows& state, Row<Tasks> task);
 /// The rest's motion now: of what the cut-out does not have.
-BodyMotion rest_motion(const State& state, Row<Tasks> task);
+BodyMotion rest_motion(const RunRows& state, Row<Tasks> task);
 
 /// Whether a vertex of the task's shell is held or too near to what is held for a crack. False of whole bodies.
-bool is_by_border(const State& state, Row<Tasks> task, uint32_t vertex);
+bool is_by_border(const RunRows& state, Row<Tasks> task, uint32_t vertex);
 
 /// Empty, or what is wrong with the rows of a hidden region that came from a file.
-std::string trouble_of_hidden_region(State& state, uint32_t task);
+std::string trouble_of_hidden_region(RunRows& state, uint32_t task);
 
 }  // namespace cullet

@@ -4,22 +4,23 @@
 
 namespace cullet {
 
-void integrate_hidden(Rows<StiffnessPacks> packs, OfTask task, Turn, const Tasks& tasks, const Shells& shells,
-                      const StiffnessPacks& slots, const StiffnessBlocks& blocks, const StiffnessLinks& links,
+void integrate_hidden(Rows<StiffnessPacks> packs, OfTask task, RunStiffness of,
                       In<&Vertices::inverse_mass> inverse_mass, In<&Vertices::probe> probe,
                       InOut<&Vertices::velocity> velocity, InOut<&Vertices::displacement> displacement,
                       Out<&Vertices::probe> next_probe) {
+    const Tasks& tasks = of.tasks;
+    const Shells& shells = of.shells;
     const Row<Shells> shell = tasks.shell[task.row];
     const uint32_t first_pack = shells.packs[shell].first, first = shells.vertices[shell].first;
     HiddenStep step;
     step.dt = tasks.time_step[task.row];
     step.beta = tasks.damping_time[task.row];
-    step.first_block = slots.first_block.data() + first_pack;
-    step.block_count = slots.block_count.data() + first_pack;
-    step.first_link = slots.first_link.data() + first_pack;
-    step.link_count = slots.link_count.data() + first_pack;
-    step.blocks = blocks.block.data() + shells.blocks[shell].first;
-    step.links = links.link.data() + shells.links[shell].first;
+    step.first_block = of.packs.first_block.data() + first_pack;
+    step.block_count = of.packs.block_count.data() + first_pack;
+    step.first_link = of.packs.first_link.data() + first_pack;
+    step.link_count = of.packs.link_count.data() + first_pack;
+    step.blocks = of.blocks.block.data() + shells.blocks[shell].first;
+    step.links = of.links.link.data() + shells.links[shell].first;
     step.inverse_mass = inverse_mass.data() + first;
     for (int k = 0; k < 3; ++k) {
         step.u[k] = displacement.lane(k) + first;

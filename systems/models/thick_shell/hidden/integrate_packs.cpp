@@ -66,7 +66,7 @@ void integrate_packs(const HiddenStep& step, uint32_t first_pack, uint32_t pack_
 
 HiddenStep::HiddenStep(ShellView shell, float time_step, float damping_time, uint32_t side)
     : dt(time_step), beta(damping_time) {
-    State& state = shell.state;
+    ShellRows& state = shell.state;
     const uint32_t packs = shell.shells().packs[shell.row].first, first = shell.vertices().first;
     first_block = state.stiffness_packs.first_block.data() + packs;
     block_count = state.stiffness_packs.block_count.data() + packs;

@@ -6,7 +6,7 @@
 // The difference form makes rigid travel free of force to the last bit. Any pack may run before any other, on any
 // thread: a pack reads side `side` of the probe and writes its own rows of v, u and the other side.
 #pragma once
-#include "components/state.hpp"
+#include "components/shell_rows.hpp"
 
 namespace cullet {
 

@@ -1,6 +1,6 @@
 // Cracks that come near each other meet.
 #pragma once
-#include "components/state.hpp"
+#include "components/shell_rows.hpp"
 
 namespace cullet {
 

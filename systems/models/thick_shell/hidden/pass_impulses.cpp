@@ -9,7 +9,7 @@ namespace cullet {
 namespace {
 
 /// What cuts have left of the frame's units is enough for the last step and for what is born then.
-bool may_end(const State& state, Row<Tasks> task) {
+bool may_end(const RunRows& state, Row<Tasks> task) {
     const uint64_t a_step = units_a_step(state.shells, state.tasks, task);
     return state.tasks.steps_granted[task] * a_step >= a_step + units_of_birth(state.shells, state.tasks, task);
 }
@@ -17,18 +17,18 @@ bool may_end(const State& state, Row<Tasks> task) {
 }  // namespace
 
 // A run ends after T, or after a quiet time since the last crack or touch; contact chatters, so T usually ends it.
-void pass_impulses(EachBody task, Turn turn, ShellTables shells, Tasks& tasks, TaskContacts&, const PatchVertices&) {
+void pass_impulses(EachBody task, Turn turn, RunRows& rows) {
     const Row<Tasks> t(task.row);
-    if (is_hidden_region(shells.state, t)) move_rest(shells.state, t, turn.old_side);
-    apply_contact(shells.state, t, turn.old_side);
-    tasks.steps_granted[t] -= tasks.steps_granted[t] > 0;
-    const float end = std::min(tasks.end_time[t], tasks.last_event_time[t] + tasks.quiet_time[t]);
-    const auto time_at = [&](uint32_t steps) { return static_cast<float>(steps) * tasks.time_step[t]; };
-    const uint32_t done = ++tasks.steps_done[t];
+    if (is_hidden_region(rows, t)) move_rest(rows, t, turn.old_side);
+    apply_contact(rows, t, turn.old_side);
+    rows.tasks.steps_granted[t] -= rows.tasks.steps_granted[t] > 0;
+    const float end = std::min(rows.tasks.end_time[t], rows.tasks.last_event_time[t] + rows.tasks.quiet_time[t]);
+    const auto time_at = [&](uint32_t steps) { return static_cast<float>(steps) * rows.tasks.time_step[t]; };
+    const uint32_t done = ++rows.tasks.steps_done[t];
     if (time_at(done) > end)
-        tasks.state[t] = static_cast<uint8_t>(TaskState::Whole);  // find_parts tells whether it broke
-    else if (time_at(done + 1) > end && !may_end(shells.state, t))
-        tasks.steps_granted[t] = 0;
+        rows.tasks.state[t] = static_cast<uint8_t>(TaskState::Whole);  // find_parts tells whether it broke
+    else if (time_at(done + 1) > end && !may_end(rows, t))
+        rows.tasks.steps_granted[t] = 0;
 }
 
 }  // namespace cullet

@@ -3,10 +3,10 @@
 
 namespace cullet {
 
-void push_patches(EachBody task, ShellTables shells, Tasks& tasks, const TaskContacts&, PatchVertices&) {
+void push_patches(EachBody task, RunRows& rows) {
     const Row<Tasks> t(task.row);
-    const bool touches = contact_forces(shells.state, t);
-    if (touches) tasks.last_event_time[t] = static_cast<float>(tasks.steps_done[t]) * tasks.time_step[t];
+    const bool touches = contact_forces(rows, t);
+    if (touches) rows.tasks.last_event_time[t] = static_cast<float>(rows.tasks.steps_done[t]) * rows.tasks.time_step[t];
 }
 
 }  // namespace cullet

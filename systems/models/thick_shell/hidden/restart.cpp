@@ -15,7 +15,7 @@
 namespace cullet {
 namespace {
 
-void find_contact_vertices(State& state, Row<Tasks> task) {
+void find_contact_vertices(RunRows& state, Row<Tasks> task) {
     const ShellView shell(state, state.tasks.shell[task]);
     TaskContacts& contacts = state.task_contacts;
     const uint32_t first = state.tasks.first_contact[task];
@@ -28,7 +28,7 @@ void find_contact_vertices(State& state, Row<Tasks> task) {
 }  // namespace
 
 // Springs, hinges and their scales are those of the run that broke it off, which kept them up to date.
-void fill_task(State& state, Row<Tasks> task) {
+void fill_task(RunRows& state, Row<Tasks> task) {
     Tasks& tasks = state.tasks;
     const Row<Shells> source = tasks.source[task], working = tasks.shell[task];
     if (is_hidden_region(state, task)) {
@@ -53,7 +53,7 @@ void fill_task(State& state, Row<Tasks> task) {
     if (!is_assembled && !lay_packs(shell)) tasks.state[task] = static_cast<uint8_t>(TaskState::Dropped);
 }
 
-void start_run(State& state, Row<Tasks> task) {
+void start_run(RunRows& state, const Blows& blows, Row<Tasks> task) {
     find_contact_vertices(state, task);
     if (is_quick_task(state, task)) return;  // wake_regions does the rest
     build_patches(state, task);
@@ -61,10 +61,10 @@ void start_run(State& state, Row<Tasks> task) {
     state.tasks.crack_count[task] = state.tasks.start_count[task] = 0;
     state.tasks.lacks_room[task] = 0;
     start_hidden(state, task);
-    start_explosions(state, task);
+    start_explosions(state, blows, task);
 }
 
-void restore_scratch(State& state, Row<Tasks> task) {
+void restore_scratch(RunRows& state, Row<Tasks> task) {
     if (is_cut_out(state, task)) remember_cut_out(state, task);
     if (is_quick_task(state, task)) return;
     const ShellView shell(state, state.tasks.shell[task]);
@@ -72,14 +72,14 @@ void restore_scratch(State& state, Row<Tasks> task) {
     find_start_strengths(shell);
 }
 
-void start_task(State& state, Row<Tasks> task) {
+void start_task(RunRows& state, const Blows& blows, Row<Tasks> task) {
     if (is_cut_out(state, task) && state.tasks.redo_count[task] > 0) list_cut_out(state, task);
     fill_task(state, task);
     const ShellView shell(state, state.tasks.shell[task]);
     const bool is_assembled = state.shells.packs[state.tasks.source[task]].count > 0 && !is_cut_out(state, task);
     if (!is_assembled && static_cast<TaskState>(state.tasks.state[task]) != TaskState::Dropped)
         assemble_packs(shell, 0, shell.shells().packs[shell.row].count);
-    start_run(state, task);
+    start_run(state, blows, task);
 }
 
 }  // namespace cullet

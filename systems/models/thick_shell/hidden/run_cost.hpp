@@ -1,6 +1,7 @@
 // What hidden runs and cuts cost, in units.
 #pragma once
-#include "components/state.hpp"
+#include "components/blows.hpp"
+#include "components/run_rows.hpp"
 #include "systems/costs.hpp"
 
 namespace cullet {

@@ -48,7 +48,7 @@ bool may_end_at(const ShellView& shell, uint32_t vertex) {
 /// Where the crack of this tip would end, or kNone: the nearest such vertex, one a little aside counts as farther. Its
 /// own crack counts too: another branch of it, or itself where it has come round; what lies behind the tip is not
 /// ahead.
-uint32_t end_of(const ShellView& shell, Row<Tasks> task, uint32_t tip, float reach, float turn) {
+uint32_t end_of(const ShellView& shell, const RunRows& runs, Row<Tasks> task, uint32_t tip, float reach, float turn) {
     const Vertices& vertices = shell.state.vertices;
     const uint32_t row = shell.vertex(tip);
     const Vec3 place = vertices.rest[row], heading = vertices.heading[row];
@@ -61,22 +61,22 @@ uint32_t end_of(const ShellView& shell, Row<Tasks> task, uint32_t tip, float rea
         const float ahead = dot(way, heading), distance = length(way);
         if (!(ahead > turn * distance) || !(distance > 0) || distance * distance / ahead >= nearest) continue;
         if (!(dot(vertices.inward[row], vertices.inward[other]) > kJoinCosine)) continue;
-        if (!may_end_at(shell, v) || is_by_border(shell.state, task, v)) continue;
+        if (!may_end_at(shell, v) || is_by_border(runs, task, v)) continue;
         nearest = distance * distance / ahead;
         found = v;
     }
     return found;
 }
 
-uint32_t run_to(const ShellView& shell, Row<Tasks> task, uint32_t tip, uint32_t target, Touched& touched,
-                bool& is_whole) {
+uint32_t run_to(const ShellView& shell, const RunRows& runs, Row<Tasks> task, uint32_t tip, uint32_t target,
+                Touched& touched, bool& is_whole) {
     Vertices& vertices = shell.state.vertices;
     const uint32_t root = vertices.crack_start[shell.vertex(tip)];
     const Vec3 goal = vertices.rest[shell.vertex(target)];
     const float l = shell.shells().mean_edge[shell.row];
     const float way = length(goal - vertices.rest[shell.vertex(tip)]);
     uint32_t cuts = 0;
-    for (float step = 0; step < kSteps * (1 + way / l) && !is_by_border(shell.state, task, tip); ++step) {
+    for (float step = 0; step < kSteps * (1 + way / l) && !is_by_border(runs, task, tip); ++step) {
         const uint32_t row = shell.vertex(tip);
         Ring ring;
         walk_ring(shell, tip, ring);
@@ -101,7 +101,7 @@ uint32_t run_to(const ShellView& shell, Row<Tasks> task, uint32_t tip, uint32_t 
 
 }  // namespace
 
-bool run_out_cracks(State& state, Row<Tasks> task) {
+bool run_out_cracks(RunRows& state, Row<Tasks> task) {
     const ShellView shell(state, state.tasks.shell[task]);
     const Vertices& vertices = state.vertices;
     const float run_out = material_traits(state, shell.shells().material[shell.row]).run_out;
@@ -119,8 +119,8 @@ bool run_out_cracks(State& state, Row<Tasks> task) {
         const float reach = run_out * std::max(crack, kStartSpacing * shell.shells().mean_edge[shell.row]);
         uint32_t target = kNone;
         for (const float turn : kTurns)
-            if (target == kNone) target = end_of(shell, task, v, reach, turn);
-        if (target != kNone) cuts += run_to(shell, task, v, target, touched, is_whole);
+            if (target == kNone) target = end_of(shell, state, task, v, reach, turn);
+        if (target != kNone) cuts += run_to(shell, state, task, v, target, touched, is_whole);
     }
     is_whole = refresh_stiffness(shell, touched) && is_whole;
     // Nothing steps this shell again before its next task, which assembles what is not assembled.

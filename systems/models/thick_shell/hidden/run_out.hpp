@@ -1,6 +1,6 @@
 // Cracks that stopped short go on when the body has come apart.
 #pragma once
-#include "components/state.hpp"
+#include "components/run_rows.hpp"
 
 namespace cullet {
 
@@ -11,6 +11,6 @@ namespace cullet {
 /// velocities are kept as by every cut. Tips in order of their rows; O(tips x vertices), all in the frame in which the
 /// run ends: no units are asked for. Returns whether the mesh is another now: a vertex may come on an edge that is not
 /// cut after all, and its elements belong to no part that was found before.
-bool run_out_cracks(State& state, Row<Tasks> task);
+bool run_out_cracks(RunRows& state, Row<Tasks> task);
 
 }  // namespace cullet

@@ -19,9 +19,8 @@ void aim_probes(ShellView shell, float damping_time) {
 
 }  // namespace
 
-void start_explosions(State& state, Row<Tasks> task) {
+void start_explosions(RunRows& state, const Blows& blows, Row<Tasks> task) {
     const ShellView shell(state, state.tasks.shell[task]);
-    const Blows& blows = state.blows;
     bool is_kicked = false;
     for (uint32_t b = 0; b < blows.size(); ++b) {
         if (blows.task[b] != task.index || !is_kind(blows, b, BlowKind::Explosion)) continue;

@@ -33,7 +33,7 @@ Vec3d centre_of_vertices(const ShellView& shell) {
 
 // Bodies turn about the centre of the masses that the run knows. About the prisms' centre a spinning shard would begin
 // with up to a fifth more or less momentum than the rigid body has.
-void start_hidden(State& state, Row<Tasks> task) {
+void start_hidden(RunRows& state, Row<Tasks> task) {
     Tasks& tasks = state.tasks;
     const ShellView shell(state, tasks.shell[task]);
     Vertices& vertices = state.vertices;

@@ -1,5 +1,5 @@
 #pragma once
-#include "components/state.hpp"
+#include "components/run_rows.hpp"
 
 namespace cullet {
 
@@ -7,6 +7,6 @@ namespace cullet {
 /// masses, so that the run has the body's momentum, probe = beta v on both sides; pinned vertices stand still. Strikers
 /// at travel 0 and their start speed. Writes the task's start_energy and steps_done = 0. Needs start_velocity,
 /// start_spin, damping_time and the contacts.
-void start_hidden(State& state, Row<Tasks> task);
+void start_hidden(RunRows& state, Row<Tasks> task);
 
 }  // namespace cullet

@@ -8,14 +8,14 @@ namespace cullet {
 namespace {
 
 // Nothing is left to run: what came apart is found as after any task.
-void make_cuts(State& state, Row<Tasks> task, Range pins) {
+void make_cuts(BodyRows& state, Blows& blows, Row<Tasks> task) {
     Tasks& tasks = state.tasks;
-    Blows& blows = state.blows;
+    const Range pins = state.bodies.pins[tasks.body[task]];
     const ShellView shell(state, tasks.shell[task]);
     for (uint32_t b = 0; b < blows.size(); ++b) {
         if (blows.task[b] != task.index) continue;
         tasks.units_owed[task] += units_of_cut(state.shells, tasks.source[task], blows, b);
-        const CutReport report = cut_shell(shell, CutSurface(blows, b), pins, kStiffnessRepair);
+        const CutReport report = cut_shell(shell, CutSurface(blows, b), state.pin_boxes, pins, kStiffnessRepair);
         // Pins alone that changed are looked at as an opened edge is.
         tasks.crack_count[task] += report.cut_edges > 0 ? report.cut_edges : report.pins_changed > 0;
         blows.goes_on[b] = report.is_full;
@@ -25,11 +25,11 @@ void make_cuts(State& state, Row<Tasks> task, Range pins) {
 
 }  // namespace
 
-void start_tasks(Each<TaskOpened> opened, ShellTables shells, Tasks& tasks, TaskContacts&, PatchVertices&, Blows& blows,
-                 const Bodies& bodies, const PinBoxes&) {
-    if (!tasks.shell[opened->task].exists()) return;  // no room
-    start_run(shells.state, opened->task);
-    if (is_cut_task(blows, opened->task)) make_cuts(shells.state, opened->task, bodies.pins[tasks.body[opened->task]]);
+void start_tasks(Each<TaskOpened> opened, BodyRows& rows, Blows& blows) {
+    const Row<Tasks> task = opened->task;
+    if (!rows.tasks.shell[task].exists()) return;  // no room
+    start_run(rows, blows, task);
+    if (is_cut_task(blows, task)) make_cuts(rows, blows, task);
 }
 
 }  // namespace cullet

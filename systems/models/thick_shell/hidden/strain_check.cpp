@@ -3,8 +3,8 @@
 
 namespace cullet {
 
-void strain_check(Rows<Elements> elements, OfTask task, Turn turn, ShellTables shells, const Tasks& tasks) {
-    const ShellView shell(shells.state, tasks.shell[task.row]);
+void strain_check(Rows<Elements> elements, OfTask task, Turn turn, InChunks<RunRows> rows) {
+    const ShellView shell(rows.set, rows->tasks.shell[task.row]);
     strain_elements(shell, turn.new_side, elements.first - shell.elements().first, elements.count);
 }
 

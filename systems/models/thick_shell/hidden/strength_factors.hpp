@@ -1,6 +1,6 @@
 // How strong each place of a shell is.
 #pragma once
-#include "components/state.hpp"
+#include "components/shell_rows.hpp"
 
 namespace cullet {
 

@@ -5,9 +5,9 @@
 
 namespace cullet {
 
-void stress_check(Rows<Elements> elements, OfTask task, ShellTables shells, const Tasks& tasks) {
-    const ShellView shell(shells.state, tasks.shell[task.row]);
-    const float start_limit = crack_limits(shell, tasks.strength_scale[task.row]).start;
+void stress_check(Rows<Elements> elements, OfTask task, InChunks<RunRows> rows) {
+    const ShellView shell(rows.set, rows->tasks.shell[task.row]);
+    const float start_limit = crack_limits(shell, rows->tasks.strength_scale[task.row]).start;
     stress_elements(shell, elements.first - shell.elements().first, elements.count, start_limit);
 }
 

@@ -1,5 +1,5 @@
 #pragma once
-#include "components/state.hpp"
+#include "components/shell_rows.hpp"
 
 namespace cullet {
 

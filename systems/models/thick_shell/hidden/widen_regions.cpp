@@ -4,22 +4,21 @@
 
 namespace cullet {
 
-void widen_regions(Serial, ShellTables shells, Tasks& tasks, const Bodies& bodies, Events<TaskOpened>& opened,
-                   Events<StiffnessWanted>& stiffness_wanted, Events<RefusedEvent>& refused) {
-    State& state = shells.state;
-    for (uint32_t t = 0; t < state.region_rests.size(); ++t) {
+void widen_regions(Serial, BodyRows& rows, Events<TaskOpened>& opened, Events<StiffnessWanted>& stiffness_wanted,
+                   Events<RefusedEvent>& refused) {
+    for (uint32_t t = 0; t < rows.region_rests.size(); ++t) {
         const Row<Tasks> task(t);
-        if (static_cast<TaskState>(tasks.state[t]) != TaskState::Running || !is_hidden_region(state, t)) continue;
-        if (!state.region_rests.wants_more[t]) continue;
-        release_shell(state, tasks.shell[t]);
-        tasks.shell[t] = {};
-        state.quick_runs.cut_elements[t] = 0;
+        if (static_cast<TaskState>(rows.tasks.state[t]) != TaskState::Running || !is_hidden_region(rows, t)) continue;
+        if (!rows.region_rests.wants_more[t]) continue;
+        release_shell(rows, rows.tasks.shell[t]);
+        rows.tasks.shell[t] = {};
+        rows.quick_runs.cut_elements[t] = 0;
         const char* full = nullptr;
-        if (give_hidden_rows(state, task, 2 * state.region_rests.most_vertices[t], stiffness_wanted, &full)) {
+        if (give_hidden_rows(rows, task, 2 * rows.region_rests.most_vertices[t], stiffness_wanted, &full)) {
             opened.push({task});
         } else {
-            tasks.state[t] = static_cast<uint8_t>(TaskState::Dropped);
-            refused.push(refused_event(bodies, tasks.body[t], full));
+            rows.tasks.state[t] = static_cast<uint8_t>(TaskState::Dropped);
+            refused.push(refused_event(rows.bodies, rows.tasks.body[t], full));
         }
     }
 }

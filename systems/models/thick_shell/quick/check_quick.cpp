@@ -35,12 +35,12 @@ std::string trouble_of_body(const QuickBodies& quick, uint32_t b) {
     return fits ? std::string() : place(quick, "strain_limit", b) + " or a number beside it is out of range";
 }
 
-std::string trouble_of_run(const State& s, uint32_t t) {
+std::string trouble_of_run(const BodyRows& s, uint32_t t) {
     const QuickRuns& runs = s.quick_runs;
     if (runs.is_quick[t] > 1) return place(runs, "is_quick", t) + " is not 0 or 1";
     const bool is_open = t < s.tasks.size() && static_cast<TaskState>(s.tasks.state[t]) != TaskState::Free;
     if (!runs.is_quick[t] && is_open && is_cut_out(s, t))
-        return trouble_of_hidden_region(const_cast<State&>(s), t);  // scratch alone is written
+        return trouble_of_hidden_region(const_cast<BodyRows&>(s), t);  // scratch alone is written
     if (!runs.is_quick[t] || !is_open) return {};
     const Row<Bodies> body = s.tasks.body[t];
     if (!is_quick_body(s, body)) return place(runs, "is_quick", t) + " is 1, but its body is not";
@@ -68,13 +68,13 @@ std::string trouble_of_run(const State& s, uint32_t t) {
             return place(s.awake_packs, "pack", row) + " is " + std::to_string(pack) +
                    ", not rising or not of its shell";
     }
-    if (is_cut_out(s, t)) return trouble_of_cut_out(const_cast<State&>(s), t);  // scratch alone is written
+    if (is_cut_out(s, t)) return trouble_of_cut_out(const_cast<BodyRows&>(s), t);  // scratch alone is written
     return {};
 }
 
 }  // namespace
 
-Result<void> check_quick_rows(const State& s, const std::string& name, const std::string& advice) {
+Result<void> check_quick_rows(const BodyRows& s, const std::string& name, const std::string& advice) {
     std::string trouble;
     for (uint32_t b = 0; b < s.quick_bodies.size() && trouble.empty(); ++b)
         trouble = trouble_of_body(s.quick_bodies, b);

@@ -1,7 +1,7 @@
 #pragma once
 #include <string>
 
-#include "components/state.hpp"
+#include "components/body_rows.hpp"
 #include "cullet/result.hpp"
 
 namespace cullet {
@@ -9,6 +9,6 @@ namespace cullet {
 /// What the quick mode's rows must be before a step may follow them: numbers that a spawn would have taken, runs of
 /// open tasks with springs of the task's shell, regions that rise and lie in it. The error is one sentence that begins
 /// with `name` and ends with `advice`.
-Result<void> check_quick_rows(const State& state, const std::string& name, const std::string& advice);
+Result<void> check_quick_rows(const BodyRows& state, const std::string& name, const std::string& advice);
 
 }  // namespace cullet

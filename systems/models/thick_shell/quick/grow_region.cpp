@@ -55,7 +55,7 @@ bool split_edge(Splitting& s, const StrainedEdge& edge) {
 }
 
 /// Asked at each step: what material_traits gathers beside it is a microsecond and a half.
-FractureKind kind_of(const State& state, Row<Tasks> task) {
+FractureKind kind_of(const RunRows& state, Row<Tasks> task) {
     const Row<Materials> material = state.shells.material[state.tasks.shell[task]];
     if (material < state.material_traits.size())
         return static_cast<FractureKind>(state.material_traits.fracture[material]);
@@ -63,7 +63,7 @@ FractureKind kind_of(const State& state, Row<Tasks> task) {
 }
 
 /// How far cracks run on.
-float run_length(const State& state, Row<Tasks> task, FractureKind kind) {
+float run_length(const RunRows& state, Row<Tasks> task, FractureKind kind) {
     switch (kind) {
         case FractureKind::Fine:
             break;
@@ -77,7 +77,7 @@ float run_length(const State& state, Row<Tasks> task, FractureKind kind) {
 
 }  // namespace
 
-uint32_t crack_frequency_of(const State& state, Row<Tasks> task) {
+uint32_t crack_frequency_of(const RunRows& state, Row<Tasks> task) {
     const uint32_t given = state.quick_runs.crack_frequency[task];
     if (given > 0) return given;
     switch (kind_of(state, task)) {
@@ -94,7 +94,7 @@ uint32_t crack_frequency_of(const State& state, Row<Tasks> task) {
 namespace {
 
 /// By steps that are granted and will not be run in this frame; what is left is owed, and taken from the next grant.
-void pay_cuts(State& state, Row<Tasks> task, uint32_t cut_edges) {
+void pay_cuts(RunRows& state, Row<Tasks> task, uint32_t cut_edges) {
     const uint64_t cost = kUnitsQuickCut * cut_edges, a_step = quick_units_a_step(state, task);
     uint32_t& granted = state.tasks.steps_granted[task];
     const uint64_t steps = std::min<uint64_t>(granted, (cost + a_step - 1) / a_step);
@@ -104,7 +104,7 @@ void pay_cuts(State& state, Row<Tasks> task, uint32_t cut_edges) {
 
 }  // namespace
 
-uint32_t grow_region(State& state, Row<Tasks> task) {
+uint32_t grow_region(RunRows& state, Row<Tasks> task) {
     QuickRuns& runs = state.quick_runs;
     Tasks& tasks = state.tasks;
     if (tasks.lacks_room[task]) return 0;  // for more springs: nothing splits any more

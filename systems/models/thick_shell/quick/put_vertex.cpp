@@ -37,7 +37,7 @@ struct Patch {
     /// f(mass, place, velocity getter and setter) for each point.
     template <class F>
     void for_each(F&& f) const {
-        State& state = region.state;
+        RunRows& state = region.state;
         const SpringView& view = region.springs;
         for (uint32_t i = 0; i < count; ++i) {
             const uint32_t v = vertex[i], row = region.shell.vertex(v);
@@ -86,7 +86,7 @@ struct Patch {
 /// stands where it is at rest.
 void put_twin(const RegionView& region, uint32_t p, uint32_t q, uint32_t w, float tau) {
     const SpringView& view = region.springs;
-    State& state = view.state;
+    ShellRows& state = view.state;
     Twins& twins = state.twins;
     for (const uint32_t end : {p, q}) {
         if (region.is_awake(end) || region.is_held(end)) continue;
@@ -109,7 +109,7 @@ void put_twin(const RegionView& region, uint32_t p, uint32_t q, uint32_t w, floa
 /// Where an element's springs go when its edge k gets a vertex: the made element has the edge behind it, with its
 /// spring, in the same turn. What is new has none yet. Returns the spring of the edge itself.
 uint32_t hand_on_springs(const SpringView& view, uint32_t element, uint32_t k, uint32_t made) {
-    State& state = view.state;
+    ShellRows& state = view.state;
     auto& of_kept = state.element_springs.spring[view.edges(element)];
     auto& of_made = state.element_springs.spring[view.edges(made)];
     if (of_kept[k] == kAsleepSpring) {
@@ -137,7 +137,7 @@ void drop_spring(const SpringView& view, uint32_t s) {
 }  // namespace
 
 uint32_t put_vertex(const RegionView& region, uint32_t element, uint32_t edge, float tau, Touched& touched) {
-    State& state = region.state;
+    RunRows& state = region.state;
     const ShellView& shell = region.shell;
     const SpringView& view = region.springs;
     const auto corner = state.elements.corner[shell.element(element)];

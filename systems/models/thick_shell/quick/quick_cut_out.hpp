@@ -5,6 +5,6 @@
 namespace cullet {
 
 /// All that the region of a task can wake, and so many rings round it that no cut changes the outermost elements.
-CutOutSize quick_cut_out_size(const State& state, Row<Tasks> task);
+CutOutSize quick_cut_out_size(const RunRows& state, Row<Tasks> task);
 
 }  // namespace cullet

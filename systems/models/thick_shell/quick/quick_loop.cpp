@@ -23,7 +23,7 @@ BrittleLoop make_quick_loop() {
     return loop;
 }
 
-uint64_t quick_units_a_step(const State& state, uint32_t task) {
+uint64_t quick_units_a_step(const RunRows& state, uint32_t task) {
     const QuickRuns& runs = state.quick_runs;
     const Row<ShellSprings> springs = runs.springs[task];
     if (!springs.exists()) return 1;
@@ -33,7 +33,7 @@ uint64_t quick_units_a_step(const State& state, uint32_t task) {
            units_of_energies(state.shell_springs, springs) + 300;
 }
 
-uint64_t quick_units_of_end(const State& state, uint32_t task) {
+uint64_t quick_units_of_end(const RunRows& state, uint32_t task) {
     return state.shells.vertices[state.tasks.shell[task]].count * kUnitsQuickEnd;
 }
 

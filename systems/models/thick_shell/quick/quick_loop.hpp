@@ -8,8 +8,8 @@ namespace cullet {
 BrittleLoop make_quick_loop();
 
 /// Units of one repetition, with its share of the checks.
-uint64_t quick_units_a_step(const State& state, uint32_t task);
+uint64_t quick_units_a_step(const RunRows& state, uint32_t task);
 /// Of what follows the last one: the cut-out goes back, pieces are found, made and drawn.
-uint64_t quick_units_of_end(const State& state, uint32_t task);
+uint64_t quick_units_of_end(const RunRows& state, uint32_t task);
 
 }  // namespace cullet

@@ -24,7 +24,7 @@ struct Queue {
     }
 };
 
-void add_seeds(State& state, Row<Tasks> task, Queue& queue) {
+void add_seeds(RunRows& state, Row<Tasks> task, Queue& queue) {
     const TaskContacts& contacts = state.task_contacts;
     const uint32_t first = state.tasks.first_contact[task], count = state.tasks.contact_count[task];
     for (uint32_t c = first; c < first + count; ++c) {
@@ -38,7 +38,7 @@ void add_seeds(State& state, Row<Tasks> task, Queue& queue) {
 }
 
 /// Marks the region; returns how many vertices are awake.
-uint32_t mark(State& state, Row<Tasks> task, uint32_t rings) {
+uint32_t mark(RunRows& state, Row<Tasks> task, uint32_t rings) {
     const ShellView shell(state, state.tasks.shell[task]);
     Queue queue{shell};
     for (uint32_t v = 0; v < shell.vertex_count(); ++v) queue.next(v) = kUnseen;
@@ -72,7 +72,7 @@ uint32_t mark(State& state, Row<Tasks> task, uint32_t rings) {
 }
 
 /// False: there are too many.
-bool list_packs(State& state, Row<Tasks> task) {
+bool list_packs(RunRows& state, Row<Tasks> task) {
     const ShellView shell(state, state.tasks.shell[task]);
     AwakePacks& packs = state.awake_packs;
     const uint32_t first = task * kMostAwakePacks;
@@ -96,7 +96,7 @@ bool list_packs(State& state, Row<Tasks> task) {
 }
 
 /// Puts what lies behind the listed packs to sleep, and holds what is next to it; returns how many are awake.
-uint32_t leave_out_the_rest(State& state, Row<Tasks> task) {
+uint32_t leave_out_the_rest(RunRows& state, Row<Tasks> task) {
     const ShellView shell(state, state.tasks.shell[task]);
     const auto mark_of = [&](uint32_t v) -> uint32_t& { return state.vertices.copy[shell.vertex(v)]; };
     const uint32_t end = (state.awake_packs.pack[(task + 1) * kMostAwakePacks - 1] + 1) * kLanes;
@@ -116,7 +116,7 @@ uint32_t leave_out_the_rest(State& state, Row<Tasks> task) {
 
 }  // namespace
 
-void choose_region(State& state, Row<Tasks> task, uint32_t rings) {
+void choose_region(RunRows& state, Row<Tasks> task, uint32_t rings) {
     AwakePacks& packs = state.awake_packs;
     const uint32_t end = (task + 1) * kMostAwakePacks;
     if (end > packs.size()) packs.append(end - packs.size());

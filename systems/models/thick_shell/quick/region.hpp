@@ -10,12 +10,13 @@ namespace cullet {
 
 /// The region of one run, awake: its springs stand.
 struct RegionView {
-    State& state;
+    RunRows& state;
     Row<Tasks> task;
     SpringView springs;
     const ShellView& shell;
 
-    RegionView(State& s, Row<Tasks> t) : state(s), task(t), springs(s, s.quick_runs.springs[t]), shell(springs.shell) {}
+    RegionView(RunRows& s, Row<Tasks> t)
+        : state(s), task(t), springs(s, s.quick_runs.springs[t]), shell(springs.shell) {}
     RegionView(const RegionView& o) : state(o.state), task(o.task), springs(o.springs), shell(springs.shell) {}
 
     uint32_t first_row() const { return task * kMostAwakePacks; }
@@ -56,11 +57,11 @@ inline constexpr uint32_t kAsleepMark = kNone, kAwakeMark = kNone - 1, kHeldMark
 /// Marks the vertices within `rings` edges of those of the task's patches, and the ring round them, in Vertices.copy;
 /// all of them where the task has no contact (an explosion). Lists their packs in AwakePacks: fewer rings where there
 /// are more packs than kMostAwakePacks. Serial.
-void choose_region(State& state, Row<Tasks> task, uint32_t rings);
+void choose_region(RunRows& state, Row<Tasks> task, uint32_t rings);
 
 /// Rows for the springs of the elements that have an awake corner, softened, and which edge each is. False: no room,
 /// and `full` names the limit. Needs choose_region's marks. Serial.
-bool take_region_springs(State& state, Row<Tasks> task, uint32_t layers, const char** full);
+bool take_region_springs(RunRows& state, Row<Tasks> task, uint32_t layers, const char** full);
 /// The chunk of the region that begins with this row of AwakePacks: kRowsPerChunk packs, and as large a share of the
 /// springs. Chunks may be worked on at once, all of them by one call before any by the other.
 void measure_region_springs(const RegionView& region, uint32_t first_row);

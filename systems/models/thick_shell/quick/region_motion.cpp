@@ -21,7 +21,7 @@ constexpr uint32_t kSpareRings = 3;
 constexpr double kLeastScale = 5e-5;
 
 template <class F>
-void for_each_contact(const State& state, Row<Tasks> task, F&& f) {
+void for_each_contact(const RunRows& state, Row<Tasks> task, F&& f) {
     const uint32_t first = state.tasks.first_contact[task];
     for (uint32_t c = first; c < first + state.tasks.contact_count[task]; ++c) f(c);
 }
@@ -61,7 +61,7 @@ float inverse_mass_of(const SpringView& view, uint32_t v) {
 }
 
 /// Speeds of the strikers as the body sees them, which its strain limit asks for.
-void see_strikers(State& state, Row<Tasks> task) {
+void see_strikers(RunRows& state, Row<Tasks> task) {
     const BodyMotion motion(state, task);
     TaskContacts& contacts = state.task_contacts;
     for_each_contact(state, task, [&](uint32_t c) {
@@ -77,7 +77,7 @@ uint32_t region_rings(uint32_t steps) {
     return static_cast<uint32_t>(static_cast<float>(steps) * kEdgesAStep) + kSpareRings;
 }
 
-bool wake_region(State& state, Row<Tasks> task, const char** full) {
+bool wake_region(RunRows& state, Row<Tasks> task, const char** full) {
     build_patches(state, task);
     choose_region(state, task, region_rings(state.quick_runs.steps[task]));
     see_strikers(state, task);
@@ -86,17 +86,17 @@ bool wake_region(State& state, Row<Tasks> task, const char** full) {
     return false;
 }
 
-bool wake_region_alone(State& state, Row<Tasks> task, const char** full) {
+bool wake_region_alone(RunRows& state, const Blows& blows, Row<Tasks> task, const char** full) {
     if (!wake_region(state, task, full)) return false;
     const RegionView region(state, task);
     const uint32_t first = region.first_row(), end = first + region.pack_count();
     for (uint32_t row = first; row < end; row += kRowsPerChunk<AwakePacks>) measure_region_springs(region, row);
     for (uint32_t row = first; row < end; row += kRowsPerChunk<AwakePacks>) lay_region_springs(region, row);
-    start_region(state, task);
+    start_region(state, blows, task);
     return true;
 }
 
-void start_region(State& state, Row<Tasks> task) {
+void start_region(RunRows& state, const Blows& blows, Row<Tasks> task) {
     Tasks& tasks = state.tasks;
     const TaskContacts& contacts = state.task_contacts;
     const RegionView region(state, task);
@@ -116,7 +116,7 @@ void start_region(State& state, Row<Tasks> task) {
     tasks.crack_count[task] = tasks.start_count[task] = 0;
     tasks.lacks_room[task] = 0;
     build_patches(state, task);  // now that step and softening are known
-    start_explosions(state, task);
+    start_explosions(state, blows, task);
     if (view.has_layers())
         region.for_each([&](uint32_t v, bool) {
             state.twins.velocity.set(view.twin(v), state.vertices.velocity[shell.vertex(v)]);
@@ -130,7 +130,7 @@ void start_region(State& state, Row<Tasks> task) {
     state.quick_runs.energy_scale[task] = scale;
 }
 
-void close_region(State& state, Row<Tasks> task, const BodyMotion& motion) {
+void close_region(RunRows& state, Row<Tasks> task, const BodyMotion& motion) {
     QuickRuns& runs = state.quick_runs;
     if (!runs.springs[task].exists()) return;
     const RegionView region(state, task);
@@ -159,7 +159,7 @@ void close_region(State& state, Row<Tasks> task, const BodyMotion& motion) {
 }
 
 bool region_forces(const RegionView& region) {
-    State& state = region.state;
+    RunRows& state = region.state;
     PatchVertices& patches = state.patch_vertices;
     const TaskContacts& contacts = state.task_contacts;
     bool touches = false;
@@ -179,7 +179,7 @@ bool region_forces(const RegionView& region) {
 // Semi-implicit, as the springs' own step, which has moved the points already: what the patch adds to a velocity moves
 // its point for the length of this step.
 void push_region(const RegionView& region) {
-    State& state = region.state;
+    RunRows& state = region.state;
     const SpringView& view = region.springs;
     TaskContacts& contacts = state.task_contacts;
     const double dt = state.tasks.time_step[region.task];
@@ -214,7 +214,7 @@ void push_region(const RegionView& region) {
 
 void hold_region(const RegionView& region) {
     const SpringView& view = region.springs;
-    State& state = region.state;
+    RunRows& state = region.state;
     const AwakePacks& packs = state.awake_packs;
     const auto put = [](Float4& x, Vec3 place) { x = {place.x, place.y, place.z, x.w}; };
     for (uint32_t row = region.first_row(); row < region.first_row() + region.pack_count(); ++row)
@@ -236,7 +236,7 @@ bool has_blown_up(const RegionView& region) {
 }
 
 TaskEnergy region_energy(const RegionView& region) {
-    State& state = region.state;
+    RunRows& state = region.state;
     const SpringView& view = region.springs;
     const TaskContacts& contacts = state.task_contacts;
     const PatchVertices& patches = state.patch_vertices;

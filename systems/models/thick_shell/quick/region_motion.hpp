@@ -1,5 +1,6 @@
 // How a region moves: from the touch to the hand-off.
 #pragma once
+#include "components/blows.hpp"
 #include "systems/models/thick_shell/hidden/energy.hpp"
 #include "systems/models/thick_shell/quick/region.hpp"
 #include "systems/models/thick_shell/shared/body_motion.hpp"
@@ -11,15 +12,15 @@ uint32_t region_rings(uint32_t steps);
 
 /// Chooses the region of a task whose shell is filled and whose contacts know their vertices, and takes its springs'
 /// rows. False: no room for them; the task is dropped. Serial.
-bool wake_region(State& state, Row<Tasks> task, const char** full);
+bool wake_region(RunRows& state, Row<Tasks> task, const char** full);
 /// When its springs are measured and laid: patches, the striker's speed as the body sees it, step and end of the run.
 /// Serial.
-void start_region(State& state, Row<Tasks> task);
+void start_region(RunRows& state, const Blows& blows, Row<Tasks> task);
 /// All of it, for a task alone.
-bool wake_region_alone(State& state, Row<Tasks> task, const char** full);
+bool wake_region_alone(RunRows& state, const Blows& blows, Row<Tasks> task, const char** full);
 /// Vertices.velocity becomes what the body's own is at the touch and what the run gave, body axes; strikers' speeds as
 /// they were measured before; springs are given back. `motion` is the body's own. Serial; once for each run that woke.
-void close_region(State& state, Row<Tasks> task, const BodyMotion& motion);
+void close_region(RunRows& state, Row<Tasks> task, const BodyMotion& motion);
 
 /// Patch springs, from the places before the step (6.3); true when some push. Forces are those of the softened body.
 bool region_forces(const RegionView& region);

@@ -17,7 +17,7 @@ constexpr uint32_t kSpareSlots = 1;  // a pack, as give_springs has it
 constexpr double kMostRatio = 1.8;
 
 struct Layout {
-    State& state;
+    RunRows& state;
     const ShellView& shell;
     uint32_t first_element = kNone;  // awake ones, chained through Elements.next
 
@@ -61,7 +61,7 @@ struct Layout {
 /// How many edges each vertex has, asleep or not: in Vertices.copy, whose marks chain() was the last to read. Each of
 /// its elements brings one, and a border one more: nobody walks round vertices.
 void count_edges_at_vertices(const ShellView& shell) {
-    State& state = shell.state;
+    ShellRows& state = shell.state;
     uint32_t* const edges = state.vertices.copy.data() + shell.vertex(0);
     std::fill_n(edges, shell.vertex_count(), 0u);
     for (uint32_t row = shell.element(0); row < shell.element(shell.element_count()); ++row) {
@@ -87,7 +87,7 @@ uint32_t& slots_kept(const ShellView& shell, uint32_t i) {
 /// A vertex put on an edge brings four springs, the copy of a split one an edge: the spare vertices bound both. A pack
 /// that outgrows its slots moves to the end; copies need packs of their own.
 SpringRoom room_for(const Layout& layout, Row<Tasks> task, uint32_t edges, bool has_layers) {
-    State& state = layout.state;
+    RunRows& state = layout.state;
     const AwakePacks& packs = state.awake_packs;
     SpringRoom room;
     const uint32_t spare = std::min(layout.shell.vertices().capacity - layout.shell.vertex_count(),
@@ -107,7 +107,7 @@ SpringRoom room_for(const Layout& layout, Row<Tasks> task, uint32_t edges, bool 
 }
 
 void list_edges(const Layout& layout, const SpringView& view) {
-    State& state = view.state;
+    ShellRows& state = view.state;
     const ShellView& shell = view.shell;
     state.shell_springs.edges[view.row].count = shell.element_count();
     for (uint32_t e = 0; e < shell.element_count(); ++e)
@@ -136,7 +136,7 @@ void list_edges(const Layout& layout, const SpringView& view) {
 }
 
 double stiffness_ratio(const SpringView& view, uint32_t v, const VertexSprings& list) {
-    const State& state = view.state;
+    const ShellRows& state = view.state;
     double outer = 0, inner = 0, shared = 0;
     for (uint32_t i = 0; i < list.count; ++i) {
         outer += 2 * double{state.springs.stiffness[view.spring(list.spring[i])]};
@@ -155,7 +155,7 @@ double stiffness_ratio(const SpringView& view, uint32_t v, const VertexSprings& 
 
 /// Where each pack's slots are, by its vertices' edges: as many as it needs, and one to spare.
 void place_packs(const RegionView& region) {
-    State& state = region.state;
+    RunRows& state = region.state;
     const SpringView& view = region.springs;
     Range& slots = view.own().slots[view.row];
     for (uint32_t i = 0; i < region.pack_count(); ++i) {
@@ -192,7 +192,7 @@ Chunk springs_of_chunk(const RegionView& region, uint32_t first_row) {
 // its speed, at most at that of falls that crack the body, as cooking found; the limit is no less. That the struck
 // vertex is near a border does not tell: pieces' hulls touch at places whose nearest vertex is well inside a face, and
 // balls strike faces beside a border. With several contacts the largest counts, for all of the region.
-float limit_along_sheet(const State& state, Row<Tasks> task, const ShellView& shell, float root) {
+float limit_along_sheet(const RunRows& state, Row<Tasks> task, const ShellView& shell, float root) {
     const TaskContacts& contacts = state.task_contacts;
     const uint32_t material = state.shells.material[shell.row];
     const float slowness = std::sqrt(state.materials.density[material] / state.materials.young_modulus[material]);
@@ -207,7 +207,7 @@ float limit_along_sheet(const State& state, Row<Tasks> task, const ShellView& sh
 }
 
 /// B7: s so that what breaks at eps_f in truth breaks at 2 %, which float positions resolve to a thousandth.
-void soften(State& state, Row<Tasks> task, Row<Shells> shell) {
+void soften(RunRows& state, Row<Tasks> task, Row<Shells> shell) {
     constexpr float kShownStrain = 0.02f, kShortLoad = 2.0f;  // as kShortLoadFactor of the hidden run
     QuickRuns& runs = state.quick_runs;
     const Materials& materials = state.materials;
@@ -265,7 +265,7 @@ double ratio_limit(const SpringView& view) {
 
 // Until the step is known damping stands per second.
 void divide_damping(const RegionView& region, float dt) {
-    State& state = region.state;
+    RunRows& state = region.state;
     const SpringView& view = region.springs;
     const uint32_t slots = view.own().slots[view.row].count;
     const auto divide = [&](auto* slot) {
@@ -304,7 +304,7 @@ void limit_springs(const RegionView& region, std::span<const uint32_t> vertices)
     }
 }
 
-bool take_region_springs(State& state, Row<Tasks> task, uint32_t layers, const char** full) {
+bool take_region_springs(RunRows& state, Row<Tasks> task, uint32_t layers, const char** full) {
     const Row<Shells> shell_row = state.tasks.shell[task];
     const ShellView shell(state, shell_row);
     QuickRuns& runs = state.quick_runs;
@@ -335,7 +335,7 @@ bool take_region_springs(State& state, Row<Tasks> task, uint32_t layers, const c
 }
 
 void measure_region_springs(const RegionView& region, uint32_t first_row) {
-    State& state = region.state;
+    RunRows& state = region.state;
     const SpringView& view = region.springs;
     const Chunk springs = springs_of_chunk(region, first_row);
     for (uint32_t s = springs.first; s < springs.end; ++s) {
@@ -348,7 +348,7 @@ void measure_region_springs(const RegionView& region, uint32_t first_row) {
 
 // Vertices.copy, whose marks are read no more, keeps the vertex's ratio: the bits of a float, 0 of what is held.
 void lay_region_springs(const RegionView& region, uint32_t first_row) {
-    State& state = region.state;
+    RunRows& state = region.state;
     const SpringView& view = region.springs;
     const AwakePacks& packs = state.awake_packs;
     const Chunk rows = packs_of_chunk(region, first_row);

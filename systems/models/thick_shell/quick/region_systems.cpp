@@ -8,16 +8,13 @@
 
 namespace cullet {
 
-void push_region_patches(EachBody task, ShellTables shells, Tasks&, const TaskContacts&, PatchVertices&) {
-    region_forces(RegionView(shells.state, Row<Tasks>(task.row)));
+void push_region_patches(EachBody task, RunRows& rows) {
+    region_forces(RegionView(rows, Row<Tasks>(task.row)));
 }
 
 // The kernel knows packs by their place in the shell: it is called for runs of neighbouring ones.
-void integrate_region(Rows<AwakePacks> packs, OfTask task, Turn turn, ShellTables shells, In<&AwakePacks::pack> pack,
-                      In<&Vertices::probe>, InOut<&Vertices::velocity>, Out<&Vertices::probe>, In<&Twins::position>,
-                      InOut<&Twins::velocity>, Out<&Twins::position>, InOut<&SpringSlots::slot>,
-                      InOut<&LayerSlots::slot>, InOut<&SpringPacks::zero_lengths>) {
-    const SpringView view(shells.state, shells.state.quick_runs.springs[task.row]);
+void integrate_region(Rows<AwakePacks> packs, OfTask task, Turn turn, InChunks<RunRows> rows) {
+    const SpringView view(rows.set, rows.set.quick_runs.springs[task.row]);
     const SpringStep step(view, turn.old_side);
     const bool is_pressed = has_energies(view.own(), view.row);
     const auto integrate = view.layout() == SpringLayout::OneLayer   ? integrate_spring_packs
@@ -26,16 +23,16 @@ void integrate_region(Rows<AwakePacks> packs, OfTask task, Turn turn, ShellTable
     const uint32_t end = packs.first + packs.count;
     for (uint32_t row = packs.first, next = 0; row < end; row = next) {
         next = row + 1;
-        while (next < end && pack[next] == pack[next - 1] + 1) ++next;
-        if (is_pressed) press_packs(view, turn.old_side, pack[row], next - row);
-        integrate(step, pack[row], next - row);
+        while (next < end && rows->awake_packs.pack[next] == rows->awake_packs.pack[next - 1] + 1) ++next;
+        if (is_pressed) press_packs(view, turn.old_side, rows->awake_packs.pack[row], next - row);
+        integrate(step, rows->awake_packs.pack[row], next - row);
     }
 }
 
 namespace {
 
 /// What cuts have left of the frame's units is enough for the last step and what it brings with it.
-bool may_end(const State& state, Row<Tasks> task) {
+bool may_end(const RunRows& state, Row<Tasks> task) {
     const uint64_t a_step = quick_units_a_step(state, task);
     return state.tasks.steps_granted[task] * a_step >= a_step + quick_units_of_end(state, task);
 }
@@ -43,31 +40,31 @@ bool may_end(const State& state, Row<Tasks> task) {
 }  // namespace
 
 // Of the steps that are granted one is used up by each that is run, and as many as they are worth by cuts (pay_cuts).
-void end_region_step(EachBody task, ShellTables shells, Tasks& tasks, TaskContacts&, const PatchVertices&) {
+void end_region_step(EachBody task, RunRows& rows) {
     const Row<Tasks> t(task.row);
-    const RegionView region(shells.state, t);
+    const RegionView region(rows, t);
     ++region.springs.own().steps[region.springs.row];
     hold_region(region);
     push_region(region);
-    tasks.steps_granted[t] -= tasks.steps_granted[t] > 0;
-    const auto time_at = [&](uint32_t steps) { return static_cast<float>(steps) * tasks.time_step[t]; };
-    const uint32_t done = ++tasks.steps_done[t];
-    if (time_at(done) > tasks.end_time[t])
-        tasks.state[t] = static_cast<uint8_t>(TaskState::Whole);
-    else if (time_at(done + 1) > tasks.end_time[t] && !may_end(shells.state, t))
-        tasks.steps_granted[t] = 0;
+    rows.tasks.steps_granted[t] -= rows.tasks.steps_granted[t] > 0;
+    const auto time_at = [&](uint32_t steps) { return static_cast<float>(steps) * rows.tasks.time_step[t]; };
+    const uint32_t done = ++rows.tasks.steps_done[t];
+    if (time_at(done) > rows.tasks.end_time[t])
+        rows.tasks.state[t] = static_cast<uint8_t>(TaskState::Whole);
+    else if (time_at(done + 1) > rows.tasks.end_time[t] && !may_end(rows, t))
+        rows.tasks.steps_granted[t] = 0;
 }
 
-void split_region(EachBody task, ShellTables shells, Tasks& tasks, TaskContacts&, PatchVertices&) {
+void split_region(EachBody task, RunRows& rows) {
     const Row<Tasks> t(task.row);
-    if (static_cast<TaskState>(tasks.state[t]) == TaskState::Running) grow_region(shells.state, t);
+    if (static_cast<TaskState>(rows.tasks.state[t]) == TaskState::Running) grow_region(rows, t);
 }
 
 // A run so short is not begun again: its step has the bound of the stiffest vertex in it.
-void check_region_energy(EachBody task, ShellTables shells, Tasks& tasks, TaskContacts&) {
+void check_region_energy(EachBody task, RunRows& rows) {
     const Row<Tasks> t(task.row);
-    if (static_cast<TaskState>(tasks.state[t]) == TaskState::Dropped) return;
-    if (has_blown_up(RegionView(shells.state, t))) tasks.state[t] = static_cast<uint8_t>(TaskState::Dropped);
+    if (static_cast<TaskState>(rows.tasks.state[t]) == TaskState::Dropped) return;
+    if (has_blown_up(RegionView(rows, t))) rows.tasks.state[t] = static_cast<uint8_t>(TaskState::Dropped);
 }
 
 }  // namespace cullet

@@ -23,7 +23,7 @@ struct Splitting {
     bool is_full = false;          // no room for more
     bool are_springs_old = false;  // there was none for the springs of what was cut: those there are hold on
 
-    State& state() const { return region.state; }
+    RunRows& state() const { return region.state; }
     const ShellView& shell() const { return region.shell; }
     uint32_t row(uint32_t v) const { return region.shell.vertex(v); }
     Vec3 rest(uint32_t v) const { return region.state.vertices.rest[row(v)]; }

@@ -20,7 +20,7 @@ void StrainedEdges::sort() {
 
 // Each spring is seen from both ends; the lower one tells, so that it is told once.
 void find_strained_edges(const RegionView& region, uint32_t most, StrainedEdges& found) {
-    const State& state = region.state;
+    const RunRows& state = region.state;
     const SpringView& view = region.springs;
     const Vertices& vertices = state.vertices;
     const AwakePacks& packs = state.awake_packs;

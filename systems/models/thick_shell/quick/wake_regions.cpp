@@ -14,7 +14,7 @@ namespace {
 
 // What find_parts does for whole shells: cracks run out where something came free. Parts are not numbered: the numbers
 // say which elements of the body the cut-out has.
-void run_out_region(State& state, Row<Tasks> task) {
+void run_out_region(RunRows& state, Row<Tasks> task) {
     if (static_cast<TaskState>(state.tasks.state[task]) == TaskState::Dropped) return;
     if (state.tasks.crack_count[task] == 0) return;
     const Scratch<FloodedParts> found(state.scratch);
@@ -22,58 +22,54 @@ void run_out_region(State& state, Row<Tasks> task) {
     if (found->pieces > 0) run_out_cracks(state, task);
 }
 
-bool is_woken(const State& state, Row<Tasks> task) {
+bool is_woken(const RunRows& state, Row<Tasks> task) {
     return is_quick_task(state, task) && static_cast<TaskState>(state.tasks.state[task]) == TaskState::Running;
 }
 
 }  // namespace
 
 // One after another: rows of springs come from pools.
-void wake_regions(Serial, const Events<TaskOpened>& opened, ShellTables shells, Tasks& tasks, TaskContacts&,
-                  PatchVertices&, const Bodies& bodies, Events<RegionPart>& parts, Events<RefusedEvent>& refused) {
-    State& state = shells.state;
+void wake_regions(Serial, const Events<TaskOpened>& opened, RunRows& rows, const Bodies& bodies,
+                  Events<RegionPart>& parts, Events<RefusedEvent>& refused) {
     parts.clear();
     for (const TaskOpened& o : opened) {
-        if (!is_woken(state, o.task)) continue;
+        if (!is_woken(rows, o.task)) continue;
         const char* full = "";
-        if (!wake_region(state, o.task, &full)) {
-            refused.push(refused_event(bodies, tasks.body[o.task], full));
+        if (!wake_region(rows, o.task, &full)) {
+            refused.push(refused_event(bodies, rows.tasks.body[o.task], full));
             continue;
         }
-        const uint64_t units = state.quick_runs.layers[o.task] > 1 ? kUnitsQuickWakeTwo : kUnitsQuickWake;
-        tasks.units_owed[o.task] += state.quick_runs.awake_count[o.task] * units;
-        const uint32_t first = o.task * kMostAwakePacks, count = state.quick_runs.pack_count[o.task];
+        const uint64_t units = rows.quick_runs.layers[o.task] > 1 ? kUnitsQuickWakeTwo : kUnitsQuickWake;
+        rows.tasks.units_owed[o.task] += rows.quick_runs.awake_count[o.task] * units;
+        const uint32_t first = o.task * kMostAwakePacks, count = rows.quick_runs.pack_count[o.task];
         for (uint32_t row = first; row < first + count; row += kRowsPerChunk<AwakePacks>) parts.push({o.task, row});
     }
 }
 
-void measure_regions(Each<RegionPart> part, ShellTables shells, const Tasks&) {
-    measure_region_springs(RegionView(shells.state, part->task), part->first_row);
+void measure_regions(Each<RegionPart> part, RunRows& rows) {
+    measure_region_springs(RegionView(rows, part->task), part->first_row);
 }
 
-void lay_regions(Each<RegionPart> part, ShellTables shells, const Tasks&) {
-    lay_region_springs(RegionView(shells.state, part->task), part->first_row);
+void lay_regions(Each<RegionPart> part, RunRows& rows) {
+    lay_region_springs(RegionView(rows, part->task), part->first_row);
 }
 
-void start_regions(Serial, const Events<TaskOpened>& opened, ShellTables shells, Tasks&, TaskContacts&,
-                   PatchVertices&) {
+void start_regions(Serial, const Events<TaskOpened>& opened, RunRows& rows, const Blows& blows) {
     for (const TaskOpened& o : opened)
-        if (is_woken(shells.state, o.task)) start_region(shells.state, o.task);
+        if (is_woken(rows, o.task)) start_region(rows, blows, o.task);
 }
 
-void close_regions(Serial, const Events<TaskEnded>& ended, ShellTables shells, Tasks&, TaskContacts&, Fragments&,
-                   const Bodies&, Events<CrackStartedEvent>& cracks) {
-    State& state = shells.state;
+void close_regions(Serial, const Events<TaskEnded>& ended, BodyRows& rows, Events<CrackStartedEvent>& cracks) {
     for (const TaskEnded& e : ended) {
-        if (static_cast<TaskState>(state.tasks.state[e.task]) == TaskState::Dropped) forget_run(state, e.task);
-        if (is_hidden_region(state, e.task)) {
-            run_out_region(state, e.task);
-            put_back(state, e.task, rest_motion(state, e.task), cracks);
+        if (static_cast<TaskState>(rows.tasks.state[e.task]) == TaskState::Dropped) forget_run(rows, e.task);
+        if (is_hidden_region(rows, e.task)) {
+            run_out_region(rows, e.task);
+            put_back(rows, e.task, rest_motion(rows, e.task), cracks);
         }
-        if (!is_quick_task(state, e.task)) continue;
-        const BodyMotion motion(state, e.task);  // a pass over the body
-        close_region(state, e.task, motion);
-        if (is_cut_out(state, e.task)) put_back(state, e.task, motion, cracks);
+        if (!is_quick_task(rows, e.task)) continue;
+        const BodyMotion motion(rows, e.task);  // a pass over the body
+        close_region(rows, e.task, motion);
+        if (is_cut_out(rows, e.task)) put_back(rows, e.task, motion, cracks);
     }
 }
 

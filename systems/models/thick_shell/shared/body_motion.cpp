@@ -5,8 +5,8 @@
 namespace cullet {
 
 // Cuts and new vertices leave the centre where it is.
-BodyMotion::BodyMotion(const State& state, Row<Tasks> task)
-    : centre(vertex_sums(ShellView(const_cast<State&>(state), state.tasks.source[task])).centre()),
+BodyMotion::BodyMotion(const RunRows& state, Row<Tasks> task)
+    : centre(vertex_sums(ShellView(const_cast<RunRows&>(state), state.tasks.source[task])).centre()),
       velocity(state.tasks.start_velocity[task]),
       spin(state.tasks.start_spin[task]) {}
 

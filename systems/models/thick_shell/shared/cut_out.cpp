@@ -43,7 +43,7 @@ struct Flood {
 };
 
 /// What hangs together with the contacts' vertices and lies within their patches.
-void add_patches(State& state, Row<Tasks> task, Flood& flood) {
+void add_patches(RunRows& state, Row<Tasks> task, Flood& flood) {
     TaskContacts& contacts = state.task_contacts;
     const uint32_t begin = state.tasks.first_contact[task], end = begin + state.tasks.contact_count[task];
     for (uint32_t c = begin; c < end; ++c) {
@@ -151,7 +151,7 @@ void copy_vertices(const CutRows& rows, const ShellView& cut) {
 
 // Quick runs have springs of their own: what the hidden run's stiffness is made of stays in the body (put_back).
 void copy_elements(const CutRows& rows, const ShellView& cut, bool with_stiffness) {
-    State& state = cut.state;
+    ShellRows& state = cut.state;
     Elements& elements = state.elements;
     AnyTable* const tables[] = {&elements, &state.triangle_springs};
     const void* const of_lists[] = {elements.part.data()};  // which of the body it is
@@ -175,7 +175,7 @@ void copy_elements(const CutRows& rows, const ShellView& cut, bool with_stiffnes
 }
 
 void copy_hinges(const CutRows& rows, const ShellView& cut, bool with_stiffness) {
-    State& state = cut.state;
+    ShellRows& state = cut.state;
     Elements& elements = state.elements;
     Hinges& hinges = state.hinges;
     AnyTable* const tables[] = {&hinges};
@@ -212,22 +212,22 @@ void number_again(CutRows& rows, const ShellView& cut, uint32_t count) {
 
 }  // namespace
 
-bool is_for_cut_outs(const State& state, Row<Shells> shell, bool is_quick) {
+bool is_for_cut_outs(const ShellRows& state, Row<Shells> shell, bool is_quick) {
     const Shells& shells = state.shells;
     if (shells.vertices[shell].count <= (is_quick ? kWholeCopyVertices : kWholeHiddenVertices)) return false;
     return material_traits(state, shells.material[shell]).fracture != FractureKind::Large;
 }
 
-bool may_cut_out(const State& state, Row<Bodies> body) {
+bool may_cut_out(const BodyRows& state, Row<Bodies> body) {
     const Row<Shells> shell = state.bodies.shell[body];
     const Shells& shells = state.shells;
     if (!is_for_cut_outs(state, shell, is_quick_body(state, body)) || shells.users[shell] != 1) return false;
-    if (!CutRows::has_room(ShellView(const_cast<State&>(state), shell))) return false;
+    if (!CutRows::has_room(ShellView(const_cast<BodyRows&>(state), shell))) return false;
     return spare_of(shells.vertices[shell]) >= kLeastSpare && spare_of(shells.elements[shell]) >= 2 * kLeastSpare &&
            spare_of(shells.hinges[shell]) >= 3 * kLeastSpare;
 }
 
-CutOutResult reserve_cut_out(State& state, Row<Tasks> task, const CutOutSize& size, const char** full) {
+CutOutResult reserve_cut_out(RunRows& state, Row<Tasks> task, const CutOutSize& size, const char** full) {
     const ShellView source(state, state.tasks.source[task]);
     CutRows rows(source);
     Flood flood{source, rows.has_element, rows.has_vertex, source.element_count() / 2};
@@ -262,7 +262,7 @@ CutOutResult reserve_cut_out(State& state, Row<Tasks> task, const CutOutSize& si
     return CutOutResult::Reserved;
 }
 
-void list_cut_out(State& state, Row<Tasks> task) {
+void list_cut_out(RunRows& state, Row<Tasks> task) {
     const ShellView source(state, state.tasks.source[task]), cut(state, state.tasks.shell[task]);
     CutRows rows(source);
     number_again(rows, cut, state.quick_runs.cut_elements[task]);
@@ -272,7 +272,7 @@ void list_cut_out(State& state, Row<Tasks> task) {
     cut.hinges().count = rows.hinge_count;
 }
 
-void remember_cut_out(State& state, Row<Tasks> task) {
+void remember_cut_out(RunRows& state, Row<Tasks> task) {
     const ShellView source(state, state.tasks.source[task]), cut(state, state.tasks.shell[task]);
     CutRows rows(source);
     number_again(rows, cut, state.quick_runs.cut_elements[task]);
@@ -282,7 +282,7 @@ void remember_cut_out(State& state, Row<Tasks> task) {
     rows.for_each_hinge([&](uint32_t h) { of_body.add_hinge(h); });
 }
 
-void fill_cut_out(State& state, Row<Tasks> task) {
+void fill_cut_out(RunRows& state, Row<Tasks> task) {
     const ShellView source(state, state.tasks.source[task]), cut(state, state.tasks.shell[task]);
     Shells& shells = state.shells;
     const CutRows rows(source, cut);

@@ -4,7 +4,7 @@
 #include <bit>
 #include <span>
 
-#include "components/state.hpp"
+#include "components/shell_rows.hpp"
 
 namespace cullet {
 

@@ -1,6 +1,6 @@
 // What a shell knows of its cracks when a new run begins.
 #pragma once
-#include "components/state.hpp"
+#include "components/shell_rows.hpp"
 
 namespace cullet {
 

@@ -16,14 +16,14 @@ namespace {
 
 /// Rows of the cut-out as rows of the body's shell. What the run added comes behind all that the body has.
 struct PutBack {
-    State& state;
+    BodyRows& state;
     const ShellView source, cut;
     CutRows rows;
     bool has_stiffness;  // of a hidden run, in the cut-out's elements and hinges
     CutMaps of_body;
     RowBits is_beside_cut;  // of the cut-out's vertices that the body has: those of touched elements
 
-    PutBack(State& s, Row<Tasks> task)
+    PutBack(BodyRows& s, Row<Tasks> task)
         : state(s),
           source(s, s.tasks.source[task]),
           cut(s, s.tasks.shell[task]),
@@ -93,7 +93,7 @@ bool is_start(const ShellView& shell, uint32_t v) {
 
 /// A fragment has forgotten its old starts (6.1).
 void tell_starts(const PutBack& p, Row<Bodies> body, Events<CrackStartedEvent>& cracks) {
-    const State& state = p.state;
+    const BodyRows& state = p.state;
     const bool is_fragment = state.shells.generation[p.source.row] > 0;
     p.for_each_vertex([&](uint32_t v) {
         const bool is_old = !is_fragment && v < p.rows.vertex_count && is_start(p.source, p.vertex(v));
@@ -231,7 +231,7 @@ bool has_moved(const PutBack& p, const std::array<uint32_t, count>& now, const s
 }
 
 void put_element(const PutBack& p, uint32_t e) {
-    State& state = p.state;
+    BodyRows& state = p.state;
     Elements& elements = state.elements;
     const bool is_old = e < p.rows.element_count;
     if (!p.is_touched(e)) {
@@ -350,7 +350,7 @@ void move_the_rest(const PutBack& p, const BodyMotion& motion) {
     }
 }
 
-void put_rows(State& state, Row<Tasks> task, const PutBack& p, const BodyMotion& motion,
+void put_rows(RunRows& state, Row<Tasks> task, const PutBack& p, const BodyMotion& motion,
               Events<CrackStartedEvent>& cracks) {
     tell_starts(p, state.tasks.body[task], cracks);
     put_vertices(p);
@@ -380,15 +380,15 @@ bool has_too_many_parts(const PutBack& p, Row<Tasks> task) {
 #ifndef CULLET_CHECKED
     if (most <= kMostParts) return false;
 #endif
-    const std::span parts(p.state.fragments.part.data() + size_t{task} * kMostParts, kMostParts);
-    const uint32_t count = group_fragments(p.cut, parts);
+    const Scratch<std::array<FragmentPart, kMostParts>> parts(p.state.scratch);
+    const uint32_t count = group_fragments(p.cut, *parts);
     CULLET_ASSERT(count <= most, "%u parts of a cut-out, of which no more than %u edges were cut", count, most);
     return count > kMostParts && most > kMostParts;
 }
 
 }  // namespace
 
-void put_back(State& state, Row<Tasks> task, const BodyMotion& motion, Events<CrackStartedEvent>& cracks) {
+void put_back(BodyRows& state, Row<Tasks> task, const BodyMotion& motion, Events<CrackStartedEvent>& cracks) {
     Tasks& tasks = state.tasks;
     // A mesh of several parts comes apart without a crack (find_parts).
     const bool has_changed = tasks.crack_count[task] > 0 || !is_of_one_part(ShellView(state, tasks.source[task]));
@@ -408,7 +408,7 @@ void put_back(State& state, Row<Tasks> task, const BodyMotion& motion, Events<Cr
 }
 
 // Whoever counts here must find what fill_cut_out made: put_back writes by it.
-std::string trouble_of_cut_out(State& state, uint32_t task) {
+std::string trouble_of_cut_out(RunRows& state, uint32_t task) {
     const Row<Shells> source_row = state.tasks.source[task], cut_row = state.tasks.shell[task];
     const ShellView source(state, source_row), cut(state, cut_row);
     const uint32_t count = state.quick_runs.cut_elements[task];

@@ -65,7 +65,7 @@ Result<void> check_layers(const LayerSettings& l) {
     return {};
 }
 
-void set_fracture(State& state, Row<Bodies> body, FractureMode mode, const QuickSettings& settings,
+void set_fracture(BodyRows& state, Row<Bodies> body, FractureMode mode, const QuickSettings& settings,
                   const LayerSettings& layers) {
     QuickBodies& quick = state.quick_bodies;
     if (mode == FractureMode::Hidden) {
@@ -84,14 +84,14 @@ void set_fracture(State& state, Row<Bodies> body, FractureMode mode, const Quick
     set_layers(quick, body, layers);
 }
 
-void inherit_fracture(State& state, Row<Bodies> parent, Row<Bodies> piece) {
+void inherit_fracture(BodyRows& state, Row<Bodies> parent, Row<Bodies> piece) {
     QuickBodies& quick = state.quick_bodies;
     if (!is_quick_body(state, parent)) return set_fracture(state, piece, FractureMode::Hidden, {}, {});
     grow(quick, piece);
     quick.copy_rows(quick, parent, piece, 1);
 }
 
-void set_quick_task(State& state, Row<Tasks> task, Row<Bodies> body) {
+void set_quick_task(BodyRows& state, Row<Tasks> task, Row<Bodies> body) {
     QuickRuns& runs = state.quick_runs;
     const bool is_quick = is_quick_body(state, body);
     if (!is_quick && task >= runs.size()) return;
@@ -111,7 +111,11 @@ void set_quick_task(State& state, Row<Tasks> task, Row<Bodies> body) {
     runs.volume_energy[task] = quick.volume_energy[body];
 }
 
-void set_quick_task(State& state, Row<Tasks> task, const QuickSettings& settings, const LayerSettings& layers) {
+void set_hidden_task(QuickRuns& runs, Row<Tasks> task) {
+    if (task < runs.size()) begin_run(runs, task, false);
+}
+
+void set_quick_task(RunRows& state, Row<Tasks> task, const QuickSettings& settings, const LayerSettings& layers) {
     QuickRuns& runs = state.quick_runs;
     begin_run(runs, task, true);
     runs.layers[task] = static_cast<uint8_t>(settings.layers);

@@ -1,6 +1,6 @@
 // Which bodies break quickly, and how.
 #pragma once
-#include "components/state.hpp"
+#include "components/body_rows.hpp"
 #include "cullet/layers.hpp"
 #include "cullet/quick.hpp"
 #include "cullet/result.hpp"
@@ -12,25 +12,26 @@ Result<void> check_fracture(FractureMode mode, const QuickSettings& settings);
 Result<void> check_layers(const LayerSettings& settings);
 
 /// Writes the row of a body; of a hidden one only where some row is there already.
-void set_fracture(State& state, Row<Bodies> body, FractureMode mode, const QuickSettings& settings,
+void set_fracture(BodyRows& state, Row<Bodies> body, FractureMode mode, const QuickSettings& settings,
                   const LayerSettings& layers);
 /// A piece breaks as its parent does.
-void inherit_fracture(State& state, Row<Bodies> parent, Row<Bodies> piece);
+void inherit_fracture(BodyRows& state, Row<Bodies> parent, Row<Bodies> piece);
 
-inline bool is_quick_body(const State& state, Row<Bodies> body) {
+inline bool is_quick_body(const BodyRows& state, Row<Bodies> body) {
     return body < state.quick_bodies.size() && state.quick_bodies.is_quick[body];
 }
-inline bool is_quick_task(const State& state, uint32_t task) {
+inline bool is_quick_task(const RunRows& state, uint32_t task) {
     return task < state.quick_runs.size() && state.quick_runs.is_quick[task];
 }
 /// The row of a task whose body is `body`; none is written while no body is quick. Serial.
-void set_quick_task(State& state, Row<Tasks> task, Row<Bodies> body);
-/// The same of a task without a body.
-void set_quick_task(State& state, Row<Tasks> task, const QuickSettings& settings, const LayerSettings& layers);
+void set_quick_task(BodyRows& state, Row<Tasks> task, Row<Bodies> body);
+/// The same of a task without a body: hidden, or quick.
+void set_hidden_task(QuickRuns& runs, Row<Tasks> task);
+void set_quick_task(RunRows& state, Row<Tasks> task, const QuickSettings& settings, const LayerSettings& layers);
 
 /// s of B7 for the task's contact: stiffness is E / s, forces that do not grow with it are divided by the root of s. 1
 /// of hidden runs.
-inline float softening_of(const State& state, uint32_t task) {
+inline float softening_of(const RunRows& state, uint32_t task) {
     return is_quick_task(state, task) ? state.quick_runs.softening[task] : 1.0f;
 }
 

@@ -17,7 +17,7 @@ constexpr uint32_t kLeastSpare = 1024;
 constexpr uint32_t kSpareAVertex = 8;
 
 /// Finer fracture cuts more edges, and a cut without room for its copies is refused.
-uint32_t spare_vertices(const State& state, Row<Materials> material, uint32_t vertices) {
+uint32_t spare_vertices(const MaterialRows& state, Row<Materials> material, uint32_t vertices) {
     const FractureKind fracture = material_traits(state, material).fracture;
     const uint32_t share = fracture == FractureKind::Fine ? 1 : fracture == FractureKind::Coarse ? 2 : 4;
     const uint32_t least = std::min(kLeastSpare, kSpareAVertex * vertices);
@@ -40,12 +40,12 @@ uint32_t spare_vertices(const ShellView& source) {
 
 // Cracks that run on across the whole body take a copy and an inserted vertex or two an edge: with the hidden run's
 // spare a wall of 823 vertices was full after seven of them, and the rest ended where it was.
-ShellRoom quick_room(const State& state, Row<Materials> material, uint32_t vertices, uint32_t elements,
+ShellRoom quick_room(const MaterialRows& state, Row<Materials> material, uint32_t vertices, uint32_t elements,
                      uint32_t hinges) {
     return room_with(2 * spare_vertices(state, material, vertices), vertices, elements, hinges);
 }
 
-ShellRoom hidden_room(const State& state, Row<Materials> material, uint32_t vertices, uint32_t elements,
+ShellRoom hidden_room(const MaterialRows& state, Row<Materials> material, uint32_t vertices, uint32_t elements,
                       uint32_t hinges) {
     return room_with(spare_vertices(state, material, vertices), vertices, elements, hinges);
 }
@@ -70,8 +70,8 @@ ShellRoom working_room(ShellView source) {
     return room;
 }
 
-bool may_find_room(const State& state, Row<Bodies> body) {
-    const ShellView source(const_cast<State&>(state), state.bodies.shell[body]);
+bool may_find_room(const BodyRows& state, Row<Bodies> body) {
+    const ShellView source(const_cast<BodyRows&>(state), state.bodies.shell[body]);
     const Shells& own = state.shells;
     const ShellRoom room = is_quick_body(state, body) ? quick_room(source) : working_room(source);
     const auto fits = [](const AnyTable& table, const Range& beside, uint32_t wanted) {
@@ -85,7 +85,7 @@ bool may_find_room(const State& state, Row<Bodies> body) {
 }
 
 // Where there is a grain the slowest waves are those across it.
-float run_seconds(const State& state, uint32_t material, float area) {
+float run_seconds(const MaterialRows& state, uint32_t material, float area) {
     const Materials& materials = state.materials;
     const TraitsRow traits = material_traits(state, Row<Materials>(material));
     const float along = materials.young_modulus[material];
@@ -94,7 +94,7 @@ float run_seconds(const State& state, uint32_t material, float area) {
     return std::max(materials.run_seconds[material], 3.6f * std::sqrt(area) / speed_of_sound);
 }
 
-void set_task_times(State& state, Row<Tasks> task) {
+void set_task_times(RunRows& state, Row<Tasks> task) {
     const Row<Shells> source = state.tasks.source[task];
     state.tasks.time_step[task] = state.shells.time_step[source];
     state.tasks.damping_time[task] = 0.15f * state.tasks.time_step[task];

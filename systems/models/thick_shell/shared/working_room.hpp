@@ -1,6 +1,6 @@
 // What a damage task asks for.
 #pragma once
-#include "components/state.hpp"
+#include "components/body_rows.hpp"
 
 namespace cullet {
 
@@ -10,14 +10,14 @@ ShellRoom working_room(ShellView source);
 /// For the quick mode: without stiffness, and with twice as much for cracks.
 ShellRoom quick_room(ShellView source);
 /// Of a part of a shell, without cells; without stiffness.
-ShellRoom quick_room(const State& state, Row<Materials> material, uint32_t vertices, uint32_t elements,
+ShellRoom quick_room(const MaterialRows& state, Row<Materials> material, uint32_t vertices, uint32_t elements,
                      uint32_t hinges);
-ShellRoom hidden_room(const State& state, Row<Materials> material, uint32_t vertices, uint32_t elements,
+ShellRoom hidden_room(const MaterialRows& state, Row<Materials> material, uint32_t vertices, uint32_t elements,
                       uint32_t hinges);
 
 /// False: a working copy of the body's shell has no room beside it even where nothing else is, so that a hit need not
 /// wait for it.
-bool may_find_room(const State& state, Row<Bodies> body);
+bool may_find_room(const BodyRows& state, Row<Bodies> body);
 
 /// What RefusedEvent names where a body's cracks have filled this room, which is a share of its mesh: a finer one has
 /// more. Springs of soft bodies have theirs.
@@ -29,9 +29,9 @@ constexpr float kShortestStep = 1e-12f, kMostSteps = 1e9f;
 
 /// Seconds that a hidden run lasts at most: T = max(the material's, 3.6 sqrt(area) / c), c along or across the grain,
 /// whichever is slower.
-float run_seconds(const State& state, uint32_t material, float area);
+float run_seconds(const MaterialRows& state, uint32_t material, float area);
 
 /// Step, damping time, end and quiet time of a run (B7, 6.4): quiet after 0.4 T.
-void set_task_times(State& state, Row<Tasks> task);
+void set_task_times(RunRows& state, Row<Tasks> task);
 
 }  // namespace cullet

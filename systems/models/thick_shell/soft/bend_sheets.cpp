@@ -61,7 +61,7 @@ struct Sheet {
 
     /// False: a triangle of no area, or nothing of it is free.
     bool find(uint32_t element, size_t k, uint32_t across, Hinge& out) const {
-        const State& s = view.state;
+        const ShellRows& s = view.state;
         const auto& corner = s.elements.corner[view.shell.element(element)];
         const auto& other = s.elements.corner[view.shell.element(across)];
         const uint32_t a = corner[k], b = corner[(k + 1) % 3];
@@ -133,8 +133,8 @@ Sheet sheet_of(const SpringView& view, double bending, uint32_t substeps) {
 
 }  // namespace
 
-void bend_sheets(EachBody, OfSprings of, ShellTables shells) {
-    const SpringView view(shells.state, of.row);
+void bend_sheets(EachBody, OfSprings springs, ShellRows& rows) {
+    const SpringView view(rows, springs.row);
     const double bending = bending_of(view);
     if (!(bending > 0)) return;
     const uint32_t substeps = substeps_a_bend(view, bending);

@@ -25,7 +25,7 @@ Sym3d inverse_inertia_of(const Bodies& bodies, Row<Bodies> b) {
     return {x.x, y.y, z.z, 0.5 * (x.y + y.x), 0.5 * (x.z + z.x), 0.5 * (y.z + z.y)};
 }
 
-SoftStriker striker_of(const State& state, const RigidWorld& rigid, Row<Bodies> own, Row<Bodies> b, Vec3 origin) {
+SoftStriker striker_of(const BodyRows& state, const RigidWorld& rigid, Row<Bodies> own, Row<Bodies> b, Vec3 origin) {
     const Bodies& bodies = state.bodies;
     SoftStriker striker;
     striker.body = b;
@@ -57,7 +57,7 @@ struct Points {
 };
 
 Points points_of(const SpringView& view) {
-    const State& s = view.state;
+    const ShellRows& s = view.state;
     Points points;
     float square = 0;
     Vec3d sum;
@@ -91,7 +91,7 @@ Vec3 inward_of(const SpringView& view, uint32_t v, Quat orientation) {
 }
 
 struct Gathering {
-    State& state;
+    SoftRows& state;
     const RigidWorld& rigid;
     Row<SoftBodies> soft;
     SpringView view;
@@ -151,7 +151,7 @@ struct Gathering {
 
 }  // namespace
 
-void find_strikers(State& state, const RigidWorld& rigid, Row<SoftBodies> s, const Step& step) {
+void find_strikers(SoftRows& state, const RigidWorld& rigid, Row<SoftBodies> s, const Step& step) {
     SoftBodies& soft = state.soft_bodies;
     const Row<Bodies> body = soft.body[s];
     const SpringView view(state, springs_of(state, s));
@@ -187,7 +187,7 @@ void find_strikers(State& state, const RigidWorld& rigid, Row<SoftBodies> s, con
     soft.contact_count[s] = gathering.count;
 }
 
-void share_strikers(State& state) {
+void share_strikers(SoftRows& state) {
     const SoftBodies& soft = state.soft_bodies;
     const auto for_each = [&](auto&& f) {
         for (uint32_t s = 0; s < soft.size(); ++s)

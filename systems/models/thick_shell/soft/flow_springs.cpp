@@ -28,7 +28,7 @@ bool flow(float now, float rest, float yield, float most, float creep, float& pl
 /// A spring that is strained beyond yield, or beyond what it bears, or has no length.
 struct Flowing {
     const SpringView& view;
-    State& state;
+    ShellRows& state;
     float yield, most, creep;
 
     void look_at(uint32_t spring) const {
@@ -57,7 +57,7 @@ struct Flowing {
 };
 
 StrainLook look_of(const SpringView& view, float yield, float most) {
-    State& s = view.state;
+    ShellRows& s = view.state;
     const uint32_t springs = view.spring(0);
     StrainLook look{};
     look.a = s.springs.a.data() + springs, look.b = s.springs.b.data() + springs;
@@ -77,13 +77,14 @@ StrainLook look_of(const SpringView& view, float yield, float most) {
 // creep = 1 - exp(-dt / tau), here dt / (dt + tau): the implicit step, which needs no libm and never overshoots. A
 // spring writes its own row and its own two slots. Springs.length is left with the strain against the cooked length:
 // what tear_springs looks at.
-void flow_springs(Rows<Springs> rows, OfSprings of, OfSoft soft_body, ShellTables shells, const SoftBodies& soft) {
-    const SpringView view(shells.state, of.row);
+void flow_springs(Rows<Springs> springs, OfSprings of, OfSoft soft_body, InChunks<ShellRows> rows,
+                  const SoftBodies& soft) {
+    const SpringView view(rows.set, of.row);
     const uint32_t s = soft_body.row.index;
     const float dt = float{kSubstepsAFlow} * view.own().time_step[view.row];
-    const Flowing flowing{view, shells.state, soft.yield_strain[s], soft.break_strain[s], dt / (dt + kFlowTime)};
+    const Flowing flowing{view, rows.set, soft.yield_strain[s], soft.break_strain[s], dt / (dt + kFlowTime)};
     const StrainLook look = look_of(view, flowing.yield, flowing.most);
-    const uint32_t first = rows.first - view.own().springs[view.row].first, end = first + rows.count;
+    const uint32_t first = springs.first - view.own().springs[view.row].first, end = first + springs.count;
     for (uint32_t from = first; from < end; from += kMostLooked) {
         uint32_t found[kMostLooked];
         const uint32_t count = find_strained(look, from, std::min(kMostLooked, end - from), found);

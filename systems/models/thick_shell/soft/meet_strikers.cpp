@@ -12,13 +12,13 @@ constexpr float kPushOut = 0.1f;  // m/s at which what lies deeper is put outsid
 
 /// One vertex and its inner twin, moved as one.
 struct Point {
-    State& state;
+    ShellRows& state;
     const SpringView& view;
     uint32_t vertex, row, twin;
     int side;
     float inverse_mass;
 
-    Point(State& s, const SpringView& v, uint32_t at, int new_side)
+    Point(ShellRows& s, const SpringView& v, uint32_t at, int new_side)
         : state(s),
           view(v),
           vertex(at),
@@ -121,19 +121,17 @@ void meet(const SoftContact& contact, uint32_t lane, SoftStriker& striker, const
 
 }  // namespace
 
-void meet_strikers(EachBody soft_body, OfSprings springs, Turn turn, ShellTables shells, SoftBodies& soft,
-                   SoftStrikers& strikers, SoftContacts& contacts) {
-    State& state = shells.state;
+void meet_strikers(EachBody soft_body, OfSprings springs, Turn turn, SoftRows& rows) {
     const uint32_t s = soft_body.row;
-    const SpringView view(state, springs.row);
+    const SpringView view(rows, springs.row);
     const float dt = view.own().time_step[view.row];
     const Vec3 gravity = view.own().gravity[view.row];
-    SoftStriker* const own = strikers.striker.data() + size_t{kMostStrikers} * s;
-    for (uint32_t i = 0; i < soft.striker_count[s]; ++i) move_striker(own[i], dt, gravity);
+    SoftStriker* const own = rows.soft_strikers.striker.data() + size_t{kMostStrikers} * s;
+    for (uint32_t i = 0; i < rows.soft_bodies.striker_count[s]; ++i) move_striker(own[i], dt, gravity);
     const int side = static_cast<int>(turn.new_side);
-    const Float4* const places = state.vertices.probe.data(side) + view.shell.vertex(0);
-    SoftContact* row = contacts.contact.data() + first_contact_row(view.shell.vertices().first);
-    for (SoftContact* const end = row + soft.contact_count[s]; row != end;) {
+    const Float4* const places = rows.vertices.probe.data(side) + view.shell.vertex(0);
+    SoftContact* row = rows.soft_contacts.contact.data() + first_contact_row(view.shell.vertices().first);
+    for (SoftContact* const end = row + rows.soft_bodies.contact_count[s]; row != end;) {
         SoftStriker& striker = own[row->striker];
         SoftContact* last = row;
         while (last != end && last->striker == row->striker) ++last;
@@ -142,7 +140,7 @@ void meet_strikers(EachBody soft_body, OfSprings springs, Turn turn, ShellTables
         for (; row != last; ++row)
             for (uint32_t bits = row->inside; bits != 0; bits &= bits - 1) {
                 const auto lane = static_cast<uint32_t>(__builtin_ctz(bits));
-                meet(*row, lane, striker, Point(state, view, row->vertex[lane], side), dt);
+                meet(*row, lane, striker, Point(rows, view, row->vertex[lane], side), dt);
             }
     }
 }

@@ -42,7 +42,7 @@ Change change_of(const SoftBodies& soft, SoftStrikers& strikers, uint32_t body, 
 }
 
 // An awake body that another has met moves on as a rigid one would: all of its points get the change.
-void push_points(State& state, Row<SoftBodies> s, const Change& change) {
+void push_points(SoftRows& state, Row<SoftBodies> s, const Change& change) {
     const SpringView view(state, springs_of(state, s));
     const Vec3d centre = motion_of(view).centre;
     const auto push = [&](auto& column, uint32_t row, Vec3 place) {
@@ -62,7 +62,7 @@ void push_points(State& state, Row<SoftBodies> s, const Change& change) {
 
 // The rigid solver moves a body by its velocity after the step. What is free is given the velocity that takes it where
 // the run took it, and the rest afterwards; what lies on something else gets all of it at once.
-void push_striker(State& state, RigidWorld& rigid, const Change& change, const Step& step) {
+void push_striker(SoftRows& state, RigidWorld& rigid, const Change& change, const Step& step) {
     SoftStriker& striker = *change.first;
     const Row<Bodies> body(striker.body);
     const Row<SoftBodies> soft = find_soft(state.soft_bodies, body);
@@ -77,7 +77,7 @@ void push_striker(State& state, RigidWorld& rigid, const Change& change, const S
 }
 
 // N s that soft bodies gave to what does not move by forces: floors, and pins.
-void book(const State& state, const SoftBodies& soft, SoftStrikers& strikers, DamageCounts& counts) {
+void book(const BodyRows& state, const SoftBodies& soft, SoftStrikers& strikers, DamageCounts& counts) {
     for_each_copy(soft, strikers, [&](uint32_t s, SoftStriker& striker) {
         const bool is_pinned = static_cast<BodyKind>(state.bodies.kind[soft.body[s]]) == BodyKind::Static;
         if (striker.yields != is_pinned) return;
@@ -87,7 +87,7 @@ void book(const State& state, const SoftBodies& soft, SoftStrikers& strikers, Da
     });
 }
 
-void remember_partners(State& state, uint32_t s) {
+void remember_partners(SoftRows& state, uint32_t s) {
     SoftBodies& soft = state.soft_bodies;
     uint32_t count = 0;
     std::array<uint32_t, kMostPartners> partners{};
@@ -111,27 +111,26 @@ bool is_met(const SoftBodies& soft, SoftStrikers& strikers, Row<Bodies> body) {
 
 }  // namespace
 
-void pass_soft(Serial, Step step, ShellTables shells, SoftBodies& soft, SoftStrikers& strikers, Bodies& bodies,
-               RigidWorld& rigid, DamageCounts& counts, Arena& arena, Events<FaultEvent>& faults) {
-    State& state = shells.state;
-    book(state, soft, strikers, counts);
-    for_each_copy(soft, strikers, [&](uint32_t, SoftStriker& striker) {
+void pass_soft(Serial, Step step, SoftRows& rows, RigidWorld& rigid, DamageCounts& counts, Arena& arena,
+               Events<FaultEvent>& faults) {
+    book(rows, rows.soft_bodies, rows.soft_strikers, counts);
+    for_each_copy(rows.soft_bodies, rows.soft_strikers, [&](uint32_t, SoftStriker& striker) {
         if (!striker.is_pushed || !striker.yields) return;
-        const Change change = change_of(soft, strikers, striker.body, step);
-        if (change.first == &striker) push_striker(state, rigid, change, step);
+        const Change change = change_of(rows.soft_bodies, rows.soft_strikers, striker.body, step);
+        if (change.first == &striker) push_striker(rows, rigid, change, step);
     });
-    for (uint32_t s = 0; s < soft.size(); ++s) {
-        if (!soft.is_used[s] || !soft.is_awake[s]) continue;
-        const Row<Bodies> body = soft.body[s];
-        remember_partners(state, s);
-        if (is_met(soft, strikers, body)) reshape_soft(state, rigid, Row<SoftBodies>(s), arena);
-        if (static_cast<BodyKind>(bodies.kind[body]) == BodyKind::Dynamic) {
-            rigid.set_pose(body, pose_of(bodies, body));
-            rigid.set_motion(body, {bodies.velocity[body], bodies.spin[body]});
+    for (uint32_t s = 0; s < rows.soft_bodies.size(); ++s) {
+        if (!rows.soft_bodies.is_used[s] || !rows.soft_bodies.is_awake[s]) continue;
+        const Row<Bodies> body = rows.soft_bodies.body[s];
+        remember_partners(rows, s);
+        if (is_met(rows.soft_bodies, rows.soft_strikers, body)) reshape_soft(rows, rigid, Row<SoftBodies>(s), arena);
+        if (static_cast<BodyKind>(rows.bodies.kind[body]) == BodyKind::Dynamic) {
+            rigid.set_pose(body, pose_of(rows.bodies, body));
+            rigid.set_motion(body, {rows.bodies.velocity[body], rows.bodies.spin[body]});
         }
-        if (soft.has_fault[s])
-            faults.push({body_id(bodies, body), bodies.user_data[body], centre_of(bodies, body),
-                         "Springs of a soft body ran away; it goes on from the shape before."});
+        if (rows.soft_bodies.has_fault[s])
+            faults.push({body_id(rows.bodies, body), rows.bodies.user_data[body], centre_of(rows.bodies, body),
+                         "Springs of a rows.soft_bodies body ran away; it goes on from the shape before."});
     }
 }
 
@@ -147,17 +146,15 @@ void return_soft(Serial, const SoftBodies& soft, const SoftStrikers& strikers, R
 
 // Cracks have faces of their own, which need room, and so do splits: what found none is named in each such frame. What
 // broke in this step is drawn already.
-void show_soft(Serial, ShellTables shells, const SoftBodies& soft, Bodies& bodies, ViewVertices&, ViewIndices&,
-               Events<ShellChanged>& changed, Events<RefusedEvent>& refused) {
-    State& state = shells.state;
-    for (uint32_t s = 0; s < soft.size(); ++s) {
-        if (!soft.is_used[s] || !soft.is_awake[s]) continue;
-        const Row<Bodies> body = soft.body[s];
-        if (soft.lacks_room[s]) refused.push(refused_event(bodies, body, kCrackRoom));
+void show_soft(Serial, SoftRows& rows, Events<ShellChanged>& changed, Events<RefusedEvent>& refused) {
+    for (uint32_t s = 0; s < rows.soft_bodies.size(); ++s) {
+        if (!rows.soft_bodies.is_used[s] || !rows.soft_bodies.is_awake[s]) continue;
+        const Row<Bodies> body = rows.soft_bodies.body[s];
+        if (rows.soft_bodies.lacks_room[s]) refused.push(refused_event(rows.bodies, body, kCrackRoom));
         const auto is_own = [&](const ShellChanged& c) { return c.body == body; };
         if (std::any_of(changed.begin(), changed.end(), is_own)) continue;
-        if (state.shells.has_cracks[bodies.shell[body]] && !take_view(state, body))
-            refused.push(refused_event(bodies, body, "limits.view_vertices"));
+        if (rows.shells.has_cracks[rows.bodies.shell[body]] && !take_view(rows, body))
+            refused.push(refused_event(rows.bodies, body, "limits.view_vertices"));
         else
             changed.push({body});
     }

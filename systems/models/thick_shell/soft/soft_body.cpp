@@ -18,7 +18,7 @@ constexpr float kNeverBreaks = 1e6f;                    // strain of a material 
 constexpr float kSpare = 0.5f;                          // rows for springs that tears make
 constexpr float kDragTime = 0.15f, kDragBounce = 1.2f;  // s: of what does not bounce, and what restitution adds
 
-uint32_t row_for(State& state) {
+uint32_t row_for(SoftRows& state) {
     SoftBodies& soft = state.soft_bodies;
     for (uint32_t s = 0; s < soft.size(); ++s)
         if (!soft.is_used[s]) return s;
@@ -28,7 +28,7 @@ uint32_t row_for(State& state) {
 }
 
 /// Rows of contacts for every vertex of the shell.
-void make_contact_rows(State& state, Row<Shells> shell) {
+void make_contact_rows(SoftRows& state, Row<Shells> shell) {
     const Range vertices = state.shells.vertices[shell];
     const uint32_t end = first_contact_row(vertices.first + vertices.capacity + kLanes - 1);
     if (end > state.soft_contacts.size()) state.soft_contacts.append(end - state.soft_contacts.size());
@@ -36,7 +36,7 @@ void make_contact_rows(State& state, Row<Shells> shell) {
 
 }  // namespace
 
-bool soft_material(const State& state, Row<Materials> row, SoftMaterial& out) {
+bool soft_material(const MaterialRows& state, Row<Materials> row, SoftMaterial& out) {
     const auto kind = material_traits(state, row).kind;
     if (kind == MaterialKind::Brittle) return false;
     const Materials& materials = state.materials;
@@ -53,7 +53,7 @@ bool soft_material(const State& state, Row<Materials> row, SoftMaterial& out) {
     return true;
 }
 
-Row<Shells> copy_soft_shell(State& state, Row<Shells> source, const char** full) {
+Row<Shells> copy_soft_shell(ShellRows& state, Row<Shells> source, const char** full) {
     ShellRoom room = room_of(state, source);
     const uint32_t count = state.shells.vertices[source].count;
     room.vertices = (count + std::max(64u, count / 2) + kLanes - 1) / kLanes * kLanes;
@@ -62,7 +62,7 @@ Row<Shells> copy_soft_shell(State& state, Row<Shells> source, const char** full)
     return copy_shell(state, source, room, full);
 }
 
-Result<Row<SoftBodies>> make_soft(State& state, Row<Bodies> body, const LayerSettings& layers, float step_seconds,
+Result<Row<SoftBodies>> make_soft(SoftRows& state, Row<Bodies> body, const LayerSettings& layers, float step_seconds,
                                   uint64_t units) {
     const Row<Shells> shell = state.bodies.shell[body];
     SoftMaterial material;
@@ -115,7 +115,7 @@ Result<Row<SoftBodies>> make_soft(State& state, Row<Bodies> body, const LayerSet
     return Row<SoftBodies>(row);
 }
 
-void inherit_soft(State& state, Row<SoftBodies> parent, Row<Bodies> body) {
+void inherit_soft(SoftRows& state, Row<SoftBodies> parent, Row<Bodies> body) {
     const uint32_t row = row_for(state);
     if (row == kNone) return;
     make_contact_rows(state, state.bodies.shell[body]);
@@ -129,12 +129,12 @@ void inherit_soft(State& state, Row<SoftBodies> parent, Row<Bodies> body) {
     soft.most_motion[row] = 0;
 }
 
-void release_soft(State& state, Row<Bodies> body) {
+void release_soft(SoftRows& state, Row<Bodies> body) {
     const Row<SoftBodies> soft = find_soft(state.soft_bodies, body);
     if (soft.exists()) state.soft_bodies.clear_rows(soft, 1);
 }
 
-Row<ShellSprings> springs_of(const State& state, Row<SoftBodies> soft) {
+Row<ShellSprings> springs_of(const SoftRows& state, Row<SoftBodies> soft) {
     return find_springs(state, state.bodies.shell[state.soft_bodies.body[soft]]);
 }
 

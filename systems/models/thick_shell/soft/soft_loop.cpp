@@ -30,17 +30,16 @@ std::string SoftLoop::describe() const {
     return one_layer_.describe() + "      the same, of bodies with an inner and an outer layer\n" + layers_.describe();
 }
 
-SoftLoop::SoftLoop(State& state, JobSystem& jobs, Profiler& profiler)
-    : world_{state},
-      jobs_(jobs),
+SoftLoop::SoftLoop(JobSystem& jobs, Profiler& profiler)
+    : jobs_(jobs),
       profiler_(profiler),
       one_layer_(make_soft_loop(SpringLayout::OneLayer)),
       layers_(make_soft_loop(SpringLayout::Sandwich)),
       zone_(profiler.add_zone("soft body")) {}
 
-void SoftLoop::advance(const RigidWorld& rigid, const Step& step) {
+void SoftLoop::advance(SoftRows& state, const RigidWorld& rigid, const Step& step) {
     static constexpr uint32_t kMostAtOnce = 256;
-    State& state = world_.state;
+    SoftWorld world{state};
     SoftBodies& soft = state.soft_bodies;
     uint32_t awake[kMostAtOnce], count = 0;
     // More than that many: the next ones rest for the frame. Rows rise, so it is always the same ones.
@@ -63,15 +62,15 @@ void SoftLoop::advance(const RigidWorld& rigid, const Step& step) {
         together_count = 0;
     }
     const auto loop_of = [&](uint32_t s) -> const SoftInnerLoop& {
-        const Row<ShellSprings> row = world_.springs_of(s);
+        const Row<ShellSprings> row = world.springs_of(s);
         const bool has_layers = static_cast<SpringLayout>(state.shell_springs.layout[row]) != SpringLayout::OneLayer;
         return has_layers ? layers_ : one_layer_;
     };
     const auto run_of = [&](uint32_t s) {
-        return SoftInnerLoop::Run{s, state.shell_springs.steps[world_.springs_of(s)], soft.granted[s], nullptr};
+        return SoftInnerLoop::Run{s, state.shell_springs.steps[world.springs_of(s)], soft.granted[s], nullptr};
     };
     for (uint32_t i = 0; i < together_count; ++i) {
-        SoftInnerLoop::Team team(loop_of(together[i]), world_, run_of(together[i]), workers);
+        SoftInnerLoop::Team team(loop_of(together[i]), world, run_of(together[i]), workers);
         parallel_for(jobs_, workers, [&](uint32_t worker) {
             const uint64_t start = now_ns();
             team.work(worker);
@@ -80,14 +79,14 @@ void SoftLoop::advance(const RigidWorld& rigid, const Step& step) {
     }
     parallel_for(jobs_, alone_count, [&](uint32_t i) {
         const uint64_t start = now_ns();
-        loop_of(alone[i]).run_alone(world_, run_of(alone[i]));
+        loop_of(alone[i]).run_alone(world, run_of(alone[i]));
         profiler_.add_span(zone_, start, now_ns());
     });
     parallel_for(jobs_, count, [&](uint32_t i) { end_soft_frame(state, Row<SoftBodies>(awake[i]), step); });
 }
 
-void advance_soft(Serial, Step step, const RigidWorld& rigid, SoftLoop& loop) {
-    loop.advance(rigid, step);
+void advance_soft(Serial, Step step, SoftRows& rows, const RigidWorld& rigid, SoftLoop& loop) {
+    loop.advance(rows, rigid, step);
 }
 
 }  // namespace cullet

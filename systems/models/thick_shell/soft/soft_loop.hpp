@@ -2,6 +2,7 @@
 #pragma once
 #include <string>
 
+#include "components/body_rows.hpp"
 #include "engine/jobs.hpp"
 #include "engine/profiler.hpp"
 #include "engine/rigid_world.hpp"
@@ -11,11 +12,15 @@ namespace cullet {
 
 /// A loop's `body` is a row of SoftBodies.
 struct SoftWorld {
-    State& state;
+    SoftRows& state;
 
     template <class T>
     T& table() {
-        return state.table<T>();
+        return table_in<T>(state);
+    }
+    template <class Set>
+    Set& set() {
+        return state;
     }
     Row<ShellSprings> springs_of(uint32_t soft) const;
     template <class T>
@@ -34,18 +39,15 @@ inline constexpr uint32_t kSubstepsAFlow = 4;
 inline constexpr uint32_t kSoftTeamVertices = 256;
 
 struct SoftLoop {
-    SoftLoop(State& state, JobSystem& jobs, Profiler& profiler);
+    SoftLoop(JobSystem& jobs, Profiler& profiler);
 
     /// One frame of every awake body: whom it meets, its substeps, its shape and motion at the end. Bodies of more
     /// than kSoftTeamVertices are shared by all workers, one after another, unless there are as many of them as
     /// workers; the others go one job a body.
-    void advance(const RigidWorld& rigid, const Step& step);
+    void advance(SoftRows& rows, const RigidWorld& rigid, const Step& step);
     std::string describe() const;
-    /// For the frame plan: its inner loop reads and writes all tables.
-    static constexpr auto tables() { return State::tables(); }
 
  private:
-    SoftWorld world_;
     JobSystem& jobs_;
     Profiler& profiler_;
     SoftInnerLoop one_layer_, layers_;

@@ -13,7 +13,7 @@ namespace {
 
 /// Calls f(part, mass, place, velocity) for each point: places in the body frame, velocities along the world's axes.
 template <class F>
-void for_each_point(const State& s, const SpringView& view, F&& f) {
+void for_each_point(const ShellRows& s, const SpringView& view, F&& f) {
     for (uint32_t v = 0; v < view.shell.vertex_count(); ++v) {
         const uint32_t row = view.shell.vertex(v), element = s.vertices.element[row];
         if (element == kNone) continue;
@@ -30,7 +30,7 @@ void for_each_point(const State& s, const SpringView& view, F&& f) {
 }
 
 // Edge k of the parent's element e and of the piece's c: the same spring, perhaps the other way round.
-void copy_lengths(State& s, const SpringView& parent, uint32_t e, const SpringView& piece, uint32_t c, size_t k) {
+void copy_lengths(ShellRows& s, const SpringView& parent, uint32_t e, const SpringView& piece, uint32_t c, size_t k) {
     const uint32_t from = s.element_springs.spring[parent.edges(e)][k],
                    to = s.element_springs.spring[piece.edges(c)][k];
     if (from == kNone || to == kNone) return;
@@ -50,7 +50,7 @@ void copy_lengths(State& s, const SpringView& parent, uint32_t e, const SpringVi
     if (was_along != is_along) std::swap(layers.cross_length[layer][0], layers.cross_length[layer][1]);
 }
 
-bool give_piece_springs(State& s, const SpringView& parent, const FragmentPart& part, Row<Shells> shell) {
+bool give_piece_springs(ShellRows& s, const SpringView& parent, const FragmentPart& part, Row<Shells> shell) {
     const ShellSprings& own = s.shell_springs;
     SpringSettings settings;
     settings.layout = parent.layout();
@@ -82,9 +82,9 @@ bool give_piece_springs(State& s, const SpringView& parent, const FragmentPart& 
 
 }  // namespace
 
-void soft_handoff(const State& s, Row<SoftBodies> soft, std::span<const FragmentPart> parts,
+void soft_handoff(const SoftRows& s, Row<SoftBodies> soft, std::span<const FragmentPart> parts,
                   std::span<PartMotion> motions) {
-    const SpringView view(const_cast<State&>(s), springs_of(s, soft));
+    const SpringView view(const_cast<SoftRows&>(s), springs_of(s, soft));
     const Quat back = conjugate(s.bodies.orientation[s.soft_bodies.body[soft]]);
     std::fill(motions.begin(), motions.end(), PartMotion{});
     for_each_point(s, view, [&](uint32_t part, double mass, Vec3d place, Vec3 velocity) {
@@ -114,7 +114,7 @@ void soft_handoff(const State& s, Row<SoftBodies> soft, std::span<const Fragment
     }
 }
 
-void give_pieces_springs(State& s, Row<SoftBodies> torn, Row<Bodies> body, std::span<const uint32_t> order,
+void give_pieces_springs(SoftRows& s, Row<SoftBodies> torn, Row<Bodies> body, std::span<const uint32_t> order,
                          std::span<const FragmentPart> parts, std::span<const Row<Bodies>> child) {
     const SpringView parent(s, springs_of(s, torn));
     for (const uint32_t p : order) {
@@ -124,7 +124,7 @@ void give_pieces_springs(State& s, Row<SoftBodies> torn, Row<Bodies> body, std::
     }
 }
 
-void keep_torn(State& s, RigidWorld& rigid, Row<SoftBodies> torn, Row<Bodies> body) {
+void keep_torn(SoftRows& s, RigidWorld& rigid, Row<SoftBodies> torn, Row<Bodies> body) {
     const SpringView view(s, springs_of(s, torn));
     drop_dead_springs(view);
     for (uint32_t v = 0; v < view.shell.vertex_count(); ++v) {

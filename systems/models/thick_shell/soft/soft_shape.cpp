@@ -17,7 +17,7 @@ constexpr float kLeastTurnCosine = -0.9f;  // a normal that turns farther in one
 
 struct Frame {
     const SpringView& view;
-    State& state;
+    SoftRows& state;
     Row<SoftBodies> soft;
     Row<Bodies> body;
     bool is_pinned;
@@ -162,7 +162,7 @@ Vec3 normal_of(const Frame& f, const Ring& ring, Place&& place) {
 // Smooth where it was smooth, creased where it was creased: each vertex turns its corners' normals by one turn, the
 // least that takes its mean normal before into the one now.
 void take_shape(const Frame& f, const Pose& pose) {
-    State& s = f.state;
+    SoftRows& s = f.state;
     const Quat back = conjugate(pose.orientation);
     const auto in_body = [&](Vec3 p) { return rotate(back, p - pose.position); };
     // Two passes: all rings are looked at before any rest place changes.
@@ -195,7 +195,7 @@ void take_shape(const Frame& f, const Pose& pose) {
 
 /// What is not finite goes out of every row that the run writes, those of lanes that no vertex has included.
 void forget_motion(const SpringView& view) {
-    State& s = view.state;
+    ShellRows& s = view.state;
     for (uint32_t v = 0; v < view.pack_count() * kLanes; ++v) {
         view.place(v, {});
         if (!view.has_layers()) continue;
@@ -222,7 +222,7 @@ void put_back(const Frame& f) {
 
 }  // namespace
 
-void end_soft_frame(State& state, Row<SoftBodies> s, const Step& step) {
+void end_soft_frame(SoftRows& state, Row<SoftBodies> s, const Step& step) {
     SoftBodies& soft = state.soft_bodies;
     Bodies& bodies = state.bodies;
     const SpringView view(state, springs_of(state, s));

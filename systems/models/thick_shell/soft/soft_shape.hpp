@@ -1,6 +1,6 @@
 // From the points of an awake body to what the rest of the program sees of it.
 #pragma once
-#include "components/state.hpp"
+#include "components/body_rows.hpp"
 #include "engine/system.hpp"
 
 namespace cullet {
@@ -11,6 +11,6 @@ namespace cullet {
 /// body frame, inward directions and the game's normals turn with it. Counts how long it has been quiet. Points that
 /// are not finite, or faster than anything may be, are put back to the shape before, at rest about the body's motion,
 /// and soft.has_fault tells.
-void end_soft_frame(State& state, Row<SoftBodies> soft, const Step& step);
+void end_soft_frame(SoftRows& state, Row<SoftBodies> soft, const Step& step);
 
 }  // namespace cullet

@@ -13,7 +13,7 @@ struct Cost {
     uint64_t frame, substep;
 };
 
-Cost cost_of(const State& state, uint32_t s) {
+Cost cost_of(const SoftRows& state, uint32_t s) {
     const Row<SoftBodies> row(s);
     const Row<ShellSprings> springs = springs_of(state, row);
     const uint64_t vertices = state.shells.vertices[state.shell_springs.shell[springs]].count;
@@ -21,7 +21,7 @@ Cost cost_of(const State& state, uint32_t s) {
 }
 
 template <class F>
-void for_each_awake(const State& state, F&& f) {
+void for_each_awake(const SoftRows& state, F&& f) {
     const SoftBodies& soft = state.soft_bodies;
     for (uint32_t s = 0; s < soft.size(); ++s)
         if (soft.is_used[s] && soft.is_awake[s]) f(s, cost_of(state, s));
@@ -36,14 +36,14 @@ uint64_t soft_units_a_substep(const ShellSprings& springs, Row<ShellSprings> row
            units_of_energies(springs, row);
 }
 
-uint64_t soft_units_wanted(const State& state) {
+uint64_t soft_units_wanted(const SoftRows& state) {
     uint64_t sum = 0;
     for_each_awake(state,
                    [&](uint32_t s, Cost cost) { sum += cost.frame + cost.substep * state.soft_bodies.substeps[s]; });
     return sum;
 }
 
-uint64_t grant_soft(State& state, uint64_t units, uint64_t& slow_frames) {
+uint64_t grant_soft(SoftRows& state, uint64_t units, uint64_t& slow_frames) {
     SoftBodies& soft = state.soft_bodies;
     uint64_t fixed = 0, steps = 0, used = 0;
     for_each_awake(state,

@@ -15,7 +15,7 @@ struct Sides {
 };
 
 Sides sides_of(const SpringView& view, const Ring& ring, uint32_t vertex, Vec3 normal) {
-    const State& s = view.state;
+    const ShellRows& s = view.state;
     const Vec3 at = view.position(vertex);
     Sides sides;
     sides.count = ring.count;
@@ -62,7 +62,7 @@ bool best_run(const Ring& ring, const Sides& sides, Run& best) {
 PlaneSplit split_plane(const SpringView& view, uint32_t vertex, Vec3 normal) {
     PlaneSplit split;
     const ShellView& shell = view.shell;
-    State& s = view.state;
+    ShellRows& s = view.state;
     Ring ring;
     walk_ring(shell, vertex, ring);
     Run run;

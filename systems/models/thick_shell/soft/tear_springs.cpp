@@ -59,34 +59,33 @@ bool has_room(const SpringView& view) {
 }  // namespace
 
 // C1 of springs: e = |x| / L0 - 1 above the limit, the largest first, ties by row.
-void tear_springs(EachBody soft_body, OfSprings of, ShellTables shells, SoftBodies& soft) {
-    State& state = shells.state;
-    const SpringView view(state, of.row);
+void tear_springs(EachBody soft_body, OfSprings springs, SoftRows& rows) {
+    const SpringView view(rows, springs.row);
     const uint32_t s = soft_body.row;
-    const float limit = soft.break_strain[s];
+    const float limit = rows.soft_bodies.break_strain[s];
     Candidates candidates;
-    const Range rows = view.own().springs[view.row];
-    if (!any_above(state.springs.length.data() + rows.first, rows.count, limit)) return;
-    for (uint32_t i = 0; i < rows.count; ++i) {
-        const float strain = state.springs.length[rows.first + i];
-        if (strain > limit && state.springs.a[rows.first + i] != kNone && state.springs.can_crack[rows.first + i])
+    const Range range = view.own().springs[view.row];
+    if (!any_above(rows.springs.length.data() + range.first, range.count, limit)) return;
+    for (uint32_t i = 0; i < range.count; ++i) {
+        const float strain = rows.springs.length[range.first + i];
+        if (strain > limit && rows.springs.a[range.first + i] != kNone && rows.springs.can_crack[range.first + i])
             candidates.add({strain, i});
     }
     for (uint32_t k = 0; k < candidates.count; ++k) {
         const uint32_t spring = candidates.list[k].spring, row = view.spring(spring);
         if (!has_room(view)) {
-            soft.lacks_room[s] = 1;
+            rows.soft_bodies.lacks_room[s] = 1;
             return;
         }
-        const uint32_t a = state.springs.a[row], b = state.springs.b[row], v = end_to_split(view, spring);
+        const uint32_t a = rows.springs.a[row], b = rows.springs.b[row], v = end_to_split(view, spring);
         const Vec3 normal = normalised(view.position(v == a ? b : a) - view.position(v));
         const PlaneSplit split = split_plane(view, v, normal);
         if (!split.is_done) {
-            state.springs.can_crack[row] = 0;  // of a single element: it goes on stretching
+            rows.springs.can_crack[row] = 0;  // of a single element: it goes on stretching
             continue;
         }
-        ++soft.tear_count[s];
-        soft.is_torn[s] = 1;
+        ++rows.soft_bodies.tear_count[s];
+        rows.soft_bodies.is_torn[s] = 1;
         const bool is_rebuilt = rebuild_springs(view, {split.touched, split.touched_count});
         CULLET_ASSERT(is_rebuilt, "the springs of soft body %u found no room after a split", s);
         (void)is_rebuilt;

@@ -15,7 +15,7 @@ RigidMotion motion_of_body(const Bodies& bodies, Row<Bodies> body) {
 }
 
 // All cells anew: every one has another shape. Elements of pieces that left are dead, so they are linked as in a break.
-void choose_hulls(State& state, Row<Shells> row) {
+void choose_hulls(ShellRows& state, Row<Shells> row) {
     const ShellView shell(state, row);
     const Range cells = state.shells.cells[row];
     for (uint32_t c = cells.first; c < cells.first + cells.count; ++c) state.cells.is_changed[c] = 1;
@@ -29,7 +29,7 @@ void choose_hulls(State& state, Row<Shells> row) {
 
 }  // namespace
 
-void wake_soft(State& state, RigidWorld& rigid, Row<SoftBodies> s) {
+void wake_soft(SoftRows& state, RigidWorld& rigid, Row<SoftBodies> s) {
     SoftBodies& soft = state.soft_bodies;
     const Row<Bodies> body = soft.body[s];
     const SpringView view(state, springs_of(state, s));
@@ -43,7 +43,7 @@ void wake_soft(State& state, RigidWorld& rigid, Row<SoftBodies> s) {
     soft.partner_count[s] = 0;
 }
 
-void reshape_soft(State& state, RigidWorld& rigid, Row<SoftBodies> s, Arena& arena) {
+void reshape_soft(SoftRows& state, RigidWorld& rigid, Row<SoftBodies> s, Arena& arena) {
     Bodies& bodies = state.bodies;
     const Row<Bodies> body = state.soft_bodies.body[s];
     const Row<Shells> row = bodies.shell[body];
@@ -54,7 +54,7 @@ void reshape_soft(State& state, RigidWorld& rigid, Row<SoftBodies> s, Arena& are
                     convex_pieces(state, row, arena));
 }
 
-void freeze_soft(State& state, RigidWorld& rigid, Row<SoftBodies> s, Arena& arena) {
+void freeze_soft(SoftRows& state, RigidWorld& rigid, Row<SoftBodies> s, Arena& arena) {
     SoftBodies& soft = state.soft_bodies;
     Bodies& bodies = state.bodies;
     const Row<Bodies> body = soft.body[s];
@@ -75,7 +75,7 @@ void freeze_soft(State& state, RigidWorld& rigid, Row<SoftBodies> s, Arena& aren
 
 // A blow takes some milliseconds, in which the sheet round it comes along; given at once to what lies under a heavy
 // striker it is kilometres a second for vertices of some grams.
-void push_soft(State& state, RigidWorld& rigid, Row<SoftBodies> s, Vec3 point, Vec3 impulse, float radius,
+void push_soft(SoftRows& state, RigidWorld& rigid, Row<SoftBodies> s, Vec3 point, Vec3 impulse, float radius,
                float fastest) {
     constexpr int kMostDoublings = 16;
     if (!state.soft_bodies.is_awake[s]) wake_soft(state, rigid, s);
@@ -107,7 +107,7 @@ void push_soft(State& state, RigidWorld& rigid, Row<SoftBodies> s, Vec3 point, V
     }
 }
 
-void follow_body(State& state, Row<Bodies> body) {
+void follow_body(SoftRows& state, Row<Bodies> body) {
     const Row<SoftBodies> s = find_soft(state.soft_bodies, body);
     if (!s.exists() || !state.soft_bodies.is_awake[s]) return;
     state.soft_bodies.quiet_seconds[s] = 0;

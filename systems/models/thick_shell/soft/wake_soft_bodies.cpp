@@ -30,7 +30,7 @@ struct Touches {
     bool is_new = false;  // something that moves touches it that is no partner
 };
 
-Touches touches_of(const State& state, const RigidWorld& rigid, uint32_t s) {
+Touches touches_of(const SoftRows& state, const RigidWorld& rigid, uint32_t s) {
     const SoftBodies& soft = state.soft_bodies;
     const uint32_t body = soft.body[s];
     Touches touches;
@@ -50,7 +50,7 @@ Touches touches_of(const State& state, const RigidWorld& rigid, uint32_t s) {
 }
 
 // What is held by pins bears loads: when one comes or goes, its shape is not that of rest any more.
-bool wakes(const State& state, const RigidWorld& rigid, uint32_t s) {
+bool wakes(const SoftRows& state, const RigidWorld& rigid, uint32_t s) {
     const SoftBodies& soft = state.soft_bodies;
     if (soft.is_called[s]) return true;
     const Touches touches = touches_of(state, rigid, s);
@@ -61,21 +61,21 @@ bool wakes(const State& state, const RigidWorld& rigid, uint32_t s) {
 
 }  // namespace
 
-void freeze_soft_bodies(Serial, ShellTables shells, SoftBodies& soft, Bodies&, RigidWorld& rigid, Arena& arena) {
-    for (uint32_t s = 0; s < soft.size(); ++s)
-        if (soft.is_used[s] && soft.is_awake[s] && soft.quiet_seconds[s] >= kQuietSeconds)
-            freeze_soft(shells.state, rigid, Row<SoftBodies>(s), arena);
+void freeze_soft_bodies(Serial, SoftRows& rows, RigidWorld& rigid, Arena& arena) {
+    for (uint32_t s = 0; s < rows.soft_bodies.size(); ++s)
+        if (rows.soft_bodies.is_used[s] && rows.soft_bodies.is_awake[s] &&
+            rows.soft_bodies.quiet_seconds[s] >= kQuietSeconds)
+            freeze_soft(rows, rigid, Row<SoftBodies>(s), arena);
 }
 
-void wake_soft_bodies(Serial, Step, ShellTables shells, const Tasks& tasks, const TaskContacts& contacts,
-                      SoftBodies& soft, Bodies& bodies, RigidWorld& rigid) {
+void wake_soft_bodies(Serial, SoftRows& rows, RigidWorld& rigid) {
     if (!rigid.knows_surfaces()) return;
-    for (uint32_t s = 0; s < soft.size(); ++s) {
-        if (!soft.is_used[s] || soft.is_awake[s]) continue;
-        const Row<Bodies> body = soft.body[s];
-        if (bodies.hold_count[body] || !wakes(shells.state, rigid, s)) continue;
-        if (is_striking(tasks, contacts, body)) continue;
-        wake_soft(shells.state, rigid, Row<SoftBodies>(s));
+    for (uint32_t s = 0; s < rows.soft_bodies.size(); ++s) {
+        if (!rows.soft_bodies.is_used[s] || rows.soft_bodies.is_awake[s]) continue;
+        const Row<Bodies> body = rows.soft_bodies.body[s];
+        if (rows.bodies.hold_count[body] || !wakes(rows, rigid, s)) continue;
+        if (is_striking(rows.tasks, rows.task_contacts, body)) continue;
+        wake_soft(rows, rigid, Row<SoftBodies>(s));
     }
 }
 

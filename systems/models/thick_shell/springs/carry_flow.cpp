@@ -51,7 +51,7 @@ void remember_flow(const SpringView& view, uint32_t element) {
 }
 
 bool carry_flow(const SpringView& view, uint32_t s) {
-    State& state = view.state;
+    ShellRows& state = view.state;
     const uint32_t row = view.spring(s), element = state.springs.element[row];
     Mean mean;
     mean.add(flow_at(view, element));

@@ -8,7 +8,7 @@ namespace cullet {
 namespace {
 
 struct SpringChecker {
-    const State& state;
+    const ShellRows& state;
     const SpringView& view;
     std::string trouble;
 
@@ -148,7 +148,7 @@ struct SpringChecker {
 
 }  // namespace
 
-Result<void> check_springs(const State& state, const std::string& name, const std::string& advice) {
+Result<void> check_springs(const ShellRows& state, const std::string& name, const std::string& advice) {
     const ShellSprings& own = state.shell_springs;
     std::vector<uint8_t> has_springs(state.shells.size(), 0);
     const auto refuse = [&](const std::string& what) { return Error{name + ": " + what + ". " + advice}; };
@@ -159,8 +159,8 @@ Result<void> check_springs(const State& state, const std::string& name, const st
         const uint32_t shell = own.shell[row];
         if (shell >= state.shells.size() || state.shells.users[shell] == 0 || has_springs[shell]++)
             return refuse(place + " is " + std::to_string(shell) + ", which is no shell or has other springs, too");
-        if (!state.pools.shell_springs.is_taken(row, 1)) return refuse(place + " is in a free row");
-        const SpringView view(const_cast<State&>(state), Row<ShellSprings>(row));  // nothing is changed
+        if (!state.shell_springs.pool.is_taken(row, 1)) return refuse(place + " is in a free row");
+        const SpringView view(const_cast<ShellRows&>(state), Row<ShellSprings>(row));  // nothing is changed
         SpringChecker check{state, view, {}};
         check.check_row();
         if (check.trouble.empty()) check.check_packs();

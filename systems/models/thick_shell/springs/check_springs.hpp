@@ -1,7 +1,7 @@
 #pragma once
 #include <string>
 
-#include "components/state.hpp"
+#include "components/shell_rows.hpp"
 #include "cullet/result.hpp"
 
 namespace cullet {
@@ -10,6 +10,6 @@ namespace cullet {
 /// ranges of the shell's size, ends that are vertices and corners of their elements' edges, lists that lie in slots of
 /// their own and name the springs' other ends, numbers that are finite. Ranges have been held against their pools. The
 /// error is one sentence that begins with `name` and ends with `advice`.
-Result<void> check_springs(const State& state, const std::string& name, const std::string& advice);
+Result<void> check_springs(const ShellRows& state, const std::string& name, const std::string& advice);
 
 }  // namespace cullet

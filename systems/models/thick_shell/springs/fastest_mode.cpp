@@ -34,7 +34,7 @@ struct LoneElement {
     bool is_free[6] = {};
 
     LoneElement(const SpringView& view, uint32_t e) {
-        const State& s = view.state;
+        const ShellRows& s = view.state;
         const uint32_t row = view.shell.element(e);
         const double area = area_of(view, e), mass = s.elements.mass[row];
         points = view.has_layers() ? 6 : 3;
@@ -53,7 +53,7 @@ struct LoneElement {
     }
 
     void take_edge(const SpringView& view, uint32_t e, uint32_t k, double share) {
-        const State& s = view.state;
+        const ShellRows& s = view.state;
         const uint32_t spring = s.element_springs.spring[view.edges(e)][k];
         edge[k] = {k, (k + 1) % 3, 0, 0, 0, 0};
         if (spring >= view.spring_count()) return;

@@ -16,7 +16,7 @@ constexpr float kMostDampingRatio = 0.3f;  // section 8 of the note
 constexpr float kLongestGiven = 1e6f, kStiffestGiven = 1e12f;  // m, N/m
 constexpr uint32_t kSpareSlots = 1;  // a pack: a split gives a vertex at most one neighbour more
 
-Result<void> check(const State& state, Row<Shells> shell, const SpringSettings& s) {
+Result<void> check(const ShellRows& state, Row<Shells> shell, const SpringSettings& s) {
     const auto refuse = [](const char* what, float value, const char* range) {
         return Error{std::string("springs: ") + what + " is " + std::to_string(value) + ", not " + range +
                      ". Give a value in that range."};
@@ -39,7 +39,7 @@ Result<void> check(const State& state, Row<Shells> shell, const SpringSettings& 
     return {};
 }
 
-void keep_settings(State& state, Row<ShellSprings> row, Row<Shells> shell, const SpringSettings& s) {
+void keep_settings(ShellRows& state, Row<ShellSprings> row, Row<Shells> shell, const SpringSettings& s) {
     ShellSprings& own = state.shell_springs;
     own.layout[row] = static_cast<uint8_t>(s.layout);
     own.young_modulus[row] =
@@ -63,7 +63,7 @@ bool owns_edge(const ShellView& shell, uint32_t e, uint32_t k) {
 
 /// A row a spring, by rising element and edge.
 void list_edges(const SpringView& view) {
-    State& state = view.state;
+    ShellRows& state = view.state;
     const ShellView& shell = view.shell;
     state.shell_springs.edges[view.row].count = shell.element_count();
     for (uint32_t e = 0; e < shell.element_count(); ++e)
@@ -143,12 +143,12 @@ Error no_room(const char* limit) {
 
 }  // namespace
 
-float length_factor_of(const State& state, Row<Shells> shell, float wanted) {
+float length_factor_of(const ShellRows& state, Row<Shells> shell, float wanted) {
     const float h = state.shells.thickness[shell], natural = h > 0 ? state.shells.mean_edge[shell] / h : 1;
     return std::clamp(wanted > 0 ? wanted : natural, kLeastLengthFactor, kMostLengthFactor);
 }
 
-Result<Row<ShellSprings>> give_springs(State& state, Row<Shells> shell_row, const SpringSettings& settings) {
+Result<Row<ShellSprings>> give_springs(ShellRows& state, Row<Shells> shell_row, const SpringSettings& settings) {
     if (const Result<void> valid = check(state, shell_row, settings); !valid) return Error{valid.error()};
     const ShellView shell(state, shell_row);
     SpringRoom room;
@@ -180,7 +180,7 @@ Result<Row<ShellSprings>> give_springs(State& state, Row<Shells> shell_row, cons
     return row;
 }
 
-Result<Row<ShellSprings>> give_springs(State& state, Row<Shells> shell_row, std::span<const GivenSpring> given,
+Result<Row<ShellSprings>> give_springs(ShellRows& state, Row<Shells> shell_row, std::span<const GivenSpring> given,
                                        const SpringSettings& settings) {
     if (const Result<void> valid = check(state, shell_row, settings); !valid) return Error{valid.error()};
     const ShellView shell(state, shell_row);

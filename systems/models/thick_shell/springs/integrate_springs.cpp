@@ -16,17 +16,12 @@ void integrate(const Rows<SpringPacks>& packs, const SpringView& view, Turn turn
 }  // namespace
 
 // The kernel reads and writes through the columns' addresses; the parameters say which.
-void integrate_springs(Rows<SpringPacks> packs, OfSprings springs, Turn turn, ShellTables shells,
-                       In<&Vertices::inverse_mass>, In<&Vertices::probe>, InOut<&Vertices::velocity>,
-                       Out<&Vertices::probe>, InOut<&SpringSlots::slot>, InOut<&SpringPacks::zero_lengths>) {
-    integrate(packs, SpringView(shells.state, springs.row), turn, integrate_spring_packs);
+void integrate_springs(Rows<SpringPacks> packs, OfSprings springs, Turn turn, InChunks<ShellRows> rows) {
+    integrate(packs, SpringView(rows.set, springs.row), turn, integrate_spring_packs);
 }
 
-void integrate_layers(Rows<SpringPacks> packs, OfSprings springs, Turn turn, ShellTables shells, In<&Vertices::probe>,
-                      InOut<&Vertices::velocity>, Out<&Vertices::probe>, In<&Twins::position>, InOut<&Twins::velocity>,
-                      Out<&Twins::position>, InOut<&SpringSlots::slot>, InOut<&LayerSlots::slot>,
-                      InOut<&SpringPacks::zero_lengths>) {
-    const SpringView view(shells.state, springs.row);
+void integrate_layers(Rows<SpringPacks> packs, OfSprings springs, Turn turn, InChunks<ShellRows> rows) {
+    const SpringView view(rows.set, springs.row);
     integrate(packs, view, turn,
               view.layout() == SpringLayout::Crossed ? integrate_crossed_packs : integrate_sandwich_packs);
 }

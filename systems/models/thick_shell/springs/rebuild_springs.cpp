@@ -87,7 +87,7 @@ bool is_asleep(const SpringView& view, uint32_t e) {
 // Of an edge with two elements the lower decides. A cut edge's two elements name the same spring: it stays with the one
 // that owns it, or with that one's neighbour.
 EdgeState look_at(const SpringView& view, uint32_t e, uint32_t k) {
-    const State& state = view.state;
+    const ShellRows& state = view.state;
     const uint32_t spring = state.element_springs.spring[view.edges(e)][k];
     uint32_t other = state.elements.neighbour[view.shell.element(e)][k];
     if (is_asleep(view, e)) return {Fate::IsTheOthers, kNone, kNone, 3};
@@ -138,7 +138,7 @@ bool set_ends(const SpringView& view, uint32_t s, uint32_t from, uint32_t to, bo
 
 /// A row that no element has: without ends, stiffness and length.
 void clear_spring(const SpringView& view, uint32_t s) {
-    State& state = view.state;
+    ShellRows& state = view.state;
     const uint32_t row = view.spring(s);
     state.springs.clear_rows(row, 1);
     if (view.has_layers()) state.layer_springs.clear_rows(view.layer(s), 1);
@@ -148,7 +148,7 @@ void clear_spring(const SpringView& view, uint32_t s) {
 }
 
 uint32_t new_spring(const SpringView& view, const EdgeState& edge) {
-    State& state = view.state;
+    ShellRows& state = view.state;
     const uint32_t s = view.own().springs[view.row].count++;
     if (view.has_layers()) ++view.own().layers[view.row].count;
     clear_spring(view, s);
@@ -160,7 +160,7 @@ uint32_t new_spring(const SpringView& view, const EdgeState& edge) {
 }
 
 void take_springs(const SpringView& view, Sets& sets) {
-    State& state = view.state;
+    ShellRows& state = view.state;
     sets.elements.for_each(view.shell.element_count(), [&](uint32_t e) {
         for (uint32_t k = 0; k < 3 && !is_dead(view, e); ++k) {
             const EdgeState edge = look_at(view, e, k);
@@ -183,7 +183,7 @@ void take_springs(const SpringView& view, Sets& sets) {
 }
 
 void measure(const SpringView& view, const Sets& sets) {
-    State& state = view.state;
+    ShellRows& state = view.state;
     const uint32_t vertices = view.shell.vertex_count();
     sets.vertices.for_each(vertices, [&](uint32_t v) {
         const bool lacked = lacks_twin(view, v);
@@ -259,7 +259,7 @@ void remember_lengths_at(const SpringView& view, uint32_t vertex) {
 
 /// What measure() found, in the packs that keep their lists. Both ends of new springs are in packs that are written.
 void tell_other_packs(const SpringView& view, const Sets& sets) {
-    const State& state = view.state;
+    const ShellRows& state = view.state;
     sets.elements.for_each(view.shell.element_count(), [&](uint32_t e) {
         for (const uint32_t s : state.element_springs.spring[view.edges(e)]) {
             if (s >= kAsleepSpring || state.springs.element[view.spring(s)] != e) continue;
@@ -319,7 +319,7 @@ bool rebuild_springs(const SpringView& view, std::span<const uint32_t> touched) 
 
 // The spring goes to the other element that has the edge, turned as it sees it; if there is none, nobody has it.
 void forget_springs(const SpringView& view, uint32_t element) {
-    State& state = view.state;
+    ShellRows& state = view.state;
     list_new_elements(view);
     remember_flow(view, element);
     for (uint32_t& entry : state.element_springs.spring[view.edges(element)]) {

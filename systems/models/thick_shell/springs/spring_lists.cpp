@@ -97,7 +97,7 @@ uint32_t slots_needed(const VertexSprings (&lists)[kLanes]) {
 // that the kernel sees lengths of 0 by their least. A vertex without springs, at the edge of a region, is given
 // another's of the pack: by its own length of 0 the kernel would count the pack's lengths at each step.
 void write_pack(const SpringView& view, uint32_t pack, const VertexSprings (&lists)[kLanes]) {
-    State& state = view.state;
+    ShellRows& state = view.state;
     const uint32_t row = view.pack(pack), needed = slots_needed(lists), first = state.spring_packs.first_slot[row];
     CULLET_ASSERT(needed <= state.spring_packs.slot_capacity[row], "pack %u has %u slots of room for %u", pack,
                   state.spring_packs.slot_capacity[row], needed);
@@ -152,7 +152,7 @@ void remember_length(const SpringView& view, uint32_t s) {
 }
 
 void measure_lengths(const SpringView& view) {
-    State& state = view.state;
+    ShellRows& state = view.state;
     for (uint32_t p = 0; p < view.pack_count(); ++p) {
         const uint32_t row = view.pack(p), first = state.spring_packs.first_slot[row];
         for (uint32_t i = first; i < first + state.spring_packs.slot_count[row]; ++i)

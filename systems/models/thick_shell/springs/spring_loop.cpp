@@ -14,7 +14,7 @@ SpringLoop make_spring_loop(SpringLayout layout) {
     return loop;
 }
 
-void run_springs(State& state, Row<ShellSprings> row, uint32_t steps) {
+void run_springs(ShellRows& state, Row<ShellSprings> row, uint32_t steps) {
     const auto layout = static_cast<SpringLayout>(state.shell_springs.layout[row]);
     SpringWorld world{state};
     make_spring_loop(layout).run_alone(world, {row, state.shell_springs.steps[row], steps, nullptr});

@@ -1,6 +1,6 @@
 // The inner loop of springs: repeated 8 to 32 times a frame for one shell, by one thread or a team.
 #pragma once
-#include "components/state.hpp"
+#include "components/shell_rows.hpp"
 #include "engine/inner_loop.hpp"
 
 namespace cullet {
@@ -20,11 +20,15 @@ struct Parameter<OfSprings> {
 
 /// A loop's `body` is a row of ShellSprings.
 struct SpringWorld {
-    State& state;
+    ShellRows& state;
 
     template <class T>
     T& table() {
-        return state.table<T>();
+        return table_in<T>(state);
+    }
+    template <class Set>
+    Set& set() {
+        return state;
     }
     Row<ShellSprings> springs_of(uint32_t body) const { return Row<ShellSprings>(body); }
     /// Rows of a table that belong to the shell; all packs that hold vertices.
@@ -43,6 +47,6 @@ using SpringLoop = InnerLoop<SpringWorld>;
 SpringLoop make_spring_loop(SpringLayout layout);
 
 /// `steps` substeps of one shell on the calling thread.
-void run_springs(State& state, Row<ShellSprings> row, uint32_t steps);
+void run_springs(ShellRows& state, Row<ShellSprings> row, uint32_t steps);
 
 }  // namespace cullet

@@ -239,7 +239,7 @@ void integrate_crossed_packs(const SpringStep& step, uint32_t first_pack, uint32
 }
 
 SpringStep::SpringStep(const SpringView& view, uint32_t current) {
-    State& state = view.state;
+    ShellRows& state = view.state;
     const ShellSprings& own = view.own();
     const uint32_t packs = own.packs[view.row].first, first = view.shell.vertices().first;
     const int side = static_cast<int>(current & 1), next = 1 - side;

@@ -1,6 +1,6 @@
 // The tables of one shell and its springs, with their ranges looked up.
 #pragma once
-#include "components/state.hpp"
+#include "components/shell_rows.hpp"
 
 namespace cullet {
 
@@ -9,11 +9,11 @@ namespace cullet {
 inline constexpr uint32_t kAsleepSpring = kNone - 1;
 
 struct SpringView {
-    State& state;
+    ShellRows& state;
     Row<ShellSprings> row;
     ShellView shell;
 
-    SpringView(State& s, Row<ShellSprings> r) : state(s), row(r), shell(s, s.shell_springs.shell[r]) {}
+    SpringView(ShellRows& s, Row<ShellSprings> r) : state(s), row(r), shell(s, s.shell_springs.shell[r]) {}
     ShellSprings& own() const { return state.shell_springs; }
     SpringLayout layout() const { return static_cast<SpringLayout>(own().layout[row]); }
     bool has_layers() const { return layout() != SpringLayout::OneLayer; }

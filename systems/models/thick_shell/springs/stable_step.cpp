@@ -32,7 +32,7 @@ double longest_step(double stiffness, double damping, double inverse_mass) {
 // Row sums of the stiffness matrix over the mass of the point: a spring has two blocks of k in a row, a mid spring four
 // of k / 4, a shear pair four of k, the gradients of e1 - e2 being unit vectors. Damping is along springs alone.
 float stable_spring_step(const SpringView& view) {
-    const State& state = view.state;
+    const ShellRows& state = view.state;
     const LayerSprings& layers = state.layer_springs;
     const double now = view.own().time_step[view.row];  // slots hold c over it
     double least = std::numeric_limits<float>::max();

@@ -29,7 +29,7 @@ struct Centres {
 /// Calls f(mass, rest place, place now, velocity) for each point of both layers.
 template <class F>
 void for_each_point(const SpringView& view, F&& f) {
-    const State& s = view.state;
+    const ShellRows& s = view.state;
     for (uint32_t v = 0; v < view.shell.vertex_count(); ++v) {
         if (!is_live(view, v)) continue;
         const uint32_t row = view.shell.vertex(v);
@@ -101,7 +101,7 @@ Vec3 through_at_rest(const SpringView& view, uint32_t v) {
 }
 
 void start_springs(const SpringView& view, const RigidMotion& motion) {
-    State& state = view.state;
+    ShellRows& state = view.state;
     view.own().origin.set(view.row, motion.pose.position);
     view.own().steps[view.row] = 0;
     const Vec3 centre = start_centre(view).to_float();
@@ -135,7 +135,7 @@ SpringMotion motion_of(const SpringView& view) {
 }
 
 RigidMotion stop_springs(const SpringView& view) {
-    State& state = view.state;
+    ShellRows& state = view.state;
     const Centres c = centres_of(view);
     double products[3][3] = {};
     for_each_point(view, [&](double m, Vec3d rest, Vec3d now, Vec3d) {
@@ -178,7 +178,7 @@ Points points_of(const SpringView& view, uint32_t v, int side) {
 
 // Of each spring half of its stiffness times what it is longer now and on the other side of the positions.
 double energy_between(const SpringView& view, int now, int then) {
-    const State& s = view.state;
+    const ShellRows& s = view.state;
     double sum = 0;
     const auto longer = [](Vec3d a, Vec3d b, double rest) { return length(b - a) - rest; };
     for (uint32_t i = 0; i < view.spring_count(); ++i) {

@@ -9,7 +9,7 @@
 #pragma once
 #include <span>
 
-#include "components/state.hpp"
+#include "components/shell_rows.hpp"
 #include "systems/structures/shell/vertex_list.hpp"
 
 namespace cullet {

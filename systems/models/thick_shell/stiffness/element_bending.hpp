@@ -17,7 +17,7 @@ struct BendingTerms {
     uint32_t hinge[3];    // of the shell, or kNone
 
     BendingTerms(const ShellView& shell, const PlaneStress& stress, uint32_t element) {
-        const State& state = shell.state;
+        const ShellRows& state = shell.state;
         const uint32_t row = shell.element(element);
         const TriangleTerms terms(state.triangle_springs, row, stress);
         const double thickness = state.triangle_springs.thickness[row];

@@ -1,6 +1,6 @@
 // Stiffness terms of single triangles and hinges, in double.
 #pragma once
-#include "components/state.hpp"
+#include "components/shell_rows.hpp"
 #include "systems/cook/materials.hpp"
 #include "systems/models/thick_shell/stiffness/grain_stiffness.hpp"
 
@@ -13,7 +13,7 @@ struct PlaneStress {
     bool has_grain = false;
     GrainModuli grain{};
 };
-inline PlaneStress plane_stress(const State& state, Row<Shells> shell) {
+inline PlaneStress plane_stress(const ShellRows& state, Row<Shells> shell) {
     const Row<Materials> material = state.shells.material[shell];
     const double e = state.materials.young_modulus[material], nu = state.materials.poisson_ratio[material];
     const TraitsRow traits = material_traits(state, material);

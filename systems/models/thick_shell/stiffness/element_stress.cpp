@@ -201,7 +201,7 @@ void lanes_of(Column<Vec3>& column, uint32_t first, float* (&out)[3]) {
 }
 
 StressTables stress_tables(const ShellView& shell, uint32_t side, float start_limit = kNeverStarts) {
-    State& state = shell.state;
+    ShellRows& state = shell.state;
     const TriangleSprings& springs = state.triangle_springs;
     const uint32_t e = shell.elements().first;
     const PlaneStress c = plane_stress(state, shell.row);
@@ -257,7 +257,7 @@ void follow_grain(const ShellView& shell, const PlaneStress& stress, uint32_t fi
 
 double grained_membrane_energy(const ShellView& shell, const PlaneStress& stress, uint32_t side, uint32_t first,
                                uint32_t count) {
-    const State& state = shell.state;
+    const ShellRows& state = shell.state;
     const Float4* w = state.vertices.probe.data(static_cast<int>(side & 1)) + shell.vertices().first;
     double sum = 0;
     for (uint32_t e = first; e < first + count; ++e) {

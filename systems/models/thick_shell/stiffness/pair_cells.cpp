@@ -72,7 +72,7 @@ using OppositeNeighbours = Neighbours<kMostLinks>;  // a grain links all vertice
 /// Whom build_row would find; without a grain without the numbers. `row` is room for them.
 void find_neighbours(const ShellView& shell, const PlaneStress& stress, uint32_t vertex, NearNeighbours& blocks,
                      OppositeNeighbours& links, VertexRow& row) {
-    const State& state = shell.state;
+    const ShellRows& state = shell.state;
     blocks.count = links.count = 0;
     Ring ring;
     collect_ring(shell, vertex, ring);

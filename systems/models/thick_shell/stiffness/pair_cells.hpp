@@ -5,7 +5,7 @@
 // A pair cell is a fixed number of packs in a row, which one thread works off at once, so that the order of all sums
 // follows from the layout alone.
 #pragma once
-#include "components/state.hpp"
+#include "components/shell_rows.hpp"
 
 namespace cullet {
 

@@ -2,7 +2,7 @@
 #pragma once
 #include <algorithm>
 
-#include "components/state.hpp"
+#include "components/shell_rows.hpp"
 #include "systems/models/thick_shell/stiffness/element_stiffness.hpp"
 #include "systems/structures/shell/ring.hpp"
 

@@ -54,7 +54,7 @@ void add_hinge(const ShellView& shell, uint32_t vertex, uint32_t hinge, VertexRo
 void add_bending(const ShellView& shell, const PlaneStress& stress, uint32_t vertex, uint32_t element, VertexRow& row) {
     const BendingTerms terms(shell, stress, element);
     const BendingVertices held(shell, element);
-    const State& state = shell.state;
+    const ShellRows& state = shell.state;
     const uint32_t own = held.index_of(vertex);
     if (own == held.count) return;
     const auto gradient = [&](uint32_t k, uint32_t i) {

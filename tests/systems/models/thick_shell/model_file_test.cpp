@@ -1,3 +1,4 @@
+#include "components/state.hpp"
 #include "systems/models/thick_shell/model_file.hpp"
 
 #include <gtest/gtest.h>
@@ -252,7 +253,7 @@ TEST(ModelFile, ForgedLengthsOfTextsAreRefused) {
 /// Calls with every State column of the model's rows but the shell's ranges.
 template <class F>
 void for_each_column(Model::Contents& contents, F&& f) {
-    State& s = contents.state;
+    Workbench& s = contents.state;
     const Shells& shells = s.shells;
     const Row<Shells> shell = contents.shell;
     const std::pair<AnyTable*, Range> parts[] = {{&s.shells, {shell, 1, 1}},
@@ -304,7 +305,7 @@ TEST(ModelFile, AValueOutOfItsRangeInAnyColumnIsRefused) {
 TEST(ModelFile, AnInfiniteOrNegativeNumberIsNamed) {
     const Result<Model> read = parse_model_file(good_bytes(), "t");
     auto& contents = const_cast<Model::Contents&>(*read->contents);
-    State& s = contents.state;
+    Workbench& s = contents.state;
     const uint32_t vertex = s.shells.vertices[contents.shell].first;
     const auto refuses = [&](float& value, float wrong, const std::string& part) {
         const float before = value;

@@ -6,6 +6,7 @@
 #include <map>
 #include <tuple>
 
+#include "components/state.hpp"
 #include "systems/structures/shell/prism.hpp"
 #include "systems/structures/shell/ring.hpp"
 #include "tests/support/small_worlds.hpp"

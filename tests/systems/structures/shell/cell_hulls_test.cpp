@@ -1,3 +1,4 @@
+#include "components/state.hpp"
 #include "systems/structures/shell/cell_hulls.hpp"
 
 #include <gtest/gtest.h>
@@ -11,7 +12,7 @@ namespace cullet {
 namespace {
 
 std::vector<HullFaces> hulls_of(const ShellView& shell) {
-    const State& state = shell.state;
+    const ShellRows& state = shell.state;
     const Range cells = state.shells.cells[shell.row];
     std::vector<HullFaces> hulls;
     for (uint32_t c = cells.first; c < cells.first + cells.count; ++c) {

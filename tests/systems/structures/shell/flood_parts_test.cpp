@@ -1,4 +1,5 @@
 // Pieces found by a flood from the cracks, against relabelling all elements.
+#include "components/state.hpp"
 #include "systems/structures/shell/flood_parts.hpp"
 
 #include <gtest/gtest.h>

@@ -1,4 +1,5 @@
 // Splitting an edge by a vertex (thick shell note C5).
+#include "components/state.hpp"
 #include "systems/structures/shell/insert_vertex.hpp"
 
 #include <gtest/gtest.h>

@@ -1,3 +1,4 @@
+#include "components/state.hpp"
 #include "systems/structures/shell/make_piece.hpp"
 
 #include <gtest/gtest.h>
@@ -105,7 +106,7 @@ TEST(GroupFragments, DeadElementsAreInNoPartAndAShortListCountsOn) {
 }
 
 void expect_sound_shell(const ShellView& shell) {
-    const State& state = shell.state;
+    const ShellRows& state = shell.state;
     std::set<uint32_t> hinges, used;
     uint32_t last_cell = 0;
     double mass = 0, vertex_mass = 0;
@@ -265,16 +266,16 @@ TEST(MakePiece, AFullTableRefusesAndLeavesNothingBehind) {
 void expect_closed(State& state, Row<Shells> row) {
     const ShellView shell(state, row);
     const DrawnCount count = count_drawn(shell);
-    Range vertices{state.pools.view_vertices.take(count.vertices), 0, count.vertices};
-    Range indices{state.pools.view_indices.take(count.index_count()), 0, count.index_count()};
-    if (state.pools.view_vertices.end() > state.view_vertices.size())
-        state.view_vertices.append(state.pools.view_vertices.end() - state.view_vertices.size());
-    if (state.pools.view_indices.end() > state.view_indices.size())
-        state.view_indices.append(state.pools.view_indices.end() - state.view_indices.size());
-    const DrawnCount drawn = draw_shell(shell, vertices, indices);
+    Range vertices{state.view_vertices.pool.take(count.vertices), 0, count.vertices};
+    Range indices{state.view_indices.pool.take(count.index_count()), 0, count.index_count()};
+    if (state.view_vertices.pool.end() > state.view_vertices.size())
+        state.view_vertices.append(state.view_vertices.pool.end() - state.view_vertices.size());
+    if (state.view_indices.pool.end() > state.view_indices.size())
+        state.view_indices.append(state.view_indices.pool.end() - state.view_indices.size());
+    const DrawnCount drawn = draw_shell(shell, {state.view_vertices, state.view_indices}, vertices, indices);
     EXPECT_EQ(drawn.indices, count.indices);
     EXPECT_EQ(vertices.count, count.vertices);
-    const Result<void> checked = check_drawn_mesh(shell, vertices, indices);
+    const Result<void> checked = check_drawn_mesh(shell, {state.view_vertices, state.view_indices}, vertices, indices);
     EXPECT_TRUE(checked.ok()) << checked.error();
     for (uint32_t i = 0; i < vertices.count; ++i) {
         const Vec3 n = state.view_vertices.vertex[vertices.first + i].normal;
@@ -301,25 +302,34 @@ TEST(DrawShell, AnOpenMeshOrAWrongVolumeIsFound) {
     const DrawnCount count = count_drawn(shell);
     Range vertices{state.view_vertices.append(count.vertices), 0, count.vertices};
     Range indices{state.view_indices.append(count.index_count()), 0, count.index_count()};
-    draw_shell(shell, vertices, indices);
-    EXPECT_TRUE(check_drawn_mesh(shell, vertices, indices).ok());
+    draw_shell(shell, {state.view_vertices, state.view_indices}, vertices, indices);
+    EXPECT_TRUE(check_drawn_mesh(shell, {state.view_vertices, state.view_indices}, vertices, indices).ok());
     EXPECT_EQ(indices_of(count, SurfaceKind::Crack), 0u);  // rims are drawn with the inner surface
     EXPECT_EQ(indices_of(count, SurfaceKind::Inner), 150u + 20u * 6u);
     Range fewer = indices;
     fewer.count -= 3;
-    EXPECT_NE(check_drawn_mesh(shell, vertices, fewer).error().find("open"), std::string::npos);
+    EXPECT_NE(check_drawn_mesh(shell, {state.view_vertices, state.view_indices}, vertices, fewer).error().find("open"),
+              std::string::npos);
     const std::span index(state.view_indices.index.data() + indices.first, indices.count);
     const std::vector<uint32_t> sound(index.begin(), index.end());
     for (size_t i = 0; i < index.size(); i += 3) std::swap(index[i], index[i + 1]);  // inside out: closed all the same
-    EXPECT_NE(check_drawn_mesh(shell, vertices, indices).error().find("volume"), std::string::npos);
+    EXPECT_NE(
+        check_drawn_mesh(shell, {state.view_vertices, state.view_indices}, vertices, indices).error().find("volume"),
+        std::string::npos);
     for (size_t i = 0; i < index.size(); ++i)
         index[i] = sound[i % 3];  // one triangle, seen from both sides, many times
     for (size_t i = 3; i < index.size(); i += 6) std::swap(index[i], index[i + 1]);
-    EXPECT_NE(check_drawn_mesh(shell, vertices, indices).error().find("times one way"), std::string::npos);
+    EXPECT_NE(check_drawn_mesh(shell, {state.view_vertices, state.view_indices}, vertices, indices)
+                  .error()
+                  .find("times one way"),
+              std::string::npos);
     std::copy(sound.begin(), sound.end(), index.begin());
-    EXPECT_TRUE(check_drawn_mesh(shell, vertices, indices).ok());
+    EXPECT_TRUE(check_drawn_mesh(shell, {state.view_vertices, state.view_indices}, vertices, indices).ok());
     state.vertices.depth[shell.vertex(0)] *= 1.5f;
-    EXPECT_NE(check_drawn_mesh(shell, vertices, indices).error().find("is drawn at"), std::string::npos);
+    EXPECT_NE(check_drawn_mesh(shell, {state.view_vertices, state.view_indices}, vertices, indices)
+                  .error()
+                  .find("is drawn at"),
+              std::string::npos);
 }
 
 TEST(DrawShell, CrackTextureRunsOnAlongABorder) {
@@ -329,7 +339,7 @@ TEST(DrawShell, CrackTextureRunsOnAlongABorder) {
     const DrawnCount count = count_drawn(shell);
     Range vertices{state.view_vertices.append(count.vertices), 0, count.vertices};
     Range indices{state.view_indices.append(count.index_count()), 0, count.index_count()};
-    draw_shell(shell, vertices, indices);
+    draw_shell(shell, {state.view_vertices, state.view_indices}, vertices, indices);
     float most = 0;
     for (uint32_t v = 6 * shell.element_count(); v < vertices.count; ++v) {
         const Vec2 uv = state.view_vertices.vertex[vertices.first + v].uv;

@@ -1,3 +1,4 @@
+#include "components/state.hpp"
 #include "systems/structures/shell/piece_shape.hpp"
 
 #include <gtest/gtest.h>

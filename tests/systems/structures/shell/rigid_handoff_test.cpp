@@ -1,3 +1,4 @@
+#include "components/state.hpp"
 #include "systems/structures/shell/rigid_handoff.hpp"
 
 #include <gtest/gtest.h>

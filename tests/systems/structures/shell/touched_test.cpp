@@ -1,4 +1,5 @@
 // After any cuts the stiffness that was rebuilt locally is the one that a new assembly gives.
+#include "components/state.hpp"
 #include "systems/structures/shell/touched.hpp"
 
 #include <gtest/gtest.h>

@@ -1,4 +1,5 @@
 // Sums of a shell's vertices that are kept block by block, and what a hit asks of them.
+#include "components/state.hpp"
 #include "systems/structures/shell/vertex_sums.hpp"
 
 #include <gtest/gtest.h>

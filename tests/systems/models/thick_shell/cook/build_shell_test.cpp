@@ -1,3 +1,4 @@
+#include "components/state.hpp"
 #include "systems/models/thick_shell/cook/build_shell.hpp"
 
 #include <gtest/gtest.h>

@@ -22,7 +22,7 @@ double mean_edge(const Model& model) {
 }
 
 HitOfModel hit_of(const Model& model) {
-    const State& state = model.contents->state;
+    const Workbench& state = model.contents->state;
     const Row<Shells> shell = model.contents->shell;
     return {model.report().units_of_a_hit,
             state.shells.vertices[shell].count,

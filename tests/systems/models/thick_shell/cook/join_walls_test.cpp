@@ -143,7 +143,7 @@ Model cooked(const Mesh& mesh, float thickness, bool joins) {
 }
 
 double density_of(const Model& model) {
-    const State& state = model.contents->state;
+    const Workbench& state = model.contents->state;
     return double{state.materials.density[state.shells.material[model.contents->shell]]};
 }
 

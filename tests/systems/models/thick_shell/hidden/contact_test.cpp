@@ -1,4 +1,5 @@
 // The contact patch: weights, stability bound, momentum between striker, body and pins.
+#include "components/state.hpp"
 #include "systems/models/thick_shell/hidden/contact.hpp"
 
 #include <gtest/gtest.h>

@@ -1,5 +1,6 @@
 // Hidden runs of large bodies work on a cut-out whose border a rigid rest holds: rows are sound, mass, momentum and
 // energy are kept, nothing depends on threads or snapshots, and it breaks as the whole body would.
+#include "components/state.hpp"
 #include "systems/models/thick_shell/hidden/hidden_region.hpp"
 
 #include <gtest/gtest.h>
@@ -94,7 +95,7 @@ struct Bare {
     Row<Shells> shell;
     explicit Bare(const Model& model)
         : state(cooking_limits(3 * model.contents->report.vertices, 3 * model.contents->report.elements)) {
-        const State& cooked = model.contents->state;
+        const Workbench& cooked = model.contents->state;
         state.materials.append(cooked.materials.size());
         state.materials.copy_rows(cooked.materials, 0, 0, cooked.materials.size());
         state.material_traits.append(cooked.material_traits.size());
@@ -166,7 +167,7 @@ TEST(HiddenRegion, TheRestTakesWhatTheRegionLoses) {
         mass += state.vertices.mass[state.shells.vertices[bare.shell].first + v];
     EXPECT_NEAR(length(momentum[0] - mass * velocity) / (mass * length(velocity)), 0, 1e-6);
     const BrittleLoop loop = make_brittle_loop();
-    LoopWorld world{state};
+    LoopWorld world{state, state.blows};
     state.tasks.steps_granted[task] = 600;
     loop.run_alone(world, {task, 0, 600, task_goes_on});
     sum(momentum[1], turning[1]);

@@ -1,4 +1,5 @@
 // Stress of faces and at vertices against fields whose stress is known.
+#include "components/state.hpp"
 #include "systems/models/thick_shell/stiffness/element_stress.hpp"
 
 #include <gtest/gtest.h>

@@ -5,6 +5,7 @@
 #include <array>
 #include <cmath>
 
+#include "components/state.hpp"
 #include "engine/random.hpp"
 #include "sample_game/meshes.hpp"
 #include "tests/support/small_worlds.hpp"

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "components/state.hpp"
 #include "sample_game/allocations.hpp"
 #include "systems/models/thick_shell/shared/quick_body.hpp"
 #include "tests/support/large_hits.hpp"

@@ -7,6 +7,7 @@
 #include <map>
 #include <memory>
 
+#include "components/state.hpp"
 #include "engine/fp_mode.hpp"
 #include "sample_game/hit_bench.hpp"
 #include "sample_game/props.hpp"
@@ -26,7 +27,7 @@ constexpr float kBoundless = 1e9f, kNothing = 1e-9f;  // limits of the strain
 
 /// All that moves at places (1 + strain) times those at rest, which is what the run starts with.
 void stretch(const RegionView& region, float strain) {
-    State& state = region.state;
+    RunRows& state = region.state;
     const SpringView& view = region.springs;
     region.for_each([&](uint32_t v, bool is_held) {
         if (is_held) return;
@@ -77,7 +78,7 @@ struct Outcome {
 /// Cut edges are counted: a split that does not run on has at most two.
 Outcome run_to_its_end(State& state) {
     const BrittleLoop loop = make_quick_loop();
-    LoopWorld world{state};
+    LoopWorld world{state, state.blows};
     Outcome run;
     const uint32_t most = 4u * state.quick_runs.steps[kTask];
     while (run.steps < most && static_cast<TaskState>(state.tasks.state[kTask]) == TaskState::Running) {
@@ -171,7 +172,7 @@ bool step_stretched(HitBench& bench, uint32_t placement, float strain) {
     if (!open_hit(state, bench.shell(), hit)) return false;
     stretch(RegionView(state, kTask), strain);
     const BrittleLoop loop = make_quick_loop();
-    LoopWorld world{state};
+    LoopWorld world{state, state.blows};
     state.tasks.steps_granted[kTask] = 1;
     loop.run_alone(world, {kTask, 0, 1, task_goes_on});
     return true;

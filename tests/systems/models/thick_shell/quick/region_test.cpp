@@ -3,6 +3,7 @@
 
 #include <queue>
 
+#include "components/state.hpp"
 #include "engine/fp_mode.hpp"
 #include "engine/random.hpp"
 #include "sample_game/hit_bench.hpp"
@@ -91,7 +92,7 @@ TEST(QuickRegion, TenTimesTheVerticesWakeAtMostAThirdMore) {
 template <class F>
 void drive(State& state, F&& f) {
     const BrittleLoop loop = make_quick_loop();
-    LoopWorld world{state};
+    LoopWorld world{state, state.blows};
     Tasks& tasks = state.tasks;
     while (static_cast<TaskState>(tasks.state[kTask]) == TaskState::Running) {
         tasks.steps_granted[kTask] = 1;
@@ -184,7 +185,7 @@ TEST(QuickRegion, CutsUseUpStepsThatWereGrantedAndTheRunGoesOnAsItWas) {
 
     constexpr uint32_t kGranted = 40;
     const BrittleLoop loop = make_quick_loop();
-    LoopWorld world{state};
+    LoopWorld world{state, state.blows};
     ASSERT_TRUE(open_hit(state, bench.shell(), hit));
     uint32_t calls = 0, stopped_by_cuts = 0;
     while (static_cast<TaskState>(tasks.state[kTask]) == TaskState::Running) {

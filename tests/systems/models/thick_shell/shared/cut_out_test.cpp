@@ -1,5 +1,6 @@
 // Hits on large quick bodies run on a cut-out of the shell: rows are sound at every step, mass and momentum are kept,
 // and nothing of it depends on threads, snapshots or earlier hits.
+#include "components/state.hpp"
 #include "systems/models/thick_shell/shared/cut_out.hpp"
 
 #include <gtest/gtest.h>

@@ -1,4 +1,5 @@
 // Ductile and elastic bodies in the frame: they wake, fall, spring back, flow, meet balls, tear and come to rest.
+#include "components/state.hpp"
 #include "tests/systems/models/thick_shell/soft/soft_world.hpp"
 
 namespace cullet::test {
@@ -153,7 +154,7 @@ TEST(SoftBodies, AHangingSheetStretchesByItsWeight) {
 
 /// All points at rest where the sheet of that shape is (1 + strain) times as high.
 void put_stretched(const SpringView& view, const std::vector<Vec3>& shape, float strain) {
-    State& state = view.state;
+    ShellRows& state = view.state;
     for (uint32_t v = 0; v < view.shell.vertex_count(); ++v) {
         const uint32_t row = view.shell.vertex(v);
         const Vec3 rest = shape[v];

@@ -1,6 +1,7 @@
 // Soft bodies among others: against each other, under explosions, removed, saved, replayed, hit again, short of units.
 #include <filesystem>
 
+#include "components/state.hpp"
 #include "cullet/recording.hpp"
 #include "tests/support/write_watch.hpp"
 #include "tests/systems/models/thick_shell/soft/soft_world.hpp"

@@ -4,6 +4,7 @@
 
 #include <cstdlib>
 
+#include "components/state.hpp"
 #include "sample_game/meshes.hpp"
 #include "systems/models/thick_shell/soft/soft_body.hpp"
 #include "systems/models/thick_shell/springs/start_springs.hpp"

@@ -1,4 +1,5 @@
 // Springs from elements, and as rows: given, copied, refused, given back.
+#include "components/state.hpp"
 #include "systems/models/thick_shell/springs/give_springs.hpp"
 
 #include <gtest/gtest.h>
@@ -12,7 +13,7 @@ namespace {
 
 uint64_t hash_of_pools(const State& state) {
     uint64_t hash = 0;
-    for (const RangePool* pool : state.pools.all()) hash = pool->hash(hash);
+    for (const RangePool* pool : state.pools()) hash = pool->hash(hash);
     return hash;
 }
 
@@ -177,7 +178,7 @@ TEST(GiveSprings, AStateWithoutSpringsHashesAsIfThereWereNoSuchTables) {
             (add(table), ...);
         },
         State::tables());
-    for (size_t k = 0; k < State::Pools::kFirstOptional; ++k) plain = state.pools.all()[k]->hash(plain);
+    for (size_t k = 0; k < State::kFirstSpringPool; ++k) plain = state.pools()[k]->hash(plain);
     EXPECT_EQ(state.hash(), plain);
 }
 

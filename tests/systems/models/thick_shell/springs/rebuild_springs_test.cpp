@@ -1,4 +1,5 @@
 // Springs of a shell that was cut or re-meshed, beside those that it would be given.
+#include "components/state.hpp"
 #include "systems/models/thick_shell/springs/rebuild_springs.hpp"
 
 #include <gtest/gtest.h>

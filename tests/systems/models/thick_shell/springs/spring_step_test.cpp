@@ -3,6 +3,7 @@
 
 #include <memory>
 
+#include "components/state.hpp"
 #include "engine/jobs.hpp"
 #include "engine/random.hpp"
 #include "engine/simd.hpp"

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "components/state.hpp"
 #include "systems/models/thick_shell/hidden/run_cost.hpp"
 #include "tests/support/small_worlds.hpp"
 

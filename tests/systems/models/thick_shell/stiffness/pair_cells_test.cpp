@@ -37,7 +37,8 @@ struct Fixture {
     Row<Tasks> task;
     explicit Fixture(const ShellMesh& mesh, bool once = true, bool is_wood = false) {
         if (is_wood) fill_materials(state.materials);
-        const auto material = is_wood ? material_row(state, compiled_materials()[9], {0.6f, 0.8f, 0})
+        const auto material = is_wood ? material_row({state.materials, state.material_traits, state.shells},
+                                                     compiled_materials()[9], {0.6f, 0.8f, 0})
                                       : add_material(state, 70e9, 0.22, 2400);
         shell = make_test_shell(state, mesh, 0.005, material, {}, 64);
         task = make_test_task(state, shell);
@@ -256,7 +257,7 @@ TEST(PairCells, MayRunInAnyOrderAndOnAnyNumberOfThreads) {
     for (const unsigned threads : {1u, 2u, 3u, 8u}) {
         Fixture f(sphere_mesh(16, 0.1));
         f.shake();
-        LoopWorld world{f.state};
+        LoopWorld world{f.state, f.state.blows};
         const auto jobs = make_jobs(JobBackend::Threads, threads);
         BrittleLoop::Team team(loop, world, {f.task, 0, 20, nullptr}, threads);
         parallel_for(*jobs, threads, [&](uint32_t worker) { team.work(worker); });

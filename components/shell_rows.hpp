@@ -1,0 +1,144 @@
+// All rows that shells are made of, as one parameter: what edits, copies and measures shells reaches these tables and
+// no others.
+#pragma once
+#include "components/limits.hpp"
+#include "components/materials.hpp"
+#include "components/shells.hpp"
+#include "components/springs.hpp"
+#include "components/vertex_blocks.hpp"
+#include "engine/scratch.hpp"
+#include "engine/system.hpp"
+
+namespace cullet {
+
+/// Rows that a shell needs. Blocks and links are zero until the stiffness is assembled; packs are made of the others.
+struct ShellRoom {
+    uint32_t vertices = 0, elements = 0, hinges = 0, blocks = 0, links = 0, cells = 0, points = 0;
+    uint32_t packs() const { return blocks ? (vertices + kLanes - 1) / kLanes : 0; }  // one for 8 vertices
+    bool with_springs = false;  // copy_shell: the source's edge springs, too
+};
+
+/// What things are made of. Only the game changes it.
+struct MaterialRows {
+    const Materials& materials;
+    const MaterialTraits& material_traits;
+};
+
+/// Shells, what holds them together, and the springs of those that have some.
+struct ShellRows : MaterialRows {
+    ShellRows(const Limits& limits, const MaterialRows& of_what);
+
+    Shells shells;
+    Vertices vertices;
+    Elements elements;
+    TriangleSprings triangle_springs;
+    Hinges hinges;
+    StiffnessPacks stiffness_packs;
+    StiffnessBlocks stiffness_blocks;
+    StiffnessLinks stiffness_links;
+    Cells cells;
+    HullPoints hull_points;
+    ShellSprings shell_springs;
+    Springs springs;
+    LayerSprings layer_springs;
+    ElementSprings element_springs;
+    SpringPacks spring_packs;
+    SpringSlots spring_slots;
+    LayerSlots layer_slots;
+    Twins twins;
+    VertexBlocks vertex_blocks;     // neither saved nor hashed
+    mutable ScratchMemory scratch;  // of functions that need more than a stack holds
+
+    using Below = MaterialRows;
+    static constexpr auto own_tables() {
+        using R = ShellRows;
+        return std::tuple{&R::shells,          &R::vertices,        &R::elements,       &R::triangle_springs,
+                          &R::hinges,          &R::stiffness_packs, &R::stiffness_blocks, &R::stiffness_links,
+                          &R::cells,           &R::hull_points,     &R::shell_springs,  &R::springs,
+                          &R::layer_springs,   &R::element_springs, &R::spring_packs,   &R::spring_slots,
+                          &R::layer_slots,     &R::twins,           &R::vertex_blocks};
+    }
+
+    /// Calls f(column of Shells, table, room, limit) for each table of which a shell has a range: the member of
+    /// ShellRoom that says how many rows it wants, and the limit that is named when there are none.
+    template <class Rows, class F>
+    static void for_each_range(Rows& rows, F&& f) {
+        auto& s = rows.shells;
+        f(s.vertices, rows.vertices, &ShellRoom::vertices, "limits.vertices");
+        f(s.elements, rows.elements, &ShellRoom::elements, "limits.elements");
+        f(s.hinges, rows.hinges, &ShellRoom::hinges, "limits.elements");
+        f(s.packs, rows.stiffness_packs, &ShellRoom::packs, "limits.vertices");
+        f(s.blocks, rows.stiffness_blocks, &ShellRoom::blocks, "limits.vertices");
+        f(s.links, rows.stiffness_links, &ShellRoom::links, "limits.vertices");
+        f(s.cells, rows.cells, &ShellRoom::cells, "limits.vertices");
+        f(s.points, rows.hull_points, &ShellRoom::points, "limits.vertices");
+    }
+};
+
+/// What a shell uses now: room for a copy of it.
+ShellRoom room_of(const ShellRows& state, Row<Shells> shell);
+
+/// A shell with empty ranges of these capacities and one user, or kNone when some table is full (`full` then names its
+/// limit). Vertex rows start all dead (element kNone, inverse mass 0).
+Row<Shells> make_shell(ShellRows& state, const ShellRoom& room, const char** full = nullptr);
+/// The same with rows that hold whatever they held; who fills them calls clear_pack_ends when the counts are set.
+Row<Shells> make_shell_unclear(ShellRows& state, const ShellRoom& room, const char** full = nullptr);
+/// Clears what kernels read behind the counts, because they take whole packs: all vertices to spare, which cracks take
+/// one by one, and the last pack of elements. Other elements to spare are cleared with their pack when its first is
+/// taken, hinges when they are.
+void clear_pack_ends(ShellRows& state, Row<Shells> shell);
+/// Gives the assembled stiffness back: the next task assembles it anew.
+void drop_stiffness(ShellRows& state, Row<Shells> shell);
+/// A range of HullPoints; false: no room.
+bool take_points(ShellRows& state, uint32_t count, Range& range);
+/// One user less; the rows go back when there are none.
+void release_shell(ShellRows& state, Row<Shells> shell);
+/// Rows that the springs of a shell need. No layers: one layer.
+struct SpringRoom {
+    uint32_t springs = 0, elements = 0, vertices = 0, slots = 0;
+    bool has_layers = false;
+    bool clears_lists = true;  // springs, slots and both of the layers; false: each row is written before it is read
+};
+/// A row with empty ranges of these capacities, all zero but for lists that are not to be cleared, for a shell that has
+/// none; kNone when some table is full.
+Row<ShellSprings> make_springs(ShellRows& state, Row<Shells> shell, const SpringRoom& room,
+                               const char** full = nullptr);
+/// Of the shell; kNone when it has none.
+Row<ShellSprings> find_springs(const ShellRows& state, Row<Shells> shell);
+/// The shell's springs, if any, go back; release_shell does it, too.
+void release_springs(ShellRows& state, Row<Shells> shell);
+/// Springs of `copy` as `source` has them, in motion as they are; what there are too few rows for is refused. A shell
+/// without springs gives none. `copy` has at least the vertices and elements of `source`.
+bool copy_springs(ShellRows& state, Row<Shells> source, Row<Shells> copy, const char** full = nullptr);
+
+/// A copy of `source` with `room` (at least what is in use), one user. Stiffness is copied when `room.blocks` > 0,
+/// springs when `room.with_springs`.
+Row<Shells> copy_shell(ShellRows& state, Row<Shells> source, const ShellRoom& room, const char** full = nullptr);
+
+/// The second half of copy_shell, into a shell that make_shell made: serial systems reserve, parallel ones copy.
+void copy_shell_rows(ShellRows& to, const ShellRows& from, Row<Shells> source, Row<Shells> copy, bool with_stiffness);
+
+/// The tables of one shell, with its ranges looked up: what the functions that edit a shell pass around. Indices are
+/// relative to the shell, as in the columns.
+struct ShellView {
+    ShellRows& state;
+    Row<Shells> row;
+
+    ShellView(ShellRows& s, Row<Shells> r) : state(s), row(r) {}
+    Shells& shells() const { return state.shells; }
+    Range& vertices() const { return state.shells.vertices[row]; }
+    Range& elements() const { return state.shells.elements[row]; }
+    Range& hinges() const { return state.shells.hinges[row]; }
+    /// Table rows of relative indices.
+    uint32_t vertex(uint32_t v) const { return vertices().first + v; }
+    uint32_t element(uint32_t e) const { return elements().first + e; }
+    uint32_t hinge(uint32_t h) const { return hinges().first + h; }
+    uint32_t vertex_count() const { return vertices().count; }
+    uint32_t element_count() const { return elements().count; }
+    uint32_t hinge_count() const { return hinges().count; }
+};
+
+template <>
+inline constexpr uint32_t kRowsPerChunk<StiffnessPacks> = 32;  // 256 vertices
+
+}  // namespace cullet

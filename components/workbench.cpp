@@ -1,0 +1,7 @@
+#include "components/workbench.hpp"
+
+namespace cullet {
+
+Workbench::Workbench(const Limits& limits) : RunRows(limits, MaterialRows{materials, material_traits}) {}
+
+}  // namespace cullet
