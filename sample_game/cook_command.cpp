@@ -2,7 +2,6 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <filesystem>
 
 #include "sample_game/cache.hpp"
@@ -10,22 +9,15 @@
 #include "sample_game/import_model.hpp"
 #include "sample_game/progress.hpp"
 #include "sample_game/propagation.hpp"
+#include "sample_game/props.hpp"
 #include "sample_game/read_materials.hpp"
+#include "systems/models/thick_shell/cook/hit_advice.hpp"
 
 namespace cullet {
 namespace {
 
 /// What suits a hollow figure: the wall of the scene drop, 6 mm at 0.4 m.
 constexpr float kWallOfLargestSide = 0.015f;
-
-float largest_side(const Mesh& mesh) {
-    Vec3 low = mesh.positions[0], high = low;
-    for (const Vec3 p : mesh.positions) {
-        low = {std::min(low.x, p.x), std::min(low.y, p.y), std::min(low.z, p.z)};
-        high = {std::max(high.x, p.x), std::max(high.y, p.y), std::max(high.z, p.z)};
-    }
-    return std::max({high.x - low.x, high.y - low.y, high.z - low.z});
-}
 
 Result<CachedModel> cook_file(const CookOptions& options) {
     const Result<Mesh> mesh = import_model(options.mesh);
@@ -53,13 +45,18 @@ Result<CachedModel> cook_file(const CookOptions& options) {
     return cook_cached(*mesh, settings, cache_folder());
 }
 
+std::string strength_of(const ModelReport& r) {
+    if (!(r.first_crack_speed > 0)) return "bends, stretches or tears, and has no first crack";
+    return fmt::format("first crack at {:.3g} m/s against a floor, {:.0f} million units a hit, {} the {:.0f} of a hold",
+                       r.first_crack_speed, 1e-6 * static_cast<double>(r.units_of_a_hit),
+                       r.units_of_a_hit > kDefaultHoldUnits ? "more than" : "within",
+                       1e-6 * static_cast<double>(kDefaultHoldUnits));
+}
+
 void print_summary(const CookOptions& options, const CachedModel& cooked) {
     const ModelReport& r = cooked.model.report();
-    fmt::print(
-        "{}: {} vertices, {} elements, {} cells; {:.4g} kg of {}, {:.4g} mm thick on average; first crack at "
-        "{:.3g} m/s against a floor, {:.0f} million units a hit\n",
-        options.out, r.vertices, r.elements, r.cells, r.mass, options.material, 1000 * r.mean_thickness,
-        r.first_crack_speed, 1e-6 * static_cast<double>(r.units_of_a_hit));
+    fmt::print("{}: {} vertices, {} elements, {} cells; {:.4g} kg of {}, {:.4g} mm thick on average; {}\n", options.out,
+               r.vertices, r.elements, r.cells, r.mass, options.material, 1000 * r.mean_thickness, strength_of(r));
     fmt::print("  generation   {}: {} collisions, {} inverted elements, {} crossings\n", options.propagation,
                r.collisions, r.inverted_elements, r.crossings);
     for (const std::string& note : {r.repairs, r.walls, r.advice, cooked.trouble})

@@ -52,9 +52,14 @@ MeshExtent extent_of(const Mesh& mesh) {
     return {low, high};
 }
 
+float largest_side(const Mesh& mesh) {
+    const auto [low, high] = extent_of(mesh);
+    return std::max({high.x - low.x, high.y - low.y, high.z - low.z});
+}
+
 bool fit(Mesh& mesh, float size) {
     const auto [low, high] = extent_of(mesh);
-    const float largest = std::max({high.x - low.x, high.y - low.y, high.z - low.z});
+    const float largest = largest_side(mesh);
     if (!(largest > 0)) return false;
     const Vec3 middle = 0.5f * (low + high);
     for (Vec3& p : mesh.positions) p = (size / largest) * (p - middle);

@@ -25,6 +25,8 @@ struct MeshExtent {
     Vec3 low, high;
 };
 MeshExtent extent_of(const Mesh& mesh);
+/// Of its box along the axes, m; 0 for a mesh of no extent.
+float largest_side(const Mesh& mesh);
 /// Scaled so that its largest side is `size`, with the middle of its box at the origin. False for a mesh of no extent.
 bool fit(Mesh& mesh, float size);
 

@@ -39,7 +39,7 @@ struct Rest {
     double sink_p95_mm = 0, sink_max_mm = 0, overlap_p95_mm = 0, overlap_max_mm = 0, hover_p95_mm = 0, hover_max_mm = 0;
     double hover_boxes_max_mm = 0, hover_hulls_max_mm = 0;  // the others' stand above
     uint64_t measured = 0;                                  // bodies asleep
-    uint64_t through = 0;                                   // bodies below the ground, awake ones too
+    uint64_t through = 0;                                   // bodies that fell through what never moves, awake ones too
 };
 
 /// Fragments that one kind of shape stands for: how much larger than the solid its tightest box and its convex hull

@@ -2,8 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <span>
 
 #include "engine/profiler.hpp"
+#include "sample_game/fallen_through.hpp"
 #include "sample_game/mesh_gap.hpp"
 #include "sample_game/meshes.hpp"
 #include "sample_game/solid.hpp"
@@ -29,7 +31,6 @@ void add(Things& things, const Mesh& mesh, const Pose& pose, float scale) {
 
 Things gather(const GameWorld& game) {
     Things things;
-    const float ground_height = game.stage().ground_height();
     for (const Prop& prop : game.stage().props) add(things, prop.mesh, {}, 1);
     for (const Mover& mover : game.stage().movers)
         if (const Result<Pose> pose = game.world().pose(mover.body); pose.ok()) add(things, mover.mesh, *pose, 1);
@@ -58,7 +59,6 @@ Things gather(const GameWorld& game) {
             const bool is_shell = rows.shell[b].exists();
             const auto shape = is_shell ? static_cast<ShapeKind>(shells.shape[rows.shell[b]]) : ShapeKind::Cells;
             rest.is_box = shape == ShapeKind::Box, rest.is_hull = shape == ShapeKind::Hull;
-            rest.is_through = things.solids.back().all.high.y < ground_height;
         }
     }
     return things;
@@ -90,6 +90,7 @@ std::vector<BodyRest> measure_bodies(const GameWorld& game) {
     for (size_t k = 0; k < things.rest.size(); ++k) {
         BodyRest& rest = things.rest[k];
         const Solid& solid = things.solids[things.first_moving + k];
+        rest.is_through = has_fallen_through(solid, std::span(things.solids).first(things.first_moving));
         rest.hover = kMostHover;
         for (const Solid& other : things.solids) {
             if (&other == &solid) continue;

@@ -17,7 +17,7 @@ struct BodyRest {
     double sink = 0;          // how deep its deepest drawn vertex lies in something that never moves
     double overlap = 0;       // the same in another moving body
     double hover = 0;         // from its drawn mesh to the nearest other thing, at most kMostHover; 0 once below 0.1 mm
-    bool is_through = false;  // all of it lies below the ground
+    bool is_through = false;  // it fell through what never moves: see has_fallen_through()
 };
 inline constexpr double kMostHover = 0.05;
 

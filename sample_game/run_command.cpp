@@ -37,7 +37,7 @@ void print_summary(const Report& r) {
             r.units.softening);
     fmt::print(
         "  rest         {:.1f} % asleep; of {} drawn at rest: sink 95 % {:.2f}, worst {:.2f} mm, into each other 95 % "
-        "{:.2f}, worst {:.2f} mm, hover 95 % {:.2f}, worst {:.2f} mm, {} below the ground\n",
+        "{:.2f}, worst {:.2f} mm, hover 95 % {:.2f}, worst {:.2f} mm, {} fell through\n",
         100 * r.rest.asleep_share, r.rest.measured, r.rest.sink_p95_mm, r.rest.sink_max_mm, r.rest.overlap_p95_mm,
         r.rest.overlap_max_mm, r.rest.hover_p95_mm, r.rest.hover_max_mm, r.rest.through);
     fmt::print("  mass         {:.6f} kg put in, {:.6f} kg at the end\n", r.mass_kg.start, r.mass_kg.end);

@@ -1,6 +1,8 @@
 #include <algorithm>
 #include <filesystem>
+#include <iterator>
 #include <memory>
+#include <string_view>
 #include <utility>
 
 #include "engine/import/assimp_scene.hpp"
@@ -136,9 +138,19 @@ Result<Corners> read_gltf(const std::string& path) {
     return corners;
 }
 
+/// Of formats for what fills a space. Some of these files hold a surface as well; none is read.
+bool is_of_volumes(const std::string& extension) {
+    constexpr std::string_view kOfVolumes[] = {".vtk", ".vtu", ".node", ".ele"};
+    return std::find(std::begin(kOfVolumes), std::end(kOfVolumes), extension) != std::end(kOfVolumes);
+}
+
 Result<Corners> read_corners(const std::string& path) {
     if (gltf::is_gltf(path)) return read_gltf(path);
     const std::string extension = small_letters(std::filesystem::path(path).extension().string());
+    if (is_of_volumes(extension))
+        return Error{path + ": " + extension +
+                     " files are for tetrahedra and other volumes, which are no surface. Export the surface as PLY, "
+                     "STL or OBJ."};
     if (extension == ".stl") return read_by(read_stl, path);
     if (extension == ".ply") return read_by(read_ply, path);
     if (extension == ".3mf") {

@@ -34,6 +34,12 @@ bool is_known(const std::string& id) {
     return false;
 }
 
+std::string known_claims() {
+    std::string names;
+    for (const ClaimEntry& entry : thick_shell_claims()) names += (names.empty() ? "" : ", ") + std::string(entry.id);
+    return names;
+}
+
 Result<std::vector<Claim>> make_claims(Bench& bench, const std::string& only) {
     std::vector<Claim> claims;
     for (const ClaimEntry& entry : thick_shell_claims()) {
@@ -55,7 +61,7 @@ int run(const CommandOptions& options) {
     if (options.model != "thick_shell")
         return refuse(fmt::format("reproduce {}: not known; use thick_shell.", options.model), 2);
     if (!options.only.empty() && !is_known(options.only))
-        return refuse(fmt::format("--only {}: there is no such claim; report.json lists them.", options.only), 2);
+        return refuse(fmt::format("--only {}: there is no such claim; there are {}.", options.only, known_claims()), 2);
     std::error_code error;
     std::filesystem::create_directories(options.out, error);
     if (error)

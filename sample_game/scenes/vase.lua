@@ -29,12 +29,10 @@ local vase = game.cook{
     thickness = shell.thickness,
     edge = shell.edge,
 }
--- From the side: the shards come to rest up to two metres in front of the table.
-game.camera{eye = {-2.35, 1.55, 2.6}, target = {-0.12, 0.47, 1.25}, field_of_view = 0.74}
 game.sun{towards = {-0.35, 0.8, 0.5}, strength = 2.3}
 game.floor()
 game.static{mesh = game.mesh.table{width = 1.2, depth = table_depth, height = table_height}, colour = {0.28, 0.17, 0.09}}
-game.spawn{
+local whole = game.spawn{
     cooked = vase,
     strength_scale = shell.strength_scale,
     fracture = shell.fracture,
@@ -45,3 +43,38 @@ game.spawn{
     turn = {axis = {seeded(1), 0.2, seeded(2)}, angle = 0.35 + 0.35 * seeded(3)},
     velocity = {0, -speed, 0},
 }
+
+-- From the side. The camera is near the vase while it falls; from the first crack on it draws back until it holds the
+-- shards, which come to rest up to two metres in front of the table.
+local wide = {eye = {-2.47, 1.61, 2.68}, target = {-0.12, 0.43, 1.26}}
+local near = math.min(1, 0.45 * size / 0.3) -- of the wide view's distance
+local seconds_to_wide = 0.8
+local followed, broke_at = whole:position(), nil
+
+local function between(share, a, b)
+    return a + share * (b - a)
+end
+local function look()
+    local broken = game.count("fragment_born") + game.count("debris") > 0
+    if broken and not broke_at then
+        broke_at = game.time()
+    elseif not broken then
+        followed = whole:position()
+    end
+    local share = broke_at and math.min(1, (game.time() - broke_at) / seconds_to_wide) or 0
+    share = share * (2 - share) -- quickly at first: shards are quicker than what stays on the table
+    local distance = between(share, near, 1)
+    local target = {
+        between(share, followed.x, wide.target[1]),
+        between(share, followed.y, wide.target[2]),
+        between(share, followed.z, wide.target[3]),
+    }
+    local eye = {}
+    for axis = 1, 3 do
+        eye[axis] = target[axis] + distance * (wide.eye[axis] - wide.target[axis])
+    end
+    game.camera{eye = eye, target = target, field_of_view = 0.74}
+    return share < 1
+end
+look()
+every({frames = 1}, look)

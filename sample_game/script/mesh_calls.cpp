@@ -142,12 +142,13 @@ int table(lua_State* lua) {
                                 given.real("height", kSide, 0.75)));
 }
 
-/// Scaled to `size`; with `stands` the origin is then the middle of its foot, else of its whole box.
+/// As large as the file says, or scaled to `size`; the origin is the middle of its box, with `stands` of its foot.
 int imported(lua_State* lua, const Arguments& given, const std::string& path) {
     spend(lua, kWorkAFile);
     Result<Mesh> mesh = import_model(path);
     if (!mesh.ok()) given.refuse(mesh.error());
-    const bool has_extent = fit(*mesh, given.real("size", kSide, 0.4));
+    const bool has_extent =
+        fit(*mesh, given.has("size") ? static_cast<float>(given.number("size", kSide)) : largest_side(*mesh));
     if (!has_extent) given.refuse(path + ": all of its points lie on one spot; give a mesh with an extent");
     const float low = extent_of(*mesh).low.y;  // before the mesh moves on: arguments have no order
     if (given.is("stands", false)) *mesh = moved(std::move(*mesh), {0, -low, 0});

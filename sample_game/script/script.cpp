@@ -202,13 +202,26 @@ void Script::wake(std::map<Due, Job>::node_type node) {
     }
 }
 
+// The script is not read further than to its first call that does something, so whether the key comes later is seen
+// from its text.
+std::string Script::late_key(lua_State* lua, const std::string& name) const {
+    if (name.empty() || stage_.story.keys.has(name)) return "";
+    for (const char quote : {'"', '\''})
+        if (stage_.plan.scene.text.find(quote + name + quote) != std::string::npos)
+            return fmt::format(
+                " The script names {} as well, but {} does something already, and game.key goes before all calls that "
+                "do something.",
+                name, line_of(lua));
+    return "";
+}
+
 Stage& Script::act(lua_State* lua) {
     if (has_acted_) return stage_;
     has_acted_ = true;
     for (const std::string& assignment : stage_.plan.set)
         if (!is_given(key_of(assignment)) || !stage_.story.keys.has(key_of(assignment)))
             if (const auto done = stage_.story.keys.set(assignment); !done.ok()) {
-                lua_pushstring(lua, done.error().c_str());
+                lua_pushstring(lua, (done.error() + late_key(lua, key_of(assignment))).c_str());
                 lua_error(lua);
             }
     if (only_declares_) {

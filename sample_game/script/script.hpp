@@ -79,6 +79,8 @@ class Script {
     /// Ends the script at the function on top of the stack when there is no work left for it.
     void spend_on_function(uint64_t instructions);
     void call_listeners();
+    /// What else to say of a key that is not there: that it is declared too late, if so.
+    std::string late_key(lua_State* lua, const std::string& name) const;
 
     Stage& stage_;
     Sandbox sandbox_;

@@ -383,6 +383,13 @@ TEST_F(Import, AFileThatIsNotThereOrEmptyIsToldApartFromOneThatCannotBeRead) {
     }
 }
 
+TEST_F(Import, FilesOfVolumesAreRefusedAsThat) {
+    for (const std::string name : {"a.vtk", "a.vtu", "a.node", "A.ELE"})
+        EXPECT_NE(run(file(name, "4 3 0 0\n"), folder_ / "out.cmesh").said.find("tetrahedra and other volumes"),
+                  std::string::npos)
+            << name;
+}
+
 TEST_F(Import, AnOptionWithoutItsNumberSaysWhatItWants) {
     for (const std::string option : {"--seconds", "--memory-mib"})
         EXPECT_EQ(run(file("cube.obj", kCube), folder_ / "out.cmesh", option).said,

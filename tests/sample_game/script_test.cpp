@@ -396,6 +396,42 @@ TEST(Script, AMeshThatIsNotAskedForIsRefused) {
     EXPECT_NE(GameWorld::create(plan).error().find("no_such.obj"), std::string::npos);
 }
 
+/// A box of 1 x 2.5 x 3 m whose lowest corner is the origin.
+std::string box_file() {
+    return "v 0 0 0\nv 1 0 0\nv 1 0 3\nv 0 0 3\nv 0 2.5 0\nv 1 2.5 0\nv 1 2.5 3\nv 0 2.5 3\n"
+           "f 1 2 3 4\nf 5 8 7 6\nf 1 5 6 2\nf 2 6 7 3\nf 3 7 8 4\nf 4 8 5 1\n";
+}
+
+// A game team's files are modelled in metres: what is not asked for is not scaled.
+TEST(Script, AMeshOfAFileIsAsLargeAsTheFileSaysUnlessASizeIsGiven) {
+    const auto path = std::filesystem::path(testing::TempDir()) / "cullet_script_box.obj";
+    std::ofstream(path) << box_file();
+    const std::string text =
+        "local function is(mesh, x, y, z) local s = mesh:size() game.expect(math.abs(s.x - x) + "
+        "math.abs(s.y - y) + math.abs(s.z - z) < 1e-5, s.x .. ' ' .. s.y .. ' ' .. s.z) end\n";
+    const std::string file = "path = '" + path.string() + "'";
+    ScenePlan plan = plan_of(text + "is(game.mesh.file{" + file + "}, 1, 2.5, 3)\nis(game.mesh.file{" + file +
+                             ", stands = true}, 1, 2.5, 3)\nis(game.mesh.file{" + file +
+                             ", size = 0.6}, 0.2, 0.5, 0.6)\nis(game.mesh.given{}, 1, 2.5, 3)\n"
+                             "is(game.mesh.given{size = 6, stands = true}, 2, 5, 6)");
+    plan.mesh_path = path.string();
+    EXPECT_EQ(failure_of(plan), "");
+    // Its middle, or the middle of its foot, is the origin.
+    EXPECT_EQ(failure_of("local mesh = game.mesh.file{" + file + ", stands = true}\ngame.static{mesh = mesh}\n" +
+                         "local ball = game.throw{radius = 0.1, mass = 1, at = {0.3, 2.59, 1.3}}\nwait{frames = 2}\n" +
+                         "game.expect(ball:position().y > 2.58, 'the ball lies on the box')"),
+              "");
+}
+
+TEST(Script, AKeyThatIsSetAndDeclaredTooLateIsToldOfAsThat) {
+    ScenePlan plan = plan_of("game.floor()\nlocal k = game.key{name = \"scene.k\", default = 1}");
+    plan.set = {"scene.k=2"};
+    const std::string said = read_story(plan).error();
+    EXPECT_NE(said.find("test.lua:1 does something already"), std::string::npos) << said;
+    plan.set = {"scene.other=2"};
+    EXPECT_EQ(read_story(plan).error().find("does something already"), std::string::npos);
+}
+
 constexpr const char* kBreaking = R"(
     game.setting{units_a_frame = 20e6}
     local vase = game.cook{mesh = game.mesh.vase{edge = 0.0125}, material = "porcelain", thickness = 0.005}
