@@ -6,6 +6,7 @@
 #include "systems/api/checks.hpp"
 #include "systems/api/model_row.hpp"
 #include "systems/bodies/body_rows.hpp"
+#include "systems/bodies/settled_pose.hpp"
 #include "systems/cook/materials.hpp"
 #include "systems/drawn/bound_drawn.hpp"
 #include "systems/drawn/query_index.hpp"
@@ -226,6 +227,7 @@ Result<BodyId> World::spawn(ModelId id, const SpawnSettings& settings) {
     }
     d.arena.reset();
     d.rigid->add(body, describe_rigid(state, body, convex_pieces(state, shell, d.arena)));
+    if (take_settled_pose(bodies, *d.rigid, body)) follow_body(state, body);
     draw_body(state, body);
     bodies.drawn_frame[body] = d.step_info.frame;
     bound_view(bodies, body, state.view_vertices, state.view_indices, d.view_boxes);
@@ -257,6 +259,7 @@ Result<BodyId> World::add_sphere(const SphereSettings& settings) {
     if (settings.contact.rolling_friction < 0) description.rolling_share = kRollingOfBalls;
     description.rolling_friction = description.rolling_share * settings.radius;
     d.rigid->add(body, description);
+    take_settled_pose(bodies, *d.rigid, body);
     d.query_index->touch(bodies, body);
     return body_id(bodies, body);
 }

@@ -2,6 +2,7 @@
 #include "components/body_id.hpp"
 #include "engine/host_scope.hpp"
 #include "systems/api/checks.hpp"
+#include "systems/bodies/settled_pose.hpp"
 #include "systems/drawn/query_index.hpp"
 #include "systems/models/thick_shell/soft/soft_body.hpp"
 #include "systems/world_contents.hpp"
@@ -90,7 +91,10 @@ Result<void> World::set_pose(BodyId id, const Pose& pose) {
     bodies.orientation[body] = unit.orientation;
     bodies.previous_position.set(body, unit.position);
     bodies.previous_orientation[body] = unit.orientation;
-    if (static_cast<BodyKind>(bodies.kind[body]) != BodyKind::Scenery) d.rigid->set_pose(body, unit);
+    if (static_cast<BodyKind>(bodies.kind[body]) != BodyKind::Scenery) {
+        d.rigid->set_pose(body, unit);
+        take_settled_pose(bodies, *d.rigid, body);
+    }
     follow_body(d.state, body);
     d.query_index->touch(bodies, body);
     wake_body(d, body);

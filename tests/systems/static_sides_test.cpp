@@ -82,6 +82,49 @@ Model vase(float size) {
     return cook({points.data(), points.size(), faces[0].data(), faces.size()}, settings).value();
 }
 
+/// What the world tells of a body is one place, from which a step moves it only as far as contacts push out the half of
+/// a cell that still reaches through.
+void expect_told_where_it_is(World& world, BodyId body, const char* what) {
+    const Pose pose = world.pose(body).value();
+    const BodyView view = world.view(body).value();
+    EXPECT_EQ(length(view.pose.position - pose.position), 0) << what;
+    EXPECT_EQ(length(view.pose_before.position - pose.position), 0) << what;
+    world.step();
+    EXPECT_LT(length(world.pose(body).value().position - pose.position), 0.01f) << what;
+}
+
+TEST(StaticSides, WhatIsPutIntoASheetIsToldWhereItCameOut) {
+    const Model model = vase(1);
+    for (const float sunk : {0.04f, 0.08f, 0.1f})
+        for (const FractureMode mode : {FractureMode::Hidden, FractureMode::Quick}) {
+            World world = std::move(*World::create({}));
+            ASSERT_TRUE(world.add_static({kCorners, 4, kMixed, 2}).ok());
+            SpawnSettings spawn;
+            spawn.fracture = mode;
+            spawn.pose.position = {1, -sunk, 2};
+            const BodyId body = world.spawn(world.add_model(model).value(), spawn).value();
+            EXPECT_GT(world.pose(body).value().position.y, 0.1f * sunk - sunk);
+            expect_told_where_it_is(world, body, "spawned");
+            ASSERT_TRUE(world.set_pose(body, {{-3, -sunk, 1}, {}}).ok());
+            EXPECT_GT(world.pose(body).value().position.y, 0.1f * sunk - sunk);
+            expect_told_where_it_is(world, body, "put");
+        }
+}
+
+TEST(StaticSides, WhatIsPutWhereNothingCutsItIsThereToTheLastBit) {
+    const Model model = vase(1);
+    World world = std::move(*World::create({}));
+    ASSERT_TRUE(world.add_static({kCorners, 4, kMixed, 2}).ok());
+    const Pose asked{{1.1f, 3.3f, -2.7f}, {0.5f, 0.5f, 0.5f, 0.5f}};
+    SpawnSettings spawn;
+    spawn.pose = asked;
+    const BodyId body = world.spawn(world.add_model(model).value(), spawn).value();
+    EXPECT_TRUE(world.pose(body).value().position == asked.position);
+    const Vec3 elsewhere{1000.3f, 17.77f, -431.9f};
+    ASSERT_TRUE(world.set_pose(body, {elsewhere, asked.orientation}).ok());
+    EXPECT_TRUE(world.pose(body).value().position == elsewhere);
+}
+
 /// How many bodies fall below a floor on which three vases shatter.
 size_t gone_through(const Model& model, float size, float steps_a_second, FractureMode mode, uint64_t seed) {
     Settings settings;

@@ -158,6 +158,8 @@ class World {
     Result<ModelId> add_model(const Model& model);
     Result<void> remove_model(ModelId model);
 
+    /// What a sheet of static triangles cuts where it is put comes at once to the side that its centre of mass is on;
+    /// what merely reaches around a sheet stays. pose() tells where a body is.
     Result<BodyId> spawn(ModelId model, const SpawnSettings& settings = {});
     Result<BodyId> add_sphere(const SphereSettings& settings);
     Result<BodyId> add_kinematic_box(const KinematicSettings& settings);
@@ -186,8 +188,8 @@ class World {
     Result<double> mass(BodyId body) const;  // kg
     Result<uint64_t> user_data(BodyId body) const;
     Result<bool> is_asleep(BodyId body) const;
-    /// Puts the body there at once and wakes it, and what touches it; nobody, where it is there already. Refused of
-    /// static triangles.
+    /// Puts the body there at once and wakes it, and what touches it; nobody, where it is there already. Where a sheet
+    /// cuts it, it comes to another place, as in spawn(). Refused of static triangles.
     Result<void> set_pose(BodyId body, const Pose& pose);
     /// Of its centre of mass. Wakes the body, unless it sleeps and this is its motion already, or none. Refused of
     /// static and pinned bodies.

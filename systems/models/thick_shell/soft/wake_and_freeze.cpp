@@ -1,6 +1,7 @@
 #include <algorithm>
 
 #include "components/body_id.hpp"
+#include "systems/bodies/settled_pose.hpp"
 #include "systems/models/thick_shell/soft/soft_body.hpp"
 #include "systems/models/thick_shell/springs/start_springs.hpp"
 #include "systems/structures/shell/cell_hulls.hpp"
@@ -67,6 +68,7 @@ void freeze_soft(SoftRows& state, RigidWorld& rigid, Row<SoftBodies> s, Arena& a
     rigid.set_soft(body, false);
     if (static_cast<BodyKind>(bodies.kind[body]) == BodyKind::Dynamic) {
         rigid.set_pose(body, pose_of(bodies, body));
+        take_settled_pose(bodies, rigid, body);
         rigid.set_motion(body, {bodies.velocity[body], bodies.spin[body]});
     }
     soft.is_awake[s] = 0;
