@@ -16,8 +16,8 @@ namespace cullet {
 /// left over from others: nothing may be read before it is written.
 class ScratchMemory {
  public:
-    /// A function takes one block and the functions it calls at most two more. Whoever finds none waits, so that this
-    /// is enough for 42 workers at once without any waiting.
+    /// A function takes one block and the functions it calls at most two more: enough for 42 workers at once. Whoever
+    /// finds none gets one of the system's; nobody waits, since all that wait may hold what the others wait for.
     static constexpr size_t kBlocks = 128;
     static constexpr size_t kBlockBytes = 160 * 1024;
 
