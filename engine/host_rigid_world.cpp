@@ -137,13 +137,13 @@ bool HostRigidWorld::is_apart(const RigidContact& contact) {
     return true;
 }
 
-// By content and not by the host's order, so that a host whose threads race gives the same bytes.
 // One is driven and the other static: no solver moves them, but what is pinned may break.
 bool HostRigidWorld::is_driven_in(RigidId a, RigidId b) const {
     if (rows_[a].kind == RigidKind::Static) std::swap(a, b);
     return rows_[a].kind == RigidKind::Kinematic && rows_[b].kind == RigidKind::Static;
 }
 
+// By content and not by the host's order, so that a host whose threads race gives the same bytes.
 void HostRigidWorld::detect(float dt) {
     for (Ignored& pair : ignored_) pair.is_near = false;
     std::erase_if(contacts_, [this](const RigidContact& c) {

@@ -78,6 +78,7 @@ void BulletWorld::shift(Vec3 by) {
             shift_manifold(manifold, bodies_[pair.a].is_level, bodies_[pair.b].is_level, to_bullet(by));
         });
     for (RigidContact& contact : contacts_) contact.point += by;
+    for (RigidContact& load : loads_) load.point += by;
 }
 
 }  // namespace cullet::bullet

@@ -112,7 +112,6 @@ TEST(InnerEdges, WhatSlidesOverAFloorOfManyPartsGoesAsOverOneOfTwoTriangles) {
     EXPECT_LE(100 * (flat.bad + hills.bad), flat.cases + hills.cases);
     // What takes off at 15 m/s flies decimetres high, from one triangle here and from another there: of 588 hills 20
     // differ. With cells of 4 cm in place of 8 to 20, 14 do.
-    // differ.
     EXPECT_LE(100 * hills.bad, 4 * hills.cases);
     EXPECT_LT(std::max(flat.highest, hills.highest), 0.01f);
 }
