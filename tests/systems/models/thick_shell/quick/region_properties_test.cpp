@@ -204,7 +204,7 @@ void expect_kept_energy_never_rises(const Model& model, int cases) {
             return energy.total() - energy.work - energy.membrane + kept_spring_energy(region.springs);
         };
         const BrittleLoop loop = make_quick_loop();
-        LoopWorld world{state};
+        LoopWorld world{state, state.blows};
         const double start = kept();
         double most = start;
         for (uint32_t step = 1; step < 6; ++step) {
