@@ -52,11 +52,11 @@ struct ShellRows : MaterialRows {
     using Below = MaterialRows;
     static constexpr auto own_tables() {
         using R = ShellRows;
-        return std::tuple{&R::shells,          &R::vertices,        &R::elements,       &R::triangle_springs,
-                          &R::hinges,          &R::stiffness_packs, &R::stiffness_blocks, &R::stiffness_links,
-                          &R::cells,           &R::hull_points,     &R::shell_springs,  &R::springs,
-                          &R::layer_springs,   &R::element_springs, &R::spring_packs,   &R::spring_slots,
-                          &R::layer_slots,     &R::twins,           &R::vertex_blocks};
+        return std::tuple{&R::shells,        &R::vertices,        &R::elements,         &R::triangle_springs,
+                          &R::hinges,        &R::stiffness_packs, &R::stiffness_blocks, &R::stiffness_links,
+                          &R::cells,         &R::hull_points,     &R::shell_springs,    &R::springs,
+                          &R::layer_springs, &R::element_springs, &R::spring_packs,     &R::spring_slots,
+                          &R::layer_slots,   &R::twins,           &R::vertex_blocks};
     }
 
     /// Calls f(column of Shells, table, room, limit) for each table of which a shell has a range: the member of

@@ -96,8 +96,8 @@ class AnyTable {
 
     /// First of `count` new rows, all zero, or kNone when the limit does not allow them.
     uint32_t append(uint32_t count);
-    /// As many rows at least, with their memory at once: ranges are written late, and what is resident would grow for as
-    /// long as a game runs.
+    /// As many rows at least, with their memory at once: ranges are written late, and what is resident would grow for
+    /// as long as a game runs.
     void reach(uint32_t rows) {
         if (rows <= size_) return;
         commit_rows(rows);
