@@ -59,9 +59,8 @@ double impact_speed(const HitDescription& hit) {
     return std::fabs(static_cast<double>(hit.striker_speed - dot(hit.velocity, hit.normal)));
 }
 
-void examine_pieces(State& state, const HitDescription& hit, HitResult& result) {
+void examine_pieces(State& state, const HitDescription& hit, std::span<const FragmentPart> parts, HitResult& result) {
     const ShellView shell(state, state.tasks.shell[Row<Tasks>(0)]);
-    const std::span<const FragmentPart> parts(state.fragments.part.data(), result.report.parts);
     std::vector<PartMotion> motions(parts.size());
     HandoffStart start;
     start.velocity = Vec3d(hit.velocity);
@@ -191,8 +190,9 @@ void HitBench::renew() {
 HitResult HitBench::examine(const HitDescription& hit) {
     const FpMode mode;
     HitResult result;
-    result.report = run_hit(*state_, shell_, hit);
-    examine_pieces(*state_, hit, result);
+    std::vector<FragmentPart> parts(kMostParts);
+    result.report = run_hit(*state_, shell_, hit, nullptr, parts);
+    examine_pieces(*state_, hit, std::span(parts).first(result.report.parts), result);
     close_hit(*state_);
     return result;
 }

@@ -44,13 +44,14 @@ Model brick_of(const Mesh& mesh, float thickness, Kind kind) {
 Found hit_once(HitBench& bench, const HitDescription& hit) {
     const FpMode mode;
     State& state = bench.state();
-    const HitReport report = run_hit(state, bench.shell(), hit);
+    std::vector<FragmentPart> parts(kMostParts);
+    const HitReport report = run_hit(state, bench.shell(), hit, nullptr, parts);
     Found found;
     double total = 0;
-    for (uint32_t k = 0; k < report.parts; ++k) total += state.fragments.part[k].mass;
+    for (uint32_t k = 0; k < report.parts; ++k) total += parts[k].mass;
     for (uint32_t k = 0; k < report.parts; ++k) {
-        found.pieces += state.fragments.part[k].mass > 0.005 * total;
-        found.largest = std::max(found.largest, state.fragments.part[k].mass / total);
+        found.pieces += parts[k].mass > 0.005 * total;
+        found.largest = std::max(found.largest, parts[k].mass / total);
     }
     const ShellView shell(state, state.tasks.shell[0]);
     for (uint32_t v = 0; v < shell.vertex_count(); ++v)

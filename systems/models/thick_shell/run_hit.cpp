@@ -83,7 +83,7 @@ bool widen_hit(RunRows& state) {
     return true;
 }
 
-HitReport finish_hit(RunRows& state) {
+HitReport finish_hit(RunRows& state, std::span<FragmentPart> parts) {
     Tasks& tasks = state.tasks;
     HitReport report;
     const bool is_quick = is_quick_task(state, kTask);
@@ -101,7 +101,7 @@ HitReport finish_hit(RunRows& state) {
     const ShellView shell(state, tasks.shell[kTask]);
     report.moving = shell.vertex_count();
     const Scratch<std::array<FragmentPart, kMostParts>> parts_of(state.scratch);
-    const std::span parts(*parts_of);
+    if (parts.empty()) parts = *parts_of;
     report.parts = group_fragments(shell, parts);
     if (report.parts > 1 && !report.dropped && run_out_cracks(state, kTask))
         report.parts = group_fragments(shell, parts);
@@ -116,7 +116,8 @@ HitReport finish_hit(RunRows& state) {
     return report;
 }
 
-HitReport run_hit(RunRows& state, Row<Shells> shell, const HitDescription& hit, bool (*is_over)(const RunRows&)) {
+HitReport run_hit(RunRows& state, Row<Shells> shell, const HitDescription& hit, bool (*is_over)(const RunRows&),
+                  std::span<FragmentPart> parts) {
     if (!open_hit(state, shell, hit)) {
         HitReport report;
         report.dropped = true;
@@ -132,7 +133,7 @@ HitReport run_hit(RunRows& state, Row<Shells> shell, const HitDescription& hit, 
         if (is_over && is_over(state)) break;
         if (!widen_hit(state)) tasks.state[kTask] = static_cast<uint8_t>(TaskState::Dropped);
     }
-    return finish_hit(state);
+    return finish_hit(state, parts);
 }
 
 void close_hit(RunRows& state) {

@@ -1,5 +1,8 @@
 // One hit on one shell, from touch to end, without a world: what cooking measures with and truth is told by.
 #pragma once
+#include <span>
+
+#include "components/bodies.hpp"
 #include "components/run_rows.hpp"
 #include "cullet/layers.hpp"
 #include "cullet/quick.hpp"
@@ -34,15 +37,17 @@ struct HitReport {
 
 /// The three parts of run_hit, for those who drive the loop themselves: open_hit fills task row 0 (false: no room),
 /// the task runs until its state is no longer Running, finish_hit counts its parts.
+///
+/// `parts` gets their masses, boxes and points when it has kMostParts places; when it is empty nobody wants them.
 bool open_hit(RunRows& state, Row<Shells> shell, const HitDescription& hit);
 /// A run that has come to the border of its region (hidden_region.hpp) begins again on a larger one. False: no room.
 bool widen_hit(RunRows& state);
-HitReport finish_hit(RunRows& state);
+HitReport finish_hit(RunRows& state, std::span<FragmentPart> parts = {});
 
 /// Takes task row 0 of `state`, which must be free, and leaves it with the end's shell (close_hit). `is_over`, when
 /// given, ends the run early; it is asked after each repetition.
 HitReport run_hit(RunRows& state, Row<Shells> shell, const HitDescription& hit,
-                  bool (*is_over)(const RunRows&) = nullptr);
+                  bool (*is_over)(const RunRows&) = nullptr, std::span<FragmentPart> parts = {});
 void close_hit(RunRows& state);
 
 /// Lowest vertex in direction `down`, and what a fall on a floor in that direction looks like.
