@@ -7,6 +7,7 @@
 #include "systems/bodies/thresholds.hpp"
 #include "systems/models/thick_shell/hidden/run_cost.hpp"
 #include "systems/models/thick_shell/shared/working_room.hpp"
+#include "systems/structures/shell/patch_radius.hpp"
 
 namespace cullet {
 namespace {
@@ -28,18 +29,15 @@ ImpactEvent event_of(const Bodies& bodies, const Blows& blows, uint32_t row) {
     return e;
 }
 
-// r_c of the note, section 6.3.
-float patch_radius(const RunRows& state, const Blows& blows, uint32_t row, uint32_t t) {
-    const Shells& shells = state.shells;
-    const Row<Shells> shell = state.tasks.source[t];
-    return std::max({3 * shells.thickness[shell], 1.3f * shells.mean_edge[shell], 0.35f * blows.radius[row]});
+float radius_of(const RunRows& state, const Blows& blows, uint32_t row, uint32_t t) {
+    return patch_radius(state.shells, state.tasks.source[t], blows.radius[row]);
 }
 
 // The task's contact in whose patch the push lies, or kNone. Vertices of two patches take one spring alone: a second
 // push there would be lost.
 uint32_t contact_at(const RunRows& state, const Blows& blows, uint32_t row, uint32_t t) {
     const TaskContacts& contacts = state.task_contacts;
-    const float radius = patch_radius(state, blows, row, t);
+    const float radius = radius_of(state, blows, row, t);
     const uint32_t first = state.tasks.first_contact[t];
     for (uint32_t c = first; c < first + state.tasks.contact_count[t]; ++c)
         if (length(contacts.point[c] - blows.point[row]) < std::max(radius, contacts.radius[c])) return c;
@@ -84,7 +82,7 @@ void merge_push(BodyRows& state, const Blows& blows, uint32_t row, uint32_t t, u
     contacts.striker_inverse_mass[c] = static_cast<float>(1 / (mass + added));
     contacts.start_speed[c] = dot(moving_at(state, t, contacts.point[c]), contacts.normal[c]) + speed;
     if (gained > before) contacts.striker_radius[c] = blows.radius[row];
-    contacts.radius[c] = std::max(contacts.radius[c], patch_radius(state, blows, row, t));
+    contacts.radius[c] = std::max(contacts.radius[c], radius_of(state, blows, row, t));
 }
 
 void lay_push(BodyRows& state, const Blows& blows, uint32_t row, uint32_t t) {
@@ -99,7 +97,7 @@ void lay_push(BodyRows& state, const Blows& blows, uint32_t row, uint32_t t) {
     contacts.striker_inverse_mass[c] = blows.inverse_mass[row];
     contacts.striker_radius[c] = blows.radius[row];
     contacts.start_speed[c] = dot(moving_at(state, t, blows.point[row]), blows.direction[row]) + blows.speed[row];
-    contacts.radius[c] = patch_radius(state, blows, row, t);
+    contacts.radius[c] = radius_of(state, blows, row, t);
 }
 
 enum class Outcome : uint8_t { Waits, Joined, Gone };

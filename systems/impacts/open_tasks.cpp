@@ -8,6 +8,7 @@
 #include "systems/impacts/opening.hpp"
 #include "systems/impacts/snap.hpp"
 #include "systems/models/thick_shell/shared/working_room.hpp"
+#include "systems/structures/shell/patch_radius.hpp"
 #include "systems/systems.hpp"
 
 namespace cullet {

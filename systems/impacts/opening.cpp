@@ -13,6 +13,7 @@
 #include "systems/models/thick_shell/shared/quick_body.hpp"
 #include "systems/models/thick_shell/shared/working_room.hpp"
 #include "systems/models/thick_shell/stiffness/assemble.hpp"
+#include "systems/structures/shell/patch_radius.hpp"
 #include "systems/structures/shell/struck_normal.hpp"
 #include "systems/structures/shell/waiting_pieces.hpp"
 
@@ -43,10 +44,6 @@ Yielding yielding_of(const Bodies& bodies, Row<Bodies> striker, Vec3 point, Vec3
     const Vec3d arm = Vec3d(to_body(pose_of(bodies, striker), point)) - bodies.centre[striker];
     const Vec3d turn = cross(arm, n);
     return {own, turn, inverse(bodies.inertia[striker]) * turn};
-}
-
-float patch_radius(const Shells& shells, Row<Shells> shell, float striker_radius) {
-    return std::max({3 * shells.thickness[shell], 1.3f * shells.mean_edge[shell], 0.35f * striker_radius});
 }
 
 Impact aimed(BodyRows& state, Impact impact) {

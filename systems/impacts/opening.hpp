@@ -15,8 +15,6 @@ struct Yielding {
 /// task, do not yield.
 Yielding yielding_of(const Bodies& bodies, Row<Bodies> striker, Vec3 point, Vec3 normal);
 
-float patch_radius(const Shells& shells, Row<Shells> shell, float striker_radius);
-
 /// A blow as the task will have it: a ball's goes along the struck surface's normal, unless it does not close along
 /// that.
 Impact aimed(BodyRows& state, Impact impact);

@@ -5,6 +5,7 @@
 #include "systems/models/thick_shell/soft/soft_body.hpp"
 #include "systems/models/thick_shell/springs/start_springs.hpp"
 #include "systems/structures/shell/cut_surface.hpp"
+#include "systems/structures/shell/patch_radius.hpp"
 #include "systems/systems.hpp"
 
 namespace cullet {
@@ -38,10 +39,8 @@ struct Taking {
     void push_points(uint32_t row, Row<SoftBodies> soft) {
         const Row<Bodies> body = blows.body[row];
         const Row<Shells> shell = state.bodies.shell[body];
-        const float radius = std::max(
-            {3 * state.shells.thickness[shell], 1.3f * state.shells.mean_edge[shell], 0.35f * blows.radius[row]});
-        push_soft(state, rigid, soft, blows.point[row], blows.impulse[row].to_float(), radius,
-                  kMostReturned * blows.speed[row]);
+        push_soft(state, rigid, soft, blows.point[row], blows.impulse[row].to_float(),
+                  patch_radius(state.shells, shell, blows.radius[row]), kMostReturned * blows.speed[row]);
         book(body, blows.impulse[row]);
     }
 

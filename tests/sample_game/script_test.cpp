@@ -578,8 +578,8 @@ TEST_P(SceneHash, IsWhatTheSceneAlwaysGave) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Scenes, SceneHash,
-                         testing::Values(KnownHash{"vase", "d17ecf93acd005af"}, KnownHash{"wall", "39ea9e08a4007fb2"},
-                                         KnownHash{"pane", "5ab17f3555218158"}, KnownHash{"drop", "577293e4e8342218"}),
+                         testing::Values(KnownHash{"vase", "aee876254dbd78dd"}, KnownHash{"wall", "9530b435f4cae502"},
+                                         KnownHash{"pane", "9fdc7392c477e026"}, KnownHash{"drop", "68ddccf49057c055"}),
                          [](const auto& known) { return std::string(known.param.scene); });
 
 TEST(Script, AFileIsPlayedByItsPathAndOneThatIsNotThereIsNamed) {

@@ -14,6 +14,7 @@
 #include "systems/models/thick_shell/quick/region_motion.hpp"
 #include "systems/models/thick_shell/shared/working_room.hpp"
 #include "systems/structures/shell/group_fragments.hpp"
+#include "systems/structures/shell/patch_radius.hpp"
 #include "systems/structures/shell/struck_normal.hpp"
 
 namespace cullet {
@@ -55,8 +56,7 @@ bool open_hit(RunRows& state, Row<Shells> source, const HitDescription& hit) {
     contacts.striker_inverse_mass[0] = hit.striker_inverse_mass;
     contacts.striker_radius[0] = hit.striker_radius;
     contacts.start_speed[0] = hit.striker_speed;
-    contacts.radius[0] = std::max(
-        {3 * state.shells.thickness[source], 1.3f * state.shells.mean_edge[source], 0.35f * hit.striker_radius});
+    contacts.radius[0] = patch_radius(state.shells, source, hit.striker_radius);
     const bool is_ball = hit.striker_radius > 0;
     contacts.normal.set(
         0, is_ball ? struck_normal(ShellView(state, source), hit.point, hit.normal, contacts.radius[0]) : hit.normal);

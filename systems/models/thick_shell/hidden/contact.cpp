@@ -5,6 +5,7 @@
 #include "systems/cook/materials.hpp"
 #include "systems/models/thick_shell/shared/quick_body.hpp"
 #include "systems/models/thick_shell/stiffness/pair_cells.hpp"
+#include "systems/structures/shell/patch_radius.hpp"
 #include "systems/structures/shell/ring.hpp"
 
 namespace cullet {
@@ -15,8 +16,6 @@ namespace {
 // not break at all. It goes with the patch and not with h, because on a coarse mesh, where patches are wider,
 // whole bodies crack later: with 0.35 h a coarse globe of glass did not break at 30 m/s.
 constexpr double kBearingRadius = 0.117;
-// Of a ball's radius: what it touches itself, and the least that a patch reaches.
-constexpr double kFootprint = 0.35;
 
 // A striker leaves the patch within a step, somewhere between two points of it: where k dt^2 / m is kappa that gives it
 // up to kappa / (4 - kappa) of its energy. At 0.3, the bound of vertices, that is 8 %, and runs end as blown up at 5;
@@ -47,12 +46,6 @@ struct Patch {
         std::push_heap(candidate, candidate + count, is_before);
     }
 };
-
-double patch_radius(const ShellView& shell, float striker_radius) {
-    const Shells& shells = shell.shells();
-    const double h = std::max(shells.thickness[shell.row], shells.depth_floor[shell.row]);
-    return std::max({3 * h, 1.3 * shells.mean_edge[shell.row], kFootprint * striker_radius});
-}
 
 void find_candidates(const ShellView& shell, uint32_t centre, double radius, Patch& patch) {
     const Vertices& vertices = shell.state.vertices;
@@ -188,7 +181,7 @@ void build_patches(RunRows& state, Row<Tasks> task) {
     Patch& patch = *room;
     patch.most = kMostPatchVertices / count;
     for (uint32_t c = first; c < first + count; ++c) {
-        const double radius = patch_radius(shell, contacts.striker_radius[c]);
+        const double radius = patch_radius(state.shells, shell.row, contacts.striker_radius[c]);
         contacts.radius[c] = static_cast<float>(radius);
         patch.count = 0;
         find_candidates(shell, contacts.vertex[c], radius, patch);
