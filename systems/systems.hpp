@@ -118,7 +118,8 @@ void return_soft(Serial, const SoftBodies& soft, const SoftStrikers& strikers, R
 void read_rigid(Serial, const RigidWorld& rigid, Bodies& bodies, Events<AsleepEvent>& asleep);
 /// What lies on a body or squeezes it, by the impulses of the last solve (a host tells them with its contacts): for
 /// some steps more than it bears (impacts/overload.hpp), and a hit waits for it in QueuedHits that stands for the load.
-void weigh_loads(Serial, Step step, RigidWorld& rigid, BodyRows& rows, QueuedHits& queued,
+/// A run on it that has cracked nothing makes way.
+void weigh_loads(Serial, Step step, RigidWorld& rigid, BodyRows& rows, QueuedHits& queued, const Blows& blows,
                  const DamageSettings& settings, Arena& arena, Events<RefusedEvent>& refused);
 /// Crumbs fly on parabolas, bounce off the ground and off bodies larger than they are, slide and come to rest; of a
 /// host's world, which keeps its shapes to itself, they know the floor below their place of birth alone.

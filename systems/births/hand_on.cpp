@@ -79,7 +79,8 @@ void hand_on_hits(Planning& planning, const Break& plan) {
     for (uint32_t q = 0; q < queued.size(); ++q) {
         if (!queued.is_used[q] || queued.body[q] != plan.body) continue;
         const uint32_t owner = owner_of(shell, queued.point[q], plan.largest);
-        if (plan.is_crumb[owner])
+        // What pressed on the whole is weighed anew on its parts.
+        if (plan.is_crumb[owner] || queued.load[q] > 0)
             queued.clear_rows(q, 1);
         else if (plan.child[owner].exists())
             queued.body[q] = plan.child[owner];

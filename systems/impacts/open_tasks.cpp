@@ -131,6 +131,12 @@ bool open_snap(Opening& opening, uint32_t q, Events<ImpactEvent>& impact_events)
 // was that broke.
 constexpr float kMostSecondsQueued = 2;
 
+bool is_loaded(const QueuedHits& queued, Row<Bodies> body) {
+    for (uint32_t q = 0; q < queued.size(); ++q)
+        if (queued.is_used[q] && queued.body[q] == body && queued.load[q] > 0) return true;
+    return false;
+}
+
 // Those of one frame in the order of the queue's rows, one a body and frame, while tasks last: the others wait, and so
 // does what finds no rows now but may find some soon.
 void open_queued_of(uint64_t frame, Opening& opening, const DamageSettings& settings,
@@ -143,6 +149,8 @@ void open_queued_of(uint64_t frame, Opening& opening, const DamageSettings& sett
         const Row<Bodies> body = queued.body[q];
         if (bodies.task[body] != kNone || opening.frame < bodies.retry_frame[body] || bodies.hold_count[body]) continue;
         if (has_waiting_cut(opening.blows, body)) continue;
+        // Older bumps of what presses on it would work for half a second before the load is looked at.
+        if (!(queued.load[q] > 0) && is_loaded(queued, body)) continue;
         if (may_break_again(state.shells, bodies.shell[body], settings)) {
             const bool snaps = is_snap(queued.load[q], queued.approach_speed[q]);
             if (snaps && open_snap(opening, q, impact_events)) {

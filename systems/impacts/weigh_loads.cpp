@@ -9,6 +9,7 @@
 #include "systems/impacts/overload.hpp"
 #include "systems/models/thick_shell/shared/working_room.hpp"
 #include "systems/systems.hpp"
+#include "systems/tasks/cancel_task.hpp"
 #include "systems/tasks/task_cost.hpp"
 
 namespace cullet {
@@ -16,12 +17,16 @@ namespace {
 
 // More than a body bears, for so long, breaks it: what falls or is struck passes more for a step or two. Between two
 // that do not yield no load is borne, and in half of the time a slow press comes a centimetre.
-constexpr float kOverloadSeconds = 0.06f, kDrivenSeconds = 0.03f;
+// What is crushed by so many times what it bears hardly slows what falls on it, which comes 2 cm in the first of them.
+constexpr float kOverloadSeconds = 0.06f, kDrivenSeconds = 0.03f, kCrushedSeconds = 0.045f;
+constexpr double kCrushed = 4;
 // Below this share of the least that could break it nothing is looked at, and below the second no sleeper is woken.
 constexpr double kLookShare = 0.7, kLaidOn = 0.25;
 // Each time that a load wakes it, it takes twice as much to wake it again, from this share of the load on: what rocks
 // on it would keep both awake for ever. When all that lies on it sleeps the count begins anew.
 constexpr double kFirstWaking = 1.0 / 256;
+// Each time so much is over half of it is enough again, so that no load goes unseen for longer than twice that.
+constexpr float kForgettingSeconds = 10;
 // The blow that stands for a load: below the first crack the force of a contact goes with the speed, so that
 // first_crack_speed times the share passes what presses. Twice that, since pieces come off at up to 2.5 times the speed
 // of the first crack, and what presses goes on pressing; half as much more for a second run.
@@ -32,8 +37,8 @@ constexpr float kFastestRun = 15, kDeepest = 0.05f, kWithCracks = 1.6f;
 constexpr uint8_t kMostRuns = 2, kMostDrivenRuns = 1;
 // Of fewer elements a blow knocks out a corner, and what is left may have too few to break again.
 constexpr uint32_t kFewestForARun = 200;
-// After each such run the body is left alone twice as long, but no longer than 64 times.
-constexpr uint8_t kMostLoadRuns = 6;
+// After each such run the body is left alone twice as long, but no longer than 64 times; what is crushed 4 times.
+constexpr uint8_t kMostLoadRuns = 6, kMostCrushedRuns = 2;
 
 // Steps are counted once a sixtieth of a second and no more often, so that what is counted fits into a byte.
 constexpr float kLeastCounted = 1.0f / 60;
@@ -43,10 +48,13 @@ constexpr uint8_t kWasWoken = 255;
 uint32_t counts_in(float seconds, float dt) {
     return std::clamp(static_cast<uint32_t>(std::ceil(seconds / std::max(dt, kLeastCounted))), 2u, kWasWoken - 1u);
 }
-bool is_counted(Step step) {
-    if (step.dt > 0.99f * kLeastCounted) return true;
-    const double of_one = double{step.dt} / double{kLeastCounted}, frame = static_cast<double>(step.frame);
+// A period of so many seconds ends with this step.
+bool is_period_over(Step step, float seconds) {
+    const double of_one = double{step.dt} / double{seconds}, frame = static_cast<double>(step.frame);
     return std::floor(frame * of_one) < std::floor((frame + 1) * of_one);
+}
+bool is_counted(Step step) {
+    return step.dt > 0.99f * kLeastCounted || is_period_over(step, kLeastCounted);
 }
 
 // Whether there is anything to look at.
@@ -58,11 +66,10 @@ bool may_be_overloaded(const LoadedBody& of, std::span<const BodyLoad> loads) {
     return std::any_of(loads.begin(), loads.end(), is_driven) || sum_of(loads) > kLookShare * least_load(of);
 }
 
-// It may break, is not held, and no hit on it is worked off.
+// It may break, and is not held.
 bool may_be_loaded(const LoadedBody& of, const DamageSettings& settings) {
     return is_fragile(of.bodies, of.shells, settings, of.body) && !of.bodies.hold_count[of.body] &&
-           of.bodies.task[of.body] == kNone && of.shells.first_crack_force[of.shell()] > 0 &&
-           force_borne(of) < kBearsAll;
+           of.shells.first_crack_force[of.shell()] > 0 && force_borne(of) < kBearsAll;
 }
 
 // What is laid on a sleeper little by little is not to find it asleep for ever: its supports tell their loads only
@@ -101,14 +108,28 @@ double seconds_of_run(const BodyRows& state, Row<Bodies> body, const DamageSetti
     return dt * units / static_cast<double>(std::max<uint64_t>(settings.units_a_frame, 1));
 }
 
+// It goes on however the body gives, and as fast.
+bool is_crushed(const Overload& over) {
+    return !over.is_driven && over.share > kCrushed;
+}
+
+// m, that what drives, or falls, comes in so many seconds.
+double way_in(const Overload& over, Vec3 gravity, double seconds) {
+    if (over.is_driven) return over.driven_speed * seconds;
+    return is_crushed(over) ? 0.5 * length(gravity) * seconds * seconds : 0;
+}
+bool is_deep(const Bodies& bodies, Row<Bodies> body, double way) {
+    return way > kDeepest * 2 * bodies.radius[body];
+}
+
 bool is_for_a_run(const BodyRows& state, Row<Bodies> body, const Overload& over, const DamageSettings& settings,
-                  float dt) {
+                  Step step) {
     const Bodies& bodies = state.bodies;
     if (bodies.overload_runs[body] >= (over.is_driven ? kMostDrivenRuns : kMostRuns)) return false;
     if (speed_of(state, body, over) > kFastestRun) return false;
     if (state.shells.elements[bodies.shell[body]].count < kFewestForARun) return false;
-    return !over.is_driven || is_quick_body(state, body) ||
-           over.driven_speed * seconds_of_run(state, body, settings, dt) < kDeepest * 2 * bodies.radius[body];
+    return is_quick_body(state, body) ||
+           !is_deep(bodies, body, way_in(over, step.gravity, seconds_of_run(state, body, settings, step.dt)));
 }
 
 // A striker of twenty masses stands for who presses. Against what is free it stands still: the body comes to it.
@@ -137,9 +158,34 @@ QueuedHit snap_of(QueuedHit hit, const Overload& over) {
 }
 
 // So many counted steps in a row it has to be too much.
-uint32_t counts_wanted(const Overload& over, uint8_t runs, float dt) {
-    if (over.is_driven) return counts_in(over.is_between ? kDrivenSeconds : kOverloadSeconds, dt);
+uint32_t counts_wanted(const Bodies& bodies, Row<Bodies> body, const Overload& over, float dt) {
+    const uint8_t runs = bodies.overload_runs[body];
+    if (over.is_between) {
+        const uint32_t counts = counts_in(kDrivenSeconds, dt);
+        const double seconds = counts * double{std::max(dt, kLeastCounted)};
+        return is_deep(bodies, body, over.driven_speed * seconds) ? 1 : counts;
+    }
+    if (over.is_driven) return counts_in(kOverloadSeconds, dt);
+    if (is_crushed(over)) return counts_in(kCrushedSeconds, dt) << std::min(runs, kMostCrushedRuns);
     return counts_in(kOverloadSeconds, dt) << std::min(runs, kMostLoadRuns);
+}
+
+// The run on it stands for a load, which has come deep in since it began: other hits had their share of the units.
+bool is_too_late(const BodyRows& rows, Row<Bodies> body, const Overload& over, Step step) {
+    const Row<Tasks> task(rows.bodies.task[body]);
+    const double seconds = step.dt * static_cast<double>(step.frame - rows.tasks.opened_frame[task]);
+    return rows.tasks.load[task] > 0 && is_deep(rows.bodies, body, way_in(over, step.gravity, seconds));
+}
+
+// What works off a blow that has cracked nothing yet, and holds nobody, makes way for a load: of a fine mesh such a run
+// of the first touch takes half a second.
+bool makes_way(const RunRows& rows, const Blows& blows, Row<Tasks> task, bool has_pressed_on) {
+    const Tasks& tasks = rows.tasks;
+    if (static_cast<TaskState>(tasks.state[task]) != TaskState::Running) return false;
+    if (is_ahead(tasks, task) || !tasks.is_late[task]) return false;
+    for (uint32_t b = 0; b < blows.size(); ++b)
+        if (blows.task[b] == task.index) return false;
+    return tasks.load[task] > 0 ? has_pressed_on : tasks.crack_count[task] == 0;
 }
 
 // The veto is asked about the blow that is to come, told as it will be.
@@ -156,7 +202,7 @@ bool is_allowed(const Bodies& bodies, const QueuedHit& hit, const DamageSettings
 
 }  // namespace
 
-void weigh_loads(Serial, Step step, RigidWorld& rigid, BodyRows& rows, QueuedHits& queued,
+void weigh_loads(Serial, Step step, RigidWorld& rigid, BodyRows& rows, QueuedHits& queued, const Blows& blows,
                  const DamageSettings& settings, Arena& arena, Events<RefusedEvent>& refused) {
     if (!is_counted(step)) return;
     Bodies& bodies = rows.bodies;
@@ -164,6 +210,7 @@ void weigh_loads(Serial, Step step, RigidWorld& rigid, BodyRows& rows, QueuedHit
     const LoadLists lists(bodies, contacts, arena);
     const auto found = arena.take<BodyLoad>(lists.longest());
     const OverloadRoom room{arena.take<BodyLoad>(lists.longest()), arena.take<AxisForce>(lists.longest())};
+    const bool forgets = is_period_over(step, kForgettingSeconds);
     for (uint32_t b = 0; b < bodies.size(); ++b) {
         const Row<Bodies> body(b);
         const LoadedBody of{bodies, rows.shells, rows.vertices, rows.materials, rows.pin_boxes, body};
@@ -174,6 +221,7 @@ void weigh_loads(Serial, Step step, RigidWorld& rigid, BodyRows& rows, QueuedHit
         }
         const auto loads = found.first(lists.take(body, step.dt, found));
         if (bodies.is_asleep[b]) {
+            if (forgets) bodies.waking_load[b] *= 0.5f;
             const double load = sum_of(loads);
             if (!is_to_wake(of, load)) continue;
             bodies.waking_load[b] =
@@ -191,17 +239,23 @@ void weigh_loads(Serial, Step step, RigidWorld& rigid, BodyRows& rows, QueuedHit
         const Overload over = may_be_overloaded(of, loads)
                                   ? overload_of(of, rigid, loads, weight_of(bodies, body, step.gravity), room)
                                   : Overload{};
+        const bool is_busy = bodies.task[b] != kNone;
         if (!over.is_driven && !(over.share > 1)) {
             bodies.overloaded_steps[b] = 0;
-            if (over.share < 0.5) bodies.overload_runs[b] = 0;
+            if (!is_busy && over.share < 0.5) bodies.overload_runs[b] = 0;
             continue;
         }
-        const uint32_t wanted = counts_wanted(over, bodies.overload_runs[b], step.dt);
-        if (++bodies.overloaded_steps[b] < std::min<uint32_t>(wanted, kWasWoken - 1)) continue;
+        const uint32_t wanted = counts_wanted(bodies, body, over, step.dt);
+        if (bodies.overloaded_steps[b] < kWasWoken - 1) ++bodies.overloaded_steps[b];
+        if (bodies.overloaded_steps[b] < std::min<uint32_t>(wanted, kWasWoken - 1)) continue;
+        const bool has_pressed_on = is_busy && is_too_late(rows, body, over, step);
+        if (is_busy && !makes_way(rows, blows, Row<Tasks>(bodies.task[b]), has_pressed_on)) continue;
         bodies.overloaded_steps[b] = 0;
         const QueuedHit blow = hit_of(rows, body, contacts[over.contact], over, step.frame);
-        const QueuedHit hit = is_for_a_run(rows, body, over, settings, step.dt) ? blow : snap_of(blow, over);
+        const QueuedHit hit =
+            !has_pressed_on && is_for_a_run(rows, body, over, settings, step) ? blow : snap_of(blow, over);
         if (!is_allowed(bodies, hit, settings)) continue;
+        if (is_busy) cancel_task(rows, Row<Tasks>(bodies.task[b]));
         bodies.overload_runs[b] = std::min<uint8_t>(static_cast<uint8_t>(bodies.overload_runs[b] + 1), kMostLoadRuns);
         if (!queue_hit(queued, hit)) refused.push(refused_event(bodies, body, "limits.queued_hits"));
     }

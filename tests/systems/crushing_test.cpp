@@ -1,0 +1,200 @@
+// What is laid on a thing or closes on it, from one and a half times of what it bears up to 200 tonnes, breaks it
+// before it is far inside.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <cstdlib>
+#include <random>
+
+#include "systems/world_contents.hpp"
+#include "tests/support/play_script.hpp"
+
+namespace cullet {
+namespace {
+
+using test::format;
+
+constexpr double kGravity = 9.81, kMostMass = 200e3, kDue = 1.5;
+constexpr double kRates[] = {30, 60, 120};
+constexpr uint32_t kCases = 24;  // of each test
+uint32_t cases() {
+    const char* asked = std::getenv("CULLET_CRUSHING_CASES");
+    return asked ? static_cast<uint32_t>(std::atoi(asked)) : kCases;
+}
+
+struct Draw {
+    std::mt19937 engine;
+    double within(double low, double high) {
+        return low + (high - low) * static_cast<double>(engine() >> 8) / 0x1000000;
+    }
+    double evenly_in_scale(double low, double high) { return std::exp2(within(std::log2(low), std::log2(high))); }
+};
+
+/// On the floor, or a pane over a gap; `bends_at`: N in its middle, where it bends.
+struct Thing {
+    std::string script, told;
+    double size, top, half_width, bends_at = 1e30;  // m
+};
+Thing random_thing(Draw& draw) {
+    Thing t;
+    const uint32_t kind = draw.engine() % 4;
+    t.size = draw.evenly_in_scale(0.05, 1);
+    const double size = t.size, wall = std::min(draw.within(0.002, 0.01), size / 12);
+    const double edge = draw.within(0.05, 0.1) * size;
+    const bool is_glass = draw.engine() % 2;
+    std::string mesh;
+    double at = 0.0005, gap = 0;
+    t.half_width = 0.25 * size;
+    t.top = size + at;
+    if (kind == 0) {
+        mesh = format("game.mesh.vase{height = %g, edge = %g}", size, edge);
+    } else if (kind == 1) {
+        mesh = format("game.mesh.ball{radius = %g, subdivisions = 3}", size / 2);
+        at += size / 2;
+    } else if (kind == 2) {
+        mesh = format("game.mesh.slab{width = %g, height = %g, thickness = %g, vertices = 500}", size, size,
+                      draw.within(0.4, 1) * size);
+        t.half_width = 0.2 * size;
+    } else {
+        const double width = draw.within(0.3, 1) * size, high = 2 * wall, half = 0.4 * size;
+        gap = 0.3 * size + 0.02;
+        mesh = format("game.mesh.box{half_extents = {%g, %g, %g}}", size / 2, wall, width / 2);
+        at += gap + wall;
+        t.top = gap + 0.0005 + high;
+        for (const double side : {-1.0, 1.0})
+            t.script += format("game.box{low = {%g, 0, -1}, high = {%g, %g, 1}} ", side < 0 ? -size : half,
+                               side < 0 ? -half : size, gap);
+        t.bends_at = (is_glass ? 45e6 : 50e6) * width * high * high / 6 * 2 / half;
+        t.half_width = 0.1 * size;
+    }
+    t.script +=
+        format("local thing = game.spawn{mesh = %s, material = '%s', thickness = %g, edge = %g, at = {0, %g, 0}} ",
+               mesh.c_str(), is_glass ? "glass" : "porcelain", wall, edge, at);
+    constexpr const char* kNames[] = {"vase", "ball", "box", "pane"};
+    t.told = format("%s %s of %.3f m, wall %.1f mm", is_glass ? "glass" : "porcelain", kNames[kind], size, 1000 * wall);
+    return t;
+}
+
+/// A ball, or a block about as wide as the thing, or as wide as it has to be high. On a pane a ball: a block would
+/// stand over the edges that bear it.
+std::string weight(Draw& draw, const Thing& on, double mass) {
+    const double steel = 7850, low = on.top + 0.001;
+    if (on.bends_at < 1e30 || draw.engine() % 2) {
+        const double radius = std::max(0.3 * on.size, std::cbrt(0.75 * mass / (steel * M_PI)));
+        return format(
+            "game.throw{mass = %.9g, radius = %.9g, at = {0, %.9g, 0}, velocity = {0, 0, 0}} local half = %.9g ", mass,
+            radius, low + radius, radius);
+    }
+    const double wide = std::max(1.2 * on.size, std::cbrt(mass / (0.5 * steel)));
+    const double high = mass / (steel * wide * wide);
+    return format(
+        "game.spawn{mesh = game.mesh.box{half_extents = {%.9g, %.9g, %.9g}}, material = 'steel', thickness = %g, edge "
+        "= "
+        "%g, breakable = false, at = {0, %.9g, 0}} local half = %.9g ",
+        wide / 2, high / 2, wide / 2, 0.45 * std::min(high, wide), wide, low + high / 2, high / 2);
+}
+
+/// Ends with a sentence once `weight` stands more than `most` in what is whole.
+std::string watched(const Thing& thing, const std::string& weight, double most) {
+    return "game.scene{shows = 'a load', seconds = 60} game.floor() " + thing.script + "local weight = " + weight +
+           format(
+               "every({frames = 1}, function() if game.fragments() > 0 or not thing:is_alive() then return false end "
+               "local p = weight:position() local deep = %.9g - (p.y - half) "
+               "if p.x * p.x + p.z * p.z < %.9g then game.expect(deep < %.9g, string.format('%%.4f m in', deep)) end "
+               "end) ",
+               thing.top, thing.half_width * thing.half_width, most);
+}
+
+double force_borne(const GameWorld& game) {
+    const State& state = game.world().contents().data.state;
+    for (uint32_t b = 0; b < state.bodies.size(); ++b)
+        if (state.bodies.is_breakable[b] && state.bodies.shell[b].exists())
+            return state.shells.first_crack_force[state.bodies.shell[b]];
+    return 0;
+}
+
+struct Crushed {
+    bool is_due = false, is_whole = true;
+    double seconds = 0;
+    std::string failure;
+};
+/// `force`: N of the weight, or more than anything bears. What is not due is not played.
+Crushed play(const std::string& script, const Thing& thing, double force, double seconds, double rate) {
+    RunOptions options;
+    options.threads = 2;
+    options.dt_ms = 1000 / rate;
+    Result<GameWorld> game = GameWorld::create(plan_scene({"crushing", "crushing.lua", script}, options));
+    Crushed out;
+    if (!game.ok()) return out.is_due = true, out.failure = game.error(), out;
+    out.is_due = force > kDue * std::min(force_borne(*game), thing.bends_at);
+    for (; out.is_due && out.is_whole && out.seconds < seconds && out.failure.empty(); out.seconds += 1 / rate) {
+        game->before_step(), game->step(), game->after_step();
+        out.is_whole = game->world().fragments(nullptr, 0) == 0;
+        out.failure = game->failure();
+    }
+    return out;
+}
+
+double most_inside(const Thing& thing) {
+    return std::max(0.01, thing.size / 10);
+}
+
+TEST(Crushing, AWeightOfMoreThanAThingBearsBreaksItBeforeItIsDeepInIt) {
+    uint32_t due = 0, wrong = 0;
+    for (uint32_t seed = 1; due < cases(); ++seed) {
+        Draw draw{std::mt19937(seed)};
+        const Thing thing = random_thing(draw);
+        const double mass = draw.evenly_in_scale(30, kMostMass), rate = kRates[draw.engine() % 3];
+        const std::string script = watched(thing, weight(draw, thing, mass), most_inside(thing));
+        const Crushed crushed = play(script, thing, kGravity * mass, 1.5, rate);
+        due += crushed.is_due;
+        if (!crushed.is_due || (!crushed.is_whole && crushed.failure.empty())) continue;
+        ++wrong;
+        std::printf("seed %u: %s under %.0f kg, %g steps a second, after %.2f s: %s\n%s\n", seed, thing.told.c_str(),
+                    mass, rate, crushed.seconds, crushed.failure.c_str(), script.c_str());
+    }
+    EXPECT_EQ(wrong, 0u);
+}
+
+TEST(Crushing, APressOfAMillimetreToHalfAMetreASecondBreaksAThingBeforeItIsDeepInIt) {
+    uint32_t wrong = 0;
+    for (uint32_t seed = 1; seed <= cases(); ++seed) {
+        Draw draw{std::mt19937(1000 + seed)};
+        const Thing thing = random_thing(draw);
+        const double speed = draw.evenly_in_scale(0.001, 0.5), rate = kRates[draw.engine() % 3];
+        const double most = most_inside(thing), half = 0.3 * thing.size;
+        const std::string press = format(
+            "game.kinematic{half_extents = {%g, 0.1, %g}, at = {0, %.9g, 0}, velocity = {0, %.9g, 0}} local half "
+            "= 0.1 ",
+            half, half, thing.top + 0.1005, -speed);
+        // What it comes in the frame that breaks the thing is seen at its end.
+        const std::string script = watched(thing, press, most + speed / rate);
+        const Crushed crushed = play(script, thing, 1e30, (2 * most) / speed + 0.3, rate);
+        if (!crushed.is_whole && crushed.failure.empty()) continue;
+        ++wrong;
+        std::printf("seed %u: %s, %.4f m/s, %g steps a second, after %.2f s: %s\n%s\n", seed, thing.told.c_str(), speed,
+                    rate, crushed.seconds, crushed.failure.c_str(), script.c_str());
+    }
+    EXPECT_EQ(wrong, 0u);
+}
+
+// The first touch opens a run that takes three quarters of a second and cracks nothing.
+TEST(Crushing, AFineVaseBreaksUnderAPressAsSoonAsACoarseOne) {
+    for (const double edge : {0.005, 0.02}) {
+        Thing thing{"", "vase", 0.3, 0.301, 0.1};
+        thing.script = format(
+            "local thing = game.spawn{mesh = game.mesh.vase{height = 0.3, edge = %g}, material = 'porcelain', "
+            "thickness "
+            "= 0.004, at = {0, 0.001, 0}} ",
+            edge);
+        const std::string press =
+            "game.kinematic{half_extents = {0.5, 0.1, 0.5}, at = {0, 0.402, 0}, velocity = {0, -0.3, 0}} local half = "
+            "0.1 ";
+        const Crushed crushed = play(watched(thing, press, 0.01), thing, 1e30, 0.3, 60);
+        EXPECT_EQ(crushed.failure, "");
+        EXPECT_FALSE(crushed.is_whole) << edge;
+    }
+}
+
+}  // namespace
+}  // namespace cullet
