@@ -184,6 +184,7 @@ bool is_bump(const BodyRows& state, const Impact& impact, float foreseen) {
 }
 
 void open_ahead(Opening& opening, const Events<ForeseenHit>& foreseen, const DamageSettings& settings) {
+    if (foreseen.all().empty()) return;  // clearing the room below was a third of a quiet frame
     BodyRows& state = opening.state;
     const Scratch<std::array<Foreseen, kMostForeseen>> room(state.scratch);
     const auto all = find_blows(opening, foreseen.all(), settings, *room);
