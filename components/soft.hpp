@@ -99,21 +99,10 @@ inline constexpr uint32_t first_contact_row(uint32_t vertex) {
     return kContactsAVertex * (vertex / kLanes);
 }
 
-/// The soft body that an inner loop runs for.
-struct OfSoft {
-    Row<SoftBodies> row;
-};
-template <>
-struct Parameter<OfSoft> {
-    static void describe(std::vector<Access>&) {}
-    template <class W>
-    static OfSoft bind(Call<W>& call) {
-        return {Row<SoftBodies>(call.body)};
-    }
-};
-
 template <>
 inline constexpr uint32_t kRowsPerChunk<Springs> = 1024;
+template <>
+inline constexpr uint32_t kRowsPerChunk<SoftBodies> = 1;  // the vertices of a whole body
 
 /// The row of the body, or one that does not exist.
 inline Row<SoftBodies> find_soft(const SoftBodies& soft, Row<Bodies> body) {

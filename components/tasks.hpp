@@ -60,19 +60,6 @@ inline bool is_ahead(const Tasks& tasks, uint32_t task) {
     return tasks.due_frame[task] > 0;
 }
 
-/// The task that an inner loop runs for.
-struct OfTask {
-    Row<Tasks> row;
-};
-template <>
-struct Parameter<OfTask> {
-    static void describe(std::vector<Access>&) {}
-    template <class W>
-    static OfTask bind(Call<W>& call) {
-        return {Row<Tasks>(call.body)};
-    }
-};
-
 /// Which repetition of an inner loop this is: step n reads side n & 1 of two-sided columns and writes the other.
 struct Turn {
     uint32_t old_side, new_side;

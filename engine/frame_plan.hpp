@@ -123,9 +123,10 @@ class FramePlan {
         systems_.push_back(plan_system<World, System>(stage_));
         return *this;
     }
-    /// A loop that repeats inside of the system named last; shown with it.
-    FramePlan& shows(std::string title, std::function<std::string()> text) {
-        loops_.push_back({systems_.size() - 1, std::move(title), std::move(text)});
+    /// A loop that repeats inside of the system named last; shown with it. It must outlive the plan.
+    template <class Loop>
+    FramePlan& shows(std::string title, const Loop& loop) {
+        loops_.push_back({systems_.size() - 1, std::move(title), [&loop] { return loop.describe(); }});
         return *this;
     }
     /// After the last then(): edges, passes, profiler zones.
@@ -166,7 +167,7 @@ class FramePlan {
         for (size_t s = 0; s < systems_.size(); ++s) {
             if (systems_[s].stage != stage) text += (stage = systems_[s].stage) + "\n";
             text += "    " + cullet::describe(systems_[s], systems_);
-            for (const Loop& loop : loops_)
+            for (const Shown& loop : loops_)
                 if (loop.system == s) text += "      repeats: " + loop.title + "\n" + loop.text();
         }
         return text;
@@ -177,7 +178,7 @@ class FramePlan {
         uint32_t first, count;
         std::string name;  // the host's zone: its systems
     };
-    struct Loop {
+    struct Shown {
         size_t system;
         std::string title;
         std::function<std::string()> text;
@@ -239,7 +240,7 @@ class FramePlan {
 
     std::vector<PlannedSystem<World>> systems_;
     std::vector<Pass> passes_;
-    std::vector<Loop> loops_;
+    std::vector<Shown> loops_;
     std::string stage_;
 };
 

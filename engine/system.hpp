@@ -12,7 +12,8 @@
 // and exactly one of these says how often it is called, on what:
 //
 //     Rows<T>            once a chunk of rows of T, in parallel
-//     EachBody           in an inner loop: once for the task that it runs for; owns every row of that task
+//     Of<T>              in an inner loop: once for the row of T that it runs for; owns every row that belongs to it.
+//                        Beside Rows<U> it says whose rows these are
 //     Each<E>            once an event of the queue Events<E>, in parallel; owns every row of the event's body
 //     Serial             once, on one thread
 #pragma once
@@ -102,9 +103,10 @@ struct Rows {
     Iterator end() const { return {first + count}; }
 };
 
-/// The body (or task) this call is for.
-struct EachBody {
-    uint32_t row;
+/// The row of T that an inner loop runs for: a task, a soft body, the springs of a shell. The loop's world knows it.
+template <class T>
+struct Of {
+    Row<T> row;
 };
 /// The event this call is for.
 template <class E>
@@ -206,12 +208,12 @@ struct Parameter<Rows<T>> {
         return {call.first, call.count};
     }
 };
-template <>
-struct Parameter<EachBody> {
+template <class T>
+struct Parameter<Of<T>> {
     static void describe(std::vector<Access>&) {}
     template <class W>
-    static EachBody bind(Call<W>& call) {
-        return {call.body};
+    static Of<T> bind(Call<W>& call) {
+        return {call.world.template row_of<T>(call.body)};
     }
 };
 template <class E>
@@ -350,6 +352,10 @@ struct IsEach<Each<E>> : std::true_type {
     using Event = E;
 };
 template <class P>
+struct IsOf : std::false_type {};
+template <class T>
+struct IsOf<Of<T>> : std::true_type {};
+template <class P>
 struct IsTwoSided : std::false_type {};
 template <auto M>
 struct IsTwoSided<In<M>> : std::bool_constant<ColumnOf<M>::kBuffers == Buffers::Two> {};
@@ -369,13 +375,14 @@ template <class Function>
 struct Signature;
 template <class... P>
 struct Signature<void (*)(P...)> {
+    static constexpr bool kIsOfLoop = (... || IsOf<P>::value);
     static constexpr int kCallParameters =
-        (0 + ... +
-         int{IsRows<P>::value || IsEach<P>::value || std::is_same_v<P, EachBody> || std::is_same_v<P, Serial>});
-    static_assert(kCallParameters == 1, "a system takes exactly one of Rows<T>, EachBody, Each<E>, Serial");
-    static constexpr CallKind kKind = (... || IsRows<P>::value)                                    ? CallKind::Rows
-                                      : (... || (std::is_same_v<P, EachBody> || IsEach<P>::value)) ? CallKind::Bodies
-                                                                                                   : CallKind::Serial;
+        (0 + ... + int{IsRows<P>::value || IsEach<P>::value || std::is_same_v<P, Serial>});
+    static_assert(kCallParameters == 1 || (kCallParameters == 0 && kIsOfLoop),
+                  "a system takes exactly one of Rows<T>, Each<E>, Serial; in an inner loop Of<T> alone will do");
+    static constexpr CallKind kKind = (... || IsRows<P>::value)                  ? CallKind::Rows
+                                      : (kIsOfLoop || (... || IsEach<P>::value)) ? CallKind::Bodies
+                                                                                 : CallKind::Serial;
     template <class A>
     static constexpr bool races_with_any() {
         return (... || kRaces<A, P>);
@@ -400,9 +407,9 @@ struct Signature<void (*)(P...)> {
             return kChanges<A> && !IsTable<A> && !IsTableSet<A> && !HoldsEveryTable<A>;
     }
     static_assert(kKind == CallKind::Serial || kKind == CallKind::Bodies || !(... || changes_any<P>()),
-                  "only Serial, EachBody and Each systems may change a whole table, only Serial ones a resource");
+                  "only Serial, Of and Each systems may change a whole table, only Serial ones a resource");
     static_assert(
-        kKind != CallKind::Bodies || (... || std::is_same_v<P, EachBody>) || !(... || changes_a_resource<P>()),
+        kKind != CallKind::Bodies || kIsOfLoop || !(... || changes_a_resource<P>()),
         "calls of an Each system run at once: only a Serial system may change a resource, the arena or a queue");
 
     template <class P1>

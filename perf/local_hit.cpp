@@ -27,7 +27,7 @@ struct Hit {
 
 /// The inner loop, and what only hands bodies to the rigid engine and back.
 bool is_local(const std::string& system) {
-    for (const char* other : {"advance_damage", "advance_soft", "detect_contacts", "solve_rigid", "read_rigid"})
+    for (const char* other : {"advance_runs", "detect_contacts", "solve_rigid", "read_rigid"})
         if (system.find(other) != std::string::npos) return false;
     return true;
 }

@@ -7,8 +7,8 @@ namespace cullet::perf {
 namespace {
 
 /// What pass_impulses does for a region, without its contacts.
-void follow_rest(EachBody task, Turn turn, RunRows& rows) {
-    move_rest(rows, Row<Tasks>(task.row), turn.old_side);
+void follow_rest(Of<Tasks> task, Turn turn, RunRows& rows) {
+    move_rest(rows, task.row, turn.old_side);
 }
 
 }  // namespace

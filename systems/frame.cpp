@@ -3,15 +3,13 @@
 // (World::create_hosted) has moved the bodies before the frame, and solves after it.
 #include "engine/assert.hpp"
 #include "systems/drawn/query_index.hpp"
-#include "systems/models/thick_shell/soft/soft_loop.hpp"
 #include "systems/systems.hpp"
-#include "systems/tasks/damage_loop.hpp"
+#include "systems/tasks/run_loops.hpp"
 #include "systems/world_contents.hpp"
 
 namespace cullet {
 
-FramePlan<WorldData> make_frame_plan(bool is_hosted, const std::function<std::string()>& describe_damage_loop,
-                                     const std::function<std::string()>& describe_soft_loop) {
+FramePlan<WorldData> make_frame_plan(bool is_hosted, const RunLoops& loops) {
     FramePlan<WorldData> plan;
     plan.stage("start").then<remember_poses>();
     if (is_hosted) plan.then<read_rigid>();
@@ -34,10 +32,14 @@ FramePlan<WorldData> make_frame_plan(bool is_hosted, const std::function<std::st
         .then<wake_soft_bodies>();
     plan.stage("damage")
         .then<grant_units>()
-        .then<advance_damage>()
-        .shows("thick shell, brittle: 300 to 4,000 times a hit, on its own clock", describe_damage_loop)
-        .then<advance_soft>()
-        .shows("thick shell, ductile and elastic: 8 to 1,000 times a frame", describe_soft_loop)
+        .then<find_soft_strikers>()
+        .then<share_soft_strikers>()
+        .then<advance_runs>()
+        .shows("thick shell, brittle: 300 to 4,000 times a hit, on its own clock", loops.hidden)
+        .shows("thick shell, quick: 8 to 100 times a hit", loops.quick)
+        .shows("thick shell, ductile and elastic: 8 to 1,000 times a frame", loops.soft_one_layer)
+        .shows("the same, of bodies with an inner and an outer layer", loops.soft_layers)
+        .then<shape_soft>()
         .then<pass_soft>()
         .then<settle_tasks>()
         .then<close_regions>();

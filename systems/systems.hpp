@@ -68,10 +68,15 @@ void start_regions(Serial, const Events<TaskOpened>& opened, RunRows& rows, cons
 /// Shares the frame's units: one step to each open task, then equal rounds, in order of (frame of impact, body row).
 /// Soft bodies that are awake come first, with up to half of the units: they run on the world's clock.
 void grant_units(Serial, SoftRows& rows, DamageLedger ledger);
-/// Runs the inner loop of each open task for the steps it was granted, on all workers.
-void advance_damage(Serial, RunRows& rows, const Blows& blows, DamageLoop& loop, DamageCounts& counts);
-/// Runs the springs of each awake body through the frame, on all workers.
-void advance_soft(Serial, Step step, SoftRows& rows, const RigidWorld& rigid, SoftLoop& loop);
+/// Whom each soft body that is awake may meet in this frame.
+void find_soft_strikers(Rows<SoftBodies> soft, Step step, InChunks<SoftRows> rows, const RigidWorld& rigid);
+/// Whom several of them meet lends each a copy of itself with an equal part of its mass.
+void share_soft_strikers(Serial, SoftRows& rows);
+/// Runs the inner loops of open tasks, for the steps that they were granted, and of awake soft bodies, through the
+/// frame: on all workers (engine/runs.hpp).
+void advance_runs(Serial, SoftRows& rows, const Blows& blows, RunLoops& loops, DamageCounts& counts);
+/// Shape, pose and motion of soft bodies after their substeps.
+void shape_soft(Rows<SoftBodies> soft, Step step, InChunks<SoftRows> rows);
 /// What soft bodies gave to what they met, and where they are now, for the rigid world.
 void pass_soft(Serial, Step step, SoftRows& rows, RigidWorld& rigid, DamageCounts& counts, Arena& arena,
                Events<FaultEvent>& faults);
@@ -148,57 +153,57 @@ void compact_shells(Serial, BodyRows& rows, Fragments& fragments, DamageCounts& 
 // ---- inner loop of a brittle thick shell: repeated for one task
 
 /// Contact springs of the patches, from the displacements before the step (6.3).
-void push_patches(EachBody task, RunRows& rows);
+void push_patches(Of<Tasks> task, RunRows& rows);
 /// One fused pass (section 10): f_i = sum_j K_ij (w_j - w_i); v += dt f / m; u += dt v; next w = u + beta v.
-void integrate_hidden(Rows<StiffnessPacks> packs, OfTask task, RunStiffness of,
+void integrate_hidden(Rows<StiffnessPacks> packs, Of<Tasks> task, RunStiffness of,
                       In<&Vertices::inverse_mass> inverse_mass, In<&Vertices::probe> probe,
                       InOut<&Vertices::velocity> velocity, InOut<&Vertices::displacement> displacement,
                       Out<&Vertices::probe> next_probe);
 /// Gives patch vertices and strikers what the springs pushed; the run ends when its time is up or all is quiet (6.4).
-void pass_impulses(EachBody task, Turn turn, RunRows& rows);
+void pass_impulses(Of<Tasks> task, Turn turn, RunRows& rows);
 /// Strain of each element and its slopes against its edges.
-void strain_check(Rows<Elements> elements, OfTask task, Turn turn, InChunks<RunRows> rows);
+void strain_check(Rows<Elements> elements, Of<Tasks> task, Turn turn, InChunks<RunRows> rows);
 /// Stress of both faces of each element, and the largest principal value (C1).
-void stress_check(Rows<Elements> elements, OfTask task, InChunks<RunRows> rows);
+void stress_check(Rows<Elements> elements, Of<Tasks> task, InChunks<RunRows> rows);
 /// Starts and advances cracks, one body a call, in order of urgency (C1 to C5).
-void split_vertices(EachBody task, RunRows& rows);
+void split_vertices(Of<Tasks> task, RunRows& rows);
 /// Above 1.05 of the start's energy the run begins again with half the step, at most twice (B7).
-void check_energy(EachBody task, RunRows& rows, const Blows& blows);
+void check_energy(Of<Tasks> task, RunRows& rows, const Blows& blows);
 
 // ---- inner loop of the quick mode: repeated for one task whose region is awake
 
 /// Patch springs, from the places before the step, softened as the region is.
-void push_region_patches(EachBody task, RunRows& rows);
+void push_region_patches(Of<Tasks> task, RunRows& rows);
 /// integrate_springs, or integrate_layers, for the region's packs.
-void integrate_region(Rows<AwakePacks> packs, OfTask task, Turn turn, InChunks<RunRows> rows);
+void integrate_region(Rows<AwakePacks> packs, Of<Tasks> task, Turn turn, InChunks<RunRows> rows);
 /// What is held goes back, patches push, strikers move; the run ends after its steps.
-void end_region_step(EachBody task, RunRows& rows);
+void end_region_step(Of<Tasks> task, RunRows& rows);
 /// Splits what has stretched too far (C3 to C5, paper mode).
-void split_region(EachBody task, RunRows& rows);
+void split_region(Of<Tasks> task, RunRows& rows);
 /// Above 1.05 of the start's energy the run is dropped.
-void check_region_energy(EachBody task, RunRows& rows);
+void check_region_energy(Of<Tasks> task, RunRows& rows);
 
 // ---- inner loop of springs: repeated for one shell that has them (ductile, quick mode, sheet metal)
 
 /// One layer, one fused pass (B3, B4, B6): force, area energy where the row has any, damping from the length kept in
 /// the slot, semi-implicit Euler, largest elongation a vertex.
-void integrate_springs(Rows<SpringPacks> packs, OfSprings springs, Turn turn, InChunks<ShellRows> rows);
+void integrate_springs(Rows<SpringPacks> packs, Of<ShellSprings> springs, Turn turn, InChunks<ShellRows> rows);
 /// The same for both layers and what ties them (B5).
-void integrate_layers(Rows<SpringPacks> packs, OfSprings springs, Turn turn, InChunks<ShellRows> rows);
+void integrate_layers(Rows<SpringPacks> packs, Of<ShellSprings> springs, Turn turn, InChunks<ShellRows> rows);
 /// The sides of the positions change places.
-void end_spring_step(EachBody body, OfSprings springs, ShellSprings& own);
+void end_spring_step(Of<ShellSprings> springs, ShellSprings& own);
 
 // ---- inner loop of a soft body: the systems of springs, and
 
 /// Contacts of the vertices that the springs' step put into a striker, in row order: inelastic impulses with Coulomb
 /// friction between vertices and the strikers' copies.
-void meet_strikers(EachBody soft_body, OfSprings springs, Turn turn, SoftRows& rows);
+void meet_strikers(Of<SoftBodies> soft_body, Of<ShellSprings> springs, Turn turn, SoftRows& rows);
 /// Hinges of sheets whose material has a bending stiffness of its own, once in some substeps.
-void bend_sheets(EachBody soft_body, OfSprings springs, ShellRows& rows);
+void bend_sheets(Of<ShellSprings> springs, ShellRows& rows);
 /// Springs above yield get longer or shorter for good (6.8).
-void flow_springs(Rows<Springs> springs, OfSprings of, OfSoft soft_body, InChunks<ShellRows> rows,
+void flow_springs(Rows<Springs> springs, Of<ShellSprings> of, Of<SoftBodies> soft_body, InChunks<ShellRows> rows,
                   const SoftBodies& soft);
 /// Springs beyond what they bear: a vertex is split across the most stretched (C1, C3).
-void tear_springs(EachBody soft_body, OfSprings springs, SoftRows& rows);
+void tear_springs(Of<SoftBodies> soft_body, Of<ShellSprings> springs, SoftRows& rows);
 
 }  // namespace cullet

@@ -42,7 +42,6 @@ struct World::Contents {
 };
 
 /// The systems of a frame in their order (frame.cpp). With `is_hosted` bodies were moved before it.
-FramePlan<WorldData> make_frame_plan(bool is_hosted, const std::function<std::string()>& describe_damage_loop,
-                                     const std::function<std::string()>& describe_soft_loop);
+FramePlan<WorldData> make_frame_plan(bool is_hosted, const RunLoops& loops);
 
 }  // namespace cullet

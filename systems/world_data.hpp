@@ -55,8 +55,7 @@ struct ShellChanged {
     bool is_local = false;  // only cells that are changed (Cells::is_changed) are drawn otherwise than they were
 };
 
-struct DamageLoop;
-struct SoftLoop;
+struct RunLoops;
 class QueryIndex;
 
 /// What the game set, as the systems read it.
@@ -160,8 +159,7 @@ struct WorldData {
     DamageCounts counts;
     EnergyBalance energy;  // Checked and Debug builds
     std::unique_ptr<RigidWorld> rigid;
-    std::unique_ptr<DamageLoop> damage_loop;
-    std::unique_ptr<SoftLoop> soft_loop;
+    std::unique_ptr<RunLoops> run_loops;
     ViewBoxes view_boxes;
     std::unique_ptr<QueryIndex> query_index;
     Arena arena;
@@ -217,10 +215,8 @@ T& WorldData::resource() {
         return energy;
     else if constexpr (std::is_same_v<T, RigidWorld>)
         return *rigid;
-    else if constexpr (std::is_same_v<T, DamageLoop>)
-        return *damage_loop;
-    else if constexpr (std::is_same_v<T, SoftLoop>)
-        return *soft_loop;
+    else if constexpr (std::is_same_v<T, RunLoops>)
+        return *run_loops;
     else if constexpr (std::is_same_v<T, QueryIndex>)
         return *query_index;
     else if constexpr (std::is_same_v<T, Arena>)

@@ -4,7 +4,7 @@
 #include "systems/api/cost.hpp"
 #include "systems/cook/materials.hpp"
 #include "systems/models/thick_shell/soft/soft_loop.hpp"
-#include "systems/tasks/damage_loop.hpp"
+#include "systems/tasks/run_loops.hpp"
 #include "systems/world_contents.hpp"
 
 namespace cullet {
@@ -30,11 +30,9 @@ World::Contents::Contents(const Settings& s, const Host& h, std::unique_ptr<Rigi
     }
     data.rigid->use_jobs(*jobs);
     data.rigid->set_gravity(s.gravity);
-    data.damage_loop = std::make_unique<DamageLoop>(*jobs, profiler);
-    data.soft_loop = std::make_unique<SoftLoop>(*jobs, profiler);
-    plan = make_frame_plan(
-        hosted != nullptr, [this] { return data.damage_loop->describe(); },
-        [this] { return data.soft_loop->describe(); });
+    const uint32_t most_runs = data.state.tasks.limit() + data.state.soft_bodies.limit();
+    data.run_loops = std::make_unique<RunLoops>(*jobs, profiler, most_runs);
+    plan = make_frame_plan(hosted != nullptr, *data.run_loops);
     plan.finish(profiler);
     counters = {profiler.add_counter("units used"), profiler.add_counter("units left"),
                 profiler.add_counter("open tasks"), profiler.add_counter("births"),

@@ -210,11 +210,16 @@ TEST(FramePlan, MoreSystemsThanAPassHoldsOpenAnother) {
     plan.step(sky, *jobs, profiler);
 }
 
+struct Hum {
+    static std::string describe() { return "        inside\n"; }
+};
+
 TEST(FramePlan, ItDescribesItself) {
     Profiler profiler;
     Plan plan;
+    const Hum hum;
     plan.stage("move").then<steer>().then<fly>();
-    plan.stage("speak").then<cry>().shows("a loop", [] { return std::string("        inside\n"); }).then<brood>();
+    plan.stage("speak").then<cry>().shows("a loop", hum).then<brood>();
     plan.finish(profiler);
     EXPECT_EQ(plan.describe(),
               "move\n"

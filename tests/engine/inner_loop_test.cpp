@@ -62,6 +62,10 @@ struct RodWorld {
         return stalls;
     }
     template <class T>
+    Row<T> row_of(uint32_t task) const {
+        return Row<T>(task);
+    }
+    template <class T>
     Rows<T> rows_of(uint32_t task) {
         return {tasks.first[task], tasks.count[task]};
     }
@@ -82,14 +86,14 @@ void do_work(Rows<Rods> rows, const Stalls& stalls, In<&Rods::heat> old, In<&Rod
     if (stalls.every && Random{2}.bits(rows.first, calls[rows.first]) % stalls.every == 0)
         std::this_thread::sleep_for(std::chrono::microseconds(100));
 }
-void add_up(EachBody task, const Rods& rods, RodTasks& tasks) {
+void add_up(Of<RodTasks> task, const Rods& rods, RodTasks& tasks) {
     float total = 0;
     for (uint32_t r = 0; r < tasks.count[task.row]; ++r) total += rods.work[tasks.first[task.row] + r];
     tasks.total[task.row] = total;
     ++tasks.checks[task.row];
 }
 // A split: the task's range grows by one row, copied from the middle, while the loop runs.
-void grow(EachBody task, Rods& rods, RodTasks& tasks) {
+void grow(Of<RodTasks> task, Rods& rods, RodTasks& tasks) {
     const uint32_t first = tasks.first[task.row], count = tasks.count[task.row];
     if (count == 1400) return;
     rods.copy_rows(rods, first + count / 2, first + count, 1);

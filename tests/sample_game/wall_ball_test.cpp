@@ -120,7 +120,7 @@ struct HitLedger {
         const auto task_state = static_cast<TaskState>(tasks().state[0]);
         if (breaks > 0 || task_state == TaskState::Free) return;
         if (system == "start_tasks" && tasks().steps_done[0] == 0) pins = {}, steps = 0, look_ahead();
-        if (system == "advance_damage") {
+        if (system == "advance_runs") {
             EXPECT_EQ(tasks().steps_done[0], steps + 1);
             EXPECT_EQ(tasks().redo_count[0], 0);
             steps = tasks().steps_done[0];

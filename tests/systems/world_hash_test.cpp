@@ -7,7 +7,6 @@
 #include <thread>
 
 #include "systems/models/thick_shell/hidden/run_cost.hpp"
-#include "systems/tasks/damage_loop.hpp"
 #include "tests/support/small_worlds.hpp"
 
 namespace cullet::test {

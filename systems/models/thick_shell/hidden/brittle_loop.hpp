@@ -22,6 +22,11 @@ struct LoopWorld {
     Set& set() {
         return state;
     }
+    template <class T>
+    Row<T> row_of(uint32_t task) const {
+        static_assert(std::is_same_v<T, Tasks>);
+        return Row<T>(task);
+    }
     /// Rows of a table that belong to a task's working shell.
     template <class T>
     Range rows_of(uint32_t task) const {

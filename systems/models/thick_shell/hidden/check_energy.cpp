@@ -6,8 +6,8 @@ namespace cullet {
 
 // The steps granted for this frame end with a restart, because the old side of two-sided columns goes with the step's
 // number.
-void check_energy(EachBody task, RunRows& rows, const Blows& blows) {
-    const Row<Tasks> t(task.row);
+void check_energy(Of<Tasks> task, RunRows& rows, const Blows& blows) {
+    const Row<Tasks> t = task.row;
     if (static_cast<TaskState>(rows.tasks.state[t]) == TaskState::Dropped) return;
     if (!is_blown_up(task_energy(rows, t), rows.tasks.start_energy[t])) return;
     if (rows.tasks.redo_count[t] == 2) {

@@ -4,7 +4,7 @@
 
 namespace cullet {
 
-void integrate_hidden(Rows<StiffnessPacks> packs, OfTask task, RunStiffness of,
+void integrate_hidden(Rows<StiffnessPacks> packs, Of<Tasks> task, RunStiffness of,
                       In<&Vertices::inverse_mass> inverse_mass, In<&Vertices::probe> probe,
                       InOut<&Vertices::velocity> velocity, InOut<&Vertices::displacement> displacement,
                       Out<&Vertices::probe> next_probe) {

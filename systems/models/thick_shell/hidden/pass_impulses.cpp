@@ -17,8 +17,8 @@ bool may_end(const RunRows& state, Row<Tasks> task) {
 }  // namespace
 
 // A run ends after T, or after a quiet time since the last crack or touch; contact chatters, so T usually ends it.
-void pass_impulses(EachBody task, Turn turn, RunRows& rows) {
-    const Row<Tasks> t(task.row);
+void pass_impulses(Of<Tasks> task, Turn turn, RunRows& rows) {
+    const Row<Tasks> t = task.row;
     if (is_hidden_region(rows, t)) move_rest(rows, t, turn.old_side);
     apply_contact(rows, t, turn.old_side);
     rows.tasks.steps_granted[t] -= rows.tasks.steps_granted[t] > 0;

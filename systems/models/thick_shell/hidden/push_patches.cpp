@@ -3,8 +3,8 @@
 
 namespace cullet {
 
-void push_patches(EachBody task, RunRows& rows) {
-    const Row<Tasks> t(task.row);
+void push_patches(Of<Tasks> task, RunRows& rows) {
+    const Row<Tasks> t = task.row;
     const bool touches = contact_forces(rows, t);
     if (touches) rows.tasks.last_event_time[t] = static_cast<float>(rows.tasks.steps_done[t]) * rows.tasks.time_step[t];
 }

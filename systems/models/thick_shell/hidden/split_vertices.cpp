@@ -21,8 +21,8 @@ void pay_cuts(RunRows& state, Row<Tasks> task) {
 
 }  // namespace
 
-void split_vertices(EachBody task, RunRows& rows) {
-    const Row<Tasks> t(task.row);
+void split_vertices(Of<Tasks> task, RunRows& rows) {
+    const Row<Tasks> t = task.row;
     if (static_cast<TaskState>(rows.tasks.state[t]) != TaskState::Running) return;
     const bool was_whole = rows.tasks.crack_count[t] == 0;
     CrackSink sink;

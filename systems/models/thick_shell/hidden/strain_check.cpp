@@ -3,7 +3,7 @@
 
 namespace cullet {
 
-void strain_check(Rows<Elements> elements, OfTask task, Turn turn, InChunks<RunRows> rows) {
+void strain_check(Rows<Elements> elements, Of<Tasks> task, Turn turn, InChunks<RunRows> rows) {
     const ShellView shell(rows.set, rows->tasks.shell[task.row]);
     strain_elements(shell, turn.new_side, elements.first - shell.elements().first, elements.count);
 }

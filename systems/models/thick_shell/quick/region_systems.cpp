@@ -8,12 +8,12 @@
 
 namespace cullet {
 
-void push_region_patches(EachBody task, RunRows& rows) {
-    region_forces(RegionView(rows, Row<Tasks>(task.row)));
+void push_region_patches(Of<Tasks> task, RunRows& rows) {
+    region_forces(RegionView(rows, task.row));
 }
 
 // The kernel knows packs by their place in the shell: it is called for runs of neighbouring ones.
-void integrate_region(Rows<AwakePacks> packs, OfTask task, Turn turn, InChunks<RunRows> rows) {
+void integrate_region(Rows<AwakePacks> packs, Of<Tasks> task, Turn turn, InChunks<RunRows> rows) {
     const SpringView view(rows.set, rows.set.quick_runs.springs[task.row]);
     const SpringStep step(view, turn.old_side);
     const bool is_pressed = has_energies(view.own(), view.row);
@@ -40,8 +40,8 @@ bool may_end(const RunRows& state, Row<Tasks> task) {
 }  // namespace
 
 // Of the steps that are granted one is used up by each that is run, and as many as they are worth by cuts (pay_cuts).
-void end_region_step(EachBody task, RunRows& rows) {
-    const Row<Tasks> t(task.row);
+void end_region_step(Of<Tasks> task, RunRows& rows) {
+    const Row<Tasks> t = task.row;
     const RegionView region(rows, t);
     ++region.springs.own().steps[region.springs.row];
     hold_region(region);
@@ -55,14 +55,14 @@ void end_region_step(EachBody task, RunRows& rows) {
         rows.tasks.steps_granted[t] = 0;
 }
 
-void split_region(EachBody task, RunRows& rows) {
-    const Row<Tasks> t(task.row);
+void split_region(Of<Tasks> task, RunRows& rows) {
+    const Row<Tasks> t = task.row;
     if (static_cast<TaskState>(rows.tasks.state[t]) == TaskState::Running) grow_region(rows, t);
 }
 
 // A run so short is not begun again: its step has the bound of the stiffest vertex in it.
-void check_region_energy(EachBody task, RunRows& rows) {
-    const Row<Tasks> t(task.row);
+void check_region_energy(Of<Tasks> task, RunRows& rows) {
+    const Row<Tasks> t = task.row;
     if (static_cast<TaskState>(rows.tasks.state[t]) == TaskState::Dropped) return;
     if (has_blown_up(RegionView(rows, t))) rows.tasks.state[t] = static_cast<uint8_t>(TaskState::Dropped);
 }

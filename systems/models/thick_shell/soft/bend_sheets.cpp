@@ -133,7 +133,7 @@ Sheet sheet_of(const SpringView& view, double bending, uint32_t substeps) {
 
 }  // namespace
 
-void bend_sheets(EachBody, OfSprings springs, ShellRows& rows) {
+void bend_sheets(Of<ShellSprings> springs, ShellRows& rows) {
     const SpringView view(rows, springs.row);
     const double bending = bending_of(view);
     if (!(bending > 0)) return;

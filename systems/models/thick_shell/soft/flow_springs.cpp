@@ -77,7 +77,7 @@ StrainLook look_of(const SpringView& view, float yield, float most) {
 // creep = 1 - exp(-dt / tau), here dt / (dt + tau): the implicit step, which needs no libm and never overshoots. A
 // spring writes its own row and its own two slots. Springs.length is left with the strain against the cooked length:
 // what tear_springs looks at.
-void flow_springs(Rows<Springs> springs, OfSprings of, OfSoft soft_body, InChunks<ShellRows> rows,
+void flow_springs(Rows<Springs> springs, Of<ShellSprings> of, Of<SoftBodies> soft_body, InChunks<ShellRows> rows,
                   const SoftBodies& soft) {
     const SpringView view(rows.set, of.row);
     const uint32_t s = soft_body.row.index;

@@ -121,7 +121,7 @@ void meet(const SoftContact& contact, uint32_t lane, SoftStriker& striker, const
 
 }  // namespace
 
-void meet_strikers(EachBody soft_body, OfSprings springs, Turn turn, SoftRows& rows) {
+void meet_strikers(Of<SoftBodies> soft_body, Of<ShellSprings> springs, Turn turn, SoftRows& rows) {
     const uint32_t s = soft_body.row;
     const SpringView view(rows, springs.row);
     const float dt = view.own().time_step[view.row];

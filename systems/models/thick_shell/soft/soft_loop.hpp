@@ -1,11 +1,6 @@
-// Runs the springs of all awake bodies through a frame, on all workers.
+// The inner loop of a soft body: its springs, and what they meet.
 #pragma once
-#include <string>
-
 #include "components/body_rows.hpp"
-#include "engine/jobs.hpp"
-#include "engine/profiler.hpp"
-#include "engine/rigid_world.hpp"
 #include "systems/models/thick_shell/springs/spring_loop.hpp"
 
 namespace cullet {
@@ -24,6 +19,13 @@ struct SoftWorld {
     }
     Row<ShellSprings> springs_of(uint32_t soft) const;
     template <class T>
+    Row<T> row_of(uint32_t soft) const {
+        if constexpr (std::is_same_v<T, ShellSprings>)
+            return springs_of(soft);
+        else
+            return Row<SoftBodies>(soft);
+    }
+    template <class T>
     Range rows_of(uint32_t soft) const {
         const Row<ShellSprings> row = springs_of(soft);
         if constexpr (std::is_same_v<T, SpringPacks>) return SpringWorld{state}.rows_of<SpringPacks>(row);
@@ -35,23 +37,7 @@ using SoftInnerLoop = InnerLoop<SoftWorld>;
 /// A substep: the springs' own, then contacts; each fourth time plastic flow and tears, and the bending of sheets.
 SoftInnerLoop make_soft_loop(SpringLayout layout);
 inline constexpr uint32_t kSubstepsAFlow = 4;
-/// With fewer, a substep of 4 microseconds is not worth sharing.
+/// With fewer vertices a substep of 4 microseconds is not worth sharing.
 inline constexpr uint32_t kSoftTeamVertices = 256;
-
-struct SoftLoop {
-    SoftLoop(JobSystem& jobs, Profiler& profiler);
-
-    /// One frame of every awake body: whom it meets, its substeps, its shape and motion at the end. Bodies of more
-    /// than kSoftTeamVertices are shared by all workers, one after another, unless there are as many of them as
-    /// workers; the others go one job a body.
-    void advance(SoftRows& rows, const RigidWorld& rigid, const Step& step);
-    std::string describe() const;
-
- private:
-    JobSystem& jobs_;
-    Profiler& profiler_;
-    SoftInnerLoop one_layer_, layers_;
-    uint32_t zone_;
-};
 
 }  // namespace cullet

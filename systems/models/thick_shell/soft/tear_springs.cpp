@@ -59,7 +59,7 @@ bool has_room(const SpringView& view) {
 }  // namespace
 
 // C1 of springs: e = |x| / L0 - 1 above the limit, the largest first, ties by row.
-void tear_springs(EachBody soft_body, OfSprings springs, SoftRows& rows) {
+void tear_springs(Of<SoftBodies> soft_body, Of<ShellSprings> springs, SoftRows& rows) {
     const SpringView view(rows, springs.row);
     const uint32_t s = soft_body.row;
     const float limit = rows.soft_bodies.break_strain[s];

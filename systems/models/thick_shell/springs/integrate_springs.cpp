@@ -16,17 +16,17 @@ void integrate(const Rows<SpringPacks>& packs, const SpringView& view, Turn turn
 }  // namespace
 
 // The kernel reads and writes through the columns' addresses; the parameters say which.
-void integrate_springs(Rows<SpringPacks> packs, OfSprings springs, Turn turn, InChunks<ShellRows> rows) {
+void integrate_springs(Rows<SpringPacks> packs, Of<ShellSprings> springs, Turn turn, InChunks<ShellRows> rows) {
     integrate(packs, SpringView(rows.set, springs.row), turn, integrate_spring_packs);
 }
 
-void integrate_layers(Rows<SpringPacks> packs, OfSprings springs, Turn turn, InChunks<ShellRows> rows) {
+void integrate_layers(Rows<SpringPacks> packs, Of<ShellSprings> springs, Turn turn, InChunks<ShellRows> rows) {
     const SpringView view(rows.set, springs.row);
     integrate(packs, view, turn,
               view.layout() == SpringLayout::Crossed ? integrate_crossed_packs : integrate_sandwich_packs);
 }
 
-void end_spring_step(EachBody, OfSprings springs, ShellSprings& own) {
+void end_spring_step(Of<ShellSprings> springs, ShellSprings& own) {
     ++own.steps[springs.row];
 }
 

@@ -5,19 +5,6 @@
 
 namespace cullet {
 
-/// The springs that an inner loop runs for. The loop's world knows them: SpringWorld by their row.
-struct OfSprings {
-    Row<ShellSprings> row;
-};
-template <>
-struct Parameter<OfSprings> {
-    static void describe(std::vector<Access>&) {}
-    template <class W>
-    static OfSprings bind(Call<W>& call) {
-        return {call.world.springs_of(call.body)};
-    }
-};
-
 /// A loop's `body` is a row of ShellSprings.
 struct SpringWorld {
     ShellRows& state;
@@ -30,7 +17,11 @@ struct SpringWorld {
     Set& set() {
         return state;
     }
-    Row<ShellSprings> springs_of(uint32_t body) const { return Row<ShellSprings>(body); }
+    template <class T>
+    Row<T> row_of(uint32_t body) const {
+        static_assert(std::is_same_v<T, ShellSprings>);
+        return Row<T>(body);
+    }
     /// Rows of a table that belong to the shell; all packs that hold vertices.
     template <class T>
     Range rows_of(uint32_t body) const {

@@ -22,7 +22,7 @@ void give_bending(State& state, float bending) {
 
 void step(SpringBench& bench) {
     bench.step();
-    bend_sheets(EachBody{0}, OfSprings{bench.springs()}, bench.state());
+    bend_sheets(Of<ShellSprings>{bench.springs()}, bench.state());
 }
 
 /// Pushed up in the middle and down at both ends: two cantilevers back to back. Deflection over F L^3 / (3 D w).
@@ -74,7 +74,7 @@ TEST(SheetBending, MomentaStayAndAFlatSheetIsAtRest) {
     give_bending(bench.state(), 1e-4f);
     const auto bend = [&] {
         bench.state().shell_springs.steps[bench.springs()] += 64 - bench.view().own().steps[bench.springs()] % 64;
-        bend_sheets(EachBody{0}, OfSprings{bench.springs()}, bench.state());
+        bend_sheets(Of<ShellSprings>{bench.springs()}, bench.state());
     };
     bend();
     double fastest = 0;

@@ -270,7 +270,7 @@ TEST(Limits, WorkAFrameStaysWithinItsUnitsOnAnyNumberOfThreads) {
                 steps.clear(), units.clear();
                 work.emplace_back();
             }
-            if (system != "grant_units" && system != "advance_damage") return;
+            if (system != "grant_units" && system != "advance_runs") return;
             for (uint32_t t = 0; t < tasks.size(); ++t) {
                 const bool runs = static_cast<TaskState>(tasks.state[t]) == TaskState::Running;
                 if (system == "grant_units") {
@@ -313,13 +313,13 @@ TEST(Limits, TheLastStepOfAHitWaitsForTheUnitsOfItsBirths) {
     uint32_t before = 0, done = 0, left = 0, waited = 0;
     uint64_t births = 0, a_step = 0;
     after_each_system(b.world, [&](const std::string& system) {
-        if (system != "grant_units" && system != "advance_damage") return;
+        if (system != "grant_units" && system != "advance_runs") return;
         for (uint32_t t = 0; t < tasks.size(); ++t) {
             const auto task_state = static_cast<TaskState>(tasks.state[t]);
             if (system == "grant_units" && task_state == TaskState::Running) {
                 before = tasks.steps_done[t], left = steps_left(tasks, t, 0);
                 births = units_of_birth(state.shells, tasks, t), a_step = units_a_step(state.shells, tasks, t);
-            } else if (system == "advance_damage" && task_state != TaskState::Free) {
+            } else if (system == "advance_runs" && task_state != TaskState::Free) {
                 done = tasks.steps_done[t] - before;
                 waited += task_state == TaskState::Running && tasks.crack_count[t] > 0 && steps_left(tasks, t, 0) <= 1;
             }
