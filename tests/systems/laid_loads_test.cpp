@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <fstream>
 #include <random>
 
 #include "tests/support/play_script.hpp"
@@ -54,6 +55,35 @@ TEST(LaidLoads, APaneThatLiesFlatBearsThreeTimesWhatWouldBreakItOnTwoEdges) {
         const Played played = play_script(script, {1, seed % 2 ? 60.0 : 120.0});
         ASSERT_EQ(played.failure, "") << script;
         EXPECT_EQ(played.pieces, 0u) << "seed " << seed << ", " << played.seconds << " s: " << script;
+    }
+}
+
+/// Two sheets of two triangles each and a gap between them, m; the file's path.
+std::string sheets_beside_a_gap(double gap) {
+    const std::string path = testing::TempDir() + format("sheets_beside_a_gap_%g.obj", gap);
+    std::ofstream file(path);
+    for (const double x : {-gap / 2 - 1, -gap / 2, gap / 2, gap / 2 + 1})
+        for (const double z : {-2.0, 2.0}) file << "v " << x << " 0 " << z << '\n';
+    file << "f 1 2 4\nf 1 4 3\nf 5 6 8\nf 5 8 7\n";
+    return path;
+}
+
+// What is below the middle of the pane belongs to the same mesh as what bears it.
+TEST(LaidLoads, APaneOverAGapOfAMeshBreaksUnderTwiceWhatItBearsThereAndStandsAtAHalf) {
+    for (uint32_t seed = 1; seed <= 6; ++seed) {
+        std::mt19937 engine(100 + seed);
+        const Pane pane(engine);
+        const double gap = 0.8 * pane.length, borne = pane.borne() * pane.length / gap;
+        for (const double share : {0.45, 2.0}) {
+            const std::string script =
+                "game.scene{shows = 'a load', seconds = 60} game.static{mesh = game.mesh.file{path = '" +
+                sheets_beside_a_gap(gap) + "'}} " + pane.spawn(0.0003) +
+                format("game.throw{mass = %.9g, radius = 0.15, at = {0, %.9g, 0}, velocity = {0, 0, 0}} ",
+                       share * borne / kGravity, pane.height + 0.1513);
+            const Played played = play_script(script, {1, seed % 2 ? 60.0 : 120.0});
+            ASSERT_EQ(played.failure, "") << script;
+            EXPECT_EQ(played.pieces > 0, share > 1) << "seed " << seed << ", " << played.seconds << " s: " << script;
+        }
     }
 }
 
