@@ -1,6 +1,5 @@
 // Everything that a world remembers, listed once.
 #pragma once
-#include <array>
 #include <string>
 #include <tuple>
 
@@ -45,10 +44,6 @@ struct State : SoftRows {
         return this->*member;
     }
 
-    /// Pages behind the rows in use: room for hits on shells of these rows and for the pieces, of at most `bytes`.
-    /// Touches no value.
-    void commit_ahead(const ShellRoom& shell, uint64_t bytes = ~uint64_t{0});
-
     uint64_t hash() const;
     std::string validate() const;
     std::string first_difference(const State& other) const;
@@ -60,9 +55,16 @@ struct State : SoftRows {
 
     /// Of the tables whose rows come in ranges, in the order of the hash and of files. Those of springs come last: they
     /// do not enter the hash while no shell has springs.
-    static constexpr size_t kFirstSpringPool = 12;
-    std::array<RangePool*, 20> pools();
-    std::array<const RangePool*, 20> pools() const;
+    auto pools() { return pools_of<RangePool>(*this, tables()); }
+    auto pools() const { return pools_of<const RangePool>(*this, tables()); }
+    static constexpr size_t first_spring_pool() {
+        const auto is_always_there = []<class T>(T State::*) {
+            return kIsRanged<T> && !requires {
+                T::kIsOptional;
+            };
+        };
+        return std::apply([&](auto... table) { return (size_t{0} + ... + size_t{is_always_there(table)}); }, tables());
+    }
 
  private:
     /// Members of the sets as members of this.

@@ -43,4 +43,33 @@ class Events {
     uint64_t dropped_ = 0;
 };
 
+/// A queue, as a list of them names it.
+template <class E>
+struct QueueOf {
+    uint32_t limit;
+};
+
+/// Several queues, one of each kind of event.
+template <class... E>
+class Queues : Events<E>... {
+ public:
+    explicit Queues(QueueOf<E>... queue) : Events<E>(queue.limit)... {}
+    template <class T>
+    static constexpr bool has() {
+        return (... || std::is_same_v<T, E>);
+    }
+    template <class T>
+    Events<T>& of() {
+        return *this;
+    }
+    template <class T>
+    const Events<T>& of() const {
+        return *this;
+    }
+    template <class F>
+    void for_each(F&& f) {
+        (f(of<E>()), ...);
+    }
+};
+
 }  // namespace cullet

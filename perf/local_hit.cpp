@@ -66,7 +66,7 @@ Hit hit_once(const Model& model, float height, FractureMode mode) {
         world.step();
         if (d.counts.opened == 0) continue;
         hit.hits = static_cast<uint32_t>(d.counts.opened);
-        hit.pieces += d.born_events.size() + d.debris_events.size();
+        hit.pieces += d.told.of<FragmentBornEvent>().size() + d.told.of<DebrisEvent>().size();
         for (uint32_t zone = 0; zone < profiler.zone_count(); ++zone)
             hit.times[profiler.zone_name(zone)] += static_cast<double>(profiler.zone_ms(number, zone));
         if (world.report().open_hits == 0) break;

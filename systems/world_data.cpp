@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "components/commit_ahead.hpp"
 #include "systems/drawn/query_index.hpp"
 #include "systems/models/thick_shell/soft/soft_loop.hpp"
 #include "systems/tasks/run_loops.hpp"
@@ -32,23 +33,8 @@ WorldData::WorldData(const Settings& settings)
       view_boxes(state.view_indices.limit() / kViewGranule + 1),
       query_index(std::make_unique<QueryIndex>(settings.limits.bodies)),
       arena(kArenaBytes),
-      impacts(1u << 16),
-      foreseen(kMostFlights),
-      tasks_opened(settings.limits.open_hits),
-      stiffness_wanted(state.stiffness_packs.limit() / kRowsPerChunk<StiffnessPacks> + settings.limits.open_hits),
-      region_parts(state.awake_packs.limit() / kRowsPerChunk<AwakePacks>),
-      tasks_ended(settings.limits.open_hits),
-      breaks(settings.limits.bodies + settings.limits.open_hits),
-      births(2 * (settings.limits.bodies + settings.limits.open_hits) + settings.limits.debris),
-      hulls_wanted(state.cells.limit()),
-      shells_changed(2 * settings.limits.bodies + settings.limits.open_hits),
-      impact_events(settings.limits.open_hits + state.blows.limit()),  // one for each blow that joins a task
-      crack_events(1u << 14),
-      born_events(settings.limits.bodies),
-      debris_events(1u << 16),
-      refused_events(1u << 12),
-      fault_events(1u << 10),
-      asleep_events(settings.limits.bodies) {
+      between(queues_between(settings.limits, state)),
+      told(queues_told(settings.limits, state)) {
     step_info.dt = settings.step_seconds;
     step_info.gravity = settings.gravity;
     damage_settings.units_a_frame = settings.units_a_frame;
@@ -70,7 +56,7 @@ void WorldData::make_ready(const ShellRoom& shell) {
     for (auto rows : {&ShellRoom::vertices, &ShellRoom::elements, &ShellRoom::hinges, &ShellRoom::blocks,
                       &ShellRoom::links, &ShellRoom::cells})
         ready_for.*rows = std::max(ready_for.*rows, shell.*rows);
-    state.commit_ahead(ready_for);
+    commit_ahead(state, ready_for);
 }
 
 }  // namespace cullet

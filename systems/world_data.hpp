@@ -149,7 +149,27 @@ struct ToldOfBirths {
     Events<DebrisEvent>& debris;
 };
 
+/// What systems tell each other. A queue is a line here.
+inline auto queues_between(const LimitSettings& limits, const State& state) {
+    const uint32_t tasks = limits.open_hits, bodies = limits.bodies;
+    return Queues(QueueOf<Impact>{1u << 16}, QueueOf<ForeseenHit>{kMostFlights}, QueueOf<TaskOpened>{tasks},
+                  QueueOf<StiffnessWanted>{state.stiffness_packs.limit() / kRowsPerChunk<StiffnessPacks> + tasks},
+                  QueueOf<RegionPart>{state.awake_packs.limit() / kRowsPerChunk<AwakePacks>}, QueueOf<TaskEnded>{tasks},
+                  QueueOf<Break>{bodies + tasks}, QueueOf<Birth>{2 * (bodies + tasks) + limits.debris},
+                  QueueOf<HullWanted>{state.cells.limit()}, QueueOf<ShellChanged>{2 * bodies + tasks});
+}
+/// What the game reads after the step; emptied when the next one begins. Each has a `place`.
+inline auto queues_told(const LimitSettings& limits, const State& state) {
+    return Queues(QueueOf<ImpactEvent>{limits.open_hits + state.blows.limit()},  // one for each blow that joins a task
+                  QueueOf<CrackStartedEvent>{1u << 14}, QueueOf<FragmentBornEvent>{limits.bodies},
+                  QueueOf<DebrisEvent>{1u << 16}, QueueOf<RefusedEvent>{1u << 12}, QueueOf<FaultEvent>{1u << 10},
+                  QueueOf<AsleepEvent>{limits.bodies});
+}
+
 struct WorldData {
+    using Between = decltype(queues_between(LimitSettings{}, std::declval<const State&>()));
+    using Told = decltype(queues_told(LimitSettings{}, std::declval<const State&>()));
+
     explicit WorldData(const Settings& settings);
     ~WorldData();
 
@@ -163,24 +183,8 @@ struct WorldData {
     ViewBoxes view_boxes;
     std::unique_ptr<QueryIndex> query_index;
     Arena arena;
-    Events<Impact> impacts;
-    Events<ForeseenHit> foreseen;
-    Events<TaskOpened> tasks_opened;
-    Events<StiffnessWanted> stiffness_wanted;
-    Events<RegionPart> region_parts;
-    Events<TaskEnded> tasks_ended;
-    Events<Break> breaks;
-    Events<Birth> births;
-    Events<HullWanted> hulls_wanted;
-    Events<ShellChanged> shells_changed;
-    // What the game reads after the step.
-    Events<ImpactEvent> impact_events;
-    Events<CrackStartedEvent> crack_events;
-    Events<FragmentBornEvent> born_events;
-    Events<DebrisEvent> debris_events;
-    Events<RefusedEvent> refused_events;
-    Events<FaultEvent> fault_events;
-    Events<AsleepEvent> asleep_events;
+    Between between;
+    Told told;
 
     /// Pages for a hit on a shell of this size, now and again after what broke has used them.
     void make_ready(const ShellRoom& shell);
@@ -221,42 +225,10 @@ T& WorldData::resource() {
         return *query_index;
     else if constexpr (std::is_same_v<T, Arena>)
         return arena;
-    else if constexpr (std::is_same_v<T, Events<Impact>>)
-        return impacts;
-    else if constexpr (std::is_same_v<T, Events<ForeseenHit>>)
-        return foreseen;
-    else if constexpr (std::is_same_v<T, Events<TaskOpened>>)
-        return tasks_opened;
-    else if constexpr (std::is_same_v<T, Events<StiffnessWanted>>)
-        return stiffness_wanted;
-    else if constexpr (std::is_same_v<T, Events<RegionPart>>)
-        return region_parts;
-    else if constexpr (std::is_same_v<T, Events<TaskEnded>>)
-        return tasks_ended;
-    else if constexpr (std::is_same_v<T, Events<Break>>)
-        return breaks;
-    else if constexpr (std::is_same_v<T, Events<Birth>>)
-        return births;
-    else if constexpr (std::is_same_v<T, Events<HullWanted>>)
-        return hulls_wanted;
-    else if constexpr (std::is_same_v<T, Events<ShellChanged>>)
-        return shells_changed;
-    else if constexpr (std::is_same_v<T, Events<ImpactEvent>>)
-        return impact_events;
-    else if constexpr (std::is_same_v<T, Events<CrackStartedEvent>>)
-        return crack_events;
-    else if constexpr (std::is_same_v<T, Events<FragmentBornEvent>>)
-        return born_events;
-    else if constexpr (std::is_same_v<T, Events<DebrisEvent>>)
-        return debris_events;
-    else if constexpr (std::is_same_v<T, Events<RefusedEvent>>)
-        return refused_events;
-    else if constexpr (std::is_same_v<T, Events<FaultEvent>>)
-        return fault_events;
-    else {
-        static_assert(std::is_same_v<T, Events<AsleepEvent>>, "no such resource in a world");
-        return asleep_events;
-    }
+    else if constexpr (Between::has<typename T::Value>())
+        return between.of<typename T::Value>();
+    else
+        return told.of<typename T::Value>();
 }
 
 }  // namespace cullet

@@ -25,7 +25,7 @@ bool HostLog::is_new(const char* setting, const Step& step) {
 void HostLog::tell(const Host& host, const WorldData& data) {
     if (!host.log) return;
     char sentence[256];
-    for (const RefusedEvent& e : data.refused_events) {
+    for (const RefusedEvent& e : data.told.of<RefusedEvent>()) {
         if (!is_new(e.setting, data.step_info)) continue;
         const char* format =
             std::strcmp(e.setting, kCrackRoom) == 0
@@ -35,7 +35,7 @@ void HostLog::tell(const Host& host, const WorldData& data) {
                       static_cast<unsigned long long>(e.body_user_data));
         host.log(host.user, LogLevel::Warning, sentence);
     }
-    for (const FaultEvent& e : data.fault_events) {
+    for (const FaultEvent& e : data.told.of<FaultEvent>()) {
         std::snprintf(sentence, sizeof sentence, "Body %u (user data %llu): %s", e.body.index,
                       static_cast<unsigned long long>(e.body_user_data), e.reason);
         host.log(host.user, LogLevel::Error, sentence);

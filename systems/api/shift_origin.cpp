@@ -42,16 +42,9 @@ void shift_springs(ShellSprings& springs, Vec3 by) {
 
 // What happened in the last step is still to be read.
 void shift_events(WorldData& d, Vec3 by) {
-    const auto shift = [by](auto& events) {
+    d.told.for_each([by](auto& events) {
         for (auto& event : events.all()) event.place += by;
-    };
-    shift(d.impact_events);
-    shift(d.crack_events);
-    shift(d.born_events);
-    shift(d.debris_events);
-    shift(d.refused_events);
-    shift(d.fault_events);
-    shift(d.asleep_events);
+    });
 }
 
 }  // namespace

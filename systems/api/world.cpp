@@ -1,4 +1,5 @@
 // A world is made, stepped and asked how it goes.
+#include "components/commit_ahead.hpp"
 #include "engine/host_scope.hpp"
 #include "systems/api/checks.hpp"
 #include "systems/api/cost.hpp"
@@ -51,9 +52,9 @@ void World::Contents::count() {
     profiler.count(counters.units_used, data.counts.units_used);
     profiler.count(counters.units_left, data.counts.units_left);
     profiler.count(counters.open_tasks, open);
-    profiler.count(counters.births, data.born_events.size());
+    profiler.count(counters.births, data.told.of<FragmentBornEvent>().size());
     profiler.count(counters.holds, held);
-    profiler.count(counters.refusals, data.refused_events.size());
+    profiler.count(counters.refusals, data.told.of<RefusedEvent>().size());
 }
 
 World::World(std::unique_ptr<Contents> contents) : contents_(std::move(contents)) {}
@@ -79,21 +80,15 @@ void World::step() {
 void World::Contents::step() {
     WorldData& d = data;
     if (host.zone_begin) host.zone_begin(host.user, "cullet step");
-    d.impact_events.clear();
-    d.crack_events.clear();
-    d.born_events.clear();
-    d.debris_events.clear();
-    d.refused_events.clear();
-    d.fault_events.clear();
-    d.asleep_events.clear();
-    d.shells_changed.clear();
+    d.told.for_each([](auto& events) { events.clear(); });
+    d.between.of<ShellChanged>().clear();
     d.arena.reset();
     if (recorder) recorder->begin_step();
     profiler.begin_frame(d.step_info.frame);
     plan.step(d, *jobs, profiler, after_each_system ? &after_each_system : nullptr, &host);
     count();
     profiler.end_frame();
-    d.state.commit_ahead(d.ready_for, kBytesAhead);
+    commit_ahead(d.state, d.ready_for, kBytesAhead);
     if (recorder) {
         recorder->end_step(d.step_info.frame, d.state);
         const char* const trouble = recorder->untold_trouble();
@@ -151,8 +146,9 @@ StepEvents World::events() const {
         using E = typename std::remove_cvref_t<decltype(queue)>::Value;
         return EventSpan<E>{queue.all().data(), queue.size()};
     };
-    return {span(d.impact_events),  span(d.crack_events), span(d.born_events),  span(d.debris_events),
-            span(d.refused_events), span(d.fault_events), span(d.asleep_events)};
+    return {span(d.told.of<ImpactEvent>()), span(d.told.of<CrackStartedEvent>()), span(d.told.of<FragmentBornEvent>()),
+            span(d.told.of<DebrisEvent>()), span(d.told.of<RefusedEvent>()),      span(d.told.of<FaultEvent>()),
+            span(d.told.of<AsleepEvent>())};
 }
 
 uint64_t World::hash() const {

@@ -90,7 +90,7 @@ std::vector<uint64_t> hashes_of(uint32_t threads) {
     }
     EXPECT_GT(shells_of(world).size(), 12u);
     EXPECT_EQ(world.contents().data.counts.dropped, 0u);
-    EXPECT_EQ(world.contents().data.fault_events.size(), 0u);
+    EXPECT_EQ(world.contents().data.told.of<FaultEvent>().size(), 0u);
     return hashes;
 }
 

@@ -190,7 +190,7 @@ Pelted pelt(float edge, FractureMode mode, uint32_t hits, Saving saving = Saving
             const BodyView view = world.view(body).value();
             if (view.stamp != stamp)
                 least_drawn = std::min(least_drawn, 100 * view.dirty_vertices.count / view.vertex_count);
-            born += static_cast<uint32_t>(world.contents().data.born_events.size());
+            born += static_cast<uint32_t>(world.contents().data.told.of<FragmentBornEvent>().size());
         }
         (void)world.remove(thrown);
         if (saving == Saving::None) {

@@ -13,7 +13,7 @@ namespace {
 uint64_t pools_hash(World& world) {
     const auto pools = std::as_const(state_of(world)).pools();
     uint64_t hash = 0;
-    for (size_t k = 0; k < State::kFirstSpringPool; ++k) hash = pools[k]->hash(hash);
+    for (size_t k = 0; k < State::first_spring_pool(); ++k) hash = pools[k]->hash(hash);
     return hash;
 }
 

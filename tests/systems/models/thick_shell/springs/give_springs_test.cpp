@@ -1,6 +1,6 @@
 // Springs from elements, and as rows: given, copied, refused, given back.
-#include "components/state.hpp"
 #include "systems/models/thick_shell/springs/give_springs.hpp"
+#include "components/state.hpp"
 
 #include <gtest/gtest.h>
 
@@ -178,7 +178,7 @@ TEST(GiveSprings, AStateWithoutSpringsHashesAsIfThereWereNoSuchTables) {
             (add(table), ...);
         },
         State::tables());
-    for (size_t k = 0; k < State::kFirstSpringPool; ++k) plain = state.pools()[k]->hash(plain);
+    for (size_t k = 0; k < State::first_spring_pool(); ++k) plain = state.pools()[k]->hash(plain);
     EXPECT_EQ(state.hash(), plain);
 }
 
