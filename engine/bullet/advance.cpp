@@ -51,11 +51,16 @@ struct TurningFrame {
     Vec3d spin;    // rad/s
     Vec3d middle;  // m, between the centres of mass
 
-    // Of two free bodies the mean spin; a body that is not free holds its contact's axis.
-    static TurningFrame of(const Mover& a, const btTransform& at_a, const Mover& b, const btTransform& at_b, float dt) {
+    // Of two free bodies the mean spin; a body that is not free holds its contact's axis, and one whose face it is
+    // (`holder`).
+    static TurningFrame of(const Mover& a, const btTransform& at_a, const Mover& b, const btTransform& at_b,
+                           const Mover* holder, float dt) {
         TurningFrame frame;
         frame.middle = 0.5 * (Vec3d(from_bullet(at_a.getOrigin())) + Vec3d(from_bullet(at_b.getOrigin())));
-        frame.spin = !a.body->is_free() ? a.spin : !b.body->is_free() ? b.spin : 0.5 * (a.spin + b.spin);
+        frame.spin = holder               ? holder->spin
+                     : !a.body->is_free() ? a.spin
+                     : !b.body->is_free() ? b.spin
+                                          : 0.5 * (a.spin + b.spin);
         if (std::max(length(a.spin), length(b.spin)) * dt >= kMostTurn) frame.spin = {};
         return frame;
     }
@@ -201,24 +206,50 @@ bool KnownAxes::at_crack(const Hull& a, const Hull& b) const {
 
 namespace {
 
-// Of two pieces that come to a touch along `axis`, from b towards a: where that is an edge inside of what stands still,
-// the axis becomes that of an open face.
-Push turn_axis(const Surroundings& around, const Mover& a, const Hull& hull_a, const Points& now_a, const Mover& b,
-               const Hull& hull_b, const Points& now_b, const Closest& closest, Vec3d& axis) {
-    const bool is_b_still = may_have_inner_edges(*b.body);
-    if (!is_b_still && !may_have_inner_edges(*a.body)) return Push::AsFound;
-    const Touched touched = is_b_still ? Touched{*b.body, hull_b, *a.body, hull_a, now_a}
-                                       : Touched{*a.body, hull_a, *b.body, hull_b, now_b};
-    Vec3 normal = (is_b_still ? axis : -axis).to_float();
-    Push push = Push::Turned;
-    if (closest.is_apart) {
-        const Vec3 place =
-            now_a.centre + (is_b_still ? closest.on_b : closest.on_a).to_float() + touched.hull.margin * normal;
-        push = turn_to_open_face(around, touched, {&place, 1}, normal);
-    } else if (!find_open_face(around, touched, touched.points.centre, normal)) {
-        push = Push::None;
+/// Where two pieces come to a touch.
+struct Meeting {
+    const Surroundings& around;
+    const Mover &a, &b;
+    const Hull &hull_a, &hull_b;
+    const Points &now_a, &now_b;  // where they are by then
+    const btTransform &at_a, &at_b;
+    const Closest& closest;
+
+    // Along `axis`, from b towards a: where that is an edge inside of something flat, of b or of a, it becomes that of
+    // an open face there.
+    Push turn_on(bool is_of_b, Vec3d& axis) const;
+};
+
+Push Meeting::turn_on(bool is_of_b, Vec3d& axis) const {
+    const Mover& mover = is_of_b ? b : a;
+    const Hull &hull = is_of_b ? hull_b : hull_a, &piece = is_of_b ? hull_a : hull_b;
+    if (!may_have_inner_edges(*mover.body, hull)) return Push::AsFound;
+    Vec3 normal = (is_of_b ? axis : -axis).to_float();
+    Vec3 place = now_a.centre + (is_of_b ? closest.on_b : closest.on_a).to_float() + hull.margin * normal;
+    // World points are those of the step's start: what its body moved since is undone for both.
+    const Points* points = is_of_b ? &now_a : &now_b;
+    Points seen;
+    Mat3 back = {{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}};
+    if (mover.body->kind != RigidKind::Static) {
+        const btTransform undo = mover.body->fresh_at * mover.body->hulls_at(is_of_b ? at_b : at_a).inverse(),
+                          other = undo * (is_of_b ? a : b).body->hulls_at(is_of_b ? at_a : at_b);
+        back = rotation_of(undo);
+        normal = back * normal;
+        place = from_bullet(undo * to_bullet(place));
+        transform_points(piece, rotation_of(other), from_bullet(other.getOrigin()), seen);
+        points = &seen;
     }
-    if (push == Push::Turned) axis = is_b_still ? Vec3d(normal) : -Vec3d(normal);
+    const Touched touched{*mover.body, hull, *(is_of_b ? a : b).body, piece, *points};
+    Push push = Push::Turned;
+    if (closest.is_apart)
+        push = turn_to_open_face(around, touched, {&place, 1}, normal);
+    else if (mover.body->kind != RigidKind::Static)
+        push = Push::AsFound;
+    else if (!find_open_face(around, touched, points->centre, normal))
+        push = Push::None;
+    if (push != Push::Turned) return push;
+    normal = transposed_times(back, normal);
+    axis = is_of_b ? Vec3d(normal) : -Vec3d(normal);
     return push;
 }
 
@@ -256,7 +287,8 @@ double touch_fraction(const Surroundings& around, const Mover& a, const Hull& hu
     const float reach_a = reach_of(*a.body, hull_a), reach_b = reach_of(*b.body, hull_b);
     const double scale = static_cast<double>(scale_of(hull_a, hull_b)), aim = scale * kAim;
     double t = 0, stop = scale * kStop;
-    bool is_at_stop = false;  // all but there
+    bool is_at_stop = false;        // all but there
+    const Mover* holder = nullptr;  // of the axis, where it was turned to a face
     // The pair's contact, found where the two stand now, has the axis.
     const Vec3d met = known.of(hull_a, hull_b);
     bool is_axis_fixed = dot(met, met) > 0.5;
@@ -280,7 +312,13 @@ double touch_fraction(const Surroundings& around, const Mover& a, const Hull& hu
             if (closest.is_beyond) return limit;
             if (closest.is_apart || round == 0) gap = gap_along(*now_a, *now_b, axis) - margins;
             if (is_at_stop || gap < (round == 0 ? scale * kTouching : stop)) {
-                const Push push = turn_axis(around, a, hull_a, *now_a, b, hull_b, *now_b, closest, axis);
+                const Meeting meeting{around, a, b, hull_a, hull_b, *now_a, *now_b, at_a, at_b, closest};
+                Push push = meeting.turn_on(true, axis);
+                if (push == Push::Turned) holder = &b;
+                if (push == Push::AsFound) {
+                    push = meeting.turn_on(false, axis);
+                    if (push == Push::Turned) holder = &a;
+                }
                 if (push == Push::None) return limit;
                 const bool is_beside = push == Push::Turned;
                 if (is_beside || round > 0) deeper = goes_deeper(a, hull_a, b, hull_b, axis, turning, dt);
@@ -316,7 +354,7 @@ double touch_fraction(const Surroundings& around, const Mover& a, const Hull& hu
         const bool is_alone = is_split && t >= split;
         const double rest = is_split && !is_alone ? together : dt * (1 - t);
         TurningFrame frame;
-        if (is_axis_fixed && !is_alone) frame = TurningFrame::of(a, at_a, b, at_b, dt);
+        if (is_axis_fixed && !is_alone) frame = TurningFrame::of(a, at_a, b, at_b, holder, dt);
         Approach coming_a(*now_a, a, at_a, axis, 1, reach_a, dt, is_alone && fraction_a < fraction_b, frame);
         const Approach coming_b(*now_b, b, at_b, axis, -1, reach_b, dt, is_alone && fraction_b < fraction_a, frame);
         coming_a.bend +=

@@ -20,7 +20,7 @@ namespace {
 constexpr float kPushedOffSleepers = 0.00002f;  // m in a step, at scale 1
 constexpr float kAngularDamping = 0.1f;         // 1/s, of what is touched: flight has none, nor a birth, nor a ball
 constexpr float kPressedIn = 0.001f;            // m a step, at scale 1, that an unsolved contact may deepen by
-constexpr float kSeamReach = 0.001f;            // m beyond the margins, more than mark_inner_faces() looks past a face
+constexpr float kSeamReach = 0.001f;            // m beyond the margins, more than mark_covered() looks past a face
 // Leaves of the tree hold what they are about with half of the way from which pieces are watched (see
 // pair_algorithm.cpp), and this room to move. Ten times it and a heap has three times the pairs, a tenth and what falls
 // is looked up in every step.
@@ -148,6 +148,21 @@ Hull* BulletWorld::take_shape(const ConvexPiece& piece, const BodyFrame& frame, 
 
 namespace {
 
+/// What others cover of a hull, while it is made anew.
+struct Covered {
+    bool is_face_inner[kMaxFaces];
+    uint64_t places[kMaxFaces], flush;
+    explicit Covered(const Hull& hull) : flush(hull.flush) {
+        std::copy_n(hull.is_face_inner, kMaxFaces, is_face_inner);
+        std::copy_n(hull.covered, kMaxFaces, places);
+    }
+    void give_to(Hull& hull) const {
+        std::copy_n(is_face_inner, kMaxFaces, hull.is_face_inner);
+        std::copy_n(places, kMaxFaces, hull.covered);
+        hull.flush = flush;
+    }
+};
+
 Hull* unlink(Hull*& list, const Hull* wanted) {
     Hull** at = &list;
     while (*at != wanted) at = &(*at)->next;
@@ -186,10 +201,9 @@ void BulletWorld::set_pieces(Body& body, std::span<const ConvexPiece> pieces, fl
             const size_t count = std::min<size_t>(piece.points.size(), kMaxPoints);
             for (size_t k = 0; k < count; ++k) local[k] = rotate(to_axes, piece.points[k] - body.frame.centre);
             const Quat& axes = is_own ? old_axes : bodies_[piece.same_body].hull_frame.axes;
-            bool is_face_inner[kMaxFaces];
-            std::copy_n(same->is_face_inner, kMaxFaces, is_face_inner);
+            const Covered covered(*same);
             build_hull_like(*hull, *same, matrix(to_axes * axes), {local, count}, margin, piece.cell);
-            if (is_own) std::copy_n(is_face_inner, kMaxFaces, hull->is_face_inner);
+            if (is_own) covered.give_to(*hull);
         }
         hull->has_seams = is_own;
         hull->ordinal = body.hull_count++;
@@ -266,7 +280,7 @@ void BulletWorld::renew_seams(Body& body) {
         }
         if (is_near) {
             hull->has_seams = false;
-            std::fill_n(hull->is_face_inner, kMaxFaces, false);
+            forget_covered(*hull);
         }
         if (hull->has_seams) continue;
         include(changed, hull->local_box.low);
@@ -316,16 +330,17 @@ void BulletWorld::forget_seams(Body& body, Vec3 centre, float radius) {
     for (Hull* hull = body.hulls; hull; hull = hull->next) {
         if (length(hull->local.centre - centre) > hull->radius + radius + kSeamRange) continue;
         hull->has_seams = false;
-        std::fill_n(hull->is_face_inner, kMaxFaces, false);
+        forget_covered(*hull);
     }
 }
 
-// `is_whole`: of what stands still faces are inner only where they are covered to their corners; the rest is looked for
-// where it is touched, see inner_edges.hpp. What moves is not searched in heaps: there the middle tells.
+// `is_whole`: of what stands still faces are inner only where they are covered to their corners. What is covered in
+// part is looked for where it is touched, see inner_edges.hpp. Of what moves the
+// middle tells: there only faces that go on in one plane are searched.
 void BulletWorld::mark_seam(const Seam& p, const Seam& q, bool is_whole) {
     if (!overlap(p.box, q.box, 0)) return;
-    mark_inner_faces(*p.hull, *q.hull, is_whole);
-    mark_inner_faces(*q.hull, *p.hull, is_whole);
+    mark_covered(*p.hull, *q.hull, is_whole);
+    mark_covered(*q.hull, *p.hull, is_whole);
 }
 
 // Of the pieces listed those that have none yet, against all.

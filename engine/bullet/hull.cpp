@@ -75,7 +75,7 @@ void set_hull_points(Hull& hull, std::span<const Vec3> points, float margin, uin
     hull.point_count = static_cast<uint32_t>(points.size());
     hull.face_count = hull.edge_count = 0;
     hull.first_corner[0] = 0;
-    std::fill_n(hull.is_face_inner, kMaxFaces, false);
+    forget_covered(hull);
     set_points(hull.local, points);
     set_local_box(hull);
     float square = 0;
@@ -226,7 +226,7 @@ void build_triangle(Hull& hull, const Vec3 (&corners)[3], uint32_t cell, bool is
     hull.point_count = 3;
     hull.face_count = 1;
     hull.edge_count = 0;
-    hull.is_face_inner[0] = false;
+    forget_covered(hull);
     set_points(hull.local, corners);
     hull.face_normal[0] =
         normalised(cross(Vec3d(corners[1]) - Vec3d(corners[0]), Vec3d(corners[2]) - Vec3d(corners[0]))).to_float();
@@ -254,62 +254,108 @@ uint32_t foremost_face(const Hull& hull, Vec3 point) {
     return best;
 }
 
-// Every corner of the face, half a millimetre (at scale 1) within it and `outside` before it, lies in the other one, or
-// as near as where that one leans back by 30 degrees.
-bool are_corners_covered(const Hull& hull, uint32_t face, Vec3 middle, const Hull& other, float outside) {
-    const float inwards = 0.0005f * scale_of(hull, other), near = other.margin + 0.58f * outside;
-    const Vec3 before = hull.local.centre - other.local.centre + outside * hull.face_normal[face];
-    for (uint32_t c = hull.first_corner[face]; c < hull.first_corner[face + 1]; ++c) {
-        const Vec3 corner = hull.local[hull.corner[c]], way = middle - corner;
-        const float far = length(way);
-        const Vec3 p = before + corner + (far > inwards ? inwards / far : 1) * way;
-        for (uint32_t g = 0; g < other.face_count; ++g)
-            if (dot(other.face_normal[g], p) > other.face_height[g] + near) return false;
+/// The places of a face that are asked for, from its hull's centre: its own middle, its corners in their order, the
+/// middles of the edges that begin at them. Those on the rim lie `inwards` of it. Of 32 corners the last place is left
+/// out.
+struct Places {
+    Vec3 at[64];
+    uint32_t count = 0;
+
+    Places(const Hull& hull, uint32_t face, float inwards) {
+        const uint32_t first = hull.first_corner[face], corners = hull.first_corner[face + 1] - first;
+        Vec3 middle;
+        for (uint32_t c = 0; c < corners; ++c) middle += (1 / static_cast<float>(corners)) * corner(hull, first + c);
+        const auto add = [&](Vec3 place) {
+            const Vec3 way = middle - place;
+            const float far = length(way);
+            if (count < 64) at[count++] = place + (far > inwards ? inwards / far : 1) * way;
+        };
+        add(middle);
+        for (uint32_t c = 0; c < corners; ++c) add(corner(hull, first + c));
+        for (uint32_t c = 0; c < corners; ++c)
+            add(0.5f * (corner(hull, first + c) + corner(hull, first + (c + 1 == corners ? 0 : c + 1))));
     }
-    return true;
+    static Vec3 corner(const Hull& hull, uint32_t c) { return hull.local[hull.corner[c]]; }
+    static bool is_middle_in(uint64_t covered) { return covered & 1; }
+    uint64_t all() const { return count == 64 ? ~uint64_t{0} : (uint64_t{1} << count) - 1; }
+};
+
+}  // namespace
+
+void forget_covered(Hull& hull) {
+    std::fill_n(hull.is_face_inner, kMaxFaces, false);
+    std::fill_n(hull.covered, kMaxFaces, 0);
+    hull.flush = 0;
+}
+
+namespace {
+
+// Planes that differ by less turn no edge between them into one that is felt, and are those of cells that were cut out
+// of one flat wall: within a degree, and a tenth of a millimetre (at scale 1) at the middle between the two.
+constexpr float kFlushCosine = 0.99985f, kFlushHeight = 0.0001f;
+
+void mark_flush(Hull& hull, const Hull& other, Vec3 between) {
+    const float near = kFlushHeight * scale_of(hull, other);
+    for (uint32_t f = 0; f < hull.face_count; ++f) {
+        const Vec3 n = hull.face_normal[f];
+        for (uint32_t g = 0; g < other.face_count && !(hull.flush >> f & 1); ++g) {
+            if (!(dot(n, other.face_normal[g]) > kFlushCosine)) continue;
+            const float own = hull.face_height[f] + hull.margin - 0.5f * dot(n, between);
+            const float theirs = other.face_height[g] + other.margin + 0.5f * dot(other.face_normal[g], between);
+            if (std::fabs(own - theirs) < near) hull.flush |= uint64_t{1} << f;
+        }
+    }
 }
 
 }  // namespace
 
 // Most faces are told off by one plane of the other: that which the hull's centre lies farthest in front of. Heights
-// over it are found for all points at once, then each face costs a sum over its corners.
-void mark_inner_faces(Hull& hull, const Hull& other, bool is_whole) {
+// over it are found for all points at once, then each face costs a look at its corners.
+void mark_covered(Hull& hull, const Hull& other, bool is_whole) {
     const Vec3 between = other.local.centre - hull.local.centre;
     if (&hull == &other || length(between) > hull.radius + other.radius + kSeamRange || other.face_count < 4) return;
     // Past the margins of both and half a millimetre more (at scale 1), so that faces which lie on each other count and
     // parallel walls do not.
-    const float outside = hull.margin + other.margin + 0.0005f * scale_of(hull, other);
-    const float reach = other.radius + other.margin;
+    const float flush = 0.0005f * scale_of(hull, other), outside = hull.margin + other.margin + flush;
+    // If all are asked for, those on the rim may be as far away as where the other one leans back by 30 degrees.
+    const float leaning = is_whole ? 0.58f * outside : 0;
+    const auto is_below = [&](Vec3 p, uint32_t g, float near) {
+        return dot(other.face_normal[g], p) <= other.face_height[g] + other.margin + near;
+    };
     const uint32_t foremost = foremost_face(other, -1 * between);
     const Vec3 up = other.face_normal[foremost];
     float height[kMaxPoints];
     const Points& points = hull.local;
     for (uint32_t k = 0; k < points.count; ++k)
         height[k] = up.x * points.x[k] + up.y * points.y[k] + up.z * points.z[k];
-    // Of a face's middle, at most: from there it is `outside` to the point asked for. The slack is more than rounding.
-    const float highest = dot(up, between) + other.face_height[foremost] + other.margin + outside + 1e-4f * reach;
-    const auto is_below = [&other](Vec3 p, uint32_t g) {
-        return dot(other.face_normal[g], p) <= other.face_height[g] + other.margin;
-    };
+    // Of a face's lowest corner, at most: from there it is `outside` to the place asked for.
+    const float highest = dot(up, between) + other.face_height[foremost] + other.margin + 1.58f * outside;
     uint32_t teller = foremost;
+    bool is_any = false;
     for (uint32_t f = 0; f < hull.face_count; ++f) {
-        const uint32_t first = hull.first_corner[f], end = hull.first_corner[f + 1];
-        const auto corners = static_cast<float>(end - first);
-        float sum = 0;
-        for (uint32_t c = first; c < end; ++c) sum += height[hull.corner[c]];
-        if (sum > corners * highest || hull.is_face_inner[f]) continue;
-        Vec3 middle;
-        for (uint32_t c = first; c < end; ++c) middle += hull.local[hull.corner[c]];
-        const Vec3 p = (1 / corners) * middle + outside * hull.face_normal[f] - between;
-        // What tells one face off mostly does so with the next.
-        bool is_covered = dot(p, p) < reach * reach && is_below(p, teller);
-        for (uint32_t g = 0; g < other.face_count && is_covered; ++g) {
-            is_covered = is_below(p, g);
-            if (!is_covered) teller = g;
+        if (hull.is_face_inner[f]) continue;
+        float lowest = kFar;
+        for (uint32_t c = hull.first_corner[f]; c < hull.first_corner[f + 1]; ++c)
+            lowest = std::min(lowest, height[hull.corner[c]]);
+        if (lowest > highest) continue;
+        const Places places(hull, f, flush);
+        const Vec3 before = outside * hull.face_normal[f] - between;
+        for (uint32_t s = 0; s < places.count; ++s) {
+            if (hull.covered[f] >> s & 1) continue;
+            const Vec3 p = places.at[s] + before;
+            const float near = s == 0 ? 0 : leaning;
+            // What tells one place off mostly does so with the next.
+            bool is_covered = is_below(p, teller, near);
+            for (uint32_t g = 0; g < other.face_count && is_covered; ++g) {
+                is_covered = is_below(p, g, near);
+                if (!is_covered) teller = g;
+            }
+            hull.covered[f] |= uint64_t{is_covered} << s;
+            is_any = is_any || is_covered;
         }
-        if (is_covered && is_whole) is_covered = are_corners_covered(hull, f, (1 / corners) * middle, other, outside);
-        hull.is_face_inner[f] = is_covered;
+        hull.is_face_inner[f] = is_whole ? hull.covered[f] == places.all() : places.is_middle_in(hull.covered[f]);
     }
+    if (is_any) mark_flush(hull, other, between);
 }
 
 void transform_points(const Hull& hull, const Mat3& r, Vec3 position, Points& out) {

@@ -71,8 +71,11 @@ struct Hull {
     Points world;            // refreshed once a step while the body is awake
     Vec3 face_normal[kMaxFaces];
     float face_height[kMaxFaces];  // normal . point, from the centre
-    // Seams between the pieces of one body: nothing is ever pushed out through them.
+    // Seams between the pieces of one body: nothing is pushed out through what is inner. Of each face the places that
+    // others cover, see mark_covered().
     bool is_face_inner[kMaxFaces];
+    uint64_t covered[kMaxFaces];
+    uint64_t flush = 0;  // faces, as bits, that go on in the plane of a face of a piece beside this one
     uint16_t first_corner[kMaxFaces + 1];
     uint8_t corner[kMaxCorners];
     uint32_t face_points[kMaxFaces];  // its corners as bits, by point
@@ -107,10 +110,13 @@ void find_box(Hull& hull);
 void set_face_points(Hull& hull);
 /// Of its local points.
 void set_local_box(Hull& hull);
-/// Marks the faces of `hull` that another piece of the same body covers: a point just outside of the face's middle lies
-/// in it; with `is_whole` those outside of its corners, too. (The riser of a stair is covered in its middle by the step
-/// before, if both stand on the ground, and is to be struck above.)
-void mark_inner_faces(Hull& hull, const Hull& other, bool is_whole = false);
+/// Marks what another piece of the same body covers of the faces of `hull`, and which lie in one plane with faces of a
+/// piece that covers any: places just outside of their corners, of the middles of their edges, and of their own middle.
+/// With `is_whole` a face is inner when all of them are covered, by whomever. (The riser of a stair is covered in its
+/// middle by the step before, if both stand on the ground, and is to be struck above.) Else its middle tells.
+void mark_covered(Hull& hull, const Hull& other, bool is_whole = false);
+/// Nothing is known to cover it.
+void forget_covered(Hull& hull);
 /// World points and box for a body at `position` with its axes along the columns of `rotation`.
 void refresh_world(Hull& hull, const Mat3& rotation, Vec3 position);
 /// World points only, into another column.

@@ -19,17 +19,21 @@ constexpr float kRise = 0.001f;
 // past the face: faces of it that look the same way or against it, within 45 degrees, are no surface to come out of.
 constexpr float kBefore = 0.5f;
 constexpr float kAlong = 0.7f;
-constexpr int kTurns = 3;  // of a direction into a cone
-constexpr int kFaces = 4;  // looked at until one is open
+constexpr float kBehind = 0.005f;  // m, of scale 1
+constexpr float kLevel = 0.9998f;  // cosine of planes that are one
+constexpr int kTurns = 3;          // of a direction into a cone
+constexpr int kFaces = 4;          // looked at until one is open
 // A place on an edge is as exact as its coordinates.
 float on_edge(Vec3 place) {
     return 1e-5f + 1e-6f * std::max({std::fabs(place.x), std::fabs(place.y), std::fabs(place.z)});
 }
 
 // At a rounded edge the surface lies this much below the plane of a side of it: the place is `margin` along `direction`
-// from the core. Without this, the end of a kerb's piece is inner where the next one begins.
-float below_plane(float margin, Vec3 side, Vec3 direction) {
-    return margin * (1 - std::max(0.0f, dot(side, direction)));
+// from the core, also where that leads away from the side. Without this, the end of a kerb's piece is inner where the
+// next one begins, and the corner of a pane whose cells meet there.
+float below_plane(float margin, Vec3 side, Vec3 direction, bool is_still) {
+    const float along = dot(side, direction);
+    return margin * (1 - (is_still ? std::max(0.0f, along) : along));
 }
 
 /// A place and a direction in the axes of a hull, from its centre.
@@ -68,7 +72,8 @@ float leads_in(const Bounds& bounds, Vec3 direction) {
 /// What a neighbour is at a place.
 struct Beside {
     bool is_near = false;
-    float leads_in = 0;  // cosine, of the direction in question
+    float leads_in = 0;     // cosine, of the direction in question
+    bool is_level = false;  // it has that plane there
     bool has_way_out = false;
     Vec3 way_out;  // world: to the neighbour's surface and kFlush past it (of the touch's scale)
 };
@@ -76,6 +81,8 @@ struct Beside {
 /// Where it is looked for, of what was touched there.
 struct Reach {
     float flush, margin;  // m
+    bool is_still;
+    Vec3 level;  // of what moves: the plane that is to go on in the neighbour, in world axes
     float most() const { return flush + margin; }
 };
 
@@ -83,6 +90,7 @@ Beside look_at(const Body& body, const Hull& hull, Vec3 place, Vec3 direction, R
     if (hull.face_count < 4) return {};  // what is flat has no sides to tell where it ends
     const Local at(body, hull, place, direction);
     const float edge = on_edge(place);
+    const Vec3 level = transposed_times(rotation_of(body.fresh_at), reach.level);
     Bounds bounds;
     Beside beside;
     float highest = -kFar;
@@ -92,7 +100,9 @@ Beside look_at(const Body& body, const Hull& hull, Vec3 place, Vec3 direction, R
         if (!(dot(normal, normal) > 0.5f)) continue;
         const float height = dot(normal, at.place) - hull.face_height[f] - hull.margin;
         if (height > reach.most()) return {};
-        if (height > -edge - below_plane(reach.margin, normal, at.direction)) bounds.out[bounds.count++] = normal;
+        const float below = below_plane(reach.margin, normal, at.direction, reach.is_still);
+        if (height > -edge - below) bounds.out[bounds.count++] = normal;
+        if (dot(normal, level) > kLevel && height > -reach.flush - below) beside.is_level = true;
         if (height > highest && std::fabs(dot(normal, at.direction)) < kAlong)
             highest = height, out = f, beside.has_way_out = true;
     }
@@ -119,7 +129,8 @@ Beside look_at(const StaticTriangle& triangle, Vec3 place, Vec3 direction, Reach
         // Beside the triangle, and on the way from it: it goes on somewhere else. (At the top of a kerb that was cut
         // into triangles the slant of one, a quarter of a millimetre below a ball's touch, took it away.)
         if (past > edge && dot(outwards, direction) > 0) return {};
-        if (past > -edge - below_plane(reach.margin, outwards, direction)) bounds.out[bounds.count++] = outwards;
+        if (past > -edge - below_plane(reach.margin, outwards, direction, reach.is_still))
+            bounds.out[bounds.count++] = outwards;
     }
     Beside beside;
     beside.is_near = true;
@@ -147,8 +158,10 @@ bool are_same(const StaticTriangle& triangle, const Hull& hull) {
 
 /// Calls found(beside) for what is near the place, until it says true; whether it did.
 template <class Found>
-bool any_beside(const Surroundings& around, const Touched& touched, Vec3 place, Vec3 direction, Found found) {
-    const Reach reach{kFlush * scale_of(touched.hull, touched.piece), touched.hull.margin};
+bool any_beside(const Surroundings& around, const Touched& touched, Vec3 place, Vec3 direction, Found found,
+                Vec3 level = {}) {
+    const Reach reach{kFlush * scale_of(touched.hull, touched.piece), touched.hull.margin,
+                      touched.body.kind == RigidKind::Static, level};
     const Box box = grown({place, place}, reach.most());
     bool is_any = false;
     const auto look_in = [&](const Body& body) {
@@ -200,11 +213,14 @@ Vec3 out_of_face(const Body& body, const Hull& hull, uint32_t face) {
 }
 
 // A neighbour goes on before the face, and nothing of the face stands out of the neighbour there.
-bool is_face_covered(const Surroundings& around, const Touched& touched, uint32_t face, Vec3 normal, Vec3 place) {
-    return any_beside(around, touched, place, normal, [&](const Beside& beside) {
+bool is_face_covered(const Surroundings& around, const Touched& touched, uint32_t face, Vec3 normal, Vec3 place,
+                     Vec3 level = {}) {
+    const auto covers = [&](const Beside& beside) {
         if (beside.leads_in < kBefore || !beside.has_way_out) return false;
+        if (touched.body.kind != RigidKind::Static && !beside.is_level) return false;
         return !is_on_face(touched.body, touched.hull, face, place + beside.way_out);
-    });
+    };
+    return any_beside(around, touched, place, normal, covers, level);
 }
 
 struct Facing {
@@ -244,8 +260,65 @@ bool find_open_face(const Surroundings& around, const Touched& touched, Vec3 pla
     return false;
 }
 
+namespace {
+
+// Of the faces that go on in a neighbour's the one that looks most along the normal, if the place is on it.
+bool find_flush_face(const Touched& touched, Vec3 place, Vec3& normal) {
+    const Hull& hull = touched.hull;
+    const Local at(touched.body, hull, place, normal);
+    const float flush = kFlush * scale_of(hull, touched.piece);
+    float most = -kFar;
+    uint32_t best = 0;
+    for (uint32_t f = 0; f < hull.face_count; ++f) {
+        if (!(hull.flush >> f & 1) || hull.is_face_inner[f]) continue;
+        const float along = dot(hull.face_normal[f], at.direction),
+                    height = dot(hull.face_normal[f], at.place) - hull.face_height[f] - hull.margin;
+        if (height < -flush - below_plane(hull.margin, hull.face_normal[f], at.direction, false)) continue;
+        if (along > most) most = along, best = f;
+    }
+    if (most <= -kFar) return false;
+    normal = rotation_of(touched.body.fresh_at) * hull.face_normal[best];
+    return true;
+}
+
+// A face of what stands still pushes, whatever edge of what moves lies on it.
+bool is_still_face(const Touched& touched, Vec3 normal) {
+    if (touched.other.kind != RigidKind::Static) return false;
+    for (uint32_t f = 0; f < touched.piece.face_count; ++f)
+        if (!touched.piece.is_face_inner[f] && dot(out_of_face(touched.other, touched.piece, f), normal) > kFacing)
+            return true;
+    return false;
+}
+
+// Of what moves its own pieces alone count, and edges between faces in one plane.
+Push turn_to_flush_face(const Surroundings& around, const Touched& touched, std::span<const Vec3> places,
+                        Vec3& normal) {
+    const Facing facing = facing_face(touched, normal);
+    const Vec3 wanted = normal;
+    Vec3 open = normal;
+    if (!find_flush_face(touched, places[0], open)) return Push::AsFound;
+    // What reaches far behind that face did not come over it: a vase's foot of many facets stands on a floor.
+    const double gap = gap_along(touched.points, touched.hull.world, Vec3d(open));
+    if (gap < -static_cast<double>(kBehind * scale_of(touched.hull, touched.piece))) return Push::AsFound;
+    if (facing.cosine > kFacing) {
+        if (touched.hull.covered[facing.face] == 0) return Push::AsFound;
+        for (const Vec3 place : places)
+            if (!is_face_covered(around, touched, facing.face, wanted, place, open)) return Push::AsFound;
+    } else if (is_still_face(touched, -1 * wanted) ||
+               !any_beside(
+                   around, touched, places[0], wanted,
+                   [](const Beside& beside) { return beside.is_level && beside.leads_in > kRise; }, open)) {
+        return Push::AsFound;
+    }
+    normal = open;
+    return Push::Turned;
+}
+
+}  // namespace
+
 Push turn_to_open_face(const Surroundings& around, const Touched& touched, std::span<const Vec3> places, Vec3& normal) {
     if (touched.hull.face_count == 0 || places.empty()) return Push::AsFound;
+    if (touched.body.kind != RigidKind::Static) return turn_to_flush_face(around, touched, places, normal);
     const Facing facing = facing_face(touched, normal);
     const Vec3 wanted = normal;
     if (facing.cosine > kFacing) {

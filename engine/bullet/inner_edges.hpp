@@ -40,9 +40,11 @@ Push turn_to_open_face(const Surroundings& around, const Touched& touched, std::
 /// The open face of the hull that the piece lies deepest behind or nearest before; false: it has none.
 bool find_open_face(const Surroundings& around, const Touched& touched, Vec3 place, Vec3& normal);
 
-/// Whether inner edges of the body are looked for.
-inline bool may_have_inner_edges(const Body& body) {
-    return body.kind == RigidKind::Static;
+/// Whether inner edges of the piece are looked for: its body stands still, or other pieces of it go on in the plane of
+/// one of its faces. Nothing else of what moves is searched: pieces of shards overlap, and heaps of them have many
+/// contacts.
+inline bool may_have_inner_edges(const Body& body, const Hull& hull) {
+    return body.kind == RigidKind::Static || hull.flush != 0;
 }
 
 }  // namespace cullet::bullet

@@ -101,10 +101,12 @@ void flow_hull(F& f, Hull& h, ByteReader* in) {
     f.count(h.edge_count, kMaxEdges, "the number of edges of a hull");
     f.number(h.margin), f.number(h.radius), f.number(h.thickness);
     f.flag(h.one_sided);
+    f.number(h.flush);
     for (uint32_t k = 0; k < h.face_count; ++k) {
         flow_numbers(f, h.face_normal[k]);
         f.number(h.face_height[k]);
         f.flag(h.is_face_inner[k]);
+        f.number(h.covered[k]);
     }
     for (uint32_t k = 0; h.face_count > 0 && k <= h.face_count; ++k) f.number(h.first_corner[k]);
     if constexpr (F::kReads) {

@@ -85,7 +85,7 @@ TEST(Hull, OfTwoPiecesSideBySideTheFacesBetweenThemAreInner) {
     build_hull(right, block({0.502f, 0, 0}), 0.001f, 1);
     build_hull(above, block({0, 0.51f, 0}), 0.001f, 2);  // a gap between: no seam
     for (Hull* hull : {&left, &right, &above})
-        for (const Hull* other : {&left, &right, &above}) mark_inner_faces(*hull, *other);
+        for (const Hull* other : {&left, &right, &above}) mark_covered(*hull, *other);
     const auto inner_of = [](const Hull& hull) {
         std::vector<Vec3> out;
         for (uint32_t f = 0; f < hull.face_count; ++f)
@@ -104,14 +104,36 @@ TEST(Hull, TheRiserOfAStepIsInnerInItsMiddleAloneWhenTheStepBeforeStandsOnTheSam
         Hull before, step;
         build_hull(before, box_points({0.5f, 0.5f * low, 0.5f}, {-0.502f, 0.5f * low, 0}), 0.001f, 0);
         build_hull(step, box_points({0.5f, 0.5f, 0.5f}, {0.5f, 0.5f, 0}), 0.001f, 1);
-        const auto inner_count = [&](bool is_whole) {
+        const auto expect_inner = [&](bool is_whole, bool is_inner) {
             Hull hull = step;
-            mark_inner_faces(hull, before, is_whole);
-            return std::count(hull.is_face_inner, hull.is_face_inner + hull.face_count, true);
+            mark_covered(hull, before, is_whole);
+            EXPECT_EQ(std::count(hull.is_face_inner, hull.is_face_inner + hull.face_count, true), is_inner) << low;
+            EXPECT_NE(std::count(hull.covered, hull.covered + hull.face_count, 0u), hull.face_count) << low;
         };
-        EXPECT_EQ(inner_count(false), low > 0.5f) << low;
-        EXPECT_EQ(inner_count(true), low == 1.0f) << low;
+        expect_inner(false, low > 0.5f);
+        expect_inner(true, low == 1.0f);
     }
+}
+
+// Beside a wide tile stand narrow ones, so that no one of them covers its side.
+TEST(Hull, AFaceThatSeveralPiecesCoverTogetherIsInner) {
+    for (const uint32_t count : {2u, 3u, 4u, 5u, 7u})
+        for (uint32_t missing = 0; missing <= count; ++missing) {
+            Hull wide;
+            build_hull(wide, box_points({0.5f, 0.1f, 0.5f}, {}), 0.001f, 0);
+            const float half = 0.5f / static_cast<float>(count);
+            for (uint32_t k = 0; k < count; ++k) {
+                Hull narrow;
+                const float z = half * (2 * static_cast<float>(k) + 1) - 0.5f;
+                build_hull(narrow, box_points({0.2f, 0.1f, half - 0.001f}, {0.702f, 0, z}), 0.001f, k + 1);
+                if (k != missing) mark_covered(wide, narrow, true);
+            }
+            const auto inner = std::count(wide.is_face_inner, wide.is_face_inner + wide.face_count, true);
+            const bool is_seen = count <= 3 || missing == 0 || missing + 1 == count || 2 * missing + 1 == count;
+            if (missing == count || is_seen) {
+                EXPECT_EQ(inner, missing == count) << missing << " of " << count;
+            }
+        }
 }
 
 }  // namespace

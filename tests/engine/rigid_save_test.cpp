@@ -103,7 +103,7 @@ TEST(RigidSave, SleepersThatAreAboutToBeWokenWakeInWhatIsLoaded) {
     };
     for (int frame = 0; frame < 900 && asleep(*world) < kShards; ++frame) step(*world);
     ASSERT_EQ(asleep(*world), kShards);
-    add_box(*world, kBox, {-1, 0.15f, 0.02f}, {0.1f, 0.1f, 0.1f}, 1000);
+    add_box(*world, kBox, {-1, 0.15f, 0.02f}, {0.1f, 0.1f, 0.1f}, 4000);
     world->set_motion(kBox, {{8, 0, 0}, {}});
     bool has_slept = false, has_woken = false;  // when saved
     for (int frame = 0; frame < 20; ++frame) {

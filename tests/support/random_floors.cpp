@@ -125,6 +125,65 @@ Floor tiles(Chance& chance) {
     return floor;
 }
 
+/// How cells of a plank are set: their cores meet as those of a shell do, or their surfaces as tiles' do.
+struct Setting {
+    float margin = 0.001f;
+    bool do_cores_meet = false;
+};
+
+/// A prism over an outline that runs round in the plane; all of its sides but those on the plank's rim are inner.
+void add_prism(FloorPart& part, const std::vector<Vec3>& outline, float low, float high, Extent extent,
+               Setting setting) {
+    const float m = setting.margin;
+    Vec3 middle;
+    for (const Vec3 p : outline) middle += (1 / real(outline.size())) * p;
+    std::vector<Vec3> points;
+    for (size_t k = 0; k < outline.size(); ++k) {
+        const Vec3 before = outline[(k + outline.size() - 1) % outline.size()], here = outline[k],
+                   after = outline[(k + 1) % outline.size()];
+        // Both sides go inwards by the margin, where they are not to meet.
+        const auto inwards = [&](Vec3 from, Vec3 to) {
+            Vec3 n = normalised(Vec3{to.z - from.z, 0, from.x - to.x});
+            if (dot(n, middle - from) < 0) n = -n;
+            const Vec3 half = 0.5f * (from + to);
+            const bool is_rim = half.x == extent.low || half.x == extent.high || std::fabs(half.z) == extent.side;
+            return std::pair{n, setting.do_cores_meet && !is_rim ? 0 : m};
+        };
+        const auto [n, first] = inwards(before, here);
+        const auto [o, second] = inwards(here, after);
+        // p = here + a n + b o with p . n = first, p . o = second.
+        const float cosine = dot(n, o), square = 1 - cosine * cosine;
+        const float a = (first - cosine * second) / square, b = (second - cosine * first) / square;
+        const Vec3 p = here + a * n + b * o;
+        points.push_back({p.x, low + m, p.z}), points.push_back({p.x, high - m, p.z});
+    }
+    part.pieces.push_back(points);
+}
+
+/// Cells between the cuts: whole, or each cut along one diagonal or the other, or in four about a point inside.
+void add_layer(FloorPart& part, Chance& chance, bool are_prisms, float low, float high, Extent extent,
+               Setting setting) {
+    const bool is_aligned = chance.below(2) > 0;
+    const float size = chance.between(0.25f, 0.8f) * extent.side;
+    const auto xs = cuts(chance, extent.low, extent.high, 0.3f * size, size);
+    auto zs = cuts(chance, -extent.side, extent.side, 0.5f * size, 1.2f * size);
+    for (size_t i = 0; i + 1 < xs.size(); ++i) {
+        if (!is_aligned) zs = cuts(chance, -extent.side, extent.side, 0.5f * size, 1.2f * size);
+        for (size_t j = 0; j + 1 < zs.size(); ++j) {
+            const Vec3 a{xs[i], 0, zs[j]}, b{xs[i + 1], 0, zs[j]}, c{xs[i + 1], 0, zs[j + 1]}, d{xs[i], 0, zs[j + 1]};
+            const uint32_t cut = are_prisms ? chance.below(4) : 3;
+            const Vec3 m{xs[i] + (xs[i + 1] - xs[i]) * chance.between(0.2f, 0.8f), 0,
+                         zs[j] + (zs[j + 1] - zs[j]) * chance.between(0.2f, 0.8f)};
+            std::vector<std::vector<Vec3>> cells;
+            if (cut == 0) cells = {{a, b, c}, {a, c, d}};
+            if (cut == 1) cells = {{a, b, d}, {b, c, d}};
+            if (cut == 2) cells = {{a, b, m}, {b, c, m}, {c, d, m}, {d, a, m}};
+            if (cut == 3) cells = {{a, b, c, d}};
+            for (const auto& cell : cells) add_prism(part, cell, low, high, extent, setting);
+        }
+    }
+}
+
 Height hill_of(Chance& chance) {
     const float along = chance.between(0.3f, 1.2f), across = chance.between(0.2f, 0.8f), phase = chance.between(0, 6),
                 steep = chance.between(0.03f, kTilt);
@@ -179,6 +238,28 @@ Ground random_ground(Chance& chance) {
 
 Ground random_flat_ground(Chance& chance) {
     return any_ground(chance, 6);
+}
+
+Plank random_plank(Chance& chance, Extent extent, float thickness) {
+    Plank plank;
+    plank.extent = extent, plank.thickness = thickness;
+    const uint32_t kind = chance.below(3);
+    // Grown corners of triangles that do not meet would leave holes of some millimetres between them.
+    const bool are_prisms = kind == 1 || (kind == 2 && chance.below(2) > 0);
+    const Setting setting{0.001f, are_prisms || chance.below(2) > 0};
+    static constexpr const char* kNames[] = {"tiles", "prisms", "two layers"};
+    plank.floor = {kNames[kind], {FloorPart{}}};
+    FloorPart& part = plank.floor.parts[0];
+    part.margin = setting.margin;
+    const float low = -thickness, half = kind == 2 ? 0.5f * low : low;
+    if (kind == 2) add_layer(part, chance, are_prisms, low, half, extent, setting);
+    add_layer(part, chance, are_prisms, half, 0, extent, setting);
+    plank.plain = {"one box", {FloorPart{}}};
+    const float m = plank.plain.parts[0].margin = setting.margin;
+    plank.plain.parts[0].pieces.push_back(
+        box_points(Vec3{0.5f * (extent.high - extent.low), 0.5f * thickness, extent.side} - Vec3{m, m, m},
+                   {0.5f * (extent.low + extent.high), 0.5f * low, 0}));
+    return plank;
 }
 
 Ground random_hill(Chance& chance) {

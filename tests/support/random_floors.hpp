@@ -48,4 +48,16 @@ Ground random_flat_ground(Chance& chance);
 /// or always.
 Ground random_hill(Chance& chance);
 
+/// m, along x from low to high and along z to both sides.
+struct Extent {
+    float low = kFloorLow, high = kFloorHigh, side = kFloorSide;
+};
+/// One part of convex pieces that lie flush, its top at 0, and the same as one box.
+struct Plank {
+    Floor floor, plain;
+    Extent extent;
+    float thickness = 0;  // m
+};
+Plank random_plank(Chance& chance, Extent extent, float thickness);
+
 }  // namespace cullet
