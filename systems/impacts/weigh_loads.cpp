@@ -8,9 +8,9 @@
 #include "systems/impacts/opening.hpp"
 #include "systems/impacts/overload.hpp"
 #include "systems/models/thick_shell/shared/working_room.hpp"
+#include "systems/models/thick_shell/task_cost.hpp"
 #include "systems/systems.hpp"
 #include "systems/tasks/cancel_task.hpp"
-#include "systems/tasks/task_cost.hpp"
 
 namespace cullet {
 namespace {

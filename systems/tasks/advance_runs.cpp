@@ -1,29 +1,22 @@
 #include <algorithm>
 
+#include "systems/models.hpp"
 #include "systems/models/thick_shell/quick/quick_loop.hpp"
-#include "systems/models/thick_shell/shared/quick_body.hpp"
 #include "systems/models/thick_shell/soft/soft_units.hpp"
+#include "systems/models/thick_shell/task_cost.hpp"
 #include "systems/systems.hpp"
 #include "systems/tasks/run_loops.hpp"
-#include "systems/tasks/task_cost.hpp"
 
 namespace cullet {
 namespace {
 
-uint64_t units_of_step(const RunRows& state, uint32_t t) {
-    return is_quick_task(state, t) ? quick_units_a_step(state, t) : units_a_step(state.shells, state.tasks, t);
-}
-
-/// What a run that has ended brings with it in this frame, paid before it.
-uint64_t units_of_end(const RunRows& state, uint32_t t) {
-    if (static_cast<TaskState>(state.tasks.state[t]) == TaskState::Running) return 0;
-    return is_quick_task(state, t) ? quick_units_of_end(state, t) : units_of_birth(state.shells, state.tasks, t);
-}
-
-/// What was granted for cuts that did not come.
+/// What was granted for cuts that did not come. What a run that has ended brings with it in this frame is paid before.
 uint64_t left_over(LoopWorld& world, uint32_t t) {
-    const uint64_t left = world.state.tasks.steps_granted[t] * units_of_step(world.state, t);
-    return left - std::min(left, units_of_end(world.state, t));
+    const Tasks& tasks = world.state.tasks;
+    const TaskCost cost = task_cost(world.state, t);
+    const bool has_ended = static_cast<TaskState>(tasks.state[t]) != TaskState::Running;
+    const uint64_t left = tasks.steps_granted[t] * cost.step;
+    return left - std::min(left, has_ended ? cost.end : 0);
 }
 
 void list_tasks(LoopWorld& world, RunLoops& loops) {
@@ -34,7 +27,7 @@ void list_tasks(LoopWorld& world, RunLoops& loops) {
         const uint32_t steps = std::min(tasks.steps_granted[t], std::max(1u, steps_left(tasks, t, 0)));
         loops.runs.add(LoopRun(is_quick_task(world.state, t) ? loops.quick : loops.hidden, world,
                                {t, tasks.steps_done[t], tasks.steps_granted[t], task_goes_on},
-                               steps * units_of_step(world.state, t), moving_vertices(world.state, t) > kTeamVertices,
+                               steps * task_cost(world.state, t).step, moving_vertices(world.state, t) > kTeamVertices,
                                loops.task_zone, left_over));
     }
 }
@@ -65,6 +58,13 @@ RunLoops::RunLoops(JobSystem& j, Profiler& p, uint32_t most_runs)
       task_zone(p.add_zone("damage task")),
       soft_zone(p.add_zone("soft body")),
       runs(most_runs) {}
+
+void RunLoops::show_in(SlottedPlan& plan) const {
+    plan.shows("thick shell, brittle: 300 to 4,000 times a hit, on its own clock", hidden)
+        .shows("thick shell, quick: 8 to 100 times a hit", quick)
+        .shows("thick shell, ductile and elastic: 8 to 1,000 times a frame", soft_one_layer)
+        .shows("the same, of bodies with an inner and an outer layer", soft_layers);
+}
 
 void advance_runs(Serial, SoftRows& rows, const Blows& blows, RunLoops& loops, DamageCounts& counts) {
     LoopWorld tasks{rows, blows};

@@ -1,11 +1,9 @@
 #include <algorithm>
 #include <span>
 
-#include "systems/models/thick_shell/quick/quick_loop.hpp"
-#include "systems/models/thick_shell/shared/quick_body.hpp"
 #include "systems/models/thick_shell/soft/soft_units.hpp"
+#include "systems/models/thick_shell/task_cost.hpp"
 #include "systems/systems.hpp"
-#include "systems/tasks/task_cost.hpp"
 
 namespace cullet {
 namespace {
@@ -17,10 +15,8 @@ struct Cost {
 };
 
 Cost cost_of(const SoftRows& state, uint32_t t) {
-    if (is_quick_task(state, t))
-        return {static_cast<int64_t>(quick_units_a_step(state, t)), static_cast<int64_t>(quick_units_of_end(state, t))};
-    return {static_cast<int64_t>(units_a_step(state.shells, state.tasks, t)),
-            static_cast<int64_t>(units_of_birth(state.shells, state.tasks, t))};
+    const TaskCost cost = task_cost(state, t);
+    return {static_cast<int64_t>(cost.step), static_cast<int64_t>(cost.end)};
 }
 
 /// What one worker has to do alone is at most half of a frame's units: the other has nothing to do meanwhile.

@@ -6,6 +6,8 @@
 
 namespace cullet {
 
+class SlottedPlan;
+
 struct RunLoops {
     /// `most_runs`: of one frame.
     RunLoops(JobSystem& jobs, Profiler& profiler, uint32_t most_runs);
@@ -16,6 +18,9 @@ struct RunLoops {
     SoftInnerLoop soft_one_layer, soft_layers;
     uint32_t task_zone, soft_zone;
     Runs runs;
+
+    /// Each loop, with the system named last.
+    void show_in(SlottedPlan& plan) const;
 };
 
 }  // namespace cullet

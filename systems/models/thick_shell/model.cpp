@@ -1,0 +1,30 @@
+#include "systems/models/thick_shell/model.hpp"
+
+#include "systems/systems.hpp"
+
+namespace cullet {
+
+SlotList thick_shell_model() {
+    SlotList model("thick_shell");
+    model.at(Slot::Rest).then<freeze_soft_bodies>();
+    model.at(Slot::Wake)
+        .then<widen_regions>()
+        .then<fill_tasks>()
+        .then<fill_stiffness>()
+        .then<start_tasks>()
+        .then<wake_regions>()
+        .then<measure_regions>()
+        .then<lay_regions>()
+        .then<start_regions>()
+        .then<wake_soft_bodies>()
+        .then<find_soft_strikers>()
+        .then<share_soft_strikers>();
+    model.at(Slot::Pass).then<shape_soft>().then<pass_soft>();
+    model.at(Slot::Close).then<close_regions>();
+    model.at(Slot::Group).then<find_parts>().then<smooth_cracks>();
+    model.at(Slot::GiveBack).then<return_soft>();
+    model.at(Slot::Show).then<show_soft>();
+    return model;
+}
+
+}  // namespace cullet

@@ -1,0 +1,9 @@
+// Hollow things that crack, tear or flow (thick shell note).
+#pragma once
+#include "systems/models.hpp"
+
+namespace cullet {
+
+SlotList thick_shell_model();
+
+}  // namespace cullet
