@@ -35,9 +35,7 @@ constexpr float kPastBonus = 0.01f;       // m
 constexpr float kSeamNear = 0.01f;        // m, between touches of one seam
 constexpr float kAsDeep = 0.0005f;        // m
 constexpr float kDeepInside = 0.005f;     // m, in an inner face
-constexpr float kOutOfInside = 0.0005f;   // m, in an inner face: what is pushed out of it comes out as far as this
 constexpr float kDeepBehind = 0.01f;      // m, an open one
-constexpr float kSameWay = 0.9f;          // cosine of normals of one touch in two steps
 
 // Shards with holes and hooks can be threaded through each other, so that each way out of one piece leads deeper into
 // another: pushed out, they tremble for ever. What came this deep into something, and in so long not out to this share
@@ -273,14 +271,9 @@ bool PairAlgorithm::write_crack(PairRecord& record, const Body& a, const Hull& h
 
 // Of a patch that pushes along an edge inside of what is flat, what lies over an open face of the same piece stays.
 // What lies deep in an inner face, or much deeper behind the open one, did not come in through that: it is wedged among
-// pieces, and goes the way that it was found. Turned out by 7 cm it shook for as long as anybody looked, and a slab
-// that was pushed out of a wall's stump only while it was deep fell back in for ever.
+// pieces, and goes the way that it was found. Turned out by 7 cm it shook for as long as anybody looked.
 void PairAlgorithm::keep_to_open_faces(Patch& patch, PairRecord& record, const Body& a, const Hull& hull_a,
                                        const Body& b, const Hull& hull_b) {
-    const bool is_on_its_way =
-        record.manifold && record.manifold->getNumContacts() > 0 &&
-        dot(from_bullet(record.manifold->getContactPoint(0).m_normalWorldOnB), patch.normal) > kSameWay;
-    const float inside = is_on_its_way ? kOutOfInside : kDeepInside;
     const auto keep = [&](const Body& body, const Hull& hull, const Body& other, const Hull& piece, bool is_a) {
         if (patch.count == 0 || !may_have_inner_edges(body, hull)) return;
         const float scale = scale_of(hull, piece);
@@ -297,7 +290,7 @@ void PairAlgorithm::keep_to_open_faces(Patch& patch, PairRecord& record, const B
             return (void)(patch.count = 0);
         const Push push = turn_to_open_face(work_->around, {body, hull, other, piece, piece.world},
                                             {places, static_cast<size_t>(patch.count)}, normal);
-        if (push == Push::AsFound || patch.point[deepest].distance < -scale * inside) return;
+        if (push == Push::AsFound || patch.point[deepest].distance < -scale * kDeepInside) return;
         if (push == Push::None) return (void)(patch.count = 0);
         const Vec3 turned = is_a ? -normal : normal;
         const Patch along = patch_along(hull_a, rotation_of(a.fresh_at), hull_b, rotation_of(b.fresh_at), turned);
@@ -460,7 +453,7 @@ void PairAlgorithm::write(PairRecord& record, const Patch& patch, uint32_t cell_
             point.m_lifeTime = before[nearest].m_lifeTime + 1;
         }
         if (is_known && step_travel_ < static_cast<double>(scale) * kRestingTravel &&
-            before[nearest].m_normalWorldOnB.dot(point.m_normalWorldOnB) > kSameWay) {
+            before[nearest].m_normalWorldOnB.dot(point.m_normalWorldOnB) > 0.9f) {
             const float impulse = before[nearest].m_appliedImpulse, share = impulse > most ? most / impulse : 1;
             point.m_appliedImpulse = share * impulse;
             point.m_appliedImpulseLateral1 = share * before[nearest].m_appliedImpulseLateral1;
