@@ -35,7 +35,9 @@ constexpr float kPastBonus = 0.01f;       // m
 constexpr float kSeamNear = 0.01f;        // m, between touches of one seam
 constexpr float kAsDeep = 0.0005f;        // m
 constexpr float kDeepInside = 0.005f;     // m, in an inner face
+constexpr float kOutOfInside = 0.001f;   // m, in an inner face: what is pushed out of it comes out as far as this
 constexpr float kDeepBehind = 0.01f;      // m, an open one
+constexpr float kSameWay = 0.9f;          // cosine of normals of one touch in two steps
 
 // Shards with holes and hooks can be threaded through each other, so that each way out of one piece leads deeper into
 // another: pushed out, they tremble for ever. What came this deep into something, and in so long not out to this share
@@ -271,9 +273,12 @@ bool PairAlgorithm::write_crack(PairRecord& record, const Body& a, const Hull& h
 
 // Of a patch that pushes along an edge inside of what is flat, what lies over an open face of the same piece stays.
 // What lies deep in an inner face, or much deeper behind the open one, did not come in through that: it is wedged among
-// pieces, and goes the way that it was found. Turned out by 7 cm it shook for as long as anybody looked.
+// pieces, and goes the way that it was found. Turned out by 7 cm it shook for as long as anybody looked, and a slab
+// that was pushed out of a wall's stump only while it was deep fell back in for ever.
 void PairAlgorithm::keep_to_open_faces(Patch& patch, PairRecord& record, const Body& a, const Hull& hull_a,
                                        const Body& b, const Hull& hull_b) {
+    const float inside = record.is_pushed_out ? kOutOfInside : kDeepInside;
+    record.is_pushed_out = false;
     const auto keep = [&](const Body& body, const Hull& hull, const Body& other, const Hull& piece, bool is_a) {
         if (patch.count == 0 || !may_have_inner_edges(body, hull)) return;
         const float scale = scale_of(hull, piece);
@@ -290,7 +295,8 @@ void PairAlgorithm::keep_to_open_faces(Patch& patch, PairRecord& record, const B
             return (void)(patch.count = 0);
         const Push push = turn_to_open_face(work_->around, {body, hull, other, piece, piece.world},
                                             {places, static_cast<size_t>(patch.count)}, normal);
-        if (push == Push::AsFound || patch.point[deepest].distance < -scale * kDeepInside) return;
+        if (push == Push::AsFound) return;
+        if (patch.point[deepest].distance < -scale * inside) return (void)(record.is_pushed_out = true);
         if (push == Push::None) return (void)(patch.count = 0);
         const Vec3 turned = is_a ? -normal : normal;
         const Patch along = patch_along(hull_a, rotation_of(a.fresh_at), hull_b, rotation_of(b.fresh_at), turned);
@@ -314,7 +320,10 @@ void PairAlgorithm::meet(PairRecord& record, const Body& a, const Mat3& rotation
     Patch patch = contact_patch(hull_a, rotation_a, hull_b, rotation_b, record.guess, record.is_own_guess);
     record.is_own_guess = true;
     record.good_until = travelled_ + std::max(patch.room, scale_of(hull_a, hull_b) * kSmallTravel);
-    if (patch.count > 0) keep_to_open_faces(patch, record, a, hull_a, b, hull_b);
+    if (patch.count > 0)
+        keep_to_open_faces(patch, record, a, hull_a, b, hull_b);
+    else
+        record.is_pushed_out = false;
     if (patch.count > 0)
         write(record, patch, hull_a.cell, hull_b.cell);
     else
@@ -453,7 +462,7 @@ void PairAlgorithm::write(PairRecord& record, const Patch& patch, uint32_t cell_
             point.m_lifeTime = before[nearest].m_lifeTime + 1;
         }
         if (is_known && step_travel_ < static_cast<double>(scale) * kRestingTravel &&
-            before[nearest].m_normalWorldOnB.dot(point.m_normalWorldOnB) > 0.9f) {
+            before[nearest].m_normalWorldOnB.dot(point.m_normalWorldOnB) > kSameWay) {
             const float impulse = before[nearest].m_appliedImpulse, share = impulse > most ? most / impulse : 1;
             point.m_appliedImpulse = share * impulse;
             point.m_appliedImpulseLateral1 = share * before[nearest].m_appliedImpulseLateral1;

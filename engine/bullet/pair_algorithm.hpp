@@ -34,6 +34,7 @@ struct PairRecord {
     Vec3 guess;                     // last axis from b towards a
     bool is_own_guess = false;      // no longer borrowed from a neighbour
     bool is_through_seam = false;   // of the manifold's points, see Patch
+    bool is_pushed_out = false;     // it lay deep in an inner face and has not come out yet
     double good_until = 0;          // what the two found last holds while PairAlgorithm::travelled_ is less
     Vec3 normal;                    // of the manifold's points, in the frame of b
     CrackContact* crack = nullptr;  // of siblings' pieces that have lain in each other since birth

@@ -226,7 +226,7 @@ template <class F>
 void flow_record(F& f, PairRecord& r) {
     f.number(r.a), f.number(r.b);
     flow_numbers(f, r.guess);
-    f.flag(r.is_own_guess), f.flag(r.is_through_seam);
+    f.flag(r.is_own_guess), f.flag(r.is_through_seam), f.flag(r.is_pushed_out);
     f.number(r.good_until);
     flow_numbers(f, r.normal);
 }
