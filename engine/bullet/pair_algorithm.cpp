@@ -35,7 +35,7 @@ constexpr float kPastBonus = 0.01f;       // m
 constexpr float kSeamNear = 0.01f;        // m, between touches of one seam
 constexpr float kAsDeep = 0.0005f;        // m
 constexpr float kDeepInside = 0.005f;     // m, in an inner face
-constexpr float kOutOfInside = 0.001f;   // m, in an inner face: what is pushed out of it comes out as far as this
+constexpr float kOutOfInside = 0.001f;    // m, in an inner face: what is pushed out of it comes out as far as this
 constexpr float kDeepBehind = 0.01f;      // m, an open one
 constexpr float kSameWay = 0.9f;          // cosine of normals of one touch in two steps
 
