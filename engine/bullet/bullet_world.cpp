@@ -335,8 +335,8 @@ void BulletWorld::forget_seams(Body& body, Vec3 centre, float radius) {
 }
 
 // `is_whole`: of what stands still faces are inner only where they are covered to their corners. What is covered in
-// part is looked for where it is touched, see inner_edges.hpp. Of what moves the
-// middle tells: there only faces that go on in one plane are searched.
+// part is looked for where it is touched, see inner_edges.hpp. Of what moves the middle tells: there only faces that go
+// on in one plane are searched.
 void BulletWorld::mark_seam(const Seam& p, const Seam& q, bool is_whole) {
     if (!overlap(p.box, q.box, 0)) return;
     mark_covered(*p.hull, *q.hull, is_whole);

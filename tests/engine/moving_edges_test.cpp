@@ -177,9 +177,11 @@ TEST(MovingEdges, ABodyOfManyPiecesSlidesOverManyPiecesAsOneBoxDoesOverOne) {
     for (uint32_t seed = 0; seed < wanted(504) / 2; ++seed) {
         Chance chance{std::mt19937(seed)};
         const Extent extent{-0.4f, 0.4f, chance.between(0.1f, 0.4f)};
+        // Even in scale: each octave as often. (Without libm, whose last bits differ between machines.)
+        const float octave = 0.5f * real(1u << chance.below(6));
         const Glide scene{random_plank(chance, extent, chance.between(0.01f, 0.1f)), random_plank(chance, {}, 0.1f),
-                          chance.below(2) ? RigidKind::Static : RigidKind::Kinematic,
-                          0.5f * std::pow(60.0f, chance.between(0, 1)), chance.below(2) ? 1.0f / 60 : 1.0f / 120};
+                          chance.below(2) ? RigidKind::Static : RigidKind::Kinematic, octave * chance.between(1, 2),
+                          chance.below(2) ? 1.0f / 60 : 1.0f / 120};
         const bool is_plain = chance.below(3) == 0;
         const Trips got = glide(scene, scene.slab.floor, is_plain ? scene.ground.plain : scene.ground.floor);
         if (figures.add(got, glide(scene, scene.slab.plain, scene.ground.plain)))
@@ -187,8 +189,9 @@ TEST(MovingEdges, ABodyOfManyPiecesSlidesOverManyPiecesAsOneBoxDoesOverOne) {
                         scene.kind == RigidKind::Static ? "static" : "kinematic",
                         is_plain ? "one box" : scene.ground.floor.name, scene.speed, 1 / scene.dt);
     }
-    // Wanted: one. At 10 m/s and more, 60 steps a second, 2 of 100 are stopped early in a step or two.
-    figures.expect(3);
+    // Wanted: one. Of 2,000 cases 2.9 in a hundred are held up, most at 10 m/s and more and 60 steps a second; of these
+    // 252 it is 10. The bound keeps it from getting worse.
+    figures.expect(5);
 }
 
 }  // namespace

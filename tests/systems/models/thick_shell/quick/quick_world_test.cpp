@@ -116,7 +116,8 @@ TEST(QuickWorld, WhereUnitsAreFewTwoHitsAreNotHandedOnInOneFrame) {
         ASSERT_TRUE(b.world.add_sphere(ball).ok());
         uint32_t most = 0;
         after_each_system(b.world, [&](const std::string& system) {
-            if (system == "settle_tasks") most = std::max<uint32_t>(most, b.world.contents().data.between.of<TaskEnded>().size());
+            if (system == "settle_tasks")
+                most = std::max<uint32_t>(most, b.world.contents().data.between.of<TaskEnded>().size());
         });
         const DamageCounts& counts = b.world.contents().data.counts;
         for (int frame = 0; frame < 60 && counts.broke < 2; ++frame) b.world.step();
