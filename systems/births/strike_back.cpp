@@ -55,6 +55,15 @@ double share_lost(const TaskContacts& contacts, uint32_t first, uint32_t c) {
     return p * speed;
 }
 
+// A striker that broke after the run had opened is lighter than the run takes it for. It takes the part that gives it
+// the speed that the run gave it: the whole would throw it off with more energy than this body had.
+double part_taken(const Bodies& bodies, const TaskContacts& contacts, uint32_t c) {
+    constexpr double kRounding = 1e-5;
+    const double inverse_mass = contacts.striker_own_inverse_mass[c] / std::max<double>(1, contacts.sharers[c]);
+    const double part = bodies.mass[contacts.striker[c]] * inverse_mass;
+    return part < 1 - kRounding ? part : 1;
+}
+
 // A striker gives each task its share alone, whatever the order in which they end; what it has lost beyond it waits
 // with the next task that shares it, and says that no energy was made by it.
 void hand_on(RunRows& state, Row<Tasks> task, uint32_t contact, double surplus) {
@@ -162,7 +171,9 @@ double strike_back(Births& births, Row<Tasks> task, const Pose& pose, std::span<
             births.counts.work_from_outside += given;
             continue;
         }
-        const Push taken = push_at(state.bodies, striker, -1.0 * in_world, place);
+        const double part = part_taken(state.bodies, contacts, c);
+        const Push taken = push_at(state.bodies, striker, -part * in_world, place);
+        difference += (part - 1) * blow;
         // Ties to the one that broke first.
         const bool is_larger = state.bodies.mass[body] >= state.bodies.mass[striker];
         const uint32_t waits = answering_contact(state, striker, body, is_larger && !heir.is_static);
@@ -177,7 +188,7 @@ double strike_back(Births& births, Row<Tasks> task, const Pose& pose, std::span<
             lost = answers_loss(state, striker) - lost_before;
             contacts.answer_energy[waits] -= lost;
         }
-        const double share = contacts.sharers[c] > 0 ? share_lost(contacts, first, c) : lost;
+        const double share = contacts.sharers[c] > 0 && part == 1 ? share_lost(contacts, first, c) : lost;
         allowed += share;
         hand_on(state, task, c, lost - share);
     }
