@@ -239,9 +239,11 @@ Facing facing_face(const Touched& touched, Vec3 normal) {
     return best;
 }
 
-}  // namespace
-
-bool find_open_face(const Surroundings& around, const Touched& touched, Vec3 place, Vec3& normal) {
+// The open face that the piece lies deepest behind or nearest before. A place on the rounding of an edge lies beneath
+// the planes of the faces that end there, and aside of them: each face is looked at from where it begins, `margin`
+// along its normal from the place in the core. From the rounding itself, at a corner of four cells of a shell, each
+// cell lay beneath another one, and none of them pushed.
+bool find_open_face_from(const Surroundings& around, const Touched& touched, Vec3 core, float margin, Vec3& normal) {
     const Hull& hull = touched.hull;
     std::array<double, kMaxFaces> gap;
     for (uint32_t f = 0; f < hull.face_count; ++f) {
@@ -254,10 +256,16 @@ bool find_open_face(const Surroundings& around, const Touched& touched, Vec3 pla
         if (most == gap.begin() + hull.face_count || *most <= -1e30) return false;
         const auto face = static_cast<uint32_t>(most - gap.begin());
         normal = out_of_face(touched.body, hull, face);
-        if (!is_face_covered(around, touched, face, normal, place)) return true;
+        if (!is_face_covered(around, touched, face, normal, core + margin * normal)) return true;
         *most = -1e30;
     }
     return false;
+}
+
+}  // namespace
+
+bool find_open_face(const Surroundings& around, const Touched& touched, Vec3 place, Vec3& normal) {
+    return find_open_face_from(around, touched, place, 0, normal);
 }
 
 namespace {
@@ -329,7 +337,8 @@ Push turn_to_open_face(const Surroundings& around, const Touched& touched, std::
                            [](const Beside& beside) { return beside.leads_in > kRise; })) {
         return Push::AsFound;
     }
-    return find_open_face(around, touched, places[0], normal) ? Push::Turned : Push::None;
+    const Vec3 core = places[0] - touched.hull.margin * wanted;
+    return find_open_face_from(around, touched, core, touched.hull.margin, normal) ? Push::Turned : Push::None;
 }
 
 }  // namespace cullet::bullet

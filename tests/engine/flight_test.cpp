@@ -3,6 +3,8 @@
 // side.
 #include <gtest/gtest.h>
 
+#include <cstdlib>
+
 #include "engine/fp_mode.hpp"
 #include "engine/random.hpp"
 #include "tests/engine/rigid_scenes.hpp"
@@ -16,8 +18,14 @@ constexpr float kFastest = 100, kSpin = 60, kSheetSpin = 400;  // m/s, rad/s
 constexpr uint32_t kWall = 0, kFirst = 1;
 constexpr uint32_t kWallLayer = 1, kFragmentLayer = 2;
 
+/// CULLET_FLIGHT_SEED in the environment is added: others fly, and none of them is to get through either.
+uint64_t seed(uint64_t usual) {
+    const char* added = std::getenv("CULLET_FLIGHT_SEED");
+    return usual + (added ? static_cast<uint64_t>(std::atoll(added)) : 0);
+}
+
 struct Dice {
-    Random random{7};
+    Random random;
     uint64_t thrown = 0;
     float next(float low, float high) { return low + (high - low) * static_cast<float>(random.uniform(thrown++)); }
     /// From `least` on, each of so many octaves as often as the others.
@@ -110,8 +118,8 @@ void fly(RigidWorld& world, const std::vector<Fragment>& fragments, const std::v
     count.sweeps += world.counts().sweeps;
 }
 
-void expect_none_through(const Count& count, uint32_t most_through = 0) {
-    EXPECT_LE(count.through, most_through);
+void expect_none_through(const Count& count) {
+    EXPECT_EQ(count.through, 0u);
     EXPECT_LT(count.past_middle, kFragments / 1000);  // 0 to 5 seen
     EXPECT_GT(count.met, kFragments * 9 / 10);
     EXPECT_GT(count.sweeps, kFragments / 2);
@@ -123,7 +131,7 @@ template <class Throw>
 Count fly_at_plate(float spin, Throw&& any_fragment) {
     const FpMode mode;
     constexpr float kHalf = 0.005f;
-    Dice dice;
+    Dice dice{{seed(7)}};
     Count count;
     for (uint32_t thrown = 0; thrown < kFragments; thrown += kAtOnce) {
         const auto world = make_bullet_world(kAtOnce + 1);
@@ -160,8 +168,9 @@ struct FarSide {
 };
 
 /// A ball's shell of cells between rings of latitude, each a hull of its eight corners. Four corners of two rings lie
-/// in a plane, so that the outsides of the cells bound a convex body. Returns those planes.
-std::vector<FarSide> add_shell(RigidWorld& world, RigidId id, float radius, float thickness) {
+/// in a plane, so that the outsides of the cells bound a convex body. Returns those planes, and where four cells meet.
+std::vector<FarSide> add_shell(RigidWorld& world, RigidId id, float radius, float thickness,
+                               std::vector<Vec3>* inner_corners = nullptr) {
     constexpr int kRings = 24, kAround = 48;
     RigidDescription d;
     d.margin = 0.0005f;
@@ -185,6 +194,7 @@ std::vector<FarSide> add_shell(RigidWorld& world, RigidId id, float radius, floa
             const Vec3 out = normalised(dot(across, cell[4]) < 0 ? -across : across);
             planes.push_back({out, std::max(dot(out, cell[4]), dot(out, cell[7])) + d.margin});
             cells.push_back(cell);
+            if (inner_corners && ring > 0) inner_corners->push_back(cell[0]);
         }
     std::vector<ConvexPiece> pieces;
     for (const auto& cell : cells) pieces.push_back({cell, static_cast<uint32_t>(pieces.size())});
@@ -194,11 +204,21 @@ std::vector<FarSide> add_shell(RigidWorld& world, RigidId id, float radius, floa
     return planes;
 }
 
+auto depth_in_shell(const std::vector<FarSide>& planes, float radius, float thickness) {
+    constexpr float kFlat = 0.02f;  // m; cells are up to 7 mm flatter than the ball
+    return [&planes, radius, thickness](Vec3 p) {
+        float beyond = -kFlat;
+        if (length(p) > radius - kFlat)
+            for (const FarSide& side : planes) beyond = std::max(beyond, dot(side.normal, p) - side.height);
+        return 1 + beyond / thickness;
+    };
+}
+
 template <class Throw>
 Count fly_in_shell(float spin, Throw&& any_fragment) {
     const FpMode mode;
-    constexpr float kRadius = 3, kThickness = 0.004f, kFlat = 0.02f;  // m; cells are up to 7 mm flatter than the ball
-    Dice dice{{8}};
+    constexpr float kRadius = 3, kThickness = 0.004f;  // m
+    Dice dice{{seed(8)}};
     Count count;
     for (uint32_t thrown = 0; thrown < kFragments; thrown += kAtOnce) {
         const auto world = make_bullet_world(kAtOnce + 1);
@@ -215,13 +235,7 @@ Count fly_in_shell(float spin, Throw&& any_fragment) {
             fragments.push_back(fragment);
             motions.push_back(motion);
         }
-        const auto depth_of = [&](Vec3 p) {
-            float beyond = -kFlat;
-            if (length(p) > kRadius - kFlat)
-                for (const FarSide& side : planes) beyond = std::max(beyond, dot(side.normal, p) - side.height);
-            return 1 + beyond / kThickness;
-        };
-        fly(*world, fragments, motions, depth_of, count);
+        fly(*world, fragments, motions, depth_in_shell(planes, kRadius, kThickness), count);
     }
     return count;
 }
@@ -230,8 +244,39 @@ TEST(Flight, NoneOfTenThousandShardsLeavesAShellOfCells) {
     expect_none_through(fly_in_shell(kSpin, throw_fragment));
 }
 TEST(Flight, NoneOfTenThousandSpinningSheetsLeavesAShellOfCells) {
-    // Wanted: none. One of the 10,000 gets out since contacts go with the thinner piece.
-    expect_none_through(fly_in_shell(kSheetSpin, [](Dice&) { return sheet(); }), 1);
+    expect_none_through(fly_in_shell(kSheetSpin, [](Dice&) { return sheet(); }));
+}
+
+// Where cells of a shell meet in one corner each of them is an edge inside what the others go on with: one has to push.
+TEST(Flight, NoSheetThatSpinsAboutACornerOfFourCellsLeavesTheShell) {
+    const FpMode mode;
+    constexpr float kRadius = 3, kThickness = 0.004f, kInside = -0.145f;  // m, m, and just touching
+    Dice dice{{seed(9)}};
+    Count count;
+    const Fragment fragment = sheet();
+    for (uint32_t thrown = 0; thrown < 4 * kAtOnce; thrown += kAtOnce) {
+        const auto world = make_bullet_world(kAtOnce + 1);
+        std::vector<Vec3> corners;
+        const std::vector<FarSide> planes = add_shell(*world, kWall, kRadius, kThickness, &corners);
+        const auto depth_of = depth_in_shell(planes, kRadius, kThickness);
+        std::vector<Fragment> fragments(kAtOnce, fragment);
+        std::vector<Motion> motions;
+        for (uint32_t k = 0; k < kAtOnce; ++k) {
+            const Vec3 corner = corners[static_cast<uint32_t>(dice.next(0, real(corners.size() - 1)))];
+            const Vec3 inwards = normalised(-corner), near = corner + 0.0006f * inwards;
+            Pose at;
+            do {  // one of its eight corners stands there, and none is in a cell
+                at.orientation = any_turn(dice);
+                const auto which = static_cast<uint32_t>(dice.next(0, real(fragment.points.size())));
+                at.position = near - rotate(at.orientation, fragment.points[which]);
+            } while (std::any_of(fragment.points.begin(), fragment.points.end(),
+                                 [&](Vec3 p) { return depth_of(at.position + rotate(at.orientation, p)) > kInside; }));
+            motions.push_back({dice.next(1, 30) * dice.direction(), dice.next(50, kSheetSpin) * dice.direction()});
+            add_fragment(*world, kFirst + k, fragment, at, motions.back());
+        }
+        fly(*world, fragments, motions, depth_of, count);
+    }
+    EXPECT_EQ(count.through, 0u);
 }
 
 }  // namespace
