@@ -254,7 +254,7 @@ TEST(Flight, NoSheetThatSpinsAboutACornerOfFourCellsLeavesTheShell) {
     Dice dice{{seed(9)}};
     Count count;
     const Fragment fragment = sheet();
-    for (uint32_t thrown = 0; thrown < 4 * kAtOnce; thrown += kAtOnce) {
+    for (uint32_t thrown = 0; thrown < 2 * kAtOnce; thrown += kAtOnce) {
         const auto world = make_bullet_world(kAtOnce + 1);
         std::vector<Vec3> corners;
         const std::vector<FarSide> planes = add_shell(*world, kWall, kRadius, kThickness, &corners);
