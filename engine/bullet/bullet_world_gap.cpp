@@ -40,13 +40,15 @@ constexpr float kPressedDeep = 0.0015f;  // m
 constexpr float kImpatience = 2;         // 1/s
 constexpr float kPressedSeconds = 1.5f;  // after which it sleeps as it lies
 
-// What comes to rest deeper than this in what never moves is laid to rest first: without speed, so that nothing but the
-// pushes out of overlaps moves it, until it has come out or this time is over; once, while it stays in its place. A
-// shard of two millimetres is turned over by the gravity of a single step, corner after corner into the floor, and
-// would sleep half a wall deep in it. (Of shards in each other a heap has always some, which wake each other.)
+// What comes to rest deeper than this in what never moves is laid to rest first: it keeps so little of its speed that
+// hardly anything but the pushes out of overlaps moves it, until it has come out or this time is over; once, while it
+// stays in its place. A shard of two millimetres is turned over by the gravity of a single step, corner after corner
+// into the floor, and would sleep half a wall deep in it. Without any speed the corners that it has come off do not
+// meet the floor again: it hung on one of them. (Of shards in each other a heap has always some, which wake each
+// other.)
 constexpr float kShallow = 0.00005f;  // m, at scale 1
 constexpr float kSettlingSeconds = 0.6f;
-constexpr float kBorneShare = 0.5f;  // of its weight, that bears it while it is laid to rest
+constexpr float kSettlingSpeed = 0.1f;  // of its speed, of what has the full reach; of what is smaller less
 
 // Where there is no gravity nothing holds anything: at rest is what would not leave its place in so long.
 constexpr float kDriftSeconds = 60;
@@ -359,17 +361,20 @@ void BulletWorld::update_sleep(float dt) {
 void BulletWorld::still_settling() {
     for (RigidId id = 0; id < body_end_; ++id) {
         Body& body = bodies_[id];
-        if (body.is_used && body.settling_seconds > 0 && body.is_free()) set_velocities(body, {0, 0, 0}, {0, 0, 0});
+        if (!body.is_used || !(body.settling_seconds > 0) || !body.is_free()) continue;
+        const float kept = kSettlingSpeed * size_of(body);
+        set_velocities(body, kept * body.bullet->getLinearVelocity(), kept * body.bullet->getAngularVelocity());
     }
 }
 
-// False: it is pushed out of something, or awake again, for nothing bears it any more.
+// False: it is pushed out of something, or awake again, for it leaves its place: nothing bears it any more, or it was
+// tipping over in the step before it was laid to rest.
 bool BulletWorld::has_settled(Body& body, float dt) {
     if (body.sunk <= kShallow || body.settling_seconds >= kSettlingSeconds) return true;
-    const bool is_borne = body.load >= kBorneShare * body.mass * gravity_.length() * dt;
+    const btTransform& now = body.bullet->getWorldTransform();
     body.has_left = false;
-    // In the step before it was laid to rest it may have been tipping over.
-    if (body.settling_seconds > 0 && (!is_borne || body.is_driven))
+    if (!(body.settling_seconds > 0)) body.anchor = now;
+    if (body.is_driven || has_left(body, body.anchor, now, size_of(body) * kStillDistance))
         wake_beside(body);
     else
         body.settling_seconds += dt;

@@ -33,7 +33,7 @@ constexpr float kDepthWeight = 20;        // a millimetre deeper counts as 20 mm
 constexpr float kDeepEnough = 0.002f;     // m, deeper than which place alone counts
 constexpr float kPastBonus = 0.01f;       // m
 constexpr float kSeamNear = 0.01f;        // m, between touches of one seam
-constexpr float kAsDeep = 0.0005f;        // m
+constexpr float kAsDeep = 0.0002f;        // m
 constexpr float kDeepInside = 0.005f;     // m, in an inner face
 constexpr float kOutOfInside = 0.001f;    // m, in an inner face: what is pushed out of it comes out as far as this
 constexpr float kDeepBehind = 0.01f;      // m, an open one
@@ -355,7 +355,7 @@ float PairAlgorithm::list_offers(std::vector<Offer>& offers) {
             const float past = p.m_lifeTime > 0 ? bonus : 0.0f;
             deepest = std::max(deepest, -p.m_distance1);
             offers.push_back({r->manifold, k, from_bullet(p.m_positionWorldOnB), from_bullet(p.m_normalWorldOnB),
-                              p.m_distance1 - past, kFar, r->is_through_seam});
+                              p.m_distance1, p.m_distance1 - past, kFar, r->is_through_seam});
         }
     return deepest;
 }
@@ -403,7 +403,7 @@ float PairAlgorithm::choose_best(std::vector<Offer>& offers) {
         Offer* best = nullptr;
         float best_score = -kFar;
         for (Offer& offer : offers) {
-            const float depth = round == 0 ? offer.distance : std::max(offer.distance, -deep_enough);
+            const float depth = round == 0 ? offer.held : std::max(offer.held, -deep_enough);
             const float score = (round == 0 ? 0 : offer.apart) - kDepthWeight * depth;
             if (!offer.is_chosen && score > best_score) best = &offer, best_score = score;
         }

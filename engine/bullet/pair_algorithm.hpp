@@ -53,6 +53,7 @@ struct Offer {
     int index;  // in the manifold
     Vec3 point, normal;
     float distance;
+    float held;          // m: the distance, and less where there was one a step ago, to keep what is held
     float apart = kFar;  // from the nearest chosen one, in the measure of choose_best()
     bool is_through_seam = false;
     bool is_chosen = false;

@@ -19,7 +19,7 @@ static_assert(2 * kMostVertices + kMostHullPoints <= kMostExtremeCandidates);
 // sinking.
 constexpr float kGoodEnough = 0.2f;
 // Of the margin: a hull that leaves out more is halved while the cell has parts left.
-constexpr float kTooMuch = 0.5f;
+constexpr float kTooMuch = 0.3f;
 
 uint32_t next_of(const ShellView& shell, uint32_t element) {
     return shell.state.elements.next_in_cell[shell.element(element)];
@@ -96,9 +96,9 @@ void add_candidates(const ShellView& shell, std::span<const uint32_t> list, floa
     const Vertices& vertices = shell.state.vertices;
     for (uint32_t i = 0; i < work.vertices.count; ++i) {
         const uint32_t row = shell.vertex(work.vertices.vertex[i]);
-        const float pull = std::min(margin, 0.5f * vertices.depth[row]);
         const Vec3 p = smoothed_place(shell.state, row) + margin * normalised(work.vertices.way_in[i]),
                    m = vertices.inward[row];
+        const float pull = pull_of(margin, vertices.depth[row], work.vertices.way_in[i]);
         work.candidates[work.candidate_count++] = p + pull * m;
         work.candidates[work.candidate_count++] = p + (vertices.depth[row] - pull) * m;
     }

@@ -10,8 +10,10 @@ namespace {
 
 constexpr uint32_t kMostVertices = kMostExtremeCandidates / 2;
 constexpr float kGoodEnough = 0.2f;  // of the margin, as for cells
+constexpr float kTooMuch = 0.3f;     // of the margin: a hull that leaves out more is none
 constexpr double kWidthShare = 0.2;
 constexpr float kMostMargin = 0.001f;  // m
+constexpr float kOnEdges = 0.85f;
 constexpr uint32_t kBoxCorners = 8;
 
 /// The points that are drawn, outer and inner, vertex by vertex.
@@ -81,7 +83,7 @@ void write_hull(const ShellView& shell, const FragmentPart* part, const Solid& s
     find_ways_in(shell, part, solid, chosen, way_in);
     for (uint32_t k = 0; k < chosen.count; ++k) {
         const uint32_t row = shell.vertex(solid.vertex[chosen.index[k] / 2]);
-        const float pull = std::min(margin, 0.5f * vertices.depth[row]);
+        const float pull = pull_of(margin, vertices.depth[row], way_in[k]);
         const bool is_inner = chosen.index[k] % 2 != 0;
         const Vec3 moved = margin * normalised(way_in[k]) + (is_inner ? -pull : pull) * vertices.inward[row];
         shell.state.hull_points.point.set(first_point + k, solid.point[chosen.index[k]] + moved);
@@ -99,6 +101,11 @@ void write_box(const ShellView& shell, const FittedBox& box, float margin, uint3
 }
 
 }  // namespace
+
+float pull_of(float margin, float depth, Vec3 way_in) {
+    const bool is_on_edge = dot(way_in, way_in) > 0;
+    return std::min(is_on_edge ? kOnEdges * margin : margin, 0.5f * depth);
+}
 
 float margin_for(double least_width) {
     return std::min(static_cast<float>(kWidthShare * least_width), kMostMargin);
@@ -134,7 +141,7 @@ void choose_shape(ShellView shell, uint32_t first_point, const FragmentPart* par
         shells.shape[shell.row] = static_cast<uint8_t>(ShapeKind::Box);
         shells.shape_points[shell.row] = kBoxCorners;
         write_box(shell, box, margin, first_point);
-    } else if (hull_ratio < kMostHullRatio && chosen.left_out < margin) {
+    } else if (hull_ratio < kMostHullRatio && chosen.left_out < kTooMuch * margin) {
         shells.shape[shell.row] = static_cast<uint8_t>(ShapeKind::Hull);
         shells.shape_points[shell.row] = static_cast<uint8_t>(chosen.count);
         write_hull(shell, part, solid, chosen, margin, first_point);
