@@ -253,20 +253,23 @@ Push Meeting::turn_on(bool is_of_b, Vec3d& axis) const {
     return push;
 }
 
-// m that a piece may go behind a triangle that it comes to along `axis`; 0: it closes too fast, and is to stop. Over
-// triangles most of a step's way leads aside; what of it leads inwards is pushed out on the right side when it is not
-// far, see is_far(). What glides over a floor or a hill nearer than the gap to stop at would otherwise stop at each
-// triangle that comes: fast shards lost a third of their way over hills.
+// m that a piece may go behind the face of another that it comes to along `axis`; 0: it closes too fast, and is to
+// stop. Over floors most of a step's way leads aside; what of it leads inwards is pushed out on the right side when it
+// is not far, see is_far(). What glides nearer than the gap to stop at would otherwise stop at each triangle or piece
+// that comes: fast shards lost a third of their way over hills, and planks of pieces over planks as much.
+// Between convex pieces that is only for what hardly turns: of 10,000 spinning shards two left a shell of cells.
 double goes_deeper(const Mover& a, const Hull& hull_a, const Mover& b, const Hull& hull_b, Vec3d axis, double turning,
                    float dt) {
-    if (!hull_a.one_sided && !hull_b.one_sided) return 0;
     const double scale = static_cast<double>(scale_of(hull_a, hull_b)),
                  margins = static_cast<double>(hull_a.margin) + hull_b.margin;
+    const bool has_triangle = hull_a.one_sided || hull_b.one_sided;
     const float thickness = hull_a.one_sided ? hull_b.thickness : hull_a.thickness;
-    const double most = std::max(scale * kDeeper, static_cast<double>(kThicknessShare * thickness));
+    const double least = scale * kDeeper,
+                 most = has_triangle ? std::max(least, static_cast<double>(kThicknessShare * thickness)) : least;
     if ((turning + dot(axis, b.velocity - a.velocity)) * dt < most) return most;
+    if (!has_triangle && turning * dt >= most) return 0;
     const bool is_gliding = gap_along(hull_a.world, hull_b.world, axis) - margins < scale * kTouching;
-    return is_gliding ? scale * kDeeper : 0;
+    return is_gliding ? least : 0;
 }
 
 }  // namespace

@@ -60,7 +60,8 @@ struct KnownAxes {
 /// `limit` when they do not before it. World points are those of the start; `axis` is a first guess, such as the last
 /// one of the same two bodies. Pieces that touch already may go a millimetre deeper, of two free bodies a tenth of the
 /// thinner one's width, lively ones in all a third of it, along the axis that `known` has for them. What comes to an
-/// edge inside of something flat goes on as if it touched the open face there.
+/// edge inside of something flat goes on as if it touched the open face there, and what glides over a face as if it had
+/// touched it before.
 double touch_fraction(const Surroundings& around, const Mover& a, const Hull& hull_a, const Mover& b,
                       const Hull& hull_b, float dt, double limit, Vec3d& axis, const KnownAxes& known = {});
 

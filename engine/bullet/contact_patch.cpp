@@ -329,6 +329,14 @@ void add_touch(Patch& patch, const Hull& a, const Hull& b, const Touch& touch) {
     add_point(patch, a, b, touch.middle - height * touch.normal, low, low - touch.gap);
 }
 
+void set_nearest(Patch& patch, const Hull& a, const Hull& b, const Touch& touch) {
+    patch.has_nearest = touch.gap > scale_of(a, b) * kApart;
+    if (!patch.has_nearest) return;
+    const Vec3 middle = a.world.centre + touch.middle;
+    patch.nearest_on_a = middle + (0.5f * touch.gap - a.margin) * touch.normal;
+    patch.nearest_on_b = middle - (0.5f * touch.gap - b.margin) * touch.normal;
+}
+
 }  // namespace
 
 void add_best_spots(Patch& patch, const Hull& a, const Hull& b, const PatchFrame& frame, const Spot* spots,
@@ -425,6 +433,7 @@ Patch contact_patch(const Hull& a, const Mat3& rotation_a, const Hull& b, const 
     if (!touch.is_near) return patch;
     patch.normal = touch.normal;
     patch.is_through_seam = touch.is_through_seam;
+    set_nearest(patch, a, b, touch);
     Spot spots[4 * kMaxPoints];
     const float scale = scale_of(a, b);
     const PatchFrame frame = make_frame(touch.normal);

@@ -18,6 +18,10 @@ struct Patch {
     Vec3 normal;  // of all points, but where a crack has several
     // The direction leads out of one of the two through a seam: the touch may be the neighbouring piece's affair.
     bool is_through_seam = false;
+    // Where the two are nearest to each other, while their cores are apart and not both boxes. The points of a patch
+    // along a slant normal may all lie beside it, far down a side.
+    bool has_nearest = false;
+    Vec3 nearest_on_a, nearest_on_b;  // world, on the surfaces with their margins
     float room = 0;  // m that the two may move against each other before they have a contact; 0 when they have
     PatchPoint point[kPatchPoints];
 };

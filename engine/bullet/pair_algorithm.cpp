@@ -282,19 +282,24 @@ void PairAlgorithm::keep_to_open_faces(Patch& patch, PairRecord& record, const B
     const auto keep = [&](const Body& body, const Hull& hull, const Body& other, const Hull& piece, bool is_a) {
         if (patch.count == 0 || !may_have_inner_edges(body, hull)) return;
         const float scale = scale_of(hull, piece);
-        Vec3 places[kPatchPoints];
-        int deepest = 0;
+        Vec3 places[kPatchPoints + 1];
+        int deepest = 0, count = patch.count;
         for (int k = 0; k < patch.count; ++k) {
             places[k] = is_a ? patch.point[k].on_a : patch.point[k].on_b;
             if (patch.point[k].distance < patch.point[deepest].distance) deepest = k;
         }
         std::swap(places[0], places[deepest]);
+        // A triangle has no sides that points could lie on.
+        if (patch.has_nearest && !hull.one_sided) {
+            places[count++] = places[0];
+            places[0] = is_a ? patch.nearest_on_a : patch.nearest_on_b;
+        }
         Vec3 normal = is_a ? -patch.normal : patch.normal;
         if (hull.one_sided &&
             is_out_of_sight(body, hull, other, piece, normal, places[0], patch.point[deepest].distance))
             return (void)(patch.count = 0);
         const Push push = turn_to_open_face(work_->around, {body, hull, other, piece, piece.world},
-                                            {places, static_cast<size_t>(patch.count)}, normal);
+                                            {places, static_cast<size_t>(count)}, normal);
         if (push == Push::AsFound) return;
         if (patch.point[deepest].distance < -scale * inside) return (void)(record.is_pushed_out = true);
         if (push == Push::None) return (void)(patch.count = 0);
