@@ -301,7 +301,10 @@ void PairAlgorithm::keep_to_open_faces(Patch& patch, PairRecord& record, const B
         const Push push = turn_to_open_face(work_->around, {body, hull, other, piece, piece.world},
                                             {places, static_cast<size_t>(count)}, normal);
         if (push == Push::AsFound) return;
-        if (patch.point[deepest].distance < -scale * inside) return (void)(record.is_pushed_out = true);
+        // Triangles are no pieces to be wedged among: a ball at 20 m/s is as deep in a hill that rises before it.
+        const bool may_be_wedged = !hull.one_sided || push == Push::None;
+        if (may_be_wedged && patch.point[deepest].distance < -scale * inside)
+            return (void)(record.is_pushed_out = true);
         if (push == Push::None) return (void)(patch.count = 0);
         const Vec3 turned = is_a ? -normal : normal;
         const Patch along = patch_along(hull_a, rotation_of(a.fresh_at), hull_b, rotation_of(b.fresh_at), turned);
