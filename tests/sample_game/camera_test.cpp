@@ -16,7 +16,7 @@ namespace {
 
 // What breaks lies still by then, but for the pile and the street, which go on. CULLET_SCENE_FRAMES=1200 plays all of
 // all.
-constexpr uint32_t kFrames = 240;
+constexpr uint32_t kFrames = 240, kPileFrames = 100;  // what comes later in the pile lies on what is there
 
 /// Area on its way into the eye, m2.
 struct Seen {
@@ -97,8 +97,9 @@ TEST_P(EveryCamera, HoldsNearlyAllThatBreaksFromTheFirstPictureToTheEnd) {
     options.scene = GetParam().name;
     const ScenePlan plan = plan_scene(GetParam(), options);
     const Story story = read_story(plan).value();
+    const uint32_t most = GetParam().name == "pile" ? kPileFrames : kFrames;
     const char* wanted = std::getenv("CULLET_SCENE_FRAMES");
-    const uint32_t frames = std::min(frame_count(story, options), wanted ? std::max(1, std::atoi(wanted)) : kFrames);
+    const uint32_t frames = std::min(frame_count(story, options), wanted ? std::max(1, std::atoi(wanted)) : most);
     Result<GameWorld> game = GameWorld::create(plan);
     ASSERT_TRUE(game.ok()) << game.error();
     Seen seen;

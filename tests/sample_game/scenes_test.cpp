@@ -1,6 +1,7 @@
 // Every scene: the same bytes on any number of threads, no memory asked for, no mass lost.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstdlib>
 #include <map>
@@ -23,6 +24,10 @@ uint32_t frames_to_play() {
     return wanted > 0 ? static_cast<uint32_t>(wanted) : 120;
 }
 const uint32_t kFrames = frames_to_play();
+/// Those that are compared hash by hash, in seven plays: 40 of pile, in which a dozen vases break.
+uint32_t hashed_frames_of(const Scene& scene) {
+    return scene.name == "pile" ? std::min(kFrames, 40u) : kFrames;
+}
 
 /// A scene's plan, cooked once for all tests of it.
 const ScenePlan& plan_of(const Scene& scene) {
@@ -36,8 +41,18 @@ const ScenePlan& plan_of(const Scene& scene) {
 
 class EveryScene : public testing::TestWithParam<Scene> {};
 
-std::vector<uint64_t> hashes_of(const ScenePlan& plan, const Host& host = {}) {
-    return test::hashes_of(plan, kFrames, host);
+/// Of each frame.
+std::vector<uint64_t> hashes_of(const Scene& scene, uint32_t threads, const Host& host = {}) {
+    ScenePlan plan = plan_of(scene);
+    plan.threads = threads;
+    return test::hashes_of(plan, hashed_frames_of(scene), host);
+}
+/// On one thread, played once for all tests of the scene.
+const std::vector<uint64_t>& hashes_alone(const Scene& scene) {
+    static std::map<std::string, std::vector<uint64_t>> hashes;
+    std::vector<uint64_t>& found = hashes[scene.name];
+    if (found.empty()) found = hashes_of(scene, 1);
+    return found;
 }
 using test::difference;
 
@@ -57,35 +72,32 @@ struct OddJobs {
     }
 };
 
-TEST_P(EveryScene, HashesAreEqualOnOneTwoThreeAndEightThreads) {
-    ScenePlan plan = plan_of(GetParam());
-    plan.threads = 1;
-    const std::vector<uint64_t> one = hashes_of(plan);
-    ASSERT_EQ(one.size(), kFrames);
+// Two worlds at once on one and two threads: see below.
+TEST_P(EveryScene, HashesAreEqualOnOneThreeAndEightThreads) {
+    const Scene& scene = GetParam();
+    const std::vector<uint64_t>& one = hashes_alone(scene);
+    ASSERT_EQ(one.size(), hashed_frames_of(scene));
     EXPECT_NE(one.front(), one.back());
-    for (const uint32_t threads : {2u, 3u, 8u}) {
-        plan.threads = threads;
-        EXPECT_EQ(difference(one, hashes_of(plan)), "") << threads << " threads";
-    }
+    for (const uint32_t threads : {3u, 8u})
+        EXPECT_EQ(difference(one, hashes_of(scene, threads)), "") << threads << " threads";
     for (const bool is_random : {false, true}) {
         OddJobs jobs{is_random};
         Host host;
         host.jobs.user = &jobs;
         host.jobs.worker_count = [](void*) { return 4u; };
         host.jobs.parallel_for = &OddJobs::run;
-        EXPECT_EQ(difference(one, hashes_of(plan, host)), "") << (is_random ? "shuffled" : "backward") << " host jobs";
+        EXPECT_EQ(difference(one, hashes_of(scene, 1, host)), "")
+            << (is_random ? "shuffled" : "backward") << " host jobs";
     }
 }
 
-TEST_P(EveryScene, TwoWorldsSteppedOnTwoThreadsAtOnceDoNotMeet) {
-    ScenePlan plan = plan_of(GetParam());
-    plan.threads = 1;
-    const std::vector<uint64_t> alone = hashes_of(plan);
-    ScenePlan with_workers = plan;
-    with_workers.threads = 2;
+TEST_P(EveryScene, TwoWorldsSteppedOnOneAndTwoThreadsAtOnceDoNotMeet) {
+    const Scene& scene = GetParam();
+    const std::vector<uint64_t>& alone = hashes_alone(scene);
+    plan_of(scene);  // cooked before two threads ask for it
     std::vector<uint64_t> beside;
-    std::thread other([&] { beside = hashes_of(with_workers); });
-    const std::vector<uint64_t> here = hashes_of(plan);
+    std::thread other([&] { beside = hashes_of(scene, 2); });
+    const std::vector<uint64_t> here = hashes_of(scene, 1);
     other.join();
     EXPECT_EQ(difference(alone, here), "");
     EXPECT_EQ(difference(alone, beside), "");
