@@ -16,13 +16,19 @@ inline float first_crack_speed(const Shells& shells, Row<Shells> s, float streng
 inline float wake_speed(const Shells& shells, Row<Shells> s, float strength_scale) {
     return kWakeShare * first_crack_speed(shells, s, strength_scale) * (shells.has_cracks[s] ? 0.5f : 1.0f);
 }
-/// Fragments too light, of too few elements or broken too often break no further (section 6.1); the game says where.
+/// Fragments too light, or of too few elements, break no further (section 6.1); the game says where.
+inline bool is_worth_breaking(const Shells& shells, Row<Shells> s, const DamageSettings& settings) {
+    return shells.generation[s] == 0 || (shells.mass[s] >= double{settings.break_share} * shells.intact_mass[s] &&
+                                         shells.elements[s].count - shells.dead_elements[s] >= settings.break_elements);
+}
+/// Nor do those that blows and loads have broken too often.
 inline bool may_break_again(const Shells& shells, Row<Shells> s, const DamageSettings& settings) {
     const uint32_t generation = shells.generation[s];
-    if (generation == 0) return true;
-    return generation < settings.generations &&
-           shells.mass[s] >= double{settings.break_share} * shells.intact_mass[s] &&
-           shells.elements[s].count - shells.dead_elements[s] >= settings.break_elements;
+    return generation == 0 || (generation < settings.generations && is_worth_breaking(shells, s, settings));
+}
+/// What snaps has no last generation, as what is cut, unless the game lets whole bodies break alone.
+inline bool may_snap_again(const Shells& shells, Row<Shells> s, const DamageSettings& settings) {
+    return shells.generation[s] == 0 || (settings.generations > 0 && is_worth_breaking(shells, s, settings));
 }
 inline uint64_t retry_frames(float dt) {
     return 1 + static_cast<uint64_t>(std::ceil(kRetrySeconds / dt));

@@ -151,8 +151,9 @@ void open_queued_of(uint64_t frame, Opening& opening, const DamageSettings& sett
         if (has_waiting_cut(opening.blows, body)) continue;
         // Older bumps of what presses on it would work for half a second before the load is looked at.
         if (!(queued.load[q] > 0) && is_loaded(queued, body)) continue;
-        if (may_break_again(state.shells, bodies.shell[body], settings)) {
-            const bool snaps = is_snap(queued.load[q], queued.approach_speed[q]);
+        const bool snaps = is_snap(queued.load[q], queued.approach_speed[q]);
+        const auto may_break = snaps ? may_snap_again : may_break_again;
+        if (may_break(state.shells, bodies.shell[body], settings)) {
             if (snaps && open_snap(opening, q, impact_events)) {
                 queued.clear_rows(q, 1);
                 continue;

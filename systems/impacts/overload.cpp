@@ -25,6 +25,12 @@ constexpr double kNearBelow = 0.05, kNearMargins = 3;
 // What has a solid wall below it: as far as this many walls.
 constexpr double kSolidWalls = 2.5;
 
+// Who weighs so many times what a body does stands, for it: the solver leaves them closing on it, and what lies between
+// such a one and a floor is crushed, slips away, or stands in both.
+constexpr double kOutweighs = 20;
+// Opposite is what is within 37 degrees of it.
+constexpr double kOpposite = -0.8;
+
 /// N along and against a direction: what pushes, and what could be borne.
 struct Sides {
     double along = 0, against = 0, bears_along = 0, bears_against = 0;
@@ -151,6 +157,25 @@ double force_borne(const LoadedBody& of) {
     return of.strength_share() * of.shells.first_crack_force[of.shell()];
 }
 
+double sunk_into(const LoadedBody& of, std::span<const BodyLoad> loads) {
+    const Bodies& bodies = of.bodies;
+    const double heavy = kOutweighs * bodies.mass[of.body];
+    // Who is held in the grip of a run stands for some frames, no more.
+    const auto stays = [&](const BodyLoad& l) {
+        return !l.toucher.exists() || static_cast<BodyKind>(bodies.kind[l.toucher]) != BodyKind::Dynamic ||
+               bodies.mass[l.toucher] > heavy;
+    };
+    const BodyLoad* deepest = nullptr;
+    for (const BodyLoad& l : loads)
+        if (stays(l) && l.depth > (deepest ? deepest->depth : 0)) deepest = &l;
+    if (!deepest) return 0;
+    double sunk = of.is_pinned() ? deepest->depth : 0;
+    for (const BodyLoad& l : loads)
+        if (stays(l) && (l.is_backed || deepest->is_backed) && dot(l.push, deepest->push) < kOpposite)
+            sunk = std::max(sunk, deepest->depth + std::max(0.0, l.depth));
+    return sunk;
+}
+
 Overload overload_of(const LoadedBody& of, const RigidWorld& rigid, std::span<BodyLoad> loads, Vec3d weight,
                      const OverloadRoom& room) {
     Overload at_rest;
@@ -160,6 +185,7 @@ Overload overload_of(const LoadedBody& of, const RigidWorld& rigid, std::span<Bo
     at_rest.is_driven = closing.driver != nullptr;
     at_rest.is_between = closing.is_between;
     at_rest.driven_speed = at_rest.is_driven ? at.driven_speed : 0;
+    at_rest.sunk = sunk_into(of, loads);
     at_rest.contact = at.contact;
     at_rest.section = of.bodies.centre[of.body] + 0.5 * at.place;
     // What is squeezed splits along the push, across its longest side.

@@ -44,6 +44,7 @@ struct Overload {
     bool is_driven = false;   // two that do not yield close on it: no force is enough for long
     bool is_between = false;  // driven, and all that close on it touch it themselves
     double driven_speed = 0;  // m/s, of the fastest that closes on it
+    double sunk = 0;          // m, that two who do not make way for it lie in it together, from opposite sides
     // Where it would come apart, body frame and axes: across the bar where the moment is largest, or along the push
     // that squeezes it.
     Vec3d section, section_normal;
@@ -51,14 +52,17 @@ struct Overload {
 
 /// N that one place of the body bears for long: less once it has cracks.
 double force_borne(const LoadedBody& of);
+/// m, see Overload.
+double sunk_into(const LoadedBody& of, std::span<const BodyLoad> loads);
 
-/// The worst of three:
+/// The worst of these:
 /// - Squeezed: along each push, the forces that push that way, as far as the others bear them, over first_crack_force.
 /// - Bent: the moment of the loads in sections across its principal axes, over strength times section modulus, W = V/L
 ///   <x^2> / c (exact for bars, flat sheets and tubes: b h^2 / 6, pi R^2 h). What the loads leave over accelerates it
 ///   evenly. Pins bear like a beam's supports, the nearest to both sides of the load.
 /// - Driven: those that do not yield close on it, from opposite sides or so that it has no way out, and touch it or
 ///   press on it through others.
+/// Sunk into, whatever the solver says: who is many times as heavy counts as one that does not make way.
 /// A load over somebody who bears the body just there bends nothing, and squeezes by its pressure where it lies flat.
 /// `weight`: N, body axes. Where the loads are not in balance as they were solved, those that are backed get what
 /// balances the others.

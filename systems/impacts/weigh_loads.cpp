@@ -34,6 +34,8 @@ constexpr float kBreakingSpeed = 2, kMostShare = 1.5f, kHarder = 1.5f;
 // What no such blow breaks snaps. A bar that bears tonnes in its middle takes blows of 100 m/s, which bore holes; what
 // drives does not wait for a second run, nor for a first one while it comes so far, as a share of the size.
 constexpr float kFastestRun = 15, kDeepest = 0.05f, kWithCracks = 1.6f;
+// What lies deeper in it than these shares of its size and of its wall has crushed it, whatever the solver says.
+constexpr float kSunkInAll = 0.03f, kSunkInWall = 0.5f;
 constexpr uint8_t kMostRuns = 2, kMostDrivenRuns = 1;
 // Of fewer elements a blow knocks out a corner, and what is left may have too few to break again.
 constexpr uint32_t kFewestForARun = 200;
@@ -57,19 +59,32 @@ bool is_counted(Step step) {
     return step.dt > 0.99f * kLeastCounted || is_period_over(step, kLeastCounted);
 }
 
+bool is_deep(const Bodies& bodies, Row<Bodies> body, double way) {
+    return way > kDeepest * 2 * bodies.radius[body];
+}
+bool is_sunk(const LoadedBody& of, double deep) {
+    return deep > kSunkInAll * 2 * of.bodies.radius[of.body] && deep > kSunkInWall * of.shells.thickness[of.shell()];
+}
+
 // Whether there is anything to look at.
 double least_load(const LoadedBody& of) {
     return std::min(2 * force_borne(of), least_bending_force(of));
 }
 bool may_be_overloaded(const LoadedBody& of, std::span<const BodyLoad> loads) {
     const auto is_driven = [](const BodyLoad& l) { return l.driven_speed > 0; };
-    return std::any_of(loads.begin(), loads.end(), is_driven) || sum_of(loads) > kLookShare * least_load(of);
+    return std::any_of(loads.begin(), loads.end(), is_driven) || sum_of(loads) > kLookShare * least_load(of) ||
+           is_sunk(of, sunk_into(of, loads));
 }
 
 // It may break, and is not held.
 bool may_be_loaded(const LoadedBody& of, const DamageSettings& settings) {
-    return is_fragile(of.bodies, of.shells, settings, of.body) && !of.bodies.hold_count[of.body] &&
-           of.shells.first_crack_force[of.shell()] > 0 && force_borne(of) < kBearsAll;
+    return of.shell().exists() && of.bodies.is_breakable[of.body] && may_snap_again(of.shells, of.shell(), settings) &&
+           !of.bodies.hold_count[of.body] && of.shells.first_crack_force[of.shell()] > 0 && force_borne(of) < kBearsAll;
+}
+
+// It has broken too often for a blow. It still gives way to what does not yield: a door does not stop for it.
+bool is_past_blows(const LoadedBody& of, const DamageSettings& settings) {
+    return !may_break_again(of.shells, of.shell(), settings);
 }
 
 // What is laid on a sleeper little by little is not to find it asleep for ever: its supports tell their loads only
@@ -113,18 +128,17 @@ bool is_crushed(const Overload& over) {
     return !over.is_driven && over.share > kCrushed;
 }
 
-// m, that what drives, or falls, comes in so many seconds.
+// m, that what drives, or falls, is in it in so many seconds.
 double way_in(const Overload& over, Vec3 gravity, double seconds) {
     if (over.is_driven) return over.driven_speed * seconds;
-    return is_crushed(over) ? 0.5 * length(gravity) * seconds * seconds : 0;
-}
-bool is_deep(const Bodies& bodies, Row<Bodies> body, double way) {
-    return way > kDeepest * 2 * bodies.radius[body];
+    return is_crushed(over) ? over.sunk + 0.5 * length(gravity) * seconds * seconds : 0;
 }
 
-bool is_for_a_run(const BodyRows& state, Row<Bodies> body, const Overload& over, const DamageSettings& settings,
+bool is_for_a_run(const BodyRows& state, const LoadedBody& of, const Overload& over, const DamageSettings& settings,
                   Step step) {
     const Bodies& bodies = state.bodies;
+    const Row<Bodies> body = of.body;
+    if (is_sunk(of, over.sunk) || is_past_blows(of, settings)) return false;
     if (bodies.overload_runs[body] >= (over.is_driven ? kMostDrivenRuns : kMostRuns)) return false;
     if (speed_of(state, body, over) > kFastestRun) return false;
     if (state.shells.elements[bodies.shell[body]].count < kFewestForARun) return false;
@@ -158,8 +172,14 @@ QueuedHit snap_of(QueuedHit hit, const Overload& over) {
 }
 
 // So many counted steps in a row it has to be too much.
-uint32_t counts_wanted(const Bodies& bodies, Row<Bodies> body, const Overload& over, float dt) {
+uint32_t counts_wanted(const LoadedBody& of, const Overload& over, float dt) {
+    const Bodies& bodies = of.bodies;
+    const Row<Bodies> body = of.body;
     const uint8_t runs = bodies.overload_runs[body];
+    const bool is_too_much = over.is_driven || over.share > 1;
+    if (is_sunk(of, over.sunk) && is_too_much) return 1u << std::min(runs, kMostCrushedRuns);
+    if (!is_too_much && is_deep(bodies, body, over.sunk))
+        return counts_in(kDrivenSeconds, dt) << std::min(runs, kMostLoadRuns);
     if (over.is_between) {
         const uint32_t counts = counts_in(kDrivenSeconds, dt);
         const double seconds = counts * double{std::max(dt, kLeastCounted)};
@@ -240,12 +260,13 @@ void weigh_loads(Serial, Step step, RigidWorld& rigid, BodyRows& rows, QueuedHit
                                   ? overload_of(of, rigid, loads, weight_of(bodies, body, step.gravity), room)
                                   : Overload{};
         const bool is_busy = bodies.task[b] != kNone;
-        if (!over.is_driven && !(over.share > 1)) {
+        const bool is_too_much = over.share > 1 && !is_past_blows(of, settings);
+        if (!over.is_driven && !is_too_much && !is_sunk(of, over.sunk)) {
             bodies.overloaded_steps[b] = 0;
             if (!is_busy && over.share < 0.5) bodies.overload_runs[b] = 0;
             continue;
         }
-        const uint32_t wanted = counts_wanted(bodies, body, over, step.dt);
+        const uint32_t wanted = counts_wanted(of, over, step.dt);
         if (bodies.overloaded_steps[b] < kWasWoken - 1) ++bodies.overloaded_steps[b];
         if (bodies.overloaded_steps[b] < std::min<uint32_t>(wanted, kWasWoken - 1)) continue;
         const bool has_pressed_on = is_busy && is_too_late(rows, body, over, step);
@@ -253,7 +274,7 @@ void weigh_loads(Serial, Step step, RigidWorld& rigid, BodyRows& rows, QueuedHit
         bodies.overloaded_steps[b] = 0;
         const QueuedHit blow = hit_of(rows, body, contacts[over.contact], over, step.frame);
         const QueuedHit hit =
-            !has_pressed_on && is_for_a_run(rows, body, over, settings, step) ? blow : snap_of(blow, over);
+            !has_pressed_on && is_for_a_run(rows, of, over, settings, step) ? blow : snap_of(blow, over);
         if (!is_allowed(bodies, hit, settings)) continue;
         if (is_busy) cancel_task(rows, Row<Tasks>(bodies.task[b]));
         bodies.overload_runs[b] = std::min<uint8_t>(static_cast<uint8_t>(bodies.overload_runs[b] + 1), kMostLoadRuns);

@@ -40,7 +40,8 @@ struct Settings {
     /// still or is slow, and its hit is worked off until then: a touch that comes as foreseen is applied at once,
     /// without a hold. 0 to 60; 0: never. Not where the host moves the bodies.
     uint32_t frames_ahead = 8;
-    /// Fragments break again down to this generation (0: only whole bodies break); 0 to 100.
+    /// Fragments break again down to this generation (0: only whole bodies break); 0 to 100. What is squeezed by those
+    /// that do not yield snaps past it.
     uint32_t generations = 3;
     /// Pieces lighter than this share of the intact body, or of fewer elements than `break_elements`, do not break
     /// again; 0 to 1. Each break of a smaller piece costs a task and gives crumbs.
