@@ -220,7 +220,7 @@ TEST_P(Settles, NearlyAllSleepFiveSecondsAfterTheLastBreakOrFallAndNoneMovesAfte
 
 // A wall leaves twenty slabs, some as long as a man, which lean on each other: a few of them rock on for longer than
 // five seconds. How many walls that happens in is a rate, and no four of them tell it.
-TEST(ThirtyWalls, AtMostSixKeepASlabRockingForFiveSecondsAndOneForTen) {
+TEST(ThirtyWalls, AtMostFourKeepASlabRockingForFiveSecondsAndOneForTen) {
     size_t rocking = 0, moving = 0;
     for (int seed = 1; seed <= 30; ++seed) {
         const Settling s = settle(Case{"wall", seed});
@@ -229,7 +229,7 @@ TEST(ThirtyWalls, AtMostSixKeepASlabRockingForFiveSecondsAndOneForTen) {
         expect_only_losses(s);
     }
     std::printf("%zu of 30 rock after five seconds, %zu after ten\n", rocking, moving);
-    EXPECT_LE(rocking, 6u);
+    EXPECT_LE(rocking, 4u);
     EXPECT_LE(moving, 1u);
 }
 
