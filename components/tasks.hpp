@@ -147,5 +147,9 @@ inline uint32_t steps_left(const Tasks& tasks, uint32_t t, uint32_t granted) {
 inline uint32_t steps_left(const Tasks& tasks, uint32_t t) {
     return steps_left(tasks, t, tasks.steps_granted[t]);
 }
+/// It runs, and has steps left of those granted.
+inline bool task_goes_on(const Tasks& tasks, uint32_t t) {
+    return static_cast<TaskState>(tasks.state[t]) == TaskState::Running && tasks.steps_granted[t] > 0;
+}
 
 }  // namespace cullet

@@ -1,6 +1,8 @@
 // All inner loops of a frame on all workers, by one policy: the longest first, one job each; but those that would keep
 // one worker longer than the others are shared by all workers, one after another.
 #pragma once
+#include <memory>
+#include <new>
 #include <span>
 #include <vector>
 
@@ -10,17 +12,16 @@
 
 namespace cullet {
 
-/// One run of one loop, whatever its world is.
+/// One run of one loop, whatever its world is: a small struct of references, of which the run keeps a copy.
 class LoopRun {
  public:
     /// `units`: what it costs, counted alike in all of a list. `may_be_shared`: it has rows enough for a pass to be
-    /// worth a barrier. `units_left(world, row)`, where given, tells afterwards how many units were not used. Loop and
-    /// world must outlive the run.
+    /// worth a barrier. `units_left(world, row)`, where given, tells afterwards how many units were not used. The loop,
+    /// and what the world refers to, must outlive the run.
     template <class World>
-    LoopRun(const InnerLoop<World>& loop, World& world, const typename InnerLoop<World>::Run& run, uint64_t units,
+    LoopRun(const InnerLoop<World>& loop, const World& world, const typename InnerLoop<World>::Run& run, uint64_t units,
             bool may_be_shared, uint32_t zone, uint64_t (*units_left)(World&, uint32_t row) = nullptr)
         : loop_(&loop),
-          world_(&world),
           goes_on_(reinterpret_cast<void (*)()>(run.goes_on)),
           left_over_(reinterpret_cast<void (*)()>(units_left)),
           calls_(&kCalls<World>),
@@ -29,7 +30,10 @@ class LoopRun {
           first_(run.first),
           repetitions_(run.repetitions),
           zone_(zone),
-          may_be_shared_(may_be_shared) {}
+          may_be_shared_(may_be_shared) {
+        static_assert(std::is_trivially_copyable_v<World> && sizeof(World) <= sizeof(world_));
+        std::construct_at(reinterpret_cast<World*>(world_), world);
+    }
 
     uint64_t units() const { return units_; }
     uint32_t row() const { return row_; }
@@ -47,7 +51,7 @@ class LoopRun {
     };
     template <class World>
     World& world() const {
-        return *static_cast<World*>(world_);
+        return *std::launder(reinterpret_cast<World*>(world_));
     }
     template <class World>
     const InnerLoop<World>& loop() const {
@@ -83,7 +87,7 @@ class LoopRun {
     static constexpr Calls kCalls = {call_alone<World>, call_together<World>, call_left_over<World>};
 
     const void* loop_;
-    void* world_;
+    alignas(void*) mutable std::byte world_[2 * sizeof(void*)];
     void (*goes_on_)();  // of the loop's world, as left_over_
     void (*left_over_)();
     const Calls* calls_;

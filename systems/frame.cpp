@@ -12,9 +12,8 @@
 
 namespace cullet {
 
-FramePlan<WorldData> make_frame_plan(bool is_hosted, const RunLoops& loops) {
-    const Tenants all = tenants();
-    SlottedPlan plan(all);
+FramePlan<WorldData> make_frame_plan(bool is_hosted, const DamageModels& models) {
+    SlottedPlan plan(models, structures());
     plan.stage("start").then<remember_poses>();
     if (is_hosted) plan.then<read_rigid>();
     plan.then<take_blows>();
@@ -26,8 +25,7 @@ FramePlan<WorldData> make_frame_plan(bool is_hosted, const RunLoops& loops) {
         .then<foresee_impacts>()
         .then<open_tasks>()
         .models(Slot::Wake);
-    plan.stage("damage").then<grant_units>().then<advance_runs>();
-    loops.show_in(plan);
+    plan.stage("damage").then<grant_units>().then<advance_runs>().loops();
     plan.models(Slot::Pass).then<settle_tasks>().models(Slot::Close);
     plan.stage("apply")
         .models(Slot::Group)

@@ -1,72 +1,145 @@
-// What the frame knows of damage models and of structures: the slots that they fill with systems of their own.
+// A damage model as the rest of the program knows it: the slots that it fills with systems of its own, its inner loops,
+// and calls. One more is a line in models.cpp.
+//
+// A call is a plain function over a set of tables. What is asked of all models is asked one after the other; a model
+// without the call, or whose tables do not have the task or the body, has nothing to do with it.
 #pragma once
-#include <string>
-#include <vector>
+#include <optional>
 
-#include "engine/frame_plan.hpp"
-#include "systems/world_data.hpp"
+#include "systems/checks/world_energy.hpp"
+#include "systems/model_loops.hpp"
+#include "systems/slots.hpp"
+#include "systems/structures/shell/explosion.hpp"
 
 namespace cullet {
 
-/// Places in a frame (frame.cpp).
-enum class Slot : uint8_t {
-    // Of what breaks things: models.
-    Rest,      // what moves by itself comes to rest
-    Wake,      // what was hit gets its rows
-    Pass,      // what inner loops gave to others
-    Close,     // what ended gives its rows back
-    Group,     // what hangs together
-    GiveBack,  // after the solve
-    Show,      // before drawing
-    // Of what things are made of: structures.
-    Fill,     // pieces get their rows
-    Hull,     // what collides
-    Draw,     // what is seen
-    Compact,  // rows that nobody uses
+/// A blow of the game's at one place of a body.
+struct PointPush {
+    Vec3 point;         // body frame, m
+    Vec3 impulse;       // N s, body axes
+    float radius = 0;   // m, that it is shared out over
+    float fastest = 0;  // m/s, at most, that it gives to any point
 };
 
-/// The systems of one model or structure, slot by slot.
-class SlotList {
+class DamageModel {
  public:
-    explicit SlotList(std::string name) : name_(std::move(name)) {}
+    explicit DamageModel(std::string name) : slots_(std::move(name)) {}
 
-    /// The systems that follow belong there.
-    SlotList& at(Slot slot) {
-        slot_ = slot;
+    // ---- registration
+
+    DamageModel& at(Slot slot) {
+        slots_.at(slot);
         return *this;
     }
     template <auto System>
-    SlotList& then() {
-        systems_.push_back({slot_, [](FramePlan<WorldData>& plan) { plan.then<System>(); }});
+    DamageModel& then() {
+        slots_.then<System>();
         return *this;
     }
-    const std::string& name() const { return name_; }
-    /// In the order in which they were named.
-    void add_to(FramePlan<WorldData>& plan, Slot slot) const {
-        for (const Filled& system : systems_)
-            if (system.slot == slot) system.add(plan);
+    /// A loop that works off tasks, and what its runs cost.
+    template <auto Cost, class World>
+    DamageModel& loop(std::string title, InnerLoop<World> loop, const TaskCalls& calls) {
+        task_loops_.push_back(TaskLoop::of<Cost>(std::move(title), std::move(loop), calls));
+        return *this;
+    }
+    /// A loop that runs in each frame. Its time is shown under `zone`.
+    template <class World>
+    DamageModel& frame_loop(std::string title, InnerLoop<World> loop, const FrameCalls& calls) {
+        frame_loops_.emplace_back(std::move(title), std::move(loop), calls);
+        return *this;
+    }
+    /// Units of its frame loops: `Wanted(rows)` for all that they ask for; `Grant(rows, units, slow_frames)` gives them
+    /// what the frame has, counts what runs slower than the world, and returns what that costs. `zone`: of the
+    /// profiler.
+    template <auto Wanted, auto Grant>
+    DamageModel& moves_each_frame(const char* zone) {
+        frame_zone_ = zone;
+        calls_.wanted = [](const SoftRows& rows) { return Wanted(rows); };
+        calls_.grant = [](SoftRows& rows, uint64_t units, uint64_t& slow_frames) {
+            return Grant(rows, units, slow_frames);
+        };
+        return *this;
+    }
+    /// `Cancel(rows, task)`: rows that the model holds for a task go back.
+    template <auto Cancel>
+    DamageModel& cancels() {
+        calls_.cancel = [](RunRows& rows, Row<Tasks> task) { Cancel(rows, task); };
+        return *this;
+    }
+    /// `Energy(rows, body, gravity)` of a body that the model moves by itself; none of one that is rigid.
+    template <auto Energy>
+    DamageModel& has_energy() {
+        calls_.energy = [](SoftRows& rows, Row<Bodies> body, Vec3 gravity) { return Energy(rows, body, gravity); };
+        return *this;
+    }
+    /// Blows of the game on a body that the model can move by itself: `Push(rows, rigid, body, push)`, and
+    /// `Explode(rows, rigid, body, explosion)`. False: it cannot, and nothing happened.
+    template <auto Push, auto Explode>
+    DamageModel& takes_blows() {
+        calls_.push = [](SoftRows& rows, RigidWorld& rigid, Row<Bodies> body, const PointPush& push) {
+            return Push(rows, rigid, body, push);
+        };
+        calls_.explode = [](SoftRows& rows, RigidWorld& rigid, Row<Bodies> body, const Explosion& explosion) {
+            return Explode(rows, rigid, body, explosion);
+        };
+        return *this;
     }
 
- private:
-    struct Filled {
-        Slot slot;
-        void (*add)(FramePlan<WorldData>&);
+    // ---- what was registered
+
+    struct Calls {
+        uint64_t (*wanted)(const SoftRows&) = nullptr;
+        uint64_t (*grant)(SoftRows&, uint64_t units, uint64_t& slow_frames) = nullptr;
+        void (*cancel)(RunRows&, Row<Tasks>) = nullptr;
+        std::optional<MechanicalEnergy> (*energy)(SoftRows&, Row<Bodies>, Vec3 gravity) = nullptr;
+        bool (*push)(SoftRows&, RigidWorld&, Row<Bodies>, const PointPush&) = nullptr;
+        bool (*explode)(SoftRows&, RigidWorld&, Row<Bodies>, const Explosion&) = nullptr;
     };
-    std::string name_;
-    Slot slot_ = Slot::Rest;
-    std::vector<Filled> systems_;
+    const SlotList& slots() const { return slots_; }
+    const std::vector<TaskLoop>& task_loops() const { return task_loops_; }
+    const std::vector<FrameLoop>& frame_loops() const { return frame_loops_; }
+    const char* frame_zone() const { return frame_zone_; }
+    const Calls& calls() const { return calls_; }
+
+ private:
+    SlotList slots_;
+    std::vector<TaskLoop> task_loops_;
+    std::vector<FrameLoop> frame_loops_;
+    const char* frame_zone_ = "";
+    Calls calls_;
 };
 
-/// All of them, in the order in which they run within a slot. One more is a line in models.cpp.
-struct Tenants {
-    std::vector<SlotList> models, structures;
+/// All of them, in the order in which they run within a slot. Nothing of it changes while a world has it.
+class DamageModels {
+ public:
+    explicit DamageModels(std::vector<DamageModel> models) : models_(std::move(models)) {}
+    auto begin() const { return models_.begin(); }
+    auto end() const { return models_.end(); }
+
+    /// The loop that works off an open task.
+    const TaskLoop& loop_of(const RunRows& rows, uint32_t task) const;
+    /// Units that all frame loops ask for.
+    uint64_t units_wanted(const SoftRows& rows) const;
+    /// Gives them what there is, the first models first; returns what they use.
+    uint64_t grant_frame(SoftRows& rows, uint64_t units, uint64_t& slow_frames) const;
+    void cancel(RunRows& rows, Row<Tasks> task) const;
+    std::optional<MechanicalEnergy> energy(SoftRows& rows, Row<Bodies> body, Vec3 gravity) const;
+    bool push(SoftRows& rows, RigidWorld& rigid, Row<Bodies> body, const PointPush& push) const;
+    bool explode(SoftRows& rows, RigidWorld& rigid, Row<Bodies> body, const Explosion& explosion) const;
+
+ private:
+    std::vector<DamageModel> models_;
 };
-Tenants tenants();
+
+/// The one list of models, and that of structures.
+DamageModels damage_models();
+std::vector<SlotList> structures();
 
 /// A plan whose story has slots.
 class SlottedPlan {
  public:
-    explicit SlottedPlan(const Tenants& tenants) : tenants_(tenants) {}
+    SlottedPlan(const DamageModels& models, std::vector<SlotList> structures)
+        : models_(models), structures_(std::move(structures)) {}
 
     SlottedPlan& stage(std::string name) {
         plan_.stage(std::move(name));
@@ -77,23 +150,27 @@ class SlottedPlan {
         plan_.then<System>();
         return *this;
     }
-    template <class Loop>
-    SlottedPlan& shows(std::string title, const Loop& loop) {
-        plan_.shows(std::move(title), loop);
+    /// The inner loops of all models, which the system named last runs.
+    SlottedPlan& loops() {
+        for (const DamageModel& model : models_) {
+            for (const TaskLoop& loop : model.task_loops()) plan_.shows(loop.title(), loop);
+            for (const FrameLoop& loop : model.frame_loops()) plan_.shows(loop.title(), loop);
+        }
         return *this;
     }
     SlottedPlan& models(Slot slot) {
-        for (const SlotList& model : tenants_.models) model.add_to(plan_, slot);
+        for (const DamageModel& model : models_) model.slots().add_to(plan_, slot);
         return *this;
     }
     SlottedPlan& structures(Slot slot) {
-        for (const SlotList& structure : tenants_.structures) structure.add_to(plan_, slot);
+        for (const SlotList& structure : structures_) structure.add_to(plan_, slot);
         return *this;
     }
     FramePlan<WorldData> take() { return std::move(plan_); }
 
  private:
-    const Tenants& tenants_;
+    const DamageModels& models_;
+    std::vector<SlotList> structures_;
     FramePlan<WorldData> plan_;
 };
 

@@ -1,6 +1,5 @@
 // Every system of a frame. The parameters of each are all that it sees; frame.cpp gives their order.
 #pragma once
-#include "systems/models/thick_shell/springs/spring_loop.hpp"
 #include "systems/world_data.hpp"
 
 namespace cullet {
@@ -12,11 +11,11 @@ void remember_poses(Rows<Bodies> bodies, In<&Bodies::position> position, In<&Bod
                     Out<&Bodies::previous_position> previous_position,
                     Out<&Bodies::previous_orientation> previous_orientation);
 /// Which bodies the blows that the game asked for reach; balls and unbreakable bodies are pushed at once.
-void take_blows(Serial, Blows& blows, SoftRows& rows, RigidWorld& rigid, DamageCounts& counts,
-                Events<RefusedEvent>& refused);
+void take_blows(Serial, Blows& blows, SoftRows& rows, RigidWorld& rigid, const DamageModels& models,
+                DamageCounts& counts, Events<RefusedEvent>& refused);
 /// Checked and Debug builds: the energy that the frame begins with, the game's blows of unbreakable bodies in it.
-void open_energy_balance(Serial, Step step, SoftRows& rows, const Debris& debris, const DamageCounts& counts,
-                         const RigidWorld& rigid, EnergyBalance& balance);
+void open_energy_balance(Serial, Step step, SoftRows& rows, const Debris& debris, const DamageModels& models,
+                         const DamageCounts& counts, const RigidWorld& rigid, EnergyBalance& balance);
 /// Soft bodies that have been quiet long enough are rigid again, in the shape that they have.
 void freeze_soft_bodies(Serial, SoftRows& rows, RigidWorld& rigid, Arena& arena);
 /// Sweeps fast bodies to their time of impact, finds all contacts of this step.
@@ -74,7 +73,8 @@ void find_soft_strikers(Rows<SoftBodies> soft, Step step, InChunks<SoftRows> row
 void share_soft_strikers(Serial, SoftRows& rows);
 /// Runs the inner loops of open tasks, for the steps that they were granted, and of awake soft bodies, through the
 /// frame: on all workers (engine/runs.hpp).
-void advance_runs(Serial, SoftRows& rows, const Blows& blows, RunLoops& loops, DamageCounts& counts);
+void advance_runs(Serial, SoftRows& rows, const Blows& blows, const DamageModels& models, RunLoops& loops,
+                  DamageCounts& counts);
 /// Shape, pose and motion of soft bodies after their substeps.
 void shape_soft(Rows<SoftBodies> soft, Step step, InChunks<SoftRows> rows);
 /// What soft bodies gave to what they met, and where they are now, for the rigid world.
@@ -125,13 +125,14 @@ void read_rigid(Serial, const RigidWorld& rigid, Bodies& bodies, Events<AsleepEv
 /// some steps more than it bears (impacts/overload.hpp), and a hit waits for it in QueuedHits that stands for the load.
 /// A run on it that has cracked nothing makes way.
 void weigh_loads(Serial, Step step, RigidWorld& rigid, BodyRows& rows, QueuedHits& queued, const Blows& blows,
-                 const DamageSettings& settings, Arena& arena, Events<RefusedEvent>& refused);
+                 DamageRules rules, Arena& arena, Events<RefusedEvent>& refused);
 /// Crumbs fly on parabolas, bounce off the ground and off bodies larger than they are, slide and come to rest; of a
 /// host's world, which keeps its shapes to itself, they know the floor below their place of birth alone.
 void fall_debris(Serial, Step step, const RigidWorld& rigid, Debris& debris, DamageCounts& counts);
 /// Checked and Debug builds: between this and its opening the frame made no energy (checks/energy_balance.hpp).
-void close_energy_balance(Serial, Step step, SoftRows& rows, const Debris& debris, const DamageCounts& counts,
-                          const RigidWorld& rigid, EnergyBalance& balance, Events<FaultEvent>& faults);
+void close_energy_balance(Serial, Step step, SoftRows& rows, const Debris& debris, const DamageModels& models,
+                          const DamageCounts& counts, const RigidWorld& rigid, EnergyBalance& balance,
+                          Events<FaultEvent>& faults);
 /// Crumbs that are older than the game wants go.
 void fade_debris(Serial, Step step, Debris& debris, const DebrisAges& ages, const DamageSettings& settings,
                  DamageCounts& counts);

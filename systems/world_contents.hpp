@@ -41,7 +41,8 @@ struct World::Contents {
     std::function<void(const PlannedSystem<WorldData>&)> after_each_system;
 };
 
-/// The systems of a frame in their order (frame.cpp). With `is_hosted` bodies were moved before it.
-FramePlan<WorldData> make_frame_plan(bool is_hosted, const RunLoops& loops);
+/// The systems of a frame in their order (frame.cpp). With `is_hosted` bodies were moved before it. The models must
+/// outlive it.
+FramePlan<WorldData> make_frame_plan(bool is_hosted, const DamageModels& models);
 
 }  // namespace cullet

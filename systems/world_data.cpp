@@ -4,7 +4,7 @@
 
 #include "components/commit_ahead.hpp"
 #include "systems/drawn/query_index.hpp"
-#include "systems/models/thick_shell/soft/soft_loop.hpp"
+#include "systems/models.hpp"
 #include "systems/tasks/run_loops.hpp"
 
 namespace cullet {

@@ -56,6 +56,7 @@ struct ShellChanged {
 };
 
 struct RunLoops;
+class DamageModels;
 class QueryIndex;
 
 /// What the game set, as the systems read it.
@@ -108,9 +109,15 @@ struct RunsNow {
     const Tasks& tasks;
     const TaskContacts& contacts;
 };
-/// What the game allows, and what was done.
+/// What the game allows, and what can do it.
+struct DamageRules {
+    const DamageSettings& settings;
+    const DamageModels& models;
+};
+/// The same, and what was done.
 struct DamageLedger {
     const DamageSettings& settings;
+    const DamageModels& models;
     DamageCounts& counts;
 };
 struct ToldOfHits {
@@ -140,6 +147,7 @@ struct Crumbs {
     DebrisAges& ages;
 };
 struct BirthAccounts {
+    const DamageModels& models;
     DamageCounts& counts;
     Arena& arena;
 };
@@ -179,6 +187,7 @@ struct WorldData {
     DamageCounts counts;
     EnergyBalance energy;  // Checked and Debug builds
     std::unique_ptr<RigidWorld> rigid;
+    std::unique_ptr<DamageModels> damage_models;
     std::unique_ptr<RunLoops> run_loops;
     ViewBoxes view_boxes;
     std::unique_ptr<QueryIndex> query_index;
@@ -219,6 +228,8 @@ T& WorldData::resource() {
         return energy;
     else if constexpr (std::is_same_v<T, RigidWorld>)
         return *rigid;
+    else if constexpr (std::is_same_v<T, DamageModels>)
+        return *damage_models;
     else if constexpr (std::is_same_v<T, RunLoops>)
         return *run_loops;
     else if constexpr (std::is_same_v<T, QueryIndex>)

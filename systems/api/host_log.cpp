@@ -3,7 +3,7 @@
 #include <cstdio>
 #include <cstring>
 
-#include "systems/models/thick_shell/shared/working_room.hpp"
+#include "components/body_id.hpp"
 
 namespace cullet {
 

@@ -47,7 +47,7 @@ void remove_body(WorldData& d, Row<Bodies> body) {
                 if (is_repeated || !striker.exists() || state.bodies.hold_count[striker] == 0) continue;
                 if (--state.bodies.hold_count[striker] == 0) d.rigid->release(striker);
             }
-        cancel_task(state, Row<Tasks>(t));
+        cancel_task(*d.damage_models, state, Row<Tasks>(t));
     }
     drop_hits(state, body);
     // Rows are used again: nobody may take the next one for a parent.

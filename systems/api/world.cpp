@@ -4,7 +4,7 @@
 #include "systems/api/checks.hpp"
 #include "systems/api/cost.hpp"
 #include "systems/cook/materials.hpp"
-#include "systems/models/thick_shell/soft/soft_loop.hpp"
+#include "systems/models.hpp"
 #include "systems/tasks/run_loops.hpp"
 #include "systems/world_contents.hpp"
 
@@ -32,8 +32,9 @@ World::Contents::Contents(const Settings& s, const Host& h, std::unique_ptr<Rigi
     data.rigid->use_jobs(*jobs);
     data.rigid->set_gravity(s.gravity);
     const uint32_t most_runs = data.state.tasks.limit() + data.state.soft_bodies.limit();
-    data.run_loops = std::make_unique<RunLoops>(*jobs, profiler, most_runs);
-    plan = make_frame_plan(hosted != nullptr, *data.run_loops);
+    data.damage_models = std::make_unique<DamageModels>(damage_models());
+    data.run_loops = std::make_unique<RunLoops>(*jobs, profiler, *data.damage_models, most_runs);
+    plan = make_frame_plan(hosted != nullptr, *data.damage_models);
     plan.finish(profiler);
     counters = {profiler.add_counter("units used"), profiler.add_counter("units left"),
                 profiler.add_counter("open tasks"), profiler.add_counter("births"),

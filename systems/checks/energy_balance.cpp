@@ -28,16 +28,17 @@ double soft_tolerance(const MechanicalEnergy& before, const MechanicalEnergy& af
     return kOfMeeting * most + (after.awake > before.awake ? after.strain : 0);
 }
 
-void open_energy_balance(Serial, Step step, SoftRows& rows, const Debris& debris, const DamageCounts& counts,
-                         const RigidWorld& rigid, EnergyBalance& balance) {
-    balance.start = world_energy(rows, debris, step.gravity);
+void open_energy_balance(Serial, Step step, SoftRows& rows, const Debris& debris, const DamageModels& models,
+                         const DamageCounts& counts, const RigidWorld& rigid, EnergyBalance& balance) {
+    balance.start = world_energy(models, rows, debris, step.gravity);
     balance.from_outside = counts.work_from_outside;
     balance.rigid = rigid.work();
 }
 
-void close_energy_balance(Serial, Step step, SoftRows& rows, const Debris& debris, const DamageCounts& counts,
-                          const RigidWorld& rigid, EnergyBalance& balance, Events<FaultEvent>& faults) {
-    const MechanicalEnergy end = world_energy(rows, debris, step.gravity);
+void close_energy_balance(Serial, Step step, SoftRows& rows, const Debris& debris, const DamageModels& models,
+                          const DamageCounts& counts, const RigidWorld& rigid, EnergyBalance& balance,
+                          Events<FaultEvent>& faults) {
+    const MechanicalEnergy end = world_energy(models, rows, debris, step.gravity);
     const double outside = counts.work_from_outside - balance.from_outside,
                  work = rigid.work().sum() - balance.rigid.sum();
     balance.gain = end.total() - balance.start.total() - outside - work;

@@ -2,37 +2,23 @@
 
 #include "components/body_id.hpp"
 #include "systems/births/limit_energy.hpp"
-#include "systems/models/thick_shell/soft/sheet_energy.hpp"
-#include "systems/models/thick_shell/soft/soft_body.hpp"
-#include "systems/models/thick_shell/springs/start_springs.hpp"
+#include "systems/models.hpp"
 #include "systems/structures/shell/waiting_pieces.hpp"
 
 namespace cullet {
-namespace {
-
-MechanicalEnergy soft_energy(SoftRows& state, Row<SoftBodies> soft, Vec3d gravity) {
-    const SpringView view(state, springs_of(state, soft));
-    const SpringMotion motion = motion_of(view);
-    const Vec3d centre = motion.centre + Vec3d(view.own().origin[view.row]);
-    return {motion.kinetic, -motion.mass * dot(gravity, centre), spring_energy(view) + sheet_energy(view), 0, 1,
-            motion.mass};
-}
-
-}  // namespace
-
 MechanicalEnergy& MechanicalEnergy::operator+=(const MechanicalEnergy& o) {
     kinetic += o.kinetic, height += o.height, strain += o.strain, waiting += o.waiting, awake += o.awake,
         mass += o.mass;
     return *this;
 }
 
-MechanicalEnergy body_energy(SoftRows& state, Row<Bodies> body, Vec3 gravity) {
+MechanicalEnergy body_energy(const DamageModels& models, SoftRows& state, Row<Bodies> body, Vec3 gravity) {
     const Bodies& bodies = state.bodies;
     const auto kind = static_cast<BodyKind>(bodies.kind[body]);
     const bool has_shell = bodies.shell[body].exists();
     if (kind != BodyKind::Dynamic && !(kind == BodyKind::Static && has_shell)) return {};
-    const Row<SoftBodies> soft = has_shell ? find_soft(state.soft_bodies, body) : Row<SoftBodies>{};
-    if (soft.exists() && state.soft_bodies.is_awake[soft]) return soft_energy(state, soft, Vec3d(gravity));
+    if (has_shell)
+        if (const auto own = models.energy(state, body, gravity)) return *own;
     return {rigid_energy(bodies, body),
             -bodies.mass[body] * dot(Vec3d(gravity), Vec3d(centre_of(bodies, body))),
             0,
@@ -52,14 +38,14 @@ MechanicalEnergy debris_energy(const Debris& debris, uint32_t row, Vec3 gravity)
             debris.mass[row]};
 }
 
-MechanicalEnergy world_energy(SoftRows& state, const Debris& debris, Vec3 gravity) {
+MechanicalEnergy world_energy(const DamageModels& models, SoftRows& state, const Debris& debris, Vec3 gravity) {
     MechanicalEnergy sum;
     for (uint32_t t = 0; t < state.tasks.size(); ++t) {
         if (static_cast<TaskState>(state.tasks.state[t]) == TaskState::Free) continue;
         const uint32_t first = state.tasks.first_contact[t], end = first + state.tasks.contact_count[t];
         for (uint32_t c = first; c < end; ++c) sum.waiting += state.task_contacts.answer_energy[c];
     }
-    for (uint32_t b = 0; b < state.bodies.size(); ++b) sum += body_energy(state, Row<Bodies>(b), gravity);
+    for (uint32_t b = 0; b < state.bodies.size(); ++b) sum += body_energy(models, state, Row<Bodies>(b), gravity);
     for (uint32_t d = 0; d < debris.size(); ++d) sum += debris_energy(debris, d, gravity);
     return sum;
 }

@@ -4,6 +4,8 @@
 
 namespace cullet {
 
+class DamageModels;
+
 /// J. Of what moves by forces, and of bodies that stand on pins, whose pieces will.
 struct MechanicalEnergy {
     double kinetic = 0;  // of dynamic bodies as rigid ones, of crumbs, of soft bodies that are awake by their points
@@ -18,8 +20,8 @@ struct MechanicalEnergy {
 };
 
 /// Nothing of one that is neither dynamic nor on pins.
-MechanicalEnergy body_energy(SoftRows& state, Row<Bodies> body, Vec3 gravity);
+MechanicalEnergy body_energy(const DamageModels& models, SoftRows& state, Row<Bodies> body, Vec3 gravity);
 MechanicalEnergy debris_energy(const Debris& debris, uint32_t row, Vec3 gravity);
-MechanicalEnergy world_energy(SoftRows& state, const Debris& debris, Vec3 gravity);
+MechanicalEnergy world_energy(const DamageModels& models, SoftRows& state, const Debris& debris, Vec3 gravity);
 
 }  // namespace cullet

@@ -97,7 +97,7 @@ void meet_foreseen(Serial, Step step, BodyRows& rows, const Blows& blows, Damage
         const Impact* const met = is_off ? nullptr : meeting.find(t);
         if (!met) {
             ++ledger.counts.ahead_misses;
-            cancel_task(rows, Row<Tasks>(t));
+            cancel_task(ledger.models, rows, Row<Tasks>(t));
             continue;
         }
         const Impact impact = aimed(rows, *met);
@@ -108,7 +108,7 @@ void meet_foreseen(Serial, Step step, BodyRows& rows, const Blows& blows, Damage
             for (uint32_t c = first; c < end; ++c)
                 i.is_settled = i.is_settled || !is_allowed || contacts.striker[c] == i.striker;
         if (!is_allowed) {
-            cancel_task(rows, Row<Tasks>(t));
+            cancel_task(ledger.models, rows, Row<Tasks>(t));
             continue;
         }
         ++ledger.counts.ahead_hits;

@@ -157,7 +157,7 @@ void open_one(Opening& opening, std::span<const Foreseen> together) {
     const Row<Bodies> body = together.front().impact.body;
     if (const Row<Tasks> task(state.bodies.task[body]); task.exists()) {
         ++opening.counts.ahead_misses;
-        cancel_task(state, task);
+        cancel_task(opening.models, state, task);
     }
     AtTheTouch then(state.bodies);
     std::array<Impact, kMostAtOnce> impacts;

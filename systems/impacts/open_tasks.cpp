@@ -193,7 +193,7 @@ void open_tasks(Serial, Step step, const Events<Impact>& impacts, const Events<F
     const DamageSettings& settings = ledger.settings;
     const Bodies& bodies = rows.bodies;
     Opening opening{rows,        waiting.queued, waiting.blows, out.opened, out.stiffness_wanted,
-                    out.refused, ledger.counts,  step.frame,    step.dt};
+                    out.refused, ledger.models,  ledger.counts, step.frame, step.dt};
     open_queued(opening, settings, out.impacts);
     const auto all = impacts.all();
     for (size_t i = 0, next; i < all.size(); i = next) {

@@ -41,6 +41,7 @@ struct Opening {
     Events<TaskOpened>& opened;
     Events<StiffnessWanted>& stiffness_wanted;
     Events<RefusedEvent>& refused;
+    const DamageModels& models;
     DamageCounts& counts;
     uint64_t frame;
     float dt;

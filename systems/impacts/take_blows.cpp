@@ -2,8 +2,7 @@
 
 #include "components/body_id.hpp"
 #include "systems/bodies/blows.hpp"
-#include "systems/models/thick_shell/soft/soft_body.hpp"
-#include "systems/models/thick_shell/springs/start_springs.hpp"
+#include "systems/models.hpp"
 #include "systems/structures/shell/cut_surface.hpp"
 #include "systems/structures/shell/patch_radius.hpp"
 #include "systems/systems.hpp"
@@ -18,6 +17,7 @@ struct Taking {
     SoftRows& state;
     Blows& blows;
     RigidWorld& rigid;
+    const DamageModels& models;
     DamageCounts& counts;
     Events<RefusedEvent>& refused;
     uint32_t named = 0;  // blows on one body that are still to be written: what reaches many leaves them room
@@ -26,22 +26,24 @@ struct Taking {
         return static_cast<BodyKind>(state.bodies.kind[b]) != BodyKind::Free && state.bodies.shell[b].exists();
     }
 
-    Row<SoftBodies> soft_of(Row<Bodies> b) const {
-        if (state.bodies.hold_count[b]) return {};  // the striker of a brittle body's hit: it is rigid till that ends
-        return find_soft(state.soft_bodies, b);
-    }
+    /// The striker of another body's hit is rigid till that ends.
+    bool may_move_by_itself(Row<Bodies> b) const { return !state.bodies.hold_count[b]; }
     /// It comes from outside.
     void book(Row<Bodies> b, Vec3d impulse) {
         if (static_cast<BodyKind>(state.bodies.kind[b]) != BodyKind::Dynamic) return;
         const Vec3d booked(rotate(state.bodies.orientation[b], impulse.to_float()));
         for (int k = 0; k < 3; ++k) counts.impulse_to_static[k] -= booked[k];
     }
-    void push_points(uint32_t row, Row<SoftBodies> soft) {
+    /// False: no model moves the body by itself.
+    bool push_points(uint32_t row) {
         const Row<Bodies> body = blows.body[row];
         const Row<Shells> shell = state.bodies.shell[body];
-        push_soft(state, rigid, soft, blows.point[row], blows.impulse[row].to_float(),
-                  patch_radius(state.shells, shell, blows.radius[row]), kMostReturned * blows.speed[row]);
+        if (!shell.exists() || !may_move_by_itself(body)) return false;
+        const PointPush push{blows.point[row], blows.impulse[row].to_float(),
+                             patch_radius(state.shells, shell, blows.radius[row]), kMostReturned * blows.speed[row]};
+        if (!models.push(state, rigid, body, push)) return false;
         book(body, blows.impulse[row]);
+        return true;
     }
 
     /// A copy of the blow for this body, at the end; kNone where there is no room.
@@ -104,15 +106,7 @@ struct Taking {
         const ExplosionSums sums =
             measure_explosion(ShellView(state, bodies.shell[body]), explosion, bodies.centre[body]);
         if (!(sums.size > 0)) return;
-        if (const Row<SoftBodies> soft = soft_of(body); soft.exists()) {
-            if (!state.soft_bodies.is_awake[soft]) wake_soft(state, rigid, soft);
-            state.soft_bodies.quiet_seconds[soft] = 0;
-            {
-                const SpringView view(state, springs_of(state, soft));
-                kick_points(view.shell, view.has_layers() ? view.twin(0) : kNone, explosion, bodies.orientation[body]);
-            }
-            return book(body, sums.impulse);
-        }
+        if (may_move_by_itself(body) && models.explode(state, rigid, body, explosion)) return book(body, sums.impulse);
         if (!bodies.is_breakable[body]) return push_body(state.bodies, rigid, counts, body, sums.impulse, sums.turning);
         const uint32_t made = copy_for(row, body);
         if (made == kNone) return push_body(state.bodies, rigid, counts, body, sums.impulse, sums.turning);
@@ -162,11 +156,11 @@ struct Taking {
 
 // New rows stand behind those that wait. Each is written anew at the end, once for each body that it reaches, and then
 // the old ones go: rows keep the order of the calls, and in it that of the bodies.
-void take_blows(Serial, Blows& blows, SoftRows& rows, RigidWorld& rigid, DamageCounts& counts,
-                Events<RefusedEvent>& refused) {
+void take_blows(Serial, Blows& blows, SoftRows& rows, RigidWorld& rigid, const DamageModels& models,
+                DamageCounts& counts, Events<RefusedEvent>& refused) {
     if (blows.size() == 0) return;
     Bodies& bodies = rows.bodies;
-    Taking taking{rows, blows, rigid, counts, refused};
+    Taking taking{rows, blows, rigid, models, counts, refused};
     uint32_t first = 0;
     while (first < blows.size() && blows.is_taken[first]) ++first;
     const uint32_t end = blows.size();
@@ -183,10 +177,7 @@ void take_blows(Serial, Blows& blows, SoftRows& rows, RigidWorld& rigid, DamageC
         --taking.named;
         if (is_kind(blows, row, BlowKind::Push)) {
             taking.measure_push(row);
-            if (const Row<SoftBodies> soft = taking.soft_of(body); soft.exists()) {
-                taking.push_points(row, soft);
-                continue;
-            }
+            if (taking.push_points(row)) continue;
             if (!taking.has_shell(body) || !bodies.is_breakable[body]) {
                 pay_blow(blows, bodies, rigid, counts, row);
                 continue;

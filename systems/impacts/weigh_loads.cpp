@@ -7,8 +7,9 @@
 #include "systems/impacts/load_lists.hpp"
 #include "systems/impacts/opening.hpp"
 #include "systems/impacts/overload.hpp"
+#include "systems/models/thick_shell/hidden/run_cost.hpp"
+#include "systems/models/thick_shell/shared/quick_body.hpp"
 #include "systems/models/thick_shell/shared/working_room.hpp"
-#include "systems/models/thick_shell/task_cost.hpp"
 #include "systems/systems.hpp"
 #include "systems/tasks/cancel_task.hpp"
 
@@ -223,8 +224,9 @@ bool is_allowed(const Bodies& bodies, const QueuedHit& hit, const DamageSettings
 }  // namespace
 
 void weigh_loads(Serial, Step step, RigidWorld& rigid, BodyRows& rows, QueuedHits& queued, const Blows& blows,
-                 const DamageSettings& settings, Arena& arena, Events<RefusedEvent>& refused) {
+                 DamageRules rules, Arena& arena, Events<RefusedEvent>& refused) {
     if (!is_counted(step)) return;
+    const DamageSettings& settings = rules.settings;
     Bodies& bodies = rows.bodies;
     const auto contacts = rigid.loads();
     const LoadLists lists(bodies, contacts, arena);
@@ -276,7 +278,7 @@ void weigh_loads(Serial, Step step, RigidWorld& rigid, BodyRows& rows, QueuedHit
         const QueuedHit hit =
             !has_pressed_on && is_for_a_run(rows, of, over, settings, step) ? blow : snap_of(blow, over);
         if (!is_allowed(bodies, hit, settings)) continue;
-        if (is_busy) cancel_task(rows, Row<Tasks>(bodies.task[b]));
+        if (is_busy) cancel_task(rules.models, rows, Row<Tasks>(bodies.task[b]));
         bodies.overload_runs[b] = std::min<uint8_t>(static_cast<uint8_t>(bodies.overload_runs[b] + 1), kMostLoadRuns);
         if (!queue_hit(queued, hit)) refused.push(refused_event(bodies, body, "limits.queued_hits"));
     }

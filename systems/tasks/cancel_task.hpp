@@ -4,7 +4,9 @@
 
 namespace cullet {
 
-/// Gives back its rows. Whoever it holds is the caller's affair.
-void cancel_task(BodyRows& state, Row<Tasks> task);
+class DamageModels;
+
+/// Gives back its rows, and what models hold for it. Whoever it holds is the caller's affair.
+void cancel_task(const DamageModels& models, BodyRows& state, Row<Tasks> task);
 
 }  // namespace cullet

@@ -1,26 +1,20 @@
-// The inner loops of all models, and who runs them.
+// Who runs the inner loops of all models.
 #pragma once
 #include "engine/runs.hpp"
-#include "systems/models/thick_shell/hidden/brittle_loop.hpp"
-#include "systems/models/thick_shell/soft/soft_loop.hpp"
 
 namespace cullet {
 
-class SlottedPlan;
+class DamageModels;
 
 struct RunLoops {
     /// `most_runs`: of one frame.
-    RunLoops(JobSystem& jobs, Profiler& profiler, uint32_t most_runs);
+    RunLoops(JobSystem& jobs, Profiler& profiler, const DamageModels& models, uint32_t most_runs);
 
     JobSystem& jobs;
     Profiler& profiler;
-    BrittleLoop hidden, quick;
-    SoftInnerLoop soft_one_layer, soft_layers;
-    uint32_t task_zone, soft_zone;
+    uint32_t task_zone;
+    std::vector<uint32_t> frame_zones;  // one a model
     Runs runs;
-
-    /// Each loop, with the system named last.
-    void show_in(SlottedPlan& plan) const;
 };
 
 }  // namespace cullet

@@ -2,7 +2,6 @@
 #include "systems/births/strike_back.hpp"
 #include "systems/bodies/blows.hpp"
 #include "systems/bodies/thresholds.hpp"
-#include "systems/models/thick_shell/shared/working_room.hpp"
 #include "systems/systems.hpp"
 
 namespace cullet {

@@ -49,6 +49,24 @@ struct CellWorld {
     }
 };
 
+/// What a run keeps.
+struct CellView {
+    CellWorld& all;
+
+    template <class T>
+    T& table() {
+        return all.table<T>();
+    }
+    template <class T>
+    Row<T> row_of(uint32_t owner) const {
+        return all.row_of<T>(owner);
+    }
+    template <class T>
+    Rows<T> rows_of(uint32_t owner) const {
+        return all.rows_of<T>(owner);
+    }
+};
+
 void count_calls(Rows<Cells> rows, InOut<&Cells::calls> calls) {
     for (const uint32_t r : rows) calls.set(r, calls[r] + 1);
 }
@@ -56,27 +74,28 @@ void count_ends(Of<Owners> owner, Owners& owners) {
     ++owners.ends[owner.row];
     --owners.granted[owner.row];
 }
-uint64_t units_left(CellWorld& world, uint32_t owner) {
-    return 10 * world.owners.granted[owner];
+uint64_t units_left(CellView& view, uint32_t owner) {
+    return 10 * view.all.owners.granted[owner];
 }
-bool goes_on(CellWorld& world, uint32_t owner) {
-    return world.owners.ends[owner] < 7;
+bool goes_on(CellView& view, uint32_t owner) {
+    return view.all.owners.ends[owner] < 7;
 }
 
-InnerLoop<CellWorld> make_loop() {
-    InnerLoop<CellWorld> loop;
+InnerLoop<CellView> make_loop() {
+    InnerLoop<CellView> loop;
     loop.then<count_calls>().then<count_ends>().finish();
     return loop;
 }
 
 /// Runs three times what three workers can share at once, and small ones beside them; returns what was left over.
 uint64_t run_all(CellWorld& world, JobSystem& jobs, Runs& runs, Profiler& profiler) {
-    static const InnerLoop<CellWorld> loop = make_loop();
+    static const InnerLoop<CellView> loop = make_loop();
     const uint32_t zone = profiler.add_zone("run");
     runs.clear();
     for (uint32_t k = 0; k < world.owners.size(); ++k) {
         const uint32_t cells = world.owners.cells[k];
-        runs.add(LoopRun(loop, world, {k, 0, world.owners.granted[k], goes_on}, cells, cells > 2000, zone, units_left));
+        runs.add(LoopRun(loop, CellView{world}, {k, 0, world.owners.granted[k], goes_on}, cells, cells > 2000, zone,
+                         units_left));
     }
     return runs.advance(jobs, profiler);
 }

@@ -24,6 +24,7 @@ constexpr uint32_t kFilesWithState = 0;
 constexpr uint32_t kUnnamedParameters = 16;  // copies that are deleted, calls that need no argument; none of a system
 constexpr uint32_t kMutualFolders = 0;
 constexpr uint32_t kWideSystems = 0;
+constexpr uint32_t kFilesWithAModel = 17;
 
 struct Source {
     std::string path;    // "systems/structures/shell/ring.cpp"
@@ -108,6 +109,19 @@ TEST(House, FoldersThatIncludeEachOtherGetFewer) {
                 named += "\n  " + folder + " and " + other;
             }
     EXPECT_LE(pairs, kMutualFolders) << "wanted: 0; today:" << named;
+}
+
+TEST(House, SharedFilesThatIncludeAModelGetFewer) {
+    // The list of models alone is to name them.
+    static const std::regex model("#include \"systems/models/[^\"]+/");
+    uint32_t files = 0;
+    std::string named;
+    for (const Source& source : sources_of_systems()) {
+        if (source.folder.starts_with("models") || !std::regex_search(source.text, model)) continue;
+        ++files;
+        named += "\n  " + source.path;
+    }
+    EXPECT_LE(files, kFilesWithAModel) << "wanted: 0; today:" << named;
 }
 
 TEST(House, SystemsWithMoreThanNineParametersGetFewer) {

@@ -1,11 +1,14 @@
 #include "systems/models/thick_shell/model.hpp"
 
+#include "systems/models/thick_shell/loops.hpp"
+#include "systems/models/thick_shell/shared/cancel_run.hpp"
+#include "systems/models/thick_shell/soft/soft_calls.hpp"
 #include "systems/systems.hpp"
 
 namespace cullet {
 
-SlotList thick_shell_model() {
-    SlotList model("thick_shell");
+DamageModel thick_shell_model() {
+    DamageModel model("thick_shell");
     model.at(Slot::Rest).then<freeze_soft_bodies>();
     model.at(Slot::Wake)
         .then<widen_regions>()
@@ -24,6 +27,9 @@ SlotList thick_shell_model() {
     model.at(Slot::Group).then<find_parts>().then<smooth_cracks>();
     model.at(Slot::GiveBack).then<return_soft>();
     model.at(Slot::Show).then<show_soft>();
+    register_loops(model);
+    model.cancels<cancel_run>();
+    model.has_energy<soft_energy>().takes_blows<push_soft_body, explode_soft_body>();
     return model;
 }
 

@@ -4,6 +4,6 @@
 
 namespace cullet {
 
-SlotList thick_shell_model();
+DamageModel thick_shell_model();
 
 }  // namespace cullet

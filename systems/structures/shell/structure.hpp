@@ -1,6 +1,6 @@
 // Vertices, elements and hinges: what thick shells are made of, and sheet metal.
 #pragma once
-#include "systems/models.hpp"
+#include "systems/slots.hpp"
 
 namespace cullet {
 

@@ -19,8 +19,7 @@ BrittleLoop make_brittle_loop() {
 }
 
 bool task_goes_on(LoopWorld& world, uint32_t task) {
-    const Tasks& tasks = world.state.tasks;
-    return static_cast<TaskState>(tasks.state[task]) == TaskState::Running && tasks.steps_granted[task] > 0;
+    return task_goes_on(world.state.tasks, task);
 }
 
 }  // namespace cullet

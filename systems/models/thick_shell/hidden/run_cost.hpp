@@ -3,6 +3,7 @@
 #include "components/blows.hpp"
 #include "components/run_rows.hpp"
 #include "systems/costs.hpp"
+#include "systems/tasks/birth_cost.hpp"
 
 namespace cullet {
 
@@ -13,13 +14,6 @@ inline uint64_t units_a_step(uint64_t vertex_count, uint64_t patch_vertex_count)
 }
 inline uint64_t units_a_step(const Shells& shells, const Tasks& tasks, uint32_t t) {
     return units_a_step(shells.vertices[tasks.shell[t]].count, 64 * tasks.contact_count[t]);
-}
-
-/// What the last repetition brings with it where something has cracked: pieces, hulls, drawn meshes. What was foreseen
-/// pays when it is touched.
-inline uint64_t units_of_birth(const Shells& shells, const Tasks& tasks, uint32_t t) {
-    const bool has_cracked = tasks.crack_count[t] > 0 && !is_ahead(tasks, t);
-    return has_cracked ? kUnitsBirth * shells.vertices[tasks.shell[t]].count : 0;
 }
 
 /// The hidden run of a shell of more vertices is one that all workers share. Below it they wait for each other as long

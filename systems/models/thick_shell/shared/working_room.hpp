@@ -19,10 +19,6 @@ ShellRoom hidden_room(const MaterialRows& state, Row<Materials> material, uint32
 /// wait for it.
 bool may_find_room(const BodyRows& state, Row<Bodies> body);
 
-/// What RefusedEvent names where a body's cracks have filled this room, which is a share of its mesh: a finer one has
-/// more. Springs of soft bodies have theirs.
-inline constexpr const char* kCrackRoom = "longest_edge";
-
 /// Steps and units of a run are counted in whole numbers, which a shell or a file must not leave: its step, s, and how
 /// many steps its run may have. Cooked ones are 1e-7 s and some thousand.
 constexpr float kShortestStep = 1e-12f, kMostSteps = 1e9f;

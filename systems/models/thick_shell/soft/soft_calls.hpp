@@ -1,0 +1,13 @@
+// What the rest of the program asks of soft bodies: calls of the thick shell (models.hpp).
+#pragma once
+#include "systems/models.hpp"
+
+namespace cullet {
+
+/// Of a body that is awake.
+std::optional<MechanicalEnergy> soft_energy(SoftRows& state, Row<Bodies> body, Vec3 gravity);
+/// Of one that may be awake, and is then.
+bool push_soft_body(SoftRows& state, RigidWorld& rigid, Row<Bodies> body, const PointPush& push);
+bool explode_soft_body(SoftRows& state, RigidWorld& rigid, Row<Bodies> body, const Explosion& explosion);
+
+}  // namespace cullet
