@@ -10,6 +10,8 @@
 #include "systems/model_loops.hpp"
 #include "systems/slots.hpp"
 #include "systems/structures/shell/explosion.hpp"
+#include "systems/structures/shell/group_fragments.hpp"
+#include "systems/structures/shell/rigid_handoff.hpp"
 
 namespace cullet {
 
@@ -19,6 +21,14 @@ struct PointPush {
     Vec3 impulse;       // N s, body axes
     float radius = 0;   // m, that it is shared out over
     float fastest = 0;  // m/s, at most, that it gives to any point
+};
+
+/// Parts of a body that moves by itself, and tore.
+struct TornPieces {
+    Row<Bodies> body;
+    std::span<const uint32_t> order;  // parts, heaviest first
+    std::span<const FragmentPart> parts;
+    std::span<const Row<Bodies>> child;  // new bodies; of the part that goes on as the body, the body
 };
 
 class DamageModel {
@@ -84,6 +94,36 @@ class DamageModel {
         };
         return *this;
     }
+    /// `Motion(rows, task)`: how the rest of a body moves that was hit on a part of it, once that part is back in it.
+    template <auto Motion>
+    DamageModel& moves_rest() {
+        calls_.motion_of_rest = [](const RunRows& rows, Row<Tasks> task) { return Motion(rows, task); };
+        return *this;
+    }
+    /// `Inherit(rows, parent, piece)`: what the model keeps of a body goes on to a new piece of it.
+    template <auto Inherit>
+    DamageModel& inherits() {
+        calls_.inherit = [](BodyRows& rows, Row<Bodies> parent, Row<Bodies> piece) { Inherit(rows, parent, piece); };
+        return *this;
+    }
+    /// `Keeps(rows, body)`: a run on a copy of the body leaves the cells that did not change under their names.
+    template <auto Keeps>
+    DamageModel& keeps_cell_names() {
+        calls_.keeps_cell_names = [](const BodyRows& rows, Row<Bodies> body) { return Keeps(rows, body); };
+        return *this;
+    }
+    /// Of a body that the model moves by itself, and that tore: `HandOff(rows, torn, motions)` finds the parts'
+    /// motions, `Give(rows, torn)` makes the new bodies move by themselves, `Keep(rows, rigid, body)` lets the rest go
+    /// on.
+    template <auto HandOff, auto Give, auto Keep>
+    DamageModel& tears() {
+        calls_.hand_off_torn = [](const SoftRows& rows, const TornPieces& torn, std::span<PartMotion> motions) {
+            HandOff(rows, torn, motions);
+        };
+        calls_.give_torn = [](SoftRows& rows, const TornPieces& torn) { Give(rows, torn); };
+        calls_.keep_torn = [](SoftRows& rows, RigidWorld& rigid, Row<Bodies> body) { Keep(rows, rigid, body); };
+        return *this;
+    }
 
     // ---- what was registered
 
@@ -94,6 +134,12 @@ class DamageModel {
         std::optional<MechanicalEnergy> (*energy)(SoftRows&, Row<Bodies>, Vec3 gravity) = nullptr;
         bool (*push)(SoftRows&, RigidWorld&, Row<Bodies>, const PointPush&) = nullptr;
         bool (*explode)(SoftRows&, RigidWorld&, Row<Bodies>, const Explosion&) = nullptr;
+        std::optional<RestMotion> (*motion_of_rest)(const RunRows&, Row<Tasks>) = nullptr;
+        void (*inherit)(BodyRows&, Row<Bodies> parent, Row<Bodies> piece) = nullptr;
+        bool (*keeps_cell_names)(const BodyRows&, Row<Bodies>) = nullptr;
+        void (*hand_off_torn)(const SoftRows&, const TornPieces&, std::span<PartMotion>) = nullptr;
+        void (*give_torn)(SoftRows&, const TornPieces&) = nullptr;
+        void (*keep_torn)(SoftRows&, RigidWorld&, Row<Bodies>) = nullptr;
     };
     const SlotList& slots() const { return slots_; }
     const std::vector<TaskLoop>& task_loops() const { return task_loops_; }
@@ -126,6 +172,12 @@ class DamageModels {
     std::optional<MechanicalEnergy> energy(SoftRows& rows, Row<Bodies> body, Vec3 gravity) const;
     bool push(SoftRows& rows, RigidWorld& rigid, Row<Bodies> body, const PointPush& push) const;
     bool explode(SoftRows& rows, RigidWorld& rigid, Row<Bodies> body, const Explosion& explosion) const;
+    std::optional<RestMotion> motion_of_rest(const RunRows& rows, Row<Tasks> task) const;
+    void inherit(BodyRows& rows, Row<Bodies> parent, Row<Bodies> piece) const;
+    bool keeps_cell_names(const BodyRows& rows, Row<Bodies> body) const;
+    void hand_off_torn(const SoftRows& rows, const TornPieces& torn, std::span<PartMotion> motions) const;
+    void give_torn(SoftRows& rows, const TornPieces& torn) const;
+    void keep_torn(SoftRows& rows, RigidWorld& rigid, Row<Bodies> body) const;
 
  private:
     std::vector<DamageModel> models_;

@@ -44,7 +44,7 @@ void count_result(const Tasks& tasks, Row<Tasks> task, DamageCounts& counts) {
 
 void make_births(Serial, Step step, EndedTasks over, SoftRows& rows, Blows& blows, Crumbs crumbs, RigidWorld& rigid,
                  BirthAccounts accounts, ToldOfBirths told) {
-    Births births{rows,           blows,        crumbs.debris, crumbs.ages, rigid, accounts.counts,
+    Births births{rows,           blows,        crumbs.debris, crumbs.ages, rigid, accounts.models, accounts.counts,
                   accounts.arena, told.changed, told.born,     told.debris, step};
     const auto all = over.breaks.all();
     size_t next = 0;

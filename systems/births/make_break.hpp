@@ -11,6 +11,7 @@ struct Births {
     Debris& debris;
     DebrisAges& debris_ages;
     RigidWorld& rigid;
+    const DamageModels& models;
     DamageCounts& counts;
     Arena& arena;
     Events<ShellChanged>& changed;

@@ -51,6 +51,7 @@ void plan_births(Serial, const Events<TaskEnded>& ended, SoftRows& rows, Waiting
                       waiting.queued,
                       waiting.blows,
                       ledger.settings,
+                      ledger.models,
                       ledger.counts,
                       arena,
                       planned.breaks,

@@ -8,9 +8,7 @@
 #include "systems/births/limit_energy.hpp"
 #include "systems/bodies/blows.hpp"
 #include "systems/bodies/body_rows.hpp"
-#include "systems/models/thick_shell/hidden/hidden_region.hpp"
-#include "systems/models/thick_shell/shared/quick_body.hpp"
-#include "systems/models/thick_shell/soft/soft_pieces.hpp"
+#include "systems/models.hpp"
 #include "systems/structures/shell/cell_hulls.hpp"
 #include "systems/structures/shell/crack_touches.hpp"
 #include "systems/structures/shell/make_piece.hpp"
@@ -53,8 +51,9 @@ void join_motions(PartMotion& motion, PartMotion& joined) {
 }
 
 // Rows, shell and drawn mesh of a new body, or a row that does not exist and the name of the limit.
-Row<Bodies> reserve_body(BodyRows& state, Row<Bodies> parent, Row<Shells> broken, const FragmentPart& part,
+Row<Bodies> reserve_body(Planning& planning, Row<Bodies> parent, Row<Shells> broken, const FragmentPart& part,
                          const char** full) {
+    BodyRows& state = planning.state;
     const Row<Bodies> body = take_body(state);
     if (!body.exists()) {
         *full = "limits.bodies";
@@ -74,7 +73,7 @@ Row<Bodies> reserve_body(BodyRows& state, Row<Bodies> parent, Row<Shells> broken
         b.user_data[body] = b.user_data[parent];
         b.is_breakable[body] = b.is_breakable[parent];
         if (part.has_pins) b.pins[body] = b.pins[parent];
-        inherit_fracture(state, parent, body);
+        planning.models.inherit(state, parent, body);
         return body;
     }
     if (state.bodies.shell[body].exists()) *full = "limits.view_vertices";
@@ -188,7 +187,7 @@ void choose_births(Planning& planning, Break& plan) {
             }
             continue;
         }
-        if (!full) plan.child[p] = reserve_body(state, plan.body, plan.broken, part, &full);
+        if (!full) plan.child[p] = reserve_body(planning, plan.body, plan.broken, part, &full);
         if (plan.child[p].exists())
             count_births(planning, 1, 0);
         else
@@ -371,12 +370,6 @@ void order_births(Planning& planning, Break& plan) {
     planning.breaks.push(plan);
 }
 
-// Of a body that was hit on a cut-out.
-RestMotion rest_after_put_back(const RunRows& state, Row<Tasks> task) {
-    const BodyMotion motion = is_quick_task(state, task) ? BodyMotion(state, task) : rest_motion(state, task);
-    return {motion.centre, motion.velocity, motion.spin};
-}
-
 }  // namespace
 
 uint32_t free_debris(const Debris& debris) {
@@ -405,7 +398,7 @@ void plan_break(Planning& planning, Row<Tasks> task) {
     }
     const Vec3d velocity(state.tasks.start_velocity[task]), spin(state.tasks.start_spin[task]);
     std::optional<RestMotion> rest;
-    if (broken == plan.before) rest = rest_after_put_back(state, task);
+    if (broken == plan.before) rest = planning.models.motion_of_rest(state, task);
     if (is_cut_task(planning.blows, task)) {
         move_with_body(state, plan, velocity, spin);  // nothing was run
     } else {
@@ -457,7 +450,7 @@ void plan_tear(Planning& planning, Row<SoftBodies> soft) {
     const Range cells = state.shells.cells[shell.row];
     for (uint32_t c = cells.first; c < cells.first + cells.count; ++c) state.cells.is_stale[c] = 1;
     if (!reserve_points(planning, plan)) return;
-    soft_handoff(state, soft, plan.parts, plan.motions);
+    planning.models.hand_off_torn(state, {plan.body, plan.order, plan.parts, plan.child}, plan.motions);
     measure_shell(shell);  // as it is shaped now: pieces are subtracted from it
     if (reserve_births(planning, plan)) order_births(planning, plan);
 }

@@ -11,6 +11,7 @@ struct Planning {
     QueuedHits& queued;
     Blows& blows;
     const DamageSettings& settings;
+    const DamageModels& models;
     DamageCounts& counts;
     Arena& arena;
     Events<Break>& breaks;

@@ -5,7 +5,7 @@
 #include "components/body_id.hpp"
 #include "systems/births/limit_energy.hpp"
 #include "systems/bodies/blows.hpp"
-#include "systems/models/thick_shell/hidden/contact.hpp"
+#include "systems/bodies/coupling.hpp"
 
 namespace cullet {
 namespace {

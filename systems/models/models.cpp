@@ -60,4 +60,37 @@ bool DamageModels::explode(SoftRows& rows, RigidWorld& rigid, Row<Bodies> body, 
     return false;
 }
 
+std::optional<RestMotion> DamageModels::motion_of_rest(const RunRows& rows, Row<Tasks> task) const {
+    for (const DamageModel& model : models_)
+        if (const auto motion_of = model.calls().motion_of_rest)
+            if (const auto found = motion_of(rows, task)) return found;
+    return {};
+}
+
+void DamageModels::inherit(BodyRows& rows, Row<Bodies> parent, Row<Bodies> piece) const {
+    for (const DamageModel& model : models_)
+        if (const auto inherit_from = model.calls().inherit) inherit_from(rows, parent, piece);
+}
+
+bool DamageModels::keeps_cell_names(const BodyRows& rows, Row<Bodies> body) const {
+    for (const DamageModel& model : models_)
+        if (const auto keeps = model.calls().keeps_cell_names; keeps && keeps(rows, body)) return true;
+    return false;
+}
+
+void DamageModels::hand_off_torn(const SoftRows& rows, const TornPieces& torn, std::span<PartMotion> motions) const {
+    for (const DamageModel& model : models_)
+        if (const auto hand_off = model.calls().hand_off_torn) hand_off(rows, torn, motions);
+}
+
+void DamageModels::give_torn(SoftRows& rows, const TornPieces& torn) const {
+    for (const DamageModel& model : models_)
+        if (const auto give = model.calls().give_torn) give(rows, torn);
+}
+
+void DamageModels::keep_torn(SoftRows& rows, RigidWorld& rigid, Row<Bodies> body) const {
+    for (const DamageModel& model : models_)
+        if (const auto keep = model.calls().keep_torn) keep(rows, rigid, body);
+}
+
 }  // namespace cullet

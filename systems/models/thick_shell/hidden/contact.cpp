@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "systems/bodies/coupling.hpp"
 #include "systems/cook/materials.hpp"
 #include "systems/models/thick_shell/shared/quick_body.hpp"
 #include "systems/models/thick_shell/stiffness/pair_cells.hpp"
@@ -205,16 +206,6 @@ void build_patches(RunRows& state, Row<Tasks> task) {
         }
     }
     keep_stiffest(state, first, count);
-}
-
-bool share_a_striker(const TaskContacts& contacts, uint32_t c, uint32_t other) {
-    return c != other && contacts.striker_own_inverse_mass[c] > 0 && contacts.striker[c].exists() &&
-           contacts.striker[c] == contacts.striker[other];
-}
-
-double coupling(const TaskContacts& contacts, uint32_t c, uint32_t other) {
-    return double{contacts.striker_own_inverse_mass[c]} * dot(contacts.normal[c], contacts.normal[other]) +
-           dot(contacts.striker_turn[c], contacts.striker_spin[other]);
 }
 
 PatchSpring patch_spring(const PatchVertices& patches, uint32_t p) {

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "systems/bodies/coupling.hpp"
 #include "systems/models/thick_shell/hidden/contact.hpp"
 #include "systems/models/thick_shell/hidden/hidden_region.hpp"
 #include "systems/models/thick_shell/stiffness/element_bending.hpp"

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <optional>
 
+#include "systems/bodies/coupling.hpp"
 #include "systems/models/thick_shell/hidden/contact.hpp"
 #include "systems/models/thick_shell/hidden/start_explosions.hpp"
 #include "systems/models/thick_shell/springs/edge_stiffness.hpp"

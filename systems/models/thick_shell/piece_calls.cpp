@@ -1,0 +1,29 @@
+#include "systems/models/thick_shell/piece_calls.hpp"
+
+#include "systems/models/thick_shell/hidden/hidden_region.hpp"
+#include "systems/models/thick_shell/shared/quick_body.hpp"
+#include "systems/models/thick_shell/soft/soft_pieces.hpp"
+
+namespace cullet {
+
+std::optional<RestMotion> motion_of_rest(const RunRows& state, Row<Tasks> task) {
+    const BodyMotion motion = is_quick_task(state, task) ? BodyMotion(state, task) : rest_motion(state, task);
+    return RestMotion{motion.centre, motion.velocity, motion.spin};
+}
+
+void hand_off_torn(const SoftRows& state, const TornPieces& torn, std::span<PartMotion> motions) {
+    const Row<SoftBodies> soft = find_soft(state.soft_bodies, torn.body);
+    if (soft.exists()) soft_handoff(state, soft, torn.parts, motions);
+}
+
+void give_torn_pieces(SoftRows& state, const TornPieces& torn) {
+    const Row<SoftBodies> soft = find_soft(state.soft_bodies, torn.body);
+    if (soft.exists()) give_pieces_springs(state, soft, torn.body, torn.order, torn.parts, torn.child);
+}
+
+void keep_torn_body(SoftRows& state, RigidWorld& rigid, Row<Bodies> body) {
+    const Row<SoftBodies> soft = find_soft(state.soft_bodies, body);
+    if (soft.exists()) keep_torn(state, rigid, soft, body);
+}
+
+}  // namespace cullet
