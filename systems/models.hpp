@@ -31,6 +31,19 @@ struct TornPieces {
     std::span<const Row<Bodies>> child;  // new bodies; of the part that goes on as the body, the body
 };
 
+/// A working copy of a body's shell for a task that opens.
+struct WorkingShell {
+    Row<Shells> shell;           // none: it waits, or there is no room
+    bool waits = false;          // for the task's contacts: its rows are given when they are known
+    const char* full = nullptr;  // the limit that left no room
+};
+
+/// How long a run takes that works on a whole body.
+struct RunLength {
+    float seconds = 0, step_seconds = 0;  // of its own clock, s
+    uint64_t units_a_step = 0;
+};
+
 class DamageModel {
  public:
     explicit DamageModel(std::string name) : slots_(std::move(name)) {}
@@ -94,6 +107,28 @@ class DamageModel {
         };
         return *this;
     }
+    /// Rows for a task that opens. `Shell(rows, body)` is a WorkingShell, none of a body that the model does not break;
+    /// `Begin(rows, task, stiffness_wanted)` fills what the model keeps for it; `GiveLate(rows, blows, task,
+    /// stiffness_wanted, full)` gives rows to one that waited for its contacts: false, there is no room.
+    template <auto Shell, auto Begin, auto GiveLate>
+    DamageModel& takes() {
+        calls_.working_shell = [](BodyRows& rows, Row<Bodies> body) { return Shell(rows, body); };
+        calls_.begin = [](BodyRows& rows, Row<Tasks> task, Events<StiffnessWanted>& wanted) {
+            Begin(rows, task, wanted);
+        };
+        calls_.give_late = [](BodyRows& rows, const Blows& blows, Row<Tasks> task, Events<StiffnessWanted>& wanted,
+                              const char** full) { return GiveLate(rows, blows, task, wanted, full); };
+        return *this;
+    }
+    /// `MayFindRoom(rows, body)`. False: a working copy of the body's shell has no room beside it even where nothing
+    /// else is, so that a hit need not wait for it. `Length(rows, body)`: a RunLength, none where runs are over before
+    /// anything presses on.
+    template <auto MayFindRoom, auto Length>
+    DamageModel& foretells() {
+        calls_.may_find_room = [](const BodyRows& rows, Row<Bodies> body) { return MayFindRoom(rows, body); };
+        calls_.length = [](const BodyRows& rows, Row<Bodies> body) { return Length(rows, body); };
+        return *this;
+    }
     /// `Motion(rows, task)`: how the rest of a body moves that was hit on a part of it, once that part is back in it.
     template <auto Motion>
     DamageModel& moves_rest() {
@@ -134,6 +169,11 @@ class DamageModel {
         std::optional<MechanicalEnergy> (*energy)(SoftRows&, Row<Bodies>, Vec3 gravity) = nullptr;
         bool (*push)(SoftRows&, RigidWorld&, Row<Bodies>, const PointPush&) = nullptr;
         bool (*explode)(SoftRows&, RigidWorld&, Row<Bodies>, const Explosion&) = nullptr;
+        std::optional<WorkingShell> (*working_shell)(BodyRows&, Row<Bodies>) = nullptr;
+        void (*begin)(BodyRows&, Row<Tasks>, Events<StiffnessWanted>&) = nullptr;
+        bool (*give_late)(BodyRows&, const Blows&, Row<Tasks>, Events<StiffnessWanted>&, const char** full) = nullptr;
+        bool (*may_find_room)(const BodyRows&, Row<Bodies>) = nullptr;
+        std::optional<RunLength> (*length)(const BodyRows&, Row<Bodies>) = nullptr;
         std::optional<RestMotion> (*motion_of_rest)(const RunRows&, Row<Tasks>) = nullptr;
         void (*inherit)(BodyRows&, Row<Bodies> parent, Row<Bodies> piece) = nullptr;
         bool (*keeps_cell_names)(const BodyRows&, Row<Bodies>) = nullptr;
@@ -172,6 +212,12 @@ class DamageModels {
     std::optional<MechanicalEnergy> energy(SoftRows& rows, Row<Bodies> body, Vec3 gravity) const;
     bool push(SoftRows& rows, RigidWorld& rigid, Row<Bodies> body, const PointPush& push) const;
     bool explode(SoftRows& rows, RigidWorld& rigid, Row<Bodies> body, const Explosion& explosion) const;
+    WorkingShell working_shell(BodyRows& rows, Row<Bodies> body) const;
+    void begin_run(BodyRows& rows, Row<Tasks> task, Events<StiffnessWanted>& wanted) const;
+    bool give_late(BodyRows& rows, const Blows& blows, Row<Tasks> task, Events<StiffnessWanted>& wanted,
+                   const char** full) const;
+    bool may_find_room(const BodyRows& rows, Row<Bodies> body) const;
+    std::optional<RunLength> length(const BodyRows& rows, Row<Bodies> body) const;
     std::optional<RestMotion> motion_of_rest(const RunRows& rows, Row<Tasks> task) const;
     void inherit(BodyRows& rows, Row<Bodies> parent, Row<Bodies> piece) const;
     bool keeps_cell_names(const BodyRows& rows, Row<Bodies> body) const;

@@ -5,8 +5,8 @@
 #include "components/body_id.hpp"
 #include "systems/bodies/blows.hpp"
 #include "systems/bodies/thresholds.hpp"
-#include "systems/models/thick_shell/hidden/run_cost.hpp"
-#include "systems/models/thick_shell/shared/working_room.hpp"
+#include "systems/models.hpp"
+#include "systems/structures/shell/cut_cost.hpp"
 #include "systems/structures/shell/patch_radius.hpp"
 
 namespace cullet {
@@ -170,7 +170,7 @@ struct Opener {
             const Row<Tasks> task = o.opening.open(body, is_cut ? 1.0f : blows.speed[row]);
             if (!task.exists()) {
                 pay(row);
-                return may_find_room(state, body) ? Outcome::Waits : Outcome::Gone;
+                return o.opening.models.may_find_room(state, body) ? Outcome::Waits : Outcome::Gone;
             }
             state.tasks.is_late[task] = !is_cut && blows.is_paid[row];
             join(row, task);

@@ -7,7 +7,7 @@
 #include "systems/impacts/open_blows.hpp"
 #include "systems/impacts/opening.hpp"
 #include "systems/impacts/snap.hpp"
-#include "systems/models/thick_shell/shared/working_room.hpp"
+#include "systems/models.hpp"
 #include "systems/structures/shell/patch_radius.hpp"
 #include "systems/systems.hpp"
 
@@ -167,7 +167,7 @@ void open_queued_of(uint64_t frame, Opening& opening, const DamageSettings& sett
                 ImpactEvent event = event_of(bodies, impact, queued.striker_inverse_mass[q]);
                 event.load = queued.load[q];
                 impact_events.push(event);
-            } else if (may_find_room(state, body) &&
+            } else if (opening.models.may_find_room(state, body) &&
                        static_cast<float>(opening.frame - frame) * opening.dt < kMostSecondsQueued) {
                 continue;
             }
@@ -210,7 +210,7 @@ void open_tasks(Serial, Step step, const Events<Impact>& impacts, const Events<F
         }
         const Row<Tasks> task = opening.open(body, first.approach_speed);
         if (!task.exists()) {
-            if (may_find_room(rows, body)) queue_hits(all.subspan(i, next - i), opening);
+            if (ledger.models.may_find_room(rows, body)) queue_hits(all.subspan(i, next - i), opening);
             continue;
         }
         lay_contacts(all.subspan(i, next - i), first, rows, task);

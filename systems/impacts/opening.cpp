@@ -5,14 +5,7 @@
 #include "components/body_id.hpp"
 #include "systems/bodies/blows.hpp"
 #include "systems/bodies/thresholds.hpp"
-#include "systems/costs.hpp"
-#include "systems/models/thick_shell/hidden/hidden_region.hpp"
-#include "systems/models/thick_shell/hidden/run_cost.hpp"
-#include "systems/models/thick_shell/quick/quick_cut_out.hpp"
-#include "systems/models/thick_shell/shared/cut_out.hpp"
-#include "systems/models/thick_shell/shared/quick_body.hpp"
-#include "systems/models/thick_shell/shared/working_room.hpp"
-#include "systems/models/thick_shell/stiffness/assemble.hpp"
+#include "systems/models.hpp"
 #include "systems/structures/shell/patch_radius.hpp"
 #include "systems/structures/shell/struck_normal.hpp"
 #include "systems/structures/shell/waiting_pieces.hpp"
@@ -136,15 +129,10 @@ Row<Tasks> Opening::open(Row<Bodies> body, float approach_speed, bool is_ahead) 
         refuse(body, "limits.open_hits", is_ahead);
         return {};
     }
-    const char* full = nullptr;
     const Row<Shells> source = bodies.shell[body];
-    const bool is_quick = is_quick_body(state, body);
-    const ShellView before(state, source);
-    const bool waits = may_cut_out(state, body);
-    Row<Shells> working;
-    if (!waits) working = make_shell_unclear(state, is_quick ? quick_room(before) : working_room(before), &full);
-    if (!waits && !working.exists()) {
-        refuse(body, full, is_ahead);
+    const WorkingShell working = models.working_shell(state, body);
+    if (!working.waits && !working.shell.exists()) {
+        refuse(body, working.full, is_ahead);
         if (!is_ahead) bodies.retry_frame[body] = frame + retry_frames(dt);
         return {};
     }
@@ -154,7 +142,7 @@ Row<Tasks> Opening::open(Row<Bodies> body, float approach_speed, bool is_ahead) 
     tasks.body[t] = body;
     tasks.source[t] = source;
     ++state.shells.users[source];
-    tasks.shell[t] = working;
+    tasks.shell[t] = working.shell;
     tasks.opened_frame[t] = frame;
     tasks.first_contact[t] = t * kMostContacts;
     tasks.approach_speed[t] = approach_speed;
@@ -162,45 +150,20 @@ Row<Tasks> Opening::open(Row<Bodies> body, float approach_speed, bool is_ahead) 
     tasks.start_velocity.set(t, rotate(to_body_axes, bodies.velocity[body]));
     tasks.start_spin.set(t, rotate(to_body_axes, bodies.spin[body]));
     tasks.strength_scale[t] = bodies.strength_scale[body];
-    if (bodies.is_owed_births[body]) forget_own_motions(before);
-    set_task_times(state, task);
-    set_quick_task(state, task, body);
-    const bool is_assembled = is_quick || waits || state.shells.packs[source].count > 0;
-    const uint64_t units = is_quick ? kUnitsQuickCopy : kUnitsOpen + (is_assembled ? 0 : kUnitsAssemble);
-    if (!waits) tasks.units_owed[t] = state.shells.vertices[source].count * units;
+    if (bodies.is_owed_births[body]) forget_own_motions(ShellView(state, source));
+    models.begin_run(state, task, stiffness_wanted);
     bodies.task[body] = t;
     opened.push({task});
-    const uint32_t packs = is_assembled ? 0 : (state.shells.vertices[source].count + kLanes - 1) / kLanes;
-    for (uint32_t p = 0; p < packs; p += kRowsPerChunk<StiffnessPacks>) stiffness_wanted.push({task, p});
     counts.opened += !is_ahead;
     return task;
 }
 
 void Opening::give_rows() {
-    Tasks& tasks = state.tasks;
+    const Tasks& tasks = state.tasks;
     for (const TaskOpened& o : opened) {
         if (tasks.shell[o.task].exists()) continue;
         const char* full = nullptr;
-        const ShellView source(state, tasks.source[o.task]);
-        CutOutResult result = CutOutResult::TooWide;
-        const bool is_everywhere = has_explosion(blows, o.task) || is_cut_task(blows, o.task);
-        if (!is_quick_task(state, o.task)) {
-            const uint32_t wanted = is_everywhere ? kNone : kWholeCopyVertices;
-            if (!give_hidden_rows(state, o.task, wanted, stiffness_wanted, &full)) {
-                drop(o.task, full);
-            }
-            continue;
-        }
-        if (!is_everywhere) result = reserve_cut_out(state, o.task, quick_cut_out_size(state, o.task), &full);
-        if (result == CutOutResult::TooWide) tasks.shell[o.task] = make_shell_unclear(state, quick_room(source), &full);
-        const Row<Shells> working = tasks.shell[o.task];
-        if (working.exists()) {
-            tasks.units_owed[o.task] += result == CutOutResult::Reserved
-                                            ? state.shells.vertices[working].count * kUnitsQuickOpen
-                                            : source.vertex_count() * kUnitsQuickCopy;
-        } else {
-            drop(o.task, full);
-        }
+        if (!models.give_late(state, blows, o.task, stiffness_wanted, &full)) drop(o.task, full);
     }
 }
 
@@ -213,7 +176,7 @@ void Opening::drop(Row<Tasks> task, const char* full) {
     tasks.state[task] = static_cast<uint8_t>(TaskState::Dropped);
     if (is_ahead(tasks, task)) return;
     refuse(body, full, false);
-    if (!may_find_room(state, body)) return;
+    if (!models.may_find_room(state, body)) return;
     for (uint32_t b = 0; b < blows.size(); ++b)
         if (blows.task[b] == task.index) blows.goes_on[b] = 1;
     const uint32_t first = tasks.first_contact[task];

@@ -50,8 +50,7 @@ struct Opening {
     /// cut-out waits for the contacts. Whoever opens ahead of a touch tells nobody that there was none.
     Row<Tasks> open(Row<Bodies> body, float approach_speed, bool is_ahead = false);
 
-    /// Rows for the tasks that wait: of the neighbourhood of their contacts, or of the whole body where blows reach it
-    /// all, or the hit is wide. A task that finds none is dropped; its hits ask again.
+    /// Rows for the tasks that waited for their contacts. One that finds none is dropped; its hits ask again.
     void give_rows();
 
  private:

@@ -7,9 +7,7 @@
 #include "systems/impacts/load_lists.hpp"
 #include "systems/impacts/opening.hpp"
 #include "systems/impacts/overload.hpp"
-#include "systems/models/thick_shell/hidden/run_cost.hpp"
-#include "systems/models/thick_shell/shared/quick_body.hpp"
-#include "systems/models/thick_shell/shared/working_room.hpp"
+#include "systems/models.hpp"
 #include "systems/systems.hpp"
 #include "systems/tasks/cancel_task.hpp"
 
@@ -114,13 +112,10 @@ float speed_of(const BodyRows& state, Row<Bodies> body, const Overload& over) {
            first_crack_speed(state.shells, state.bodies.shell[body], state.bodies.strength_scale[body]);
 }
 
-// s, of a hidden run on the whole body when it gets all units; cracks and pieces take half as much again.
-double seconds_of_run(const BodyRows& state, Row<Bodies> body, const DamageSettings& settings, float dt) {
-    const Row<Shells> shell = state.bodies.shell[body];
-    const Shells& shells = state.shells;
-    const double steps =
-        kWithCracks * run_seconds(state, shells.material[shell], shells.area[shell]) / shells.time_step[shell];
-    const auto units = steps * static_cast<double>(units_a_step(shells.vertices[shell].count, 64));
+// s, of a run on the whole body when it gets all units; cracks and pieces take half as much again.
+double seconds_of_run(const RunLength& run, const DamageSettings& settings, float dt) {
+    const double steps = kWithCracks * run.seconds / run.step_seconds;
+    const auto units = steps * static_cast<double>(run.units_a_step);
     return dt * units / static_cast<double>(std::max<uint64_t>(settings.units_a_frame, 1));
 }
 
@@ -135,16 +130,15 @@ double way_in(const Overload& over, Vec3 gravity, double seconds) {
     return is_crushed(over) ? over.sunk + 0.5 * length(gravity) * seconds * seconds : 0;
 }
 
-bool is_for_a_run(const BodyRows& state, const LoadedBody& of, const Overload& over, const DamageSettings& settings,
-                  Step step) {
+bool is_for_a_run(const BodyRows& state, const LoadedBody& of, const Overload& over, DamageRules rules, Step step) {
     const Bodies& bodies = state.bodies;
     const Row<Bodies> body = of.body;
-    if (is_sunk(of, over.sunk) || is_past_blows(of, settings)) return false;
+    if (is_sunk(of, over.sunk) || is_past_blows(of, rules.settings)) return false;
     if (bodies.overload_runs[body] >= (over.is_driven ? kMostDrivenRuns : kMostRuns)) return false;
     if (speed_of(state, body, over) > kFastestRun) return false;
     if (state.shells.elements[bodies.shell[body]].count < kFewestForARun) return false;
-    return is_quick_body(state, body) ||
-           !is_deep(bodies, body, way_in(over, step.gravity, seconds_of_run(state, body, settings, step.dt)));
+    const std::optional<RunLength> run = rules.models.length(state, body);
+    return !run || !is_deep(bodies, body, way_in(over, step.gravity, seconds_of_run(*run, rules.settings, step.dt)));
 }
 
 // A striker of twenty masses stands for who presses. Against what is free it stands still: the body comes to it.
@@ -275,8 +269,7 @@ void weigh_loads(Serial, Step step, RigidWorld& rigid, BodyRows& rows, QueuedHit
         if (is_busy && !makes_way(rows, blows, Row<Tasks>(bodies.task[b]), has_pressed_on)) continue;
         bodies.overloaded_steps[b] = 0;
         const QueuedHit blow = hit_of(rows, body, contacts[over.contact], over, step.frame);
-        const QueuedHit hit =
-            !has_pressed_on && is_for_a_run(rows, of, over, settings, step) ? blow : snap_of(blow, over);
+        const QueuedHit hit = !has_pressed_on && is_for_a_run(rows, of, over, rules, step) ? blow : snap_of(blow, over);
         if (!is_allowed(bodies, hit, settings)) continue;
         if (is_busy) cancel_task(rules.models, rows, Row<Tasks>(bodies.task[b]));
         bodies.overload_runs[b] = std::min<uint8_t>(static_cast<uint8_t>(bodies.overload_runs[b] + 1), kMostLoadRuns);

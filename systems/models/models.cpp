@@ -60,6 +60,39 @@ bool DamageModels::explode(SoftRows& rows, RigidWorld& rigid, Row<Bodies> body, 
     return false;
 }
 
+WorkingShell DamageModels::working_shell(BodyRows& rows, Row<Bodies> body) const {
+    for (const DamageModel& model : models_)
+        if (const auto make = model.calls().working_shell)
+            if (const auto made = make(rows, body)) return *made;
+    CULLET_ASSERT(false, "no damage model breaks body %u", body.index);
+    return {};
+}
+
+void DamageModels::begin_run(BodyRows& rows, Row<Tasks> task, Events<StiffnessWanted>& wanted) const {
+    for (const DamageModel& model : models_)
+        if (const auto begin = model.calls().begin) begin(rows, task, wanted);
+}
+
+bool DamageModels::give_late(BodyRows& rows, const Blows& blows, Row<Tasks> task, Events<StiffnessWanted>& wanted,
+                             const char** full) const {
+    for (const DamageModel& model : models_)
+        if (const auto give = model.calls().give_late; give && give(rows, blows, task, wanted, full)) return true;
+    return false;
+}
+
+bool DamageModels::may_find_room(const BodyRows& rows, Row<Bodies> body) const {
+    for (const DamageModel& model : models_)
+        if (const auto may_find = model.calls().may_find_room; may_find && may_find(rows, body)) return true;
+    return false;
+}
+
+std::optional<RunLength> DamageModels::length(const BodyRows& rows, Row<Bodies> body) const {
+    for (const DamageModel& model : models_)
+        if (const auto length_of = model.calls().length)
+            if (const auto found = length_of(rows, body)) return found;
+    return {};
+}
+
 std::optional<RestMotion> DamageModels::motion_of_rest(const RunRows& rows, Row<Tasks> task) const {
     for (const DamageModel& model : models_)
         if (const auto motion_of = model.calls().motion_of_rest)

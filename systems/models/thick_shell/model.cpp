@@ -1,9 +1,11 @@
 #include "systems/models/thick_shell/model.hpp"
 
 #include "systems/models/thick_shell/loops.hpp"
+#include "systems/models/thick_shell/open_calls.hpp"
 #include "systems/models/thick_shell/piece_calls.hpp"
 #include "systems/models/thick_shell/shared/cancel_run.hpp"
 #include "systems/models/thick_shell/shared/quick_body.hpp"
+#include "systems/models/thick_shell/shared/working_room.hpp"
 #include "systems/models/thick_shell/soft/soft_calls.hpp"
 #include "systems/systems.hpp"
 
@@ -32,6 +34,7 @@ DamageModel thick_shell_model() {
     register_loops(model);
     model.cancels<cancel_run>();
     model.has_energy<soft_energy>().takes_blows<push_soft_body, explode_soft_body>();
+    model.takes<working_shell, begin_run, give_late_rows>().foretells<may_find_room, run_length>();
     model.moves_rest<motion_of_rest>().inherits<inherit_fracture>().keeps_cell_names<is_quick_body>();
     model.tears<hand_off_torn, give_torn_pieces, keep_torn_body>();
     return model;

@@ -1,6 +1,5 @@
-// What hidden runs and cuts cost, in units.
+// What hidden runs cost, in units.
 #pragma once
-#include "components/blows.hpp"
 #include "components/run_rows.hpp"
 #include "systems/costs.hpp"
 #include "systems/tasks/birth_cost.hpp"
@@ -28,12 +27,6 @@ inline uint64_t units_of_crack(uint64_t vertex_count, bool is_ahead) {
     const bool is_shared = vertex_count > kTeamVertices;
     const uint64_t size = is_ahead ? 0 : is_shared ? kTeamVertices : vertex_count;
     return (is_shared ? 2 : 1) * (kUnitsCut + kUnitsCut * size / 2000);
-}
-
-/// What a cut of the game looks at: the whole shell, for every segment of its line. Its task's opening is not in it.
-inline uint64_t units_of_cut(const Shells& shells, Row<Shells> shell, const Blows& blows, uint32_t row) {
-    const uint32_t points = blows.point_count[row];
-    return shells.elements[shell].count * kUnitsCutElement * (points > 2 ? points - 1 : 1);
 }
 
 }  // namespace cullet
