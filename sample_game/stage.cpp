@@ -9,7 +9,7 @@
 #include "sample_game/model_shelf.hpp"
 #include "sample_game/progress.hpp"
 #include "sample_game/read_materials.hpp"
-#include "systems/models/thick_shell/cook/hit_advice.hpp"
+#include "systems/tasks/hold_units.hpp"
 
 namespace cullet {
 namespace {

@@ -5,7 +5,9 @@
 // without the call, or whose tables do not have the task or the body, has nothing to do with it.
 #pragma once
 #include <optional>
+#include <string>
 
+#include "cullet/result.hpp"
 #include "systems/checks/world_energy.hpp"
 #include "systems/model_loops.hpp"
 #include "systems/slots.hpp"
@@ -159,6 +161,44 @@ class DamageModel {
         calls_.keep_torn = [](SoftRows& rows, RigidWorld& rigid, Row<Bodies> body) { Keep(rows, rigid, body); };
         return *this;
     }
+    /// `Follow(rows, body)`: the game has put a body elsewhere, or given it another motion. `Release(rows, body)`: what
+    /// the model keeps for a body goes; the body is no concern of it any more.
+    template <auto Follow, auto Release>
+    DamageModel& keeps_for_bodies() {
+        calls_.follow = [](SoftRows& rows, Row<Bodies> body) { Follow(rows, body); };
+        calls_.release = [](SoftRows& rows, Row<Bodies> body) { Release(rows, body); };
+        return *this;
+    }
+    /// After a load, what is not in the bytes because it follows from them: `Run(rows, task)` of a run that goes on,
+    /// `Body(rows, body)` of each body with a shell.
+    template <auto Run, auto Body>
+    DamageModel& restores() {
+        calls_.restore_run = [](RunRows& rows, Row<Tasks> task) { Run(rows, task); };
+        calls_.restore_body = [](BodyRows& rows, Row<Bodies> body) { Body(rows, body); };
+        return *this;
+    }
+    /// `IsPart(rows, task)`: the task's shell is a part of its body's. `Room(rows, body)`: rows that a hit on the body
+    /// takes.
+    template <auto IsPart, auto Room>
+    DamageModel& works_on() {
+        calls_.is_part = [](const RunRows& rows, uint32_t task) { return IsPart(rows, task); };
+        calls_.room = [](BodyRows& rows, Row<Bodies> body) { return Room(rows, body); };
+        return *this;
+    }
+    /// Rows that came from a file. `Shell(shell, is_part, name, advice)` and `Rows(rows, name, advice)` are
+    /// Result<void>, whose sentence begins with the name and ends with the advice; `Task(rows, task)` is empty or what
+    /// the task's shell is or lacks. Ranges, users and shared tables have been looked at before.
+    template <auto Shell, auto Task, auto Rows>
+    DamageModel& checks() {
+        calls_.check_shell = [](const ShellView& shell, bool is_part, const std::string& name, const char* advice) {
+            return Shell(shell, is_part, name, advice);
+        };
+        calls_.trouble_of_task = [](const RunRows& rows, uint32_t task) { return Task(rows, task); };
+        calls_.check_rows = [](const SoftRows& rows, const std::string& name, const char* advice) {
+            return Rows(rows, name, advice);
+        };
+        return *this;
+    }
 
     // ---- what was registered
 
@@ -174,6 +214,16 @@ class DamageModel {
         bool (*give_late)(BodyRows&, const Blows&, Row<Tasks>, Events<StiffnessWanted>&, const char** full) = nullptr;
         bool (*may_find_room)(const BodyRows&, Row<Bodies>) = nullptr;
         std::optional<RunLength> (*length)(const BodyRows&, Row<Bodies>) = nullptr;
+        void (*follow)(SoftRows&, Row<Bodies>) = nullptr;
+        void (*release)(SoftRows&, Row<Bodies>) = nullptr;
+        void (*restore_run)(RunRows&, Row<Tasks>) = nullptr;
+        void (*restore_body)(BodyRows&, Row<Bodies>) = nullptr;
+        bool (*is_part)(const RunRows&, uint32_t task) = nullptr;
+        ShellRoom (*room)(BodyRows&, Row<Bodies>) = nullptr;
+        Result<void> (*check_shell)(const ShellView&, bool is_part, const std::string& name,
+                                    const char* advice) = nullptr;
+        std::string (*trouble_of_task)(const RunRows&, uint32_t task) = nullptr;
+        Result<void> (*check_rows)(const SoftRows&, const std::string& name, const char* advice) = nullptr;
         std::optional<RestMotion> (*motion_of_rest)(const RunRows&, Row<Tasks>) = nullptr;
         void (*inherit)(BodyRows&, Row<Bodies> parent, Row<Bodies> piece) = nullptr;
         bool (*keeps_cell_names)(const BodyRows&, Row<Bodies>) = nullptr;
@@ -224,6 +274,20 @@ class DamageModels {
     void hand_off_torn(const SoftRows& rows, const TornPieces& torn, std::span<PartMotion> motions) const;
     void give_torn(SoftRows& rows, const TornPieces& torn) const;
     void keep_torn(SoftRows& rows, RigidWorld& rigid, Row<Bodies> body) const;
+    void follow(SoftRows& rows, Row<Bodies> body) const;
+    void release(SoftRows& rows, Row<Bodies> body) const;
+    void restore_run(RunRows& rows, Row<Tasks> task) const;
+    void restore_body(BodyRows& rows, Row<Bodies> body) const;
+    bool is_part(const RunRows& rows, uint32_t task) const;
+    Result<void> check_shell(const ShellView& shell, bool is_part, const std::string& name, const char* advice) const;
+    std::string trouble_of_task(const RunRows& rows, uint32_t task) const;
+    Result<void> check_rows(const SoftRows& rows, const std::string& name, const char* advice) const;
+    /// Calls f(room) for each model that has something to say of the body.
+    template <class F>
+    void for_each_room(BodyRows& rows, Row<Bodies> body, F&& f) const {
+        for (const DamageModel& model : models_)
+            if (const auto room = model.calls().room) f(room(rows, body));
+    }
 
  private:
     std::vector<DamageModel> models_;

@@ -10,6 +10,7 @@
 #include "systems/cook/materials.hpp"
 #include "systems/drawn/bound_drawn.hpp"
 #include "systems/drawn/query_index.hpp"
+#include "systems/models.hpp"
 #include "systems/models/thick_shell/calibrate.hpp"
 #include "systems/models/thick_shell/cook/apply_pins.hpp"
 #include "systems/models/thick_shell/shared/cut_out.hpp"
@@ -212,8 +213,7 @@ Result<BodyId> World::spawn(ModelId id, const SpawnSettings& settings) {
             calibrated_strain_limit(state, shell, quick, settings.layers, state.shells.first_crack_speed[shell]);
     set_fracture(state, body, settings.fracture, quick, settings.layers);
     if (bodies.is_breakable[body]) {
-        const ShellView view(state, shell);
-        d.make_ready(is_quick_body(state, body) ? quick_room(view) : working_room(view));
+        d.damage_models->for_each_room(state, body, [&](const ShellRoom& room) { d.make_ready(room); });
     }
     take_mass_properties(state, body);
     if (is_soft) {
@@ -227,7 +227,7 @@ Result<BodyId> World::spawn(ModelId id, const SpawnSettings& settings) {
     }
     d.arena.reset();
     d.rigid->add(body, describe_rigid(state, body, convex_pieces(state, shell, d.arena)));
-    if (take_settled_pose(bodies, *d.rigid, body)) follow_body(state, body);
+    if (take_settled_pose(bodies, *d.rigid, body)) d.damage_models->follow(state, body);
     draw_body(state, body);
     bodies.drawn_frame[body] = d.step_info.frame;
     bound_view(bodies, body, state.view_vertices, state.view_indices, d.view_boxes);

@@ -4,7 +4,7 @@
 #include "systems/api/checks.hpp"
 #include "systems/bodies/settled_pose.hpp"
 #include "systems/drawn/query_index.hpp"
-#include "systems/models/thick_shell/soft/soft_body.hpp"
+#include "systems/models.hpp"
 #include "systems/world_contents.hpp"
 
 namespace cullet {
@@ -95,7 +95,7 @@ Result<void> World::set_pose(BodyId id, const Pose& pose) {
         d.rigid->set_pose(body, unit);
         take_settled_pose(bodies, *d.rigid, body);
     }
-    follow_body(d.state, body);
+    d.damage_models->follow(d.state, body);
     d.query_index->touch(bodies, body);
     wake_body(d, body);
     return {};
@@ -120,7 +120,7 @@ Result<void> World::set_motion(BodyId id, const Motion& motion) {
     d.state.bodies.velocity.set(body, motion.velocity);
     d.state.bodies.spin.set(body, motion.angular_velocity);
     d.rigid->set_motion(body, motion);
-    follow_body(d.state, body);
+    d.damage_models->follow(d.state, body);
     if (is_moving) wake_body(d, body);
     return {};
 }

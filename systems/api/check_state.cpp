@@ -4,12 +4,8 @@
 
 #include "systems/api/snapshot.hpp"
 #include "systems/cook/materials.hpp"
-#include "systems/models/thick_shell/cook/check_shell_rows.hpp"
-#include "systems/models/thick_shell/quick/check_quick.hpp"
-#include "systems/models/thick_shell/shared/cut_out.hpp"
-#include "systems/models/thick_shell/shared/quick_body.hpp"
-#include "systems/models/thick_shell/shared/working_room.hpp"
-#include "systems/models/thick_shell/springs/check_springs.hpp"
+#include "systems/models.hpp"
+#include "systems/tasks/step_limits.hpp"
 
 namespace cullet {
 namespace {
@@ -19,6 +15,7 @@ constexpr const char* kAdvice = "The snapshot is damaged or of another build; ta
 
 struct Checker {
     const State& state;
+    const DamageModels& models;
     const std::string& name;
     std::string trouble;
 
@@ -263,8 +260,8 @@ void check_tasks(Checker& check) {
         check.expect(s.bodies.shell[body] == tasks.source[t],
                      Checker::place(tasks, "source", t) + " is " + std::to_string(tasks.source[t].index) +
                          ", not the shell of its body " + std::to_string(body.index));
-        check.expect(is_quick_task(s, t) || s.shells.packs[tasks.shell[t]].count > 0,
-                     Checker::place(tasks, "shell", t) + " has no stiffness");
+        const std::string lacking = check.models.trouble_of_task(s, t);
+        check.expect(lacking.empty(), Checker::place(tasks, "shell", t) + " " + lacking);
         check.expect_flag(tasks, tasks.is_held, "is_held", t);
         check.expect_flag(tasks, tasks.is_late, "is_late", t);
         check.expect_flag(tasks, tasks.lacks_room, "lacks_room", t);
@@ -376,16 +373,16 @@ bool has_no_rows(const Shells& shells, uint32_t shell) {
     return shells.users[shell] == 1 && shells.shape_points[shell] == 0 && shells.dead_elements[shell] == 0;
 }
 
-bool is_cut_out_shell(const State& s, uint32_t shell) {
+bool is_part_of_body(const DamageModels& models, const State& s, uint32_t shell) {
     for (uint32_t t = 0; t < s.tasks.size(); ++t)
-        if (is_task(s, t) && s.tasks.shell[t] == shell && is_cut_out(s, t)) return true;
+        if (is_task(s, t) && s.tasks.shell[t] == shell && models.is_part(s, t)) return true;
     return false;
 }
 
 }  // namespace
 
-Result<void> check_state(const State& state, const std::string& name) {
-    Checker check{state, name, {}};
+Result<void> check_state(const DamageModels& models, const State& state, const std::string& name) {
+    Checker check{state, models, name, {}};
     const std::string not_finite = state.validate();
     check.expect(not_finite.empty(), not_finite);
     for (auto* look : {check_ranges, check_models, check_tasks, check_bodies, check_blows, check_users, check_soft})
@@ -401,12 +398,11 @@ Result<void> check_state(const State& state, const std::string& name) {
                          std::to_string(state.shells.material[row].index) + ", of " +
                          std::to_string(state.materials.size()) + ". " + kAdvice};
         if (has_no_rows(state.shells, row) && is_of_scenery(state, row)) continue;
-        const Wear wear = is_cut_out_shell(state, row) ? Wear::CutOut : Wear::Worn;
-        const Result<void> sound = check_shell_rows(ShellView(rows, Row<Shells>(row)), wear, name, kAdvice);
+        const ShellView shell(rows, Row<Shells>(row));
+        const Result<void> sound = models.check_shell(shell, is_part_of_body(models, state, row), name, kAdvice);
         if (!sound) return sound;
     }
-    if (const Result<void> sound = check_springs(state, name, kAdvice); !sound) return sound;
-    return check_quick_rows(state, name, kAdvice);
+    return models.check_rows(state, name, kAdvice);
 }
 
 }  // namespace cullet

@@ -24,6 +24,7 @@
 #include "systems/models/thick_shell/stiffness/assemble.hpp"
 #include "systems/structures/shell/group_fragments.hpp"
 #include "systems/structures/shell/ring.hpp"
+#include "systems/tasks/step_limits.hpp"
 
 namespace cullet {
 namespace {

@@ -4,8 +4,8 @@
 #include "systems/api/model_row.hpp"
 #include "systems/cook/materials.hpp"
 #include "systems/cook/model_contents.hpp"
-#include "systems/models/thick_shell/cook/hit_advice.hpp"
 #include "systems/structures/shell/cell_elements.hpp"
+#include "systems/tasks/hold_units.hpp"
 #include "systems/world_contents.hpp"
 
 namespace cullet {

@@ -6,7 +6,7 @@
 #include "systems/api/checks.hpp"
 #include "systems/bodies/body_rows.hpp"
 #include "systems/drawn/query_index.hpp"
-#include "systems/models/thick_shell/soft/soft_body.hpp"
+#include "systems/models.hpp"
 #include "systems/tasks/cancel_task.hpp"
 #include "systems/world_contents.hpp"
 
@@ -54,7 +54,7 @@ void remove_body(WorldData& d, Row<Bodies> body) {
     for (uint32_t b = 0; b < state.bodies.size(); ++b)
         if (state.bodies.parent[b] == body) state.bodies.parent[b] = {};
     if (static_cast<BodyKind>(state.bodies.kind[body]) != BodyKind::Scenery) d.rigid->remove(body);
-    release_soft(state, body);
+    d.damage_models->release(state, body);
     free_body(state, body);
     d.query_index->touch(state.bodies, body);
 }

@@ -7,7 +7,7 @@
 #include "systems/api/cost.hpp"
 #include "systems/api/remove_body.hpp"
 #include "systems/drawn/query_index.hpp"
-#include "systems/models/thick_shell/soft/soft_body.hpp"
+#include "systems/models.hpp"
 #include "systems/structures/shell/piece_shape.hpp"
 #include "systems/structures/shell/rigid_shape.hpp"
 #include "systems/world_contents.hpp"
@@ -64,7 +64,7 @@ void give_back_rows(State& state, Row<Shells> shell) {
 void stand_still(WorldData& d, Row<Bodies> body, BodyKind kind) {
     Bodies& bodies = d.state.bodies;
     drop_hits(d.state, body);
-    release_soft(d.state, body);
+    d.damage_models->release(d.state, body);
     if (kind == BodyKind::Scenery) d.rigid->remove(body);
     bodies.kind[body] = static_cast<uint8_t>(kind);
     bodies.is_breakable[body] = 0;

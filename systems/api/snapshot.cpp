@@ -12,13 +12,9 @@
 #include "systems/cook/materials.hpp"
 #include "systems/drawn/bound_drawn.hpp"
 #include "systems/drawn/query_index.hpp"
-#include "systems/models/thick_shell/hidden/restart.hpp"
-#include "systems/models/thick_shell/shared/cut_out.hpp"
-#include "systems/models/thick_shell/shared/quick_body.hpp"
-#include "systems/models/thick_shell/shared/working_room.hpp"
+#include "systems/models.hpp"
 #include "systems/structures/shell/draw_shell.hpp"
 #include "systems/structures/shell/rigid_shape.hpp"
-#include "systems/structures/shell/vertex_sums.hpp"
 
 namespace cullet {
 
@@ -132,18 +128,16 @@ std::unique_ptr<World::Contents> make_alike(const Settings& settings, const Worl
     }
 }
 
-bool is_brittle(const State& state, Row<Shells> shell) {
-    return material_traits(state, state.shells.material[shell]).kind == MaterialKind::Brittle;
-}
-
 /// What is not in the bytes because it follows from them.
 void restore_what_follows(World::Contents& world) {
     WorldData& d = world.data;
     State& state = d.state;
+    const DamageModels& models = *d.damage_models;
     for (uint32_t t = 0; t < state.tasks.size(); ++t) {
-        if (static_cast<TaskState>(state.tasks.state[t]) == TaskState::Running) restore_scratch(state, Row<Tasks>(t));
+        if (static_cast<TaskState>(state.tasks.state[t]) == TaskState::Running)
+            models.restore_run(state, Row<Tasks>(t));
         const bool has_copy = static_cast<TaskState>(state.tasks.state[t]) != TaskState::Free &&
-                              state.tasks.shell[t].exists() && !is_cut_out(state, t);
+                              state.tasks.shell[t].exists() && !models.is_part(state, t);
         if (has_copy)  // of the whole body, whose drawn mesh it knows
             remember_drawn(ShellView(state, state.tasks.shell[t]), state.view_indices,
                            state.bodies.view_indices[state.tasks.body[t]]);
@@ -154,10 +148,9 @@ void restore_what_follows(World::Contents& world) {
         bound_view(state.bodies, Row<Bodies>(b), state.view_vertices, state.view_indices, d.view_boxes);
         remember_drawn(ShellView(state, shell), state.view_indices, state.bodies.view_indices[b]);
         state.bodies.redrawn[b] = {0, state.bodies.view_indices[b].count / 3};
-        if (may_cut_out(state, Row<Bodies>(b)) && is_brittle(state, shell)) keep_vertex_sums(ShellView(state, shell));
+        models.restore_body(state, Row<Bodies>(b));
         if (state.bodies.is_breakable[b])
-            d.make_ready(is_quick_body(state, Row<Bodies>(b)) ? quick_room(ShellView(state, shell))
-                                                              : working_room(ShellView(state, shell)));
+            models.for_each_room(state, Row<Bodies>(b), [&](const ShellRoom& room) { d.make_ready(room); });
         d.arena.reset();
         if (world.hosted && static_cast<BodyKind>(state.bodies.kind[b]) != BodyKind::Scenery)
             world.hosted->announce(b, convex_pieces(state, shell, d.arena));
@@ -208,7 +201,8 @@ Result<std::unique_ptr<World::Contents>> parse_snapshot(std::span<const uint8_t>
         for_each_count(d, take);
         take_tables(in, d.state);
         if (!in.is_sound()) return Error{in.trouble()};
-        if (const Result<void> sound = check_state(d.state, name); !sound) return Error{sound.error()};
+        if (const Result<void> sound = check_state(*d.damage_models, d.state, name); !sound)
+            return Error{sound.error()};
         const Result<void> due = check_times(d.state, d.step_info.frame, d.step_info.dt, name);
         if (!due) return Error{due.error()};
         d.query_index->load(in, d.state.bodies);

@@ -29,7 +29,7 @@ void take_tables(ByteReader& in, State& state);
 
 /// Whether a world's rows are such that systems can work on them: indices in range, ranges apart, numbers finite, lists
 /// that end. Says nothing of whether physics would have made them. The sentence names table, column and row.
-Result<void> check_state(const State& state, const std::string& name);
+Result<void> check_state(const DamageModels& models, const State& state, const std::string& name);
 /// Whether nothing waits longer for its frame than a world makes it wait; `frame` is the next step.
 Result<void> check_times(const State& state, uint64_t frame, float dt, const std::string& name);
 

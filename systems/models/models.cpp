@@ -126,4 +126,52 @@ void DamageModels::keep_torn(SoftRows& rows, RigidWorld& rigid, Row<Bodies> body
         if (const auto keep = model.calls().keep_torn) keep(rows, rigid, body);
 }
 
+void DamageModels::follow(SoftRows& rows, Row<Bodies> body) const {
+    for (const DamageModel& model : models_)
+        if (const auto follow_body = model.calls().follow) follow_body(rows, body);
+}
+
+void DamageModels::release(SoftRows& rows, Row<Bodies> body) const {
+    for (const DamageModel& model : models_)
+        if (const auto release_rows = model.calls().release) release_rows(rows, body);
+}
+
+void DamageModels::restore_run(RunRows& rows, Row<Tasks> task) const {
+    for (const DamageModel& model : models_)
+        if (const auto restore = model.calls().restore_run) restore(rows, task);
+}
+
+void DamageModels::restore_body(BodyRows& rows, Row<Bodies> body) const {
+    for (const DamageModel& model : models_)
+        if (const auto restore = model.calls().restore_body) restore(rows, body);
+}
+
+bool DamageModels::is_part(const RunRows& rows, uint32_t task) const {
+    for (const DamageModel& model : models_)
+        if (const auto is_part_of = model.calls().is_part; is_part_of && is_part_of(rows, task)) return true;
+    return false;
+}
+
+Result<void> DamageModels::check_shell(const ShellView& shell, bool is_part, const std::string& name,
+                                       const char* advice) const {
+    for (const DamageModel& model : models_)
+        if (const auto check = model.calls().check_shell)
+            if (const Result<void> sound = check(shell, is_part, name, advice); !sound) return sound;
+    return {};
+}
+
+std::string DamageModels::trouble_of_task(const RunRows& rows, uint32_t task) const {
+    for (const DamageModel& model : models_)
+        if (const auto trouble_of = model.calls().trouble_of_task)
+            if (std::string trouble = trouble_of(rows, task); !trouble.empty()) return trouble;
+    return {};
+}
+
+Result<void> DamageModels::check_rows(const SoftRows& rows, const std::string& name, const char* advice) const {
+    for (const DamageModel& model : models_)
+        if (const auto check = model.calls().check_rows)
+            if (const Result<void> sound = check(rows, name, advice); !sound) return sound;
+    return {};
+}
+
 }  // namespace cullet

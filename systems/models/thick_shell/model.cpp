@@ -1,11 +1,16 @@
 #include "systems/models/thick_shell/model.hpp"
 
+#include "systems/models/thick_shell/check_calls.hpp"
+#include "systems/models/thick_shell/hidden/restart.hpp"
 #include "systems/models/thick_shell/loops.hpp"
 #include "systems/models/thick_shell/open_calls.hpp"
 #include "systems/models/thick_shell/piece_calls.hpp"
+#include "systems/models/thick_shell/restore_calls.hpp"
 #include "systems/models/thick_shell/shared/cancel_run.hpp"
+#include "systems/models/thick_shell/shared/cut_out.hpp"
 #include "systems/models/thick_shell/shared/quick_body.hpp"
 #include "systems/models/thick_shell/shared/working_room.hpp"
+#include "systems/models/thick_shell/soft/soft_body.hpp"
 #include "systems/models/thick_shell/soft/soft_calls.hpp"
 #include "systems/systems.hpp"
 
@@ -37,6 +42,9 @@ DamageModel thick_shell_model() {
     model.takes<working_shell, begin_run, give_late_rows>().foretells<may_find_room, run_length>();
     model.moves_rest<motion_of_rest>().inherits<inherit_fracture>().keeps_cell_names<is_quick_body>();
     model.tears<hand_off_torn, give_torn_pieces, keep_torn_body>();
+    model.keeps_for_bodies<follow_body, release_soft>();
+    model.restores<restore_scratch, restore_sums>().works_on<is_cut_out, room_of_hit>();
+    model.checks<check_worn_shell, trouble_of_run, check_model_rows>();
     return model;
 }
 

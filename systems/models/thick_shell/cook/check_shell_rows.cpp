@@ -10,6 +10,7 @@
 #include "systems/models/thick_shell/shared/working_room.hpp"
 #include "systems/structures/shell/piece_shape.hpp"
 #include "systems/structures/shell/ring.hpp"
+#include "systems/tasks/step_limits.hpp"
 
 namespace cullet {
 namespace {

@@ -50,10 +50,6 @@ std::string edges_advice(const HitOfModel& hit, const MeanEdgeWhenSplitAt& split
 
 }  // namespace
 
-uint64_t hold_units(uint64_t units_a_frame, float hold_seconds, float step_seconds) {
-    return units_a_frame * (1 + static_cast<uint64_t>(hold_seconds / step_seconds + 1e-3f));
-}
-
 double edge_for_units(const HitOfModel& hit, uint64_t wanted) {
     const double share = static_cast<double>(hit.units) / static_cast<double>(wanted), vertices = hit.vertices;
     if (!hit.is_local) return hit.mean_edge * std::cbrt(share);

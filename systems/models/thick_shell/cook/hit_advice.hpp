@@ -6,9 +6,7 @@
 
 namespace cullet {
 
-/// Units of the frame of the touch and of those that a hold lasts.
-uint64_t hold_units(uint64_t units_a_frame, float hold_seconds, float step_seconds);
-/// The same at the default settings: seven frames.
+/// Units that a hold has at the default settings: seven frames.
 inline constexpr uint64_t kDefaultHoldUnits = 8'000'000ull * 7;
 
 /// What is known of a model's hit.

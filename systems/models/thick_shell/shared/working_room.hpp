@@ -19,10 +19,6 @@ ShellRoom hidden_room(const MaterialRows& state, Row<Materials> material, uint32
 /// wait for it.
 bool may_find_room(const BodyRows& state, Row<Bodies> body);
 
-/// Steps and units of a run are counted in whole numbers, which a shell or a file must not leave: its step, s, and how
-/// many steps its run may have. Cooked ones are 1e-7 s and some thousand.
-constexpr float kShortestStep = 1e-12f, kMostSteps = 1e9f;
-
 /// Seconds that a hidden run lasts at most: T = max(the material's, 3.6 sqrt(area) / c), c along or across the grain,
 /// whichever is slower.
 float run_seconds(const MaterialRows& state, uint32_t material, float area);
