@@ -8,6 +8,7 @@
 #include <string>
 
 #include "cullet/result.hpp"
+#include "cullet/world.hpp"
 #include "systems/checks/world_energy.hpp"
 #include "systems/model_loops.hpp"
 #include "systems/slots.hpp"
@@ -38,6 +39,15 @@ struct WorkingShell {
     Row<Shells> shell;           // none: it waits, or there is no room
     bool waits = false;          // for the task's contacts: its rows are given when they are known
     const char* full = nullptr;  // the limit that left no room
+};
+
+/// What models are told about a body that the game spawns.
+struct Spawning {
+    const SpawnSettings& settings;
+    bool is_breakable;    // the game wants it, and its strength is finite
+    bool knows_surfaces;  // the rigid world tells what a body meets
+    float step_seconds;   // s
+    uint64_t units_a_frame;
 };
 
 /// How long a run takes that works on a whole body.
@@ -106,6 +116,20 @@ class DamageModel {
         };
         calls_.explode = [](SoftRows& rows, RigidWorld& rigid, Row<Bodies> body, const Explosion& explosion) {
             return Explode(rows, rigid, body, explosion);
+        };
+        return *this;
+    }
+    /// A body is spawned. `Check(settings)`: whether the model's own settings are sound. `Shell(rows, source,
+    /// spawning)`: the cooked shell, which bodies share, or one of the body's own. `Body(rows, body, spawning)`, once
+    /// its mass is known: fills what the model keeps for it, and returns the rows that the first hit on it takes.
+    template <auto Check, auto Shell, auto Body>
+    DamageModel& spawns() {
+        calls_.check_spawn = [](const SpawnSettings& settings) { return Check(settings); };
+        calls_.spawn_shell = [](SoftRows& rows, Row<Shells> source, const Spawning& spawning) {
+            return Shell(rows, source, spawning);
+        };
+        calls_.spawn_body = [](SoftRows& rows, Row<Bodies> body, const Spawning& spawning) {
+            return Body(rows, body, spawning);
         };
         return *this;
     }
@@ -209,6 +233,9 @@ class DamageModel {
         std::optional<MechanicalEnergy> (*energy)(SoftRows&, Row<Bodies>, Vec3 gravity) = nullptr;
         bool (*push)(SoftRows&, RigidWorld&, Row<Bodies>, const PointPush&) = nullptr;
         bool (*explode)(SoftRows&, RigidWorld&, Row<Bodies>, const Explosion&) = nullptr;
+        Result<void> (*check_spawn)(const SpawnSettings&) = nullptr;
+        Result<Row<Shells>> (*spawn_shell)(SoftRows&, Row<Shells> source, const Spawning&) = nullptr;
+        Result<ShellRoom> (*spawn_body)(SoftRows&, Row<Bodies>, const Spawning&) = nullptr;
         std::optional<WorkingShell> (*working_shell)(BodyRows&, Row<Bodies>) = nullptr;
         void (*begin)(BodyRows&, Row<Tasks>, Events<StiffnessWanted>&) = nullptr;
         bool (*give_late)(BodyRows&, const Blows&, Row<Tasks>, Events<StiffnessWanted>&, const char** full) = nullptr;
@@ -262,6 +289,10 @@ class DamageModels {
     std::optional<MechanicalEnergy> energy(SoftRows& rows, Row<Bodies> body, Vec3 gravity) const;
     bool push(SoftRows& rows, RigidWorld& rigid, Row<Bodies> body, const PointPush& push) const;
     bool explode(SoftRows& rows, RigidWorld& rigid, Row<Bodies> body, const Explosion& explosion) const;
+    Result<void> check_spawn(const SpawnSettings& settings) const;
+    Result<Row<Shells>> spawn_shell(SoftRows& rows, Row<Shells> source, const Spawning& spawning) const;
+    /// Rows that the first hit on the body takes; none: it does not break.
+    Result<ShellRoom> spawn_body(SoftRows& rows, Row<Bodies> body, const Spawning& spawning) const;
     WorkingShell working_shell(BodyRows& rows, Row<Bodies> body) const;
     void begin_run(BodyRows& rows, Row<Tasks> task, Events<StiffnessWanted>& wanted) const;
     bool give_late(BodyRows& rows, const Blows& blows, Row<Tasks> task, Events<StiffnessWanted>& wanted,

@@ -11,16 +11,9 @@
 #include "systems/drawn/bound_drawn.hpp"
 #include "systems/drawn/query_index.hpp"
 #include "systems/models.hpp"
-#include "systems/models/thick_shell/calibrate.hpp"
-#include "systems/models/thick_shell/cook/apply_pins.hpp"
-#include "systems/models/thick_shell/shared/cut_out.hpp"
-#include "systems/models/thick_shell/shared/quick_body.hpp"
-#include "systems/models/thick_shell/shared/working_room.hpp"
-#include "systems/models/thick_shell/soft/soft_body.hpp"
 #include "systems/structures/shell/draw_shell.hpp"
 #include "systems/structures/shell/pin_boxes.hpp"
 #include "systems/structures/shell/rigid_shape.hpp"
-#include "systems/structures/shell/vertex_sums.hpp"
 #include "systems/world_contents.hpp"
 
 namespace cullet {
@@ -72,83 +65,6 @@ constexpr float kRollingOfBalls = 0.01f;
 // From here on nothing cracks; columns hold no infinity.
 constexpr float kNeverCracks = 1e9f;
 
-uint32_t pin(const ShellView& shell, const SpawnSettings& settings) {
-    uint32_t pinned = 0;
-    for (uint32_t i = 0; i < settings.pin_count; ++i)
-        pinned += apply_pins(shell, settings.pins[i].low, settings.pins[i].high);
-    return pinned;
-}
-
-Error no_pinned(const SpawnSettings& settings) {
-    return Error{"no vertex lies in any of the " + std::to_string(settings.pin_count) +
-                 " pin boxes; they are in body coordinates, in metres."};
-}
-
-// A shell of the body's own, as springs need it.
-Result<Row<Shells>> soft_copy(State& state, Row<Shells> source, const SpawnSettings& settings) {
-    const char* full = "";
-    const Row<Shells> copy = copy_soft_shell(state, source, &full);
-    if (!copy.exists()) return Error{std::string("no room for a ductile or elastic body; raise ") + full + "."};
-    if (settings.pin_count > 0 && pin(ShellView(state, copy), settings) == 0) {
-        release_shell(state, copy);
-        return no_pinned(settings);
-    }
-    return copy;
-}
-
-// Large bodies have a shell of their own from the start: what a hit changes is written into it (cut_out.hpp).
-bool wants_own_shell(const State& state, Row<Shells> source, const SpawnSettings& settings) {
-    if (settings.fracture == FractureMode::Quick) return state.shells.vertices[source].count > kWholeCopyVertices;
-    const bool is_brittle = material_traits(state, state.shells.material[source]).kind == MaterialKind::Brittle;
-    return is_brittle && settings.is_breakable && is_for_cut_outs(state, source, false);
-}
-
-// Measured now, and not in the frame of the first hit.
-void remember_sums(const ShellView& shell) {
-    keep_vertex_sums(shell);
-    (void)vertex_sums(shell);
-}
-
-// Rows of a body's own shell; of a large one with those that cracks will add.
-ShellRoom own_room(State& state, Row<Shells> source, const SpawnSettings& settings) {
-    ShellRoom room = room_of(state, source);
-    if (!wants_own_shell(state, source, settings)) return room;
-    const ShellRoom quick = quick_room(ShellView(state, source));
-    room.vertices = quick.vertices, room.elements = quick.elements, room.hinges = quick.hinges;
-    room.points += room.points / 4 + 32 * kMostCellPoints;  // hulls that a hit changes are written behind the others
-    return room;
-}
-
-Result<Row<Shells>> own_copy(State& state, Row<Shells> source, const SpawnSettings& settings) {
-    const char* full = "";
-    ShellRoom room = own_room(state, source, settings);
-    room.blocks = room.links = 0;
-    const Row<Shells> copy = copy_shell(state, source, room, &full);
-    if (!copy.exists())
-        return Error{std::string("no room for a large body that breaks near its hits; raise ") + full + "."};
-    remember_sums(ShellView(state, copy));
-    return copy;
-}
-
-// A shell of the body's own with these vertices pinned, its limits and rows made anew (B7: pins change what an unpinned
-// item is).
-Result<Row<Shells>> pinned_copy(State& state, Row<Shells> source, const SpawnSettings& settings) {
-    const char* full = "";
-    const Row<Shells> copy = copy_shell(state, source, own_room(state, source, settings), &full);
-    if (!copy.exists()) return Error{std::string("no room for a pinned body; raise ") + full + "."};
-    const ShellView shell(state, copy);
-    if (pin(shell, settings) == 0) {
-        release_shell(state, copy);
-        return no_pinned(settings);
-    }
-    if (!stiffen_pinned(shell)) {
-        release_shell(state, copy);
-        return Error{"the pinned body's stiffness does not fit the model's rows; please report this mesh."};
-    }
-    if (wants_own_shell(state, source, settings)) remember_sums(shell);
-    return copy;
-}
-
 }  // namespace
 
 Result<BodyId> World::spawn(ModelId id, const SpawnSettings& settings) {
@@ -164,24 +80,15 @@ Result<BodyId> World::spawn(ModelId id, const SpawnSettings& settings) {
         return Error{"strength_scale is " + std::to_string(settings.strength_scale) + "; use more than 0."};
     if (settings.pin_count > 0 && !settings.pins)
         return Error{"pin_count is " + std::to_string(settings.pin_count) + " but pins is null; give the boxes."};
-    if (const Result<void> valid = check_fracture(settings.fracture, settings.quick); !valid)
-        return Error{valid.error()};
-    if (const Result<void> valid = check_layers(settings.layers); !valid) return Error{valid.error()};
-    Row<Shells> shell = state.models.shell[model];
-    const bool is_brittle = material_traits(state, state.shells.material[shell]).kind == MaterialKind::Brittle;
-    // What never gives way needs no springs.
-    const bool is_soft =
-        !is_brittle && settings.is_breakable && settings.strength_scale < kNeverCracks && d.rigid->knows_surfaces();
-    const bool is_large = wants_own_shell(state, shell, settings);
-    if (is_soft || settings.pin_count > 0 || is_large) {
-        Result<Row<Shells>> own = is_soft                  ? soft_copy(state, shell, settings)
-                                  : settings.pin_count > 0 ? pinned_copy(state, shell, settings)
-                                                           : own_copy(state, shell, settings);
-        if (!own) return Error{own.error()};
-        shell = own.value();
-    } else {
-        ++state.shells.users[shell];
-    }
+    const DamageModels& models = *d.damage_models;
+    if (const Result<void> valid = models.check_spawn(settings); !valid) return Error{valid.error()};
+    const Spawning spawning{settings, settings.is_breakable && settings.strength_scale < kNeverCracks,
+                            d.rigid->knows_surfaces(), d.step_info.dt, d.damage_settings.units_a_frame};
+    const Row<Shells> shared = state.models.shell[model];
+    const Result<Row<Shells>> own = models.spawn_shell(state, shared, spawning);
+    if (!own) return Error{own.error()};
+    const Row<Shells> shell = own.value();
+    if (shell == shared) ++state.shells.users[shell];
     const Row<Bodies> body = take_body(state);
     if (!body.exists()) {
         release_shell(state, shell);
@@ -206,28 +113,16 @@ Result<BodyId> World::spawn(ModelId id, const SpawnSettings& settings) {
         return Error{"no room for " + std::to_string(settings.pin_count) + " pin boxes; raise limits.bodies."};
     }
     bodies.strength_scale[body] = std::min(settings.strength_scale, kNeverCracks);
-    bodies.is_breakable[body] = settings.is_breakable && settings.strength_scale < kNeverCracks && is_brittle;
-    QuickSettings quick = settings.quick;
-    if (settings.fracture == FractureMode::Quick && bodies.is_breakable[body] && quick.strain_limit == 0)
-        quick.strain_limit =
-            calibrated_strain_limit(state, shell, quick, settings.layers, state.shells.first_crack_speed[shell]);
-    set_fracture(state, body, settings.fracture, quick, settings.layers);
-    if (bodies.is_breakable[body]) {
-        d.damage_models->for_each_room(state, body, [&](const ShellRoom& room) { d.make_ready(room); });
-    }
     take_mass_properties(state, body);
-    if (is_soft) {
-        const Result<Row<SoftBodies>> soft =
-            make_soft(state, body, settings.layers, d.step_info.dt, d.damage_settings.units_a_frame);
-        if (!soft) {
-            free_body(state, body);
-            return Error{soft.error()};
-        }
-        d.make_ready(room_of(state, shell));
+    const Result<ShellRoom> room = models.spawn_body(state, body, spawning);
+    if (!room) {
+        free_body(state, body);
+        return Error{room.error()};
     }
+    if (room->vertices > 0) d.make_ready(*room);
     d.arena.reset();
     d.rigid->add(body, describe_rigid(state, body, convex_pieces(state, shell, d.arena)));
-    if (take_settled_pose(bodies, *d.rigid, body)) d.damage_models->follow(state, body);
+    if (take_settled_pose(bodies, *d.rigid, body)) models.follow(state, body);
     draw_body(state, body);
     bodies.drawn_frame[body] = d.step_info.frame;
     bound_view(bodies, body, state.view_vertices, state.view_indices, d.view_boxes);

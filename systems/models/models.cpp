@@ -60,6 +60,33 @@ bool DamageModels::explode(SoftRows& rows, RigidWorld& rigid, Row<Bodies> body, 
     return false;
 }
 
+Result<void> DamageModels::check_spawn(const SpawnSettings& settings) const {
+    for (const DamageModel& model : models_)
+        if (const auto check = model.calls().check_spawn)
+            if (const Result<void> sound = check(settings); !sound) return sound;
+    return {};
+}
+
+Result<Row<Shells>> DamageModels::spawn_shell(SoftRows& rows, Row<Shells> source, const Spawning& spawning) const {
+    for (const DamageModel& model : models_)
+        if (const auto spawn = model.calls().spawn_shell) {
+            const Result<Row<Shells>> own = spawn(rows, source, spawning);
+            if (!own || own.value() != source) return own;
+        }
+    return source;
+}
+
+Result<ShellRoom> DamageModels::spawn_body(SoftRows& rows, Row<Bodies> body, const Spawning& spawning) const {
+    ShellRoom room;
+    for (const DamageModel& model : models_)
+        if (const auto spawn = model.calls().spawn_body) {
+            const Result<ShellRoom> own = spawn(rows, body, spawning);
+            if (!own) return own;
+            if (own->vertices > room.vertices) room = own.value();
+        }
+    return room;
+}
+
 WorkingShell DamageModels::working_shell(BodyRows& rows, Row<Bodies> body) const {
     for (const DamageModel& model : models_)
         if (const auto make = model.calls().working_shell)

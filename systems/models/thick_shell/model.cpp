@@ -12,6 +12,7 @@
 #include "systems/models/thick_shell/shared/working_room.hpp"
 #include "systems/models/thick_shell/soft/soft_body.hpp"
 #include "systems/models/thick_shell/soft/soft_calls.hpp"
+#include "systems/models/thick_shell/spawn_calls.hpp"
 #include "systems/systems.hpp"
 
 namespace cullet {
@@ -45,6 +46,7 @@ DamageModel thick_shell_model() {
     model.keeps_for_bodies<follow_body, release_soft>();
     model.restores<restore_scratch, restore_sums>().works_on<is_cut_out, room_of_hit>();
     model.checks<check_worn_shell, trouble_of_run, check_model_rows>();
+    model.spawns<check_spawn, spawn_shell, spawn_body>();
     return model;
 }
 

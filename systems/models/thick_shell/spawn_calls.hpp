@@ -1,0 +1,14 @@
+// What the spawning of bodies asks of the thick shell (models.hpp).
+#pragma once
+#include "systems/models.hpp"
+
+namespace cullet {
+
+/// How it breaks, and its layers.
+Result<void> check_spawn(const SpawnSettings& settings);
+/// One of its own where it has pins, moves by its springs, or is so large that hits cut out parts of it.
+Result<Row<Shells>> spawn_shell(ShellRows& state, Row<Shells> source, const Spawning& spawning);
+/// Brittle bodies may break, others get springs.
+Result<ShellRoom> spawn_body(SoftRows& state, Row<Bodies> body, const Spawning& spawning);
+
+}  // namespace cullet
