@@ -49,6 +49,7 @@ constexpr float kPressedSeconds = 1.5f;  // after which it sleeps as it lies
 constexpr float kShallow = 0.00005f;  // m, at scale 1
 constexpr float kSettlingSeconds = 0.6f;
 constexpr float kSettlingSpeed = 0.1f;  // of its speed, of what has the full reach; of what is smaller less
+constexpr float kBorneShare = 0.5f;     // of its weight, that bears it when it is done
 
 // Where there is no gravity nothing holds anything: at rest is what would not leave its place in so long.
 constexpr float kDriftSeconds = 60;
@@ -367,15 +368,21 @@ void BulletWorld::still_settling() {
     }
 }
 
-// False: it is pushed out of something, or awake again, for it leaves its place: nothing bears it any more, or it was
-// tipping over in the step before it was laid to rest.
+// False: it is pushed out of something, or awake again: it leaves its place, for it was tipping over in the step before
+// it was laid to rest, or nothing bears it any more.
 bool BulletWorld::has_settled(Body& body, float dt) {
-    if (body.sunk <= kShallow || body.settling_seconds >= kSettlingSeconds) return true;
+    const bool is_settling = body.settling_seconds > 0;
     const btTransform& now = body.bullet->getWorldTransform();
+    if (!is_settling && body.sunk <= kShallow) return true;
+    if (!is_settling) body.anchor = now;
+    const bool is_done = body.sunk <= kShallow || body.settling_seconds >= kSettlingSeconds;
+    const bool is_borne = body.load >= kBorneShare * body.mass * gravity_.length() * dt;
     body.has_left = false;
-    if (!(body.settling_seconds > 0)) body.anchor = now;
-    if (body.is_driven || has_left(body, body.anchor, now, size_of(body) * kStillDistance))
+    const bool leaves = has_left(body, body.anchor, now, size_of(body) * kStillDistance) || (is_done && !is_borne);
+    if (body.is_driven || leaves)
         wake_beside(body);
+    else if (is_done)
+        return true;
     else
         body.settling_seconds += dt;
     return false;

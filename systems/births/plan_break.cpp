@@ -8,6 +8,7 @@
 #include "systems/births/limit_energy.hpp"
 #include "systems/bodies/blows.hpp"
 #include "systems/bodies/body_rows.hpp"
+#include "systems/bodies/thresholds.hpp"
 #include "systems/models.hpp"
 #include "systems/structures/shell/cell_hulls.hpp"
 #include "systems/structures/shell/crack_touches.hpp"
@@ -21,7 +22,6 @@ namespace cullet {
 namespace {
 
 // Cuts have no last generation: more are not told apart.
-constexpr uint32_t kMostGenerations = 255;
 
 // A piece that found no room stays part of another and moves with it, as one that keeps momentum and angular momentum.
 void join_motions(PartMotion& motion, PartMotion& joined) {

@@ -1,3 +1,4 @@
+#include "systems/bodies/thresholds.hpp"
 #include "systems/structures/shell/cell_hulls.hpp"
 #include "systems/structures/shell/mass_properties.hpp"
 #include "systems/structures/shell/piece_shape.hpp"
@@ -46,7 +47,8 @@ void keep_rest(BodyRows& state, const Break& plan) {
     }
     if (!plan.is_rest_smaller(state)) write_sums(shell, plan.whole - left);
     state.shells.dead_elements[shell.row] += plan.left_elements;
-    ++state.shells.generation[shell.row];
+    uint8_t& generation = state.shells.generation[shell.row];
+    if (generation < kMostGenerations) ++generation;
     if (!plan.soft.exists()) clear_run(shell, false, plan.broken != plan.before, plan.is_refused);
     if (plan.keeps_hulls) return renew_rest_hulls(shell);
     const Range points = state.shells.points[before.row], old_points = state.shells.points[shell.row];

@@ -55,13 +55,22 @@ double share_lost(const TaskContacts& contacts, uint32_t first, uint32_t c) {
     return p * speed;
 }
 
-// A striker that broke after the run had opened is lighter than the run takes it for. It takes the part that gives it
-// the speed that the run gave it: the whole would throw it off with more energy than this body had.
-double part_taken(const Bodies& bodies, const TaskContacts& contacts, uint32_t c) {
+// A striker that broke after the run had opened is lighter than the run takes it for. It takes the part of this push,
+// which is against the contact's `normal` (world), that gives it the speed there that the run gave it: the whole would
+// throw it off with more energy than the body had.
+double part_taken(const Bodies& bodies, const TaskContacts& contacts, uint32_t c, const Push& whole, Vec3 normal,
+                  Vec3 place) {
     constexpr double kRounding = 1e-5;
-    const double inverse_mass = contacts.striker_own_inverse_mass[c] / std::max<double>(1, contacts.sharers[c]);
-    const double part = bodies.mass[contacts.striker[c]] * inverse_mass;
-    return part < 1 - kRounding ? part : 1;
+    const Row<Bodies> striker = contacts.striker[c];
+    const double sharers = std::max<double>(1, contacts.sharers[c]);
+    if (bodies.mass[striker] * contacts.striker_own_inverse_mass[c] > (1 - kRounding) * sharers) return 1;
+    const Motion now = pushed(bodies, striker, whole);
+    const Vec3 arm = place - centre_of(bodies, striker);
+    const Vec3 gained =
+        now.velocity - bodies.velocity[striker] + cross(now.angular_velocity - bodies.spin[striker], arm);
+    const double gain = -dot(Vec3d(gained), Vec3d(normal)),
+                 wanted = contacts.impulse[c] * contacts.striker_inverse_mass[c] / sharers;
+    return gain > wanted ? wanted / gain : 1;
 }
 
 // A striker gives each task its share alone, whatever the order in which they end; what it has lost beyond it waits
@@ -171,8 +180,10 @@ double strike_back(Births& births, Row<Tasks> task, const Pose& pose, std::span<
             births.counts.work_from_outside += given;
             continue;
         }
-        const double part = part_taken(state.bodies, contacts, c);
-        const Push taken = push_at(state.bodies, striker, -part * in_world, place);
+        const Push whole = push_at(state.bodies, striker, -1.0 * in_world, place);
+        const Vec3 normal = rotate(pose.orientation, contacts.normal[c]);
+        const double part = part_taken(state.bodies, contacts, c, whole, normal, place);
+        const Push taken{part * whole.impulse, part * whole.turn};
         difference += (part - 1) * blow;
         // Ties to the one that broke first.
         const bool is_larger = state.bodies.mass[body] >= state.bodies.mass[striker];

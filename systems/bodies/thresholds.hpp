@@ -6,6 +6,8 @@ namespace cullet {
 
 /// A task opens above this share of the first-crack speed; half of it once the body has cracks (section 6.1, 6.4).
 inline constexpr float kWakeShare = 0.3f;
+/// A generation is counted as far as a byte holds it.
+inline constexpr uint32_t kMostGenerations = 255;
 /// Between two tries of one body, s.
 inline constexpr float kRetrySeconds = 0.02f;
 
@@ -28,7 +30,9 @@ inline bool may_break_again(const Shells& shells, Row<Shells> s, const DamageSet
 }
 /// What snaps has no last generation, as what is cut, unless the game lets whole bodies break alone.
 inline bool may_snap_again(const Shells& shells, Row<Shells> s, const DamageSettings& settings) {
-    return shells.generation[s] == 0 || (settings.generations > 0 && is_worth_breaking(shells, s, settings));
+    const uint32_t generation = shells.generation[s];
+    return generation == 0 ||
+           (settings.generations > 0 && generation < kMostGenerations && is_worth_breaking(shells, s, settings));
 }
 inline uint64_t retry_frames(float dt) {
     return 1 + static_cast<uint64_t>(std::ceil(kRetrySeconds / dt));

@@ -69,10 +69,11 @@ bool is_sunk(const LoadedBody& of, double deep) {
 double least_load(const LoadedBody& of) {
     return std::min(2 * force_borne(of), least_bending_force(of));
 }
+bool is_any_driven(std::span<const BodyLoad> loads) {
+    return std::any_of(loads.begin(), loads.end(), [](const BodyLoad& l) { return l.driven_speed > 0; });
+}
 bool may_be_overloaded(const LoadedBody& of, std::span<const BodyLoad> loads) {
-    const auto is_driven = [](const BodyLoad& l) { return l.driven_speed > 0; };
-    return std::any_of(loads.begin(), loads.end(), is_driven) || sum_of(loads) > kLookShare * least_load(of) ||
-           is_sunk(of, sunk_into(of, loads));
+    return is_any_driven(loads) || sum_of(loads) > kLookShare * least_load(of) || is_sunk(of, sunk_into(of, loads));
 }
 
 // It may break, and is not held.
@@ -81,7 +82,8 @@ bool may_be_loaded(const LoadedBody& of, const DamageSettings& settings) {
            !of.bodies.hold_count[of.body] && of.shells.first_crack_force[of.shell()] > 0 && force_borne(of) < kBearsAll;
 }
 
-// It has broken too often for a blow. It still gives way to what does not yield: a door does not stop for it.
+// It has broken too often for a blow. It still gives way to what does not yield: a door does not stop for it. Nothing
+// else wakes it, for what lies in a heap would be woken to bear what it may not break by.
 bool is_past_blows(const LoadedBody& of, const DamageSettings& settings) {
     return !may_break_again(of.shells, of.shell(), settings);
 }
@@ -126,8 +128,8 @@ bool is_crushed(const Overload& over) {
 
 // m, that what drives, or falls, is in it in so many seconds.
 double way_in(const Overload& over, Vec3 gravity, double seconds) {
-    if (over.is_driven) return over.driven_speed * seconds;
-    return is_crushed(over) ? over.sunk + 0.5 * length(gravity) * seconds * seconds : 0;
+    if (over.is_driven) return over.sunk + over.driven_speed * seconds;
+    return over.sunk + (is_crushed(over) ? 0.5 * length(gravity) * seconds * seconds : 0);
 }
 
 bool is_for_a_run(const BodyRows& state, const LoadedBody& of, const Overload& over, DamageRules rules, Step step) {
@@ -166,15 +168,11 @@ QueuedHit snap_of(QueuedHit hit, const Overload& over) {
     return hit;
 }
 
-// So many counted steps in a row it has to be too much.
-uint32_t counts_wanted(const LoadedBody& of, const Overload& over, float dt) {
+// So many counted steps in a row a load has to be too much.
+uint32_t counts_of_load(const LoadedBody& of, const Overload& over, float dt) {
     const Bodies& bodies = of.bodies;
     const Row<Bodies> body = of.body;
     const uint8_t runs = bodies.overload_runs[body];
-    const bool is_too_much = over.is_driven || over.share > 1;
-    if (is_sunk(of, over.sunk) && is_too_much) return 1u << std::min(runs, kMostCrushedRuns);
-    if (!is_too_much && is_deep(bodies, body, over.sunk))
-        return counts_in(kDrivenSeconds, dt) << std::min(runs, kMostLoadRuns);
     if (over.is_between) {
         const uint32_t counts = counts_in(kDrivenSeconds, dt);
         const double seconds = counts * double{std::max(dt, kLeastCounted)};
@@ -183,6 +181,14 @@ uint32_t counts_wanted(const LoadedBody& of, const Overload& over, float dt) {
     if (over.is_driven) return counts_in(kOverloadSeconds, dt);
     if (is_crushed(over)) return counts_in(kCrushedSeconds, dt) << std::min(runs, kMostCrushedRuns);
     return counts_in(kOverloadSeconds, dt) << std::min(runs, kMostLoadRuns);
+}
+
+// The same of what is sunk into, whether it is too much besides or not.
+uint32_t counts_of_sinking(const LoadedBody& of, const Overload& over, bool is_too_much, float dt) {
+    const uint8_t runs = of.bodies.overload_runs[of.body];
+    if (is_too_much) return 1u << std::min(runs, kMostCrushedRuns);
+    const float seconds = is_deep(of.bodies, of.body, over.sunk) ? kDrivenSeconds : kOverloadSeconds;
+    return counts_in(seconds, dt) << std::min(runs, kMostLoadRuns);
 }
 
 // The run on it stands for a load, which has come deep in since it began: other hits had their share of the units.
@@ -239,7 +245,7 @@ void weigh_loads(Serial, Step step, RigidWorld& rigid, BodyRows& rows, QueuedHit
         if (bodies.is_asleep[b]) {
             if (forgets) bodies.waking_load[b] *= 0.5f;
             const double load = sum_of(loads);
-            if (!is_to_wake(of, load)) continue;
+            if (!is_to_wake(of, load) || (is_past_blows(of, settings) && !is_any_driven(loads))) continue;
             bodies.waking_load[b] =
                 static_cast<float>(std::clamp(2 * double{bodies.waking_load[b]}, kFirstWaking * load, 1e30));
             rigid.wake(body);
@@ -256,13 +262,16 @@ void weigh_loads(Serial, Step step, RigidWorld& rigid, BodyRows& rows, QueuedHit
                                   ? overload_of(of, rigid, loads, weight_of(bodies, body, step.gravity), room)
                                   : Overload{};
         const bool is_busy = bodies.task[b] != kNone;
-        const bool is_too_much = over.share > 1 && !is_past_blows(of, settings);
-        if (!over.is_driven && !is_too_much && !is_sunk(of, over.sunk)) {
+        const bool is_too_much = over.is_driven || (over.share > 1 && !is_past_blows(of, settings)),
+                   is_sunk_into = is_sunk(of, over.sunk);
+        if (!is_too_much && !is_sunk_into) {
             bodies.overloaded_steps[b] = 0;
             if (!is_busy && over.share < 0.5) bodies.overload_runs[b] = 0;
             continue;
         }
-        const uint32_t wanted = counts_wanted(of, over, step.dt);
+        const uint32_t wanted =
+            std::min(is_too_much ? counts_of_load(of, over, step.dt) : uint32_t{kWasWoken},
+                     is_sunk_into ? counts_of_sinking(of, over, is_too_much, step.dt) : uint32_t{kWasWoken});
         if (bodies.overloaded_steps[b] < kWasWoken - 1) ++bodies.overloaded_steps[b];
         if (bodies.overloaded_steps[b] < std::min<uint32_t>(wanted, kWasWoken - 1)) continue;
         const bool has_pressed_on = is_busy && is_too_late(rows, body, over, step);

@@ -1,7 +1,6 @@
 // Every scene: the same bytes on any number of threads, no memory asked for, no mass lost.
 #include <gtest/gtest.h>
 
-#include <algorithm>
 #include <cmath>
 #include <cstdlib>
 #include <map>
@@ -17,16 +16,16 @@
 namespace cullet {
 namespace {
 
-/// Played of each scene: 120, or as many as CULLET_SCENE_FRAMES says.
-uint32_t frames_to_play() {
+/// As CULLET_SCENE_FRAMES says, or else this many.
+uint32_t frames_to_play(uint32_t if_not_said) {
     const char* text = std::getenv("CULLET_SCENE_FRAMES");
     const int wanted = text ? std::atoi(text) : 0;
-    return wanted > 0 ? static_cast<uint32_t>(wanted) : 120;
+    return wanted > 0 ? static_cast<uint32_t>(wanted) : if_not_said;
 }
-const uint32_t kFrames = frames_to_play();
-/// Those that are compared hash by hash, in seven plays: 40 of pile, in which a dozen vases break.
+const uint32_t kFrames = frames_to_play(120);
+/// Those that are compared hash by hash, in seven plays: in 40 of pile a dozen vases break.
 uint32_t hashed_frames_of(const Scene& scene) {
-    return scene.name == "pile" ? std::min(kFrames, 40u) : kFrames;
+    return scene.name == "pile" ? frames_to_play(40) : kFrames;
 }
 
 /// A scene's plan, cooked once for all tests of it.

