@@ -253,6 +253,27 @@ Push Meeting::turn_on(bool is_of_b, Vec3d& axis) const {
     return push;
 }
 
+// The axis of a contact may be off that of a large face by a tenth of a degree. The far end of the face then seems to
+// lie millimetres deep, and what slides on it would not move at all: of both pieces' faces that look the same way the
+// one along which they are the farthest apart is better.
+Vec3d flattest_near(const Mover& a, const Hull& hull_a, const Mover& b, const Hull& hull_b, Vec3d met) {
+    constexpr double kSameWay = 0.9998;  // cosine, of a degree
+    Vec3d best = met;
+    double most = gap_along(hull_a.world, hull_b.world, met);
+    for (const bool is_of_b : {true, false}) {
+        const Hull& hull = is_of_b ? hull_b : hull_a;
+        const Mat3 rotation = rotation_of((is_of_b ? b : a).body->fresh_at);
+        for (uint32_t f = 0; f < hull.face_count; ++f) {
+            const Vec3d out(hull.one_sided ? hull.face_normal[f] : rotation * hull.face_normal[f]);
+            const Vec3d axis = is_of_b ? out : -1.0 * out;
+            if (!(dot(axis, met) > kSameWay)) continue;
+            const double gap = gap_along(hull_a.world, hull_b.world, axis);
+            if (gap > most) most = gap, best = axis;
+        }
+    }
+    return best;
+}
+
 // m that a piece may go behind the face of another that it comes to along `axis`; 0: it closes too fast, and is to
 // stop. Over floors most of a step's way leads aside; what of it leads inwards is pushed out on the right side when it
 // is not far, see is_far(). What glides nearer than the gap to stop at would otherwise stop at each triangle or piece
@@ -295,7 +316,10 @@ double touch_fraction(const Surroundings& around, const Mover& a, const Hull& hu
     // The pair's contact, found where the two stand now, has the axis.
     const Vec3d met = known.of(hull_a, hull_b);
     bool is_axis_fixed = dot(met, met) > 0.5;
-    if (is_axis_fixed) axis = met;
+    if (is_axis_fixed) {
+        const bool is_deep = gap_along(hull_a.world, hull_b.world, met) - margins < -scale * kDeeper;
+        axis = is_deep ? flattest_near(a, hull_a, b, hull_b, met) : met;
+    }
     const bool is_lively = (turning + std::max(length(first), is_split ? length(second) : 0)) * dt > scale * kLively;
     for (int round = 0; round < kRounds; ++round) {
         const btTransform at_a = a.at(t, dt), at_b = b.at(t, dt);
