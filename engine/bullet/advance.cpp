@@ -317,7 +317,8 @@ double touch_fraction(const Surroundings& around, const Mover& a, const Hull& hu
     const Vec3d met = known.of(hull_a, hull_b);
     bool is_axis_fixed = dot(met, met) > 0.5;
     if (is_axis_fixed) {
-        const bool is_deep = gap_along(hull_a.world, hull_b.world, met) - margins < -scale * kDeeper;
+        const bool are_free = a.body->is_free() && b.body->is_free();
+        const bool is_deep = !are_free && gap_along(hull_a.world, hull_b.world, met) - margins < -scale * kDeeper;
         axis = is_deep ? flattest_near(a, hull_a, b, hull_b, met) : met;
     }
     const bool is_lively = (turning + std::max(length(first), is_split ? length(second) : 0)) * dt > scale * kLively;
