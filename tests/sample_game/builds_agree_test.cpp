@@ -24,8 +24,8 @@ TEST_P(BuildsAgree, HashesOfAllFramesAreThoseOfTheReleaseGame) {
     options.frames = options.scene == "pile" ? 40 : 100;  // a dozen vases
     options.threads = 2;
     const std::string out = build_folder() + "/builds_agree/" + options.scene;
-    const std::string command = kReleaseGame + " run " + options.scene + " --frames " +
-                                std::to_string(options.frames) + " --threads 1 --out " + out + " >/dev/null";
+    const std::string command = kReleaseGame + " run " + options.scene + " --frames " + std::to_string(options.frames) +
+                                " --threads 1 --out " + out + " >/dev/null";
     ASSERT_EQ(std::system(command.c_str()), 0) << command;
     std::ifstream file(out + "/report.json");
     const auto other = nlohmann::json::parse(file);

@@ -212,7 +212,8 @@ TEST_P(Settles, NearlyAllSleepFiveSecondsAfterTheLastBreakOrFallAndNoneMovesAfte
     const Settling s = settle(GetParam());
     // Heaps bear themselves. In demolition one of some 600 breaks was asked for by a load; nobody has looked at it.
     EXPECT_LE(s.loads, std::string(GetParam().scene) == "demolition" ? 1u : 0u);
-    // Of a heap of a thousand two may rock on. Of the 1,500 pieces of demolition 0 to 6 do, in 14 plays: wanted 3.
+    // Of a heap of a thousand two may rock on. Of the 1,500 of
+    // demolition 0 to 6 are awake eight seconds after its last explosion, in 14 plays: wanted 3.
     const bool is_street = std::string(GetParam().scene) == "demolition";
     EXPECT_LE(s.pieces - s.asleep, is_street ? 8 : s.pieces / 500);
     EXPECT_EQ(s.moved, 0u);
@@ -220,8 +221,8 @@ TEST_P(Settles, NearlyAllSleepFiveSecondsAfterTheLastBreakOrFallAndNoneMovesAfte
 }
 
 // A wall leaves twenty slabs, some as long as a man, which lean on each other: a few of them rock on for longer than
-// five seconds. Wanted: none. How many walls that happens in is a rate, and no four of them tell it: 1 to 5 of 30 with
-// whatever was changed about contacts, of which two thirds were others each time.
+// five seconds. Wanted: none. How many walls that happens in is a rate, and no four of them tell it: 1 to 5 of 30 were
+// seen in a day's versions.
 TEST(ThirtyWalls, AtMostFourKeepASlabRockingForFiveSecondsAndOneForTen) {
     size_t rocking = 0, moving = 0, loads = 0;
     for (int seed = 1; seed <= 30; ++seed) {
@@ -234,7 +235,7 @@ TEST(ThirtyWalls, AtMostFourKeepASlabRockingForFiveSecondsAndOneForTen) {
     std::printf("%zu of 30 rock after five seconds, %zu after ten\n", rocking, moving);
     EXPECT_LE(rocking, 4u);
     EXPECT_LE(moving, 1u);
-    // Wanted: none. In wall 12 a slab lies so deep in two others that it is taken for crushed.
+    // Wanted: none. In wall 12 one break is asked for by a load; nobody has looked at it.
     EXPECT_LE(loads, 1u);
 }
 

@@ -13,7 +13,7 @@ constexpr float kGoodEnough = 0.2f;  // of the margin, as for cells
 constexpr float kTooMuch = 0.3f;     // of the margin: a hull that leaves out more is none
 constexpr double kWidthShare = 0.2;
 constexpr float kMostMargin = 0.001f;  // m
-constexpr float kOnEdges = 0.85f;
+constexpr float kOnEdges = 0.85f;      // of the margin, see pull_of()
 constexpr uint32_t kBoxCorners = 8;
 
 /// The points that are drawn, outer and inner, vertex by vertex.
