@@ -57,7 +57,7 @@ void add_run(CLI::App& app, RunOptions& run) {
     command->add_option("--model", run.model, "How what is cooked breaks: thick_shell");
     command->add_option("--frames", run.frames, "How many steps; the scene's own number if not given")
         ->check(CLI::Range(1u, 1'000'000u));
-    command->add_option("--dt-ms", run.dt_ms, "Milliseconds a step")->check(CLI::Range(1000.0 / 240, 1000.0 / 30));
+    command->add_option("--dt-ms", run.dt_ms, "Milliseconds a step")->check(CLI::Range(1000.0 / 240, 1000.0 / 20));
     command->add_option("--threads", run.threads, "Threads that step the world; all if not given")
         ->check(CLI::Range(1u, 64u));
     command->add_option("--repeat", run.repeat, "Plays so often and takes each frame's least time")

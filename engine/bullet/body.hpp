@@ -47,7 +47,8 @@ struct Body {
     std::optional<btRigidBody> bullet;
     BodyShape shape;
     uint32_t layer = 0, mask = 0;
-    uint32_t leaf = kNoLeaf;  // in the tree of boxes
+    uint32_t leaf = kNoLeaf;        // in the tree of boxes
+    uint32_t still_leaf = kNoLeaf;  // in that of what stands still
     BodyFrame frame;
     // Where the local points of the hulls stand: `frame` as it was when they were last made all at once. A small change
     // of shape moves the centre of mass and turns the axes; the hulls that stay then keep their points.

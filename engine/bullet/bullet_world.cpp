@@ -43,12 +43,13 @@ BulletWorld::BulletWorld(uint32_t body_limit)
       work_(body_limit),
       scratches_(body_limit),
       tree_(body_limit),
+      still_tree_(body_limit),
       has_strayed_(body_limit),
       pairs_(body_limit),
       solver_(body_limit),
       sweeper_(body_limit) {
     work_.bodies = bodies_.get();
-    work_.around = {bodies_.get(), &tree_};
+    work_.around = {bodies_.get(), &still_tree_};
     strayed_.reserve(4 * static_cast<size_t>(body_limit) + 1024);
     contacts_.reserve(32 * static_cast<size_t>(body_limit) + 1024);
     loads_.reserve(32 * static_cast<size_t>(body_limit) + 1024);
@@ -438,8 +439,20 @@ void BulletWorld::enter(Body& body, const Pose& at, uint32_t layer, uint32_t mas
 void BulletWorld::enter_tree(Body& body) {
     if (body.kind == RigidKind::Dynamic) body.bullet->setGravity(gravity_);
     if (body.kind == RigidKind::Static) body.bullet->setActivationState(ISLAND_SLEEPING);
-    body.leaf = tree_.add(grown(body.shape.box, kWatched + kLeafRoom), body.id);
+    enter_leaf(body);
+}
+
+void BulletWorld::enter_leaf(Body& body) {
+    const Box box = grown(body.shape.box, kWatched + kLeafRoom);
+    body.leaf = tree_.add(box, body.id);
+    if (body.kind == RigidKind::Static) body.still_leaf = still_tree_.add(box, body.id);
     strayed_.push_back(body.id);
+}
+
+void BulletWorld::leave_leaf(Body& body) {
+    tree_.remove(body.leaf);
+    if (body.still_leaf != kNoLeaf) still_tree_.remove(body.still_leaf);
+    body.leaf = body.still_leaf = kNoLeaf;
 }
 
 void BulletWorld::add_static_triangles(RigidId id, std::span<const Vec3> positions,
@@ -514,8 +527,7 @@ void BulletWorld::take_out(RigidId id) {
     for (SortedManifold& m : manifolds_)
         if (m.a == id || m.b == id) m.manifold = nullptr;
     pairs_.drop(id);
-    tree_.remove(body.leaf);
-    body.leaf = kNoLeaf;
+    leave_leaf(body);
     body.bullet.reset();
     mesh_count_ -= body.mesh != nullptr;
     body.mesh.reset();
@@ -643,9 +655,8 @@ void BulletWorld::refresh(Body& body) {
 
 void BulletWorld::update_leaf(Body& body) {
     if (holds(tree_.box(body.leaf), grown(body.shape.box, kWatched))) return;
-    tree_.remove(body.leaf);
-    body.leaf = tree_.add(grown(body.shape.box, kWatched + kLeafRoom), body.id);
-    strayed_.push_back(body.id);
+    leave_leaf(body);
+    enter_leaf(body);
 }
 
 void BulletWorld::gather_box(Body& body) {

@@ -151,6 +151,8 @@ class BulletWorld final : public RigidWorld {
     void refresh(Body& body);
     void gather_box(Body& body);
     void enter_tree(Body& body);
+    void enter_leaf(Body& body);
+    void leave_leaf(Body& body);
     static bool may_touch(const Body& a, const Body& b);
     void find_pairs();
     void refresh_all();
@@ -176,7 +178,7 @@ class BulletWorld final : public RigidWorld {
     /// Calls call(mesh body) for static triangles near the box that the body meets.
     template <class Call>
     void visit_meshes(const Body& body, const Box& box, Call call) const {
-        tree_.visit(box, [&](uint32_t id) {
+        still_tree_.visit(box, [&](uint32_t id) {
             const Body& other = bodies_[id];
             if (other.mesh && body.meets_layer_of(other) && !is_ignored(body.id, id)) call(other);
         });
@@ -219,6 +221,7 @@ class BulletWorld final : public RigidWorld {
     Scratches scratches_;
     btVector3 gravity_{0, 0, 0};
     BoxTree tree_;
+    BoxTree still_tree_;                // of static bodies alone: all that moves asks for these in each step
     std::vector<RigidId> strayed_;      // left their leaf since pairs were looked for last
     std::vector<uint8_t> has_strayed_;  // by id, while pairs are looked for
     PairList pairs_;

@@ -66,7 +66,37 @@ float largest(Lanes lanes) {
     return out;
 }
 
-constexpr Lanes kNone{}, kAny{1e10f, 1e10f, 1e10f, 1e10f};
+constexpr Lanes kNone{}, kOne{1, 1, 1, 1}, kAny{1e10f, 1e10f, 1e10f, 1e10f};
+
+// Impulses of both ways across, N s.
+struct Sliding {
+    Lanes way[2];
+    Lanes squared() const { return way[0] * way[0] + way[1] * way[1]; }
+};
+
+// What stops the sliding, or as much against it as `limit` lets. Bounds of either way by itself would turn what slides
+// towards an axis, and so would masses of their own: of what slides on, both are the lesser.
+CULLET_LANES_INLINE Sliding against_sliding(const PointRows& p, Lanes limit, const Four& a, const Four& b) {
+    const Row &row_0 = p.slide[0], &row_1 = p.slide[1];
+    const Lanes missing_0 = row_0.wanted - speed(row_0, p.across[0], a, b),
+                missing_1 = row_1.wanted - speed(row_1, p.across[1], a, b);
+    const Lanes mass = least(row_0.mass, row_1.mass), most_squared = limit * limit;
+    Sliding to{row_0.impulse + row_0.mass * missing_0, row_1.impulse + row_1.mass * missing_1};
+    const auto goes_on = to.squared() > most_squared;
+    to.way[0] = goes_on ? row_0.impulse + mass * missing_0 : to.way[0];
+    to.way[1] = goes_on ? row_1.impulse + mass * missing_1 : to.way[1];
+    const Lanes squared = to.squared();
+    const Lanes share = squared > most_squared ? limit / root(squared) : kOne;
+    return {share * to.way[0], share * to.way[1]};
+}
+
+// Makes the row's impulse what is said. Notes how much that changes its speed.
+CULLET_LANES_INLINE void change(Row& row, const LaneVec& along, Lanes to, Four& a, Four& b, Lanes& changed) {
+    const Lanes impulse = to - row.impulse, speed = impulse * row.softness;
+    row.impulse = to;
+    changed = most(changed, speed * speed);
+    give(row, along, impulse, a, b);
+}
 
 // So that an impulse of siblings leaves no more of their flight along `along` than there is, nor turns it round.
 CULLET_LANES_INLINE void bound_by_flight(const Row& row, Lanes are, Lanes flight, const LaneVec& along, const Four& a,
@@ -114,13 +144,15 @@ float solve_rows(const Batch& batch, PointRows* points, RollRows* rolls, Sibling
         PointRows& p = points[k];
         const Lanes pressed = p.friction * (Grips ? most(p.hold.impulse, kNone) : p.hold.impulse),
                     limit = Grips ? pressed + p.grip : pressed;
+        Sliding to = against_sliding(p, limit, a, b);
         for (int way = 0; way < 2; ++way) {
             Row& row = p.slide[way];
-            const Lanes now = speed(row, p.across[way], a, b);
-            Lanes low = -limit, high = limit;
-            if (Siblings)
+            if (Siblings) {
+                Lanes low = -limit, high = limit;
                 bound_by_flight(row, siblings[k].are, siblings[k].flight[1 + way], p.across[way], a, b, low, high);
-            give(row, p.across[way], bounded(row, row.wanted, now, low, high, row.impulse, changed), a, b);
+                to.way[way] = least(most(to.way[way], low), high);
+            }
+            change(row, p.across[way], to.way[way], a, b, changed);
         }
     }
     for (uint32_t k = batch.first_point; batch.rolls && k < end; ++k) {

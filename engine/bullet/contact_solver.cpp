@@ -103,6 +103,7 @@ ContactSolver::ContactSolver(uint32_t body_limit) {
     order_.reserve(points / 2);
     key_begin_.resize((kMostGroups + 1) * kKeysOfAGroup + 1);
     above_.reserve(bodies);
+    weights_.reserve(bodies);
     island_points_.reserve(bodies);
     group_of_.reserve(bodies);
     islands_.reserve(bodies);
@@ -149,16 +150,19 @@ uint32_t ContactSolver::root_of(const Contacts& pair) {
     return root_of(is_free(pair.a) ? pair.a : pair.b);
 }
 
-// By what was handed on from the last step: of the lighter one's weight in this step.
-bool ContactSolver::is_laden(const Contacts& pair, float dt) const {
+// N s that each body weighs in a step.
+void ContactSolver::weigh_bodies(float dt) {
+    weights_.resize(bodies_.size());
+    for (uint32_t number = 0; number < weights_.size(); ++number)
+        weights_[number] = is_free(number) ? dt * static_cast<float>(bodies_[number]->getTotalForce().length()) : 0;
+}
+
+// By what was handed on from the last step: of the lighter one's weight.
+bool ContactSolver::is_laden(const Contacts& pair) const {
+    const float weight_a = weights_[pair.a], weight_b = weights_[pair.b];
+    const float weight = weight_a > 0 && weight_b > 0 ? std::min(weight_a, weight_b) : std::max(weight_a, weight_b);
     float load = 0;
     for (uint32_t k = pair.first; k < pair.first + pair.count; ++k) load += points_[k]->m_appliedImpulse;
-    float weight = 0;
-    for (const uint32_t number : {pair.a, pair.b}) {
-        if (!is_free(number)) continue;
-        const float own = dt * static_cast<float>(bodies_[number]->getTotalForce().length());
-        weight = weight > 0 ? std::min(weight, own) : own;
-    }
     return load > kLadenWeights * weight && weight > 0;
 }
 
@@ -167,8 +171,9 @@ void ContactSolver::group_islands(float dt) {
     uint32_t count = 1;
     for (size_t points = kPointsOfTwoGroups; count < kMostGroups && points_.size() >= points; points *= 4) count *= 2;
     groups_.assign(count, {});
+    weigh_bodies(dt);
     const bool any_laden =
-        std::any_of(pairs_.begin(), pairs_.end(), [&](const Contacts& pair) { return is_laden(pair, dt); });
+        std::any_of(pairs_.begin(), pairs_.end(), [&](const Contacts& pair) { return is_laden(pair); });
     if (count == 1 && !any_laden) return;
     above_.resize(bodies_.size());
     for (uint32_t number = 0; number < above_.size(); ++number) above_[number] = number;
@@ -181,7 +186,7 @@ void ContactSolver::group_islands(float dt) {
     laden_.assign(bodies_.size(), 0);
     for (const Contacts& pair : pairs_) {
         island_points_[root_of(pair)] += pair.count;
-        if (any_laden && is_laden(pair, dt)) laden_[root_of(pair)] = 1;
+        if (any_laden && is_laden(pair)) laden_[root_of(pair)] = 1;
     }
     islands_.clear();
     for (uint32_t root = 0; root < island_points_.size(); ++root)

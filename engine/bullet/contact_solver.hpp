@@ -64,7 +64,8 @@ class ContactSolver {
     bool is_free(uint32_t number) const;
     uint32_t root_of(uint32_t number);
     uint32_t root_of(const Contacts& pair);
-    bool is_laden(const Contacts& pair, float dt) const;
+    void weigh_bodies(float dt);
+    bool is_laden(const Contacts& pair) const;
     void group_islands(float dt);
     void colour_pairs();
     void fill_batches();
@@ -80,6 +81,7 @@ class ContactSolver {
     std::vector<btRigidBody*> bodies_;                // by number; null at 0
     std::vector<SolverBody> changes_;                 // by number
     std::vector<uint64_t> colours_;                   // by number: a bit each, of those that the body has
+    std::vector<float> weights_;                      // by number: N s in a step
     std::vector<uint32_t> above_;                     // by number: on the way to the island's root
     std::vector<uint32_t> island_points_, group_of_;  // by root
     std::vector<uint8_t> laden_;                      // by root

@@ -1,7 +1,9 @@
 #include "engine/bullet/hull.hpp"
 
 #include <algorithm>
+#include <array>
 
+#include "engine/bullet/lanes.hpp"
 #include "engine/bullet/wrap_hull.hpp"
 
 namespace cullet::bullet {
@@ -25,18 +27,18 @@ struct Heights {
 // The plane of a face stands at the outermost of all points, so that every plane is a bound whatever its normal lost.
 // Eight lanes do not wait for each other; what repeats the first point changes nothing.
 Heights heights_along(const Hull& hull, Vec3 normal) {
-    constexpr uint32_t kLanes = 8;
+    constexpr uint32_t kEight = 8;
     const Points& p = hull.local;
-    float low[kLanes], high[kLanes];
-    std::fill_n(low, kLanes, kFar);
-    std::fill_n(high, kLanes, -kFar);
-    for (uint32_t k = 0; k < p.count; k += kLanes)
-        for (uint32_t i = 0; i < kLanes; ++i) {
+    float low[kEight], high[kEight];
+    std::fill_n(low, kEight, kFar);
+    std::fill_n(high, kEight, -kFar);
+    for (uint32_t k = 0; k < p.count; k += kEight)
+        for (uint32_t i = 0; i < kEight; ++i) {
             const float h = normal.x * p.x[k + i] + normal.y * p.y[k + i] + normal.z * p.z[k + i];
             low[i] = h < low[i] ? h : low[i];
             high[i] = h > high[i] ? h : high[i];
         }
-    return {*std::min_element(low, low + kLanes), *std::max_element(high, high + kLanes)};
+    return {*std::min_element(low, low + kEight), *std::max_element(high, high + kEight)};
 }
 
 // Newell's normal: twice the area vector of a polygon, sound for corners that are nearly in line.
@@ -179,13 +181,13 @@ void build_hull_like(Hull& hull, const Hull& like, const Mat3& turn, std::span<c
 }
 
 void turn_hull(Hull& hull, const Mat3& r, Vec3 origin, float margin, uint32_t cell) {
-    constexpr uint32_t kLanes = 8;
+    constexpr uint32_t kEight = 8;
     Points& p = hull.local;
     const Vec3 centre = r * (p.centre - origin);
-    float low[3][kLanes], high[3][kLanes];
-    for (int axis = 0; axis < 3; ++axis) std::fill_n(low[axis], kLanes, kFar), std::fill_n(high[axis], kLanes, -kFar);
-    for (uint32_t k = 0; k < p.count; k += kLanes)
-        for (uint32_t i = 0; i < kLanes; ++i) {
+    float low[3][kEight], high[3][kEight];
+    for (int axis = 0; axis < 3; ++axis) std::fill_n(low[axis], kEight, kFar), std::fill_n(high[axis], kEight, -kFar);
+    for (uint32_t k = 0; k < p.count; k += kEight)
+        for (uint32_t i = 0; i < kEight; ++i) {
             const float x = p.x[k + i], y = p.y[k + i], z = p.z[k + i];
             float turned[3];
             for (int axis = 0; axis < 3; ++axis) {
@@ -195,20 +197,20 @@ void turn_hull(Hull& hull, const Mat3& r, Vec3 origin, float margin, uint32_t ce
             }
             p.x[k + i] = turned[0], p.y[k + i] = turned[1], p.z[k + i] = turned[2];
         }
-    const auto least = [&](int axis) { return *std::min_element(low[axis], low[axis] + kLanes); };
-    const auto most = [&](int axis) { return *std::max_element(high[axis], high[axis] + kLanes); };
+    const auto least = [&](int axis) { return *std::min_element(low[axis], low[axis] + kEight); };
+    const auto most = [&](int axis) { return *std::max_element(high[axis], high[axis] + kEight); };
     const Box box{{least(0), least(1), least(2)}, {most(0), most(1), most(2)}};
     // About the middle of the new box.
     const Vec3 shift = 0.5f * (box.low + box.high);
-    float square[kLanes] = {};
-    for (uint32_t k = 0; k < p.count; k += kLanes)
-        for (uint32_t i = 0; i < kLanes; ++i) {
+    float square[kEight] = {};
+    for (uint32_t k = 0; k < p.count; k += kEight)
+        for (uint32_t i = 0; i < kEight; ++i) {
             const float x = p.x[k + i] -= shift.x, y = p.y[k + i] -= shift.y, z = p.z[k + i] -= shift.z;
             const float s = x * x + y * y + z * z;
             square[i] = s > square[i] ? s : square[i];
         }
     p.centre = centre + shift;
-    hull.radius = std::sqrt(*std::max_element(square, square + kLanes));
+    hull.radius = std::sqrt(*std::max_element(square, square + kEight));
     hull.local_box = grown({centre + box.low, centre + box.high}, margin);
     hull.thickness += 2 * (margin - hull.margin);
     hull.margin = margin;
@@ -257,27 +259,35 @@ uint32_t foremost_face(const Hull& hull, Vec3 point) {
 /// The places of a face that are asked for, from its hull's centre: its own middle, its corners in their order, the
 /// middles of the edges that begin at them. Those on the rim lie `inwards` of it. Of 32 corners the last place is left
 /// out.
-struct Places {
-    Vec3 at[64];
-    uint32_t count = 0;
-
-    Places(const Hull& hull, uint32_t face, float inwards) {
-        const uint32_t first = hull.first_corner[face], corners = hull.first_corner[face + 1] - first;
-        Vec3 middle;
-        for (uint32_t c = 0; c < corners; ++c) middle += (1 / static_cast<float>(corners)) * corner(hull, first + c);
-        const auto add = [&](Vec3 place) {
-            const Vec3 way = middle - place;
-            const float far = length(way);
-            if (count < 64) at[count++] = place + (far > inwards ? inwards / far : 1) * way;
-        };
-        add(middle);
-        for (uint32_t c = 0; c < corners; ++c) add(corner(hull, first + c));
-        for (uint32_t c = 0; c < corners; ++c)
-            add(0.5f * (corner(hull, first + c) + corner(hull, first + (c + 1 == corners ? 0 : c + 1))));
+class Places {
+ public:
+    Places(const Hull& hull, uint32_t face, float inwards)
+        : hull_(hull),
+          first_(hull.first_corner[face]),
+          corners_(hull.first_corner[face + 1] - first_),
+          inwards_(inwards) {
+        for (uint32_t c = 0; c < corners_; ++c) middle_ += (1 / static_cast<float>(corners_)) * corner(c);
     }
-    static Vec3 corner(const Hull& hull, uint32_t c) { return hull.local[hull.corner[c]]; }
+    uint32_t count() const { return std::min(1 + 2 * corners_, 64u); }
+    Vec3 operator[](uint32_t place) const {
+        if (place == 0) return middle_;
+        const uint32_t c = (place - 1) % corners_;
+        return inside(place <= corners_ ? corner(c) : 0.5f * (corner(c) + corner(c + 1 == corners_ ? 0 : c + 1)));
+    }
     static bool is_middle_in(uint64_t covered) { return covered & 1; }
-    uint64_t all() const { return count == 64 ? ~uint64_t{0} : (uint64_t{1} << count) - 1; }
+    uint64_t all() const { return count() == 64 ? ~uint64_t{0} : (uint64_t{1} << count()) - 1; }
+
+ private:
+    Vec3 corner(uint32_t c) const { return hull_.local[hull_.corner[first_ + c]]; }
+    Vec3 inside(Vec3 place) const {
+        const Vec3 way = middle_ - place;
+        const float far = length(way);
+        return place + (far > inwards_ ? inwards_ / far : 1) * way;
+    }
+    const Hull& hull_;
+    uint32_t first_, corners_;
+    float inwards_;
+    Vec3 middle_;
 };
 
 }  // namespace
@@ -294,23 +304,64 @@ namespace {
 // of one flat wall: within a degree, and a tenth of a millimetre (at scale 1) at the middle between the two.
 constexpr float kFlushCosine = 0.99985f, kFlushHeight = 0.0001f;
 
-void mark_flush(Hull& hull, const Hull& other, Vec3 between) {
-    const float near = kFlushHeight * scale_of(hull, other);
-    for (uint32_t f = 0; f < hull.face_count; ++f) {
-        const Vec3 n = hull.face_normal[f];
-        for (uint32_t g = 0; g < other.face_count && !(hull.flush >> f & 1); ++g) {
-            if (!(dot(n, other.face_normal[g]) > kFlushCosine)) continue;
-            const float own = hull.face_height[f] + hull.margin - 0.5f * dot(n, between);
-            const float theirs = other.face_height[g] + other.margin + 0.5f * dot(other.face_normal[g], between);
-            if (std::fabs(own - theirs) < near) hull.flush |= uint64_t{1} << f;
+bool is_flush(const Hull& hull, uint32_t f, const Hull& other, uint32_t g, Vec3 between) {
+    const float own = hull.face_height[f] + hull.margin - 0.5f * dot(hull.face_normal[f], between);
+    const float theirs = other.face_height[g] + other.margin + 0.5f * dot(other.face_normal[g], between);
+    return std::fabs(own - theirs) < kFlushHeight * scale_of(hull, other);
+}
+
+/// The normals of a piece's faces, four side by side; the last one stands there until four are full.
+class Normals {
+ public:
+    explicit Normals(const Hull& hull) : count_((std::min(hull.face_count, kMaxFaces) + kLanes - 1) / kLanes * kLanes) {
+        for (uint32_t f = 0; f < count_; ++f) {
+            const Vec3 n = hull.face_normal[std::min(f, hull.face_count - 1)];
+            x_[f] = n.x, y_[f] = n.y, z_[f] = n.z;
         }
     }
+    struct Nearest {
+        uint32_t face;
+        float cosine;
+    };
+    Nearest nearest(Vec3 to) const {
+        Lanes most{-kFar, -kFar, -kFar, -kFar}, at{}, number{0, 1, 2, 3};
+        for (uint32_t f = 0; f < count_; f += kLanes, number = number + static_cast<float>(kLanes)) {
+            const Lanes cosine = to.x * load(&x_[f]) + to.y * load(&y_[f]) + to.z * load(&z_[f]);
+            at = cosine > most ? number : at;
+            most = bullet::most(cosine, most);
+        }
+        Nearest best{0, -kFar};
+        for (uint32_t k = 0; k < kLanes; ++k)
+            if (most[k] > best.cosine) best = {static_cast<uint32_t>(at[k]), most[k]};
+        return best;
+    }
+
+ private:
+    static_assert(kMaxFaces % kLanes == 0);
+    uint32_t count_;
+    std::array<float, kMaxFaces> x_, y_, z_;
+};
+
+float highest_point(const Hull& hull, Vec3 up) {
+    const Points& p = hull.local;
+    Lanes highest{-kFar, -kFar, -kFar, -kFar};
+    for (uint32_t k = 0; k < p.count; k += kLanes)
+        highest = most(up.x * load(&p.x[k]) + up.y * load(&p.y[k]) + up.z * load(&p.z[k]), highest);
+    return std::max({highest[0], highest[1], highest[2], highest[3]});
+}
+
+float lowest_corner(const Hull& hull, uint32_t face, Vec3 up) {
+    float lowest = kFar;
+    for (uint32_t c = hull.first_corner[face]; c < hull.first_corner[face + 1]; ++c)
+        lowest = std::min(lowest, dot(up, hull.local[hull.corner[c]]));
+    return lowest;
 }
 
 }  // namespace
 
 // Most faces are told off by one plane of the other: that which the hull's centre lies farthest in front of. Heights
-// over it are found for all points at once, then each face costs a look at its corners.
+// over it are found for all points at once, then each face costs a look at its corners. Of the rest most have nothing
+// of the other before them, or look where a face of the other does and lie over that one.
 void mark_covered(Hull& hull, const Hull& other, bool is_whole) {
     const Vec3 between = other.local.centre - hull.local.centre;
     if (&hull == &other || length(between) > hull.radius + other.radius + kSeamRange || other.face_count < 4) return;
@@ -330,7 +381,8 @@ void mark_covered(Hull& hull, const Hull& other, bool is_whole) {
         height[k] = up.x * points.x[k] + up.y * points.y[k] + up.z * points.z[k];
     // Of a face's lowest corner, at most: from there it is `outside` to the place asked for.
     const float highest = dot(up, between) + other.face_height[foremost] + other.margin + 1.58f * outside;
-    uint32_t teller = foremost;
+    const Normals normals(other);
+    uint64_t are_flush = 0;
     bool is_any = false;
     for (uint32_t f = 0; f < hull.face_count; ++f) {
         if (hull.is_face_inner[f]) continue;
@@ -338,24 +390,29 @@ void mark_covered(Hull& hull, const Hull& other, bool is_whole) {
         for (uint32_t c = hull.first_corner[f]; c < hull.first_corner[f + 1]; ++c)
             lowest = std::min(lowest, height[hull.corner[c]]);
         if (lowest > highest) continue;
+        const auto [alike, cosine] = normals.nearest(hull.face_normal[f]);
+        if (cosine > kFlushCosine && is_flush(hull, f, other, alike, between)) are_flush |= uint64_t{1} << f;
+        const float before_face =
+            highest_point(other, hull.face_normal[f]) + dot(hull.face_normal[f], between) - hull.face_height[f];
+        if (before_face + other.margin + leaning < 0.999f * outside) continue;
+        const Vec3 out = other.face_normal[alike];
+        const float over = lowest_corner(hull, f, out) - dot(out, between) + outside * cosine;
+        if (over > other.face_height[alike] + other.margin + leaning + 0.001f * outside) continue;
         const Places places(hull, f, flush);
         const Vec3 before = outside * hull.face_normal[f] - between;
-        for (uint32_t s = 0; s < places.count; ++s) {
-            if (hull.covered[f] >> s & 1) continue;
-            const Vec3 p = places.at[s] + before;
+        for (uint32_t s = 0; s < places.count(); ++s) {
+            // Of what moves the middle tells, and whether any place is covered.
+            if (is_whole ? hull.covered[f] >> s & 1 : s > 0 && hull.covered[f] != 0) continue;
+            const Vec3 p = places[s] + before;
             const float near = s == 0 ? 0 : leaning;
-            // What tells one place off mostly does so with the next.
-            bool is_covered = is_below(p, teller, near);
-            for (uint32_t g = 0; g < other.face_count && is_covered; ++g) {
-                is_covered = is_below(p, g, near);
-                if (!is_covered) teller = g;
-            }
+            bool is_covered = is_below(p, alike, near) && is_below(p, foremost, near);
+            for (uint32_t g = 0; g < other.face_count && is_covered; ++g) is_covered = is_below(p, g, near);
             hull.covered[f] |= uint64_t{is_covered} << s;
             is_any = is_any || is_covered;
         }
         hull.is_face_inner[f] = is_whole ? hull.covered[f] == places.all() : places.is_middle_in(hull.covered[f]);
     }
-    if (is_any) mark_flush(hull, other, between);
+    if (is_any) hull.flush |= are_flush;
 }
 
 void transform_points(const Hull& hull, const Mat3& r, Vec3 position, Points& out) {

@@ -322,22 +322,29 @@ Push turn_to_flush_face(const Surroundings& around, const Touched& touched, std:
     return Push::Turned;
 }
 
+// Of a triangle that is touched along another direction than its own, the place on the edge that is touched: what else
+// of it lies near the other piece is farther back.
+Vec3 touched_place(const Touched& touched, std::span<const Vec3> places, Vec3 normal) {
+    if (!touched.hull.one_sided) return places[0];
+    return *std::max_element(places.begin(), places.end(), [normal](Vec3 p, Vec3 q) { return dot(p - q, normal) < 0; });
+}
+
 }  // namespace
 
 Push turn_to_open_face(const Surroundings& around, const Touched& touched, std::span<const Vec3> places, Vec3& normal) {
     if (touched.hull.face_count == 0 || places.empty()) return Push::AsFound;
     if (touched.body.kind != RigidKind::Static) return turn_to_flush_face(around, touched, places, normal);
     const Facing facing = facing_face(touched, normal);
-    const Vec3 wanted = normal;
+    const Vec3 wanted = normal, touch = touched_place(touched, places, normal);
     if (facing.cosine > kFacing) {
         for (const Vec3 place : places)
             if (!is_face_covered(around, touched, facing.face, wanted, place)) return Push::AsFound;
         if (touched.hull.one_sided) return Push::None;
-    } else if (!any_beside(around, touched, places[0], wanted,
+    } else if (!any_beside(around, touched, touch, wanted,
                            [](const Beside& beside) { return beside.leads_in > kRise; })) {
         return Push::AsFound;
     }
-    const Vec3 core = places[0] - touched.hull.margin * wanted;
+    const Vec3 core = touch - touched.hull.margin * wanted;
     return find_open_face_from(around, touched, core, touched.hull.margin, normal) ? Push::Turned : Push::None;
 }
 

@@ -15,8 +15,8 @@ namespace cullet::bullet {
 
 /// What stands still and may go on where a piece ends.
 struct Surroundings {
-    const Body* bodies = nullptr;  // by id
-    const BoxTree* tree = nullptr;
+    const Body* bodies = nullptr;   // by id
+    const BoxTree* tree = nullptr;  // of static ones
 };
 
 /// A piece or triangle that is touched, and what touches it.

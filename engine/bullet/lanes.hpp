@@ -30,6 +30,9 @@ CULLET_LANES_INLINE Lanes least(Lanes a, Lanes b) {
 CULLET_LANES_INLINE Lanes most(Lanes a, Lanes b) {
     return _mm_max_ps(a, b);
 }
+CULLET_LANES_INLINE Lanes root(Lanes a) {
+    return _mm_sqrt_ps(a);
+}
 
 struct LaneVec {
     Lanes x{}, y{}, z{};

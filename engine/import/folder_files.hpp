@@ -1,6 +1,7 @@
 // How assimp opens files: those that a model may open (import_folder.hpp), and no others. An OBJ file is handed on with
-// ".5" written "0.5": assimp 5.2 takes the former for no number, and the vertex for none. Text is handed on as UTF-8
-// without a byte order mark, which assimp takes for a part of the first word.
+// ".5" written "0.5", since assimp 5.2 takes the former for no number, and the vertex for none; and without comments
+// behind points and faces, which it takes for corners. Text is handed on as UTF-8 without a byte order mark, which
+// assimp takes for a part of the first word.
 #pragma once
 #include <assimp/DefaultIOSystem.h>
 #include <assimp/MemoryIOWrapper.h>
@@ -49,12 +50,8 @@ class FolderFiles : public Assimp::DefaultIOSystem {
         const bool is_coded = has_byte_order_mark(front) || (kTexts.count(extension) > 0 && is_like_utf16(front));
         if (!is_coded && extension != ".obj") return stream.release();
         std::string all = whole(*stream);
-        const size_t size_before = all.size();
         std::string text = plain_text(std::move(all));
-        if (extension == ".obj") text = with_leading_zeros(text);
-        if (is_coded || text.size() != size_before) return in_memory(text);  // zeros in front only lengthen it
-        stream->Seek(0, aiOrigin_SET);
-        return stream.release();
+        return in_memory(extension == ".obj" ? plain_obj(text) : text);
     }
 
     static std::string whole(Assimp::IOStream& stream) {
@@ -79,21 +76,24 @@ class FolderFiles : public Assimp::DefaultIOSystem {
         return new Assimp::MemoryIOStream(bytes.release(), text.size(), true);
     }
 
-    /// Lines of points, normals and uvs ("v", "vn", "vt") with ".5" written "0.5"; the others as they are. A line ends
-    /// with LF, CR or both, and goes on in the next one when a backslash stands before that.
-    static std::string with_leading_zeros(const std::string& text) {
+    /// Lines of points, normals and uvs ("v", "vn", "vt") with ".5" written "0.5", and these and faces without comments
+    /// behind them; the others as they are. A line ends with LF, CR or both, and goes on in the next one when a
+    /// backslash stands before that.
+    static std::string plain_obj(const std::string& text) {
         std::string out;
         out.reserve(text.size());
-        bool is_vertex = false;
+        bool is_vertex = false, is_face = false, is_comment = false;
         char before = '\n';  // of this line: '\n' at its beginning, ' ' where it goes on
         for (size_t i = 0; i < text.size(); ++i) {
             const char c = text[i];
-            if (before == '\n') is_vertex = c == 'v';
-            if (is_vertex && c == '.' && (before == ' ' || before == '\t')) out += '0';
-            out += c;
+            const bool ends = c == '\n' || c == '\r', is_behind_blank = before == ' ' || before == '\t';
+            if (before == '\n') is_vertex = c == 'v', is_face = c == 'f', is_comment = false;
+            is_comment = !ends && (is_comment || ((is_vertex || is_face) && c == '#' && is_behind_blank));
+            if (is_vertex && c == '.' && is_behind_blank) out += '0';
+            if (!is_comment) out += c;
             const size_t end = c == '\n' && i > 0 && text[i - 1] == '\r' ? i - 1 : i;
             const bool goes_on = end > 0 && text[end - 1] == '\\';
-            before = c != '\n' && c != '\r' ? c : goes_on ? ' ' : '\n';
+            before = !ends ? c : goes_on ? ' ' : '\n';
         }
         return out;
     }

@@ -151,7 +151,7 @@ class TextReader {
 
     /// From its first word, or from its first facet where that word is missing, to its last.
     Result<void> read_solid() {
-        const bool is_named = is_word(words_.peek(), "solid");
+        const bool is_named = is_word(words_.peek(), "solid"), is_named_solid = is_named && is_name_solid();
         facets_before_ = corner_counts_.size();
         if (is_named) skip_words_of_line();
         for (;;) {
@@ -161,7 +161,7 @@ class TextReader {
             } else if (is_word(word, "endsolid") || is_word(word, "end")) {
                 words_.next();
                 if (is_word(word, "end") && is_word(words_.peek(), "solid")) words_.next();
-                if (!is_word(words_.peek(), "solid")) words_.skip_line();
+                if (is_named_solid || !is_word(words_.peek(), "solid")) words_.skip_line();
                 is_closed_ = true;
                 return {};
             } else if (is_word(word, "color") || is_word(word, "colour")) {
@@ -186,6 +186,12 @@ class TextReader {
         }
     }
 
+    /// A solid may be called "solid ...", and is so again at its end: that begins no other one.
+    bool is_name_solid() const {
+        Words ahead = words_;
+        ahead.next();
+        return is_word(ahead.next_of_line(), "solid");
+    }
     size_t facets_of_solid() const { return corner_counts_.size() - facets_before_; }
 
     /// A name is the rest of its line, and may be the word "facet"; "facet normal" begins the first facet there.

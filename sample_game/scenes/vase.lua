@@ -48,7 +48,7 @@ local whole = game.spawn{
 -- shards, which come to rest up to two metres in front of the table.
 local wide = {eye = {-2.47, 1.61, 2.68}, target = {-0.12, 0.43, 1.26}}
 local near = math.min(1, 0.45 * size / 0.3) -- of the wide view's distance
-local seconds_to_wide = 0.6
+local seconds_to_wide = 0.5
 local followed, broke_at = whole:position(), nil
 
 local function between(share, a, b)

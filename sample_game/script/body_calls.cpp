@@ -95,14 +95,12 @@ uint32_t cook_given(lua_State* lua, const Arguments& given, bool has_kind) {
     settings.seed = static_cast<uint64_t>(
         given.number("seed", {"a whole number from 0 to 1e15", 0, 1e15}, static_cast<double>(stage.seed())));
     const float edge = given.real("edge", {"a length in m, or 0 for what cooking chooses", 0, 100}, 0);
-    // The meshes that the project makes have the edge length asked for: leave them as they are. Strangers' meshes get
-    // their longest edges split.
-    settings.longest_edge = mesh.has_own_edges ? 100.0f : edge;
+    settings.longest_edge = mesh.edges == Edges::AsAskedFor ? 100.0f : edge;
     const std::string way = given.word("propagation", kPropagations, name_of(settings.propagation));
     if (!find_propagation(way, settings.propagation))
         given.refuse(fmt::format("propagation is \"{}\"; expected {}", way, kPropagations));
     settings.joins_walls = given.is("join_walls", settings.joins_walls);
-    const Result<uint32_t> cooked = stage.cook(mesh.mesh, settings, !mesh.has_own_edges);
+    const Result<uint32_t> cooked = stage.cook(mesh.mesh, settings, !mesh.is_made_here);
     if (!cooked.ok()) given.refuse(cooked.error());
     lua_pop(lua, 1);
     return *cooked;

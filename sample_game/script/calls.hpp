@@ -25,10 +25,13 @@ void open_body_blows(lua_State* lua);    // to the methods of a body: cut, push_
 void open_costs(lua_State* lua);         // retire, cost
 void open_queries(lua_State* lua);       // expect, fragments, mass, random ...
 
+/// Cooking leaves edges that were asked for, and splits long ones of all else: twelve triangles do not crack.
+enum class Edges : uint8_t { AsAskedFor, AsLongAsItIs };
 /// A mesh as a script holds it.
 struct ScriptMesh {
     Mesh mesh;
-    bool has_own_edges = false;  // made here, with the edges that were asked for
+    Edges edges = Edges::AsLongAsItIs;
+    bool is_made_here = false;
 };
 ScriptMesh& mesh_at(lua_State* lua, int place, const std::string& what);
 void push_mesh(lua_State* lua, ScriptMesh mesh);

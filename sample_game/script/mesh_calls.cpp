@@ -36,8 +36,8 @@ size_t bytes_of(const Mesh& mesh) {
            mesh.corner_uvs.size() * sizeof(mesh.corner_uvs[0]) + mesh.materials.size() * sizeof(mesh.materials[0]);
 }
 
-int made(lua_State* lua, Mesh mesh) {
-    push_mesh(lua, {std::move(mesh), true});
+int made(lua_State* lua, Mesh mesh, Edges edges = Edges::AsAskedFor) {
+    push_mesh(lua, {std::move(mesh), edges, true});
     return 1;
 }
 
@@ -132,14 +132,15 @@ int ball(lua_State* lua) {
 int box(lua_State* lua) {
     script_of(lua).act(lua);
     const Arguments given(lua, "game.mesh.box", {"half_extents"});
-    return made(lua, make_box(given.vector("half_extents", kSide)));
+    return made(lua, make_box(given.vector("half_extents", kSide)), Edges::AsLongAsItIs);
 }
 
 int table(lua_State* lua) {
     script_of(lua).act(lua);
     const Arguments given(lua, "game.mesh.table", {"width", "depth", "height"}, true);
     return made(lua, make_table(given.real("width", kSide, 1.2), given.real("depth", kSide, 0.8),
-                                given.real("height", kSide, 0.75)));
+                                given.real("height", kSide, 0.75)),
+                Edges::AsLongAsItIs);
 }
 
 /// As large as the file says, or scaled to `size`; the origin is the middle of its box, with `stands` of its foot.
@@ -154,7 +155,7 @@ int imported(lua_State* lua, const Arguments& given, const std::string& path) {
     if (given.is("stands", false)) *mesh = moved(std::move(*mesh), {0, -low, 0});
     mesh->name = std::filesystem::absolute(path).string();  // as sentences name it
     if (mesh->name.size() > kLongestMeshName) mesh->name = "..." + mesh->name.substr(mesh->name.size() - 240);
-    push_mesh(lua, {std::move(mesh).value(), false});
+    push_mesh(lua, {std::move(mesh).value(), Edges::AsLongAsItIs, false});
     return 1;
 }
 

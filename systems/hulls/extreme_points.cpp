@@ -10,6 +10,7 @@ namespace {
 constexpr uint32_t kMostCorners = kMostHullPoints + 1;  // and the tip that makes a solid of flat points
 constexpr uint32_t kMostFaces = 128;                    // 62 by Euler; more only while rounding has torn the hull
 constexpr uint8_t kNoFace = 0xff;
+constexpr uint8_t kNearFaces = 0xfe;  // outside, and not worth a corner yet: past a sharp edge, which may move away
 constexpr uint32_t kNoPoint = 0xffffffffu;
 
 struct Face {
@@ -121,21 +122,23 @@ class Hull {
         return &face;
     }
 
-    // The face that point i lies farthest above, kNoFace where that is no more than enough.
+    // The face that point i lies farthest above, kNearFaces where that is no more than enough, kNoFace inside of all.
     void file(uint32_t i, const Face* faces, uint32_t count) {
-        above_[i] = enough_;
-        face_of_[i] = kNoFace;
+        float most = 0;
+        uint8_t face = kNoFace;
         for (uint32_t f = 0; f < count; ++f) {
             if (!faces[f].is_used) continue;
-            if (const float gap = faces[f].gap(points_[i]); gap > above_[i])
-                above_[i] = gap, face_of_[i] = static_cast<uint8_t>(f);
+            if (const float gap = faces[f].gap(points_[i]); gap > most) most = gap, face = static_cast<uint8_t>(f);
         }
+        above_[i] = most;
+        face_of_[i] = most > enough_ || face == kNoFace ? face : kNearFaces;
     }
+    bool is_above(uint32_t i) const { return face_of_[i] < kMostFaces; }
 
     uint32_t farthest() const {
         uint32_t at = kNoPoint;
         for (uint32_t i = 0; i < points_.size(); ++i)
-            if (face_of_[i] != kNoFace && (at == kNoPoint || above_[i] > above_[at])) at = i;
+            if (is_above(i) && (at == kNoPoint || above_[i] > above_[at])) at = i;
         return at;
     }
 
@@ -171,9 +174,15 @@ class Hull {
             number[k] = static_cast<uint8_t>(made - faces_);
         }
         for (uint32_t q = 0; q < points_.size(); ++q) {
-            if (face_of_[q] == kNoFace || !is_seen[face_of_[q]]) continue;
+            const uint8_t before = face_of_[q];
+            if (before == kNoFace || (is_above(q) && !is_seen[before])) continue;
             file(q, cone, count);
-            if (face_of_[q] != kNoFace) face_of_[q] = number[face_of_[q]];
+            if (is_above(q))
+                face_of_[q] = number[face_of_[q]];
+            else if (before != kNearFaces)
+                file(q, faces_, face_count_);  // it may lie above one that was not seen
+            else
+                face_of_[q] = kNearFaces;
         }
         return true;
     }

@@ -19,7 +19,7 @@ static_assert(2 * kMostVertices + kMostHullPoints <= kMostExtremeCandidates);
 // sinking.
 constexpr float kGoodEnough = 0.2f;
 // Of the margin: a hull that leaves out more is halved while the cell has parts left.
-constexpr float kTooMuch = 0.3f;
+constexpr float kTooMuch = 0.4f;
 
 uint32_t next_of(const ShellView& shell, uint32_t element) {
     return shell.state.elements.next_in_cell[shell.element(element)];

@@ -525,6 +525,15 @@ TEST_F(ImportSiblings, AMarkedObjIsReadHoweverManyNumbersBeginWithTheirPoint) {
             import_house(write("house.obj", test::coded(with_points(count), encoding)), std::to_string(count));
 }
 
+TEST_F(ImportSiblings, AnObjMayHaveCommentsBehindItsLines) {
+    for (const std::string comment : {" # of the roof", " #1 2 3", "\t#", "   # .5 \xC3\xA4"})
+        for (const std::string end : {"\n", "\r\n"}) {
+            std::string text;
+            for (const char c : obj()) text += c == '\n' ? comment + end : std::string(1, c);
+            import_house(write("house.obj", text), comment);
+        }
+}
+
 std::string off() {
     std::string text = "OFF\n9 14 0\n";
     for (const Vec3d p : test::house_points()) text += text_of(p.x) + " " + text_of(p.y) + " " + text_of(p.z) + "\n";

@@ -233,6 +233,17 @@ TEST(Stl, SeveralSolidsAndEmptyOnesAreOneMesh) {
                        "several");
 }
 
+TEST(Stl, ASolidMayBeCalledSolid) {
+    const std::string house = text_house();
+    const std::string facets = house.substr(house.find('\n') + 1, house.find("endsolid") - house.find('\n') - 1);
+    for (const std::string name : {"solid b", "solid", "Solid facet"}) {
+        test::expect_house(read("solid " + name + "\n" + facets + "endsolid " + name + "\n"), name);
+        test::expect_house(read("solid " + name + "\n" + facets + "end solid " + name + "\nsolid " + name +
+                                "\nendsolid " + name + "\n"),
+                           "twice " + name);
+    }
+}
+
 TEST(Stl, AFacetOfFourCornersIsCut) {
     const Mesh mesh = read(
         "solid\nfacet normal 0 0 1\nouter loop\nvertex 0 0 0\nvertex 2 0 0\nvertex 0.5 0.5 0\nvertex 0 2 0\nendloop\n"
