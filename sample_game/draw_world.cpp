@@ -126,7 +126,7 @@ Mesh make_chip(uint32_t number, float radius) {
     return chip;
 }
 
-/// Crumbs are of no piece's colour: they are too many and too small to be told apart.
+/// Debris is of no piece's colour: it is too much and too small to be told apart.
 void add_debris(Drawing& drawing, const GameWorld& game) {
     const Debris& debris = game.world().contents().data.state.debris;
     const Random random{0x7475726e};

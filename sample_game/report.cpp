@@ -197,7 +197,7 @@ std::string worst_frame_line(const Report& report) {
     tell(facts.broke, "hit broke", "hits broke");
     tell(facts.late, "hit decided late", "hits decided late");
     tell(facts.born, "piece born", "pieces born");
-    tell(facts.debris, "crumb", "crumbs");
+    tell(facts.debris, "piece of debris", "pieces of debris");
     tell(facts.refused, "refusal", "refusals");
     tell(facts.frames_held, "body held", "bodies held");
     if (facts.units > 0) text += fmt::format("{:.1f} million units, ", 1e-6 * static_cast<double>(facts.units));

@@ -74,7 +74,7 @@ struct Report {
     } energy_j;
     struct {
         uint64_t born = 0, live = 0, asleep = 0, debris = 0;
-        uint64_t retired = 0, faded = 0;  // by the game; crumbs that were there long enough
+        uint64_t retired = 0, faded = 0;  // by the game; debris that was there long enough
     } fragments;
     struct {
         uint64_t bodies = 0, cells = 0;

@@ -22,7 +22,7 @@ void print_summary(const Report& r) {
                r.seed);
     if (!r.hash.empty())
         fmt::print("  hash         {}{}{}\n", r.hash, r.hash_chain.empty() ? "" : ", all frames ", r.hash_chain);
-    fmt::print("  fragments    {} born, {} live, {} bodies asleep, {} awake, {} retired, {} crumbs, {} faded\n",
+    fmt::print("  fragments    {} born, {} live, {} bodies asleep, {} awake, {} retired, {} debris, {} faded\n",
                r.fragments.born, r.fragments.live, r.fragments.asleep, r.awake.bodies, r.fragments.retired,
                r.fragments.debris, r.fragments.faded);
     fmt::print("  hits         {} opened, {} broke, {} late, {} dropped, {} frames held\n", r.tasks.opened,

@@ -42,7 +42,7 @@ Keys world_keys() {
         .number("break_elements", "1", defaults.break_elements, 0, 1e6, "pieces of fewer elements do not break again")
         .number("debris_elements", "1", defaults.debris_elements, 0, 1e6, "pieces of fewer elements are debris")
         .number("debris_s", "s", static_cast<double>(defaults.debris_seconds), 0, 1e6,
-                "crumbs are gone after so long; 0: they stay")
+                "debris is gone after so long; 0: it stays")
         .number("gravity_mps2", "m/s2", 9.81, 0, 100, "downward")
         .number("threads", "1", 1, 1, 64, "threads that step the world; the same as --threads")
         .word("simd", "best", "best, scalar, sse4, avx2, avx512", "kernels of the whole program run at this level");

@@ -244,18 +244,6 @@ void build_triangle(Hull& hull, const Vec3 (&corners)[3], uint32_t cell, bool is
 
 namespace {
 
-// The face of `hull` whose plane a point lies farthest in front of; the point is seen from the hull's centre.
-uint32_t foremost_face(const Hull& hull, Vec3 point) {
-    uint32_t best = 0;
-    float most = -kFar;
-    for (uint32_t f = 0; f < hull.face_count; ++f) {
-        const float height = dot(hull.face_normal[f], point) - hull.face_height[f];
-        best = height > most ? f : best;
-        most = height > most ? height : most;
-    }
-    return best;
-}
-
 /// The places of a face that are asked for, from its hull's centre: its own middle, its corners in their order, the
 /// middles of the edges that begin at them. Those on the rim lie `inwards` of it. Of 32 corners the last place is left
 /// out.
@@ -310,36 +298,48 @@ bool is_flush(const Hull& hull, uint32_t f, const Hull& other, uint32_t g, Vec3 
     return std::fabs(own - theirs) < kFlushHeight * scale_of(hull, other);
 }
 
-/// The normals of a piece's faces, four side by side; the last one stands there until four are full.
-class Normals {
+/// The planes of a piece's faces, four side by side; the last one stands there until four are full.
+class Planes {
  public:
-    explicit Normals(const Hull& hull) : count_((std::min(hull.face_count, kMaxFaces) + kLanes - 1) / kLanes * kLanes) {
-        for (uint32_t f = 0; f < count_; ++f) {
-            const Vec3 n = hull.face_normal[std::min(f, hull.face_count - 1)];
-            x_[f] = n.x, y_[f] = n.y, z_[f] = n.z;
+    explicit Planes(const Hull& hull) : count_((std::min(hull.face_count, kMaxFaces) + kLanes - 1) / kLanes * kLanes) {
+        for (uint32_t k = 0; k < count_; ++k) {
+            const uint32_t f = std::min(k, hull.face_count - 1);
+            const Vec3 n = hull.face_normal[f];
+            x_[k] = n.x, y_[k] = n.y, z_[k] = n.z, height_[k] = hull.face_height[f];
         }
     }
-    struct Nearest {
+    struct Best {
         uint32_t face;
-        float cosine;
+        float value;
     };
-    Nearest nearest(Vec3 to) const {
-        Lanes most{-kFar, -kFar, -kFar, -kFar}, at{}, number{0, 1, 2, 3};
-        for (uint32_t f = 0; f < count_; f += kLanes, number = number + static_cast<float>(kLanes)) {
-            const Lanes cosine = to.x * load(&x_[f]) + to.y * load(&y_[f]) + to.z * load(&z_[f]);
-            at = cosine > most ? number : at;
-            most = bullet::most(cosine, most);
-        }
-        Nearest best{0, -kFar};
-        for (uint32_t k = 0; k < kLanes; ++k)
-            if (most[k] > best.cosine) best = {static_cast<uint32_t>(at[k]), most[k]};
-        return best;
+    /// The face that looks most along a direction, and its cosine.
+    Best alike(Vec3 direction) const {
+        return best([&](uint32_t f) { return along(direction, f); });
     }
+    /// The face whose plane a point lies farthest in front of; the point is seen from the piece's centre.
+    Best foremost(Vec3 point) const {
+        return best([&](uint32_t f) { return along(point, f) - load(&height_[f]); });
+    }
+    bool hold(Vec3 point, float margin) const { return foremost(point).value <= margin; }
 
  private:
     static_assert(kMaxFaces % kLanes == 0);
+    Lanes along(Vec3 v, uint32_t f) const { return v.x * load(&x_[f]) + v.y * load(&y_[f]) + v.z * load(&z_[f]); }
+    template <class Value>
+    Best best(Value value) const {
+        Lanes highest{-kFar, -kFar, -kFar, -kFar}, at{}, number{0, 1, 2, 3};
+        for (uint32_t f = 0; f < count_; f += kLanes, number = number + static_cast<float>(kLanes)) {
+            const Lanes here = value(f);
+            at = here > highest ? number : at;
+            highest = most(here, highest);
+        }
+        Best first{0, -kFar};
+        for (uint32_t k = 0; k < kLanes; ++k)
+            if (highest[k] > first.value) first = {static_cast<uint32_t>(at[k]), highest[k]};
+        return first;
+    }
     uint32_t count_;
-    std::array<float, kMaxFaces> x_, y_, z_;
+    std::array<float, kMaxFaces> x_, y_, z_, height_;
 };
 
 float highest_point(const Hull& hull, Vec3 up) {
@@ -370,10 +370,8 @@ void mark_covered(Hull& hull, const Hull& other, bool is_whole) {
     const float flush = 0.0005f * scale_of(hull, other), outside = hull.margin + other.margin + flush;
     // If all are asked for, those on the rim may be as far away as where the other one leans back by 30 degrees.
     const float leaning = is_whole ? 0.58f * outside : 0;
-    const auto is_below = [&](Vec3 p, uint32_t g, float near) {
-        return dot(other.face_normal[g], p) <= other.face_height[g] + other.margin + near;
-    };
-    const uint32_t foremost = foremost_face(other, -1 * between);
+    const Planes planes(other);
+    const uint32_t foremost = planes.foremost(-1 * between).face;
     const Vec3 up = other.face_normal[foremost];
     float height[kMaxPoints];
     const Points& points = hull.local;
@@ -381,7 +379,6 @@ void mark_covered(Hull& hull, const Hull& other, bool is_whole) {
         height[k] = up.x * points.x[k] + up.y * points.y[k] + up.z * points.z[k];
     // Of a face's lowest corner, at most: from there it is `outside` to the place asked for.
     const float highest = dot(up, between) + other.face_height[foremost] + other.margin + 1.58f * outside;
-    const Normals normals(other);
     uint64_t are_flush = 0;
     bool is_any = false;
     for (uint32_t f = 0; f < hull.face_count; ++f) {
@@ -390,7 +387,7 @@ void mark_covered(Hull& hull, const Hull& other, bool is_whole) {
         for (uint32_t c = hull.first_corner[f]; c < hull.first_corner[f + 1]; ++c)
             lowest = std::min(lowest, height[hull.corner[c]]);
         if (lowest > highest) continue;
-        const auto [alike, cosine] = normals.nearest(hull.face_normal[f]);
+        const auto [alike, cosine] = planes.alike(hull.face_normal[f]);
         if (cosine > kFlushCosine && is_flush(hull, f, other, alike, between)) are_flush |= uint64_t{1} << f;
         const float before_face =
             highest_point(other, hull.face_normal[f]) + dot(hull.face_normal[f], between) - hull.face_height[f];
@@ -404,9 +401,7 @@ void mark_covered(Hull& hull, const Hull& other, bool is_whole) {
             // Of what moves the middle tells, and whether any place is covered.
             if (is_whole ? hull.covered[f] >> s & 1 : s > 0 && hull.covered[f] != 0) continue;
             const Vec3 p = places[s] + before;
-            const float near = s == 0 ? 0 : leaning;
-            bool is_covered = is_below(p, alike, near) && is_below(p, foremost, near);
-            for (uint32_t g = 0; g < other.face_count && is_covered; ++g) is_covered = is_below(p, g, near);
+            const bool is_covered = planes.hold(p, other.margin + (s == 0 ? 0 : leaning));
             hull.covered[f] |= uint64_t{is_covered} << s;
             is_any = is_any || is_covered;
         }

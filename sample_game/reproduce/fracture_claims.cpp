@@ -41,15 +41,14 @@ std::string mode_name(const std::string& mode) {
     return mode == kQuick ? "Quick mode" : "Hidden run";
 }
 uint64_t lumps(const SceneRun& run) {
-    return run.pieces + run.crumbs;
+    return run.pieces + run.debris;
 }
-/// "8 pieces and 3 crumbs"
+/// "8 pieces and 3 of debris"
 std::string counted(const SceneRun& run) {
-    return fmt::format("{} piece{} and {} crumb{}", run.pieces, run.pieces == 1 ? "" : "s", run.crumbs,
-                       run.crumbs == 1 ? "" : "s");
+    return fmt::format("{} piece{} and {} of debris", run.pieces, run.pieces == 1 ? "" : "s", run.debris);
 }
 
-/// "8 pieces and 3 crumbs, a piece that came off 1.20 % of the mass in the mean"
+/// "8 pieces and 3 of debris, a piece that came off 1.20 % of the mass in the mean"
 std::string weighed(const SceneRun& run) {
     return fmt::format("{}, a piece that came off {:.2f} % of the mass in the mean", counted(run),
                        100 * mean_piece(run));
@@ -62,10 +61,10 @@ struct KindRow {
 };
 Table kinds_table(std::span<const KindRow> rows) {
     Table table{"The same blow",
-                {{"mode", "kind of fracture", "pieces", "crumbs", "largest piece", "mean of the others"}}};
+                {{"mode", "kind of fracture", "pieces", "debris", "largest piece", "mean of the others"}}};
     for (const KindRow& row : rows)
         table.rows.push_back({mode_name(row.mode), row.kind, fmt::format("{}", row.run->pieces),
-                              fmt::format("{}", row.run->crumbs), fmt::format("{:.0f} %", 100 * row.run->largest),
+                              fmt::format("{}", row.run->debris), fmt::format("{:.0f} %", 100 * row.run->largest),
                               fmt::format("{:.2f} %", 100 * mean_piece(*row.run))});
     return table;
 }
@@ -89,9 +88,9 @@ Result<Claim> figure_4(Bench& bench) {
         rows.push_back({mode, "large fragments", &large.value()});
         is_met = is_met && lumps(*fine) >= 10 && lumps(*fine) > 2 * lumps(*large);
         claim.numbers.push_back(
-            {fmt::format("pieces and crumbs, {}, fine", mode), "", static_cast<double>(lumps(*fine)), {}});
+            {fmt::format("pieces and debris, {}, fine", mode), "", static_cast<double>(lumps(*fine)), {}});
         claim.numbers.push_back(
-            {fmt::format("pieces and crumbs, {}, large fragments", mode), "", static_cast<double>(lumps(*large)), {}});
+            {fmt::format("pieces and debris, {}, large fragments", mode), "", static_cast<double>(lumps(*large)), {}});
         if (auto added = bench.add_pictures(claim, fine->pictures, mode,
                                             {mode_name(mode) + ", fine, just after the blow",
                                              mode_name(mode) + ", fine, after a second and a half"});
@@ -100,8 +99,8 @@ Result<Claim> figure_4(Bench& bench) {
     }
     claim.ours = fmt::format(
         "The same ball at the same wall. Hidden run: {} with fine fracture, {} with large fragments. Quick mode: {}, "
-        "and {}: fine fracture makes a hole of crumbs there, and {:.0f} % of the wall stays whole. Met means at least "
-        "ten pieces and crumbs together in both modes, and more than twice as many as large fragments give.",
+        "and {}: fine fracture makes a hole of debris there, and {:.0f} % of the wall stays whole. Met means at least "
+        "ten pieces, debris counted, in both modes, and more than twice as many as large fragments give.",
         counted(*rows[0].run), counted(*rows[1].run), counted(*rows[2].run), counted(*rows[3].run),
         100 * rows[2].run->largest);
     claim.tables.push_back(kinds_table(rows));
@@ -124,7 +123,7 @@ Result<Claim> coarse_grained(Bench& bench) {
         rows.push_back({mode, "coarse", &coarse.value()});
         rows.push_back({mode, "fine", &fine.value()});
         is_met = is_met && mean_piece(*coarse) > mean_piece(*fine);
-        claim.numbers.push_back({fmt::format("pieces and crumbs, coarse over fine, {}", mode),
+        claim.numbers.push_back({fmt::format("pieces and debris, coarse over fine, {}", mode),
                                  "",
                                  static_cast<double>(lumps(*coarse)) / static_cast<double>(lumps(*fine)),
                                  {}});
@@ -142,7 +141,7 @@ Result<Claim> coarse_grained(Bench& bench) {
         "crack until a wave has passed a few edges, and a crack forks no nearer than four edges to its last fork. "
         "Quick mode, where the neighbours of a crack may not start one, as "
         "in the paper, and each crack runs on for six edges, which is ours: {}, and {}. Met means that in both modes "
-        "the mean piece that came off (all but the largest, without crumbs) is heavier with coarse fracture.",
+        "the mean piece that came off (all but the largest, without debris) is heavier with coarse fracture.",
         weighed(*rows[0].run), weighed(*rows[1].run), weighed(*rows[2].run), weighed(*rows[3].run));
     claim.tables.push_back(kinds_table(rows));
     claim.verdict = is_met ? Verdict::Met : Verdict::FallsShort;

@@ -30,7 +30,7 @@ void take_times(const Profiler& profiler, const std::vector<uint8_t>& is_breakin
 
 void count_pieces(GameWorld& game, SceneRun& run) {
     const State& state = game.world().contents().data.state;
-    double all = 0, largest = 0, crumbs = 0;
+    double all = 0, largest = 0, debris = 0;
     for (uint32_t b = 0; b < state.bodies.size(); ++b) {
         if (state.bodies.kind[b] == static_cast<uint8_t>(BodyKind::Free) || !state.bodies.shell[b].exists()) continue;
         ++run.pieces;
@@ -38,10 +38,10 @@ void count_pieces(GameWorld& game, SceneRun& run) {
         largest = std::max(largest, static_cast<double>(state.bodies.mass[b]));
     }
     for (uint32_t d = 0; d < state.debris.size(); ++d)
-        if (state.debris.is_used[d]) crumbs += state.debris.mass[d], ++run.crumbs;
-    all += crumbs;
+        if (state.debris.is_used[d]) debris += state.debris.mass[d], ++run.debris;
+    all += debris;
     run.largest = all > 0 ? largest / all : 0;
-    run.crumbled = all > 0 ? crumbs / all : 0;
+    run.debris_share = all > 0 ? debris / all : 0;
     run.mass_put_in = game.mass_put_in();
     run.mass_at_end = measure_matter(game.world()).mass;
     for (uint32_t s = 0; s < state.soft_bodies.size(); ++s)
@@ -87,7 +87,7 @@ Result<SceneRun> run_scene(Bench& bench, const ScenePlay& play) {
 
 double mean_piece(const SceneRun& run) {
     if (run.pieces < 2) return 0;
-    return (1 - run.largest - run.crumbled) / static_cast<double>(run.pieces - 1);
+    return (1 - run.largest - run.debris_share) / static_cast<double>(run.pieces - 1);
 }
 
 double frame_rate(const SceneRun& run) {

@@ -19,9 +19,9 @@ struct SceneRun {
     std::vector<float> frame_ms, rigid_ms;
     std::vector<float> breaking_ms;           // of the frames that worked on a hit, or in which something came off
     uint32_t vertices = 0, triangles = 0;     // of the first cooked model
-    uint64_t pieces = 0, crumbs = 0;          // bodies with a shell at the end; lumps too small to be bodies
+    uint64_t pieces = 0, debris = 0;          // bodies with a shell at the end; lumps too small to be bodies
     double largest = 1;                       // piece at the end, as a share of all shells' mass
-    double crumbled = 0;                      // of that mass, in crumbs
+    double debris_share = 0;                  // of that mass
     double mass_put_in = 0, mass_at_end = 0;  // kg, all that moves
     uint64_t late = 0, dropped = 0;           // hits
     uint64_t tears = 0;                       // vertices of soft bodies that were split
@@ -30,7 +30,7 @@ struct SceneRun {
 
 Result<SceneRun> run_scene(Bench& bench, const ScenePlay& play);
 
-/// Mean piece that came off, as a share of the mass: of all but the largest, without crumbs. 0: none did.
+/// Mean piece that came off, as a share of the mass: of all but the largest, without debris. 0: none did.
 double mean_piece(const SceneRun& run);
 
 /// Frames a second while something breaks, from the mean time of those frames; 0 when nothing broke.

@@ -113,7 +113,7 @@ void add_run(Claim& claim, Table& table, const Body& body, const FractureWay& wa
                           fmt::format("{:.1f}", percentile_of(run.breaking_ms, 0.5)),
                           fmt::format("{:.1f}", percentile_of(run.breaking_ms, 0.99)),
                           fmt::format("{:.1f}", percentile_of(run.frame_ms, 0.5)), fmt::format("{}", run.pieces),
-                          fmt::format("{}", run.crumbs), is_met ? "met" : "falls short"});
+                          fmt::format("{}", run.debris), is_met ? "met" : "falls short"});
     claim.numbers.push_back(
         {std::string(body.name) + ", " + mode, "frames/s while breaking", rate, body.paper[way.paper]});
     claim.numbers.push_back(
@@ -157,10 +157,11 @@ Result<Claim> pictured(Bench& bench, Claim claim, size_t body, const std::vector
         const char* name = is_quick ? "quick mode" : "hidden run";
         if (is_quick) claim.ours = fmt::format("{} vertices, {} triangles.", run->vertices, run->triangles);
         claim.ours += fmt::format(
-            " {}: {:.0f} frames a second while it breaks, worst frame {:.0f} ms, {} pieces and {} crumbs, the largest "
+            " {}: {:.0f} frames a second while it breaks, worst frame {:.0f} ms, {} pieces and {} of debris, the "
+            "largest "
             "piece with {:.0f} % of the mass.",
             is_quick ? "Quick mode, near the hit alone" : "Hidden run of the whole body", rate, worst, run->pieces,
-            run->crumbs, 100 * run->largest);
+            run->debris, 100 * run->largest);
         claim.numbers.push_back({fmt::format("frame rate while breaking, {}", name), "frames/s", rate, wanted});
         claim.numbers.push_back({fmt::format("worst frame, {}", name), "ms", worst, {}});
         claim.numbers.push_back({fmt::format("pieces, {}", name), "", static_cast<double>(run->pieces), {}});
@@ -182,7 +183,7 @@ Result<Claim> table_2(Bench& bench) {
         "Frames a second, fine / coarse / large fragments: walls 100 / 160 / 70, cow 32 / 40 / 30, castle 10 / 11 / 9.";
     Table table{"Frames that worked on a hit or in which something came off", {}};
     table.rows.push_back({"model", "our mode", "paper, fps", "fps while breaking", "vertices / triangles", "p50 ms",
-                          "p99 ms", "p50 of all frames, ms", "pieces", "crumbs", "verdict"});
+                          "p99 ms", "p50 of all frames, ms", "pieces", "debris", "verdict"});
     const std::vector<Body> all = bodies(bench);
     size_t met = 0, rows = 0;
     uint64_t dropped = 0, late = 0;
@@ -191,7 +192,7 @@ Result<Claim> table_2(Bench& bench) {
         for (size_t w = 0; w < std::size(kWays); ++w) {
             const Result<SceneRun>& run = run_of(bench, b, w);
             if (!run.ok()) return Error{run.error()};
-            const bool is_broken = run->pieces + run->crumbs > 1;  // fine fracture frees what is too small for a body
+            const bool is_broken = run->pieces + run->debris > 1;  // fine fracture frees what is too small for a body
             if (!is_broken) whole += fmt::format("{}{} ({})", whole.empty() ? "" : "; ", all[b].name, kWays[w].name);
             dropped += run->dropped, late += run->late;
             const bool is_met = is_broken && run->dropped == 0 && frame_rate(*run) >= all[b].paper[kWays[w].paper];

@@ -134,7 +134,7 @@ Result<void> play_walls(Bench& bench, Claim& claim, const WallThresholds& thick,
     const Result<SceneRun> run = run_scene(bench, play);
     if (!run.ok()) return Error{run.error()};
     // Both walls begin as one body: what is more than two came off.
-    const uint64_t came_off = run->pieces + run->crumbs - std::min<uint64_t>(2, run->pieces + run->crumbs);
+    const uint64_t came_off = run->pieces + run->debris - std::min<uint64_t>(2, run->pieces + run->debris);
     const std::string name = mode == "hidden" ? "Hidden run" : "Quick mode";
     const std::string captions[] = {
         fmt::format("{}: the same ball, {:.1f} m/s, at a wall of 4 cm (left) and at one of 20 cm (right)", name, speed),

@@ -84,8 +84,8 @@ int fragments(lua_State* lua) {
     return 1;
 }
 
-int crumbs(lua_State* lua) {
-    lua_pushinteger(lua, world_of(lua, "game.crumbs").report().debris);
+int debris(lua_State* lua) {
+    lua_pushinteger(lua, world_of(lua, "game.debris").report().debris);
     return 1;
 }
 
@@ -245,7 +245,7 @@ void open_queries(lua_State* lua) {
                                          {"frame", frame},
                                          {"time", time},
                                          {"fragments", fragments},
-                                         {"crumbs", crumbs},
+                                         {"debris", debris},
                                          {"mass", mass},
                                          {"mass_put_in", mass_put_in},
                                          {"kinetic_energy", kinetic_energy},

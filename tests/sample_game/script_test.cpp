@@ -569,7 +569,7 @@ TEST(Script, WhatIsAskedAndToldOfABodyIsSo) {
         local r = game.random(-1, 1)
         game.expect(r >= -1 and r < 1 and game.random() ~= game.random(), "chance")
         game.expect(game.seeded(7) == game.seeded(7) and game.any_turn(7).w == game.any_turn(7).w, "the same again")
-        game.expect(game.single(0.1) ~= 0.1 and game.single(0.5) == 0.5 and game.crumbs() == 0, "single")
+        game.expect(game.single(0.1) ~= 0.1 and game.single(0.5) == 0.5 and game.debris() == 0, "single")
         game.expect(game.asleep_share() == 1 and game.seed() == 1, "nothing moves")
     )"),
               "");

@@ -16,7 +16,7 @@ struct LimitSettings {
     uint32_t elements = 1u << 21;       // triangles of the same; 4096 to 2^26
     uint32_t open_hits = 64;            // damage tasks at once; 1 to 1024
     uint32_t view_vertices = 1u << 23;  // of all drawn meshes; 4096 to 2^28
-    uint32_t debris = 8192;             // crumbs too small to be bodies; 1 to 2^24
+    uint32_t debris = 8192;             // pieces too small to be bodies; 1 to 2^24
     uint32_t queued_hits = 256;         // hits and blows that wait, on bodies whose hit is still worked off; 1 to 2^16
     // Pieces that find no room by these two stay in one with the body and ask again in the next frame. At the defaults
     // `bodies` alone counts.
@@ -51,7 +51,7 @@ struct Settings {
     /// 0 to 1.
     float debris_share = 0.0005f;
     uint32_t debris_elements = 6;  // any number; 0 and 1: the share alone decides
-    float debris_seconds = 0;      // crumbs are gone so long after their birth, s; 0 to 1e6, 0: they stay
+    float debris_seconds = 0;      // debris is gone so long after its birth, s; 0 to 1e6, 0: it stays
     LimitSettings limits;
 };
 

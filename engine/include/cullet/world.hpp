@@ -95,7 +95,7 @@ struct StepReport {
     // Since the oldest open hit or blow was opened, or the oldest waiting hit came; 0: there is none, or foreseen ones.
     uint64_t oldest_hit_frames = 0;
     uint64_t retired = 0;  // fragments, since the world was made
-    uint64_t faded = 0;    // crumbs, since the world was made
+    uint64_t faded = 0;    // debris, since the world was made
 };
 
 /// What becomes of a fragment that the game has seen enough of.
@@ -125,7 +125,7 @@ class World {
  public:
     /// Bullet moves the bodies. In cullet::cullet alone.
     static Result<World> create(const Settings& settings, const Host& host = {});
-    /// The host moves the bodies (rigid.hpp). Gravity counts for crumbs alone, and no sweeps are made.
+    /// The host moves the bodies (rigid.hpp). Gravity counts for debris alone, and no sweeps are made.
     static Result<World> create_hosted(const Settings& settings, const Host& host = {});
     World(World&&) noexcept;
     World& operator=(World&&) noexcept;
