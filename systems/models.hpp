@@ -4,6 +4,7 @@
 // A call is a plain function over a set of tables. What is asked of all models is asked one after the other; a model
 // without the call, or whose tables do not have the task or the body, has nothing to do with it.
 #pragma once
+#include <memory>
 #include <optional>
 #include <string>
 
@@ -324,8 +325,11 @@ class DamageModels {
     std::vector<DamageModel> models_;
 };
 
+/// Shared by all that cook for it or play with it.
+using ModelList = std::shared_ptr<const DamageModels>;
+
 /// The one list of models, and that of structures.
-DamageModels damage_models();
+const ModelList& damage_models();
 std::vector<SlotList> structures();
 
 /// A plan whose story has slots.

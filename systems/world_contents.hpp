@@ -14,8 +14,11 @@ namespace cullet {
 
 struct World::Contents {
     /// Without `rigid` the host moves the bodies.
-    Contents(const Settings& settings, const Host& host, std::unique_ptr<RigidWorld> rigid);
+    Contents(const Settings& settings, const Host& host, std::unique_ptr<RigidWorld> rigid,
+             std::shared_ptr<const DamageModels> models);
     ~Contents();
+    /// What is inside of a world, as one.
+    static World world_of(std::unique_ptr<Contents> contents) { return World(std::move(contents)); }
 
     Settings settings;
     Host host;

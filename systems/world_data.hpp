@@ -187,7 +187,7 @@ struct WorldData {
     DamageCounts counts;
     EnergyBalance energy;  // Checked and Debug builds
     std::unique_ptr<RigidWorld> rigid;
-    std::unique_ptr<DamageModels> damage_models;
+    std::shared_ptr<const DamageModels> damage_models;
     std::unique_ptr<RunLoops> run_loops;
     ViewBoxes view_boxes;
     std::unique_ptr<QueryIndex> query_index;
@@ -211,11 +211,11 @@ struct WorldData {
         return state;
     }
     template <class T>
-    T& resource();
+    auto& resource();
 };
 
 template <class T>
-T& WorldData::resource() {
+auto& WorldData::resource() {
     if constexpr (std::is_same_v<T, State>)
         return state;
     else if constexpr (std::is_same_v<T, Step>)

@@ -94,12 +94,12 @@ std::string first_difference(const std::function<std::unique_ptr<Replayer>(int w
 
 namespace {
 
-Result<ReplayReport> replay_all(Replayer::Create create, const std::string& path, const ReplaySettings& settings,
-                                const Host& host) {
+Result<ReplayReport> replay_runs(const ModelList& models, Replayer::Create create, const std::string& path,
+                                 const ReplaySettings& settings, const Host& host) {
     if (settings.threads.empty()) return Error{path + ": no number of threads is given; replay on 1 at least."};
     const Result<std::vector<uint8_t>> bytes = read_whole_file(path, kLargestFile);
     if (!bytes) return Error{bytes.error()};
-    const Replayer::Source source{*bytes, path, path + ".models", create};
+    const Replayer::Source source{*bytes, path, path + ".models", create, models};
     ReplayReport report;
     uint64_t first_bad = 0;  // in steps
     size_t bad_run = 0;      // of settings.threads
@@ -149,10 +149,10 @@ Result<ReplayReport> replay_all(Replayer::Create create, const std::string& path
 
 }  // namespace
 
-Result<ReplayReport> replay_with(Replayer::Create create, const std::string& path, const ReplaySettings& settings,
-                                 const Host& host) {
+Result<ReplayReport> replay_all(const ModelList& models, Replayer::Create create, const std::string& path,
+                                const ReplaySettings& settings, const Host& host) {
     try {
-        return replay_all(create, path, settings, host);
+        return replay_runs(models, create, path, settings, host);
     } catch (const std::bad_alloc&) {
         return Error{path + ": no memory to replay it on " + std::to_string(settings.threads.size()) +
                      " numbers of threads, one after the other. Free memory, or replay on fewer."};

@@ -3,17 +3,22 @@
 
 #include "engine/host_scope.hpp"
 #include "systems/api/checks.hpp"
+#include "systems/api/with_models.hpp"
 #include "systems/world_contents.hpp"
 
 namespace cullet {
 
 Result<World> World::create_hosted(const Settings& settings, const Host& host) {
+    return create_hosted_with(damage_models(), settings, host);
+}
+
+Result<World> create_hosted_with(const ModelList& models, const Settings& settings, const Host& host) {
     const HostScope call(host);
     if (const Result<void> valid = check_settings(settings); !valid) return Error{valid.error()};
     if (const Result<void> valid = check_host(host); !valid) return Error{valid.error()};
     const MemoryScope memory(host.allocator);
     try {
-        return World(std::make_unique<Contents>(settings, host, nullptr));
+        return World::Contents::world_of(std::make_unique<World::Contents>(settings, host, nullptr, models));
     } catch (const std::bad_alloc&) {
         return no_room_for(settings.limits);
     }

@@ -6,6 +6,7 @@
 #include "systems/api/model_hash.hpp"
 #include "systems/api/recorder.hpp"
 #include "systems/api/settings_bytes.hpp"
+#include "systems/api/with_models.hpp"
 #include "systems/models/thick_shell/model_file.hpp"
 
 namespace cullet {
@@ -47,7 +48,8 @@ Result<void> Replayer::begin() {
     Settings settings = take_settings(in);
     settings.threads = threads_;
     if (!in.is_sound()) return Error{in.trouble()};
-    Result<World> made = is_hosted_ ? World::create_hosted(settings, host_) : source_.create(settings, host_);
+    const auto create = is_hosted_ ? &create_hosted_with : source_.create;
+    Result<World> made = create(source_.damage_models, settings, host_);
     if (!made) return Error{source_.name + ": " + made.error()};
     world_.emplace(std::move(*made));
     if (has_snapshot) {

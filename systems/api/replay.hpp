@@ -10,6 +10,7 @@
 #include "cullet/recording.hpp"
 #include "cullet/world.hpp"
 #include "systems/api/recording_file.hpp"
+#include "systems/models.hpp"
 
 namespace cullet {
 
@@ -22,12 +23,13 @@ struct RecordedStep {
 
 class Replayer {
  public:
-    using Create = Result<World> (*)(const Settings& settings, const Host& host);
+    using Create = Result<World> (*)(const ModelList& models, const Settings& settings, const Host& host);
     struct Source {
         std::span<const uint8_t> bytes;  // the file's; they outlive this
         std::string name;                // for sentences
         std::string models;              // the folder
-        Create create = nullptr;         // World::create: this part of the library has no Bullet in it
+        Create create = nullptr;         // create_with: this part of the library has no Bullet in it
+        ModelList damage_models = cullet::damage_models();
     };
     Replayer(const Source& source, uint32_t threads, const Host& host);
     ~Replayer();
@@ -75,7 +77,7 @@ class Replayer {
 std::string first_difference(const std::function<std::unique_ptr<Replayer>(int which)>& make);
 
 /// The whole of cullet/recording.hpp's replay(), for worlds that `create` makes.
-Result<ReplayReport> replay_with(Replayer::Create create, const std::string& path, const ReplaySettings& settings,
-                                 const Host& host);
+Result<ReplayReport> replay_all(const ModelList& models, Replayer::Create create, const std::string& path,
+                                const ReplaySettings& settings, const Host& host);
 
 }  // namespace cullet

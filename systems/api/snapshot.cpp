@@ -118,11 +118,11 @@ Result<void> rebuild_rigid(World::Contents& world) {
     return {};
 }
 
-/// An empty world with the host of `like`; null: there is no memory for one.
+/// An empty world with the host and the damage models of `like`; null: there is no memory for one.
 std::unique_ptr<World::Contents> make_alike(const Settings& settings, const World::Contents& like) {
     try {
-        return std::make_unique<World::Contents>(settings, like.host,
-                                                 like.data.rigid->make_another(settings.limits.bodies));
+        return std::make_unique<World::Contents>(
+            settings, like.host, like.data.rigid->make_another(settings.limits.bodies), like.data.damage_models);
     } catch (const std::bad_alloc&) {
         return nullptr;
     }

@@ -16,7 +16,8 @@ constexpr uint64_t kBytesAhead = 256 * 1024;
 
 }  // namespace
 
-World::Contents::Contents(const Settings& s, const Host& h, std::unique_ptr<RigidWorld> rigid)
+World::Contents::Contents(const Settings& s, const Host& h, std::unique_ptr<RigidWorld> rigid,
+                          std::shared_ptr<const DamageModels> models)
     : settings(s),
       host(h),
       jobs(h.jobs.parallel_for ? make_host_jobs(h.jobs) : make_jobs(JobBackend::Tbb, s.threads)),
@@ -32,7 +33,7 @@ World::Contents::Contents(const Settings& s, const Host& h, std::unique_ptr<Rigi
     data.rigid->use_jobs(*jobs);
     data.rigid->set_gravity(s.gravity);
     const uint32_t most_runs = data.state.tasks.limit() + data.state.soft_bodies.limit();
-    data.damage_models = std::make_unique<DamageModels>(damage_models());
+    data.damage_models = std::move(models);
     data.run_loops = std::make_unique<RunLoops>(*jobs, profiler, *data.damage_models, most_runs);
     plan = make_frame_plan(hosted != nullptr, *data.damage_models);
     plan.finish(profiler);
@@ -175,8 +176,8 @@ void World::set_veto(bool (*allows)(void* user, const ImpactEvent& impact), void
 std::string World::describe_frame() {
     Settings settings;
     settings.limits = {16, 1, 4096, 4096, 1, 4096, 16};
-    const auto contents =
-        std::make_unique<Contents>(settings, Host{}, std::make_unique<HostRigidWorld>(HostRoom{}, nullptr));
+    const auto contents = std::make_unique<Contents>(
+        settings, Host{}, std::make_unique<HostRigidWorld>(HostRoom{}, nullptr), damage_models());
     return contents->plan.describe();
 }
 

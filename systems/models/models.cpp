@@ -5,8 +5,9 @@
 
 namespace cullet {
 
-DamageModels damage_models() {
-    return DamageModels({thick_shell_model()});
+const ModelList& damage_models() {
+    static const ModelList all = std::make_shared<const DamageModels>(std::vector{thick_shell_model()});
+    return all;
 }
 
 std::vector<SlotList> structures() {

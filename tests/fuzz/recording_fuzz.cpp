@@ -7,6 +7,7 @@
 #include "engine/hash.hpp"
 #include "engine/mesh_file.hpp"
 #include "systems/api/replay.hpp"
+#include "systems/api/with_models.hpp"
 #include "tests/fuzz/fuzz.hpp"
 #include "tests/fuzz/small_seeds.hpp"
 
@@ -114,7 +115,7 @@ bool read(std::span<const uint8_t> file) {
     const Bytes bytes(file.begin(), file.end());
     if (bytes.size() < kHead + kChunkHead + 4) return false;
     if (!has_small_settings(file, settings_place(bytes)) || !has_small_snapshots(file)) return false;
-    Replayer replayer({file, "fuzz.rec", "/nowhere", &World::create}, 1, frugal_host());
+    Replayer replayer({file, "fuzz.rec", "/nowhere", &create_with}, 1, frugal_host());
     if (!replayer.begin()) return false;
     for (int frame = 0; frame < 3 && replayer.step();) ++frame;
     return true;

@@ -9,6 +9,7 @@
 #include "engine/mesh_file.hpp"
 #include "systems/api/recorder.hpp"
 #include "systems/api/replay.hpp"
+#include "systems/api/with_models.hpp"
 #include "tests/support/small_worlds.hpp"
 
 namespace cullet {
@@ -312,7 +313,7 @@ TEST(Recording, AFullDiskEndsTheRecordingAndTheLogIsToldOnce) {
 /// What first_difference tells of two runs of a recording when one of them is pushed in the step behind `steps`.
 std::string told_of_a_push(const std::string& path, uint64_t steps) {
     const std::vector<uint8_t> bytes = read_whole_file(path, 1u << 30).value();
-    const Replayer::Source source{bytes, path, path + ".models", &World::create};
+    const Replayer::Source source{bytes, path, path + ".models", &create_with};
     return first_difference([&](int which) {
         auto run = std::make_unique<Replayer>(source, 1, Host{});
         EXPECT_TRUE(run->begin().ok());
