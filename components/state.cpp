@@ -49,7 +49,7 @@ template <class F>
 void for_each_kept_column(const State& state, F&& f) {
     const auto columns_of = [&](const AnyTable& table) {
         for (const ColumnInfo& c : table.columns())
-            if (c.keep == Keep::State) f(table, c);
+            if (c.is_state()) f(table, c);
     };
     std::apply([&](auto... table) { (columns_of(state.*table), ...); }, State::tables());
 }

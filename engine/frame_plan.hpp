@@ -27,7 +27,9 @@ struct PlannedSystem {
     uint32_t (*row_count)(World&) = nullptr;
     Rows<void> (*rows_of_body)(World&, uint32_t body) = nullptr;
     void (*invoke)(Call<World>&) = nullptr;
-    uint32_t every = 1;  // inner loops: in each n-th repetition
+    uint32_t owner = 0;
+    bool (*is_own)(World&, uint32_t event, uint32_t owner) = nullptr;  // null: called for all events
+    uint32_t every = 1;                                                // inner loops: in each n-th repetition
     uint32_t zone = 0;
     std::vector<uint32_t> after;  // systems that must have ended, by place in the list
 };
@@ -54,6 +56,10 @@ PlannedSystem<World> plan_system(std::string stage) {
         if constexpr (std::tuple_size_v<typename Sig::Eaches> == 1) {
             using E = std::remove_pointer_t<std::tuple_element_t<0, typename Sig::Eaches>>;
             planned.row_count = [](World& world) { return world.template resource<Events<E>>().size(); };
+            if constexpr (Sig::kIsOfOwner)
+                planned.is_own = [](World& world, uint32_t event, uint32_t owner) {
+                    return world.template resource<Events<E>>().all()[event].owner == owner;
+                };
         }
     } else {
         planned.row_count = [](World&) { return 1u; };
@@ -116,11 +122,17 @@ class FramePlan {
         stage_ = std::move(name);
         return *this;
     }
+    /// The systems that follow are of this owner: EachOwn and Own give them its events alone.
+    FramePlan& owner(uint32_t number) {
+        owner_ = number;
+        return *this;
+    }
     template <auto System>
     FramePlan& then() {
         static_assert(!Signature<decltype(System)>::kHasTwoSided,
                       "the sides of a two-sided column take turns in inner loops only");
         systems_.push_back(plan_system<World, System>(stage_));
+        systems_.back().owner = owner_;
         return *this;
     }
     /// A loop that repeats inside of the system named last; shown with it. It must outlive the plan.
@@ -196,7 +208,9 @@ class FramePlan {
         Call<World> call{world};
         call.first = chunk * system.chunk_rows;
         call.count = chunks.rows - call.first < system.chunk_rows ? chunks.rows - call.first : system.chunk_rows;
+        call.owner = system.owner;
         if (system.kind == CallKind::Bodies) call.body = chunk;
+        if (system.is_own && !system.is_own(world, chunk, system.owner)) return;
         system.invoke(call);
     }
     void run_pass(const Pass& pass, World& world, JobSystem& jobs, Profiler& profiler, const Host& host) {
@@ -242,6 +256,7 @@ class FramePlan {
     std::vector<Pass> passes_;
     std::vector<Shown> loops_;
     std::string stage_;
+    uint32_t owner_ = 0;
 };
 
 }  // namespace cullet

@@ -15,9 +15,13 @@
 //     Of<T>              in an inner loop: once for the row of T that it runs for; owns every row that belongs to it.
 //                        Beside Rows<U> it says whose rows these are
 //     Each<E>            once an event of the queue Events<E>, in parallel; owns every row of the event's body
-//     Serial             once, on one thread
+//     EachOwn<E>         the same for events of the system's owner alone: E::owner names it. In a frame plan systems
+//     have
+//                        the owner that the plan was told before them
+//     Serial             once, on one thread. Own<E> gives it the events of its owner, Owner tells who that is
 #pragma once
 #include <array>
+#include <span>
 #include <string>
 #include <string_view>
 #include <tuple>
@@ -115,7 +119,46 @@ struct Each {
     const E* operator->() const { return event; }
     const E& operator*() const { return *event; }
 };
+template <class E>
+struct EachOwn : Each<E> {};
 struct Serial {};
+
+/// Who registered the system.
+struct Owner {
+    uint32_t number;
+};
+
+/// The events of one owner in a queue, in its order.
+template <class E>
+class Own {
+ public:
+    struct End {};
+    class Iterator {
+     public:
+        Iterator(std::span<const E> left, uint32_t owner) : left_(left), owner_(owner) { skip(); }
+        const E& operator*() const { return left_.front(); }
+        Iterator& operator++() {
+            left_ = left_.subspan(1);
+            skip();
+            return *this;
+        }
+        bool operator!=(End) const { return !left_.empty(); }
+
+     private:
+        void skip() {
+            while (!left_.empty() && left_.front().owner != owner_) left_ = left_.subspan(1);
+        }
+        std::span<const E> left_;
+        uint32_t owner_;
+    };
+    Own(const Events<E>& events, uint32_t owner) : all_(events.all()), owner_(owner) {}
+    Iterator begin() const { return {all_, owner_}; }
+    End end() const { return {}; }
+
+ private:
+    std::span<const E> all_;
+    uint32_t owner_;
+};
 
 /// The fixed step.
 struct Step {
@@ -144,7 +187,8 @@ struct Call {
     World& world;
     uint32_t first = 0, count = 0;  // rows
     uint32_t body = 0;
-    int side = 0;  // the old side of two-sided columns
+    int side = 0;        // the old side of two-sided columns
+    uint32_t owner = 0;  // of the system
 };
 
 std::string type_name_of(std::string_view pretty);
@@ -222,6 +266,29 @@ struct Parameter<Each<E>> {
     template <class W>
     static Each<E> bind(Call<W>& call) {
         return {call.world.template resource<Events<E>>().all().data() + call.body};
+    }
+};
+template <class E>
+struct Parameter<EachOwn<E>> : Parameter<Each<E>> {
+    template <class W>
+    static EachOwn<E> bind(Call<W>& call) {
+        return {Parameter<Each<E>>::bind(call)};
+    }
+};
+template <>
+struct Parameter<Owner> {
+    static void describe(std::vector<Access>&) {}
+    template <class W>
+    static Owner bind(Call<W>& call) {
+        return {call.owner};
+    }
+};
+template <class E>
+struct Parameter<Own<E>> {
+    static void describe(std::vector<Access>& list) { list.push_back({type_name<Events<E>>(), true, false, false}); }
+    template <class W>
+    static Own<E> bind(Call<W>& call) {
+        return {call.world.template resource<Events<E>>(), call.owner};
     }
 };
 template <>
@@ -351,6 +418,12 @@ template <class E>
 struct IsEach<Each<E>> : std::true_type {
     using Event = E;
 };
+template <class E>
+struct IsEach<EachOwn<E>> : IsEach<Each<E>> {};
+template <class P>
+struct IsEachOwn : std::false_type {};
+template <class E>
+struct IsEachOwn<EachOwn<E>> : std::true_type {};
 template <class P>
 struct IsOf : std::false_type {};
 template <class T>
@@ -376,6 +449,7 @@ struct Signature;
 template <class... P>
 struct Signature<void (*)(P...)> {
     static constexpr bool kIsOfLoop = (... || IsOf<P>::value);
+    static constexpr bool kIsOfOwner = (... || IsEachOwn<P>::value);
     static constexpr int kCallParameters =
         (0 + ... + int{IsRows<P>::value || IsEach<P>::value || std::is_same_v<P, Serial>});
     static_assert(kCallParameters == 1 || (kCallParameters == 0 && kIsOfLoop),

@@ -64,10 +64,19 @@ uint64_t AnyTable::commit_rows(uint32_t count, uint64_t most) {
     return bytes * (count - from);
 }
 
+bool AnyTable::is_zero(const ColumnInfo& c) const {
+    const auto is_nothing = [](std::byte b) { return b == std::byte{0}; };
+    for (int a = 0; a < c.lanes * c.sides; ++a) {
+        const std::byte* const bytes = column_memory(c, a);
+        if (!std::all_of(bytes, bytes + size_t{size_} * c.row_bytes, is_nothing)) return false;
+    }
+    return true;
+}
+
 uint64_t AnyTable::hash(uint64_t seed) const {
     uint64_t hash = hash_bytes(&size_, sizeof size_, seed);
     for (const ColumnInfo& c : *columns_) {
-        if (c.keep != Keep::State) continue;
+        if (!c.is_state() || (c.keep == Keep::Added && is_zero(c))) continue;
         for (int a = 0; a < c.lanes * c.sides; ++a)
             hash = hash_bytes(column_memory(c, a), size_t{size_} * c.row_bytes, hash);
     }
@@ -97,7 +106,7 @@ std::string AnyTable::first_difference(const AnyTable& other) const {
                " there";
     if (size_ == 0) return {};
     for (const ColumnInfo& c : *columns_) {
-        if (c.keep != Keep::State) continue;
+        if (!c.is_state()) continue;
         for (int a = 0; a < c.lanes * c.sides; ++a) {
             const std::byte *mine = column_memory(c, a), *theirs = other.column_memory(c, a);
             if (std::memcmp(mine, theirs, size_t{size_} * c.row_bytes) == 0) continue;

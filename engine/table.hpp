@@ -27,8 +27,9 @@ namespace cullet {
 
 inline constexpr uint32_t kNone = 0xffffffffu;
 
-/// State is saved, hashed and compared between runs. Scratch is rebuilt before it is read.
-enum class Keep : uint8_t { State, Scratch };
+/// State is saved, hashed and compared between runs. Added is State that came later: it is hashed while some row of it
+/// is not zero, so that worlds which do not use it keep the hash that they had. Scratch is rebuilt before it is read.
+enum class Keep : uint8_t { State, Added, Scratch };
 
 /// Two: a parallel system may read the old side of any row (In) while it writes the new side of its own (Out).
 enum class Buffers : uint8_t { One, Two };
@@ -55,6 +56,7 @@ struct ColumnInfo {
     Scalar scalar;
     uint8_t components;  // scalars in one row of one lane
     Keep keep;
+    bool is_state() const { return keep != Keep::Scratch; }
 };
 
 /// How a value type lies in a column: `Lanes` arrays of `LaneType`, each row of an array `Components` scalars of one
@@ -132,6 +134,9 @@ class AnyTable {
     std::string describe_value(const ColumnInfo& column, int array, uint32_t row, uint32_t from = 0) const;
     /// "vertices.velocity[812].y"
     std::string place_of(const ColumnInfo& column, int array, uint32_t row) const;
+
+ private:
+    bool is_zero(const ColumnInfo& column) const;
 
  protected:
     explicit AnyTable(uint32_t limit) : limit_(limit), used_(is_reserved_zero() ? 0 : limit) {}

@@ -5,7 +5,7 @@
 namespace cullet {
 
 void put_table(ByteWriter& out, const AnyTable& table, uint32_t first, uint32_t rows) {
-    const auto is_kept = [](const ColumnInfo& c) { return c.keep == Keep::State; };
+    const auto is_kept = [](const ColumnInfo& c) { return c.is_state(); };
     out.text(table.name());
     out.number(rows);
     out.number(static_cast<uint32_t>(std::count_if(table.columns().begin(), table.columns().end(), is_kept)));
@@ -22,7 +22,7 @@ void put_table(ByteWriter& out, const AnyTable& table, uint32_t first, uint32_t 
 void FoundTable::copy_to(AnyTable& table, uint32_t first) const {
     size_t next = 0;
     for (const ColumnInfo& c : table.columns()) {
-        if (c.keep != Keep::State) continue;
+        if (!c.is_state()) continue;
         for (int a = 0; a < c.lanes * c.sides; ++a, ++next)
             if (rows > 0)
                 std::memcpy(table.column_memory(c, a) + size_t{first} * c.row_bytes, arrays[next].data(),
@@ -38,7 +38,7 @@ FoundTable find_table(ByteReader& in, const AnyTable& like) {
     const auto columns = in.number<uint32_t>("a number of columns");
     uint32_t wanted = 0;
     for (const ColumnInfo& c : like.columns()) {
-        if (c.keep != Keep::State) continue;
+        if (!c.is_state()) continue;
         ++wanted;
         const std::string full = name + "." + c.name;
         in.expect(in.text("a column's name") == c.name, "the column " + full + " is not");

@@ -28,6 +28,7 @@ struct BirdsEggs : Table<BirdsEggs> {  // its name starts like the other table's
 
 struct Cried {
     uint32_t bird, cry;
+    uint32_t owner = bird % 3;
 };
 struct Weather {
     float wind = 2;
@@ -103,6 +104,15 @@ void listen(Serial, const Events<Cried>& cries, Weather& weather) {
 }
 void answer(Each<Cried> cried, Birds& birds) {
     birds.hunger[cried->bird * 4 + cried->cry] += 1;
+}
+template <int n>
+void count_own(EachOwn<Cried> cried, Birds& birds) {
+    const uint32_t row = cried->bird * 4 + cried->cry;
+    if (row < birds.size()) birds.flock[row] += n;
+}
+template <int n>
+void list_own(Serial, Own<Cried> cries, Weather& weather) {
+    for (const Cried& c : cries) weather.storms += n * (c.bird + 1);
 }
 template <int n>
 void independent(Serial) {}
@@ -282,6 +292,26 @@ TEST(FramePlan, EachEventIsAnsweredOnce) {
                     ASSERT_EQ(sky.birds.hunger[b * 4 + c], c < b % 4 ? 1.0f : 0.0f);
                 }
     }
+}
+
+TEST(FramePlan, AnOwnersSystemsSeeItsEventsAlone) {
+    Sky sky;
+    Profiler profiler(1, 1);
+    sky.birds.append(400);
+    Plan plan;
+    plan.then<cry>().owner(1).then<count_own<1>>().then<list_own<1>>().owner(2).then<count_own<100>>();
+    plan.owner(7).then<list_own<1000000>>();
+    plan.finish(profiler);
+    plan.step(sky, *make_jobs(JobBackend::Tbb, 4), profiler);
+    uint32_t wanted = 0;
+    for (uint32_t b = 0; b < 400; ++b)
+        for (uint32_t n = 0; n < b % 4; ++n) {
+            if (b < 100) {
+                EXPECT_EQ(sky.birds.flock[4 * b + n], b % 3 == 1 ? 1u : b % 3 == 2 ? 100u : 0u) << b << " " << n;
+            }
+            wanted += b % 3 == 1 ? b + 1 : 0;
+        }
+    EXPECT_EQ(sky.weather.storms, wanted);
 }
 
 TEST(FramePlan, AStepGivesTheSameBytesOnAnyBackend) {

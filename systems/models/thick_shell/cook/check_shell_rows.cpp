@@ -203,7 +203,7 @@ void check_column(Checker& check, const AnyTable& table, const ColumnInfo& c, co
 
 void check_columns(Checker& check, const AnyTable& table, const Range& range) {
     for (const ColumnInfo& c : table.columns()) {
-        if (c.keep != Keep::State || !check.is_sound()) continue;
+        if (!c.is_state() || !check.is_sound()) continue;
         const auto is_its = [&](const Rule& rule) {
             return std::strcmp(rule.table, table.name()) == 0 && std::strcmp(rule.column, c.name) == 0;
         };

@@ -23,7 +23,7 @@ void CutRows::number(uint32_t count) {
 
 void copy_kept_rows(AnyTable& table, uint32_t from, uint32_t to, uint32_t count) {
     for (const ColumnInfo& c : table.columns())
-        for (int a = 0; c.keep == Keep::State && a < c.lanes * c.sides; ++a) {
+        for (int a = 0; c.is_state() && a < c.lanes * c.sides; ++a) {
             std::byte* const memory = table.column_memory(c, a);
             std::memcpy(memory + size_t{to} * c.row_bytes, memory + size_t{from} * c.row_bytes,
                         size_t{count} * c.row_bytes);
@@ -36,7 +36,7 @@ void RowRuns::copy() {
         for (const ColumnInfo& c : table->columns()) {
             const bool is_other =
                 std::find(others_.begin(), others_.end(), table->column_memory(c, 0)) != others_.end();
-            for (int a = 0; c.keep == Keep::State && !is_other && a < c.lanes * c.sides; ++a) {
+            for (int a = 0; c.is_state() && !is_other && a < c.lanes * c.sides; ++a) {
                 std::byte* const memory = table->column_memory(c, a);
                 for (const auto& [from, to, count] : runs)
                     std::memcpy(memory + size_t{to} * c.row_bytes, memory + size_t{from} * c.row_bytes,

@@ -269,7 +269,7 @@ void for_each_column(Model::Contents& contents, F&& f) {
     for (const auto& [table, range] : parts)
         for (const ColumnInfo& c : table->columns()) {
             const bool is_range = table == &s.shells && c.components == 3 && c.scalar == Scalar::U32;
-            if (c.keep == Keep::State && !is_range && range.count > 0) f(*table, c, range);
+            if (c.is_state() && !is_range && range.count > 0) f(*table, c, range);
         }
 }
 
