@@ -26,6 +26,9 @@ struct RunRows : ShellRows {
     AwakePacks awake_packs;
     RegionRests region_rests;
 
+    /// The damage model that works on a task, that of the body that was hit: its place in the world's list.
+    uint8_t model_of(uint32_t task) const { return shells.damage_model[tasks.source[task]]; }
+
     using Below = ShellRows;
     static constexpr auto own_tables() {
         using R = RunRows;

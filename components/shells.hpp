@@ -61,6 +61,8 @@ struct Shells : RangeTable<Shells> {
     Column<uint8_t> generation{*this, "generation"};  // 0 intact, fragments one more than their parent
     Column<uint8_t> has_cracks{*this, "has_cracks"};
     Column<uint32_t> dead_elements{*this, "dead_elements"};  // of pieces that moved, until the shell is compacted
+    /// What breaks it: its place in the world's list of damage models. Copies and pieces inherit it.
+    Column<uint8_t> damage_model{*this, "damage_model", "1", Keep::Added};
     /// So many first elements stand in order of cells, at least; 0: nobody has looked (cell_elements.hpp). What cracks
     /// add comes behind them.
     Column<uint32_t> sorted_elements{*this, "sorted_elements", "1", Keep::Scratch};

@@ -2,10 +2,10 @@
 // and only then are contacts solved, so that what breaks does not throw the striker back. A host with its own physics
 // (World::create_hosted) has moved the bodies before the frame, and solves after it.
 //
-// A slot holds the systems of each damage model, or of each structure (models.hpp).
+// A slot holds the systems of each damage model, or of each structure (slots.hpp).
 #include "engine/assert.hpp"
 #include "systems/drawn/query_index.hpp"
-#include "systems/models.hpp"
+#include "systems/slotted_plan.hpp"
 #include "systems/systems.hpp"
 #include "systems/tasks/run_loops.hpp"
 #include "systems/world_contents.hpp"

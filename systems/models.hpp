@@ -1,327 +1,92 @@
-// A damage model as the rest of the program knows it: the slots that it fills with systems of its own, its inner loops,
-// and calls. One more is a line in models.cpp.
-//
-// A call is a plain function over a set of tables. What is asked of all models is asked one after the other; a model
-// without the call, or whose tables do not have the task or the body, has nothing to do with it.
+// The damage models of a world, in one list. Each body has one of them: the shell that it is made of says which.
 #pragma once
 #include <memory>
 #include <optional>
 #include <string>
+#include <vector>
 
-#include "cullet/result.hpp"
-#include "cullet/world.hpp"
-#include "systems/checks/world_energy.hpp"
-#include "systems/model_loops.hpp"
-#include "systems/slots.hpp"
-#include "systems/structures/shell/explosion.hpp"
-#include "systems/structures/shell/group_fragments.hpp"
-#include "systems/structures/shell/rigid_handoff.hpp"
+#include "systems/damage_model.hpp"
 
 namespace cullet {
 
-/// A blow of the game's at one place of a body.
-struct PointPush {
-    Vec3 point;         // body frame, m
-    Vec3 impulse;       // N s, body axes
-    float radius = 0;   // m, that it is shared out over
-    float fastest = 0;  // m/s, at most, that it gives to any point
-};
-
-/// Parts of a body that moves by itself, and tore.
-struct TornPieces {
-    Row<Bodies> body;
-    std::span<const uint32_t> order;  // parts, heaviest first
-    std::span<const FragmentPart> parts;
-    std::span<const Row<Bodies>> child;  // new bodies; of the part that goes on as the body, the body
-};
-
-/// A working copy of a body's shell for a task that opens.
-struct WorkingShell {
-    Row<Shells> shell;           // none: it waits, or there is no room
-    bool waits = false;          // for the task's contacts: its rows are given when they are known
-    const char* full = nullptr;  // the limit that left no room
-};
-
-/// What models are told about a body that the game spawns.
-struct Spawning {
-    const SpawnSettings& settings;
-    bool is_breakable;    // the game wants it, and its strength is finite
-    bool knows_surfaces;  // the rigid world tells what a body meets
-    float step_seconds;   // s
-    uint64_t units_a_frame;
-};
-
-/// How long a run takes that works on a whole body.
-struct RunLength {
-    float seconds = 0, step_seconds = 0;  // of its own clock, s
-    uint64_t units_a_step = 0;
-};
-
-class DamageModel {
- public:
-    explicit DamageModel(std::string name) : slots_(std::move(name)) {}
-
-    // ---- registration
-
-    DamageModel& at(Slot slot) {
-        slots_.at(slot);
-        return *this;
-    }
-    template <auto System>
-    DamageModel& then() {
-        slots_.then<System>();
-        return *this;
-    }
-    /// A loop that works off tasks, and what its runs cost.
-    template <auto Cost, class World>
-    DamageModel& loop(std::string title, InnerLoop<World> loop, const TaskCalls& calls) {
-        task_loops_.push_back(TaskLoop::of<Cost>(std::move(title), std::move(loop), calls));
-        return *this;
-    }
-    /// A loop that runs in each frame. Its time is shown under `zone`.
-    template <class World>
-    DamageModel& frame_loop(std::string title, InnerLoop<World> loop, const FrameCalls& calls) {
-        frame_loops_.emplace_back(std::move(title), std::move(loop), calls);
-        return *this;
-    }
-    /// Units of its frame loops: `Wanted(rows)` for all that they ask for; `Grant(rows, units, slow_frames)` gives them
-    /// what the frame has, counts what runs slower than the world, and returns what that costs. `zone`: of the
-    /// profiler.
-    template <auto Wanted, auto Grant>
-    DamageModel& moves_each_frame(const char* zone) {
-        frame_zone_ = zone;
-        calls_.wanted = [](const SoftRows& rows) { return Wanted(rows); };
-        calls_.grant = [](SoftRows& rows, uint64_t units, uint64_t& slow_frames) {
-            return Grant(rows, units, slow_frames);
-        };
-        return *this;
-    }
-    /// `Cancel(rows, task)`: rows that the model holds for a task go back.
-    template <auto Cancel>
-    DamageModel& cancels() {
-        calls_.cancel = [](RunRows& rows, Row<Tasks> task) { Cancel(rows, task); };
-        return *this;
-    }
-    /// `Energy(rows, body, gravity)` of a body that the model moves by itself; none of one that is rigid.
-    template <auto Energy>
-    DamageModel& has_energy() {
-        calls_.energy = [](SoftRows& rows, Row<Bodies> body, Vec3 gravity) { return Energy(rows, body, gravity); };
-        return *this;
-    }
-    /// Blows of the game on a body that the model can move by itself: `Push(rows, rigid, body, push)`, and
-    /// `Explode(rows, rigid, body, explosion)`. False: it cannot, and nothing happened.
-    template <auto Push, auto Explode>
-    DamageModel& takes_blows() {
-        calls_.push = [](SoftRows& rows, RigidWorld& rigid, Row<Bodies> body, const PointPush& push) {
-            return Push(rows, rigid, body, push);
-        };
-        calls_.explode = [](SoftRows& rows, RigidWorld& rigid, Row<Bodies> body, const Explosion& explosion) {
-            return Explode(rows, rigid, body, explosion);
-        };
-        return *this;
-    }
-    /// A body is spawned. `Check(settings)`: whether the model's own settings are sound. `Shell(rows, source,
-    /// spawning)`: the cooked shell, which bodies share, or one of the body's own. `Body(rows, body, spawning)`, once
-    /// its mass is known: fills what the model keeps for it, and returns the rows that the first hit on it takes.
-    template <auto Check, auto Shell, auto Body>
-    DamageModel& spawns() {
-        calls_.check_spawn = [](const SpawnSettings& settings) { return Check(settings); };
-        calls_.spawn_shell = [](SoftRows& rows, Row<Shells> source, const Spawning& spawning) {
-            return Shell(rows, source, spawning);
-        };
-        calls_.spawn_body = [](SoftRows& rows, Row<Bodies> body, const Spawning& spawning) {
-            return Body(rows, body, spawning);
-        };
-        return *this;
-    }
-    /// Rows for a task that opens. `Shell(rows, body)` is a WorkingShell, none of a body that the model does not break;
-    /// `Begin(rows, task, stiffness_wanted)` fills what the model keeps for it; `GiveLate(rows, blows, task,
-    /// stiffness_wanted, full)` gives rows to one that waited for its contacts: false, there is no room.
-    template <auto Shell, auto Begin, auto GiveLate>
-    DamageModel& takes() {
-        calls_.working_shell = [](BodyRows& rows, Row<Bodies> body) { return Shell(rows, body); };
-        calls_.begin = [](BodyRows& rows, Row<Tasks> task, Events<StiffnessWanted>& wanted) {
-            Begin(rows, task, wanted);
-        };
-        calls_.give_late = [](BodyRows& rows, const Blows& blows, Row<Tasks> task, Events<StiffnessWanted>& wanted,
-                              const char** full) { return GiveLate(rows, blows, task, wanted, full); };
-        return *this;
-    }
-    /// `MayFindRoom(rows, body)`. False: a working copy of the body's shell has no room beside it even where nothing
-    /// else is, so that a hit need not wait for it. `Length(rows, body)`: a RunLength, none where runs are over before
-    /// anything presses on.
-    template <auto MayFindRoom, auto Length>
-    DamageModel& foretells() {
-        calls_.may_find_room = [](const BodyRows& rows, Row<Bodies> body) { return MayFindRoom(rows, body); };
-        calls_.length = [](const BodyRows& rows, Row<Bodies> body) { return Length(rows, body); };
-        return *this;
-    }
-    /// `Motion(rows, task)`: how the rest of a body moves that was hit on a part of it, once that part is back in it.
-    template <auto Motion>
-    DamageModel& moves_rest() {
-        calls_.motion_of_rest = [](const RunRows& rows, Row<Tasks> task) { return Motion(rows, task); };
-        return *this;
-    }
-    /// `Inherit(rows, parent, piece)`: what the model keeps of a body goes on to a new piece of it.
-    template <auto Inherit>
-    DamageModel& inherits() {
-        calls_.inherit = [](BodyRows& rows, Row<Bodies> parent, Row<Bodies> piece) { Inherit(rows, parent, piece); };
-        return *this;
-    }
-    /// `Keeps(rows, body)`: a run on a copy of the body leaves the cells that did not change under their names.
-    template <auto Keeps>
-    DamageModel& keeps_cell_names() {
-        calls_.keeps_cell_names = [](const BodyRows& rows, Row<Bodies> body) { return Keeps(rows, body); };
-        return *this;
-    }
-    /// Of a body that the model moves by itself, and that tore: `HandOff(rows, torn, motions)` finds the parts'
-    /// motions, `Give(rows, torn)` makes the new bodies move by themselves, `Keep(rows, rigid, body)` lets the rest go
-    /// on.
-    template <auto HandOff, auto Give, auto Keep>
-    DamageModel& tears() {
-        calls_.hand_off_torn = [](const SoftRows& rows, const TornPieces& torn, std::span<PartMotion> motions) {
-            HandOff(rows, torn, motions);
-        };
-        calls_.give_torn = [](SoftRows& rows, const TornPieces& torn) { Give(rows, torn); };
-        calls_.keep_torn = [](SoftRows& rows, RigidWorld& rigid, Row<Bodies> body) { Keep(rows, rigid, body); };
-        return *this;
-    }
-    /// `Follow(rows, body)`: the game has put a body elsewhere, or given it another motion. `Release(rows, body)`: what
-    /// the model keeps for a body goes; the body is no concern of it any more.
-    template <auto Follow, auto Release>
-    DamageModel& keeps_for_bodies() {
-        calls_.follow = [](SoftRows& rows, Row<Bodies> body) { Follow(rows, body); };
-        calls_.release = [](SoftRows& rows, Row<Bodies> body) { Release(rows, body); };
-        return *this;
-    }
-    /// After a load, what is not in the bytes because it follows from them: `Run(rows, task)` of a run that goes on,
-    /// `Body(rows, body)` of each body with a shell.
-    template <auto Run, auto Body>
-    DamageModel& restores() {
-        calls_.restore_run = [](RunRows& rows, Row<Tasks> task) { Run(rows, task); };
-        calls_.restore_body = [](BodyRows& rows, Row<Bodies> body) { Body(rows, body); };
-        return *this;
-    }
-    /// `IsPart(rows, task)`: the task's shell is a part of its body's. `Room(rows, body)`: rows that a hit on the body
-    /// takes.
-    template <auto IsPart, auto Room>
-    DamageModel& works_on() {
-        calls_.is_part = [](const RunRows& rows, uint32_t task) { return IsPart(rows, task); };
-        calls_.room = [](BodyRows& rows, Row<Bodies> body) { return Room(rows, body); };
-        return *this;
-    }
-    /// Rows that came from a file. `Shell(shell, is_part, name, advice)` and `Rows(rows, name, advice)` are
-    /// Result<void>, whose sentence begins with the name and ends with the advice; `Task(rows, task)` is empty or what
-    /// the task's shell is or lacks. Ranges, users and shared tables have been looked at before.
-    template <auto Shell, auto Task, auto Rows>
-    DamageModel& checks() {
-        calls_.check_shell = [](const ShellView& shell, bool is_part, const std::string& name, const char* advice) {
-            return Shell(shell, is_part, name, advice);
-        };
-        calls_.trouble_of_task = [](const RunRows& rows, uint32_t task) { return Task(rows, task); };
-        calls_.check_rows = [](const SoftRows& rows, const std::string& name, const char* advice) {
-            return Rows(rows, name, advice);
-        };
-        return *this;
-    }
-
-    // ---- what was registered
-
-    struct Calls {
-        uint64_t (*wanted)(const SoftRows&) = nullptr;
-        uint64_t (*grant)(SoftRows&, uint64_t units, uint64_t& slow_frames) = nullptr;
-        void (*cancel)(RunRows&, Row<Tasks>) = nullptr;
-        std::optional<MechanicalEnergy> (*energy)(SoftRows&, Row<Bodies>, Vec3 gravity) = nullptr;
-        bool (*push)(SoftRows&, RigidWorld&, Row<Bodies>, const PointPush&) = nullptr;
-        bool (*explode)(SoftRows&, RigidWorld&, Row<Bodies>, const Explosion&) = nullptr;
-        Result<void> (*check_spawn)(const SpawnSettings&) = nullptr;
-        Result<Row<Shells>> (*spawn_shell)(SoftRows&, Row<Shells> source, const Spawning&) = nullptr;
-        Result<ShellRoom> (*spawn_body)(SoftRows&, Row<Bodies>, const Spawning&) = nullptr;
-        std::optional<WorkingShell> (*working_shell)(BodyRows&, Row<Bodies>) = nullptr;
-        void (*begin)(BodyRows&, Row<Tasks>, Events<StiffnessWanted>&) = nullptr;
-        bool (*give_late)(BodyRows&, const Blows&, Row<Tasks>, Events<StiffnessWanted>&, const char** full) = nullptr;
-        bool (*may_find_room)(const BodyRows&, Row<Bodies>) = nullptr;
-        std::optional<RunLength> (*length)(const BodyRows&, Row<Bodies>) = nullptr;
-        void (*follow)(SoftRows&, Row<Bodies>) = nullptr;
-        void (*release)(SoftRows&, Row<Bodies>) = nullptr;
-        void (*restore_run)(RunRows&, Row<Tasks>) = nullptr;
-        void (*restore_body)(BodyRows&, Row<Bodies>) = nullptr;
-        bool (*is_part)(const RunRows&, uint32_t task) = nullptr;
-        ShellRoom (*room)(BodyRows&, Row<Bodies>) = nullptr;
-        Result<void> (*check_shell)(const ShellView&, bool is_part, const std::string& name,
-                                    const char* advice) = nullptr;
-        std::string (*trouble_of_task)(const RunRows&, uint32_t task) = nullptr;
-        Result<void> (*check_rows)(const SoftRows&, const std::string& name, const char* advice) = nullptr;
-        std::optional<RestMotion> (*motion_of_rest)(const RunRows&, Row<Tasks>) = nullptr;
-        void (*inherit)(BodyRows&, Row<Bodies> parent, Row<Bodies> piece) = nullptr;
-        bool (*keeps_cell_names)(const BodyRows&, Row<Bodies>) = nullptr;
-        void (*hand_off_torn)(const SoftRows&, const TornPieces&, std::span<PartMotion>) = nullptr;
-        void (*give_torn)(SoftRows&, const TornPieces&) = nullptr;
-        void (*keep_torn)(SoftRows&, RigidWorld&, Row<Bodies>) = nullptr;
-    };
-    const SlotList& slots() const { return slots_; }
-    const std::vector<TaskLoop>& task_loops() const { return task_loops_; }
-    const std::vector<FrameLoop>& frame_loops() const { return frame_loops_; }
-    const char* frame_zone() const { return frame_zone_; }
-    const Calls& calls() const { return calls_; }
-
- private:
-    SlotList slots_;
-    std::vector<TaskLoop> task_loops_;
-    std::vector<FrameLoop> frame_loops_;
-    const char* frame_zone_ = "";
-    Calls calls_;
-};
-
-/// All of them, in the order in which they run within a slot. Nothing of it changes while a world has it.
+/// In the order in which they run within a slot. Nothing of it changes while a world has it. A model's number is its
+/// place: Shells::damage_model, and the owner of its systems.
 class DamageModels {
  public:
-    explicit DamageModels(std::vector<DamageModel> models) : models_(std::move(models)) {}
+    /// 1 to 255 models, whose names differ.
+    explicit DamageModels(std::vector<DamageModel> models);
     auto begin() const { return models_.begin(); }
     auto end() const { return models_.end(); }
+    uint32_t size() const { return static_cast<uint32_t>(models_.size()); }
+    const DamageModel& operator[](uint8_t number) const { return models_[number]; }
+    /// The number of the model of that name, or none.
+    std::optional<uint8_t> find(const std::string& name) const;
+    /// "thick_shell, lattice"
+    std::string names() const;
 
-    /// The loop that works off an open task.
-    const TaskLoop& loop_of(const RunRows& rows, uint32_t task) const;
-    /// Units that all frame loops ask for.
-    uint64_t units_wanted(const SoftRows& rows) const;
-    /// Gives them what there is, the first models first; returns what they use.
-    uint64_t grant_frame(SoftRows& rows, uint64_t units, uint64_t& slow_frames) const;
-    void cancel(RunRows& rows, Row<Tasks> task) const;
-    std::optional<MechanicalEnergy> energy(SoftRows& rows, Row<Bodies> body, Vec3 gravity) const;
-    bool push(SoftRows& rows, RigidWorld& rigid, Row<Bodies> body, const PointPush& push) const;
-    bool explode(SoftRows& rows, RigidWorld& rigid, Row<Bodies> body, const Explosion& explosion) const;
-    Result<void> check_spawn(const SpawnSettings& settings) const;
+    // ---- each asks the model of the body, of the task's body, or of the shell
+
+    Result<void> check_spawn(const ShellRows& rows, Row<Shells> source, const SpawnSettings& settings) const;
     Result<Row<Shells>> spawn_shell(SoftRows& rows, Row<Shells> source, const Spawning& spawning) const;
     /// Rows that the first hit on the body takes; none: it does not break.
     Result<ShellRoom> spawn_body(SoftRows& rows, Row<Bodies> body, const Spawning& spawning) const;
+
     WorkingShell working_shell(BodyRows& rows, Row<Bodies> body) const;
     void begin_run(BodyRows& rows, Row<Tasks> task, Events<StiffnessWanted>& wanted) const;
     bool give_late(BodyRows& rows, const Blows& blows, Row<Tasks> task, Events<StiffnessWanted>& wanted,
                    const char** full) const;
     bool may_find_room(const BodyRows& rows, Row<Bodies> body) const;
     std::optional<RunLength> length(const BodyRows& rows, Row<Bodies> body) const;
+    std::optional<ShellRoom> room(BodyRows& rows, Row<Bodies> body) const;
+    bool is_part(const RunRows& rows, uint32_t task) const;
+    void cancel(RunRows& rows, Row<Tasks> task) const;
+    /// The loop that works off an open task: the first one of its model that does.
+    const TaskLoop& loop_of(const RunRows& rows, uint32_t task) const;
+
     std::optional<RestMotion> motion_of_rest(const RunRows& rows, Row<Tasks> task) const;
     void inherit(BodyRows& rows, Row<Bodies> parent, Row<Bodies> piece) const;
     bool keeps_cell_names(const BodyRows& rows, Row<Bodies> body) const;
+
+    std::optional<MechanicalEnergy> energy(SoftRows& rows, Row<Bodies> body, Vec3 gravity) const;
+    bool push(SoftRows& rows, RigidWorld& rigid, Row<Bodies> body, const PointPush& push) const;
+    bool explode(SoftRows& rows, RigidWorld& rigid, Row<Bodies> body, const Explosion& explosion) const;
+    bool is_moving(const SoftRows& rows, Row<Bodies> body) const;
+    void look_for_pieces(SoftRows& rows, Row<Bodies> body) const;
     void hand_off_torn(const SoftRows& rows, const TornPieces& torn, std::span<PartMotion> motions) const;
     void give_torn(SoftRows& rows, const TornPieces& torn) const;
     void keep_torn(SoftRows& rows, RigidWorld& rigid, Row<Bodies> body) const;
     void follow(SoftRows& rows, Row<Bodies> body) const;
     void release(SoftRows& rows, Row<Bodies> body) const;
+
     void restore_run(RunRows& rows, Row<Tasks> task) const;
     void restore_body(BodyRows& rows, Row<Bodies> body) const;
-    bool is_part(const RunRows& rows, uint32_t task) const;
     Result<void> check_shell(const ShellView& shell, bool is_part, const std::string& name, const char* advice) const;
     std::string trouble_of_task(const RunRows& rows, uint32_t task) const;
+
+    // ---- these ask all of them, one after the other
+
+    /// Units that all frame loops ask for.
+    uint64_t units_wanted(const SoftRows& rows) const;
+    /// Gives them what there is, the first models first; returns what they use.
+    uint64_t grant_frame(SoftRows& rows, uint64_t units, uint64_t& slow_frames) const;
+    /// A body that tore, each once; a row that does not exist: there is none left.
+    Row<Bodies> take_torn(SoftRows& rows) const;
     Result<void> check_rows(const SoftRows& rows, const std::string& name, const char* advice) const;
-    /// Calls f(room) for each model that has something to say of the body.
-    template <class F>
-    void for_each_room(BodyRows& rows, Row<Bodies> body, F&& f) const {
-        for (const DamageModel& model : models_)
-            if (const auto room = model.calls().room) f(room(rows, body));
-    }
 
  private:
+    /// Null where the model has no such call. What has no shell has no model.
+    template <class Call>
+    Call call_of(const ShellRows& rows, Row<Shells> shell, Call ModelCalls::*call) const {
+        return shell.exists() ? models_[rows.shells.damage_model[shell]].calls().*call : nullptr;
+    }
+    template <class Call>
+    Call call_of(const RunRows& rows, Row<Tasks> task, Call ModelCalls::*call) const {
+        return call_of(rows, rows.tasks.source[task], call);
+    }
+    template <class Call>
+    Call call_of(const BodyRows& rows, Row<Bodies> body, Call ModelCalls::*call) const {
+        return call_of(rows, rows.bodies.shell[body], call);
+    }
     std::vector<DamageModel> models_;
 };
 
@@ -331,44 +96,5 @@ using ModelList = std::shared_ptr<const DamageModels>;
 /// The one list of models, and that of structures.
 const ModelList& damage_models();
 std::vector<SlotList> structures();
-
-/// A plan whose story has slots.
-class SlottedPlan {
- public:
-    SlottedPlan(const DamageModels& models, std::vector<SlotList> structures)
-        : models_(models), structures_(std::move(structures)) {}
-
-    SlottedPlan& stage(std::string name) {
-        plan_.stage(std::move(name));
-        return *this;
-    }
-    template <auto System>
-    SlottedPlan& then() {
-        plan_.then<System>();
-        return *this;
-    }
-    /// The inner loops of all models, which the system named last runs.
-    SlottedPlan& loops() {
-        for (const DamageModel& model : models_) {
-            for (const TaskLoop& loop : model.task_loops()) plan_.shows(loop.title(), loop);
-            for (const FrameLoop& loop : model.frame_loops()) plan_.shows(loop.title(), loop);
-        }
-        return *this;
-    }
-    SlottedPlan& models(Slot slot) {
-        for (const DamageModel& model : models_) model.slots().add_to(plan_, slot);
-        return *this;
-    }
-    SlottedPlan& structures(Slot slot) {
-        for (const SlotList& structure : structures_) structure.add_to(plan_, slot);
-        return *this;
-    }
-    FramePlan<WorldData> take() { return std::move(plan_); }
-
- private:
-    const DamageModels& models_;
-    std::vector<SlotList> structures_;
-    FramePlan<WorldData> plan_;
-};
 
 }  // namespace cullet

@@ -41,26 +41,26 @@ void open_tasks(Serial, Step step, const Events<Impact>& impacts, const Events<F
 void wake_soft_bodies(Serial, SoftRows& rows, RigidWorld& rigid);
 /// Hidden runs on a part of a body that came to its border begin again on a larger one
 /// (models/thick_shell/hidden/hidden_region.hpp).
-void widen_regions(Serial, BodyRows& rows, Events<TaskOpened>& opened, Events<StiffnessWanted>& stiffness_wanted,
-                   Events<RefusedEvent>& refused);
+void widen_regions(Serial, Owner own, BodyRows& rows, Events<TaskOpened>& opened,
+                   Events<StiffnessWanted>& stiffness_wanted, Events<RefusedEvent>& refused);
 /// Copies the body's shell into the task's.
-void fill_tasks(Each<TaskOpened> opened, RunRows& rows);
+void fill_tasks(EachOwn<TaskOpened> opened, RunRows& rows);
 /// Assembles stiffness that the body's shell does not have: a piece that is hit for the first time.
 void fill_stiffness(Each<StiffnessWanted> wanted, RunRows& rows);
 /// Lays the contact patches, gives every vertex the body's velocity and what explosions add. Cuts are made here, and
 /// ask the boxes of the body's pins which of their sides they hold.
-void start_tasks(Each<TaskOpened> opened, BodyRows& rows, Blows& blows);
+void start_tasks(EachOwn<TaskOpened> opened, BodyRows& rows, Blows& blows);
 
 /// Quick bodies: chooses the neighbourhood of each hit (models/thick_shell/quick/region.hpp) and takes rows for its
 /// springs.
-void wake_regions(Serial, const Events<TaskOpened>& opened, RunRows& rows, const Bodies& bodies,
-                  Events<RegionPart>& parts, Events<RefusedEvent>& refused);
+void wake_regions(Serial, Own<TaskOpened> opened, RunRows& rows, const Bodies& bodies, Events<RegionPart>& parts,
+                  Events<RefusedEvent>& refused);
 /// Lengths, stiffness and damping of its springs.
 void measure_regions(Each<RegionPart> part, RunRows& rows);
 /// Its vertices' lists of them.
 void lay_regions(Each<RegionPart> part, RunRows& rows);
 /// Its time step, and it stands at rest as the body sees it.
-void start_regions(Serial, const Events<TaskOpened>& opened, RunRows& rows, const Blows& blows);
+void start_regions(Serial, Own<TaskOpened> opened, RunRows& rows, const Blows& blows);
 
 // ---- damage
 
@@ -87,14 +87,14 @@ void settle_tasks(Serial, Step step, RunTables runs, Bodies& bodies, const Shell
 
 /// Regions whose run ended fall asleep: vertices get the body's own motion back, springs their rows. What a cut-out
 /// changed goes into the body's shell (models/thick_shell/shared/cut_out.hpp).
-void close_regions(Serial, const Events<TaskEnded>& ended, BodyRows& rows, Events<CrackStartedEvent>& cracks);
+void close_regions(Serial, Own<TaskEnded> ended, BodyRows& rows, Events<CrackStartedEvent>& cracks);
 
 // ---- apply
 
 /// Which elements of a broken shell hang together.
-void find_parts(Each<TaskEnded> ended, BodyRows& rows, Fragments& fragments);
+void find_parts(EachOwn<TaskEnded> ended, BodyRows& rows, Fragments& fragments);
 /// Cracks of a run that ended are drawn, and collide, after one pass of (1/4, 1/2, 1/4) along them (C6).
-void smooth_cracks(Each<TaskEnded> ended, RunRows& rows, const Blows& blows);
+void smooth_cracks(EachOwn<TaskEnded> ended, RunRows& rows, const Blows& blows);
 /// Which pieces become bodies or crumbs, in order of mass, and the rows that they need. What stayed whole keeps its
 /// cracks. What finds no room stays part of the body, and asks again.
 void plan_births(Serial, const Events<TaskEnded>& ended, SoftRows& rows, WaitingHits waiting, Fragments& fragments,

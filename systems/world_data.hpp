@@ -34,6 +34,7 @@ struct ForeseenHit {
 /// A damage task that took its rows in this step and must be filled.
 struct TaskOpened {
     Row<Tasks> task;
+    uint32_t owner = 0;  // the damage model of its body
 };
 /// Packs of an opened task's shell, from this one on, whose stiffness is to be assembled: a chunk of StiffnessPacks.
 struct StiffnessWanted {
@@ -48,6 +49,7 @@ struct RegionPart {
 /// A damage task that ended in this step.
 struct TaskEnded {
     Row<Tasks> task;
+    uint32_t owner = 0;  // the damage model of its body
 };
 /// A shell whose drawn mesh is to be made.
 struct ShellChanged {

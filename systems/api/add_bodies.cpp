@@ -81,10 +81,10 @@ Result<BodyId> World::spawn(ModelId id, const SpawnSettings& settings) {
     if (settings.pin_count > 0 && !settings.pins)
         return Error{"pin_count is " + std::to_string(settings.pin_count) + " but pins is null; give the boxes."};
     const DamageModels& models = *d.damage_models;
-    if (const Result<void> valid = models.check_spawn(settings); !valid) return Error{valid.error()};
     const Spawning spawning{settings, settings.is_breakable && settings.strength_scale < kNeverCracks,
                             d.rigid->knows_surfaces(), d.step_info.dt, d.damage_settings.units_a_frame};
     const Row<Shells> shared = state.models.shell[model];
+    if (const Result<void> valid = models.check_spawn(state, shared, settings); !valid) return Error{valid.error()};
     const Result<Row<Shells>> own = models.spawn_shell(state, shared, spawning);
     if (!own) return Error{own.error()};
     const Row<Shells> shell = own.value();

@@ -133,6 +133,14 @@ void check_ranges(Checker& check) {
                      Checker::place(s.bodies, "kind", b) + " names a body in a free row");
 }
 
+/// Each shell is of a model that the world has. Whoever asks models believes it.
+void check_damage_models(Checker& check) {
+    const State& s = check.state;
+    for (uint32_t row = 0; row < s.shells.size(); ++row)
+        if (is_shell(s, row))
+            check.expect_row(s.shells, "damage_model", row, s.shells.damage_model[row], check.models.size(), false);
+}
+
 void check_bodies(Checker& check) {
     const State& s = check.state;
     const Bodies& bodies = s.bodies;
@@ -385,7 +393,8 @@ Result<void> check_state(const DamageModels& models, const State& state, const s
     Checker check{state, models, name, {}};
     const std::string not_finite = state.validate();
     check.expect(not_finite.empty(), not_finite);
-    for (auto* look : {check_ranges, check_models, check_tasks, check_bodies, check_blows, check_users, check_soft})
+    for (auto* look : {check_ranges, check_damage_models, check_models, check_tasks, check_bodies, check_blows,
+                       check_users, check_soft})
         if (check.is_sound()) look(check);
     if (!check.is_sound()) return Error{check.trouble};
     if (const Result<void> valid = check_material_rows(state); !valid)

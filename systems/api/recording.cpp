@@ -3,6 +3,7 @@
 #include "systems/api/recorder.hpp"
 #include "systems/api/settings_bytes.hpp"
 #include "systems/api/snapshot.hpp"
+#include "systems/models.hpp"
 
 namespace cullet {
 
@@ -18,6 +19,7 @@ Result<void> World::start_recording(const std::string& path) {
     begin.number(static_cast<uint8_t>(c.hosted != nullptr));
     begin.number(static_cast<uint8_t>(!is_fresh));
     for_each_setting(c.settings, [&](const auto& number) { begin.number(number); });
+    begin.text(c.data.damage_models->names());
     if (!is_fresh) {
         const Result<std::vector<uint8_t>> bytes = encode_snapshot(c);
         if (!bytes) return Error{path + ": " + bytes.error()};

@@ -6,6 +6,7 @@
 #include "systems/api/model_hash.hpp"
 #include "systems/api/recorder.hpp"
 #include "systems/api/settings_bytes.hpp"
+#include "systems/api/snapshot.hpp"
 #include "systems/api/with_models.hpp"
 #include "systems/models/thick_shell/model_file.hpp"
 
@@ -47,7 +48,8 @@ Result<void> Replayer::begin() {
     const bool has_snapshot = in.number<uint8_t>("how it begins") != 0;
     Settings settings = take_settings(in);
     settings.threads = threads_;
-    if (!in.is_sound()) return Error{in.trouble()};
+    const Result<void> knows = take_damage_models(in, *source_.damage_models, source_.name);
+    if (!knows) return Error{knows.error()};
     const auto create = is_hosted_ ? &create_hosted_with : source_.create;
     Result<World> made = create(source_.damage_models, settings, host_);
     if (!made) return Error{source_.name + ": " + made.error()};

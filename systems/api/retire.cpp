@@ -37,9 +37,8 @@ bool is_in_a_hit(const State& state, Row<Bodies> body) {
 }
 
 // Its shape is still to change.
-bool is_changing(State& state, Row<Bodies> body) {
-    const Row<SoftBodies> soft = find_soft(state.soft_bodies, body);
-    return state.bodies.is_owed_births[body] || (soft.exists() && state.soft_bodies.is_awake[soft]);
+bool is_changing(const DamageModels& models, const State& state, Row<Bodies> body) {
+    return state.bodies.is_owed_births[body] || models.is_moving(state, body);
 }
 
 // Scenery is its drawn mesh: the rows that it was made of serve others. Its row among shells stays, with mass and area.
@@ -94,7 +93,7 @@ Result<uint32_t> World::retire(const RetireSettings& settings) {
         const bool is_old = d.step_info.frame - d.state.fragment_ages.born[body] >= least_frames;
         if (count == settings.count || !is_old) break;
         if (settings.only_asleep && !d.state.bodies.is_asleep[body]) continue;
-        if (is_in_a_hit(d.state, body) || (!is_removed && is_changing(d.state, body))) continue;
+        if (is_in_a_hit(d.state, body) || (!is_removed && is_changing(*d.damage_models, d.state, body))) continue;
         if (is_removed)
             remove_body(d, body);
         else

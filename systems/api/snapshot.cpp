@@ -48,12 +48,21 @@ Settings take_settings(ByteReader& in) {
     return settings;
 }
 
+Result<void> take_damage_models(ByteReader& in, const DamageModels& models, const std::string& name) {
+    const std::string found = in.text("the names of damage models");
+    if (!in.is_sound()) return Error{in.trouble()};
+    if (found != models.names())
+        return Error{name + ": is of a world that has the damage models " + found + ", and this one has " +
+                     models.names() + ". Load it into a world that has the same."};
+    return {};
+}
+
 namespace {
 
 constexpr uint64_t kLargestFile = 1ull << 36;
 constexpr const char* kAdvice = "The snapshot is damaged or of another build; take it again.";
 constexpr FileKind kKind{{'c', 's', 'n', 'a', 'p', '\r', '\n', '\x1a'},
-                         15,
+                         16,
                          "snapshot",
                          ".csnap",
                          "Write one with World::save.",
@@ -80,6 +89,7 @@ void put_world(ByteWriter& out, World::Contents& world) {
     const auto put = [&](const auto& number) { out.number(number); };
     out.number(static_cast<uint8_t>(world.hosted != nullptr));
     for_each_setting(world.settings, put);
+    out.text(d.damage_models->names());
     for_each_of_clock(d.step_info, put);
     for_each_count(d, put);
     put_tables(out, d.state);
@@ -150,7 +160,7 @@ void restore_what_follows(World::Contents& world) {
         state.bodies.redrawn[b] = {0, state.bodies.view_indices[b].count / 3};
         models.restore_body(state, Row<Bodies>(b));
         if (state.bodies.is_breakable[b])
-            models.for_each_room(state, Row<Bodies>(b), [&](const ShellRoom& room) { d.make_ready(room); });
+            if (const auto room = models.room(state, Row<Bodies>(b))) d.make_ready(*room);
         d.arena.reset();
         if (world.hosted && static_cast<BodyKind>(state.bodies.kind[b]) != BodyKind::Scenery)
             world.hosted->announce(b, convex_pieces(state, shell, d.arena));
@@ -187,7 +197,8 @@ Result<std::unique_ptr<World::Contents>> parse_snapshot(std::span<const uint8_t>
                          ". Load it into a world made by " + (is_hosted ? "create_hosted." : "create.")};
         Settings settings = take_settings(in);
         settings.threads = like.settings.threads;
-        if (!in.is_sound()) return Error{in.trouble()};
+        const Result<void> knows = take_damage_models(in, *like.data.damage_models, name);
+        if (!knows) return Error{knows.error()};
         const MemoryScope memory(like.host.allocator);
         std::unique_ptr<World::Contents> world = make_alike(settings, like);
         if (!world) return Error{name + ": " + no_room_for(settings.limits).message};

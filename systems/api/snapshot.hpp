@@ -1,9 +1,9 @@
 // A world as bytes: the settings, every State column, the pools of rows, the rigid bodies. What a snapshot does not
 // hold is the host's: its functions, its jobs, the veto.
 //
-// The header of engine/file_header.hpp, version 15, magic "csnap\r\n\x1a"; then the settings and counts as numbers, the
-// tables in the order of State::tables() as engine/table_bytes.hpp writes them, the holes of the pools, the rigid
-// world.
+// The header of engine/file_header.hpp, version 16, magic "csnap\r\n\x1a"; then the settings as numbers, the names
+// of the damage models, counts as numbers, the tables in the order of State::tables() as engine/table_bytes.hpp writes
+// them, the holes of the pools, the rigid world.
 #pragma once
 #include <memory>
 #include <span>
@@ -21,6 +21,10 @@ Result<std::vector<uint8_t>> encode_snapshot(World::Contents& world);
 /// anything follows it.
 Result<std::unique_ptr<World::Contents>> parse_snapshot(std::span<const uint8_t> bytes, const std::string& name,
                                                         const World::Contents& like);
+
+/// The names that DamageModels::names() wrote: rows hold numbers of that list. Refuses another list, and trouble of the
+/// reader.
+Result<void> take_damage_models(ByteReader& in, const DamageModels& models, const std::string& name);
 
 /// The tables and pools of a state alone.
 void put_tables(ByteWriter& out, const State& state);

@@ -35,9 +35,10 @@ struct Break {
     bool chooses_shape = false;       // what is left of the body, too (piece_shape.hpp)
     /// The body keeps its rows, and hulls and drawn mesh but for the cells that changed (Cells::is_changed).
     bool keeps_hulls = false, keeps_mesh = false;
-    bool is_refused = false;    // some part stays for want of room
-    bool lets_go = false;       // the body stood on pins, and what is left of it has none
-    Row<SoftBodies> soft = {};  // an awake soft body that tore: what has pins keeps the body, its points go on moving
+    bool is_refused = false;  // some part stays for want of room
+    bool lets_go = false;     // the body stood on pins, and what is left of it has none
+    /// Its damage model moves the body, and it tore: what has pins keeps the body, and goes on moving.
+    bool is_torn = false;
 
     bool leaves(uint32_t part) const { return child[part].exists() || is_crumb[part]; }
     bool is_broken() const {

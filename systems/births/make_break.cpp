@@ -290,7 +290,7 @@ void make_birth(Births& births, const Break& plan, uint32_t p, const Moment& mom
     if (is_rest && was_static == is_static) {
         // Hulls of a copy's cells that did not change are those of the body, by the same names.
         const bool has_cells = state.shells.shape_points[bodies.shell[body]] == 0;
-        const bool is_of_copy = !plan.keeps_hulls && !plan.soft.exists() && plan.had_cells && has_cells &&
+        const bool is_of_copy = !plan.keeps_hulls && !plan.is_torn && plan.had_cells && has_cells &&
                                 births.models.keeps_cell_names(state, body);
         if (!is_of_copy || !change_rest(births, body))
             births.rigid.set_shape(body, bodies.mass[body], bodies.centre[body], bodies.inertia[body], pieces);
@@ -334,11 +334,11 @@ void make_births_of(Births& births, const Break& plan, const Moment& moment) {
 
 void make_break(Births& births, const Break& plan) {
     SoftRows& state = births.state;
-    if (plan.soft.exists()) births.models.give_torn(state, {plan.body, plan.order, plan.parts, plan.child});
+    if (plan.is_torn) births.models.give_torn(state, {plan.body, plan.order, plan.parts, plan.child});
     if (!plan.task.exists()) {
         const double allowed = rigid_energy(state.bodies, plan.body) + plan.waited;
         make_births_of(births, plan, {pose_of(state.bodies, plan.body), {}, {}, {}, false});
-        if (plan.soft.exists()) return births.models.keep_torn(state, births.rigid, plan.body);
+        if (plan.is_torn) return births.models.keep_torn(state, births.rigid, plan.body);
         const double goes_on_waiting = waiting_energy(state, plan.body);
         if (plan.waited > 0) limit_energy(births, plan, allowed - goes_on_waiting);
         return;

@@ -1,5 +1,6 @@
 #include "components/body_id.hpp"
 #include "systems/births/plan_break.hpp"
+#include "systems/models.hpp"
 #include "systems/structures/shell/rest_of_body.hpp"
 #include "systems/systems.hpp"
 
@@ -30,12 +31,12 @@ bool may_ask(const Planning& planning, uint8_t owed) {
     return owed == kOwedDrawing || (planning.fragments_left > 0 && planning.births_left > 0);
 }
 
-// What is awake asks with its points' motion.
-bool asks_as_soft(SoftRows& state, Row<Bodies> body) {
-    const Row<SoftBodies> soft = find_soft(state.soft_bodies, body);
-    if (!soft.exists() || !state.soft_bodies.is_awake[soft]) return false;
-    state.soft_bodies.is_torn[soft] = 1;
-    return true;
+// What its damage model moves asks with the motion that it has there.
+void ask(Planning& planning, Row<Bodies> body) {
+    if (planning.models.is_moving(planning.state, body))
+        planning.models.look_for_pieces(planning.state, body);
+    else
+        ask_again(planning, body);
 }
 
 }  // namespace
@@ -62,11 +63,11 @@ void plan_births(Serial, const Events<TaskEnded>& ended, SoftRows& rows, Waiting
                       free_fragments(rows.fragment_ages, ledger.settings),
                       ledger.settings.births_a_frame};
     for (uint32_t b = 0; b < bodies.size(); ++b)
-        if (bodies.is_owed_births[b] && bodies.task[b] == kNone && may_ask(planning, bodies.is_owed_births[b]) &&
-            !asks_as_soft(rows, Row<Bodies>(b)))
-            ask_again(planning, Row<Bodies>(b));
-    for (uint32_t s = 0; s < rows.soft_bodies.size(); ++s)
-        if (rows.soft_bodies.is_torn[s]) plan_tear(planning, Row<SoftBodies>(s));
+        if (bodies.is_owed_births[b] && bodies.task[b] == kNone && may_ask(planning, bodies.is_owed_births[b]))
+            ask(planning, Row<Bodies>(b));
+    const DamageModels& models = ledger.models;
+    for (Row<Bodies> torn = models.take_torn(rows); torn.exists(); torn = models.take_torn(rows))
+        plan_tear(planning, torn);
     for (const TaskEnded& e : ended) {
         const Row<Tasks> task = e.task;
         const auto result = static_cast<TaskState>(tasks.state[task]);

@@ -103,7 +103,7 @@ void stay(Planning& planning, Break& plan, uint32_t part, const char* setting) {
     settle(plan);
     planning.refused.push(refused_event(planning.state.bodies, plan.body, setting));
     const ShellView shell(planning.state, plan.broken);
-    if (!plan.soft.exists()) {
+    if (!plan.is_torn) {
         if (plan.task.exists() && !plan.is_refused) forget_own_motions(shell);
         if (!plan.motions[part].is_static) keep_own_motion(shell, plan.parts[part], plan.motions[part]);
     }
@@ -149,8 +149,8 @@ bool reserve_points(Planning& planning, Break& plan) {
     const ShellView broken(planning.state, plan.broken);
     find_changed_cells(broken, ShellView(planning.state, plan.before));
     mark_left_cells(plan, broken);
-    plan.chooses_shape = !plan.soft.exists() && broken.element_count() <= kMostWholeElements;
-    plan.keeps_hulls = plan.broken == plan.before && !plan.soft.exists() && plan.had_cells && !plan.chooses_shape &&
+    plan.chooses_shape = !plan.is_torn && broken.element_count() <= kMostWholeElements;
+    plan.keeps_hulls = plan.broken == plan.before && !plan.is_torn && plan.had_cells && !plan.chooses_shape &&
                        has_room_to_renew(broken);
     if (plan.keeps_hulls) return true;
     const uint32_t rows = most_points(shells.cells[plan.broken].count, shells.elements[plan.broken].count);
@@ -165,7 +165,7 @@ void choose_births(Planning& planning, Break& plan) {
     const auto count = static_cast<uint32_t>(plan.parts.size());
     for (uint32_t i = 0; i < count; ++i) plan.order[i] = i;
     std::sort(plan.order.begin(), plan.order.end(), [&](uint32_t a, uint32_t b) {
-        if (plan.soft.exists() && plan.parts[a].has_pins != plan.parts[b].has_pins) return plan.parts[a].has_pins;
+        if (plan.is_torn && plan.parts[a].has_pins != plan.parts[b].has_pins) return plan.parts[a].has_pins;
         return plan.parts[a].mass != plan.parts[b].mass ? plan.parts[a].mass > plan.parts[b].mass : a < b;
     });
     plan.largest = plan.order[0];
@@ -200,7 +200,7 @@ void choose_births(Planning& planning, Break& plan) {
 bool keeps_mesh(Planning& planning, const Break& plan) {
     SoftRows& state = planning.state;
     const Shells& shells = state.shells;
-    if (plan.soft.exists() || state.bodies.is_owed_births[plan.body] == kOwedDrawing) return false;
+    if (plan.is_torn || state.bodies.is_owed_births[plan.body] == kOwedDrawing) return false;
     uint32_t left = 0;
     for (uint32_t p = 0; p < plan.parts.size(); ++p)
         if (plan.leaves(p)) left += plan.parts[p].element_count;
@@ -316,11 +316,10 @@ bool reserve_births(Planning& planning, Break& plan) {
     uint8_t& owed = state.bodies.is_owed_births[plan.body];
     choose_births(planning, plan);
     const bool is_drawn = reserve_view(planning, plan);
-    if (plan.is_refused && !plan.soft.exists())
-        subtract_motion(ShellView(state, plan.broken), plan.motions[plan.largest]);
+    if (plan.is_refused && !plan.is_torn) subtract_motion(ShellView(state, plan.broken), plan.motions[plan.largest]);
     const bool was_drawn = owed != kOwedDrawing;
     owed = !is_drawn ? kOwedDrawing : plan.is_refused ? kOwedBirths : 0;
-    plan.lets_go = !plan.soft.exists() && state.bodies.has_pins[plan.body] && !plan.motions[plan.largest].is_static;
+    plan.lets_go = !plan.is_torn && state.bodies.has_pins[plan.body] && !plan.motions[plan.largest].is_static;
     if (plan.is_broken()) return true;
     const bool is_new = plan.task.exists();
     state.hull_points.pool.give_back(plan.points.first, plan.points.capacity);
@@ -435,18 +434,16 @@ void ask_again(Planning& planning, Row<Bodies> body) {
 }
 
 // The parts' velocities are those of their points, as at any hand-off; which hulls fit is not known any more.
-void plan_tear(Planning& planning, Row<SoftBodies> soft) {
+void plan_tear(Planning& planning, Row<Bodies> body) {
     SoftRows& state = planning.state;
-    const Row<Bodies> body = state.soft_bodies.body[soft];
     const ShellView shell(state, state.bodies.shell[body]);
     const std::span slot(planning.fragments.part.data() + size_t{state.tasks.limit()} * kMostParts, kMostParts);
     const uint32_t count = group_fragments(shell, slot);
-    state.soft_bodies.is_torn[soft] = 0;
     if (count < 2 || count > kMostParts) return;
     const auto parts = planning.arena.take<FragmentPart>(count);
     std::copy_n(slot.begin(), parts.size(), parts.begin());
     Break plan = break_of(planning, {}, body, shell.row, parts);
-    plan.soft = soft;
+    plan.is_torn = true;
     const Range cells = state.shells.cells[shell.row];
     for (uint32_t c = cells.first; c < cells.first + cells.count; ++c) state.cells.is_stale[c] = 1;
     if (!reserve_points(planning, plan)) return;

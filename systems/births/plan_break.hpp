@@ -37,9 +37,9 @@ void plan_break(Planning& planning, Row<Tasks> task);
 /// body's motion and what they have of their own; asleep, they have none any more.
 void ask_again(Planning& planning, Row<Bodies> body);
 
-/// An awake soft body that tore: pieces leave it with the motion of their points. What has a pin keeps the handle, else
-/// the largest; it stays awake.
-void plan_tear(Planning& planning, Row<SoftBodies> soft);
+/// A body that its damage model moves, and that tore: pieces leave it with the motions that the model finds. What has a
+/// pin keeps the handle, else the largest; the model goes on moving it.
+void plan_tear(Planning& planning, Row<Bodies> body);
 
 /// A shell that stayed whole but has new cracks: the body keeps them.
 void keep_cracks(Planning& planning, Row<Tasks> task);

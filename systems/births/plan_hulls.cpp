@@ -49,7 +49,7 @@ void keep_rest(BodyRows& state, const Break& plan) {
     state.shells.dead_elements[shell.row] += plan.left_elements;
     uint8_t& generation = state.shells.generation[shell.row];
     if (generation < kMostGenerations) ++generation;
-    if (!plan.soft.exists()) clear_run(shell, false, plan.broken != plan.before, plan.is_refused);
+    if (!plan.is_torn) clear_run(shell, false, plan.broken != plan.before, plan.is_refused);
     if (plan.keeps_hulls) return renew_rest_hulls(shell);
     const Range points = state.shells.points[before.row], old_points = state.shells.points[shell.row];
     state.shells.points[shell.row] = plan.points;

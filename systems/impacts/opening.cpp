@@ -153,7 +153,7 @@ Row<Tasks> Opening::open(Row<Bodies> body, float approach_speed, bool is_ahead) 
     if (bodies.is_owed_births[body]) forget_own_motions(ShellView(state, source));
     models.begin_run(state, task, stiffness_wanted);
     bodies.task[body] = t;
-    opened.push({task});
+    opened.push({task, state.model_of(task)});
     counts.opened += !is_ahead;
     return task;
 }

@@ -14,13 +14,166 @@ std::vector<SlotList> structures() {
     return {shell_structure()};
 }
 
+DamageModels::DamageModels(std::vector<DamageModel> models) : models_(std::move(models)) {
+    CULLET_ASSERT(!models_.empty() && models_.size() <= 255, "a world has 1 to 255 damage models, not %zu",
+                  models_.size());
+    for (size_t a = 0; a < models_.size(); ++a)
+        for (size_t b = 0; b < a; ++b)
+            CULLET_ASSERT(models_[a].name() != models_[b].name(), "two damage models are called %s",
+                          models_[a].name().c_str());
+}
+
+std::optional<uint8_t> DamageModels::find(const std::string& name) const {
+    for (size_t number = 0; number < models_.size(); ++number)
+        if (models_[number].name() == name) return static_cast<uint8_t>(number);
+    return {};
+}
+
+std::string DamageModels::names() const {
+    std::string list;
+    for (const DamageModel& model : models_) list += (list.empty() ? "" : ", ") + model.name();
+    return list;
+}
+
+Result<void> DamageModels::check_spawn(const ShellRows& rows, Row<Shells> source, const SpawnSettings& settings) const {
+    const auto call = call_of(rows, source, &ModelCalls::check_spawn);
+    return call ? call(settings) : Result<void>();
+}
+
+Result<Row<Shells>> DamageModels::spawn_shell(SoftRows& rows, Row<Shells> source, const Spawning& spawning) const {
+    const auto call = call_of(rows, source, &ModelCalls::spawn_shell);
+    return call ? call(rows, source, spawning) : source;
+}
+
+Result<ShellRoom> DamageModels::spawn_body(SoftRows& rows, Row<Bodies> body, const Spawning& spawning) const {
+    const auto call = call_of(rows, body, &ModelCalls::spawn_body);
+    return call ? call(rows, body, spawning) : ShellRoom{};
+}
+
+WorkingShell DamageModels::working_shell(BodyRows& rows, Row<Bodies> body) const {
+    const auto call = call_of(rows, body, &ModelCalls::working_shell);
+    CULLET_ASSERT(call, "no damage model breaks body %u", body.index);
+    return call(rows, body);
+}
+
+void DamageModels::begin_run(BodyRows& rows, Row<Tasks> task, Events<StiffnessWanted>& wanted) const {
+    if (const auto call = call_of(rows, task, &ModelCalls::begin)) call(rows, task, wanted);
+}
+
+bool DamageModels::give_late(BodyRows& rows, const Blows& blows, Row<Tasks> task, Events<StiffnessWanted>& wanted,
+                             const char** full) const {
+    const auto call = call_of(rows, task, &ModelCalls::give_late);
+    return call && call(rows, blows, task, wanted, full);
+}
+
+bool DamageModels::may_find_room(const BodyRows& rows, Row<Bodies> body) const {
+    const auto call = call_of(rows, body, &ModelCalls::may_find_room);
+    return call && call(rows, body);
+}
+
+std::optional<RunLength> DamageModels::length(const BodyRows& rows, Row<Bodies> body) const {
+    const auto call = call_of(rows, body, &ModelCalls::length);
+    return call ? call(rows, body) : std::nullopt;
+}
+
+std::optional<ShellRoom> DamageModels::room(BodyRows& rows, Row<Bodies> body) const {
+    const auto call = call_of(rows, body, &ModelCalls::room);
+    return call ? std::optional(call(rows, body)) : std::nullopt;
+}
+
+bool DamageModels::is_part(const RunRows& rows, uint32_t task) const {
+    const auto call = call_of(rows, Row<Tasks>(task), &ModelCalls::is_part);
+    return call && call(rows, task);
+}
+
+void DamageModels::cancel(RunRows& rows, Row<Tasks> task) const {
+    if (const auto call = call_of(rows, task, &ModelCalls::cancel)) call(rows, task);
+}
+
 const TaskLoop& DamageModels::loop_of(const RunRows& rows, uint32_t task) const {
+    const DamageModel& model = models_[rows.model_of(task)];
     const TaskLoop* found = nullptr;
-    for (const DamageModel& model : models_)
-        for (const TaskLoop& loop : model.task_loops())
-            if (!found && loop.works_on(rows, task)) found = &loop;
-    CULLET_ASSERT(found, "no loop of any damage model works on task %u", task);
+    for (const TaskLoop& loop : model.task_loops())
+        if (!found && loop.works_on(rows, task)) found = &loop;
+    CULLET_ASSERT(found, "no loop of %s works on task %u", model.name().c_str(), task);
     return *found;
+}
+
+std::optional<RestMotion> DamageModels::motion_of_rest(const RunRows& rows, Row<Tasks> task) const {
+    const auto call = call_of(rows, task, &ModelCalls::motion_of_rest);
+    return call ? std::optional(call(rows, task)) : std::nullopt;
+}
+
+void DamageModels::inherit(BodyRows& rows, Row<Bodies> parent, Row<Bodies> piece) const {
+    if (const auto call = call_of(rows, parent, &ModelCalls::inherit)) call(rows, parent, piece);
+}
+
+bool DamageModels::keeps_cell_names(const BodyRows& rows, Row<Bodies> body) const {
+    const auto call = call_of(rows, body, &ModelCalls::keeps_cell_names);
+    return call && call(rows, body);
+}
+
+std::optional<MechanicalEnergy> DamageModels::energy(SoftRows& rows, Row<Bodies> body, Vec3 gravity) const {
+    const auto call = call_of(rows, body, &ModelCalls::energy);
+    return call ? call(rows, body, gravity) : std::nullopt;
+}
+
+bool DamageModels::push(SoftRows& rows, RigidWorld& rigid, Row<Bodies> body, const PointPush& push) const {
+    const auto call = call_of(rows, body, &ModelCalls::push);
+    return call && call(rows, rigid, body, push);
+}
+
+bool DamageModels::explode(SoftRows& rows, RigidWorld& rigid, Row<Bodies> body, const Explosion& explosion) const {
+    const auto call = call_of(rows, body, &ModelCalls::explode);
+    return call && call(rows, rigid, body, explosion);
+}
+
+bool DamageModels::is_moving(const SoftRows& rows, Row<Bodies> body) const {
+    const auto call = call_of(rows, body, &ModelCalls::is_moving);
+    return call && call(rows, body);
+}
+
+void DamageModels::look_for_pieces(SoftRows& rows, Row<Bodies> body) const {
+    if (const auto call = call_of(rows, body, &ModelCalls::look_for_pieces)) call(rows, body);
+}
+
+void DamageModels::hand_off_torn(const SoftRows& rows, const TornPieces& torn, std::span<PartMotion> motions) const {
+    if (const auto call = call_of(rows, torn.body, &ModelCalls::hand_off_torn)) call(rows, torn, motions);
+}
+
+void DamageModels::give_torn(SoftRows& rows, const TornPieces& torn) const {
+    if (const auto call = call_of(rows, torn.body, &ModelCalls::give_torn)) call(rows, torn);
+}
+
+void DamageModels::keep_torn(SoftRows& rows, RigidWorld& rigid, Row<Bodies> body) const {
+    if (const auto call = call_of(rows, body, &ModelCalls::keep_torn)) call(rows, rigid, body);
+}
+
+void DamageModels::follow(SoftRows& rows, Row<Bodies> body) const {
+    if (const auto call = call_of(rows, body, &ModelCalls::follow)) call(rows, body);
+}
+
+void DamageModels::release(SoftRows& rows, Row<Bodies> body) const {
+    if (const auto call = call_of(rows, body, &ModelCalls::release)) call(rows, body);
+}
+
+void DamageModels::restore_run(RunRows& rows, Row<Tasks> task) const {
+    if (const auto call = call_of(rows, task, &ModelCalls::restore_run)) call(rows, task);
+}
+
+void DamageModels::restore_body(BodyRows& rows, Row<Bodies> body) const {
+    if (const auto call = call_of(rows, body, &ModelCalls::restore_body)) call(rows, body);
+}
+
+Result<void> DamageModels::check_shell(const ShellView& shell, bool is_part, const std::string& name,
+                                       const char* advice) const {
+    const auto call = call_of(shell.state, shell.row, &ModelCalls::check_shell);
+    return call ? call(shell, is_part, name, advice) : Result<void>();
+}
+
+std::string DamageModels::trouble_of_task(const RunRows& rows, uint32_t task) const {
+    const auto call = call_of(rows, Row<Tasks>(task), &ModelCalls::trouble_of_task);
+    return call ? call(rows, task) : std::string();
 }
 
 uint64_t DamageModels::units_wanted(const SoftRows& rows) const {
@@ -37,162 +190,11 @@ uint64_t DamageModels::grant_frame(SoftRows& rows, uint64_t units, uint64_t& slo
     return used;
 }
 
-void DamageModels::cancel(RunRows& rows, Row<Tasks> task) const {
+Row<Bodies> DamageModels::take_torn(SoftRows& rows) const {
+    Row<Bodies> torn;
     for (const DamageModel& model : models_)
-        if (const auto cancel_run = model.calls().cancel) cancel_run(rows, task);
-}
-
-std::optional<MechanicalEnergy> DamageModels::energy(SoftRows& rows, Row<Bodies> body, Vec3 gravity) const {
-    for (const DamageModel& model : models_)
-        if (const auto energy_of = model.calls().energy)
-            if (const auto found = energy_of(rows, body, gravity)) return found;
-    return {};
-}
-
-bool DamageModels::push(SoftRows& rows, RigidWorld& rigid, Row<Bodies> body, const PointPush& push) const {
-    for (const DamageModel& model : models_)
-        if (const auto take = model.calls().push; take && take(rows, rigid, body, push)) return true;
-    return false;
-}
-
-bool DamageModels::explode(SoftRows& rows, RigidWorld& rigid, Row<Bodies> body, const Explosion& explosion) const {
-    for (const DamageModel& model : models_)
-        if (const auto take = model.calls().explode; take && take(rows, rigid, body, explosion)) return true;
-    return false;
-}
-
-Result<void> DamageModels::check_spawn(const SpawnSettings& settings) const {
-    for (const DamageModel& model : models_)
-        if (const auto check = model.calls().check_spawn)
-            if (const Result<void> sound = check(settings); !sound) return sound;
-    return {};
-}
-
-Result<Row<Shells>> DamageModels::spawn_shell(SoftRows& rows, Row<Shells> source, const Spawning& spawning) const {
-    for (const DamageModel& model : models_)
-        if (const auto spawn = model.calls().spawn_shell) {
-            const Result<Row<Shells>> own = spawn(rows, source, spawning);
-            if (!own || own.value() != source) return own;
-        }
-    return source;
-}
-
-Result<ShellRoom> DamageModels::spawn_body(SoftRows& rows, Row<Bodies> body, const Spawning& spawning) const {
-    ShellRoom room;
-    for (const DamageModel& model : models_)
-        if (const auto spawn = model.calls().spawn_body) {
-            const Result<ShellRoom> own = spawn(rows, body, spawning);
-            if (!own) return own;
-            if (own->vertices > room.vertices) room = own.value();
-        }
-    return room;
-}
-
-WorkingShell DamageModels::working_shell(BodyRows& rows, Row<Bodies> body) const {
-    for (const DamageModel& model : models_)
-        if (const auto make = model.calls().working_shell)
-            if (const auto made = make(rows, body)) return *made;
-    CULLET_ASSERT(false, "no damage model breaks body %u", body.index);
-    return {};
-}
-
-void DamageModels::begin_run(BodyRows& rows, Row<Tasks> task, Events<StiffnessWanted>& wanted) const {
-    for (const DamageModel& model : models_)
-        if (const auto begin = model.calls().begin) begin(rows, task, wanted);
-}
-
-bool DamageModels::give_late(BodyRows& rows, const Blows& blows, Row<Tasks> task, Events<StiffnessWanted>& wanted,
-                             const char** full) const {
-    for (const DamageModel& model : models_)
-        if (const auto give = model.calls().give_late; give && give(rows, blows, task, wanted, full)) return true;
-    return false;
-}
-
-bool DamageModels::may_find_room(const BodyRows& rows, Row<Bodies> body) const {
-    for (const DamageModel& model : models_)
-        if (const auto may_find = model.calls().may_find_room; may_find && may_find(rows, body)) return true;
-    return false;
-}
-
-std::optional<RunLength> DamageModels::length(const BodyRows& rows, Row<Bodies> body) const {
-    for (const DamageModel& model : models_)
-        if (const auto length_of = model.calls().length)
-            if (const auto found = length_of(rows, body)) return found;
-    return {};
-}
-
-std::optional<RestMotion> DamageModels::motion_of_rest(const RunRows& rows, Row<Tasks> task) const {
-    for (const DamageModel& model : models_)
-        if (const auto motion_of = model.calls().motion_of_rest)
-            if (const auto found = motion_of(rows, task)) return found;
-    return {};
-}
-
-void DamageModels::inherit(BodyRows& rows, Row<Bodies> parent, Row<Bodies> piece) const {
-    for (const DamageModel& model : models_)
-        if (const auto inherit_from = model.calls().inherit) inherit_from(rows, parent, piece);
-}
-
-bool DamageModels::keeps_cell_names(const BodyRows& rows, Row<Bodies> body) const {
-    for (const DamageModel& model : models_)
-        if (const auto keeps = model.calls().keeps_cell_names; keeps && keeps(rows, body)) return true;
-    return false;
-}
-
-void DamageModels::hand_off_torn(const SoftRows& rows, const TornPieces& torn, std::span<PartMotion> motions) const {
-    for (const DamageModel& model : models_)
-        if (const auto hand_off = model.calls().hand_off_torn) hand_off(rows, torn, motions);
-}
-
-void DamageModels::give_torn(SoftRows& rows, const TornPieces& torn) const {
-    for (const DamageModel& model : models_)
-        if (const auto give = model.calls().give_torn) give(rows, torn);
-}
-
-void DamageModels::keep_torn(SoftRows& rows, RigidWorld& rigid, Row<Bodies> body) const {
-    for (const DamageModel& model : models_)
-        if (const auto keep = model.calls().keep_torn) keep(rows, rigid, body);
-}
-
-void DamageModels::follow(SoftRows& rows, Row<Bodies> body) const {
-    for (const DamageModel& model : models_)
-        if (const auto follow_body = model.calls().follow) follow_body(rows, body);
-}
-
-void DamageModels::release(SoftRows& rows, Row<Bodies> body) const {
-    for (const DamageModel& model : models_)
-        if (const auto release_rows = model.calls().release) release_rows(rows, body);
-}
-
-void DamageModels::restore_run(RunRows& rows, Row<Tasks> task) const {
-    for (const DamageModel& model : models_)
-        if (const auto restore = model.calls().restore_run) restore(rows, task);
-}
-
-void DamageModels::restore_body(BodyRows& rows, Row<Bodies> body) const {
-    for (const DamageModel& model : models_)
-        if (const auto restore = model.calls().restore_body) restore(rows, body);
-}
-
-bool DamageModels::is_part(const RunRows& rows, uint32_t task) const {
-    for (const DamageModel& model : models_)
-        if (const auto is_part_of = model.calls().is_part; is_part_of && is_part_of(rows, task)) return true;
-    return false;
-}
-
-Result<void> DamageModels::check_shell(const ShellView& shell, bool is_part, const std::string& name,
-                                       const char* advice) const {
-    for (const DamageModel& model : models_)
-        if (const auto check = model.calls().check_shell)
-            if (const Result<void> sound = check(shell, is_part, name, advice); !sound) return sound;
-    return {};
-}
-
-std::string DamageModels::trouble_of_task(const RunRows& rows, uint32_t task) const {
-    for (const DamageModel& model : models_)
-        if (const auto trouble_of = model.calls().trouble_of_task)
-            if (std::string trouble = trouble_of(rows, task); !trouble.empty()) return trouble;
-    return {};
+        if (const auto take = model.calls().take_torn; take && !torn.exists()) torn = take(rows);
+    return torn;
 }
 
 Result<void> DamageModels::check_rows(const SoftRows& rows, const std::string& name, const char* advice) const {

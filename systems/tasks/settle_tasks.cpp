@@ -66,7 +66,7 @@ void settle_tasks(Serial, Step step, RunTables runs, Bodies& bodies, const Shell
                 ++ledger.counts.frames_held;
             }
         }
-        if (is_over) ended.push({Row<Tasks>(t)});
+        if (is_over) ended.push({Row<Tasks>(t), shells.damage_model[runs.tasks.source[t]]});
         if (is_over && runs.tasks.lacks_room[t]) {
             ++ledger.counts.cuts_refused;
             told.refused.push(refused_event(bodies, runs.tasks.body[t], kCrackRoom));

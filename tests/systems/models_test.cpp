@@ -50,6 +50,7 @@ InnerLoop<LoopWorld> empty_loop() {
     return loop;
 }
 
+/// Of 4 shells, bodies and tasks: shell k is of model k / 2, body k has it, task k is of body k.
 std::unique_ptr<State> small_state() {
     Limits limits;
     limits.bodies = limits.shells = limits.tasks = limits.models = limits.debris = 8;
@@ -57,18 +58,25 @@ std::unique_ptr<State> small_state() {
     auto state = std::make_unique<State>(limits);
     if (state->tasks.size() < 4) state->tasks.append(4);
     state->bodies.append(4);
+    state->shells.append(4);
+    for (uint32_t k = 0; k < 4; ++k) {
+        state->shells.damage_model[k] = static_cast<uint8_t>(k / 2);
+        state->bodies.shell[k] = state->tasks.source[k] = Row<Shells>(k);
+        state->tasks.body[k] = Row<Bodies>(k);
+    }
     asked.clear();
     return state;
 }
 
-TEST(Models, EachIsAskedToCancelInTheOrderOfTheList) {
+TEST(Models, ATasksModelIsThatOfItsBody) {
     const auto state = small_state();
-    DamageModel a("a"), silent("silent"), b("b");
+    DamageModel a("a"), b("b");
     a.cancels<cancel<'a'>>();
     b.cancels<cancel<'b'>>();
-    DamageModels({a, silent, b}).cancel(*state, Row<Tasks>(1));
-    EXPECT_EQ(asked, "ab");
-    EXPECT_EQ(state->tasks.units_owed[1], 2u);
+    const DamageModels models({a, b});
+    for (uint32_t t = 0; t < 4; ++t) models.cancel(*state, Row<Tasks>(t));
+    EXPECT_EQ(asked, "aabb");
+    EXPECT_EQ(state->tasks.units_owed[1], 1u);
 }
 
 TEST(Models, EnergyIsOfTheModelThatMovesTheBody) {
@@ -76,9 +84,26 @@ TEST(Models, EnergyIsOfTheModelThatMovesTheBody) {
     DamageModel silent("silent"), odd("odd");
     odd.has_energy<energy_of_odd>();
     const DamageModels models({silent, odd});
-    ASSERT_TRUE(models.energy(*state, Row<Bodies>(1), {}).has_value());
-    EXPECT_EQ(models.energy(*state, Row<Bodies>(1), {})->kinetic, 3);
+    ASSERT_TRUE(models.energy(*state, Row<Bodies>(3), {}).has_value());
+    EXPECT_EQ(models.energy(*state, Row<Bodies>(3), {})->kinetic, 3);
     EXPECT_FALSE(models.energy(*state, Row<Bodies>(2), {}).has_value()) << "a rigid one";
+    EXPECT_FALSE(models.energy(*state, Row<Bodies>(1), {}).has_value()) << "of the other model";
+}
+
+TEST(Models, WhatHasNoShellHasNoModel) {
+    const auto state = small_state();
+    DamageModel odd("odd");
+    odd.has_energy<energy_of_odd>();
+    state->bodies.shell[1] = {};
+    EXPECT_FALSE(DamageModels({odd}).energy(*state, Row<Bodies>(1), {}).has_value());
+}
+
+TEST(Models, AModelIsFoundByItsNameAndItsNumberIsItsPlace) {
+    const DamageModels models({DamageModel("a"), DamageModel("b")});
+    EXPECT_EQ(models.find("a"), 0);
+    EXPECT_EQ(models.find("b"), 1);
+    EXPECT_FALSE(models.find("c").has_value());
+    EXPECT_EQ(models.names(), "a, b");
 }
 
 TEST(Models, WhatMovesInEachFrameIsGrantedWhatTheModelsBeforeItLeft) {
@@ -94,18 +119,20 @@ TEST(Models, WhatMovesInEachFrameIsGrantedWhatTheModelsBeforeItLeft) {
     EXPECT_EQ(slow_frames, 1u);
 }
 
-TEST(Models, ATaskIsOfTheFirstLoopThatWorksOnIt) {
+TEST(Models, ATaskIsOfTheFirstLoopOfItsModelThatWorksOnIt) {
     const auto state = small_state();
-    DamageModel even("even"), any("any");
-    even.loop<cost<3>>("even tasks", empty_loop(), {is_even, is_any});
-    any.loop<cost<7>>("the others", empty_loop(), {is_any, is_even, true});
-    const DamageModels models({even, any});
-    EXPECT_EQ(models.loop_of(*state, 2).title(), "even tasks");
-    EXPECT_EQ(models.loop_of(*state, 2).cost(*state, 2).step, 3u);
-    EXPECT_FALSE(models.loop_of(*state, 2).is_brief());
-    EXPECT_EQ(models.loop_of(*state, 3).title(), "the others");
-    EXPECT_EQ(models.loop_of(*state, 3).cost(*state, 3).step, 7u);
-    EXPECT_TRUE(models.loop_of(*state, 3).is_brief());
+    DamageModel first("first"), second("second");
+    first.loop<cost<3>>("even tasks", empty_loop(), {is_even, is_any})
+        .loop<cost<5>>("the others", empty_loop(), {is_any, is_any});
+    second.loop<cost<7>>("all tasks", empty_loop(), {is_any, is_even, true});
+    const DamageModels models({first, second});
+    EXPECT_EQ(models.loop_of(*state, 0).title(), "even tasks");
+    EXPECT_EQ(models.loop_of(*state, 0).cost(*state, 0).step, 3u);
+    EXPECT_FALSE(models.loop_of(*state, 0).is_brief());
+    EXPECT_EQ(models.loop_of(*state, 1).title(), "the others");
+    EXPECT_EQ(models.loop_of(*state, 2).title(), "all tasks");
+    EXPECT_EQ(models.loop_of(*state, 2).cost(*state, 2).step, 7u);
+    EXPECT_TRUE(models.loop_of(*state, 2).is_brief());
 }
 
 TEST(Models, WhoHasNoCallsLeavesEverythingAsItIs) {

@@ -10,7 +10,7 @@ namespace cullet {
 // task, cracked or not.
 //
 // A cut may leave a body that stood on pins in one piece without any: it falls.
-void find_parts(Each<TaskEnded> ended, BodyRows& rows, Fragments& fragments) {
+void find_parts(EachOwn<TaskEnded> ended, BodyRows& rows, Fragments& fragments) {
     const uint32_t t = ended->task;
     rows.tasks.part_count[t] = 1;
     if (static_cast<TaskState>(rows.tasks.state[t]) == TaskState::Dropped) return;

@@ -1,6 +1,6 @@
 // The inner loops of the thick shell, and what their runs cost.
 #pragma once
-#include "systems/models.hpp"
+#include "systems/damage_model.hpp"
 
 namespace cullet {
 

@@ -42,7 +42,7 @@ DamageModel thick_shell_model() {
     model.has_energy<soft_energy>().takes_blows<push_soft_body, explode_soft_body>();
     model.takes<working_shell, begin_run, give_late_rows>().foretells<may_find_room, run_length>();
     model.moves_rest<motion_of_rest>().inherits<inherit_fracture>().keeps_cell_names<is_quick_body>();
-    model.tears<hand_off_torn, give_torn_pieces, keep_torn_body>();
+    model.may_tear<is_awake, look_for_pieces, take_torn>().tears<hand_off_torn, give_torn_pieces, keep_torn_body>();
     model.keeps_for_bodies<follow_body, release_soft>();
     model.restores<restore_scratch, restore_sums>().works_on<is_cut_out, room_of_hit>();
     model.checks<check_worn_shell, trouble_of_run, check_model_rows>();

@@ -1,6 +1,6 @@
 // Hollow things that crack, tear or flow (thick shell note).
 #pragma once
-#include "systems/models.hpp"
+#include "systems/damage_model.hpp"
 
 namespace cullet {
 

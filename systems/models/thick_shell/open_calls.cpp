@@ -10,7 +10,7 @@
 
 namespace cullet {
 
-std::optional<WorkingShell> working_shell(BodyRows& state, Row<Bodies> body) {
+WorkingShell working_shell(BodyRows& state, Row<Bodies> body) {
     WorkingShell made;
     made.waits = may_cut_out(state, body);
     if (made.waits) return made;

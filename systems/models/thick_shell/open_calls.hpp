@@ -1,11 +1,11 @@
-// What the opening of tasks asks of the thick shell (models.hpp).
+// What the opening of tasks asks of the thick shell (model_calls.hpp).
 #pragma once
-#include "systems/models.hpp"
+#include "systems/model_calls.hpp"
 
 namespace cullet {
 
 /// Of the whole shell, or of what is round the contacts: then it waits for them.
-std::optional<WorkingShell> working_shell(BodyRows& state, Row<Bodies> body);
+WorkingShell working_shell(BodyRows& state, Row<Bodies> body);
 /// Clock, quick settings, units of the copy, and which stiffness is to be assembled.
 void begin_run(BodyRows& state, Row<Tasks> task, Events<StiffnessWanted>& wanted);
 /// Of the neighbourhood of the contacts, or of the whole body where blows reach it all, or the hit is wide.

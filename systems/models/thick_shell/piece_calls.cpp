@@ -6,9 +6,28 @@
 
 namespace cullet {
 
-std::optional<RestMotion> motion_of_rest(const RunRows& state, Row<Tasks> task) {
+RestMotion motion_of_rest(const RunRows& state, Row<Tasks> task) {
     const BodyMotion motion = is_quick_task(state, task) ? BodyMotion(state, task) : rest_motion(state, task);
-    return RestMotion{motion.centre, motion.velocity, motion.spin};
+    return {motion.centre, motion.velocity, motion.spin};
+}
+
+bool is_awake(const SoftRows& state, Row<Bodies> body) {
+    const Row<SoftBodies> soft = find_soft(state.soft_bodies, body);
+    return soft.exists() && state.soft_bodies.is_awake[soft];
+}
+
+void look_for_pieces(SoftRows& state, Row<Bodies> body) {
+    state.soft_bodies.is_torn[find_soft(state.soft_bodies, body)] = 1;
+}
+
+Row<Bodies> take_torn(SoftRows& state) {
+    SoftBodies& soft = state.soft_bodies;
+    for (uint32_t s = 0; s < soft.size(); ++s)
+        if (soft.is_torn[s]) {
+            soft.is_torn[s] = 0;
+            return soft.body[s];
+        }
+    return {};
 }
 
 void hand_off_torn(const SoftRows& state, const TornPieces& torn, std::span<PartMotion> motions) {

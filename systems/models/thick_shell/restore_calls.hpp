@@ -1,6 +1,6 @@
-// What loading, and the room that hits take, ask of the thick shell (models.hpp).
+// What loading, and the room that hits take, ask of the thick shell (model_calls.hpp).
 #pragma once
-#include "systems/models.hpp"
+#include "systems/model_calls.hpp"
 
 namespace cullet {
 

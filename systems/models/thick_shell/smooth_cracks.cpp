@@ -186,7 +186,7 @@ class CrackPairs {
 }  // namespace
 
 // What the game cut stays as straight, or as sharp, as it said.
-void smooth_cracks(Each<TaskEnded> ended, RunRows& rows, const Blows& blows) {
+void smooth_cracks(EachOwn<TaskEnded> ended, RunRows& rows, const Blows& blows) {
     const Row<Tasks> task = ended->task;
     if (static_cast<TaskState>(rows.tasks.state[task]) == TaskState::Dropped || rows.tasks.crack_count[task] == 0)
         return;

@@ -1,6 +1,6 @@
-// What the spawning of bodies asks of the thick shell (models.hpp).
+// What the spawning of bodies asks of the thick shell (model_calls.hpp).
 #pragma once
-#include "systems/models.hpp"
+#include "systems/model_calls.hpp"
 
 namespace cullet {
 

@@ -258,6 +258,7 @@ void renumber_elements(const ShellView& shell, const FragmentPart& part, const S
 
 void inherit(Shells& shells, Row<Shells> from, Row<Shells> to) {
     shells.material[to] = shells.material[from];
+    shells.damage_model[to] = shells.damage_model[from];
     shells.intact_mass[to] = shells.intact_mass[from];
     shells.depth_floor[to] = shells.depth_floor[from];
     shells.mean_edge[to] = shells.mean_edge[from];
@@ -323,6 +324,7 @@ Row<Shells> reserve_piece(ShellRows& state, Row<Shells> broken, const FragmentPa
     if (!row.exists()) return row;
     const ShellView piece(state, row);
     state.shells.generation[row] = generation;
+    state.shells.damage_model[row] = state.shells.damage_model[broken];  // asked before the rows are filled
     piece.vertices().count = counts.vertices;
     Cells& cells = state.cells;
     for_each_cell(shell, part, [&](uint32_t cell, uint32_t c) {

@@ -67,6 +67,7 @@ constexpr Rule kRules[] = {
     {"shells", "hull_ratio", Is::Number, 0, 0, 0, kHuge},
     {"shells", "margin", Is::Number, 0, kFar},
     {"shells", "dead_elements", Is::Number, 0, 0, 0, kIds},
+    {"shells", "damage_model", Is::Number, 0, 0, 0, 255},
     {"vertices", "rest", Is::Number, -kFar, kFar},
     {"vertices", "inward", Is::Number, -kUnit, kUnit},
     {"vertices", "depth", Is::Number, 0, kFar},

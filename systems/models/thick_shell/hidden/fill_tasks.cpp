@@ -3,7 +3,7 @@
 
 namespace cullet {
 
-void fill_tasks(Each<TaskOpened> opened, RunRows& rows) {
+void fill_tasks(EachOwn<TaskOpened> opened, RunRows& rows) {
     if (!rows.tasks.shell[opened->task].exists()) return;  // no room
     fill_task(rows, opened->task);
 }

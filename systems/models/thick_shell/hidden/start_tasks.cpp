@@ -25,7 +25,7 @@ void make_cuts(BodyRows& state, Blows& blows, Row<Tasks> task) {
 
 }  // namespace
 
-void start_tasks(Each<TaskOpened> opened, BodyRows& rows, Blows& blows) {
+void start_tasks(EachOwn<TaskOpened> opened, BodyRows& rows, Blows& blows) {
     const Row<Tasks> task = opened->task;
     if (!rows.tasks.shell[task].exists()) return;  // no room
     start_run(rows, blows, task);

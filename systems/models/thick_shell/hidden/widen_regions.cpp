@@ -4,18 +4,20 @@
 
 namespace cullet {
 
-void widen_regions(Serial, BodyRows& rows, Events<TaskOpened>& opened, Events<StiffnessWanted>& stiffness_wanted,
-                   Events<RefusedEvent>& refused) {
+void widen_regions(Serial, Owner own, BodyRows& rows, Events<TaskOpened>& opened,
+                   Events<StiffnessWanted>& stiffness_wanted, Events<RefusedEvent>& refused) {
     for (uint32_t t = 0; t < rows.region_rests.size(); ++t) {
         const Row<Tasks> task(t);
-        if (static_cast<TaskState>(rows.tasks.state[t]) != TaskState::Running || !is_hidden_region(rows, t)) continue;
+        if (static_cast<TaskState>(rows.tasks.state[t]) != TaskState::Running || rows.model_of(t) != own.number)
+            continue;
+        if (!is_hidden_region(rows, t)) continue;
         if (!rows.region_rests.wants_more[t]) continue;
         release_shell(rows, rows.tasks.shell[t]);
         rows.tasks.shell[t] = {};
         rows.quick_runs.cut_elements[t] = 0;
         const char* full = nullptr;
         if (give_hidden_rows(rows, task, 2 * rows.region_rests.most_vertices[t], stiffness_wanted, &full)) {
-            opened.push({task});
+            opened.push({task, rows.model_of(task)});
         } else {
             rows.tasks.state[t] = static_cast<uint8_t>(TaskState::Dropped);
             refused.push(refused_event(rows.bodies, rows.tasks.body[t], full));

@@ -29,8 +29,8 @@ bool is_woken(const RunRows& state, Row<Tasks> task) {
 }  // namespace
 
 // One after another: rows of springs come from pools.
-void wake_regions(Serial, const Events<TaskOpened>& opened, RunRows& rows, const Bodies& bodies,
-                  Events<RegionPart>& parts, Events<RefusedEvent>& refused) {
+void wake_regions(Serial, Own<TaskOpened> opened, RunRows& rows, const Bodies& bodies, Events<RegionPart>& parts,
+                  Events<RefusedEvent>& refused) {
     parts.clear();
     for (const TaskOpened& o : opened) {
         if (!is_woken(rows, o.task)) continue;
@@ -54,12 +54,12 @@ void lay_regions(Each<RegionPart> part, RunRows& rows) {
     lay_region_springs(RegionView(rows, part->task), part->first_row);
 }
 
-void start_regions(Serial, const Events<TaskOpened>& opened, RunRows& rows, const Blows& blows) {
+void start_regions(Serial, Own<TaskOpened> opened, RunRows& rows, const Blows& blows) {
     for (const TaskOpened& o : opened)
         if (is_woken(rows, o.task)) start_region(rows, blows, o.task);
 }
 
-void close_regions(Serial, const Events<TaskEnded>& ended, BodyRows& rows, Events<CrackStartedEvent>& cracks) {
+void close_regions(Serial, Own<TaskEnded> ended, BodyRows& rows, Events<CrackStartedEvent>& cracks) {
     for (const TaskEnded& e : ended) {
         if (static_cast<TaskState>(rows.tasks.state[e.task]) == TaskState::Dropped) forget_run(rows, e.task);
         if (is_hidden_region(rows, e.task)) {

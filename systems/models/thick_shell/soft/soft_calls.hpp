@@ -1,6 +1,6 @@
-// What the rest of the program asks of soft bodies: calls of the thick shell (models.hpp).
+// What the rest of the program asks of soft bodies: calls of the thick shell (model_calls.hpp).
 #pragma once
-#include "systems/models.hpp"
+#include "systems/model_calls.hpp"
 
 namespace cullet {
 

@@ -1,5 +1,5 @@
-#include "components/state.hpp"
 #include "systems/models/thick_shell/model_file.hpp"
+#include "components/state.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,0 +1,206 @@
+// A damage model as the rest of the program knows it: the slots that it fills with systems of its own, its inner loops,
+// and calls.
+//
+// A call is a plain function over a set of tables. It is asked of bodies that the model breaks, and of tasks on them.
+#pragma once
+#include "systems/model_calls.hpp"
+#include "systems/model_loops.hpp"
+#include "systems/slots.hpp"
+
+namespace cullet {
+
+class DamageModel {
+ public:
+    explicit DamageModel(std::string name) : slots_(std::move(name)) {}
+
+    // ---- registration
+
+    DamageModel& at(Slot slot) {
+        slots_.at(slot);
+        return *this;
+    }
+    template <auto System>
+    DamageModel& then() {
+        slots_.then<System>();
+        return *this;
+    }
+    /// A loop that works off tasks, and what its runs cost.
+    template <auto Cost, class World>
+    DamageModel& loop(std::string title, InnerLoop<World> loop, const TaskCalls& calls) {
+        task_loops_.push_back(TaskLoop::of<Cost>(std::move(title), std::move(loop), calls));
+        return *this;
+    }
+    /// A loop that runs in each frame. Its time is shown under `zone`.
+    template <class World>
+    DamageModel& frame_loop(std::string title, InnerLoop<World> loop, const FrameCalls& calls) {
+        frame_loops_.emplace_back(std::move(title), std::move(loop), calls);
+        return *this;
+    }
+    /// Units of its frame loops: `Wanted(rows)` for all that they ask for; `Grant(rows, units, slow_frames)` gives them
+    /// what the frame has, counts what runs slower than the world, and returns what that costs. `zone`: of the
+    /// profiler.
+    template <auto Wanted, auto Grant>
+    DamageModel& moves_each_frame(const char* zone) {
+        frame_zone_ = zone;
+        calls_.wanted = [](const SoftRows& rows) { return Wanted(rows); };
+        calls_.grant = [](SoftRows& rows, uint64_t units, uint64_t& slow_frames) {
+            return Grant(rows, units, slow_frames);
+        };
+        return *this;
+    }
+    /// `Cancel(rows, task)`: rows that the model holds for a task go back.
+    template <auto Cancel>
+    DamageModel& cancels() {
+        calls_.cancel = [](RunRows& rows, Row<Tasks> task) { Cancel(rows, task); };
+        return *this;
+    }
+    /// `Energy(rows, body, gravity)` of a body that the model moves by itself; none of one that is rigid.
+    template <auto Energy>
+    DamageModel& has_energy() {
+        calls_.energy = [](SoftRows& rows, Row<Bodies> body, Vec3 gravity) { return Energy(rows, body, gravity); };
+        return *this;
+    }
+    /// Blows of the game on a body that the model can move by itself: `Push(rows, rigid, body, push)`, and
+    /// `Explode(rows, rigid, body, explosion)`. False: it cannot, and nothing happened.
+    template <auto Push, auto Explode>
+    DamageModel& takes_blows() {
+        calls_.push = [](SoftRows& rows, RigidWorld& rigid, Row<Bodies> body, const PointPush& push) {
+            return Push(rows, rigid, body, push);
+        };
+        calls_.explode = [](SoftRows& rows, RigidWorld& rigid, Row<Bodies> body, const Explosion& explosion) {
+            return Explode(rows, rigid, body, explosion);
+        };
+        return *this;
+    }
+    /// A body is spawned. `Check(settings)`: whether the model's own settings are sound. `Shell(rows, source,
+    /// spawning)`: the cooked shell, which bodies share, or one of the body's own. `Body(rows, body, spawning)`, once
+    /// its mass is known: fills what the model keeps for it, and returns the rows that the first hit on it takes.
+    template <auto Check, auto Shell, auto Body>
+    DamageModel& spawns() {
+        calls_.check_spawn = [](const SpawnSettings& settings) { return Check(settings); };
+        calls_.spawn_shell = [](SoftRows& rows, Row<Shells> source, const Spawning& spawning) {
+            return Shell(rows, source, spawning);
+        };
+        calls_.spawn_body = [](SoftRows& rows, Row<Bodies> body, const Spawning& spawning) {
+            return Body(rows, body, spawning);
+        };
+        return *this;
+    }
+    /// Rows for a task that opens. `Shell(rows, body)` is a WorkingShell;
+    /// `Begin(rows, task, stiffness_wanted)` fills what the model keeps for it; `GiveLate(rows, blows, task,
+    /// stiffness_wanted, full)` gives rows to one that waited for its contacts: false, there is no room.
+    template <auto Shell, auto Begin, auto GiveLate>
+    DamageModel& takes() {
+        calls_.working_shell = [](BodyRows& rows, Row<Bodies> body) { return Shell(rows, body); };
+        calls_.begin = [](BodyRows& rows, Row<Tasks> task, Events<StiffnessWanted>& wanted) {
+            Begin(rows, task, wanted);
+        };
+        calls_.give_late = [](BodyRows& rows, const Blows& blows, Row<Tasks> task, Events<StiffnessWanted>& wanted,
+                              const char** full) { return GiveLate(rows, blows, task, wanted, full); };
+        return *this;
+    }
+    /// `MayFindRoom(rows, body)`. False: a working copy of the body's shell has no room beside it even where nothing
+    /// else is, so that a hit need not wait for it. `Length(rows, body)`: a RunLength, none where runs are over before
+    /// anything presses on.
+    template <auto MayFindRoom, auto Length>
+    DamageModel& foretells() {
+        calls_.may_find_room = [](const BodyRows& rows, Row<Bodies> body) { return MayFindRoom(rows, body); };
+        calls_.length = [](const BodyRows& rows, Row<Bodies> body) { return Length(rows, body); };
+        return *this;
+    }
+    /// `Motion(rows, task)`: how the rest of a body moves that was hit on a part of it, once that part is back in it.
+    template <auto Motion>
+    DamageModel& moves_rest() {
+        calls_.motion_of_rest = [](const RunRows& rows, Row<Tasks> task) { return Motion(rows, task); };
+        return *this;
+    }
+    /// `Inherit(rows, parent, piece)`: what the model keeps of a body goes on to a new piece of it.
+    template <auto Inherit>
+    DamageModel& inherits() {
+        calls_.inherit = [](BodyRows& rows, Row<Bodies> parent, Row<Bodies> piece) { Inherit(rows, parent, piece); };
+        return *this;
+    }
+    /// `Keeps(rows, body)`: a run on a copy of the body leaves the cells that did not change under their names.
+    template <auto Keeps>
+    DamageModel& keeps_cell_names() {
+        calls_.keeps_cell_names = [](const BodyRows& rows, Row<Bodies> body) { return Keeps(rows, body); };
+        return *this;
+    }
+    /// Bodies that the model moves by itself may tear. `IsMoving(rows, body)` says whether it does; of such a body
+    /// `LookForPieces(rows, body)` asks anew for pieces that found no room. `Take(rows)` is a body that tore and whose
+    /// pieces nobody has looked for, each once; a row that does not exist: there is none left.
+    template <auto IsMoving, auto LookForPieces, auto Take>
+    DamageModel& may_tear() {
+        calls_.is_moving = [](const SoftRows& rows, Row<Bodies> body) { return IsMoving(rows, body); };
+        calls_.look_for_pieces = [](SoftRows& rows, Row<Bodies> body) { LookForPieces(rows, body); };
+        calls_.take_torn = [](SoftRows& rows) { return Take(rows); };
+        return *this;
+    }
+    /// Of a body that tore: `HandOff(rows, torn, motions)` finds the parts' motions, `Give(rows, torn)` makes the new
+    /// bodies move by themselves, `Keep(rows, rigid, body)` lets the rest go on.
+    template <auto HandOff, auto Give, auto Keep>
+    DamageModel& tears() {
+        calls_.hand_off_torn = [](const SoftRows& rows, const TornPieces& torn, std::span<PartMotion> motions) {
+            HandOff(rows, torn, motions);
+        };
+        calls_.give_torn = [](SoftRows& rows, const TornPieces& torn) { Give(rows, torn); };
+        calls_.keep_torn = [](SoftRows& rows, RigidWorld& rigid, Row<Bodies> body) { Keep(rows, rigid, body); };
+        return *this;
+    }
+    /// `Follow(rows, body)`: the game has put a body elsewhere, or given it another motion. `Release(rows, body)`: what
+    /// the model keeps for a body goes; the body is no concern of it any more.
+    template <auto Follow, auto Release>
+    DamageModel& keeps_for_bodies() {
+        calls_.follow = [](SoftRows& rows, Row<Bodies> body) { Follow(rows, body); };
+        calls_.release = [](SoftRows& rows, Row<Bodies> body) { Release(rows, body); };
+        return *this;
+    }
+    /// After a load, what is not in the bytes because it follows from them: `Run(rows, task)` of a run that goes on,
+    /// `Body(rows, body)` of each body with a shell.
+    template <auto Run, auto Body>
+    DamageModel& restores() {
+        calls_.restore_run = [](RunRows& rows, Row<Tasks> task) { Run(rows, task); };
+        calls_.restore_body = [](BodyRows& rows, Row<Bodies> body) { Body(rows, body); };
+        return *this;
+    }
+    /// `IsPart(rows, task)`: the task's shell is a part of its body's. `Room(rows, body)`: rows that a hit on the body
+    /// takes.
+    template <auto IsPart, auto Room>
+    DamageModel& works_on() {
+        calls_.is_part = [](const RunRows& rows, uint32_t task) { return IsPart(rows, task); };
+        calls_.room = [](BodyRows& rows, Row<Bodies> body) { return Room(rows, body); };
+        return *this;
+    }
+    /// Rows that came from a file. `Shell(shell, is_part, name, advice)` and `Rows(rows, name, advice)` are
+    /// Result<void>, whose sentence begins with the name and ends with the advice; `Task(rows, task)` is empty or what
+    /// the task's shell is or lacks. Ranges, users and shared tables have been looked at before.
+    template <auto Shell, auto Task, auto Rows>
+    DamageModel& checks() {
+        calls_.check_shell = [](const ShellView& shell, bool is_part, const std::string& name, const char* advice) {
+            return Shell(shell, is_part, name, advice);
+        };
+        calls_.trouble_of_task = [](const RunRows& rows, uint32_t task) { return Task(rows, task); };
+        calls_.check_rows = [](const SoftRows& rows, const std::string& name, const char* advice) {
+            return Rows(rows, name, advice);
+        };
+        return *this;
+    }
+
+    // ---- what was registered
+
+    const std::string& name() const { return slots_.name(); }
+    const SlotList& slots() const { return slots_; }
+    const std::vector<TaskLoop>& task_loops() const { return task_loops_; }
+    const std::vector<FrameLoop>& frame_loops() const { return frame_loops_; }
+    const char* frame_zone() const { return frame_zone_; }
+    const ModelCalls& calls() const { return calls_; }
+
+ private:
+    SlotList slots_;
+    std::vector<TaskLoop> task_loops_;
+    std::vector<FrameLoop> frame_loops_;
+    const char* frame_zone_ = "";
+    ModelCalls calls_;
+};
+
+}  // namespace cullet

@@ -1,0 +1,96 @@
+// What the rest of the program asks damage models, and what it tells them.
+#pragma once
+#include <optional>
+#include <string>
+
+#include "cullet/result.hpp"
+#include "cullet/world.hpp"
+#include "systems/checks/world_energy.hpp"
+#include "systems/structures/shell/explosion.hpp"
+#include "systems/structures/shell/group_fragments.hpp"
+#include "systems/structures/shell/rigid_handoff.hpp"
+#include "systems/world_data.hpp"
+
+namespace cullet {
+
+/// A blow of the game's at one place of a body.
+struct PointPush {
+    Vec3 point;         // body frame, m
+    Vec3 impulse;       // N s, body axes
+    float radius = 0;   // m, that it is shared out over
+    float fastest = 0;  // m/s, at most, that it gives to any point
+};
+
+/// Parts of a body that moves by itself, and tore.
+struct TornPieces {
+    Row<Bodies> body;
+    std::span<const uint32_t> order;  // parts, heaviest first
+    std::span<const FragmentPart> parts;
+    std::span<const Row<Bodies>> child;  // new bodies; of the part that goes on as the body, the body
+};
+
+/// A working copy of a body's shell for a task that opens.
+struct WorkingShell {
+    Row<Shells> shell;           // none: it waits, or there is no room
+    bool waits = false;          // for the task's contacts: its rows are given when they are known
+    const char* full = nullptr;  // the limit that left no room
+};
+
+/// What models are told about a body that the game spawns.
+struct Spawning {
+    const SpawnSettings& settings;
+    bool is_breakable;    // the game wants it, and its strength is finite
+    bool knows_surfaces;  // the rigid world tells what a body meets
+    float step_seconds;   // s
+    uint64_t units_a_frame;
+};
+
+/// How long a run takes that works on a whole body.
+struct RunLength {
+    float seconds = 0, step_seconds = 0;  // of its own clock, s
+    uint64_t units_a_step = 0;
+};
+
+/// What a damage model can be asked: plain functions over sets of tables, each of bodies that it breaks. A model
+/// without one has nothing to do with it. DamageModel says what each is for.
+struct ModelCalls {
+    // Cooking and spawning.
+    Result<void> (*check_spawn)(const SpawnSettings&) = nullptr;
+    Result<Row<Shells>> (*spawn_shell)(SoftRows&, Row<Shells> source, const Spawning&) = nullptr;
+    Result<ShellRoom> (*spawn_body)(SoftRows&, Row<Bodies>, const Spawning&) = nullptr;
+    // Tasks.
+    WorkingShell (*working_shell)(BodyRows&, Row<Bodies>) = nullptr;
+    void (*begin)(BodyRows&, Row<Tasks>, Events<StiffnessWanted>&) = nullptr;
+    bool (*give_late)(BodyRows&, const Blows&, Row<Tasks>, Events<StiffnessWanted>&, const char** full) = nullptr;
+    bool (*may_find_room)(const BodyRows&, Row<Bodies>) = nullptr;
+    std::optional<RunLength> (*length)(const BodyRows&, Row<Bodies>) = nullptr;
+    ShellRoom (*room)(BodyRows&, Row<Bodies>) = nullptr;
+    bool (*is_part)(const RunRows&, uint32_t task) = nullptr;
+    void (*cancel)(RunRows&, Row<Tasks>) = nullptr;
+    // Births.
+    RestMotion (*motion_of_rest)(const RunRows&, Row<Tasks>) = nullptr;
+    void (*inherit)(BodyRows&, Row<Bodies> parent, Row<Bodies> piece) = nullptr;
+    bool (*keeps_cell_names)(const BodyRows&, Row<Bodies>) = nullptr;
+    // What a model moves by itself, in each frame.
+    uint64_t (*wanted)(const SoftRows&) = nullptr;
+    uint64_t (*grant)(SoftRows&, uint64_t units, uint64_t& slow_frames) = nullptr;
+    std::optional<MechanicalEnergy> (*energy)(SoftRows&, Row<Bodies>, Vec3 gravity) = nullptr;
+    bool (*push)(SoftRows&, RigidWorld&, Row<Bodies>, const PointPush&) = nullptr;
+    bool (*explode)(SoftRows&, RigidWorld&, Row<Bodies>, const Explosion&) = nullptr;
+    bool (*is_moving)(const SoftRows&, Row<Bodies>) = nullptr;
+    void (*look_for_pieces)(SoftRows&, Row<Bodies>) = nullptr;
+    Row<Bodies> (*take_torn)(SoftRows&) = nullptr;
+    void (*hand_off_torn)(const SoftRows&, const TornPieces&, std::span<PartMotion>) = nullptr;
+    void (*give_torn)(SoftRows&, const TornPieces&) = nullptr;
+    void (*keep_torn)(SoftRows&, RigidWorld&, Row<Bodies>) = nullptr;
+    void (*follow)(SoftRows&, Row<Bodies>) = nullptr;
+    void (*release)(SoftRows&, Row<Bodies>) = nullptr;
+    // Files.
+    void (*restore_run)(RunRows&, Row<Tasks>) = nullptr;
+    void (*restore_body)(BodyRows&, Row<Bodies>) = nullptr;
+    Result<void> (*check_shell)(const ShellView&, bool is_part, const std::string& name, const char* advice) = nullptr;
+    std::string (*trouble_of_task)(const RunRows&, uint32_t task) = nullptr;
+    Result<void> (*check_rows)(const SoftRows&, const std::string& name, const char* advice) = nullptr;
+};
+
+}  // namespace cullet
