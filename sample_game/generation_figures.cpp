@@ -11,8 +11,8 @@
 #include "engine/fp_mode.hpp"
 #include "sample_game/propagation.hpp"
 #include "systems/cook/crossings.hpp"
-#include "systems/models/thick_shell/cook/extrude.hpp"
-#include "systems/models/thick_shell/cook/true_wall.hpp"
+#include "systems/structures/shell/cook/extrude.hpp"
+#include "systems/structures/shell/cook/true_wall.hpp"
 
 namespace cullet {
 namespace {

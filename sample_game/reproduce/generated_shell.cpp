@@ -9,7 +9,7 @@
 #include "engine/jobs.hpp"
 #include "sample_game/palette.hpp"
 #include "systems/cook/crossings.hpp"
-#include "systems/models/thick_shell/cook/tetrahedra.hpp"
+#include "systems/structures/shell/cook/tetrahedra.hpp"
 
 namespace cullet::reproduce {
 namespace {

@@ -5,7 +5,7 @@
 #include <string>
 
 #include "sample_game/picture.hpp"
-#include "systems/models/thick_shell/cook/extrude.hpp"
+#include "systems/structures/shell/cook/extrude.hpp"
 
 namespace cullet::reproduce {
 

@@ -2,7 +2,7 @@
 #pragma once
 #include <gtest/gtest.h>
 
-#include "systems/models/thick_shell/cook/extrude.hpp"
+#include "systems/structures/shell/cook/extrude.hpp"
 
 namespace cullet::test {
 

@@ -8,8 +8,8 @@
 #include "components/state.hpp"
 #include "sample_game/allocations.hpp"
 #include "sample_game/meshes.hpp"
-#include "systems/models/thick_shell/cook/check_shell_rows.hpp"
 #include "systems/models/thick_shell/shared/cut_out.hpp"
+#include "systems/structures/shell/cook/check_shell_rows.hpp"
 #include "tests/support/random_hits.hpp"
 
 namespace cullet::test {

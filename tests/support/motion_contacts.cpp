@@ -2,8 +2,8 @@
 
 #include <algorithm>
 
-#include "systems/models/thick_shell/cook/pair_list.hpp"
-#include "systems/models/thick_shell/cook/tetrahedra.hpp"
+#include "systems/structures/shell/cook/pair_list.hpp"
+#include "systems/structures/shell/cook/tetrahedra.hpp"
 #include "tests/support/shell_checks.hpp"
 
 namespace cullet::test {

@@ -4,7 +4,7 @@
 #include <array>
 #include <vector>
 
-#include "systems/models/thick_shell/cook/extrude.hpp"
+#include "systems/structures/shell/cook/extrude.hpp"
 
 namespace cullet::test {
 

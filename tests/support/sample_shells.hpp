@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "components/state.hpp"
-#include "systems/models/thick_shell/cook/build_shell.hpp"
+#include "systems/structures/shell/cook/build_shell.hpp"
 
 namespace cullet {
 

@@ -6,8 +6,8 @@
 #include <ostream>
 
 #include "systems/hulls/box_tree.hpp"
-#include "systems/models/thick_shell/cook/extrude.hpp"
-#include "systems/models/thick_shell/cook/tetrahedra.hpp"
+#include "systems/structures/shell/cook/extrude.hpp"
+#include "systems/structures/shell/cook/tetrahedra.hpp"
 
 namespace cullet::test {
 

@@ -10,8 +10,8 @@
 #include <map>
 
 #include "engine/import/import_mesh.hpp"
-#include "systems/models/thick_shell/cook/extrude.hpp"
-#include "systems/models/thick_shell/cook/true_wall.hpp"
+#include "systems/structures/shell/cook/extrude.hpp"
+#include "systems/structures/shell/cook/true_wall.hpp"
 #include "tests/support/places.hpp"
 #include "tests/support/plain_reader.hpp"
 #include "tests/support/shell_checks.hpp"

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <filesystem>
 
-#include "systems/models/thick_shell/cook/extrude.hpp"
+#include "systems/structures/shell/cook/extrude.hpp"
 #include "tests/support/expect_always.hpp"
 #include "tests/support/motion_contacts.hpp"
 #include "tests/support/plain_reader.hpp"

@@ -6,7 +6,7 @@
 
 #include "sample_game/thresholds.hpp"
 #include "systems/cook/tessellate.hpp"
-#include "systems/models/thick_shell/cook/tetrahedra.hpp"
+#include "systems/structures/shell/cook/tetrahedra.hpp"
 #include "tests/support/expect_always.hpp"
 #include "tests/support/extrusions.hpp"
 #include "tests/support/real_meshes.hpp"

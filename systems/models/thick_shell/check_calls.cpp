@@ -1,9 +1,9 @@
 #include "systems/models/thick_shell/check_calls.hpp"
 
-#include "systems/models/thick_shell/cook/check_shell_rows.hpp"
 #include "systems/models/thick_shell/quick/check_quick.hpp"
 #include "systems/models/thick_shell/shared/quick_body.hpp"
 #include "systems/models/thick_shell/springs/check_springs.hpp"
+#include "systems/structures/shell/cook/check_shell_rows.hpp"
 
 namespace cullet {
 

@@ -10,7 +10,7 @@
 #include "engine/mesh_file.hpp"
 #include "engine/table_bytes.hpp"
 #include "systems/cook/materials.hpp"
-#include "systems/models/thick_shell/cook/check_shell_rows.hpp"
+#include "systems/structures/shell/cook/check_shell_rows.hpp"
 
 namespace cullet {
 namespace {

@@ -4,9 +4,9 @@
 
 #include "engine/random.hpp"
 #include "sample_game/spring_truth.hpp"
-#include "systems/models/thick_shell/cook/tetrahedra.hpp"
 #include "systems/models/thick_shell/springs/spring_lists.hpp"
 #include "systems/models/thick_shell/springs/spring_loop.hpp"
+#include "systems/structures/shell/cook/tetrahedra.hpp"
 
 namespace cullet::test {
 namespace {
