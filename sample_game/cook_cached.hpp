@@ -13,6 +13,8 @@ struct CachedModel {
     std::string trouble;  // a sentence when the model was cooked and could not be kept
 };
 
+/// The damage model that the settings name, or the first.
+std::string model_label(const CookSettings& settings);
 /// Everything of the settings' material that decides how a model comes out, as text.
 std::string material_label(const CookSettings& settings);
 

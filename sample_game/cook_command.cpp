@@ -27,6 +27,7 @@ Result<CachedModel> cook_file(const CookOptions& options) {
     if (!options.materials.empty())
         if (const Result<void> read = read_materials(options.materials, materials); !read.ok())
             return Error{read.error()};
+    settings.model = options.model;
     settings.materials = &materials;
     settings.material = options.material;
     for (const FractureKind kind : {FractureKind::Large, FractureKind::Coarse, FractureKind::Fine})

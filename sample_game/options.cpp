@@ -1,11 +1,12 @@
 #include "sample_game/options.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
 
-#include "cullet/material.hpp"
+#include "cullet/model.hpp"
 #include "cullet/version.hpp"
 #include "sample_game/scene.hpp"
 
@@ -38,6 +39,10 @@ std::string scene_list() {
     return text + "  show_reel  wall, vase, pane, drop and demolition, one after another, with pictures\n";
 }
 
+std::string model_names() {
+    return fmt::format("{}", fmt::join(damage_model_names(), ", "));
+}
+
 void add_run(CLI::App& app, RunOptions& run) {
     CLI::App* command = app.add_subcommand("run", "Plays a scene or a script and says how it went");
     command->footer(scene_list);
@@ -54,7 +59,7 @@ void add_run(CLI::App& app, RunOptions& run) {
         ->check(CLI::Validator(
             [](const std::string& name) { return std::string(name.empty() ? "the name is empty; give a file" : ""); },
             ""));
-    command->add_option("--model", run.model, "How what is cooked breaks: thick_shell");
+    command->add_option("--model", run.model, "How what is cooked breaks: " + model_names());
     command->add_option("--frames", run.frames, "How many steps; the scene's own number if not given")
         ->check(CLI::Range(1u, 1'000'000u));
     command->add_option("--dt-ms", run.dt_ms, "Milliseconds a step")->check(CLI::Range(1000.0 / 240, 1000.0 / 20));
@@ -81,6 +86,8 @@ void add_cook(CLI::App& app, CookOptions& cook) {
     CLI::App* command = app.add_subcommand("cook", "Cooks a mesh into a model file (.cmodel), so that a game need not");
     command->add_option("mesh", cook.mesh, "A model file in any format of docs/importing.md, or a .cmesh")->required();
     command->add_option("--out", cook.out, "The model file to write")->required();
+    command->add_option("--model", cook.model, "How it breaks; the first if not given")
+        ->check(CLI::IsMember(damage_model_names()));
     command->add_option("--material", cook.material, "One of " + MaterialTable().names() + ", or of --materials")
         ->capture_default_str();
     command->add_option("--materials", cook.materials, "A TOML file that adds and changes materials");
@@ -132,8 +139,9 @@ Result<void> check_run(const RunOptions& run, bool asks_for_keys) {
     if (run.scene.empty()) return Error{"run: which scene? Give one of " + scene_names() + "."};
     if (run.scene != "show_reel" && !find_scene(run.scene) && !run.scene.ends_with(".lua"))
         return Error{fmt::format("run {}: there is no such scene; give one of {}.", run.scene, scene_names())};
-    if (!run.model.empty() && run.model != "thick_shell")
-        return Error{fmt::format("--model {}: there is no such model; this version has thick_shell.", run.model)};
+    const std::vector<std::string> models = damage_model_names();
+    if (!run.model.empty() && std::find(models.begin(), models.end(), run.model) == models.end())
+        return Error{fmt::format("--model {}: there is no such model; this version has {}.", run.model, model_names())};
     if (run.scene == "show_reel" && !run.trace.empty() && run.out.empty())
         return Error{"--trace: the show reel writes a trace for each scene; say where with --out FOLDER."};
     if (run.scene == "show_reel" && !run.record.empty())

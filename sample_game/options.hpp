@@ -36,6 +36,7 @@ struct ReplayOptions {
 };
 
 struct CookOptions {
+    std::string model;                                                   // the damage model; empty: the first
     std::string mesh, out, material = "porcelain", materials, fracture;  // the last two may be empty
     double thickness_m = 0;                                              // 0: 1.5 % of the largest side
     double edge_m = 0;                                                   // 0: what cooking chooses

@@ -72,40 +72,68 @@ class DamageModel {
         };
         return *this;
     }
-    /// A body is spawned. `Check(settings)`: whether the model's own settings are sound. `Shell(rows, source,
-    /// spawning)`: the cooked shell, which bodies share, or one of the body's own. `Body(rows, body, spawning)`, once
-    /// its mass is known: fills what the model keeps for it, and returns the rows that the first hit on it takes.
-    template <auto Check, auto Shell, auto Body>
+    /// `Cook(cooking)` makes a shell of a clean mesh, in tables of its own. A sentence without the mesh's name refuses
+    /// it.
+    template <auto Cook>
+    DamageModel& cooks() {
+        calls_.cook = [](Cooking& cooking) { return Cook(cooking); };
+        return *this;
+    }
+    /// A body is spawned. `Body(rows, body, spawning)`, once its mass is known: fills what the model keeps for it, and
+    /// returns the rows that the first hit on it takes.
+    template <auto Body>
     DamageModel& spawns() {
-        calls_.check_spawn = [](const SpawnSettings& settings) { return Check(settings); };
-        calls_.spawn_shell = [](SoftRows& rows, Row<Shells> source, const Spawning& spawning) {
-            return Shell(rows, source, spawning);
-        };
         calls_.spawn_body = [](SoftRows& rows, Row<Bodies> body, const Spawning& spawning) {
             return Body(rows, body, spawning);
         };
         return *this;
     }
-    /// Rows for a task that opens. `Shell(rows, body)` is a WorkingShell;
-    /// `Begin(rows, task, stiffness_wanted)` fills what the model keeps for it; `GiveLate(rows, blows, task,
-    /// stiffness_wanted, full)` gives rows to one that waited for its contacts: false, there is no room.
-    template <auto Shell, auto Begin, auto GiveLate>
+    /// Before that. `Check(settings)`: whether the model's own settings are sound. `Shell(rows, source, spawning)`: the
+    /// cooked shell, which bodies share, or one of the body's own.
+    template <auto Check, auto Shell>
+    DamageModel& spawns_own() {
+        calls_.check_spawn = [](const SpawnSettings& settings) { return Check(settings); };
+        calls_.spawn_shell = [](SoftRows& rows, Row<Shells> source, const Spawning& spawning) {
+            return Shell(rows, source, spawning);
+        };
+        return *this;
+    }
+    /// Rows for a task that opens. `Shell(rows, body)` is a WorkingShell; `Begin(rows, task, stiffness_wanted)` fills
+    /// what the model keeps for it.
+    template <auto Shell, auto Begin>
     DamageModel& takes() {
         calls_.working_shell = [](BodyRows& rows, Row<Bodies> body) { return Shell(rows, body); };
         calls_.begin = [](BodyRows& rows, Row<Tasks> task, Events<StiffnessWanted>& wanted) {
             Begin(rows, task, wanted);
         };
+        return *this;
+    }
+    /// `GiveLate(rows, blows, task, stiffness_wanted, full)` gives rows to one that waited for its contacts: false,
+    /// there is no room.
+    template <auto GiveLate>
+    DamageModel& takes_late() {
         calls_.give_late = [](BodyRows& rows, const Blows& blows, Row<Tasks> task, Events<StiffnessWanted>& wanted,
                               const char** full) { return GiveLate(rows, blows, task, wanted, full); };
         return *this;
     }
-    /// `MayFindRoom(rows, body)`. False: a working copy of the body's shell has no room beside it even where nothing
-    /// else is, so that a hit need not wait for it. `Length(rows, body)`: a RunLength, none where runs are over before
-    /// anything presses on.
-    template <auto MayFindRoom, auto Length>
-    DamageModel& foretells() {
-        calls_.may_find_room = [](const BodyRows& rows, Row<Bodies> body) { return MayFindRoom(rows, body); };
+    /// `Room(rows, body)`: rows that a hit on the body takes. `MayFind(rows, body)`: false where they have no room
+    /// beside the body's even when nothing else is there, so that a hit need not wait for it.
+    template <auto Room, auto MayFind>
+    DamageModel& needs_room() {
+        calls_.room = [](BodyRows& rows, Row<Bodies> body) { return Room(rows, body); };
+        calls_.may_find_room = [](const BodyRows& rows, Row<Bodies> body) { return MayFind(rows, body); };
+        return *this;
+    }
+    /// `Length(rows, body)`: a RunLength, none where runs are over before anything presses on.
+    template <auto Length>
+    DamageModel& lasts() {
         calls_.length = [](const BodyRows& rows, Row<Bodies> body) { return Length(rows, body); };
+        return *this;
+    }
+    /// `IsPart(rows, task)`: the task's shell is a part of its body's.
+    template <auto IsPart>
+    DamageModel& works_on_parts() {
+        calls_.is_part = [](const RunRows& rows, uint32_t task) { return IsPart(rows, task); };
         return *this;
     }
     /// `Motion(rows, task)`: how the rest of a body moves that was hit on a part of it, once that part is back in it.
@@ -163,25 +191,23 @@ class DamageModel {
         calls_.restore_body = [](BodyRows& rows, Row<Bodies> body) { Body(rows, body); };
         return *this;
     }
-    /// `IsPart(rows, task)`: the task's shell is a part of its body's. `Room(rows, body)`: rows that a hit on the body
-    /// takes.
-    template <auto IsPart, auto Room>
-    DamageModel& works_on() {
-        calls_.is_part = [](const RunRows& rows, uint32_t task) { return IsPart(rows, task); };
-        calls_.room = [](BodyRows& rows, Row<Bodies> body) { return Room(rows, body); };
+    /// Rows that came from a file. `Shell(shell, wear, name, advice)` is a Result<void>, whose sentence begins with the
+    /// name and ends with the advice. Ranges, users and shared tables have been looked at before.
+    template <auto Shell>
+    DamageModel& checks() {
+        calls_.check_shell = [](const ShellView& shell, Wear wear, const std::string& name, const char* advice) {
+            return Shell(shell, wear, name, advice);
+        };
         return *this;
     }
-    /// Rows that came from a file. `Shell(shell, is_part, name, advice)` and `Rows(rows, name, advice)` are
-    /// Result<void>, whose sentence begins with the name and ends with the advice; `Task(rows, task)` is empty or what
-    /// the task's shell is or lacks. Ranges, users and shared tables have been looked at before.
-    template <auto Shell, auto Task, auto Rows>
-    DamageModel& checks() {
-        calls_.check_shell = [](const ShellView& shell, bool is_part, const std::string& name, const char* advice) {
-            return Shell(shell, is_part, name, advice);
-        };
+    /// The same of tasks and of rows of the model's own. `Task(rows, task)` is empty or what the task's shell is or
+    /// lacks; `Rows(rows, own, name, advice)` is a Result<void>. `own`: the model's number. Rows that it keeps for
+    /// tasks and bodies of another model may hold what they held.
+    template <auto Task, auto Rows>
+    DamageModel& checks_own() {
         calls_.trouble_of_task = [](const RunRows& rows, uint32_t task) { return Task(rows, task); };
-        calls_.check_rows = [](const SoftRows& rows, const std::string& name, const char* advice) {
-            return Rows(rows, name, advice);
+        calls_.check_rows = [](const SoftRows& rows, uint8_t own, const std::string& name, const char* advice) {
+            return Rows(rows, own, name, advice);
         };
         return *this;
     }

@@ -1,11 +1,15 @@
 // What the rest of the program asks damage models, and what it tells them.
 #pragma once
+#include <memory>
 #include <optional>
 #include <string>
 
 #include "cullet/result.hpp"
 #include "cullet/world.hpp"
 #include "systems/checks/world_energy.hpp"
+#include "systems/cook/cooking.hpp"
+#include "systems/cook/model_contents.hpp"
+#include "systems/structures/shell/cook/check_shell_rows.hpp"
 #include "systems/structures/shell/explosion.hpp"
 #include "systems/structures/shell/group_fragments.hpp"
 #include "systems/structures/shell/rigid_handoff.hpp"
@@ -55,6 +59,7 @@ struct RunLength {
 /// without one has nothing to do with it. DamageModel says what each is for.
 struct ModelCalls {
     // Cooking and spawning.
+    Result<std::shared_ptr<Model::Contents>> (*cook)(Cooking&) = nullptr;
     Result<void> (*check_spawn)(const SpawnSettings&) = nullptr;
     Result<Row<Shells>> (*spawn_shell)(SoftRows&, Row<Shells> source, const Spawning&) = nullptr;
     Result<ShellRoom> (*spawn_body)(SoftRows&, Row<Bodies>, const Spawning&) = nullptr;
@@ -88,9 +93,9 @@ struct ModelCalls {
     // Files.
     void (*restore_run)(RunRows&, Row<Tasks>) = nullptr;
     void (*restore_body)(BodyRows&, Row<Bodies>) = nullptr;
-    Result<void> (*check_shell)(const ShellView&, bool is_part, const std::string& name, const char* advice) = nullptr;
+    Result<void> (*check_shell)(const ShellView&, Wear, const std::string& name, const char* advice) = nullptr;
     std::string (*trouble_of_task)(const RunRows&, uint32_t task) = nullptr;
-    Result<void> (*check_rows)(const SoftRows&, const std::string& name, const char* advice) = nullptr;
+    Result<void> (*check_rows)(const SoftRows&, uint8_t own, const std::string& name, const char* advice) = nullptr;
 };
 
 }  // namespace cullet

@@ -60,7 +60,7 @@ class DamageModels {
 
     void restore_run(RunRows& rows, Row<Tasks> task) const;
     void restore_body(BodyRows& rows, Row<Bodies> body) const;
-    Result<void> check_shell(const ShellView& shell, bool is_part, const std::string& name, const char* advice) const;
+    Result<void> check_shell(const ShellView& shell, Wear wear, const std::string& name, const char* advice) const;
     std::string trouble_of_task(const RunRows& rows, uint32_t task) const;
 
     // ---- these ask all of them, one after the other

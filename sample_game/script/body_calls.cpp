@@ -1,6 +1,8 @@
 // game.cook, spawn, throw, kinematic, and what a body can be asked and told.
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
+#include <algorithm>
 #include <cmath>
 #include <lua.hpp>
 
@@ -16,7 +18,6 @@ namespace cullet {
 namespace {
 
 constexpr const char *kCookedName = "cooked model", *kBodyName = "body";
-constexpr const char* kModels = "thick_shell";  // those that this version has
 // Work in instructions. A body takes 10 to 500 us to put into the world, so four thousand of them fit one frame. What
 // cooking takes counts less than it is: the limit on models ends a loop of it.
 constexpr uint64_t kWorkABody = 3000, kWorkACook = 10'000;
@@ -82,12 +83,15 @@ uint32_t cook_given(lua_State* lua, const Arguments& given, bool has_kind) {
             fmt::format("the run has {} models already; cook each once and spawn it as cooked = ..., or raise "
                         "the limit with game.setting{{limits = {{models = ...}}}}",
                         stage.models.size()));
+    const std::vector<std::string> models = damage_model_names();
     const std::string model =
-        stage.plan.model.empty() ? given.word("model", "the name of a model", kModels) : stage.plan.model;
-    if (model != kModels) given.refuse(fmt::format("model is \"{}\"; expected one of {}", model, kModels));
+        stage.plan.model.empty() ? given.word("model", "the name of a model", models[0]) : stage.plan.model;
+    if (std::find(models.begin(), models.end(), model) == models.end())
+        given.refuse(fmt::format("model is \"{}\"; expected one of {}", model, fmt::join(models, ", ")));
     given.push("mesh");
     const ScriptMesh& mesh = mesh_at(lua, lua_gettop(lua), "game.cook: mesh");
     CookSettings settings;
+    settings.model = model;
     settings.material = given.word("material", stage.materials.names().c_str(), settings.material);
     if (has_kind) settings.fracture = fracture_of(given);
     settings.grain = given.vector("grain", {"a direction", -1e6, 1e6}, settings.grain);

@@ -408,7 +408,8 @@ Result<void> check_state(const DamageModels& models, const State& state, const s
                          std::to_string(state.materials.size()) + ". " + kAdvice};
         if (has_no_rows(state.shells, row) && is_of_scenery(state, row)) continue;
         const ShellView shell(rows, Row<Shells>(row));
-        const Result<void> sound = models.check_shell(shell, is_part_of_body(models, state, row), name, kAdvice);
+        const Wear wear = is_part_of_body(models, state, row) ? Wear::CutOut : Wear::Worn;
+        const Result<void> sound = models.check_shell(shell, wear, name, kAdvice);
         if (!sound) return sound;
     }
     return models.check_rows(state, name, kAdvice);

@@ -1,4 +1,5 @@
 // Models come into a world and go.
+#include "systems/models.hpp"
 #include "engine/host_scope.hpp"
 #include "systems/api/checks.hpp"
 #include "systems/api/model_row.hpp"
@@ -15,6 +16,11 @@ Result<ModelId> World::add_model(const Model& model) {
     State& state = contents_->data.state;
     const HostScope call(contents_->host);
     if (contents_->recorder) contents_->recorder->add_model(model);
+    const DamageModels& models = *contents_->data.damage_models;
+    const std::optional<uint8_t> breaks = models.find(model.contents->damage_model);
+    if (!breaks)
+        return Error{model.contents->name + ": is cooked for the damage model " + model.contents->damage_model +
+                     "; this world has " + models.names() + "."};
     uint32_t row = 0;
     while (row < state.models.size() && state.models.is_used[row]) ++row;
     if (row == state.models.size() && state.models.append(1) == kNone)
@@ -31,6 +37,7 @@ Result<ModelId> World::add_model(const Model& model) {
     const Row<Shells> shell = import_shell(state, model.contents->state, model.contents->shell, &full);
     if (!shell.exists()) return Error{model.contents->name + ": no room for the model; raise " + full + "."};
     state.shells.material[shell] = material;
+    state.shells.damage_model[shell] = *breaks;
     state.models.is_used[row] = 1;
     state.models.shell[row] = shell;
     (void)sorted_elements(ShellView(state, shell));  // its bodies' copies know, too

@@ -6,7 +6,7 @@
 #include "engine/checksum.hpp"
 #include "engine/mesh_file.hpp"
 #include "systems/api/model_hash.hpp"
-#include "systems/models/thick_shell/model_file.hpp"
+#include "systems/cook/model_file.hpp"
 
 namespace cullet {
 

@@ -8,7 +8,7 @@
 #include "systems/api/settings_bytes.hpp"
 #include "systems/api/snapshot.hpp"
 #include "systems/api/with_models.hpp"
-#include "systems/models/thick_shell/model_file.hpp"
+#include "systems/cook/model_file.hpp"
 
 namespace cullet {
 namespace {
@@ -256,7 +256,7 @@ void Replayer::add_model(ByteReader& in) {
     const Result<std::vector<uint8_t>> bytes = read_whole_file(path, uint64_t{1} << 34);
     if (!in.expect(bytes.ok(), "a model that is not there (" + bytes.error() + ")")) return;
     if (!in.expect(checksum_of(*bytes) == hash, "a model whose file " + path + " holds other bytes")) return;
-    const Result<Model> model = parse_model_file(*bytes, path);
+    const Result<Model> model = parse_model_file(*bytes, path, *source_.damage_models);
     if (in.expect(model.ok(), "a model that cannot be read (" + model.error() + ")")) (void)world_->add_model(*model);
 }
 

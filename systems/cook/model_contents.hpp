@@ -10,7 +10,7 @@ struct Model::Contents {
     explicit Contents(const Limits& limits) : state(limits) {}
     Workbench state;  // the first materials and its own, and the rows of one shell
     Row<Shells> shell;
-    std::string name, material;
+    std::string name, material, damage_model;
     ModelReport report;
 };
 

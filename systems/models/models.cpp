@@ -165,10 +165,10 @@ void DamageModels::restore_body(BodyRows& rows, Row<Bodies> body) const {
     if (const auto call = call_of(rows, body, &ModelCalls::restore_body)) call(rows, body);
 }
 
-Result<void> DamageModels::check_shell(const ShellView& shell, bool is_part, const std::string& name,
+Result<void> DamageModels::check_shell(const ShellView& shell, Wear wear, const std::string& name,
                                        const char* advice) const {
     const auto call = call_of(shell.state, shell.row, &ModelCalls::check_shell);
-    return call ? call(shell, is_part, name, advice) : Result<void>();
+    return call ? call(shell, wear, name, advice) : Result<void>();
 }
 
 std::string DamageModels::trouble_of_task(const RunRows& rows, uint32_t task) const {
@@ -198,9 +198,9 @@ Row<Bodies> DamageModels::take_torn(SoftRows& rows) const {
 }
 
 Result<void> DamageModels::check_rows(const SoftRows& rows, const std::string& name, const char* advice) const {
-    for (const DamageModel& model : models_)
-        if (const auto check = model.calls().check_rows)
-            if (const Result<void> sound = check(rows, name, advice); !sound) return sound;
+    for (size_t own = 0; own < models_.size(); ++own)
+        if (const auto check = models_[own].calls().check_rows)
+            if (const Result<void> sound = check(rows, static_cast<uint8_t>(own), name, advice); !sound) return sound;
     return {};
 }
 

@@ -1,5 +1,5 @@
 // Reads anything as a model file; what is accepted is put into a world and hit.
-#include "systems/models/thick_shell/model_file.hpp"
+#include "systems/cook/model_file.hpp"
 
 #include "engine/memory.hpp"
 #include "tests/fuzz/fuzz.hpp"
@@ -23,7 +23,7 @@ std::vector<Bytes> make_seeds() {
 
 bool read(std::span<const uint8_t> file) {
     const MemoryScope memory(frugal_host().allocator);
-    const Result<Model> model = parse_model_file(file, "fuzz.cmodel");
+    const Result<Model> model = parse_model_file(file, "fuzz.cmodel", *damage_models());
     if (!model) return false;
     World world = value_of(World::create(small_settings(), frugal_host()));
     const Result<ModelId> id = world.add_model(*model);

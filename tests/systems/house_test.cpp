@@ -24,7 +24,7 @@ constexpr uint32_t kFilesWithState = 0;
 constexpr uint32_t kUnnamedParameters = 16;  // copies that are deleted, calls that need no argument; none of a system
 constexpr uint32_t kMutualFolders = 0;
 constexpr uint32_t kWideSystems = 0;
-constexpr uint32_t kFilesWithAModel = 3;
+constexpr uint32_t kFilesWithAModel = 0;
 
 struct Source {
     std::string path;    // "systems/structures/shell/ring.cpp"

@@ -6,6 +6,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "cullet/host.hpp"
 #include "cullet/material.hpp"
@@ -68,7 +69,11 @@ enum class Propagation : uint8_t {
     SingleVertexTets,  // the same, with the elements tested too: as sound as the default, slower
 };
 
+/// The damage models that this version has: how things break. CookSettings::model names one.
+std::vector<std::string> damage_model_names();
+
 struct CookSettings {
+    std::string model = {};                     // one of damage_model_names(); empty: the first
     std::string material = "porcelain";         // a name in `materials`
     const MaterialTable* materials = nullptr;   // null: the compiled table
     std::optional<FractureKind> fracture = {};  // in place of the material's
@@ -118,7 +123,7 @@ class Model {
     std::shared_ptr<const Contents> contents;
 };
 
-/// Turns a surface into a thick shell. Refuses what cannot be cooked with a sentence.
+/// Turns a surface into a model that the damage model breaks. Refuses what cannot be cooked with a sentence.
 Result<Model> cook(const MeshView& mesh, const CookSettings& settings);
 
 /// A model file (.cmodel) holds the rows after cooking, so that a game cooks once.

@@ -1,14 +1,14 @@
-// What the check of a snapshot asks of the thick shell (model_calls.hpp).
+// What checks of files ask of the thick shell (model_calls.hpp).
 #pragma once
 #include "systems/model_calls.hpp"
 
 namespace cullet {
 
-/// The shell's rows, by the rules of cooked ones.
-Result<void> check_worn_shell(const ShellView& shell, bool is_part, const std::string& name, const char* advice);
+/// The shell's rows; one that nothing has hit has its stiffness, and runs on it end.
+Result<void> check_thick_shell(const ShellView& shell, Wear wear, const std::string& name, const char* advice);
 /// A hidden run has stiffness.
 std::string trouble_of_run(const RunRows& state, uint32_t task);
 /// Springs, quick runs and regions.
-Result<void> check_model_rows(const BodyRows& state, const std::string& name, const char* advice);
+Result<void> check_model_rows(const BodyRows& state, uint8_t own, const std::string& name, const char* advice);
 
 }  // namespace cullet

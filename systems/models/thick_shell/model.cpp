@@ -1,6 +1,7 @@
 #include "systems/models/thick_shell/model.hpp"
 
 #include "systems/models/thick_shell/check_calls.hpp"
+#include "systems/models/thick_shell/cook_shell.hpp"
 #include "systems/models/thick_shell/hidden/restart.hpp"
 #include "systems/models/thick_shell/loops.hpp"
 #include "systems/models/thick_shell/open_calls.hpp"
@@ -38,15 +39,16 @@ DamageModel thick_shell_model() {
     model.at(Slot::GiveBack).then<return_soft>();
     model.at(Slot::Show).then<show_soft>();
     register_loops(model);
-    model.cancels<cancel_run>();
-    model.has_energy<soft_energy>().takes_blows<push_soft_body, explode_soft_body>();
-    model.takes<working_shell, begin_run, give_late_rows>().foretells<may_find_room, run_length>();
+    model.cooks<cook_thick_shell>();
+    model.spawns<spawn_body>().spawns_own<check_spawn, spawn_shell>();
+    model.takes<working_shell, begin_run>().takes_late<give_late_rows>().needs_room<room_of_hit, may_find_room>();
+    model.lasts<run_length>().works_on_parts<is_cut_out>().cancels<cancel_run>();
     model.moves_rest<motion_of_rest>().inherits<inherit_fracture>().keeps_cell_names<is_quick_body>();
+    model.has_energy<soft_energy>().takes_blows<push_soft_body, explode_soft_body>();
     model.may_tear<is_awake, look_for_pieces, take_torn>().tears<hand_off_torn, give_torn_pieces, keep_torn_body>();
     model.keeps_for_bodies<follow_body, release_soft>();
-    model.restores<restore_scratch, restore_sums>().works_on<is_cut_out, room_of_hit>();
-    model.checks<check_worn_shell, trouble_of_run, check_model_rows>();
-    model.spawns<check_spawn, spawn_shell, spawn_body>();
+    model.restores<restore_scratch, restore_sums>();
+    model.checks<check_thick_shell>().checks_own<trouble_of_run, check_model_rows>();
     return model;
 }
 

@@ -1,6 +1,6 @@
 // The compiled table, tables of the game's own, and where a material's values go.
-#include "components/state.hpp"
 #include "systems/cook/materials.hpp"
+#include "components/state.hpp"
 
 #include <gtest/gtest.h>
 
@@ -12,7 +12,7 @@
 #include "sample_game/meshes.hpp"
 #include "sample_game/props.hpp"
 #include "systems/cook/model_contents.hpp"
-#include "systems/models/thick_shell/model_file.hpp"
+#include "systems/cook/model_file.hpp"
 #include "systems/models/thick_shell/stiffness/grain_stiffness.hpp"
 #include "systems/world_contents.hpp"
 
@@ -185,7 +185,7 @@ TEST(Materials, CookingTakesTheTablesRowAndTheModelFileKeepsIt) {
     ASSERT_TRUE(model.ok()) << model.error();
     const Result<Model> porcelain = cook_ball({});
     EXPECT_NEAR(model->report().mass / porcelain->report().mass, 1300.0 / 2400, 1e-6);
-    const Result<Model> read = parse_model_file(encode_model_file(*model->contents), "t");
+    const Result<Model> read = parse_model_file(encode_model_file(*model->contents), "t", *damage_models());
     ASSERT_TRUE(read.ok()) << read.error();
     const Workbench& state = read->contents->state;
     const Row<Materials> row = state.shells.material[read->contents->shell];

@@ -35,10 +35,15 @@ std::string trouble_of_body(const QuickBodies& quick, uint32_t b) {
     return fits ? std::string() : place(quick, "strain_limit", b) + " or a number beside it is out of range";
 }
 
-std::string trouble_of_run(const BodyRows& s, uint32_t t) {
+/// Of this model. What works on its tasks stands in the same rows as what worked on those that had the place before.
+bool is_open_task(const BodyRows& s, uint8_t own, uint32_t t) {
+    return t < s.tasks.size() && static_cast<TaskState>(s.tasks.state[t]) != TaskState::Free && s.model_of(t) == own;
+}
+
+std::string trouble_of_run(const BodyRows& s, uint8_t own, uint32_t t) {
     const QuickRuns& runs = s.quick_runs;
     if (runs.is_quick[t] > 1) return place(runs, "is_quick", t) + " is not 0 or 1";
-    const bool is_open = t < s.tasks.size() && static_cast<TaskState>(s.tasks.state[t]) != TaskState::Free;
+    const bool is_open = is_open_task(s, own, t);
     if (!runs.is_quick[t] && is_open && is_cut_out(s, t))
         return trouble_of_hidden_region(const_cast<BodyRows&>(s), t);  // scratch alone is written
     if (!runs.is_quick[t] || !is_open) return {};
@@ -74,15 +79,14 @@ std::string trouble_of_run(const BodyRows& s, uint32_t t) {
 
 }  // namespace
 
-Result<void> check_quick_rows(const BodyRows& s, const std::string& name, const std::string& advice) {
+Result<void> check_quick_rows(const BodyRows& s, uint8_t own, const std::string& name, const std::string& advice) {
     std::string trouble;
     for (uint32_t b = 0; b < s.quick_bodies.size() && trouble.empty(); ++b)
         trouble = trouble_of_body(s.quick_bodies, b);
-    for (uint32_t t = 0; t < s.quick_runs.size() && trouble.empty(); ++t) trouble = trouble_of_run(s, t);
+    for (uint32_t t = 0; t < s.quick_runs.size() && trouble.empty(); ++t) trouble = trouble_of_run(s, own, t);
     // A task of a quick body without a run of its own would step stiffness that it does not have.
     for (uint32_t t = 0; t < s.tasks.size() && trouble.empty(); ++t)
-        if (static_cast<TaskState>(s.tasks.state[t]) != TaskState::Free && is_quick_body(s, s.tasks.body[t]) &&
-            !is_quick_task(s, t))
+        if (is_open_task(s, own, t) && is_quick_body(s, s.tasks.body[t]) && !is_quick_task(s, t))
             trouble = place(s.tasks, "body", t) + " is quick, and its task is not";
     if (!trouble.empty()) return Error{name + ": " + trouble + ". " + advice};
     return {};

@@ -6,7 +6,6 @@
 
 #include "engine/mesh_file.hpp"
 #include "systems/hulls/extreme_points.hpp"
-#include "systems/models/thick_shell/shared/working_room.hpp"
 #include "systems/structures/shell/cook/check_shell_rows.hpp"
 #include "systems/structures/shell/piece_shape.hpp"
 #include "systems/structures/shell/ring.hpp"
@@ -457,12 +456,7 @@ Result<void> check_shell_rows(const ShellView& shell, Wear wear, const std::stri
     check_columns(check, state.cells, s.cells[shell.row]);
     check_columns(check, state.hull_points, s.points[shell.row]);
     const uint32_t material = s.material[shell.row];
-    if (check.expect(material < state.materials.size(), "shells.material is " + std::to_string(material))) {
-        const float step = s.time_step[shell.row];
-        const float run = run_seconds(state, material, s.area[shell.row]);
-        check.expect(run <= kMostSteps * step,
-                     "shells.time_step is " + std::to_string(step) + " s for a hit of " + std::to_string(run) + " s");
-    }
+    check.expect(material < state.materials.size(), "shells.material is " + std::to_string(material));
     // Each believes what those before it have found.
     for (auto* look : {check_links, check_hinges, check_vertices, check_stiffness, check_cells, check_masses})
         if (check.is_sound()) look(check);

@@ -1,25 +1,21 @@
-#include "systems/models/thick_shell/model_file.hpp"
+#include "systems/cook/model_file.hpp"
 
 #include <algorithm>
+#include <array>
+#include <bit>
 #include <memory>
 #include <new>
 
 #include "engine/file_header.hpp"
-#include "engine/host_scope.hpp"
-#include "engine/memory.hpp"
-#include "engine/mesh_file.hpp"
 #include "engine/table_bytes.hpp"
 #include "systems/cook/materials.hpp"
-#include "systems/structures/shell/cook/check_shell_rows.hpp"
 
 namespace cullet {
 namespace {
 
-constexpr uint64_t kLargestFile = 1ull << 34;  // rows of it, and of what is derived from them, count in 32 bits
-
 constexpr const char* kAdvice = "The model file is damaged or of another build; cook the mesh again and write it.";
 constexpr FileKind kKind{{'c', 'm', 'o', 'd', 'l', '\r', '\n', '\x1a'},
-                         9,
+                         10,
                          "model file",
                          ".cmodel",
                          "Write one with write_model.",
@@ -80,13 +76,14 @@ void take_material(ByteReader& reader, MaterialSettings& material, Vec3& grain) 
     const Result<void> valid = check_row(material);
     reader.expect(valid.ok(), valid.error());
     const float squared = dot(grain, grain);
-    reader.expect(material.across_young_modulus > 0 ? std::abs(squared - 1) <= 1e-5f : squared == 0,
+    const bool is_zero = std::bit_cast<std::array<uint32_t, 3>>(grain) == std::array<uint32_t, 3>{};
+    reader.expect(material.across_young_modulus > 0 ? std::abs(squared - 1) <= 1e-5f : is_zero,
                   "the grain's length squared is " + std::to_string(squared));
 }
 
 /// Everything of the payload, with the rows still in the bytes.
 struct Found {
-    std::string name;
+    std::string name, damage_model;
     MaterialSettings material;
     Vec3 grain;
     ModelReport report;
@@ -98,6 +95,7 @@ Result<Found> find_all(std::span<const uint8_t> payload, const std::string& name
     Found found;
     ByteReader reader(payload, name, kAdvice, kFileHeaderBytes);
     found.name = reader.text("the model's name");
+    found.damage_model = reader.text("the damage model's name");
     take_material(reader, found.material, found.grain);
     found.report.repairs = reader.text("the sentence of repairs");
     found.report.advice = reader.text("the sentence of advice");
@@ -136,11 +134,12 @@ Limits limits_for(const std::vector<FoundTable>& parts) {
 Result<void> check_counts(const Found& found, const std::string& name) {
     const auto rows = [&](Part part) { return found.parts[part].rows; };
     const auto count = [](uint32_t n) { return std::to_string(n); };
-    if (rows(kVertices) == 0 || rows(kElements) == 0 || rows(kBlocks) == 0 || rows(kCells) == 0)
+    if (rows(kVertices) == 0 || rows(kElements) == 0 || rows(kCells) == 0)
         return damaged(name, "it has " + count(rows(kVertices)) + " vertices, " + count(rows(kElements)) +
-                                 " elements, " + count(rows(kBlocks)) + " stiffness blocks and " + count(rows(kCells)) +
-                                 " cells; none of them may be 0");
-    if (rows(kVertices) % kLanes != 0 || rows(kPacks) != rows(kVertices) / kLanes || rows(kSprings) != rows(kElements))
+                                 " elements and " + count(rows(kCells)) + " cells; none of them may be 0");
+    const uint32_t packs =
+        rows(kBlocks) == 0 && rows(kLinks) == 0 ? 0 : rows(kVertices) / kLanes;  // none: no stiffness
+    if (rows(kVertices) % kLanes != 0 || rows(kPacks) != packs || rows(kSprings) != rows(kElements))
         return damaged(name, count(rows(kVertices)) + " vertices and " + count(rows(kElements)) + " elements have " +
                                  count(rows(kPacks)) + " packs and " + count(rows(kSprings)) +
                                  " triangle springs; 8 vertices make a pack, and an element has one row of springs");
@@ -213,6 +212,7 @@ std::vector<uint8_t> encode_model_file(const Model::Contents& contents) {
     ByteWriter writer;
     writer.bytes.resize(kFileHeaderBytes);
     writer.text(contents.name);
+    writer.text(contents.damage_model);
     const Row<Materials> material = contents.state.shells.material[contents.shell];
     if (material < contents.state.materials.size())
         put_material(writer, contents.material, material_settings(contents.state, material),
@@ -231,13 +231,17 @@ std::vector<uint8_t> encode_model_file(const Model::Contents& contents) {
     return std::move(writer.bytes);
 }
 
-Result<Model> parse_model_file(std::span<const uint8_t> bytes, const std::string& name) {
+Result<Model> parse_model_file(std::span<const uint8_t> bytes, const std::string& name, const DamageModels& models) {
     try {
         const auto payload = payload_of(kKind, bytes, name);
         if (!payload) return Error{payload.error()};
         const Result<Found> found = find_all(*payload, name);
         if (!found) return Error{found.error()};
         if (const Result<void> fits = check_counts(*found, name); !fits) return Error{fits.error()};
+        const std::optional<uint8_t> number = models.find(found->damage_model);
+        if (!number)
+            return Error{name + ": is cooked for the damage model \"" + found->damage_model + "\"; this version has " +
+                         models.names() + ". Cook the mesh again for one of them."};
         const auto contents = std::make_shared<Model::Contents>(limits_for(found->parts));
         fill_materials(contents->state.materials);
         const Result<Row<Shells>> shell = copy_rows(contents->state, *found, name);
@@ -249,14 +253,15 @@ Result<Model> parse_model_file(std::span<const uint8_t> bytes, const std::string
         contents->state.shells.material[*shell] =
             material_row({contents->state.materials, contents->state.material_traits, contents->state.shells},
                          found->material, found->grain);
-        if (const Result<void> sound =
-                check_shell_rows(ShellView(contents->state, *shell), Wear::Intact, name, kAdvice);
-            !sound)
+        const auto check = models[*number].calls().check_shell;
+        const ShellView view(contents->state, *shell);
+        if (const Result<void> sound = check ? check(view, Wear::Intact, name, kAdvice) : Result<void>(); !sound)
             return Error{sound.error()};
         if (const Result<void> fits = check_report(*found, contents->state, *shell, name); !fits)
             return Error{fits.error()};
         contents->shell = *shell;
         contents->name = found->name;
+        contents->damage_model = found->damage_model;
         contents->material = found->material.name;
         contents->report = found->report;
         Model model;
@@ -266,26 +271,6 @@ Result<Model> parse_model_file(std::span<const uint8_t> bytes, const std::string
         return Error{name + ": no memory for " + std::to_string(bytes.size()) +
                      " bytes of model. Free memory or cook with longer edges."};
     }
-}
-
-Result<void> write_model(const Model& model, const std::string& path) {
-    if (!model.contents) return Error{path + ": the model is empty; cook one before writing it."};
-    try {
-        return write_whole_file(encode_model_file(*model.contents), path);
-    } catch (const std::bad_alloc&) {
-        return Error{path + ": no memory for the bytes of the model. Free memory."};
-    }
-}
-
-Result<Model> read_model(const std::string& path, const Host* given) {
-    static const Host no_host;
-    const Host& host = given ? *given : no_host;
-    if (const Result<void> valid = check_host(host); !valid) return Error{valid.error()};
-    const HostScope call(host);
-    const MemoryScope memory(host.allocator);
-    const Result<std::vector<uint8_t>> bytes = read_whole_file(path, kLargestFile);
-    if (!bytes) return Error{bytes.error()};
-    return parse_model_file(*bytes, path);
 }
 
 }  // namespace cullet

@@ -1,4 +1,4 @@
-#include "systems/models/thick_shell/model_file.hpp"
+#include "systems/cook/model_file.hpp"
 #include "components/state.hpp"
 
 #include <gtest/gtest.h>
@@ -18,6 +18,10 @@ namespace cullet {
 namespace {
 
 constexpr size_t kHeader = 64;
+
+Result<Model> parse_model_file(std::span<const uint8_t> bytes, const std::string& name) {
+    return cullet::parse_model_file(bytes, name, *damage_models());
+}
 
 /// A globe with texture coordinates and materials, some of its vertices in padded packs.
 const Model& sample() {
@@ -354,8 +358,8 @@ TEST(ModelFile, LinksThatDoNotLeadBackAreRefused) {
 TEST(ModelFile, OtherFilesVersionsAndMaterialsAreToldApart) {
     expect_refused(std::vector<uint8_t>{'P', 'K', 3, 4}, "is no model file");
     std::vector<uint8_t> bytes = good_bytes();
-    put(bytes, 8, 8u);
-    expect_refused(bytes, "has version 8, this build reads version 9");
+    put(bytes, 8, 9u);
+    expect_refused(bytes, "has version 9, this build reads version 10");
     const Result<Model> read = parse_model_file(good_bytes(), "t");
     auto& contents = const_cast<Model::Contents&>(*read->contents);
     contents.material = "a jelly";

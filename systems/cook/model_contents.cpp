@@ -1,0 +1,23 @@
+#include "systems/cook/model_contents.hpp"
+
+namespace cullet {
+
+Limits cooking_limits(uint32_t vertices, uint32_t elements) {
+    Limits limits;
+    limits.bodies = limits.models = limits.debris = 1;
+    limits.shells = 8;
+    limits.tasks = 1;
+    limits.vertices = 5 * vertices + 8192;
+    limits.elements = 5 * elements + 16384;
+    limits.view_vertices = 64;
+    return limits;
+}
+
+Row<Shells> import_shell(ShellRows& to, const ShellRows& from, Row<Shells> shell, const char** full) {
+    const ShellRoom room = room_of(from, shell);
+    const Row<Shells> copy = make_shell(to, room, full);
+    if (copy.exists()) copy_shell_rows(to, from, shell, copy, room.blocks > 0);
+    return copy;
+}
+
+}  // namespace cullet
