@@ -320,38 +320,6 @@ void check_blows(Checker& check) {
     }
 }
 
-/// Rows of bodies that have springs, one a body; those that are awake have all that a frame follows.
-void check_soft(Checker& check) {
-    const State& s = check.state;
-    const SoftBodies& soft = s.soft_bodies;
-    check.expect(s.soft_strikers.size() == kMostStrikers * soft.size(),
-                 "soft_strikers and soft_bodies do not fit each other in rows");
-    std::vector<uint8_t> has_row(s.bodies.size(), 0);
-    for (uint32_t row = 0; row < soft.size() && check.is_sound(); ++row) {
-        for (const auto* flag :
-             {&soft.is_used, &soft.is_awake, &soft.is_called, &soft.is_elastic, &soft.is_torn, &soft.is_moved})
-            check.expect_flag(soft, *flag, "is_used, is_awake, is_called, is_elastic, is_torn or is_moved", row);
-        check.expect(soft.is_used[row] || !(soft.is_awake[row] || soft.is_torn[row]),
-                     Checker::place(soft, "is_awake", row) + " or is_torn is set in a free row");
-        if (!soft.is_used[row] || !check.is_sound()) continue;
-        const uint32_t body = soft.body[row];
-        const bool fits = is_body(s, body) && s.bodies.shell[body].exists() && is_shell(s, s.bodies.shell[body]) &&
-                          find_springs(s, s.bodies.shell[body]).exists() && !has_row[body]++;
-        if (!check.expect(fits, Checker::place(soft, "body", row) + " is " + std::to_string(body) +
-                                    ", no body with springs of its own"))
-            return;
-        const Range vertices = s.shells.vertices[s.bodies.shell[body]];
-        check.expect(first_contact_row(vertices.first + vertices.capacity) <= s.soft_contacts.size(),
-                     Checker::place(soft, "body", row) + " has no rows for contacts");
-        check.expect(soft.substeps[row] >= 1 && soft.substeps[row] <= 1000,
-                     Checker::place(soft, "substeps", row) + " is " + std::to_string(soft.substeps[row]));
-        check.expect(soft.drag_time[row] > 0 && soft.break_strain[row] > 0 && soft.yield_strain[row] >= 0,
-                     Checker::place(soft, "drag_time", row) + ", break_strain or yield_strain is out of range");
-        check.expect(soft.partner_count[row] <= kMostPartners,
-                     Checker::place(soft, "partner_count", row) + " is " + std::to_string(soft.partner_count[row]));
-    }
-}
-
 /// Shells are given back when their last user goes: the count must be true.
 void check_users(Checker& check) {
     const State& s = check.state;
@@ -393,8 +361,8 @@ Result<void> check_state(const DamageModels& models, const State& state, const s
     Checker check{state, models, name, {}};
     const std::string not_finite = state.validate();
     check.expect(not_finite.empty(), not_finite);
-    for (auto* look : {check_ranges, check_damage_models, check_models, check_tasks, check_bodies, check_blows,
-                       check_users, check_soft})
+    for (auto* look :
+         {check_ranges, check_damage_models, check_models, check_tasks, check_bodies, check_blows, check_users})
         if (check.is_sound()) look(check);
     if (!check.is_sound()) return Error{check.trouble};
     if (const Result<void> valid = check_material_rows(state); !valid)

@@ -3,6 +3,7 @@
 #include "systems/models/thick_shell/quick/check_quick.hpp"
 #include "systems/models/thick_shell/shared/quick_body.hpp"
 #include "systems/models/thick_shell/shared/working_room.hpp"
+#include "systems/models/thick_shell/soft/check_soft.hpp"
 #include "systems/models/thick_shell/springs/check_springs.hpp"
 #include "systems/tasks/step_limits.hpp"
 
@@ -26,7 +27,8 @@ std::string trouble_of_run(const RunRows& state, uint32_t task) {
     return is_sound ? "" : "has no stiffness";
 }
 
-Result<void> check_model_rows(const BodyRows& state, uint8_t own, const std::string& name, const char* advice) {
+Result<void> check_model_rows(const SoftRows& state, uint8_t own, const std::string& name, const char* advice) {
+    if (const Result<void> sound = check_soft(state, name, advice); !sound) return sound;
     if (const Result<void> sound = check_springs(state, name, advice); !sound) return sound;
     return check_quick_rows(state, own, name, advice);
 }

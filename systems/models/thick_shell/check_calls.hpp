@@ -8,7 +8,7 @@ namespace cullet {
 Result<void> check_thick_shell(const ShellView& shell, Wear wear, const std::string& name, const char* advice);
 /// A hidden run has stiffness.
 std::string trouble_of_run(const RunRows& state, uint32_t task);
-/// Springs, quick runs and regions.
-Result<void> check_model_rows(const BodyRows& state, uint8_t own, const std::string& name, const char* advice);
+/// Soft bodies, springs, quick runs and regions.
+Result<void> check_model_rows(const SoftRows& state, uint8_t own, const std::string& name, const char* advice);
 
 }  // namespace cullet
