@@ -13,6 +13,8 @@ struct CutSide {
 
 class CutSurface {
  public:
+    /// A plane. The normal is of length 1.
+    CutSurface(Vec3 place, Vec3 normal) : place_(place), normal_(normal) {}
     /// Of a row of Blows, in the axes that it stands in.
     CutSurface(const Blows& blows, uint32_t row);
     /// Signed distance. Of a polyline: to its nearest segment; at a corner both share the sign of the one that the

@@ -4,6 +4,10 @@
 
 namespace cullet {
 
+const CutRepair kNoRepair{[](ShellView, uint32_t) {}, [](ShellView, uint32_t) { return 0u; },
+                          []([[maybe_unused]] const Shells& shells, Row<Shells>) { return true; },
+                          [](ShellView, uint32_t, uint32_t, uint32_t) {}, [](ShellView) {}};
+
 void mark_touched(const ShellView& shell, const Touched& touched) {
     uint8_t* const flags = shell.state.elements.flags.data() + shell.elements().first;
     const auto mark = [&](uint32_t e) { flags[e] |= kIsTouched; };

@@ -15,6 +15,9 @@ struct CutRepair {
     void (*limit)(ShellView shell);  // all of a shell without stiffness rows, after many cuts
 };
 
+/// Of a model that holds its shells together by nothing that is kept in rows.
+extern const CutRepair kNoRepair;
+
 /// What changed since the model made its rows anew.
 struct Touched {
     explicit Touched(const CutRepair& r) : repair(r) {}
