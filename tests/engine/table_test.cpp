@@ -232,6 +232,12 @@ TEST(Table, ValidationNamesThePlaceOfAValueThatIsNotFinite) {
     p.weight[3][4] = 0;
     p.centre.set(1, {0, 0, std::numeric_limits<double>::quiet_NaN()});
     EXPECT_EQ(p.validate(), "pebbles.centre[1].z is nan, not a finite number");
+    p.centre.set(1, {});
+    p.velocity.set(899, {1, std::numeric_limits<float>::infinity(), 1});
+    EXPECT_EQ(p.validate(), "pebbles.velocity[899].y is inf, not a finite number");
+    p.velocity.set(899, {std::numeric_limits<float>::max(), -std::numeric_limits<float>::denorm_min(), 1});
+    EXPECT_EQ(p.validate(), "");
+    p.centre.set(1, {0, 0, std::numeric_limits<double>::quiet_NaN()});
     p.truncate(1);
     EXPECT_EQ(p.validate(), "");
 }
