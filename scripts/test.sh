@@ -1,5 +1,6 @@
 #!/usr/bin/env bash
 # Builds everything with all checks on and runs the tests; about a quarter of an hour on two cores, less the next time.
+# CULLET_ALL_TESTS=1 in the environment plays what the usual run leaves out.
 # --all [--failed] [--quick] [parts]: every preset, SIMD level and number of threads, the fuzz programs and the packages instead, which are
 # installed on this machine and removed again, as root (scripts/test_all.sh).
 set -euo pipefail

@@ -92,16 +92,16 @@ build() {
 }
 # What follows prints its result, the second column of the page, as its last line.
 preset_part() {
-    local scene_frames=120
+    local long_run=(CULLET_ALL_TESTS=1)
     build "$1" || return 1
     # Builds that are ten times slower play the scenes for fewer frames; nothing is left out.
-    [[ $1 == debug || $1 == asan || $1 == tsan ]] && scene_frames=40
+    [[ $1 == debug || $1 == asan || $1 == tsan ]] && long_run+=(CULLET_SCENE_FRAMES=40)
     local before which=("${tests[@]}")
     before=$(row_of "$1" | awk -F' *[|] *' '/FAILED/ { print $3 " at " $4 }')
     if $failed_only && [[ -n $before ]]; then
         which=(--rerun-failed)
     fi
-    CULLET_SCENE_FRAMES=$scene_frames ctest --test-dir "build/$1" --output-on-failure -j 2 "${which[@]}" >"$logs/$1_tests.log" 2>&1
+    env "${long_run[@]}" ctest --test-dir "build/$1" --output-on-failure -j 2 "${which[@]}" >"$logs/$1_tests.log" 2>&1
     local outcome=$?
     if [[ ${which[*]} == --rerun-failed ]]; then
         printf 'Of those that had failed (%s): ' "${before#FAILED: }"

@@ -1,30 +1,14 @@
-// The camera of each scene holds what is to be seen: nearly all of what breaks lies within the picture, and in sight.
-// At the start it is large enough to be made out.
-#include <gtest/gtest.h>
+#include "tests/support/camera_view.hpp"
 
 #include <algorithm>
 #include <cmath>
-#include <cstdlib>
+#include <vector>
 
 #include "cullet/query.hpp"
-#include "sample_game/game_world.hpp"
-#include "sample_game/run_scene.hpp"
 #include "systems/world_contents.hpp"
 
-namespace cullet {
+namespace cullet::test {
 namespace {
-
-// What breaks lies still by then, but for the pile and the street, which go on. CULLET_SCENE_FRAMES=1200 plays all of
-// all.
-constexpr uint32_t kFrames = 240, kPileFrames = 100;  // what comes later in the pile lies on what is there
-
-/// Area on its way into the eye, m2.
-struct Seen {
-    double all = 0, inside = 0, hidden = 0;
-    double lowest = 1, highest = -1;  // of what is inside, from the picture's lower side -1 to its upper side 1
-    /// Of the picture's height that what is inside takes.
-    double height() const { return std::max(0.0, 0.5 * (highest - lowest)); }
-};
 
 class View {
  public:
@@ -64,6 +48,8 @@ bool is_hidden(const World& world, Vec3 eye, Vec3 place) {
     return hit && !is_of_model(world, hit.body);
 }
 
+}  // namespace
+
 Seen seen_of(const GameWorld& game) {
     const World& world = game.world();
     const View view(game.stage().camera);
@@ -90,42 +76,4 @@ Seen seen_of(const GameWorld& game) {
     return seen;
 }
 
-class EveryCamera : public testing::TestWithParam<Scene> {};
-
-TEST_P(EveryCamera, HoldsNearlyAllThatBreaksFromTheFirstPictureToTheEnd) {
-    RunOptions options;
-    options.scene = GetParam().name;
-    const ScenePlan plan = plan_scene(GetParam(), options);
-    const Story story = read_story(plan).value();
-    const uint32_t most = GetParam().name == "pile" ? kPileFrames : kFrames;
-    const char* wanted = std::getenv("CULLET_SCENE_FRAMES");
-    const uint32_t frames = std::min(frame_count(story, options), wanted ? std::max(1, std::atoi(wanted)) : most);
-    Result<GameWorld> game = GameWorld::create(plan);
-    ASSERT_TRUE(game.ok()) << game.error();
-    Seen seen;
-    double first_height = 0;
-    for (uint32_t frame = 0; frame < frames; ++frame) {
-        game->before_step();
-        game->step();
-        game->after_step();
-        const bool is_shown =
-            std::find(story.sheet_frames.begin(), story.sheet_frames.end(), frame + 1) != story.sheet_frames.end();
-        if (!is_shown && frame + 1 < frames) continue;
-        seen = seen_of(*game);
-        if (first_height == 0) first_height = seen.height();
-        EXPECT_GE(seen.inside, 0.9 * seen.all) << "frame " << frame + 1;
-    }
-    std::printf(
-        "%s, frame %u: %.4f of the area in the picture, %.4f of it behind what does not break; at first %.2f of the "
-        "picture's height\n",
-        GetParam().name.c_str(), frames, seen.inside / seen.all, seen.hidden / seen.inside, first_height);
-    EXPECT_GE(first_height, 0.15);
-    EXPECT_GE(seen.inside, 0.95 * seen.all);
-    EXPECT_LE(seen.hidden, 0.1 * seen.inside);
-}
-
-INSTANTIATE_TEST_SUITE_P(Scenes, EveryCamera, testing::ValuesIn(scenes().begin(), scenes().end()),
-                         [](const auto& scene) { return scene.param.name; });
-
-}  // namespace
-}  // namespace cullet
+}  // namespace cullet::test
