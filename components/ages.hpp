@@ -1,5 +1,5 @@
-// When pieces were born. World::retire and the fading of crumbs go by it, so that two worlds which differ in it alone
-// do not go on alike: it is state.
+// When pieces were born. World::retire and the fading of debris go by it. So it is state: two worlds that differ in it
+// alone do not go on alike.
 #pragma once
 #include "engine/table.hpp"
 

@@ -11,9 +11,9 @@ enum class BlowKind : uint8_t { None = 0, Push, Explosion, Cut };
 
 inline constexpr uint32_t kMostCutPoints = 32;  // corners of a polyline
 
-/// One row is one blow, from the call that asks for it until it is worked off; rows keep the order of the calls. What
-/// the game asked of all bodies stands in world axes (body kNone) until the next step takes it: then each body that it
-/// reaches gets a row of its own, in the body's frame, which its pieces share. Calls fill half of the table: the other
+/// One row is one blow, from the call that asks for it until it is worked off. Rows keep the order of the calls. What
+/// the game asked of all bodies stands in world axes (body kNone) until the next step takes it. Then each body that it
+/// reaches gets a row of its own, in the body's frame, which its pieces share. Calls fill half of the table; the other
 /// half is for those rows.
 struct Blows : Table<Blows> {
     using Table::Table;

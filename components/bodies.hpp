@@ -10,7 +10,7 @@ enum class BodyKind : uint8_t { Free = 0, Static, Kinematic, Dynamic, Scenery };
 
 struct Models;
 
-/// Of Bodies::is_owed_births. The second: its drawn mesh found no room either and is that of before the hit.
+/// Of Bodies::is_owed_births. The second: its drawn mesh found no room either, and is still the one before the hit.
 inline constexpr uint8_t kOwedBirths = 1, kOwedDrawing = 2;
 
 /// One row is one thing that the rigid world moves. Rows are reused; the generation tells a stale handle.
@@ -76,7 +76,7 @@ struct PinBoxes : Table<PinBoxes> {
     Column<Vec3> high{*this, "high", "m"};
 };
 
-/// One component of a broken shell: its elements are first_element, Elements.next of it, and so on in rising order
+/// One component of a broken shell. Its elements are first_element, Elements.next of it, and so on in rising order
 /// until kNone.
 struct FragmentPart {
     uint32_t first_element = kNone;  // the smallest; parts are ordered by it
@@ -89,8 +89,8 @@ struct FragmentPart {
 /// Parts of one hit that can be told apart; more of them end the hit as a fault.
 inline constexpr uint32_t kMostParts = 1024;
 
-/// Row t kMostParts + p is part p of task t, between find_parts and make_births; behind the last task's, of a body
-/// that asks again for births.
+/// Row t kMostParts + p is part p of task t, between find_parts and make_births. Rows behind the last task's are of a
+/// body that asks again for births.
 struct Fragments : Table<Fragments> {
     using Table::Table;
     static constexpr const char* kName = "fragments";
@@ -123,7 +123,7 @@ struct ViewIndices : RangeTable<ViewIndices, 16> {
     Column<uint32_t> source{*this, "source"};  // of its triangle: 8 times the shell's element, plus which of its own
 };
 
-/// One row is one crumb too small to be a body: a point with mass and momentum.
+/// One row is one piece too small to be a body: a point with mass and momentum.
 struct Debris : Table<Debris> {
     using Table::Table;
     static constexpr const char* kName = "debris";

@@ -31,8 +31,8 @@ inline Vec3 centre_of(const Bodies& bodies, Row<Bodies> b) {
 inline RefusedEvent refused_event(const Bodies& bodies, Row<Bodies> b, const char* setting) {
     return {body_id(bodies, b), bodies.user_data[b], centre_of(bodies, b), setting};
 }
-/// What RefusedEvent names where a body's cracks have filled the room that they were given, which is a share of its
-/// mesh: a finer one has more.
+/// What RefusedEvent names where a body's cracks have filled the room that they were given. That room is a share of its
+/// mesh; a finer mesh has more.
 inline constexpr const char* kCrackRoom = "longest_edge";
 
 }  // namespace cullet

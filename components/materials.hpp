@@ -24,8 +24,8 @@ struct Materials : Table<Materials> {
     Column<float> run_seconds{*this, "run_seconds", "s"};  // least elastic time of a hidden run: 1 ms, brick walls 3 ms
 };
 
-/// What only some materials have. Row i is of row i of Materials; empty while a world has the compiled first four
-/// alone, which material_traits() then knows by itself.
+/// What only some materials have. Row i is of row i of Materials. It is empty while a world has the compiled first four
+/// alone; material_traits() then knows those by itself.
 struct MaterialTraits : Table<MaterialTraits> {
     using Table::Table;
     static constexpr const char* kName = "material_traits";

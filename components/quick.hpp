@@ -1,5 +1,5 @@
-// The quick mode (thick shell note C3 to C5, B7): how bodies break that do not wait for a hidden run. All of it empty
-// until the first such body comes.
+// The quick mode (thick shell note C3 to C5, B7): how bodies break that do not wait for a hidden run. All of it is
+// empty until the first such body comes.
 #pragma once
 #include "components/springs.hpp"
 #include "components/tasks.hpp"

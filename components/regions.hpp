@@ -1,12 +1,12 @@
-// What lies round the cut-outs that hidden runs of large bodies work on. Empty, and out of the hash, until the first of
-// them.
+// What lies round the cut-outs that hidden runs of large bodies work on. It is empty, and out of the hash, until the
+// first of them.
 #pragma once
 #include "components/shells.hpp"
 
 namespace cullet {
 
-/// Row t is the body of task t without what its cut-out moves by itself: one rigid body that holds the cut-out's border
-/// (thick shell note, 6.2). Body axes.
+/// Row t is the body of task t without what its cut-out moves by itself. It is one rigid body that holds the cut-out's
+/// border (thick shell note, 6.2). Body axes.
 struct RegionRests : Table<RegionRests> {
     using Table::Table;
     static constexpr const char* kName = "region_rests";

@@ -1,4 +1,4 @@
-// All rows that shells are made of, as one parameter: what edits, copies and measures shells reaches these tables and
+// All rows that shells are made of, as one parameter. What edits, copies and measures shells reaches these tables and
 // no others.
 #pragma once
 #include "components/limits.hpp"
@@ -83,9 +83,9 @@ ShellRoom room_of(const ShellRows& state, Row<Shells> shell);
 Row<Shells> make_shell(ShellRows& state, const ShellRoom& room, const char** full = nullptr);
 /// The same with rows that hold whatever they held; who fills them calls clear_pack_ends when the counts are set.
 Row<Shells> make_shell_unclear(ShellRows& state, const ShellRoom& room, const char** full = nullptr);
-/// Clears what kernels read behind the counts, because they take whole packs: all vertices to spare, which cracks take
-/// one by one, and the last pack of elements. Other elements to spare are cleared with their pack when its first is
-/// taken, hinges when they are.
+/// Clears what kernels read behind the counts, because they take whole packs. That is all vertices to spare, which
+/// cracks take one by one, and the last pack of elements. Other elements to spare are cleared with their pack when its
+/// first one is taken. Hinges are cleared when they are taken.
 void clear_pack_ends(ShellRows& state, Row<Shells> shell);
 /// Gives the assembled stiffness back: the next task assembles it anew.
 void drop_stiffness(ShellRows& state, Row<Shells> shell);
@@ -99,15 +99,15 @@ struct SpringRoom {
     bool has_layers = false;
     bool clears_lists = true;  // springs, slots and both of the layers; false: each row is written before it is read
 };
-/// A row with empty ranges of these capacities, all zero but for lists that are not to be cleared, for a shell that has
-/// none; kNone when some table is full.
+/// A row with empty ranges of these capacities, for a shell that has none; kNone when some table is full. All is zero
+/// but for lists that are not to be cleared.
 Row<ShellSprings> make_springs(ShellRows& state, Row<Shells> shell, const SpringRoom& room,
                                const char** full = nullptr);
 /// Of the shell; kNone when it has none.
 Row<ShellSprings> find_springs(const ShellRows& state, Row<Shells> shell);
 /// The shell's springs, if any, go back; release_shell does it, too.
 void release_springs(ShellRows& state, Row<Shells> shell);
-/// Springs of `copy` as `source` has them, in motion as they are; what there are too few rows for is refused. A shell
+/// Springs of `copy` as `source` has them, in motion as they are. What there are too few rows for is refused. A shell
 /// without springs gives none. `copy` has at least the vertices and elements of `source`.
 bool copy_springs(ShellRows& state, Row<Shells> source, Row<Shells> copy, const char** full = nullptr);
 

@@ -1,7 +1,7 @@
 // A thick shell: a surface of triangles, each extruded inward to a prism. A model's intact shell is one row, shared by
-// all of its bodies; a body that cracked or broke, and a damage task, own rows of their own.
+// all of its bodies. A body that cracked or broke has a row of its own, and so has a damage task.
 //
-// Indices inside a shell (corners, neighbours, hinges, blocks) are relative to the shell's first row in that table, so
+// Indices inside a shell (corners, neighbours, hinges, blocks) are relative to the shell's first row in that table. So
 // a range is copied, saved and moved without renumbering.
 #pragma once
 #include <array>
@@ -107,7 +107,7 @@ struct Vertices : RangeTable<Vertices, kVerticesPerCell> {
 
 enum class EdgeKind : uint8_t { Interior = 0, Border = 1, Crack = 2 };
 /// Bits of Elements.flags. kIsTouched, in a cut-out only: the run cut at one of the element's corners, or put a vertex
-/// beside it. The others are as they were, and so are hinges that none of them has.
+/// beside it. Elements without it are as they were. So are hinges that no touched element has.
 enum ElementFlag : uint8_t { kDegenerate = 1, kDead = 2, kIsTouched = 4 };
 
 /// One row is one prism (a, b, c, a', b', c'). Edge k runs from corner k to corner (k + 1) % 3.
@@ -149,9 +149,10 @@ struct Elements : RangeTable<Elements, 16> {
     Column<uint8_t> over_limit{*this, "over_limit", "1", Keep::Scratch};
 };
 
-/// One row is the three coupled springs of the element in the same row of Elements (B3): constant strain from the edge
-/// elongations, plane stress with the true E and nu. With d1 = u_b - u_a, d2 = u_c - u_a and (i0, i1, i2) =
-/// inverse_edges: du/dx = i0 d1, du/dy = i1 d1 + i2 d2; xx = x.du/dx, yy = y.du/dy, xy = x.du/dy + y.du/dx.
+/// One row is the three coupled springs of the element in the same row of Elements (B3). They give constant strain from
+/// the edge elongations, and plane stress with the true E and nu. With d1 = u_b - u_a, d2 = u_c - u_a and
+/// (i0, i1, i2) = inverse_edges: du/dx = i0 d1, du/dy = i1 d1 + i2 d2; xx = x.du/dx, yy = y.du/dy, xy = x.du/dy +
+/// y.du/dx.
 struct TriangleSprings : Table<TriangleSprings> {
     using Table::Table;
     static constexpr const char* kName = "triangle_springs";

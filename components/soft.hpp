@@ -1,9 +1,9 @@
-// Bodies of ductile and elastic materials: rigid in the rigid world until something hits them hard enough, then their
-// springs are run each frame and their mesh is shown as it moves (thick shell note 6.8).
+// Bodies of ductile and elastic materials. They are rigid in the rigid world until something hits them hard enough.
+// Then their springs are run each frame, and their mesh is shown as it moves (thick shell note 6.8).
 //
-// While a body is awake Vertices.probe and Twins.position hold its points in the working frame of its springs, and
-// after each frame Vertices.rest is the shape that they have, in the body frame: drawing, queries, hulls and births see
-// a rigid body whose shape changes. What its springs remember is in Springs: lengths as cooked, lengths after flowing.
+// While a body is awake Vertices.probe and Twins.position hold its points, in the working frame of its springs. After
+// each frame Vertices.rest is the shape that they have, in the body frame. So drawing, queries, hulls and births see a
+// rigid body whose shape changes. What its springs remember is in Springs: lengths as cooked, lengths after flowing.
 #pragma once
 #include "components/bodies.hpp"
 #include "components/springs.hpp"
@@ -76,9 +76,9 @@ struct SoftStrikers : Table<SoftStrikers> {
     Column<SoftStriker> striker{*this, "striker", "1", Keep::Scratch};
 };
 
-/// Eight vertices that may meet one striker in this frame, each with the plane of its surface that is nearest to it: a
-/// vertex at x, seen from the striker's centre along the axes that the world had when the frame began and that turn
-/// with it, is inside where normal . x < distance; at a ball, where |x| < radius + offset.
+/// Eight vertices that may meet one striker in this frame. Each has the plane of the striker's surface that is nearest
+/// to it. Let x be a vertex, seen from the striker's centre. Its axes are the world's as the frame began, and turn with
+/// the striker. The vertex is inside where normal . x < distance; at a ball, where |x| < radius + offset.
 struct alignas(32) SoftContact {
     uint32_t vertex[kLanes] = {};  // of the shell; lanes that are not used say the first's
     float normal[3][kLanes] = {};

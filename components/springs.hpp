@@ -1,10 +1,10 @@
 // Edge springs of a shell (thick shell note B2, B3, B5): what ductile shells, the quick mode and sheet metal move by. A
-// shell without them has no row here, and a world without them hashes as if these tables were not there.
+// shell without them has no row here. A world without them hashes as if these tables were not there.
 //
 // Indices inside a shell's springs (ends, owners, neighbours, slots) are relative to the first row of their range, as
-// in the tables of shells. In motion, Vertices.probe holds the place of the outer points (two-sided; .w is the largest
-// elongation among the point's springs, -1 without one) and Vertices.velocity their velocity, both in the working frame
-// of the row: axes of the world about `origin`.
+// in the tables of shells. In motion, Vertices.probe holds the place of the outer points. It is two-sided; .w is the
+// largest elongation among the point's springs, -1 without one. Vertices.velocity holds their velocity. Both are in the
+// working frame of the row: axes of the world about `origin`.
 #pragma once
 #include "components/shells.hpp"
 #include "cullet/layers.hpp"
@@ -93,8 +93,8 @@ struct ElementSprings : RangeTable<ElementSprings, 16> {
     static constexpr const char* kName = "element_springs";
     static constexpr bool kIsOptional = true;
     Column<std::array<uint32_t, 3>> spring{*this, "spring"};  // of edge k; kNone: not made yet
-    /// Mean of plastic over cooked lengths of the springs that it had when it was re-meshed, outer and inner skin; 0:
-    /// it never was.
+    /// For the outer and the inner skin: plastic over cooked length, the mean of the springs that it had when it was
+    /// re-meshed. 0: it never was.
     Column<std::array<float, 2>> flow{*this, "flow"};
 };
 
@@ -110,7 +110,8 @@ struct SpringPacks : RangeTable<SpringPacks, 8> {
 };
 
 /// A slot of a pack: for each lane one neighbour and the spring to it. An unused lane has no stiffness and names a
-/// neighbour that its vertex has already; one of another's in the pack, or itself, where it has no springs.
+/// neighbour that its vertex has already. Where the vertex has no springs, it names one of another's in the pack, or
+/// the vertex itself.
 struct alignas(32) SpringSlot {
     uint32_t neighbour[kLanes];
     float inverse_rest[kLanes];    // 1 / plastic length, 1/m

@@ -9,8 +9,8 @@
 
 namespace cullet {
 
-/// Whoever holds it reaches everything. So systems and their helpers take the tables that they need, or the set of
-/// tables that it stands on: SoftRows, BodyRows, RunRows, ShellRows, MaterialRows.
+/// Whoever holds it reaches everything. So systems and their helpers take only the tables that they need, or one of the
+/// sets of tables that it stands on: SoftRows, BodyRows, RunRows, ShellRows, MaterialRows.
 struct State : SoftRows {
     explicit State(const Limits& limits = {});
 
@@ -53,8 +53,8 @@ struct State : SoftRows {
     /// "vertices.velocity" of the place in that list.
     std::string digested_column(size_t place) const;
 
-    /// Of the tables whose rows come in ranges, in the order of the hash and of files. Those of springs come last: they
-    /// do not enter the hash while no shell has springs.
+    /// Of the tables whose rows come in ranges, in the order of the hash and of files. Those of springs come last,
+    /// since they do not enter the hash while no shell has springs.
     auto pools() { return pools_of<RangePool>(*this, tables()); }
     auto pools() const { return pools_of<const RangePool>(*this, tables()); }
     static constexpr size_t first_spring_pool() {

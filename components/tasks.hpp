@@ -77,7 +77,7 @@ inline constexpr uint32_t kMostContacts = 8;  // patches a task
 inline constexpr uint32_t kMostPatchVertices =
     512;  // of all patches of a task; a wide patch keeps its heaviest weights
 
-/// One row is one contact patch of a task (section 6.3): springs of its own on each of its vertices, against one
+/// One row is one contact patch of a task (section 6.3). It has springs of its own on each of its vertices, against one
 /// striker.
 struct TaskContacts : Table<TaskContacts> {
     using Table::Table;
@@ -110,8 +110,8 @@ struct TaskContacts : Table<TaskContacts> {
     Column<uint32_t> patch_count{*this, "patch_count"};
 };
 
-/// One row is one further hit on a body whose task is open. It waits until the body, or the piece that then owns the
-/// place, can open a task, which is late from its start: the rigid solver has dealt with the contact.
+/// One row is one further hit on a body whose task is open. It waits until the body can open a task, or the piece that
+/// then owns the place. That task is late from its start: the rigid solver has dealt with the contact.
 struct QueuedHits : Table<QueuedHits> {
     using Table::Table;
     static constexpr const char* kName = "queued_hits";

@@ -10,8 +10,8 @@ inline constexpr uint32_t kVerticesPerBlock = 64;
 
 enum class BlockSums : uint8_t { NotKept = 0, Outdated, Known };
 
-/// Row b is of the live vertices in rows [64 b, 64 b + 64), body frame. No part of a world's state: the vertices give
-/// it. Rows are written in place up to the limit and never appended.
+/// Row b is of the live vertices in rows [64 b, 64 b + 64), body frame. It is no part of a world's state: the vertices
+/// give it. Rows are written in place up to the limit and never appended.
 struct VertexBlocks : Table<VertexBlocks> {
     using Table::Table;
     static constexpr const char* kName = "vertex_blocks";
@@ -21,8 +21,8 @@ struct VertexBlocks : Table<VertexBlocks> {
     Column<double> mass{*this, "mass", "kg", Keep::Scratch};
     Column<Vec3d> first{*this, "first", "kg m", Keep::Scratch};     // sum of m x
     Column<Sym3d> second{*this, "second", "kg m2", Keep::Scratch};  // sum of m x x^T
-    /// From put_back to clear_run: some vertex of it was in the cut-out, and all have their velocities. The vertices of
-    /// the other blocks move with the rest of the body, and theirs are not written.
+    /// From put_back to clear_run: some vertex of it was in the cut-out, and all of its vertices have their velocities.
+    /// The vertices of other blocks move with the rest of the body, and their velocities are not written.
     Column<uint8_t> moves{*this, "moves", "1", Keep::Scratch};
 };
 

@@ -8,8 +8,8 @@ namespace cullet {
 inline constexpr uint32_t kTrianglesPerBox = 32;
 inline constexpr uint32_t kViewGranule = 16;  // ranges of view_indices begin at multiples of it
 
-/// Row view_indices.first / kViewGranule + n bounds the n-th kTrianglesPerBox drawn triangles of a body, body frame. No
-/// part of a world's state: a drawn mesh gives it. Rows are written in place up to the limit and never appended.
+/// Row view_indices.first / kViewGranule + n bounds the n-th kTrianglesPerBox drawn triangles of a body, body frame. It
+/// is no part of a world's state: a drawn mesh gives it. Rows are written in place up to the limit, never appended.
 struct ViewBoxes : Table<ViewBoxes> {
     using Table::Table;
     static constexpr const char* kName = "view_boxes";

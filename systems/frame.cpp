@@ -1,6 +1,6 @@
-// The order of one frame: impact in, fragments out. Contacts are detected and impulses predicted, damage is decided,
-// and only then are contacts solved, so that what breaks does not throw the striker back. A host with its own physics
-// (World::create_hosted) has moved the bodies before the frame, and solves after it.
+// The order of one frame: impact in, fragments out. First contacts are detected and impulses predicted. Then damage is
+// decided. Only then are contacts solved, so that what breaks does not throw the striker back. A host with its own
+// physics (World::create_hosted) has moved the bodies before the frame, and solves after it.
 //
 // A slot holds the systems of each damage model, or of each structure (slots.hpp).
 #include "engine/assert.hpp"

@@ -10,10 +10,10 @@ namespace cullet {
 void remember_poses(Rows<Bodies> bodies, In<&Bodies::position> position, In<&Bodies::orientation> orientation,
                     Out<&Bodies::previous_position> previous_position,
                     Out<&Bodies::previous_orientation> previous_orientation);
-/// Which bodies the blows that the game asked for reach; balls and unbreakable bodies are pushed at once.
+/// Finds which bodies the game's blows reach. Balls and unbreakable bodies are pushed at once.
 void take_blows(Serial, Blows& blows, SoftRows& rows, RigidWorld& rigid, const DamageModels& models,
                 DamageCounts& counts, Events<RefusedEvent>& refused);
-/// Checked and Debug builds: the energy that the frame begins with, the game's blows of unbreakable bodies in it.
+/// Checked and Debug builds: the energy that the frame begins with, with the game's blows on unbreakable bodies in it.
 void open_energy_balance(Serial, Step step, SoftRows& rows, const Debris& debris, const DamageModels& models,
                          const DamageCounts& counts, const RigidWorld& rigid, EnergyBalance& balance);
 /// Soft bodies that have been quiet long enough are rigid again, in the shape that they have.
@@ -26,20 +26,21 @@ void predict_impacts(Serial, Step step, const RigidWorld& rigid, const Bodies& b
 /// The first touches of bodies in flight that may break something, up to settings.frames_ahead before they come.
 void foresee_impacts(Serial, Step step, RigidWorld& rigid, const Bodies& bodies, const Shells& shells, RunsNow runs,
                      const DamageSettings& settings, Arena& arena, Events<ForeseenHit>& foreseen);
-/// Tasks that were opened ahead of their touch: where it has come as foreseen (same striker, same cell, a tenth of the
-/// speed, nobody faster by more) they go on as tasks of this step, whose result is due in it; where it came otherwise,
-/// or did not come, they are dropped.
+/// Looks at tasks that were opened ahead of their touch. If the touch has come as foreseen they go on as tasks of this
+/// step, and their result is due in it. If it came otherwise, or did not come, they are dropped. As foreseen means: the
+/// same striker, the same cell, the speed to a tenth, and nobody faster by more than that.
 void meet_foreseen(Serial, Step step, BodyRows& rows, const Blows& blows, DamageLedger ledger, Events<Impact>& impacts,
                    Events<ImpactEvent>& impact_events);
-/// One damage task a body that was hit: asks the game, takes rows for its working copy. A further hit on a body whose
-/// task is open waits in QueuedHits, as all hits do while every task is taken; it opens one when the body can, the
-/// oldest first. Blows of the game do as contacts do, and touches that are foreseen, behind all others.
+/// Opens one damage task for each body that was hit: asks the game, and takes rows for the working copy. A further hit
+/// on a body whose task is open waits in QueuedHits. So do all hits while every task is taken. Waiting hits open tasks
+/// when their bodies can, the oldest first. Blows of the game are treated as contacts are. So are touches that are
+/// foreseen, behind all others.
 void open_tasks(Serial, Step step, const Events<Impact>& impacts, const Events<ForeseenHit>& foreseen, SoftRows& rows,
                 WaitingHits waiting, RigidWorld& rigid, DamageLedger ledger, OpenedTasks out);
-/// Ductile and elastic bodies that something hits hard enough, or that lose what they lay against, begin to move by
-/// their springs.
+/// Wakes ductile and elastic bodies that something hits hard enough, or that lose what they lay against: they begin to
+/// move by their springs.
 void wake_soft_bodies(Serial, SoftRows& rows, RigidWorld& rigid);
-/// Hidden runs on a part of a body that came to its border begin again on a larger one
+/// Some hidden runs work on a part of a body. Those that came to its border begin again on a larger part
 /// (models/thick_shell/hidden/hidden_region.hpp).
 void widen_regions(Serial, Owner own, BodyRows& rows, Events<TaskOpened>& opened,
                    Events<StiffnessWanted>& stiffness_wanted, Events<RefusedEvent>& refused);
@@ -47,7 +48,7 @@ void widen_regions(Serial, Owner own, BodyRows& rows, Events<TaskOpened>& opened
 void fill_tasks(EachOwn<TaskOpened> opened, RunRows& rows);
 /// Assembles stiffness that the body's shell does not have: a piece that is hit for the first time.
 void fill_stiffness(Each<StiffnessWanted> wanted, RunRows& rows);
-/// Lays the contact patches, gives every vertex the body's velocity and what explosions add. Cuts are made here, and
+/// Lays the contact patches. Gives every vertex the body's velocity and what explosions add. Cuts are made here. They
 /// ask the boxes of the body's pins which of their sides they hold.
 void start_tasks(EachOwn<TaskOpened> opened, BodyRows& rows, Blows& blows);
 
@@ -69,10 +70,10 @@ void start_regions(Serial, Own<TaskOpened> opened, RunRows& rows, const Blows& b
 void grant_units(Serial, SoftRows& rows, DamageLedger ledger);
 /// Whom each soft body that is awake may meet in this frame.
 void find_soft_strikers(Rows<SoftBodies> soft, Step step, InChunks<SoftRows> rows, const RigidWorld& rigid);
-/// Whom several of them meet lends each a copy of itself with an equal part of its mass.
+/// A body that several of them meet lends each a copy of itself, with an equal part of its mass.
 void share_soft_strikers(Serial, SoftRows& rows);
-/// Runs the inner loops of open tasks, for the steps that they were granted, and of awake soft bodies, through the
-/// frame: on all workers (engine/runs.hpp).
+/// Runs the inner loops on all workers (engine/runs.hpp): of open tasks for the steps that they were granted, and of
+/// awake soft bodies through the frame.
 void advance_runs(Serial, SoftRows& rows, const Blows& blows, const DamageModels& models, RunLoops& loops,
                   DamageCounts& counts);
 /// Shape, pose and motion of soft bodies after their substeps.
@@ -80,34 +81,35 @@ void shape_soft(Rows<SoftBodies> soft, Step step, InChunks<SoftRows> rows);
 /// What soft bodies gave to what they met, and where they are now, for the rigid world.
 void pass_soft(Serial, Step step, SoftRows& rows, RigidWorld& rigid, DamageCounts& counts, Arena& arena,
                Events<FaultEvent>& faults);
-/// Holds bodies whose task goes on, releases those whose time is up or whose task ended; names runs whose cracks had no
+/// Holds bodies whose task goes on. Releases those whose time is up or whose task ended. Names runs whose cracks had no
 /// room.
 void settle_tasks(Serial, Step step, RunTables runs, Bodies& bodies, const Shells& shells, RigidWorld& rigid,
                   DamageLedger ledger, Events<TaskEnded>& ended, ToldOfHits told);
 
-/// Regions whose run ended fall asleep: vertices get the body's own motion back, springs their rows. What a cut-out
-/// changed goes into the body's shell (models/thick_shell/shared/cut_out.hpp).
+/// Regions whose run ended fall asleep: vertices get the body's own motion back, and the springs' rows are given back.
+/// What a cut-out changed goes into the body's shell (models/thick_shell/shared/cut_out.hpp).
 void close_regions(Serial, Own<TaskEnded> ended, BodyRows& rows, Events<CrackStartedEvent>& cracks);
 
 // ---- apply
 
 /// Which elements of a broken shell hang together.
 void find_parts(EachOwn<TaskEnded> ended, BodyRows& rows, Fragments& fragments);
-/// Cracks of a run that ended are drawn, and collide, after one pass of (1/4, 1/2, 1/4) along them (C6).
+/// Smooths the cracks of a run that ended, by one pass of (1/4, 1/2, 1/4) along them (C6). So they are drawn, and so
+/// they collide.
 void smooth_cracks(EachOwn<TaskEnded> ended, RunRows& rows, const Blows& blows);
-/// Which pieces become bodies or crumbs, in order of mass, and the rows that they need. What stayed whole keeps its
+/// Which pieces become bodies or debris, in order of mass, and the rows that they need. What stayed whole keeps its
 /// cracks. What finds no room stays part of the body, and asks again.
 void plan_births(Serial, const Events<TaskEnded>& ended, SoftRows& rows, WaitingHits waiting, Fragments& fragments,
                  const Debris& debris, DamageLedger ledger, Arena& arena, PlannedBirths planned);
-/// Copies each piece into its rows, marks the old ones dead and chooses what shapes collide (piece_shape.hpp); settles
-/// the pieces' motions meanwhile (settle_momenta).
+/// Copies each piece into its rows, marks the old ones dead and chooses what shapes collide (piece_shape.hpp).
+/// Meanwhile it settles the pieces' motions (settle_momenta).
 void fill_births(Each<Birth> birth, const Events<Break>& breaks, ShellRows& rows, const Bodies& bodies);
-/// Measures what is left of each body; hulls of cells that moved as they were are copied, the others listed.
+/// Measures what is left of each body. Hulls of cells that moved as they were are copied; the others are listed.
 void plan_hulls(Serial, const Events<Break>& breaks, BodyRows& rows, RigidWorld& rigid, Events<HullWanted>& wanted);
-/// The hull points of each cell that changed, and the faces of its hull, or of a piece's one shape, for the rigid
-/// world.
+/// Chooses the hull points of each cell that changed. Finds the faces of its hull, or of a piece's one shape, for the
+/// rigid world.
 void fill_hulls(Each<HullWanted> wanted, ShellRows& rows, const RigidWorld& rigid);
-/// The pieces enter the rigid world, in order of mass; the striker gets the impulse that it really passed. Closes the
+/// The pieces enter the rigid world, in order of mass. The striker gets the impulse that it really passed. Closes the
 /// tasks that ended.
 void make_births(Serial, Step step, EndedTasks over, SoftRows& rows, Blows& blows, Crumbs crumbs, RigidWorld& rigid,
                  BirthAccounts accounts, ToldOfBirths told);
@@ -116,24 +118,24 @@ void make_births(Serial, Step step, EndedTasks over, SoftRows& rows, Blows& blow
 
 /// Solves contacts and moves all bodies, old and new.
 void solve_rigid(Serial, Step step, RigidWorld& rigid);
-/// The rest of what soft bodies gave: bodies that they met have been moved as the run moved them, and now get the
+/// The rest of what soft bodies gave. The bodies that they met have been moved as the run moved them. Now they get the
 /// velocity that they had at its end.
 void return_soft(Serial, const SoftBodies& soft, const SoftStrikers& strikers, RigidWorld& rigid);
 /// Poses, velocities and sleep of the rigid world, back into rows.
 void read_rigid(Serial, const RigidWorld& rigid, Bodies& bodies, Events<AsleepEvent>& asleep);
-/// What lies on a body or squeezes it, by the impulses of the last solve (a host tells them with its contacts): for
-/// some steps more than it bears (impacts/overload.hpp), and a hit waits for it in QueuedHits that stands for the load.
-/// A run on it that has cracked nothing makes way.
+/// Weighs what lies on a body or squeezes it, by the impulses of the last solve (a host tells them with its contacts).
+/// If that is for some steps more than the body bears (impacts/overload.hpp), a hit that stands for the load is put in
+/// QueuedHits. A run on the body that has cracked nothing makes way.
 void weigh_loads(Serial, Step step, RigidWorld& rigid, BodyRows& rows, QueuedHits& queued, const Blows& blows,
                  DamageRules rules, Arena& arena, Events<RefusedEvent>& refused);
-/// Crumbs fly on parabolas, bounce off the ground and off bodies larger than they are, slide and come to rest; of a
-/// host's world, which keeps its shapes to itself, they know the floor below their place of birth alone.
+/// Debris flies on parabolas, bounces off the ground and off bodies larger than itself, slides and comes to rest. A
+/// host keeps its shapes to itself. In its world debris knows only the floor below its place of birth.
 void fall_debris(Serial, Step step, const RigidWorld& rigid, Debris& debris, DamageCounts& counts);
 /// Checked and Debug builds: between this and its opening the frame made no energy (checks/energy_balance.hpp).
 void close_energy_balance(Serial, Step step, SoftRows& rows, const Debris& debris, const DamageModels& models,
                           const DamageCounts& counts, const RigidWorld& rigid, EnergyBalance& balance,
                           Events<FaultEvent>& faults);
-/// Crumbs that are older than the game wants go.
+/// Debris that is older than the game wants goes.
 void fade_debris(Serial, Step step, Debris& debris, const DebrisAges& ages, const DamageSettings& settings,
                  DamageCounts& counts);
 
@@ -141,14 +143,14 @@ void fade_debris(Serial, Step step, Debris& debris, const DebrisAges& ages, cons
 
 /// Soft bodies that are awake are drawn anew.
 void show_soft(Serial, SoftRows& rows, Events<ShellChanged>& changed, Events<RefusedEvent>& refused);
-/// The drawn mesh of each shell that changed: of what a hit left of a body, the cells that it changed.
+/// The drawn mesh of each shell that changed. Of what a hit left of a body, only the cells that it changed.
 void draw_shells(Each<ShellChanged> changed, Step step, BodyRows& rows, ViewBoxes& boxes);
 /// Boxes of the drawn triangles of each shell that changed.
 void bound_drawn(Each<ShellChanged> changed, Bodies& bodies, const ViewVertices& vertices, const ViewIndices& indices,
                  ViewBoxes& boxes);
 /// The tree that queries go down.
 void refresh_queries(Serial, const Bodies& bodies, QueryIndex& index);
-/// Moves the live rows of shells together that lost a quarter of theirs to pieces, in quiet frames, for units.
+/// Shells that lost a quarter of their rows to pieces have the live ones moved together: in quiet frames, for units.
 void compact_shells(Serial, BodyRows& rows, Fragments& fragments, DamageCounts& counts, const Events<TaskEnded>& ended);
 
 // ---- inner loop of a brittle thick shell: repeated for one task
@@ -160,7 +162,7 @@ void integrate_hidden(Rows<StiffnessPacks> packs, Of<Tasks> task, RunStiffness o
                       In<&Vertices::inverse_mass> inverse_mass, In<&Vertices::probe> probe,
                       InOut<&Vertices::velocity> velocity, InOut<&Vertices::displacement> displacement,
                       Out<&Vertices::probe> next_probe);
-/// Gives patch vertices and strikers what the springs pushed; the run ends when its time is up or all is quiet (6.4).
+/// Gives patch vertices and strikers what the springs pushed. The run ends when its time is up or all is quiet (6.4).
 void pass_impulses(Of<Tasks> task, Turn turn, RunRows& rows);
 /// Strain of each element and its slopes against its edges.
 void strain_check(Rows<Elements> elements, Of<Tasks> task, Turn turn, InChunks<RunRows> rows);
@@ -177,7 +179,7 @@ void check_energy(Of<Tasks> task, RunRows& rows, const Blows& blows);
 void push_region_patches(Of<Tasks> task, RunRows& rows);
 /// integrate_springs, or integrate_layers, for the region's packs.
 void integrate_region(Rows<AwakePacks> packs, Of<Tasks> task, Turn turn, InChunks<RunRows> rows);
-/// What is held goes back, patches push, strikers move; the run ends after its steps.
+/// What is held goes back, patches push, strikers move. The run ends after its steps.
 void end_region_step(Of<Tasks> task, RunRows& rows);
 /// Splits what has stretched too far (C3 to C5, paper mode).
 void split_region(Of<Tasks> task, RunRows& rows);
@@ -186,8 +188,8 @@ void check_region_energy(Of<Tasks> task, RunRows& rows);
 
 // ---- inner loop of springs: repeated for one shell that has them (ductile, quick mode, sheet metal)
 
-/// One layer, one fused pass (B3, B4, B6): force, area energy where the row has any, damping from the length kept in
-/// the slot, semi-implicit Euler, largest elongation a vertex.
+/// One layer in one fused pass (B3, B4, B6). It adds up force, area energy where the row has any, and damping from the
+/// length kept in the slot. Then it steps by semi-implicit Euler, and notes each vertex's largest elongation.
 void integrate_springs(Rows<SpringPacks> packs, Of<ShellSprings> springs, Turn turn, InChunks<ShellRows> rows);
 /// The same for both layers and what ties them (B5).
 void integrate_layers(Rows<SpringPacks> packs, Of<ShellSprings> springs, Turn turn, InChunks<ShellRows> rows);
@@ -196,15 +198,15 @@ void end_spring_step(Of<ShellSprings> springs, ShellSprings& own);
 
 // ---- inner loop of a soft body: the systems of springs, and
 
-/// Contacts of the vertices that the springs' step put into a striker, in row order: inelastic impulses with Coulomb
-/// friction between vertices and the strikers' copies.
+/// Contacts of the vertices that the springs' step put into a striker, in row order. They are inelastic impulses with
+/// Coulomb friction, between vertices and the strikers' copies.
 void meet_strikers(Of<SoftBodies> soft_body, Of<ShellSprings> springs, Turn turn, SoftRows& rows);
 /// Hinges of sheets whose material has a bending stiffness of its own, once in some substeps.
 void bend_sheets(Of<ShellSprings> springs, ShellRows& rows);
 /// Springs above yield get longer or shorter for good (6.8).
 void flow_springs(Rows<Springs> springs, Of<ShellSprings> of, Of<SoftBodies> soft_body, InChunks<ShellRows> rows,
                   const SoftBodies& soft);
-/// Springs beyond what they bear: a vertex is split across the most stretched (C1, C3).
+/// Springs may be stretched beyond what they bear: then a vertex is split across the most stretched one (C1, C3).
 void tear_springs(Of<SoftBodies> soft_body, Of<ShellSprings> springs, SoftRows& rows);
 
 }  // namespace cullet

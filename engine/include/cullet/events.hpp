@@ -29,8 +29,8 @@ struct ImpactEvent {
     float approach_speed = 0;  // m/s
     double energy = 0;         // J, of the approach
     bool is_held = false;      // body and striker stand still until the damage is decided
-    // N that squeeze the body for longer than it bears, and no blow: a weight, a press. The speed and the energy are
-    // those of the blow that is run in its place, or 0 where the body snaps at once.
+    // N. Above 0, this is no blow but a weight or a press that squeezes the body for longer than it bears. The speed
+    // and the energy are those of the blow that is run in its place, or 0 where the body snaps at once.
     float load = 0;
 };
 
@@ -57,17 +57,17 @@ struct DebrisEvent {
     double mass = 0;       // kg
 };
 
-/// A limit was reached: what was asked for did not happen, everything else did.
+/// A limit was reached. What was asked for did not happen; everything else did.
 struct RefusedEvent {
     BodyId body;
     uint64_t body_user_data = 0;
     Vec3 place;  // world, its centre of mass, m
-    /// Of Settings, the one to raise, for example "limits.bodies"; or "longest_edge" of CookSettings, to be shortened:
+    /// The name in Settings to raise, for example "limits.bodies". Or "longest_edge" of CookSettings, to be shortened:
     /// cracks have filled the room that the body's mesh gives them, and no more of it splits in this hit.
     const char* setting = "";
 };
 
-/// Something went wrong with one body; it was frozen as it was and is reported once.
+/// Something went wrong with one body. It was frozen as it was, and is reported once.
 struct FaultEvent {
     BodyId body;
     uint64_t body_user_data = 0;

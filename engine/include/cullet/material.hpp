@@ -1,6 +1,6 @@
 // What bodies are made of: a compiled table of ten materials, and tables of the game's own that add rows and change
-// them. A table touches no world. Cooking takes one row and puts its values into the model; from there they come into
-// worlds, model files, snapshots and recordings. Who changes a row cooks again.
+// them. A table touches no world. Cooking takes one row and puts its values into the model. From there they come into
+// worlds, model files, snapshots and recordings. After a change of a row, cook again.
 #pragma once
 #include <cstddef>
 #include <cstdint>
@@ -11,17 +11,17 @@
 
 namespace cullet {
 
-/// Brittle bodies crack and fall apart. Ductile ones stretch, flow and tear, elastic ones stretch, spring back and
-/// tear; both are rigid until something hits them hard enough, and in worlds whose bodies a host moves they stay so.
+/// Brittle bodies crack and fall apart. Ductile ones stretch, flow and tear. Elastic ones stretch, spring back and
+/// tear. Both are rigid until something hits them hard enough. Where a host moves the bodies, both stay rigid.
 enum class MaterialKind : uint8_t { Brittle = 0, Ductile, Elastic };
 
-/// How near to each other cracks start. Large: none starts for the rest of a hit within three
-/// edges of a cut, so few cracks run far. Coarse: only until a wave has gone twelve edges. Fine: nothing is banned, and
-/// cracked places may crack anew.
+/// How near to each other cracks start. Large: within three edges of a cut none starts for the rest of a hit, so few
+/// cracks run far. Coarse: none starts there until a wave has gone twelve edges. Fine: nothing is banned, and cracked
+/// places may crack anew.
 enum class FractureKind : uint8_t { Large = 0, Coarse, Fine };
 
-/// One row. SI units; what a value may be, and in which kinds it decides something, stands in material_values(). A
-/// table keeps what decides nothing in a row's kind as 0.
+/// One row, in SI units. material_values() says what a value may be, and in which kinds of material it decides
+/// something. A table keeps what decides nothing in a row's kind as 0.
 struct MaterialSettings {
     std::string name;  // letters, digits, _ and -
     MaterialKind kind = MaterialKind::Brittle;
@@ -34,7 +34,7 @@ struct MaterialSettings {
     float break_strain = 0;          // where a ductile or elastic one tears
     float fracture_energy = 20;      // J/m2, G_c, of brittle ones
     float crush_strength = 6e9f;     // Pa, of brittle ones: pressure under which the struck face gives way for good
-    /// Of the blow while its damage is worked off, and of how long a soft body swings. Rigid bounces have
+    /// Decides about the blow while its damage is worked off, and how long a soft body swings. Rigid bounces have
     /// ContactSettings::restitution instead, 0.2 if not given.
     float restitution = 0.6f;
     float friction = 0.45f;  // of contacts, unless ContactSettings::friction is given
@@ -45,11 +45,11 @@ struct MaterialSettings {
     /// Tips above this share of the start strength (which is twice tensile_strength) fork with probability 1/2; 0:
     /// never. Of fine and, four edges apart, coarse fracture; large cracks run on alone.
     float branching = 0;
-    /// When a hit breaks the body, a crack that has stopped goes on if a border or another crack lies ahead within this
-    /// times its own length: what is left would break under the pieces' weight. 0: it stays a hairline.
+    /// When a hit breaks the body, a crack that has stopped may go on. It does if a border or another crack lies ahead,
+    /// within this times its own length: what is left would break under the pieces' weight. 0: it stays a hairline.
     float run_out = 0;
-    /// N m, of ductile and elastic ones. Above 0, as of cloth, a body is a sheet of one layer that bends by this, flat
-    /// at rest; 0: as E and the thickness say.
+    /// N m, of ductile and elastic ones. Above 0, as for cloth, a body is a sheet of one layer. It is flat at rest and
+    /// bends by this. 0: it bends as E and the thickness say.
     float bending_stiffness = 0;
     // Across the grain. across_young_modulus 0: the same in all directions, and the others count for nothing.
     float across_young_modulus = 0;    // Pa
@@ -58,8 +58,8 @@ struct MaterialSettings {
     float across_fracture_energy = 0;  // J/m2, of a crack that splits along the grain
 };
 
-/// One number of a row, for readers, checks and lists: its name, unit and range (both ends may be had), and the kinds
-/// of material in which it decides something. In the others it is 0.
+/// One number of a row, for readers, checks and lists: its name, unit and range, and the kinds of material in which it
+/// decides something. In the others it is 0. Both ends of the range may be had.
 struct MaterialValue {
     const char* name;  // as in MaterialSettings
     const char* unit;
@@ -87,8 +87,8 @@ class MaterialTable {
  public:
     /// The compiled ones: glass, porcelain, brick, concrete, steel, aluminium, copper, rubber, cloth, wood.
     MaterialTable();
-    /// A name that is there already is refused, and a row that check_material refuses. Values that decide nothing in
-    /// the row's kind become 0.
+    /// Refuses a name that is there already, and a row that check_material refuses. Values that decide nothing in the
+    /// row's kind become 0.
     Result<void> add(const MaterialSettings& material);
     /// Replaces the row of that name.
     Result<void> change(const MaterialSettings& material);

@@ -41,7 +41,7 @@ class MeshData {
     std::unique_ptr<Contents> contents;
 };
 
-/// Reads a mesh file written by the program cullet_import. Every count, index and number is checked; a file that is not
+/// Reads a mesh file that the program cullet_import wrote. Every count, index and number is checked. A file that is not
 /// sound is refused with a sentence.
 Result<MeshData> read_mesh(const std::string& path);
 
@@ -82,13 +82,13 @@ struct CookSettings {
     /// Edges longer than this are split first, m; at least 0. 0: twice the thickness, or 2.5 % of the diagonal if
     /// larger.
     float longest_edge = 0;
-    /// Points that are closer are one, as a share of the diagonal, 0 to 0.01. 0: equal ones only; 1e-7 heals a soup of
-    /// triangles whose positions differ in the last digits.
+    /// Points that are closer than this share of the diagonal are one; 0 to 0.01. 0: equal ones only. 1e-7 heals a soup
+    /// of triangles whose positions differ in the last digits.
     float weld_tolerance = 0;
     Propagation propagation = Propagation::GuardedFront;
-    /// A closed part whose opposite wall lies within two thicknesses over most of its area has both of its walls
-    /// modelled: its outer wall becomes one sheet as thick as measured, and both skins break together. False: each wall
-    /// becomes a sheet of its own, at most half as thick.
+    /// For a mesh that models both of its walls: a closed part whose opposite wall lies within two thicknesses over
+    /// most of its area. True: its outer wall becomes one sheet as thick as measured, and both skins break together.
+    /// False: each wall becomes a sheet of its own, at most half as thick.
     bool joins_walls = true;
     uint64_t seed = 1;               // of the spread of strength
     bool measures_threshold = true;  // finds the speed of the first crack (adds 10 to 50 hits' time)

@@ -1,10 +1,10 @@
 // Questions about where things are: rays, what is near, the nearest surface. Answers are exact for the drawn triangles
-// of breakable bodies, the triangles of add_static, spheres and kinematic boxes, at the poses after the last step and
-// the calls since.
+// of breakable bodies, the triangles of add_static, spheres and kinematic boxes. Bodies are taken at their poses after
+// the last step and the calls since.
 //
 // Threads: any number of threads may ask one world at once, between steps and while no other call changes it. Nothing
-// is allocated, locked or cached. Among 200 vases of 5,000 triangles a ray takes 17 microseconds, a ball of 0.3 m 30, a
-// box of that size 7, the nearest surface 240.
+// is allocated, locked or cached. Times among 200 vases of 5,000 triangles, in microseconds: a ray 17, a ball of
+// 0.3 m 30, a box of that size 7, the nearest surface 240.
 #pragma once
 #include <cstdint>
 
@@ -26,7 +26,7 @@ struct SurfaceHit {
 
 /// The first surface within `length` along `direction` (of any length but 0), from either side. Only bodies that have a
 /// layer in `mask`. Equal distances go to the lower row, then to the lower triangle. Numbers that are not finite hit
-/// nothing, nor does an origin beyond 1,000 km, where no body can be; the same holds for the points below.
+/// nothing. Nor does an origin beyond 1,000 km, where no body can be. The same holds for the points below.
 SurfaceHit ray(const World& world, Vec3 origin, Vec3 direction, float length, uint32_t mask = 0xffffffffu);
 
 /// Bodies of which some drawn triangle comes within `radius` of `centre`; spheres and boxes are solid. What stands

@@ -4,10 +4,11 @@
 
 namespace cullet {
 
-/// Hidden: elastic waves at true stiffness, over several frames; of large bodies only as far as they matter. Quick: the
-/// paper's mode. Softened springs of the neighbourhood of the hit alone, edges that stretch too far split at once; in a
-/// frame or a few, for bodies too large for the hidden run and for games that cannot wait. The material's FractureKind
-/// says how cracks run: fine crumbles, coarse keeps neighbours of a crack together, large runs each crack on.
+/// Hidden: elastic waves at true stiffness, over several frames; in large bodies only as far as they matter. Quick: the
+/// paper's mode. It runs softened springs round the hit alone, and splits edges at once that stretch too far. It takes
+/// a frame or a few. It is for bodies too large for the hidden run, and for games that cannot wait. The material's
+/// FractureKind says how cracks run. Fine makes many small pieces, coarse keeps neighbours of a crack together, large
+/// runs each crack on.
 enum class FractureMode : uint8_t { Hidden = 0, Quick };
 
 /// Of FractureMode::Quick.
@@ -18,8 +19,8 @@ struct QuickSettings {
     uint32_t steps = 60;  // of the run, 8 to 100; the neighbourhood is a third of it wide, in edges
     /// Vertices that may split in one step, 1 to 1000; 0: 64 fine, 16 coarse, 1 large. Fewer: longer cracks.
     uint32_t crack_frequency = 0;
-    /// Stretch of the softened springs at which an edge splits, 1e-5 to 1. 0: that of a ball on a face at the speed at
-    /// which cooking found that the body cracks; where none was measured the material's (2 % of what is brittle).
+    /// Stretch of the softened springs at which an edge splits, 1e-5 to 1. 0: as much as a ball stretches a face at the
+    /// speed at which cooking found that the body cracks. Without such a speed: the material's, 2 % for brittle ones.
     float strain_limit = 0;
     /// Squeeze at which an edge splits, in strain limits, 1 to 1e6; 10 is the paper's kind of value. 0: none does.
     float compression_limit = 0;

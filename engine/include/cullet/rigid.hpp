@@ -1,5 +1,5 @@
-// The rigid bodies behind a world: Bullet's (World::create), or a host's own (World::create_hosted), which talks with
-// the world in the plain rows below and links cullet::core, in which there is no Bullet. A host's step is
+// The rigid bodies behind a world are Bullet's (World::create) or a host's own (World::create_hosted). A host talks
+// with the world in the plain rows below. It links cullet::core, in which there is no Bullet. A host's step is
 //
 //     find the contacts of this step, at the poses that bodies have now, before gravity is added to velocities
 //     world.step({bodies, contacts});
@@ -7,9 +7,10 @@
 //     add gravity, solve the contacts that are left, move what is not held
 //
 // Who owns what: the host owns poses, velocities, sleep and contacts; the world owns what breakable bodies are made of.
-// Rows that go in are read during the call; what comes out is the world's own memory. Bodies that the world cannot make
-// up (the host's floors, balls, lifts) are declared by add_static, add_sphere and add_kinematic_box, so that they have
-// a BodyId to be named by in contacts; the host has them already, so they do not come back as births.
+// Rows that go in are read during the call; what comes out is the world's own memory. The host's floors, balls and
+// lifts are bodies that the world cannot make up. The host declares them by add_static, add_sphere and
+// add_kinematic_box, so that contacts can name them by a BodyId. The host has them already, so they do not come back as
+// births.
 //
 // What a minimal host may leave out: cells, sleep, margins, friction, `woken`, and `apart` after its first step
 // (the world itself passes over contacts between pairs that are apart). What it may not: held bodies must stand still,
@@ -38,8 +39,8 @@ struct HostBody {
 };
 
 /// One point where two bodies touch, or will within this step. Blows are told by how fast it closes, which the world
-/// computes from the motions of both; so that a thing is seen to break before it bounces, a contact must come in at the
-/// latest in the step in which the bodies meet, and not have been solved before.
+/// computes from the motions of both. A contact must come in at the latest in the step in which the bodies meet, and it
+/// must not have been solved before. Then a thing is seen to break before it bounces.
 struct HostContact {
     BodyId a, b;
     Vec3 point;                         // world, m
@@ -47,13 +48,13 @@ struct HostContact {
     float distance = 0;                 // m, negative when they overlap
     uint32_t piece_a = 0, piece_b = 0;  // HostPiece::name, or 0: only the order of contacts hangs on it
     // N s along the normal that the host's last solve passed here, as its warm start knows it. Weights and presses
-    // break what they lie on by it; left at 0 they break only what is seen to be driven against what does not yield.
+    // break what they lie on by it. At 0, only what is seen to be driven against something that does not yield breaks.
     float impulse = 0;
 };
 
-/// All that the host tells in a step; refused as a whole when a place is beyond 1,000 km of the origin, or something
-/// faster than 100 km/s (100,000 rad/s). Contacts of sleeping or held pairs may be in it; they are passed over, as are
-/// rows of bodies that are gone.
+/// All that the host tells in a step. It is refused as a whole when a place is beyond 1,000 km of the origin, or
+/// something is faster than 100 km/s (100,000 rad/s). Contacts of sleeping or held pairs may be in it. They are passed
+/// over, and so are rows of bodies that are gone.
 struct HostFrame {
     const HostBody* bodies = nullptr;
     uint32_t body_count = 0;
@@ -93,18 +94,18 @@ struct HostMotion {
     Motion motion;
 };
 
-/// Contacts between these two are not to be solved in this step, and for so many seconds after it; with `until_apart`
-/// for less, once their pieces overlap by no more than 0.1 mm. Siblings are born in touch; and what a breaking body
-/// passed to its striker has been passed.
+/// Contacts between these two are not to be solved in this step, nor for so many seconds after it. With `until_apart`
+/// the time ends before, once their pieces overlap by no more than 0.1 mm. There are two reasons: siblings are born in
+/// touch, and what a breaking body passed to its striker has been passed.
 struct HostPair {
     BodyId a, b;
     float seconds = 0;
     bool until_apart = false;
 };
 
-/// What the host is to do before it solves this step, list by list: all that the game asked of the world since the step
-/// before, and all that came of the step. Read once after each step; the memory is good until the next call that
-/// changes the world.
+/// What the host is to do before it solves this step, list by list. It is all that the game asked of the world since
+/// the step before, and all that came of the step. Read it once after each step. The memory is good until the next call
+/// that changes the world.
 struct HostChanges {
     EventSpan<BodyId> removed;
     EventSpan<HostShape> born;      // spawned by the game, or broken off

@@ -27,16 +27,15 @@ struct MaterialRun {
     uint32_t first_index = 0, index_count = 0;
 };
 
-/// Elements [first, first + count) of a buffer, vertices or indices, among which are all that changed in the last step;
-/// count 0: none. What a hit leaves of a body keeps the order of its triangles but
-/// for those that fill the gaps. A body that was spawned since the last step has all of them until the next step is
-/// over.
+/// Elements [first, first + count) of a buffer, vertices or indices. All that changed in the last step are among them;
+/// count 0: none did. What a hit leaves of a body keeps the order of its triangles, but for those that fill the gaps. A
+/// body that was spawned since the last step has all of them until the next step is over.
 struct DirtyRange {
     uint32_t first = 0, count = 0;
 };
 
-/// One body's drawn mesh: a closed surface. With equal positions taken as one, every edge is run as often one way as
-/// the other, by one triangle each but along cracks, where both sides lie on each other until they part.
+/// One body's drawn mesh: a closed surface. Take equal positions as one. Then every edge is run as often one way as
+/// the other, by one triangle each. Only along cracks there may be more: both sides lie on each other until they part.
 struct BodyView {
     const ViewVertex* vertices = nullptr;
     uint32_t vertex_count = 0;

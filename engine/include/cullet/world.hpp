@@ -36,10 +36,10 @@ struct ContactSettings {
     // At most 100. < 0: the material's; 0.45 for what has none: spheres, static triangles, kinematic boxes.
     float friction = -1;
     float restitution = -1;  // at most 1; < 0: 0.2; used above 0.2 m/s
-    // Of balls and what they roll on, as a share of the ball's radius: on a level floor a ball of uniform density slows
-    // by rolling_friction * g / 1.4, and on a slope it starts to roll where the slope's tangent is larger. Of two
-    // bodies the larger one counts. At most 1; < 0: 0.01 of a ball, 0 of all else. What is no ball rolls as on the rim
-    // of a chipped thing, by its shape; with 0 and more it rolls like a ball of as much surface instead.
+    // Of balls and what they roll on, as a share of the ball's radius. On a level floor a ball of uniform density slows
+    // by rolling_friction * g / 1.4. On a slope it starts to roll where the slope's tangent is larger. Of two bodies
+    // the larger one counts. At most 1; < 0: 0.01 of a ball, 0 of all else. What is no ball rolls as on the rim of a
+    // chipped thing, by its shape. With 0 and more it rolls like a ball of as much surface instead.
     float rolling_friction = -1;
     uint32_t layer = 1;  // bits
     uint32_t mask = 0xffffffffu;
@@ -53,8 +53,8 @@ struct SpawnSettings {
     bool is_breakable = true;  // false: rigid for good, of any material
     /// Above 0; on the material's strength (soft ones: strains). Fragments inherit it. Infinity never cracks.
     float strength_scale = 1;
-    /// Vertices inside any of these are fixed to the world: the body is static and `motion` counts for nothing. Refused
-    /// when no vertex lies in any.
+    /// Vertices inside any of these are fixed to the world. The body is then static, and `motion` counts for nothing.
+    /// Refused when no vertex lies in any.
     const Box* pins = nullptr;
     uint32_t pin_count = 0;
     FractureMode fracture = FractureMode::Hidden;  // of brittle materials; fragments inherit it, and `quick`
@@ -72,8 +72,8 @@ struct SphereSettings {
     uint64_t user_data = 0;
 };
 
-/// A convex solid that the game moves by its velocities: a lift, a door. A breakable body that it presses against
-/// something that does not yield breaks, however slowly it comes.
+/// A convex solid that the game moves by its velocities: a lift, a door. It breaks a breakable body that it presses
+/// against something that does not yield, however slowly it comes.
 struct KinematicSettings {
     Pose pose;
     Motion motion;
@@ -102,8 +102,8 @@ struct StepReport {
 enum class Retirement : uint8_t {
     Remove,  // it is gone, and its handle stale
     Freeze,  // it is static where it is: others still lie on it and hit it, but it never moves or breaks again
-    Merge,   // it is scenery: drawn where it lies, met by nothing, asked by queries alone. What it was made of is given
-             // back; its handle and its drawn mesh stay until remove()
+    Merge,   // it is scenery: drawn where it lies, met by nothing, found by queries alone. What it was made of is given
+             // back. Its handle and its drawn mesh stay until remove()
 };
 
 struct RetireSettings {
@@ -146,8 +146,8 @@ class World {
 
     /// m/s2, at most 10000 a component. Wakes all that sleeps, unless it is the gravity that there is already.
     Result<void> set_gravity(Vec3 gravity);
-    /// Asked before damage is looked at; false lets the hit pass as between rigid bodies. Called on the thread that
-    /// steps, between the parallel parts; must not call the world.
+    /// `allows` is asked before damage is looked at. False lets the hit pass as between rigid bodies. It is called on
+    /// the thread that steps, between the parallel parts, and must not call the world.
     void set_veto(bool (*allows)(void* user, const ImpactEvent& impact), void* user);
 
     // All calls below refuse, with a sentence: handles of what is gone or never was; poses that are not finite, farther
@@ -158,25 +158,25 @@ class World {
     Result<ModelId> add_model(const Model& model);
     Result<void> remove_model(ModelId model);
 
-    /// What a sheet of static triangles cuts where it is put comes at once to the side that its centre of mass is on;
-    /// what merely reaches around a sheet stays. pose() tells where a body is.
+    /// A sheet of static triangles may cut the body where it is put. Then the body comes at once to the side that its
+    /// centre of mass is on. A body that merely reaches around a sheet stays. pose() tells where a body is.
     Result<BodyId> spawn(ModelId model, const SpawnSettings& settings = {});
     Result<BodyId> add_sphere(const SphereSettings& settings);
     Result<BodyId> add_kinematic_box(const KinematicSettings& settings);
     /// Triangles in world coordinates that never move: floors, tables, level geometry. They bear from both sides,
-    /// however they are wound: nothing passes one, and what a step, a break or a spawn has put a little way behind one
+    /// however they are wound. Nothing passes one. What a step, a break or a spawn has put a little way behind one
     /// comes back. `one_sided`: only the side that sees the corners counter-clockwise bears, and things come out
     /// through it freely. Closed convex parts of at most 32 corners that are wound outwards are solid in either case.
     /// Triangles without area, and those that were given before, are left out; Host::log tells how many. Refused: no
     /// triangles, indices beyond the positions, positions that are not finite or beyond 1e6 m.
     Result<BodyId> add_static(const MeshView& triangles, const ContactSettings& contact = {}, uint64_t user_data = 0,
                               bool one_sided = false);
-    /// Hits on it that are worked off go with it.
+    /// Hits on it that are still being worked off go with it.
     Result<void> remove(BodyId body);
 
-    /// Fragments go, the oldest first, those of one frame by row; how many did. Passed over: what a hit is being worked
-    /// off on, and its strikers; where they are to be frozen or merged those with loose pieces that wait, too.
-    /// Refused: what is out of range.
+    /// Fragments go, the oldest first, those of one frame by row. Returns how many went. A fragment is passed over
+    /// while a hit on it is being worked off, or while it is the striker of one. One with loose pieces that wait is
+    /// not frozen or merged. Refused: what is out of range.
     Result<uint32_t> retire(const RetireSettings& settings);
     /// Fills `out` with up to `capacity` fragments, the oldest first, those of one frame by row, and returns how many
     /// there are. What was frozen or merged is no more among them.
@@ -188,14 +188,14 @@ class World {
     Result<double> mass(BodyId body) const;  // kg
     Result<uint64_t> user_data(BodyId body) const;
     Result<bool> is_asleep(BodyId body) const;
-    /// Puts the body there at once and wakes it, and what touches it; nobody, where it is there already. Where a sheet
-    /// cuts it, it comes to another place, as in spawn(). Refused of static triangles.
+    /// Puts the body there at once. Wakes it and what touches it, unless it is there already. Where a sheet cuts it, it
+    /// comes to another place, as in spawn(). Refused for static triangles.
     Result<void> set_pose(BodyId body, const Pose& pose);
-    /// Of its centre of mass. Wakes the body, unless it sleeps and this is its motion already, or none. Refused of
+    /// Of its centre of mass. Wakes the body, unless it sleeps and this is its motion already, or none. Refused for
     /// static and pinned bodies.
     Result<void> set_motion(BodyId body, const Motion& motion);
-    /// At a world place, N s, any finite one that leaves the body's velocities in range. Wakes the body, unless the
-    /// impulse is none; does nothing to one that forces do not move.
+    /// At a world place, N s: any finite impulse that leaves the body's velocities in range. Wakes the body, unless the
+    /// impulse is none. Does nothing to a body that forces do not move.
     Result<void> apply_impulse(BodyId body, Vec3 impulse, Vec3 place);
     Result<void> wake(BodyId body);
 
@@ -205,14 +205,14 @@ class World {
     Result<void> push_impact(BodyId body, const PushSettings& push);
     /// On all bodies in reach.
     Result<void> explode(const ExplosionSettings& explosion);
-    /// Of one breakable body of a brittle material, down to any size; of all of them that the surface passes through
-    /// when `body` is null. Ductile, elastic and unbreakable bodies are refused by name, passed over otherwise.
+    /// Cuts one breakable body of a brittle material, down to any size. When `body` is null, cuts all of them that the
+    /// surface passes through. Ductile, elastic and unbreakable bodies are refused by name, passed over otherwise.
     Result<void> cut(BodyId body, const CutSettings& cut);
 
-    /// The place `by` becomes the origin: every coordinate c of the world, of events and of drawn poses becomes c - by;
-    /// views and body frames stay. Between steps, at any time, hits that are worked off included. Nothing wakes. Places
-    /// round to floats of the new size: far from the origin (0.25 mm at 4 km) a little is lost, near it nothing more.
-    /// A host that moves the bodies shifts its own. O(bodies + static triangles).
+    /// The place `by` becomes the origin: every coordinate c of the world, of events and of drawn poses becomes c - by.
+    /// Views and body frames stay. May be called between steps at any time, also while hits are worked off. Nothing
+    /// wakes. Places round to floats of the new size: far from the origin (0.25 mm at 4 km) a little is lost, near it
+    /// nothing more. A host that moves the bodies shifts its own. O(bodies + static triangles).
     Result<void> shift_origin(Vec3 by);
 
     /// Fills `out` with up to `capacity` bodies in row order and returns how many there are.
@@ -220,18 +220,18 @@ class World {
     /// The drawn mesh of a breakable body; empty for others.
     Result<BodyView> view(BodyId body) const;
     /// Cracks that have not parted the body: both of their faces lie in one place, so that triangles do not show them.
-    /// Writes pairs of indices into view(body).vertices, each pair one line, once along the outer wall (uv.y is 0) and
-    /// once along the inner one, in the order of their places; to be drawn thin and dark, a little towards the eye.
-    /// Returns how many indices. Half of the view's index_count is always room enough; too little is refused. To be
-    /// asked when the stamp has changed: 0.2 microseconds an edge of the crack faces; allocates nothing.
+    /// Writes pairs of indices into view(body).vertices, in the order of their places. Each pair is one line. It comes
+    /// once along the outer wall (uv.y is 0) and once along the inner one. Draw it thin and dark, a little towards the
+    /// eye. Returns how many indices. Half of the view's index_count is always room enough; too little is refused. Ask
+    /// when the stamp has changed. Costs 0.2 microseconds an edge of the crack faces, and allocates nothing.
     Result<uint32_t> hairlines(BodyId body, uint32_t* indices, uint32_t room) const;
 
-    // A snapshot holds all that later steps depend on, in the middle of a hit too; not the host's functions, nor the
-    // veto. A world that loads it and the one that saved it go on with the same bytes; for that the one that saves
-    // makes its rigid bodies anew, which costs about as much as a frame in which all of them are born, and may change
-    // what comes after in the last digits. Handles stay good; views, events and addresses do not.
-    // In a world of create_hosted, host_changes() after a load names all breakable bodies as born, all balls and boxes
-    // as moved, all pairs that are apart, and what the game removed since the step before the save.
+    // A snapshot holds all that later steps depend on, in the middle of a hit too. It does not hold the host's
+    // functions, nor the veto. A world that loads it and the one that saved it go on with the same bytes. For that the
+    // one that saves makes its rigid bodies anew. This costs about as much as a frame in which all of them are born. It
+    // may change what comes after in the last digits. Handles stay good; views, events and addresses do not.
+    // In a world of create_hosted, host_changes() after a load names all breakable bodies as born, and all balls and
+    // boxes as moved. It also names all pairs that are apart, and what the game removed since the step before the save.
     Result<std::vector<uint8_t>> snapshot();
     /// `name` stands in sentences. What is refused leaves the world as it was. Limits and settings are the snapshot's.
     Result<void> restore(const uint8_t* bytes, size_t size, const char* name = "snapshot");
@@ -239,9 +239,9 @@ class World {
     Result<void> save(const std::string& path);
     Result<void> load(const std::string& path);
 
-    /// From now on every call that changes the world, and a hash after each step, go to this file, a step at a time;
-    /// models to the folder `path`.models. recording.hpp plays it again. Costs two hashes of the state a step. A
-    /// recording that cannot be written on ends, and the log is told.
+    /// From now on every call that changes the world, and a hash after each step, go to this file, a step at a time.
+    /// Models go to the folder `path`.models. recording.hpp plays it again. Costs two hashes of the state a step. A
+    /// recording ends when it can be written no further, and the log is told.
     Result<void> start_recording(const std::string& path);
     /// Empty, or a sentence: why it ended before.
     Result<void> stop_recording();
