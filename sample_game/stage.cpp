@@ -38,8 +38,8 @@ Keys world_keys() {
         .number("debris_share", "1", static_cast<double>(defaults.debris_share), 0, 1,
                 "pieces lighter than this share of the whole are debris")
         .number("break_share", "1", static_cast<double>(defaults.break_share), 0, 1,
-                "pieces lighter than this share do not break again")
-        .number("break_elements", "1", defaults.break_elements, 0, 1e6, "pieces of fewer elements do not break again")
+                "pieces lighter than this share do not break again by blows and weights")
+        .number("break_elements", "1", defaults.break_elements, 0, 1e6, "pieces of fewer elements do not either")
         .number("debris_elements", "1", defaults.debris_elements, 0, 1e6, "pieces of fewer elements are debris")
         .number("debris_s", "s", static_cast<double>(defaults.debris_seconds), 0, 1e6,
                 "debris is gone after so long; 0: it stays")

@@ -125,9 +125,13 @@ void return_soft(Serial, const SoftBodies& soft, const SoftStrikers& strikers, R
 void read_rigid(Serial, const RigidWorld& rigid, Bodies& bodies, Events<AsleepEvent>& asleep);
 /// Weighs what lies on a body or squeezes it, by the impulses of the last solve (a host tells them with its contacts).
 /// If that is for some steps more than the body bears (impacts/overload.hpp), a hit that stands for the load is put in
-/// QueuedHits. A run on the body that has cracked nothing makes way.
+/// QueuedHits. A run on the body that has cracked nothing makes way. What is too small to come apart is listed, when
+/// nothing else makes way.
 void weigh_loads(Serial, Step step, RigidWorld& rigid, BodyRows& rows, QueuedHits& queued, const Blows& blows,
-                 DamageRules rules, Arena& arena, Events<RefusedEvent>& refused);
+                 DamageRules rules, Arena& arena, ToldOfLoads told);
+/// Each of those becomes debris with its mass and its motion. Without room it stays as it is, and asks again.
+void grind_crushed(Serial, Step step, const Events<Crushed>& crushed, SoftRows& rows, WaitingHits waiting,
+                   Crumbs crumbs, const DamageModels& models, RigidWorld& rigid, ToldOfGrinding told);
 /// Debris flies on parabolas, bounces off the ground and off bodies larger than itself, slides and comes to rest. A
 /// host keeps its shapes to itself. In its world debris knows only the floor below its place of birth.
 void fall_debris(Serial, Step step, const RigidWorld& rigid, Debris& debris, DamageCounts& counts);

@@ -61,6 +61,13 @@ struct RunLoops;
 class DamageModels;
 class QueryIndex;
 
+/// A piece that nothing makes way for, and that is too small to come apart.
+struct Crushed {
+    Row<Bodies> body, toucher;
+    Vec3 point, normal;  // world: where it is pushed, and which way
+    float load;          // N, see ImpactEvent
+};
+
 /// What the game set, as the systems read it.
 struct DamageSettings {
     uint64_t units_a_frame = 0;
@@ -153,6 +160,16 @@ struct BirthAccounts {
     DamageCounts& counts;
     Arena& arena;
 };
+/// What loads ask for, beside hits.
+struct ToldOfLoads {
+    Events<Crushed>& crushed;
+    Events<RefusedEvent>& refused;
+};
+struct ToldOfGrinding {
+    Events<ImpactEvent>& impacts;
+    Events<DebrisEvent>& debris;
+    Events<RefusedEvent>& refused;
+};
 struct ToldOfBirths {
     Events<ShellChanged>& changed;
     Events<FragmentBornEvent>& born;
@@ -166,11 +183,13 @@ inline auto queues_between(const LimitSettings& limits, const State& state) {
                   QueueOf<StiffnessWanted>{state.stiffness_packs.limit() / kRowsPerChunk<StiffnessPacks> + tasks},
                   QueueOf<RegionPart>{state.awake_packs.limit() / kRowsPerChunk<AwakePacks>}, QueueOf<TaskEnded>{tasks},
                   QueueOf<Break>{bodies + tasks}, QueueOf<Birth>{2 * (bodies + tasks) + limits.debris},
-                  QueueOf<HullWanted>{state.cells.limit()}, QueueOf<ShellChanged>{2 * bodies + tasks});
+                  QueueOf<HullWanted>{state.cells.limit()}, QueueOf<ShellChanged>{2 * bodies + tasks},
+                  QueueOf<Crushed>{bodies});
 }
 /// What the game reads after the step; emptied when the next one begins. Each has a `place`.
 inline auto queues_told(const LimitSettings& limits, const State& state) {
-    return Queues(QueueOf<ImpactEvent>{limits.open_hits + state.blows.limit()},  // one for each blow that joins a task
+    // An impact for each task, each blow that joins one, and each piece that is crushed.
+    return Queues(QueueOf<ImpactEvent>{limits.open_hits + state.blows.limit() + limits.bodies},
                   QueueOf<CrackStartedEvent>{1u << 14}, QueueOf<FragmentBornEvent>{limits.bodies},
                   QueueOf<DebrisEvent>{1u << 16}, QueueOf<RefusedEvent>{1u << 12}, QueueOf<FaultEvent>{1u << 10},
                   QueueOf<AsleepEvent>{limits.bodies});

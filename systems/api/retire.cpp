@@ -10,6 +10,7 @@
 #include "systems/models.hpp"
 #include "systems/structures/shell/piece_shape.hpp"
 #include "systems/structures/shell/rigid_shape.hpp"
+#include "systems/tasks/take_out.hpp"
 #include "systems/world_contents.hpp"
 
 namespace cullet {
@@ -62,7 +63,7 @@ void give_back_rows(State& state, Row<Shells> shell) {
 
 void stand_still(WorldData& d, Row<Bodies> body, BodyKind kind) {
     Bodies& bodies = d.state.bodies;
-    drop_hits(d.state, body);
+    drop_hits({d.state.queued_hits, d.state.blows}, body);
     d.damage_models->release(d.state, body);
     if (kind == BodyKind::Scenery) d.rigid->remove(body);
     bodies.kind[body] = static_cast<uint8_t>(kind);

@@ -6,6 +6,7 @@
 #include "engine/rigid_bounds.hpp"
 #include "systems/births/limit_energy.hpp"
 #include "systems/births/limit_flight.hpp"
+#include "systems/births/make_crumb.hpp"
 #include "systems/births/strike_back.hpp"
 #include "systems/bodies/blows.hpp"
 #include "systems/bodies/thresholds.hpp"
@@ -82,36 +83,18 @@ Motion world_motion(const Moment& m, const PartMotion& part) {
             rotate(m.pose.orientation, (part.spin + m.spin_change).to_float())};
 }
 
-// The row of the crumb.
-uint32_t make_debris(Births& births, ShellView shell, const FragmentPart& part, const Motion& motion,
-                     const Moment& moment, Row<Bodies> parent, Vec3d centre) {
-    BodyRows& state = births.state;
-    Debris& debris = births.debris;
-    uint32_t row = 0;
-    while (row < debris.size() && debris.is_used[row]) ++row;
-    if (row == debris.size() && debris.append(1) == kNone) return kNone;  // planning counted: there is room
+// The row of the crumb; planning counted: there is room.
+uint32_t make_debris(Births& births, const Break& plan, uint32_t p, const Moment& moment) {
+    const SoftRows& state = births.state;
+    const ShellView shell(births.state, plan.broken);
     double volume = 0;
-    for (uint32_t e = part.first_element; e != kNone; e = state.elements.next[shell.element(e)])
+    for (uint32_t e = plan.parts[p].first_element; e != kNone; e = state.elements.next[shell.element(e)])
         volume += state.elements.volume[shell.element(e)];
-    const Vec3 place = births.rigid.to_side_of(parent, to_world(moment.pose, centre.to_float()));
-    debris.is_used[row] = 1;
-    debris.is_resting[row] = 0;
-    debris.position.set(row, place);
-    debris.velocity.set(row, motion.velocity);
-    debris.mass[row] = part.mass;
-    // Radius of the ball of the same volume; the cube root by Newton from above.
-    double r = 1;
-    for (int i = 0; i < 60; ++i) r = (2 * r + 0.2387 * volume / (r * r)) / 3;
-    debris.radius[row] = static_cast<float>(r);
-    // Where the rigid world tells what is in the way, nothing else stops it.
-    constexpr float kNoFloor = -1e6f;
-    debris.floor[row] =
-        births.rigid.knows_surfaces() ? kNoFloor : births.rigid.height_below(place, kNoFloor) + debris.radius[row];
-    debris.colour[row] = state.bodies.colour[parent];
-    set_born(births.debris_ages, row, births.step.frame);
-    births.debris_events.push(
-        {body_id(state.bodies, parent), state.bodies.user_data[parent], place, motion.velocity, part.mass});
-    return row;
+    const Motion motion = world_motion(moment, plan.motions[p]);
+    return make_crumb({births.debris, births.debris_ages}, state.bodies, births.rigid,
+                      {plan.body, to_world(moment.pose, plan.motions[p].centre.to_float()), motion.velocity,
+                       plan.parts[p].mass, volume},
+                      births.step.frame, births.debris_events);
 }
 
 void place_body(Births& births, Row<Bodies> body, const Moment& moment, const Motion& motion, bool is_static,
@@ -315,8 +298,7 @@ void make_births_of(Births& births, const Break& plan, const Moment& moment) {
     for (uint32_t i = 1; i < count; ++i) {
         const uint32_t p = plan.order[i];
         if (!plan.is_crumb[p]) continue;
-        plan.debris[p] = make_debris(births, ShellView(state, plan.broken), plan.parts[p],
-                                     world_motion(moment, plan.motions[p]), moment, plan.body, plan.motions[p].centre);
+        plan.debris[p] = make_debris(births, plan, p, moment);
     }
     plan.child[plan.largest] = plan.body;
     const auto bounds = births.arena.take<Bounds>(count);

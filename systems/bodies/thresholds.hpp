@@ -34,6 +34,16 @@ inline bool may_snap_again(const Shells& shells, Row<Shells> s, const DamageSett
     return generation == 0 ||
            (settings.generations > 0 && generation < kMostGenerations && is_worth_breaking(shells, s, settings));
 }
+/// Nothing but the game forbids it to give way to what does not yield.
+inline bool may_be_crushed(const Shells& shells, Row<Shells> s, const DamageSettings& settings) {
+    return shells.generation[s] == 0 || settings.generations > 0;
+}
+/// Both halves of it would be more than debris: what may be crushed comes apart so far, and is ground below it.
+inline bool may_be_halved(const Shells& shells, Row<Shells> s, const DamageSettings& settings) {
+    const uint32_t left = shells.elements[s].count - shells.dead_elements[s];
+    return shells.generation[s] < kMostGenerations && left > 1 && left >= 2 * uint64_t{settings.debris_elements} &&
+           shells.mass[s] >= 2 * double{settings.debris_share} * shells.intact_mass[s];
+}
 inline uint64_t retry_frames(float dt) {
     return 1 + static_cast<uint64_t>(std::ceil(kRetrySeconds / dt));
 }

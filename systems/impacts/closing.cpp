@@ -8,8 +8,8 @@ namespace cullet {
 namespace {
 
 // Below it two that close on a body stand still, m/s: poses that a game sets far from the origin round by half of that.
-// The second is for who lies deep in it already. Opposite to each other is what is within 37 degrees of it.
-constexpr double kDrivenSpeed = 1e-3, kCreepingSpeed = 1e-6, kOpposite = -0.8;
+// The second is for who lies deep in it already.
+constexpr double kDrivenSpeed = 1e-3, kCreepingSpeed = 1e-6;
 
 Vec3d velocity_at(const BodyLoad& l, Vec3d place) {
     return l.velocity + cross(l.spin, place);
@@ -30,7 +30,7 @@ double closing_speed(const BodyLoad& a, const BodyLoad& b) {
 bool are_closing(const ClosingBody& body, const BodyLoad& driver, std::span<const BodyLoad> loads, bool is_direct) {
     if (body.is_pinned) return true;
     return std::any_of(loads.begin(), loads.end(), [&](const BodyLoad& l) {
-        return (is_direct ? l.stands : l.is_backed) && dot(driver.push, l.push) < kOpposite &&
+        return (is_direct ? l.stands : l.is_backed) && are_opposite(driver.push, l.push) &&
                closing_speed(driver, l) > least_speed(body, driver);
     });
 }

@@ -59,6 +59,13 @@ LoadLists::LoadLists(Bodies& bodies, std::span<const RigidContact> contacts, Are
     }
 }
 
+float LoadLists::deepest(Row<Bodies> body) const {
+    float deepest = 0;
+    for (uint32_t entry = bodies_.first_load[body]; entry != kNone; entry = next_[entry])
+        deepest = std::max(deepest, -contacts_[entry / 2].distance);
+    return deepest;
+}
+
 void LoadLists::Behind::meet(const Bodies& bodies, Row<Bodies> other) {
     const float at = dot(velocity_at(bodies, other, place), push);
     if (stands && at <= speed) return;

@@ -16,6 +16,8 @@ class LoadLists {
 
     uint32_t longest() const { return longest_; }  // loads of one body
     bool has_loads(Row<Bodies> body) const { return bodies_.first_load[body] != kNone; }
+    /// m, of its contacts, that a toucher lies in it.
+    float deepest(Row<Bodies> body) const;
     /// As many as there is room for, the first; how many.
     uint32_t take(Row<Bodies> body, float dt, std::span<BodyLoad> loads) const;
 

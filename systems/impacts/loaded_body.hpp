@@ -11,6 +11,7 @@ struct LoadedBody {
     const Materials& materials;
     const PinBoxes& pin_boxes;
     Row<Bodies> body;
+    bool yields_to_weights = true;  // false: to what the game moves alone
 
     Row<Shells> shell() const { return bodies.shell[body]; }
     Row<Materials> material() const { return shells.material[shell()]; }

@@ -131,12 +131,6 @@ bool open_snap(Opening& opening, uint32_t q, Events<ImpactEvent>& impact_events)
 // was that broke.
 constexpr float kMostSecondsQueued = 2;
 
-bool is_loaded(const QueuedHits& queued, Row<Bodies> body) {
-    for (uint32_t q = 0; q < queued.size(); ++q)
-        if (queued.is_used[q] && queued.body[q] == body && queued.load[q] > 0) return true;
-    return false;
-}
-
 // Those of one frame in the order of the queue's rows, one a body and frame, while tasks last: the others wait, and so
 // does what finds no rows now but may find some soon.
 void open_queued_of(uint64_t frame, Opening& opening, const DamageSettings& settings,
@@ -150,9 +144,10 @@ void open_queued_of(uint64_t frame, Opening& opening, const DamageSettings& sett
         if (bodies.task[body] != kNone || opening.frame < bodies.retry_frame[body] || bodies.hold_count[body]) continue;
         if (has_waiting_cut(opening.blows, body)) continue;
         // Older bumps of what presses on it would work for half a second before the load is looked at.
-        if (!(queued.load[q] > 0) && is_loaded(queued, body)) continue;
+        if (!(queued.load[q] > 0) && has_waiting_load(queued, body)) continue;
         const bool snaps = is_snap(queued.load[q], queued.approach_speed[q]);
-        const auto may_break = snaps ? may_snap_again : may_break_again;
+        // What asks for a snap has seen to it that nothing else is left.
+        const auto may_break = snaps ? may_be_crushed : may_break_again;
         if (may_break(state.shells, bodies.shell[body], settings)) {
             if (snaps && open_snap(opening, q, impact_events)) {
                 queued.clear_rows(q, 1);

@@ -217,6 +217,12 @@ bool queue_hit(QueuedHits& queued, const QueuedHit& hit) {
     return true;
 }
 
+bool has_waiting_load(const QueuedHits& queued, Row<Bodies> body) {
+    for (uint32_t q = 0; q < queued.size(); ++q)
+        if (queued.is_used[q] && queued.body[q] == body && queued.load[q] > 0) return true;
+    return false;
+}
+
 void Opening::refuse(Row<Bodies> body, const char* setting, bool is_ahead) {
     if (!is_ahead) refused.push(refused_event(state.bodies, body, setting));
 }

@@ -65,5 +65,7 @@ inline bool is_snap(float load, float approach_speed) {
 /// A hit waits in the queue for its body. At most one a striker: the faster, or one that snaps it. False: there is no
 /// room in it.
 bool queue_hit(QueuedHits& queued, const QueuedHit& hit);
+/// One of them stands for a load.
+bool has_waiting_load(const QueuedHits& queued, Row<Bodies> body);
 
 }  // namespace cullet

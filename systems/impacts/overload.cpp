@@ -28,8 +28,6 @@ constexpr double kSolidWalls = 2.5;
 // Who weighs so many times what a body does stands, for it: the solver leaves them closing on it, and what lies between
 // such a one and a floor is crushed, slips away, or stands in both.
 constexpr double kOutweighs = 20;
-// Opposite is what is within 37 degrees of it.
-constexpr double kOpposite = -0.8;
 
 /// N along and against a direction: what pushes, and what could be borne.
 struct Sides {
@@ -160,19 +158,30 @@ double force_borne(const LoadedBody& of) {
 double sunk_into(const LoadedBody& of, std::span<const BodyLoad> loads) {
     const Bodies& bodies = of.bodies;
     const double heavy = kOutweighs * bodies.mass[of.body];
+    const auto is_kind = [&](const BodyLoad& l, BodyKind kind) {
+        return l.toucher.exists() && static_cast<BodyKind>(bodies.kind[l.toucher]) == kind;
+    };
     // Who is held in the grip of a run stands for some frames, no more.
     const auto stays = [&](const BodyLoad& l) {
-        return !l.toucher.exists() || static_cast<BodyKind>(bodies.kind[l.toucher]) != BodyKind::Dynamic ||
-               bodies.mass[l.toucher] > heavy;
+        return !is_kind(l, BodyKind::Dynamic) || bodies.mass[l.toucher] > heavy;
     };
-    const BodyLoad* deepest = nullptr;
-    for (const BodyLoad& l : loads)
-        if (stays(l) && l.depth > (deepest ? deepest->depth : 0)) deepest = &l;
-    if (!deepest) return 0;
-    double sunk = of.is_pinned() ? deepest->depth : 0;
-    for (const BodyLoad& l : loads)
-        if (stays(l) && (l.is_backed || deepest->is_backed) && dot(l.push, deepest->push) < kOpposite)
-            sunk = std::max(sunk, deepest->depth + std::max(0.0, l.depth));
+    const auto presses = [&](const BodyLoad& l) { return is_kind(l, BodyKind::Kinematic); };
+    // A shard that fell between two stumps lies in both, and nothing closes on it.
+    const auto counts = [&](const BodyLoad& l) { return of.yields_to_weights ? stays(l) : presses(l); };
+    double deepest = 0, sunk = 0;
+    for (const BodyLoad& l : loads) {
+        deepest = std::max(deepest, l.depth);
+        if (of.is_pinned() && counts(l)) sunk = std::max(sunk, l.depth);
+    }
+    for (const BodyLoad& a : loads) {
+        if (!(a.depth > 0) || a.depth + deepest <= sunk || !counts(a)) continue;
+        for (const BodyLoad& b : loads) {
+            // A press holds what lies on others, too, after it has stopped.
+            const bool is_held = (a.is_backed || b.is_backed) && (stays(b) || (presses(a) && b.is_backed));
+            if (is_held && a.toucher != b.toucher && are_opposite(a.push, b.push))
+                sunk = std::max(sunk, a.depth + std::max(0.0, b.depth));
+        }
+    }
     return sunk;
 }
 

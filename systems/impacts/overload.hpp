@@ -24,6 +24,10 @@ struct BodyLoad {
     uint32_t contact = 0;  // of RigidWorld::loads()
 };
 inline constexpr double kBearsAll = 1e30;  // N
+/// From opposite sides: within 37 degrees of it.
+inline bool are_opposite(Vec3d push, Vec3d other) {
+    return dot(push, other) < -0.8;
+}
 
 double sum_of(std::span<const BodyLoad> loads);  // N, of the forces
 
@@ -62,7 +66,8 @@ double sunk_into(const LoadedBody& of, std::span<const BodyLoad> loads);
 ///   evenly. Pins bear like a beam's supports, the nearest to both sides of the load.
 /// - Driven: those that do not yield close on it, from opposite sides or so that it has no way out, and touch it or
 ///   press on it through others.
-/// Sunk into, whatever the solver says: who is many times as heavy counts as one that does not make way.
+/// Sunk into, whatever the solver says, by two of them: who is many times as heavy counts as one that does not make
+/// way.
 /// A load over somebody who bears the body just there bends nothing, and squeezes by its pressure where it lies flat.
 /// `weight`: N, body axes. Where the loads are not in balance as they were solved, those that are backed get what
 /// balances the others.

@@ -2,6 +2,7 @@
 #include <cmath>
 
 #include "components/body_id.hpp"
+#include "systems/bodies/blows.hpp"
 #include "systems/impacts/bending.hpp"
 #include "systems/impacts/fragile.hpp"
 #include "systems/impacts/load_lists.hpp"
@@ -36,6 +37,8 @@ constexpr float kFastestRun = 15, kDeepest = 0.05f, kWithCracks = 1.6f;
 // What lies deeper in it than these shares of its size and of its wall has crushed it, whatever the solver says.
 constexpr float kSunkInAll = 0.03f, kSunkInWall = 0.5f;
 constexpr uint8_t kMostRuns = 2, kMostDrivenRuns = 1;
+// A piece that is still whole after so many cuts cannot be cut.
+constexpr uint8_t kMostCuts = 2;
 // Of fewer elements a blow knocks out a corner, and what is left may have too few to break again.
 constexpr uint32_t kFewestForARun = 200;
 // After each such run the body is left alone twice as long, but no longer than 64 times; what is crushed 4 times.
@@ -72,13 +75,16 @@ double least_load(const LoadedBody& of) {
 bool is_any_driven(std::span<const BodyLoad> loads) {
     return std::any_of(loads.begin(), loads.end(), [](const BodyLoad& l) { return l.driven_speed > 0; });
 }
+bool is_pressed(const LoadedBody& of, std::span<const BodyLoad> loads) {
+    return is_any_driven(loads) || is_sunk(of, sunk_into(of, loads));
+}
 bool may_be_overloaded(const LoadedBody& of, std::span<const BodyLoad> loads) {
-    return is_any_driven(loads) || sum_of(loads) > kLookShare * least_load(of) || is_sunk(of, sunk_into(of, loads));
+    return sum_of(loads) > kLookShare * least_load(of) || is_pressed(of, loads);
 }
 
 // It may break, and is not held.
 bool may_be_loaded(const LoadedBody& of, const DamageSettings& settings) {
-    return of.shell().exists() && of.bodies.is_breakable[of.body] && may_snap_again(of.shells, of.shell(), settings) &&
+    return of.shell().exists() && of.bodies.is_breakable[of.body] && may_be_crushed(of.shells, of.shell(), settings) &&
            !of.bodies.hold_count[of.body] && of.shells.first_crack_force[of.shell()] > 0 && force_borne(of) < kBearsAll;
 }
 
@@ -86,6 +92,28 @@ bool may_be_loaded(const LoadedBody& of, const DamageSettings& settings) {
 // else wakes it, for what lies in a heap would be woken to bear what it may not break by.
 bool is_past_blows(const LoadedBody& of, const DamageSettings& settings) {
     return !may_break_again(of.shells, of.shell(), settings);
+}
+
+// What is not worth breaking gives way to what the game moves alone. In a heap that comes down shards lie half a wall
+// deep below slabs for a while, or between two stumps, and were ground by the dozen.
+bool is_small(const LoadedBody& of, const DamageSettings& settings) {
+    return !may_snap_again(of.shells, of.shell(), settings);
+}
+bool is_anything_driven(const Bodies& bodies) {
+    for (uint32_t b = 0; b < bodies.size(); ++b) {
+        if (static_cast<BodyKind>(bodies.kind[b]) != BodyKind::Kinematic) continue;
+        if (length(bodies.velocity[b]) > 0 || length(bodies.spin[b]) > 0) return true;
+    }
+    return false;
+}
+bool may_be_pressed(const LoadedBody& of, const LoadLists& lists, bool is_anything_driven) {
+    return is_anything_driven || is_sunk(of, 2 * lists.deepest(of.body));
+}
+
+// What comes apart no further. What is pinned goes nowhere.
+bool is_to_grind(const LoadedBody& of, const DamageSettings& settings) {
+    return is_small(of, settings) && !of.is_pinned() &&
+           (!may_be_halved(of.shells, of.shell(), settings) || of.bodies.overload_runs[of.body] >= kMostCuts);
 }
 
 // What is laid on a sleeper little by little is not to find it asleep for ever: its supports tell their loads only
@@ -168,6 +196,14 @@ QueuedHit snap_of(QueuedHit hit, const Overload& over) {
     return hit;
 }
 
+Crushed crushed_by(const Bodies& bodies, const QueuedHit& hit) {
+    const Pose pose = pose_of(bodies, hit.body);
+    return {hit.body, hit.striker, to_world(pose, hit.point), rotate(pose.orientation, hit.normal), hit.load};
+}
+bool is_to_be_cut(const QueuedHits& queued, const Blows& blows, Row<Bodies> body) {
+    return has_waiting_load(queued, body) || has_waiting_cut(blows, body);
+}
+
 // So many counted steps in a row a load has to be too much.
 uint32_t counts_of_load(const LoadedBody& of, const Overload& over, float dt) {
     const Bodies& bodies = of.bodies;
@@ -183,10 +219,14 @@ uint32_t counts_of_load(const LoadedBody& of, const Overload& over, float dt) {
     return counts_in(kOverloadSeconds, dt) << std::min(runs, kMostLoadRuns);
 }
 
-// The same of what is sunk into, whether it is too much besides or not.
+// The same of what is sunk into, whether it is too much besides or not. What moves in spite of that is held by nothing:
+// a pane that leaves its place below a slab is a centimetre deeper each sixtieth.
 uint32_t counts_of_sinking(const LoadedBody& of, const Overload& over, bool is_too_much, float dt) {
     const uint8_t runs = of.bodies.overload_runs[of.body];
     if (is_too_much) return 1u << std::min(runs, kMostCrushedRuns);
+    const double way = double{kLeastCounted} * double{length(of.bodies.velocity[of.body])};
+    if (of.yields_to_weights && is_deep(of.bodies, of.body, over.sunk + way))
+        return 1u << std::min(runs, kMostLoadRuns);
     const float seconds = is_deep(of.bodies, of.body, over.sunk) ? kDrivenSeconds : kOverloadSeconds;
     return counts_in(seconds, dt) << std::min(runs, kMostLoadRuns);
 }
@@ -221,68 +261,121 @@ bool is_allowed(const Bodies& bodies, const QueuedHit& hit, const DamageSettings
     return settings.allows(settings.allows_user, event);
 }
 
+/// One body after the other.
+struct Weighing {
+    Step step;
+    RigidWorld& rigid;
+    BodyRows& rows;
+    QueuedHits& queued;
+    const Blows& blows;
+    DamageRules rules;
+    ToldOfLoads told;
+    bool counts, forgets;  // in this step
+
+    void wake_if_loaded(const LoadedBody& of, std::span<const BodyLoad> loads);
+    /// The load has lasted long enough.
+    bool is_due(const LoadedBody& of, const Overload& over);
+    void give_way(const LoadedBody& of, const Overload& over, const RigidContact& worst);
+};
+
+void Weighing::wake_if_loaded(const LoadedBody& of, std::span<const BodyLoad> loads) {
+    Bodies& bodies = rows.bodies;
+    float& waking_load = bodies.waking_load[of.body];
+    if (forgets) waking_load *= 0.5f;
+    const double load = sum_of(loads);
+    if (!is_to_wake(of, load) || (is_past_blows(of, rules.settings) && !is_any_driven(loads))) return;
+    waking_load = static_cast<float>(std::clamp(2 * double{waking_load}, kFirstWaking * load, 1e30));
+    rigid.wake(of.body);
+    bodies.is_asleep[of.body] = 0;
+    bodies.overloaded_steps[of.body] = kWasWoken;
+}
+
+bool Weighing::is_due(const LoadedBody& of, const Overload& over) {
+    Bodies& bodies = rows.bodies;
+    uint8_t& steps = bodies.overloaded_steps[of.body];
+    const bool is_busy = bodies.task[of.body] != kNone;
+    const bool is_too_much = over.is_driven || (over.share > 1 && !is_past_blows(of, rules.settings)),
+               is_sunk_into = is_sunk(of, over.sunk);
+    if (!is_too_much && !is_sunk_into) {
+        if (!counts) return false;
+        steps = 0;
+        if (!is_busy && over.share < 0.5) bodies.overload_runs[of.body] = 0;
+        return false;
+    }
+    uint32_t wanted = kWasWoken - 1;
+    if (is_too_much) wanted = std::min(wanted, counts_of_load(of, over, step.dt));
+    if (is_sunk_into) wanted = std::min(wanted, counts_of_sinking(of, over, is_too_much, step.dt));
+    if (!counts && wanted > 1) return false;
+    if (steps < kWasWoken - 1) ++steps;
+    return steps >= wanted;
+}
+
+// It gets a hit, snaps, or is ground. What is worked off on it may go on.
+void Weighing::give_way(const LoadedBody& of, const Overload& over, const RigidContact& worst) {
+    Bodies& bodies = rows.bodies;
+    const Row<Bodies> body = of.body;
+    const bool is_busy = bodies.task[body] != kNone;
+    const bool has_pressed_on = is_busy && is_too_late(rows, body, over, step);
+    if (is_busy && !makes_way(rows, blows, Row<Tasks>(bodies.task[body]), has_pressed_on)) return;
+    bodies.overloaded_steps[body] = 0;
+    const QueuedHit blow = hit_of(rows, body, worst, over, step.frame);
+    const bool is_ground = is_to_grind(of, rules.settings) && !is_to_be_cut(queued, blows, body);
+    const bool runs = !is_ground && !has_pressed_on && is_for_a_run(rows, of, over, rules, step);
+    const QueuedHit hit = runs ? blow : snap_of(blow, over);
+    if (!is_allowed(bodies, hit, rules.settings)) return;
+    if (is_busy) cancel_task(rules.models, rows, Row<Tasks>(bodies.task[body]));
+    uint8_t& times = bodies.overload_runs[body];
+    times = std::min<uint8_t>(static_cast<uint8_t>(times + 1), kMostLoadRuns);
+    if (is_ground)
+        told.crushed.push(crushed_by(bodies, blow));
+    else if (!queue_hit(queued, hit))
+        told.refused.push(refused_event(bodies, body, "limits.queued_hits"));
+}
+
 }  // namespace
 
 void weigh_loads(Serial, Step step, RigidWorld& rigid, BodyRows& rows, QueuedHits& queued, const Blows& blows,
-                 DamageRules rules, Arena& arena, Events<RefusedEvent>& refused) {
-    if (!is_counted(step)) return;
+                 DamageRules rules, Arena& arena, ToldOfLoads told) {
+    told.crushed.clear();
     const DamageSettings& settings = rules.settings;
     Bodies& bodies = rows.bodies;
     const auto contacts = rigid.loads();
     const LoadLists lists(bodies, contacts, arena);
     const auto found = arena.take<BodyLoad>(lists.longest());
     const OverloadRoom room{arena.take<BodyLoad>(lists.longest()), arena.take<AxisForce>(lists.longest())};
-    const bool forgets = is_period_over(step, kForgettingSeconds);
+    Weighing weighing{
+        step, rigid, rows, queued, blows, rules, told, is_counted(step), is_period_over(step, kForgettingSeconds)};
+    const bool is_driven = is_anything_driven(bodies);
     for (uint32_t b = 0; b < bodies.size(); ++b) {
         const Row<Bodies> body(b);
-        const LoadedBody of{bodies, rows.shells, rows.vertices, rows.materials, rows.pin_boxes, body};
-        if (!lists.has_loads(body) || !may_be_loaded(of, settings)) {
+        LoadedBody of{bodies, rows.shells, rows.vertices, rows.materials, rows.pin_boxes, body};
+        bool is_looked_at = lists.has_loads(body) && may_be_loaded(of, settings);
+        of.yields_to_weights = !is_looked_at || !is_small(of, settings);
+        is_looked_at = is_looked_at && (of.yields_to_weights || may_be_pressed(of, lists, is_driven));
+        const bool was_woken = bodies.overloaded_steps[b] == kWasWoken;
+        // Between counts only what sinks in fast is looked at.
+        if (!weighing.counts &&
+            (!is_looked_at || was_woken || bodies.is_asleep[b] || !is_sunk(of, 2 * lists.deepest(body))))
+            continue;
+        if (!is_looked_at) {
             bodies.overloaded_steps[b] = 0;
             bodies.waking_load[b] = 0;
             continue;
         }
         const auto loads = found.first(lists.take(body, step.dt, found));
         if (bodies.is_asleep[b]) {
-            if (forgets) bodies.waking_load[b] *= 0.5f;
-            const double load = sum_of(loads);
-            if (!is_to_wake(of, load) || (is_past_blows(of, settings) && !is_any_driven(loads))) continue;
-            bodies.waking_load[b] =
-                static_cast<float>(std::clamp(2 * double{bodies.waking_load[b]}, kFirstWaking * load, 1e30));
-            rigid.wake(body);
-            bodies.is_asleep[b] = 0;
-            bodies.overloaded_steps[b] = kWasWoken;
+            weighing.wake_if_loaded(of, loads);
             continue;
         }
-        if (bodies.overloaded_steps[b] == kWasWoken) {
+        if (was_woken) {
             wake_touchers(bodies, rigid, loads);
             bodies.overloaded_steps[b] = 0;
             continue;
         }
-        const Overload over = may_be_overloaded(of, loads)
-                                  ? overload_of(of, rigid, loads, weight_of(bodies, body, step.gravity), room)
-                                  : Overload{};
-        const bool is_busy = bodies.task[b] != kNone;
-        const bool is_too_much = over.is_driven || (over.share > 1 && !is_past_blows(of, settings)),
-                   is_sunk_into = is_sunk(of, over.sunk);
-        if (!is_too_much && !is_sunk_into) {
-            bodies.overloaded_steps[b] = 0;
-            if (!is_busy && over.share < 0.5) bodies.overload_runs[b] = 0;
-            continue;
-        }
-        const uint32_t wanted =
-            std::min(is_too_much ? counts_of_load(of, over, step.dt) : uint32_t{kWasWoken},
-                     is_sunk_into ? counts_of_sinking(of, over, is_too_much, step.dt) : uint32_t{kWasWoken});
-        if (bodies.overloaded_steps[b] < kWasWoken - 1) ++bodies.overloaded_steps[b];
-        if (bodies.overloaded_steps[b] < std::min<uint32_t>(wanted, kWasWoken - 1)) continue;
-        const bool has_pressed_on = is_busy && is_too_late(rows, body, over, step);
-        if (is_busy && !makes_way(rows, blows, Row<Tasks>(bodies.task[b]), has_pressed_on)) continue;
-        bodies.overloaded_steps[b] = 0;
-        const QueuedHit blow = hit_of(rows, body, contacts[over.contact], over, step.frame);
-        const QueuedHit hit = !has_pressed_on && is_for_a_run(rows, of, over, rules, step) ? blow : snap_of(blow, over);
-        if (!is_allowed(bodies, hit, settings)) continue;
-        if (is_busy) cancel_task(rules.models, rows, Row<Tasks>(bodies.task[b]));
-        bodies.overload_runs[b] = std::min<uint8_t>(static_cast<uint8_t>(bodies.overload_runs[b] + 1), kMostLoadRuns);
-        if (!queue_hit(queued, hit)) refused.push(refused_event(bodies, body, "limits.queued_hits"));
+        const bool is_loaded = of.yields_to_weights ? may_be_overloaded(of, loads) : is_pressed(of, loads);
+        const Overload over =
+            is_loaded ? overload_of(of, rigid, loads, weight_of(bodies, body, step.gravity), room) : Overload{};
+        if (weighing.is_due(of, over)) weighing.give_way(of, over, contacts[over.contact]);
     }
 }
 

@@ -30,7 +30,7 @@ struct ImpactEvent {
     double energy = 0;         // J, of the approach
     bool is_held = false;      // body and striker stand still until the damage is decided
     // N. Above 0, this is no blow but a weight or a press that squeezes the body for longer than it bears. The speed
-    // and the energy are those of the blow that is run in its place, or 0 where the body snaps at once.
+    // and the energy are those of the blow that is run in its place, or 0 where the body snaps at once or is ground.
     float load = 0;
 };
 
@@ -51,7 +51,7 @@ struct FragmentBornEvent {
 
 /// A piece too small to be a body became a particle.
 struct DebrisEvent {
-    BodyId parent;
+    BodyId parent;  // of a piece that was ground between what does not yield: itself, which is gone
     uint64_t body_user_data = 0;
     Vec3 place, velocity;  // world
     double mass = 0;       // kg

@@ -40,11 +40,13 @@ struct Settings {
     /// what stands still or is slow. Its hit is worked off until then. A touch that comes as foreseen is applied at
     /// once, without a hold. 0 to 60; 0: never. Not where the host moves the bodies.
     uint32_t frames_ahead = 8;
-    /// Fragments break again down to this generation (0: only whole bodies break); 0 to 100. A piece that is squeezed
-    /// by bodies that do not yield may snap beyond it.
+    /// Fragments break again down to this generation (0: only whole bodies break); 0 to 100. Blows and weights keep to
+    /// it. What is squeezed by those that do not yield snaps past it, unless it is 0.
     uint32_t generations = 3;
     /// Pieces lighter than this share of the intact body, or of fewer elements than `break_elements`, do not break
-    /// again; 0 to 1. Each break of a smaller piece costs a task and gives debris.
+    /// again; 0 to 1. Each break of a smaller piece costs a task and gives debris. Blows and weights keep to it. What
+    /// is squeezed by those that do not yield, as a press and a floor, comes apart below it too. Once half of it would
+    /// be debris, all of it becomes debris.
     float break_share = 0.05f;
     uint32_t break_elements = 12;  // 0 to 1000000
     /// Pieces lighter than this share of the intact body, or of fewer elements than `debris_elements`, become debris;

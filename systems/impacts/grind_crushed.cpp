@@ -1,0 +1,34 @@
+#include "components/body_id.hpp"
+#include "systems/births/make_crumb.hpp"
+#include "systems/impacts/opening.hpp"
+#include "systems/systems.hpp"
+#include "systems/tasks/take_out.hpp"
+
+namespace cullet {
+namespace {
+
+ImpactEvent event_of(const Bodies& bodies, const Crushed& c) {
+    ImpactEvent event = cullet::event_of(bodies, {c.body, c.toucher, c.point, c.normal, 0}, 0);
+    event.load = c.load;
+    return event;
+}
+
+}  // namespace
+
+void grind_crushed(Serial, Step step, const Events<Crushed>& crushed, SoftRows& rows, WaitingHits waiting,
+                   Crumbs crumbs, const DamageModels& models, RigidWorld& rigid, ToldOfGrinding told) {
+    const Bodies& bodies = rows.bodies;
+    for (const Crushed& c : crushed) {
+        const double mass = bodies.mass[c.body],
+                     density = rows.materials.density[rows.shells.material[bodies.shell[c.body]]];
+        const NewCrumb crumb{c.body, centre_of(bodies, c.body), bodies.velocity[c.body], mass, mass / density};
+        if (make_crumb(crumbs, bodies, rigid, crumb, step.frame, told.debris) == kNone) {
+            told.refused.push(refused_event(bodies, c.body, "limits.debris"));
+            continue;
+        }
+        told.impacts.push(event_of(bodies, c));
+        take_out(rows, waiting, rigid, models, c.body);
+    }
+}
+
+}  // namespace cullet
