@@ -1,14 +1,17 @@
 // From the last break or fall on: pieces sleep in time, then nothing moves, and what is not hit any more only loses
-// energy.
+// energy. In the same plays, ten seconds after their start: how what is drawn lies.
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <cstdio>
 #include <cstring>
+#include <map>
 
 #include "components/body_id.hpp"
+#include "sample_game/rest.hpp"
 #include "sample_game/run_scene.hpp"
 #include "systems/world_contents.hpp"
+#include "tests/support/effort.hpp"
 #include "tests/support/scene_hashes.hpp"
 
 namespace cullet {
@@ -16,7 +19,8 @@ namespace {
 
 constexpr uint32_t kAsleepBy = 300, kStillBy = 600, kStillFor = 120;  // frames after the last break or fall
 constexpr uint32_t kMostFrames = 3000;
-constexpr uint32_t kWindow = 30;  // frames
+constexpr uint32_t kRestAfter = 600;  // frames from the start
+constexpr uint32_t kWindow = 30;      // frames
 // What closes this fast has fallen: a piece of the castle leans on what stands for three seconds, tips over and comes
 // down from two metres. What shakes in a heap is slower.
 constexpr float kFallSpeed = 1;  // m/s
@@ -39,6 +43,7 @@ struct Settling {
     size_t moved = 0;                // pieces that did between kStillBy and kStillBy + kStillFor
     size_t fallen_off = 0;
     double mass = 0;
+    Rest rest;  // kRestAfter frames after the start, where that is asked for
 };
 
 /// Dynamic bodies that are not pinned; those that left the floor over its edge fall for ever and are only counted.
@@ -102,14 +107,18 @@ bool has_fallen(const RigidWorld& rigid) {
                        [](const RigidContact& c) { return c.approach_speed > kFallSpeed; });
 }
 
-Settling settle(GameWorld& game) {
+Settling settle(GameWorld& game, bool measures_rest) {
     Settling out;
+    Rest rest;
+    double peak = measure_matter(game.world()).kinetic_energy;
     uint32_t loads = 0;
     const WorldData& data = game.world().contents().data;
     const Bodies& bodies = data.state.bodies;
     std::vector<Place> places;
     for (uint32_t frame = 0; frame < kMostFrames && out.moments.size() < kStillBy + kStillFor; ++frame) {
         test::play_frame(game);
+        if (measures_rest && frame < kRestAfter) peak = std::max(peak, measure_matter(game.world()).kinetic_energy);
+        if (measures_rest && frame + 1 == kRestAfter) rest = measure_rest(game, peak);
         for (const ImpactEvent& event : game.world().events().impacts) loads += event.load > 0;
         EXPECT_EQ(game.failure(), "");
         if (game.broke() || !game.waits_at().empty() || has_fallen(*data.rigid)) {
@@ -137,6 +146,7 @@ Settling settle(GameWorld& game) {
         out.moved = count_moved(places, places_of(bodies, pieces));
     }
     out.loads = loads;
+    out.rest = rest;
     return out;
 }
 
@@ -169,6 +179,21 @@ struct Case {
     const char* setting = "";  // KEY=VALUE
 };
 
+/// Small enough that each piece is compared with each.
+bool measures_rest(const Case& c) {
+    const std::string scene = c.scene;
+    return scene == "wall" || (c.seed == 1 && (scene == "vase" || scene == "pane" || scene == "drop"));
+}
+
+void print_rest(const Rest& rest) {
+    std::printf(
+        "  after %u frames %.1f %% asleep, kinetic share %.2g, sink %.2f and %.2f mm, into each other %.2f and %.2f "
+        "mm, "
+        "hover %.2f mm, hulls %.2f mm\n",
+        kRestAfter, 100 * rest.asleep_share, rest.kinetic_share, rest.sink_p95_mm, rest.sink_max_mm,
+        rest.overlap_p95_mm, rest.overlap_max_mm, rest.hover_max_mm, rest.hover_hulls_max_mm);
+}
+
 /// Plays it to its end and tells what it saw.
 Settling settle(const Case& c) {
     RunOptions options;
@@ -179,7 +204,7 @@ Settling settle(const Case& c) {
     Result<GameWorld> game = GameWorld::create(plan_scene(*find_scene(options.scene), options));
     EXPECT_TRUE(game.ok()) << game.error();
     if (!game.ok()) return {};
-    const Settling s = settle(*game);
+    const Settling s = settle(*game, measures_rest(c));
     EXPECT_EQ(s.moments.size(), kStillBy + kStillFor);
     size_t first_still = s.moments.size(), last_hit = 0;
     for (size_t f = 0; f < s.moments.size(); ++f)
@@ -191,7 +216,16 @@ Settling settle(const Case& c) {
         c.scene, c.seed, static_cast<unsigned long long>(s.last_break), last_hit, first_still, s.asleep, s.pieces,
         s.moved, s.fallen_off, s.loads);
     for (const std::string& line : s.awake) std::printf("%s\n", line.c_str());
+    if (measures_rest(c)) print_rest(s.rest);
     return s;
+}
+
+/// Played once for all tests that look at it.
+const Settling& settled(const Case& c) {
+    static std::map<std::string, Settling> plays;
+    const std::string name = c.scene + std::to_string(c.seed);
+    if (const auto found = plays.find(name); found != plays.end()) return found->second;
+    return plays[name] = settle(c);
 }
 
 // Nothing is hit, so nothing may gain speed but by falling: a piece that stands on its edge tips over.
@@ -206,10 +240,14 @@ void expect_only_losses(const Settling& s) {
     }
 }
 
+std::string name_of(const testing::TestParamInfo<Case>& info) {
+    return info.param.scene + std::to_string(info.param.seed);
+}
+
 class Settles : public testing::TestWithParam<Case> {};
 
 TEST_P(Settles, NearlyAllSleepFiveSecondsAfterTheLastBreakOrFallAndNoneMovesAfterTen) {
-    const Settling s = settle(GetParam());
+    const Settling& s = settled(GetParam());
     // Heaps bear themselves. In demolition one of some 600 breaks was asked for by a load; nobody has looked at it.
     EXPECT_LE(s.loads, std::string(GetParam().scene) == "demolition" ? 1u : 0u);
     // Of a heap of a thousand two may rock on. Of the 1,500 of
@@ -223,28 +261,76 @@ TEST_P(Settles, NearlyAllSleepFiveSecondsAfterTheLastBreakOrFallAndNoneMovesAfte
 // A wall leaves twenty slabs, some as long as a man, which lean on each other: a few of them rock on for longer than
 // five seconds. Wanted: none. How many walls that happens in is a rate, and no four of them tell it: 1 to 5 of 30 were
 // seen in a day's versions.
-TEST(ThirtyWalls, AtMostFourKeepASlabRockingForFiveSecondsAndOneForTen) {
+const int kWalls = test::few_or_all(10, 30);
+TEST(ManyWalls, AtMostFourOfThirtyKeepASlabRockingForFiveSecondsAndOneForTen) {
     size_t rocking = 0, moving = 0, loads = 0;
-    for (int seed = 1; seed <= 30; ++seed) {
-        const Settling s = settle(Case{"wall", seed});
+    for (int seed = 1; seed <= kWalls; ++seed) {
+        const Settling& s = settled(Case{"wall", seed});
         loads += s.loads;
         if (s.asleep < s.pieces) ++rocking;
         if (s.moved > 0) ++moving;
         expect_only_losses(s);
     }
-    std::printf("%zu of 30 rock after five seconds, %zu after ten\n", rocking, moving);
-    EXPECT_LE(rocking, 4u);
+    std::printf("%zu of %d rock after five seconds, %zu after ten\n", rocking, kWalls, moving);
+    EXPECT_LE(rocking, test::few_or_all(2u, 4u));
     EXPECT_LE(moving, 1u);
     // Wanted: none. In wall 12 one break is asked for by a load; nobody has looked at it.
     EXPECT_LE(loads, 1u);
 }
 
-INSTANTIATE_TEST_SUITE_P(Scenes, Settles,
-                         testing::Values(Case{"vase", 1}, Case{"vase", 2}, Case{"vase", 3}, Case{"pane", 1},
-                                         Case{"drop", 1}, Case{"drop", 2}, Case{"castle", 1}, Case{"castle", 2},
-                                         Case{"castle", 3}, Case{"castle", 4}, Case{"pile", 1, "scene.count=200"},
-                                         Case{"pile", 2, "scene.count=200"}, Case{"pile", 3}, Case{"demolition", 1}),
-                         [](const auto& scene) { return scene.param.scene + std::to_string(scene.param.seed); });
+/// The usual run has the first of each scene. The heap of a thousand and the street are the long run's.
+std::vector<Case> cases() {
+    std::vector<Case> few{{"vase", 1},   {"pane", 1},   {"drop", 1},
+                          {"castle", 1}, {"castle", 2}, {"pile", 1, "scene.count=200"}};
+    const Case others[] = {{"vase", 2},   {"vase", 3},      {"drop", 2},
+                           {"castle", 3}, {"castle", 4},    {"pile", 2, "scene.count=200"},
+                           {"pile", 3},   {"demolition", 1}};
+    if (test::plays_all()) few.insert(few.end(), std::begin(others), std::end(others));
+    return few;
+}
+INSTANTIATE_TEST_SUITE_P(Scenes, Settles, testing::ValuesIn(cases()), name_of);
+
+class SceneRest : public testing::TestWithParam<Case> {};
+
+TEST_P(SceneRest, TenSecondsAfterTheStartNearlyAllSleepAndNothingSinksHoversOrFallsThrough) {
+    const Rest& rest = settled(GetParam()).rest;
+    EXPECT_GT(rest.measured, 3u);
+    EXPECT_GE(rest.asleep_share, 0.95);
+    EXPECT_LT(rest.kinetic_share, 1e-4);
+    EXPECT_LT(rest.sink_p95_mm, 2);
+    EXPECT_LT(rest.sink_max_mm, 4);
+    EXPECT_LT(rest.overlap_max_mm, 4);
+    EXPECT_LT(rest.hover_p95_mm, 1);
+    EXPECT_LT(rest.hover_max_mm, 1);
+    EXPECT_LT(rest.hover_boxes_max_mm, 6);  // a slab of 0.3 m whose box is 1.15 times it: half of 4 % a side
+    // One that is 1.4 times it may fill notches: those of a wall's slab, which lies on its edge, by 12 mm at 1.09.
+    EXPECT_LT(rest.hover_hulls_max_mm, 15);
+    EXPECT_EQ(rest.through, 0u);
+}
+
+// Slabs of a wall reach two metres and lean on each other. Convex parts fill notches of their outlines: in one wall of
+// eight a slab hovers for it by more than a millimetre (of 120 walls; up to 24 mm; what has a single hull up to 38). A
+// rate needs more walls than three.
+TEST(ManyWalls, ComeToRestAndHardlyAnyHovers) {
+    uint32_t awake = 0, deep = 0, hovering = 0;
+    for (int seed = 1; seed <= kWalls; ++seed) {
+        const Rest& rest = settled(Case{"wall", seed}).rest;
+        EXPECT_GT(rest.measured, 3u);
+        EXPECT_LT(rest.kinetic_share, 1e-3);
+        EXPECT_LT(rest.sink_max_mm, 4);
+        EXPECT_LT(rest.hover_max_mm, 25);
+        EXPECT_LT(rest.hover_hulls_max_mm, 50);
+        EXPECT_EQ(rest.through, 0u);
+        awake += rest.asleep_share<0.95, deep += rest.overlap_max_mm> 4, hovering += rest.hover_max_mm > 1;
+    }
+    std::printf("of %d: %u not asleep, %u with slabs 4 mm in each other, %u hovering\n", kWalls, awake, deep, hovering);
+    EXPECT_LE(awake, test::few_or_all(1u, 2u));
+    EXPECT_LE(deep, test::few_or_all(1u, 3u));
+    EXPECT_LE(hovering, test::few_or_all(2u, 6u));
+}
+
+INSTANTIATE_TEST_SUITE_P(Scenes, SceneRest, testing::Values(Case{"vase", 1}, Case{"pane", 1}, Case{"drop", 1}),
+                         name_of);
 
 }  // namespace
 }  // namespace cullet
