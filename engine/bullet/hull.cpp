@@ -370,6 +370,8 @@ void mark_covered(Hull& hull, const Hull& other, bool is_whole) {
     const float flush = 0.0005f * scale_of(hull, other), outside = hull.margin + other.margin + flush;
     // If all are asked for, those on the rim may be as far away as where the other one leans back by 30 degrees.
     const float leaning = is_whole ? 0.58f * outside : 0;
+    // A place between two neighbours lies in both.
+    const float inside = other.margin + 2e-6f * (hull.radius + other.radius);
     const Planes planes(other);
     const uint32_t foremost = planes.foremost(-1 * between).face;
     const Vec3 up = other.face_normal[foremost];
@@ -401,7 +403,7 @@ void mark_covered(Hull& hull, const Hull& other, bool is_whole) {
             // Of what moves the middle tells, and whether any place is covered.
             if (is_whole ? hull.covered[f] >> s & 1 : s > 0 && hull.covered[f] != 0) continue;
             const Vec3 p = places[s] + before;
-            const bool is_covered = planes.hold(p, other.margin + (s == 0 ? 0 : leaning));
+            const bool is_covered = planes.hold(p, inside + (s == 0 ? 0 : leaning));
             hull.covered[f] |= uint64_t{is_covered} << s;
             is_any = is_any || is_covered;
         }

@@ -76,6 +76,8 @@ class FolderFiles : public Assimp::DefaultIOSystem {
         return new Assimp::MemoryIOStream(bytes.release(), text.size(), true);
     }
 
+    static bool is_blank(char c) { return c == ' ' || c == '\t'; }
+
     /// Lines of points, normals and uvs ("v", "vn", "vt") with ".5" written "0.5", and these and faces without comments
     /// behind them; the others as they are. A line ends with LF, CR or both, and goes on in the next one when a
     /// backslash stands before that.
@@ -86,10 +88,13 @@ class FolderFiles : public Assimp::DefaultIOSystem {
         char before = '\n';  // of this line: '\n' at its beginning, ' ' where it goes on
         for (size_t i = 0; i < text.size(); ++i) {
             const char c = text[i];
-            const bool ends = c == '\n' || c == '\r', is_behind_blank = before == ' ' || before == '\t';
+            const bool ends = c == '\n' || c == '\r', is_behind_blank = is_blank(before);
             if (before == '\n') is_vertex = c == 'v', is_face = c == 'f', is_comment = false;
             is_comment = !ends && (is_comment || ((is_vertex || is_face) && c == '#' && is_behind_blank));
             if (is_vertex && c == '.' && is_behind_blank) out += '0';
+            // Behind the last number a blank is taken for one more.
+            while ((is_vertex || is_face) && (ends || is_comment) && !out.empty() && is_blank(out.back()))
+                out.pop_back();
             if (!is_comment) out += c;
             const size_t end = c == '\n' && i > 0 && text[i - 1] == '\r' ? i - 1 : i;
             const bool goes_on = end > 0 && text[end - 1] == '\\';
