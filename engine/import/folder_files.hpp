@@ -91,7 +91,7 @@ class FolderFiles : public Assimp::DefaultIOSystem {
             const bool ends = c == '\n' || c == '\r', is_behind_blank = is_blank(before);
             if (before == '\n') is_vertex = c == 'v', is_face = c == 'f', is_comment = false;
             is_comment = !ends && (is_comment || ((is_vertex || is_face) && c == '#' && is_behind_blank));
-            if (is_vertex && c == '.' && is_behind_blank) out += '0';
+            if (is_vertex && !is_comment && c == '.' && is_behind_blank) out += '0';
             // Behind the last number a blank is taken for one more.
             while ((is_vertex || is_face) && (ends || is_comment) && !out.empty() && is_blank(out.back()))
                 out.pop_back();

@@ -22,7 +22,8 @@ constexpr double kSameWay = 0.9994;
 constexpr uint32_t kMostWays = 64;
 // How near the surfaces of a body and of what bears it are: a share of two walls, and at least so many margins.
 constexpr double kNearBelow = 0.05, kNearMargins = 3;
-// What has a solid wall below it: as far as this many walls.
+// What has a solid wall below it: as far as this many walls, which cooking may have made thinner than was asked, and as
+// near as what bears it may be.
 constexpr double kSolidWalls = 2.5;
 
 // Who weighs so many times what a body does stands, for it: the solver leaves them closing on it, and what lies between
@@ -109,8 +110,8 @@ void spread_flat(const LoadedBody& of, std::span<BodyLoad> loads, double borne) 
 }
 
 // Which loads go straight through the body into who is backed there; of a pinned one, who bears them bends it no more.
-void find_laid(const LoadedBody& of, const Underlay& under, std::span<BodyLoad> loads, double borne) {
-    const double solid = kSolidWalls * of.shells.thickness[of.shell()];
+void find_laid(const LoadedBody& of, const Underlay& under, double near, std::span<BodyLoad> loads, double borne) {
+    const double solid = kSolidWalls * of.shells.thickness[of.shell()] + near;
     bool is_solid = true;
     for (BodyLoad& l : loads) {
         if (l.is_backed) continue;
@@ -208,7 +209,7 @@ Overload overload_of(const LoadedBody& of, const RigidWorld& rigid, std::span<Bo
     const double near = std::max(kNearMargins * double{of.shells.margin[of.shell()]},
                                  kNearBelow * 2 * double{of.shells.thickness[of.shell()]});
     const Underlay under(rigid, of.bodies, of.body, near);
-    find_laid(of, under, as_solved, force_borne(of));
+    find_laid(of, under, near, as_solved, force_borne(of));
     worst = at_rest;
     press(of, as_solved, weight, room, &under, worst);
     return worst;
