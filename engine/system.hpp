@@ -15,9 +15,8 @@
 //     Of<T>              in an inner loop: once for the row of T that it runs for; owns every row that belongs to it.
 //                        Beside Rows<U> it says whose rows these are
 //     Each<E>            once an event of the queue Events<E>, in parallel; owns every row of the event's body
-//     EachOwn<E>         the same for events of the system's owner alone: E::owner names it. In a frame plan systems
-//     have
-//                        the owner that the plan was told before them
+//     EachOwn<E>         the same for events of the system's owner alone: E::owner names it. In a frame plan
+//                        systems have the owner that the plan was told before them
 //     Serial             once, on one thread. Own<E> gives it the events of its owner, Owner tells who that is
 #pragma once
 #include <array>

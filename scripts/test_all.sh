@@ -94,8 +94,8 @@ build() {
 preset_part() {
     local long_run=(CULLET_ALL_TESTS=1)
     build "$1" || return 1
-    # Builds that are ten times slower play the scenes for fewer frames; nothing is left out.
-    [[ $1 == debug || $1 == asan || $1 == tsan ]] && long_run+=(CULLET_SCENE_FRAMES=40)
+    # Builds that are ten times slower play the scenes for fewer frames.
+    [[ $1 == debug || $1 == asan || $1 == tsan ]] && long_run+=(CULLET_SCENE_FRAMES=120)
     local before which=("${tests[@]}")
     before=$(row_of "$1" | awk -F' *[|] *' '/FAILED/ { print $3 " at " $4 }')
     if $failed_only && [[ -n $before ]]; then

@@ -93,7 +93,7 @@ struct DamageCounts {
     uint64_t cuts = 0, starts = 0, cuts_refused = 0;  // refused: quick runs whose shell had no room for more
     uint64_t units_used = 0, units_left = 0;          // of the last frame
     uint64_t slow_soft_frames = 0;    // soft bodies that had units for fewer substeps than a frame asks for
-    uint64_t retired = 0, faded = 0;  // fragments and crumbs
+    uint64_t retired = 0, faded = 0;  // fragments and debris
     double worst_rounding = 0;        // momentum that hidden runs lost, share of what the body had or got
     // J, at most: of the game's blows, of what it moves, and what late breaks get back of what their touch took.
     double work_from_outside = 0;

@@ -400,8 +400,9 @@ void mark_covered(Hull& hull, const Hull& other, bool is_whole) {
         const Places places(hull, f, flush);
         const Vec3 before = outside * hull.face_normal[f] - between;
         for (uint32_t s = 0; s < places.count(); ++s) {
-            // Of what moves the middle tells, and whether any place is covered.
-            if (is_whole ? hull.covered[f] >> s & 1 : s > 0 && hull.covered[f] != 0) continue;
+            if (hull.covered[f] >> s & 1) continue;
+            // Of what moves the middle tells, and whether this piece covers any place.
+            if (!is_whole && s > 0 && is_any) continue;
             const Vec3 p = places[s] + before;
             const bool is_covered = planes.hold(p, inside + (s == 0 ? 0 : leaning));
             hull.covered[f] |= uint64_t{is_covered} << s;

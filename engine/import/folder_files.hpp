@@ -78,22 +78,23 @@ class FolderFiles : public Assimp::DefaultIOSystem {
 
     static bool is_blank(char c) { return c == ' ' || c == '\t'; }
 
-    /// Lines of points, normals and uvs ("v", "vn", "vt") with ".5" written "0.5", and these and faces without comments
-    /// behind them; the others as they are. A line ends with LF, CR or both, and goes on in the next one when a
-    /// backslash stands before that.
+    /// Lines of points, normals and uvs ("v", "vn", "vt") with ".5" written "0.5", and these, faces, lines and points
+    /// without comments behind them; the others as they are. A line ends with LF, CR or both, and goes on in the next
+    /// one when a backslash stands before that.
     static std::string plain_obj(const std::string& text) {
         std::string out;
         out.reserve(text.size());
-        bool is_vertex = false, is_face = false, is_comment = false;
+        bool is_vertex = false, names_corners = false, is_comment = false;
         char before = '\n';  // of this line: '\n' at its beginning, ' ' where it goes on
         for (size_t i = 0; i < text.size(); ++i) {
             const char c = text[i];
             const bool ends = c == '\n' || c == '\r', is_behind_blank = is_blank(before);
-            if (before == '\n') is_vertex = c == 'v', is_face = c == 'f', is_comment = false;
-            is_comment = !ends && (is_comment || ((is_vertex || is_face) && c == '#' && is_behind_blank));
+            if (before == '\n')
+                is_vertex = c == 'v', names_corners = c == 'f' || c == 'l' || c == 'p', is_comment = false;
+            is_comment = !ends && (is_comment || ((is_vertex || names_corners) && c == '#' && is_behind_blank));
             if (is_vertex && !is_comment && c == '.' && is_behind_blank) out += '0';
             // Behind the last number a blank is taken for one more.
-            while ((is_vertex || is_face) && (ends || is_comment) && !out.empty() && is_blank(out.back()))
+            while ((is_vertex || names_corners) && (ends || is_comment) && !out.empty() && is_blank(out.back()))
                 out.pop_back();
             if (!is_comment) out += c;
             const size_t end = c == '\n' && i > 0 && text[i - 1] == '\r' ? i - 1 : i;

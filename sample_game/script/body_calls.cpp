@@ -74,8 +74,8 @@ FractureKind fracture_of(const Arguments& given) {
     given.refuse_value("fracture", "large, coarse or fine");
 }
 
-/// Cooks what the call's table says; the place in Stage::models.
-uint32_t cook_given(lua_State* lua, const Arguments& given, bool has_kind) {
+/// Cooks what the call's table says; the place in Stage::models. `has_kind`: its `fracture` is a kind of cracks.
+uint32_t cook_given(lua_State* lua, const Arguments& given, bool has_kind, bool may_break) {
     Stage& stage = script_of(lua).act(lua);
     spend(lua, kWorkACook);
     if (stage.models.size() >= stage.limits.models)
@@ -99,7 +99,9 @@ uint32_t cook_given(lua_State* lua, const Arguments& given, bool has_kind) {
     settings.seed = static_cast<uint64_t>(
         given.number("seed", {"a whole number from 0 to 1e15", 0, 1e15}, static_cast<double>(stage.seed())));
     const float edge = given.real("edge", {"a length in m, or 0 for what cooking chooses", 0, 100}, 0);
-    settings.longest_edge = mesh.edges == Edges::AsAskedFor ? 100.0f : edge;
+    // What never breaks needs no more triangles than it has.
+    const bool is_left = mesh.edges == Edges::AsAskedFor || (mesh.is_made_here && !may_break);
+    settings.longest_edge = is_left ? 100.0f : edge;
     const std::string way = given.word("propagation", kPropagations, name_of(settings.propagation));
     if (!find_propagation(way, settings.propagation))
         given.refuse(fmt::format("propagation is \"{}\"; expected {}", way, kPropagations));
@@ -114,7 +116,7 @@ int cook_model(lua_State* lua) {
     const Arguments given(
         lua, "game.cook",
         {"mesh", "model", "material", "fracture", "grain", "thickness", "edge", "seed", "propagation", "join_walls"});
-    const uint32_t cooked = cook_given(lua, given, given.has("fracture"));
+    const uint32_t cooked = cook_given(lua, given, given.has("fracture"), true);
     *static_cast<uint32_t*>(lua_newuserdatauv(lua, sizeof(uint32_t), 0)) = cooked;
     luaL_setmetatable(lua, kCookedName);
     return 1;
@@ -197,7 +199,7 @@ int spawn(lua_State* lua) {
         model = cooked_at(lua, lua_gettop(lua), "game.spawn: cooked");
         lua_pop(lua, 1);
     } else {
-        model = cook_given(lua, given, given.has("fracture") && !names_mode(given));
+        model = cook_given(lua, given, given.has("fracture") && !names_mode(given), given.is("breakable", true));
     }
     SpawnSettings settings;
     read_quick(lua, given, settings);

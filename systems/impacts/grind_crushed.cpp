@@ -18,6 +18,8 @@ ImpactEvent event_of(const Bodies& bodies, const Crushed& c) {
 void grind_crushed(Serial, Step step, const Events<Crushed>& crushed, SoftRows& rows, WaitingHits waiting,
                    Crumbs crumbs, const DamageModels& models, RigidWorld& rigid, ToldOfGrinding told) {
     const Bodies& bodies = rows.bodies;
+    // All are told of before any goes: two that lie on each other are named by each other's events.
+    uint32_t ground = 0;
     for (const Crushed& c : crushed) {
         const double mass = bodies.mass[c.body],
                      density = rows.materials.density[rows.shells.material[bodies.shell[c.body]]];
@@ -27,8 +29,10 @@ void grind_crushed(Serial, Step step, const Events<Crushed>& crushed, SoftRows& 
             continue;
         }
         told.impacts.push(event_of(bodies, c));
-        take_out(rows, waiting, rigid, models, c.body);
+        ++ground;
     }
+    // Where one finds no room those behind it find none.
+    for (const Crushed& c : crushed.all().first(ground)) take_out(rows, waiting, rigid, models, c.body);
 }
 
 }  // namespace cullet

@@ -110,9 +110,9 @@ bool may_be_pressed(const LoadedBody& of, const LoadLists& lists, bool is_anythi
     return is_anything_driven || is_sunk(of, 2 * lists.deepest(of.body));
 }
 
-// What comes apart no further. What is pinned goes nowhere.
-bool is_to_grind(const LoadedBody& of, const DamageSettings& settings) {
-    return is_small(of, settings) && !of.is_pinned() &&
+// What comes apart no further.
+bool is_at_its_end(const LoadedBody& of, const DamageSettings& settings) {
+    return is_small(of, settings) &&
            (!may_be_halved(of.shells, of.shell(), settings) || of.bodies.overload_runs[of.body] >= kMostCuts);
 }
 
@@ -318,8 +318,10 @@ void Weighing::give_way(const LoadedBody& of, const Overload& over, const RigidC
     const bool has_pressed_on = is_busy && is_too_late(rows, body, over, step);
     if (is_busy && !makes_way(rows, blows, Row<Tasks>(bodies.task[body]), has_pressed_on)) return;
     bodies.overloaded_steps[body] = 0;
+    const bool is_at_end = is_at_its_end(of, rules.settings);
+    if (is_at_end && of.is_pinned()) return;  // it goes nowhere
     const QueuedHit blow = hit_of(rows, body, worst, over, step.frame);
-    const bool is_ground = is_to_grind(of, rules.settings) && !is_to_be_cut(queued, blows, body);
+    const bool is_ground = is_at_end && !is_to_be_cut(queued, blows, body);
     const bool runs = !is_ground && !has_pressed_on && is_for_a_run(rows, of, over, rules, step);
     const QueuedHit hit = runs ? blow : snap_of(blow, over);
     if (!is_allowed(bodies, hit, rules.settings)) return;

@@ -7,6 +7,7 @@
 #include <cstdlib>
 
 #include "tests/engine/rigid_scenes.hpp"
+#include "tests/support/effort.hpp"
 #include "tests/support/random_sliders.hpp"
 
 namespace cullet {
@@ -120,7 +121,7 @@ std::vector<Trips> slide(const Scene& scene, const Floor& floor) {
 
 TEST(MovingEdges, WhatSlidesOverABodyOfManyPiecesGoesAsOverOneOfASingleBox) {
     Figures figures;
-    for (uint32_t seed = 0; seed < wanted(504) / kAbreast; ++seed) {
+    for (uint32_t seed = 0; seed < wanted(test::few_or_all(168u, 504u)) / kAbreast; ++seed) {
         Chance chance{std::mt19937(seed)};
         Scene scene{random_plank(chance, {}, chance.between(0.03f, 0.3f)),
                     chance.below(3) == 0 ? RigidKind::Kinematic : RigidKind::Dynamic,
@@ -174,7 +175,7 @@ Trips glide(const Glide& scene, const Floor& slab, const Floor& ground) {
 
 TEST(MovingEdges, ABodyOfManyPiecesSlidesOverManyPiecesAsOneBoxDoesOverOne) {
     Figures figures;
-    for (uint32_t seed = 0; seed < wanted(504) / 2; ++seed) {
+    for (uint32_t seed = 0; seed < wanted(test::few_or_all(168u, 504u)) / 2; ++seed) {
         Chance chance{std::mt19937(seed)};
         const Extent extent{-0.4f, 0.4f, chance.between(0.1f, 0.4f)};
         // Even in scale: each octave as often. (Without libm, whose last bits differ between machines.)

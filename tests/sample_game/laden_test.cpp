@@ -41,7 +41,7 @@ TEST(Laden, ABoxThirtyTimesAsHeavyStandsOnThreeLightOnesForTwentySeconds) {
     EXPECT_EQ(failure_after(column(0.05, 0.2, 30), 20.5), "");
 }
 TEST(Laden, ABoxAHundredTimesAsHeavyStandsOnThreeLightOnesForTwentySeconds) {
-    EXPECT_EQ(failure_after(column(0.19, 0.42, 100), 20.5), "");
+    EXPECT_EQ(failure_after(column(0.19, 0.39, 100), 20.5), "");
 }
 
 TEST(Laden, ATowerOfFortyBoxesStandsForTwentySeconds) {

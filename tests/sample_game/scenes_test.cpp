@@ -184,7 +184,7 @@ struct OddJobs {
 };
 
 // Two worlds at once on one and two threads: see below. The usual run has one number of threads and one order of jobs.
-TEST_P(EveryScene, HashesAreEqualOnOneThreeAndEightThreads) {
+TEST_P(EveryScene, HashesAreEqualOnAnyNumberOfThreads) {
     const Scene& scene = GetParam();
     const std::vector<uint64_t>& one = alone(scene).hashes;
     ASSERT_EQ(one.size(), hashed_frames_of(scene)) << alone(scene).error;

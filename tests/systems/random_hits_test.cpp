@@ -1,4 +1,5 @@
-// Many blows of all speeds on the three known bodies, 500 in all: none ends as a fault, none makes energy.
+// Many blows of all speeds on the three known bodies, 140 in all and in the long run 500: none ends as a fault, none
+// makes energy.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -6,6 +7,7 @@
 
 #include "engine/random.hpp"
 #include "sample_game/hit_bench.hpp"
+#include "tests/support/effort.hpp"
 
 namespace cullet {
 namespace {
@@ -40,13 +42,13 @@ void expect_sound_hits(Subject subject, uint32_t usual) {
 }
 
 TEST(RandomHits, NoBlowOnAVaseIsDroppedAsAFault) {
-    expect_sound_hits(Subject::Vase, 100);
+    expect_sound_hits(Subject::Vase, test::few_or_all(30u, 100u));
 }
 TEST(RandomHits, NoBlowOnAPaneIsDroppedAsAFault) {
-    expect_sound_hits(Subject::Pane, 100);
+    expect_sound_hits(Subject::Pane, test::few_or_all(30u, 100u));
 }
 TEST(RandomHits, NoBlowOnAWallIsDroppedAsAFault) {
-    expect_sound_hits(Subject::Wall, 300);
+    expect_sound_hits(Subject::Wall, test::few_or_all(80u, 300u));
 }
 
 }  // namespace

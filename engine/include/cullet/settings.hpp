@@ -45,8 +45,8 @@ struct Settings {
     uint32_t generations = 3;
     /// Pieces lighter than this share of the intact body, or of fewer elements than `break_elements`, do not break
     /// again; 0 to 1. Each break of a smaller piece costs a task and gives debris. Blows and weights keep to it. What
-    /// is squeezed by those that do not yield, as a press and a floor, comes apart below it too. Once half of it would
-    /// be debris, all of it becomes debris.
+    /// the game moves, as a press, squeezes it apart below it too. Once half of it would be debris, all of it becomes
+    /// debris.
     float break_share = 0.05f;
     uint32_t break_elements = 12;  // 0 to 1000000
     /// Pieces lighter than this share of the intact body, or of fewer elements than `debris_elements`, become debris;
