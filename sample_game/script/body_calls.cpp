@@ -74,6 +74,12 @@ FractureKind fracture_of(const Arguments& given) {
     given.refuse_value("fracture", "large, coarse or fine");
 }
 
+// A box or table of the script's is cut as coarsely as a scene's shapes are, so that it cooks in seconds.
+float edge_of_plain(const Mesh& mesh, const CookSettings& settings) {
+    const MeshExtent extent = extent_of(mesh);
+    return std::max(2 * settings.thickness, 0.05f * length(extent.high - extent.low));
+}
+
 /// Cooks what the call's table says; the place in Stage::models. `has_kind`: its `fracture` is a kind of cracks.
 uint32_t cook_given(lua_State* lua, const Arguments& given, bool has_kind, bool may_break) {
     Stage& stage = script_of(lua).act(lua);
@@ -101,7 +107,9 @@ uint32_t cook_given(lua_State* lua, const Arguments& given, bool has_kind, bool 
     const float edge = given.real("edge", {"a length in m, or 0 for what cooking chooses", 0, 100}, 0);
     // What never breaks needs no more triangles than it has.
     const bool is_left = mesh.edges == Edges::AsAskedFor || (mesh.is_made_here && !may_break);
-    settings.longest_edge = is_left ? 100.0f : edge;
+    settings.longest_edge = is_left                          ? 100.0f
+                            : edge == 0 && mesh.is_made_here ? edge_of_plain(mesh.mesh, settings)
+                                                             : edge;
     const std::string way = given.word("propagation", kPropagations, name_of(settings.propagation));
     if (!find_propagation(way, settings.propagation))
         given.refuse(fmt::format("propagation is \"{}\"; expected {}", way, kPropagations));
