@@ -138,9 +138,10 @@ int box(lua_State* lua) {
 int table(lua_State* lua) {
     script_of(lua).act(lua);
     const Arguments given(lua, "game.mesh.table", {"width", "depth", "height"}, true);
-    return made(lua, make_table(given.real("width", kSide, 1.2), given.real("depth", kSide, 0.8),
-                                given.real("height", kSide, 0.75)),
-                Edges::AsLongAsItIs);
+    return made(
+        lua,
+        make_table(given.real("width", kSide, 1.2), given.real("depth", kSide, 0.8), given.real("height", kSide, 0.75)),
+        Edges::AsLongAsItIs);
 }
 
 /// As large as the file says, or scaled to `size`; the origin is the middle of its box, with `stands` of its foot.

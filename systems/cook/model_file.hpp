@@ -5,8 +5,8 @@
 //
 // Payload: the text name (u32 bytes, the bytes), the text of its damage model; the material: its name, u8 kind, u8
 // fracture, f32 for each of material_values() in that order, f32 x, y, z of the grain; the texts repairs, advice,
-// walls; the report's numbers (u64 units; f64 mass, thickness; f32 speed, force; u32 vertices, elements, cells, degenerate
-// elements, collisions, inverted elements, crossings); then the tables shells (one row), vertices, elements,
+// walls; the report's numbers (u64 units; f64 mass, thickness; f32 speed, force; u32 vertices, elements, cells,
+// degenerate elements, collisions, inverted elements, crossings); then the tables shells (one row), vertices, elements,
 // triangle_springs, hinges, stiffness_packs, stiffness_blocks, stiffness_links, cells, hull_points, as
 // engine/table_bytes.hpp writes tables.
 #pragma once
