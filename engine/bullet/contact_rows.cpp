@@ -74,9 +74,9 @@ struct Sliding {
     Lanes squared() const { return way[0] * way[0] + way[1] * way[1]; }
 };
 
-// What stops the sliding, or as much against it as `limit` lets. (Siblings are then bounded by their flight, way by
-// way.) Bounds of either way by itself would turn what slides
-// towards an axis, and so would masses of their own: of what slides on, both are the lesser.
+// What stops the sliding, or as much against it as `limit` lets. Bounds of either way by itself would turn what slides
+// towards an axis, and so would masses of their own: of what slides on, both are the lesser. (Siblings are bounded by
+// their flight afterwards, way by way.)
 CULLET_LANES_INLINE Sliding against_sliding(const PointRows& p, Lanes limit, const Four& a, const Four& b) {
     const Row &row_0 = p.slide[0], &row_1 = p.slide[1];
     const Lanes missing_0 = row_0.wanted - speed(row_0, p.across[0], a, b),

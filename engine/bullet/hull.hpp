@@ -112,7 +112,8 @@ void set_face_points(Hull& hull);
 void set_local_box(Hull& hull);
 /// Marks what another piece of the same body covers of the faces of `hull`, and which lie in one plane with faces of a
 /// piece that covers any: places just outside of their corners, of the middles of their edges, and of their own middle.
-/// With `is_whole` a face is inner when all of them are covered, by whomever. (The riser of a stair is covered in its
+/// With `is_whole` a face is inner when all of them are covered, by whomever; else, once `other` covers one place, of
+/// its further faces the middles alone are looked at. (The riser of a stair is covered in its
 /// middle by the step before, if both stand on the ground, and is to be struck above.) Else its middle tells.
 void mark_covered(Hull& hull, const Hull& other, bool is_whole = false);
 /// Nothing is known to cover it.

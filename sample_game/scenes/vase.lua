@@ -1,7 +1,7 @@
--- The middle of the vase falls a little outside of the table's front edge, so that the belly meets the edge and what is
--- left goes on to the floor.
+-- The middle of the vase falls a little outside of the table's front edge, so that the belly meets the edge and shards
+-- go on to the floor.
 game.scene{
-    shows = "a porcelain vase falls on the edge of a table and from there to the floor",
+    shows = "a porcelain vase falls on the edge of a table, and its shards on the floor",
     seconds = 10,
     sheet = {26, 32, 38, 41, 44, 48, 54, 62, 72, 90, 150, 599},
 }

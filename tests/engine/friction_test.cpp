@@ -11,17 +11,22 @@ namespace {
 
 constexpr float kGravity = 9.81f;
 constexpr Vec3 kHalf{0.1f, 0.02f, 0.1f};
+// Unit vectors, x and z, on all sides of the axes and between them.
+constexpr float kWays[][2] = {{1, 0},         {0.96f, 0.28f},  {0.8f, 0.6f},  {0.6f, 0.8f},
+                              {0.28f, 0.96f}, {-0.28f, 0.96f}, {-0.8f, 0.6f}, {-0.96f, -0.28f},
+                              {-0.6f, -0.8f}, {0, -1},         {0.8f, -0.6f}, {0.96f, -0.28f}};
 
-Quat about_y(float angle) {
-    return {0, std::sin(0.5f * angle), 0, std::cos(0.5f * angle)};
+/// About y by some other angle for each k.
+Quat turn_of(size_t k) {
+    return normalised(Quat{0, 0.2f * real(k), 0, 1});
 }
 
-/// A flat box on a level floor under a gravity that leads down a slope of `slope`, towards `heading`.
-std::unique_ptr<RigidWorld> plate_on_floor(float slope, float heading, float turn) {
+/// A flat box on a level floor, under a gravity that leads along a way down a slope that rises so much a metre.
+std::unique_ptr<RigidWorld> plate_on_slope(float rise, const float (&way)[2], Quat turn) {
     auto world = floor_world(4);
-    world->set_gravity({kGravity * std::sin(slope) * std::cos(heading), -kGravity * std::cos(slope),
-                        kGravity * std::sin(slope) * std::sin(heading)});
-    add_box(*world, 1, {0, kHalf.y, 0}, kHalf, 2000, RigidKind::Dynamic, about_y(turn));
+    const float down = kGravity / std::sqrt(1 + rise * rise);
+    world->set_gravity({rise * down * way[0], -down, rise * down * way[1]});
+    add_box(*world, 1, {0, kHalf.y, 0}, kHalf, 2000, RigidKind::Dynamic, turn);
     return world;
 }
 
@@ -30,33 +35,30 @@ float friction_of_plate() {
 }
 
 TEST(Friction, WhatSlidesGoesStraightAndAsFarInEveryDirection) {
-    const float speed = 5, way = speed * speed / (2 * friction_of_plate() * kGravity);
-    for (int k = 0; k < 16; ++k) {
-        const float heading = 0.4f * real(k), turn = 0.23f * real(k);
-        auto world = plate_on_floor(0, 0, turn);
-        world->set_motion(1, {{speed * std::cos(heading), 0, speed * std::sin(heading)}, {}});
+    const float speed = 5, distance = speed * speed / (2 * friction_of_plate() * kGravity);
+    for (size_t k = 0; k < std::size(kWays); ++k) {
+        const auto& [x, z] = kWays[k];
+        auto world = plate_on_slope(0, kWays[k], turn_of(k));
+        world->set_motion(1, {{speed * x, 0, speed * z}, {}});
         for (int frame = 0; frame < 180; ++frame) step(*world);
         const Vec3 at = world->pose(1).position;
-        EXPECT_NEAR(at.x * std::cos(heading) + at.z * std::sin(heading), way, 0.04f * way) << heading;
-        EXPECT_NEAR(at.z * std::cos(heading) - at.x * std::sin(heading), 0, 0.01f * way) << heading;
+        EXPECT_NEAR(at.x * x + at.z * z, distance, 0.04f * distance) << x << ", " << z;
+        EXPECT_NEAR(at.z * x - at.x * z, 0, 0.01f * distance) << x << ", " << z;
     }
 }
 
-TEST(Friction, ASlopeHoldsAndLetsGoAtTheSameAngleInEveryDirection) {
-    const float angle = std::atan(friction_of_plate());
-    for (int k = 0; k < 16; ++k) {
-        const float heading = 0.4f * real(k), turn = 0.23f * real(k);
+TEST(Friction, ASlopeHoldsAndLetsGoAtTheSameRiseInEveryDirection) {
+    for (size_t k = 0; k < std::size(kWays); ++k)
         for (const bool is_steep : {false, true}) {
-            auto world = plate_on_floor(is_steep ? 1.08f * angle : 0.92f * angle, heading, turn);
+            auto world = plate_on_slope((is_steep ? 1.08f : 0.92f) * friction_of_plate(), kWays[k], turn_of(k));
             for (int frame = 0; frame < 120; ++frame) step(*world);
             const Vec3 at = world->pose(1).position;
-            const float way = std::sqrt(at.x * at.x + at.z * at.z);
+            const float gone = std::sqrt(at.x * at.x + at.z * at.z);
             if (is_steep)
-                EXPECT_GT(way, 0.3f) << heading;
+                EXPECT_GT(gone, 0.3f) << kWays[k][0] << ", " << kWays[k][1];
             else
-                EXPECT_LT(way, 0.01f) << heading;
+                EXPECT_LT(gone, 0.01f) << kWays[k][0] << ", " << kWays[k][1];
         }
-    }
 }
 
 }  // namespace

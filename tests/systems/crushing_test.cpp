@@ -7,28 +7,21 @@
 #include <random>
 
 #include "systems/world_contents.hpp"
+#include "tests/support/draw.hpp"
 #include "tests/support/play_script.hpp"
 
 namespace cullet {
 namespace {
 
+using test::Draw;
 using test::format;
 
 constexpr double kGravity = 9.81, kMostMass = 200e3, kDue = 1.5;
 constexpr double kRates[] = {30, 60, 120};
 constexpr uint32_t kCases = 24;  // of each test
 uint32_t cases() {
-    const char* asked = std::getenv("CULLET_CRUSHING_CASES");
-    return asked ? static_cast<uint32_t>(std::atoi(asked)) : kCases;
+    return test::cases_of(std::getenv("CULLET_CRUSHING_CASES"), kCases);
 }
-
-struct Draw {
-    std::mt19937 engine;
-    double within(double low, double high) {
-        return low + (high - low) * static_cast<double>(engine() >> 8) / 0x1000000;
-    }
-    double evenly_in_scale(double low, double high) { return std::exp2(within(std::log2(low), std::log2(high))); }
-};
 
 /// On the floor, or a pane over a gap; `bends_at`: N in its middle, where it bends.
 struct Thing {

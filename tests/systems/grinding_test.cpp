@@ -10,26 +10,19 @@
 #include "sample_game/rest.hpp"
 #include "systems/drawn/query_index.hpp"
 #include "systems/world_contents.hpp"
+#include "tests/support/draw.hpp"
 #include "tests/support/play_script.hpp"
 
 namespace cullet {
 namespace {
 
+using test::Draw;
 using test::format;
 
 constexpr uint32_t kCases = 16;
 uint32_t cases() {
-    const char* asked = std::getenv("CULLET_CRUSHING_CASES");
-    return asked ? static_cast<uint32_t>(std::atoi(asked)) : kCases;
+    return test::cases_of(std::getenv("CULLET_CRUSHING_CASES"), kCases);
 }
-
-struct Draw {
-    std::mt19937 engine;
-    double within(double low, double high) {
-        return low + (high - low) * static_cast<double>(engine() >> 8) / 0x1000000;
-    }
-    double evenly_in_scale(double low, double high) { return std::exp2(within(std::log2(low), std::log2(high))); }
-};
 
 /// A press that comes down to a gap above the floor, on a vase, a ball or a box.
 struct Press {
