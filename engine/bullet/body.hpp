@@ -62,6 +62,7 @@ struct Body {
     float margin = 0;
     Hull* hulls = nullptr;  // in the order of the caller's pieces
     uint32_t hull_count = 0;
+    bool lacks_seams = false;          // pieces came or went since they were marked, see seams.hpp
     std::unique_ptr<StaticMesh> mesh;  // static triangles only
     LeftOut left_out;                  // of what they were made of; not saved
     bool is_level = false;             // of static triangles: its frame is the world's, also after a shift

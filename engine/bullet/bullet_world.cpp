@@ -7,6 +7,7 @@
 #include "engine/assert.hpp"
 #include "engine/bullet/advance.hpp"
 #include "engine/bullet/free_turn.hpp"
+#include "engine/bullet/seams.hpp"
 #include "engine/bullet/stopped_fall.hpp"
 #include "engine/principal_axes.hpp"
 #include "engine/rigid_allocations.hpp"
@@ -20,7 +21,6 @@ namespace {
 constexpr float kPushedOffSleepers = 0.00002f;  // m in a step, at scale 1
 constexpr float kAngularDamping = 0.1f;         // 1/s, of what is touched: flight has none, nor a birth, nor a ball
 constexpr float kPressedIn = 0.001f;            // m a step, at scale 1, that an unsolved contact may deepen by
-constexpr float kSeamReach = 0.001f;            // m beyond the margins, more than mark_covered() looks past a face
 // Leaves of the tree hold what they are about with half of the way from which pieces are watched (see
 // pair_algorithm.cpp), and this room to move. Ten times it and a heap has three times the pairs, a tenth and what falls
 // is looked up in every step.
@@ -60,7 +60,7 @@ BulletWorld::BulletWorld(uint32_t body_limit)
     newborn_.reserve(16 * static_cast<size_t>(body_limit) + 1024);
     skipped_.reserve(16 * static_cast<size_t>(body_limit) + 1024);
     shapes_.reserve(8 * static_cast<size_t>(body_limit) + 4096);
-    seams_.reserve(4 * static_cast<size_t>(body_limit) + 4096);
+    lacking_seams_.reserve(body_limit);
     lost_.reserve(4 * static_cast<size_t>(body_limit) + 4096);
     inner_points_.reserve(4 * static_cast<size_t>(body_limit) + 4096);
     ways_.reserve(4096);
@@ -197,6 +197,7 @@ void BulletWorld::set_pieces(Body& body, std::span<const ConvexPiece> pieces, fl
                            : same ? hulls_.take()
                                   : make_hull(piece, body.frame, margin);
         if (is_own && cursor == same) cursor = same->next;
+        const bool had_seams = same && same->has_seams;
         if (same) {
             Vec3 local[kMaxPoints];
             const size_t count = std::min<size_t>(piece.points.size(), kMaxPoints);
@@ -206,20 +207,22 @@ void BulletWorld::set_pieces(Body& body, std::span<const ConvexPiece> pieces, fl
             build_hull_like(*hull, *same, matrix(to_axes * axes), {local, count}, margin, piece.cell);
             if (is_own) covered.give_to(*hull);
         }
-        hull->has_seams = is_own;
+        hull->has_seams = is_own && had_seams;
         hull->ordinal = body.hull_count++;
         hull->next = nullptr;
         *link = hull;
         link = &hull->next;
     }
+    lost_.clear();
     for (Hull* hull = old_hulls; hull;) {
         Hull* const next = hull->next;
         const Vec3 place = rotate(old_axes, hull->local.centre) + old_frame.centre;
-        forget_seams(body, rotate(to_axes, place - body.frame.centre), hull->radius);
+        lost_.push_back({rotate(to_axes, place - body.frame.centre), hull->radius});
         hulls_.give(hull);
         hull = next;
     }
-    mark_seams(body);
+    forget_seams(body, lost_);
+    put_off_seams(body);
     body.hull_frame = body.frame;
     seat_hulls(body);
     measure_body(body);
@@ -233,8 +236,7 @@ void BulletWorld::change_pieces(Body& body, std::span<const uint32_t> gone, std:
     size_t next_gone = 0, next_new = 0;
     lost_.clear();
     body.hull_count = 0;
-    const auto keep = [&](Hull* hull, bool has_seams) {
-        hull->has_seams = has_seams;
+    const auto keep = [&](Hull* hull) {
         hull->ordinal = body.hull_count++;
         link = &hull->next;
     };
@@ -247,12 +249,13 @@ void BulletWorld::change_pieces(Body& body, std::span<const uint32_t> gone, std:
             refresh_world(*hull, rotation, origin);
             hull->next = here;
             *link = hull;
-            keep(hull, false);
+            hull->has_seams = false;
+            keep(hull);
         }
         if (!here) break;
         while (next_gone < gone.size() && gone[next_gone] < here->cell) ++next_gone;
         if (next_gone == gone.size() || gone[next_gone] != here->cell) {
-            keep(here, true);
+            keep(here);
             continue;
         }
         lost_.push_back({here->local.centre, here->radius});
@@ -261,38 +264,21 @@ void BulletWorld::change_pieces(Body& body, std::span<const uint32_t> gone, std:
     }
 }
 
-// Seams that lost pieces may have made are forgotten, and those of all pieces without any are found again among what is
-// near them.
-void BulletWorld::renew_seams(Body& body) {
-    Box lost = empty_box();
-    for (const Ball& ball : lost_) {
-        const Box box = grown({ball.centre, ball.centre}, ball.radius + kSeamRange);
-        include(lost, box.low);
-        include(lost, box.high);
-    }
-    Box changed = empty_box();
-    for (Hull* hull = body.hulls; hull; hull = hull->next) {
-        const Vec3 centre = hull->local.centre;
-        bool is_near = hull->has_seams && overlap({centre, centre}, lost, hull->radius);
-        if (is_near) {
-            is_near = false;
-            for (const Ball& ball : lost_)
-                is_near = is_near || !(length(centre - ball.centre) > hull->radius + ball.radius + kSeamRange);
-        }
-        if (is_near) {
-            hull->has_seams = false;
-            forget_covered(*hull);
-        }
-        if (hull->has_seams) continue;
-        include(changed, hull->local_box.low);
-        include(changed, hull->local_box.high);
-    }
-    seams_.clear();
-    for (Hull* hull = body.hulls; hull; hull = hull->next) {
-        const Box box = grown(hull->local_box, kSeamReach);
-        if (overlap(box, changed, kSeamReach)) seams_.push_back({box, hull});
-    }
-    mark_new_seams(body.kind == RigidKind::Static);
+// Births come one after the other, while the marks of many bodies may be made at once: the next pass over all of them
+// does it. More pieces than there is room for in a frame are those of a level, which comes between frames.
+void BulletWorld::put_off_seams(Body& body) {
+    if (body.hull_count > scratches_.own().seams.capacity()) return mark_seams(body, scratches_.own().seams);
+    if (!body.lacks_seams) lacking_seams_.push_back(body.id);
+    body.lacks_seams = true;
+}
+
+void BulletWorld::mark_all_seams() {
+    scratches_.run(static_cast<uint32_t>(lacking_seams_.size()), [this](uint32_t job, PairScratch& scratch) {
+        Body& body = bodies_[lacking_seams_[job]];
+        mark_seams(body, scratch.seams);
+        body.lacks_seams = false;
+    });
+    lacking_seams_.clear();
 }
 
 // Of the pieces' own bounds: an upper bound of the reach, for one look at each piece.
@@ -324,53 +310,6 @@ void BulletWorld::seat_hulls(Body& body) {
     body.hull_offset =
         btTransform(to_bullet(normalised(to_axes * from.axes)), to_bullet(rotate(to_axes, from.centre - to.centre)));
     body.hull_centre = rotate(conjugate(from.axes), to.centre - from.centre);
-}
-
-// What a piece that is gone may have covered.
-void BulletWorld::forget_seams(Body& body, Vec3 centre, float radius) {
-    for (Hull* hull = body.hulls; hull; hull = hull->next) {
-        if (length(hull->local.centre - centre) > hull->radius + radius + kSeamRange) continue;
-        hull->has_seams = false;
-        forget_covered(*hull);
-    }
-}
-
-// `is_whole`: of what stands still faces are inner only where they are covered to their corners. What is covered in
-// part is looked for where it is touched, see inner_edges.hpp. Of what moves the middle tells: there only faces that go
-// on in one plane are searched.
-void BulletWorld::mark_seam(const Seam& p, const Seam& q, bool is_whole) {
-    if (!overlap(p.box, q.box, 0)) return;
-    mark_covered(*p.hull, *q.hull, is_whole);
-    mark_covered(*q.hull, *p.hull, is_whole);
-}
-
-// Of the pieces listed those that have none yet, against all.
-void BulletWorld::mark_new_seams(bool is_whole) {
-    for (const Seam& p : seams_) {
-        if (p.hull->has_seams) continue;
-        for (const Seam& q : seams_)
-            if (q.hull->has_seams || q.hull->ordinal > p.hull->ordinal) mark_seam(p, q, is_whole);
-    }
-}
-
-// Only pieces whose boxes meet can cover a face. Sorted along x by the low ends, ties by order; where few are new they
-// are held against all. Seams between two pieces that have theirs are known.
-void BulletWorld::mark_seams(Body& body) {
-    seams_.clear();
-    size_t new_count = 0;
-    for (Hull* hull = body.hulls; hull; hull = hull->next) {
-        seams_.push_back({grown(hull->local_box, kSeamReach), hull});
-        new_count += !hull->has_seams;
-    }
-    const bool is_whole = body.kind == RigidKind::Static;
-    if (8 * new_count < seams_.size()) return mark_new_seams(is_whole);
-    std::sort(seams_.begin(), seams_.end(), [](const Seam& p, const Seam& q) {
-        return p.box.low.x != q.box.low.x ? p.box.low.x < q.box.low.x : p.hull->ordinal < q.hull->ordinal;
-    });
-    for (size_t k = 0; k < seams_.size(); ++k)
-        for (size_t j = k + 1; j < seams_.size() && seams_[j].box.low.x <= seams_[k].box.high.x; ++j) {
-            if (!seams_[k].hull->has_seams || !seams_[j].hull->has_seams) mark_seam(seams_[k], seams_[j], is_whole);
-        }
 }
 
 void BulletWorld::measure_body(Body& body) {
@@ -532,7 +471,8 @@ void BulletWorld::take_out(RigidId id) {
     mesh_count_ -= body.mesh != nullptr;
     body.mesh.reset();
     drop_pieces(body);
-    body.is_used = false;
+    if (body.lacks_seams) std::erase(lacking_seams_, id);
+    body.is_used = body.lacks_seams = false;
     std::erase_if(ignored_, [id](const IgnoredPair& p) { return p.a == id || p.b == id; });
     std::erase_if(newborn_, [id](const NewbornPieces& p) { return p.a == id || p.b == id; });
     while (body_end_ > 0 && !bodies_[body_end_ - 1].is_used) --body_end_;
@@ -609,7 +549,8 @@ bool BulletWorld::change_shape(RigidId id, double mass, Vec3d centre, Sym3d iner
     set_mass(body, mass, centre, inertia);
     seat_hulls(body);
     change_pieces(body, gone, pieces);
-    renew_seams(body);
+    forget_seams(body, lost_);
+    put_off_seams(body);
     bound_pieces(body);
     reseat(body, at);
     ++body.moves;
@@ -682,6 +623,7 @@ void BulletWorld::detect(float dt) {
     InsideRigidEngine guard(counts_.allocations);
     work_.dt = dt;
     work_.weight_speed = gravity_.length() * dt;
+    mark_all_seams();
     refresh_all();
     find_pairs();
     meet_all();
@@ -977,6 +919,7 @@ void note_gain(Body& body) {
 
 void BulletWorld::solve(float dt) {
     InsideRigidEngine guard(counts_.allocations);
+    mark_all_seams();
     wake_struck();
     for (RigidId id = 0; id < body_end_; ++id) {
         Body& body = bodies_[id];

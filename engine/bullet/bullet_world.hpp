@@ -120,16 +120,12 @@ class BulletWorld final : public RigidWorld {
         uint64_t number;
         uint32_t first, end;  // of manifolds_
     };
-    struct Seam {
-        Box box;
-        Hull* hull;
-    };
     bool is_known(RigidId id) const { return id < body_limit_ && bodies_[id].is_used; }
     void set_pieces(Body& body, std::span<const ConvexPiece> pieces, float margin, const BodyFrame& old_frame);
     Hull* make_hull(const ConvexPiece& piece, const BodyFrame& frame, float margin);
     void change_pieces(Body& body, std::span<const uint32_t> gone, std::span<const ConvexPiece> pieces);
-    void forget_seams(Body& body, Vec3 centre, float radius);
-    void renew_seams(Body& body);
+    void put_off_seams(Body& body);
+    void mark_all_seams();
     void bound_pieces(Body& body);
     void seat_hulls(Body& body);
     void reseat(Body& body, const Pose& at);
@@ -138,9 +134,6 @@ class BulletWorld final : public RigidWorld {
     const Hull* find_same(const ConvexPiece& piece, const Hull* old_hulls, RigidId own, const Hull*& cursor) const;
     void drop_pieces(Body& body);
     Hull* take_shape(const ConvexPiece& piece, const BodyFrame& frame, float margin);
-    void mark_seams(Body& body);
-    void mark_new_seams(bool is_whole);
-    static void mark_seam(const Seam& p, const Seam& q, bool is_whole);
     void measure_body(Body& body);
     void set_mass(Body& body, double mass, Vec3d centre, const Sym3d& inertia);
     void enter(Body& body, const Pose& pose, uint32_t layer, uint32_t mask);
@@ -226,16 +219,12 @@ class BulletWorld final : public RigidWorld {
     std::vector<uint8_t> has_strayed_;  // by id, while pairs are looked for
     PairList pairs_;
     ContactSolver solver_;
-    std::vector<Seam> seams_;  // of the body at hand
-    struct Ball {
-        Vec3 centre;
-        float radius;
-    };
-    std::vector<Ball> lost_;          // pieces that the body at hand has lost, its hull frame
-    std::vector<Vec3> inner_points_;  // of the pieces of what a body at hand comes from
-    float inner_reach_ = 0;           // m, of the largest of these
-    BodyWays ways_;                   // of what is put down
-    uint32_t mesh_count_ = 0;         // bodies with static triangles
+    std::vector<RigidId> lacking_seams_;  // bodies whose new pieces have none yet
+    std::vector<Ball> lost_;              // pieces that the body at hand has lost, its hull frame
+    std::vector<Vec3> inner_points_;      // of the pieces of what a body at hand comes from
+    float inner_reach_ = 0;               // m, of the largest of these
+    BodyWays ways_;                       // of what is put down
+    uint32_t mesh_count_ = 0;             // bodies with static triangles
     std::vector<RigidContact> contacts_;
     std::vector<RigidContact> loads_;                   // of the last solve
     std::vector<RigidId> in_the_way_;                   // of the flight that is foreseen

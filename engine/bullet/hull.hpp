@@ -61,7 +61,7 @@ struct Hull {
     float thickness = 0;     // the least width over its face normals, with both margins; a sphere's diameter
     bool one_sided = false;  // a static triangle: only the face that it is built with pushes
     bool is_turned = false;  // that is its back
-    bool has_seams = false;  // they are known; scratch of BulletWorld::set_pieces
+    bool has_seams = false;  // what others cover of it is known, see seams.hpp
     bool is_box = false;     // its core is one, with these
     Vec3 box_axis[3];        // outward normals of three faces, hull frame
     float box_half[3];       // m, from the centre

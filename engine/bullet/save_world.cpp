@@ -100,7 +100,7 @@ void flow_hull(F& f, Hull& h, ByteReader* in) {
     f.count(h.face_count, kMaxFaces, "the number of faces of a hull");
     f.count(h.edge_count, kMaxEdges, "the number of edges of a hull");
     f.number(h.margin), f.number(h.radius), f.number(h.thickness);
-    f.flag(h.one_sided);
+    f.flag(h.one_sided), f.flag(h.has_seams);
     f.number(h.flush);
     for (uint32_t k = 0; k < h.face_count; ++k) {
         flow_numbers(f, h.face_normal[k]);
@@ -394,6 +394,7 @@ bool BulletWorld::load_body(ByteReader& in, Body& body) {
     flow_body(f, body);
     const uint32_t hull_count = in.count("the number of pieces of a body", 64, 1u << 24);
     Hull** link = &body.hulls;
+    bool lacks_seams = false;
     for (uint32_t k = 0; k < hull_count && in.is_sound(); ++k) {
         Hull* const hull = hulls_.take();
         *hull = {};
@@ -402,7 +403,9 @@ bool BulletWorld::load_body(ByteReader& in, Body& body) {
         flow_hull(f, *hull, &in);
         set_local_box(*hull);
         hull->ordinal = body.hull_count++;
+        lacks_seams = lacks_seams || !hull->has_seams;
     }
+    if (lacks_seams && in.is_sound()) put_off_seams(body);
     bool has_mesh = false;
     f.flag(has_mesh);
     in.expect(!body.is_level || body.kind == RigidKind::Static, "a body that moves is level geometry");
