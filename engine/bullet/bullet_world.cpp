@@ -265,7 +265,8 @@ void BulletWorld::change_pieces(Body& body, std::span<const uint32_t> gone, std:
 }
 
 // Births come one after the other, while the marks of many bodies may be made at once: the next pass over all of them
-// does it. More pieces than there is room for in a frame are those of a level, which comes between frames.
+// does it. More pieces than there is room for in a frame are those of a level, which comes between frames. So does
+// what is not born, and its marks are no step's.
 void BulletWorld::put_off_seams(Body& body) {
     if (body.hull_count > scratches_.own().seams.capacity()) return mark_seams(body, scratches_.own().seams);
     if (!body.lacks_seams) lacking_seams_.push_back(body.id);
@@ -444,6 +445,7 @@ void BulletWorld::add(RigidId id, const RigidDescription& d) {
         list_inner_points(bodies_[d.parent]);
         settle_born(body);
     } else {
+        mark_all_seams();
         settle_laid(body);
     }
     set_motion(id, d.motion);

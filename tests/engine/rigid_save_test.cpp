@@ -66,6 +66,32 @@ TEST(RigidSave, ATreeOfTrianglesInWhichABoxIsTwoBoxesChildIsRefused) {
     EXPECT_NE(refusal(bytes).find("leads nowhere"), std::string::npos) << refusal(bytes);
 }
 
+// A birth puts off the search for seams to the next step.
+TEST(RigidSave, WhatIsSavedBetweenABirthAndTheNextStepGoesOnAlike) {
+    auto world = floor_world(4);
+    RigidDescription d;
+    const std::vector<Vec3> left = box_points({0.1f, 0.1f, 0.1f}, {-0.1f, 0, 0}),
+                            right = box_points({0.1f, 0.1f, 0.1f}, {0.1f, 0, 0});
+    const ConvexPiece pieces[] = {{left, 0}, {right, 1}};
+    d.pieces = pieces;
+    d.mass = 1;
+    d.inertia = {1, 1, 1};
+    d.pose.position = {0, 0.11f, 0};
+    world->add(1, d);
+    d.parent = 1;
+    d.pose.position = {0.05f, 0.3f, 0};
+    world->add(2, d);
+    const std::vector<uint8_t> born = saved(*world);
+    const auto twin = make_bullet_world(4);
+    ByteReader in(born, "test", "");
+    ASSERT_TRUE(twin->load(in).ok()) << in.trouble();
+    EXPECT_EQ(saved(*twin), born);
+    for (RigidWorld* one : {world.get(), twin.get()})
+        for (int n = 0; n < 30; ++n) step(*one);
+    EXPECT_EQ(saved(*twin), saved(*world));
+    EXPECT_NE(saved(*world), born);
+}
+
 // The sort of manifolds asserts that none tie.
 TEST(RigidSave, ManifoldsWithoutPointsKeepTheirOrder) {
     auto world = floor_world(4);
