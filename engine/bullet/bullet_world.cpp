@@ -7,7 +7,6 @@
 #include "engine/assert.hpp"
 #include "engine/bullet/advance.hpp"
 #include "engine/bullet/free_turn.hpp"
-#include "engine/bullet/seams.hpp"
 #include "engine/bullet/stopped_fall.hpp"
 #include "engine/principal_axes.hpp"
 #include "engine/rigid_allocations.hpp"
@@ -26,7 +25,7 @@ constexpr float kPressedIn = 0.001f;            // m a step, at scale 1, that an
 // is looked up in every step.
 constexpr float kWatched = 0.01f;   // m
 constexpr float kLeafRoom = 0.01f;  // m
-constexpr uint32_t kBodiesAJob = 64, kPairsAJob = 32;
+constexpr uint32_t kBodiesAJob = 64, kPairsAJob = 32, kSeamsAJob = 4;
 
 uint64_t scatter(RigidId a, RigidId b) {
     uint64_t z = (uint64_t{a} << 32 | b) * 0x9e3779b97f4a7c15ull;
@@ -61,6 +60,7 @@ BulletWorld::BulletWorld(uint32_t body_limit)
     skipped_.reserve(16 * static_cast<size_t>(body_limit) + 1024);
     shapes_.reserve(8 * static_cast<size_t>(body_limit) + 4096);
     lacking_seams_.reserve(body_limit);
+    seams_.reserve(4 * static_cast<size_t>(body_limit) + 4096);
     lost_.reserve(4 * static_cast<size_t>(body_limit) + 4096);
     inner_points_.reserve(4 * static_cast<size_t>(body_limit) + 4096);
     ways_.reserve(4096);
@@ -264,22 +264,33 @@ void BulletWorld::change_pieces(Body& body, std::span<const uint32_t> gone, std:
     }
 }
 
-// Births come one after the other, while the marks of many bodies may be made at once: the next pass over all of them
-// does it. More pieces than there is room for in a frame are those of a level, which comes between frames. So does
-// what is not born, and its marks are no step's.
+// Births come one after the other. The marks of all of them are made at once, before anything meets.
 void BulletWorld::put_off_seams(Body& body) {
-    if (body.hull_count > scratches_.own().seams.capacity()) return mark_seams(body, scratches_.own().seams);
     if (!body.lacks_seams) lacking_seams_.push_back(body.id);
     body.lacks_seams = true;
 }
 
+// In lists that stay within the room there is, unless a single body has more pieces.
 void BulletWorld::mark_all_seams() {
-    scratches_.run(static_cast<uint32_t>(lacking_seams_.size()), [this](uint32_t job, PairScratch& scratch) {
-        Body& body = bodies_[lacking_seams_[job]];
-        mark_seams(body, scratch.seams);
-        body.lacks_seams = false;
-    });
+    for (size_t k = 0; k < lacking_seams_.size();) {
+        seams_.clear();
+        do {
+            Body& body = bodies_[lacking_seams_[k++]];
+            list_seams(body, seams_);
+            body.lacks_seams = false;
+        } while (k < lacking_seams_.size() &&
+                 seams_.size() + bodies_[lacking_seams_[k]].hull_count <= seams_.capacity());
+        mark_listed_seams();
+    }
     lacking_seams_.clear();
+}
+
+void BulletWorld::mark_listed_seams() {
+    const auto count = static_cast<uint32_t>(seams_.size());
+    scratches_.run((count + kSeamsAJob - 1) / kSeamsAJob, [this, count](uint32_t job, PairScratch&) {
+        for (uint32_t k = job * kSeamsAJob; k < std::min(count, (job + 1) * kSeamsAJob); ++k) mark_seam(seams_, k);
+    });
+    for (const Seam& seam : seams_) seam.hull->has_seams = true;
 }
 
 // Of the pieces' own bounds: an upper bound of the reach, for one look at each piece.

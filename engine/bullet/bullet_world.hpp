@@ -8,6 +8,7 @@
 #include "engine/bullet/contact_solver.hpp"
 #include "engine/bullet/pair_list.hpp"
 #include "engine/bullet/scratches.hpp"
+#include "engine/bullet/seams.hpp"
 #include "engine/bullet/sweep.hpp"
 
 namespace cullet::bullet {
@@ -126,6 +127,7 @@ class BulletWorld final : public RigidWorld {
     void change_pieces(Body& body, std::span<const uint32_t> gone, std::span<const ConvexPiece> pieces);
     void put_off_seams(Body& body);
     void mark_all_seams();
+    void mark_listed_seams();
     void bound_pieces(Body& body);
     void seat_hulls(Body& body);
     void reseat(Body& body, const Pose& at);
@@ -219,6 +221,7 @@ class BulletWorld final : public RigidWorld {
     std::vector<uint8_t> has_strayed_;  // by id, while pairs are looked for
     PairList pairs_;
     ContactSolver solver_;
+    std::vector<Seam> seams_;
     std::vector<RigidId> lacking_seams_;  // bodies whose new pieces have none yet
     std::vector<Ball> lost_;              // pieces that the body at hand has lost, its hull frame
     std::vector<Vec3> inner_points_;      // of the pieces of what a body at hand comes from

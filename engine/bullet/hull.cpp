@@ -320,7 +320,13 @@ class Planes {
     Best foremost(Vec3 point) const {
         return best([&](uint32_t f) { return along(point, f) - load(&height_[f]); });
     }
-    bool hold(Vec3 point, float margin) const { return foremost(point).value <= margin; }
+    /// No plane has the point farther in front of it. Most places that are asked for lie before the first few.
+    bool hold(Vec3 point, float margin) const {
+        const Lanes most_before{margin, margin, margin, margin};
+        for (uint32_t f = 0; f < count_; f += kLanes)
+            if (_mm_movemask_ps(along(point, f) - load(&height_[f]) > most_before) != 0) return false;
+        return true;
+    }
 
  private:
     static_assert(kMaxFaces % kLanes == 0);

@@ -9,7 +9,6 @@
 #include "engine/bullet/crack_contact.hpp"
 #include "engine/bullet/inner_edges.hpp"
 #include "engine/bullet/pool.hpp"
-#include "engine/bullet/seams.hpp"
 
 namespace cullet::bullet {
 
@@ -84,14 +83,12 @@ struct PairScratch {
         offers.reserve(8 * hulls);
         near_a.reserve(hulls);
         near_b.reserve(hulls);
-        seams.reserve(hulls);
         touches.reserve(hulls);
         bodies.reserve(body_limit), fast.reserve(body_limit);
     }
     std::vector<Candidate> candidates;
     std::vector<Offer> offers;
     std::vector<const Hull*> near_a, near_b;
-    std::vector<Seam> seams;                 // of a body's pieces
     std::vector<const CrackTouch*> touches;  // of the pieces at hand
     std::vector<RigidId> bodies;             // near a sweep,
     std::vector<uint32_t> fast;              // and the fast ones, as Sweeper numbers them

@@ -7,18 +7,24 @@
 
 namespace cullet::bullet {
 
-struct Seam {
-    Box box;  // of the piece, with the reach of its seams
-    Hull* hull;
-};
 struct Ball {
     Vec3 centre;  // hull frame
     float radius;
 };
-
 /// Pieces beside those that the body lost know their seams no more.
 void forget_seams(Body& body, std::span<const Ball> lost);
-/// Finds the seams of all pieces that do not know theirs. `near` is working memory.
-void mark_seams(Body& body, std::vector<Seam>& near);
+
+/// A piece whose seams are looked for, or one beside it.
+struct Seam {
+    Box box;  // with the reach of seams
+    Hull* hull;
+    bool stands_still;    // its body is static
+    uint32_t first, end;  // those of its body in the list
+};
+/// Lists the pieces of a body that do not know their seams, and all that are near them.
+void list_seams(Body& body, std::vector<Seam>& seams);
+/// Finds what others cover of the piece at `place`, and writes to nothing else: several may be marked at once. None
+/// knows its seams before all are marked.
+void mark_seam(std::span<const Seam> seams, uint32_t place);
 
 }  // namespace cullet::bullet
