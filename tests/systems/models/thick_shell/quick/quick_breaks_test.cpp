@@ -4,12 +4,14 @@
 #include <array>
 #include <vector>
 
+#include "tests/support/effort.hpp"
 #include "tests/support/random_hits.hpp"
 
 namespace cullet::test {
 namespace {
 
-constexpr uint32_t kBreaks = 300, kShapes = 24, kMostHits = 2000;
+constexpr uint32_t kShapes = 24, kMostHits = 2000;
+const uint32_t kBreaks = few_or_all(150u, 300u);
 
 TEST(QuickBreaks, SomeHundredsAddNoEnergyAndKeepMassAndMomentum) {
     World world = make_world(small_settings());
