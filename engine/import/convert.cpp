@@ -11,6 +11,7 @@
 #include "engine/import/folder_files.hpp"
 #include "engine/import/gltf/read_gltf.hpp"
 #include "engine/import/import.hpp"
+#include "engine/import/obj_lines.hpp"
 #include "engine/import/passed_over.hpp"
 #include "engine/import/ply.hpp"
 #include "engine/import/stl.hpp"
@@ -91,14 +92,12 @@ Result<Corners> read_packed_collada(const std::string& path) {
     return with_notes(read_collada(path, std::move(packed->bytes)), packed->notes);
 }
 
-/// The file as it is; `look` gives notes.
-template <class Look>
-Result<Corners> read_with_notes(const std::string& path, const Place& place, const Look& look) {
+Result<Corners> read_fbx(const std::string& path) {
     auto files = std::make_unique<FolderFiles>(path);
     auto bytes = bytes_of(*files, path);
     if (!bytes) return Error{bytes.error()};
-    const std::vector<std::string> notes = look(plain_text(std::move(*bytes)));
-    return with_notes(read_by_assimp(std::move(files), path, place), notes);
+    const std::vector<std::string> notes = notes_of_fbx(plain_text(std::move(*bytes)));
+    return with_notes(read_by_assimp(std::move(files), path, place_of_fbx), notes);
 }
 
 /// AMF and X3D. An AMF may be packed in a ZIP.
@@ -124,6 +123,15 @@ Result<Corners> read_in_its_unit(const std::string& path) {
     return with_notes(
         read_by_assimp(std::move(files), path, [root](const aiScene&, std::vector<std::string>&) { return root; }),
         notes);
+}
+
+Result<Corners> read_obj(const std::string& path) {
+    auto files = std::make_unique<FolderFiles>(path);
+    auto bytes = bytes_of(*files, path);
+    if (!bytes) return Error{bytes.error()};
+    const std::string text = plain_text(std::move(*bytes));
+    if (const Result<void> sound = check_obj(text, path); !sound) return Error{sound.error()};
+    return with_notes(read_by_assimp(std::move(files), path, as_it_stands), notes_of_obj(text));
 }
 
 Result<Corners> read_gltf(const std::string& path) {
@@ -159,8 +167,8 @@ Result<Corners> read_corners(const std::string& path) {
     }
     if (extension == ".dae") return read_collada(path);
     if (extension == ".zae") return read_packed_collada(path);
-    if (extension == ".fbx") return read_with_notes(path, place_of_fbx, notes_of_fbx);
-    if (extension == ".obj") return read_with_notes(path, as_it_stands, notes_of_obj);
+    if (extension == ".fbx") return read_fbx(path);
+    if (extension == ".obj") return read_obj(path);
     if (extension == ".amf" || extension == ".x3d") return read_in_its_unit(path);
     return read_by_assimp(std::make_unique<FolderFiles>(path), path, as_it_stands);
 }
