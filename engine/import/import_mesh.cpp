@@ -53,7 +53,7 @@ std::optional<std::vector<std::string>> named_files(std::string_view text) {
         const size_t close = open == text.npos ? text.npos : text.find('"', open + 1);
         if (close == text.npos) break;
         const std::string_view name = text.substr(open + 1, close - open - 1);
-        if (name.substr(0, 5) == "data:") continue;
+        if (is_word(name.substr(0, 5), "data:")) continue;
         if (names.size() >= kMostNames || name.size() >= kLongestName) return std::nullopt;
         names.emplace_back(name);
     }

@@ -4,6 +4,7 @@
 #include <string_view>
 #include <utility>
 
+#include "engine/import/words.hpp"
 #include "engine/mesh_file.hpp"
 
 namespace cullet::gltf {
@@ -44,7 +45,7 @@ std::vector<uint8_t> decoded_data_uri(const Part& uri) {
     const std::string_view text = uri.text();
     const size_t comma = text.find(',');
     constexpr std::string_view kBase64 = ";base64";
-    if (comma == text.npos || comma < kBase64.size() || text.substr(comma - kBase64.size(), kBase64.size()) != kBase64)
+    if (comma == text.npos || comma < kBase64.size() || !is_word(text.substr(comma - kBase64.size(), kBase64.size()), kBase64))
         uri.refuse("is data that is not written in base64");
     auto bytes = decoded_base64(text.substr(comma + 1));
     if (!bytes) uri.refuse("is no base64");
@@ -59,7 +60,7 @@ std::span<const uint8_t> Buffers::read(const Part& buffer, uint64_t number) {
         if (number == 0 && document_.has_binary_chunk()) return document_.binary_chunk();
         buffer.refuse("has no \"uri\", and there are no bytes for it in the file");
     }
-    if (uri->text().rfind("data:", 0) == 0) return owned_[number] = decoded_data_uri(*uri);
+    if (is_word(uri->text().substr(0, 5), "data:")) return owned_[number] = decoded_data_uri(*uri);
     const std::string file = folder_.find_beside(uri->text());
     if (file.empty())
         uri->refuse("names \"" + one_line(uri->text(), 200) + "\", which is not in the folder of the model or below");

@@ -78,6 +78,16 @@ test::ProgramRun import_case(const std::string& name, const fs::path& out) {
     return test::run_program({build_folder() + "/cullet_import", source_folder() + "/tests/cases/import/" + name, out});
 }
 
+// RFC 2397 and 3986: schemes know no large and small letters.
+TEST_F(Gltf, DataInTheFileIsReadHoweverItsSchemeIsWritten) {
+    std::string text = house().text();
+    const std::string scheme = "data:application/octet-stream;base64", large = "DATA:application/octet-stream;Base64";
+    text.replace(text.find(scheme), scheme.size(), large);
+    const auto read_one = test::read_gltf_bytes(text, folder_ / "m.gltf");
+    ASSERT_TRUE(read_one.ok()) << read_one.error();
+    expect_house(read_one->mesh);
+}
+
 TEST_F(Gltf, EveryCaseIsTheHouse) {
     for (const char* name : {"gltf_bom.gltf", "gltf_morph_weight.gltf", "gltf_quantised_normals.gltf",
                              "gltf_quantised_positions.gltf", "gltf_skin_armature.gltf", "gltf_uv_ushort.gltf"}) {
