@@ -10,5 +10,7 @@ std::string source_folder();
 std::string build_folder();
 /// The program sample_game of a Release build, "" when none was given (-DCULLET_RELEASE_GAME=PROGRAM).
 std::string release_game();
+/// The compiler of this build.
+std::string compiler();
 
 }  // namespace cullet
