@@ -178,7 +178,7 @@ class FramePlan {
         std::string text, stage;
         for (size_t s = 0; s < systems_.size(); ++s) {
             if (systems_[s].stage != stage) text += (stage = systems_[s].stage) + "\n";
-            text += "    " + cullet::describe(systems_[s], systems_);
+            text += "    pass " + std::to_string(pass_of(s)) + "  " + cullet::describe(systems_[s], systems_);
             for (const Shown& loop : loops_)
                 if (loop.system == s) text += "      repeats: " + loop.title + "\n" + loop.text();
         }
@@ -201,6 +201,12 @@ class FramePlan {
     };
     static constexpr uint32_t kMostInPass = 16;
 
+    /// From 1 on; 0 before finish().
+    size_t pass_of(size_t system) const {
+        size_t pass = 0;
+        while (pass < passes_.size() && passes_[pass].first <= system) ++pass;
+        return pass;
+    }
     static uint32_t chunk_count(const PlannedSystem<World>& system, uint32_t rows) {
         return (rows + system.chunk_rows - 1) / system.chunk_rows;
     }

@@ -25,6 +25,12 @@ enum class Slot : uint8_t {
     Compact,  // rows that nobody uses
 };
 
+inline const char* name_of(Slot slot) {
+    static constexpr const char* kNames[] = {"Rest", "Wake", "Pass", "Close", "Group",  "GiveBack",
+                                             "Show", "Fill", "Hull", "Draw",  "Compact"};
+    return kNames[static_cast<size_t>(slot)];
+}
+
 /// The systems of one model or structure, slot by slot.
 class SlotList {
  public:

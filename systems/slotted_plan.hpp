@@ -11,7 +11,7 @@ class SlottedPlan {
         : models_(models), structures_(std::move(structures)) {}
 
     SlottedPlan& stage(std::string name) {
-        plan_.stage(std::move(name));
+        plan_.stage(stage_ = std::move(name));
         return *this;
     }
     template <auto System>
@@ -30,20 +30,28 @@ class SlottedPlan {
     SlottedPlan& models(Slot slot) {
         for (uint32_t number = 0; const DamageModel& model : models_) {
             plan_.owner(number++);
-            model.slots().add_to(plan_, slot);
+            fill(slot, model.slots());
         }
         return *this;
     }
     SlottedPlan& structures(Slot slot) {
-        for (const SlotList& structure : structures_) structure.add_to(plan_, slot);
+        for (const SlotList& structure : structures_) fill(slot, structure);
         return *this;
     }
     FramePlan<WorldData> take() { return std::move(plan_); }
 
  private:
+    /// The printed frame says whose systems they are.
+    void fill(Slot slot, const SlotList& systems) {
+        plan_.stage(stage_ + ", slot " + name_of(slot) + ": " + systems.name());
+        systems.add_to(plan_, slot);
+        plan_.stage(stage_);
+    }
+
     const DamageModels& models_;
     std::vector<SlotList> structures_;
     FramePlan<WorldData> plan_;
+    std::string stage_;
 };
 
 }  // namespace cullet

@@ -233,21 +233,21 @@ TEST(FramePlan, ItDescribesItself) {
     plan.finish(profiler);
     EXPECT_EQ(plan.describe(),
               "move\n"
-              "    steer  [rows]\n"
+              "    pass 1  steer  [rows]\n"
               "        reads  Weather, birds.position, birds.velocity\n"
               "        writes birds.velocity\n"
-              "    fly  [rows]\n"
+              "    pass 2  fly  [rows]\n"
               "        reads  birds.velocity, birds.position\n"
               "        writes birds.position\n"
               "        after  steer\n"
               "speak\n"
-              "    cry  [serial]\n"
+              "    pass 3  cry  [serial]\n"
               "        reads  birds, Events<Cried>\n"
               "        writes Events<Cried>\n"
               "        after  fly\n"
               "      repeats: a loop\n"
               "        inside\n"
-              "    brood  [rows]\n"
+              "    pass 3  brood  [rows]\n"
               "        reads  -\n"
               "        writes birds_eggs.warmth\n");
     EXPECT_EQ(profiler.zone_count(), 4u);

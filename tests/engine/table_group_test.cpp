@@ -131,17 +131,17 @@ TEST(TableGroup, TheFramePlanOrdersByTheTablesInIt) {
     plan.finish(profiler);
     EXPECT_EQ(plan.describe(),
               "road\n"
-              "    roll  [serial]\n"
+              "    pass 1  roll  [serial]\n"
               "        reads  wheels, roofs\n"
               "        writes wheels\n"
-              "    knock  [serial]\n"
+              "    pass 1  knock  [serial]\n"
               "        reads  doors\n"
               "        writes -\n"
-              "    shut  [serial]\n"
+              "    pass 2  shut  [serial]\n"
               "        reads  doors\n"
               "        writes doors\n"
               "        after  knock\n"
-              "    paint  [serial]\n"
+              "    pass 2  paint  [serial]\n"
               "        reads  roofs\n"
               "        writes roofs\n"
               "        after  roll\n");
