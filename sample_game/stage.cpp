@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "sample_game/cache.hpp"
+#include "sample_game/event_list.hpp"
 #include "sample_game/model_shelf.hpp"
 #include "sample_game/progress.hpp"
 #include "sample_game/read_materials.hpp"
@@ -158,14 +159,8 @@ Result<BodyId> Stage::add_prop(Prop prop) {
 void Stage::after_step() {
     ++frame;
     const StepEvents step = world->events();
-    sums.events["impact"] += step.impacts.count;
+    each_event(step, [&](const char* name, const auto& events) { sums.events[name] += events.count; });
     for (const ImpactEvent& event : step.impacts) sums.events["load"] += event.load > 0;
-    sums.events["crack_started"] += step.cracks_started.count;
-    sums.events["fragment_born"] += step.fragments_born.count;
-    sums.events["debris"] += step.debris.count;
-    sums.events["refused"] += step.refused.count;
-    sums.events["fault"] += step.faults.count;
-    sums.events["asleep"] += step.asleep.count;
     for (const RefusedEvent& event : step.refused) ++sums.refused[event.setting];
     for (const FaultEvent& event : step.faults)
         if (sums.faults.size() < kMostFaults)

@@ -4,6 +4,7 @@
 #include <lua.hpp>
 
 #include "engine/random.hpp"
+#include "sample_game/event_list.hpp"
 #include "sample_game/game_world.hpp"
 #include "sample_game/script/arguments.hpp"
 #include "sample_game/script/calls.hpp"
@@ -13,7 +14,6 @@ namespace cullet {
 namespace {
 
 constexpr uint64_t kRandomStream = 0x7a11;  // apart from that of game.seeded
-constexpr const char* kEvents[] = {"impact", "crack_started", "fragment_born", "debris", "refused", "fault", "asleep"};
 
 int expect(lua_State* lua) {
     const Stage& stage = script_of(lua).act(lua);
@@ -28,12 +28,10 @@ int expect(lua_State* lua) {
 
 const char* event_at(lua_State* lua, const char* call) {
     const std::string name = lua_type(lua, 1) == LUA_TSTRING ? lua_tostring(lua, 1) : "";
-    std::string names;
-    for (const char* event : kEvents) {
-        if (name == event) return event;
-        names += (names.empty() ? "" : ", ") + std::string(event);
-    }
-    refuse(lua, fmt::format("{}: there is no event {}; expected one of {}", call, describe(lua, 1), names));
+    const char* found = nullptr;
+    each_event({}, [&](const char* event, const auto&) { found = name == event ? event : found; });
+    if (found) return found;
+    refuse(lua, fmt::format("{}: there is no event {}; expected one of {}", call, describe(lua, 1), event_names()));
 }
 
 int on(lua_State* lua) {
@@ -227,14 +225,11 @@ bool push_nth(lua_State* lua, const EventSpan<E>& events, uint32_t n) {
 }  // namespace
 
 bool push_event(lua_State* lua, const World& world, const std::string& event, uint32_t n) {
-    const StepEvents step = world.events();
-    if (event == "impact") return push_nth(lua, step.impacts, n);
-    if (event == "crack_started") return push_nth(lua, step.cracks_started, n);
-    if (event == "fragment_born") return push_nth(lua, step.fragments_born, n);
-    if (event == "debris") return push_nth(lua, step.debris, n);
-    if (event == "refused") return push_nth(lua, step.refused, n);
-    if (event == "fault") return push_nth(lua, step.faults, n);
-    return push_nth(lua, step.asleep, n);
+    bool is_pushed = false;
+    each_event(world.events(), [&](const char* name, const auto& events) {
+        if (event == name) is_pushed = push_nth(lua, events, n);
+    });
+    return is_pushed;
 }
 
 void open_queries(lua_State* lua) {
