@@ -6,10 +6,10 @@
 
 namespace cullet {
 
-/// Row b is how body b breaks. Pieces inherit it.
-struct QuickBodies : Table<QuickBodies> {
-    using Table::Table;
-    static constexpr const char* kName = "quick_bodies";
+/// How something breaks: settings of the game's, each under its name (QuickSettings, LayerSettings).
+template <class Own>
+struct QuickRules : Table<Own> {
+    using Table<Own>::Table;
     static constexpr bool kIsOptional = true;
     Column<uint8_t> is_quick{*this, "is_quick"};
     Column<uint8_t> layers{*this, "layers"};                     // 1 or 2
@@ -25,27 +25,19 @@ struct QuickBodies : Table<QuickBodies> {
     Column<float> volume_energy{*this, "volume_energy"};
 };
 
+/// Row b is how body b breaks. Pieces inherit it.
+struct QuickBodies : QuickRules<QuickBodies> {
+    using QuickRules::QuickRules;
+    static constexpr const char* kName = "quick_bodies";
+};
+
 inline constexpr uint32_t kMostAwakePacks = 4096;  // of one run: 32,768 vertices
 
-/// Row t is the run of task t. All motion is seen from the body as it moved at the touch: a vertex at rest in it has
-/// velocity 0 until the run ends.
-struct QuickRuns : Table<QuickRuns> {
-    using Table::Table;
+/// Row t is the run of task t, by the rules that its body had when it opened. All motion is seen from the body as it
+/// moved at the touch: a vertex at rest in it has velocity 0 until the run ends.
+struct QuickRuns : QuickRules<QuickRuns> {
+    using QuickRules::QuickRules;
     static constexpr const char* kName = "quick_runs";
-    static constexpr bool kIsOptional = true;
-    Column<uint8_t> is_quick{*this, "is_quick"};  // the task's body is
-    // Of the body, when the task opened.
-    Column<uint8_t> layers{*this, "layers"};
-    Column<uint16_t> steps{*this, "steps"};
-    Column<uint16_t> crack_frequency{*this, "crack_frequency"};  // 0: by the kind of fracture
-    Column<float> given_limit{*this, "given_limit"};             // 0: the material's
-    Column<float> compression_limit{*this, "compression_limit"};
-    Column<float> crack_length{*this, "crack_length"};
-    Column<float> bump_angle{*this, "bump_angle", "rad"};
-    Column<uint8_t> layout{*this, "layout"};              // LayerLayout of two layers
-    Column<float> length_factor{*this, "length_factor"};  // gamma; 0: mean edge over thickness
-    Column<float> area_energy{*this, "area_energy"};      // over E h A (B4)
-    Column<float> volume_energy{*this, "volume_energy"};
     // Of the run.
     Column<Row<ShellSprings>> springs{*this, "springs"};  // of the task's shell; kNone before the region is awake
     /// First elements of the task's shell that are the body's, when it is a cut-out (cut_out.hpp): Elements.part says
@@ -54,7 +46,7 @@ struct QuickRuns : Table<QuickRuns> {
     Column<uint32_t> pack_count{*this, "pack_count"};    // rows in AwakePacks
     Column<uint32_t> awake_count{*this, "awake_count"};  // vertices that the region had when it woke
     Column<float> softening{*this, "softening"};         // s of B7, >= 1: stiffness E / s, time stretched by its root
-    Column<float> strain_limit{*this, "strain_limit"};   // of a vertex of median strength, as the run sees it
+    Column<float> split_strain{*this, "split_strain"};   // of a vertex of median strength, as the run sees it
     Column<double> energy_scale{*this, "energy_scale", "J"};  // that body and strikers meet with: what 5 % are of
     Column<float> diagonal{*this, "diagonal", "m"};           // of the body's bounds
 };

@@ -13,7 +13,7 @@ Result<Model> cook_vase(float edge, float height, std::optional<FractureKind> fr
     view.indices = mesh.triangles[0].data(), view.triangle_count = mesh.triangles.size();
     CookSettings settings;
     settings.longest_edge = 100;  // the mesh has the edges that it should have
-    settings.measures_threshold = false;
+    settings.thick_shell.measures_threshold = false;
     settings.fracture = fracture;
     return cook(view, settings);
 }

@@ -49,8 +49,8 @@ Hit hit_once(const Model& model, float height, FractureMode mode) {
     World world = World::create(settings).value();
     const ModelId id = world.add_model(model).value();
     SpawnSettings spawn;
-    spawn.fracture = mode;
-    spawn.quick.strain_limit = 0.02f;
+    spawn.thick_shell.fracture = mode;
+    spawn.thick_shell.quick.strain_limit = 0.02f;
     const BodyId body = world.spawn(id, spawn).value();
     Hit hit;
     const auto& d = world.contents().data;

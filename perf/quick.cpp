@@ -27,7 +27,7 @@ SpringNet castle_net() {
     CookSettings settings;
     settings.thickness = 0.025f;
     settings.longest_edge = 100;
-    settings.measures_threshold = false;
+    settings.thick_shell.measures_threshold = false;
     Result<Model> model = cook(view_of(mesh), settings);
     SpringNet net;
     if (!model.ok()) return net;

@@ -25,17 +25,20 @@ Result<std::string> name_of_entry(const Mesh& mesh, const CookSettings& s) {
     const Result<std::vector<uint8_t>> program = read_whole_file("/proc/self/exe", kLargestProgram);
     if (!program.ok()) return Error{program.error()};
     const std::string made_from = fmt::format(
-        "{} {} {} {} {} {:08x} {:08x} {:08x} {} {} {} {}", version(), hex_of(program.value()),
-        hex_of(encode_mesh_file(mesh)), model_label(s), material_label(s), std::bit_cast<uint32_t>(s.thickness),
-        std::bit_cast<uint32_t>(s.longest_edge), std::bit_cast<uint32_t>(s.weld_tolerance), s.seed,
-        s.measures_threshold, static_cast<int>(s.propagation), s.joins_walls);
+        "{} {} {} {} {} {:08x} {:08x} {:08x} {}", version(), hex_of(program.value()), hex_of(encode_mesh_file(mesh)),
+        model_label(s), material_label(s), std::bit_cast<uint32_t>(s.thickness),
+        std::bit_cast<uint32_t>(s.longest_edge), std::bit_cast<uint32_t>(s.weld_tolerance), s.seed);
     return hex_of({reinterpret_cast<const uint8_t*>(made_from.data()), made_from.size()}) + ".cmodel";
 }
 
 }  // namespace
 
 std::string model_label(const CookSettings& settings) {
-    return settings.model.empty() ? damage_model_names()[0] : settings.model;
+    const std::string model = settings.model.empty() ? damage_model_names()[0] : settings.model;
+    std::string label = model;
+    for (const auto& group : cook_settings_of(model))
+        for (const Setting& setting : group.list) label += fmt::format(" {}", group.get(settings, setting));
+    return label;
 }
 
 std::string material_label(const CookSettings& settings) {

@@ -7,8 +7,8 @@
 #include "sample_game/cache.hpp"
 #include "sample_game/cook_cached.hpp"
 #include "sample_game/import_model.hpp"
+#include "sample_game/model_settings.hpp"
 #include "sample_game/progress.hpp"
-#include "sample_game/propagation.hpp"
 #include "sample_game/props.hpp"
 #include "sample_game/read_materials.hpp"
 #include "systems/models/thick_shell/cook/hit_advice.hpp"
@@ -18,6 +18,19 @@ namespace {
 
 /// What suits a hollow figure: the wall of the scene drop, 6 mm at 0.4 m.
 constexpr float kWallOfLargestSide = 0.015f;
+
+/// What the options said of the damage models' own settings.
+Result<void> read_settings(const std::map<std::string, std::string>& given, CookSettings& settings) {
+    for (const auto& group : all_cook_settings())
+        for (const Setting& setting : group.list) {
+            const auto found = given.find(setting.name);
+            if (found == given.end()) continue;
+            const Result<double> value = read_setting(setting, found->second);
+            if (!value.ok()) return Error{value.error()};
+            group.set(settings, setting, *value);
+        }
+    return {};
+}
 
 Result<CachedModel> cook_file(const CookOptions& options) {
     const Result<Mesh> mesh = import_model(options.mesh);
@@ -37,9 +50,8 @@ Result<CachedModel> cook_file(const CookOptions& options) {
     settings.longest_edge = static_cast<float>(options.edge_m);
     settings.weld_tolerance = static_cast<float>(options.weld);
     settings.seed = options.seed;
-    settings.joins_walls = !options.keeps_walls_apart;
-    if (!find_propagation(options.propagation, settings.propagation))
-        return Error{fmt::format("--propagation {}: expected {}.", options.propagation, kPropagations)};
+    settings.thick_shell.joins_walls = !options.keeps_walls_apart;
+    if (const Result<void> read = read_settings(options.of_model, settings); !read.ok()) return Error{read.error()};
     Progress progress(fmt::format("cooking {}", std::filesystem::path(options.mesh).filename().string()));
     settings.progress = &Progress::cooked;
     settings.progress_user = &progress;
@@ -58,8 +70,8 @@ void print_summary(const CookOptions& options, const CachedModel& cooked) {
     const ModelReport& r = cooked.model.report();
     fmt::print("{}: {} vertices, {} elements, {} cells; {:.4g} kg of {}, {:.4g} mm thick on average; {}\n", options.out,
                r.vertices, r.elements, r.cells, r.mass, options.material, 1000 * r.mean_thickness, strength_of(r));
-    fmt::print("  generation   {}: {} collisions, {} inverted elements, {} crossings\n", options.propagation,
-               r.collisions, r.inverted_elements, r.crossings);
+    fmt::print("  generation   {} collisions, {} inverted elements, {} crossings\n", r.collisions, r.inverted_elements,
+               r.crossings);
     for (const std::string& note : {r.repairs, r.walls, r.advice, cooked.trouble})
         if (!note.empty()) fmt::print("  note         {}\n", note);
     if (cooked.is_from_cache) fmt::print("  note         The cooked model was taken from the cache.\n");

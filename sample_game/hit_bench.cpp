@@ -92,7 +92,7 @@ Result<HitSubject> make_subject(Subject subject, uint64_t seed) {
     settings.materials = &materials;
     settings.seed = seed;
     settings.longest_edge = 100;  // the meshes have the edges that the figures are for
-    settings.measures_threshold = false;
+    settings.thick_shell.measures_threshold = false;
     switch (subject) {
         case Subject::Vase:
             made = {"vase", 5.4f, {1.49, 2.09, 9.5, 0.47, 3.2, 1798}, {}};

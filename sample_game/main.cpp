@@ -9,6 +9,7 @@
 
 #include "cullet/world.hpp"
 #include "sample_game/cook_command.hpp"
+#include "sample_game/model_settings.hpp"
 #include "sample_game/options.hpp"
 #include "sample_game/replay_command.hpp"
 #include "sample_game/reproduce/command.hpp"
@@ -34,6 +35,9 @@ int run(const Options& options) {
             return 0;
         case Command::KeysHelp:
             return print_keys(options.run.scene);
+        case Command::Settings:
+            fmt::print("{}", settings_table());
+            return 0;
         case Command::Frame:
             fmt::print("{}", World::describe_frame());
             return 0;

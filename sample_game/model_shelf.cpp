@@ -20,9 +20,8 @@ std::string label(const Mesh& mesh, const CookSettings& s) {
     hash = fold(mesh.corner_normals, hash);
     hash = fold(mesh.corner_uvs, hash);
     hash = fold(mesh.materials, hash);
-    return fmt::format("{} {:016x} {} {} {} {} {} {} {} {} {}", mesh.positions.size(), hash, model_label(s),
-                       material_label(s), s.thickness, s.longest_edge, s.seed, s.measures_threshold,
-                       static_cast<int>(s.propagation), s.joins_walls, mesh.name);
+    return fmt::format("{} {:016x} {} {} {} {} {} {}", mesh.positions.size(), hash, model_label(s), material_label(s),
+                       s.thickness, s.longest_edge, s.seed, mesh.name);
 }
 
 }  // namespace

@@ -8,6 +8,7 @@
 
 #include "cullet/model.hpp"
 #include "cullet/version.hpp"
+#include "sample_game/model_settings.hpp"
 #include "sample_game/scene.hpp"
 
 namespace cullet {
@@ -82,6 +83,20 @@ void add_run(CLI::App& app, RunOptions& run) {
     command->add_option("--set", run.set, "KEY=VALUE, a setting of the scene; --set help lists them");
 }
 
+// A setting of a damage model's own, by its list: --joins-walls false.
+void add_setting(CLI::App& command, CookOptions& cook, const Setting& setting) {
+    std::string option = std::string("--") + setting.name;
+    std::replace(option.begin(), option.end(), '_', '-');
+    if (command.get_option_no_throw(option)) return;  // two models have it: one option
+    const auto is_right = [setting](const std::string& text) { return read_setting(setting, text).error(); };
+    command
+        .add_option_function<std::string>(
+            option, [&cook, name = setting.name](const std::string& text) { cook.of_model[name] = text; },
+            fmt::format("{} ({}); {} if not given", setting.help, range_of(setting),
+                        text_of(setting, setting.standard)))
+        ->check(CLI::Validator(is_right, ""));
+}
+
 void add_cook(CLI::App& app, CookOptions& cook) {
     CLI::App* command = app.add_subcommand("cook", "Cooks a mesh into a model file (.cmodel), so that a game need not");
     command->add_option("mesh", cook.mesh, "A model file in any format of docs/importing.md, or a .cmesh")->required();
@@ -101,11 +116,8 @@ void add_cook(CLI::App& app, CookOptions& cook) {
     command->add_option("--weld", cook.weld, "Points so near are one, as a share of the diagonal; 1e-7 heals noise")
         ->check(CLI::Range(0.0, 0.01));
     command->add_option("--seed", cook.seed, "Of the spread of strength")->capture_default_str();
-    command
-        ->add_option("--propagation", cook.propagation,
-                     "How the inner surface is pushed in; all but the first to compare")
-        ->check(CLI::IsMember({"guarded_front", "front", "single_vertex", "single_vertex_tets"}))
-        ->capture_default_str();
+    for (const auto& group : all_cook_settings())
+        for (const Setting& setting : group.list) add_setting(*command, cook, setting);
     command->add_flag("--walls-apart", cook.keeps_walls_apart,
                       "A mesh with both of its walls becomes two sheets, not one as thick as measured");
 }
@@ -204,6 +216,7 @@ Result<Options> parse_options(std::vector<std::string> arguments) {
     add_cook(app, options.cook);
     add_replay(app, options.replay);
     add_reproduce(app, options.reproduce);
+    app.add_subcommand("settings", "Prints what can be set of each damage model: default, range, what it is");
     app.add_subcommand("frame", "Prints the systems of a frame, and what each reads and writes");
     CLI::App* truth = app.add_subcommand("truth",
                                          "Prints the verification cases of a method: figure, bounds, verdict; the "
@@ -238,6 +251,7 @@ Result<Options> parse_options(std::vector<std::string> arguments) {
     }
     options.command = app.got_subcommand("run")         ? Command::Run
                       : app.got_subcommand("frame")     ? Command::Frame
+                      : app.got_subcommand("settings")  ? Command::Settings
                       : app.got_subcommand("cook")      ? Command::Cook
                       : app.got_subcommand("replay")    ? Command::Replay
                       : app.got_subcommand("reproduce") ? Command::Reproduce

@@ -1,6 +1,7 @@
 // What the command line says.
 #pragma once
 #include <cstdint>
+#include <map>
 #include <string>
 #include <vector>
 
@@ -28,7 +29,7 @@ struct RunOptions {
     std::vector<std::string> set;
 };
 
-enum class Command : uint8_t { Help, Run, KeysHelp, Frame, Truth, Cook, Replay, Reproduce };
+enum class Command : uint8_t { Help, Run, KeysHelp, Settings, Frame, Truth, Cook, Replay, Reproduce };
 
 struct ReplayOptions {
     std::string file;
@@ -42,8 +43,8 @@ struct CookOptions {
     double edge_m = 0;                                                   // 0: what cooking chooses
     double weld = 0;                                                     // of the diagonal
     uint64_t seed = 1;
-    std::string propagation = "guarded_front";
     bool keeps_walls_apart = false;
+    std::map<std::string, std::string> of_model;  // settings of the damage model's own, by name
 };
 
 struct TruthOptions {

@@ -1,22 +1,16 @@
 #include "sample_game/propagation.hpp"
 
-#include <iterator>
+#include "sample_game/model_settings.hpp"
 
 namespace cullet {
-namespace {
 
-constexpr const char* kNames[] = {"guarded_front", "front", "single_vertex", "single_vertex_tets"};
-
-}  // namespace
-
-const char* name_of(Propagation way) {
-    return kNames[static_cast<size_t>(way)];
-}
-
-bool find_propagation(const std::string& name, Propagation& way) {
-    for (size_t k = 0; k < std::size(kNames); ++k)
-        if (name == kNames[k]) return way = static_cast<Propagation>(k), true;
-    return false;
+std::string name_of(Propagation way) {
+    CookSettings settings;
+    settings.thick_shell.propagation = way;
+    for (const auto& group : all_cook_settings())
+        for (const Setting& setting : group.list)
+            if (std::string(setting.name) == "propagation") return text_of(setting, group.get(settings, setting));
+    return "";
 }
 
 }  // namespace cullet

@@ -6,10 +6,6 @@
 
 namespace cullet {
 
-inline constexpr const char* kPropagations = "guarded_front, front, single_vertex or single_vertex_tets";
-
-const char* name_of(Propagation way);
-/// False: there is no such way, and `way` stays.
-bool find_propagation(const std::string& name, Propagation& way);
+std::string name_of(Propagation way);
 
 }  // namespace cullet

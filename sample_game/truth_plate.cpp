@@ -37,7 +37,7 @@ Result<Plate> make_plate(uint32_t edges, double unevenness) {
     settings.material = "glass";
     settings.thickness = static_cast<float>(kThickness);
     settings.longest_edge = 100;  // the mesh has its edges
-    settings.measures_threshold = false;
+    settings.thick_shell.measures_threshold = false;
     // A pane has one edge less than fits, for the points that its borders add.
     const Mesh mesh = make_pane(static_cast<float>(kSide), static_cast<float>(kSide / (edges + 1.5)), 1, unevenness);
     const Result<Model> model = cook(view_of(mesh), settings);

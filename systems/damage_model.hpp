@@ -5,6 +5,7 @@
 #pragma once
 #include "systems/model_calls.hpp"
 #include "systems/model_loops.hpp"
+#include "systems/settings/setting_list.hpp"
 #include "systems/slots.hpp"
 
 namespace cullet {
@@ -79,6 +80,19 @@ class DamageModel {
         calls_.cook = [](Cooking& cooking) { return Cook(cooking); };
         return *this;
     }
+    /// Settings of its own, which stand in this member of CookSettings, or in that member of it. Their list is what the
+    /// check, scripts, options and help go by. `name`: of their table in scripts; empty: there is none.
+    template <auto... Member>
+    DamageModel& cook_settings(const char* name = "") {
+        cook_settings_.push_back(group_of<CookSettings, Member...>(name));
+        return *this;
+    }
+    /// The same of SpawnSettings. Recordings hold them, in this order.
+    template <auto... Member>
+    DamageModel& spawn_settings(const char* name = "") {
+        spawn_settings_.push_back(group_of<SpawnSettings, Member...>(name));
+        return *this;
+    }
     /// A body is spawned. `Body(rows, body, spawning)`, once its mass is known: fills what the model keeps for it, and
     /// returns the rows that the first hit on it takes.
     template <auto Body>
@@ -88,11 +102,9 @@ class DamageModel {
         };
         return *this;
     }
-    /// Before that. `Check(settings)`: whether the model's own settings are sound. `Shell(rows, source, spawning)`: the
-    /// cooked shell, which bodies share, or one of the body's own.
-    template <auto Check, auto Shell>
+    /// Before that. `Shell(rows, source, spawning)`: the cooked shell, which bodies share, or one of the body's own.
+    template <auto Shell>
     DamageModel& spawns_own() {
-        calls_.check_spawn = [](const SpawnSettings& settings) { return Check(settings); };
         calls_.spawn_shell = [](SoftRows& rows, Row<Shells> source, const Spawning& spawning) {
             return Shell(rows, source, spawning);
         };
@@ -220,13 +232,23 @@ class DamageModel {
     const std::vector<FrameLoop>& frame_loops() const { return frame_loops_; }
     const char* frame_zone() const { return frame_zone_; }
     const ModelCalls& calls() const { return calls_; }
+    const std::vector<SettingGroup<CookSettings>>& cook_settings() const { return cook_settings_; }
+    const std::vector<SettingGroup<SpawnSettings>>& spawn_settings() const { return spawn_settings_; }
 
  private:
+    template <class Settings, auto... Member>
+    static SettingGroup<Settings> group_of(const char* name) {
+        using Own = std::remove_cvref_t<decltype((std::declval<Settings&>().*....*Member))>;
+        return {name, setting_list<Own>(), [](Settings& settings) -> void* { return &(settings.*....*Member); }};
+    }
+
     SlotList slots_;
     std::vector<TaskLoop> task_loops_;
     std::vector<FrameLoop> frame_loops_;
     const char* frame_zone_ = "";
     ModelCalls calls_;
+    std::vector<SettingGroup<CookSettings>> cook_settings_;
+    std::vector<SettingGroup<SpawnSettings>> spawn_settings_;
 };
 
 }  // namespace cullet

@@ -60,7 +60,6 @@ struct RunLength {
 struct ModelCalls {
     // Cooking and spawning.
     Result<std::shared_ptr<Model::Contents>> (*cook)(Cooking&) = nullptr;
-    Result<void> (*check_spawn)(const SpawnSettings&) = nullptr;
     Result<Row<Shells>> (*spawn_shell)(SoftRows&, Row<Shells> source, const Spawning&) = nullptr;
     Result<ShellRoom> (*spawn_body)(SoftRows&, Row<Bodies>, const Spawning&) = nullptr;
     // Tasks.

@@ -71,7 +71,7 @@ Result<Model> cook_wall(double thickness) {
     settings.thickness = static_cast<float>(thickness);
     settings.longest_edge = 100;  // the mesh has its edges
     // The speed by which the quick mode finds its strain limit, as a spawn does.
-    settings.measures_threshold = true;
+    settings.thick_shell.measures_threshold = true;
     const Mesh mesh = make_wall(2.4f, 1.8f, kEdge);
     return cook(view_of(mesh), settings);
 }

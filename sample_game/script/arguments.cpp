@@ -11,16 +11,16 @@
 
 namespace cullet {
 
-Arguments::Arguments(lua_State* lua, const char* call, std::initializer_list<const char*> known, bool can_be_missing,
+Arguments::Arguments(lua_State* lua, const char* call, const std::vector<const char*>& known, bool can_be_missing,
                      int place)
-    : lua_(lua), call_(call), place_(place) {
+    : lua_(lua), call_(call), place_(lua_absindex(lua, place)) {
     if (can_be_missing && lua_isnoneornil(lua, place)) {
         lua_settop(lua, place - 1);
         lua_newtable(lua);
     }
-    if (!lua_istable(lua, place))
-        refuse(fmt::format("given {}; expected a table: {}{{{} = ...}}", describe(lua, place), call, *known.begin()));
-    for (lua_pushnil(lua); lua_next(lua, place); lua_pop(lua, 1)) {
+    if (!lua_istable(lua, place_))
+        refuse(fmt::format("given {}; expected a table: {}{{{} = ...}}", describe(lua, place_), call, *known.begin()));
+    for (lua_pushnil(lua); lua_next(lua, place_); lua_pop(lua, 1)) {
         const bool is_name = lua_type(lua, -2) == LUA_TSTRING;
         if (is_name && std::any_of(known.begin(), known.end(),
                                    [&](const char* name) { return std::strcmp(name, lua_tostring(lua, -2)) == 0; }))
@@ -44,6 +44,10 @@ void Arguments::refuse_value(const char* name, const std::string& expected) cons
 
 void Arguments::push(const char* name) const {
     lua_getfield(lua_, place_, name);
+}
+
+void Arguments::pop() const {
+    lua_pop(lua_, 1);
 }
 
 bool Arguments::has(const char* name) const {

@@ -1,8 +1,8 @@
 // What a script gives to a call: a table of named values, read one by one. A value that is missing or wrong, or a name
 // that the call does not know, ends the script with a sentence that starts with file and line.
 #pragma once
-#include <initializer_list>
 #include <string>
+#include <vector>
 
 #include "cullet/world.hpp"
 #include "sample_game/script/sandbox.hpp"
@@ -24,7 +24,7 @@ inline constexpr Wanted kShare{"a share from 0 to 1", 0, 1};
 class Arguments {
  public:
     /// The table at `place`; `can_be_missing`: nothing at all is a table without values.
-    Arguments(lua_State* lua, const char* call, std::initializer_list<const char*> known, bool can_be_missing = false,
+    Arguments(lua_State* lua, const char* call, const std::vector<const char*>& known, bool can_be_missing = false,
               int place = 1);
 
     bool has(const char* name) const;
@@ -42,6 +42,8 @@ class Arguments {
     Motion motion() const;            // velocity, spin
     /// Leaves the value on the stack.
     void push(const char* name) const;
+    /// Takes it off again.
+    void pop() const;
     [[noreturn]] void refuse_value(const char* name, const std::string& expected) const;
     [[noreturn]] void refuse(const std::string& sentence) const;
 

@@ -8,10 +8,11 @@
 
 #include "engine/math.hpp"
 #include "sample_game/meshes.hpp"
-#include "sample_game/propagation.hpp"
+#include "sample_game/model_settings.hpp"
 #include "sample_game/script/arguments.hpp"
 #include "sample_game/script/calls.hpp"
 #include "sample_game/script/script.hpp"
+#include "sample_game/script/setting_calls.hpp"
 #include "systems/world_contents.hpp"
 
 namespace cullet {
@@ -22,49 +23,24 @@ constexpr const char *kCookedName = "cooked model", *kBodyName = "body";
 // cooking takes counts less than it is: the limit on models ends a loop of it.
 constexpr uint64_t kWorkABody = 3000, kWorkACook = 10'000;
 constexpr size_t kMostPins = 256;
+// Of game.cook a kind of cracks, of game.spawn a mode.
+constexpr const char* kFracture = "fracture";
+// What scripts called joins_walls before it had a list.
+constexpr const char* kOlderJoinsWalls = "join_walls";
+
+/// What game.cook reads.
+std::vector<const char*> names_of_cook() {
+    std::vector<const char*> names = {"mesh", "model", "material", "fracture", "grain", "thickness", "edge", "seed"};
+    add_names(names, all_cook_settings());
+    names.push_back(kOlderJoinsWalls);
+    return names;
+}
 
 /// Of game.spawn: how the body breaks, which is no affair of cooking, and not how near to each other cracks start.
 bool names_mode(const Arguments& given) {
-    if (!given.has("fracture")) return false;
-    const std::string name = given.word("fracture", "hidden or quick");
+    if (!given.has(kFracture)) return false;
+    const std::string name = given.word(kFracture, "hidden or quick");
     return name == "hidden" || name == "quick";
-}
-
-void read_quick(lua_State* lua, const Arguments& given, SpawnSettings& settings) {
-    if (names_mode(given) && given.word("fracture", "hidden or quick") == "quick")
-        settings.fracture = FractureMode::Quick;
-    if (!given.has("quick")) return;
-    given.push("quick");
-    const Arguments quick(
-        lua, "game.spawn.quick",
-        {"layers", "steps", "crack_frequency", "strain_limit", "compression_limit", "crack_length", "bump_angle"},
-        false, lua_gettop(lua));
-    QuickSettings& q = settings.quick;
-    const auto whole = [&](const char* name, const Wanted& wanted, uint32_t otherwise) {
-        return static_cast<uint32_t>(quick.number(name, wanted, otherwise));
-    };
-    q.layers = whole("layers", {"1 or 2", 1, 2}, q.layers);
-    q.steps = whole("steps", {"a whole number from 8 to 100", 8, 100}, q.steps);
-    q.crack_frequency = whole("crack_frequency", {"a whole number from 0 to 1000", 0, 1000}, q.crack_frequency);
-    q.strain_limit = quick.real("strain_limit", {"0, or a stretch up to 1", 0, 1}, q.strain_limit);
-    q.compression_limit = quick.real("compression_limit", {"0, or a number from 1", 0, 1e6}, q.compression_limit);
-    q.crack_length = quick.real("crack_length", {"a number from 0 to 4", 0, 4}, q.crack_length);
-    q.bump_angle = quick.real("bump_angle", {"an angle from 0 to 30 degrees", 0, 30}, q.bump_angle);
-    lua_pop(lua, 1);
-}
-
-void read_layers(lua_State* lua, const Arguments& given, LayerSettings& l) {
-    if (!given.has("springs")) return;
-    given.push("springs");
-    const Arguments springs(lua, "game.spawn.springs", {"layout", "length_factor", "area_energy", "volume_energy"},
-                            false, lua_gettop(lua));
-    const std::string layout = springs.word("layout", "sandwich or crossed", "sandwich");
-    if (layout != "sandwich" && layout != "crossed") springs.refuse_value("layout", "sandwich or crossed");
-    l.layout = layout == "crossed" ? LayerLayout::Crossed : LayerLayout::Sandwich;
-    l.length_factor = springs.real("length_factor", {"0, or a number from 0.577 to 5", 0, 5}, l.length_factor);
-    l.area_energy = springs.real("area_energy", {"a number from 0 to 100", 0, 100}, l.area_energy);
-    l.volume_energy = springs.real("volume_energy", {"a number from 0 to 100", 0, 100}, l.volume_energy);
-    lua_pop(lua, 1);
 }
 
 FractureKind fracture_of(const Arguments& given) {
@@ -110,10 +86,8 @@ uint32_t cook_given(lua_State* lua, const Arguments& given, bool has_kind, bool 
     settings.longest_edge = is_left                          ? 100.0f
                             : edge == 0 && mesh.is_made_here ? edge_of_plain(mesh.mesh, settings)
                                                              : edge;
-    const std::string way = given.word("propagation", kPropagations, name_of(settings.propagation));
-    if (!find_propagation(way, settings.propagation))
-        given.refuse(fmt::format("propagation is \"{}\"; expected {}", way, kPropagations));
-    settings.joins_walls = given.is("join_walls", settings.joins_walls);
+    settings.thick_shell.joins_walls = given.is(kOlderJoinsWalls, settings.thick_shell.joins_walls);
+    read_settings(lua, "game.cook", given, all_cook_settings(), settings);
     const Result<uint32_t> cooked = stage.cook(mesh.mesh, settings, !mesh.is_made_here);
     if (!cooked.ok()) given.refuse(cooked.error());
     lua_pop(lua, 1);
@@ -121,9 +95,7 @@ uint32_t cook_given(lua_State* lua, const Arguments& given, bool has_kind, bool 
 }
 
 int cook_model(lua_State* lua) {
-    const Arguments given(
-        lua, "game.cook",
-        {"mesh", "model", "material", "fracture", "grain", "thickness", "edge", "seed", "propagation", "join_walls"});
+    const Arguments given(lua, "game.cook", names_of_cook());
     const uint32_t cooked = cook_given(lua, given, given.has("fracture"), true);
     *static_cast<uint32_t*>(lua_newuserdatauv(lua, sizeof(uint32_t), 0)) = cooked;
     luaL_setmetatable(lua, kCookedName);
@@ -170,38 +142,21 @@ Pose pose_of(const Arguments& given) {
 
 int spawn(lua_State* lua) {
     script_of(lua).act(lua);
-    const Arguments given(lua, "game.spawn",
-                          {"mesh",
-                           "cooked",
-                           "model",
-                           "material",
-                           "fracture",
-                           "grain",
-                           "thickness",
-                           "edge",
-                           "seed",
-                           "propagation",
-                           "join_walls",
-                           "at",
-                           "turn",
-                           "pivot",
-                           "velocity",
-                           "spin",
-                           "friction",
-                           "restitution",
-                           "rolling_friction",
-                           "strength_scale",
-                           "breakable",
-                           "pins",
-                           "quick",
-                           "springs"});
+    std::vector<const char*> known = names_of_cook();
+    for (const char* name : {"cooked", "at", "turn", "pivot", "velocity", "spin", "friction", "restitution",
+                             "rolling_friction", "strength_scale", "breakable", "pins"})
+        known.push_back(name);
+    add_names(known, all_spawn_settings());
+    const Arguments given(lua, "game.spawn", known);
     if (given.has("mesh") == given.has("cooked"))
         given.refuse("expected either mesh = game.mesh..., or cooked = what game.cook returned");
+    SpawnSettings settings;
+    read_settings(lua, "game.spawn", given, all_spawn_settings(), settings, names_mode(given) ? "" : kFracture);
     uint32_t model = 0;
     if (given.has("cooked")) {
-        for (const char* name :
-             {"model", "material", "fracture", "grain", "thickness", "edge", "seed", "propagation", "join_walls"})
-            if (given.has(name) && !(std::string(name) == "fracture" && names_mode(given)))
+        for (const char* name : names_of_cook())
+            if (std::string(name) != "mesh" && given.has(name) &&
+                !(std::string(name) == "fracture" && names_mode(given)))
                 given.refuse(fmt::format("{} belongs to game.cook, beside its mesh", name));
         given.push("cooked");
         model = cooked_at(lua, lua_gettop(lua), "game.spawn: cooked");
@@ -209,9 +164,6 @@ int spawn(lua_State* lua) {
     } else {
         model = cook_given(lua, given, given.has("fracture") && !names_mode(given), given.is("breakable", true));
     }
-    SpawnSettings settings;
-    read_quick(lua, given, settings);
-    read_layers(lua, given, settings.layers);
     settings.pose = pose_of(given);
     settings.motion = given.motion();
     settings.contact = given.contact();
@@ -226,7 +178,7 @@ int spawn(lua_State* lua) {
     settings.user_data = stage.models[model].look;
     const Result<BodyId> id = world.spawn(stage.models[model].id, settings);
     if (id.ok()) stage.sums.mass_put_in += world.mass(*id).value();
-    if (id.ok() && settings.is_breakable && settings.fracture == FractureMode::Hidden) stage.advise(model);
+    if (id.ok() && settings.is_breakable && settings.thick_shell.fracture == FractureMode::Hidden) stage.advise(model);
     return added(lua, "game.spawn", id);
 }
 

@@ -6,9 +6,11 @@
 #include <filesystem>
 #include <lua.hpp>
 
+#include "sample_game/model_settings.hpp"
 #include "sample_game/script/arguments.hpp"
 #include "sample_game/script/calls.hpp"
 #include "sample_game/script/script.hpp"
+#include "sample_game/script/setting_calls.hpp"
 
 namespace cullet {
 namespace {
@@ -94,10 +96,35 @@ int materials(lua_State* lua) {
     return 0;
 }
 
-/// What every scene asks about the thing that breaks in it.
+// Settings that two models have under one name are one key.
+void add_key(Keys& keys, const Setting& setting, double value) {
+    const std::string name = std::string("scene.") + setting.name;
+    if (keys.has(name)) return;
+    if (setting.kind == SettingKind::Switch || setting.kind == SettingKind::Word)
+        keys.word(name, text_of(setting, value), setting.kind == SettingKind::Word ? setting.words : "false, true",
+                  setting.help);
+    else
+        keys.number(name, setting.unit, value, setting.may_be_zero ? 0 : setting.least, setting.most, setting.help);
+}
+
+/// What --set says of the key, or its default, becomes a field of the table on top; a setting of two words a truth.
+void push_field(lua_State* lua, Keys& keys, const std::string& key, const char* field, bool is_switch = false) {
+    script_of(lua).apply_set(lua, key);
+    if (is_switch)
+        lua_pushboolean(lua, keys.word_of(key) == "true");
+    else
+        push_key(lua, keys, key);
+    lua_setfield(lua, -2, field);
+}
+
+/// What every scene asks about the thing that breaks in it, and how it breaks.
 int shell_keys(lua_State* lua) {
     Keys& keys = story_of(lua, "game.shell_keys").keys;
-    const Arguments given(lua, "game.shell_keys", {"material", "thickness", "edge", "fracture", "crack_length"});
+    const auto groups = all_spawn_settings();
+    std::vector<const char*> known = {"material", "thickness", "edge"};
+    for (const auto& group : groups)
+        for (const Setting& setting : group.list) known.push_back(setting.name);
+    const Arguments given(lua, "game.shell_keys", known);
     if (keys.has("scene.material")) given.refuse("these keys are there already");
     const std::string material = given.word("material", "a material", "porcelain");
     const std::string materials = script_of(lua).stage().materials.names();
@@ -107,49 +134,25 @@ int shell_keys(lua_State* lua) {
         .number("scene.edge_m", "m", given.number("edge", {"a length in m from 0 to 1", 0, 1}, 0), 0, 1,
                 "edge length of the mesh; 0: what cooking chooses")
         .number("scene.strength_scale", "1", 1, 1e-3, HUGE_VAL, "on the material's strength; inf never cracks")
-        .word("scene.fracture", "hidden", "hidden, quick",
-              "hidden: elastic waves, over some frames; quick: softened springs near the hit")
-        .word("scene.cracks", "own", "own, fine, coarse, large", "the kind of fracture; own: the material's")
-        .number("scene.layers", "1", 1, 1, 2, "of springs, in quick fracture; 2 feel the wall bend")
-        .number("scene.steps", "1", 60, 8, 100, "of a quick run; the neighbourhood is a third of it wide, in edges")
-        .number("scene.crack_frequency", "1", 0, 0, 1000, "vertices that split in a quick step; 0: by the kind")
-        .number("scene.strain_limit", "1", 0, 0, 1, "stretch at which a quick edge splits; 0: as found when cooked")
-        .number("scene.compression_limit", "1", 0, 0, 1e6, "squeeze at which it does, in strain limits; 0: none")
-        .number("scene.crack_length", "1", given.number("crack_length", {"a number from 0 to 4", 0, 4}, 0.5), 0, 4,
-                "how far large quick cracks run on, of the body's diagonal")
-        .number("scene.bump_angle", "degrees", 12, 0, 30, "by which they may turn at each vertex")
-        .word("scene.layout", "sandwich", "sandwich, crossed",
-              "of two layers, quick or soft; crossed: the paper's, too stiff in bending")
-        .number("scene.length_factor", "1", 0, 0, 5, "distance of two layers over the thickness; 0: by the mesh")
-        .number("scene.area_energy", "1", 0, 0, 100, "of springs, quick or soft: against a change of area")
-        .number("scene.volume_energy", "1", 0, 0, 100, "the same of volume, between two layers");
+        .word("scene.cracks", "own", "own, fine, coarse, large", "the kind of fracture; own: the material's");
+    for (const auto& group : groups)
+        for (const Setting& setting : group.list)
+            add_key(keys, setting, setting_given(given, setting, setting.standard));
     if (!keys.set("scene.material=" + material).ok()) given.refuse_value("material", "one of " + materials);
-    if (!keys.set("scene.fracture=" + given.word("fracture", "hidden or quick", "hidden")).ok())
-        given.refuse_value("fracture", "hidden or quick");
     lua_newtable(lua);
-    const std::pair<const char*, const char*> names[] = {
-        {"scene.material", "material"}, {"scene.thickness_m", "thickness"},
-        {"scene.edge_m", "edge"},       {"scene.strength_scale", "strength_scale"},
-        {"scene.fracture", "fracture"}, {"scene.cracks", "cracks"}};
-    for (const auto& [name, short_name] : names) {
-        script_of(lua).apply_set(lua, name);
-        if (std::string(name) == "scene.cracks" && keys.word_of(name) == "own") continue;  // nil: nothing is given
-        push_key(lua, keys, name);
-        lua_setfield(lua, -2, short_name);
+    push_field(lua, keys, "scene.material", "material");
+    push_field(lua, keys, "scene.thickness_m", "thickness");
+    push_field(lua, keys, "scene.edge_m", "edge");
+    push_field(lua, keys, "scene.strength_scale", "strength_scale");
+    script_of(lua).apply_set(lua, "scene.cracks");
+    if (keys.word_of("scene.cracks") != "own") push_field(lua, keys, "scene.cracks", "cracks");  // nil: none is given
+    for (const auto& group : groups) {
+        if (*group.name) lua_newtable(lua);
+        for (const Setting& setting : group.list)
+            push_field(lua, keys, std::string("scene.") + setting.name, setting.name,
+                       setting.kind == SettingKind::Switch);
+        if (*group.name) lua_setfield(lua, -2, group.name);
     }
-    const auto push_table = [&](const char* table, std::initializer_list<const char*> fields) {
-        lua_newtable(lua);
-        for (const char* name : fields) {
-            const std::string key = std::string("scene.") + name;
-            script_of(lua).apply_set(lua, key);
-            push_key(lua, keys, key);
-            lua_setfield(lua, -2, name);
-        }
-        lua_setfield(lua, -2, table);
-    };
-    push_table("quick", {"layers", "steps", "crack_frequency", "strain_limit", "compression_limit", "crack_length",
-                         "bump_angle"});
-    push_table("springs", {"layout", "length_factor", "area_energy", "volume_energy"});
     return 1;
 }
 

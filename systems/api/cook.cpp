@@ -12,6 +12,7 @@
 #include "systems/cook/mesh_of_view.hpp"
 #include "systems/cook/model_contents.hpp"
 #include "systems/cook/tessellate.hpp"
+#include "systems/settings/check.hpp"
 
 namespace cullet {
 namespace {
@@ -128,6 +129,8 @@ Result<Model> cook_mesh(const DamageModels& models, Mesh mesh, const CookSetting
     if (!model) return Error{model.error()};
     const Result<CookedMaterial> material = material_of(settings);
     if (!material) return Error{material.error()};
+    if (const Result<void> valid = check_settings((*model)->cook_settings(), settings); !valid)
+        return Error{valid.error()};
     const double diagonal = diagonal_of(mesh);
     if (const Result<void> valid = check_lengths(settings, diagonal); !valid) return Error{valid.error()};
     if (!has_area(mesh, diagonal))
@@ -176,6 +179,18 @@ std::vector<std::string> damage_model_names() {
     std::vector<std::string> names;
     for (const DamageModel& model : *damage_models()) names.push_back(model.name());
     return names;
+}
+
+std::vector<SettingGroup<CookSettings>> cook_settings_of(const std::string& damage_model) {
+    const std::optional<uint8_t> number = damage_models()->find(damage_model);
+    if (!number) return {};
+    return (*damage_models())[*number].cook_settings();
+}
+
+std::vector<SettingGroup<SpawnSettings>> spawn_settings_of(const std::string& damage_model) {
+    const std::optional<uint8_t> number = damage_models()->find(damage_model);
+    if (!number) return {};
+    return (*damage_models())[*number].spawn_settings();
 }
 
 const ModelReport& Model::report() const {

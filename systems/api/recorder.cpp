@@ -7,6 +7,7 @@
 #include "engine/mesh_file.hpp"
 #include "systems/api/model_hash.hpp"
 #include "systems/cook/model_file.hpp"
+#include "systems/settings/bytes.hpp"
 
 namespace cullet {
 
@@ -84,10 +85,7 @@ void Recorder::spawn(ModelId id, const SpawnSettings& s) {
         for_each_number_of_vector(s.pins[i].low, into(out));
         for_each_number_of_vector(s.pins[i].high, into(out));
     }
-    out.number(static_cast<uint8_t>(s.fracture));
-    for_each_number_of_quick(s.quick, into(out));
-    out.number(static_cast<uint8_t>(s.layers.layout));
-    for_each_number_of_layers(s.layers, into(out));
+    for (const DamageModel& model : *damage_models_) put_settings(out, model.spawn_settings(), s);
 }
 
 void Recorder::add_sphere(const SphereSettings& s) {

@@ -7,6 +7,7 @@
 #include "components/state.hpp"
 #include "cullet/world.hpp"
 #include "systems/api/recording_file.hpp"
+#include "systems/models.hpp"
 
 namespace cullet {
 
@@ -34,7 +35,9 @@ enum class GameCall : uint8_t {
 
 class Recorder {
  public:
-    Recorder(std::FILE* file, std::string models) : file_(file), models_(std::move(models)) {}
+    /// `models`: a folder.
+    Recorder(std::FILE* file, std::string models, ModelList damage_models)
+        : file_(file), models_(std::move(models)), damage_models_(std::move(damage_models)) {}
 
     /// Refuses a world whose bytes are more than a chunk's.
     Result<void> begin(std::span<const uint8_t> world);
@@ -74,7 +77,8 @@ class Recorder {
     ByteWriter& call(GameCall call);
 
     RecordingWriter file_;
-    std::string models_;  // folder
+    std::string models_;
+    ModelList damage_models_;
     ByteWriter calls_, step_;
     std::vector<uint8_t> answers_;
     std::vector<uint32_t> digests_, digests_before_;
@@ -100,15 +104,6 @@ void for_each_number_of_motion(M& m, F&& f) {
 template <class C, class F>
 void for_each_number_of_contact(C& c, F&& f) {
     f(c.friction), f(c.restitution), f(c.rolling_friction), f(c.layer), f(c.mask);
-}
-template <class Q, class F>
-void for_each_number_of_quick(Q& q, F&& f) {
-    f(q.layers), f(q.steps), f(q.crack_frequency), f(q.strain_limit), f(q.compression_limit), f(q.crack_length);
-    f(q.bump_angle);
-}
-template <class L, class F>
-void for_each_number_of_layers(L& l, F&& f) {
-    f(l.length_factor), f(l.area_energy), f(l.volume_energy);
 }
 template <class Id, class F>
 void for_each_number_of_id(Id& id, F&& f) {

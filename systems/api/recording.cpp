@@ -27,7 +27,7 @@ Result<void> World::start_recording(const std::string& path) {
     }
     const Result<std::FILE*> file = RecordingWriter::open(path);
     if (!file) return Error{file.error()};
-    auto recorder = std::make_unique<Recorder>(*file, path + ".models");
+    auto recorder = std::make_unique<Recorder>(*file, path + ".models", c.data.damage_models);
     if (const Result<void> begun = recorder->begin(begin.bytes); !begun) return Error{path + ": " + begun.error()};
     c.recorder = std::move(recorder);
     if (is_fresh) c.recorder->set_gravity(c.data.step_info.gravity);

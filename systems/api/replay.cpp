@@ -9,6 +9,7 @@
 #include "systems/api/snapshot.hpp"
 #include "systems/api/with_models.hpp"
 #include "systems/cook/model_file.hpp"
+#include "systems/settings/bytes.hpp"
 
 namespace cullet {
 namespace {
@@ -296,10 +297,7 @@ void Replayer::spawn(ByteReader& in) {
         for (Box& box : pins) box.low = take_vector(in), box.high = take_vector(in);
         s.pins = pins.data();
     }
-    s.fracture = static_cast<FractureMode>(in.number<uint8_t>("how it breaks"));
-    for_each_number_of_quick(s.quick, from(in));
-    s.layers.layout = static_cast<LayerLayout>(in.number<uint8_t>("how its layers are tied"));
-    for_each_number_of_layers(s.layers, from(in));
+    for (const DamageModel& model : *source_.damage_models) take_settings(in, model.spawn_settings(), s);
     if (in.is_sound()) (void)world_->spawn(id, s);
 }
 

@@ -1,6 +1,7 @@
 #include "systems/models.hpp"
 
 #include "systems/models/thick_shell/model.hpp"
+#include "systems/settings/check.hpp"
 #include "systems/structures/shell/structure.hpp"
 
 namespace cullet {
@@ -36,8 +37,7 @@ std::string DamageModels::names() const {
 }
 
 Result<void> DamageModels::check_spawn(const ShellRows& rows, Row<Shells> source, const SpawnSettings& settings) const {
-    const auto call = call_of(rows, source, &ModelCalls::check_spawn);
-    return call ? call(settings) : Result<void>();
+    return check_settings(models_[rows.shells.damage_model[source]].spawn_settings(), settings);
 }
 
 Result<Row<Shells>> DamageModels::spawn_shell(SoftRows& rows, Row<Shells> source, const Spawning& spawning) const {

@@ -14,7 +14,7 @@ std::vector<Bytes> make_seeds() {
     settings.material = "brick";
     settings.thickness = 0.01f;
     settings.longest_edge = 1;
-    settings.measures_threshold = false;
+    settings.thick_shell.measures_threshold = false;
     const Model brick = value_of(cook({mesh.positions.data(), mesh.positions.size(), mesh.triangles[0].data(),
                                        mesh.triangles.size(), nullptr, mesh.corner_uvs.data(), mesh.materials.data()},
                                       settings));

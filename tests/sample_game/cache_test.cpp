@@ -27,7 +27,7 @@ class Cache : public testing::Test {
         fs::create_directories(folder_);
         mesh_ = test::sphere_mesh(0.1, 2);
         mesh_.name = "ball";
-        settings_.measures_threshold = false;
+        settings_.thick_shell.measures_threshold = false;
     }
     void TearDown() override { fs::remove_all(folder_); }
 
@@ -81,7 +81,7 @@ TEST_F(Cache, OtherMeshesAndOtherSettingsAreCookedAnew) {
     expect_new("weld");
     settings_.seed = 2;
     expect_new("seed");
-    settings_.measures_threshold = true;
+    settings_.thick_shell.measures_threshold = true;
     expect_new("threshold");
     mesh_.positions[5].x *= 1.0001f;
     expect_new("mesh");

@@ -8,6 +8,7 @@
 #include <set>
 
 #include "cullet/world.hpp"
+#include "sample_game/model_settings.hpp"
 #include "sample_game/options.hpp"
 #include "sample_game/report.hpp"
 #include "sample_game/run_scene.hpp"
@@ -57,7 +58,7 @@ void each_file(const std::string& folder, const Visit& visit) {
 
 /// What the text of our sources says between quotation marks: names of arguments, keys, fields, options.
 void add_quoted(Names& names, const fs::path& file) {
-    if (file.extension() != ".cpp" && file.extension() != ".lua") return;
+    if (file.extension() != ".cpp" && file.extension() != ".hpp" && file.extension() != ".lua") return;
     for (const std::string& quoted : found_in(text_of(file), "\"([^\"\\n]*)\"")) add_words(names, quoted);
 }
 
@@ -213,6 +214,13 @@ TEST(Docs, NameOnlyCallsThatAScriptHas) {
         EXPECT_TRUE(trouble_with("body." + method).empty() || trouble_with("mesh." + method).empty()) << method;
     EXPECT_NE(trouble_with("game.explod"), "");
     EXPECT_NE(trouble_with("body.explode"), "");
+}
+
+TEST(Docs, HaveTheTableOfAllSettingsOfDamageModels) {
+    const std::string page = text_of(fs::path(source_folder()) / "docs/scripting.md");
+    EXPECT_NE(page.find(settings_table()), std::string::npos)
+        << "docs/scripting.md has another table than `sample_game settings` prints:\n"
+        << settings_table();
 }
 
 }  // namespace

@@ -42,7 +42,7 @@ Result<Model> cooked(const Mesh& mesh) {
     CookSettings settings;
     settings.thickness = 0.02f * diagonal;
     settings.longest_edge = 0.05f * diagonal;
-    settings.measures_threshold = false;
+    settings.thick_shell.measures_threshold = false;
     return cook(view_of(mesh), settings);
 }
 

@@ -67,7 +67,7 @@ TEST(StrangersGame, AHostileFileThatLoadsCooksOrIsRefusedInASentence) {
         CookSettings settings;
         settings.thickness = 0.02f * std::max({high.x - low.x, high.y - low.y, high.z - low.z});
         settings.longest_edge = 10 * settings.thickness;
-        settings.measures_threshold = false;
+        settings.thick_shell.measures_threshold = false;
         const Result<Model> model = cook(view_of(*mesh), settings);
         std::printf(
             "%c %s: %s\n", verdict, name.c_str(),

@@ -16,7 +16,7 @@ namespace cullet::test {
 
 Result<Model> cook_vase(float height, float edge, CookSettings settings) {
     const Mesh mesh = make_vase(height, edge);
-    settings.measures_threshold = false;
+    settings.thick_shell.measures_threshold = false;
     return cook(view_of_mesh(mesh), settings);
 }
 

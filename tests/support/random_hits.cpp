@@ -42,7 +42,7 @@ Shape random_shape(uint32_t shape, std::optional<FractureKind> fracture) {
     settings.material = std::array{"glass", "porcelain", "brick", "concrete"}[shape % 4];
     settings.thickness = size * float(draw.between(0.01, 0.04));
     settings.longest_edge = 100;
-    settings.measures_threshold = false;
+    settings.thick_shell.measures_threshold = false;
     settings.fracture = fracture;
     Result<Model> model = cook(view_of_mesh(mesh), settings);
     if (!model) ADD_FAILURE() << model.error(), std::abort();

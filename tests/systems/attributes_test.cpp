@@ -150,7 +150,7 @@ Result<Model> cook_globe(const Globe& globe) {
     CookSettings settings;
     settings.thickness = 0.004f;
     settings.longest_edge = 0.02f;  // the facets are up to 0.031 m wide, so tessellation has work
-    settings.measures_threshold = false;
+    settings.thick_shell.measures_threshold = false;
     return cook(globe.view(), settings);
 }
 
@@ -238,7 +238,7 @@ TEST(Attributes, AMeshWithoutMaterialsHasOneRunAKind) {
     mesh.materials = nullptr;
     CookSettings settings;
     settings.thickness = 0.004f;
-    settings.measures_threshold = false;
+    settings.thick_shell.measures_threshold = false;
     const Result<Model> model = cook(mesh, settings);
     ASSERT_TRUE(model.ok()) << model.error();
     Result<World> world = World::create(small_world());

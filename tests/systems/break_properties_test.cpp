@@ -32,7 +32,7 @@ std::vector<Shape> real_shapes() {
         const Mesh mesh = read_real_mesh(std::string("thick_shell/") + name);
         const float radius = radius_of(mesh);
         CookSettings settings{.material = "porcelain", .thickness = 0.04f * radius, .longest_edge = 100};
-        settings.measures_threshold = false;
+        settings.thick_shell.measures_threshold = false;
         Result<Model> model = cook(view_of(mesh), settings);
         EXPECT_TRUE(model.ok()) << name << ": " << model.error();
         if (model.ok()) shapes.push_back({std::move(model).value(), radius});
@@ -57,8 +57,8 @@ uint32_t expect_sound_breaks(FractureMode mode, std::span<const Shape> shapes, i
     });
     expect_always(cases, [&](uint32_t shape, uint32_t hit) {
         SpawnSettings spawn;
-        spawn.fracture = mode;
-        spawn.quick.strain_limit = 0.005f;
+        spawn.thick_shell.fracture = mode;
+        spawn.thick_shell.quick.strain_limit = 0.005f;
         flaw.clear();
         hit_once(world, shapes[shape % shapes.size()], {{11}, hit}, spawn);
         RC_ASSERT(flaw == "");

@@ -74,8 +74,9 @@ Sawn random_thing(Draw& draw, Shape shape) {
     settings.material = "concrete";
     settings.thickness = draw.of(2) ? thinnest : draw.within(0.1f, 0.5f) * thinnest;
     settings.longest_edge = 100;
-    settings.measures_threshold = false;
-    settings.joins_walls = shape == Shape::Box;  // a flat prism becomes a sheet, whose faces can be scraped off
+    settings.thick_shell.measures_threshold = false;
+    settings.thick_shell.joins_walls =
+        shape == Shape::Box;  // a flat prism becomes a sheet, whose faces can be scraped off
     if (shape == Shape::Ball) half = {half.x, half.x, half.x};
     if (shape == Shape::Plate) half.z = 0;
     const Mesh mesh = shape == Shape::Box     ? make_box(half)

@@ -21,7 +21,7 @@ const Model& pane() {
         settings.material = "glass";
         settings.thickness = 0.006f;
         settings.longest_edge = 100;
-        settings.measures_threshold = false;
+        settings.thick_shell.measures_threshold = false;
         const Mesh mesh = make_pane(1, kEdge);
         return cook(view_of_mesh(mesh), settings).value();
     }();
@@ -49,7 +49,7 @@ Hung hang(const std::vector<Box>& pins, FractureMode mode) {
     spawn.pose.position = {0, 0.5f, 0};
     spawn.pins = pins.data();
     spawn.pin_count = static_cast<uint32_t>(pins.size());
-    spawn.fracture = mode;
+    spawn.thick_shell.fracture = mode;
     hung.body = hung.world.spawn(hung.world.add_model(pane()).value(), spawn).value();
     hung.mass = hung.world.mass(hung.body).value();
     return hung;

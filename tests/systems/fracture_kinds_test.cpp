@@ -35,7 +35,7 @@ Model brick_of(const Mesh& mesh, float thickness, Kind kind) {
     brick.fracture = kind.fracture, brick.branching = kind.branching, brick.run_out = kind.run_out;
     EXPECT_TRUE(table.change(brick).ok());
     CookSettings settings{.material = "brick", .materials = &table, .thickness = thickness, .longest_edge = 100};
-    settings.measures_threshold = false;
+    settings.thick_shell.measures_threshold = false;
     Result<Model> model = cook(view_of(mesh), settings);
     EXPECT_TRUE(model.ok()) << model.error();
     return std::move(model).value();

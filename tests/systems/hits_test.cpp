@@ -25,7 +25,7 @@ struct Scenario {
 
 BodyId add_vase(World& world, FractureMode mode, Vec3 place = {}, Vec3 velocity = {}) {
     SpawnSettings settings;
-    settings.fracture = mode;
+    settings.thick_shell.fracture = mode;
     settings.pose.position = place;
     settings.motion.velocity = velocity;
     return world.spawn(world.add_model(small_vase()).value(), settings).value();

@@ -121,7 +121,7 @@ void expect_both_skins_break(const char* file, float thickness) {
     ASSERT_TRUE(mesh.ok()) << mesh.error();
     CookSettings settings;
     settings.thickness = thickness;
-    settings.measures_threshold = false;
+    settings.thick_shell.measures_threshold = false;
     const Result<Model> model = cook(view_of(*mesh), settings);
     ASSERT_TRUE(model.ok()) << model.error();
     ASSERT_NE(model->report().walls, "") << "its walls were not joined";

@@ -168,8 +168,8 @@ Pelted pelt(float edge, FractureMode mode, uint32_t hits, Saving saving = Saving
     World world = World::create(settings).value();
     const ModelId id = world.add_model(model.value()).value();
     SpawnSettings spawn;
-    spawn.fracture = mode;
-    if (mode == FractureMode::Quick) spawn.quick.strain_limit = 0.02f;
+    spawn.thick_shell.fracture = mode;
+    if (mode == FractureMode::Quick) spawn.thick_shell.quick.strain_limit = 0.02f;
     const BodyId body = world.spawn(id, spawn).value();
     uint32_t born = 0, least_drawn = 100;
     for (uint32_t hit = 0; hit < hits; ++hit) {

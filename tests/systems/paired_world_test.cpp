@@ -20,7 +20,7 @@ Model vase() {
     CookSettings settings;
     settings.thickness = 0.005f;
     settings.longest_edge = 100;
-    settings.measures_threshold = false;
+    settings.thick_shell.measures_threshold = false;
     Result<Model> model = cook(view_of_mesh(make_vase(0.3f, 0.0125f)), settings);
     EXPECT_TRUE(model.ok());
     return std::move(model).value();
@@ -33,7 +33,7 @@ Model board() {
     settings.grain = {0, 1, 0};
     settings.thickness = 0.01f;
     settings.longest_edge = 100;
-    settings.measures_threshold = false;
+    settings.thick_shell.measures_threshold = false;
     Result<Model> model = cook(view_of_mesh(make_wall(0.6f, 0.45f, 0.02f)), settings);
     EXPECT_TRUE(model.ok());
     return std::move(model).value();

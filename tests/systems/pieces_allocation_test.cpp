@@ -52,7 +52,7 @@ void break_vase(FractureKind fracture, Look look) {
     ASSERT_TRUE(table.change(concrete).ok());
     CookSettings cooking;
     cooking.material = "concrete", cooking.materials = &table, cooking.thickness = 0.005f, cooking.longest_edge = 100;
-    cooking.measures_threshold = false;
+    cooking.thick_shell.measures_threshold = false;
     const Result<Model> model = cook(test::view_of_mesh(make_vase(0.3f, 0.0125f)), cooking);
     ASSERT_TRUE(model.ok()) << model.error();
     World world = test::make_world(test::small_settings());

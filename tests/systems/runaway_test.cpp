@@ -16,8 +16,8 @@ namespace {
 
 BodyId add_quick_vase(World& world, uint32_t layers) {
     SpawnSettings spawn;
-    spawn.fracture = FractureMode::Quick;
-    spawn.quick.layers = layers;
+    spawn.thick_shell.fracture = FractureMode::Quick;
+    spawn.thick_shell.quick.layers = layers;
     return world.spawn(world.add_model(small_vase()).value(), spawn).value();
 }
 

@@ -34,8 +34,8 @@ SiblingFigures figures_of(FractureMode mode, uint32_t breaks) {
     uint32_t hits = 0;
     for (; hits < kMostHits && watch.figures().breaks < breaks; ++hits) {
         SpawnSettings spawn;
-        spawn.fracture = mode;
-        if (mode == FractureMode::Quick) spawn.quick.layers = 1 + hits / kShapes % 2;
+        spawn.thick_shell.fracture = mode;
+        if (mode == FractureMode::Quick) spawn.thick_shell.quick.layers = 1 + hits / kShapes % 2;
         watch.follow(shapes[hits % kShapes], {{9}, hits}, spawn, watch.figures().breaks < kLookedInside);
     }
     const SiblingFigures& f = watch.figures();

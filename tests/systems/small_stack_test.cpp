@@ -59,7 +59,7 @@ SpawnSettings falling(FractureMode mode, float height = 0.8f) {
     SpawnSettings spawn;
     spawn.pose = {{0, height, 0}, {0.3f, 0, 0, 0.953939f}};
     spawn.motion.velocity = {0, -6, 0};
-    spawn.fracture = mode;
+    spawn.thick_shell.fracture = mode;
     return spawn;
 }
 
@@ -73,7 +73,7 @@ TEST(SmallStack, CooksEveryKindOfMaterial) {
 TEST(SmallStack, CooksLargeMeshes) {
     const Mesh vase = make_vase(0.3f, 0.004f);
     CookSettings settings = cook_settings("porcelain", 0.005f);
-    settings.measures_threshold = false;
+    settings.thick_shell.measures_threshold = false;
     expect_small("12,000 vertices", [&] { EXPECT_TRUE(cook(view_of_mesh(vase), settings).ok()); });
 }
 
@@ -111,7 +111,7 @@ TEST(SmallStack, LargeBodiesAndPairsStoredOnce) {
     Mesh mesh = make_vase(0.3f, 0.004f);
     CookSettings settings = cook_settings("porcelain", 0.005f);
     settings.fracture = FractureKind::Fine;
-    settings.measures_threshold = false;
+    settings.thick_shell.measures_threshold = false;
     for (const uint32_t bound : {kPairedCells, 4u}) {
         set_paired_cells(bound);
         const Model model = cook(view_of_mesh(mesh), settings).value();
@@ -138,7 +138,7 @@ TEST(SmallStack, CutsExplosionsAndPushes) {
             for (int k = 0; k < 3; ++k) {
                 SpawnSettings spawn;
                 spawn.pose.position = {0.5f * static_cast<float>(k), 0.01f, 0};
-                spawn.fracture = mode;
+                spawn.thick_shell.fracture = mode;
                 spawn.pins = &foot;
                 spawn.pin_count = k == 0;
                 EXPECT_TRUE(world.spawn(model, spawn).ok());
@@ -172,8 +172,8 @@ TEST(SmallStack, SoftBodiesDentTearAndAreBlownAway) {
                 spawn.pins = &border;
                 spawn.pin_count = 1;
                 spawn.strength_scale = 0.1f;
-                spawn.layers.layout = layers > 1 ? LayerLayout::Crossed : LayerLayout::Sandwich;
-                spawn.layers.area_energy = layers > 1 ? 100.0f : 0;
+                spawn.thick_shell.springs.layout = layers > 1 ? LayerLayout::Crossed : LayerLayout::Sandwich;
+                spawn.thick_shell.springs.area_energy = layers > 1 ? 100.0f : 0;
                 EXPECT_TRUE(world.spawn(world.add_model(model).value(), spawn).ok());
                 for (int k = 0; k < 3; ++k)
                     EXPECT_TRUE(

@@ -77,7 +77,7 @@ Model vase(float size) {
         if (i >= 32) faces.insert(faces.end(), {{a - 32, a, b - 32}, {b - 32, a, b}});
     }
     CookSettings settings;
-    settings.measures_threshold = false;
+    settings.thick_shell.measures_threshold = false;
     if (size < 1) settings.thickness = 0.006f * size;
     return cook({points.data(), points.size(), faces[0].data(), faces.size()}, settings).value();
 }
@@ -100,7 +100,7 @@ TEST(StaticSides, WhatIsPutIntoASheetIsToldWhereItCameOut) {
             World world = std::move(*World::create({}));
             ASSERT_TRUE(world.add_static({kCorners, 4, kMixed, 2}).ok());
             SpawnSettings spawn;
-            spawn.fracture = mode;
+            spawn.thick_shell.fracture = mode;
             spawn.pose.position = {1, -sunk, 2};
             const BodyId body = world.spawn(world.add_model(model).value(), spawn).value();
             EXPECT_GT(world.pose(body).value().position.y, 0.1f * sunk - sunk);
@@ -136,7 +136,7 @@ size_t gone_through(const Model& model, float size, float steps_a_second, Fractu
     for (int k = 0; k < 3; ++k) {
         const float half = 0.3f + 0.37f * static_cast<float>(k + 3 * static_cast<int>(seed));
         SpawnSettings spawn;
-        spawn.fracture = mode;
+        spawn.thick_shell.fracture = mode;
         spawn.pose = {{0.4f * static_cast<float>(k) - 1, 0.8f * size, 0.3f}, {std::sin(half), 0, 0, std::cos(half)}};
         spawn.motion.velocity = {0, -8, 0};
         EXPECT_TRUE(world.spawn(id, spawn).ok());

@@ -271,7 +271,7 @@ TEST(WorldCalls, CookingsProgressRisesToOne) {
         CookSettings settings;
         settings.material = "glass";
         settings.thickness = 0.004f;
-        settings.measures_threshold = measures;
+        settings.thick_shell.measures_threshold = measures;
         settings.progress_user = &shares;
         settings.progress = [](void* user, float share) { static_cast<std::vector<float>*>(user)->push_back(share); };
         ASSERT_TRUE(cook(view_of_mesh(mesh), settings).ok());

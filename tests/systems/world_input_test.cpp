@@ -66,7 +66,7 @@ TEST(WorldInput, MeshesThatCannotBeCookedAreRefused) {
         MeshView view;
         change(mesh, settings);
         view = view_of_mesh(mesh);
-        settings.measures_threshold = false;
+        settings.thick_shell.measures_threshold = false;
         expect_refused(cook(view, settings), part);
     };
     refused([](Mesh&, CookSettings& s) { s.thickness = 0; }, "thickness");
@@ -105,7 +105,7 @@ TEST(WorldInput, EveryTriangleIsCookedOrRefusedWithoutHarm) {
     const Vec3 points[] = {{0, 0, 0}, {0.1f, 0, 0}, {0, 0.1f, 0}, {-0.1f, 0, 0}, {0, -0.1f, 0}};
     const uint32_t one[] = {0, 1, 2}, bow[] = {0, 1, 2, 0, 3, 4};
     CookSettings settings;
-    settings.measures_threshold = false;
+    settings.thick_shell.measures_threshold = false;
     settings.longest_edge = 10;
     const Result<Model> single = cook({points, 5, one, 1}, settings);
     EXPECT_TRUE(single.ok() || single.error().size() > 20) << single.error();

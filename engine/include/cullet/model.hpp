@@ -11,6 +11,8 @@
 #include "cullet/host.hpp"
 #include "cullet/material.hpp"
 #include "cullet/result.hpp"
+#include "cullet/setting_list.hpp"
+#include "cullet/thick_shell.hpp"
 #include "cullet/types.hpp"
 
 namespace cullet {
@@ -61,14 +63,6 @@ struct MeshReport {
 /// Touches no world and no thread; about 2 microseconds a triangle. Refuses what cannot be a surface.
 Result<MeshReport> examine_mesh(const MeshView& mesh);
 
-/// How the inner surface is pushed to its depth. All but the default are there to compare with.
-enum class Propagation : uint8_t {
-    GuardedFront,      // all vertices together, what turns bad set back: nothing meets, no element is turned
-    Front,             // the same as published: quicker, leaves crossings and turned elements
-    SingleVertex,      // one vertex after the other, as published: nothing meets, elements are turned
-    SingleVertexTets,  // the same, with the elements tested too: as sound as the default, slower
-};
-
 /// The damage models that this version has: how things break. CookSettings::model names one.
 std::vector<std::string> damage_model_names();
 
@@ -77,27 +71,27 @@ struct CookSettings {
     std::string material = "porcelain";         // a name in `materials`
     const MaterialTable* materials = nullptr;   // null: the compiled table
     std::optional<FractureKind> fracture = {};  // in place of the material's
-    Vec3 grain{0, 1, 0};       // of wood, along its fibres, mesh coordinates, any length; counts for no other material
-    float thickness = 0.005f;  // m, above 0, below the mesh's diagonal; thinner where the opposite wall is near
+    Vec3 grain{0, 1, 0};  // of wood, along its fibres, mesh coordinates, any length; counts for no other material
+    /// Of what is made of a shell, m; above 0, below the mesh's diagonal. Thinner where the opposite wall is near.
+    float thickness = 0.005f;
     /// Edges longer than this are split first, m; at least 0. 0: twice the thickness, or 2.5 % of the diagonal if
     /// larger.
     float longest_edge = 0;
     /// Points that are closer than this share of the diagonal are one; 0 to 0.01. 0: equal ones only. 1e-7 heals a soup
     /// of triangles whose positions differ in the last digits.
     float weld_tolerance = 0;
-    Propagation propagation = Propagation::GuardedFront;
-    /// For a mesh that models both of its walls: a closed part whose opposite wall lies within two thicknesses over
-    /// most of its area. True: its outer wall becomes one sheet as thick as measured, and both skins break together.
-    /// False: each wall becomes a sheet of its own, at most half as thick.
-    bool joins_walls = true;
-    uint64_t seed = 1;               // of the spread of strength
-    bool measures_threshold = true;  // finds the speed of the first crack (adds 10 to 50 hits' time)
+    uint64_t seed = 1;  // of the spread of strength
+    // Of one damage model each; those of the others count for nothing.
+    ThickShellCookSettings thick_shell;
     /// Called now and then on the thread that cooks; never falls, ends with 1.
     void (*progress)(void* user, float share) = nullptr;  // 0 to 1
     void* progress_user = nullptr;
     /// Its allocator holds the model's tables, its assert handler hears of our bugs. Null: the system's, and none.
     const Host* host = nullptr;
 };
+
+/// The settings that a damage model has of its own in CookSettings, as lists. None of a name that there is not.
+std::vector<SettingGroup<CookSettings>> cook_settings_of(const std::string& damage_model);
 
 /// What cooking found, for people.
 struct ModelReport {

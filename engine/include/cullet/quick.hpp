@@ -14,7 +14,7 @@ enum class FractureMode : uint8_t { Hidden = 0, Quick };
 /// Of FractureMode::Quick.
 struct QuickSettings {
     /// 1: springs on the outer surface, as in the paper. 2: inner ones too, so that bending counts; 2 to 4 times
-    /// dearer. SpawnSettings::layers says how both are tied.
+    /// dearer. ThickShellSpawnSettings::springs says how both are tied.
     uint32_t layers = 1;
     uint32_t steps = 60;  // of the run, 8 to 100; the neighbourhood is a third of it wide, in edges
     /// Vertices that may split in one step, 1 to 1000; 0: 64 fine, 16 coarse, 1 large. Fewer: longer cracks.

@@ -14,9 +14,7 @@
 #include "cullet/damage.hpp"
 #include "cullet/events.hpp"
 #include "cullet/host.hpp"
-#include "cullet/layers.hpp"
 #include "cullet/model.hpp"
-#include "cullet/quick.hpp"
 #include "cullet/result.hpp"
 #include "cullet/rigid.hpp"
 #include "cullet/settings.hpp"
@@ -57,10 +55,11 @@ struct SpawnSettings {
     /// Refused when no vertex lies in any.
     const Box* pins = nullptr;
     uint32_t pin_count = 0;
-    FractureMode fracture = FractureMode::Hidden;  // of brittle materials; fragments inherit it, and `quick`
-    QuickSettings quick;
-    LayerSettings layers;  // of quick bodies in a hit, and of ductile and elastic ones; fragments inherit it
+    // Of one damage model each; those of the others count for nothing.
+    ThickShellSpawnSettings thick_shell;
 };
+/// The settings that a damage model has of its own in SpawnSettings, as lists. None of a name that there is not.
+std::vector<SettingGroup<SpawnSettings>> spawn_settings_of(const std::string& damage_model);
 
 /// A solid sphere: a ball, a bullet.
 struct SphereSettings {

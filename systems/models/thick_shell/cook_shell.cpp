@@ -115,7 +115,7 @@ Result<std::shared_ptr<Model::Contents>> cook_thick_shell(Cooking& from) {
     if (!surface) return Error{surface.error()};
     from.tell(0.1f);
     std::optional<JoinedWalls> joined;
-    if (settings.joins_walls) joined = join_walls(*surface, from.fine, settings.thickness);
+    if (settings.thick_shell.joins_walls) joined = join_walls(*surface, from.fine, settings.thickness);
     InnerSkin skin;
     if (joined) {
         from.fine = std::move(joined->outer);
@@ -124,7 +124,7 @@ Result<std::shared_ptr<Model::Contents>> cook_thick_shell(Cooking& from) {
         skin = skin_for(*joined, *surface);
     }
     ExtrusionSettings extruding;
-    extruding.propagation = settings.propagation;
+    extruding.propagation = settings.thick_shell.propagation;
     const Result<Extrusion> extrusion = extrude(*surface, settings.thickness, extruding, joined ? &skin : nullptr);
     if (!extrusion) return Error{extrusion.error()};
     from.tell(0.3f);
@@ -140,7 +140,8 @@ Result<std::shared_ptr<Model::Contents>> cook_thick_shell(Cooking& from) {
         return Error{"a hit would take " + std::to_string(units / 1'000'000) + " million units, more than " +
                      std::to_string(kMostUnits / 1'000'000) +
                      " million. Its shortest edges are far too short for its size: weld them, or use fewer triangles."};
-    const bool measures = settings.measures_threshold && units <= kMostMeasuredUnits && kind == MaterialKind::Brittle;
+    const bool measures =
+        settings.thick_shell.measures_threshold && units <= kMostMeasuredUnits && kind == MaterialKind::Brittle;
     if (measures)
         measure_thresholds(state, contents.shell, from);
     else

@@ -10,6 +10,7 @@
 #include "systems/models/thick_shell/shared/cancel_run.hpp"
 #include "systems/models/thick_shell/shared/cut_out.hpp"
 #include "systems/models/thick_shell/shared/quick_body.hpp"
+#include "systems/models/thick_shell/shared/settings.hpp"
 #include "systems/models/thick_shell/shared/working_room.hpp"
 #include "systems/models/thick_shell/soft/soft_body.hpp"
 #include "systems/models/thick_shell/soft/soft_calls.hpp"
@@ -39,8 +40,11 @@ DamageModel thick_shell_model() {
     model.at(Slot::GiveBack).then<return_soft>();
     model.at(Slot::Show).then<show_soft>();
     register_loops(model);
-    model.cooks<cook_thick_shell>();
-    model.spawns<spawn_body>().spawns_own<check_spawn, spawn_shell>();
+    model.cook_settings<&CookSettings::thick_shell>();
+    model.spawn_settings<&SpawnSettings::thick_shell>()
+        .spawn_settings<&SpawnSettings::thick_shell, &ThickShellSpawnSettings::quick>("quick")
+        .spawn_settings<&SpawnSettings::thick_shell, &ThickShellSpawnSettings::springs>("springs");
+    model.cooks<cook_thick_shell>().spawns<spawn_body>().spawns_own<spawn_shell>();
     model.takes<working_shell, begin_run>().takes_late<give_late_rows>().needs_room<room_of_hit, may_find_room>();
     model.lasts<run_length>().works_on_parts<is_cut_out>().cancels<cancel_run>();
     model.moves_rest<motion_of_rest>().inherits<inherit_fracture>().keeps_cell_names<is_quick_body>();

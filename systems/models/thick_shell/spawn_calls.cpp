@@ -39,7 +39,8 @@ Result<Row<Shells>> soft_copy(ShellRows& state, Row<Shells> source, const SpawnS
 
 // Large bodies have a shell of their own from the start: what a hit changes is written into it (cut_out.hpp).
 bool wants_own_shell(const ShellRows& state, Row<Shells> source, const SpawnSettings& settings) {
-    if (settings.fracture == FractureMode::Quick) return state.shells.vertices[source].count > kWholeCopyVertices;
+    if (settings.thick_shell.fracture == FractureMode::Quick)
+        return state.shells.vertices[source].count > kWholeCopyVertices;
     const bool is_brittle = material_traits(state, state.shells.material[source]).kind == MaterialKind::Brittle;
     return is_brittle && settings.is_breakable && is_for_cut_outs(state, source, false);
 }
@@ -101,11 +102,6 @@ bool is_soft(const MaterialRows& state, Row<Materials> material, const Spawning&
 
 }  // namespace
 
-Result<void> check_spawn(const SpawnSettings& settings) {
-    if (const Result<void> valid = check_fracture(settings.fracture, settings.quick); !valid) return valid;
-    return check_layers(settings.layers);
-}
-
 Result<Row<Shells>> spawn_shell(ShellRows& state, Row<Shells> source, const Spawning& spawning) {
     const SpawnSettings& settings = spawning.settings;
     if (is_soft(state, state.shells.material[source], spawning)) return soft_copy(state, source, settings);
@@ -115,7 +111,7 @@ Result<Row<Shells>> spawn_shell(ShellRows& state, Row<Shells> source, const Spaw
 }
 
 Result<ShellRoom> spawn_body(SoftRows& state, Row<Bodies> body, const Spawning& spawning) {
-    const SpawnSettings& settings = spawning.settings;
+    const ThickShellSpawnSettings& settings = spawning.settings.thick_shell;
     const Row<Shells> shell = state.bodies.shell[body];
     const Row<Materials> material = state.shells.material[shell];
     const bool is_breakable = spawning.is_breakable && is_brittle(state, material);
@@ -123,12 +119,12 @@ Result<ShellRoom> spawn_body(SoftRows& state, Row<Bodies> body, const Spawning& 
     QuickSettings quick = settings.quick;
     if (settings.fracture == FractureMode::Quick && is_breakable && quick.strain_limit == 0)
         quick.strain_limit =
-            calibrated_strain_limit(state, shell, quick, settings.layers, state.shells.first_crack_speed[shell]);
-    set_fracture(state, body, settings.fracture, quick, settings.layers);
+            calibrated_strain_limit(state, shell, quick, settings.springs, state.shells.first_crack_speed[shell]);
+    set_fracture(state, body, settings.fracture, quick, settings.springs);
     if (is_breakable) return room_of_hit(state, body);
     if (!is_soft(state, material, spawning)) return ShellRoom{};
     const Result<Row<SoftBodies>> soft =
-        make_soft(state, body, settings.layers, spawning.step_seconds, spawning.units_a_frame);
+        make_soft(state, body, settings.springs, spawning.step_seconds, spawning.units_a_frame);
     if (!soft) return Error{soft.error()};
     return room_of(state, shell);
 }

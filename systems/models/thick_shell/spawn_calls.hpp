@@ -4,8 +4,6 @@
 
 namespace cullet {
 
-/// How it breaks, and its layers.
-Result<void> check_spawn(const SpawnSettings& settings);
 /// One of its own where it has pins, moves by its springs, or is so large that hits cut out parts of it.
 Result<Row<Shells>> spawn_shell(ShellRows& state, Row<Shells> source, const Spawning& spawning);
 /// Brittle bodies may break, others get springs.

@@ -288,7 +288,7 @@ TEST(Recording, OneThatAsksForMoreRoomThanThereIsIsRefusedWithItsLimits) {
 
 TEST(Recording, AWorldOfMoreBytesThanAChunkIsRefused) {
     const std::string path = file_of("chunk.crec");
-    Recorder recorder(RecordingWriter::open(path).value(), path + ".models");
+    Recorder recorder(RecordingWriter::open(path).value(), path + ".models", damage_models());
     const std::vector<uint8_t> small(100);
     // The bytes behind the first hundred are not looked at.
     const Result<void> begun = recorder.begin({small.data(), size_t{kMostChunkBytes}});

@@ -105,7 +105,7 @@ Broken thrown(const Mesh& mesh, float thickness, float speed) {
     CookSettings settings;
     settings.thickness = thickness;
     settings.longest_edge = 0.02f;
-    settings.measures_threshold = false;
+    settings.thick_shell.measures_threshold = false;
     const Result<Model> model = cook(view_of_mesh(mesh), settings);
     EXPECT_TRUE(model.ok()) << model.error();
     Settings world_settings = small_settings();

@@ -29,7 +29,7 @@ Result<Model> cook_ball(const CookSettings& given) {
     CookSettings settings = given;
     settings.thickness = 0.005f;
     settings.longest_edge = 100;
-    settings.measures_threshold = false;
+    settings.thick_shell.measures_threshold = false;
     return cook(view_of(make_ball(0.1f, 2)), settings);
 }
 

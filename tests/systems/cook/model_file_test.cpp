@@ -42,7 +42,7 @@ const Model& sample() {
         settings.material = "glass";
         settings.thickness = 0.004f;
         settings.longest_edge = 0.05f;
-        settings.measures_threshold = false;
+        settings.thick_shell.measures_threshold = false;
         Result<Model> cooked = cook(view, settings);
         EXPECT_TRUE(cooked.ok()) << cooked.error();
         return std::move(cooked).value();

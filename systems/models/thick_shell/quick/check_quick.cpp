@@ -4,6 +4,8 @@
 
 #include "systems/models/thick_shell/hidden/hidden_region.hpp"
 #include "systems/models/thick_shell/shared/cut_out.hpp"
+#include "systems/models/thick_shell/shared/settings.hpp"
+#include "systems/settings/kept.hpp"
 
 namespace cullet {
 namespace {
@@ -12,27 +14,15 @@ std::string place(const AnyTable& table, const char* column, uint32_t row) {
     return std::string(table.name()) + "." + column + "[" + std::to_string(row) + "]";
 }
 
-bool is_in(double value, double low, double high) {
-    return value >= low && value <= high;
-}
-
-template <class QuickTable>
-bool has_sound_layers(const QuickTable& table, uint32_t row) {
-    return table.layout[row] <= static_cast<uint8_t>(LayerLayout::Crossed) &&
-           (table.length_factor[row] == 0 || is_in(table.length_factor[row], 0.576, 5)) &&
-           is_in(table.area_energy[row], 0, 100) && is_in(table.volume_energy[row], 0, 100);
+/// Empty, or the first of the game's settings that is out of range.
+std::string trouble_of_rules(const AnyTable& table, uint32_t row) {
+    const std::string trouble = trouble_of_kept(table, row, setting_list<QuickSettings>());
+    return trouble.empty() ? trouble_of_kept(table, row, setting_list<LayerSettings>()) : trouble;
 }
 
 std::string trouble_of_body(const QuickBodies& quick, uint32_t b) {
     if (quick.is_quick[b] > 1) return place(quick, "is_quick", b) + " is not 0 or 1";
-    if (!quick.is_quick[b]) return {};
-    if (quick.layers[b] < 1 || quick.layers[b] > 2) return place(quick, "layers", b) + " is not 1 or 2";
-    if (!is_in(quick.steps[b], 8, 100)) return place(quick, "steps", b) + " is not 8 to 100";
-    if (quick.crack_frequency[b] > 1000) return place(quick, "crack_frequency", b) + " is above 1000";
-    const bool fits = is_in(quick.strain_limit[b], 0, 1) && is_in(quick.compression_limit[b], 0, 1e6) &&
-                      is_in(quick.crack_length[b], 0, 4) && is_in(quick.bump_angle[b], 0, 0.53) &&
-                      has_sound_layers(quick, b);
-    return fits ? std::string() : place(quick, "strain_limit", b) + " or a number beside it is out of range";
+    return quick.is_quick[b] ? trouble_of_rules(quick, b) : std::string();
 }
 
 /// Of this model. What works on its tasks stands in the same rows as what worked on those that had the place before.
@@ -53,11 +43,8 @@ std::string trouble_of_run(const BodyRows& s, uint8_t own, uint32_t t) {
     if (springs >= s.shell_springs.size() || !s.shell_springs.is_used[springs] ||
         s.shell_springs.shell[springs] != s.tasks.shell[t])
         return place(runs, "springs", t) + " is " + std::to_string(springs) + ", not the springs of its shell";
-    if (runs.layers[t] < 1 || runs.layers[t] > 2 || !is_in(runs.steps[t], 8, 100) || runs.crack_frequency[t] > 1000 ||
-        !is_in(runs.compression_limit[t], 0, 1e6) || !is_in(runs.crack_length[t], 0, 4) ||
-        !is_in(runs.bump_angle[t], 0, 0.53) || !has_sound_layers(runs, t))
-        return place(runs, "layers", t) + " or a number beside it is out of range";
-    if (!(runs.softening[t] >= 1) || !(runs.strain_limit[t] > 0) || !(runs.diagonal[t] >= 0))
+    if (std::string trouble = trouble_of_rules(runs, t); !trouble.empty()) return trouble;
+    if (!(runs.softening[t] >= 1) || !(runs.split_strain[t] > 0) || !(runs.diagonal[t] >= 0))
         return place(runs, "softening", t) + " or a number beside it is out of range";
     if ((s.shell_springs.steps[springs] & 1) != (s.tasks.steps_done[t] & 1))
         return place(s.shell_springs, "steps", springs) + " and its task's differ";

@@ -214,11 +214,11 @@ void soften(RunRows& state, Row<Tasks> task, Row<Shells> shell) {
     const uint32_t material = state.shells.material[shell];
     const float breaking = kShortLoad * materials.tensile_strength[material] / materials.young_modulus[material];
     const float root = std::max(1.0f, kShownStrain / breaking);
-    const float given = runs.given_limit[task];
+    const float given = runs.strain_limit[task];
     runs.softening[task] = root * root;
     const float limit =
         given > 0 ? std::max(given, limit_along_sheet(state, task, ShellView(state, shell), root)) : breaking * root;
-    runs.strain_limit[task] = limit * state.tasks.strength_scale[task];
+    runs.split_strain[task] = limit * state.tasks.strength_scale[task];
 }
 
 }  // namespace

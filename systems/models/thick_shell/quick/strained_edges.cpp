@@ -25,7 +25,7 @@ void find_strained_edges(const RegionView& region, uint32_t most, StrainedEdges&
     const Vertices& vertices = state.vertices;
     const AwakePacks& packs = state.awake_packs;
     const uint32_t first_vertex = region.shell.vertex(0);
-    const float limit = state.quick_runs.strain_limit[region.task];
+    const float limit = state.quick_runs.split_strain[region.task];
     const float squeeze = state.quick_runs.compression_limit[region.task];
     constexpr auto kLeastFactor = static_cast<float>(kLeastStrengthFactor);
     const float least = kLeastFactor * limit;

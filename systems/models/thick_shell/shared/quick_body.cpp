@@ -1,22 +1,29 @@
 #include "systems/models/thick_shell/shared/quick_body.hpp"
 
-#include <string>
+#include <cstring>
+
+#include "systems/models/thick_shell/shared/settings.hpp"
+#include "systems/settings/kept.hpp"
 
 namespace cullet {
 namespace {
-
-constexpr float kRadiansADegree = 0.017453292519943295f;
 
 void grow(AnyTable& table, uint32_t row) {
     if (row >= table.size()) table.append(row + 1 - table.size());
 }
 
-template <class QuickTable>
-void set_layers(QuickTable& table, uint32_t row, const LayerSettings& layers) {
-    table.layout[row] = static_cast<uint8_t>(layers.layout);
-    table.length_factor[row] = layers.length_factor;
-    table.area_energy[row] = layers.area_energy;
-    table.volume_energy[row] = layers.volume_energy;
+void keep_rules(AnyTable& table, uint32_t row, const QuickSettings& settings, const LayerSettings& layers) {
+    keep_settings(table, row, setting_list<QuickSettings>(), &settings);
+    keep_settings(table, row, setting_list<LayerSettings>(), &layers);
+}
+
+void copy_rules(const QuickBodies& bodies, uint32_t body, QuickRuns& runs, uint32_t task) {
+    const size_t count = bodies.columns().size();  // all of them are rules, with which those of runs begin
+    for (size_t c = 0; c < count; ++c) {
+        const ColumnInfo &from = bodies.columns()[c], &to = runs.columns()[c];
+        std::memcpy(runs.column_memory(to, 0) + size_t{task} * to.row_bytes,
+                    bodies.column_memory(from, 0) + size_t{body} * from.row_bytes, from.row_bytes);
+    }
 }
 
 void begin_run(QuickRuns& runs, Row<Tasks> task, bool is_quick) {
@@ -29,42 +36,6 @@ void begin_run(QuickRuns& runs, Row<Tasks> task, bool is_quick) {
 
 }  // namespace
 
-Result<void> check_fracture(FractureMode mode, const QuickSettings& q) {
-    if (mode != FractureMode::Hidden && mode != FractureMode::Quick)
-        return Error{"fracture is " + std::to_string(static_cast<int>(mode)) + ". Give FractureMode::Hidden or Quick."};
-    const auto refuse = [](const char* name, double value, const char* range) {
-        return Error{std::string("quick.") + name + " is " + std::to_string(value) + ", not " + range +
-                     ". Give a value in that range."};
-    };
-    const auto is_in = [](double value, double low, double high) { return value >= low && value <= high; };
-    if (q.layers != 1 && q.layers != 2) return refuse("layers", q.layers, "1 or 2");
-    if (!is_in(q.steps, 8, 100)) return refuse("steps", q.steps, "8 to 100");
-    if (!is_in(q.crack_frequency, 0, 1000)) return refuse("crack_frequency", q.crack_frequency, "0 to 1000");
-    if (!(q.strain_limit == 0) && !is_in(q.strain_limit, 1e-5f, 1))
-        return refuse("strain_limit", q.strain_limit, "0 or 1e-5 to 1");
-    if (!(q.compression_limit == 0) && !is_in(q.compression_limit, 1, 1e6))
-        return refuse("compression_limit", q.compression_limit, "0 or 1 to 1e6");
-    if (!is_in(q.crack_length, 0, 4)) return refuse("crack_length", q.crack_length, "0 to 4");
-    if (!is_in(q.bump_angle, 0, 30)) return refuse("bump_angle", q.bump_angle, "0 to 30 degrees");
-    return {};
-}
-
-Result<void> check_layers(const LayerSettings& l) {
-    const auto refuse = [](const char* name, double value, const char* range) {
-        return Error{std::string("layers.") + name + " is " + std::to_string(value) + ", not " + range +
-                     ". Give a value in that range."};
-    };
-    const auto is_in = [](double value, double low, double high) { return value >= low && value <= high; };
-    if (l.layout != LayerLayout::Sandwich && l.layout != LayerLayout::Crossed)
-        return Error{"layers.layout is " + std::to_string(static_cast<int>(l.layout)) +
-                     ". Give LayerLayout::Sandwich or Crossed."};
-    if (!(l.length_factor == 0) && !is_in(l.length_factor, 0.577, 5))
-        return refuse("length_factor", l.length_factor, "0 or 0.577 to 5");
-    if (!is_in(l.area_energy, 0, 100)) return refuse("area_energy", l.area_energy, "0 to 100");
-    if (!is_in(l.volume_energy, 0, 100)) return refuse("volume_energy", l.volume_energy, "0 to 100");
-    return {};
-}
-
 void set_fracture(BodyRows& state, Row<Bodies> body, FractureMode mode, const QuickSettings& settings,
                   const LayerSettings& layers) {
     QuickBodies& quick = state.quick_bodies;
@@ -74,14 +45,7 @@ void set_fracture(BodyRows& state, Row<Bodies> body, FractureMode mode, const Qu
     }
     grow(quick, body);
     quick.is_quick[body] = 1;
-    quick.layers[body] = static_cast<uint8_t>(settings.layers);
-    quick.steps[body] = static_cast<uint16_t>(settings.steps);
-    quick.crack_frequency[body] = static_cast<uint16_t>(settings.crack_frequency);
-    quick.strain_limit[body] = settings.strain_limit;
-    quick.compression_limit[body] = settings.compression_limit;
-    quick.crack_length[body] = settings.crack_length;
-    quick.bump_angle[body] = kRadiansADegree * settings.bump_angle;
-    set_layers(quick, body, layers);
+    keep_rules(quick, body, settings, layers);
 }
 
 void inherit_fracture(BodyRows& state, Row<Bodies> parent, Row<Bodies> piece) {
@@ -97,18 +61,7 @@ void set_quick_task(BodyRows& state, Row<Tasks> task, Row<Bodies> body) {
     if (!is_quick && task >= runs.size()) return;
     begin_run(runs, task, is_quick);
     if (!is_quick) return;
-    const QuickBodies& quick = state.quick_bodies;
-    runs.layers[task] = quick.layers[body];
-    runs.steps[task] = quick.steps[body];
-    runs.crack_frequency[task] = quick.crack_frequency[body];
-    runs.given_limit[task] = quick.strain_limit[body];
-    runs.compression_limit[task] = quick.compression_limit[body];
-    runs.crack_length[task] = quick.crack_length[body];
-    runs.bump_angle[task] = quick.bump_angle[body];
-    runs.layout[task] = quick.layout[body];
-    runs.length_factor[task] = quick.length_factor[body];
-    runs.area_energy[task] = quick.area_energy[body];
-    runs.volume_energy[task] = quick.volume_energy[body];
+    copy_rules(state.quick_bodies, body, runs, task);
 }
 
 void set_hidden_task(QuickRuns& runs, Row<Tasks> task) {
@@ -118,14 +71,7 @@ void set_hidden_task(QuickRuns& runs, Row<Tasks> task) {
 void set_quick_task(RunRows& state, Row<Tasks> task, const QuickSettings& settings, const LayerSettings& layers) {
     QuickRuns& runs = state.quick_runs;
     begin_run(runs, task, true);
-    runs.layers[task] = static_cast<uint8_t>(settings.layers);
-    runs.steps[task] = static_cast<uint16_t>(settings.steps);
-    runs.crack_frequency[task] = static_cast<uint16_t>(settings.crack_frequency);
-    runs.given_limit[task] = settings.strain_limit;
-    runs.compression_limit[task] = settings.compression_limit;
-    runs.crack_length[task] = settings.crack_length;
-    runs.bump_angle[task] = kRadiansADegree * settings.bump_angle;
-    set_layers(runs, task, layers);
+    keep_rules(runs, task, settings, layers);
 }
 
 }  // namespace cullet

@@ -1,15 +1,9 @@
 // Which bodies break quickly, and how.
 #pragma once
 #include "components/body_rows.hpp"
-#include "cullet/layers.hpp"
-#include "cullet/quick.hpp"
-#include "cullet/result.hpp"
+#include "cullet/thick_shell.hpp"
 
 namespace cullet {
-
-/// Empty, or a sentence: which value, what it is, the range.
-Result<void> check_fracture(FractureMode mode, const QuickSettings& settings);
-Result<void> check_layers(const LayerSettings& settings);
 
 /// Writes the row of a body; of a hidden one only where some row is there already.
 void set_fracture(BodyRows& state, Row<Bodies> body, FractureMode mode, const QuickSettings& settings,

@@ -24,7 +24,7 @@ Model boxes(uint32_t count) {
     CookSettings settings;
     settings.thickness = 0.01f;
     settings.longest_edge = 1;
-    settings.measures_threshold = false;
+    settings.thick_shell.measures_threshold = false;
     return cook(view_of(mesh), settings).value();
 }
 

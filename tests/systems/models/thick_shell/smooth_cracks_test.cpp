@@ -70,7 +70,7 @@ std::vector<Cracked> broken_bodies() {
     for (const float height : {0.13f, 0.16f}) {
         all.push_back({"quick vase", make_world(settings)});
         SpawnSettings spawn;
-        spawn.fracture = FractureMode::Quick;
+        spawn.thick_shell.fracture = FractureMode::Quick;
         World& world = all.back().world;
         (void)world.spawn(world.add_model(small_vase()).value(), spawn);
         (void)world.add_sphere(ball_at({0.01f, height, 0}, 0.3f, 40));

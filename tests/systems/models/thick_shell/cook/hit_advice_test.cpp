@@ -60,7 +60,7 @@ Model cooked(const Pot& pot) {
     CookSettings settings;
     settings.thickness = pot.thickness;
     settings.longest_edge = pot.longest_edge;
-    settings.measures_threshold = false;
+    settings.thick_shell.measures_threshold = false;
     return test::cook_vase(pot.height, pot.edge, settings).value();
 }
 constexpr Pot kPots[] = {

@@ -32,7 +32,7 @@ std::vector<ClosedBody> closed_bodies() {
 Model cooked(const ClosedBody& body, FractureKind kind, bool measures) {
     CookSettings settings;
     settings.material = "porcelain", settings.thickness = body.thickness, settings.longest_edge = 100;
-    settings.fracture = kind, settings.measures_threshold = measures;
+    settings.fracture = kind, settings.thick_shell.measures_threshold = measures;
     Result<Model> model = cook(view_of_mesh(body.mesh), settings);
     if (!model.ok()) ADD_FAILURE() << model.error(), std::abort();
     return std::move(model).value();
@@ -47,7 +47,8 @@ Settings roomy_settings() {
 /// `limit` 0: found by the spawn.
 BodyId spawn_quick(World& world, const Model& model, uint32_t layers, float limit = 0) {
     SpawnSettings spawn;
-    spawn.fracture = FractureMode::Quick, spawn.quick.layers = layers, spawn.quick.strain_limit = limit;
+    spawn.thick_shell.fracture = FractureMode::Quick, spawn.thick_shell.quick.layers = layers,
+    spawn.thick_shell.quick.strain_limit = limit;
     return world.spawn(world.add_model(model).value(), spawn).value();
 }
 

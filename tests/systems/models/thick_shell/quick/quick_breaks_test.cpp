@@ -23,12 +23,12 @@ TEST(QuickBreaks, SomeHundredsAddNoEnergyAndKeepMassAndMomentum) {
     uint32_t hits = 0;
     for (; hits < kMostHits && watch.breaks < kBreaks; ++hits) {
         SpawnSettings spawn;
-        spawn.fracture = FractureMode::Quick;
-        spawn.quick.layers = 1 + hits / kShapes % 2;
+        spawn.thick_shell.fracture = FractureMode::Quick;
+        spawn.thick_shell.quick.layers = 1 + hits / kShapes % 2;
         // Every third turn of the shapes by the published layout, every third with energies.
         const uint32_t turn = hits / kShapes / 2 % 3;
-        if (turn == 1) spawn.layers.layout = LayerLayout::Crossed;
-        if (turn == 2) spawn.layers.area_energy = spawn.layers.volume_energy = 0.2f;
+        if (turn == 1) spawn.thick_shell.springs.layout = LayerLayout::Crossed;
+        if (turn == 2) spawn.thick_shell.springs.area_energy = spawn.thick_shell.springs.volume_energy = 0.2f;
         watch.begin_hit(world);
         hit_once(world, shapes[hits % kShapes], {{6}, hits}, spawn);
         ASSERT_LE(watch.most_kept, 1 + 1e-6) << "hit " << hits;

@@ -33,8 +33,8 @@ Breakage quick_and_ball(const Settings& settings, const Model& model, const Quic
     Breakage b{make_world(settings), {}, {}};
     const ModelId id = b.world.add_model(model).value();
     SpawnSettings spawn;
-    spawn.fracture = FractureMode::Quick;
-    spawn.quick = quick;
+    spawn.thick_shell.fracture = FractureMode::Quick;
+    spawn.thick_shell.quick = quick;
     spawn.user_data = 42;
     b.body = b.world.spawn(id, spawn).value();
     b.ball = b.world.add_sphere(ball_at({0.01f, 0.13f, 0}, mass, speed)).value();
@@ -109,7 +109,7 @@ TEST(QuickWorld, WhereUnitsAreFewTwoHitsAreNotHandedOnInOneFrame) {
         settings.units_a_frame = are_few ? 500'000 : 100'000'000;
         Breakage b = quick_and_ball(settings, small_vase(), {}, kSpeed);
         SpawnSettings spawn;
-        spawn.fracture = FractureMode::Quick, spawn.pose.position = {5, 0, 0};
+        spawn.thick_shell.fracture = FractureMode::Quick, spawn.pose.position = {5, 0, 0};
         ASSERT_TRUE(b.world.spawn(b.world.add_model(small_vase()).value(), spawn).ok());
         SphereSettings ball = ball_at({0.01f, 0.13f, 0}, 0.3f, kSpeed);
         ball.pose.position += spawn.pose.position;
@@ -220,8 +220,8 @@ TEST(QuickWorld, SettingsOutOfRangeAreRefusedWithASentence) {
     const ModelId id = world.add_model(small_vase()).value();
     const auto refused = [&](auto change, const std::string& name) {
         SpawnSettings spawn;
-        spawn.fracture = FractureMode::Quick;
-        change(spawn.quick);
+        spawn.thick_shell.fracture = FractureMode::Quick;
+        change(spawn.thick_shell.quick);
         const Result<BodyId> body = world.spawn(id, spawn);
         ASSERT_FALSE(body.ok()) << name;
         EXPECT_NE(body.error().find("quick." + name), std::string::npos) << body.error();
@@ -243,7 +243,7 @@ TEST(QuickWorld, SettingsOutOfRangeAreRefusedWithASentence) {
 bool cracks_along_the_sheet(uint32_t layers, Vec3 place, float times) {
     World world = make_world(small_settings());
     SpawnSettings spawn;
-    spawn.fracture = FractureMode::Quick, spawn.quick = layered(layers);
+    spawn.thick_shell.fracture = FractureMode::Quick, spawn.thick_shell.quick = layered(layers);
     const BodyId body = world.spawn(world.add_model(small_wall()).value(), spawn).value();
     PushSettings push;
     push.place = place, push.normal = {0.6f, -0.8f, 0}, push.mass = 60;
@@ -269,7 +269,7 @@ TEST(QuickWorld, AHiddenBodyInAReusedRowIsNotQuick) {
     World world = make_world(small_settings());
     const ModelId id = world.add_model(small_vase()).value();
     SpawnSettings spawn;
-    spawn.fracture = FractureMode::Quick;
+    spawn.thick_shell.fracture = FractureMode::Quick;
     const BodyId quick = world.spawn(id, spawn).value();
     EXPECT_TRUE(is_quick_body(state_of(world), Row<Bodies>(quick.index)));
     ASSERT_TRUE(world.remove(quick).ok());

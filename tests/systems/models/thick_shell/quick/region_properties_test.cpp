@@ -129,7 +129,7 @@ Model cook_real(const char* name) {
     for (Vec3& p : mesh.positions) p = (0.4f / length(high - low)) * (p - low);
     CookSettings settings;
     settings.thickness = 0.006f;
-    settings.measures_threshold = false;
+    settings.thick_shell.measures_threshold = false;
     Result<Model> model = cook(view_of(mesh), settings);
     EXPECT_TRUE(model.ok()) << model.error();
     return std::move(model).value();
@@ -184,7 +184,7 @@ void expect_each_interior_edge_can_split(const Model& model, int cases) {
         State& state = bench.state();
         RC_ASSERT(step_stretched(bench, placement, 1e-3f * static_cast<float>(1 + share)));
         const RegionView region(state, kTask);
-        state.quick_runs.strain_limit[kTask] = kNothing;
+        state.quick_runs.split_strain[kTask] = kNothing;
         RC_ASSERT(interior_springs(region) > 50u);
         RC_ASSERT(strained_interior_edges(region) == interior_springs(region));
         (void)finish_hit(state);
@@ -238,7 +238,7 @@ TEST(RegionProperties, WhatIsSqueezedSplitsAtTheCompressionLimit) {
     State& state = bench.state();
     ASSERT_TRUE(step_stretched(bench, 3, -0.02f));
     const RegionView region(state, kTask);
-    state.quick_runs.strain_limit[kTask] = 0.01f;
+    state.quick_runs.split_strain[kTask] = 0.01f;
     const uint32_t all = interior_springs(region);
     uint32_t found[3];
     const float limits[] = {0, 1, 3};  // none, 1 %, 3 %

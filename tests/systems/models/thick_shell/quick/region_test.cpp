@@ -25,7 +25,7 @@ Model cook_vase(float height) {
     CookSettings settings;
     settings.material = "porcelain", settings.thickness = 0.005f;
     settings.longest_edge = 100;
-    settings.measures_threshold = false;
+    settings.thick_shell.measures_threshold = false;
     Result<Model> model = cook(view_of(make_vase(height, 0.0075f)), settings);
     EXPECT_TRUE(model.ok()) << model.error();
     return std::move(model).value();

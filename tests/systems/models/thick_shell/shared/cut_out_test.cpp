@@ -1,7 +1,7 @@
 // Hits on large quick bodies run on a cut-out of the shell: rows are sound at every step, mass and momentum are kept,
 // and nothing of it depends on threads, snapshots or earlier hits.
-#include "components/state.hpp"
 #include "systems/models/thick_shell/shared/cut_out.hpp"
+#include "components/state.hpp"
 
 #include <gtest/gtest.h>
 
@@ -20,9 +20,9 @@ Breakage vase_and_balls(const Settings& settings, uint32_t layers = 1) {
     Breakage b{make_world(settings), {}, {}};
     const ModelId id = b.world.add_model(large_vase()).value();
     SpawnSettings spawn;
-    spawn.fracture = FractureMode::Quick;
-    spawn.quick.layers = layers;
-    spawn.quick.strain_limit = 0.02f;
+    spawn.thick_shell.fracture = FractureMode::Quick;
+    spawn.thick_shell.quick.layers = layers;
+    spawn.thick_shell.quick.strain_limit = 0.02f;
     b.body = b.world.spawn(id, spawn).value();
     b.ball = b.world.add_sphere(ball_at({0.01f, 0.26f, 0.2f}, 0.5f, 40)).value();
     // A second one hits the cracked body 20 frames later.
@@ -93,8 +93,8 @@ TEST(CutOut, AHitThatCracksNothingLeavesTheShellAsItWas) {
     Breakage b{make_world(large_settings(1)), {}, {}};
     const ModelId id = b.world.add_model(large_vase()).value();
     SpawnSettings spawn;
-    spawn.fracture = FractureMode::Quick;
-    spawn.quick.strain_limit = 1;
+    spawn.thick_shell.fracture = FractureMode::Quick;
+    spawn.thick_shell.quick.strain_limit = 1;
     b.body = b.world.spawn(id, spawn).value();
     b.ball = b.world.add_sphere(ball_at({0.01f, 0.26f, 0.2f}, 0.5f, 20)).value();
     State& state = state_of(b.world);

@@ -29,10 +29,10 @@ TEST(Layers, OutOfRangeAreRefusedWithASentence) {
     const ModelId id = world.add_model(small_vase()).value();
     const auto refused = [&](auto change, const std::string& name) {
         SpawnSettings spawn;
-        change(spawn.layers);
+        change(spawn.thick_shell.springs);
         const Result<BodyId> body = world.spawn(id, spawn);
         ASSERT_FALSE(body.ok()) << name;
-        EXPECT_NE(body.error().find("layers." + name), std::string::npos) << body.error();
+        EXPECT_NE(body.error().find("springs." + name), std::string::npos) << body.error();
     };
     refused([](LayerSettings& l) { l.layout = static_cast<LayerLayout>(2); }, "layout");
     refused([](LayerSettings& l) { l.length_factor = 0.5f; }, "length_factor");
@@ -47,9 +47,9 @@ Breakage quick_break(const LayerSettings& layers, uint32_t threads) {
     settings.threads = threads;
     Breakage b{make_world(settings), {}, {}};
     SpawnSettings spawn;
-    spawn.fracture = FractureMode::Quick;
-    spawn.quick.layers = 2;
-    spawn.layers = layers;
+    spawn.thick_shell.fracture = FractureMode::Quick;
+    spawn.thick_shell.quick.layers = 2;
+    spawn.thick_shell.springs = layers;
     b.body = b.world.spawn(b.world.add_model(small_vase()).value(), spawn).value();
     b.ball = b.world.add_sphere(ball_at({0.01f, 0.13f, 0}, 0.3f, 60)).value();
     return b;
@@ -84,7 +84,8 @@ TEST(Layers, OfAQuickHitAreKeptInSnapshots) {
         settings.units_a_frame = 300'000;  // the hit takes some frames
         Breakage slow{make_world(settings), {}, {}};
         SpawnSettings spawn;
-        spawn.fracture = FractureMode::Quick, spawn.quick.layers = 2, spawn.layers = layers;
+        spawn.thick_shell.fracture = FractureMode::Quick, spawn.thick_shell.quick.layers = 2,
+        spawn.thick_shell.springs = layers;
         slow.body = slow.world.spawn(slow.world.add_model(small_vase()).value(), spawn).value();
         slow.ball = slow.world.add_sphere(ball_at({0.01f, 0.13f, 0}, 0.3f, 60)).value();
         while (open_tasks(slow.world) == 0) slow.world.step();
@@ -105,7 +106,7 @@ double sag_of(const LayerSettings& layers) {
     settings.units_a_frame = 200'000'000;
     World world = make_world(settings);
     SpawnSettings spawn;
-    spawn.layers = layers;
+    spawn.thick_shell.springs = layers;
     const Box pin{{-1, -1, -1}, {-0.14f, 1, 1}};
     spawn.pins = &pin, spawn.pin_count = 1;
     const Result<ModelId> model = world.add_model(rubber_sheet());

@@ -135,8 +135,8 @@ TEST(JoinWalls, AnyNumberingGivesTheSameSheet) {
 Model cooked(const Mesh& mesh, float thickness, bool joins) {
     CookSettings settings;
     settings.thickness = thickness;
-    settings.joins_walls = joins;
-    settings.measures_threshold = false;
+    settings.thick_shell.joins_walls = joins;
+    settings.thick_shell.measures_threshold = false;
     Result<Model> model = cook(view_of(mesh), settings);
     EXPECT_TRUE(model.ok()) << model.error();
     return model.ok() ? *model : Model{};

@@ -126,7 +126,7 @@ TEST(ThinFans, CookingThinsAPoleAndSaysSo) {
     const Mesh mesh = cone(100, 0.5, true);
     CookSettings settings;
     settings.thickness = 0.04f;
-    settings.measures_threshold = false;
+    settings.thick_shell.measures_threshold = false;
     const Result<Model> model = cook(view_of(mesh), settings);
     ASSERT_TRUE(model.ok()) << model.error();
     EXPECT_NE(model->report().repairs.find("Thinned 2 fans of more than 64 triangles."), std::string::npos)
