@@ -37,12 +37,13 @@ class DamageModel {
         frame_loops_.emplace_back(std::move(title), std::move(loop), calls);
         return *this;
     }
-    /// Units of its frame loops: `Wanted(rows)` for all that they ask for; `Grant(rows, units, slow_frames)` gives them
-    /// what the frame has, counts what runs slower than the world, and returns what that costs. `zone`: of the
-    /// profiler.
-    template <auto Wanted, auto Grant>
+    /// Units of its frame loops: `Most(rows)` run in one frame at most; `Wanted(rows)` for all that they ask for;
+    /// `Grant(rows, units, slow_frames)` gives them what the frame has, counts what runs slower than the world, and
+    /// returns what that costs. `zone`: of the profiler.
+    template <auto Most, auto Wanted, auto Grant>
     DamageModel& moves_each_frame(const char* zone) {
         frame_zone_ = zone;
+        calls_.most_moving = [](const SoftRows& rows) { return Most(rows); };
         calls_.wanted = [](const SoftRows& rows) { return Wanted(rows); };
         calls_.grant = [](SoftRows& rows, uint64_t units, uint64_t& slow_frames) {
             return Grant(rows, units, slow_frames);
@@ -100,6 +101,13 @@ class DamageModel {
         calls_.spawn_body = [](SoftRows& rows, Row<Bodies> body, const Spawning& spawning) {
             return Body(rows, body, spawning);
         };
+        return *this;
+    }
+    /// `Why(rows, body)`: why a body that is not breakable cannot be cut, and which one can: "its material is rubber;
+    /// cut glass". Null: the model has no other reason than the game has.
+    template <auto Why>
+    DamageModel& says_why_not_cut() {
+        calls_.why_not_cut = [](const BodyRows& rows, Row<Bodies> body) -> const char* { return Why(rows, body); };
         return *this;
     }
     /// Before that. `Shell(rows, source, spawning)`: the cooked shell, which bodies share, or one of the body's own.

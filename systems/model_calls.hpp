@@ -76,6 +76,7 @@ struct ModelCalls {
     void (*inherit)(BodyRows&, Row<Bodies> parent, Row<Bodies> piece) = nullptr;
     bool (*keeps_cell_names)(const BodyRows&, Row<Bodies>) = nullptr;
     // What a model moves by itself, in each frame.
+    uint32_t (*most_moving)(const SoftRows&) = nullptr;
     uint64_t (*wanted)(const SoftRows&) = nullptr;
     uint64_t (*grant)(SoftRows&, uint64_t units, uint64_t& slow_frames) = nullptr;
     std::optional<MechanicalEnergy> (*energy)(SoftRows&, Row<Bodies>, Vec3 gravity) = nullptr;
@@ -89,6 +90,8 @@ struct ModelCalls {
     void (*keep_torn)(SoftRows&, RigidWorld&, Row<Bodies>) = nullptr;
     void (*follow)(SoftRows&, Row<Bodies>) = nullptr;
     void (*release)(SoftRows&, Row<Bodies>) = nullptr;
+    // The game's calls.
+    const char* (*why_not_cut)(const BodyRows&, Row<Bodies>) = nullptr;
     // Files.
     void (*restore_run)(RunRows&, Row<Tasks>) = nullptr;
     void (*restore_body)(BodyRows&, Row<Bodies>) = nullptr;

@@ -58,6 +58,7 @@ class DamageModels {
     void follow(SoftRows& rows, Row<Bodies> body) const;
     void release(SoftRows& rows, Row<Bodies> body) const;
 
+    const char* why_not_cut(const BodyRows& rows, Row<Bodies> body) const;
     void restore_run(RunRows& rows, Row<Tasks> task) const;
     void restore_body(BodyRows& rows, Row<Bodies> body) const;
     Result<void> check_shell(const ShellView& shell, Wear wear, const std::string& name, const char* advice) const;
@@ -67,6 +68,8 @@ class DamageModels {
 
     /// Units that all frame loops ask for.
     uint64_t units_wanted(const SoftRows& rows) const;
+    /// Rows of their frame loops that run in one frame, at most.
+    uint32_t most_moving(const SoftRows& rows) const;
     /// Gives them what there is, the first models first; returns what they use.
     uint64_t grant_frame(SoftRows& rows, uint64_t units, uint64_t& slow_frames) const;
     /// A body that tore, each once; a row that does not exist: there is none left.

@@ -2,7 +2,7 @@
 #include "components/body_id.hpp"
 #include "engine/host_scope.hpp"
 #include "systems/api/checks.hpp"
-#include "systems/cook/materials.hpp"
+#include "systems/models.hpp"
 #include "systems/world_contents.hpp"
 
 namespace cullet {
@@ -88,13 +88,11 @@ Result<void> check_cut(const CutSettings& c) {
 }
 
 /// Why the body cannot be cut, and what to do; empty: it can.
-std::string why_not_cut(const State& state, Row<Bodies> body) {
+std::string why_not_cut(const State& state, const DamageModels& models, Row<Bodies> body) {
     const Row<Shells> shell = state.bodies.shell[body];
     if (!shell.exists()) return "it was not spawned from a model; cut one that was";
     if (state.bodies.is_breakable[body]) return {};
-    const MaterialKind kind = material_traits(state, state.shells.material[shell]).kind;
-    if (kind != MaterialKind::Brittle)
-        return "its material is " + std::string(name_of(kind)) + "; cut one of a material that breaks";
+    if (const char* const why = models.why_not_cut(state, body)) return why;
     return "it was spawned to stay whole; spawn it with is_breakable and a strength_scale that can be reached";
 }
 
@@ -139,7 +137,7 @@ Result<void> World::cut(BodyId id, const CutSettings& cut) {
     const Row<Bodies> body = body_row(state.bodies, id);
     if (!(id == BodyId{})) {
         if (!body.exists()) return stale("body", id.index);
-        if (const std::string why = why_not_cut(state, body); !why.empty())
+        if (const std::string why = why_not_cut(state, *contents_->data.damage_models, body); !why.empty())
             return Error{"body " + std::to_string(id.index) + " is not breakable, and cannot be cut: " + why + "."};
     }
     if (Result<void> valid = check_cut(cut); !valid) return valid;

@@ -38,8 +38,8 @@ World::Contents::Contents(const Settings& s, const Host& h, std::unique_ptr<Rigi
     }
     data.rigid->use_jobs(*jobs);
     data.rigid->set_gravity(s.gravity);
-    const uint32_t most_runs = data.state.tasks.limit() + data.state.soft_bodies.limit();
     data.damage_models = std::move(models);
+    const uint32_t most_runs = data.state.tasks.limit() + data.damage_models->most_moving(data.state);
     data.run_loops = std::make_unique<RunLoops>(*jobs, profiler, *data.damage_models, most_runs);
     plan = make_frame_plan(hosted != nullptr, *data.damage_models);
     plan.finish(profiler);

@@ -183,6 +183,18 @@ uint64_t DamageModels::units_wanted(const SoftRows& rows) const {
     return sum;
 }
 
+uint32_t DamageModels::most_moving(const SoftRows& rows) const {
+    uint32_t sum = 0;
+    for (const DamageModel& model : models_)
+        if (const auto most = model.calls().most_moving) sum += most(rows);
+    return sum;
+}
+
+const char* DamageModels::why_not_cut(const BodyRows& rows, Row<Bodies> body) const {
+    const auto call = call_of(rows, body, &ModelCalls::why_not_cut);
+    return call ? call(rows, body) : nullptr;
+}
+
 uint64_t DamageModels::grant_frame(SoftRows& rows, uint64_t units, uint64_t& slow_frames) const {
     uint64_t used = 0;
     for (const DamageModel& model : models_)

@@ -22,6 +22,9 @@ std::optional<MechanicalEnergy> energy_of_odd(SoftRows& rows, Row<Bodies> body, 
     if (rows.bodies.size() <= body || body % 2 == 0) return {};
     return MechanicalEnergy{3, 0, 0, 0, 1, 1};
 }
+uint32_t most(const SoftRows&) {
+    return 3;
+}
 template <char Name>
 uint64_t wanted(const SoftRows&) {
     asked += Name;
@@ -109,9 +112,10 @@ TEST(Models, AModelIsFoundByItsNameAndItsNumberIsItsPlace) {
 TEST(Models, WhatMovesInEachFrameIsGrantedWhatTheModelsBeforeItLeft) {
     const auto state = small_state();
     DamageModel a("a"), silent("silent"), b("b");
-    a.moves_each_frame<wanted<'a'>, grant<'a'>>("a");
-    b.moves_each_frame<wanted<'b'>, grant<'b'>>("b");
+    a.moves_each_frame<most, wanted<'a'>, grant<'a'>>("a");
+    b.moves_each_frame<most, wanted<'b'>, grant<'b'>>("b");
     const DamageModels models({a, silent, b});
+    EXPECT_EQ(models.most_moving(*state), 6u);
     EXPECT_EQ(models.units_wanted(*state), 80u);
     uint64_t slow_frames = 0;
     EXPECT_EQ(models.grant_frame(*state, 50, slow_frames), 50u);

@@ -51,7 +51,7 @@ void register_loops(DamageModel& model) {
                               {is_hidden, is_large})
         .loop<cost_of_quick>("thick shell, quick: 8 to 100 times a hit", make_quick_loop(),
                              {is_quick_task, has_large_region, true});
-    model.moves_each_frame<soft_units_wanted, grant_soft>("soft body")
+    model.moves_each_frame<most_soft_bodies, soft_units_wanted, grant_soft>("soft body")
         .frame_loop("thick shell, ductile and elastic: 8 to 1,000 times a frame",
                     make_soft_loop(SpringLayout::OneLayer), {soft_count, soft_run<false>})
         .frame_loop("the same, of bodies with an inner and an outer layer", make_soft_loop(SpringLayout::Sandwich),

@@ -44,7 +44,7 @@ DamageModel thick_shell_model() {
     model.spawn_settings<&SpawnSettings::thick_shell>()
         .spawn_settings<&SpawnSettings::thick_shell, &ThickShellSpawnSettings::quick>("quick")
         .spawn_settings<&SpawnSettings::thick_shell, &ThickShellSpawnSettings::springs>("springs");
-    model.cooks<cook_thick_shell>().spawns<spawn_body>().spawns_own<spawn_shell>();
+    model.cooks<cook_thick_shell>().spawns<spawn_body>().spawns_own<spawn_shell>().says_why_not_cut<why_not_cut>();
     model.takes<working_shell, begin_run>().takes_late<give_late_rows>().needs_room<room_of_hit, may_find_room>();
     model.lasts<run_length>().works_on_parts<is_cut_out>().cancels<cancel_run>();
     model.moves_rest<motion_of_rest>().inherits<inherit_fracture>().keeps_cell_names<is_quick_body>();

@@ -110,6 +110,17 @@ Result<Row<Shells>> spawn_shell(ShellRows& state, Row<Shells> source, const Spaw
     return source;
 }
 
+const char* why_not_cut(const BodyRows& state, Row<Bodies> body) {
+    switch (material_traits(state, state.shells.material[state.bodies.shell[body]]).kind) {
+        case MaterialKind::Ductile:
+            return "its material is ductile; cut one of a material that breaks";
+        case MaterialKind::Elastic:
+            return "its material is elastic; cut one of a material that breaks";
+        default:
+            return nullptr;
+    }
+}
+
 Result<ShellRoom> spawn_body(SoftRows& state, Row<Bodies> body, const Spawning& spawning) {
     const ThickShellSpawnSettings& settings = spawning.settings.thick_shell;
     const Row<Shells> shell = state.bodies.shell[body];

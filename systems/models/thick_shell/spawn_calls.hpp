@@ -8,5 +8,7 @@ namespace cullet {
 Result<Row<Shells>> spawn_shell(ShellRows& state, Row<Shells> source, const Spawning& spawning);
 /// Brittle bodies may break, others get springs.
 Result<ShellRoom> spawn_body(SoftRows& state, Row<Bodies> body, const Spawning& spawning);
+/// Ductile and elastic bodies have springs, which nothing cuts.
+const char* why_not_cut(const BodyRows& state, Row<Bodies> body);
 
 }  // namespace cullet
