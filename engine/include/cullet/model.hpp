@@ -82,7 +82,7 @@ struct CookSettings {
     float weld_tolerance = 0;
     uint64_t seed = 1;  // of the spread of strength
     // Of one damage model each; those of the others count for nothing.
-    ThickShellCookSettings thick_shell;
+    ThickShellCookSettings thick_shell = {};
     /// Called now and then on the thread that cooks; never falls, ends with 1.
     void (*progress)(void* user, float share) = nullptr;  // 0 to 1
     void* progress_user = nullptr;

@@ -29,8 +29,8 @@ struct ThickShellCookSettings {
 /// SpawnSettings::thick_shell. Fragments inherit it.
 struct ThickShellSpawnSettings {
     FractureMode fracture = FractureMode::Hidden;  // of brittle materials
-    QuickSettings quick;                           // of FractureMode::Quick
-    LayerSettings springs;                         // of quick bodies in a hit, and of ductile and elastic ones
+    QuickSettings quick = {};                      // of FractureMode::Quick
+    LayerSettings springs = {};                    // of quick bodies in a hit, and of ductile and elastic ones
 };
 
 }  // namespace cullet

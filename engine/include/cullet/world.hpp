@@ -56,7 +56,7 @@ struct SpawnSettings {
     const Box* pins = nullptr;
     uint32_t pin_count = 0;
     // Of one damage model each; those of the others count for nothing.
-    ThickShellSpawnSettings thick_shell;
+    ThickShellSpawnSettings thick_shell = {};
 };
 /// The settings that a damage model has of its own in SpawnSettings, as lists. None of a name that there is not.
 std::vector<SettingGroup<SpawnSettings>> spawn_settings_of(const std::string& damage_model);
