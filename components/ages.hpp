@@ -9,7 +9,6 @@ namespace cullet {
 struct FragmentAges : Table<FragmentAges> {
     using Table::Table;
     static constexpr const char* kName = "fragment_ages";
-    static constexpr bool kIsOptional = true;
     Column<uint64_t> born{*this, "born"};  // 1 + the step in which it broke off; 0: no fragment, or retired
 };
 
@@ -21,7 +20,6 @@ inline uint64_t born_of(const FragmentAges& ages, uint32_t body) {
 struct DebrisAges : Table<DebrisAges> {
     using Table::Table;
     static constexpr const char* kName = "debris_ages";
-    static constexpr bool kIsOptional = true;
     Column<uint64_t> born{*this, "born"};  // the step
 };
 

@@ -18,7 +18,6 @@ inline constexpr uint32_t kMostCutPoints = 32;  // corners of a polyline
 struct Blows : Table<Blows> {
     using Table::Table;
     static constexpr const char* kName = "blows";
-    static constexpr bool kIsOptional = true;     // while there are none they are not in the hash
     Column<uint8_t> kind{*this, "kind"};          // BlowKind
     Column<Row<Bodies>> body{*this, "body"};      // kNone: all that it reaches, and the rest stands in world axes
     Column<uint32_t> task{*this, "task"};         // the open task that works it off, or kNone: it waits

@@ -9,6 +9,7 @@ namespace cullet {
 enum class BodyKind : uint8_t { Free = 0, Static, Kinematic, Dynamic, Scenery };
 
 struct Models;
+struct SoftBodies;
 
 /// Of Bodies::is_owed_births. The second: its drawn mesh found no room either, and is still the one before the hit.
 inline constexpr uint8_t kOwedBirths = 1, kOwedDrawing = 2;
@@ -18,10 +19,10 @@ struct Bodies : RangeTable<Bodies> {
     using RangeTable::RangeTable;
     static constexpr const char* kName = "bodies";
     Column<uint32_t> generation{*this, "generation"};
-    Column<uint8_t> kind{*this, "kind"};          // BodyKind
-    Column<Row<Models>> model{*this, "model"};    // kNone: no shell (a ball, static triangles)
-    Column<Row<Shells>> shell{*this, "shell"};    // the model's intact one until it cracks or breaks
-    Column<Row<Bodies>> parent{*this, "parent"};  // row of the body it broke off, kNone for spawned ones
+    Column<uint8_t> kind{*this, "kind"};                    // BodyKind
+    Column<Row<Models>> model{*this, "model"};              // kNone: no structure (a ball, static triangles)
+    Column<Row<Structures>> structure{*this, "structure"};  // the model's intact one until it cracks or breaks
+    Column<Row<Bodies>> parent{*this, "parent"};            // row of the body it broke off, kNone for spawned ones
     // Rigid state, read back after each solve. The body frame is the frame of the cooked mesh, for fragments too.
     Column<Vec3> position{*this, "position", "m"};
     Column<Quat> orientation{*this, "orientation"};
@@ -55,6 +56,7 @@ struct Bodies : RangeTable<Bodies> {
     Column<float> waking_load{*this, "waking_load", "N"};
     Column<uint32_t> first_load{*this, "first_load", "1", Keep::Scratch};  // of the list of its loads, or kNone
     Column<uint32_t> task{*this, "task"};                                  // open task or kNone
+    Column<Row<SoftBodies>> soft{*this, "soft"};                           // kNone: it never moves by springs
     Column<uint32_t> colour{*this, "colour"};                              // stable number for pictures
     // Drawn mesh in view space.
     Column<std::array<float, 6>> drawn_box{*this, "drawn_box", "m", Keep::Scratch};  // low, high; body frame
@@ -102,7 +104,7 @@ struct Models : Table<Models> {
     using Table::Table;
     static constexpr const char* kName = "models";
     Column<uint32_t> generation{*this, "generation"};
-    Column<Row<Shells>> shell{*this, "shell"};
+    Column<Row<Structures>> structure{*this, "structure"};
     Column<uint8_t> is_used{*this, "is_used"};
 };
 

@@ -29,7 +29,6 @@ struct Materials : Table<Materials> {
 struct MaterialTraits : Table<MaterialTraits> {
     using Table::Table;
     static constexpr const char* kName = "material_traits";
-    static constexpr bool kIsOptional = true;     // no part of the hash while empty
     Column<uint8_t> kind{*this, "kind"};          // MaterialKind
     Column<uint8_t> fracture{*this, "fracture"};  // FractureKind
     Column<float> branching{*this, "branching"};  // tips above this share of sigma_d may fork; 0: none does

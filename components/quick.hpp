@@ -10,7 +10,6 @@ namespace cullet {
 template <class Own>
 struct QuickRules : Table<Own> {
     using Table<Own>::Table;
-    static constexpr bool kIsOptional = true;
     Column<uint8_t> is_quick{*this, "is_quick"};
     Column<uint8_t> layers{*this, "layers"};                     // 1 or 2
     Column<uint16_t> steps{*this, "steps"};                      // of a run
@@ -31,8 +30,6 @@ struct QuickBodies : QuickRules<QuickBodies> {
     static constexpr const char* kName = "quick_bodies";
 };
 
-inline constexpr uint32_t kMostAwakePacks = 4096;  // of one run: 32,768 vertices
-
 /// Row t is the run of task t, by the rules that its body had when it opened. All motion is seen from the body as it
 /// moved at the touch: a vertex at rest in it has velocity 0 until the run ends.
 struct QuickRuns : QuickRules<QuickRuns> {
@@ -40,29 +37,11 @@ struct QuickRuns : QuickRules<QuickRuns> {
     static constexpr const char* kName = "quick_runs";
     // Of the run.
     Column<Row<ShellSprings>> springs{*this, "springs"};  // of the task's shell; kNone before the region is awake
-    /// First elements of the task's shell that are the body's, when it is a cut-out (cut_out.hpp): Elements.part says
-    /// which. 0: it is a copy of the whole.
-    Column<uint32_t> cut_elements{*this, "cut_elements"};
-    Column<uint32_t> pack_count{*this, "pack_count"};    // rows in AwakePacks
-    Column<uint32_t> awake_count{*this, "awake_count"};  // vertices that the region had when it woke
-    Column<float> softening{*this, "softening"};         // s of B7, >= 1: stiffness E / s, time stretched by its root
-    Column<float> split_strain{*this, "split_strain"};   // of a vertex of median strength, as the run sees it
+    Column<uint32_t> awake_count{*this, "awake_count"};   // vertices that the region had when it woke
+    Column<float> softening{*this, "softening"};          // s of B7, >= 1: stiffness E / s, time stretched by its root
+    Column<float> split_strain{*this, "split_strain"};    // of a vertex of median strength, as the run sees it
     Column<double> energy_scale{*this, "energy_scale", "J"};  // that body and strikers meet with: what 5 % are of
     Column<float> diagonal{*this, "diagonal", "m"};           // of the body's bounds
 };
-
-/// Rows [t kMostAwakePacks, + pack_count) are the region of task t: packs of 8 vertices, rising. Bit k is vertex k.
-struct AwakePacks : Table<AwakePacks> {
-    using Table::Table;
-    static constexpr const char* kName = "awake_packs";
-    static constexpr bool kIsOptional = true;
-    Column<uint32_t> pack{*this, "pack"};
-    Column<uint8_t> awake{*this, "awake"};  // moves
-    Column<uint8_t> held{*this, "held"};    // stays where it is; its velocity is the impulse that springs gave it, over
-                                            // its mass, which the piece that it belongs to gets in the end
-};
-
-template <>
-inline constexpr uint32_t kRowsPerChunk<AwakePacks> = 32;
 
 }  // namespace cullet

@@ -10,7 +10,6 @@ namespace cullet {
 struct RegionRests : Table<RegionRests> {
     using Table::Table;
     static constexpr const char* kName = "region_rests";
-    static constexpr bool kIsOptional = true;
     Column<uint32_t> most_vertices{*this, "most_vertices"};  // of the cut-out when it was made; 0: the task has none
     Column<uint8_t> wants_more{*this,
                                "wants_more"};  // cracks or stress came to its border: begins again on a larger one

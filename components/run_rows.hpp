@@ -7,9 +7,11 @@
 
 namespace cullet {
 
-/// The stiffness of a run's shell, as its steps read it.
+/// The stiffness of a run's working copy, and its clock, as its steps read them.
 struct RunStiffness {
     const Tasks& tasks;
+    const HiddenRuns& runs;
+    const Structures& structures;
     const Shells& shells;
     const StiffnessPacks& packs;
     const StiffnessBlocks& blocks;
@@ -22,19 +24,30 @@ struct RunRows : ShellRows {
     Tasks tasks;
     TaskContacts task_contacts;
     PatchVertices patch_vertices;
+    HiddenRuns hidden_runs;
+    MarkedPacks marked_packs;
     QuickRuns quick_runs;
-    AwakePacks awake_packs;
     RegionRests region_rests;
 
     /// The damage model that works on a task, that of the body that was hit: its place in the world's list.
-    uint8_t model_of(uint32_t task) const { return shells.damage_model[tasks.source[task]]; }
+    uint8_t model_of(uint32_t task) const { return structures.damage_model[tasks.source[task]]; }
 
     using Below = ShellRows;
     static constexpr auto own_tables() {
         using R = RunRows;
-        return std::tuple{&R::tasks,      &R::task_contacts, &R::patch_vertices,
-                          &R::quick_runs, &R::awake_packs,   &R::region_rests};
+        return std::tuple{&R::tasks,        &R::task_contacts, &R::patch_vertices, &R::hidden_runs,
+                          &R::marked_packs, &R::quick_runs,    &R::region_rests};
     }
 };
+
+/// Repetitions until the run's time is up, less those done and those that this frame has granted.
+inline uint32_t steps_left(const RunRows& rows, uint32_t t, uint32_t granted) {
+    const auto total = static_cast<uint32_t>(rows.hidden_runs.end_time[t] / rows.hidden_runs.time_step[t]) + 1;
+    const uint32_t begun = rows.tasks.steps_done[t] + granted;
+    return total > begun ? total - begun : 0;
+}
+inline uint32_t steps_left(const RunRows& rows, uint32_t t) {
+    return steps_left(rows, t, rows.tasks.steps_granted[t]);
+}
 
 }  // namespace cullet

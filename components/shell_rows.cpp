@@ -34,19 +34,16 @@ void forget_blocks(VertexBlocks& blocks, const Range& vertices) {
     for (uint8_t* flags : {blocks.sums.data(), blocks.moves.data()}) std::fill(flags + first, flags + end, uint8_t{0});
 }
 
-template <class T>
-const T& table_of(const ShellRows& rows) {
-    const T* found = nullptr;
-    ShellRows::for_each_range(rows, [&](const auto&, const auto& table, auto, const char*) {
-        if constexpr (std::is_same_v<std::remove_cvref_t<decltype(table)>, T>) found = &table;
-    });
-    return *found;
-}
-
 }  // namespace
 
-ShellRows::ShellRows(const Limits& l, const MaterialRows& of_what)
+StructureRows::StructureRows(const Limits& l, const MaterialRows& of_what)
     : MaterialRows(of_what),
+      structures(l.shells, l.shells),
+      cells(cell_limit(l), l.shells),
+      hull_points(cell_limit(l) * 32, l.shells) {}
+
+ShellRows::ShellRows(const Limits& l, const MaterialRows& of_what)
+    : StructureRows(l, of_what),
       shells(l.shells, l.shells),
       vertices(l.vertices, l.shells),
       elements(l.elements, l.shells),
@@ -55,8 +52,6 @@ ShellRows::ShellRows(const Limits& l, const MaterialRows& of_what)
       stiffness_packs(pack_limit(l), l.shells),
       stiffness_blocks(slot_limit(l), l.shells),
       stiffness_links(slot_limit(l), l.shells),
-      cells(cell_limit(l), l.shells),
-      hull_points(cell_limit(l) * 32, l.shells),
       shell_springs(l.shells, l.shells),
       springs(spring_limit(l), l.shells),
       layer_springs(spring_limit(l), l.shells),
@@ -67,122 +62,170 @@ ShellRows::ShellRows(const Limits& l, const MaterialRows& of_what)
       twins(l.vertices, l.shells),
       vertex_blocks(l.vertices / kVerticesPerBlock + 1) {}
 
-ShellRoom room_of(const ShellRows& rows, Row<Shells> shell) {
-    const Shells& s = rows.shells;
+ShellRoom room_of(const ShellRows& rows, Row<Structures> structure) {
     ShellRoom room;
+    const Structures& structures = rows.structures;
+    const Shells& s = rows.shells;
+    const Row<Shells> shell = rows.shell_of(structure);
     room.vertices = s.vertices[shell].capacity;
     room.elements = s.elements[shell].count;
     room.hinges = s.hinges[shell].count;
     room.blocks = s.blocks[shell].count;
     room.links = s.links[shell].count;
-    room.cells = s.cells[shell].count;
-    room.points = s.points[shell].count;
+    room.cells = structures.cells[structure].count;
+    room.points = structures.points[structure].count;
     return room;
 }
 
-Row<Shells> make_shell_unclear(ShellRows& rows, const ShellRoom& room, const char** full) {
+Row<Structures> make_shell_unclear(ShellRows& rows, const ShellRoom& room, const char** full) {
+    Structures& structures = rows.structures;
     Shells& s = rows.shells;
-    Range row_range;
-    if (!s.take(1, row_range)) {
+    Range row, shell_row;
+    if (!structures.take(1, row)) {
         if (full) *full = "limits.shells";
         return {};
     }
-    const Row<Shells> shell(row_range.first);
+    if (!s.take(1, shell_row)) {
+        structures.give_back(row);
+        if (full) *full = "limits.shells";
+        return {};
+    }
+    const Row<Structures> structure(row.first);
+    const Row<Shells> shell(shell_row.first);
+    structures.clear_rows(structure, 1);
+    structures.kind[structure] = static_cast<uint8_t>(StructureKind::Shell);
+    structures.rows[structure] = shell;
+    structures.users[structure] = 1;
     s.clear_rows(shell, 1);
+    s.springs[shell] = {};
     const char* missing = nullptr;  // the first
-    ShellRows::for_each_range(rows, [&](Column<Range>& range, auto& table, auto wanted, const char* limit) {
-        if (!table.take(std::invoke(wanted, room), range[shell]) && !missing) missing = limit;
+    ShellRows::for_each_range(rows, structure, [&](Range& range, auto& table, auto wanted, const char* limit) {
+        if (!table.take(std::invoke(wanted, room), range) && !missing) missing = limit;
     });
     rows.triangle_springs.reach(rows.elements.size());
-    s.users[shell] = 1;
     forget_blocks(rows.vertex_blocks, s.vertices[shell]);
     if (missing) {
-        release_shell(rows, shell);
+        release_shell(rows, structure);
         if (full) *full = missing;
         return {};
     }
-    return shell;
+    return structure;
 }
 
-void clear_pack_ends(ShellRows& rows, Row<Shells> shell) {
-    const Shells& s = rows.shells;
-    const Range vertices = s.vertices[shell], elements = s.elements[shell];
+void clear_pack_ends(ShellRows& rows, Row<Structures> structure) {
+    const ShellView shell(rows, structure);
+    const Range vertices = shell.vertices(), elements = shell.elements();
     rows.vertices.clear_spare(vertices);
     for (uint32_t v = vertices.count; v < rows.vertices.pool.rounded(vertices.capacity); ++v)
         rows.vertices.element[vertices.first + v] = kNone;
-    rows.stiffness_packs.clear_spare(s.packs[shell]);
+    rows.stiffness_packs.clear_spare(rows.shells.packs[shell.row]);
     if (elements.count % kLanes == 0) return;
     const uint32_t behind = elements.first + elements.count, lanes = kLanes - elements.count % kLanes;
     rows.elements.clear_rows(behind, lanes);
     rows.triangle_springs.clear_rows(behind, lanes);
 }
 
-Row<Shells> make_shell(ShellRows& rows, const ShellRoom& room, const char** full) {
-    const Row<Shells> shell = make_shell_unclear(rows, room, full);
-    if (!shell.exists()) return shell;
-    clear_pack_ends(rows, shell);
-    const Range& elements = rows.shells.elements[shell];
+Row<Structures> make_shell(ShellRows& rows, const ShellRoom& room, const char** full) {
+    const Row<Structures> structure = make_shell_unclear(rows, room, full);
+    if (!structure.exists()) return structure;
+    clear_pack_ends(rows, structure);
+    const ShellView shell(rows, structure);
+    const Range& elements = shell.elements();
     rows.elements.clear_spare(elements);
     rows.triangle_springs.clear_rows(elements.first, rows.elements.pool.rounded(elements.capacity));
-    rows.hinges.clear_spare(rows.shells.hinges[shell]);
-    return shell;
+    rows.hinges.clear_spare(shell.hinges());
+    return structure;
 }
 
-void drop_stiffness(ShellRows& rows, Row<Shells> shell) {
+void drop_stiffness(ShellRows& rows, Row<Structures> structure) {
     Shells& s = rows.shells;
+    const Row<Shells> shell = rows.shell_of(structure);
     rows.stiffness_packs.give_back(s.packs[shell]);
     rows.stiffness_blocks.give_back(s.blocks[shell]);
     rows.stiffness_links.give_back(s.links[shell]);
     s.packs[shell] = s.blocks[shell] = s.links[shell] = {};
 }
 
-bool take_points(ShellRows& rows, uint32_t count, Range& range) {
+bool take_points(StructureRows& rows, uint32_t count, Range& range) {
     return rows.hull_points.take(count, range);
 }
 
-void release_shell(ShellRows& rows, Row<Shells> shell) {
-    Shells& s = rows.shells;
-    CULLET_ASSERT(s.users[shell] > 0, "shell %u released more often than taken", shell.index);
-    if (--s.users[shell] > 0) return;
-    ShellRows::for_each_range(
-        rows, [&](Column<Range>& range, auto& table, auto, const char*) { table.give_back(range[shell]); });
-    release_springs(rows, shell);
-    s.clear_rows(shell, 1);
-    s.pool.give_back(shell, 1);
+void release_shell(ShellRows& rows, Row<Structures> structure) {
+    Structures& structures = rows.structures;
+    CULLET_ASSERT(structures.users[structure] > 0, "structure %u released more often than taken", structure.index);
+    if (--structures.users[structure] > 0) return;
+    const Row<Shells> shell = rows.shell_of(structure);
+    release_springs(rows, structure);
+    ShellRows::for_each_range(rows, structure,
+                              [&](Range& range, auto& table, auto, const char*) { table.give_back(range); });
+    rows.shells.clear_rows(shell, 1);
+    rows.shells.pool.give_back(shell, 1);
+    structures.clear_rows(structure, 1);
+    structures.pool.give_back(structure, 1);
 }
 
-// The source's ranges are copied with its row; ours are put back in their place.
-void copy_shell_rows(ShellRows& to, const ShellRows& from, Row<Shells> source, Row<Shells> copy, bool with_stiffness) {
-    Shells& s = to.shells;
-    std::array<Range, 8> own;
+namespace {
+
+constexpr size_t kRanges = 8;
+
+/// Of a structure's rows in both tables, what a copy of them must not take over.
+struct OwnRows {
+    uint32_t users, row;
+    Row<ShellSprings> springs;
+    std::array<Range, kRanges> ranges;
+};
+OwnRows own_rows(const ShellRows& rows, Row<Structures> structure) {
+    const Row<Shells> shell = rows.shell_of(structure);
+    OwnRows own{rows.structures.users[structure], shell, rows.shells.springs[shell], {}};
     size_t k = 0;
-    ShellRows::for_each_range(to, [&](Column<Range>& range, auto&, auto, const char*) { own[k++] = range[copy]; });
-    const uint32_t users = s.users[copy];
-    s.copy_rows(from.shells, source, copy, 1);
-    s.users[copy] = users;
-    k = 0;
-    ShellRows::for_each_range(to, [&](Column<Range>& range, auto& table, auto, const char*) {
+    ShellRows::for_each_range(rows, structure,
+                              [&](const Range& range, const auto&, auto, const char*) { own.ranges[k++] = range; });
+    return own;
+}
+
+}  // namespace
+
+void copy_values(ShellRows& to, const ShellRows& from, Row<Structures> source, Row<Structures> copy) {
+    const OwnRows own = own_rows(to, copy);
+    const Row<Shells> shell(own.row);
+    to.structures.copy_rows(from.structures, source, copy, 1);
+    to.shells.copy_rows(from.shells, from.shell_of(source), shell, 1);
+    to.structures.users[copy] = own.users;
+    to.structures.rows[copy] = own.row;
+    to.shells.springs[shell] = own.springs;
+    size_t k = 0;
+    ShellRows::for_each_range(to, copy, [&](Range& range, auto&, auto, const char*) { range = own.ranges[k++]; });
+}
+
+void copy_shell_rows(ShellRows& to, const ShellRows& from, Row<Structures> source, Row<Structures> copy,
+                     bool with_stiffness) {
+    const OwnRows given = own_rows(from, source), own = own_rows(to, copy);
+    copy_values(to, from, source, copy);
+    size_t k = 0;
+    ShellRows::for_each_range(to, copy, [&](Range& range, auto& table, auto, const char*) {
         using Rows = std::remove_reference_t<decltype(table)>;
         constexpr bool is_stiffness = std::is_same_v<Rows, StiffnessPacks> || std::is_same_v<Rows, StiffnessBlocks> ||
                                       std::is_same_v<Rows, StiffnessLinks>;
         constexpr bool is_optional = std::is_same_v<Rows, Cells> || std::is_same_v<Rows, HullPoints>;
-        const Range found = range[copy], room = own[k++];
+        const Range found = given.ranges[k], room = own.ranges[k];
+        ++k;
         const bool is_wanted = is_stiffness ? with_stiffness : !is_optional || room.capacity > 0;
         const uint32_t count = is_wanted ? found.count : 0;
         CULLET_ASSERT(count <= room.capacity, "copy of %s: %u rows do not fit %u", table.name(), count, room.capacity);
-        range[copy] = {room.first, count, room.capacity};
-        if (count) table.copy_rows(table_of<Rows>(from), found.first, room.first, count);
+        range = {room.first, count, room.capacity};
+        if (count) table.copy_rows(table_in<Rows>(const_cast<ShellRows&>(from)), found.first, room.first, count);
         if constexpr (std::is_same_v<Rows, Elements>)
             to.triangle_springs.copy_rows(from.triangle_springs, found.first, room.first, count);
     });
     // The number of cells says how stiffness is stored (pair_cells.hpp).
-    CULLET_ASSERT(s.packs[copy].count == 0 || s.cells[copy].count == from.shells.cells[source].count,
-                  "copy of shell %u has its stiffness but %u of its %u cells", source.index, s.cells[copy].count,
-                  from.shells.cells[source].count);
+    CULLET_ASSERT(to.shells.packs[to.shell_of(copy)].count == 0 ||
+                      to.structures.cells[copy].count == from.structures.cells[source].count,
+                  "copy of structure %u has its stiffness but %u of its %u cells", source.index,
+                  to.structures.cells[copy].count, from.structures.cells[source].count);
 }
 
-Row<Shells> copy_shell(ShellRows& rows, Row<Shells> source, const ShellRoom& room, const char** full) {
-    const Row<Shells> copy = make_shell(rows, room, full);
+Row<Structures> copy_shell(ShellRows& rows, Row<Structures> source, const ShellRoom& room, const char** full) {
+    const Row<Structures> copy = make_shell(rows, room, full);
     if (!copy.exists()) return copy;
     copy_shell_rows(rows, rows, source, copy, room.blocks > 0);
     if (room.with_springs && !copy_springs(rows, source, copy, full)) {

@@ -24,8 +24,28 @@ struct MaterialRows {
     const MaterialTraits& material_traits;
 };
 
+/// What bodies are made of, as far as all kinds of structures are alike.
+struct StructureRows : MaterialRows {
+    StructureRows(const Limits& limits, const MaterialRows& of_what);
+
+    Structures structures;
+    Cells cells;
+    HullPoints hull_points;
+
+    using Below = MaterialRows;
+    static constexpr auto own_tables() {
+        using R = StructureRows;
+        return std::tuple{&R::structures, &R::cells, &R::hull_points};
+    }
+};
+
+/// The row of a structure that is a shell.
+inline Row<Shells> shell_of(const Structures& structures, Row<Structures> structure) {
+    return Row<Shells>(structures.rows[structure]);
+}
+
 /// Shells, what holds them together, and the springs of those that have some.
-struct ShellRows : MaterialRows {
+struct ShellRows : StructureRows {
     ShellRows(const Limits& limits, const MaterialRows& of_what);
 
     Shells shells;
@@ -36,8 +56,6 @@ struct ShellRows : MaterialRows {
     StiffnessPacks stiffness_packs;
     StiffnessBlocks stiffness_blocks;
     StiffnessLinks stiffness_links;
-    Cells cells;
-    HullPoints hull_points;
     ShellSprings shell_springs;
     Springs springs;
     LayerSprings layer_springs;
@@ -49,50 +67,53 @@ struct ShellRows : MaterialRows {
     VertexBlocks vertex_blocks;     // neither saved nor hashed
     mutable ScratchMemory scratch;  // of functions that need more than a stack holds
 
-    using Below = MaterialRows;
+    Row<Shells> shell_of(Row<Structures> structure) const { return cullet::shell_of(structures, structure); }
+
+    using Below = StructureRows;
     static constexpr auto own_tables() {
         using R = ShellRows;
         return std::tuple{&R::shells,        &R::vertices,        &R::elements,         &R::triangle_springs,
                           &R::hinges,        &R::stiffness_packs, &R::stiffness_blocks, &R::stiffness_links,
-                          &R::cells,         &R::hull_points,     &R::shell_springs,    &R::springs,
-                          &R::layer_springs, &R::element_springs, &R::spring_packs,     &R::spring_slots,
-                          &R::layer_slots,   &R::twins,           &R::vertex_blocks};
+                          &R::shell_springs, &R::springs,         &R::layer_springs,    &R::element_springs,
+                          &R::spring_packs,  &R::spring_slots,    &R::layer_slots,      &R::twins,
+                          &R::vertex_blocks};
     }
 
-    /// Calls f(column of Shells, table, room, limit) for each table of which a shell has a range: the member of
-    /// ShellRoom that says how many rows it wants, and the limit that is named when there are none.
+    /// Calls f(range, table, room, limit) for each table of which a shell has a range: the member of ShellRoom that
+    /// says how many rows it wants, and the limit that is named when there are none.
     template <class Rows, class F>
-    static void for_each_range(Rows& rows, F&& f) {
+    static void for_each_range(Rows& rows, Row<Structures> structure, F&& f) {
         auto& s = rows.shells;
-        f(s.vertices, rows.vertices, &ShellRoom::vertices, "limits.vertices");
-        f(s.elements, rows.elements, &ShellRoom::elements, "limits.elements");
-        f(s.hinges, rows.hinges, &ShellRoom::hinges, "limits.elements");
-        f(s.packs, rows.stiffness_packs, &ShellRoom::packs, "limits.vertices");
-        f(s.blocks, rows.stiffness_blocks, &ShellRoom::blocks, "limits.vertices");
-        f(s.links, rows.stiffness_links, &ShellRoom::links, "limits.vertices");
-        f(s.cells, rows.cells, &ShellRoom::cells, "limits.vertices");
-        f(s.points, rows.hull_points, &ShellRoom::points, "limits.vertices");
+        const Row<Shells> shell = rows.shell_of(structure);
+        f(s.vertices[shell], rows.vertices, &ShellRoom::vertices, "limits.vertices");
+        f(s.elements[shell], rows.elements, &ShellRoom::elements, "limits.elements");
+        f(s.hinges[shell], rows.hinges, &ShellRoom::hinges, "limits.elements");
+        f(s.packs[shell], rows.stiffness_packs, &ShellRoom::packs, "limits.vertices");
+        f(s.blocks[shell], rows.stiffness_blocks, &ShellRoom::blocks, "limits.vertices");
+        f(s.links[shell], rows.stiffness_links, &ShellRoom::links, "limits.vertices");
+        f(rows.structures.cells[structure], rows.cells, &ShellRoom::cells, "limits.vertices");
+        f(rows.structures.points[structure], rows.hull_points, &ShellRoom::points, "limits.vertices");
     }
 };
 
 /// What a shell uses now: room for a copy of it.
-ShellRoom room_of(const ShellRows& state, Row<Shells> shell);
+ShellRoom room_of(const ShellRows& state, Row<Structures> shell);
 
 /// A shell with empty ranges of these capacities and one user, or kNone when some table is full (`full` then names its
 /// limit). Vertex rows start all dead (element kNone, inverse mass 0).
-Row<Shells> make_shell(ShellRows& state, const ShellRoom& room, const char** full = nullptr);
+Row<Structures> make_shell(ShellRows& state, const ShellRoom& room, const char** full = nullptr);
 /// The same with rows that hold whatever they held; who fills them calls clear_pack_ends when the counts are set.
-Row<Shells> make_shell_unclear(ShellRows& state, const ShellRoom& room, const char** full = nullptr);
+Row<Structures> make_shell_unclear(ShellRows& state, const ShellRoom& room, const char** full = nullptr);
 /// Clears what kernels read behind the counts, because they take whole packs. That is all vertices to spare, which
 /// cracks take one by one, and the last pack of elements. Other elements to spare are cleared with their pack when its
 /// first one is taken. Hinges are cleared when they are taken.
-void clear_pack_ends(ShellRows& state, Row<Shells> shell);
+void clear_pack_ends(ShellRows& state, Row<Structures> shell);
 /// Gives the assembled stiffness back: the next task assembles it anew.
-void drop_stiffness(ShellRows& state, Row<Shells> shell);
+void drop_stiffness(ShellRows& state, Row<Structures> shell);
 /// A range of HullPoints; false: no room.
-bool take_points(ShellRows& state, uint32_t count, Range& range);
+bool take_points(StructureRows& state, uint32_t count, Range& range);
 /// One user less; the rows go back when there are none.
-void release_shell(ShellRows& state, Row<Shells> shell);
+void release_shell(ShellRows& state, Row<Structures> shell);
 /// Rows that the springs of a shell need. No layers: one layer.
 struct SpringRoom {
     uint32_t springs = 0, elements = 0, vertices = 0, slots = 0;
@@ -101,31 +122,40 @@ struct SpringRoom {
 };
 /// A row with empty ranges of these capacities, for a shell that has none; kNone when some table is full. All is zero
 /// but for lists that are not to be cleared.
-Row<ShellSprings> make_springs(ShellRows& state, Row<Shells> shell, const SpringRoom& room,
+Row<ShellSprings> make_springs(ShellRows& state, Row<Structures> shell, const SpringRoom& room,
                                const char** full = nullptr);
 /// Of the shell; kNone when it has none.
-Row<ShellSprings> find_springs(const ShellRows& state, Row<Shells> shell);
+Row<ShellSprings> springs_of(const ShellRows& state, Row<Structures> shell);
 /// The shell's springs, if any, go back; release_shell does it, too.
-void release_springs(ShellRows& state, Row<Shells> shell);
+void release_springs(ShellRows& state, Row<Structures> shell);
 /// Springs of `copy` as `source` has them, in motion as they are. What there are too few rows for is refused. A shell
 /// without springs gives none. `copy` has at least the vertices and elements of `source`.
-bool copy_springs(ShellRows& state, Row<Shells> source, Row<Shells> copy, const char** full = nullptr);
+bool copy_springs(ShellRows& state, Row<Structures> source, Row<Structures> copy, const char** full = nullptr);
 
 /// A copy of `source` with `room` (at least what is in use), one user. Stiffness is copied when `room.blocks` > 0,
 /// springs when `room.with_springs`.
-Row<Shells> copy_shell(ShellRows& state, Row<Shells> source, const ShellRoom& room, const char** full = nullptr);
+Row<Structures> copy_shell(ShellRows& state, Row<Structures> source, const ShellRoom& room,
+                           const char** full = nullptr);
+
+/// What both rows of `source` say, into those of `copy`, which keeps its users, ranges and springs.
+void copy_values(ShellRows& to, const ShellRows& from, Row<Structures> source, Row<Structures> copy);
 
 /// The second half of copy_shell, into a shell that make_shell made: serial systems reserve, parallel ones copy.
-void copy_shell_rows(ShellRows& to, const ShellRows& from, Row<Shells> source, Row<Shells> copy, bool with_stiffness);
+void copy_shell_rows(ShellRows& to, const ShellRows& from, Row<Structures> source, Row<Structures> copy,
+                     bool with_stiffness);
 
-/// The tables of one shell, with its ranges looked up: what the functions that edit a shell pass around. Indices are
-/// relative to the shell, as in the columns.
+/// The tables of one structure that is a shell, with its row among shells looked up: what the functions that edit a
+/// shell pass around. Indices are relative to the shell, as in the columns.
 struct ShellView {
     ShellRows& state;
+    Row<Structures> structure;
     Row<Shells> row;
 
-    ShellView(ShellRows& s, Row<Shells> r) : state(s), row(r) {}
+    ShellView(ShellRows& s, Row<Structures> of) : state(s), structure(of), row(s.shell_of(of)) {}
+    Structures& structures() const { return state.structures; }
     Shells& shells() const { return state.shells; }
+    Range& cells() const { return state.structures.cells[structure]; }
+    Range& points() const { return state.structures.points[structure]; }
     Range& vertices() const { return state.shells.vertices[row]; }
     Range& elements() const { return state.shells.elements[row]; }
     Range& hinges() const { return state.shells.hinges[row]; }

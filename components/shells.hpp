@@ -1,12 +1,11 @@
-// A thick shell: a surface of triangles, each extruded inward to a prism. A model's intact shell is one row, shared by
-// all of its bodies. A body that cracked or broke has a row of its own, and so has a damage task.
+// A thick shell: a surface of triangles, each extruded inward to a prism. Who holds one names its row of Structures.
 //
 // Indices inside a shell (corners, neighbours, hinges, blocks) are relative to the shell's first row in that table. So
 // a range is copied, saved and moved without renumbering.
 #pragma once
 #include <array>
 
-#include "components/materials.hpp"
+#include "components/structures.hpp"
 #include "engine/range_table.hpp"
 
 namespace cullet {
@@ -16,56 +15,35 @@ inline constexpr uint32_t kMostDrawnTriangles = 8;
 inline constexpr uint32_t kLanes = 8;  // vertices in a pack, on every machine
 inline constexpr uint32_t kVerticesPerCell =
     64;  // 8 packs, about 128 elements: a few convex pieces of the collision shape
-inline constexpr uint32_t kMostCellParts = 4;     // convex pieces of a cell
-inline constexpr uint32_t kMostCellPoints = 128;  // corners of all of them
 
-/// What stands for a shell in the rigid world: hulls of its cells, or one hull or box for all of it (piece_shape.hpp).
-enum class ShapeKind : uint8_t { Cells = 0, Hull = 1, Box = 2 };
+struct ShellSprings;
 
-/// One row is one shell.
+/// One row is one shell. What is not of shells alone stands in the row of Structures that names it.
 struct Shells : RangeTable<Shells> {
     using RangeTable::RangeTable;
     static constexpr const char* kName = "shells";
-    Column<Range> vertices{*this, "vertices"};  // first row is a multiple of 64
-    Column<Range> elements{*this, "elements"};  // and TriangleSprings, the same rows
-    Column<Range> hinges{*this, "hinges"};
-    Column<Range> packs{*this, "packs"};    // StiffnessPacks: one a pack of 8 vertices; count 0: not assembled
-    Column<Range> blocks{*this, "blocks"};  // StiffnessBlocks
-    Column<Range> links{*this, "links"};    // StiffnessLinks
-    Column<Range> cells{*this, "cells"};
-    Column<Range> points{*this, "points"};                // HullPoints of its cells, or of the one hull or box
-    Column<uint8_t> shape{*this, "shape"};                // ShapeKind
-    Column<uint8_t> shape_points{*this, "shape_points"};  // of the one hull or box; 0: cells have their own
-    Column<float> box_ratio{*this, "box_ratio"};    // volume of the tightest box over the solid's; 0: not measured
-    Column<float> hull_ratio{*this, "hull_ratio"};  // the same of the one hull
-    Column<float> margin{*this, "margin", "m"};     // that hulls are grown by; what breaks keeps its own
-    Column<uint32_t> made_shape{*this, "made_shape", "1", Keep::Scratch};  // of the one hull, as Cells.shape
-    Column<Row<Materials>> material{*this, "material"};
-    Column<uint32_t> users{*this, "users"};                  // models, bodies and tasks that hold the row; 0 = free
-    Column<double> mass{*this, "mass", "kg"};                // sum over elements, ordered
-    Column<double> intact_mass{*this, "intact_mass", "kg"};  // of the model that it came from
-    Column<Vec3d> centre{*this, "centre", "m"};              // of the prisms, body frame
-    Column<Sym3d> inertia{*this, "inertia", "kg m2"};        // of the prisms about the centre, body axes
-    Column<float> thickness{*this, "thickness", "m"};        // mean depth over elements by area
-    Column<float> depth_floor{*this, "depth_floor",
-                              "m"};  // least h of stiffness and contact: 0.05 eps; 0: 0.05 of the thickness
-    Column<float> mean_edge{*this, "mean_edge", "m"};  // l, of the intact model; fragments inherit it
-    Column<float> area{*this, "area", "m2"};
-    Column<float> time_step{*this, "time_step", "s"};  // of the hidden run: 0.6 * 2 / omega_max; fragments inherit it
-    Column<float> triangle_limit{*this, "triangle_limit",
-                                 "1/s2"};  // B7: bounds of stiffness/mass ratios, from the intact model
-    Column<float> hinge_limit{*this, "hinge_limit", "1/s2"};
-    Column<float> vertex_limit{*this, "vertex_limit", "1/s2"};
-    Column<float> first_crack_speed{*this, "first_crack_speed", "m/s"};  // measured by cooking against a floor
-    Column<float> first_crack_force{*this, "first_crack_force", "N"};    // that one place bears for long, likewise
-    Column<uint8_t> generation{*this, "generation"};  // 0 intact, fragments one more than their parent
-    Column<uint8_t> has_cracks{*this, "has_cracks"};
-    Column<uint32_t> dead_elements{*this, "dead_elements"};  // of pieces that moved, until the shell is compacted
-    /// What breaks it: its place in the world's list of damage models. Copies and pieces inherit it.
-    Column<uint8_t> damage_model{*this, "damage_model", "1", Keep::Added};
+    template <class T>
+    using Own = RowColumn<Shells, T>;
+    Own<Range> vertices{*this, "vertices"};  // first row is a multiple of 64
+    Own<Range> elements{*this, "elements"};  // and TriangleSprings, the same rows
+    Own<Range> hinges{*this, "hinges"};
+    Own<Range> packs{*this, "packs"};    // StiffnessPacks: one a pack of 8 vertices; count 0: not assembled
+    Own<Range> blocks{*this, "blocks"};  // StiffnessBlocks
+    Own<Range> links{*this, "links"};    // StiffnessLinks
+    Own<Row<ShellSprings>> springs{*this, "springs"};  // kNone: it has none
+    Own<float> thickness{*this, "thickness", "m"};     // mean depth over elements by area
+    Own<float> depth_floor{*this, "depth_floor",
+                           "m"};  // least h of stiffness and contact: 0.05 eps; 0: 0.05 of the thickness
+    Own<float> mean_edge{*this, "mean_edge", "m"};  // l, of the intact model; fragments inherit it
+    Own<float> time_step{*this, "time_step", "s"};  // of the hidden run: 0.6 * 2 / omega_max; fragments inherit it
+    Own<float> triangle_limit{*this, "triangle_limit",
+                              "1/s2"};  // B7: bounds of stiffness/mass ratios, from the intact model
+    Own<float> hinge_limit{*this, "hinge_limit", "1/s2"};
+    Own<float> vertex_limit{*this, "vertex_limit", "1/s2"};
+    Own<uint32_t> dead_elements{*this, "dead_elements"};  // of pieces that moved, until the shell is compacted
     /// So many first elements stand in order of cells, at least; 0: nobody has looked (cell_elements.hpp). What cracks
     /// add comes behind them.
-    Column<uint32_t> sorted_elements{*this, "sorted_elements", "1", Keep::Scratch};
+    Own<uint32_t> sorted_elements{*this, "sorted_elements", "1", Keep::Scratch};
 };
 
 enum class CrackState : uint8_t { None = 0, Tip = 1, Cracked = 2 };  // Cracked: a crack passes through, or started here
@@ -212,38 +190,6 @@ struct StiffnessLinks : RangeTable<StiffnessLinks> {
     using RangeTable::RangeTable;
     static constexpr const char* kName = "stiffness_links";
     Column<StiffnessLink> link{*this, "link"};
-};
-
-/// Of Cells::is_changed: cracks passed, or elements of pieces were in it.
-inline constexpr uint8_t kCracked = 1, kLeft = 2;
-
-/// One row is a patch of neighbouring vertices: chunk of a job, bounds, a few convex pieces of the collision
-/// shape (none where one hull or box stands for the shell).
-struct Cells : RangeTable<Cells> {
-    using RangeTable::RangeTable;
-    static constexpr const char* kName = "cells";
-    Column<uint32_t> first_point{*this, "first_point"};  // relative to the shell's points
-    Column<uint32_t> point_count{*this, "point_count"};  // <= 128; 0: the cell has lost all of its elements
-    Column<std::array<uint8_t, kMostCellParts>> part_points{*this, "part_points"};  // of each hull in turn; sum: count
-    Column<uint32_t> element_count{*this, "element_count"};                         // live ones
-    Column<uint8_t> is_stale{*this, "is_stale"};  // cracked since its points were chosen; the next break chooses anew
-    // Scratch of make_piece: the part's elements of this cell as a list, and the cell that it is merged into.
-    Column<uint32_t> first_element{*this, "first_element", "1", Keep::Scratch};
-    Column<uint32_t> last_element{*this, "last_element", "1", Keep::Scratch};
-    Column<uint32_t> list_count{*this, "list_count", "1", Keep::Scratch};
-    Column<uint32_t> merged{*this, "merged", "1", Keep::Scratch};
-    // Scratch of cell_hulls: a cell whose hull is to be chosen anew, kCracked or kLeft; the parent's cell that has the
-    // same points, kNone.
-    Column<uint8_t> is_changed{*this, "is_changed", "1", Keep::Scratch};
-    Column<uint32_t> same_cell{*this, "same_cell", "1", Keep::Scratch};
-    Column<uint32_t> shape{*this, "shape", "1", Keep::Scratch};  // RigidWorld's, of a hull chosen in this step; kNone
-};
-
-/// One row is a corner of one of a cell's hulls, or of a whole shell's, body frame, pulled in by the collision margin.
-struct HullPoints : RangeTable<HullPoints> {
-    using RangeTable::RangeTable;
-    static constexpr const char* kName = "hull_points";
-    Column<Vec3> point{*this, "point", "m"};
 };
 
 }  // namespace cullet

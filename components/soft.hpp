@@ -19,9 +19,8 @@ inline constexpr uint32_t kContactsAVertex = 2;
 struct SoftBodies : Table<SoftBodies> {
     using Table::Table;
     static constexpr const char* kName = "soft_bodies";
-    static constexpr bool kIsOptional = true;
     Column<uint8_t> is_used{*this, "is_used"};
-    Column<Row<Bodies>> body{*this, "body"};
+    Column<Row<Bodies>> body{*this, "body"};  // Bodies::soft says it again
     Column<uint8_t> is_awake{*this, "is_awake"};
     Column<uint8_t> is_called{*this, "is_called"};  // wakes in the next step, whatever touches it
     Column<uint8_t> is_elastic{*this, "is_elastic"};
@@ -72,7 +71,6 @@ struct SoftStriker {
 struct SoftStrikers : Table<SoftStrikers> {
     using Table::Table;
     static constexpr const char* kName = "soft_strikers";
-    static constexpr bool kIsOptional = true;
     Column<SoftStriker> striker{*this, "striker", "1", Keep::Scratch};
 };
 
@@ -92,7 +90,6 @@ struct alignas(32) SoftContact {
 struct SoftContacts : Table<SoftContacts> {
     using Table::Table;
     static constexpr const char* kName = "soft_contacts";
-    static constexpr bool kIsOptional = true;
     Column<SoftContact> contact{*this, "contact", "1", Keep::Scratch};
 };
 inline constexpr uint32_t first_contact_row(uint32_t vertex) {
@@ -103,12 +100,5 @@ template <>
 inline constexpr uint32_t kRowsPerChunk<Springs> = 1024;
 template <>
 inline constexpr uint32_t kRowsPerChunk<SoftBodies> = 1;  // the vertices of a whole body
-
-/// The row of the body, or one that does not exist.
-inline Row<SoftBodies> find_soft(const SoftBodies& soft, Row<Bodies> body) {
-    for (uint32_t s = 0; s < soft.size(); ++s)
-        if (soft.is_used[s] && soft.body[s] == body) return Row<SoftBodies>(s);
-    return {};
-}
 
 }  // namespace cullet

@@ -46,6 +46,7 @@ bool take(const Part& part, uint32_t row) {
 }
 
 void give_back(ShellRows& state, Row<ShellSprings> row) {
+    state.shells.springs[state.shell_of(state.shell_springs.structure[row])] = {};
     for (const Part& part : parts_of(state)) part.pool.give_back(part.range[row].first, part.range[row].capacity);
     state.shell_springs.clear_rows(row, 1);
     state.shell_springs.pool.give_back(row, 1);
@@ -53,16 +54,13 @@ void give_back(ShellRows& state, Row<ShellSprings> row) {
 
 }  // namespace
 
-Row<ShellSprings> find_springs(const ShellRows& state, Row<Shells> shell) {
-    const ShellSprings& own = state.shell_springs;
-    for (uint32_t row = 0; row < own.size(); ++row)
-        if (own.is_used[row] && own.shell[row] == shell) return Row<ShellSprings>(row);
-    return {};
+Row<ShellSprings> springs_of(const ShellRows& state, Row<Structures> structure) {
+    return state.shells.springs[state.shell_of(structure)];
 }
 
-Row<ShellSprings> make_springs(ShellRows& state, Row<Shells> shell, const SpringRoom& room, const char** full) {
+Row<ShellSprings> make_springs(ShellRows& state, Row<Structures> structure, const SpringRoom& room, const char** full) {
     ShellSprings& own = state.shell_springs;
-    CULLET_ASSERT(!find_springs(state, shell).exists(), "shell %u has springs", shell.index);
+    CULLET_ASSERT(!springs_of(state, structure).exists(), "structure %u has springs", structure.index);
     const Row<ShellSprings> row(state.shell_springs.pool.take(1));
     if (!row.exists()) {
         if (full) *full = "limits.shells";
@@ -71,7 +69,8 @@ Row<ShellSprings> make_springs(ShellRows& state, Row<Shells> shell, const Spring
     if (row >= own.size()) own.append(row + 1 - own.size());
     own.clear_rows(row, 1);
     own.is_used[row] = 1;
-    own.shell[row] = shell;
+    own.structure[row] = structure;
+    state.shells.springs[state.shell_of(structure)] = row;
     const char* missing = nullptr;
     for (const Part& part : parts_of(state, room))
         if (!take(part, row) && !missing) missing = part.limit;
@@ -81,32 +80,32 @@ Row<ShellSprings> make_springs(ShellRows& state, Row<Shells> shell, const Spring
     return {};
 }
 
-void release_springs(ShellRows& state, Row<Shells> shell) {
-    if (const Row<ShellSprings> row = find_springs(state, shell); row.exists()) give_back(state, row);
+void release_springs(ShellRows& state, Row<Structures> structure) {
+    if (const Row<ShellSprings> row = springs_of(state, structure); row.exists()) give_back(state, row);
 }
 
-bool copy_springs(ShellRows& state, Row<Shells> source, Row<Shells> copy, const char** full) {
-    const Row<ShellSprings> from = find_springs(state, source);
+bool copy_springs(ShellRows& state, Row<Structures> source, Row<Structures> copy, const char** full) {
+    const Row<ShellSprings> from = springs_of(state, source);
     if (!from.exists()) return true;
+    const ShellView of(state, source), into(state, copy);
     ShellSprings& own = state.shell_springs;
     SpringRoom room;
     // As much spare as new springs have: packs that are full move to the end of the slots.
     room.springs = std::max(own.springs[from].capacity, own.springs[from].count * 9 / 8 + 16);
     const bool has_edges = own.edges[from].capacity > 0;  // springs given by hand belong to no element
-    room.elements = has_edges ? state.shells.elements[copy].capacity : 0;
-    room.vertices = state.shells.vertices[copy].capacity;
+    room.elements = has_edges ? into.elements().capacity : 0;
+    room.vertices = into.vertices().capacity;
     room.slots = std::max(own.slots[from].capacity, own.slots[from].count * 9 / 8 + 16);
     room.has_layers = own.layers[from].capacity > 0;
-    CULLET_ASSERT(room.vertices >= state.shells.vertices[source].count &&
-                      (!has_edges || room.elements >= state.shells.elements[source].count),
-                  "springs of %u vertices do not fit %u", state.shells.vertices[source].count, room.vertices);
+    CULLET_ASSERT(room.vertices >= of.vertex_count() && (!has_edges || room.elements >= of.element_count()),
+                  "springs of %u vertices do not fit %u", of.vertex_count(), room.vertices);
     const Row<ShellSprings> to = make_springs(state, copy, room, full);
     if (!to.exists()) return false;
     std::array<Range, 7> ranges;
     const auto parts = parts_of(state);
     for (size_t k = 0; k < parts.size(); ++k) ranges[k] = parts[k].range[to];
     own.copy_rows(own, from, to, 1);
-    own.shell[to] = copy;
+    own.structure[to] = copy;
     for (size_t k = 0; k < parts.size(); ++k) {
         const Range found = parts[k].range[from];
         Range& range = parts[k].range[to];

@@ -28,9 +28,8 @@ inline SpringLayout spring_layout(bool has_layers, LayerLayout layout) {
 struct ShellSprings : RangeTable<ShellSprings> {
     using RangeTable::RangeTable;
     static constexpr const char* kName = "shell_springs";
-    static constexpr bool kIsOptional = true;
     Column<uint8_t> is_used{*this, "is_used"};
-    Column<Row<Shells>> shell{*this, "shell"};  // one row a shell at most
+    Column<Row<Structures>> structure{*this, "structure"};  // whose shell has them: Shells::springs says it again
     Column<Range> springs{*this, "springs"};
     Column<Range> layers{*this, "layers"};            // LayerSprings, row for row of springs; capacity 0: one layer
     Column<Range> edges{*this, "edges"};              // ElementSprings, row for row of the shell's elements
@@ -57,7 +56,6 @@ struct ShellSprings : RangeTable<ShellSprings> {
 struct Springs : RangeTable<Springs, 16> {
     using RangeTable::RangeTable;
     static constexpr const char* kName = "springs";
-    static constexpr bool kIsOptional = true;
     Column<uint32_t> a{*this, "a"};                              // vertices; kNone in both: a row that is not used
     Column<uint32_t> b{*this, "b"};                              // a != b
     Column<uint32_t> element{*this, "element"};                  // the lowest that has the edge, kNone: of no element
@@ -74,7 +72,6 @@ struct Springs : RangeTable<Springs, 16> {
 struct LayerSprings : RangeTable<LayerSprings, 16> {
     using RangeTable::RangeTable;
     static constexpr const char* kName = "layer_springs";
-    static constexpr bool kIsOptional = true;
     Column<float> inner_length{*this, "inner_length", "m"};    // at rest
     Column<float> inner_plastic{*this, "inner_plastic", "m"};  // where the inner skin's force is 0
     Column<float> inner_stiffness{*this, "inner_stiffness", "N/m"};
@@ -91,7 +88,6 @@ struct LayerSprings : RangeTable<LayerSprings, 16> {
 struct ElementSprings : RangeTable<ElementSprings, 16> {
     using RangeTable::RangeTable;
     static constexpr const char* kName = "element_springs";
-    static constexpr bool kIsOptional = true;
     Column<std::array<uint32_t, 3>> spring{*this, "spring"};  // of edge k; kNone: not made yet
     /// For the outer and the inner skin: plastic over cooked length, the mean of the springs that it had when it was
     /// re-meshed. 0: it never was.
@@ -102,7 +98,6 @@ struct ElementSprings : RangeTable<ElementSprings, 16> {
 struct SpringPacks : RangeTable<SpringPacks, 8> {
     using RangeTable::RangeTable;
     static constexpr const char* kName = "spring_packs";
-    static constexpr bool kIsOptional = true;
     Column<uint32_t> first_slot{*this, "first_slot"};  // relative to the shell's slots
     Column<uint16_t> slot_count{*this, "slot_count"};
     Column<uint16_t> slot_capacity{*this, "slot_capacity"};
@@ -130,13 +125,11 @@ struct alignas(32) LayerSlot {
 struct SpringSlots : RangeTable<SpringSlots> {
     using RangeTable::RangeTable;
     static constexpr const char* kName = "spring_slots";
-    static constexpr bool kIsOptional = true;
     Column<SpringSlot> slot{*this, "slot"};
 };
 struct LayerSlots : RangeTable<LayerSlots> {
     using RangeTable::RangeTable;
     static constexpr const char* kName = "layer_slots";
-    static constexpr bool kIsOptional = true;
     Column<LayerSlot> slot{*this, "slot"};
 };
 
@@ -144,7 +137,6 @@ struct LayerSlots : RangeTable<LayerSlots> {
 struct Twins : RangeTable<Twins, kVerticesPerCell> {
     using RangeTable::RangeTable;
     static constexpr const char* kName = "twins";
-    static constexpr bool kIsOptional = true;
     Column<Float4, Buffers::Two> position{*this, "position", "m"};  // working frame; .w as Vertices.probe
     Column<Vec3> velocity{*this, "velocity", "m/s"};
     Column<float> mass_share{*this, "mass_share", "kg"};  // of each of the two points: a sixth of each element (B1)

@@ -17,29 +17,22 @@ State::State(const Limits& l)
     fragments.append((l.tasks + 1) * kMostParts);
 }
 
-namespace {
-
-// A table that says kIsOptional counts only while it has rows: what came later leaves older scenes their hash.
-template <class T>
-uint64_t hash_of(const T& table, uint64_t hash) {
-    if constexpr (requires { T::kIsOptional; })
-        if (table.size() == 0) return hash;
-    return table.hash(hash);
-}
-
-}  // namespace
-
 uint64_t State::hash() const {
     uint64_t hash = 0;
-    std::apply([&](auto... table) { ((hash = hash_of(this->*table, hash)), ...); }, tables());
+    const auto add = [&](const auto& table) {
+        if (table.size() > 0) hash = table.hash(hash);
+    };
+    std::apply([&](auto... table) { (add(this->*table), ...); }, tables());
     return hash_pools(hash);
 }
 
 // A table grows to what its pool hands out: where no row was ever taken the pool is as new.
 uint64_t State::hash_pools(uint64_t hash) const {
-    const auto all = pools();
-    for (size_t k = 0; k < all.size(); ++k)
-        if (k < first_spring_pool() || shell_springs.size() > 0) hash = all[k]->hash(hash);
+    const auto add = [&](const auto& table) {
+        if constexpr (requires { table.pool; })
+            if (table.size() > 0) hash = table.pool.hash(hash);
+    };
+    std::apply([&](auto... table) { (add(this->*table), ...); }, tables());
     return hash;
 }
 

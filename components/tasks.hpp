@@ -1,5 +1,5 @@
-// Damage tasks: impact in, fragments out. A task works on a shell of its own, a copy of the body's with room to grow;
-// the body itself does not change until the task ends.
+// Damage tasks: impact in, fragments out. A task works on a structure of its own, a copy of the body's with room to
+// grow; the body itself does not change until the task ends.
 #pragma once
 #include "components/shells.hpp"
 #include "engine/system.hpp"
@@ -22,8 +22,8 @@ struct Tasks : Table<Tasks> {
     static constexpr const char* kName = "tasks";
     Column<uint8_t> state{*this, "state"};  // TaskState
     Column<Row<Bodies>> body{*this, "body"};
-    Column<Row<Shells>> source{*this, "source"};  // the body's shell when it was hit
-    Column<Row<Shells>> shell{*this, "shell"};    // the working copy
+    Column<Row<Structures>> source{*this, "source"};    // the body's when it was hit
+    Column<Row<Structures>> working{*this, "working"};  // the copy that the run changes
     Column<uint64_t> opened_frame{*this, "opened_frame"};
     Column<uint32_t> first_contact{*this,
                                    "first_contact"};  // range in TaskContacts, kMostContacts of them reserved a task
@@ -31,29 +31,55 @@ struct Tasks : Table<Tasks> {
     Column<float> approach_speed{*this, "approach_speed", "m/s"};  // of the fastest contact
     Column<Vec3> start_velocity{*this, "start_velocity", "m/s"};   // V of the centre of mass, body axes
     Column<Vec3> start_spin{*this, "start_spin", "rad/s"};         // w, body axes
-    Column<float> time_step{*this, "time_step", "s"};
-    Column<float> damping_time{*this, "damping_time", "s"};        // beta = 0.15 dt
     Column<float> strength_scale{*this, "strength_scale"};         // the game's; infinite strength never cracks
-    Column<float> end_time{*this, "end_time", "s"};                // T of section 6.4
-    Column<float> quiet_time{*this, "quiet_time", "s"};            // 0.4 T
     Column<uint32_t> steps_done{*this, "steps_done"};              // since the last (re)start
     Column<uint32_t> steps_granted{*this, "steps_granted"};        // this frame
-    Column<float> last_event_time{*this, "last_event_time", "s"};  // of the last crack or touch
-    Column<double> start_energy{*this, "start_energy", "J"};       // body's and strikers' kinetic energy at the touch
-    Column<uint8_t> redo_count{*this, "redo_count"};               // 0 to 2
     Column<uint32_t> crack_count{*this, "crack_count"};            // cut edges in this run
     Column<uint32_t> start_count{*this, "start_count"};            // cracks started in this run
     Column<uint8_t> lacks_room{*this, "lacks_room"};               // its shell has none for a crack of this run
-    Column<uint64_t> units_used{*this, "units_used"};
-    Column<uint64_t> units_owed{*this, "units_owed"};  // by cuts, taken from the next grant
-    Column<uint8_t> is_held{*this, "is_held"};         // body (and striker) stand still meanwhile
-    Column<uint8_t> is_late{*this, "is_late"};         // the contact was solved as between rigid bodies meanwhile
+    Column<uint64_t> units_owed{*this, "units_owed"};              // by cuts, taken from the next grant
+    Column<uint8_t> is_held{*this, "is_held"};                     // body (and striker) stand still meanwhile
+    Column<uint8_t> is_late{*this, "is_late"};  // the contact was solved as between rigid bodies meanwhile
     Column<float> load{*this, "load", "N"};  // the run stands for what presses on the body, not for a blow; 0: a blow
     Column<uint32_t> frames_held{*this, "frames_held"};
     Column<uint32_t> part_count{*this, "part_count"};  // components of its shell, once it ended
     // Of a task that was opened before its touch, which is foreseen: it runs, or waits with its result.
     Column<uint64_t> due_frame{*this, "due_frame"};  // of the touch; 0: the touch has come, or nobody foresaw it
 };
+
+/// Row t is the run that works off task t: its clock, its energy, and which part of the body it works on. Quick runs,
+/// which are short hidden runs, have more beside it (QuickRuns).
+struct HiddenRuns : Table<HiddenRuns> {
+    using Table::Table;
+    static constexpr const char* kName = "hidden_runs";
+    Column<float> time_step{*this, "time_step", "s"};
+    Column<float> damping_time{*this, "damping_time", "s"};        // beta = 0.15 dt
+    Column<float> end_time{*this, "end_time", "s"};                // T of section 6.4
+    Column<float> quiet_time{*this, "quiet_time", "s"};            // 0.4 T
+    Column<float> last_event_time{*this, "last_event_time", "s"};  // of the last crack or touch
+    Column<double> start_energy{*this, "start_energy", "J"};       // body's and strikers' kinetic energy at the touch
+    Column<uint8_t> redo_count{*this, "redo_count"};               // 0 to 2
+    /// First elements of the working copy that are the body's, when it is a cut-out (cut_out.hpp): Elements.part says
+    /// which. 0: it is a copy of the whole.
+    Column<uint32_t> cut_elements{*this, "cut_elements"};
+    Column<uint32_t> pack_count{*this, "pack_count"};  // rows in MarkedPacks
+};
+
+inline constexpr uint32_t kMostMarkedPacks = 4096;  // of one run: 32,768 vertices
+
+/// Rows [t kMostMarkedPacks, + pack_count) are packs of 8 vertices of the working copy of task t, rising: of a quick
+/// run its region, of a hidden one on a cut-out the vertices by its border. Bit k is vertex k.
+struct MarkedPacks : Table<MarkedPacks> {
+    using Table::Table;
+    static constexpr const char* kName = "marked_packs";
+    Column<uint32_t> pack{*this, "pack"};
+    Column<uint8_t> awake{*this, "awake"};  // moves; by a border: and is not cut
+    /// Stays where it is, or by a border where the rest of the body has it. Of a region: its velocity is the impulse
+    /// that springs gave it, over its mass, which the piece that it belongs to gets in the end.
+    Column<uint8_t> held{*this, "held"};
+};
+template <>
+inline constexpr uint32_t kRowsPerChunk<MarkedPacks> = 32;
 
 /// Opened before its touch, which has not come yet: the world knows nothing of it.
 inline bool is_ahead(const Tasks& tasks, uint32_t task) {
@@ -138,15 +164,6 @@ struct PatchVertices : Table<PatchVertices> {
     Column<float> force{*this, "force", "N"};  // along the normal, from the displacements before the step
 };
 
-/// Repetitions until the run's time is up, less those done and those that this frame has granted.
-inline uint32_t steps_left(const Tasks& tasks, uint32_t t, uint32_t granted) {
-    const auto total = static_cast<uint32_t>(tasks.end_time[t] / tasks.time_step[t]) + 1;
-    const uint32_t begun = tasks.steps_done[t] + granted;
-    return total > begun ? total - begun : 0;
-}
-inline uint32_t steps_left(const Tasks& tasks, uint32_t t) {
-    return steps_left(tasks, t, tasks.steps_granted[t]);
-}
 /// It runs, and has steps left of those granted.
 inline bool task_goes_on(const Tasks& tasks, uint32_t t) {
     return static_cast<TaskState>(tasks.state[t]) == TaskState::Running && tasks.steps_granted[t] > 0;

@@ -64,19 +64,10 @@ uint64_t AnyTable::commit_rows(uint32_t count, uint64_t most) {
     return bytes * (count - from);
 }
 
-bool AnyTable::is_zero(const ColumnInfo& c) const {
-    const auto is_nothing = [](std::byte b) { return b == std::byte{0}; };
-    for (int a = 0; a < c.lanes * c.sides; ++a) {
-        const std::byte* const bytes = column_memory(c, a);
-        if (!std::all_of(bytes, bytes + size_t{size_} * c.row_bytes, is_nothing)) return false;
-    }
-    return true;
-}
-
 uint64_t AnyTable::hash(uint64_t seed) const {
     uint64_t hash = hash_bytes(&size_, sizeof size_, seed);
     for (const ColumnInfo& c : *columns_) {
-        if (!c.is_state() || (c.keep == Keep::Added && is_zero(c))) continue;
+        if (!c.is_state()) continue;
         for (int a = 0; a < c.lanes * c.sides; ++a)
             hash = hash_bytes(column_memory(c, a), size_t{size_} * c.row_bytes, hash);
     }

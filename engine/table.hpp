@@ -27,9 +27,8 @@ namespace cullet {
 
 inline constexpr uint32_t kNone = 0xffffffffu;
 
-/// State is saved, hashed and compared between runs. Added is State that came later: it is hashed while some row of it
-/// is not zero, so that worlds which do not use it keep the hash that they had. Scratch is rebuilt before it is read.
-enum class Keep : uint8_t { State, Added, Scratch };
+/// State is saved, hashed and compared between runs. Scratch is rebuilt before it is read.
+enum class Keep : uint8_t { State, Scratch };
 
 /// Two: a parallel system may read the old side of any row (In) while it writes the new side of its own (Out).
 enum class Buffers : uint8_t { One, Two };
@@ -134,9 +133,6 @@ class AnyTable {
     std::string describe_value(const ColumnInfo& column, int array, uint32_t row, uint32_t from = 0) const;
     /// "vertices.velocity[812].y"
     std::string place_of(const ColumnInfo& column, int array, uint32_t row) const;
-
- private:
-    bool is_zero(const ColumnInfo& column) const;
 
  protected:
     explicit AnyTable(uint32_t limit) : limit_(limit), used_(is_reserved_zero() ? 0 : limit) {}
@@ -276,6 +272,26 @@ class Column {
     }
     ColumnMemory memory_;  // first: swap() finds it at the registered offset
     uint32_t limit_;
+};
+
+/// A column of table Owner that takes no row of another table: what goes by several tables' rows cannot mix them up.
+template <class Owner, class T>
+class RowColumn : public Column<T> {
+    using Base = Column<T>;
+    template <class Other>
+    static constexpr bool kIsForeign = !std::is_same_v<Other, Owner>;
+
+ public:
+    using Base::Base;
+    using Base::set;
+    decltype(auto) operator[](uint32_t row) { return Base::operator[](row); }
+    decltype(auto) operator[](uint32_t row) const { return Base::operator[](row); }
+    template <class Other>
+    requires kIsForeign<Other>
+    void operator[](Row<Other> row) const = delete;
+    template <class Other>
+    requires kIsForeign<Other>
+    void set(Row<Other> row, const T& value, int side = 0) = delete;
 };
 
 }  // namespace cullet

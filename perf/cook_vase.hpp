@@ -16,7 +16,7 @@ struct CookedVase {
     explicit CookedVase(const Model& model);
     ShellView view() { return {state, shell}; }
     State state;
-    Row<Shells> shell;
+    Row<Structures> shell;
 };
 
 }  // namespace cullet::perf

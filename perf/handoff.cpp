@@ -14,6 +14,7 @@
 #include "systems/structures/shell/cell_hulls.hpp"
 #include "systems/structures/shell/group_fragments.hpp"
 #include "systems/structures/shell/make_piece.hpp"
+#include "systems/structures/shell/mass_properties.hpp"
 #include "systems/structures/shell/piece_shape.hpp"
 #include "systems/structures/shell/prism.hpp"
 #include "systems/structures/shell/rigid_shape.hpp"
@@ -41,7 +42,7 @@ struct Broken {
                 std::printf("%s\n", built.error().c_str());
                 return;
             }
-            const Row<Shells> cut =
+            const Row<Structures> cut =
                 cut_by_label(state, built.value(), nearest_seed(ShellView(state, built.value()), kPieces, set));
             std::vector<FragmentPart> parts(kMostParts);
             parts.resize(group_fragments(ShellView(state, cut), parts));
@@ -52,31 +53,32 @@ struct Broken {
             release_shell(state, cut);
         }
     }
-    void add(Row<Shells> shell, Vec3 place) {
+    void add(Row<Structures> shell, Vec3 place) {
         const Row<Bodies> body(state.bodies.append(1));
-        state.bodies.shell[body] = shell;
+        state.bodies.structure[body] = shell;
         state.bodies.kind[body] = static_cast<uint8_t>(BodyKind::Dynamic);
         state.bodies.position.set(body, place);
         state.bodies.orientation[body] = {};
         state.bodies.layer[body] = 1;
         state.bodies.mask[body] = ~0u;
-        take_mass_properties(state, body);
+        take_mass_properties(state.bodies, state.structures, body,
+                             radius_of(ShellView(state, state.bodies.structure[body])));
     }
     /// As fill_births and fill_hulls do it; numbers of shapes are spaced for all cells of all pieces.
     void choose(uint32_t b) {
-        const ShellView shell(state, state.bodies.shell[Row<Bodies>(b)]);
-        choose_shape(shell, shell.shells().points[shell.row].first);
+        const ShellView shell(state, state.bodies.structure[Row<Bodies>(b)]);
+        choose_shape(shell, shell.points().first);
         if (shape_of(shell) != ShapeKind::Cells) return empty_piece_cells(shell);
         copy_piece_hulls(shell, shell, 0, false);
-        for (uint32_t c = 0; c < shell.shells().cells[shell.row].count; ++c) choose_hull(shell, c);
+        for (uint32_t c = 0; c < shell.cells().count; ++c) choose_hull(shell, c);
     }
     /// Numbers for the faces of all pieces; how many there are.
     uint32_t number_shapes() {
         uint32_t next = 0;
         for (uint32_t b = 0; b < state.bodies.size(); ++b) {
-            const Row<Shells> shell = state.bodies.shell[Row<Bodies>(b)];
-            const Range cells = state.shells.cells[shell];
-            state.shells.made_shape[shell] = next;
+            const Row<Structures> shell = state.bodies.structure[Row<Bodies>(b)];
+            const Range cells = state.structures.cells[shell];
+            state.structures.made_shape[shell] = next;
             for (uint32_t c = 0; c < cells.count; ++c) state.cells.shape[cells.first + c] = next + c;
             next += cells.count;
         }
@@ -87,8 +89,8 @@ struct Broken {
 };
 
 std::span<const ConvexPiece> pieces_of(Broken& broken, uint32_t b) {
-    pack_hulls(ShellView(broken.state, broken.state.bodies.shell[Row<Bodies>(b)]));
-    return convex_pieces(broken.state, broken.state.bodies.shell[Row<Bodies>(b)], broken.arena, kFragments);
+    pack_hulls(ShellView(broken.state, broken.state.bodies.structure[Row<Bodies>(b)]));
+    return convex_pieces(broken.state, broken.state.bodies.structure[Row<Bodies>(b)], broken.arena, kFragments);
 }
 
 /// Ours: what the pieces of a fragment cover of each other is found by the next solve, on all threads, and not in it.
@@ -109,7 +111,7 @@ void run_ours(Broken& broken, const std::unique_ptr<RigidWorld>& world, double& 
         for (uint32_t b = 0; b < state.bodies.size(); ++b) {
             broken.arena.reset();
             const Row<Bodies> body(b);
-            RigidDescription description = describe_rigid(state, body, pieces_of(broken, b));
+            RigidDescription description = describe_rigid(state.bodies, state.structures, body, pieces_of(broken, b));
             description.parent = kWhole;
             world->add(b, description);
         }
@@ -155,8 +157,8 @@ double run_bare(Broken& broken) {
             broken.arena.reset();
             const Row<Bodies> body(b);
             btCollisionShape* const shape =
-                make_shape(bare, convex_pieces(state, state.bodies.shell[body], broken.arena),
-                           hull_margin(ShellView(state, state.bodies.shell[body])));
+                make_shape(bare, convex_pieces(state, state.bodies.structure[body], broken.arena),
+                           hull_margin(ShellView(state, state.bodies.structure[body])));
             const Sym3d& i = state.bodies.inertia[body];
             btRigidBody::btRigidBodyConstructionInfo info(
                 static_cast<float>(state.bodies.mass[body]), nullptr, shape,
@@ -176,7 +178,7 @@ double run_computer(Broken& broken) {
     State& state = broken.state;
     std::vector<std::vector<float>> points(state.bodies.size());
     for (uint32_t b = 0; b < state.bodies.size(); ++b) {
-        const ShellView shell(state, state.bodies.shell[Row<Bodies>(b)]);
+        const ShellView shell(state, state.bodies.structure[Row<Bodies>(b)]);
         for (uint32_t v = 0; v < shell.vertex_count(); ++v) {
             if (state.vertices.element[shell.vertex(v)] == kNone) continue;
             for (const Vec3 p :
@@ -209,7 +211,7 @@ bool measure_handoff(const Options& options, Figures& figures) {
     uint32_t kinds[3] = {};
     State& state = broken->state;
     const uint32_t count = state.bodies.size();
-    for (uint32_t b = 0; b < count; ++b) ++kinds[state.shells.shape[state.bodies.shell[Row<Bodies>(b)]]];
+    for (uint32_t b = 0; b < count; ++b) ++kinds[state.structures.shape[state.bodies.structure[Row<Bodies>(b)]]];
     figures.add("fragments", count, "");
     figures.add("boxes", kinds[static_cast<size_t>(ShapeKind::Box)], "");
     figures.add("hulls", kinds[static_cast<size_t>(ShapeKind::Hull)], "");

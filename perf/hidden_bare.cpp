@@ -14,7 +14,7 @@ bool BareHidden::is_supported() {
 }
 
 BareHidden::BareHidden(ShellView shell, float dt, float beta)
-    : dt_(dt), beta_(beta), has_pair_cells_(stores_pairs_once(shell.shells(), shell.row)) {
+    : dt_(dt), beta_(beta), has_pair_cells_(stores_pairs_once(shell.structures(), shell.structure)) {
     const ShellRows& s = shell.state;
     const Range packs = s.shells.packs[shell.row];
     size_t floats = 0;

@@ -36,7 +36,7 @@ struct Sized {
     Sized(const Model& model, float height, uint32_t region_vertices)
         : vase(model), step(vase.state), step_with_rest(vase.state, true) {
         if (!open(vase, height, region_vertices)) return;
-        vertices = vase.state.shells.vertices[vase.state.tasks.shell[0]].count;
+        vertices = vase.state.shells.vertices[vase.state.shell_of(vase.state.tasks.working[0])].count;
     }
 };
 

@@ -37,9 +37,11 @@ void shake(ShellView shell) {
 void open_task(CookedVase& vase) {
     Tasks& tasks = vase.state.tasks;
     tasks.clear_rows(0, 1);
-    tasks.shell[0] = vase.shell;
-    tasks.time_step[0] = vase.state.shells.time_step[vase.shell];
-    tasks.damping_time[0] = 0.15f * tasks.time_step[0];
+    tasks.working[0] = vase.shell;
+    HiddenRuns& runs = vase.state.hidden_runs;
+    runs.clear_rows(0, 1);
+    runs.time_step[0] = vase.state.shells.time_step[vase.state.shell_of(vase.shell)];
+    runs.damping_time[0] = 0.15f * runs.time_step[0];
     link_slopes(vase.view());
 }
 
@@ -78,7 +80,7 @@ ShellView with_pairs_twice(CookedVase& vase) {
     room.blocks = 3 * stiffness.blocks, room.links = 3 * stiffness.links;
     const ShellView copy(state, copy_shell(state, vase.shell, room));
     if (!copy.row.exists()) return copy;
-    state.shells.cells[copy.row].count = 0;
+    state.structures.cells[copy.structure].count = 0;
     return assemble_stiffness(copy) ? copy : ShellView(state, {});
 }
 
@@ -94,14 +96,14 @@ bool measure(const char* name, float height, float edge, const Limits& limits, c
     CookedVase vase(*model);
     open_task(vase);
     const ShellView shell = vase.view();
-    const float dt = vase.state.tasks.time_step[0], beta = vase.state.tasks.damping_time[0];
+    const float dt = vase.state.hidden_runs.time_step[0], beta = vase.state.hidden_runs.damping_time[0];
     OurStep ours(vase.state);
     const double apart = BareHidden::is_supported() ? difference(vase, ours, dt, beta) : 0;
     shake(shell);
     BareHidden bare(shell, dt, beta);
     PlainHidden plain(shell, dt, beta);
     std::unique_ptr<BareHidden> rows;
-    if (BareHidden::is_supported() && stores_pairs_once(shell.shells(), shell.row))
+    if (BareHidden::is_supported() && stores_pairs_once(shell.structures(), shell.structure))
         if (const ShellView twice = with_pairs_twice(vase); twice.row.exists())
             rows = std::make_unique<BareHidden>(twice, dt, beta);
     const uint32_t packs = shell.shells().packs[shell.row].count, chunks = (packs + kChunkPacks - 1) / kChunkPacks;

@@ -79,16 +79,16 @@ bool is_running(const State& state) {
 struct Ending {
     std::vector<FragmentPart> parts{kMostParts};
     std::vector<PartMotion> motions{kMostParts};
-    std::vector<Row<Shells>> shells;
+    std::vector<Row<Structures>> shells;
     uint32_t count = 0;
 
-    void group(State& state) { count = group_fragments(ShellView(state, state.tasks.shell[kTask]), parts); }
+    void group(State& state) { count = group_fragments(ShellView(state, state.tasks.working[kTask]), parts); }
     /// Each part is timed apart.
     template <class Timed>
     void hand_off(State& state, Timed timed) {
-        const ShellView shell(state, state.tasks.shell[kTask]);
-        const HandoffStart start{Vec3d(state.tasks.start_velocity[kTask]), Vec3d(), shell.shells().centre[shell.row],
-                                 kFallSpeed};
+        const ShellView shell(state, state.tasks.working[kTask]);
+        const HandoffStart start{Vec3d(state.tasks.start_velocity[kTask]), Vec3d(),
+                                 shell.structures().centre[shell.structure], kFallSpeed};
         timed([&] { rigid_handoff(shell, start, std::span(parts.data(), count), motions); });
         // The largest part keeps the working shell.
         uint32_t largest = 0;
@@ -97,11 +97,11 @@ struct Ending {
         for (uint32_t p = 0; p < count; ++p)
             timed([&] {
                 if (p != largest && parts[p].element_count >= 6)
-                    shells.push_back(make_piece(state, shell.row, parts[p], 1));
+                    shells.push_back(make_piece(state, shell.structure, parts[p], 1));
             });
     }
     void release(State& state) {
-        for (const Row<Shells> s : shells)
+        for (const Row<Structures> s : shells)
             if (s.exists()) release_shell(state, s);
         shells.clear();
     }
@@ -124,7 +124,7 @@ uint64_t run_whole(Vase& vase, Ending& ending, Open open, Advance advance, Group
     open([&] { open_hit(state, vase.shell, vase.hit); });
     while (is_running(state)) advance();
     group([&] { ending.group(state); });
-    const uint64_t hash = hash_of(ShellView(state, state.tasks.shell[kTask]));
+    const uint64_t hash = hash_of(ShellView(state, state.tasks.working[kTask]));
     ending.hand_off(state, hand_off);
     ending.release(state);
     close_hit(state);
@@ -227,7 +227,7 @@ uint32_t stiffness_slots(const ShellView& shell) {
 Counts count_work(Vase& vase, const BrittleLoop& loop) {
     State& state = vase.state;
     open_hit(state, vase.shell, vase.hit);
-    const ShellView shell(state, state.tasks.shell[kTask]);
+    const ShellView shell(state, state.tasks.working[kTask]);
     Counts counts;
     counts.slots_before = stiffness_slots(shell);
     LoopWorld world{state, state.blows};
@@ -240,9 +240,9 @@ Counts count_work(Vase& vase, const BrittleLoop& loop) {
     counts.slots_after = stiffness_slots(shell);
     const HitReport report = finish_hit(state);
     counts.steps = report.steps, counts.cuts = report.cuts, counts.parts = report.parts;
-    counts.units = uint64_t{report.steps} * units_a_step(state.shells, state.tasks, kTask) +
-                   report.cuts * units_of_crack(state.shells.vertices[vase.shell].count, false) +
-                   state.shells.vertices[vase.shell].count * kUnitsOpen;
+    counts.units = uint64_t{report.steps} * units_a_step(state, kTask) +
+                   report.cuts * units_of_crack(state.shells.vertices[state.shell_of(vase.shell)].count, false) +
+                   state.shells.vertices[state.shell_of(vase.shell)].count * kUnitsOpen;
     close_hit(state);
     return counts;
 }
@@ -259,7 +259,7 @@ void measure_vase(const char* name, float edge, const Options& options, uint32_t
     Vase vase(*model);
     const BrittleLoop loop = make_brittle_loop();
     const Counts counts = count_work(vase, loop);
-    const float dt = vase.state.shells.time_step[vase.shell];
+    const float dt = vase.state.shells.time_step[vase.state.shell_of(vase.shell)];
     BareHidden bare_hidden(ShellView(vase.state, vase.shell), dt, 0.15f * dt);
     LeastTimes bare_times;
 
@@ -284,12 +284,13 @@ void measure_vase(const char* name, float edge, const Options& options, uint32_t
             plain, plain);
     }
     const double bare = bare_times.total(tick);
-    figures.add(prefix + "vertices", vase.state.shells.vertices[vase.shell].count, "");
+    figures.add(prefix + "vertices", vase.state.shells.vertices[vase.state.shell_of(vase.shell)].count, "");
     figures.add(prefix + "steps", counts.steps, "");
     figures.add(prefix + "cut edges", counts.cuts, "");
     figures.add(prefix + "pieces", counts.parts, "");
     figures.add(prefix + "bare steps", 1e3 * bare, "ms");
-    const double intact_steps = double{1} * counts.steps * vase.state.shells.vertices[vase.shell].count;
+    const double intact_steps =
+        double{1} * counts.steps * vase.state.shells.vertices[vase.state.shell_of(vase.shell)].count;
     // The bare steps that the hit made are of the shell as it was then, with the vertices that cracks had added.
     const double growth = static_cast<double>(counts.vertex_steps) / intact_steps;
     figures.add(prefix + "mean vertices / intact ones", growth, "x");
@@ -311,8 +312,10 @@ void measure_vase(const char* name, float edge, const Options& options, uint32_t
             figures.add(prefix + "hand off", 1e3 * m.hand_off, "ms");
             figures.add(prefix + "units", 1e-6 * static_cast<double>(counts.units), "M");
             figures.add(prefix + "whole hit / its units", 1e9 * m.whole() / static_cast<double>(counts.units), "ns");
-            figures.add(prefix + "bare steps / 5 units a vertex",
-                        1e9 * bare / (5.0 * counts.steps * vase.state.shells.vertices[vase.shell].count), "ns");
+            figures.add(
+                prefix + "bare steps / 5 units a vertex",
+                1e9 * bare / (5.0 * counts.steps * vase.state.shells.vertices[vase.state.shell_of(vase.shell)].count),
+                "ns");
         }
         figures.add(prefix + "whole hit" + suffix, 1e3 * m.whole(), "ms");
         // The middle round: this figure is a ratio of neighbours in time, the rest are sums of least times.

@@ -55,7 +55,7 @@ Hit hit_once(const Model& model, float height, FractureMode mode) {
     Hit hit;
     const auto& d = world.contents().data;
     const Profiler& profiler = world.contents().profiler;
-    hit.elements = d.state.shells.elements[d.state.bodies.shell[Row<Bodies>(body.index)]].count;
+    hit.elements = d.state.shells.elements[d.state.shell_of(d.state.bodies.structure[Row<Bodies>(body.index)])].count;
     SphereSettings ball;
     ball.radius = 0.03f, ball.mass = 0.3f;
     ball.pose.position = {0, 0.43f * height, height};

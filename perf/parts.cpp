@@ -88,7 +88,7 @@ bool measure_pieces(uint32_t rounds, Figures& figures) {
     CookedVase vase(*model);
     const HitDescription hit = fall_on_floor(vase.state, vase.shell, normalised(Vec3{0.9f, -1.0f, 0.1f}), kFallSpeed);
     run_hit(vase.state, vase.shell, hit);
-    bool agrees = compare_ways("broken vase of 10,000 elements", ShellView(vase.state, vase.state.tasks.shell[kTask]),
+    bool agrees = compare_ways("broken vase of 10,000 elements", ShellView(vase.state, vase.state.tasks.working[kTask]),
                                rounds, figures);
     close_hit(vase.state);
     cut_out(vase.view(), 100);

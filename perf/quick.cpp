@@ -32,8 +32,8 @@ SpringNet castle_net() {
     SpringNet net;
     if (!model.ok()) return net;
     const Workbench& state = model->contents->state;
-    const Range vertices = state.shells.vertices[model->contents->shell];
-    const Range elements = state.shells.elements[model->contents->shell];
+    const Range vertices = state.shells.vertices[state.shell_of(model->contents->shell)];
+    const Range elements = state.shells.elements[state.shell_of(model->contents->shell)];
     for (uint32_t v = 0; v < vertices.count; ++v) net.points.push_back(state.vertices.rest[vertices.first + v]);
     for (uint32_t e = 0; e < elements.count; ++e)
         for (size_t k = 0; k < 3; ++k) {

@@ -16,11 +16,11 @@ std::string DrawnMeshes::check_changed(World& world) {
         const std::array<uint32_t, 2> now{bodies.generation[b], bodies.view_stamp[b]};
         const bool is_free =
             static_cast<BodyKind>(bodies.kind[b]) == BodyKind::Free;  // such rows keep their shell's number
-        if (seen_[b] == now || is_free || !bodies.shell[b].exists()) continue;
+        if (seen_[b] == now || is_free || !bodies.structure[b].exists()) continue;
         seen_[b] = now;
         ++checked_;
         const Result<void> sound =
-            check_drawn_mesh(ShellView(state, bodies.shell[b]), {state.view_vertices, state.view_indices},
+            check_drawn_mesh(ShellView(state, bodies.structure[b]), {state.view_vertices, state.view_indices},
                              bodies.view_vertices[b], bodies.view_indices[b]);
         if (!sound.ok()) return fmt::format("body {}: {}", b, sound.error());
     }

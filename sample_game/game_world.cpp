@@ -19,8 +19,8 @@ bool is_free(const Bodies& bodies, uint32_t b) {
 }
 
 uint32_t cell_count(const State& state, uint32_t body) {
-    const Row<Shells> shell = state.bodies.shell[body];
-    return shell.exists() ? state.shells.cells[shell].count : 0;
+    const Row<Structures> shell = state.bodies.structure[body];
+    return shell.exists() ? state.structures.cells[shell].count : 0;
 }
 
 void add_moving(Matter& matter, double mass, Vec3 velocity) {
@@ -37,9 +37,9 @@ double spin_energy(const Bodies& bodies, uint32_t b) {
 const char* kind_of_shape(const State& state, uint32_t b) {
     const Bodies& bodies = state.bodies;
     if (bodies.is_sphere[b]) return "sphere";
-    if (!bodies.shell[b].exists())
+    if (!bodies.structure[b].exists())
         return bodies.kind[b] == static_cast<uint8_t>(BodyKind::Kinematic) ? "box" : "triangles";
-    const auto shape = static_cast<ShapeKind>(state.shells.shape[bodies.shell[b]]);
+    const auto shape = static_cast<ShapeKind>(state.structures.shape[bodies.structure[b]]);
     if (shape != ShapeKind::Cells) return shape == ShapeKind::Box ? "box" : "hull";
     return cell_count(state, b) > 1 ? "compound" : "hull";
 }
@@ -55,20 +55,20 @@ FragmentShapes::Ratio ratio_of(std::vector<float> ratios) {
 void count_shapes(const State& state, Report& report) {
     static constexpr const char* kKinds[] = {"cells", "hull", "box"};  // ShapeKind
     const Bodies& bodies = state.bodies;
-    const Shells& shells = state.shells;
+    const Structures& structures = state.structures;
     std::vector<float> boxes[3], hulls[3];
     report.shapes = {{"sphere", 0}, {"hull", 0}, {"compound", 0}, {"box", 0}, {"triangles", 0}};
     for (const char* kind : kKinds) report.fragment_shapes[kind] = {};
     for (uint32_t b = 0; b < bodies.size(); ++b) {
         if (is_free(bodies, b)) continue;
         ++report.shapes[kind_of_shape(state, b)];
-        const Row<Shells> shell = bodies.shell[b];
-        if (!shell.exists() || (!bodies.parent[b].exists() && !(shells.hull_ratio[shell] > 0))) continue;
-        const size_t kind = shells.shape[shell];
+        const Row<Structures> shell = bodies.structure[b];
+        if (!shell.exists() || (!bodies.parent[b].exists() && !(structures.hull_ratio[shell] > 0))) continue;
+        const size_t kind = structures.shape[shell];
         ++report.fragment_shapes[kKinds[kind]].count;
-        if (!(shells.hull_ratio[shell] > 0)) continue;
-        boxes[kind].push_back(shells.box_ratio[shell]);
-        hulls[kind].push_back(shells.hull_ratio[shell]);
+        if (!(structures.hull_ratio[shell] > 0)) continue;
+        boxes[kind].push_back(structures.box_ratio[shell]);
+        hulls[kind].push_back(structures.hull_ratio[shell]);
     }
     for (size_t kind = 0; kind < 3; ++kind) {
         FragmentShapes& found = report.fragment_shapes[kKinds[kind]];
@@ -86,7 +86,7 @@ Matter measure_matter(const World& world) {
     Matter matter;
     for (uint32_t b = 0; b < bodies.size(); ++b) {
         if (is_free(bodies, b)) continue;
-        const bool has_shell = bodies.shell[b].exists();
+        const bool has_shell = bodies.structure[b].exists();
         if (!has_shell && !is_dynamic(bodies, b)) continue;
         matter.mass += bodies.mass[b];
         matter.fragments += born_of(state.fragment_ages, b) > 0;

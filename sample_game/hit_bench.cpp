@@ -60,12 +60,12 @@ double impact_speed(const HitDescription& hit) {
 }
 
 void examine_pieces(State& state, const HitDescription& hit, std::span<const FragmentPart> parts, HitResult& result) {
-    const ShellView shell(state, state.tasks.shell[Row<Tasks>(0)]);
+    const ShellView shell(state, state.tasks.working[Row<Tasks>(0)]);
     std::vector<PartMotion> motions(parts.size());
     HandoffStart start;
     start.velocity = Vec3d(hit.velocity);
     start.spin = Vec3d(hit.spin);
-    start.centre = state.shells.centre[shell.row];
+    start.centre = state.structures.centre[shell.structure];
     start.impact_speed = 1e9;  // no clamps
     const HandoffReport handoff = rigid_handoff(shell, start, parts, motions);
     const double striker = static_cast<double>(result.report.striker_speed_after);
@@ -170,9 +170,9 @@ HitReport HitBench::run(const HitDescription& hit, bool ends_at_first_cut) {
 HitReport HitBench::run_and_keep_cracks(const HitDescription& hit) {
     const FpMode mode;
     const HitReport report = run_hit(*state_, shell_, hit);
-    const Row<Shells> working = state_->tasks.shell[Row<Tasks>(0)];
+    const Row<Structures> working = state_->tasks.working[Row<Tasks>(0)];
     if (!report.broke && !report.dropped && report.cracked) {
-        ++state_->shells.users[working];
+        ++state_->structures.users[working];
         clear_run(ShellView(*state_, working), true);
         drop_stiffness(*state_, working);  // as World does: the next hit assembles it anew
         if (shell_ != intact_) release_shell(*state_, shell_);

@@ -60,14 +60,14 @@ class HitBench {
     void renew();
 
     State& state() { return *state_; }
-    Row<Shells> shell() const { return shell_; }  // the cracked one, where cracks were kept
+    Row<Structures> shell() const { return shell_; }  // the cracked one, where cracks were kept
 
  private:
     Subject subject_;
     uint64_t seed_;
     std::optional<QuickSettings> quick_;
     std::unique_ptr<State> state_;
-    Row<Shells> shell_, intact_;
+    Row<Structures> shell_, intact_;
 };
 
 }  // namespace cullet

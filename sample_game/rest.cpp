@@ -55,9 +55,10 @@ Things gather(const GameWorld& game) {
             BodyRest& rest = things.rest.emplace_back();
             rest.body = id;
             rest.is_asleep = rows.is_asleep[b];
-            const Shells& shells = world.contents().data.state.shells;
-            const bool is_shell = rows.shell[b].exists();
-            const auto shape = is_shell ? static_cast<ShapeKind>(shells.shape[rows.shell[b]]) : ShapeKind::Cells;
+            const Structures& structures = world.contents().data.state.structures;
+            const bool is_shell = rows.structure[b].exists();
+            const auto shape =
+                is_shell ? static_cast<ShapeKind>(structures.shape[rows.structure[b]]) : ShapeKind::Cells;
             rest.is_box = shape == ShapeKind::Box, rest.is_hull = shape == ShapeKind::Hull;
         }
     }

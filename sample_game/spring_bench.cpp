@@ -25,14 +25,15 @@ Limits bench_limits(size_t vertices, size_t elements) {
     return limits;
 }
 
-Row<Shells> make_bench_shell(State& state, size_t vertices, size_t elements, uint32_t spare) {
+Row<Structures> make_bench_shell(State& state, size_t vertices, size_t elements, uint32_t spare) {
     ShellRoom room;
     room.vertices = static_cast<uint32_t>(vertices) + spare;
     room.elements = static_cast<uint32_t>(elements) + kInsertElements * spare;
     room.hinges = kInsertHinges * spare;
-    const Row<Shells> shell = make_shell(state, room);
-    state.shells.vertices[shell].count = static_cast<uint32_t>(vertices);
-    state.shells.elements[shell].count = static_cast<uint32_t>(elements);
+    const Row<Structures> shell = make_shell(state, room);
+    state.shells.vertices[state.shell_of(shell)].count = static_cast<uint32_t>(vertices);
+    state.shells.elements[state.shell_of(shell)].count = static_cast<uint32_t>(elements);
+    state.structures.live_elements[shell] = static_cast<uint32_t>(elements);
     return shell;
 }
 
@@ -70,7 +71,7 @@ void fill_shell(const ShellView& shell, const BenchMesh& mesh, double thickness,
     ShellRows& s = shell.state;
     std::vector<Vec3d> normal(mesh.points.size());
     double edges = 0, area_sum = 0;
-    const double density = s.materials.density[s.shells.material[shell.row]];
+    const double density = s.materials.density[s.structures.material[shell.structure]];
     for (uint32_t e = 0; e < mesh.triangles.size(); ++e) {
         const auto& t = mesh.triangles[e];
         const Vec3d a = mesh.points[t[0]], b = mesh.points[t[1]], c = mesh.points[t[2]], n = cross(b - a, c - a);
@@ -78,7 +79,7 @@ void fill_shell(const ShellView& shell, const BenchMesh& mesh, double thickness,
         s.elements.corner[row] = t;
         s.elements.volume[row] = 0.5 * length(n) * thickness;
         s.elements.mass[row] = density * s.elements.volume[row];
-        s.shells.mass[shell.row] += s.elements.mass[row];
+        s.structures.mass[shell.structure] += s.elements.mass[row];
         area_sum += 0.5 * length(n);
         edges += length(b - a) + length(c - b) + length(a - c);
         for (const uint32_t v : t) {
@@ -95,7 +96,7 @@ void fill_shell(const ShellView& shell, const BenchMesh& mesh, double thickness,
         s.vertices.is_pinned[row] = is_pinned && is_pinned(mesh.points[v]);
     }
     s.shells.thickness[shell.row] = static_cast<float>(thickness);
-    s.shells.area[shell.row] = static_cast<float>(area_sum);
+    s.structures.area[shell.structure] = static_cast<float>(area_sum);
     s.shells.mean_edge[shell.row] = static_cast<float>(edges / (3.0 * static_cast<double>(mesh.triangles.size())));
     link(shell);
 }
@@ -111,7 +112,7 @@ SpringBench::SpringBench(const BenchMesh& mesh, double thickness, const BenchMat
                          const SpringSettings& settings, const std::function<bool(Vec3d)>& is_pinned, uint32_t spare)
     : state_(std::make_unique<State>(bench_limits(mesh.points.size(), mesh.triangles.size()))) {
     shell_ = make_bench_shell(*state_, mesh.points.size(), mesh.triangles.size(), spare);
-    state_->shells.material[shell_] = add_material(*state_, material);
+    state_->structures.material[shell_] = add_material(*state_, material);
     fill_shell(ShellView(*state_, shell_), mesh, thickness, is_pinned);
     springs_ = expect(give_springs(*state_, shell_, settings));
     start_springs(view(), {});
@@ -122,7 +123,7 @@ SpringBench::SpringBench(const std::vector<Vec3d>& points, const std::vector<dou
                          const std::function<bool(uint32_t)>& is_pinned)
     : state_(std::make_unique<State>(bench_limits(points.size(), springs.size()))) {
     shell_ = make_bench_shell(*state_, points.size(), 0, 0);
-    state_->shells.material[shell_] = add_material(*state_, {});
+    state_->structures.material[shell_] = add_material(*state_, {});
     for (uint32_t v = 0; v < points.size(); ++v) {
         state_->vertices.rest.set(row(v), points[v].to_float());
         state_->vertices.mass[row(v)] = masses[v];

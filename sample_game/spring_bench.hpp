@@ -43,8 +43,8 @@ class SpringBench {
     State& state() { return *state_; }
     SpringView view() { return SpringView(*state_, springs_); }
     Row<ShellSprings> springs() const { return springs_; }
-    Row<Shells> shell() const { return shell_; }
-    uint32_t size() const { return state_->shells.vertices[shell_].count; }
+    Row<Structures> shell() const { return shell_; }
+    uint32_t size() const { return state_->shells.vertices[state_->shell_of(shell_)].count; }
     double time_step() const { return double{state_->shell_springs.time_step[springs_]}; }
 
     /// Middle of both layers' points, m.
@@ -58,11 +58,11 @@ class SpringBench {
     void settle(double omega, double seconds);
 
  private:
-    uint32_t row(uint32_t v) const { return state_->shells.vertices[shell_].first + v; }
+    uint32_t row(uint32_t v) const { return state_->shells.vertices[state_->shell_of(shell_)].first + v; }
     void push_loads();
 
     std::unique_ptr<State> state_;
-    Row<Shells> shell_;
+    Row<Structures> shell_;
     Row<ShellSprings> springs_;
     struct Load {
         uint32_t vertex;

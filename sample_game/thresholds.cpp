@@ -116,7 +116,7 @@ double piece_threshold(HitBench& bench, uint32_t placement, double guess) {
 }
 
 /// Vertices of the bench's shell that are crack tips.
-std::vector<uint32_t> tips_of(HitBench& bench, Row<Shells> row) {
+std::vector<uint32_t> tips_of(HitBench& bench, Row<Structures> row) {
     const ShellView shell(bench.state(), row);
     std::vector<uint32_t> tips;
     for (uint32_t v = 0; v < shell.vertex_count(); ++v)
@@ -128,7 +128,7 @@ std::vector<uint32_t> tips_of(HitBench& bench, Row<Shells> row) {
 uint32_t gone_on(HitBench& bench, const HitDescription& hit, const std::vector<uint32_t>& tips) {
     const FpMode mode;
     (void)run_hit(bench.state(), bench.shell(), hit);
-    const ShellView shell(bench.state(), bench.state().tasks.shell[Row<Tasks>(0)]);
+    const ShellView shell(bench.state(), bench.state().tasks.working[Row<Tasks>(0)]);
     uint32_t count = 0;
     for (const uint32_t v : tips)
         count += shell.state.vertices.crack[shell.vertex(v)] != static_cast<uint8_t>(CrackState::Tip);

@@ -27,7 +27,7 @@ constexpr uint32_t kMostSteps = 200'000;        // 70 edges a side need some 30,
 /// couple. The shell of task row 0, as a hit would run it, without a contact.
 struct Plate {
     std::unique_ptr<State> state;
-    ShellView shell() const { return {*state, state->tasks.shell[Row<Tasks>(0)]}; }
+    ShellView shell() const { return {*state, state->tasks.working[Row<Tasks>(0)]}; }
 };
 
 /// `edges` along each upright border, near-equilateral triangles, points moved by up to `unevenness` of an edge each
@@ -51,7 +51,7 @@ Result<Plate> make_plate(uint32_t edges, double unevenness) {
     state.material_traits.append(cooked.material_traits.size());
     state.material_traits.copy_rows(cooked.material_traits, 0, 0, cooked.material_traits.size());
     const char* full = "";
-    const Row<Shells> source = import_shell(state, cooked, model->contents->shell, &full);
+    const Row<Structures> source = import_shell(state, cooked, model->contents->shell, &full);
     if (!source.exists()) return Error{"the plate does not fit its own state"};
     const auto half = static_cast<float>(0.5 * kSide), side = static_cast<float>(kSide),
                rim = 0.1f * side / static_cast<float>(edges);
@@ -94,7 +94,7 @@ double first_frequency(Plate& plate) {
         }
         return sum;
     };
-    const float dt = plate.state->tasks.time_step[Row<Tasks>(0)];
+    const float dt = plate.state->hidden_runs.time_step[Row<Tasks>(0)];
     std::array<double, 2> zeros{};
     double before = amplitude();
     size_t found = 0;
@@ -113,7 +113,7 @@ double frequency_ratio(uint32_t edges, double unevenness) {
     Result<Plate> plate = make_plate(edges, unevenness);
     if (!plate.ok()) return 0;
     const Materials& materials = plate->state->materials;
-    const Row<Materials> glass = plate->state->shells.material[plate->shell().row];
+    const Row<Materials> glass = plate->state->structures.material[plate->shell().structure];
     const double e{materials.young_modulus[glass]}, nu{materials.poisson_ratio[glass]},
         density{materials.density[glass]};
     const double bending = e * kThickness * kThickness * kThickness / (12 * (1 - nu * nu));

@@ -141,7 +141,7 @@ std::vector<Verdict> clamped_disc() {
         const BenchMaterial material;
         SpringBench bench(bench_disc(rings, edge), thickness, material, {},
                           [&](Vec3d p) { return length(p) > border; });
-        const double radius = std::sqrt(double{bench.state().shells.area[bench.shell()]} / kPi);
+        const double radius = std::sqrt(double{bench.state().structures.area[bench.shell()]} / kPi);
         const double wanted = 0.05 * radius;
         const double share = wanted / 0.982;
         const double force = share * share * share * material.young_modulus * thickness / (radius * radius);

@@ -52,7 +52,7 @@ class SoftStrip {
           loop_(make_soft_loop(SpringLayout::OneLayer)) {
         State& s = bench_.state();
         const Row<Bodies> body(s.bodies.append(1));
-        s.bodies.shell[body] = bench_.shell();
+        s.bodies.structure[body] = bench_.shell();
         soft_ = Row<SoftBodies>(s.soft_bodies.append(1));
         s.soft_strikers.append(kMostStrikers);
         s.soft_bodies.is_used[soft_] = s.soft_bodies.is_awake[soft_] = s.soft_bodies.is_elastic[soft_] = 1;

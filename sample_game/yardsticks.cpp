@@ -18,17 +18,18 @@ constexpr double kUnitsAVertex = 5;
 
 std::map<std::string, double> measure_yardsticks(const Model& model) {
     const Workbench& source = model.contents->state;
-    const Range vertices = source.shells.vertices[model.contents->shell];
-    State state(cooking_limits(vertices.capacity, source.shells.elements[model.contents->shell].capacity));
+    const Range vertices = source.shells.vertices[source.shell_of(model.contents->shell)];
+    State state(
+        cooking_limits(vertices.capacity, source.shells.elements[source.shell_of(model.contents->shell)].capacity));
     const char* full = "";
-    const Row<Shells> row = import_shell(state, source, model.contents->shell, &full);
+    const Row<Structures> row = import_shell(state, source, model.contents->shell, &full);
     if (!row.exists() || vertices.count == 0) return {};
     const FpMode mode;
     const ShellView shell(state, row);
     // A slow shake: no denormals, nothing grows.
     for (uint32_t v = 0; v < vertices.count; ++v)
         state.vertices.velocity.set(shell.vertex(v), {0.01f * static_cast<float>(v % 7), 0, 0.01f});
-    const float dt = state.shells.time_step[row];
+    const float dt = state.shells.time_step[state.shell_of(row)];
     uint64_t least = ~uint64_t{0};
     const uint64_t start = now_ns();
     for (uint32_t turn = 0; now_ns() - start < kMeasureFor; ++turn) {

@@ -113,7 +113,7 @@ class DamageModel {
     /// Before that. `Shell(rows, source, spawning)`: the cooked shell, which bodies share, or one of the body's own.
     template <auto Shell>
     DamageModel& spawns_own() {
-        calls_.spawn_shell = [](SoftRows& rows, Row<Shells> source, const Spawning& spawning) {
+        calls_.spawn_shell = [](SoftRows& rows, Row<Structures> source, const Spawning& spawning) {
             return Shell(rows, source, spawning);
         };
         return *this;

@@ -35,7 +35,7 @@ struct TornPieces {
 
 /// A working copy of a body's shell for a task that opens.
 struct WorkingShell {
-    Row<Shells> shell;           // none: it waits, or there is no room
+    Row<Structures> shell;       // none: it waits, or there is no room
     bool waits = false;          // for the task's contacts: its rows are given when they are known
     const char* full = nullptr;  // the limit that left no room
 };
@@ -60,7 +60,7 @@ struct RunLength {
 struct ModelCalls {
     // Cooking and spawning.
     Result<std::shared_ptr<Model::Contents>> (*cook)(Cooking&) = nullptr;
-    Result<Row<Shells>> (*spawn_shell)(SoftRows&, Row<Shells> source, const Spawning&) = nullptr;
+    Result<Row<Structures>> (*spawn_shell)(SoftRows&, Row<Structures> source, const Spawning&) = nullptr;
     Result<ShellRoom> (*spawn_body)(SoftRows&, Row<Bodies>, const Spawning&) = nullptr;
     // Tasks.
     WorkingShell (*working_shell)(BodyRows&, Row<Bodies>) = nullptr;

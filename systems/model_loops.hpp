@@ -54,7 +54,7 @@ class TaskLoop {
     /// The steps that the task was granted. The loop must outlive it.
     LoopRun run(SoftRows& rows, const Blows& blows, uint32_t task, uint32_t zone) const {
         // More is granted than there are steps left: for cuts.
-        const uint32_t left = std::max(1u, steps_left(rows.tasks, task, 0));
+        const uint32_t left = std::max(1u, steps_left(rows, task, 0));
         const uint64_t steps = std::min(rows.tasks.steps_granted[task], left);
         return run_(loop_.get(), rows, blows, {task, zone, steps * cost(rows, task).step, may_be_shared(rows, task)});
     }

@@ -10,7 +10,7 @@
 namespace cullet {
 
 /// In the order in which they run within a slot. Nothing of it changes while a world has it. A model's number is its
-/// place: Shells::damage_model, and the owner of its systems.
+/// place: Structures::damage_model, and the owner of its systems.
 class DamageModels {
  public:
     /// 1 to 255 models, whose names differ.
@@ -26,8 +26,8 @@ class DamageModels {
 
     // ---- each asks the model of the body, of the task's body, or of the shell
 
-    Result<void> check_spawn(const ShellRows& rows, Row<Shells> source, const SpawnSettings& settings) const;
-    Result<Row<Shells>> spawn_shell(SoftRows& rows, Row<Shells> source, const Spawning& spawning) const;
+    Result<void> check_spawn(const ShellRows& rows, Row<Structures> source, const SpawnSettings& settings) const;
+    Result<Row<Structures>> spawn_shell(SoftRows& rows, Row<Structures> source, const Spawning& spawning) const;
     /// Rows that the first hit on the body takes; none: it does not break.
     Result<ShellRoom> spawn_body(SoftRows& rows, Row<Bodies> body, const Spawning& spawning) const;
 
@@ -79,8 +79,8 @@ class DamageModels {
  private:
     /// Null where the model has no such call. What has no shell has no model.
     template <class Call>
-    Call call_of(const ShellRows& rows, Row<Shells> shell, Call ModelCalls::*call) const {
-        return shell.exists() ? models_[rows.shells.damage_model[shell]].calls().*call : nullptr;
+    Call call_of(const ShellRows& rows, Row<Structures> shell, Call ModelCalls::*call) const {
+        return shell.exists() ? models_[rows.structures.damage_model[shell]].calls().*call : nullptr;
     }
     template <class Call>
     Call call_of(const RunRows& rows, Row<Tasks> task, Call ModelCalls::*call) const {
@@ -88,7 +88,7 @@ class DamageModels {
     }
     template <class Call>
     Call call_of(const BodyRows& rows, Row<Bodies> body, Call ModelCalls::*call) const {
-        return call_of(rows, rows.bodies.shell[body], call);
+        return call_of(rows, rows.bodies.structure[body], call);
     }
     std::vector<DamageModel> models_;
 };

@@ -21,11 +21,11 @@ void freeze_soft_bodies(Serial, SoftRows& rows, RigidWorld& rigid, Arena& arena)
 /// Sweeps fast bodies to their time of impact, finds all contacts of this step.
 void detect_contacts(Serial, Step step, RigidWorld& rigid);
 /// Contacts that a breakable body may not survive, sorted by body and speed.
-void predict_impacts(Serial, Step step, const RigidWorld& rigid, const Bodies& bodies, const Shells& shells,
+void predict_impacts(Serial, Step step, const RigidWorld& rigid, const Bodies& bodies, const Structures& structures,
                      RunsNow runs, const DamageSettings& settings, Events<Impact>& impacts);
 /// The first touches of bodies in flight that may break something, up to settings.frames_ahead before they come.
-void foresee_impacts(Serial, Step step, RigidWorld& rigid, const Bodies& bodies, const Shells& shells, RunsNow runs,
-                     const DamageSettings& settings, Arena& arena, Events<ForeseenHit>& foreseen);
+void foresee_impacts(Serial, Step step, RigidWorld& rigid, const Bodies& bodies, const Structures& structures,
+                     RunsNow runs, const DamageSettings& settings, Arena& arena, Events<ForeseenHit>& foreseen);
 /// Looks at tasks that were opened ahead of their touch. If the touch has come as foreseen they go on as tasks of this
 /// step, and their result is due in it. If it came otherwise, or did not come, they are dropped. As foreseen means: the
 /// same striker, the same cell, the speed to a tenth, and nobody faster by more than that.
@@ -83,7 +83,7 @@ void pass_soft(Serial, Step step, SoftRows& rows, RigidWorld& rigid, DamageCount
                Events<FaultEvent>& faults);
 /// Holds bodies whose task goes on. Releases those whose time is up or whose task ended. Names runs whose cracks had no
 /// room.
-void settle_tasks(Serial, Step step, RunTables runs, Bodies& bodies, const Shells& shells, RigidWorld& rigid,
+void settle_tasks(Serial, Step step, RunTables runs, Bodies& bodies, const Structures& structures, RigidWorld& rigid,
                   DamageLedger ledger, Events<TaskEnded>& ended, ToldOfHits told);
 
 /// Regions whose run ended fall asleep: vertices get the body's own motion back, and the springs' rows are given back.
@@ -182,7 +182,7 @@ void check_energy(Of<Tasks> task, RunRows& rows, const Blows& blows);
 /// Patch springs, from the places before the step, softened as the region is.
 void push_region_patches(Of<Tasks> task, RunRows& rows);
 /// integrate_springs, or integrate_layers, for the region's packs.
-void integrate_region(Rows<AwakePacks> packs, Of<Tasks> task, Turn turn, InChunks<RunRows> rows);
+void integrate_region(Rows<MarkedPacks> packs, Of<Tasks> task, Turn turn, InChunks<RunRows> rows);
 /// What is held goes back, patches push, strikers move. The run ends after its steps.
 void end_region_step(Of<Tasks> task, RunRows& rows);
 /// Splits what has stretched too far (C3 to C5, paper mode).

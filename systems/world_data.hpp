@@ -41,7 +41,7 @@ struct StiffnessWanted {
     Row<Tasks> task;
     uint32_t first_pack;
 };
-/// Rows of AwakePacks of a region that wakes in this step, from this one on: a chunk of them.
+/// Rows of MarkedPacks of a region that wakes in this step, from this one on: a chunk of them.
 struct RegionPart {
     Row<Tasks> task;
     uint32_t first_row;
@@ -181,10 +181,10 @@ inline auto queues_between(const LimitSettings& limits, const State& state) {
     const uint32_t tasks = limits.open_hits, bodies = limits.bodies;
     return Queues(QueueOf<Impact>{1u << 16}, QueueOf<ForeseenHit>{kMostFlights}, QueueOf<TaskOpened>{tasks},
                   QueueOf<StiffnessWanted>{state.stiffness_packs.limit() / kRowsPerChunk<StiffnessPacks> + tasks},
-                  QueueOf<RegionPart>{state.awake_packs.limit() / kRowsPerChunk<AwakePacks>}, QueueOf<TaskEnded>{tasks},
-                  QueueOf<Break>{bodies + tasks}, QueueOf<Birth>{2 * (bodies + tasks) + limits.debris},
-                  QueueOf<HullWanted>{state.cells.limit()}, QueueOf<ShellChanged>{2 * bodies + tasks},
-                  QueueOf<Crushed>{bodies});
+                  QueueOf<RegionPart>{state.marked_packs.limit() / kRowsPerChunk<MarkedPacks>},
+                  QueueOf<TaskEnded>{tasks}, QueueOf<Break>{bodies + tasks},
+                  QueueOf<Birth>{2 * (bodies + tasks) + limits.debris}, QueueOf<HullWanted>{state.cells.limit()},
+                  QueueOf<ShellChanged>{2 * bodies + tasks}, QueueOf<Crushed>{bodies});
 }
 /// What the game reads after the step; emptied when the next one begins. Each has a `place`.
 inline auto queues_told(const LimitSettings& limits, const State& state) {

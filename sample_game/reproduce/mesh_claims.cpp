@@ -79,9 +79,9 @@ Result<Claim> figure_5(Bench& bench) {
     const FpMode mode;
     HitBench hits(Subject::Vase, vase->model);
     State& state = hits.state();
-    const uint32_t before = state.shells.vertices[hits.shell()].count;
+    const uint32_t before = state.shells.vertices[state.shell_of(hits.shell())].count;
     const HitReport report = run_hit(state, hits.shell(), hits.blow(0, vase->hit_speed));
-    const Remeshed broken(ShellView(state, state.tasks.shell[0]), before);
+    const Remeshed broken(ShellView(state, state.tasks.working[0]), before);
     close_hit(state);
     claim.ours = fmt::format(
         "A vase of {} vertices at {} m/s: {} edges cut and {} vertices put on edges in a run of {} steps, where a "

@@ -32,7 +32,8 @@ void count_pieces(GameWorld& game, SceneRun& run) {
     const State& state = game.world().contents().data.state;
     double all = 0, largest = 0, debris = 0;
     for (uint32_t b = 0; b < state.bodies.size(); ++b) {
-        if (state.bodies.kind[b] == static_cast<uint8_t>(BodyKind::Free) || !state.bodies.shell[b].exists()) continue;
+        if (state.bodies.kind[b] == static_cast<uint8_t>(BodyKind::Free) || !state.bodies.structure[b].exists())
+            continue;
         ++run.pieces;
         all += state.bodies.mass[b];
         largest = std::max(largest, static_cast<double>(state.bodies.mass[b]));

@@ -333,7 +333,7 @@ int body_remove(lua_State* lua) {
     const Bodies& rows = world.contents().data.state.bodies;
     const double mass = living(lua, "body:remove", world.mass(body));
     const bool counts =
-        rows.shell[body.index].exists() || rows.kind[body.index] == static_cast<uint8_t>(BodyKind::Dynamic);
+        rows.structure[body.index].exists() || rows.kind[body.index] == static_cast<uint8_t>(BodyKind::Dynamic);
     check(lua, "body:remove", world.remove(body));
     Stage& stage = script_of(lua).stage();
     if (counts) stage.sums.mass_put_in -= mass;

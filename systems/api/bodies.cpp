@@ -73,7 +73,7 @@ Result<void> World::set_pose(BodyId id, const Pose& pose) {
     if (!body.exists()) return stale("body", id.index);
     if (const Result<void> valid = check_pose(pose); !valid) return valid;
     Bodies& bodies = d.state.bodies;
-    if (static_cast<BodyKind>(bodies.kind[body]) == BodyKind::Static && !bodies.shell[body].exists())
+    if (static_cast<BodyKind>(bodies.kind[body]) == BodyKind::Static && !bodies.structure[body].exists())
         return Error{"body " + std::to_string(id.index) +
                      " is made of static triangles in world coordinates; remove it and add it where it is to stand."};
     if (contents_->recorder) contents_->recorder->set_pose(id, pose);

@@ -1,5 +1,5 @@
 // What a snapshot's rows must be before a system may follow them. First every finite number, then ranges and users,
-// then each table by the rules below, then the shells by the rules of cooked ones.
+// then each table by the rules below, then the structures by the rules of cooked ones.
 #include <algorithm>
 
 #include "systems/api/snapshot.hpp"
@@ -43,14 +43,14 @@ bool is_body(const State& s, uint32_t b) {
     return b < s.bodies.size() && static_cast<BodyKind>(s.bodies.kind[b]) != BodyKind::Free;
 }
 // Of a merged fragment, which is its drawn mesh alone.
-bool is_of_scenery(const State& s, uint32_t shell) {
+bool is_of_scenery(const State& s, uint32_t structure) {
     for (uint32_t b = 0; b < s.bodies.size(); ++b)
-        if (s.bodies.kind[b] == static_cast<uint8_t>(BodyKind::Scenery) && s.bodies.shell[b].index == shell)
+        if (s.bodies.kind[b] == static_cast<uint8_t>(BodyKind::Scenery) && s.bodies.structure[b].index == structure)
             return true;
     return false;
 }
-bool is_shell(const State& s, uint32_t shell) {
-    return shell < s.shells.size() && s.shells.users[shell] > 0;
+bool is_structure(const State& s, uint32_t structure) {
+    return structure < s.structures.size() && s.structures.users[structure] > 0;
 }
 bool is_task(const State& s, uint32_t t) {
     return t < s.tasks.size() && static_cast<TaskState>(s.tasks.state[t]) != TaskState::Free;
@@ -85,23 +85,55 @@ class RangeCheck {
     std::vector<std::pair<uint32_t, uint32_t>> taken_;
 };
 
+/// Each has a row of its own in the table of its kind, and a shell that has springs is the one that they name.
+void check_structures(Checker& check) {
+    const State& s = check.state;
+    const Structures& structures = s.structures;
+    std::vector<uint8_t> is_named(s.shells.size(), 0);
+    for (uint32_t row = 0; row < structures.size() && check.is_sound(); ++row) {
+        if (!is_structure(s, row)) continue;
+        check.expect(structures.pool.is_taken(row, 1),
+                     Checker::place(structures, "users", row) + " names users of a free row");
+        check.expect(structures.kind[row] == static_cast<uint8_t>(StructureKind::Shell),
+                     Checker::place(structures, "kind", row) + " is " + std::to_string(structures.kind[row]));
+        const uint32_t shell = structures.rows[row];
+        check.expect(shell < s.shells.size() && s.shells.pool.is_taken(shell, 1) && !is_named[shell]++,
+                     Checker::place(structures, "rows", row) + " is " + std::to_string(shell) +
+                         ", no shell, or that of another structure");
+        if (!check.is_sound()) return;
+        const Row<ShellSprings> springs = s.shells.springs[shell];
+        const bool fits = !springs.exists() || (springs < s.shell_springs.size() && s.shell_springs.is_used[springs] &&
+                                                s.shell_springs.structure[springs] == row);
+        check.expect(fits, Checker::place(s.shells, "springs", shell) + " is " + std::to_string(springs.index) +
+                               ", not the springs of structure " + std::to_string(row));
+    }
+    const ShellSprings& springs = s.shell_springs;
+    for (uint32_t row = 0; row < springs.size() && check.is_sound(); ++row)
+        check.expect(!springs.is_used[row] || (is_structure(s, springs.structure[row]) &&
+                                               s.shells.springs[s.shell_of(springs.structure[row])] == row),
+                     Checker::place(springs, "structure", row) + " is " + std::to_string(springs.structure[row].index) +
+                         ", which does not have these springs");
+}
+
 void check_ranges(Checker& check) {
     const State& s = check.state;
-    const Shells& shells = s.shells;
-    const auto of_shells = [&](const AnyTable& table, const RangePool& pool, const Column<Range>& column) {
+    const auto of_structures = [&](const AnyTable& table, const RangePool& pool, auto&& range_of) {
         RangeCheck ranges(check, table, pool);
-        for (uint32_t row = 0; row < shells.size(); ++row)
-            if (is_shell(s, row)) ranges.add("shell", row, column[row]);
+        for (uint32_t row = 0; row < s.structures.size(); ++row)
+            if (is_structure(s, row)) ranges.add("structure", row, range_of(Row<Structures>(row)));
         ranges.finish();
     };
-    of_shells(s.vertices, s.vertices.pool, shells.vertices);
-    of_shells(s.elements, s.elements.pool, shells.elements);
-    of_shells(s.hinges, s.hinges.pool, shells.hinges);
-    of_shells(s.stiffness_packs, s.stiffness_packs.pool, shells.packs);
-    of_shells(s.stiffness_blocks, s.stiffness_blocks.pool, shells.blocks);
-    of_shells(s.stiffness_links, s.stiffness_links.pool, shells.links);
-    of_shells(s.cells, s.cells.pool, shells.cells);
-    of_shells(s.hull_points, s.hull_points.pool, shells.points);
+    const auto of_shells = [&](const AnyTable& table, const RangePool& pool, const auto& column) {
+        of_structures(table, pool, [&](Row<Structures> row) { return column[s.shell_of(row)]; });
+    };
+    of_shells(s.vertices, s.vertices.pool, s.shells.vertices);
+    of_shells(s.elements, s.elements.pool, s.shells.elements);
+    of_shells(s.hinges, s.hinges.pool, s.shells.hinges);
+    of_shells(s.stiffness_packs, s.stiffness_packs.pool, s.shells.packs);
+    of_shells(s.stiffness_blocks, s.stiffness_blocks.pool, s.shells.blocks);
+    of_shells(s.stiffness_links, s.stiffness_links.pool, s.shells.links);
+    of_structures(s.cells, s.cells.pool, [&](Row<Structures> row) { return s.structures.cells[row]; });
+    of_structures(s.hull_points, s.hull_points.pool, [&](Row<Structures> row) { return s.structures.points[row]; });
     const ShellSprings& springs = s.shell_springs;
     const auto of_springs = [&](const AnyTable& table, const RangePool& pool, const Column<Range>& column) {
         RangeCheck ranges(check, table, pool);
@@ -125,9 +157,6 @@ void check_ranges(Checker& check) {
     of_bodies(s.view_vertices, s.view_vertices.pool, s.bodies.view_vertices);
     of_bodies(s.view_indices, s.view_indices.pool, s.bodies.view_indices);
     check.expect(s.triangle_springs.size() == s.elements.size(), "triangle_springs and elements differ in rows");
-    for (uint32_t row = 0; row < shells.size(); ++row)
-        check.expect(!is_shell(s, row) || s.shells.pool.is_taken(row, 1),
-                     Checker::place(shells, "users", row) + " names users of a free row");
     for (uint32_t b = 0; b < s.bodies.size(); ++b)
         check.expect(!is_body(s, b) || s.bodies.pool.is_taken(b, 1),
                      Checker::place(s.bodies, "kind", b) + " names a body in a free row");
@@ -137,8 +166,9 @@ void check_ranges(Checker& check) {
 void check_damage_models(Checker& check) {
     const State& s = check.state;
     for (uint32_t row = 0; row < s.shells.size(); ++row)
-        if (is_shell(s, row))
-            check.expect_row(s.shells, "damage_model", row, s.shells.damage_model[row], check.models.size(), false);
+        if (is_structure(s, row))
+            check.expect_row(s.structures, "damage_model", row, s.structures.damage_model[row], check.models.size(),
+                             false);
 }
 
 void check_bodies(Checker& check) {
@@ -150,13 +180,14 @@ void check_bodies(Checker& check) {
         if (!is_body(s, b)) continue;
         check.expect_row(bodies, "model", b, bodies.model[b], s.models.size(), true);
         check.expect_row(bodies, "parent", b, bodies.parent[b], bodies.size(), true);
-        check.expect(!bodies.shell[b].exists() || is_shell(s, bodies.shell[b]),
-                     Checker::place(bodies, "shell", b) + " is " + std::to_string(bodies.shell[b].index) +
-                         ", which is no shell");
+        check.expect(!bodies.structure[b].exists() || is_structure(s, bodies.structure[b]),
+                     Checker::place(bodies, "structure", b) + " is " + std::to_string(bodies.structure[b].index) +
+                         ", which is no structure");
         if (!check.is_sound()) return;  // rows that are not there are not looked into
         const bool is_scenery = bodies.kind[b] == static_cast<uint8_t>(BodyKind::Scenery);
-        check.expect(!bodies.shell[b].exists() || is_scenery || s.shells.points[bodies.shell[b]].capacity > 0,
-                     Checker::place(bodies, "shell", b) + " has no hulls");
+        check.expect(
+            !bodies.structure[b].exists() || is_scenery || s.structures.points[bodies.structure[b]].capacity > 0,
+            Checker::place(bodies, "structure", b) + " has no hulls");
         const uint32_t task = bodies.task[b];
         check.expect(task == kNone || (is_task(s, task) && s.tasks.body[task] == b),
                      Checker::place(bodies, "task", b) + " is " + std::to_string(task) + ", not an open task of it");
@@ -169,16 +200,17 @@ void check_bodies(Checker& check) {
                      Checker::place(bodies, "pins", b) + " are rows " + std::to_string(pins.first) + " + " +
                          std::to_string(pins.count) + " of " + std::to_string(s.pin_boxes.size()));
         const uint8_t owed = bodies.is_owed_births[b];
-        check.expect(owed <= kOwedDrawing && (owed == 0 || bodies.shell[b].exists()),
+        check.expect(owed <= kOwedDrawing && (owed == 0 || bodies.structure[b].exists()),
                      Checker::place(bodies, "is_owed_births", b) + " is " + std::to_string(owed) + ", not 0 to " +
-                         std::to_string(kOwedDrawing) + ", and 0 of what has no shell");
+                         std::to_string(kOwedDrawing) + ", and 0 of what has no structure");
         const Range vertices = bodies.view_vertices[b], indices = bodies.view_indices[b];
         uint64_t runs = 0;
         for (const uint32_t count : bodies.run_indices[b]) runs += count;
         check.expect(runs == indices.count, Checker::place(bodies, "run_indices", b) + " add up to " +
                                                 std::to_string(runs) + "; the body has " +
                                                 std::to_string(indices.count) + " indices");
-        const uint32_t elements = bodies.shell[b].exists() ? s.shells.elements[bodies.shell[b]].count : 0;
+        const uint32_t elements =
+            bodies.structure[b].exists() ? s.shells.elements[s.shell_of(bodies.structure[b])].count : 0;
         for (uint32_t i = 0; i < indices.count && check.is_sound(); ++i) {
             check.expect_row(s.view_indices, "index", indices.first + i, s.view_indices.index[indices.first + i],
                              vertices.count, false);
@@ -193,9 +225,9 @@ void check_models(Checker& check) {
     const Models& models = check.state.models;
     for (uint32_t m = 0; m < models.size(); ++m) {
         check.expect_flag(models, models.is_used, "is_used", m);
-        check.expect(!models.is_used[m] || is_shell(check.state, models.shell[m]),
-                     Checker::place(models, "shell", m) + " is " + std::to_string(models.shell[m].index) +
-                         ", which is no shell");
+        check.expect(!models.is_used[m] || is_structure(check.state, models.structure[m]),
+                     Checker::place(models, "structure", m) + " is " + std::to_string(models.structure[m].index) +
+                         ", which is no structure");
     }
 }
 
@@ -203,7 +235,7 @@ void check_models(Checker& check) {
 void check_contacts(Checker& check, uint32_t t) {
     const State& s = check.state;
     const uint32_t first = s.tasks.first_contact[t], count = s.tasks.contact_count[t];
-    const uint32_t vertices = s.shells.vertices[s.tasks.shell[t]].count;
+    const uint32_t vertices = s.shells.vertices[s.shell_of(s.tasks.working[t])].count;
     check.expect(first == t * kMostContacts && count <= kMostContacts, Checker::place(s.tasks, "first_contact", t) +
                                                                            " is " + std::to_string(first) + " for " +
                                                                            std::to_string(count) + " contacts");
@@ -230,10 +262,11 @@ void check_contacts(Checker& check, uint32_t t) {
 /// with half its step, and once more.
 void check_length(Checker& check, uint32_t t) {
     const Tasks& tasks = check.state.tasks;
-    const float step = tasks.time_step[t], end = tasks.end_time[t];
+    const HiddenRuns& runs = check.state.hidden_runs;
+    const float step = runs.time_step[t], end = runs.end_time[t];
     check.expect(step >= kShortestStep / 4 && step <= 1,
-                 Checker::place(tasks, "time_step", t) + " is " + std::to_string(step) + " s, not from 2.5e-13 to 1");
-    check.expect(end >= 0 && end <= 4 * kMostSteps * step, Checker::place(tasks, "end_time", t) + " is " +
+                 Checker::place(runs, "time_step", t) + " is " + std::to_string(step) + " s, not from 2.5e-13 to 1");
+    check.expect(end >= 0 && end <= 4 * kMostSteps * step, Checker::place(runs, "end_time", t) + " is " +
                                                                std::to_string(end) + " s; a step is " +
                                                                std::to_string(step) + " s");
     check.expect(tasks.units_owed[t] <= kMostUnits,
@@ -243,7 +276,8 @@ void check_length(Checker& check, uint32_t t) {
 void check_tasks(Checker& check) {
     const State& s = check.state;
     const Tasks& tasks = s.tasks;
-    check.expect(tasks.size() == tasks.limit() && s.task_contacts.size() == s.task_contacts.limit() &&
+    check.expect(tasks.size() == tasks.limit() && s.hidden_runs.size() == tasks.limit() &&
+                     s.task_contacts.size() == s.task_contacts.limit() &&
                      s.patch_vertices.size() == s.patch_vertices.limit() &&
                      s.queued_hits.size() == s.queued_hits.limit() && s.fragments.size() == s.fragments.limit(),
                  "tables of hits do not have the rows of their limits");
@@ -258,18 +292,19 @@ void check_tasks(Checker& check) {
         check.expect(
             is_body(s, body) && s.bodies.task[body] == t,
             Checker::place(tasks, "body", t) + " is " + std::to_string(body.index) + ", which has no such task");
-        check.expect(is_shell(s, tasks.shell[t]) && is_shell(s, tasks.source[t]) && tasks.shell[t] != tasks.source[t],
-                     Checker::place(tasks, "shell", t) + " is " + std::to_string(tasks.shell[t].index) + " of " +
-                         std::to_string(tasks.source[t].index) + ", which are not two shells");
+        check.expect(is_structure(s, tasks.working[t]) && is_structure(s, tasks.source[t]) &&
+                         tasks.working[t] != tasks.source[t],
+                     Checker::place(tasks, "working", t) + " is " + std::to_string(tasks.working[t].index) + " of " +
+                         std::to_string(tasks.source[t].index) + ", which are not two structures");
         if (!check.is_sound()) return;
-        check.expect(s.shells.users[tasks.shell[t]] == 1, Checker::place(tasks, "shell", t) + " is " +
-                                                              std::to_string(tasks.shell[t].index) +
-                                                              ", which is not the hit's alone");
-        check.expect(s.bodies.shell[body] == tasks.source[t],
+        check.expect(s.structures.users[tasks.working[t]] == 1, Checker::place(tasks, "working", t) + " is " +
+                                                                    std::to_string(tasks.working[t].index) +
+                                                                    ", which is not the hit's alone");
+        check.expect(s.bodies.structure[body] == tasks.source[t],
                      Checker::place(tasks, "source", t) + " is " + std::to_string(tasks.source[t].index) +
-                         ", not the shell of its body " + std::to_string(body.index));
+                         ", not the structure of its body " + std::to_string(body.index));
         const std::string lacking = check.models.trouble_of_task(s, t);
-        check.expect(lacking.empty(), Checker::place(tasks, "shell", t) + " " + lacking);
+        check.expect(lacking.empty(), Checker::place(tasks, "working", t) + " " + lacking);
         check.expect_flag(tasks, tasks.is_held, "is_held", t);
         check.expect_flag(tasks, tasks.is_late, "is_late", t);
         check.expect_flag(tasks, tasks.lacks_room, "lacks_room", t);
@@ -280,8 +315,8 @@ void check_tasks(Checker& check) {
     for (uint32_t q = 0; q < queued.size() && check.is_sound(); ++q) {
         check.expect_flag(queued, queued.is_used, "is_used", q);
         if (!queued.is_used[q]) continue;
-        check.expect(is_body(s, queued.body[q]) && s.bodies.shell[queued.body[q]].exists(),
-                     Checker::place(queued, "body", q) + " is no body that has a shell");
+        check.expect(is_body(s, queued.body[q]) && s.bodies.structure[queued.body[q]].exists(),
+                     Checker::place(queued, "body", q) + " is no body that has a structure");
         check.expect(!queued.striker[q].exists() || is_body(s, queued.striker[q]),
                      Checker::place(queued, "striker", q) + " is no body");
     }
@@ -300,9 +335,9 @@ void check_blows(Checker& check) {
             check.expect_flag(blows, *flag, "is_taken, is_paid or goes_on", b);
         const uint32_t body = blows.body[b];
         const bool is_for_all = body == kNone && kind != BlowKind::Push && !blows.is_taken[b];
-        const bool has_shell = is_body(s, body) && s.bodies.shell[body].exists();
-        const bool may_lack_shell = is_body(s, body) && kind == BlowKind::Push && !blows.is_taken[b];
-        check.expect(is_for_all || has_shell || may_lack_shell,
+        const bool has_structure = is_body(s, body) && s.bodies.structure[body].exists();
+        const bool may_lack_structure = is_body(s, body) && kind == BlowKind::Push && !blows.is_taken[b];
+        check.expect(is_for_all || has_structure || may_lack_structure,
                      Checker::place(blows, "body", b) + " is " + std::to_string(body) + ", which it cannot hit");
         const uint32_t task = blows.task[b];
         check.expect(
@@ -320,38 +355,38 @@ void check_blows(Checker& check) {
     }
 }
 
-/// Shells are given back when their last user goes: the count must be true.
+/// Structures are given back when their last user goes: the count must be true.
 void check_users(Checker& check) {
     const State& s = check.state;
-    std::vector<uint32_t> users(s.shells.size(), 0);
-    const auto use = [&](uint32_t shell) {
-        if (shell < users.size()) ++users[shell];
+    std::vector<uint32_t> users(s.structures.size(), 0);
+    const auto use = [&](uint32_t structure) {
+        if (structure < users.size()) ++users[structure];
     };
     for (uint32_t m = 0; m < s.models.size(); ++m)
-        if (s.models.is_used[m]) use(s.models.shell[m]);
+        if (s.models.is_used[m]) use(s.models.structure[m]);
     for (uint32_t b = 0; b < s.bodies.size(); ++b)
-        if (is_body(s, b)) use(s.bodies.shell[b]);
+        if (is_body(s, b)) use(s.bodies.structure[b]);
     for (uint32_t t = 0; t < s.tasks.size(); ++t)
-        if (is_task(s, t)) use(s.tasks.shell[t]), use(s.tasks.source[t]);
+        if (is_task(s, t)) use(s.tasks.working[t]), use(s.tasks.source[t]);
     for (uint32_t row = 0; row < users.size(); ++row)
-        check.expect(s.shells.users[row] == users[row], Checker::place(s.shells, "users", row) + " is " +
-                                                            std::to_string(s.shells.users[row]) + ", but " +
-                                                            std::to_string(users[row]) + " name the shell");
+        check.expect(s.structures.users[row] == users[row], Checker::place(s.structures, "users", row) + " is " +
+                                                                std::to_string(s.structures.users[row]) + ", but " +
+                                                                std::to_string(users[row]) + " name the structure");
 }
 
 /// Of a merged fragment, which is drawn and no more. No one else may name it.
-bool has_no_rows(const Shells& shells, uint32_t shell) {
-    for (const auto* ranges : {&shells.vertices, &shells.elements, &shells.hinges, &shells.packs, &shells.blocks,
-                               &shells.links, &shells.cells, &shells.points}) {
-        const Range range = (*ranges)[shell];
-        if (range.count > 0 || range.capacity > 0) return false;
-    }
-    return shells.users[shell] == 1 && shells.shape_points[shell] == 0 && shells.dead_elements[shell] == 0;
+bool has_no_rows(const State& s, Row<Structures> structure) {
+    bool has_none = true;
+    ShellRows::for_each_range(s, structure, [&](const Range& range, const auto&, auto, const char*) {
+        has_none = has_none && range.count == 0 && range.capacity == 0;
+    });
+    return has_none && s.structures.users[structure] == 1 && s.structures.shape_points[structure] == 0 &&
+           s.structures.live_elements[structure] == 0 && s.shells.dead_elements[s.shell_of(structure)] == 0;
 }
 
-bool is_part_of_body(const DamageModels& models, const State& s, uint32_t shell) {
+bool is_part_of_body(const DamageModels& models, const State& s, uint32_t structure) {
     for (uint32_t t = 0; t < s.tasks.size(); ++t)
-        if (is_task(s, t) && s.tasks.shell[t] == shell && models.is_part(s, t)) return true;
+        if (is_task(s, t) && s.tasks.working[t] == structure && models.is_part(s, t)) return true;
     return false;
 }
 
@@ -361,21 +396,21 @@ Result<void> check_state(const DamageModels& models, const State& state, const s
     Checker check{state, models, name, {}};
     const std::string not_finite = state.validate();
     check.expect(not_finite.empty(), not_finite);
-    for (auto* look :
-         {check_ranges, check_damage_models, check_models, check_tasks, check_bodies, check_blows, check_users})
+    for (auto* look : {check_structures, check_ranges, check_damage_models, check_models, check_tasks, check_bodies,
+                       check_blows, check_users})
         if (check.is_sound()) look(check);
     if (!check.is_sound()) return Error{check.trouble};
     if (const Result<void> valid = check_material_rows(state); !valid)
         return Error{name + ": " + valid.error() + " " + kAdvice};
     auto& rows = const_cast<State&>(state);  // views are of states that may change; nothing is changed
-    for (uint32_t row = 0; row < state.shells.size(); ++row) {
-        if (!is_shell(state, row)) continue;
-        if (state.shells.material[row] >= state.materials.size())
-            return Error{name + ": " + Checker::place(state.shells, "material", row) + " is " +
-                         std::to_string(state.shells.material[row].index) + ", of " +
+    for (uint32_t row = 0; row < state.structures.size(); ++row) {
+        if (!is_structure(state, row)) continue;
+        if (state.structures.material[row] >= state.materials.size())
+            return Error{name + ": " + Checker::place(state.structures, "material", row) + " is " +
+                         std::to_string(state.structures.material[row].index) + ", of " +
                          std::to_string(state.materials.size()) + ". " + kAdvice};
-        if (has_no_rows(state.shells, row) && is_of_scenery(state, row)) continue;
-        const ShellView shell(rows, Row<Shells>(row));
+        if (has_no_rows(state, Row<Structures>(row)) && is_of_scenery(state, row)) continue;
+        const ShellView shell(rows, Row<Structures>(row));
         const Wear wear = is_part_of_body(models, state, row) ? Wear::CutOut : Wear::Worn;
         const Result<void> sound = models.check_shell(shell, wear, name, kAdvice);
         if (!sound) return sound;

@@ -53,7 +53,7 @@ Result<uint32_t> World::hairlines(BodyId id, uint32_t* indices, uint32_t room) c
     const Bodies& bodies = state.bodies;
     const Row<Bodies> body = body_row(bodies, id);
     if (!body.exists()) return stale("body", id.index);
-    if (!bodies.shell[body].exists()) return 0u;
+    if (!bodies.structure[body].exists()) return 0u;
     const Range all = bodies.view_indices[body];
     const Drawn drawn{state.view_vertices.vertex.data() + bodies.view_vertices[body].first,
                       state.view_indices.index.data() + all.first};

@@ -27,19 +27,19 @@ Result<ModelId> World::add_model(const Model& model) {
         return Error{"limits.models is reached (" + std::to_string(state.models.limit()) +
                      "); raise it or remove a model."};
     const Workbench& cooked = model.contents->state;
-    const Row<Materials> own = cooked.shells.material[model.contents->shell];
-    const Row<Materials> material = material_row({state.materials, state.material_traits, state.shells},
+    const Row<Materials> own = cooked.structures.material[model.contents->shell];
+    const Row<Materials> material = material_row({state.materials, state.material_traits, state.structures},
                                                  material_settings(cooked, own), material_traits(cooked, own).grain);
     if (!material.exists())
         return Error{model.contents->name + ": the world holds " + std::to_string(kMostMaterials) +
                      " materials already; remove models and bodies of one of them."};
     const char* full = "";
-    const Row<Shells> shell = import_shell(state, model.contents->state, model.contents->shell, &full);
+    const Row<Structures> shell = import_shell(state, model.contents->state, model.contents->shell, &full);
     if (!shell.exists()) return Error{model.contents->name + ": no room for the model; raise " + full + "."};
-    state.shells.material[shell] = material;
-    state.shells.damage_model[shell] = *breaks;
+    state.structures.material[shell] = material;
+    state.structures.damage_model[shell] = *breaks;
     state.models.is_used[row] = 1;
-    state.models.shell[row] = shell;
+    state.models.structure[row] = shell;
     (void)sorted_elements(ShellView(state, shell));  // its bodies' copies know, too
     const DamageSettings& damage = contents_->data.damage_settings;
     contents_->log.advise(contents_->host, *model.contents,
@@ -60,7 +60,7 @@ Result<void> World::remove_model(ModelId id) {
     if (!model.exists()) return stale("model", id.index);
     const HostScope call(contents_->host);
     if (contents_->recorder) contents_->recorder->remove_model(id);
-    release_shell(state, state.models.shell[model]);
+    release_shell(state, state.models.structure[model]);
     state.models.is_used[model] = 0;
     return {};
 }

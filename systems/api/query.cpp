@@ -43,7 +43,7 @@ struct Target {
     const Bodies& bodies() const { return world.state.bodies; }
     const StaticTriangles* triangles() const { return world.query_index->triangles(body); }
     bool is_sphere() const { return bodies().is_sphere[body] != 0; }
-    bool is_box() const { return !is_sphere() && !triangles() && !bodies().shell[body].exists(); }
+    bool is_box() const { return !is_sphere() && !triangles() && !bodies().structure[body].exists(); }
     bool has_layer(uint32_t mask) const { return (bodies().layer[body] & mask) != 0; }
     Vec3d centre() const { return Vec3d(bodies().position[body]); }
     Frame frame() const { return triangles() ? Frame() : Frame(pose_of(bodies(), body)); }
@@ -110,7 +110,7 @@ void visit_triangles(const Target& target, Far&& far, Limit&& limit, Visit&& vis
 }
 
 SurfaceKind kind_of(const Target& target, uint32_t t) {
-    if (!target.bodies().shell[target.body].exists()) return SurfaceKind::Outer;
+    if (!target.bodies().structure[target.body].exists()) return SurfaceKind::Outer;
     uint32_t end = 0, run = 0;
     for (const uint32_t count : target.bodies().run_indices[target.body]) {
         end += count;

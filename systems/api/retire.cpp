@@ -42,22 +42,16 @@ bool is_changing(const DamageModels& models, const State& state, Row<Bodies> bod
     return state.bodies.is_owed_births[body] || models.is_moving(state, body);
 }
 
-// Scenery is its drawn mesh: the rows that it was made of serve others. Its row among shells stays, with mass and area.
-void give_back_rows(State& state, Row<Shells> shell) {
-    if (state.shells.users[shell] > 1) return;
-    const auto back = [&](RangePool& pool, Column<Range>& column) {
-        pool.give_back(column[shell].first, column[shell].capacity);
-        column[shell] = {};
-    };
-    Shells& s = state.shells;
-    drop_stiffness(state, shell);
+// Scenery is its drawn mesh: the rows that it was made of serve others. Its rows of structures and shells stay, with
+// mass and area.
+void give_back_rows(State& state, Row<Structures> shell) {
+    if (state.structures.users[shell] > 1) return;
     release_springs(state, shell);
-    back(state.vertices.pool, s.vertices);
-    back(state.elements.pool, s.elements);
-    back(state.hinges.pool, s.hinges);
-    back(state.cells.pool, s.cells);
-    back(state.hull_points.pool, s.points);
-    s.dead_elements[shell] = 0;
+    ShellRows::for_each_range(state, shell, [](Range& range, auto& table, auto, const char*) {
+        table.give_back(range);
+        range = {};
+    });
+    state.shells.dead_elements[state.shell_of(shell)] = state.structures.live_elements[shell] = 0;
     clear_shape(ShellView(state, shell));
 }
 
@@ -72,10 +66,11 @@ void stand_still(WorldData& d, Row<Bodies> body, BodyKind kind) {
     bodies.velocity.set(body, {});
     bodies.spin.set(body, {});
     d.state.fragment_ages.born[body] = 0;
-    if (kind == BodyKind::Scenery) give_back_rows(d.state, bodies.shell[body]);
+    if (kind == BodyKind::Scenery) give_back_rows(d.state, bodies.structure[body]);
     if (kind == BodyKind::Static) {
         d.arena.reset();
-        d.rigid->replace(body, describe_rigid(d.state, body, convex_pieces(d.state, bodies.shell[body], d.arena)));
+        d.rigid->replace(body, describe_rigid(d.state.bodies, d.state.structures, body,
+                                              convex_pieces(d.state, bodies.structure[body], d.arena)));
     }
     d.query_index->touch(bodies, body);
 }

@@ -62,7 +62,7 @@ namespace {
 constexpr uint64_t kLargestFile = 1ull << 36;
 constexpr const char* kAdvice = "The snapshot is damaged or of another build; take it again.";
 constexpr FileKind kKind{{'c', 's', 'n', 'a', 'p', '\r', '\n', '\x1a'},
-                         17,
+                         18,
                          "snapshot",
                          ".csnap",
                          "Write one with World::save.",
@@ -147,13 +147,13 @@ void restore_what_follows(World::Contents& world) {
         if (static_cast<TaskState>(state.tasks.state[t]) == TaskState::Running)
             models.restore_run(state, Row<Tasks>(t));
         const bool has_copy = static_cast<TaskState>(state.tasks.state[t]) != TaskState::Free &&
-                              state.tasks.shell[t].exists() && !models.is_part(state, t);
+                              state.tasks.working[t].exists() && !models.is_part(state, t);
         if (has_copy)  // of the whole body, whose drawn mesh it knows
-            remember_drawn(ShellView(state, state.tasks.shell[t]), state.view_indices,
+            remember_drawn(ShellView(state, state.tasks.working[t]), state.view_indices,
                            state.bodies.view_indices[state.tasks.body[t]]);
     }
     for (uint32_t b = 0; b < state.bodies.size(); ++b) {
-        const Row<Shells> shell = state.bodies.shell[b];
+        const Row<Structures> shell = state.bodies.structure[b];
         if (static_cast<BodyKind>(state.bodies.kind[b]) == BodyKind::Free || !shell.exists()) continue;
         bound_view(state.bodies, Row<Bodies>(b), state.view_vertices, state.view_indices, d.view_boxes);
         remember_drawn(ShellView(state, shell), state.view_indices, state.bodies.view_indices[b]);

@@ -13,7 +13,7 @@ Result<BodyView> World::view(BodyId id) const {
     BodyView view;
     view.pose = pose_of(bodies, body);
     view.pose_before = {bodies.previous_position[body], bodies.previous_orientation[body]};
-    if (!bodies.shell[body].exists()) return view;
+    if (!bodies.structure[body].exists()) return view;
     view.vertices = state.view_vertices.vertex.data() + bodies.view_vertices[body].first;
     view.vertex_count = bodies.view_vertices[body].count;
     view.indices = state.view_indices.index.data() + bodies.view_indices[body].first;

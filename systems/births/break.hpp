@@ -12,10 +12,10 @@ namespace cullet {
 /// A body that comes apart: some of its parts leave as bodies or crumbs. Spans are of the frame's arena, one entry a
 /// part but for `order`.
 struct Break {
-    Row<Tasks> task;     // or none: a body whose loose pieces found no room asks again
-    Row<Bodies> body;    // the largest part keeps it, and its rows in `broken`
-    Row<Shells> broken;  // the body's own shell, or a task's that has the same cells
-    Row<Shells> before;  // the body's shell so far
+    Row<Tasks> task;         // or none: a body whose loose pieces found no room asks again
+    Row<Bodies> body;        // the largest part keeps it, and its rows in `broken`
+    Row<Structures> broken;  // the body's own, or a task's that has the same cells
+    Row<Structures> before;  // the body's so far
     std::span<FragmentPart> parts;
     std::span<PartMotion> motions;
     std::span<uint32_t> order;     // parts, heaviest first
@@ -47,9 +47,8 @@ struct Break {
         return lets_go;
     }
     /// More is gone than stays: what stays is measured anew, not as a difference.
-    bool is_rest_smaller(const ShellRows& state) const {
-        const Shells& s = state.shells;
-        return left_elements > s.elements[broken].count - s.dead_elements[broken] - left_elements;
+    bool is_rest_smaller(const StructureRows& state) const {
+        return left_elements > state.structures.live_elements[broken] - left_elements;
     }
 };
 
@@ -62,7 +61,7 @@ struct Birth {
 
 /// A cell of a body that came apart, whose hull is to be chosen; kNone: the one shape of all of it, which is.
 struct HullWanted {
-    Row<Shells> shell;
+    Row<Structures> shell;
     uint32_t cell;
 };
 

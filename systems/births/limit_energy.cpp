@@ -104,7 +104,7 @@ constexpr double kFreedByLoad = 0.1, kHeldByLoad = 0.1;
 
 // J. sigma^2 / 2 E of the volume.
 double held_energy(const BodyRows& state, Row<Bodies> body) {
-    const uint32_t m = state.shells.material[state.bodies.shell[body]];
+    const uint32_t m = state.structures.material[state.bodies.structure[body]];
     const Materials& materials = state.materials;
     const double strength = double{state.bodies.strength_scale[body]} * materials.tensile_strength[m];
     const double volume = state.bodies.mass[body] / materials.density[m];
@@ -125,7 +125,7 @@ double owed_to_late(const BodyRows& state, Row<Tasks> task) {
         const Row<Bodies> body = state.tasks.body[task];
         return std::min(kFreedByLoad * 0.5 * state.bodies.mass[body] * speed * speed, held_energy(state, body));
     }
-    double owed = state.tasks.start_energy[task] - rigid_energy(state.bodies, state.tasks.body[task]);
+    double owed = state.hidden_runs.start_energy[task] - rigid_energy(state.bodies, state.tasks.body[task]);
     const uint32_t first = state.tasks.first_contact[task], end = first + state.tasks.contact_count[task];
     const auto& strikers = state.task_contacts.striker;
     for (uint32_t c = first; c < end; ++c) {

@@ -13,7 +13,7 @@ void close_task(BodyRows& state, Row<Tasks> task, Step step) {
     const Row<Bodies> body = tasks.body[task];
     state.bodies.task[body] = kNone;
     state.bodies.retry_frame[body] = step.frame + retry_frames(step.dt);
-    if (tasks.shell[task].exists()) release_shell(state, tasks.shell[task]);
+    if (tasks.working[task].exists()) release_shell(state, tasks.working[task]);
     release_shell(state, tasks.source[task]);
     tasks.state[task] = static_cast<uint8_t>(TaskState::Free);
 }
@@ -22,14 +22,15 @@ void close_task(BodyRows& state, Row<Tasks> task, Step step) {
 void count_first_break(const RunRows& state, const Blows& blows, Row<Tasks> task, Step step, DamageCounts& counts) {
     const Tasks& tasks = state.tasks;
     if (static_cast<TaskState>(tasks.state[task]) != TaskState::Broke) return;
-    if (state.shells.generation[tasks.source[task]] > 0) return;
+    if (state.structures.generation[tasks.source[task]] > 0) return;
     for (uint32_t b = 0; b < blows.size(); ++b)
         if (blows.task[b] == task.index) return;
     ++counts.first_breaks;
     counts.first_ready += tasks.opened_frame[task] == step.frame;
 }
 
-void count_result(const Tasks& tasks, Row<Tasks> task, DamageCounts& counts) {
+void count_result(const RunRows& rows, Row<Tasks> task, DamageCounts& counts) {
+    const Tasks& tasks = rows.tasks;
     const auto result = static_cast<TaskState>(tasks.state[task]);
     counts.broke += result == TaskState::Broke;
     counts.late += result == TaskState::Broke && tasks.is_late[task];
@@ -37,7 +38,7 @@ void count_result(const Tasks& tasks, Row<Tasks> task, DamageCounts& counts) {
     counts.dropped += result == TaskState::Dropped;
     counts.cuts += tasks.crack_count[task];
     counts.starts += tasks.start_count[task];
-    counts.redone += tasks.redo_count[task];
+    counts.redone += rows.hidden_runs.redo_count[task];
 }
 
 }  // namespace
@@ -51,7 +52,7 @@ void make_births(Serial, Step step, EndedTasks over, SoftRows& rows, Blows& blow
     while (next < all.size() && !all[next].task.exists()) make_break(births, all[next++]);
     for (const TaskEnded& e : over.ended) {
         count_first_break(rows, blows, e.task, step, accounts.counts);
-        count_result(rows.tasks, e.task, accounts.counts);
+        count_result(rows, e.task, accounts.counts);
         if (next < all.size() && all[next].task == e.task) make_break(births, all[next++]);
         pay_answers(rows.bodies, rows.tasks, rows.task_contacts, rigid, e.task);
         close_blows(blows, rows.bodies, rows.tasks, rigid, accounts.counts, e.task);

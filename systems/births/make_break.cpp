@@ -12,6 +12,7 @@
 #include "systems/bodies/thresholds.hpp"
 #include "systems/models.hpp"
 #include "systems/structures/shell/cell_hulls.hpp"
+#include "systems/structures/shell/mass_properties.hpp"
 #include "systems/structures/shell/rigid_shape.hpp"
 #include "systems/structures/shell/waiting_pieces.hpp"
 
@@ -116,9 +117,10 @@ void place_body(Births& births, Row<Bodies> body, const Moment& moment, const Mo
     bodies.overload_runs[body] = 0;
     bodies.is_asleep[body] = 0;
     if (is_local)
-        take_rest_properties(births.state, body);
+        take_rest_properties(births.state.bodies, births.state.structures, body);
     else
-        take_mass_properties(births.state, body);
+        take_mass_properties(births.state.bodies, births.state.structures, body,
+                             radius_of(ShellView(births.state, births.state.bodies.structure[body])));
     births.changed.push({body, is_local});
 }
 
@@ -210,7 +212,7 @@ void part_strikers(Births& births, Row<Tasks> task, const Break& plan, bool is_l
 bool change_rest(Births& births, Row<Bodies> body) {
     const Bodies& bodies = births.state.bodies;
     std::span<const uint32_t> gone;
-    const auto pieces = changed_pieces(births.state, bodies.shell[body], births.arena, gone);
+    const auto pieces = changed_pieces(births.state, bodies.structure[body], births.arena, gone);
     return births.rigid.change_shape(body, bodies.mass[body], bodies.centre[body], bodies.inertia[body], gone, pieces);
 }
 
@@ -226,8 +228,8 @@ PartMotion limited_motion(Births& births, const Break& plan, uint32_t p, const M
     PartMotion part = plan.motions[p];
     if (p != plan.largest) {
         const bool was_clamped = part.is_speed_clamped || part.is_spin_clamped;
-        const Row<Shells> shell = births.state.bodies.shell[plan.child[p]];
-        leaving.cut += limit_flight(leaving.limit, births.state.shells.centre[shell], part);
+        const Row<Structures> shell = births.state.bodies.structure[plan.child[p]];
+        leaving.cut += limit_flight(leaving.limit, births.state.structures.centre[shell], part);
         births.counts.clamped += !was_clamped && (part.is_speed_clamped || part.is_spin_clamped);
     } else if (!part.is_static && part.mass > 0) {
         part.velocity += (1 / part.mass) * leaving.cut;
@@ -254,7 +256,7 @@ void make_birth(Births& births, const Break& plan, uint32_t p, const Moment& mom
     const bool is_rest = p == plan.largest;
     place_body(births, child, moment, motion, is_static, is_rest && plan.keeps_mesh);
     if (is_rest && plan.keeps_hulls) {
-        pack_renewed_hulls(ShellView(state, bodies.shell[body]));
+        pack_renewed_hulls(ShellView(state, bodies.structure[body]));
         // What it was drawn as holds its hulls.
         const auto& drawn = bodies.drawn_box[body];
         bounds.low = {drawn[0], drawn[1], drawn[2]}, bounds.high = {drawn[3], drawn[4], drawn[5]};
@@ -263,16 +265,16 @@ void make_birth(Births& births, const Break& plan, uint32_t p, const Moment& mom
             return;
         }
     } else {
-        pack_hulls(ShellView(state, bodies.shell[child]));
+        pack_hulls(ShellView(state, bodies.structure[child]));
         bounds = {};
     }
-    const auto pieces = convex_pieces(state, bodies.shell[child], births.arena, body);
+    const auto pieces = convex_pieces(state, bodies.structure[child], births.arena, body);
     if (!is_rest || !plan.keeps_hulls)
         for (const ConvexPiece& piece : pieces)
             for (const Vec3 point : piece.points) bounds.add(point);
     if (is_rest && was_static == is_static) {
         // Hulls of a copy's cells that did not change are those of the body, by the same names.
-        const bool has_cells = state.shells.shape_points[bodies.shell[body]] == 0;
+        const bool has_cells = state.structures.shape_points[bodies.structure[body]] == 0;
         const bool is_of_copy = !plan.keeps_hulls && !plan.is_torn && plan.had_cells && has_cells &&
                                 births.models.keeps_cell_names(state, body);
         if (!is_of_copy || !change_rest(births, body))
@@ -281,14 +283,14 @@ void make_birth(Births& births, const Break& plan, uint32_t p, const Moment& mom
         return;
     }
     if (is_rest) births.rigid.remove(body);
-    RigidDescription description = describe_rigid(state, child, pieces);
+    RigidDescription description = describe_rigid(state.bodies, state.structures, child, pieces);
     description.parent = body;
     births.rigid.add(child, description);
     if (is_rest) return;
     set_born(state.fragment_ages, child, births.step.frame + 1);
     births.born.push({body_id(bodies, child), body_id(bodies, body), bodies.user_data[body],
                       to_world(moment.pose, bodies.centre[child].to_float()), motion, bodies.mass[child],
-                      state.shells.generation[bodies.shell[child]]});
+                      state.structures.generation[bodies.structure[child]]});
 }
 
 // Children first: their hulls are found among the body's, which change last.

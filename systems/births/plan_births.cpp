@@ -10,15 +10,16 @@ namespace {
 // A crack starts at a vertex that names itself. Vertices keep their numbers in the working shell, so those that did so
 // in the body's before the hit are old.
 void tell_cracks(BodyRows& state, Row<Tasks> task, Events<CrackStartedEvent>& cracks) {
-    if (state.tasks.shell[task] == state.tasks.source[task]) return;  // put_back has told
+    if (state.tasks.working[task] == state.tasks.source[task]) return;  // put_back has told
     const Row<Bodies> body = state.tasks.body[task];
-    const ShellView now(state, state.tasks.shell[task]), before(state, state.tasks.source[task]);
+    const ShellView now(state, state.tasks.working[task]), before(state, state.tasks.source[task]);
     const auto is_start = [&](const ShellView& shell, uint32_t v) {
         const uint32_t row = shell.vertex(v);
         return state.vertices.crack_start[row] == v &&
                state.vertices.crack[row] == static_cast<uint8_t>(CrackState::Cracked);
     };
-    const bool is_fragment = state.shells.generation[before.row] > 0;  // it has forgotten its old starts (6.1)
+    const bool is_fragment =
+        state.structures.generation[before.structure] > 0;  // it has forgotten its old starts (6.1)
     for (uint32_t v = 0; v < now.vertex_count(); ++v) {
         if (!is_start(now, v) || (!is_fragment && v < before.vertex_count() && is_start(before, v))) continue;
         cracks.push({body_id(state.bodies, body), state.bodies.user_data[body],
@@ -74,12 +75,12 @@ void plan_births(Serial, const Events<TaskEnded>& ended, SoftRows& rows, Waiting
         if (result != TaskState::Dropped && tasks.start_count[task]) tell_cracks(rows, task, planned.cracks);
         if (result == TaskState::Broke) plan_break(planning, task);
         if (result == TaskState::Whole && tasks.crack_count[task]) keep_cracks(planning, task);
-        if (result == TaskState::Whole && !tasks.crack_count[task] && tasks.shell[task] == tasks.source[task])
-            stop_blocks(ShellView(rows, tasks.shell[task]));
+        if (result == TaskState::Whole && !tasks.crack_count[task] && tasks.working[task] == tasks.source[task])
+            stop_blocks(ShellView(rows, tasks.working[task]));
         // More pieces than there may be, with those that found no room before.
-        if (result == TaskState::Dropped && tasks.crack_count[task] && tasks.shell[task] == tasks.source[task])
-            clear_run(ShellView(rows, tasks.shell[task]), true, false);
-        if (result == TaskState::Dropped && tasks.shell[task].exists())  // else it was refused
+        if (result == TaskState::Dropped && tasks.crack_count[task] && tasks.working[task] == tasks.source[task])
+            clear_run(ShellView(rows, tasks.working[task]), true, false);
+        if (result == TaskState::Dropped && tasks.working[task].exists())  // else it was refused
             planned.faults.push(
                 {body_id(bodies, tasks.body[task]), bodies.user_data[tasks.body[task]],
                  centre_of(bodies, tasks.body[task]),

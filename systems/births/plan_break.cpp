@@ -51,7 +51,7 @@ void join_motions(PartMotion& motion, PartMotion& joined) {
 }
 
 // Rows, shell and drawn mesh of a new body, or a row that does not exist and the name of the limit.
-Row<Bodies> reserve_body(Planning& planning, Row<Bodies> parent, Row<Shells> broken, const FragmentPart& part,
+Row<Bodies> reserve_body(Planning& planning, Row<Bodies> parent, Row<Structures> broken, const FragmentPart& part,
                          const char** full) {
     BodyRows& state = planning.state;
     const Row<Bodies> body = take_body(state);
@@ -59,10 +59,10 @@ Row<Bodies> reserve_body(Planning& planning, Row<Bodies> parent, Row<Shells> bro
         *full = "limits.bodies";
         return {};
     }
-    state.bodies.shell[body] = reserve_piece(
+    state.bodies.structure[body] = reserve_piece(
         state, broken, part,
-        static_cast<uint8_t>(std::min<uint32_t>(state.shells.generation[broken], kMostGenerations - 1) + 1), full);
-    if (state.bodies.shell[body].exists() && take_view(state, body, ShellView(state, broken), part)) {
+        static_cast<uint8_t>(std::min<uint32_t>(state.structures.generation[broken], kMostGenerations - 1) + 1), full);
+    if (state.bodies.structure[body].exists() && take_view(state, body, ShellView(state, broken), part)) {
         Bodies& b = state.bodies;
         b.model[body] = b.model[parent];
         b.parent[body] = parent;
@@ -76,7 +76,7 @@ Row<Bodies> reserve_body(Planning& planning, Row<Bodies> parent, Row<Shells> bro
         planning.models.inherit(state, parent, body);
         return body;
     }
-    if (state.bodies.shell[body].exists()) *full = "limits.view_vertices";
+    if (state.bodies.structure[body].exists()) *full = "limits.view_vertices";
     free_body(state, body);
     return {};
 }
@@ -112,14 +112,14 @@ void stay(Planning& planning, Break& plan, uint32_t part, const char* setting) {
     join_motions(plan.motions[plan.largest], plan.motions[part]);
 }
 
-Break break_of(Planning& planning, Row<Tasks> task, Row<Bodies> body, Row<Shells> broken,
+Break break_of(Planning& planning, Row<Tasks> task, Row<Bodies> body, Row<Structures> broken,
                std::span<FragmentPart> parts) {
     Arena& arena = planning.arena;
     Break plan;
     plan.task = task;
     plan.body = body;
     plan.broken = broken;
-    plan.before = planning.state.bodies.shell[body];
+    plan.before = planning.state.bodies.structure[body];
     plan.parts = parts;
     plan.motions = arena.take<PartMotion>(parts.size());
     plan.order = arena.take<uint32_t>(parts.size());
@@ -136,7 +136,7 @@ Break break_of(Planning& planning, Row<Tasks> task, Row<Bodies> body, Row<Shells
 // Which cells pieces may leave, beside those that cracked.
 void mark_left_cells(const Break& plan, const ShellView& shell) {
     const Elements& elements = shell.state.elements;
-    const uint32_t first_cell = shell.shells().cells[shell.row].first, rest = largest_part(plan.parts);
+    const uint32_t first_cell = shell.cells().first, rest = largest_part(plan.parts);
     for (uint32_t p = 0; p < plan.parts.size(); ++p)
         for (uint32_t e = p == rest ? kNone : plan.parts[p].first_element; e != kNone;
              e = elements.next[shell.element(e)])
@@ -145,7 +145,6 @@ void mark_left_cells(const Break& plan, const ShellView& shell) {
 
 // Room that the rest needs whatever leaves. False: none, and nothing else is to change.
 bool reserve_points(Planning& planning, Break& plan) {
-    const Shells& shells = planning.state.shells;
     const ShellView broken(planning.state, plan.broken);
     find_changed_cells(broken, ShellView(planning.state, plan.before));
     mark_left_cells(plan, broken);
@@ -153,7 +152,7 @@ bool reserve_points(Planning& planning, Break& plan) {
     plan.keeps_hulls = plan.broken == plan.before && !plan.is_torn && plan.had_cells && !plan.chooses_shape &&
                        has_room_to_renew(broken);
     if (plan.keeps_hulls) return true;
-    const uint32_t rows = most_points(shells.cells[plan.broken].count, shells.elements[plan.broken].count);
+    const uint32_t rows = most_points(broken.cells().count, broken.element_count());
     if (take_points(planning.state, rows, plan.points)) return true;
     planning.refused.push(refused_event(planning.state.bodies, plan.body, "limits.vertices"));
     return false;
@@ -169,7 +168,7 @@ void choose_births(Planning& planning, Break& plan) {
         return plan.parts[a].mass != plan.parts[b].mass ? plan.parts[a].mass > plan.parts[b].mass : a < b;
     });
     plan.largest = plan.order[0];
-    const double least_mass = planning.settings.debris_share * state.shells.intact_mass[plan.broken];
+    const double least_mass = planning.settings.debris_share * state.structures.intact_mass[plan.broken];
     for (uint32_t p = 0; p < count; ++p) {
         plan.child[p] = {};
         plan.is_crumb[p] = 0;
@@ -199,12 +198,11 @@ void choose_births(Planning& planning, Break& plan) {
 // goes.
 bool keeps_mesh(Planning& planning, const Break& plan) {
     SoftRows& state = planning.state;
-    const Shells& shells = state.shells;
     if (plan.is_torn || state.bodies.is_owed_births[plan.body] == kOwedDrawing) return false;
     uint32_t left = 0;
     for (uint32_t p = 0; p < plan.parts.size(); ++p)
         if (plan.leaves(p)) left += plan.parts[p].element_count;
-    if (2 * left > shells.elements[plan.broken].count - shells.dead_elements[plan.broken]) return false;
+    if (2 * left > state.structures.live_elements[plan.broken]) return false;
     const Range &vertices = state.bodies.view_vertices[plan.body], &indices = state.bodies.view_indices[plan.body];
     return rows_to_draw(state, plan.body, ShellView(state, plan.broken), plan.largest) <=
            std::min(vertices.capacity, indices.capacity);
@@ -291,11 +289,11 @@ double lost_to_touch(const BodyRows& state, Row<Tasks> task) {
 // What frees no piece changes no velocity: the body keeps its cracks, and its loose pieces until there is room.
 void stay_whole(Planning& planning, Break& plan) {
     SoftRows& state = planning.state;
-    const ShellView shell(state, plan.broken), before(state, state.bodies.shell[plan.body]);
+    const ShellView shell(state, plan.broken), before(state, state.bodies.structure[plan.body]);
     if (!plan.task.exists()) return;
     if (!keep_hulls(shell, before)) return keep_cuts(planning.blows, plan.task);
     clear_run(shell, true, shell.row != before.row, plan.is_refused);
-    adopt_shell(state, plan.body, shell.row);
+    adopt_shell(state, plan.body, shell.structure);
     if (!plan.is_refused) return;
     // An explosion's energy comes from outside.
     if (has_explosion(planning.blows, plan.task))
@@ -306,7 +304,7 @@ void stay_whole(Planning& planning, Break& plan) {
 
 // What a hit changed in the body's own shell stays there. It is drawn, and its pieces go, when there is room.
 void leave_cracked(BodyRows& state, Row<Bodies> body) {
-    clear_run(ShellView(state, state.bodies.shell[body]), true, false);
+    clear_run(ShellView(state, state.bodies.structure[body]), true, false);
     state.bodies.is_owed_births[body] = kOwedBirths;
 }
 
@@ -386,7 +384,7 @@ uint32_t free_fragments(const FragmentAges& ages, const DamageSettings& settings
 void plan_break(Planning& planning, Row<Tasks> task) {
     SoftRows& state = planning.state;
     const Row<Bodies> body = state.tasks.body[task];
-    const Row<Shells> broken = state.tasks.shell[task];
+    const Row<Structures> broken = state.tasks.working[task];
     const ShellView shell(state, broken);
     Break plan =
         break_of(planning, task, body, broken,
@@ -401,7 +399,7 @@ void plan_break(Planning& planning, Row<Tasks> task) {
     if (is_cut_task(planning.blows, task)) {
         move_with_body(state, plan, velocity, spin);  // nothing was run
     } else {
-        HandoffStart start{velocity, spin, state.shells.centre[broken], state.tasks.approach_speed[task], rest};
+        HandoffStart start{velocity, spin, state.structures.centre[broken], state.tasks.approach_speed[task], rest};
         start.touches = plan.touches = crack_touches(shell, broken == plan.before, planning.arena);
         start.touching = planning.arena.take<Touching>(plan.parts.size());
         plan.handoff = planning.arena.take<Handoff>(1);
@@ -414,13 +412,13 @@ void plan_break(Planning& planning, Row<Tasks> task) {
 // The slot serves one body after the other: the parts move into the arena.
 void ask_again(Planning& planning, Row<Bodies> body) {
     SoftRows& state = planning.state;
-    const ShellView shell(state, state.bodies.shell[body]);
+    const ShellView shell(state, state.bodies.structure[body]);
     const std::span slot(planning.fragments.part.data() + size_t{state.tasks.limit()} * kMostParts, kMostParts);
     const uint32_t count = group_fragments(shell, slot);
     if (count > kMostParts) return;
     const auto parts = planning.arena.take<FragmentPart>(count);
     std::copy_n(slot.begin(), parts.size(), parts.begin());
-    Break plan = break_of(planning, {}, body, shell.row, parts);
+    Break plan = break_of(planning, {}, body, shell.structure, parts);
     if (!reserve_points(planning, plan)) return;
     const Bodies& bodies = state.bodies;
     if (bodies.is_asleep[body]) forget_own_motions(shell);
@@ -436,15 +434,15 @@ void ask_again(Planning& planning, Row<Bodies> body) {
 // The parts' velocities are those of their points, as at any hand-off; which hulls fit is not known any more.
 void plan_tear(Planning& planning, Row<Bodies> body) {
     SoftRows& state = planning.state;
-    const ShellView shell(state, state.bodies.shell[body]);
+    const ShellView shell(state, state.bodies.structure[body]);
     const std::span slot(planning.fragments.part.data() + size_t{state.tasks.limit()} * kMostParts, kMostParts);
     const uint32_t count = group_fragments(shell, slot);
     if (count < 2 || count > kMostParts) return;
     const auto parts = planning.arena.take<FragmentPart>(count);
     std::copy_n(slot.begin(), parts.size(), parts.begin());
-    Break plan = break_of(planning, {}, body, shell.row, parts);
+    Break plan = break_of(planning, {}, body, shell.structure, parts);
     plan.is_torn = true;
-    const Range cells = state.shells.cells[shell.row];
+    const Range cells = state.structures.cells[shell.structure];
     for (uint32_t c = cells.first; c < cells.first + cells.count; ++c) state.cells.is_stale[c] = 1;
     if (!reserve_points(planning, plan)) return;
     planning.models.hand_off_torn(state, {plan.body, plan.order, plan.parts, plan.child}, plan.motions);
@@ -455,7 +453,7 @@ void plan_tear(Planning& planning, Row<Bodies> body) {
 void keep_cracks(Planning& planning, Row<Tasks> task) {
     SoftRows& state = planning.state;
     const Row<Bodies> body = state.tasks.body[task];
-    const ShellView shell(state, state.tasks.shell[task]), before(state, state.bodies.shell[body]);
+    const ShellView shell(state, state.tasks.working[task]), before(state, state.bodies.structure[body]);
     const std::span parts(&planning.fragments.part[task * kMostParts], 1);
     const char* full = nullptr;
     find_changed_cells(shell, before);
@@ -473,7 +471,7 @@ void keep_cracks(Planning& planning, Row<Tasks> task) {
         return keep_cuts(planning.blows, task);
     }
     clear_run(shell, true, shell.row != before.row);
-    adopt_shell(state, body, shell.row);
+    adopt_shell(state, body, shell.structure);
     planning.changed.push({body, is_local});
 }
 

@@ -9,11 +9,11 @@
 namespace cullet {
 namespace {
 
-void want_hulls(ShellRows& state, Row<Shells> shell, Events<HullWanted>& wanted) {
+void want_hulls(ShellRows& state, Row<Structures> shell, Events<HullWanted>& wanted) {
     Cells& cells = state.cells;
-    const Range range = state.shells.cells[shell];
+    const Range range = state.structures.cells[shell];
     if (shape_of(ShellView(state, shell)) != ShapeKind::Cells) {
-        state.shells.made_shape[shell] = wanted.size();
+        state.structures.made_shape[shell] = wanted.size();
         wanted.push({shell, kNone});
         return;
     }
@@ -34,7 +34,7 @@ void keep_rest(BodyRows& state, const Break& plan) {
         if (!plan.leaves(p)) continue;
         outdate_blocks(shell, plan.parts[p]);
         if (plan.child[p].exists()) {
-            const ShellView piece(state, state.bodies.shell[plan.child[p]]);
+            const ShellView piece(state, state.bodies.structure[plan.child[p]]);
             if (shape_of(piece) == ShapeKind::Cells)
                 copy_piece_hulls(piece, before, plan.margin, plan.had_cells);
             else
@@ -47,18 +47,20 @@ void keep_rest(BodyRows& state, const Break& plan) {
     }
     if (!plan.is_rest_smaller(state)) write_sums(shell, plan.whole - left);
     state.shells.dead_elements[shell.row] += plan.left_elements;
-    uint8_t& generation = state.shells.generation[shell.row];
+    state.structures.live_elements[shell.structure] -= plan.left_elements;
+    uint8_t& generation = state.structures.generation[shell.structure];
     if (generation < kMostGenerations) ++generation;
     if (!plan.is_torn) clear_run(shell, false, plan.broken != plan.before, plan.is_refused);
     if (plan.keeps_hulls) return renew_rest_hulls(shell);
-    const Range points = state.shells.points[before.row], old_points = state.shells.points[shell.row];
-    state.shells.points[shell.row] = plan.points;
+    const Range points = state.structures.points[before.structure],
+                old_points = state.structures.points[shell.structure];
+    state.structures.points[shell.structure] = plan.points;
     if (shape_of(shell) != ShapeKind::Cells && plan.chooses_shape)
         empty_rest_cells(shell);
     else
         copy_rest_hulls(shell, points, before, plan.had_cells);
     state.hull_points.pool.give_back(old_points.first, old_points.capacity);
-    adopt_shell(state, plan.body, shell.row);
+    adopt_shell(state, plan.body, shell.structure);
 }
 
 }  // namespace
@@ -70,7 +72,7 @@ void plan_hulls(Serial, const Events<Break>& breaks, BodyRows& rows, RigidWorld&
         keep_rest(rows, plan);
         want_hulls(rows, plan.broken, wanted);
         for (const Row<Bodies> child : plan.child)
-            if (child.exists()) want_hulls(rows, rows.bodies.shell[child], wanted);
+            if (child.exists()) want_hulls(rows, rows.bodies.structure[child], wanted);
     }
     rigid.reserve_shapes(kMostCellParts * wanted.size());
 }

@@ -49,7 +49,7 @@ void close_blows(Blows& blows, Bodies& bodies, const Tasks& tasks, RigidWorld& r
     for (uint32_t b = 0; b < blows.size();) {
         if (blows.task[b] != task.index) {
             ++b;
-        } else if (blows.goes_on[b] && (tasks.crack_count[task] > 0 || !tasks.shell[task].exists())) {
+        } else if (blows.goes_on[b] && (tasks.crack_count[task] > 0 || !tasks.working[task].exists())) {
             blows.task[b] = kNone;
             blows.goes_on[b++] = 0;
         } else {

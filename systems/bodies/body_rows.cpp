@@ -13,9 +13,10 @@ Row<Bodies> take_body(BodyRows& state) {
     bodies.clear_rows(row, 1);
     bodies.generation[row] = generation ? generation : 1;  // 0 is the null handle
     bodies.model[row] = {};
-    bodies.shell[row] = {};
+    bodies.structure[row] = {};
     bodies.parent[row] = {};
     bodies.task[row] = kNone;
+    bodies.soft[row] = {};
     bodies.orientation[row] = {};
     bodies.previous_orientation[row] = {};
     bodies.strength_scale[row] = 1;
@@ -25,7 +26,7 @@ Row<Bodies> take_body(BodyRows& state) {
 
 void free_body(BodyRows& state, Row<Bodies> b) {
     Bodies& bodies = state.bodies;
-    if (bodies.shell[b].exists()) release_shell(state, bodies.shell[b]);
+    if (bodies.structure[b].exists()) release_shell(state, bodies.structure[b]);
     state.view_vertices.pool.give_back(bodies.view_vertices[b].first, bodies.view_vertices[b].capacity);
     state.view_indices.pool.give_back(bodies.view_indices[b].first, bodies.view_indices[b].capacity);
     const uint32_t generation = bodies.generation[b];
@@ -34,6 +35,7 @@ void free_body(BodyRows& state, Row<Bodies> b) {
     if (b < state.fragment_ages.size()) state.fragment_ages.clear_rows(b, 1);
     bodies.generation[b] = generation;
     bodies.task[b] = kNone;
+    bodies.soft[b] = {};
     state.bodies.pool.give_back(b, 1);
 }
 
@@ -88,7 +90,7 @@ bool take_view_rows(BodyRows& state, Row<Bodies> b, uint32_t rows) {
 }  // namespace
 
 bool take_view(BodyRows& state, Row<Bodies> b, bool may_crack) {
-    const ShellView shell(state, state.bodies.shell[b]);
+    const ShellView shell(state, state.bodies.structure[b]);
     const uint32_t rows = view_rows(shell, [&](auto visit) {
         for (uint32_t e = 0; e < shell.element_count(); ++e)
             if (!(state.elements.flags[shell.element(e)] & kDead)) visit(e);

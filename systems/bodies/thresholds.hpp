@@ -12,37 +12,38 @@ inline constexpr uint32_t kMostGenerations = 255;
 inline constexpr float kRetrySeconds = 0.02f;
 
 /// Stress grows with the speed up to the first crack, so the game's scale on the strength is one on the speed.
-inline float first_crack_speed(const Shells& shells, Row<Shells> s, float strength_scale) {
-    return strength_scale * shells.first_crack_speed[s];
+inline float first_crack_speed(const Structures& structures, Row<Structures> s, float strength_scale) {
+    return strength_scale * structures.first_crack_speed[s];
 }
-inline float wake_speed(const Shells& shells, Row<Shells> s, float strength_scale) {
-    return kWakeShare * first_crack_speed(shells, s, strength_scale) * (shells.has_cracks[s] ? 0.5f : 1.0f);
+inline float wake_speed(const Structures& structures, Row<Structures> s, float strength_scale) {
+    return kWakeShare * first_crack_speed(structures, s, strength_scale) * (structures.has_cracks[s] ? 0.5f : 1.0f);
 }
 /// Fragments too light, or of too few elements, break no further (section 6.1); the game says where.
-inline bool is_worth_breaking(const Shells& shells, Row<Shells> s, const DamageSettings& settings) {
-    return shells.generation[s] == 0 || (shells.mass[s] >= double{settings.break_share} * shells.intact_mass[s] &&
-                                         shells.elements[s].count - shells.dead_elements[s] >= settings.break_elements);
+inline bool is_worth_breaking(const Structures& structures, Row<Structures> s, const DamageSettings& settings) {
+    return structures.generation[s] == 0 ||
+           (structures.mass[s] >= double{settings.break_share} * structures.intact_mass[s] &&
+            structures.live_elements[s] >= settings.break_elements);
 }
 /// Nor do those that blows and loads have broken too often.
-inline bool may_break_again(const Shells& shells, Row<Shells> s, const DamageSettings& settings) {
-    const uint32_t generation = shells.generation[s];
-    return generation == 0 || (generation < settings.generations && is_worth_breaking(shells, s, settings));
+inline bool may_break_again(const Structures& structures, Row<Structures> s, const DamageSettings& settings) {
+    const uint32_t generation = structures.generation[s];
+    return generation == 0 || (generation < settings.generations && is_worth_breaking(structures, s, settings));
 }
 /// What snaps has no last generation, as what is cut, unless the game lets whole bodies break alone.
-inline bool may_snap_again(const Shells& shells, Row<Shells> s, const DamageSettings& settings) {
-    const uint32_t generation = shells.generation[s];
+inline bool may_snap_again(const Structures& structures, Row<Structures> s, const DamageSettings& settings) {
+    const uint32_t generation = structures.generation[s];
     return generation == 0 ||
-           (settings.generations > 0 && generation < kMostGenerations && is_worth_breaking(shells, s, settings));
+           (settings.generations > 0 && generation < kMostGenerations && is_worth_breaking(structures, s, settings));
 }
 /// Nothing but the game forbids it to give way to what does not yield.
-inline bool may_be_crushed(const Shells& shells, Row<Shells> s, const DamageSettings& settings) {
-    return shells.generation[s] == 0 || settings.generations > 0;
+inline bool may_be_crushed(const Structures& structures, Row<Structures> s, const DamageSettings& settings) {
+    return structures.generation[s] == 0 || settings.generations > 0;
 }
 /// Both halves of it would be more than debris: what may be crushed comes apart so far, and is ground below it.
-inline bool may_be_halved(const Shells& shells, Row<Shells> s, const DamageSettings& settings) {
-    const uint32_t left = shells.elements[s].count - shells.dead_elements[s];
-    return shells.generation[s] < kMostGenerations && left > 1 && left >= 2 * uint64_t{settings.debris_elements} &&
-           shells.mass[s] >= 2 * double{settings.debris_share} * shells.intact_mass[s];
+inline bool may_be_halved(const Structures& structures, Row<Structures> s, const DamageSettings& settings) {
+    const uint32_t left = structures.live_elements[s];
+    return structures.generation[s] < kMostGenerations && left > 1 && left >= 2 * uint64_t{settings.debris_elements} &&
+           structures.mass[s] >= 2 * double{settings.debris_share} * structures.intact_mass[s];
 }
 inline uint64_t retry_frames(float dt) {
     return 1 + static_cast<uint64_t>(std::ceil(kRetrySeconds / dt));

@@ -15,7 +15,7 @@ MechanicalEnergy& MechanicalEnergy::operator+=(const MechanicalEnergy& o) {
 MechanicalEnergy body_energy(const DamageModels& models, SoftRows& state, Row<Bodies> body, Vec3 gravity) {
     const Bodies& bodies = state.bodies;
     const auto kind = static_cast<BodyKind>(bodies.kind[body]);
-    const bool has_shell = bodies.shell[body].exists();
+    const bool has_shell = bodies.structure[body].exists();
     if (kind != BodyKind::Dynamic && !(kind == BodyKind::Static && has_shell)) return {};
     if (has_shell)
         if (const auto own = models.energy(state, body, gravity)) return *own;

@@ -51,9 +51,9 @@ bool has_values(const MaterialRows& state, uint32_t row, const MaterialSettings&
     return is_same;
 }
 
-bool is_used(const Shells& shells, uint32_t row) {
-    for (uint32_t s = 0; s < shells.size(); ++s)
-        if (shells.users[s] > 0 && shells.material[s] == row) return true;
+bool is_used(const Structures& structures, uint32_t row) {
+    for (uint32_t s = 0; s < structures.size(); ++s)
+        if (structures.users[s] > 0 && structures.material[s] == row) return true;
     return false;
 }
 
@@ -61,7 +61,7 @@ bool is_used(const Shells& shells, uint32_t row) {
 uint32_t take_row(MaterialTables state) {
     if (state.materials.size() < state.materials.limit()) return state.materials.append(1);
     for (uint32_t row = kFirstMaterials; row < state.materials.size(); ++row)
-        if (!is_used(state.shells, row)) return row;
+        if (!is_used(state.structures, row)) return row;
     return kNone;
 }
 

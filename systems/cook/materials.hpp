@@ -13,14 +13,14 @@ inline constexpr uint32_t kFirstMaterials = 4;
 /// Appends the first four to an empty table.
 void fill_materials(Materials& materials);
 
-/// Where rows of materials are written, and the shells that are made of them.
+/// Where rows of materials are written, and the structures that are made of them.
 struct MaterialTables {
     Materials& materials;
     MaterialTraits& material_traits;
-    const Shells& shells;
+    const Structures& structures;
 };
 /// The row that has these values and this grain (zero: the material has none), appended where there is none; rows that
-/// no shell has give way when the table is full. kNone: kMostMaterials are in use.
+/// nothing is made of give way when the table is full. kNone: kMostMaterials are in use.
 Row<Materials> material_row(MaterialTables state, const MaterialSettings& material, Vec3 grain);
 /// The row's values, without a name.
 MaterialSettings material_settings(const MaterialRows& state, Row<Materials> row);

@@ -13,9 +13,9 @@ Limits cooking_limits(uint32_t vertices, uint32_t elements) {
     return limits;
 }
 
-Row<Shells> import_shell(ShellRows& to, const ShellRows& from, Row<Shells> shell, const char** full) {
+Row<Structures> import_shell(ShellRows& to, const ShellRows& from, Row<Structures> shell, const char** full) {
     const ShellRoom room = room_of(from, shell);
-    const Row<Shells> copy = make_shell(to, room, full);
+    const Row<Structures> copy = make_shell(to, room, full);
     if (copy.exists()) copy_shell_rows(to, from, shell, copy, room.blocks > 0);
     return copy;
 }

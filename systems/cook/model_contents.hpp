@@ -9,7 +9,7 @@ namespace cullet {
 struct Model::Contents {
     explicit Contents(const Limits& limits) : state(limits) {}
     Workbench state;  // the first materials and its own, and the rows of one shell
-    Row<Shells> shell;
+    Row<Structures> shell;
     std::string name, material, damage_model;
     ModelReport report;
 };
@@ -23,6 +23,6 @@ struct MeshData::Contents {
 Limits cooking_limits(uint32_t vertices, uint32_t elements);
 
 /// Copies a shell between states; kNone and the limit's name when there is no room.
-Row<Shells> import_shell(ShellRows& to, const ShellRows& from, Row<Shells> shell, const char** full);
+Row<Structures> import_shell(ShellRows& to, const ShellRows& from, Row<Structures> shell, const char** full);
 
 }  // namespace cullet

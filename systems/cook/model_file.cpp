@@ -15,7 +15,7 @@ namespace {
 
 constexpr const char* kAdvice = "The model file is damaged or of another build; cook the mesh again and write it.";
 constexpr FileKind kKind{{'c', 'm', 'o', 'd', 'l', '\r', '\n', '\x1a'},
-                         10,
+                         11,
                          "model file",
                          ".cmodel",
                          "Write one with write_model.",
@@ -26,19 +26,13 @@ Error damaged(const std::string& name, const std::string& what) {
     return {name + ": " + what + ". " + kAdvice};
 }
 
-/// The tables of a shell in the file's order, each with the range of Shells that counts its rows.
+/// The tables of a shell in the file's order, each with the range that counts its rows.
 template <class F>
-void for_each_part(ShellRows& state, Row<Shells> shell, F&& f) {
-    Shells& s = state.shells;
-    f(state.vertices, s.vertices[shell]);
-    f(state.elements, s.elements[shell]);
-    f(state.triangle_springs, s.elements[shell]);
-    f(state.hinges, s.hinges[shell]);
-    f(state.stiffness_packs, s.packs[shell]);
-    f(state.stiffness_blocks, s.blocks[shell]);
-    f(state.stiffness_links, s.links[shell]);
-    f(state.cells, s.cells[shell]);
-    f(state.hull_points, s.points[shell]);
+void for_each_part(ShellRows& state, Row<Structures> shell, F&& f) {
+    ShellRows::for_each_range(state, shell, [&](Range& range, auto& table, auto, const char*) {
+        f(table, range);
+        if constexpr (std::is_same_v<std::remove_cvref_t<decltype(table)>, Elements>) f(state.triangle_springs, range);
+    });
 }
 
 /// The report's numbers in the file's order, for both ways.
@@ -81,13 +75,19 @@ void take_material(ByteReader& reader, MaterialSettings& material, Vec3& grain) 
                   "the grain's length squared is " + std::to_string(squared));
 }
 
+/// For one shell without rows.
+std::unique_ptr<Workbench> make_workbench_of_one() {
+    return std::make_unique<Workbench>(
+        Limits{.bodies = 1, .shells = 1, .vertices = 64, .elements = 64, .tasks = 1, .models = 1});
+}
+
 /// Everything of the payload, with the rows still in the bytes.
 struct Found {
     std::string name, damage_model;
     MaterialSettings material;
     Vec3 grain;
     ModelReport report;
-    FoundTable shell;
+    FoundTable structure, shell;
     std::vector<FoundTable> parts;
 };
 
@@ -104,16 +104,17 @@ Result<Found> find_all(std::span<const uint8_t> payload, const std::string& name
         number = reader.number<std::remove_reference_t<decltype(number)>>("the report");
     });
     // Tables of no rows, for their lists of columns.
-    const auto none = std::make_unique<Workbench>(
-        Limits{.bodies = 1, .shells = 1, .vertices = 64, .elements = 64, .tasks = 1, .models = 1});
+    const auto none = make_workbench_of_one();
     ShellRows& like = *none;
-    like.shells.append(1);
-    found.shell = find_table(reader, like.shells);
-    for_each_part(like, Row<Shells>(0), [&](const AnyTable& table, const Range&) {
+    like.structures.append(1), like.shells.append(1);
+    found.structure = find_table(reader, like.structures);
+    found.shell = reader.is_sound() ? find_table(reader, like.shells) : FoundTable{};
+    for_each_part(like, Row<Structures>(0), [&](const AnyTable& table, const Range&) {
         found.parts.push_back(reader.is_sound() ? find_table(reader, table) : FoundTable{});
     });
     reader.expect(reader.is_at_end(), "the last table ends before the file does,");
-    reader.expect(found.shell.rows == 1, "there are " + std::to_string(found.shell.rows) + " shells, not 1,");
+    for (const FoundTable* table : {&found.structure, &found.shell})
+        reader.expect(table->rows == 1, "there are " + std::to_string(table->rows) + " structures or shells, not 1,");
     if (!reader.is_sound()) return Error{reader.trouble()};
     return found;
 }
@@ -147,17 +148,23 @@ Result<void> check_counts(const Found& found, const std::string& name) {
 }
 
 /// Moves the rows into ranges of the state. The file's ranges say again how many rows there are.
-Result<Row<Shells>> copy_rows(ShellRows& state, const Found& found, const std::string& name) {
+Result<Row<Structures>> copy_rows(ShellRows& state, const Found& found, const std::string& name) {
     const auto rows = [&](Part part) { return found.parts[part].rows; };
     const char* full = "";
-    const Row<Shells> shell = make_shell(
+    const Row<Structures> shell = make_shell(
         state,
         {rows(kVertices), rows(kElements), rows(kHinges), rows(kBlocks), rows(kLinks), rows(kCells), rows(kPoints)},
         &full);
     if (!shell.exists()) return damaged(name, std::string("its counts do not fit each other (") + full + ")");
     std::vector<Range> own;
     for_each_part(state, shell, [&](const AnyTable&, const Range& range) { own.push_back(range); });
-    found.shell.copy_to(state.shells, shell);
+    const Row<Shells> row = state.shell_of(shell);
+    found.structure.copy_to(state.structures, shell);
+    found.shell.copy_to(state.shells, row);
+    const bool fits = state.structures.rows[shell] == 0 && !state.shells.springs[row].exists() &&
+                      state.structures.kind[shell] == static_cast<uint8_t>(StructureKind::Shell);
+    if (!fits) return damaged(name, "its structure is no shell that can stand alone");
+    state.structures.rows[shell] = row;
     size_t part = 0;
     std::string trouble;
     for_each_part(state, shell, [&](AnyTable& table, const Range& range) {
@@ -179,15 +186,16 @@ Result<Row<Shells>> copy_rows(ShellRows& state, const Found& found, const std::s
     return shell;
 }
 
-Result<void> check_report(const Found& found, const ShellRows& state, Row<Shells> shell, const std::string& name) {
-    const Shells& s = state.shells;
+Result<void> check_report(const Found& found, const ShellRows& state, Row<Structures> shell, const std::string& name) {
+    const Structures& s = state.structures;
+    const Row<Shells> row = state.shell_of(shell);
     const ModelReport& r = found.report;
-    if (r.vertices != s.vertices[shell].count || r.elements != s.elements[shell].count ||
+    if (r.vertices != state.shells.vertices[row].count || r.elements != state.shells.elements[row].count ||
         r.cells != s.cells[shell].count || r.degenerate_elements > r.elements || r.inverted_elements > r.elements)
         return damaged(name, "the report counts " + std::to_string(r.vertices) + " vertices, " +
                                  std::to_string(r.elements) + " elements, " + std::to_string(r.cells) + " cells and " +
                                  std::to_string(r.degenerate_elements) + " degenerate elements, unlike the tables");
-    if (r.mass != s.mass[shell] || r.mean_thickness != double{s.thickness[shell]} ||
+    if (r.mass != s.mass[shell] || r.mean_thickness != double{state.shells.thickness[row]} ||
         r.first_crack_speed != s.first_crack_speed[shell] || r.first_crack_force != s.first_crack_force[shell])
         return damaged(name, "the report's mass, thickness, first crack speed or first crack force, " +
                                  std::to_string(r.mass) + " kg, " + std::to_string(r.mean_thickness) + " m, " +
@@ -201,19 +209,23 @@ Result<void> check_report(const Found& found, const ShellRows& state, Row<Shells
 std::vector<uint8_t> encode_model_file(const Model::Contents& contents) {
     // Reads only; the parts are listed once, for states that may change.
     Workbench& state = const_cast<Workbench&>(contents.state);
-    Shells row(1);
-    row.append(1);
-    row.copy_rows(state.shells, contents.shell, 0, 1);
-    row.users[0] = 1;
-    row.material[0] = Row<Materials>(0);  // its values stand before the tables
-    for (Column<Range>* range :
-         {&row.vertices, &row.elements, &row.hinges, &row.packs, &row.blocks, &row.links, &row.cells, &row.points})
-        (*range)[0] = {0, (*range)[0].count, (*range)[0].count};
+    const auto alone = make_workbench_of_one();
+    ShellRows& row = *alone;
+    const Row<Structures> first = make_shell(row, {});
+    copy_values(row, state, contents.shell, first);
+    row.structures.material[first] = Row<Materials>(0);  // its values stand before the tables
+    std::vector<uint32_t> counts;
+    for_each_part(state, contents.shell, [&](const auto&, const Range& range) { counts.push_back(range.count); });
+    size_t part = 0;
+    for_each_part(row, first, [&](const auto&, Range& range) {
+        range = {0, counts[part], counts[part]};
+        ++part;
+    });
     ByteWriter writer;
     writer.bytes.resize(kFileHeaderBytes);
     writer.text(contents.name);
     writer.text(contents.damage_model);
-    const Row<Materials> material = contents.state.shells.material[contents.shell];
+    const Row<Materials> material = contents.state.structures.material[contents.shell];
     if (material < contents.state.materials.size())
         put_material(writer, contents.material, material_settings(contents.state, material),
                      material_traits(contents.state, material).grain);
@@ -223,7 +235,8 @@ std::vector<uint8_t> encode_model_file(const Model::Contents& contents) {
     writer.text(contents.report.advice);
     writer.text(contents.report.walls);
     for_each_number(contents.report, [&](const auto& number) { writer.number(number); });
-    put_table(writer, row, 0, 1);
+    put_table(writer, row.structures, first, 1);
+    put_table(writer, row.shells, row.shell_of(first), 1);
     for_each_part(state, contents.shell, [&](const AnyTable& table, const Range& range) {
         put_table(writer, table, range.first, range.count);
     });
@@ -244,14 +257,14 @@ Result<Model> parse_model_file(std::span<const uint8_t> bytes, const std::string
                          models.names() + ". Cook the mesh again for one of them."};
         const auto contents = std::make_shared<Model::Contents>(limits_for(found->parts));
         fill_materials(contents->state.materials);
-        const Result<Row<Shells>> shell = copy_rows(contents->state, *found, name);
+        const Result<Row<Structures>> shell = copy_rows(contents->state, *found, name);
         if (!shell) return Error{shell.error()};
         // The values before the tables say which row it is; the writer left 0 there.
-        if (contents->state.shells.material[*shell] != Row<Materials>(0))
+        if (contents->state.structures.material[*shell] != Row<Materials>(0))
             return damaged(name, "the shell's material is row " +
-                                     std::to_string(contents->state.shells.material[*shell].index) + ", not 0");
-        contents->state.shells.material[*shell] =
-            material_row({contents->state.materials, contents->state.material_traits, contents->state.shells},
+                                     std::to_string(contents->state.structures.material[*shell].index) + ", not 0");
+        contents->state.structures.material[*shell] =
+            material_row({contents->state.materials, contents->state.material_traits, contents->state.structures},
                          found->material, found->grain);
         const auto check = models[*number].calls().check_shell;
         const ShellView view(contents->state, *shell);

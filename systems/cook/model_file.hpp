@@ -1,14 +1,14 @@
 // The model file (.cmodel): the rows of one cooked shell, so that a game cooks once. Which columns stand in it follows
 // from the tables' own lists; a build whose tables differ refuses the file. Its reader believes nothing.
 //
-// The header of engine/file_header.hpp, version 10, magic "cmodl\r\n\x1a", then the payload.
+// The header of engine/file_header.hpp, version 11, magic "cmodl\r\n\x1a", then the payload.
 //
 // Payload: the text name (u32 bytes, the bytes), the text of its damage model; the material: its name, u8 kind, u8
 // fracture, f32 for each of material_values() in that order, f32 x, y, z of the grain; the texts repairs, advice,
 // walls; the report's numbers (u64 units; f64 mass, thickness; f32 speed, force; u32 vertices, elements, cells,
-// degenerate elements, collisions, inverted elements, crossings); then the tables shells (one row), vertices, elements,
-// triangle_springs, hinges, stiffness_packs, stiffness_blocks, stiffness_links, cells, hull_points, as
-// engine/table_bytes.hpp writes tables.
+// degenerate elements, collisions, inverted elements, crossings); then the tables structures and shells (one row each),
+// vertices, elements, triangle_springs, hinges, stiffness_packs, stiffness_blocks, stiffness_links, cells, hull_points,
+// as engine/table_bytes.hpp writes tables.
 #pragma once
 #include <span>
 #include <vector>

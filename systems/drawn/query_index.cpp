@@ -69,7 +69,7 @@ AxisBox QueryIndex::world_extent(const Bodies& bodies, uint32_t body) const {
     if (triangles_[body]) return triangles_[body]->tree.whole();
     const float r = bodies.radius[body];
     if (bodies.is_sphere[body]) return turned({{-r, -r, -r}, {r, r, r}}, {pose.position, {}});
-    if (!bodies.shell[body].exists()) return turned({-half_extents_[body], half_extents_[body]}, pose);
+    if (!bodies.structure[body].exists()) return turned({-half_extents_[body], half_extents_[body]}, pose);
     const auto& drawn = bodies.drawn_box[body];
     return turned({{drawn[0], drawn[1], drawn[2]}, {drawn[3], drawn[4], drawn[5]}}, pose);
 }

@@ -42,11 +42,11 @@ struct Flights {
     }
 };
 
-float least_wake_speed(const Bodies& bodies, const Shells& shells, const DamageSettings& settings) {
+float least_wake_speed(const Bodies& bodies, const Structures& structures, const DamageSettings& settings) {
     float least = 1e30f;
     for (uint32_t b = 0; b < bodies.size(); ++b)
-        if (static_cast<BodyKind>(bodies.kind[b]) != BodyKind::Free && is_fragile(bodies, shells, settings, b))
-            least = std::min(least, wake_speed(shells, bodies.shell[b], bodies.strength_scale[b]));
+        if (static_cast<BodyKind>(bodies.kind[b]) != BodyKind::Free && is_fragile(bodies, structures, settings, b))
+            least = std::min(least, wake_speed(structures, bodies.structure[b], bodies.strength_scale[b]));
     return least;
 }
 
@@ -91,11 +91,12 @@ Reach reach_of_flight(const Bodies& bodies, uint32_t b, Vec3 gravity, float seco
 }
 
 /// Bodies that were never broken, of those that may be.
-std::span<const Reach> find_whole(const Bodies& bodies, const Shells& shells, const Tasks& tasks,
+std::span<const Reach> find_whole(const Bodies& bodies, const Structures& structures, const Tasks& tasks,
                                   const DamageSettings& settings, Arena& arena) {
     const auto is_whole = [&](uint32_t b) {
         return static_cast<BodyKind>(bodies.kind[b]) != BodyKind::Free && !bodies.parent[b].exists() &&
-               (bodies.task[b] == kNone || is_ahead(tasks, bodies.task[b])) && is_fragile(bodies, shells, settings, b);
+               (bodies.task[b] == kNone || is_ahead(tasks, bodies.task[b])) &&
+               is_fragile(bodies, structures, settings, b);
     };
     uint32_t count = 0;
     for (uint32_t b = 0; b < bodies.size(); ++b) count += is_whole(b);
@@ -113,14 +114,14 @@ std::span<const Reach> find_whole(const Bodies& bodies, const Shells& shells, co
 // each other; of the other pieces, which may be hundreds, so many a frame take turns. What is held up and topples has
 // flights of its own. All that may reach something whole is followed again while a task waits for its touch: others
 // may have pushed it meanwhile.
-void foresee_impacts(Serial, Step step, RigidWorld& rigid, const Bodies& bodies, const Shells& shells, RunsNow runs,
-                     const DamageSettings& settings, Arena& arena, Events<ForeseenHit>& foreseen) {
+void foresee_impacts(Serial, Step step, RigidWorld& rigid, const Bodies& bodies, const Structures& structures,
+                     RunsNow runs, const DamageSettings& settings, Arena& arena, Events<ForeseenHit>& foreseen) {
     foreseen.clear();
     if (settings.frames_ahead == 0) return;
-    const float least = least_wake_speed(bodies, shells, settings);
+    const float least = least_wake_speed(bodies, structures, settings);
     const float seconds = step.dt * static_cast<float>(settings.frames_ahead), gained = length(step.gravity) * seconds;
     Flights flights{step, rigid, bodies, runs.tasks, runs.contacts, least, settings.frames_ahead, foreseen};
-    const auto whole = find_whole(bodies, shells, runs.tasks, settings, arena);
+    const auto whole = find_whole(bodies, structures, runs.tasks, settings, arena);
     const auto is_near_whole = [&](uint32_t b) {
         const Reach reach = reach_of_flight(bodies, b, step.gravity, seconds);
         return std::any_of(whole.begin(), whole.end(), [&](const Reach& r) { return r.meets(reach); });

@@ -4,9 +4,9 @@
 
 namespace cullet {
 
-inline bool is_fragile(const Bodies& bodies, const Shells& shells, const DamageSettings& settings, uint32_t b) {
-    const Row<Shells> shell = bodies.shell[b];
-    return shell.exists() && bodies.is_breakable[b] && may_break_again(shells, shell, settings);
+inline bool is_fragile(const Bodies& bodies, const Structures& structures, const DamageSettings& settings, uint32_t b) {
+    const Row<Structures> structure = bodies.structure[b];
+    return structure.exists() && bodies.is_breakable[b] && may_break_again(structures, structure, settings);
 }
 
 /// The contact as a blow on its body a (side 0) or b (side 1).
@@ -21,10 +21,11 @@ inline Impact impact_of(const RigidContact& c, int side) {
 }
 
 /// Fast enough to open a task on its body, and not by somebody who stands still in the grip of another task.
-inline bool is_blow(const Impact& impact, const Bodies& bodies, const Shells& shells, const DamageSettings& settings) {
+inline bool is_blow(const Impact& impact, const Bodies& bodies, const Structures& structures,
+                    const DamageSettings& settings) {
     const Row<Bodies> body = impact.body;
-    return is_fragile(bodies, shells, settings, body) && !bodies.hold_count[impact.striker] &&
-           impact.approach_speed > wake_speed(shells, bodies.shell[body], bodies.strength_scale[body]);
+    return is_fragile(bodies, structures, settings, body) && !bodies.hold_count[impact.striker] &&
+           impact.approach_speed > wake_speed(structures, bodies.structure[body], bodies.strength_scale[body]);
 }
 
 /// Body by body, the fastest first. No two are equal.

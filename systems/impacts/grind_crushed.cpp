@@ -22,7 +22,7 @@ void grind_crushed(Serial, Step step, const Events<Crushed>& crushed, SoftRows& 
     uint32_t ground = 0;
     for (const Crushed& c : crushed) {
         const double mass = bodies.mass[c.body],
-                     density = rows.materials.density[rows.shells.material[bodies.shell[c.body]]];
+                     density = rows.materials.density[rows.structures.material[bodies.structure[c.body]]];
         const NewCrumb crumb{c.body, centre_of(bodies, c.body), bodies.velocity[c.body], mass, mass / density};
         if (make_crumb(crumbs, bodies, rigid, crumb, step.frame, told.debris) == kNone) {
             told.refused.push(refused_event(bodies, c.body, "limits.debris"));

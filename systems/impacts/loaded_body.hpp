@@ -6,6 +6,7 @@ namespace cullet {
 
 struct LoadedBody {
     const Bodies& bodies;
+    const Structures& structures;
     const Shells& shells;
     const Vertices& vertices;
     const Materials& materials;
@@ -13,12 +14,13 @@ struct LoadedBody {
     Row<Bodies> body;
     bool yields_to_weights = true;  // false: to what the game moves alone
 
-    Row<Shells> shell() const { return bodies.shell[body]; }
-    Row<Materials> material() const { return shells.material[shell()]; }
+    Row<Structures> structure() const { return bodies.structure[body]; }
+    Row<Shells> shell() const { return shell_of(structures, structure()); }
+    Row<Materials> material() const { return structures.material[structure()]; }
     bool is_pinned() const { return static_cast<BodyKind>(bodies.kind[body]) == BodyKind::Static; }
     /// A body that has cracks bears half, as for blows (kWakeShare).
     double strength_share() const {
-        return (shells.has_cracks[shell()] ? 0.5 : 1.0) * double{bodies.strength_scale[body]};
+        return (structures.has_cracks[structure()] ? 0.5 : 1.0) * double{bodies.strength_scale[body]};
     }
     double strength() const { return strength_share() * materials.tensile_strength[material()]; }  // Pa
     double solid_volume() const { return bodies.mass[body] / materials.density[material()]; }

@@ -68,7 +68,8 @@ uint32_t free_tasks(const Tasks& tasks) {
 
 /// A hit that has come already and waits for its turn goes first, unless it is a bump.
 bool has_queued_hit(const BodyRows& state, const QueuedHits& queued, Row<Bodies> body) {
-    const float bump = first_crack_speed(state.shells, state.bodies.shell[body], state.bodies.strength_scale[body]);
+    const float bump =
+        first_crack_speed(state.structures, state.bodies.structure[body], state.bodies.strength_scale[body]);
     for (uint32_t q = 0; q < queued.size(); ++q)
         if (queued.is_used[q] && queued.body[q] == body && queued.approach_speed[q] >= bump) return true;
     return false;
@@ -88,7 +89,7 @@ std::span<Foreseen> find_blows(const Opening& opening, std::span<const ForeseenH
                 const bool has_room = !task.exists() || is_ahead(state.tasks, task);
                 const bool is_free = has_room && !bodies.hold_count[impact.body] &&
                                      opening.frame + hit.touch.steps >= bodies.retry_frame[impact.body];
-                if (is_free && is_blow(impact, bodies, state.shells, settings)) room[count++] = {impact, &hit};
+                if (is_free && is_blow(impact, bodies, state.structures, settings)) room[count++] = {impact, &hit};
             }
     return room.first(count);
 }
@@ -180,7 +181,8 @@ void open_one(Opening& opening, std::span<const Foreseen> together) {
 bool is_bump(const BodyRows& state, const Impact& impact, float foreseen) {
     const float scale = state.bodies.strength_scale[impact.body];
     return impact.approach_speed <
-           std::min(first_crack_speed(state.shells, state.bodies.shell[impact.body], scale), kBumpShare * foreseen);
+           std::min(first_crack_speed(state.structures, state.bodies.structure[impact.body], scale),
+                    kBumpShare * foreseen);
 }
 
 void open_ahead(Opening& opening, const Events<ForeseenHit>& foreseen, const DamageSettings& settings) {

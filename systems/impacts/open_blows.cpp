@@ -30,7 +30,7 @@ ImpactEvent event_of(const Bodies& bodies, const Blows& blows, uint32_t row) {
 }
 
 float radius_of(const RunRows& state, const Blows& blows, uint32_t row, uint32_t t) {
-    return patch_radius(state.shells, state.tasks.source[t], blows.radius[row]);
+    return patch_radius(state.shells, state.shell_of(state.tasks.source[t]), blows.radius[row]);
 }
 
 // The task's contact in whose patch the push lies, or kNone. Vertices of two patches take one spring alone: a second
@@ -110,9 +110,9 @@ struct Opener {
 
     /// Cuts are made whole, in the step that opens their task: at least one, then as long as the frame's units last.
     bool may_cut(uint32_t row) {
-        const Row<Shells> shell = state.bodies.shell[blows.body[row]];
-        const uint64_t units =
-            state.shells.vertices[shell].count * kUnitsOpen + units_of_cut(state.shells, shell, blows, row);
+        const Row<Structures> shell = state.bodies.structure[blows.body[row]];
+        const uint64_t units = state.shells.vertices[state.shell_of(shell)].count * kUnitsOpen +
+                               units_of_cut(state.shells, state.shell_of(shell), blows, row);
         if (cut_units > 0 && cut_units + units > o.settings.units_a_frame) return false;
         cut_units += units;
         return true;
@@ -135,7 +135,7 @@ struct Opener {
         if (is_kind(blows, row, BlowKind::Push))
             lay_push(state, blows, row, t);
         else
-            tasks.quiet_time[t] = tasks.end_time[t];  // no touch tells when it is over
+            state.hidden_runs.quiet_time[t] = state.hidden_runs.end_time[t];  // no touch tells when it is over
         tasks.approach_speed[t] = std::max(tasks.approach_speed[t], blows.speed[row]);
         o.impact_events.push(event_of(state.bodies, blows, row));
     }
@@ -143,9 +143,10 @@ struct Opener {
     /// New ones that damage is not worth looking at for, or is forbidden for.
     bool is_harmless(uint32_t row) const {
         const Row<Bodies> body = blows.body[row];
-        if (blows.speed[row] <= wake_speed(state.shells, state.bodies.shell[body], state.bodies.strength_scale[body]))
+        if (blows.speed[row] <=
+            wake_speed(state.structures, state.bodies.structure[body], state.bodies.strength_scale[body]))
             return true;
-        if (!may_break_again(state.shells, state.bodies.shell[body], o.settings)) return true;
+        if (!may_break_again(state.structures, state.bodies.structure[body], o.settings)) return true;
         return o.settings.allows && !o.settings.allows(o.settings.allows_user, event_of(state.bodies, blows, row));
     }
 
@@ -157,7 +158,8 @@ struct Opener {
             pay(row);
             return Outcome::Gone;
         }
-        if (!is_cut && !may_break_again(state.shells, state.bodies.shell[body], o.settings)) return Outcome::Gone;
+        if (!is_cut && !may_break_again(state.structures, state.bodies.structure[body], o.settings))
+            return Outcome::Gone;
         const uint32_t open = state.bodies.task[body];
         if (open != kNone) {
             const bool is_fresh = state.tasks.opened_frame[open] == o.opening.frame;

@@ -37,7 +37,7 @@ void queue_hits(std::span<const Impact> impacts, Opening& opening) {
 void lay_queued(BodyRows& state, const QueuedHits& queued, Row<Tasks> task, uint32_t q) {
     Tasks& tasks = state.tasks;
     TaskContacts& contacts = state.task_contacts;
-    const Row<Shells> shell = tasks.source[task];
+    const Row<Structures> shell = tasks.source[task];
     const uint32_t c = tasks.first_contact[task];
     const Vec3 arm = queued.point[q] - state.bodies.centre[tasks.body[task]].to_float();
     const Vec3 moving = tasks.start_velocity[task] + cross(tasks.start_spin[task], arm);
@@ -52,7 +52,7 @@ void lay_queued(BodyRows& state, const QueuedHits& queued, Row<Tasks> task, uint
         contacts.start_speed[c] = along;
     else
         tasks.start_velocity.set(task, tasks.start_velocity[task] - along * queued.normal[q]);
-    contacts.radius[c] = patch_radius(state.shells, shell, queued.striker_radius[q]);
+    contacts.radius[c] = patch_radius(state.shells, state.shell_of(shell), queued.striker_radius[q]);
     tasks.contact_count[task] = 1;
     tasks.is_late[task] = 1;
     tasks.load[task] = queued.load[q];
@@ -63,7 +63,8 @@ bool will_be_held(const RunRows& state, const DamageSettings& settings, Row<Task
     const Tasks& tasks = state.tasks;
     return static_cast<TaskState>(tasks.state[task]) == TaskState::Running && !tasks.is_late[task] &&
            settings.hold_seconds > 0 &&
-           tasks.approach_speed[task] > first_crack_speed(state.shells, tasks.source[task], tasks.strength_scale[task]);
+           tasks.approach_speed[task] >
+               first_crack_speed(state.structures, tasks.source[task], tasks.strength_scale[task]);
 }
 
 // A striker that touches k bodies whose tasks open in one frame is given to each as k times as light: k strikers of a
@@ -114,7 +115,7 @@ bool open_snap(Opening& opening, uint32_t q, Events<ImpactEvent>& impact_events)
     BodyRows& state = opening.state;
     const QueuedHits& queued = opening.queued;
     const Row<Bodies> body = queued.body[q];
-    if (!snap(opening.blows, state.bodies, state.shells, state.vertices, body, queued.point[q], queued.normal[q],
+    if (!snap(opening.blows, state, state.bodies, body, queued.point[q], queued.normal[q],
               queued.frame[q] * 0x10001 + body.index))
         return false;
     const Pose pose = pose_of(state.bodies, body);
@@ -148,7 +149,7 @@ void open_queued_of(uint64_t frame, Opening& opening, const DamageSettings& sett
         const bool snaps = is_snap(queued.load[q], queued.approach_speed[q]);
         // What asks for a snap has seen to it that nothing else is left.
         const auto may_break = snaps ? may_be_crushed : may_break_again;
-        if (may_break(state.shells, bodies.shell[body], settings)) {
+        if (may_break(state.structures, bodies.structure[body], settings)) {
             if (snaps && open_snap(opening, q, impact_events)) {
                 queued.clear_rows(q, 1);
                 continue;

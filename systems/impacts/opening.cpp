@@ -43,12 +43,12 @@ Impact aimed(BodyRows& state, Impact impact) {
     const Bodies& bodies = state.bodies;
     const Row<Bodies> striker = impact.striker;
     if (!striker.exists() || !bodies.is_sphere[striker]) return impact;
-    const Row<Shells> shell = bodies.shell[impact.body];
+    const Row<Structures> shell = bodies.structure[impact.body];
     const Pose pose = pose_of(bodies, impact.body);
-    const Vec3 normal =
-        rotate(pose.orientation, struck_normal(ShellView(state, shell), to_body(pose, impact.point),
-                                               rotate(conjugate(pose.orientation), impact.normal),
-                                               patch_radius(state.shells, shell, bodies.radius[striker])));
+    const Vec3 normal = rotate(
+        pose.orientation, struck_normal(ShellView(state, shell), to_body(pose, impact.point),
+                                        rotate(conjugate(pose.orientation), impact.normal),
+                                        patch_radius(state.shells, state.shell_of(shell), bodies.radius[striker])));
     const Vec3 closing = bodies.velocity[striker] - velocity_at(bodies, impact.body, impact.point);
     if (!(dot(closing, normal) > 0)) return impact;
     impact.normal = normal;
@@ -72,11 +72,10 @@ ImpactEvent event_of(const Bodies& bodies, const Impact& impact, double inverse_
 
 void lay_contacts(std::span<const Impact> impacts, const Impact& first_aimed, BodyRows& state, Row<Tasks> task) {
     const Bodies& bodies = state.bodies;
-    const Shells& shells = state.shells;
     Tasks& tasks = state.tasks;
     TaskContacts& contacts = state.task_contacts;
     const Row<Bodies> body = tasks.body[task];
-    const Row<Shells> shell = tasks.source[task];
+    const Row<Shells> shell = state.shell_of(tasks.source[task]);
     const Pose pose = pose_of(bodies, body);
     uint32_t count = 0;
     for (const Impact& told : impacts) {
@@ -84,7 +83,7 @@ void lay_contacts(std::span<const Impact> impacts, const Impact& first_aimed, Bo
         const Vec3 point = to_body(pose, told.point);
         const float striker_radius =
             told.striker.exists() && bodies.is_sphere[told.striker] ? bodies.radius[told.striker] : 0.0f;
-        const float radius = patch_radius(shells, shell, striker_radius);
+        const float radius = patch_radius(state.shells, shell, striker_radius);
         const uint32_t first = tasks.first_contact[task];
         const auto is_taken = [&](uint32_t c) { return length(contacts.point[c] - point) < radius; };
         bool joins = false;
@@ -129,7 +128,7 @@ Row<Tasks> Opening::open(Row<Bodies> body, float approach_speed, bool is_ahead) 
         refuse(body, "limits.open_hits", is_ahead);
         return {};
     }
-    const Row<Shells> source = bodies.shell[body];
+    const Row<Structures> source = bodies.structure[body];
     const WorkingShell working = models.working_shell(state, body);
     if (!working.waits && !working.shell.exists()) {
         refuse(body, working.full, is_ahead);
@@ -138,11 +137,12 @@ Row<Tasks> Opening::open(Row<Bodies> body, float approach_speed, bool is_ahead) 
     }
     const Row<Tasks> task(t);
     tasks.clear_rows(t, 1);
+    state.hidden_runs.clear_rows(t, 1);
     tasks.state[t] = static_cast<uint8_t>(TaskState::Running);
     tasks.body[t] = body;
     tasks.source[t] = source;
-    ++state.shells.users[source];
-    tasks.shell[t] = working.shell;
+    ++state.structures.users[source];
+    tasks.working[t] = working.shell;
     tasks.opened_frame[t] = frame;
     tasks.first_contact[t] = t * kMostContacts;
     tasks.approach_speed[t] = approach_speed;
@@ -161,7 +161,7 @@ Row<Tasks> Opening::open(Row<Bodies> body, float approach_speed, bool is_ahead) 
 void Opening::give_rows() {
     const Tasks& tasks = state.tasks;
     for (const TaskOpened& o : opened) {
-        if (tasks.shell[o.task].exists()) continue;
+        if (tasks.working[o.task].exists()) continue;
         const char* full = nullptr;
         if (!models.give_late(state, blows, o.task, stiffness_wanted, &full)) drop(o.task, full);
     }

@@ -153,7 +153,7 @@ double sum_of(std::span<const BodyLoad> loads) {
 }
 
 double force_borne(const LoadedBody& of) {
-    return of.strength_share() * of.shells.first_crack_force[of.shell()];
+    return of.strength_share() * of.structures.first_crack_force[of.structure()];
 }
 
 double sunk_into(const LoadedBody& of, std::span<const BodyLoad> loads) {
@@ -206,7 +206,7 @@ Overload overload_of(const LoadedBody& of, const RigidWorld& rigid, std::span<Bo
     press(of, loads, weight, room, nullptr, worst);
     if (worst.is_driven || !(worst.share > 1) || !rigid.knows_surfaces()) return worst;
     // Few come so far. Contacts tell only a few places of what lies under it.
-    const double near = std::max(kNearMargins * double{of.shells.margin[of.shell()]},
+    const double near = std::max(kNearMargins * double{of.structures.margin[of.structure()]},
                                  kNearBelow * 2 * double{of.shells.thickness[of.shell()]});
     const Underlay under(rigid, of.bodies, of.body, near);
     find_laid(of, under, near, as_solved, force_borne(of));

@@ -25,13 +25,13 @@ bool comes_first(const Impact& a, const Impact& b) {
 }
 
 // The approach speed leaves out this step's gravity, so a body at rest on another never opens a task.
-void predict_impacts(Serial, Step step, const RigidWorld& rigid, const Bodies& bodies, const Shells& shells,
+void predict_impacts(Serial, Step step, const RigidWorld& rigid, const Bodies& bodies, const Structures& structures,
                      RunsNow runs, const DamageSettings& settings, Events<Impact>& impacts) {
     impacts.clear();
     for (const RigidContact& c : rigid.contacts()) {
         for (int side = 0; side < 2; ++side) {
             const Impact impact = impact_of(c, side);
-            if (!is_blow(impact, bodies, shells, settings)) continue;
+            if (!is_blow(impact, bodies, structures, settings)) continue;
             const uint32_t task = bodies.task[impact.body];
             if (task != kNone && !is_ahead(runs.tasks, task)) {
                 if (is_striking(runs.tasks, runs.contacts, task, impact.striker)) continue;

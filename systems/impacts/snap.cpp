@@ -32,15 +32,15 @@ Extent extent_along(const Vertices& vertices, Range rows, Vec3 direction) {
 
 }  // namespace
 
-bool snap(Blows& blows, const Bodies& bodies, const Shells& shells, const Vertices& vertices, Row<Bodies> body,
-          Vec3 place, Vec3 normal, uint64_t seed) {
+bool snap(Blows& blows, const ShellRows& rows, const Bodies& bodies, Row<Bodies> body, Vec3 place, Vec3 normal,
+          uint64_t seed) {
     if (blows.size() >= blows.limit() / 2) return false;
-    const Row<Shells> shell = bodies.shell[body];
-    const Range rows = shells.vertices[shell];
+    const Row<Shells> shell = rows.shell_of(bodies.structure[body]);
+    const Range range = rows.shells.vertices[shell];
     // The crack goes straight through the thinnest side.
     const Vec3 sweep = axis_across(bodies.inertia[body], Vec3d(normal), Inertia::Most).to_float();
     const Vec3 line = cross(sweep, normal);
-    const Extent along = extent_along(vertices, rows, normal), wide = extent_along(vertices, rows, line);
+    const Extent along = extent_along(rows.vertices, range, normal), wide = extent_along(rows.vertices, range, line);
     if (!(along.size() > 0 && wide.size() > 0)) return false;
     const uint32_t row = blows.append(1);
     if (row == kNone) return false;
@@ -50,7 +50,7 @@ bool snap(Blows& blows, const Bodies& bodies, const Shells& shells, const Vertic
     blows.task[row] = kNone;
     blows.is_taken[row] = 1;
     blows.direction.set(row, sweep);
-    const float edge = std::max(shells.mean_edge[shell], 1e-3f * wide.size());
+    const float edge = std::max(rows.shells.mean_edge[shell], 1e-3f * wide.size());
     const uint32_t points =
         std::clamp(static_cast<uint32_t>(std::ceil(wide.size() / edge)), kFewestPoints, kMostPoints);
     const float at =

@@ -7,7 +7,7 @@ namespace cullet {
 
 /// Asks for a cut through the place (body frame), across `normal`: a little jagged, the same for the same seed. The
 /// section is moved so that a tenth of the body is left on either side. False: no row of Blows is free.
-bool snap(Blows& blows, const Bodies& bodies, const Shells& shells, const Vertices& vertices, Row<Bodies> body,
-          Vec3 place, Vec3 normal, uint64_t seed);
+bool snap(Blows& blows, const ShellRows& rows, const Bodies& bodies, Row<Bodies> body, Vec3 place, Vec3 normal,
+          uint64_t seed);
 
 }  // namespace cullet

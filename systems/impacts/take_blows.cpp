@@ -23,7 +23,7 @@ struct Taking {
     uint32_t named = 0;  // blows on one body that are still to be written: what reaches many leaves them room
 
     bool has_shell(Row<Bodies> b) const {
-        return static_cast<BodyKind>(state.bodies.kind[b]) != BodyKind::Free && state.bodies.shell[b].exists();
+        return static_cast<BodyKind>(state.bodies.kind[b]) != BodyKind::Free && state.bodies.structure[b].exists();
     }
 
     /// The striker of another body's hit is rigid till that ends.
@@ -37,10 +37,11 @@ struct Taking {
     /// False: no model moves the body by itself.
     bool push_points(uint32_t row) {
         const Row<Bodies> body = blows.body[row];
-        const Row<Shells> shell = state.bodies.shell[body];
+        const Row<Structures> shell = state.bodies.structure[body];
         if (!shell.exists() || !may_move_by_itself(body)) return false;
         const PointPush push{blows.point[row], blows.impulse[row].to_float(),
-                             patch_radius(state.shells, shell, blows.radius[row]), kMostReturned * blows.speed[row]};
+                             patch_radius(state.shells, state.shell_of(shell), blows.radius[row]),
+                             kMostReturned * blows.speed[row]};
         if (!models.push(state, rigid, body, push)) return false;
         book(body, blows.impulse[row]);
         return true;
@@ -64,7 +65,7 @@ struct Taking {
         Vec3 nearest = blows.point[row];
         const Row<Bodies> body = blows.body[row];
         if (!has_shell(body)) return nearest;
-        const ShellView shell(state, state.bodies.shell[body]);
+        const ShellView shell(state, state.bodies.structure[body]);
         float least = 1e30f;
         for (uint32_t v = 0; v < shell.vertex_count(); ++v) {
             const uint32_t at = shell.vertex(v);
@@ -104,7 +105,7 @@ struct Taking {
         Explosion explosion = explosion_of(blows, row);
         explosion.centre = to_body(pose_of(bodies, body), explosion.centre);
         const ExplosionSums sums =
-            measure_explosion(ShellView(state, bodies.shell[body]), explosion, bodies.centre[body]);
+            measure_explosion(ShellView(state, bodies.structure[body]), explosion, bodies.centre[body]);
         if (!(sums.size > 0)) return;
         if (may_move_by_itself(body) && models.explode(state, rigid, body, explosion)) return book(body, sums.impulse);
         if (!bodies.is_breakable[body]) return push_body(state.bodies, rigid, counts, body, sums.impulse, sums.turning);
@@ -146,7 +147,7 @@ struct Taking {
             blows.direction.set(made, rotate(conjugate(pose.orientation), blows.direction[made]));
             for (uint32_t i = 0; i < blows.point_count[made]; ++i)
                 set_cut_point(blows, made, i, to_body(pose, cut_point(blows, made, i)));
-            if (!passes_through(ShellView(state, state.bodies.shell[b]), CutSurface(blows, made)))
+            if (!passes_through(ShellView(state, state.bodies.structure[b]), CutSurface(blows, made)))
                 remove_blow(blows, made);
         }
     }

@@ -84,20 +84,21 @@ bool may_be_overloaded(const LoadedBody& of, std::span<const BodyLoad> loads) {
 
 // It may break, and is not held.
 bool may_be_loaded(const LoadedBody& of, const DamageSettings& settings) {
-    return of.shell().exists() && of.bodies.is_breakable[of.body] && may_be_crushed(of.shells, of.shell(), settings) &&
-           !of.bodies.hold_count[of.body] && of.shells.first_crack_force[of.shell()] > 0 && force_borne(of) < kBearsAll;
+    return of.structure().exists() && of.bodies.is_breakable[of.body] &&
+           may_be_crushed(of.structures, of.structure(), settings) && !of.bodies.hold_count[of.body] &&
+           of.structures.first_crack_force[of.structure()] > 0 && force_borne(of) < kBearsAll;
 }
 
 // It has broken too often for a blow. It still gives way to what does not yield: a door does not stop for it. Nothing
 // else wakes it, for what lies in a heap would be woken to bear what it may not break by.
 bool is_past_blows(const LoadedBody& of, const DamageSettings& settings) {
-    return !may_break_again(of.shells, of.shell(), settings);
+    return !may_break_again(of.structures, of.structure(), settings);
 }
 
 // What is not worth breaking gives way to what the game moves alone. In a heap that comes down shards lie half a wall
 // deep below slabs for a while, or between two stumps, and were ground by the dozen.
 bool is_small(const LoadedBody& of, const DamageSettings& settings) {
-    return !may_snap_again(of.shells, of.shell(), settings);
+    return !may_snap_again(of.structures, of.structure(), settings);
 }
 bool is_anything_driven(const Bodies& bodies) {
     for (uint32_t b = 0; b < bodies.size(); ++b) {
@@ -113,7 +114,7 @@ bool may_be_pressed(const LoadedBody& of, const LoadLists& lists, bool is_anythi
 // What comes apart no further.
 bool is_at_its_end(const LoadedBody& of, const DamageSettings& settings) {
     return is_small(of, settings) &&
-           (!may_be_halved(of.shells, of.shell(), settings) || of.bodies.overload_runs[of.body] >= kMostCuts);
+           (!may_be_halved(of.structures, of.structure(), settings) || of.bodies.overload_runs[of.body] >= kMostCuts);
 }
 
 // What is laid on a sleeper little by little is not to find it asleep for ever: its supports tell their loads only
@@ -139,7 +140,7 @@ Vec3d weight_of(const Bodies& bodies, Row<Bodies> body, Vec3 gravity) {
 float speed_of(const BodyRows& state, Row<Bodies> body, const Overload& over) {
     const float share = over.is_driven ? kMostShare : std::clamp(static_cast<float>(over.share), 1.0f, kMostShare);
     return kBreakingSpeed * share * (state.bodies.overload_runs[body] ? kHarder : 1) *
-           first_crack_speed(state.shells, state.bodies.shell[body], state.bodies.strength_scale[body]);
+           first_crack_speed(state.structures, state.bodies.structure[body], state.bodies.strength_scale[body]);
 }
 
 // s, of a run on the whole body when it gets all units; cracks and pieces take half as much again.
@@ -166,7 +167,7 @@ bool is_for_a_run(const BodyRows& state, const LoadedBody& of, const Overload& o
     if (is_sunk(of, over.sunk) || is_past_blows(of, rules.settings)) return false;
     if (bodies.overload_runs[body] >= (over.is_driven ? kMostDrivenRuns : kMostRuns)) return false;
     if (speed_of(state, body, over) > kFastestRun) return false;
-    if (state.shells.elements[bodies.shell[body]].count < kFewestForARun) return false;
+    if (state.shells.elements[state.shell_of(bodies.structure[body])].count < kFewestForARun) return false;
     const std::optional<RunLength> run = rules.models.length(state, body);
     return !run || !is_deep(bodies, body, way_in(over, step.gravity, seconds_of_run(*run, rules.settings, step.dt)));
 }
@@ -350,7 +351,7 @@ void weigh_loads(Serial, Step step, RigidWorld& rigid, BodyRows& rows, QueuedHit
     const bool is_driven = is_anything_driven(bodies);
     for (uint32_t b = 0; b < bodies.size(); ++b) {
         const Row<Bodies> body(b);
-        LoadedBody of{bodies, rows.shells, rows.vertices, rows.materials, rows.pin_boxes, body};
+        LoadedBody of{bodies, rows.structures, rows.shells, rows.vertices, rows.materials, rows.pin_boxes, body};
         bool is_looked_at = lists.has_loads(body) && may_be_loaded(of, settings);
         of.yields_to_weights = !is_looked_at || !is_small(of, settings);
         is_looked_at = is_looked_at && (of.yields_to_weights || may_be_pressed(of, lists, is_driven));

@@ -36,11 +36,13 @@ std::string DamageModels::names() const {
     return list;
 }
 
-Result<void> DamageModels::check_spawn(const ShellRows& rows, Row<Shells> source, const SpawnSettings& settings) const {
-    return check_settings(models_[rows.shells.damage_model[source]].spawn_settings(), settings);
+Result<void> DamageModels::check_spawn(const ShellRows& rows, Row<Structures> source,
+                                       const SpawnSettings& settings) const {
+    return check_settings(models_[rows.structures.damage_model[source]].spawn_settings(), settings);
 }
 
-Result<Row<Shells>> DamageModels::spawn_shell(SoftRows& rows, Row<Shells> source, const Spawning& spawning) const {
+Result<Row<Structures>> DamageModels::spawn_shell(SoftRows& rows, Row<Structures> source,
+                                                  const Spawning& spawning) const {
     const auto call = call_of(rows, source, &ModelCalls::spawn_shell);
     return call ? call(rows, source, spawning) : source;
 }
@@ -167,7 +169,7 @@ void DamageModels::restore_body(BodyRows& rows, Row<Bodies> body) const {
 
 Result<void> DamageModels::check_shell(const ShellView& shell, Wear wear, const std::string& name,
                                        const char* advice) const {
-    const auto call = call_of(shell.state, shell.row, &ModelCalls::check_shell);
+    const auto call = call_of(shell.state, shell.structure, &ModelCalls::check_shell);
     return call ? call(shell, wear, name, advice) : Result<void>();
 }
 

@@ -7,7 +7,7 @@ namespace cullet {
 void cancel_task(const DamageModels& models, BodyRows& state, Row<Tasks> task) {
     Tasks& tasks = state.tasks;
     models.cancel(state, task);
-    if (tasks.shell[task].exists()) release_shell(state, tasks.shell[task]);
+    if (tasks.working[task].exists()) release_shell(state, tasks.working[task]);
     release_shell(state, tasks.source[task]);
     state.bodies.task[tasks.body[task]] = kNone;
     tasks.due_frame[task] = 0;

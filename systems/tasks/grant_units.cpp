@@ -44,7 +44,7 @@ uint32_t affordable(int64_t budget, const Cost& cost, uint32_t most, bool is_las
 uint32_t first_step(const Granting& g, uint32_t t, const Cost& cost, int64_t budget, bool is_oldest,
                     bool is_first_brief) {
     if (is_oldest) return 1;
-    if (cost.end > 0 && steps_left(g.rows.tasks, t) <= 1) return budget >= cost.step + cost.end;
+    if (cost.end > 0 && steps_left(g.rows, t) <= 1) return budget >= cost.step + cost.end;
     return !g.loop_of(t).is_brief() || is_first_brief || budget > 0;
 }
 
@@ -55,7 +55,7 @@ void pay_owed(const Granting& g, std::span<const uint32_t> order, int64_t& budge
     int64_t kept = 0;
     for (const uint32_t t : order) {
         const Cost cost = g.cost_of(t);
-        kept += cost.step + (t == order[0] && steps_left(tasks, t) <= 1 ? cost.end : 0);
+        kept += cost.step + (t == order[0] && steps_left(g.rows, t) <= 1 ? cost.end : 0);
     }
     for (const uint32_t t : order) {
         const auto owed = static_cast<int64_t>(tasks.units_owed[t]);
@@ -73,8 +73,7 @@ bool is_due(const Tasks& tasks, uint32_t t) {
 
 /// At most half of what is left, so that other hits go on.
 int64_t units_of_due_birth(const RunRows& state, uint32_t t, int64_t budget) {
-    return std::min(static_cast<int64_t>(units_of_birth(state.shells, state.tasks, t)),
-                    std::max<int64_t>(budget, 0) / 2);
+    return std::min(static_cast<int64_t>(units_of_birth(state, t)), std::max<int64_t>(budget, 0) / 2);
 }
 
 /// Longer runs that so small a share of the frame's units ends, births and all, are not cut into rounds: shards and
@@ -84,8 +83,9 @@ void grant_small(const Granting& g, std::span<const uint32_t> order, int64_t& bu
     Tasks& tasks = g.rows.tasks;
     for (const uint32_t t : order) {
         const int64_t step = g.cost_of(t).step;
-        const auto births = static_cast<int64_t>(kUnitsBirth * g.rows.shells.vertices[tasks.shell[t]].count);
-        const int64_t steps = 2 * int64_t{steps_left(tasks, t)} + births / step, units = steps * step;
+        const auto births =
+            static_cast<int64_t>(kUnitsBirth * g.rows.shells.vertices[g.rows.shell_of(tasks.working[t])].count);
+        const int64_t steps = 2 * int64_t{steps_left(g.rows, t)} + births / step, units = steps * step;
         if (g.loop_of(t).is_brief() || units > g.units_a_frame / kSmallShare || units > budget) continue;
         tasks.steps_granted[t] = static_cast<uint32_t>(steps);
         budget -= units;
@@ -153,7 +153,7 @@ void grant_units(Serial, SoftRows& rows, DamageLedger ledger) {
         for (uint32_t i = 0; i < count; ++i) {
             const uint32_t t = order[i];
             const Cost cost = granting.cost_of(t);
-            const uint32_t left = steps_left(rows.tasks, t), most = std::min(kStepsARound, left);
+            const uint32_t left = steps_left(rows, t), most = std::min(kStepsARound, left);
             // Also where rounding leaves none: the step itself tells that the time is up.
             uint32_t steps = is_first_round ? first_step(granting, t, cost, budget, i == 0, !has_brief) : 0;
             const int64_t own = granting.most_units(t) - rows.tasks.steps_granted[t] * cost.step;

@@ -29,7 +29,7 @@ void for_body_and_strikers(const Tasks& tasks, const TaskContacts& contacts, uin
 
 // Hold and release both happen here, between detect and solve, so a release is bit for bit as if never held. A blow
 // slower than the first crack is solved at once: a harmless bump must not be seen to stick.
-void settle_tasks(Serial, Step step, RunTables runs, Bodies& bodies, const Shells& shells, RigidWorld& rigid,
+void settle_tasks(Serial, Step step, RunTables runs, Bodies& bodies, const Structures& structures, RigidWorld& rigid,
                   DamageLedger ledger, Events<TaskEnded>& ended, ToldOfHits told) {
     ended.clear();
     for (uint32_t t = 0; t < runs.tasks.size(); ++t) {
@@ -38,8 +38,8 @@ void settle_tasks(Serial, Step step, RunTables runs, Bodies& bodies, const Shell
         const bool is_over = task_state != TaskState::Running;
         if (!is_over && !runs.tasks.is_held[t] && !runs.tasks.is_late[t]) {
             const bool is_worth_it = ledger.settings.hold_seconds > 0 &&
-                                     runs.tasks.approach_speed[t] >
-                                         first_crack_speed(shells, runs.tasks.source[t], runs.tasks.strength_scale[t]);
+                                     runs.tasks.approach_speed[t] > first_crack_speed(structures, runs.tasks.source[t],
+                                                                                      runs.tasks.strength_scale[t]);
             if (is_worth_it) {
                 runs.tasks.is_held[t] = 1;
                 for (ImpactEvent& e : told.impacts.all())
@@ -66,7 +66,7 @@ void settle_tasks(Serial, Step step, RunTables runs, Bodies& bodies, const Shell
                 ++ledger.counts.frames_held;
             }
         }
-        if (is_over) ended.push({Row<Tasks>(t), shells.damage_model[runs.tasks.source[t]]});
+        if (is_over) ended.push({Row<Tasks>(t), structures.damage_model[runs.tasks.source[t]]});
         if (is_over && runs.tasks.lacks_room[t]) {
             ++ledger.counts.cuts_refused;
             told.refused.push(refused_event(bodies, runs.tasks.body[t], kCrackRoom));

@@ -32,55 +32,97 @@ uint64_t hash_of_pools(const State& state) {
 // All ranges of a shell with the tables that they are in.
 struct Part {
     AnyTable* table;
-    Column<Range>* column;
+    Range* range;
 };
-std::vector<Part> parts(State& state) {
-    Shells& s = state.shells;
-    return {
-        {&state.vertices, &s.vertices},     {&state.elements, &s.elements},       {&state.hinges, &s.hinges},
-        {&state.stiffness_packs, &s.packs}, {&state.stiffness_blocks, &s.blocks}, {&state.stiffness_links, &s.links},
-        {&state.cells, &s.cells},           {&state.hull_points, &s.points}};
+std::vector<Part> parts(State& state, Row<Structures> shell) {
+    std::vector<Part> list;
+    ShellRows::for_each_range(state, shell, [&](Range& range, AnyTable& table, auto, const char*) {
+        list.push_back({&table, &range});
+    });
+    return list;
 }
 
-void expect_disjoint(State& state, const std::vector<Row<Shells>>& shells) {
-    for (const Part& part : parts(state)) {
-        std::vector<bool> is_taken(part.table->limit());
-        for (const Row<Shells> shell : shells) {
-            const Range range = (*part.column)[shell];
-            ASSERT_LE(range.first + range.capacity, part.table->size());
-            for (uint32_t r = 0; r < range.capacity; ++r) {
-                ASSERT_FALSE(is_taken[range.first + r]) << part.table->name();
-                is_taken[range.first + r] = true;
+void expect_disjoint(State& state, const std::vector<Row<Structures>>& shells) {
+    std::map<AnyTable*, std::vector<bool>> is_taken;
+    for (const Row<Structures> shell : shells)
+        for (const auto& [table, range] : parts(state, shell)) {
+            std::vector<bool>& rows = is_taken.try_emplace(table, table->limit()).first->second;
+            ASSERT_LE(range->first + range->capacity, table->size());
+            for (uint32_t r = range->first; r < range->first + range->capacity; ++r) {
+                ASSERT_FALSE(rows[r]) << table->name();
+                rows[r] = true;
             }
         }
+}
+
+TEST(State, TablesWithoutRowsLeaveTheHashAlone) {
+    State state(small_limits());
+    uint64_t hash = 0;
+    uint32_t empty = 0, ranged = 0;
+    std::apply(
+        [&](auto... table) {
+            const auto add = [&](const AnyTable& t) {
+                if (t.size() > 0)
+                    hash = t.hash(hash);
+                else
+                    ++empty;
+            };
+            (add(state.*table), ...);
+        },
+        State::tables());
+    for (const RangePool* pool : state.pools()) ranged += pool->end() == 0;
+    EXPECT_EQ(state.hash(), hash);
+    EXPECT_GT(empty, 30u);
+    EXPECT_EQ(ranged, state.pools().size());
+    make_shell(state, kRoom);
+    const uint64_t with_a_shell = state.hash();
+    EXPECT_NE(with_a_shell, hash);
+    state.springs.append(1);
+    EXPECT_NE(state.hash(), with_a_shell);
+}
+
+TEST(State, AStructureNamesItsShellWhereverThatStands) {
+    State state(small_limits());
+    Range none;
+    ASSERT_TRUE(state.shells.take(3, none));  // another kind of structure would leave such a difference
+    const Row<Structures> first = make_shell(state, kRoom), second = copy_shell(state, first, kRoom);
+    for (const Row<Structures> structure : {first, second}) {
+        const ShellView view(state, structure);
+        EXPECT_EQ(view.row, structure + 3u);
+        EXPECT_EQ(view.vertices().capacity, kRoom.vertices);
+        EXPECT_FALSE(springs_of(state, structure).exists());
     }
+    release_shell(state, first);
+    release_shell(state, second);
+    EXPECT_EQ(state.structures.pool.end(), 0u);
+    EXPECT_EQ(state.shells.pool.end(), 3u);
 }
 
 TEST(State, AShellHasTheRangesThatWereAskedForAndNoRowsYet) {
     State state(small_limits());
-    const Row<Shells> shell = make_shell(state, kRoom);
+    const Row<Structures> shell = make_shell(state, kRoom);
     ASSERT_TRUE(shell.exists());
     const uint32_t wanted[] = {70, 120, 150, 9, 60, 40, 5, 90};
-    const auto list = parts(state);
+    const auto list = parts(state, shell);
     for (size_t p = 0; p < list.size(); ++p) {
-        EXPECT_EQ((*list[p].column)[shell].capacity, wanted[p]) << list[p].table->name();
-        EXPECT_EQ((*list[p].column)[shell].count, 0u);
+        EXPECT_EQ(list[p].range->capacity, wanted[p]) << list[p].table->name();
+        EXPECT_EQ(list[p].range->count, 0u);
     }
-    EXPECT_EQ(state.shells.users[shell], 1u);
-    EXPECT_GE(state.triangle_springs.size(), state.shells.elements[shell].first + 120);
+    EXPECT_EQ(state.structures.users[shell], 1u);
+    EXPECT_GE(state.triangle_springs.size(), state.shells.elements[state.shell_of(shell)].first + 120);
 }
 
 TEST(State, VertexRowsStartDeadToTheEndOfTheirLastPackAlsoWhereOthersLived) {
     State state(small_limits());
-    const Row<Shells> before = make_shell(state, kRoom);
+    const Row<Structures> before = make_shell(state, kRoom);
     for (uint32_t v = 0; v < 128; ++v) {
         state.vertices.element[v] = 3;
         state.vertices.inverse_mass[v] = 1;
         state.vertices.velocity.set(v, {1, 2, 3});
     }
     release_shell(state, before);
-    const Row<Shells> shell = make_shell(state, kRoom);
-    ASSERT_EQ(state.shells.vertices[shell].first, 0u);
+    const Row<Structures> shell = make_shell(state, kRoom);
+    ASSERT_EQ(state.shells.vertices[state.shell_of(shell)].first, 0u);
     for (uint32_t v = 0; v < 128; ++v) {
         ASSERT_EQ(state.vertices.element[v], kNone) << v;
         ASSERT_EQ(state.vertices.inverse_mass[v], 0.0f) << v;
@@ -90,11 +132,11 @@ TEST(State, VertexRowsStartDeadToTheEndOfTheirLastPackAlsoWhereOthersLived) {
 
 TEST(State, RangesOfShellsAreApartAndVerticesStartAtACell) {
     State state(small_limits());
-    std::vector<Row<Shells>> shells;
+    std::vector<Row<Structures>> shells;
     for (uint32_t n = 0; n < 10; ++n) {
         shells.push_back(make_shell(state, {10 + 37 * n, 50 + 11 * n, 3 * n, n % 2 * 40, n % 2 * 7, n, 5 * n}));
         ASSERT_TRUE(shells.back().exists());
-        EXPECT_EQ(state.shells.vertices[shells.back()].first % 64, 0u);
+        EXPECT_EQ(state.shells.vertices[state.shell_of(shells.back())].first % 64, 0u);
     }
     expect_disjoint(state, shells);
 }
@@ -129,82 +171,85 @@ TEST(State, AFullTableNamesItsLimitAndEverythingGoesBack) {
 TEST(State, TheLastUserGivesTheRowsBack) {
     State state(small_limits());
     const uint64_t empty = hash_of_pools(state);
-    const Row<Shells> shell = make_shell(state, kRoom);
+    const Row<Structures> shell = make_shell(state, kRoom);
     const uint64_t taken = hash_of_pools(state);
-    ++state.shells.users[shell];
+    ++state.structures.users[shell];
     release_shell(state, shell);
     EXPECT_EQ(hash_of_pools(state), taken);
     release_shell(state, shell);
     EXPECT_EQ(hash_of_pools(state), empty);
-    EXPECT_EQ(state.shells.users[shell], 0u);
+    EXPECT_EQ(state.structures.users[shell], 0u);
 }
 
 // Marks rows so that a copy can be told: number n of the table is n + 1 in some column.
-void fill(State& state, Row<Shells> shell) {
-    Shells& s = state.shells;
+void fill(State& state, Row<Structures> shell) {
+    const ShellView view(state, shell);
     const uint32_t counts[] = {65, 100, 140, 9, 55, 33, 4, 80};
-    const auto list = parts(state);
-    for (size_t p = 0; p < list.size(); ++p) (*list[p].column)[shell].count = counts[p];
+    const auto list = parts(state, shell);
+    for (size_t p = 0; p < list.size(); ++p) list[p].range->count = counts[p];
     for (uint32_t v = 0; v < 65; ++v) {
-        const uint32_t row = s.vertices[shell].first + v;
+        const uint32_t row = view.vertex(v);
         state.vertices.rest.set(row, {static_cast<float>(v), 1, 2});
         state.vertices.probe.set(row, {1, 2, 3, static_cast<float>(v)}, 1);
         state.vertices.element[row] = v;
     }
     for (uint32_t e = 0; e < 100; ++e) {
-        state.elements.corner[s.elements[shell].first + e] = {e, e + 1, e + 2};
-        state.triangle_springs.area[s.elements[shell].first + e] = static_cast<float>(e);
+        state.elements.corner[view.element(e)] = {e, e + 1, e + 2};
+        state.triangle_springs.area[view.element(e)] = static_cast<float>(e);
     }
-    for (uint32_t b = 0; b < 55; ++b) state.stiffness_blocks.block[s.blocks[shell].first + b].k[8][7] = 5;
-    s.mass[shell] = 12;
+    for (uint32_t b = 0; b < 55; ++b) state.stiffness_blocks.block[state.shells.blocks[view.row].first + b].k[8][7] = 5;
+    state.structures.mass[shell] = 12;
 }
 
 TEST(State, ACopyHasTheRowsAndItsOwnRanges) {
     State state(small_limits());
     make_shell(state, {100, 10, 10, 0, 0, 0, 0});  // so that nothing starts at zero
-    const Row<Shells> source = make_shell(state, kRoom);
+    const Row<Structures> source = make_shell(state, kRoom);
     fill(state, source);
-    state.shells.users[source] = 5;
+    state.structures.users[source] = 5;
     const ShellRoom room{100, 180, 200, 80, 60, 6, 100};
-    const Row<Shells> copy = copy_shell(state, source, room);
+    const Row<Structures> copy = copy_shell(state, source, room);
     ASSERT_TRUE(copy.exists());
-    const Shells& s = state.shells;
+    const Structures& s = state.structures;
     EXPECT_EQ(s.users[copy], 1u);
     EXPECT_EQ(s.users[source], 5u);
     EXPECT_EQ(s.mass[copy], 12.0);
-    expect_disjoint(state, {Row<Shells>(0), source, copy});
-    for (const Part& part : parts(state)) {
-        const Range a = (*part.column)[source], b = (*part.column)[copy];
-        EXPECT_EQ(a.count, b.count) << part.table->name();
+    expect_disjoint(state, {Row<Structures>(0), source, copy});
+    const auto had = parts(state, source), has = parts(state, copy);
+    for (size_t p = 0; p < had.size(); ++p) {
+        const AnyTable& table = *had[p].table;
+        const Range a = *had[p].range, b = *has[p].range;
+        EXPECT_EQ(a.count, b.count) << table.name();
         EXPECT_GE(b.capacity, a.capacity);
         for (uint32_t r = 0; r < a.count; ++r) {
-            const std::string x = part.table->describe_row(a.first + r), y = part.table->describe_row(b.first + r);
+            const std::string x = table.describe_row(a.first + r), y = table.describe_row(b.first + r);
             ASSERT_EQ(x.substr(x.find(']')), y.substr(y.find(']')));
         }
     }
-    EXPECT_EQ(state.triangle_springs.area[s.elements[copy].first + 99], 99.0f);
-    EXPECT_EQ(state.vertices.probe.get(s.vertices[copy].first + 64, 1).w, 64.0f);
-    EXPECT_EQ(state.vertices.element[s.vertices[copy].first + 65], kNone);
-    EXPECT_EQ(state.stiffness_blocks.block[s.blocks[copy].first + 54].k[8][7], 5.0f);
+    const ShellView view(state, copy);
+    EXPECT_EQ(state.triangle_springs.area[view.element(99)], 99.0f);
+    EXPECT_EQ(state.vertices.probe.get(view.vertex(64), 1).w, 64.0f);
+    EXPECT_EQ(state.vertices.element[view.vertex(65)], kNone);
+    EXPECT_EQ(state.stiffness_blocks.block[state.shells.blocks[view.row].first + 54].k[8][7], 5.0f);
 }
 
 TEST(State, ACopyWithoutRoomForStiffnessHasNone) {
     State state(small_limits());
-    const Row<Shells> source = make_shell(state, kRoom);
+    const Row<Structures> source = make_shell(state, kRoom);
     fill(state, source);
     ShellRoom room = kRoom;
     room.blocks = room.links = 0;
-    const Row<Shells> copy = copy_shell(state, source, room);
+    const Row<Structures> copy = copy_shell(state, source, room);
     ASSERT_TRUE(copy.exists());
-    EXPECT_EQ(state.shells.packs[copy].capacity, 0u);
-    EXPECT_EQ(state.shells.packs[copy].count, 0u);
-    EXPECT_EQ(state.shells.blocks[copy].count, 0u);
-    EXPECT_EQ(state.shells.vertices[copy].count, 65u);
+    EXPECT_EQ(state.shells.packs[state.shell_of(copy)].capacity, 0u);
+    EXPECT_EQ(state.shells.packs[state.shell_of(copy)].count, 0u);
+    EXPECT_EQ(state.shells.blocks[state.shell_of(copy)].count, 0u);
+    EXPECT_EQ(state.shells.vertices[state.shell_of(copy)].count, 65u);
 }
 
 TEST(State, ACopyThatDoesNotFitChangesNothing) {
     State state(small_limits());
-    const Row<Shells> source = make_shell(state, kRoom);
+    const Row<Structures> source = make_shell(state, kRoom);
     fill(state, source);
     const uint64_t pools = hash_of_pools(state);
     const std::string row = state.shells.describe_row(source);
@@ -221,14 +266,14 @@ TEST(State, AfterManyShellsCameAndWentEverythingIsBack) {
     State state(small_limits());
     const uint64_t empty = hash_of_pools(state);
     const Random random{9};
-    std::vector<Row<Shells>> shells;
+    std::vector<Row<Structures>> shells;
     uint32_t refused = 0;
     for (uint32_t n = 0; n < 3000; ++n) {
         if (shells.empty() || random.uniform(n) < 0.6) {
             const auto size = 1 + static_cast<uint32_t>(random.bits(n, 1) % 900);
             const ShellRoom room{size, 2 * size, 3 * size, size / 2, size / 3, size / 50, size / 4};
             const bool copies = !shells.empty() && random.uniform(n, 2) < 0.3;
-            const Row<Shells> made =
+            const Row<Structures> made =
                 copies ? copy_shell(state, shells[random.bits(n, 3) % shells.size()], room) : make_shell(state, room);
             if (made.exists())
                 shells.push_back(made);
@@ -242,7 +287,7 @@ TEST(State, AfterManyShellsCameAndWentEverythingIsBack) {
         if (n % 100 == 0) expect_disjoint(state, shells);
     }
     EXPECT_GT(refused, 20u);
-    for (const Row<Shells> shell : shells) release_shell(state, shell);
+    for (const Row<Structures> shell : shells) release_shell(state, shell);
     EXPECT_EQ(hash_of_pools(state), empty);
 }
 
@@ -300,7 +345,10 @@ TEST(State, HashValidationAndDifferenceReachTheLastTable) {
     a.view_indices.index[2] = 0;
     a.view_vertices.vertex[0].uv.y = 0;
     EXPECT_EQ(a.hash(), b.hash());
-    a.shells.pool.take(1);
+    Range first, second;
+    for (State* state : {&a, &b}) ASSERT_TRUE(state->shells.take(1, first) && state->shells.take(1, second));
+    EXPECT_EQ(a.hash(), b.hash());
+    a.shells.give_back(first);
     EXPECT_NE(a.hash(), b.hash()) << "what is taken decides what comes next";
 }
 

@@ -153,36 +153,6 @@ TEST(Table, StagedTablesSwapRowsLimitsAndMemory) {
     EXPECT_EQ(staged.append(8), kNone);
 }  // and both go without freeing what is the other's
 
-struct Stones : Table<Stones> {
-    using Table::Table;
-    static constexpr const char* kName = "stones";
-    Column<float> weight{*this, "weight"};
-};
-struct PaintedStones : Table<PaintedStones> {
-    using Table::Table;
-    static constexpr const char* kName = "painted_stones";
-    Column<float> weight{*this, "weight"};
-    Column<uint8_t> paint{*this, "paint", "1", Keep::Added};
-};
-
-TEST(Table, AnAddedColumnLeavesTheHashAloneUntilSomeRowOfItIsNotZero) {
-    Stones plain(8);
-    PaintedStones painted(8), other(8);
-    plain.append(4), painted.append(4), other.append(4);
-    for (uint32_t r = 0; r < 4; ++r) plain.weight[r] = painted.weight[r] = other.weight[r] = static_cast<float>(r);
-    EXPECT_EQ(painted.hash(7), plain.hash(7));
-    EXPECT_TRUE(painted.first_difference(other).empty());
-    painted.paint[2] = 1;
-    EXPECT_NE(painted.hash(7), plain.hash(7));
-    EXPECT_NE(painted.first_difference(other), "");
-    const uint64_t two = painted.hash(7);
-    painted.paint[2] = 0, painted.paint[3] = 1;
-    EXPECT_NE(painted.hash(7), two);
-    painted.truncate(3);  // rows that are gone do not count
-    plain.truncate(3);
-    EXPECT_EQ(painted.hash(7), plain.hash(7));
-}
-
 TEST(Table, ItsHashFeelsEveryStateColumnAndNoScratch) {
     Pebbles p(8), q(8);
     fill(p, 8);

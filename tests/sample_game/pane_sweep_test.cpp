@@ -150,7 +150,7 @@ TEST(PaneSweep, RealShardsStayOnTheirSideAtThirtyMetresASecond) {
                         if (from == 0) continue;
                         ASSERT_FALSE(has_passed(range.centre(body.index), from))
                             << "throw " << number << ", frame " << frame << ", row " << body.index << ", generation "
-                            << int{state_of(world).shells.generation[bodies.shell[body.index]]};
+                            << int{state_of(world).structures.generation[bodies.structure[body.index]]};
                     }
                 }
                 for (float& s : range.side) s = 0;

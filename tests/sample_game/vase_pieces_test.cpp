@@ -31,7 +31,7 @@ Ending play_vase(uint32_t seed) {
     const Bodies& bodies = game.world().contents().data.state.bodies;
     Ending ending;
     for (uint32_t b = 0; b < bodies.size(); ++b) {
-        if (bodies.kind[b] != static_cast<uint8_t>(BodyKind::Dynamic) || !bodies.shell[b].exists()) continue;
+        if (bodies.kind[b] != static_cast<uint8_t>(BodyKind::Dynamic) || !bodies.structure[b].exists()) continue;
         const double share = bodies.mass[b] / game.mass_put_in();
         ending.pieces += share > kLeastShare;
         ending.largest = std::max(ending.largest, share);

@@ -97,8 +97,8 @@ struct HitLedger {
         return {m.momentum[0], m.momentum[1], m.momentum[2]};
     }
     void look_ahead() {
-        const ShellView shell(state_of(game), tasks().shell[0]);
-        pending = double{tasks().time_step[0]} * pin_force(shell, tasks().steps_done[0] & 1);
+        const ShellView shell(state_of(game), tasks().working[0]);
+        pending = double{state_of(game).hidden_runs.time_step[0]} * pin_force(shell, tasks().steps_done[0] & 1);
     }
     Vec3d books() const {
         const double* given = game.world().contents().data.counts.impulse_to_static;
@@ -108,7 +108,7 @@ struct HitLedger {
     // others carry, before the faces of their cracks meet the foot's.
     void freeze() {
         const State& state = state_of(game);
-        const ShellView shell(state_of(game), tasks().shell[0]);
+        const ShellView shell(state_of(game), tasks().working[0]);
         for (uint32_t v = 0; v < shell.vertex_count(); ++v) {
             const uint32_t row = shell.vertex(v), element = state.vertices.element[row];
             if (element == kNone) continue;
@@ -122,7 +122,7 @@ struct HitLedger {
         if (system == "start_tasks" && tasks().steps_done[0] == 0) pins = {}, steps = 0, look_ahead();
         if (system == "advance_runs") {
             EXPECT_EQ(tasks().steps_done[0], steps + 1);
-            EXPECT_EQ(tasks().redo_count[0], 0);
+            EXPECT_EQ(state_of(game).hidden_runs.redo_count[0], 0);
             steps = tasks().steps_done[0];
             pins += pending;
             look_ahead();

@@ -38,7 +38,7 @@ std::string of_part(const char* what, uint32_t part) {
 }  // namespace
 
 std::string flaw_of_partition(State& state, uint32_t t) {
-    const ShellView shell(state, state.tasks.shell[t]);
+    const ShellView shell(state, state.tasks.working[t]);
     std::vector<uint32_t> seen(shell.element_count());
     for (uint32_t p = 0, last_first = 0; p < state.tasks.part_count[t]; ++p) {
         const FragmentPart& part = state.fragments.part[t * kMostParts + p];
@@ -63,11 +63,11 @@ std::string flaw_of_partition(State& state, uint32_t t) {
 
 // A NaN fails each comparison, and is a flaw.
 std::string flaw_of_handoff(State& state, uint32_t t) {
-    const ShellView shell(state, state.tasks.shell[t]);
+    const ShellView shell(state, state.tasks.working[t]);
     const std::span parts(state.fragments.part.data() + size_t{t} * kMostParts, state.tasks.part_count[t]);
     std::vector<PartMotion> motions(parts.size());
     HandoffStart start{Vec3d(state.tasks.start_velocity[t]), Vec3d(state.tasks.start_spin[t]),
-                       state.shells.centre[shell.row], 1e9};
+                       state.structures.centre[shell.structure], 1e9};
     const HandoffReport free = rigid_handoff(shell, start, parts, motions);
     if (free.speed_clamps + free.spin_clamps != 0) return "a clamp where there is none";
     if (!(free.energy_unclamped <= free.energy_hidden)) return "energy";

@@ -38,7 +38,7 @@ class View {
 
 /// What is spawned of a model, whole or in pieces; balls, floors and walls are not.
 bool is_of_model(const World& world, BodyId id) {
-    return world.contents().data.state.bodies.shell[id.index].exists();
+    return world.contents().data.state.bodies.structure[id.index].exists();
 }
 
 /// Something that does not break stands before the place.

@@ -128,9 +128,10 @@ Shell make_shell_of(const Surface& surface, uint32_t spare_vertices, uint32_t sp
     room.hinges = 3 * room.elements;
     Shell shell{std::move(owned), ShellView(state, make_shell(state, room)), 0};
     const ShellView view = shell.view;
-    view.shells().material[view.row] = Row<Materials>(0);
+    view.structures().material[view.structure] = Row<Materials>(0);
     view.vertices().count = vertex_count;
     view.elements().count = element_count;
+    view.structures().live_elements[view.structure] = element_count;
     // Ranges are rounded up; tests of full shells want the room they asked for.
     view.vertices().capacity = room.vertices;
     view.elements().capacity = room.elements;
@@ -166,8 +167,8 @@ Shell make_shell_of(const Surface& surface, uint32_t spare_vertices, uint32_t sp
     }
     view.shells().mean_edge[view.row] = static_cast<float>(edges / (3 * element_count));
     view.shells().thickness[view.row] = static_cast<float>(kDepth);
-    view.shells().area[view.row] = static_cast<float>(area_sum);
-    view.shells().mass[view.row] = shell.mass;
+    view.structures().area[view.structure] = static_cast<float>(area_sum);
+    view.structures().mass[view.structure] = shell.mass;
     for (uint32_t v = 0; v < vertex_count; ++v) {
         const uint32_t row = view.vertex(v);
         vertices.rest.set(row, surface.place[v].to_float());
@@ -225,15 +226,15 @@ Row<Tasks> make_task(Shell& shell, double time) {
     Tasks& tasks = shell.state->tasks;
     const Row<Tasks> task(0);
     tasks.state[task] = static_cast<uint8_t>(TaskState::Running);
-    tasks.shell[task] = shell.view.row;
+    tasks.working[task] = shell.view.structure;
     tasks.strength_scale[task] = 1;
-    tasks.time_step[task] = 1e-6f;
+    shell.state->hidden_runs.time_step[task] = 1e-6f;
     set_time(shell, task, time);
     return task;
 }
 
 void set_time(Shell& shell, Row<Tasks> task, double time) {
-    shell.state->tasks.steps_done[task] = static_cast<uint32_t>(time / shell.state->tasks.time_step[task] + 0.5);
+    shell.state->tasks.steps_done[task] = static_cast<uint32_t>(time / shell.state->hidden_runs.time_step[task] + 0.5);
 }
 
 namespace {
@@ -335,7 +336,8 @@ std::string broken_rule(const Shell& shell) {
         by_elements += view.state.elements.mass[row];
         if (view.state.elements.flags[row] & kDegenerate) continue;
         sound += view.state.elements.mass[row];
-        by_volume += view.state.materials.density[view.shells().material[view.row]] * view.state.elements.volume[row];
+        by_volume +=
+            view.state.materials.density[view.structures().material[view.structure]] * view.state.elements.volume[row];
     }
     for (uint32_t v = 0; v < view.vertex_count(); ++v) {
         const uint32_t row = view.vertex(v);

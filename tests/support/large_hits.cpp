@@ -50,13 +50,13 @@ std::vector<uint64_t> hashes_of(World& world, uint32_t frames) {
 
 std::string trouble_of_shells(State& state) {
     for (uint32_t row = 0; row < state.shells.size(); ++row) {
-        if (state.shells.users[row] == 0) continue;
+        if (state.structures.users[row] == 0) continue;
         Wear wear = Wear::Worn;
         for (uint32_t t = 0; t < state.tasks.size(); ++t)
-            if (static_cast<TaskState>(state.tasks.state[t]) != TaskState::Free && state.tasks.shell[t] == row &&
+            if (static_cast<TaskState>(state.tasks.state[t]) != TaskState::Free && state.tasks.working[t] == row &&
                 is_cut_out(state, t))
                 wear = Wear::CutOut;
-        const Result<void> sound = check_shell_rows(ShellView(state, Row<Shells>(row)), wear, "shell", "");
+        const Result<void> sound = check_shell_rows(ShellView(state, Row<Structures>(row)), wear, "shell", "");
         if (!sound.ok()) return sound.error();
     }
     return {};

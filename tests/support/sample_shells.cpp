@@ -223,14 +223,15 @@ void renew_hinges(ShellView shell) {
 
 }  // namespace
 
-Row<Shells> cut_by_label(State& state, Row<Shells> source, const std::function<int(uint32_t)>& label) {
-    const Range v = state.shells.vertices[source], e = state.shells.elements[source], h = state.shells.hinges[source];
+Row<Structures> cut_by_label(State& state, Row<Structures> source, const std::function<int(uint32_t)>& label) {
+    const Range v = state.shells.vertices[state.shell_of(source)], e = state.shells.elements[state.shell_of(source)],
+                h = state.shells.hinges[state.shell_of(source)];
     const ShellRoom room{.vertices = 2 * v.count + 64,
                          .elements = e.count,
                          .hinges = h.count,
-                         .cells = state.shells.cells[source].count,
-                         .points = state.shells.points[source].count};
-    const Row<Shells> row = copy_shell(state, source, room);
+                         .cells = state.structures.cells[source].count,
+                         .points = state.structures.points[source].count};
+    const Row<Structures> row = copy_shell(state, source, room);
     const ShellView shell(state, row);
     cut_links(shell, label);
     split_fans(shell);

@@ -37,7 +37,7 @@ Row<Materials> sample_material(State& state, float density = 2400);
 
 /// A copy of the shell in which the links of every edge whose two elements have different labels are cut, vertices of
 /// several fans split, and masses summed anew: what a task leaves behind.
-Row<Shells> cut_by_label(State& state, Row<Shells> shell, const std::function<int(uint32_t element)>& label);
+Row<Structures> cut_by_label(State& state, Row<Structures> shell, const std::function<int(uint32_t element)>& label);
 /// Labels by the nearest of `count` seeded points: cracks like those of a Voronoi pattern.
 std::function<int(uint32_t element)> nearest_seed(const ShellView& shell, int count, uint64_t seed);
 /// Middle of the element's outer triangle.

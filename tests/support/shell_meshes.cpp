@@ -84,7 +84,8 @@ void fill_elements(const ShellView& shell, const ShellMesh& mesh, double thickne
     Elements& elements = shell.state.elements;
     Vertices& vertices = shell.state.vertices;
     Shells& shells = shell.shells();
-    const double density = shell.state.materials.density[shells.material[shell.row]];
+    Structures& structures = shell.structures();
+    const double density = shell.state.materials.density[structures.material[shell.structure]];
     double edges = 0;
     Vec3d centre;
     for (uint32_t e = 0; e < mesh.triangles.size(); ++e) {
@@ -96,15 +97,15 @@ void fill_elements(const ShellView& shell, const ShellMesh& mesh, double thickne
         elements.volume[row] = area * thickness;
         elements.mass[row] = density * area * thickness;
         edges += length(b - a) + length(c - b) + length(a - c);
-        shells.mass[shell.row] += elements.mass[row];
-        shells.area[shell.row] += static_cast<float>(area);
+        structures.mass[shell.structure] += elements.mass[row];
+        structures.area[shell.structure] += static_cast<float>(area);
         centre += elements.mass[row] / 3 * (a + b + c);
         for (const uint32_t v : t) {
             vertices.mass[shell.vertex(v)] += elements.mass[row] / 3;
             if (vertices.element[shell.vertex(v)] == kNone) vertices.element[shell.vertex(v)] = e;
         }
     }
-    shells.centre.set(shell.row, (1 / shells.mass[shell.row]) * centre);
+    structures.centre.set(shell.structure, (1 / structures.mass[shell.structure]) * centre);
     shells.mean_edge[shell.row] = static_cast<float>(edges / (3.0 * static_cast<double>(mesh.triangles.size())));
     for (uint32_t v = 0; v < shell.vertex_count(); ++v) {
         const uint32_t row = shell.vertex(v);
@@ -232,21 +233,22 @@ Row<Materials> add_material(State& state, double young_modulus, double poisson_r
     return m;
 }
 
-Row<Shells> make_test_shell(State& state, const ShellMesh& mesh, double thickness, Row<Materials> material,
-                            const std::function<bool(Vec3d)>& is_pinned, uint32_t spare) {
+Row<Structures> make_test_shell(State& state, const ShellMesh& mesh, double thickness, Row<Materials> material,
+                                const std::function<bool(Vec3d)>& is_pinned, uint32_t spare) {
     const auto count = static_cast<uint32_t>(mesh.positions.size());
     const auto triangles = static_cast<uint32_t>(mesh.triangles.size());
     ShellRoom room;
     room.vertices = count + spare, room.elements = triangles + spare, room.hinges = (triangles + spare) / 2 * 3 + 3;
     room.blocks = room.links = (count + spare + 64) / kLanes * 14 + 64;
     if (material_traits(state, material).has_grain()) room.links *= 3;
-    const Row<Shells> row = make_shell(state, room);
+    const Row<Structures> row = make_shell(state, room);
     if (!row.exists()) return row;
     const ShellView shell(state, row);
-    state.shells.material[row] = material;
-    state.shells.thickness[row] = static_cast<float>(thickness);
+    state.structures.material[row] = material;
+    state.shells.thickness[state.shell_of(row)] = static_cast<float>(thickness);
     shell.vertices().count = count;
     shell.elements().count = triangles;
+    state.structures.live_elements[row] = triangles;
     fill_vertices(shell, mesh, thickness, is_pinned);
     fill_elements(shell, mesh, thickness);
     shell.hinges().count = link_elements(shell);
@@ -254,18 +256,18 @@ Row<Shells> make_test_shell(State& state, const ShellMesh& mesh, double thicknes
     measure_limits(shell);
     limit_all_stiffness(shell);
     assemble_stiffness(shell);
-    state.shells.time_step[row] = stable_time_step(shell);
+    state.shells.time_step[state.shell_of(row)] = stable_time_step(shell);
     return row;
 }
 
-Row<Tasks> make_test_task(State& state, Row<Shells> shell, uint32_t task) {
+Row<Tasks> make_test_task(State& state, Row<Structures> shell, uint32_t task) {
     const Row<Tasks> t(task);
-    state.tasks.shell[t] = shell;
+    state.tasks.working[t] = shell;
     state.tasks.state[t] = static_cast<uint8_t>(TaskState::Running);
     state.tasks.first_contact[t] = task * kMostContacts;
     state.tasks.strength_scale[t] = 1;
-    state.tasks.time_step[t] = state.shells.time_step[shell];
-    state.tasks.damping_time[t] = 0.15f * state.shells.time_step[shell];
+    state.hidden_runs.time_step[t] = state.shells.time_step[state.shell_of(shell)];
+    state.hidden_runs.damping_time[t] = 0.15f * state.shells.time_step[state.shell_of(shell)];
     return t;
 }
 
@@ -273,7 +275,8 @@ void step_task(State& state, Row<Tasks> task) {
     Tasks& tasks = state.tasks;
     const uint32_t side = tasks.steps_done[task] & 1;
     contact_forces(state, task);
-    const HiddenStep step(ShellView(state, tasks.shell[task]), tasks.time_step[task], tasks.damping_time[task], side);
+    const HiddenStep step(ShellView(state, tasks.working[task]), state.hidden_runs.time_step[task],
+                          state.hidden_runs.damping_time[task], side);
     integrate_packs(step, 0, step.pack_count);
     apply_contact(state, task, side);
     ++tasks.steps_done[task];

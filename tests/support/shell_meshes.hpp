@@ -27,11 +27,11 @@ Row<Materials> add_material(State& state, double young_modulus, double poisson_r
 
 /// A shell of constant thickness: vertices, elements, neighbours, hinges, masses, centre, mean edge; then springs,
 /// limits, rows and the time step. `is_pinned` may be empty. `spare` vertices and elements of room.
-Row<Shells> make_test_shell(State& state, const ShellMesh& mesh, double thickness, Row<Materials> material,
-                            const std::function<bool(Vec3d)>& is_pinned = {}, uint32_t spare = 0);
+Row<Structures> make_test_shell(State& state, const ShellMesh& mesh, double thickness, Row<Materials> material,
+                                const std::function<bool(Vec3d)>& is_pinned = {}, uint32_t spare = 0);
 
 /// A task on the shell itself, without contacts.
-Row<Tasks> make_test_task(State& state, Row<Shells> shell, uint32_t task = 0);
+Row<Tasks> make_test_task(State& state, Row<Structures> shell, uint32_t task = 0);
 /// One hidden step of all packs, contacts included.
 void step_task(State& state, Row<Tasks> task);
 

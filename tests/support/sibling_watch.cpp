@@ -92,7 +92,8 @@ void SiblingWatch::begin() {
         body_velocity_ = Vec3d(rotate(turned, state.tasks.start_velocity[t]));
         body_spin_ = Vec3d(rotate(turned, state.tasks.start_spin[t]));
         const Pose pose{bodies.position[body_], turned};
-        const ShellView shell(state, state.tasks.shell[t].exists() ? state.tasks.shell[t] : bodies.shell[body_]);
+        const ShellView shell(state,
+                              state.tasks.working[t].exists() ? state.tasks.working[t] : bodies.structure[body_]);
         surface_ = 0;
         for (uint32_t e = 0; e < shell.element_count(); ++e) {
             if (state.elements.flags[shell.element(e)] & kDead) continue;
@@ -131,7 +132,7 @@ void SiblingWatch::measure_birth() {
     for (const BodyId id : shells_of(world_)) {
         const Row<Bodies> b(id.index);
         Piece piece{id, 0, Vec3d(bodies.velocity[b]), Vec3d(bodies.spin[b])};
-        const Range v = state.shells.vertices[bodies.shell[b]];
+        const Range v = state.shells.vertices[state.shell_of(bodies.structure[b])];
         for (uint32_t i = v.first; i < v.first + v.count; ++i)
             if (state.vertices.element[i] != kNone)
                 piece.radius = std::max(piece.radius, length(Vec3d(state.vertices.rest[i]) - bodies.centre[b]));
@@ -176,7 +177,9 @@ double SiblingWatch::apart_at_birth(const RigidContact& contact) const {
 
 double SiblingWatch::thinner_wall(const RigidContact& contact) const {
     const State& state = state_of(world_);
-    const auto wall = [&](uint32_t body) { return state.shells.thickness[state.bodies.shell[body]]; };
+    const auto wall = [&](uint32_t body) {
+        return state.shells.thickness[state.shell_of(state.bodies.structure[body])];
+    };
     return static_cast<double>(std::min(wall(contact.a), wall(contact.b)));
 }
 

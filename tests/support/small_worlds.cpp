@@ -170,7 +170,7 @@ std::vector<BodyId> all_bodies(const World& world) {
 std::vector<BodyId> shells_of(const World& world) {
     std::vector<BodyId> found;
     for (const BodyId body : all_bodies(world))
-        if (world.contents().data.state.bodies.shell[body.index].exists()) found.push_back(body);
+        if (world.contents().data.state.bodies.structure[body.index].exists()) found.push_back(body);
     return found;
 }
 

@@ -68,7 +68,7 @@ TEST(Ahead, BirthsArePaidFromTheUnitsOfTheirFrame) {
     for (int frame = 0; frame < 40 && paid == 0; ++frame) {
         for (uint32_t t = 0; t < state.tasks.size(); ++t)
             if (static_cast<TaskState>(state.tasks.state[t]) == TaskState::Whole)
-                vertices = state.shells.vertices[state.tasks.shell[t]].count;
+                vertices = state.shells.vertices[state.shell_of(state.tasks.working[t])].count;
         b.world.step();
         if (b.world.events().fragments_born.count > 0) paid = b.world.report().units_used;
     }
@@ -198,7 +198,8 @@ TEST(Ahead, ABumpDoesNotTakeThePlaceOfAHit) {
     settings.units_a_frame = 20'000'000;
     Breakage b = far_ball(settings);
     const State& state = state_of(b.world);
-    SphereSettings bump = ball_from_behind(0.6f * first_crack_speed(state.shells, state.bodies.shell[b.body.index], 1));
+    SphereSettings bump =
+        ball_from_behind(0.6f * first_crack_speed(state.structures, state.bodies.structure[b.body.index], 1));
     bump.pose.position.z = -0.2f;
     bool is_thrown = false, has_bumped = false;
     play_until_it_breaks(b.world, [&] {

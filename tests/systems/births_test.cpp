@@ -88,7 +88,7 @@ TEST_P(EachHit, InTheBreakFrameThePiecesOuterSurfaceIsTheBodys) {
     FAIL() << "nothing broke";
 }
 
-void expect_dead_rows_are_out_of_use(State& state, Row<Shells> row) {
+void expect_dead_rows_are_out_of_use(State& state, Row<Structures> row) {
     const ShellView shell(state, row);
     uint32_t dead = 0, live_in_cells = 0;
     for (uint32_t e = 0; e < shell.element_count(); ++e) {
@@ -110,8 +110,8 @@ void expect_dead_rows_are_out_of_use(State& state, Row<Shells> row) {
             EXPECT_EQ(state.vertices.mass[v], 0);
         }
     }
-    EXPECT_EQ(dead, state.shells.dead_elements[row]);
-    const Range cells = state.shells.cells[row];
+    EXPECT_EQ(dead, state.shells.dead_elements[state.shell_of(row)]);
+    const Range cells = state.structures.cells[row];
     for (uint32_t c = cells.first; c < cells.first + cells.count; ++c) live_in_cells += state.cells.element_count[c];
     EXPECT_EQ(live_in_cells + dead, shell.element_count());
 }
@@ -121,23 +121,23 @@ TEST_P(EachHit, LeavesTheLargestPieceItsRowsUntilAQuietFrameCompactsThem) {
     State& state = state_of(b.world);
     uint32_t with_dead = 0, compacted = 0;
     for (int frame = 0; frame < 60; ++frame) {
-        std::map<uint32_t, std::pair<Row<Shells>, MassProperties>> before;
+        std::map<uint32_t, std::pair<Row<Structures>, MassProperties>> before;
         for (const BodyId id : shells_of(b.world)) {
-            const Row<Shells> shell = state.bodies.shell[id.index];
-            before[id.index] = {shell,
-                                {state.shells.mass[shell], state.shells.centre[shell], state.shells.inertia[shell]}};
+            const Row<Structures> shell = state.bodies.structure[id.index];
+            before[id.index] = {
+                shell, {state.structures.mass[shell], state.structures.centre[shell], state.structures.inertia[shell]}};
         }
         b.world.step();
         EXPECT_EQ(state.validate(), "");
         for (const BodyId id : shells_of(b.world)) {
-            const Row<Shells> shell = state.bodies.shell[id.index];
+            const Row<Structures> shell = state.bodies.structure[id.index];
             expect_dead_rows_are_out_of_use(state, shell);
             const MassProperties sum = mass_properties(shell_moments(ShellView(state, shell)));
             // By subtraction: inserted vertices move a wall's inner side by rounding.
-            EXPECT_NEAR(state.shells.mass[shell] / sum.mass, 1, 1e-9);
-            EXPECT_LT(length(state.shells.centre[shell] - sum.centre), 1e-5);
-            EXPECT_NEAR(trace(state.shells.inertia[shell]) / trace(sum.inertia), 1, 1e-3);
-            const uint32_t dead = state.shells.dead_elements[shell];
+            EXPECT_NEAR(state.structures.mass[shell] / sum.mass, 1, 1e-9);
+            EXPECT_LT(length(state.structures.centre[shell] - sum.centre), 1e-5);
+            EXPECT_NEAR(trace(state.structures.inertia[shell]) / trace(sum.inertia), 1, 1e-3);
+            const uint32_t dead = state.shells.dead_elements[state.shell_of(shell)];
             with_dead += dead > 0;
             const auto was = before.find(id.index);
             if (was == before.end() || was->second.first == shell || dead > 0) continue;
@@ -148,8 +148,9 @@ TEST_P(EachHit, LeavesTheLargestPieceItsRowsUntilAQuietFrameCompactsThem) {
     std::printf("%u times a shell had dead rows after a frame, %u compacted\n", with_dead, compacted);
     // At rest no more than a quarter is dead.
     for (const BodyId id : shells_of(b.world)) {
-        const Row<Shells> shell = state.bodies.shell[id.index];
-        EXPECT_LE(4 * state.shells.dead_elements[shell], state.shells.elements[shell].count);
+        const Row<Structures> shell = state.bodies.structure[id.index];
+        EXPECT_LE(4 * state.shells.dead_elements[state.shell_of(shell)],
+                  state.shells.elements[state.shell_of(shell)].count);
     }
 }
 
@@ -200,7 +201,7 @@ TEST(Births, RefusedForWantOfABodyTheyComeOffTheFrameAfterOneIsRemoved) {
         State& state = state_of(b.world);
         const auto& bodies = state.bodies;
         const Result<void> closed =
-            check_drawn_mesh(ShellView(state, bodies.shell[id.index]), {state.view_vertices, state.view_indices},
+            check_drawn_mesh(ShellView(state, bodies.structure[id.index]), {state.view_vertices, state.view_indices},
                              bodies.view_vertices[id.index], bodies.view_indices[id.index]);
         EXPECT_TRUE(closed.ok()) << closed.error();
     }
@@ -211,7 +212,7 @@ uint32_t nearest_owner(World& world, Vec3 point) {
     float least = 1e30f;
     uint32_t owner = kNone;
     for (const BodyId id : shells_of(world)) {
-        const Range v = state.shells.vertices[state.bodies.shell[id.index]];
+        const Range v = state.shells.vertices[state.shell_of(state.bodies.structure[id.index])];
         for (uint32_t i = v.first; i < v.first + v.count; ++i) {
             const float away = length(state.vertices.rest[i] - point);
             if (state.vertices.element[i] == kNone || away >= least) continue;

@@ -140,7 +140,7 @@ TEST(BlowsRoom, ACutWhoseMeshFindsNoRoomIsNamedAndMadeWhenThereIs) {
     cut.point_count = 3;
     ASSERT_TRUE(world.cut(panes.back(), cut).ok());
     const auto has_cracks = [&] {
-        return state_of(world).shells.has_cracks[state_of(world).bodies.shell[panes.back().index]] != 0;
+        return state_of(world).structures.has_cracks[state_of(world).bodies.structure[panes.back().index]] != 0;
     };
     bool is_named = false;
     for (int frame = 0; frame < 4; ++frame) {

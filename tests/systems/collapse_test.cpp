@@ -82,7 +82,7 @@ TEST(Collapse, ATowerWhoseFootIsShotAwayComesDownInPiecesThatHitEachOther) {
         s.world.step();
         const WorldData& d = s.world.contents().data;
         const auto is_piece = [&](RigidId id) {
-            return id < d.state.bodies.size() && d.state.bodies.shell[id].exists();
+            return id < d.state.bodies.size() && d.state.bodies.structure[id].exists();
         };
         for (const RigidContact& c : d.rigid->contacts())
             hits_between_pieces += is_piece(c.a) && is_piece(c.b) && c.approach_speed > 0.5f;

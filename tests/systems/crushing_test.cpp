@@ -101,8 +101,8 @@ std::string watched(const Thing& thing, const std::string& weight, double most) 
 double force_borne(const GameWorld& game) {
     const State& state = game.world().contents().data.state;
     for (uint32_t b = 0; b < state.bodies.size(); ++b)
-        if (state.bodies.is_breakable[b] && state.bodies.shell[b].exists())
-            return state.shells.first_crack_force[state.bodies.shell[b]];
+        if (state.bodies.is_breakable[b] && state.bodies.structure[b].exists())
+            return state.structures.first_crack_force[state.bodies.structure[b]];
     return 0;
 }
 
@@ -176,9 +176,9 @@ double deepest_in(const GameWorld& game, double share) {
     const WorldData& data = game.world().contents().data;
     const Bodies& bodies = data.state.bodies;
     const auto counts = [&](uint32_t b) {
-        const Row<Shells> shell = b == kNoRigid ? Row<Shells>{} : bodies.shell[b];
+        const Row<Structures> shell = b == kNoRigid ? Row<Structures>{} : bodies.structure[b];
         return shell.exists() && bodies.is_breakable[b] &&
-               data.state.shells.mass[shell] > share * data.state.shells.intact_mass[shell];
+               data.state.structures.mass[shell] > share * data.state.structures.intact_mass[shell];
     };
     double deepest = 0;
     for (const RigidContact& c : data.rigid->contacts())

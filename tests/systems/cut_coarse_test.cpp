@@ -106,7 +106,7 @@ double share_beyond(const std::array<Vec3, 3>& corner, Vec3 place, Vec3 normal) 
 /// much beyond.
 double mass_beyond(Sawn& sawn, Vec3 place, Vec3 normal) {
     const State& state = state_of(sawn.world);
-    const ShellView shell(state_of(sawn.world), state.bodies.shell[sawn.body.index]);
+    const ShellView shell(state_of(sawn.world), state.bodies.structure[sawn.body.index]);
     double mass[2] = {0, 0};
     float low[2] = {0, 0}, high[2] = {0, 0};
     for (uint32_t e = 0; e < shell.element_count(); ++e)
@@ -148,7 +148,7 @@ void saw(Sawn& sawn, Draw& draw, Vec3 place, Vec3 normal) {
 /// At a share of the way through, along a direction.
 Vec3 place_at(Sawn& sawn, Vec3 direction, float share) {
     const State& state = state_of(sawn.world);
-    const ShellView shell(state_of(sawn.world), state.bodies.shell[sawn.body.index]);
+    const ShellView shell(state_of(sawn.world), state.bodies.structure[sawn.body.index]);
     float low = 1e9f, high = -1e9f;
     for (uint32_t v = 0; v < shell.vertex_count(); ++v) {
         const float at = dot(direction, state.vertices.rest[shell.vertex(v)]);

@@ -111,7 +111,7 @@ TEST(CutPins, ACutFarFromThePinsLeavesThemAsTheyAre) {
     Hung hung = hang({kUpperBorder}, FractureMode::Hidden);
     const auto pins = [&] {
         State& state = state_of(hung.world);
-        const ShellView shell(state, state.bodies.shell[hung.body.index]);
+        const ShellView shell(state, state.bodies.structure[hung.body.index]);
         uint32_t count = 0;
         for (uint32_t v = 0; v < shell.vertex_count(); ++v) count += state.vertices.is_pinned[shell.vertex(v)];
         return count;
@@ -142,7 +142,7 @@ void expect_pins(World& world, const std::vector<Box>& boxes, const std::vector<
     const Vertices& vertices = state.vertices;
     for (const BodyId id : shells_of(world)) {
         const Row<Bodies> body(id.index);
-        const ShellView shell(state, state.bodies.shell[body]);
+        const ShellView shell(state, state.bodies.structure[body]);
         const bool is_static = static_cast<BodyKind>(state.bodies.kind[body]) == BodyKind::Static;
         bool has_pins = false;
         for (uint32_t v = 0; v < shell.vertex_count(); ++v) {

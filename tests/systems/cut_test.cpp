@@ -31,7 +31,7 @@ CutSettings line(const std::vector<Vec3>& points, Vec3 direction = {0, 0, 1}) {
 }
 
 ShellView shell_of(World& world, BodyId body) {
-    return {state_of(world), state_of(world).bodies.shell[body.index]};
+    return {state_of(world), state_of(world).bodies.structure[body.index]};
 }
 
 /// Every live vertex of the body, middle of the wall, body frame.
@@ -187,7 +187,7 @@ TEST(Cut, AnOpenLineLeavesACrackWithTwoTipsAndTheBodyWhole) {
     world.step();
     EXPECT_EQ(shells_of(world).size(), 1u);
     EXPECT_EQ(tips_of(world, pane), 2u);
-    EXPECT_EQ(state_of(world).shells.has_cracks[state_of(world).bodies.shell[pane.index]], 1);
+    EXPECT_EQ(state_of(world).structures.has_cracks[state_of(world).bodies.structure[pane.index]], 1);
     expect_sound(world);
     // From border to border it goes through.
     const std::vector<Vec3> through{{-0.2f, 0.1f, 0}, {0.02f, 0.17f, 0}, {0.2f, 0.15f, 0}};

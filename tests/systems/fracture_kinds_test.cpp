@@ -53,7 +53,7 @@ Found hit_once(HitBench& bench, const HitDescription& hit) {
         found.pieces += parts[k].mass > 0.005 * total;
         found.largest = std::max(found.largest, parts[k].mass / total);
     }
-    const ShellView shell(state, state.tasks.shell[0]);
+    const ShellView shell(state, state.tasks.working[0]);
     for (uint32_t v = 0; v < shell.vertex_count(); ++v)
         found.dead_ends += state.vertices.crack[shell.vertex(v)] == static_cast<uint8_t>(CrackState::Tip);
     found.parts = report.parts, found.cuts = report.cuts;

@@ -38,7 +38,7 @@ void shake(ShellView shell, double size, double speed, uint64_t seed = 7) {
 std::vector<Vec3d> plain_forces(ShellView shell) {
     const ShellRows& s = shell.state;
     std::vector<Vec3d> f(shell.vertex_count());
-    const PlaneStress c = plane_stress(s, shell.row);
+    const PlaneStress c = plane_stress(s, shell.structure);
     const auto u = [&](uint32_t v) { return Vec3d(s.vertices.displacement[shell.vertex(v)]); };
     for (uint32_t e = 0; e < shell.element_count(); ++e) {
         const uint32_t row = shell.element(e);
@@ -70,7 +70,7 @@ std::vector<Vec3d> plain_forces(ShellView shell) {
 struct Fixture {
     State state;
     Row<Materials> material;
-    Row<Shells> shell;
+    Row<Structures> shell;
     Row<Tasks> task;
     Fixture(const ShellMesh& mesh, double thickness, const std::function<bool(Vec3d)>& pinned = {}, double scale = 1) {
         material = add_material(state, 70e9 * scale, 0.22, 2400);
@@ -149,7 +149,7 @@ Vec3d angular_momentum(const ShellView& shell) {
 TEST(HiddenStep, AFreeShakenShellKeepsMomentumAndItsEnergyIsBoundedOver10000Steps) {
     Fixture f(sphere_mesh(6, 0.1), 0.005);
     const ShellView shell = f.view();
-    f.state.tasks.damping_time[f.task] = 0;
+    f.state.hidden_runs.damping_time[f.task] = 0;
     f.start({1, 2, 3}, {});
     // A dent's worth of deformation on top.
     for (uint32_t v = 0; v < shell.vertex_count(); ++v) {
@@ -219,7 +219,7 @@ TEST(HiddenStep, PacksMayRunInAnyOrder) {
 TEST(HiddenStep, ScalingTheBodyScalesTimeAlone) {
     // Twice the size at the same speed: strains equal, dt and u twice (bit for bit: a power of two).
     Fixture f(sphere_mesh(6, 0.125), 0.005), g(sphere_mesh(6, 0.25), 0.01);
-    EXPECT_EQ(2 * f.state.tasks.time_step[f.task], g.state.tasks.time_step[g.task]);
+    EXPECT_EQ(2 * f.state.hidden_runs.time_step[f.task], g.state.hidden_runs.time_step[g.task]);
     f.start({1, 2, 3}, {16, -32, 8});
     g.start({1, 2, 3}, {8, -16, 4});
     shake(f.view(), 1e-6, 1);
@@ -257,8 +257,8 @@ TEST_P(PlateFrequency, IsWithinOnePercentOfTheory) {
         shape[v] = edge(Vec3d(p)) ? 0 : sx * sy;
         set_displacement(shell, v, {0, 0, static_cast<float>(1e-4 * shape[v])});
     }
-    f.state.tasks.damping_time[f.task] = 0;
-    const double dt = f.state.tasks.time_step[f.task];
+    f.state.hidden_runs.damping_time[f.task] = 0;
+    const double dt = f.state.hidden_runs.time_step[f.task];
     const auto amplitude = [&] {
         double sum = 0;
         for (uint32_t v = 0; v < shell.vertex_count(); ++v)
@@ -284,7 +284,7 @@ TEST(StiffnessRows, RebuiltRowsEqualAFullAssemblyAlsoAfterPacksMoved) {
     Fixture f(sphere_mesh(6, 0.1), 0.005), g(sphere_mesh(6, 0.1), 0.005);
     const ShellView shell = f.view();
     // No free slot anywhere: every row that grows moves its pack. Zero all lanes first.
-    const Range packs = f.state.shells.packs[f.shell];
+    const Range packs = f.state.shells.packs[f.state.shell_of(f.shell)];
     std::vector<uint32_t> all(shell.vertex_count());
     std::iota(all.begin(), all.end(), 0u);
     for (uint32_t p = packs.first; p < packs.first + 5; ++p) {
@@ -292,9 +292,9 @@ TEST(StiffnessRows, RebuiltRowsEqualAFullAssemblyAlsoAfterPacksMoved) {
         f.state.stiffness_packs.block_capacity[p] = f.state.stiffness_packs.link_capacity[p] = 0;
     }
     std::reverse(all.begin(), all.end());
-    const uint32_t used = f.state.shells.blocks[f.shell].count;
+    const uint32_t used = f.state.shells.blocks[f.state.shell_of(f.shell)].count;
     ASSERT_TRUE(rebuild_rows(shell, all));
-    EXPECT_GT(f.state.shells.blocks[f.shell].count, used);
+    EXPECT_GT(f.state.shells.blocks[f.state.shell_of(f.shell)].count, used);
     shake(shell, 1e-6, 1);
     shake(g.view(), 1e-6, 1);
     for (int i = 0; i < 10; ++i) step_task(f.state, f.task), step_task(g.state, g.task);
@@ -303,9 +303,9 @@ TEST(StiffnessRows, RebuiltRowsEqualAFullAssemblyAlsoAfterPacksMoved) {
 
 TEST(StiffnessRows, OutOfSpareIsRefused) {
     Fixture f(sphere_mesh(4, 0.1), 0.005);
-    const uint32_t p = f.state.shells.packs[f.shell].first;
+    const uint32_t p = f.state.shells.packs[f.state.shell_of(f.shell)].first;
     f.state.stiffness_packs.block_capacity[p] = f.state.stiffness_packs.block_count[p] = 0;
-    f.state.shells.blocks[f.shell].capacity = f.state.shells.blocks[f.shell].count;
+    f.state.shells.blocks[f.state.shell_of(f.shell)].capacity = f.state.shells.blocks[f.state.shell_of(f.shell)].count;
     const uint32_t zero = 0;
     EXPECT_FALSE(rebuild_rows(f.view(), {&zero, 1}));
 }
@@ -314,10 +314,10 @@ TEST(StiffnessRows, RoomThatIsAskedForIsEnoughToAssemble) {
     Fixture f(sphere_mesh(6, 0.1), 0.005);
     const ShellView shell = f.view();
     const ShellRoom room = stiffness_room(shell, 64);
-    EXPECT_GE(room.blocks, f.state.shells.blocks[f.shell].count);
-    EXPECT_GE(room.links, f.state.shells.links[f.shell].count);
-    f.state.shells.blocks[f.shell].capacity = room.blocks;
-    f.state.shells.links[f.shell].capacity = room.links;
+    EXPECT_GE(room.blocks, f.state.shells.blocks[f.state.shell_of(f.shell)].count);
+    EXPECT_GE(room.links, f.state.shells.links[f.state.shell_of(f.shell)].count);
+    f.state.shells.blocks[f.state.shell_of(f.shell)].capacity = room.blocks;
+    f.state.shells.links[f.state.shell_of(f.shell)].capacity = room.links;
     EXPECT_TRUE(assemble_stiffness(shell));
 }
 
@@ -333,8 +333,8 @@ TEST(Limits, AVertexMadeLightIsScaledToTheLimitAndTheRestStays) {
     EXPECT_EQ(rows.count, 13u);  // itself, 6 neighbours, 6 corners opposite
     ASSERT_TRUE(rebuild_rows(shell, rows.span()));
     // omega_max did not rise by more than the margin: the old step is still below the limit 2 / omega_max.
-    EXPECT_GT(stable_time_step(shell) / 0.6, f.state.shells.time_step[f.shell]);
-    f.state.tasks.damping_time[f.task] = 0.15f * f.state.tasks.time_step[f.task];
+    EXPECT_GT(stable_time_step(shell) / 0.6, f.state.shells.time_step[f.state.shell_of(f.shell)]);
+    f.state.hidden_runs.damping_time[f.task] = 0.15f * f.state.hidden_runs.time_step[f.task];
     f.start({0, 0, 0}, {0, 0, 0});
     shake(shell, 1e-6, 1);
     const double start = task_energy(f.state, f.task).total();

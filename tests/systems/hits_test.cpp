@@ -89,8 +89,8 @@ bool has_a_task_each_against_the_other(const State& s) {
 }
 bool has_a_grandchild(const State& s) {
     for (uint32_t b = 0; b < s.bodies.size(); ++b)
-        if (static_cast<BodyKind>(s.bodies.kind[b]) == BodyKind::Dynamic && s.bodies.shell[b].exists() &&
-            s.shells.generation[s.bodies.shell[b]] >= 2)
+        if (static_cast<BodyKind>(s.bodies.kind[b]) == BodyKind::Dynamic && s.bodies.structure[b].exists() &&
+            s.structures.generation[s.bodies.structure[b]] >= 2)
             return true;
     return false;
 }
@@ -252,8 +252,8 @@ TEST(BreakLimits, PiecesBelowTheShareOrTheElementsOrBeyondTheGenerationsDoNotBre
             world.step();
             const Bodies& bodies = state_of(world).bodies;
             for (const ImpactEvent& e : world.events().impacts) {
-                const Row<Shells> shell = bodies.shell[e.body.index];
-                if (!shell.exists() || state_of(world).shells.generation[shell] == 0 || !world.is_alive(e.body))
+                const Row<Structures> shell = bodies.structure[e.body.index];
+                if (!shell.exists() || state_of(world).structures.generation[shell] == 0 || !world.is_alive(e.body))
                     continue;
                 ++again.hits;
                 again.least = std::min(again.least, bodies.mass[e.body.index]);

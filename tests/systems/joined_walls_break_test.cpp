@@ -48,7 +48,7 @@ class Input {
 /// A shell alone in its tables.
 struct Bare {
     std::unique_ptr<State> state;
-    Row<Shells> shell;
+    Row<Structures> shell;
 
     explicit Bare(const Model& model)
         : state(std::make_unique<State>(cooking_limits(model.report().vertices, model.report().elements))) {
@@ -66,7 +66,7 @@ struct Bare {
     /// vertices there the middle one by its distance: a handle, which is farther out, has few.
     HitDescription blow(Vec3 way, float height, float mass) const {
         std::vector<std::pair<float, uint32_t>> facing;
-        const Range rows = state->shells.vertices[shell];
+        const Range rows = state->shells.vertices[state->shell_of(shell)];
         float low = 1e30f, high = -1e30f;
         for (uint32_t v = rows.first; v < rows.first + rows.count; ++v)
             low = std::min(low, state->vertices.rest[v].y), high = std::max(high, state->vertices.rest[v].y);
@@ -141,7 +141,7 @@ void expect_both_skins_break(const char* file, float thickness) {
     const HitReport report = run_hit(state, bare.shell, hit, nullptr, parts);
     ASSERT_FALSE(report.dropped);
     EXPECT_GE(report.parts, whole + 3) << "pieces come off";
-    const ShellView shell(state, state.tasks.shell[Row<Tasks>(0)]);
+    const ShellView shell(state, state.tasks.working[Row<Tasks>(0)]);
     double mass = 0;
     for (uint32_t p = 0; p < report.parts; ++p) mass += parts[p].mass;
     uint32_t clean = 0;

@@ -56,7 +56,7 @@ bool are_same(const std::vector<std::vector<DrawnTriangle>>& a, const std::vecto
 void expect_drawn_as_anew(World& world, Row<Bodies> body) {
     State& state = world.contents().data.state;
     const Bodies& bodies = state.bodies;
-    const ShellView shell(state, bodies.shell[body]);
+    const ShellView shell(state, bodies.structure[body]);
     const Result<void> sound = check_drawn_mesh(shell, {state.view_vertices, state.view_indices},
                                                 bodies.view_vertices[body], bodies.view_indices[body]);
     ASSERT_TRUE(sound.ok()) << sound.error();
@@ -93,7 +93,7 @@ void expect_boxes_as_anew(World& world, Row<Bodies> body) {
 void expect_mass_as_anew(World& world, Row<Bodies> body) {
     State& state = world.contents().data.state;
     const Bodies& bodies = state.bodies;
-    const ShellView shell(state, bodies.shell[body]);
+    const ShellView shell(state, bodies.structure[body]);
     const MassProperties anew = mass_properties(shell_moments(shell));
     // Pieces are subtracted from what the body was before cracks put vertices on its edges; where the wall is curved
     // these move mass inside of their elements.
@@ -115,8 +115,8 @@ void expect_shape_as_anew(World& world, Row<Bodies> body, uint32_t seed) {
     const Bodies& bodies = state.bodies;
     const auto rigid = make_bullet_world(bodies.limit());
     d.arena.reset();
-    const auto pieces = convex_pieces(state, bodies.shell[body], d.arena);
-    RigidDescription description = describe_rigid(state, body, pieces);
+    const auto pieces = convex_pieces(state, bodies.structure[body], d.arena);
+    RigidDescription description = describe_rigid(state.bodies, state.structures, body, pieces);
     description.pose = d.rigid->pose(body);
     d.rigid->set_pose(body, description.pose);  // the last step moved it: its pieces follow
     rigid->add(body, description);
@@ -138,7 +138,7 @@ void expect_all_as_anew(World& world, uint32_t seed) {
     const Bodies& bodies = state.bodies;
     for (uint32_t b = 0; b < bodies.size(); ++b) {
         const Row<Bodies> body(b);
-        if (static_cast<BodyKind>(bodies.kind[b]) == BodyKind::Free || !bodies.shell[b].exists()) continue;
+        if (static_cast<BodyKind>(bodies.kind[b]) == BodyKind::Free || !bodies.structure[b].exists()) continue;
         expect_drawn_as_anew(world, body);
         expect_boxes_as_anew(world, body);
         expect_mass_as_anew(world, body);

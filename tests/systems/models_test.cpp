@@ -63,8 +63,8 @@ std::unique_ptr<State> small_state() {
     state->bodies.append(4);
     state->shells.append(4);
     for (uint32_t k = 0; k < 4; ++k) {
-        state->shells.damage_model[k] = static_cast<uint8_t>(k / 2);
-        state->bodies.shell[k] = state->tasks.source[k] = Row<Shells>(k);
+        state->structures.damage_model[k] = static_cast<uint8_t>(k / 2);
+        state->bodies.structure[k] = state->tasks.source[k] = Row<Structures>(k);
         state->tasks.body[k] = Row<Bodies>(k);
     }
     asked.clear();
@@ -97,7 +97,7 @@ TEST(Models, WhatHasNoShellHasNoModel) {
     const auto state = small_state();
     DamageModel odd("odd");
     odd.has_energy<energy_of_odd>();
-    state->bodies.shell[1] = {};
+    state->bodies.structure[1] = {};
     EXPECT_FALSE(DamageModels({odd}).energy(*state, Row<Bodies>(1), {}).has_value());
 }
 

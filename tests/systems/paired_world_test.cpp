@@ -72,8 +72,8 @@ Played play(const Model& model, uint32_t threads, bool is_saved, bool is_paired,
     EXPECT_FALSE(is_saved) << "the run was over before it could be saved";
     const State& state = state_of(world);
     for (uint32_t b = 0; b < state.bodies.size(); ++b)
-        if (state.bodies.shell[b].exists() && state.shells.cells[state.bodies.shell[b]].count > 0) {
-            EXPECT_EQ(stores_pairs_once(state.shells, state.bodies.shell[b]), is_paired);
+        if (state.bodies.structure[b].exists() && state.structures.cells[state.bodies.structure[b]].count > 0) {
+            EXPECT_EQ(stores_pairs_once(state.structures, state.bodies.structure[b]), is_paired);
         }
     const DamageCounts& counts = world.contents().data.counts;
     EXPECT_EQ(counts.dropped + counts.redone, 0u);

@@ -23,7 +23,8 @@ TEST(Pieces, GroupingHandOffPiecesHullsAndDrawingDoNotAllocate) {
     State state;
     const auto built = build_shell(state, sample_vase(0.3, 0.005, 48, 40).source(), sample_material(state));
     ASSERT_TRUE(built.ok()) << built.error();
-    const Row<Shells> row = cut_by_label(state, built.value(), nearest_seed(ShellView(state, built.value()), 15, 1));
+    const Row<Structures> row =
+        cut_by_label(state, built.value(), nearest_seed(ShellView(state, built.value()), 15, 1));
     const ShellView shell(state, row);
     std::vector<FragmentPart> parts(100);
     std::vector<PartMotion> motions(100);
@@ -34,7 +35,7 @@ TEST(Pieces, GroupingHandOffPiecesHullsAndDrawingDoNotAllocate) {
     const std::span<const FragmentPart> found(parts.data(), count);
     rigid_handoff(shell, {{}, {}, {}, 5}, found, motions);
     for (const FragmentPart& part : found) {
-        const Row<Shells> piece = make_piece(state, row, part, 1);
+        const Row<Structures> piece = make_piece(state, row, part, 1);
         draw_shell(ShellView(state, piece), {state.view_vertices, state.view_indices}, vertices, indices);
         mass_properties(shell_moments(ShellView(state, piece)));
         release_shell(state, piece);
@@ -94,7 +95,7 @@ TEST(Pieces, PagesForAHitAndItsPiecesAreThereFromTheSpawnOn) {
 TEST(Pieces, TwoRunsGiveTheSameBytes) {
     const auto run = [](State& state) {
         const auto built = build_shell(state, sample_sphere(0.2, 0.01, 4).source(), sample_material(state));
-        const Row<Shells> row =
+        const Row<Structures> row =
             cut_by_label(state, built.value(), nearest_seed(ShellView(state, built.value()), 15, 1));
         std::vector<FragmentPart> parts(100);
         parts.resize(group_fragments(ShellView(state, row), parts));

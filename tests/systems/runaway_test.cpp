@@ -42,7 +42,7 @@ TEST(Runaway, AnExplosionGivesAQuickBodyNoMoreEnergyThanItsImpulseHas) {
         World world = make_world(small_settings());
         const BodyId body = add_quick_vase(world, layers);
         const ExplosionSettings explosion{.centre = {0, 0.14f, 0.22f}, .radius = 0.45f, .impulse = 350};
-        const ShellView shell(state_of(world), state_of(world).bodies.shell[body.index]);
+        const ShellView shell(state_of(world), state_of(world).bodies.structure[body.index]);
         const ExplosionSums sums =
             measure_explosion(shell, {explosion.centre, explosion.radius, explosion.impulse}, {});
         ASSERT_TRUE(world.explode(explosion).ok());
@@ -67,7 +67,7 @@ TEST(Runaway, ADroppedRunLeavesAWorldThatCanBeSaved) {
         world.step();
         State& state = state_of(world);
         ASSERT_EQ(static_cast<TaskState>(state.tasks.state[0]), TaskState::Running) << layers << " layers";
-        const Range rows = state.shells.vertices[state.tasks.shell[0]];
+        const Range rows = state.shells.vertices[state.shell_of(state.tasks.working[0])];
         for (uint32_t v = rows.first; v < rows.first + rows.count; ++v) state.vertices.velocity.set(v, {1e30f, 0, 0});
         for (int frame = 0; frame < 3000 && open_tasks(world) > 0; ++frame) world.step();
         EXPECT_EQ(dropped_of(world), 1u) << layers << " layers";
@@ -135,7 +135,7 @@ TEST(Runaway, AnElementThatIsTurnedInsideOutHasAnInertia) {
         State state;
         const Row<Materials> material = sample_material(state);
         const SampleSurface grid = sample_grid(0.1, 0.1, 2, 2, 0.01);
-        const Result<Row<Shells>> made = build_shell(state, grid.source(), material);
+        const Result<Row<Structures>> made = build_shell(state, grid.source(), material);
         ASSERT_TRUE(made.ok()) << made.error();
         const ShellView shell(state, *made);
         const auto corner = state.elements.corner[shell.element(0)];

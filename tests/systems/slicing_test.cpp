@@ -47,7 +47,7 @@ uint64_t hash_of_blow(HitBench& bench, const HitDescription& hit, uint32_t steps
     State& state = bench.state();
     EXPECT_TRUE(open_hit(state, bench.shell(), hit));
     drive(state, steps_a_call, team_size);
-    const Row<Shells> working = state.tasks.shell[kTask];
+    const Row<Structures> working = state.tasks.working[kTask];
     std::vector<uint8_t> bytes;
     const auto add = [&bytes](const void* data, size_t size) {
         const auto* first = static_cast<const uint8_t*>(data);

@@ -44,7 +44,7 @@ Settings sliced_settings() {
 /// Rest places of the body's live vertices.
 std::vector<Vec3> places_of(World& world, BodyId body) {
     const State& state = state_of(world);
-    const ShellView shell(state_of(world), state.bodies.shell[body.index]);
+    const ShellView shell(state_of(world), state.bodies.structure[body.index]);
     std::vector<Vec3> places;
     for (uint32_t v = 0; v < shell.vertex_count(); ++v)
         if (state.vertices.element[shell.vertex(v)] != kNone) places.push_back(state.vertices.rest[shell.vertex(v)]);
@@ -98,7 +98,7 @@ TEST(WaitingBlows, EachPieceIsToldItsOwnShareOfAnExplosionsEnergy) {
     const Pose pose = w.world.pose(w.vase).value();
     const Explosion explosion{to_body(pose, e.centre), e.radius, e.impulse};
     const double impulse = length(
-        measure_explosion(ShellView(state_of(w.world), state.bodies.shell[w.vase.index]), explosion, {}).impulse);
+        measure_explosion(ShellView(state_of(w.world), state.bodies.structure[w.vase.index]), explosion, {}).impulse);
     ASSERT_TRUE(w.world.explode(e).ok());
     uint32_t told = 0;
     double sum = 0;

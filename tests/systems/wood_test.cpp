@@ -30,21 +30,22 @@ const MaterialSettings& wood() {
 /// A square of wood in the plane z = 0, jittered triangles, grain at an angle to x.
 struct Board {
     State state;
-    Row<Shells> shell;
+    Row<Structures> shell;
     double side = 1, thickness = 0.02;
     Board(double degrees, uint32_t n = 12, double jitter = 0.2) : Board(degrees, triangle_mesh(n, 1, jitter), 0.02) {}
     Board(double degrees, const ShellMesh& mesh, double wall) : thickness(wall) {
         fill_materials(state.materials);
         const Vec3 grain = Vec3d(std::cos(degrees * kDegree), std::sin(degrees * kDegree), 0).to_float();
         shell = make_test_shell(state, mesh, thickness,
-                                material_row({state.materials, state.material_traits, state.shells}, wood(), grain), {},
-                                64);
+                                material_row({state.materials, state.material_traits, state.structures}, wood(), grain),
+                                {}, 64);
     }
     ShellView view() { return {state, shell}; }
     /// Takes the bounds of B7 away, which soften small triangles: what is left are the formulas.
     void unlimit() {
         Shells& shells = state.shells;
-        shells.triangle_limit[shell] = shells.hinge_limit[shell] = shells.vertex_limit[shell] = 0;
+        const Row<Shells> row = state.shell_of(shell);
+        shells.triangle_limit[row] = shells.hinge_limit[row] = shells.vertex_limit[row] = 0;
         limit_all_stiffness(view());
         ASSERT_TRUE(assemble_stiffness(view()));
     }
@@ -227,7 +228,7 @@ TEST(Wood, ARunLastsAsLongAsTheSlowestWavesNeed) {
     State state;
     fill_materials(state.materials);
     const Row<Materials> grained =
-        material_row({state.materials, state.material_traits, state.shells}, wood(), {1, 0, 0});
+        material_row({state.materials, state.material_traits, state.structures}, wood(), {1, 0, 0});
     for (const float area : {0.25f, 1.0f, 9.0f})
         EXPECT_NEAR(run_seconds(state, grained, area), 3.6e-3f * std::sqrt(area), 1e-6f) << area << " m2";
     EXPECT_EQ(run_seconds(state, grained, 1e-4f), 1e-3f) << "never less than the material's own";

@@ -17,9 +17,9 @@ namespace {
 void expect_sound_shells(World& world) {
     State& state = state_of(world);
     for (const BodyId id : shells_of(world)) {
-        const Row<Shells> shell = state.bodies.shell[id.index];
+        const Row<Structures> shell = state.bodies.structure[id.index];
         double elements = 0, vertices = 0, sound = 0, volume = 0;  // the last two without flat elements
-        const Range e = state.shells.elements[shell], v = state.shells.vertices[shell];
+        const Range e = state.shells.elements[state.shell_of(shell)], v = state.shells.vertices[state.shell_of(shell)];
         for (uint32_t i = e.first; i < e.first + e.count; ++i) {
             if (state.elements.flags[i] & kDead) continue;
             elements += state.elements.mass[i];
@@ -28,7 +28,7 @@ void expect_sound_shells(World& world) {
             volume += state.elements.volume[i];
         }
         for (uint32_t i = v.first; i < v.first + v.count; ++i) vertices += state.vertices.mass[i];
-        const double density = state.materials.density[state.shells.material[shell]];
+        const double density = state.materials.density[state.structures.material[shell]];
         EXPECT_NEAR(elements, vertices, 1e-12 * elements);
         EXPECT_NEAR(sound, density * volume, 1e-12 * sound);  // flat elements keep a lamina's mass
         EXPECT_NEAR(elements, world.mass(id).value(), 1e-9 * elements);
@@ -185,16 +185,16 @@ TEST(WorldDamage, ACrackedBodyKeepsItsCracksAndWakesAtHalfTheSpeed) {
         Breakage b = wall_and_ball(small_settings(), speed);
         const DamageCounts& counts = b.world.contents().data.counts;
         const State& state = state_of(b.world);
-        const float wake = wake_speed(state.shells, state.bodies.shell[b.body.index], 1);
+        const float wake = wake_speed(state.structures, state.bodies.structure[b.body.index], 1);
         for (int frame = 0; frame < 40 && counts.opened == 0; ++frame) b.world.step();
         if (counts.cuts == 0 || counts.broke > 0) continue;
         is_found = true;
-        const Row<Shells> shell = state.bodies.shell[b.body.index];
-        EXPECT_EQ(state.shells.has_cracks[shell], 1);
-        EXPECT_EQ(state.shells.generation[shell], 0);
-        EXPECT_FLOAT_EQ(wake_speed(state.shells, shell, 1), 0.5f * wake);
+        const Row<Structures> shell = state.bodies.structure[b.body.index];
+        EXPECT_EQ(state.structures.has_cracks[shell], 1);
+        EXPECT_EQ(state.structures.generation[shell], 0);
+        EXPECT_FLOAT_EQ(wake_speed(state.structures, shell, 1), 0.5f * wake);
         uint32_t cracked = 0;
-        const Range v = state.shells.vertices[shell];
+        const Range v = state.shells.vertices[state.shell_of(shell)];
         for (uint32_t i = v.first; i < v.first + v.count; ++i) cracked += state.vertices.crack[i] != 0;
         EXPECT_GT(cracked, 0u);
         EXPECT_EQ(b.world.view(b.body).value().stamp, 2u);
@@ -226,7 +226,7 @@ TEST(WorldDamage, APinnedWallStaysWhereItIsPinnedAndItsHoleIsAHoleForWhatFlies) 
         }
         EXPECT_EQ(length(bodies.velocity[id.index]), 0);
         EXPECT_EQ(length(b.world.pose(id).value().position), 0);
-        const Range v = state.shells.vertices[bodies.shell[id.index]];
+        const Range v = state.shells.vertices[state.shell_of(bodies.structure[id.index])];
         for (uint32_t i = v.first; i < v.first + v.count; ++i)
             if (state.vertices.element[i] != kNone) standing.push_back(state.vertices.rest[i]);
     }

@@ -11,9 +11,8 @@ namespace cullet::test {
 namespace {
 
 uint64_t pools_hash(World& world) {
-    const auto pools = std::as_const(state_of(world)).pools();
     uint64_t hash = 0;
-    for (size_t k = 0; k < State::first_spring_pool(); ++k) hash = pools[k]->hash(hash);
+    for (const RangePool* pool : std::as_const(state_of(world)).pools()) hash = pool->hash(hash);
     return hash;
 }
 

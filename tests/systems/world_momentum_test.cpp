@@ -252,7 +252,7 @@ TEST(WorldMomentum, PiecesHaveNoMoreEnergyThanTheHiddenState) {
             hidden = 0;
             for (uint32_t t = 0; t < state.tasks.size(); ++t) {
                 if (static_cast<TaskState>(state.tasks.state[t]) != TaskState::Broke) continue;
-                const Range range = state.shells.vertices[state.tasks.shell[t]];
+                const Range range = state.shells.vertices[state.shell_of(state.tasks.working[t])];
                 for (uint32_t v = range.first; v < range.first + range.count; ++v) {
                     const Vec3d velocity(state.vertices.velocity[v]);
                     if (state.vertices.element[v] != kNone)

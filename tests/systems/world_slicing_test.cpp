@@ -43,10 +43,11 @@ Break first_break(World& world) {
             if (static_cast<BodyKind>(bodies.kind[b]) == BodyKind::Free) continue;
             add(bodies.position[b]), add(bodies.orientation[b]), add(bodies.velocity[b]), add(bodies.spin[b]);
             add(bodies.mass[b]);
-            const Row<Shells> shell = bodies.shell[b];
+            const Row<Structures> shell = bodies.structure[b];
             if (!shell.exists()) continue;
             ++found.pieces;
-            const Range v = state.shells.vertices[shell], e = state.shells.elements[shell];
+            const Range v = state.shells.vertices[state.shell_of(shell)],
+                        e = state.shells.elements[state.shell_of(shell)];
             for (uint32_t i = v.first; i < v.first + v.count; ++i) {
                 if (state.vertices.element[i] == kNone) continue;
                 add(state.vertices.rest[i]), add(state.vertices.crack[i]), add(state.vertices.heading[i]);

@@ -17,7 +17,7 @@ void expect_closed(World& world, BodyId id) {
     State& state = state_of(world);
     const Bodies& bodies = state.bodies;
     const Result<void> closed =
-        check_drawn_mesh(ShellView(state, bodies.shell[id.index]), {state.view_vertices, state.view_indices},
+        check_drawn_mesh(ShellView(state, bodies.structure[id.index]), {state.view_vertices, state.view_indices},
                          bodies.view_vertices[id.index], bodies.view_indices[id.index]);
     EXPECT_TRUE(closed.ok()) << closed.error();
     const BodyView view = world.view(id).value();

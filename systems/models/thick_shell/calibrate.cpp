@@ -25,9 +25,9 @@ constexpr float kBallMass = 1.0f / 25, kBallRadius = 2;
 constexpr uint64_t kMostTries = 64;  // for an element that nothing holds
 
 /// The middle of a seeded face that the ground does not hold, struck from outside along its normal.
-HitDescription ball_on_face(const ShellRows& state, Row<Shells> shell, uint64_t place, float speed) {
-    const Range elements = state.shells.elements[shell];
-    const uint32_t first = state.shells.vertices[shell].first;
+HitDescription ball_on_face(const ShellRows& state, Row<Structures> shell, uint64_t place, float speed) {
+    const Range elements = state.shells.elements[state.shell_of(shell)];
+    const uint32_t first = state.shells.vertices[state.shell_of(shell)].first;
     HitDescription hit;
     for (uint64_t n = 0; n < kMostTries; ++n) {
         const uint32_t e = elements.first + static_cast<uint32_t>(Random{kSeed}.bits(place, n) % elements.count);
@@ -42,8 +42,8 @@ HitDescription ball_on_face(const ShellRows& state, Row<Shells> shell, uint64_t 
         if (!is_held) break;
     }
     hit.striker_speed = speed;
-    hit.striker_radius = kBallRadius * state.shells.thickness[shell];
-    hit.striker_inverse_mass = static_cast<float>(1 / (double{kBallMass} * state.shells.mass[shell]));
+    hit.striker_radius = kBallRadius * state.shells.thickness[state.shell_of(shell)];
+    hit.striker_inverse_mass = static_cast<float>(1 / (double{kBallMass} * state.structures.mass[shell]));
     return hit;
 }
 
@@ -55,7 +55,7 @@ Limits limits_for(uint32_t vertices, uint32_t elements) {
 }
 
 /// Largest stretch over the strength factor of its end, seen in one run.
-float largest_stretch(RunRows& state, Row<Shells> shell, const HitDescription& hit) {
+float largest_stretch(RunRows& state, Row<Structures> shell, const HitDescription& hit) {
     if (!open_hit(state, shell, hit)) return 0;
     const BrittleLoop loop = make_quick_loop();
     const Blows none(1);
@@ -78,20 +78,20 @@ float largest_stretch(RunRows& state, Row<Shells> shell, const HitDescription& h
 
 }  // namespace
 
-float calibrated_strain_limit(const ShellRows& from, Row<Shells> source, const QuickSettings& quick,
+float calibrated_strain_limit(const ShellRows& from, Row<Structures> source, const QuickSettings& quick,
                               const LayerSettings& layers, float speed) {
     if (!(speed > 0)) return 0;
     try {
         const FpMode mode;
-        const auto own = std::make_unique<Workbench>(
-            limits_for(from.shells.vertices[source].count, from.shells.elements[source].count));
+        const auto own = std::make_unique<Workbench>(limits_for(from.shells.vertices[from.shell_of(source)].count,
+                                                                from.shells.elements[from.shell_of(source)].count));
         Workbench& state = *own;
         state.materials.append(from.materials.size());
         state.materials.copy_rows(from.materials, 0, 0, from.materials.size());
         state.material_traits.append(from.material_traits.size());
         state.material_traits.copy_rows(from.material_traits, 0, 0, from.material_traits.size());
         const char* full = "";
-        const Row<Shells> shell = import_shell(state, from, source, &full);
+        const Row<Structures> shell = import_shell(state, from, source, &full);
         if (!shell.exists()) return 0;
         QuickSettings unbroken = quick;
         unbroken.strain_limit = kMostLimit;  // not by the strength, which is what crushes, too

@@ -12,7 +12,7 @@ namespace cullet {
 /// brick walls never. Falls on a floor do not serve instead: they land on corners and rims, which stretch far more than
 /// a face does, so that walls never broke by a ball. 0: no speed is known, or there is no room. Allocates; for
 /// spawning. About a hundredth of a second.
-float calibrated_strain_limit(const ShellRows& state, Row<Shells> shell, const QuickSettings& quick,
+float calibrated_strain_limit(const ShellRows& state, Row<Structures> shell, const QuickSettings& quick,
                               const LayerSettings& layers, float speed);
 
 }  // namespace cullet

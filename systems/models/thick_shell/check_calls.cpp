@@ -13,7 +13,9 @@ Result<void> check_thick_shell(const ShellView& shell, Wear wear, const std::str
     if (const Result<void> sound = check_shell_rows(shell, wear, name, advice); !sound) return sound;
     const Shells& s = shell.shells();
     const auto refuse = [&](const std::string& what) { return Error{name + ": " + what + ". " + advice}; };
-    const float step = s.time_step[shell.row], run = run_seconds(shell.state, s.material[shell.row], s.area[shell.row]);
+    const float step = s.time_step[shell.row],
+                run = run_seconds(shell.state, shell.structures().material[shell.structure],
+                                  shell.structures().area[shell.structure]);
     if (!(run <= kMostSteps * step))
         return refuse("shells.time_step is " + std::to_string(step) + " s for a hit of " + std::to_string(run) + " s");
     if (wear == Wear::Intact && (s.packs[shell.row].count == 0 || s.blocks[shell.row].count == 0))
@@ -23,7 +25,8 @@ Result<void> check_thick_shell(const ShellView& shell, Wear wear, const std::str
 }
 
 std::string trouble_of_run(const RunRows& state, uint32_t task) {
-    const bool is_sound = is_quick_task(state, task) || state.shells.packs[state.tasks.shell[task]].count > 0;
+    const bool is_sound =
+        is_quick_task(state, task) || state.shells.packs[state.shell_of(state.tasks.working[task])].count > 0;
     return is_sound ? "" : "has no stiffness";
 }
 

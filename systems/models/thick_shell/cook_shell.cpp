@@ -23,21 +23,20 @@ constexpr uint64_t kMostUnits = 20'000'000'000;
 
 // Springs, limits, rows and time step. The rows' room is known only when the springs are: the shell moves to ranges
 // that have it.
-Result<void> make_stiff(RunRows& state, Row<Shells>& shell) {
+Result<void> make_stiff(RunRows& state, Row<Structures>& shell) {
     const ShellView soft(state, shell);
     assemble_springs(soft);
     measure_limits(soft);
     limit_all_stiffness(soft);
-    Shells& s = state.shells;
-    s.intact_mass[shell] = s.mass[shell];
+    state.structures.intact_mass[shell] = state.structures.mass[shell];
     ShellRoom room = stiffness_room(soft, 0);
-    room.vertices = std::max(room.vertices, s.vertices[shell].count);
-    room.elements = s.elements[shell].count;
-    room.hinges = s.hinges[shell].count;
-    room.cells = s.cells[shell].count;
-    room.points = s.points[shell].count;
+    room.vertices = std::max(room.vertices, soft.vertex_count());
+    room.elements = soft.element_count();
+    room.hinges = soft.hinge_count();
+    room.cells = soft.cells().count;
+    room.points = soft.points().count;
     const char* full = "";
-    const Row<Shells> stiff = make_shell(state, room, &full);
+    const Row<Structures> stiff = make_shell(state, room, &full);
     if (!stiff.exists()) return Error{std::string("no room to assemble the stiffness (") + full + ")."};
     copy_shell_rows(state, state, shell, stiff, false);
     release_shell(state, shell);
@@ -45,11 +44,11 @@ Result<void> make_stiff(RunRows& state, Row<Shells>& shell) {
     const ShellView view(state, shell);
     if (!assemble_stiffness(view))
         return Error{"the stiffness does not fit the room that was asked for it; please report this mesh."};
-    s.time_step[shell] = stable_time_step(view);
-    if (!(s.time_step[shell] > 0))
-        return Error{"nothing holds the mesh together: no two triangles share an edge. Weld it first."};
-    const float run = run_seconds(state, s.material[shell], s.area[shell]);
-    if (!(s.time_step[shell] >= kShortestStep && run <= kMostSteps * s.time_step[shell]))
+    float& step = state.shells.time_step[view.row];
+    step = stable_time_step(view);
+    if (!(step > 0)) return Error{"nothing holds the mesh together: no two triangles share an edge. Weld it first."};
+    const float run = run_seconds(state, state.structures.material[shell], state.structures.area[shell]);
+    if (!(step >= kShortestStep && run <= kMostSteps * step))
         return Error{"a hit would take more than " + std::to_string(static_cast<int>(kMostSteps / 1e6f)) +
                      " million steps: some edges are far too short for its size. Weld them, or scale it."};
     return {};
@@ -65,14 +64,13 @@ double mean_edge_of(const Mesh& mesh) {
 }
 
 /// What to do about hits that will be late. `longest_edge`: the setting where it made the edges what they are, or 0.
-std::string advice_on(const RunRows& state, Row<Shells> shell, uint64_t units, const Mesh& mesh, double longest_edge) {
+std::string advice_on(const RunRows& state, Row<Structures> shell, uint64_t units, const Mesh& mesh,
+                      double longest_edge) {
     const Shells& s = state.shells;
-    const HitOfModel hit{units,
-                         s.vertices[shell].count,
-                         is_for_cut_outs(state, shell, false),
-                         s.mean_edge[shell],
-                         s.thickness[shell],
-                         longest_edge};
+    const Row<Shells> row = state.shell_of(shell);
+    const HitOfModel hit{
+        units,       s.vertices[row].count, is_for_cut_outs(state, shell, false), s.mean_edge[row], s.thickness[row],
+        longest_edge};
     return hit_advice(hit, [&mesh](double length) {
         TessellationSettings tessellation;
         tessellation.longest_edge = length;
@@ -81,18 +79,19 @@ std::string advice_on(const RunRows& state, Row<Shells> shell, uint64_t units, c
     });
 }
 
-ModelReport report_on(const RunRows& state, Row<Shells> shell, const Extrusion& extrusion) {
-    const Shells& s = state.shells;
+ModelReport report_on(const RunRows& state, Row<Structures> shell, const Extrusion& extrusion) {
+    const Structures& s = state.structures;
+    const Row<Shells> row = state.shell_of(shell);
     ModelReport report;
-    report.vertices = s.vertices[shell].count;
-    report.elements = s.elements[shell].count;
+    report.vertices = state.shells.vertices[row].count;
+    report.elements = state.shells.elements[row].count;
     report.cells = s.cells[shell].count;
     report.degenerate_elements = extrusion.statistics.degenerate_elements;
     report.collisions = extrusion.statistics.collisions;
     report.inverted_elements = extrusion.statistics.inverted_elements;
     report.crossings = extrusion.statistics.crossings;
     report.mass = s.mass[shell];
-    report.mean_thickness = s.thickness[shell];
+    report.mean_thickness = state.shells.thickness[row];
     report.first_crack_speed = s.first_crack_speed[shell];
     report.first_crack_force = s.first_crack_force[shell];
     report.units_of_a_hit = units_of_a_hit(state, shell);

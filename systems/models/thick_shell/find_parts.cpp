@@ -14,16 +14,17 @@ void find_parts(EachOwn<TaskEnded> ended, BodyRows& rows, Fragments& fragments) 
     const uint32_t t = ended->task;
     rows.tasks.part_count[t] = 1;
     if (static_cast<TaskState>(rows.tasks.state[t]) == TaskState::Dropped) return;
-    const ShellView shell(rows, rows.tasks.shell[t]);
+    const ShellView shell(rows, rows.tasks.working[t]);
     const bool is_zero = is_numbered_zero(shell), was_one = is_zero || is_of_one_part(shell),
                is_quick = is_quick_task(rows, t);
     if (rows.tasks.crack_count[t] == 0 && was_one) return;
     const std::span parts(fragments.part.data() + size_t{t} * kMostParts, kMostParts);
     // A body that may have been hit on a cut-out is not looked at as a whole; cracks that run out want the scratch that
     // a flood uses.
-    const uint32_t vertices = rows.shells.vertices[rows.tasks.source[t]].count;  // before the cracks brought theirs
+    const uint32_t vertices =
+        rows.shells.vertices[rows.shell_of(rows.tasks.source[t])].count;  // before the cracks brought theirs
     // A hidden run's cracks have run out in its cut-out.
-    const bool was_hidden_region = rows.tasks.shell[t] == rows.tasks.source[t] && !is_quick;
+    const bool was_hidden_region = rows.tasks.working[t] == rows.tasks.source[t] && !is_quick;
     const bool runs_out = is_quick ? vertices <= kWholeCopyVertices : !was_hidden_region;
     const uint32_t most = worthwhile_floods(shell);
     rows.tasks.part_count[t] = kNone;

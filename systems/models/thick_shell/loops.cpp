@@ -15,17 +15,17 @@ bool is_hidden(const RunRows& rows, uint32_t task) {
     return !is_quick_task(rows, task);
 }
 RunCost cost_of_hidden(const RunRows& rows, uint32_t task) {
-    return {units_a_step(rows.shells, rows.tasks, task), units_of_birth(rows.shells, rows.tasks, task)};
+    return {units_a_step(rows, task), units_of_birth(rows, task)};
 }
 bool is_large(const RunRows& rows, uint32_t task) {
-    return rows.shells.vertices[rows.tasks.shell[task]].count > kTeamVertices;
+    return rows.shells.vertices[rows.shell_of(rows.tasks.working[task])].count > kTeamVertices;
 }
 
 RunCost cost_of_quick(const RunRows& rows, uint32_t task) {
     return {quick_units_a_step(rows, task), quick_units_of_end(rows, task)};
 }
 bool has_large_region(const RunRows& rows, uint32_t task) {
-    return kLanes * rows.quick_runs.pack_count[task] > kTeamVertices;
+    return kLanes * rows.hidden_runs.pack_count[task] > kTeamVertices;
 }
 
 uint32_t soft_count(const SoftRows& rows) {
@@ -40,7 +40,7 @@ std::optional<FrameRun> soft_run(const SoftRows& rows, uint32_t s) {
     const bool has_layers = static_cast<SpringLayout>(springs.layout[row]) != SpringLayout::OneLayer;
     if (has_layers != HasLayers) return {};
     return FrameRun{springs.steps[row], soft.granted[s], soft.granted[s] * soft_units_a_substep(springs, row),
-                    rows.shells.vertices[springs.shell[row]].count > kSoftTeamVertices};
+                    rows.shells.vertices[rows.shell_of(springs.structure[row])].count > kSoftTeamVertices};
 }
 
 }  // namespace

@@ -14,7 +14,7 @@ WorkingShell working_shell(BodyRows& state, Row<Bodies> body) {
     WorkingShell made;
     made.waits = may_cut_out(state, body);
     if (made.waits) return made;
-    const ShellView source(state, state.bodies.shell[body]);
+    const ShellView source(state, state.bodies.structure[body]);
     const ShellRoom room = is_quick_body(state, body) ? quick_room(source) : working_room(source);
     made.shell = make_shell_unclear(state, room, &made.full);
     return made;
@@ -23,12 +23,12 @@ WorkingShell working_shell(BodyRows& state, Row<Bodies> body) {
 void begin_run(BodyRows& state, Row<Tasks> task, Events<StiffnessWanted>& wanted) {
     Tasks& tasks = state.tasks;
     const Row<Bodies> body = tasks.body[task];
-    const Row<Shells> source = tasks.source[task];
-    const uint32_t vertices = state.shells.vertices[source].count;
-    const bool is_quick = is_quick_body(state, body), waits = !tasks.shell[task].exists();
+    const Row<Structures> source = tasks.source[task];
+    const uint32_t vertices = state.shells.vertices[state.shell_of(source)].count;
+    const bool is_quick = is_quick_body(state, body), waits = !tasks.working[task].exists();
     set_task_times(state, task);
     set_quick_task(state, task, body);
-    const bool is_assembled = is_quick || waits || state.shells.packs[source].count > 0;
+    const bool is_assembled = is_quick || waits || state.shells.packs[state.shell_of(source)].count > 0;
     const uint64_t units = is_quick ? kUnitsQuickCopy : kUnitsOpen + (is_assembled ? 0 : kUnitsAssemble);
     if (!waits) tasks.units_owed[task] = vertices * units;
     const uint32_t packs = is_assembled ? 0 : (vertices + kLanes - 1) / kLanes;
@@ -44,20 +44,21 @@ bool give_late_rows(BodyRows& state, const Blows& blows, Row<Tasks> task, Events
     const ShellView source(state, tasks.source[task]);
     CutOutResult result = CutOutResult::TooWide;
     if (!is_everywhere) result = reserve_cut_out(state, task, quick_cut_out_size(state, task), full);
-    if (result == CutOutResult::TooWide) tasks.shell[task] = make_shell_unclear(state, quick_room(source), full);
-    const Row<Shells> working = tasks.shell[task];
+    if (result == CutOutResult::TooWide) tasks.working[task] = make_shell_unclear(state, quick_room(source), full);
+    const Row<Structures> working = tasks.working[task];
     if (!working.exists()) return false;
-    tasks.units_owed[task] += result == CutOutResult::Reserved ? state.shells.vertices[working].count * kUnitsQuickOpen
-                                                               : source.vertex_count() * kUnitsQuickCopy;
+    tasks.units_owed[task] += result == CutOutResult::Reserved
+                                  ? state.shells.vertices[state.shell_of(working)].count * kUnitsQuickOpen
+                                  : source.vertex_count() * kUnitsQuickCopy;
     return true;
 }
 
 std::optional<RunLength> run_length(const BodyRows& state, Row<Bodies> body) {
     if (is_quick_body(state, body)) return {};
-    const Row<Shells> shell = state.bodies.shell[body];
-    const Shells& shells = state.shells;
-    return RunLength{run_seconds(state, shells.material[shell], shells.area[shell]), shells.time_step[shell],
-                     units_a_step(shells.vertices[shell].count, 64)};
+    const Row<Structures> shell = state.bodies.structure[body];
+    const Row<Shells> row = state.shell_of(shell);
+    return RunLength{run_seconds(state, state.structures.material[shell], state.structures.area[shell]),
+                     state.shells.time_step[row], units_a_step(state.shells.vertices[row].count, 64)};
 }
 
 }  // namespace cullet

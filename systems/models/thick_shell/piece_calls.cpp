@@ -12,12 +12,12 @@ RestMotion motion_of_rest(const RunRows& state, Row<Tasks> task) {
 }
 
 bool is_awake(const SoftRows& state, Row<Bodies> body) {
-    const Row<SoftBodies> soft = find_soft(state.soft_bodies, body);
+    const Row<SoftBodies> soft = state.bodies.soft[body];
     return soft.exists() && state.soft_bodies.is_awake[soft];
 }
 
 void look_for_pieces(SoftRows& state, Row<Bodies> body) {
-    state.soft_bodies.is_torn[find_soft(state.soft_bodies, body)] = 1;
+    state.soft_bodies.is_torn[state.bodies.soft[body]] = 1;
 }
 
 Row<Bodies> take_torn(SoftRows& state) {
@@ -31,17 +31,17 @@ Row<Bodies> take_torn(SoftRows& state) {
 }
 
 void hand_off_torn(const SoftRows& state, const TornPieces& torn, std::span<PartMotion> motions) {
-    const Row<SoftBodies> soft = find_soft(state.soft_bodies, torn.body);
+    const Row<SoftBodies> soft = state.bodies.soft[torn.body];
     if (soft.exists()) soft_handoff(state, soft, torn.parts, motions);
 }
 
 void give_torn_pieces(SoftRows& state, const TornPieces& torn) {
-    const Row<SoftBodies> soft = find_soft(state.soft_bodies, torn.body);
+    const Row<SoftBodies> soft = state.bodies.soft[torn.body];
     if (soft.exists()) give_pieces_springs(state, soft, torn.body, torn.order, torn.parts, torn.child);
 }
 
 void keep_torn_body(SoftRows& state, RigidWorld& rigid, Row<Bodies> body) {
-    const Row<SoftBodies> soft = find_soft(state.soft_bodies, body);
+    const Row<SoftBodies> soft = state.bodies.soft[body];
     if (soft.exists()) keep_torn(state, rigid, soft, body);
 }
 

@@ -9,13 +9,13 @@
 namespace cullet {
 
 void restore_sums(BodyRows& state, Row<Bodies> body) {
-    const Row<Shells> shell = state.bodies.shell[body];
-    const bool is_brittle = material_traits(state, state.shells.material[shell]).kind == MaterialKind::Brittle;
+    const Row<Structures> shell = state.bodies.structure[body];
+    const bool is_brittle = material_traits(state, state.structures.material[shell]).kind == MaterialKind::Brittle;
     if (is_brittle && may_cut_out(state, body)) keep_vertex_sums(ShellView(state, shell));
 }
 
 ShellRoom room_of_hit(BodyRows& state, Row<Bodies> body) {
-    const ShellView shell(state, state.bodies.shell[body]);
+    const ShellView shell(state, state.bodies.structure[body]);
     return is_quick_body(state, body) ? quick_room(shell) : working_room(shell);
 }
 

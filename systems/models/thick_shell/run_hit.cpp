@@ -27,25 +27,26 @@ bool give_rows(RunRows& state, uint32_t region_vertices, bool is_quick) {
     const char* full = nullptr;
     if (region_vertices > 0 && reserve_hidden_region(state, kTask, region_vertices, &full)) return true;
     const ShellView source(state, state.tasks.source[kTask]);
-    state.tasks.shell[kTask] = make_shell_unclear(state, is_quick ? quick_room(source) : working_room(source), &full);
-    return state.tasks.shell[kTask].exists();
+    state.tasks.working[kTask] = make_shell_unclear(state, is_quick ? quick_room(source) : working_room(source), &full);
+    return state.tasks.working[kTask].exists();
 }
 
 }  // namespace
 
-bool open_hit(RunRows& state, Row<Shells> source, const HitDescription& hit) {
+bool open_hit(RunRows& state, Row<Structures> source, const HitDescription& hit) {
     const ShellView before(state, source);
     Tasks& tasks = state.tasks;
     tasks.clear_rows(kTask, 1);
+    state.hidden_runs.clear_rows(kTask, 1);
     tasks.state[kTask] = static_cast<uint8_t>(TaskState::Running);
     tasks.body[kTask] = {};
     tasks.source[kTask] = source;
-    tasks.shell[kTask] = {};
+    tasks.working[kTask] = {};
     tasks.start_velocity.set(kTask, hit.velocity);
     tasks.start_spin.set(kTask, hit.spin);
     tasks.strength_scale[kTask] = hit.strength_scale;
     set_task_times(state, kTask);
-    tasks.time_step[kTask] *= hit.step_scale;
+    state.hidden_runs.time_step[kTask] *= hit.step_scale;
     set_hidden_task(state.quick_runs, kTask);
     if (hit.quick) set_quick_task(state, kTask, *hit.quick, hit.layers);
     tasks.contact_count[kTask] = 1;
@@ -56,17 +57,17 @@ bool open_hit(RunRows& state, Row<Shells> source, const HitDescription& hit) {
     contacts.striker_inverse_mass[0] = hit.striker_inverse_mass;
     contacts.striker_radius[0] = hit.striker_radius;
     contacts.start_speed[0] = hit.striker_speed;
-    contacts.radius[0] = patch_radius(state.shells, source, hit.striker_radius);
+    contacts.radius[0] = patch_radius(state.shells, state.shell_of(source), hit.striker_radius);
     const bool is_ball = hit.striker_radius > 0;
     contacts.normal.set(
         0, is_ball ? struck_normal(ShellView(state, source), hit.point, hit.normal, contacts.radius[0]) : hit.normal);
-    const Vec3 arm = hit.point - state.shells.centre[source].to_float();
+    const Vec3 arm = hit.point - state.structures.centre[source].to_float();
     tasks.approach_speed[kTask] = hit.striker_speed - dot(hit.velocity + cross(hit.spin, arm), hit.normal);
     if (!give_rows(state, hit.region_vertices, hit.quick)) {
         tasks.state[kTask] = static_cast<uint8_t>(TaskState::Free);
         return false;
     }
-    ++state.shells.users[source];
+    ++state.structures.users[source];
     start_task(state, Blows(1), kTask);
     const char* full = "";
     if (hit.quick) return wake_region_alone(state, Blows(1), kTask, &full);
@@ -75,10 +76,10 @@ bool open_hit(RunRows& state, Row<Shells> source, const HitDescription& hit) {
 
 bool widen_hit(RunRows& state) {
     if (!is_hidden_region(state, kTask) || !state.region_rests.wants_more[kTask]) return true;
-    release_shell(state, state.tasks.shell[kTask]);
-    state.quick_runs.cut_elements[kTask] = 0;
+    release_shell(state, state.tasks.working[kTask]);
+    state.hidden_runs.cut_elements[kTask] = 0;
     if (!give_rows(state, 2 * state.region_rests.most_vertices[kTask], false)) return false;
-    state.tasks.redo_count[kTask] = 0;
+    state.hidden_runs.redo_count[kTask] = 0;
     start_task(state, Blows(1), kTask);
     return true;
 }
@@ -95,10 +96,10 @@ HitReport finish_hit(RunRows& state, std::span<FragmentPart> parts) {
     report.steps = tasks.steps_done[kTask];
     report.cuts = tasks.crack_count[kTask];
     report.starts = tasks.start_count[kTask];
-    report.redos = tasks.redo_count[kTask];
+    report.redos = state.hidden_runs.redo_count[kTask];
     report.dropped = static_cast<TaskState>(tasks.state[kTask]) == TaskState::Dropped;
     report.cracked = report.cuts > 0;
-    const ShellView shell(state, tasks.shell[kTask]);
+    const ShellView shell(state, tasks.working[kTask]);
     report.moving = shell.vertex_count();
     const Scratch<std::array<FragmentPart, kMostParts>> parts_of(state.scratch);
     if (parts.empty()) parts = *parts_of;
@@ -107,7 +108,7 @@ HitReport finish_hit(RunRows& state, std::span<FragmentPart> parts) {
         report.parts = group_fragments(shell, parts);
     tasks.part_count[kTask] = report.parts;
     report.broke = report.parts > 1;
-    report.start_energy = tasks.start_energy[kTask];
+    report.start_energy = state.hidden_runs.start_energy[kTask];
     const TaskEnergy energy = is_quick ? of_region : task_energy(state, kTask);
     report.end_energy = energy.total();
     report.end_kinetic = energy.kinetic + energy.strikers;
@@ -116,7 +117,7 @@ HitReport finish_hit(RunRows& state, std::span<FragmentPart> parts) {
     return report;
 }
 
-HitReport run_hit(RunRows& state, Row<Shells> shell, const HitDescription& hit, bool (*is_over)(const RunRows&),
+HitReport run_hit(RunRows& state, Row<Structures> shell, const HitDescription& hit, bool (*is_over)(const RunRows&),
                   std::span<FragmentPart> parts) {
     if (!open_hit(state, shell, hit)) {
         HitReport report;
@@ -137,13 +138,13 @@ HitReport run_hit(RunRows& state, Row<Shells> shell, const HitDescription& hit, 
 }
 
 void close_hit(RunRows& state) {
-    release_shell(state, state.tasks.shell[kTask]);
+    release_shell(state, state.tasks.working[kTask]);
     release_shell(state, state.tasks.source[kTask]);
     state.tasks.state[kTask] = static_cast<uint8_t>(TaskState::Free);
 }
 
-HitDescription fall_on_floor(const ShellRows& state, Row<Shells> shell, Vec3 down, float speed) {
-    const Range vertices = state.shells.vertices[shell];
+HitDescription fall_on_floor(const ShellRows& state, Row<Structures> shell, Vec3 down, float speed) {
+    const Range vertices = state.shells.vertices[state.shell_of(shell)];
     HitDescription hit;
     float lowest = -1e30f;
     for (uint32_t v = vertices.first; v < vertices.first + vertices.count; ++v) {
@@ -167,7 +168,7 @@ Vec3 seeded_direction(uint64_t seed, uint64_t n) {
     return Vec3d(r * cosine, z, r * sine).to_float();
 }
 
-FirstCrack first_crack(RunRows& state, Row<Shells> shell, Vec3 down) {
+FirstCrack first_crack(RunRows& state, Row<Structures> shell, Vec3 down) {
     static constexpr float kSpeed = 1;
     HitDescription hit = fall_on_floor(state, shell, down, kSpeed);
     hit.strength_scale = 1e9f;  // may not crack: stresses are compared below
@@ -176,7 +177,7 @@ FirstCrack first_crack(RunRows& state, Row<Shells> shell, Vec3 down) {
     const Blows none(1);
     LoopWorld world{state, none};
     Tasks& tasks = state.tasks;
-    const ShellView working(state, tasks.shell[kTask]);
+    const ShellView working(state, tasks.working[kTask]);
     const CrackLimits limits = crack_limits(working, 1);
     const float limit = limits.start;
     float most = 1e-6f;
@@ -185,7 +186,7 @@ FirstCrack first_crack(RunRows& state, Row<Shells> shell, Vec3 down) {
         tasks.steps_granted[kTask] = 3;
         loop.run_alone(world, {kTask, tasks.steps_done[kTask], 3, task_goes_on});
         const double impulse = state.task_contacts.impulse[0];
-        most_force = std::max(most_force, (impulse - passed) / (3 * double{tasks.time_step[kTask]}));
+        most_force = std::max(most_force, (impulse - passed) / (3 * double{state.hidden_runs.time_step[kTask]}));
         passed = impulse;
         const float before = most;
         // Only a vertex beside an element above the present maximum can raise it; the least strength factor is 0.5.

@@ -39,19 +39,19 @@ struct HitReport {
 /// the task runs until its state is no longer Running, finish_hit counts its parts.
 ///
 /// `parts` gets their masses, boxes and points when it has kMostParts places; when it is empty nobody wants them.
-bool open_hit(RunRows& state, Row<Shells> shell, const HitDescription& hit);
+bool open_hit(RunRows& state, Row<Structures> shell, const HitDescription& hit);
 /// A run that has come to the border of its region (hidden_region.hpp) begins again on a larger one. False: no room.
 bool widen_hit(RunRows& state);
 HitReport finish_hit(RunRows& state, std::span<FragmentPart> parts = {});
 
 /// Takes task row 0 of `state`, which must be free, and leaves it with the end's shell (close_hit). `is_over`, when
 /// given, ends the run early; it is asked after each repetition.
-HitReport run_hit(RunRows& state, Row<Shells> shell, const HitDescription& hit,
+HitReport run_hit(RunRows& state, Row<Structures> shell, const HitDescription& hit,
                   bool (*is_over)(const RunRows&) = nullptr, std::span<FragmentPart> parts = {});
 void close_hit(RunRows& state);
 
 /// Lowest vertex in direction `down`, and what a fall on a floor in that direction looks like.
-HitDescription fall_on_floor(const ShellRows& state, Row<Shells> shell, Vec3 down, float speed);
+HitDescription fall_on_floor(const ShellRows& state, Row<Structures> shell, Vec3 down, float speed);
 
 /// A direction from (seed, n), even over the sphere.
 Vec3 seeded_direction(uint64_t seed, uint64_t n);
@@ -63,6 +63,6 @@ struct FirstCrack {
 /// Of a fall on a floor, when the first crack starts. Up to it the hidden run is homogeneous of degree one in the speed
 /// (linear shell, springs without a gap that only push), so one run that may not crack gives it exactly: the speed, and
 /// the force, over the largest ratio of stress to limit.
-FirstCrack first_crack(RunRows& state, Row<Shells> shell, Vec3 down);
+FirstCrack first_crack(RunRows& state, Row<Structures> shell, Vec3 down);
 
 }  // namespace cullet

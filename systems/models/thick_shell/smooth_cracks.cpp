@@ -105,7 +105,7 @@ class CrackPairs {
             for (uint32_t k = 0; k < 3; ++k)
                 if (is_crack(shell, e, k)) add_vertex(shell.state.elements.corner[shell.element(e)][k]);
         };
-        const uint8_t* const is_stale = shell.state.cells.is_stale.data() + shell.shells().cells[shell.row].first;
+        const uint8_t* const is_stale = shell.state.cells.is_stale.data() + shell.cells().first;
         if (is_local)
             for_each_element_of_cells(
                 shell, [&](uint32_t c) { return is_stale[c] != 0; }, add);
@@ -149,7 +149,7 @@ class CrackPairs {
     }
     /// Hulls and drawn faces of their cells are others now.
     void mark_cells() const {
-        const uint32_t first_cell = shell_.shells().cells[shell_.row].first;
+        const uint32_t first_cell = shell_.cells().first;
         Ring ring;
         for (uint32_t i = 0; i < count_; ++i) {
             if (!is_moved(shell_, list_[i])) continue;
@@ -191,8 +191,8 @@ void smooth_cracks(EachOwn<TaskEnded> ended, RunRows& rows, const Blows& blows) 
     if (static_cast<TaskState>(rows.tasks.state[task]) == TaskState::Dropped || rows.tasks.crack_count[task] == 0)
         return;
     if (is_cut_task(blows, task)) return;
-    const ShellView shell(rows, rows.tasks.shell[task]);
-    CrackPairs pairs(shell, rows.tasks.shell[task] == rows.tasks.source[task]);
+    const ShellView shell(rows, rows.tasks.working[task]);
+    CrackPairs pairs(shell, rows.tasks.working[task] == rows.tasks.source[task]);
     pairs.shift();
     pairs.keep_faces();
     pairs.mark_cells();

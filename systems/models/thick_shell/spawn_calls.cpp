@@ -26,9 +26,9 @@ Error no_pinned(const SpawnSettings& settings) {
 }
 
 // A shell of the body's own, as springs need it.
-Result<Row<Shells>> soft_copy(ShellRows& state, Row<Shells> source, const SpawnSettings& settings) {
+Result<Row<Structures>> soft_copy(ShellRows& state, Row<Structures> source, const SpawnSettings& settings) {
     const char* full = "";
-    const Row<Shells> copy = copy_soft_shell(state, source, &full);
+    const Row<Structures> copy = copy_soft_shell(state, source, &full);
     if (!copy.exists()) return Error{std::string("no room for a ductile or elastic body; raise ") + full + "."};
     if (settings.pin_count > 0 && pin(ShellView(state, copy), settings) == 0) {
         release_shell(state, copy);
@@ -38,10 +38,10 @@ Result<Row<Shells>> soft_copy(ShellRows& state, Row<Shells> source, const SpawnS
 }
 
 // Large bodies have a shell of their own from the start: what a hit changes is written into it (cut_out.hpp).
-bool wants_own_shell(const ShellRows& state, Row<Shells> source, const SpawnSettings& settings) {
+bool wants_own_shell(const ShellRows& state, Row<Structures> source, const SpawnSettings& settings) {
     if (settings.thick_shell.fracture == FractureMode::Quick)
-        return state.shells.vertices[source].count > kWholeCopyVertices;
-    const bool is_brittle = material_traits(state, state.shells.material[source]).kind == MaterialKind::Brittle;
+        return state.shells.vertices[state.shell_of(source)].count > kWholeCopyVertices;
+    const bool is_brittle = material_traits(state, state.structures.material[source]).kind == MaterialKind::Brittle;
     return is_brittle && settings.is_breakable && is_for_cut_outs(state, source, false);
 }
 
@@ -52,7 +52,7 @@ void remember_sums(const ShellView& shell) {
 }
 
 // Rows of a body's own shell; of a large one with those that cracks will add.
-ShellRoom own_room(ShellRows& state, Row<Shells> source, const SpawnSettings& settings) {
+ShellRoom own_room(ShellRows& state, Row<Structures> source, const SpawnSettings& settings) {
     ShellRoom room = room_of(state, source);
     if (!wants_own_shell(state, source, settings)) return room;
     const ShellRoom quick = quick_room(ShellView(state, source));
@@ -61,11 +61,11 @@ ShellRoom own_room(ShellRows& state, Row<Shells> source, const SpawnSettings& se
     return room;
 }
 
-Result<Row<Shells>> own_copy(ShellRows& state, Row<Shells> source, const SpawnSettings& settings) {
+Result<Row<Structures>> own_copy(ShellRows& state, Row<Structures> source, const SpawnSettings& settings) {
     const char* full = "";
     ShellRoom room = own_room(state, source, settings);
     room.blocks = room.links = 0;
-    const Row<Shells> copy = copy_shell(state, source, room, &full);
+    const Row<Structures> copy = copy_shell(state, source, room, &full);
     if (!copy.exists())
         return Error{std::string("no room for a large body that breaks near its hits; raise ") + full + "."};
     remember_sums(ShellView(state, copy));
@@ -74,9 +74,9 @@ Result<Row<Shells>> own_copy(ShellRows& state, Row<Shells> source, const SpawnSe
 
 // A shell of the body's own with these vertices pinned, its limits and rows made anew (B7: pins change what an unpinned
 // item is).
-Result<Row<Shells>> pinned_copy(ShellRows& state, Row<Shells> source, const SpawnSettings& settings) {
+Result<Row<Structures>> pinned_copy(ShellRows& state, Row<Structures> source, const SpawnSettings& settings) {
     const char* full = "";
-    const Row<Shells> copy = copy_shell(state, source, own_room(state, source, settings), &full);
+    const Row<Structures> copy = copy_shell(state, source, own_room(state, source, settings), &full);
     if (!copy.exists()) return Error{std::string("no room for a pinned body; raise ") + full + "."};
     const ShellView shell(state, copy);
     if (pin(shell, settings) == 0) {
@@ -102,16 +102,16 @@ bool is_soft(const MaterialRows& state, Row<Materials> material, const Spawning&
 
 }  // namespace
 
-Result<Row<Shells>> spawn_shell(ShellRows& state, Row<Shells> source, const Spawning& spawning) {
+Result<Row<Structures>> spawn_shell(ShellRows& state, Row<Structures> source, const Spawning& spawning) {
     const SpawnSettings& settings = spawning.settings;
-    if (is_soft(state, state.shells.material[source], spawning)) return soft_copy(state, source, settings);
+    if (is_soft(state, state.structures.material[source], spawning)) return soft_copy(state, source, settings);
     if (settings.pin_count > 0) return pinned_copy(state, source, settings);
     if (wants_own_shell(state, source, settings)) return own_copy(state, source, settings);
     return source;
 }
 
 const char* why_not_cut(const BodyRows& state, Row<Bodies> body) {
-    switch (material_traits(state, state.shells.material[state.bodies.shell[body]]).kind) {
+    switch (material_traits(state, state.structures.material[state.bodies.structure[body]]).kind) {
         case MaterialKind::Ductile:
             return "its material is ductile; cut one of a material that breaks";
         case MaterialKind::Elastic:
@@ -123,14 +123,14 @@ const char* why_not_cut(const BodyRows& state, Row<Bodies> body) {
 
 Result<ShellRoom> spawn_body(SoftRows& state, Row<Bodies> body, const Spawning& spawning) {
     const ThickShellSpawnSettings& settings = spawning.settings.thick_shell;
-    const Row<Shells> shell = state.bodies.shell[body];
-    const Row<Materials> material = state.shells.material[shell];
+    const Row<Structures> shell = state.bodies.structure[body];
+    const Row<Materials> material = state.structures.material[shell];
     const bool is_breakable = spawning.is_breakable && is_brittle(state, material);
     state.bodies.is_breakable[body] = is_breakable;
     QuickSettings quick = settings.quick;
     if (settings.fracture == FractureMode::Quick && is_breakable && quick.strain_limit == 0)
         quick.strain_limit =
-            calibrated_strain_limit(state, shell, quick, settings.springs, state.shells.first_crack_speed[shell]);
+            calibrated_strain_limit(state, shell, quick, settings.springs, state.structures.first_crack_speed[shell]);
     set_fracture(state, body, settings.fracture, quick, settings.springs);
     if (is_breakable) return room_of_hit(state, body);
     if (!is_soft(state, material, spawning)) return ShellRoom{};

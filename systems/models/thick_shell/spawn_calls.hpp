@@ -5,7 +5,7 @@
 namespace cullet {
 
 /// One of its own where it has pins, moves by its springs, or is so large that hits cut out parts of it.
-Result<Row<Shells>> spawn_shell(ShellRows& state, Row<Shells> source, const Spawning& spawning);
+Result<Row<Structures>> spawn_shell(ShellRows& state, Row<Structures> source, const Spawning& spawning);
 /// Brittle bodies may break, others get springs.
 Result<ShellRoom> spawn_body(SoftRows& state, Row<Bodies> body, const Spawning& spawning);
 /// Ductile and elastic bodies have springs, which nothing cuts.

@@ -16,7 +16,7 @@ template <class IsWanted, class Visit>
 void for_each_element_of_cells(const ShellView& shell, IsWanted&& is_wanted, Visit&& visit) {
     const uint32_t sorted = sorted_elements(shell);
     const uint32_t* const cell = shell.state.elements.cell.data() + shell.elements().first;
-    for (uint32_t c = 0; c < shell.shells().cells[shell.row].count; ++c) {
+    for (uint32_t c = 0; c < shell.cells().count; ++c) {
         if (!is_wanted(c)) continue;
         const auto first = static_cast<uint32_t>(std::lower_bound(cell, cell + sorted, c) - cell);
         for (uint32_t e = first; e < sorted && cell[e] == c; ++e) visit(e);
@@ -28,7 +28,7 @@ void for_each_element_of_cells(const ShellView& shell, IsWanted&& is_wanted, Vis
 /// The same of cells with a mark in Cells::is_changed.
 template <class Visit>
 void for_each_element_of_changed_cells(const ShellView& shell, Visit&& visit) {
-    const uint8_t* const is_changed = shell.state.cells.is_changed.data() + shell.shells().cells[shell.row].first;
+    const uint8_t* const is_changed = shell.state.cells.is_changed.data() + shell.cells().first;
     for_each_element_of_cells(
         shell, [&](uint32_t c) { return is_changed[c] != 0; }, visit);
 }

@@ -164,13 +164,13 @@ void choose_points(const ShellView& shell, uint32_t first, float margin, Workspa
 }
 
 uint32_t cell_row(const ShellView& shell, uint32_t cell) {
-    return shell.shells().cells[shell.row].first + cell;
+    return shell.cells().first + cell;
 }
 
 // Until pack_hulls, each cell's points stand at its first_point, where there is room for as many as it may have.
 void write_points(const ShellView& shell, uint32_t cell, const Workspace& work) {
     Cells& cells = shell.state.cells;
-    const uint32_t row = cell_row(shell, cell), first = shell.shells().points[shell.row].first + cells.first_point[row];
+    const uint32_t row = cell_row(shell, cell), first = shell.points().first + cells.first_point[row];
     uint32_t count = 0;
     cells.part_points[row] = {};
     for (uint32_t p = 0; p < work.part_count; ++p) {
@@ -200,15 +200,14 @@ class PointRoom {
         const uint32_t row = cell_row(shell_, cell), count = cells.point_count[from];
         const uint32_t source = first + cells.first_point[from];
         place(cell, count);
-        table.copy_rows(table, source, shell_.shells().points[shell_.row].first + cells.first_point[row], count);
+        table.copy_rows(table, source, shell_.points().first + cells.first_point[row], count);
         cells.point_count[row] = count;
         cells.part_points[row] = cells.part_points[from];
     }
 
  private:
     void place(uint32_t cell, uint32_t count) {
-        CULLET_ASSERT(next_ + count <= shell_.shells().points[shell_.row].capacity, "hull points of cell %u do not fit",
-                      cell);
+        CULLET_ASSERT(next_ + count <= shell_.points().capacity, "hull points of cell %u do not fit", cell);
         shell_.state.cells.first_point[cell_row(shell_, cell)] = next_;
         next_ += count;
     }
@@ -222,7 +221,7 @@ void link_sorted(const ShellView& shell) {
     Cells& cells = shell.state.cells;
     const uint32_t count = shell.element_count();
     uint32_t e = 0;
-    for (uint32_t c = 0; c < shell.shells().cells[shell.row].count; ++c) {
+    for (uint32_t c = 0; c < shell.cells().count; ++c) {
         const uint32_t first = e;
         while (e < count && elements.cell[shell.element(e)] == c) {
             const bool is_last = e + 1 == count || elements.cell[shell.element(e + 1)] != c;
@@ -241,7 +240,7 @@ void link_sorted(const ShellView& shell) {
 void link_changed(const ShellView& shell) {
     Elements& elements = shell.state.elements;
     Cells& cells = shell.state.cells;
-    for (uint32_t c = 0; c < shell.shells().cells[shell.row].count; ++c) {
+    for (uint32_t c = 0; c < shell.cells().count; ++c) {
         const uint32_t row = cell_row(shell, c);
         if (!cells.is_changed[row]) continue;
         cells.first_element[row] = cells.last_element[row] = kNone;
@@ -265,7 +264,7 @@ void link_changed(const ShellView& shell) {
 void link_live(const ShellView& shell) {
     Elements& elements = shell.state.elements;
     Cells& cells = shell.state.cells;
-    for (uint32_t c = 0; c < shell.shells().cells[shell.row].count; ++c) {
+    for (uint32_t c = 0; c < shell.cells().count; ++c) {
         cells.first_element[cell_row(shell, c)] = kNone;
         cells.element_count[cell_row(shell, c)] = 0;
     }
@@ -282,7 +281,7 @@ void link_live(const ShellView& shell) {
 }  // namespace
 
 float hull_margin(const ShellView& shell) {
-    return shell.shells().margin[shell.row];
+    return shell.structures().margin[shell.structure];
 }
 
 void choose_hull(ShellView shell, uint32_t cell) {
@@ -293,9 +292,9 @@ void choose_hull(ShellView shell, uint32_t cell) {
 
 void pack_hulls(ShellView shell) {
     Cells& cells = shell.state.cells;
-    Range& points = shell.shells().points[shell.row];
-    points.count = shell.shells().shape_points[shell.row];
-    for (uint32_t c = 0; c < shell.shells().cells[shell.row].count; ++c) {
+    Range& points = shell.points();
+    points.count = shell.structures().shape_points[shell.structure];
+    for (uint32_t c = 0; c < shell.cells().count; ++c) {
         const uint32_t row = cell_row(shell, c), count = cells.point_count[row];
         shell.state.hull_points.copy_rows(shell.state.hull_points, points.first + cells.first_point[row],
                                           points.first + points.count, count);
@@ -305,11 +304,11 @@ void pack_hulls(ShellView shell) {
 }
 
 void build_hulls(ShellView shell) {
-    shell.shells().margin[shell.row] = margin_for(shell.shells().thickness[shell.row]);
+    shell.structures().margin[shell.structure] = margin_for(shell.shells().thickness[shell.row]);
     clear_shape(shell);
     link_sorted(shell);
     PointRoom room(shell);
-    for (uint32_t c = 0; c < shell.shells().cells[shell.row].count; ++c) {
+    for (uint32_t c = 0; c < shell.cells().count; ++c) {
         room.reserve(c);
         choose_hull(shell, c);
     }
@@ -320,7 +319,7 @@ namespace {
 
 void empty_cells(const ShellView& shell) {
     Cells& cells = shell.state.cells;
-    for (uint32_t c = 0; c < shell.shells().cells[shell.row].count; ++c) {
+    for (uint32_t c = 0; c < shell.cells().count; ++c) {
         const uint32_t row = cell_row(shell, c);
         cells.first_point[row] = cells.point_count[row] = 0;
         cells.part_points[row] = {};
@@ -346,8 +345,8 @@ void copy_piece_hulls(ShellView piece, ShellView parent, float parents_margin, b
     link_sorted(piece);
     PointRoom room(piece);
     const bool may_copy = have_cells && std::fabs(hull_margin(piece) - parents_margin) <= 0.05f * parents_margin;
-    const uint32_t parent_points = parent.shells().points[parent.row].first;
-    for (uint32_t c = 0; c < piece.shells().cells[piece.row].count; ++c) {
+    const uint32_t parent_points = parent.points().first;
+    for (uint32_t c = 0; c < piece.cells().count; ++c) {
         uint32_t& same = cells.same_cell[cell_row(piece, c)];
         if (!may_copy) same = kNone;
         if (same != kNone)
@@ -360,7 +359,7 @@ void copy_piece_hulls(ShellView piece, ShellView parent, float parents_margin, b
 void find_changed_cells(ShellView shell, ShellView before) {
     const Elements& elements = shell.state.elements;
     Cells& cells = shell.state.cells;
-    for (uint32_t c = 0; c < shell.shells().cells[shell.row].count; ++c)
+    for (uint32_t c = 0; c < shell.cells().count; ++c)
         cells.is_changed[cell_row(shell, c)] = cells.is_stale[cell_row(shell, c)];
     if (before.row == shell.row) return;
     for (uint32_t e = 0; e < shell.element_count(); ++e) {
@@ -378,9 +377,9 @@ void find_changed_cells(ShellView shell, ShellView before) {
 
 void copy_rest_hulls(ShellView shell, Range points, ShellView before, bool have_cells) {
     Cells& cells = shell.state.cells;
-    const uint32_t count = shell.shells().cells[shell.row].count;
-    shell.shells().shape[shell.row] = static_cast<uint8_t>(ShapeKind::Cells);
-    shell.shells().shape_points[shell.row] = 0;
+    const uint32_t count = shell.cells().count;
+    shell.structures().shape[shell.structure] = static_cast<uint8_t>(ShapeKind::Cells);
+    shell.structures().shape_points[shell.structure] = 0;
     for (uint32_t c = 0; c < count; ++c) {  // before counts are changed where `before` is the same shell
         const uint32_t row = cell_row(shell, c), then = cell_row(before, c);
         cells.list_count[row] = cells.element_count[row];
@@ -405,9 +404,9 @@ void copy_rest_hulls(ShellView shell, Range points, ShellView before, bool have_
 
 bool has_room_to_renew(ShellView shell) {
     const Cells& cells = shell.state.cells;
-    const Range points = shell.shells().points[shell.row];
+    const Range points = shell.points();
     uint64_t wanted = points.count;
-    for (uint32_t c = 0; c < shell.shells().cells[shell.row].count; ++c)
+    for (uint32_t c = 0; c < shell.cells().count; ++c)
         if (cells.is_changed[cell_row(shell, c)]) wanted += most_points(1, cells.element_count[cell_row(shell, c)]);
     return wanted <= points.capacity;
 }
@@ -415,8 +414,8 @@ bool has_room_to_renew(ShellView shell) {
 void renew_rest_hulls(ShellView shell) {
     Cells& cells = shell.state.cells;
     link_changed(shell);
-    PointRoom room(shell, shell.shells().points[shell.row].count);
-    for (uint32_t c = 0; c < shell.shells().cells[shell.row].count; ++c) {
+    PointRoom room(shell, shell.points().count);
+    for (uint32_t c = 0; c < shell.cells().count; ++c) {
         const uint32_t row = cell_row(shell, c);
         cells.same_cell[row] = cells.is_changed[row] ? kNone : c;
         if (!cells.is_changed[row]) continue;
@@ -427,8 +426,8 @@ void renew_rest_hulls(ShellView shell) {
 
 void pack_renewed_hulls(ShellView shell) {
     Cells& cells = shell.state.cells;
-    Range& points = shell.shells().points[shell.row];
-    for (uint32_t c = 0; c < shell.shells().cells[shell.row].count; ++c) {
+    Range& points = shell.points();
+    for (uint32_t c = 0; c < shell.cells().count; ++c) {
         const uint32_t row = cell_row(shell, c), count = cells.point_count[row];
         if (cells.same_cell[row] != kNone) continue;
         shell.state.hull_points.copy_rows(shell.state.hull_points, points.first + cells.first_point[row],

@@ -4,6 +4,7 @@
 #include "systems/structures/shell/draw_shell.hpp"
 #include "systems/structures/shell/group_fragments.hpp"
 #include "systems/structures/shell/make_piece.hpp"
+#include "systems/structures/shell/mass_properties.hpp"
 #include "systems/structures/shell/rest_of_body.hpp"
 #include "systems/structures/shell/rigid_shape.hpp"
 #include "systems/systems.hpp"
@@ -14,13 +15,13 @@ namespace {
 // A row that is free says nothing of a shell: it is all zeros, and shell 0 is somebody else's.
 bool is_worth_it(const BodyRows& state, uint32_t b) {
     const Bodies& bodies = state.bodies;
-    const Shells& shells = state.shells;
     if (static_cast<BodyKind>(bodies.kind[b]) == BodyKind::Free) return false;
-    const Row<Shells> shell = bodies.shell[b];
+    const Row<Structures> shell = bodies.structure[b];
     // Springs would have to move, too; they stay with a shell of its first size.
-    return shell.exists() && bodies.task[b] == kNone && !bodies.is_owed_births[b] &&
-           4 * uint64_t{shells.dead_elements[shell]} > shells.elements[shell].count &&
-           !find_springs(state, shell).exists();
+    if (!shell.exists() || bodies.task[b] != kNone || bodies.is_owed_births[b]) return false;
+    const Row<Shells> row = state.shell_of(shell);
+    return 4 * uint64_t{state.shells.dead_elements[row]} > state.shells.elements[row].count &&
+           !state.shells.springs[row].exists();
 }
 
 // The drawn mesh names elements by the rows that they have now.
@@ -35,14 +36,15 @@ void follow_drawn(BodyRows& state, Row<Bodies> body, ShellView old, ShellView no
 }
 
 bool compact(BodyRows& state, Row<Bodies> body, std::span<FragmentPart> slot) {
-    const Row<Shells> old = state.bodies.shell[body];
+    const Row<Structures> old = state.bodies.structure[body];
     if (group_fragments(ShellView(state, old), slot) != 1) return false;
-    const Row<Shells> compacted = compact_shell(state, old, slot[0]);
+    const Row<Structures> compacted = compact_shell(state, old, slot[0]);
     if (!compacted.exists()) return false;
     follow_drawn(state, body, ShellView(state, old), ShellView(state, compacted));
     release_shell(state, old);
-    state.bodies.shell[body] = compacted;
-    take_mass_properties(state, body);
+    state.bodies.structure[body] = compacted;
+    take_mass_properties(state.bodies, state.structures, body,
+                         radius_of(ShellView(state, state.bodies.structure[body])));
     return true;
 }
 
@@ -60,8 +62,8 @@ void compact_shells(Serial, BodyRows& rows, Fragments& fragments, DamageCounts& 
     bool is_first = true;
     for (uint32_t b = 0; b < rows.bodies.size(); ++b) {
         if (!is_worth_it(rows, b)) continue;
-        const Row<Shells> shell = rows.bodies.shell[b];
-        const uint64_t live = rows.shells.elements[shell].count - rows.shells.dead_elements[shell];
+        const Row<Structures> shell = rows.bodies.structure[b];
+        const uint64_t live = rows.structures.live_elements[shell];
         const uint64_t cost = kUnitsCompact * live;
         if (!is_first && cost > counts.units_left) return;
         if (!compact(rows, Row<Bodies>(b), slot)) continue;

@@ -40,7 +40,7 @@ void for_each_crack_edge(const ShellView& shell, bool is_local, Visit visit) {
                 elements.edge_kind[row][k] == static_cast<uint8_t>(EdgeKind::Crack))
                 visit(e, k);
     };
-    const uint8_t* const is_stale = shell.state.cells.is_stale.data() + shell.shells().cells[shell.row].first;
+    const uint8_t* const is_stale = shell.state.cells.is_stale.data() + shell.cells().first;
     if (is_local)
         for_each_element_of_cells(
             shell, [&](uint32_t c) { return is_stale[c] != 0; }, look);

@@ -51,7 +51,7 @@ CutOutcome cut_ends(ShellView shell, uint32_t vertex, Ends& ends, Touched& touch
     for (uint32_t i = 0; i < ends.count; ++i) {
         if (!ends.is_interior[i]) split_and_mark(shell, ends.end[i], end_ring[i], touched);
     }
-    shell.shells().has_cracks[shell.row] = 1;
+    shell.structures().has_cracks[shell.structure] = 1;
     return CutOutcome::Cut;
 }
 

@@ -255,7 +255,7 @@ CutReport cut_shell(ShellView shell, const CutSurface& surface, const PinBoxes& 
         }
     if (opens) mark_cracks(cutting);
     pin_along_cut(cutting);
-    if (cutting.report.cut_edges) shells.has_cracks[shell.row] = 1;
+    if (cutting.report.cut_edges) shell.structures().has_cracks[shell.structure] = 1;
     if (opens || cutting.report.pins_changed > 0) cutting.touched.repair.limit(shell);
     return cutting.report;
 }

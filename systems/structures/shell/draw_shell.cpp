@@ -124,8 +124,9 @@ DrawnCount draw_shell(ShellView shell, DrawnRows to, Range& view_vertices, Range
 
 void draw_body(BodyRows& state, Row<Bodies> body) {
     Bodies& bodies = state.bodies;
-    const DrawnCount drawn = draw_shell(ShellView(state, bodies.shell[body]), {state.view_vertices, state.view_indices},
-                                        bodies.view_vertices[body], bodies.view_indices[body]);
+    const DrawnCount drawn =
+        draw_shell(ShellView(state, bodies.structure[body]), {state.view_vertices, state.view_indices},
+                   bodies.view_vertices[body], bodies.view_indices[body]);
     bodies.run_indices[body] = drawn.indices;
     bodies.drawn_materials[body] = drawn.materials.id;
     bodies.redrawn[body] = {0, drawn.index_count() / 3};

@@ -18,9 +18,9 @@ void fill_births(Each<Birth> birth, const Events<Break>& breaks, ShellRows& rows
         return;
     }
     if (plan.child[birth->part].exists()) {
-        const ShellView piece(rows, bodies.shell[plan.child[birth->part]]);
-        fill_piece(rows, plan.broken, part, piece.row);
-        if (!plan.is_torn && !part.has_pins) choose_shape(piece, piece.shells().points[piece.row].first);
+        const ShellView piece(rows, bodies.structure[plan.child[birth->part]]);
+        fill_piece(rows, plan.broken, part, piece.structure);
+        if (!plan.is_torn && !part.has_pins) choose_shape(piece, piece.points().first);
         if (part.has_pins) clear_shape(piece);
     }
     shed_part(broken, part);

@@ -15,13 +15,13 @@ void make_shape(const ShellRows& state, const RigidWorld& rigid, uint32_t shape,
 }  // namespace
 
 void fill_hulls(Each<HullWanted> wanted, ShellRows& rows, const RigidWorld& rigid) {
-    const Row<Shells> shell = wanted->shell;
-    uint32_t from = rows.shells.points[shell].first;
+    const Row<Structures> shell = wanted->shell;
+    uint32_t from = rows.structures.points[shell].first;
     if (wanted->cell == kNone)
-        return make_shape(rows, rigid, kMostCellParts * rows.shells.made_shape[shell], from,
-                          rows.shells.shape_points[shell]);
+        return make_shape(rows, rigid, kMostCellParts * rows.structures.made_shape[shell], from,
+                          rows.structures.shape_points[shell]);
     choose_hull(ShellView(rows, shell), wanted->cell);
-    const uint32_t cell = rows.shells.cells[shell].first + wanted->cell;
+    const uint32_t cell = rows.structures.cells[shell].first + wanted->cell;
     from += rows.cells.first_point[cell];
     for (uint32_t part = 0; part < kMostCellParts; ++part) {
         const uint32_t count = rows.cells.part_points[cell][part];

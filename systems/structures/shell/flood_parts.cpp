@@ -200,11 +200,10 @@ bool has_pins(const ShellView& shell) {
 }
 
 void describe_rest(const ShellView& shell, std::span<FragmentPart> parts) {
-    const Shells& s = shell.shells();
     const Elements& elements = shell.state.elements;
     FragmentPart rest;
-    rest.element_count = shell.element_count() - s.dead_elements[shell.row];
-    rest.mass = s.mass[shell.row];
+    rest.element_count = shell.structures().live_elements[shell.structure];
+    rest.mass = shell.structures().mass[shell.structure];
     for (const FragmentPart& piece : parts.subspan(1)) {
         rest.element_count -= piece.element_count;
         rest.mass -= piece.mass;

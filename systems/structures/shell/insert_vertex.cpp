@@ -94,6 +94,7 @@ void refresh_element(ShellView shell, uint32_t element, Vec3 axis_x, Vec3 axis_y
 uint32_t halve(ShellView shell, uint32_t element, uint32_t k, uint32_t w, float tau) {
     Elements& elements = shell.state.elements;
     const uint32_t made = shell.elements().count++;
+    ++shell.structures().live_elements[shell.structure];
     const uint32_t row = shell.element(element), made_row = shell.element(made);
     if (made % kLanes == 0) {  // kernels read the pack that it begins as a whole
         elements.clear_rows(made_row, kLanes);
@@ -123,8 +124,7 @@ uint32_t halve(ShellView shell, uint32_t element, uint32_t k, uint32_t w, float 
     elements.edge_kind[row][next] = elements.edge_kind[made_row][last] = static_cast<uint8_t>(EdgeKind::Interior);
     elements.hinge[row][next] = elements.hinge[made_row][last] = kNone;
     const uint32_t cell = elements.cell[row];
-    if (cell < shell.shells().cells[shell.row].count)
-        ++shell.state.cells.element_count[shell.shells().cells[shell.row].first + cell];
+    if (cell < shell.cells().count) ++shell.state.cells.element_count[shell.cells().first + cell];
     return made;
 }
 

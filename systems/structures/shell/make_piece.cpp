@@ -18,7 +18,7 @@ void for_each_element(const ShellView& shell, const FragmentPart& part, Visit vi
 }
 
 uint32_t cell_row(const ShellView& shell, uint32_t cell) {
-    return shell.shells().cells[shell.row].first + cell;
+    return shell.cells().first + cell;
 }
 
 struct Counts {
@@ -151,8 +151,8 @@ uint32_t vertex_in_piece(const uint32_t* source, uint32_t count, uint32_t vertex
 
 void copy_vertices(const ShellView& shell, const ShellView& piece, uint32_t count) {
     Vertices& vertices = shell.state.vertices;
-    const Shells& shells = shell.shells();
-    const bool is_whole = shells.generation[piece.row] == shells.generation[shell.row];
+    const Structures& structures = shell.structures();
+    const bool is_whole = structures.generation[piece.structure] == structures.generation[shell.structure];
     uint32_t* source = vertices.copy.data() + piece.vertices().first;
     for (uint32_t i = 0; i < count;) {
         const uint32_t first = i, from = source[i];
@@ -166,7 +166,7 @@ void copy_vertices(const ShellView& shell, const ShellView& piece, uint32_t coun
         if (vertices.crack_start[row] != kNone)
             vertices.crack_start[row] = vertex_in_piece(source, count, vertices.crack_start[row]);
         const bool counts = vertices.crack[row] == static_cast<uint8_t>(CrackState::Tip) || is_whole;
-        if (counts && vertices.crack[row]) piece.shells().has_cracks[piece.row] = 1;
+        if (counts && vertices.crack[row]) piece.structures().has_cracks[piece.structure] = 1;
         vertices.ready_time[row] = 0;
         vertices.is_start_banned[row] = 0;
         vertices.displacement.set(row, {});
@@ -256,26 +256,24 @@ void renumber_elements(const ShellView& shell, const FragmentPart& part, const S
     });
 }
 
-void inherit(Shells& shells, Row<Shells> from, Row<Shells> to) {
-    shells.material[to] = shells.material[from];
-    shells.damage_model[to] = shells.damage_model[from];
-    shells.intact_mass[to] = shells.intact_mass[from];
-    shells.depth_floor[to] = shells.depth_floor[from];
-    shells.mean_edge[to] = shells.mean_edge[from];
-    shells.time_step[to] = shells.time_step[from];
-    shells.triangle_limit[to] = shells.triangle_limit[from];
-    shells.hinge_limit[to] = shells.hinge_limit[from];
-    shells.vertex_limit[to] = shells.vertex_limit[from];
-    shells.first_crack_speed[to] = shells.first_crack_speed[from];
-    shells.first_crack_force[to] = shells.first_crack_force[from];
+void inherit(const ShellView& from, const ShellView& to) {
+    Structures& structures = from.structures();
+    const auto inherit_all = [](uint32_t parent, uint32_t child, auto&... column) {
+        ((column[child] = column[parent]), ...);
+    };
+    inherit_all(from.structure, to.structure, structures.material, structures.damage_model, structures.intact_mass,
+                structures.first_crack_speed, structures.first_crack_force);
+    Shells& shells = from.shells();
+    inherit_all(from.row, to.row, shells.depth_floor, shells.mean_edge, shells.time_step, shells.triangle_limit,
+                shells.hinge_limit, shells.vertex_limit);
 }
 
-void copy_shape(Shells& shells, Row<Shells> from, Row<Shells> to) {
-    shells.shape[to] = shells.shape[from];
-    shells.shape_points[to] = shells.shape_points[from];
-    shells.box_ratio[to] = shells.box_ratio[from];
-    shells.hull_ratio[to] = shells.hull_ratio[from];
-    shells.margin[to] = shells.margin[from];
+void copy_shape(Structures& structures, Row<Structures> from, Row<Structures> to) {
+    structures.shape[to] = structures.shape[from];
+    structures.shape_points[to] = structures.shape_points[from];
+    structures.box_ratio[to] = structures.box_ratio[from];
+    structures.hull_ratio[to] = structures.hull_ratio[from];
+    structures.margin[to] = structures.margin[from];
 }
 
 ShellRoom room_of(const Counts& counts, const FragmentPart& part) {
@@ -300,35 +298,36 @@ namespace {
 void finish_piece(const ShellView& shell, const FragmentPart& part, const ShellView& piece, uint32_t vertex_count) {
     renumber_elements(shell, part, piece);
     copy_hinges(shell, piece);
-    clear_pack_ends(shell.state, piece.row);
+    clear_pack_ends(shell.state, piece.structure);
     piece.vertices().count = (vertex_count + kLanes - 1) / kLanes * kLanes;
+    piece.structures().live_elements[piece.structure] = piece.element_count();
     sum_vertex_masses(piece);
     measure_shell(piece);
-    piece.shells().margin[piece.row] = margin_for(piece.shells().thickness[piece.row]);
+    piece.structures().margin[piece.structure] = margin_for(piece.shells().thickness[piece.row]);
 }
 
 void begin_piece(const ShellView& shell, const ShellView& piece, uint32_t vertex_count) {
-    inherit(shell.shells(), shell.row, piece.row);
+    inherit(shell, piece);
     copy_vertices(shell, piece, vertex_count);
 }
 
 }  // namespace
 
 // Cells of the broken shell may be shared by parts: what they say of this one is written to the piece's own.
-Row<Shells> reserve_piece(ShellRows& state, Row<Shells> broken, const FragmentPart& part, uint8_t generation,
-                          const char** full) {
+Row<Structures> reserve_piece(ShellRows& state, Row<Structures> broken, const FragmentPart& part, uint8_t generation,
+                              const char** full) {
     const ShellView shell(state, broken);
     Counts counts = mark_part(shell, part);
     counts.cells = merge_small_cells(shell, part, counts.cells);
-    const Row<Shells> row = make_shell_unclear(state, room_of(counts, part), full);
+    const Row<Structures> row = make_shell_unclear(state, room_of(counts, part), full);
     if (!row.exists()) return row;
     const ShellView piece(state, row);
-    state.shells.generation[row] = generation;
-    state.shells.damage_model[row] = state.shells.damage_model[broken];  // asked before the rows are filled
+    state.structures.generation[row] = generation;
+    state.structures.damage_model[row] = state.structures.damage_model[broken];  // asked before the rows are filled
     piece.vertices().count = counts.vertices;
     Cells& cells = state.cells;
     for_each_cell(shell, part, [&](uint32_t cell, uint32_t c) {
-        const uint32_t own = cell_row(piece, state.shells.cells[row].count++);
+        const uint32_t own = cell_row(piece, state.structures.cells[row].count++);
         const bool is_same = !(cells.is_changed[c] & kCracked) && cells.list_count[c] == cells.element_count[c];
         cells.first_element[own] = cells.first_element[c];
         cells.same_cell[own] = is_same ? cell : kNone;
@@ -336,47 +335,47 @@ Row<Shells> reserve_piece(ShellRows& state, Row<Shells> broken, const FragmentPa
     return row;
 }
 
-void fill_piece(ShellRows& state, Row<Shells> broken, const FragmentPart& part, Row<Shells> row) {
+void fill_piece(ShellRows& state, Row<Structures> broken, const FragmentPart& part, Row<Structures> row) {
     const ShellView shell(state, broken), piece(state, row);
     const uint32_t vertex_count = piece.vertex_count();
     order_vertices(shell, part, piece, vertex_count);
     begin_piece(shell, piece, vertex_count);
-    for (uint32_t c = 0; c < state.shells.cells[row].count; ++c)
+    for (uint32_t c = 0; c < state.structures.cells[row].count; ++c)
         copy_cell(shell, piece, state.cells.first_element[cell_row(piece, c)], c);
     finish_piece(shell, part, piece, vertex_count);
 }
 
-Row<Shells> make_piece(ShellRows& state, Row<Shells> broken, const FragmentPart& part, uint8_t generation,
-                       const char** full) {
-    const Row<Shells> row = reserve_piece(state, broken, part, generation, full);
+Row<Structures> make_piece(ShellRows& state, Row<Structures> broken, const FragmentPart& part, uint8_t generation,
+                           const char** full) {
+    const Row<Structures> row = reserve_piece(state, broken, part, generation, full);
     if (!row.exists()) return row;
     fill_piece(state, broken, part, row);
     build_hulls(ShellView(state, row));
     return row;
 }
 
-Row<Shells> compact_shell(ShellRows& state, Row<Shells> old, const FragmentPart& whole, const char** full) {
+Row<Structures> compact_shell(ShellRows& state, Row<Structures> old, const FragmentPart& whole, const char** full) {
     const ShellView shell(state, old);
     const Counts counts = mark_part(shell, whole);
     ShellRoom room = room_of(counts, whole);
-    room.cells = state.shells.cells[old].count;
-    room.points = state.shells.points[old].count;
-    const Row<Shells> row = make_shell_unclear(state, room, full);
+    room.cells = state.structures.cells[old].count;
+    room.points = state.structures.points[old].count;
+    const Row<Structures> row = make_shell_unclear(state, room, full);
     if (!row.exists()) return row;
     const ShellView piece(state, row);
-    state.shells.generation[row] = state.shells.generation[old];
+    state.structures.generation[row] = state.structures.generation[old];
     order_live_vertices(shell, piece, counts.vertices);
     begin_piece(shell, piece, counts.vertices);
     for_each_cell(shell, whole,
                   [&](uint32_t cell, uint32_t c) { copy_cell(shell, piece, state.cells.first_element[c], cell); });
     finish_piece(shell, whole, piece, counts.vertices);
-    Range &cells = state.shells.cells[row], &points = state.shells.points[row];
+    Range &cells = state.structures.cells[row], &points = state.structures.points[row];
     cells.count = room.cells;
     points.count = room.points;
-    state.cells.copy_rows(state.cells, state.shells.cells[old].first, cells.first, cells.count);
-    state.hull_points.copy_rows(state.hull_points, state.shells.points[old].first, points.first, points.count);
-    state.shells.has_cracks[row] = state.shells.has_cracks[old];
-    copy_shape(state.shells, old, row);
+    state.cells.copy_rows(state.cells, state.structures.cells[old].first, cells.first, cells.count);
+    state.hull_points.copy_rows(state.hull_points, state.structures.points[old].first, points.first, points.count);
+    state.structures.has_cracks[row] = state.structures.has_cracks[old];
+    copy_shape(state.structures, old, row);
     return row;
 }
 

@@ -1,5 +1,8 @@
 #include "systems/structures/shell/mass_properties.hpp"
 
+#include <algorithm>
+#include <cmath>
+
 #include "systems/structures/shell/prism.hpp"
 
 namespace cullet {
@@ -32,7 +35,7 @@ Moments element_moments(const ShellView& shell, uint32_t element) {
         sum.second = sum.second + volume / 20 * (outer(p) + outer(q) + outer(r) + outer(s) + outer(total));
     });
     const double mass = shell.state.elements.mass[row];
-    const double density = shell.state.materials.density[shell.shells().material[shell.row]];
+    const double density = shell.state.materials.density[shell.structures().material[shell.structure]];
     // Mass has a floor of depth (build_shell); below a tenth of it the tetrahedra say nothing about where it lies.
     const bool is_turned = least < -kRounding * most;
     if (!is_turned && sum.mass * density > 0.1 * mass) {
@@ -83,20 +86,20 @@ ShellSums element_sums(const ShellView& shell, uint32_t element) {
 }
 
 ShellSums sums_of(const ShellView& shell) {
-    const Shells& s = shell.shells();
-    const double area = s.area[shell.row];
-    return {moments_of({s.mass[shell.row], s.centre[shell.row], s.inertia[shell.row]}), area,
-            area * s.thickness[shell.row]};
+    const Structures& s = shell.structures();
+    const Row<Structures> row = shell.structure;
+    const double area = s.area[row];
+    return {moments_of({s.mass[row], s.centre[row], s.inertia[row]}), area, area * shell.shells().thickness[shell.row]};
 }
 
 void write_sums(ShellView shell, const ShellSums& sums) {
     const MassProperties properties = mass_properties(sums.moments);
-    Shells& s = shell.shells();
-    s.mass[shell.row] = properties.mass;
-    s.centre.set(shell.row, properties.centre);
-    s.inertia.set(shell.row, properties.inertia);
-    s.area[shell.row] = static_cast<float>(sums.area);
-    s.thickness[shell.row] = sums.area > 0 ? static_cast<float>(sums.depth_area / sums.area) : 0.0f;
+    Structures& s = shell.structures();
+    s.mass[shell.structure] = properties.mass;
+    s.centre.set(shell.structure, properties.centre);
+    s.inertia.set(shell.structure, properties.inertia);
+    s.area[shell.structure] = static_cast<float>(sums.area);
+    shell.shells().thickness[shell.row] = sums.area > 0 ? static_cast<float>(sums.depth_area / sums.area) : 0.0f;
 }
 
 void measure_shell(ShellView shell) {
@@ -104,6 +107,19 @@ void measure_shell(ShellView shell) {
     for (uint32_t e = 0; e < shell.element_count(); ++e)
         if (is_live(shell, e)) sums = sums + element_sums(shell, e);
     write_sums(shell, sums);
+}
+
+float radius_of(const ShellView& shell) {
+    const Vec3 centre = shell.structures().centre[shell.structure].to_float();
+    const Vertices& vertices = shell.state.vertices;
+    const Range& range = shell.vertices();
+    float most = 0;
+    for (uint32_t v = range.first; v < range.first + range.count; ++v) {
+        if (vertices.element[v] == kNone) continue;
+        const Vec3 arm = vertices.rest[v] - centre;
+        most = std::max(most, dot(arm, arm));
+    }
+    return std::sqrt(most);
 }
 
 void sum_vertex_masses(ShellView shell) {

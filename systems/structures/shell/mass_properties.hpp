@@ -46,13 +46,16 @@ inline ShellSums operator-(const ShellSums& a, const ShellSums& b) {
     return {a.moments - b.moments, a.area - b.area, a.depth_area - b.depth_area};
 }
 ShellSums element_sums(const ShellView& shell, uint32_t element);
-/// Back from the shell's row.
+/// Back from the shell's rows.
 ShellSums sums_of(const ShellView& shell);
-/// Writes mass, centre, inertia, area and thickness of the shell's row.
+/// Writes mass, centre, inertia, area and thickness into the shell's rows.
 void write_sums(ShellView shell, const ShellSums& sums);
 
 /// Writes mass, centre, inertia, area and thickness (mean depth by area) of the shell from its elements.
 void measure_shell(ShellView shell);
+
+/// No vertex is farther from the shell's centre, m.
+float radius_of(const ShellView& shell);
 
 /// Re-sums all vertex masses: a third of each incident element, in stored element order. Pinned and dead rows get
 /// inverse mass 0.

@@ -112,38 +112,40 @@ float margin_for(double least_width) {
 }
 
 void clear_shape(ShellView shell) {
-    Shells& shells = shell.shells();
-    shells.shape[shell.row] = static_cast<uint8_t>(ShapeKind::Cells);
-    shells.shape_points[shell.row] = 0;
-    shells.box_ratio[shell.row] = shells.hull_ratio[shell.row] = 0;
+    Structures& structures = shell.structures();
+    structures.shape[shell.structure] = static_cast<uint8_t>(ShapeKind::Cells);
+    structures.shape_points[shell.structure] = 0;
+    structures.box_ratio[shell.structure] = structures.hull_ratio[shell.structure] = 0;
 }
 
 void choose_shape(ShellView shell, uint32_t first_point, const FragmentPart* part) {
-    Shells& shells = shell.shells();
+    Structures& structures = shell.structures();
     clear_shape(shell);
     const uint32_t elements = part ? part->element_count : shell.element_count();
     const Scratch<Solid> gathered(shell.state.scratch);
     Solid& solid = *gathered;
     if (elements > kMostWholeElements || !gather(shell, part, solid)) return;
     ExtremePoints chosen;
-    choose_extremes(shell.state.scratch, solid.points(), kMostHullPoints, kGoodEnough * shells.margin[shell.row],
-                    chosen);
-    const double density = shell.state.materials.density[shells.material[shell.row]];
-    const double volume = (part ? part->mass : shells.mass[shell.row]) / density;
+    choose_extremes(shell.state.scratch, solid.points(), kMostHullPoints,
+                    kGoodEnough * structures.margin[shell.structure], chosen);
+    const double density = shell.state.materials.density[structures.material[shell.structure]];
+    const double volume = (part ? part->mass : structures.mass[shell.structure]) / density;
     if (chosen.face_count == 0 || !(volume > 0)) return;
     const FittedBox box = fit_box(solid.points(), chosen);
     const double box_ratio = box.volume() / volume, hull_ratio = hull_volume(solid.points(), chosen) / volume;
-    shells.box_ratio[shell.row] = static_cast<float>(box_ratio);
-    shells.hull_ratio[shell.row] = static_cast<float>(hull_ratio);
-    if (!part) shells.margin[shell.row] = std::min(shells.margin[shell.row], margin_for(box.least_width()));
-    const float margin = shells.margin[shell.row];
+    structures.box_ratio[shell.structure] = static_cast<float>(box_ratio);
+    structures.hull_ratio[shell.structure] = static_cast<float>(hull_ratio);
+    if (!part)
+        structures.margin[shell.structure] =
+            std::min(structures.margin[shell.structure], margin_for(box.least_width()));
+    const float margin = structures.margin[shell.structure];
     if (box_ratio < kMostBoxRatio && box.least_width() > 2.5 * double{margin}) {
-        shells.shape[shell.row] = static_cast<uint8_t>(ShapeKind::Box);
-        shells.shape_points[shell.row] = kBoxCorners;
+        structures.shape[shell.structure] = static_cast<uint8_t>(ShapeKind::Box);
+        structures.shape_points[shell.structure] = kBoxCorners;
         write_box(shell, box, margin, first_point);
     } else if (hull_ratio < kMostHullRatio && chosen.left_out < kTooMuch * margin) {
-        shells.shape[shell.row] = static_cast<uint8_t>(ShapeKind::Hull);
-        shells.shape_points[shell.row] = static_cast<uint8_t>(chosen.count);
+        structures.shape[shell.structure] = static_cast<uint8_t>(ShapeKind::Hull);
+        structures.shape_points[shell.structure] = static_cast<uint8_t>(chosen.count);
         write_hull(shell, part, solid, chosen, margin, first_point);
     }
 }

@@ -33,7 +33,7 @@ float margin_for(double least_width);
 float pull_of(float margin, float depth, Vec3 way_in);
 
 inline ShapeKind shape_of(const ShellView& shell) {
-    return static_cast<ShapeKind>(shell.shells().shape[shell.row]);
+    return static_cast<ShapeKind>(shell.structures().shape[shell.structure]);
 }
 
 /// Chooses, and writes shape, shape_points and both ratios of the shell's row, and the points into rows of HullPoints

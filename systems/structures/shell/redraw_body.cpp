@@ -197,7 +197,7 @@ uint32_t rows_to_draw(const BodyRows& state, Row<Bodies> body, ShellView shell, 
 }
 
 bool redraw_body(BodyRows& state, Row<Bodies> body, ViewBoxes& boxes) {
-    const ShellView shell(state, state.bodies.shell[body]);
+    const ShellView shell(state, state.bodies.structure[body]);
     Elements& elements = state.elements;
     Mesh mesh(shell, state, body, &boxes);
     const ViewVertex* const vertex = state.view_vertices.vertex.data() + state.bodies.view_vertices[body].first;

@@ -46,7 +46,7 @@ void clear_run(ShellView shell, bool is_whole, bool has_run, bool has_waiting) {
         vertices.displacement.set(row, {});
         for (int side : {0, 1}) vertices.probe.set(row, {}, side);
     }
-    shell.shells().has_cracks[shell.row] = has_cracks;
+    shell.structures().has_cracks[shell.structure] = has_cracks;
     stop_blocks(shell);
 }
 
@@ -68,11 +68,11 @@ void measure_part(ShellView shell, const FragmentPart& part) {
     write_sums(shell, sums);
 }
 
-void adopt_shell(BodyRows& state, Row<Bodies> body, Row<Shells> shell) {
-    const Row<Shells> before = state.bodies.shell[body];
+void adopt_shell(BodyRows& state, Row<Bodies> body, Row<Structures> shell) {
+    const Row<Structures> before = state.bodies.structure[body];
     if (before == shell) return;
-    ++state.shells.users[shell];
-    state.bodies.shell[body] = shell;
+    ++state.structures.users[shell];
+    state.bodies.structure[body] = shell;
     release_shell(state, before);
     drop_stiffness(state, shell);
     const ShellView own(state, shell);
@@ -82,15 +82,15 @@ void adopt_shell(BodyRows& state, Row<Bodies> body, Row<Shells> shell) {
 bool keep_hulls(ShellView shell, ShellView before) {
     ShellRows& state = shell.state;
     if (shell.row == before.row) return true;
-    const Range points = before.shells().points[before.row], cells = shell.shells().cells[shell.row];
-    Range& own = shell.shells().points[shell.row];
+    const Range points = before.points(), cells = shell.cells();
+    Range& own = shell.points();
     const Range old = own;
     if (!take_points(state, points.count, own)) {
         own = old;
         return false;
     }
     state.hull_points.pool.give_back(old.first, old.capacity);
-    const uint32_t then = before.shells().cells[before.row].first;
+    const uint32_t then = before.cells().first;
     for (uint32_t c = 0; c < cells.count; ++c) {
         state.cells.first_point[cells.first + c] = state.cells.first_point[then + c];
         state.cells.point_count[cells.first + c] = state.cells.point_count[then + c];

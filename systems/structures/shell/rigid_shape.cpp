@@ -1,17 +1,16 @@
 #include "systems/structures/shell/rigid_shape.hpp"
 
 #include "components/body_id.hpp"
-#include "systems/structures/shell/cell_hulls.hpp"
 
 namespace cullet {
 
 namespace {
 
 template <class IsWanted>
-std::span<const ConvexPiece> pieces_of(const ShellRows& state, Row<Shells> shell, Arena& arena, RigidId broken_body,
-                                       IsWanted&& is_wanted) {
-    const Range cells = state.shells.cells[shell];
-    const uint32_t first_point = state.shells.points[shell].first;
+std::span<const ConvexPiece> pieces_of(const StructureRows& state, Row<Structures> structure, Arena& arena,
+                                       RigidId broken_body, IsWanted&& is_wanted) {
+    const Range cells = state.structures.cells[structure];
+    const uint32_t first_point = state.structures.points[structure].first;
     uint32_t part_count = 0, count = 0;
     for (uint32_t c = cells.first; c < cells.first + cells.count; ++c)
         if (is_wanted(c))
@@ -35,27 +34,28 @@ std::span<const ConvexPiece> pieces_of(const ShellRows& state, Row<Shells> shell
     return pieces.first(count);
 }
 
-std::span<const ConvexPiece> one_piece(const ShellRows& state, Row<Shells> shell, Arena& arena, bool is_made) {
+std::span<const ConvexPiece> one_piece(const StructureRows& state, Row<Structures> structure, Arena& arena,
+                                       bool is_made) {
     const auto pieces = arena.take<ConvexPiece>(1);
-    const auto points = arena.take<Vec3>(state.shells.shape_points[shell]);
+    const auto points = arena.take<Vec3>(state.structures.shape_points[structure]);
     for (uint32_t k = 0; k < points.size(); ++k)
-        points[k] = state.hull_points.point[state.shells.points[shell].first + k];
+        points[k] = state.hull_points.point[state.structures.points[structure].first + k];
     pieces[0] = {points, 0};
-    if (is_made) pieces[0].shape = kMostCellParts * state.shells.made_shape[shell];
+    if (is_made) pieces[0].shape = kMostCellParts * state.structures.made_shape[structure];
     return pieces;
 }
 
 }  // namespace
 
-std::span<const ConvexPiece> convex_pieces(const ShellRows& state, Row<Shells> shell, Arena& arena,
+std::span<const ConvexPiece> convex_pieces(const StructureRows& state, Row<Structures> structure, Arena& arena,
                                            RigidId broken_body) {
-    if (state.shells.shape_points[shell]) return one_piece(state, shell, arena, broken_body != kNoRigid);
-    return pieces_of(state, shell, arena, broken_body, [](uint32_t) { return true; });
+    if (state.structures.shape_points[structure]) return one_piece(state, structure, arena, broken_body != kNoRigid);
+    return pieces_of(state, structure, arena, broken_body, [](uint32_t) { return true; });
 }
 
-std::span<const ConvexPiece> changed_pieces(const ShellRows& state, Row<Shells> shell, Arena& arena,
+std::span<const ConvexPiece> changed_pieces(const StructureRows& state, Row<Structures> structure, Arena& arena,
                                             std::span<const uint32_t>& gone) {
-    const Range cells = state.shells.cells[shell];
+    const Range cells = state.structures.cells[structure];
     const auto is_wanted = [&](uint32_t row) { return state.cells.same_cell[row] == kNone; };
     uint32_t count = 0, next = 0;
     for (uint32_t c = 0; c < cells.count; ++c) count += is_wanted(cells.first + c);
@@ -64,7 +64,7 @@ std::span<const ConvexPiece> changed_pieces(const ShellRows& state, Row<Shells> 
         for (uint32_t part = 0; part < kMostCellParts && is_wanted(cells.first + c); ++part)
             names[next++] = kMostCellParts * c + part;
     gone = names;
-    return pieces_of(state, shell, arena, 0, is_wanted);
+    return pieces_of(state, structure, arena, 0, is_wanted);
 }
 
 // Rolling friction is a length, by which the point that bears a body may miss its centre: a seventieth of the root of
@@ -87,9 +87,9 @@ float rolling_length(float setting, float area) {
 
 }  // namespace
 
-RigidDescription describe_rigid(const BodyRows& state, Row<Bodies> b, std::span<const ConvexPiece> pieces) {
-    const Bodies& bodies = state.bodies;
-    const Row<Shells> shell = bodies.shell[b];
+RigidDescription describe_rigid(const Bodies& bodies, const Structures& structures, Row<Bodies> b,
+                                std::span<const ConvexPiece> pieces) {
+    const Row<Structures> structure = bodies.structure[b];
     RigidDescription d;
     d.kind = bodies.kind[b] == static_cast<uint8_t>(BodyKind::Dynamic) ? RigidKind::Dynamic : RigidKind::Static;
     d.pose = pose_of(bodies, b);
@@ -97,10 +97,10 @@ RigidDescription describe_rigid(const BodyRows& state, Row<Bodies> b, std::span<
     d.mass = bodies.mass[b];
     d.centre = bodies.centre[b];
     d.inertia = bodies.inertia[b];
-    d.margin = hull_margin(ShellView(const_cast<BodyRows&>(state), shell));
+    d.margin = structures.margin[structure];
     d.friction = bodies.friction[b];
     d.restitution = bodies.restitution[b];
-    d.rolling_friction = rolling_length(bodies.rolling_friction[b], state.shells.area[shell]);
+    d.rolling_friction = rolling_length(bodies.rolling_friction[b], structures.area[structure]);
     d.rolling_share = std::max(bodies.rolling_friction[b], 0.0f);
     d.layer = bodies.layer[b];
     d.mask = bodies.mask[b];
@@ -108,30 +108,25 @@ RigidDescription describe_rigid(const BodyRows& state, Row<Bodies> b, std::span<
     return d;
 }
 
-void take_mass_properties(BodyRows& state, Row<Bodies> b) {
-    const Row<Shells> shell = state.bodies.shell[b];
-    Bodies& bodies = state.bodies;
-    bodies.mass[b] = state.shells.mass[shell];
-    bodies.centre.set(b, state.shells.centre[shell]);
-    bodies.inertia[b] = state.shells.inertia[shell];
-    const Vec3 centre = bodies.centre[b].to_float();
-    float most = 0;
-    const Range vertices = state.shells.vertices[shell];
-    for (uint32_t v = vertices.first; v < vertices.first + vertices.count; ++v) {
-        if (state.vertices.element[v] == kNone) continue;
-        const Vec3 arm = state.vertices.rest[v] - centre;
-        most = std::max(most, dot(arm, arm));
-    }
-    bodies.radius[b] = std::sqrt(most);
+namespace {
+
+void take_inertia(Bodies& bodies, const Structures& structures, Row<Bodies> b) {
+    const Row<Structures> structure = bodies.structure[b];
+    bodies.mass[b] = structures.mass[structure];
+    bodies.centre.set(b, structures.centre[structure]);
+    bodies.inertia[b] = structures.inertia[structure];
 }
 
-void take_rest_properties(BodyRows& state, Row<Bodies> b) {
-    const Row<Shells> shell = state.bodies.shell[b];
-    Bodies& bodies = state.bodies;
-    const Vec3 moved = (state.shells.centre[shell] - bodies.centre[b]).to_float();
-    bodies.mass[b] = state.shells.mass[shell];
-    bodies.centre.set(b, state.shells.centre[shell]);
-    bodies.inertia[b] = state.shells.inertia[shell];
+}  // namespace
+
+void take_mass_properties(Bodies& bodies, const Structures& structures, Row<Bodies> b, float radius) {
+    take_inertia(bodies, structures, b);
+    bodies.radius[b] = radius;
+}
+
+void take_rest_properties(Bodies& bodies, const Structures& structures, Row<Bodies> b) {
+    const Vec3 moved = (structures.centre[bodies.structure[b]] - bodies.centre[b]).to_float();
+    take_inertia(bodies, structures, b);
     bodies.radius[b] += length(moved);
 }
 

@@ -60,7 +60,7 @@ bool is_row_neighbour(ShellView shell, const Ring& before, uint32_t vertex, uint
 // the vertex's lane may hold what the copy, in another pair cell, must hold with both.
 void rename_in_rows(ShellView shell, const Ring& before, uint32_t vertex, uint32_t copy, const VertexList& others,
                     Touched& touched) {
-    const bool once = !touched.repair.can_rename(shell.shells(), shell.row);
+    const bool once = !touched.repair.can_rename(shell.structures(), shell.structure);
     for (uint32_t i = 0; i < others.count; ++i) {
         const uint32_t other = others.vertex[i];
         if (once || is_row_neighbour(shell, before, vertex, other))

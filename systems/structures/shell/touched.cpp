@@ -5,7 +5,7 @@
 namespace cullet {
 
 const CutRepair kNoRepair{[](ShellView, uint32_t) {}, [](ShellView, uint32_t) { return 0u; },
-                          []([[maybe_unused]] const Shells& shells, Row<Shells>) { return true; },
+                          []([[maybe_unused]] const Structures& structures, Row<Structures>) { return true; },
                           [](ShellView, uint32_t, uint32_t, uint32_t) {}, [](ShellView) {}};
 
 void mark_touched(const ShellView& shell, const Touched& touched) {

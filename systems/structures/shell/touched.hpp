@@ -7,9 +7,10 @@ namespace cullet {
 
 /// Calls to the model whose springs hold the shell together, at once while it is being cut.
 struct CutRepair {
-    void (*element)(ShellView shell, uint32_t element);           // its corners are others, or elsewhere
-    uint32_t (*hinge)(ShellView shell, uint32_t hinge);           // its vertices are written and new
-    bool (*can_rename)(const Shells& shells, Row<Shells> shell);  // `rename` does; else the row is made anew
+    void (*element)(ShellView shell, uint32_t element);  // its corners are others, or elsewhere
+    uint32_t (*hinge)(ShellView shell, uint32_t hinge);  // its vertices are written and new
+    bool (*can_rename)(const Structures& structures,
+                       Row<Structures> shell);  // `rename` does; else the row is made anew
     /// What `vertex` has with `from` it has with `to` now.
     void (*rename)(ShellView shell, uint32_t vertex, uint32_t from, uint32_t to);
     void (*limit)(ShellView shell);  // all of a shell without stiffness rows, after many cuts

@@ -93,10 +93,10 @@ void take_own_motions(ShellView shell, std::span<const FragmentPart> parts, std:
 
 double waiting_energy(const BodyRows& state, Row<Bodies> body) {
     const Bodies& bodies = state.bodies;
-    const Row<Shells> shell = bodies.shell[body];
+    const Row<Structures> shell = bodies.structure[body];
     if (bodies.is_owed_births[body] == 0 || !shell.exists()) return 0;
     const Vertices& vertices = state.vertices;
-    const Range range = state.shells.vertices[shell];
+    const Range range = state.shells.vertices[state.shell_of(shell)];
     Sums sums;
     for (uint32_t row = range.first; row < range.first + range.count; ++row)
         if (vertices.element[row] != kNone && is_moving(vertices.velocity[row]))
@@ -115,7 +115,7 @@ double limit_waiting(BodyRows& state, Row<Bodies> body, double allowed) {
     if (!(energy > allowed)) return energy;
     const auto share = static_cast<float>(std::sqrt(std::max(0.0, allowed) / energy));
     Vertices& vertices = state.vertices;
-    const Range range = state.shells.vertices[state.bodies.shell[body]];
+    const Range range = state.shells.vertices[state.shell_of(state.bodies.structure[body])];
     for (uint32_t row = range.first; row < range.first + range.count; ++row)
         vertices.velocity.set(row, share * vertices.velocity[row]);
     return std::max(0.0, allowed);

@@ -22,29 +22,30 @@ WorkingShell take_shell(BodyRows& rows, Row<Bodies> body) {
 }
 
 void begin_run(BodyRows& rows, Row<Tasks> task, Events<StiffnessWanted>&) {
-    rows.tasks.time_step[task] = kStep;
-    rows.tasks.end_time[task] = rows.tasks.quiet_time[task] = kEnd;
+    rows.hidden_runs.time_step[task] = kStep;
+    rows.hidden_runs.end_time[task] = rows.hidden_runs.quiet_time[task] = kEnd;
 }
 
 ShellRoom room_of_hit(const BodyRows& rows, Row<Bodies> body) {
     const Shells& shells = rows.shells;
-    const Row<Shells> shell = rows.bodies.shell[body];
+    const Row<Structures> structure = rows.bodies.structure[body];
+    const Row<Shells> shell = rows.shell_of(structure);
     const uint32_t vertices = shells.vertices[shell].count,
                    spare = (kSpare + vertices / 2 + kLanes - 1) / kLanes * kLanes;
     ShellRoom room;
     room.vertices = (vertices + kLanes - 1) / kLanes * kLanes + spare;
     room.elements = shells.elements[shell].count + 2 * spare;
     room.hinges = shells.hinges[shell].count + 3 * spare;
-    room.cells = shells.cells[shell].count;
+    room.cells = rows.structures.cells[structure].count;
     return room;
 }
 
 bool may_find_room(const BodyRows& rows, Row<Bodies> body) {
     const ShellRoom room = room_of_hit(rows, body);
-    const Row<Shells> own = rows.bodies.shell[body];
-    return uint64_t{rows.shells.vertices[own].capacity} + room.vertices <= rows.vertices.limit() &&
-           uint64_t{rows.shells.elements[own].capacity} + room.elements <= rows.elements.limit() &&
-           uint64_t{rows.shells.hinges[own].capacity} + room.hinges <= rows.hinges.limit();
+    const Row<Structures> own = rows.bodies.structure[body];
+    return uint64_t{rows.shells.vertices[rows.shell_of(own)].capacity} + room.vertices <= rows.vertices.limit() &&
+           uint64_t{rows.shells.elements[rows.shell_of(own)].capacity} + room.elements <= rows.elements.limit() &&
+           uint64_t{rows.shells.hinges[rows.shell_of(own)].capacity} + room.hinges <= rows.hinges.limit();
 }
 
 Result<void> check_halves(const ShellView& shell, Wear wear, const std::string& name, const char* advice) {

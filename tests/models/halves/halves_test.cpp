@@ -88,8 +88,8 @@ uint32_t bodies_of(const World& world, const std::string& model) {
     const State& state = d.state;
     uint32_t count = 0;
     for (uint32_t b = 0; b < state.bodies.size(); ++b)
-        if (state.bodies.kind[b] != 0 && state.bodies.shell[b].exists())
-            count += state.shells.damage_model[state.bodies.shell[b]] == d.damage_models->find(model);
+        if (state.bodies.kind[b] != 0 && state.bodies.structure[b].exists())
+            count += state.structures.damage_model[state.bodies.structure[b]] == d.damage_models->find(model);
     return count;
 }
 

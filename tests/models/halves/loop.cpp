@@ -12,7 +12,7 @@ InnerLoop<LoopWorld> make_loop() {
 }
 
 RunCost cost_of(const RunRows& rows, uint32_t task) {
-    return {rows.shells.vertices[rows.tasks.shell[task]].count, units_of_birth(rows.shells, rows.tasks, task)};
+    return {rows.shells.vertices[rows.shell_of(rows.tasks.working[task])].count, units_of_birth(rows, task)};
 }
 
 bool works_on(const RunRows&, uint32_t) {

@@ -38,7 +38,8 @@ Vec3 normal_of_cut(Vec3 blow) {
 }
 
 void cut(BodyRows& rows, Row<Tasks> task, const CutSurface& surface) {
-    const CutReport report = cut_shell(ShellView(rows, rows.tasks.shell[task]), surface, rows.pin_boxes, {}, kNoRepair);
+    const CutReport report =
+        cut_shell(ShellView(rows, rows.tasks.working[task]), surface, rows.pin_boxes, {}, kNoRepair);
     rows.tasks.crack_count[task] += report.cut_edges;
     rows.tasks.lacks_room[task] = report.is_full;
 }
@@ -60,7 +61,7 @@ void cut_along_blow(BodyRows& rows, const Blows& blows, Row<Tasks> task) {
 
 void copy_wholes(EachOwn<TaskOpened> opened, RunRows& rows) {
     const Row<Tasks> task = opened->task;
-    const Row<Shells> source = rows.tasks.source[task], working = rows.tasks.shell[task];
+    const Row<Structures> source = rows.tasks.source[task], working = rows.tasks.working[task];
     copy_shell_rows(rows, rows, source, working, false);
     clear_pack_ends(rows, working);
     const ShellView shell(rows, working);
@@ -72,7 +73,7 @@ void copy_wholes(EachOwn<TaskOpened> opened, RunRows& rows) {
 void push_wholes(EachOwn<TaskOpened> opened, BodyRows& rows) {
     const Row<Tasks> task = opened->task;
     if (rows.tasks.contact_count[task] == 0) return;
-    const ShellView shell(rows, rows.tasks.shell[task]);
+    const ShellView shell(rows, rows.tasks.working[task]);
     TaskContacts& contacts = rows.task_contacts;
     const uint32_t c = rows.tasks.first_contact[task];
     const Row<Bodies> body = rows.tasks.body[task];
@@ -94,7 +95,8 @@ void run_crack(Of<Tasks> task, BodyRows& rows, const Blows& blows) {
     const Row<Tasks> t = task.row;
     Tasks& tasks = rows.tasks;
     tasks.steps_granted[t] -= tasks.steps_granted[t] > 0;
-    if (static_cast<float>(++tasks.steps_done[t]) * tasks.time_step[t] <= tasks.end_time[t]) return;
+    if (static_cast<float>(++tasks.steps_done[t]) * rows.hidden_runs.time_step[t] <= rows.hidden_runs.end_time[t])
+        return;
     cut_along_blow(rows, blows, t);
     tasks.state[t] = static_cast<uint8_t>(TaskState::Whole);  // find_halves tells whether it broke
 }
@@ -105,7 +107,7 @@ void find_halves(EachOwn<TaskEnded> ended, RunRows& rows, Fragments& fragments) 
     tasks.part_count[task] = 1;
     if (static_cast<TaskState>(tasks.state[task]) == TaskState::Dropped || tasks.crack_count[task] == 0) return;
     const std::span parts(fragments.part.data() + size_t{task} * kMostParts, kMostParts);
-    const uint32_t count = tasks.part_count[task] = group_fragments(ShellView(rows, tasks.shell[task]), parts);
+    const uint32_t count = tasks.part_count[task] = group_fragments(ShellView(rows, tasks.working[task]), parts);
     if (count > 1) tasks.state[task] = static_cast<uint8_t>(count > kMostParts ? TaskState::Dropped : TaskState::Broke);
 }
 

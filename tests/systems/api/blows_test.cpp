@@ -37,7 +37,7 @@ BodyId add_vase(World& world, Vec3 place = {}, bool is_breakable = true) {
 /// Rest place of the body's vertex nearest to a place in its frame.
 Vec3 nearest_vertex(World& world, BodyId body, Vec3 place) {
     const State& state = state_of(world);
-    const ShellView shell(state_of(world), state.bodies.shell[body.index]);
+    const ShellView shell(state_of(world), state.bodies.structure[body.index]);
     Vec3 nearest{1e9f, 0, 0};
     for (uint32_t v = 0; v < shell.vertex_count(); ++v) {
         const Vec3 rest = state.vertices.rest[shell.vertex(v)];
@@ -337,7 +337,7 @@ TEST(Explosion, APlateThatFacesItGetsTheFormulasImpulse) {
     settings.is_breakable = false;
     const BodyId pane = world.spawn(world.add_model(small_pane()).value(), settings).value();
     const State& state = state_of(world);
-    const ShellView shell(state_of(world), state.bodies.shell[pane.index]);
+    const ShellView shell(state_of(world), state.bodies.structure[pane.index]);
     // The plate's normal from its elements.
     Vec3d area;
     for (uint32_t e = 0; e < shell.element_count(); ++e) {
@@ -373,7 +373,7 @@ TEST(Explosion, FarWallsAreShadedAndFromInsideAllWallsAreLit) {
     World world = make_world(small_settings());
     const BodyId vase = add_vase(world);
     const State& state = state_of(world);
-    const ShellView shell(state_of(world), state.bodies.shell[vase.index]);
+    const ShellView shell(state_of(world), state.bodies.structure[vase.index]);
     const Vec3 middle = state.bodies.centre[vase.index].to_float();
     for (const float distance : {0.3f, 2.0f}) {
         const ExplosionSums outside = measure_explosion(shell, {middle + Vec3{0, 0, distance}, 10, 10}, {});
@@ -449,7 +449,7 @@ TEST(Explosion, AHarmlessOneGivesTheWholeBodyTheSum) {
     ExplosionSettings e;
     e.centre = {0.3f, 0.1f, 0.2f};
     e.impulse = 0.05f;
-    const ExplosionSums sums = measure_explosion(ShellView(state_of(world), state.bodies.shell[vase.index]),
+    const ExplosionSums sums = measure_explosion(ShellView(state_of(world), state.bodies.structure[vase.index]),
                                                  {e.centre, e.radius, e.impulse}, state.bodies.centre[vase.index]);
     ASSERT_TRUE(world.explode(e).ok());
     Vec3d spin;

@@ -98,10 +98,32 @@ TEST(CheckState, AHitThatIsWorkedOffOnABallIsRefused) {
 TEST(CheckState, RangesThatDoNotBeginWhereTheirPoolBeginsOnesAreRefused) {
     expect_refused(
         [](State& state, Row<Bodies> vase, Row<Bodies>) {
-            Range& vertices = state.shells.vertices[state.bodies.shell[vase]];
+            Range& vertices = state.shells.vertices[state.shell_of(state.bodies.structure[vase])];
             ++vertices.first, --vertices.count, --vertices.capacity;
         },
-        "the range of vertices of shell");
+        "the range of vertices of structure");
+}
+
+TEST(CheckState, AStructureWithoutAShellOfItsOwnOrWithTheSpringsOfAnotherIsRefused) {
+    const auto own = [](State& state, Row<Bodies> vase) -> uint32_t& {
+        return state.structures.rows[state.bodies.structure[vase]];
+    };
+    expect_refused([&](State& state, Row<Bodies> vase, Row<Bodies>) { own(state, vase) = state.shells.size(); },
+                   "structures.rows[");
+    expect_refused([&](State& state, Row<Bodies> vase,
+                       Row<Bodies>) { own(state, vase) = state.structures.rows[state.tasks.working[0]]; },
+                   "structures.rows[");
+    expect_refused(
+        [](State& state, Row<Bodies> vase, Row<Bodies>) { state.structures.kind[state.bodies.structure[vase]] = 7; },
+        "structures.kind[");
+    expect_refused([&](State& state, Row<Bodies> vase,
+                       Row<Bodies>) { state.shells.springs[Row<Shells>(own(state, vase))] = Row<ShellSprings>(0); },
+                   "shells.springs[");
+    expect_refused([](State& state, Row<Bodies> vase,
+                      Row<Bodies>) { ++state.structures.live_elements[state.bodies.structure[vase]]; },
+                   "structures.live_elements is");
+    expect_refused([](State& state, Row<Bodies> vase, Row<Bodies>) { state.bodies.soft[vase] = Row<SoftBodies>(0); },
+                   "bodies.soft[");
 }
 
 TEST(CheckState, AWorkingShellThatIsSomebodyElsesTooIsRefused) {
@@ -109,10 +131,10 @@ TEST(CheckState, AWorkingShellThatIsSomebodyElsesTooIsRefused) {
         [](State& state, Row<Bodies>, Row<Bodies>) {
             const uint32_t model = state.models.append(1);
             state.models.is_used[model] = 1;
-            state.models.shell[model] = state.tasks.shell[0];
-            ++state.shells.users[state.tasks.shell[0]];
+            state.models.structure[model] = state.tasks.working[0];
+            ++state.structures.users[state.tasks.working[0]];
         },
-        "tasks.shell[0]");
+        "tasks.working[0]");
 }
 
 TEST(CheckState, ContactsAndPatchesOfAnotherHitAreRefused) {

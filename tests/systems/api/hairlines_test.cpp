@@ -42,7 +42,7 @@ std::multiset<Line> lines_of(const World& world, BodyId body) {
 /// Each crack edge of the shell against each other one: those that lie on each other, along both walls.
 std::multiset<Line> lines_by_comparing_all(World& world, BodyId body) {
     State& state = state_of(world);
-    const ShellView shell(state, state.bodies.shell[body.index]);
+    const ShellView shell(state, state.bodies.structure[body.index]);
     const Elements& elements = state.elements;
     struct Edge {
         Vec3 from[2], to[2];

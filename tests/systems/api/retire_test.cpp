@@ -136,9 +136,8 @@ TEST(Retire, WhatIsMergedIsDrawnAndMetByNothing) {
     Breakage b = broken();
     const BodyId merged = fragments_of(b.world).front().fragment;
     const uint32_t indices = b.world.view(merged)->index_count;
-    const Shells& shells = state_of(b.world).shells;
-    const Row<Shells> shell = state_of(b.world).bodies.shell[merged.index];
-    const Range vertices = shells.vertices[shell], elements = shells.elements[shell];
+    const ShellView shell(state_of(b.world), state_of(b.world).bodies.structure[merged.index]);
+    const Range vertices = shell.vertices(), elements = shell.elements();
     ASSERT_GT(elements.count, 0u);
     ASSERT_EQ(b.world.retire({.how = Retirement::Merge, .count = 1}).value_or(0), 1u);
     EXPECT_EQ(b.world.view(merged)->index_count, indices);

@@ -164,7 +164,7 @@ TEST(Snapshot, AFileGoesOnWhereItWasSaved) {
 TEST(Snapshot, RoomIsMadeReadyForTheLargestBodyAndNotForWhatASnapshotClaims) {
     test::Breakage hit = test::vase_and_ball(test::small_settings());
     const State& state = test::state_of(hit.world);
-    const ShellRoom vase = working_room(ShellView(test::state_of(hit.world), state.bodies.shell[hit.body.index]));
+    const ShellRoom vase = working_room(ShellView(test::state_of(hit.world), state.bodies.structure[hit.body.index]));
     hit.world.contents().data.ready_for = {1u << 28, 1u << 28, 1u << 28, 1u << 28, 1u << 28, 1u << 28, 1u << 28};
     World twin = restored(taken(hit.world));
     const ShellRoom& found = twin.contents().data.ready_for;

@@ -188,7 +188,7 @@ TEST(Materials, CookingTakesTheTablesRowAndTheModelFileKeepsIt) {
     const Result<Model> read = parse_model_file(encode_model_file(*model->contents), "t", *damage_models());
     ASSERT_TRUE(read.ok()) << read.error();
     const Workbench& state = read->contents->state;
-    const Row<Materials> row = state.shells.material[read->contents->shell];
+    const Row<Materials> row = state.structures.material[read->contents->shell];
     const MaterialSettings found = material_settings(state, row);
     for (const MaterialValue& value : material_values())
         EXPECT_EQ(found.*value.member, toffee().*value.member) << value.name;

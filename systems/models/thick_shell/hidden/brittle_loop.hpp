@@ -30,11 +30,11 @@ struct LoopWorld {
     /// Rows of a table that belong to a task's working shell.
     template <class T>
     Range rows_of(uint32_t task) const {
-        const Row<Shells> shell = state.tasks.shell[task];
-        if constexpr (std::is_same_v<T, Elements>) return state.shells.elements[shell];
-        if constexpr (std::is_same_v<T, StiffnessPacks>) return state.shells.packs[shell];
-        if constexpr (std::is_same_v<T, AwakePacks>)
-            return {task * kMostAwakePacks, state.quick_runs.pack_count[task], kMostAwakePacks};
+        const Row<Structures> shell = state.tasks.working[task];
+        if constexpr (std::is_same_v<T, Elements>) return state.shells.elements[state.shell_of(shell)];
+        if constexpr (std::is_same_v<T, StiffnessPacks>) return state.shells.packs[state.shell_of(shell)];
+        if constexpr (std::is_same_v<T, MarkedPacks>)
+            return {task * kMostMarkedPacks, state.hidden_runs.pack_count[task], kMostMarkedPacks};
     }
 };
 

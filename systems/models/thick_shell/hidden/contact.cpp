@@ -127,7 +127,7 @@ struct PatchLaw {
 PatchLaw patch_law(const ShellView& shell, const Patch& patch, double total, const TaskContacts& contacts, uint32_t c,
                    double dt, double strength_scale, double softening) {
     const ShellRows& state = shell.state;
-    const uint32_t material = shell.shells().material[shell.row];
+    const uint32_t material = shell.structures().material[shell.structure];
     double mobility = kStrikerShare * contacts.striker_inverse_mass[c];
     for (uint32_t i = 0; i < patch.count; ++i)
         mobility = std::max(mobility, patch.candidate[i].weight / total *
@@ -171,7 +171,7 @@ void keep_stiffest(RunRows& state, uint32_t first, uint32_t count) {
 }  // namespace
 
 void build_patches(RunRows& state, Row<Tasks> task) {
-    const ShellView shell(state, state.tasks.shell[task]);
+    const ShellView shell(state, state.tasks.working[task]);
     TaskContacts& contacts = state.task_contacts;
     PatchVertices& patches = state.patch_vertices;
     const uint32_t first = state.tasks.first_contact[task];
@@ -192,7 +192,7 @@ void build_patches(RunRows& state, Row<Tasks> task) {
             keep_connected(shell, contacts.vertex[c], kFootprint * contacts.striker_radius[c], patch);
         double total = 0;
         for (uint32_t i = 0; i < patch.count; ++i) total += patch.candidate[i].weight;
-        const PatchLaw law = patch_law(shell, patch, total, contacts, c, state.tasks.time_step[task],
+        const PatchLaw law = patch_law(shell, patch, total, contacts, c, state.hidden_runs.time_step[task],
                                        state.tasks.strength_scale[task], softening_of(state, task));
         contacts.first_patch[c] = at;
         contacts.patch_count[c] = patch.count;
@@ -213,7 +213,7 @@ PatchSpring patch_spring(const PatchVertices& patches, uint32_t p) {
 }
 
 bool contact_forces(RunRows& state, Row<Tasks> task) {
-    const ShellView shell(state, state.tasks.shell[task]);
+    const ShellView shell(state, state.tasks.working[task]);
     PatchVertices& patches = state.patch_vertices;
     Vertices& vertices = state.vertices;
     const TaskContacts& contacts = state.task_contacts;
@@ -235,11 +235,11 @@ bool contact_forces(RunRows& state, Row<Tasks> task) {
 }
 
 void apply_contact(RunRows& state, Row<Tasks> task, uint32_t side) {
-    const ShellView shell(state, state.tasks.shell[task]);
+    const ShellView shell(state, state.tasks.working[task]);
     TaskContacts& contacts = state.task_contacts;
     Vertices& vertices = state.vertices;
     const int next = static_cast<int>(~side & 1);
-    const float dt = state.tasks.time_step[task], beta = state.tasks.damping_time[task];
+    const float dt = state.hidden_runs.time_step[task], beta = state.hidden_runs.damping_time[task];
     const uint32_t first = state.tasks.first_contact[task], count = state.tasks.contact_count[task];
     double forces[kMostContacts] = {};
     for (uint32_t c = first; c < first + count; ++c) {
@@ -274,7 +274,7 @@ Vec3d pin_force(ShellView shell, uint32_t side) {
     const StiffnessPacks& packs = state.stiffness_packs;
     const Float4* w = state.vertices.probe.data(static_cast<int>(side & 1)) + shell.vertices().first;
     const uint8_t* is_pinned = state.vertices.is_pinned.data() + shell.vertices().first;
-    const bool once = stores_pairs_once(shell.shells(), shell.row);
+    const bool once = stores_pairs_once(shell.structures(), shell.structure);
     Vec3d sum;
     for (uint32_t v = 0; v < shell.vertex_count(); ++v) {
         const uint32_t p = shell.shells().packs[shell.row].first + v / kLanes, l = v % kLanes;

@@ -100,7 +100,7 @@ StartField grained_field(ShellView shell, uint32_t vertex, const GrainLimits& li
 
 CrackLimits crack_limits(ShellView shell, float strength_scale) {
     const Materials& m = shell.state.materials;
-    const uint32_t row = shell.shells().material[shell.row];
+    const uint32_t row = shell.structures().material[shell.structure];
     const float strength = kShortLoadFactor * m.tensile_strength[row];
     const float griffith = m.tip_factor[row] * std::sqrt(m.young_modulus[row] * m.fracture_energy[row]) /
                            std::sqrt(kPi * shell.shells().mean_edge[shell.row]);
@@ -129,7 +129,7 @@ CrackLimits crack_limits(ShellView shell, float strength_scale) {
 // Bans of coarse fracture end by themselves, so they count as if they had: too low does no harm.
 void find_start_strengths(ShellView shell) {
     const FractureKind fracture =
-        material_traits(shell.state, Row<Materials>(shell.shells().material[shell.row])).fracture;
+        material_traits(shell.state, Row<Materials>(shell.structures().material[shell.structure])).fracture;
     constexpr float kEndOfBans = 1e30f;
     const Vertices& vertices = shell.state.vertices;
     Elements& elements = shell.state.elements;
@@ -175,7 +175,7 @@ void choose_candidates(ShellView shell, const CrackLimits& limits, float time, H
     candidates.count = 0;
     collect_tips(shell, limits, time, candidates);
     const uint32_t tips = candidates.count;
-    if (tips > 0) fan = HeadingFan(shell.state.materials.heading_power[shell.shells().material[shell.row]]);
+    if (tips > 0) fan = HeadingFan(shell.state.materials.heading_power[shell.structures().material[shell.structure]]);
     float raise = 1;
     while (!collect_starts(shell, limits, raise * limits.start, time, tips, candidates) && raise < kMostRaise)
         raise *= kRaise;

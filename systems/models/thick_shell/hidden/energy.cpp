@@ -87,7 +87,7 @@ double bending_energy(ShellView shell, uint32_t first, uint32_t count) {
     const Hinges& hinges = shell.state.hinges;
     const Elements& elements = shell.state.elements;
     const float* slope = elements.slope[shell.element(0)].data();
-    const PlaneStress stress = plane_stress(shell.state, shell.row);
+    const PlaneStress stress = plane_stress(shell.state, shell.structure);
     if (stress.has_grain) return grained_bending_energy(shell, stress, first, count);
     // Half of each hinge from either side: asking which side is the lower one guesses wrong every other time.
     double sum[3] = {};
@@ -105,7 +105,7 @@ double bending_energy(ShellView shell, uint32_t first, uint32_t count) {
 }
 
 TaskEnergy task_energy(RunRows& state, Row<Tasks> task) {
-    const ShellView shell(state, state.tasks.shell[task]);
+    const ShellView shell(state, state.tasks.working[task]);
     const uint32_t scratch = ~state.tasks.steps_done[task] & 1;
     TaskEnergy energy;
     energy.kinetic = sum_chunks(shell.vertex_count(), [&](uint32_t first, uint32_t count) {

@@ -7,7 +7,7 @@ namespace cullet {
 
 void fill_stiffness(Each<StiffnessWanted> wanted, RunRows& rows) {
     if (static_cast<TaskState>(rows.tasks.state[wanted->task]) == TaskState::Dropped) return;
-    const ShellView shell(rows, rows.tasks.shell[wanted->task]);
+    const ShellView shell(rows, rows.tasks.working[wanted->task]);
     const uint32_t end = wanted->first_pack + kRowsPerChunk<StiffnessPacks>;
     [[maybe_unused]] const bool is_whole =
         assemble_packs(shell, wanted->first_pack, std::min(end, shell.shells().packs[shell.row].count));

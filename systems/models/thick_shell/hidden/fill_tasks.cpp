@@ -4,7 +4,7 @@
 namespace cullet {
 
 void fill_tasks(EachOwn<TaskOpened> opened, RunRows& rows) {
-    if (!rows.tasks.shell[opened->task].exists()) return;  // no room
+    if (!rows.tasks.working[opened->task].exists()) return;  // no room
     fill_task(rows, opened->task);
 }
 

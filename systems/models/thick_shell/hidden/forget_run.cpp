@@ -38,16 +38,16 @@ void forget_run(RunRows& state, Row<Tasks> task) {
         for (uint32_t p = contacts.first_patch[c]; p < contacts.first_patch[c] + contacts.patch_count[c]; ++p)
             state.patch_vertices.force[p] = 0;
     }
-    const Row<Shells> shell = state.tasks.shell[task];
+    const Row<Structures> shell = state.tasks.working[task];
     if (!shell.exists()) return;
-    const Range vertices = state.shells.vertices[shell];
+    const Range vertices = state.shells.vertices[state.shell_of(shell)];
     for (uint32_t row = vertices.first; row < vertices.first + vertices.capacity; ++row) {
         state.vertices.velocity.set(row, {});
         state.vertices.displacement.set(row, {});
         state.vertices.crush[row] = 0;
         for (int side = 0; side < 2; ++side) state.vertices.probe.set(row, {}, side);
     }
-    if (const Row<ShellSprings> springs = find_springs(state, shell); springs.exists())
+    if (const Row<ShellSprings> springs = springs_of(state, shell); springs.exists())
         forget_springs(SpringView(state, springs));
 }
 

@@ -227,9 +227,9 @@ void begin_cracks(ShellView shell, bool is_fragment) {
 
 uint32_t grow_cracks(RunRows& state, Row<Tasks> task, CrackSink& sink) {
     Tasks& tasks = state.tasks;
-    const ShellView shell(state, tasks.shell[task]);
-    const float time = static_cast<float>(tasks.steps_done[task]) * tasks.time_step[task];
-    const float check_interval = static_cast<float>(kStepsAStressCheck) * tasks.time_step[task];
+    const ShellView shell(state, tasks.working[task]);
+    const float time = static_cast<float>(tasks.steps_done[task]) * state.hidden_runs.time_step[task];
+    const float check_interval = static_cast<float>(kStepsAStressCheck) * state.hidden_runs.time_step[task];
     Batch batch{state,
                 task,
                 shell,
@@ -266,7 +266,7 @@ uint32_t grow_cracks(RunRows& state, Row<Tasks> task, CrackSink& sink) {
     tasks.crack_count[task] = all_cuts;
     tasks.start_count[task] += sink.starts - starts_before;
     tasks.units_owed[task] += units_of_crack(shell.vertex_count(), is_ahead(tasks, task)) * cuts + batch.touched.units;
-    if (cuts) tasks.last_event_time[task] = time;
+    if (cuts) state.hidden_runs.last_event_time[task] = time;
     return cuts;
 }
 

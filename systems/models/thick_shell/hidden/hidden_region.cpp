@@ -29,8 +29,8 @@ void grow(Table& table, uint32_t rows) {
 /// Calls f(vertex) for each held vertex of the cut-out, rising.
 template <class F>
 void for_each_held(const RunRows& state, Row<Tasks> task, F&& f) {
-    const AwakePacks& packs = state.awake_packs;
-    const uint32_t first = task * kMostAwakePacks, end = first + state.quick_runs.pack_count[task];
+    const MarkedPacks& packs = state.marked_packs;
+    const uint32_t first = task * kMostMarkedPacks, end = first + state.hidden_runs.pack_count[task];
     for (uint32_t row = first; row < end; ++row)
         for (uint32_t k = 0; packs.held[row] >> k; ++k)
             if (packs.held[row] >> k & 1) f(packs.pack[row] * kLanes + k);
@@ -57,11 +57,11 @@ void measure_from_border(const CutRows& rows, const ShellView& cut) {
         }
 }
 
-/// Packs with vertices by the border; AwakePacks calls the held ones held, and what moves but is not cut awake.
+/// Packs with vertices by the border; MarkedPacks calls the held ones held, and what moves but is not cut awake.
 void list_border(RunRows& state, Row<Tasks> task) {
-    const ShellView cut(state, state.tasks.shell[task]);
-    AwakePacks& packs = state.awake_packs;
-    const uint32_t first = task * kMostAwakePacks;
+    const ShellView cut(state, state.tasks.working[task]);
+    MarkedPacks& packs = state.marked_packs;
+    const uint32_t first = task * kMostMarkedPacks;
     uint32_t count = 0;
     for (uint32_t v = 0; v < cut.vertex_count(); v += kLanes) {
         uint32_t held = 0, near = 0;
@@ -77,7 +77,7 @@ void list_border(RunRows& state, Row<Tasks> task) {
         packs.awake[first + count] = static_cast<uint8_t>(near);
         ++count;
     }
-    state.quick_runs.pack_count[task] = count;
+    state.hidden_runs.pack_count[task] = count;
 }
 
 /// All that the cut-out does not have, and what is held in it: the body less what moves, which is at most half of it.
@@ -105,8 +105,8 @@ void weigh_rest(RunRows& state, Row<Tasks> task, const ShellView& source, const 
 /// For both kinds of vertices by the border.
 template <class F>
 void for_each_by_border(const RunRows& state, Row<Tasks> task, F&& f) {
-    const AwakePacks& packs = state.awake_packs;
-    const uint32_t first = task * kMostAwakePacks, end = first + state.quick_runs.pack_count[task];
+    const MarkedPacks& packs = state.marked_packs;
+    const uint32_t first = task * kMostMarkedPacks, end = first + state.hidden_runs.pack_count[task];
     for (uint32_t row = first; row < end; ++row)
         for (uint32_t k = 0; (packs.held[row] | packs.awake[row]) >> k; ++k)
             if ((packs.held[row] | packs.awake[row]) >> k & 1) f(packs.pack[row] * kLanes + k);
@@ -130,18 +130,17 @@ BodyMotion rest_motion(const RunRows& state, Row<Tasks> task) {
 }
 
 bool reserve_hidden_region(RunRows& state, Row<Tasks> task, uint32_t vertices, const char** full) {
-    if (vertices > kMostAwakePacks * kLanes / 2) return false;
-    grow(state.quick_runs, task + 1);
+    if (vertices > kMostMarkedPacks * kLanes / 2) return false;
     grow(state.region_rests, task + 1);
-    grow(state.awake_packs, (task + 1) * kMostAwakePacks);
+    grow(state.marked_packs, (task + 1) * kMostMarkedPacks);
     if (reserve_cut_out(state, task, {kNone, vertices}, full) != CutOutResult::Reserved) return false;
-    if (state.shells.vertices[state.tasks.shell[task]].count > kMostAwakePacks * kLanes) {
-        release_shell(state, state.tasks.shell[task]);
-        state.tasks.shell[task] = {};
-        state.quick_runs.cut_elements[task] = 0;
+    if (state.shells.vertices[state.shell_of(state.tasks.working[task])].count > kMostMarkedPacks * kLanes) {
+        release_shell(state, state.tasks.working[task]);
+        state.tasks.working[task] = {};
+        state.hidden_runs.cut_elements[task] = 0;
         return false;
     }
-    state.awake_packs.clear_rows(task * kMostAwakePacks, kMostAwakePacks);
+    state.marked_packs.clear_rows(task * kMostMarkedPacks, kMostMarkedPacks);
     state.region_rests.clear_rows(task, 1);
     state.region_rests.most_vertices[task] = vertices;
     return true;
@@ -154,11 +153,11 @@ bool give_hidden_rows(RunRows& state, Row<Tasks> task, uint32_t vertices, Events
     uint32_t count = 0;
     bool is_assembled = false;
     if (vertices != kNone && reserve_hidden_region(state, task, vertices, full)) {
-        count = state.shells.vertices[tasks.shell[task]].count;
+        count = state.shells.vertices[state.shell_of(tasks.working[task])].count;
     } else {
         if (task < state.region_rests.size()) state.region_rests.clear_rows(task, 1);
-        tasks.shell[task] = make_shell_unclear(state, working_room(source), full);
-        if (!tasks.shell[task].exists()) return false;
+        tasks.working[task] = make_shell_unclear(state, working_room(source), full);
+        if (!tasks.working[task].exists()) return false;
         count = source.vertex_count();
         is_assembled = state.shells.packs[source.row].count > 0;
     }
@@ -169,9 +168,9 @@ bool give_hidden_rows(RunRows& state, Row<Tasks> task, uint32_t vertices, Events
 }
 
 void find_rest(RunRows& state, Row<Tasks> task) {
-    const ShellView source(state, state.tasks.source[task]), cut(state, state.tasks.shell[task]);
+    const ShellView source(state, state.tasks.source[task]), cut(state, state.tasks.working[task]);
     CutRows rows(source);
-    rows.element_count = state.quick_runs.cut_elements[task];
+    rows.element_count = state.hidden_runs.cut_elements[task];
     measure_from_border(rows, cut);
     list_border(state, task);
     weigh_rest(state, task, source, cut);
@@ -186,9 +185,9 @@ void start_rest(RunRows& state, Row<Tasks> task) {
     rests.travel.set(task, {});
     rests.turn.set(task, {});
     rests.wants_more[task] = 0;
-    const ShellView cut(state, state.tasks.shell[task]);
+    const ShellView cut(state, state.tasks.working[task]);
     const BodyMotion now = rest_motion(state, task);
-    const float beta = state.tasks.damping_time[task];
+    const float beta = state.hidden_runs.damping_time[task];
     for_each_held(state, task, [&](uint32_t v) {
         const uint32_t row = cut.vertex(v);
         follow(state, task, row, now);
@@ -200,8 +199,8 @@ void start_rest(RunRows& state, Row<Tasks> task) {
 void move_rest(RunRows& state, Row<Tasks> task, uint32_t side) {
     RegionRests& rests = state.region_rests;
     Vertices& vertices = state.vertices;
-    const ShellView cut(state, state.tasks.shell[task]);
-    const double dt = state.tasks.time_step[task];
+    const ShellView cut(state, state.tasks.working[task]);
+    const double dt = state.hidden_runs.time_step[task];
     if (rests.inverse_mass[task] > 0) {
         const BodyMotion before = rest_motion(state, task);
         Vec3d push, moment;
@@ -218,7 +217,7 @@ void move_rest(RunRows& state, Row<Tasks> task, uint32_t side) {
         rests.turn.set(task, rests.turn[task] + dt * rests.spin[task]);
     }
     const BodyMotion now = rest_motion(state, task);
-    const float beta = state.tasks.damping_time[task];
+    const float beta = state.hidden_runs.damping_time[task];
     Float4* const next = vertices.probe.data(static_cast<int>(~side & 1));
     for_each_held(state, task, [&](uint32_t v) {
         const uint32_t row = cut.vertex(v);
@@ -229,7 +228,7 @@ void move_rest(RunRows& state, Row<Tasks> task, uint32_t side) {
 }
 
 void bear_more(RunRows& state, Row<Tasks> task) {
-    const ShellView cut(state, state.tasks.shell[task]);
+    const ShellView cut(state, state.tasks.working[task]);
     for_each_by_border(state, task, [&](uint32_t v) {
         state.vertices.strength_factor[cut.vertex(v)] *= kGrowsOnceCrackedAt / kGrowsAt;
     });
@@ -241,7 +240,7 @@ double rest_energy(const RunRows& state, Row<Tasks> task) {
     if (!(rests.inverse_mass[task] > 0)) return 0;
     const Vec3d v = rests.velocity[task], w = rests.spin[task];
     double energy = dot(v, v) / rests.inverse_mass[task] + dot(w, rests.inertia[task] * w);
-    const uint32_t first = state.shells.vertices[state.tasks.shell[task]].first;
+    const uint32_t first = state.shells.vertices[state.shell_of(state.tasks.working[task])].first;
     for_each_held(state, task, [&](uint32_t u) {
         const Vec3d own(state.vertices.velocity[first + u]);
         energy -= state.vertices.mass[first + u] * dot(own, own);
@@ -251,9 +250,9 @@ double rest_energy(const RunRows& state, Row<Tasks> task) {
 
 bool is_by_border(const RunRows& state, Row<Tasks> task, uint32_t vertex) {
     if (!is_hidden_region(state, task)) return false;
-    const AwakePacks& packs = state.awake_packs;
-    const uint32_t* const begin = packs.pack.data() + size_t{task} * kMostAwakePacks;
-    const uint32_t* const end = begin + state.quick_runs.pack_count[task];
+    const MarkedPacks& packs = state.marked_packs;
+    const uint32_t* const begin = packs.pack.data() + size_t{task} * kMostMarkedPacks;
+    const uint32_t* const end = begin + state.hidden_runs.pack_count[task];
     const uint32_t* const at = std::lower_bound(begin, end, vertex / kLanes);
     if (at == end || *at != vertex / kLanes) return false;
     const auto row = static_cast<uint32_t>(at - packs.pack.data());
@@ -265,13 +264,13 @@ std::string trouble_of_hidden_region(RunRows& state, uint32_t task) {
     const RegionRests& rests = state.region_rests;
     if (task >= rests.size() || rests.most_vertices[task] == 0) return where + ": a cut-out has none";
     if (rests.wants_more[task] > 1 || !(rests.inverse_mass[task] >= 0)) return where + ": a number is out of range";
-    const uint32_t first = task * kMostAwakePacks, count = state.quick_runs.pack_count[task];
-    if (count > kMostAwakePacks || first + count > state.awake_packs.size())
+    const uint32_t first = task * kMostMarkedPacks, count = state.hidden_runs.pack_count[task];
+    if (count > kMostMarkedPacks || first + count > state.marked_packs.size())
         return where + ": its border has " + std::to_string(count) + " packs";
-    const uint32_t vertices = state.shells.vertices[state.tasks.shell[task]].count;
+    const uint32_t vertices = state.shells.vertices[state.shell_of(state.tasks.working[task])].count;
     for (uint32_t row = first; row < first + count; ++row) {
-        const uint32_t pack = state.awake_packs.pack[row];
-        if (pack >= vertices / kLanes || (row > first && pack <= state.awake_packs.pack[row - 1]))
+        const uint32_t pack = state.marked_packs.pack[row];
+        if (pack >= vertices / kLanes || (row > first && pack <= state.marked_packs.pack[row - 1]))
             return where + ": the packs of its border do not rise or are none of its shell";
     }
     return trouble_of_cut_out(state, task);

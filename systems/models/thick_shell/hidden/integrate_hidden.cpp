@@ -8,13 +8,13 @@ void integrate_hidden(Rows<StiffnessPacks> packs, Of<Tasks> task, RunStiffness o
                       In<&Vertices::inverse_mass> inverse_mass, In<&Vertices::probe> probe,
                       InOut<&Vertices::velocity> velocity, InOut<&Vertices::displacement> displacement,
                       Out<&Vertices::probe> next_probe) {
-    const Tasks& tasks = of.tasks;
     const Shells& shells = of.shells;
-    const Row<Shells> shell = tasks.shell[task.row];
+    const Row<Structures> structure = of.tasks.working[task.row];
+    const Row<Shells> shell = shell_of(of.structures, structure);
     const uint32_t first_pack = shells.packs[shell].first, first = shells.vertices[shell].first;
     HiddenStep step;
-    step.dt = tasks.time_step[task.row];
-    step.beta = tasks.damping_time[task.row];
+    step.dt = of.runs.time_step[task.row];
+    step.beta = of.runs.damping_time[task.row];
     step.first_block = of.packs.first_block.data() + first_pack;
     step.block_count = of.packs.block_count.data() + first_pack;
     step.first_link = of.packs.first_link.data() + first_pack;
@@ -29,7 +29,7 @@ void integrate_hidden(Rows<StiffnessPacks> packs, Of<Tasks> task, RunStiffness o
     step.probe = probe.data() + first;
     step.next_probe = next_probe.data() + first;
     step.pack_count = shells.packs[shell].count;
-    step.has_pair_cells = stores_pairs_once(shells, shell);
+    step.has_pair_cells = stores_pairs_once(of.structures, structure);
     integrate_packs(step, packs.first - first_pack, packs.count);
 }
 

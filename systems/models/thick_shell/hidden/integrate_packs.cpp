@@ -82,7 +82,7 @@ HiddenStep::HiddenStep(ShellView shell, float time_step, float damping_time, uin
     probe = state.vertices.probe.data(static_cast<int>(side & 1)) + first;
     next_probe = state.vertices.probe.data(static_cast<int>(~side & 1)) + first;
     pack_count = shell.shells().packs[shell.row].count;
-    has_pair_cells = stores_pairs_once(state.shells, shell.row);
+    has_pair_cells = stores_pairs_once(shell.structures(), shell.structure);
 }
 
 }  // namespace cullet

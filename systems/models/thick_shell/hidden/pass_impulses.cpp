@@ -10,8 +10,8 @@ namespace {
 
 /// What cuts have left of the frame's units is enough for the last step and for what is born then.
 bool may_end(const RunRows& state, Row<Tasks> task) {
-    const uint64_t a_step = units_a_step(state.shells, state.tasks, task);
-    return state.tasks.steps_granted[task] * a_step >= a_step + units_of_birth(state.shells, state.tasks, task);
+    const uint64_t a_step = units_a_step(state, task);
+    return state.tasks.steps_granted[task] * a_step >= a_step + units_of_birth(state, task);
 }
 
 }  // namespace
@@ -22,8 +22,9 @@ void pass_impulses(Of<Tasks> task, Turn turn, RunRows& rows) {
     if (is_hidden_region(rows, t)) move_rest(rows, t, turn.old_side);
     apply_contact(rows, t, turn.old_side);
     rows.tasks.steps_granted[t] -= rows.tasks.steps_granted[t] > 0;
-    const float end = std::min(rows.tasks.end_time[t], rows.tasks.last_event_time[t] + rows.tasks.quiet_time[t]);
-    const auto time_at = [&](uint32_t steps) { return static_cast<float>(steps) * rows.tasks.time_step[t]; };
+    const float end =
+        std::min(rows.hidden_runs.end_time[t], rows.hidden_runs.last_event_time[t] + rows.hidden_runs.quiet_time[t]);
+    const auto time_at = [&](uint32_t steps) { return static_cast<float>(steps) * rows.hidden_runs.time_step[t]; };
     const uint32_t done = ++rows.tasks.steps_done[t];
     if (time_at(done) > end)
         rows.tasks.state[t] = static_cast<uint8_t>(TaskState::Whole);  // find_parts tells whether it broke

@@ -6,7 +6,9 @@ namespace cullet {
 void push_patches(Of<Tasks> task, RunRows& rows) {
     const Row<Tasks> t = task.row;
     const bool touches = contact_forces(rows, t);
-    if (touches) rows.tasks.last_event_time[t] = static_cast<float>(rows.tasks.steps_done[t]) * rows.tasks.time_step[t];
+    if (touches)
+        rows.hidden_runs.last_event_time[t] =
+            static_cast<float>(rows.tasks.steps_done[t]) * rows.hidden_runs.time_step[t];
 }
 
 }  // namespace cullet

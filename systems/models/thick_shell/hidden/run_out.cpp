@@ -102,9 +102,9 @@ uint32_t run_to(const ShellView& shell, const RunRows& runs, Row<Tasks> task, ui
 }  // namespace
 
 bool run_out_cracks(RunRows& state, Row<Tasks> task) {
-    const ShellView shell(state, state.tasks.shell[task]);
+    const ShellView shell(state, state.tasks.working[task]);
     const Vertices& vertices = state.vertices;
-    const float run_out = material_traits(state, shell.shells().material[shell.row]).run_out;
+    const float run_out = material_traits(state, shell.structures().material[shell.structure]).run_out;
     if (!(run_out > 0)) return false;
     Touched touched(kStiffnessRepair);
     touched.marks_elements = is_cut_out(state, task);

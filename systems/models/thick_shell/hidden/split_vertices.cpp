@@ -13,7 +13,7 @@ namespace {
 // Owed whole, explosions in houses cut for a second budget in the frame that spent its own on steps.
 void pay_cuts(RunRows& state, Row<Tasks> task) {
     Tasks& tasks = state.tasks;
-    const uint64_t a_step = units_a_step(state.shells, tasks, task);
+    const uint64_t a_step = units_a_step(state, task);
     const uint64_t steps = std::min<uint64_t>(tasks.steps_granted[task], tasks.units_owed[task] / a_step);
     tasks.steps_granted[task] -= static_cast<uint32_t>(steps);
     tasks.units_owed[task] -= steps * a_step;

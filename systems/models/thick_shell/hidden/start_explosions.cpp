@@ -20,7 +20,7 @@ void aim_probes(ShellView shell, float damping_time) {
 }  // namespace
 
 void start_explosions(RunRows& state, const Blows& blows, Row<Tasks> task) {
-    const ShellView shell(state, state.tasks.shell[task]);
+    const ShellView shell(state, state.tasks.working[task]);
     bool is_kicked = false;
     for (uint32_t b = 0; b < blows.size(); ++b) {
         if (blows.task[b] != task.index || !is_kind(blows, b, BlowKind::Explosion)) continue;
@@ -29,8 +29,8 @@ void start_explosions(RunRows& state, const Blows& blows, Row<Tasks> task) {
     }
     // In the quick mode a probe is where the point stands, and what it starts with is summed up behind this.
     if (!is_kicked || is_quick_task(state, task)) return;
-    aim_probes(shell, state.tasks.damping_time[task]);
-    state.tasks.start_energy[task] = task_energy(state, task).total();
+    aim_probes(shell, state.hidden_runs.damping_time[task]);
+    state.hidden_runs.start_energy[task] = task_energy(state, task).total();
 }
 
 }  // namespace cullet

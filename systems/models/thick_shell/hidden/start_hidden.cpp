@@ -35,7 +35,7 @@ Vec3d centre_of_vertices(const ShellView& shell) {
 // with up to a fifth more or less momentum than the rigid body has.
 void start_hidden(RunRows& state, Row<Tasks> task) {
     Tasks& tasks = state.tasks;
-    const ShellView shell(state, tasks.shell[task]);
+    const ShellView shell(state, tasks.working[task]);
     Vertices& vertices = state.vertices;
     const bool is_region = is_hidden_region(state, task);
     const Vec3d centre = is_region ? state.region_rests.body_centre[task] : centre_of_vertices(shell),
@@ -44,7 +44,7 @@ void start_hidden(RunRows& state, Row<Tasks> task) {
         const uint32_t row = shell.vertex(v);
         const bool is_free = vertices.inverse_mass[row] > 0;
         const Vec3d motion = velocity + cross(spin, Vec3d(vertices.rest[row]) - centre);
-        set_motion(vertices, row, is_free ? motion.to_float() : Vec3{}, tasks.damping_time[task]);
+        set_motion(vertices, row, is_free ? motion.to_float() : Vec3{}, state.hidden_runs.damping_time[task]);
     }
     if (is_region) start_rest(state, task);
     TaskContacts& contacts = state.task_contacts;
@@ -54,7 +54,7 @@ void start_hidden(RunRows& state, Row<Tasks> task) {
     }
     tasks.steps_done[task] = 0;
     link_slopes(shell);
-    tasks.start_energy[task] = task_energy(state, task).total();
+    state.hidden_runs.start_energy[task] = task_energy(state, task).total();
 }
 
 }  // namespace cullet

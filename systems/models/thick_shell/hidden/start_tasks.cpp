@@ -11,10 +11,10 @@ namespace {
 void make_cuts(BodyRows& state, Blows& blows, Row<Tasks> task) {
     Tasks& tasks = state.tasks;
     const Range pins = state.bodies.pins[tasks.body[task]];
-    const ShellView shell(state, tasks.shell[task]);
+    const ShellView shell(state, tasks.working[task]);
     for (uint32_t b = 0; b < blows.size(); ++b) {
         if (blows.task[b] != task.index) continue;
-        tasks.units_owed[task] += units_of_cut(state.shells, tasks.source[task], blows, b);
+        tasks.units_owed[task] += units_of_cut(state.shells, state.shell_of(tasks.source[task]), blows, b);
         const CutReport report = cut_shell(shell, CutSurface(blows, b), state.pin_boxes, pins, kStiffnessRepair);
         // Pins alone that changed are looked at as an opened edge is.
         tasks.crack_count[task] += report.cut_edges > 0 ? report.cut_edges : report.pins_changed > 0;
@@ -27,7 +27,7 @@ void make_cuts(BodyRows& state, Blows& blows, Row<Tasks> task) {
 
 void start_tasks(EachOwn<TaskOpened> opened, BodyRows& rows, Blows& blows) {
     const Row<Tasks> task = opened->task;
-    if (!rows.tasks.shell[task].exists()) return;  // no room
+    if (!rows.tasks.working[task].exists()) return;  // no room
     start_run(rows, blows, task);
     if (is_cut_task(blows, task)) make_cuts(rows, blows, task);
 }

@@ -12,9 +12,9 @@ void widen_regions(Serial, Owner own, BodyRows& rows, Events<TaskOpened>& opened
             continue;
         if (!is_hidden_region(rows, t)) continue;
         if (!rows.region_rests.wants_more[t]) continue;
-        release_shell(rows, rows.tasks.shell[t]);
-        rows.tasks.shell[t] = {};
-        rows.quick_runs.cut_elements[t] = 0;
+        release_shell(rows, rows.tasks.working[t]);
+        rows.tasks.working[t] = {};
+        rows.hidden_runs.cut_elements[t] = 0;
         const char* full = nullptr;
         if (give_hidden_rows(rows, task, 2 * rows.region_rests.most_vertices[t], stiffness_wanted, &full)) {
             opened.push({task, rows.model_of(task)});

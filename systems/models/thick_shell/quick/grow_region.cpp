@@ -56,7 +56,7 @@ bool split_edge(Splitting& s, const StrainedEdge& edge) {
 
 /// Asked at each step: what material_traits gathers beside it is a microsecond and a half.
 FractureKind kind_of(const RunRows& state, Row<Tasks> task) {
-    const Row<Materials> material = state.shells.material[state.tasks.shell[task]];
+    const Row<Materials> material = state.structures.material[state.tasks.working[task]];
     if (material < state.material_traits.size())
         return static_cast<FractureKind>(state.material_traits.fracture[material]);
     return material_traits(state, material).fracture;
@@ -68,7 +68,7 @@ float run_length(const RunRows& state, Row<Tasks> task, FractureKind kind) {
         case FractureKind::Fine:
             break;
         case FractureKind::Coarse:
-            return kCoarseRun * state.shells.mean_edge[state.tasks.shell[task]];
+            return kCoarseRun * state.shells.mean_edge[state.shell_of(state.tasks.working[task])];
         case FractureKind::Large:
             return state.quick_runs.crack_length[task] * state.quick_runs.diagonal[task];
     }

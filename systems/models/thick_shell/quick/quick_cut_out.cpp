@@ -17,8 +17,8 @@ uint32_t border_rings(FractureKind kind) {
 }  // namespace
 
 CutOutSize quick_cut_out_size(const RunRows& state, Row<Tasks> task) {
-    const Row<Shells> source = state.tasks.source[task];
-    const FractureKind kind = material_traits(state, state.shells.material[source]).fracture;
+    const Row<Structures> source = state.tasks.source[task];
+    const FractureKind kind = material_traits(state, state.structures.material[source]).fracture;
     return {region_rings(state.quick_runs.steps[task]) + 1 + border_rings(kind), kNone};
 }
 

@@ -34,7 +34,7 @@ uint64_t quick_units_a_step(const RunRows& state, uint32_t task) {
 }
 
 uint64_t quick_units_of_end(const RunRows& state, uint32_t task) {
-    return state.shells.vertices[state.tasks.shell[task]].count * kUnitsQuickEnd;
+    return state.shells.vertices[state.shell_of(state.tasks.working[task])].count * kUnitsQuickEnd;
 }
 
 }  // namespace cullet

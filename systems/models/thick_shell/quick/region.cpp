@@ -39,7 +39,7 @@ void add_seeds(RunRows& state, Row<Tasks> task, Queue& queue) {
 
 /// Marks the region; returns how many vertices are awake.
 uint32_t mark(RunRows& state, Row<Tasks> task, uint32_t rings) {
-    const ShellView shell(state, state.tasks.shell[task]);
+    const ShellView shell(state, state.tasks.working[task]);
     Queue queue{shell};
     for (uint32_t v = 0; v < shell.vertex_count(); ++v) queue.next(v) = kUnseen;
     uint32_t* const is_seen = state.elements.next.data() + shell.elements().first;
@@ -73,9 +73,9 @@ uint32_t mark(RunRows& state, Row<Tasks> task, uint32_t rings) {
 
 /// False: there are too many.
 bool list_packs(RunRows& state, Row<Tasks> task) {
-    const ShellView shell(state, state.tasks.shell[task]);
-    AwakePacks& packs = state.awake_packs;
-    const uint32_t first = task * kMostAwakePacks;
+    const ShellView shell(state, state.tasks.working[task]);
+    MarkedPacks& packs = state.marked_packs;
+    const uint32_t first = task * kMostMarkedPacks;
     uint32_t count = 0;
     for (uint32_t v = 0; v < shell.vertex_count(); v += kLanes) {
         uint32_t awake = 0, held = 0;
@@ -85,21 +85,21 @@ bool list_packs(RunRows& state, Row<Tasks> task) {
             held |= uint32_t{mark == kHeldMark} << k;
         }
         if (!(awake | held)) continue;
-        if (count == kMostAwakePacks) return false;
+        if (count == kMostMarkedPacks) return false;
         packs.pack[first + count] = v / kLanes;
         packs.awake[first + count] = static_cast<uint8_t>(awake);
         packs.held[first + count] = static_cast<uint8_t>(held);
         ++count;
     }
-    state.quick_runs.pack_count[task] = count;
+    state.hidden_runs.pack_count[task] = count;
     return true;
 }
 
 /// Puts what lies behind the listed packs to sleep, and holds what is next to it; returns how many are awake.
 uint32_t leave_out_the_rest(RunRows& state, Row<Tasks> task) {
-    const ShellView shell(state, state.tasks.shell[task]);
+    const ShellView shell(state, state.tasks.working[task]);
     const auto mark_of = [&](uint32_t v) -> uint32_t& { return state.vertices.copy[shell.vertex(v)]; };
-    const uint32_t end = (state.awake_packs.pack[(task + 1) * kMostAwakePacks - 1] + 1) * kLanes;
+    const uint32_t end = (state.marked_packs.pack[(task + 1) * kMostMarkedPacks - 1] + 1) * kLanes;
     for (uint32_t v = end; v < shell.vertex_count(); ++v) mark_of(v) = kAsleepMark;
     uint32_t awake = 0;
     Ring ring;
@@ -117,10 +117,10 @@ uint32_t leave_out_the_rest(RunRows& state, Row<Tasks> task) {
 }  // namespace
 
 void choose_region(RunRows& state, Row<Tasks> task, uint32_t rings) {
-    AwakePacks& packs = state.awake_packs;
-    const uint32_t end = (task + 1) * kMostAwakePacks;
+    MarkedPacks& packs = state.marked_packs;
+    const uint32_t end = (task + 1) * kMostMarkedPacks;
     if (end > packs.size()) packs.append(end - packs.size());
-    packs.clear_rows(task * kMostAwakePacks, kMostAwakePacks);
+    packs.clear_rows(task * kMostMarkedPacks, kMostMarkedPacks);
     for (;;) {
         state.quick_runs.awake_count[task] = mark(state, task, rings);
         if (list_packs(state, task)) return;
@@ -133,12 +133,12 @@ void choose_region(RunRows& state, Row<Tasks> task, uint32_t rings) {
 }
 
 void RegionView::add(uint32_t v, bool is_held) const {
-    AwakePacks& packs = state.awake_packs;
+    MarkedPacks& packs = state.marked_packs;
     uint32_t row = find(v / kLanes);
     if (row == kNone) {
-        uint32_t& count = state.quick_runs.pack_count[task];
+        uint32_t& count = state.hidden_runs.pack_count[task];
         const bool is_behind = count == 0 || packs.pack[first_row() + count - 1] < v / kLanes;
-        if (!is_behind || count == kMostAwakePacks) return;
+        if (!is_behind || count == kMostMarkedPacks) return;
         row = first_row() + count++;
         packs.pack[row] = v / kLanes;
         packs.awake[row] = packs.held[row] = 0;

@@ -19,23 +19,23 @@ struct RegionView {
         : state(s), task(t), springs(s, s.quick_runs.springs[t]), shell(springs.shell) {}
     RegionView(const RegionView& o) : state(o.state), task(o.task), springs(o.springs), shell(springs.shell) {}
 
-    uint32_t first_row() const { return task * kMostAwakePacks; }
-    uint32_t pack_count() const { return state.quick_runs.pack_count[task]; }
-    /// Row of the pack in AwakePacks, or kNone.
+    uint32_t first_row() const { return task * kMostMarkedPacks; }
+    uint32_t pack_count() const { return state.hidden_runs.pack_count[task]; }
+    /// Row of the pack in MarkedPacks, or kNone.
     uint32_t find(uint32_t pack) const {
-        const uint32_t* begin = state.awake_packs.pack.data() + first_row();
+        const uint32_t* begin = state.marked_packs.pack.data() + first_row();
         const uint32_t* end = begin + pack_count();
         const uint32_t* at = std::lower_bound(begin, end, pack);
         return at != end && *at == pack ? first_row() + static_cast<uint32_t>(at - begin) : kNone;
     }
-    bool is_awake(uint32_t v) const { return has(state.awake_packs.awake, v); }
-    bool is_held(uint32_t v) const { return has(state.awake_packs.held, v); }
+    bool is_awake(uint32_t v) const { return has(state.marked_packs.awake, v); }
+    bool is_held(uint32_t v) const { return has(state.marked_packs.held, v); }
     /// A vertex that came after the region woke: its pack is in the region or behind all of it, or it stays asleep.
     void add(uint32_t v, bool is_held) const;
     /// Calls f(vertex, is_held) for each vertex of the region, rising.
     template <class F>
     void for_each(F&& f) const {
-        const AwakePacks& packs = state.awake_packs;
+        const MarkedPacks& packs = state.marked_packs;
         for (uint32_t row = first_row(); row < first_row() + pack_count(); ++row)
             for (uint32_t k = 0; k < kLanes; ++k)
                 if ((packs.awake[row] | packs.held[row]) >> k & 1)
@@ -55,14 +55,14 @@ struct RegionView {
 inline constexpr uint32_t kAsleepMark = kNone, kAwakeMark = kNone - 1, kHeldMark = kNone - 2;
 
 /// Marks the vertices within `rings` edges of those of the task's patches, and the ring round them, in Vertices.copy;
-/// all of them where the task has no contact (an explosion). Lists their packs in AwakePacks: fewer rings where there
-/// are more packs than kMostAwakePacks. Serial.
+/// all of them where the task has no contact (an explosion). Lists their packs in MarkedPacks: fewer rings where there
+/// are more packs than kMostMarkedPacks. Serial.
 void choose_region(RunRows& state, Row<Tasks> task, uint32_t rings);
 
 /// Rows for the springs of the elements that have an awake corner, softened, and which edge each is. False: no room,
 /// and `full` names the limit. Needs choose_region's marks. Serial.
 bool take_region_springs(RunRows& state, Row<Tasks> task, uint32_t layers, const char** full);
-/// The chunk of the region that begins with this row of AwakePacks: kRowsPerChunk packs, and as large a share of the
+/// The chunk of the region that begins with this row of MarkedPacks: kRowsPerChunk packs, and as large a share of the
 /// springs. Chunks may be worked on at once, all of them by one call before any by the other.
 void measure_region_springs(const RegionView& region, uint32_t first_row);
 void lay_region_springs(const RegionView& region, uint32_t first_row);

@@ -91,8 +91,8 @@ bool wake_region_alone(RunRows& state, const Blows& blows, Row<Tasks> task, cons
     if (!wake_region(state, task, full)) return false;
     const RegionView region(state, task);
     const uint32_t first = region.first_row(), end = first + region.pack_count();
-    for (uint32_t row = first; row < end; row += kRowsPerChunk<AwakePacks>) measure_region_springs(region, row);
-    for (uint32_t row = first; row < end; row += kRowsPerChunk<AwakePacks>) lay_region_springs(region, row);
+    for (uint32_t row = first; row < end; row += kRowsPerChunk<MarkedPacks>) measure_region_springs(region, row);
+    for (uint32_t row = first; row < end; row += kRowsPerChunk<MarkedPacks>) lay_region_springs(region, row);
     start_region(state, blows, task);
     return true;
 }
@@ -108,11 +108,12 @@ void start_region(RunRows& state, const Blows& blows, Row<Tasks> task) {
     state.quick_runs.diagonal[task] = diagonal_of(ShellView(state, tasks.source[task]));
     rest_all(view);
     rest_twins(region);
-    tasks.time_step[task] = view.own().time_step[view.row];
-    tasks.damping_time[task] = 0;
-    tasks.end_time[task] = (static_cast<float>(steps) - 0.5f) * tasks.time_step[task];
-    tasks.quiet_time[task] = tasks.end_time[task];  // so short a run is over before it is quiet
-    tasks.last_event_time[task] = 0;
+    HiddenRuns& runs = state.hidden_runs;
+    runs.time_step[task] = view.own().time_step[view.row];
+    runs.damping_time[task] = 0;
+    runs.end_time[task] = (static_cast<float>(steps) - 0.5f) * runs.time_step[task];
+    runs.quiet_time[task] = runs.end_time[task];  // so short a run is over before it is quiet
+    runs.last_event_time[task] = 0;
     tasks.steps_done[task] = 0;
     tasks.crack_count[task] = tasks.start_count[task] = 0;
     tasks.lacks_room[task] = 0;
@@ -122,11 +123,11 @@ void start_region(RunRows& state, const Blows& blows, Row<Tasks> task) {
         region.for_each([&](uint32_t v, bool) {
             state.twins.velocity.set(view.twin(v), state.vertices.velocity[shell.vertex(v)]);
         });
-    tasks.start_energy[task] = region_energy(region).total();
-    double scale = std::max(tasks.start_energy[task], kLeastScale * state.shells.mass[shell.row]);
+    runs.start_energy[task] = region_energy(region).total();
+    double scale = std::max(runs.start_energy[task], kLeastScale * state.structures.mass[shell.structure]);
     for_each_contact(state, task, [&](uint32_t c) {
         if (contacts.striker_inverse_mass[c] > 0) return;
-        scale += 0.5 * state.shells.mass[shell.row] * contacts.striker_speed[c] * contacts.striker_speed[c];
+        scale += 0.5 * state.structures.mass[shell.structure] * contacts.striker_speed[c] * contacts.striker_speed[c];
     });
     state.quick_runs.energy_scale[task] = scale;
 }
@@ -153,10 +154,10 @@ void close_region(RunRows& state, Row<Tasks> task, const BodyMotion& motion) {
     for_each_contact(state, task, [&](uint32_t c) {
         contacts.striker_speed[c] += dot(motion.at(contacts.point[c]), Vec3d(contacts.normal[c]));
     });
-    release_springs(state, shell.row);
+    release_springs(state, shell.structure);
     runs.springs[task] = {};
-    runs.pack_count[task] = 0;
-    state.awake_packs.clear_rows(task * kMostAwakePacks, kMostAwakePacks);
+    state.hidden_runs.pack_count[task] = 0;
+    state.marked_packs.clear_rows(task * kMostMarkedPacks, kMostMarkedPacks);
 }
 
 bool region_forces(const RegionView& region) {
@@ -183,7 +184,7 @@ void push_region(const RegionView& region) {
     RunRows& state = region.state;
     const SpringView& view = region.springs;
     TaskContacts& contacts = state.task_contacts;
-    const double dt = state.tasks.time_step[region.task];
+    const double dt = state.hidden_runs.time_step[region.task];
     const uint32_t first = state.tasks.first_contact[region.task];
     double forces[kMostContacts] = {};
     for_each_contact(state, region.task, [&](uint32_t c) {
@@ -216,7 +217,7 @@ void push_region(const RegionView& region) {
 void hold_region(const RegionView& region) {
     const SpringView& view = region.springs;
     RunRows& state = region.state;
-    const AwakePacks& packs = state.awake_packs;
+    const MarkedPacks& packs = state.marked_packs;
     const auto put = [](Float4& x, Vec3 place) { x = {place.x, place.y, place.z, x.w}; };
     for (uint32_t row = region.first_row(); row < region.first_row() + region.pack_count(); ++row)
         for (uint32_t k = 0; packs.held[row] >> k; ++k) {
@@ -232,7 +233,7 @@ void hold_region(const RegionView& region) {
 bool has_blown_up(const RegionView& region) {
     TaskEnergy energy = region_energy(region);
     energy.membrane = kept_spring_energy(region.springs);
-    const double wanted = region.state.tasks.start_energy[region.task] + energy.work;
+    const double wanted = region.state.hidden_runs.start_energy[region.task] + energy.work;
     return !(energy.total() <= wanted + 0.05 * std::max(region.state.quick_runs.energy_scale[region.task], wanted));
 }
 

@@ -88,20 +88,20 @@ uint32_t& slots_kept(const ShellView& shell, uint32_t i) {
 /// that outgrows its slots moves to the end; copies need packs of their own.
 SpringRoom room_for(const Layout& layout, Row<Tasks> task, uint32_t edges, bool has_layers) {
     RunRows& state = layout.state;
-    const AwakePacks& packs = state.awake_packs;
+    const MarkedPacks& packs = state.marked_packs;
     SpringRoom room;
     const uint32_t spare = std::min(layout.shell.vertices().capacity - layout.shell.vertex_count(),
-                                    2 * kLanes * state.quick_runs.pack_count[task]);
+                                    2 * kLanes * state.hidden_runs.pack_count[task]);
     room.springs = edges + 4 * spare + 64;
     room.elements = layout.shell.elements().capacity;
     room.vertices = layout.shell.vertices().capacity;
     room.has_layers = has_layers;
     room.clears_lists = false;
     uint32_t slots = 0;
-    const uint32_t count = state.quick_runs.pack_count[task];
+    const uint32_t count = state.hidden_runs.pack_count[task];
     count_edges_at_vertices(layout.shell);
     for (uint32_t i = 0; i < count; ++i)
-        slots += slots_kept(layout.shell, i) = slots_of(layout.shell, packs.pack[task * kMostAwakePacks + i]);
+        slots += slots_kept(layout.shell, i) = slots_of(layout.shell, packs.pack[task * kMostMarkedPacks + i]);
     room.slots = 2 * slots + 6 * spare + 64;
     return room;
 }
@@ -159,7 +159,7 @@ void place_packs(const RegionView& region) {
     const SpringView& view = region.springs;
     Range& slots = view.own().slots[view.row];
     for (uint32_t i = 0; i < region.pack_count(); ++i) {
-        const uint32_t pack = view.pack(state.awake_packs.pack[region.first_row() + i]);
+        const uint32_t pack = view.pack(state.marked_packs.pack[region.first_row() + i]);
         const uint32_t room = std::min(slots_kept(region.shell, i), slots.capacity - slots.count);
         state.spring_packs.first_slot[pack] = slots.count;
         state.spring_packs.slot_capacity[pack] = static_cast<uint16_t>(room);
@@ -171,9 +171,9 @@ void place_packs(const RegionView& region) {
 struct Chunk {
     uint32_t first, end;
 };
-/// Of AwakePacks, in the chunk that begins with a row.
+/// Of MarkedPacks, in the chunk that begins with a row.
 Chunk packs_of_chunk(const RegionView& region, uint32_t first_row) {
-    return {first_row, std::min(first_row + kRowsPerChunk<AwakePacks>, region.first_row() + region.pack_count())};
+    return {first_row, std::min(first_row + kRowsPerChunk<MarkedPacks>, region.first_row() + region.pack_count())};
 }
 /// Of springs: the share of its packs.
 Chunk springs_of_chunk(const RegionView& region, uint32_t first_row) {
@@ -194,24 +194,24 @@ Chunk springs_of_chunk(const RegionView& region, uint32_t first_row) {
 // balls strike faces beside a border. With several contacts the largest counts, for all of the region.
 float limit_along_sheet(const RunRows& state, Row<Tasks> task, const ShellView& shell, float root) {
     const TaskContacts& contacts = state.task_contacts;
-    const uint32_t material = state.shells.material[shell.row];
+    const uint32_t material = state.structures.material[shell.structure];
     const float slowness = std::sqrt(state.materials.density[material] / state.materials.young_modulus[material]);
     float most = 0;
     for (uint32_t c = state.tasks.first_contact[task], end = c + state.tasks.contact_count[task]; c < end; ++c) {
         const float across = dot(contacts.normal[c], state.vertices.inward[shell.vertex(contacts.vertex[c])]);
         const auto speed = std::min(static_cast<float>(std::max(0.0, contacts.striker_speed[c])),
-                                    state.shells.first_crack_speed[shell.row]);
+                                    state.structures.first_crack_speed[shell.structure]);
         most = std::max(most, std::sqrt(std::max(0.0f, 1 - across * across)) * speed);
     }
     return root * most * slowness;
 }
 
 /// B7: s so that what breaks at eps_f in truth breaks at 2 %, which float positions resolve to a thousandth.
-void soften(RunRows& state, Row<Tasks> task, Row<Shells> shell) {
+void soften(RunRows& state, Row<Tasks> task, Row<Structures> shell) {
     constexpr float kShownStrain = 0.02f, kShortLoad = 2.0f;  // as kShortLoadFactor of the hidden run
     QuickRuns& runs = state.quick_runs;
     const Materials& materials = state.materials;
-    const uint32_t material = state.shells.material[shell];
+    const uint32_t material = state.structures.material[shell];
     const float breaking = kShortLoad * materials.tensile_strength[material] / materials.young_modulus[material];
     const float root = std::max(1.0f, kShownStrain / breaking);
     const float given = runs.strain_limit[task];
@@ -305,7 +305,7 @@ void limit_springs(const RegionView& region, std::span<const uint32_t> vertices)
 }
 
 bool take_region_springs(RunRows& state, Row<Tasks> task, uint32_t layers, const char** full) {
-    const Row<Shells> shell_row = state.tasks.shell[task];
+    const Row<Structures> shell_row = state.tasks.working[task];
     const ShellView shell(state, shell_row);
     QuickRuns& runs = state.quick_runs;
     soften(state, task, shell_row);
@@ -318,7 +318,7 @@ bool take_region_springs(RunRows& state, Row<Tasks> task, uint32_t layers, const
     runs.springs[task] = row;
     ShellSprings& own = state.shell_springs;
     own.layout[row] = static_cast<uint8_t>(spring_layout(has_layers, static_cast<LayerLayout>(runs.layout[task])));
-    own.young_modulus[row] = state.materials.young_modulus[state.shells.material[shell_row]] / runs.softening[task];
+    own.young_modulus[row] = state.materials.young_modulus[state.structures.material[shell_row]] / runs.softening[task];
     own.damping_ratio[row] = kDampingRatio;
     own.length_factor[row] = has_layers ? length_factor_of(state, shell_row, runs.length_factor[task]) : 1;
     own.area_energy[row] = runs.area_energy[task];
@@ -350,7 +350,7 @@ void measure_region_springs(const RegionView& region, uint32_t first_row) {
 void lay_region_springs(const RegionView& region, uint32_t first_row) {
     RunRows& state = region.state;
     const SpringView& view = region.springs;
-    const AwakePacks& packs = state.awake_packs;
+    const MarkedPacks& packs = state.marked_packs;
     const Chunk rows = packs_of_chunk(region, first_row);
     VertexSprings lists[kLanes];
     for (uint32_t row = rows.first; row < rows.end; ++row) {

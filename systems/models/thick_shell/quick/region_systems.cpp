@@ -13,7 +13,7 @@ void push_region_patches(Of<Tasks> task, RunRows& rows) {
 }
 
 // The kernel knows packs by their place in the shell: it is called for runs of neighbouring ones.
-void integrate_region(Rows<AwakePacks> packs, Of<Tasks> task, Turn turn, InChunks<RunRows> rows) {
+void integrate_region(Rows<MarkedPacks> packs, Of<Tasks> task, Turn turn, InChunks<RunRows> rows) {
     const SpringView view(rows.set, rows.set.quick_runs.springs[task.row]);
     const SpringStep step(view, turn.old_side);
     const bool is_pressed = has_energies(view.own(), view.row);
@@ -23,9 +23,9 @@ void integrate_region(Rows<AwakePacks> packs, Of<Tasks> task, Turn turn, InChunk
     const uint32_t end = packs.first + packs.count;
     for (uint32_t row = packs.first, next = 0; row < end; row = next) {
         next = row + 1;
-        while (next < end && rows->awake_packs.pack[next] == rows->awake_packs.pack[next - 1] + 1) ++next;
-        if (is_pressed) press_packs(view, turn.old_side, rows->awake_packs.pack[row], next - row);
-        integrate(step, rows->awake_packs.pack[row], next - row);
+        while (next < end && rows->marked_packs.pack[next] == rows->marked_packs.pack[next - 1] + 1) ++next;
+        if (is_pressed) press_packs(view, turn.old_side, rows->marked_packs.pack[row], next - row);
+        integrate(step, rows->marked_packs.pack[row], next - row);
     }
 }
 
@@ -47,11 +47,11 @@ void end_region_step(Of<Tasks> task, RunRows& rows) {
     hold_region(region);
     push_region(region);
     rows.tasks.steps_granted[t] -= rows.tasks.steps_granted[t] > 0;
-    const auto time_at = [&](uint32_t steps) { return static_cast<float>(steps) * rows.tasks.time_step[t]; };
+    const auto time_at = [&](uint32_t steps) { return static_cast<float>(steps) * rows.hidden_runs.time_step[t]; };
     const uint32_t done = ++rows.tasks.steps_done[t];
-    if (time_at(done) > rows.tasks.end_time[t])
+    if (time_at(done) > rows.hidden_runs.end_time[t])
         rows.tasks.state[t] = static_cast<uint8_t>(TaskState::Whole);
-    else if (time_at(done + 1) > rows.tasks.end_time[t] && !may_end(rows, t))
+    else if (time_at(done + 1) > rows.hidden_runs.end_time[t] && !may_end(rows, t))
         rows.tasks.steps_granted[t] = 0;
 }
 

@@ -23,7 +23,7 @@ void find_strained_edges(const RegionView& region, uint32_t most, StrainedEdges&
     const RunRows& state = region.state;
     const SpringView& view = region.springs;
     const Vertices& vertices = state.vertices;
-    const AwakePacks& packs = state.awake_packs;
+    const MarkedPacks& packs = state.marked_packs;
     const uint32_t first_vertex = region.shell.vertex(0);
     const float limit = state.quick_runs.split_strain[region.task];
     const float squeeze = state.quick_runs.compression_limit[region.task];

@@ -18,7 +18,7 @@ void run_out_region(RunRows& state, Row<Tasks> task) {
     if (static_cast<TaskState>(state.tasks.state[task]) == TaskState::Dropped) return;
     if (state.tasks.crack_count[task] == 0) return;
     const Scratch<FloodedParts> found(state.scratch);
-    flood_parts(ShellView(state, state.tasks.shell[task]), *found);
+    flood_parts(ShellView(state, state.tasks.working[task]), *found);
     if (found->pieces > 0) run_out_cracks(state, task);
 }
 
@@ -41,8 +41,8 @@ void wake_regions(Serial, Own<TaskOpened> opened, RunRows& rows, const Bodies& b
         }
         const uint64_t units = rows.quick_runs.layers[o.task] > 1 ? kUnitsQuickWakeTwo : kUnitsQuickWake;
         rows.tasks.units_owed[o.task] += rows.quick_runs.awake_count[o.task] * units;
-        const uint32_t first = o.task * kMostAwakePacks, count = rows.quick_runs.pack_count[o.task];
-        for (uint32_t row = first; row < first + count; row += kRowsPerChunk<AwakePacks>) parts.push({o.task, row});
+        const uint32_t first = o.task * kMostMarkedPacks, count = rows.hidden_runs.pack_count[o.task];
+        for (uint32_t row = first; row < first + count; row += kRowsPerChunk<MarkedPacks>) parts.push({o.task, row});
     }
 }
 

@@ -5,13 +5,12 @@
 namespace cullet {
 
 void cancel_run(RunRows& state, Row<Tasks> task) {
-    QuickRuns& runs = state.quick_runs;
     if (is_quick_task(state, task)) {
-        runs.springs[task] = {};
-        runs.pack_count[task] = 0;
-        state.awake_packs.clear_rows(task * kMostAwakePacks, kMostAwakePacks);
+        state.quick_runs.springs[task] = {};
+        state.hidden_runs.pack_count[task] = 0;
+        state.marked_packs.clear_rows(task * kMostMarkedPacks, kMostMarkedPacks);
     }
-    if (task < runs.size()) runs.cut_elements[task] = 0;
+    state.hidden_runs.cut_elements[task] = 0;
 }
 
 }  // namespace cullet

@@ -109,7 +109,7 @@ bool spread(Flood& flood, const CutOutSize& size, uint32_t* list) {
 void add_stiffness_room(const CutRows& rows, ShellRoom& room) {
     const ShellView& source = rows.source;
     const Elements& elements = source.state.elements;
-    const bool has_grain = material_traits(source.state, source.shells().material[source.row]).has_grain();
+    const bool has_grain = material_traits(source.state, source.structures().material[source.structure]).has_grain();
     uint32_t* const slots = rows.has_vertex.words + RowBits::words_of(source.vertex_count());
     std::fill_n(slots, rows.vertex_count, 0u);
     for (uint32_t e = 0; e < rows.element_count; ++e) {
@@ -212,19 +212,18 @@ void number_again(CutRows& rows, const ShellView& cut, uint32_t count) {
 
 }  // namespace
 
-bool is_for_cut_outs(const ShellRows& state, Row<Shells> shell, bool is_quick) {
-    const Shells& shells = state.shells;
-    if (shells.vertices[shell].count <= (is_quick ? kWholeCopyVertices : kWholeHiddenVertices)) return false;
-    return material_traits(state, shells.material[shell]).fracture != FractureKind::Large;
+bool is_for_cut_outs(const ShellRows& state, Row<Structures> shell, bool is_quick) {
+    if (state.shells.vertices[state.shell_of(shell)].count <= (is_quick ? kWholeCopyVertices : kWholeHiddenVertices))
+        return false;
+    return material_traits(state, state.structures.material[shell]).fracture != FractureKind::Large;
 }
 
 bool may_cut_out(const BodyRows& state, Row<Bodies> body) {
-    const Row<Shells> shell = state.bodies.shell[body];
-    const Shells& shells = state.shells;
-    if (!is_for_cut_outs(state, shell, is_quick_body(state, body)) || shells.users[shell] != 1) return false;
-    if (!CutRows::has_room(ShellView(const_cast<BodyRows&>(state), shell))) return false;
-    return spare_of(shells.vertices[shell]) >= kLeastSpare && spare_of(shells.elements[shell]) >= 2 * kLeastSpare &&
-           spare_of(shells.hinges[shell]) >= 3 * kLeastSpare;
+    const Row<Structures> shell = state.bodies.structure[body];
+    if (!is_for_cut_outs(state, shell, is_quick_body(state, body)) || state.structures.users[shell] != 1) return false;
+    const ShellView view(const_cast<BodyRows&>(state), shell);
+    return CutRows::has_room(view) && spare_of(view.vertices()) >= kLeastSpare &&
+           spare_of(view.elements()) >= 2 * kLeastSpare && spare_of(view.hinges()) >= 3 * kLeastSpare;
 }
 
 CutOutResult reserve_cut_out(RunRows& state, Row<Tasks> task, const CutOutSize& size, const char** full) {
@@ -241,7 +240,7 @@ CutOutResult reserve_cut_out(RunRows& state, Row<Tasks> task, const CutOutSize& 
     rows.count_hinges();
     const Range vertices = source.vertices(), elements = source.elements(), hinges = source.hinges();
     const bool is_quick = is_quick_task(state, task);
-    const Row<Materials> material = state.shells.material[source.row];
+    const Row<Materials> material = state.structures.material[source.structure];
     ShellRoom room = is_quick ? quick_room(state, material, rows.vertex_count, rows.element_count, rows.hinge_count)
                               : hidden_room(state, material, rows.vertex_count, rows.element_count, rows.hinge_count);
     // What is added must find room in the body's shell, too.
@@ -249,23 +248,24 @@ CutOutResult reserve_cut_out(RunRows& state, Row<Tasks> task, const CutOutSize& 
     room.elements = std::min(room.elements, rows.element_count + spare_of(elements));
     room.hinges = std::min(room.hinges, rows.hinge_count + spare_of(hinges));
     if (is_quick)
-        room.cells = state.shells.cells[source.row].count;
+        room.cells = state.structures.cells[source.structure].count;
     else
         add_stiffness_room(rows, room);
-    const Row<Shells> cut = make_shell_unclear(state, room, full);
+    const Row<Structures> cut = make_shell_unclear(state, room, full);
     if (!cut.exists()) return CutOutResult::NoRoom;
-    state.tasks.shell[task] = cut;
-    state.quick_runs.cut_elements[task] = rows.element_count;
-    state.shells.vertices[cut].count = rows.vertex_count;
-    state.shells.elements[cut].count = rows.element_count;
-    state.shells.hinges[cut].count = rows.hinge_count;
+    state.tasks.working[task] = cut;
+    state.hidden_runs.cut_elements[task] = rows.element_count;
+    const ShellView made(state, cut);
+    made.vertices().count = rows.vertex_count;
+    made.elements().count = rows.element_count;
+    made.hinges().count = rows.hinge_count;
     return CutOutResult::Reserved;
 }
 
 void list_cut_out(RunRows& state, Row<Tasks> task) {
-    const ShellView source(state, state.tasks.source[task]), cut(state, state.tasks.shell[task]);
+    const ShellView source(state, state.tasks.source[task]), cut(state, state.tasks.working[task]);
     CutRows rows(source);
-    number_again(rows, cut, state.quick_runs.cut_elements[task]);
+    number_again(rows, cut, state.hidden_runs.cut_elements[task]);
     rows.count_hinges();
     cut.vertices().count = rows.vertex_count;
     cut.elements().count = rows.element_count;
@@ -273,9 +273,9 @@ void list_cut_out(RunRows& state, Row<Tasks> task) {
 }
 
 void remember_cut_out(RunRows& state, Row<Tasks> task) {
-    const ShellView source(state, state.tasks.source[task]), cut(state, state.tasks.shell[task]);
+    const ShellView source(state, state.tasks.source[task]), cut(state, state.tasks.working[task]);
     CutRows rows(source);
-    number_again(rows, cut, state.quick_runs.cut_elements[task]);
+    number_again(rows, cut, state.hidden_runs.cut_elements[task]);
     CutMaps of_body(cut, rows.element_count);
     of_body.clear();
     rows.for_each_vertex([&](uint32_t v) { of_body.add_vertex(v); });
@@ -283,30 +283,22 @@ void remember_cut_out(RunRows& state, Row<Tasks> task) {
 }
 
 void fill_cut_out(RunRows& state, Row<Tasks> task) {
-    const ShellView source(state, state.tasks.source[task]), cut(state, state.tasks.shell[task]);
-    Shells& shells = state.shells;
+    const ShellView source(state, state.tasks.source[task]), cut(state, state.tasks.working[task]);
     const CutRows rows(source, cut);
-    const Range vertices = cut.vertices(), elements = cut.elements(), hinges = cut.hinges(),
-                packs = shells.packs[cut.row], blocks = shells.blocks[cut.row], links = shells.links[cut.row];
-    Range cells = shells.cells[cut.row];
-    cells.count = cells.capacity > 0 ? shells.cells[source.row].count : 0;  // the number says how stiffness is stored
-    shells.copy_rows(shells, source.row, cut.row, 1);
-    shells.users[cut.row] = 1;
-    shells.sorted_elements[cut.row] = 0;
-    cut.vertices() = vertices, cut.elements() = elements, cut.hinges() = hinges;
-    shells.cells[cut.row] = cells;
-    shells.packs[cut.row] = packs, shells.blocks[cut.row] = blocks, shells.links[cut.row] = links;
-    shells.points[cut.row] = {};
-    shells.dead_elements[cut.row] = 0;
-    state.cells.copy_rows(state.cells, shells.cells[source.row].first, cells.first, cells.count);
+    copy_values(state, state, source.structure, cut.structure);
+    Range& cells = cut.cells();
+    cells.count = cells.capacity > 0 ? source.cells().count : 0;  // the number says how stiffness is stored
+    state.shells.sorted_elements[cut.row] = state.shells.dead_elements[cut.row] = 0;
+    state.structures.live_elements[cut.structure] = cut.element_count();
+    state.cells.copy_rows(state.cells, source.cells().first, cells.first, cells.count);
     copy_vertices(rows, cut);
     const bool is_quick = is_quick_task(state, task);
     copy_elements(rows, cut, !is_quick);
     copy_hinges(rows, cut, !is_quick);
-    clear_pack_ends(state, cut.row);
+    clear_pack_ends(state, cut.structure);
     // What cracks add has packs of its own.
     cut.vertices().count = round_to_packs(rows.vertex_count);
-    forget_cracks(cut, shells.generation[source.row] > 0);
+    forget_cracks(cut, state.structures.generation[source.structure] > 0);
 }
 
 }  // namespace cullet

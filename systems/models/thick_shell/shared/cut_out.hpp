@@ -16,14 +16,14 @@ inline constexpr uint32_t kWholeHiddenVertices = 2 * kWholeCopyVertices;
 
 /// Bodies of so many vertices and this kind of fracture have a shell of their own for cut-outs: cracks of large
 /// fracture do not stay near the hit.
-bool is_for_cut_outs(const ShellRows& state, Row<Shells> shell, bool is_quick);
+bool is_for_cut_outs(const ShellRows& state, Row<Structures> shell, bool is_quick);
 
 /// Whether hits on the body may run on cut-outs: it is for them, has its shell to itself, and rows to spare for what
 /// cracks add.
 bool may_cut_out(const BodyRows& state, Row<Bodies> body);
 
 inline bool is_cut_out(const RunRows& state, uint32_t task) {
-    return task < state.quick_runs.size() && state.quick_runs.cut_elements[task] > 0;
+    return state.hidden_runs.cut_elements[task] > 0;
 }
 
 /// Rings round the patches, or what the hidden run may have: whole rings until there are so many vertices.

@@ -26,12 +26,12 @@ struct PutBack {
     PutBack(BodyRows& s, Row<Tasks> task)
         : state(s),
           source(s, s.tasks.source[task]),
-          cut(s, s.tasks.shell[task]),
+          cut(s, s.tasks.working[task]),
           rows(source),
           has_stiffness(!is_quick_task(s, task)),
-          of_body(cut, s.quick_runs.cut_elements[task]),
+          of_body(cut, s.hidden_runs.cut_elements[task]),
           is_beside_cut{reinterpret_cast<uint32_t*>(s.elements.other_slope.data() + cut.elements().first)} {
-        const uint32_t count = s.quick_runs.cut_elements[task];
+        const uint32_t count = s.hidden_runs.cut_elements[task];
         std::copy_n(s.elements.part.data() + cut.elements().first, count, rows.list);
         rows.element_count = count;
         rows.hinge_count = of_body.hinge_count;
@@ -94,7 +94,7 @@ bool is_start(const ShellView& shell, uint32_t v) {
 /// A fragment has forgotten its old starts (6.1).
 void tell_starts(const PutBack& p, Row<Bodies> body, Events<CrackStartedEvent>& cracks) {
     const BodyRows& state = p.state;
-    const bool is_fragment = state.shells.generation[p.source.row] > 0;
+    const bool is_fragment = state.structures.generation[p.source.structure] > 0;
     p.for_each_vertex([&](uint32_t v) {
         const bool is_old = !is_fragment && v < p.rows.vertex_count && is_start(p.source, p.vertex(v));
         if (!is_start(p.cut, v) || is_old) return;
@@ -124,7 +124,7 @@ bool has_same_crack(const PutBack& p, uint32_t v) {
 // two layers weigh all of their vertices, which rounds. A fragment has forgotten old cracks anywhere.
 void put_vertices(const PutBack& p) {
     Vertices& vertices = p.state.vertices;
-    const bool is_fragment = p.state.shells.generation[p.source.row] > 0;
+    const bool is_fragment = p.state.structures.generation[p.source.structure] > 0;
     p.for_each_vertex([&](uint32_t v) {
         const bool is_old = v < p.rows.vertex_count, may_differ = is_fragment || !is_old || p.is_beside_cut.has(v);
         const uint32_t from = p.cut.vertex(v), to = p.source.vertex(p.vertex(v));
@@ -183,7 +183,7 @@ Links links_now(const PutBack& p, uint32_t e, const Links* then) {
 /// Hulls of cells whose elements have other corners or borders are chosen anew at the next break.
 void mark_cell(const PutBack& p, uint32_t e, const Links& now, const Links* then) {
     Cells& cells = p.state.cells;
-    const uint32_t cell = p.state.shells.cells[p.source.row].first + p.state.elements.cell[p.cut.element(e)];
+    const uint32_t cell = p.state.structures.cells[p.source.structure].first + p.state.elements.cell[p.cut.element(e)];
     if (!then || now.corner != then->corner || now.edge_kind != then->edge_kind) cells.is_stale[cell] = 1;
     cells.element_count[cell] += !then;
 }
@@ -369,9 +369,10 @@ void put_rows(RunRows& state, Row<Tasks> task, const PutBack& p, const BodyMotio
                    hinges = p.cut.hinge_count() - p.rows.hinge_count;
     p.source.vertices().count += vertices;
     p.source.elements().count += elements;
+    state.structures.live_elements[p.source.structure] += elements;
     p.source.hinges().count += hinges;
-    if (state.tasks.crack_count[task] > 0) state.shells.has_cracks[p.source.row] = 1;
-    drop_stiffness(state, p.source.row);
+    if (state.tasks.crack_count[task] > 0) state.structures.has_cracks[p.source.structure] = 1;
+    drop_stiffness(state, p.source.structure);
 }
 
 /// At first each contact has at most a part of its own, and no cut edge makes more than one of another.
@@ -400,22 +401,22 @@ void put_back(BodyRows& state, Row<Tasks> task, const BodyMotion& motion, Events
         else
             put_rows(state, task, p, motion, cracks);
     }
-    const Row<Shells> source = tasks.source[task];
-    release_shell(state, tasks.shell[task]);
-    ++state.shells.users[source];
-    tasks.shell[task] = source;
-    state.quick_runs.cut_elements[task] = 0;
+    const Row<Structures> source = tasks.source[task];
+    release_shell(state, tasks.working[task]);
+    ++state.structures.users[source];
+    tasks.working[task] = source;
+    state.hidden_runs.cut_elements[task] = 0;
 }
 
 // Whoever counts here must find what fill_cut_out made: put_back writes by it.
 std::string trouble_of_cut_out(RunRows& state, uint32_t task) {
-    const Row<Shells> source_row = state.tasks.source[task], cut_row = state.tasks.shell[task];
+    const Row<Structures> source_row = state.tasks.source[task], cut_row = state.tasks.working[task];
     const ShellView source(state, source_row), cut(state, cut_row);
-    const uint32_t count = state.quick_runs.cut_elements[task];
-    const std::string where = "quick_runs.cut_elements[" + std::to_string(task) + "]";
+    const uint32_t count = state.hidden_runs.cut_elements[task];
+    const std::string where = "hidden_runs.cut_elements[" + std::to_string(task) + "]";
     if (count > cut.element_count() || count > source.element_count())
         return where + " is " + std::to_string(count) + ", more than its shells have";
-    if (state.shells.users[source_row] != 2) return where + ": the body shares its shell";
+    if (state.structures.users[source_row] != 2) return where + ": the body shares its shell";
     const uint32_t* listed = state.elements.part.data() + cut.elements().first;
     for (uint32_t e = 0; e < count; ++e)
         if (listed[e] >= source.element_count() || (e > 0 && listed[e] <= listed[e - 1]) ||
@@ -434,8 +435,8 @@ std::string trouble_of_cut_out(RunRows& state, uint32_t task) {
         !fits(cut.element_count(), count, source.elements()) ||
         !fits(cut.hinge_count(), rows.hinge_count, source.hinges()))
         return where + ": what cracks added finds no room in the body's shell";
-    const uint32_t cells = state.shells.cells[source_row].count;
-    if (state.shells.cells[cut_row].count != (is_quick_task(state, task) ? cells : 0))
+    const uint32_t cells = state.structures.cells[source_row].count;
+    if (state.structures.cells[cut_row].count != (is_quick_task(state, task) ? cells : 0))
         return where + ": its cells are not those of the body";
     for (uint32_t e = 0; e < cut.element_count(); ++e)
         if (state.elements.cell[cut.element(e)] >= cells) return where + ": an element is in none of the body's cells";

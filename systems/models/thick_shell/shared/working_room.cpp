@@ -33,7 +33,7 @@ ShellRoom room_with(uint32_t spare, uint32_t vertices, uint32_t elements, uint32
 }
 
 uint32_t spare_vertices(const ShellView& source) {
-    return spare_vertices(source.state, source.shells().material[source.row], source.vertex_count());
+    return spare_vertices(source.state, source.structures().material[source.structure], source.vertex_count());
 }
 
 }  // namespace
@@ -51,9 +51,9 @@ ShellRoom hidden_room(const MaterialRows& state, Row<Materials> material, uint32
 }
 
 ShellRoom quick_room(ShellView source) {
-    ShellRoom room = quick_room(source.state, source.shells().material[source.row], source.vertex_count(),
+    ShellRoom room = quick_room(source.state, source.structures().material[source.structure], source.vertex_count(),
                                 source.element_count(), source.hinge_count());
-    room.cells = source.shells().cells[source.row].count;
+    room.cells = source.cells().count;
     return room;
 }
 
@@ -66,12 +66,12 @@ ShellRoom working_room(ShellView source) {
     room.hinges = source.hinge_count() + 3 * spare;
     room.blocks = stiffness.blocks;
     room.links = stiffness.links;
-    room.cells = source.shells().cells[source.row].count;
+    room.cells = source.cells().count;
     return room;
 }
 
 bool may_find_room(const BodyRows& state, Row<Bodies> body) {
-    const ShellView source(const_cast<BodyRows&>(state), state.bodies.shell[body]);
+    const ShellView source(const_cast<BodyRows&>(state), state.bodies.structure[body]);
     const Shells& own = state.shells;
     const ShellRoom room = is_quick_body(state, body) ? quick_room(source) : working_room(source);
     const auto fits = [](const AnyTable& table, const Range& beside, uint32_t wanted) {
@@ -95,11 +95,12 @@ float run_seconds(const MaterialRows& state, uint32_t material, float area) {
 }
 
 void set_task_times(RunRows& state, Row<Tasks> task) {
-    const Row<Shells> source = state.tasks.source[task];
-    state.tasks.time_step[task] = state.shells.time_step[source];
-    state.tasks.damping_time[task] = 0.15f * state.tasks.time_step[task];
-    state.tasks.end_time[task] = run_seconds(state, state.shells.material[source], state.shells.area[source]);
-    state.tasks.quiet_time[task] = 0.4f * state.tasks.end_time[task];
+    const Row<Structures> source = state.tasks.source[task];
+    state.hidden_runs.time_step[task] = state.shells.time_step[state.shell_of(source)];
+    state.hidden_runs.damping_time[task] = 0.15f * state.hidden_runs.time_step[task];
+    state.hidden_runs.end_time[task] =
+        run_seconds(state, state.structures.material[source], state.structures.area[source]);
+    state.hidden_runs.quiet_time[task] = 0.4f * state.hidden_runs.end_time[task];
 }
 
 }  // namespace cullet

@@ -113,7 +113,8 @@ struct Sheet {
 uint32_t substeps_a_bend(const SpringView& view, double bending) {
     const Shells& shells = view.shell.shells();
     const uint32_t row = view.shell.row;
-    const double sheet_mass = view.state.materials.density[shells.material[row]] * shells.thickness[row];
+    const double sheet_mass =
+        view.state.materials.density[view.state.structures.material[view.shell.structure]] * shells.thickness[row];
     const double edge = shells.mean_edge[row], step = view.own().time_step[view.row];
     const double most = kPeriodShare * edge * edge * std::sqrt(sheet_mass / bending) / step;
     uint32_t substeps = kSubstepsAFlow;
@@ -123,7 +124,7 @@ uint32_t substeps_a_bend(const SpringView& view, double bending) {
 
 double bending_of(const SpringView& view) {
     const MaterialTraits& traits = view.state.material_traits;
-    const uint32_t material = view.state.shells.material[view.shell.row];
+    const uint32_t material = view.state.structures.material[view.shell.structure];
     return material < traits.size() ? traits.bending_stiffness[material] : 0;
 }
 

@@ -1,7 +1,5 @@
 #include "systems/models/thick_shell/soft/check_soft.hpp"
 
-#include <vector>
-
 #include "systems/models/thick_shell/soft/soft_body.hpp"
 
 namespace cullet {
@@ -22,16 +20,25 @@ std::string trouble_of_flags(const SoftBodies& soft, uint32_t row) {
     return {};
 }
 
-/// Alive, and with springs of its own, which no row before has.
-bool is_soft_body(const SoftRows& s, uint32_t body, std::vector<uint8_t>& has_row) {
+/// Alive, and with springs of its own and this row.
+bool is_soft_body(const SoftRows& s, uint32_t row) {
+    const uint32_t body = s.soft_bodies.body[row];
     if (body >= s.bodies.size() || static_cast<BodyKind>(s.bodies.kind[body]) == BodyKind::Free) return false;
-    const Row<Shells> shell = s.bodies.shell[body];
-    return shell.exists() && find_springs(s, shell).exists() && !has_row[body]++;
+    const Row<Structures> shell = s.bodies.structure[body];
+    return shell.exists() && springs_of(s, shell).exists() && s.bodies.soft[body] == row;
+}
+
+std::string trouble_of_body(const SoftRows& s, uint32_t body) {
+    const SoftBodies& soft = s.soft_bodies;
+    const Row<SoftBodies> row = s.bodies.soft[body];
+    if (static_cast<BodyKind>(s.bodies.kind[body]) == BodyKind::Free || !row.exists()) return {};
+    if (row < soft.size() && soft.is_used[row] && soft.body[row] == body) return {};
+    return "bodies.soft[" + std::to_string(body) + "] is " + std::to_string(row.index) + ", which is not of this body";
 }
 
 std::string trouble_of_numbers(const SoftRows& s, uint32_t row) {
     const SoftBodies& soft = s.soft_bodies;
-    const Range vertices = s.shells.vertices[s.bodies.shell[soft.body[row]]];
+    const Range vertices = s.shells.vertices[s.shell_of(s.bodies.structure[soft.body[row]])];
     if (first_contact_row(vertices.first + vertices.capacity) > s.soft_contacts.size())
         return place(soft, "body", row) + " has no rows for contacts";
     if (soft.substeps[row] < 1 || soft.substeps[row] > kMostSubsteps)
@@ -50,14 +57,13 @@ Result<void> check_soft(const SoftRows& s, const std::string& name, const std::s
     std::string trouble;
     if (s.soft_strikers.size() != kMostStrikers * soft.size())
         trouble = "soft_strikers and soft_bodies do not fit each other in rows";
-    std::vector<uint8_t> has_row(s.bodies.size(), 0);
+    for (uint32_t b = 0; b < s.bodies.size() && trouble.empty(); ++b) trouble = trouble_of_body(s, b);
     for (uint32_t row = 0; row < soft.size() && trouble.empty(); ++row) {
         trouble = trouble_of_flags(soft, row);
         if (!soft.is_used[row] || !trouble.empty()) continue;
-        trouble = is_soft_body(s, soft.body[row], has_row)
-                      ? trouble_of_numbers(s, row)
-                      : place(soft, "body", row) + " is " + std::to_string(soft.body[row].index) +
-                            ", no body with springs of its own";
+        trouble = is_soft_body(s, row) ? trouble_of_numbers(s, row)
+                                       : place(soft, "body", row) + " is " + std::to_string(soft.body[row].index) +
+                                             ", no body with springs of its own";
     }
     if (!trouble.empty()) return Error{name + ": " + trouble + ". " + advice};
     return {};

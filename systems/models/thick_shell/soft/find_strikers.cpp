@@ -198,7 +198,7 @@ void share_strikers(SoftRows& state) {
         if (!striker.yields) return;
         uint32_t shares = 0;
         for_each([&](const SoftStriker& other) { shares += other.body == striker.body; });
-        const Row<SoftBodies> own = find_soft(soft, Row<Bodies>(striker.body));
+        const Row<SoftBodies> own = state.bodies.soft[striker.body];
         if (own.exists() && soft.is_awake[own]) ++shares;  // its own run
         striker.shares = shares;
     });

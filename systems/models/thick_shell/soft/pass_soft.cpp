@@ -65,7 +65,7 @@ void push_points(SoftRows& state, Row<SoftBodies> s, const Change& change) {
 void push_striker(SoftRows& state, RigidWorld& rigid, const Change& change, const Step& step) {
     SoftStriker& striker = *change.first;
     const Row<Bodies> body(striker.body);
-    const Row<SoftBodies> soft = find_soft(state.soft_bodies, body);
+    const Row<SoftBodies> soft = state.bodies.soft[body];
     if (soft.exists() && state.soft_bodies.is_awake[soft]) return push_points(state, soft, change);
     const Vec3d now = striker.falls ? (1.0 / double{step.dt}) * change.way : change.velocity;
     const Motion motion = rigid.motion(body);
@@ -153,7 +153,7 @@ void show_soft(Serial, SoftRows& rows, Events<ShellChanged>& changed, Events<Ref
         if (rows.soft_bodies.lacks_room[s]) refused.push(refused_event(rows.bodies, body, kCrackRoom));
         const auto is_own = [&](const ShellChanged& c) { return c.body == body; };
         if (std::any_of(changed.begin(), changed.end(), is_own)) continue;
-        if (rows.shells.has_cracks[rows.bodies.shell[body]] && !take_view(rows, body))
+        if (rows.structures.has_cracks[rows.bodies.structure[body]] && !take_view(rows, body))
             refused.push(refused_event(rows.bodies, body, "limits.view_vertices"));
         else
             changed.push({body});

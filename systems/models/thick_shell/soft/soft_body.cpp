@@ -28,8 +28,8 @@ uint32_t row_for(SoftRows& state) {
 }
 
 /// Rows of contacts for every vertex of the shell.
-void make_contact_rows(SoftRows& state, Row<Shells> shell) {
-    const Range vertices = state.shells.vertices[shell];
+void make_contact_rows(SoftRows& state, Row<Structures> shell) {
+    const Range vertices = state.shells.vertices[state.shell_of(shell)];
     const uint32_t end = first_contact_row(vertices.first + vertices.capacity + kLanes - 1);
     if (end > state.soft_contacts.size()) state.soft_contacts.append(end - state.soft_contacts.size());
 }
@@ -53,9 +53,9 @@ bool soft_material(const MaterialRows& state, Row<Materials> row, SoftMaterial& 
     return true;
 }
 
-Row<Shells> copy_soft_shell(ShellRows& state, Row<Shells> source, const char** full) {
+Row<Structures> copy_soft_shell(ShellRows& state, Row<Structures> source, const char** full) {
     ShellRoom room = room_of(state, source);
-    const uint32_t count = state.shells.vertices[source].count;
+    const uint32_t count = state.shells.vertices[state.shell_of(source)].count;
     room.vertices = (count + std::max(64u, count / 2) + kLanes - 1) / kLanes * kLanes;
     room.blocks = room.links = 0;
     room.points = std::max(room.points, most_points(room.cells, room.elements));
@@ -64,9 +64,9 @@ Row<Shells> copy_soft_shell(ShellRows& state, Row<Shells> source, const char** f
 
 Result<Row<SoftBodies>> make_soft(SoftRows& state, Row<Bodies> body, const LayerSettings& layers, float step_seconds,
                                   uint64_t units) {
-    const Row<Shells> shell = state.bodies.shell[body];
+    const Row<Structures> shell = state.bodies.structure[body];
     SoftMaterial material;
-    if (!soft_material(state, state.shells.material[shell], material))
+    if (!soft_material(state, state.structures.material[shell], material))
         return Error{"a brittle body has no springs; please report this."};
     SpringSettings settings;
     settings.layout = spring_layout(!material.is_sheet, layers.layout);
@@ -98,6 +98,7 @@ Result<Row<SoftBodies>> make_soft(SoftRows& state, Row<Bodies> body, const Layer
     soft.clear_rows(row, 1);
     soft.is_used[row] = 1;
     soft.body[row] = body;
+    state.bodies.soft[body] = Row<SoftBodies>(row);
     soft.is_elastic[row] = material.is_elastic;
     soft.is_called[row] = material.is_elastic && state.bodies.has_pins[body];
     soft.substeps[row] = substeps;
@@ -118,10 +119,11 @@ Result<Row<SoftBodies>> make_soft(SoftRows& state, Row<Bodies> body, const Layer
 void inherit_soft(SoftRows& state, Row<SoftBodies> parent, Row<Bodies> body) {
     const uint32_t row = row_for(state);
     if (row == kNone) return;
-    make_contact_rows(state, state.bodies.shell[body]);
+    make_contact_rows(state, state.bodies.structure[body]);
     SoftBodies& soft = state.soft_bodies;
     soft.copy_rows(soft, parent, row, 1);
     soft.body[row] = body;
+    state.bodies.soft[body] = Row<SoftBodies>(row);
     soft.is_awake[row] = soft.is_torn[row] = 0;
     soft.is_called[row] = 1;
     soft.partner_count[row] = soft.tear_count[row] = 0;
@@ -130,12 +132,13 @@ void inherit_soft(SoftRows& state, Row<SoftBodies> parent, Row<Bodies> body) {
 }
 
 void release_soft(SoftRows& state, Row<Bodies> body) {
-    const Row<SoftBodies> soft = find_soft(state.soft_bodies, body);
+    Row<SoftBodies>& soft = state.bodies.soft[body];
     if (soft.exists()) state.soft_bodies.clear_rows(soft, 1);
+    soft = {};
 }
 
 Row<ShellSprings> springs_of(const SoftRows& state, Row<SoftBodies> soft) {
-    return find_springs(state, state.bodies.shell[state.soft_bodies.body[soft]]);
+    return springs_of(state, state.bodies.structure[state.soft_bodies.body[soft]]);
 }
 
 }  // namespace cullet

@@ -24,7 +24,7 @@ struct SoftMaterial {
 bool soft_material(const MaterialRows& state, Row<Materials> material, SoftMaterial& out);
 
 /// A copy of the shell with room to tear; nothing else has it. A row that does not exist: `full` names the limit.
-Row<Shells> copy_soft_shell(ShellRows& state, Row<Shells> source, const char** full);
+Row<Structures> copy_soft_shell(ShellRows& state, Row<Structures> source, const char** full);
 
 /// The body's shell, which it does not share, gets springs, and the body a row. One layer where the material has its
 /// own bending stiffness (cloth), else a sandwich. A frame's step is cut into as many substeps as the true modulus

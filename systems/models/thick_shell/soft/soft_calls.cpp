@@ -7,7 +7,7 @@
 namespace cullet {
 
 std::optional<MechanicalEnergy> soft_energy(SoftRows& state, Row<Bodies> body, Vec3 gravity) {
-    const Row<SoftBodies> soft = find_soft(state.soft_bodies, body);
+    const Row<SoftBodies> soft = state.bodies.soft[body];
     if (!soft.exists() || !state.soft_bodies.is_awake[soft]) return {};
     const SpringView view(state, springs_of(state, soft));
     const SpringMotion motion = motion_of(view);
@@ -18,14 +18,14 @@ std::optional<MechanicalEnergy> soft_energy(SoftRows& state, Row<Bodies> body, V
 }
 
 bool push_soft_body(SoftRows& state, RigidWorld& rigid, Row<Bodies> body, const PointPush& push) {
-    const Row<SoftBodies> soft = find_soft(state.soft_bodies, body);
+    const Row<SoftBodies> soft = state.bodies.soft[body];
     if (!soft.exists()) return false;
     push_soft(state, rigid, soft, push.point, push.impulse, push.radius, push.fastest);
     return true;
 }
 
 bool explode_soft_body(SoftRows& state, RigidWorld& rigid, Row<Bodies> body, const Explosion& explosion) {
-    const Row<SoftBodies> soft = find_soft(state.soft_bodies, body);
+    const Row<SoftBodies> soft = state.bodies.soft[body];
     if (!soft.exists()) return false;
     if (!state.soft_bodies.is_awake[soft]) wake_soft(state, rigid, soft);
     state.soft_bodies.quiet_seconds[soft] = 0;

@@ -50,7 +50,7 @@ void copy_lengths(ShellRows& s, const SpringView& parent, uint32_t e, const Spri
     if (was_along != is_along) std::swap(layers.cross_length[layer][0], layers.cross_length[layer][1]);
 }
 
-bool give_piece_springs(ShellRows& s, const SpringView& parent, const FragmentPart& part, Row<Shells> shell) {
+bool give_piece_springs(ShellRows& s, const SpringView& parent, const FragmentPart& part, Row<Structures> shell) {
     const ShellSprings& own = s.shell_springs;
     SpringSettings settings;
     settings.layout = parent.layout();
@@ -119,7 +119,7 @@ void give_pieces_springs(SoftRows& s, Row<SoftBodies> torn, Row<Bodies> body, st
     const SpringView parent(s, springs_of(s, torn));
     for (const uint32_t p : order) {
         if (!child[p].exists() || child[p] == body) continue;
-        if (!give_piece_springs(s, parent, parts[p], s.bodies.shell[child[p]])) continue;
+        if (!give_piece_springs(s, parent, parts[p], s.bodies.structure[child[p]])) continue;
         inherit_soft(s, torn, child[p]);
     }
 }

@@ -16,7 +16,7 @@ struct Cost {
 Cost cost_of(const SoftRows& state, uint32_t s) {
     const Row<SoftBodies> row(s);
     const Row<ShellSprings> springs = springs_of(state, row);
-    const uint64_t vertices = state.shells.vertices[state.shell_springs.shell[springs]].count;
+    const uint64_t vertices = state.shells.vertices[state.shell_of(state.shell_springs.structure[springs])].count;
     return {vertices * kUnitsSoftFrame, soft_units_a_substep(state.shell_springs, springs)};
 }
 

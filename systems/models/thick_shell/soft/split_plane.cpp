@@ -113,7 +113,7 @@ PlaneSplit split_plane(const SpringView& view, uint32_t vertex, Vec3 normal) {
         s.vertices.crack[shell.vertex(v)] = static_cast<uint8_t>(CrackState::Cracked);
         touch(v);
     }
-    shell.shells().has_cracks[shell.row] = 1;
+    shell.structures().has_cracks[shell.structure] = 1;
     return split;
 }
 

@@ -16,11 +16,11 @@ RigidMotion motion_of_body(const Bodies& bodies, Row<Bodies> body) {
 }
 
 // All cells anew: every one has another shape. Elements of pieces that left are dead, so they are linked as in a break.
-void choose_hulls(ShellRows& state, Row<Shells> row) {
+void choose_hulls(ShellRows& state, Row<Structures> row) {
     const ShellView shell(state, row);
-    const Range cells = state.shells.cells[row];
+    const Range cells = state.structures.cells[row];
     for (uint32_t c = cells.first; c < cells.first + cells.count; ++c) state.cells.is_changed[c] = 1;
-    copy_rest_hulls(shell, state.shells.points[row], shell);
+    copy_rest_hulls(shell, state.structures.points[row], shell);
     for (uint32_t c = 0; c < cells.count; ++c) {
         choose_hull(shell, c);
         state.cells.shape[cells.first + c] = kNone;
@@ -47,10 +47,11 @@ void wake_soft(SoftRows& state, RigidWorld& rigid, Row<SoftBodies> s) {
 void reshape_soft(SoftRows& state, RigidWorld& rigid, Row<SoftBodies> s, Arena& arena) {
     Bodies& bodies = state.bodies;
     const Row<Bodies> body = state.soft_bodies.body[s];
-    const Row<Shells> row = bodies.shell[body];
+    const Row<Structures> row = bodies.structure[body];
     measure_shell(ShellView(state, row));
     choose_hulls(state, row);
-    take_mass_properties(state, body);
+    take_mass_properties(state.bodies, state.structures, body,
+                         radius_of(ShellView(state, state.bodies.structure[body])));
     rigid.set_shape(body, bodies.mass[body], bodies.centre[body], bodies.inertia[body],
                     convex_pieces(state, row, arena));
 }
@@ -110,7 +111,7 @@ void push_soft(SoftRows& state, RigidWorld& rigid, Row<SoftBodies> s, Vec3 point
 }
 
 void follow_body(SoftRows& state, Row<Bodies> body) {
-    const Row<SoftBodies> s = find_soft(state.soft_bodies, body);
+    const Row<SoftBodies> s = state.bodies.soft[body];
     if (!s.exists() || !state.soft_bodies.is_awake[s]) return;
     state.soft_bodies.quiet_seconds[s] = 0;
     start_springs(SpringView(state, springs_of(state, s)), motion_of_body(state.bodies, body));

@@ -150,14 +150,14 @@ struct SpringChecker {
 
 Result<void> check_springs(const ShellRows& state, const std::string& name, const std::string& advice) {
     const ShellSprings& own = state.shell_springs;
-    std::vector<uint8_t> has_springs(state.shells.size(), 0);
+    std::vector<uint8_t> has_springs(state.structures.size(), 0);
     const auto refuse = [&](const std::string& what) { return Error{name + ": " + what + ". " + advice}; };
     for (uint32_t row = 0; row < own.size(); ++row) {
-        const std::string place = "shell_springs.shell[" + std::to_string(row) + "]";
+        const std::string place = "shell_springs.structure[" + std::to_string(row) + "]";
         if (own.is_used[row] > 1) return refuse("shell_springs.is_used[" + std::to_string(row) + "] is not 0 or 1");
         if (!own.is_used[row]) continue;
-        const uint32_t shell = own.shell[row];
-        if (shell >= state.shells.size() || state.shells.users[shell] == 0 || has_springs[shell]++)
+        const uint32_t shell = own.structure[row];
+        if (shell >= state.structures.size() || state.structures.users[shell] == 0 || has_springs[shell]++)
             return refuse(place + " is " + std::to_string(shell) + ", which is no shell or has other springs, too");
         if (!state.shell_springs.pool.is_taken(row, 1)) return refuse(place + " is in a free row");
         const SpringView view(const_cast<ShellRows&>(state), Row<ShellSprings>(row));  // nothing is changed

@@ -76,7 +76,7 @@ struct EdgeMaterial {
 };
 EdgeMaterial material_of(const SpringView& view) {
     const double e = view.own().young_modulus[view.row];
-    const double nu = view.state.materials.poisson_ratio[view.shell.shells().material[view.shell.row]];
+    const double nu = view.state.materials.poisson_ratio[view.shell.structures().material[view.shell.structure]];
     return {e, e / (2 * (1 + nu))};
 }
 

@@ -16,7 +16,7 @@ constexpr float kMostDampingRatio = 0.3f;  // section 8 of the note
 constexpr float kLongestGiven = 1e6f, kStiffestGiven = 1e12f;  // m, N/m
 constexpr uint32_t kSpareSlots = 1;  // a pack: a split gives a vertex at most one neighbour more
 
-Result<void> check(const ShellRows& state, Row<Shells> shell, const SpringSettings& s) {
+Result<void> check(const ShellRows& state, Row<Structures> shell, const SpringSettings& s) {
     const auto refuse = [](const char* what, float value, const char* range) {
         return Error{std::string("springs: ") + what + " is " + std::to_string(value) + ", not " + range +
                      ". Give a value in that range."};
@@ -34,16 +34,16 @@ Result<void> check(const ShellRows& state, Row<Shells> shell, const SpringSettin
     if (!is_in(s.time_step, 0, 1)) return refuse("time_step", s.time_step, "0 to 1 s");
     if (static_cast<uint8_t>(s.layout) > static_cast<uint8_t>(SpringLayout::Crossed))
         return refuse("layout", static_cast<float>(s.layout), "0 to 2");
-    if (find_springs(state, shell).exists())
+    if (springs_of(state, shell).exists())
         return Error{"springs: shell " + std::to_string(shell.index) + " has springs already. Release them first."};
     return {};
 }
 
-void keep_settings(ShellRows& state, Row<ShellSprings> row, Row<Shells> shell, const SpringSettings& s) {
+void keep_settings(ShellRows& state, Row<ShellSprings> row, Row<Structures> shell, const SpringSettings& s) {
     ShellSprings& own = state.shell_springs;
     own.layout[row] = static_cast<uint8_t>(s.layout);
     own.young_modulus[row] =
-        s.young_modulus > 0 ? s.young_modulus : state.materials.young_modulus[state.shells.material[shell]];
+        s.young_modulus > 0 ? s.young_modulus : state.materials.young_modulus[state.structures.material[shell]];
     own.damping_ratio[row] = s.damping_ratio;
     own.length_factor[row] = s.layout == SpringLayout::OneLayer ? 1 : length_factor_of(state, shell, s.length_factor);
     own.area_energy[row] = s.area_energy;
@@ -143,12 +143,13 @@ Error no_room(const char* limit) {
 
 }  // namespace
 
-float length_factor_of(const ShellRows& state, Row<Shells> shell, float wanted) {
-    const float h = state.shells.thickness[shell], natural = h > 0 ? state.shells.mean_edge[shell] / h : 1;
+float length_factor_of(const ShellRows& state, Row<Structures> shell, float wanted) {
+    const float h = state.shells.thickness[state.shell_of(shell)],
+                natural = h > 0 ? state.shells.mean_edge[state.shell_of(shell)] / h : 1;
     return std::clamp(wanted > 0 ? wanted : natural, kLeastLengthFactor, kMostLengthFactor);
 }
 
-Result<Row<ShellSprings>> give_springs(ShellRows& state, Row<Shells> shell_row, const SpringSettings& settings) {
+Result<Row<ShellSprings>> give_springs(ShellRows& state, Row<Structures> shell_row, const SpringSettings& settings) {
     if (const Result<void> valid = check(state, shell_row, settings); !valid) return Error{valid.error()};
     const ShellView shell(state, shell_row);
     SpringRoom room;
@@ -180,7 +181,7 @@ Result<Row<ShellSprings>> give_springs(ShellRows& state, Row<Shells> shell_row, 
     return row;
 }
 
-Result<Row<ShellSprings>> give_springs(ShellRows& state, Row<Shells> shell_row, std::span<const GivenSpring> given,
+Result<Row<ShellSprings>> give_springs(ShellRows& state, Row<Structures> shell_row, std::span<const GivenSpring> given,
                                        const SpringSettings& settings) {
     if (const Result<void> valid = check(state, shell_row, settings); !valid) return Error{valid.error()};
     const ShellView shell(state, shell_row);

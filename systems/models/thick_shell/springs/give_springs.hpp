@@ -11,7 +11,7 @@ namespace cullet {
 inline constexpr float kLeastLengthFactor = 0.577350269f, kMostLengthFactor = 5;
 
 /// gamma as it is taken: `wanted`, or the mean edge over the thickness where that is 0; within the bounds.
-float length_factor_of(const ShellRows& state, Row<Shells> shell, float wanted);
+float length_factor_of(const ShellRows& state, Row<Structures> shell, float wanted);
 
 struct SpringSettings {
     SpringLayout layout = SpringLayout::OneLayer;
@@ -29,7 +29,7 @@ struct SpringSettings {
 /// L0^2, h the mean depth of both ends; two layers share h and are tied as `layout` says. Masses are those of B1.
 /// Nothing moves yet: start_springs comes next. Refused with a sentence: settings out of range, a shell that has
 /// springs, no room (names the limit). Allocates nothing but rows. O(elements).
-Result<Row<ShellSprings>> give_springs(ShellRows& state, Row<Shells> shell, const SpringSettings& settings);
+Result<Row<ShellSprings>> give_springs(ShellRows& state, Row<Structures> shell, const SpringSettings& settings);
 
 /// A spring given by hand, between two vertices of a shell.
 struct GivenSpring {
@@ -40,7 +40,7 @@ struct GivenSpring {
 /// The same for springs that no element has: chains, nets, joints. One layer; masses are the vertices' own. For setting
 /// up: allocates. Refused besides: an end that is no vertex, a spring from a vertex to itself, more than 65 at one
 /// vertex.
-Result<Row<ShellSprings>> give_springs(ShellRows& state, Row<Shells> shell, std::span<const GivenSpring> springs,
+Result<Row<ShellSprings>> give_springs(ShellRows& state, Row<Structures> shell, std::span<const GivenSpring> springs,
                                        const SpringSettings& settings);
 
 /// 0.6 * 2 / omega_max by Gershgorin's bound, omega_max^2 <= max over points of (2 / m) sum of k (B6): s. A mid spring

@@ -27,7 +27,7 @@ struct SpringWorld {
     Range rows_of(uint32_t body) const {
         static_assert(std::is_same_v<T, SpringPacks>);
         Range packs = state.shell_springs.packs[body];
-        const uint32_t vertices = state.shells.vertices[state.shell_springs.shell[body]].count;
+        const uint32_t vertices = state.shells.vertices[state.shell_of(state.shell_springs.structure[body])].count;
         packs.count = std::min(packs.count, (vertices + kLanes - 1) / kLanes);
         return packs;
     }

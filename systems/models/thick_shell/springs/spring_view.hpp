@@ -13,7 +13,7 @@ struct SpringView {
     Row<ShellSprings> row;
     ShellView shell;
 
-    SpringView(ShellRows& s, Row<ShellSprings> r) : state(s), row(r), shell(s, s.shell_springs.shell[r]) {}
+    SpringView(ShellRows& s, Row<ShellSprings> r) : state(s), row(r), shell(s, s.shell_springs.structure[r]) {}
     ShellSprings& own() const { return state.shell_springs; }
     SpringLayout layout() const { return static_cast<SpringLayout>(own().layout[row]); }
     bool has_layers() const { return layout() != SpringLayout::OneLayer; }

@@ -13,8 +13,8 @@ struct PlaneStress {
     bool has_grain = false;
     GrainModuli grain{};
 };
-inline PlaneStress plane_stress(const ShellRows& state, Row<Shells> shell) {
-    const Row<Materials> material = state.shells.material[shell];
+inline PlaneStress plane_stress(const ShellRows& state, Row<Structures> shell) {
+    const Row<Materials> material = state.structures.material[shell];
     const double e = state.materials.young_modulus[material], nu = state.materials.poisson_ratio[material];
     const TraitsRow traits = material_traits(state, material);
     if (traits.has_grain())

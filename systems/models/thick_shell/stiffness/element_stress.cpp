@@ -204,7 +204,7 @@ StressTables stress_tables(const ShellView& shell, uint32_t side, float start_li
     ShellRows& state = shell.state;
     const TriangleSprings& springs = state.triangle_springs;
     const uint32_t e = shell.elements().first;
-    const PlaneStress c = plane_stress(state, shell.row);
+    const PlaneStress c = plane_stress(state, shell.structure);
     StressTables t{};
     t.probe = state.vertices.probe.data(static_cast<int>(side & 1)) + shell.vertices().first;
     t.corner = state.elements.corner.data() + e;
@@ -308,7 +308,7 @@ void strain_elements(ShellView shell, uint32_t side, uint32_t first, uint32_t co
 }
 void stress_elements(ShellView shell, uint32_t first, uint32_t count, float start_limit) {
     HWY_DYNAMIC_DISPATCH(stress_range)(stress_tables(shell, 0, start_limit), first, count);
-    const PlaneStress stress = plane_stress(shell.state, shell.row);
+    const PlaneStress stress = plane_stress(shell.state, shell.structure);
     if (stress.has_grain) follow_grain(shell, stress, first, count, start_limit);
 }
 void check_stress(ShellView shell, uint32_t side) {
@@ -319,7 +319,7 @@ void check_stress(ShellView shell, uint32_t side) {
 // The kernel runs with a grain, too: it writes the slopes that the bending energy is made of.
 double membrane_energy(ShellView shell, uint32_t side, uint32_t first, uint32_t count) {
     const double energy = HWY_DYNAMIC_DISPATCH(energy_range)(stress_tables(shell, side), first, count);
-    const PlaneStress stress = plane_stress(shell.state, shell.row);
+    const PlaneStress stress = plane_stress(shell.state, shell.structure);
     return stress.has_grain ? grained_membrane_energy(shell, stress, side, first, count) : energy;
 }
 

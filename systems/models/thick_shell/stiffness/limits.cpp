@@ -101,7 +101,7 @@ void limit_vertex(const ShellView& shell, const PlaneStress& stress, uint32_t ve
 
 void measure_limits(ShellView shell) {
     const Vertices& vertices = shell.state.vertices;
-    const PlaneStress stress = plane_stress(shell.state, shell.row);
+    const PlaneStress stress = plane_stress(shell.state, shell.structure);
     const auto pinned = [&](uint32_t v) { return vertices.is_pinned[shell.vertex(v)] != 0; };
     Ratios triangle, hinge, vertex;
     for (uint32_t e = 0; e < shell.element_count(); ++e) {
@@ -127,7 +127,7 @@ void measure_limits(ShellView shell) {
 }
 
 void limit_stiffness(ShellView shell, std::span<const uint32_t> vertices, VertexList& rows) {
-    const PlaneStress stress = plane_stress(shell.state, shell.row);
+    const PlaneStress stress = plane_stress(shell.state, shell.structure);
     for (const uint32_t v : vertices) limit_vertex(shell, stress, v);
     Ring ring;
     RingHinges hinges;
@@ -146,7 +146,7 @@ void limit_stiffness(ShellView shell, std::span<const uint32_t> vertices, Vertex
 }
 
 void limit_all_stiffness(ShellView shell) {
-    const PlaneStress stress = plane_stress(shell.state, shell.row);
+    const PlaneStress stress = plane_stress(shell.state, shell.structure);
     for (uint32_t v = 0; v < shell.vertex_count(); ++v) limit_vertex(shell, stress, v);
     for (uint32_t e = 0; e < shell.element_count(); ++e)
         if (!(shell.state.elements.flags[shell.element(e)] & kDead)) limit_element(shell, stress, e);

@@ -162,7 +162,7 @@ struct CellWork {
 
 bool lay_pair_cells(ShellView shell) {
     const uint32_t packs = shell.shells().packs[shell.row].count;
-    const PlaneStress stress = plane_stress(shell.state, shell.row);
+    const PlaneStress stress = plane_stress(shell.state, shell.structure);
     for (uint32_t first = 0; first < packs; first += kPairCellPacks) {
         const uint32_t end = std::min(first + kPairCellPacks, packs), first_vertex = first * kLanes;
         const Scratch<CellWork> work(shell.state.scratch);

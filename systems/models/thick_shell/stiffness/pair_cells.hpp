@@ -27,8 +27,8 @@ inline constexpr uint32_t kPairedCells = 1050;
 void set_paired_cells(uint32_t cells);
 uint32_t paired_cells();
 
-inline bool stores_pairs_once(const Shells& shells, Row<Shells> shell) {
-    return shells.cells[shell].count >= paired_cells();
+inline bool stores_pairs_once(const Structures& structures, Row<Structures> shell) {
+    return structures.cells[shell].count >= paired_cells();
 }
 inline bool are_in_one_pair_cell(uint32_t vertex, uint32_t other) {
     return vertex / kPairCellVertices == other / kPairCellVertices;

@@ -59,8 +59,8 @@ bool rebuild_grained_rows(ShellView shell, Touched& touched) {
     return is_local && rebuild_rows(shell, {wide.vertex, wide.count});
 }
 
-bool can_rename(const Shells& shells, Row<Shells> shell) {
-    return !stores_pairs_once(shells, shell);
+bool can_rename(const Structures& structures, Row<Structures> shell) {
+    return !stores_pairs_once(structures, shell);
 }
 
 }  // namespace
@@ -74,7 +74,7 @@ bool refresh_stiffness(ShellView shell, Touched& touched) {
     if (touched.weighed.count > 0 && shell.shells().packs[shell.row].count > 0) {
         limit_stiffness(shell, touched.weighed.span(), touched.rows);
         touched.rows.sort();  // in which order packs move to the spare end must not depend on what was cut first
-        const bool has_grain = material_traits(shell.state, shell.shells().material[shell.row]).has_grain();
+        const bool has_grain = material_traits(shell.state, shell.structures().material[shell.structure]).has_grain();
         is_whole = has_grain ? rebuild_grained_rows(shell, touched)
                              : !touched.rows.has_overflowed && rebuild_rows(shell, touched.rows.span());
         // Packs that moved to the spare end leave holes behind: when there is no end left, all are laid anew.

@@ -94,13 +94,13 @@ uint32_t assemble_hinge(ShellView shell, uint32_t hinge) {
     for (uint32_t i = 0; i < 4; ++i)
         for (int k = 0; k < 3; ++k)
             hinges.gradient[row][3 * i + static_cast<uint32_t>(k)] = static_cast<float>(gradient[i][k]);
-    const PlaneStress stress = plane_stress(shell.state, shell.row);
+    const PlaneStress stress = plane_stress(shell.state, shell.structure);
     if (stress.has_grain) {
         hinges.stiffness[row] = static_cast<float>(grained_hinge(shell, stress.grain, v[0], v[1], v[2]) +
                                                    grained_hinge(shell, stress.grain, v[0], v[1], v[3]));
         return hinge;
     }
-    const Row<Materials> material = shell.shells().material[shell.row];
+    const Row<Materials> material = shell.structures().material[shell.structure];
     const double e = shell.state.materials.young_modulus[material], nu = shell.state.materials.poisson_ratio[material];
     const double h = 0.5 * (mean_depth(shell, v[0], v[1], v[2]) + mean_depth(shell, v[0], v[1], v[3]));
     const double bending = e * h * h * h / (12 * (1 - nu * nu));

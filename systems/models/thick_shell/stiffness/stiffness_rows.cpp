@@ -15,7 +15,7 @@ constexpr uint32_t kSpareSlots = 2;
 constexpr uint32_t kNewPackSlots = 8;  // a pack of new vertices fills lane by lane
 
 bool has_grain(const ShellView& shell) {
-    return material_traits(shell.state, shell.shells().material[shell.row]).has_grain();
+    return material_traits(shell.state, shell.structures().material[shell.structure]).has_grain();
 }
 
 /// Slots that a vertex takes, without building its row: an open ring has one neighbour more than elements.
@@ -77,7 +77,7 @@ void add_spare_slots(const ShellView& shell, uint32_t packs, uint32_t spare_pack
 bool write_row(const ShellView& shell, const PlaneStress& stress, uint32_t vertex, VertexRow& row) {
     row.block_count = row.link_count = 0;
     build_row(shell, stress, vertex, row);
-    if (stores_pairs_once(shell.shells(), shell.row)) drop_others_pairs(shell, vertex, row);
+    if (stores_pairs_once(shell.structures(), shell.structure)) drop_others_pairs(shell, vertex, row);
     const uint32_t pack = vertex / kLanes, lane = vertex % kLanes;
     auto blocks = block_slots(shell, pack);
     auto links = link_slots(shell, pack);
@@ -143,22 +143,22 @@ bool lay_packs(ShellView shell) {
     shells.packs[shell.row].count = shells.blocks[shell.row].count = shells.links[shell.row].count = 0;
     const uint32_t packs = packs_of(shell.vertex_count());
     if (packs > shells.packs[shell.row].capacity) return false;
-    if (!stores_pairs_once(shells, shell.row)) count_all_slots(shell);
+    if (!stores_pairs_once(shell.structures(), shell.structure)) count_all_slots(shell);
     for (uint32_t p = 0; p < packs; ++p) {
         shell.state.stiffness_packs.clear_rows(shells.packs[shell.row].first + p, 1);
         ++shells.packs[shell.row].count;
-        if (stores_pairs_once(shells, shell.row)) continue;
+        if (stores_pairs_once(shell.structures(), shell.structure)) continue;
         const uint32_t first = p * kLanes,
                        slots = slots_of_pack({shell.state.vertices.copy.data() + shell.vertex(first),
                                               std::min(kLanes, shell.vertex_count() - first)});
         if (!block_slots(shell, p).reserve(slots & 0xffff, 0) || !link_slots(shell, p).reserve(slots >> 16, 0))
             return false;
     }
-    return !stores_pairs_once(shells, shell.row) || lay_pair_cells(shell);
+    return !stores_pairs_once(shell.structures(), shell.structure) || lay_pair_cells(shell);
 }
 
 bool assemble_packs(ShellView shell, uint32_t first, uint32_t end) {
-    const PlaneStress stress = plane_stress(shell.state, shell.row);
+    const PlaneStress stress = plane_stress(shell.state, shell.structure);
     const uint32_t last = std::min(end * kLanes, shell.vertex_count());
     [[maybe_unused]] const uint32_t blocks = shell.shells().blocks[shell.row].count,
                                     links = shell.shells().links[shell.row].count;
@@ -177,7 +177,7 @@ bool assemble_stiffness(ShellView shell) {
 
 bool rebuild_rows(ShellView shell, std::span<const uint32_t> vertices) {
     if (!append_packs(shell)) return false;
-    const PlaneStress stress = plane_stress(shell.state, shell.row);
+    const PlaneStress stress = plane_stress(shell.state, shell.structure);
     const Scratch<VertexRow> row(shell.state.scratch);
     for (const uint32_t v : vertices)
         if (!write_row(shell, stress, v, *row)) return false;

@@ -14,7 +14,7 @@ void multiply(const ShellView& shell, const std::vector<Vec3d>& x, std::vector<V
     const StiffnessPacks& packs = shell.state.stiffness_packs;
     const StiffnessBlock* blocks = shell.state.stiffness_blocks.block.data() + shell.shells().blocks[shell.row].first;
     const StiffnessLink* links = shell.state.stiffness_links.link.data() + shell.shells().links[shell.row].first;
-    const bool once = stores_pairs_once(shell.shells(), shell.row);
+    const bool once = stores_pairs_once(shell.structures(), shell.structure);
     std::fill(force.begin(), force.end(), Vec3d());
     for (uint32_t v = 0; v < x.size(); ++v) {
         const uint32_t p = shell.shells().packs[shell.row].first + v / kLanes, lane = v % kLanes;

@@ -167,7 +167,7 @@ void write_element(ShellView shell, const ShellSource& source, const CellOrder& 
     elements.drawn_material[row] = source.drawn_material.empty() ? uint16_t{0} : source.drawn_material[e];
     const Prism prism = load_prism(shell, to);
     const double volume = std::max(0.0, prism_volume(prism));
-    const double density = shell.state.materials.density[shell.shells().material[shell.row]];
+    const double density = shell.state.materials.density[shell.structures().material[shell.structure]];
     elements.volume[row] = volume;
     elements.mass[row] = density * std::max(volume, kLeastDepth * source.wanted_depth * prism_area(prism));
 }
@@ -229,7 +229,7 @@ float mean_edge(ShellView shell) {
 
 }  // namespace
 
-Result<Row<Shells>> build_shell(ShellRows& state, const ShellSource& source, Row<Materials> material) {
+Result<Row<Structures>> build_shell(ShellRows& state, const ShellSource& source, Row<Materials> material) {
     for (auto check : {check_sizes, check_values, check_links, check_fans})
         if (const Result<void> sound = check(source); !sound) return Error{sound.error()};
     if (material >= state.materials.size() || !(state.materials.density[material] > 0))
@@ -244,12 +244,12 @@ Result<Row<Shells>> build_shell(ShellRows& state, const ShellSource& source, Row
                          .cells = cell_count,
                          .points = most_points(cell_count, element_count)};
     const char* full = nullptr;
-    const Row<Shells> row = make_shell(state, room, &full);
+    const Row<Structures> row = make_shell(state, room, &full);
     if (!row.exists())
         return Error{std::string("shell source: no room for ") + std::to_string(source.position.size()) +
                      " vertices. Raise " + full + "."};
     const ShellView shell(state, row);
-    state.shells.material[row] = material;
+    state.structures.material[row] = material;
     write_vertices(shell, source, order);
     const std::vector<uint32_t> element_row = order_elements(source, order);
     const std::vector<Vec3> made = source.corner_normal.empty()
@@ -259,12 +259,13 @@ Result<Row<Shells>> build_shell(ShellRows& state, const ShellSource& source, Row
     for (uint32_t e = 0; e < element_count; ++e)
         write_element(shell, source, order, element_row[e], e, element_row, normals);
     shell.elements().count = element_count;
-    state.shells.cells[row].count = cell_count;
+    shell.structures().live_elements[shell.structure] = element_count;
+    state.structures.cells[row].count = cell_count;
     write_hinges(shell);
     sum_vertex_masses(shell);
     measure_shell(shell);
-    state.shells.mean_edge[row] = mean_edge(shell);
-    state.shells.depth_floor[row] = static_cast<float>(kLeastDepth * source.wanted_depth);
+    state.shells.mean_edge[state.shell_of(row)] = mean_edge(shell);
+    state.shells.depth_floor[state.shell_of(row)] = static_cast<float>(kLeastDepth * source.wanted_depth);
     build_hulls(shell);
     return row;
 }

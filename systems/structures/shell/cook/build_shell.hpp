@@ -25,6 +25,6 @@ struct ShellSource {
 /// Strengths are the median. Springs, stiffness, limits, strengths and time step are filled in afterwards
 /// (systems/damage). An error names the first bad
 /// entry. Cost: about 10 microseconds a vertex.
-Result<Row<Shells>> build_shell(ShellRows& state, const ShellSource& source, Row<Materials> material);
+Result<Row<Structures>> build_shell(ShellRows& state, const ShellSource& source, Row<Materials> material);
 
 }  // namespace cullet

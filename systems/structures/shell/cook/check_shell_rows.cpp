@@ -34,39 +34,43 @@ constexpr double kUnit = 1.01;                                       // componen
 constexpr double kIds = 4294967295.0;
 
 constexpr Rule kRules[] = {
+    {"structures", "kind", Is::Elsewhere},
+    {"structures", "rows", Is::Elsewhere},
+    {"structures", "live_elements", Is::Elsewhere},
+    {"shells", "springs", Is::Elsewhere},
     {"shells", "vertices", Is::Elsewhere},
     {"shells", "elements", Is::Elsewhere},
     {"shells", "hinges", Is::Elsewhere},
     {"shells", "packs", Is::Elsewhere},
     {"shells", "blocks", Is::Elsewhere},
     {"shells", "links", Is::Elsewhere},
-    {"shells", "cells", Is::Elsewhere},
-    {"shells", "points", Is::Elsewhere},
-    {"shells", "material", Is::Elsewhere},
-    {"shells", "users", Is::Number, 1, 1, 1, kIds},
-    {"shells", "mass", Is::Number, 1e-30, 1e30},
-    {"shells", "intact_mass", Is::Number, 1e-30, 1e30},
-    {"shells", "centre", Is::Number, -kFar, kFar},
-    {"shells", "inertia", Is::Number, -kHuge, kHuge},
+    {"structures", "cells", Is::Elsewhere},
+    {"structures", "points", Is::Elsewhere},
+    {"structures", "material", Is::Elsewhere},
+    {"structures", "users", Is::Number, 1, 1, 1, kIds},
+    {"structures", "mass", Is::Number, 1e-30, 1e30},
+    {"structures", "intact_mass", Is::Number, 1e-30, 1e30},
+    {"structures", "centre", Is::Number, -kFar, kFar},
+    {"structures", "inertia", Is::Number, -kHuge, kHuge},
     {"shells", "thickness", Is::Number, 0, kFar},
     {"shells", "depth_floor", Is::Number, 0, kFar},
     {"shells", "mean_edge", Is::Number, 1e-30, kFar},
-    {"shells", "area", Is::Number, 1e-30, kHuge},
+    {"structures", "area", Is::Number, 1e-30, kHuge},
     {"shells", "time_step", Is::Number, kShortestStep, 1},
     {"shells", "triangle_limit", Is::Number, 0, kHuge},
     {"shells", "hinge_limit", Is::Number, 0, kHuge},
     {"shells", "vertex_limit", Is::Number, 0, kHuge},
-    {"shells", "first_crack_speed", Is::Number, 0, kHuge},
-    {"shells", "first_crack_force", Is::Number, 0, kHuge},
-    {"shells", "generation", Is::Number, 0, 0, 0, 255},
-    {"shells", "has_cracks", Is::Number, 0, 0, 0, 1},
-    {"shells", "shape", Is::Number, 0, 0, 0, static_cast<double>(ShapeKind::Box)},
-    {"shells", "shape_points", Is::Number, 0, 0, 0, kMostHullPoints},
-    {"shells", "box_ratio", Is::Number, 0, 0, 0, kHuge},
-    {"shells", "hull_ratio", Is::Number, 0, 0, 0, kHuge},
-    {"shells", "margin", Is::Number, 0, kFar},
+    {"structures", "first_crack_speed", Is::Number, 0, kHuge},
+    {"structures", "first_crack_force", Is::Number, 0, kHuge},
+    {"structures", "generation", Is::Number, 0, 0, 0, 255},
+    {"structures", "has_cracks", Is::Number, 0, 0, 0, 1},
+    {"structures", "shape", Is::Number, 0, 0, 0, static_cast<double>(ShapeKind::Box)},
+    {"structures", "shape_points", Is::Number, 0, 0, 0, kMostHullPoints},
+    {"structures", "box_ratio", Is::Number, 0, 0, 0, kHuge},
+    {"structures", "hull_ratio", Is::Number, 0, 0, 0, kHuge},
+    {"structures", "margin", Is::Number, 0, kFar},
     {"shells", "dead_elements", Is::Number, 0, 0, 0, kIds},
-    {"shells", "damage_model", Is::Number, 0, 0, 0, 255},
+    {"structures", "damage_model", Is::Number, 0, 0, 0, 255},
     {"vertices", "rest", Is::Number, -kFar, kFar},
     {"vertices", "inward", Is::Number, -kUnit, kUnit},
     {"vertices", "depth", Is::Number, 0, kFar},
@@ -151,7 +155,7 @@ struct Checker {
         return row == static_cast<uint8_t>(Is::Vertex)    ? s.vertices[shell.row].count
                : row == static_cast<uint8_t>(Is::Element) ? s.elements[shell.row].count
                : row == static_cast<uint8_t>(Is::Hinge)   ? s.hinges[shell.row].count
-                                                          : s.cells[shell.row].count;
+                                                          : shell.cells().count;
     }
 };
 
@@ -384,14 +388,14 @@ void check_stiffness(Checker& check) {
 void check_cells(Checker& check) {
     const ShellView& shell = check.shell;
     const ShellRows& state = shell.state;
-    const Range cells = state.shells.cells[shell.row], points = state.shells.points[shell.row];
+    const Range cells = state.structures.cells[shell.structure], points = state.structures.points[shell.structure];
     if (check.wear == Wear::CutOut && cells.count == 0) return;
-    const uint32_t whole = state.shells.shape_points[shell.row];
+    const uint32_t whole = state.structures.shape_points[shell.structure];
     check.expect((points.capacity == 0 && !check.is_intact()) || whole <= points.count,
-                 "shells.shape_points is " + std::to_string(whole) + "; there are " + std::to_string(points.count));
+                 "structures.shape_points is " + std::to_string(whole) + "; there are " + std::to_string(points.count));
     check.expect((whole == 0) == (shape_of(shell) == ShapeKind::Cells),
-                 "shells.shape_points is " + std::to_string(whole) + " for shells.shape " +
-                     std::to_string(state.shells.shape[shell.row]));
+                 "structures.shape_points is " + std::to_string(whole) + " for structures.shape " +
+                     std::to_string(state.structures.shape[shell.structure]));
     std::vector<uint32_t> elements_of(cells.count, 0);
     uint32_t last = 0;
     for (uint32_t e = 0; e < shell.element_count() && check.is_sound(); ++e) {
@@ -423,20 +427,20 @@ void check_cells(Checker& check) {
 
 void check_masses(Checker& check) {
     const ShellView& shell = check.shell;
-    const Shells& s = shell.shells();
+    const Structures& s = shell.structures();
+    const Row<Structures> row = shell.structure;
     double mass = 0;
     for (uint32_t e = 0; e < shell.element_count(); ++e) mass += shell.state.elements.mass[shell.element(e)];
     check.expect(
-        !check.is_intact() ||
-            (std::fabs(s.mass[shell.row] - mass) <= 1e-9 * mass && s.intact_mass[shell.row] == s.mass[shell.row]),
-        "shells.mass is " + std::to_string(s.mass[shell.row]) + " kg and shells.intact_mass " +
-            std::to_string(s.intact_mass[shell.row]) + " kg; the elements weigh " + std::to_string(mass) + " kg");
-    const Sym3d& inertia = s.inertia[shell.row];
+        !check.is_intact() || (std::fabs(s.mass[row] - mass) <= 1e-9 * mass && s.intact_mass[row] == s.mass[row]),
+        "structures.mass is " + std::to_string(s.mass[row]) + " kg and structures.intact_mass " +
+            std::to_string(s.intact_mass[row]) + " kg; the elements weigh " + std::to_string(mass) + " kg");
+    const Sym3d& inertia = s.inertia[row];
     const double determinant = inertia.xx * (inertia.yy * inertia.zz - inertia.yz * inertia.yz) -
                                inertia.xy * (inertia.xy * inertia.zz - inertia.yz * inertia.xz) +
                                inertia.xz * (inertia.xy * inertia.yz - inertia.yy * inertia.xz);
     check.expect(inertia.xx > 0 && inertia.xx * inertia.yy > inertia.xy * inertia.xy && determinant > 0,
-                 "shells.inertia is not positive definite");
+                 "structures.inertia is not positive definite");
 }
 
 }  // namespace
@@ -445,6 +449,7 @@ Result<void> check_shell_rows(const ShellView& shell, Wear wear, const std::stri
     Checker check{shell, name, advice, wear, {}};
     ShellRows& state = shell.state;
     const Shells& s = state.shells;
+    check_columns(check, state.structures, {shell.structure, 1, 1});
     check_columns(check, s, {shell.row, 1, 1});
     check_columns(check, state.vertices, s.vertices[shell.row]);
     check_columns(check, state.elements, s.elements[shell.row]);
@@ -453,10 +458,14 @@ Result<void> check_shell_rows(const ShellView& shell, Wear wear, const std::stri
     check_columns(check, state.stiffness_packs, s.packs[shell.row]);
     check_columns(check, state.stiffness_blocks, s.blocks[shell.row]);
     check_columns(check, state.stiffness_links, s.links[shell.row]);
-    check_columns(check, state.cells, s.cells[shell.row]);
-    check_columns(check, state.hull_points, s.points[shell.row]);
-    const uint32_t material = s.material[shell.row];
-    check.expect(material < state.materials.size(), "shells.material is " + std::to_string(material));
+    check_columns(check, state.cells, shell.cells());
+    check_columns(check, state.hull_points, shell.points());
+    const uint32_t material = shell.structures().material[shell.structure];
+    check.expect(material < state.materials.size(), "structures.material is " + std::to_string(material));
+    const uint32_t dead = s.dead_elements[shell.row], live = state.structures.live_elements[shell.structure];
+    check.expect(uint64_t{dead} + live == shell.element_count(),
+                 "structures.live_elements is " + std::to_string(live) + " and shells.dead_elements " +
+                     std::to_string(dead) + ", of " + std::to_string(shell.element_count()));
     // Each believes what those before it have found.
     for (auto* look : {check_links, check_hinges, check_vertices, check_stiffness, check_cells, check_masses})
         if (check.is_sound()) look(check);

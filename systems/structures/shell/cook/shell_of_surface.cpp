@@ -54,9 +54,10 @@ Result<std::shared_ptr<Model::Contents>> shell_of_surface(const Cooking& from, c
     source.drawn_material = arrays.materials;
     source.is_degenerate = extrusion.is_degenerate_element;
     source.wanted_depth = from.settings.thickness;
-    const Result<Row<Shells>> shell = build_shell(state, source,
-                                                  material_row({state.materials, state.material_traits, state.shells},
-                                                               from.material.settings, from.material.grain));
+    const Result<Row<Structures>> shell =
+        build_shell(state, source,
+                    material_row({state.materials, state.material_traits, state.structures}, from.material.settings,
+                                 from.material.grain));
     if (!shell) return Error{shell.error()};
     contents->shell = shell.value();
     group_fragments(ShellView(state, contents->shell), {});  // numbers the parts, for find_parts

@@ -86,7 +86,7 @@ std::vector<Side> points_on_cracks(World& world) {
     State& state = state_of(world);
     std::map<Place, std::vector<Side>> at;
     for (const BodyId id : shells_of(world))
-        for (const Side& s : sides_of(ShellView(state, state.bodies.shell[id.index])))
+        for (const Side& s : sides_of(ShellView(state, state.bodies.structure[id.index])))
             at[place_of(s.rest(s.vertex))].push_back(s);
     std::vector<Side> points;
     for (const auto& [place, sides] : at)
@@ -119,7 +119,7 @@ TEST(SmoothCracks, AreOneLineForBothSides) {
         std::map<Place, Vec3> shift_at;
         uint32_t moved = 0, met = 0;
         for (const BodyId id : shells_of(c.world)) {
-            const ShellView shell(state, state.bodies.shell[id.index]);
+            const ShellView shell(state, state.bodies.structure[id.index]);
             for (uint32_t v = 0; v < shell.vertex_count(); ++v) {
                 const uint32_t row = shell.vertex(v);
                 if (state.vertices.element[row] == kNone) continue;
@@ -139,7 +139,7 @@ TEST(SmoothCracks, MoveSidewaysALittleAndTurnNoFaceOver) {
     for (Cracked& c : broken_bodies())
         for (const BodyId id : shells_of(c.world)) {
             State& state = state_of(c.world);
-            const ShellView shell(state, state.bodies.shell[id.index]);
+            const ShellView shell(state, state.bodies.structure[id.index]);
             for (uint32_t v = 0; v < shell.vertex_count(); ++v) {
                 const Vec3 shift = state.vertices.crack_shift[shell.vertex(v)];
                 EXPECT_LT(length(shift), 0.75f * state.shells.mean_edge[shell.row]) << c.name;

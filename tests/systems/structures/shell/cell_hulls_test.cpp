@@ -13,10 +13,10 @@ namespace {
 
 std::vector<HullFaces> hulls_of(const ShellView& shell) {
     const ShellRows& state = shell.state;
-    const Range cells = state.shells.cells[shell.row];
+    const Range cells = state.structures.cells[shell.structure];
     std::vector<HullFaces> hulls;
     for (uint32_t c = cells.first; c < cells.first + cells.count; ++c) {
-        uint32_t from = state.shells.points[shell.row].first + state.cells.first_point[c];
+        uint32_t from = state.structures.points[shell.structure].first + state.cells.first_point[c];
         for (const uint8_t count : state.cells.part_points[c]) {
             std::vector<Vec3d> points;
             for (uint32_t i = 0; i < count; ++i) points.push_back(Vec3d(state.hull_points.point[from++]));
@@ -84,8 +84,8 @@ Fit measure_fit(const ShellView& shell) {
     return fit;
 }
 
-Fit fit_of_pieces(State& state, Row<Shells> whole, int pieces, uint64_t seed) {
-    const Row<Shells> shell = cut_by_label(state, whole, nearest_seed(ShellView(state, whole), pieces, seed));
+Fit fit_of_pieces(State& state, Row<Structures> whole, int pieces, uint64_t seed) {
+    const Row<Structures> shell = cut_by_label(state, whole, nearest_seed(ShellView(state, whole), pieces, seed));
     std::vector<FragmentPart> parts(200);
     parts.resize(group_fragments(ShellView(state, shell), parts));
     Fit fit;
@@ -121,7 +121,7 @@ TEST(CellHulls, PointsOfASphereLieInsideOfItsWallByTheMargin) {
     const ShellView shell(state, built.value());
     const double margin = static_cast<double>(hull_margin(shell));
     EXPECT_NEAR(margin, 0.001, 1e-9);
-    const Range points = state.shells.points[shell.row];
+    const Range points = state.structures.points[shell.structure];
     for (uint32_t i = points.first; i < points.first + points.count; ++i) {
         const double r = length(Vec3d(state.hull_points.point[i]));
         EXPECT_LE(r, 0.2 - margin + 1e-6);
@@ -141,12 +141,13 @@ TEST(CellHulls, HullsOfAVaseAndItsShardsAreTight) {
     State state;
     const auto built = build_shell(state, sample_vase(0.3, 0.005, 60, 50).source(), sample_material(state));
     const double whole = hull_over_solid(ShellView(state, built.value()));
-    const Row<Shells> shell = cut_by_label(state, built.value(), nearest_seed(ShellView(state, built.value()), 15, 1));
+    const Row<Structures> shell =
+        cut_by_label(state, built.value(), nearest_seed(ShellView(state, built.value()), 15, 1));
     std::vector<FragmentPart> parts(100);
     parts.resize(group_fragments(ShellView(state, shell), parts));
     double worst = 0, sum = 0, mass = 0;
     for (const FragmentPart& part : parts) {
-        const Row<Shells> piece = make_piece(state, shell, part, 1);
+        const Row<Structures> piece = make_piece(state, shell, part, 1);
         const double ratio = hull_over_solid(ShellView(state, piece));
         if (part.element_count >= 12) worst = std::max(worst, ratio);
         sum += part.mass * ratio;

@@ -1,6 +1,6 @@
 // Pieces found by a flood from the cracks, against relabelling all elements.
-#include "components/state.hpp"
 #include "systems/structures/shell/flood_parts.hpp"
+#include "components/state.hpp"
 
 #include <gtest/gtest.h>
 
@@ -12,7 +12,7 @@ namespace {
 
 struct Fixture {
     State state;
-    Row<Shells> whole;
+    Row<Structures> whole;
     explicit Fixture(const SampleSurface& surface)
         : whole(build_shell(state, surface.source(), sample_material(state)).value()) {}
     ShellView cut(const std::function<int(uint32_t)>& label) {
@@ -65,7 +65,7 @@ void compare_pieces(ShellView shell) {
         EXPECT_EQ(found.first_element, all[p].first_element);
         EXPECT_EQ(found.element_count, all[p].element_count);
         EXPECT_EQ(found.has_pins, all[p].has_pins);
-        EXPECT_NEAR(found.mass, all[p].mass, p == rest ? 1e-12 * shell.shells().mass[shell.row] : 0);
+        EXPECT_NEAR(found.mass, all[p].mass, p == rest ? 1e-12 * shell.structures().mass[shell.structure] : 0);
         for (const uint32_t e : lists[p])
             ASSERT_EQ(elements.part[shell.element(e)], p == rest ? 0 : next - 1) << "element " << e;
         if (p == rest) list_part(shell, parts, 0);

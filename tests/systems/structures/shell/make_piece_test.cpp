@@ -1,5 +1,5 @@
-#include "components/state.hpp"
 #include "systems/structures/shell/make_piece.hpp"
+#include "components/state.hpp"
 
 #include <gtest/gtest.h>
 
@@ -22,7 +22,7 @@ uint32_t indices_of(const DrawnCount& count, SurfaceKind kind) {
 
 struct Broken {
     State state;
-    Row<Shells> intact, shell;
+    Row<Structures> intact, shell;
     std::vector<FragmentPart> parts;
 
     Broken(const SampleSurface& surface, int seeds, uint64_t seed = 1) {
@@ -148,8 +148,8 @@ void expect_sound_shell(const ShellView& shell) {
         EXPECT_TRUE(c[0] == v || c[1] == v || c[2] == v);
     }
     EXPECT_NEAR(vertex_mass / mass, 1, 1e-12);
-    EXPECT_NEAR(state.shells.mass[shell.row] / mass, 1, 1e-12);
-    EXPECT_EQ(last_cell + 1, state.shells.cells[shell.row].count);
+    EXPECT_NEAR(state.structures.mass[shell.structure] / mass, 1, 1e-12);
+    EXPECT_EQ(last_cell + 1, state.structures.cells[shell.structure].count);
 }
 
 TEST(MakePiece, PiecesAreSoundShellsAndTheirMassesAddUpToTheParents) {
@@ -157,23 +157,23 @@ TEST(MakePiece, PiecesAreSoundShellsAndTheirMassesAddUpToTheParents) {
         Broken broken(surface, 12);
         double mass = 0, volume = 0, parent_volume = 0;
         Moments moments;
-        std::vector<Row<Shells>> pieces;
+        std::vector<Row<Structures>> pieces;
         for (const FragmentPart& part : broken.parts) {
-            const Row<Shells> row = make_piece(broken.state, broken.shell, part, 1);
+            const Row<Structures> row = make_piece(broken.state, broken.shell, part, 1);
             ASSERT_TRUE(row.exists());
             const ShellView piece(broken.state, row);
             expect_sound_shell(piece);
             EXPECT_EQ(piece.element_count(), part.element_count);
-            EXPECT_NEAR(broken.state.shells.mass[row] / part.mass, 1, 1e-12);
-            mass += broken.state.shells.mass[row];
-            moments = moments + moments_of({broken.state.shells.mass[row], broken.state.shells.centre[row],
-                                            broken.state.shells.inertia[row]});
+            EXPECT_NEAR(broken.state.structures.mass[row] / part.mass, 1, 1e-12);
+            mass += broken.state.structures.mass[row];
+            moments = moments + moments_of({broken.state.structures.mass[row], broken.state.structures.centre[row],
+                                            broken.state.structures.inertia[row]});
             for (uint32_t e = 0; e < piece.element_count(); ++e) volume += prism_volume(load_prism(piece, e));
             pieces.push_back(row);
         }
         const ShellView parent(broken.state, broken.shell);
         for (uint32_t e = 0; e < parent.element_count(); ++e) parent_volume += prism_volume(load_prism(parent, e));
-        EXPECT_NEAR(mass / broken.state.shells.mass[broken.intact], 1, 1e-12);
+        EXPECT_NEAR(mass / broken.state.structures.mass[broken.intact], 1, 1e-12);
         EXPECT_NEAR(volume / parent_volume, 1, 1e-12);  // the same tetrahedra, so order of corners was kept
         const MassProperties sum = mass_properties(moments);
         const MassProperties whole = mass_properties(shell_moments(parent));
@@ -197,10 +197,10 @@ TEST(MakePiece, JoinedPartsBecomeOneShellOfTwoComponents) {
     join_parts(broken.view(), broken.parts, 4, 1);
     join_parts(broken.view(), broken.parts, 1, 3);
     EXPECT_EQ(broken.parts[1].element_count, 0u);
-    const Row<Shells> row = make_piece(broken.state, broken.shell, broken.parts[3], 1);
+    const Row<Structures> row = make_piece(broken.state, broken.shell, broken.parts[3], 1);
     const ShellView piece(broken.state, row);
     expect_sound_shell(piece);
-    EXPECT_NEAR(broken.state.shells.mass[row] / mass, 1, 1e-12);
+    EXPECT_NEAR(broken.state.structures.mass[row] / mass, 1, 1e-12);
     std::vector<FragmentPart> again(9);
     EXPECT_EQ(group_fragments(piece, again), 3u);
 }
@@ -210,10 +210,10 @@ TEST(MakePiece, CompactingAWholeShellKeepsWhatItIs) {
     ASSERT_EQ(broken.parts.size(), 1u);
     broken.state.vertices.crack[broken.view().vertex(5)] = static_cast<uint8_t>(CrackState::Tip);
     broken.state.vertices.crack_start[broken.view().vertex(5)] = 9;
-    const Row<Shells> row = make_piece(broken.state, broken.shell, broken.parts[0], 0);
+    const Row<Structures> row = make_piece(broken.state, broken.shell, broken.parts[0], 0);
     const ShellView piece(broken.state, row), old = broken.view();
     expect_sound_shell(piece);
-    EXPECT_EQ(broken.state.shells.has_cracks[row], 1);
+    EXPECT_EQ(broken.state.structures.has_cracks[row], 1);
     uint32_t tips = 0;
     for (uint32_t v = 0; v < piece.vertex_count(); ++v) {
         const uint32_t r = piece.vertex(v);
@@ -224,16 +224,17 @@ TEST(MakePiece, CompactingAWholeShellKeepsWhatItIs) {
                   broken.state.vertices.rest[old.vertex(9)]);
     }
     EXPECT_EQ(tips, 1u);
-    EXPECT_NEAR(broken.state.shells.mass[row] / broken.state.shells.mass[broken.intact], 1, 1e-14);
-    EXPECT_EQ(broken.state.shells.hinges[row].count, broken.state.shells.hinges[broken.intact].count);
+    EXPECT_NEAR(broken.state.structures.mass[row] / broken.state.structures.mass[broken.intact], 1, 1e-14);
+    EXPECT_EQ(broken.state.shells.hinges[broken.state.shell_of(row)].count,
+              broken.state.shells.hinges[broken.state.shell_of(broken.intact)].count);
 }
 
 TEST(MakePiece, SmallFragmentsAreFewConvexPieces) {
     Broken broken(sample_vase(0.3, 0.005, 60, 50), 40);
     uint32_t cells = 0, elements = 0, most = 0;
     for (const FragmentPart& part : broken.parts) {
-        const Row<Shells> row = make_piece(broken.state, broken.shell, part, 1);
-        const uint32_t count = broken.state.shells.cells[row].count;
+        const Row<Structures> row = make_piece(broken.state, broken.shell, part, 1);
+        const uint32_t count = broken.state.structures.cells[row].count;
         EXPECT_LE(count, 2 + 2 * part.element_count / 64);
         cells += count;
         elements += part.element_count;
@@ -249,21 +250,21 @@ TEST(MakePiece, AFullTableRefusesAndLeavesNothingBehind) {
     ASSERT_TRUE(built.ok());
     std::vector<FragmentPart> parts(4);
     parts.resize(group_fragments(ShellView(small, built.value()), parts));
-    std::vector<Row<Shells>> made;
+    std::vector<Row<Structures>> made;
     const char* full = nullptr;
     while (true) {
-        const Row<Shells> row = make_piece(small, built.value(), parts[0], 1, &full);
+        const Row<Structures> row = make_piece(small, built.value(), parts[0], 1, &full);
         if (!row.exists()) break;
         made.push_back(row);
         ASSERT_LT(made.size(), 100u);
     }
     EXPECT_STREQ(full, "limits.vertices");
-    for (Row<Shells> row : made) release_shell(small, row);
+    for (Row<Structures> row : made) release_shell(small, row);
     EXPECT_TRUE(make_piece(small, built.value(), parts[0], 1, &full).exists());
 }
 
 /// Draws the shell into ranges of its own and checks it.
-void expect_closed(State& state, Row<Shells> row) {
+void expect_closed(State& state, Row<Structures> row) {
     const ShellView shell(state, row);
     const DrawnCount count = count_drawn(shell);
     Range vertices{state.view_vertices.pool.take(count.vertices), 0, count.vertices};

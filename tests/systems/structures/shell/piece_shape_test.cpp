@@ -1,5 +1,5 @@
-#include "components/state.hpp"
 #include "systems/structures/shell/piece_shape.hpp"
+#include "components/state.hpp"
 
 #include <gtest/gtest.h>
 
@@ -16,22 +16,22 @@
 namespace cullet {
 namespace {
 
-Row<Shells> build(State& state, const SampleSurface& surface) {
+Row<Structures> build(State& state, const SampleSurface& surface) {
     const auto built = build_shell(state, surface.source(), sample_material(state));
     EXPECT_TRUE(built.ok()) << built.error();
     return built.value();
 }
 
 void choose(const ShellView& shell) {
-    choose_shape(shell, shell.shells().points[shell.row].first);
+    choose_shape(shell, shell.points().first);
 }
 
 /// Pieces of the cut shell, with their shapes.
-std::vector<Row<Shells>> pieces_of(State& state, Row<Shells> whole, const std::function<int(uint32_t)>& label) {
-    const Row<Shells> cut = cut_by_label(state, whole, label);
+std::vector<Row<Structures>> pieces_of(State& state, Row<Structures> whole, const std::function<int(uint32_t)>& label) {
+    const Row<Structures> cut = cut_by_label(state, whole, label);
     std::vector<FragmentPart> parts(200);
     parts.resize(group_fragments(ShellView(state, cut), parts));
-    std::vector<Row<Shells>> pieces;
+    std::vector<Row<Structures>> pieces;
     for (const FragmentPart& part : parts) {
         pieces.push_back(make_piece(state, cut, part, 1));
         choose(ShellView(state, pieces.back()));
@@ -41,8 +41,8 @@ std::vector<Row<Shells>> pieces_of(State& state, Row<Shells> whole, const std::f
 
 HullFaces core_of(const ShellView& shell) {
     std::vector<Vec3d> points;
-    const uint32_t first = shell.shells().points[shell.row].first;
-    for (uint32_t k = 0; k < shell.shells().shape_points[shell.row]; ++k)
+    const uint32_t first = shell.points().first;
+    for (uint32_t k = 0; k < shell.structures().shape_points[shell.structure]; ++k)
         points.push_back(Vec3d(shell.state.hull_points.point[first + k]));
     return hull_faces(points);
 }
@@ -61,10 +61,10 @@ double left_out(const ShellView& shell) {
 }
 
 float box_ratio(const ShellView& shell) {
-    return shell.shells().box_ratio[shell.row];
+    return shell.structures().box_ratio[shell.structure];
 }
 float hull_ratio(const ShellView& shell) {
-    return shell.shells().hull_ratio[shell.row];
+    return shell.structures().hull_ratio[shell.structure];
 }
 
 TEST(PieceShape, ASlabGetsABoxOfItsOwnVolume) {
@@ -72,7 +72,7 @@ TEST(PieceShape, ASlabGetsABoxOfItsOwnVolume) {
     const ShellView slab(state, build(state, sample_grid(0.3, 0.2, 12, 8, 0.05)));
     choose(slab);
     EXPECT_EQ(shape_of(slab), ShapeKind::Box);
-    EXPECT_EQ(state.shells.shape_points[slab.row], 8);
+    EXPECT_EQ(state.structures.shape_points[slab.structure], 8);
     EXPECT_NEAR(box_ratio(slab), 1, 1e-4);
     EXPECT_NEAR(hull_ratio(slab), 1, 1e-4);
     EXPECT_FLOAT_EQ(hull_margin(slab), 0.001f);
@@ -103,16 +103,16 @@ TEST(PieceShape, AWedgeGetsAHull) {
 
 TEST(PieceShape, ACurvedShardOfAVaseKeepsGroupsOfItsCells) {
     State state;
-    const Row<Shells> vase = build(state, sample_vase(0.3, 0.005, 60, 50));
+    const Row<Structures> vase = build(state, sample_vase(0.3, 0.005, 60, 50));
     uint32_t large = 0;
-    for (const Row<Shells> row : pieces_of(state, vase, nearest_seed(ShellView(state, vase), 12, 1))) {
+    for (const Row<Structures> row : pieces_of(state, vase, nearest_seed(ShellView(state, vase), 12, 1))) {
         const ShellView shard(state, row);
         if (shard.element_count() < 200) continue;
         ++large;
         EXPECT_EQ(shape_of(shard), ShapeKind::Cells) << hull_ratio(shard);
         EXPECT_GE(hull_ratio(shard), kMostHullRatio);
         EXPECT_GE(box_ratio(shard), hull_ratio(shard));
-        EXPECT_EQ(state.shells.shape_points[row], 0);
+        EXPECT_EQ(state.structures.shape_points[row], 0);
     }
     EXPECT_GT(large, 4u);
 }
@@ -133,12 +133,12 @@ TEST(PieceShape, WhatIsDrawnLiesWithinAMarginOfWhatCollides) {
     double worst = 0;
     for (const uint64_t seed : {1, 2, 3, 4}) {
         State state;
-        const Row<Shells> wall = build(state, sample_grid(2.4, 1.8, 31, 23, 0.1, 0.5)),
-                          vase = build(state, sample_vase(0.3, 0.005, 60, 50));
-        for (const Row<Shells> whole : {wall, vase})
-            for (const Row<Shells> row : pieces_of(state, whole, nearest_seed(ShellView(state, whole), 60, seed))) {
+        const Row<Structures> wall = build(state, sample_grid(2.4, 1.8, 31, 23, 0.1, 0.5)),
+                              vase = build(state, sample_vase(0.3, 0.005, 60, 50));
+        for (const Row<Structures> whole : {wall, vase})
+            for (const Row<Structures> row : pieces_of(state, whole, nearest_seed(ShellView(state, whole), 60, seed))) {
                 const ShellView piece(state, row);
-                ++counts[state.shells.shape[row]];
+                ++counts[state.structures.shape[row]];
                 EXPECT_GE(box_ratio(piece), 0.999f * hull_ratio(piece));
                 if (shape_of(piece) == ShapeKind::Cells) continue;
                 EXPECT_LT(hull_ratio(piece), kMostHullRatio);

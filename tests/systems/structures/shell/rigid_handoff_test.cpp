@@ -1,5 +1,5 @@
-#include "components/state.hpp"
 #include "systems/structures/shell/rigid_handoff.hpp"
+#include "components/state.hpp"
 
 #include <gtest/gtest.h>
 
@@ -15,7 +15,7 @@ namespace {
 
 struct Hit {
     State state;
-    Row<Shells> intact, shell;
+    Row<Structures> intact, shell;
     std::vector<FragmentPart> parts;
     std::vector<PartMotion> motions;
     HandoffStart start{{0.5, -5, 0.25}, {1, 2, -3}, {}, 5};
@@ -26,7 +26,7 @@ struct Hit {
         intact = built.value();
         if (is_pinned) apply_pins(ShellView(state, intact), {-1, -1, -1}, {1, 0.01f, 1});
         shell = cut_by_label(state, intact, nearest_seed(ShellView(state, intact), 12, seed));
-        start.centre = state.shells.centre[intact];
+        start.centre = state.structures.centre[intact];
         parts.resize(1000);
         parts.resize(group_fragments(view(), parts));
         motions.resize(parts.size());
@@ -216,11 +216,11 @@ TEST(RigidHandoff, TetrahedraAndVerticesHaveAlikeInertia) {
     rigid_handoff(hit.view(), hit.start, hit.parts, hit.motions);
     double worst = 0, worst_shift = 0;
     for (uint32_t p = 0; p < hit.parts.size(); ++p) {
-        const Row<Shells> piece = make_piece(hit.state, hit.shell, hit.parts[p], 1);
+        const Row<Structures> piece = make_piece(hit.state, hit.shell, hit.parts[p], 1);
         if (hit.parts[p].element_count < 12) continue;
-        worst = std::max(worst, inertia_change(hit.motions[p], hit.state.shells.inertia[piece]));
-        worst_shift = std::max(worst_shift,
-                               length(hit.motions[p].centre - hit.state.shells.centre[piece]) / hit.motions[p].radius);
+        worst = std::max(worst, inertia_change(hit.motions[p], hit.state.structures.inertia[piece]));
+        worst_shift = std::max(
+            worst_shift, length(hit.motions[p].centre - hit.state.structures.centre[piece]) / hit.motions[p].radius);
     }
     std::printf("inertia changes L by at most %.1f %%, centres differ by %.1f %% of the radius\n", 100 * worst,
                 100 * worst_shift);
@@ -232,7 +232,7 @@ TEST(RigidHandoff, OneTriangleNeitherSpinsNorGainsEnergy) {
     State state;
     const auto built = build_shell(state, sample_grid(0.1, 0.1, 1, 1, 0.004).source(), sample_material(state));
     const ShellView intact(state, built.value());
-    const Row<Shells> cut = cut_by_label(state, built.value(), [](uint32_t e) { return static_cast<int>(e); });
+    const Row<Structures> cut = cut_by_label(state, built.value(), [](uint32_t e) { return static_cast<int>(e); });
     const ShellView shell(state, cut);
     std::vector<FragmentPart> parts(2);
     ASSERT_EQ(group_fragments(shell, parts), 2u);

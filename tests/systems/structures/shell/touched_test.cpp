@@ -1,6 +1,6 @@
 // After any cuts the stiffness that was rebuilt locally is the one that a new assembly gives.
-#include "components/state.hpp"
 #include "systems/structures/shell/touched.hpp"
+#include "components/state.hpp"
 
 #include <gtest/gtest.h>
 
@@ -28,7 +28,7 @@ void assemble(Shell& shell, uint32_t spare) {
     room.blocks *= 2, room.links *= 2;
     room.elements = shell.view.element_count() + 2 * spare;
     room.hinges = shell.view.hinge_count() + 6 * spare;
-    const Row<Shells> copy = copy_shell(state, shell.view.row, room);
+    const Row<Structures> copy = copy_shell(state, shell.view.structure, room);
     ASSERT_TRUE(copy.exists());
     new (&shell.view) ShellView(state, copy);
     ASSERT_TRUE(assemble_stiffness(shell.view));

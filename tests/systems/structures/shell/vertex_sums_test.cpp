@@ -1,6 +1,6 @@
 // Sums of a shell's vertices that are kept block by block, and what a hit asks of them.
-#include "components/state.hpp"
 #include "systems/structures/shell/vertex_sums.hpp"
+#include "components/state.hpp"
 
 #include <gtest/gtest.h>
 
@@ -17,7 +17,7 @@ namespace {
 
 struct Vase {
     State state;
-    Row<Shells> row;
+    Row<Structures> row;
 
     Vase() : row(build_shell(state, sample_vase(0.3, 0.005, 48, 40).source(), sample_material(state)).value()) {}
     ShellView view() { return ShellView(state, row); }
@@ -71,10 +71,10 @@ TEST(VertexSums, AShellOfRowsThatWereTakenAgainKeepsNone) {
     keep_vertex_sums(vase.view());
     (void)vertex_sums(vase.view());
     const Range rows = vase.view().vertices();
-    release_shell(vase.state, vase.row);
+    release_shell(vase.state, vase.structure);
     ShellRoom room;
     room.vertices = rows.capacity, room.elements = 8;
-    const Row<Shells> other = make_shell(vase.state, room);
+    const Row<Structures> other = make_shell(vase.state, room);
     ASSERT_TRUE(other.exists());
     ShellView view(vase.state, other);
     EXPECT_EQ(view.vertices().first, rows.first);

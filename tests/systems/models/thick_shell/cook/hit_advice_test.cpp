@@ -18,17 +18,17 @@ Model vase(float edge, float longest_edge = 100) {
     return test::cook_vase(0.30f, edge, settings).value();
 }
 double mean_edge(const Model& model) {
-    return model.contents->state.shells.mean_edge[model.contents->shell];
+    return model.contents->state.shells.mean_edge[model.contents->state.shell_of(model.contents->shell)];
 }
 
 HitOfModel hit_of(const Model& model) {
     const Workbench& state = model.contents->state;
-    const Row<Shells> shell = model.contents->shell;
+    const Row<Structures> shell = model.contents->shell;
     return {model.report().units_of_a_hit,
-            state.shells.vertices[shell].count,
+            state.shells.vertices[state.shell_of(shell)].count,
             false,
             mean_edge(model),
-            state.shells.thickness[shell],
+            state.shells.thickness[state.shell_of(shell)],
             0};
 }
 /// The number behind the words, in the unit that follows it; 0 where the words are not there.

@@ -1,6 +1,6 @@
 // The contact patch: weights, stability bound, momentum between striker, body and pins.
-#include "components/state.hpp"
 #include "systems/models/thick_shell/hidden/contact.hpp"
+#include "components/state.hpp"
 
 #include <gtest/gtest.h>
 
@@ -15,7 +15,7 @@ namespace {
 
 struct Fixture {
     State state;
-    Row<Shells> shell;
+    Row<Structures> shell;
     Row<Tasks> task;
     Fixture(const ShellMesh& mesh, double thickness, const std::function<bool(Vec3d)>& pinned = {}) {
         shell = make_test_shell(state, mesh, thickness, add_material(state, 70e9, 0.22, 2400), pinned);
@@ -46,10 +46,10 @@ struct Fixture {
 TEST(Contact, StiffnessIsTheWallsOrTheStabilityBoundWhicheverIsLess) {
     Fixture f(sphere_mesh(10, 0.1), 0.005);
     const uint32_t c = f.add_contact({0, 0.1f, 0}, {0, -1, 0}, 0, 0, 3);
-    f.state.tasks.time_step[f.task] = 1e-8f;
+    f.state.hidden_runs.time_step[f.task] = 1e-8f;
     build_patches(f.state, f.task);
     EXPECT_NEAR(f.patch_stiffness(c), 0.15 * 70e9 * 0.005, 1e3);
-    f.state.tasks.time_step[f.task] = 1e-5f;
+    f.state.hidden_runs.time_step[f.task] = 1e-5f;
     build_patches(f.state, f.task);
     double most = 0;
     const double total = f.patch_stiffness(c);
@@ -111,7 +111,7 @@ TEST(Contact, StrikerBodyAndPinsKeepTheirMomentumToAMillionth) {
     const Vec3d start = momentum(f.view());
     Vec3d pins;
     for (int i = 0; i < 1000; ++i) {
-        pins += double{f.state.tasks.time_step[f.task]} * pin_force(f.view(), static_cast<uint32_t>(i) & 1);
+        pins += double{f.state.hidden_runs.time_step[f.task]} * pin_force(f.view(), static_cast<uint32_t>(i) & 1);
         step_task(f.state, f.task);
     }
     const double given = double{mass} * (speed - f.state.task_contacts.striker_speed[c]);
@@ -125,13 +125,13 @@ TEST(Contact, StrikerBodyAndPinsKeepTheirMomentumToAMillionth) {
 TEST(Contact, ABouncingHitKeepsItsEnergy) {
     // A ball on a flat striker of 50 kg: a soft hit without damping comes back with what it brought.
     Fixture f(sphere_mesh(12, 0.1), 0.005);
-    f.state.tasks.damping_time[f.task] = 0;
+    f.state.hidden_runs.damping_time[f.task] = 0;
     f.add_contact({0, -0.1f, 0}, {0, 1, 0}, 50, 0, 0);
     f.state.tasks.start_velocity.set(f.task, {0, -2, 0});
     build_patches(f.state, f.task);
     start_hidden(f.state, f.task);
-    const double start = f.state.tasks.start_energy[f.task];
-    EXPECT_NEAR(start, 0.5 * f.state.shells.mass[f.shell] * 4, 1e-5 * start);
+    const double start = f.state.hidden_runs.start_energy[f.task];
+    EXPECT_NEAR(start, 0.5 * f.state.structures.mass[f.shell] * 4, 1e-5 * start);
     double most = 0;
     for (int i = 0; i < 4000; ++i) {
         step_task(f.state, f.task);
@@ -141,18 +141,18 @@ TEST(Contact, ABouncingHitKeepsItsEnergy) {
     EXPECT_LT(most, 1.02 * start);
     EXPECT_NEAR(end.total(), start, 0.02 * start);
     EXPECT_EQ(end.contact, 0);
-    EXPECT_GT(f.state.task_contacts.impulse[0], 1.5 * 2 * f.state.shells.mass[f.shell]);
+    EXPECT_GT(f.state.task_contacts.impulse[0], 1.5 * 2 * f.state.structures.mass[f.shell]);
     EXPECT_FALSE(is_blown_up(end, start));
 }
 
 TEST(Contact, WhatALiftPutsInIsNoEnergyOutOfNothing) {
     // A lift of infinite mass meets a ball at rest: all that the ball has came from it.
     Fixture f(sphere_mesh(12, 0.1), 0.005);
-    f.state.tasks.damping_time[f.task] = 0;
+    f.state.hidden_runs.damping_time[f.task] = 0;
     f.add_contact({0, -0.1f, 0}, {0, 1, 0}, 0, 0, 2);
     build_patches(f.state, f.task);
     start_hidden(f.state, f.task);
-    EXPECT_EQ(f.state.tasks.start_energy[f.task], 0);
+    EXPECT_EQ(f.state.hidden_runs.start_energy[f.task], 0);
     TaskEnergy energy;
     for (int i = 0; i < 4000; ++i) {
         step_task(f.state, f.task);
@@ -162,7 +162,7 @@ TEST(Contact, WhatALiftPutsInIsNoEnergyOutOfNothing) {
     }
     EXPECT_NEAR(energy.total(), energy.work, 0.02 * energy.work);
     EXPECT_GT(energy.work,
-              1.5 * 2 * 2 * f.state.shells.mass[f.shell]);  // impulse times speed; it leaves at up to 4 m/s
+              1.5 * 2 * 2 * f.state.structures.mass[f.shell]);  // impulse times speed; it leaves at up to 4 m/s
 }
 
 TEST(Contact, ASpringBelowItsYieldForceIsElasticAndBeyondItGivesWayAtThatForce) {
@@ -220,14 +220,14 @@ TEST(Contact, WhatIsCrushedStaysCrushedWhenPatchesAreLaidAnew) {
         EXPECT_EQ(crush_of(p), crush[p - first]);
         EXPECT_EQ(f.state.patch_vertices.force[p], force[p - first]);
     }
-    EXPECT_LT(task_energy(f.state, f.task).total(), 0.99 * f.state.tasks.start_energy[f.task]);
+    EXPECT_LT(task_energy(f.state, f.task).total(), 0.99 * f.state.hidden_runs.start_energy[f.task]);
     EXPECT_LT(speed, 3);
 }
 
 TEST(Contact, TooLongAStepIsSeenByTheEnergyTest) {
     Fixture f(sphere_mesh(6, 0.1), 0.005);
-    f.state.tasks.time_step[f.task] *= 2.2f;
-    f.state.tasks.damping_time[f.task] = 0.15f * f.state.tasks.time_step[f.task];
+    f.state.hidden_runs.time_step[f.task] *= 2.2f;
+    f.state.hidden_runs.damping_time[f.task] = 0.15f * f.state.hidden_runs.time_step[f.task];
     f.add_contact({0, -0.1f, 0}, {0, 1, 0}, 0, 0, 0);
     f.state.tasks.start_velocity.set(f.task, {0, -2, 0});
     build_patches(f.state, f.task);
@@ -235,7 +235,7 @@ TEST(Contact, TooLongAStepIsSeenByTheEnergyTest) {
     bool is_seen = false;
     for (int i = 0; i < 2000 && !is_seen; ++i) {
         step_task(f.state, f.task);
-        if (i % 64 == 0) is_seen = is_blown_up(task_energy(f.state, f.task), f.state.tasks.start_energy[f.task]);
+        if (i % 64 == 0) is_seen = is_blown_up(task_energy(f.state, f.task), f.state.hidden_runs.start_energy[f.task]);
     }
     EXPECT_TRUE(is_seen);
 }

@@ -96,7 +96,7 @@ TEST(GrowCracks, AStripUnderTensionCracksStraightAcrossAndFallsInTwo) {
     EXPECT_EQ(shell.state->tasks.units_owed[task], units);
     EXPECT_GT(units, kUnitsCut * all.cut_edges);
     EXPECT_EQ(shell.state->tasks.start_count[task], 1u);
-    EXPECT_EQ(shell.view.shells().has_cracks[shell.view.row], 1);
+    EXPECT_EQ(shell.view.structures().has_cracks[shell.view.structure], 1);
 }
 
 /// A strip that tears from its middle under 1.1 of the strength, its tips free to fork above this share of it.

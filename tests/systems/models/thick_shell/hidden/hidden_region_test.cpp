@@ -51,8 +51,8 @@ TEST(HiddenRegion, RowsAreSoundWhenItIsFilledWhenItIsPutBackAndWhenPiecesAreOut)
                 if (state.tasks.body[t] == b.body.index) ++(is_hidden_region(state, t) ? regions : whole);
                 if (!is_hidden_region(state, t)) continue;
                 EXPECT_EQ(trouble_of_hidden_region(state, t), "");
-                EXPECT_LT(2 * state.shells.elements[state.tasks.shell[t]].count,
-                          state.shells.elements[state.tasks.source[t]].count);
+                EXPECT_LT(2 * state.shells.elements[state.shell_of(state.tasks.working[t])].count,
+                          state.shells.elements[state.shell_of(state.tasks.source[t])].count);
             }
         }
         if (was_open) {
@@ -93,7 +93,7 @@ TEST(HiddenRegion, FramesDoNotAllocate) {
 /// A shell without a world, which hits of run_hit take.
 struct Bare {
     State state;
-    Row<Shells> shell;
+    Row<Structures> shell;
     explicit Bare(const Model& model)
         : state(cooking_limits(3 * model.contents->report.vertices, 3 * model.contents->report.elements)) {
         const Workbench& cooked = model.contents->state;
@@ -114,7 +114,7 @@ struct Bare {
         hit.normal = way;
         // The outer wall there: of the vertices at this height the one that comes first.
         float first = 1e30f;
-        const Range vertices = state.shells.vertices[shell];
+        const Range vertices = state.shells.vertices[state.shell_of(shell)];
         for (uint32_t v = vertices.first; v < vertices.first + vertices.count; ++v) {
             const Vec3 p = state.vertices.rest[v];
             if (std::fabs(p.y - height) > 0.01f || dot(p, way) >= first) continue;
@@ -142,16 +142,16 @@ TEST(HiddenRegion, TheRestTakesWhatTheRegionLoses) {
     ASSERT_TRUE(is_hidden_region(bare.state, 0));
     State& state = bare.state;
     const Row<Tasks> task(0);
-    const ShellView cut(state, state.tasks.shell[task]);
+    const ShellView cut(state, state.tasks.working[task]);
     const auto sum = [&](Vec3d& momentum, Vec3d& turning) {
         const RegionRests& rests = state.region_rests;
         momentum = (1 / rests.inverse_mass[0]) * rests.velocity[0];
         turning = rests.inertia[0] * rests.spin[0] + cross(rests.centre[0], momentum);
         for (uint32_t v = 0; v < cut.vertex_count(); ++v) {
             const uint32_t row = cut.vertex(v);
-            const AwakePacks& packs = state.awake_packs;
+            const MarkedPacks& packs = state.marked_packs;
             bool is_held = false;
-            for (uint32_t p = 0; p < state.quick_runs.pack_count[0]; ++p)
+            for (uint32_t p = 0; p < state.hidden_runs.pack_count[0]; ++p)
                 is_held = is_held || (packs.pack[p] == v / kLanes && (packs.held[p] >> (v % kLanes) & 1));
             if (is_held || state.vertices.element[row] == kNone) continue;
             const Vec3d p = state.vertices.mass[row] * Vec3d(state.vertices.velocity[row]);
@@ -164,8 +164,8 @@ TEST(HiddenRegion, TheRestTakesWhatTheRegionLoses) {
     // As the body itself: m v of all vertices, whose centre moves with the body.
     const Vec3d velocity(hit.velocity);
     double mass = 0;
-    for (uint32_t v = 0; v < state.shells.vertices[bare.shell].count; ++v)
-        mass += state.vertices.mass[state.shells.vertices[bare.shell].first + v];
+    for (uint32_t v = 0; v < state.shells.vertices[state.shell_of(bare.shell)].count; ++v)
+        mass += state.vertices.mass[state.shells.vertices[state.shell_of(bare.shell)].first + v];
     EXPECT_NEAR(length(momentum[0] - mass * velocity) / (mass * length(velocity)), 0, 1e-6);
     const BrittleLoop loop = make_brittle_loop();
     LoopWorld world{state, state.blows};
@@ -180,11 +180,11 @@ TEST(HiddenRegion, TheRestTakesWhatTheRegionLoses) {
     EXPECT_LT(length(turning[1] - turning[0] - cross(Vec3d(contacts.point[0]), blow)), 0.02 * lever)
         << "the patch pushes round the contact's point, not at it";
     const TaskEnergy energy = task_energy(state, task);
-    EXPECT_NEAR(energy.total() / state.tasks.start_energy[task], 1, 0.05);
+    EXPECT_NEAR(energy.total() / state.hidden_runs.start_energy[task], 1, 0.05);
     std::printf("momentum off by %.1e, turn by %.1e of the blow, energy %.4f of the start\n",
                 length(momentum[1] - momentum[0] - blow) / length(blow),
                 length(turning[1] - turning[0] - cross(Vec3d(contacts.point[0]), blow)) / lever,
-                energy.total() / state.tasks.start_energy[task]);
+                energy.total() / state.hidden_runs.start_energy[task]);
     close_hit(state);
 }
 

@@ -20,7 +20,7 @@ constexpr double kYoung = 70e9, kPoisson = 0.22, kThickness = 0.005;
 
 struct Fixture {
     State state;
-    Row<Shells> shell;
+    Row<Structures> shell;
     explicit Fixture(const ShellMesh& mesh) {
         shell = make_test_shell(state, mesh, kThickness, add_material(state, kYoung, kPoisson, 2400));
     }

@@ -57,9 +57,9 @@ uint32_t lumps_of(const Model& model, uint32_t layers, float limit, uint32_t pla
     World world = make_world(roomy_settings());
     const BodyId body = spawn_quick(world, model, layers, limit);
     const State& state = state_of(world);
-    const Row<Shells> shell = state.bodies.shell[body.index];
-    const Range elements = state.shells.elements[shell];
-    const uint32_t first = state.shells.vertices[shell].first;
+    const Row<Structures> shell = state.bodies.structure[body.index];
+    const Range elements = state.shells.elements[state.shell_of(shell)];
+    const uint32_t first = state.shells.vertices[state.shell_of(shell)].first;
     const uint32_t e = elements.first + static_cast<uint32_t>(Random{5}.bits(place) % elements.count);
     const auto [a, b, c] = state.elements.corner[e];
     const auto rest = [&](uint32_t v) { return state.vertices.rest[first + v]; };
@@ -68,7 +68,7 @@ uint32_t lumps_of(const Model& model, uint32_t layers, float limit, uint32_t pla
     push.normal = normalised(cross(rest(c) - rest(a), rest(b) - rest(a)));
     push.approach_speed = speed;
     push.mass = static_cast<float>(world.mass(body).value() / 25);
-    push.radius = 2 * state.shells.thickness[shell];
+    push.radius = 2 * state.shells.thickness[state.shell_of(shell)];
     EXPECT_TRUE(world.push_impact(body, push).ok());
     for (int frame = 0; frame < 4; ++frame) world.step();
     const DamageCounts& counts = world.contents().data.counts;

@@ -58,7 +58,7 @@ TEST(QuickThresholds, AThinWallCracksBeforeAThickOne) {
             HitBench bench(Subject::Wall, *wall);
             QuickSettings quick;
             quick.layers = layers;
-            bench.break_quickly(quick, bench.state().shells.first_crack_speed[bench.shell()]);
+            bench.break_quickly(quick, bench.state().structures.first_crack_speed[bench.shell()]);
             MedianSpread crack;
             const MedianSpread piece = first_pieces(bench, 2, crack);
             std::printf("wall of %.2f m, %u layers: first crack %.2f m/s, first piece %.2f\n",

@@ -178,9 +178,9 @@ TEST(QuickWorld, PiecesAreQuickAndBreakAgain) {
         return b.world.mass(a).value() < b.world.mass(c).value();
     });
     const Pose pose = b.world.pose(largest).value();
-    const Row<Shells> shell = state.bodies.shell[largest.index];
+    const Row<Structures> shell = state.bodies.structure[largest.index];
     PushSettings push;
-    const Range vertices = state.shells.vertices[shell];
+    const Range vertices = state.shells.vertices[state.shell_of(shell)];
     for (uint32_t v = vertices.first; v < vertices.first + vertices.count; ++v)
         if (state.vertices.element[v] != kNone) {
             push.place = to_world(pose, state.vertices.rest[v]);
@@ -252,7 +252,7 @@ bool cracks_along_the_sheet(uint32_t layers, Vec3 place, float times) {
     for (int frame = 0; frame < 3; ++frame) world.step();
     EXPECT_GT(world.contents().data.counts.opened, 0u);
     const State& state = state_of(world);
-    return shells_of(world).size() > 1 || state.shells.has_cracks[state.bodies.shell[body.index]] != 0;
+    return shells_of(world).size() > 1 || state.structures.has_cracks[state.bodies.structure[body.index]] != 0;
 }
 
 // With the limit of blows on a face a sheet of one layer cracked at a fortieth of the speed: walls went on breaking

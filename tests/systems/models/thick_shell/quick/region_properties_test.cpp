@@ -34,7 +34,7 @@ void stretch(const RegionView& region, float strain) {
         view.place(v, (1 + strain) * view.position(v));
         if (view.has_layers()) view.place_twin(v, (1 + strain) * view.twin_position(v));
     });
-    state.tasks.start_energy[kTask] += region_energy(region).total();
+    state.hidden_runs.start_energy[kTask] += region_energy(region).total();
     state.quick_runs.energy_scale[kTask] += region_energy(region).total();
 }
 

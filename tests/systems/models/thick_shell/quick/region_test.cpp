@@ -45,7 +45,7 @@ TEST(QuickRegion, AwakeIsWhatLiesWithinTheRingsAndHeldIsTheRingRoundIt) {
     quick.steps = 30;  // 10 + 3 rings
     State& state = bench.state();
     ASSERT_TRUE(open_hit(state, bench.shell(), quick_blow(bench, 0, 5, quick)));
-    const ShellView shell(state, state.tasks.shell[kTask]);
+    const ShellView shell(state, state.tasks.working[kTask]);
     std::vector<std::vector<uint32_t>> beside(shell.vertex_count());
     for (uint32_t e = 0; e < shell.element_count(); ++e)
         for (const uint32_t a : state.elements.corner[shell.element(e)])
@@ -116,12 +116,12 @@ TEST(QuickRegion, WhatTheStrikerGivesTheBodyHasToRounding) {
             HitDescription hit = quick_blow(bench, placement, 12, quick);
             hit.spin = {0.5f, -1, 2};
             ASSERT_TRUE(open_hit(state, bench.shell(), hit));
-            const ShellView shell(state, state.tasks.shell[kTask]);
+            const ShellView shell(state, state.tasks.working[kTask]);
             drive(state, [](const RegionView&) {});
             const HitReport report = finish_hit(state);
             EXPECT_FALSE(report.dropped) << "placement " << placement;
             broke += report.broke;
-            const double mass = state.shells.mass[bench.shell()];
+            const double mass = state.structures.mass[bench.shell()];
             // The body's own: of the vertices' centre, which is at rest in what moves with it.
             const Vec3d before = mass * Vec3d(hit.velocity), given = report.impulse * Vec3d(hit.normal);
             const double off = length(momentum(shell) - before - given) / (length(given) + 1e-9);
@@ -154,7 +154,7 @@ TEST(QuickRegion, EnergyFallsOrStaysInRandomBlows) {
                 ASSERT_TRUE(open_hit(state, bench.shell(), bench.blow(500 + i, speed)));
                 drive(state, [&](const RegionView& region) {
                     const TaskEnergy energy = region_energy(region);
-                    const double wanted = state.tasks.start_energy[kTask] + energy.work;
+                    const double wanted = state.hidden_runs.start_energy[kTask] + energy.work;
                     const double scale = std::max(wanted, state.quick_runs.energy_scale[kTask]);
                     worst = std::max(worst, 1 + (energy.total() - wanted) / scale);
                 });

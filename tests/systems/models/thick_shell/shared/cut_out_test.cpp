@@ -48,8 +48,8 @@ TEST(CutOut, RowsAreSoundWhenItIsFilledWhenItIsPutBackAndWhenPiecesAreOut) {
                 if (is_new && state.tasks.body[t] == b.body.index) ++(is_cut_out(state, t) ? cut_outs : whole);
                 if (!is_cut_out(state, t)) continue;
                 EXPECT_EQ(trouble_of_cut_out(state, t), "");
-                EXPECT_LT(2 * state.shells.elements[state.tasks.shell[t]].count,
-                          state.shells.elements[state.tasks.source[t]].count);
+                EXPECT_LT(2 * state.shells.elements[state.shell_of(state.tasks.working[t])].count,
+                          state.shells.elements[state.shell_of(state.tasks.source[t])].count);
             }
             if (system == "fill_tasks") was_open = is_open;
             if (was_open) {
@@ -98,7 +98,7 @@ TEST(CutOut, AHitThatCracksNothingLeavesTheShellAsItWas) {
     b.body = b.world.spawn(id, spawn).value();
     b.ball = b.world.add_sphere(ball_at({0.01f, 0.26f, 0.2f}, 0.5f, 20)).value();
     State& state = state_of(b.world);
-    const ShellView shell(state, state.bodies.shell[b.body.index]);
+    const ShellView shell(state, state.bodies.structure[b.body.index]);
     const auto corners = [&] {
         const auto* first = state.elements.corner.data() + shell.element(0);
         return std::vector<std::array<uint32_t, 3>>(first, first + shell.element_count());
@@ -107,7 +107,7 @@ TEST(CutOut, AHitThatCracksNothingLeavesTheShellAsItWas) {
     for (int frame = 0; frame < 30; ++frame) b.world.step();
     EXPECT_GT(b.world.contents().data.counts.opened, 0u);
     EXPECT_EQ(b.world.contents().data.counts.cuts, 0u);
-    EXPECT_EQ(state.bodies.shell[b.body.index], shell.row);
+    EXPECT_EQ(state.bodies.structure[b.body.index], shell.row);
     EXPECT_EQ(corners(), before);
     EXPECT_EQ(trouble_of_shells(state), "");
 }

@@ -148,7 +148,7 @@ TEST(SheetBending, AStifferClothHangsLessFarDown) {
         for (int frame = 0; frame < 240; ++frame) world.step();
         const State& state = test::state_of(world);
         const Row<Bodies> row(body->index);
-        const ShellView shell(const_cast<State&>(state), state.bodies.shell[row]);
+        const ShellView shell(const_cast<State&>(state), state.bodies.structure[row]);
         lowest[n] = 0;
         for (uint32_t v = 0; v < shell.vertex_count(); ++v)
             lowest[n] =

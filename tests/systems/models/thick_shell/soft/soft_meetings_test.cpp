@@ -13,7 +13,7 @@ namespace {
 struct TwoSheets {
     Sheet first;
     BodyId second;
-    Row<SoftBodies> soft(BodyId body) { return find_soft(first.state().soft_bodies, Row<Bodies>(body.index)); }
+    Row<SoftBodies> soft(BodyId body) { return first.state().bodies.soft[Row<Bodies>(body.index)]; }
     SpringMotion motion(BodyId body) {
         State& state = first.state();
         return motion_of(SpringView(state, springs_of(state, soft(body))));

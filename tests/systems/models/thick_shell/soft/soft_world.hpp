@@ -57,11 +57,11 @@ struct Sheet {
 
     State& state() { return state_of(world); }
     Row<Bodies> row() const { return Row<Bodies>(body.index); }
-    Row<SoftBodies> soft() { return find_soft(state().soft_bodies, row()); }
+    Row<SoftBodies> soft() { return state().bodies.soft[row()]; }
     bool is_awake() { return soft().exists() && state().soft_bodies.is_awake[soft()]; }
     void call() { state().soft_bodies.is_called[soft()] = 1; }
     SpringView view() { return SpringView(state(), springs_of(state(), soft())); }
-    ShellView shell() { return ShellView(state(), state().bodies.shell[row()]); }
+    ShellView shell() { return ShellView(state(), state().bodies.structure[row()]); }
     std::vector<Vec3> shape() {
         std::vector<Vec3> places;
         for (uint32_t v = 0; v < shell().vertex_count(); ++v)

@@ -46,7 +46,7 @@ TEST(CheckSprings, RefusesIndicesThatLeadOutside) {
         },
         [](SpringBench& b) { --b.state().spring_packs.first_slot[b.view().pack(1)]; },
         [](SpringBench& b) { ++b.state().spring_packs.slot_capacity[b.view().pack(1)]; },
-        [](SpringBench& b) { b.state().shell_springs.shell[b.springs()] = Row<Shells>(5); },
+        [](SpringBench& b) { b.state().shell_springs.structure[b.springs()] = Row<Structures>(5); },
         [](SpringBench& b) { b.state().shell_springs.layout[b.springs()] = 9; },
         [](SpringBench& b) { b.state().shell_springs.layout[b.springs()] = 0; },
         [](SpringBench& b) { b.state().shell_springs.time_step[b.springs()] = -1; },

@@ -102,7 +102,7 @@ TEST(GiveSprings, RefusesWhatIsOutOfRangeWithASentence) {
     const std::vector<GivenSpring> wild[] = {{{0, 0, 1, 1}},     {{0, 99999, 1, 1}},   {{0, 1, -1, 1}},
                                              {{0, 1, 1, 1e30f}}, {{0, 1, 1, 1.1e12f}}, {{0, 1, 1.1e6f, 1}}};
     for (const auto& springs : wild) EXPECT_FALSE(give_springs(state, bench.shell(), springs, {}).ok());
-    EXPECT_FALSE(find_springs(state, bench.shell()).exists());
+    EXPECT_FALSE(springs_of(state, bench.shell()).exists());
     EXPECT_TRUE(give_springs(state, bench.shell(), SpringSettings{}).ok());
 }
 
@@ -116,9 +116,9 @@ TEST(GiveSprings, ReleasedRowsAreAllBack) {
         EXPECT_NE(hash_of_pools(state), without);
         ShellRoom room = room_of(state, bench.shell());
         room.with_springs = true;
-        const Row<Shells> copy = copy_shell(state, bench.shell(), room);
+        const Row<Structures> copy = copy_shell(state, bench.shell(), room);
         ASSERT_TRUE(copy.exists());
-        ASSERT_TRUE(find_springs(state, copy).exists());
+        ASSERT_TRUE(springs_of(state, copy).exists());
         release_shell(state, copy);
         release_springs(state, bench.shell());
         EXPECT_EQ(hash_of_pools(state), without);
@@ -134,9 +134,9 @@ TEST(GiveSprings, ACopyMovesAsItsSourceDoes) {
         ShellRoom room = room_of(state, bench.shell());
         room.vertices += 100;
         room.with_springs = true;
-        const Row<Shells> copy = copy_shell(state, bench.shell(), room);
+        const Row<Structures> copy = copy_shell(state, bench.shell(), room);
         ASSERT_TRUE(copy.exists());
-        const Row<ShellSprings> row = find_springs(state, copy);
+        const Row<ShellSprings> row = springs_of(state, copy);
         run_springs(state, row, 30);
         run_springs(state, bench.springs(), 30);
         const SpringView a = bench.view(), b(state, row);
@@ -159,27 +159,11 @@ TEST(GiveSprings, ACopyOfSpringsGivenByHandOnAShellWithElementsIsSound) {
     ASSERT_TRUE(check_springs(state, "source", "").ok());
     ShellRoom room = room_of(state, bench.shell());
     room.with_springs = true;
-    const Row<Shells> copy = copy_shell(state, bench.shell(), room);
+    const Row<Structures> copy = copy_shell(state, bench.shell(), room);
     ASSERT_TRUE(copy.exists());
     const auto sound = check_springs(state, "copy", "");
     EXPECT_TRUE(sound.ok()) << (sound.ok() ? "" : sound.error());
-    EXPECT_EQ(SpringView(state, find_springs(state, copy)).spring_count(), 2u);
-}
-
-TEST(GiveSprings, AStateWithoutSpringsHashesAsIfThereWereNoSuchTables) {
-    State state, other;
-    EXPECT_EQ(state.hash(), other.hash());
-    uint64_t plain = 0;
-    std::apply(
-        [&](auto... table) {
-            const auto add = [&]<class T>(T State::*t) {
-                if constexpr (!requires { T::kIsOptional; }) plain = (state.*t).hash(plain);
-            };
-            (add(table), ...);
-        },
-        State::tables());
-    for (size_t k = 0; k < State::first_spring_pool(); ++k) plain = state.pools()[k]->hash(plain);
-    EXPECT_EQ(state.hash(), plain);
+    EXPECT_EQ(SpringView(state, springs_of(state, copy)).spring_count(), 2u);
 }
 
 }  // namespace

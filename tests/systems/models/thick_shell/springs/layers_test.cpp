@@ -112,8 +112,8 @@ double sag_of(const LayerSettings& layers) {
     const Result<ModelId> model = world.add_model(rubber_sheet());
     const Result<BodyId> body = world.spawn(model.value(), spawn);
     EXPECT_TRUE(body.ok()) << body.error();
-    const SoftBodies& soft = state_of(world).soft_bodies;
-    const double softening = soft.softening[find_soft(soft, Row<Bodies>(body->index))];
+    const State& state = state_of(world);
+    const double softening = state.soft_bodies.softening[state.bodies.soft[body->index]];
     float lowest = 0;
     for (int frame = 0; frame < 60; ++frame) {
         world.step();

@@ -1,6 +1,6 @@
 // Springs of a shell that was cut or re-meshed, beside those that it would be given.
-#include "components/state.hpp"
 #include "systems/models/thick_shell/springs/rebuild_springs.hpp"
+#include "components/state.hpp"
 
 #include <gtest/gtest.h>
 
@@ -81,7 +81,7 @@ TEST(RebuildSprings, AreThoseThatTheCutShellWouldBeGiven) {
         const SpringView view = bench.view();
         ASSERT_TRUE(rebuild_springs(view, cut_above(bench, 3 * kEdge * std::sqrt(0.75))));
         // A copy of the shell without springs is given new ones, and put where the other is.
-        const Row<Shells> copy = copy_shell(state, bench.shell(), room_of(state, bench.shell()));
+        const Row<Structures> copy = copy_shell(state, bench.shell(), room_of(state, bench.shell()));
         SpringSettings settings = settings_of(layout);
         settings.time_step = state.shell_springs.time_step[bench.springs()];
         const auto given = give_springs(state, copy, settings);
@@ -215,7 +215,7 @@ TEST(RebuildSprings, AfterInsertsAreThoseThatTheShellWouldBeGiven) {
         ASSERT_TRUE(rebuild_springs(bench.view(), insert_vertices(bench, 12)));
         const auto sound = check_springs(state, "re-meshed", "");
         EXPECT_TRUE(sound.ok()) << (sound.ok() ? "" : sound.error());
-        const Row<Shells> copy = copy_shell(state, bench.shell(), room_of(state, bench.shell()));
+        const Row<Structures> copy = copy_shell(state, bench.shell(), room_of(state, bench.shell()));
         const auto given = give_springs(state, copy, settings_of(layout));
         ASSERT_TRUE(given.ok()) << given.error();
         const SpringView view = bench.view(), fresh(state, given.value());

@@ -204,7 +204,7 @@ TEST(Limits, AHitThatFindsNoRowsWaitsForThoseOfAnother) {
     World wide = two_struck(1u << 16, struck);
     EXPECT_EQ(hit_bodies(wide, struck, 60), std::pair(2u, std::set<std::string>{}));
     const State& state = state_of(wide);
-    const uint32_t own = state.shells.vertices[state.bodies.shell[struck[0].index]].capacity;
+    const uint32_t own = state.shells.vertices[state.shell_of(state.bodies.structure[struck[0].index])].capacity;
     struck.clear();
     World narrow = two_struck(3 * own + 1100, struck);  // the model's and a copy with room for cracks
     const auto [hit, refused] = hit_bodies(narrow, struck, 60);
@@ -277,7 +277,7 @@ TEST(Limits, WorkAFrameStaysWithinItsUnitsOnAnyNumberOfThreads) {
                 const bool runs = static_cast<TaskState>(tasks.state[t]) == TaskState::Running;
                 if (system == "grant_units") {
                     steps.push_back(tasks.steps_done[t]);
-                    units.push_back(runs ? static_cast<uint32_t>(units_a_step(state.shells, tasks, t)) : 0);
+                    units.push_back(runs ? static_cast<uint32_t>(units_a_step(state, t)) : 0);
                     work.back().granted += runs ? uint64_t{tasks.steps_granted[t]} * units[t] : 0;
                     work.back().first_steps += units[t];
                 } else if (t < units.size()) {
@@ -319,11 +319,11 @@ TEST(Limits, TheLastStepOfAHitWaitsForTheUnitsOfItsBirths) {
         for (uint32_t t = 0; t < tasks.size(); ++t) {
             const auto task_state = static_cast<TaskState>(tasks.state[t]);
             if (system == "grant_units" && task_state == TaskState::Running) {
-                before = tasks.steps_done[t], left = steps_left(tasks, t, 0);
-                births = units_of_birth(state.shells, tasks, t), a_step = units_a_step(state.shells, tasks, t);
+                before = tasks.steps_done[t], left = steps_left(state, t, 0);
+                births = units_of_birth(state, t), a_step = units_a_step(state, t);
             } else if (system == "advance_runs" && task_state != TaskState::Free) {
                 done = tasks.steps_done[t] - before;
-                waited += task_state == TaskState::Running && tasks.crack_count[t] > 0 && steps_left(tasks, t, 0) <= 1;
+                waited += task_state == TaskState::Running && tasks.crack_count[t] > 0 && steps_left(state, t, 0) <= 1;
             }
         }
     });

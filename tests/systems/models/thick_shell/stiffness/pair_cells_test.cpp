@@ -26,18 +26,18 @@ namespace {
 
 /// Assembles the shell anew, its pairs once or twice.
 void assemble(ShellView shell, bool once) {
-    shell.shells().cells[shell.row].count = once ? kPairedCells : 0;
-    ASSERT_EQ(stores_pairs_once(shell.shells(), shell.row), once);
+    shell.cells().count = once ? kPairedCells : 0;
+    ASSERT_EQ(stores_pairs_once(shell.structures(), shell.structure), once);
     ASSERT_TRUE(assemble_stiffness(shell));
 }
 
 struct Fixture {
     State state;
-    Row<Shells> shell;
+    Row<Structures> shell;
     Row<Tasks> task;
     explicit Fixture(const ShellMesh& mesh, bool once = true, bool is_wood = false) {
         if (is_wood) fill_materials(state.materials);
-        const auto material = is_wood ? material_row({state.materials, state.material_traits, state.shells},
+        const auto material = is_wood ? material_row({state.materials, state.material_traits, state.structures},
                                                      compiled_materials()[9], {0.6f, 0.8f, 0})
                                       : add_material(state, 70e9, 0.22, 2400);
         shell = make_test_shell(state, mesh, 0.005, material, {}, 64);
@@ -59,7 +59,8 @@ struct Fixture {
     }
     void step(uint32_t count) {
         for (uint32_t i = 0; i < count; ++i) {
-            const HiddenStep hidden(view(), state.tasks.time_step[task], state.tasks.damping_time[task], i & 1);
+            const HiddenStep hidden(view(), state.hidden_runs.time_step[task], state.hidden_runs.damping_time[task],
+                                    i & 1);
             integrate_packs(hidden, 0, hidden.pack_count);
         }
     }
@@ -84,7 +85,7 @@ struct Pairs {
 Pairs pairs_of(ShellView shell) {
     Pairs pairs;
     const StiffnessPacks& packs = shell.state.stiffness_packs;
-    const bool once = stores_pairs_once(shell.shells(), shell.row);
+    const bool once = stores_pairs_once(shell.structures(), shell.structure);
     const auto& blocks = shell.state.stiffness_blocks.block;
     const auto& links = shell.state.stiffness_links.link;
     for (uint32_t v = 0; v < shell.vertex_count(); ++v) {
@@ -245,8 +246,8 @@ TEST(PairCells, MayRunInAnyOrderAndOnAnyNumberOfThreads) {
     forward.shake(), backward.shake();
     forward.step(20);
     for (uint32_t i = 0; i < 20; ++i) {
-        const HiddenStep step(backward.view(), backward.state.tasks.time_step[0], backward.state.tasks.damping_time[0],
-                              i & 1);
+        const HiddenStep step(backward.view(), backward.state.hidden_runs.time_step[0],
+                              backward.state.hidden_runs.damping_time[0], i & 1);
         for (uint32_t cell = (step.pack_count - 1) / kPairCellPacks + 1; cell-- > 0;)
             integrate_packs(step, cell * kPairCellPacks,
                             std::min(kPairCellPacks, step.pack_count - cell * kPairCellPacks));
@@ -292,7 +293,7 @@ TEST(PairCells, HoldAfterCutsWhatANewAssemblyHolds) {
     room.blocks *= 2, room.links *= 2;
     room.elements = shell.view.element_count() + 2 * kSpare;
     room.hinges = shell.view.hinge_count() + 6 * kSpare;
-    const Row<Shells> copy = copy_shell(state, shell.view.row, room);
+    const Row<Structures> copy = copy_shell(state, shell.view.structure, room);
     ASSERT_TRUE(copy.exists());
     new (&shell.view) ShellView(state, copy);
     const ShellView view = shell.view;

@@ -16,10 +16,10 @@ namespace {
 
 constexpr double kPi = 3.14159265358979323846;
 
-Row<Shells> build(State& state, const SampleSurface& surface) {
-    const Result<Row<Shells>> built = build_shell(state, surface.source(), sample_material(state));
+Row<Structures> build(State& state, const SampleSurface& surface) {
+    const Result<Row<Structures>> built = build_shell(state, surface.source(), sample_material(state));
     EXPECT_TRUE(built.ok()) << built.error();
-    return built.ok() ? built.value() : Row<Shells>{};
+    return built.ok() ? built.value() : Row<Structures>{};
 }
 
 TEST(BuildShell, ASphereHasTheMassCentreAndInertiaOfAHollowBall) {
@@ -27,26 +27,26 @@ TEST(BuildShell, ASphereHasTheMassCentreAndInertiaOfAHollowBall) {
     const double radius = 0.2, depth = 0.02, inner = radius - depth;
     SampleSurface surface = sample_sphere(radius, depth, 5);
     for (Vec3d& p : surface.position) p += Vec3d(1, 2, 3);
-    const Row<Shells> shell = build(state, surface);
+    const Row<Structures> shell = build(state, surface);
     const auto power = [](double x, int n) { return n == 3 ? x * x * x : x * x * x * x * x; };
     const double mass = 2400 * 4 * kPi / 3 * (power(radius, 3) - power(inner, 3));
     const double inertia = 2400 * 8 * kPi / 15 * (power(radius, 5) - power(inner, 5));
-    EXPECT_NEAR(state.shells.mass[shell] / mass, 1, 2e-3);  // the facets
-    EXPECT_NEAR(length(state.shells.centre[shell] - Vec3d(1, 2, 3)), 0, 1e-6);
-    EXPECT_NEAR(state.shells.inertia[shell].xx / inertia, 1, 4e-3);
-    EXPECT_NEAR(state.shells.inertia[shell].zz / inertia, 1, 4e-3);
-    EXPECT_NEAR(state.shells.inertia[shell].xy / inertia, 0, 1e-5);
-    EXPECT_NEAR(state.shells.thickness[shell], depth, 1e-8);
-    EXPECT_NEAR(state.shells.area[shell] / (4 * kPi * radius * radius), 1, 2e-3);
+    EXPECT_NEAR(state.structures.mass[shell] / mass, 1, 2e-3);  // the facets
+    EXPECT_NEAR(length(state.structures.centre[shell] - Vec3d(1, 2, 3)), 0, 1e-6);
+    EXPECT_NEAR(state.structures.inertia[shell].xx / inertia, 1, 4e-3);
+    EXPECT_NEAR(state.structures.inertia[shell].zz / inertia, 1, 4e-3);
+    EXPECT_NEAR(state.structures.inertia[shell].xy / inertia, 0, 1e-5);
+    EXPECT_NEAR(state.shells.thickness[state.shell_of(shell)], depth, 1e-8);
+    EXPECT_NEAR(state.structures.area[shell] / (4 * kPi * radius * radius), 1, 2e-3);
 }
 
 TEST(BuildShell, ASheetIsAPlateExactly) {
     State state;
-    const Row<Shells> shell = build(state, sample_grid(0.5, 0.25, 20, 10, 0.0078125, 0.4));
+    const Row<Structures> shell = build(state, sample_grid(0.5, 0.25, 20, 10, 0.0078125, 0.4));
     const double m = 2400 * 0.5 * 0.25 * 0.0078125;
-    EXPECT_NEAR(state.shells.mass[shell] / m, 1, 1e-7);
-    EXPECT_NEAR(state.shells.centre[shell].y, -0.00390625, 1e-9);
-    const Sym3d inertia = state.shells.inertia[shell];
+    EXPECT_NEAR(state.structures.mass[shell] / m, 1, 1e-7);
+    EXPECT_NEAR(state.structures.centre[shell].y, -0.00390625, 1e-9);
+    const Sym3d inertia = state.structures.inertia[shell];
     EXPECT_NEAR(inertia.xx / (m / 12 * (0.25 * 0.25 + 0.0078125 * 0.0078125)), 1, 1e-6);
     EXPECT_NEAR(inertia.yy / (m / 12 * (0.25 * 0.25 + 0.5 * 0.5)), 1, 1e-6);
     EXPECT_NEAR(inertia.zz / (m / 12 * (0.5 * 0.5 + 0.0078125 * 0.0078125)), 1, 1e-6);
@@ -63,7 +63,7 @@ TEST(BuildShell, MassesOfElementsVerticesAndVolumeAgree) {
     for (uint32_t v = 0; v < shell.vertex_count(); ++v) vertices += state.vertices.mass[shell.vertex(v)];
     EXPECT_NEAR(vertices / elements, 1, 1e-12);
     EXPECT_NEAR(2400 * volume / elements, 1, 1e-12);
-    EXPECT_NEAR(state.shells.mass[shell.row] / elements, 1, 1e-12);
+    EXPECT_NEAR(state.structures.mass[shell.structure] / elements, 1, 1e-12);
 }
 
 TEST(BuildShell, PaddingIsUnderATenthAndDeadAndCellsAreSmall) {
@@ -84,7 +84,7 @@ TEST(BuildShell, PaddingIsUnderATenthAndDeadAndCellsAreSmall) {
         EXPECT_EQ(live, surface.position.size());
         EXPECT_LT(shell.vertex_count(), 1.1 * live);
         EXPECT_EQ(shell.vertex_count() % kLanes, 0u);
-        const Range cells = state.shells.cells[shell.row];
+        const Range cells = state.structures.cells[shell.structure];
         uint32_t most = 0, sum = 0;
         for (uint32_t c = 0; c < cells.count; ++c) {
             most = std::max(most, state.cells.element_count[cells.first + c]);
@@ -169,10 +169,10 @@ TEST(BuildShell, OneTriangleWithoutDepthHasMassAndAHull) {
     surface.corner = {{0, 1, 2}};
     surface.wanted_depth = 0.01;
     link_elements(surface);
-    const Row<Shells> shell = build(state, surface);
-    EXPECT_NEAR(state.shells.mass[shell] / (2400 * 0.05 * 0.01 * 0.005), 1, 1e-6);
-    EXPECT_NEAR(length(state.shells.centre[shell] - Vec3d(0.1 / 3, 0, 0.1 / 3)), 0, 1e-8);
-    EXPECT_GT(determinant(state.shells.inertia[shell]), 0);
+    const Row<Structures> shell = build(state, surface);
+    EXPECT_NEAR(state.structures.mass[shell] / (2400 * 0.05 * 0.01 * 0.005), 1, 1e-6);
+    EXPECT_NEAR(length(state.structures.centre[shell] - Vec3d(0.1 / 3, 0, 0.1 / 3)), 0, 1e-8);
+    EXPECT_GT(determinant(state.structures.inertia[shell]), 0);
     EXPECT_EQ(state.validate(), "");
 }
 

@@ -144,7 +144,7 @@ Model cooked(const Mesh& mesh, float thickness, bool joins) {
 
 double density_of(const Model& model) {
     const Workbench& state = model.contents->state;
-    return double{state.materials.density[state.shells.material[model.contents->shell]]};
+    return double{state.materials.density[state.structures.material[model.contents->shell]]};
 }
 
 TEST(JoinWalls, ACookedCupWeighsWhatTheSolidBetweenItsSkinsDoesAndSaysSo) {
