@@ -437,11 +437,15 @@ template <auto M>
 struct IsTwoSided<Out<M>> : IsTwoSided<In<M>> {};
 
 template <class A, class B>
-inline constexpr bool kRaces = false;  // In and a write of the same one-sided column in one parallel system
+inline constexpr bool kRaces = false;  // what is read of any row, and a write to it, in one parallel system
 template <auto M>
 inline constexpr bool kRaces<In<M>, Out<M>> = ColumnOf<M>::kBuffers == Buffers::One;
 template <auto M>
 inline constexpr bool kRaces<In<M>, InOut<M>> = true;
+template <class T, auto M>
+inline constexpr bool kRaces<const T&, Out<M>> = std::is_same_v<T, TableOf<M>>;
+template <class T, auto M>
+inline constexpr bool kRaces<const T&, InOut<M>> = std::is_same_v<T, TableOf<M>>;
 
 template <class Function>
 struct Signature;
@@ -458,10 +462,14 @@ struct Signature<void (*)(P...)> {
                                                                                  : CallKind::Serial;
     template <class A>
     static constexpr bool races_with_any() {
-        return (... || kRaces<A, P>);
+        if constexpr (IsGroup<A>)
+            return []<class... M>(TypeList<M...>) { return (... || races_with_any<M>()); }(group::MembersOf<A>{});
+        else
+            return (... || kRaces<A, P>);
     }
-    static_assert(kKind == CallKind::Serial || !(... || races_with_any<P>()),
-                  "a parallel system reads any row of a column that it writes: declare the column Buffers::Two");
+    static_assert(
+        kKind == CallKind::Serial || !(... || races_with_any<P>()),
+        "a parallel system reads any row of what it writes: declare the column Buffers::Two, and no whole table");
     template <class A>
     static constexpr bool kChanges = std::is_lvalue_reference_v<A> && !std::is_const_v<std::remove_reference_t<A>>;
     /// Of what a parameter brings: itself, or a group's members.

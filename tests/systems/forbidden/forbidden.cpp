@@ -28,13 +28,15 @@ void helper(ShellRows& rows, const MaterialRows& materials, Nearby near) {
 void falls(Rows<Debris>, InOut<&Debris::position> position, In<&Debris::mass> mass, Step step);
 void counts_all(Rows<Debris>, Debris& debris);
 void looks_around(Rows<Debris>, Out<&Debris::position> position, In<&Debris::position> others);
+void looks_at_all(Rows<Debris>, Out<&Debris::position> position, const Debris& debris);
 void never_called(const Debris& debris);
 void hears_of_it(Serial, Debris& debris, const Blows& blows);
 
 constexpr bool kFalls = Signature<decltype(&falls)>::kHasTwoSided;
 constexpr bool kHears = Signature<decltype(&hears_of_it)>::kHasTwoSided;
-constexpr bool kCounts = Signature<decltype(&counts_all)>::kHasTwoSided;    // forbidden: many threads change one table
-constexpr bool kLooks = Signature<decltype(&looks_around)>::kHasTwoSided;   // forbidden: rows read what others write
+constexpr bool kCounts = Signature<decltype(&counts_all)>::kHasTwoSided;   // forbidden: many threads change one table
+constexpr bool kLooks = Signature<decltype(&looks_around)>::kHasTwoSided;  // forbidden: rows read what others write
+constexpr bool kLooksAll = Signature<decltype(&looks_at_all)>::kHasTwoSided;  // forbidden: nor do they read tables
 constexpr bool kCalled = Signature<decltype(&never_called)>::kHasTwoSided;  // forbidden: nothing says whose call it is
 
 void kernel(Rows<Debris>, InOut<&Debris::position> position, In<&Debris::mass> mass) {
