@@ -118,9 +118,10 @@ bool is_at_its_end(const LoadedBody& of, const DamageSettings& settings) {
 }
 
 // What is laid on a sleeper little by little is not to find it asleep for ever: its supports tell their loads only
-// awake.
-bool is_to_wake(const LoadedBody& of, double load) {
-    return load > double{of.bodies.waking_load[of.body]} && load > kLaidOn * least_load(of);
+// awake. Its own weight is none of it: thin panes that lay flat were woken by theirs ten times.
+bool is_to_wake(const LoadedBody& of, double load, Vec3 gravity) {
+    const double laid_on = load - of.bodies.mass[of.body] * double{length(gravity)};
+    return load > double{of.bodies.waking_load[of.body]} && laid_on > kLaidOn * least_load(of);
 }
 
 // What sleeps on it weighs nothing in the solver, and is told of once the body is awake.
@@ -284,7 +285,7 @@ void Weighing::wake_if_loaded(const LoadedBody& of, std::span<const BodyLoad> lo
     float& waking_load = bodies.waking_load[of.body];
     if (forgets) waking_load *= 0.5f;
     const double load = sum_of(loads);
-    if (!is_to_wake(of, load) || (is_past_blows(of, rules.settings) && !is_any_driven(loads))) return;
+    if (!is_to_wake(of, load, step.gravity) || (is_past_blows(of, rules.settings) && !is_any_driven(loads))) return;
     waking_load = static_cast<float>(std::clamp(2 * double{waking_load}, kFirstWaking * load, 1e30));
     rigid.wake(of.body);
     bodies.is_asleep[of.body] = 0;
