@@ -62,7 +62,8 @@ double stretch_of_springs(const SpringNet& strip, int steps) {
     net.stiffness = 0.25f * net.mass / (net.dt * net.dt);  // dt = 0.5 sqrt(m / k), of at most 0.7
     net.damping = 0.1f * net.stiffness * net.dt;
     SpringBench bench = bench_of(net, [](uint32_t v) { return v % kLong == 0; });
-    float* along = bench.state().vertices.velocity.lane(0) + bench.state().shells.vertices[bench.shell()].first;
+    float* along = bench.state().vertices.velocity.lane(0) +
+                   bench.state().shells.vertices[bench.state().shell_of(bench.shell())].first;
     double sum = 0;
     for (int frame = 0; frame < kFrames; ++frame) {
         for (int step = 0; step < steps; ++step) {

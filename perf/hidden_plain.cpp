@@ -5,7 +5,7 @@ namespace cullet::perf {
 
 PlainHidden::PlainHidden(ShellView shell, float dt, float beta) : dt_(dt), beta_(beta) {
     const ShellRows& s = shell.state;
-    const PlaneStress c = plane_stress(s, shell.row);
+    const PlaneStress c = plane_stress(s, shell.structure);
     c11_ = static_cast<float>(c.c11), c12_ = static_cast<float>(c.c12), c33_ = static_cast<float>(c.c33);
     for (uint32_t v = 0; v < shell.vertex_count(); ++v) {
         const uint32_t row = shell.vertex(v);

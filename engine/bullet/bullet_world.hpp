@@ -180,6 +180,8 @@ class BulletWorld final : public RigidWorld {
     }
     PutThrough find_put_through(const Body& body) const;
     PutThrough find_born_through(const Body& body) const;
+    bool first_touch_of(bool of_static, Vec3 from, Vec3 to, float seconds, float radius, float least_reach,
+                        RigidTouch& out) const;
     bool find_cut_of(const Body& body, Vec3 from, Vec3 over, Vec3 to, Cut& cut) const;
     uint32_t find_middle_piece(const Body& body, Vec3 centre) const;
     bool may_be_cut(const Body& body, Vec3 centre) const;

@@ -9,8 +9,9 @@ namespace {
 
 // m between it and what it has met, or its next step would begin in it: at most a tenth of its radius.
 constexpr float kClear = 2e-4f;
-// m that it may be in something and is still pushed out of it. Of what does not move by forces, beyond its radius; of
-// all else at all, at most a third of it: a crumb is born among pieces that it overlaps, which must not throw it.
+// m that it may be in something and is still pushed out of it. Of what the game moves or what sleeps, beyond its
+// radius; of what moves by forces at all, at most a third of it: a crumb is born among pieces that it overlaps, which
+// must not throw it. Of a static piece it is always pushed out: below a floor it would fall for ever.
 constexpr float kDeepest = 0.01f, kDeepestInFree = 0.001f;
 
 struct Way {
@@ -90,8 +91,8 @@ bool meets_triangle(const StaticTriangle& triangle, bool one_sided, const Way& w
 }  // namespace
 
 // The tree names bodies in no order to rely on: of equal shares the lower id counts.
-bool BulletWorld::first_touch(Vec3 from, Vec3 to, float seconds, float radius, float least_reach,
-                              RigidTouch& out) const {
+bool BulletWorld::first_touch_of(bool of_static, Vec3 from, Vec3 to, float seconds, float radius, float least_reach,
+                                 RigidTouch& out) const {
     Box box{from, from};
     include(box, to);
     box = grown(box, radius + farthest_way_);  // the tree holds bodies where they were before the step
@@ -101,7 +102,8 @@ bool BulletWorld::first_touch(Vec3 from, Vec3 to, float seconds, float radius, f
     RigidId met = kNoRigid;
     tree_.visit(box, [&](uint32_t id) {
         const Body& body = bodies_[id];
-        if (!body.is_used || body.is_soft || (body.kind != RigidKind::Static && body.reach < least_reach)) return;
+        const bool is_static = body.kind == RigidKind::Static;
+        if (!body.is_used || body.is_soft || (!is_static && (of_static || body.reach < least_reach))) return;
         float nearest = 1, found_depth = 0;
         Vec3 found;
         bool is_met = false;
@@ -112,7 +114,7 @@ bool BulletWorld::first_touch(Vec3 from, Vec3 to, float seconds, float radius, f
         const Vec3 start = from + seconds * body.moved_fraction * velocity_at(body, from);
         const float deepest = body.is_free() ? std::min(kDeepestInFree, radius / 3) : radius + kDeepest;
         const Way way{transposed_times(rotation, start - origin), transposed_times(rotation, to - start), radius,
-                      deepest};
+                      is_static ? kFar : deepest};
         Box local{way.from, way.from};
         include(local, way.from + way.along);
         for (const Hull* hull = body.hulls; hull; hull = hull->next) {
@@ -137,6 +139,15 @@ bool BulletWorld::first_touch(Vec3 from, Vec3 to, float seconds, float radius, f
     const Vec3 place = met_from + share * (to - met_from) + (depth + std::min(kClear, 0.1f * radius)) * normal;
     const bool is_still = !body.is_free() && body.kind != RigidKind::Kinematic;
     out = {share, place, normal, velocity_at(body, place - radius * normal), is_still};
+    return true;
+}
+
+// What moves and has come over it pushes it into nothing that stands: a press would drive it through the floor.
+bool BulletWorld::first_touch(Vec3 from, Vec3 to, float seconds, float radius, float least_reach,
+                              RigidTouch& out) const {
+    if (!first_touch_of(false, from, to, seconds, radius, least_reach, out)) return false;
+    RigidTouch stop;
+    if (!out.is_still && first_touch_of(true, from, out.place, 0, radius, least_reach, stop)) out.place = stop.place;
     return true;
 }
 

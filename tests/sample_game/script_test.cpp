@@ -591,8 +591,8 @@ TEST_P(SceneHash, IsWhatTheSceneAlwaysGave) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Scenes, SceneHash,
-                         testing::Values(KnownHash{"vase", "54eb5e28363d7be4"}, KnownHash{"wall", "d60cc56d2f69a00d"},
-                                         KnownHash{"pane", "8eac14138263a73c"}, KnownHash{"drop", "6f0884e9f1308334"}),
+                         testing::Values(KnownHash{"vase", "62501a0676eee880"}, KnownHash{"wall", "c5c5f4e04935eab0"},
+                                         KnownHash{"pane", "d3a9712b78a85d61"}, KnownHash{"drop", "c662e3eb9451ab38"}),
                          [](const auto& known) { return std::string(known.param.scene); });
 
 TEST(Script, AFileIsPlayedByItsPathAndOneThatIsNotThereIsNamed) {
