@@ -24,7 +24,7 @@ constexpr double kCrushed = 4;
 constexpr double kLookShare = 0.7, kLaidOn = 0.25;
 // Each time that a load wakes it, it takes twice as much to wake it again, from this share of the load on: what rocks
 // on it would keep both awake for ever. When all that lies on it sleeps the count begins anew.
-constexpr double kFirstWaking = 1.0 / 256;
+constexpr double kFirstWaking = 1.0 / 256, kOwnWaking = 1.25;
 // Each time so much is over half of it is enough again, so that no load goes unseen for longer than twice that.
 constexpr float kForgettingSeconds = 10;
 // The blow that stands for a load: below the first crack the force of a contact goes with the speed, so that
@@ -118,10 +118,16 @@ bool is_at_its_end(const LoadedBody& of, const DamageSettings& settings) {
 }
 
 // What is laid on a sleeper little by little is not to find it asleep for ever: its supports tell their loads only
-// awake. Its own weight is none of it: thin panes that lay flat were woken by theirs ten times.
-bool is_to_wake(const LoadedBody& of, double load, Vec3 gravity) {
+// awake.
+bool is_to_wake(const LoadedBody& of, double load) {
+    return load > double{of.bodies.waking_load[of.body]} && load > kLaidOn * least_load(of);
+}
+
+// The share of a load from which on it wakes again. Its own weight wakes it once, to see whether it bears itself: thin
+// panes that lay flat were woken by theirs ten times.
+double first_waking(const LoadedBody& of, double load, Vec3 gravity) {
     const double laid_on = load - of.bodies.mass[of.body] * double{length(gravity)};
-    return load > double{of.bodies.waking_load[of.body]} && laid_on > kLaidOn * least_load(of);
+    return laid_on > kLaidOn * least_load(of) ? kFirstWaking : kOwnWaking;
 }
 
 // What sleeps on it weighs nothing in the solver, and is told of once the body is awake.
@@ -285,8 +291,9 @@ void Weighing::wake_if_loaded(const LoadedBody& of, std::span<const BodyLoad> lo
     float& waking_load = bodies.waking_load[of.body];
     if (forgets) waking_load *= 0.5f;
     const double load = sum_of(loads);
-    if (!is_to_wake(of, load, step.gravity) || (is_past_blows(of, rules.settings) && !is_any_driven(loads))) return;
-    waking_load = static_cast<float>(std::clamp(2 * double{waking_load}, kFirstWaking * load, 1e30));
+    if (!is_to_wake(of, load) || (is_past_blows(of, rules.settings) && !is_any_driven(loads))) return;
+    waking_load =
+        static_cast<float>(std::clamp(2 * double{waking_load}, first_waking(of, load, step.gravity) * load, 1e30));
     rigid.wake(of.body);
     bodies.is_asleep[of.body] = 0;
     bodies.overloaded_steps[of.body] = kWasWoken;

@@ -71,7 +71,7 @@ TEST(VertexSums, AShellOfRowsThatWereTakenAgainKeepsNone) {
     keep_vertex_sums(vase.view());
     (void)vertex_sums(vase.view());
     const Range rows = vase.view().vertices();
-    release_shell(vase.state, vase.structure);
+    release_shell(vase.state, vase.row);
     ShellRoom room;
     room.vertices = rows.capacity, room.elements = 8;
     const Row<Structures> other = make_shell(vase.state, room);
