@@ -41,8 +41,8 @@ bool meets_hull(const Hull& hull, const Way& way, float& share, Vec3& normal, fl
         share = enters, normal = hull.face_normal[face], depth = 0;
         return true;
     }
-    // It begins in it.
-    if (-least_deep > way.deepest || share <= 0) return false;
+    // It begins in it. What other pieces cover on all sides has no way out.
+    if (least_deep == -kFar || -least_deep > way.deepest || share <= 0) return false;
     if (dot(hull.face_normal[out], way.along) > -least_deep) return false;  // on its way out
     share = 0, normal = hull.face_normal[out], depth = -least_deep;
     return true;

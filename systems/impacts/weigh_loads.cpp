@@ -23,7 +23,8 @@ constexpr double kCrushed = 4;
 // Below this share of the least that could break it nothing is looked at, and below the second no sleeper is woken.
 constexpr double kLookShare = 0.7, kLaidOn = 0.25;
 // Each time that a load wakes it, it takes twice as much to wake it again, from this share of the load on: what rocks
-// on it would keep both awake for ever. When all that lies on it sleeps the count begins anew.
+// on it would keep both awake for ever. When all that lies on it sleeps the count begins anew. Its own weight wakes it
+// once.
 constexpr double kFirstWaking = 1.0 / 256, kOwnWaking = 1.25;
 // Each time so much is over half of it is enough again, so that no load goes unseen for longer than twice that.
 constexpr float kForgettingSeconds = 10;

@@ -45,7 +45,8 @@ std::vector<uint8_t> decoded_data_uri(const Part& uri) {
     const std::string_view text = uri.text();
     const size_t comma = text.find(',');
     constexpr std::string_view kBase64 = ";base64";
-    if (comma == text.npos || comma < kBase64.size() || !is_word(text.substr(comma - kBase64.size(), kBase64.size()), kBase64))
+    if (comma == text.npos || comma < kBase64.size() ||
+        !is_word(text.substr(comma - kBase64.size(), kBase64.size()), kBase64))
         uri.refuse("is data that is not written in base64");
     auto bytes = decoded_base64(text.substr(comma + 1));
     if (!bytes) uri.refuse("is no base64");
