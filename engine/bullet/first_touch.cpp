@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "engine/bullet/bullet_world.hpp"
+#include "engine/bullet/sides.hpp"
 
 namespace cullet::bullet {
 namespace {
@@ -68,7 +69,18 @@ bool meets_ball(Vec3 centre, float radii, const Way& way, float& share, Vec3& no
     return true;
 }
 
-/// On the side that it comes from; from behind a one-sided triangle is not there.
+/// Seen along its normal, and a little beside it: what crosses an edge misses neither of its triangles.
+bool is_over(const StaticTriangle& triangle, Vec3 front, Vec3 place) {
+    const float beside = clearance_at(place);
+    for (int k = 0; k < 3; ++k) {
+        const Vec3 edge = triangle.corner[(k + 1) % 3] - triangle.corner[k];
+        if (dot(cross(front, edge), place - triangle.corner[k]) < -beside * length(edge)) return false;
+    }
+    return true;
+}
+
+/// On the side that it comes from; from behind a one-sided triangle is not there. Faces that are pushed out leave a gap
+/// over a ridge: what gets into it is stopped by its centre.
 bool meets_triangle(const StaticTriangle& triangle, bool one_sided, const Way& way, float& share, Vec3& normal,
                     float& depth) {
     const Vec3* c = triangle.corner;
@@ -79,12 +91,13 @@ bool meets_triangle(const StaticTriangle& triangle, bool one_sided, const Way& w
     if (!(going < 0) || over + going > 0 || -over > way.deepest) return false;
     const float at = std::max(0.0f, over / -going);
     if (at >= share) return false;
-    const Vec3 place = way.from + at * way.along;
-    for (int k = 0; k < 3; ++k) {
-        const Vec3 edge = c[(k + 1) % 3] - c[k];
-        if (side * dot(cross(n, edge), place - c[k]) < 0) return false;
+    if (is_over(triangle, front, way.from + at * way.along)) {
+        share = at, normal = n, depth = std::max(0.0f, -over);
+        return true;
     }
-    share = at, normal = n, depth = std::max(0.0f, -over);
+    const float across = height / -going;
+    if (height < 0 || across >= share || !is_over(triangle, front, way.from + across * way.along)) return false;
+    share = across, normal = n, depth = 0;
     return true;
 }
 
