@@ -62,4 +62,11 @@ inline void set_cut_point(Blows& blows, uint32_t row, uint32_t i, Vec3 place) {
     p[3 * i] = place.x, p[3 * i + 1] = place.y, p[3 * i + 2] = place.z;
 }
 
+/// What an explosion is to one body, in its frame.
+struct Explosion {
+    Vec3 centre;         // m
+    float radius = 0;    // reach, m
+    float strength = 0;  // N s/m2 at the centre
+};
+
 }  // namespace cullet

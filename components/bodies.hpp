@@ -78,27 +78,6 @@ struct PinBoxes : Table<PinBoxes> {
     Column<Vec3> high{*this, "high", "m"};
 };
 
-/// One component of a broken shell. Its elements are first_element, Elements.next of it, and so on in rising order
-/// until kNone.
-struct FragmentPart {
-    uint32_t first_element = kNone;  // the smallest; parts are ordered by it
-    uint32_t last_element = kNone;
-    uint32_t element_count = 0;
-    double mass = 0;  // kg, of the elements in rising order
-    bool has_pins = false;
-};
-
-/// Parts of one hit that can be told apart; more of them end the hit as a fault.
-inline constexpr uint32_t kMostParts = 1024;
-
-/// Row t kMostParts + p is part p of task t, between find_parts and make_births. Rows behind the last task's are of a
-/// body that asks again for births.
-struct Fragments : Table<Fragments> {
-    using Table::Table;
-    static constexpr const char* kName = "fragments";
-    Column<FragmentPart> part{*this, "part", "1", Keep::Scratch};
-};
-
 /// One row is one cooked model in this world. It can go while bodies of it live.
 struct Models : Table<Models> {
     using Table::Table;

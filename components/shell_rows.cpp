@@ -60,7 +60,10 @@ ShellRows::ShellRows(const Limits& l, const MaterialRows& of_what)
       spring_slots(slot_limit(l), l.shells),
       layer_slots(slot_limit(l), l.shells),
       twins(l.vertices, l.shells),
-      vertex_blocks(l.vertices / kVerticesPerBlock + 1) {}
+      vertex_blocks(l.vertices / kVerticesPerBlock + 1),
+      shell_parts((l.tasks + 1) * kMostParts) {
+    shell_parts.append((l.tasks + 1) * kMostParts);
+}
 
 ShellRoom room_of(const ShellRows& rows, Row<Structures> structure) {
     ShellRoom room;

@@ -3,6 +3,7 @@
 #pragma once
 #include "components/limits.hpp"
 #include "components/materials.hpp"
+#include "components/shell_parts.hpp"
 #include "components/shells.hpp"
 #include "components/springs.hpp"
 #include "components/vertex_blocks.hpp"
@@ -64,7 +65,8 @@ struct ShellRows : StructureRows {
     SpringSlots spring_slots;
     LayerSlots layer_slots;
     Twins twins;
-    VertexBlocks vertex_blocks;     // neither saved nor hashed
+    VertexBlocks vertex_blocks;  // neither saved nor hashed
+    ShellParts shell_parts;
     mutable ScratchMemory scratch;  // of functions that need more than a stack holds
 
     Row<Shells> shell_of(Row<Structures> structure) const { return cullet::shell_of(structures, structure); }
@@ -76,7 +78,7 @@ struct ShellRows : StructureRows {
                           &R::hinges,        &R::stiffness_packs, &R::stiffness_blocks, &R::stiffness_links,
                           &R::shell_springs, &R::springs,         &R::layer_springs,    &R::element_springs,
                           &R::spring_packs,  &R::spring_slots,    &R::layer_slots,      &R::twins,
-                          &R::vertex_blocks};
+                          &R::vertex_blocks, &R::shell_parts};
     }
 
     /// Calls f(range, table, room, limit) for each table of which a shell has a range: the member of ShellRoom that

@@ -1,6 +1,17 @@
 #include "components/state.hpp"
 
 namespace cullet {
+namespace {
+
+// All that tasks may come apart into, and more for bodies without a task whose pieces wait for room.
+constexpr uint32_t kMostWaitingParts = 16 * kMostParts;
+uint32_t fragment_limit(const Limits& l) {
+    return l.tasks * kMostParts + kMostWaitingParts;
+}
+// Four for an edge of a crack.
+constexpr uint32_t kMostTouches = 1u << 18;
+
+}  // namespace
 
 State::State(const Limits& l)
     : SoftRows(l, MaterialRows{materials, material_traits}),
@@ -9,12 +20,12 @@ State::State(const Limits& l)
       models(l.models),
       debris(l.debris),
       queued_hits(l.queued_hits),
-      fragments((l.tasks + 1) * kMostParts),
+      fragments(fragment_limit(l)),
+      touches(kMostTouches),
       blows(2 * (l.bodies + l.queued_hits)),
       debris_ages(l.debris),
       limits_(l) {
     queued_hits.append(l.queued_hits);
-    fragments.append((l.tasks + 1) * kMostParts);
 }
 
 uint64_t State::hash() const {

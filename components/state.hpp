@@ -20,6 +20,7 @@ struct State : SoftRows {
     Debris debris;
     QueuedHits queued_hits;
     Fragments fragments;
+    Touches touches;
     Blows blows;
     DebrisAges debris_ages;
 
@@ -34,7 +35,7 @@ struct State : SoftRows {
                     &State::quick_bodies, &State::soft_bodies, &State::soft_strikers, &State::soft_contacts,
                     &State::debris, &State::debris_ages, &State::tasks, &State::task_contacts, &State::patch_vertices,
                     &State::hidden_runs, &State::marked_packs, &State::quick_runs, &State::region_rests,
-                    &State::queued_hits, &State::blows, &State::fragments);
+                    &State::queued_hits, &State::blows, &State::shell_parts, &State::fragments, &State::touches);
     }
     const Limits& limits() const { return limits_; }
     /// The table of type T.

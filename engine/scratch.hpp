@@ -5,9 +5,13 @@
 #include <atomic>
 #include <cstddef>
 #include <cstdint>
+#include <memory>
 #include <new>
+#include <span>
+#include <type_traits>
 #include <utility>
 
+#include "engine/assert.hpp"
 #include "engine/memory.hpp"
 
 namespace cullet {
@@ -62,6 +66,29 @@ class Scratch {
     ScratchMemory& memory_;
     std::byte* block_;
     T* value_;
+};
+
+/// Several T in such a block while this lives, each with its initial value.
+template <class T>
+class ScratchArray {
+ public:
+    ScratchArray(ScratchMemory& memory, size_t count)
+        : memory_(memory), block_(memory.take()), all_(reinterpret_cast<T*>(block_), count) {
+        static_assert(std::is_trivially_destructible_v<T> && alignof(T) <= 64);
+        CULLET_ASSERT(count <= ScratchMemory::kBlockBytes / sizeof(T), "%zu values are too many for a block", count);
+        std::uninitialized_value_construct(all_.begin(), all_.end());
+    }
+    ~ScratchArray() { memory_.give_back(block_); }
+    ScratchArray(const ScratchArray&) = delete;
+    ScratchArray& operator=(const ScratchArray&) = delete;
+
+    T& operator[](size_t i) const { return all_[i]; }
+    std::span<T> all() const { return all_; }
+
+ private:
+    ScratchMemory& memory_;
+    std::byte* block_;
+    std::span<T> all_;
 };
 
 }  // namespace cullet

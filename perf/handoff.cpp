@@ -11,13 +11,13 @@
 #include "engine/arena.hpp"
 #include "engine/fp_mode.hpp"
 #include "perf/perf.hpp"
+#include "systems/bodies/rigid_shape.hpp"
 #include "systems/structures/shell/cell_hulls.hpp"
 #include "systems/structures/shell/group_fragments.hpp"
 #include "systems/structures/shell/make_piece.hpp"
 #include "systems/structures/shell/mass_properties.hpp"
 #include "systems/structures/shell/piece_shape.hpp"
 #include "systems/structures/shell/prism.hpp"
-#include "systems/structures/shell/rigid_shape.hpp"
 #include "tests/support/sample_shells.hpp"
 
 namespace cullet::perf {

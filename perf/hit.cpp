@@ -78,7 +78,8 @@ bool is_running(const State& state) {
 /// What follows the last step: parts, their motions, a shell for each but the largest.
 struct Ending {
     std::vector<FragmentPart> parts{kMostParts};
-    std::vector<PartMotion> motions{kMostParts};
+    Fragments fragments{kMostParts};
+    Touches touches{1};
     std::vector<Row<Structures>> shells;
     uint32_t count = 0;
 
@@ -89,7 +90,7 @@ struct Ending {
         const ShellView shell(state, state.tasks.working[kTask]);
         const HandoffStart start{Vec3d(state.tasks.start_velocity[kTask]), Vec3d(),
                                  shell.structures().centre[shell.structure], kFallSpeed};
-        timed([&] { rigid_handoff(shell, start, std::span(parts.data(), count), motions); });
+        timed([&] { rigid_handoff(shell, start, std::span(parts.data(), count), fragments, touches); });
         // The largest part keeps the working shell.
         uint32_t largest = 0;
         for (uint32_t p = 1; p < count; ++p)

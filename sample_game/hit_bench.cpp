@@ -61,13 +61,14 @@ double impact_speed(const HitDescription& hit) {
 
 void examine_pieces(State& state, const HitDescription& hit, std::span<const FragmentPart> parts, HitResult& result) {
     const ShellView shell(state, state.tasks.working[Row<Tasks>(0)]);
-    std::vector<PartMotion> motions(parts.size());
+    Fragments fragments(static_cast<uint32_t>(parts.size()));
+    Touches touches(1);
     HandoffStart start;
     start.velocity = Vec3d(hit.velocity);
     start.spin = Vec3d(hit.spin);
     start.centre = state.structures.centre[shell.structure];
     start.impact_speed = 1e9;  // no clamps
-    const HandoffReport handoff = rigid_handoff(shell, start, parts, motions);
+    const HandoffReport handoff = rigid_handoff(shell, start, parts, fragments, touches);
     const double striker = static_cast<double>(result.report.striker_speed_after);
     result.kinetic = handoff.energy_unclamped;
     if (hit.striker_inverse_mass > 0)
@@ -77,7 +78,7 @@ void examine_pieces(State& state, const HitDescription& hit, std::span<const Fra
     result.largest = largest / total;
     for (size_t p = 0; p < parts.size(); ++p) {
         result.pieces += parts[p].mass > kLeastShare * total;
-        const double change = length(motions[p].velocity - start.velocity) / impact_speed(hit);
+        const double change = length(fragments.velocity[static_cast<uint32_t>(p)] - start.velocity) / impact_speed(hit);
         if (parts.size() > 1) result.top_speed = std::max(result.top_speed, change);
     }
 }

@@ -113,16 +113,16 @@ class DamageModel {
     /// Before that. `Shell(rows, source, spawning)`: the cooked shell, which bodies share, or one of the body's own.
     template <auto Shell>
     DamageModel& spawns_own() {
-        calls_.spawn_shell = [](SoftRows& rows, Row<Structures> source, const Spawning& spawning) {
+        calls_.spawn_structure = [](SoftRows& rows, Row<Structures> source, const Spawning& spawning) {
             return Shell(rows, source, spawning);
         };
         return *this;
     }
-    /// Rows for a task that opens. `Shell(rows, body)` is a WorkingShell; `Begin(rows, task, stiffness_wanted)` fills
+    /// Rows for a task that opens. `Shell(rows, body)` is a WorkingCopy; `Begin(rows, task, stiffness_wanted)` fills
     /// what the model keeps for it.
     template <auto Shell, auto Begin>
     DamageModel& takes() {
-        calls_.working_shell = [](BodyRows& rows, Row<Bodies> body) { return Shell(rows, body); };
+        calls_.working_copy = [](BodyRows& rows, Row<Bodies> body) { return Shell(rows, body); };
         calls_.begin = [](BodyRows& rows, Row<Tasks> task, Events<StiffnessWanted>& wanted) {
             Begin(rows, task, wanted);
         };
@@ -184,14 +184,16 @@ class DamageModel {
         calls_.take_torn = [](SoftRows& rows) { return Take(rows); };
         return *this;
     }
-    /// Of a body that tore: `HandOff(rows, torn, motions)` finds the parts' motions, `Give(rows, torn)` makes the new
-    /// bodies move by themselves, `Keep(rows, rigid, body)` lets the rest go on.
+    /// Of a body that tore: `HandOff(rows, torn, fragments)` finds how the fragments move, `Give(rows, torn,
+    /// fragments)` makes the new bodies move by themselves, `Keep(rows, rigid, body)` lets the rest go on.
     template <auto HandOff, auto Give, auto Keep>
     DamageModel& tears() {
-        calls_.hand_off_torn = [](const SoftRows& rows, const TornPieces& torn, std::span<PartMotion> motions) {
-            HandOff(rows, torn, motions);
+        calls_.hand_off_torn = [](const SoftRows& rows, const Break& torn, Fragments& fragments) {
+            HandOff(rows, torn, fragments);
         };
-        calls_.give_torn = [](SoftRows& rows, const TornPieces& torn) { Give(rows, torn); };
+        calls_.give_torn = [](SoftRows& rows, const Break& torn, const Fragments& fragments) {
+            Give(rows, torn, fragments);
+        };
         calls_.keep_torn = [](SoftRows& rows, RigidWorld& rigid, Row<Bodies> body) { Keep(rows, rigid, body); };
         return *this;
     }

@@ -9,10 +9,8 @@
 #include "systems/checks/world_energy.hpp"
 #include "systems/cook/cooking.hpp"
 #include "systems/cook/model_contents.hpp"
+#include "systems/structure_calls.hpp"
 #include "systems/structures/shell/cook/check_shell_rows.hpp"
-#include "systems/structures/shell/explosion.hpp"
-#include "systems/structures/shell/group_fragments.hpp"
-#include "systems/structures/shell/rigid_handoff.hpp"
 #include "systems/world_data.hpp"
 
 namespace cullet {
@@ -25,17 +23,9 @@ struct PointPush {
     float fastest = 0;  // m/s, at most, that it gives to any point
 };
 
-/// Parts of a body that moves by itself, and tore.
-struct TornPieces {
-    Row<Bodies> body;
-    std::span<const uint32_t> order;  // parts, heaviest first
-    std::span<const FragmentPart> parts;
-    std::span<const Row<Bodies>> child;  // new bodies; of the part that goes on as the body, the body
-};
-
-/// A working copy of a body's shell for a task that opens.
-struct WorkingShell {
-    Row<Structures> shell;       // none: it waits, or there is no room
+/// A working copy of what a body is made of, for a task that opens.
+struct WorkingCopy {
+    Row<Structures> structure;   // none: it waits, or there is no room
     bool waits = false;          // for the task's contacts: its rows are given when they are known
     const char* full = nullptr;  // the limit that left no room
 };
@@ -60,10 +50,10 @@ struct RunLength {
 struct ModelCalls {
     // Cooking and spawning.
     Result<std::shared_ptr<Model::Contents>> (*cook)(Cooking&) = nullptr;
-    Result<Row<Structures>> (*spawn_shell)(SoftRows&, Row<Structures> source, const Spawning&) = nullptr;
+    Result<Row<Structures>> (*spawn_structure)(SoftRows&, Row<Structures> source, const Spawning&) = nullptr;
     Result<ShellRoom> (*spawn_body)(SoftRows&, Row<Bodies>, const Spawning&) = nullptr;
     // Tasks.
-    WorkingShell (*working_shell)(BodyRows&, Row<Bodies>) = nullptr;
+    WorkingCopy (*working_copy)(BodyRows&, Row<Bodies>) = nullptr;
     void (*begin)(BodyRows&, Row<Tasks>, Events<StiffnessWanted>&) = nullptr;
     bool (*give_late)(BodyRows&, const Blows&, Row<Tasks>, Events<StiffnessWanted>&, const char** full) = nullptr;
     bool (*may_find_room)(const BodyRows&, Row<Bodies>) = nullptr;
@@ -85,8 +75,8 @@ struct ModelCalls {
     bool (*is_moving)(const SoftRows&, Row<Bodies>) = nullptr;
     void (*look_for_pieces)(SoftRows&, Row<Bodies>) = nullptr;
     Row<Bodies> (*take_torn)(SoftRows&) = nullptr;
-    void (*hand_off_torn)(const SoftRows&, const TornPieces&, std::span<PartMotion>) = nullptr;
-    void (*give_torn)(SoftRows&, const TornPieces&) = nullptr;
+    void (*hand_off_torn)(const SoftRows&, const Break&, Fragments&) = nullptr;
+    void (*give_torn)(SoftRows&, const Break&, const Fragments&) = nullptr;
     void (*keep_torn)(SoftRows&, RigidWorld&, Row<Bodies>) = nullptr;
     void (*follow)(SoftRows&, Row<Bodies>) = nullptr;
     void (*release)(SoftRows&, Row<Bodies>) = nullptr;

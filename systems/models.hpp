@@ -1,4 +1,4 @@
-// The damage models of a world, in one list. Each body has one of them: the shell that it is made of says which.
+// The damage models of a world, in one list. Each body has one of them: the structure that it is made of says which.
 #pragma once
 #include <memory>
 #include <optional>
@@ -24,14 +24,14 @@ class DamageModels {
     /// "thick_shell, lattice"
     std::string names() const;
 
-    // ---- each asks the model of the body, of the task's body, or of the shell
+    // ---- each asks the model of the body, of the task's body, or of the structure
 
-    Result<void> check_spawn(const ShellRows& rows, Row<Structures> source, const SpawnSettings& settings) const;
-    Result<Row<Structures>> spawn_shell(SoftRows& rows, Row<Structures> source, const Spawning& spawning) const;
+    Result<void> check_spawn(const StructureRows& rows, Row<Structures> source, const SpawnSettings& settings) const;
+    Result<Row<Structures>> spawn_structure(SoftRows& rows, Row<Structures> source, const Spawning& spawning) const;
     /// Rows that the first hit on the body takes; none: it does not break.
     Result<ShellRoom> spawn_body(SoftRows& rows, Row<Bodies> body, const Spawning& spawning) const;
 
-    WorkingShell working_shell(BodyRows& rows, Row<Bodies> body) const;
+    WorkingCopy working_copy(BodyRows& rows, Row<Bodies> body) const;
     void begin_run(BodyRows& rows, Row<Tasks> task, Events<StiffnessWanted>& wanted) const;
     bool give_late(BodyRows& rows, const Blows& blows, Row<Tasks> task, Events<StiffnessWanted>& wanted,
                    const char** full) const;
@@ -52,8 +52,8 @@ class DamageModels {
     bool explode(SoftRows& rows, RigidWorld& rigid, Row<Bodies> body, const Explosion& explosion) const;
     bool is_moving(const SoftRows& rows, Row<Bodies> body) const;
     void look_for_pieces(SoftRows& rows, Row<Bodies> body) const;
-    void hand_off_torn(const SoftRows& rows, const TornPieces& torn, std::span<PartMotion> motions) const;
-    void give_torn(SoftRows& rows, const TornPieces& torn) const;
+    void hand_off_torn(const SoftRows& rows, const Break& torn, Fragments& fragments) const;
+    void give_torn(SoftRows& rows, const Break& torn, const Fragments& fragments) const;
     void keep_torn(SoftRows& rows, RigidWorld& rigid, Row<Bodies> body) const;
     void follow(SoftRows& rows, Row<Bodies> body) const;
     void release(SoftRows& rows, Row<Bodies> body) const;
@@ -77,10 +77,10 @@ class DamageModels {
     Result<void> check_rows(const SoftRows& rows, const std::string& name, const char* advice) const;
 
  private:
-    /// Null where the model has no such call. What has no shell has no model.
+    /// Null where the model has no such call. What has no structure has no model.
     template <class Call>
-    Call call_of(const ShellRows& rows, Row<Structures> shell, Call ModelCalls::*call) const {
-        return shell.exists() ? models_[rows.structures.damage_model[shell]].calls().*call : nullptr;
+    Call call_of(const StructureRows& rows, Row<Structures> structure, Call ModelCalls::*call) const {
+        return structure.exists() ? models_[rows.structures.damage_model[structure]].calls().*call : nullptr;
     }
     template <class Call>
     Call call_of(const RunRows& rows, Row<Tasks> task, Call ModelCalls::*call) const {

@@ -93,19 +93,21 @@ void close_regions(Serial, Own<TaskEnded> ended, BodyRows& rows, Events<CrackSta
 // ---- apply
 
 /// Which elements of a broken shell hang together.
-void find_parts(EachOwn<TaskEnded> ended, BodyRows& rows, Fragments& fragments);
+void find_parts(EachOwn<TaskEnded> ended, BodyRows& rows);
 /// Smooths the cracks of a run that ended, by one pass of (1/4, 1/2, 1/4) along them (C6). So they are drawn, and so
 /// they collide.
 void smooth_cracks(EachOwn<TaskEnded> ended, RunRows& rows, const Blows& blows);
 /// Which pieces become bodies or debris, in order of mass, and the rows that they need. What stayed whole keeps its
 /// cracks. What finds no room stays part of the body, and asks again.
-void plan_births(Serial, const Events<TaskEnded>& ended, SoftRows& rows, WaitingHits waiting, Fragments& fragments,
+void plan_births(Serial, const Events<TaskEnded>& ended, SoftRows& rows, WaitingHits waiting, Pieces pieces,
                  const Debris& debris, DamageLedger ledger, Arena& arena, PlannedBirths planned);
 /// Copies each piece into its rows, marks the old ones dead and chooses what shapes collide (piece_shape.hpp).
 /// Meanwhile it settles the pieces' motions (settle_momenta).
-void fill_births(Each<Birth> birth, const Events<Break>& breaks, ShellRows& rows, const Bodies& bodies);
+void fill_births(Each<Birth> birth, const Events<Break>& breaks, ShellRows& rows, Fragments& fragments,
+                 Touches& touches, const Bodies& bodies);
 /// Measures what is left of each body. Hulls of cells that moved as they were are copied; the others are listed.
-void plan_hulls(Serial, const Events<Break>& breaks, BodyRows& rows, RigidWorld& rigid, Events<HullWanted>& wanted);
+void plan_hulls(Serial, const Events<Break>& breaks, const Fragments& fragments, BodyRows& rows, RigidWorld& rigid,
+                Events<HullWanted>& wanted);
 /// Chooses the hull points of each cell that changed. Finds the faces of its hull, or of a piece's one shape, for the
 /// rigid world.
 void fill_hulls(Each<HullWanted> wanted, ShellRows& rows, const RigidWorld& rigid);
@@ -155,7 +157,7 @@ void bound_drawn(Each<ShellChanged> changed, Bodies& bodies, const ViewVertices&
 /// The tree that queries go down.
 void refresh_queries(Serial, const Bodies& bodies, QueryIndex& index);
 /// Shells that lost a quarter of their rows to pieces have the live ones moved together: in quiet frames, for units.
-void compact_shells(Serial, BodyRows& rows, Fragments& fragments, DamageCounts& counts, const Events<TaskEnded>& ended);
+void compact_shells(Serial, BodyRows& rows, DamageCounts& counts, const Events<TaskEnded>& ended);
 
 // ---- inner loop of a brittle thick shell: repeated for one task
 

@@ -57,6 +57,8 @@ void WorldData::make_ready(const ShellRoom& shell) {
                       &ShellRoom::links, &ShellRoom::cells})
         ready_for.*rows = std::max(ready_for.*rows, shell.*rows);
     commit_ahead(state, ready_for);
+    state.fragments.commit_rows(kMostParts);
+    state.touches.commit_rows(kMostParts);
 }
 
 }  // namespace cullet

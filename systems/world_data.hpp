@@ -147,9 +147,17 @@ struct PlannedBirths {
     Events<RefusedEvent>& refused;
     Events<FaultEvent>& faults;
 };
+/// What bodies come apart into.
+struct Pieces {
+    Fragments& fragments;
+    Touches& touches;
+};
+/// Tasks that ended, and what came apart.
 struct EndedTasks {
     const Events<TaskEnded>& ended;
     const Events<Break>& breaks;
+    Fragments& fragments;
+    Touches& touches;
 };
 struct Crumbs {
     Debris& debris;

@@ -6,15 +6,14 @@
 #include "systems/api/checks.hpp"
 #include "systems/api/model_row.hpp"
 #include "systems/bodies/body_rows.hpp"
+#include "systems/bodies/rigid_shape.hpp"
 #include "systems/bodies/settled_pose.hpp"
 #include "systems/cook/materials.hpp"
 #include "systems/drawn/bound_drawn.hpp"
 #include "systems/drawn/query_index.hpp"
 #include "systems/models.hpp"
 #include "systems/structures/shell/draw_shell.hpp"
-#include "systems/structures/shell/mass_properties.hpp"
 #include "systems/structures/shell/pin_boxes.hpp"
-#include "systems/structures/shell/rigid_shape.hpp"
 #include "systems/world_contents.hpp"
 
 namespace cullet {
@@ -86,17 +85,17 @@ Result<BodyId> World::spawn(ModelId id, const SpawnSettings& settings) {
                             d.rigid->knows_surfaces(), d.step_info.dt, d.damage_settings.units_a_frame};
     const Row<Structures> shared = state.models.structure[model];
     if (const Result<void> valid = models.check_spawn(state, shared, settings); !valid) return Error{valid.error()};
-    const Result<Row<Structures>> own = models.spawn_shell(state, shared, spawning);
+    const Result<Row<Structures>> own = models.spawn_structure(state, shared, spawning);
     if (!own) return Error{own.error()};
-    const Row<Structures> shell = own.value();
-    if (shell == shared) ++state.structures.users[shell];
+    const Row<Structures> structure = own.value();
+    if (structure == shared) ++state.structures.users[structure];
     const Row<Bodies> body = take_body(state);
     if (!body.exists()) {
-        release_shell(state, shell);
+        calls_of(state.structures, structure).release(state, structure);
         return no_room(state.bodies);
     }
     Bodies& bodies = state.bodies;
-    bodies.structure[body] = shell;
+    bodies.structure[body] = structure;
     if (!take_view(state, body, settings.is_breakable)) {
         free_body(state, body);
         return Error{"limits.view_vertices is reached (" + std::to_string(state.view_vertices.limit()) +
@@ -105,7 +104,7 @@ Result<BodyId> World::spawn(ModelId id, const SpawnSettings& settings) {
     const bool is_static = settings.pin_count > 0;
     fill_body(bodies, body, is_static ? BodyKind::Static : BodyKind::Dynamic, settings.pose,
               is_static ? Motion{} : settings.motion, settings.contact,
-              state.materials.friction[state.structures.material[shell]], settings.user_data);
+              state.materials.friction[state.structures.material[structure]], settings.user_data);
     bodies.model[body] = model;
     bodies.has_pins[body] = is_static;
     if (is_static) bodies.pins[body] = add_pin_boxes(state, {settings.pins, settings.pin_count});
@@ -115,7 +114,7 @@ Result<BodyId> World::spawn(ModelId id, const SpawnSettings& settings) {
     }
     bodies.strength_scale[body] = std::min(settings.strength_scale, kNeverCracks);
     take_mass_properties(state.bodies, state.structures, body,
-                         radius_of(ShellView(state, state.bodies.structure[body])));
+                         calls_of(state.structures, structure).radius(state, structure));
     const Result<ShellRoom> room = models.spawn_body(state, body, spawning);
     if (!room) {
         free_body(state, body);
@@ -123,7 +122,7 @@ Result<BodyId> World::spawn(ModelId id, const SpawnSettings& settings) {
     }
     if (room->vertices > 0) d.make_ready(*room);
     d.arena.reset();
-    d.rigid->add(body, describe_rigid(state.bodies, state.structures, body, convex_pieces(state, shell, d.arena)));
+    d.rigid->add(body, describe_rigid(state.bodies, state.structures, body, convex_pieces(state, structure, d.arena)));
     if (take_settled_pose(bodies, *d.rigid, body)) models.follow(state, body);
     draw_body(state, body);
     bodies.drawn_frame[body] = d.step_info.frame;

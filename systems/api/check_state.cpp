@@ -279,8 +279,9 @@ void check_tasks(Checker& check) {
     check.expect(tasks.size() == tasks.limit() && s.hidden_runs.size() == tasks.limit() &&
                      s.task_contacts.size() == s.task_contacts.limit() &&
                      s.patch_vertices.size() == s.patch_vertices.limit() &&
-                     s.queued_hits.size() == s.queued_hits.limit() && s.fragments.size() == s.fragments.limit(),
+                     s.queued_hits.size() == s.queued_hits.limit() && s.shell_parts.size() == s.shell_parts.limit(),
                  "tables of hits do not have the rows of their limits");
+    check.expect(s.fragments.size() == 0 && s.touches.size() == 0, "there are fragments between two steps");
     for (uint32_t t = 0; t < tasks.size() && check.is_sound(); ++t) {
         if (!is_task(s, t)) continue;
         const auto task_state = static_cast<TaskState>(tasks.state[t]);

@@ -55,15 +55,16 @@ void draw_hull(const Pen& pen, std::span<const Vec3> points, const Pose& pose, u
 }
 
 void draw_pieces(const Pen& pen, const State& state, Row<Bodies> b, uint32_t colour) {
-    const Row<Structures> shell = state.bodies.structure[b];
-    const Range cells = state.structures.cells[shell];
+    const Row<Structures> structure = state.bodies.structure[b];
+    const Range cells = state.structures.cells[structure];
     const Pose pose = pose_of(state.bodies, b);
     std::array<Vec3, kMostCellPoints> points;
-    const uint32_t whole = state.structures.shape_points[shell];
-    for (uint32_t k = 0; k < whole; ++k) points[k] = state.hull_points.point[state.structures.points[shell].first + k];
+    const uint32_t whole = state.structures.shape_points[structure];
+    for (uint32_t k = 0; k < whole; ++k)
+        points[k] = state.hull_points.point[state.structures.points[structure].first + k];
     draw_hull(pen, {points.data(), whole}, pose, colour);
     for (uint32_t c = cells.first; c < cells.first + cells.count; ++c) {
-        uint32_t from = state.structures.points[shell].first + state.cells.first_point[c];
+        uint32_t from = state.structures.points[structure].first + state.cells.first_point[c];
         for (const uint8_t count : state.cells.part_points[c]) {
             for (uint32_t k = 0; k < count; ++k) points[k] = state.hull_points.point[from++];
             draw_hull(pen, {points.data(), count}, pose, colour);
@@ -82,11 +83,11 @@ void draw_shape(const Pen& pen, const WorldData& d, Row<Bodies> b, uint32_t colo
 // Of the working copy while a hit is worked off.
 void draw_cracks(const Pen& pen, const State& state, Row<Bodies> b) {
     const uint32_t task = state.bodies.task[b];
-    const Row<Structures> shell = task == kNone ? state.bodies.structure[b] : state.tasks.working[task];
-    if (!shell.exists()) return;
+    const Row<Structures> structure = task == kNone ? state.bodies.structure[b] : state.tasks.working[task];
+    if (!structure.exists()) return;
     const Pose pose = pose_of(state.bodies, b);
-    const Range elements = state.shells.elements[state.shell_of(shell)],
-                vertices = state.shells.vertices[state.shell_of(shell)];
+    const Range elements = state.shells.elements[state.shell_of(structure)],
+                vertices = state.shells.vertices[state.shell_of(structure)];
     for (uint32_t e = elements.first; e < elements.first + elements.count; ++e) {
         if (state.elements.flags[e] & kDead) continue;
         const auto corner = state.elements.corner[e];

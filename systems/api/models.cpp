@@ -34,13 +34,13 @@ Result<ModelId> World::add_model(const Model& model) {
         return Error{model.contents->name + ": the world holds " + std::to_string(kMostMaterials) +
                      " materials already; remove models and bodies of one of them."};
     const char* full = "";
-    const Row<Structures> shell = import_shell(state, model.contents->state, model.contents->shell, &full);
-    if (!shell.exists()) return Error{model.contents->name + ": no room for the model; raise " + full + "."};
-    state.structures.material[shell] = material;
-    state.structures.damage_model[shell] = *breaks;
+    const Row<Structures> structure = import_shell(state, model.contents->state, model.contents->shell, &full);
+    if (!structure.exists()) return Error{model.contents->name + ": no room for the model; raise " + full + "."};
+    state.structures.material[structure] = material;
+    state.structures.damage_model[structure] = *breaks;
     state.models.is_used[row] = 1;
-    state.models.structure[row] = shell;
-    (void)sorted_elements(ShellView(state, shell));  // its bodies' copies know, too
+    state.models.structure[row] = structure;
+    (void)sorted_elements(ShellView(state, structure));  // its bodies' copies know, too
     const DamageSettings& damage = contents_->data.damage_settings;
     contents_->log.advise(contents_->host, *model.contents,
                           hold_units(damage.units_a_frame, damage.hold_seconds, contents_->data.step_info.dt));

@@ -6,10 +6,10 @@
 #include "systems/api/checks.hpp"
 #include "systems/api/cost.hpp"
 #include "systems/api/remove_body.hpp"
+#include "systems/bodies/rigid_shape.hpp"
 #include "systems/drawn/query_index.hpp"
 #include "systems/models.hpp"
 #include "systems/structures/shell/piece_shape.hpp"
-#include "systems/structures/shell/rigid_shape.hpp"
 #include "systems/tasks/take_out.hpp"
 #include "systems/world_contents.hpp"
 
@@ -44,15 +44,15 @@ bool is_changing(const DamageModels& models, const State& state, Row<Bodies> bod
 
 // Scenery is its drawn mesh: the rows that it was made of serve others. Its rows of structures and shells stay, with
 // mass and area.
-void give_back_rows(State& state, Row<Structures> shell) {
-    if (state.structures.users[shell] > 1) return;
-    release_springs(state, shell);
-    ShellRows::for_each_range(state, shell, [](Range& range, auto& table, auto, const char*) {
+void give_back_rows(State& state, Row<Structures> structure) {
+    if (state.structures.users[structure] > 1) return;
+    release_springs(state, structure);
+    ShellRows::for_each_range(state, structure, [](Range& range, auto& table, auto, const char*) {
         table.give_back(range);
         range = {};
     });
-    state.shells.dead_elements[state.shell_of(shell)] = state.structures.live_elements[shell] = 0;
-    clear_shape(ShellView(state, shell));
+    state.shells.dead_elements[state.shell_of(structure)] = state.structures.live_elements[structure] = 0;
+    clear_shape(ShellView(state, structure));
 }
 
 void stand_still(WorldData& d, Row<Bodies> body, BodyKind kind) {

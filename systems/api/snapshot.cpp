@@ -9,12 +9,12 @@
 #include "engine/table_bytes.hpp"
 #include "systems/api/checks.hpp"
 #include "systems/api/settings_bytes.hpp"
+#include "systems/bodies/rigid_shape.hpp"
 #include "systems/cook/materials.hpp"
 #include "systems/drawn/bound_drawn.hpp"
 #include "systems/drawn/query_index.hpp"
 #include "systems/models.hpp"
 #include "systems/structures/shell/draw_shell.hpp"
-#include "systems/structures/shell/rigid_shape.hpp"
 
 namespace cullet {
 
@@ -153,17 +153,17 @@ void restore_what_follows(World::Contents& world) {
                            state.bodies.view_indices[state.tasks.body[t]]);
     }
     for (uint32_t b = 0; b < state.bodies.size(); ++b) {
-        const Row<Structures> shell = state.bodies.structure[b];
-        if (static_cast<BodyKind>(state.bodies.kind[b]) == BodyKind::Free || !shell.exists()) continue;
+        const Row<Structures> structure = state.bodies.structure[b];
+        if (static_cast<BodyKind>(state.bodies.kind[b]) == BodyKind::Free || !structure.exists()) continue;
         bound_view(state.bodies, Row<Bodies>(b), state.view_vertices, state.view_indices, d.view_boxes);
-        remember_drawn(ShellView(state, shell), state.view_indices, state.bodies.view_indices[b]);
+        remember_drawn(ShellView(state, structure), state.view_indices, state.bodies.view_indices[b]);
         state.bodies.redrawn[b] = {0, state.bodies.view_indices[b].count / 3};
         models.restore_body(state, Row<Bodies>(b));
         if (state.bodies.is_breakable[b])
             if (const auto room = models.room(state, Row<Bodies>(b))) d.make_ready(*room);
         d.arena.reset();
         if (world.hosted && static_cast<BodyKind>(state.bodies.kind[b]) != BodyKind::Scenery)
-            world.hosted->announce(b, convex_pieces(state, shell, d.arena));
+            world.hosted->announce(b, convex_pieces(state, structure, d.arena));
     }
     if (world.hosted) world.hosted->finish();
     d.query_index->refresh(state.bodies);

@@ -5,30 +5,16 @@
 namespace cullet {
 namespace {
 
-uint32_t owner_of(const ShellView& shell, Vec3 point, uint32_t otherwise) {
-    const ShellRows& state = shell.state;
-    float least = 1e30f;
-    uint32_t owner = otherwise;
-    for (uint32_t v = 0; v < shell.vertex_count(); ++v) {
-        const uint32_t row = shell.vertex(v), element = state.vertices.element[row];
-        if (element == kNone) continue;
-        const Vec3 away = state.vertices.rest[row] - point;
-        if (dot(away, away) >= least) continue;
-        least = dot(away, away);
-        owner = state.elements.part[shell.element(element)];
-    }
-    return owner;
-}
-
 // A push goes to the piece that owns the nearest vertex; a crumb takes it along. False: the row is gone.
 bool hand_on_push(Planning& planning, const Break& plan, uint32_t row) {
     Blows& blows = planning.blows;
-    const uint32_t owner = owner_of(ShellView(planning.state, plan.broken), blows.point[row], plan.largest);
-    if (plan.is_crumb[owner]) {
+    const Fragments& f = planning.fragments;
+    const Row<Fragments> owner = planning.calls(plan).nearest(planning.state, plan, blows.point[row]);
+    if (f.is_crumb[owner]) {
         remove_blow(blows, row);
         return false;
     }
-    if (plan.child[owner].exists()) blows.body[row] = plan.child[owner];
+    if (f.child[owner].exists()) blows.body[row] = f.child[owner];
     return true;
 }
 
@@ -42,11 +28,12 @@ void share_impulse(Blows& blows, uint32_t row, double share) {
 
 void hand_on_blows(Planning& planning, const Break& plan) {
     const Bodies& bodies = planning.state.bodies;
+    const Fragments& f = planning.fragments;
     Blows& blows = planning.blows;
     double mass = 0, left = 0;
-    for (uint32_t p = 0; p < plan.parts.size(); ++p) {
-        mass += plan.parts[p].mass;
-        if (plan.leaves(p)) left += plan.parts[p].mass;
+    for (const Row<Fragments> row : plan.fragments) {
+        mass += f.mass[row];
+        if (leaves(f, row)) left += f.mass[row];
     }
     uint32_t end = blows.size();
     for (uint32_t b = 0; b < end; ++b) {
@@ -55,35 +42,36 @@ void hand_on_blows(Planning& planning, const Break& plan) {
             if (!hand_on_push(planning, plan, b)) --b, --end;
             continue;
         }
-        for (const uint32_t p : plan.order) {
-            if (!plan.child[p].exists()) continue;
+        for (uint32_t i = 0; i < plan.fragments.count; ++i) {
+            const Row<Fragments> piece = plan.in_order(f, i);
+            if (!f.child[piece].exists()) continue;
             const uint32_t made = blows.append(1);
             if (made == kNone) {
                 planning.refused.push(refused_event(bodies, plan.body, "limits.queued_hits"));
                 break;
             }
             blows.copy_rows(blows, b, made, 1);
-            blows.body[made] = plan.child[p];
+            blows.body[made] = f.child[piece];
             blows.task[made] = kNone;
             blows.goes_on[made] = 0;
             blows.is_paid[made] = 1;
-            share_impulse(blows, made, plan.parts[p].mass / mass);
+            share_impulse(blows, made, f.mass[piece] / mass);
         }
         share_impulse(blows, b, (mass - left) / mass);
     }
 }
 
 void hand_on_hits(Planning& planning, const Break& plan) {
-    const ShellView shell(planning.state, plan.broken);
+    const Fragments& f = planning.fragments;
     QueuedHits& queued = planning.queued;
     for (uint32_t q = 0; q < queued.size(); ++q) {
         if (!queued.is_used[q] || queued.body[q] != plan.body) continue;
-        const uint32_t owner = owner_of(shell, queued.point[q], plan.largest);
+        const Row<Fragments> owner = planning.calls(plan).nearest(planning.state, plan, queued.point[q]);
         // What pressed on the whole is weighed anew on its parts.
-        if (plan.is_crumb[owner] || queued.load[q] > 0)
+        if (f.is_crumb[owner] || queued.load[q] > 0)
             queued.clear_rows(q, 1);
-        else if (plan.child[owner].exists())
-            queued.body[q] = plan.child[owner];
+        else if (f.child[owner].exists())
+            queued.body[q] = f.child[owner];
     }
 }
 

@@ -1,6 +1,6 @@
 // What waits for a body that falls into pieces goes on to them.
 #pragma once
-#include "systems/births/plan_break.hpp"
+#include "systems/births/planning.hpp"
 
 namespace cullet {
 

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "components/body_id.hpp"
+#include "systems/births/part_motion.hpp"
 
 namespace cullet {
 namespace {
@@ -32,10 +33,11 @@ struct Mover {
 };
 
 template <class Visit>
-void for_each_mover(const Bodies& bodies, const Debris& debris, const Break& plan, Visit visit) {
-    for (uint32_t p = 0; p < plan.parts.size(); ++p) {
-        const Row<Bodies> b = plan.child[p];
-        const uint32_t d = plan.debris[p];
+void for_each_mover(const Bodies& bodies, const Debris& debris, const Fragments& fragments, const Break& plan,
+                    Visit visit) {
+    for (const Row<Fragments> f : plan.fragments) {
+        const Row<Bodies> b = fragments.child[f];
+        const uint32_t d = fragments.debris[f];
         if (is_dynamic(bodies, b))
             visit(Mover{b, kNone, bodies.mass[b], Vec3d(centre_of(bodies, b)), Vec3d(bodies.velocity[b]),
                         Vec3d(bodies.spin[b]), world_inertia(bodies, b)});
@@ -53,16 +55,14 @@ struct Common {
 
 void turn_by(Common& common, Vec3d turning) {
     common.turning = turning;
-    const double scale = trace(common.inertia);
-    common.spin =
-        determinant(common.inertia) > 1e-12 * scale * scale * scale ? inverse(common.inertia) * turning : Vec3d{};
+    common.spin = can_turn(common.inertia) ? inverse(common.inertia) * turning : Vec3d{};
 }
 
 // The rigid motion that has the pieces' momentum and angular momentum.
-Common common_motion(const Bodies& bodies, const Debris& debris, const Break& plan) {
+Common common_motion(const Bodies& bodies, const Debris& debris, const Fragments& fragments, const Break& plan) {
     Common common;
     double mass = 0;
-    for_each_mover(bodies, debris, plan, [&](const Mover& m) {
+    for_each_mover(bodies, debris, fragments, plan, [&](const Mover& m) {
         mass += m.mass;
         common.centre += m.mass * m.place;
         common.momentum += m.mass * m.velocity;
@@ -71,7 +71,7 @@ Common common_motion(const Bodies& bodies, const Debris& debris, const Break& pl
     common.centre = (1 / mass) * common.centre;
     common.velocity = (1 / mass) * common.momentum;
     Vec3d turning;
-    for_each_mover(bodies, debris, plan, [&](const Mover& m) {
+    for_each_mover(bodies, debris, fragments, plan, [&](const Mover& m) {
         const Vec3d arm = m.place - common.centre;
         common.inertia = common.inertia + m.inertia + m.mass * inertia_of(outer(arm));
         turning += m.inertia * m.spin + m.mass * cross(arm, m.velocity);
@@ -98,6 +98,12 @@ void move(Births& births, const Mover& m, Vec3d velocity, Vec3d spin, BodyId par
         if (e.fragment.index == m.body.index) e.motion = motion;
 }
 
+bool holds_pins(const Fragments& fragments, const Break& plan) {
+    for (const Row<Fragments> f : plan.fragments)
+        if (fragments.has_pins[f]) return true;
+    return false;
+}
+
 // Of the energy of the blow that stands for a load, and of what the whole body would hold at its strength: what is
 // squeezed bursts with what its springs held, and who presses follows slowly. A bar that is bent holds a ninth.
 constexpr double kFreedByLoad = 0.1, kHeldByLoad = 0.1;
@@ -113,9 +119,9 @@ double held_energy(const BodyRows& state, Row<Bodies> body) {
 
 }  // namespace
 
-double pieces_energy(const Bodies& bodies, const Debris& debris, const Break& plan) {
+double pieces_energy(const Bodies& bodies, const Debris& debris, const Fragments& fragments, const Break& plan) {
     double energy = 0;
-    for_each_mover(bodies, debris, plan, [&](const Mover& m) { energy += m.energy(); });
+    for_each_mover(bodies, debris, fragments, plan, [&](const Mover& m) { energy += m.energy(); });
     return energy;
 }
 
@@ -139,11 +145,11 @@ double owed_to_late(const BodyRows& state, Row<Tasks> task) {
 void limit_energy(Births& births, const Break& plan, double allowed) {
     const Bodies& bodies = births.state.bodies;
     const Debris& debris = births.debris;
-    const double energy = pieces_energy(bodies, debris, plan);
-    bool is_pinned = false;
-    for (const PartMotion& m : plan.motions) is_pinned = is_pinned || m.is_static;
+    const Fragments& fragments = births.fragments;
+    const double energy = pieces_energy(bodies, debris, fragments, plan);
+    const bool is_pinned = holds_pins(fragments, plan);
     if (!(energy > allowed)) return;
-    const Common common = is_pinned ? Common{} : common_motion(bodies, debris, plan);
+    const Common common = is_pinned ? Common{} : common_motion(bodies, debris, fragments, plan);
     Common kept = common;
     if (common.energy() > allowed) {
         const double straight = 0.5 * dot(common.momentum, common.velocity), turning = common.energy() - straight;
@@ -151,7 +157,7 @@ void limit_energy(Births& births, const Break& plan, double allowed) {
     }
     const double beyond = energy - common.energy();
     const double s = beyond > 0 ? std::sqrt(std::max(0.0, allowed - kept.energy()) / beyond) : 1;
-    for_each_mover(bodies, debris, plan, [&](const Mover& m) {
+    for_each_mover(bodies, debris, fragments, plan, [&](const Mover& m) {
         const Vec3d arm = m.place - common.centre;
         const Vec3d beside = m.velocity - common.velocity - cross(common.spin, arm);
         const Vec3d velocity = kept.velocity + cross(kept.spin, arm) + s * beside;
@@ -170,16 +176,16 @@ void share_with_strikers(Births& births, const Break& plan, double allowed) {
     const Tasks& tasks = births.state.tasks;
     Bodies& bodies = births.state.bodies;
     const Debris& debris = births.debris;
+    const Fragments& fragments = births.fragments;
     const uint32_t first = tasks.first_contact[plan.task], end = first + tasks.contact_count[plan.task];
-    for (const PartMotion& m : plan.motions)
-        if (m.is_static) return;  // the support has taken what was too much
-    double excess = pieces_energy(bodies, debris, plan) - allowed;
+    if (holds_pins(fragments, plan)) return;  // the support has taken what was too much
+    double excess = pieces_energy(bodies, debris, fragments, plan) - allowed;
     for (uint32_t c = first; c < end && excess > 1e-9 * allowed; ++c) {
         const Row<Bodies> striker = births.state.task_contacts.striker[c];
         if (!is_dynamic(bodies, striker)) continue;
         double mass = 0;
-        for_each_mover(bodies, debris, plan, [&](const Mover& m) { mass += m.mass; });
-        const Common common = common_motion(bodies, debris, plan);
+        for_each_mover(bodies, debris, fragments, plan, [&](const Mover& m) { mass += m.mass; });
+        const Common common = common_motion(bodies, debris, fragments, plan);
         const double other = bodies.mass[striker];
         const Vec3d relative = common.velocity - Vec3d(bodies.velocity[striker]);
         const double motion = 0.5 * mass * other / (mass + other) * dot(relative, relative);
@@ -187,7 +193,7 @@ void share_with_strikers(Births& births, const Break& plan, double allowed) {
         const Vec3d given =
             (1 - std::sqrt(std::max(0.0, 1 - excess / motion))) * mass * other / (mass + other) * relative;
         excess -= std::min(excess, motion);
-        for_each_mover(bodies, debris, plan, [&](const Mover& m) {
+        for_each_mover(bodies, debris, fragments, plan, [&](const Mover& m) {
             move(births, m, m.velocity - (1 / mass) * given, m.spin, body_id(bodies, plan.body));
         });
         const Vec3d velocity = Vec3d(bodies.velocity[striker]) + (1 / other) * given;

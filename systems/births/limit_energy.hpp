@@ -6,7 +6,7 @@
 namespace cullet {
 
 /// J, of the pieces and crumbs that came of a break.
-double pieces_energy(const Bodies& bodies, const Debris& debris, const Break& plan);
+double pieces_energy(const Bodies& bodies, const Debris& debris, const Fragments& fragments, const Break& plan);
 
 /// J, what body and strikers had at the touch, by the run, and do not have any more: the rigid solver took it while the
 /// pieces were not known yet.

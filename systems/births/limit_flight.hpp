@@ -2,15 +2,15 @@
 #pragma once
 #include "components/blows.hpp"
 #include "components/body_rows.hpp"
-#include "systems/structures/shell/rigid_handoff.hpp"
+#include "systems/births/part_motion.hpp"
 
 namespace cullet {
 
 /// Of one break, body axes. No piece but the largest leaves faster, relative to the body before the hit, than twice the
-/// impact speed, nor does its rim turn faster (thick shell note 6.6). rigid_handoff keeps to it by the centre of a
+/// impact speed, nor does its rim turn faster (thick shell note 6.6). settle_momenta keeps to it by the centre of a
 /// piece's vertices, and only as far as the hidden state's energy allows; here it is the solid's centre, which lies
 /// elsewhere by some hundredths of its size. What the largest piece gets by that limit_energy keeps within bounds.
-/// Crumbs are points and keep to rigid_handoff's limit, and so do pieces of an explosion, whose energy has no bound.
+/// Crumbs are points and keep to settle_momenta's limit, and so do pieces of an explosion, whose energy has no bound.
 struct FlightLimit {
     double most_speed = 0;         // m/s; 0: no limit
     Vec3d centre, velocity, spin;  // of the body before the hit, m, m/s, rad/s

@@ -2,7 +2,6 @@
 #include "systems/births/strike_back.hpp"
 #include "systems/bodies/blows.hpp"
 #include "systems/bodies/thresholds.hpp"
-#include "systems/structures/shell/cell_hulls.hpp"
 #include "systems/systems.hpp"
 
 namespace cullet {
@@ -13,8 +12,9 @@ void close_task(BodyRows& state, Row<Tasks> task, Step step) {
     const Row<Bodies> body = tasks.body[task];
     state.bodies.task[body] = kNone;
     state.bodies.retry_frame[body] = step.frame + retry_frames(step.dt);
-    if (tasks.working[task].exists()) release_shell(state, tasks.working[task]);
-    release_shell(state, tasks.source[task]);
+    const StructureCalls& calls = calls_of(state.structures, tasks.source[task]);
+    if (tasks.working[task].exists()) calls.release(state, tasks.working[task]);
+    calls.release(state, tasks.source[task]);
     tasks.state[task] = static_cast<uint8_t>(TaskState::Free);
 }
 
@@ -45,8 +45,20 @@ void count_result(const RunRows& rows, Row<Tasks> task, DamageCounts& counts) {
 
 void make_births(Serial, Step step, EndedTasks over, SoftRows& rows, Blows& blows, Crumbs crumbs, RigidWorld& rigid,
                  BirthAccounts accounts, ToldOfBirths told) {
-    Births births{rows,           blows,        crumbs.debris, crumbs.ages, rigid, accounts.models, accounts.counts,
-                  accounts.arena, told.changed, told.born,     told.debris, step};
+    Births births{rows,
+                  over.fragments,
+                  over.touches,
+                  blows,
+                  crumbs.debris,
+                  crumbs.ages,
+                  rigid,
+                  accounts.models,
+                  accounts.counts,
+                  accounts.arena,
+                  told.changed,
+                  told.born,
+                  told.debris,
+                  step};
     const auto all = over.breaks.all();
     size_t next = 0;
     while (next < all.size() && !all[next].task.exists()) make_break(births, all[next++]);
@@ -58,6 +70,8 @@ void make_births(Serial, Step step, EndedTasks over, SoftRows& rows, Blows& blow
         close_blows(blows, rows.bodies, rows.tasks, rigid, accounts.counts, e.task);
         close_task(rows, e.task, step);
     }
+    over.fragments.truncate(0);
+    over.touches.truncate(0);
 }
 
 }  // namespace cullet

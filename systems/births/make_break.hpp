@@ -1,5 +1,7 @@
 // The pieces of a broken body, whose rows are filled, become bodies of the rigid world.
 #pragma once
+#include "systems/models.hpp"
+#include "systems/structure_calls.hpp"
 #include "systems/world_data.hpp"
 
 namespace cullet {
@@ -7,6 +9,8 @@ namespace cullet {
 /// What making births may touch.
 struct Births {
     SoftRows& state;
+    Fragments& fragments;
+    const Touches& touches;
     Blows& blows;
     Debris& debris;
     DebrisAges& debris_ages;
@@ -18,6 +22,9 @@ struct Births {
     Events<FragmentBornEvent>& born;
     Events<DebrisEvent>& debris_events;
     Step step;
+
+    /// Of what a body is made of.
+    const StructureCalls& calls(Row<Structures> structure) const { return calls_of(state.structures, structure); }
 };
 
 /// Motions, rigid bodies, crumbs and events of all pieces, in order of mass; strikers get what they really passed.

@@ -1,31 +1,10 @@
 #include "components/body_id.hpp"
 #include "systems/births/plan_break.hpp"
 #include "systems/models.hpp"
-#include "systems/structures/shell/rest_of_body.hpp"
 #include "systems/systems.hpp"
 
 namespace cullet {
 namespace {
-
-// A crack starts at a vertex that names itself. Vertices keep their numbers in the working shell, so those that did so
-// in the body's before the hit are old.
-void tell_cracks(BodyRows& state, Row<Tasks> task, Events<CrackStartedEvent>& cracks) {
-    if (state.tasks.working[task] == state.tasks.source[task]) return;  // put_back has told
-    const Row<Bodies> body = state.tasks.body[task];
-    const ShellView now(state, state.tasks.working[task]), before(state, state.tasks.source[task]);
-    const auto is_start = [&](const ShellView& shell, uint32_t v) {
-        const uint32_t row = shell.vertex(v);
-        return state.vertices.crack_start[row] == v &&
-               state.vertices.crack[row] == static_cast<uint8_t>(CrackState::Cracked);
-    };
-    const bool is_fragment =
-        state.structures.generation[before.structure] > 0;  // it has forgotten its old starts (6.1)
-    for (uint32_t v = 0; v < now.vertex_count(); ++v) {
-        if (!is_start(now, v) || (!is_fragment && v < before.vertex_count() && is_start(before, v))) continue;
-        cracks.push({body_id(state.bodies, body), state.bodies.user_data[body],
-                     to_world(pose_of(state.bodies, body), state.vertices.rest[now.vertex(v)])});
-    }
-}
 
 // Bodies that wait are passed over, in silence, while no piece could leave: asking takes as long as a break.
 bool may_ask(const Planning& planning, uint8_t owed) {
@@ -42,14 +21,15 @@ void ask(Planning& planning, Row<Bodies> body) {
 
 }  // namespace
 
-void plan_births(Serial, const Events<TaskEnded>& ended, SoftRows& rows, WaitingHits waiting, Fragments& fragments,
+void plan_births(Serial, const Events<TaskEnded>& ended, SoftRows& rows, WaitingHits waiting, Pieces pieces,
                  const Debris& debris, DamageLedger ledger, Arena& arena, PlannedBirths planned) {
     planned.breaks.clear();
     planned.births.clear();
     const Bodies& bodies = rows.bodies;
     const Tasks& tasks = rows.tasks;
     Planning planning{rows,
-                      fragments,
+                      pieces.fragments,
+                      pieces.touches,
                       waiting.queued,
                       waiting.blows,
                       ledger.settings,
@@ -72,15 +52,18 @@ void plan_births(Serial, const Events<TaskEnded>& ended, SoftRows& rows, Waiting
     for (const TaskEnded& e : ended) {
         const Row<Tasks> task = e.task;
         const auto result = static_cast<TaskState>(tasks.state[task]);
-        if (result != TaskState::Dropped && tasks.start_count[task]) tell_cracks(rows, task, planned.cracks);
+        const Row<Structures> working = tasks.working[task];
+        const bool is_on_own = working == tasks.source[task];  // of the body, not on a copy
+        if (result != TaskState::Dropped && tasks.start_count[task])
+            planning.calls(working).tell_cracks(rows, task, planned.cracks);
         if (result == TaskState::Broke) plan_break(planning, task);
         if (result == TaskState::Whole && tasks.crack_count[task]) keep_cracks(planning, task);
-        if (result == TaskState::Whole && !tasks.crack_count[task] && tasks.working[task] == tasks.source[task])
-            stop_blocks(ShellView(rows, tasks.working[task]));
+        if (result == TaskState::Whole && !tasks.crack_count[task] && is_on_own)
+            planning.calls(working).stop(rows, working);
         // More pieces than there may be, with those that found no room before.
-        if (result == TaskState::Dropped && tasks.crack_count[task] && tasks.working[task] == tasks.source[task])
-            clear_run(ShellView(rows, tasks.working[task]), true, false);
-        if (result == TaskState::Dropped && tasks.working[task].exists())  // else it was refused
+        if (result == TaskState::Dropped && tasks.crack_count[task] && is_on_own)
+            planning.calls(working).clear_run(rows, working, {true, false});
+        if (result == TaskState::Dropped && working.exists())  // else it was refused
             planned.faults.push(
                 {body_id(bodies, tasks.body[task]), bodies.user_data[tasks.body[task]],
                  centre_of(bodies, tasks.body[task]),

@@ -1,36 +1,18 @@
 // Which pieces of a broken body leave, and their rows.
 #pragma once
-#include "systems/world_data.hpp"
+#include "systems/births/planning.hpp"
 
 namespace cullet {
-
-/// What planning may touch.
-struct Planning {
-    SoftRows& state;
-    Fragments& fragments;
-    QueuedHits& queued;
-    Blows& blows;
-    const DamageSettings& settings;
-    const DamageModels& models;
-    DamageCounts& counts;
-    Arena& arena;
-    Events<Break>& breaks;
-    Events<Birth>& births;
-    Events<ShellChanged>& changed;
-    Events<RefusedEvent>& refused;
-    uint32_t crumbs_left;  // that the world has room for, less those of the breaks planned so far
-    uint32_t fragments_left = kNone, births_left = kNone;  // the same of limits.fragments and limits.births_a_frame
-};
 
 /// Crumbs that the world has room for when a step's planning begins.
 uint32_t free_debris(const Debris& debris);
 /// Fragments that limits.fragments leaves room for then.
 uint32_t free_fragments(const FragmentAges& ages, const DamageSettings& settings);
 
-/// The task's shell has more than one part (Fragments). The largest keeps the body's handle and its rows in that shell,
+/// The task's structure has come apart. The largest fragment keeps the body's handle and its rows in that structure,
 /// which becomes the body's own; the others get rows in order of mass, and their old rows will be dead. A piece that
 /// finds no room stays with the largest and is counted with the setting to raise; it keeps its own motion for when it
-/// leaves (waiting_pieces.hpp).
+/// leaves.
 void plan_break(Planning& planning, Row<Tasks> task);
 
 /// A body whose loose pieces found no room (is_owed_births) and that no task works on asks again. They leave with the
@@ -41,7 +23,7 @@ void ask_again(Planning& planning, Row<Bodies> body);
 /// pin keeps the handle, else the largest; the model goes on moving it.
 void plan_tear(Planning& planning, Row<Bodies> body);
 
-/// A shell that stayed whole but has new cracks: the body keeps them.
+/// A structure that stayed whole but has new cracks: the body keeps them.
 void keep_cracks(Planning& planning, Row<Tasks> task);
 
 }  // namespace cullet

@@ -148,11 +148,13 @@ Vec3d settle_answers(Births& births, Row<Tasks> task, const Pose& pose, uint32_t
 // 9e-5 of the blow's in 2,000 steps. It is lost in plain steps (cuts lose 3e-6, contacts 4e-7), and not by the speed of
 // the body, whose own frame does as badly: stiffness entries are floats, so a vertex's column of blocks is off its row
 // by 2e-8, and pieces that turn pull on that with all their displacement. Uncracked bodies lose 1e-7 to 1e-6.
-double strike_back(Births& births, Row<Tasks> task, const Pose& pose, std::span<PartMotion> motions, uint32_t largest) {
+double strike_back(Births& births, const Break& plan, const Pose& pose) {
     BodyRows& state = births.state;
+    Fragments& f = births.fragments;
+    const Row<Tasks> task = plan.task;
+    const Row<Fragments> heir = plan.largest;
     const Row<Bodies> body = state.tasks.body[task];
     TaskContacts& contacts = state.task_contacts;
-    PartMotion& heir = motions[largest];
     Vec3d to_static, came_in, moving, difference;
     double allowed = rigid_energy(state.bodies, body);
     const uint32_t first = state.tasks.first_contact[task];
@@ -187,7 +189,7 @@ double strike_back(Births& births, Row<Tasks> task, const Pose& pose, std::span<
         difference += (part - 1) * blow;
         // Ties to the one that broke first.
         const bool is_larger = state.bodies.mass[body] >= state.bodies.mass[striker];
-        const uint32_t waits = answering_contact(state, striker, body, is_larger && !heir.is_static);
+        const uint32_t waits = answering_contact(state, striker, body, is_larger && !f.has_pins[heir]);
         double lost;
         if (waits == kNone) {
             give(state.bodies, births.rigid, striker, taken);
@@ -208,22 +210,24 @@ double strike_back(Births& births, Row<Tasks> task, const Pose& pose, std::span<
     came_in += exploded;
     to_static += -1.0 * exploded;
     bool is_pinned = false;
-    for (const PartMotion& m : motions) {
-        is_pinned = is_pinned || m.is_static;
-        if (!m.is_static) moving += m.momentum;
+    for (const Row<Fragments> row : plan.fragments) {
+        is_pinned = is_pinned || f.has_pins[row];
+        if (!f.has_pins[row]) moving += f.momentum[row];
     }
+    Vec3d inherited = f.momentum[heir];
     if (is_pinned) {
         to_static += came_in - moving;
-        (heir.is_static ? to_static : heir.momentum) += difference;
+        (f.has_pins[heir] ? to_static : inherited) += difference;
     } else {
         const Vec3d start = state.bodies.mass[body] * Vec3d(state.tasks.start_velocity[task]);
         const Vec3d rounding = start + came_in - moving;
         const double scale = std::max(length(start), length(came_in));
         births.counts.worst_rounding =
             std::max(births.counts.worst_rounding, scale > 0 ? length(rounding) / scale : 0.0);
-        heir.momentum += rounding + difference;
+        inherited += rounding + difference;
     }
-    heir.velocity = (1 / heir.mass) * heir.momentum;
+    f.momentum.set(heir, inherited);
+    f.velocity.set(heir, (1 / f.moving_mass[heir]) * inherited);
     const Vec3d booked(rotate(pose.orientation, to_static.to_float()));
     for (int k = 0; k < 3; ++k) births.counts.impulse_to_static[k] += booked[k];
     return allowed;

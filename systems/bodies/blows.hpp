@@ -1,6 +1,6 @@
 // Blows of the game between the call and the end of their task.
 #pragma once
-#include "systems/structures/shell/explosion.hpp"
+#include "components/blows.hpp"
 #include "systems/world_data.hpp"
 
 namespace cullet {

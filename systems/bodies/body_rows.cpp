@@ -1,6 +1,6 @@
 #include "systems/bodies/body_rows.hpp"
 
-#include "systems/structures/shell/draw_shell.hpp"
+#include "systems/structure_calls.hpp"
 
 namespace cullet {
 
@@ -26,7 +26,8 @@ Row<Bodies> take_body(BodyRows& state) {
 
 void free_body(BodyRows& state, Row<Bodies> b) {
     Bodies& bodies = state.bodies;
-    if (bodies.structure[b].exists()) release_shell(state, bodies.structure[b]);
+    if (const Row<Structures> own = bodies.structure[b]; own.exists())
+        calls_of(state.structures, own).release(state, own);
     state.view_vertices.pool.give_back(bodies.view_vertices[b].first, bodies.view_vertices[b].capacity);
     state.view_indices.pool.give_back(bodies.view_indices[b].first, bodies.view_indices[b].capacity);
     const uint32_t generation = bodies.generation[b];
@@ -41,18 +42,6 @@ void free_body(BodyRows& state, Row<Bodies> b) {
 
 namespace {
 
-// Most rows that draw_shell can write, of either table: 6 corners an element and 6 of the wall below each free edge. An
-// exact count would ask where depth is 0, for ten times the time.
-template <class ForEach>
-uint32_t view_rows(const ShellView& shell, ForEach for_each) {
-    uint32_t count = 0;
-    for_each([&](uint32_t e) {
-        ++count;
-        for (uint32_t n : shell.state.elements.neighbour[shell.element(e)]) count += n == kNone;
-    });
-    return 6 * count;
-}
-
 /// One row in so many is spare where cracks may add to a mesh: without, each hit would draw all of it into other rows.
 constexpr uint32_t kViewSpare = 8;
 
@@ -61,6 +50,8 @@ void shrink(RangePool& pool, Range& range, uint32_t rows) {
     pool.give_back(range.first + kept, had - kept);
     range.capacity = rows;
 }
+
+}  // namespace
 
 bool take_view_rows(BodyRows& state, Row<Bodies> b, uint32_t rows) {
     Range &vertices = state.bodies.view_vertices[b], &indices = state.bodies.view_indices[b];
@@ -87,34 +78,14 @@ bool take_view_rows(BodyRows& state, Row<Bodies> b, uint32_t rows) {
     return true;
 }
 
-}  // namespace
+bool take_spare_view_rows(BodyRows& state, Row<Bodies> b, uint32_t rows) {
+    return take_view_rows(state, b, rows + rows / kViewSpare) || take_view_rows(state, b, rows);
+}
 
 bool take_view(BodyRows& state, Row<Bodies> b, bool may_crack) {
-    const ShellView shell(state, state.bodies.structure[b]);
-    const uint32_t rows = view_rows(shell, [&](auto visit) {
-        for (uint32_t e = 0; e < shell.element_count(); ++e)
-            if (!(state.elements.flags[shell.element(e)] & kDead)) visit(e);
-    });
-    return (may_crack && take_view_rows(state, b, rows + rows / kViewSpare)) || take_view_rows(state, b, rows);
-}
-
-namespace {
-
-uint32_t view_rows(const ShellView& shell, const FragmentPart& part) {
-    return view_rows(shell, [&](auto visit) {
-        for (uint32_t e = part.first_element; e != kNone; e = shell.state.elements.next[shell.element(e)]) visit(e);
-    });
-}
-
-}  // namespace
-
-bool take_view(BodyRows& state, Row<Bodies> b, ShellView shell, const FragmentPart& part) {
-    return take_view_rows(state, b, view_rows(shell, part));
-}
-
-bool take_rest_view(BodyRows& state, Row<Bodies> b, ShellView shell, const FragmentPart& part) {
-    const uint32_t rows = view_rows(shell, part);
-    return take_view_rows(state, b, rows + rows / kViewSpare) || take_view_rows(state, b, rows);
+    const Row<Structures> structure = state.bodies.structure[b];
+    const uint32_t rows = calls_of(state.structures, structure).view_rows(state, structure);
+    return may_crack ? take_spare_view_rows(state, b, rows) : take_view_rows(state, b, rows);
 }
 
 }  // namespace cullet

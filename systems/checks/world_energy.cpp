@@ -3,7 +3,7 @@
 #include "components/body_id.hpp"
 #include "systems/births/limit_energy.hpp"
 #include "systems/models.hpp"
-#include "systems/structures/shell/waiting_pieces.hpp"
+#include "systems/structure_calls.hpp"
 
 namespace cullet {
 MechanicalEnergy& MechanicalEnergy::operator+=(const MechanicalEnergy& o) {
@@ -15,14 +15,14 @@ MechanicalEnergy& MechanicalEnergy::operator+=(const MechanicalEnergy& o) {
 MechanicalEnergy body_energy(const DamageModels& models, SoftRows& state, Row<Bodies> body, Vec3 gravity) {
     const Bodies& bodies = state.bodies;
     const auto kind = static_cast<BodyKind>(bodies.kind[body]);
-    const bool has_shell = bodies.structure[body].exists();
-    if (kind != BodyKind::Dynamic && !(kind == BodyKind::Static && has_shell)) return {};
-    if (has_shell)
+    const bool has_structure = bodies.structure[body].exists();
+    if (kind != BodyKind::Dynamic && !(kind == BodyKind::Static && has_structure)) return {};
+    if (has_structure)
         if (const auto own = models.energy(state, body, gravity)) return *own;
     return {rigid_energy(bodies, body),
             -bodies.mass[body] * dot(Vec3d(gravity), Vec3d(centre_of(bodies, body))),
             0,
-            waiting_energy(state, body),
+            has_structure ? calls_of(state.structures, bodies.structure[body]).waiting_energy(state, body) : 0,
             0,
             bodies.mass[body]};
 }

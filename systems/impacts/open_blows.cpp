@@ -110,9 +110,9 @@ struct Opener {
 
     /// Cuts are made whole, in the step that opens their task: at least one, then as long as the frame's units last.
     bool may_cut(uint32_t row) {
-        const Row<Structures> shell = state.bodies.structure[blows.body[row]];
-        const uint64_t units = state.shells.vertices[state.shell_of(shell)].count * kUnitsOpen +
-                               units_of_cut(state.shells, state.shell_of(shell), blows, row);
+        const Row<Structures> structure = state.bodies.structure[blows.body[row]];
+        const uint64_t units = state.shells.vertices[state.shell_of(structure)].count * kUnitsOpen +
+                               units_of_cut(state.shells, state.shell_of(structure), blows, row);
         if (cut_units > 0 && cut_units + units > o.settings.units_a_frame) return false;
         cut_units += units;
         return true;

@@ -37,7 +37,7 @@ void queue_hits(std::span<const Impact> impacts, Opening& opening) {
 void lay_queued(BodyRows& state, const QueuedHits& queued, Row<Tasks> task, uint32_t q) {
     Tasks& tasks = state.tasks;
     TaskContacts& contacts = state.task_contacts;
-    const Row<Structures> shell = tasks.source[task];
+    const Row<Structures> structure = tasks.source[task];
     const uint32_t c = tasks.first_contact[task];
     const Vec3 arm = queued.point[q] - state.bodies.centre[tasks.body[task]].to_float();
     const Vec3 moving = tasks.start_velocity[task] + cross(tasks.start_spin[task], arm);
@@ -52,7 +52,7 @@ void lay_queued(BodyRows& state, const QueuedHits& queued, Row<Tasks> task, uint
         contacts.start_speed[c] = along;
     else
         tasks.start_velocity.set(task, tasks.start_velocity[task] - along * queued.normal[q]);
-    contacts.radius[c] = patch_radius(state.shells, state.shell_of(shell), queued.striker_radius[q]);
+    contacts.radius[c] = patch_radius(state.shells, state.shell_of(structure), queued.striker_radius[q]);
     tasks.contact_count[task] = 1;
     tasks.is_late[task] = 1;
     tasks.load[task] = queued.load[q];

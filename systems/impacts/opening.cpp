@@ -8,7 +8,6 @@
 #include "systems/models.hpp"
 #include "systems/structures/shell/patch_radius.hpp"
 #include "systems/structures/shell/struck_normal.hpp"
-#include "systems/structures/shell/waiting_pieces.hpp"
 
 namespace cullet {
 namespace {
@@ -43,12 +42,12 @@ Impact aimed(BodyRows& state, Impact impact) {
     const Bodies& bodies = state.bodies;
     const Row<Bodies> striker = impact.striker;
     if (!striker.exists() || !bodies.is_sphere[striker]) return impact;
-    const Row<Structures> shell = bodies.structure[impact.body];
+    const Row<Structures> structure = bodies.structure[impact.body];
     const Pose pose = pose_of(bodies, impact.body);
     const Vec3 normal = rotate(
-        pose.orientation, struck_normal(ShellView(state, shell), to_body(pose, impact.point),
+        pose.orientation, struck_normal(ShellView(state, structure), to_body(pose, impact.point),
                                         rotate(conjugate(pose.orientation), impact.normal),
-                                        patch_radius(state.shells, state.shell_of(shell), bodies.radius[striker])));
+                                        patch_radius(state.shells, state.shell_of(structure), bodies.radius[striker])));
     const Vec3 closing = bodies.velocity[striker] - velocity_at(bodies, impact.body, impact.point);
     if (!(dot(closing, normal) > 0)) return impact;
     impact.normal = normal;
@@ -129,8 +128,8 @@ Row<Tasks> Opening::open(Row<Bodies> body, float approach_speed, bool is_ahead) 
         return {};
     }
     const Row<Structures> source = bodies.structure[body];
-    const WorkingShell working = models.working_shell(state, body);
-    if (!working.waits && !working.shell.exists()) {
+    const WorkingCopy working = models.working_copy(state, body);
+    if (!working.waits && !working.structure.exists()) {
         refuse(body, working.full, is_ahead);
         if (!is_ahead) bodies.retry_frame[body] = frame + retry_frames(dt);
         return {};
@@ -142,7 +141,7 @@ Row<Tasks> Opening::open(Row<Bodies> body, float approach_speed, bool is_ahead) 
     tasks.body[t] = body;
     tasks.source[t] = source;
     ++state.structures.users[source];
-    tasks.working[t] = working.shell;
+    tasks.working[t] = working.structure;
     tasks.opened_frame[t] = frame;
     tasks.first_contact[t] = t * kMostContacts;
     tasks.approach_speed[t] = approach_speed;
@@ -150,7 +149,7 @@ Row<Tasks> Opening::open(Row<Bodies> body, float approach_speed, bool is_ahead) 
     tasks.start_velocity.set(t, rotate(to_body_axes, bodies.velocity[body]));
     tasks.start_spin.set(t, rotate(to_body_axes, bodies.spin[body]));
     tasks.strength_scale[t] = bodies.strength_scale[body];
-    if (bodies.is_owed_births[body]) forget_own_motions(ShellView(state, source));
+    if (bodies.is_owed_births[body]) calls_of(state.structures, source).forget_waiting(state, source);
     models.begin_run(state, task, stiffness_wanted);
     bodies.task[body] = t;
     opened.push({task, state.model_of(task)});

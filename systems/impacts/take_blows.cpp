@@ -4,6 +4,7 @@
 #include "systems/bodies/blows.hpp"
 #include "systems/models.hpp"
 #include "systems/structures/shell/cut_surface.hpp"
+#include "systems/structures/shell/explosion.hpp"
 #include "systems/structures/shell/patch_radius.hpp"
 #include "systems/systems.hpp"
 
@@ -37,10 +38,10 @@ struct Taking {
     /// False: no model moves the body by itself.
     bool push_points(uint32_t row) {
         const Row<Bodies> body = blows.body[row];
-        const Row<Structures> shell = state.bodies.structure[body];
-        if (!shell.exists() || !may_move_by_itself(body)) return false;
+        const Row<Structures> structure = state.bodies.structure[body];
+        if (!structure.exists() || !may_move_by_itself(body)) return false;
         const PointPush push{blows.point[row], blows.impulse[row].to_float(),
-                             patch_radius(state.shells, state.shell_of(shell), blows.radius[row]),
+                             patch_radius(state.shells, state.shell_of(structure), blows.radius[row]),
                              kMostReturned * blows.speed[row]};
         if (!models.push(state, rigid, body, push)) return false;
         book(body, blows.impulse[row]);

@@ -2,17 +2,12 @@
 
 #include "systems/models/thick_shell/model.hpp"
 #include "systems/settings/check.hpp"
-#include "systems/structures/shell/structure.hpp"
 
 namespace cullet {
 
 const ModelList& damage_models() {
     static const ModelList all = std::make_shared<const DamageModels>(std::vector{thick_shell_model()});
     return all;
-}
-
-std::vector<SlotList> structures() {
-    return {shell_structure()};
 }
 
 DamageModels::DamageModels(std::vector<DamageModel> models) : models_(std::move(models)) {
@@ -36,14 +31,14 @@ std::string DamageModels::names() const {
     return list;
 }
 
-Result<void> DamageModels::check_spawn(const ShellRows& rows, Row<Structures> source,
+Result<void> DamageModels::check_spawn(const StructureRows& rows, Row<Structures> source,
                                        const SpawnSettings& settings) const {
     return check_settings(models_[rows.structures.damage_model[source]].spawn_settings(), settings);
 }
 
-Result<Row<Structures>> DamageModels::spawn_shell(SoftRows& rows, Row<Structures> source,
-                                                  const Spawning& spawning) const {
-    const auto call = call_of(rows, source, &ModelCalls::spawn_shell);
+Result<Row<Structures>> DamageModels::spawn_structure(SoftRows& rows, Row<Structures> source,
+                                                      const Spawning& spawning) const {
+    const auto call = call_of(rows, source, &ModelCalls::spawn_structure);
     return call ? call(rows, source, spawning) : source;
 }
 
@@ -52,8 +47,8 @@ Result<ShellRoom> DamageModels::spawn_body(SoftRows& rows, Row<Bodies> body, con
     return call ? call(rows, body, spawning) : ShellRoom{};
 }
 
-WorkingShell DamageModels::working_shell(BodyRows& rows, Row<Bodies> body) const {
-    const auto call = call_of(rows, body, &ModelCalls::working_shell);
+WorkingCopy DamageModels::working_copy(BodyRows& rows, Row<Bodies> body) const {
+    const auto call = call_of(rows, body, &ModelCalls::working_copy);
     CULLET_ASSERT(call, "no damage model breaks body %u", body.index);
     return call(rows, body);
 }
@@ -139,12 +134,12 @@ void DamageModels::look_for_pieces(SoftRows& rows, Row<Bodies> body) const {
     if (const auto call = call_of(rows, body, &ModelCalls::look_for_pieces)) call(rows, body);
 }
 
-void DamageModels::hand_off_torn(const SoftRows& rows, const TornPieces& torn, std::span<PartMotion> motions) const {
-    if (const auto call = call_of(rows, torn.body, &ModelCalls::hand_off_torn)) call(rows, torn, motions);
+void DamageModels::hand_off_torn(const SoftRows& rows, const Break& torn, Fragments& fragments) const {
+    if (const auto call = call_of(rows, torn.body, &ModelCalls::hand_off_torn)) call(rows, torn, fragments);
 }
 
-void DamageModels::give_torn(SoftRows& rows, const TornPieces& torn) const {
-    if (const auto call = call_of(rows, torn.body, &ModelCalls::give_torn)) call(rows, torn);
+void DamageModels::give_torn(SoftRows& rows, const Break& torn, const Fragments& fragments) const {
+    if (const auto call = call_of(rows, torn.body, &ModelCalls::give_torn)) call(rows, torn, fragments);
 }
 
 void DamageModels::keep_torn(SoftRows& rows, RigidWorld& rigid, Row<Bodies> body) const {

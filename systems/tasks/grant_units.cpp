@@ -83,8 +83,7 @@ void grant_small(const Granting& g, std::span<const uint32_t> order, int64_t& bu
     Tasks& tasks = g.rows.tasks;
     for (const uint32_t t : order) {
         const int64_t step = g.cost_of(t).step;
-        const auto births =
-            static_cast<int64_t>(kUnitsBirth * g.rows.shells.vertices[g.rows.shell_of(tasks.working[t])].count);
+        const auto births = static_cast<int64_t>(units_of_pieces(g.rows, t));
         const int64_t steps = 2 * int64_t{steps_left(g.rows, t)} + births / step, units = steps * step;
         if (g.loop_of(t).is_brief() || units > g.units_a_frame / kSmallShare || units > budget) continue;
         tasks.steps_granted[t] = static_cast<uint32_t>(steps);

@@ -112,7 +112,7 @@ struct HitLedger {
         for (uint32_t v = 0; v < shell.vertex_count(); ++v) {
             const uint32_t row = shell.vertex(v), element = state.vertices.element[row];
             if (element == kNone) continue;
-            const FragmentPart& part = state.fragments.part[state.elements.part[shell.element(element)]];
+            const FragmentPart& part = state.shell_parts.part[state.elements.part[shell.element(element)]];
             (part.has_pins ? frozen : loose) += state.vertices.mass[row] * Vec3d(state.vertices.velocity[row]);
         }
     }

@@ -6,7 +6,7 @@
 
 #include "components/state.hpp"
 #include "systems/structures/shell/mass_properties.hpp"
-#include "systems/structures/shell/rigid_handoff.hpp"
+#include "tests/support/hand_off.hpp"
 
 namespace cullet::test {
 namespace {
@@ -41,7 +41,7 @@ std::string flaw_of_partition(State& state, uint32_t t) {
     const ShellView shell(state, state.tasks.working[t]);
     std::vector<uint32_t> seen(shell.element_count());
     for (uint32_t p = 0, last_first = 0; p < state.tasks.part_count[t]; ++p) {
-        const FragmentPart& part = state.fragments.part[t * kMostParts + p];
+        const FragmentPart& part = state.shell_parts.of_task(t)[p];
         if (p > 0 && part.first_element <= last_first) return of_part("order", p);
         last_first = part.first_element;
         uint32_t least = kNone;
@@ -64,11 +64,11 @@ std::string flaw_of_partition(State& state, uint32_t t) {
 // A NaN fails each comparison, and is a flaw.
 std::string flaw_of_handoff(State& state, uint32_t t) {
     const ShellView shell(state, state.tasks.working[t]);
-    const std::span parts(state.fragments.part.data() + size_t{t} * kMostParts, state.tasks.part_count[t]);
-    std::vector<PartMotion> motions(parts.size());
+    const std::span<const FragmentPart> parts = state.shell_parts.of_task(t).first(state.tasks.part_count[t]);
+    std::vector<PartMotion> motions;
     HandoffStart start{Vec3d(state.tasks.start_velocity[t]), Vec3d(state.tasks.start_spin[t]),
                        state.structures.centre[shell.structure], 1e9};
-    const HandoffReport free = rigid_handoff(shell, start, parts, motions);
+    const HandoffReport free = hand_off(shell, start, parts, motions);
     if (free.speed_clamps + free.spin_clamps != 0) return "a clamp where there is none";
     if (!(free.energy_unclamped <= free.energy_hidden)) return "energy";
     const std::vector<PartMomenta> momenta = momenta_of_vertices(state, shell, parts.size());
@@ -81,7 +81,7 @@ std::string flaw_of_handoff(State& state, uint32_t t) {
             return of_part("angular momentum", p);
     }
     start.impact_speed = state.tasks.approach_speed[t];
-    const HandoffReport clamped = rigid_handoff(shell, start, parts, motions);
+    const HandoffReport clamped = hand_off(shell, start, parts, motions);
     if (!(clamped.energy_after <= clamped.energy_hidden)) return "energy after the clamps";
     const Vec3d lost = clamped.momentum_before - clamped.momentum_after - clamped.support_momentum;
     if (!(length(lost) < 1e-6 * length(clamped.momentum_before) + 1e-12)) return "momentum after the clamps";

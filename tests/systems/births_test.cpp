@@ -45,6 +45,56 @@ TEST_P(EachHit, HandsOffTheHiddenMomentaToPartsThatHoldEachElementOnce) {
     EXPECT_GT(looked_at, 0u);
 }
 
+/// What is wrong with the rows that the systems of births hand to each other.
+std::string flaw_of_fragments(const State& state, const Break& plan, bool are_filled) {
+    const Fragments& f = state.fragments;
+    if (plan.fragments.first + plan.fragments.count > f.size()) return "rows that are not there";
+    double mass = 0;
+    uint32_t elements = 0;
+    for (const Row<Fragments> row : plan.fragments) {
+        mass += f.mass[row], elements += f.element_count[row];
+        if (row == plan.largest && leaves(f, row)) return "the largest leaves: " + f.describe_row(row);
+        if (f.child[row].exists() && (f.is_crumb[row] || state.bodies.parent[f.child[row]] != plan.body))
+            return "no child of the body: " + f.describe_row(row);
+        if (are_filled && f.is_crumb[row] && !(f.volume[row] > 0))
+            return "a crumb without volume: " + f.describe_row(row);
+        const Row<Fragments> next(f.order[row]);
+        if (next < plan.fragments.first || next >= plan.fragments.first + plan.fragments.count)
+            return "an order that leads away: " + f.describe_row(row);
+    }
+    const double whole = state.structures.mass[plan.broken];  // filling births may measure what is left
+    if (!are_filled && !(std::fabs(mass - whole) < 1e-9 * whole)) return "mass " + std::to_string(mass);
+    if (elements != state.structures.live_elements[plan.broken]) return "elements " + std::to_string(elements);
+    for (const Row<Touches> t : plan.start.touches)
+        for (const Row<Fragments> of : {state.touches.a[t], state.touches.b[t]})
+            if (of < plan.fragments.first || of >= plan.fragments.first + plan.fragments.count)
+                return "a touch of others: " + state.touches.describe_row(t);
+    return {};
+}
+
+TEST_P(EachHit, HasARowForEachFragmentFromPlanToBirthAndNoneBetweenSteps) {
+    Settings settings = small_settings();
+    settings.gravity = {0, -9.81f, 0};
+    Breakage b = breakage_of(GetParam(), settings);
+    World* w = &b.world;
+    uint32_t looked_at = 0;
+    after_each_system(b.world, [&](const std::string& system) {
+        const State& state = state_of(*w);
+        if (system == "make_births") {
+            EXPECT_EQ(state.fragments.size() + state.touches.size(), 0u);
+        }
+        if (system != "plan_births" && system != "fill_births") return;
+        EXPECT_EQ(state.validate(), "");
+        for (const Break& plan : w->contents().data.between.of<Break>()) {
+            ++looked_at;
+            EXPECT_EQ(flaw_of_fragments(state, plan, system == "fill_births"), "");
+        }
+    });
+    for (int frame = 0; frame < 60; ++frame) b.world.step();
+    EXPECT_GT(looked_at, 0u);
+    EXPECT_EQ(state_of(*w).fragments.size(), 0u);
+}
+
 /// Area and first moment of the drawn outer surface in world axes: cuts and new vertices divide triangles, and change
 /// neither.
 struct OuterSurface {

@@ -25,6 +25,8 @@ constexpr uint32_t kUnnamedParameters = 16;  // copies that are deleted, calls t
 constexpr uint32_t kMutualFolders = 0;
 constexpr uint32_t kWideSystems = 0;
 constexpr uint32_t kFilesWithAModel = 0;
+constexpr uint32_t kFilesWithAShell = 0;    // of births and tasks
+constexpr uint32_t kSharedWithAShell = 15;  // of the other shared folders
 
 struct Source {
     std::string path;    // "systems/structures/shell/ring.cpp"
@@ -122,6 +124,30 @@ TEST(House, SharedFilesThatIncludeAModelGetFewer) {
         named += "\n  " + source.path;
     }
     EXPECT_LE(files, kFilesWithAModel) << "wanted: 0; today:" << named;
+}
+
+/// Of files in these folders, those that know what a shell is made of.
+std::vector<std::string> files_with_a_shell(const std::set<std::string>& folders) {
+    static const std::regex shell(
+        "structures/shell/|\\b(ShellView|ShellRows|Shells|shells|shell_of|Vertices|Elements|Hinges|"
+        "(?:make|release|copy)_shell)\\b|Row<Structures> shell\\b");
+    std::vector<std::string> files;
+    for (const Source& source : sources_of_systems())
+        if (folders.contains(source.folder) && std::regex_search(source.text, shell)) files.push_back(source.path);
+    return files;
+}
+
+std::string lines_of(const std::vector<std::string>& files) {
+    std::string all;
+    for (const std::string& file : files) all += "\n  " + file;
+    return all;
+}
+
+TEST(House, SharedFilesThatKnowAShellGetFewer) {
+    const auto own = files_with_a_shell({"births", "tasks"});
+    EXPECT_LE(own.size(), kFilesWithAShell) << "births and tasks; wanted: 0; today:" << lines_of(own);
+    const auto others = files_with_a_shell({"", "impacts", "bodies", "hulls", "drawn", "checks"});
+    EXPECT_LE(others.size(), kSharedWithAShell) << "wanted: 0; today:" << lines_of(others);
 }
 
 TEST(House, SystemsWithMoreThanNineParametersGetFewer) {

@@ -8,12 +8,12 @@
 
 #include "components/state.hpp"
 #include "engine/random.hpp"
+#include "systems/bodies/rigid_shape.hpp"
 #include "systems/cook/materials.hpp"
 #include "systems/drawn/bound_drawn.hpp"
 #include "systems/structures/shell/draw_shell.hpp"
 #include "systems/structures/shell/group_fragments.hpp"
 #include "systems/structures/shell/mass_properties.hpp"
-#include "systems/structures/shell/rigid_shape.hpp"
 #include "systems/world_contents.hpp"
 #include "tests/support/large_hits.hpp"
 

@@ -27,13 +27,14 @@ TEST(Pieces, GroupingHandOffPiecesHullsAndDrawingDoNotAllocate) {
         cut_by_label(state, built.value(), nearest_seed(ShellView(state, built.value()), 15, 1));
     const ShellView shell(state, row);
     std::vector<FragmentPart> parts(100);
-    std::vector<PartMotion> motions(100);
+    Fragments fragments(100);
+    Touches touches(1);
     Range vertices{state.view_vertices.append(200000), 0, 200000},
         indices{state.view_indices.append(200000), 0, 200000};
     start_counting_allocations();
     const uint32_t count = group_fragments(shell, parts);
     const std::span<const FragmentPart> found(parts.data(), count);
-    rigid_handoff(shell, {{}, {}, {}, 5}, found, motions);
+    rigid_handoff(shell, {{}, {}, {}, 5}, found, fragments, touches);
     for (const FragmentPart& part : found) {
         const Row<Structures> piece = make_piece(state, row, part, 1);
         draw_shell(ShellView(state, piece), {state.view_vertices, state.view_indices}, vertices, indices);

@@ -10,7 +10,7 @@ namespace cullet {
 // task, cracked or not.
 //
 // A cut may leave a body that stood on pins in one piece without any: it falls.
-void find_parts(EachOwn<TaskEnded> ended, BodyRows& rows, Fragments& fragments) {
+void find_parts(EachOwn<TaskEnded> ended, BodyRows& rows) {
     const uint32_t t = ended->task;
     rows.tasks.part_count[t] = 1;
     if (static_cast<TaskState>(rows.tasks.state[t]) == TaskState::Dropped) return;
@@ -18,7 +18,7 @@ void find_parts(EachOwn<TaskEnded> ended, BodyRows& rows, Fragments& fragments) 
     const bool is_zero = is_numbered_zero(shell), was_one = is_zero || is_of_one_part(shell),
                is_quick = is_quick_task(rows, t);
     if (rows.tasks.crack_count[t] == 0 && was_one) return;
-    const std::span parts(fragments.part.data() + size_t{t} * kMostParts, kMostParts);
+    const std::span<FragmentPart> parts = rows.shell_parts.of_task(t);
     // A body that may have been hit on a cut-out is not looked at as a whole; cracks that run out want the scratch that
     // a flood uses.
     const uint32_t vertices =

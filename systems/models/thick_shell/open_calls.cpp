@@ -10,13 +10,13 @@
 
 namespace cullet {
 
-WorkingShell working_shell(BodyRows& state, Row<Bodies> body) {
-    WorkingShell made;
+WorkingCopy working_shell(BodyRows& state, Row<Bodies> body) {
+    WorkingCopy made;
     made.waits = may_cut_out(state, body);
     if (made.waits) return made;
     const ShellView source(state, state.bodies.structure[body]);
     const ShellRoom room = is_quick_body(state, body) ? quick_room(source) : working_room(source);
-    made.shell = make_shell_unclear(state, room, &made.full);
+    made.structure = make_shell_unclear(state, room, &made.full);
     return made;
 }
 

@@ -5,7 +5,7 @@
 namespace cullet {
 
 /// Of the whole shell, or of what is round the contacts: then it waits for them.
-WorkingShell working_shell(BodyRows& state, Row<Bodies> body);
+WorkingCopy working_shell(BodyRows& state, Row<Bodies> body);
 /// Clock, quick settings, units of the copy, and which stiffness is to be assembled.
 void begin_run(BodyRows& state, Row<Tasks> task, Events<StiffnessWanted>& wanted);
 /// Of the neighbourhood of the contacts, or of the whole body where blows reach it all, or the hit is wide.

@@ -30,14 +30,14 @@ Row<Bodies> take_torn(SoftRows& state) {
     return {};
 }
 
-void hand_off_torn(const SoftRows& state, const TornPieces& torn, std::span<PartMotion> motions) {
+void hand_off_torn(const SoftRows& state, const Break& torn, Fragments& fragments) {
     const Row<SoftBodies> soft = state.bodies.soft[torn.body];
-    if (soft.exists()) soft_handoff(state, soft, torn.parts, motions);
+    if (soft.exists()) soft_handoff(state, soft, fragments, torn.fragments);
 }
 
-void give_torn_pieces(SoftRows& state, const TornPieces& torn) {
+void give_torn_pieces(SoftRows& state, const Break& torn, const Fragments& fragments) {
     const Row<SoftBodies> soft = state.bodies.soft[torn.body];
-    if (soft.exists()) give_pieces_springs(state, soft, torn.body, torn.order, torn.parts, torn.child);
+    if (soft.exists()) give_pieces_springs(state, soft, torn, fragments);
 }
 
 void keep_torn_body(SoftRows& state, RigidWorld& rigid, Row<Bodies> body) {

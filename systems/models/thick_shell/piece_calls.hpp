@@ -14,8 +14,8 @@ void look_for_pieces(SoftRows& state, Row<Bodies> body);
 /// The lowest soft row that tore since its pieces were looked for, each once.
 Row<Bodies> take_torn(SoftRows& state);
 /// The three calls about a soft body that tore; nothing of any other.
-void hand_off_torn(const SoftRows& state, const TornPieces& torn, std::span<PartMotion> motions);
-void give_torn_pieces(SoftRows& state, const TornPieces& torn);
+void hand_off_torn(const SoftRows& state, const Break& torn, Fragments& fragments);
+void give_torn_pieces(SoftRows& state, const Break& torn, const Fragments& fragments);
 void keep_torn_body(SoftRows& state, RigidWorld& rigid, Row<Bodies> body);
 
 }  // namespace cullet

@@ -1,12 +1,12 @@
 #include <algorithm>
 
+#include "systems/bodies/rigid_shape.hpp"
 #include "systems/costs.hpp"
 #include "systems/structures/shell/draw_shell.hpp"
 #include "systems/structures/shell/group_fragments.hpp"
 #include "systems/structures/shell/make_piece.hpp"
 #include "systems/structures/shell/mass_properties.hpp"
 #include "systems/structures/shell/rest_of_body.hpp"
-#include "systems/structures/shell/rigid_shape.hpp"
 #include "systems/systems.hpp"
 
 namespace cullet {
@@ -52,13 +52,12 @@ bool compact(BodyRows& state, Row<Bodies> body, std::span<FragmentPart> slot) {
 
 // The drawn mesh and the hulls stay: nothing that the game or the rigid world sees changes, but the last bits of the
 // mass. The first body of a quiet frame is served even when it costs more than the budget, or it never would be.
-void compact_shells(Serial, BodyRows& rows, Fragments& fragments, DamageCounts& counts,
-                    const Events<TaskEnded>& ended) {
+void compact_shells(Serial, BodyRows& rows, DamageCounts& counts, const Events<TaskEnded>& ended) {
     bool is_quiet = ended.size() == 0;
     for (uint32_t t = 0; t < rows.tasks.size() && is_quiet; ++t)
         is_quiet = static_cast<TaskState>(rows.tasks.state[t]) == TaskState::Free;
     if (!is_quiet) return;
-    const std::span slot(fragments.part.data() + size_t{rows.tasks.limit()} * kMostParts, kMostParts);
+    const std::span<FragmentPart> slot = rows.shell_parts.of_none();
     bool is_first = true;
     for (uint32_t b = 0; b < rows.bodies.size(); ++b) {
         if (!is_worth_it(rows, b)) continue;

@@ -49,7 +49,8 @@ void for_each_crack_edge(const ShellView& shell, bool is_local, Visit visit) {
 }
 
 // Outwards from the element of `edge` is depth x along: its corners run counter-clockwise seen from outside.
-void add_touches(const ShellView& shell, const CrackEdge& edge, uint32_t a, uint32_t b, Touch* out) {
+void write_touches(const ShellView& shell, const CrackEdge& edge, Row<Fragments> a, Row<Fragments> b, Touches& touches,
+                   uint32_t row) {
     const auto& corner = shell.state.elements.corner[shell.element(edge.element)];
     const uint32_t from = shell.vertex(corner[edge.edge]), to = shell.vertex(corner[(edge.edge + 1) % 3]);
     const Vec3d outer_from(smoothed_place(shell.state, from)), outer_to(smoothed_place(shell.state, to));
@@ -59,18 +60,17 @@ void add_touches(const ShellView& shell, const CrackEdge& edge, uint32_t a, uint
     const double size = length(out_of_a);
     const Vec3d normal = size > 0 ? (-1 / size) * out_of_a : Vec3d{};
     for (const Vec3d point : {outer_from, outer_to, inner_from, inner_to}) {
-        *out = {};
-        out->a = a, out->b = b;
-        out->point = point, out->normal = normal;
-        out->reach = length(outer_to - outer_from);
-        ++out;
+        touches.a[row] = a, touches.b[row] = b;
+        touches.point.set(row, point), touches.normal.set(row, normal);
+        touches.reach[row] = length(outer_to - outer_from);
+        ++row;
     }
 }
 
 }  // namespace
 
-std::span<Touch> crack_touches(ShellView shell, bool is_local, Arena& arena) {
-    uint32_t count = 0, touches = 0;
+Rows<Touches> crack_touches(ShellView shell, Row<Fragments> first, bool is_local, Touches& touches, Arena& arena) {
+    uint32_t count = 0, wanted = 0;
     for_each_crack_edge(shell, is_local, [&](uint32_t, uint32_t) { ++count; });
     const auto edges = arena.take<CrackEdge>(count);
     if (edges.empty()) return {};
@@ -96,15 +96,15 @@ std::span<Touch> crack_touches(ShellView shell, bool is_local, Arena& arena) {
             if (a != b) visit(edges[i], a, b);
         }
     };
-    for_each_crack([&](const CrackEdge&, uint32_t, uint32_t) { touches += 4; });
-    const auto out = arena.take<Touch>(touches);
-    if (out.empty()) return out;
-    touches = 0;
+    for_each_crack([&](const CrackEdge&, uint32_t, uint32_t) { wanted += 4; });
+    const uint32_t made = touches.append(wanted);
+    if (made == kNone) return {};
+    uint32_t next = made;
     for_each_crack([&](const CrackEdge& edge, uint32_t a, uint32_t b) {
-        add_touches(shell, edge, a, b, out.data() + touches);
-        touches += 4;
+        write_touches(shell, edge, Row<Fragments>(first + a), Row<Fragments>(first + b), touches, next);
+        next += 4;
     });
-    return out;
+    return {made, wanted};
 }
 
 }  // namespace cullet

@@ -151,4 +151,33 @@ void number_drawn(ShellView shell, const ViewIndices& rows, const Range& view_in
     }
 }
 
+namespace {
+
+// 6 corners an element and 6 of the wall below each free edge. An exact count would ask where depth is 0, for ten times
+// the time.
+template <class ForEach>
+uint32_t most_rows(const ShellView& shell, ForEach for_each) {
+    uint32_t count = 0;
+    for_each([&](uint32_t e) {
+        ++count;
+        for (uint32_t n : shell.state.elements.neighbour[shell.element(e)]) count += n == kNone;
+    });
+    return 6 * count;
+}
+
+}  // namespace
+
+uint32_t most_view_rows(ShellView shell) {
+    return most_rows(shell, [&](auto visit) {
+        for (uint32_t e = 0; e < shell.element_count(); ++e)
+            if (!(shell.state.elements.flags[shell.element(e)] & kDead)) visit(e);
+    });
+}
+
+uint32_t most_view_rows(ShellView shell, const FragmentPart& part) {
+    return most_rows(shell, [&](auto visit) {
+        for (uint32_t e = part.first_element; e != kNone; e = shell.state.elements.next[shell.element(e)]) visit(e);
+    });
+}
+
 }  // namespace cullet

@@ -31,6 +31,10 @@ struct DrawnRows {
 /// Triangles that collapse where depth is 0 are left out; the rest still closes.
 DrawnCount count_drawn(ShellView shell);
 
+/// Most rows that draw_shell can write, of either table, for all live elements or for those of a listed part.
+uint32_t most_view_rows(ShellView shell);
+uint32_t most_view_rows(ShellView shell, const FragmentPart& part);
+
 /// Writes the mesh into these ranges of ViewVertices and ViewIndices (capacities at least as counted), sets their
 /// counts and returns the runs: triangle s has vertices and indices 3 s to 3 s + 2, and elements stand in rising order
 /// within a run. Outer corners have the game's normals and uvs; inner

@@ -1,15 +1,9 @@
 // What an explosion does to one body: its impulse by distance and facing (cullet/damage.hpp has the formula).
 #pragma once
+#include "components/blows.hpp"
 #include "components/shell_rows.hpp"
 
 namespace cullet {
-
-/// Of one body, in its frame.
-struct Explosion {
-    Vec3 centre;         // m
-    float radius = 0;    // reach, m
-    float strength = 0;  // N s/m2 at the centre
-};
 
 /// What it gives to a body, body axes.
 struct ExplosionSums {

@@ -1,28 +1,52 @@
+#include "systems/births/settle_momenta.hpp"
+#include "systems/structures/shell/fragment_parts.hpp"
 #include "systems/structures/shell/make_piece.hpp"
 #include "systems/structures/shell/piece_shape.hpp"
 #include "systems/structures/shell/rest_of_body.hpp"
 #include "systems/systems.hpp"
 
 namespace cullet {
+namespace {
+
+void fill_rest(const ShellView& broken, const Break& of, const FragmentPart& part) {
+    if (of.is_rest_smaller(broken.structures())) measure_part(broken, part);
+    if (of.chooses_shape && !part.has_pins) choose_shape(broken, of.points.first, &part);
+    if (of.chooses_shape && part.has_pins) clear_shape(broken);
+}
+
+void fill_body(const ShellView& broken, const Break& of, const FragmentPart& part, Row<Structures> structure) {
+    const ShellView piece(broken.state, structure);
+    fill_piece(broken.state, of.broken, part, structure);
+    if (!of.is_torn && !part.has_pins) choose_shape(piece, piece.points().first);
+    if (part.has_pins) clear_shape(piece);
+}
+
+double volume_of(const ShellView& shell, const FragmentPart& part) {
+    const Elements& elements = shell.state.elements;
+    double volume = 0;
+    for (uint32_t e = part.first_element; e != kNone; e = elements.next[shell.element(e)])
+        volume += elements.volume[shell.element(e)];
+    return volume;
+}
+
+}  // namespace
 
 // Parts share no element, vertex or hinge; cells, which they may share, were dealt with when the rows were taken.
-void fill_births(Each<Birth> birth, const Events<Break>& breaks, ShellRows& rows, const Bodies& bodies) {
-    const Break& plan = breaks.all()[birth->of];
-    if (birth->part == kNone) return settle_momenta(plan.handoff[0].start, plan.motions, plan.handoff[0].report);
-    const FragmentPart& part = plan.parts[birth->part];
-    const ShellView broken(rows, plan.broken);
-    if (birth->part == plan.largest) {
-        if (plan.is_rest_smaller(rows)) measure_part(broken, part);
-        if (plan.chooses_shape && !part.has_pins) choose_shape(broken, plan.points.first, &part);
-        if (plan.chooses_shape && part.has_pins) clear_shape(broken);
+void fill_births(Each<Birth> birth, const Events<Break>& breaks, ShellRows& rows, Fragments& fragments,
+                 Touches& touches, const Bodies& bodies) {
+    const Break& of = breaks.all()[birth->of];
+    const Row<Fragments> f = birth->fragment;
+    if (!f.exists()) {
+        settle_momenta(fragments, of.fragments, touches, of.start, rows.scratch);
         return;
     }
-    if (plan.child[birth->part].exists()) {
-        const ShellView piece(rows, bodies.structure[plan.child[birth->part]]);
-        fill_piece(rows, plan.broken, part, piece.structure);
-        if (!plan.is_torn && !part.has_pins) choose_shape(piece, piece.points().first);
-        if (part.has_pins) clear_shape(piece);
-    }
+    const ShellView broken(rows, of.broken);
+    const FragmentPart part = part_of(fragments, f);
+    if (f == of.largest) return fill_rest(broken, of, part);
+    if (fragments.child[f].exists())
+        fill_body(broken, of, part, bodies.structure[fragments.child[f]]);
+    else
+        fragments.volume[f] = volume_of(broken, part);
     shed_part(broken, part);
 }
 

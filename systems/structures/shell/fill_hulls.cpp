@@ -15,7 +15,7 @@ void make_shape(const ShellRows& state, const RigidWorld& rigid, uint32_t shape,
 }  // namespace
 
 void fill_hulls(Each<HullWanted> wanted, ShellRows& rows, const RigidWorld& rigid) {
-    const Row<Structures> shell = wanted->shell;
+    const Row<Structures> shell = wanted->structure;
     uint32_t from = rows.structures.points[shell].first;
     if (wanted->cell == kNone)
         return make_shape(rows, rigid, kMostCellParts * rows.structures.made_shape[shell], from,

@@ -66,16 +66,15 @@ bool is_numbered_zero(const ShellView& shell) {
     return others == 0;
 }
 
-void list_part(ShellView shell, std::span<FragmentPart> parts, uint32_t part) {
-    FragmentPart& listed = parts[part];
-    if (is_listed(listed)) return;
-    const double mass = listed.mass;
-    const bool has_pins = listed.has_pins;
-    listed = {};
+void list_part(ShellView shell, FragmentPart& part, uint32_t number) {
+    if (is_listed(part)) return;
+    const double mass = part.mass;
+    const bool has_pins = part.has_pins;
+    part = {};
     for (uint32_t e = 0; e < shell.element_count(); ++e)
-        if (shell.state.elements.part[shell.element(e)] == part) add_to_part(shell, listed, e);
-    listed.mass = mass;
-    listed.has_pins = has_pins;
+        if (shell.state.elements.part[shell.element(e)] == number) add_to_part(shell, part, e);
+    part.mass = mass;
+    part.has_pins = has_pins;
 }
 
 bool is_of_one_part(const ShellView& shell) {
@@ -91,30 +90,22 @@ bool is_of_one_part(const ShellView& shell) {
     return true;
 }
 
-void join_parts(ShellView shell, std::span<FragmentPart> parts, uint32_t from, uint32_t to) {
-    if (from == to || parts[from].element_count == 0) return;
+void join_parts(ShellView shell, FragmentPart& from, FragmentPart& to, uint32_t number) {
+    if (&from == &to || from.element_count == 0) return;
     Elements& elements = shell.state.elements;
-    for (uint32_t e = parts[from].first_element; e != kNone; e = elements.next[shell.element(e)])
-        elements.part[shell.element(e)] = to;
-    FragmentPart& target = parts[to];
-    if (!is_listed(target))
-        target.first_element = std::min(target.first_element, parts[from].first_element);
-    else if (target.element_count == 0)
-        target.first_element = parts[from].first_element;
+    for (uint32_t e = from.first_element; e != kNone; e = elements.next[shell.element(e)])
+        elements.part[shell.element(e)] = number;
+    if (!is_listed(to))
+        to.first_element = std::min(to.first_element, from.first_element);
+    else if (to.element_count == 0)
+        to.first_element = from.first_element;
     else
-        elements.next[shell.element(target.last_element)] = parts[from].first_element;
-    if (is_listed(target)) target.last_element = parts[from].last_element;
-    target.element_count += parts[from].element_count;
-    target.mass += parts[from].mass;
-    target.has_pins = target.has_pins || parts[from].has_pins;
-    parts[from] = {};
-}
-
-uint32_t largest_part(std::span<const FragmentPart> parts) {
-    uint32_t best = 0;
-    for (uint32_t p = 1; p < parts.size(); ++p)
-        if (parts[p].mass > parts[best].mass) best = p;
-    return best;
+        elements.next[shell.element(to.last_element)] = from.first_element;
+    if (is_listed(to)) to.last_element = from.last_element;
+    to.element_count += from.element_count;
+    to.mass += from.mass;
+    to.has_pins = to.has_pins || from.has_pins;
+    from = {};
 }
 
 }  // namespace cullet

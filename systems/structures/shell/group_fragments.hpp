@@ -2,7 +2,6 @@
 #pragma once
 #include <span>
 
-#include "components/bodies.hpp"
 #include "components/shell_rows.hpp"
 
 namespace cullet {
@@ -21,17 +20,15 @@ bool is_numbered_zero(const ShellView& shell);
 inline bool is_listed(const FragmentPart& part) {
     return part.element_count == 0 || part.last_element != kNone;
 }
-/// Chains the elements of that number where they are not yet. O(elements).
-void list_part(ShellView shell, std::span<FragmentPart> parts, uint32_t part);
+/// Chains the elements of the part of that number where they are not yet. O(elements).
+void list_part(ShellView shell, FragmentPart& part, uint32_t number);
 
 /// Puts element e behind the part's others; they come in rising order.
 void add_to_part(const ShellView& shell, FragmentPart& part, uint32_t e);
 
-/// Makes parts[from] one with parts[to], for a fragment that gets no body of its own: its elements get that number, and
-/// parts[from] is left empty (first_element kNone, no mass). make_piece then gives both one shell. O(elements of from).
-void join_parts(ShellView shell, std::span<FragmentPart> parts, uint32_t from, uint32_t to);
-
-/// Row of the heaviest part, ties to the lower.
-uint32_t largest_part(std::span<const FragmentPart> parts);
+/// Makes a part one with the part of that number, for a fragment that gets no body of its own: its elements get the
+/// number, and `from` is left empty (first_element kNone, no mass). make_piece then gives both one shell. O(elements of
+/// from).
+void join_parts(ShellView shell, FragmentPart& from, FragmentPart& to, uint32_t number);
 
 }  // namespace cullet

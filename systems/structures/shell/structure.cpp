@@ -1,5 +1,7 @@
 #include "systems/structures/shell/structure.hpp"
 
+#include "systems/structures/shell/fragment_calls.hpp"
+#include "systems/structures/shell/rest_calls.hpp"
 #include "systems/systems.hpp"
 
 namespace cullet {
@@ -11,6 +13,16 @@ SlotList shell_structure() {
     structure.at(Slot::Draw).then<draw_shells>();
     structure.at(Slot::Compact).then<compact_shells>();
     return structure;
+}
+
+const StructureCalls& shell_calls() {
+    static const StructureCalls calls = [] {
+        StructureCalls c;
+        add_fragment_calls(c);
+        add_rest_calls(c);
+        return c;
+    }();
+    return calls;
 }
 
 }  // namespace cullet

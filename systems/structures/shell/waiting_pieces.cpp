@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "systems/structures/shell/fragment_parts.hpp"
 #include "systems/structures/shell/mass_properties.hpp"
 #include "systems/structures/shell/part_vertices.hpp"
 #include "systems/structures/shell/vertex_sums.hpp"
@@ -43,52 +44,55 @@ void forget_own_motions(ShellView shell) {
     for (uint32_t b = 0; b < block_count(shell); ++b) state.vertex_blocks.moves[block_row(shell, b)] = 0;
 }
 
-void keep_own_motion(ShellView shell, const FragmentPart& part, const PartMotion& motion) {
+void keep_own_motion(ShellView shell, const Fragments& fragments, Row<Fragments> of) {
     Vertices& vertices = shell.state.vertices;
-    for_each_vertex_of(shell, part, [&](uint32_t row) {
-        const Vec3d arm = Vec3d(vertices.rest[row]) - motion.centre;
-        vertices.velocity.set(row, (motion.velocity + cross(motion.spin, arm)).to_float());
+    const Vec3d centre = fragments.centre[of], velocity = fragments.velocity[of], spin = fragments.spin[of];
+    for_each_vertex_of(shell, part_of(fragments, of), [&](uint32_t row) {
+        const Vec3d arm = Vec3d(vertices.rest[row]) - centre;
+        vertices.velocity.set(row, (velocity + cross(spin, arm)).to_float());
     });
 }
 
-void subtract_motion(ShellView shell, const PartMotion& of_body) {
+void subtract_motion(ShellView shell, const Fragments& fragments, Row<Fragments> of_body) {
     Vertices& vertices = shell.state.vertices;
+    const Vec3d centre = fragments.centre[of_body], velocity = fragments.velocity[of_body],
+                spin = fragments.spin[of_body];
     for (uint32_t v = 0; v < shell.vertex_count(); ++v) {
         const uint32_t row = shell.vertex(v);
         if (!is_moving(vertices.velocity[row])) continue;
-        const Vec3d arm = Vec3d(vertices.rest[row]) - of_body.centre;
-        const Vec3d common = of_body.is_static ? Vec3d{} : of_body.velocity + cross(of_body.spin, arm);
+        const Vec3d arm = Vec3d(vertices.rest[row]) - centre;
+        const Vec3d common = fragments.has_pins[of_body] ? Vec3d{} : velocity + cross(spin, arm);
         vertices.velocity.set(row, (Vec3d(vertices.velocity[row]) - common).to_float());
     }
 }
 
-void take_own_motions(ShellView shell, std::span<const FragmentPart> parts, std::span<PartMotion> motions) {
+void take_own_motions(ShellView shell, Fragments& f, Rows<Fragments> of) {
     Vertices& vertices = shell.state.vertices;
     Vec3d momentum, turning;  // of the pieces, the latter about the body frame's origin
-    for (uint32_t p = 0; p < parts.size(); ++p) {
+    for (const Row<Fragments> row : of) {
         Sums sums;
-        for_each_vertex_of(shell, parts[p], [&](uint32_t row) {
-            if (is_moving(vertices.velocity[row]))
-                sums.add(vertices.mass[row], Vec3d(vertices.rest[row]), Vec3d(vertices.velocity[row]));
-            vertices.velocity.set(row, {});
+        for_each_vertex_of(shell, part_of(f, row), [&](uint32_t v) {
+            if (is_moving(vertices.velocity[v]))
+                sums.add(vertices.mass[v], Vec3d(vertices.rest[v]), Vec3d(vertices.velocity[v]));
+            vertices.velocity.set(v, {});
         });
-        PartMotion& m = motions[p];
-        if (!(sums.moments.mass > 0) || m.is_static) continue;
+        if (!(sums.moments.mass > 0) || f.has_pins[row]) continue;
         const MassProperties own = mass_properties(sums.moments);
         const Vec3d spin = spin_by(own.inertia, sums.turning - cross(own.centre, sums.momentum));
-        const Vec3d velocity = (1 / own.mass) * sums.momentum + cross(spin, m.centre - own.centre);
-        m.spin += spin;
-        m.velocity += velocity;
-        momentum += m.mass * velocity;
-        turning += m.inertia * spin + m.mass * cross(m.centre, velocity);
+        const Vec3d centre = f.centre[row];
+        const Vec3d velocity = (1 / own.mass) * sums.momentum + cross(spin, centre - own.centre);
+        f.spin.set(row, f.spin[row] + spin);
+        f.velocity.set(row, f.velocity[row] + velocity);
+        momentum += f.moving_mass[row] * velocity;
+        turning += f.inertia[row] * spin + f.moving_mass[row] * cross(centre, velocity);
     }
-    PartMotion& rest = motions[largest_part(parts)];
-    if (!rest.is_static && rest.mass > 0) {
-        rest.velocity += (-1 / rest.mass) * momentum;
-        rest.spin += spin_by(rest.inertia, cross(rest.centre, momentum) - turning);
+    const Row<Fragments> rest = heaviest_of(f, of);
+    if (!f.has_pins[rest] && f.moving_mass[rest] > 0) {
+        f.velocity.set(rest, f.velocity[rest] + (-1 / f.moving_mass[rest]) * momentum);
+        f.spin.set(rest, f.spin[rest] + spin_by(f.inertia[rest], cross(f.centre[rest], momentum) - turning));
     }
-    for (PartMotion& m : motions)
-        if (!m.is_static) m.momentum = m.mass * m.velocity;
+    for (const Row<Fragments> row : of)
+        if (!f.has_pins[row]) f.momentum.set(row, f.moving_mass[row] * f.velocity[row]);
 }
 
 double waiting_energy(const BodyRows& state, Row<Bodies> body) {

@@ -1,9 +1,7 @@
 // Pieces that found no room go on with the body, and leave it with what they had of their own.
 #pragma once
-#include <span>
-
 #include "components/body_rows.hpp"
-#include "systems/structures/shell/rigid_handoff.hpp"
+#include "components/fragments.hpp"
 
 namespace cullet {
 
@@ -12,13 +10,13 @@ namespace cullet {
 /// further hit forgets them.
 void forget_own_motions(ShellView shell);
 
-/// The part's vertices move as it does.
-void keep_own_motion(ShellView shell, const FragmentPart& part, const PartMotion& motion);
-/// What the body moves like is not the pieces' own.
-void subtract_motion(ShellView shell, const PartMotion& of_body);
+/// The fragment's vertices move as it does.
+void keep_own_motion(ShellView shell, const Fragments& fragments, Row<Fragments> of);
+/// What the body moves like, by its largest fragment, is not the pieces' own.
+void subtract_motion(ShellView shell, const Fragments& fragments, Row<Fragments> of_body);
 
-/// Parts that have motions of their own get them, and the heaviest what is left for it; vertices are still again.
-void take_own_motions(ShellView shell, std::span<const FragmentPart> parts, std::span<PartMotion> motions);
+/// Fragments that have motions of their own get them, and the heaviest what is left for it; vertices are still again.
+void take_own_motions(ShellView shell, Fragments& fragments, Rows<Fragments> of);
 
 /// J that the body's waiting pieces and its rest have beyond the body's own motion.
 double waiting_energy(const BodyRows& state, Row<Bodies> body);

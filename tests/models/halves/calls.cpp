@@ -15,9 +15,9 @@ Result<ShellRoom> spawn_body(SoftRows& rows, Row<Bodies> body, const Spawning& s
     return room_of_hit(rows, body);
 }
 
-WorkingShell take_shell(BodyRows& rows, Row<Bodies> body) {
-    WorkingShell made;
-    made.shell = make_shell_unclear(rows, room_of_hit(rows, body), &made.full);
+WorkingCopy take_shell(BodyRows& rows, Row<Bodies> body) {
+    WorkingCopy made;
+    made.structure = make_shell_unclear(rows, room_of_hit(rows, body), &made.full);
     return made;
 }
 

@@ -6,7 +6,7 @@ namespace cullet::halves {
 
 Result<ShellRoom> spawn_body(SoftRows& rows, Row<Bodies> body, const Spawning& spawning);
 /// A copy of the whole, with room for what the cut adds.
-WorkingShell take_shell(BodyRows& rows, Row<Bodies> body);
+WorkingCopy take_shell(BodyRows& rows, Row<Bodies> body);
 void begin_run(BodyRows& rows, Row<Tasks> task, Events<StiffnessWanted>& wanted);
 ShellRoom room_of_hit(const BodyRows& rows, Row<Bodies> body);
 bool may_find_room(const BodyRows& rows, Row<Bodies> body);

@@ -101,12 +101,12 @@ void run_crack(Of<Tasks> task, BodyRows& rows, const Blows& blows) {
     tasks.state[t] = static_cast<uint8_t>(TaskState::Whole);  // find_halves tells whether it broke
 }
 
-void find_halves(EachOwn<TaskEnded> ended, RunRows& rows, Fragments& fragments) {
+void find_halves(EachOwn<TaskEnded> ended, RunRows& rows) {
     const Row<Tasks> task = ended->task;
     Tasks& tasks = rows.tasks;
     tasks.part_count[task] = 1;
     if (static_cast<TaskState>(tasks.state[task]) == TaskState::Dropped || tasks.crack_count[task] == 0) return;
-    const std::span parts(fragments.part.data() + size_t{task} * kMostParts, kMostParts);
+    const std::span<FragmentPart> parts = rows.shell_parts.of_task(task);
     const uint32_t count = tasks.part_count[task] = group_fragments(ShellView(rows, tasks.working[task]), parts);
     if (count > 1) tasks.state[task] = static_cast<uint8_t>(count > kMostParts ? TaskState::Dropped : TaskState::Broke);
 }

@@ -11,6 +11,6 @@ void push_wholes(EachOwn<TaskOpened> opened, BodyRows& rows);
 /// Inner loop: time goes by while the crack runs through; at the end the shell is cut in two, along the blow.
 void run_crack(Of<Tasks> task, BodyRows& rows, const Blows& blows);
 /// What hangs together.
-void find_halves(EachOwn<TaskEnded> ended, RunRows& rows, Fragments& fragments);
+void find_halves(EachOwn<TaskEnded> ended, RunRows& rows);
 
 }  // namespace cullet::halves

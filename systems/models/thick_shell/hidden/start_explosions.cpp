@@ -3,6 +3,7 @@
 #include "systems/bodies/blows.hpp"
 #include "systems/models/thick_shell/hidden/energy.hpp"
 #include "systems/models/thick_shell/shared/quick_body.hpp"
+#include "systems/structures/shell/explosion.hpp"
 
 namespace cullet {
 namespace {

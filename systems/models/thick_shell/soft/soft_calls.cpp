@@ -3,6 +3,7 @@
 #include "systems/models/thick_shell/soft/sheet_energy.hpp"
 #include "systems/models/thick_shell/soft/soft_body.hpp"
 #include "systems/models/thick_shell/springs/start_springs.hpp"
+#include "systems/structures/shell/explosion.hpp"
 
 namespace cullet {
 

@@ -2,11 +2,13 @@
 
 #include <algorithm>
 
+#include "systems/births/part_motion.hpp"
 #include "systems/models/thick_shell/soft/soft_body.hpp"
 #include "systems/models/thick_shell/springs/edge_stiffness.hpp"
 #include "systems/models/thick_shell/springs/give_springs.hpp"
 #include "systems/models/thick_shell/springs/rebuild_springs.hpp"
 #include "systems/models/thick_shell/springs/start_springs.hpp"
+#include "systems/structures/shell/fragment_parts.hpp"
 
 namespace cullet {
 namespace {
@@ -82,45 +84,41 @@ bool give_piece_springs(ShellRows& s, const SpringView& parent, const FragmentPa
 
 }  // namespace
 
-void soft_handoff(const SoftRows& s, Row<SoftBodies> soft, std::span<const FragmentPart> parts,
-                  std::span<PartMotion> motions) {
+void soft_handoff(const SoftRows& s, Row<SoftBodies> soft, Fragments& f, Rows<Fragments> of) {
     const SpringView view(const_cast<SoftRows&>(s), springs_of(s, soft));
     const Quat back = conjugate(s.bodies.orientation[s.soft_bodies.body[soft]]);
-    std::fill(motions.begin(), motions.end(), PartMotion{});
     for_each_point(s, view, [&](uint32_t part, double mass, Vec3d place, Vec3 velocity) {
-        PartMotion& m = motions[part];
-        m.mass += mass;
-        m.centre += mass * place;
-        m.momentum += mass * Vec3d(rotate(back, velocity));
+        const uint32_t row = of.first + part;
+        f.moving_mass[row] += mass;
+        f.centre.set(row, f.centre[row] + mass * place);
+        f.momentum.set(row, f.momentum[row] + mass * Vec3d(rotate(back, velocity)));
     });
-    for (PartMotion& m : motions)
-        if (m.mass > 0) m.centre = (1 / m.mass) * m.centre;
+    for (const Row<Fragments> row : of)
+        if (f.moving_mass[row] > 0) f.centre.set(row, (1 / f.moving_mass[row]) * f.centre[row]);
     for_each_point(s, view, [&](uint32_t part, double mass, Vec3d place, Vec3 velocity) {
-        PartMotion& m = motions[part];
-        const Vec3d arm = place - m.centre, v(rotate(back, velocity));
-        m.angular_momentum += mass * cross(arm, v);
-        m.inertia = m.inertia + mass * inertia_of(outer(arm));
-        m.radius = std::max(m.radius, length(arm));
-        m.hidden_energy += mass / 2 * dot(v, v);
+        const uint32_t row = of.first + part;
+        const Vec3d arm = place - f.centre[row], v(rotate(back, velocity));
+        f.turning.set(row, f.turning[row] + mass * cross(arm, v));
+        f.inertia[row] = f.inertia[row] + mass * inertia_of(outer(arm));
+        f.radius[row] = std::max(f.radius[row], length(arm));
+        f.hidden_energy[row] += mass / 2 * dot(v, v);
     });
-    for (uint32_t p = 0; p < parts.size(); ++p) {
-        PartMotion& m = motions[p];
-        m.is_static = parts[p].has_pins;
-        if (m.is_static) m.momentum = {};
-        if (m.is_static || !(m.mass > 0)) continue;
-        m.velocity = (1 / m.mass) * m.momentum;
-        const double scale = trace(m.inertia);
-        if (determinant(m.inertia) > 1e-12 * scale * scale * scale) m.spin = inverse(m.inertia) * m.angular_momentum;
+    for (const Row<Fragments> row : of) {
+        if (f.has_pins[row]) f.momentum.set(row, {});
+        if (f.has_pins[row] || !(f.moving_mass[row] > 0)) continue;
+        f.velocity.set(row, (1 / f.moving_mass[row]) * f.momentum[row]);
+        if (can_turn(f.inertia[row])) f.spin.set(row, inverse(f.inertia[row]) * f.turning[row]);
     }
 }
 
-void give_pieces_springs(SoftRows& s, Row<SoftBodies> torn, Row<Bodies> body, std::span<const uint32_t> order,
-                         std::span<const FragmentPart> parts, std::span<const Row<Bodies>> child) {
+void give_pieces_springs(SoftRows& s, Row<SoftBodies> torn, const Break& of, const Fragments& fragments) {
     const SpringView parent(s, springs_of(s, torn));
-    for (const uint32_t p : order) {
-        if (!child[p].exists() || child[p] == body) continue;
-        if (!give_piece_springs(s, parent, parts[p], s.bodies.structure[child[p]])) continue;
-        inherit_soft(s, torn, child[p]);
+    for (uint32_t i = 0; i < of.fragments.count; ++i) {
+        const Row<Fragments> f = of.in_order(fragments, i);
+        const Row<Bodies> child = fragments.child[f];
+        if (!child.exists()) continue;
+        if (!give_piece_springs(s, parent, part_of(fragments, f), s.bodies.structure[child])) continue;
+        inherit_soft(s, torn, child);
     }
 }
 

@@ -1,12 +1,12 @@
 #include <algorithm>
 
 #include "components/body_id.hpp"
+#include "systems/bodies/rigid_shape.hpp"
 #include "systems/bodies/settled_pose.hpp"
 #include "systems/models/thick_shell/soft/soft_body.hpp"
 #include "systems/models/thick_shell/springs/start_springs.hpp"
 #include "systems/structures/shell/cell_hulls.hpp"
 #include "systems/structures/shell/mass_properties.hpp"
-#include "systems/structures/shell/rigid_shape.hpp"
 
 namespace cullet {
 namespace {

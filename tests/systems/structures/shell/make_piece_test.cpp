@@ -194,8 +194,8 @@ TEST(MakePiece, JoinedPartsBecomeOneShellOfTwoComponents) {
     Broken broken(sample_vase(0.3, 0.005, 48, 40), 8);
     ASSERT_GT(broken.parts.size(), 4u);
     const double mass = broken.parts[4].mass + broken.parts[1].mass + broken.parts[3].mass;
-    join_parts(broken.view(), broken.parts, 4, 1);
-    join_parts(broken.view(), broken.parts, 1, 3);
+    join_parts(broken.view(), broken.parts[4], broken.parts[1], 1);
+    join_parts(broken.view(), broken.parts[1], broken.parts[3], 3);
     EXPECT_EQ(broken.parts[1].element_count, 0u);
     const Row<Structures> row = make_piece(broken.state, broken.shell, broken.parts[3], 1);
     const ShellView piece(broken.state, row);

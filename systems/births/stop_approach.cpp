@@ -1,4 +1,4 @@
-#include "systems/hulls/stop_approach.hpp"
+#include "systems/births/stop_approach.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -27,6 +27,11 @@ double inwards(Vec3d spin, Vec3d arm, Vec3d normal) {
     return dot(spin, normal) * dot(spin, arm) - dot(spin, spin) * dot(arm, normal);
 }
 
+// Columns of one row, as the sweeps go over them.
+struct Touch {
+    Vec3d normal, arm_a, arm_b;
+};
+
 // Along the normal, 1/2 a t of the points' accelerations w x (w x r), where it leads into each other: m/s.
 double bending(const Touch& t, const Touching& a, const Touching& b) {
     const double closing = inwards(b.spin, t.arm_b, t.normal) - inwards(a.spin, t.arm_a, t.normal);
@@ -37,8 +42,8 @@ double bending(const Touch& t, const Touching& a, const Touching& b) {
 }
 
 // The speed that was missing.
-double stop(Touch& t, std::span<Touching> bodies) {
-    Touching &a = bodies[t.a], &b = bodies[t.b];
+double stop(Touches& touches, uint32_t row, Touching& a, Touching& b) {
+    const Touch t{touches.normal[row], touches.arm_a[row], touches.arm_b[row]};
     const Vec3d parting = a.velocity + cross(a.spin, t.arm_a) - b.velocity - cross(b.spin, t.arm_b);
     const double opening = dot(parting, t.normal);
     const Vec3d sliding = parting - opening * t.normal;
@@ -54,7 +59,7 @@ double stop(Touch& t, std::span<Touching> bodies) {
     const double give = a.inverse_mass + b.inverse_mass + dot(lever_a, turn_a) + dot(lever_b, turn_b);
     if (!(give > 0)) return 0;
     const double impulse = missing / give;
-    t.impulse += impulse * along;
+    touches.impulse.set(row, touches.impulse[row] + impulse * along);
     a.velocity += impulse * a.inverse_mass * along;
     a.spin += impulse * turn_a;
     b.velocity -= impulse * b.inverse_mass * along;
@@ -64,21 +69,21 @@ double stop(Touch& t, std::span<Touching> bodies) {
 
 }  // namespace
 
-void stop_approach(std::span<Touching> bodies, std::span<Touch> touches, double speed) {
-    for (Touch& t : touches) {
-        t.arm_a = t.point - bodies[t.a].centre;
-        t.arm_b = t.point - bodies[t.b].centre;
-        t.impulse = {};
-        t.is_used = false;
+void stop_approach(std::span<Touching> bodies, uint32_t first, Touches& touches, Rows<Touches> of, double speed) {
+    for (const Row<Touches> t : of) {
+        touches.arm_a.set(t, touches.point[t] - bodies[touches.a[t] - first].centre);
+        touches.arm_b.set(t, touches.point[t] - bodies[touches.b[t] - first].centre);
+        touches.impulse.set(t, {});
+        touches.is_used[t] = 0;
     }
     uint32_t next_full = 0, until_full = kFirstUntilFull;
     for (uint32_t sweep = 0; sweep < kMostSweeps; ++sweep) {
         const bool is_full = sweep >= next_full;
         double most = 0;
-        for (Touch& t : touches) {
-            if (!is_full && !t.is_used) continue;
-            const double missing = stop(t, bodies);
-            t.is_used = t.is_used || missing > 0;
+        for (const Row<Touches> t : of) {
+            if (!is_full && !touches.is_used[t]) continue;
+            const double missing = stop(touches, t, bodies[touches.a[t] - first], bodies[touches.b[t] - first]);
+            touches.is_used[t] = touches.is_used[t] || missing > 0;
             most = std::max(most, missing);
         }
         const bool is_settled = !(most > kClosed * speed);

@@ -1,4 +1,4 @@
-#include "systems/structures/shell/rigid_shape.hpp"
+#include "systems/bodies/rigid_shape.hpp"
 
 #include "components/body_id.hpp"
 

@@ -1,0 +1,120 @@
+// What the rest of the program asks of what things are made of. A kind of structure gives plain functions over sets of
+// tables; the slots that it fills (slots.hpp) are where its own systems stand.
+#pragma once
+#include <optional>
+
+#include "components/body_rows.hpp"
+#include "cullet/events.hpp"
+#include "engine/arena.hpp"
+#include "engine/events.hpp"
+#include "systems/births/break.hpp"
+
+namespace cullet {
+
+/// How those parts of a large body move that its run left alone. Body axes.
+struct RestMotion {
+    Vec3d centre, velocity, spin;
+    Vec3d at(Vec3 place) const { return velocity + cross(spin, Vec3d(place) - centre); }
+};
+
+/// What a run leaves in a structure, and is to be cleared.
+struct RunTraces {
+    bool is_whole;             // no piece left: any crack counts as one, not only those that go on
+    bool has_run;              // on these very rows
+    bool has_waiting = false;  // pieces without room keep what they have of their own
+};
+
+/// All of one kind of structure. Rows of Fragments are those of the break that is given with them.
+struct StructureCalls {
+    // ---- Its rows
+
+    /// One user less; the rows go back when there are none.
+    void (*release)(RunRows&, Row<Structures>) = nullptr;
+    /// No point of it is farther from its centre, m.
+    float (*radius)(RunRows&, Row<Structures>) = nullptr;
+    /// Points that are gone through when its pieces are born: units are counted by them.
+    uint32_t (*points_at_birth)(const RunRows&, Row<Structures>) = nullptr;
+    /// Rows, of vertices and of indices alike, that its drawn mesh may take.
+    uint32_t (*view_rows)(RunRows&, Row<Structures>) = nullptr;
+    /// Writes mass, centre, inertia and area, as it is shaped now.
+    void (*measure)(RunRows&, Row<Structures>) = nullptr;
+    /// Cracks that a task started on its working copy are told, each once.
+    void (*tell_cracks)(BodyRows&, Row<Tasks>, Events<CrackStartedEvent>&) = nullptr;
+
+    // ---- Fragments
+
+    /// New rows for what the model of the task found to hang together (slot Group); none: there is no room.
+    Rows<Fragments> (*list_found)(RunRows&, Row<Tasks>, Fragments&) = nullptr;
+    /// The same of what hangs together now; none as well where there are more than kMostParts.
+    Rows<Fragments> (*list_anew)(RunRows&, Row<Structures>, Fragments&) = nullptr;
+    /// The fragment becomes one with the largest, and its row empty.
+    void (*join)(RunRows&, const Break&, Fragments&, Row<Fragments>) = nullptr;
+    /// Which fragment owns what is nearest to a place, body frame; the largest where nothing is left.
+    Row<Fragments> (*nearest)(const RunRows&, const Break&, Vec3 place) = nullptr;
+
+    // ---- Their rows
+
+    /// A structure for a fragment, with the rows that births are filled into; none: `full` names the limit.
+    Row<Structures> (*reserve_piece)(RunRows&, const Break&, const Fragments&, Row<Fragments>, uint8_t generation,
+                                     const char** full) = nullptr;
+    /// Finds what changed of the hulls, and room for those of what is left, whatever leaves: chooses_shape, keeps_hulls
+    /// and points of the break. False: there is none, and nothing else is to change.
+    bool (*reserve_hulls)(RunRows&, const Fragments&, Break&) = nullptr;
+    /// As view_rows, of one fragment.
+    uint32_t (*piece_view_rows)(RunRows&, const Break&, Fragments&, Row<Fragments>) = nullptr;
+    /// Rows that the drawn mesh of a body may need in between when only cells that changed are drawn anew: what it has,
+    /// and what is to come of the part of that number, or of any (kNone).
+    uint32_t (*rows_to_redraw)(BodyRows&, Row<Bodies>, Row<Structures>, uint32_t part) = nullptr;
+    /// Elements of the largest are listed, for who is to go through them on any thread.
+    void (*list_rest)(RunRows&, const Break&, Fragments&) = nullptr;
+
+    // ---- Their motions
+
+    /// Mass, centre, inertia, momenta and energy of each, of the hidden state.
+    void (*sum_momenta)(RunRows&, const Break&, Fragments&, const std::optional<RestMotion>&) = nullptr;
+    /// Mass, centre and inertia alone, of the solids.
+    void (*weigh)(RunRows&, const Break&, Fragments&) = nullptr;
+    /// New rows for where they lie at each other. `is_local`: along cracks of this run alone.
+    Rows<Touches> (*find_touches)(RunRows&, const Break&, bool is_local, Touches&, Arena&) = nullptr;
+
+    // ---- Pieces that wait for room, and go on with the body meanwhile
+
+    /// What they had of their own.
+    void (*forget_waiting)(RunRows&, Row<Structures>) = nullptr;
+    /// The fragment's motion is kept for when it leaves.
+    void (*keep_waiting)(RunRows&, const Break&, const Fragments&, Row<Fragments>) = nullptr;
+    /// When all are kept: what the largest moves like is not their own.
+    void (*subtract_body)(RunRows&, const Break&, const Fragments&) = nullptr;
+    /// They get it back, and the heaviest fragment what is left for it.
+    void (*take_waiting)(RunRows&, const Break&, Fragments&) = nullptr;
+    /// J that the body's waiting pieces and its rest have beyond the body's own motion.
+    double (*waiting_energy)(const BodyRows&, Row<Bodies>) = nullptr;
+    /// Where that is more than `allowed`, all of them slow down to it. What they have then.
+    double (*limit_waiting)(BodyRows&, Row<Bodies>, double allowed) = nullptr;
+
+    // ---- What stays
+
+    /// Marks cells that are not as they are in `before` (Cells::is_changed).
+    void (*find_changes)(RunRows&, Row<Structures> now, Row<Structures> before) = nullptr;
+    /// A structure that only cracked has the hulls of `before`. False: no room.
+    bool (*keep_hulls)(RunRows&, Row<Structures> now, Row<Structures> before) = nullptr;
+    void (*clear_run)(RunRows&, Row<Structures>, RunTraces) = nullptr;
+    /// What a run on a part of it left moving stands still.
+    void (*stop)(RunRows&, Row<Structures>) = nullptr;
+    /// It is the body's own from here on, without what only a task needs.
+    void (*adopt)(BodyRows&, Row<Bodies>, Row<Structures>) = nullptr;
+    /// Births are filled: measures what is left of a body, whose own it becomes. Hulls of cells that moved as they were
+    /// are copied, to the pieces and here.
+    void (*keep_rest)(BodyRows&, const Break&, const Fragments&) = nullptr;
+    /// When all hulls are chosen: their points stand close together. `are_renewed`: of cells that changed alone.
+    void (*pack_hulls)(RunRows&, Row<Structures>, bool are_renewed) = nullptr;
+};
+
+/// By its kind.
+const StructureCalls& calls_of(const Structures& structures, Row<Structures> structure);
+
+inline ShapeKind shape_of(const Structures& structures, Row<Structures> structure) {
+    return static_cast<ShapeKind>(structures.shape[structure]);
+}
+
+}  // namespace cullet
