@@ -118,22 +118,20 @@ class DamageModel {
         };
         return *this;
     }
-    /// Rows for a task that opens. `Shell(rows, body)` is a WorkingCopy; `Begin(rows, task, stiffness_wanted)` fills
+    /// Rows for a task that opens. `Shell(rows, body)` is a WorkingCopy; `Begin(rows, task)` fills
     /// what the model keeps for it.
     template <auto Shell, auto Begin>
     DamageModel& takes() {
         calls_.working_copy = [](BodyRows& rows, Row<Bodies> body) { return Shell(rows, body); };
-        calls_.begin = [](BodyRows& rows, Row<Tasks> task, Events<StiffnessWanted>& wanted) {
-            Begin(rows, task, wanted);
-        };
+        calls_.begin = [](BodyRows& rows, Row<Tasks> task) { Begin(rows, task); };
         return *this;
     }
-    /// `GiveLate(rows, blows, task, stiffness_wanted, full)` gives rows to one that waited for its contacts: false,
-    /// there is no room.
+    /// `GiveLate(rows, blows, task, full)` gives rows to one that waited for its contacts: false, there is no room.
     template <auto GiveLate>
     DamageModel& takes_late() {
-        calls_.give_late = [](BodyRows& rows, const Blows& blows, Row<Tasks> task, Events<StiffnessWanted>& wanted,
-                              const char** full) { return GiveLate(rows, blows, task, wanted, full); };
+        calls_.give_late = [](BodyRows& rows, const Blows& blows, Row<Tasks> task, const char** full) {
+            return GiveLate(rows, blows, task, full);
+        };
         return *this;
     }
     /// `Room(rows, body)`: rows that a hit on the body takes. `MayFind(rows, body)`: false where they have no room

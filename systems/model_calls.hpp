@@ -54,8 +54,8 @@ struct ModelCalls {
     Result<ShellRoom> (*spawn_body)(SoftRows&, Row<Bodies>, const Spawning&) = nullptr;
     // Tasks.
     WorkingCopy (*working_copy)(BodyRows&, Row<Bodies>) = nullptr;
-    void (*begin)(BodyRows&, Row<Tasks>, Events<StiffnessWanted>&) = nullptr;
-    bool (*give_late)(BodyRows&, const Blows&, Row<Tasks>, Events<StiffnessWanted>&, const char** full) = nullptr;
+    void (*begin)(BodyRows&, Row<Tasks>) = nullptr;
+    bool (*give_late)(BodyRows&, const Blows&, Row<Tasks>, const char** full) = nullptr;
     bool (*may_find_room)(const BodyRows&, Row<Bodies>) = nullptr;
     std::optional<RunLength> (*length)(const BodyRows&, Row<Bodies>) = nullptr;
     ShellRoom (*room)(BodyRows&, Row<Bodies>) = nullptr;

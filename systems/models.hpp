@@ -32,9 +32,8 @@ class DamageModels {
     Result<ShellRoom> spawn_body(SoftRows& rows, Row<Bodies> body, const Spawning& spawning) const;
 
     WorkingCopy working_copy(BodyRows& rows, Row<Bodies> body) const;
-    void begin_run(BodyRows& rows, Row<Tasks> task, Events<StiffnessWanted>& wanted) const;
-    bool give_late(BodyRows& rows, const Blows& blows, Row<Tasks> task, Events<StiffnessWanted>& wanted,
-                   const char** full) const;
+    void begin_run(BodyRows& rows, Row<Tasks> task) const;
+    bool give_late(BodyRows& rows, const Blows& blows, Row<Tasks> task, const char** full) const;
     bool may_find_room(const BodyRows& rows, Row<Bodies> body) const;
     std::optional<RunLength> length(const BodyRows& rows, Row<Bodies> body) const;
     std::optional<ShellRoom> room(BodyRows& rows, Row<Bodies> body) const;

@@ -42,11 +42,12 @@ void open_tasks(Serial, Step step, const Events<Impact>& impacts, const Events<F
 void wake_soft_bodies(Serial, SoftRows& rows, RigidWorld& rigid);
 /// Some hidden runs work on a part of a body. Those that came to its border begin again on a larger part
 /// (models/thick_shell/hidden/hidden_region.hpp).
-void widen_regions(Serial, Owner own, BodyRows& rows, Events<TaskOpened>& opened,
-                   Events<StiffnessWanted>& stiffness_wanted, Events<RefusedEvent>& refused);
+void widen_regions(Serial, Owner own, BodyRows& rows, Events<TaskOpened>& opened, Events<RefusedEvent>& refused);
+/// Lists the stiffness of their working copies that the body's shell does not have.
+void want_stiffness(Serial, Own<TaskOpened> opened, const RunRows& rows, Events<StiffnessWanted>& wanted);
 /// Copies the body's shell into the task's.
 void fill_tasks(EachOwn<TaskOpened> opened, RunRows& rows);
-/// Assembles stiffness that the body's shell does not have: a piece that is hit for the first time.
+/// Assembles it: of a cut-out, and of a piece that is hit for the first time.
 void fill_stiffness(Each<StiffnessWanted> wanted, RunRows& rows);
 /// Lays the contact patches. Gives every vertex the body's velocity and what explosions add. Cuts are made here. They
 /// ask the boxes of the body's pins which of their sides they hold.

@@ -135,7 +135,6 @@ struct ToldOfHits {
 };
 struct OpenedTasks {
     Events<TaskOpened>& opened;
-    Events<StiffnessWanted>& stiffness_wanted;
     Events<ImpactEvent>& impacts;
     Events<RefusedEvent>& refused;
 };

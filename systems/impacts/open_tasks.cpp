@@ -185,11 +185,10 @@ void open_queued(Opening& opening, const DamageSettings& settings, Events<Impact
 void open_tasks(Serial, Step step, const Events<Impact>& impacts, const Events<ForeseenHit>& foreseen, SoftRows& rows,
                 WaitingHits waiting, RigidWorld& rigid, DamageLedger ledger, OpenedTasks out) {
     out.opened.clear();
-    out.stiffness_wanted.clear();
     const DamageSettings& settings = ledger.settings;
     const Bodies& bodies = rows.bodies;
-    Opening opening{rows,        waiting.queued, waiting.blows, out.opened, out.stiffness_wanted,
-                    out.refused, ledger.models,  ledger.counts, step.frame, step.dt};
+    Opening opening{rows,          waiting.queued, waiting.blows, out.opened, out.refused,
+                    ledger.models, ledger.counts,  step.frame,    step.dt};
     open_queued(opening, settings, out.impacts);
     const auto all = impacts.all();
     for (size_t i = 0, next; i < all.size(); i = next) {

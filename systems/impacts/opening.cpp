@@ -150,7 +150,7 @@ Row<Tasks> Opening::open(Row<Bodies> body, float approach_speed, bool is_ahead) 
     tasks.start_spin.set(t, rotate(to_body_axes, bodies.spin[body]));
     tasks.strength_scale[t] = bodies.strength_scale[body];
     if (bodies.is_owed_births[body]) calls_of(state.structures, source).forget_waiting(state, source);
-    models.begin_run(state, task, stiffness_wanted);
+    models.begin_run(state, task);
     bodies.task[body] = t;
     opened.push({task, state.model_of(task)});
     counts.opened += !is_ahead;
@@ -162,7 +162,7 @@ void Opening::give_rows() {
     for (const TaskOpened& o : opened) {
         if (tasks.working[o.task].exists()) continue;
         const char* full = nullptr;
-        if (!models.give_late(state, blows, o.task, stiffness_wanted, &full)) drop(o.task, full);
+        if (!models.give_late(state, blows, o.task, &full)) drop(o.task, full);
     }
 }
 

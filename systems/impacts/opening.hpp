@@ -39,7 +39,6 @@ struct Opening {
     QueuedHits& queued;
     Blows& blows;
     Events<TaskOpened>& opened;
-    Events<StiffnessWanted>& stiffness_wanted;
     Events<RefusedEvent>& refused;
     const DamageModels& models;
     DamageCounts& counts;

@@ -53,14 +53,13 @@ WorkingCopy DamageModels::working_copy(BodyRows& rows, Row<Bodies> body) const {
     return call(rows, body);
 }
 
-void DamageModels::begin_run(BodyRows& rows, Row<Tasks> task, Events<StiffnessWanted>& wanted) const {
-    if (const auto call = call_of(rows, task, &ModelCalls::begin)) call(rows, task, wanted);
+void DamageModels::begin_run(BodyRows& rows, Row<Tasks> task) const {
+    if (const auto call = call_of(rows, task, &ModelCalls::begin)) call(rows, task);
 }
 
-bool DamageModels::give_late(BodyRows& rows, const Blows& blows, Row<Tasks> task, Events<StiffnessWanted>& wanted,
-                             const char** full) const {
+bool DamageModels::give_late(BodyRows& rows, const Blows& blows, Row<Tasks> task, const char** full) const {
     const auto call = call_of(rows, task, &ModelCalls::give_late);
-    return call && call(rows, blows, task, wanted, full);
+    return call && call(rows, blows, task, full);
 }
 
 bool DamageModels::may_find_room(const BodyRows& rows, Row<Bodies> body) const {

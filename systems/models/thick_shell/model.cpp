@@ -24,6 +24,7 @@ DamageModel thick_shell_model() {
     model.at(Slot::Rest).then<freeze_soft_bodies>();
     model.at(Slot::Wake)
         .then<widen_regions>()
+        .then<want_stiffness>()
         .then<fill_tasks>()
         .then<fill_stiffness>()
         .then<start_tasks>()

@@ -20,7 +20,7 @@ WorkingCopy working_shell(BodyRows& state, Row<Bodies> body) {
     return made;
 }
 
-void begin_run(BodyRows& state, Row<Tasks> task, Events<StiffnessWanted>& wanted) {
+void begin_run(BodyRows& state, Row<Tasks> task) {
     Tasks& tasks = state.tasks;
     const Row<Bodies> body = tasks.body[task];
     const Row<Structures> source = tasks.source[task];
@@ -31,16 +31,13 @@ void begin_run(BodyRows& state, Row<Tasks> task, Events<StiffnessWanted>& wanted
     const bool is_assembled = is_quick || waits || state.shells.packs[state.shell_of(source)].count > 0;
     const uint64_t units = is_quick ? kUnitsQuickCopy : kUnitsOpen + (is_assembled ? 0 : kUnitsAssemble);
     if (!waits) tasks.units_owed[task] = vertices * units;
-    const uint32_t packs = is_assembled ? 0 : (vertices + kLanes - 1) / kLanes;
-    for (uint32_t p = 0; p < packs; p += kRowsPerChunk<StiffnessPacks>) wanted.push({task, p});
 }
 
-bool give_late_rows(BodyRows& state, const Blows& blows, Row<Tasks> task, Events<StiffnessWanted>& wanted,
-                    const char** full) {
+bool give_late_rows(BodyRows& state, const Blows& blows, Row<Tasks> task, const char** full) {
     Tasks& tasks = state.tasks;
     const bool is_everywhere = has_explosion(blows, task) || is_cut_task(blows, task);
     if (!is_quick_task(state, task))
-        return give_hidden_rows(state, task, is_everywhere ? kNone : kWholeCopyVertices, wanted, full);
+        return give_hidden_rows(state, task, is_everywhere ? kNone : kWholeCopyVertices, full);
     const ShellView source(state, tasks.source[task]);
     CutOutResult result = CutOutResult::TooWide;
     if (!is_everywhere) result = reserve_cut_out(state, task, quick_cut_out_size(state, task), full);

@@ -6,11 +6,10 @@ namespace cullet {
 
 /// Of the whole shell, or of what is round the contacts: then it waits for them.
 WorkingCopy working_shell(BodyRows& state, Row<Bodies> body);
-/// Clock, quick settings, units of the copy, and which stiffness is to be assembled.
-void begin_run(BodyRows& state, Row<Tasks> task, Events<StiffnessWanted>& wanted);
+/// Clock, quick settings, units of the copy.
+void begin_run(BodyRows& state, Row<Tasks> task);
 /// Of the neighbourhood of the contacts, or of the whole body where blows reach it all, or the hit is wide.
-bool give_late_rows(BodyRows& state, const Blows& blows, Row<Tasks> task, Events<StiffnessWanted>& wanted,
-                    const char** full);
+bool give_late_rows(BodyRows& state, const Blows& blows, Row<Tasks> task, const char** full);
 /// Of a hidden run on the whole body.
 std::optional<RunLength> run_length(const BodyRows& state, Row<Bodies> body);
 

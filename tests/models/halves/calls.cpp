@@ -21,7 +21,7 @@ WorkingCopy take_shell(BodyRows& rows, Row<Bodies> body) {
     return made;
 }
 
-void begin_run(BodyRows& rows, Row<Tasks> task, Events<StiffnessWanted>&) {
+void begin_run(BodyRows& rows, Row<Tasks> task) {
     rows.hidden_runs.time_step[task] = kStep;
     rows.hidden_runs.end_time[task] = rows.hidden_runs.quiet_time[task] = kEnd;
 }

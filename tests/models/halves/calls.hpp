@@ -7,7 +7,7 @@ namespace cullet::halves {
 Result<ShellRoom> spawn_body(SoftRows& rows, Row<Bodies> body, const Spawning& spawning);
 /// A copy of the whole, with room for what the cut adds.
 WorkingCopy take_shell(BodyRows& rows, Row<Bodies> body);
-void begin_run(BodyRows& rows, Row<Tasks> task, Events<StiffnessWanted>& wanted);
+void begin_run(BodyRows& rows, Row<Tasks> task);
 ShellRoom room_of_hit(const BodyRows& rows, Row<Bodies> body);
 bool may_find_room(const BodyRows& rows, Row<Bodies> body);
 Result<void> check_halves(const ShellView& shell, Wear wear, const std::string& name, const char* advice);

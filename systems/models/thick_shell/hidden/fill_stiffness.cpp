@@ -1,12 +1,22 @@
 #include <algorithm>
 
+#include "systems/models/thick_shell/hidden/hidden_region.hpp"
 #include "systems/models/thick_shell/stiffness/assemble.hpp"
 #include "systems/systems.hpp"
 
 namespace cullet {
 
+void want_stiffness(Serial, Own<TaskOpened> opened, const RunRows& rows, Events<StiffnessWanted>& wanted) {
+    wanted.clear();
+    for (const TaskOpened& o : opened) {
+        const bool runs = static_cast<TaskState>(rows.tasks.state[o.task]) == TaskState::Running;
+        if (!runs || is_quick_task(rows, o.task)) continue;
+        const uint32_t packs = packs_to_assemble(rows, o.task);
+        for (uint32_t p = 0; p < packs; p += kRowsPerChunk<StiffnessPacks>) wanted.push({o.task, p});
+    }
+}
+
 void fill_stiffness(Each<StiffnessWanted> wanted, RunRows& rows) {
-    if (static_cast<TaskState>(rows.tasks.state[wanted->task]) == TaskState::Dropped) return;
     const ShellView shell(rows, rows.tasks.working[wanted->task]);
     const uint32_t end = wanted->first_pack + kRowsPerChunk<StiffnessPacks>;
     [[maybe_unused]] const bool is_whole =

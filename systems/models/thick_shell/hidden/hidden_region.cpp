@@ -146,12 +146,10 @@ bool reserve_hidden_region(RunRows& state, Row<Tasks> task, uint32_t vertices, c
     return true;
 }
 
-bool give_hidden_rows(RunRows& state, Row<Tasks> task, uint32_t vertices, Events<StiffnessWanted>& wanted,
-                      const char** full) {
+bool give_hidden_rows(RunRows& state, Row<Tasks> task, uint32_t vertices, const char** full) {
     Tasks& tasks = state.tasks;
     const ShellView source(state, tasks.source[task]);
     uint32_t count = 0;
-    bool is_assembled = false;
     if (vertices != kNone && reserve_hidden_region(state, task, vertices, full)) {
         count = state.shells.vertices[state.shell_of(tasks.working[task])].count;
     } else {
@@ -159,12 +157,19 @@ bool give_hidden_rows(RunRows& state, Row<Tasks> task, uint32_t vertices, Events
         tasks.working[task] = make_shell_unclear(state, working_room(source), full);
         if (!tasks.working[task].exists()) return false;
         count = source.vertex_count();
-        is_assembled = state.shells.packs[source.row].count > 0;
     }
+    const bool is_assembled = packs_to_assemble(state, task) == 0;
     tasks.units_owed[task] += uint64_t{count} * (kUnitsOpen + (is_assembled ? 0 : kUnitsAssemble));
-    const uint32_t packs = is_assembled ? 0 : (count + kLanes - 1) / kLanes;
-    for (uint32_t p = 0; p < packs; p += kRowsPerChunk<StiffnessPacks>) wanted.push({task, p});
     return true;
+}
+
+uint32_t packs_to_assemble(const RunRows& state, Row<Tasks> task) {
+    const Shells& shells = state.shells;
+    const Row<Shells> source = state.shell_of(state.tasks.source[task]);
+    const bool is_region = is_hidden_region(state, task);
+    if (!is_region && shells.packs[source].count > 0) return 0;
+    const Row<Shells> copied = is_region ? state.shell_of(state.tasks.working[task]) : source;
+    return (shells.vertices[copied].count + kLanes - 1) / kLanes;
 }
 
 void find_rest(RunRows& state, Row<Tasks> task) {

@@ -21,10 +21,12 @@ inline bool is_hidden_region(const RunRows& state, uint32_t task) {
 }
 
 /// Rows for a hidden task on a body that may be cut out: of at least `vertices` round its contacts, or of the whole
-/// body where that is too wide (kNone: at once). The packs whose stiffness is to be assembled are told. False: no room,
-/// and `full` names the limit. Serial; fill_task follows in the same step.
-bool give_hidden_rows(RunRows& state, Row<Tasks> task, uint32_t vertices, Events<StiffnessWanted>& wanted,
-                      const char** full);
+/// body where that is too wide (kNone: at once). False: no room, and `full` names the limit. Serial; fill_task follows
+/// in the same step.
+bool give_hidden_rows(RunRows& state, Row<Tasks> task, uint32_t vertices, const char** full);
+/// Packs of a hidden task's working copy whose stiffness its body's shell does not have: all of a cut-out, all or none
+/// of a copy of the whole.
+uint32_t packs_to_assemble(const RunRows& state, Row<Tasks> task);
 /// A cut-out alone; false: it is too wide, or there is no room.
 bool reserve_hidden_region(RunRows& state, Row<Tasks> task, uint32_t vertices, const char** full);
 

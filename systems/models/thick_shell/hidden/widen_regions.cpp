@@ -4,8 +4,7 @@
 
 namespace cullet {
 
-void widen_regions(Serial, Owner own, BodyRows& rows, Events<TaskOpened>& opened,
-                   Events<StiffnessWanted>& stiffness_wanted, Events<RefusedEvent>& refused) {
+void widen_regions(Serial, Owner own, BodyRows& rows, Events<TaskOpened>& opened, Events<RefusedEvent>& refused) {
     for (uint32_t t = 0; t < rows.region_rests.size(); ++t) {
         const Row<Tasks> task(t);
         if (static_cast<TaskState>(rows.tasks.state[t]) != TaskState::Running || rows.model_of(t) != own.number)
@@ -16,7 +15,7 @@ void widen_regions(Serial, Owner own, BodyRows& rows, Events<TaskOpened>& opened
         rows.tasks.working[t] = {};
         rows.hidden_runs.cut_elements[t] = 0;
         const char* full = nullptr;
-        if (give_hidden_rows(rows, task, 2 * rows.region_rests.most_vertices[t], stiffness_wanted, &full)) {
+        if (give_hidden_rows(rows, task, 2 * rows.region_rests.most_vertices[t], &full)) {
             opened.push({task, rows.model_of(task)});
         } else {
             rows.tasks.state[t] = static_cast<uint8_t>(TaskState::Dropped);
