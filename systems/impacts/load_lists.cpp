@@ -40,8 +40,8 @@ bool touches(const RigidContact& c) {
 
 }  // namespace
 
-LoadLists::LoadLists(Bodies& bodies, std::span<const RigidContact> contacts, Arena& arena)
-    : bodies_(bodies), contacts_(contacts), next_(arena.take<uint32_t>(2 * contacts.size())) {
+LoadLists::LoadLists(Bodies& bodies, std::span<const RigidContact> contacts, Step step, Arena& arena)
+    : bodies_(bodies), contacts_(contacts), step_(step), next_(arena.take<uint32_t>(2 * contacts.size())) {
     for (uint32_t b = 0; b < bodies.size(); ++b) bodies.first_load[b] = kNone;
     for (size_t c = next_.size() / 2; c-- > 0;) {
         if (!touches(contacts[c])) continue;
@@ -87,7 +87,7 @@ void LoadLists::look_behind(Row<Bodies> body, Row<Bodies> from, uint32_t& looks,
     }
 }
 
-BodyLoad LoadLists::load_of(uint32_t entry, float dt) const {
+BodyLoad LoadLists::load_of(uint32_t entry) const {
     const RigidContact& c = contacts_[entry / 2];
     const Impact as = impact_of(c, static_cast<int>(entry & 1));
     const Pose pose = pose_of(bodies_, as.body);
@@ -98,7 +98,7 @@ BodyLoad LoadLists::load_of(uint32_t entry, float dt) const {
     l.toucher = other;
     l.place = Vec3d(to_body(pose, as.point)) - bodies_.centre[as.body];
     l.push = in_body_axes(as.normal);
-    l.force = c.impulse / dt;
+    l.force = c.impulse / step_.dt;
     l.depth = -c.distance;
     l.stands = !yields(bodies_, other);
     Behind behind;
@@ -118,25 +118,73 @@ BodyLoad LoadLists::load_of(uint32_t entry, float dt) const {
     return l;
 }
 
+LoadLists::Pressing LoadLists::pressing_of(Row<Bodies> body, Vec3 push) const {
+    Pressing out;
+    out.unborne = bodies_.mass[body] * step_.dt * dot(step_.gravity, push);
+    for (uint32_t entry = bodies_.first_load[body]; entry != kNone; entry = next_[entry]) {
+        const float along = dot(impact_of(contacts_[entry / 2], static_cast<int>(entry & 1)).normal, push);
+        out.supports += along < -kBehind;
+        out.unborne += contacts_[entry / 2].impulse * along;
+    }
+    return out;
+}
+
+// N s, that those who stand on `by.body` press on it beyond what the solver gave it, and those on them: of what each
+// weighs, what nothing bears yet. A speed that it has come to meanwhile is none of its weight. It goes to all that it
+// stands on, by their contacts.
+double LoadLists::passed_on(const Through& by, uint32_t& looks) const {
+    double sum = 0;
+    for (uint32_t entry = bodies_.first_load[by.body], end; entry != kNone && looks < kMostLooks; entry = end) {
+        const Row<Bodies> other = impact_of(contacts_[entry / 2], static_cast<int>(entry & 1)).striker;
+        uint32_t count = 0;
+        double speed = 0;
+        for (end = entry; end != kNone; end = next_[end]) {
+            const Impact as = impact_of(contacts_[end / 2], static_cast<int>(end & 1));
+            if (as.striker != other) break;
+            ++looks;
+            if (dot(as.normal, by.push) < kBehind) continue;
+            ++count;
+            speed += as.approach_speed;
+        }
+        if (count == 0 || other == by.on || stands(bodies_, other)) continue;
+        speed = std::max(0.0, by.speed + speed / count);
+        const Pressing pressing = pressing_of(other, by.push);
+        const double own = std::clamp(pressing.unborne, 0.0, bodies_.mass[other] * speed);
+        sum += count * (own + passed_on({other, by.body, by.push, speed}, looks)) / std::max(pressing.supports, 1u);
+    }
+    return sum;
+}
+
 // A solver that has few iterations leaves what is heavy, or driven, closing on the body: stopping it takes its mass
-// times that speed, as long as the body cannot give way. All contacts with one toucher stop it together.
-void LoadLists::share_what_is_missing(std::span<BodyLoad> loads, Row<Bodies> body, float dt) const {
+// times that speed, as long as the body cannot give way. All contacts with one toucher stop it together. What is heavy
+// may press through what is light, which takes more iterations yet; a sleeper stands, for the solver, and gets it all.
+void LoadLists::share_what_is_missing(std::span<BodyLoad> loads, Row<Bodies> body) const {
     for (size_t first = 0, end; first < loads.size(); first = end) {
         const Row<Bodies> other = loads[first].toucher;
-        for (end = first + 1; end < loads.size() && loads[end].toucher == other;) ++end;
-        const double mass = bodies_.mass[loads[first].stands ? body : other] / static_cast<double>(end - first);
+        double speed = 0;
+        for (end = first; end < loads.size() && loads[end].toucher == other; ++end)
+            speed += contacts_[loads[end].contact].approach_speed;
+        const auto count = static_cast<double>(end - first);
+        const double mass = bodies_.mass[loads[first].stands ? body : other] / count;
+        double through = 0;
+        if (!bodies_.is_asleep[body] && !stands(bodies_, other)) {
+            const Vec3 push = rotate(bodies_.orientation[body], loads[first].push.to_float());
+            uint32_t looks = 0;
+            through =
+                passed_on({other, body, push, speed / count}, looks) / std::max(pressing_of(other, push).supports, 1u);
+        }
         for (BodyLoad& l : loads.subspan(first, end - first)) {
-            l.force += mass * std::max(0.0f, contacts_[l.contact].approach_speed) / dt;
+            l.force += (mass * std::max(0.0f, contacts_[l.contact].approach_speed) + through) / step_.dt;
             l.bears = l.is_backed ? kBearsAll : l.force;
         }
     }
 }
 
-uint32_t LoadLists::take(Row<Bodies> body, float dt, std::span<BodyLoad> loads) const {
+uint32_t LoadLists::take(Row<Bodies> body, std::span<BodyLoad> loads) const {
     uint32_t count = 0;
     for (uint32_t entry = bodies_.first_load[body]; entry != kNone && count < loads.size(); entry = next_[entry])
-        loads[count++] = load_of(entry, dt);
-    share_what_is_missing(loads.first(count), body, dt);
+        loads[count++] = load_of(entry);
+    share_what_is_missing(loads.first(count), body);
     return count;
 }
 

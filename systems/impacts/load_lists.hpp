@@ -12,17 +12,17 @@ namespace cullet {
 /// contacts. No entries, when the arena is full.
 class LoadLists {
  public:
-    LoadLists(Bodies& bodies, std::span<const RigidContact> contacts, Arena& arena);
+    LoadLists(Bodies& bodies, std::span<const RigidContact> contacts, Step step, Arena& arena);
 
     uint32_t longest() const { return longest_; }  // loads of one body
     bool has_loads(Row<Bodies> body) const { return bodies_.first_load[body] != kNone; }
     /// m, of its contacts, that a toucher lies in it.
     float deepest(Row<Bodies> body) const;
     /// As many as there is room for, the first; how many.
-    uint32_t take(Row<Bodies> body, float dt, std::span<BodyLoad> loads) const;
+    uint32_t take(Row<Bodies> body, std::span<BodyLoad> loads) const;
 
  private:
-    BodyLoad load_of(uint32_t entry, float dt) const;
+    BodyLoad load_of(uint32_t entry) const;
     struct Behind {
         Row<Bodies> who;       // the fastest that stands there; none: nobody does
         bool stands = false;   // somebody does
@@ -32,10 +32,22 @@ class LoadLists {
         void meet(const Bodies& bodies, Row<Bodies> other);
     };
     void look_behind(Row<Bodies> body, Row<Bodies> from, uint32_t& looks, Behind& behind) const;
-    void share_what_is_missing(std::span<BodyLoad> loads, Row<Bodies> body, float dt) const;
+    void share_what_is_missing(std::span<BodyLoad> loads, Row<Bodies> body) const;
+    struct Through {
+        Row<Bodies> body, on;  // who passes on what presses on it, and to whom
+        Vec3 push;             // of the load: world
+        double speed;          // m/s, that it loses when it is stopped
+    };
+    struct Pressing {
+        uint32_t supports = 0;  // contacts that bear it against the push
+        double unborne = 0;     // N s, of its weight and of what the solver gave it along the push
+    };
+    Pressing pressing_of(Row<Bodies> body, Vec3 push) const;
+    double passed_on(const Through& by, uint32_t& looks) const;
 
     Bodies& bodies_;
     std::span<const RigidContact> contacts_;
+    Step step_;
     std::span<uint32_t> next_;
     uint32_t longest_ = 0;
 };

@@ -352,7 +352,7 @@ void weigh_loads(Serial, Step step, RigidWorld& rigid, BodyRows& rows, QueuedHit
     const DamageSettings& settings = rules.settings;
     Bodies& bodies = rows.bodies;
     const auto contacts = rigid.loads();
-    const LoadLists lists(bodies, contacts, arena);
+    const LoadLists lists(bodies, contacts, step, arena);
     const auto found = arena.take<BodyLoad>(lists.longest());
     const OverloadRoom room{arena.take<BodyLoad>(lists.longest()), arena.take<AxisForce>(lists.longest())};
     Weighing weighing{
@@ -374,7 +374,7 @@ void weigh_loads(Serial, Step step, RigidWorld& rigid, BodyRows& rows, QueuedHit
             bodies.waking_load[b] = 0;
             continue;
         }
-        const auto loads = found.first(lists.take(body, step.dt, found));
+        const auto loads = found.first(lists.take(body, found));
         if (bodies.is_asleep[b]) {
             weighing.wake_if_loaded(of, loads);
             continue;
