@@ -7,6 +7,7 @@
 #include "engine/random.hpp"
 #include "sample_game/meshes.hpp"
 #include "systems/structures/shell/cut_shell.hpp"
+#include "tests/support/play_script.hpp"
 #include "tests/support/small_worlds.hpp"
 
 namespace cullet::test {
@@ -237,6 +238,29 @@ TEST(CutCoarse, APrismOfLongTrianglesIsSawnThrough) {
 
 TEST(CutCoarse, APlateOfTwoTrianglesIsSawnThrough) {
     cut_random_things(Shape::Plate, true, 80);
+}
+
+// Short edges that count as lying on the line, and lay farther off than they are long, held half of them together.
+TEST(CutCoarse, AJaggedLineRightThroughAPlatePartsIt) {
+    const Played played = play_script(R"(
+        game.scene{shows = 'cuts', seconds = 60}
+        local wide = 0.0446
+        local plate = game.cook{mesh = game.mesh.box{half_extents = {0.0911, 0.0086, wide}}, material = 'porcelain', thickness = 0.0086, edge = 0.0146}
+        local state = 1
+        local function random() state = (state * 16807) % 2147483647 return 2 * state / 2147483647 - 1 end
+        for k = 0, 39 do
+            local x, z, place, points = k % 7, k // 7, 0.05 * random(), {}
+            local b = game.spawn{cooked = plate, at = {x, 1, z}}
+            for i = 0, 9 do points[i + 1] = {x + place + 0.0036 * random(), 1, z + wide * (1.5 - i / 3)} end
+            wait{frames = 1}
+            local before = game.fragments()
+            b:cut{points = points, direction = {0, 1, 0}}
+            wait{frames = 3}
+            game.expect(game.fragments() > before, 'cut ' .. k .. ' parted nothing')
+        end)",
+                                      {3, 60, 2, false});
+    EXPECT_EQ(played.failure, "");
+    EXPECT_GE(played.pieces, 40u);
 }
 
 }  // namespace

@@ -113,6 +113,8 @@ void insert_vertices(Cutting& cutting) {
     }
 }
 
+// Not where the sides change half way between two arms of a line. An edge is as near to the surface as it is long, or
+// as what is taken for one on it: beside a jagged line a few short ones lay farther off and held the parts together.
 bool comes_apart(const Cutting& cutting, uint32_t element, uint32_t k) {
     const ShellView shell = cutting.shell;
     if (cutting.state().elements.flags[shell.element(element)] & kDead) return false;
@@ -122,7 +124,7 @@ bool comes_apart(const Cutting& cutting, uint32_t element, uint32_t k) {
     const auto& corner = cutting.state().elements.corner[shell.element(element)];
     const Vec3 from = cutting.place_of(corner[k]), to = cutting.place_of(corner[(k + 1) % 3]);
     const CutSide middle = cutting.surface.side(0.5f * (from + to));
-    return middle.is_beside && std::fabs(middle.distance) <= length(to - from);
+    return middle.is_beside && std::fabs(middle.distance) <= std::max(length(to - from), cutting.may_be_off);
 }
 
 // Counts the edges of each vertex that come apart. Edge by edge from its lower element, as they are opened.
