@@ -65,6 +65,7 @@ class ContactSolver {
     uint32_t root_of(uint32_t number);
     uint32_t root_of(const Contacts& pair);
     void weigh_bodies(float dt);
+    bool is_heavier_laid_on_other(const Contacts& pair) const;
     bool is_laden(const Contacts& pair) const;
     void group_islands(float dt);
     void colour_pairs();
