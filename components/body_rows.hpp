@@ -7,37 +7,34 @@
 
 namespace cullet {
 
-struct BodyRows : RunRows {
-    BodyRows(const Limits& limits, const MaterialRows& of_what);
-
-    Bodies bodies;
-    PinBoxes pin_boxes;
-    FragmentAges fragment_ages;
-    ViewVertices view_vertices;
-    ViewIndices view_indices;
-    QuickBodies quick_bodies;
+struct TablesOfBodies {
+    Limits limits;
+    Bodies bodies{limits.bodies, limits.bodies};
+    PinBoxes pin_boxes{4 * limits.bodies + 64};
+    FragmentAges fragment_ages{limits.bodies};
+    ViewVertices view_vertices{limits.view_vertices, limits.bodies};
+    ViewIndices view_indices{limits.view_vertices * 2, limits.bodies};
+    QuickBodies quick_bodies{limits.bodies};
+};
+struct BodyRows : RunRows, TablesOfBodies {
+    BodyRows(const Limits& l, const MaterialRows& of_what) : RunRows(l, of_what), TablesOfBodies{l} {}
 
     using Below = RunRows;
-    static constexpr auto own_tables() {
-        using R = BodyRows;
-        return std::tuple{&R::bodies,        &R::pin_boxes,    &R::fragment_ages,
-                          &R::view_vertices, &R::view_indices, &R::quick_bodies};
-    }
+    using Own = TablesOfBodies;
 };
 
 /// And what moves by its springs.
-struct SoftRows : BodyRows {
-    SoftRows(const Limits& limits, const MaterialRows& of_what);
-
-    SoftBodies soft_bodies;
-    SoftStrikers soft_strikers;
-    SoftContacts soft_contacts;
+struct TablesOfSoftBodies {
+    Limits limits;
+    SoftBodies soft_bodies{limits.bodies};
+    SoftStrikers soft_strikers{limits.bodies * kMostStrikers};
+    SoftContacts soft_contacts{first_contact_row(limits.vertices + kLanes)};
+};
+struct SoftRows : BodyRows, TablesOfSoftBodies {
+    SoftRows(const Limits& l, const MaterialRows& of_what) : BodyRows(l, of_what), TablesOfSoftBodies{l} {}
 
     using Below = BodyRows;
-    static constexpr auto own_tables() {
-        using R = SoftRows;
-        return std::tuple{&R::soft_bodies, &R::soft_strikers, &R::soft_contacts};
-    }
+    using Own = TablesOfSoftBodies;
 };
 
 }  // namespace cullet

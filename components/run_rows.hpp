@@ -18,26 +18,24 @@ struct RunStiffness {
     const StiffnessLinks& links;
 };
 
-struct RunRows : ShellRows {
-    RunRows(const Limits& limits, const MaterialRows& of_what);
+struct TablesOfRuns {
+    Limits limits;
+    Tasks tasks{limits.tasks};
+    TaskContacts task_contacts{limits.tasks * kMostContacts};
+    PatchVertices patch_vertices{limits.tasks * kMostPatchVertices};
+    HiddenRuns hidden_runs{limits.tasks};
+    MarkedPacks marked_packs{limits.tasks * kMostMarkedPacks};
+    QuickRuns quick_runs{limits.tasks};
+    RegionRests region_rests{limits.tasks};
+};
+struct RunRows : ShellRows, TablesOfRuns {
+    RunRows(const Limits& l, const MaterialRows& of_what);
 
-    Tasks tasks;
-    TaskContacts task_contacts;
-    PatchVertices patch_vertices;
-    HiddenRuns hidden_runs;
-    MarkedPacks marked_packs;
-    QuickRuns quick_runs;
-    RegionRests region_rests;
+    using Below = ShellRows;
+    using Own = TablesOfRuns;
 
     /// The damage model that works on a task, that of the body that was hit: its place in the world's list.
     uint8_t model_of(uint32_t task) const { return structures.damage_model[tasks.source[task]]; }
-
-    using Below = ShellRows;
-    static constexpr auto own_tables() {
-        using R = RunRows;
-        return std::tuple{&R::tasks,        &R::task_contacts, &R::patch_vertices, &R::hidden_runs,
-                          &R::marked_packs, &R::quick_runs,    &R::region_rests};
-    }
 };
 
 /// Repetitions until the run's time is up, less those done and those that this frame has granted.

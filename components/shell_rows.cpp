@@ -7,26 +7,6 @@
 namespace cullet {
 namespace {
 
-// Hinges: three for two elements, and cuts only remove them. Blocks and links: 8 lanes a slot, 6 to 8 slots of each a
-// pack.
-uint32_t hinge_limit(const Limits& l) {
-    return l.elements / 2 * 3;
-}
-uint32_t pack_limit(const Limits& l) {
-    return l.vertices / kLanes;
-}
-uint32_t slot_limit(const Limits& l) {
-    return pack_limit(l) * 12;
-}
-uint32_t cell_limit(const Limits& l) {
-    return l.vertices / 8;
-}
-// Edges: three for two elements and half of one a border edge; a crack doubles those that it cuts. A vertex has about 6
-// springs, each in a slot of both ends.
-uint32_t spring_limit(const Limits& l) {
-    return l.elements * 2;
-}
-
 // Whoever had these rows before kept sums of others.
 void forget_blocks(VertexBlocks& blocks, const Range& vertices) {
     const uint32_t first = vertices.first / kVerticesPerBlock;
@@ -35,35 +15,6 @@ void forget_blocks(VertexBlocks& blocks, const Range& vertices) {
 }
 
 }  // namespace
-
-StructureRows::StructureRows(const Limits& l, const MaterialRows& of_what)
-    : MaterialRows(of_what),
-      structures(l.shells, l.shells),
-      cells(cell_limit(l), l.shells),
-      hull_points(cell_limit(l) * 32, l.shells) {}
-
-ShellRows::ShellRows(const Limits& l, const MaterialRows& of_what)
-    : StructureRows(l, of_what),
-      shells(l.shells, l.shells),
-      vertices(l.vertices, l.shells),
-      elements(l.elements, l.shells),
-      triangle_springs(l.elements),
-      hinges(hinge_limit(l), l.shells),
-      stiffness_packs(pack_limit(l), l.shells),
-      stiffness_blocks(slot_limit(l), l.shells),
-      stiffness_links(slot_limit(l), l.shells),
-      shell_springs(l.shells, l.shells),
-      springs(spring_limit(l), l.shells),
-      layer_springs(spring_limit(l), l.shells),
-      element_springs(l.elements, l.shells),
-      spring_packs(pack_limit(l), l.shells),
-      spring_slots(slot_limit(l), l.shells),
-      layer_slots(slot_limit(l), l.shells),
-      twins(l.vertices, l.shells),
-      vertex_blocks(l.vertices / kVerticesPerBlock + 1),
-      shell_parts((l.tasks + 1) * kMostParts) {
-    shell_parts.append((l.tasks + 1) * kMostParts);
-}
 
 ShellRoom room_of(const ShellRows& rows, Row<Structures> structure) {
     ShellRoom room;

@@ -25,19 +25,38 @@ struct MaterialRows {
     const MaterialTraits& material_traits;
 };
 
-/// What bodies are made of, as far as all kinds of structures are alike.
-struct StructureRows : MaterialRows {
-    StructureRows(const Limits& limits, const MaterialRows& of_what);
+// Limits that follow from those that a world is given. Hinges: three for two elements, and cuts only remove them.
+inline uint32_t hinge_limit(const Limits& l) {
+    return l.elements / 2 * 3;
+}
+inline uint32_t pack_limit(const Limits& l) {
+    return l.vertices / kLanes;
+}
+/// Blocks and links: 8 lanes a slot, 6 to 8 slots of each a pack.
+inline uint32_t slot_limit(const Limits& l) {
+    return pack_limit(l) * 12;
+}
+inline uint32_t cell_limit(const Limits& l) {
+    return l.vertices / 8;
+}
+/// Edges: three for two elements and half of one a border edge; a crack doubles those that it cuts. A vertex has about
+/// 6 springs, each in a slot of both ends.
+inline uint32_t spring_limit(const Limits& l) {
+    return l.elements * 2;
+}
 
-    Structures structures;
-    Cells cells;
-    HullPoints hull_points;
+/// What bodies are made of, as far as all kinds of structures are alike.
+struct TablesOfStructures {
+    Limits limits;
+    Structures structures{limits.shells, limits.shells};
+    Cells cells{cell_limit(limits), limits.shells};
+    HullPoints hull_points{cell_limit(limits) * 32, limits.shells};
+};
+struct StructureRows : MaterialRows, TablesOfStructures {
+    StructureRows(const Limits& l, const MaterialRows& of_what) : MaterialRows(of_what), TablesOfStructures{l} {}
 
     using Below = MaterialRows;
-    static constexpr auto own_tables() {
-        using R = StructureRows;
-        return std::tuple{&R::structures, &R::cells, &R::hull_points};
-    }
+    using Own = TablesOfStructures;
 };
 
 /// The row of a structure that is a shell.
@@ -45,41 +64,50 @@ inline Row<Shells> shell_of(const Structures& structures, Row<Structures> struct
     return Row<Shells>(structures.rows[structure]);
 }
 
-/// Shells, what holds them together, and the springs of those that have some.
-struct ShellRows : StructureRows {
-    ShellRows(const Limits& limits, const MaterialRows& of_what);
+/// What shells come apart into.
+struct TablesOfParts {
+    Limits limits;
+    ShellParts shell_parts{(limits.tasks + 1) * kMostParts};
+};
+struct PartRows : StructureRows, TablesOfParts {
+    PartRows(const Limits& l, const MaterialRows& of_what) : StructureRows(l, of_what), TablesOfParts{l} {
+        shell_parts.append((l.tasks + 1) * kMostParts);
+    }
 
-    Shells shells;
-    Vertices vertices;
-    Elements elements;
-    TriangleSprings triangle_springs;
-    Hinges hinges;
-    StiffnessPacks stiffness_packs;
-    StiffnessBlocks stiffness_blocks;
-    StiffnessLinks stiffness_links;
-    ShellSprings shell_springs;
-    Springs springs;
-    LayerSprings layer_springs;
-    ElementSprings element_springs;
-    SpringPacks spring_packs;
-    SpringSlots spring_slots;
-    LayerSlots layer_slots;
-    Twins twins;
-    VertexBlocks vertex_blocks;  // neither saved nor hashed
-    ShellParts shell_parts;
+    using Below = StructureRows;
+    using Own = TablesOfParts;
+};
+
+/// Shells, what holds them together, and the springs of those that have some.
+struct TablesOfShells {
+    Limits limits;
+    Shells shells{limits.shells, limits.shells};
+    Vertices vertices{limits.vertices, limits.shells};
+    Elements elements{limits.elements, limits.shells};
+    TriangleSprings triangle_springs{limits.elements};
+    Hinges hinges{hinge_limit(limits), limits.shells};
+    StiffnessPacks stiffness_packs{pack_limit(limits), limits.shells};
+    StiffnessBlocks stiffness_blocks{slot_limit(limits), limits.shells};
+    StiffnessLinks stiffness_links{slot_limit(limits), limits.shells};
+    ShellSprings shell_springs{limits.shells, limits.shells};
+    Springs springs{spring_limit(limits), limits.shells};
+    LayerSprings layer_springs{spring_limit(limits), limits.shells};
+    ElementSprings element_springs{limits.elements, limits.shells};
+    SpringPacks spring_packs{pack_limit(limits), limits.shells};
+    SpringSlots spring_slots{slot_limit(limits), limits.shells};
+    LayerSlots layer_slots{slot_limit(limits), limits.shells};
+    Twins twins{limits.vertices, limits.shells};
+    VertexBlocks vertex_blocks{limits.vertices / kVerticesPerBlock + 1};
+};
+struct ShellRows : PartRows, TablesOfShells {
+    ShellRows(const Limits& l, const MaterialRows& of_what) : PartRows(l, of_what), TablesOfShells{l} {}
+
     mutable ScratchMemory scratch;  // of functions that need more than a stack holds
 
     Row<Shells> shell_of(Row<Structures> structure) const { return cullet::shell_of(structures, structure); }
 
-    using Below = StructureRows;
-    static constexpr auto own_tables() {
-        using R = ShellRows;
-        return std::tuple{&R::shells,        &R::vertices,        &R::elements,         &R::triangle_springs,
-                          &R::hinges,        &R::stiffness_packs, &R::stiffness_blocks, &R::stiffness_links,
-                          &R::shell_springs, &R::springs,         &R::layer_springs,    &R::element_springs,
-                          &R::spring_packs,  &R::spring_slots,    &R::layer_slots,      &R::twins,
-                          &R::vertex_blocks, &R::shell_parts};
-    }
+    using Below = PartRows;
+    using Own = TablesOfShells;
 
     /// Calls f(range, table, room, limit) for each table of which a shell has a range: the member of ShellRoom that
     /// says how many rows it wants, and the limit that is named when there are none.

@@ -1,7 +1,6 @@
 // Everything that a world remembers, listed once.
 #pragma once
 #include <string>
-#include <tuple>
 
 #include "components/blows.hpp"
 #include "components/body_rows.hpp"
@@ -9,64 +8,104 @@
 
 namespace cullet {
 
+struct TablesOfMaterials {
+    Limits limits;
+    Materials materials{kMostMaterials};
+    MaterialTraits material_traits{kMostMaterials};
+    Models models{limits.models};
+};
+struct TablesOfDebris {
+    Limits limits;
+    Debris debris{limits.debris};
+    DebrisAges debris_ages{limits.debris};
+};
+/// What waits for its turn.
+struct TablesOfBlows {
+    Limits limits;
+    QueuedHits queued_hits{limits.queued_hits};
+    Blows blows{2 * (limits.bodies + limits.queued_hits)};
+};
+inline constexpr uint32_t kMostWaitingParts = 16 * kMostParts;  // of bodies whose pieces wait for room
+inline constexpr uint32_t kMostTouches = 1u << 18;              // four for an edge of a crack
+struct TablesOfFragments {
+    Limits limits;
+    Fragments fragments{limits.tasks * kMostParts + kMostWaitingParts};
+    Touches touches{kMostTouches};
+};
+
 /// Whoever holds it reaches everything. So systems and their helpers take only the tables that they need, or one of the
 /// sets of tables that it stands on: SoftRows, BodyRows, RunRows, ShellRows, StructureRows, MaterialRows.
-struct State : SoftRows {
+struct State : TablesOfMaterials, SoftRows, TablesOfDebris, TablesOfBlows, TablesOfFragments {
     explicit State(const Limits& limits = {});
 
-    Materials materials;
-    MaterialTraits material_traits;
-    Models models;
-    Debris debris;
-    QueuedHits queued_hits;
-    Fragments fragments;
-    Touches touches;
-    Blows blows;
-    DebrisAges debris_ages;
+    using TablesOfMaterials::materials, TablesOfMaterials::material_traits;
 
+    static constexpr bool kHoldsEveryTable = true;
     /// In the order of the hash and of files.
-    static constexpr auto tables() {
-        return list(&State::materials, &State::material_traits, &State::models, &State::structures, &State::cells,
-                    &State::hull_points, &State::shells, &State::vertices, &State::elements, &State::triangle_springs,
-                    &State::hinges, &State::stiffness_packs, &State::stiffness_blocks, &State::stiffness_links,
-                    &State::shell_springs, &State::springs, &State::layer_springs, &State::element_springs,
-                    &State::spring_packs, &State::spring_slots, &State::layer_slots, &State::twins, &State::bodies,
-                    &State::pin_boxes, &State::fragment_ages, &State::view_vertices, &State::view_indices,
-                    &State::quick_bodies, &State::soft_bodies, &State::soft_strikers, &State::soft_contacts,
-                    &State::debris, &State::debris_ages, &State::tasks, &State::task_contacts, &State::patch_vertices,
-                    &State::hidden_runs, &State::marked_packs, &State::quick_runs, &State::region_rests,
-                    &State::queued_hits, &State::blows, &State::shell_parts, &State::fragments, &State::touches);
+    using Sets = TypeList<TablesOfMaterials, TablesOfStructures, TablesOfShells, TablesOfBodies, TablesOfSoftBodies,
+                          TablesOfDebris, TablesOfRuns, TablesOfBlows, TablesOfParts, TablesOfFragments>;
+    /// Calls f(table) for each, in that order.
+    template <class F>
+    void for_each_table(F&& f) {
+        visit(*this, f, Sets{});
     }
-    const Limits& limits() const { return limits_; }
+    template <class F>
+    void for_each_table(F&& f) const {
+        visit(*this, f, Sets{});
+    }
+    /// Calls f(pool) for each table whose rows come in ranges, in that order.
+    template <class F>
+    void for_each_pool(F&& f) {
+        for_each_table(pool_caller(f));
+    }
+    template <class F>
+    void for_each_pool(F&& f) const {
+        for_each_table(pool_caller(f));
+    }
     /// The table of type T.
     template <class T>
     T& table() {
-        constexpr T State::*member = std::get<T State::*>(tables());
-        return this->*member;
+        return table_among<T>(*static_cast<decltype(set_with<T>(Sets{}))>(this));
     }
+
+    const Limits& limits() const { return TablesOfMaterials::limits; }
 
     /// Of tables that have rows, and of their pools: what a world does not use leaves its hash alone.
     uint64_t hash() const;
     std::string validate() const;
     std::string first_difference(const State& other) const;
 
-    /// 32 bits of each State column's hash, in the order of tables() and their columns; and then of the pools.
+    /// 32 bits of each State column's hash, in the order of the tables and their columns; and then of the pools.
     void digest_columns(std::vector<uint32_t>& out) const;
     /// "vertices.velocity" of the place in that list.
     std::string digested_column(size_t place) const;
 
-    /// Of the tables whose rows come in ranges, in the order of the hash and of files.
-    auto pools() { return pools_of<RangePool>(*this, tables()); }
-    auto pools() const { return pools_of<const RangePool>(*this, tables()); }
-
  private:
-    /// Members of the sets as members of this.
-    template <class... T, class... Set>
-    static constexpr std::tuple<T State::*...> list(T Set::*... members) {
-        return {members...};
+    template <class Self, class F, class... Set>
+    static void visit(Self& self, F& f, TypeList<Set...>) {
+        (visit_set<Set>(self, f), ...);
+    }
+    template <class Set, class Self, class F>
+    static void visit_set(Self& self, F& f) {
+        using Kept = std::conditional_t<std::is_const_v<Self>, const Set, Set>;
+        for_each_table_of(static_cast<Kept&>(self), [&f](auto& table) {
+            if constexpr (!kIsDerived<decltype(table)>) f(table);
+        });
+    }
+    template <class F>
+    static auto pool_caller(F& f) {
+        return [&f](auto& table) {
+            if constexpr (kIsRanged<decltype(table)>) f(table.pool);
+        };
+    }
+    template <class T, class First, class... Rest>
+    static auto set_with(TypeList<First, Rest...>) {
+        if constexpr (kIsAmong<T, First>)
+            return static_cast<First*>(nullptr);
+        else
+            return set_with<T>(TypeList<Rest...>{});
     }
     uint64_t hash_pools(uint64_t seed) const;
-    Limits limits_;
 };
 
 }  // namespace cullet

@@ -15,6 +15,7 @@ enum class BlockSums : uint8_t { NotKept = 0, Outdated, Known };
 struct VertexBlocks : Table<VertexBlocks> {
     using Table::Table;
     static constexpr const char* kName = "vertex_blocks";
+    static constexpr bool kIsDerived = true;
     Column<uint8_t> sums{*this, "sums", "1", Keep::Scratch};  // BlockSums: what the rest of the row is
     Column<uint8_t> pinned_count{*this, "pinned_count", "1", Keep::Scratch};
     Column<std::array<float, 6>> box{*this, "box", "m", Keep::Scratch};  // low, high; low > high: none is live

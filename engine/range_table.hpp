@@ -1,8 +1,5 @@
 // A table whose rows its owners take in ranges, and give back.
 #pragma once
-#include <array>
-#include <tuple>
-
 #include "engine/range_pool.hpp"
 #include "engine/table.hpp"
 
@@ -42,21 +39,8 @@ struct RangeTable : Table<Self> {
     RangePool pool;  // which rows are taken
 };
 template <class T>
-inline constexpr bool kIsRanged = requires(T& table) {
+inline constexpr bool kIsRanged = requires(T table) {
     table.pool;
 };
-
-/// Of those of a world's tables that have one, in their order.
-template <class Pool, class World, class Holder, class... T>
-auto pools_of(World& world, std::tuple<T Holder::*...> tables) {
-    const auto pool_of = [](auto& table) {
-        if constexpr (requires { table.pool; })
-            return std::tuple<Pool*>(&table.pool);
-        else
-            return std::tuple<>();
-    };
-    const auto pools = std::apply([&](auto... table) { return std::tuple_cat(pool_of(world.*table)...); }, tables);
-    return std::apply([](auto*... pool) { return std::array<Pool*, sizeof...(pool)>{pool...}; }, pools);
-}
 
 }  // namespace cullet

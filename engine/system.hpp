@@ -31,6 +31,7 @@
 #include "engine/events.hpp"
 #include "engine/table.hpp"
 #include "engine/table_group.hpp"
+#include "engine/table_set.hpp"
 
 namespace cullet {
 
@@ -298,30 +299,6 @@ struct Parameter<Serial> {
         return {};
     }
 };
-template <class T>
-concept IsTable = std::is_base_of_v<AnyTable, std::remove_cvref_t<T>>;
-/// The struct that lists all tables of a world.
-template <class T>
-concept HoldsEveryTable = requires {
-    std::remove_cvref_t<T>::tables();
-};
-/// A struct of tables that lists them (own_tables()) and what it stands on (Below): a smaller set, or a group.
-template <class T>
-concept IsTableSet = !HoldsEveryTable<T> && requires {
-    std::remove_cvref_t<T>::own_tables();
-};
-template <class T, class Set, class... Own>
-constexpr bool is_among(std::tuple<Own Set::*...>) {
-    return (... || std::is_same_v<T, Own>);
-}
-/// The table of type T in a set.
-template <class T, IsTableSet Set>
-T& table_in(Set& set) {
-    if constexpr (is_among<T>(Set::own_tables()))
-        return set.*std::get<T Set::*>(Set::own_tables());
-    else
-        return table_in<T>(static_cast<typename Set::Below&>(set));
-}
 template <class P>
 requires std::is_lvalue_reference_v<P>
 struct Parameter<P> {
@@ -353,11 +330,15 @@ struct Parameter<P> {
             Parameter<std::conditional_t<kWrites, Below&, const Below&>>::describe(list);
         else
             Parameter<Below>::describe(list);
-        std::apply(
-            [&]<class... T>(T Plain::*...) {
-                (list.push_back({T::kName, true, kWrites, false, Access::Kind::Table}), ...);
-            },
-            Plain::own_tables());
+        describe_tables(list, table_set::TypesOf<typename Plain::Own>{});
+    }
+    template <class... T>
+    static void describe_tables(std::vector<Access>& list, TypeList<T...>) {
+        (describe_table<T>(list), ...);
+    }
+    template <class T>
+    static void describe_table(std::vector<Access>& list) {
+        if constexpr (IsTable<T>) list.push_back({T::kName, true, kWrites, false, Access::Kind::Table});
     }
 };
 template <class P>

@@ -14,64 +14,17 @@
 #include <type_traits>
 #include <utility>
 
+#include "engine/members.hpp"
+
 namespace cullet {
 
-template <class... T>
-struct TypeList {};
-
 namespace group {
-
-inline constexpr int kMostMembers = 12;
-
-/// Becomes a reference to anything: members are counted with it.
-struct Anything {
-    template <class T>
-    operator T&() const;
-};
-template <class G, class... Given>
-constexpr int member_count() {
-    if constexpr (sizeof...(Given) > kMostMembers)
-        return 0;
-    else if constexpr (
-        requires { G{Given{}...}; } &&
-        !requires {
-            G{Given{}..., Anything{}};
-        })
-        return static_cast<int>(sizeof...(Given));
-    else
-        return member_count<G, Given..., Anything>();
-}
-
-/// A member, with its type as the group declares it.
-template <class Declared>
-struct Member {
-    using Type = Declared;
-    std::remove_reference_t<Declared>& held;
-};
 
 /// f(Member<..>...), in the order of declaration.
 template <class G, class F>
 constexpr decltype(auto) visit(G& g, F&& f) {
-    constexpr int count = member_count<std::remove_const_t<G>>();
-    static_assert(count > 0, "a group is a plain struct of 1 to 12 references");
-// clang-format off
-#define OF(m) Member<decltype(m)>{m}
-    if constexpr (count == 1) { auto& [a] = g; return f(OF(a)); }
-    else if constexpr (count == 2) { auto& [a, b] = g; return f(OF(a), OF(b)); }
-    else if constexpr (count == 3) { auto& [a, b, c] = g; return f(OF(a), OF(b), OF(c)); }
-    else if constexpr (count == 4) { auto& [a, b, c, d] = g; return f(OF(a), OF(b), OF(c), OF(d)); }
-    else if constexpr (count == 5) { auto& [a, b, c, d, e] = g; return f(OF(a), OF(b), OF(c), OF(d), OF(e)); }
-    else if constexpr (count == 6) { auto& [a, b, c, d, e, h] = g; return f(OF(a), OF(b), OF(c), OF(d), OF(e), OF(h)); }
-    else if constexpr (count == 7) { auto& [a, b, c, d, e, h, i] = g; return f(OF(a), OF(b), OF(c), OF(d), OF(e), OF(h), OF(i)); }
-    else if constexpr (count == 8) { auto& [a, b, c, d, e, h, i, j] = g; return f(OF(a), OF(b), OF(c), OF(d), OF(e), OF(h), OF(i), OF(j)); }
-    else if constexpr (count == 9) { auto& [a, b, c, d, e, h, i, j, k] = g; return f(OF(a), OF(b), OF(c), OF(d), OF(e), OF(h), OF(i), OF(j), OF(k)); }
-    else if constexpr (count == 10) { auto& [a, b, c, d, e, h, i, j, k, l] = g; return f(OF(a), OF(b), OF(c), OF(d), OF(e), OF(h), OF(i), OF(j), OF(k), OF(l)); }
-    else if constexpr (count == 11) { auto& [a, b, c, d, e, h, i, j, k, l, m] = g; return f(OF(a), OF(b), OF(c), OF(d), OF(e), OF(h), OF(i), OF(j), OF(k), OF(l), OF(m)); }
-    else { auto& [a, b, c, d, e, h, i, j, k, l, m, n] = g; return f(OF(a), OF(b), OF(c), OF(d), OF(e), OF(h), OF(i), OF(j), OF(k), OF(l), OF(m), OF(n)); }
-#undef OF
-    // clang-format on
+    return members::visit<members::AnyReference>(g, std::forward<F>(f));
 }
-
 struct ListTypes {
     template <class... M>
     constexpr TypeList<typename M::Type...> operator()(M...) const {
@@ -84,10 +37,10 @@ using MembersOf = decltype(visit(std::declval<G&>(), ListTypes{}));
 
 template <class T>
 constexpr bool is_group();
-/// A struct that lists all tables of a world is none of its tables: who holds it reaches everything.
+/// A struct that holds all tables of a world is none of its tables: who holds it reaches everything.
 template <class T>
 concept IsWholeState = requires {
-    std::remove_cvref_t<T>::tables();
+    std::remove_cvref_t<T>::kHoldsEveryTable;
 };
 template <class... T>
 constexpr bool are_references_or_groups(TypeList<T...>) {
@@ -97,7 +50,7 @@ template <class T>
 constexpr bool is_group() {
     if constexpr (!std::is_class_v<T> || !std::is_aggregate_v<T> || std::is_empty_v<T>)
         return false;
-    else if constexpr (member_count<T>() == 0)
+    else if constexpr (members::count_of<T, members::AnyReference>() == 0)
         return false;
     else
         return are_references_or_groups(MembersOf<T>{});

@@ -146,8 +146,7 @@ std::string GameWorld::waits_at() const {
 
 void fill_counts(const World& world, Report& report) {
     const WorldData& data = world.contents().data;
-    std::apply([&](auto... table) { ((report.tables[(data.state.*table).name()] = (data.state.*table).size()), ...); },
-               State::tables());
+    data.state.for_each_table([&](const AnyTable& table) { report.tables[table.name()] = table.size(); });
     const DamageCounts& counts = data.counts;
     report.tasks = {counts.opened,       counts.broke,       counts.dropped,    counts.redone,
                     counts.late,         counts.frames_held, counts.ahead_hits, counts.ahead_misses,

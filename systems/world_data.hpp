@@ -1,6 +1,7 @@
 // What the systems of a frame see: the tables, and the few things beside them.
 #pragma once
 #include <memory>
+#include <tuple>
 
 #include "components/state.hpp"
 #include "components/view_boxes.hpp"
@@ -238,36 +239,38 @@ struct WorldData {
     Set& set() {
         return state;
     }
+    /// What is beside tables and queues: one is a word here.
+    auto resources() {
+        return std::tuple{&state,      &step_info,          &damage_settings, &counts,           &energy,
+                          rigid.get(), damage_models.get(), run_loops.get(),  query_index.get(), &arena};
+    }
     template <class T>
-    auto& resource();
-};
+    auto& resource() {
+        if constexpr (Between::has<typename HeldBy<T>::Type>())
+            return between.of<typename HeldBy<T>::Type>();
+        else if constexpr (Told::has<typename HeldBy<T>::Type>())
+            return told.of<typename HeldBy<T>::Type>();
+        else
+            return resource_in<T>(resources());
+    }
 
-template <class T>
-auto& WorldData::resource() {
-    if constexpr (std::is_same_v<T, State>)
-        return state;
-    else if constexpr (std::is_same_v<T, Step>)
-        return step_info;
-    else if constexpr (std::is_same_v<T, DamageSettings>)
-        return damage_settings;
-    else if constexpr (std::is_same_v<T, DamageCounts>)
-        return counts;
-    else if constexpr (std::is_same_v<T, EnergyBalance>)
-        return energy;
-    else if constexpr (std::is_same_v<T, RigidWorld>)
-        return *rigid;
-    else if constexpr (std::is_same_v<T, DamageModels>)
-        return *damage_models;
-    else if constexpr (std::is_same_v<T, RunLoops>)
-        return *run_loops;
-    else if constexpr (std::is_same_v<T, QueryIndex>)
-        return *query_index;
-    else if constexpr (std::is_same_v<T, Arena>)
-        return arena;
-    else if constexpr (Between::has<typename T::Value>())
-        return between.of<typename T::Value>();
-    else
-        return told.of<typename T::Value>();
-}
+ private:
+    /// Of a queue the event, of anything else nothing.
+    template <class T>
+    struct HeldBy {
+        using Type = void;
+    };
+    template <class E>
+    struct HeldBy<Events<E>> {
+        using Type = E;
+    };
+    template <class T, class... R>
+    static auto& resource_in(std::tuple<R*...> all) {
+        if constexpr ((... || std::is_same_v<const T, R>))
+            return *std::get<const T*>(all);
+        else
+            return *std::get<T*>(all);
+    }
+};
 
 }  // namespace cullet

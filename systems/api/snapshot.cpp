@@ -19,8 +19,8 @@
 namespace cullet {
 
 void put_tables(ByteWriter& out, const State& state) {
-    std::apply([&](auto... table) { (put_table(out, state.*table, 0, (state.*table).size()), ...); }, State::tables());
-    for (const RangePool* pool : state.pools()) pool->save(out);
+    state.for_each_table([&](const AnyTable& table) { put_table(out, table, 0, table.size()); });
+    state.for_each_pool([&](const RangePool& pool) { pool.save(out); });
 }
 
 void take_tables(ByteReader& in, State& state) {
@@ -34,9 +34,10 @@ void take_tables(ByteReader& in, State& state) {
         table.append(found.rows - table.size());
         found.copy_to(table, 0);
     };
-    std::apply([&](auto... table) { (take_table(state.*table), ...); }, State::tables());
-    for (RangePool* pool : state.pools())
-        if (in.is_sound()) pool->load(in);
+    state.for_each_table(take_table);
+    state.for_each_pool([&](RangePool& pool) {
+        if (in.is_sound()) pool.load(in);
+    });
 }
 
 Settings take_settings(ByteReader& in) {

@@ -43,7 +43,7 @@ struct Sky {
     Arena arena{1 << 20};
     Events<Cried> cries{100000};
 
-    static constexpr auto tables() { return std::tuple{&Sky::birds, &Sky::birds_eggs}; }
+    static constexpr bool kHoldsEveryTable = true;
     template <class T>
     T& table() {
         if constexpr (std::is_same_v<T, Birds>)

@@ -12,7 +12,7 @@ namespace {
 
 uint64_t pools_hash(World& world) {
     uint64_t hash = 0;
-    for (const RangePool* pool : std::as_const(state_of(world)).pools()) hash = pool->hash(hash);
+    state_of(world).for_each_pool([&](const RangePool& pool) { hash = pool.hash(hash); });
     return hash;
 }
 

@@ -13,7 +13,7 @@ namespace {
 
 uint64_t hash_of_pools(const State& state) {
     uint64_t hash = 0;
-    for (const RangePool* pool : state.pools()) hash = pool->hash(hash);
+    state.for_each_pool([&](const RangePool& pool) { hash = pool.hash(hash); });
     return hash;
 }
 

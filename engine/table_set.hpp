@@ -1,0 +1,87 @@
+// A set of tables stands on a smaller one, and adds a plain struct of tables of its own:
+//
+//     struct TablesOfBonds {
+//         Limits limits;  // what follows is made of it
+//         Bonds bonds{limits.bonds};
+//     };
+//     struct BondRows : ShellRows, TablesOfBonds {
+//         using Below = ShellRows;
+//         using Own = TablesOfBonds;
+//     };
+//
+// One line adds a table: what systems reach, files, hash and checks follow from it.
+#pragma once
+#include "engine/members.hpp"
+#include "engine/table.hpp"
+
+namespace cullet {
+
+template <class T>
+concept IsTable = std::is_base_of_v<AnyTable, std::remove_cvref_t<T>>;
+/// A struct that holds all tables of a world says so.
+template <class T>
+concept HoldsEveryTable = requires {
+    std::remove_cvref_t<T>::kHoldsEveryTable;
+};
+template <class T>
+concept IsTableSet = !HoldsEveryTable<T> && requires {
+    typename std::remove_cvref_t<T>::Own;
+    typename std::remove_cvref_t<T>::Below;
+};
+/// A table that is no part of a world's state, since other tables give it, says so.
+template <class T>
+inline constexpr bool kIsDerived = requires {
+    std::remove_cvref_t<T>::kIsDerived;
+};
+
+/// Calls f(table) for each table of a plain struct of them, in the order of declaration.
+template <class Tables, class F>
+constexpr void for_each_table_of(Tables& tables, F&& f) {
+    const auto look = [&f](auto member) {
+        if constexpr (IsTable<typename decltype(member)::Type>) f(member.held);
+    };
+    members::visit<members::AnyValue>(tables, [&](auto... member) { (look(member), ...); });
+}
+
+namespace table_set {
+
+struct ListTypes {
+    template <class... M>
+    constexpr TypeList<std::remove_const_t<typename M::Type>...> operator()(M...) const {
+        return {};
+    }
+};
+template <class Tables>
+using TypesOf = decltype(members::visit<members::AnyValue>(std::declval<Tables&>(), ListTypes{}));
+
+template <class T, class... Held>
+constexpr bool is_among(TypeList<Held...>) {
+    return (... || std::is_same_v<T, Held>);
+}
+
+}  // namespace table_set
+
+/// Whether a plain struct of tables holds a T.
+template <class T, class Tables>
+inline constexpr bool kIsAmong = table_set::is_among<T>(table_set::TypesOf<Tables>{});
+/// That table.
+template <class T, class Tables>
+requires kIsAmong<T, Tables> T& table_among(Tables& tables) {
+    T* found = nullptr;
+    for_each_table_of(tables, [&found](auto& table) {
+        if constexpr (std::is_same_v<decltype(table), T&>) found = &table;
+    });
+    return *found;
+}
+
+/// The table of type T in a set.
+template <class T, IsTableSet Set>
+T& table_in(Set& set) {
+    using Own = typename Set::Own;
+    if constexpr (kIsAmong<T, Own>)
+        return table_among<T>(static_cast<Own&>(set));
+    else
+        return table_in<T>(static_cast<typename Set::Below&>(set));
+}
+
+}  // namespace cullet
