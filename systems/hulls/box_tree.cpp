@@ -51,14 +51,14 @@ BoxTree::BoxTree(std::span<const TreeBox> item_boxes) {
     boxes.reserve(order.size());
     for (const uint32_t item : order) boxes.push_back(item_boxes[item]);
 
-    struct Range {
+    struct Stretch {
         uint32_t first, last, parent;  // parent: whose right child this is, or none
     };
     constexpr uint32_t kNobody = 0xffffffffu;
     nodes.reserve(order.size());
-    std::vector<Range> stack{{0, static_cast<uint32_t>(order.size()), kNobody}};
+    std::vector<Stretch> stack{{0, static_cast<uint32_t>(order.size()), kNobody}};
     while (!stack.empty()) {
-        const Range r = stack.back();
+        const Stretch r = stack.back();
         stack.pop_back();
         const uint32_t at = static_cast<uint32_t>(nodes.size());
         if (r.parent != kNobody) nodes[r.parent].right = at;
