@@ -14,7 +14,7 @@ namespace cullet {
 namespace {
 
 constexpr uint32_t kAllFrames = 1200;
-const uint32_t kFrames = test::few_or_all(300u, kAllFrames);
+const uint32_t kFrames = test::few_or_all(200u, kAllFrames);
 
 /// The Release game's report on so many threads.
 nlohmann::json report_of_release(unsigned threads) {
