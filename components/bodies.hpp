@@ -11,8 +11,9 @@ enum class BodyKind : uint8_t { Free = 0, Static, Kinematic, Dynamic, Scenery };
 struct Models;
 struct SoftBodies;
 
-/// Of Bodies::is_owed_births. The second: its drawn mesh found no room either, and is still the one before the hit.
-inline constexpr uint8_t kOwedBirths = 1, kOwedDrawing = 2;
+/// Of Bodies::is_owed_births. The second: its drawn mesh found no room either, and is still the one before the hit. The
+/// third: it was dented, and collides as before; its contacts of that step are solved first.
+inline constexpr uint8_t kOwedBirths = 1, kOwedDrawing = 2, kOwedShape = 3;
 
 /// One row is one thing that the rigid world moves. Rows are reused; the generation tells a stale handle.
 struct Bodies : RangeTable<Bodies> {

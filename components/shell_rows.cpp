@@ -110,6 +110,7 @@ void release_shell(ShellRows& rows, Row<Structures> structure) {
     if (--structures.users[structure] > 0) return;
     const Row<Shells> shell = rows.shell_of(structure);
     release_springs(rows, structure);
+    release_metal(rows, structure);
     ShellRows::for_each_range(rows, structure,
                               [&](Range& range, auto& table, auto, const char*) { table.give_back(range); });
     rows.shells.clear_rows(shell, 1);

@@ -3,6 +3,7 @@
 #pragma once
 #include "components/limits.hpp"
 #include "components/materials.hpp"
+#include "components/metal.hpp"
 #include "components/shell_parts.hpp"
 #include "components/shells.hpp"
 #include "components/springs.hpp"
@@ -45,6 +46,15 @@ inline uint32_t spring_limit(const Limits& l) {
     return l.elements * 2;
 }
 
+/// Of metal. Sub-shells: one for a hundred triangles, at least sixteen a shell. A vertex has about 6 edges and a tie,
+/// each twice.
+inline uint32_t sub_shell_limit(const Limits& l) {
+    return l.elements / 64 + 16 * l.shells;
+}
+inline uint32_t metal_spring_limit(const Limits& l) {
+    return l.elements * 4;
+}
+
 /// What bodies are made of, as far as all kinds of structures are alike.
 struct TablesOfStructures {
     Limits limits;
@@ -78,6 +88,25 @@ struct PartRows : StructureRows, TablesOfParts {
     using Own = TablesOfParts;
 };
 
+/// And sub-shells and springs of those that are of metal.
+struct TablesOfMetal {
+    Limits limits;
+    MetalShells metal_shells{limits.shells, limits.shells};
+    MetalOwners metal_owners{limits.shells};
+    SubShells sub_shells{sub_shell_limit(limits), limits.shells};
+    SubShellBorders sub_shell_borders{8 * sub_shell_limit(limits), limits.shells};
+    MetalVertices metal_vertices{limits.vertices, limits.shells};
+    MetalElements metal_elements{limits.elements, limits.shells};
+    MetalSprings metal_springs{metal_spring_limit(limits), limits.shells};
+    MetalRuns metal_runs{limits.tasks};
+};
+struct MetalRows : PartRows, TablesOfMetal {
+    MetalRows(const Limits& l, const MaterialRows& of_what) : PartRows(l, of_what), TablesOfMetal{l} {}
+
+    using Below = PartRows;
+    using Own = TablesOfMetal;
+};
+
 /// Shells, what holds them together, and the springs of those that have some.
 struct TablesOfShells {
     Limits limits;
@@ -99,14 +128,16 @@ struct TablesOfShells {
     Twins twins{limits.vertices, limits.shells};
     VertexBlocks vertex_blocks{limits.vertices / kVerticesPerBlock + 1};
 };
-struct ShellRows : PartRows, TablesOfShells {
-    ShellRows(const Limits& l, const MaterialRows& of_what) : PartRows(l, of_what), TablesOfShells{l} {}
+struct ShellRows : MetalRows, TablesOfShells {
+    ShellRows(const Limits& l, const MaterialRows& of_what) : MetalRows(l, of_what), TablesOfShells{l} {}
 
     mutable ScratchMemory scratch;  // of functions that need more than a stack holds
 
     Row<Shells> shell_of(Row<Structures> structure) const { return cullet::shell_of(structures, structure); }
+    /// Of a structure that is a shell; none: it is not of metal.
+    Row<MetalShells> metal_of(Row<Structures> structure) const { return metal_owners.of(shell_of(structure)); }
 
-    using Below = PartRows;
+    using Below = MetalRows;
     using Own = TablesOfShells;
 
     /// Calls f(range, table, room, limit) for each table of which a shell has a range: the member of ShellRoom that
@@ -161,6 +192,30 @@ void release_springs(ShellRows& state, Row<Structures> shell);
 /// Springs of `copy` as `source` has them, in motion as they are. What there are too few rows for is refused. A shell
 /// without springs gives none. `copy` has at least the vertices and elements of `source`.
 bool copy_springs(ShellRows& state, Row<Structures> source, Row<Structures> copy, const char** full = nullptr);
+
+/// Rows that a shell needs as metal.
+struct MetalRoom {
+    uint32_t vertices = 0, elements = 0, springs = 0, cells = 0, borders = 0;
+};
+/// A row with empty ranges of these capacities for a shell that has none; kNone when some table is full. What the rows
+/// hold is the caller's affair.
+Row<MetalShells> make_metal(ShellRows& state, Row<Structures> shell, const MetalRoom& room,
+                            const char** full = nullptr);
+MetalRoom metal_room_of(const ShellRows& state, Row<Structures> shell);
+/// Calls f(range, table, rows wanted, limit) for each table of which a metal shell has a range.
+template <class Rows, class F>
+void for_each_metal_range(Rows& rows, Row<MetalShells> row, const MetalRoom& room, F&& f) {
+    auto& own = rows.metal_shells;
+    f(own.vertices[row], rows.metal_vertices, room.vertices, "limits.vertices");
+    f(own.elements[row], rows.metal_elements, room.elements, "limits.elements");
+    f(own.springs[row], rows.metal_springs, room.springs, "limits.elements");
+    f(own.cells[row], rows.sub_shells, room.cells, "limits.elements");
+    f(own.borders[row], rows.sub_shell_borders, room.borders, "limits.elements");
+}
+/// They go back, if there are any; release_shell does it, too.
+void release_metal(ShellRows& state, Row<Structures> shell);
+/// Into the rows of a shell that make_metal made with room for them.
+void copy_metal_rows(ShellRows& to, const ShellRows& from, Row<Structures> source, Row<Structures> copy);
 
 /// A copy of `source` with `room` (at least what is in use), one user. Stiffness is copied when `room.blocks` > 0,
 /// springs when `room.with_springs`.

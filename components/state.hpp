@@ -42,8 +42,9 @@ struct State : TablesOfMaterials, SoftRows, TablesOfDebris, TablesOfBlows, Table
 
     static constexpr bool kHoldsEveryTable = true;
     /// In the order of the hash and of files.
-    using Sets = TypeList<TablesOfMaterials, TablesOfStructures, TablesOfShells, TablesOfBodies, TablesOfSoftBodies,
-                          TablesOfDebris, TablesOfRuns, TablesOfBlows, TablesOfParts, TablesOfFragments>;
+    using Sets =
+        TypeList<TablesOfMaterials, TablesOfStructures, TablesOfShells, TablesOfMetal, TablesOfBodies,
+                 TablesOfSoftBodies, TablesOfDebris, TablesOfRuns, TablesOfBlows, TablesOfParts, TablesOfFragments>;
     /// Calls f(table) for each, in that order.
     template <class F>
     void for_each_table(F&& f) {

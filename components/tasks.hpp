@@ -10,10 +10,11 @@ struct Bodies;
 
 enum class TaskState : uint8_t {
     Free = 0,
-    Running,  // steps remain
-    Whole,    // ended; no piece came free. Its cracks, if any, stay with the body
-    Broke,    // ended; the shell has more than one component
-    Dropped,  // ended by a fault (energy) or because the body was removed; nothing changes
+    Running,   // steps remain
+    Whole,     // ended; no piece came free. Its cracks, if any, stay with the body
+    Broke,     // ended; the shell has more than one component
+    Dropped,   // ended by a fault (energy) or because the body was removed; nothing changes
+    Reshaped,  // ended; no piece came free, and its shape is another
 };
 
 /// One row is one hit being worked off.

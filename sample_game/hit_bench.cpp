@@ -11,7 +11,8 @@
 #include "sample_game/props.hpp"
 #include "systems/cook/model_contents.hpp"
 #include "systems/models/thick_shell/calibrate.hpp"
-#include "systems/models/thick_shell/cook/apply_pins.hpp"
+#include "systems/models/thick_shell/stiffness/stiffen_pinned.hpp"
+#include "systems/structures/shell/cook/apply_pins.hpp"
 #include "systems/structures/shell/rest_of_body.hpp"
 #include "systems/structures/shell/rigid_handoff.hpp"
 

@@ -34,6 +34,7 @@ std::vector<SettingGroup<SpawnSettings>> all_spawn_settings() {
 std::string settings_table() {
     std::string table;
     for (const std::string& model : damage_model_names()) {
+        if (cook_settings_of(model).empty() && spawn_settings_of(model).empty()) continue;
         table += fmt::format("| of {}, when cooked | default | range | what it is |\n|---|---|---|---|\n", model);
         table += rows_of(cook_settings_of(model));
         table += fmt::format("\n| of {}, when spawned | default | range | what it is |\n|---|---|---|---|\n", model);

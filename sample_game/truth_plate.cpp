@@ -12,9 +12,10 @@
 #include "sample_game/props.hpp"
 #include "sample_game/truth_cases.hpp"
 #include "systems/cook/model_contents.hpp"
-#include "systems/models/thick_shell/cook/apply_pins.hpp"
 #include "systems/models/thick_shell/hidden/integrate_packs.hpp"
 #include "systems/models/thick_shell/run_hit.hpp"
+#include "systems/models/thick_shell/stiffness/stiffen_pinned.hpp"
+#include "systems/structures/shell/cook/apply_pins.hpp"
 
 namespace cullet {
 namespace {

@@ -19,8 +19,9 @@ struct RunCost {
 
 /// What the budget and the runner ask of a loop about a task.
 struct TaskCalls {
-    bool (*works_on)(const RunRows& rows, uint32_t task);       // the task is one of this loop's
-    bool (*may_be_shared)(const RunRows& rows, uint32_t task);  // a pass over its rows is worth a barrier
+    bool (*works_on)(const RunRows& rows, uint32_t task);  // the task is one of this loop's
+    /// A pass over its rows is worth a barrier. Null: it never is.
+    bool (*may_be_shared)(const RunRows& rows, uint32_t task) = nullptr;
     /// Its runs have some ten steps: they may wait for the oldest of them, and are granted step by step.
     bool is_brief = false;
 };
@@ -48,7 +49,9 @@ class TaskLoop {
     const std::string& title() const { return title_; }
     std::string describe() const { return describe_(loop_.get()); }
     bool works_on(const RunRows& rows, uint32_t task) const { return calls_.works_on(rows, task); }
-    bool may_be_shared(const RunRows& rows, uint32_t task) const { return calls_.may_be_shared(rows, task); }
+    bool may_be_shared(const RunRows& rows, uint32_t task) const {
+        return calls_.may_be_shared && calls_.may_be_shared(rows, task);
+    }
     bool is_brief() const { return calls_.is_brief; }
     RunCost cost(const RunRows& rows, uint32_t task) const { return cost_(rows, task); }
     /// The steps that the task was granted. The loop must outlive it.
@@ -90,6 +93,28 @@ class TaskLoop {
     RunCost (*cost_)(const RunRows&, uint32_t) = nullptr;
     std::string (*describe_)(const void*) = nullptr;
     LoopRun (*run_)(const void*, SoftRows&, const Blows&, const Plan&) = nullptr;
+};
+
+/// What the inner loop of a task may see: rows of bodies, and the game's blows.
+struct TaskWorld {
+    BodyRows& rows;
+    const Blows& blows;
+
+    template <class T>
+    auto& table() {
+        if constexpr (std::is_same_v<T, Blows>)
+            return blows;
+        else
+            return table_in<T>(rows);
+    }
+    template <class Set>
+    Set& set() {
+        return rows;
+    }
+    template <class T>
+    Row<T> row_of(uint32_t task) const {
+        return Row<T>(task);
+    }
 };
 
 /// The run of one row in this frame.

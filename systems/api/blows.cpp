@@ -90,8 +90,8 @@ Result<void> check_cut(const CutSettings& c) {
 /// Why the body cannot be cut, and what to do; empty: it can.
 std::string why_not_cut(const State& state, const DamageModels& models, Row<Bodies> body) {
     if (!state.bodies.structure[body].exists()) return "it was not spawned from a model; cut one that was";
-    if (state.bodies.is_breakable[body]) return {};
     if (const char* const why = models.why_not_cut(state, body)) return why;
+    if (state.bodies.is_breakable[body]) return {};
     return "it was spawned to stay whole; spawn it with is_breakable and a strength_scale that can be reached";
 }
 

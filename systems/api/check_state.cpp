@@ -148,6 +148,17 @@ void check_ranges(Checker& check) {
     of_springs(s.spring_slots, s.spring_slots.pool, springs.slots);
     of_springs(s.layer_slots, s.layer_slots.pool, springs.layer_slots);
     of_springs(s.twins, s.twins.pool, springs.twins);
+    const auto of_metal = [&](const AnyTable& table, const RangePool& pool, const Column<Range>& column) {
+        RangeCheck ranges(check, table, pool);
+        for (uint32_t row = 0; row < s.metal_shells.size(); ++row)
+            if (s.metal_shells.pool.is_taken(row, 1)) ranges.add("metal shell", row, column[row]);
+        ranges.finish();
+    };
+    of_metal(s.metal_vertices, s.metal_vertices.pool, s.metal_shells.vertices);
+    of_metal(s.metal_elements, s.metal_elements.pool, s.metal_shells.elements);
+    of_metal(s.metal_springs, s.metal_springs.pool, s.metal_shells.springs);
+    of_metal(s.sub_shells, s.sub_shells.pool, s.metal_shells.cells);
+    of_metal(s.sub_shell_borders, s.sub_shell_borders.pool, s.metal_shells.borders);
     const auto of_bodies = [&](const AnyTable& table, const RangePool& pool, const Column<Range>& column) {
         RangeCheck ranges(check, table, pool);
         for (uint32_t b = 0; b < s.bodies.size(); ++b)
@@ -200,9 +211,9 @@ void check_bodies(Checker& check) {
                      Checker::place(bodies, "pins", b) + " are rows " + std::to_string(pins.first) + " + " +
                          std::to_string(pins.count) + " of " + std::to_string(s.pin_boxes.size()));
         const uint8_t owed = bodies.is_owed_births[b];
-        check.expect(owed <= kOwedDrawing && (owed == 0 || bodies.structure[b].exists()),
+        check.expect(owed <= kOwedShape && (owed == 0 || bodies.structure[b].exists()),
                      Checker::place(bodies, "is_owed_births", b) + " is " + std::to_string(owed) + ", not 0 to " +
-                         std::to_string(kOwedDrawing) + ", and 0 of what has no structure");
+                         std::to_string(kOwedShape) + ", and 0 of what has no structure");
         const Range vertices = bodies.view_vertices[b], indices = bodies.view_indices[b];
         uint64_t runs = 0;
         for (const uint32_t count : bodies.run_indices[b]) runs += count;
@@ -285,7 +296,8 @@ void check_tasks(Checker& check) {
     for (uint32_t t = 0; t < tasks.size() && check.is_sound(); ++t) {
         if (!is_task(s, t)) continue;
         const auto task_state = static_cast<TaskState>(tasks.state[t]);
-        const bool waits = is_ahead(tasks, t) && (task_state == TaskState::Whole || task_state == TaskState::Dropped);
+        const bool waits = is_ahead(tasks, t) && (task_state == TaskState::Whole || task_state == TaskState::Dropped ||
+                                            task_state == TaskState::Reshaped);
         check.expect(task_state == TaskState::Running || waits,
                      Checker::place(tasks, "state", t) + " is " + std::to_string(tasks.state[t]) +
                          "; between steps a task is free or running, or waits for its touch");

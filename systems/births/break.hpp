@@ -37,6 +37,8 @@ struct Break {
     bool lets_go = false;     // the body stood on pins, and what is left of it has none
     /// Its damage model moves the body, and it tore: what has pins keeps the body, and goes on moving.
     bool is_torn = false;
+    /// Nothing leaves: it was dented in an earlier step, and gets the hulls and the mass properties of its new shape.
+    bool is_reshaped = false;
 
     /// More is gone than stays: what stays is measured anew, not as a difference.
     bool is_rest_smaller(const Structures& structures) const {

@@ -47,6 +47,19 @@ void move_with_body(Planning& planning, const Break& plan, Vec3d velocity, Vec3d
     }
 }
 
+// P and L stay; the mass lies otherwise.
+void move_reshaped(Planning& planning, const Break& plan, Vec3d velocity, Vec3d spin) {
+    Fragments& f = planning.fragments;
+    planning.calls(plan).weigh(planning.state, plan, f);
+    const Sym3d before = planning.state.bodies.inertia[plan.body];
+    for (const Row<Fragments> row : plan.fragments) {
+        if (f.has_pins[row]) continue;
+        f.spin.set(row, inverse(f.inertia[row]) * (before * spin));
+        f.velocity.set(row, velocity);
+        f.momentum.set(row, f.moving_mass[row] * velocity);
+    }
+}
+
 void settle(Planning& planning, Break& plan) {
     if (plan.is_settled) return;
     settle_momenta(planning.fragments, plan.fragments, planning.touches, plan.start, planning.state.scratch);

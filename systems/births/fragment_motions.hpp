@@ -8,6 +8,9 @@ namespace cullet {
 /// angular momentum are kept to rounding. Body axes.
 void move_with_body(Planning& planning, const Break& plan, Vec3d velocity, Vec3d spin);
 
+/// Of a body that was dented: its momentum and angular momentum are those that it had, though its mass lies otherwise.
+void move_reshaped(Planning& planning, const Break& plan, Vec3d velocity, Vec3d spin);
+
 /// The motions are final: before fragments become one, since the touches name them.
 void settle(Planning& planning, Break& plan);
 

@@ -34,7 +34,7 @@ void count_result(const RunRows& rows, Row<Tasks> task, DamageCounts& counts) {
     const auto result = static_cast<TaskState>(tasks.state[task]);
     counts.broke += result == TaskState::Broke;
     counts.late += result == TaskState::Broke && tasks.is_late[task];
-    counts.whole += result == TaskState::Whole;
+    counts.whole += result == TaskState::Whole || result == TaskState::Reshaped;
     counts.dropped += result == TaskState::Dropped;
     counts.cuts += tasks.crack_count[task];
     counts.starts += tasks.start_count[task];

@@ -8,7 +8,7 @@ namespace {
 
 // Bodies that wait are passed over, in silence, while no piece could leave: asking takes as long as a break.
 bool may_ask(const Planning& planning, uint8_t owed) {
-    return owed == kOwedDrawing || (planning.fragments_left > 0 && planning.births_left > 0);
+    return owed == kOwedDrawing || owed == kOwedShape || (planning.fragments_left > 0 && planning.births_left > 0);
 }
 
 // What its damage model moves asks with the motion that it has there.
@@ -57,7 +57,8 @@ void plan_births(Serial, const Events<TaskEnded>& ended, SoftRows& rows, Waiting
         if (result != TaskState::Dropped && tasks.start_count[task])
             planning.calls(working).tell_cracks(rows, task, planned.cracks);
         if (result == TaskState::Broke) plan_break(planning, task);
-        if (result == TaskState::Whole && tasks.crack_count[task]) keep_cracks(planning, task);
+        if (result == TaskState::Reshaped || (result == TaskState::Whole && tasks.crack_count[task]))
+            keep_cracks(planning, task);
         if (result == TaskState::Whole && !tasks.crack_count[task] && is_on_own)
             planning.calls(working).stop(rows, working);
         // More pieces than there may be, with those that found no room before.

@@ -95,13 +95,17 @@ void ask_again(Planning& planning, Row<Bodies> body) {
     const Rows<Fragments> found = list_anew(planning, own);
     if (found.count == 0) return;
     Break plan = break_of(planning, {}, body, own, found);
+    plan.is_reshaped = bodies.is_owed_births[body] == kOwedShape;
     if (!reserve_hulls(planning, plan)) return;
     const StructureCalls& calls = planning.calls(own);
     if (bodies.is_asleep[body]) calls.forget_waiting(state, own);
     plan.waited = calls.waiting_energy(state, body);
     const Quat to_body_axes = conjugate(bodies.orientation[body]);
-    move_with_body(planning, plan, Vec3d(rotate(to_body_axes, bodies.velocity[body])),
-                   Vec3d(rotate(to_body_axes, bodies.spin[body])));
+    const Vec3d velocity(rotate(to_body_axes, bodies.velocity[body])), spin(rotate(to_body_axes, bodies.spin[body]));
+    if (plan.is_reshaped)
+        move_reshaped(planning, plan, velocity, spin);
+    else
+        move_with_body(planning, plan, velocity, spin);
     calls.take_waiting(state, plan, planning.fragments);
     plan.start.touches = calls.find_touches(state, plan, false, planning.touches, planning.arena);
     if (reserve_births(planning, plan)) order_births(planning, plan);
@@ -141,6 +145,8 @@ void keep_cracks(Planning& planning, Row<Tasks> task) {
     }
     calls.clear_run(state, cracked, {true, cracked != before});
     calls.adopt(state, body, cracked);
+    if (static_cast<TaskState>(state.tasks.state[task]) == TaskState::Reshaped)
+        state.bodies.is_owed_births[body] = kOwedShape;
     planning.changed.push({body, is_local});
 }
 

@@ -139,7 +139,7 @@ bool reserve_births(Planning& planning, Break& plan) {
     const bool was_drawn = owed != kOwedDrawing;
     owed = !is_drawn ? kOwedDrawing : plan.is_refused ? kOwedBirths : 0;
     plan.lets_go = !plan.is_torn && state.bodies.has_pins[plan.body] && !planning.fragments.has_pins[plan.largest];
-    bool is_broken = plan.lets_go;
+    bool is_broken = plan.lets_go || plan.is_reshaped;
     for (const Row<Fragments> row : plan.fragments) is_broken = is_broken || leaves(planning.fragments, row);
     if (is_broken) return true;
     const bool is_new = plan.task.exists();

@@ -1,4 +1,5 @@
 #include "systems/cook/crease_normals.hpp"
+#include "systems/cook/disjoint_sets.hpp"
 
 #include <algorithm>
 #include <numeric>
@@ -18,23 +19,6 @@ std::array<double, 3> angles_of(Vec3d a, Vec3d b, Vec3d c) {
     return {at_a, at_b, std::max(0.0, kPi - at_a - at_b)};
 }
 
-/// Corners that share a normal, as sets with the smallest for their name.
-class Groups {
- public:
-    explicit Groups(size_t count) : first_(count) { std::iota(first_.begin(), first_.end(), 0u); }
-    uint32_t find(uint32_t c) {
-        while (first_[c] != c) c = first_[c] = first_[first_[c]];
-        return c;
-    }
-    void unite(uint32_t a, uint32_t b) {
-        a = find(a), b = find(b);
-        first_[std::max(a, b)] = std::min(a, b);
-    }
-
- private:
-    std::vector<uint32_t> first_;
-};
-
 uint32_t corner_at(Corners corner, uint32_t triangle, uint32_t vertex) {
     const auto& c = corner[triangle];
     return 3 * triangle + (c[0] == vertex ? 0u : c[1] == vertex ? 1u : 2u);
@@ -49,7 +33,7 @@ std::vector<Vec3> crease_normals(std::span<const Vec3d> position, Corners corner
         const auto& c = corner[t];
         flat[t] = normalised(cross(position[c[1]] - position[c[0]], position[c[2]] - position[c[0]]));
     }
-    Groups groups(3 * size_t{count});
+    DisjointSets groups(3 * size_t{count});
     for (uint32_t t = 0; t < count; ++t)
         for (uint32_t k = 0; k < 3; ++k) {
             const uint32_t other = neighbour[t][k], next = (k + 1) % 3;

@@ -16,8 +16,15 @@ Limits cooking_limits(uint32_t vertices, uint32_t elements) {
 Row<Structures> import_shell(ShellRows& to, const ShellRows& from, Row<Structures> shell, const char** full) {
     const ShellRoom room = room_of(from, shell);
     const Row<Structures> copy = make_shell(to, room, full);
-    if (copy.exists()) copy_shell_rows(to, from, shell, copy, room.blocks > 0);
-    return copy;
+    if (!copy.exists()) return copy;
+    copy_shell_rows(to, from, shell, copy, room.blocks > 0);
+    if (!from.metal_of(shell).exists()) return copy;
+    if (make_metal(to, copy, metal_room_of(from, shell), full).exists()) {
+        copy_metal_rows(to, from, shell, copy);
+        return copy;
+    }
+    release_shell(to, copy);
+    return {};
 }
 
 }  // namespace cullet

@@ -15,7 +15,7 @@ namespace {
 
 constexpr const char* kAdvice = "The model file is damaged or of another build; cook the mesh again and write it.";
 constexpr FileKind kKind{{'c', 'm', 'o', 'd', 'l', '\r', '\n', '\x1a'},
-                         11,
+                         12,
                          "model file",
                          ".cmodel",
                          "Write one with write_model.",
@@ -33,6 +33,14 @@ void for_each_part(ShellRows& state, Row<Structures> shell, F&& f) {
         f(table, range);
         if constexpr (std::is_same_v<std::remove_cvref_t<decltype(table)>, Elements>) f(state.triangle_springs, range);
     });
+    // What is not of metal has no rows of these.
+    const Row<MetalShells> metal = state.metal_of(shell);
+    if (metal.exists())
+        return for_each_metal_range(state, metal, {},
+                                    [&](Range& range, auto& table, uint32_t, const char*) { f(table, range); });
+    Range none;
+    f(state.metal_vertices, none), f(state.metal_elements, none), f(state.metal_springs, none);
+    f(state.sub_shells, none), f(state.sub_shell_borders, none);
 }
 
 /// The report's numbers in the file's order, for both ways.
@@ -87,7 +95,7 @@ struct Found {
     MaterialSettings material;
     Vec3 grain;
     ModelReport report;
-    FoundTable structure, shell;
+    FoundTable structure, shell, metal;
     std::vector<FoundTable> parts;
 };
 
@@ -109,6 +117,7 @@ Result<Found> find_all(std::span<const uint8_t> payload, const std::string& name
     like.structures.append(1), like.shells.append(1);
     found.structure = find_table(reader, like.structures);
     found.shell = reader.is_sound() ? find_table(reader, like.shells) : FoundTable{};
+    found.metal = reader.is_sound() ? find_table(reader, like.metal_shells) : FoundTable{};
     for_each_part(like, Row<Structures>(0), [&](const AnyTable& table, const Range&) {
         found.parts.push_back(reader.is_sound() ? find_table(reader, table) : FoundTable{});
     });
@@ -119,7 +128,22 @@ Result<Found> find_all(std::span<const uint8_t> payload, const std::string& name
     return found;
 }
 
-enum Part { kVertices, kElements, kSprings, kHinges, kPacks, kBlocks, kLinks, kCells, kPoints };
+enum Part {
+    kVertices,
+    kElements,
+    kSprings,
+    kHinges,
+    kPacks,
+    kBlocks,
+    kLinks,
+    kCells,
+    kPoints,
+    kMetalVertices,
+    kMetalElements,
+    kMetalSprings,
+    kSubShells,
+    kSubShellBorders
+};
 
 /// Room for the shell alone. Components derive the limits of the smaller tables from those of vertices and elements.
 Limits limits_for(const std::vector<FoundTable>& parts) {
@@ -128,7 +152,8 @@ Limits limits_for(const std::vector<FoundTable>& parts) {
     const auto rows = [&](Part part) { return parts[part].rows; };
     const uint32_t slots = std::max(rows(kBlocks), rows(kLinks)), points = rows(kPoints) / 16 + 1;
     limits.vertices = std::max({rows(kVertices), slots / 12 * 8 + 8, 8 * rows(kCells), 8 * points}) + 1024;
-    limits.elements = std::max(rows(kElements), rows(kHinges)) + 1024;
+    const uint32_t metal = std::max(rows(kMetalSprings) / 4, rows(kSubShellBorders) * 8);
+    limits.elements = std::max({rows(kElements), rows(kHinges), metal, rows(kSubShells) * 64}) + 1024;
     return limits;
 }
 
@@ -144,6 +169,12 @@ Result<void> check_counts(const Found& found, const std::string& name) {
         return damaged(name, count(rows(kVertices)) + " vertices and " + count(rows(kElements)) + " elements have " +
                                  count(rows(kPacks)) + " packs and " + count(rows(kSprings)) +
                                  " triangle springs; 8 vertices make a pack, and an element has one row of springs");
+    const bool is_metal = found.metal.rows > 0;
+    if (found.metal.rows > 1 || rows(kMetalElements) != (is_metal ? rows(kElements) : 0) ||
+        (rows(kMetalVertices) > 0) != is_metal || (rows(kSubShells) > 0) != is_metal ||
+        rows(kMetalVertices) > rows(kVertices) || rows(kSubShells) > kMostSubShells)
+        return damaged(name, "it has " + count(rows(kMetalVertices)) + " vertices, " + count(rows(kMetalElements)) +
+                                 " elements and " + count(rows(kSubShells)) + " sub-shells of metal, unlike its shell");
     return {};
 }
 
@@ -156,11 +187,20 @@ Result<Row<Structures>> copy_rows(ShellRows& state, const Found& found, const st
         {rows(kVertices), rows(kElements), rows(kHinges), rows(kBlocks), rows(kLinks), rows(kCells), rows(kPoints)},
         &full);
     if (!shell.exists()) return damaged(name, std::string("its counts do not fit each other (") + full + ")");
+    const MetalRoom metal{rows(kMetalVertices), rows(kMetalElements), rows(kMetalSprings), rows(kSubShells),
+                          rows(kSubShellBorders)};
+    if (found.metal.rows > 0 && !make_metal(state, shell, metal, &full).exists())
+        return damaged(name, std::string("its counts do not fit each other (") + full + ")");
+    const Row<MetalShells> metal_row = state.metal_of(shell);
     std::vector<Range> own;
     for_each_part(state, shell, [&](const AnyTable&, const Range& range) { own.push_back(range); });
     const Row<Shells> row = state.shell_of(shell);
     found.structure.copy_to(state.structures, shell);
     found.shell.copy_to(state.shells, row);
+    if (metal_row.exists()) {
+        found.metal.copy_to(state.metal_shells, metal_row);
+        state.metal_shells.structure[metal_row] = shell;
+    }
     const bool fits = state.structures.rows[shell] == 0 && !state.shells.springs[row].exists() &&
                       state.structures.kind[shell] == static_cast<uint8_t>(StructureKind::Shell);
     if (!fits) return damaged(name, "its structure is no shell that can stand alone");
@@ -214,6 +254,12 @@ std::vector<uint8_t> encode_model_file(const Model::Contents& contents) {
     const Row<Structures> first = make_shell(row, {});
     copy_values(row, state, contents.shell, first);
     row.structures.material[first] = Row<Materials>(0);  // its values stand before the tables
+    const Row<MetalShells> metal = state.metal_of(contents.shell);
+    if (metal.exists()) {
+        const Row<MetalShells> own = make_metal(row, first, {});
+        row.metal_shells.copy_rows(state.metal_shells, metal, own, 1);
+        row.metal_shells.structure[own] = first;
+    }
     std::vector<uint32_t> counts;
     for_each_part(state, contents.shell, [&](const auto&, const Range& range) { counts.push_back(range.count); });
     size_t part = 0;
@@ -237,6 +283,7 @@ std::vector<uint8_t> encode_model_file(const Model::Contents& contents) {
     for_each_number(contents.report, [&](const auto& number) { writer.number(number); });
     put_table(writer, row.structures, first, 1);
     put_table(writer, row.shells, row.shell_of(first), 1);
+    put_table(writer, row.metal_shells, 0, metal.exists() ? 1 : 0);
     for_each_part(state, contents.shell, [&](const AnyTable& table, const Range& range) {
         put_table(writer, table, range.first, range.count);
     });

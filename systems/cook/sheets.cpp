@@ -1,4 +1,5 @@
 #include "systems/cook/sheets.hpp"
+#include "systems/cook/disjoint_sets.hpp"
 
 #include <algorithm>
 #include <numeric>
@@ -32,20 +33,6 @@ void turn(CleanMesh& mesh, uint32_t t) {
     std::swap(mesh.triangles[t][1], mesh.triangles[t][2]);
     std::swap(mesh.source_corners[t][1], mesh.source_corners[t][2]);
 }
-
-// Lowest member stands for the set.
-struct Sets {
-    std::vector<uint32_t> parent;
-    explicit Sets(size_t n) : parent(n) { std::iota(parent.begin(), parent.end(), 0u); }
-    uint32_t find(uint32_t a) {
-        while (parent[a] != a) a = parent[a] = parent[parent[a]];
-        return a;
-    }
-    void unite(uint32_t a, uint32_t b) {
-        a = find(a), b = find(b);
-        if (a != b) parent[std::max(a, b)] = std::min(a, b);
-    }
-};
 
 std::vector<EdgeUse> sorted_edges(const CleanMesh& mesh) {
     std::vector<EdgeUse> uses;
@@ -176,7 +163,7 @@ void pair_by_angle(const CleanMesh& mesh, const EdgeUse* uses, size_t count, std
 void find_components(const CleanMesh& mesh, const std::vector<Joint>& joints, const std::vector<uint8_t>& is_one_sided,
                      Surface& surface) {
     const uint32_t count = static_cast<uint32_t>(mesh.triangles.size());
-    Sets sets(count);
+    DisjointSets sets(count);
     std::vector<uint8_t> joint_count(count);
     for (const Joint& j : joints) {
         sets.unite(j.first, j.second);
@@ -261,7 +248,7 @@ uint32_t count_flipped(const CleanMesh& mesh) {
 // ties and crowded edges. Vertices are numbered by (position, lowest corner).
 void unite_corners(const CleanMesh& mesh, const std::vector<Joint>& joints, Surface& surface) {
     const uint32_t corner_count = static_cast<uint32_t>(3 * mesh.triangles.size());
-    Sets sets(corner_count);
+    DisjointSets sets(corner_count);
     surface.neighbours.assign(mesh.triangles.size(), {kNone, kNone, kNone});
     for (const Joint& j : joints) {
         const Triangle &a = mesh.triangles[j.first], &b = mesh.triangles[j.second];

@@ -1,12 +1,13 @@
 #include "systems/models.hpp"
 
+#include "systems/models/metal_shell/model.hpp"
 #include "systems/models/thick_shell/model.hpp"
 #include "systems/settings/check.hpp"
 
 namespace cullet {
 
 const ModelList& damage_models() {
-    static const ModelList all = std::make_shared<const DamageModels>(std::vector{thick_shell_model()});
+    static const ModelList all = std::make_shared<const DamageModels>(std::vector{thick_shell_model(), metal_shell_model()});
     return all;
 }
 

@@ -2,12 +2,13 @@
 
 #include "systems/cook/materials.hpp"
 #include "systems/models/thick_shell/calibrate.hpp"
-#include "systems/models/thick_shell/cook/apply_pins.hpp"
 #include "systems/models/thick_shell/restore_calls.hpp"
 #include "systems/models/thick_shell/shared/cut_out.hpp"
 #include "systems/models/thick_shell/shared/quick_body.hpp"
 #include "systems/models/thick_shell/shared/working_room.hpp"
 #include "systems/models/thick_shell/soft/soft_body.hpp"
+#include "systems/models/thick_shell/stiffness/stiffen_pinned.hpp"
+#include "systems/structures/shell/cook/apply_pins.hpp"
 #include "systems/structures/shell/vertex_sums.hpp"
 
 namespace cullet {

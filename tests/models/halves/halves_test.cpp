@@ -124,14 +124,15 @@ TEST(Halves, AModelIsCookedByItsNameAndAnUnknownOneIsRefusedByAListOfNames) {
     settings.model = "halves";
     const Result<Model> by_default = cook(test::view_of_mesh(mesh), settings);
     ASSERT_FALSE(by_default.ok()) << "it lives in tests alone";
-    EXPECT_NE(by_default.error().find("use one of thick_shell."), std::string::npos) << by_default.error();
+    EXPECT_NE(by_default.error().find("use one of thick_shell, metal_shell."), std::string::npos) << by_default.error();
 }
 
 TEST(Halves, AWorldWithoutTheModelRefusesWhatWasCookedForIt) {
     World world = test::make_world(settings_on(1));
     const Result<ModelId> added = world.add_model(globe_of_halves());
     ASSERT_FALSE(added.ok());
-    EXPECT_EQ(added.error(), "halves globe: is cooked for the damage model halves; this world has thick_shell.");
+    EXPECT_EQ(added.error(),
+              "halves globe: is cooked for the damage model halves; this world has thick_shell, metal_shell.");
 }
 
 TEST(Halves, AGlobeFallsInTwoWhereItIsHitAndItsMomentumStays) {
@@ -247,10 +248,10 @@ TEST(Halves, ASnapshotOfOneListIsRefusedByAWorldOfAnother) {
         EXPECT_FALSE(restored.ok());
         return restored.error();
     };
-    EXPECT_EQ(
-        refused_by(test::make_world(settings_on(1))),
-        "snapshot: is of a world that has the damage models halves, thick_shell, and this one has thick_shell. Load "
-        "it into a world that has the same.");
+    EXPECT_EQ(refused_by(test::make_world(settings_on(1))),
+              "snapshot: is of a world that has the damage models halves, thick_shell, and this one has thick_shell, "
+              "metal_shell. Load "
+              "it into a world that has the same.");
     EXPECT_NE(refused_by(value_of(create_with(thick_shell_first(), settings_on(1)))), "");
 }
 
@@ -266,7 +267,8 @@ TEST(Halves, ItsModelFileIsReadByWhoHasItAndRefusedByWhoHasNot) {
     EXPECT_EQ(from_file.hash(), cooked.hash());
     const Result<Model> by_default = read_model(path);
     ASSERT_FALSE(by_default.ok());
-    EXPECT_NE(by_default.error().find("is cooked for the damage model \"halves\"; this version has thick_shell."),
+    EXPECT_NE(by_default.error().find(
+                  "is cooked for the damage model \"halves\"; this version has thick_shell, metal_shell."),
               std::string::npos)
         << by_default.error();
     remove_files();

@@ -5,8 +5,8 @@
 
 namespace cullet::halves {
 
-InnerLoop<LoopWorld> make_loop() {
-    InnerLoop<LoopWorld> loop;
+InnerLoop<TaskWorld> make_loop() {
+    InnerLoop<TaskWorld> loop;
     loop.then<run_crack>().finish();
     return loop;
 }
@@ -17,10 +17,6 @@ RunCost cost_of(const RunRows& rows, uint32_t task) {
 
 bool works_on(const RunRows&, uint32_t) {
     return true;
-}
-
-bool may_be_shared(const RunRows&, uint32_t) {
-    return false;
 }
 
 }  // namespace cullet::halves

@@ -3,7 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "engine/random.hpp"
-#include "systems/models/thick_shell/cook/apply_pins.hpp"
+#include "systems/structures/shell/cook/apply_pins.hpp"
 #include "systems/structures/shell/crack_touches.hpp"
 #include "systems/structures/shell/make_piece.hpp"
 #include "systems/structures/shell/mass_properties.hpp"

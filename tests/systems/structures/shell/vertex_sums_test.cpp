@@ -5,7 +5,7 @@
 #include <gtest/gtest.h>
 
 #include "engine/random.hpp"
-#include "systems/models/thick_shell/cook/apply_pins.hpp"
+#include "systems/structures/shell/cook/apply_pins.hpp"
 #include "systems/structures/shell/flood_parts.hpp"
 #include "systems/structures/shell/rest_of_body.hpp"
 #include "systems/structures/shell/struck_normal.hpp"

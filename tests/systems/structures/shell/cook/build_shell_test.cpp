@@ -5,7 +5,7 @@
 
 #include <set>
 
-#include "systems/models/thick_shell/cook/apply_pins.hpp"
+#include "systems/structures/shell/cook/apply_pins.hpp"
 #include "systems/structures/shell/cell_hulls.hpp"
 #include "systems/structures/shell/mass_properties.hpp"
 #include "systems/structures/shell/prism.hpp"

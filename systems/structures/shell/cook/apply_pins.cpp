@@ -1,6 +1,4 @@
-#include "systems/models/thick_shell/cook/apply_pins.hpp"
-
-#include "systems/models/thick_shell/stiffness/assemble.hpp"
+#include "systems/structures/shell/cook/apply_pins.hpp"
 
 namespace cullet {
 namespace {
@@ -32,13 +30,6 @@ uint32_t apply_pins(ShellView shell, Vec3 low, Vec3 high) {
         if (is_inside) count += pin(shell, v);
     }
     return count;
-}
-
-bool stiffen_pinned(ShellView shell) {
-    assemble_springs(shell);
-    measure_limits(shell);
-    limit_all_stiffness(shell);
-    return assemble_stiffness(shell);
 }
 
 bool has_pins(const ShellView& shell) {

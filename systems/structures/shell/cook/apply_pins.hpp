@@ -13,10 +13,6 @@ uint32_t apply_pins(ShellView shell, std::span<const uint32_t> vertices);
 /// Pins every vertex whose rest position lies in the box, body frame, borders included.
 uint32_t apply_pins(ShellView shell, Vec3 low, Vec3 high);
 
-/// Limits and rows of a shell whose pins changed (B7: pins change what an unpinned item is). The time step stays: pins
-/// only lower the highest frequency. False: the rows do not fit, which they did before.
-bool stiffen_pinned(ShellView shell);
-
 bool has_pins(const ShellView& shell);
 
 }  // namespace cullet

@@ -1,0 +1,125 @@
+// What metal shells have beside the rows of a shell: sub-shells, which carry creases and folds, and springs on all
+// edges and between sheets, which limit how far it stretches (metal shell note, section 2). A world without metal has
+// no rows here.
+//
+// Vertices and elements of the shell stand row for row in ranges of MetalVertices and MetalElements. Indices are
+// relative to the shell, as in its own tables.
+#pragma once
+#include <array>
+
+#include "components/shells.hpp"
+
+namespace cullet {
+
+inline constexpr uint32_t kMostSubShells = 512;
+inline constexpr uint32_t kBlended = 8;  // sub-shells that a vertex is moved by
+
+/// One row is what one shell has.
+struct MetalShells : RangeTable<MetalShells> {
+    using RangeTable::RangeTable;
+    static constexpr const char* kName = "metal_shells";
+    Column<Row<Structures>> structure{*this, "structure"};        // whose shell it is; MetalOwners says it again
+    Column<Range> vertices{*this, "vertices"};                    // MetalVertices
+    Column<Range> elements{*this, "elements"};                    // MetalElements
+    Column<Range> springs{*this, "springs"};                      // MetalSprings, from vertex to vertex
+    Column<Range> cells{*this, "cells"};                          // SubShells
+    Column<Range> borders{*this, "borders"};                      // SubShellBorders
+    Column<float> mean_edge{*this, "mean_edge", "m"};             // of the original shape
+    Column<float> crush_pressure{*this, "crush_pressure", "Pa"};  // p_c of the whole body; 0: it is an open sheet
+    Column<float> half_diagonal{*this, "half_diagonal", "m"};     // of the original box
+};
+
+/// Row s says which row of MetalShells the shell in row s of Shells has: that number + 1, and 0 of one that is not of
+/// metal. There are no rows while nothing is.
+struct MetalOwners : Table<MetalOwners> {
+    using Table::Table;
+    static constexpr const char* kName = "metal_owners";
+    Column<uint32_t> metal{*this, "metal"};
+
+    Row<MetalShells> of(Row<Shells> shell) const {
+        return shell < size() && metal[shell] > 0 ? Row<MetalShells>(metal[shell] - 1) : Row<MetalShells>();
+    }
+};
+
+/// One row is one sub-shell: a connected group of elements that moves as one piece where the sheet folds and creases.
+struct SubShells : RangeTable<SubShells> {
+    using RangeTable::RangeTable;
+    static constexpr const char* kName = "sub_shells";
+    Column<uint32_t> representative{*this, "representative"};  // element
+    Column<uint32_t> element_count{*this, "element_count"};
+    Column<float> area{*this, "area", "m2"};
+    Column<Vec3> centre{*this, "centre", "m"};   // by area, original shape
+    Column<Vec3> axis{*this, "axis"};            // of largest inertia, unit, away from the body's centre
+    Column<float> extent{*this, "extent", "m"};  // 1.5 times the mean distance of its elements from the centre
+    Column<float> gate{*this, "gate"};           // of folds, 0 to 1: slivers cannot follow one
+    Column<uint32_t> first_border{*this, "first_border"};  // of the shell's SubShellBorders
+    Column<uint32_t> border_count{*this, "border_count"};
+    // Of the impact that is worked off.
+    Column<Vec3> moved{*this, "moved", "m", Keep::Scratch};   // mean displacement of its elements
+    Column<Vec3> place{*this, "place", "m", Keep::Scratch};   // centre by area at the start of the impact
+    Column<Vec3> turn{*this, "turn", "rad", Keep::Scratch};   // rotation that fits it best
+    Column<float> field{*this, "field", "m", Keep::Scratch};  // mean of its vertices' fields
+    Column<float> shortening{*this, "shortening", "1", Keep::Scratch};
+    Column<float> fold{*this, "fold", "m", Keep::Scratch};      // height along the axis
+    Column<float> crease{*this, "crease", "1", Keep::Scratch};  // chi: how much it moves as one piece
+    Column<uint8_t> is_touched{*this, "is_touched", "1", Keep::Scratch};
+};
+
+/// One row is one neighbour of a sub-shell, of which there are two a border.
+struct SubShellBorders : RangeTable<SubShellBorders> {
+    using RangeTable::RangeTable;
+    static constexpr const char* kName = "sub_shell_borders";
+    Column<uint16_t> other{*this, "other"};
+    Column<float> length{*this, "length", "m"};  // a tie between sheets counts half a mean edge
+};
+
+/// Row v is of the shell's vertex v.
+struct MetalVertices : RangeTable<MetalVertices> {
+    using RangeTable::RangeTable;
+    static constexpr const char* kName = "metal_vertices";
+    Column<Vec3> original{*this, "original", "m"};           // where it was before all impacts
+    Column<float> pin_distance{*this, "pin_distance", "m"};  // to the nearest pin, original shape; 1e30: there is none
+    Column<uint32_t> first_spring{*this, "first_spring"};    // of the shell's MetalSprings
+    Column<uint16_t> spring_count{*this, "spring_count"};
+    Column<std::array<uint16_t, kBlended>> cell{*this, "cell"};   // nearest first
+    Column<std::array<float, kBlended>> weight{*this, "weight"};  // sum 1
+    // Of the impact that is worked off.
+    Column<Vec3> start{*this, "start", "m", Keep::Scratch};        // q
+    Column<Vec3> place{*this, "place", "m", Keep::Scratch};        // x
+    Column<Vec3> next{*this, "next", "m", Keep::Scratch};          // of a pass that reads place
+    Column<float> field{*this, "field", "m", Keep::Scratch};       // u, along the push; 0: it stays where it is
+    Column<float> way{*this, "way", "m", Keep::Scratch};           // along the sheet from what is touched
+    Column<uint32_t> queued{*this, "queued", "1", Keep::Scratch};  // a ring of vertices whose way became shorter
+    Column<uint8_t> is_queued{*this, "is_queued", "1", Keep::Scratch};
+};
+
+/// Row e is of the shell's element e.
+struct MetalElements : RangeTable<MetalElements> {
+    using RangeTable::RangeTable;
+    static constexpr const char* kName = "metal_elements";
+    Column<uint16_t> cell{*this, "cell"};  // sub-shell
+};
+
+/// One row is one end of a spring along an edge, or of a tie between two sheets: the other end has a row, too.
+struct MetalSprings : RangeTable<MetalSprings> {
+    using RangeTable::RangeTable;
+    static constexpr const char* kName = "metal_springs";
+    Column<uint32_t> other{*this, "other"};       // vertex
+    Column<float> length{*this, "length", "m"};   // of the original shape
+    Column<float> stiffness{*this, "stiffness"};  // of the field: cotangents, 0.05 to 3; of a tie 1
+    Column<uint8_t> is_tie{*this, "is_tie"};      // between two sheets
+};
+
+/// Row t is the impact that task t works off, body axes.
+struct MetalRuns : Table<MetalRuns> {
+    using Table::Table;
+    static constexpr const char* kName = "metal_runs";
+    Column<uint8_t> shape{*this, "shape"};        // StrikerShape
+    Column<Vec3> point{*this, "point", "m"};      // of the touch
+    Column<Vec3> push{*this, "push"};             // unit: the way the striker goes
+    Column<float> radius{*this, "radius", "m"};   // of a round striker
+    Column<double> energy{*this, "energy", "J"};  // kinetic, in the effective mass; 0: nothing to work off
+    Column<float> depth{*this, "depth", "m"};     // of the dent
+};
+
+}  // namespace cullet

@@ -1,0 +1,86 @@
+#include "systems/models/metal_shell/calls.hpp"
+
+#include "systems/models/metal_shell/cook/metal_rows.hpp"
+#include "systems/models/metal_shell/loop.hpp"
+#include "systems/structures/shell/cook/apply_pins.hpp"
+
+namespace cullet::metal_shell {
+namespace {
+
+/// A copy with rows of metal, filled; kNone and the limit's name when there is no room.
+Row<Structures> copy_with_metal(ShellRows& rows, Row<Structures> source, const char** full) {
+    ShellRoom room = room_of(rows, source);
+    room.blocks = room.links = 0;
+    const Row<Structures> copy = copy_shell(rows, source, room, full);
+    if (!copy.exists()) return copy;
+    if (!make_metal(rows, copy, metal_room_of(rows, source), full).exists()) {
+        release_shell(rows, copy);
+        return {};
+    }
+    copy_metal_rows(rows, rows, source, copy);
+    return copy;
+}
+
+}  // namespace
+
+Result<Row<Structures>> spawn_shell(ShellRows& rows, Row<Structures> source, const Spawning& spawning) {
+    const SpawnSettings& settings = spawning.settings;
+    if (settings.pin_count == 0) return source;
+    const char* full = "";
+    const Row<Structures> copy = copy_with_metal(rows, source, &full);
+    if (!copy.exists()) return Error{std::string("no room for a pinned body; raise ") + full + "."};
+    uint32_t pinned = 0;
+    for (uint32_t i = 0; i < settings.pin_count; ++i)
+        pinned += apply_pins(ShellView(rows, copy), settings.pins[i].low, settings.pins[i].high);
+    if (pinned == 0) {
+        release_shell(rows, copy);
+        return Error{"no vertex lies in any of the " + std::to_string(settings.pin_count) +
+                     " pin boxes; they are in body coordinates, in metres."};
+    }
+    measure_pins(rows, copy);
+    return copy;
+}
+
+Result<ShellRoom> spawn_body(SoftRows& rows, Row<Bodies> body, const Spawning& spawning) {
+    rows.bodies.is_breakable[body] = spawning.is_breakable;
+    if (!spawning.is_breakable) return ShellRoom{};
+    return room_of_hit(rows, body);
+}
+
+const char* why_not_cut(const BodyRows& rows, Row<Bodies> body) {
+    const bool is_metal = rows.metal_of(rows.bodies.structure[body]).exists();
+    return is_metal ? "it is of sheet metal, which dents; cut one of a material that breaks" : nullptr;
+}
+
+WorkingCopy take_shell(BodyRows& rows, Row<Bodies> body) {
+    WorkingCopy made;
+    const Row<Structures> source = rows.bodies.structure[body];
+    made.structure = make_shell_unclear(rows, room_of_hit(rows, body), &made.full);
+    if (!made.structure.exists()) return made;
+    if (make_metal(rows, made.structure, metal_room_of(rows, source), &made.full).exists()) return made;
+    release_shell(rows, made.structure);
+    made.structure = {};
+    return made;
+}
+
+void begin_run(BodyRows& rows, Row<Tasks> task) {
+    rows.metal_runs.reach(task + 1);
+    rows.metal_runs.clear_rows(task, 1);
+    rows.hidden_runs.time_step[task] = kStep;
+    rows.hidden_runs.end_time[task] = rows.hidden_runs.quiet_time[task] = 0;
+}
+
+ShellRoom room_of_hit(const BodyRows& rows, Row<Bodies> body) {
+    ShellRoom room = room_of(rows, rows.bodies.structure[body]);
+    room.blocks = room.links = room.points = 0;
+    return room;
+}
+
+bool may_find_room(const BodyRows& rows, Row<Bodies> body) {
+    const ShellRoom room = room_of_hit(rows, body);
+    const Row<Shells> own = rows.shell_of(rows.bodies.structure[body]);
+    return uint64_t{rows.shells.vertices[own].capacity} + room.vertices <= rows.vertices.limit() &&
+           uint64_t{rows.shells.elements[own].capacity} + room.elements <= rows.elements.limit();
+}
+
+}  // namespace cullet::metal_shell

@@ -1,0 +1,17 @@
+// What the rest of the program asks of metal shells (model_calls.hpp).
+#pragma once
+#include "systems/model_calls.hpp"
+
+namespace cullet::metal_shell {
+
+/// The cooked shell, which bodies share; with pins, one of the body's own.
+Result<Row<Structures>> spawn_shell(ShellRows& rows, Row<Structures> source, const Spawning& spawning);
+Result<ShellRoom> spawn_body(SoftRows& rows, Row<Bodies> body, const Spawning& spawning);
+const char* why_not_cut(const BodyRows& rows, Row<Bodies> body);
+/// A copy of the whole.
+WorkingCopy take_shell(BodyRows& rows, Row<Bodies> body);
+void begin_run(BodyRows& rows, Row<Tasks> task);
+ShellRoom room_of_hit(const BodyRows& rows, Row<Bodies> body);
+bool may_find_room(const BodyRows& rows, Row<Bodies> body);
+
+}  // namespace cullet::metal_shell

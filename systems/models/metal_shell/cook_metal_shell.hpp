@@ -1,0 +1,12 @@
+// From a clean mesh to a metal shell.
+#pragma once
+#include <memory>
+
+#include "systems/cook/cooking.hpp"
+#include "systems/cook/model_contents.hpp"
+
+namespace cullet::metal_shell {
+
+Result<std::shared_ptr<Model::Contents>> cook_metal_shell(Cooking& from);
+
+}  // namespace cullet::metal_shell

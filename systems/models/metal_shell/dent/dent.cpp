@@ -1,0 +1,149 @@
+#include "systems/models/metal_shell/dent/dent.hpp"
+
+#include <algorithm>
+
+#include "systems/models/metal_shell/dent/fold_cells.hpp"
+#include "systems/models/metal_shell/dent/limit_stretch.hpp"
+#include "systems/models/metal_shell/dent/raise_body.hpp"
+#include "systems/models/metal_shell/dent/raise_sheet.hpp"
+#include "systems/structures/shell/mass_properties.hpp"
+#include "systems/structures/shell/ring.hpp"
+
+namespace cullet {
+namespace {
+
+constexpr double kWidest = 0.59;       // of the support: from there on a blow on a closed shell crushes the body
+constexpr double kFlatStriker = 0.25;  // of the box diagonal: what a flat striker is to a sheet that is open
+
+void begin(const MetalView& metal) {
+    MetalVertices& vertices = metal.vertices();
+    for (uint32_t v = 0; v < metal.vertex_count(); ++v) {
+        const uint32_t row = metal.vertex(v);
+        const Vec3 rest = metal.shell.state.vertices.rest[metal.shell.vertex(v)];
+        vertices.start.set(row, rest), vertices.place.set(row, rest);
+        vertices.field[row] = 0;
+    }
+}
+
+Striker round_striker(const MetalView& metal, Striker striker) {
+    if (striker.shape != StrikerShape::Sphere) {
+        striker.shape = StrikerShape::Sphere;
+        striker.radius = std::max(striker.radius, kFlatStriker * 2 * double{metal.shells().half_diagonal[metal.row]});
+    }
+    return striker;
+}
+
+Dent dent_sheet(const MetalView& metal, const Striker& striker, const SheetPlace& place, const SheetPlan& plan) {
+    raise_sheet(metal, striker, place, plan);
+    place_field(metal, striker.push);
+    Dent dent{DentKind::Sheet, std::max(0.0, plan.depth - place.dent_depth), plan.contact, plan.left, plan.is_puncture};
+    crease_cells(metal, plan.contact);
+    clear_striker(metal, striker, dent.depth);
+    limit_stretch(metal, sheet_metal(metal.shell).break_strain, striker, dent.depth);
+    return dent;
+}
+
+Dent crush_body(const MetalView& metal, const Striker& striker, double energy) {
+    const CrushPlan plan = plan_crush(metal, striker, energy);
+    Dent dent{DentKind::Body, plan.depth, plan.depth, plan.left, false};
+    if (!(plan.depth > 0)) return {};
+    raise_body(metal, striker, plan.depth);
+    place_field(metal, striker.push);
+    fold_cells(metal);
+    crease_cells(metal, plan.depth);
+    clear_striker(metal, striker, plan.depth);
+    limit_stretch(metal, sheet_metal(metal.shell).break_strain, striker, plan.depth);
+    turn_back(metal);
+    return dent;
+}
+
+}  // namespace
+
+SheetMetal sheet_metal(const ShellView& shell) {
+    const MaterialRows& of = shell.state;
+    const Row<Materials> material = shell.structures().material[shell.structure];
+    SheetMetal metal;
+    metal.thickness = double{shell.shells().thickness[shell.row]};
+    if (material < of.material_traits.size()) {
+        metal.yield_strain = double{of.material_traits.yield_strain[material]};
+        metal.break_strain = double{of.material_traits.break_strain[material]};
+    }
+    metal.yield_stress = double{of.materials.young_modulus[material]} * metal.yield_strain;
+    return metal;
+}
+
+Dent work_dent(const MetalView& metal, const Striker& striker, double energy) {
+    begin(metal);
+    const bool is_closed = metal.shells().crush_pressure[metal.row] > 0;
+    if (striker.shape != StrikerShape::Sphere && is_closed) return crush_body(metal, striker, energy);
+    const Striker ball = round_striker(metal, striker);
+    const SheetPlace place = find_sheet_place(metal, ball);
+    const SheetPlan plan = plan_sheet(sheet_metal(metal.shell), {ball.radius, place.support, energy, place.dent_depth});
+    if (!plan.is_dent()) return {};
+    if (is_closed && plan.contact > kWidest * place.support) return crush_body(metal, striker, energy);
+    return dent_sheet(metal, ball, place, plan);
+}
+
+namespace {
+
+// The rotation that takes one unit vector to another, of a third.
+Vec3 turned_along(Vec3 from, Vec3 to, Vec3 vector) {
+    const Vec3 axis = cross(from, to);
+    const float cosine = dot(from, to);
+    if (cosine < -0.999f) return vector - 2 * dot(vector, from) * from;
+    return vector + cross(axis, vector) + (1 / (1 + cosine)) * cross(axis, cross(axis, vector));
+}
+
+Vec3 normal_of(const MetalView& metal, const Column<Vec3>& places, uint32_t element) {
+    const auto& c = metal.corners(element);
+    const Vec3 p = places[metal.vertex(c[0])];
+    return normalised(cross(places[metal.vertex(c[1])] - p, places[metal.vertex(c[2])] - p));
+}
+
+void turn_normals(const MetalView& metal, uint32_t element) {
+    const Vec3 before = normal_of(metal, metal.vertices().start, element),
+               after = normal_of(metal, metal.vertices().place, element);
+    if (!(dot(before, before) > 0.5f) || !(dot(after, after) > 0.5f)) return;
+    auto& corners = metal.shell.state.elements.normal[metal.shell.element(element)];
+    for (size_t k = 0; k < 9; k += 3) {
+        const Vec3 n = turned_along(before, after, {corners[k], corners[k + 1], corners[k + 2]});
+        corners[k] = n.x, corners[k + 1] = n.y, corners[k + 2] = n.z;
+    }
+}
+
+}  // namespace
+
+bool bake_dent(const MetalView& metal) {
+    const ShellView& shell = metal.shell;
+    Vertices& vertices = shell.state.vertices;
+    const MetalVertices& own = metal.vertices();
+    bool is_any = false;
+    for (uint32_t v = 0; v < metal.vertex_count(); ++v) {
+        if (own.place[metal.vertex(v)] == own.start[metal.vertex(v)]) continue;
+        vertices.rest.set(shell.vertex(v), own.place[metal.vertex(v)]);
+        is_any = true;
+    }
+    if (!is_any) return false;
+    Cells& cells = shell.state.cells;
+    for (uint32_t e = 0; e < metal.element_count(); ++e) {
+        const auto& c = metal.corners(e);
+        const bool moved = std::any_of(c.begin(), c.end(), [&](uint32_t v) {
+            return !(own.place[metal.vertex(v)] == own.start[metal.vertex(v)]);
+        });
+        if (!moved || metal.is_dead(e)) continue;
+        turn_normals(metal, e);
+        cells.is_stale[shell.cells().first + shell.state.elements.cell[shell.element(e)]] = 1;
+        for (const uint32_t v : c) {
+            if (own.place[metal.vertex(v)] == own.start[metal.vertex(v)]) continue;
+            const uint32_t row = shell.vertex(v);
+            Ring ring;
+            collect_ring(shell, v, ring);
+            const Vec3 normal = ring_normal(shell, ring);
+            if (dot(normal, normal) > 0.5f) vertices.inward.set(row, -normal);
+        }
+    }
+    measure_shell(shell);
+    return true;
+}
+
+}  // namespace cullet

@@ -1,0 +1,15 @@
+// Folds and creases: what sub-shells make of a smooth field (metal shell note E2, E3).
+#pragma once
+#include "systems/models/metal_shell/shared/metal_view.hpp"
+
+namespace cullet {
+
+/// Fills MetalVertices.place with start + field along the push.
+void place_field(const MetalView& metal, Vec3d push);
+/// Thin metal buckles and does not shorten: sub-shells that came nearer to each other go out and in by turns. Moves
+/// `place` of vertices that the field moves.
+void fold_cells(const MetalView& metal);
+/// Sub-shells that are smaller than the contact (radius, m) move some of the way as rigid pieces.
+void crease_cells(const MetalView& metal, double contact);
+
+}  // namespace cullet

@@ -1,0 +1,113 @@
+#include "systems/models/metal_shell/dent/limit_stretch.hpp"
+
+#include <algorithm>
+
+namespace cullet {
+namespace {
+
+constexpr int kRounds = 6, kTurnPasses = 3;
+constexpr float kShortest = 0.92f, kPush = 0.7f;  // of the original length; how much of what is missing is asked for
+constexpr float kStep = 2.4f;                     // over the number of springs
+constexpr float kTurned = -0.3f;                  // cosine of a triangle's normals before and after
+
+bool moves(const MetalView& metal, uint32_t v) {
+    return metal.vertices().field[metal.vertex(v)] > 0 && !metal.is_pinned(v);
+}
+
+// How much too long (above 0) or too short (below) a spring is, m.
+float excess(float length, float original, float most_stretch) {
+    if (const float over = length - (1 + most_stretch) * original; over > 0) return over;
+    if (const float under = length - kShortest * original; under < 0) return kPush * under;
+    return 0;
+}
+
+// Both ends of a spring take an equal share; one that stays where it is leaves all to the other. Ties between sheets
+// are no edges.
+void relax_once(const MetalView& metal, float most_stretch) {
+    MetalVertices& vertices = metal.vertices();
+    const MetalSprings& springs = metal.springs();
+    for (uint32_t v = 0; v < metal.vertex_count(); ++v) {
+        const uint32_t row = metal.vertex(v);
+        vertices.next.set(row, vertices.place[row]);
+        if (!moves(metal, v)) continue;
+        Vec3 sum;
+        uint32_t valence = 0;
+        metal.for_each_spring(v, [&](uint32_t other, uint32_t spring) {
+            if (springs.is_tie[spring]) return;
+            ++valence;
+            const Vec3 way = vertices.place[metal.vertex(other)] - vertices.place[row];
+            const float now = length(way);
+            if (!(now > 1e-9f)) return;
+            const float c = excess(now, springs.length[spring], most_stretch);
+            sum += (c / now * (moves(metal, other) ? 0.5f : 1.0f)) * way;
+        });
+        if (valence > 0) vertices.next.set(row, vertices.place[row] + (kStep / static_cast<float>(valence)) * sum);
+    }
+    for (uint32_t v = 0; v < metal.vertex_count(); ++v)
+        if (moves(metal, v)) vertices.place.set(metal.vertex(v), vertices.next[metal.vertex(v)]);
+}
+
+Vec3 normal_of(const MetalView& metal, const Column<Vec3>& places, uint32_t element) {
+    const auto& c = metal.corners(element);
+    const Vec3 p = places[metal.vertex(c[0])], q = places[metal.vertex(c[1])], r = places[metal.vertex(c[2])];
+    return normalised(cross(q - p, r - p));
+}
+
+}  // namespace
+
+void clear_striker(const MetalView& metal, const Striker& striker, double depth) {
+    MetalVertices& vertices = metal.vertices();
+    for (uint32_t v = 0; v < metal.vertex_count(); ++v) {
+        if (!moves(metal, v)) continue;
+        const uint32_t row = metal.vertex(v);
+        const double covered = striker.covers(Vec3d(vertices.place[row]), depth);
+        if (covered > 0) vertices.place.set(row, (Vec3d(vertices.place[row]) + covered * striker.push).to_float());
+    }
+}
+
+void limit_stretch(const MetalView& metal, double most_stretch, const Striker& striker, double depth) {
+    for (int round = 0; round < kRounds; ++round) {
+        relax_once(metal, static_cast<float>(most_stretch));
+        if (round % 2 == 1) clear_striker(metal, striker, depth);
+    }
+}
+
+void turn_back(const MetalView& metal) {
+    MetalVertices& vertices = metal.vertices();
+    for (int pass = 0; pass < kTurnPasses; ++pass) {
+        bool is_any = false;
+        for (uint32_t v = 0; v < metal.vertex_count(); ++v)
+            vertices.next.set(metal.vertex(v), vertices.place[metal.vertex(v)]);
+        for (uint32_t e = 0; e < metal.element_count(); ++e) {
+            if (metal.is_dead(e)) continue;
+            if (!(dot(normal_of(metal, vertices.start, e), normal_of(metal, vertices.place, e)) < kTurned)) continue;
+            is_any = true;
+            const auto& c = metal.corners(e);
+            Vec3 mean;
+            for (const uint32_t v : c)
+                mean += (1.0f / 3) * (vertices.place[metal.vertex(v)] - vertices.start[metal.vertex(v)]);
+            for (const uint32_t v : c)
+                if (moves(metal, v)) vertices.next.set(metal.vertex(v), vertices.start[metal.vertex(v)] + mean);
+        }
+        if (!is_any) return;
+        for (uint32_t v = 0; v < metal.vertex_count(); ++v)
+            vertices.place.set(metal.vertex(v), vertices.next[metal.vertex(v)]);
+    }
+}
+
+StretchCount count_stretch(const MetalView& metal, double most_stretch, double most_shortening) {
+    StretchCount count;
+    const MetalSprings& springs = metal.springs();
+    for (uint32_t v = 0; v < metal.vertex_count(); ++v)
+        metal.for_each_spring(v, [&](uint32_t other, uint32_t spring) {
+            if (other < v || springs.is_tie[spring] || !(springs.length[spring] > 0)) return;
+            const Vec3 way = metal.vertices().place[metal.vertex(other)] - metal.vertices().place[metal.vertex(v)];
+            const double share = double{length(way)} / double{springs.length[spring]};
+            ++count.edges;
+            count.outside += share > 1 + most_stretch || share < 1 - most_shortening;
+            count.longest = std::max(count.longest, share), count.shortest = std::min(count.shortest, share);
+        });
+    return count;
+}
+
+}  // namespace cullet

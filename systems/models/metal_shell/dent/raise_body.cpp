@@ -1,0 +1,153 @@
+#include "systems/models/metal_shell/dent/raise_body.hpp"
+
+#include <algorithm>
+
+#include "systems/models/metal_shell/dent/ways.hpp"
+
+namespace cullet {
+namespace {
+
+constexpr int kBisections = 30;
+constexpr double kDeepest = 0.3;  // of the extent along the push
+constexpr double kDragged = 0.5;  // of the depth
+constexpr double kFacing = 0.05;  // cosine: what looks away from the striker is not crushed
+constexpr double kReach = 2.5;    // depths
+constexpr int kSweeps = 40;       // of cells, and of vertices
+constexpr double kRelaxation = 1.6;
+
+struct Triangle3 {
+    Vec3d centroid, across;  // twice the area vector
+};
+Triangle3 element_at_start(const MetalView& metal, uint32_t e) {
+    const auto& c = metal.corners(e);
+    const MetalVertices& v = metal.vertices();
+    const Vec3d p(v.start[metal.vertex(c[0])]), q(v.start[metal.vertex(c[1])]), r(v.start[metal.vertex(c[2])]);
+    return {(1.0 / 3) * (p + q + r), cross(q - p, r - p)};
+}
+
+Striker widened(const Striker& striker, double depth) {
+    Striker wider = striker;
+    wider.radius += kDragged * depth;
+    return wider;
+}
+
+// m3 that the striker takes of what faces it.
+double crushed_volume(const MetalView& metal, const Striker& striker, double depth) {
+    const Striker wider = widened(striker, depth);
+    double volume = 0;
+    for (uint32_t e = 0; e < metal.element_count(); ++e) {
+        if (metal.is_dead(e)) continue;
+        const Triangle3 t = element_at_start(metal, e);
+        const double facing = -0.5 * dot(t.across, striker.push);
+        if (facing > kFacing * 0.5 * length(t.across)) volume += facing * wider.covers(t.centroid, depth);
+    }
+    return volume;
+}
+
+// Cells first: on them a field comes as far as it must in a few sweeps. What a cell has to give is the mean of what its
+// vertices have to.
+void relax_cells(const MetalView& metal) {
+    SubShells& cells = metal.cells();
+    const MetalVertices& vertices = metal.vertices();
+    const uint32_t count = metal.cell_count();
+    for (uint32_t c = 0; c < count; ++c) {
+        cells.field[metal.cell(c)] = 0, cells.fold[metal.cell(c)] = 0;
+        cells.is_touched[metal.cell(c)] = 0;
+    }
+    // fold: weight, for now.
+    for (uint32_t v = 0; v < metal.vertex_count(); ++v) {
+        const uint32_t row = metal.vertex(v), c = metal.cell(vertices.cell[row][0]);
+        cells.field[c] += vertices.field[row], cells.fold[c] += 1;
+        if (vertices.way[row] < kNoWay) cells.is_touched[c] = 1;
+    }
+    for (uint32_t c = 0; c < count; ++c) {
+        const uint32_t row = metal.cell(c);
+        if (cells.fold[row] > 0) cells.field[row] /= cells.fold[row];
+        cells.crease[row] = cells.field[row];  // the least that it may be
+    }
+    for (int sweep = 0; sweep < kSweeps; ++sweep)
+        for (uint32_t c = 0; c < count; ++c) {
+            const uint32_t row = metal.cell(c);
+            if (!cells.is_touched[row]) continue;
+            double sum = 0, weight = 0;
+            metal.for_each_border(c, [&](uint32_t other, float length) {
+                sum += double{length} * cells.field[metal.cell(other)], weight += double{length};
+            });
+            if (!(weight > 0)) continue;
+            const double now = double{cells.field[row]};
+            cells.field[row] =
+                static_cast<float>(std::max(double{cells.crease[row]}, now + kRelaxation * (sum / weight - now)));
+        }
+}
+
+float blended(const MetalView& metal, uint32_t vertex_row) {
+    const MetalVertices& vertices = metal.vertices();
+    float sum = 0;
+    for (uint32_t k = 0; k < kBlended; ++k)
+        sum += vertices.weight[vertex_row][k] * metal.cells().field[metal.cell(vertices.cell[vertex_row][k])];
+    return sum;
+}
+
+}  // namespace
+
+CrushPlan plan_crush(const MetalView& metal, const Striker& striker, double energy) {
+    double low_end = 1e30, high_end = -1e30;
+    for (uint32_t v = 0; v < metal.vertex_count(); ++v) {
+        const double along = dot(Vec3d(metal.vertices().start[metal.vertex(v)]), striker.push);
+        low_end = std::min(low_end, along), high_end = std::max(high_end, along);
+    }
+    const double pressure = double{metal.shells().crush_pressure[metal.row]};
+    const double deepest = kDeepest * std::max(0.0, high_end - low_end);
+    CrushPlan plan;
+    if (!(pressure > 0) || !(energy > 0)) return plan;
+    const double most = pressure * crushed_volume(metal, striker, deepest);
+    if (most <= energy) return {deepest, energy - most};
+    double low = 0, high = deepest;
+    for (int k = 0; k < kBisections; ++k) {
+        const double d = 0.5 * (low + high);
+        (pressure * crushed_volume(metal, striker, d) < energy ? low : high) = d;
+    }
+    plan.depth = low;
+    return plan;
+}
+
+// The obstacle is what the striker covers. Least Laplace energy above it, by projected over-relaxation in the order of
+// the vertices.
+void raise_body(const MetalView& metal, const Striker& striker, double depth) {
+    MetalVertices& vertices = metal.vertices();
+    const MetalSprings& springs = metal.springs();
+    const uint32_t count = metal.vertex_count();
+    const auto reach = static_cast<float>(kReach * depth);
+    for (uint32_t v = 0; v < count; ++v) {
+        const uint32_t row = metal.vertex(v);
+        const auto covered = static_cast<float>(striker.covers(Vec3d(vertices.start[row]), depth));
+        vertices.field[row] = metal.is_pinned(v) ? 0 : covered;
+        vertices.way[row] = vertices.field[row] > 0 ? 0 : kNoWay;
+    }
+    spread_ways(metal, reach);
+    relax_cells(metal);
+    const auto least = [&](uint32_t row) {
+        return static_cast<float>(striker.covers(Vec3d(vertices.start[row]), depth));
+    };
+    for (uint32_t v = 0; v < count; ++v) {
+        const uint32_t row = metal.vertex(v);
+        if (!(vertices.way[row] <= reach) || metal.is_pinned(v)) continue;
+        const float begun = blended(metal, row) * (1 - vertices.way[row] / reach);
+        vertices.field[row] = std::max(vertices.field[row], std::max(0.0f, begun));
+    }
+    for (int sweep = 0; sweep < kSweeps; ++sweep)
+        for (uint32_t v = 0; v < count; ++v) {
+            const uint32_t row = metal.vertex(v);
+            if (!(vertices.way[row] <= reach) || metal.is_pinned(v)) continue;
+            double sum = 0, weight = 0;
+            metal.for_each_spring(v, [&](uint32_t other, uint32_t spring) {
+                sum += double{springs.stiffness[spring]} * vertices.field[metal.vertex(other)];
+                weight += double{springs.stiffness[spring]};
+            });
+            if (!(weight > 0)) continue;
+            const double now = double{vertices.field[row]};
+            vertices.field[row] = std::max(least(row), static_cast<float>(now + kRelaxation * (sum / weight - now)));
+        }
+}
+
+}  // namespace cullet

@@ -1,0 +1,19 @@
+// The field of a crush: a closed shell that gives way over a wide contact (metal shell note D2).
+#pragma once
+#include "systems/models/metal_shell/dent/striker.hpp"
+#include "systems/models/metal_shell/shared/metal_view.hpp"
+
+namespace cullet {
+
+struct CrushPlan {
+    double depth = 0;  // d, m
+    double left = 0;   // J that the deepest crush leaves
+};
+/// The depth whose crushed volume takes the energy (J) at the body's crush pressure; at most three tenths of its
+/// extent. Metal beside a round striker is dragged along: it counts as half of the depth wider.
+CrushPlan plan_crush(const MetalView& metal, const Striker& striker, double energy);
+
+/// Fills MetalVertices.field: the smoothest one that leaves nothing inside the striker, and ends 2.5 depths away.
+void raise_body(const MetalView& metal, const Striker& striker, double depth);
+
+}  // namespace cullet

@@ -1,0 +1,73 @@
+// How deep a sheet is dented: metal shell note, section 6.
+#include "systems/models/metal_shell/dent/sheet_plan.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+namespace cullet {
+namespace {
+
+constexpr double kRadius = 0.145, kSupport = 0.4;  // m
+
+TEST(SheetPlan, ABallOfAHundredKilogramsDentsAClampedPanelAsTheNoteSays) {
+    struct Row {
+        double speed, depth, contact, reach;
+    };
+    for (const Row& row : {Row{1, 8.8e-3, 26e-3, 0.10}, Row{2, 21.0e-3, 37e-3, 0.20}, Row{5, 55.9e-3, 55e-3, 0.40},
+                           Row{10, 110e-3, 80e-3, 0.40}}) {
+        const SheetPlan plan = plan_sheet({}, {kRadius, kSupport, 48 * row.speed * row.speed, 0});
+        EXPECT_NEAR(plan.depth, row.depth, 0.01 * row.depth) << row.speed;
+        EXPECT_NEAR(plan.contact, row.contact, 0.02 * row.contact) << row.speed;
+        EXPECT_NEAR(plan.reach, row.reach, 0.02 * row.reach) << row.speed;
+        EXPECT_FALSE(plan.is_puncture);
+    }
+}
+
+TEST(SheetPlan, TheSameEnergyInPartsGivesTheSameDent) {
+    const SheetPlan once = plan_sheet({}, {kRadius, kSupport, 1200, 0});
+    double depth = 0;
+    for (int part = 0; part < 10; ++part) depth = plan_sheet({}, {kRadius, kSupport, 120, depth}).depth;
+    EXPECT_NEAR(depth, once.depth, 0.03 * once.depth);
+}
+
+TEST(SheetPlan, BelowItsElasticEnergyNothingStays) {
+    const double elastic = elastic_energy({}, kRadius, kSupport);
+    EXPECT_GT(elastic, 1);
+    EXPECT_LT(elastic, 10);
+    EXPECT_FALSE(plan_sheet({}, {kRadius, kSupport, 0.99 * elastic, 0}).is_dent());
+    EXPECT_TRUE(plan_sheet({}, {kRadius, kSupport, 1.01 * elastic, 0}).is_dent());
+}
+
+TEST(SheetPlan, TheSlopeEndsADentAndWhatIsLeftIsSaid) {
+    const SheetPlan plan = plan_sheet({}, {kRadius, kSupport, 1e5, 0});
+    EXPECT_TRUE(plan.is_puncture);
+    EXPECT_GT(plan.left, 5e4);
+    EXPECT_LT(plan.depth, 0.2);
+    double depth = 0;
+    for (int hit = 0; hit < 50; ++hit) depth = std::max(depth, plan_sheet({}, {kRadius, kSupport, 1200, depth}).depth);
+    EXPECT_NEAR(depth, plan.depth, 0.01 * plan.depth);
+}
+
+TEST(SheetPlan, TheProfileFallsFromTheMiddleToNothingWithoutAStep) {
+    const SheetPlan plan = plan_sheet({}, {kRadius, kSupport, 1200, 0});
+    EXPECT_NEAR(profile(plan, kRadius, 0), plan.depth, 1e-12);
+    double last = plan.depth;
+    for (double away = 0; away < 2.2 * plan.reach; away += 1e-3) {
+        const double now = profile(plan, kRadius, away);
+        EXPECT_LE(now, last + 1e-12) << away;
+        EXPECT_LT(last - now, 2e-3) << away;
+        last = now;
+    }
+    EXPECT_EQ(profile(plan, kRadius, 2.01 * plan.reach), 0);
+}
+
+TEST(SheetPlan, AWidePanelBouncesALightBlowAndTakesAHardOne) {
+    const double slow = plan_sheet({}, {kRadius, kSupport, 20, 0}).restitution,
+                 fast = plan_sheet({}, {kRadius, kSupport, 5000, 0}).restitution;
+    EXPECT_GT(slow, 0.5);
+    EXPECT_LT(fast, 0.35);
+}
+
+}  // namespace
+}  // namespace cullet
