@@ -63,6 +63,8 @@ struct SubShells : RangeTable<SubShells> {
     Column<float> fold{*this, "fold", "m", Keep::Scratch};      // height along the axis
     Column<float> crease{*this, "crease", "1", Keep::Scratch};  // chi: how much it moves as one piece
     Column<uint8_t> is_touched{*this, "is_touched", "1", Keep::Scratch};
+    Column<float> weights{*this, "weights", "1", Keep::Scratch};          // of a mean that is being taken: their sum
+    Column<float> least_field{*this, "least_field", "m", Keep::Scratch};  // that what strikes it leaves it
 };
 
 /// One row is one neighbour of a sub-shell, of which there are two a border.

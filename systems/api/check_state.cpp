@@ -297,7 +297,7 @@ void check_tasks(Checker& check) {
         if (!is_task(s, t)) continue;
         const auto task_state = static_cast<TaskState>(tasks.state[t]);
         const bool waits = is_ahead(tasks, t) && (task_state == TaskState::Whole || task_state == TaskState::Dropped ||
-                                            task_state == TaskState::Reshaped);
+                                                  task_state == TaskState::Reshaped);
         check.expect(task_state == TaskState::Running || waits,
                      Checker::place(tasks, "state", t) + " is " + std::to_string(tasks.state[t]) +
                          "; between steps a task is free or running, or waits for its touch");

@@ -7,7 +7,8 @@
 namespace cullet {
 
 const ModelList& damage_models() {
-    static const ModelList all = std::make_shared<const DamageModels>(std::vector{thick_shell_model(), metal_shell_model()});
+    static const ModelList all =
+        std::make_shared<const DamageModels>(std::vector{thick_shell_model(), metal_shell_model()});
     return all;
 }
 

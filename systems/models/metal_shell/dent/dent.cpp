@@ -23,6 +23,8 @@ void begin(const MetalView& metal) {
         vertices.start.set(row, rest), vertices.place.set(row, rest);
         vertices.field[row] = 0;
     }
+    // A dent in a sheet has no folds, whatever an earlier crush left here.
+    for (uint32_t c = 0; c < metal.cell_count(); ++c) metal.cells().fold[metal.cell(c)] = 0;
 }
 
 Striker round_striker(const MetalView& metal, Striker striker) {

@@ -31,7 +31,7 @@ void measure_cells(const MetalView& metal) {
     for (uint32_t c = 0; c < count; ++c) {
         const uint32_t row = metal.cell(c);
         cells.place.set(row, {}), cells.moved.set(row, {});
-        cells.field[row] = 0;  // area, for now
+        cells.weights[row] = 0;
         cells.is_touched[row] = 0;
     }
     for (uint32_t e = 0; e < metal.element_count(); ++e) {
@@ -41,15 +41,15 @@ void measure_cells(const MetalView& metal) {
         const auto area = static_cast<float>(m.area);
         cells.place.set(row, cells.place[row] + area * m.start.to_float());
         cells.moved.set(row, cells.moved[row] + area * m.way.to_float());
-        cells.field[row] += area;
+        cells.weights[row] += area;
         for (const uint32_t v : metal.corners(e))
             if (metal.vertices().field[metal.vertex(v)] > 0) cells.is_touched[row] = 1;
     }
     for (uint32_t c = 0; c < count; ++c) {
         const uint32_t row = metal.cell(c);
-        if (!(cells.field[row] > 0)) continue;
-        cells.place.set(row, (1 / cells.field[row]) * cells.place[row]);
-        cells.moved.set(row, (1 / cells.field[row]) * cells.moved[row]);
+        if (!(cells.weights[row] > 0)) continue;
+        cells.place.set(row, (1 / cells.weights[row]) * cells.place[row]);
+        cells.moved.set(row, (1 / cells.weights[row]) * cells.moved[row]);
     }
 }
 

@@ -51,19 +51,18 @@ void relax_cells(const MetalView& metal) {
     const MetalVertices& vertices = metal.vertices();
     const uint32_t count = metal.cell_count();
     for (uint32_t c = 0; c < count; ++c) {
-        cells.field[metal.cell(c)] = 0, cells.fold[metal.cell(c)] = 0;
+        cells.field[metal.cell(c)] = 0, cells.weights[metal.cell(c)] = 0;
         cells.is_touched[metal.cell(c)] = 0;
     }
-    // fold: weight, for now.
     for (uint32_t v = 0; v < metal.vertex_count(); ++v) {
         const uint32_t row = metal.vertex(v), c = metal.cell(vertices.cell[row][0]);
-        cells.field[c] += vertices.field[row], cells.fold[c] += 1;
+        cells.field[c] += vertices.field[row], cells.weights[c] += 1;
         if (vertices.way[row] < kNoWay) cells.is_touched[c] = 1;
     }
     for (uint32_t c = 0; c < count; ++c) {
         const uint32_t row = metal.cell(c);
-        if (cells.fold[row] > 0) cells.field[row] /= cells.fold[row];
-        cells.crease[row] = cells.field[row];  // the least that it may be
+        if (cells.weights[row] > 0) cells.field[row] /= cells.weights[row];
+        cells.least_field[row] = cells.field[row];
     }
     for (int sweep = 0; sweep < kSweeps; ++sweep)
         for (uint32_t c = 0; c < count; ++c) {
@@ -76,7 +75,7 @@ void relax_cells(const MetalView& metal) {
             if (!(weight > 0)) continue;
             const double now = double{cells.field[row]};
             cells.field[row] =
-                static_cast<float>(std::max(double{cells.crease[row]}, now + kRelaxation * (sum / weight - now)));
+                static_cast<float>(std::max(double{cells.least_field[row]}, now + kRelaxation * (sum / weight - now)));
         }
 }
 

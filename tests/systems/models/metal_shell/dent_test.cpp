@@ -130,6 +130,18 @@ TEST(Dent, AMirroredHitRaisesAMirroredField) {
     }
 }
 
+TEST(Dent, WhatAnEarlierImpactLeftBesideTheShapeDoesNotCount) {
+    test::MetalSheet clear(panel()), used(panel());
+    clear.clamp(kWidth, kHeight), used.clamp(kWidth, kHeight);
+    const MetalView a = clear.view(), b = used.view();
+    for (uint32_t c = 0; c < b.cell_count(); ++c)
+        b.cells().fold[b.cell(c)] = b.cells().crease[b.cell(c)] = b.cells().field[b.cell(c)] = 0.3f;
+    work_dent(a, ball_at(0, 0), 600);
+    work_dent(b, ball_at(0, 0), 600);
+    for (uint32_t v = 0; v < a.vertex_count(); ++v)
+        ASSERT_TRUE(a.vertices().place[a.vertex(v)] == b.vertices().place[b.vertex(v)]) << v;
+}
+
 TEST(Dent, ABoxThatFallsOnItsCornerLosesTheCornerAndKeepsTheRest) {
     test::MetalSheet sheet(test::cook_metal(test::box_mesh({0.3, 0.3, 0.3}, 12)));
     const MetalView metal = sheet.view();

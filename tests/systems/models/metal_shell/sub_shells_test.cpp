@@ -25,7 +25,9 @@ Surface folded(double angle) {
     // The other corner at angle 0 is (1, 1, 0); it turns about the shared side.
     const double half = std::sqrt(0.5);
     const Vec3d middle(0.5, 0.5, 0), out(half, half, 0);
-    const Vec3d corner = middle + half * (std::cos(angle) * out + std::sin(angle) * Vec3d(0, 0, 1));
+    double sine, cosine;
+    sine_cosine(angle, sine, cosine);
+    const Vec3d corner = middle + half * (cosine * out + sine * Vec3d(0, 0, 1));
     mesh.positions.push_back(corner.to_float());
     mesh.triangles = {{2, 0, 1}, {3, 1, 0}};
     return surface_of(mesh);
