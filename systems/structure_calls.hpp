@@ -47,6 +47,8 @@ struct StructureCalls {
     Rows<Fragments> (*list_found)(RunRows&, Row<Tasks>, Fragments&) = nullptr;
     /// The same of what hangs together now; none as well where there are more than kMostParts.
     Rows<Fragments> (*list_anew)(RunRows&, Row<Structures>, Fragments&) = nullptr;
+    /// All of it as one, also what does not hang together: a dent frees no piece.
+    Rows<Fragments> (*list_whole)(RunRows&, Row<Structures>, Fragments&) = nullptr;
     /// The fragment becomes one with the largest, and its row empty.
     void (*join)(RunRows&, const Break&, Fragments&, Row<Fragments>) = nullptr;
     /// Which fragment owns what is nearest to a place, body frame; the largest where nothing is left.

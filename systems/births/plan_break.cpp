@@ -52,11 +52,12 @@ void hand_off(Planning& planning, Break& plan, const std::optional<RestMotion>& 
 }
 
 // Bodies that no task works on: as many rows as tasks may need stay free.
-Rows<Fragments> list_anew(Planning& planning, Row<Structures> structure) {
+Rows<Fragments> list_anew(Planning& planning, Row<Structures> structure, bool is_reshaped = false) {
     const Fragments& f = planning.fragments;
     const uint32_t kept = planning.state.tasks.limit() * kMostParts + kMostParts;
     if (f.limit() - f.size() < kept) return {};
-    return planning.calls(structure).list_anew(planning.state, structure, planning.fragments);
+    const StructureCalls& calls = planning.calls(structure);
+    return (is_reshaped ? calls.list_whole : calls.list_anew)(planning.state, structure, planning.fragments);
 }
 
 }  // namespace
@@ -92,10 +93,11 @@ void ask_again(Planning& planning, Row<Bodies> body) {
     SoftRows& state = planning.state;
     const Bodies& bodies = state.bodies;
     const Row<Structures> own = bodies.structure[body];
-    const Rows<Fragments> found = list_anew(planning, own);
+    const bool is_reshaped = bodies.is_owed_births[body] == kOwedShape;
+    const Rows<Fragments> found = list_anew(planning, own, is_reshaped);
     if (found.count == 0) return;
     Break plan = break_of(planning, {}, body, own, found);
-    plan.is_reshaped = bodies.is_owed_births[body] == kOwedShape;
+    plan.is_reshaped = is_reshaped;
     if (!reserve_hulls(planning, plan)) return;
     const StructureCalls& calls = planning.calls(own);
     if (bodies.is_asleep[body]) calls.forget_waiting(state, own);

@@ -83,7 +83,7 @@ void group_dented(EachOwn<TaskEnded> ended, RunRows& rows) {
     const Row<Tasks> task = ended->task;
     rows.tasks.part_count[task] = 1;
     if (static_cast<TaskState>(rows.tasks.state[task]) != TaskState::Reshaped) return;
-    group_fragments(ShellView(rows, rows.tasks.working[task]), rows.shell_parts.of_task(task));
+    rows.shell_parts.of_task(task)[0] = whole_part(ShellView(rows, rows.tasks.working[task]));
 }
 
 }  // namespace cullet::metal_shell

@@ -27,6 +27,11 @@ Rows<Fragments> list_anew(RunRows& rows, Row<Structures> structure, Fragments& f
     return count > kMostParts ? Rows<Fragments>{} : append_parts(fragments, parts.first(count));
 }
 
+Rows<Fragments> list_whole(RunRows& rows, Row<Structures> structure, Fragments& fragments) {
+    const FragmentPart whole[] = {whole_part(ShellView(rows, structure))};
+    return append_parts(fragments, whole);
+}
+
 uint32_t number_of(const Break& of, Row<Fragments> fragment) {
     return fragment - of.fragments.first;
 }
@@ -150,6 +155,7 @@ void take_waiting(RunRows& rows, const Break& of, Fragments& fragments) {
 void add_fragment_calls(StructureCalls& calls) {
     calls.list_found = list_found;
     calls.list_anew = list_anew;
+    calls.list_whole = list_whole;
     calls.join = join;
     calls.nearest = nearest;
     calls.list_rest = list_rest;

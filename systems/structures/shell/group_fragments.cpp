@@ -57,6 +57,17 @@ uint32_t group_fragments(ShellView shell, std::span<FragmentPart> parts) {
     return count;
 }
 
+FragmentPart whole_part(const ShellView& shell) {
+    Elements& elements = shell.state.elements;
+    FragmentPart whole;
+    for (uint32_t e = 0; e < shell.element_count(); ++e) {
+        const bool is_dead = elements.flags[shell.element(e)] & kDead;
+        elements.part[shell.element(e)] = is_dead ? kNone : 0;
+        if (!is_dead) add_to_part(shell, whole, e);
+    }
+    return whole;
+}
+
 bool is_numbered_zero(const ShellView& shell) {
     static_assert(kNone + 1u == 0);
     const uint32_t* const part = shell.state.elements.part.data() + shell.elements().first;

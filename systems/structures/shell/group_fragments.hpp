@@ -11,6 +11,9 @@ namespace cullet {
 /// their elements not chained. O(elements), no scratch.
 uint32_t group_fragments(ShellView shell, std::span<FragmentPart> parts);
 
+/// All live elements as part 0, whether they hang together or not. O(elements).
+FragmentPart whole_part(const ShellView& shell);
+
 /// By the numbers of the last grouping: cooking's, or that of the break that made the shell.
 bool is_of_one_part(const ShellView& shell);
 /// All live elements are numbered 0 and no dead one has a number.

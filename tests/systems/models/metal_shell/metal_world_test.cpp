@@ -211,6 +211,21 @@ TEST(MetalWorld, FramesDoNotAllocate) {
     EXPECT_EQ(stop_counting_allocations().ours, 0u);
 }
 
+TEST(MetalWorld, ABodyOfManyPartsStaysOneBodyThroughSeveralHits) {
+    Mesh parts = test::box_mesh({0.3, 0.3, 0.3}, 8);
+    for (const double x : {0.31, 0.62, 1.2}) test::append(parts, test::box_mesh({0.3, 0.3, 0.3}, 8), {x, 0, 0});
+    const Model model = test::cook_metal(parts);
+    World world = test::make_world(settings_on(2));
+    test::add_floor(world);
+    const BodyId thing = spawn(world, model, {0, 0.3f, 0}, {0, -10, 0}, {0.5f, 0, 3});
+    for (int frame = 0; frame < 240; ++frame) world.step();
+    EXPECT_EQ(test::shells_of(world).size(), 1u);
+    EXPECT_GT(deepest(world, thing), 0.005);
+    EXPECT_NEAR(value_of(world.mass(thing)), model.report().mass, 1e-6 * model.report().mass);
+    EXPECT_EQ(test::find_open_edge(value_of(world.view(thing))), "");
+    EXPECT_EQ(test::state_of(world).validate(), "");
+}
+
 TEST(MetalWorld, TenHitsOnOneSpotDigDeeperAndStaySane) {
     World world = test::make_world(settings_on(2));
     const BodyId sheet = spawn_panel(world);
