@@ -22,11 +22,11 @@ bool meets(const Corners& c, double x, double z, Meeting& meeting) {
 
 }  // namespace
 
-bool has_fallen_through(const Solid& body, std::span<const Solid> never_moving) {
+bool has_fallen_through(const DrawnSolid& body, std::span<const DrawnSolid> never_moving) {
     const Vec3d middle = 0.5 * (Vec3d(body.all.low) + Vec3d(body.all.high));
     const double highest = static_cast<double>(body.all.high.y);
     Meeting above{HUGE_VAL, false}, beneath{-HUGE_VAL, false};
-    for (const Solid& solid : never_moving)
+    for (const DrawnSolid& solid : never_moving)
         for (size_t t = 0; t < solid.triangles.size(); ++t) {
             const Vec3d low(solid.bounds[t].low), high(solid.bounds[t].high);
             if (middle.x < low.x || middle.x > high.x || middle.z < low.z || middle.z > high.z) continue;

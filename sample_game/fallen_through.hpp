@@ -10,6 +10,6 @@ namespace cullet {
 /// nothing that never moves bears it from beneath. So it fell through the one, or is stuck in it. What went over an
 /// edge of a floor, or down a slope's end, has nothing above it and is not meant; nor is what lies under a table, on
 /// the floor. What fell through and drifted out from beneath since is not seen. O(triangles of what never moves).
-bool has_fallen_through(const Solid& body, std::span<const Solid> never_moving);
+bool has_fallen_through(const DrawnSolid& body, std::span<const DrawnSolid> never_moving);
 
 }  // namespace cullet

@@ -17,13 +17,13 @@ namespace {
 constexpr double kTouching = 0.0001;  // m: nearer is touching, how much nearer nobody asks
 
 struct Things {
-    std::vector<Solid> solids;  // what never moves comes first
+    std::vector<DrawnSolid> solids;  // what never moves comes first
     std::vector<BodyRest> rest;
     size_t first_moving = 0;
 };
 
 void add(Things& things, const Mesh& mesh, const Pose& pose, float scale) {
-    Solid& solid = things.solids.emplace_back();
+    DrawnSolid& solid = things.solids.emplace_back();
     for (const Vec3 p : mesh.positions) solid.points.push_back(to_world(pose, scale * p));
     solid.triangles = mesh.triangles;
     solid.finish();
@@ -66,7 +66,7 @@ Things gather(const GameWorld& game) {
 }
 
 /// Least of `best` and the gap between the two meshes.
-double gap(const Solid& a, const Solid& b, double best) {
+double gap(const DrawnSolid& a, const DrawnSolid& b, double best) {
     const auto reach = static_cast<float>(best);
     if (!a.all.is_within(b.all, reach)) return best;
     std::vector<size_t> near;
@@ -90,10 +90,10 @@ std::vector<BodyRest> measure_bodies(const GameWorld& game) {
     Things things = gather(game);
     for (size_t k = 0; k < things.rest.size(); ++k) {
         BodyRest& rest = things.rest[k];
-        const Solid& solid = things.solids[things.first_moving + k];
+        const DrawnSolid& solid = things.solids[things.first_moving + k];
         rest.is_through = has_fallen_through(solid, std::span(things.solids).first(things.first_moving));
         rest.hover = kMostHover;
-        for (const Solid& other : things.solids) {
+        for (const DrawnSolid& other : things.solids) {
             if (&other == &solid) continue;
             double& depth = other.is_moving ? rest.overlap : rest.sink;
             depth = std::max(depth, deepest(solid, other));

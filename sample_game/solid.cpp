@@ -14,7 +14,7 @@ int crossing(Vec3d p, const Corners& c) {
 
 }  // namespace
 
-void Solid::finish() {
+void DrawnSolid::finish() {
     for (const auto& t : triangles) {
         Bounds& b = bounds.emplace_back();
         for (const uint32_t k : t) b.include(points[k]), all.include(points[k]);
@@ -24,7 +24,7 @@ void Solid::finish() {
 // The winding number: a ray along x leaves a closed mesh once more than it enters it from inside, and as often from
 // outside. The ray starts a fifth of a micrometre beside p, so that it meets no corner and no edge. Needs no ray
 // scene, of which Embree bears no thousand; solid angles cost ten times as much.
-bool Solid::holds(Vec3 p) const {
+bool DrawnSolid::holds(Vec3 p) const {
     if (!all.holds(p)) return false;
     const Vec3d from = Vec3d(p) + Vec3d(0, 1.37e-7, 1.71e-7);
     int leaves = 0;
@@ -33,15 +33,15 @@ bool Solid::holds(Vec3 p) const {
     return leaves > 0;
 }
 
-double Solid::depth(Vec3 p) const {
+double DrawnSolid::depth(Vec3 p) const {
     double least = 1e30;
     for (size_t t = 0; t < triangles.size(); ++t)
         if (bounds[t].squared_gap(p) <= least * least) least = std::min(least, point_gap(Vec3d(p), corners(t)));
     return least;
 }
 
-Solid solid_of(const BodyView& view) {
-    Solid solid;
+DrawnSolid solid_of(const BodyView& view) {
+    DrawnSolid solid;
     for (uint32_t v = 0; v < view.vertex_count; ++v)
         solid.points.push_back(to_world(view.pose, view.vertices[v].position));
     for (uint32_t i = 0; i + 2 < view.index_count; i += 3)
@@ -50,7 +50,7 @@ Solid solid_of(const BodyView& view) {
     return solid;
 }
 
-double deepest(const Solid& inner, const Solid& outer) {
+double deepest(const DrawnSolid& inner, const DrawnSolid& outer) {
     double most = 0;
     if (!inner.all.is_within(outer.all, 0)) return most;
     for (const Vec3 p : inner.points)

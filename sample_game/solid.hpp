@@ -39,7 +39,7 @@ struct Bounds {
 };
 
 /// A thing as it is drawn, in world axes.
-struct Solid {
+struct DrawnSolid {
     std::vector<Vec3> points;
     std::vector<std::array<uint32_t, 3>> triangles;
     std::vector<Bounds> bounds;  // of the triangles
@@ -57,8 +57,8 @@ struct Solid {
 };
 
 /// At the pose after the last step.
-Solid solid_of(const BodyView& view);
+DrawnSolid solid_of(const BodyView& view);
 /// How deep the deepest point of `inner` lies in `outer`, m; 0 where none does.
-double deepest(const Solid& inner, const Solid& outer);
+double deepest(const DrawnSolid& inner, const DrawnSolid& outer);
 
 }  // namespace cullet

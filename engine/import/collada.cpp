@@ -10,7 +10,7 @@
 #include <string_view>
 #include <utility>
 
-#include "engine/import/polygon.hpp"
+#include "engine/polygon.hpp"
 #include "engine/import/text_encoding.hpp"
 #include "engine/import/words.hpp"
 #include "engine/import/xml.hpp"

@@ -9,7 +9,7 @@
 #include <utility>
 
 #include "engine/import/ply_header.hpp"
-#include "engine/import/polygon.hpp"
+#include "engine/polygon.hpp"
 #include "engine/import/text_encoding.hpp"
 #include "engine/import/words.hpp"
 #include "engine/mesh_file.hpp"

@@ -241,10 +241,10 @@ void SiblingWatch::measure_pairs() {
 }
 
 void SiblingWatch::look_inside() {
-    std::vector<Solid> solids;
+    std::vector<DrawnSolid> solids;
     for (const Piece& piece : pieces_) solids.push_back(solid_of(world_.view(piece.id).value()));
     for (size_t k = 0; k < pairs_.size(); ++k) {
-        const Solid &a = solids[pairs_[k].first], &b = solids[pairs_[k].second];
+        const DrawnSolid &a = solids[pairs_[k].first], &b = solids[pairs_[k].second];
         const double depth = std::max(deepest(a, b), deepest(b, a));
         figures_.deepest = std::max(figures_.deepest, depth);
         is_seen_in_[k] |= depth > kSeenDepth;

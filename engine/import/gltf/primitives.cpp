@@ -2,7 +2,7 @@
 
 #include <utility>
 
-#include "engine/import/polygon.hpp"
+#include "engine/polygon.hpp"
 
 namespace cullet::gltf {
 namespace {

@@ -1,4 +1,4 @@
-#include "engine/import/polygon.hpp"
+#include "engine/polygon.hpp"
 
 #include <cmath>
 

@@ -1,0 +1,123 @@
+#include "systems/structures/tetrahedra/cook/cut.hpp"
+
+#include <algorithm>
+
+#include "engine/table.hpp"
+#include "systems/structures/tetrahedra/cook/cut_work.hpp"
+
+namespace cullet {
+namespace {
+
+constexpr uint32_t kMostRestarts = 40;
+constexpr uint32_t kLatticeAlone = 6;  // restarts that shift points of the lattice alone
+constexpr double kGridError = 1e-3;    // of an edge: far more than the shifts of points
+
+std::vector<uint8_t> known_points(const CutRequest& request) {
+    if (request.known) return {request.is_known.begin(), request.is_known.end()};
+    std::vector<uint8_t> is_known(request.lattice.points.size());
+    for (const LatticeFace& face : request.faces.faces)
+        if (face.tetrahedron[1] == kNone)
+            for (const uint32_t p : face.corner) is_known[p] = 1;
+    return is_known;
+}
+
+void sort_once(std::vector<uint32_t>& list) {
+    std::sort(list.begin(), list.end());
+    list.erase(std::unique(list.begin(), list.end()), list.end());
+}
+
+// Points of the lattice first. A triangle that has no area on the grid, and what stays in a plane, moves itself.
+void shift(const ClosedMesh& mesh, Undecided& undecided, uint32_t restarts, GridPoints& points,
+           std::vector<uint8_t>& is_known) {
+    for (const uint32_t t : undecided.flat_triangles)
+        for (const uint32_t v : mesh.triangles[t]) undecided.mesh_points.push_back(v);
+    if (restarts <= kLatticeAlone && undecided.flat_triangles.empty()) undecided.mesh_points.clear();
+    sort_once(undecided.lattice_points);
+    sort_once(undecided.mesh_points);
+    for (const uint32_t p : undecided.lattice_points) {
+        points.shift_lattice(p);
+        is_known[p] = 0;
+    }
+    for (const uint32_t v : undecided.mesh_points) points.shift_mesh(v);
+}
+
+// Where a triangle's plane as it is drawn goes through an edge: points of one triangle then lie in one plane, and
+// volumes add up to what it encloses. The grid's word where they differ: slivers have no plane worth the name.
+double ratio_on_edge(const ClosedMesh& mesh, const Triangle& t, Vec3d u, Vec3d w, double on_grid) {
+    const Vec3d p = mesh.positions[t[0]], normal = cross(mesh.positions[t[1]] - p, mesh.positions[t[2]] - p);
+    const double low = dot(normal, u - p), high = dot(normal, w - p), ratio = low / (low - high);
+    return ratio >= 0 && ratio <= 1 && std::fabs(ratio - on_grid) < kGridError ? ratio : on_grid;
+}
+
+}  // namespace
+
+void find_places(const CutRequest& request, const GridPoints& points, Cut& cut) {
+    const std::span<const Vec3d> lattice =
+        request.points.empty() ? std::span<const Vec3d>(request.lattice.points) : request.points;
+    const auto between = [](Vec3d a, Vec3d b, double low, double high) { return a + low / (low - high) * (b - a); };
+    cut.places.resize(cut.keys.size());
+    for (size_t i = 0; i < cut.keys.size(); ++i) {
+        const CutKey key = cut.keys[i];
+        switch (key.kind()) {
+            case CutKeyKind::MeshVertex:
+                cut.places[i] = request.mesh.positions[key.a()];
+                break;
+            case CutKeyKind::LatticePoint:
+                cut.places[i] = lattice[key.a()];
+                break;
+            case CutKeyKind::OnPair: {
+                const auto [a, b] = request.mesh.pairs[key.a()];
+                const auto& c = request.faces.faces[key.b()].corner;
+                const GridPoint &p = points.lattice[c[0]], &q = points.lattice[c[1]], &r = points.lattice[c[2]];
+                cut.places[i] = between(request.mesh.positions[a], request.mesh.positions[b],
+                                        determinant(p, q, r, points.mesh[a]), determinant(p, q, r, points.mesh[b]));
+                break;
+            }
+            case CutKeyKind::OnTriangle: {
+                const auto [u, w] = request.faces.edges[key.b()];
+                const Triangle& t = request.mesh.triangles[key.a()];
+                const GridPoint &p = points.mesh[t[0]], &q = points.mesh[t[1]], &r = points.mesh[t[2]];
+                const double low = determinant(p, q, r, points.lattice[u]),
+                             high = determinant(p, q, r, points.lattice[w]);
+                cut.places[i] =
+                    lattice[u] + ratio_on_edge(request.mesh, t, lattice[u], lattice[w], low / (low - high)) *
+                                     (lattice[w] - lattice[u]);
+                break;
+            }
+        }
+    }
+}
+
+Result<Cut> cut_mesh(const CutRequest& request) {
+    const ClosedMesh& mesh = request.mesh;
+    GridPoints points(mesh.positions,
+                      request.points.empty() ? std::span<const Vec3d>(request.lattice.points) : request.points,
+                      0.5 * (mesh.low + mesh.high));
+    std::vector<uint8_t> is_known = known_points(request);
+    Cut cut;
+    for (;; ++cut.restarts) {
+        CutTriangles of_triangles = cut_triangles(request, points);
+        Undecided& undecided = of_triangles.undecided;
+        if (!undecided.is_empty()) {
+            if (cut.restarts == kMostRestarts)
+                return Error{"triangle " + std::to_string(undecided.triangle) +
+                             " stays in a plane of the lattice after " + std::to_string(kMostRestarts) +
+                             " tries to move it out; remove it"};
+            shift(mesh, undecided, cut.restarts + 1, points, is_known);
+            continue;
+        }
+        if (of_triangles.uncovered != kNone)
+            return Error{"triangle " + std::to_string(of_triangles.uncovered) + " reaches out of the lattice"};
+        cut.polygons = std::move(of_triangles.polygons);
+        cut.keys = std::move(of_triangles.keys);
+        cut.piercings = std::move(of_triangles.piercings);
+        cut.tetrahedron_of = std::move(of_triangles.tetrahedron_of);
+        sort_piercings(request, points, cut);
+        if (!find_windings(request, is_known, cut)) return Error{"faces are wanted that no known point is joined to"};
+        find_loops(request, of_triangles.segments, cut);
+        find_places(request, points, cut);
+        return cut;
+    }
+}
+
+}  // namespace cullet
