@@ -254,8 +254,8 @@ Result<ClosedMesh> close_mesh(const Mesh& given, const ClosingSettings& settings
     double own_area = 0;
     for (const Triangle& t : mesh.triangles) own_area += area_of(mesh, t);
     const Filled filled = fill_holes(mesh, own_area);
-    mesh.filled_share = filled.area / own_area;
     mesh.area = own_area + filled.area;
+    mesh.filled_share = filled.area / mesh.area;
     if (mesh.filled_share > settings.largest_filled)
         return Error{name + " is no solid: " + std::to_string(filled.open_edges) +
                      " open edges, closing them would add " + in_percent(mesh.filled_share) +

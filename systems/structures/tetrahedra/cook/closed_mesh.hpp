@@ -27,7 +27,7 @@ struct ClosedMesh {
     std::vector<uint32_t> source;
     std::vector<std::array<uint8_t, 3>> source_corners;
     uint32_t holes = 0;       // closed
-    double filled_share = 0;  // their area over that of the mesh given
+    double filled_share = 0;  // their area over that of the whole surface
     double volume = 0;        // m3
     double area = 0;          // m2, with what closes holes
     Vec3d low, high;          // m
@@ -35,7 +35,7 @@ struct ClosedMesh {
 
 struct ClosingSettings {
     double weld_tolerance = 0;     // SurfaceSettings
-    double largest_filled = 0.25;  // share of the area that may be new
+    double largest_filled = 0.25;  // share of the closed surface that may be new
 };
 
 /// Refuses what is not finite, has larger holes or encloses no volume.

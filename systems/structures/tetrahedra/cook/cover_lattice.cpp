@@ -114,27 +114,56 @@ struct FlatTriangle {
         : corner(c), normal(normalised(cross(c[1] - c[0], c[2] - c[0]))), box(box_of(c)) {}
 };
 
-// May say so of what passes by an edge; never leaves out what meets.
-bool may_meet(const FlatTriangle& triangle, const std::array<Vec3d, 4>& p) {
-    for (int k = 0; k < 3; ++k) {
-        const double low = std::min({p[0][k], p[1][k], p[2][k], p[3][k]}),
-                     high = std::max({p[0][k], p[1][k], p[2][k], p[3][k]});
-        if (low > triangle.box.high[k] + kSlack || high < triangle.box.low[k] - kSlack) return false;
+/// A tetrahedron as many triangles ask for it: its box, and its planes from outside.
+struct Shape {
+    Box box;
+    std::array<Vec3d, 4> corner;
+    std::array<Vec3d, 4> normal;
+    explicit Shape(const std::array<Vec3d, 4>& p) : box(box_of(p)), corner(p) {
+        for (size_t k = 0; k < 4; ++k) {
+            const auto& face = kFaceCorners[k];
+            normal[k] = normalised(cross(p[face[1]] - p[face[0]], p[face[2]] - p[face[0]]));
+        }
     }
+};
+
+// May say so of what passes by an edge; never leaves out what meets.
+bool may_meet(const FlatTriangle& triangle, const Shape& shape) {
+    for (int k = 0; k < 3; ++k)
+        if (shape.box.low[k] > triangle.box.high[k] + kSlack || shape.box.high[k] < triangle.box.low[k] - kSlack)
+            return false;
     bool is_above = true, is_below = true;
-    for (const Vec3d& q : p) {
-        const double height = dot(triangle.normal, q - triangle.corner[0]);
+    for (const Vec3d& p : shape.corner) {
+        const double height = dot(triangle.normal, p - triangle.corner[0]);
         is_above = is_above && height > kSlack, is_below = is_below && height < -kSlack;
     }
     if (is_above || is_below) return false;
-    for (const auto& face : kFaceCorners) {
-        const Vec3d a = p[face[0]], normal = normalised(cross(p[face[1]] - a, p[face[2]] - a));
+    for (size_t k = 0; k < 4; ++k) {
+        const Vec3d a = shape.corner[kFaceCorners[k][0]], normal = shape.normal[k];
         if (dot(normal, triangle.corner[0] - a) > kSlack && dot(normal, triangle.corner[1] - a) > kSlack &&
             dot(normal, triangle.corner[2] - a) > kSlack)
             return false;
     }
     return true;
 }
+
+/// Shapes of tetrahedra, each made when it is first asked for: most of a box is far from the surface.
+class Shapes {
+ public:
+    explicit Shapes(size_t count) : number_(count, kNone) {}
+    template <class Places>
+    const Shape& of(uint32_t tetrahedron, Places places) {
+        if (number_[tetrahedron] == kNone) {
+            number_[tetrahedron] = static_cast<uint32_t>(shapes_.size());
+            shapes_.push_back(Shape(places()));
+        }
+        return shapes_[number_[tetrahedron]];
+    }
+
+ private:
+    std::vector<uint32_t> number_;
+    std::vector<Shape> shapes_;
+};
 
 /// What a tetrahedron is to the solid.
 enum Kind : uint8_t { Outside, Around, Holds };
@@ -234,9 +263,10 @@ void for_each_near(const CubeGrid& grid, const FlatTriangle& triangle, double ji
     // A tetrahedron reaches from the corners of its cube to the centre of the next.
     int32_t from[3], to[3];
     for (int k = 0; k < 3; ++k) {
-        from[k] = std::max(0, static_cast<int32_t>(std::floor(triangle.box.low[k] - 1.5 - jitter)) - grid.low[k]);
-        to[k] =
-            std::min(grid.count[k] - 1, static_cast<int32_t>(std::floor(triangle.box.high[k] + jitter)) - grid.low[k]);
+        from[k] =
+            std::max(0, static_cast<int32_t>(std::ceil(triangle.box.low[k] - 1.5 - jitter - kSlack)) - grid.low[k]);
+        to[k] = std::min(grid.count[k] - 1,
+                         static_cast<int32_t>(std::floor(triangle.box.high[k] + jitter + kSlack)) - grid.low[k]);
     }
     for (int32_t k = from[2]; k <= to[2]; ++k)
         for (int32_t j = from[1]; j <= to[1]; ++j)
@@ -280,9 +310,11 @@ Result<CoverLattice> cover_lattice(const ClosedMesh& mesh, const LatticeSettings
     std::vector<Corners> coarse(grid.tetrahedron_count());
     for (uint32_t t = 0; t < coarse.size(); ++t) coarse[t] = grid.corners(t);
     std::vector<Kind> kinds(coarse.size(), Outside);
+    Shapes shapes(coarse.size());
     for (const FlatTriangle& triangle : triangles)
         for_each_near(grid, triangle, settings.jitter, [&](uint32_t t) {
-            if (kinds[t] == Outside && may_meet(triangle, places_of(grid, coarse[t]))) kinds[t] = Holds;
+            if (kinds[t] == Outside && may_meet(triangle, shapes.of(t, [&] { return places_of(grid, coarse[t]); })))
+                kinds[t] = Holds;
         });
     // The first layers are not met: rings are laid around the box.
     std::vector<uint8_t> is_outside(grid.vertex_count());
@@ -320,14 +352,17 @@ Result<CoverLattice> cover_lattice(const ClosedMesh& mesh, const LatticeSettings
     if (settings.element_edges == 4) {
         // The second cut is made around the solid alone.
         std::vector<Kind> half_kinds(halves.size(), Outside);
+        Shapes half_shapes(halves.size());
         for (const FlatTriangle& triangle : triangles)
             for_each_near(grid, triangle, settings.jitter, [&](uint32_t t) {
                 if (kinds[t] != Holds) return;
                 for (uint32_t h = 8 * kept[t]; h < 8 * kept[t] + 8; ++h) {
-                    const Corners& c = halves[h];
-                    if (half_kinds[h] == Outside &&
-                        may_meet(triangle, {places[c[0]], places[c[1]], places[c[2]], places[c[3]]}))
-                        half_kinds[h] = Holds;
+                    if (half_kinds[h] != Outside) continue;
+                    const Shape& shape = half_shapes.of(h, [&] {
+                        const Corners& c = halves[h];
+                        return std::array{places[c[0]], places[c[1]], places[c[2]], places[c[3]]};
+                    });
+                    if (may_meet(triangle, shape)) half_kinds[h] = Holds;
                 }
             });
         std::vector<uint8_t> is_out(places.size());

@@ -1,6 +1,7 @@
 #include "systems/structures/tetrahedra/cook/cut.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 #include "engine/table.hpp"
 #include "systems/structures/tetrahedra/cook/cut_work.hpp"
@@ -10,7 +11,7 @@ namespace {
 
 constexpr uint32_t kMostRestarts = 40;
 constexpr uint32_t kLatticeAlone = 6;  // restarts that shift points of the lattice alone
-constexpr double kGridError = 1e-3;    // of an edge: far more than the shifts of points
+constexpr double kGridError = 128;  // units of the grid: more than shifts of points make, along any edge but a flat one
 
 std::vector<uint8_t> known_points(const CutRequest& request) {
     if (request.known) return {request.is_known.begin(), request.is_known.end()};
@@ -43,10 +44,10 @@ void shift(const ClosedMesh& mesh, Undecided& undecided, uint32_t restarts, Grid
 
 // Where a triangle's plane as it is drawn goes through an edge: points of one triangle then lie in one plane, and
 // volumes add up to what it encloses. The grid's word where they differ: slivers have no plane worth the name.
-double ratio_on_edge(const ClosedMesh& mesh, const Triangle& t, Vec3d u, Vec3d w, double on_grid) {
+double ratio_on_edge(const ClosedMesh& mesh, const Triangle& t, Vec3d u, Vec3d w, double on_grid, double units) {
     const Vec3d p = mesh.positions[t[0]], normal = cross(mesh.positions[t[1]] - p, mesh.positions[t[2]] - p);
     const double low = dot(normal, u - p), high = dot(normal, w - p), ratio = low / (low - high);
-    return ratio >= 0 && ratio <= 1 && std::fabs(ratio - on_grid) < kGridError ? ratio : on_grid;
+    return ratio >= 0 && ratio <= 1 && units * std::fabs(ratio - on_grid) < kGridError ? ratio : on_grid;
 }
 
 }  // namespace
@@ -79,8 +80,11 @@ void find_places(const CutRequest& request, const GridPoints& points, Cut& cut) 
                 const GridPoint &p = points.mesh[t[0]], &q = points.mesh[t[1]], &r = points.mesh[t[2]];
                 const double low = determinant(p, q, r, points.lattice[u]),
                              high = determinant(p, q, r, points.lattice[w]);
+                const GridPoint &from = points.lattice[u], &to = points.lattice[w];
+                const double units =
+                    std::max({std::fabs(to.x - from.x), std::fabs(to.y - from.y), std::fabs(to.z - from.z)});
                 cut.places[i] =
-                    lattice[u] + ratio_on_edge(request.mesh, t, lattice[u], lattice[w], low / (low - high)) *
+                    lattice[u] + ratio_on_edge(request.mesh, t, lattice[u], lattice[w], low / (low - high), units) *
                                      (lattice[w] - lattice[u]);
                 break;
             }

@@ -188,6 +188,8 @@ class TriangleCutter {
                 stack_.push_back(next);
             }
         }
+        for (uint32_t i = 0; i < 3; ++i)
+            if (is_inside[i]) out_.tetrahedron_of[vertex(i)] = last_ = tetrahedron;
         for (uint32_t i = 0; i < 3; ++i) {
             const bool has_end = is_inside[(i + 1) % 3];
             if (!is_inside[i] && !comes[i]) continue;
@@ -208,17 +210,13 @@ class TriangleCutter {
         out_.polygons.push_back(polygon);
     }
 
+    // Where any of its corners is; triangles before it have told where most are.
     uint32_t locate_first() {
         const auto& t = mesh_.triangles[triangle_];
-        uint32_t& known = out_.tetrahedron_of[t[0]];
-        if (known != kNone) return known;
-        uint32_t from = last_;
         for (const uint32_t v : t)
-            if (out_.tetrahedron_of[v] != kNone) from = out_.tetrahedron_of[v];
-        if (!request_.tetrahedron_of.empty() && request_.tetrahedron_of[t[0]] != kNone)
-            from = request_.tetrahedron_of[t[0]];
-        const uint32_t found = locate(t[0], from);
-        if (!is_undecided_) known = found;
+            if (out_.tetrahedron_of[v] != kNone) return out_.tetrahedron_of[v];
+        const bool has_guess = !request_.tetrahedron_of.empty() && request_.tetrahedron_of[t[0]] != kNone;
+        const uint32_t found = locate(t[0], has_guess ? request_.tetrahedron_of[t[0]] : last_);
         if (found != kNone) last_ = found;
         return found;
     }
@@ -246,13 +244,35 @@ class TriangleCutter {
             if (next == kNone) break;
             before = at, at = next;
         }
-        for (uint32_t t = 0; t < lattice_.of.size(); ++t) {
-            if (face_towards(t, v, 0, kNone) == t) return t;
+        // It came out at a bay of the lattice.
+        if (by_place_.empty()) sort_by_place();
+        const double x = points_.mesh[v].x;
+        auto near = std::lower_bound(by_place_.begin(), by_place_.end(), x - widest_,
+                                     [](const Placed& p, double bound) { return p.x < bound; });
+        for (; near != by_place_.end() && near->x <= x + widest_; ++near) {
+            if (face_towards(near->tetrahedron, v, 0, kNone) == near->tetrahedron) return near->tetrahedron;
             if (is_undecided_) return kNone;
         }
         return kNone;
     }
+    void sort_by_place() {
+        for (uint32_t t = 0; t < lattice_.of.size(); ++t) {
+            const auto& c = request_.lattice.fine[t];
+            double low = points_.lattice[c[0]].x, high = low;
+            for (const uint32_t p : c)
+                low = std::min(low, points_.lattice[p].x), high = std::max(high, points_.lattice[p].x);
+            by_place_.push_back({0.5 * (low + high), t});
+            widest_ = std::max(widest_, 0.5 * (high - low));
+        }
+        std::sort(by_place_.begin(), by_place_.end(), [](const Placed& a, const Placed& b) {
+            return a.x != b.x ? a.x < b.x : a.tetrahedron < b.tetrahedron;
+        });
+    }
 
+    struct Placed {
+        double x;
+        uint32_t tetrahedron;
+    };
     const CutRequest& request_;
     const ClosedMesh& mesh_;
     const LatticeFaces& lattice_;
@@ -265,6 +285,8 @@ class TriangleCutter {
     std::vector<OfEdge> of_edge_;
     std::vector<OfPoint> of_point_;
     std::vector<uint32_t> seen_, stack_;
+    std::vector<Placed> by_place_;  // tetrahedra by the middle of what they span along x
+    double widest_ = 0;             // half of the most that one spans
 };
 
 }  // namespace
