@@ -1,0 +1,35 @@
+#include "systems/models/lattice/cook/breakable_solid.hpp"
+
+#include <algorithm>
+#include <utility>
+
+#include "engine/random.hpp"
+
+namespace cullet {
+
+BreakableSolid make_breakable(Solid solid) {
+    BreakableSolid body;
+    body.elements = make_elements(solid);
+    body.paths = find_crack_paths(solid);
+    body.field = make_crack_field(solid);
+    body.strength.assign(solid.cells.size(), 1.0f);
+    body.solid = std::move(solid);
+    return body;
+}
+
+void scatter_strength(BreakableSolid& body, double modulus, uint64_t seed) {
+    const Random random{seed};
+    const double mean = body.solid.volume / static_cast<double>(body.solid.cells.size());
+    std::vector<double> drawn(body.strength.size());
+    double sum = 0;
+    for (size_t c = 0; c < drawn.size(); ++c) {
+        const double chance = -logarithm(1 - random.uniform(c));
+        drawn[c] = chance > 0 ? exponential(logarithm(mean / body.solid.cells[c].volume * chance) / modulus) : 0;
+        sum += drawn[c];
+    }
+    constexpr double kLeast = 0.05;
+    for (size_t c = 0; c < drawn.size(); ++c)
+        body.strength[c] = static_cast<float>(std::max(kLeast, drawn[c] * static_cast<double>(drawn.size()) / sum));
+}
+
+}  // namespace cullet

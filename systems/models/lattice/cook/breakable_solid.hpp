@@ -1,0 +1,25 @@
+// A solid with all that a break of it needs: nothing of this changes while it breaks.
+#pragma once
+#include "systems/models/lattice/cook/crack_field.hpp"
+#include "systems/models/lattice/cook/crack_paths.hpp"
+#include "systems/models/lattice/cook/solid_elements.hpp"
+
+namespace cullet {
+
+struct BreakableSolid {
+    Solid solid;
+    SolidElements elements;
+    CrackPaths paths;
+    CrackField field;
+    /// Of each cell: of the material's tensile strength. Mean 1.
+    std::vector<float> strength;
+};
+
+/// Strengths are 1.
+BreakableSolid make_breakable(Solid solid);
+
+/// Weibull: large cells are weaker, and chance has its part. `modulus`: 6 for glass, 10 for ceramics and stone. The
+/// same seed gives the same strengths.
+void scatter_strength(BreakableSolid& body, double modulus, uint64_t seed);
+
+}  // namespace cullet

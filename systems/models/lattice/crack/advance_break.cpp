@@ -1,0 +1,149 @@
+#include <algorithm>
+
+#include "systems/models/lattice/crack/break_run.hpp"
+#include "systems/models/lattice/crack/crack_level.hpp"
+#include "systems/models/lattice/crack/crack_sheet.hpp"
+#include "systems/models/lattice/crack/solve_piece.hpp"
+
+namespace cullet {
+namespace {
+
+constexpr uint32_t kNoCell = 0xffffffffu;
+constexpr double kLeastSolved = 2;      // times the least piece: a smaller one breaks no more
+constexpr double kDurationPower = 0.4;  // of the mass, in Hertz' duration
+
+double ratio_of(const BreakableSolid& body, const BreakRun& run, uint32_t c) {
+    return run.first[c] / (run.brittle.tensile_strength * double{body.strength[c]});
+}
+
+double least_volume(const BreakableSolid& body, const BreakRun& run) {
+    return kLeastSolved * run.rules.least_cells * body.solid.volume / static_cast<double>(body.solid.cells.size());
+}
+
+// The weakest of the cells that may start a crack, or none.
+uint32_t weakest(const BreakableSolid& body, const BreakRun& run) {
+    uint32_t best = kNoCell;
+    double most = 0;
+    for (uint32_t i = 0; i < run.cell_count; ++i) {
+        const uint32_t c = run.cells[i];
+        if (run.marks[c] & (kCrushed | kBanned)) continue;
+        if (run.volume[run.piece[c]] < least_volume(body, run)) continue;
+        if (const double ratio = ratio_of(body, run, c); ratio > most) most = ratio, best = c;
+    }
+    return best;
+}
+
+void take_next_piece(BreakRun& run) {
+    if (run.queue_first == run.queue_end || run.crack_count >= run.rules.most_cracks) {
+        run.stage = BreakStage::Done;
+        return;
+    }
+    const BreakRun::Waiting next = run.queue[run.queue_first++];
+    run.at_piece = next.piece, run.at_round = next.round;
+    list_cells(run);
+    run.stage = BreakStage::Assemble;
+}
+
+// The pieces that the one at work has fallen into are solved again.
+void close_piece(const BreakableSolid& body, BreakRun& run) {
+    run.stage = BreakStage::NextPiece;
+    if (run.crack_count == run.cracks_before || run.at_round + 1 >= run.rules.most_rounds) return;
+    for (uint32_t p = 0; p < run.piece_count; ++p) {
+        if (p != run.at_piece && p < run.pieces_before) continue;
+        if (run.volume[p] >= least_volume(body, run) && run.queue_end < run.queue.size())
+            run.queue[run.queue_end++] = {p, run.at_round + 1};
+    }
+}
+
+void decide_on_cracks(const BreakableSolid& body, BreakRun& run) {
+    find_stress(body, run);
+    const uint32_t c = weakest(body, run);
+    const double ratio = c == kNoCell ? 0 : ratio_of(body, run, c);
+    if (run.solve_count == 1) {
+        run.gate = ratio;
+        run.first_crack = ratio > 0 ? 1 / ratio : 0;
+    }
+    run.pieces_before = run.piece_count;
+    if (!(ratio >= 1)) {
+        run.stage = BreakStage::NextPiece;
+        return;
+    }
+    const double volume = run.volume[run.at_piece];
+    const double duration = run.contact.duration / run.share * power(volume / body.solid.volume, kDurationPower);
+    run.load = load_share(ratio, duration, volume, run.brittle);
+    find_directions(run);
+    run.stage = run.rules.is_curved ? BreakStage::Field : BreakStage::Crack;
+}
+
+void try_crack(const BreakableSolid& body, BreakRun& run) {
+    const uint32_t c = weakest(body, run);
+    if (c == kNoCell || !(run.load * ratio_of(body, run, c) > 1) || run.tries++ >= run.rules.most_tries ||
+        run.crack_count >= run.rules.most_cracks) {
+        close_piece(body, run);
+        return;
+    }
+    const Vec3d normal = run.direction[c];
+    bool is_broken = false;
+    if (run.rules.is_curved) {
+        part_by_level(body, run, c);
+        is_broken = break_sheet(body, run, c);
+    }
+    if (!is_broken) {
+        part_by_plane(body, run, c, normal);
+        is_broken = break_sheet(body, run, c);
+        run.plane_count += is_broken;
+    }
+    run.marks[c] |= kBanned;
+    if (!is_broken) return;
+    ++run.crack_count;
+    shield(body, run, c);
+}
+
+}  // namespace
+
+void begin_break(const BreakableSolid& body, const BrittleSolid& brittle, const SolidBlow& blow,
+                 const CrackRules& rules, std::span<const uint8_t> held, BreakRun& run) {
+    run.brittle = brittle, run.blow = blow, run.rules = rules;
+    run.contact = hertz_contact(blow, brittle.elastic);
+    run.patch = patch_radius(run.contact, brittle, body.solid.lattice.edge, body.solid.volume);
+    run.share = 1, run.mass = 0, run.gate = 0, run.first_crack = 0;
+    run.piece_count = 1, run.crack_count = run.solve_count = run.plane_count = 0;
+    std::fill(run.piece.begin(), run.piece.end(), 0u);
+    for (uint32_t i = 0; i < run.is_held.size(); ++i) run.is_held[i] = held.empty() ? 0 : held[i];
+    run.volume[0] = body.solid.volume;
+    run.queue[0] = {0, 0};
+    run.queue_first = 0, run.queue_end = 1;
+    run.stage = run.contact.force > 0 ? BreakStage::NextPiece : BreakStage::Done;
+}
+
+bool advance_break(const BreakableSolid& body, BreakRun& run, uint64_t work) {
+    switch (run.stage) {
+        case BreakStage::NextPiece:
+            take_next_piece(run);
+            break;
+        case BreakStage::Assemble: {
+            bool is_loaded = false;
+            if (assemble_some(body, run, work, is_loaded))
+                run.stage = is_loaded ? BreakStage::Factor : BreakStage::NextPiece;
+            break;
+        }
+        case BreakStage::Factor:
+            if (!advance_factor(body.elements.plan, run.factor, work)) break;
+            run.stage = run.factor.is_positive ? BreakStage::Stress : BreakStage::NextPiece;
+            break;
+        case BreakStage::Stress:
+            decide_on_cracks(body, run);
+            break;
+        case BreakStage::Field:
+            if (factor_field(body, run, work)) run.stage = BreakStage::Crack;
+            break;
+        case BreakStage::Crack:
+            try_crack(body, run);
+            break;
+        case BreakStage::Done:
+            break;
+    }
+    return run.stage == BreakStage::Done;
+}
+
+}  // namespace cullet

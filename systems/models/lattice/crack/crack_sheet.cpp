@@ -1,0 +1,154 @@
+#include "systems/models/lattice/crack/crack_sheet.hpp"
+
+#include <algorithm>
+
+namespace cullet {
+namespace {
+
+constexpr double kShieldEdges = 1.5;
+constexpr uint32_t kNoPart = 0xffffffffu;
+
+bool parts_sides(const BreakableSolid& body, const BreakRun& run, uint32_t bond, uint32_t piece) {
+    const SolidBond& b = body.solid.bonds[bond];
+    return run.piece[b.a] == piece && run.piece[b.b] == piece && run.side[b.a] != run.side[b.b];
+}
+
+// How many bonds the sheet has; none where no bond is between the sides.
+uint32_t flood_sheet(const BreakableSolid& body, BreakRun& run, uint32_t start) {
+    const uint32_t piece = run.piece[start];
+    const Vec3d middle = body.solid.cells[start].centroid;
+    uint32_t first = kNoPart;
+    double nearest = 1e300;
+    for (uint32_t b = 0; b < body.solid.bonds.size(); ++b) {
+        run.is_sheet[b] = 0;
+        if (!parts_sides(body, run, b, piece)) continue;
+        const Vec3d from = body.solid.bonds[b].centroid - middle;
+        if (dot(from, from) < nearest) nearest = dot(from, from), first = b;
+    }
+    if (first == kNoPart) return 0;
+    uint32_t count = 0;
+    run.sheet[count++] = first, run.is_sheet[first] = 1;
+    for (uint32_t i = 0; i < count; ++i)
+        for (const uint32_t edge : body.paths.edges[run.sheet[i]])
+            for (const uint32_t b : body.paths.at_edge(edge)) {
+                if (run.is_sheet[b] || !parts_sides(body, run, b, piece)) continue;
+                run.is_sheet[b] = 1;
+                run.sheet[count++] = b;
+            }
+    return count;
+}
+
+// Numbers the parts of the piece that hang together over bonds outside of the sheet.
+uint32_t flood_parts_of_piece(const BreakableSolid& body, BreakRun& run, uint32_t piece) {
+    for (uint32_t i = 0; i < run.cell_count; ++i) run.part[run.cells[i]] = kNoPart;
+    uint32_t parts = 0;
+    for (uint32_t i = 0; i < run.cell_count; ++i) {
+        if (run.piece[run.cells[i]] != piece || run.part[run.cells[i]] != kNoPart) continue;
+        uint32_t open = 0;
+        run.open[open++] = run.cells[i];
+        run.part[run.cells[i]] = parts;
+        double volume = 0;
+        while (open > 0) {
+            const uint32_t c = run.open[--open];
+            volume += body.solid.cells[c].volume;
+            for (const uint32_t b : body.paths.of_cell(c)) {
+                const SolidBond& bond = body.solid.bonds[b];
+                const uint32_t other = bond.a == c ? bond.b : bond.a;
+                if (run.is_sheet[b] || run.piece[other] != piece || run.part[other] != kNoPart) continue;
+                run.part[other] = parts;
+                run.open[open++] = other;
+            }
+        }
+        run.part_volume[parts++] = volume;
+    }
+    return parts;
+}
+
+double mean_cell(const BreakableSolid& body) {
+    return body.solid.volume / static_cast<double>(body.solid.cells.size());
+}
+
+// A part that is too small goes to the one that it shares most area with.
+void join_small_parts(const BreakableSolid& body, BreakRun& run, uint32_t piece, uint32_t parts, double least) {
+    for (uint32_t rounds = 0; rounds < parts; ++rounds) {
+        uint32_t small = kNoPart;
+        for (uint32_t p = 0; p < parts; ++p)
+            if (run.part_volume[p] > 0 && run.part_volume[p] < least &&
+                (small == kNoPart || run.part_volume[p] < run.part_volume[small]))
+                small = p;
+        if (small == kNoPart) return;
+        // The area shared with each: part_piece is free until parts become pieces, but holds no area; the bonds are
+        // gone through once for each part beside it.
+        uint32_t into = kNoPart;
+        double most = 0;
+        for (uint32_t p = 0; p < parts; ++p) {
+            if (p == small || !(run.part_volume[p] > 0)) continue;
+            double area = 0;
+            for (const SolidBond& bond : body.solid.bonds) {
+                if (run.piece[bond.a] != piece || run.piece[bond.b] != piece) continue;
+                const uint32_t a = run.part[bond.a], b = run.part[bond.b];
+                if ((a == small && b == p) || (a == p && b == small)) area += bond.area;
+            }
+            if (area > most) most = area, into = p;
+        }
+        if (into == kNoPart) {
+            run.part_volume[small] = -run.part_volume[small];  // beside nobody: it stays what it is
+            continue;
+        }
+        for (uint32_t i = 0; i < run.cell_count; ++i)
+            if (run.piece[run.cells[i]] == piece && run.part[run.cells[i]] == small) run.part[run.cells[i]] = into;
+        run.part_volume[into] += run.part_volume[small];
+        run.part_volume[small] = 0;
+    }
+}
+
+}  // namespace
+
+bool break_sheet(const BreakableSolid& body, BreakRun& run, uint32_t start) {
+    const uint32_t piece = run.piece[start];
+    const uint32_t bonds = flood_sheet(body, run, start);
+    if (bonds == 0) return false;
+    const uint32_t parts = flood_parts_of_piece(body, run, piece);
+    const double least = run.rules.least_cells * mean_cell(body);
+    uint32_t large = 0;
+    for (uint32_t p = 0; p < parts; ++p) large += run.part_volume[p] >= least;
+    if (large < 2) return false;
+    join_small_parts(body, run, piece, parts, least);
+    uint32_t keeps = 0;
+    for (uint32_t p = 1; p < parts; ++p)
+        if (run.part_volume[p] > run.part_volume[keeps]) keeps = p;
+    for (uint32_t p = 0; p < parts; ++p) {
+        if (run.part_volume[p] == 0) continue;
+        run.part_piece[p] = p == keeps ? piece : run.piece_count++;
+        run.volume[run.part_piece[p]] = std::fabs(run.part_volume[p]);
+    }
+    for (uint32_t i = 0; i < run.cell_count; ++i) {
+        const uint32_t c = run.cells[i];
+        if (run.piece[c] == piece) run.piece[c] = run.part_piece[run.part[c]];
+    }
+    // Bonds whose ends stay together after all are none of the crack.
+    uint32_t kept = 0;
+    for (uint32_t i = 0; i < bonds; ++i) {
+        const SolidBond& bond = body.solid.bonds[run.sheet[i]];
+        if (run.piece[bond.a] != run.piece[bond.b]) run.sheet[kept++] = run.sheet[i];
+    }
+    run.sheet_count = kept;
+    return true;
+}
+
+void shield(const BreakableSolid& body, BreakRun& run, uint32_t start) {
+    const Vec3d middle = body.solid.cells[start].centroid;
+    double reach = 0;
+    for (uint32_t i = 0; i < run.sheet_count; ++i)
+        reach = std::max(reach, length(body.solid.bonds[run.sheet[i]].centroid - middle));
+    const double away = run.rules.shield * reach + kShieldEdges * body.solid.lattice.edge;
+    for (uint32_t i = 0; i < run.cell_count; ++i) {
+        const uint32_t c = run.cells[i];
+        for (uint32_t s = 0; s < run.sheet_count && !(run.marks[c] & kBanned); ++s) {
+            const Vec3d from = body.solid.bonds[run.sheet[s]].centroid - body.solid.cells[c].centroid;
+            if (dot(from, from) < away * away) run.marks[c] |= kBanned;
+        }
+    }
+}
+
+}  // namespace cullet

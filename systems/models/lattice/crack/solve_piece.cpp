@@ -1,0 +1,132 @@
+#include "systems/models/lattice/crack/solve_piece.hpp"
+
+#include <algorithm>
+
+namespace cullet {
+namespace {
+
+constexpr double kBed = 100;          // of E / a: what a held patch stands on
+constexpr uint32_t kFewestCells = 4;  // of a piece that is solved
+constexpr double kForcePower = 0.6;   // of the mass, in Hertz' force
+constexpr uint64_t kElementWork = 2500;
+
+double weight_of(const BreakRun& run, const SurfacePatch& patch) {
+    const Vec3d from = patch.centroid - run.blow.point;
+    const double share = 1 - dot(from, from) / (run.patch * run.patch);
+    return share > 0 ? patch.area * std::sqrt(share) : 0;
+}
+
+// The first piece is hit in any case: at its nearest patch, if none is near enough.
+bool lay_blow(const BreakableSolid& body, BreakRun& run, double force) {
+    double sum = 0, nearest = 1e300;
+    uint32_t best = 0;
+    const auto& patches = body.solid.patches;
+    for (uint32_t i = 0; i < patches.size(); ++i) {
+        if (run.piece[patches[i].cell] != run.at_piece) continue;
+        sum += weight_of(run, patches[i]);
+        const Vec3d from = patches[i].centroid - run.blow.point;
+        if (dot(from, from) < nearest) nearest = dot(from, from), best = i;
+    }
+    if (sum > 0) {
+        for (uint32_t i = 0; i < patches.size(); ++i) {
+            if (run.piece[patches[i].cell] != run.at_piece) continue;
+            if (const double weight = weight_of(run, patches[i]); weight > 0)
+                add_force(body.elements, body.elements.patches[i], force * weight / sum * run.blow.push, run.loads);
+        }
+        return true;
+    }
+    if (run.solve_count > 0 || patches.empty()) return false;
+    add_force(body.elements, body.elements.patches[best], force * run.blow.push, run.loads);
+    return true;
+}
+
+// Springs under each held patch: shape times shape, the same in all directions.
+void add_bed(const BreakableSolid& body, BreakRun& run) {
+    const double stiffness = kBed * run.brittle.elastic.young / body.solid.lattice.edge;
+    for (uint32_t i = 0; i < run.is_held.size(); ++i) {
+        if (!run.is_held[i] || run.piece[body.solid.patches[i].cell] != run.at_piece) continue;
+        run.has_ground = true;
+        const ElementPlace& at = body.elements.patches[i];
+        const std::array<double, 10> shape = shapes_at(at.at);
+        for (uint32_t a = 0; a < 10; ++a)
+            for (uint32_t b = 0; b <= a; ++b) {
+                double* block =
+                    run.factor.entries.data() + size_t{body.elements.entries[at.element][pair_of(a, b)]} * 9;
+                const double value = stiffness * body.solid.patches[i].area * shape[a] * shape[b];
+                for (uint32_t k = 0; k < 3; ++k) block[k * 4] += value;
+            }
+    }
+}
+
+bool lay_loads(const BreakableSolid& body, BreakRun& run) {
+    if (run.cell_count < kFewestCells) return false;
+    const std::span<const uint32_t> cells = run.cells.first(run.cell_count);
+    const PieceMass mass = mass_of(body.elements, cells, run.brittle.density);
+    if (run.solve_count == 0) run.mass = mass.mass;
+    std::fill(run.loads.begin(), run.loads.end(), 0.0);
+    run.scale = power(mass.mass / run.mass, kForcePower);
+    if (!lay_blow(body, run, run.contact.force * run.share * run.scale)) return false;
+    run.has_ground = false;
+    add_bed(body, run);
+    if (run.has_ground) return true;
+    if (!(determinant(mass.inertia) > 0)) return false;
+    relieve(body.elements, cells, run.brittle.density, mass, run.blow.spin, run.loads);
+    weigh_nodes(body.elements, run.sums, run.weights);
+    if (!choose_pins(body.elements, run.factor, run.weights, mass.centre, run.sorted, run.pins)) return false;
+    hold(body.elements.plan, run.pins, run.factor);
+    hold(run.pins, run.loads);
+    return true;
+}
+
+}  // namespace
+
+void list_cells(BreakRun& run) {
+    run.cell_count = 0, run.next_element = 0, run.tries = 0;
+    run.cracks_before = run.crack_count;
+    run.is_field_made = false;
+    for (uint32_t c = 0; c < run.piece.size(); ++c) {
+        run.marks[c] = 0;
+        if (run.piece[c] != run.at_piece) continue;
+        run.marks[c] = kSolved;
+        run.cells[run.cell_count++] = c;
+    }
+}
+
+bool assemble_some(const BreakableSolid& body, BreakRun& run, uint64_t work, bool& is_loaded) {
+    const uint32_t count = static_cast<uint32_t>(body.elements.elements.size());
+    if (run.next_element == 0) {
+        clear_factor(run.factor);
+        sum_moments(body.elements, run.cells.first(run.cell_count), run.sums);
+    }
+    const uint32_t end = static_cast<uint32_t>(std::min<uint64_t>(count, run.next_element + work / kElementWork + 1));
+    add_stiffness(body.elements, run.sums, run.brittle.elastic, run.next_element, end, run.factor);
+    run.next_element = end;
+    if (end < count) return false;
+    is_loaded = lay_loads(body, run);
+    return true;
+}
+
+void find_stress(const BreakableSolid& body, BreakRun& run) {
+    const bool is_first = run.solve_count++ == 0;
+    // Half of the work of all loads: blow, inertia, and nothing at pins.
+    std::copy(run.loads.begin(), run.loads.end(), run.forces.begin());
+    solve_with(body.elements.plan, run.factor, run.loads, run.gathered);
+    double energy = 0;
+    for (size_t i = 0; i < run.loads.size(); ++i)
+        if (run.factor.is_used[i / 3]) energy += 0.5 * run.loads[i] * run.forces[i];
+    differentiate(body.elements, run.sums, run.loads, run.gradients);
+    double scale = 1;
+    if (is_first) {
+        run.share = force_share(run.blow, energy);
+        scale = run.share;
+    }
+    for (uint32_t i = 0; i < run.cell_count; ++i) {
+        const uint32_t c = run.cells[i];
+        const CellStress most = largest_stress(body.elements, run.gradients, c, run.brittle.elastic);
+        run.stress[c] = scale * most.stress;
+        run.first[c] = scale * most.first;
+        if (length(body.solid.cells[c].centroid - run.blow.point) < run.patch) run.marks[c] |= kCrushed;
+    }
+}
+
+}  // namespace cullet

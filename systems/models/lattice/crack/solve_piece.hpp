@@ -1,0 +1,16 @@
+// The stress in one piece under the blow.
+#pragma once
+#include "systems/models/lattice/crack/break_run.hpp"
+
+namespace cullet {
+
+/// Lists the cells of run.at_piece, marks them solved and clears what the last solve left.
+void list_cells(BreakRun& run);
+/// Some of the elements. True: all are in the matrix, the blow's loads are laid and pins are chosen. `is_loaded` false:
+/// the blow does not reach this piece, or it is too small for pins.
+bool assemble_some(const BreakableSolid& body, BreakRun& run, uint64_t work, bool& is_loaded);
+/// Displacements, and by cell stress and its largest principal value. The first one tells what share of the contact's
+/// force comes.
+void find_stress(const BreakableSolid& body, BreakRun& run);
+
+}  // namespace cullet

@@ -1,0 +1,188 @@
+// Solids break: load, gate, cracks and pieces (solid cooking note, section 6; T9, T12, T13).
+#include "systems/models/lattice/crack/break_run.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cstring>
+
+#include "engine/random.hpp"
+#include "sample_game/allocations.hpp"
+#include "systems/structures/tetrahedra/cook/cover_lattice.hpp"
+#include "tests/support/lattice_solids.hpp"
+
+namespace cullet {
+namespace {
+
+constexpr BrittleSolid kBrick{{12e9, 0.18}, 1900, 2.5e6, 25e6};
+constexpr ElasticSolid kGround{30e9, 0.2};
+const Vec3d kHalf{0.12, 0.035, 0.0575};
+
+BreakableSolid brick(double cells, int elements) {
+    const double volume = 8 * kHalf.x * kHalf.y * kHalf.z;
+    return make_breakable(
+        fill_convex(box_planes(kHalf), kHalf, {.edge = edge_for(volume, cells), .elements = elements}));
+}
+
+SolidBlow blow_on(Vec3d point, Vec3d push, double speed, double mass) {
+    return {point, normalised(push), speed, mass, 0.01, kGround, {}, 1.0 / 60};
+}
+SolidBlow on_a_corner(double speed) {
+    return blow_on(kHalf, {-1, -1, -1}, speed, 1.5);
+}
+
+struct Broken {
+    Arena arena;
+    BreakRun run;
+    Broken(const BreakableSolid& body, const BrittleSolid& brittle, const SolidBlow& blow, const CrackRules& rules = {},
+           std::span<const uint8_t> held = {}, uint64_t work = 1'000'000)
+        : arena(break_bytes(body)), run(take_break(arena, body)) {
+        begin_break(body, brittle, blow, rules, held, run);
+        while (!advance_break(body, run, work)) continue;
+    }
+};
+
+// Pieces hang together, have what they are said to have, and are not smaller than allowed.
+void expect_whole_pieces(const BreakableSolid& body, const BreakRun& run) {
+    const Solid& solid = body.solid;
+    std::vector<double> volume(run.piece_count, 0.0);
+    for (size_t c = 0; c < run.piece.size(); ++c) {
+        ASSERT_LT(run.piece[c], run.piece_count);
+        volume[run.piece[c]] += solid.cells[c].volume;
+    }
+    std::vector<uint32_t> root(run.piece.size());
+    for (uint32_t c = 0; c < root.size(); ++c) root[c] = c;
+    const auto find = [&](uint32_t c) {
+        while (root[c] != c) c = root[c] = root[root[c]];
+        return c;
+    };
+    for (const SolidBond& bond : solid.bonds)
+        if (run.piece[bond.a] == run.piece[bond.b]) root[find(bond.a)] = find(bond.b);
+    uint32_t parts = 0;
+    for (uint32_t c = 0; c < root.size(); ++c) parts += find(c) == c;
+    EXPECT_EQ(parts, run.piece_count);
+    double sum = 0;
+    for (uint32_t p = 0; p < run.piece_count; ++p) {
+        EXPECT_NEAR(volume[p], run.volume[p], 1e-12);
+        EXPECT_GE(volume[p], 5.999 * solid.volume / static_cast<double>(solid.cells.size()));
+        sum += volume[p];
+    }
+    EXPECT_NEAR(sum, solid.volume, 1e-10 * solid.volume);
+}
+
+TEST(BreakRun, BelowTheThresholdNothingBreaks) {
+    const BreakableSolid body = brick(800, 4);
+    const Broken weak(body, kBrick, on_a_corner(0.05));
+    EXPECT_LT(weak.run.gate, 1);
+    EXPECT_GT(weak.run.gate, 0);
+    EXPECT_EQ(weak.run.solve_count, 1u);
+    EXPECT_EQ(weak.run.piece_count, 1u);
+    const Broken strong(body, kBrick, on_a_corner(5));
+    EXPECT_GT(strong.run.gate, 1);
+    EXPECT_GT(strong.run.piece_count, 1u);
+}
+
+TEST(BreakRun, PiecesHangTogetherAndAddUp) {
+    for (const int elements : {2, 4}) {
+        const BreakableSolid body = brick(800, elements);
+        for (const double speed : {1.0, 5.0, 20.0, 80.0}) {
+            const Broken broken(body, kBrick, on_a_corner(speed));
+            expect_whole_pieces(body, broken.run);
+            const Broken along_planes(body, kBrick, on_a_corner(speed), {.is_curved = false});
+            expect_whole_pieces(body, along_planes.run);
+        }
+    }
+}
+
+TEST(BreakRun, StressIsLinearInTheForce) {
+    const BreakableSolid body = brick(500, 4);
+    const Broken slow(body, kBrick, on_a_corner(0.03)), fast(body, kBrick, on_a_corner(0.06));
+    ASSERT_EQ(slow.run.patch, fast.run.patch);
+    const double force = fast.run.contact.force * fast.run.share / (slow.run.contact.force * slow.run.share);
+    EXPECT_NEAR(fast.run.gate / slow.run.gate, force, 1e-9 * force);
+}
+
+TEST(BreakRun, AFinerLatticeBreaksAtTheSameLoad) {
+    const BreakableSolid coarse = brick(1500, 2), fine = brick(8000, 2);
+    const SolidBlow blow = blow_on({0, kHalf.y, 0}, {0, -1, 0}, 5, 3);
+    CrackRules rules;
+    rules.most_cracks = 1;
+    const Broken a(coarse, kBrick, blow, rules), b(fine, kBrick, blow, rules);
+    EXPECT_NEAR(a.run.patch / b.run.patch, 1, 0.01);
+    EXPECT_NEAR(b.run.first_crack / a.run.first_crack, 1, 0.25);
+}
+
+TEST(BreakRun, PiecesRiseWithSpeed) {
+    BreakableSolid body = brick(800, 4);
+    double before = 0;
+    for (const double speed : {1.0, 3.0, 6.0, 10.0, 20.0}) {
+        double sum = 0;
+        for (uint64_t seed = 0; seed < 20; ++seed) {
+            scatter_strength(body, 8, seed);
+            sum += Broken(body, kBrick, on_a_corner(speed)).run.piece_count / 20.0;
+        }
+        EXPECT_GT(sum, before) << speed;
+        before = sum;
+    }
+}
+
+TEST(BreakRun, AColumnPushedAtItsTopCracksAtItsFoot) {
+    const double radius = 0.15, half = 1.2;
+    const Vec3d box{radius, radius, half};
+    for (const int elements : {2, 4}) {
+        const BreakableSolid body =
+            make_breakable(fill_convex(column_planes(radius, half, 24), box, {.edge = 0.06, .elements = elements}));
+        std::vector<uint8_t> held(body.solid.patches.size(), 0);
+        for (size_t i = 0; i < held.size(); ++i) held[i] = body.solid.patches[i].centroid.z < -half + 1e-6;
+        const BrittleSolid stone{{50e9, 0.25}, 2500, 8e6, 100e6};
+        const SolidBlow blow = blow_on({-radius, 0, half - 0.1}, {1, 0, 0}, 2, 50);
+        CrackRules rules;
+        rules.most_cracks = 1;
+        const Broken broken(body, stone, blow, rules, held);
+        ASSERT_EQ(broken.run.piece_count, 2u);
+        expect_whole_pieces(body, broken.run);
+        for (const SolidBond& bond : body.solid.bonds)
+            if (broken.run.piece[bond.a] != broken.run.piece[bond.b]) {
+                EXPECT_LT(bond.centroid.z, -half + 4 * radius);
+            }
+    }
+}
+
+TEST(BreakRun, SlicesChangeNoBitAndNothingIsAllocated) {
+    const BreakableSolid body = brick(500, 2);
+    const Broken whole(body, kBrick, on_a_corner(10), {}, {}, ~uint64_t{0} / 2);
+    Arena arena(break_bytes(body));
+    BreakRun run = take_break(arena, body);
+    start_counting_allocations();
+    begin_break(body, kBrick, on_a_corner(10), {}, {}, run);
+    uint32_t steps = 0;
+    while (!advance_break(body, run, 1)) ++steps;
+    EXPECT_EQ(stop_counting_allocations().ours, 0u);
+    EXPECT_GT(steps, 100u);
+    EXPECT_GT(run.piece_count, 1u);
+    ASSERT_EQ(run.piece_count, whole.run.piece_count);
+    EXPECT_EQ(std::memcmp(run.piece.data(), whole.run.piece.data(), run.piece.size_bytes()), 0);
+    EXPECT_EQ(std::memcmp(run.stress.data(), whole.run.stress.data(), run.stress.size_bytes()), 0);
+}
+
+TEST(BreakRun, AnyBlowEnds) {
+    BreakableSolid body = brick(300, 4);
+    const Random random{5};
+    for (uint64_t n = 0; n < 40; ++n) {
+        scatter_strength(body, 3, n);
+        const auto chance = [&](uint64_t k) { return random.uniform(n, k) * 2 - 1; };
+        SolidBlow blow =
+            blow_on({kHalf.x * chance(0), kHalf.y * chance(1), kHalf.z * chance(2)}, {chance(3), chance(4), chance(5)},
+                    exponential(8 * chance(6)), exponential(8 * chance(7)));
+        blow.spin = {100 * chance(8), 100 * chance(9), 0};
+        const Broken broken(body, kBrick, blow);
+        expect_whole_pieces(body, broken.run);
+    }
+    for (const SolidBlow& none :
+         {blow_on({}, {1, 0, 0}, 0, 1), blow_on({}, {1, 0, 0}, 1, 0), blow_on({}, {0, 0, 0}, 1, 1)}) {
+        const Broken whole(body, kBrick, none);
+        EXPECT_EQ(whole.run.piece_count, 1u);
+    }
+}
+
+}  // namespace
+}  // namespace cullet
