@@ -4,6 +4,8 @@
 
 namespace cullet {
 
+constexpr uint32_t kSpringsAVertex = 14;  // of metal: both ends of six edges and a tie
+
 constexpr uint32_t kMostShellsAhead = 8;  // that commit_ahead has room for
 
 // `shell` is what a hit takes, a copy of all rows and what cracks add (working_room); what moves of the broken shell is
@@ -27,6 +29,14 @@ void commit_ahead(SoftRows& rows, const ShellRoom& shell, uint64_t bytes) {
     commit(rows.hull_points, rows.hull_points.pool, times(2 * kMostCellPoints, shell.cells));
     commit(rows.view_vertices, rows.view_vertices.pool, times(12, shell.elements));
     commit(rows.view_indices, rows.view_indices.pool, times(12, shell.elements));
+    if (rows.metal_shells.size() > 0) {
+        commit(rows.metal_vertices, rows.metal_vertices.pool, times(2, shell.vertices));
+        commit(rows.metal_elements, rows.metal_elements.pool, times(2, shell.elements));
+        commit(rows.metal_springs, rows.metal_springs.pool, times(2 * kSpringsAVertex, shell.vertices));
+        const uint32_t cells = std::min(kMostSubShells, shell.elements);
+        commit(rows.sub_shells, rows.sub_shells.pool, times(2, cells));
+        commit(rows.sub_shell_borders, rows.sub_shell_borders.pool, times(16, cells));
+    }
     // The springs of a region (quick mode): of all the body, when it is small. What cracks add is a few per cent, and a
     // third of the vertices at least are rows to spare.
     if (rows.quick_bodies.size() == 0) return;

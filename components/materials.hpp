@@ -36,6 +36,7 @@ struct MaterialTraits : Table<MaterialTraits> {
     Column<float> yield_strain{*this, "yield_strain"};
     Column<float> break_strain{*this, "break_strain"};
     Column<float> bending_stiffness{*this, "bending_stiffness", "N m"};  // of soft ones; 0: as E and the depth say
+    Column<float> crush_pressure{*this, "crush_pressure", "Pa"};         // of ductile ones; 0: by a body's shape
     // Across the grain; across_young_modulus 0: the same in all directions.
     Column<float> across_young_modulus{*this, "across_young_modulus", "Pa"};
     Column<float> shear_modulus{*this, "shear_modulus", "Pa"};

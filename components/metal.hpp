@@ -11,6 +11,8 @@
 
 namespace cullet {
 
+struct Bodies;
+
 inline constexpr uint32_t kMostSubShells = 512;
 inline constexpr uint32_t kBlended = 8;  // sub-shells that a vertex is moved by
 
@@ -80,6 +82,7 @@ struct MetalVertices : RangeTable<MetalVertices> {
     using RangeTable::RangeTable;
     static constexpr const char* kName = "metal_vertices";
     Column<Vec3> original{*this, "original", "m"};           // where it was before all impacts
+    Column<Vec3> before{*this, "before", "m"};               // and before the last one, which may go on
     Column<float> pin_distance{*this, "pin_distance", "m"};  // to the nearest pin, original shape; 1e30: there is none
     Column<uint32_t> first_spring{*this, "first_spring"};    // of the shell's MetalSprings
     Column<uint16_t> spring_count{*this, "spring_count"};
@@ -116,12 +119,34 @@ struct MetalSprings : RangeTable<MetalSprings> {
 struct MetalRuns : Table<MetalRuns> {
     using Table::Table;
     static constexpr const char* kName = "metal_runs";
-    Column<uint8_t> shape{*this, "shape"};        // StrikerShape
-    Column<Vec3> point{*this, "point", "m"};      // of the touch
-    Column<Vec3> push{*this, "push"};             // unit: the way the striker goes
-    Column<float> radius{*this, "radius", "m"};   // of a round striker
-    Column<double> energy{*this, "energy", "J"};  // kinetic, in the effective mass; 0: nothing to work off
-    Column<float> depth{*this, "depth", "m"};     // of the dent
+    Column<uint8_t> shape{*this, "shape"};         // StrikerShape
+    Column<Vec3> point{*this, "point", "m"};       // of the touch
+    Column<Vec3> push{*this, "push"};              // unit: the way the striker goes
+    Column<float> radius{*this, "radius", "m"};    // of a round striker
+    Column<double> energy{*this, "energy", "J"};   // kinetic, in the effective mass; 0: nothing to work off
+    Column<float> depth{*this, "depth", "m"};      // of the dent
+    Column<float> contact{*this, "contact", "m"};  // radius of its bottom
+    Column<Row<Bodies>> striker{*this, "striker"};
+    Column<float> speed{*this, "speed", "m/s"};
+    Column<float> restitution{*this, "restitution"};  // at least, by the sheet
+    Column<uint8_t> goes_on{*this, "goes_on"};  // it is more of the body's last impact: from the shape before that
+};
+
+/// Row b is the last impact on body b. What strikes at the same place again before it is over is more of it: a dent
+/// hangs on the whole energy, not on the steps that it comes in. There are no rows while nothing was struck.
+struct MetalImpacts : Table<MetalImpacts> {
+    using Table::Table;
+    static constexpr const char* kName = "metal_impacts";
+    Column<uint64_t> frame{*this, "frame"};         // of its last touch
+    Column<float> seconds{*this, "seconds", "s"};   // in which there may be another; 0: there was none
+    Column<uint8_t> has_shape{*this, "has_shape"};  // it moved vertices: MetalVertices.before is of it
+    Column<Row<Bodies>> striker{*this, "striker"};  // kNone: the game's
+    Column<uint8_t> shape{*this, "shape"};          // these as in MetalRuns, of its first touch
+    Column<Vec3> point{*this, "point", "m"};
+    Column<Vec3> push{*this, "push"};
+    Column<float> radius{*this, "radius", "m"};
+    Column<float> contact{*this, "contact", "m"};  // radius of the dent's bottom
+    Column<double> energy{*this, "energy", "J"};   // of all touches
 };
 
 }  // namespace cullet

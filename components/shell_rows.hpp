@@ -99,6 +99,7 @@ struct TablesOfMetal {
     MetalElements metal_elements{limits.elements, limits.shells};
     MetalSprings metal_springs{metal_spring_limit(limits), limits.shells};
     MetalRuns metal_runs{limits.tasks};
+    MetalImpacts metal_impacts{limits.bodies};
 };
 struct MetalRows : PartRows, TablesOfMetal {
     MetalRows(const Limits& l, const MaterialRows& of_what) : PartRows(l, of_what), TablesOfMetal{l} {}

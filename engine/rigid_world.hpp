@@ -190,6 +190,8 @@ class RigidWorld {
     virtual bool is_held(RigidId id) const = 0;
     /// Contacts between these two are not solved in this step.
     virtual void skip_contacts(RigidId a, RigidId b) = 0;
+    /// Contacts between these two have at least this restitution in this step. A host's are its own affair.
+    virtual void set_bounce(RigidId, RigidId, float) {}
     /// No narrow phase between these two for so long (a striker and the shards it made).
     virtual void ignore_pair(RigidId a, RigidId b, float seconds) = 0;
     /// These were one body until now. For half a second what they do to each other does not throw them: it takes speed

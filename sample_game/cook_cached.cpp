@@ -34,7 +34,8 @@ Result<std::string> name_of_entry(const Mesh& mesh, const CookSettings& s) {
 }  // namespace
 
 std::string model_label(const CookSettings& settings) {
-    const std::string model = settings.model.empty() ? damage_model_names()[0] : settings.model;
+    const Result<std::string> named = damage_model_of(settings);
+    const std::string model = named.ok() ? *named : settings.model;
     std::string label = model;
     for (const auto& group : cook_settings_of(model))
         for (const Setting& setting : group.list) label += fmt::format(" {}", group.get(settings, setting));

@@ -3,14 +3,17 @@
 #include <fmt/format.h>
 
 #include <filesystem>
+#include <thread>
 
 #include "sample_game/cache.hpp"
+#include "sample_game/cell_picture.hpp"
 #include "sample_game/cook_cached.hpp"
 #include "sample_game/import_model.hpp"
 #include "sample_game/model_settings.hpp"
 #include "sample_game/progress.hpp"
 #include "sample_game/props.hpp"
 #include "sample_game/read_materials.hpp"
+#include "systems/cook/model_contents.hpp"
 #include "systems/models/thick_shell/cook/hit_advice.hpp"
 
 namespace cullet {
@@ -58,6 +61,21 @@ Result<CachedModel> cook_file(const CookOptions& options) {
     return cook_cached(*mesh, settings, cache_folder());
 }
 
+/// The picture beside the model file.
+std::string picture_path(const CookOptions& options) {
+    return std::filesystem::path(options.out).replace_extension(".png").string();
+}
+
+/// Of sheet metal, what stands for strength.
+std::string metal_of(const Model& model) {
+    const ShellRows& rows = model.contents->state;
+    const Row<MetalShells> metal = rows.metal_of(model.contents->shell);
+    const double pressure = static_cast<double>(rows.metal_shells.crush_pressure[metal]);
+    return fmt::format(
+        "{} sub-shells; dents, {}", rows.metal_shells.cells[metal].count,
+        pressure > 0 ? fmt::format("and gives way as a whole under {:.3g} MPa", 1e-6 * pressure) : "as an open sheet");
+}
+
 std::string strength_of(const ModelReport& r) {
     if (!(r.first_crack_speed > 0)) return "bends, stretches or tears, and has no first crack";
     return fmt::format("first crack at {:.3g} m/s against a floor, {:.0f} million units a hit, {} the {:.0f} of a hold",
@@ -69,7 +87,8 @@ std::string strength_of(const ModelReport& r) {
 void print_summary(const CookOptions& options, const CachedModel& cooked) {
     const ModelReport& r = cooked.model.report();
     fmt::print("{}: {} vertices, {} elements, {} cells; {:.4g} kg of {}, {:.4g} mm thick on average; {}\n", options.out,
-               r.vertices, r.elements, r.cells, r.mass, options.material, 1000 * r.mean_thickness, strength_of(r));
+               r.vertices, r.elements, r.cells, r.mass, options.material, 1000 * r.mean_thickness,
+               cooked.model.contents->damage_model == "metal_shell" ? metal_of(cooked.model) : strength_of(r));
     fmt::print("  generation   {} collisions, {} inverted elements, {} crossings\n", r.collisions, r.inverted_elements,
                r.crossings);
     for (const std::string& note : {r.repairs, r.walls, r.advice, cooked.trouble})
@@ -88,6 +107,15 @@ int cook_command(const CookOptions& options) {
         return 2;
     }
     print_summary(options, cooked.value());
+    if (!options.draw.empty()) {
+        const uint32_t threads = std::max(1u, std::thread::hardware_concurrency());
+        const Result<void> drawn = write_png(draw_cells(cooked->model, threads), picture_path(options));
+        if (!drawn.ok()) {
+            fmt::print(stderr, "{}\n", drawn.error());
+            return 2;
+        }
+        fmt::print("  picture      {}\n", picture_path(options));
+    }
     return 0;
 }
 

@@ -33,12 +33,14 @@ std::vector<SettingGroup<SpawnSettings>> all_spawn_settings() {
 
 std::string settings_table() {
     std::string table;
+    const auto add = [&table](const std::string& model, const char* when, const std::string& rows) {
+        if (rows.empty()) return;
+        table += fmt::format("{}| of {}, when {} | default | range | what it is |\n|---|---|---|---|\n{}",
+                             table.empty() ? "" : "\n", model, when, rows);
+    };
     for (const std::string& model : damage_model_names()) {
-        if (cook_settings_of(model).empty() && spawn_settings_of(model).empty()) continue;
-        table += fmt::format("| of {}, when cooked | default | range | what it is |\n|---|---|---|---|\n", model);
-        table += rows_of(cook_settings_of(model));
-        table += fmt::format("\n| of {}, when spawned | default | range | what it is |\n|---|---|---|---|\n", model);
-        table += rows_of(spawn_settings_of(model));
+        add(model, "cooked", rows_of(cook_settings_of(model)));
+        add(model, "spawned", rows_of(spawn_settings_of(model)));
     }
     return table;
 }

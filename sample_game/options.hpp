@@ -37,13 +37,14 @@ struct ReplayOptions {
 };
 
 struct CookOptions {
-    std::string model;                                                   // the damage model; empty: the first
+    std::string model;                                                   // the damage model; empty: the material's
     std::string mesh, out, material = "porcelain", materials, fracture;  // the last two may be empty
     double thickness_m = 0;                                              // 0: 1.5 % of the largest side
     double edge_m = 0;                                                   // 0: what cooking chooses
     double weld = 0;                                                     // of the diagonal
     uint64_t seed = 1;
     bool keeps_walls_apart = false;
+    std::string draw;                             // "cells": a picture beside the model file; empty: none
     std::map<std::string, std::string> of_model;  // settings of the damage model's own, by name
 };
 

@@ -1,10 +1,12 @@
 #include "sample_game/read_materials.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <toml++/toml.h>
 #include <algorithm>
 
+#include "cullet/model.hpp"
 #include "engine/mesh_file.hpp"
 
 namespace cullet {
@@ -13,9 +15,10 @@ namespace {
 constexpr uint64_t kLargestFile = 1u << 20;  // bytes; the compiled table would take 4,000
 constexpr size_t kMostRows = 256;
 // What a new row without `like` may leave out.
-constexpr const char* kOptional[] = {
-    "bending_stiffness", "across_young_modulus", "shear_modulus", "across_strength", "across_fracture_energy",
-    "heading_power",     "tip_factor",           "branching",     "run_out",         "run_seconds"};
+constexpr const char* kOptional[] = {"bending_stiffness", "crush_pressure",  "across_young_modulus",
+                                     "shear_modulus",     "across_strength", "across_fracture_energy",
+                                     "heading_power",     "tip_factor",      "branching",
+                                     "run_out",           "run_seconds"};
 
 struct Reader {
     const std::string& path;
@@ -45,6 +48,16 @@ struct Reader {
         return at(node, fmt::format("[{}] {} is {}; use one of {}.", name, key, shown(node), names));
     }
 
+    Result<void> read_model(const std::string& name, const toml::node& node, std::string& model) const {
+        const std::vector<std::string> models = damage_model_names();
+        const auto text = node.value<std::string>();
+        if (!text || std::find(models.begin(), models.end(), *text) == models.end())
+            return at(node,
+                      fmt::format("[{}] model is {}; use one of {}.", name, shown(node), fmt::join(models, ", ")));
+        model = *text;
+        return {};
+    }
+
     Result<void> read_value(const std::string& name, const MaterialValue& value, const toml::node& node,
                             MaterialSettings& row) const {
         if (!value.is_of(row.kind))
@@ -63,7 +76,8 @@ struct Reader {
                             MaterialSettings& row) const {
         if (key == "like" || key == "kind") return {};  // read before
         if (key == "fracture") return read_kind(name, "fracture", node, row.fracture);
-        std::string known = "like, kind, fracture";
+        if (key == "model") return read_model(name, node, row.model);
+        std::string known = "like, kind, fracture, model";
         for (const MaterialValue& value : material_values()) {
             if (key == value.name) return read_value(name, value, node, row);
             known += std::string(", ") + value.name;

@@ -53,7 +53,8 @@ void print_summary(const Report& r) {
     for (const auto& [setting, count] : r.refused)
         fmt::print("  refused      {} times: {}\n", count,
                    setting == "longest_edge" ? "cook with a shorter longest edge, which gives cracks more room"
-                                             : "raise " + setting);
+                   : setting.find(' ') != setting.npos ? setting
+                                                       : "raise " + setting);
     for (const std::string& fault : r.fault_list) fmt::print("  fault        {}\n", fault);
     for (const std::string& note : counted_notes(r.notes)) fmt::print("  note         {}\n", note);
 }

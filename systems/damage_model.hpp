@@ -81,6 +81,13 @@ class DamageModel {
         calls_.cook = [](Cooking& cooking) { return Cook(cooking); };
         return *this;
     }
+    /// `Share(settings)`: edges longer than this share of the box diagonal are split before, where the game does not
+    /// say how long they may be.
+    template <auto Share>
+    DamageModel& splits_edges() {
+        calls_.edge_share = [](const CookSettings& settings) { return Share(settings); };
+        return *this;
+    }
     /// Settings of its own, which stand in this member of CookSettings, or in that member of it. Their list is what the
     /// check, scripts, options and help go by. `name`: of their table in scripts; empty: there is none.
     template <auto... Member>
@@ -115,6 +122,15 @@ class DamageModel {
     DamageModel& spawns_own() {
         calls_.spawn_structure = [](SoftRows& rows, Row<Structures> source, const Spawning& spawning) {
             return Shell(rows, source, spawning);
+        };
+        return *this;
+    }
+    /// `Nothing(rows, knock, bounce)`: the blow leaves nothing behind, so that no task is opened for it. `bounce` is
+    /// the restitution that its contacts have then at least.
+    template <auto Nothing>
+    DamageModel& passes_over() {
+        calls_.leaves_nothing = [](BodyRows& rows, const Knock& knock, float& bounce) {
+            return Nothing(rows, knock, bounce);
         };
         return *this;
     }

@@ -23,6 +23,18 @@ struct PointPush {
     float fastest = 0;  // m/s, at most, that it gives to any point
 };
 
+/// A blow that a task may be opened for, body frame and axes.
+struct Knock {
+    Row<Bodies> body, striker;        // none: the game's
+    Vec3d point, push;                // m; unit, the way the body is pushed
+    double speed = 0;                 // m/s, that they close with
+    double striker_inverse_mass = 0;  // 1/kg, effective along the push
+    double radius = 0;                // m, of a round striker
+    uint64_t frame = 0;               // of the touch
+    float step_seconds = 0;           // s
+    bool is_sure = true;              // it comes in this step, and is not only foreseen
+};
+
 /// A working copy of what a body is made of, for a task that opens.
 struct WorkingCopy {
     Row<Structures> structure;   // none: it waits, or there is no room
@@ -50,9 +62,11 @@ struct RunLength {
 struct ModelCalls {
     // Cooking and spawning.
     Result<std::shared_ptr<Model::Contents>> (*cook)(Cooking&) = nullptr;
+    float (*edge_share)(const CookSettings&) = nullptr;
     Result<Row<Structures>> (*spawn_structure)(SoftRows&, Row<Structures> source, const Spawning&) = nullptr;
     Result<ShellRoom> (*spawn_body)(SoftRows&, Row<Bodies>, const Spawning&) = nullptr;
     // Tasks.
+    bool (*leaves_nothing)(BodyRows&, const Knock&, float& bounce) = nullptr;
     WorkingCopy (*working_copy)(BodyRows&, Row<Bodies>) = nullptr;
     void (*begin)(BodyRows&, Row<Tasks>) = nullptr;
     bool (*give_late)(BodyRows&, const Blows&, Row<Tasks>, const char** full) = nullptr;

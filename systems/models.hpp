@@ -31,6 +31,7 @@ class DamageModels {
     /// Rows that the first hit on the body takes; none: it does not break.
     Result<ShellRoom> spawn_body(SoftRows& rows, Row<Bodies> body, const Spawning& spawning) const;
 
+    bool leaves_nothing(BodyRows& rows, const Knock& knock, float& bounce) const;
     WorkingCopy working_copy(BodyRows& rows, Row<Bodies> body) const;
     void begin_run(BodyRows& rows, Row<Tasks> task) const;
     bool give_late(BodyRows& rows, const Blows& blows, Row<Tasks> task, const char** full) const;

@@ -62,6 +62,7 @@ class BulletWorld final : public RigidWorld {
     void release(RigidId id) override;
     bool is_held(RigidId id) const override;
     void skip_contacts(RigidId a, RigidId b) override;
+    void set_bounce(RigidId a, RigidId b, float restitution) override;
     void ignore_pair(RigidId a, RigidId b, float seconds) override;
     void name_siblings(std::span<const RigidId> ids) override;
     void part_siblings(RigidId a, RigidId b, std::span<const CrackTouch> touches) override;

@@ -143,6 +143,20 @@ void BulletWorld::skip_contacts(RigidId a, RigidId b) {
         if (m->manifold) m->manifold->setNumContacts(0);
 }
 
+void BulletWorld::set_bounce(RigidId a, RigidId b, float restitution) {
+    if (!is_known(a) || !is_known(b) || a == b) return;
+    if (a > b) std::swap(a, b);
+    const auto before = [](const SortedManifold& m, std::pair<RigidId, RigidId> key) {
+        return std::pair(m.a, m.b) < key;
+    };
+    for (auto m = std::lower_bound(manifolds_.begin(), manifolds_.end(), std::pair(a, b), before);
+         m != manifolds_.end() && m->a == a && m->b == b; ++m)
+        for (int k = 0; m->manifold && k < m->manifold->getNumContacts(); ++k) {
+            btManifoldPoint& point = m->manifold->getContactPoint(k);
+            point.m_combinedRestitution = std::max(point.m_combinedRestitution, restitution);
+        }
+}
+
 std::vector<IgnoredPair>::iterator BulletWorld::find_ignored(RigidId a, RigidId b) {
     const std::pair key(std::min(a, b), std::max(a, b));
     const auto found = std::lower_bound(ignored_.begin(), ignored_.end(), key,

@@ -1,4 +1,5 @@
--- A steel plate held along its border is struck by a ball, and stays dented.
+-- A steel plate held along its border is struck by a ball, and stays dented: by the springs of the thick shell. The
+-- scene panel has the same by its sub-shells, which is what steel is by itself.
 game.scene{
     shows = "a ball dents a framed steel plate, which stays dented",
     seconds = 4,
@@ -12,6 +13,7 @@ local side, foot = 0.8, 0.3 -- m; the plate's lower border stands at foot
 
 local plate = game.cook{
     mesh = game.mesh.pane{side = side, edge = shell.edge},
+    model = "thick_shell",
     material = shell.material,
     fracture = shell.cracks,
     thickness = shell.thickness,

@@ -67,8 +67,8 @@ uint32_t cook_given(lua_State* lua, const Arguments& given, bool has_kind, bool 
                         stage.models.size()));
     const std::vector<std::string> models = damage_model_names();
     const std::string model =
-        stage.plan.model.empty() ? given.word("model", "the name of a model", models[0]) : stage.plan.model;
-    if (std::find(models.begin(), models.end(), model) == models.end())
+        stage.plan.model.empty() ? given.word("model", "the name of a model", "") : stage.plan.model;
+    if (!model.empty() && std::find(models.begin(), models.end(), model) == models.end())
         given.refuse(fmt::format("model is \"{}\"; expected one of {}", model, fmt::join(models, ", ")));
     given.push("mesh");
     const ScriptMesh& mesh = mesh_at(lua, lua_gettop(lua), "game.cook: mesh");

@@ -17,6 +17,8 @@
 namespace cullet {
 namespace {
 
+constexpr double kEdgeShare = 0.025;  // of the diagonal, where neither game nor model says how long edges may be
+
 Result<CookedMaterial> material_of(const CookSettings& settings) {
     static const MaterialTable compiled;
     Result<MaterialSettings> found = (settings.materials ? *settings.materials : compiled).find(settings.material);
@@ -74,9 +76,13 @@ void drop_triangles(Mesh& mesh, std::span<const uint32_t> dropped) {
     if (!mesh.materials.empty()) mesh.materials.resize(kept);
 }
 
-Result<const DamageModel*> model_of(const DamageModels& models, const CookSettings& settings) {
-    const std::optional<uint8_t> number = settings.model.empty() ? uint8_t{0} : models.find(settings.model);
-    if (!number) return Error{"model is \"" + settings.model + "\"; use one of " + models.names() + "."};
+Result<const DamageModel*> model_of(const DamageModels& models, const CookSettings& settings,
+                                    const MaterialSettings& material) {
+    const std::string& wanted = settings.model.empty() ? material.model : settings.model;
+    const std::optional<uint8_t> number = wanted.empty() ? uint8_t{0} : models.find(wanted);
+    if (!number)
+        return Error{(settings.model.empty() ? "material \"" + settings.material + "\": " : "") + "model is \"" +
+                     wanted + "\"; use one of " + models.names() + "."};
     const DamageModel& model = models[*number];
     if (!model.calls().cook) return Error{"model is \"" + model.name() + "\", which cooks nothing."};
     return &model;
@@ -112,11 +118,13 @@ Result<SurfaceRepairs> clean(Cooking& cooking) {
     return given->repairs;
 }
 
-Result<void> split_long_edges(Cooking& cooking, double diagonal) {
+Result<void> split_long_edges(Cooking& cooking, double diagonal, const DamageModel& model) {
     const CookSettings& settings = cooking.settings;
+    const double share =
+        model.calls().edge_share ? static_cast<double>(model.calls().edge_share(settings)) : kEdgeShare;
     TessellationSettings tessellation;
     tessellation.longest_edge =
-        settings.longest_edge > 0 ? settings.longest_edge : std::max(2.0 * settings.thickness, 0.025 * diagonal);
+        settings.longest_edge > 0 ? settings.longest_edge : std::max(2.0 * settings.thickness, share * diagonal);
     Result<Mesh> fine = tessellate(cooking.mesh, tessellation);
     if (!fine) return Error{fine.error()};
     if (fine->triangles.size() >= 2 * cooking.mesh.triangles.size()) cooking.longest_edge = tessellation.longest_edge;
@@ -125,10 +133,10 @@ Result<void> split_long_edges(Cooking& cooking, double diagonal) {
 }
 
 Result<Model> cook_mesh(const DamageModels& models, Mesh mesh, const CookSettings& settings) {
-    const Result<const DamageModel*> model = model_of(models, settings);
-    if (!model) return Error{model.error()};
     const Result<CookedMaterial> material = material_of(settings);
     if (!material) return Error{material.error()};
+    const Result<const DamageModel*> model = model_of(models, settings, material->settings);
+    if (!model) return Error{model.error()};
     if (const Result<void> valid = check_settings((*model)->cook_settings(), settings); !valid)
         return Error{valid.error()};
     const double diagonal = diagonal_of(mesh);
@@ -138,7 +146,7 @@ Result<Model> cook_mesh(const DamageModels& models, Mesh mesh, const CookSetting
     Cooking cooking{settings, *material, {.weld_tolerance = settings.weld_tolerance}, std::move(mesh), {}};
     const Result<SurfaceRepairs> repaired = clean(cooking);
     if (!repaired) return Error{repaired.error()};
-    if (const Result<void> split = split_long_edges(cooking, diagonal); !split) return Error{split.error()};
+    if (const Result<void> split = split_long_edges(cooking, diagonal, **model); !split) return Error{split.error()};
     const auto cooked = (*model)->calls().cook(cooking);
     if (!cooked) return Error{cooked.error()};
     Model::Contents& contents = **cooked;
@@ -179,6 +187,14 @@ std::vector<std::string> damage_model_names() {
     std::vector<std::string> names;
     for (const DamageModel& model : *damage_models()) names.push_back(model.name());
     return names;
+}
+
+Result<std::string> damage_model_of(const CookSettings& settings) {
+    const Result<CookedMaterial> material = material_of(settings);
+    if (!material) return Error{material.error()};
+    const Result<const DamageModel*> model = model_of(*damage_models(), settings, material->settings);
+    if (!model) return Error{model.error()};
+    return (*model)->name();
 }
 
 std::vector<SettingGroup<CookSettings>> cook_settings_of(const std::string& damage_model) {

@@ -30,6 +30,7 @@ constexpr MaterialValue kValues[] = {
     {"branching", "1", &S::branching, 0, 10, kBrittle},
     {"run_out", "1", &S::run_out, 0, 10, kBrittle},
     {"bending_stiffness", "N m", &S::bending_stiffness, 0, 1e9, kSoft},
+    {"crush_pressure", "Pa", &S::crush_pressure, 0, 1e9, kDuctile},
     {"across_young_modulus", "Pa", &S::across_young_modulus, 0, 1e13, kBrittle},
     {"shear_modulus", "Pa", &S::shear_modulus, 0, 1e13, kBrittle},
     {"across_strength", "Pa", &S::across_strength, 0, 1e12, kBrittle},
@@ -119,6 +120,8 @@ Result<void> check_material(const S& m) {
     if (static_cast<size_t>(m.kind) >= std::size(kKindNames) ||
         static_cast<size_t>(m.fracture) >= std::size(kFractureNames))
         return wrong(m, "kind or fracture is none of those that there are.");
+    if (!m.model.empty() && !is_name(m.model))
+        return wrong(m, "model is \"" + m.model + "\"; use the name of a damage model, or none.");
     for (const MaterialValue& value : kValues) {
         if (!value.is_of(m.kind)) continue;
         const double is = static_cast<double>(m.*value.member);

@@ -63,7 +63,7 @@ namespace {
 constexpr uint64_t kLargestFile = 1ull << 36;
 constexpr const char* kAdvice = "The snapshot is damaged or of another build; take it again.";
 constexpr FileKind kKind{{'c', 's', 'n', 'a', 'p', '\r', '\n', '\x1a'},
-                         19,
+                         20,
                          "snapshot",
                          ".csnap",
                          "Write one with World::save.",

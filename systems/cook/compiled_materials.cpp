@@ -49,6 +49,7 @@ std::vector<MaterialSettings> make_table() {
         soft("cloth", Elastic, 500, 0.1e9f, 0.3f, 0, 0.15f, 0, 0.5f),
         brittle("wood", Large, 500, 10e9f, 0.35f, 80e6f, 12e3f, 20e6f, 0.5f, 0.45f, 6),
     };
+    for (const size_t metal : {4, 5, 6}) t[metal].model = "metal_shell";
     // Masonry breaks by many cracks at once. Without branching a ball leaves half as many pieces in a wall (12 for 27);
     // without running out three cracks a blow end in nothing. The note has both off; these were chosen from pictures.
     for (const size_t stone : {2, 3}) t[stone].branching = 0.3f, t[stone].run_out = 2;

@@ -21,6 +21,7 @@ void for_each_traits_column(T& traits, F&& f) {
     using S = MaterialSettings;
     f(traits.yield_strain, &S::yield_strain), f(traits.branching, &S::branching), f(traits.run_out, &S::run_out);
     f(traits.break_strain, &S::break_strain), f(traits.bending_stiffness, &S::bending_stiffness);
+    f(traits.crush_pressure, &S::crush_pressure);
     f(traits.across_young_modulus, &S::across_young_modulus), f(traits.shear_modulus, &S::shear_modulus);
     f(traits.across_strength, &S::across_strength), f(traits.across_fracture_energy, &S::across_fracture_energy);
 }

@@ -4,6 +4,8 @@
 
 namespace cullet {
 
+inline constexpr double kNeverSnaps = 1e30;  // Pa
+
 struct LoadedBody {
     const Bodies& bodies;
     const Structures& structures;
@@ -22,7 +24,11 @@ struct LoadedBody {
     double strength_share() const {
         return (structures.has_cracks[structure()] ? 0.5 : 1.0) * double{bodies.strength_scale[body]};
     }
-    double strength() const { return strength_share() * materials.tensile_strength[material()]; }  // Pa
+    /// Pa. What yields does not snap: it has no strength.
+    double strength() const {
+        const double most = materials.tensile_strength[material()];
+        return most > 0 ? strength_share() * most : kNeverSnaps;
+    }
     double solid_volume() const { return bodies.mass[body] / materials.density[material()]; }
 };
 

@@ -170,10 +170,17 @@ void open_one(Opening& opening, std::span<const Foreseen> together) {
         impacts[count++] = f.impact;
     }
     const Impact aimed_first = aimed(state, impacts.front());
+    const uint64_t due = opening.frame + together.front().steps();
+    bool is_nothing = true;
+    for (uint32_t k = 0; k < count && is_nothing; ++k) {
+        float bounce = 0;
+        is_nothing = opening.leaves_nothing(k == 0 ? aimed_first : aimed(state, impacts[k]), due, bounce);
+    }
+    if (is_nothing) return;
     const Row<Tasks> task = opening.open(body, aimed_first.approach_speed, true);
     if (!task.exists()) return;
     lay_contacts({impacts.data(), count}, aimed_first, state, task);
-    tasks.due_frame[task] = tasks.opened_frame[task] = opening.frame + together.front().steps();
+    tasks.due_frame[task] = tasks.opened_frame[task] = due;
 }
 
 }  // namespace

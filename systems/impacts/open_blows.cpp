@@ -140,6 +140,17 @@ struct Opener {
         o.impact_events.push(event_of(state.bodies, blows, row));
     }
 
+    bool leaves_nothing(uint32_t row) const {
+        Knock knock;
+        knock.body = blows.body[row];
+        knock.point = Vec3d(blows.point[row]), knock.push = Vec3d(blows.direction[row]);
+        knock.speed = double{blows.speed[row]}, knock.striker_inverse_mass = double{blows.inverse_mass[row]};
+        knock.radius = double{blows.radius[row]};
+        knock.frame = o.opening.frame, knock.step_seconds = o.opening.dt;
+        float bounce = 0;
+        return o.opening.models.leaves_nothing(state, knock, bounce);
+    }
+
     /// New ones that damage is not worth looking at for, or is forbidden for.
     bool is_harmless(uint32_t row) const {
         const Row<Bodies> body = blows.body[row];
@@ -147,6 +158,7 @@ struct Opener {
             wake_speed(state.structures, state.bodies.structure[body], state.bodies.strength_scale[body]))
             return true;
         if (!may_break_again(state.structures, state.bodies.structure[body], o.settings)) return true;
+        if (is_kind(blows, row, BlowKind::Push) && leaves_nothing(row)) return true;
         return o.settings.allows && !o.settings.allows(o.settings.allows_user, event_of(state.bodies, blows, row));
     }
 

@@ -102,6 +102,22 @@ void share_strikers(SoftRows& state, const DamageSettings& settings, std::span<c
     });
 }
 
+// All impacts of a body are such that its damage model passes them over: they bounce, no more. Each striker's fastest
+// is looked at.
+bool leave_nothing(const Opening& opening, std::span<const Impact> impacts, RigidWorld& rigid) {
+    bool is_nothing = true;
+    for (size_t i = 0; i < impacts.size(); ++i) {
+        const auto is_his = [&](const Impact& before) { return before.striker == impacts[i].striker; };
+        if (std::any_of(impacts.begin(), impacts.begin() + static_cast<ptrdiff_t>(i), is_his)) continue;
+        float bounce = 0;
+        if (!opening.leaves_nothing(aimed(opening.state, impacts[i]), opening.frame, bounce))
+            is_nothing = false;
+        else if (bounce > 0 && impacts[i].striker.exists())
+            rigid.set_bounce(impacts[i].body, impacts[i].striker, bounce);
+    }
+    return is_nothing;
+}
+
 // The least of the queue's frames from this one on, or the largest number there is.
 uint64_t next_queued_frame(const QueuedHits& queued, uint64_t from) {
     uint64_t least = ~uint64_t{0};
@@ -195,6 +211,7 @@ void open_tasks(Serial, Step step, const Events<Impact>& impacts, const Events<F
         next = i + 1;
         while (next < all.size() && all[next].body == all[i].body) ++next;
         const Row<Bodies> body = all[i].body;
+        if (leave_nothing(opening, all.subspan(i, next - i), rigid)) continue;
         const Impact first = aimed(rows, all[i]);
         const ImpactEvent event =
             event_of(bodies, first, yielding_of(bodies, first.striker, first.point, first.normal).effective());

@@ -157,6 +157,22 @@ Row<Tasks> Opening::open(Row<Bodies> body, float approach_speed, bool is_ahead) 
     return task;
 }
 
+bool Opening::leaves_nothing(const Impact& impact, uint64_t at, float& bounce) const {
+    const Bodies& bodies = state.bodies;
+    const Pose pose = pose_of(bodies, impact.body);
+    Knock knock;
+    knock.body = impact.body, knock.striker = impact.striker;
+    knock.point = Vec3d(to_body(pose, impact.point));
+    knock.push = Vec3d(rotate(conjugate(pose.orientation), impact.normal));
+    knock.speed = double{impact.approach_speed};
+    knock.striker_inverse_mass = double{yielding_of(bodies, impact.striker, impact.point, impact.normal).effective()};
+    if (impact.striker.exists() && bodies.is_sphere[impact.striker])
+        knock.radius = double{bodies.radius[impact.striker]};
+    knock.frame = at, knock.step_seconds = dt;
+    knock.is_sure = at == frame;
+    return models.leaves_nothing(state, knock, bounce);
+}
+
 void Opening::give_rows() {
     const Tasks& tasks = state.tasks;
     for (const TaskOpened& o : opened) {

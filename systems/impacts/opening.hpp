@@ -49,6 +49,9 @@ struct Opening {
     /// cut-out waits for the contacts. Whoever opens ahead of a touch tells nobody that there was none.
     Row<Tasks> open(Row<Bodies> body, float approach_speed, bool is_ahead = false);
 
+    /// The blow that an impact is, at `at` frame, for damage models.
+    bool leaves_nothing(const Impact& impact, uint64_t at, float& bounce) const;
+
     /// Rows for the tasks that waited for their contacts. One that finds none is dropped; its hits ask again.
     void give_rows();
 

@@ -148,8 +148,11 @@ struct Taking {
             blows.direction.set(made, rotate(conjugate(pose.orientation), blows.direction[made]));
             for (uint32_t i = 0; i < blows.point_count[made]; ++i)
                 set_cut_point(blows, made, i, to_body(pose, cut_point(blows, made, i)));
-            if (!passes_through(ShellView(state, state.bodies.structure[b]), CutSurface(blows, made)))
-                remove_blow(blows, made);
+            const bool passes = passes_through(ShellView(state, state.bodies.structure[b]), CutSurface(blows, made));
+            // What cannot be cut is told, not left in silence.
+            const char* const why = passes ? models.why_not_cut(state, body) : nullptr;
+            if (why) refused.push(refused_event(state.bodies, body, why));
+            if (!passes || why) remove_blow(blows, made);
         }
     }
 };

@@ -328,11 +328,13 @@ void Weighing::give_way(const LoadedBody& of, const Overload& over, const RigidC
     const bool has_pressed_on = is_busy && is_too_late(rows, body, over, step);
     if (is_busy && !makes_way(rows, blows, Row<Tasks>(bodies.task[body]), has_pressed_on)) return;
     bodies.overloaded_steps[body] = 0;
-    const bool is_at_end = is_at_its_end(of, rules.settings);
+    // What cannot be cut gives way by blows alone, however often.
+    const bool is_uncut = rules.models.why_not_cut(rows, body);
+    const bool is_at_end = !is_uncut && is_at_its_end(of, rules.settings);
     if (is_at_end && of.is_pinned()) return;  // it goes nowhere
     const QueuedHit blow = hit_of(rows, body, worst, over, step.frame);
     const bool is_ground = is_at_end && !is_to_be_cut(queued, blows, body);
-    const bool runs = !is_ground && !has_pressed_on && is_for_a_run(rows, of, over, rules, step);
+    const bool runs = is_uncut || (!is_ground && !has_pressed_on && is_for_a_run(rows, of, over, rules, step));
     const QueuedHit hit = runs ? blow : snap_of(blow, over);
     if (!is_allowed(bodies, hit, rules.settings)) return;
     if (is_busy) cancel_task(rules.models, rows, Row<Tasks>(bodies.task[body]));

@@ -49,6 +49,11 @@ Result<ShellRoom> DamageModels::spawn_body(SoftRows& rows, Row<Bodies> body, con
     return call ? call(rows, body, spawning) : ShellRoom{};
 }
 
+bool DamageModels::leaves_nothing(BodyRows& rows, const Knock& knock, float& bounce) const {
+    const auto call = call_of(rows, knock.body, &ModelCalls::leaves_nothing);
+    return call && call(rows, knock, bounce);
+}
+
 WorkingCopy DamageModels::working_copy(BodyRows& rows, Row<Bodies> body) const {
     const auto call = call_of(rows, body, &ModelCalls::working_copy);
     CULLET_ASSERT(call, "no damage model breaks body %u", body.index);

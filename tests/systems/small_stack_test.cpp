@@ -25,8 +25,10 @@ CookSettings cook_settings(const char* material, float thickness) {
     return settings;
 }
 
-Model cooked(const Mesh& mesh, const char* material, float thickness) {
-    Result<Model> model = cook(view_of_mesh(mesh), cook_settings(material, thickness));
+Model cooked(const Mesh& mesh, const char* material, float thickness, const char* damage_model = "") {
+    CookSettings settings = cook_settings(material, thickness);
+    settings.model = damage_model;
+    Result<Model> model = cook(view_of_mesh(mesh), settings);
     EXPECT_TRUE(model.ok()) << model.error();
     return std::move(model).value();
 }
@@ -161,7 +163,7 @@ TEST(SmallStack, CutsExplosionsAndPushes) {
 TEST(SmallStack, SoftBodiesDentTearAndAreBlownAway) {
     for (const char* material : {"steel", "rubber", "cloth"})
         for (const uint32_t layers : {1u, 2u}) {
-            const Model model = cooked(make_pane(0.4f, 0.05f), material, 0.003f);
+            const Model model = cooked(make_pane(0.4f, 0.05f), material, 0.003f, "thick_shell");
             expect_small(material, [&] {
                 Settings settings = story_settings();
                 settings.units_a_frame = 8'000'000;

@@ -63,7 +63,8 @@ struct RefusedEvent {
     uint64_t body_user_data = 0;
     Vec3 place;  // world, its centre of mass, m
     /// The name in Settings to raise, for example "limits.bodies". Or "longest_edge" of CookSettings, to be shortened:
-    /// cracks have filled the room that the body's mesh gives them, and no more of it splits in this hit.
+    /// cracks have filled the room that the body's mesh gives them, and no more of it splits in this hit. Or, where a
+    /// cut of all bodies went through one that cannot be cut, why not and which one can.
     const char* setting = "";
 };
 

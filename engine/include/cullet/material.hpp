@@ -26,6 +26,9 @@ struct MaterialSettings {
     std::string name;  // letters, digits, _ and -
     MaterialKind kind = MaterialKind::Brittle;
     FractureKind fracture = FractureKind::Large;
+    /// The damage model that things of it have, one of damage_model_names(), unless CookSettings::model names another.
+    /// Empty: the first one.
+    std::string model;
     float density = 2400;            // kg/m3
     float young_modulus = 70e9f;     // Pa; of wood along the grain, as are the next two
     float poisson_ratio = 0.2f;      // of wood: contraction across for stretch along the grain
@@ -51,6 +54,9 @@ struct MaterialSettings {
     /// N m, of ductile and elastic ones. Above 0, as for cloth, a body is a sheet of one layer. It is flat at rest and
     /// bends by this. 0: it bends as E and the thickness say.
     float bending_stiffness = 0;
+    /// Pa, of ductile ones: what a body of sheet metal gives way under as a whole. 0: as an empty closed shell of its
+    /// width and thickness. A car has 0.2e6.
+    float crush_pressure = 0;
     // Across the grain. across_young_modulus 0: the same in all directions, and the others count for nothing.
     float across_young_modulus = 0;    // Pa
     float shear_modulus = 0;           // Pa, between along and across

@@ -10,6 +10,7 @@
 
 #include "cullet/host.hpp"
 #include "cullet/material.hpp"
+#include "cullet/metal_shell.hpp"
 #include "cullet/result.hpp"
 #include "cullet/setting_list.hpp"
 #include "cullet/thick_shell.hpp"
@@ -67,7 +68,7 @@ Result<MeshReport> examine_mesh(const MeshView& mesh);
 std::vector<std::string> damage_model_names();
 
 struct CookSettings {
-    std::string model = {};                     // one of damage_model_names(); empty: the first
+    std::string model = {};                     // one of damage_model_names(); empty: the material's
     std::string material = "porcelain";         // a name in `materials`
     const MaterialTable* materials = nullptr;   // null: the compiled table
     std::optional<FractureKind> fracture = {};  // in place of the material's
@@ -83,6 +84,7 @@ struct CookSettings {
     uint64_t seed = 1;  // of the spread of strength
     // Of one damage model each; those of the others count for nothing.
     ThickShellCookSettings thick_shell = {};
+    MetalShellSettings metal_shell = {};
     /// Called now and then on the thread that cooks; never falls, ends with 1.
     void (*progress)(void* user, float share) = nullptr;  // 0 to 1
     void* progress_user = nullptr;
@@ -90,6 +92,8 @@ struct CookSettings {
     const Host* host = nullptr;
 };
 
+/// The damage model that cook() takes with these settings. An error names the materials that there are.
+Result<std::string> damage_model_of(const CookSettings& settings);
 /// The settings that a damage model has of its own in CookSettings, as lists. None of a name that there is not.
 std::vector<SettingGroup<CookSettings>> cook_settings_of(const std::string& damage_model);
 

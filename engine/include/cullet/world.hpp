@@ -205,7 +205,8 @@ class World {
     /// On all bodies in reach.
     Result<void> explode(const ExplosionSettings& explosion);
     /// Cuts one breakable body of a brittle material, down to any size. When `body` is null, cuts all of them that the
-    /// surface passes through. Ductile, elastic and unbreakable bodies are refused by name, passed over otherwise.
+    /// surface passes through. Ductile, elastic and unbreakable bodies are refused by name. Otherwise they are passed
+    /// over, and a RefusedEvent tells of those that dent.
     Result<void> cut(BodyId body, const CutSettings& cut);
 
     /// The place `by` becomes the origin: every coordinate c of the world, of events and of drawn poses becomes c - by.

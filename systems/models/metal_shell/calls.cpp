@@ -43,6 +43,7 @@ Result<Row<Structures>> spawn_shell(ShellRows& rows, Row<Structures> source, con
 
 Result<ShellRoom> spawn_body(SoftRows& rows, Row<Bodies> body, const Spawning& spawning) {
     rows.bodies.is_breakable[body] = spawning.is_breakable;
+    if (body < rows.metal_impacts.size()) rows.metal_impacts.clear_rows(body, 1);
     if (!spawning.is_breakable) return ShellRoom{};
     return room_of_hit(rows, body);
 }
@@ -50,6 +51,10 @@ Result<ShellRoom> spawn_body(SoftRows& rows, Row<Bodies> body, const Spawning& s
 const char* why_not_cut(const BodyRows& rows, Row<Bodies> body) {
     const bool is_metal = rows.metal_of(rows.bodies.structure[body]).exists();
     return is_metal ? "it is of sheet metal, which dents; cut one of a material that breaks" : nullptr;
+}
+
+void inherit_nothing(BodyRows& rows, Row<Bodies>, Row<Bodies> piece) {
+    if (piece < rows.metal_impacts.size()) rows.metal_impacts.clear_rows(piece, 1);
 }
 
 WorkingCopy take_shell(BodyRows& rows, Row<Bodies> body) {

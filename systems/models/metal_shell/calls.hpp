@@ -8,6 +8,8 @@ namespace cullet::metal_shell {
 Result<Row<Structures>> spawn_shell(ShellRows& rows, Row<Structures> source, const Spawning& spawning);
 Result<ShellRoom> spawn_body(SoftRows& rows, Row<Bodies> body, const Spawning& spawning);
 const char* why_not_cut(const BodyRows& rows, Row<Bodies> body);
+/// A new piece was struck by nothing yet.
+void inherit_nothing(BodyRows& rows, Row<Bodies> parent, Row<Bodies> piece);
 /// A copy of the whole.
 WorkingCopy take_shell(BodyRows& rows, Row<Bodies> body);
 void begin_run(BodyRows& rows, Row<Tasks> task);

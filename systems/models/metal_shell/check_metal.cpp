@@ -1,5 +1,6 @@
 #include "systems/models/metal_shell/check_metal.hpp"
 
+#include "systems/models/metal_shell/dent/striker.hpp"
 #include "systems/models/metal_shell/shared/metal_view.hpp"
 
 namespace cullet::metal_shell {
@@ -72,6 +73,40 @@ Result<void> check_metal_shell(const ShellView& shell, Wear wear, const std::str
     const MetalView metal(shell.state, shell.structure);
     for (auto* look : {trouble_of_counts, trouble_of_vertices, trouble_of_cells})
         if (const std::string trouble = look(metal); !trouble.empty()) return refuse(trouble);
+    return {};
+}
+
+std::string trouble_of_run(const RunRows& rows, uint32_t task) {
+    if (task >= rows.metal_runs.size()) return "has no row in metal_runs";
+    return rows.metal_of(rows.tasks.working[task]).exists() ? "" : "works on a shell that is not of metal";
+}
+
+namespace {
+
+// Of metal_runs and metal_impacts: columns that lead elsewhere, and numbers that may be worked with.
+template <class Table>
+std::string trouble_of_impact(const Table& table, uint32_t row, uint32_t bodies) {
+    const Row<Bodies> striker = table.striker[row];
+    const std::string where = std::string(table.kName) + "[" + std::to_string(row) + "]";
+    if (striker.exists() && striker >= bodies)
+        return where + " names body " + std::to_string(striker) + ", which does not exist";
+    if (table.shape[row] > static_cast<uint8_t>(StrikerShape::Plane))
+        return where + " has a striker of shape " + std::to_string(table.shape[row]) + ", which does not exist";
+    if (!(table.energy[row] >= 0 && table.energy[row] < 1e18 && table.radius[row] >= 0))
+        return where + " has an energy of " + std::to_string(table.energy[row]) + " J, by a striker of radius " +
+               std::to_string(table.radius[row]) + " m";
+    return {};
+}
+
+}  // namespace
+
+Result<void> check_metal_rows(const SoftRows& rows, uint8_t, const std::string& name, const char* advice) {
+    for (uint32_t t = 0; t < rows.metal_runs.size(); ++t)
+        if (const std::string trouble = trouble_of_impact(rows.metal_runs, t, rows.bodies.size()); !trouble.empty())
+            return Error{name + ": " + trouble + ". " + advice};
+    for (uint32_t b = 0; b < rows.metal_impacts.size(); ++b)
+        if (const std::string trouble = trouble_of_impact(rows.metal_impacts, b, rows.bodies.size()); !trouble.empty())
+            return Error{name + ": " + trouble + ". " + advice};
     return {};
 }
 

@@ -12,9 +12,29 @@ constexpr float kLeastSpeed = 0.5f;  // m/s, of an impact that is looked at
 constexpr float kWakeShare = 0.3f;   // of the first-crack speed, a task opens (thresholds.hpp)
 constexpr float kNoForce = 1e12f;    // N: what lies on metal does not break it
 
+MetalCookSettings wanted_rows(const Cooking& from) {
+    const MetalShellSettings& given = from.settings.metal_shell;
+    MetalCookSettings wanted;
+    wanted.crush_pressure = given.crush_pressure;
+    wanted.body_pressure = from.material.settings.crush_pressure;
+    wanted.cells.count = given.sub_shells;
+    wanted.dual.link_distance = static_cast<double>(given.link_distance);
+    if (given.adjacency == MetalChoice::Paper) wanted.dual.distance = FaceDistance::Paper;
+    if (given.seeds == MetalChoice::Paper) wanted.cells.seeding = Seeding::Paper;
+    if (given.representatives == MetalChoice::Paper) wanted.cells.representatives = Representatives::Centroid;
+    return wanted;
+}
+
 }  // namespace
 
+float edge_share(const CookSettings& settings) {
+    return settings.metal_shell.edge_split;
+}
+
 Result<std::shared_ptr<Model::Contents>> cook_metal_shell(Cooking& from) {
+    if (from.material.settings.kind != MaterialKind::Ductile)
+        return Error{"metal_shell dents what is ductile, and " + from.settings.material + " is " +
+                     name_of(from.material.settings.kind) + "; give another model, or steel."};
     thin_fans(from.fine, kMostRing);
     const Result<Surface> surface = prepare_surface(from.fine, from.welding);
     if (!surface) return Error{surface.error()};
@@ -26,7 +46,7 @@ Result<std::shared_ptr<Model::Contents>> cook_metal_shell(Cooking& from) {
     if (!made) return made;
     ShellRows& rows = (*made)->state;
     const Row<Structures> structure = (*made)->shell;
-    const Result<MetalReport> metal = make_metal_rows(rows, structure, {});
+    const Result<MetalReport> metal = make_metal_rows(rows, structure, wanted_rows(from));
     if (!metal) return Error{metal.error()};
     from.tell(1);
     const ShellView shell(rows, structure);

@@ -7,6 +7,8 @@
 
 namespace cullet::metal_shell {
 
+/// Refuses materials that do not yield.
 Result<std::shared_ptr<Model::Contents>> cook_metal_shell(Cooking& from);
+float edge_share(const CookSettings& settings);
 
 }  // namespace cullet::metal_shell

@@ -1,13 +1,19 @@
 #include "systems/models/metal_shell/systems.hpp"
 
+#include <algorithm>
+
 #include "systems/bodies/blows.hpp"
 #include "systems/models/metal_shell/dent/dent.hpp"
+#include "systems/models/metal_shell/dent/feel.hpp"
+#include "systems/structures/shell/explosion.hpp"
 #include "systems/structures/shell/group_fragments.hpp"
 
 namespace cullet::metal_shell {
 namespace {
 
-constexpr double kLeastSpeed = 0.5;  // m/s
+constexpr double kLeastSpeed = 0.5;        // m/s
+constexpr double kLeastFromOneSide = 0.3;  // of an explosion's impulses, that their sum is
+constexpr float kLeastFront = 0.1f;        // radius of its front, of its reach
 
 double closing_speed(const BodyRows& rows, Row<Tasks> task, uint32_t c) {
     const Vec3d point(rows.task_contacts.point[c]), normal(rows.task_contacts.normal[c]);
@@ -16,48 +22,134 @@ double closing_speed(const BodyRows& rows, Row<Tasks> task, uint32_t c) {
     return double{rows.task_contacts.start_speed[c]} - dot(moving, normal);
 }
 
-// The fastest contact says who strikes, and how fast; all that this striker touches say where.
-void gather(BodyRows& rows, Row<Tasks> task) {
+/// Of a contact, how fast it closes and what it brings.
+struct Contact {
+    uint32_t row = kNone;
+    double speed = 0, inverse_mass = 0, energy = 0;  // m/s, 1/kg of both, J
+};
+
+double own_inverse_mass(const BodyRows& rows, Row<Tasks> task, Vec3d point, Vec3d push) {
+    return inverse_mass_at(rows.bodies, rows.tasks.body[task], point, push);
+}
+
+// The one that brings most says who strikes.
+Contact strongest_contact(const BodyRows& rows, Row<Tasks> task) {
     const TaskContacts& contacts = rows.task_contacts;
-    const Row<Bodies> body = rows.tasks.body[task];
     const uint32_t first = rows.tasks.first_contact[task], end = first + rows.tasks.contact_count[task];
-    uint32_t fastest = kNone;
-    double speed = kLeastSpeed;
-    for (uint32_t c = first; c < end; ++c)
-        if (const double closing = closing_speed(rows, task, c); closing > speed) speed = closing, fastest = c;
-    if (fastest == kNone) return;
-    const Row<Bodies> striker = contacts.striker[fastest];
-    const Vec3d normal(contacts.normal[fastest]);
+    Contact strongest;
+    for (uint32_t c = first; c < end; ++c) {
+        const double speed = closing_speed(rows, task, c);
+        const double inverse_mass = own_inverse_mass(rows, task, Vec3d(contacts.point[c]), Vec3d(contacts.normal[c])) +
+                                    double{contacts.striker_inverse_mass[c]};
+        if (!(speed > kLeastSpeed) || !(inverse_mass > 0)) continue;  // both stand fast: the game moves one of them
+        const double energy = 0.5 * speed * speed / inverse_mass;
+        if (energy > strongest.energy) strongest = {c, speed, inverse_mass, energy};
+    }
+    return strongest;
+}
+
+// Of two that are both of metal each takes what its softness is of both: the force is the same.
+double share_of(const BodyRows& rows, Row<Tasks> task, Row<Bodies> striker) {
+    if (!striker.exists() || !rows.bodies.is_breakable[striker]) return 1;
+    const Row<Structures> other = rows.bodies.structure[striker];
+    if (!other.exists() || !rows.metal_of(other).exists()) return 1;
+    const double own = double{rows.metal_shells.crush_pressure[rows.metal_of(rows.tasks.source[task])]},
+                 his = double{rows.metal_shells.crush_pressure[rows.metal_of(other)]};
+    return own > 0 && his > 0 ? his / (own + his) : 0.5;
+}
+
+void gather_contacts(const BodyRows& rows, Row<Tasks> task, const Contact& strongest, MetalRuns& runs) {
+    const TaskContacts& contacts = rows.task_contacts;
+    const uint32_t first = rows.tasks.first_contact[task], end = first + rows.tasks.contact_count[task];
+    const Row<Bodies> striker = contacts.striker[strongest.row];
+    const Vec3d normal(contacts.normal[strongest.row]);
+    const bool is_round = contacts.striker_radius[strongest.row] > 0;
     Vec3d middle;
     uint32_t count = 0;
-    for (uint32_t c = first; c < end; ++c) {
+    for (uint32_t c = first; c < end && !is_round; ++c) {
         if (contacts.striker[c] != striker || !(dot(Vec3d(contacts.normal[c]), normal) > 0.7)) continue;
         middle += Vec3d(contacts.point[c]), ++count;
     }
-    middle = (1.0 / count) * middle;
-    const bool is_round = contacts.striker_radius[fastest] > 0;
-    if (is_round) middle = Vec3d(contacts.point[fastest]);
-    const bool is_held = static_cast<BodyKind>(rows.bodies.kind[body]) != BodyKind::Dynamic;
-    const double own = is_held ? 0 : inverse_mass_at(rows.bodies, body, middle, normal);
-    const double inverse_mass = own + double{contacts.striker_inverse_mass[fastest]};
-    if (!(inverse_mass > 0)) return;  // both stand fast: the game moves one into the other
-    MetalRuns& runs = rows.metal_runs;
+    middle = is_round ? Vec3d(contacts.point[strongest.row]) : (1.0 / count) * middle;
+    const double inverse_mass =
+        own_inverse_mass(rows, task, middle, normal) + double{contacts.striker_inverse_mass[strongest.row]};
     runs.shape[task] = static_cast<uint8_t>(is_round ? StrikerShape::Sphere : StrikerShape::Plane);
     runs.point.set(task, middle.to_float());
     runs.push.set(task, normal.to_float());
-    runs.radius[task] = contacts.striker_radius[fastest];
-    runs.energy[task] = 0.5 * speed * speed / inverse_mass;
+    runs.radius[task] = contacts.striker_radius[strongest.row];
+    runs.striker[task] = striker;
+    runs.speed[task] = static_cast<float>(strongest.speed);
+    runs.energy[task] = share_of(rows, task, striker) * 0.5 * strongest.speed * strongest.speed / inverse_mass;
+}
+
+// The front of the wave is a ball round the centre when it meets the body. What the wall's pieces would have of it by
+// themselves, less what the body has as a whole, is what bends it.
+void gather_explosion(BodyRows& rows, Row<Tasks> task, const Blows& blows, uint32_t blow) {
+    const Row<Bodies> body = rows.tasks.body[task];
+    const ShellView shell(rows, rows.tasks.working[task]);
+    const Explosion explosion = explosion_of(blows, blow);
+    const Vec3d centre = rows.bodies.centre[body], from(explosion.centre);
+    const ExplosionSums sums = measure_explosion(shell, explosion, centre);
+    const double size = length(sums.impulse);
+    if (!(size > kLeastFromOneSide * sums.size)) return;  // from within it pushes all ways
+    const bool is_free = static_cast<BodyKind>(rows.bodies.kind[body]) == BodyKind::Dynamic;
+    const double whole = is_free ? 0.5 * size * size / rows.bodies.mass[body] +
+                                       0.5 * dot(sums.turning, inverse(rows.bodies.inertia[body]) * sums.turning)
+                                 : 0;
+    double least = 1e30;
+    Vec3d nearest;
+    for (uint32_t v = 0; v < shell.vertex_count(); ++v) {
+        const Vec3d place(rows.vertices.rest[shell.vertex(v)]);
+        if (const double away = length(place - from); away < least) least = away, nearest = place;
+    }
+    MetalRuns& runs = rows.metal_runs;
+    runs.shape[task] = static_cast<uint8_t>(StrikerShape::Sphere);
+    runs.point.set(task, nearest.to_float());
+    runs.push.set(task, ((1 / size) * sums.impulse).to_float());
+    runs.radius[task] = std::max(static_cast<float>(least), kLeastFront * explosion.radius);
+    runs.striker[task] = {};
+    runs.speed[task] = sums.speed;
+    runs.energy[task] = std::max(0.0, sums.energy - whole);
+}
+
+// What comes again at the same place belongs to what came before: the dent hangs on the sum.
+void join_earlier(const BodyRows& rows, Row<Tasks> task, Step step, MetalRuns& runs) {
+    const Row<Bodies> body = rows.tasks.body[task];
+    Knock knock;
+    knock.body = body, knock.striker = runs.striker[task];
+    knock.point = Vec3d(runs.point[task]), knock.push = Vec3d(runs.push[task]);
+    knock.radius = double{runs.radius[task]};
+    knock.frame = rows.tasks.opened_frame[task], knock.step_seconds = step.dt;
+    const Earlier earlier = earlier_of(rows.metal_impacts, knock);
+    if (!earlier.goes_on) return;
+    const MetalImpacts& impacts = rows.metal_impacts;
+    runs.energy[task] += earlier.energy;
+    if (!earlier.has_shape) return;
+    runs.goes_on[task] = 1;
+    runs.shape[task] = impacts.shape[body];
+    runs.point.set(task, impacts.point[body]), runs.push.set(task, impacts.push[body]);
+    runs.radius[task] = impacts.radius[body];
+}
+
+void gather(BodyRows& rows, Row<Tasks> task, Step step, const Blows& blows) {
+    MetalRuns& runs = rows.metal_runs;
+    if (const Contact strongest = strongest_contact(rows, task); strongest.row != kNone)
+        gather_contacts(rows, task, strongest, runs);
+    for (uint32_t b = 0; b < blows.size() && !(runs.energy[task] > 0); ++b)
+        if (blows.task[b] == task.index && is_kind(blows, b, BlowKind::Explosion))
+            gather_explosion(rows, task, blows, b);
+    if (runs.energy[task] > 0) join_earlier(rows, task, step, runs);
 }
 
 }  // namespace
 
-void gather_impulses(EachOwn<TaskOpened> opened, BodyRows& rows) {
+void gather_impulses(EachOwn<TaskOpened> opened, Step step, const Blows& blows, BodyRows& rows) {
     const Row<Tasks> task = opened->task;
     const Row<Structures> source = rows.tasks.source[task], working = rows.tasks.working[task];
     copy_shell_rows(rows, rows, source, working, false);
     clear_pack_ends(rows, working);
     copy_metal_rows(rows, rows, source, working);
-    gather(rows, task);
+    gather(rows, task, step, blows);
 }
 
 void work_impact(Of<Tasks> task, BodyRows& rows) {
@@ -74,9 +166,37 @@ void work_impact(Of<Tasks> task, BodyRows& rows) {
                           Vec3d(runs.push[t]),
                           {},
                           double{runs.radius[t]}};
-    const Dent dent = work_dent(metal, striker, runs.energy[t]);
+    const Dent dent = work_dent(metal, striker, runs.energy[t], runs.goes_on[t]);
     runs.depth[t] = static_cast<float>(dent.depth);
+    runs.contact[t] = static_cast<float>(dent.contact);
+    runs.restitution[t] = static_cast<float>(dent.restitution);
     if (dent.kind != DentKind::None && bake_dent(metal)) tasks.state[t] = static_cast<uint8_t>(TaskState::Reshaped);
+}
+
+void end_impacts(Serial, Step step, const Events<TaskEnded>& ended, BodyRows& rows, RigidWorld& rigid) {
+    MetalImpacts& impacts = rows.metal_impacts;
+    const MetalRuns& runs = rows.metal_runs;
+    for (const TaskEnded& e : ended) {
+        const Row<Tasks> task = e.task;
+        if (!rows.metal_of(rows.tasks.source[task]).exists() || !(runs.energy[task] > 0)) continue;
+        const Row<Bodies> body = rows.tasks.body[task], striker = runs.striker[task];
+        const bool is_dented = static_cast<TaskState>(rows.tasks.state[task]) == TaskState::Reshaped;
+        impacts.reach(body + 1);
+        impacts.frame[body] = step.frame;
+        impacts.seconds[body] =
+            std::max(kLeastSeconds, runs.speed[task] > 0 ? 2 * runs.depth[task] / runs.speed[task] : 0.0f);
+        impacts.has_shape[body] = is_dented || runs.goes_on[task];
+        impacts.striker[body] = striker;
+        impacts.shape[body] = runs.shape[task];
+        impacts.point.set(body, runs.point[task]);
+        impacts.push.set(body, runs.push[task]);
+        impacts.radius[body] = runs.radius[task];
+        impacts.contact[body] =
+            std::max(runs.contact[task], least_contact(rows, rows.tasks.source[task], runs.radius[task] > 0));
+        impacts.energy[body] = runs.energy[task];
+        if (striker.exists() && !rows.tasks.is_late[task] && runs.restitution[task] > 0)
+            rigid.set_bounce(body, striker, runs.restitution[task]);
+    }
 }
 
 void group_dented(EachOwn<TaskEnded> ended, RunRows& rows) {

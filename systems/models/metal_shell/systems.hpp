@@ -5,10 +5,13 @@
 namespace cullet::metal_shell {
 
 /// Copies the body's rows into the task's. Adds up what strikes the body: one striker, one push and one energy an
-/// impact, however many contacts it has.
-void gather_impulses(EachOwn<TaskOpened> opened, BodyRows& rows);
+/// impact, however many contacts and steps it has. An explosion strikes as a ball whose front is at the body.
+void gather_impulses(EachOwn<TaskOpened> opened, Step step, const Blows& blows, BodyRows& rows);
 /// The whole impact: field, folds, creases, limits; and into the working copy's shape.
 void work_impact(Of<Tasks> task, BodyRows& rows);
+/// Impacts that were worked off are remembered, as what comes soon may be more of them. A sheet's restitution is that
+/// of the contacts that are solved now.
+void end_impacts(Serial, Step step, const Events<TaskEnded>& ended, BodyRows& rows, RigidWorld& rigid);
 /// What was dented is one part, in another shape.
 void group_dented(EachOwn<TaskEnded> ended, RunRows& rows);
 

@@ -18,6 +18,9 @@ static_assert(2 * kMostVertices + kMostHullPoints <= kMostExtremeCandidates);
 // Of the margin: a point above the hull by less is worth none. 0.05 cost twice the points and kept nothing from
 // sinking.
 constexpr float kGoodEnough = 0.2f;
+// Of its size: sheet metal whose part is hollow by more is halved. A hull spans the hollow of a dent, and what lies in
+// it would hover.
+constexpr float kMostHollow = 0.03f;
 // Of the margin: a hull that leaves out more is halved while the cell has parts left.
 constexpr float kTooMuch = 0.4f;
 
@@ -136,6 +139,48 @@ void choose_part(const ShellView& shell, std::span<const uint32_t> list, float m
     for (uint32_t i = 0; i < part.count; ++i) part.point[i] = work.candidates[work.chosen.index[i]];
 }
 
+/// How deep the hollow of a part is that its hull spans, as a share of its size. Of an open sheet both sides count, of
+/// others the outer one: nothing lies inside.
+float hollow_of(const ShellView& shell, std::span<const uint32_t> list) {
+    Vec3 normal, low{1e30f, 1e30f, 1e30f}, high{-1e30f, -1e30f, -1e30f};
+    for (const uint32_t e : list) {
+        const auto p = outer_triangle(shell, e);
+        normal += cross(p[1] - p[0], p[2] - p[0]);
+        for (const Vec3 q : p) {
+            low = {std::min(low.x, q.x), std::min(low.y, q.y), std::min(low.z, q.z)};
+            high = {std::max(high.x, q.x), std::max(high.y, q.y), std::max(high.z, q.z)};
+        }
+    }
+    normal = normalised(normal);
+    float deepest = 1e30f, highest = -1e30f, sum = 0;
+    for (const uint32_t e : list)
+        for (const Vec3 p : outer_triangle(shell, e)) {
+            const float at = dot(p - low, normal);
+            deepest = std::min(deepest, at), highest = std::max(highest, at);
+            sum += at;
+        }
+    const float mean = sum / static_cast<float>(3 * list.size()), size = length(high - low);
+    const bool is_open = shell.state.metal_shells.crush_pressure[shell.state.metal_of(shell.structure)] == 0;
+    // Most of a cup lies low, most of a hill high.
+    if (!(size > 0) || (!is_open && mean > 0.5f * (deepest + highest))) return 0;
+    return (highest - deepest) / size;
+}
+
+void halve_what_is_hollow(const ShellView& shell, std::span<uint32_t> elements, CellParts& parts) {
+    float hollow[kMostCellParts] = {hollow_of(shell, elements)};
+    while (parts.count < kMostCellParts) {
+        uint32_t worst = 0;
+        for (uint32_t p = 1; p < parts.count; ++p)
+            if (hollow[p] > hollow[worst]) worst = p;
+        if (!(hollow[worst] > kMostHollow)) return;
+        const uint32_t other = halve_part(shell, elements, parts, worst);
+        if (other == worst)
+            hollow[worst] = 0;
+        else
+            for (const uint32_t p : {worst, other}) hollow[p] = hollow_of(shell, parts.list(elements, p));
+    }
+}
+
 /// Of the list of elements that begins with `first`; no points for an empty one.
 void choose_points(const ShellView& shell, uint32_t first, float margin, Workspace& work) {
     work.part_count = 0;
@@ -145,8 +190,10 @@ void choose_points(const ShellView& shell, uint32_t first, float margin, Workspa
     if (count == 0) return;
     if (e != kNone) return choose_points_by_batches(shell, first, margin, work);
     CellParts parts{.first = {0}, .size = {count}, .count = 1};
-    work.part_count = 1;
-    choose_part(shell, {work.elements, count}, margin, work, work.part[0]);
+    if (shell.state.metal_of(shell.structure).exists()) halve_what_is_hollow(shell, {work.elements, count}, parts);
+    work.part_count = parts.count;
+    for (uint32_t p = 0; p < parts.count; ++p)
+        choose_part(shell, parts.list({work.elements, count}, p), margin, work, work.part[p]);
     while (parts.count < kMostCellParts) {
         uint32_t worst = 0;
         for (uint32_t p = 1; p < parts.count; ++p)

@@ -215,6 +215,7 @@ ExplosionSums measure_explosion(ShellView shell, const Explosion& explosion, Vec
         sums.turning += cross(Vec3d(middle) - about, j);
         sums.place += size * Vec3d(middle);
         sums.size += size;
+        if (mass > 0) sums.energy += 0.5 * size * size / mass;
         if (mass > 0) sums.speed = std::max(sums.speed, static_cast<float>(size / mass));
     });
     if (sums.size > 0) sums.place = (1 / sums.size) * sums.place;

@@ -7,11 +7,12 @@ namespace cullet {
 
 /// What it gives to a body, body axes.
 struct ExplosionSums {
-    Vec3d impulse;    // N s
-    Vec3d turning;    // N m s, about the point asked for
-    Vec3d place;      // m, of the impulse: the mean of the elements' places by the size of their impulses
-    double size = 0;  // N s, of all pieces of it without regard to direction
-    float speed = 0;  // m/s, of the element that would be thrown fastest if it were alone
+    Vec3d impulse;      // N s
+    Vec3d turning;      // N m s, about the point asked for
+    Vec3d place;        // m, of the impulse: the mean of the elements' places by the size of their impulses
+    double size = 0;    // N s, of all pieces of it without regard to direction
+    double energy = 0;  // J, that its elements would have if each were alone
+    float speed = 0;    // m/s, of the element that would be thrown fastest if it were alone
 };
 
 /// O(elements of the shell). Elements behind others of the same shell, seen from the centre, get nothing.

@@ -300,7 +300,7 @@ TEST(Blows, WhatIsNotSoundIsRefusedInASentence) {
     const BodyId firm = add_vase(world, {}, false);
     EXPECT_NE(world.cut(firm, {}).error().find("is_breakable"), std::string::npos) << world.cut(firm, {}).error();
     CookSettings steel;
-    steel.material = "steel", steel.thickness = 0.004f, steel.longest_edge = 100;
+    steel.model = "thick_shell", steel.material = "steel", steel.thickness = 0.004f, steel.longest_edge = 100;
     const Mesh plate = sheet_mesh(0.3, 0.3, 4, 4);
     const BodyId tin = world.spawn(world.add_model(cook(view_of_mesh(plate), steel).value()).value()).value();
     EXPECT_NE(world.cut(tin, {}).error().find("ductile"), std::string::npos) << world.cut(tin, {}).error();

@@ -254,7 +254,7 @@ TEST(Materials, ASnapshotWithAMaterialThatCannotBeIsRefused) {
 
 TEST(Materials, DuctileAndElasticBodiesThatFallHardMoveByTheirSpringsAndDoNotCrack) {
     for (const char* name : {"steel", "rubber"}) {
-        const Result<Model> model = cook_ball({.material = name});
+        const Result<Model> model = cook_ball({.model = "thick_shell", .material = name});
         ASSERT_TRUE(model.ok()) << model.error();
         EXPECT_EQ(model->report().advice, "") << "of hidden runs, which it has none of";
         Result<World> world = World::create({});

@@ -14,6 +14,7 @@ constexpr float kLeastStiffness = 0.05f, kMostStiffness = 3, kTieStiffness = 1; 
 constexpr double kCreaseWidth = 0.6, kLeastCreaseWidth = 1.3;  // of a cell's radius, and of a mean edge
 constexpr double kExtent = 1.5;                                // of the mean distance from the centre
 constexpr double kNoFolds = 7, kGateWidth = 4;                 // longest edge squared over twice the area
+constexpr double kOpenSide = 0.3;                              // of all area, that a body leaves open
 constexpr double kTubeLoad = 7.6, kTubePower = 1.5;
 
 /// The shell as its elements stand, for what looks at surfaces.
@@ -189,13 +190,23 @@ void blend(const std::vector<Plate>& plates, double width, Vec3d place, std::arr
     }
 }
 
+// What looks to all sides as much encloses something, holes or not: a car's windows are open, a drum may lack its lid.
+// A half-pipe leaves 0.64 of its area, half a ball 0.5.
+bool is_a_body(const Surface& surface) {
+    Vec3d sum;
+    double area = 0;
+    for (uint32_t f = 0; f < surface.triangles.size(); ++f) {
+        const FaceShape face = shape_of(surface, f);
+        sum += face.area * face.normal, area += face.area;
+    }
+    return length(sum) < kOpenSide * area;
+}
+
 // Alexander's mean load of a tube that folds like a concertina, over its section.
-float crush_pressure_of(const ShellView& shell, const Surface& surface, float wanted) {
-    bool is_closed = true;
-    for (const Triangle& beside : surface.neighbours)
-        for (const uint32_t n : beside) is_closed = is_closed && n != kNone;
-    if (wanted > 0) return wanted;
-    if (!is_closed) return 0;
+float crush_pressure_of(const ShellView& shell, const Surface& surface, const MetalCookSettings& settings) {
+    if (settings.crush_pressure > 0) return settings.crush_pressure;
+    if (!is_a_body(surface)) return 0;
+    if (settings.body_pressure > 0) return settings.body_pressure;
     const Row<Materials> material = shell.structures().material[shell.structure];
     const MaterialRows& of = shell.state;
     const double yield = double{of.materials.young_modulus[material]} *
@@ -236,7 +247,7 @@ Result<MetalReport> make_metal_rows(ShellRows& rows, Row<Structures> structure, 
     own.springs[row].count = room.springs, own.cells[row].count = room.cells, own.borders[row].count = room.borders;
     own.mean_edge[row] = static_cast<float>(mean_edge);
     own.half_diagonal[row] = static_cast<float>(0.5 * surface.diagonal);
-    own.crush_pressure[row] = crush_pressure_of(shell, surface, settings.crush_pressure);
+    own.crush_pressure[row] = crush_pressure_of(shell, surface, settings);
 
     Vec3d middle;
     double area = 0, radius = 0;

@@ -9,7 +9,8 @@ namespace cullet {
 struct MetalCookSettings {
     DualSettings dual;
     SubShellSettings cells;
-    float crush_pressure = 0;  // Pa; 0: of an empty closed shell of this width; open sheets have none
+    float crush_pressure = 0;  // Pa; 0: as below
+    float body_pressure = 0;   // Pa, of bodies; 0: of an empty closed shell of this width; open sheets have none
 };
 
 /// What was made of it.

@@ -15,12 +15,14 @@ namespace {
 constexpr double kWidest = 0.59;       // of the support: from there on a blow on a closed shell crushes the body
 constexpr double kFlatStriker = 0.25;  // of the box diagonal: what a flat striker is to a sheet that is open
 
-void begin(const MetalView& metal) {
+void begin(const MetalView& metal, bool goes_on) {
     MetalVertices& vertices = metal.vertices();
     for (uint32_t v = 0; v < metal.vertex_count(); ++v) {
         const uint32_t row = metal.vertex(v);
         const Vec3 rest = metal.shell.state.vertices.rest[metal.shell.vertex(v)];
-        vertices.start.set(row, rest), vertices.place.set(row, rest);
+        if (!goes_on) vertices.before.set(row, rest);
+        const Vec3 start = vertices.before[row];
+        vertices.start.set(row, start), vertices.place.set(row, start);
         vertices.field[row] = 0;
     }
     // A dent in a sheet has no folds, whatever an earlier crush left here.
@@ -38,7 +40,8 @@ Striker round_striker(const MetalView& metal, Striker striker) {
 Dent dent_sheet(const MetalView& metal, const Striker& striker, const SheetPlace& place, const SheetPlan& plan) {
     raise_sheet(metal, striker, place, plan);
     place_field(metal, striker.push);
-    Dent dent{DentKind::Sheet, std::max(0.0, plan.depth - place.dent_depth), plan.contact, plan.left, plan.is_puncture};
+    Dent dent{DentKind::Sheet, std::max(0.0, plan.depth - place.dent_depth), plan.contact, plan.left, plan.restitution,
+              plan.is_puncture};
     crease_cells(metal, plan.contact);
     clear_striker(metal, striker, dent.depth);
     limit_stretch(metal, sheet_metal(metal.shell).break_strain, striker, dent.depth);
@@ -47,7 +50,7 @@ Dent dent_sheet(const MetalView& metal, const Striker& striker, const SheetPlace
 
 Dent crush_body(const MetalView& metal, const Striker& striker, double energy) {
     const CrushPlan plan = plan_crush(metal, striker, energy);
-    Dent dent{DentKind::Body, plan.depth, plan.depth, plan.left, false};
+    Dent dent{DentKind::Body, plan.depth, plan.depth, plan.left, 0, false};
     if (!(plan.depth > 0)) return {};
     raise_body(metal, striker, plan.depth);
     place_field(metal, striker.push);
@@ -74,14 +77,27 @@ SheetMetal sheet_metal(const ShellView& shell) {
     return metal;
 }
 
-Dent work_dent(const MetalView& metal, const Striker& striker, double energy) {
-    begin(metal);
+bool is_elastic(const MetalView& metal, const Striker& striker, double energy) {
+    if (striker.shape != StrikerShape::Sphere && metal.shells().crush_pressure[metal.row] > 0) return false;
+    for (uint32_t v = 0; v < metal.vertex_count(); ++v)  // what find_sheet_place looks at
+        metal.vertices().start.set(metal.vertex(v), metal.shell.state.vertices.rest[metal.shell.vertex(v)]);
+    const Striker ball = round_striker(metal, striker);
+    const SheetPlace place = find_sheet_place(metal, ball);
+    return !plan_sheet(sheet_metal(metal.shell), {ball.radius, place.support, energy, place.dent_depth}).is_dent();
+}
+
+Dent work_dent(const MetalView& metal, const Striker& striker, double energy, bool goes_on) {
+    begin(metal, goes_on);
     const bool is_closed = metal.shells().crush_pressure[metal.row] > 0;
     if (striker.shape != StrikerShape::Sphere && is_closed) return crush_body(metal, striker, energy);
     const Striker ball = round_striker(metal, striker);
     const SheetPlace place = find_sheet_place(metal, ball);
     const SheetPlan plan = plan_sheet(sheet_metal(metal.shell), {ball.radius, place.support, energy, place.dent_depth});
-    if (!plan.is_dent()) return {};
+    if (!plan.is_dent()) {
+        Dent none;
+        none.restitution = kMostBounce;
+        return none;
+    }
     if (is_closed && plan.contact > kWidest * place.support) return crush_body(metal, striker, energy);
     return dent_sheet(metal, ball, place, plan);
 }
@@ -121,6 +137,7 @@ bool bake_dent(const MetalView& metal) {
     const MetalVertices& own = metal.vertices();
     bool is_any = false;
     for (uint32_t v = 0; v < metal.vertex_count(); ++v) {
+        metal.vertices().start.set(metal.vertex(v), vertices.rest[shell.vertex(v)]);  // of what goes on it is not
         if (own.place[metal.vertex(v)] == own.start[metal.vertex(v)]) continue;
         vertices.rest.set(shell.vertex(v), own.place[metal.vertex(v)]);
         is_any = true;

@@ -10,18 +10,25 @@ enum class DentKind : uint8_t { None, Sheet, Body };
 
 struct Dent {
     DentKind kind = DentKind::None;
-    double depth = 0;    // m, that the striker goes on by from where it touches the sheet now
-    double contact = 0;  // m: radius of the contact
-    double left = 0;     // J that found no room: the sheet would tear
+    double depth = 0;        // m, that the striker goes on by from where it touches the sheet now
+    double contact = 0;      // m: radius of the contact
+    double left = 0;         // J that found no room: the sheet would tear
+    double restitution = 0;  // of the sheet, at least; 0: what the bodies have
     bool is_puncture = false;
 };
 
 /// Of the shell's material and mean thickness.
 SheetMetal sheet_metal(const ShellView& shell);
 
+/// What a sheet gives back, at most: of a blow that leaves no dent.
+inline constexpr double kMostBounce = 0.83666;  // sqrt(0.7)
+/// The blow leaves no dent: the sheet springs back from all of it. One that crushes a body always leaves one.
+bool is_elastic(const MetalView& metal, const Striker& striker, double energy);
+
 /// Moves MetalVertices.place; the shell itself stays as it is. `energy`: kinetic, in the effective mass of both, J.
-/// What neither dents nor crushes for good moves nothing.
-Dent work_dent(const MetalView& metal, const Striker& striker, double energy);
+/// What neither dents nor crushes for good moves nothing. `goes_on`: the whole energy of an impact that has begun to
+/// dent already, from the shape that was before it (MetalVertices.before). Else that shape is kept there.
+Dent work_dent(const MetalView& metal, const Striker& striker, double energy, bool goes_on = false);
 
 /// Vertices of the shell go to MetalVertices.place, with their normals and the sheet's inner side. Marks cells whose
 /// hulls are to be chosen anew, measures mass properties. False: nothing moved.

@@ -15,6 +15,7 @@ namespace cullet::test {
 /// 0.4 m wide, edge 25 mm, its lower border at y = 0, in the plane z = 0.
 inline Model cook_sheet(const char* material, float thickness) {
     CookSettings settings;
+    settings.model = "thick_shell";
     settings.material = material;
     settings.thickness = thickness;
     settings.longest_edge = 100;

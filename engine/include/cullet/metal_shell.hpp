@@ -1,0 +1,23 @@
+// What a game may set of the damage model metal_shell, beside what all models have. Their ranges:
+// systems/models/metal_shell/shared/settings.cpp, a line each.
+#pragma once
+#include <cstdint>
+
+namespace cullet {
+
+/// A choice of the method. The paper's are there to compare with: they do not give dents that anybody believes.
+enum class MetalChoice : uint8_t { Default, Paper };
+
+/// CookSettings::metal_shell. What impacts go by is kept by the model: bodies of it, files and snapshots have it.
+struct MetalShellSettings {
+    uint32_t sub_shells = 0;      // that carry folds and creases; 0: one for 110 triangles, 16 to 128
+    float crush_pressure = 0;     // Pa, under which the body gives way as a whole; 0: the material's, or by its shape
+    float link_distance = 0.01f;  // of the box diagonal: sheets that are so near are tied to each other
+    float edge_split = 0.025f;    // of the box diagonal: longer edges are split, where longest_edge is 0
+    // Choices of the method.
+    MetalChoice adjacency = MetalChoice::Default;        // how far neighbouring triangles are apart
+    MetalChoice seeds = MetalChoice::Default;            // where sub-shells begin
+    MetalChoice representatives = MetalChoice::Default;  // what stands for a sub-shell
+};
+
+}  // namespace cullet
