@@ -29,6 +29,11 @@ Mesh make_pig(float length = 0.5f, uint32_t vertices = 3500, uint64_t seed = 1);
 /// A closed cow with horns and udder, head toward +x, feet at y = 0. A twentieth of its vertices stand twice, along a
 /// seam as textures have: 3,000 vertices and 5,700 triangles, which no closed mesh without a seam has.
 Mesh make_cow(float length = 0.6f, uint32_t vertices = 3000, uint64_t seed = 1);
+/// A car's body of sheet metal, nose toward +x, sills at y = 0: shell, four doors, bonnet and boot lid as parts of
+/// their own with seams of 4 mm, windows open. About so many vertices, and near-equilateral triangles.
+Mesh make_car(float length = 4.4f, uint32_t vertices = 14'658, uint64_t seed = 1);
+/// A closed steel drum round the y axis, its middle at the origin, exactly so many vertices.
+Mesh make_drum(float height = 0.88f, uint32_t vertices = 5000, uint64_t seed = 1);
 /// A closed castle (4 towers, keep, gatehouse with an arch) round the y axis, gate toward +z, feet at y = 0. It has at
 /// least the 5,000-odd vertices that its shape needs, and twice as many triangles as vertices.
 Mesh make_castle(float width = 3, uint32_t vertices = 6500, uint64_t seed = 1);
@@ -54,6 +59,8 @@ Mesh make_mesh_named(const std::string& name, uint64_t seed = 1);
 Mesh make_ball(float radius, int subdivisions);
 /// A box round the origin.
 Mesh make_box(Vec3 half_extents);
+/// A closed round pole of so many sides, its foot at y = 0.
+Mesh make_pole(float radius = 0.15f, float height = 2.4f, uint32_t sides = 24);
 /// A top of 4 cm on four legs of 6 cm, each a closed box. Feet at y = 0, upper side at y = height, middle over the
 /// origin.
 Mesh make_table(float width = 1.2f, float depth = 0.8f, float height = 0.75f);

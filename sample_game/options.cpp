@@ -52,7 +52,7 @@ void add_run(CLI::App& app, RunOptions& run) {
         ->add_option(
             "--mesh", run.mesh,
             "A model file for scenes that take one, in any format of docs/importing.md; or vase, pig, cow, castle, "
-            "castle_fine, slab, piggy_bank, wall, pane")
+            "castle_fine, slab, piggy_bank, wall, pane, car, drum")
         ->check(CLI::Validator(
             [](const std::string& name) { return std::string(name.empty() ? "the name is empty; give a file" : ""); },
             ""));
@@ -60,7 +60,8 @@ void add_run(CLI::App& app, RunOptions& run) {
         ->check(CLI::Validator(
             [](const std::string& name) { return std::string(name.empty() ? "the name is empty; give a file" : ""); },
             ""));
-    command->add_option("--model", run.model, "How what is cooked breaks: " + model_names());
+    command->add_option("--model", run.model,
+                        "How what is cooked breaks: " + model_names() + "; as the material says if not given");
     command->add_option("--frames", run.frames, "How many steps; the scene's own number if not given")
         ->check(CLI::Range(1u, 1'000'000u));
     command->add_option("--dt-ms", run.dt_ms, "Milliseconds a step")->check(CLI::Range(1000.0 / 240, 1000.0 / 20));
@@ -101,7 +102,7 @@ void add_cook(CLI::App& app, CookOptions& cook) {
     CLI::App* command = app.add_subcommand("cook", "Cooks a mesh into a model file (.cmodel), so that a game need not");
     command->add_option("mesh", cook.mesh, "A model file in any format of docs/importing.md, or a .cmesh")->required();
     command->add_option("--out", cook.out, "The model file to write")->required();
-    command->add_option("--model", cook.model, "How it breaks; the first if not given")
+    command->add_option("--model", cook.model, "How it breaks; as the material says if not given")
         ->check(CLI::IsMember(damage_model_names()));
     command->add_option("--material", cook.material, "One of " + MaterialTable().names() + ", or of --materials")
         ->capture_default_str();
@@ -118,6 +119,10 @@ void add_cook(CLI::App& app, CookOptions& cook) {
     command->add_option("--seed", cook.seed, "Of the spread of strength")->capture_default_str();
     for (const auto& group : all_cook_settings())
         for (const Setting& setting : group.list) add_setting(*command, cook, setting);
+    command
+        ->add_option("--draw", cook.draw,
+                     "cells: a picture, beside the model file, of what the mesh is cut into: sub-shells of metal")
+        ->check(CLI::IsMember({"cells"}));
     command->add_flag("--walls-apart", cook.keeps_walls_apart,
                       "A mesh with both of its walls becomes two sheets, not one as thick as measured");
 }

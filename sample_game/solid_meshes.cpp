@@ -63,6 +63,27 @@ Mesh make_box(Vec3 half_extents) {
     return mesh;
 }
 
+Mesh make_pole(float radius, float height, uint32_t sides) {
+    constexpr double kTurn = 2 * 3.14159265358979;
+    Mesh mesh;
+    mesh.name = "pole";
+    mesh.positions = {{0, 0, 0}, {0, height, 0}};
+    for (uint32_t k = 0; k < sides; ++k) {
+        double sine = 0, cosine = 1;
+        sine_cosine(kTurn * k / sides, sine, cosine);
+        const auto x = static_cast<float>(static_cast<double>(radius) * cosine),
+                   z = static_cast<float>(static_cast<double>(radius) * sine);
+        mesh.positions.push_back({x, 0, z});
+        mesh.positions.push_back({x, height, z});
+        const uint32_t a = 2 + 2 * k, b = 2 + 2 * ((k + 1) % sides);
+        mesh.triangles.push_back({0, a, b});
+        mesh.triangles.push_back({1, b + 1, a + 1});
+        mesh.triangles.push_back({a, a + 1, b + 1});
+        mesh.triangles.push_back({a, b + 1, b});
+    }
+    return mesh;
+}
+
 Mesh make_table(float width, float depth, float height) {
     constexpr float top = 0.04f, leg = 0.06f, inset = 0.03f;
     Mesh mesh;

@@ -10,6 +10,10 @@ cmake --build --preset release --target sample_game cullet_import
 out=out/show_reel
 mkdir -p "$out"
 build/release/sample_game run show_reel --out "$out" --contact-sheet "$@"
+# What dents and does not break.
+for scene in panel drum car; do
+    build/release/sample_game run $scene --hash off --out "$out/$scene" --contact-sheet
+done
 # One film always: three seconds of the vase.
 mkdir -p "$out/film"
 build/release/sample_game run vase --frames 180 --hash off --video --out "$out/film" >/dev/null
@@ -23,6 +27,9 @@ What there is to see, in $PWD/$out:
   drop/sheet.png   a hollow porcelain pig is thrown at a wall
   demolition/sheet.png   a street of 20 brick houses, towers and walls, under 100 explosions in 20 seconds: houses swell, come
                          down in slabs, and lie in heaps (a minute or two)
+  panel/sheet.png  balls of 100 kg dent a clamped steel panel, and one comes to rest in its dent
+  drum/sheet.png   an empty steel drum falls on its rim, which folds
+  car/sheet.png    car bodies of sheet steel are thrown into a wall, a pole and another car
   film/film.mp4    the vase as a film; --video makes one of each scene
   */report.json    each run in numbers: frame times, hits, fragments, mass, hash (README.md says how to read it)
   */trace.json     where the time went: open it at https://ui.perfetto.dev

@@ -89,6 +89,14 @@ int cow(lua_State* lua) {
     return counted_mesh(lua, "game.mesh.cow", "length", 0.6, 3000, kWorkAFigure, make_cow);
 }
 
+int car(lua_State* lua) {
+    return counted_mesh(lua, "game.mesh.car", "length", 4.4, 14'658, kWorkAFigure, make_car);
+}
+
+int drum(lua_State* lua) {
+    return counted_mesh(lua, "game.mesh.drum", "height", 0.88, 5000, kWorkAFigure, make_drum);
+}
+
 int castle(lua_State* lua) {
     return counted_mesh(lua, "game.mesh.castle", "width", 3, 6500, kWorkAFile, make_castle);
 }
@@ -133,6 +141,13 @@ int box(lua_State* lua) {
     script_of(lua).act(lua);
     const Arguments given(lua, "game.mesh.box", {"half_extents"});
     return made(lua, make_box(given.vector("half_extents", kSide)), Edges::AsLongAsItIs);
+}
+
+int pole(lua_State* lua) {
+    script_of(lua).act(lua);
+    const Arguments given(lua, "game.mesh.pole", {"radius", "height"}, true);
+    return made(lua, make_pole(given.real("radius", kSide, 0.15), given.real("height", kSide, 2.4)),
+                Edges::AsLongAsItIs);
 }
 
 int table(lua_State* lua) {
@@ -236,11 +251,16 @@ void open_meshes(lua_State* lua) {
     guard_names(lua, "mesh:");
     lua_setfield(lua, -2, "__index");
     lua_pop(lua, 1);
-    static constexpr luaL_Reg calls[] = {
-        {"vase", vase},    {"piggy_bank", piggy_bank}, {"wall", wall}, {"pane", pane},   {"pig", pig},
-        {"cow", cow},      {"castle", castle},         {"slab", slab}, {"ball", ball},   {"box", box},
-        {"table", table},  {"given", given_mesh},      {"file", file}, {"house", house}, {"tower", tower},
-        {nullptr, nullptr}};
+    static constexpr luaL_Reg calls[] = {{"vase", vase},     {"piggy_bank", piggy_bank},
+                                         {"wall", wall},     {"pane", pane},
+                                         {"pig", pig},       {"cow", cow},
+                                         {"castle", castle}, {"slab", slab},
+                                         {"ball", ball},     {"box", box},
+                                         {"table", table},   {"given", given_mesh},
+                                         {"file", file},     {"house", house},
+                                         {"tower", tower},   {"car", car},
+                                         {"drum", drum},     {"pole", pole},
+                                         {nullptr, nullptr}};
     lua_newtable(lua);
     add_calls(lua, calls);
     guard_names(lua, "game.mesh.");
