@@ -13,12 +13,12 @@ constexpr double kMostZeros = 0.2;      // of a panel's numbers, for fewer and w
 constexpr uint32_t kFewColumns = 12;    // unknowns: so narrow panels take more zeros
 constexpr double kMostZerosOfNarrow = 0.5;
 
-using Rows = std::vector<std::vector<uint32_t>>;  // of each column, ascending, below the diagonal
+using MatrixRows = std::vector<std::vector<uint32_t>>;  // of each column, ascending, below the diagonal
 
 // What each column holds once those before it are eliminated.
-Rows filled(const NodeGraph& graph, const std::vector<uint32_t>& node, const std::vector<uint32_t>& rank) {
+MatrixRows filled(const NodeGraph& graph, const std::vector<uint32_t>& node, const std::vector<uint32_t>& rank) {
     const uint32_t count = graph.count();
-    Rows rows(count);
+    MatrixRows rows(count);
     std::vector<std::vector<uint32_t>> children(count);
     std::vector<uint32_t> seen(count, kNoParent);
     for (uint32_t j = 0; j < count; ++j) {
@@ -36,7 +36,7 @@ Rows filled(const NodeGraph& graph, const std::vector<uint32_t>& node, const std
 }
 
 // Children before parents, and each subtree without gaps: the fill stays the same, and panels are whole.
-std::vector<uint32_t> in_tree_order(const Rows& rows) {
+std::vector<uint32_t> in_tree_order(const MatrixRows& rows) {
     const uint32_t count = static_cast<uint32_t>(rows.size());
     std::vector<uint32_t> child(count, kNoParent), sibling(count, kNoParent), order, stack;
     uint32_t roots = kNoParent;
@@ -69,7 +69,7 @@ struct WidePanel {
 
 // Columns whose rows are the next one's and the next one itself stand together; then whole panels join their parents
 // as long as few zeros come in.
-std::vector<WidePanel> join_columns(const Rows& rows, uint32_t width) {
+std::vector<WidePanel> join_columns(const MatrixRows& rows, uint32_t width) {
     std::vector<WidePanel> stack;
     const uint32_t count = static_cast<uint32_t>(rows.size());
     for (uint32_t j = 0; j < count; ++j) {
@@ -112,7 +112,7 @@ EliminationPlan plan_elimination(const NodeGraph& graph, const std::vector<Vec3d
     const std::vector<uint32_t> order = in_tree_order(filled(graph, plan.node, plan.rank));
     for (uint32_t r = 0; r < count; ++r) plan.node[r] = first[order[r]];
     for (uint32_t r = 0; r < count; ++r) plan.rank[plan.node[r]] = r;
-    const Rows rows = filled(graph, plan.node, plan.rank);
+    const MatrixRows rows = filled(graph, plan.node, plan.rank);
 
     plan.first_entry.push_back(0);
     for (uint32_t j = 0; j < count; ++j) {

@@ -17,9 +17,9 @@ constexpr uint64_t kJitterSeed = 0x1a771ce;
 constexpr int32_t kRings = 2;  // cubes around the box: jitter, half a cube of centres, and one ring
 
 /// Axes of the lattice in the body frame.
-struct Turn {
+struct LatticeTurn {
     Vec3d axis[3];
-    Turn() {
+    LatticeTurn() {
         double s[3], c[3];
         for (int k = 0; k < 3; ++k) sine_cosine(kTurn[k], s[k], c[k]);
         axis[0] = {c[0] * c[1], s[0] * c[1], -s[1]};
@@ -246,7 +246,7 @@ std::array<Corners, 8> cut_in_eight(const std::vector<Vec3d>& points, const TenN
 }
 
 /// In the frame of the lattice, in cubes.
-std::vector<FlatTriangle> turned_triangles(const ClosedMesh& mesh, const Turn& turn, Vec3d centre, double cube) {
+std::vector<FlatTriangle> turned_triangles(const ClosedMesh& mesh, const LatticeTurn& turn, Vec3d centre, double cube) {
     std::vector<Vec3d> places;
     places.reserve(mesh.positions.size());
     for (const Vec3d& p : mesh.positions) places.push_back((1 / cube) * turn.in(p - centre));
@@ -292,7 +292,7 @@ double edge_for(double volume, double cells) {
 }
 
 Result<CoverLattice> cover_lattice(const ClosedMesh& mesh, const LatticeSettings& settings) {
-    const Turn turn;
+    const LatticeTurn turn;
     const Vec3d centre = 0.5 * (mesh.low + mesh.high);
     const double cube = settings.element_edges * settings.edge;
     const std::vector<FlatTriangle> triangles = turned_triangles(mesh, turn, centre, cube);
