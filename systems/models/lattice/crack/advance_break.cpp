@@ -12,10 +12,6 @@ constexpr uint32_t kNoCell = 0xffffffffu;
 constexpr double kLeastSolved = 2;      // times the least piece: a smaller one breaks no more
 constexpr double kDurationPower = 0.4;  // of the mass, in Hertz' duration
 
-double ratio_of(const BreakableSolid& body, const BreakRun& run, uint32_t c) {
-    return run.first[c] / (run.brittle.tensile_strength * double{body.strength[c]});
-}
-
 double least_volume(const BreakableSolid& body, const BreakRun& run) {
     return kLeastSolved * run.rules.least_cells * body.solid.volume / static_cast<double>(body.solid.cells.size());
 }
@@ -56,7 +52,6 @@ void close_piece(const BreakableSolid& body, BreakRun& run) {
 }
 
 void decide_on_cracks(const BreakableSolid& body, BreakRun& run) {
-    find_stress(body, run);
     const uint32_t c = weakest(body, run);
     const double ratio = c == kNoCell ? 0 : ratio_of(body, run, c);
     if (run.solve_count == 1) {
@@ -132,7 +127,7 @@ bool advance_break(const BreakableSolid& body, BreakRun& run, uint64_t work) {
             run.stage = run.factor.is_positive ? BreakStage::Stress : BreakStage::NextPiece;
             break;
         case BreakStage::Stress:
-            decide_on_cracks(body, run);
+            if (find_some_stress(body, run, work)) decide_on_cracks(body, run);
             break;
         case BreakStage::Field:
             if (factor_field(body, run, work)) run.stage = BreakStage::Crack;

@@ -56,7 +56,7 @@ struct BreakRun {
     std::span<uint8_t> is_held;  // what stands on the ground does not give way there
     // By piece and part.
     std::span<double> volume;  // m3, of pieces
-    std::span<double> part_volume;
+    std::span<double> part_volume, part_area;
     std::span<uint32_t> part_piece;
     struct Waiting {
         uint32_t piece = 0, round = 0;
@@ -72,7 +72,7 @@ struct BreakRun {
     uint32_t heap_count = 0;
 
     // The piece at work.
-    uint32_t at_piece = 0, at_round = 0, cell_count = 0, next_element = 0, tries = 0;
+    uint32_t at_piece = 0, at_round = 0, cell_count = 0, next_element = 0, next_cell = 0, tries = 0;
     uint32_t cracks_before = 0, pieces_before = 1;
     bool has_ground = false;
     double scale = 1;  // of stresses: the share of the force
@@ -87,6 +87,15 @@ struct BreakRun {
     Factor field;
     std::span<double> level;  // of the crack's scalar, by rank
 };
+
+/// Stress over strength, at the whole load.
+inline double ratio_of(const BreakableSolid& body, const BreakRun& run, uint32_t cell) {
+    return run.first[cell] / (run.brittle.tensile_strength * double{body.strength[cell]});
+}
+/// What comes of the load is enough to crack the cell, and nothing bars it.
+inline bool may_start(const BreakableSolid& body, const BreakRun& run, uint32_t cell) {
+    return !(run.marks[cell] & (kCrushed | kBanned)) && run.load * ratio_of(body, run, cell) > 1;
+}
 
 uint64_t break_bytes(const BreakableSolid& body);
 /// No span is empty if the arena had break_bytes().

@@ -134,6 +134,26 @@ uint32_t flood_pieces(const BreakableSolid& body, std::span<const uint32_t> piec
     return parts;
 }
 
+// The piece that a part shares most area with; its own, if it is beside no other.
+uint32_t largest_beside(const BreakableSolid& body, std::span<const uint32_t> piece, const CrackFaces& faces,
+                        uint32_t part, uint32_t own) {
+    std::array<std::pair<uint32_t, double>, kMostPlanes> found;
+    size_t count = 0;
+    for (const SolidBond& bond : body.solid.bonds) {
+        const bool is_a = faces.part[bond.a] == part, is_b = faces.part[bond.b] == part;
+        if (is_a == is_b) continue;
+        const uint32_t other = piece[is_a ? bond.b : bond.a];
+        size_t i = 0;
+        while (i < count && found[i].first != other) ++i;
+        if (i == count && count < found.size()) found[count++] = {other, 0.0};
+        if (i < count) found[i].second += bond.area;
+    }
+    std::pair<uint32_t, double> best{own, 0.0};
+    for (size_t i = 0; i < count; ++i)
+        if (found[i].second > best.second) best = found[i];
+    return best.first;
+}
+
 }  // namespace
 
 uint32_t filter_by_majority(const BreakableSolid& body, const FaceRules& rules, std::span<uint32_t> piece,
@@ -171,7 +191,6 @@ uint32_t filter_by_majority(const BreakableSolid& body, const FaceRules& rules, 
 
 void join_islands(const BreakableSolid& body, std::span<uint32_t> piece, std::span<double> volume, CrackFaces& faces) {
     constexpr int kPasses = 4;  // an island may join another one
-    const Solid& solid = body.solid;
     for (int pass = 0; pass < kPasses; ++pass) {
         const uint32_t parts = flood_pieces(body, piece, faces);
         bool is_any = false;
@@ -183,19 +202,7 @@ void join_islands(const BreakableSolid& body, std::span<uint32_t> piece, std::sp
                             (faces.part_volume[q] > faces.part_volume[p] ||
                              (faces.part_volume[q] == faces.part_volume[p] && q < p));
             if (!is_island) continue;
-            uint32_t into = own;
-            double most = 0;
-            for (const SolidBond& bond : solid.bonds) {
-                const bool is_a = faces.part[bond.a] == p, is_b = faces.part[bond.b] == p;
-                if (is_a == is_b) continue;
-                const uint32_t other = piece[is_a ? bond.b : bond.a];
-                double area = 0;
-                for (const SolidBond& again : solid.bonds)
-                    if ((faces.part[again.a] == p) != (faces.part[again.b] == p) &&
-                        piece[faces.part[again.a] == p ? again.b : again.a] == other)
-                        area += again.area;
-                if (area > most) most = area, into = other;
-            }
+            const uint32_t into = largest_beside(body, piece, faces, p, own);
             if (into == own) continue;
             is_any = true;
             volume[own] -= faces.part_volume[p], volume[into] += faces.part_volume[p];

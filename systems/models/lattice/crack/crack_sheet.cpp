@@ -68,7 +68,8 @@ double mean_cell(const BreakableSolid& body) {
     return body.solid.volume / static_cast<double>(body.solid.cells.size());
 }
 
-// A part that is too small goes to the one that it shares most area with.
+// A part that is too small goes to the one that it shares most area with; one beside nobody stays what it is, and its
+// volume is marked by its sign.
 void join_small_parts(const BreakableSolid& body, BreakRun& run, uint32_t piece, uint32_t parts, double least) {
     for (uint32_t rounds = 0; rounds < parts; ++rounds) {
         uint32_t small = kNoPart;
@@ -77,22 +78,21 @@ void join_small_parts(const BreakableSolid& body, BreakRun& run, uint32_t piece,
                 (small == kNoPart || run.part_volume[p] < run.part_volume[small]))
                 small = p;
         if (small == kNoPart) return;
-        // The area shared with each: part_piece is free until parts become pieces, but holds no area; the bonds are
-        // gone through once for each part beside it.
-        uint32_t into = kNoPart;
-        double most = 0;
-        for (uint32_t p = 0; p < parts; ++p) {
-            if (p == small || !(run.part_volume[p] > 0)) continue;
-            double area = 0;
-            for (const SolidBond& bond : body.solid.bonds) {
-                if (run.piece[bond.a] != piece || run.piece[bond.b] != piece) continue;
-                const uint32_t a = run.part[bond.a], b = run.part[bond.b];
-                if ((a == small && b == p) || (a == p && b == small)) area += bond.area;
+        std::fill(run.part_area.begin(), run.part_area.begin() + parts, 0.0);
+        for (uint32_t i = 0; i < run.cell_count; ++i) {
+            const uint32_t c = run.cells[i];
+            if (run.piece[c] != piece || run.part[c] != small) continue;
+            for (const uint32_t b : body.paths.of_cell(c)) {
+                const SolidBond& bond = body.solid.bonds[b];
+                const uint32_t other = bond.a == c ? bond.b : bond.a;
+                if (run.piece[other] == piece && run.part[other] != small) run.part_area[run.part[other]] += bond.area;
             }
-            if (area > most) most = area, into = p;
         }
-        if (into == kNoPart) {
-            run.part_volume[small] = -run.part_volume[small];  // beside nobody: it stays what it is
+        uint32_t into = 0;
+        for (uint32_t p = 1; p < parts; ++p)
+            if (run.part_area[p] > run.part_area[into]) into = p;
+        if (!(run.part_area[into] > 0)) {
+            run.part_volume[small] = -run.part_volume[small];
             continue;
         }
         for (uint32_t i = 0; i < run.cell_count; ++i)
@@ -144,6 +144,7 @@ void shield(const BreakableSolid& body, BreakRun& run, uint32_t start) {
     const double away = run.rules.shield * reach + kShieldEdges * body.solid.lattice.edge;
     for (uint32_t i = 0; i < run.cell_count; ++i) {
         const uint32_t c = run.cells[i];
+        if (!may_start(body, run, c)) continue;
         for (uint32_t s = 0; s < run.sheet_count && !(run.marks[c] & kBanned); ++s) {
             const Vec3d from = body.solid.bonds[run.sheet[s]].centroid - body.solid.cells[c].centroid;
             if (dot(from, from) < away * away) run.marks[c] |= kBanned;

@@ -5,10 +5,10 @@
 namespace cullet {
 namespace {
 
-constexpr double kBed = 100;          // of E / a: what a held patch stands on
-constexpr uint32_t kFewestCells = 4;  // of a piece that is solved
-constexpr double kForcePower = 0.6;   // of the mass, in Hertz' force
-constexpr uint64_t kElementWork = 2500;
+constexpr double kBed = 100;                              // of E / a: what a held patch stands on
+constexpr uint32_t kFewestCells = 4;                      // of a piece that is solved
+constexpr double kForcePower = 0.6;                       // of the mass, in Hertz' force
+constexpr uint64_t kElementWork = 2500, kCellWork = 600;  // multiplications
 
 double weight_of(const BreakRun& run, const SurfacePatch& patch) {
     const Vec3d from = patch.centroid - run.blow.point;
@@ -78,10 +78,25 @@ bool lay_loads(const BreakableSolid& body, BreakRun& run) {
     return true;
 }
 
+void displace(const BreakableSolid& body, BreakRun& run) {
+    ++run.solve_count;
+    std::copy(run.loads.begin(), run.loads.end(), run.forces.begin());
+    solve_with(body.elements.plan, run.factor, run.loads, run.gathered);
+    differentiate(body.elements, run.sums, run.loads, run.gradients);
+}
+
+// Half of the work of all loads: blow, inertia, and nothing at pins.
+double strain_energy(const BreakRun& run) {
+    double energy = 0;
+    for (size_t i = 0; i < run.loads.size(); ++i)
+        if (run.factor.is_used[i / 3]) energy += 0.5 * run.loads[i] * run.forces[i];
+    return energy;
+}
+
 }  // namespace
 
 void list_cells(BreakRun& run) {
-    run.cell_count = 0, run.next_element = 0, run.tries = 0;
+    run.cell_count = run.next_element = run.next_cell = run.tries = 0;
     run.cracks_before = run.crack_count;
     run.is_field_made = false;
     for (uint32_t c = 0; c < run.piece.size(); ++c) {
@@ -106,27 +121,23 @@ bool assemble_some(const BreakableSolid& body, BreakRun& run, uint64_t work, boo
     return true;
 }
 
-void find_stress(const BreakableSolid& body, BreakRun& run) {
-    const bool is_first = run.solve_count++ == 0;
-    // Half of the work of all loads: blow, inertia, and nothing at pins.
-    std::copy(run.loads.begin(), run.loads.end(), run.forces.begin());
-    solve_with(body.elements.plan, run.factor, run.loads, run.gathered);
-    double energy = 0;
-    for (size_t i = 0; i < run.loads.size(); ++i)
-        if (run.factor.is_used[i / 3]) energy += 0.5 * run.loads[i] * run.forces[i];
-    differentiate(body.elements, run.sums, run.loads, run.gradients);
-    double scale = 1;
-    if (is_first) {
-        run.share = force_share(run.blow, energy);
-        scale = run.share;
+bool find_some_stress(const BreakableSolid& body, BreakRun& run, uint64_t work) {
+    if (run.next_cell == 0) {
+        displace(body, run);
+        if (run.solve_count == 1) run.share = force_share(run.blow, strain_energy(run));
     }
-    for (uint32_t i = 0; i < run.cell_count; ++i) {
-        const uint32_t c = run.cells[i];
+    // Loads were laid with the contact's whole force in the first solve, and with the share of it afterwards.
+    const double scale = run.solve_count == 1 ? run.share : 1;
+    const uint32_t end =
+        static_cast<uint32_t>(std::min<uint64_t>(run.cell_count, run.next_cell + work / kCellWork + 1));
+    for (; run.next_cell < end; ++run.next_cell) {
+        const uint32_t c = run.cells[run.next_cell];
         const CellStress most = largest_stress(body.elements, run.gradients, c, run.brittle.elastic);
         run.stress[c] = scale * most.stress;
         run.first[c] = scale * most.first;
         if (length(body.solid.cells[c].centroid - run.blow.point) < run.patch) run.marks[c] |= kCrushed;
     }
+    return end == run.cell_count;
 }
 
 }  // namespace cullet

@@ -9,8 +9,8 @@ void list_cells(BreakRun& run);
 /// Some of the elements. True: all are in the matrix, the blow's loads are laid and pins are chosen. `is_loaded` false:
 /// the blow does not reach this piece, or it is too small for pins.
 bool assemble_some(const BreakableSolid& body, BreakRun& run, uint64_t work, bool& is_loaded);
-/// Displacements, and by cell stress and its largest principal value. The first one tells what share of the contact's
-/// force comes.
-void find_stress(const BreakableSolid& body, BreakRun& run);
+/// Displacements, and by cell stress and its largest principal value: some of them. True: all are there. The first
+/// solve tells what share of the contact's force comes.
+bool find_some_stress(const BreakableSolid& body, BreakRun& run, uint64_t work);
 
 }  // namespace cullet

@@ -15,8 +15,8 @@ void for_each_array(const BreakableSolid& body, BreakRun& run, Take take) {
     take(run.trust, cells), take(run.direction, cells), take(run.cells, cells), take(run.part, cells),
         take(run.open, cells);
     take(run.sheet, bonds), take(run.is_sheet, bonds), take(run.is_held, body.solid.patches.size());
-    take(run.volume, cells + 1), take(run.part_volume, cells + 1), take(run.part_piece, cells + 1),
-        take(run.queue, cells + 1);
+    take(run.volume, cells + 1), take(run.part_volume, cells + 1), take(run.part_area, cells + 1),
+        take(run.part_piece, cells + 1), take(run.queue, cells + 1);
     take(run.heap, 2 * bonds + 1), take(run.sums, body.elements.elements.size());
     take(run.gradients, body.elements.elements.size());
     take(run.loads, 3 * ranks), take(run.forces, 3 * ranks), take(run.weights, ranks), take(run.sorted, ranks);
