@@ -16,27 +16,38 @@ double weight_of(const BreakRun& run, const SurfacePatch& patch) {
     return share > 0 ? patch.area * std::sqrt(share) : 0;
 }
 
-// The first piece is hit in any case: at its nearest patch, if none is near enough.
-bool lay_blow(const BreakableSolid& body, BreakRun& run, double force) {
-    double sum = 0, nearest = 1e300;
+uint32_t nearest_patch(const BreakableSolid& body, Vec3d point) {
+    double nearest = 1e300;
     uint32_t best = 0;
-    const auto& patches = body.solid.patches;
-    for (uint32_t i = 0; i < patches.size(); ++i) {
-        if (run.piece[patches[i].cell] != run.at_piece) continue;
-        sum += weight_of(run, patches[i]);
-        const Vec3d from = patches[i].centroid - run.blow.point;
+    for (uint32_t i = 0; i < body.solid.patches.size(); ++i) {
+        const Vec3d from = body.solid.patches[i].centroid - point;
         if (dot(from, from) < nearest) nearest = dot(from, from), best = i;
     }
-    if (sum > 0) {
-        for (uint32_t i = 0; i < patches.size(); ++i) {
-            if (run.piece[patches[i].cell] != run.at_piece) continue;
-            if (const double weight = weight_of(run, patches[i]); weight > 0)
-                add_force(body.elements, body.elements.patches[i], force * weight / sum * run.blow.push, run.loads);
-        }
-        return true;
+    return best;
+}
+
+double weight_of_piece(const BreakableSolid& body, const BreakRun& run) {
+    double sum = 0;
+    for (const SurfacePatch& patch : body.solid.patches)
+        if (run.piece[patch.cell] == run.at_piece) sum += weight_of(run, patch);
+    return sum;
+}
+
+// The first piece is hit in any case: where its surface is nearest, if the touch lies off it.
+bool lay_blow(const BreakableSolid& body, BreakRun& run, double force) {
+    const auto& patches = body.solid.patches;
+    if (patches.empty()) return false;
+    double sum = weight_of_piece(body, run);
+    if (!(sum > 0) && run.solve_count == 0) {
+        run.blow.point = patches[nearest_patch(body, run.blow.point)].centroid;
+        sum = weight_of_piece(body, run);
     }
-    if (run.solve_count > 0 || patches.empty()) return false;
-    add_force(body.elements, body.elements.patches[best], force * run.blow.push, run.loads);
+    if (!(sum > 0)) return false;
+    for (uint32_t i = 0; i < patches.size(); ++i) {
+        if (run.piece[patches[i].cell] != run.at_piece) continue;
+        if (const double weight = weight_of(run, patches[i]); weight > 0)
+            add_force(body.elements, body.elements.patches[i], force * weight / sum * run.blow.push, run.loads);
+    }
     return true;
 }
 

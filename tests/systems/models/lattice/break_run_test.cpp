@@ -111,6 +111,13 @@ TEST(BreakRun, AFinerLatticeBreaksAtTheSameLoad) {
     EXPECT_NEAR(b.run.first_crack / a.run.first_crack, 1, 0.25);
 }
 
+TEST(BreakRun, ATouchOffTheSurfaceIsWhereItIsNearest) {
+    const BreakableSolid body = brick(500, 4);
+    const Broken beside(body, kBrick, blow_on({0, 3 * kHalf.y, 0}, {0, -1, 0}, 5, 3));
+    EXPECT_NEAR(beside.run.blow.point.y, kHalf.y, 1e-6);
+    EXPECT_GT(beside.run.gate, 0);
+}
+
 TEST(BreakRun, PiecesRiseWithSpeed) {
     BreakableSolid body = brick(800, 4);
     double before = 0;
