@@ -11,7 +11,7 @@ inline constexpr uint32_t kVerticesPerBlock = 64;
 enum class BlockSums : uint8_t { NotKept = 0, Outdated, Known };
 
 /// Row b is of the live vertices in rows [64 b, 64 b + 64), body frame. It is no part of a world's state: the vertices
-/// give it. Rows are written in place up to the limit and never appended.
+/// give it, and measure_blocks writes it. Rows are written in place up to the limit and never appended.
 struct VertexBlocks : Table<VertexBlocks> {
     using Table::Table;
     static constexpr const char* kName = "vertex_blocks";

@@ -28,6 +28,8 @@ struct RunTraces {
 struct StructureCalls {
     // ---- Its rows
 
+    /// A copy of what another state holds, with one user; none: there is no room, and `full` names the limit.
+    Row<Structures> (*import)(RunRows&, const RunRows& from, Row<Structures>, const char** full) = nullptr;
     /// One user less; the rows go back when there are none.
     void (*release)(RunRows&, Row<Structures>) = nullptr;
     /// No point of it is farther from its centre, m.

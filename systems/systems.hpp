@@ -152,6 +152,8 @@ void fade_debris(Serial, Step step, Debris& debris, const DebrisAges& ages, cons
 void show_soft(Serial, SoftRows& rows, Events<ShellChanged>& changed, Events<RefusedEvent>& refused);
 /// The drawn mesh of each shell that changed. Of what a hit left of a body, only the cells that it changed.
 void draw_shells(Each<ShellChanged> changed, Step step, BodyRows& rows, ViewBoxes& boxes);
+/// What the vertices of a large body weigh, block by block, where a hit changed them: the next hit looks no farther.
+void measure_blocks(Each<ShellChanged> changed, const Bodies& bodies, ShellRows& rows);
 /// Boxes of the drawn triangles of each shell that changed.
 void bound_drawn(Each<ShellChanged> changed, Bodies& bodies, const ViewVertices& vertices, const ViewIndices& indices,
                  ViewBoxes& boxes);

@@ -5,7 +5,7 @@
 #include "systems/api/model_row.hpp"
 #include "systems/cook/materials.hpp"
 #include "systems/cook/model_contents.hpp"
-#include "systems/structures/shell/cell_elements.hpp"
+#include "systems/structure_calls.hpp"
 #include "systems/tasks/hold_units.hpp"
 #include "systems/world_contents.hpp"
 
@@ -34,13 +34,13 @@ Result<ModelId> World::add_model(const Model& model) {
         return Error{model.contents->name + ": the world holds " + std::to_string(kMostMaterials) +
                      " materials already; remove models and bodies of one of them."};
     const char* full = "";
-    const Row<Structures> structure = import_shell(state, model.contents->state, model.contents->shell, &full);
+    const StructureCalls& calls = calls_of(cooked.structures, model.contents->shell);
+    const Row<Structures> structure = calls.import(state, cooked, model.contents->shell, &full);
     if (!structure.exists()) return Error{model.contents->name + ": no room for the model; raise " + full + "."};
     state.structures.material[structure] = material;
     state.structures.damage_model[structure] = *breaks;
     state.models.is_used[row] = 1;
     state.models.structure[row] = structure;
-    (void)sorted_elements(ShellView(state, structure));  // its bodies' copies know, too
     const DamageSettings& damage = contents_->data.damage_settings;
     contents_->log.advise(contents_->host, *model.contents,
                           hold_units(damage.units_a_frame, damage.hold_seconds, contents_->data.step_info.dt));
@@ -60,7 +60,8 @@ Result<void> World::remove_model(ModelId id) {
     if (!model.exists()) return stale("model", id.index);
     const HostScope call(contents_->host);
     if (contents_->recorder) contents_->recorder->remove_model(id);
-    release_shell(state, state.models.structure[model]);
+    const Row<Structures> structure = state.models.structure[model];
+    calls_of(state.structures, structure).release(state, structure);
     state.models.is_used[model] = 0;
     return {};
 }

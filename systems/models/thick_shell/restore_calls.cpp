@@ -11,7 +11,9 @@ namespace cullet {
 void restore_sums(BodyRows& state, Row<Bodies> body) {
     const Row<Structures> shell = state.bodies.structure[body];
     const bool is_brittle = material_traits(state, state.structures.material[shell]).kind == MaterialKind::Brittle;
-    if (is_brittle && may_cut_out(state, body)) keep_vertex_sums(ShellView(state, shell));
+    if (!is_brittle || !may_cut_out(state, body)) return;
+    keep_vertex_sums(ShellView(state, shell));
+    measure_outdated(ShellView(state, shell));
 }
 
 ShellRoom room_of_hit(BodyRows& state, Row<Bodies> body) {

@@ -49,7 +49,7 @@ bool wants_own_shell(const ShellRows& state, Row<Structures> source, const Spawn
 // Measured now, and not in the frame of the first hit.
 void remember_sums(const ShellView& shell) {
     keep_vertex_sums(shell);
-    (void)vertex_sums(shell);
+    measure_outdated(shell);
 }
 
 // Rows of a body's own shell; of a large one with those that cracks will add.

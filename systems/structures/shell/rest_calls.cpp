@@ -2,6 +2,8 @@
 
 #include "components/body_id.hpp"
 #include "systems/bodies/thresholds.hpp"
+#include "systems/cook/model_contents.hpp"
+#include "systems/structures/shell/cell_elements.hpp"
 #include "systems/structures/shell/cell_hulls.hpp"
 #include "systems/structures/shell/draw_shell.hpp"
 #include "systems/structures/shell/fragment_parts.hpp"
@@ -14,6 +16,12 @@ namespace cullet {
 namespace {
 
 // ---- its rows
+
+Row<Structures> import(RunRows& rows, const RunRows& from, Row<Structures> structure, const char** full) {
+    const Row<Structures> copy = import_shell(rows, from, structure, full);
+    if (copy.exists()) (void)sorted_elements(ShellView(rows, copy));  // its bodies' copies know, too
+    return copy;
+}
 
 void release(RunRows& rows, Row<Structures> structure) {
     release_shell(rows, structure);
@@ -123,6 +131,7 @@ void close_up_hulls(RunRows& rows, Row<Structures> structure, bool are_renewed) 
 }  // namespace
 
 void add_rest_calls(StructureCalls& calls) {
+    calls.import = import;
     calls.release = release;
     calls.radius = radius;
     calls.points_at_birth = points_at_birth;

@@ -86,20 +86,28 @@ bool keeps_vertex_sums(const ShellView& shell) {
 }
 
 VertexSums block_sums(const ShellView& shell, uint32_t block) {
-    VertexBlocks& blocks = shell.state.vertex_blocks;
+    const VertexBlocks& blocks = shell.state.vertex_blocks;
     const uint32_t row = block_row(shell, block);
-    const BlockSums known = state_of(shell, block);
-    if (known == BlockSums::Known) {
-        CULLET_ASSERT(are_same(read(blocks, row), measure(shell, block)),
-                      "vertices of block %u of shell %u have changed, and its sums were kept", block, shell.row.index);
-        return read(blocks, row);
-    }
-    const VertexSums sums = measure(shell, block);
-    if (known == BlockSums::Outdated) write(blocks, row, sums);
-    return sums;
+    if (state_of(shell, block) != BlockSums::Known) return measure(shell, block);
+    CULLET_ASSERT(are_same(read(blocks, row), measure(shell, block)),
+                  "vertices of block %u of shell %u have changed, and its sums were kept", block, shell.row.index);
+    return read(blocks, row);
+}
+
+void measure_outdated(const ShellView& shell) {
+    if (!keeps_vertex_sums(shell)) return;
+    for (uint32_t b = 0; b < block_count(shell); ++b)
+        if (state_of(shell, b) == BlockSums::Outdated)
+            write(shell.state.vertex_blocks, block_row(shell, b), measure(shell, b));
 }
 
 namespace {
+
+bool are_all_known(const ShellView& shell) {
+    for (uint32_t b = 0; b < block_count(shell); ++b)
+        if (state_of(shell, b) != BlockSums::Known) return false;
+    return shell.vertex_count() > 0;
+}
 
 /// Of known blocks, column by column: each sum in the order of the blocks, as by the row.
 VertexSums sum_columns(const VertexBlocks& blocks, uint32_t first, uint32_t end) {
@@ -120,11 +128,8 @@ VertexSums sum_columns(const VertexBlocks& blocks, uint32_t first, uint32_t end)
 }  // namespace
 
 VertexSums vertex_sums(const ShellView& shell) {
-    if (keeps_vertex_sums(shell)) {
-        for (uint32_t b = 0; b < block_count(shell); ++b)
-            if (CULLET_CHECKS_ON || state_of(shell, b) != BlockSums::Known) (void)block_sums(shell, b);
+    if (!CULLET_CHECKS_ON && are_all_known(shell))
         return sum_columns(shell.state.vertex_blocks, block_row(shell, 0), block_row(shell, block_count(shell)));
-    }
     VertexSums all;
     for (uint32_t b = 0; b < block_count(shell); ++b) {
         const VertexSums block = block_sums(shell, b);

@@ -20,8 +20,10 @@ struct VertexSums {
 };
 
 /// Sums of the shell's blocks are kept from here on: whoever changes rest, mass, pins or life of one of its vertices
-/// calls outdate_block. For shells of large bodies that runs leave alone.
+/// calls outdate_block. For shells of large bodies that runs leave alone. Nothing is measured yet.
 void keep_vertex_sums(const ShellView& shell);
+/// Writes the sums of each block that is outdated, where they are kept: readers write nothing.
+void measure_outdated(const ShellView& shell);
 void outdate_block(const ShellView& shell, uint32_t vertex);
 /// All that hold vertices of a listed part.
 void outdate_blocks(const ShellView& shell, const FragmentPart& part);
@@ -34,7 +36,7 @@ inline uint32_t block_count(const ShellView& shell) {
 inline uint32_t block_row(const ShellView& shell, uint32_t block) {
     return shell.vertex(0) / kVerticesPerBlock + block;
 }
-/// Of one block, which is measured where nobody did since it changed: the same bits either way.
+/// Of one block. One that is outdated is looked through, for this reader alone: the same bits either way.
 VertexSums block_sums(const ShellView& shell, uint32_t block);
 /// Of the shell: of its blocks, added in order.
 VertexSums vertex_sums(const ShellView& shell);

@@ -1,0 +1,11 @@
+#include "systems/structures/shell/vertex_sums.hpp"
+#include "systems/systems.hpp"
+
+namespace cullet {
+
+void measure_blocks(Each<ShellChanged> changed, const Bodies& bodies, ShellRows& rows) {
+    if (static_cast<BodyKind>(bodies.kind[changed->body]) == BodyKind::Free) return;
+    measure_outdated(ShellView(rows, bodies.structure[changed->body]));
+}
+
+}  // namespace cullet
