@@ -6,12 +6,39 @@
 #include "engine/random.hpp"
 
 namespace cullet {
+namespace {
+
+constexpr uint32_t kNoPart = 0xffffffffu;
+
+void number_parts(const Solid& solid, BreakableSolid& body) {
+    body.part.assign(solid.cells.size(), kNoPart);
+    std::vector<uint32_t> open;
+    for (uint32_t start = 0; start < solid.cells.size(); ++start) {
+        if (body.part[start] != kNoPart) continue;
+        body.part[start] = body.part_count;
+        open.push_back(start);
+        while (!open.empty()) {
+            const uint32_t c = open.back();
+            open.pop_back();
+            for (const uint32_t b : body.paths.of_cell(c)) {
+                const uint32_t other = solid.bonds[b].a == c ? solid.bonds[b].b : solid.bonds[b].a;
+                if (body.part[other] != kNoPart) continue;
+                body.part[other] = body.part_count;
+                open.push_back(other);
+            }
+        }
+        ++body.part_count;
+    }
+}
+
+}  // namespace
 
 BreakableSolid make_breakable(Solid solid) {
     BreakableSolid body;
     body.elements = make_elements(solid);
     body.paths = find_crack_paths(solid);
     body.field = make_crack_field(solid);
+    number_parts(solid, body);
     body.strength.assign(solid.cells.size(), 1.0f);
     body.solid = std::move(solid);
     return body;

@@ -13,6 +13,9 @@ struct BreakableSolid {
     CrackField field;
     /// Of each cell: of the material's tensile strength. Mean 1.
     std::vector<float> strength;
+    /// Of each cell: cells that hang together over bonds have one number. Loose parts are pieces from the start.
+    std::vector<uint32_t> part;
+    uint32_t part_count = 0;
 };
 
 /// Strengths are 1.

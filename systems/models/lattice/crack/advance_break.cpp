@@ -54,9 +54,9 @@ void close_piece(const BreakableSolid& body, BreakRun& run) {
 void decide_on_cracks(const BreakableSolid& body, BreakRun& run) {
     const uint32_t c = weakest(body, run);
     const double ratio = c == kNoCell ? 0 : ratio_of(body, run, c);
-    if (run.solve_count == 1) {
+    if (run.at_round == 0 && ratio > run.gate) {
         run.gate = ratio;
-        run.first_crack = ratio > 0 ? 1 / ratio : 0;
+        run.first_crack = 1 / ratio;
     }
     run.pieces_before = run.piece_count;
     if (!(ratio >= 1)) {
@@ -101,13 +101,19 @@ void begin_break(const BreakableSolid& body, const BrittleSolid& brittle, const 
     run.brittle = brittle, run.blow = blow, run.rules = rules;
     run.contact = hertz_contact(blow, brittle.elastic);
     run.patch = patch_radius(run.contact, brittle, body.solid.lattice.edge, body.solid.volume);
-    run.share = 1, run.mass = 0, run.gate = 0, run.first_crack = 0;
-    run.piece_count = 1, run.crack_count = run.solve_count = run.plane_count = 0;
-    std::fill(run.piece.begin(), run.piece.end(), 0u);
+    run.share = 1, run.gate = 0, run.first_crack = 0;
+    run.crack_count = run.solve_count = run.plane_count = 0;
+    run.piece_count = body.part_count;
+    std::fill(run.volume.begin(), run.volume.begin() + body.part_count, 0.0);
+    for (uint32_t c = 0; c < run.piece.size(); ++c) {
+        run.piece[c] = body.part[c];
+        run.volume[body.part[c]] += body.solid.cells[c].volume;
+    }
     for (uint32_t i = 0; i < run.is_held.size(); ++i) run.is_held[i] = held.empty() ? 0 : held[i];
-    run.volume[0] = body.solid.volume;
-    run.queue[0] = {0, 0};
-    run.queue_first = 0, run.queue_end = 1;
+    move_to_surface(body, run);
+    run.queue_first = run.queue_end = 0;
+    for (uint32_t p = 0; p < body.part_count; ++p)
+        if (weight_of(body, run, p) > 0) run.queue[run.queue_end++] = {p, 0};
     run.stage = run.contact.force > 0 ? BreakStage::NextPiece : BreakStage::Done;
 }
 

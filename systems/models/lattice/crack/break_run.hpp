@@ -34,8 +34,7 @@ struct BreakRun {
     HertzContact contact;
     double patch = 0;        // m, radius
     double share = 1;        // of the contact's force
-    double mass = 0;         // kg, of the whole
-    double gate = 0;         // the first solve's largest ratio of stress and strength: below 1 nothing breaks
+    double gate = 0;         // the largest ratio of stress and strength before any crack: below 1 nothing breaks
     double first_crack = 0;  // share of the load at which the first one starts
     uint32_t piece_count = 1, crack_count = 0, solve_count = 0, plane_count = 0;
 
@@ -75,8 +74,7 @@ struct BreakRun {
     uint32_t at_piece = 0, at_round = 0, cell_count = 0, next_element = 0, next_cell = 0, tries = 0;
     uint32_t cracks_before = 0, pieces_before = 1;
     bool has_ground = false;
-    double scale = 1;  // of stresses: the share of the force
-    double load = 1;   // lambda: the share of the load that comes
+    double load = 1;  // lambda: the share of the load that comes
     bool is_field_made = false;
     std::span<Moments> sums;
     std::span<double> loads, forces;  // by rank: loads become displacements

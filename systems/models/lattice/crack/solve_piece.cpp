@@ -26,23 +26,10 @@ uint32_t nearest_patch(const BreakableSolid& body, Vec3d point) {
     return best;
 }
 
-double weight_of_piece(const BreakableSolid& body, const BreakRun& run) {
-    double sum = 0;
-    for (const SurfacePatch& patch : body.solid.patches)
-        if (run.piece[patch.cell] == run.at_piece) sum += weight_of(run, patch);
-    return sum;
-}
-
-// The first piece is hit in any case: where its surface is nearest, if the touch lies off it.
 bool lay_blow(const BreakableSolid& body, BreakRun& run, double force) {
-    const auto& patches = body.solid.patches;
-    if (patches.empty()) return false;
-    double sum = weight_of_piece(body, run);
-    if (!(sum > 0) && run.solve_count == 0) {
-        run.blow.point = patches[nearest_patch(body, run.blow.point)].centroid;
-        sum = weight_of_piece(body, run);
-    }
+    const double sum = weight_of(body, run, run.at_piece);
     if (!(sum > 0)) return false;
+    const auto& patches = body.solid.patches;
     for (uint32_t i = 0; i < patches.size(); ++i) {
         if (run.piece[patches[i].cell] != run.at_piece) continue;
         if (const double weight = weight_of(run, patches[i]); weight > 0)
@@ -73,10 +60,9 @@ bool lay_loads(const BreakableSolid& body, BreakRun& run) {
     if (run.cell_count < kFewestCells) return false;
     const std::span<const uint32_t> cells = run.cells.first(run.cell_count);
     const PieceMass mass = mass_of(body.elements, cells, run.brittle.density);
-    if (run.solve_count == 0) run.mass = mass.mass;
     std::fill(run.loads.begin(), run.loads.end(), 0.0);
-    run.scale = power(mass.mass / run.mass, kForcePower);
-    if (!lay_blow(body, run, run.contact.force * run.share * run.scale)) return false;
+    const double part_of_force = power(mass.mass / (run.brittle.density * body.solid.volume), kForcePower);
+    if (!lay_blow(body, run, run.contact.force * run.share * part_of_force)) return false;
     run.has_ground = false;
     add_bed(body, run);
     if (run.has_ground) return true;
@@ -105,6 +91,19 @@ double strain_energy(const BreakRun& run) {
 }
 
 }  // namespace
+
+void move_to_surface(const BreakableSolid& body, BreakRun& run) {
+    for (uint32_t p = 0; p < body.part_count; ++p)
+        if (weight_of(body, run, p) > 0) return;
+    if (!body.solid.patches.empty()) run.blow.point = body.solid.patches[nearest_patch(body, run.blow.point)].centroid;
+}
+
+double weight_of(const BreakableSolid& body, const BreakRun& run, uint32_t piece) {
+    double sum = 0;
+    for (const SurfacePatch& patch : body.solid.patches)
+        if (run.piece[patch.cell] == piece) sum += weight_of(run, patch);
+    return sum;
+}
 
 void list_cells(BreakRun& run) {
     run.cell_count = run.next_element = run.next_cell = run.tries = 0;

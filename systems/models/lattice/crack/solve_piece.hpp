@@ -4,6 +4,11 @@
 
 namespace cullet {
 
+/// Where the blow does not reach the surface it counts at the nearest place of it.
+void move_to_surface(const BreakableSolid& body, BreakRun& run);
+/// Of the patches of a piece that the blow reaches: 0 means none.
+double weight_of(const BreakableSolid& body, const BreakRun& run, uint32_t piece);
+
 /// Lists the cells of run.at_piece, marks them solved and clears what the last solve left.
 void list_cells(BreakRun& run);
 /// Some of the elements. True: all are in the matrix, the blow's loads are laid and pins are chosen. `is_loaded` false:

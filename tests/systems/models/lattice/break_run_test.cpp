@@ -7,8 +7,10 @@
 
 #include "engine/random.hpp"
 #include "sample_game/allocations.hpp"
+#include "systems/structures/tetrahedra/cook/cook_solid.hpp"
 #include "systems/structures/tetrahedra/cook/cover_lattice.hpp"
 #include "tests/support/lattice_solids.hpp"
+#include "tests/support/simple_meshes.hpp"
 
 namespace cullet {
 namespace {
@@ -169,6 +171,49 @@ TEST(BreakRun, SlicesChangeNoBitAndNothingIsAllocated) {
     ASSERT_EQ(run.piece_count, whole.run.piece_count);
     EXPECT_EQ(std::memcmp(run.piece.data(), whole.run.piece.data(), run.piece.size_bytes()), 0);
     EXPECT_EQ(std::memcmp(run.stress.data(), whole.run.stress.data(), run.stress.size_bytes()), 0);
+}
+
+BreakableSolid cooked(const Mesh& mesh, double cells, uint32_t elements) {
+    SolidSettings settings;
+    settings.cells = cells, settings.element_edges = elements;
+    Result<CookedSolid> made = cook_solid(mesh, settings);
+    if (!made) ADD_FAILURE() << made.error(), std::abort();
+    return make_breakable(std::move(made->solid));
+}
+
+TEST(BreakRun, LoosePartsArePiecesFromTheStartAndOnlyTheStruckOneBreaks) {
+    Mesh mesh = test::box_mesh({0.1, 0.1, 0.1}, 1);
+    test::append(mesh, test::box_mesh({0.1, 0.1, 0.1}, 1), {0.5, 0, 0});
+    const BreakableSolid body = cooked(mesh, 800, 4);
+    EXPECT_EQ(body.part_count, 2u);
+    const Broken broken(body, kBrick, blow_on({0.6, 0.05, 0.05}, {-1, 0, 0}, 10, 1));
+    EXPECT_GT(broken.run.piece_count, 2u);
+    expect_whole_pieces(body, broken.run);
+    const uint32_t whole = body.part[0];
+    for (size_t c = 0; c < body.part.size(); ++c)
+        ASSERT_EQ(broken.run.piece[c] == whole, body.solid.cells[c].centroid.x < 0.3);
+}
+
+TEST(BreakRun, CookedShapesBreakAndEnd) {
+    Mesh hollow = test::sphere_mesh(0.1f, 3);
+    test::append(hollow, test::turned_inside_out(test::sphere_mesh(0.06f, 3)), {0.01f, 0.005f, 0});
+    const Mesh shapes[] = {test::box_mesh({0.3, 0.01, 0.2}, 1), test::torus_mesh(0.1f, 0.03f, 24, 12), hollow,
+                           test::sphere_mesh(0.001f, 2)};
+    const Random random{9};
+    for (const Mesh& mesh : shapes)
+        for (const uint32_t elements : {2u, 4u}) {
+            const BreakableSolid body = cooked(mesh, 400, elements);
+            uint32_t most = 0;
+            for (uint64_t n = 0; n < 4; ++n) {
+                const Vec3d at(mesh.positions[static_cast<size_t>(random.uniform(n) *
+                                                                  static_cast<double>(mesh.positions.size()))]);
+                const Broken broken(body, kBrick, blow_on(at, Vec3d{0.01, 0.02, 0.03} - at, 8, 0.5));
+                expect_whole_pieces(body, broken.run);
+                most = std::max(most, broken.run.piece_count);
+            }
+            const bool is_crushed = &mesh == &shapes[3];  // the contact is wider than the whole ball
+            EXPECT_EQ(most > 1, !is_crushed) << mesh.name;
+        }
 }
 
 TEST(BreakRun, AnyBlowEnds) {
