@@ -6,6 +6,7 @@
 #include "systems/cook/disjoint_sets.hpp"
 #include "systems/cook/surface.hpp"
 #include "systems/structures/tetrahedra/cook/closed_mesh.hpp"
+#include "systems/structures/tetrahedra/cook/ray_crossings.hpp"
 
 namespace cullet {
 namespace {
@@ -180,17 +181,12 @@ bool holds(const Part& part, Vec3d p) {
 // The smallest part whose surface a ray from there leaves once more than it enters. In double: whichever part a cavity
 // is counted to, the sums over all parts stay the same.
 uint32_t part_around(const ClosedMesh& mesh, const std::vector<Part>& parts, Vec3d p) {
-    const Vec3d ray(0.5377416, 0.6180339, 0.5733182);  // that no mesh is likely to follow
     std::vector<int32_t> count(parts.size());
     for (uint32_t t = 0; t < mesh.triangles.size(); ++t) {
         const Part& part = parts[mesh.part_of[t]];
         if (!(part.volume > 0) || !holds(part, p)) continue;
         const Triangle& c = mesh.triangles[t];
-        const Vec3d a = mesh.positions[c[0]] - p, b = mesh.positions[c[1]] - p, d = mesh.positions[c[2]] - p;
-        const double u = dot(ray, cross(a, b)), v = dot(ray, cross(b, d)), w = dot(ray, cross(d, a));
-        if (!((u > 0 && v > 0 && w > 0) || (u < 0 && v < 0 && w < 0))) continue;
-        const double along = dot(cross(b - a, d - a), ray);
-        if (dot(cross(b - a, d - a), a) / along > 0) count[mesh.part_of[t]] += along > 0 ? 1 : -1;
+        count[mesh.part_of[t]] += ray_crossing(p, mesh.positions[c[0]], mesh.positions[c[1]], mesh.positions[c[2]]);
     }
     uint32_t best = kNone;
     for (uint32_t c = 0; c < parts.size(); ++c)
