@@ -39,34 +39,104 @@ ElementPlace place_in(const SolidElements& solid, uint32_t cell, Vec3d place) {
     return best;
 }
 
+class Groups {
+ public:
+    explicit Groups(size_t count) : root_(count) {
+        for (uint32_t i = 0; i < count; ++i) root_[i] = i;
+    }
+    /// The lowest of a group.
+    uint32_t of(uint32_t i) {
+        while (root_[i] != i) i = root_[i] = root_[root_[i]];
+        return i;
+    }
+    void join(uint32_t i, uint32_t k) {
+        i = of(i), k = of(k);
+        root_[std::max(i, k)] = std::min(i, k);
+    }
+
+ private:
+    std::vector<uint32_t> root_;
+};
+
+// The two rows of solid.moments that a bond joins.
+struct RowPair {
+    uint32_t a = 0, b = 0;
+};
+
+uint32_t row_of(const Solid& solid, uint32_t cell, uint32_t coarse) {
+    const auto is_before = [](const CellMoments& row, const std::pair<uint32_t, uint32_t>& wanted) {
+        return std::pair(row.cell, row.coarse) < wanted;
+    };
+    const auto at = std::lower_bound(solid.moments.begin(), solid.moments.end(), std::pair(cell, coarse), is_before);
+    const bool is_there = at != solid.moments.end() && at->cell == cell && at->coarse == coarse;
+    return is_there ? static_cast<uint32_t>(at - solid.moments.begin()) : kNoNode;
+}
+
+// Faces count as seen from their first tetrahedron, bonds from their lower cell: either may be the one in it.
+std::vector<RowPair> pair_rows(const Solid& solid) {
+    const CoverLattice& lattice = solid.lattice;
+    std::vector<RowPair> pairs;
+    for (const SolidBond& bond : solid.bonds) {
+        const auto& corners = lattice.fine[bond.tetrahedron];
+        const Vec3d from = lattice.points[corners[(bond.face + 1) % 4]] - lattice.points[corners[bond.face]];
+        const bool is_a_first = dot(bond.normal, from) > 0;
+        const uint32_t own = lattice.coarse_of[bond.tetrahedron];
+        const uint32_t beyond = lattice.coarse_of[lattice.neighbours[bond.tetrahedron][bond.face]];
+        const RowPair pair{row_of(solid, bond.a, is_a_first ? own : beyond),
+                           row_of(solid, bond.b, is_a_first ? beyond : own)};
+        if (pair.a != kNoNode && pair.b != kNoNode) pairs.push_back(pair);
+    }
+    // What was merged into one cell hangs together, too.
+    for (uint32_t i = 0; i + 1 < solid.moments.size(); ++i)
+        for (uint32_t k = i + 1; k < solid.moments.size() && solid.moments[k].cell == solid.moments[i].cell; ++k)
+            pairs.push_back({i, k});
+    return pairs;
+}
+
+// Legs that pass through one coarse tetrahedron move apart: each part that hangs together in it is an element of its
+// own, and shares nodes only with those that it hangs together with. (Molino et al. 2004, virtual nodes.)
 void number_nodes(const Solid& solid, SolidElements& made) {
-    std::vector<uint32_t> element_of(solid.lattice.coarse.size(), kNoNode),
-        node_of(solid.lattice.points.size(), kNoNode);
-    for (const CellMoments& row : solid.moments) element_of[row.coarse] = 0;
-    for (uint32_t c = 0; c < element_of.size(); ++c) {
-        if (element_of[c] == kNoNode) continue;
-        element_of[c] = static_cast<uint32_t>(made.elements.size());
+    const std::vector<RowPair> pairs = pair_rows(solid);
+    Groups copies(solid.moments.size()), nodes(10 * solid.moments.size());
+    for (const RowPair& pair : pairs)
+        if (solid.moments[pair.a].coarse == solid.moments[pair.b].coarse) copies.join(pair.a, pair.b);
+    for (const RowPair& pair : pairs) {
+        const TenNodes& p = solid.lattice.coarse[solid.moments[pair.a].coarse];
+        const TenNodes& q = solid.lattice.coarse[solid.moments[pair.b].coarse];
+        const uint32_t a = copies.of(pair.a), b = copies.of(pair.b);
+        if (a == b) continue;
+        for (uint32_t i = 0; i < 10; ++i)
+            for (uint32_t k = 0; k < 10; ++k)
+                if (p[i] == q[k]) nodes.join(10 * a + i, 10 * b + k);
+    }
+    std::vector<std::pair<uint32_t, uint32_t>> order;  // coarse tetrahedron, copy
+    for (uint32_t row = 0; row < solid.moments.size(); ++row)
+        if (copies.of(row) == row) order.push_back({solid.moments[row].coarse, row});
+    std::sort(order.begin(), order.end());
+    std::vector<uint32_t> element_of(solid.moments.size(), kNoNode), node_of(10 * solid.moments.size(), kNoNode);
+    for (const auto& [coarse, copy] : order) {
+        element_of[copy] = static_cast<uint32_t>(made.elements.size());
         SolidElement element;
         for (uint32_t k = 0; k < 10; ++k) {
-            uint32_t& node = node_of[solid.lattice.coarse[c][k]];
+            uint32_t& node = node_of[nodes.of(10 * copy + k)];
             if (node == kNoNode) {
                 node = static_cast<uint32_t>(made.places.size());
-                made.places.push_back(solid.lattice.points[solid.lattice.coarse[c][k]]);
+                made.places.push_back(solid.lattice.points[solid.lattice.coarse[coarse][k]]);
             }
             element.node[k] = node;
         }
         std::array<Vec3d, 4> p;
         for (uint32_t k = 0; k < 4; ++k) p[k] = made.places[element.node[k]];
         const double six_volumes = dot(cross(p[1] - p[0], p[2] - p[0]), p[3] - p[0]);
-        CULLET_ASSERT(six_volumes > 0, "coarse tetrahedron %u is turned over", c);
+        CULLET_ASSERT(six_volumes > 0, "coarse tetrahedron %u is turned over", coarse);
         element.volume = six_volumes / 6;
         for (uint32_t k = 0; k < 4; ++k) element.gradient[k] = gradient_of(p, k, six_volumes);
         made.elements.push_back(element);
     }
     made.first_part.assign(solid.cells.size() + 1, 0);
-    for (const CellMoments& row : solid.moments) {
-        ++made.first_part[row.cell + 1];
-        made.parts.push_back({element_of[row.coarse], row.moments});
+    for (uint32_t row = 0; row < solid.moments.size(); ++row) {
+        ++made.first_part[solid.moments[row].cell + 1];
+        made.parts.push_back({element_of[copies.of(row)], solid.moments[row].moments});
     }
     for (size_t c = 0; c < solid.cells.size(); ++c) made.first_part[c + 1] += made.first_part[c];
 }

@@ -12,7 +12,8 @@ namespace cullet {
 
 using Barycentric = std::array<double, 4>;
 
-/// Nodes as in TenNodes, numbered anew: those alone that elements have.
+/// Nodes as in TenNodes, numbered anew. Where a coarse tetrahedron holds parts that do not hang together in it, each is
+/// an element.
 struct SolidElement {
     TenNodes node{};
     std::array<Vec3d, 4> gradient{};  // of the four barycentric coordinates, 1/m

@@ -160,6 +160,9 @@ TEST(BreakRun, SlicesChangeNoBitAndNothingIsAllocated) {
     const BreakableSolid body = brick(500, 2);
     const Broken whole(body, kBrick, on_a_corner(10), {}, {}, ~uint64_t{0} / 2);
     Arena arena(break_bytes(body));
+    const std::span<uint8_t> left_over = arena.take<uint8_t>(break_bytes(body));
+    std::fill(left_over.begin(), left_over.end(), uint8_t{0xab});  // what others left says nothing
+    arena.reset();
     BreakRun run = take_break(arena, body);
     start_counting_allocations();
     begin_break(body, kBrick, on_a_corner(10), {}, {}, run);

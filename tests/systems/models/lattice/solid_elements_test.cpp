@@ -2,7 +2,9 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <set>
 
+#include "systems/structures/tetrahedra/cook/cook_solid.hpp"
 #include "tests/support/elastic_solve.hpp"
 #include "tests/support/lattice_solids.hpp"
 
@@ -133,6 +135,58 @@ TEST(SolidElements, AThinPlateBends) {
         const double theory = kMost * kMost / (6 * kStone.young) * solid.volume;
         EXPECT_GT(solve.energy() / theory, 0.9) << edge;
     }
+}
+
+// Two legs, with a gap that is narrower than an element.
+Mesh fork_mesh() {
+    constexpr float w = 0.1f, h = 0.3f, b = 0.05f, l = 0.04f, depth = 0.05f;
+    const Vec2 outline[8] = {{0, 0}, {w, 0}, {w, h}, {w - l, h}, {w - l, b}, {l, b}, {l, h}, {0, h}};
+    Mesh mesh;
+    for (const float z : {0.0f, depth})
+        for (const Vec2& p : outline) mesh.positions.push_back({p.x, p.y, z});
+    const uint32_t cap[6][3] = {{0, 1, 4}, {0, 4, 5}, {0, 5, 6}, {0, 6, 7}, {1, 2, 3}, {1, 3, 4}};
+    for (const auto& t : cap) {
+        mesh.triangles.push_back({t[2], t[1], t[0]});
+        mesh.triangles.push_back({t[0] + 8, t[1] + 8, t[2] + 8});
+    }
+    for (uint32_t i = 0; i < 8; ++i) {
+        const uint32_t k = (i + 1) % 8;
+        mesh.triangles.push_back({i, k, k + 8});
+        mesh.triangles.push_back({i, k + 8, i + 8});
+    }
+    return mesh;
+}
+
+TEST(SolidElements, LegsThatPassThroughOneElementMoveApart) {
+    double energy[2] = {};
+    for (const uint32_t size : {2u, 4u}) {
+        SolidSettings settings;
+        settings.cells = size == 2 ? 6000 : 800;
+        settings.element_edges = size;
+        const Result<CookedSolid> cooked = cook_solid(fork_mesh(), settings);
+        ASSERT_TRUE(cooked) << cooked.error();
+        const Solid& solid = cooked->solid;
+        const SolidElements elements = make_elements(solid);
+        std::set<uint32_t> coarse;
+        for (const CellMoments& row : solid.moments) coarse.insert(row.coarse);
+        EXPECT_TRUE(size == 2 || elements.elements.size() > coarse.size());
+        ElasticSolve solve(elements, kStone);
+        double area = 0;
+        for (const bool is_summed : {false, true})
+            for (size_t i = 0; i < solid.patches.size(); ++i) {
+                const SurfacePatch& patch = solid.patches[i];
+                if (patch.centroid.y < 0.25) continue;
+                if (!is_summed && patch.centroid.x < 0.05) area += patch.area;
+                const Vec3d push{patch.centroid.x < 0.05 ? -1.0 : 1.0, 0, 0};
+                if (is_summed) add_force(elements, elements.patches[i], 1000 * patch.area / area * push, solve.loads);
+            }
+        relieve(elements, solve.cells, 2000, mass_of(elements, solve.cells, 2000), {}, solve.loads);
+        solve.solve();
+        energy[size / 4] = solve.energy();
+    }
+    // Elements as tall as a third of the fork; glued legs would take 0.08 of it.
+    EXPECT_GT(energy[1] / energy[0], 0.6);
+    EXPECT_LT(energy[1] / energy[0], 1.05);
 }
 
 // A force on one end: what speeds the bar up takes it all, and the stress falls along the bar as its mass behind.
