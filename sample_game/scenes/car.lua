@@ -41,7 +41,7 @@ for n, what in ipairs(lanes) do
     if what == "car" then throw(half + gap, z + 0.25, -1) end
 end
 if into == "all" then
-    game.camera{eye = {7.2, 4.9, 8.8}, target = {0.6, 0.1, 0.3}, field_of_view = 0.68}
+    game.camera{eye = {7.4, 5.2, 9.0}, target = {0.9, -0.3, 0.7}, field_of_view = 0.72}
 else
     game.camera{eye = {2.2, 2.5, 5.2}, target = {-1.2, 0.5, 0}, field_of_view = into == "car" and 0.95 or 0.72}
 end

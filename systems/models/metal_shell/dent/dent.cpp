@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "systems/models/metal_shell/dent/along_dent.hpp"
 #include "systems/models/metal_shell/dent/fold_cells.hpp"
 #include "systems/models/metal_shell/dent/limit_stretch.hpp"
 #include "systems/models/metal_shell/dent/raise_body.hpp"
@@ -81,7 +82,7 @@ bool is_elastic(const MetalView& metal, const Striker& striker, double energy) {
     if (striker.shape != StrikerShape::Sphere && metal.shells().crush_pressure[metal.row] > 0) return false;
     for (uint32_t v = 0; v < metal.vertex_count(); ++v)  // what find_sheet_place looks at
         metal.vertices().start.set(metal.vertex(v), metal.shell.state.vertices.rest[metal.shell.vertex(v)]);
-    const Striker ball = round_striker(metal, striker);
+    const Striker ball = along_dent(metal, round_striker(metal, striker));
     const SheetPlace place = find_sheet_place(metal, ball);
     return !plan_sheet(sheet_metal(metal.shell), {ball.radius, place.support, energy, place.dent_depth}).is_dent();
 }
@@ -90,7 +91,7 @@ Dent work_dent(const MetalView& metal, const Striker& striker, double energy, bo
     begin(metal, goes_on);
     const bool is_closed = metal.shells().crush_pressure[metal.row] > 0;
     if (striker.shape != StrikerShape::Sphere && is_closed) return crush_body(metal, striker, energy);
-    const Striker ball = round_striker(metal, striker);
+    const Striker ball = along_dent(metal, round_striker(metal, striker));
     const SheetPlace place = find_sheet_place(metal, ball);
     const SheetPlan plan = plan_sheet(sheet_metal(metal.shell), {ball.radius, place.support, energy, place.dent_depth});
     if (!plan.is_dent()) {

@@ -61,7 +61,7 @@ std::vector<Loop> border_loops(const std::vector<Triangle>& triangles, size_t ve
     std::vector<std::vector<uint32_t>> ways(vertex_count);
     uint32_t left = 0;
     match(
-        sorted_sides(triangles), [](const Side&, const Side&) {},
+        sorted_sides(triangles), [](const auto&, const auto&) {},
         [&](const Side& side) {
             // The triangle that is missing runs the other way.
             ways[side.is_forward ? side.high : side.low].push_back(side.is_forward ? side.low : side.high);
@@ -136,7 +136,7 @@ void pair_sides(ClosedMesh& mesh) {
                 static_cast<uint32_t>(mesh.pairs.size());
             mesh.pairs.push_back({a.low, a.high});
         },
-        [](const Side&) {});
+        [](const auto&) {});
 }
 
 std::vector<Part> find_parts(ClosedMesh& mesh) {

@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include "components/body_id.hpp"
+#include "systems/models/metal_shell/dent/limit_stretch.hpp"
 #include "tests/systems/models/metal_shell/panels.hpp"
 
 namespace cullet {
@@ -205,6 +206,72 @@ TEST(MetalImpacts, ABallComesToRestInItsDent) {
     const Vec3 place = value_of(world.pose(ball)).position;
     EXPECT_NEAR(double{place.y}, 1.145 - deep, 0.012) << "on the dent's bottom, " << deep << " m deep";
     EXPECT_LT(std::fabs(place.x) + std::fabs(place.z), 0.05f);
+}
+
+/// Of the body's edges, as it is now, those outside of their limits; and triangles that look the other way.
+StretchCount stretch_of(const World& world, BodyId body, uint32_t& turned) {
+    auto& state = const_cast<State&>(world.contents().data.state);
+    const MetalView metal(state, state.bodies.structure[body_row(state.bodies, body)]);
+    MetalVertices& vertices = metal.vertices();
+    for (uint32_t v = 0; v < metal.vertex_count(); ++v)
+        vertices.place.set(metal.vertex(v), state.vertices.rest[metal.shell.vertex(v)]);
+    turned = 0;
+    for (uint32_t e = 0; e < metal.element_count(); ++e) {
+        const auto& c = metal.corners(e);
+        const auto normal = [&](const Column<Vec3>& at) {
+            const Vec3 p = at[metal.vertex(c[0])];
+            return cross(at[metal.vertex(c[1])] - p, at[metal.vertex(c[2])] - p);
+        };
+        turned += dot(normal(vertices.original), normal(vertices.place)) < 0;
+    }
+    return count_stretch(metal, 0.25, 0.4);
+}
+
+TEST(MetalImpacts, ABallThatBouncesInItsDentsTearsAndTurnsNothing) {
+    World world = test::make_world(settings_on(2));
+    const BodyId sheet = spawn_panel(world);
+    for (const float x : {-0.2f, 0.0f, 0.15f}) {
+        SphereSettings ball;
+        ball.radius = 0.145f, ball.mass = 100;
+        ball.pose.position = {x, 1.2f, 0.1f};
+        ball.motion.velocity = {0.3f, -5, 0};
+        const BodyId id = value_of(world.add_sphere(ball));
+        for (int n = 0; n < 240; ++n) world.step();
+        ASSERT_TRUE(world.remove(id).ok());
+    }
+    uint32_t turned = 0;
+    const StretchCount count = stretch_of(world, sheet, turned);
+    EXPECT_EQ(turned, 0u);
+    EXPECT_LE(count.outside, 3 * count.edges / 1000) << count.longest << " " << count.shortest;
+}
+
+TEST(MetalImpacts, APressCrushesABoxAndAWeightDoesNot) {
+    World world = test::make_world(settings_on(2));
+    test::add_floor(world);
+    const BodyId pressed = spawn_box(world, {0, 0.151f, 0}, {}), laden = spawn_box(world, {2, 0.151f, 0}, {});
+    KinematicSettings press;
+    press.half_extents = {0.4f, 0.05f, 0.4f};
+    press.pose.position = {0, 0.36f, 0};
+    press.motion.velocity = {0, -0.1f, 0};
+    const BodyId plate = value_of(world.add_kinematic_box(press));
+    SphereSettings weight;
+    weight.radius = 0.1f, weight.mass = 200;
+    weight.pose.position = {2, 0.402f, 0};
+    (void)world.add_sphere(weight);
+    for (int n = 0; n < 240; ++n) {
+        if (n == 180) ASSERT_TRUE(world.set_motion(plate, {}).ok());
+        world.step();
+    }
+    EXPECT_EQ(deepest(world, laden), 0);
+    const double low = double{value_of(world.pose(plate)).position.y} - 0.05;
+    EXPECT_LT(low, 0.22);
+    double top = 0;
+    const BodyView view = value_of(world.view(pressed));
+    for (size_t v = 0; v < view.vertex_count; ++v)
+        top = std::max(top, double{to_world(value_of(world.pose(pressed)), view.vertices[v].position).y});
+    EXPECT_LT(top, low + 0.012) << "it stands in the press";
+    EXPECT_EQ(test::shells_of(world).size(), 2u);
+    EXPECT_EQ(test::state_of(world).validate(), "");
 }
 
 TEST(MetalImpacts, ExplosionsDent) {
