@@ -55,6 +55,8 @@ void copy_metal_rows(ShellRows& to, const ShellRows& from, Row<Structures> sourc
     s.mean_edge[own] = from.metal_shells.mean_edge[given];
     s.crush_pressure[own] = from.metal_shells.crush_pressure[given];
     s.half_diagonal[own] = from.metal_shells.half_diagonal[given];
+    s.published[own] = from.metal_shells.published[given];
+    s.impulse_time[own] = from.metal_shells.impulse_time[given];
     k = 0;
     for_each_metal_range(to, own, {}, [&](Range& range, auto& table, uint32_t, const char*) {
         using Rows = std::remove_reference_t<decltype(table)>;

@@ -16,6 +16,19 @@ struct Bodies;
 inline constexpr uint32_t kMostSubShells = 512;
 inline constexpr uint32_t kBlended = 8;  // sub-shells that a vertex is moved by
 
+/// Choices of an impact that the published method makes otherwise than ours (metal shell note, section 8), as bits of
+/// MetalShells::published. A bit that is set takes the published one.
+enum PublishedChoice : uint8_t {
+    kPublishedContact = 1,   // springs that push harder on the way in; not one impulse
+    kPublishedDepth = 2,     // of each sub-shell by the impulse over its mass, turned by its moment
+    kPublishedShape = 4,     // sub-shells that are hit move as rigid pieces; not the striker's shape
+    kPublishedCells = 8,     // and that is all they do: no folds, no creases
+    kPublishedBorders = 16,  // a vertex between sub-shells goes with the lowest of them; not with all by weights
+    kPublishedSprings = 32,  // all edges pull towards the length they had before the impact
+    kPublishedLimit = 64,    // too long an edge is cut short along the way it had, at one end
+};
+inline constexpr uint8_t kAllPublished = 127;
+
 /// One row is what one shell has.
 struct MetalShells : RangeTable<MetalShells> {
     using RangeTable::RangeTable;
@@ -29,6 +42,8 @@ struct MetalShells : RangeTable<MetalShells> {
     Column<float> mean_edge{*this, "mean_edge", "m"};             // of the original shape
     Column<float> crush_pressure{*this, "crush_pressure", "Pa"};  // p_c of the whole body; 0: it is an open sheet
     Column<float> half_diagonal{*this, "half_diagonal", "m"};     // of the original box
+    Column<uint8_t> published{*this, "published"};                // PublishedChoice
+    Column<float> impulse_time{*this, "impulse_time", "s"};       // tau of the published depth; 0: by the depth of ours
 };
 
 /// Row s says which row of MetalShells the shell in row s of Shells has: that number + 1, and 0 of one that is not of
@@ -67,6 +82,8 @@ struct SubShells : RangeTable<SubShells> {
     Column<uint8_t> is_touched{*this, "is_touched", "1", Keep::Scratch};
     Column<float> weights{*this, "weights", "1", Keep::Scratch};          // of a mean that is being taken: their sum
     Column<float> least_field{*this, "least_field", "m", Keep::Scratch};  // that what strikes it leaves it
+    Column<Vec3> impulse{*this, "impulse", "N s", Keep::Scratch};         // of the published method: sum over contacts
+    Column<Vec3> moment{*this, "moment", "N m s", Keep::Scratch};         // of them about its centre
 };
 
 /// One row is one neighbour of a sub-shell, of which there are two a border.
@@ -96,7 +113,10 @@ struct MetalVertices : RangeTable<MetalVertices> {
     Column<float> way{*this, "way", "m", Keep::Scratch};           // along the sheet from what is touched
     Column<uint32_t> queued{*this, "queued", "1", Keep::Scratch};  // a ring of vertices whose way became shorter
     Column<uint8_t> is_queued{*this, "is_queued", "1", Keep::Scratch};
+    Column<float> area{*this, "area", "m2", Keep::Scratch};      // a third of its triangles, original shape
+    Column<uint16_t> mover{*this, "mover", "1", Keep::Scratch};  // the sub-shell that it goes with; kNoMover: none
 };
+inline constexpr uint16_t kNoMover = 0xffff;
 
 /// Row e is of the shell's element e.
 struct MetalElements : RangeTable<MetalElements> {
@@ -119,17 +139,22 @@ struct MetalSprings : RangeTable<MetalSprings> {
 struct MetalRuns : Table<MetalRuns> {
     using Table::Table;
     static constexpr const char* kName = "metal_runs";
-    Column<uint8_t> shape{*this, "shape"};         // StrikerShape
-    Column<Vec3> point{*this, "point", "m"};       // of the touch
-    Column<Vec3> push{*this, "push"};              // unit: the way the striker goes
-    Column<float> radius{*this, "radius", "m"};    // of a round striker
-    Column<double> energy{*this, "energy", "J"};   // kinetic, in the effective mass; 0: nothing to work off
-    Column<float> depth{*this, "depth", "m"};      // of the dent
-    Column<float> contact{*this, "contact", "m"};  // radius of its bottom
+    Column<uint8_t> shape{*this, "shape"};           // StrikerShape
+    Column<Vec3> point{*this, "point", "m"};         // of the touch
+    Column<Vec3> push{*this, "push"};                // unit: the way the striker goes
+    Column<float> radius{*this, "radius", "m"};      // of a round striker
+    Column<double> energy{*this, "energy", "J"};     // kinetic, in the effective mass; 0: nothing to work off
+    Column<float> impulse{*this, "impulse", "N s"};  // along the push
+    Column<float> depth{*this, "depth", "m"};        // of the dent
+    Column<float> contact{*this, "contact", "m"};    // radius of its bottom
     Column<Row<Bodies>> striker{*this, "striker"};
     Column<float> speed{*this, "speed", "m/s"};
     Column<float> restitution{*this, "restitution"};  // at least, by the sheet
     Column<uint8_t> goes_on{*this, "goes_on"};  // it is more of the body's last impact: from the shape before that
+    // Of a striker that is neither flat nor round: how its front lies in StrikerFronts.
+    Column<Vec3> across{*this, "across"};                       // unit, square to the push: the way of a row
+    Column<std::array<float, 4>> frame{*this, "frame", "m"};    // StrikerFront: low ends and steps
+    Column<std::array<float, 4>> extent{*this, "extent", "m"};  // and how far the striker reaches
 };
 
 /// Row b is the last impact on body b. What strikes at the same place again before it is over is more of it: a dent
@@ -148,5 +173,16 @@ struct MetalImpacts : Table<MetalImpacts> {
     Column<float> contact{*this, "contact", "m"};  // radius of the dent's bottom
     Column<double> energy{*this, "energy", "J"};   // of all touches
 };
+
+inline constexpr uint32_t kFrontRows = 64;
+
+/// Rows [64 t, + 64) are the front of what strikes in task t: how far it has come along the push at each place of a
+/// grid across it, from the point of touch; kNoFront where there is nothing of it.
+struct StrikerFronts : Table<StrikerFronts> {
+    using Table::Table;
+    static constexpr const char* kName = "striker_fronts";
+    Column<std::array<float, kFrontRows>> front{*this, "front", "m"};
+};
+inline constexpr float kNoFront = -1e30f;
 
 }  // namespace cullet

@@ -100,6 +100,7 @@ struct TablesOfMetal {
     MetalSprings metal_springs{metal_spring_limit(limits), limits.shells};
     MetalRuns metal_runs{limits.tasks};
     MetalImpacts metal_impacts{limits.bodies};
+    StrikerFronts striker_fronts{limits.tasks * kFrontRows};
 };
 struct MetalRows : PartRows, TablesOfMetal {
     MetalRows(const Limits& l, const MaterialRows& of_what) : PartRows(l, of_what), TablesOfMetal{l} {}

@@ -18,6 +18,14 @@ struct MetalShellSettings {
     MetalChoice adjacency = MetalChoice::Default;        // how far neighbouring triangles are apart
     MetalChoice seeds = MetalChoice::Default;            // where sub-shells begin
     MetalChoice representatives = MetalChoice::Default;  // what stands for a sub-shell
+    MetalChoice contact = MetalChoice::Default;          // springs that push harder on the way in
+    MetalChoice depth = MetalChoice::Default;            // of sub-shells, by impulse over mass; with shape alone
+    MetalChoice shape = MetalChoice::Default;            // what is hit moves as rigid sub-shells
+    MetalChoice cells = MetalChoice::Default;            // and has no folds, no creases
+    MetalChoice borders = MetalChoice::Default;          // between sub-shells a vertex goes with the lowest
+    MetalChoice springs = MetalChoice::Default;          // edges pull towards the length before the impact
+    MetalChoice limit = MetalChoice::Default;            // too long an edge is cut short along its old way
+    float impulse_time = 0;                              // s, of the paper's depth; 0: such that it is as deep as ours
 };
 
 }  // namespace cullet

@@ -70,6 +70,7 @@ WorkingCopy take_shell(BodyRows& rows, Row<Bodies> body) {
 
 void begin_run(BodyRows& rows, Row<Tasks> task) {
     rows.metal_runs.reach(task + 1);
+    rows.striker_fronts.reach((task + 1) * kFrontRows);
     rows.metal_runs.clear_rows(task, 1);
     rows.hidden_runs.time_step[task] = kStep;
     rows.hidden_runs.end_time[task] = rows.hidden_runs.quiet_time[task] = 0;

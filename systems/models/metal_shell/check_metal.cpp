@@ -1,5 +1,7 @@
 #include "systems/models/metal_shell/check_metal.hpp"
 
+#include <cmath>
+
 #include "systems/models/metal_shell/dent/striker.hpp"
 #include "systems/models/metal_shell/shared/metal_view.hpp"
 
@@ -90,7 +92,7 @@ std::string trouble_of_impact(const Table& table, uint32_t row, uint32_t bodies)
     const std::string where = std::string(table.kName) + "[" + std::to_string(row) + "]";
     if (striker.exists() && striker >= bodies)
         return where + " names body " + std::to_string(striker) + ", which does not exist";
-    if (table.shape[row] > static_cast<uint8_t>(StrikerShape::Plane))
+    if (table.shape[row] > static_cast<uint8_t>(StrikerShape::Front))
         return where + " has a striker of shape " + std::to_string(table.shape[row]) + ", which does not exist";
     if (!(table.energy[row] >= 0 && table.energy[row] < 1e18 && table.radius[row] >= 0))
         return where + " has an energy of " + std::to_string(table.energy[row]) + " J, by a striker of radius " +
@@ -100,9 +102,27 @@ std::string trouble_of_impact(const Table& table, uint32_t row, uint32_t bodies)
 
 }  // namespace
 
+namespace {
+
+std::string trouble_of_front(const SoftRows& rows, uint32_t task) {
+    const MetalRuns& runs = rows.metal_runs;
+    if (runs.shape[task] != static_cast<uint8_t>(StrikerShape::Front)) return {};
+    const std::string where = "metal_runs[" + std::to_string(task) + "]";
+    if ((task + 1) * kFrontRows > rows.striker_fronts.size()) return where + " has no front in striker_fronts";
+    const auto &frame = runs.frame[task], &extent = runs.extent[task];
+    const bool is_sound = std::fabs(frame[0]) < 1e9f && std::fabs(frame[1]) < 1e9f && frame[2] > 0 && frame[3] > 0 &&
+                          extent[0] >= 0 && extent[1] >= 0;
+    return is_sound ? "" : where + " has a front on a grid of no size";
+}
+
+}  // namespace
+
 Result<void> check_metal_rows(const SoftRows& rows, uint8_t, const std::string& name, const char* advice) {
     for (uint32_t t = 0; t < rows.metal_runs.size(); ++t)
         if (const std::string trouble = trouble_of_impact(rows.metal_runs, t, rows.bodies.size()); !trouble.empty())
+            return Error{name + ": " + trouble + ". " + advice};
+    for (uint32_t t = 0; t < rows.metal_runs.size(); ++t)
+        if (const std::string trouble = trouble_of_front(rows, t); !trouble.empty())
             return Error{name + ": " + trouble + ". " + advice};
     for (uint32_t b = 0; b < rows.metal_impacts.size(); ++b)
         if (const std::string trouble = trouble_of_impact(rows.metal_impacts, b, rows.bodies.size()); !trouble.empty())

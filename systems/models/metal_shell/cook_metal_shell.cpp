@@ -22,6 +22,13 @@ MetalCookSettings wanted_rows(const Cooking& from) {
     if (given.adjacency == MetalChoice::Paper) wanted.dual.distance = FaceDistance::Paper;
     if (given.seeds == MetalChoice::Paper) wanted.cells.seeding = Seeding::Paper;
     if (given.representatives == MetalChoice::Paper) wanted.cells.representatives = Representatives::Centroid;
+    const std::pair<MetalChoice, PublishedChoice> choices[] = {
+        {given.contact, kPublishedContact}, {given.depth, kPublishedDepth},     {given.shape, kPublishedShape},
+        {given.cells, kPublishedCells},     {given.borders, kPublishedBorders}, {given.springs, kPublishedSprings},
+        {given.limit, kPublishedLimit}};
+    for (const auto& [choice, bit] : choices)
+        if (choice == MetalChoice::Paper) wanted.published = static_cast<uint8_t>(wanted.published | bit);
+    wanted.impulse_time = given.impulse_time;
     return wanted;
 }
 

@@ -1,5 +1,6 @@
 #include "systems/models/metal_shell/model.hpp"
 
+#include "systems/drawn/query_index.hpp"
 #include "systems/models/metal_shell/calls.hpp"
 #include "systems/models/metal_shell/check_metal.hpp"
 #include "systems/models/metal_shell/cook_metal_shell.hpp"

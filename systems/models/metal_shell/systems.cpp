@@ -1,10 +1,13 @@
 #include "systems/models/metal_shell/systems.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 #include "systems/bodies/blows.hpp"
 #include "systems/models/metal_shell/dent/dent.hpp"
 #include "systems/models/metal_shell/dent/feel.hpp"
+#include "systems/models/metal_shell/published/penalty.hpp"
+#include "systems/models/metal_shell/strike/lay_front.hpp"
 #include "systems/structures/shell/explosion.hpp"
 #include "systems/structures/shell/group_fragments.hpp"
 
@@ -14,12 +17,25 @@ namespace {
 constexpr double kLeastSpeed = 0.5;        // m/s
 constexpr double kLeastFromOneSide = 0.3;  // of an explosion's impulses, that their sum is
 constexpr float kLeastFront = 0.1f;        // radius of its front, of its reach
+constexpr double kLeastOverlap = 1e-3;     // m, that published springs are pressed by
 
 double closing_speed(const BodyRows& rows, Row<Tasks> task, uint32_t c) {
     const Vec3d point(rows.task_contacts.point[c]), normal(rows.task_contacts.normal[c]);
     const Vec3d arm = point - rows.bodies.centre[rows.tasks.body[task]];
     const Vec3d moving = Vec3d(rows.tasks.start_velocity[task]) + cross(Vec3d(rows.tasks.start_spin[task]), arm);
     return double{rows.task_contacts.start_speed[c]} - dot(moving, normal);
+}
+
+// N s. As published it is that of springs which push harder on the way in: the same but for what their steps lose.
+float impulse_of(const BodyRows& rows, Row<MetalShells> metal, Row<Tasks> task, double speed, double mass) {
+    const Row<Materials> material = rows.structures.material[rows.tasks.working[task]];
+    const double e = double{rows.materials.restitution[material]};
+    if (!(rows.metal_shells.published[metal] & kPublishedContact)) return static_cast<float>((1 + e) * mass * speed);
+    const Row<Shells> shell = rows.shell_of(rows.tasks.working[task]);
+    PenaltyContact contact;
+    contact.mass = mass, contact.speed = speed, contact.recede = e * e;
+    contact.depth = std::max(0.5 * double{rows.shells.thickness[shell]}, kLeastOverlap);
+    return static_cast<float>(press(contact).impulse);
 }
 
 /// Of a contact, how fast it closes and what it brings.
@@ -58,7 +74,8 @@ double share_of(const BodyRows& rows, Row<Tasks> task, Row<Bodies> striker) {
     return own > 0 && his > 0 ? his / (own + his) : 0.5;
 }
 
-void gather_contacts(const BodyRows& rows, Row<Tasks> task, const Contact& strongest, MetalRuns& runs) {
+void gather_contacts(BodyRows& rows, Row<Tasks> task, const Contact& strongest, const QueryIndex& index) {
+    MetalRuns& runs = rows.metal_runs;
     const TaskContacts& contacts = rows.task_contacts;
     const uint32_t first = rows.tasks.first_contact[task], end = first + rows.tasks.contact_count[task];
     const Row<Bodies> striker = contacts.striker[strongest.row];
@@ -73,13 +90,16 @@ void gather_contacts(const BodyRows& rows, Row<Tasks> task, const Contact& stron
     middle = is_round ? Vec3d(contacts.point[strongest.row]) : (1.0 / count) * middle;
     const double inverse_mass =
         own_inverse_mass(rows, task, middle, normal) + double{contacts.striker_inverse_mass[strongest.row]};
-    runs.shape[task] = static_cast<uint8_t>(is_round ? StrikerShape::Sphere : StrikerShape::Plane);
+    const StrikerShape shape = is_round ? StrikerShape::Sphere : lay_front(rows, index, task, striker, middle, normal);
+    runs.shape[task] = static_cast<uint8_t>(shape);
     runs.point.set(task, middle.to_float());
     runs.push.set(task, normal.to_float());
     runs.radius[task] = contacts.striker_radius[strongest.row];
     runs.striker[task] = striker;
     runs.speed[task] = static_cast<float>(strongest.speed);
     runs.energy[task] = share_of(rows, task, striker) * 0.5 * strongest.speed * strongest.speed / inverse_mass;
+    const Row<MetalShells> metal = rows.metal_of(rows.tasks.working[task]);
+    runs.impulse[task] = impulse_of(rows, metal, task, strongest.speed, 1 / inverse_mass);
 }
 
 // The front of the wave is a ball round the centre when it meets the body. What the wall's pieces would have of it by
@@ -113,7 +133,8 @@ void gather_explosion(BodyRows& rows, Row<Tasks> task, const Blows& blows, uint3
 }
 
 // What comes again at the same place belongs to what came before: the dent hangs on the sum.
-void join_earlier(const BodyRows& rows, Row<Tasks> task, Step step, MetalRuns& runs) {
+void join_earlier(BodyRows& rows, Row<Tasks> task, Step step, const QueryIndex& index) {
+    MetalRuns& runs = rows.metal_runs;
     const Row<Bodies> body = rows.tasks.body[task];
     Knock knock;
     knock.body = body, knock.striker = runs.striker[task];
@@ -123,33 +144,40 @@ void join_earlier(const BodyRows& rows, Row<Tasks> task, Step step, MetalRuns& r
     const Earlier earlier = earlier_of(rows.metal_impacts, knock);
     if (!earlier.goes_on) return;
     const MetalImpacts& impacts = rows.metal_impacts;
+    runs.impulse[task] *= static_cast<float>(std::sqrt(1 + earlier.energy / runs.energy[task]));
     runs.energy[task] += earlier.energy;
     if (!earlier.has_shape) return;
     runs.goes_on[task] = 1;
-    runs.shape[task] = impacts.shape[body];
+    // It has gone on since; its front is as far as it is now, and counts from where it touched first.
+    const Vec3d first(impacts.point[body]), push(impacts.push[body]);
+    const Vec3d now = first + dot(knock.point - first, push) * push;
+    const StrikerShape shape = impacts.radius[body] > 0 ? static_cast<StrikerShape>(impacts.shape[body])
+                                                        : lay_front(rows, index, task, runs.striker[task], now, push);
+    runs.shape[task] = static_cast<uint8_t>(shape);
     runs.point.set(task, impacts.point[body]), runs.push.set(task, impacts.push[body]);
     runs.radius[task] = impacts.radius[body];
 }
 
-void gather(BodyRows& rows, Row<Tasks> task, Step step, const Blows& blows) {
+void gather(BodyRows& rows, Row<Tasks> task, Step step, const Blows& blows, const QueryIndex& index) {
     MetalRuns& runs = rows.metal_runs;
     if (const Contact strongest = strongest_contact(rows, task); strongest.row != kNone)
-        gather_contacts(rows, task, strongest, runs);
+        gather_contacts(rows, task, strongest, index);
     for (uint32_t b = 0; b < blows.size() && !(runs.energy[task] > 0); ++b)
         if (blows.task[b] == task.index && is_kind(blows, b, BlowKind::Explosion))
             gather_explosion(rows, task, blows, b);
-    if (runs.energy[task] > 0) join_earlier(rows, task, step, runs);
+    if (runs.energy[task] > 0) join_earlier(rows, task, step, index);
 }
 
 }  // namespace
 
-void gather_impulses(EachOwn<TaskOpened> opened, Step step, const Blows& blows, BodyRows& rows) {
+void gather_impulses(EachOwn<TaskOpened> opened, Step step, const Blows& blows, BodyRows& rows,
+                     const QueryIndex& index) {
     const Row<Tasks> task = opened->task;
     const Row<Structures> source = rows.tasks.source[task], working = rows.tasks.working[task];
     copy_shell_rows(rows, rows, source, working, false);
     clear_pack_ends(rows, working);
     copy_metal_rows(rows, rows, source, working);
-    gather(rows, task, step, blows);
+    gather(rows, task, step, blows, index);
 }
 
 void work_impact(Of<Tasks> task, BodyRows& rows) {
@@ -161,12 +189,7 @@ void work_impact(Of<Tasks> task, BodyRows& rows) {
     MetalRuns& runs = rows.metal_runs;
     if (!(runs.energy[t] > 0)) return;
     const MetalView metal(rows, tasks.working[t]);
-    const Striker striker{static_cast<StrikerShape>(runs.shape[t]),
-                          Vec3d(runs.point[t]),
-                          Vec3d(runs.push[t]),
-                          {},
-                          double{runs.radius[t]}};
-    const Dent dent = work_dent(metal, striker, runs.energy[t], runs.goes_on[t]);
+    const Dent dent = work_dent(metal, striker_of(rows, t), runs.energy[t], runs.goes_on[t]);
     runs.depth[t] = static_cast<float>(dent.depth);
     runs.contact[t] = static_cast<float>(dent.contact);
     runs.restitution[t] = static_cast<float>(dent.restitution);

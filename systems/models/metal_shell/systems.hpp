@@ -5,8 +5,10 @@
 namespace cullet::metal_shell {
 
 /// Copies the body's rows into the task's. Adds up what strikes the body: one striker, one push and one energy an
-/// impact, however many contacts and steps it has. An explosion strikes as a ball whose front is at the body.
-void gather_impulses(EachOwn<TaskOpened> opened, Step step, const Blows& blows, BodyRows& rows);
+/// impact, however many contacts and steps it has. An explosion strikes as a ball whose front is at the body. What is
+/// not round gets a front of its triangles.
+void gather_impulses(EachOwn<TaskOpened> opened, Step step, const Blows& blows, BodyRows& rows,
+                     const QueryIndex& index);
 /// The whole impact: field, folds, creases, limits; and into the working copy's shape.
 void work_impact(Of<Tasks> task, BodyRows& rows);
 /// Impacts that were worked off are remembered, as what comes soon may be more of them. A sheet's restitution is that

@@ -248,6 +248,8 @@ Result<MetalReport> make_metal_rows(ShellRows& rows, Row<Structures> structure, 
     own.mean_edge[row] = static_cast<float>(mean_edge);
     own.half_diagonal[row] = static_cast<float>(0.5 * surface.diagonal);
     own.crush_pressure[row] = crush_pressure_of(shell, surface, settings);
+    own.published[row] = settings.published;
+    own.impulse_time[row] = settings.impulse_time;
 
     Vec3d middle;
     double area = 0, radius = 0;

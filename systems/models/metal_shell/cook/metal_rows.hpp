@@ -11,6 +11,8 @@ struct MetalCookSettings {
     SubShellSettings cells;
     float crush_pressure = 0;  // Pa; 0: as below
     float body_pressure = 0;   // Pa, of bodies; 0: of an empty closed shell of this width; open sheets have none
+    uint8_t published = 0;     // PublishedChoice
+    float impulse_time = 0;    // s, tau of the published depth; 0: by the depth of ours
 };
 
 /// What was made of it.

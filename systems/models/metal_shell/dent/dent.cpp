@@ -7,6 +7,7 @@
 #include "systems/models/metal_shell/dent/limit_stretch.hpp"
 #include "systems/models/metal_shell/dent/raise_body.hpp"
 #include "systems/models/metal_shell/dent/raise_sheet.hpp"
+#include "systems/models/metal_shell/published/hit_cells.hpp"
 #include "systems/structures/shell/mass_properties.hpp"
 #include "systems/structures/shell/ring.hpp"
 
@@ -31,20 +32,54 @@ void begin(const MetalView& metal, bool goes_on) {
 }
 
 Striker round_striker(const MetalView& metal, Striker striker) {
-    if (striker.shape != StrikerShape::Sphere) {
-        striker.shape = StrikerShape::Sphere;
-        striker.radius = std::max(striker.radius, kFlatStriker * 2 * double{metal.shells().half_diagonal[metal.row]});
-    }
+    if (striker.shape == StrikerShape::Sphere) return striker;
+    striker.radius = striker.ball_radius(kFlatStriker * 2 * double{metal.shells().half_diagonal[metal.row]});
+    striker.shape = StrikerShape::Sphere;
     return striker;
 }
 
-Dent dent_sheet(const MetalView& metal, const Striker& striker, const SheetPlace& place, const SheetPlan& plan) {
-    raise_sheet(metal, striker, place, plan);
-    place_field(metal, striker.push);
+bool is_published(const MetalView& metal, PublishedChoice choice) {
+    return metal.shells().published[metal.row] & choice;
+}
+
+// The published shape; reach: how far the striker has gone on when it hits.
+void move_rigidly(const MetalView& metal, const Striker& striker, double depth, double reach) {
+    CellBlow blow;
+    blow.depth = depth, blow.reach = reach;
+    blow.is_by_mass = is_published(metal, kPublishedDepth);
+    blow.is_by_lowest = is_published(metal, kPublishedBorders);
+    blow.impulse = striker.impulse, blow.time = double{metal.shells().impulse_time[metal.row]};
+    move_hit_cells(metal, striker, blow);
+}
+
+// A hard hit gives back what the material says, a wide sheet more.
+double plastic_share(const MetalView& metal, double sheet_restitution) {
+    const ShellView& shell = metal.shell;
+    const Row<Materials> material = shell.structures().material[shell.structure];
+    const double e = std::max(double{shell.state.materials.restitution[material]}, sheet_restitution);
+    return 1 - e * e;
+}
+
+void carry_creases(const MetalView& metal, double contact, bool folds) {
+    if (is_published(metal, kPublishedCells)) return;
+    if (is_published(metal, kPublishedBorders)) choose_lowest(metal);
+    if (folds) fold_cells(metal);
+    crease_cells(metal, contact);
+}
+
+Dent dent_sheet(const MetalView& metal, const Striker& striker, const SheetPlace& place, const SheetPlan& plan,
+                double energy) {
     Dent dent{DentKind::Sheet, std::max(0.0, plan.depth - place.dent_depth), plan.contact, plan.left, plan.restitution,
               plan.is_puncture};
-    crease_cells(metal, plan.contact);
-    clear_striker(metal, striker, dent.depth);
+    dent.plastic = plastic_share(metal, plan.restitution) * (energy - plan.left);
+    if (is_published(metal, kPublishedShape)) {
+        move_rigidly(metal, striker, dent.depth, 0);
+    } else {
+        raise_sheet(metal, striker, place, plan);
+        place_field(metal, striker.push);
+    }
+    carry_creases(metal, plan.contact, false);
+    if (!is_published(metal, kPublishedShape)) clear_striker(metal, striker, dent.depth);
     limit_stretch(metal, sheet_metal(metal.shell).break_strain, striker, dent.depth);
     return dent;
 }
@@ -53,13 +88,18 @@ Dent crush_body(const MetalView& metal, const Striker& striker, double energy) {
     const CrushPlan plan = plan_crush(metal, striker, energy);
     Dent dent{DentKind::Body, plan.depth, plan.depth, plan.left, 0, false};
     if (!(plan.depth > 0)) return {};
-    raise_body(metal, striker, plan.depth);
-    place_field(metal, striker.push);
-    fold_cells(metal);
-    crease_cells(metal, plan.depth);
-    clear_striker(metal, striker, plan.depth);
+    dent.plastic = plastic_share(metal, 0) * (energy - plan.left);
+    if (is_published(metal, kPublishedShape)) {
+        move_rigidly(metal, striker, plan.depth, plan.depth);
+    } else {
+        raise_body(metal, striker, plan.depth, kCrushReach * plan.depth);
+        place_field(metal, striker.push);
+    }
+    carry_creases(metal, plan.depth, true);
+    if (!is_published(metal, kPublishedShape)) clear_striker(metal, striker, plan.depth);
     limit_stretch(metal, sheet_metal(metal.shell).break_strain, striker, plan.depth);
-    turn_back(metal);
+    if (!is_published(metal, kPublishedSprings)) turn_back(metal);
+    if (!is_published(metal, kPublishedShape)) clear_striker(metal, striker, plan.depth);
     return dent;
 }
 
@@ -100,7 +140,7 @@ Dent work_dent(const MetalView& metal, const Striker& striker, double energy, bo
         return none;
     }
     if (is_closed && plan.contact > kWidest * place.support) return crush_body(metal, striker, energy);
-    return dent_sheet(metal, ball, place, plan);
+    return dent_sheet(metal, ball, place, plan, energy);
 }
 
 namespace {

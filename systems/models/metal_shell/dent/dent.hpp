@@ -15,6 +15,7 @@ struct Dent {
     double left = 0;         // J that found no room: the sheet would tear
     double restitution = 0;  // of the sheet, at least; 0: what the bodies have
     bool is_puncture = false;
+    double plastic = 0;  // J that stay in the metal: the energy, less what it gives back and what is left
 };
 
 /// Of the shell's material and mean thickness.

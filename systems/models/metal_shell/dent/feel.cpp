@@ -74,8 +74,9 @@ bool leaves_nothing(BodyRows& rows, const Knock& knock, float& bounce) {
     const bool is_weak = !(energy > least_energy(metal.shell));
     bounce = 0;
     if (!is_weak) {
-        const Striker striker{
-            knock.radius > 0 ? StrikerShape::Sphere : StrikerShape::Plane, knock.point, knock.push, {}, knock.radius};
+        Striker striker;
+        striker.shape = knock.radius > 0 ? StrikerShape::Sphere : StrikerShape::Plane;
+        striker.point = knock.point, striker.push = knock.push, striker.radius = knock.radius;
         if (!is_elastic(metal, striker, energy)) return false;
         bounce = static_cast<float>(kMostBounce);
     }

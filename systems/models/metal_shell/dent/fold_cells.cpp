@@ -174,6 +174,34 @@ void place_field(const MetalView& metal, Vec3d push) {
     }
 }
 
+namespace {
+
+/// visit(row of a sub-shell, weight) for all that move a vertex: eight by their weights, or as published the lowest
+/// that it is part of.
+template <class Visit>
+void for_each_mover(const MetalView& metal, uint32_t row, Visit visit) {
+    const MetalVertices& vertices = metal.vertices();
+    if (metal.shells().published[metal.row] & kPublishedBorders) {
+        if (vertices.mover[row] != kNoMover) visit(metal.cell(vertices.mover[row]), 1.0f);
+        return;
+    }
+    for (uint32_t k = 0; k < kBlended; ++k) visit(metal.cell(vertices.cell[row][k]), vertices.weight[row][k]);
+}
+
+}  // namespace
+
+void choose_lowest(const MetalView& metal) {
+    MetalVertices& vertices = metal.vertices();
+    for (uint32_t v = 0; v < metal.vertex_count(); ++v) vertices.mover[metal.vertex(v)] = kNoMover;
+    for (uint32_t e = 0; e < metal.element_count(); ++e) {
+        if (metal.is_dead(e)) continue;
+        for (const uint32_t v : metal.corners(e)) {
+            uint16_t& lowest = vertices.mover[metal.vertex(v)];
+            lowest = std::min(lowest, static_cast<uint16_t>(metal.cell_of(e)));
+        }
+    }
+}
+
 void fold_cells(const MetalView& metal) {
     measure_cells(metal);
     choose_folds(metal);
@@ -183,10 +211,7 @@ void fold_cells(const MetalView& metal) {
         const uint32_t row = metal.vertex(v);
         if (!(vertices.field[row] > 0)) continue;
         Vec3 way;
-        for (uint32_t k = 0; k < kBlended; ++k) {
-            const uint32_t c = metal.cell(vertices.cell[row][k]);
-            way += (vertices.weight[row][k] * cells.fold[c]) * cells.axis[c];
-        }
+        for_each_mover(metal, row, [&](uint32_t c, float weight) { way += (weight * cells.fold[c]) * cells.axis[c]; });
         vertices.place.set(row, vertices.place[row] + way);
     }
 }
@@ -202,13 +227,11 @@ void crease_cells(const MetalView& metal, double contact) {
         if (!(vertices.field[row] > 0)) continue;
         Vec3 rigid;
         float chi = 0;
-        for (uint32_t k = 0; k < kBlended; ++k) {
-            const uint32_t c = metal.cell(vertices.cell[row][k]);
-            const float weight = vertices.weight[row][k];
+        for_each_mover(metal, row, [&](uint32_t c, float weight) {
             chi += weight * cells.crease[c];
             rigid += weight *
                      (turned(vertices.start[row] - cells.place[c], cells.turn[c]) + cells.place[c] + cells.moved[c]);
-        }
+        });
         vertices.place.set(row, (1 - chi) * vertices.place[row] + chi * rigid);
     }
 }

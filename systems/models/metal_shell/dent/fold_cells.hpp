@@ -6,6 +6,9 @@ namespace cullet {
 
 /// Fills MetalVertices.place with start + field along the push.
 void place_field(const MetalView& metal, Vec3d push);
+/// Fills MetalVertices.mover with the lowest sub-shell that each vertex is part of: with published borders, before the
+/// two below.
+void choose_lowest(const MetalView& metal);
 /// Thin metal buckles and does not shorten: sub-shells that came nearer to each other go out and in by turns. Moves
 /// `place` of vertices that the field moves.
 void fold_cells(const MetalView& metal);

@@ -2,13 +2,17 @@
 
 #include <algorithm>
 
+#include "systems/models/metal_shell/published/pull_edges.hpp"
+
 namespace cullet {
 namespace {
 
-constexpr int kRounds = 6, kTurnPasses = 3;
+constexpr int kRounds = 6, kPullingRounds = 10, kTurnPasses = 3;
+constexpr double kMovedShare = 0.1;               // what the impact moved yields so much less to pulling edges
 constexpr float kShortest = 0.92f, kPush = 0.7f;  // of the original length; how much of what is missing is asked for
-constexpr float kStep = 2.4f;                     // over the number of springs
-constexpr float kTurned = -0.3f;                  // cosine of a triangle's normals before and after
+constexpr double kEarly = 0.9;    // of the longest: what only just keeps to its limit is over it after the next dent
+constexpr float kStep = 2.4f;     // over the number of springs
+constexpr float kTurned = -0.3f;  // cosine of a triangle's normals before and after
 
 bool moves(const MetalView& metal, uint32_t v) {
     return metal.vertices().field[metal.vertex(v)] > 0 && !metal.is_pinned(v);
@@ -20,6 +24,14 @@ float excess(float length, float original, float most_stretch) {
     if (const float under = length - kShortest * original; under < 0) return kPush * under;
     return 0;
 }
+
+Vec3 normal_of(const MetalView& metal, const Column<Vec3>& places, uint32_t element) {
+    const auto& c = metal.corners(element);
+    const Vec3 p = places[metal.vertex(c[0])], q = places[metal.vertex(c[1])], r = places[metal.vertex(c[2])];
+    return normalised(cross(q - p, r - p));
+}
+
+}  // namespace
 
 // Both ends of a spring take an equal share; one that stays where it is leaves all to the other. Ties between sheets
 // are no edges.
@@ -41,19 +53,13 @@ void relax_once(const MetalView& metal, float most_stretch) {
             const float c = excess(now, springs.length[spring], most_stretch);
             sum += (c / now * (moves(metal, other) ? 0.5f : 1.0f)) * way;
         });
-        if (valence > 0) vertices.next.set(row, vertices.place[row] + (kStep / static_cast<float>(valence)) * sum);
+        // Of few edges it would go past their limits.
+        const float step = std::min(1.0f, kStep / static_cast<float>(std::max(valence, 1u)));
+        vertices.next.set(row, vertices.place[row] + step * sum);
     }
     for (uint32_t v = 0; v < metal.vertex_count(); ++v)
         if (moves(metal, v)) vertices.place.set(metal.vertex(v), vertices.next[metal.vertex(v)]);
 }
-
-Vec3 normal_of(const MetalView& metal, const Column<Vec3>& places, uint32_t element) {
-    const auto& c = metal.corners(element);
-    const Vec3 p = places[metal.vertex(c[0])], q = places[metal.vertex(c[1])], r = places[metal.vertex(c[2])];
-    return normalised(cross(q - p, r - p));
-}
-
-}  // namespace
 
 void clear_striker(const MetalView& metal, const Striker& striker, double depth) {
     MetalVertices& vertices = metal.vertices();
@@ -66,9 +72,17 @@ void clear_striker(const MetalView& metal, const Striker& striker, double depth)
 }
 
 void limit_stretch(const MetalView& metal, double most_stretch, const Striker& striker, double depth) {
-    for (int round = 0; round < kRounds; ++round) {
-        relax_once(metal, static_cast<float>(most_stretch));
-        if (round % 2 == 1) clear_striker(metal, striker, depth);
+    const uint8_t published = metal.shells().published[metal.row];
+    const bool pulls = published & kPublishedSprings, is_shaped = !(published & kPublishedShape);
+    const int rounds = pulls ? kPullingRounds : kRounds;
+    if (pulls) sum_areas(metal);
+    for (int round = 0; round < rounds; ++round) {
+        if (pulls) pull_edges(metal, kMovedShare);
+        if (published & kPublishedLimit)
+            cut_long_edges(metal, most_stretch);
+        else
+            relax_once(metal, static_cast<float>(kEarly * (1 + most_stretch) - 1));
+        if (round % 2 == 1 && is_shaped) clear_striker(metal, striker, depth);
     }
 }
 

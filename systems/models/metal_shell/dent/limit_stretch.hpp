@@ -8,8 +8,10 @@ namespace cullet {
 
 /// Vertices inside the striker, which has gone on by `depth`, go to its surface along the push.
 void clear_striker(const MetalView& metal, const Striker& striker, double depth);
-/// Six rounds: edges longer than 1 + `most_stretch` times their original length pull, shorter than 0.92 of it push.
-/// Each second round clears the striker again.
+/// One round: edges longer than 1 + `most_stretch` times their original length pull, shorter than 0.92 of it push.
+void relax_once(const MetalView& metal, float most_stretch);
+/// Six of them, or what the published method has in their place: ten rounds of all edges, and another limit. Each
+/// second round clears the striker again, where the dent has its shape.
 void limit_stretch(const MetalView& metal, double most_stretch, const Striker& striker, double depth);
 /// Triangles that turned over take their mean displacement; the passes that it took, at most three.
 void turn_back(const MetalView& metal);

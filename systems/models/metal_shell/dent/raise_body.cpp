@@ -11,7 +11,6 @@ constexpr int kBisections = 30;
 constexpr double kDeepest = 0.3;  // of the extent along the push
 constexpr double kDragged = 0.5;  // of the depth
 constexpr double kFacing = 0.05;  // cosine: what looks away from the striker is not crushed
-constexpr double kReach = 2.5;    // depths
 constexpr int kSweeps = 40;       // of cells, and of vertices
 constexpr double kRelaxation = 1.6;
 
@@ -25,15 +24,9 @@ Triangle3 element_at_start(const MetalView& metal, uint32_t e) {
     return {(1.0 / 3) * (p + q + r), cross(q - p, r - p)};
 }
 
-Striker widened(const Striker& striker, double depth) {
-    Striker wider = striker;
-    wider.radius += kDragged * depth;
-    return wider;
-}
-
 // m3 that the striker takes of what faces it.
 double crushed_volume(const MetalView& metal, const Striker& striker, double depth) {
-    const Striker wider = widened(striker, depth);
+    const Striker wider = striker.widened(kDragged * depth);
     double volume = 0;
     for (uint32_t e = 0; e < metal.element_count(); ++e) {
         if (metal.is_dead(e)) continue;
@@ -112,11 +105,11 @@ CrushPlan plan_crush(const MetalView& metal, const Striker& striker, double ener
 
 // The obstacle is what the striker covers. Least Laplace energy above it, by projected over-relaxation in the order of
 // the vertices.
-void raise_body(const MetalView& metal, const Striker& striker, double depth) {
+void raise_body(const MetalView& metal, const Striker& striker, double depth, double wanted_reach) {
     MetalVertices& vertices = metal.vertices();
     const MetalSprings& springs = metal.springs();
     const uint32_t count = metal.vertex_count();
-    const auto reach = static_cast<float>(kReach * depth);
+    const auto reach = static_cast<float>(wanted_reach);
     for (uint32_t v = 0; v < count; ++v) {
         const uint32_t row = metal.vertex(v);
         const auto covered = static_cast<float>(striker.covers(Vec3d(vertices.start[row]), depth));

@@ -13,7 +13,9 @@ struct CrushPlan {
 /// extent. Metal beside a round striker is dragged along: it counts as half of the depth wider.
 CrushPlan plan_crush(const MetalView& metal, const Striker& striker, double energy);
 
-/// Fills MetalVertices.field: the smoothest one that leaves nothing inside the striker, and ends 2.5 depths away.
-void raise_body(const MetalView& metal, const Striker& striker, double depth);
+/// So many depths along the sheet from what the striker pushes, a field ends.
+inline constexpr double kCrushReach = 2.5;
+/// Fills MetalVertices.field: the smoothest one that leaves nothing inside the striker, and ends `reach` m away.
+void raise_body(const MetalView& metal, const Striker& striker, double depth, double reach);
 
 }  // namespace cullet

@@ -22,6 +22,15 @@ constexpr Setting kSettings[] = {
     word<&M::adjacency>("adjacency", kChoices, "how far neighbouring triangles are apart, for sub-shells"),
     word<&M::seeds>("seeds", kChoices, "where sub-shells begin"),
     word<&M::representatives>("representatives", kChoices, "what stands for a sub-shell"),
+    word<&M::contact>("contact", kChoices, "one impulse, or springs that push harder on the way in"),
+    word<&M::depth>("depth", kChoices, "by energy, or of each sub-shell by impulse over mass; with shape alone"),
+    word<&M::shape>("shape", kChoices, "the striker's, or rigid sub-shells that are hit"),
+    word<&M::cells>("cells", kChoices, "carry folds and creases, or nothing more"),
+    word<&M::borders>("borders", kChoices, "vertices between sub-shells go with all, or with the lowest"),
+    word<&M::springs>("springs", kChoices, "only limit edges, or pull them towards the length before the impact"),
+    word<&M::limit>("limit", kChoices, "of edges: at both ends, or along the old way at one"),
+    number<&M::impulse_time>("impulse_time", "s", zero_or(1e-7, 1),
+                             "of the paper's depth; 0: such that it is as deep as ours"),
 };
 
 static_assert(std::size(kSettings) == member_count<M>(), "a member of the settings has no line");
