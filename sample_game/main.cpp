@@ -49,6 +49,8 @@ int run(const Options& options) {
             return replay_command(options.replay);
         case Command::Reproduce:
             return reproduce::run(options.reproduce);
+        case Command::Fem:
+            return run_fem(options.fem);
         case Command::Truth:
             break;
     }

@@ -138,7 +138,7 @@ void add_replay(CLI::App& app, ReplayOptions& replay) {
 void add_reproduce(CLI::App& app, reproduce::CommandOptions& options) {
     CLI::App* command =
         app.add_subcommand("reproduce", "Writes a page of a paper's claims beside ours: tables, numbers, pictures");
-    command->add_option("model", options.model, "thick_shell")->required();
+    command->add_option("model", options.model, "thick_shell or metal_shell")->required();
     command->add_option("--out", options.out, "Folder for report.html, report.json and the pictures")->required();
     command->add_option("--data", options.data,
                         "Folder of test meshes; CULLET_TEST_DATA or ../shared/data if not given");
@@ -148,6 +148,32 @@ void add_reproduce(CLI::App& app, reproduce::CommandOptions& options) {
     command->add_flag(
         "--reduced", options.is_reduced,
         "Smaller meshes and fewer repeats, for a look in a minute; its numbers are not the paper's cases");
+}
+
+void add_fem(CLI::App& app, FemOptions& options) {
+    CLI::App* command =
+        app.add_subcommand("fem", "A dent of sheet metal beside a curve of a shell FEM; or the deck for one");
+    FemCase& sheet = options.sheet;
+    FemBlow& blow = options.blow;
+    command->add_option("--curve", options.curve, "Text of a reference: places and deflections after unloading, work");
+    command->add_option("--results", options.results, "What ccx printed (NAME.dat) of a deck with these parameters");
+    command->add_option("--deck", options.deck, "Writes a deck for ccx to this file, and compares nothing");
+    command->add_option("--out", options.out, "Folder for mid_line.csv");
+    command->add_option("--work-j", blow.work, "Of the blow; the curve's if not given")->check(CLI::Range(1e-3, 1e9));
+    command->add_option("--width-m", sheet.width, "Along the mid-line")->check(CLI::Range(0.01, 100.0));
+    command->add_option("--height-m", sheet.height, "Across it")->check(CLI::Range(0.01, 100.0));
+    command->add_option("--thickness-m", sheet.thickness, "Of the sheet")->check(CLI::Range(1e-5, 0.1));
+    command->add_option("--material", sheet.material, "steel, aluminium or copper");
+    command->add_option("--young-pa", sheet.young_modulus, "Of the deck")->check(CLI::Range(1e6, 1e13));
+    command->add_option("--yield-pa", sheet.yield_stress, "Of both")->check(CLI::Range(1e5, 1e10));
+    command->add_option("--patch-m", sheet.patch, "Side of the pressed square")->check(CLI::Range(1e-3, 10.0));
+    command->add_option("--pressure-pa", sheet.pressure, "On it, of the deck")->check(CLI::Range(1.0, 1e10));
+    command->add_option("--ball-m", blow.ball_radius, "Radius of our ball; 0: its contact is as large as the patch")
+        ->check(CLI::Range(0.0, 10.0));
+    command->add_option("--columns", blow.columns, "Of our mesh")->check(CLI::Range(4u, 1000u));
+    command->add_option("--rows", blow.rows, "Of our mesh")->check(CLI::Range(4u, 1000u));
+    command->add_option("--cells", blow.cells, "Sub-shells")->check(CLI::Range(4u, 512u));
+    command->add_flag("--published", options.is_published, "Every switch as published");
 }
 
 /// What CLI11 cannot know.
@@ -221,12 +247,13 @@ Result<Options> parse_options(std::vector<std::string> arguments) {
     add_cook(app, options.cook);
     add_replay(app, options.replay);
     add_reproduce(app, options.reproduce);
+    add_fem(app, options.fem);
     app.add_subcommand("settings", "Prints what can be set of each damage model: default, range, what it is");
     app.add_subcommand("frame", "Prints the systems of a frame, and what each reads and writes");
     CLI::App* truth = app.add_subcommand("truth",
                                          "Prints the verification cases of a method: figure, bounds, verdict; the "
                                          "last, speeds of first cracks and pieces, takes minutes");
-    truth->add_option("model", options.truth.model, "thick_shell")->required();
+    truth->add_option("model", options.truth.model, "thick_shell or metal_shell")->required();
     truth
         ->add_option("--placements", options.truth.placements,
                      "Seeded placements of each scene for the medians; the bands are judged on the first 20")
@@ -260,6 +287,7 @@ Result<Options> parse_options(std::vector<std::string> arguments) {
                       : app.got_subcommand("cook")      ? Command::Cook
                       : app.got_subcommand("replay")    ? Command::Replay
                       : app.got_subcommand("reproduce") ? Command::Reproduce
+                      : app.got_subcommand("fem")       ? Command::Fem
                                                         : Command::Truth;
     if (options.command != Command::Run) return options;
     const bool asks_for_keys =

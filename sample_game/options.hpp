@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "cullet/result.hpp"
+#include "sample_game/metal/fem_command.hpp"
 #include "sample_game/reproduce/command.hpp"
 
 namespace cullet {
@@ -29,7 +30,7 @@ struct RunOptions {
     std::vector<std::string> set;
 };
 
-enum class Command : uint8_t { Help, Run, KeysHelp, Settings, Frame, Truth, Cook, Replay, Reproduce };
+enum class Command : uint8_t { Help, Run, KeysHelp, Settings, Frame, Truth, Cook, Replay, Reproduce, Fem };
 
 struct ReplayOptions {
     std::string file;
@@ -62,6 +63,7 @@ struct Options {
     CookOptions cook;
     ReplayOptions replay;
     reproduce::CommandOptions reproduce;
+    FemOptions fem;
 };
 
 /// The program's arguments without its name. A refusal is one sentence.
