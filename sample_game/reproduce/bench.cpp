@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <chrono>
 #include <filesystem>
 #include <thread>
 
@@ -23,6 +24,10 @@ const char* name_of(Verdict verdict) {
             break;
     }
     return "not measured";
+}
+
+double seconds_now() {
+    return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
 }
 
 Bench::Bench(Settings settings) : settings_(std::move(settings)), shelf_(std::make_shared<ModelShelf>()) {}

@@ -61,6 +61,9 @@ class Bench {
     std::vector<std::string> notes_;
 };
 
+/// s, of a clock that only rises.
+double seconds_now();
+
 /// Fills all but `seconds`. A refusal ends the whole command: it is a bug of ours or a full disk.
 using MakeClaim = Result<Claim> (*)(Bench& bench);
 

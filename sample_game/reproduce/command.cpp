@@ -2,20 +2,16 @@
 
 #include <fmt/format.h>
 
-#include <chrono>
 #include <cstdlib>
 #include <filesystem>
 
 #include "sample_game/report.hpp"
 #include "sample_game/reproduce/claims.hpp"
+#include "sample_game/reproduce/metal/metal_claims.hpp"
 #include "sample_game/reproduce/page.hpp"
 
 namespace cullet::reproduce {
 namespace {
-
-double seconds_now() {
-    return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
-}
 
 int refuse(const std::string& sentence, int code) {
     fmt::print(stderr, "{}\n", sentence);
@@ -28,21 +24,37 @@ std::string data_folder(const std::string& given) {
     return folder ? folder : "../shared/data";
 }
 
-bool is_known(const std::string& id) {
-    for (const ClaimEntry& entry : thick_shell_claims())
+/// A published work: a line more is a page more.
+struct Paper {
+    const char *model, *title, *machine;
+    std::span<const ClaimEntry> (*claims)();
+};
+constexpr Paper kPapers[] = {{"thick_shell", "Thick shells: the paper's claims and cullet's",
+                              "Published numbers are of a Pentium 4 with 3 GHz.", thick_shell_claims},
+                             {"metal_shell", "Metal shells: the paper's claims and cullet's",
+                              "The paper does not name its machine.", metal_shell_claims}};
+
+const Paper* paper_of(const std::string& model) {
+    for (const Paper& paper : kPapers)
+        if (model == paper.model) return &paper;
+    return nullptr;
+}
+
+bool is_known(const Paper& paper, const std::string& id) {
+    for (const ClaimEntry& entry : paper.claims())
         if (id == entry.id) return true;
     return false;
 }
 
-std::string known_claims() {
+std::string known_claims(const Paper& paper) {
     std::string names;
-    for (const ClaimEntry& entry : thick_shell_claims()) names += (names.empty() ? "" : ", ") + std::string(entry.id);
+    for (const ClaimEntry& entry : paper.claims()) names += (names.empty() ? "" : ", ") + std::string(entry.id);
     return names;
 }
 
-Result<std::vector<Claim>> make_claims(Bench& bench, const std::string& only) {
+Result<std::vector<Claim>> make_claims(Bench& bench, const Paper& paper, const std::string& only) {
     std::vector<Claim> claims;
-    for (const ClaimEntry& entry : thick_shell_claims()) {
+    for (const ClaimEntry& entry : paper.claims()) {
         if (!only.empty() && only != entry.id) continue;
         const double start = seconds_now();
         Result<Claim> claim = entry.make(bench);
@@ -58,24 +70,22 @@ Result<std::vector<Claim>> make_claims(Bench& bench, const std::string& only) {
 }  // namespace
 
 int run(const CommandOptions& options) {
-    if (options.model != "thick_shell")
-        return refuse(fmt::format("reproduce {}: not known; use thick_shell.", options.model), 2);
-    if (!options.only.empty() && !is_known(options.only))
-        return refuse(fmt::format("--only {}: there is no such claim; there are {}.", options.only, known_claims()), 2);
+    const Paper* const paper = paper_of(options.model);
+    if (!paper)
+        return refuse(fmt::format("reproduce {}: not known; use thick_shell or metal_shell.", options.model), 2);
+    if (!options.only.empty() && !is_known(*paper, options.only))
+        return refuse(
+            fmt::format("--only {}: there is no such claim; there are {}.", options.only, known_claims(*paper)), 2);
     std::error_code error;
     std::filesystem::create_directories(options.out, error);
     if (error)
         return refuse(fmt::format("--out {}: {}; choose a folder that can be made.", options.out, error.message()), 2);
     Bench bench({options.out, data_folder(options.data), options.threads, options.is_reduced});
     const double start = seconds_now();
-    const Result<std::vector<Claim>> claims = make_claims(bench, options.only);
+    const Result<std::vector<Claim>> claims = make_claims(bench, *paper, options.only);
     if (!claims.ok()) return refuse("reproduce: " + claims.error(), 1);
-    const PageFacts facts{"Thick shells: the paper's claims and cullet's",
-                          describe_machine(),
-                          bench.threads(),
-                          options.is_reduced,
-                          seconds_now() - start,
-                          bench.notes()};
+    const PageFacts facts{paper->title,       paper->machine,        describe_machine(), bench.threads(),
+                          options.is_reduced, seconds_now() - start, bench.notes()};
     for (const auto& [text, name] : {std::pair(to_page(claims.value(), facts), "report.html"),
                                      std::pair(to_json(claims.value(), facts), "report.json")})
         if (auto written = write_text(text, options.out + "/" + name); !written.ok()) return refuse(written.error(), 1);

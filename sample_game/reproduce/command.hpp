@@ -5,7 +5,7 @@
 namespace cullet::reproduce {
 
 struct CommandOptions {
-    std::string model;  // "thick_shell"
+    std::string model;  // "thick_shell" or "metal_shell"
     std::string out;    // a folder; made when it is not there
     std::string data;   // of test meshes; empty: CULLET_TEST_DATA, or ../shared/data
     uint32_t threads = 0;

@@ -140,11 +140,11 @@ std::string to_page(std::span<const Claim> claims, const PageFacts& facts) {
     std::string html = fmt::format(
         "<!doctype html>\n<html lang=\"en\"><head><meta charset=\"utf-8\"><meta name=\"viewport\" "
         "content=\"width=device-width, initial-scale=1\">\n<title>{0}</title><style>{1}</style></head>\n<body><main>"
-        "<h1>{0}</h1>\n<p class=\"facts\">{2}, {3} threads; {4:.0f} s for the whole page.{5} Published numbers are of "
-        "a "
-        "Pentium 4 with 3 GHz.</p>\n<p class=\"counts\">",
+        "<h1>{0}</h1>\n<p class=\"facts\">{2}, {3} threads; {4:.0f} s for the whole page.{5} {6}</p>\n<p "
+        "class=\"counts\">",
         escaped(facts.title), kStyle, escaped(facts.machine), facts.threads, facts.seconds,
-        facts.is_reduced ? " A reduced run: smaller meshes, fewer repeats, nothing of it is to be quoted." : "");
+        facts.is_reduced ? " A reduced run: smaller meshes, fewer repeats, nothing of it is to be quoted." : "",
+        escaped(facts.paper_machine));
     for (const Verdict verdict : {Verdict::Met, Verdict::FallsShort, Verdict::Shown, Verdict::NotMeasured})
         html += fmt::format("<span class=\"{}\">{} {}</span>", style_of(verdict), count_of(claims, verdict),
                             name_of(verdict));

@@ -8,7 +8,8 @@
 namespace cullet::reproduce {
 
 struct PageFacts {
-    std::string title, machine;
+    std::string title, paper_machine;  // a sentence: what published times are of
+    std::string machine;
     uint32_t threads = 0;
     bool is_reduced = false;
     double seconds = 0;
