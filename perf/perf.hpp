@@ -52,6 +52,9 @@ bool measure_soft_body(const Options& options, Figures& figures);
 bool measure_springs(const Options& options, Figures& figures);
 /// The quick mode at a castle, in substeps of the bare spring kernel on it.
 bool measure_quick(const Options& options, Figures& figures);
+/// Sheet metal: sub-shells in Embree builds, impacts in passes of the plain spring loop, quiet frames beside a rigid
+/// body's. False: the sum of distances rose.
+bool measure_metal(const Options& options, Figures& figures);
 /// Frame times, hitch and share of each system of the sample game's scenes: the least of three runs, frame by frame,
 /// and one run of the pile.
 bool measure_vase_frames(const Options& options, Figures& figures);

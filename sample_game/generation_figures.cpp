@@ -39,8 +39,9 @@ double least_seconds(uint32_t rounds, Call call) {
     return least;
 }
 
-/// The yardstick: one commit of Embree's default tree, s, without the making of a device and the copying of the mesh.
-/// On this thread alone, as engine/ray_scene.cpp does it.
+}  // namespace
+
+// On this thread alone, as engine/ray_scene.cpp does it.
 double embree_build(const Mesh& mesh, uint32_t rounds) {
     double least = 1e9;
     oneapi::tbb::task_arena alone(1, 1);
@@ -67,8 +68,6 @@ double embree_build(const Mesh& mesh, uint32_t rounds) {
     });
     return least;
 }
-
-}  // namespace
 
 Result<GenerationFigures> measure_generation_of(const Mesh& mesh, const std::vector<double>& shares, uint32_t rounds) {
     const Result<Surface> surface = prepare_surface(mesh);

@@ -29,6 +29,10 @@ struct GenerationFigures {
     std::vector<GenerationFigure> rows;
 };
 
+/// The yardstick: one commit of Embree's default tree, s, without the making of a device and the copying of the mesh.
+/// The least of `rounds`.
+double embree_build(const Mesh& mesh, uint32_t rounds);
+
 /// Five rounds to the depth and no mitre, as in the note's table. Takes clocks, so no state may depend on it.
 Result<GenerationFigures> measure_generation_of(const Mesh& mesh, const std::vector<double>& shares, uint32_t rounds);
 

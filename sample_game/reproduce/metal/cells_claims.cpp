@@ -62,7 +62,8 @@ Result<Claim> metal_figure_1(Bench& bench) {
     Result<MetalBench> panel = paper_panel(bench, 0);
     if (!panel.ok()) return Error{panel.error()};
     MetalBench& shell = car ? *car : *panel;
-    const Camera camera = car ? camera_at({3.4f, 2.6f, 4.6f}, {0, 0.5f, 0}) : camera_at({0.3f, -0.9f, 1.4f}, {0, 0, 0});
+    const Camera camera =
+        car ? camera_at({3.4f, 2.6f, 4.6f}, {0, 0.5f, 0}) : camera_at({0.55f, 0.75f, 1.05f}, {0, -0.05f, 0.02f}, 0.6f);
     for (const bool shows : {false, true})
         if (auto added = bench.add_picture(claim, draw_metal(bench, shell, camera, shows), shows ? "cells" : "mesh",
                                            shows ? "One colour a sub-shell" : "As it came");

@@ -196,7 +196,7 @@ Result<Claim> metal_figure_7(Bench& bench) {
     claim.where = "Figure 7, section 7";
     claim.title = "Balls of 100 kg are shot at a panel";
     claim.paper = "11,144 vertices, 19,200 triangles, 128 sub-shells, friction 0.4.";
-    const Camera camera = camera_at({0.35f, -1.0f, 0.85f}, {0, 0, -0.02f}, 0.62f);
+    const Camera camera = camera_at({0.55f, 0.75f, 1.05f}, {0, -0.05f, 0.02f}, 0.6f);
     for (const uint8_t published : {uint8_t{0}, kAllPublished}) {
         Result<MetalBench> panel = paper_panel(bench, published);
         if (!panel.ok()) return Error{panel.error()};

@@ -1,6 +1,7 @@
 #include "sample_game/reproduce/metal/metal_drawn.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 #include "engine/jobs.hpp"
 #include "sample_game/metal/metal_car.hpp"
@@ -17,9 +18,11 @@ Camera camera_at(Vec3 eye, Vec3 target, float field_of_view) {
 Picture draw_metal(Bench& bench, const MetalBench& metal, const Camera& camera, bool shows_cells) {
     const MetalView view = metal.view();
     std::vector<Vec3> positions;
-    float low = 1e30f;
+    float low = 1e30f, thick = 0;
+    for (uint32_t v = 0; v < view.vertex_count(); ++v) thick = std::max(thick, std::fabs(metal.original(v).z));
     for (uint32_t v = 0; v < view.vertex_count(); ++v) {
-        positions.push_back(metal.place(v));
+        const Vec3 p = metal.place(v);
+        positions.push_back(thick > 0.01f ? p : Vec3{p.x, p.z, -p.y});  // a panel lies on its back
         low = std::min(low, positions.back().y);
     }
     std::vector<std::vector<uint32_t>> indices(shows_cells ? view.cell_count() : 1);
@@ -35,7 +38,7 @@ Picture draw_metal(Bench& bench, const MetalBench& metal, const Camera& camera, 
     }
     PictureSettings settings;
     settings.width = bench.picture_width(), settings.height = settings.width * 9 / 16;
-    settings.ground_height = low, settings.grid_spacing = 0.5f;
+    settings.ground_height = low - (thick > 0.01f ? 0 : 0.1f), settings.grid_spacing = 0.5f;
     settings.has_ground = true;
     const std::unique_ptr<JobSystem> jobs = make_jobs(JobBackend::Threads, bench.threads());
     settings.for_each = [&jobs](uint32_t count, const std::function<void(uint32_t)>& job) {

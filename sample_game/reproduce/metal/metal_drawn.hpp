@@ -9,7 +9,7 @@
 
 namespace cullet::reproduce {
 
-/// As it is now; one colour a sub-shell, or all in one.
+/// As it is now; one colour a sub-shell, or all in one. A panel is drawn with its +z upward.
 Picture draw_metal(Bench& bench, const MetalBench& metal, const Camera& camera, bool shows_cells = false);
 Camera camera_at(Vec3 eye, Vec3 target, float field_of_view = 0.5f);
 Result<void> add_plot(Bench& bench, Claim& claim, const Plot& plot, const std::string& name,

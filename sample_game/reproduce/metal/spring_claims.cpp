@@ -44,7 +44,7 @@ double share_out(const StretchCount& count) {
     return static_cast<double>(count.outside) / std::max(1u, count.edges);
 }
 
-const Camera kPanelCamera = camera_at({0.35f, -1.0f, 0.85f}, {0, 0, -0.02f}, 0.62f);
+const Camera kPanelCamera = camera_at({0.55f, 0.75f, 1.05f}, {0, -0.05f, 0.02f}, 0.6f);
 const Camera kFrontCamera = camera_at({3.2f, 2.1f, 4.6f}, {0, 0.55f, 0.4f}, 0.5f);
 
 /// The shell of a claim from both of these shapes.
