@@ -77,6 +77,8 @@ void try_crack(const BreakableSolid& body, BreakRun& run) {
         close_piece(body, run);
         return;
     }
+    // The cell that starts a crack is on its far side, whichever way axes run.
+    if (dot(run.direction[c], body.solid.cells[c].centroid - run.blow.point) < 0) run.direction[c] = -run.direction[c];
     const Vec3d normal = run.direction[c];
     bool is_broken = false;
     if (run.rules.is_curved) {

@@ -120,6 +120,30 @@ TEST(BreakRun, ATouchOffTheSurfaceIsWhereItIsNearest) {
     EXPECT_GT(beside.run.gate, 0);
 }
 
+// x to y, y to z, z to x: a turn that rounds nothing.
+Vec3d turned(Vec3d p) {
+    return {p.z, p.x, p.y};
+}
+
+TEST(BreakRun, ATurnedBlowOnATurnedBodyGivesTheSamePieces) {
+    const BreakableSolid body = brick(800, 4);
+    Solid other = body.solid;
+    for (Vec3d& p : other.lattice.points) p = turned(p);
+    for (SolidCell& cell : other.cells) cell.centroid = turned(cell.centroid);
+    for (SurfacePatch& patch : other.patches) patch.centroid = turned(patch.centroid);
+    for (SolidBond& bond : other.bonds) bond.centroid = turned(bond.centroid), bond.normal = turned(bond.normal);
+    const BreakableSolid turned_body = make_breakable(other);
+    for (const double speed : {3.0, 6.0, 12.0}) {
+        const Broken straight(body, kBrick, on_a_corner(speed));
+        SolidBlow blow = on_a_corner(speed);
+        blow.point = turned(blow.point), blow.push = turned(blow.push);
+        const Broken across(turned_body, kBrick, blow);
+        EXPECT_NEAR(across.run.gate, straight.run.gate, 1e-6 * straight.run.gate);
+        ASSERT_EQ(across.run.piece_count, straight.run.piece_count);
+        EXPECT_EQ(std::memcmp(across.run.piece.data(), straight.run.piece.data(), straight.run.piece.size_bytes()), 0);
+    }
+}
+
 TEST(BreakRun, PiecesRiseWithSpeed) {
     BreakableSolid body = brick(800, 4);
     double before = 0;
