@@ -30,7 +30,8 @@ uint32_t weakest(const BreakableSolid& body, const BreakRun& run) {
 }
 
 void take_next_piece(BreakRun& run) {
-    if (run.queue_first == run.queue_end || run.crack_count >= run.rules.most_cracks) {
+    const bool is_enough = run.crack_count > 0 && run.crack_count >= run.rules.most_cracks;
+    if (run.queue_first == run.queue_end || is_enough) {
         run.stage = BreakStage::Done;
         return;
     }
@@ -59,7 +60,7 @@ void decide_on_cracks(const BreakableSolid& body, BreakRun& run) {
         run.first_crack = 1 / ratio;
     }
     run.pieces_before = run.piece_count;
-    if (!(ratio >= 1)) {
+    if (!(ratio >= 1) || run.crack_count >= run.rules.most_cracks) {
         run.stage = BreakStage::NextPiece;
         return;
     }

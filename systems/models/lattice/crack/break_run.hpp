@@ -15,8 +15,9 @@ struct CrackRules {
     double level_weight = 0.1;  // w_0: how much a curved crack wants to be a plane
     double shield = 0.5;        // of a crack's reach: no other starts there in the same solve
     double least_cells = 6;     // mean cells: a smaller piece does not come off
-    uint32_t most_cracks = 24, most_rounds = 6, most_tries = 40;
-    bool is_curved = true;  // thin bodies crack along planes
+    uint32_t most_cracks = 24;  // 0: the gate alone is wanted
+    uint32_t most_rounds = 6, most_tries = 40;
+    bool is_curved = true;  // false: along planes, which is quicker and plainer
 };
 
 enum class BreakStage : uint8_t { NextPiece, Assemble, Factor, Stress, Field, Crack, Done };
@@ -89,6 +90,11 @@ struct BreakRun {
 /// Stress over strength, at the whole load.
 inline double ratio_of(const BreakableSolid& body, const BreakRun& run, uint32_t cell) {
     return run.first[cell] / (run.brittle.tensile_strength * double{body.strength[cell]});
+}
+/// The force at which the first crack starts, N, however fast the blow is: both are linear. Infinite if nothing is
+/// pulled.
+inline double threshold_force(const BreakRun& run) {
+    return run.contact.force * run.share / run.gate;
 }
 /// What comes of the load is enough to crack the cell, and nothing bars it.
 inline bool may_start(const BreakableSolid& body, const BreakRun& run, uint32_t cell) {

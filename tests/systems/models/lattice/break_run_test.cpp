@@ -103,6 +103,18 @@ TEST(BreakRun, StressIsLinearInTheForce) {
     EXPECT_NEAR(fast.run.gate / slow.run.gate, force, 1e-9 * force);
 }
 
+TEST(BreakRun, TheGateAloneTellsTheForceOfTheFirstCrack) {
+    const BreakableSolid body = brick(800, 4);
+    CrackRules gate;
+    gate.most_cracks = 0;
+    const Broken slow(body, kBrick, on_a_corner(1), gate), fast(body, kBrick, on_a_corner(5), gate);
+    EXPECT_EQ(fast.run.piece_count, 1u);
+    EXPECT_EQ(fast.run.solve_count, 1u);
+    EXPECT_LT(slow.run.gate, 1);
+    EXPECT_GT(fast.run.gate, 1);
+    EXPECT_NEAR(threshold_force(slow.run) / threshold_force(fast.run), 1, 1e-9);
+}
+
 TEST(BreakRun, AFinerLatticeBreaksAtTheSameLoad) {
     const BreakableSolid coarse = brick(1500, 2), fine = brick(8000, 2);
     const SolidBlow blow = blow_on({0, kHalf.y, 0}, {0, -1, 0}, 5, 3);
