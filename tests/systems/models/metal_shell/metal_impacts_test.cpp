@@ -259,12 +259,15 @@ TEST(MetalImpacts, APressCrushesABoxAndAWeightDoesNot) {
     weight.pose.position = {2, 0.402f, 0};
     (void)world.add_sphere(weight);
     for (int n = 0; n < 240; ++n) {
-        if (n == 180) ASSERT_TRUE(world.set_motion(plate, {}).ok());
+        if (n == 180) {
+            ASSERT_TRUE(world.set_motion(plate, {}).ok());
+        }
         world.step();
     }
     EXPECT_EQ(deepest(world, laden), 0);
     const double low = double{value_of(world.pose(plate)).position.y} - 0.05;
-    EXPECT_LT(low, 0.22);
+    EXPECT_LT(low, 0.27) << "it is slow: the box gives way blow by blow";
+    EXPECT_GT(deepest(world, pressed), 0.02);
     double top = 0;
     const BodyView view = value_of(world.view(pressed));
     for (size_t v = 0; v < view.vertex_count; ++v)
