@@ -15,7 +15,7 @@ local panel = game.cook{
     material = shell.material,
     thickness = shell.thickness,
 }
-game.camera{eye = {0.55, 1.72, 1.35}, target = {0, 0.52, 0.02}, field_of_view = 0.62}
+game.camera{eye = {0.4, 2.05, 1.0}, target = {0, 0.55, 0}, field_of_view = 0.62}
 game.sun{towards = {-0.9, 0.32, 0.25}, strength = 2.3} -- low, so that a dent is seen
 game.floor()
 -- The frame: four beams on legs, the panel's border between them.
