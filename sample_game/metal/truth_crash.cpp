@@ -126,9 +126,11 @@ Result<Pair> hit_sheet(const Model& model, bool is_breakable) {
     const Result<ModelId> id = world.add_model(model);
     SpawnSettings spawn;
     spawn.is_breakable = is_breakable;
+    spawn.contact.restitution = 1;  // so that both bounce alike, whatever a sheet gives back
     const Result<BodyId> sheet = world.spawn(*id, spawn);
     SphereSettings ball;
     ball.radius = 0.145f, ball.mass = 20;
+    ball.contact.restitution = 1;
     ball.pose.position = {0.2f, 0.1f, 0.4f}, ball.motion.velocity = {0, 0, -5};
     (void)world.add_sphere(ball);
     Pair pair;
@@ -157,7 +159,7 @@ std::vector<Verdict> metal_momentum() {
             {"drift of the momentum of both, of it", off(dented->before.linear, dented->after.linear), 0, 1e-6},
             {"angular momentum beside that of an undented pair, of it",
              off(rigid->after.angular, dented->after.angular), 0, 1e-6},
-            {"kinetic energy afterwards, of it", dented->after.kinetic / dented->before.kinetic, 0, 1}};
+            {"kinetic energy afterwards, of it", dented->after.kinetic / dented->before.kinetic, 0, 1.0001}};
 }
 
 std::vector<Verdict> metal_car_at_a_wall() {

@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-#include "systems/models/metal_shell/dent/striker.hpp"
+#include "systems/models/metal_shell/shared/striker.hpp"
 #include "systems/models/metal_shell/shared/metal_view.hpp"
 
 namespace cullet::metal_shell {

@@ -1,8 +1,8 @@
 // One impact on a metal shell, worked off: how deep, what shape, and the clean-up (metal shell note, sections 6 and 7).
 #pragma once
 #include "systems/models/metal_shell/dent/sheet_plan.hpp"
-#include "systems/models/metal_shell/dent/striker.hpp"
 #include "systems/models/metal_shell/shared/metal_view.hpp"
+#include "systems/models/metal_shell/shared/striker.hpp"
 
 namespace cullet {
 

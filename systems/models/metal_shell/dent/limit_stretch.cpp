@@ -10,7 +10,7 @@ namespace {
 constexpr int kRounds = 6, kPullingRounds = 10, kTurnPasses = 3;
 constexpr double kMovedShare = 0.1;               // what the impact moved yields so much less to pulling edges
 constexpr float kShortest = 0.92f, kPush = 0.7f;  // of the original length; how much of what is missing is asked for
-constexpr double kEarly = 0.9;    // of the longest: what only just keeps to its limit is over it after the next dent
+constexpr double kEarly = 0.88;   // of the longest: what only just keeps to its limit is over it after the next dent
 constexpr float kStep = 2.4f;     // over the number of springs
 constexpr float kTurned = -0.3f;  // cosine of a triangle's normals before and after
 

@@ -1,8 +1,8 @@
 // Clean-up of a dent: what is in the striker comes out, edges keep to their limits, triangles do not turn over (metal
 // shell note E4 to E6).
 #pragma once
-#include "systems/models/metal_shell/dent/striker.hpp"
 #include "systems/models/metal_shell/shared/metal_view.hpp"
+#include "systems/models/metal_shell/shared/striker.hpp"
 
 namespace cullet {
 

@@ -1,7 +1,7 @@
 // The field of a crush: a closed shell that gives way over a wide contact (metal shell note D2).
 #pragma once
-#include "systems/models/metal_shell/dent/striker.hpp"
 #include "systems/models/metal_shell/shared/metal_view.hpp"
+#include "systems/models/metal_shell/shared/striker.hpp"
 
 namespace cullet {
 

@@ -1,8 +1,8 @@
 // The field of a dent in a sheet: how far each vertex goes along the push (metal shell note D1).
 #pragma once
 #include "systems/models/metal_shell/dent/sheet_plan.hpp"
-#include "systems/models/metal_shell/dent/striker.hpp"
 #include "systems/models/metal_shell/shared/metal_view.hpp"
+#include "systems/models/metal_shell/shared/striker.hpp"
 
 namespace cullet {
 

@@ -1,8 +1,8 @@
 // The published displacement: each sub-shell that is hit moves as a rigid body of its own, all others stay (metal
 // shell note, section 6).
 #pragma once
-#include "systems/models/metal_shell/dent/striker.hpp"
 #include "systems/models/metal_shell/shared/metal_view.hpp"
+#include "systems/models/metal_shell/shared/striker.hpp"
 
 namespace cullet {
 

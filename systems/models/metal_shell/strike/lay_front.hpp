@@ -1,7 +1,7 @@
 // What strikes a metal shell, as a front across its way: from its triangles, whatever its shape.
 #pragma once
 #include "components/body_rows.hpp"
-#include "systems/models/metal_shell/dent/striker.hpp"
+#include "systems/models/metal_shell/shared/striker.hpp"
 
 namespace cullet {
 

@@ -76,7 +76,11 @@ TEST(Strikers, AWallLeavesAFlatFront) {
     const Crashed c = crash(10, 1, [](World& w) { add_mesh(w, make_box({0.2f, 2, 2}), {0.85f, 0, 0}); });
     const double deep = c.depth_at(0);
     ASSERT_GT(deep, 0.01);
-    for (const double z : {-0.3, -0.15, 0.15, 0.3}) EXPECT_NEAR(c.depth_at(z), deep, 2e-3) << z;
+    // Nothing stands out; folds go in.
+    for (const double z : {-0.3, -0.15, 0.15, 0.3}) {
+        EXPECT_GT(c.depth_at(z), deep - 2e-3) << z;
+        EXPECT_LT(c.depth_at(z), deep + 0.02) << z;
+    }
 }
 
 TEST(Strikers, AnUprightPoleLeavesAV) {
