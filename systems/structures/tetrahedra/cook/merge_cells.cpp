@@ -61,7 +61,8 @@ class Merger {
           least_(least),
           sets_(raw.cells.size()),
           volume_(raw.cells.size()),
-          bonds_at_(raw.cells.size()) {
+          bonds_at_(raw.cells.size()),
+          area_(raw.cells.size(), -1) {
         for (uint32_t c = 0; c < volume_.size(); ++c) volume_[c] = raw.cells[c].sums.volume;
         for (uint32_t i = 0; i < bonds.size(); ++i)
             bonds_at_[bonds[i].a].push_back(i), bonds_at_[bonds[i].b].push_back(i);
@@ -84,24 +85,24 @@ class Merger {
     void ask(uint32_t cell) {
         if (volume_[cell] < least_) queue_.push({volume_[cell], cell});
     }
+    // What turns itself inside out has cells of negative volume, which join until one has eaten its way out, and bonds
+    // of negative area.
     uint32_t widest_neighbour(uint32_t cell) {
-        areas_.clear();
-        for (const uint32_t i : bonds_at_[cell]) {
+        touched_.clear();
+        std::erase_if(bonds_at_[cell], [&](uint32_t i) {
             const uint32_t a = sets_.find(bonds_[i].a), b = sets_.find(bonds_[i].b);
-            if (a == b) continue;
+            if (a == b) return true;
             const uint32_t other = a == cell ? b : a;
-            const auto known =
-                std::find_if(areas_.begin(), areas_.end(), [&](const auto& x) { return x.first == other; });
-            // What turns itself inside out has bonds of negative area.
-            if (known != areas_.end())
-                known->second += std::fabs(bonds_[i].area);
-            else
-                areas_.push_back({other, std::fabs(bonds_[i].area)});
-        }
+            if (area_[other] < 0) touched_.push_back(other), area_[other] = 0;
+            area_[other] += std::fabs(bonds_[i].area);
+            return false;
+        });
         uint32_t best = kNone;
         double widest = -1;
-        for (const auto& [other, area] : areas_)
-            if (area > widest || (area == widest && other < best)) best = other, widest = area;
+        for (const uint32_t other : touched_) {
+            if (area_[other] > widest || (area_[other] == widest && other < best)) best = other, widest = area_[other];
+            area_[other] = -1;
+        }
         return best;
     }
     void join(uint32_t a, uint32_t b) {
@@ -117,7 +118,8 @@ class Merger {
     DisjointSets sets_;
     std::vector<double> volume_;
     std::vector<std::vector<uint32_t>> bonds_at_;
-    std::vector<std::pair<uint32_t, double>> areas_;
+    std::vector<double> area_;       // towards a neighbour, or -1
+    std::vector<uint32_t> touched_;  // of them
     std::priority_queue<Small, std::vector<Small>, std::greater<>> queue_;
 };
 
