@@ -35,13 +35,13 @@ Point3 point_of(uint32_t x, uint32_t y, uint32_t sample, uint32_t stream) {
             unit(mixed(tile + 2) + n * 0x8cb92ba7u)};
 }
 
-struct Turn {
+struct PlaneTurn {
     float cosine, sine;
 };
 
 // 1024 directions are finer than any shadow edge drawn with them.
-std::array<Turn, 1024> turns() {
-    std::array<Turn, 1024> table;
+std::array<PlaneTurn, 1024> turns() {
+    std::array<PlaneTurn, 1024> table;
     for (int i = 0; i < 1024; ++i) {
         double sine, cosine;
         sine_cosine(i * (6.283185307179586 / 1024), sine, cosine);
@@ -50,8 +50,8 @@ std::array<Turn, 1024> turns() {
     return table;
 }
 
-Turn turn_of(float share) {
-    static const std::array<Turn, 1024> table = turns();
+PlaneTurn turn_of(float share) {
+    static const std::array<PlaneTurn, 1024> table = turns();
     return table[static_cast<size_t>(share * 1024)];
 }
 
@@ -102,7 +102,7 @@ float PictureLight::sun_share(const SeenSurface& surface, uint32_t x, uint32_t y
     for (uint32_t k = first; k < first + count; ++k) {
         const Point3 p = point_of(x, y, k, 0);
         const float radius = angular_radius_ * std::sqrt(p.a);
-        const Turn turn = turn_of(p.b);
+        const PlaneTurn turn = turn_of(p.b);
         const Vec3 direction = towards_ + radius * (turn.cosine * across_ + turn.sine * aside_);
         sum += scene_.passes(surface.point, direction);
     }
@@ -118,7 +118,7 @@ float PictureLight::sky_share(const SeenSurface& surface, uint32_t x, uint32_t y
     for (uint32_t k = first; k < first + count; ++k) {
         const Point3 p = point_of(x, y, k, 1);
         const float radius = std::sqrt(p.a);
-        const Turn turn = turn_of(p.b);
+        const PlaneTurn turn = turn_of(p.b);
         Vec3 direction = radius * (turn.cosine * t + turn.sine * b) + std::sqrt(1 - p.a) * surface.normal;
         const float below = dot(direction, surface.face_normal);
         if (below < 0) direction = direction - 2 * below * surface.face_normal;
