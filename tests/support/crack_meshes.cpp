@@ -20,8 +20,8 @@ Vec3d middle(Vec3d a, Vec3d b) {
 
 }  // namespace
 
-Surface sheet(uint32_t nx, uint32_t ny, double width, double height, double jitter) {
-    Surface s;
+TestSurface sheet(uint32_t nx, uint32_t ny, double width, double height, double jitter) {
+    TestSurface s;
     const Random random{7};
     for (uint32_t j = 0; j <= ny; ++j)
         for (uint32_t i = 0; i <= nx; ++i) {
@@ -44,8 +44,8 @@ Surface sheet(uint32_t nx, uint32_t ny, double width, double height, double jitt
     return s;
 }
 
-Surface sphere(uint32_t levels, double radius) {
-    Surface s;
+TestSurface sphere(uint32_t levels, double radius) {
+    TestSurface s;
     s.place = {{1, 0, 0}, {-1, 0, 0}, {0, 1, 0}, {0, -1, 0}, {0, 0, 1}, {0, 0, -1}};
     s.triangle = {{0, 2, 4}, {2, 1, 4}, {1, 3, 4}, {3, 0, 4}, {2, 0, 5}, {1, 2, 5}, {3, 1, 5}, {0, 3, 5}};
     for (uint32_t level = 0; level < levels; ++level) {
@@ -70,8 +70,8 @@ Surface sphere(uint32_t levels, double radius) {
     return s;
 }
 
-Surface closed_lathe(uint32_t segments, uint32_t rings, double radius, double height) {
-    Surface s;
+TestSurface closed_lathe(uint32_t segments, uint32_t rings, double radius, double height) {
+    TestSurface s;
     for (uint32_t j = 0; j < rings; ++j) {
         double sine, cosine;
         sine_cosine(3.14159265 * (j + 1) / (rings + 1), sine, cosine);
@@ -102,7 +102,7 @@ Surface closed_lathe(uint32_t segments, uint32_t rings, double radius, double he
     return s;
 }
 
-Shell make_shell_of(const Surface& surface, uint32_t spare_vertices, uint32_t spare_elements) {
+Shell make_shell_of(const TestSurface& surface, uint32_t spare_vertices, uint32_t spare_elements) {
     const uint32_t vertex_count = static_cast<uint32_t>(surface.place.size());
     const uint32_t element_count = static_cast<uint32_t>(surface.triangle.size());
     Limits limits;

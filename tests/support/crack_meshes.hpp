@@ -10,16 +10,16 @@
 
 namespace cullet::crack_test {
 
-struct Surface {
+struct TestSurface {
     std::vector<Vec3d> place;
     std::vector<std::array<uint32_t, 3>> triangle;
 };
 /// nx x ny squares of two triangles each, diagonals to and fro, inner vertices jittered by `jitter` of an edge.
-Surface sheet(uint32_t nx, uint32_t ny, double width, double height, double jitter = 0);
+TestSurface sheet(uint32_t nx, uint32_t ny, double width, double height, double jitter = 0);
 /// Octahedron divided `levels` times, pushed out to the radius.
-Surface sphere(uint32_t levels, double radius);
+TestSurface sphere(uint32_t levels, double radius);
 /// A closed spindle: rings of `segments` vertices between two poles, radius bellied.
-Surface closed_lathe(uint32_t segments, uint32_t rings, double radius, double height);
+TestSurface closed_lathe(uint32_t segments, uint32_t rings, double radius, double height);
 
 /// A state with one shell in it: porcelain 4 mm thick, inner twins straight below the area-weighted normal.
 struct Shell {
@@ -27,7 +27,7 @@ struct Shell {
     ShellView view;
     double mass = 0;  // of all elements when built
 };
-Shell make_shell_of(const Surface& surface, uint32_t spare_vertices, uint32_t spare_elements);
+Shell make_shell_of(const TestSurface& surface, uint32_t spare_vertices, uint32_t spare_elements);
 
 using StressField = std::function<Sym3d(Vec3 place, int face)>;
 /// Elements' stress of both faces and their principal value from a field of tensors in body axes, at the centroids.

@@ -101,7 +101,7 @@ TEST(CutEnds, AShellWithoutRoomRefusesTheCutAndNothingChanges) {
 }
 
 TEST(CutEnds, ASingleTriangleCannotBeCut) {
-    Surface one;
+    TestSurface one;
     one.place = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}};
     one.triangle = {{0, 1, 2}};
     Shell shell = make_shell_of(one, 8, 8);
@@ -130,7 +130,7 @@ TEST(CutEnds, CopiesKeepPlaceVelocityAndPin) {
 
 // Random cuts of one to six edges at random vertices, every third time an insertion first, until nothing is left to cut
 // or `rounds` are done. After each: all rules.
-void cut_at_random(const Surface& surface, uint64_t seed, uint32_t rounds, uint32_t check_every) {
+void cut_at_random(const TestSurface& surface, uint64_t seed, uint32_t rounds, uint32_t check_every) {
     Shell shell = make_shell_of(surface, 4 * rounds + 64, 2 * rounds + 64);
     const ShellView view = shell.view;
     shake(view, seed);

@@ -85,7 +85,7 @@ void give_grain(State& state) {
     ASSERT_TRUE(material_traits(state, m).has_grain());
 }
 
-void compare_with_new_assembly(const Surface& surface, uint64_t seed, bool has_grain = false) {
+void compare_with_new_assembly(const TestSurface& surface, uint64_t seed, bool has_grain = false) {
     Shell shell = make_shell_of(surface, 0, 0);
     if (has_grain) give_grain(*shell.state);
     assemble(shell, 400);

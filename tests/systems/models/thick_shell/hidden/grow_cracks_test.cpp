@@ -411,7 +411,7 @@ StressField random_field(uint64_t seed, float size) {
 }
 
 // T9, T12, links, momenta and energy after each of many checks with fields of their own.
-void hit_at_random(const Surface& surface, float size, uint64_t seed, uint32_t hits, uint32_t least_cuts) {
+void hit_at_random(const TestSurface& surface, float size, uint64_t seed, uint32_t hits, uint32_t least_cuts) {
     Shell shell = make_shell_of(surface, 6000, 6000);
     const Row<Tasks> task = make_task(shell);
     shake(shell.view, seed);

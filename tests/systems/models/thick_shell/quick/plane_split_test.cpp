@@ -10,7 +10,7 @@ namespace {
 
 struct Body {
     const char* name;
-    Surface surface;
+    TestSurface surface;
 };
 std::vector<Body> bodies() {
     return {{"sphere", sphere(3, 0.1)},

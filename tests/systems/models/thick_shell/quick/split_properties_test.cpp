@@ -19,7 +19,7 @@ namespace {
 
 /// T7, T8, T12 and links by broken_rule, T9 by mass, components never fewer, and nothing moves: momenta and energy of
 /// the split's own (a new vertex lumps mass anew, so they are taken behind it).
-void expect_sound_history(const Surface& surface, uint64_t seed, uint32_t splits, uint32_t looks_every) {
+void expect_sound_history(const TestSurface& surface, uint64_t seed, uint32_t splits, uint32_t looks_every) {
     Shell shell = make_shell_of(surface, 20 * splits, 40 * splits);
     shake(shell.view, seed);
     const Random random{seed};
@@ -54,7 +54,7 @@ void expect_sound_history(const Surface& surface, uint64_t seed, uint32_t splits
 }
 
 TEST(SplitProperties, HoldOnGeneratedMeshes) {
-    const Surface meshes[] = {sphere(3, 0.1), sheet(14, 9, 0.14, 0.09, 0.3), closed_lathe(16, 10, 0.05, 0.2)};
+    const TestSurface meshes[] = {sphere(3, 0.1), sheet(14, 9, 0.14, 0.09, 0.3), closed_lathe(16, 10, 0.05, 0.2)};
     test::expect_always(30, [&](uint64_t seed) { expect_sound_history(meshes[seed % 3], seed, 120, 1); });
 }
 
@@ -70,7 +70,7 @@ TEST(SplitProperties, HoldOnStrangersMeshes) {
         ASSERT_TRUE(mesh.ok()) << mesh.error();
         const Result<cullet::Surface> clean = prepare_surface(mesh.value());
         ASSERT_TRUE(clean.ok()) << clean.error();
-        Surface surface;
+        TestSurface surface;
         // One metre large, since the shell's wall is 4 mm.
         for (const Vec3d place : clean->positions) surface.place.push_back((1 / clean->diagonal) * place);
         for (const auto& t : clean->triangles) surface.triangle.push_back({t[0], t[1], t[2]});
