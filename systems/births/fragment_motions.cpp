@@ -47,16 +47,20 @@ void move_with_body(Planning& planning, const Break& plan, Vec3d velocity, Vec3d
     }
 }
 
-// P and L stay; the mass lies otherwise.
+// P and L stay; the mass lies otherwise. What is not dented stays where it was, so the middle moves, and the momentum's
+// moment with it: the spin makes up for that.
 void move_reshaped(Planning& planning, const Break& plan, Vec3d velocity, Vec3d spin) {
     Fragments& f = planning.fragments;
     planning.calls(plan).weigh(planning.state, plan, f);
-    const Sym3d before = planning.state.bodies.inertia[plan.body];
+    const Bodies& bodies = planning.state.bodies;
+    const Sym3d before = bodies.inertia[plan.body];
     for (const Row<Fragments> row : plan.fragments) {
         if (f.has_pins[row]) continue;
-        f.spin.set(row, inverse(f.inertia[row]) * (before * spin));
+        const Vec3d momentum = f.moving_mass[row] * velocity;
+        const Vec3d moved = f.centre[row] - bodies.centre[plan.body];
+        f.spin.set(row, inverse(f.inertia[row]) * (before * spin - cross(moved, momentum)));
         f.velocity.set(row, velocity);
-        f.momentum.set(row, f.moving_mass[row] * velocity);
+        f.momentum.set(row, momentum);
     }
 }
 

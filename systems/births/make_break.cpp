@@ -12,11 +12,22 @@
 namespace cullet {
 namespace {
 
+// What was pushed in lies higher, or turns faster: by the work of the dent, which its contact took in the step before.
+void book_dent(Births& births, Row<Bodies> body, Vec3 middle_before, double energy_before) {
+    const Bodies& bodies = births.state.bodies;
+    const double lifted =
+        -bodies.mass[body] * double{dot(births.step.gravity, centre_of(bodies, body) - middle_before)};
+    births.counts.work_from_outside += std::max(0.0, lifted + rigid_energy(bodies, body) - energy_before);
+}
+
 // Nothing struck: pieces go as they were planned.
 void make_without_task(Births& births, const Break& plan) {
     SoftRows& state = births.state;
     const double allowed = rigid_energy(state.bodies, plan.body) + plan.waited;
+    const Vec3 middle = centre_of(state.bodies, plan.body);
+    const double moving = rigid_energy(state.bodies, plan.body);
     make_pieces(births, plan, {pose_of(state.bodies, plan.body), {}, {}, {}, false});
+    if (plan.is_reshaped) book_dent(births, plan.body, middle, moving);
     if (plan.is_torn) return births.models.keep_torn(state, births.rigid, plan.body);
     const double goes_on_waiting = births.calls(plan.broken).waiting_energy(state, plan.body);
     if (plan.waited > 0) limit_energy(births, plan, allowed - goes_on_waiting);

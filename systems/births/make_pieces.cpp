@@ -127,16 +127,6 @@ void reshape_rest(Births& births, const Break& plan, std::span<const ConvexPiece
     if (!was_static) births.rigid.set_motion(body, motion);
 }
 
-// What was dented has its middle elsewhere in its own frame. In the world that stays where it was: what is not dented
-// moves instead, by less than the dent is deep.
-void keep_middle(Births& births, Row<Bodies> body, Vec3d middle_before) {
-    Bodies& bodies = births.state.bodies;
-    const Vec3d way = middle_before - bodies.centre[body];
-    const Quat turn = bodies.orientation[body];
-    bodies.position.set(body, bodies.position[body] + rotate(turn, way.to_float()));
-    births.rigid.set_pose(body, {bodies.position[body], turn});
-}
-
 // One fragment's row, rigid body and event. The body frame and the pose stay the parent's.
 PieceBounds make_piece_body(Births& births, const Break& plan, Row<Fragments> f, const Moment& moment,
                             Leaving& leaving) {
@@ -148,20 +138,17 @@ PieceBounds make_piece_body(Births& births, const Break& plan, Row<Fragments> f,
     const bool was_static = static_cast<BodyKind>(bodies.kind[body]) == BodyKind::Static;
     const bool is_static = births.fragments.has_pins[f] != 0;
     const bool is_rest = f == plan.largest, keeps_hulls = is_rest && plan.keeps_hulls;
-    const Vec3d middle_before = bodies.centre[body];
     place_body(births, child, moment, motion, is_static, is_rest && plan.keeps_mesh);
     const Row<Structures> structure = bodies.structure[child];
     births.calls(structure).pack_hulls(state, structure, keeps_hulls);
     if (keeps_hulls && was_static == is_static && change_rest(births, body)) {
         if (!was_static) births.rigid.set_motion(body, motion);
-        if (plan.is_reshaped && !is_static) keep_middle(births, body, middle_before);
         return drawn_bounds(bodies, body);
     }
     const auto pieces = convex_pieces(state, structure, births.arena, body);
     const PieceBounds bounds = keeps_hulls ? drawn_bounds(bodies, body) : bounds_of(pieces);
     if (is_rest) {
         reshape_rest(births, plan, pieces, motion, was_static, is_static);
-        if (plan.is_reshaped && !is_static) keep_middle(births, body, middle_before);
         return bounds;
     }
     add_body(births, child, body, pieces);
