@@ -70,7 +70,7 @@ std::string help_of(std::vector<std::string> arguments) {
 /// The help of every command, and of the program that imports.
 std::string all_help() {
     std::string text = help_of({}) + test::run_program({build_folder() + "/cullet_import", "--help"}).output;
-    for (const char* command : {"run", "cook", "replay", "reproduce", "truth", "frame"}) text += help_of({command});
+    for (const char* command : {"run", "cook", "replay", "reproduce", "truth", "fem", "frame"}) text += help_of({command});
     return text;
 }
 
