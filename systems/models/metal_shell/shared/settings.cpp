@@ -27,7 +27,7 @@ constexpr Setting kSettings[] = {
     word<&M::shape>("shape", kChoices, "the striker's, or rigid sub-shells that are hit"),
     word<&M::cells>("cells", kChoices, "carry folds and creases, or nothing more"),
     word<&M::borders>("borders", kChoices, "vertices between sub-shells go with all, or with the lowest"),
-    word<&M::springs>("springs", kChoices, "only limit edges, or pull them towards the length before the impact"),
+    word<&M::springs>("edge_springs", kChoices, "only limit edges, or pull them towards the length before the impact"),
     word<&M::limit>("limit", kChoices, "of edges: at both ends, or along the old way at one"),
     number<&M::impulse_time>("impulse_time", "s", zero_or(1e-7, 1),
                              "of the paper's depth; 0: such that it is as deep as ours"),
