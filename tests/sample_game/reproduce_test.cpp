@@ -204,7 +204,7 @@ TEST(Reproduce, TheKindsOfFractureAreRunAndComparedWithEachOther) {
 
 TEST(Reproduce, RefusesWhatItDoesNotKnow) {
     CommandOptions options;
-    options.model = "metal_shell";
+    options.model = "lattice";
     options.out = testing::TempDir();
     EXPECT_EQ(run(options), 2);
     options.model = "thick_shell";
