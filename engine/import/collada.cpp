@@ -10,12 +10,12 @@
 #include <string_view>
 #include <utility>
 
-#include "engine/polygon.hpp"
 #include "engine/import/text_encoding.hpp"
 #include "engine/import/words.hpp"
 #include "engine/import/xml.hpp"
 #include "engine/import/xml_unit.hpp"
 #include "engine/mesh_file.hpp"
+#include "engine/polygon.hpp"
 
 namespace cullet {
 namespace {

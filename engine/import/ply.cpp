@@ -9,10 +9,10 @@
 #include <utility>
 
 #include "engine/import/ply_header.hpp"
-#include "engine/polygon.hpp"
 #include "engine/import/text_encoding.hpp"
 #include "engine/import/words.hpp"
 #include "engine/mesh_file.hpp"
+#include "engine/polygon.hpp"
 
 namespace cullet {
 namespace {

@@ -7,10 +7,10 @@
 #include <string_view>
 #include <utility>
 
-#include "engine/polygon.hpp"
 #include "engine/import/text_encoding.hpp"
 #include "engine/import/words.hpp"
 #include "engine/mesh_file.hpp"
+#include "engine/polygon.hpp"
 
 namespace cullet {
 namespace {

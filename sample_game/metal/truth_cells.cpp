@@ -14,13 +14,15 @@ namespace {
 Mesh twice_folded(double first, double second) {
     const double half = std::sqrt(0.5);
     const Vec3d middle(0.5, 0.5, 0), out(half, half, 0), up(0, 0, 1);
-    const Vec3d corner = middle + half * (std::cos(first) * out + std::sin(first) * up);
+    double sine, cosine;
+    sine_cosine(first, sine, cosine);
+    const Vec3d corner = middle + half * (cosine * out + sine * up);
     // About the side from (0, 1, 0) to that corner.
     const Vec3d from(0, 1, 0), to(1, 0, 0), side = normalised(corner - from);
     const Vec3d arm = to - from - dot(to - from, side) * side;
     const Vec3d normal = normalised(cross(side, arm));
-    const Vec3d last =
-        from + dot(to - from, side) * side - (std::cos(second) * arm + std::sin(second) * length(arm) * normal);
+    sine_cosine(second, sine, cosine);
+    const Vec3d last = from + dot(to - from, side) * side - (cosine * arm + sine * length(arm) * normal);
     Mesh mesh;
     mesh.name = "folded";
     for (const Vec3d p : {Vec3d(0, 0, 0), to, from, corner, last}) mesh.positions.push_back(p.to_float());

@@ -92,8 +92,8 @@ std::vector<Verdict> metal_fifty_crashes() {
         MetalBench crashed = bench_of(car), shot = bench_of(car);
         const Vec3d middle = middle_of(crashed);
         for (int crash = 0; crash < 50; ++crash) {
-            const double way = 2 * kPi * share_of(crash, 0.618034);
-            const Vec3d push(std::cos(way), 0, std::sin(way));
+            Vec3d push;
+            sine_cosine(2 * kPi * share_of(crash, 0.618034), push.z, push.x);
             const StrikerShape shape = crash % 2 ? StrikerShape::Cylinder : StrikerShape::Plane;
             crashed.hit(first_touch(crashed, push, shape, 0.15, middle - 10.0 * push), 0.5 * kCarMass * 3 * 3);
             const Vec3d down = normalised(Vec3d(push.x, -0.6 * share_of(crash, 0.754878), push.z));

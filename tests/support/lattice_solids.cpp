@@ -7,6 +7,7 @@
 #include <set>
 
 #include "engine/assert.hpp"
+#include "engine/math.hpp"
 #include "engine/random.hpp"
 
 namespace cullet {
@@ -56,8 +57,8 @@ struct Lattice {
 Vec3d turned(Vec3d p, bool is_turned) {
     if (!is_turned) return p;
     const double angles[3] = {0.9, 0.35, 0.25};
-    const double s0 = std::sin(angles[0]), c0 = std::cos(angles[0]), s1 = std::sin(angles[1]), c1 = std::cos(angles[1]),
-                 s2 = std::sin(angles[2]), c2 = std::cos(angles[2]);
+    double s0, c0, s1, c1, s2, c2;
+    sine_cosine(angles[0], s0, c0), sine_cosine(angles[1], s1, c1), sine_cosine(angles[2], s2, c2);
     p = {c0 * p.x - s0 * p.y, s0 * p.x + c0 * p.y, p.z};
     p = {c1 * p.x + s1 * p.z, p.y, -s1 * p.x + c1 * p.z};
     return {p.x, c2 * p.y - s2 * p.z, s2 * p.y + c2 * p.z};
@@ -197,8 +198,9 @@ std::vector<BodyPlane> box_planes(Vec3d h) {
 std::vector<BodyPlane> column_planes(double radius, double half_height, int sides) {
     std::vector<BodyPlane> planes = {{{0, 0, 1}, half_height}, {{0, 0, -1}, half_height}};
     for (int k = 0; k < sides; ++k) {
-        const double angle = 2 * std::numbers::pi * k / sides;
-        planes.push_back({{std::cos(angle), std::sin(angle), 0}, radius});
+        double sine, cosine;
+        sine_cosine(2 * std::numbers::pi * k / sides, sine, cosine);
+        planes.push_back({{cosine, sine, 0}, radius});
     }
     return planes;
 }
@@ -206,9 +208,10 @@ std::vector<BodyPlane> column_planes(double radius, double half_height, int side
 std::vector<BodyPlane> ball_planes(double radius, int sides) {
     std::vector<BodyPlane> planes;
     for (int k = 0; k < sides; ++k) {
-        const double z = 1 - (2 * k + 1.0) / sides, angle = k * std::numbers::pi * (3 - std::sqrt(5.0));
-        const double r = std::sqrt(1 - z * z);
-        planes.push_back({{r * std::cos(angle), r * std::sin(angle), z}, radius});
+        const double z = 1 - (2 * k + 1.0) / sides, r = std::sqrt(1 - z * z);
+        double sine, cosine;
+        sine_cosine(k * std::numbers::pi * (3 - std::sqrt(5.0)), sine, cosine);
+        planes.push_back({{r * cosine, r * sine, z}, radius});
     }
     return planes;
 }

@@ -24,7 +24,10 @@ struct Axis {
 
 // 1, 2 or 5 times a power of ten, for about six marks.
 double step_of(const Axis& axis) {
-    const double wanted = (axis.high - axis.low) / 6, power = std::pow(10, std::floor(std::log10(wanted)));
+    const double wanted = (axis.high - axis.low) / 6;
+    double power = 1;
+    while (10 * power <= wanted) power *= 10;
+    while (power > wanted) power /= 10;
     for (const double times : {1.0, 2.0, 5.0})
         if (times * power >= wanted) return times * power;
     return 10 * power;

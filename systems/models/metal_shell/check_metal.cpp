@@ -2,8 +2,8 @@
 
 #include <cmath>
 
-#include "systems/models/metal_shell/shared/striker.hpp"
 #include "systems/models/metal_shell/shared/metal_view.hpp"
+#include "systems/models/metal_shell/shared/striker.hpp"
 
 namespace cullet::metal_shell {
 namespace {

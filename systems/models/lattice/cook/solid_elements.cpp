@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "engine/assert.hpp"
+#include "systems/cook/disjoint_sets.hpp"
 
 namespace cullet {
 namespace {
@@ -38,25 +39,6 @@ ElementPlace place_in(const SolidElements& solid, uint32_t cell, Vec3d place) {
     }
     return best;
 }
-
-class Groups {
- public:
-    explicit Groups(size_t count) : root_(count) {
-        for (uint32_t i = 0; i < count; ++i) root_[i] = i;
-    }
-    /// The lowest of a group.
-    uint32_t of(uint32_t i) {
-        while (root_[i] != i) i = root_[i] = root_[root_[i]];
-        return i;
-    }
-    void join(uint32_t i, uint32_t k) {
-        i = of(i), k = of(k);
-        root_[std::max(i, k)] = std::min(i, k);
-    }
-
- private:
-    std::vector<uint32_t> root_;
-};
 
 // The two rows of solid.moments that a bond joins.
 struct RowPair {
@@ -97,28 +79,28 @@ std::vector<RowPair> pair_rows(const Solid& solid) {
 // own, and shares nodes only with those that it hangs together with. (Molino et al. 2004, virtual nodes.)
 void number_nodes(const Solid& solid, SolidElements& made) {
     const std::vector<RowPair> pairs = pair_rows(solid);
-    Groups copies(solid.moments.size()), nodes(10 * solid.moments.size());
+    DisjointSets copies(solid.moments.size()), nodes(10 * solid.moments.size());
     for (const RowPair& pair : pairs)
-        if (solid.moments[pair.a].coarse == solid.moments[pair.b].coarse) copies.join(pair.a, pair.b);
+        if (solid.moments[pair.a].coarse == solid.moments[pair.b].coarse) copies.unite(pair.a, pair.b);
     for (const RowPair& pair : pairs) {
         const TenNodes& p = solid.lattice.coarse[solid.moments[pair.a].coarse];
         const TenNodes& q = solid.lattice.coarse[solid.moments[pair.b].coarse];
-        const uint32_t a = copies.of(pair.a), b = copies.of(pair.b);
+        const uint32_t a = copies.find(pair.a), b = copies.find(pair.b);
         if (a == b) continue;
         for (uint32_t i = 0; i < 10; ++i)
             for (uint32_t k = 0; k < 10; ++k)
-                if (p[i] == q[k]) nodes.join(10 * a + i, 10 * b + k);
+                if (p[i] == q[k]) nodes.unite(10 * a + i, 10 * b + k);
     }
     std::vector<std::pair<uint32_t, uint32_t>> order;  // coarse tetrahedron, copy
     for (uint32_t row = 0; row < solid.moments.size(); ++row)
-        if (copies.of(row) == row) order.push_back({solid.moments[row].coarse, row});
+        if (copies.find(row) == row) order.push_back({solid.moments[row].coarse, row});
     std::sort(order.begin(), order.end());
     std::vector<uint32_t> element_of(solid.moments.size(), kNoNode), node_of(10 * solid.moments.size(), kNoNode);
     for (const auto& [coarse, copy] : order) {
         element_of[copy] = static_cast<uint32_t>(made.elements.size());
         SolidElement element;
         for (uint32_t k = 0; k < 10; ++k) {
-            uint32_t& node = node_of[nodes.of(10 * copy + k)];
+            uint32_t& node = node_of[nodes.find(10 * copy + k)];
             if (node == kNoNode) {
                 node = static_cast<uint32_t>(made.places.size());
                 made.places.push_back(solid.lattice.points[solid.lattice.coarse[coarse][k]]);
@@ -136,7 +118,7 @@ void number_nodes(const Solid& solid, SolidElements& made) {
     made.first_part.assign(solid.cells.size() + 1, 0);
     for (uint32_t row = 0; row < solid.moments.size(); ++row) {
         ++made.first_part[solid.moments[row].cell + 1];
-        made.parts.push_back({element_of[copies.of(row)], solid.moments[row].moments});
+        made.parts.push_back({element_of[copies.find(row)], solid.moments[row].moments});
     }
     for (size_t c = 0; c < solid.cells.size(); ++c) made.first_part[c + 1] += made.first_part[c];
 }

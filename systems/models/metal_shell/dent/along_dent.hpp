@@ -1,7 +1,7 @@
 // A ball that strikes the wall of a dent goes on the way that the dent goes.
 #pragma once
-#include "systems/models/metal_shell/shared/striker.hpp"
 #include "systems/models/metal_shell/shared/metal_view.hpp"
+#include "systems/models/metal_shell/shared/striker.hpp"
 
 namespace cullet {
 

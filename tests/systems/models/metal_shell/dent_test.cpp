@@ -15,7 +15,7 @@ namespace {
 constexpr double kWidth = 1.2, kHeight = 0.8;
 
 const Model& panel() {
-    static const Model model = test::cook_metal(test::grid_sheet(kWidth, kHeight, 72, 48));
+    static const Model model = test::cook_metal(metal_sheet(kWidth, kHeight, 72, 48));
     return model;
 }
 

@@ -21,16 +21,6 @@ T value_of(Result<T> result) {
     return std::move(result).value();
 }
 
-double deepest(const World& world, BodyId body) {
-    auto& state = const_cast<State&>(world.contents().data.state);
-    const MetalView metal(state, state.bodies.structure[body_row(state.bodies, body)]);
-    double most = 0;
-    for (uint32_t v = 0; v < metal.vertex_count(); ++v)
-        most = std::max(most, double{length(state.vertices.rest[metal.shell.vertex(v)] -
-                                            metal.vertices().original[metal.vertex(v)])});
-    return most;
-}
-
 /// At a wall, 12 m/s; how deep it is dented.
 double thrown(const Mesh& mesh, const Model& model) {
     const MeshExtent extent = extent_of(mesh);
@@ -49,7 +39,7 @@ double thrown(const Mesh& mesh, const Model& model) {
     for (int frame = 0; frame < 12; ++frame) world.step();
     EXPECT_EQ(test::state_of(world).validate(), "") << mesh.name;
     EXPECT_NEAR(value_of(world.mass(body)), mass, 1e-6 * mass) << mesh.name;
-    return deepest(world, body);
+    return test::deepest(world, body);
 }
 
 Mesh two_far_apart() {

@@ -25,7 +25,7 @@ constexpr float kHalf = 0.5f;
 
 /// A square metre, held along its border, that faces up.
 BodyId spawn_panel(World& world) {
-    static const Model model = test::cook_metal(test::grid_sheet(1, 1, 40, 40));
+    static const Model model = test::cook_metal(metal_sheet(1, 1, 40, 40));
     constexpr float kRim = 0.01f, kOut = 1;
     const Box pins[] = {{{-kOut, -kOut, -kOut}, {-kHalf + kRim, kOut, kOut}},
                         {{kHalf - kRim, -kOut, -kOut}, {kOut, kOut, kOut}},
@@ -49,16 +49,6 @@ BodyId spawn_box(World& world, Vec3 place, Vec3 velocity) {
     return value_of(world.spawn(value_of(world.add_model(model)), settings));
 }
 
-double deepest(const World& world, BodyId body) {
-    auto& state = const_cast<State&>(world.contents().data.state);
-    const MetalView metal(state, state.bodies.structure[body_row(state.bodies, body)]);
-    double most = 0;
-    for (uint32_t v = 0; v < metal.vertex_count(); ++v)
-        most = std::max(most, double{length(state.vertices.rest[metal.shell.vertex(v)] -
-                                            metal.vertices().original[metal.vertex(v)])});
-    return most;
-}
-
 /// A ball that falls onto the panel's middle as fast as that.
 BodyId drop_ball(World& world, float mass, float speed, float radius = 0.1f) {
     SphereSettings ball;
@@ -72,7 +62,7 @@ std::string model_of(const std::string& material, const std::string& model = "")
     CookSettings settings;
     settings.material = material, settings.model = model;
     settings.thickness = 1e-3f;
-    const Mesh sheet = test::grid_sheet(1, 1, 4, 4);
+    const Mesh sheet = metal_sheet(1, 1, 4, 4);
     return value_of(cook(test::view_of_mesh(sheet), settings)).contents->damage_model;
 }
 
@@ -98,7 +88,7 @@ TEST(MetalImpacts, SteelAluminiumAndCopperAreMetalShellsUnlessToldOtherwise) {
 TEST(MetalImpacts, WhatDoesNotYieldIsNoMetal) {
     CookSettings settings;
     settings.material = "glass", settings.model = "metal_shell";
-    const Mesh sheet = test::grid_sheet(1, 1, 4, 4);
+    const Mesh sheet = metal_sheet(1, 1, 4, 4);
     const Result<Model> made = cook(test::view_of_mesh(sheet), settings);
     ASSERT_FALSE(made.ok());
     EXPECT_NE(made.error().find("glass is brittle"), std::string::npos) << made.error();
@@ -136,7 +126,7 @@ TEST(MetalImpacts, WhatEnclosesSomethingIsABodyHolesOrNot) {
         return middle.z > 0.299f && std::fabs(middle.x - 0.15f) < 0.08f && std::fabs(middle.y - 0.15f) < 0.08f;
     });
     EXPECT_GT(pressure(box), 0);
-    EXPECT_EQ(pressure(test::grid_sheet(1, 1, 10, 10)), 0);
+    EXPECT_EQ(pressure(metal_sheet(1, 1, 10, 10)), 0);
 }
 
 /// One impact in so many pushes, a frame each.
@@ -158,7 +148,7 @@ double depth_of_slices(uint32_t slices, bool is_box) {
         for (int step = 0; step < (is_box ? 4 : 1); ++step) world.step();
     }
     for (int n = 0; n < 12; ++n) world.step();
-    return deepest(world, body);
+    return test::deepest(world, body);
 }
 
 TEST(MetalImpacts, AnImpactInSlicesDentsAsInOneGo) {
@@ -175,7 +165,7 @@ TEST(MetalImpacts, HitsThatAreTooWeakToYieldOpenNoTask) {
     const BodyId sheet = spawn_panel(world);
     (void)drop_ball(world, 1, 2, 0.05f);  // 2 J; the panel yields from 9 J on
     for (int n = 0; n < 120; ++n) world.step();
-    EXPECT_EQ(deepest(world, sheet), 0);
+    EXPECT_EQ(test::deepest(world, sheet), 0);
     EXPECT_EQ(world.contents().data.counts.opened, 0u);
 }
 
@@ -200,7 +190,7 @@ TEST(MetalImpacts, ABallComesToRestInItsDent) {
     const BodyId sheet = spawn_panel(world);
     const BodyId ball = drop_ball(world, 100, 5, 0.145f);
     for (int n = 0; n < 600; ++n) world.step();
-    const double deep = deepest(world, sheet);
+    const double deep = test::deepest(world, sheet);
     EXPECT_GT(deep, 0.03);
     EXPECT_TRUE(value_of(world.is_asleep(ball)));
     const Vec3 place = value_of(world.pose(ball)).position;
@@ -264,10 +254,10 @@ TEST(MetalImpacts, APressCrushesABoxAndAWeightDoesNot) {
         }
         world.step();
     }
-    EXPECT_EQ(deepest(world, laden), 0);
+    EXPECT_EQ(test::deepest(world, laden), 0);
     const double low = double{value_of(world.pose(plate)).position.y} - 0.05;
     EXPECT_LT(low, 0.27) << "it is slow: the box gives way blow by blow";
-    EXPECT_GT(deepest(world, pressed), 0.02);
+    EXPECT_GT(test::deepest(world, pressed), 0.02);
     double top = 0;
     const BodyView view = value_of(world.view(pressed));
     for (size_t v = 0; v < view.vertex_count; ++v)
@@ -286,8 +276,8 @@ TEST(MetalImpacts, ExplosionsDent) {
     explosion.centre = {3, 1.45f, 0};
     ASSERT_TRUE(world.explode(explosion).ok());
     for (int n = 0; n < 10; ++n) world.step();
-    EXPECT_GT(deepest(world, sheet), 0.005);
-    EXPECT_GT(deepest(world, box), 0.001);
+    EXPECT_GT(test::deepest(world, sheet), 0.005);
+    EXPECT_GT(test::deepest(world, box), 0.001);
     EXPECT_LT(value_of(world.motion(box)).velocity.y, 0) << "and it flies";
     EXPECT_EQ(test::state_of(world).validate(), "");
 }
@@ -315,7 +305,7 @@ TEST(MetalImpacts, FiftyHitsOnOneSpotStaySane) {
         const BodyId ball = drop_ball(world, 100, 5, 0.145f);
         for (int n = 0; n < 12; ++n) world.step();
         ASSERT_TRUE(world.remove(ball).ok());
-        last = deepest(world, sheet);
+        last = test::deepest(world, sheet);
     }
     EXPECT_GT(last, 0.08);
     EXPECT_LT(last, 0.2);

@@ -22,7 +22,7 @@ T value_of(Result<T> result) {
 }
 
 const Model& panel() {
-    static const Model model = test::cook_metal(test::grid_sheet(1, 1, 40, 40));
+    static const Model model = test::cook_metal(metal_sheet(1, 1, 40, 40));
     return model;
 }
 const Model& box() {
@@ -78,17 +78,6 @@ std::vector<uint64_t> hashes(World& world, int frames) {
     return list;
 }
 
-/// Of the body's vertices from where cooking put them, m: the farthest.
-double deepest(const World& world, BodyId body) {
-    auto& state = const_cast<State&>(world.contents().data.state);
-    const MetalView metal(state, state.bodies.structure[body_row(state.bodies, body)]);
-    double most = 0;
-    for (uint32_t v = 0; v < metal.vertex_count(); ++v)
-        most = std::max(most, double{length(state.vertices.rest[metal.shell.vertex(v)] -
-                                            metal.vertices().original[metal.vertex(v)])});
-    return most;
-}
-
 std::string file_of(const std::string& name) {
     const fs::path folder = fs::temp_directory_path() / ("cullet_metal_world_test." + std::to_string(getpid()));
     fs::create_directories(folder);
@@ -103,7 +92,7 @@ TEST(MetalWorld, ABallDentsAFramedPanelAndBouncesOff) {
     const BodyId sheet = spawn_panel(world);
     const BodyId ball = value_of(world.add_sphere(test::ball_at({0.1f, 1, 0}, 50, 6, 0.1f)));
     for (int frame = 0; frame < 30; ++frame) world.step();
-    const double deep = deepest(world, sheet);
+    const double deep = test::deepest(world, sheet);
     EXPECT_GT(deep, 0.03);
     EXPECT_LT(deep, 0.12);
     EXPECT_GT(value_of(world.motion(ball)).velocity.z, 0);
@@ -116,8 +105,8 @@ TEST(MetalWorld, ABoxThatFallsOnTheFloorIsDentedAndComesToRestWithAllItsMass) {
     test::add_floor(world);
     const BodyId thing = spawn(world, box(), {0, 0.3f, 0}, {0, -12, 0}, {1, 0, 2});
     for (int frame = 0; frame < 420; ++frame) world.step();
-    EXPECT_GT(deepest(world, thing), 0.005);
-    EXPECT_LT(deepest(world, thing), 0.2);
+    EXPECT_GT(test::deepest(world, thing), 0.005);
+    EXPECT_LT(test::deepest(world, thing), 0.2);
     EXPECT_NEAR(value_of(world.mass(thing)), box().report().mass, 1e-6 * box().report().mass);
     EXPECT_TRUE(value_of(world.is_asleep(thing)));
     EXPECT_EQ(test::find_open_edge(value_of(world.view(thing))), "");
@@ -130,8 +119,8 @@ TEST(MetalWorld, TwoBoxesThatMeetAreBothDentedAndKeepTheirMomentum) {
     const BodyId b = spawn(world, box(), {0.02f, 0.01f, -0.2f}, {0, 0, 8});
     const auto before = test::matter_of(world).momentum;
     for (int frame = 0; frame < 40; ++frame) world.step();
-    EXPECT_GT(deepest(world, a), 0.002);
-    EXPECT_GT(deepest(world, b), 0.002);
+    EXPECT_GT(test::deepest(world, a), 0.002);
+    EXPECT_GT(test::deepest(world, b), 0.002);
     const auto after = test::matter_of(world).momentum;
     for (size_t k = 0; k < 3; ++k) EXPECT_NEAR(after[k], before[k], 1e-3) << k;
 }
@@ -141,7 +130,7 @@ TEST(MetalWorld, WhatTouchesItSoftlyLeavesItBitForBitAsItWas) {
     const BodyId sheet = spawn_panel(world);
     ASSERT_TRUE(world.add_sphere(test::ball_at({0, 1, 0}, 0.2f, 0.8f, 0.05f)).ok());
     for (int frame = 0; frame < 60; ++frame) world.step();
-    EXPECT_EQ(deepest(world, sheet), 0);
+    EXPECT_EQ(test::deepest(world, sheet), 0);
 }
 
 TEST(MetalWorld, AnyNumberOfThreadsGivesTheSameBytes) {
@@ -220,7 +209,7 @@ TEST(MetalWorld, ABodyOfManyPartsStaysOneBodyThroughSeveralHits) {
     const BodyId thing = spawn(world, model, {0, 0.3f, 0}, {0, -10, 0}, {0.5f, 0, 3});
     for (int frame = 0; frame < 240; ++frame) world.step();
     EXPECT_EQ(test::shells_of(world).size(), 1u);
-    EXPECT_GT(deepest(world, thing), 0.005);
+    EXPECT_GT(test::deepest(world, thing), 0.005);
     EXPECT_NEAR(value_of(world.mass(thing)), model.report().mass, 1e-6 * model.report().mass);
     EXPECT_EQ(test::find_open_edge(value_of(world.view(thing))), "");
     EXPECT_EQ(test::state_of(world).validate(), "");
@@ -234,7 +223,7 @@ TEST(MetalWorld, TenHitsOnOneSpotDigDeeperAndStaySane) {
         const BodyId ball = value_of(world.add_sphere(test::ball_at({0, 1, 0}, 50, 5, 0.1f)));
         for (int frame = 0; frame < 20; ++frame) world.step();
         ASSERT_TRUE(world.remove(ball).ok());
-        const double deep = deepest(world, sheet);
+        const double deep = test::deepest(world, sheet);
         EXPECT_GE(deep, last - 0.005) << hit;
         last = deep;
     }

@@ -1,38 +1,34 @@
-// Sheets of metal to dent.
+// Sheets of metal to dent, and how deep they are.
 #pragma once
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <memory>
 
+#include "components/body_id.hpp"
+#include "components/state.hpp"
 #include "components/workbench.hpp"
 #include "cullet/model.hpp"
 #include "engine/mesh.hpp"
+#include "sample_game/metal/metal_bench.hpp"
 #include "systems/cook/model_contents.hpp"
 #include "systems/models/metal_shell/cook/metal_rows.hpp"
 #include "systems/models/metal_shell/shared/metal_view.hpp"
+#include "systems/world_contents.hpp"
 #include "tests/support/simple_meshes.hpp"
 #include "tests/support/small_worlds.hpp"
 
 namespace cullet::test {
 
-/// A sheet in the x-y plane round the origin that faces +z.
-inline Mesh grid_sheet(double width, double height, uint32_t columns, uint32_t rows) {
-    Mesh mesh;
-    mesh.name = "sheet";
-    for (uint32_t r = 0; r <= rows; ++r)
-        for (uint32_t c = 0; c <= columns; ++c)
-            mesh.positions.push_back(Vec3{static_cast<float>(width * (double(c) / columns - 0.5)),
-                                          static_cast<float>(height * (double(r) / rows - 0.5)), 0});
-    for (uint32_t r = 0; r < rows; ++r)
-        for (uint32_t c = 0; c < columns; ++c) {
-            const uint32_t a = r * (columns + 1) + c, b = a + 1, d = a + columns + 1, e = d + 1;
-            if ((r + c) % 2 == 0) {
-                mesh.triangles.push_back({a, b, e}), mesh.triangles.push_back({a, e, d});
-            } else {
-                mesh.triangles.push_back({a, b, d}), mesh.triangles.push_back({b, e, d});
-            }
-        }
-    return mesh;
+/// Of the body's vertices from where cooking put them, m: the farthest.
+inline double deepest(const World& world, BodyId body) {
+    auto& state = const_cast<State&>(world.contents().data.state);
+    const MetalView metal(state, state.bodies.structure[body_row(state.bodies, body)]);
+    double most = 0;
+    for (uint32_t v = 0; v < metal.vertex_count(); ++v)
+        most = std::max(most, double{length(state.vertices.rest[metal.shell.vertex(v)] -
+                                            metal.vertices().original[metal.vertex(v)])});
+    return most;
 }
 
 inline Model cook_metal(Mesh mesh, float thickness = 1e-3f, const std::string& material = "steel") {

@@ -52,7 +52,7 @@ TEST(FaceDistance, OfTwoRightTrianglesIsThatOfTheNote) {
 }
 
 TEST(SubShells, ASquareOfFourSeedsGivesFourEqualCells) {
-    const Surface surface = surface_of(test::grid_sheet(1, 1, 16, 16));
+    const Surface surface = surface_of(metal_sheet(1, 1, 16, 16));
     SubShellSettings settings;
     settings.count = 4;
     const Segmentation cells = find_sub_shells(surface, build_dual_graph(surface), settings);
@@ -75,7 +75,7 @@ bool is_connected(const DualGraph& graph, const Segmentation& cells, uint16_t ce
 }
 
 TEST(SubShells, EveryFaceIsInOneConnectedCellAndTheSumNeverRises) {
-    for (const Mesh& mesh : {test::sphere_mesh(1, 4), test::box_mesh({1, 2, 3}, 12), test::grid_sheet(3, 1, 60, 20)}) {
+    for (const Mesh& mesh : {test::sphere_mesh(1, 4), test::box_mesh({1, 2, 3}, 12), metal_sheet(3, 1, 60, 20)}) {
         const Surface surface = surface_of(mesh);
         const DualGraph graph = build_dual_graph(surface);
         for (const Representatives rule : {Representatives::CentroidThenExact, Representatives::Exact}) {
@@ -95,7 +95,7 @@ TEST(SubShells, EveryFaceIsInOneConnectedCellAndTheSumNeverRises) {
 }
 
 TEST(SubShells, FarthestSeedsCoverBetterThanThoseOfThePaper) {
-    const Surface surface = surface_of(test::grid_sheet(1.2, 0.8, 60, 45));
+    const Surface surface = surface_of(metal_sheet(1.2, 0.8, 60, 45));
     const DualGraph graph = build_dual_graph(surface);
     SubShellSettings ours, paper;
     ours.count = paper.count = 40;
@@ -107,7 +107,7 @@ TEST(SubShells, FarthestSeedsCoverBetterThanThoseOfThePaper) {
 }
 
 TEST(SubShells, AThresholdFindsHowManyAreNeeded) {
-    const Surface surface = surface_of(test::grid_sheet(1, 1, 40, 40));
+    const Surface surface = surface_of(metal_sheet(1, 1, 40, 40));
     const DualGraph graph = build_dual_graph(surface);
     SubShellSettings settings;
     settings.count = kMostSubShells;
@@ -120,9 +120,9 @@ TEST(SubShells, AThresholdFindsHowManyAreNeeded) {
 }
 
 TEST(SubShells, SheetsThatLieOnEachOtherShareCellsAndThoseApartDoNot) {
-    Mesh mesh = test::grid_sheet(1, 1, 20, 20);
-    test::append(mesh, test::grid_sheet(1, 1, 20, 20), {0, 0, 0.005});
-    test::append(mesh, test::grid_sheet(1, 1, 20, 20), {0, 0, 0.5});
+    Mesh mesh = metal_sheet(1, 1, 20, 20);
+    test::append(mesh, metal_sheet(1, 1, 20, 20), {0, 0, 0.005});
+    test::append(mesh, metal_sheet(1, 1, 20, 20), {0, 0, 0.5});
     const Surface surface = surface_of(mesh);
     const DualGraph graph = build_dual_graph(surface);
     EXPECT_EQ(graph.component_count, 2u);
