@@ -270,4 +270,19 @@ Ground random_hill(Chance& chance) {
             grid("finest hill", other, even_cuts(kLow, kHigh, 0.05f), even_cuts(-kSide, kSide, 0.05f), hill), true};
 }
 
+Floor cut_in_four(const Floor& floor) {
+    Floor fine = floor;
+    for (FloorPart& part : fine.parts) {
+        const FloorPart coarse = part;
+        part.points.clear(), part.triangles.clear();
+        for (const auto& [i, j, k] : coarse.triangles) {
+            const Vec3 a = coarse.points[i], b = coarse.points[j], c = coarse.points[k];
+            const Vec3 ab = 0.5f * (a + b), bc = 0.5f * (b + c), ca = 0.5f * (c + a);
+            add_triangle(part, a, ab, ca), add_triangle(part, ab, b, bc);
+            add_triangle(part, ca, bc, c), add_triangle(part, ab, bc, ca);
+        }
+    }
+    return fine;
+}
+
 }  // namespace cullet

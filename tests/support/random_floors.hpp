@@ -47,6 +47,8 @@ Ground random_ground(Chance& chance);
 Ground random_flat_ground(Chance& chance);
 /// or always.
 Ground random_hill(Chance& chance);
+/// The same surface, each triangle of it cut in four.
+Floor cut_in_four(const Floor& floor);
 
 /// m, along x from low to high and along z to both sides.
 struct Extent {
