@@ -7,9 +7,9 @@
 #include "systems/models/metal_shell/dent/limit_stretch.hpp"
 #include "systems/models/metal_shell/dent/raise_body.hpp"
 #include "systems/models/metal_shell/dent/raise_sheet.hpp"
+#include "systems/models/metal_shell/dent/turn_normals.hpp"
 #include "systems/models/metal_shell/published/hit_cells.hpp"
 #include "systems/structures/shell/mass_properties.hpp"
-#include "systems/structures/shell/ring.hpp"
 
 namespace cullet {
 namespace {
@@ -143,35 +143,6 @@ Dent work_dent(const MetalView& metal, const Striker& striker, double energy, bo
     return dent_sheet(metal, ball, place, plan, energy);
 }
 
-namespace {
-
-// The rotation that takes one unit vector to another, of a third.
-Vec3 turned_along(Vec3 from, Vec3 to, Vec3 vector) {
-    const Vec3 axis = cross(from, to);
-    const float cosine = dot(from, to);
-    if (cosine < -0.999f) return vector - 2 * dot(vector, from) * from;
-    return vector + cross(axis, vector) + (1 / (1 + cosine)) * cross(axis, cross(axis, vector));
-}
-
-Vec3 normal_of(const MetalView& metal, const Column<Vec3>& places, uint32_t element) {
-    const auto& c = metal.corners(element);
-    const Vec3 p = places[metal.vertex(c[0])];
-    return normalised(cross(places[metal.vertex(c[1])] - p, places[metal.vertex(c[2])] - p));
-}
-
-void turn_normals(const MetalView& metal, uint32_t element) {
-    const Vec3 before = normal_of(metal, metal.vertices().start, element),
-               after = normal_of(metal, metal.vertices().place, element);
-    if (!(dot(before, before) > 0.5f) || !(dot(after, after) > 0.5f)) return;
-    auto& corners = metal.shell.state.elements.normal[metal.shell.element(element)];
-    for (size_t k = 0; k < 9; k += 3) {
-        const Vec3 n = turned_along(before, after, {corners[k], corners[k + 1], corners[k + 2]});
-        corners[k] = n.x, corners[k + 1] = n.y, corners[k + 2] = n.z;
-    }
-}
-
-}  // namespace
-
 bool bake_dent(const MetalView& metal) {
     const ShellView& shell = metal.shell;
     Vertices& vertices = shell.state.vertices;
@@ -184,24 +155,11 @@ bool bake_dent(const MetalView& metal) {
         is_any = true;
     }
     if (!is_any) return false;
+    turn_normals(metal);
     Cells& cells = shell.state.cells;
-    for (uint32_t e = 0; e < metal.element_count(); ++e) {
-        const auto& c = metal.corners(e);
-        const bool moved = std::any_of(c.begin(), c.end(), [&](uint32_t v) {
-            return !(own.place[metal.vertex(v)] == own.start[metal.vertex(v)]);
-        });
-        if (!moved || metal.is_dead(e)) continue;
-        turn_normals(metal, e);
-        cells.is_stale[shell.cells().first + shell.state.elements.cell[shell.element(e)]] = 1;
-        for (const uint32_t v : c) {
-            if (own.place[metal.vertex(v)] == own.start[metal.vertex(v)]) continue;
-            const uint32_t row = shell.vertex(v);
-            Ring ring;
-            collect_ring(shell, v, ring);
-            const Vec3 normal = ring_normal(shell, ring);
-            if (dot(normal, normal) > 0.5f) vertices.inward.set(row, -normal);
-        }
-    }
+    for (uint32_t e = 0; e < metal.element_count(); ++e)
+        if (!metal.is_dead(e) && has_moved(metal, e))
+            cells.is_stale[shell.cells().first + shell.state.elements.cell[shell.element(e)]] = 1;
     measure_shell(shell);
     return true;
 }

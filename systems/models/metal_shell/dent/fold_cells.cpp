@@ -8,6 +8,7 @@ namespace {
 constexpr float kFoldHeight = 0.5f, kMostShortening = 0.5f, kLeastShortening = 1e-4f;
 constexpr float kCrease = 0.35f, kFoldedCrease = 0.6f;
 constexpr float kFullTurn = 0.1f;  // rad between neighbours, from which on a crease is full
+constexpr float kFullHold = 0.5f;  // of the greatest field: from there on sub-shells move all the way
 constexpr double kMostTurn = 1;    // rad, of a rigid fit
 
 /// Of an element, by its corners.
@@ -176,6 +177,25 @@ void place_field(const MetalView& metal, Vec3d push) {
 
 namespace {
 
+/// How much a vertex goes with its sub-shells: all the way where the field is at its greatest, not at all where it
+/// ends. Else what moves would stand off from what does not, and the sheet would look torn along the end of the field.
+class Hold {
+ public:
+    explicit Hold(const MetalView& metal) : field_(metal.vertices().field) {
+        for (uint32_t v = 0; v < metal.vertex_count(); ++v) full_ = std::max(full_, field_[metal.vertex(v)]);
+        full_ *= kFullHold;
+    }
+    float at(uint32_t row) const {
+        if (!(field_[row] < full_)) return 1;
+        const float share = field_[row] / full_;
+        return share * share * (3 - 2 * share);
+    }
+
+ private:
+    const Column<float>& field_;
+    float full_ = 0;
+};
+
 /// visit(row of a sub-shell, weight) for all that move a vertex: eight by their weights, or as published the lowest
 /// that it is part of.
 template <class Visit>
@@ -207,12 +227,13 @@ void fold_cells(const MetalView& metal) {
     choose_folds(metal);
     MetalVertices& vertices = metal.vertices();
     const SubShells& cells = metal.cells();
+    const Hold hold(metal);
     for (uint32_t v = 0; v < metal.vertex_count(); ++v) {
         const uint32_t row = metal.vertex(v);
         if (!(vertices.field[row] > 0)) continue;
         Vec3 way;
         for_each_mover(metal, row, [&](uint32_t c, float weight) { way += (weight * cells.fold[c]) * cells.axis[c]; });
-        vertices.place.set(row, vertices.place[row] + way);
+        vertices.place.set(row, vertices.place[row] + hold.at(row) * way);
     }
 }
 
@@ -222,6 +243,7 @@ void crease_cells(const MetalView& metal, double contact) {
     choose_creases(metal, contact);
     MetalVertices& vertices = metal.vertices();
     const SubShells& cells = metal.cells();
+    const Hold hold(metal);
     for (uint32_t v = 0; v < metal.vertex_count(); ++v) {
         const uint32_t row = metal.vertex(v);
         if (!(vertices.field[row] > 0)) continue;
@@ -232,6 +254,7 @@ void crease_cells(const MetalView& metal, double contact) {
             rigid += weight *
                      (turned(vertices.start[row] - cells.place[c], cells.turn[c]) + cells.place[c] + cells.moved[c]);
         });
+        chi *= hold.at(row);
         vertices.place.set(row, (1 - chi) * vertices.place[row] + chi * rigid);
     }
 }

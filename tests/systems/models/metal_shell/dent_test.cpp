@@ -5,6 +5,7 @@
 
 #include <cmath>
 
+#include "sample_game/meshes.hpp"
 #include "systems/models/metal_shell/dent/limit_stretch.hpp"
 #include "systems/models/metal_shell/dent/raise_sheet.hpp"
 #include "tests/systems/models/metal_shell/panels.hpp"
@@ -160,6 +161,67 @@ TEST(Dent, ABoxThatFallsOnItsCornerLosesTheCornerAndKeepsTheRest) {
         still += place == start;
     }
     EXPECT_GT(still, metal.vertex_count() / 2);
+}
+
+/// A drum of 5,000 vertices that fell on its rim.
+test::MetalSheet crushed_drum() {
+    test::MetalSheet sheet(test::cook_metal(make_drum()));
+    const MetalView metal = sheet.view();
+    Striker floor;
+    floor.push = normalised(Vec3d(0.6, 0.8, 0));
+    double least = 1e30;
+    for (uint32_t v = 0; v < metal.vertex_count(); ++v)
+        least = std::min(least, floor.gap(Vec3d(metal.vertices().original[metal.vertex(v)])));
+    floor.point = least * floor.push;
+    const Dent dent = work_dent(metal, floor, 800);
+    EXPECT_EQ(dent.kind, DentKind::Body);
+    EXPECT_GT(dent.depth, 0.05);
+    return sheet;
+}
+
+TEST(Dent, AlongTheEndOfACrushNothingStandsOffFromWhatStays) {
+    const test::MetalSheet sheet = crushed_drum();
+    const MetalView metal = sheet.view();
+    const MetalVertices& v = metal.vertices();
+    uint32_t ends = 0;
+    for (uint32_t a = 0; a < metal.vertex_count(); ++a)
+        metal.for_each_spring(a, [&](uint32_t b, uint32_t spring) {
+            const uint32_t p = metal.vertex(a), q = metal.vertex(b);
+            if (!(v.field[p] > 0) || v.field[q] > 0) return;
+            ++ends;
+            EXPECT_LT(length(v.place[p] - v.start[p]), 0.3f * metal.springs().length[spring]) << a << " " << b;
+        });
+    EXPECT_GT(ends, 20u);
+}
+
+TEST(Dent, WhatWasDrawnAsOneSurfaceIsWhereItIsNotFoldedSharply) {
+    test::MetalSheet sheet = crushed_drum();
+    const MetalView metal = sheet.view();
+    const auto& normals = sheet.rows->elements.normal;
+    const auto normal_at = [&](uint32_t e, uint32_t v) {
+        const auto& c = metal.corners(e);
+        const size_t k = 3 * static_cast<size_t>(std::find(c.begin(), c.end(), v) - c.begin());
+        const auto& all = normals[metal.shell.element(e)];
+        return Vec3{all[k], all[k + 1], all[k + 2]};
+    };
+    const auto for_each_pair = [&](auto visit) {
+        for (uint32_t e = 0; e < metal.element_count(); ++e)
+            for (uint32_t k = 0; k < 3; ++k) {
+                const uint32_t beside = sheet.rows->elements.neighbour[metal.shell.element(e)][k];
+                if (beside == kNone || beside < e) continue;
+                for (const uint32_t v : {metal.corners(e)[k], metal.corners(e)[(k + 1) % 3]})
+                    visit(normal_at(e, v), normal_at(beside, v));
+            }
+    };
+    uint32_t alike_before = 0, alike = 0;
+    for_each_pair([&](Vec3 a, Vec3 b) { alike_before += dot(a, b) > 0.9999f; });
+    ASSERT_TRUE(bake_dent(metal));
+    for_each_pair([&](Vec3 a, Vec3 b) {
+        alike += dot(a, b) > 0.9999f;
+        EXPECT_NEAR(length(a), 1, 1e-3);
+    });
+    EXPECT_GT(alike_before, 1000u);
+    EXPECT_GT(alike, 0.97 * alike_before);
 }
 
 }  // namespace
