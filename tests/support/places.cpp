@@ -4,7 +4,6 @@ namespace cullet {
 
 std::string source_folder() { return CULLET_SOURCE_DIR; }
 std::string build_folder() { return CULLET_BINARY_DIR; }
-std::string release_game() { return CULLET_RELEASE_GAME; }
 std::string compiler() { return CULLET_COMPILER; }
 
 }  // namespace cullet

@@ -8,8 +8,6 @@ namespace cullet {
 std::string source_folder();
 /// The folder of this build, with its programs.
 std::string build_folder();
-/// The program sample_game of a Release build, "" when none was given (-DCULLET_RELEASE_GAME=PROGRAM).
-std::string release_game();
 /// The compiler of this build.
 std::string compiler();
 
