@@ -11,12 +11,24 @@ namespace cullet {
 namespace {
 
 constexpr Vec3 kSteel{0.20f, 0.21f, 0.22f};
+constexpr float kPolished = 0.8f;
 
 FaceKind kind_of(SurfaceKind kind) {
     return kind == SurfaceKind::Inner   ? FaceKind::Inner
            : kind == SurfaceKind::Crack ? FaceKind::Crack
                                         : FaceKind::Outer;
 }
+
+struct LookedAt {
+    const GameWorld& game;
+    PictureLook look;
+
+    bool is_real() const { return look == PictureLook::Material; }
+    const Look& of(uint64_t user_data) const {
+        const std::vector<Look>& looks = game.stage().looks;
+        return looks[user_data < looks.size() ? user_data : 0];
+    }
+};
 
 /// What the spans of the drawn bodies point to. Deques: addresses stay.
 struct Drawing {
@@ -84,8 +96,8 @@ void add_movers(Drawing& drawing, const Stage& stage) {
     }
 }
 
-void add_bodies(Drawing& drawing, const GameWorld& game) {
-    const World& world = game.world();
+void add_bodies(Drawing& drawing, const LookedAt& at) {
+    const World& world = at.game.world();
     const Bodies& rows = world.contents().data.state.bodies;
     std::vector<BodyId> ids(world.bodies(nullptr, 0));
     world.bodies(ids.data(), static_cast<uint32_t>(ids.size()));
@@ -96,19 +108,23 @@ void add_bodies(Drawing& drawing, const GameWorld& game) {
             DrawnBody& body = drawing.add(ball, rows.radius[b]);
             body.pose = {rows.position[b], rows.orientation[b]};
             body.colour = kSteel;
-            body.gloss = 0.8f;
+            body.gloss = kPolished;
+            body.finish = Finish::Steel;
             continue;
         }
         const Result<BodyView> view = world.view(id);
         if (!view.ok() || view.value().index_count == 0) continue;
-        const uint64_t look = rows.user_data[b] < game.stage().looks.size() ? rows.user_data[b] : 0;
         std::vector<uint32_t> lines(view->index_count / 2);
         lines.resize(world.hairlines(id, lines.data(), static_cast<uint32_t>(lines.size())).value_or(0));
         DrawnBody& body = drawing.add(view.value(), lines);
         // Grey for what keeps the old body: the largest piece.
         body.colour = fragment_colour(rows.parent[b].exists() ? rows.colour[b] : 0);
-        body.opacity = game.stage().looks[look].opacity;
-        body.gloss = game.stage().looks[look].gloss;
+        const Look& look = at.of(rows.user_data[b]);
+        body.opacity = look.opacity;
+        body.gloss = look.gloss;
+        body.finish = look.finish;
+        body.pattern_size = look.pattern_size;
+        if (at.is_real()) body.is_outlined = false;
     }
 }
 
@@ -126,14 +142,26 @@ Mesh make_chip(uint32_t number, float radius) {
     return chip;
 }
 
-/// Debris is of no piece's colour: it is too much and too small to be told apart.
-void add_debris(Drawing& drawing, const GameWorld& game) {
-    const Debris& debris = game.world().contents().data.state.debris;
+/// Debris is of no piece's colour: it is too much and too small to be told apart. It looks like the inside of what it
+/// came off, as long as that body's row is not another's.
+void add_debris(Drawing& drawing, const LookedAt& at) {
+    const State& state = at.game.world().contents().data.state;
+    const Debris& debris = state.debris;
     const Random random{0x7475726e};
     for (uint32_t d = 0; d < debris.size(); ++d) {
         if (!debris.is_used[d]) continue;
         const auto turn = [&](uint64_t k) { return static_cast<float>(random.uniform(d, k) - 0.5); };
+        std::vector<DrawnRun>& whole = drawing.runs.emplace_back();
         DrawnBody& body = drawing.add(make_chip(d, debris.radius[d]));
+        const uint32_t came_off = debris.colour[d];
+        const Look& look = at.of(came_off < state.bodies.size() ? state.bodies.user_data[came_off] : 0);
+        body.finish = look.finish;
+        body.opacity = at.is_real() ? look.opacity : 1;
+        body.pattern_size = look.pattern_size;
+        if (at.is_real()) {
+            whole.push_back({0, static_cast<uint32_t>(body.indices.size()), FaceKind::Crack});
+            body.runs = whole;
+        }
         body.pose = {debris.position[d], normalised(Quat{turn(0), turn(1), turn(2), turn(3)})};
         body.colour = fragment_colour(0);
         body.is_outlined = false;
@@ -142,21 +170,24 @@ void add_debris(Drawing& drawing, const GameWorld& game) {
 
 }  // namespace
 
-Picture draw_world(const GameWorld& game, uint32_t threads, uint32_t width) {
+Picture draw_world(const GameWorld& game, const Camera& camera, PictureLook look, uint32_t threads, uint32_t width) {
+    const LookedAt at{game, look};
     Drawing drawing;
     add_props(drawing, game.stage());
     add_movers(drawing, game.stage());
-    add_bodies(drawing, game);
-    add_debris(drawing, game);
+    add_bodies(drawing, at);
+    add_debris(drawing, at);
     PictureSettings settings;
-    settings.width = width, settings.height = width * 9 / 16;
+    settings.width = width / 2 * 2, settings.height = width * 9 / 32 * 2;  // even, as films want it
     settings.ground_height = game.stage().ground_height();
     settings.has_ground = game.stage().has_ground();
+    settings.has_finishes = at.is_real();
+    if (at.is_real()) settings.exposure = 0.56f;
     const std::unique_ptr<JobSystem> jobs = make_jobs(JobBackend::Threads, threads);
     settings.for_each = [&jobs](uint32_t count, const std::function<void(uint32_t)>& job) {
         parallel_for(*jobs, count, [&job](uint32_t i) { job(i); });
     };
-    return draw(drawing.bodies, game.stage().camera, game.stage().sun, settings);
+    return draw(drawing.bodies, camera, game.stage().sun, settings);
 }
 
 }  // namespace cullet

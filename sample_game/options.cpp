@@ -17,6 +17,8 @@ namespace {
 const std::map<std::string, HashWhen> kHashWhen{
     {"every", HashWhen::Every}, {"last", HashWhen::Last}, {"off", HashWhen::Off}};
 
+const std::map<std::string, PictureLook> kLooks{{"material", PictureLook::Material}, {"pieces", PictureLook::Pieces}};
+
 std::string scene_names() {
     std::string names;
     for (const Scene& scene : scenes()) names += std::string(scene.name) + ", ";
@@ -69,8 +71,16 @@ void add_run(CLI::App& app, RunOptions& run) {
         ->check(CLI::Range(1u, 64u));
     command->add_option("--repeat", run.repeat, "Plays so often and takes each frame's least time")
         ->check(CLI::Range(1u, 1000u));
-    command->add_option("--out", run.out, "Folder for report.json, pictures and the trace");
+    command->add_option("--out", run.out, "Folder for report.html, report.json, pictures and the trace");
     command->add_option("--draw", run.draw, "Draws every so many frames")->check(CLI::Range(1u, 1'000'000u));
+    command
+        ->add_option_function<std::string>(
+            "--look", [&run](const std::string& look) { run.look = kLooks.at(look); },
+            "Of pictures: material, as things look, or pieces, a colour a piece and lines between them; material if "
+            "not given")
+        ->check(CLI::IsMember({"material", "pieces"}));
+    command->add_option("--width", run.width, "Of pictures, pixels, 16 to 9; 960 if not given")
+        ->check(CLI::Range(160u, 3840u));
     command->add_flag("--contact-sheet", run.has_sheet, "Twelve frames in one picture, sheet.png");
     command->add_flag("--video", run.has_video, "A film of the run, film.mp4; needs the program ffmpeg");
     command->add_option("--trace", run.trace, "Chrome trace of the last repeat, for Perfetto");

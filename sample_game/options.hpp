@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "cullet/result.hpp"
+#include "sample_game/finish.hpp"
 #include "sample_game/metal/fem_command.hpp"
 #include "sample_game/reproduce/command.hpp"
 
@@ -24,6 +25,8 @@ struct RunOptions {
     std::string out;    // empty: nothing is written
     uint32_t draw = 0;  // every so many frames; 0: none
     bool has_sheet = false, has_video = false;
+    PictureLook look = PictureLook::Material;
+    uint32_t width = 960;  // of pictures, pixels; 16 to 9
     std::string trace, record;
     HashWhen hash = HashWhen::Every;
     bool validates = false;

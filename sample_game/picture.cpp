@@ -151,7 +151,8 @@ Pixel Painter::sight(Vec3 direction) const {
     pixel.front = pixel.surface.body;
     if (!scene_.has_transparent()) return pixel;
     std::array<SeenSurface, PictureScene::kLayers> layers;
-    if (scene_.transparent(eye_, direction, pixel.surface.distance, layers) > 0) pixel.front = layers[0].body;
+    if (scene_.transparent(eye_, direction, pixel.surface.distance, pixel_angle_, layers) > 0)
+        pixel.front = layers[0].body;
     return pixel;
 }
 
@@ -242,7 +243,7 @@ Vec3 Painter::seen(const Pixel& pixel, const Light& light, Vec3 direction) const
     Vec3 colour = light_.shaded(pixel.surface, light, direction);
     if (pixel.front == pixel.surface.body) return colour;
     std::array<SeenSurface, PictureScene::kLayers> layers;
-    size_t count = scene_.transparent(eye_, direction, pixel.surface.distance, layers);
+    size_t count = scene_.transparent(eye_, direction, pixel.surface.distance, pixel_angle_, layers);
     while (count > 0) colour = light_.through(layers[--count], direction, colour);
     return colour;
 }

@@ -1,17 +1,17 @@
-// The headless picture maker: a ray caster with a sun, soft shadows, a sky and a ground with a grid. Made so that
-// somebody can judge a break by eye: one colour a fragment, dark crack faces, thin lines between neighbours.
+// The headless picture maker: a ray caster with a sun, soft shadows, a sky and a ground. Bodies have one colour, with
+// thin lines between neighbours, so that somebody can judge a break by eye; or a finish, and look like what they are
+// of.
 #pragma once
 #include <cstdint>
 #include <functional>
 #include <span>
 
 #include "engine/math.hpp"
+#include "sample_game/finish.hpp"
 #include "sample_game/palette.hpp"
 #include "sample_game/png.hpp"
 
 namespace cullet {
-
-enum class FaceKind : uint8_t { Outer, Inner, Crack };
 
 /// A stretch of a body's indices whose triangles look alike.
 struct DrawnRun {
@@ -36,8 +36,11 @@ struct DrawnBody {
     std::span<const DrawnLine> lines;   // about a pixel wide, however near
     Vec3 colour{0.5f, 0.5f, 0.5f};      // linear light, see fragment_colour
     float opacity = 1;                  // below 1 the view goes straight on behind it, up to eight faces deep
-    float gloss = 0.25f;      // strength of the sun's highlight on outer faces: 0 brick, 0.25 porcelain, 1 glass
-    bool is_outlined = true;  // false for tables, floors and walls: no dark line around them
+    float gloss = 0.25f;            // strength of the sun's highlight on outer faces: 0 brick, 0.25 porcelain, 1 glass
+    bool is_outlined = true;        // false for tables, floors and walls: no dark line around them
+    Finish finish = Finish::Plain;  // counts where PictureSettings has finishes
+    float pattern_size = 1;         // of its pattern, beside that of real things
+    std::span<const Vec3> unmoved;  // where the pattern's positions are others than those drawn; empty: the same
 };
 
 struct Camera {
@@ -56,7 +59,8 @@ struct PictureSettings {
     uint32_t width = 960, height = 540;
     bool has_ground = true;
     float ground_height = 0;     // m
-    float grid_spacing = 0.1f;   // m; every tenth line is stronger
+    float grid_spacing = 0.1f;   // m; every tenth line is stronger; slabs instead where there are finishes
+    bool has_finishes = false;   // bodies look as their finish says, and what shines shows what is around it
     float ambient_reach = 0.4f;  // m, how far a thing darkens its neighbours' share of the sky
     float exposure = 0.46f;
     /// Calls job(0) ... job(count - 1) in any order on any threads, and returns when all are done. Empty: one after

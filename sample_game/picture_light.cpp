@@ -73,9 +73,30 @@ Vec3 hemisphere(Vec3 normal) {
 }
 
 // Schlick's share of light that a surface of refractive index 1.5 mirrors.
-float mirrored(float cosine) {
+float mirrored(float cosine, float facing = 0.04f) {
     const float m = 1 - std::clamp(cosine, 0.0f, 1.0f);
-    return 0.04f + 0.96f * (m * m) * (m * m) * m;
+    return facing + (1 - facing) * (m * m) * (m * m) * m;
+}
+
+/// x to a power of two.
+float raised(float x, float power) {
+    for (float p = 1; p < power; p *= 2) x *= x;
+    return x;
+}
+
+/// x from above 0 to 1, to a power from 1 to 4: by straight lines between whole ones.
+float raised_to(float x, float power) {
+    float low = x;
+    while (power >= 2) low *= x, power -= 1;
+    return low * (1 - (power - 1) * (1 - x));
+}
+
+/// The ground far away is half sky.
+Vec3 hazed(const SeenSurface& surface, Vec3 direction, Vec3 seen) {
+    if (surface.body != kGroundBody) return seen;
+    constexpr float kHalfHaze = 60;  // m
+    const float far = surface.distance / kHalfHaze, haze = far * far / (1 + far * far);
+    return (1 - haze) * seen + haze * sky_light(normalised(Vec3{direction.x, 0, direction.z}));
 }
 
 float to_the_64th(float x) {
@@ -133,6 +154,7 @@ float PictureLight::sky_share(const SeenSurface& surface, uint32_t x, uint32_t y
 
 Vec3 PictureLight::shaded(const SeenSurface& surface, const Light& light, Vec3 direction) const {
     if (surface.body == kSkyBody) return surface.colour;
+    if (surface.has_finish) return hazed(surface, direction, finished(surface, light, direction));
     const float facing = std::max(0.0f, dot(surface.normal, towards_));
     const Vec3 falling = (light.sun * facing) * sunlight_ + light.sky * hemisphere(surface.normal);
     Vec3 seen = times(surface.colour, falling);
@@ -142,13 +164,41 @@ Vec3 PictureLight::shaded(const SeenSurface& surface, const Light& light, Vec3 d
         const float mirrors = surface.gloss * mirrored(-dot(direction, surface.normal));
         seen += (surface.gloss * light.sun * highlight) * sunlight_ + (mirrors * light.sky) * sky_light(mirror);
     }
-    if (surface.body != kGroundBody) return seen;
-    constexpr float kHalfHaze = 60;  // m, where the ground is half sky
-    const float far = surface.distance / kHalfHaze, haze = far * far / (1 + far * far);
-    return (1 - haze) * seen + haze * sky_light(normalised(Vec3{direction.x, 0, direction.z}));
+    return hazed(surface, direction, seen);
+}
+
+Vec3 PictureLight::finished(const SeenSurface& surface, const Light& light, Vec3 direction) const {
+    const float facing = std::max(0.0f, dot(surface.normal, towards_)), towards_eye = -dot(surface.normal, direction);
+    const Vec3 falling = (light.sun * facing) * sunlight_ + light.sky * hemisphere(surface.normal);
+    Vec3 seen = times(surface.colour, falling);
+    if (surface.sheen > 0) {
+        const float grazing = 1 - std::clamp(towards_eye, 0.0f, 1.0f);
+        seen += (surface.sheen * grazing * grazing * grazing) * times(2 * surface.colour, falling);
+    }
+    if (surface.gloss == 0) return seen;
+    const float share = surface.gloss * mirrored(towards_eye, surface.facing);
+    const float closeness = std::max(0.0f, dot(surface.normal, normalised(towards_ - direction)));
+    const float highlight = 0.125f * (surface.sharpness + 8) * raised(closeness, surface.sharpness);
+    const Vec3 around = light.sky * mirrored_light(surface, direction);
+    const Vec3 shine = times(surface.mirror, around + std::min(40.0f, light.sun * facing * highlight) * sunlight_);
+    return (1 - (surface.facing < 0.5f ? share : 0)) * seen + share * shine;
+}
+
+// What lies the mirrored way: things in full sun without shadows, which nobody misses in a glaze.
+Vec3 PictureLight::mirrored_light(const SeenSurface& surface, Vec3 direction) const {
+    const Vec3 mirror = direction - 2 * dot(direction, surface.normal) * surface.normal;
+    const Vec3 dull = hemisphere(mirror);
+    if (surface.spread > 0.7f) return dull;
+    constexpr float kWide = 0.01f;  // rad, of the mirrored ray
+    const SeenSurface met = scene_.opaque(surface.point, mirror, kWide);
+    if (met.body == kSkyBody) return surface.spread * dull + (1 - surface.spread) * met.colour;
+    const float facing = std::max(0.0f, dot(met.normal, towards_));
+    const Vec3 clear = times(met.colour, (0.8f * facing) * sunlight_ + 0.8f * hemisphere(met.normal));
+    return surface.spread * dull + (1 - surface.spread) * hazed(met, mirror, clear);
 }
 
 Vec3 PictureLight::through(const SeenSurface& glass, Vec3 direction, Vec3 behind) const {
+    if (glass.has_finish) return clear(glass, direction, behind);
     const float mirrors = mirrored(-dot(direction, glass.normal));
     const float edge = glass.kind == FaceKind::Crack ? 0.35f : 0.0f;  // the rim of a pane is where its colour shows
     const float opacity = std::min(1.0f, glass.opacity + edge);
@@ -158,6 +208,23 @@ Vec3 PictureLight::through(const SeenSurface& glass, Vec3 direction, Vec3 behind
     const Vec3 mirror = direction - 2 * dot(direction, glass.normal) * glass.normal;
     const Vec3 inside = (1 - opacity) * behind + opacity * own;
     return (1 - mirrors) * inside + mirrors * sky_light(mirror) + (glass.gloss * highlight) * sunlight_;
+}
+
+// A broken edge of glass is where light comes out that ran along it: brighter and greener than the pane.
+Vec3 PictureLight::clear(const SeenSurface& glass, Vec3 direction, Vec3 behind) const {
+    constexpr float kEdge = 0.7f;
+    const float towards_eye = -dot(glass.normal, direction), mirrors = mirrored(towards_eye, glass.facing);
+    const float closeness = std::max(0.0f, dot(glass.normal, normalised(towards_ - direction)));
+    const float highlight = 0.125f * (glass.sharpness + 8) * raised(closeness, glass.sharpness);
+    // The way through is longer, the more it slants.
+    const float way = 1 / std::max(0.25f, towards_eye);
+    const Vec3 passed{raised_to(glass.colour.x, way), raised_to(glass.colour.y, way), raised_to(glass.colour.z, way)};
+    Vec3 inside = times(passed, behind);
+    if (glass.kind == FaceKind::Crack)
+        inside = (1 - kEdge) * times(glass.colour, behind) +
+                 kEdge * times(glass.colour, 1.15f * hemisphere(glass.normal) + 0.25f * sunlight_);
+    return (1 - mirrors) * inside +
+           mirrors * (mirrored_light(glass, direction) + std::min(40.0f, highlight) * sunlight_);
 }
 
 }  // namespace cullet

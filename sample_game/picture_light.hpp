@@ -24,6 +24,10 @@ class PictureLight {
     Vec3 through(const SeenSurface& glass, Vec3 direction, Vec3 behind) const;
 
  private:
+    Vec3 finished(const SeenSurface& surface, const Light& light, Vec3 direction) const;
+    Vec3 clear(const SeenSurface& glass, Vec3 direction, Vec3 behind) const;
+    Vec3 mirrored_light(const SeenSurface& surface, Vec3 direction) const;
+
     const PictureScene& scene_;
     const PictureSettings& settings_;
     Vec3 towards_, across_, aside_, sunlight_;

@@ -9,8 +9,10 @@ namespace {
 constexpr float kCrackShade = 0.62f;       // crack faces are drawn darker by this
 constexpr float kInnerSaturation = 0.65f;  // and inner faces lose a third of their colour
 constexpr float kGlassShadow = 0.35f;      // share of light that a glass body keeps from what lies behind it
+constexpr float kClearShadow = 0.16f;      // and one whose finish is glass
 const Vec3 kGroundColour{0.60f, 0.595f, 0.58f};
 const Vec3 kLineColour{0.20f, 0.21f, 0.23f};
+const Vec3 kFloorColour{0.40f, 0.385f, 0.365f};
 
 Vec3 coloured(Vec3 colour, FaceKind kind) {
     if (kind == FaceKind::Outer) return colour;
@@ -76,6 +78,11 @@ void PictureScene::add(uint32_t b, Triangles& to) const {
     const bool has_normals = body.normals.size() == body.positions.size();
     const Mat3 turn = matrix(body.pose.orientation);
     for (const Vec3 p : body.positions) to.positions.push_back(turn * p + body.pose.position);
+    if (settings_.has_finishes) {
+        const bool is_moved = body.unmoved.size() == body.positions.size();
+        const std::span<const Vec3> unmoved = is_moved ? body.unmoved : body.positions;
+        to.unmoved.insert(to.unmoved.end(), unmoved.begin(), unmoved.end());
+    }
     for (size_t v = 0; v < body.positions.size(); ++v)
         to.normals.push_back(has_normals ? turn * body.normals[v] : Vec3{});
     for (size_t t = 0; t < triangle_count; ++t) {
@@ -94,7 +101,8 @@ void PictureScene::add(uint32_t b, Triangles& to) const {
 }
 
 // A body without normals, or with the zero normal, is flat there.
-SeenSurface PictureScene::surface(const Triangles& from, const RayScene::Hit& hit, Vec3 origin, Vec3 direction) const {
+SeenSurface PictureScene::surface(const Triangles& from, const RayScene::Hit& hit, Vec3 origin, Vec3 direction,
+                                  float pixel_angle) const {
     const Triangle& corners = from.triangles[hit.triangle];
     const float weight[3] = {1 - hit.u - hit.v, hit.u, hit.v};
     Vec3 corner[3], normal[3], point{}, smooth{};
@@ -118,7 +126,55 @@ SeenSurface PictureScene::surface(const Triangles& from, const RayScene::Hit& hi
     surface.colour = coloured(body.colour, surface.kind);
     surface.gloss = surface.kind == FaceKind::Crack ? 0 : body.gloss;
     surface.opacity = body.opacity;
+    if (settings_.has_finishes) finish(from, hit, direction, pixel_angle, surface);
     return surface;
+}
+
+void PictureScene::finish(const Triangles& from, const RayScene::Hit& hit, Vec3 direction, float pixel_angle,
+                          SeenSurface& surface) const {
+    const DrawnBody& body = bodies_[surface.body];
+    const Triangle& corners = from.triangles[hit.triangle];
+    const Vec3 a = from.unmoved[corners[0]], b = from.unmoved[corners[1]], c = from.unmoved[corners[2]];
+    const float slope = std::max(0.2f, std::fabs(dot(surface.face_normal, direction)));
+    const float size = body.pattern_size;
+    FinishPlace place;
+    place.point = (1 / size) * ((1 - hit.u - hit.v) * a + hit.u * b + hit.v * c);
+    place.normal = normalised(cross(b - a, c - a));
+    place.footprint = surface.distance * pixel_angle / std::sqrt(slope) / size;
+    place.kind = surface.kind;
+    const FinishLook look = finish_at(body.finish, place, surface.colour, surface.gloss);
+    surface.has_finish = true;
+    surface.colour = look.colour;
+    surface.mirror = look.mirror;
+    surface.gloss = look.gloss;
+    surface.facing = look.facing;
+    surface.sharpness = look.sharpness;
+    surface.spread = look.spread;
+    surface.sheen = look.sheen;
+    if (look.tilt == Vec3{}) return;
+    const Vec3 tilted = normalised(surface.normal + matrix(body.pose.orientation) * look.tilt);
+    if (dot(tilted, direction) < 0 && dot(tilted, surface.face_normal) > 0.2f) surface.normal = tilted;
+}
+
+// Slabs of half a metre.
+void PictureScene::lay_floor(float along_x, float along_z, SeenSurface& surface) const {
+    constexpr float kSlab = 0.5f, kSlabJoint = 0.004f;
+    const Vec3 p = surface.point;
+    const float footprint = std::sqrt(along_x * along_z);
+    FinishPlace place{p, {0, 1, 0}, footprint, FaceKind::Outer};
+    const FinishLook look = finish_at(Finish::Floor, place, kFloorColour, 0.25f);
+    const auto slab = [](float along) { return std::floor(std::clamp(along / kSlab, -1e3f, 1e3f)); };
+    const float x = slab(p.x), z = slab(p.z);
+    const float shade = 0.5f - 0.5f * static_cast<float>(static_cast<int>(3 * x + 5 * z + 7 * x * z) & 3) / 1.5f;
+    const float shows = std::clamp(1.5f - footprint / kSlab, 0.0f, 1.0f);
+    const float joint = std::max(line_cover(p.x, std::max(along_x, kSlabJoint), kSlab),
+                                 line_cover(p.z, std::max(along_z, kSlabJoint), kSlab));
+    surface.colour = (1 + 0.03f * shows * shade) * (1 - 0.35f * joint) * look.colour;
+    surface.has_finish = true;
+    surface.gloss = 0.5f;
+    surface.facing = 0.03f;
+    surface.sharpness = 16;
+    surface.spread = 0.35f;
 }
 
 SeenSurface PictureScene::ground(Vec3 origin, Vec3 direction, float distance, float pixel_angle) const {
@@ -131,6 +187,10 @@ SeenSurface PictureScene::ground(Vec3 origin, Vec3 direction, float distance, fl
     const float width = distance * pixel_angle, steepness = std::max(1e-4f, -direction.y);
     const float along_x = width * (1 + std::fabs(direction.x) / steepness);
     const float along_z = width * (1 + std::fabs(direction.z) / steepness);
+    if (settings_.has_finishes) {
+        lay_floor(along_x, along_z, surface);
+        return surface;
+    }
     float cover = 0;
     for (const float scale : {1.0f, 10.0f}) {
         const float spacing = scale * settings_.grid_spacing;
@@ -147,7 +207,8 @@ SeenSurface PictureScene::opaque(Vec3 origin, Vec3 direction, float pixel_angle)
     const bool meets_ground = settings_.has_ground && drop > 0 && direction.y < 0;
     const float to_ground = meets_ground ? std::min(kViewFar, drop / -direction.y) : kViewFar;
     RayScene::Hit hit;
-    if (solid_.rays.closest(origin, direction, 0, to_ground, hit)) return surface(solid_, hit, origin, direction);
+    if (solid_.rays.closest(origin, direction, 0, to_ground, hit))
+        return surface(solid_, hit, origin, direction, pixel_angle);
     if (meets_ground && to_ground < kViewFar) return ground(origin, direction, to_ground, pixel_angle);
     SeenSurface sky;
     sky.distance = kViewFar;
@@ -156,13 +217,13 @@ SeenSurface PictureScene::opaque(Vec3 origin, Vec3 direction, float pixel_angle)
     return sky;
 }
 
-size_t PictureScene::transparent(Vec3 origin, Vec3 direction, float far,
+size_t PictureScene::transparent(Vec3 origin, Vec3 direction, float far, float pixel_angle,
                                  std::array<SeenSurface, kLayers>& layers) const {
     size_t count = 0;
     float near = 0;
     RayScene::Hit hit;
     while (count < kLayers && glass_.rays.closest(origin, direction, near, far, hit)) {
-        layers[count++] = surface(glass_, hit, origin, direction);
+        layers[count++] = surface(glass_, hit, origin, direction, pixel_angle);
         near = hit.distance + clearance(origin + hit.distance * direction);
     }
     return count;
@@ -170,7 +231,8 @@ size_t PictureScene::transparent(Vec3 origin, Vec3 direction, float far,
 
 float PictureScene::passes(Vec3 origin, Vec3 direction) const {
     if (solid_.rays.any(origin, direction, 0, kViewFar)) return 0;
-    return has_transparent() && glass_.rays.any(origin, direction, 0, kViewFar) ? 1 - kGlassShadow : 1;
+    if (!has_transparent() || !glass_.rays.any(origin, direction, 0, kViewFar)) return 1;
+    return 1 - (settings_.has_finishes ? kClearShadow : kGlassShadow);
 }
 
 }  // namespace cullet

@@ -23,6 +23,10 @@ struct SeenSurface {
     Vec3 colour;  // linear share of light sent back; the sky's own light for the sky
     float gloss = 0;
     float opacity = 1;
+    // Of a finish; the mirrored light of what has none is the sky's.
+    bool has_finish = false;
+    Vec3 mirror{1, 1, 1};
+    float facing = 0.04f, sharpness = 64, spread = 0, sheen = 0;
 };
 
 /// Opaque bodies and transparent ones apart: shadows and the last thing seen come from the first, what is seen on the
@@ -36,7 +40,8 @@ class PictureScene {
     /// The first opaque thing: a body, the ground or the sky. `pixel_angle` (rad) is how wide the ray is.
     SeenSurface opaque(Vec3 origin, Vec3 direction, float pixel_angle) const;
     /// Transparent faces nearer than `far`, front to back; returns how many.
-    size_t transparent(Vec3 origin, Vec3 direction, float far, std::array<SeenSurface, kLayers>& layers) const;
+    size_t transparent(Vec3 origin, Vec3 direction, float far, float pixel_angle,
+                       std::array<SeenSurface, kLayers>& layers) const;
     bool has_transparent() const { return !glass_.triangles.empty(); }
 
     /// Share of light that passes along a shadow ray: 0 behind an opaque body, about a half behind glass.
@@ -51,13 +56,18 @@ class PictureScene {
  private:
     struct Triangles {
         std::vector<Vec3> positions, normals;
+        std::vector<Vec3> unmoved;  // body coordinates; empty unless there are finishes
         std::vector<Triangle> triangles;
         std::vector<uint32_t> body;
         std::vector<FaceKind> kind;
         RayScene rays{{}, {}};
     };
     void add(uint32_t body, Triangles& to) const;
-    SeenSurface surface(const Triangles& from, const RayScene::Hit& hit, Vec3 origin, Vec3 direction) const;
+    SeenSurface surface(const Triangles& from, const RayScene::Hit& hit, Vec3 origin, Vec3 direction,
+                        float pixel_angle) const;
+    void finish(const Triangles& from, const RayScene::Hit& hit, Vec3 direction, float pixel_angle,
+                SeenSurface& surface) const;
+    void lay_floor(float along_x, float along_z, SeenSurface& surface) const;
     SeenSurface ground(Vec3 origin, Vec3 direction, float distance, float pixel_angle) const;
 
     std::span<const DrawnBody> bodies_;

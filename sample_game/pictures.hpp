@@ -3,6 +3,7 @@
 #include <vector>
 
 #include "sample_game/film.hpp"
+#include "sample_game/framing.hpp"
 #include "sample_game/game_world.hpp"
 #include "sample_game/options.hpp"
 
@@ -15,7 +16,7 @@ class Pictures {
  public:
     Pictures(const Story& story, uint32_t threads, const RunOptions& options, uint32_t frames);
 
-    /// Draws the world as it stands, if its frame is wanted: frame n is after n steps.
+    /// Draws the world as it stands, if its frame is wanted: frame n is after n steps. Once a frame.
     Result<void> take(const GameWorld& game);
     /// Writes the sheet and ends the film.
     Result<void> finish();
@@ -26,6 +27,7 @@ class Pictures {
     std::vector<uint32_t> sheet_frames_;
     std::vector<Picture> tiles_;
     Film film_;
+    Framing framing_;      // for scenes that name no camera
     uint32_t film_every_;  // frames: about 30 pictures a second
 };
 

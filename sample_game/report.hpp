@@ -124,6 +124,9 @@ struct Report {
     uint64_t repeats = 1;
     bool repeats_agree = true;
     std::vector<std::string> notes;
+    // Of each frame, for report.html alone.
+    std::vector<float> each_frame_ms;
+    std::vector<bool> each_frame_broke;
 };
 
 std::string to_json(const Report& report);

@@ -5,6 +5,7 @@
 
 #include "sample_game/film.hpp"
 #include "sample_game/notes.hpp"
+#include "sample_game/report_page.hpp"
 #include "sample_game/run_scene.hpp"
 
 namespace cullet {
@@ -62,6 +63,7 @@ void print_summary(const Report& r) {
 void print_files(const RunOptions& options) {
     if (options.has_sheet) fmt::print("  {}/sheet.png      twelve frames of the story in one picture\n", options.out);
     if (options.draw > 0) fmt::print("  {}/frame_*.png    every {} frames\n", options.out, options.draw);
+    if (!options.out.empty()) fmt::print("  {}/report.html    the run on a page: open it in a browser\n", options.out);
     if (!options.out.empty()) fmt::print("  {}/report.json    what the run was like, in numbers\n", options.out);
     if (!options.record.empty())
         fmt::print("  {}      what was asked and what came of it: sample_game replay plays it again\n", options.record);
@@ -103,9 +105,11 @@ int run_one(const Scene& scene, const RunOptions& options) {
     const Result<Report> report = play(plan, options);
     if (!report.ok()) return refuse_run(report.error(), options);
     print_summary(report.value());
-    if (!options.out.empty())
-        if (auto written = write_text(to_json(report.value()), options.out + "/report.json"); !written.ok())
-            return refuse(written.error(), 1);
+    if (!options.out.empty()) {
+        for (const auto& [name, text] : {std::pair("/report.json", to_json(report.value())),
+                                         std::pair("/report.html", report_page(report.value(), options))})
+            if (auto written = write_text(text, options.out + name); !written.ok()) return refuse(written.error(), 1);
+    }
     print_files(options);
     return report.value().repeats_agree ? 0 : 1;
 }

@@ -199,6 +199,8 @@ std::vector<float> rigid_times(const RunRecord& record) {
 
 void fill_times(const RunRecord& record, Report& report) {
     report.frame_ms = spread_of(record.frame_ms);
+    report.each_frame_ms = record.frame_ms;
+    report.each_frame_broke.assign(record.broke.begin(), record.broke.end());
     for (size_t z = 0; z < record.zone_names.size(); ++z)
         report.systems[record.zone_names[z]] = spread_of(record.zone_ms[z], record.zone_rows[z]);
     const std::vector<float> rigid = rigid_times(record);

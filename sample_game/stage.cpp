@@ -18,9 +18,20 @@ namespace {
 constexpr size_t kMostFaults = 20;  // sentences; all are counted
 
 Look look_of(const std::string& material) {
-    if (material == "glass") return {0.4f, 1};
-    if (material == "brick" || material == "concrete" || material == "wood") return {1, 0};
-    return {};
+    Look look;
+    look.finish = finish_of(material);
+    if (material == "glass") look.opacity = 0.4f, look.gloss = 1;
+    if (material == "brick" || material == "concrete" || material == "wood") look.gloss = 0;
+    return look;
+}
+
+/// Bricks of a thing that is too small for them are those of a model of it: halves, quarters and so on.
+float pattern_size_of(const std::string& material, float largest_side) {
+    constexpr float kLeastSide = 1.2f;  // m, for bricks of 24 cm
+    float size = 1;
+    if (material == "brick" || material == "concrete" || material == "wood")
+        while (size > 0.01f && largest_side < size * kLeastSide) size *= 0.5f;
+    return size;
 }
 
 }  // namespace
@@ -119,8 +130,10 @@ Result<uint32_t> Stage::cook(const Mesh& mesh, const CookSettings& settings, boo
         if (!model->trouble.empty()) notes.push_back(model->trouble);
         cooked.model = std::move(model->model);
     }
-    const auto [look, is_new] = look_of_material.try_emplace(settings.material, static_cast<uint32_t>(looks.size()));
-    if (is_new) looks.push_back(look_of(settings.material));
+    const float pattern_size = pattern_size_of(settings.material, largest_side(mesh));
+    const auto [look, is_new] =
+        look_of_material.try_emplace({settings.material, pattern_size}, static_cast<uint32_t>(looks.size()));
+    if (is_new) looks.push_back(look_of(settings.material)), looks.back().pattern_size = pattern_size;
     cooked.look = look->second;
     const ModelReport& report = cooked.model.report();
     if (!report.repairs.empty()) notes.push_back(report.repairs);

@@ -4,6 +4,7 @@
 #include <map>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "cullet/world.hpp"
@@ -16,6 +17,8 @@ namespace cullet {
 /// How a kind of body looks. Bodies carry its place in Stage::looks as their user data; fragments inherit it.
 struct Look {
     float opacity = 1, gloss = 0.25f;
+    Finish finish = Finish::Plain;
+    float pattern_size = 1;
 };
 
 /// A model that was cooked for this run.
@@ -48,9 +51,10 @@ struct Stage {
     MaterialTable materials;  // --materials, game.materials
     LimitSettings limits;
     Camera camera;
+    bool has_camera = false;  // the script named one
     Sun sun;
-    std::vector<Look> looks{{}};  // 0: everything that no other was asked for
-    std::map<std::string, uint32_t> look_of_material;
+    std::vector<Look> looks{{}};                                         // 0: everything that no other was asked for
+    std::map<std::pair<std::string, float>, uint32_t> look_of_material;  // by material and size of its pattern
     std::vector<CookedModel> models;
     std::vector<Prop> props;
     std::vector<Mover> movers;

@@ -71,7 +71,8 @@ Result<SceneRun> run_scene(Bench& bench, const ScenePlay& play) {
     Progress progress(play.name);
     for (uint32_t frame = 0; frame <= play.frames; ++frame) {
         if (std::find(play.drawn.begin(), play.drawn.end(), frame) != play.drawn.end())
-            run.pictures.push_back(draw_world(game, bench.threads(), bench.picture_width()));
+            run.pictures.push_back(
+                draw_world(game, game.stage().camera, PictureLook::Pieces, bench.threads(), bench.picture_width()));
         if (frame == play.frames) break;
         game.before_step();
         game.step();

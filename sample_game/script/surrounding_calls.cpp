@@ -55,7 +55,9 @@ int add_static(lua_State* lua) {
 }
 
 int set_camera(lua_State* lua) {
-    Camera& camera = script_of(lua).act(lua).camera;
+    Stage& stage = script_of(lua).act(lua);
+    stage.has_camera = true;
+    Camera& camera = stage.camera;
     const Arguments given(lua, "game.camera", {"eye", "target", "field_of_view"});
     camera.eye = given.vector("eye", kPlace, camera.eye);
     camera.target = given.vector("target", kPlace, camera.target);
