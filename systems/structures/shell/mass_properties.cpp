@@ -15,14 +15,11 @@ bool is_live(const ShellView& shell, uint32_t element) {
     return (shell.state.elements.flags[shell.element(element)] & kDead) == 0;
 }
 
-}  // namespace
-
 // Volumes above 0 alone make a second moment that some body has. Those of a prism that a soft body's motion has turned
 // inside out are not: its inertia would come out with a sign below 0, which the rigid solver answers with energy from
 // nowhere. Such an element weighs on its outer triangle, as one without volume does, and as a ball of its depth about
 // it, so that one whose corners lie on a line has an inertia too.
-Moments element_moments(const ShellView& shell, uint32_t element) {
-    const Prism prism = load_prism(shell, element);
+Moments moments_in(const ShellView& shell, uint32_t element, const Prism& prism) {
     const uint32_t row = shell.element(element);
     Moments sum;
     double least = 0, most = 0;
@@ -55,6 +52,12 @@ Moments element_moments(const ShellView& shell, uint32_t element) {
     return flat;
 }
 
+}  // namespace
+
+Moments element_moments(const ShellView& shell, uint32_t element) {
+    return moments_in(shell, element, load_prism(shell, element));
+}
+
 Moments shell_moments(const ShellView& shell) {
     Moments sum;
     for (uint32_t e = 0; e < shell.element_count(); ++e)
@@ -77,7 +80,8 @@ Moments moments_of(const MassProperties& p) {
 }
 
 ShellSums element_sums(const ShellView& shell, uint32_t element) {
-    ShellSums sums{element_moments(shell, element), prism_area(load_prism(shell, element)), 0};
+    const Prism prism = load_prism(shell, element);
+    ShellSums sums{moments_in(shell, element, prism), prism_area(prism), 0};
     double depth = 0;
     for (uint32_t v : shell.state.elements.corner[shell.element(element)])
         depth += static_cast<double>(shell.state.vertices.depth[shell.vertex(v)]);

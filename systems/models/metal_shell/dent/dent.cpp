@@ -63,6 +63,7 @@ double plastic_share(const MetalView& metal, double sheet_restitution) {
 void carry_creases(const MetalView& metal, double contact, bool folds) {
     if (is_published(metal, kPublishedCells)) return;
     if (is_published(metal, kPublishedBorders)) choose_lowest(metal);
+    measure_cells(metal);
     if (folds) fold_cells(metal);
     crease_cells(metal, contact);
 }
@@ -156,10 +157,6 @@ bool bake_dent(const MetalView& metal) {
     }
     if (!is_any) return false;
     turn_normals(metal);
-    Cells& cells = shell.state.cells;
-    for (uint32_t e = 0; e < metal.element_count(); ++e)
-        if (!metal.is_dead(e) && has_moved(metal, e))
-            cells.is_stale[shell.cells().first + shell.state.elements.cell[shell.element(e)]] = 1;
     measure_shell(shell);
     return true;
 }

@@ -12,45 +12,70 @@ constexpr float kFullHold = 0.5f;  // of the greatest field: from there on sub-s
 constexpr double kMostTurn = 1;    // rad, of a rigid fit
 
 /// Of an element, by its corners.
-struct Moved {
-    Vec3d start, way;  // centroid at the start, and how far it went
+struct Place {
+    Vec3d centroid;
     double area;
 };
-Moved moved_element(const MetalView& metal, uint32_t e) {
+Place start_of(const MetalView& metal, uint32_t e) {
     const auto& c = metal.corners(e);
     const MetalVertices& v = metal.vertices();
-    Vec3d q[3], x[3];
-    for (int k = 0; k < 3; ++k) q[k] = Vec3d(v.start[metal.vertex(c[k])]), x[k] = Vec3d(v.place[metal.vertex(c[k])]);
-    const Vec3d start = (1.0 / 3) * (q[0] + q[1] + q[2]);
-    return {start, (1.0 / 3) * (x[0] + x[1] + x[2]) - start, 0.5 * length(cross(q[1] - q[0], q[2] - q[0]))};
+    Vec3d q[3];
+    for (int k = 0; k < 3; ++k) q[k] = Vec3d(v.start[metal.vertex(c[k])]);
+    return {(1.0 / 3) * (q[0] + q[1] + q[2]), 0.5 * length(cross(q[1] - q[0], q[2] - q[0]))};
+}
+/// How far the centroid went.
+Vec3d way_of(const MetalView& metal, uint32_t e, const Place& start) {
+    const auto& c = metal.corners(e);
+    const MetalVertices& v = metal.vertices();
+    Vec3d x[3];
+    for (int k = 0; k < 3; ++k) x[k] = Vec3d(v.place[metal.vertex(c[k])]);
+    return (1.0 / 3) * (x[0] + x[1] + x[2]) - start.centroid;
 }
 
-/// Sums over the elements of each sub-shell, as they are added: centre at the start, and mean displacement.
+}  // namespace
+
+// Over its elements as they are added: centre at the start, area, and whether the field moves any.
 void measure_cells(const MetalView& metal) {
     SubShells& cells = metal.cells();
     const uint32_t count = metal.cell_count();
     for (uint32_t c = 0; c < count; ++c) {
         const uint32_t row = metal.cell(c);
-        cells.place.set(row, {}), cells.moved.set(row, {});
+        cells.place.set(row, {});
         cells.weights[row] = 0;
         cells.is_touched[row] = 0;
     }
     for (uint32_t e = 0; e < metal.element_count(); ++e) {
         if (metal.is_dead(e)) continue;
         const uint32_t row = metal.cell(metal.cell_of(e));
-        const Moved m = moved_element(metal, e);
-        const auto area = static_cast<float>(m.area);
-        cells.place.set(row, cells.place[row] + area * m.start.to_float());
-        cells.moved.set(row, cells.moved[row] + area * m.way.to_float());
+        const Place start = start_of(metal, e);
+        const auto area = static_cast<float>(start.area);
+        cells.place.set(row, cells.place[row] + area * start.centroid.to_float());
         cells.weights[row] += area;
         for (const uint32_t v : metal.corners(e))
             if (metal.vertices().field[metal.vertex(v)] > 0) cells.is_touched[row] = 1;
     }
     for (uint32_t c = 0; c < count; ++c) {
         const uint32_t row = metal.cell(c);
-        if (!(cells.weights[row] > 0)) continue;
-        cells.place.set(row, (1 / cells.weights[row]) * cells.place[row]);
-        cells.moved.set(row, (1 / cells.weights[row]) * cells.moved[row]);
+        if (cells.weights[row] > 0) cells.place.set(row, (1 / cells.weights[row]) * cells.place[row]);
+    }
+}
+
+namespace {
+
+/// Their mean displacements, as it is now; that of what is not touched is none.
+void measure_ways(const MetalView& metal) {
+    SubShells& cells = metal.cells();
+    for (uint32_t c = 0; c < metal.cell_count(); ++c) cells.moved.set(metal.cell(c), {});
+    for (uint32_t e = 0; e < metal.element_count(); ++e) {
+        const uint32_t row = metal.cell(metal.cell_of(e));
+        if (!cells.is_touched[row] || metal.is_dead(e)) continue;
+        const Place start = start_of(metal, e);
+        const Vec3 way = way_of(metal, e, start).to_float();
+        cells.moved.set(row, cells.moved[row] + static_cast<float>(start.area) * way);
+    }
+    for (uint32_t c = 0; c < metal.cell_count(); ++c) {
+        const uint32_t row = metal.cell(c);
+        if (cells.weights[row] > 0) cells.moved.set(row, (1 / cells.weights[row]) * cells.moved[row]);
     }
 }
 
@@ -105,8 +130,6 @@ struct Fit {
     Sym3d second;
     Vec3d turning;
 };
-constexpr uint32_t kFitsAtOnce = 32;  // of them stand on the stack
-
 Vec3d turn_of(const Fit& fit) {
     Sym3d inertia = inertia_of(fit.second);
     const double scale = trace(inertia);
@@ -119,33 +142,42 @@ Vec3d turn_of(const Fit& fit) {
 // Rotation of each sub-shell that fits its displacement best.
 void fit_turns(const MetalView& metal) {
     SubShells& cells = metal.cells();
-    for (uint32_t first = 0; first < metal.cell_count(); first += kFitsAtOnce) {
-        Fit fits[kFitsAtOnce];
-        const uint32_t end = std::min(first + kFitsAtOnce, metal.cell_count());
-        for (uint32_t e = 0; e < metal.element_count(); ++e) {
-            const uint32_t c = metal.cell_of(e), row = metal.cell(c);
-            if (c < first || c >= end || metal.is_dead(e) || !cells.is_touched[row]) continue;
-            const Moved m = moved_element(metal, e);
-            const Vec3d arm = m.start - Vec3d(cells.place[row]);
-            Fit& fit = fits[c - first];
-            fit.second = fit.second + m.area * outer(arm);
-            fit.turning += m.area * cross(arm, m.way - Vec3d(cells.moved[row]));
-        }
-        for (uint32_t c = first; c < end; ++c) {
-            const uint32_t row = metal.cell(c);
-            cells.turn.set(row, cells.is_touched[row] ? turn_of(fits[c - first]).to_float() : Vec3{});
-        }
+    const ScratchArray<Fit> fits(metal.shell.state.scratch, metal.cell_count());
+    for (uint32_t e = 0; e < metal.element_count(); ++e) {
+        const uint32_t c = metal.cell_of(e), row = metal.cell(c);
+        if (!cells.is_touched[row] || metal.is_dead(e)) continue;
+        const Place start = start_of(metal, e);
+        const Vec3d arm = start.centroid - Vec3d(cells.place[row]);
+        Fit& fit = fits[c];
+        fit.second = fit.second + start.area * outer(arm);
+        fit.turning += start.area * cross(arm, way_of(metal, e, start) - Vec3d(cells.moved[row]));
+    }
+    for (uint32_t c = 0; c < metal.cell_count(); ++c) {
+        const uint32_t row = metal.cell(c);
+        cells.turn.set(row, cells.is_touched[row] ? turn_of(fits[c]).to_float() : Vec3{});
     }
 }
 
-Vec3 turned(Vec3 arm, Vec3 turn) {
-    const double angle = length(Vec3d(turn));
-    if (!(angle > 0)) return arm;
+/// A rotation, made ready for many vectors.
+struct Turning {
+    Vec3d axis;
     double sine = 0, cosine = 1;
-    sine_cosine(angle, sine, cosine);
-    const Vec3d axis = (1 / angle) * Vec3d(turn), a(arm);
-    return (cosine * a + sine * cross(axis, a) + ((1 - cosine) * dot(axis, a)) * axis).to_float();
-}
+    bool is_any = false;
+
+    Turning() = default;
+    explicit Turning(Vec3 turn) {
+        const double angle = length(Vec3d(turn));
+        if (!(angle > 0)) return;
+        sine_cosine(angle, sine, cosine);
+        axis = (1 / angle) * Vec3d(turn);
+        is_any = true;
+    }
+    Vec3 of(Vec3 arm) const {
+        if (!is_any) return arm;
+        const Vec3d a(arm);
+        return (cosine * a + sine * cross(axis, a) + ((1 - cosine) * dot(axis, a)) * axis).to_float();
+    }
+};
 
 void choose_creases(const MetalView& metal, double contact) {
     SubShells& cells = metal.cells();
@@ -223,7 +255,7 @@ void choose_lowest(const MetalView& metal) {
 }
 
 void fold_cells(const MetalView& metal) {
-    measure_cells(metal);
+    measure_ways(metal);
     choose_folds(metal);
     MetalVertices& vertices = metal.vertices();
     const SubShells& cells = metal.cells();
@@ -238,23 +270,27 @@ void fold_cells(const MetalView& metal) {
 }
 
 void crease_cells(const MetalView& metal, double contact) {
-    measure_cells(metal);
+    measure_ways(metal);
     fit_turns(metal);
     choose_creases(metal, contact);
     MetalVertices& vertices = metal.vertices();
     const SubShells& cells = metal.cells();
     const Hold hold(metal);
+    const ScratchArray<Turning> turnings(metal.shell.state.scratch, metal.cell_count());
+    for (uint32_t c = 0; c < metal.cell_count(); ++c) turnings[c] = Turning(cells.turn[metal.cell(c)]);
+    const uint32_t first = metal.cell(0);
     for (uint32_t v = 0; v < metal.vertex_count(); ++v) {
         const uint32_t row = metal.vertex(v);
         if (!(vertices.field[row] > 0)) continue;
-        Vec3 rigid;
         float chi = 0;
-        for_each_mover(metal, row, [&](uint32_t c, float weight) {
-            chi += weight * cells.crease[c];
-            rigid += weight *
-                     (turned(vertices.start[row] - cells.place[c], cells.turn[c]) + cells.place[c] + cells.moved[c]);
-        });
+        for_each_mover(metal, row, [&](uint32_t c, float weight) { chi += weight * cells.crease[c]; });
         chi *= hold.at(row);
+        if (chi == 0) continue;
+        Vec3 rigid;
+        for_each_mover(metal, row, [&](uint32_t c, float weight) {
+            rigid += weight *
+                     (turnings[c - first].of(vertices.start[row] - cells.place[c]) + cells.place[c] + cells.moved[c]);
+        });
         vertices.place.set(row, (1 - chi) * vertices.place[row] + chi * rigid);
     }
 }

@@ -18,17 +18,34 @@ bool moves(const MetalView& metal, uint32_t v) {
     return metal.vertices().field[metal.vertex(v)] > 0 && !metal.is_pinned(v);
 }
 
-// How much too long (above 0) or too short (below) a spring is, m.
-float excess(float length, float original, float most_stretch) {
-    if (const float over = length - (1 + most_stretch) * original; over > 0) return over;
-    if (const float under = length - kShortest * original; under < 0) return kPush * under;
-    return 0;
-}
+/// What a length may be, and what one that is not is to become.
+struct Allowed {
+    float longest, shortest;  // m
 
-Vec3 normal_of(const MetalView& metal, const Column<Vec3>& places, uint32_t element) {
+    Allowed(float original, float most_stretch)
+        : longest((1 + most_stretch) * original), shortest(kShortest * original) {}
+    bool hold(float square) const { return square <= longest * longest && square >= shortest * shortest; }
+    /// How much too long (above 0) or too short (below), m.
+    float excess(float length) const {
+        if (const float over = length - longest; over > 0) return over;
+        if (const float under = length - shortest; under < 0) return kPush * under;
+        return 0;
+    }
+};
+
+Vec3 across(const MetalView& metal, const Column<Vec3>& places, uint32_t element) {
     const auto& c = metal.corners(element);
     const Vec3 p = places[metal.vertex(c[0])], q = places[metal.vertex(c[1])], r = places[metal.vertex(c[2])];
-    return normalised(cross(q - p, r - p));
+    return cross(q - p, r - p);
+}
+
+bool is_turned(const MetalView& metal, uint32_t element) {
+    const MetalVertices& v = metal.vertices();
+    const auto& c = metal.corners(element);
+    if (!std::any_of(c.begin(), c.end(), [&](uint32_t k) { return v.field[metal.vertex(k)] > 0; })) return false;
+    const Vec3 before = across(metal, v.start, element), after = across(metal, v.place, element);
+    const float both = dot(before, after);
+    return both < 0 && dot(normalised(before), normalised(after)) < kTurned;
 }
 
 }  // namespace
@@ -40,7 +57,6 @@ void relax_once(const MetalView& metal, float most_stretch) {
     const MetalSprings& springs = metal.springs();
     for (uint32_t v = 0; v < metal.vertex_count(); ++v) {
         const uint32_t row = metal.vertex(v);
-        vertices.next.set(row, vertices.place[row]);
         if (!moves(metal, v)) continue;
         Vec3 sum;
         uint32_t valence = 0;
@@ -48,9 +64,11 @@ void relax_once(const MetalView& metal, float most_stretch) {
             if (springs.is_tie[spring]) return;
             ++valence;
             const Vec3 way = vertices.place[metal.vertex(other)] - vertices.place[row];
+            const Allowed allowed(springs.length[spring], most_stretch);
+            if (allowed.hold(dot(way, way))) return;
             const float now = length(way);
             if (!(now > 1e-9f)) return;
-            const float c = excess(now, springs.length[spring], most_stretch);
+            const float c = allowed.excess(now);
             sum += (c / now * (moves(metal, other) ? 0.5f : 1.0f)) * way;
         });
         // Of few edges it would go past their limits.
@@ -94,7 +112,7 @@ void turn_back(const MetalView& metal) {
             vertices.next.set(metal.vertex(v), vertices.place[metal.vertex(v)]);
         for (uint32_t e = 0; e < metal.element_count(); ++e) {
             if (metal.is_dead(e)) continue;
-            if (!(dot(normal_of(metal, vertices.start, e), normal_of(metal, vertices.place, e)) < kTurned)) continue;
+            if (!is_turned(metal, e)) continue;
             is_any = true;
             const auto& c = metal.corners(e);
             Vec3 mean;

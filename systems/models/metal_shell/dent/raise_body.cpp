@@ -1,40 +1,61 @@
 #include "systems/models/metal_shell/dent/raise_body.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 #include "systems/models/metal_shell/dent/ways.hpp"
 
 namespace cullet {
 namespace {
 
-constexpr int kBisections = 30;
-constexpr double kDeepest = 0.3;  // of the extent along the push
-constexpr double kDragged = 0.5;  // of the depth
-constexpr double kFacing = 0.05;  // cosine: what looks away from the striker is not crushed
-constexpr int kSweeps = 40;       // of cells, and of vertices
+constexpr int kMostGuesses = 60;
+constexpr double kGoodGuess = 1e-8;  // of the energy
+constexpr double kDeepest = 0.3;     // of the extent along the push
+constexpr double kDragged = 0.5;     // of the depth
+constexpr double kFacing = 0.05;     // cosine: what looks away from the striker is not crushed
+constexpr int kSweeps = 40;          // of cells, and of vertices
 constexpr double kRelaxation = 1.6;
-
-struct Triangle3 {
-    Vec3d centroid, across;  // twice the area vector
-};
-Triangle3 element_at_start(const MetalView& metal, uint32_t e) {
-    const auto& c = metal.corners(e);
-    const MetalVertices& v = metal.vertices();
-    const Vec3d p(v.start[metal.vertex(c[0])]), q(v.start[metal.vertex(c[1])]), r(v.start[metal.vertex(c[2])]);
-    return {(1.0 / 3) * (p + q + r), cross(q - p, r - p)};
-}
 
 // m3 that the striker takes of what faces it.
 double crushed_volume(const MetalView& metal, const Striker& striker, double depth) {
     const Striker wider = striker.widened(kDragged * depth);
+    const MetalVertices& v = metal.vertices();
+    const bool comes_first_at_its_point = striker.shape != StrikerShape::Front;
     double volume = 0;
     for (uint32_t e = 0; e < metal.element_count(); ++e) {
         if (metal.is_dead(e)) continue;
-        const Triangle3 t = element_at_start(metal, e);
-        const double facing = -0.5 * dot(t.across, striker.push);
-        if (facing > kFacing * 0.5 * length(t.across)) volume += facing * wider.covers(t.centroid, depth);
+        const auto& c = metal.corners(e);
+        const Vec3d p(v.start[metal.vertex(c[0])]), q(v.start[metal.vertex(c[1])]), r(v.start[metal.vertex(c[2])]);
+        const Vec3d centroid = (1.0 / 3) * (p + q + r);
+        if (comes_first_at_its_point && dot(centroid - striker.point, striker.push) >= depth) continue;
+        const Vec3d across = cross(q - p, r - p);
+        const double facing = -0.5 * dot(across, striker.push);
+        if (!(facing > 0) || !(facing * facing > 0.25 * kFacing * kFacing * dot(across, across))) continue;
+        volume += facing * wider.covers(centroid, depth);
     }
     return volume;
+}
+
+/// Where `missing` (J), which rises from -energy at 0 to `above` at `deepest`, is none: along chords, each of which
+/// halves what an end says that stays for a second time. A volume over all elements is dear; bisection takes thirty.
+template <class Missing>
+double depth_of(double deepest, double above, double energy, Missing missing) {
+    double low = 0, high = deepest, below = energy;
+    int last = 0;
+    for (int k = 0; k < kMostGuesses; ++k) {
+        const double d = low + (high - low) * (below / (below + above)), more = missing(d);
+        if (std::fabs(more) <= kGoodGuess * energy || !(d > low && d < high)) return d;
+        if (more < 0) {
+            low = d, below = -more;
+            if (last < 0) above *= 0.5;
+            last = -1;
+        } else {
+            high = d, above = more;
+            if (last > 0) below *= 0.5;
+            last = 1;
+        }
+    }
+    return low;
 }
 
 // Cells first: on them a field comes as far as it must in a few sweeps. What a cell has to give is the mean of what its
@@ -94,12 +115,8 @@ CrushPlan plan_crush(const MetalView& metal, const Striker& striker, double ener
     if (!(pressure > 0) || !(energy > 0)) return plan;
     const double most = pressure * crushed_volume(metal, striker, deepest);
     if (most <= energy) return {deepest, energy - most};
-    double low = 0, high = deepest;
-    for (int k = 0; k < kBisections; ++k) {
-        const double d = 0.5 * (low + high);
-        (pressure * crushed_volume(metal, striker, d) < energy ? low : high) = d;
-    }
-    plan.depth = low;
+    plan.depth = depth_of(deepest, most - energy, energy,
+                          [&](double d) { return pressure * crushed_volume(metal, striker, d) - energy; });
     return plan;
 }
 
@@ -118,8 +135,8 @@ void raise_body(const MetalView& metal, const Striker& striker, double depth, do
     }
     spread_ways(metal, reach);
     relax_cells(metal);
-    const auto least = [&](uint32_t row) {
-        return static_cast<float>(striker.covers(Vec3d(vertices.start[row]), depth));
+    const auto least = [&](uint32_t row) {  // what is on its way to the striker is not in it
+        return vertices.way[row] > 0 ? 0 : static_cast<float>(striker.covers(Vec3d(vertices.start[row]), depth));
     };
     for (uint32_t v = 0; v < count; ++v) {
         const uint32_t row = metal.vertex(v);
@@ -127,10 +144,13 @@ void raise_body(const MetalView& metal, const Striker& striker, double depth, do
         const float begun = blended(metal, row) * (1 - vertices.way[row] / reach);
         vertices.field[row] = std::max(vertices.field[row], std::max(0.0f, begun));
     }
+    // The ring that ways were spread with is free again.
+    uint32_t within = 0;
+    for (uint32_t v = 0; v < count; ++v)
+        if (vertices.way[metal.vertex(v)] <= reach && !metal.is_pinned(v)) vertices.queued[metal.vertex(within++)] = v;
     for (int sweep = 0; sweep < kSweeps; ++sweep)
-        for (uint32_t v = 0; v < count; ++v) {
-            const uint32_t row = metal.vertex(v);
-            if (!(vertices.way[row] <= reach) || metal.is_pinned(v)) continue;
+        for (uint32_t k = 0; k < within; ++k) {
+            const uint32_t v = vertices.queued[metal.vertex(k)], row = metal.vertex(v);
             double sum = 0, weight = 0;
             metal.for_each_spring(v, [&](uint32_t other, uint32_t spring) {
                 sum += double{springs.stiffness[spring]} * vertices.field[metal.vertex(other)];

@@ -1,6 +1,7 @@
 #include "systems/models/metal_shell/strike/lay_front.hpp"
 
 #include <algorithm>
+#include <numeric>
 
 #include "components/body_id.hpp"
 #include "systems/drawn/query_index.hpp"
@@ -40,35 +41,54 @@ struct Aim {
     }
 };
 
-/// Calls f(corners, body frame of what is struck) for each triangle of the striker.
+/// The same aim, body frame, in the frame that a pose leads to.
+Aim seen_from(const Aim& aim, const Pose& struck, const Pose& frame) {
+    const auto turned = [&](Vec3d way) {
+        return Vec3d(rotate(conjugate(frame.orientation), rotate(struck.orientation, way.to_float())));
+    };
+    Aim seen = aim;
+    seen.point = Vec3d(to_body(frame, to_world(struck, aim.point.to_float())));
+    seen.push = turned(aim.push), seen.u = turned(aim.u), seen.v = turned(aim.v);
+    return seen;
+}
+
+/// Calls f(where its corners are for the aim) for each triangle of the striker. Each is looked at where it stands, so
+/// that none is turned into another frame. Of sheet metal the outer side will do.
 template <class F>
-void for_each_triangle(const BodyRows& rows, const QueryIndex& index, Row<Bodies> striker, const Pose& struck, F&& f) {
+void for_each_triangle(const BodyRows& rows, const QueryIndex& index, Row<Bodies> striker, const Pose& struck,
+                       const Aim& aim, F&& f) {
     const Bodies& bodies = rows.bodies;
-    const auto in_body = [&](Vec3 world) { return Vec3d(to_body(struck, world)); };
     if (const StaticTriangles* triangles = index.triangles(striker)) {
-        for (const auto& c : triangles->corners) f(in_body(c[0]), in_body(c[1]), in_body(c[2]));
+        const Aim world = seen_from(aim, struck, {});
+        for (const auto& c : triangles->corners)
+            f({world.of(Vec3d(c[0])), world.of(Vec3d(c[1])), world.of(Vec3d(c[2]))});
         return;
     }
-    const Pose own = pose_of(bodies, striker);
-    if (bodies.structure[striker].exists()) {
+    const Aim own = seen_from(aim, struck, pose_of(bodies, striker));
+    if (const Row<Structures> structure = bodies.structure[striker]; structure.exists()) {
         const Range &vertices = bodies.view_vertices[striker], &indices = bodies.view_indices[striker];
+        uint32_t count = indices.count;
+        if (rows.metal_of(structure).exists()) {
+            const auto& runs = bodies.run_indices[striker];
+            count = std::min(count, std::accumulate(runs.begin(), runs.begin() + kMostDrawnMaterials, 0u));
+        }
         const auto corner = [&](uint32_t k) {
             const uint32_t vertex = rows.view_indices.index[indices.first + k];
-            return in_body(to_world(own, rows.view_vertices.vertex[vertices.first + vertex].position));
+            return own.of(Vec3d(rows.view_vertices.vertex[vertices.first + vertex].position));
         };
-        for (uint32_t k = 0; k + 2 < indices.count; k += 3) f(corner(k), corner(k + 1), corner(k + 2));
+        for (uint32_t k = 0; k + 2 < count; k += 3) f({corner(k), corner(k + 1), corner(k + 2)});
         return;
     }
     const Vec3 h = index.half_extents(striker);
     if (!(h.x > 0)) return;
     const auto corner = [&](int k) {
-        return in_body(to_world(own, {k & 1 ? h.x : -h.x, k & 2 ? h.y : -h.y, k & 4 ? h.z : -h.z}));
+        return own.of(Vec3d(Vec3{k & 1 ? h.x : -h.x, k & 2 ? h.y : -h.y, k & 4 ? h.z : -h.z}));
     };
     static constexpr int kSides[6][4] = {{0, 2, 3, 1}, {4, 5, 7, 6}, {0, 1, 5, 4},
                                          {2, 6, 7, 3}, {0, 4, 6, 2}, {1, 3, 7, 5}};
     for (const auto& s : kSides) {
-        f(corner(s[0]), corner(s[1]), corner(s[2]));
-        f(corner(s[0]), corner(s[2]), corner(s[3]));
+        f({corner(s[0]), corner(s[1]), corner(s[2])});
+        f({corner(s[0]), corner(s[2]), corner(s[3])});
     }
 }
 
@@ -174,8 +194,7 @@ StrikerShape lay_front(BodyRows& rows, const QueryIndex& index, Row<Tasks> task,
     const Aim aim = aim_at(rows, task, striker, struck, point, push);
     Extent extent;
     const auto for_each_in_the_way = [&](auto&& f) {
-        for_each_triangle(rows, index, striker, struck, [&](Vec3d p, Vec3d q, Vec3d r) {
-            const Across c[3] = {aim.of(p), aim.of(q), aim.of(r)};
+        for_each_triangle(rows, index, striker, struck, aim, [&](const Across(&c)[3]) {
             if (is_in_the_way(aim, c)) f(c);
         });
     };
