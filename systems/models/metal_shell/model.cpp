@@ -17,7 +17,9 @@ DamageModel metal_shell_model() {
     model.at(Slot::Wake).then<gather_impulses>();
     model.at(Slot::Close).then<end_impacts>();
     model.at(Slot::Group).then<group_dented>();
-    model.loop<cost_of>("metal shell: one impact", make_loop(), {works_on});
+    TaskCalls calls{works_on};
+    calls.is_brief = true;
+    model.loop<cost_of>("metal shell: one impact", make_loop(), calls);
     model.cook_settings<&CookSettings::metal_shell>();
     model.cooks<cook_metal_shell>()
         .splits_edges<edge_share>()

@@ -15,13 +15,14 @@ constexpr uint32_t kBatchElements = 256;  // a cell has about 128; of more a sin
 constexpr uint32_t kMostVertices = 3 * kBatchElements;
 static_assert(kMostCellPoints == kMostCellParts * kMostHullPoints);
 static_assert(2 * kMostVertices + kMostHullPoints <= kMostExtremeCandidates);
-// Of the margin: a point above the hull by less is worth none. 0.05 cost twice the points and kept nothing from
+// Of the grain: a point above the hull by less is worth none. 0.05 cost twice the points and kept nothing from
 // sinking.
 constexpr float kGoodEnough = 0.2f;
 // Of its size: sheet metal whose part is hollow by more is halved. A hull spans the hollow of a dent, and what lies in
 // it would hover.
 constexpr float kMostHollow = 0.03f;
-// Of the margin: a hull that leaves out more is halved while the cell has parts left.
+constexpr float kMetalGrain = 0.025f;  // of its size: see grain_of()
+// Of the grain: a hull that leaves out more is halved while the cell has parts left.
 constexpr float kTooMuch = 0.4f;
 
 uint32_t next_of(const ShellView& shell, uint32_t element) {
@@ -107,8 +108,26 @@ void add_candidates(const ShellView& shell, std::span<const uint32_t> list, floa
     }
 }
 
-void keep_extremes(const ShellView& shell, Workspace& work, float margin) {
-    choose_extremes(shell.state.scratch, {work.candidates, work.candidate_count}, kMostHullPoints, kGoodEnough * margin,
+/// Diagonal of the box round these elements, m.
+float size_of(const ShellView& shell, std::span<const uint32_t> list) {
+    Vec3 low{1e30f, 1e30f, 1e30f}, high{-1e30f, -1e30f, -1e30f};
+    for (const uint32_t e : list)
+        for (const Vec3 p : outer_triangle(shell, e)) {
+            low = {std::min(low.x, p.x), std::min(low.y, p.y), std::min(low.z, p.z)};
+            high = {std::max(high.x, p.x), std::max(high.y, p.y), std::max(high.z, p.z)};
+        }
+    return length(high - low);
+}
+
+/// The margin, and of sheet metal at least so much of its size: a margin is a half of a sheet, and crumpled sheets have
+/// bumps of that size everywhere. Four hulls of all their points each were most of a crash's worst frame.
+float grain_of(const ShellView& shell, float margin, std::span<const uint32_t> list) {
+    return shell.state.metal_of(shell.structure).exists() ? std::max(margin, kMetalGrain * size_of(shell, list))
+                                                          : margin;
+}
+
+void keep_extremes(const ShellView& shell, Workspace& work, float grain) {
+    choose_extremes(shell.state.scratch, {work.candidates, work.candidate_count}, kMostHullPoints, kGoodEnough * grain,
                     work.chosen);
 }
 
@@ -123,17 +142,17 @@ void choose_points_by_batches(const ShellView& shell, uint32_t first, float marg
         std::copy_n(part.point, part.count, work.candidates);
         work.candidate_count = part.count;
         add_candidates(shell, {work.elements, count}, margin, work);
-        keep_extremes(shell, work, margin);
+        keep_extremes(shell, work, grain_of(shell, margin, {work.elements, count}));
         part.count = work.chosen.count;
         for (uint32_t i = 0; i < part.count; ++i) part.point[i] = work.candidates[work.chosen.index[i]];
     }
 }
 
-void choose_part(const ShellView& shell, std::span<const uint32_t> list, float margin, Workspace& work,
+void choose_part(const ShellView& shell, std::span<const uint32_t> list, float margin, float grain, Workspace& work,
                  Workspace::Part& part) {
     work.candidate_count = 0;
     add_candidates(shell, list, margin, work);
-    keep_extremes(shell, work, margin);
+    keep_extremes(shell, work, grain);
     part.count = work.chosen.count;
     part.left_out = work.chosen.left_out;
     for (uint32_t i = 0; i < part.count; ++i) part.point[i] = work.candidates[work.chosen.index[i]];
@@ -192,13 +211,14 @@ void choose_points(const ShellView& shell, uint32_t first, float margin, Workspa
     CellParts parts{.first = {0}, .size = {count}, .count = 1};
     if (shell.state.metal_of(shell.structure).exists()) halve_what_is_hollow(shell, {work.elements, count}, parts);
     work.part_count = parts.count;
+    const float grain = grain_of(shell, margin, {work.elements, count});
     for (uint32_t p = 0; p < parts.count; ++p)
-        choose_part(shell, parts.list({work.elements, count}, p), margin, work, work.part[p]);
+        choose_part(shell, parts.list({work.elements, count}, p), margin, grain, work, work.part[p]);
     while (parts.count < kMostCellParts) {
         uint32_t worst = 0;
         for (uint32_t p = 1; p < parts.count; ++p)
             if (work.part[p].left_out > work.part[worst].left_out) worst = p;
-        if (!(work.part[worst].left_out > kTooMuch * margin)) break;
+        if (!(work.part[worst].left_out > kTooMuch * grain)) break;
         const uint32_t other = halve_part(shell, {work.elements, count}, parts, worst);
         if (other == worst) {
             work.part[worst].left_out = 0;
@@ -206,7 +226,7 @@ void choose_points(const ShellView& shell, uint32_t first, float margin, Workspa
         }
         work.part_count = parts.count;
         for (uint32_t p : {worst, other})
-            choose_part(shell, parts.list({work.elements, count}, p), margin, work, work.part[p]);
+            choose_part(shell, parts.list({work.elements, count}, p), margin, grain, work, work.part[p]);
     }
 }
 
