@@ -1,6 +1,8 @@
 #include "sample_game/draw_world.hpp"
 
+#include <algorithm>
 #include <deque>
+#include <numeric>
 
 #include "engine/jobs.hpp"
 #include "engine/random.hpp"
@@ -74,12 +76,42 @@ struct Drawing {
     }
 };
 
+/// Wood has its grain along y; boards and posts, which are parts of their own, have it along their longest side.
+std::vector<Vec3> along_the_boards(const Mesh& mesh) {
+    std::vector<uint32_t> part(mesh.positions.size());
+    std::iota(part.begin(), part.end(), 0u);
+    const auto first_of = [&part](uint32_t v) {
+        while (part[v] != v) v = part[v] = part[part[v]];
+        return v;
+    };
+    for (const auto& corners : mesh.triangles)
+        for (const uint32_t v : corners) part[first_of(v)] = first_of(corners[0]);
+    std::vector<MeshExtent> extents(mesh.positions.size(), {{1e9f, 1e9f, 1e9f}, {-1e9f, -1e9f, -1e9f}});
+    for (uint32_t v = 0; v < mesh.positions.size(); ++v) {
+        MeshExtent& extent = extents[first_of(v)];
+        const Vec3 p = mesh.positions[v];
+        extent.low = {std::min(extent.low.x, p.x), std::min(extent.low.y, p.y), std::min(extent.low.z, p.z)};
+        extent.high = {std::max(extent.high.x, p.x), std::max(extent.high.y, p.y), std::max(extent.high.z, p.z)};
+    }
+    std::vector<Vec3> turned = mesh.positions;
+    for (uint32_t v = 0; v < turned.size(); ++v) {
+        const Vec3 size = extents[first_of(v)].high - extents[first_of(v)].low, p = turned[v];
+        if (size.x >= size.y && size.x >= size.z)
+            turned[v] = {p.y, p.x, p.z};
+        else if (size.z >= size.y)
+            turned[v] = {p.x, p.z, p.y};
+    }
+    return turned;
+}
+
 void add_props(Drawing& drawing, const Stage& stage) {
     for (const Prop& prop : stage.props) {
         if (prop.is_ground) continue;
         DrawnBody& body = drawing.add(prop.mesh);
         body.colour = prop.colour;
         body.gloss = 0;
+        body.finish = prop.finish;
+        if (prop.finish == Finish::Wood) body.unmoved = drawing.points.emplace_back(along_the_boards(prop.mesh));
         body.is_outlined = false;
     }
 }
@@ -182,7 +214,7 @@ Picture draw_world(const GameWorld& game, const Camera& camera, PictureLook look
     settings.ground_height = game.stage().ground_height();
     settings.has_ground = game.stage().has_ground();
     settings.has_finishes = at.is_real();
-    if (at.is_real()) settings.exposure = 0.56f;
+    if (at.is_real()) settings.exposure = 0.55f;
     const std::unique_ptr<JobSystem> jobs = make_jobs(JobBackend::Threads, threads);
     settings.for_each = [&jobs](uint32_t count, const std::function<void(uint32_t)>& job) {
         parallel_for(*jobs, count, [&job](uint32_t i) { job(i); });

@@ -91,11 +91,33 @@ Vec3 brick_colour(float chance_of_it) {
     return chance_of_it < 0.5f ? between(dark, middle, 2 * chance_of_it) : between(middle, light, 2 * chance_of_it - 1);
 }
 
+// Where walls of brick lean they are a roof: tiles of 20 x 26 cm, each row over the one below.
+FinishLook roof_tile(const FinishPlace& place) {
+    constexpr float kWide = 0.20f, kRise = 0.17f;
+    const float across = std::fabs(place.normal.x) > std::fabs(place.normal.z) ? place.point.z : place.point.x;
+    const int32_t row = whole(place.point.y / kRise);
+    const float along = across + (row & 1 ? 0.5f * kWide : 0.0f);
+    const float shows = seen_share(kRise, place.footprint);
+    const float up = place.point.y / kRise - static_cast<float>(row), side = along / kWide - std::floor(along / kWide);
+    const float lip = shows * (up < 0.16f ? 1.0f : 0.0f), round = shows * (side - 0.5f);
+    const float own = shows * (chance(whole(along / kWide), row, 3) - 0.5f);
+    const float rough = grain(place.point, 0.03f, place.footprint);
+    FinishLook look;
+    look.colour = (1 + 0.35f * own + 0.08f * rough - 0.45f * lip) * Vec3{0.235f, 0.085f, 0.055f};
+    const bool is_along_z = std::fabs(place.normal.x) > std::fabs(place.normal.z);
+    look.tilt = 0.5f * round * (is_along_z ? Vec3{0, 0, 1} : Vec3{1, 0, 0});
+    look.gloss = 0.2f;
+    look.sharpness = 16;
+    look.spread = 0.8f;
+    return look;
+}
+
 // Bricks of 24 x 7.1 cm with joints of 12 mm, in stretcher bond. Where a crack runs through them, joints are level.
 FinishLook brick(const FinishPlace& place) {
     constexpr float kLength = 0.25f, kHeight = 1.0f / 12, kJoint = 0.012f;
-    const Flat flat = flat_of(place.point, place.normal);
     const bool is_crack = place.kind == FaceKind::Crack;
+    if (place.kind == FaceKind::Outer && place.normal.y > 0.3f && place.normal.y < 0.97f) return roof_tile(place);
+    const Flat flat = flat_of(place.point, place.normal);
     const float height = is_crack ? place.point.y : flat.v;
     const int32_t course = whole(height / kHeight);
     const float along = flat.u + (course & 1 ? 0.5f * kLength : 0.0f);
@@ -107,7 +129,7 @@ FinishLook brick(const FinishPlace& place) {
     const float own = 0.5f + (chance(number, course, flat.axis) - 0.5f) * seen_share(kHeight, place.footprint);
     Vec3 colour = (1 + 0.16f * rough) * brick_colour(own);
     if (is_crack) colour = (1 + 0.22f * rough) * between(colour, {0.56f, 0.23f, 0.135f}, 0.65f);
-    const Vec3 mortar = (1 + 0.1f * rough) * Vec3{0.47f, 0.45f, 0.41f};
+    const Vec3 mortar = (1 + 0.1f * rough) * Vec3{0.40f, 0.385f, 0.35f};
     FinishLook look;
     look.colour = between(colour, mortar, joint);
     if (is_crack) return look;
@@ -133,9 +155,9 @@ FinishLook porcelain(const FinishPlace& place) {
         return look;
     }
     const float cloud = noise(14.0f * place.point);
-    look.colour = (1 + 0.012f * cloud) * Vec3{0.80f, 0.815f, 0.82f};
+    look.colour = (1 + 0.012f * cloud) * Vec3{0.735f, 0.75f, 0.755f};
     look.gloss = 1;
-    look.facing = 0.05f;
+    look.facing = 0.06f;
     look.sharpness = 512;
     return look;
 }
@@ -163,7 +185,7 @@ FinishLook metal(const FinishPlace& place, Vec3 colour, float gloss) {
     const bool is_end = std::fabs(place.normal.x) > 0.8f;
     const Vec3 p = place.point;
     const Vec3 stretched = is_end ? Vec3{p.z, p.y / 30, p.x} : Vec3{p.x / 30, p.y, p.z};
-    const float brushed = grain(stretched, 0.003f, place.footprint, 3);
+    const float brushed = grain(stretched, 0.016f, place.footprint, 5);
     const bool is_torn = place.kind == FaceKind::Crack, is_polished = gloss > 0.5f;
     FinishLook look;
     look.colour = (is_torn ? 0.75f : is_polished ? 0.12f : 0.30f) * colour;
@@ -189,7 +211,7 @@ FinishLook wood(const FinishPlace& place) {
     const float fibre = grain({p.x, p.y / 25, p.z}, 0.004f, place.footprint);
     FinishLook look;
     look.colour =
-        (1 + 0.12f * fibre) * between({0.46f, 0.27f, 0.125f}, {0.235f, 0.115f, 0.045f}, std::clamp(dark, 0.0f, 1.0f));
+        (1 + 0.12f * fibre) * between({0.33f, 0.185f, 0.085f}, {0.19f, 0.095f, 0.04f}, std::clamp(dark, 0.0f, 1.0f));
     if (place.kind == FaceKind::Crack) {
         look.colour = (1 + 0.30f * fibre) * Vec3{0.60f, 0.42f, 0.23f};
         return look;
@@ -232,7 +254,7 @@ FinishLook rubber(const FinishPlace& place) {
     look.gloss = 0.7f;
     look.sharpness = 8;
     look.spread = 0.85f;
-    look.sheen = 0.05f;
+    look.sheen = 0.5f;
     return look;
 }
 
@@ -278,7 +300,7 @@ FinishLook finish_at(Finish finish, const FinishPlace& place, Vec3 own, float ow
         case Finish::Glass:
             return glass(place);
         case Finish::Steel:
-            return metal(place, {0.55f, 0.56f, 0.57f}, own_gloss);
+            return metal(place, {0.63f, 0.635f, 0.64f}, own_gloss);
         case Finish::Aluminium:
             return metal(place, {0.78f, 0.79f, 0.80f}, own_gloss);
         case Finish::Copper:

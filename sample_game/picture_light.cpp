@@ -94,9 +94,10 @@ float raised_to(float x, float power) {
 /// The ground far away is half sky.
 Vec3 hazed(const SeenSurface& surface, Vec3 direction, Vec3 seen) {
     if (surface.body != kGroundBody) return seen;
-    constexpr float kHalfHaze = 60;  // m
-    const float far = surface.distance / kHalfHaze, haze = far * far / (1 + far * far);
-    return (1 - haze) * seen + haze * sky_light(normalised(Vec3{direction.x, 0, direction.z}));
+    const float half_haze = surface.has_finish ? 200 : 60;  // m
+    const float far = surface.distance / half_haze, haze = far * far / (1 + far * far);
+    const Vec3 level = normalised(Vec3{direction.x, 0, direction.z});
+    return (1 - haze) * seen + haze * (surface.has_finish ? clear_sky(level) : sky_light(level));
 }
 
 float to_the_64th(float x) {
@@ -184,17 +185,36 @@ Vec3 PictureLight::finished(const SeenSurface& surface, const Light& light, Vec3
     return (1 - (surface.facing < 0.5f ? share : 0)) * seen + share * shine;
 }
 
-// What lies the mirrored way: things in full sun without shadows, which nobody misses in a glaze.
+// A dull mirror shows a broad piece of what is around, by rays turned anew at each place.
 Vec3 PictureLight::mirrored_light(const SeenSurface& surface, Vec3 direction) const {
-    const Vec3 mirror = direction - 2 * dot(direction, surface.normal) * surface.normal;
-    const Vec3 dull = hemisphere(mirror);
+    constexpr uint32_t kDullRays = 8;
+    const auto mirror = [&](Vec3 normal) { return direction - 2 * dot(direction, normal) * normal; };
+    const Vec3 dull = hemisphere(mirror(surface.normal));
     if (surface.spread > 0.7f) return dull;
+    if (surface.spread < 0.2f)
+        return surface.spread * dull + (1 - surface.spread) * met_by(surface, mirror(surface.normal));
+    Vec3 t, b, sum{};
+    across(surface.normal, t, b);
+    const Vec3 place = 1e3f * surface.point;  // places are at most 1e6 m away
+    const uint32_t start = mixed(mixed(mixed(static_cast<uint32_t>(static_cast<int32_t>(place.x))) +
+                                       static_cast<uint32_t>(static_cast<int32_t>(place.y))) +
+                                 static_cast<uint32_t>(static_cast<int32_t>(place.z)));
+    for (uint32_t k = 0; k < kDullRays; ++k) {
+        const PlaneTurn turn = turn_of(unit(start + k * 0x9e3779b9u));
+        const float radius = 0.5f * surface.spread * std::sqrt((static_cast<float>(k) + 0.5f) / kDullRays);
+        sum += met_by(surface, mirror(normalised(surface.normal + radius * (turn.cosine * t + turn.sine * b))));
+    }
+    return (1.0f / kDullRays) * sum;
+}
+
+// Things in full sun without shadows, which nobody misses in a mirror.
+Vec3 PictureLight::met_by(const SeenSurface& surface, Vec3 mirror) const {
     constexpr float kWide = 0.01f;  // rad, of the mirrored ray
     const SeenSurface met = scene_.opaque(surface.point, mirror, kWide);
-    if (met.body == kSkyBody) return surface.spread * dull + (1 - surface.spread) * met.colour;
+    // The air about the sun is bright.
+    if (met.body == kSkyBody) return met.colour + raised(std::max(0.0f, dot(mirror, towards_)), 8) * sunlight_;
     const float facing = std::max(0.0f, dot(met.normal, towards_));
-    const Vec3 clear = times(met.colour, (0.8f * facing) * sunlight_ + 0.8f * hemisphere(met.normal));
-    return surface.spread * dull + (1 - surface.spread) * hazed(met, mirror, clear);
+    return hazed(met, mirror, times(met.colour, (0.8f * facing) * sunlight_ + 0.8f * hemisphere(met.normal)));
 }
 
 Vec3 PictureLight::through(const SeenSurface& glass, Vec3 direction, Vec3 behind) const {

@@ -27,6 +27,7 @@ class PictureLight {
     Vec3 finished(const SeenSurface& surface, const Light& light, Vec3 direction) const;
     Vec3 clear(const SeenSurface& glass, Vec3 direction, Vec3 behind) const;
     Vec3 mirrored_light(const SeenSurface& surface, Vec3 direction) const;
+    Vec3 met_by(const SeenSurface& surface, Vec3 mirror) const;
 
     const PictureScene& scene_;
     const PictureSettings& settings_;

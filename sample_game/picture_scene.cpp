@@ -12,7 +12,7 @@ constexpr float kGlassShadow = 0.35f;      // share of light that a glass body k
 constexpr float kClearShadow = 0.16f;      // and one whose finish is glass
 const Vec3 kGroundColour{0.60f, 0.595f, 0.58f};
 const Vec3 kLineColour{0.20f, 0.21f, 0.23f};
-const Vec3 kFloorColour{0.40f, 0.385f, 0.365f};
+const Vec3 kFloorColour{0.205f, 0.195f, 0.18f};
 
 Vec3 coloured(Vec3 colour, FaceKind kind) {
     if (kind == FaceKind::Outer) return colour;
@@ -61,6 +61,13 @@ Vec3 sky_light(Vec3 direction) {
     const Vec3 horizon{0.93f, 0.94f, 0.95f}, zenith{0.50f, 0.64f, 0.84f};
     const float up = std::clamp(direction.y, 0.0f, 1.0f);
     const float t = up * (2 - up);
+    return (1 - t) * horizon + t * zenith;
+}
+
+// Deeper blue above, and warmer at the horizon: what shines has something to mirror.
+Vec3 clear_sky(Vec3 direction) {
+    const Vec3 horizon{1.05f, 1.05f, 1.04f}, zenith{0.22f, 0.42f, 0.80f};
+    const float low = 1 - std::clamp(direction.y, 0.0f, 1.0f), t = 1 - low * low * low * low;
     return (1 - t) * horizon + t * zenith;
 }
 
@@ -169,7 +176,7 @@ void PictureScene::lay_floor(float along_x, float along_z, SeenSurface& surface)
     const float shows = std::clamp(1.5f - footprint / kSlab, 0.0f, 1.0f);
     const float joint = std::max(line_cover(p.x, std::max(along_x, kSlabJoint), kSlab),
                                  line_cover(p.z, std::max(along_z, kSlabJoint), kSlab));
-    surface.colour = (1 + 0.03f * shows * shade) * (1 - 0.35f * joint) * look.colour;
+    surface.colour = (1 + 0.03f * shows * shade) * (1 - 0.25f * joint) * look.colour;
     surface.has_finish = true;
     surface.gloss = 0.5f;
     surface.facing = 0.03f;
@@ -213,7 +220,7 @@ SeenSurface PictureScene::opaque(Vec3 origin, Vec3 direction, float pixel_angle)
     SeenSurface sky;
     sky.distance = kViewFar;
     sky.normal = sky.face_normal = -direction;
-    sky.colour = sky_light(direction);
+    sky.colour = settings_.has_finishes ? clear_sky(direction) : sky_light(direction);
     return sky;
 }
 

@@ -77,5 +77,7 @@ class PictureScene {
 
 /// Light of the sky in a direction, linear.
 Vec3 sky_light(Vec3 direction);
+/// The same over what has finishes.
+Vec3 clear_sky(Vec3 direction);
 
 }  // namespace cullet

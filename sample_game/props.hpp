@@ -2,15 +2,17 @@
 #pragma once
 #include "cullet/world.hpp"
 #include "engine/mesh.hpp"
+#include "sample_game/finish.hpp"
 
 namespace cullet {
 
-/// Something that never moves: met by all, drawn in one colour.
+/// Something that never moves: met by all, drawn in one colour or with a finish.
 struct Prop {
     Mesh mesh;  // world coordinates
     ContactSettings contact;
     bool one_sided = false;  // its triangles bear on the side that sees them counter-clockwise alone
     Vec3 colour{0.45f, 0.42f, 0.38f};
+    Finish finish = Finish::Plain;
     bool is_ground = false;  // drawn as the ground with its grid, at its upper side
 };
 

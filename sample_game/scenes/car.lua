@@ -36,7 +36,7 @@ local gap = 0.04 * speed + 0.02
 for n, what in ipairs(lanes) do
     local z = 3.2 * (n - 0.5 * (#lanes + 1))
     throw(-half - gap, z, 1)
-    if what == "wall" then game.box{low = {0, 0, z - 1.2}, high = {0.4, 1.8, z + 1.2}, colour = grey} end
+    if what == "wall" then game.box{low = {0, 0, z - 1.2}, high = {0.4, 1.8, z + 1.2}, colour = grey, finish = "concrete"} end
     if what == "pole" then game.static{mesh = game.mesh.pole{radius = 0.15, height = 2.4}, at = {0.15, 0, z}} end
     if what == "car" then throw(half + gap, z + 0.25, -1) end
 end

@@ -20,7 +20,7 @@ game.floor()
 local border = 0.5 * side
 for _, x in ipairs{-border, border} do
     for _, z in ipairs{-border, border} do
-        game.box{low = {x - 0.02, 0, z - 0.02}, high = {x + 0.02, height - 0.05, z + 0.02}, colour = {0.3, 0.24, 0.18}}
+        game.box{low = {x - 0.02, 0, z - 0.02}, high = {x + 0.02, height - 0.05, z + 0.02}, colour = {0.3, 0.24, 0.18}, finish = "wood"}
     end
 end
 -- The sheet lies in x and z: its y runs towards -z.

@@ -18,7 +18,7 @@ local thing = game.cook{mesh = mesh, material = shell.material, fracture = shell
 game.fit_budget(thing)
 game.camera{eye = {1.35, 1.06, 1.85}, target = {0.08, 0.34, 0.35}, field_of_view = 0.72}
 game.floor()
-game.box{low = {-1.6, -0.3, -0.3}, high = {1.6, 1.6, 0}, colour = {0.38, 0.40, 0.42}}
+game.box{low = {-1.6, -0.3, -0.3}, high = {1.6, 1.6, 0}, colour = {0.38, 0.40, 0.42}, finish = "concrete"}
 game.spawn{
     cooked = thing,
     strength_scale = shell.strength_scale,

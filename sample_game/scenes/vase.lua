@@ -31,7 +31,7 @@ local vase = game.cook{
 }
 game.sun{towards = {-0.35, 0.8, 0.5}, strength = 2.3}
 game.floor()
-game.static{mesh = game.mesh.table{width = 1.2, depth = table_depth, height = table_height}, colour = {0.28, 0.17, 0.09}}
+game.static{mesh = game.mesh.table{width = 1.2, depth = table_depth, height = table_height}, colour = {0.28, 0.17, 0.09}, finish = "wood"}
 local whole = game.spawn{
     cooked = vase,
     strength_scale = shell.strength_scale,

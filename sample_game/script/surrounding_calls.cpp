@@ -23,6 +23,15 @@ int add(lua_State* lua, const Arguments& given, const char* call, Prop prop) {
     return 1;
 }
 
+/// How it looks, by a material's name; what it is like to the touch stays as it is.
+Finish finish_in(const Arguments& given) {
+    constexpr const char* kNames = "brick, concrete, glass, porcelain, wood, steel, aluminium, copper, cloth or rubber";
+    if (!given.has("finish")) return Finish::Plain;
+    const Finish finish = finish_of(given.word("finish", kNames));
+    if (finish == Finish::Plain) given.refuse_value("finish", kNames);
+    return finish;
+}
+
 int add_floor(lua_State* lua) {
     script_of(lua).act(lua);
     const Arguments given(lua, "game.floor", {"half_side", "height", "friction", "restitution", "rolling_friction"},
@@ -33,23 +42,28 @@ int add_floor(lua_State* lua) {
 
 int add_box(lua_State* lua) {
     script_of(lua).act(lua);
-    const Arguments given(lua, "game.box", {"low", "high", "colour", "friction", "restitution", "rolling_friction"});
+    const Arguments given(lua, "game.box",
+                          {"low", "high", "colour", "finish", "friction", "restitution", "rolling_friction"});
     const Vec3 low = given.vector("low", kPlace), high = given.vector("high", kPlace);
     if (!(low.x < high.x && low.y < high.y && low.z < high.z))
         given.refuse("high is not above low along all three axes; expected two opposite corners");
-    return add(lua, given, "game.box", box_prop(low, high, given.vector("colour", kShare, Prop().colour)));
+    Prop prop = box_prop(low, high, given.vector("colour", kShare, Prop().colour));
+    prop.finish = finish_in(given);
+    return add(lua, given, "game.box", std::move(prop));
 }
 
 int add_static(lua_State* lua) {
     script_of(lua).act(lua);
-    const Arguments given(lua, "game.static",
-                          {"mesh", "at", "colour", "friction", "restitution", "rolling_friction", "one_sided"});
+    const Arguments given(
+        lua, "game.static",
+        {"mesh", "at", "colour", "finish", "friction", "restitution", "rolling_friction", "one_sided"});
     given.push("mesh");
     Prop prop;
     prop.mesh = mesh_at(lua, lua_gettop(lua), "game.static: mesh").mesh;
     lua_pop(lua, 1);
     if (given.has("at")) prop.mesh = moved(std::move(prop.mesh), given.vector("at", kPlace));
     prop.colour = given.vector("colour", kShare, prop.colour);
+    prop.finish = finish_in(given);
     prop.one_sided = given.is("one_sided", false);
     return add(lua, given, "game.static", std::move(prop));
 }
