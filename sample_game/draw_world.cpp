@@ -134,6 +134,7 @@ void add_bodies(Drawing& drawing, const LookedAt& at) {
     std::vector<BodyId> ids(world.bodies(nullptr, 0));
     world.bodies(ids.data(), static_cast<uint32_t>(ids.size()));
     const Mesh ball = make_ball(1, 4);
+    const std::vector<Vec3>& outward = drawing.points.emplace_back(ball.positions);
     for (const BodyId id : ids) {
         const uint32_t b = id.index;
         if (rows.is_sphere[b]) {
@@ -142,6 +143,7 @@ void add_bodies(Drawing& drawing, const LookedAt& at) {
             body.colour = kSteel;
             body.gloss = kPolished;
             body.finish = Finish::Steel;
+            if (at.is_real()) body.normals = outward, body.is_outlined = false;
             continue;
         }
         const Result<BodyView> view = world.view(id);
@@ -156,7 +158,7 @@ void add_bodies(Drawing& drawing, const LookedAt& at) {
         body.gloss = look.gloss;
         body.finish = look.finish;
         body.pattern_size = look.pattern_size;
-        if (at.is_real()) body.is_outlined = false;
+        if (at.is_real()) body.is_outlined = look.finish == Finish::Glass;
     }
 }
 

@@ -175,8 +175,8 @@ FinishLook concrete(const FinishPlace& place) {
         return look;
     }
     const float pore = seen_share(0.008f, place.footprint) * std::max(0.0f, noise(120.0f * place.point) - 0.55f);
-    look.colour = (1 + 0.05f * stain + 0.07f * rough - 1.2f * pore) * Vec3{0.45f, 0.445f, 0.43f};
-    look.tilt = 0.05f * rough * Vec3{1, 1, -1};
+    look.colour = (1 + 0.06f * stain + 0.035f * rough - 1.2f * pore) * Vec3{0.45f, 0.445f, 0.43f};
+    look.tilt = 0.012f * rough * Vec3{1, 1, -1};
     return look;
 }
 

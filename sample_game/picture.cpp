@@ -19,7 +19,8 @@ constexpr uint32_t kFirstSkyRays = 1;
 constexpr uint32_t kMoreSkyRays = 3;  // where something shades the sky
 constexpr uint32_t kLostRays = 8;     // for a point between pixels that has no like neighbour
 constexpr float kLineDarkness = 0.85f, kHairlineDarkness = 0.75f;
-constexpr int kFilterReach = 2;  // pixels; 5 x 5 holds every pixel of the 4 x 4 pattern of rays
+constexpr float kFinishedLineDarkness = 0.5f;  // only of glass, whose cracks are thinner than a pixel
+constexpr int kFilterReach = 2;                // pixels; 5 x 5 holds every pixel of the 4 x 4 pattern of rays
 
 // What of a pixel's surface the filter and the edges ask for again and again.
 struct Pixel {
@@ -352,7 +353,8 @@ Picture Painter::paint() {
     const std::vector<float> hairline = hairlines();
     each_row([&](uint32_t y) {
         for (uint32_t x = 0; x < width; ++x) {
-            const float ink = std::max(kLineDarkness * line(x, y), kHairlineDarkness * hairline[at(x, y)]);
+            const float darkness = settings_.has_finishes ? kFinishedLineDarkness : kLineDarkness;
+            const float ink = std::max(darkness * line(x, y), kHairlineDarkness * hairline[at(x, y)]);
             store(picture.pixel(x, y), (settings_.exposure * (1 - ink)) * colours_[at(x, y)], x, y);
         }
     });

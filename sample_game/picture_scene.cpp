@@ -181,7 +181,7 @@ void PictureScene::lay_floor(float along_x, float along_z, SeenSurface& surface)
     surface.gloss = 0.5f;
     surface.facing = 0.03f;
     surface.sharpness = 16;
-    surface.spread = 0.35f;
+    surface.spread = 0.8f;
 }
 
 SeenSurface PictureScene::ground(Vec3 origin, Vec3 direction, float distance, float pixel_angle) const {

@@ -41,6 +41,13 @@ TEST(Options, ARunIsReadWithAllThatCanBeGiven) {
     EXPECT_EQ(run.set, (std::vector<std::string>{"scene.speed_mps=3", "hold_s=0"}));
 }
 
+TEST(Options, PicturesShowMaterialsUnlessPiecesAreAskedFor) {
+    EXPECT_EQ(parse_options({"run", "vase"})->run.look, PictureLook::Material);
+    EXPECT_EQ(parse_options({"run", "vase", "--look", "pieces"})->run.look, PictureLook::Pieces);
+    EXPECT_EQ(parse_options({"run", "vase", "--width", "640"})->run.width, 640u);
+    expect_a_sentence(parse_options({"run", "vase", "--look", "nice"}).error());
+}
+
 TEST(Options, EverySceneCanBeRunByItsName) {
     for (const Scene& scene : scenes()) EXPECT_TRUE(parse_options({"run", scene.name}).ok()) << scene.name;
     EXPECT_TRUE(parse_options({"run", "show_reel"}).ok());

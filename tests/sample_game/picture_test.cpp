@@ -163,6 +163,26 @@ float ink_between(std::span<const DrawnBody> bodies, float shift) {
     return ink;
 }
 
+// Each of the finishes, on any number of threads alike; what is broken shows another colour.
+TEST(Picture, FinishesAreDrawnTheSameInAnyOrderOfRows) {
+    for (const Finish finish : {Finish::Porcelain, Finish::Brick, Finish::Glass, Finish::Steel, Finish::Cloth}) {
+        const Shape ball = sphere(16, 32);
+        DrawnBody body = ball.body();
+        body.finish = finish;
+        body.opacity = finish == Finish::Glass ? 0.4f : 1;
+        PictureSettings settings = small();
+        settings.has_finishes = true;
+        const Picture once = draw(std::span(&body, 1), front(1.2f), Sun{}, settings);
+        settings.for_each = [](uint32_t count, const std::function<void(uint32_t)>& job) {
+            for (uint32_t i = count; i-- > 0;) job(i);
+        };
+        EXPECT_EQ(draw(std::span(&body, 1), front(1.2f), Sun{}, settings).rgb, once.rgb);
+        const DrawnRun broken{0, static_cast<uint32_t>(body.indices.size()), FaceKind::Crack};
+        body.runs = std::span(&broken, 1);
+        EXPECT_NE(draw(std::span(&body, 1), front(1.2f), Sun{}, settings).rgb, once.rgb);
+    }
+}
+
 TEST(Picture, ALineOfTheSameInkSeparatesTwoBodiesOfOneColourUnlessNeitherIsOutlined) {
     const Shape shape = square();
     DrawnBody bodies[2] = {shape.body(), shape.body()};
