@@ -174,7 +174,7 @@ FinishLook concrete(const FinishPlace& place) {
                       between({0.47f, 0.45f, 0.42f}, (0.25f + 0.5f * stone) * Vec3{0.80f, 0.74f, 0.66f}, shows);
         return look;
     }
-    const float pore = seen_share(0.008f, place.footprint) * std::max(0.0f, noise(120.0f * place.point) - 0.55f);
+    const float pore = seen_share(0.008f, place.footprint) * std::max(0.0f, noise(90.0f * place.point) - 0.72f);
     look.colour = (1 + 0.06f * stain + 0.035f * rough - 1.2f * pore) * Vec3{0.45f, 0.445f, 0.43f};
     look.tilt = 0.012f * rough * Vec3{1, 1, -1};
     return look;

@@ -14,7 +14,7 @@ constexpr float kSecondsAhead = 1.0f;      // so far ahead something is about to
 constexpr double kNotedSeconds = 3;        // and so long it stays in the picture
 constexpr size_t kMostMoving = 128;        // that others are compared with
 constexpr float kLeastReach = 0.08f;       // m
-constexpr float kOutlier = 1.6f;           // times the mean distance; what is farther is let go
+constexpr float kOutlier = 1.25f;          // times the mean distance; what is farther is let go
 constexpr float kMostBehind = 0.4f;        // of the reach, that the picture's middle lags
 constexpr float kGone = 20;                // m below the ground
 constexpr Vec3 kFrom{0.50f, 0.40f, 1.0f};  // from the middle to the eye

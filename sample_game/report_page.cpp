@@ -122,7 +122,7 @@ std::string numbers(const Report& r) {
                                         r.frame_ms.p99, r.frame_ms.max));
     table += row("frames that broke something",
                  fmt::format("{}, worst {:.2f} ms", r.fracture_frames.count, r.fracture_frames.max_ms));
-    table += row("worst frame", worst_frame_line(r));
+    table += row("worst", worst_frame_line(r).substr(6));
     table += row("mass", fmt::format("{:.6f} kg put in, {:.6f} kg at the end", r.mass_kg.start, r.mass_kg.end));
     table += row("at the end", fmt::format("{:.1f} % asleep", 100 * r.rest.asleep_share));
     if (!r.hash.empty()) table += row("hash", r.hash);

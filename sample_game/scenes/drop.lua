@@ -16,7 +16,9 @@ local mesh = game.mesh.given{size = size}
 local thing = game.cook{mesh = mesh, material = shell.material, fracture = shell.cracks, thickness = shell.thickness, edge = shell.edge,
                         propagation = way, join_walls = walls == "joined"}
 game.fit_budget(thing)
-game.camera{eye = {1.35, 1.06, 1.85}, target = {0.08, 0.34, 0.35}, field_of_view = 0.72}
+if size == 0.4 then -- of other sizes the pictures frame what moves
+    game.camera{eye = {1.35, 1.06, 1.85}, target = {0.08, 0.34, 0.35}, field_of_view = 0.72}
+end
 game.floor()
 game.box{low = {-1.6, -0.3, -0.3}, high = {1.6, 1.6, 0}, colour = {0.38, 0.40, 0.42}, finish = "concrete"}
 game.spawn{
