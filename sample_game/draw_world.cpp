@@ -24,6 +24,7 @@ FaceKind kind_of(SurfaceKind kind) {
 struct LookedAt {
     const GameWorld& game;
     PictureLook look;
+    const Unmoved& unmoved;
 
     bool is_real() const { return look == PictureLook::Material; }
     const Look& of(uint64_t user_data) const {
@@ -158,6 +159,7 @@ void add_bodies(Drawing& drawing, const LookedAt& at) {
         body.gloss = look.gloss;
         body.finish = look.finish;
         body.pattern_size = look.pattern_size;
+        if (at.is_real()) body.unmoved = drawing.points.emplace_back(at.unmoved.of(id, *view));
         if (at.is_real()) body.is_outlined = look.finish == Finish::Glass;
     }
 }
@@ -204,8 +206,9 @@ void add_debris(Drawing& drawing, const LookedAt& at) {
 
 }  // namespace
 
-Picture draw_world(const GameWorld& game, const Camera& camera, PictureLook look, uint32_t threads, uint32_t width) {
-    const LookedAt at{game, look};
+Picture draw_world(const GameWorld& game, const Camera& camera, PictureLook look, uint32_t threads, uint32_t width,
+                   const Unmoved& unmoved) {
+    const LookedAt at{game, look, unmoved};
     Drawing drawing;
     add_props(drawing, game.stage());
     add_movers(drawing, game.stage());

@@ -134,7 +134,7 @@ FinishLook brick(const FinishPlace& place) {
     look.colour = between(colour, mortar, joint);
     if (is_crack) return look;
     // Joints lie deeper: edges of bricks are round.
-    const float share = seen_share(2 * kJoint, place.footprint);
+    const float share = seen_share(0.004f, place.footprint);
     const auto bevel = [](float x, float period) {
         const float off = x - period * std::floor(x / period + 0.5f), far = std::fabs(off);
         return far > 0.5f * kJoint - 0.002f && far < 0.5f * kJoint + 0.005f ? (off > 0 ? -1.0f : 1.0f) : 0.0f;
@@ -155,7 +155,7 @@ FinishLook porcelain(const FinishPlace& place) {
         return look;
     }
     const float cloud = noise(14.0f * place.point);
-    look.colour = (1 + 0.012f * cloud) * Vec3{0.735f, 0.75f, 0.755f};
+    look.colour = (1 + 0.012f * cloud) * Vec3{0.695f, 0.71f, 0.715f};
     look.gloss = 1;
     look.facing = 0.06f;
     look.sharpness = 512;

@@ -32,13 +32,14 @@ Result<void> Pictures::take(const GameWorld& game) {
     const auto frame = static_cast<uint32_t>(game.frame());
     const bool has_camera = game.stage().has_camera;
     const bool has_pictures = options_.draw > 0 || options_.has_video || !tiles_.empty();
+    if (has_pictures) unmoved_.remember(game);
     if (!has_camera && has_pictures) framing_.follow(game);
     const bool is_single = options_.draw > 0 && frame % options_.draw == 0;
     const bool is_filmed = options_.has_video && frame % film_every_ == 0;
     const bool is_tile = std::find(sheet_frames_.begin(), sheet_frames_.end(), frame) != sheet_frames_.end();
     if (!is_single && !is_tile && !is_filmed) return {};
-    const Picture picture =
-        draw_world(game, has_camera ? game.stage().camera : framing_.camera(), options_.look, threads_, options_.width);
+    const Picture picture = draw_world(game, has_camera ? game.stage().camera : framing_.camera(), options_.look,
+                                       threads_, options_.width, unmoved_);
     for (size_t t = 0; t < tiles_.size(); ++t)
         if (sheet_frames_[t] == frame) tiles_[t] = picture;
     if (is_filmed)

@@ -6,6 +6,7 @@
 #include "sample_game/framing.hpp"
 #include "sample_game/game_world.hpp"
 #include "sample_game/options.hpp"
+#include "sample_game/unmoved.hpp"
 
 namespace cullet {
 
@@ -27,6 +28,7 @@ class Pictures {
     std::vector<uint32_t> sheet_frames_;
     std::vector<Picture> tiles_;
     Film film_;
+    Unmoved unmoved_;
     Framing framing_;      // for scenes that name no camera
     uint32_t film_every_;  // frames: about 30 pictures a second
 };
