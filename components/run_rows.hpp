@@ -1,5 +1,6 @@
 // What damage runs work on: shells, their tasks and what a run keeps beside them.
 #pragma once
+#include "components/lattice.hpp"
 #include "components/quick.hpp"
 #include "components/regions.hpp"
 #include "components/shell_rows.hpp"
@@ -27,6 +28,8 @@ struct TablesOfRuns {
     MarkedPacks marked_packs{limits.tasks * kMostMarkedPacks};
     QuickRuns quick_runs{limits.tasks};
     RegionRests region_rests{limits.tasks};
+    LatticeRuns lattice_runs{limits.tasks};
+    LatticeResults lattice_results{limits.tasks};
 };
 struct RunRows : ShellRows, TablesOfRuns {
     RunRows(const Limits& l, const MaterialRows& of_what);

@@ -7,6 +7,7 @@
 #include "components/shell_parts.hpp"
 #include "components/shells.hpp"
 #include "components/springs.hpp"
+#include "components/tetrahedra.hpp"
 #include "components/vertex_blocks.hpp"
 #include "engine/scratch.hpp"
 #include "engine/system.hpp"
@@ -55,6 +56,15 @@ inline uint32_t metal_spring_limit(const Limits& l) {
     return l.elements * 4;
 }
 
+/// Of solids, all of them together. A solid of 1,500 cells has about 8,000 tetrahedra, 1,500 coarse ones if they are
+/// cut in 8, and 2,000 points.
+inline uint32_t lattice_limit(const Limits& l) {
+    return l.elements / 2;
+}
+inline uint32_t cooked_limit(const Limits& l) {
+    return l.models + l.tasks;
+}
+
 /// What bodies are made of, as far as all kinds of structures are alike.
 struct TablesOfStructures {
     Limits limits;
@@ -74,17 +84,47 @@ inline Row<Shells> shell_of(const Structures& structures, Row<Structures> struct
     return Row<Shells>(structures.rows[structure]);
 }
 
+/// And solids.
+struct TablesOfSolids {
+    Limits limits;
+    CookedSolids cooked_solids{cooked_limit(limits), cooked_limit(limits)};
+    LatticeNodes lattice_nodes{lattice_limit(limits), cooked_limit(limits)};
+    PointWindings point_windings{lattice_limit(limits), cooked_limit(limits)};
+    Tetrahedra tetrahedra{lattice_limit(limits), cooked_limit(limits)};
+    CoarseTetrahedra coarse_tetrahedra{lattice_limit(limits) / 4, cooked_limit(limits)};
+    SolidCellRows solid_cells{lattice_limit(limits) / 2, cooked_limit(limits)};
+    SolidMoments solid_moments{lattice_limit(limits), cooked_limit(limits)};
+    SolidBondRows solid_bonds{lattice_limit(limits), cooked_limit(limits)};
+    SolidPatches solid_patches{lattice_limit(limits), cooked_limit(limits)};
+    MeshTriangles mesh_triangles{lattice_limit(limits), cooked_limit(limits)};
+    Solids solids{limits.shells, limits.shells};
+    SolidMembers solid_members{lattice_limit(limits) / 2, limits.shells};
+    MovedNodes moved_nodes{lattice_limit(limits) / 2, limits.shells};
+    SkinPoints skin_points{limits.vertices, limits.shells};
+    SkinTriangles skin_triangles{limits.elements, limits.shells};
+};
+struct SolidRows : StructureRows, TablesOfSolids {
+    SolidRows(const Limits& l, const MaterialRows& of_what) : StructureRows(l, of_what), TablesOfSolids{l} {}
+
+    using Below = StructureRows;
+    using Own = TablesOfSolids;
+};
+/// The row of a structure that is a solid.
+inline Row<Solids> solid_of(const Structures& structures, Row<Structures> structure) {
+    return Row<Solids>(structures.rows[structure]);
+}
+
 /// What shells come apart into.
 struct TablesOfParts {
     Limits limits;
     ShellParts shell_parts{(limits.tasks + 1) * kMostParts};
 };
-struct PartRows : StructureRows, TablesOfParts {
-    PartRows(const Limits& l, const MaterialRows& of_what) : StructureRows(l, of_what), TablesOfParts{l} {
+struct PartRows : SolidRows, TablesOfParts {
+    PartRows(const Limits& l, const MaterialRows& of_what) : SolidRows(l, of_what), TablesOfParts{l} {
         shell_parts.append((l.tasks + 1) * kMostParts);
     }
 
-    using Below = StructureRows;
+    using Below = SolidRows;
     using Own = TablesOfParts;
 };
 

@@ -34,7 +34,7 @@ struct TablesOfFragments {
 };
 
 /// Whoever holds it reaches everything. So systems and their helpers take only the tables that they need, or one of the
-/// sets of tables that it stands on: SoftRows, BodyRows, RunRows, ShellRows, StructureRows, MaterialRows.
+/// sets of tables that it stands on: SoftRows, BodyRows, RunRows, ShellRows, SolidRows, StructureRows, MaterialRows.
 struct State : TablesOfMaterials, SoftRows, TablesOfDebris, TablesOfBlows, TablesOfFragments {
     explicit State(const Limits& limits = {});
 
@@ -42,9 +42,9 @@ struct State : TablesOfMaterials, SoftRows, TablesOfDebris, TablesOfBlows, Table
 
     static constexpr bool kHoldsEveryTable = true;
     /// In the order of the hash and of files.
-    using Sets =
-        TypeList<TablesOfMaterials, TablesOfStructures, TablesOfShells, TablesOfMetal, TablesOfBodies,
-                 TablesOfSoftBodies, TablesOfDebris, TablesOfRuns, TablesOfBlows, TablesOfParts, TablesOfFragments>;
+    using Sets = TypeList<TablesOfMaterials, TablesOfStructures, TablesOfShells, TablesOfMetal, TablesOfBodies,
+                          TablesOfSoftBodies, TablesOfDebris, TablesOfRuns, TablesOfBlows, TablesOfParts,
+                          TablesOfFragments, TablesOfSolids>;
     /// Calls f(table) for each, in that order.
     template <class F>
     void for_each_table(F&& f) {

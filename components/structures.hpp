@@ -9,7 +9,7 @@
 namespace cullet {
 
 /// Whose table has what only this kind of structure has: Structures::rows is a row of it.
-enum class StructureKind : uint8_t { Shell = 0 };  // Shells
+enum class StructureKind : uint8_t { Shell = 0, Tetrahedra = 1 };  // Shells, Solids
 
 /// What stands for a structure in the rigid world: hulls of its cells, or one hull or box for all of it.
 enum class ShapeKind : uint8_t { Cells = 0, Hull = 1, Box = 2 };

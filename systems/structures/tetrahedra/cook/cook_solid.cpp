@@ -56,7 +56,7 @@ Result<CookedSolid> cook_solid(const Mesh& given, const SolidSettings& settings)
     solid.volume = mesh.volume, solid.area = mesh.area, solid.thickness = 2 * mesh.volume / mesh.area;
 
     const double widest = kWidestCell * solid.thickness;
-    LatticeSettings wanted;
+    CoverSettings wanted;
     wanted.edge = edge_of(mesh.volume, solid.thickness, settings.cells);
     wanted.element_edges = settings.element_edges;
     wanted.jitter = settings.jitter;

@@ -291,7 +291,7 @@ double edge_for(double volume, double cells) {
     return std::ldexp(root, third);
 }
 
-Result<CoverLattice> cover_lattice(const ClosedMesh& mesh, const LatticeSettings& settings) {
+Result<CoverLattice> cover_lattice(const ClosedMesh& mesh, const CoverSettings& settings) {
     const LatticeTurn turn;
     const Vec3d centre = 0.5 * (mesh.low + mesh.high);
     const double cube = settings.element_edges * settings.edge;

@@ -6,7 +6,7 @@
 
 namespace cullet {
 
-struct LatticeSettings {
+struct CoverSettings {
     double edge = 0;                 // a, m: of the cubes of fine tetrahedra
     uint32_t element_edges = 2;      // a finite element's cube has an edge of 2 a or 4 a
     double jitter = 0.1;             // of a finite element's edge, of its corners
@@ -15,7 +15,7 @@ struct LatticeSettings {
 
 /// Tetrahedra that the surface meets, all that it encloses, and those around them. No vertex of a tetrahedron that
 /// holds solid is on the rim. Needs no inside test and fits nothing to the surface.
-Result<CoverLattice> cover_lattice(const ClosedMesh& mesh, const LatticeSettings& settings);
+Result<CoverLattice> cover_lattice(const ClosedMesh& mesh, const CoverSettings& settings);
 
 /// Edge a of cubes of which `cells` tetrahedra hold a volume.
 double edge_for(double volume, double cells);
