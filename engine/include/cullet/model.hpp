@@ -10,6 +10,7 @@
 
 #include "cullet/host.hpp"
 #include "cullet/material.hpp"
+#include "cullet/lattice.hpp"
 #include "cullet/metal_shell.hpp"
 #include "cullet/result.hpp"
 #include "cullet/setting_list.hpp"
@@ -85,6 +86,7 @@ struct CookSettings {
     // Of one damage model each; those of the others count for nothing.
     ThickShellCookSettings thick_shell = {};
     MetalShellSettings metal_shell = {};
+    LatticeSettings lattice = {};
     /// Called now and then on the thread that cooks; never falls, ends with 1.
     void (*progress)(void* user, float share) = nullptr;  // 0 to 1
     void* progress_user = nullptr;

@@ -1,0 +1,10 @@
+// A material's row as the break of a solid takes it.
+#pragma once
+#include "components/shell_rows.hpp"
+#include "systems/models/lattice/crack/blow.hpp"
+
+namespace cullet {
+
+BrittleSolid brittle_of(const MaterialRows& rows, Row<Materials> material);
+
+}  // namespace cullet

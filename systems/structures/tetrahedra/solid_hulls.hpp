@@ -1,0 +1,13 @@
+// Convex pieces of a solid as cells of its structure: each hull is a cell with points of its own.
+#pragma once
+#include <span>
+
+#include "components/shell_rows.hpp"
+#include "systems/structures/tetrahedra/cook/convex_pieces.hpp"
+
+namespace cullet {
+
+/// Fills cells and points of a structure that has room for them, and its margin: points are pulled in by it.
+void write_hulls(StructureRows& rows, Row<Structures> structure, std::span<const SolidHull> hulls, double thickness);
+
+}  // namespace cullet
