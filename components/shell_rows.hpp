@@ -93,6 +93,7 @@ struct TablesOfSolids {
     Tetrahedra tetrahedra{lattice_limit(limits), cooked_limit(limits)};
     CoarseTetrahedra coarse_tetrahedra{lattice_limit(limits) / 4, cooked_limit(limits)};
     SolidCellRows solid_cells{lattice_limit(limits) / 2, cooked_limit(limits)};
+    RawCellRows raw_cells{lattice_limit(limits), cooked_limit(limits)};
     SolidMoments solid_moments{lattice_limit(limits), cooked_limit(limits)};
     SolidBondRows solid_bonds{lattice_limit(limits), cooked_limit(limits)};
     SolidPatches solid_patches{lattice_limit(limits), cooked_limit(limits)};
@@ -112,7 +113,7 @@ struct SolidRows : StructureRows, TablesOfSolids {
 /// Rows that a cooked solid needs.
 struct CookedRoom {
     uint32_t lattice_points = 0, tetrahedra = 0, coarse = 0, windings = 0, cells = 0, moments = 0, bonds = 0;
-    uint32_t patches = 0, points = 0, triangles = 0;
+    uint32_t patches = 0, points = 0, triangles = 0, raw = 0;
 };
 /// Calls f(range, table, rows wanted, limit) for each table of which a cooked solid has a range.
 template <class Rows, class F>
@@ -123,6 +124,7 @@ void for_each_cooked_range(Rows& rows, Row<CookedSolids> row, const CookedRoom& 
     f(own.coarse[row], rows.coarse_tetrahedra, room.coarse, "limits.elements");
     f(own.windings[row], rows.point_windings, room.windings, "limits.elements");
     f(own.cells[row], rows.solid_cells, room.cells, "limits.elements");
+    f(own.raw[row], rows.raw_cells, room.raw, "limits.elements");
     f(own.moments[row], rows.solid_moments, room.moments, "limits.elements");
     f(own.bonds[row], rows.solid_bonds, room.bonds, "limits.elements");
     f(own.patches[row], rows.solid_patches, room.patches, "limits.elements");

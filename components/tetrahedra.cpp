@@ -83,6 +83,7 @@ CookedRoom room_of(const SolidRows& rows, Row<CookedSolids> cooked) {
     room.coarse = own.coarse[cooked].count;
     room.windings = own.windings[cooked].count;
     room.cells = own.cells[cooked].count;
+    room.raw = own.raw[cooked].count;
     room.moments = own.moments[cooked].count;
     room.bonds = own.bonds[cooked].count;
     room.patches = own.patches[cooked].count;

@@ -30,6 +30,7 @@ struct CookedSolids : RangeTable<CookedSolids> {
     Column<Range> coarse{*this, "coarse"};                      // CoarseTetrahedra
     Column<Range> windings{*this, "windings"};                  // PointWindings
     Column<Range> cells{*this, "cells"};                        // SolidCells
+    Column<Range> raw{*this, "raw"};                            // RawCellRows
     Column<Range> moments{*this, "moments"};                    // SolidMoments
     Column<Range> bonds{*this, "bonds"};                        // SolidBonds
     Column<Range> patches{*this, "patches"};                    // SolidPatches
@@ -72,6 +73,14 @@ struct SolidCellRows : RangeTable<SolidCellRows> {
     static constexpr const char* kName = "solid_cells";
     Column<uint32_t> tetrahedron{*this, "tetrahedron"};
     Column<double> volume{*this, "volume", "m3"};
+    Column<Vec3d> centroid{*this, "centroid", "m"};
+};
+/// By tetrahedron: what it held before small cells were merged.
+struct RawCellRows : RangeTable<RawCellRows> {
+    using RangeTable::RangeTable;
+    static constexpr const char* kName = "raw_cells";
+    Column<uint32_t> tetrahedron{*this, "tetrahedron"};
+    Column<uint32_t> cell{*this, "cell"};
     Column<Vec3d> centroid{*this, "centroid", "m"};
 };
 /// By cell: what it has in one coarse tetrahedron.

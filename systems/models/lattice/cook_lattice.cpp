@@ -28,9 +28,10 @@ SolidSettings settings_of(const Cooking& from) {
 /// Room for the solid and a few of its copies: rows of a solid follow from both limits (components/shell_rows.hpp).
 Limits limits_for(const CookedSolid& cooked, size_t hulls) {
     const Solid& solid = cooked.solid;
-    const size_t listed = std::max({solid.lattice.points.size(), cooked.windings.list.size(), solid.lattice.fine.size(),
-                                    4 * solid.lattice.coarse.size(), 2 * solid.cells.size(), solid.moments.size(),
-                                    solid.bonds.size(), solid.patches.size(), cooked.mesh.triangles.size()});
+    const size_t listed =
+        std::max({solid.lattice.points.size(), cooked.windings.list.size(), solid.lattice.fine.size(),
+                  4 * solid.lattice.coarse.size(), 2 * solid.cells.size(), cooked.raw.size(), solid.moments.size(),
+                  solid.bonds.size(), solid.patches.size(), cooked.mesh.triangles.size()});
     const size_t points = std::max(cooked.mesh.positions.size(), 16 * hulls);
     return cooking_limits(static_cast<uint32_t>(points), static_cast<uint32_t>(listed));
 }

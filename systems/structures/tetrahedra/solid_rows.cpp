@@ -18,6 +18,7 @@ CookedRoom room_for(const CookedSolid& cooked) {
     room.coarse = size_of(solid.lattice.coarse);
     room.windings = size_of(cooked.windings.list);
     room.cells = size_of(solid.cells);
+    room.raw = size_of(cooked.raw);
     room.moments = size_of(solid.moments);
     room.bonds = size_of(solid.bonds);
     room.patches = size_of(solid.patches);
@@ -189,6 +190,11 @@ Row<Structures> write_solid(SolidRows& rows, const CookedSolid& cooked, const Me
     own.parts[row] = cooked.mesh.part_count;
     write_lattice(rows, cooked, row);
     write_cells(rows, cooked.solid, row);
+    uint32_t r = own.raw[row].first;
+    for (const RawCell& part : cooked.raw) {
+        rows.raw_cells.tetrahedron[r] = part.tetrahedron, rows.raw_cells.cell[r] = part.cell;
+        rows.raw_cells.centroid.set(r++, part.centroid);
+    }
     write_skin(rows, cooked, mesh, row);
     const Row<Solids> solid = solid_of(rows.structures, structure);
     rows.solids.is_whole[solid] = 1;
@@ -225,6 +231,9 @@ CookedSolid read_solid(const SolidRows& rows, Row<CookedSolids> row) {
     each(own.cells[row], [&](uint32_t r) {
         solid.cells.push_back(
             {rows.solid_cells.tetrahedron[r], rows.solid_cells.volume[r], rows.solid_cells.centroid[r]});
+    });
+    each(own.raw[row], [&](uint32_t r) {
+        cooked.raw.push_back({rows.raw_cells.tetrahedron[r], rows.raw_cells.cell[r], rows.raw_cells.centroid[r]});
     });
     each(own.moments[row], [&](uint32_t r) {
         solid.moments.push_back(

@@ -82,6 +82,12 @@ Result<CookedSolid> cook_solid(const Mesh& given, const SolidSettings& settings)
     merging.least_share = settings.merge_below;
     std::vector<uint32_t> merged;
     merge_cells(request, *cut, raw, merging, solid, merged);
+    for (uint32_t c = 0; c < raw.cells.size(); ++c) {
+        const CutCell& part = raw.cells[c];
+        const double volume = part.sums.volume > 0 ? part.sums.volume : 1;
+        cooked.raw.push_back(
+            {part.tetrahedron, merged[c], raw.middles[part.tetrahedron] + (1 / volume) * part.sums.first});
+    }
     cooked.windings = std::move(cut->windings);
     cooked.tetrahedron_of = std::move(cut->tetrahedron_of);
     return cooked;

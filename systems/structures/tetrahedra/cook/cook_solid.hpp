@@ -15,12 +15,19 @@ struct SolidSettings {
     double weld_tolerance = 0;     // as of SurfaceSettings
 };
 
+/// What one tetrahedron held before small cells were merged: a break looks up by it whose a tetrahedron's parts are.
+struct RawCell {
+    uint32_t tetrahedron = 0, cell = 0;
+    Vec3d centroid;
+};
+
 /// A solid and what it was made from: a break cuts again, with moved points of the lattice.
 struct CookedSolid {
     Solid solid;
     ClosedMesh mesh;
     LatticeFaces faces;
     Windings windings;                     // of the lattice's points
+    std::vector<RawCell> raw;              // by tetrahedron
     std::vector<uint32_t> tetrahedron_of;  // where each vertex of the mesh is
     std::string notes;                     // for a person: what was closed; or nothing
 };
