@@ -1,6 +1,7 @@
 // The kinds of structures that there are.
 #include "systems/models.hpp"
 #include "systems/structures/shell/structure.hpp"
+#include "systems/structures/tetrahedra/structure.hpp"
 
 namespace cullet {
 
@@ -9,7 +10,7 @@ std::vector<SlotList> structures() {
 }
 
 const StructureCalls& calls_of(const Structures& structures, Row<Structures> structure) {
-    static const StructureCalls* const calls[] = {&shell_calls()};  // by StructureKind
+    static const StructureCalls* const calls[] = {&shell_calls(), &tetrahedra_calls()};  // by StructureKind
     return *calls[structures.kind[structure]];
 }
 
