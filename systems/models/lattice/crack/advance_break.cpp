@@ -65,7 +65,7 @@ void decide_on_cracks(const BreakableSolid& body, BreakRun& run) {
         return;
     }
     const double volume = run.volume[run.at_piece];
-    const double duration = run.contact.duration / run.share * power(volume / body.solid.volume, kDurationPower);
+    const double duration = run.contact.duration / run.share * power(volume / run.volume_before, kDurationPower);
     run.load = load_share(ratio, duration, volume, run.brittle);
     find_directions(run);
     run.stage = run.rules.is_curved ? BreakStage::Field : BreakStage::Crack;
@@ -100,18 +100,22 @@ void try_crack(const BreakableSolid& body, BreakRun& run) {
 }  // namespace
 
 void begin_break(const BreakableSolid& body, const BrittleSolid& brittle, const SolidBlow& blow,
-                 const CrackRules& rules, std::span<const uint8_t> held, BreakRun& run) {
+                 const CrackRules& rules, std::span<const uint8_t> held, BreakRun& run, std::span<const uint8_t> own) {
     run.brittle = brittle, run.blow = blow, run.rules = rules;
     run.contact = hertz_contact(blow, brittle.elastic);
-    run.patch = patch_radius(run.contact, brittle, body.solid.lattice.edge, body.solid.volume);
     run.share = 1, run.gate = 0, run.first_crack = 0;
     run.crack_count = run.solve_count = run.plane_count = 0;
-    run.piece_count = body.part_count;
-    std::fill(run.volume.begin(), run.volume.begin() + body.part_count, 0.0);
+    run.piece_count = body.part_count + !own.empty();
+    std::fill(run.volume.begin(), run.volume.begin() + run.piece_count, 0.0);
+    double sum = 0;
     for (uint32_t c = 0; c < run.piece.size(); ++c) {
-        run.piece[c] = body.part[c];
+        run.piece[c] = own.empty() || own[c] ? body.part[c] : body.part_count;
+        if (run.piece[c] == body.part_count) continue;
         run.volume[body.part[c]] += body.solid.cells[c].volume;
+        sum += body.solid.cells[c].volume;
     }
+    run.volume_before = own.empty() ? body.solid.volume : sum;
+    run.patch = patch_radius(run.contact, brittle, body.solid.lattice.edge, run.volume_before);
     for (uint32_t i = 0; i < run.is_held.size(); ++i) run.is_held[i] = held.empty() ? 0 : held[i];
     move_to_surface(body, run);
     run.queue_first = run.queue_end = 0;

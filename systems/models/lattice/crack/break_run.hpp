@@ -33,10 +33,11 @@ struct BreakRun {
 
     // Of the whole blow.
     HertzContact contact;
-    double patch = 0;        // m, radius
-    double share = 1;        // of the contact's force
-    double gate = 0;         // the largest ratio of stress and strength before any crack: below 1 nothing breaks
-    double first_crack = 0;  // share of the load at which the first one starts
+    double volume_before = 0;  // m3, of the body: all of the solid, or what earlier breaks left of it
+    double patch = 0;          // m, radius
+    double share = 1;          // of the contact's force
+    double gate = 0;           // the largest ratio of stress and strength before any crack: below 1 nothing breaks
+    double first_crack = 0;    // share of the load at which the first one starts
     uint32_t piece_count = 1, crack_count = 0, solve_count = 0, plane_count = 0;
 
     // By cell.
@@ -105,9 +106,11 @@ uint64_t break_bytes(const BreakableSolid& body);
 /// No span is empty if the arena had break_bytes().
 BreakRun take_break(Arena& arena, const BreakableSolid& body);
 
-/// `held`: rows of the surface that cannot move; empty: the body is free.
+/// `held`: rows of the surface that cannot move; empty: the body is free. `own`: cells that the body has, of a solid
+/// that broke before; empty: all. What others have is the piece of number body.part_count then, of no volume.
 void begin_break(const BreakableSolid& body, const BrittleSolid& brittle, const SolidBlow& blow,
-                 const CrackRules& rules, std::span<const uint8_t> held, BreakRun& run);
+                 const CrackRules& rules, std::span<const uint8_t> held, BreakRun& run,
+                 std::span<const uint8_t> own = {});
 /// True: it is done. Returns after about so many multiplications.
 bool advance_break(const BreakableSolid& body, BreakRun& run, uint64_t work);
 

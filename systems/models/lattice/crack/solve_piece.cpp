@@ -5,6 +5,7 @@
 namespace cullet {
 namespace {
 
+constexpr uint32_t kNoPatch = 0xffffffffu;
 constexpr double kBed = 100;                              // of E / a: what a held patch stands on
 constexpr uint32_t kFewestCells = 4;                      // of a piece that is solved
 constexpr double kForcePower = 0.6;                       // of the mass, in Hertz' force
@@ -16,10 +17,12 @@ double weight_of(const BreakRun& run, const SurfacePatch& patch) {
     return share > 0 ? patch.area * std::sqrt(share) : 0;
 }
 
-uint32_t nearest_patch(const BreakableSolid& body, Vec3d point) {
+// Of those that the body has; kNoPatch: none.
+uint32_t nearest_patch(const BreakableSolid& body, const BreakRun& run, Vec3d point) {
     double nearest = 1e300;
-    uint32_t best = 0;
+    uint32_t best = kNoPatch;
     for (uint32_t i = 0; i < body.solid.patches.size(); ++i) {
+        if (run.piece[body.solid.patches[i].cell] >= body.part_count) continue;
         const Vec3d from = body.solid.patches[i].centroid - point;
         if (dot(from, from) < nearest) nearest = dot(from, from), best = i;
     }
@@ -61,7 +64,7 @@ bool lay_loads(const BreakableSolid& body, BreakRun& run) {
     const std::span<const uint32_t> cells = run.cells.first(run.cell_count);
     const PieceMass mass = mass_of(body.elements, cells, run.brittle.density);
     std::fill(run.loads.begin(), run.loads.end(), 0.0);
-    const double part_of_force = power(mass.mass / (run.brittle.density * body.solid.volume), kForcePower);
+    const double part_of_force = power(mass.mass / (run.brittle.density * run.volume_before), kForcePower);
     if (!lay_blow(body, run, run.contact.force * run.share * part_of_force)) return false;
     run.has_ground = false;
     add_bed(body, run);
@@ -95,7 +98,8 @@ double strain_energy(const BreakRun& run) {
 void move_to_surface(const BreakableSolid& body, BreakRun& run) {
     for (uint32_t p = 0; p < body.part_count; ++p)
         if (weight_of(body, run, p) > 0) return;
-    if (!body.solid.patches.empty()) run.blow.point = body.solid.patches[nearest_patch(body, run.blow.point)].centroid;
+    const uint32_t nearest = nearest_patch(body, run, run.blow.point);
+    if (nearest != kNoPatch) run.blow.point = body.solid.patches[nearest].centroid;
 }
 
 double weight_of(const BreakableSolid& body, const BreakRun& run, uint32_t piece) {
