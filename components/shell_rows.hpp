@@ -79,6 +79,9 @@ struct StructureRows : MaterialRows, TablesOfStructures {
     using Own = TablesOfStructures;
 };
 
+inline bool is_shell(const Structures& structures, Row<Structures> structure) {
+    return structures.kind[structure] == static_cast<uint8_t>(StructureKind::Shell);
+}
 /// The row of a structure that is a shell.
 inline Row<Shells> shell_of(const Structures& structures, Row<Structures> structure) {
     return Row<Shells>(structures.rows[structure]);
@@ -106,6 +109,10 @@ struct TablesOfSolids {
 };
 struct SolidRows : StructureRows, TablesOfSolids {
     SolidRows(const Limits& l, const MaterialRows& of_what) : StructureRows(l, of_what), TablesOfSolids{l} {}
+
+    /// What follows from what was cooked, and what breaks work in: no state, made again where it is missing. None until
+    /// something may break.
+    mutable std::shared_ptr<SolidRooms> solid_rooms;
 
     using Below = StructureRows;
     using Own = TablesOfSolids;
@@ -230,7 +237,9 @@ struct ShellRows : MetalRows, TablesOfShells {
 
     Row<Shells> shell_of(Row<Structures> structure) const { return cullet::shell_of(structures, structure); }
     /// Of a structure that is a shell; none: it is not of metal.
-    Row<MetalShells> metal_of(Row<Structures> structure) const { return metal_owners.of(shell_of(structure)); }
+    Row<MetalShells> metal_of(Row<Structures> structure) const {
+        return is_shell(structures, structure) ? metal_owners.of(shell_of(structure)) : Row<MetalShells>();
+    }
 
     using Below = MetalRows;
     using Own = TablesOfShells;

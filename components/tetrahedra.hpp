@@ -6,10 +6,13 @@
 // ranges of the cooked solid.
 #pragma once
 #include <array>
+#include <memory>
 
 #include "components/structures.hpp"
 
 namespace cullet {
+
+struct SolidRooms;  // systems/structures/tetrahedra/solid_rooms.hpp
 
 /// One row is one cooked mesh.
 struct CookedSolids : RangeTable<CookedSolids> {

@@ -15,14 +15,14 @@ double area(Flat a, Flat b, Flat c) {
 }
 
 /// The corners seen along the axis that is nearest to the normal, counter-clockwise. Empty when there is no normal.
-std::vector<Flat> flattened(std::span<const Vec3d> corners) {
+List<Flat> flattened(std::span<const Vec3d> corners) {
     Vec3d normal;
     for (size_t i = 1; i + 1 < corners.size(); ++i)
         normal = normal + cross(corners[i] - corners[0], corners[i + 1] - corners[0]);
     const double size[3] = {std::fabs(normal.x), std::fabs(normal.y), std::fabs(normal.z)};
     const double largest = std::fmax(size[0], std::fmax(size[1], size[2]));
     if (!(largest > 0) || !std::isfinite(largest)) return {};
-    std::vector<Flat> flat;
+    List<Flat> flat;
     for (const Vec3d c : corners) {
         const Vec3d p = c - corners[0];
         if (largest == size[2])
@@ -37,7 +37,7 @@ std::vector<Flat> flattened(std::span<const Vec3d> corners) {
 
 /// Strictly: every corner turns to the left, once round. A star that goes round twice has corners of both halves on
 /// each side of some line; the sum of its turns is told by how often x changes its direction.
-bool is_convex(const std::vector<Flat>& flat) {
+bool is_convex(const List<Flat>& flat) {
     const size_t n = flat.size();
     int changes = 0;
     for (size_t i = 0; i < n; ++i) {
@@ -48,18 +48,18 @@ bool is_convex(const std::vector<Flat>& flat) {
     return changes <= 2;
 }
 
-std::vector<std::array<uint32_t, 3>> fan_of(size_t n) {
-    std::vector<std::array<uint32_t, 3>> triangles;
+List<std::array<uint32_t, 3>> fan_of(size_t n) {
+    List<std::array<uint32_t, 3>> triangles;
     for (uint32_t i = 1; i + 1 < n; ++i) triangles.push_back({0, i, i + 1});
     return triangles;
 }
 
 /// What is left of the polygon while ears are cut off: a ring of corners.
 struct Ring {
-    const std::vector<Flat>& flat;
-    std::vector<uint32_t> next, previous;
+    const List<Flat>& flat;
+    List<uint32_t> next, previous;
 
-    explicit Ring(const std::vector<Flat>& corners) : flat(corners), next(corners.size()), previous(corners.size()) {
+    explicit Ring(const List<Flat>& corners) : flat(corners), next(corners.size()), previous(corners.size()) {
         const uint32_t n = static_cast<uint32_t>(corners.size());
         for (uint32_t i = 0; i < n; ++i) next[i] = (i + 1) % n, previous[i] = (i + n - 1) % n;
     }
@@ -85,9 +85,9 @@ struct Ring {
 };
 
 /// When no corner is an ear (it crosses itself, or is flat), the one at hand goes.
-std::vector<std::array<uint32_t, 3>> ears_of(const std::vector<Flat>& flat) {
+List<std::array<uint32_t, 3>> ears_of(const List<Flat>& flat) {
     Ring ring(flat);
-    std::vector<std::array<uint32_t, 3>> triangles;
+    List<std::array<uint32_t, 3>> triangles;
     uint32_t at = 0;
     size_t left = flat.size(), tried = 0;
     while (left > 3) {
@@ -108,10 +108,10 @@ std::vector<std::array<uint32_t, 3>> ears_of(const std::vector<Flat>& flat) {
 
 }  // namespace
 
-std::vector<std::array<uint32_t, 3>> cut_polygon(std::span<const Vec3d> corners) {
+List<std::array<uint32_t, 3>> cut_polygon(std::span<const Vec3d> corners) {
     if (corners.size() < 3) return {};
     if (corners.size() == 3) return fan_of(3);
-    const std::vector<Flat> flat = flattened(corners);
+    const List<Flat> flat = flattened(corners);
     if (flat.empty() || is_convex(flat)) return fan_of(corners.size());
     return ears_of(flat);
 }

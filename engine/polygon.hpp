@@ -4,9 +4,9 @@
 #include <cstddef>
 #include <cstdint>
 #include <span>
-#include <vector>
 
 #include "engine/math.hpp"
+#include "engine/room.hpp"
 
 namespace cullet {
 
@@ -14,7 +14,7 @@ namespace cullet {
 /// one, so n - 2, whatever its shape. Convex ones become a fan, others lose ear after ear, seen along the normal of
 /// their whole area. What has no such shape (crossing itself, no area, a corner that is not finite) becomes a fan.
 /// Mostly O(n^2) for n corners; a comb of many teeth may cost O(n^3).
-std::vector<std::array<uint32_t, 3>> cut_polygon(std::span<const Vec3d> corners);
+List<std::array<uint32_t, 3>> cut_polygon(std::span<const Vec3d> corners);
 
 /// Which corners of a strip are those of its triangle t, in the turning sense of the first triangle.
 constexpr std::array<size_t, 3> corners_in_strip(size_t t) {

@@ -4,6 +4,7 @@
 
 #include "components/state.hpp"
 #include "systems/structures/shell/draw_shell.hpp"
+#include "systems/structures/tetrahedra/skin.hpp"
 #include "systems/world_contents.hpp"
 
 namespace cullet {
@@ -19,9 +20,12 @@ std::string DrawnMeshes::check_changed(World& world) {
         if (seen_[b] == now || is_free || !bodies.structure[b].exists()) continue;
         seen_[b] = now;
         ++checked_;
+        const Row<Structures> structure = bodies.structure[b];
         const Result<void> sound =
-            check_drawn_mesh(ShellView(state, bodies.structure[b]), {state.view_vertices, state.view_indices},
-                             bodies.view_vertices[b], bodies.view_indices[b]);
+            is_shell(state.structures, structure)
+                ? check_drawn_mesh(ShellView(state, structure), {state.view_vertices, state.view_indices},
+                                   bodies.view_vertices[b], bodies.view_indices[b])
+                : check_skin(state, structure);
         if (!sound.ok()) return fmt::format("body {}: {}", b, sound.error());
     }
     return "";

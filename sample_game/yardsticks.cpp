@@ -18,6 +18,7 @@ constexpr double kUnitsAVertex = 5;
 
 std::map<std::string, double> measure_yardsticks(const Model& model) {
     const Workbench& source = model.contents->state;
+    if (!is_shell(source.structures, model.contents->shell)) return {};
     const Range vertices = source.shells.vertices[source.shell_of(model.contents->shell)];
     State state(
         cooking_limits(vertices.capacity, source.shells.elements[source.shell_of(model.contents->shell)].capacity));

@@ -2,6 +2,7 @@
 // tables; the slots that it fills (slots.hpp) are where its own systems stand.
 #pragma once
 #include <optional>
+#include <string>
 
 #include "components/body_rows.hpp"
 #include "cullet/events.hpp"
@@ -10,6 +11,10 @@
 #include "systems/births/break.hpp"
 
 namespace cullet {
+
+struct Blows;
+struct Explosion;
+struct ExplosionSums;
 
 /// How those parts of a large body move that its run left alone. Body axes.
 struct RestMotion {
@@ -40,8 +45,34 @@ struct StructureCalls {
     uint32_t (*view_rows)(RunRows&, Row<Structures>) = nullptr;
     /// Writes mass, centre, inertia and area, as it is shaped now.
     void (*measure)(RunRows&, Row<Structures>) = nullptr;
+    /// Its rows are nobody's any more, but for what is told of a body that is only drawn.
+    void (*empty)(RunRows&, Row<Structures>) = nullptr;
+    /// What is wrong with rows that came from a file, of ranges that have been looked at; or nothing.
+    std::string (*trouble)(const RunRows&, Row<Structures>) = nullptr;
     /// Cracks that a task started on its working copy are told, each once.
     void (*tell_cracks)(BodyRows&, Row<Tasks>, Events<CrackStartedEvent>&) = nullptr;
+
+    // ---- Its surface. Places and directions in the body's frame
+
+    /// m: how far around the point of a blow it is felt; `radius`: of a ball that strikes, or 0.
+    float (*patch_radius)(const RunRows&, Row<Structures>, float radius) = nullptr;
+    /// The way a ball's blow goes that is met there under this normal.
+    Vec3 (*struck_normal)(RunRows&, Row<Structures>, Vec3 place, Vec3 normal, float radius) = nullptr;
+    Vec3 (*nearest_point)(RunRows&, Row<Structures>, Vec3 place) = nullptr;
+    ExplosionSums (*measure_explosion)(RunRows&, Row<Structures>, const Explosion&, Vec3d about) = nullptr;
+    /// The cut in this row of Blows goes through it.
+    bool (*is_cut_by)(RunRows&, Row<Structures>, const Blows&, uint32_t row) = nullptr;
+    /// It gives way to what presses on it for long.
+    bool bears_loads = false;
+
+    // ---- What is drawn of it
+
+    /// All of it, into the body's own rows.
+    void (*draw)(BodyRows&, Row<Bodies>) = nullptr;
+    /// What follows from the drawn mesh of the body, after a load.
+    void (*remember_drawn)(BodyRows&, Row<Structures>, Row<Bodies>) = nullptr;
+    /// Drawn triangles name one of so many parts of it.
+    uint32_t (*drawn_parts)(const RunRows&, Row<Structures>) = nullptr;
 
     // ---- Fragments
 

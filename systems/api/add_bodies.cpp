@@ -12,7 +12,6 @@
 #include "systems/drawn/bound_drawn.hpp"
 #include "systems/drawn/query_index.hpp"
 #include "systems/models.hpp"
-#include "systems/structures/shell/draw_shell.hpp"
 #include "systems/structures/shell/pin_boxes.hpp"
 #include "systems/world_contents.hpp"
 
@@ -124,7 +123,7 @@ Result<BodyId> World::spawn(ModelId id, const SpawnSettings& settings) {
     d.arena.reset();
     d.rigid->add(body, describe_rigid(state.bodies, state.structures, body, convex_pieces(state, structure, d.arena)));
     if (take_settled_pose(bodies, *d.rigid, body)) models.follow(state, body);
-    draw_body(state, body);
+    calls_of(state.structures, structure).draw(state, body);
     bodies.drawn_frame[body] = d.step_info.frame;
     bound_view(bodies, body, state.view_vertices, state.view_indices, d.view_boxes);
     d.query_index->touch(bodies, body);

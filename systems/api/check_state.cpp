@@ -1,6 +1,7 @@
 // What a snapshot's rows must be before a system may follow them. First every finite number, then ranges and users,
 // then each table by the rules below, then the structures by the rules of cooked ones.
 #include <algorithm>
+#include <deque>
 
 #include "systems/api/snapshot.hpp"
 #include "systems/cook/materials.hpp"
@@ -85,17 +86,36 @@ class RangeCheck {
     std::vector<std::pair<uint32_t, uint32_t>> taken_;
 };
 
+/// A solid has a row of its own, which names a cooked one.
+void check_solid(Checker& check, uint32_t row, std::vector<uint8_t>& is_named) {
+    const State& s = check.state;
+    const uint32_t solid = s.structures.rows[row];
+    check.expect(solid < s.solids.size() && s.solids.pool.is_taken(solid, 1) && !is_named[solid]++,
+                 Checker::place(s.structures, "rows", row) + " is " + std::to_string(solid) +
+                     ", no solid, or that of another structure");
+    if (!check.is_sound()) return;
+    const Row<CookedSolids> cooked = s.solids.cooked[solid];
+    check.expect(
+        cooked < s.cooked_solids.size() && s.cooked_solids.pool.is_taken(cooked, 1),
+        Checker::place(s.solids, "cooked", solid) + " is " + std::to_string(cooked.index) + ", which is not cooked");
+}
+
 /// Each has a row of its own in the table of its kind, and a shell that has springs is the one that they name.
 void check_structures(Checker& check) {
     const State& s = check.state;
     const Structures& structures = s.structures;
-    std::vector<uint8_t> is_named(s.shells.size(), 0);
+    std::vector<uint8_t> is_named(s.shells.size(), 0), is_solid_named(s.solids.size(), 0);
     for (uint32_t row = 0; row < structures.size() && check.is_sound(); ++row) {
         if (!is_structure(s, row)) continue;
         check.expect(structures.pool.is_taken(row, 1),
                      Checker::place(structures, "users", row) + " names users of a free row");
-        check.expect(structures.kind[row] == static_cast<uint8_t>(StructureKind::Shell),
+        check.expect(structures.kind[row] <= static_cast<uint8_t>(StructureKind::Tetrahedra),
                      Checker::place(structures, "kind", row) + " is " + std::to_string(structures.kind[row]));
+        if (!check.is_sound()) return;
+        if (!is_shell(structures, Row<Structures>(row))) {
+            check_solid(check, row, is_solid_named);
+            continue;
+        }
         const uint32_t shell = structures.rows[row];
         check.expect(shell < s.shells.size() && s.shells.pool.is_taken(shell, 1) && !is_named[shell]++,
                      Checker::place(structures, "rows", row) + " is " + std::to_string(shell) +
@@ -109,10 +129,38 @@ void check_structures(Checker& check) {
     }
     const ShellSprings& springs = s.shell_springs;
     for (uint32_t row = 0; row < springs.size() && check.is_sound(); ++row)
-        check.expect(!springs.is_used[row] || (is_structure(s, springs.structure[row]) &&
-                                               s.shells.springs[s.shell_of(springs.structure[row])] == row),
+        check.expect(!springs.is_used[row] ||
+                         (is_structure(s, springs.structure[row]) && is_shell(s.structures, springs.structure[row]) &&
+                          s.shells.springs[s.shell_of(springs.structure[row])] == row),
                      Checker::place(springs, "structure", row) + " is " + std::to_string(springs.structure[row].index) +
                          ", which does not have these springs");
+}
+
+/// Those of what was cooked, and of what has it: some tables have ranges of both.
+void check_solid_ranges(Checker& check) {
+    const State& s = check.state;
+    std::deque<std::pair<const AnyTable*, RangeCheck>> all;
+    const auto add = [&](const char* owner, uint32_t row) {
+        return [&, owner, row](const Range& range, const auto& table, uint32_t, const char*) {
+            auto at = std::find_if(all.begin(), all.end(), [&](const auto& one) { return one.first == &table; });
+            RangeCheck& of =
+                at != all.end() ? at->second : all.emplace_back(&table, RangeCheck(check, table, table.pool)).second;
+            of.add(owner, row, range);
+        };
+    };
+    for (uint32_t row = 0; row < s.cooked_solids.size(); ++row)
+        if (s.cooked_solids.pool.is_taken(row, 1))
+            for_each_cooked_range(s, Row<CookedSolids>(row), {}, add("cooked solid", row));
+    for (uint32_t row = 0; row < s.structures.size(); ++row)
+        if (is_structure(s, row) && !is_shell(s.structures, Row<Structures>(row)))
+            for_each_solid_range(s, Row<Structures>(row), {},
+                                 [&](const Range& range, const auto& table, uint32_t wanted, const char* limit) {
+                                     // Those of cells and hulls have been looked at with all structures'.
+                                     const AnyTable* const any = &table;
+                                     if (any != &s.cells && any != &s.hull_points)
+                                         add("solid", row)(range, table, wanted, limit);
+                                 });
+    for (auto& [table, ranges] : all) ranges.finish();
 }
 
 void check_ranges(Checker& check) {
@@ -124,7 +172,9 @@ void check_ranges(Checker& check) {
         ranges.finish();
     };
     const auto of_shells = [&](const AnyTable& table, const RangePool& pool, const auto& column) {
-        of_structures(table, pool, [&](Row<Structures> row) { return column[s.shell_of(row)]; });
+        of_structures(table, pool, [&](Row<Structures> row) {
+            return is_shell(s.structures, row) ? column[s.shell_of(row)] : Range{};
+        });
     };
     of_shells(s.vertices, s.vertices.pool, s.shells.vertices);
     of_shells(s.elements, s.elements.pool, s.shells.elements);
@@ -159,6 +209,7 @@ void check_ranges(Checker& check) {
     of_metal(s.metal_springs, s.metal_springs.pool, s.metal_shells.springs);
     of_metal(s.sub_shells, s.sub_shells.pool, s.metal_shells.cells);
     of_metal(s.sub_shell_borders, s.sub_shell_borders.pool, s.metal_shells.borders);
+    check_solid_ranges(check);
     const auto of_bodies = [&](const AnyTable& table, const RangePool& pool, const Column<Range>& column) {
         RangeCheck ranges(check, table, pool);
         for (uint32_t b = 0; b < s.bodies.size(); ++b)
@@ -176,10 +227,15 @@ void check_ranges(Checker& check) {
 /// Each shell is of a model that the world has. Whoever asks models believes it.
 void check_damage_models(Checker& check) {
     const State& s = check.state;
-    for (uint32_t row = 0; row < s.shells.size(); ++row)
-        if (is_structure(s, row))
-            check.expect_row(s.structures, "damage_model", row, s.structures.damage_model[row], check.models.size(),
-                             false);
+    for (uint32_t row = 0; row < s.structures.size() && check.is_sound(); ++row) {
+        if (!is_structure(s, row)) continue;
+        check.expect_row(s.structures, "damage_model", row, s.structures.damage_model[row], check.models.size(), false);
+        if (!check.is_sound()) return;
+        // Who breaks shells looks at shells from files.
+        const bool breaks_shells = check.models[s.structures.damage_model[row]].calls().check_shell != nullptr;
+        check.expect(breaks_shells == is_shell(s.structures, Row<Structures>(row)),
+                     Checker::place(s.structures, "kind", row) + " is not what its damage model breaks");
+    }
 }
 
 void check_bodies(Checker& check) {
@@ -220,8 +276,9 @@ void check_bodies(Checker& check) {
         check.expect(runs == indices.count, Checker::place(bodies, "run_indices", b) + " add up to " +
                                                 std::to_string(runs) + "; the body has " +
                                                 std::to_string(indices.count) + " indices");
-        const uint32_t elements =
-            bodies.structure[b].exists() ? s.shells.elements[s.shell_of(bodies.structure[b])].count : 0;
+        const uint32_t elements = bodies.structure[b].exists()
+                                      ? calls_of(s.structures, bodies.structure[b]).drawn_parts(s, bodies.structure[b])
+                                      : 0;
         for (uint32_t i = 0; i < indices.count && check.is_sound(); ++i) {
             check.expect_row(s.view_indices, "index", indices.first + i, s.view_indices.index[indices.first + i],
                              vertices.count, false);
@@ -246,7 +303,8 @@ void check_models(Checker& check) {
 void check_contacts(Checker& check, uint32_t t) {
     const State& s = check.state;
     const uint32_t first = s.tasks.first_contact[t], count = s.tasks.contact_count[t];
-    const uint32_t vertices = s.shells.vertices[s.shell_of(s.tasks.working[t])].count;
+    const Row<Structures> working = s.tasks.working[t];
+    const uint32_t vertices = is_shell(s.structures, working) ? s.shells.vertices[s.shell_of(working)].count : 1;
     check.expect(first == t * kMostContacts && count <= kMostContacts, Checker::place(s.tasks, "first_contact", t) +
                                                                            " is " + std::to_string(first) + " for " +
                                                                            std::to_string(count) + " contacts");
@@ -389,6 +447,7 @@ void check_users(Checker& check) {
 
 /// Of a merged fragment, which is drawn and no more. No one else may name it.
 bool has_no_rows(const State& s, Row<Structures> structure) {
+    if (!is_shell(s.structures, structure)) return false;
     bool has_none = true;
     ShellRows::for_each_range(s, structure, [&](const Range& range, const auto&, auto, const char*) {
         has_none = has_none && range.count == 0 && range.capacity == 0;
@@ -423,6 +482,13 @@ Result<void> check_state(const DamageModels& models, const State& state, const s
                          std::to_string(state.structures.material[row].index) + ", of " +
                          std::to_string(state.materials.size()) + ". " + kAdvice};
         if (has_no_rows(state, Row<Structures>(row)) && is_of_scenery(state, row)) continue;
+        if (!is_shell(state.structures, Row<Structures>(row))) {
+            const std::string trouble =
+                calls_of(state.structures, Row<Structures>(row)).trouble(state, Row<Structures>(row));
+            if (!trouble.empty())
+                return Error{name + ": structure " + std::to_string(row) + " " + trouble + ". " + kAdvice};
+            continue;
+        }
         const ShellView shell(rows, Row<Structures>(row));
         const Wear wear = is_part_of_body(models, state, row) ? Wear::CutOut : Wear::Worn;
         const Result<void> sound = models.check_shell(shell, wear, name, kAdvice);

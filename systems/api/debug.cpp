@@ -84,7 +84,7 @@ void draw_shape(const Pen& pen, const WorldData& d, Row<Bodies> b, uint32_t colo
 void draw_cracks(const Pen& pen, const State& state, Row<Bodies> b) {
     const uint32_t task = state.bodies.task[b];
     const Row<Structures> structure = task == kNone ? state.bodies.structure[b] : state.tasks.working[task];
-    if (!structure.exists()) return;
+    if (!structure.exists() || !is_shell(state.structures, structure)) return;
     const Pose pose = pose_of(state.bodies, b);
     const Range elements = state.shells.elements[state.shell_of(structure)],
                 vertices = state.shells.vertices[state.shell_of(structure)];

@@ -9,7 +9,6 @@
 #include "systems/bodies/rigid_shape.hpp"
 #include "systems/drawn/query_index.hpp"
 #include "systems/models.hpp"
-#include "systems/structures/shell/piece_shape.hpp"
 #include "systems/tasks/take_out.hpp"
 #include "systems/world_contents.hpp"
 
@@ -42,17 +41,10 @@ bool is_changing(const DamageModels& models, const State& state, Row<Bodies> bod
     return state.bodies.is_owed_births[body] || models.is_moving(state, body);
 }
 
-// Scenery is its drawn mesh: the rows that it was made of serve others. Its rows of structures and shells stay, with
-// mass and area.
+// Scenery is its drawn mesh: the rows that it was made of serve others.
 void give_back_rows(State& state, Row<Structures> structure) {
     if (state.structures.users[structure] > 1) return;
-    release_springs(state, structure);
-    ShellRows::for_each_range(state, structure, [](Range& range, auto& table, auto, const char*) {
-        table.give_back(range);
-        range = {};
-    });
-    state.shells.dead_elements[state.shell_of(structure)] = state.structures.live_elements[structure] = 0;
-    clear_shape(ShellView(state, structure));
+    calls_of(state.structures, structure).empty(state, structure);
 }
 
 void stand_still(WorldData& d, Row<Bodies> body, BodyKind kind) {

@@ -14,7 +14,6 @@
 #include "systems/drawn/bound_drawn.hpp"
 #include "systems/drawn/query_index.hpp"
 #include "systems/models.hpp"
-#include "systems/structures/shell/draw_shell.hpp"
 
 namespace cullet {
 
@@ -150,14 +149,14 @@ void restore_what_follows(World::Contents& world) {
         const bool has_copy = static_cast<TaskState>(state.tasks.state[t]) != TaskState::Free &&
                               state.tasks.working[t].exists() && !models.is_part(state, t);
         if (has_copy)  // of the whole body, whose drawn mesh it knows
-            remember_drawn(ShellView(state, state.tasks.working[t]), state.view_indices,
-                           state.bodies.view_indices[state.tasks.body[t]]);
+            calls_of(state.structures, state.tasks.working[t])
+                .remember_drawn(state, state.tasks.working[t], state.tasks.body[t]);
     }
     for (uint32_t b = 0; b < state.bodies.size(); ++b) {
         const Row<Structures> structure = state.bodies.structure[b];
         if (static_cast<BodyKind>(state.bodies.kind[b]) == BodyKind::Free || !structure.exists()) continue;
         bound_view(state.bodies, Row<Bodies>(b), state.view_vertices, state.view_indices, d.view_boxes);
-        remember_drawn(ShellView(state, structure), state.view_indices, state.bodies.view_indices[b]);
+        calls_of(state.structures, structure).remember_drawn(state, structure, Row<Bodies>(b));
         state.bodies.redrawn[b] = {0, state.bodies.view_indices[b].count / 3};
         models.restore_body(state, Row<Bodies>(b));
         if (state.bodies.is_breakable[b])

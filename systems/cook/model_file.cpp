@@ -5,10 +5,12 @@
 #include <bit>
 #include <memory>
 #include <new>
+#include <optional>
 
 #include "engine/file_header.hpp"
 #include "engine/table_bytes.hpp"
 #include "systems/cook/materials.hpp"
+#include "systems/cook/solid_file.hpp"
 
 namespace cullet {
 namespace {
@@ -97,6 +99,7 @@ struct Found {
     ModelReport report;
     FoundTable structure, shell, metal;
     std::vector<FoundTable> parts;
+    std::optional<FoundSolid> solid;  // in place of a shell
 };
 
 Result<Found> find_all(std::span<const uint8_t> payload, const std::string& name) {
@@ -116,6 +119,14 @@ Result<Found> find_all(std::span<const uint8_t> payload, const std::string& name
     ShellRows& like = *none;
     like.structures.append(1), like.shells.append(1);
     found.structure = find_table(reader, like.structures);
+    if (reader.is_sound() && found.structure.rows == 1) found.structure.copy_to(like.structures, 0);
+    if (reader.is_sound() && like.structures.kind[0] == static_cast<uint8_t>(StructureKind::Tetrahedra)) {
+        found.solid = find_solid(reader);
+        reader.expect(reader.is_at_end(), "the last table ends before the file does,");
+        if (!reader.is_sound()) return Error{reader.trouble()};
+        return found;
+    }
+    like.structures.clear_rows(0, 1);
     found.shell = reader.is_sound() ? find_table(reader, like.shells) : FoundTable{};
     found.metal = reader.is_sound() ? find_table(reader, like.metal_shells) : FoundTable{};
     for_each_part(like, Row<Structures>(0), [&](const AnyTable& table, const Range&) {
@@ -226,6 +237,20 @@ Result<Row<Structures>> copy_rows(ShellRows& state, const Found& found, const st
     return shell;
 }
 
+Result<void> check_report_of_solid(const Found& found, const SolidRows& state, Row<Structures> structure,
+                                   const std::string& name) {
+    const Structures& s = state.structures;
+    const Row<CookedSolids> cooked = state.solids.cooked[solid_of(s, structure)];
+    const ModelReport& r = found.report;
+    const CookedSolids& own = state.cooked_solids;
+    if (r.vertices != own.points[cooked].count || r.elements != own.cells[cooked].count ||
+        r.cells != s.cells[structure].count || r.mass != s.mass[structure] ||
+        r.mean_thickness != own.thickness[cooked] || r.first_crack_speed != s.first_crack_speed[structure] ||
+        r.first_crack_force != s.first_crack_force[structure])
+        return damaged(name, "the report is not the solid's");
+    return {};
+}
+
 Result<void> check_report(const Found& found, const ShellRows& state, Row<Structures> shell, const std::string& name) {
     const Structures& s = state.structures;
     const Row<Shells> row = state.shell_of(shell);
@@ -244,11 +269,37 @@ Result<void> check_report(const Found& found, const ShellRows& state, Row<Struct
     return {};
 }
 
+/// What stands before the tables.
+void put_words(ByteWriter& writer, const Model::Contents& contents) {
+    writer.text(contents.name);
+    writer.text(contents.damage_model);
+    const Row<Materials> material = contents.state.structures.material[contents.shell];
+    if (material < contents.state.materials.size())
+        put_material(writer, contents.material, material_settings(contents.state, material),
+                     material_traits(contents.state, material).grain);
+    else
+        put_material(writer, {}, {}, {});  // of a shell that is not sound: no reader takes a material without a name
+    writer.text(contents.report.repairs);
+    writer.text(contents.report.advice);
+    writer.text(contents.report.walls);
+    for_each_number(contents.report, [&](const auto& number) { writer.number(number); });
+}
+
 }  // namespace
 
 std::vector<uint8_t> encode_model_file(const Model::Contents& contents) {
     // Reads only; the parts are listed once, for states that may change.
     Workbench& state = const_cast<Workbench&>(contents.state);
+    const bool is_solid =
+        contents.state.structures.kind[contents.shell] == static_cast<uint8_t>(StructureKind::Tetrahedra);
+    if (is_solid && contents.state.structures.rows[contents.shell] < contents.state.solids.size()) {
+        ByteWriter writer;
+        writer.bytes.resize(kFileHeaderBytes);
+        put_words(writer, contents);
+        put_solid(writer, state, contents.shell);
+        finish_file(kKind, writer.bytes);
+        return std::move(writer.bytes);
+    }
     const auto alone = make_workbench_of_one();
     ShellRows& row = *alone;
     const Row<Structures> first = make_shell(row, {});
@@ -269,18 +320,7 @@ std::vector<uint8_t> encode_model_file(const Model::Contents& contents) {
     });
     ByteWriter writer;
     writer.bytes.resize(kFileHeaderBytes);
-    writer.text(contents.name);
-    writer.text(contents.damage_model);
-    const Row<Materials> material = contents.state.structures.material[contents.shell];
-    if (material < contents.state.materials.size())
-        put_material(writer, contents.material, material_settings(contents.state, material),
-                     material_traits(contents.state, material).grain);
-    else
-        put_material(writer, {}, {}, {});  // of a shell that is not sound: no reader takes a material without a name
-    writer.text(contents.report.repairs);
-    writer.text(contents.report.advice);
-    writer.text(contents.report.walls);
-    for_each_number(contents.report, [&](const auto& number) { writer.number(number); });
+    put_words(writer, contents);
     put_table(writer, row.structures, first, 1);
     put_table(writer, row.shells, row.shell_of(first), 1);
     put_table(writer, row.metal_shells, 0, metal.exists() ? 1 : 0);
@@ -297,15 +337,23 @@ Result<Model> parse_model_file(std::span<const uint8_t> bytes, const std::string
         if (!payload) return Error{payload.error()};
         const Result<Found> found = find_all(*payload, name);
         if (!found) return Error{found.error()};
-        if (const Result<void> fits = check_counts(*found, name); !fits) return Error{fits.error()};
+        if (!found->solid)
+            if (const Result<void> fits = check_counts(*found, name); !fits) return Error{fits.error()};
         const std::optional<uint8_t> number = models.find(found->damage_model);
         if (!number)
             return Error{name + ": is cooked for the damage model \"" + found->damage_model + "\"; this version has " +
                          models.names() + ". Cook the mesh again for one of them."};
-        const auto contents = std::make_shared<Model::Contents>(limits_for(found->parts));
+        const auto contents =
+            std::make_shared<Model::Contents>(found->solid ? limits_for(*found->solid) : limits_for(found->parts));
         fill_materials(contents->state.materials);
-        const Result<Row<Structures>> shell = copy_rows(contents->state, *found, name);
-        if (!shell) return Error{shell.error()};
+        Result<Row<Structures>> shell = Row<Structures>();
+        if (found->solid) {
+            shell = copy_solid(contents->state, found->structure, *found->solid);
+            if (!shell) return damaged(name, shell.error());
+        } else {
+            shell = copy_rows(contents->state, *found, name);
+            if (!shell) return Error{shell.error()};
+        }
         // The values before the tables say which row it is; the writer left 0 there.
         if (contents->state.structures.material[*shell] != Row<Materials>(0))
             return damaged(name, "the shell's material is row " +
@@ -314,11 +362,15 @@ Result<Model> parse_model_file(std::span<const uint8_t> bytes, const std::string
             material_row({contents->state.materials, contents->state.material_traits, contents->state.structures},
                          found->material, found->grain);
         const auto check = models[*number].calls().check_shell;
-        const ShellView view(contents->state, *shell);
-        if (const Result<void> sound = check ? check(view, Wear::Intact, name, kAdvice) : Result<void>(); !sound)
-            return Error{sound.error()};
-        if (const Result<void> fits = check_report(*found, contents->state, *shell, name); !fits)
-            return Error{fits.error()};
+        if (!check != found->solid.has_value())
+            return damaged(name, "the damage model " + found->damage_model + " breaks no such structure");
+        if (check)
+            if (const Result<void> sound = check(ShellView(contents->state, *shell), Wear::Intact, name, kAdvice);
+                !sound)
+                return Error{sound.error()};
+        const Result<void> fits = found->solid ? check_report_of_solid(*found, contents->state, *shell, name)
+                                               : check_report(*found, contents->state, *shell, name);
+        if (!fits) return Error{fits.error()};
         contents->shell = *shell;
         contents->name = found->name;
         contents->damage_model = found->damage_model;

@@ -7,7 +7,6 @@
 #include "systems/bodies/thresholds.hpp"
 #include "systems/models.hpp"
 #include "systems/structures/shell/cut_cost.hpp"
-#include "systems/structures/shell/patch_radius.hpp"
 
 namespace cullet {
 namespace {
@@ -30,7 +29,8 @@ ImpactEvent event_of(const Bodies& bodies, const Blows& blows, uint32_t row) {
 }
 
 float radius_of(const RunRows& state, const Blows& blows, uint32_t row, uint32_t t) {
-    return patch_radius(state.shells, state.shell_of(state.tasks.source[t]), blows.radius[row]);
+    const Row<Structures> source = state.tasks.source[t];
+    return calls_of(state.structures, source).patch_radius(state, source, blows.radius[row]);
 }
 
 // The task's contact in whose patch the push lies, or kNone. Vertices of two patches take one spring alone: a second

@@ -8,7 +8,6 @@
 #include "systems/impacts/opening.hpp"
 #include "systems/impacts/snap.hpp"
 #include "systems/models.hpp"
-#include "systems/structures/shell/patch_radius.hpp"
 #include "systems/systems.hpp"
 
 namespace cullet {
@@ -52,7 +51,7 @@ void lay_queued(BodyRows& state, const QueuedHits& queued, Row<Tasks> task, uint
         contacts.start_speed[c] = along;
     else
         tasks.start_velocity.set(task, tasks.start_velocity[task] - along * queued.normal[q]);
-    contacts.radius[c] = patch_radius(state.shells, state.shell_of(structure), queued.striker_radius[q]);
+    contacts.radius[c] = calls_of(state.structures, structure).patch_radius(state, structure, queued.striker_radius[q]);
     tasks.contact_count[task] = 1;
     tasks.is_late[task] = 1;
     tasks.load[task] = queued.load[q];

@@ -6,8 +6,6 @@
 #include "systems/bodies/blows.hpp"
 #include "systems/bodies/thresholds.hpp"
 #include "systems/models.hpp"
-#include "systems/structures/shell/patch_radius.hpp"
-#include "systems/structures/shell/struck_normal.hpp"
 
 namespace cullet {
 namespace {
@@ -44,10 +42,10 @@ Impact aimed(BodyRows& state, Impact impact) {
     if (!striker.exists() || !bodies.is_sphere[striker]) return impact;
     const Row<Structures> structure = bodies.structure[impact.body];
     const Pose pose = pose_of(bodies, impact.body);
-    const Vec3 normal = rotate(
-        pose.orientation, struck_normal(ShellView(state, structure), to_body(pose, impact.point),
-                                        rotate(conjugate(pose.orientation), impact.normal),
-                                        patch_radius(state.shells, state.shell_of(structure), bodies.radius[striker])));
+    const Vec3 normal = rotate(pose.orientation, calls_of(state.structures, structure)
+                                                     .struck_normal(state, structure, to_body(pose, impact.point),
+                                                                    rotate(conjugate(pose.orientation), impact.normal),
+                                                                    bodies.radius[striker]));
     const Vec3 closing = bodies.velocity[striker] - velocity_at(bodies, impact.body, impact.point);
     if (!(dot(closing, normal) > 0)) return impact;
     impact.normal = normal;
@@ -74,7 +72,7 @@ void lay_contacts(std::span<const Impact> impacts, const Impact& first_aimed, Bo
     Tasks& tasks = state.tasks;
     TaskContacts& contacts = state.task_contacts;
     const Row<Bodies> body = tasks.body[task];
-    const Row<Shells> shell = state.shell_of(tasks.source[task]);
+    const StructureCalls& calls = calls_of(state.structures, tasks.source[task]);
     const Pose pose = pose_of(bodies, body);
     uint32_t count = 0;
     for (const Impact& told : impacts) {
@@ -82,7 +80,7 @@ void lay_contacts(std::span<const Impact> impacts, const Impact& first_aimed, Bo
         const Vec3 point = to_body(pose, told.point);
         const float striker_radius =
             told.striker.exists() && bodies.is_sphere[told.striker] ? bodies.radius[told.striker] : 0.0f;
-        const float radius = patch_radius(state.shells, shell, striker_radius);
+        const float radius = calls.patch_radius(state, tasks.source[task], striker_radius);
         const uint32_t first = tasks.first_contact[task];
         const auto is_taken = [&](uint32_t c) { return length(contacts.point[c] - point) < radius; };
         bool joins = false;

@@ -3,9 +3,7 @@
 #include "components/body_id.hpp"
 #include "systems/bodies/blows.hpp"
 #include "systems/models.hpp"
-#include "systems/structures/shell/cut_surface.hpp"
 #include "systems/structures/shell/explosion.hpp"
-#include "systems/structures/shell/patch_radius.hpp"
 #include "systems/systems.hpp"
 
 namespace cullet {
@@ -41,7 +39,7 @@ struct Taking {
         const Row<Structures> structure = state.bodies.structure[body];
         if (!structure.exists() || !may_move_by_itself(body)) return false;
         const PointPush push{blows.point[row], blows.impulse[row].to_float(),
-                             patch_radius(state.shells, state.shell_of(structure), blows.radius[row]),
+                             calls_of(state.structures, structure).patch_radius(state, structure, blows.radius[row]),
                              kMostReturned * blows.speed[row]};
         if (!models.push(state, rigid, body, push)) return false;
         book(body, blows.impulse[row]);
@@ -61,22 +59,12 @@ struct Taking {
         return made;
     }
 
-    /// Where the push meets the surface: the nearest live vertex at rest. What has no shell is met where the game says.
+    /// Where the push meets the surface. What has no structure is met where the game says.
     Vec3 place_of_push(uint32_t row) const {
-        Vec3 nearest = blows.point[row];
         const Row<Bodies> body = blows.body[row];
-        if (!has_shell(body)) return nearest;
-        const ShellView shell(state, state.bodies.structure[body]);
-        float least = 1e30f;
-        for (uint32_t v = 0; v < shell.vertex_count(); ++v) {
-            const uint32_t at = shell.vertex(v);
-            if (state.vertices.element[at] == kNone) continue;
-            const Vec3 away = state.vertices.rest[at] - blows.point[row];
-            if (dot(away, away) >= least) continue;
-            least = dot(away, away);
-            nearest = state.vertices.rest[at];
-        }
-        return nearest;
+        if (!has_shell(body)) return blows.point[row];
+        const Row<Structures> structure = state.bodies.structure[body];
+        return calls_of(state.structures, structure).nearest_point(state, structure, blows.point[row]);
     }
 
     // The striker bounces off as a rigid one: J = (1 + e) v / (1/m_body + 1/m_striker).
@@ -105,8 +93,9 @@ struct Taking {
         const Bodies& bodies = state.bodies;
         Explosion explosion = explosion_of(blows, row);
         explosion.centre = to_body(pose_of(bodies, body), explosion.centre);
+        const Row<Structures> structure = bodies.structure[body];
         const ExplosionSums sums =
-            measure_explosion(ShellView(state, bodies.structure[body]), explosion, bodies.centre[body]);
+            calls_of(state.structures, structure).measure_explosion(state, structure, explosion, bodies.centre[body]);
         if (!(sums.size > 0)) return;
         if (may_move_by_itself(body) && models.explode(state, rigid, body, explosion)) return book(body, sums.impulse);
         if (!bodies.is_breakable[body]) return push_body(state.bodies, rigid, counts, body, sums.impulse, sums.turning);
@@ -148,7 +137,8 @@ struct Taking {
             blows.direction.set(made, rotate(conjugate(pose.orientation), blows.direction[made]));
             for (uint32_t i = 0; i < blows.point_count[made]; ++i)
                 set_cut_point(blows, made, i, to_body(pose, cut_point(blows, made, i)));
-            const bool passes = passes_through(ShellView(state, state.bodies.structure[b]), CutSurface(blows, made));
+            const Row<Structures> structure = state.bodies.structure[b];
+            const bool passes = calls_of(state.structures, structure).is_cut_by(state, structure, blows, made);
             // What cannot be cut is told, not left in silence.
             const char* const why = passes ? models.why_not_cut(state, body) : nullptr;
             if (why) refused.push(refused_event(state.bodies, body, why));

@@ -86,6 +86,7 @@ bool may_be_overloaded(const LoadedBody& of, std::span<const BodyLoad> loads) {
 // It may break, and is not held.
 bool may_be_loaded(const LoadedBody& of, const DamageSettings& settings) {
     return of.structure().exists() && of.bodies.is_breakable[of.body] &&
+           calls_of(of.structures, of.structure()).bears_loads &&
            may_be_crushed(of.structures, of.structure(), settings) && !of.bodies.hold_count[of.body] &&
            of.structures.first_crack_force[of.structure()] > 0 && force_borne(of) < kBearsAll;
 }

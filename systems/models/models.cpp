@@ -1,5 +1,6 @@
 #include "systems/models.hpp"
 
+#include "systems/models/lattice/model.hpp"
 #include "systems/models/metal_shell/model.hpp"
 #include "systems/models/thick_shell/model.hpp"
 #include "systems/settings/check.hpp"
@@ -8,7 +9,7 @@ namespace cullet {
 
 const ModelList& damage_models() {
     static const ModelList all =
-        std::make_shared<const DamageModels>(std::vector{thick_shell_model(), metal_shell_model()});
+        std::make_shared<const DamageModels>(std::vector{thick_shell_model(), metal_shell_model(), lattice_model()});
     return all;
 }
 

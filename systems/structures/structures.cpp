@@ -6,7 +6,7 @@
 namespace cullet {
 
 std::vector<SlotList> structures() {
-    return {shell_structure()};
+    return {shell_structure(), tetrahedra_structure()};
 }
 
 const StructureCalls& calls_of(const Structures& structures, Row<Structures> structure) {

@@ -79,8 +79,8 @@ TEST(Script, AnErrorNamesFileLineWhatWasGivenAndWhatWasExpected) {
          "test.lua:1: game.throw: there is no colour; it knows radius, mass, at, velocity, spin, friction, "
          "restitution, rolling_friction"},
         {"game.throw(3)", "test.lua:1: game.throw: given 3; expected a table: game.throw{radius = ...}"},
-        {"game.cook{mesh = game.mesh.vase{}, model = 'lattice'}",
-         "test.lua:1: game.cook: model is \"lattice\"; expected one of thick_shell, metal_shell"},
+        {"game.cook{mesh = game.mesh.vase{}, model = 'jelly'}",
+         "test.lua:1: game.cook: model is \"jelly\"; expected one of thick_shell, metal_shell, lattice"},
         {"wait(-1)", "test.lua:1: wait: the time is -1; expected seconds from 0 on, or {frames = number}"},
         {"every(0, print)", "test.lua:1: every: 0 is less than half a frame; expected at least one"},
         {"wait{frames = 2} at(0, print)",

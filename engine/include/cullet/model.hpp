@@ -9,8 +9,8 @@
 #include <vector>
 
 #include "cullet/host.hpp"
-#include "cullet/material.hpp"
 #include "cullet/lattice.hpp"
+#include "cullet/material.hpp"
 #include "cullet/metal_shell.hpp"
 #include "cullet/result.hpp"
 #include "cullet/setting_list.hpp"

@@ -82,7 +82,7 @@ Result<std::shared_ptr<Model::Contents>> cook_lattice(Cooking& from) {
     HalvingSettings halving;
     halving.most_excess = double{given.hull_excess};
     ScratchMemory scratch;
-    const std::vector<SolidHull> hulls = convex_pieces(scratch, cooked->mesh.positions, triangles, halving);
+    const List<SolidHull> hulls = convex_pieces(scratch, cooked->mesh.positions, triangles, halving);
     from.tell(0.6f);
 
     const auto contents = std::make_shared<Model::Contents>(limits_for(*cooked, hulls.size()));

@@ -19,6 +19,7 @@ bool is_worth_it(const BodyRows& state, uint32_t b) {
     const Row<Structures> shell = bodies.structure[b];
     // Springs would have to move, too; they stay with a shell of its first size.
     if (!shell.exists() || bodies.task[b] != kNone || bodies.is_owed_births[b]) return false;
+    if (!is_shell(state.structures, shell)) return false;
     const Row<Shells> row = state.shell_of(shell);
     return 4 * uint64_t{state.shells.dead_elements[row]} > state.shells.elements[row].count &&
            !state.shells.springs[row].exists();

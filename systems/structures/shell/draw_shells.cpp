@@ -7,6 +7,7 @@ namespace cullet {
 void draw_shells(Each<ShellChanged> changed, Step step, BodyRows& rows, ViewBoxes& boxes) {
     const Row<Bodies> body = changed->body;
     if (static_cast<BodyKind>(rows.bodies.kind[body]) == BodyKind::Free) return;
+    if (!is_shell(rows.structures, rows.bodies.structure[body])) return;
     if (!changed->is_local || !redraw_body(rows, body, boxes)) draw_body(rows, body);
     rows.bodies.drawn_frame[body] = step.frame;
 }

@@ -40,6 +40,7 @@ void fill_births(Each<Birth> birth, const Events<Break>& breaks, ShellRows& rows
         settle_momenta(fragments, of.fragments, touches, of.start, rows.scratch);
         return;
     }
+    if (!is_shell(rows.structures, of.broken)) return;
     const ShellView broken(rows, of.broken);
     const FragmentPart part = part_of(fragments, f);
     if (f == of.largest) return fill_rest(broken, of, part);

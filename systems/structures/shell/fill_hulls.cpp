@@ -20,7 +20,7 @@ void fill_hulls(Each<HullWanted> wanted, ShellRows& rows, const RigidWorld& rigi
     if (wanted->cell == kNone)
         return make_shape(rows, rigid, kMostCellParts * rows.structures.made_shape[shell], from,
                           rows.structures.shape_points[shell]);
-    choose_hull(ShellView(rows, shell), wanted->cell);
+    if (is_shell(rows.structures, shell)) choose_hull(ShellView(rows, shell), wanted->cell);
     const uint32_t cell = rows.structures.cells[shell].first + wanted->cell;
     from += rows.cells.first_point[cell];
     for (uint32_t part = 0; part < kMostCellParts; ++part) {

@@ -5,6 +5,7 @@ namespace cullet {
 
 void measure_blocks(Each<ShellChanged> changed, const Bodies& bodies, ShellRows& rows) {
     if (static_cast<BodyKind>(bodies.kind[changed->body]) == BodyKind::Free) return;
+    if (!is_shell(rows.structures, bodies.structure[changed->body])) return;
     measure_outdated(ShellView(rows, bodies.structure[changed->body]));
 }
 

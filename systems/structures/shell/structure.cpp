@@ -2,6 +2,7 @@
 
 #include "systems/structures/shell/fragment_calls.hpp"
 #include "systems/structures/shell/rest_calls.hpp"
+#include "systems/structures/shell/surface_calls.hpp"
 #include "systems/systems.hpp"
 
 namespace cullet {
@@ -20,6 +21,7 @@ const StructureCalls& shell_calls() {
         StructureCalls c;
         add_fragment_calls(c);
         add_rest_calls(c);
+        add_surface_calls(c);
         return c;
     }();
     return calls;

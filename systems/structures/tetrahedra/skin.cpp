@@ -1,7 +1,10 @@
 #include "systems/structures/tetrahedra/skin.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <map>
+#include <string>
 
 #include "components/materials.hpp"
 #include "systems/structures/tetrahedra/cook/cut_cells.hpp"
@@ -56,6 +59,31 @@ float radius_of_solid(const SolidRows& rows, Row<Structures> structure) {
         most = std::max(most, dot(away, away));
     }
     return static_cast<float>(std::sqrt(most)) * 1.000001f;
+}
+
+std::array<float, 2> inside_uv(Vec3d place, Vec3d normal, Vec3d low, Vec3d high) {
+    const Vec3d helper = std::fabs(normal.y) < 0.8 ? Vec3d(0, 1, 0) : Vec3d(1, 0, 0);
+    const Vec3d along = normalised(cross(helper, normal)), up = cross(normalised(normal), along);
+    const Vec3d from = place - 0.5 * (low + high);
+    const double reach = length(high - low);
+    return {static_cast<float>(dot(from, along) + reach), static_cast<float>(dot(from, up) + reach)};
+}
+
+Result<void> check_skin(const SolidRows& rows, Row<Structures> structure) {
+    const SkinRange skin = skin_of(rows, structure);
+    std::map<std::array<uint32_t, 2>, int> balance;
+    for (uint32_t t = skin.triangles.first; t < skin.triangles.first + skin.triangles.count; ++t) {
+        const auto& c = rows.skin_triangles.corners[t];
+        for (size_t k = 0; k < 3; ++k) {
+            const uint32_t a = c[k], b = c[(k + 1) % 3];
+            balance[{std::min(a, b), std::max(a, b)}] += a < b ? 1 : -1;
+        }
+    }
+    for (const auto& [edge, sum] : balance)
+        if (sum != 0)
+            return Error{"the skin is open between points " + std::to_string(edge[0]) + " and " +
+                         std::to_string(edge[1])};
+    return {};
 }
 
 }  // namespace cullet

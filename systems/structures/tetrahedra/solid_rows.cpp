@@ -2,6 +2,7 @@
 
 #include "engine/hash.hpp"
 #include "systems/structures/tetrahedra/cook/cover_lattice.hpp"
+#include "systems/structures/tetrahedra/skin.hpp"
 
 namespace cullet {
 namespace {
@@ -104,7 +105,10 @@ void write_skin(SolidRows& rows, const CookedSolid& cooked, const Mesh& mesh, Ro
         skin.uv[r] = {};
         for (uint32_t k = 0; k < 3; ++k) {
             Vec3 normal = own_normal;
-            if (source != kNone) {
+            if (source == kNone) {
+                const auto uv = inside_uv(closed.positions[c[k]], flat, closed.low, closed.high);
+                skin.uv[r][2 * k] = uv[0], skin.uv[r][2 * k + 1] = uv[1];
+            } else {
                 const size_t corner = 3 * size_t{source} + closed.source_corners[t][k];
                 if (!mesh.corner_normals.empty()) normal = mesh.corner_normals[corner];
                 if (!mesh.corner_uvs.empty())

@@ -1,10 +1,18 @@
 #include "systems/structures/tetrahedra/structure.hpp"
 
+#include <algorithm>
+
+#include "systems/structures/tetrahedra/check_solid.hpp"
 #include "systems/structures/tetrahedra/draw_solid.hpp"
+#include "systems/structures/tetrahedra/fragment_calls.hpp"
 #include "systems/structures/tetrahedra/skin.hpp"
+#include "systems/structures/tetrahedra/surface_calls.hpp"
+#include "systems/structures/tetrahedra/systems.hpp"
 
 namespace cullet {
 namespace {
+
+constexpr uint32_t kMostPointsAtBirth = 1000;  // pieces are cut already: rows are copied, which is quick
 
 Row<Structures> import(RunRows& rows, const RunRows& from, Row<Structures> structure, const char** full) {
     return import_solid(rows, from, structure, full);
@@ -19,7 +27,9 @@ float radius(RunRows& rows, Row<Structures> structure) {
 }
 
 uint32_t points_at_birth(const RunRows& rows, Row<Structures> structure) {
-    return skin_of(rows, structure).points.count;
+    // A working copy has no skin before its run is done.
+    const Row<CookedSolids> cooked = rows.solids.cooked[solid_of(rows.structures, structure)];
+    return std::min(kMostPointsAtBirth, rows.cooked_solids.points[cooked].count);
 }
 
 uint32_t view_rows(RunRows& rows, Row<Structures> structure) {
@@ -30,7 +40,24 @@ void measure(RunRows& rows, Row<Structures> structure) {
     measure_solid(rows, structure);
 }
 
+void empty(RunRows& rows, Row<Structures> structure) {
+    for_each_solid_range(rows, structure, {}, [](Range& range, auto& table, uint32_t, const char*) {
+        table.give_back(range);
+        range = {};
+    });
+    rows.solids.is_whole[solid_of(rows.structures, structure)] = 0;
+    rows.structures.live_elements[structure] = 0;
+    rows.structures.shape_points[structure] = 0;
+}
+
 }  // namespace
+
+SlotList tetrahedra_structure() {
+    SlotList structure("tetrahedra");
+    structure.at(Slot::Fill).then<fill_solids>();
+    structure.at(Slot::Draw).then<draw_solids>();
+    return structure;
+}
 
 const StructureCalls& tetrahedra_calls() {
     static const StructureCalls calls = [] {
@@ -41,6 +68,10 @@ const StructureCalls& tetrahedra_calls() {
         c.points_at_birth = points_at_birth;
         c.view_rows = view_rows;
         c.measure = measure;
+        c.empty = empty;
+        c.trouble = trouble_of_solid;
+        add_solid_surface_calls(c);
+        add_solid_fragment_calls(c);
         return c;
     }();
     return calls;

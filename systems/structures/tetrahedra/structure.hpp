@@ -1,10 +1,11 @@
 // Solids as a kind of structure.
 #pragma once
+#include "systems/slots.hpp"
 #include "systems/structure_calls.hpp"
 
 namespace cullet {
 
-/// Rows, mass and drawing. Those of fragments are not written yet: nothing may break a solid before they are.
+SlotList tetrahedra_structure();
 const StructureCalls& tetrahedra_calls();
 
 }  // namespace cullet

@@ -124,7 +124,8 @@ TEST(Halves, AModelIsCookedByItsNameAndAnUnknownOneIsRefusedByAListOfNames) {
     settings.model = "halves";
     const Result<Model> by_default = cook(test::view_of_mesh(mesh), settings);
     ASSERT_FALSE(by_default.ok()) << "it lives in tests alone";
-    EXPECT_NE(by_default.error().find("use one of thick_shell, metal_shell."), std::string::npos) << by_default.error();
+    EXPECT_NE(by_default.error().find("use one of thick_shell, metal_shell, lattice."), std::string::npos)
+        << by_default.error();
 }
 
 TEST(Halves, AWorldWithoutTheModelRefusesWhatWasCookedForIt) {
@@ -132,7 +133,7 @@ TEST(Halves, AWorldWithoutTheModelRefusesWhatWasCookedForIt) {
     const Result<ModelId> added = world.add_model(globe_of_halves());
     ASSERT_FALSE(added.ok());
     EXPECT_EQ(added.error(),
-              "halves globe: is cooked for the damage model halves; this world has thick_shell, metal_shell.");
+              "halves globe: is cooked for the damage model halves; this world has thick_shell, metal_shell, lattice.");
 }
 
 TEST(Halves, AGlobeFallsInTwoWhereItIsHitAndItsMomentumStays) {
@@ -250,8 +251,7 @@ TEST(Halves, ASnapshotOfOneListIsRefusedByAWorldOfAnother) {
     };
     EXPECT_EQ(refused_by(test::make_world(settings_on(1))),
               "snapshot: is of a world that has the damage models halves, thick_shell, and this one has thick_shell, "
-              "metal_shell. Load "
-              "it into a world that has the same.");
+              "metal_shell, lattice. Load it into a world that has the same.");
     EXPECT_NE(refused_by(value_of(create_with(thick_shell_first(), settings_on(1)))), "");
 }
 
@@ -268,7 +268,7 @@ TEST(Halves, ItsModelFileIsReadByWhoHasItAndRefusedByWhoHasNot) {
     const Result<Model> by_default = read_model(path);
     ASSERT_FALSE(by_default.ok());
     EXPECT_NE(by_default.error().find(
-                  "is cooked for the damage model \"halves\"; this version has thick_shell, metal_shell."),
+                  "is cooked for the damage model \"halves\"; this version has thick_shell, metal_shell, lattice."),
               std::string::npos)
         << by_default.error();
     remove_files();

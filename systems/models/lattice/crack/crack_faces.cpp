@@ -88,13 +88,14 @@ bool is_sound(const BreakableSolid& body, const LatticePoints& points, const Cra
     return true;
 }
 
-void list_faces(const BreakableSolid& body, std::span<const uint32_t> piece, CrackFaces& faces) {
+void list_faces(const BreakableSolid& body, std::span<const uint32_t> piece, CrackFaces& faces, uint32_t foreign) {
     const Solid& solid = body.solid;
     std::fill(faces.first.begin(), faces.first.end(), 0u);
     std::fill(faces.seen.begin(), faces.seen.end(), kNobody);
     faces.face_count = 0;
     for (uint32_t b = 0; b < solid.bonds.size(); ++b) {
-        if (piece[solid.bonds[b].a] == piece[solid.bonds[b].b]) continue;
+        const uint32_t one = piece[solid.bonds[b].a], other = piece[solid.bonds[b].b];
+        if (one == other || one == foreign || other == foreign) continue;
         faces.faces[faces.face_count++] = b;
         for (const uint32_t p : corners_of(solid, b)) ++faces.first[p + 1];
     }
@@ -136,13 +137,14 @@ uint32_t flood_pieces(const BreakableSolid& body, std::span<const uint32_t> piec
 
 // The piece that a part shares most area with; its own, if it is beside no other.
 uint32_t largest_beside(const BreakableSolid& body, std::span<const uint32_t> piece, const CrackFaces& faces,
-                        uint32_t part, uint32_t own) {
+                        uint32_t part, uint32_t own, uint32_t foreign) {
     std::array<std::pair<uint32_t, double>, kMostPlanes> found;
     size_t count = 0;
     for (const SolidBond& bond : body.solid.bonds) {
         const bool is_a = faces.part[bond.a] == part, is_b = faces.part[bond.b] == part;
         if (is_a == is_b) continue;
         const uint32_t other = piece[is_a ? bond.b : bond.a];
+        if (other == foreign) continue;
         size_t i = 0;
         while (i < count && found[i].first != other) ++i;
         if (i == count && count < found.size()) found[count++] = {other, 0.0};
@@ -157,11 +159,12 @@ uint32_t largest_beside(const BreakableSolid& body, std::span<const uint32_t> pi
 }  // namespace
 
 uint32_t filter_by_majority(const BreakableSolid& body, const FaceRules& rules, std::span<uint32_t> piece,
-                            std::span<double> volume) {
+                            std::span<double> volume, uint32_t foreign) {
     uint32_t changed = 0;
     for (uint32_t sweep = 0; sweep < rules.sweeps; ++sweep) {
         const uint32_t before = changed;
         for (uint32_t c = 0; c < piece.size(); ++c) {
+            if (piece[c] == foreign) continue;
             const auto beside = [&](uint32_t bond) {
                 const SolidBond& b = body.solid.bonds[bond];
                 return piece[b.a == c ? b.b : b.a];
@@ -170,6 +173,7 @@ uint32_t filter_by_majority(const BreakableSolid& body, const FaceRules& rules, 
             uint32_t best = piece[c];
             for (const uint32_t bond : body.paths.of_cell(c)) {
                 const uint32_t other = beside(bond);
+                if (other == foreign) continue;
                 double area = 0;
                 for (const uint32_t again : body.paths.of_cell(c))
                     if (beside(again) == other) area += body.solid.bonds[again].area;
@@ -189,20 +193,22 @@ uint32_t filter_by_majority(const BreakableSolid& body, const FaceRules& rules, 
     return changed;
 }
 
-void join_islands(const BreakableSolid& body, std::span<uint32_t> piece, std::span<double> volume, CrackFaces& faces) {
+void join_islands(const BreakableSolid& body, std::span<uint32_t> piece, std::span<double> volume, CrackFaces& faces,
+                  uint32_t foreign) {
     constexpr int kPasses = 4;  // an island may join another one
     for (int pass = 0; pass < kPasses; ++pass) {
         const uint32_t parts = flood_pieces(body, piece, faces);
         bool is_any = false;
         for (uint32_t p = 0; p < parts; ++p) {
             const uint32_t own = piece[faces.open[p]];
+            if (own == foreign) continue;
             bool is_island = false;
             for (uint32_t q = 0; q < parts && !is_island; ++q)
                 is_island = q != p && piece[faces.open[q]] == own &&
                             (faces.part_volume[q] > faces.part_volume[p] ||
                              (faces.part_volume[q] == faces.part_volume[p] && q < p));
             if (!is_island) continue;
-            const uint32_t into = largest_beside(body, piece, faces, p, own);
+            const uint32_t into = largest_beside(body, piece, faces, p, own, foreign);
             if (into == own) continue;
             is_any = true;
             volume[own] -= faces.part_volume[p], volume[into] += faces.part_volume[p];
@@ -214,14 +220,18 @@ void join_islands(const BreakableSolid& body, std::span<uint32_t> piece, std::sp
 }
 
 void fit_planes(const BreakableSolid& body, const LatticePoints& points, const FaceRules& rules,
-                std::span<const uint32_t> piece, CrackFaces& faces) {
+                std::span<const uint32_t> piece, CrackFaces& faces, uint32_t foreign) {
     const auto& lattice = body.solid.lattice;
-    std::copy(lattice.points.begin(), lattice.points.end(), faces.places.begin());
-    list_faces(body, piece, faces);
+    list_faces(body, piece, faces, foreign);
+    for (uint32_t p = 0; p < lattice.points.size(); ++p) faces.is_settled[p] = !(faces.places[p] == lattice.points[p]);
+    for (uint32_t b = 0; b < body.solid.bonds.size(); ++b)
+        if ((piece[body.solid.bonds[b].a] == foreign) != (piece[body.solid.bonds[b].b] == foreign))
+            for (const uint32_t p : corners_of(body.solid, b)) faces.is_settled[p] = 1;
     for (uint32_t round = 0; round < rules.rounds; ++round) {
         std::fill(faces.seen.begin(), faces.seen.end(), kNobody);
         for (uint32_t p = 0; p < lattice.points.size(); ++p) {
             if (faces.first[p] == faces.first[p + 1] || points.is_rim[p]) continue;
+            if (faces.is_settled[p]) continue;
             const Vec3d before = faces.places[p], home = lattice.points[p];
             Vec3d step = step_to(planes_around(body, piece, faces, p), before, rules.hold);
             const double most = rules.most_move * double{points.shortest[p]};
@@ -246,7 +256,7 @@ template <class Take>
 void for_each_array(const BreakableSolid& body, CrackFaces& faces, Take take) {
     const size_t points = body.solid.lattice.points.size(), bonds = body.solid.bonds.size();
     take(faces.places, points), take(faces.moved, points), take(faces.faces, bonds), take(faces.first, points + 1);
-    take(faces.list, 3 * bonds + 1), take(faces.seen, bonds);
+    take(faces.list, 3 * bonds + 1), take(faces.seen, bonds), take(faces.is_settled, points);
     take(faces.part, body.solid.cells.size()), take(faces.open, body.solid.cells.size() + 2);
     take(faces.part_volume, body.solid.cells.size());
 }
@@ -264,6 +274,7 @@ uint64_t faces_bytes(const BreakableSolid& body) {
 CrackFaces take_faces(Arena& arena, const BreakableSolid& body) {
     CrackFaces faces;
     for_each_array(body, faces, [&]<class T>(std::span<T>& array, size_t count) { array = arena.take<T>(count); });
+    std::copy(body.solid.lattice.points.begin(), body.solid.lattice.points.end(), faces.places.begin());
     return faces;
 }
 

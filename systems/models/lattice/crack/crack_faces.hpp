@@ -18,11 +18,6 @@ struct FaceRules {
     double hold = 0.02;          // how much a point wants to stay
 };
 
-/// Teeth go: cells that stick out into another piece join it. Returns how many. `volume`: of pieces, which change with
-/// it.
-uint32_t filter_by_majority(const BreakableSolid& body, const FaceRules& rules, std::span<uint32_t> piece,
-                            std::span<double> volume);
-
 struct FacePlane {
     uint32_t a = 0, b = 0;  // pieces, a below b
     double area = 0;
@@ -36,22 +31,30 @@ struct CrackFaces {
     std::span<uint32_t> faces;        // bonds between two pieces
     std::span<uint32_t> first, list;  // faces at each point
     std::span<uint32_t> seen;         // by bond: the point that has counted it
+    std::span<uint8_t> is_settled;    // by point: earlier breaks have it
     std::span<uint32_t> part, open;   // by cell
     std::span<double> part_volume;
     uint32_t face_count = 0;
 };
 uint64_t faces_bytes(const BreakableSolid& body);
+/// Points are where the lattice has them.
 CrackFaces take_faces(Arena& arena, const BreakableSolid& body);
+
+// `foreign`: the number of what left the body before; it neither gives nor takes.
+inline constexpr uint32_t kNothingLeft = 0xffffffffu;
 
 /// Teeth go: cells that stick out into another piece join it. Returns how many. `volume`: of pieces, which change with
 /// it.
 uint32_t filter_by_majority(const BreakableSolid& body, const FaceRules& rules, std::span<uint32_t> piece,
-                            std::span<double> volume);
+                            std::span<double> volume, uint32_t foreign = kNothingLeft);
 /// What the filter has cut off from the rest of its piece joins the piece that it shares most area with.
-void join_islands(const BreakableSolid& body, std::span<uint32_t> piece, std::span<double> volume, CrackFaces& faces);
+void join_islands(const BreakableSolid& body, std::span<uint32_t> piece, std::span<double> volume, CrackFaces& faces,
+                  uint32_t foreign = kNothingLeft);
 
-/// Points of faces between pieces move onto planes that fit the faces around them. Those on the lattice's rim stay.
+/// Points of faces between pieces move onto planes that fit the faces around them. Those on the lattice's rim stay, and
+/// so do those of faces towards what left the body, and those that are not where the lattice has them: earlier breaks
+/// put them there. `faces.places` is where all are.
 void fit_planes(const BreakableSolid& body, const LatticePoints& points, const FaceRules& rules,
-                std::span<const uint32_t> piece, CrackFaces& faces);
+                std::span<const uint32_t> piece, CrackFaces& faces, uint32_t foreign = kNothingLeft);
 
 }  // namespace cullet

@@ -25,15 +25,17 @@ struct Plane {
     double above(Vec3d p) const { return dot(normal, p) - height; }
 };
 
+using Side = std::array<uint32_t, 2>;  // of triangles: its two ends
+
 /// A part of the solid between planes. What closes it there is kept for its volume alone: fans of triangles that stand
 /// for more and for less, whose corners may lie outside.
 struct Part {
-    std::vector<Vec3d> places;
-    std::vector<Triangle> surface;
-    std::vector<std::array<Vec3d, 3>> caps;
-    std::vector<Plane> planes;  // it is below them
-    std::vector<Vec3d> inner;   // places within the solid where three planes meet: corners that no triangle has
-    VolumeSums sums;            // about the origin
+    List<Vec3d> places;
+    List<Triangle> surface;
+    List<std::array<Vec3d, 3>> caps;
+    List<Plane> planes;  // it is below them
+    List<Vec3d> inner;   // places within the solid where three planes meet: corners that no triangle has
+    VolumeSums sums;     // about the origin
     SolidHull hull;
     uint32_t depth = 0;
 };
@@ -74,10 +76,10 @@ class Halver {
            const HalvingSettings& settings)
         : scratch_(scratch), places_(places), triangles_(triangles), settings_(settings) {}
 
-    std::vector<SolidHull> run() {
+    List<SolidHull> run() {
         Part whole;
         // Points that no triangle names are none of the solid's.
-        std::vector<uint32_t> number(places_.size(), kNone);
+        List<uint32_t> number(places_.size(), kNone);
         for (const Triangle& t : triangles_) {
             for (const uint32_t v : t)
                 if (number[v] == kNone) {
@@ -106,7 +108,7 @@ class Halver {
     }
 
     SolidHull wrap(const Farthest& farthest) {
-        std::vector<Vec3> points;
+        List<Vec3> points;
         Vec3 low{1e30f, 1e30f, 1e30f}, high{-1e30f, -1e30f, -1e30f};
         for (uint32_t d = 0; d < kDirections; ++d) {
             if (!(farthest.most[d] > -1e30f)) continue;
@@ -165,7 +167,7 @@ class Halver {
         Plane plane;
         double slack = 0;
         SolidHull hull[2];
-        std::vector<Vec3d> inner;  // new corners, on the plane
+        List<Vec3d> inner;  // new corners, on the plane
     };
 
     Choice choose(const Part& part) {
@@ -188,8 +190,8 @@ class Halver {
         const double slack = 1e-9 * extent;
 
         // Of every point the slab along each axis; of every slab the farthest points.
-        std::vector<std::array<uint8_t, 3>> slabs(part.places.size());
-        std::vector<Farthest> of_slab(3 * kSlabs);
+        List<std::array<uint8_t, 3>> slabs(part.places.size());
+        List<Farthest> of_slab(3 * kSlabs);
         for (uint32_t v = 0; v < part.places.size(); ++v)
             for (uint32_t k = 0; k < 3; ++k)
                 for (uint32_t j = 0; j + 1 < kSlabs; ++j) slabs[v][k] += planes[k][j].above(part.places[v]) > 0;
@@ -220,7 +222,7 @@ class Halver {
                         if ((slabs[a][k] > j) != (slabs[b][k] > j))
                             on_plane.add(crossing(planes[k][j], part.places[a], part.places[b]).to_float());
                     }
-                std::vector<Vec3d> inner = inner_corners(part, planes[k][j], slack);
+                List<Vec3d> inner = inner_corners(part, planes[k][j], slack);
                 for (const Vec3d& p : inner) on_plane.add(p.to_float());
                 for (uint32_t s = 0; s < kSlabs; ++s) sides[s > j].add(of_slab[kSlabs * k + s]);
                 SolidHull hulls[2];
@@ -258,8 +260,8 @@ class Halver {
     }
 
     // Where the plane meets two others within the solid.
-    std::vector<Vec3d> inner_corners(const Part& part, const Plane& plane, double slack) const {
-        std::vector<Vec3d> corners;
+    List<Vec3d> inner_corners(const Part& part, const Plane& plane, double slack) const {
+        List<Vec3d> corners;
         for (size_t i = 0; i < part.planes.size(); ++i)
             for (size_t j = i + 1; j < part.planes.size(); ++j) {
                 const Plane &a = part.planes[i], &b = part.planes[j];
@@ -276,10 +278,12 @@ class Halver {
     }
 
     static void split(const Part& part, const Plane& plane, Part (&sides)[2]) {
-        std::vector<uint8_t> is_above(part.places.size());
+        List<uint8_t> is_above(part.places.size());
         for (uint32_t v = 0; v < part.places.size(); ++v) is_above[v] = plane.above(part.places[v]) > 0;
-        std::vector<uint32_t> number[2];
-        std::map<std::array<uint32_t, 2>, std::array<uint32_t, 2>> crossings;
+        List<uint32_t> number[2];
+        std::map<Side, std::array<uint32_t, 2>, std::less<Side>,
+                 RoomAllocator<std::pair<const Side, std::array<uint32_t, 2>>>>
+            crossings;
         for (uint32_t s = 0; s < 2; ++s) {
             number[s].assign(part.places.size(), kNone);
             sides[s].depth = part.depth + 1;
@@ -353,13 +357,13 @@ class Halver {
     std::span<const Triangle> triangles_;
     HalvingSettings settings_;
     double whole_volume_ = 0;
-    std::vector<SolidHull> pieces_;
+    List<SolidHull> pieces_;
 };
 
 }  // namespace
 
-std::vector<SolidHull> convex_pieces(ScratchMemory& scratch, std::span<const Vec3d> places,
-                                     std::span<const Triangle> triangles, const HalvingSettings& settings) {
+List<SolidHull> convex_pieces(ScratchMemory& scratch, std::span<const Vec3d> places,
+                              std::span<const Triangle> triangles, const HalvingSettings& settings) {
     // About the middle of its box, so that far from the origin nothing is lost.
     Vec3d low = places[triangles[0][0]], high = low;
     for (const Triangle& t : triangles)
@@ -369,9 +373,9 @@ std::vector<SolidHull> convex_pieces(ScratchMemory& scratch, std::span<const Vec
             high = {std::max(high.x, p.x), std::max(high.y, p.y), std::max(high.z, p.z)};
         }
     const Vec3d centre = 0.5 * (low + high);
-    std::vector<Vec3d> shifted;
+    List<Vec3d> shifted;
     for (const Vec3d& p : places) shifted.push_back(p - centre);
-    std::vector<SolidHull> pieces = Halver(scratch, shifted, triangles, settings).run();
+    List<SolidHull> pieces = Halver(scratch, shifted, triangles, settings).run();
     for (SolidHull& piece : pieces)
         for (Vec3& p : piece.points) p = (Vec3d(p) + centre).to_float();
     return pieces;

@@ -1,10 +1,10 @@
 // A closed mesh as convex pieces for the rigid world: its surface halved by planes (solid cooking note, section 8).
 #pragma once
 #include <span>
-#include <vector>
 
 #include "engine/math.hpp"
 #include "engine/ray_scene.hpp"
+#include "engine/room.hpp"
 #include "engine/scratch.hpp"
 
 namespace cullet {
@@ -15,15 +15,15 @@ struct HalvingSettings {
 };
 
 struct SolidHull {
-    std::vector<Vec3> points;  // at most 32, of the mesh's frame
-    double volume = 0;         // m3, of the solid in it
-    double hull_volume = 0;    // m3
+    List<Vec3> points;       // at most 32, of the mesh's frame
+    double volume = 0;       // m3, of the solid in it
+    double hull_volume = 0;  // m3
 };
 
 /// Hulls of all of the solid, and as little more as the settings ask for. Each piece is cut at a quarter, the middle or
 /// three quarters along one of its principal axes, where the hulls of both sides are smallest. Self-crossing meshes and
 /// those with cavities will do.
-std::vector<SolidHull> convex_pieces(ScratchMemory& scratch, std::span<const Vec3d> places,
-                                     std::span<const Triangle> triangles, const HalvingSettings& settings = {});
+List<SolidHull> convex_pieces(ScratchMemory& scratch, std::span<const Vec3d> places,
+                              std::span<const Triangle> triangles, const HalvingSettings& settings = {});
 
 }  // namespace cullet

@@ -66,7 +66,7 @@ Result<CookedSolid> cook_solid(const Mesh& given, const SolidSettings& settings)
             return Error{
                 name + " is " + text_of(solid.thickness) + " m thick and " + text_of(length(mesh.high - mesh.low)) +
                 " m long: a solid of it needs " + std::to_string(std::llround(needed)) + " cells, above the limit of " +
-                std::to_string(std::llround(settings.most_cells)) + ". Use thick_shell, or raise lattice.max_cells."};
+                std::to_string(std::llround(settings.most_cells)) + ". Use thick_shell, or raise lattice.most_cells."};
         wanted.edge = widest;
     }
     Result<CoverLattice> lattice = cover_lattice(mesh, wanted);

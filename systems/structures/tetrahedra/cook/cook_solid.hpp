@@ -26,10 +26,10 @@ struct CookedSolid {
     Solid solid;
     ClosedMesh mesh;
     LatticeFaces faces;
-    Windings windings;                     // of the lattice's points
-    std::vector<RawCell> raw;              // by tetrahedron
-    std::vector<uint32_t> tetrahedron_of;  // where each vertex of the mesh is
-    std::string notes;                     // for a person: what was closed; or nothing
+    Windings windings;              // of the lattice's points
+    std::vector<RawCell> raw;       // by tetrahedron
+    List<uint32_t> tetrahedron_of;  // where each vertex of the mesh is
+    std::string notes;              // for a person: what was closed; or nothing
 };
 
 Result<CookedSolid> cook_solid(const Mesh& mesh, const SolidSettings& settings = {});

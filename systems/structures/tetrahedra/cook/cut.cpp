@@ -13,23 +13,23 @@ constexpr uint32_t kMostRestarts = 40;
 constexpr uint32_t kLatticeAlone = 6;  // restarts that shift points of the lattice alone
 constexpr double kGridError = 128;  // units of the grid: more than shifts of points make, along any edge but a flat one
 
-std::vector<uint8_t> known_points(const CutRequest& request) {
+List<uint8_t> known_points(const CutRequest& request) {
     if (request.known) return {request.is_known.begin(), request.is_known.end()};
-    std::vector<uint8_t> is_known(request.lattice.points.size());
+    List<uint8_t> is_known(request.lattice.points.size());
     for (const LatticeFace& face : request.faces.faces)
         if (face.tetrahedron[1] == kNone)
             for (const uint32_t p : face.corner) is_known[p] = 1;
     return is_known;
 }
 
-void sort_once(std::vector<uint32_t>& list) {
+void sort_once(List<uint32_t>& list) {
     std::sort(list.begin(), list.end());
     list.erase(std::unique(list.begin(), list.end()), list.end());
 }
 
 // Points of the lattice first. A triangle that has no area on the grid, and what stays in a plane, moves itself.
 void shift(const ClosedMesh& mesh, Undecided& undecided, uint32_t restarts, GridPoints& points,
-           std::vector<uint8_t>& is_known) {
+           List<uint8_t>& is_known) {
     for (const uint32_t t : undecided.flat_triangles)
         for (const uint32_t v : mesh.triangles[t]) undecided.mesh_points.push_back(v);
     if (restarts <= kLatticeAlone && undecided.flat_triangles.empty()) undecided.mesh_points.clear();
@@ -97,7 +97,7 @@ Result<Cut> cut_mesh(const CutRequest& request) {
     GridPoints points(mesh.positions,
                       request.points.empty() ? std::span<const Vec3d>(request.lattice.points) : request.points,
                       0.5 * (mesh.low + mesh.high));
-    std::vector<uint8_t> is_known = known_points(request);
+    List<uint8_t> is_known = known_points(request);
     Cut cut;
     for (;; ++cut.restarts) {
         CutTriangles of_triangles = cut_triangles(request, points);

@@ -4,6 +4,7 @@
 #pragma once
 #include <span>
 
+#include "engine/room.hpp"
 #include "systems/structures/tetrahedra/cook/closed_mesh.hpp"
 #include "systems/structures/tetrahedra/cook/exact.hpp"
 #include "systems/structures/tetrahedra/cook/lattice_faces.hpp"
@@ -36,8 +37,8 @@ struct Winding {
 };
 /// Of lattice points. Point p has [first[p], first[p + 1]), by part.
 struct Windings {
-    std::vector<uint32_t> first;
-    std::vector<Winding> list;
+    List<uint32_t> first;
+    List<Winding> list;
     std::span<const Winding> of(uint32_t point) const {
         return {list.data() + first[point], list.data() + first[point + 1]};
     }
@@ -61,15 +62,15 @@ struct Piercing {
 };
 
 struct Cut {
-    std::vector<CutPolygon> polygons;      // by triangle
-    std::vector<CutLoop> loops;            // by face
-    std::vector<CutKey> keys;              // of polygons, then of loops
-    std::vector<Vec3d> places;             // m, of each key; the same for the same key
-    std::vector<Piercing> piercings;       // by edge, then from the lower end on
-    std::vector<uint32_t> first_piercing;  // of each edge
+    List<CutPolygon> polygons;      // by triangle
+    List<CutLoop> loops;            // by face
+    List<CutKey> keys;              // of polygons, then of loops
+    List<Vec3d> places;             // m, of each key; the same for the same key
+    List<Piercing> piercings;       // by edge, then from the lower end on
+    List<uint32_t> first_piercing;  // of each edge
     Windings windings;
-    std::vector<uint32_t> tetrahedron_of;  // of mesh vertices: where they are; kNone where no cut triangle asked
-    uint32_t restarts = 0;                 // because a point lay in a plane
+    List<uint32_t> tetrahedron_of;  // of mesh vertices: where they are; kNone where no cut triangle asked
+    uint32_t restarts = 0;          // because a point lay in a plane
 };
 
 struct CutRequest {

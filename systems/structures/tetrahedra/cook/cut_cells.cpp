@@ -33,7 +33,7 @@ class CellFinder {
                 if (t != kNone) ++first_[t + 1];
         for (size_t t = 0; t < tetrahedra; ++t) first_[t + 1] += first_[t];
         elements_.resize(first_.back());
-        std::vector<uint32_t> next(first_.begin(), first_.end() - 1);
+        List<uint32_t> next(first_.begin(), first_.end() - 1);
         for (uint32_t i = 0; i < cut.polygons.size(); ++i) {
             const CutPolygon& p = cut.polygons[i];
             elements_[next[p.tetrahedron]++] = {i, p.first, p.count, request.mesh.part_of[p.triangle], 1};
@@ -125,10 +125,10 @@ class CellFinder {
         uint32_t element;
     };
     const Cut& cut_;
-    std::vector<Element> elements_;
-    std::vector<uint32_t> first_, number_;
-    std::vector<CutCell> cells_;
-    std::vector<Use> uses_;
+    List<Element> elements_;
+    List<uint32_t> first_, number_;
+    List<CutCell> cells_;
+    List<Use> uses_;
 };
 
 }  // namespace

@@ -30,10 +30,10 @@ struct CutCell {
 };
 
 struct CutCells {
-    std::vector<CutCell> cells;                    // by tetrahedron
-    std::vector<Vec3d> middles;                    // of tetrahedra
-    std::vector<uint32_t> of_polygon;              // cell
-    std::vector<std::array<uint32_t, 2>> of_loop;  // in the first and the second tetrahedron of its face; kNone: rim
+    List<CutCell> cells;                    // by tetrahedron
+    List<Vec3d> middles;                    // of tetrahedra
+    List<uint32_t> of_polygon;              // cell
+    List<std::array<uint32_t, 2>> of_loop;  // in the first and the second tetrahedron of its face; kNone: rim
 };
 
 /// Legs that pass through one tetrahedron apart are cells of their own; what belongs to different parts of the mesh is

@@ -14,7 +14,7 @@ struct Corner {
     CutKey key;
     Vec3d place;
 };
-using Way = std::vector<Corner>;
+using Way = List<Corner>;
 struct Edge {
     Corner from, to;
 };
@@ -53,8 +53,8 @@ double distance(const Way& a, const Way& b) {
 }
 
 /// Ways round one flat part, seen along a normal. Whatever their shape, every edge of theirs is one of a triangle.
-void cut_ways(std::vector<Way>& ways, Vec3d normal, uint32_t source, std::vector<KeyTriangle>& triangles) {
-    std::vector<Way> outer, holes;
+void cut_ways(List<Way>& ways, Vec3d normal, uint32_t source, List<KeyTriangle>& triangles) {
+    List<Way> outer, holes;
     for (Way& way : ways) (dot(area_of(way), normal) >= 0 ? outer : holes).push_back(std::move(way));
     if (outer.empty()) outer = std::move(holes), holes.clear();
     for (const Way& hole : holes) {
@@ -63,7 +63,7 @@ void cut_ways(std::vector<Way>& ways, Vec3d normal, uint32_t source, std::vector
             if (distance(outer[o], hole) < distance(outer[nearest], hole)) nearest = o;
         bridge(outer[nearest], hole);
     }
-    std::vector<Vec3d> places;
+    List<Vec3d> places;
     for (const Way& way : outer) {
         if (way.size() < 3) continue;  // there and back
         places.clear();
@@ -81,9 +81,9 @@ bool before(const Edge& a, const Edge& b) {
 }
 
 /// Edges that run back inside the same piece go; what is left closes to ways round.
-std::vector<Way> chain(std::vector<Edge>& edges) {
+List<Way> chain(List<Edge>& edges) {
     std::sort(edges.begin(), edges.end(), before);
-    std::vector<uint8_t> is_gone(edges.size());
+    List<uint8_t> is_gone(edges.size());
     const auto find = [&](CutKey from) {
         return static_cast<size_t>(std::lower_bound(edges.begin(), edges.end(), from,
                                                     [](const Edge& e, CutKey key) { return e.from.key < key; }) -
@@ -97,7 +97,7 @@ std::vector<Way> chain(std::vector<Edge>& edges) {
             break;
         }
     }
-    std::vector<Way> ways;
+    List<Way> ways;
     for (size_t start = 0; start < edges.size(); ++start) {
         if (is_gone[start]) continue;
         Way way;
@@ -118,11 +118,11 @@ std::vector<Way> chain(std::vector<Edge>& edges) {
 
 class PieceCutter {
  public:
-    PieceCutter(const CookedSolid& solid, const Cut& cut, std::vector<uint32_t> of_polygon,
-                std::vector<std::array<uint32_t, 2>> of_loop, uint32_t count)
+    PieceCutter(const CookedSolid& solid, const Cut& cut, List<uint32_t> of_polygon,
+                List<std::array<uint32_t, 2>> of_loop, uint32_t count)
         : solid_(solid), cut_(cut), of_polygon_(std::move(of_polygon)), of_loop_(std::move(of_loop)), made_(count) {}
 
-    std::vector<PieceSkin> run() {
+    List<PieceSkin> run() {
         for (size_t first = 0; first < cut_.polygons.size();) {
             size_t end = first;
             while (end < cut_.polygons.size() && cut_.polygons[end].triangle == cut_.polygons[first].triangle) ++end;
@@ -135,7 +135,7 @@ class PieceCutter {
             cut_face(first, end);
             first = end;
         }
-        std::vector<PieceSkin> skins;
+        List<PieceSkin> skins;
         for (const auto& triangles : made_) skins.push_back(number(triangles));
         return skins;
     }
@@ -168,7 +168,7 @@ class PieceCutter {
                 for (uint32_t k = 0; k < p.count; ++k)
                     edges_.push_back({corner(p.first + k), corner(p.first + (k + 1) % p.count)});
             }
-            std::vector<Way> ways = chain(edges_);
+            List<Way> ways = chain(edges_);
             for (Way& way : ways) drop_points(way, first, end);
             cut_ways(ways, normal, triangle, made_[label]);
         }
@@ -199,7 +199,7 @@ class PieceCutter {
         std::sort(sides_.begin(), sides_.end());
         sides_.erase(std::unique(sides_.begin(), sides_.end()), sides_.end());
         for (const auto& [a, b] : sides_) {
-            std::vector<Way> ways;
+            List<Way> ways;
             Vec3d normal;
             double most = 0;
             for (size_t i = first; i < end; ++i) {
@@ -220,8 +220,8 @@ class PieceCutter {
         }
     }
 
-    static PieceSkin number(const std::vector<KeyTriangle>& triangles) {
-        std::vector<Corner> all;
+    static PieceSkin number(const List<KeyTriangle>& triangles) {
+        List<Corner> all;
         for (const KeyTriangle& t : triangles) all.insert(all.end(), t.corners.begin(), t.corners.end());
         std::sort(all.begin(), all.end(), [](const Corner& a, const Corner& b) { return a.key < b.key; });
         all.erase(std::unique(all.begin(), all.end(), [](const Corner& a, const Corner& b) { return a.key == b.key; }),
@@ -243,20 +243,21 @@ class PieceCutter {
 
     const CookedSolid& solid_;
     const Cut& cut_;
-    std::vector<uint32_t> of_polygon_;              // piece
-    std::vector<std::array<uint32_t, 2>> of_loop_;  // pieces
-    std::vector<std::vector<KeyTriangle>> made_;
-    std::vector<uint32_t> labels_;
-    std::vector<std::array<uint32_t, 2>> sides_;
-    std::vector<Edge> edges_;
-    std::vector<KeyTriangle> crack_;
+    List<uint32_t> of_polygon_;              // piece
+    List<std::array<uint32_t, 2>> of_loop_;  // pieces
+    List<List<KeyTriangle>> made_;
+    List<uint32_t> labels_;
+    List<std::array<uint32_t, 2>> sides_;
+    List<Edge> edges_;
+    List<KeyTriangle> crack_;
 };
 
 /// Of each part of a tetrahedron: that of the nearest part that it had when cooked; of one that was empty then, that of
-/// the largest neighbour.
-std::vector<uint32_t> label_parts(const CookedSolid& solid, const CutCells& parts, std::span<const uint32_t> piece_of) {
+/// the largest neighbour; of one that had none, that of the nearest part there is. The choice knows no pieces, so that
+/// what breaks again is labelled as it was.
+List<uint32_t> label_parts(const CookedSolid& solid, const CutCells& parts, std::span<const uint32_t> piece_of) {
     const CoverLattice& lattice = solid.solid.lattice;
-    std::vector<uint32_t> first(lattice.fine.size() + 1), labels(parts.cells.size(), kNone);
+    List<uint32_t> first(lattice.fine.size() + 1), labels(parts.cells.size(), kNone);
     for (const RawCell& raw : solid.raw) ++first[raw.tetrahedron + 1];
     for (size_t t = 0; t < lattice.fine.size(); ++t) first[t + 1] += first[t];
     const auto nearest = [&](uint32_t tetrahedron, Vec3d place) {
@@ -280,25 +281,31 @@ std::vector<uint32_t> label_parts(const CookedSolid& solid, const CutCells& part
             const double size = solid.solid.cells[solid.raw[first[other]].cell].volume;
             if (size > most) most = size, labels[c] = nearest(other, place);
         }
+        if (most >= 0) continue;
+        double least = 1e300;
+        for (const RawCell& raw : solid.raw) {
+            const Vec3d away = raw.centroid - place;
+            if (dot(away, away) < least) least = dot(away, away), labels[c] = piece_of[raw.cell];
+        }
     }
     return labels;
 }
 
 }  // namespace
 
-Result<std::vector<PieceSkin>> cut_pieces(const CookedSolid& solid, std::span<const Vec3d> points,
-                                          std::span<const uint32_t> piece_of, uint32_t count) {
+Result<List<PieceSkin>> cut_pieces(const CookedSolid& solid, std::span<const Vec3d> points,
+                                   std::span<const uint32_t> piece_of, uint32_t count) {
     CutRequest request{solid.mesh, solid.solid.lattice, solid.faces};
     request.points = points;
     request.tetrahedron_of = solid.tetrahedron_of;
     const Result<Cut> cut = cut_mesh(request);
     if (!cut) return Error{cut.error()};
     const CutCells parts = find_cells(request, *cut);
-    const std::vector<uint32_t> labels = label_parts(solid, parts, piece_of);
+    const List<uint32_t> labels = label_parts(solid, parts, piece_of);
     const auto label = [&](uint32_t part) { return part == kNone ? kNone : labels[part]; };
-    std::vector<uint32_t> of_polygon;
+    List<uint32_t> of_polygon;
     for (const uint32_t part : parts.of_polygon) of_polygon.push_back(label(part));
-    std::vector<std::array<uint32_t, 2>> of_loop;
+    List<std::array<uint32_t, 2>> of_loop;
     for (const auto& [a, b] : parts.of_loop) of_loop.push_back({label(a), label(b)});
     return PieceCutter(solid, *cut, std::move(of_polygon), std::move(of_loop), count).run();
 }

@@ -13,14 +13,14 @@ struct PieceTriangle {
     uint32_t source = 0;              // triangle of the closed mesh; kNone: of a crack
 };
 struct PieceSkin {
-    std::vector<Vec3d> places;  // m, each once
-    std::vector<PieceTriangle> triangles;
+    List<Vec3d> places;  // m, each once
+    List<PieceTriangle> triangles;
 };
 
 /// `piece_of`: of each cell, below `count`; kNone: it left with others before. `points`: of the lattice, those that
 /// cracks moved included; empty: as cooked. Triangles whose polygons all have one piece go to it whole. Every directed
 /// edge of a skin runs back as often.
-Result<std::vector<PieceSkin>> cut_pieces(const CookedSolid& solid, std::span<const Vec3d> points,
-                                          std::span<const uint32_t> piece_of, uint32_t count);
+Result<List<PieceSkin>> cut_pieces(const CookedSolid& solid, std::span<const Vec3d> points,
+                                   std::span<const uint32_t> piece_of, uint32_t count);
 
 }  // namespace cullet

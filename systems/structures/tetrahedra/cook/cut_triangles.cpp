@@ -281,12 +281,12 @@ class TriangleCutter {
     uint32_t now_ = 0, triangle_ = 0, last_ = 0;
     bool is_undecided_ = false;
     GridPoint corner_[3];
-    std::vector<OfFace> of_face_;
-    std::vector<OfEdge> of_edge_;
-    std::vector<OfPoint> of_point_;
-    std::vector<uint32_t> seen_, stack_;
-    std::vector<Placed> by_place_;  // tetrahedra by the middle of what they span along x
-    double widest_ = 0;             // half of the most that one spans
+    List<OfFace> of_face_;
+    List<OfEdge> of_edge_;
+    List<OfPoint> of_point_;
+    List<uint32_t> seen_, stack_;
+    List<Placed> by_place_;  // tetrahedra by the middle of what they span along x
+    double widest_ = 0;      // half of the most that one spans
 };
 
 }  // namespace

@@ -6,11 +6,11 @@
 namespace cullet {
 namespace {
 
-using List = std::vector<Winding>;
+using Found = List<Winding>;
 
 // What is true at one end of an edge, with all that pierces it on the way to the other: the same, or `sign` reversed.
-List across(const CutRequest& request, const Cut& cut, const List& from, uint32_t edge, int32_t way) {
-    List to = from;
+Found across(const CutRequest& request, const Cut& cut, const Found& from, uint32_t edge, int32_t way) {
+    Found to = from;
     for (uint32_t i = cut.first_piercing[edge]; i < cut.first_piercing[edge + 1]; ++i) {
         const Piercing& p = cut.piercings[i];
         const uint32_t part = request.mesh.part_of[p.triangle];
@@ -27,21 +27,21 @@ List across(const CutRequest& request, const Cut& cut, const List& from, uint32_
 
 /// Edges at every point.
 struct EdgesAt {
-    std::vector<uint32_t> first, edge;
-    EdgesAt(size_t point_count, const std::vector<std::array<uint32_t, 2>>& edges, const std::vector<uint8_t>& is_used)
+    List<uint32_t> first, edge;
+    EdgesAt(size_t point_count, const std::vector<std::array<uint32_t, 2>>& edges, const List<uint8_t>& is_used)
         : first(point_count + 1) {
         for (uint32_t e = 0; e < edges.size(); ++e)
             if (is_used[e]) ++first[edges[e][0] + 1], ++first[edges[e][1] + 1];
         for (size_t p = 0; p < point_count; ++p) first[p + 1] += first[p];
         edge.resize(first.back());
-        std::vector<uint32_t> next(first.begin(), first.end() - 1);
+        List<uint32_t> next(first.begin(), first.end() - 1);
         for (uint32_t e = 0; e < edges.size(); ++e)
             if (is_used[e]) edge[next[edges[e][0]]++] = e, edge[next[edges[e][1]]++] = e;
     }
 };
 
-std::vector<uint8_t> used_edges(const CutRequest& request) {
-    std::vector<uint8_t> is_used(request.faces.edges.size(), request.wanted_faces.empty());
+List<uint8_t> used_edges(const CutRequest& request) {
+    List<uint8_t> is_used(request.faces.edges.size(), request.wanted_faces.empty());
     for (const uint32_t f : request.wanted_faces)
         for (const uint32_t e : request.faces.faces[f].edge) is_used[e] = 1;
     return is_used;
@@ -49,14 +49,14 @@ std::vector<uint8_t> used_edges(const CutRequest& request) {
 
 }  // namespace
 
-bool find_windings(const CutRequest& request, const std::vector<uint8_t>& is_known, Cut& cut) {
+bool find_windings(const CutRequest& request, const List<uint8_t>& is_known, Cut& cut) {
     const size_t count = request.lattice.points.size();
     const auto& edges = request.faces.edges;
-    const std::vector<uint8_t> is_used = used_edges(request);
+    const List<uint8_t> is_used = used_edges(request);
     const EdgesAt at(count, edges, is_used);
-    std::vector<List> windings(count);
-    std::vector<uint8_t> is_found(count);
-    std::vector<uint32_t> queue;
+    List<Found> windings(count);
+    List<uint8_t> is_found(count);
+    List<uint32_t> queue;
     for (uint32_t p = 0; p < count; ++p)
         if (is_known[p]) {
             if (request.known) windings[p].assign(request.known->of(p).begin(), request.known->of(p).end());
@@ -76,7 +76,7 @@ bool find_windings(const CutRequest& request, const std::vector<uint8_t>& is_kno
         }
     }
     cut.windings.first.assign(1, 0);
-    for (const List& list : windings) {
+    for (const Found& list : windings) {
         cut.windings.list.insert(cut.windings.list.end(), list.begin(), list.end());
         cut.windings.first.push_back(static_cast<uint32_t>(cut.windings.list.size()));
     }
@@ -86,11 +86,11 @@ bool find_windings(const CutRequest& request, const std::vector<uint8_t>& is_kno
 }
 
 bool are_consistent(const CutRequest& request, const Cut& cut) {
-    const std::vector<uint8_t> is_used = used_edges(request);
+    const List<uint8_t> is_used = used_edges(request);
     for (uint32_t e = 0; e < request.faces.edges.size(); ++e) {
         if (!is_used[e]) continue;
         const auto from = cut.windings.of(request.faces.edges[e][0]), to = cut.windings.of(request.faces.edges[e][1]);
-        const List other = across(request, cut, List(from.begin(), from.end()), e, 1);
+        const Found other = across(request, cut, Found(from.begin(), from.end()), e, 1);
         const auto is_same = [](const Winding& a, const Winding& b) { return a.part == b.part && a.count == b.count; };
         if (!std::equal(other.begin(), other.end(), to.begin(), to.end(), is_same)) return false;
     }
@@ -102,12 +102,12 @@ void sort_piercings(const CutRequest& request, const GridPoints& points, Cut& cu
         double ratio;
         Piercing piercing;
     };
-    std::vector<uint32_t>& first = cut.first_piercing;
+    List<uint32_t>& first = cut.first_piercing;
     first.assign(request.faces.edges.size() + 1, 0);
     for (const Piercing& p : cut.piercings) ++first[p.edge + 1];
     for (size_t e = 0; e + 1 < first.size(); ++e) first[e + 1] += first[e];
-    std::vector<Placed> sorted(cut.piercings.size());
-    std::vector<uint32_t> next(first.begin(), first.end() - 1);
+    List<Placed> sorted(cut.piercings.size());
+    List<uint32_t> next(first.begin(), first.end() - 1);
     for (const Piercing& p : cut.piercings) {
         const auto [u, w] = request.faces.edges[p.edge];
         const Triangle& t = request.mesh.triangles[p.triangle];

@@ -15,18 +15,18 @@ struct FaceSegment {
 
 /// What lay in a plane and is to be shifted.
 struct Undecided {
-    std::vector<uint32_t> mesh_points, lattice_points;
-    std::vector<uint32_t> flat_triangles;  // without area on the grid: their own points are at fault
-    uint32_t triangle = 0;                 // one of those that asked
+    List<uint32_t> mesh_points, lattice_points;
+    List<uint32_t> flat_triangles;  // without area on the grid: their own points are at fault
+    uint32_t triangle = 0;          // one of those that asked
     bool is_empty() const { return mesh_points.empty() && lattice_points.empty() && flat_triangles.empty(); }
 };
 
 struct CutTriangles {
-    std::vector<CutPolygon> polygons;
-    std::vector<CutKey> keys;
-    std::vector<FaceSegment> segments;
-    std::vector<Piercing> piercings;  // by triangle
-    std::vector<uint32_t> tetrahedron_of;
+    List<CutPolygon> polygons;
+    List<CutKey> keys;
+    List<FaceSegment> segments;
+    List<Piercing> piercings;  // by triangle
+    List<uint32_t> tetrahedron_of;
     Undecided undecided;
     uint32_t uncovered = 0xffffffffu;  // a triangle that leaves the lattice
 };
@@ -39,12 +39,12 @@ void sort_piercings(const CutRequest& request, const GridPoints& points, Cut& cu
 
 /// 4.4: how often the parts wind around every point, from those that are known, along edges. False: some wanted point
 /// is not reached.
-bool find_windings(const CutRequest& request, const std::vector<uint8_t>& is_known, Cut& cut);
+bool find_windings(const CutRequest& request, const List<uint8_t>& is_known, Cut& cut);
 /// Whether all edges agree with them.
 bool are_consistent(const CutRequest& request, const Cut& cut);
 
 /// 4.4: loops of faces, behind the polygons' keys.
-void find_loops(const CutRequest& request, const std::vector<FaceSegment>& segments, Cut& cut);
+void find_loops(const CutRequest& request, const List<FaceSegment>& segments, Cut& cut);
 
 /// Of every key.
 void find_places(const CutRequest& request, const GridPoints& points, Cut& cut);

@@ -24,7 +24,7 @@ class Intervals {
     Intervals(const CutRequest& request, const Cut& cut) : request_(request), cut_(cut) {}
 
     /// Appends those of an edge, as they run along it or back.
-    void add(uint32_t edge, bool is_forward, std::vector<Piece>& pieces) {
+    void add(uint32_t edge, bool is_forward, List<Piece>& pieces) {
         const auto [low, high] = request_.faces.edges[edge];
         if (cut_.first_piercing[edge] == cut_.first_piercing[edge + 1]) {
             // The same parts at both ends.
@@ -72,7 +72,7 @@ class Intervals {
     }
     const CutRequest& request_;
     const Cut& cut_;
-    std::vector<Mark> marks_;
+    List<Mark> marks_;
 };
 
 void add_loop(Cut& cut, uint32_t face, uint32_t part, size_t first) {
@@ -80,9 +80,9 @@ void add_loop(Cut& cut, uint32_t face, uint32_t part, size_t first) {
 }
 
 // Every key is left as often as it is reached, so that a walk ends where it began.
-void chain(std::vector<Piece>& pieces, uint32_t face, Cut& cut) {
+void chain(List<Piece>& pieces, uint32_t face, Cut& cut) {
     std::sort(pieces.begin(), pieces.end(), before);
-    std::vector<uint8_t> is_used(pieces.size());
+    List<uint8_t> is_used(pieces.size());
     for (size_t start = 0; start < pieces.size(); ++start) {
         if (is_used[start]) continue;
         const size_t first = cut.keys.size();
@@ -105,16 +105,16 @@ void chain(std::vector<Piece>& pieces, uint32_t face, Cut& cut) {
 
 }  // namespace
 
-void find_loops(const CutRequest& request, const std::vector<FaceSegment>& segments, Cut& cut) {
+void find_loops(const CutRequest& request, const List<FaceSegment>& segments, Cut& cut) {
     const auto& faces = request.faces.faces;
-    std::vector<uint32_t> first(faces.size() + 1);
+    List<uint32_t> first(faces.size() + 1);
     for (const FaceSegment& s : segments) ++first[s.face + 1];
     for (size_t f = 0; f < faces.size(); ++f) first[f + 1] += first[f];
-    std::vector<uint32_t> sorted(segments.size()), next(first.begin(), first.end() - 1);
+    List<uint32_t> sorted(segments.size()), next(first.begin(), first.end() - 1);
     for (uint32_t i = 0; i < segments.size(); ++i) sorted[next[segments[i].face]++] = i;
 
     Intervals intervals(request, cut);
-    std::vector<Piece> pieces;
+    List<Piece> pieces;
     const auto add_face = [&](uint32_t f) {
         const LatticeFace& face = faces[f];
         bool is_whole = first[f] == first[f + 1];

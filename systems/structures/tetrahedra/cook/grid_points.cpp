@@ -18,8 +18,8 @@ GridPoint shift_of(uint32_t number, uint32_t times, int32_t reach) {
     return {one(0), one(1), one(2)};
 }
 
-std::vector<GridPoint> on_grid(std::span<const Vec3d> places, Vec3d centre, double scale, int32_t reach) {
-    std::vector<GridPoint> points(places.size());
+List<GridPoint> on_grid(std::span<const Vec3d> places, Vec3d centre, double scale, int32_t reach) {
+    List<GridPoint> points(places.size());
     for (uint32_t v = 0; v < places.size(); ++v) {
         const Vec3d p = scale * (places[v] - centre);
         const GridPoint s = shift_of(v, 0, reach);

@@ -1,9 +1,9 @@
 // Points on the integer grid of exact predicates (solid cooking note, 4.1).
 #pragma once
 #include <span>
-#include <vector>
 
 #include "engine/math.hpp"
+#include "engine/room.hpp"
 #include "systems/structures/tetrahedra/cook/exact.hpp"
 
 namespace cullet {
@@ -13,7 +13,7 @@ namespace cullet {
 struct GridPoints {
     GridPoints(std::span<const Vec3d> mesh_places, std::span<const Vec3d> lattice_places, Vec3d centre);
 
-    std::vector<GridPoint> mesh, lattice;
+    List<GridPoint> mesh, lattice;
     void shift_mesh(uint32_t v) { shift(mesh[v], mesh_shifts_[v]++, v, kMeshShift); }
     void shift_lattice(uint32_t v) { shift(lattice[v], lattice_shifts_[v]++, v, kLatticeShift); }
 
@@ -21,7 +21,7 @@ struct GridPoints {
 
  private:
     static void shift(GridPoint& point, uint32_t before, uint32_t number, int32_t reach);
-    std::vector<uint32_t> mesh_shifts_, lattice_shifts_;
+    List<uint32_t> mesh_shifts_, lattice_shifts_;
 };
 
 }  // namespace cullet

@@ -184,7 +184,7 @@ TEST(CookSolid, WhatIsTooThinSaysHowManyCellsItNeeds) {
     ASSERT_FALSE(made);
     EXPECT_EQ(made.error(),
               "\"pane\" is 0.002 m thick and 2.83 m long: a solid of it needs 467796 cells, above the limit of 20000. "
-              "Use thick_shell, or raise lattice.max_cells.");
+              "Use thick_shell, or raise lattice.most_cells.");
 }
 
 }  // namespace

@@ -13,7 +13,7 @@ namespace {
 
 struct Pieces {
     CookedSolid solid;
-    std::vector<SolidHull> list;
+    List<SolidHull> list;
     double volume = 0, hull_volume = 0;
 };
 

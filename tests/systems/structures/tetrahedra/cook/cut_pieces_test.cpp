@@ -37,8 +37,8 @@ double volume_of(const PieceSkin& skin) {
     return six / 6;
 }
 
-std::vector<PieceSkin> pieces_of(const CookedSolid& solid, const std::vector<uint32_t>& labels, uint32_t count) {
-    Result<std::vector<PieceSkin>> made = cut_pieces(solid, {}, labels, count);
+List<PieceSkin> pieces_of(const CookedSolid& solid, const std::vector<uint32_t>& labels, uint32_t count) {
+    Result<List<PieceSkin>> made = cut_pieces(solid, {}, labels, count);
     if (!made) ADD_FAILURE() << made.error(), std::abort();
     return std::move(made).value();
 }

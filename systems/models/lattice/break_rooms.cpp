@@ -1,0 +1,223 @@
+#include "systems/models/lattice/break_rooms.hpp"
+
+#include <algorithm>
+
+#include "systems/models/lattice/gather_blow.hpp"
+#include "systems/models/lattice/shared/brittle.hpp"
+#include "systems/structures/tetrahedra/solid_rows.hpp"
+
+namespace cullet::lattice {
+namespace {
+
+constexpr uint64_t kWorkAStep = 1 << 18;  // multiplications: a tenth of a millisecond
+constexpr uint32_t kHullDepth = 4;
+constexpr double kHullExcess = 1.3;  // of a piece's hulls: closer ones take as long again
+constexpr size_t kFewestCorners = 4;
+// Lists of a cut: three times what a brick, a bowl and a statue of 6,000 triangles took.
+constexpr uint64_t kListBytes = 16 << 20, kListBytesARow = 2048;
+
+const KnownSolid& known_of(const RunRows& rows, Row<Structures> structure) {
+    const KnownSolid* const known = known_solid(rows, structure);
+    CULLET_ASSERT(known, "nobody made ready for a break of structure %u", structure.index);
+    return *known;
+}
+const Breakable& breakable_of(const KnownSolid& known) {
+    return *static_cast<const Breakable*>(known.of_model.get());
+}
+BreakingRoom& breaking(const RunRows& rows, Row<Tasks> task) {
+    BreakingRoom* const room = room_of_task(rows, task);
+    CULLET_ASSERT(room, "task %u has no room for its run", task.index);
+    return *room;
+}
+RoomOfRun& room_of(const BreakingRoom& room) {
+    return *static_cast<RoomOfRun*>(room.of_model.get());
+}
+
+/// Of the rooms of a run.
+struct RoomBytes {
+    uint64_t run, lists;
+};
+RoomBytes bytes_for(const KnownSolid& known) {
+    const BreakableSolid& body = breakable_of(known).body;
+    const size_t rows = body.solid.lattice.fine.size() + known.cooked.mesh.triangles.size();
+    return {break_bytes(body) + faces_bytes(body), kListBytes + kListBytesARow * rows};
+}
+bool is_enough(const RoomOfRun& room, const RoomBytes& bytes) {
+    return room.run_bytes >= bytes.run && room.list_bytes >= bytes.lists;
+}
+
+const KnownSolid& know(const SolidRows& rows, SolidRooms& all, Row<CookedSolids> row) {
+    const uint64_t content = rows.cooked_solids.content[row];
+    if (const KnownSolid* const found = all.find(content)) return *found;
+    auto made = std::make_unique<KnownSolid>();
+    made->content = content;
+    made->cooked = read_solid(rows, row);
+    auto breakable = std::make_shared<Breakable>();
+    breakable->body = make_breakable(made->cooked.solid);
+    if (rows.cooked_solids.strength_modulus[row] > 0)
+        scatter_strength(breakable->body, double{rows.cooked_solids.strength_modulus[row]},
+                         rows.cooked_solids.strength_seed[row]);
+    breakable->points = find_lattice_points(made->cooked.solid.lattice);
+    made->of_model = std::move(breakable);
+    all.known.push_back(std::move(made));
+    return *all.known.back();
+}
+
+/// Cells of the body before this break; none listed: it has all.
+void list_own(const SolidRows& rows, Row<Structures> structure, std::vector<uint8_t>& own) {
+    const Row<Solids> solid = solid_of(rows.structures, structure);
+    own.clear();
+    if (rows.solids.is_whole[solid]) return;
+    own.assign(rows.cooked_solids.cells[rows.solids.cooked[solid]].count, 0);
+    const Range members = rows.solids.members[solid];
+    for (uint32_t r = members.first; r < members.first + members.count; ++r) own[rows.solid_members.cell[r]] = 1;
+}
+
+/// Pieces that cracks made: teeth go, islands go, faces become smooth. Points that earlier breaks moved stay there.
+void shape_faces(const RunRows& rows, Row<Tasks> task, const KnownSolid& known, BreakingRoom& breaking) {
+    const Breakable& breakable = breakable_of(known);
+    RoomOfRun& room = room_of(breaking);
+    const uint32_t foreign = room.own.empty() ? kNone : breakable.body.part_count;
+    filter_by_majority(breakable.body, {}, room.run.piece, room.run.volume, foreign);
+    join_islands(breakable.body, room.run.piece, room.run.volume, room.faces, foreign);
+    const Row<Solids> solid = solid_of(rows.structures, rows.tasks.source[task]);
+    const Range moved = rows.solids.moved[solid];
+    for (uint32_t r = moved.first; r < moved.first + moved.count; ++r)
+        room.faces.places[rows.moved_nodes.node[r]] = rows.moved_nodes.place[r];
+    fit_planes(breakable.body, breakable.points, {}, room.run.piece, room.faces, foreign);
+    for (uint32_t i = 0; i < room.faces.moved_count; ++i) {
+        breaking.broken.moved.push_back(room.faces.moved[i]);
+        breaking.broken.moved_to.push_back(room.faces.places[room.faces.moved[i]]);
+    }
+}
+
+/// Numbers in the order of first cells; what others have gets none.
+uint32_t number_pieces(const Breakable& breakable, RoomOfRun& room) {
+    const uint32_t foreign = room.own.empty() ? kNone : breakable.body.part_count;
+    std::vector<uint32_t>& labels = room.labels;
+    labels.assign(room.run.piece.size(), kNone);
+    uint32_t count = 0;
+    std::fill(room.run.part_piece.begin(), room.run.part_piece.end(), kNone);
+    for (uint32_t c = 0; c < labels.size(); ++c) {
+        const uint32_t piece = room.run.piece[c];
+        if (piece == foreign) continue;
+        uint32_t& number = room.run.part_piece[piece];
+        if (number == kNone) number = count++;
+        labels[c] = number;
+    }
+    return count;
+}
+
+void cut_skins(const RunRows& rows, Row<Tasks> task, const KnownSolid& known, BreakingRoom& breaking) {
+    RoomOfRun& room = room_of(breaking);
+    const uint32_t count = number_pieces(breakable_of(known), room);
+    if (count < 2) return;
+    const RoomScope scope(room.lists);
+    const Result<List<PieceSkin>> skins = cut_pieces(known.cooked, room.faces.places, room.labels, count);
+    if (!skins) return;  // it stays whole: a point lay in a plane forty times over
+    const Row<CookedSolids> row = rows.solids.cooked[solid_of(rows.structures, rows.tasks.source[task])];
+    lay_pieces(rows, row, known.cooked, *skins, room.labels, breaking.broken);
+}
+
+SolidHull box_of(std::span<const Vec3d> points) {
+    Vec3d low = points[0], high = points[0];
+    for (const Vec3d& p : points) {
+        low = {std::min(low.x, p.x), std::min(low.y, p.y), std::min(low.z, p.z)};
+        high = {std::max(high.x, p.x), std::max(high.y, p.y), std::max(high.z, p.z)};
+    }
+    SolidHull box;
+    for (int k = 0; k < 8; ++k)
+        box.points.push_back(Vec3d(k & 1 ? high.x : low.x, k & 2 ? high.y : low.y, k & 4 ? high.z : low.z).to_float());
+    return box;
+}
+
+void choose_hulls(const RunRows& rows, RoomOfRun& room, BrokenSolid& broken) {
+    const RoomScope scope(room.lists);
+    const uint32_t number = room.piece++;
+    const BrokenPiece& piece = broken.pieces[number];
+    const std::span<const Vec3d> places = piece.points.of(broken.points);
+    List<Triangle> triangles;
+    triangles.reserve(piece.triangles.count);
+    for (const BrokenTriangle& t : piece.triangles.of(broken.triangles))
+        triangles.push_back({t.corners[0], t.corners[1], t.corners[2]});
+    HalvingSettings settings;
+    settings.most_excess = kHullExcess, settings.depth = kHullDepth;
+    List<SolidHull> hulls = convex_pieces(rows.scratch, places, triangles, settings);
+    std::erase_if(hulls, [](const SolidHull& hull) { return hull.points.size() < kFewestCorners; });
+    if (hulls.empty()) hulls.push_back(box_of(places));
+    lay_hulls(hulls, number, broken);
+}
+
+}  // namespace
+
+void prepare_rooms(const RunRows& rows, Row<Structures> structure) {
+    if (!rows.solid_rooms) rows.solid_rooms = std::make_shared<SolidRooms>();
+    SolidRooms& all = *rows.solid_rooms;
+    const KnownSolid& known = know(rows, all, rows.solids.cooked[solid_of(rows.structures, structure)]);
+    const RoomBytes bytes = bytes_for(known);
+    all.rooms.resize(kSolidRooms);
+    for (BreakingRoom& room : all.rooms) {
+        const size_t cells = known.cooked.solid.cells.size();
+        if (!room.of_model || !is_enough(room_of(room), bytes)) {
+            // A run at work goes on in the room that it has: it is large enough for it.
+            if (room.of_model && room_of_task(rows, room.task) == &room) continue;
+            room.of_model = std::make_shared<RoomOfRun>(bytes.run, bytes.lists);
+        }
+        room.broken.reserve(known.cooked);
+        room_of(room).own.reserve(cells), room_of(room).labels.reserve(cells);
+    }
+}
+
+void begin_run(const RunRows& rows, Row<Tasks> task) {
+    const Row<Structures> source = rows.tasks.source[task];
+    BreakingRoom& own = breaking(rows, task);
+    const KnownSolid& known = known_of(rows, source);
+    const Breakable& breakable = breakable_of(known);
+    const RoomBytes bytes = bytes_for(known);
+    if (!is_enough(room_of(own), bytes)) own.of_model = std::make_shared<RoomOfRun>(bytes.run, bytes.lists);
+    RoomOfRun& room = room_of(own);
+    room.arena.reset();
+    room.run = take_break(room.arena, breakable.body);
+    room.faces = take_faces(room.arena, breakable.body);
+    room.piece = 0;
+    room.stage = RunStage::Done;
+    if (!(rows.lattice_runs.speed[task] > 0)) return;
+    list_own(rows, source, room.own);
+    BrittleSolid brittle = brittle_of(rows, rows.structures.material[source]);
+    brittle.tensile_strength *= double{rows.tasks.strength_scale[task]};
+    begin_break(breakable.body, brittle, blow_of(rows.lattice_runs, task), {}, {}, room.run, room.own);
+    room.stage = RunStage::Solve;
+}
+
+bool advance_run(const RunRows& rows, Row<Tasks> task) {
+    BreakingRoom& room_of_break = breaking(rows, task);
+    const KnownSolid& known = known_of(rows, rows.tasks.source[task]);
+    RoomOfRun& room = room_of(room_of_break);
+    switch (room.stage) {
+        case RunStage::Solve:
+            if (!advance_break(breakable_of(known).body, room.run, kWorkAStep)) break;
+            room.stage = room.run.crack_count > 0 ? RunStage::Faces : RunStage::Done;
+            break;
+        case RunStage::Faces:
+            shape_faces(rows, task, known, room_of_break);
+            room.stage = RunStage::Skins;
+            break;
+        case RunStage::Skins:
+            cut_skins(rows, task, known, room_of_break);
+            room.stage = room_of_break.broken.pieces.size() > 1 ? RunStage::Hulls : RunStage::Done;
+            break;
+        case RunStage::Hulls:
+            choose_hulls(rows, room, room_of_break.broken);
+            if (room.piece == room_of_break.broken.pieces.size()) room.stage = RunStage::Done;
+            break;
+        case RunStage::Done:
+            break;
+    }
+    return room.stage == RunStage::Done;
+}
+
+const RoomOfRun& run_of(const RunRows& rows, Row<Tasks> task) {
+    return room_of(breaking(rows, task));
+}
+
+}  // namespace cullet::lattice

@@ -1,0 +1,48 @@
+// What breaks of solids work in: what follows from a cooked solid, and a few rooms for runs. Made when something that
+// may break comes into a world or a world is loaded, never in a frame.
+#pragma once
+#include <optional>
+#include <vector>
+
+#include "engine/room.hpp"
+#include "systems/models/lattice/cook/breakable_solid.hpp"
+#include "systems/models/lattice/cook/lattice_points.hpp"
+#include "systems/models/lattice/crack/break_run.hpp"
+#include "systems/models/lattice/crack/crack_faces.hpp"
+#include "systems/structures/tetrahedra/solid_rooms.hpp"
+
+namespace cullet::lattice {
+
+/// Of one cooked solid.
+struct Breakable {
+    BreakableSolid body;
+    LatticePoints points;
+};
+
+enum class RunStage : uint8_t { Solve, Faces, Skins, Hulls, Done };
+
+/// Of one run.
+struct RoomOfRun {
+    RoomOfRun(uint64_t bytes, uint64_t bytes_of_lists)
+        : arena(bytes), lists(bytes_of_lists), run_bytes(bytes), list_bytes(bytes_of_lists) {}
+    Arena arena;
+    Room lists;  // of the cut, and of hulls
+    uint64_t run_bytes, list_bytes;
+    RunStage stage = RunStage::Done;
+    BreakRun run;
+    CrackFaces faces;
+    std::vector<uint8_t> own;  // by cell: the body has it
+    std::vector<uint32_t> labels;
+    uint32_t piece = 0;  // whose hulls come next
+};
+
+/// Makes ready for breaks of this structure.
+void prepare_rooms(const RunRows& rows, Row<Structures> structure);
+/// The task's run begins, in the room that the task has taken: its blow stands in LatticeRuns.
+void begin_run(const RunRows& rows, Row<Tasks> task);
+/// One step of the task's run, which changes nothing but its room. True: it is done.
+bool advance_run(const RunRows& rows, Row<Tasks> task);
+
+const RoomOfRun& run_of(const RunRows& rows, Row<Tasks> task);
+
+}  // namespace cullet::lattice

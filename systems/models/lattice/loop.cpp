@@ -1,0 +1,27 @@
+#include "systems/models/lattice/loop.hpp"
+
+#include "systems/models/lattice/systems.hpp"
+#include "systems/tasks/birth_cost.hpp"
+
+namespace cullet::lattice {
+namespace {
+
+constexpr uint64_t kUnitsAStep = 100'000;  // 0.2 ms
+
+}  // namespace
+
+InnerLoop<TaskWorld> make_loop() {
+    InnerLoop<TaskWorld> loop;
+    loop.then<work_break>().finish();
+    return loop;
+}
+
+RunCost cost_of(const RunRows& rows, uint32_t task) {
+    return {kUnitsAStep, units_of_birth(rows, task)};
+}
+
+bool works_on(const RunRows& rows, uint32_t task) {
+    return !is_shell(rows.structures, rows.tasks.source[task]);
+}
+
+}  // namespace cullet::lattice

@@ -1,0 +1,15 @@
+// The inner loop of solids, and what a run of it costs.
+#pragma once
+#include "systems/model_loops.hpp"
+
+namespace cullet::lattice {
+
+inline constexpr float kStep = 1e-3f;         // s of the run's clock, which counts steps alone
+inline constexpr uint32_t kMostSteps = 4096;  // of a run: it ends when it is done, which nobody knows before
+
+InnerLoop<TaskWorld> make_loop();
+
+RunCost cost_of(const RunRows& rows, uint32_t task);
+bool works_on(const RunRows& rows, uint32_t task);
+
+}  // namespace cullet::lattice

@@ -1,0 +1,40 @@
+#include "systems/models/lattice/systems.hpp"
+
+#include "systems/models/lattice/break_rooms.hpp"
+#include "systems/models/lattice/gather_blow.hpp"
+
+namespace cullet::lattice {
+
+void start_breaks(EachOwn<TaskOpened> opened, BodyRows& rows) {
+    gather_blow(rows, opened->task);
+    begin_run(rows, opened->task);
+}
+
+void work_break(Of<Tasks> task, BodyRows& rows) {
+    const Row<Tasks> t = task.row;
+    Tasks& tasks = rows.tasks;
+    tasks.steps_granted[t] -= tasks.steps_granted[t] > 0;
+    ++tasks.steps_done[t];
+    if (!advance_run(rows, t)) return;
+    const RoomOfRun& run = run_of(rows, t);
+    const auto pieces = static_cast<uint32_t>(room_of_task(rows, t)->broken.pieces.size());
+    LatticeResults& results = rows.lattice_results;
+    results.pieces[t] = pieces;
+    results.cracks[t] = run.run.crack_count;
+    results.gate[t] = rows.lattice_runs.speed[t] > 0 ? run.run.gate : 0;
+    tasks.crack_count[t] = pieces > 1 ? run.run.crack_count : 0;
+    tasks.start_count[t] = 0;
+    tasks.state[t] = static_cast<uint8_t>(TaskState::Whole);  // count_pieces tells whether it broke
+}
+
+void count_pieces(EachOwn<TaskEnded> ended, RunRows& rows) {
+    const Row<Tasks> task = ended->task;
+    Tasks& tasks = rows.tasks;
+    tasks.part_count[task] = 1;
+    if (static_cast<TaskState>(tasks.state[task]) == TaskState::Dropped || tasks.crack_count[task] == 0) return;
+    const auto count = static_cast<uint32_t>(room_of_task(rows, task)->broken.pieces.size());
+    tasks.part_count[task] = count;
+    if (count > 1) tasks.state[task] = static_cast<uint8_t>(count > kMostParts ? TaskState::Dropped : TaskState::Broke);
+}
+
+}  // namespace cullet::lattice

@@ -1,0 +1,14 @@
+// The systems of the model.
+#pragma once
+#include "systems/world_data.hpp"
+
+namespace cullet::lattice {
+
+/// The blow of a task that opens, and a room for its run.
+void start_breaks(EachOwn<TaskOpened> opened, BodyRows& rows);
+/// Inner loop: one step of the break; the last ones cut the pieces' skins and choose their hulls.
+void work_break(Of<Tasks> task, BodyRows& rows);
+/// What came of it.
+void count_pieces(EachOwn<TaskEnded> ended, RunRows& rows);
+
+}  // namespace cullet::lattice

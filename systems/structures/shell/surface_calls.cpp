@@ -1,0 +1,79 @@
+#include "systems/structures/shell/surface_calls.hpp"
+
+#include "systems/structures/shell/cut_surface.hpp"
+#include "systems/structures/shell/draw_shell.hpp"
+#include "systems/structures/shell/explosion.hpp"
+#include "systems/structures/shell/patch_radius.hpp"
+#include "systems/structures/shell/piece_shape.hpp"
+#include "systems/structures/shell/struck_normal.hpp"
+
+namespace cullet {
+namespace {
+
+float radius_of_patch(const RunRows& rows, Row<Structures> structure, float radius) {
+    return patch_radius(rows.shells, rows.shell_of(structure), radius);
+}
+
+Vec3 normal_struck(RunRows& rows, Row<Structures> structure, Vec3 place, Vec3 normal, float radius) {
+    return struck_normal(ShellView(rows, structure), place, normal, radius_of_patch(rows, structure, radius));
+}
+
+/// The nearest live vertex at rest.
+Vec3 nearest_point(RunRows& rows, Row<Structures> structure, Vec3 place) {
+    const ShellView shell(rows, structure);
+    Vec3 nearest = place;
+    float least = 1e30f;
+    for (uint32_t v = 0; v < shell.vertex_count(); ++v) {
+        const uint32_t at = shell.vertex(v);
+        if (rows.vertices.element[at] == kNone) continue;
+        const Vec3 away = rows.vertices.rest[at] - place;
+        if (dot(away, away) >= least) continue;
+        least = dot(away, away);
+        nearest = rows.vertices.rest[at];
+    }
+    return nearest;
+}
+
+ExplosionSums explosion_on(RunRows& rows, Row<Structures> structure, const Explosion& explosion, Vec3d about) {
+    return measure_explosion(ShellView(rows, structure), explosion, about);
+}
+
+bool is_cut_by(RunRows& rows, Row<Structures> structure, const Blows& blows, uint32_t row) {
+    return passes_through(ShellView(rows, structure), CutSurface(blows, row));
+}
+
+void remember(BodyRows& rows, Row<Structures> structure, Row<Bodies> body) {
+    remember_drawn(ShellView(rows, structure), rows.view_indices, rows.bodies.view_indices[body]);
+}
+
+uint32_t drawn_parts(const RunRows& rows, Row<Structures> structure) {
+    return rows.shells.elements[rows.shell_of(structure)].count;
+}
+
+// Its rows of structures and shells stay, with mass and area.
+void empty(RunRows& rows, Row<Structures> structure) {
+    release_springs(rows, structure);
+    ShellRows::for_each_range(rows, structure, [](Range& range, auto& table, auto, const char*) {
+        table.give_back(range);
+        range = {};
+    });
+    rows.shells.dead_elements[rows.shell_of(structure)] = rows.structures.live_elements[structure] = 0;
+    clear_shape(ShellView(rows, structure));
+}
+
+}  // namespace
+
+void add_surface_calls(StructureCalls& calls) {
+    calls.patch_radius = radius_of_patch;
+    calls.struck_normal = normal_struck;
+    calls.nearest_point = nearest_point;
+    calls.measure_explosion = explosion_on;
+    calls.is_cut_by = is_cut_by;
+    calls.bears_loads = true;
+    calls.draw = draw_body;
+    calls.remember_drawn = remember;
+    calls.drawn_parts = drawn_parts;
+    calls.empty = empty;
+}
+
+}  // namespace cullet

@@ -1,0 +1,225 @@
+// Solids in a world: they are cooked, fall, break, and their pieces go on.
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+#include <filesystem>
+
+#include "cullet/recording.hpp"
+#include "sample_game/allocations.hpp"
+#include "systems/structures/tetrahedra/skin.hpp"
+#include "systems/world_contents.hpp"
+#include "tests/support/closed_view.hpp"
+#include "tests/support/simple_meshes.hpp"
+#include "tests/support/small_worlds.hpp"
+
+namespace cullet {
+namespace {
+
+template <class T>
+T value_of(Result<T> result) {
+    if (!result) ADD_FAILURE() << result.error(), std::abort();
+    return std::move(result).value();
+}
+
+CookSettings settings_for(const std::string& material) {
+    CookSettings settings;
+    settings.model = "lattice";
+    settings.material = material;
+    settings.lattice.cells = 500;
+    return settings;
+}
+
+const Model& ring() {
+    static const Model model = [] {
+        Mesh mesh = test::torus_mesh(0.2, 0.06, 48, 24);
+        mesh.name = "ring";
+        return value_of(cook(test::view_of_mesh(mesh), settings_for("brick")));
+    }();
+    return model;
+}
+
+Settings settings_on(uint32_t threads, uint64_t units_a_frame = 8'000'000) {
+    Settings settings;
+    settings.threads = threads;
+    settings.units_a_frame = units_a_frame;
+    return settings;
+}
+
+BodyId spawn(World& world, const Model& model, Vec3 place, Vec3 velocity) {
+    SpawnSettings settings;
+    settings.pose.position = place;
+    settings.pose.orientation = normalised(Quat{0.9f, 0.4f, 0.1f, 0.1f});
+    settings.motion.velocity = velocity;
+    return value_of(world.spawn(value_of(world.add_model(model)), settings));
+}
+
+/// A ring falls, and another one hangs in the way of a ball.
+World two_rings(const Settings& settings) {
+    World world = test::make_world(settings);
+    test::add_floor(world);
+    spawn(world, ring(), {0, 0.5f, 0}, {0, -12, 0});
+    spawn(world, ring(), {1, 3, 0}, {});
+    SphereSettings ball;
+    ball.radius = 0.1f, ball.mass = 20;
+    ball.pose.position = {1.2f, 3, 1};
+    ball.motion.velocity = {0, 0, -15};
+    EXPECT_TRUE(world.add_sphere(ball).ok());
+    return world;
+}
+
+const State& state_of(const World& world) {
+    return world.contents().data.state;
+}
+
+uint32_t solids(const World& world) {
+    const State& state = state_of(world);
+    uint32_t count = 0;
+    for (uint32_t b = 0; b < state.bodies.size(); ++b)
+        count += state.bodies.kind[b] != 0 && state.bodies.structure[b].exists() &&
+                 !is_shell(state.structures, state.bodies.structure[b]);
+    return count;
+}
+
+double mass_of_solids(const World& world) {
+    const State& state = state_of(world);
+    double mass = 0;
+    for (uint32_t b = 0; b < state.bodies.size(); ++b)
+        if (state.bodies.kind[b] != 0 && state.bodies.structure[b].exists()) mass += state.bodies.mass[b];
+    for (uint32_t d = 0; d < state.debris.size(); ++d)
+        if (state.debris.is_used[d]) mass += state.debris.mass[d];
+    return mass;
+}
+
+std::vector<uint64_t> hashes(World& world, int frames) {
+    std::vector<uint64_t> list;
+    for (int frame = 0; frame < frames; ++frame) {
+        world.step();
+        list.push_back(world.hash());
+    }
+    return list;
+}
+
+std::string file_of(const std::string& name) {
+    const auto folder = std::filesystem::temp_directory_path() / ("cullet_solids." + std::to_string(getpid()));
+    std::filesystem::create_directories(folder);
+    return (folder / name).string();
+}
+
+TEST(SolidWorld, ARingIsCookedDrawnAndWeighedAsItsMesh) {
+    const ModelReport& report = ring().report();
+    const double volume = 2 * 9.8696044 * 0.2 * 0.06 * 0.06;  // of the smooth torus
+    EXPECT_NEAR(report.mass, 1900 * volume, 0.03 * 1900 * volume);
+    EXPECT_GT(report.elements, 400u);
+    EXPECT_GT(report.first_crack_speed, 0);
+    EXPECT_LT(report.first_crack_speed, 100);
+}
+
+TEST(SolidWorld, WhatFallsAndWhatIsStruckBreaksIntoClosedPiecesOfAllItsMass) {
+    World world = two_rings(settings_on(1));
+    const double before = mass_of_solids(world);
+    for (int frame = 0; frame < 120; ++frame) world.step();
+    EXPECT_GE(solids(world), 4u);
+    EXPECT_NEAR(mass_of_solids(world), before, 1e-4 * before);
+    const State& state = state_of(world);
+    for (uint32_t b = 0; b < state.bodies.size(); ++b) {
+        if (state.bodies.kind[b] == 0 || !state.bodies.structure[b].exists()) continue;
+        const Result<void> closed = check_skin(state, state.bodies.structure[b]);
+        EXPECT_TRUE(closed.ok()) << b << ": " << (closed ? "" : closed.error());
+        const Vec3 at = state.bodies.position[b];
+        EXPECT_TRUE(at.y > -0.5f || std::fabs(at.x) > 4 || std::fabs(at.z) > 4) << b << " is below the floor";
+    }
+}
+
+TEST(SolidWorld, AnyNumberOfThreadsGivesTheSameBytes) {
+    World one = two_rings(settings_on(1));
+    const std::vector<uint64_t> wanted = hashes(one, 60);
+    EXPECT_GE(solids(one), 4u);
+    for (const uint32_t threads : {2u, 3u, 8u}) {
+        World other = two_rings(settings_on(threads));
+        EXPECT_EQ(hashes(other, 60), wanted) << threads;
+    }
+}
+
+TEST(SolidWorld, AWorldThatIsLoadedInMidBreakGoesOnWithTheSameBytes) {
+    World world = two_rings(settings_on(1, 1'500'000));
+    uint32_t loads = 0;
+    for (int frame = 0; frame < 90; ++frame) {
+        bool is_open = false;
+        for (uint32_t t = 0; t < state_of(world).tasks.size(); ++t)
+            is_open = is_open || static_cast<TaskState>(state_of(world).tasks.state[t]) != TaskState::Free;
+        if (is_open || frame % 20 == 0) {
+            const std::vector<uint8_t> bytes = value_of(world.snapshot());
+            World loaded = test::make_world(settings_on(2, 1'500'000));
+            const Result<void> restored = loaded.restore(bytes.data(), bytes.size());
+            ASSERT_TRUE(restored.ok()) << restored.error();
+            ASSERT_EQ(loaded.hash(), world.hash());
+            ++loads;
+            for (int later = 0; later < 3; ++later, ++frame) {
+                world.step(), loaded.step();
+                ASSERT_EQ(loaded.hash(), world.hash()) << frame;
+            }
+        }
+        world.step();
+    }
+    EXPECT_GT(loads, 3u);
+    EXPECT_GE(solids(world), 4u);
+}
+
+TEST(SolidWorld, ItsModelFileGivesTheSameWorld) {
+    const std::string path = file_of("ring.cmodel");
+    ASSERT_TRUE(write_model(ring(), path).ok());
+    const Model read = value_of(read_model(path));
+    EXPECT_EQ(read.report().mass, ring().report().mass);
+    World cooked = test::make_world(settings_on(1)), from_file = test::make_world(settings_on(1));
+    for (World* world : {&cooked, &from_file}) test::add_floor(*world);
+    spawn(cooked, ring(), {0, 0.5f, 0}, {0, -12, 0});
+    spawn(from_file, read, {0, 0.5f, 0}, {0, -12, 0});
+    EXPECT_EQ(hashes(from_file, 30), hashes(cooked, 30));
+    std::filesystem::remove_all(std::filesystem::path(path).parent_path());
+}
+
+TEST(SolidWorld, ARecordingReplaysOnAnyNumberOfThreads) {
+    const std::string path = file_of("rings.crec");
+    {
+        World world = test::make_world(settings_on(1));
+        ASSERT_TRUE(world.start_recording(path).ok());
+        test::add_floor(world);
+        spawn(world, ring(), {0, 0.5f, 0}, {0, -12, 0});
+        for (int frame = 0; frame < 40; ++frame) world.step();
+        EXPECT_GE(solids(world), 2u);
+        ASSERT_TRUE(world.stop_recording().ok());
+    }
+    ReplaySettings on;
+    on.threads = {1, 2, 3, 8};
+    const ReplayReport report = value_of(replay(path, on));
+    EXPECT_EQ(report.frames, 40u);
+    EXPECT_EQ(report.difference, "");
+    EXPECT_EQ(report.damage, "");
+    std::filesystem::remove_all(std::filesystem::path(path).parent_path());
+}
+
+TEST(SolidWorld, FramesDoNotAllocate) {
+    World world = two_rings(settings_on(1));
+    start_counting_allocations();
+    for (int frame = 0; frame < 60; ++frame) world.step();
+    EXPECT_EQ(stop_counting_allocations().ours, 0u);
+    EXPECT_GE(solids(world), 4u);
+}
+
+TEST(SolidWorld, WhatIsNoSolidOrDoesNotBreakIsRefusedWithASentence) {
+    Mesh mesh = test::torus_mesh(0.2, 0.06, 24, 12);
+    mesh.name = "ring";
+    const Result<Model> steel = cook(test::view_of_mesh(mesh), settings_for("steel"));
+    ASSERT_FALSE(steel.ok());
+    EXPECT_NE(steel.error().find("lattice breaks what is brittle"), std::string::npos) << steel.error();
+    SpawnSettings pinned;
+    const Box box{{-1, -1, -1}, {1, 1, 1}};
+    pinned.pins = &box, pinned.pin_count = 1;
+    World world = test::make_world(settings_on(1));
+    const Result<BodyId> body = world.spawn(value_of(world.add_model(ring())), pinned);
+    ASSERT_FALSE(body.ok());
+    EXPECT_NE(body.error().find("a solid has no pins yet"), std::string::npos) << body.error();
+}
+
+}  // namespace
+}  // namespace cullet
